@@ -1,0 +1,20 @@
+/* Memory with one owner: allocations of a scene, a renderer or a frame that end together. */
+#ifndef KILN_BASE_ARENA_H
+#define KILN_BASE_ARENA_H
+
+#include <stddef.h>
+
+struct kiln_arena;
+
+/* NULL when memory is short. */
+struct kiln_arena *kiln_arena_create(void);
+void kiln_arena_destroy(struct kiln_arena **arena);
+
+/* count * size zeroed bytes, aligned for any type; NULL when memory is short or the product
+ * overflows. Lives as long as the arena. Not thread-safe. */
+void *kiln_arena_alloc(struct kiln_arena *arena, size_t count, size_t size);
+
+/* A copy of the first length bytes of text, with a terminating zero; NULL as above. */
+char *kiln_arena_text(struct kiln_arena *arena, const char *text, size_t length);
+
+#endif

@@ -1,0 +1,15 @@
+/* Filling struct kiln_error. */
+#ifndef KILN_BASE_ERROR_H
+#define KILN_BASE_ERROR_H
+
+#include "kiln.h"
+
+/* Sets the code and the formatted message; returns false, so that a caller can return it. */
+bool kiln_error_set(struct kiln_error *error, enum kiln_code code, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* The same with ": " and the text of an errno value after the message. */
+bool kiln_error_set_errno(struct kiln_error *error, enum kiln_code code, int errnum,
+                          const char *format, ...) __attribute__((format(printf, 4, 5)));
+
+#endif

@@ -1,0 +1,11 @@
+/* SHA-256, by libavutil: names of contents, not protection. */
+#ifndef KILN_BASE_HASH_H
+#define KILN_BASE_HASH_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Writes the hash of size bytes in lower-case hex; false when memory is short. */
+bool kiln_hash_sha256(const void *bytes, size_t size, char hex[65]);
+
+#endif

@@ -1,0 +1,153 @@
+/* A fixed pool: workers sleep on a condition until a loop is posted, then take pieces from an
+ * atomic counter. */
+#include "base/thread.h"
+
+#include <pthread.h>
+#include <sched.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+
+enum { MAX_THREADS = 256 };
+
+struct worker {
+    struct kiln_threads *pool;
+    pthread_t thread;
+    uint32_t index;
+};
+
+struct kiln_threads {
+    pthread_mutex_t mutex;
+    pthread_cond_t posted, finished;
+    uint32_t count;   /* workers, the caller included */
+    uint32_t started; /* threads to join */
+    uint32_t running; /* workers still inside the present loop */
+    uint64_t loop;    /* number of loops posted */
+    bool quit;
+
+    void (*body)(void *, size_t, size_t, uint32_t);
+    void *context;
+    size_t total, grain;
+    atomic_size_t next;
+    struct worker workers[];
+};
+
+uint32_t kiln_thread_default_count(void)
+{
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    if (sched_getaffinity(0, sizeof set, &set) != 0)
+        return 1;
+    int count = CPU_COUNT(&set);
+    return count < 1 ? 1 : count > MAX_THREADS ? MAX_THREADS : (uint32_t)count;
+}
+
+static void take_pieces(struct kiln_threads *pool, uint32_t worker)
+{
+    for (;;) {
+        size_t begin = atomic_fetch_add(&pool->next, pool->grain);
+        if (begin >= pool->total)
+            return;
+        size_t end = pool->total - begin < pool->grain ? pool->total : begin + pool->grain;
+        pool->body(pool->context, begin, end, worker);
+    }
+}
+
+static void *worker_main(void *argument)
+{
+    struct worker *self = argument;
+    struct kiln_threads *pool = self->pool;
+    uint64_t seen = 0;
+    pthread_mutex_lock(&pool->mutex);
+    for (;;) {
+        while (pool->loop == seen && !pool->quit)
+            pthread_cond_wait(&pool->posted, &pool->mutex);
+        if (pool->quit)
+            break;
+        seen = pool->loop;
+        pthread_mutex_unlock(&pool->mutex);
+        take_pieces(pool, self->index);
+        pthread_mutex_lock(&pool->mutex);
+        if (--pool->running == 0)
+            pthread_cond_signal(&pool->finished);
+    }
+    pthread_mutex_unlock(&pool->mutex);
+    return NULL;
+}
+
+struct kiln_threads *kiln_threads_create(uint32_t count)
+{
+    if (count == 0)
+        count = kiln_thread_default_count();
+    if (count > MAX_THREADS)
+        count = MAX_THREADS;
+    struct kiln_threads *pool = calloc(1, sizeof *pool + count * sizeof(struct worker));
+    if (!pool)
+        return NULL;
+    pthread_mutex_init(&pool->mutex, NULL);
+    pthread_cond_init(&pool->posted, NULL);
+    pthread_cond_init(&pool->finished, NULL);
+    pool->count = count;
+    for (uint32_t i = 1; i < count; i++) {
+        struct worker *worker = &pool->workers[i];
+        *worker = (struct worker){.pool = pool, .index = i};
+        if (pthread_create(&worker->thread, NULL, worker_main, worker) != 0) {
+            kiln_threads_destroy(&pool);
+            return NULL;
+        }
+        pool->started++;
+    }
+    return pool;
+}
+
+void kiln_threads_destroy(struct kiln_threads **threads)
+{
+    struct kiln_threads *pool = *threads;
+    if (!pool)
+        return;
+    pthread_mutex_lock(&pool->mutex);
+    pool->quit = true;
+    pthread_cond_broadcast(&pool->posted);
+    pthread_mutex_unlock(&pool->mutex);
+    for (uint32_t i = 1; i <= pool->started; i++)
+        pthread_join(pool->workers[i].thread, NULL);
+    pthread_cond_destroy(&pool->finished);
+    pthread_cond_destroy(&pool->posted);
+    pthread_mutex_destroy(&pool->mutex);
+    free(pool);
+    *threads = NULL;
+}
+
+uint32_t kiln_threads_count(const struct kiln_threads *threads)
+{
+    return threads->count;
+}
+
+void kiln_threads_for(struct kiln_threads *threads, size_t count, size_t grain,
+                      void (*body)(void *context, size_t begin, size_t end, uint32_t worker),
+                      void *context)
+{
+    if (count == 0)
+        return;
+    struct kiln_threads *pool = threads;
+    pool->body = body;
+    pool->context = context;
+    pool->total = count;
+    pool->grain = grain ? grain : 1;
+    atomic_store(&pool->next, 0);
+    if (pool->started == 0 || count <= pool->grain) {
+        take_pieces(pool, 0);
+        return;
+    }
+    pthread_mutex_lock(&pool->mutex);
+    pool->running = pool->started;
+    pool->loop++;
+    pthread_cond_broadcast(&pool->posted);
+    pthread_mutex_unlock(&pool->mutex);
+
+    take_pieces(pool, 0);
+
+    pthread_mutex_lock(&pool->mutex);
+    while (pool->running > 0)
+        pthread_cond_wait(&pool->finished, &pool->mutex);
+    pthread_mutex_unlock(&pool->mutex);
+}

@@ -1,0 +1,37 @@
+/* An OpenGL context without a display, and what kiln knows about its driver. */
+#ifndef KILN_GPU_DEVICE_H
+#define KILN_GPU_DEVICE_H
+
+#include "kiln.h"
+
+#include <epoxy/gl.h>
+
+struct kiln_device {
+    struct kiln_device_info info;
+    struct kiln_log log;
+    void *display, *context; /* EGL */
+    bool debug;
+    bool gl_failed;       /* the debug callback saw an error; sticky */
+    char gl_message[512]; /* the first such error */
+};
+
+/* Makes the device's context current on this thread. */
+bool kiln_device_make_current(struct kiln_device *device, struct kiln_error *error);
+
+/* False, with the place and the GL error, if GL reported one since the last call; `where` is a word
+ * for the message ("simulate"). Out of memory and a lost context are KILN_DEVICE_FAILED. */
+bool kiln_device_check(struct kiln_device *device, const char *where, struct kiln_error *error);
+
+/* Brackets a block of GL with a debug group, so that a capture shows it by name. */
+void kiln_device_push_group(struct kiln_device *device, const char *name);
+void kiln_device_pop_group(struct kiln_device *device);
+
+/* Labels an object for debug output and captures: GL_BUFFER, GL_TEXTURE, GL_PROGRAM... */
+void kiln_device_label(struct kiln_device *device, GLenum kind, GLuint object, const char *label);
+
+/* Work groups for count invocations in two dimensions, since one axis takes 65535 only; a kernel
+ * finds its index as (WorkGroupID.y * NumWorkGroups.x + WorkGroupID.x) * size + LocalInvocationID.x
+ * and must check it against the count. Dispatches nothing for count 0. */
+void kiln_device_dispatch(struct kiln_device *device, uint32_t count, uint32_t group_size);
+
+#endif

@@ -1,0 +1,24 @@
+/* Two-dimensional float targets with a residency, like buffers. */
+#ifndef KILN_GPU_IMAGE_H
+#define KILN_GPU_IMAGE_H
+
+#include "gpu/buffer.h"
+
+struct kiln_image {
+    struct kiln_device *device; /* NULL: host only */
+    const char *label;
+    uint32_t width, height, channels; /* channels 1 or 4 */
+    GLenum gl_format; /* GL_R32F, GL_RGBA16F, GL_RGBA32F; the host side is always float */
+    float *host;      /* rows from the top, pixels interleaved */
+    GLuint gl;        /* texture; row 0 is the top row: kiln draws with y down */
+    bool host_valid, gl_valid;
+};
+
+/* Contents are undefined until written. label must outlive the image. */
+void kiln_image_init(struct kiln_image *image, struct kiln_device *device, uint32_t width,
+                     uint32_t height, GLenum gl_format, const char *label);
+void kiln_image_finish(struct kiln_image *image);
+float *kiln_image_host(struct kiln_image *image, enum kiln_access access, struct kiln_error *error);
+GLuint kiln_image_gl(struct kiln_image *image, enum kiln_access access, struct kiln_error *error);
+
+#endif

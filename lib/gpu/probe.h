@@ -1,0 +1,12 @@
+/* The exactness probe: may this driver simulate? (contract of determinism, 1) */
+#ifndef KILN_GPU_PROBE_H
+#define KILN_GPU_PROBE_H
+
+#include "gpu/device.h"
+
+/* Runs edge and random vectors through the shared exact arithmetic in the compute stage and
+ * compares with C, bit for bit. False: `reason` says which function differed first and how (it
+ * stays empty when the probe could not run, and error is set). */
+bool kiln_probe_exact(struct kiln_device *device, char reason[256], struct kiln_error *error);
+
+#endif

@@ -1,0 +1,23 @@
+/* How long each pass takes. On software GL a wall clock around glFinish (its timer queries lie);
+ * on a GPU, timestamp queries read back when the frame is done, so that timing does not stall. */
+#ifndef KILN_GPU_TIMER_H
+#define KILN_GPU_TIMER_H
+
+#include "gpu/device.h"
+
+struct kiln_timer; /* the passes of one renderer */
+
+/* device NULL: wall clock only. */
+struct kiln_timer *kiln_timer_create(struct kiln_device *device);
+void kiln_timer_destroy(struct kiln_timer **timer);
+
+/* Brackets a pass; passes do not nest. A pass may run several times a frame: times add up. The pass
+ * is a debug group, too. */
+void kiln_timer_begin(struct kiln_timer *timer, enum kiln_pass pass);
+void kiln_timer_end(struct kiln_timer *timer);
+
+/* Ends the frame: milliseconds of each pass since the last collect, waiting for the GPU if needed.
+ */
+void kiln_timer_collect(struct kiln_timer *timer, double pass_ms[KILN_PASS_COUNT]);
+
+#endif

@@ -1,0 +1,241 @@
+/* kiln: a headless batch renderer for particle effects. The one public header.
+ *
+ * A program loads a scene, opens a device and renders a job:
+ *
+ *     struct kiln_error error = {0};
+ *     struct kiln_scene *scene = kiln_scene_load("fire.yaml", &KILN_SCENE_DEFAULTS, &error);
+ *     struct kiln_device *device = kiln_device_open(&KILN_DEVICE_DEFAULTS, &error);
+ *     struct kiln_render_params params = KILN_RENDER_DEFAULTS;
+ *     params.output = "fire.mp4";
+ *     bool ok = scene && device && kiln_render(device, scene, &params, NULL, &error);
+ *     kiln_device_close(&device);
+ *     kiln_scene_destroy(&scene);
+ *
+ * Errors: a function that can fail returns false or NULL and fills the error, which must not be
+ * NULL. Nothing in the library prints or exits; messages go to the log callback.
+ * Threads: a device and what was made with it belong to the thread that opened it. Scenes are
+ * immutable once loaded and may be shared. Nothing is global: any number of each may coexist.
+ */
+#ifndef KILN_H
+#define KILN_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define KILN_VERSION "0.1.0"
+
+/* What went wrong. The values are the program's exit codes. */
+enum kiln_code {
+    KILN_OK = 0,
+    KILN_FRAME_FAILED = 1,   /* a frame failed, or a picture differs */
+    KILN_USAGE = 2,          /* the request itself makes no sense */
+    KILN_INVALID_INPUT = 3,  /* a scene, texture or other input file is wrong */
+    KILN_NO_DEVICE = 4,      /* no usable device */
+    KILN_DEVICE_FAILED = 5,  /* device lost, out of memory, or a frame past its time limit */
+    KILN_IO = 6,             /* reading or writing failed */
+    KILN_GOLDEN_MISSING = 7, /* a golden picture does not exist */
+    KILN_INTERRUPTED = 130,  /* the caller asked to stop */
+};
+
+enum { KILN_MESSAGE_SIZE = 1024 };
+
+/* An error as one complete line for a person: place, what was found, what is allowed. */
+struct kiln_error {
+    enum kiln_code code;
+    char message[KILN_MESSAGE_SIZE];
+};
+
+enum kiln_log_level { KILN_LOG_DEBUG, KILN_LOG_INFO, KILN_LOG_WARNING };
+
+/* Receives one line without its newline. May be called from worker threads. */
+struct kiln_log {
+    void (*write)(void *user, enum kiln_log_level level, const char *line);
+    void *user;
+};
+
+/* ---- Scenes ------------------------------------------------------------------------------- */
+
+struct kiln_scene;
+
+/* How a scene file is read. overrides are "dotted.key=value" texts, applied in order after the
+ * file; a '*' names every entry of a map or list. asset_root NULL is the scene file's folder. */
+struct kiln_scene_params {
+    const char *asset_root;
+    const char *const *overrides;
+    size_t override_count;
+};
+#define KILN_SCENE_DEFAULTS ((struct kiln_scene_params){.asset_root = NULL})
+
+/* Reads, validates and returns a scene, or NULL with KILN_INVALID_INPUT, or KILN_IO when the file
+ * cannot be opened. The caller destroys it. */
+struct kiln_scene *kiln_scene_load(const char *path, const struct kiln_scene_params *params,
+                                   struct kiln_error *error);
+
+/* The same for a text in memory; name stands for the file in messages, and relative asset paths
+ * start at params->asset_root or, without one, at the working directory. */
+struct kiln_scene *kiln_scene_parse(const char *text, size_t size, const char *name,
+                                    const struct kiln_scene_params *params,
+                                    struct kiln_error *error);
+void kiln_scene_destroy(struct kiln_scene **scene);
+
+/* Writes the scene with every default spelled out, as a scene file that loads to the same scene. */
+bool kiln_scene_print(const struct kiln_scene *scene, FILE *out);
+
+/* The reference of every scene key, for people, and the JSON schema, for editors. */
+bool kiln_scene_write_reference(FILE *out);
+bool kiln_scene_write_schema(FILE *out);
+
+/* Facts of a scene that a caller plans with. */
+struct kiln_scene_info {
+    uint32_t width, height; /* pixels */
+    uint32_t frames;
+    uint32_t fps_num, fps_den;
+    uint32_t steps_per_frame;
+    uint32_t warmup_steps;
+    uint32_t system_count;
+    uint64_t particle_capacity; /* slots over all systems */
+    char hash[65];              /* SHA-256 of the scene with every default, in hex */
+};
+struct kiln_scene_info kiln_scene_info(const struct kiln_scene *scene);
+
+/* ---- Devices ------------------------------------------------------------------------------ */
+
+struct kiln_device;
+
+struct kiln_device_info {
+    uint32_t index;
+    bool usable;    /* OpenGL 4.3 or later with all that kiln needs */
+    bool software;  /* a rasteriser on the CPU */
+    bool exact;     /* passed the exactness probe: may simulate */
+    char name[128]; /* GL renderer */
+    char vendor[128];
+    char gl_version[128];
+    char platform[32]; /* "device" or "surfaceless" */
+    char problem[256]; /* why it is not usable, and what mends it; empty when it is */
+    int32_t max_work_group_invocations;
+    int32_t max_shared_memory_bytes;
+    int64_t max_storage_block_bytes;
+    int32_t max_texture_size;
+    int32_t max_array_layers;
+};
+
+/* wanted: NULL takes the first GPU, or else the software device; "N" an index from the list,
+ * "software" the first software device, anything else a part of a device's name. */
+struct kiln_device_params {
+    const char *wanted;
+    bool debug; /* a GL debug context: errors are logged and fail the job */
+    struct kiln_log log;
+};
+#define KILN_DEVICE_DEFAULTS ((struct kiln_device_params){.wanted = NULL})
+
+/* Fills up to capacity entries and returns how many devices there are; *advice (may be NULL)
+ * gets what is missing on this machine and the package that mends it, "" if nothing is. */
+size_t kiln_device_list(struct kiln_device_info *infos, size_t capacity, char advice[256]);
+
+struct kiln_device *kiln_device_open(const struct kiln_device_params *params,
+                                     struct kiln_error *error);
+void kiln_device_close(struct kiln_device **device);
+const struct kiln_device_info *kiln_device_info(const struct kiln_device *device);
+
+/* ---- Rendering ---------------------------------------------------------------------------- */
+
+/* Frames first..last, both included. */
+struct kiln_frame_range {
+    uint32_t first, last;
+};
+
+/* The passes of a frame, in order: the names of timers, debug groups and report columns. */
+#define KILN_PASSES(X)                                                                             \
+    X(simulate)                                                                                    \
+    X(sort)                                                                                        \
+    X(backdrop)                                                                                    \
+    X(particles)                                                                                   \
+    X(bloom)                                                                                       \
+    X(composite)                                                                                   \
+    X(readback)                                                                                    \
+    X(output)
+
+enum kiln_pass {
+#define KILN_PASS_ID(name) KILN_PASS_##name,
+    KILN_PASSES(KILN_PASS_ID)
+#undef KILN_PASS_ID
+        KILN_PASS_COUNT
+};
+
+/* "simulate", "sort", ... */
+const char *kiln_pass_name(enum kiln_pass pass);
+
+/* The 64-bit state hash after a step; equal on every device and with every technique. */
+struct kiln_state_hash {
+    uint32_t lane[2];
+};
+
+/* Told after each frame is handed to the output. */
+struct kiln_progress {
+    uint32_t frame;          /* its number */
+    uint32_t done, total;    /* drawn frames of this job */
+    double elapsed_s, eta_s; /* eta_s < 0: not known yet */
+    uint64_t alive;          /* living particles at the frame */
+    struct kiln_state_hash state;
+    double pass_ms[KILN_PASS_COUNT];
+};
+
+struct kiln_render_params {
+    const char *output;   /* a file, a pattern with %d or #, or NULL to render without writing */
+    const char *manifest; /* a JSON file that describes the run, or NULL */
+    const struct kiln_frame_range *ranges; /* ascending; range_count 0 renders every frame */
+    size_t range_count;
+    const char *const *techniques; /* "stage=name" */
+    size_t technique_count;
+    uint32_t threads; /* worker threads; 0 takes one a core */
+    bool overwrite;
+    bool state_hash;        /* compute it for each drawn frame; the manifest always has it */
+    uint32_t png_bits;      /* 8 or 16 */
+    uint32_t exr_bits;      /* 16 or 32 */
+    uint32_t quality;       /* video: 0 (smallest) to 100 (visually lossless) */
+    double frame_timeout_s; /* 0: none */
+    void (*progress)(void *user, const struct kiln_progress *progress);
+    bool (*stop)(void *user); /* asked between frames and steps; true ends with KILN_INTERRUPTED */
+    void *user;
+    struct kiln_log log;
+};
+#define KILN_RENDER_DEFAULTS                                                                       \
+    ((struct kiln_render_params){.png_bits = 8, .exr_bits = 16, .quality = 80})
+
+/* What a job did, for reports. */
+struct kiln_render_stats {
+    uint32_t frames;
+    uint64_t steps;
+    double setup_s; /* programs, textures, buffers */
+    double total_s;
+    double pass_ms[KILN_PASS_COUNT]; /* sums over the job */
+    uint64_t alive;                  /* at the last step */
+    struct kiln_state_hash state;    /* after the last step */
+    uint64_t particle_bytes;         /* simulation and draw buffers */
+    uint64_t particle_capacity;
+    char techniques[256]; /* "simulate=cpu sort=cpu ..." */
+    char first_file[512]; /* what was written first */
+};
+
+/* Renders the job. Files appear under their names only when whole; after an error or a stop, what
+ * was finished stays and nothing half-written is left. stats may be NULL. */
+bool kiln_render(struct kiln_device *device, const struct kiln_scene *scene,
+                 const struct kiln_render_params *params, struct kiln_render_stats *stats,
+                 struct kiln_error *error);
+
+/* The techniques of each stage and what each is for, for people. */
+bool kiln_write_techniques(FILE *out);
+
+/* The outputs that this build can write, and their options, for people. */
+bool kiln_write_outputs(FILE *out);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

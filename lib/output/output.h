@@ -1,0 +1,84 @@
+/* Frames on their way to files: PNG, EXR, video. One interface, one row a format (formats.c). */
+#ifndef KILN_OUTPUT_OUTPUT_H
+#define KILN_OUTPUT_OUTPUT_H
+
+#include "kiln.h"
+
+enum { KILN_MAX_LAYERS = 8 };
+
+/* A named float layer of a frame, linear, premultiplied; rows from the top. */
+struct kiln_layer {
+    const char *name;  /* "beauty", "depth", "fire"... static text */
+    uint32_t channels; /* 1 (Z) or 4 (RGBA) */
+    float *pixels;
+};
+
+/* One finished frame on the host. */
+struct kiln_picture {
+    uint32_t frame;
+    uint32_t width, height;
+    bool has_alpha; /* display alpha is meaningful */
+    uint32_t bits;  /* of the display pixels: 8 or 16 */
+    void *display;  /* sRGB, RGBA, not premultiplied, rows from the top, host byte order */
+    struct kiln_layer layers[KILN_MAX_LAYERS]; /* only what the format asked for */
+    uint32_t layer_count;
+};
+
+/* Allocates a picture whose display pixels (bits 0: none) and layers (names[i], channels[i]) are
+ * ready to be filled; NULL with KILN_DEVICE_FAILED when memory is short. */
+struct kiln_picture *kiln_picture_create(uint32_t width, uint32_t height, uint32_t bits,
+                                         const char *const *names, const uint32_t *channels,
+                                         uint32_t layer_count, struct kiln_error *error);
+void kiln_picture_destroy(struct kiln_picture **picture);
+
+/* What a format wants to be given for each frame. */
+struct kiln_output_needs {
+    uint32_t bits; /* display bits: 0 none, 8, 16 */
+    bool layers;   /* the float layers */
+};
+
+struct kiln_output_params {
+    const char *path; /* as the user gave it */
+    uint32_t width, height;
+    uint32_t fps_num, fps_den;
+    bool alpha;
+    const struct kiln_frame_range *ranges; /* what will be written, ascending, disjoint */
+    size_t range_count;
+    uint32_t threads; /* encoders; at least 1 */
+    bool overwrite;
+    uint32_t png_bits, exr_bits, quality;
+    const char
+        *scene_hash; /* 64 hex digits; copied into each file's metadata with seed, frame, version */
+    uint32_t seed;
+    struct kiln_log log;
+};
+
+struct kiln_output;
+
+/* Checks everything that can be checked before the first frame (suffix, folder writable, existing
+ * files, even sizes, codec present, gaps in a video) and opens the temporary file of a video.
+ * NULL with KILN_USAGE or KILN_IO. */
+struct kiln_output *kiln_output_open(const struct kiln_output_params *params,
+                                     struct kiln_error *error);
+struct kiln_output_needs kiln_output_needs(const struct kiln_output *output);
+
+/* Hands a picture over (ownership always moves, also on failure); frames come in ascending order.
+ * Waits while too many are queued, so that memory stays bounded. A failure of an earlier frame is
+ * reported by the next call. */
+bool kiln_output_write(struct kiln_output *output, struct kiln_picture *picture,
+                       struct kiln_error *error);
+
+/* Waits for the encoders, completes and renames the files. */
+bool kiln_output_finish(struct kiln_output *output, struct kiln_error *error);
+
+/* Without a finish before: whole image files stay, a video and half-written files are removed. */
+void kiln_output_close(struct kiln_output **output);
+
+/* The path of the file for a frame (the one file, for a video); false if it does not fit. */
+bool kiln_output_path(const struct kiln_output *output, uint32_t frame, char *path, size_t size);
+
+/* Removes the temporary files of every open output, with async-signal-safe calls only: for a
+ * watchdog or a second signal, right before _exit. */
+void kiln_output_abandon_all(void);
+
+#endif

@@ -1,0 +1,46 @@
+/* The particles of every system of a run: one buffer of records, each system owning a range of
+ * slots, and the host's count of births.
+ *
+ * Serial s of a system lives in slot base + s mod capacity; capacity is at least the most births in
+ * any window as long as the longest life, so a slot is free when its turn comes and no atomic
+ * decides an order (the thesis finds free slots with an atomic counter: 3.3.4).
+ */
+#ifndef KILN_PARTICLES_POOL_H
+#define KILN_PARTICLES_POOL_H
+
+#include "gpu/buffer.h"
+#include "shared/particle.h"
+
+struct kiln_pool_system {
+    uint32_t base, capacity;   /* slots of this system in the record buffer */
+    uint64_t next_serial;      /* births so far */
+    uint64_t rate_accumulator; /* births owed, 32.32 fixed point, below 1 birth after each step */
+};
+
+struct kiln_pool {
+    struct kiln_pool_system systems[KILN_MAX_SYSTEMS];
+    uint32_t system_count;
+    uint32_t slot_count;        /* of all systems */
+    struct kiln_buffer records; /* struct kiln_particle [slot_count] */
+};
+
+/* capacities[i] slots for system i; device NULL keeps the records on the host. */
+void kiln_pool_init(struct kiln_pool *pool, struct kiln_device *device, const uint32_t *capacities,
+                    uint32_t system_count);
+void kiln_pool_finish(struct kiln_pool *pool);
+
+/* A draw entry names a particle of any system in 32 bits. */
+#define KILN_ENTRY(system, slot) ((uint32_t)(system) << 24 | (slot))
+#define KILN_ENTRY_SYSTEM(entry) ((entry) >> 24)
+#define KILN_ENTRY_SLOT(entry)   ((entry)&0xffffffu)
+
+/* Writes the entries (slot: index into the whole record buffer) of all living particles in order of
+ * (system, serial) and returns how many there are. entries has room for slot_count. */
+uint32_t kiln_pool_alive(const struct kiln_pool *pool, const struct kiln_particle *records,
+                         uint32_t *entries);
+
+/* The state hash on the host; see shared/state_hash.h. */
+struct kiln_state_hash kiln_pool_hash(const struct kiln_pool *pool,
+                                      const struct kiln_particle *records);
+
+#endif

@@ -1,0 +1,12 @@
+/* All state that a run changes, in one struct, so that it can be saved and loaded whole. */
+#ifndef KILN_RUN_H
+#define KILN_RUN_H
+
+#include "particles/pool.h"
+
+struct kiln_run {
+    uint32_t step;         /* steps done */
+    struct kiln_pool pool; /* the particles of every system */
+};
+
+#endif

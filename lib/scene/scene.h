@@ -1,0 +1,266 @@
+/* A validated scene: what every stage reads and nobody changes.
+ *
+ * SI units, radians, metres, y up, right-handed; colours linear Rec. 709. Every number that a scene
+ * may animate is a struct kiln_value (shared/value.h) whose keys lie in scene->keys; the option
+ * table (options.c) says which clocks each may use, its unit, its range and its default.
+ */
+#ifndef KILN_SCENE_SCENE_H
+#define KILN_SCENE_SCENE_H
+
+#include "base/arena.h"
+#include "kiln.h"
+#include "shared/particle.h"
+#include "shared/value.h"
+
+enum {
+    KILN_MAX_FORCES = 16,         /* a system */
+    KILN_MAX_DEMITTERS = 8,       /* a system */
+    KILN_MAX_BURSTS = 64,         /* a system */
+    KILN_MAX_BOXES = 32,          /* a scene */
+    KILN_MAX_LIGHTS = 16,         /* a scene */
+    KILN_MAX_PARTICLES = 1 << 24, /* slots of all systems: what a draw entry can address */
+};
+
+struct kiln_value3 {
+    struct kiln_value x, y, z;
+};
+
+/* A number drawn per particle, uniformly between two (animated) ends. */
+struct kiln_range {
+    struct kiln_value min, max;
+};
+
+struct kiln_rational {
+    uint32_t num, den;
+};
+
+/* ---- emit: Heinz 2019, 2.1.2; births are spread inside the step ------------------------------ */
+
+enum kiln_emitter_shape {
+    KILN_EMITTER_POINT,
+    KILN_EMITTER_SPHERE,
+    KILN_EMITTER_BOX,
+    KILN_EMITTER_DISC,
+    KILN_EMITTER_CONE,
+};
+
+struct kiln_burst {
+    double time_s; /* clip time */
+    uint32_t count;
+};
+
+struct kiln_emitter {
+    struct kiln_value rate;                    /* particles a second; clock constant or time */
+    struct kiln_burst bursts[KILN_MAX_BURSTS]; /* ascending in time */
+    uint32_t burst_count;
+    struct kiln_range life;  /* s, at birth */
+    struct kiln_range speed; /* m/s, at birth */
+    enum kiln_emitter_shape shape;
+    struct kiln_value3 origin;    /* m: centre of the shape, apex disc's centre of a cone */
+    struct kiln_value3 direction; /* need not be normalised; not zero unless outward */
+    struct kiln_value angle;      /* rad: half angle of the directions about `direction`, 0..pi */
+    bool outward;                 /* sphere: directions point away from the origin instead */
+    bool surface;                 /* sphere, box, disc: births on the surface or rim alone */
+    struct kiln_value radius;     /* m: sphere, disc, base of the cone */
+    struct kiln_value3 size;      /* m: box, full edges */
+    struct kiln_value inherit;    /* part of the emitter's own velocity that a particle gets */
+};
+
+/* ---- forces: one row here, one in shared/forces.h, one option list --------------------------- */
+
+enum kiln_force_kind {
+    KILN_FORCE_GRAVITY, /* vector: acceleration, m/s^2 */
+    KILN_FORCE_DRAG,    /* strength: 1/s, towards rest */
+    KILN_FORCE_WIND,    /* vector: air velocity, m/s; strength: 1/s, pull towards it */
+    KILN_FORCE_CURL,    /* curl noise: strength m/s of air velocity, scale m, speed m/s of drift, */
+};                      /* pull 1/s towards the air, octaves */
+
+struct kiln_force {
+    enum kiln_force_kind kind;
+    struct kiln_value3 vector;
+    struct kiln_value strength;
+    struct kiln_value pull;   /* 1/s */
+    struct kiln_value scale;  /* m */
+    struct kiln_value3 drift; /* m/s: the noise field moves with it */
+    uint32_t octaves;         /* 1..4 */
+};
+
+enum kiln_integration {
+    KILN_INTEGRATE_SEMI_IMPLICIT,  /* velocity, then position */
+    KILN_INTEGRATE_POSITION_FIRST, /* the thesis's order: position, then velocity (3.3.2) */
+};
+
+/* ---- collide: Heinz 2019, 3.5 -----------------------------------------------------------------
+ */
+
+enum kiln_collide_mode {
+    KILN_COLLIDE_SWEPT, /* exact point of impact along the path of the step */
+    KILN_COLLIDE_CLAMP, /* the thesis: a position inside is clamped to the nearest face */
+};
+
+struct kiln_collide {
+    bool enabled;
+    enum kiln_collide_mode mode;
+    struct kiln_value randomness; /* 0 mirror .. 1 any direction of the hemisphere */
+    struct kiln_value slowdown;   /* factor on the speed, 0..1 */
+};
+
+/* ---- look -------------------------------------------------------------------------------------
+ */
+
+enum kiln_blend {
+    KILN_BLEND_ALPHA, /* covers: smoke */
+    KILN_BLEND_ADD,   /* shines and covers nothing: fire */
+};
+
+enum kiln_soft_formula {
+    KILN_SOFT_CLAMPED, /* clamp((scene - particle) * s, 0, 1) */
+    KILN_SOFT_LITERAL, /* abs(scene - particle) * s, as printed (Heinz 2019, equation 3.3) */
+};
+
+struct kiln_look {
+    const char *atlas;      /* "builtin:fire", "builtin:smoke" or an absolute file path */
+    uint32_t columns, rows; /* cells of an atlas file */
+    enum kiln_blend blend;
+    struct kiln_value size;  /* m: edge of the billboard */
+    struct kiln_range scale; /* factor on size, drawn per particle */
+    struct kiln_value
+        stretch; /* s: longer along the velocity by speed * stretch; 0 keeps it square */
+    struct kiln_range rotation;          /* rad at birth */
+    struct kiln_range spin;              /* rad/s; the sign is drawn per particle */
+    struct kiln_value cycles;            /* passes through the atlas in a life */
+    bool random_start;                   /* each particle starts at a cell of its own */
+    struct kiln_value3 color;            /* linear; multiplies the atlas or the blackbody colour */
+    struct kiln_value opacity;           /* 0..1 */
+    struct kiln_value temperature;       /* K: blackbody colour; 0: none */
+    struct kiln_value intensity;         /* factor on emitted light */
+    struct kiln_value fade_in, fade_out; /* parts of the life */
+    struct kiln_value soft;              /* 1/m: equation 3.3; 0: hard */
+    enum kiln_soft_formula soft_formula;
+    struct kiln_value near_fade; /* m: transparent this near to the camera's near plane */
+    struct kiln_value3 bloom;    /* weights of equation 3.2, per channel */
+    struct kiln_value lit;       /* 0 unlit .. 1 lit by sun, sky and lights */
+};
+
+/* ---- systems ----------------------------------------------------------------------------------
+ */
+
+struct kiln_bounds {
+    bool enabled;
+    float min[3], max[3]; /* m */
+};
+
+struct kiln_system {
+    const char *name;
+    bool enabled;
+    struct kiln_emitter emit;
+    struct kiln_force forces[KILN_MAX_FORCES];
+    uint32_t force_count;
+    struct kiln_collide collide;
+    struct kiln_bounds demitters[KILN_MAX_DEMITTERS]; /* a particle inside dies (2.1.2) */
+    uint32_t demitter_count;
+    struct kiln_bounds bounds; /* a particle outside dies (2.1.2) */
+    struct kiln_look look;
+    uint32_t capacity; /* slots; the most births in any window of the longest life */
+};
+
+/* ---- the rest ---------------------------------------------------------------------------------
+ */
+
+struct kiln_box {
+    struct kiln_value3 center, size; /* m; clock constant or time */
+    struct kiln_value3 color;        /* albedo */
+    bool collide;
+};
+
+struct kiln_light {
+    struct kiln_value3 position;
+    struct kiln_value3 color; /* radiance at 1 m */
+    struct kiln_value radius; /* m: softens the centre: 1 / (d^2 + r^2) */
+};
+
+struct kiln_backdrop {
+    bool transparent; /* no sky, no floor: alpha in the output */
+    struct kiln_value3 sky_top, sky_horizon;
+    bool floor_enabled, floor_collide;
+    struct kiln_value3 floor_color;
+    struct kiln_value floor_height;   /* m; constant while it collides */
+    struct kiln_value floor_checker;  /* m: edge of the squares; 0: plain */
+    struct kiln_value3 sun_direction; /* towards the sun */
+    struct kiln_value3 sun_color;     /* irradiance; 0 0 0: none */
+    struct kiln_value haze;           /* 1/m: floor fades into the horizon */
+    struct kiln_box boxes[KILN_MAX_BOXES];
+    uint32_t box_count;
+    struct kiln_light lights[KILN_MAX_LIGHTS];
+    uint32_t light_count;
+};
+
+struct kiln_camera {
+    struct kiln_value3 position, target; /* m */
+    struct kiln_value fov;               /* rad, vertical */
+    struct kiln_value roll;              /* rad */
+    struct kiln_value near_plane;        /* m */
+};
+
+enum kiln_compose {
+    KILN_COMPOSE_MERGED,   /* fire and smoke sorted together, premultiplied */
+    KILN_COMPOSE_SEPARATE, /* smoke onto the scene, then fire over it (figure 3.1) */
+};
+
+enum kiln_bloom_kind { KILN_BLOOM_NONE, KILN_BLOOM_GAUSSIAN };
+
+enum kiln_tonemap { KILN_TONEMAP_NONE, KILN_TONEMAP_AGX, KILN_TONEMAP_ACES };
+
+struct kiln_post {
+    enum kiln_compose compose;
+    enum kiln_bloom_kind bloom;
+    struct kiln_value bloom_strength;
+    struct kiln_value exposure; /* stops */
+    enum kiln_tonemap tonemap;
+    bool dither;
+};
+
+struct kiln_scene {
+    struct kiln_arena *arena;
+    const char *name;       /* the file, as given */
+    const char *asset_root; /* absolute folder */
+
+    uint32_t seed;
+    uint32_t width, height; /* px */
+    struct kiln_rational fps;
+    uint32_t frames;
+
+    uint32_t steps_per_frame; /* rate / fps, a whole number */
+    uint32_t warmup_steps;    /* before frame 0, clip time negative */
+    enum kiln_integration integration;
+    float dt_s; /* 1 / rate, rounded once */
+
+    struct kiln_camera camera;
+    struct kiln_backdrop backdrop;
+    struct kiln_system systems[KILN_MAX_SYSTEMS];
+    uint32_t system_count;
+    struct kiln_post post;
+
+    float4 *keys; /* (x, y, slope, 0) */
+    uint32_t key_count;
+    char hash[65]; /* SHA-256 of what kiln_scene_print writes, in hex */
+};
+
+/* Clip time in seconds at the end of a step; steps count from 1, 0 is the start of the run. The
+ * division is IEEE's, so every host gets the same float. */
+float kiln_scene_time(const struct kiln_scene *scene, uint32_t step);
+
+/* Steps to have run before frame `frame` is drawn. */
+uint32_t kiln_scene_frame_step(const struct kiln_scene *scene, uint32_t frame);
+
+/* Values on the host, at a clip time; for values over time or constant. */
+float kiln_scene_value(const struct kiln_scene *scene, const struct kiln_value *value,
+                       float time_s);
+float3 kiln_scene_value3(const struct kiln_scene *scene, const struct kiln_value3 *value,
+                         float time_s);
+
+/* The largest and smallest the value ever is: it is attained at a key. */
+float kiln_scene_value_max(const struct kiln_scene *scene, const struct kiln_value *value);
+float kiln_scene_value_min(const struct kiln_scene *scene, const struct kiln_value *value);
+
+#endif

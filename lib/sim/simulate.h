@@ -1,0 +1,28 @@
+/* Stage 2: one step of every system. Techniques `cpu` and `inplace` give the same bits. */
+#ifndef KILN_SIM_SIMULATE_H
+#define KILN_SIM_SIMULATE_H
+
+#include "base/thread.h"
+#include "particles/pool.h"
+#include "scene/scene.h"
+
+enum kiln_simulate_technique { KILN_SIMULATE_CPU, KILN_SIMULATE_INPLACE };
+
+struct kiln_simulate;
+
+/* device may be NULL for `cpu`. threads is borrowed. */
+struct kiln_simulate *kiln_simulate_create(struct kiln_device *device,
+                                           const struct kiln_scene *scene,
+                                           enum kiln_simulate_technique technique,
+                                           struct kiln_threads *threads, struct kiln_error *error);
+void kiln_simulate_destroy(struct kiln_simulate **simulate);
+
+/* Runs step number `step` (1, 2, ...) on the pool. */
+bool kiln_simulate_step(struct kiln_simulate *simulate, struct kiln_pool *pool, uint32_t step,
+                        struct kiln_error *error);
+
+/* The state hash, and the number of living particles, reduced where the state lives. */
+bool kiln_simulate_hash(struct kiln_simulate *simulate, struct kiln_pool *pool,
+                        struct kiln_state_hash *hash, uint64_t *alive, struct kiln_error *error);
+
+#endif

@@ -1,0 +1,29 @@
+/* Stage 3: the living particles, ordered for drawing. */
+#ifndef KILN_SORT_SORT_H
+#define KILN_SORT_SORT_H
+
+#include "base/thread.h"
+#include "particles/pool.h"
+
+enum kiln_sort_technique { KILN_SORT_CPU };
+
+struct kiln_sort;
+
+struct kiln_sort_params {
+    float3 eye;       /* camera position, m */
+    float3 forward;   /* view direction, unit length */
+    uint32_t systems; /* bit i: system i takes part */
+    bool by_depth;    /* farthest first; false keeps (system, serial) order */
+};
+
+struct kiln_sort *kiln_sort_create(struct kiln_device *device, enum kiln_sort_technique technique,
+                                   struct kiln_threads *threads, struct kiln_error *error);
+void kiln_sort_destroy(struct kiln_sort **sort);
+
+/* Fills entries (room for the pool's slot_count) with the draw entries of the living particles of
+ * the chosen systems, ordered by (view depth descending, system, serial), and counts them. */
+bool kiln_sort_run(struct kiln_sort *sort, struct kiln_pool *pool,
+                   const struct kiln_sort_params *params, struct kiln_buffer *entries,
+                   uint32_t *count, struct kiln_error *error);
+
+#endif

@@ -1,0 +1,23 @@
+/* Which technique runs each stage: a pure function of the device and the flags, never of a timing,
+ * so that pixels do not depend on luck. */
+#ifndef KILN_TECHNIQUE_H
+#define KILN_TECHNIQUE_H
+
+#include "kiln.h"
+#include "sim/simulate.h"
+#include "sort/sort.h"
+
+struct kiln_techniques {
+    enum kiln_simulate_technique simulate;
+    enum kiln_sort_technique sort;
+};
+
+/* Applies "stage=name" texts over the device's defaults. */
+bool kiln_techniques_choose(const struct kiln_device_info *device, const char *const *flags,
+                            size_t flag_count, struct kiln_techniques *techniques,
+                            struct kiln_error *error);
+
+/* "simulate=cpu sort=cpu raster=geometry". */
+void kiln_techniques_describe(const struct kiln_techniques *techniques, char *out, size_t size);
+
+#endif

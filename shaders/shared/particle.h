@@ -1,0 +1,72 @@
+/* The record of a particle: 32 bytes that a simulation step reads and writes. Whatever else a
+ * particle has (life, size, spin, texture) is recomputed from its serial and its birth, where the
+ * thesis stores 44 bytes (Heinz 2019, 3.2.2).
+ *
+ * Records travel as integers: a driver may flush a denormal float or quieten a NaN on its way
+ * through a register, but never changes an integer.
+ */
+#ifndef KILN_SHARED_PARTICLE_H
+#define KILN_SHARED_PARTICLE_H
+
+#include "shared/platform.h"
+
+/* Particle systems of a scene: fewer than the 8 bits of a draw entry name, enough to show. */
+#define KILN_MAX_SYSTEMS 16
+
+struct kiln_particle {
+    uint4 position_serial; /* position as float bits, metres; serial */
+    uint4 velocity_birth;  /* velocity as float bits, metres a second; birth word */
+};
+
+/* The birth word: step of birth (22 bits), 64ths of that step that had passed (6), flags (4).
+ * A run of more steps than 22 bits hold is refused. */
+#define KILN_PARTICLE_ALIVE       1u
+#define KILN_BIRTH_STEP_SHIFT     10u
+#define KILN_BIRTH_FRACTION_SHIFT 4u
+#define KILN_BIRTH_FRACTION_MASK  63u
+#define KILN_MAX_STEPS            4194303u
+
+FN bool particle_is_alive(S(kiln_particle) p)
+{
+    return (p.velocity_birth.w & KILN_PARTICLE_ALIVE) != 0u;
+}
+
+FN uint particle_birth_step(S(kiln_particle) p)
+{
+    return p.velocity_birth.w >> KILN_BIRTH_STEP_SHIFT;
+}
+
+/* The part of the birth step that had passed when the particle was born: 0 to 63/64. */
+FN EXACT float particle_birth_fraction(S(kiln_particle) p)
+{
+    uint sixty_fourths =
+        (p.velocity_birth.w >> KILN_BIRTH_FRACTION_SHIFT) & KILN_BIRTH_FRACTION_MASK;
+    EXACT float fraction = FLOAT(sixty_fourths) * 0.015625;
+    return fraction;
+}
+
+/* Age in seconds at the end of step `step` (steps count from 1; a particle born in that step has
+ * lived for the rest of it). */
+FN EXACT float particle_age(S(kiln_particle) p, uint step, EXACT float dt_s)
+{
+    EXACT float steps = FLOAT(step - particle_birth_step(p)) + 1.0;
+    EXACT float lived = steps - particle_birth_fraction(p);
+    EXACT float age = lived * dt_s;
+    return age;
+}
+
+FN EXACT float3 particle_position(S(kiln_particle) p)
+{
+    EXACT float3 v = FLOAT3(BITS_FLOAT(p.position_serial.x), BITS_FLOAT(p.position_serial.y),
+                            BITS_FLOAT(p.position_serial.z));
+    return v;
+}
+
+FN EXACT float3 particle_velocity(S(kiln_particle) p)
+{
+    EXACT float3 v = FLOAT3(BITS_FLOAT(p.velocity_birth.x), BITS_FLOAT(p.velocity_birth.y),
+                            BITS_FLOAT(p.velocity_birth.z));
+    return v;
+}
+
+#endif

@@ -1,0 +1,76 @@
+/* The common ground of C and GLSL: everything in shaders/shared compiles as both, so that each rule
+ * of the simulation is written once and means the same bits on a CPU and on a GPU.
+ *
+ * The subset: structs by value, scalar arithmetic, function-style vector operations; no swizzles,
+ * no operators on vectors, no built-in mathematics (drivers disagree in the last bits).
+ *   FN         before every function
+ *   EXACT      before every float or vector of floats: local, return value and parameter
+ *   S(name)    a struct type
+ *   UINT(x)    a conversion; the value must be in range
+ */
+#ifndef KILN_SHARED_PLATFORM_H
+#define KILN_SHARED_PLATFORM_H
+
+#ifdef GL_core_profile /* GLSL */
+
+#define FN
+#define EXACT    precise
+#define S(name)  name
+#define UINT(x)  uint(x)
+#define INT(x)   int(x)
+#define FLOAT(x) float(x)
+
+#define float3             vec3
+#define float4             vec4
+#define uint4              uvec4
+#define FLOAT3(x, y, z)    vec3(x, y, z)
+#define FLOAT4(x, y, z, w) vec4(x, y, z, w)
+#define UINT4(x, y, z, w)  uvec4(x, y, z, w)
+#define FLOAT_BITS(x)      floatBitsToUint(x)
+#define BITS_FLOAT(x)      uintBitsToFloat(x)
+
+#else /* C; compile with -ffp-contract=off */
+
+#include <stdalign.h>
+#include <stdint.h>
+#include <string.h>
+
+#define FN static inline
+#define EXACT
+#define S(name)            struct name
+#define UINT(x)            ((uint)(x))
+#define INT(x)             ((int)(x))
+#define FLOAT(x)           ((float)(x))
+
+typedef unsigned int uint;
+typedef struct float3 {
+    float x, y, z;
+} float3;
+typedef struct float4 {
+    alignas(16) float x;
+    float y, z, w;
+} float4;
+typedef struct uint4 {
+    alignas(16) uint x;
+    uint y, z, w;
+} uint4;
+#define FLOAT3(x, y, z)    ((float3){x, y, z})
+#define FLOAT4(x, y, z, w) ((float4){x, y, z, w})
+#define UINT4(x, y, z, w)  ((uint4){x, y, z, w})
+
+static inline uint FLOAT_BITS(float x)
+{
+    uint bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+static inline float BITS_FLOAT(uint bits)
+{
+    float x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+#endif
+#endif

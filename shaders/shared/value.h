@@ -1,0 +1,60 @@
+/* An animated number: a constant, or keys over a clock, joined by straight lines and held before
+ * the first and after the last key. All keys of a scene lie in one table, so a value is 16 bytes.
+ *
+ * In GLSL the including shader declares the table `float4 value_keys[]` in a uniform block (many
+ * reads of one storage-buffer address are slow on llvmpipe); in C it is passed along.
+ */
+#ifndef KILN_SHARED_VALUE_H
+#define KILN_SHARED_VALUE_H
+
+#include "shared/platform.h"
+
+/* What the x of a key means. A constant has count 0. */
+#define KILN_CLOCK_CONSTANT 0u
+#define KILN_CLOCK_TIME     1u /* seconds; 0 is the first frame of the clip, warm-up is before */
+#define KILN_CLOCK_LIFE     2u /* 0 at birth, 1 at death */
+
+/* The largest key table of a scene: 16 KiB, the least that every GL allows a uniform block. */
+#define KILN_MAX_VALUE_KEYS 1024
+
+struct kiln_value {
+    float constant; /* of clock KILN_CLOCK_CONSTANT */
+    uint first;     /* index of the first key */
+    uint count;     /* keys */
+    uint clock;
+};
+
+#ifdef GL_core_profile
+#define VALUE_KEYS
+#define VALUE_KEYS_PARAM
+#else
+#define VALUE_KEYS       value_keys,
+#define VALUE_KEYS_PARAM const float4 *value_keys,
+#endif
+
+/* A key is (x, y, slope to the next key, 0); the slope is divided once, on the host. */
+FN EXACT float value_at_key(VALUE_KEYS_PARAM S(kiln_value) v, EXACT float x)
+{
+    uint last = v.first + v.count - 1u;
+    uint k = v.first;
+    while (k < last && value_keys[k + 1u].x <= x)
+        k++;
+    EXACT float4 key = value_keys[k];
+    if (x <= key.x || k == last)
+        return key.y;
+    EXACT float dx = x - key.x;
+    EXACT float dy = dx * key.z;
+    EXACT float y = key.y + dy;
+    return y;
+}
+
+/* The value at a time (seconds) and a life progress (0 to 1); it uses whichever its clock names. */
+FN EXACT float value_at(VALUE_KEYS_PARAM S(kiln_value) v, EXACT float time_s, EXACT float life)
+{
+    if (v.count == 0u)
+        return v.constant;
+    EXACT float x = v.clock == KILN_CLOCK_LIFE ? life : time_s;
+    return value_at_key(VALUE_KEYS v, x);
+}
+
+#endif

@@ -1,0 +1,129 @@
+/* lib/base: arena, text, threads, hash. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <locale.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/arena.h"
+#include "base/hash.h"
+#include "base/text.h"
+#include "base/thread.h"
+
+static void arena_refuses_overflow(void **state)
+{
+    (void)state;
+    struct kiln_arena *arena = kiln_arena_create();
+    assert_non_null(arena);
+    assert_null(kiln_arena_alloc(arena, SIZE_MAX / 2, 4));
+    assert_null(kiln_arena_alloc(arena, SIZE_MAX, 1));
+    unsigned char *large = kiln_arena_alloc(arena, 1 << 20, 1);
+    assert_non_null(large);
+    assert_int_equal((uintptr_t)large % _Alignof(max_align_t), 0);
+    assert_int_equal(large[(1 << 20) - 1], 0);
+    kiln_arena_destroy(&arena);
+    assert_null(arena);
+    kiln_arena_destroy(&arena);
+}
+
+static void numbers_are_read_without_locale(void **state)
+{
+    (void)state;
+    double value = 0;
+    assert_true(kiln_text_to_double("1.5e-3", &value));
+    assert_true(value == 1.5e-3);
+    static const char *const bad[] = {"", " 1", "1 ", "0x10", "nan", "inf", "1e999", "1,5", "--1"};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        assert_false(kiln_text_to_double(bad[i], &value));
+
+    uint64_t whole = 0;
+    assert_true(kiln_text_to_uint64("18446744073709551615", &whole));
+    assert_true(whole == UINT64_MAX);
+    assert_false(kiln_text_to_uint64("18446744073709551616", &whole));
+    assert_false(kiln_text_to_uint64("-1", &whole));
+}
+
+static void numbers_are_written_shortest(void **state)
+{
+    (void)state;
+    char text[32];
+    kiln_text_from_float(text, 0.1f);
+    assert_string_equal(text, "0.1");
+    kiln_text_from_float(text, 16777217.0f);
+    assert_string_equal(text, "16777216");
+    kiln_text_from_double(text, 1.0 / 3.0);
+    double back = 0;
+    assert_true(kiln_text_to_double(text, &back) && back == 1.0 / 3.0);
+}
+
+static void nearest_name_finds_misspellings(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"rate", "life", "speed", "bursts"};
+    assert_string_equal(kiln_text_nearest("raet", names, 4), "rate");
+    assert_string_equal(kiln_text_nearest("burst", names, 4), "bursts");
+    assert_null(kiln_text_nearest("temperature", names, 4));
+    assert_null(kiln_text_nearest("", names, 4));
+}
+
+static void json_strings_are_escaped(void **state)
+{
+    (void)state;
+    struct kiln_text text = {0};
+    kiln_text_add_json(&text, "a\"\\\n\xc3\xa9\xff");
+    assert_string_equal(text.data, "\"a\\\"\\\\\\u000a\xc3\xa9\\ufffd\"");
+    kiln_text_free(&text);
+}
+
+static void count_piece(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    unsigned char *seen = context;
+    for (size_t i = begin; i < end; i++)
+        seen[i]++;
+}
+
+static void threads_cover_a_range_once(void **state)
+{
+    (void)state;
+    static const uint32_t counts[] = {1, 2, 8};
+    for (size_t c = 0; c < 3; c++) {
+        struct kiln_threads *threads = kiln_threads_create(counts[c]);
+        assert_non_null(threads);
+        assert_int_equal(kiln_threads_count(threads), counts[c]);
+        for (size_t size = 0; size < 1000; size += 37) {
+            unsigned char seen[1000] = {0};
+            kiln_threads_for(threads, size, 16, count_piece, seen);
+            for (size_t i = 0; i < 1000; i++)
+                assert_int_equal(seen[i], i < size);
+        }
+        kiln_threads_destroy(&threads);
+    }
+}
+
+/* The test vector of FIPS 180-2, B.1. */
+static void sha256_matches_the_standard(void **state)
+{
+    (void)state;
+    char hex[65];
+    assert_true(kiln_hash_sha256("abc", 3, hex));
+    assert_string_equal(hex, "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        cmocka_unit_test(arena_refuses_overflow),
+        cmocka_unit_test(numbers_are_read_without_locale),
+        cmocka_unit_test(numbers_are_written_shortest),
+        cmocka_unit_test(nearest_name_finds_misspellings),
+        cmocka_unit_test(json_strings_are_escaped),
+        cmocka_unit_test(threads_cover_a_range_once),
+        cmocka_unit_test(sha256_matches_the_standard),
+    };
+    return cmocka_run_group_tests_name("base", tests, NULL, NULL);
+}
