@@ -229,11 +229,29 @@ bool kiln_render(struct kiln_device *device, const struct kiln_scene *scene,
                  const struct kiln_render_params *params, struct kiln_render_stats *stats,
                  struct kiln_error *error);
 
+/* Removes the temporary files of every running job, with async-signal-safe calls only: for a signal
+ * handler or a watchdog that ends the process next, with _exit. */
+void kiln_abandon_outputs(void);
+
 /* The techniques of each stage and what each is for, for people. */
 bool kiln_write_techniques(FILE *out);
 
 /* The outputs that this build can write, and their options, for people. */
 bool kiln_write_outputs(FILE *out);
+
+/* ---- Text: as kiln reads and writes it, for programs that take the same --------------------- */
+
+/* Reads a whole text as a decimal number with '.' as its point in any locale. False when something
+ * is left over, or it is not finite. */
+bool kiln_text_to_double(const char *text, double *value);
+bool kiln_text_to_uint64(const char *text, uint64_t *value);
+
+/* The candidate nearest to name by edit distance (swapped neighbours count once), or NULL when
+ * none is near enough to be a misspelling. */
+const char *kiln_text_nearest(const char *name, const char *const *candidates, size_t count);
+
+/* Writes a JSON string literal, quotes included. Invalid UTF-8 becomes U+FFFD. */
+bool kiln_write_json_string(FILE *out, const char *string);
 
 #ifdef __cplusplus
 }

@@ -185,3 +185,12 @@ void kiln_text_add_json(struct kiln_text *text, const char *string)
     }
     kiln_text_add(text, "\"");
 }
+
+bool kiln_write_json_string(FILE *out, const char *string)
+{
+    struct kiln_text text = {0};
+    kiln_text_add_json(&text, string);
+    bool written = !text.failed && fputs(text.data, out) >= 0;
+    kiln_text_free(&text);
+    return written;
+}
