@@ -1,0 +1,70 @@
+/* What a machine lacks to render: judged from the devices found and the nodes under /dev. */
+#include "gpu/advice.h"
+
+#include <glob.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+#include <unistd.h>
+
+static bool has_gpu_of(const struct kiln_device_info *infos, size_t count, const char *vendor)
+{
+    for (size_t i = 0; i < count; i++)
+        if (infos[i].usable && !infos[i].software &&
+            (!vendor || strcasestr(infos[i].vendor, vendor)))
+            return true;
+    return false;
+}
+
+static bool has_software(const struct kiln_device_info *infos, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (infos[i].usable && infos[i].software)
+            return true;
+    return false;
+}
+
+/* Adds a sentence if it still fits whole. */
+static void add(char advice[256], const char *sentence)
+{
+    size_t used = strlen(advice);
+    if (used + strlen(sentence) + 3 > 256)
+        return;
+    snprintf(advice + used, 256 - used, "%s%s", used ? "; " : "", sentence);
+}
+
+/* A GPU that this user may not open looks like no GPU. */
+static void advise_permission(char advice[256])
+{
+    glob_t nodes;
+    if (glob("/dev/dri/renderD*", 0, NULL, &nodes) != 0)
+        return;
+    for (size_t i = 0; i < nodes.gl_pathc; i++) {
+        if (access(nodes.gl_pathv[i], R_OK | W_OK) == 0)
+            continue;
+        char sentence[160];
+        snprintf(sentence, sizeof sentence, "no access to %s; add the user to the group render",
+                 nodes.gl_pathv[i]);
+        add(advice, sentence);
+        break;
+    }
+    globfree(&nodes);
+}
+
+void kiln_device_advise(const struct kiln_device_info *infos, size_t count, const char *problem,
+                        char advice[256])
+{
+    advice[0] = '\0';
+    if (count == 0) {
+        add(advice, problem);
+        return;
+    }
+    if (access("/dev/nvidia0", F_OK) == 0 && !has_gpu_of(infos, count, "NVIDIA"))
+        add(advice, "an NVIDIA GPU is here without its EGL; install the package libegl-nvidia0, in "
+                    "a container set NVIDIA_DRIVER_CAPABILITIES=all");
+    if (!has_gpu_of(infos, count, NULL))
+        advise_permission(advice);
+    if (!has_gpu_of(infos, count, NULL) && !has_software(infos, count))
+        add(advice, "software rendering is missing; install the packages libegl-mesa0 and "
+                    "libgl1-mesa-dri");
+}

@@ -1,0 +1,425 @@
+/* Devices: listing, choosing and opening them, and watching them for errors. */
+#include "gpu/device.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "base/text.h"
+#include "gpu/advice.h"
+#include "gpu/egl.h"
+
+/* ---- Errors -------------------------------------------------------------------------------- */
+
+/* Compiler messages are left out of the failures: kiln_program_create reports them with their file
+ * and line. */
+static void GLAPIENTRY on_debug_message(GLenum source, GLenum type, GLuint id, GLenum severity,
+                                        GLsizei length, const GLchar *message, const void *user)
+{
+    (void)id;
+    struct kiln_device *device = (struct kiln_device *)(uintptr_t)user;
+    const bool failure = type == GL_DEBUG_TYPE_ERROR || severity == GL_DEBUG_SEVERITY_HIGH;
+    if (source == GL_DEBUG_SOURCE_APPLICATION)
+        return;
+    while (length > 0 && message[length - 1] == '\n')
+        length--;
+    kiln_log_write(&device->log, failure ? KILN_LOG_WARNING : KILN_LOG_DEBUG, "GL: %.*s",
+                   (int)length, message);
+    if (!failure || source == GL_DEBUG_SOURCE_SHADER_COMPILER || device->gl_failed)
+        return;
+    device->gl_failed = true;
+    snprintf(device->gl_message, sizeof device->gl_message, "%.*s", (int)length, message);
+}
+
+static void watch_errors(struct kiln_device *device)
+{
+    glEnable(GL_DEBUG_OUTPUT);
+    glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+    glDebugMessageCallback(on_debug_message, device);
+}
+
+static const char *error_name(GLenum error)
+{
+    switch (error) {
+    case GL_INVALID_ENUM:
+        return "invalid enum";
+    case GL_INVALID_VALUE:
+        return "invalid value";
+    case GL_INVALID_OPERATION:
+        return "invalid operation";
+    case GL_INVALID_FRAMEBUFFER_OPERATION:
+        return "invalid framebuffer operation";
+    case GL_OUT_OF_MEMORY:
+        return "out of memory";
+    case GL_CONTEXT_LOST:
+        return "the device was lost";
+    default:
+        return "unknown error";
+    }
+}
+
+static bool context_was_reset(void)
+{
+    if (epoxy_gl_version() < 45 && !epoxy_has_gl_extension("GL_KHR_robustness"))
+        return false;
+    return glGetGraphicsResetStatus() != GL_NO_ERROR;
+}
+
+bool kiln_device_check(struct kiln_device *device, const char *where, struct kiln_error *error)
+{
+    GLenum first = GL_NO_ERROR;
+    /* Bounded, since a lost context may report an error for ever. */
+    for (int i = 0; i < 16; i++) {
+        GLenum code = glGetError();
+        if (code == GL_NO_ERROR)
+            break;
+        if (first == GL_NO_ERROR || code == GL_OUT_OF_MEMORY)
+            first = code;
+    }
+    const bool reported = device->gl_failed;
+    device->gl_failed = false;
+    if (context_was_reset())
+        first = GL_CONTEXT_LOST;
+    if (first == GL_NO_ERROR && !reported)
+        return true;
+    if (first == GL_NO_ERROR)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: GL: %s", where, device->gl_message);
+    return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: GL: %s (0x%04x)%s%s", where,
+                          error_name(first), first, reported ? ": " : "",
+                          reported ? device->gl_message : "");
+}
+
+void kiln_device_push_group(struct kiln_device *device, const char *name)
+{
+    (void)device;
+    glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, name);
+}
+
+void kiln_device_pop_group(struct kiln_device *device)
+{
+    (void)device;
+    glPopDebugGroup();
+}
+
+void kiln_device_label(struct kiln_device *device, GLenum kind, GLuint object, const char *label)
+{
+    (void)device;
+    enum { LEAST_MAX_LABEL_LENGTH = 256 };
+    size_t length = strlen(label);
+    if (length >= LEAST_MAX_LABEL_LENGTH)
+        length = LEAST_MAX_LABEL_LENGTH - 1;
+    glObjectLabel(kind, object, (GLsizei)length, label);
+}
+
+void kiln_device_dispatch(struct kiln_device *device, uint32_t count, uint32_t group_size)
+{
+    (void)device;
+    enum { MAX_GROUPS_AN_AXIS = 65535 };
+    const uint32_t groups = count / group_size + (count % group_size != 0);
+    if (groups == 0)
+        return;
+    const uint32_t y = (groups - 1) / MAX_GROUPS_AN_AXIS + 1;
+    const uint32_t x = (groups - 1) / y + 1;
+    glDispatchCompute(x, y, 1);
+}
+
+/* ---- Opening ------------------------------------------------------------------------------- */
+
+static bool is_software(const char *renderer)
+{
+    static const char *const names[] = {"llvmpipe", "softpipe", "swrast", "SwiftShader",
+                                        "software"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strcasestr(renderer, names[i]))
+            return true;
+    return false;
+}
+
+static void copy_gl_string(char out[128], GLenum name)
+{
+    const char *text = (const char *)glGetString(name);
+    snprintf(out, 128, "%s", text ? text : "unknown");
+}
+
+static void describe(struct kiln_device_info *info)
+{
+    copy_gl_string(info->name, GL_RENDERER);
+    copy_gl_string(info->vendor, GL_VENDOR);
+    copy_gl_string(info->gl_version, GL_VERSION);
+    info->software = is_software(info->name);
+    if (epoxy_gl_version() < 43) {
+        snprintf(info->problem, sizeof info->problem,
+                 "it has OpenGL %s; 4.3 or later is needed, from a newer driver", info->gl_version);
+        return;
+    }
+    glGetIntegerv(GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS, &info->max_work_group_invocations);
+    glGetIntegerv(GL_MAX_COMPUTE_SHARED_MEMORY_SIZE, &info->max_shared_memory_bytes);
+    GLint64 block_bytes = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &block_bytes);
+    info->max_storage_block_bytes = block_bytes;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &info->max_texture_size);
+    glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &info->max_array_layers);
+
+    /* The one optional part of OpenGL 4.3 that kiln draws with. */
+    GLint vertex_blocks = 0;
+    glGetIntegerv(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, &vertex_blocks);
+    if (vertex_blocks < 1) {
+        snprintf(info->problem, sizeof info->problem,
+                 "its vertex shaders cannot read storage buffers");
+        return;
+    }
+    info->usable = true;
+}
+
+static void open_source(struct kiln_device *device, const struct kiln_egl_source *source,
+                        const struct kiln_device_params *params)
+{
+    *device = (struct kiln_device){.log = params->log, .debug = params->debug};
+    struct kiln_device_info *info = &device->info;
+    snprintf(info->platform, sizeof info->platform, "%s", source->platform);
+    if (kiln_egl_open(source, params->debug, &device->display, &device->context, info->problem))
+        describe(info);
+    else
+        snprintf(info->name, sizeof info->name, "%s", source->name);
+}
+
+/* ---- Choosing ------------------------------------------------------------------------------ */
+
+/* The devices opened so far, numbered as listed. */
+struct scan {
+    struct kiln_device devices[KILN_MAX_EGL_SOURCES];
+    size_t count;
+    char problem[256]; /* why there are none */
+};
+
+static bool is_index(const char *wanted, uint64_t *index)
+{
+    return wanted && kiln_text_to_uint64(wanted, index);
+}
+
+/* Opening costs time and memory on a machine with many GPUs: stop as soon as the choice is clear. A
+ * name is clear only when all are known. */
+static bool scan_is_enough(const struct scan *scan, const char *wanted)
+{
+    uint64_t index;
+    const struct kiln_device_info *last = &scan->devices[scan->count - 1].info;
+    if (!wanted)
+        return last->usable && !last->software;
+    if (is_index(wanted, &index))
+        return scan->count > index;
+    return strcmp(wanted, "software") == 0 && last->usable && last->software;
+}
+
+/* Mesa's surfaceless platform reaches one of the devices again, or, when none of them works, says
+ * nothing that they do not. */
+static bool is_duplicate(const struct scan *scan, const struct kiln_device_info *info)
+{
+    if (strcmp(info->platform, "surfaceless") != 0)
+        return false;
+    for (size_t i = 0; i < scan->count; i++) {
+        const struct kiln_device_info *other = &scan->devices[i].info;
+        if (!info->usable || (strcmp(info->name, other->name) == 0 &&
+                              strcmp(info->gl_version, other->gl_version) == 0))
+            return true;
+    }
+    return false;
+}
+
+/* every: do not stop early. */
+static void scan_devices(struct scan *scan, const struct kiln_device_params *params, bool every)
+{
+    struct kiln_egl_source sources[KILN_MAX_EGL_SOURCES];
+    size_t source_count = kiln_egl_sources(sources, scan->problem);
+    scan->count = 0;
+    for (size_t i = 0; i < source_count; i++) {
+        struct kiln_device *device = &scan->devices[scan->count];
+        open_source(device, &sources[i], params);
+        if (is_duplicate(scan, &device->info)) {
+            kiln_egl_close(device->display, device->context);
+            continue;
+        }
+        device->info.index = (uint32_t)scan->count++;
+        if (!every && scan_is_enough(scan, params->wanted))
+            return;
+    }
+}
+
+static void scan_close(struct scan *scan)
+{
+    for (size_t i = 0; i < scan->count; i++)
+        kiln_egl_close(scan->devices[i].display, scan->devices[i].context);
+    scan->count = 0;
+}
+
+static void list_names(const struct scan *scan, struct kiln_text *text)
+{
+    for (size_t i = 0; i < scan->count; i++)
+        kiln_text_add(text, "%s%zu '%s'", i ? ", " : "", i, scan->devices[i].info.name);
+    if (scan->count == 0)
+        kiln_text_add(text, "none");
+}
+
+static const struct kiln_device *choose_default(const struct scan *scan)
+{
+    const struct kiln_device *software = NULL;
+    for (size_t i = 0; i < scan->count; i++) {
+        const struct kiln_device *device = &scan->devices[i];
+        if (device->info.usable && !device->info.software)
+            return device;
+        if (device->info.usable && !software)
+            software = device;
+    }
+    return software;
+}
+
+static const struct kiln_device *choose_software(const struct scan *scan)
+{
+    for (size_t i = 0; i < scan->count; i++)
+        if (scan->devices[i].info.usable && scan->devices[i].info.software)
+            return &scan->devices[i];
+    return NULL;
+}
+
+/* A whole name wins over names that contain it; several equal matches are ambiguous. */
+static const struct kiln_device *choose_named(const struct scan *scan, const char *wanted,
+                                              bool *ambiguous)
+{
+    const struct kiln_device *found = NULL;
+    size_t matches = 0;
+    for (int whole = 1; whole >= 0 && matches == 0; whole--) {
+        for (size_t i = 0; i < scan->count; i++) {
+            const char *name = scan->devices[i].info.name;
+            if (whole ? strcasecmp(name, wanted) == 0 : strcasestr(name, wanted) != NULL) {
+                found = &scan->devices[i];
+                matches++;
+            }
+        }
+    }
+    *ambiguous = matches > 1;
+    return matches == 1 ? found : NULL;
+}
+
+static const struct kiln_device *choose(const struct scan *scan, const char *wanted,
+                                        struct kiln_error *error)
+{
+    const struct kiln_device *device = NULL;
+    bool ambiguous = false;
+    uint64_t index;
+    if (!wanted)
+        device = choose_default(scan);
+    else if (is_index(wanted, &index))
+        device = index < scan->count ? &scan->devices[index] : NULL;
+    else if (strcmp(wanted, "software") == 0)
+        device = choose_software(scan);
+    else
+        device = choose_named(scan, wanted, &ambiguous);
+
+    if (device && device->info.usable)
+        return device;
+    if (device) {
+        kiln_error_set(error, KILN_NO_DEVICE, "device %u '%s' is not usable: %s",
+                       device->info.index, device->info.name, device->info.problem);
+        return NULL;
+    }
+    struct kiln_text names = {0};
+    list_names(scan, &names);
+    if (scan->count == 0)
+        kiln_error_set(error, KILN_NO_DEVICE, "no device: %s", scan->problem);
+    else if (!wanted)
+        kiln_error_set(error, KILN_NO_DEVICE, "no usable device; there are: %s", names.data);
+    else
+        kiln_error_set(error, ambiguous ? KILN_USAGE : KILN_NO_DEVICE,
+                       ambiguous ? "device '%s' means more than one; say its number: %s"
+                                 : "there is no device '%s'; there are: %s",
+                       wanted, names.data);
+    kiln_text_free(&names);
+    return NULL;
+}
+
+/* ---- The interface ------------------------------------------------------------------------- */
+
+size_t kiln_device_list(struct kiln_device_info *infos, size_t capacity, char advice[256])
+{
+    if (advice)
+        snprintf(advice, 256, "no memory for the list of devices");
+    struct kiln_device_info all[KILN_MAX_EGL_SOURCES];
+    struct scan *scan = calloc(1, sizeof *scan);
+    if (!scan)
+        return 0;
+    struct kiln_egl_current before = kiln_egl_current();
+    scan_devices(scan, &KILN_DEVICE_DEFAULTS, true);
+    const size_t count = scan->count;
+    for (size_t i = 0; i < count; i++) {
+        all[i] = scan->devices[i].info;
+        if (i < capacity)
+            infos[i] = all[i];
+    }
+    if (advice)
+        kiln_device_advise(all, count, scan->problem, advice);
+    scan_close(scan);
+    kiln_egl_restore(&before);
+    free(scan);
+    return count;
+}
+
+struct kiln_device *kiln_device_open(const struct kiln_device_params *params,
+                                     struct kiln_error *error)
+{
+    if (params->wanted && params->wanted[0] == '\0') {
+        kiln_error_set(error, KILN_USAGE, "the name of the device is empty");
+        return NULL;
+    }
+    struct scan *scan = calloc(1, sizeof *scan);
+    struct kiln_device *device = calloc(1, sizeof *device);
+    if (!scan || !device) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "no memory for the list of devices");
+        goto fail;
+    }
+    scan_devices(scan, params, false);
+    const struct kiln_device *chosen = choose(scan, params->wanted, error);
+    if (!chosen)
+        goto fail;
+    *device = *chosen;
+    scan->devices[chosen - scan->devices].context = NULL;
+    scan_close(scan);
+    free(scan);
+    if (!kiln_device_make_current(device, error)) {
+        kiln_device_close(&device);
+        return NULL;
+    }
+    if (device->debug)
+        watch_errors(device);
+    return device;
+
+fail:
+    if (scan)
+        scan_close(scan);
+    free(scan);
+    free(device);
+    return NULL;
+}
+
+void kiln_device_close(struct kiln_device **device)
+{
+    if (!*device)
+        return;
+    kiln_egl_close((*device)->display, (*device)->context);
+    free(*device);
+    *device = NULL;
+}
+
+const struct kiln_device_info *kiln_device_info(const struct kiln_device *device)
+{
+    return &device->info;
+}
+
+bool kiln_device_make_current(struct kiln_device *device, struct kiln_error *error)
+{
+    if (kiln_egl_make_current(device->display, device->context))
+        return true;
+    return kiln_error_set(error, KILN_DEVICE_FAILED, "the context of '%s' does not become current",
+                          device->info.name);
+}

@@ -1,0 +1,258 @@
+/* lib/gpu/device.h: listing, choosing, opening, errors, dispatch. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "support/device.h"
+
+static struct kiln_device *open_named(const char *wanted, struct kiln_error *error)
+{
+    struct kiln_device_params params = KILN_DEVICE_DEFAULTS;
+    params.wanted = wanted;
+    *error = (struct kiln_error){0};
+    return kiln_device_open(&params, error);
+}
+
+static void list_describes_usable_devices(void **state)
+{
+    (void)state;
+    struct kiln_device_info infos[32];
+    char advice[256];
+    size_t count = kiln_device_list(infos, 32, advice);
+    assert_in_range(count, 1, 32);
+    size_t usable = 0;
+    for (size_t i = 0; i < count; i++) {
+        assert_int_equal(infos[i].index, i);
+        assert_true(infos[i].name[0] != '\0');
+        assert_true(infos[i].usable == (infos[i].problem[0] == '\0'));
+        if (!infos[i].usable)
+            continue;
+        usable++;
+        assert_true(infos[i].max_work_group_invocations >= 1024);
+        assert_true(infos[i].max_shared_memory_bytes >= 32 * 1024);
+        assert_true(infos[i].max_storage_block_bytes >= 1 << 24);
+        assert_true(infos[i].max_texture_size >= 16384);
+        assert_true(infos[i].max_array_layers >= 2048);
+    }
+    assert_true(usable >= 1);
+
+    /* The count is that of all devices, also when fewer are asked for. */
+    struct kiln_device_info first = {.index = 77};
+    assert_int_equal(kiln_device_list(&first, 1, NULL), count);
+    assert_string_equal(first.name, infos[0].name);
+    assert_int_equal(kiln_device_list(NULL, 0, NULL), count);
+}
+
+static void list_has_no_device_twice(void **state)
+{
+    (void)state;
+    struct kiln_device_info infos[32];
+    size_t count = kiln_device_list(infos, 32, NULL);
+    for (size_t i = 0; i < count && i < 32; i++)
+        for (size_t j = 0; j < i; j++)
+            assert_false(strcmp(infos[i].platform, "surfaceless") == 0 &&
+                         strcmp(infos[i].name, infos[j].name) == 0);
+}
+
+static void list_leaves_the_current_context(void **state)
+{
+    struct kiln_device *device = *state;
+    GLuint buffer = 0;
+    glGenBuffers(1, &buffer);
+    glBindBuffer(GL_ARRAY_BUFFER, buffer);
+    assert_true(kiln_device_list(NULL, 0, NULL) > 0);
+    GLint bound = 0;
+    glGetIntegerv(GL_ARRAY_BUFFER_BINDING, &bound);
+    assert_int_equal(bound, buffer);
+    glDeleteBuffers(1, &buffer);
+    struct kiln_error error = {0};
+    assert_true(kiln_device_check(device, "list", &error));
+}
+
+static void a_device_is_chosen_by_number_and_name(void **state)
+{
+    struct kiln_error error = {0};
+    struct kiln_device_info infos[32];
+    size_t count = kiln_device_list(infos, 32, NULL);
+    for (size_t i = 0; i < count && i < 32; i++) {
+        if (!infos[i].usable)
+            continue;
+        char number[16];
+        snprintf(number, sizeof number, "%zu", i);
+        struct kiln_device *device = open_named(number, &error);
+        assert_non_null(device);
+        assert_string_equal(kiln_device_info(device)->name, infos[i].name);
+        assert_int_equal(kiln_device_info(device)->index, i);
+        kiln_device_close(&device);
+        assert_null(device);
+    }
+    /* The default is a GPU when there is one. */
+    bool has_gpu = false;
+    for (size_t i = 0; i < count && i < 32; i++)
+        has_gpu = has_gpu || (infos[i].usable && !infos[i].software);
+    struct kiln_device *device = open_named(NULL, &error);
+    assert_non_null(device);
+    assert_true(kiln_device_info(device)->software == !has_gpu);
+    kiln_device_close(&device);
+    kiln_device_close(&device);
+    assert_true(kiln_device_make_current(*state, &error));
+}
+
+static void software_is_chosen_by_name(void **state)
+{
+    struct kiln_error error = {0};
+    struct kiln_device *device = open_named("software", &error);
+    if (!device) {
+        assert_int_equal(error.code, KILN_NO_DEVICE);
+        skip();
+    }
+    assert_true(kiln_device_info(device)->software);
+    kiln_device_close(&device);
+
+    struct kiln_device_info infos[32];
+    size_t matches = 0, count = kiln_device_list(infos, 32, NULL);
+    for (size_t i = 0; i < count && i < 32; i++)
+        matches += strstr(infos[i].name, "llvmpipe") != NULL;
+    device = open_named("LLVMpipe", &error);
+    assert_int_equal(device != NULL, matches == 1);
+    kiln_device_close(&device);
+    assert_true(kiln_device_make_current(*state, &error));
+}
+
+static void a_wrong_choice_names_what_there_is(void **state)
+{
+    struct kiln_error error;
+    const char *name = kiln_device_info(*state)->name;
+    assert_null(open_named("no such device", &error));
+    assert_int_equal(error.code, KILN_NO_DEVICE);
+    assert_non_null(strstr(error.message, "'no such device'"));
+    assert_non_null(strstr(error.message, name));
+
+    static const char *const numbers[] = {"99", "18446744073709551615"};
+    for (size_t i = 0; i < 2; i++) {
+        assert_null(open_named(numbers[i], &error));
+        assert_int_equal(error.code, KILN_NO_DEVICE);
+        assert_non_null(strstr(error.message, name));
+    }
+    assert_null(open_named("", &error));
+    assert_int_equal(error.code, KILN_USAGE);
+    assert_true(kiln_device_make_current(*state, &error));
+}
+
+static void two_devices_live_side_by_side(void **state)
+{
+    struct kiln_device *first = *state;
+    struct kiln_error error;
+    struct kiln_device *second = open_named(NULL, &error);
+    assert_non_null(second);
+    assert_true(kiln_device_check(second, "second", &error));
+    kiln_device_close(&second);
+    assert_true(kiln_device_make_current(first, &error));
+    GLuint buffer = 0;
+    glGenBuffers(1, &buffer);
+    assert_true(buffer != 0);
+    glDeleteBuffers(1, &buffer);
+    assert_true(kiln_device_check(first, "first", &error));
+}
+
+static void gl_errors_are_found_once(void **state)
+{
+    struct kiln_device *device = *state;
+    struct kiln_error error = {0};
+    const struct kiln_log log = device->log;
+    device->log = (struct kiln_log){0};
+    glEnable(GL_TEXTURE_2D_ARRAY);
+    assert_false(kiln_device_check(device, "here", &error));
+    assert_int_equal(error.code, KILN_DEVICE_FAILED);
+    assert_non_null(strstr(error.message, "here: GL: invalid enum (0x0500)"));
+    assert_true(kiln_device_check(device, "here", &error));
+
+    /* What the debug callback saw counts, also when somebody else took the GL error. */
+    glBindBuffer(GL_ARRAY_BUFFER, 0);
+    glBufferData(GL_ARRAY_BUFFER, 16, NULL, GL_STATIC_DRAW);
+    assert_int_equal(glGetError(), GL_INVALID_OPERATION);
+    assert_false(kiln_device_check(device, "there", &error));
+    assert_non_null(strstr(error.message, "there: GL: "));
+    assert_true(kiln_device_check(device, "there", &error));
+    device->log = log;
+}
+
+static void out_of_memory_is_named(void **state)
+{
+    struct kiln_device *device = *state;
+    struct kiln_error error = {0};
+    const struct kiln_log log = device->log;
+    device->log = (struct kiln_log){0};
+    GLuint buffer = 0;
+    glGenBuffers(1, &buffer);
+    glBindBuffer(GL_COPY_WRITE_BUFFER, buffer);
+    glBufferData(GL_COPY_WRITE_BUFFER, (GLsizeiptr)1 << 50, NULL, GL_STATIC_DRAW);
+    assert_false(kiln_device_check(device, "pool", &error));
+    assert_int_equal(error.code, KILN_DEVICE_FAILED);
+    assert_non_null(strstr(error.message, "out of memory"));
+    glDeleteBuffers(1, &buffer);
+    device->log = log;
+}
+
+/* In a child process, since a driver reads its environment once. */
+static void missing_drivers_are_explained(void **state)
+{
+    (void)state;
+    int ends[2];
+    assert_int_equal(pipe(ends), 0);
+    pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        setenv("__EGL_VENDOR_LIBRARY_DIRS", "/nonexistent", 1);
+        dup2(ends[1], STDOUT_FILENO);
+        execl("/proc/self/exe", "test_device", "--list", (char *)NULL);
+        _exit(127);
+    }
+    close(ends[1]);
+    char text[512] = "";
+    ssize_t length = read(ends[0], text, sizeof text - 1);
+    close(ends[0]);
+    int status = 0;
+    assert_true(waitpid(child, &status, 0) == child);
+    assert_true(WIFEXITED(status) && WEXITSTATUS(status) == KILN_NO_DEVICE);
+    assert_true(length > 0);
+    assert_non_null(strstr(text, "libegl-mesa0"));
+}
+
+/* What missing_drivers_are_explained runs. */
+static int list_and_open(void)
+{
+    char advice[256];
+    struct kiln_error error = {0};
+    size_t count = kiln_device_list(NULL, 0, advice);
+    struct kiln_device *device = kiln_device_open(&KILN_DEVICE_DEFAULTS, &error);
+    printf("%zu devices; %s; %s\n", count, advice, error.message);
+    kiln_device_close(&device);
+    return (int)error.code;
+}
+
+int main(int argc, char **argv)
+{
+    if (argc == 2 && strcmp(argv[1], "--list") == 0)
+        return list_and_open();
+    static const struct CMUnitTest tests[] = {
+        test_on_device(list_describes_usable_devices),
+        test_on_device(list_has_no_device_twice),
+        test_on_device(list_leaves_the_current_context),
+        test_on_device(a_device_is_chosen_by_number_and_name),
+        test_on_device(software_is_chosen_by_name),
+        test_on_device(a_wrong_choice_names_what_there_is),
+        test_on_device(two_devices_live_side_by_side),
+        test_on_device(gl_errors_are_found_once),
+        test_on_device(out_of_memory_is_named),
+        test_on_device(missing_drivers_are_explained),
+    };
+    return cmocka_run_group_tests_name("device", tests, test_device_open, test_device_close);
+}

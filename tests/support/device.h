@@ -1,0 +1,56 @@
+/* The device that GPU tests run on, opened once a program with a debug context. */
+#ifndef TESTS_SUPPORT_DEVICE_H
+#define TESTS_SUPPORT_DEVICE_H
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "gpu/device.h"
+
+static inline void test_log(void *user, enum kiln_log_level level, const char *line)
+{
+    (void)user;
+    if (level == KILN_LOG_WARNING)
+        fprintf(stderr, "%s\n", line);
+}
+
+/* A group set-up of cmocka: *state becomes the device. KILN_TEST_DEVICE names another than the
+ * default. Ends the program as skipped (77) when there is none. */
+static inline int test_device_open(void **state)
+{
+    struct kiln_error error = {0};
+    struct kiln_device_params params = KILN_DEVICE_DEFAULTS;
+    params.wanted = getenv("KILN_TEST_DEVICE");
+    params.debug = true;
+    params.log.write = test_log;
+    struct kiln_device *device = kiln_device_open(&params, &error);
+    if (!device) {
+        fprintf(stderr, "skipped: %s\n", error.message);
+        exit(77);
+    }
+    fprintf(stderr, "on %s\n", kiln_device_info(device)->name);
+    *state = device;
+    return 0;
+}
+
+static inline int test_device_close(void **state)
+{
+    struct kiln_device *device = *state;
+    kiln_device_close(&device);
+    return 0;
+}
+
+/* A test's tear-down: GL errors that nobody looked at are failures. */
+static inline int test_device_is_clean(void **state)
+{
+    struct kiln_error error = {0};
+    if (kiln_device_check(*state, "after the test", &error))
+        return 0;
+    fprintf(stderr, "%s\n", error.message);
+    return -1;
+}
+
+/* A test of a group that was set up with test_device_open. */
+#define test_on_device(function) cmocka_unit_test_teardown(function, test_device_is_clean)
+
+#endif
