@@ -1,0 +1,296 @@
+/* The joining of shader files. Included text is pasted where it is asked for, each time: headers
+ * have include guards, which the GLSL preprocessor understands. "#include <...>" lines are for the
+ * C side of shared headers and are left out. */
+#include "gpu/source.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/error.h"
+#include "gpu/embedded.h"
+
+enum { MAX_DEPTH = 32, MAX_FILE_SIZE = 1 << 20 };
+
+/* One file being joined, and the chain of files that include it. */
+struct part {
+    const struct part *includer;
+    const char *path;
+    size_t line;     /* of the includer's present line; for messages */
+    bool in_comment; /* a block comment is open */
+};
+
+static bool is_safe_path(const char *path)
+{
+    return path[0] != '\0' && path[0] != '/' && !strstr(path, "..") &&
+           strlen(path) < KILN_MAX_SOURCE_PATH;
+}
+
+static const char *find_embedded(const char *path)
+{
+    for (size_t i = 0; i < kiln_embedded_file_count; i++)
+        if (strcmp(kiln_embedded_files[i].path, path) == 0)
+            return kiln_embedded_files[i].text;
+    return NULL;
+}
+
+/* Reads dir/path. *text stays NULL when there is no such file. */
+static bool read_override(const char *dir, const char *path, char **text, struct kiln_error *error)
+{
+    *text = NULL;
+    struct stat status;
+    if (stat(dir, &status) != 0)
+        return kiln_error_set_errno(error, KILN_IO, errno, "KILN_SHADER_DIR '%s'", dir);
+    struct kiln_text name = {0};
+    kiln_text_add(&name, "%s/%s", dir, path);
+    if (name.failed) {
+        kiln_text_free(&name);
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "no memory for shader %s", path);
+    }
+    bool ok = true;
+    FILE *file = fopen(name.data, "rb");
+    if (!file && errno != ENOENT && errno != ENOTDIR)
+        ok = kiln_error_set_errno(error, KILN_IO, errno, "shader %s", name.data);
+    if (file) {
+        char *bytes = malloc(MAX_FILE_SIZE + 1);
+        size_t size = bytes ? fread(bytes, 1, MAX_FILE_SIZE + 1, file) : 0;
+        if (!bytes)
+            ok = kiln_error_set(error, KILN_DEVICE_FAILED, "no memory for shader %s", name.data);
+        else if (ferror(file))
+            ok = kiln_error_set_errno(error, KILN_IO, errno, "shader %s", name.data);
+        else if (size > MAX_FILE_SIZE || memchr(bytes, '\0', size))
+            ok = kiln_error_set(error, KILN_IO,
+                                "shader %s: a text file of at most %d bytes is allowed", name.data,
+                                MAX_FILE_SIZE);
+        else
+            bytes[size] = '\0';
+        if (ok)
+            *text = bytes;
+        else
+            free(bytes);
+        fclose(file);
+    }
+    kiln_text_free(&name);
+    return ok;
+}
+
+/* The text of a file; *owned is to be freed (NULL when it is embedded). */
+static const char *find_text(const struct part *part, char **owned, struct kiln_error *error)
+{
+    *owned = NULL;
+    if (is_safe_path(part->path)) {
+        const char *dir = getenv("KILN_SHADER_DIR");
+        if (dir && dir[0] != '\0' && !read_override(dir, part->path, owned, error))
+            return NULL;
+        const char *text = *owned ? *owned : find_embedded(part->path);
+        if (text)
+            return text;
+    }
+    if (part->includer)
+        kiln_error_set(error, KILN_DEVICE_FAILED,
+                       "shaders/%s:%zu: includes \"%s\", which is not a file under shaders/",
+                       part->includer->path, part->includer->line, part->path);
+    else
+        kiln_error_set(error, KILN_DEVICE_FAILED, "shaders/%s: there is no such file", part->path);
+    return NULL;
+}
+
+static bool check_chain(const struct part *part, struct kiln_error *error)
+{
+    size_t depth = 0;
+    for (const struct part *p = part->includer; p; p = p->includer, depth++)
+        if (strcmp(p->path, part->path) == 0)
+            return kiln_error_set(error, KILN_DEVICE_FAILED,
+                                  "shaders/%s:%zu: includes \"%s\", which includes itself",
+                                  part->includer->path, part->includer->line, part->path);
+    if (depth >= MAX_DEPTH)
+        return kiln_error_set(error, KILN_DEVICE_FAILED,
+                              "shaders/%s:%zu: includes are nested deeper than %d",
+                              part->includer->path, part->includer->line, MAX_DEPTH);
+    return true;
+}
+
+/* The string number of a file in "#line" marks, or 0 when there are too many. */
+static size_t string_number(struct kiln_source *source, const char *path)
+{
+    for (size_t i = 0; i < source->file_count; i++)
+        if (strcmp(source->files[i], path) == 0)
+            return i + 1;
+    if (source->file_count == KILN_MAX_SOURCE_FILES)
+        return 0;
+    snprintf(source->files[source->file_count], KILN_MAX_SOURCE_PATH, "%s", path);
+    return ++source->file_count;
+}
+
+/* Follows comments through one line, so that an #include inside one is not taken. */
+static void follow_comments(struct part *part, const char *line, size_t length)
+{
+    for (size_t i = 0; i + 1 < length; i++) {
+        if (part->in_comment) {
+            if (line[i] == '*' && line[i + 1] == '/') {
+                part->in_comment = false;
+                i++;
+            }
+        } else if (line[i] == '/' && line[i + 1] == '/') {
+            return;
+        } else if (line[i] == '/' && line[i + 1] == '*') {
+            part->in_comment = true;
+            i++;
+        }
+    }
+}
+
+enum directive { NOT_INCLUDE, INCLUDE_OURS, INCLUDE_SYSTEM, INCLUDE_MALFORMED };
+
+/* Recognises an include and copies its path. */
+static enum directive read_include(const char *line, size_t length, char path[KILN_MAX_SOURCE_PATH])
+{
+    const char *const end = line + length;
+    const char *at = line;
+    while (at < end && isblank((unsigned char)*at))
+        at++;
+    if (at == end || *at++ != '#')
+        return NOT_INCLUDE;
+    while (at < end && isblank((unsigned char)*at))
+        at++;
+    static const char word[] = "include";
+    const size_t word_length = sizeof word - 1;
+    if ((size_t)(end - at) < word_length || strncmp(at, word, word_length) != 0)
+        return NOT_INCLUDE;
+    at += word_length;
+    while (at < end && isblank((unsigned char)*at))
+        at++;
+    if (at < end && *at == '<')
+        return INCLUDE_SYSTEM;
+    if (at == end || *at++ != '"')
+        return INCLUDE_MALFORMED;
+    const char *close = memchr(at, '"', (size_t)(end - at));
+    if (!close || close - at >= KILN_MAX_SOURCE_PATH)
+        return INCLUDE_MALFORMED;
+    memcpy(path, at, (size_t)(close - at));
+    path[close - at] = '\0';
+    return INCLUDE_OURS;
+}
+
+static bool add_file(struct kiln_source *source, struct part *part, struct kiln_error *error);
+
+static bool add_line(struct kiln_source *source, struct part *part, size_t number, const char *line,
+                     size_t length, struct kiln_error *error)
+{
+    char path[KILN_MAX_SOURCE_PATH];
+    enum directive kind = part->in_comment ? NOT_INCLUDE : read_include(line, length, path);
+    switch (kind) {
+    case INCLUDE_MALFORMED:
+        return kiln_error_set(error, KILN_DEVICE_FAILED,
+                              "shaders/%s:%zu: #include must be followed by \"path\"", part->path,
+                              part->line);
+    case INCLUDE_SYSTEM:
+        kiln_text_add(&source->text, "\n");
+        return true;
+    case INCLUDE_OURS: {
+        struct part included = {.includer = part, .path = path};
+        if (!add_file(source, &included, error))
+            return false;
+        kiln_text_add(&source->text, "#line %zu %zu // %s\n", part->line + 1, number, part->path);
+        return true;
+    }
+    case NOT_INCLUDE:
+        break;
+    }
+    follow_comments(part, line, length);
+    kiln_text_add(&source->text, "%.*s\n", (int)length, line);
+    return true;
+}
+
+static bool add_file(struct kiln_source *source, struct part *part, struct kiln_error *error)
+{
+    if (!check_chain(part, error))
+        return false;
+    char *owned;
+    const char *text = find_text(part, &owned, error);
+    if (!text)
+        return false;
+    const size_t number = string_number(source, part->path);
+    bool ok = true;
+    if (number == 0)
+        ok = kiln_error_set(error, KILN_DEVICE_FAILED,
+                            "shaders/%s: a program may have at most %d files", part->path,
+                            KILN_MAX_SOURCE_FILES);
+    else
+        kiln_text_add(&source->text, "#line 1 %zu // %s\n", number, part->path);
+    for (const char *line = text; ok && *line;) {
+        const char *end = strchr(line, '\n');
+        size_t length = end ? (size_t)(end - line) : strlen(line);
+        part->line++;
+        ok = add_line(source, part, number, line, length, error);
+        line += length + (end != NULL);
+    }
+    free(owned);
+    if (ok && part->in_comment)
+        ok = kiln_error_set(error, KILN_DEVICE_FAILED, "shaders/%s: a comment is not closed",
+                            part->path);
+    return ok;
+}
+
+bool kiln_source_load(struct kiln_source *source, const char *file, const char *defines,
+                      struct kiln_error *error)
+{
+    kiln_text_add(&source->text, "#version 430 core\n%s", defines ? defines : "");
+    if (defines && defines[0] && defines[strlen(defines) - 1] != '\n')
+        kiln_text_add(&source->text, "\n");
+    struct part part = {.includer = NULL, .path = file};
+    if (!add_file(source, &part, error))
+        return false;
+    if (source->text.failed)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "no memory for shader %s", file);
+    return true;
+}
+
+void kiln_source_finish(struct kiln_source *source)
+{
+    kiln_text_free(&source->text);
+    source->file_count = 0;
+}
+
+/* Reads digits; NULL when there are none. */
+static const char *read_number(const char *at, const char *end, size_t *number)
+{
+    const char *start = at;
+    *number = 0;
+    while (at < end && isdigit((unsigned char)*at) && at - start < 9)
+        *number = *number * 10 + (size_t)(*at++ - '0');
+    return at == start ? NULL : at;
+}
+
+void kiln_source_map_line(const struct kiln_source *source, const char *line, size_t length,
+                          struct kiln_text *out)
+{
+    static const char prefix[] = "ERROR: ";
+    const char *const end = line + length;
+    const char *at = line;
+    if (length > sizeof prefix && strncmp(line, prefix, sizeof prefix - 1) == 0)
+        at += sizeof prefix - 1;
+    size_t string, number;
+    const char *colon = read_number(at, end, &string);
+    const char *after = NULL;
+    if (colon && colon < end && (*colon == ':' || *colon == '('))
+        after = read_number(colon + 1, end, &number);
+    if (!after || string > source->file_count) {
+        kiln_text_add(out, "%.*s", (int)length, line);
+        return;
+    }
+    if (*colon == '(' && after < end && *after == ')')
+        after++;
+    else if (after < end && *after == '(' && memchr(after, ')', (size_t)(end - after)))
+        after = (const char *)memchr(after, ')', (size_t)(end - after)) + 1; /* Mesa's column */
+    while (after < end && (isblank((unsigned char)*after) || *after == ':'))
+        after++;
+    if (string == 0)
+        kiln_text_add(out, "(version and defines):%zu: ", number);
+    else
+        kiln_text_add(out, "shaders/%s:%zu: ", source->files[string - 1], number);
+    kiln_text_add(out, "%.*s", (int)(end - after), after);
+}

@@ -1,0 +1,27 @@
+/* Shader files: found, joined by their includes, and lines of messages mapped back to them. */
+#ifndef KILN_GPU_SOURCE_H
+#define KILN_GPU_SOURCE_H
+
+#include "base/text.h"
+#include "kiln.h"
+
+enum { KILN_MAX_SOURCE_FILES = 64, KILN_MAX_SOURCE_PATH = 128 };
+
+/* A joined text. In its "#line" marks, string 0 is what kiln puts before the file (version and
+ * defines) and string i is files[i - 1]. Zero-initialised is empty; freed by kiln_source_finish. */
+struct kiln_source {
+    struct kiln_text text;
+    char files[KILN_MAX_SOURCE_FILES][KILN_MAX_SOURCE_PATH];
+    size_t file_count;
+};
+
+bool kiln_source_load(struct kiln_source *source, const char *file, const char *defines,
+                      struct kiln_error *error);
+void kiln_source_finish(struct kiln_source *source);
+
+/* Adds one line of a driver's message (length bytes) to out, its "0:12(3)", "0(12)" or
+ * "ERROR: 0:12" replaced by "shaders/file:12"; a line of another form is copied. */
+void kiln_source_map_line(const struct kiln_source *source, const char *line, size_t length,
+                          struct kiln_text *out);
+
+#endif
