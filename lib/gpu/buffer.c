@@ -1,0 +1,111 @@
+/* Buffers. Everything goes through GL_COPY_WRITE_BUFFER, which no draw or dispatch looks at. */
+#include "gpu/buffer.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+
+enum { HOST_ALIGNMENT = 64, LEAST_SIZE = 64 };
+
+void kiln_buffer_init(struct kiln_buffer *buffer, struct kiln_device *device, size_t size,
+                      const char *label)
+{
+    *buffer = (struct kiln_buffer){.device = device, .label = label, .size = size};
+}
+
+void kiln_buffer_finish(struct kiln_buffer *buffer)
+{
+    if (buffer->gl)
+        glDeleteBuffers(1, &buffer->gl);
+    free(buffer->host);
+    *buffer = (struct kiln_buffer){.device = NULL};
+}
+
+/* Never empty, so that size 0 gives an address, too. */
+static size_t storage_size(const struct kiln_buffer *buffer)
+{
+    return buffer->size > LEAST_SIZE ? buffer->size : LEAST_SIZE;
+}
+
+static bool allocate_host(struct kiln_buffer *buffer, struct kiln_error *error)
+{
+    const size_t size = storage_size(buffer);
+    if (size <= PTRDIFF_MAX - HOST_ALIGNMENT)
+        buffer->host = aligned_alloc(HOST_ALIGNMENT,
+                                     (size + HOST_ALIGNMENT - 1) / HOST_ALIGNMENT * HOST_ALIGNMENT);
+    if (!buffer->host)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for %zu bytes on the host",
+                              buffer->label, buffer->size);
+    if (!buffer->gl_valid)
+        memset(buffer->host, 0, size);
+    return true;
+}
+
+static bool fetch(struct kiln_buffer *buffer, struct kiln_error *error)
+{
+    glMemoryBarrier(GL_ALL_BARRIER_BITS);
+    glBindBuffer(GL_COPY_WRITE_BUFFER, buffer->gl);
+    glGetBufferSubData(GL_COPY_WRITE_BUFFER, 0, (GLsizeiptr)buffer->size, buffer->host);
+    return kiln_device_check(buffer->device, buffer->label, error);
+}
+
+void *kiln_buffer_host(struct kiln_buffer *buffer, enum kiln_access access,
+                       struct kiln_error *error)
+{
+    if (!buffer->host && !allocate_host(buffer, error))
+        return NULL;
+    if (!buffer->host_valid && buffer->gl_valid && access != KILN_OVERWRITE &&
+        !fetch(buffer, error))
+        return NULL;
+    buffer->host_valid = true;
+    if (access != KILN_READ)
+        buffer->gl_valid = false;
+    return buffer->host;
+}
+
+static bool allocate_gl(struct kiln_buffer *buffer, struct kiln_error *error)
+{
+    const size_t size = storage_size(buffer);
+    if (!buffer->device)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: a host buffer is not in GL",
+                              buffer->label);
+    if (size > PTRDIFF_MAX)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for %zu bytes in GL",
+                              buffer->label, size);
+    GLuint gl = 0;
+    glGenBuffers(1, &gl);
+    glBindBuffer(GL_COPY_WRITE_BUFFER, gl);
+    glBufferData(GL_COPY_WRITE_BUFFER, (GLsizeiptr)size, NULL, GL_DYNAMIC_COPY);
+    if (!kiln_device_check(buffer->device, buffer->label, error)) {
+        glDeleteBuffers(1, &gl);
+        return false;
+    }
+    kiln_device_label(buffer->device, GL_BUFFER, gl, buffer->label);
+    if (!buffer->host_valid) {
+        const GLuint zero = 0;
+        glClearBufferData(GL_COPY_WRITE_BUFFER, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+    }
+    buffer->gl = gl;
+    return true;
+}
+
+static bool send(struct kiln_buffer *buffer, struct kiln_error *error)
+{
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glBindBuffer(GL_COPY_WRITE_BUFFER, buffer->gl);
+    glBufferSubData(GL_COPY_WRITE_BUFFER, 0, (GLsizeiptr)buffer->size, buffer->host);
+    return kiln_device_check(buffer->device, buffer->label, error);
+}
+
+GLuint kiln_buffer_gl(struct kiln_buffer *buffer, enum kiln_access access, struct kiln_error *error)
+{
+    if (!buffer->gl && !allocate_gl(buffer, error))
+        return 0;
+    if (!buffer->gl_valid && buffer->host_valid && access != KILN_OVERWRITE && !send(buffer, error))
+        return 0;
+    buffer->gl_valid = true;
+    if (access != KILN_READ)
+        buffer->host_valid = false;
+    return buffer->gl;
+}

@@ -1,0 +1,133 @@
+/* Images. The texture has one level, is filtered linearly and clamped at its edge. */
+#include "gpu/image.h"
+
+#include <stdlib.h>
+
+#include "base/error.h"
+
+enum { HOST_ALIGNMENT = 64 };
+
+void kiln_image_init(struct kiln_image *image, struct kiln_device *device, uint32_t width,
+                     uint32_t height, GLenum gl_format, const char *label)
+{
+    *image = (struct kiln_image){
+        .device = device,
+        .label = label,
+        .width = width,
+        .height = height,
+        .channels = gl_format == GL_R32F ? 1 : 4,
+        .gl_format = gl_format,
+    };
+}
+
+void kiln_image_finish(struct kiln_image *image)
+{
+    if (image->gl)
+        glDeleteTextures(1, &image->gl);
+    free(image->host);
+    *image = (struct kiln_image){.device = NULL};
+}
+
+static bool refuse_memory(const struct kiln_image *image, const char *place,
+                          struct kiln_error *error)
+{
+    return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for %u x %u pixels %s",
+                          image->label, image->width, image->height, place);
+}
+
+static bool allocate_host(struct kiln_image *image, struct kiln_error *error)
+{
+    size_t size = image->channels * sizeof(float);
+    bool overflow = __builtin_mul_overflow(size, image->width, &size) ||
+                    __builtin_mul_overflow(size, image->height, &size) ||
+                    size > PTRDIFF_MAX - HOST_ALIGNMENT;
+    if (!overflow)
+        image->host = aligned_alloc(HOST_ALIGNMENT, (size / HOST_ALIGNMENT + 1) * HOST_ALIGNMENT);
+    return image->host || refuse_memory(image, "on the host", error);
+}
+
+/* The texture bound before is put back by the caller, who may be setting up a draw. */
+static GLuint bind(GLuint texture)
+{
+    GLint before = 0;
+    glGetIntegerv(GL_TEXTURE_BINDING_2D, &before);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    return (GLuint)before;
+}
+
+static GLenum pixel_format(const struct kiln_image *image)
+{
+    return image->channels == 1 ? GL_RED : GL_RGBA;
+}
+
+static bool fetch(struct kiln_image *image, struct kiln_error *error)
+{
+    glMemoryBarrier(GL_ALL_BARRIER_BITS);
+    const GLuint before = bind(image->gl);
+    glGetTexImage(GL_TEXTURE_2D, 0, pixel_format(image), GL_FLOAT, image->host);
+    glBindTexture(GL_TEXTURE_2D, before);
+    return kiln_device_check(image->device, image->label, error);
+}
+
+float *kiln_image_host(struct kiln_image *image, enum kiln_access access, struct kiln_error *error)
+{
+    if (!image->host && !allocate_host(image, error))
+        return NULL;
+    if (!image->host_valid && image->gl_valid && access != KILN_OVERWRITE && !fetch(image, error))
+        return NULL;
+    image->host_valid = true;
+    if (access != KILN_READ)
+        image->gl_valid = false;
+    return image->host;
+}
+
+static bool allocate_gl(struct kiln_image *image, struct kiln_error *error)
+{
+    if (!image->device)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: a host image is not in GL",
+                              image->label);
+    const uint32_t most = (uint32_t)image->device->info.max_texture_size;
+    if (image->width < 1 || image->height < 1 || image->width > most || image->height > most)
+        return kiln_error_set(error, KILN_DEVICE_FAILED,
+                              "%s: %u x %u pixels; the device takes 1 to %u each way", image->label,
+                              image->width, image->height, most);
+    GLuint gl = 0;
+    glGenTextures(1, &gl);
+    const GLuint before = bind(gl);
+    glTexStorage2D(GL_TEXTURE_2D, 1, image->gl_format, (GLsizei)image->width,
+                   (GLsizei)image->height);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    kiln_device_label(image->device, GL_TEXTURE, gl, image->label);
+    glBindTexture(GL_TEXTURE_2D, before);
+    if (!kiln_device_check(image->device, image->label, error)) {
+        glDeleteTextures(1, &gl);
+        return false;
+    }
+    image->gl = gl;
+    return true;
+}
+
+static bool send(struct kiln_image *image, struct kiln_error *error)
+{
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+    const GLuint before = bind(image->gl);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, (GLsizei)image->width, (GLsizei)image->height,
+                    pixel_format(image), GL_FLOAT, image->host);
+    glBindTexture(GL_TEXTURE_2D, before);
+    return kiln_device_check(image->device, image->label, error);
+}
+
+GLuint kiln_image_gl(struct kiln_image *image, enum kiln_access access, struct kiln_error *error)
+{
+    if (!image->gl && !allocate_gl(image, error))
+        return 0;
+    if (!image->gl_valid && image->host_valid && access != KILN_OVERWRITE && !send(image, error))
+        return 0;
+    image->gl_valid = true;
+    if (access != KILN_READ)
+        image->host_valid = false;
+    return image->gl;
+}
