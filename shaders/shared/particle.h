@@ -37,32 +37,32 @@ FN uint particle_birth_step(S(kiln_particle) p)
 }
 
 /* The part of the birth step that had passed when the particle was born: 0 to 63/64. */
-FN EXACT float particle_birth_fraction(S(kiln_particle) p)
+FN float particle_birth_fraction(S(kiln_particle) p)
 {
     uint sixty_fourths =
         (p.velocity_birth.w >> KILN_BIRTH_FRACTION_SHIFT) & KILN_BIRTH_FRACTION_MASK;
-    EXACT float fraction = FLOAT(sixty_fourths) * 0.015625;
+    EXACT float fraction = FLOAT(sixty_fourths) * 0.015625f;
     return fraction;
 }
 
 /* Age in seconds at the end of step `step` (steps count from 1; a particle born in that step has
  * lived for the rest of it). */
-FN EXACT float particle_age(S(kiln_particle) p, uint step, EXACT float dt_s)
+FN float particle_age(S(kiln_particle) p, uint step, float dt_s)
 {
-    EXACT float steps = FLOAT(step - particle_birth_step(p)) + 1.0;
+    EXACT float steps = FLOAT(step - particle_birth_step(p)) + 1.0f;
     EXACT float lived = steps - particle_birth_fraction(p);
     EXACT float age = lived * dt_s;
     return age;
 }
 
-FN EXACT float3 particle_position(S(kiln_particle) p)
+FN float3 particle_position(S(kiln_particle) p)
 {
     EXACT float3 v = FLOAT3(BITS_FLOAT(p.position_serial.x), BITS_FLOAT(p.position_serial.y),
                             BITS_FLOAT(p.position_serial.z));
     return v;
 }
 
-FN EXACT float3 particle_velocity(S(kiln_particle) p)
+FN float3 particle_velocity(S(kiln_particle) p)
 {
     EXACT float3 v = FLOAT3(BITS_FLOAT(p.velocity_birth.x), BITS_FLOAT(p.velocity_birth.y),
                             BITS_FLOAT(p.velocity_birth.z));

@@ -4,9 +4,12 @@
  * The subset: structs by value, scalar arithmetic, function-style vector operations; no swizzles,
  * no operators on vectors, no built-in mathematics (drivers disagree in the last bits).
  *   FN         before every function
- *   EXACT      before every float or vector of floats: local, return value and parameter
+ *   EXACT      before every local that holds floats. Not before parameters and return types, where
+ *              GLSL has no place for it: there, pass and return names, never an expression, and
+ *              compare names, so that every operation ends in an EXACT local
  *   S(name)    a struct type
  *   UINT(x)    a conversion; the value must be in range
+ *   1.0f       every literal carries its f: in C, 1.0 would compute in double
  */
 #ifndef KILN_SHARED_PLATFORM_H
 #define KILN_SHARED_PLATFORM_H
@@ -19,6 +22,7 @@
 #define UINT(x)  uint(x)
 #define INT(x)   int(x)
 #define FLOAT(x) float(x)
+#define FLOOR(x) floor(x)
 
 #define float3             vec3
 #define float4             vec4
@@ -31,7 +35,9 @@
 
 #else /* C; compile with -ffp-contract=off */
 
+#include <math.h>
 #include <stdalign.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -41,6 +47,7 @@
 #define UINT(x)            ((uint)(x))
 #define INT(x)             ((int)(x))
 #define FLOAT(x)           ((float)(x))
+#define FLOOR(x)           floorf(x)
 
 typedef unsigned int uint;
 typedef struct float3 {

@@ -33,7 +33,7 @@ struct kiln_value {
 #endif
 
 /* A key is (x, y, slope to the next key, 0); the slope is divided once, on the host. */
-FN EXACT float value_at_key(VALUE_KEYS_PARAM S(kiln_value) v, EXACT float x)
+FN float value_at_key(VALUE_KEYS_PARAM S(kiln_value) v, float x)
 {
     uint last = v.first + v.count - 1u;
     uint k = v.first;
@@ -49,12 +49,27 @@ FN EXACT float value_at_key(VALUE_KEYS_PARAM S(kiln_value) v, EXACT float x)
 }
 
 /* The value at a time (seconds) and a life progress (0 to 1); it uses whichever its clock names. */
-FN EXACT float value_at(VALUE_KEYS_PARAM S(kiln_value) v, EXACT float time_s, EXACT float life)
+FN float value_at(VALUE_KEYS_PARAM S(kiln_value) v, float time_s, float life)
 {
     if (v.count == 0u)
         return v.constant;
     EXACT float x = v.clock == KILN_CLOCK_LIFE ? life : time_s;
     return value_at_key(VALUE_KEYS v, x);
+}
+
+/* How fast a value over time changes, per second: 0 before the first and from the last key on. */
+FN float value_rate_at(VALUE_KEYS_PARAM S(kiln_value) v, float time_s)
+{
+    if (v.count == 0u || v.clock != KILN_CLOCK_TIME)
+        return 0.0f;
+    uint last = v.first + v.count - 1u;
+    uint k = v.first;
+    while (k < last && value_keys[k + 1u].x <= time_s)
+        k++;
+    EXACT float4 key = value_keys[k];
+    if (time_s < key.x || k == last)
+        return 0.0f;
+    return key.z;
 }
 
 #endif
