@@ -12,9 +12,9 @@
 #include "shared/particle.h"
 
 struct kiln_pool_system {
-    uint32_t base, capacity;   /* slots of this system in the record buffer */
-    uint64_t next_serial;      /* births so far */
-    uint64_t rate_accumulator; /* births owed, 32.32 fixed point, below 1 birth after each step */
+    uint32_t base, capacity; /* slots of this system in the record buffer */
+    uint64_t next_serial;    /* births so far */
+    uint64_t birth_wait;     /* what the next birth of the rate waits for; see births.h */
 };
 
 struct kiln_pool {

@@ -9,6 +9,7 @@
 
 #include "base/arena.h"
 #include "kiln.h"
+#include "particles/births.h"
 #include "shared/particle.h"
 #include "shared/value.h"
 
@@ -42,11 +43,6 @@ enum kiln_emitter_shape {
     KILN_EMITTER_BOX,
     KILN_EMITTER_DISC,
     KILN_EMITTER_CONE,
-};
-
-struct kiln_burst {
-    double time_s; /* clip time */
-    uint32_t count;
 };
 
 struct kiln_emitter {

@@ -1,0 +1,103 @@
+/* The rate is summed in units of 2^-32 particle a second times steps_den: one birth is worth
+ * steps_num * 2^32 of them, a whole number, so no rounding adds up over a run. Only the products
+ * need 128 bits. */
+#include "particles/births.h"
+
+#include <math.h>
+
+__extension__ typedef unsigned __int128 wide;
+
+static uint64_t rate_fixed(float rate)
+{
+    const float most = 2147483648.0f;
+    if (!(rate > 0.0f))
+        return 0;
+    return (uint64_t)((double)(rate < most ? rate : most) * 4294967296.0);
+}
+
+static void add_group(struct kiln_births *births, uint32_t count, uint32_t first, uint32_t spacing)
+{
+    if (count > UINT32_MAX - births->count)
+        count = UINT32_MAX - births->count;
+    if (count == 0 || births->group_count == KILN_MAX_BIRTH_GROUPS)
+        return;
+    births->groups[births->group_count++] =
+        (struct kiln_birth_group){.count = count, .first = first, .spacing = spacing};
+    births->count += count;
+}
+
+static void add_rate(const struct kiln_births_source *source, uint32_t step, uint64_t *wait,
+                     struct kiln_births *births)
+{
+    double steps = (double)step - 0.5 - (double)source->warmup_steps;
+    float middle_s = (float)(steps * source->steps_den / source->steps_num);
+    wide birth = (wide)source->steps_num << 32;
+    wide flow = (wide)rate_fixed(source->rate(source->context, middle_s)) * source->steps_den;
+    if (*wait >= flow) {
+        *wait -= (uint64_t)flow;
+        return;
+    }
+    wide count = (flow - *wait + birth - 1) / birth;
+    if (count > UINT32_MAX)
+        count = UINT32_MAX;
+    wide first = ((wide)*wait << 32) / flow;
+    wide spacing = count > 1 ? (birth << 32) / flow : 0;
+    add_group(births, (uint32_t)count, (uint32_t)first, (uint32_t)spacing);
+    *wait = (uint64_t)((*wait + count * birth - flow) % birth);
+}
+
+static void add_bursts(const struct kiln_births_source *source, uint32_t step,
+                       struct kiln_births *births)
+{
+    for (uint32_t i = 0; i < source->burst_count; i++) {
+        double steps = source->bursts[i].time_s * source->steps_num / source->steps_den +
+                       (double)source->warmup_steps;
+        double parts = floor(steps * 64.0 + 0.5);
+        double start = ((double)step - 1.0) * 64.0;
+        if (parts >= start && parts < start + 64.0)
+            add_group(births, source->bursts[i].count, (uint32_t)(parts - start) << 26, 0);
+    }
+}
+
+void kiln_births_step(const struct kiln_births_source *source, uint32_t step, uint64_t *wait,
+                      struct kiln_births *births)
+{
+    births->count = 0;
+    births->group_count = 0;
+    add_rate(source, step, wait, births);
+    add_bursts(source, step, births);
+}
+
+/* Whole steps after which a particle is dead wherever in its birth step it was born, by the same
+ * float comparison as in the simulation. */
+static uint32_t steps_of_life(float longest_life_s, float dt_s, uint32_t steps)
+{
+    double guess = floor((double)longest_life_s / (double)dt_s);
+    if (!(guess < (double)steps))
+        return steps;
+    uint32_t whole = guess > 2.0 ? (uint32_t)guess - 2 : 0;
+    while (whole < steps && (float)whole * dt_s < longest_life_s)
+        whole++;
+    return whole;
+}
+
+struct kiln_births_bound kiln_births_bound(const struct kiln_births_source *source, uint32_t steps,
+                                           float longest_life_s, float dt_s)
+{
+    uint64_t window = (uint64_t)steps_of_life(longest_life_s, dt_s, steps) + 1;
+    struct kiln_births_bound bound = {0, 0};
+    uint64_t inside = 0, lead_wait = 0, trail_wait = 0;
+    struct kiln_births births;
+    for (uint32_t step = 1; step <= steps; step++) {
+        kiln_births_step(source, step, &lead_wait, &births);
+        bound.total += births.count;
+        inside += births.count;
+        if (step > window) {
+            kiln_births_step(source, (uint32_t)(step - window), &trail_wait, &births);
+            inside -= births.count;
+        }
+        if (inside > bound.capacity)
+            bound.capacity = inside;
+    }
+    return bound;
+}

@@ -1,0 +1,198 @@
+/* lib/particles/births: counts equal the integral of the rate, times are exact and evenly spread.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+
+#include "particles/births.h"
+
+static float constant_rate(const void *context, float time_s)
+{
+    (void)time_s;
+    return *(const float *)context;
+}
+
+/* 0 before 1 s, then up by 100 a second each second until 3 s, then 200. */
+static float ramp_rate(const void *context, float time_s)
+{
+    (void)context;
+    return time_s < 1.0f ? 0.0f : time_s < 3.0f ? (time_s - 1.0f) * 100.0f : 200.0f;
+}
+
+static struct kiln_births_source at_60_hz(const float *rate)
+{
+    return (struct kiln_births_source){
+        .rate = constant_rate, .context = rate, .steps_num = 60, .steps_den = 1};
+}
+
+static double birth_time(uint32_t step, const struct kiln_birth_group *group, uint32_t j)
+{
+    return step - 1 + (group->first + j * group->spacing) / 4294967296.0;
+}
+
+static void five_a_second_come_every_fifth_of_a_second(void **state)
+{
+    (void)state;
+    float rate = 5.0f;
+    struct kiln_births_source source = at_60_hz(&rate);
+    uint64_t wait = 0;
+    for (uint32_t step = 1; step <= 100000; step++) {
+        struct kiln_births births;
+        kiln_births_step(&source, step, &wait, &births);
+        bool due = (step - 1) % 12 == 0;
+        assert_int_equal(births.count, due);
+        assert_int_equal(births.group_count, due);
+        if (due)
+            assert_int_equal(births.groups[0].first, 0);
+    }
+}
+
+/* Rates and frame rates that do not divide: birth n must lie at n / rate seconds. */
+static void births_lie_where_the_integral_is_whole(void **state)
+{
+    (void)state;
+    static const float rates[] = {0.37f, 7.0f, 59.94f, 1234.5f, 20000.0f, 1e6f};
+    for (size_t r = 0; r < sizeof rates / sizeof *rates; r++) {
+        struct kiln_births_source source = at_60_hz(&rates[r]);
+        source.steps_num = 60000;
+        source.steps_den = 1001;
+        double per_step = (double)rates[r] * 1001.0 / 60000.0;
+        uint64_t wait = 0, born = 0;
+        for (uint32_t step = 1; step <= 2000; step++) {
+            struct kiln_births births;
+            kiln_births_step(&source, step, &wait, &births);
+            for (uint32_t j = 0; j < births.count; j++) {
+                double expected = (double)(born + j) / per_step;
+                double error = birth_time(step, &births.groups[0], j) - expected;
+                /* each spacing is rounded down by less than 2^-32 of a step */
+                assert_true(error < 1e-6 && error > -1e-6 - j / 4294967296.0);
+            }
+            born += births.count;
+            assert_true(born == (uint64_t)ceil(per_step * step - 1e-9));
+        }
+    }
+}
+
+static void keyed_rates_are_integrated(void **state)
+{
+    (void)state;
+    struct kiln_births_source source = {.rate = ramp_rate, .steps_num = 60, .steps_den = 1};
+    uint64_t wait = 0, born = 0;
+    for (uint32_t step = 1; step <= 300; step++) {
+        struct kiln_births births;
+        kiln_births_step(&source, step, &wait, &births);
+        born += births.count;
+        double t = step / 60.0;
+        double integral = t < 1 ? 0 : t < 3 ? 50 * (t - 1) * (t - 1) : 200 + 200 * (t - 3);
+        assert_true(fabs((double)born - integral) <= 1.001);
+    }
+    assert_int_equal(born, 600);
+}
+
+static void bursts_come_at_their_time(void **state)
+{
+    (void)state;
+    float rate = 90.0f;
+    const struct kiln_burst bursts[] = {{-0.5, 7}, {0.2, 3}, {0.2 + 0.5 / 60, 4}, {10.0, 1}};
+    struct kiln_births_source source = at_60_hz(&rate);
+    source.bursts = bursts;
+    source.burst_count = 4;
+    source.warmup_steps = 60;
+    uint64_t wait = 0;
+    uint32_t total = 0;
+    struct kiln_births births;
+    for (uint32_t step = 1; step <= 120; step++) {
+        kiln_births_step(&source, step, &wait, &births);
+        total += births.count;
+        uint32_t sum = 0;
+        for (uint32_t g = 0; g < births.group_count; g++)
+            sum += births.groups[g].count;
+        assert_int_equal(sum, births.count);
+        if (step == 31) { /* -0.5 s is 30 steps into the run */
+            assert_int_equal(births.groups[births.group_count - 1].count, 7);
+            assert_int_equal(births.groups[births.group_count - 1].first, 0);
+        }
+        if (step == 73) { /* both later ones fall into the step that starts at 0.2 s */
+            assert_int_equal(births.group_count, 3);
+            assert_int_equal(births.groups[1].count, 3);
+            assert_int_equal(births.groups[1].first, 0);
+            assert_int_equal(births.groups[2].count, 4);
+            assert_int_equal(births.groups[2].first, 0x80000000u);
+        }
+    }
+    assert_int_equal(total, 180 + 7 + 3 + 4);
+}
+
+static void senseless_rates_give_no_births(void **state)
+{
+    (void)state;
+    static const float rates[] = {0.0f, -1.0f, NAN};
+    for (size_t r = 0; r < sizeof rates / sizeof *rates; r++) {
+        struct kiln_births_source source = at_60_hz(&rates[r]);
+        struct kiln_births_bound bound = kiln_births_bound(&source, 100, 1.0f, 1.0f / 60.0f);
+        assert_int_equal(bound.capacity, 0);
+        assert_int_equal(bound.total, 0);
+    }
+    float endless = INFINITY;
+    struct kiln_births_source source = at_60_hz(&endless);
+    uint64_t wait = 0;
+    struct kiln_births births;
+    kiln_births_step(&source, 1, &wait, &births);
+    assert_int_equal(births.count, (uint32_t)ceil(2147483648.0 / 60.0));
+}
+
+/* The bound against counting every window of a run with bursts and a keyed rate. */
+static void the_bound_is_the_fullest_window(void **state)
+{
+    (void)state;
+    enum { STEPS = 400 };
+    const struct kiln_burst bursts[] = {{0.5, 40}, {1.4, 500}, {3.4, 300}};
+    struct kiln_births_source source = {.rate = ramp_rate,
+                                        .bursts = bursts,
+                                        .burst_count = 3,
+                                        .steps_num = 60,
+                                        .steps_den = 1,
+                                        .warmup_steps = 20};
+    uint32_t counts[STEPS + 1];
+    uint64_t wait = 0, total = 0;
+    for (uint32_t step = 1; step <= STEPS; step++) {
+        struct kiln_births births;
+        kiln_births_step(&source, step, &wait, &births);
+        counts[step] = births.count;
+        total += births.count;
+    }
+    static const float lives[] = {0.0f, 0.01f, 1.0f / 60.0f, 0.5f, 1.0f, 2.5f, 100.0f};
+    const float dt_s = 1.0f / 60.0f;
+    for (size_t l = 0; l < sizeof lives / sizeof *lives; l++) {
+        uint32_t window = 1;
+        while (window <= STEPS && (float)(window - 1) * dt_s < lives[l])
+            window++;
+        uint64_t most = 0;
+        for (uint32_t first = 1; first <= STEPS; first++) {
+            uint64_t sum = 0;
+            for (uint32_t k = first; k < first + window && k <= STEPS; k++)
+                sum += counts[k];
+            most = sum > most ? sum : most;
+        }
+        struct kiln_births_bound bound = kiln_births_bound(&source, STEPS, lives[l], dt_s);
+        assert_int_equal(bound.total, total);
+        assert_int_equal(bound.capacity, most);
+    }
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        cmocka_unit_test(five_a_second_come_every_fifth_of_a_second),
+        cmocka_unit_test(births_lie_where_the_integral_is_whole),
+        cmocka_unit_test(keyed_rates_are_integrated),
+        cmocka_unit_test(bursts_come_at_their_time),
+        cmocka_unit_test(senseless_rates_give_no_births),
+        cmocka_unit_test(the_bound_is_the_fullest_window),
+    };
+    return cmocka_run_group_tests_name("births", tests, NULL, NULL);
+}
