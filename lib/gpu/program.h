@@ -17,8 +17,8 @@ struct kiln_program_params {
 GLuint kiln_program_create(struct kiln_device *device, const struct kiln_program_params *params,
                            struct kiln_error *error);
 
-/* The text of a shader with every include resolved and "#line" marks, as the driver gets it; the
- * build writes these for the validator. NULL on failure; free() it. */
+/* The text of a shader with every include resolved, as the driver gets it; the build writes these
+ * for the validator. NULL on failure; free() it. */
 char *kiln_program_source(const char *file, const char *defines, struct kiln_error *error);
 
 #endif

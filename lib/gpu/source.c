@@ -113,16 +113,39 @@ static bool check_chain(const struct part *part, struct kiln_error *error)
     return true;
 }
 
-/* The string number of a file in "#line" marks, or 0 when there are too many. */
-static size_t string_number(struct kiln_source *source, const char *path)
+/* The number of a file, or KILN_MAX_SOURCE_FILES when there are too many. */
+static size_t file_number(struct kiln_source *source, const char *path)
 {
     for (size_t i = 0; i < source->file_count; i++)
         if (strcmp(source->files[i], path) == 0)
-            return i + 1;
+            return i;
     if (source->file_count == KILN_MAX_SOURCE_FILES)
-        return 0;
+        return KILN_MAX_SOURCE_FILES;
     snprintf(source->files[source->file_count], KILN_MAX_SOURCE_PATH, "%s", path);
-    return ++source->file_count;
+    return source->file_count++;
+}
+
+/* Says where the lines that follow come from. */
+static void begin_piece(struct kiln_source *source, size_t file, size_t file_line)
+{
+    if (source->piece_count == source->piece_capacity) {
+        size_t capacity = source->piece_capacity ? 2 * source->piece_capacity : 32;
+        void *pieces = realloc(source->pieces, capacity * sizeof *source->pieces);
+        if (!pieces) {
+            source->text.failed = true;
+            return;
+        }
+        source->pieces = pieces;
+        source->piece_capacity = capacity;
+    }
+    source->pieces[source->piece_count++] = (struct kiln_source_piece){
+        .line = source->line_count + 1, .file_line = file_line, .file = file};
+}
+
+static void put_line(struct kiln_source *source, const char *line, size_t length)
+{
+    kiln_text_add(&source->text, "%.*s\n", (int)length, line);
+    source->line_count++;
 }
 
 /* Follows comments through one line, so that an #include inside one is not taken. */
@@ -177,7 +200,7 @@ static enum directive read_include(const char *line, size_t length, char path[KI
 
 static bool add_file(struct kiln_source *source, struct part *part, struct kiln_error *error);
 
-static bool add_line(struct kiln_source *source, struct part *part, size_t number, const char *line,
+static bool add_line(struct kiln_source *source, struct part *part, size_t file, const char *line,
                      size_t length, struct kiln_error *error)
 {
     char path[KILN_MAX_SOURCE_PATH];
@@ -188,20 +211,20 @@ static bool add_line(struct kiln_source *source, struct part *part, size_t numbe
                               "shaders/%s:%zu: #include must be followed by \"path\"", part->path,
                               part->line);
     case INCLUDE_SYSTEM:
-        kiln_text_add(&source->text, "\n");
+        put_line(source, "", 0);
         return true;
     case INCLUDE_OURS: {
         struct part included = {.includer = part, .path = path};
         if (!add_file(source, &included, error))
             return false;
-        kiln_text_add(&source->text, "#line %zu %zu // %s\n", part->line + 1, number, part->path);
+        begin_piece(source, file, part->line + 1);
         return true;
     }
     case NOT_INCLUDE:
         break;
     }
     follow_comments(part, line, length);
-    kiln_text_add(&source->text, "%.*s\n", (int)length, line);
+    put_line(source, line, length);
     return true;
 }
 
@@ -213,19 +236,19 @@ static bool add_file(struct kiln_source *source, struct part *part, struct kiln_
     const char *text = find_text(part, &owned, error);
     if (!text)
         return false;
-    const size_t number = string_number(source, part->path);
     bool ok = true;
-    if (number == 0)
+    const size_t file = file_number(source, part->path);
+    if (file == KILN_MAX_SOURCE_FILES)
         ok = kiln_error_set(error, KILN_DEVICE_FAILED,
                             "shaders/%s: a program may have at most %d files", part->path,
                             KILN_MAX_SOURCE_FILES);
     else
-        kiln_text_add(&source->text, "#line 1 %zu // %s\n", number, part->path);
+        begin_piece(source, file, 1);
     for (const char *line = text; ok && *line;) {
         const char *end = strchr(line, '\n');
         size_t length = end ? (size_t)(end - line) : strlen(line);
         part->line++;
-        ok = add_line(source, part, number, line, length, error);
+        ok = add_line(source, part, file, line, length, error);
         line += length + (end != NULL);
     }
     free(owned);
@@ -235,12 +258,21 @@ static bool add_file(struct kiln_source *source, struct part *part, struct kiln_
     return ok;
 }
 
+static void add_lines(struct kiln_source *source, const char *text)
+{
+    while (*text) {
+        size_t length = strcspn(text, "\n");
+        put_line(source, text, length);
+        text += length + (text[length] == '\n');
+    }
+}
+
 bool kiln_source_load(struct kiln_source *source, const char *file, const char *defines,
                       struct kiln_error *error)
 {
-    kiln_text_add(&source->text, "#version 430 core\n%s", defines ? defines : "");
-    if (defines && defines[0] && defines[strlen(defines) - 1] != '\n')
-        kiln_text_add(&source->text, "\n");
+    begin_piece(source, KILN_MAX_SOURCE_FILES, 1);
+    add_lines(source, "#version 430 core");
+    add_lines(source, defines ? defines : "");
     struct part part = {.includer = NULL, .path = file};
     if (!add_file(source, &part, error))
         return false;
@@ -252,7 +284,25 @@ bool kiln_source_load(struct kiln_source *source, const char *file, const char *
 void kiln_source_finish(struct kiln_source *source)
 {
     kiln_text_free(&source->text);
-    source->file_count = 0;
+    free(source->pieces);
+    *source = (struct kiln_source){.line_count = 0};
+}
+
+/* Adds "shaders/file:line: " for a line of the joined text; false when it has no such line. */
+static bool add_place(const struct kiln_source *source, size_t line, struct kiln_text *out)
+{
+    size_t i = source->piece_count;
+    while (i > 0 && source->pieces[i - 1].line > line)
+        i--;
+    if (i == 0 || line > source->line_count)
+        return false;
+    const struct kiln_source_piece *piece = &source->pieces[i - 1];
+    const size_t file_line = piece->file_line + (line - piece->line);
+    if (piece->file == KILN_MAX_SOURCE_FILES)
+        kiln_text_add(out, "(version and defines):%zu: ", file_line);
+    else
+        kiln_text_add(out, "shaders/%s:%zu: ", source->files[piece->file], file_line);
+    return true;
 }
 
 /* Reads digits; NULL when there are none. */
@@ -278,7 +328,7 @@ void kiln_source_map_line(const struct kiln_source *source, const char *line, si
     const char *after = NULL;
     if (colon && colon < end && (*colon == ':' || *colon == '('))
         after = read_number(colon + 1, end, &number);
-    if (!after || string > source->file_count) {
+    if (!after || string != 0 || !add_place(source, number, out)) {
         kiln_text_add(out, "%.*s", (int)length, line);
         return;
     }
@@ -288,9 +338,5 @@ void kiln_source_map_line(const struct kiln_source *source, const char *line, si
         after = (const char *)memchr(after, ')', (size_t)(end - after)) + 1; /* Mesa's column */
     while (after < end && (isblank((unsigned char)*after) || *after == ':'))
         after++;
-    if (string == 0)
-        kiln_text_add(out, "(version and defines):%zu: ", number);
-    else
-        kiln_text_add(out, "shaders/%s:%zu: ", source->files[string - 1], number);
     kiln_text_add(out, "%.*s", (int)(end - after), after);
 }

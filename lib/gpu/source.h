@@ -7,12 +7,22 @@
 
 enum { KILN_MAX_SOURCE_FILES = 64, KILN_MAX_SOURCE_PATH = 128 };
 
-/* A joined text. In its "#line" marks, string 0 is what kiln puts before the file (version and
- * defines) and string i is files[i - 1]. Zero-initialised is empty; freed by kiln_source_finish. */
+/* Lines of the joined text, from `line` up to the next piece, that come from one file. */
+struct kiln_source_piece {
+    size_t line;
+    size_t file_line;
+    size_t file; /* index, or KILN_MAX_SOURCE_FILES for what kiln puts before the file */
+};
+
+/* A joined text. Zero-initialised is empty; freed by kiln_source_finish. It has no "#line" marks:
+ * Mesa reports their string number as 0 for most errors, so lines are mapped by this table. */
 struct kiln_source {
     struct kiln_text text;
+    size_t line_count;
     char files[KILN_MAX_SOURCE_FILES][KILN_MAX_SOURCE_PATH];
     size_t file_count;
+    struct kiln_source_piece *pieces;
+    size_t piece_count, piece_capacity;
 };
 
 bool kiln_source_load(struct kiln_source *source, const char *file, const char *defines,
