@@ -1,0 +1,156 @@
+/* lib/gpu/buffer.h: the same bytes on both sides, whoever wrote them last. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <string.h>
+
+#include "gpu/buffer.h"
+#include "support/device.h"
+
+enum { COUNT = 1000 };
+
+/* Reads and writes GL memory without the buffer's knowledge. */
+static void peek(GLuint gl, uint32_t *words, size_t count)
+{
+    glBindBuffer(GL_COPY_READ_BUFFER, gl);
+    glGetBufferSubData(GL_COPY_READ_BUFFER, 0, (GLsizeiptr)(count * sizeof *words), words);
+}
+
+static void poke(GLuint gl, const uint32_t *words, size_t count)
+{
+    glBindBuffer(GL_COPY_READ_BUFFER, gl);
+    glBufferSubData(GL_COPY_READ_BUFFER, 0, (GLsizeiptr)(count * sizeof *words), words);
+}
+
+static void contents_start_as_zeros(void **state)
+{
+    struct kiln_error error = {0};
+    uint32_t words[COUNT];
+    struct kiln_buffer buffer;
+    kiln_buffer_init(&buffer, *state, sizeof words, "zeros");
+    GLuint gl = kiln_buffer_gl(&buffer, KILN_READ, &error);
+    assert_true(gl != 0);
+    memset(words, 0xff, sizeof words);
+    peek(gl, words, COUNT);
+    for (size_t i = 0; i < COUNT; i++)
+        assert_int_equal(words[i], 0);
+    kiln_buffer_finish(&buffer);
+
+    kiln_buffer_init(&buffer, NULL, sizeof words, "zeros");
+    const uint32_t *host = kiln_buffer_host(&buffer, KILN_READ, &error);
+    assert_non_null(host);
+    assert_int_equal((uintptr_t)host % 64, 0);
+    for (size_t i = 0; i < COUNT; i++)
+        assert_int_equal(host[i], 0);
+    assert_int_equal(kiln_buffer_gl(&buffer, KILN_READ, &error), 0);
+    assert_int_equal(error.code, KILN_DEVICE_FAILED);
+    kiln_buffer_finish(&buffer);
+}
+
+static void bytes_move_to_whoever_asks(void **state)
+{
+    struct kiln_error error = {0};
+    uint32_t words[COUNT];
+    struct kiln_buffer buffer;
+    kiln_buffer_init(&buffer, *state, sizeof words, "residency");
+
+    uint32_t *host = kiln_buffer_host(&buffer, KILN_OVERWRITE, &error);
+    for (uint32_t i = 0; i < COUNT; i++)
+        host[i] = i;
+    GLuint gl = kiln_buffer_gl(&buffer, KILN_READ, &error);
+    peek(gl, words, COUNT);
+    assert_int_equal(words[COUNT - 1], COUNT - 1);
+    assert_true(buffer.host_valid && buffer.gl_valid);
+
+    /* GL writes: the host becomes stale, and fetches. */
+    assert_int_equal(kiln_buffer_gl(&buffer, KILN_READ_WRITE, &error), gl);
+    assert_false(buffer.host_valid);
+    for (uint32_t i = 0; i < COUNT; i++)
+        words[i] = 7 * i;
+    poke(gl, words, COUNT);
+    assert_ptr_equal(kiln_buffer_host(&buffer, KILN_READ, &error), host);
+    assert_int_equal(host[100], 700);
+    assert_true(buffer.gl_valid);
+
+    /* The host writes: GL becomes stale, and is sent. */
+    kiln_buffer_host(&buffer, KILN_READ_WRITE, &error);
+    assert_false(buffer.gl_valid);
+    host[3] = 333;
+    kiln_buffer_gl(&buffer, KILN_READ, &error);
+    peek(gl, words, COUNT);
+    assert_int_equal(words[3], 333);
+    assert_int_equal(words[100], 700);
+    kiln_buffer_finish(&buffer);
+    assert_true(buffer.gl == 0 && buffer.host == NULL);
+}
+
+static void nothing_moves_without_need(void **state)
+{
+    struct kiln_error error = {0};
+    const uint32_t in_gl = 5;
+    struct kiln_buffer buffer;
+    kiln_buffer_init(&buffer, *state, sizeof in_gl, "lazy");
+    uint32_t *host = kiln_buffer_host(&buffer, KILN_OVERWRITE, &error);
+    *host = 1;
+    /* Both valid: a change behind the buffer's back is not seen, since nothing is fetched. */
+    GLuint gl = kiln_buffer_gl(&buffer, KILN_READ, &error);
+    poke(gl, &in_gl, 1);
+    kiln_buffer_host(&buffer, KILN_READ, &error);
+    assert_int_equal(*host, 1);
+    /* GL written, host overwrites: not fetched either. */
+    kiln_buffer_gl(&buffer, KILN_READ_WRITE, &error);
+    poke(gl, &in_gl, 1);
+    kiln_buffer_host(&buffer, KILN_OVERWRITE, &error);
+    assert_int_equal(*host, 1);
+    /* Host written, GL overwrites: not sent. */
+    kiln_buffer_gl(&buffer, KILN_OVERWRITE, &error);
+    uint32_t seen = 0;
+    peek(gl, &seen, 1);
+    assert_int_equal(seen, 5);
+    kiln_buffer_finish(&buffer);
+}
+
+static void size_zero_is_allowed(void **state)
+{
+    struct kiln_error error = {0};
+    struct kiln_buffer buffer;
+    kiln_buffer_init(&buffer, *state, 0, "empty");
+    assert_non_null(kiln_buffer_host(&buffer, KILN_OVERWRITE, &error));
+    assert_true(kiln_buffer_gl(&buffer, KILN_READ_WRITE, &error) != 0);
+    assert_non_null(kiln_buffer_host(&buffer, KILN_READ, &error));
+    kiln_buffer_finish(&buffer);
+}
+
+static void too_much_memory_is_an_error(void **state)
+{
+    struct kiln_device *device = *state;
+    const struct kiln_log log = device->log;
+    device->log = (struct kiln_log){0};
+    static const size_t sizes[] = {SIZE_MAX, SIZE_MAX / 2, (size_t)1 << 50};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        struct kiln_buffer buffer;
+        struct kiln_error error = {0};
+        kiln_buffer_init(&buffer, device, sizes[i], "huge");
+        assert_int_equal(kiln_buffer_gl(&buffer, KILN_OVERWRITE, &error), 0);
+        assert_int_equal(error.code, KILN_DEVICE_FAILED);
+        assert_non_null(strstr(error.message, "huge"));
+        error = (struct kiln_error){0};
+        assert_null(kiln_buffer_host(&buffer, KILN_OVERWRITE, &error));
+        assert_int_equal(error.code, KILN_DEVICE_FAILED);
+        kiln_buffer_finish(&buffer);
+    }
+    device->log = log;
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        test_on_device(contents_start_as_zeros),     test_on_device(bytes_move_to_whoever_asks),
+        test_on_device(nothing_moves_without_need),  test_on_device(size_zero_is_allowed),
+        test_on_device(too_much_memory_is_an_error),
+    };
+    return cmocka_run_group_tests_name("buffer", tests, test_device_open, test_device_close);
+}
