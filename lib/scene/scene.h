@@ -14,21 +14,9 @@
 #include "shared/value.h"
 
 enum {
-    KILN_MAX_FORCES = 16,         /* a system */
-    KILN_MAX_DEMITTERS = 8,       /* a system */
-    KILN_MAX_BURSTS = 64,         /* a system */
-    KILN_MAX_BOXES = 32,          /* a scene */
+    /* shared/layout.h has KILN_MAX_FORCES, _DEMITTERS and _BURSTS of a system, _BOXES of a scene */
     KILN_MAX_LIGHTS = 16,         /* a scene */
     KILN_MAX_PARTICLES = 1 << 24, /* slots of all systems: what a draw entry can address */
-};
-
-struct kiln_value3 {
-    struct kiln_value x, y, z;
-};
-
-/* A number drawn per particle, uniformly between two (animated) ends. */
-struct kiln_range {
-    struct kiln_value min, max;
 };
 
 struct kiln_rational {

@@ -1,11 +1,25 @@
-/* Parameters that the host gives to the simulation, laid out alike in C and in a std140 block:
- * every member is a word, or starts at a multiple of 16 bytes.
+/* What the host tells a simulation step, laid out alike in C and in a std140 block: every member is
+ * a word, or a structure that starts at a multiple of 16 bytes and is one long.
+ *
+ * The kernels read these as globals in GLSL and through pointers in C; SIM_PARAM and SIM pass them
+ * on, STEP(x) and COLLIDERS(x) name a member.
  */
 #ifndef KILN_SHARED_LAYOUT_H
 #define KILN_SHARED_LAYOUT_H
 
 #include "shared/platform.h"
 #include "shared/value.h"
+
+#define KILN_MAX_FORCES    16 /* a system */
+#define KILN_MAX_DEMITTERS 8  /* a system */
+#define KILN_MAX_BURSTS    64 /* a system */
+#define KILN_MAX_BOXES     32 /* a scene */
+
+/* The groups of births of a step: one of the rate and one of each burst. */
+#define KILN_MAX_BIRTH_GROUPS 65
+
+/* Boxes and the floor. */
+#define KILN_MAX_COLLIDERS 33
 
 /* Births of one step that follow one another at equal distances. Birth j of a group happens at
  * (first + j * spacing) / 2^32 of the step. */
@@ -16,7 +30,111 @@ struct kiln_birth_group {
     uint unused;
 };
 
-/* The groups of a step: one of the rate and one of each burst. */
-#define KILN_MAX_BIRTH_GROUPS 65
+/* What is needed to recompute the rest of a particle from its record: see derived.h. */
+struct kiln_derived_params {
+    uint random_key;
+    uint warmup_steps;
+    float dt_s;
+    uint unused;
+    S(kiln_range) life; /* s */
+};
+
+#define EMIT_POINT  0u
+#define EMIT_SPHERE 1u
+#define EMIT_BOX    2u
+#define EMIT_DISC   3u
+#define EMIT_CONE   4u
+
+struct kiln_emit_params {
+    uint shape;
+    uint outward;
+    uint surface;
+    uint unused;
+    S(kiln_range) speed;
+    S(kiln_value3) origin;
+    S(kiln_value3) direction;
+    S(kiln_value3) size;
+    S(kiln_value) angle;
+    S(kiln_value) radius;
+    S(kiln_value) inherit;
+};
+
+#define FORCE_GRAVITY 0u
+#define FORCE_DRAG    1u
+#define FORCE_WIND    2u
+#define FORCE_CURL    3u
+
+struct kiln_force_params {
+    uint kind;
+    uint octaves;
+    uint unused0, unused1;
+    S(kiln_value3) vector;
+    S(kiln_value3) drift;
+    S(kiln_value) strength;
+    S(kiln_value) pull;
+    S(kiln_value) scale;
+};
+
+#define INTEGRATE_SEMI_IMPLICIT  0u
+#define INTEGRATE_POSITION_FIRST 1u
+
+#define COLLIDE_OFF   0u
+#define COLLIDE_SWEPT 1u
+#define COLLIDE_CLAMP 2u
+
+struct kiln_step_params {
+    S(kiln_derived_params) derived;
+    S(kiln_emit_params) emit;
+    uint step;
+    uint base;         /* the system's first slot in the record buffer */
+    uint capacity;     /* its slots */
+    uint used;         /* slots that were ever born into, this step's births included */
+    uint first_serial; /* of this step's births */
+    uint first_slot;   /* where it lives, from base */
+    uint birth_count;
+    uint group_count;
+    uint force_count;
+    uint integration;
+    uint collide;
+    uint demitter_count;
+    uint bounded;
+    uint noise_seed;
+    float time_s; /* clip time at the start of the step */
+    uint unused;
+    S(kiln_value) randomness;
+    S(kiln_value) slowdown;
+    float4 bounds_min, bounds_max;
+    float4 demitter_min[KILN_MAX_DEMITTERS];
+    float4 demitter_max[KILN_MAX_DEMITTERS];
+    S(kiln_birth_group) groups[KILN_MAX_BIRTH_GROUPS];
+    S(kiln_force_params) forces[KILN_MAX_FORCES];
+};
+
+/* A box at the start and at the end of the step; its faces move evenly in between. */
+struct kiln_collider {
+    float4 min, max;
+    float4 min_end, max_end;
+};
+
+struct kiln_colliders {
+    uint count;
+    float steps_per_s;
+    uint unused0, unused1;
+    S(kiln_collider) boxes[KILN_MAX_COLLIDERS];
+};
+
+#ifdef GL_core_profile
+#define SIM
+#define SIM_PARAM
+#define STEP(x)      step_params.x
+#define COLLIDERS(x) colliders.x
+#else
+#define SIM step_params, colliders, value_keys,
+#define SIM_PARAM                                                                                  \
+    const struct kiln_step_params *step_params, const struct kiln_colliders *colliders,            \
+        const float4 *value_keys,
+#define STEP(x)      step_params->x
+#define COLLIDERS(x) colliders->x
+#endif
 
 #endif

@@ -24,6 +24,15 @@ struct kiln_value {
     uint clock;
 };
 
+struct kiln_value3 {
+    S(kiln_value) x, y, z;
+};
+
+/* A number drawn per particle, uniformly between two (animated) ends. */
+struct kiln_range {
+    S(kiln_value) min, max;
+};
+
 #ifdef GL_core_profile
 #define VALUE_KEYS
 #define VALUE_KEYS_PARAM
@@ -55,6 +64,14 @@ FN float value_at(VALUE_KEYS_PARAM S(kiln_value) v, float time_s, float life)
         return v.constant;
     EXACT float x = v.clock == KILN_CLOCK_LIFE ? life : time_s;
     return value_at_key(VALUE_KEYS v, x);
+}
+
+FN float3 value3_at(VALUE_KEYS_PARAM S(kiln_value3) v, float time_s, float life)
+{
+    EXACT float3 y =
+        FLOAT3(value_at(VALUE_KEYS v.x, time_s, life), value_at(VALUE_KEYS v.y, time_s, life),
+               value_at(VALUE_KEYS v.z, time_s, life));
+    return y;
 }
 
 /* How fast a value over time changes, per second: 0 before the first and from the last key on. */
