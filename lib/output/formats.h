@@ -1,0 +1,36 @@
+/* What kiln can write: one row a format. Adding one is a file with these functions and a row in
+ * formats.c. */
+#ifndef KILN_OUTPUT_FORMATS_H
+#define KILN_OUTPUT_FORMATS_H
+
+#include "output/output.h"
+#include "output/temporary.h"
+
+/* An encoder makes one file: of one picture, or of all when one_file is set. Encoders of different
+ * files run on different threads at once; one encoder's calls never overlap. The parameters and the
+ * file outlive it. Whoever calls commits or discards the file. */
+struct kiln_format {
+    const char *suffix; /* with its dot, lower case */
+    const char *name;
+    const char *help;
+    bool one_file; /* all frames go into one file, in order and without gaps */
+    struct kiln_output_needs (*needs)(const struct kiln_output_params *params);
+    /* What can be refused before any file is touched. */
+    bool (*check)(const struct kiln_output_params *params, struct kiln_error *error);
+    void *(*open)(const struct kiln_output_params *params, struct kiln_temporary *file,
+                  struct kiln_error *error);
+    bool (*encode)(void *encoder, const struct kiln_picture *picture, struct kiln_error *error);
+    /* Writes what is still missing; NULL when nothing is. Failed writes may be left to the commit
+     * to report. */
+    bool (*finish)(void *encoder, struct kiln_error *error);
+    void (*close)(void *encoder); /* with or without a finish before */
+};
+
+extern const struct kiln_format kiln_format_png;
+extern const struct kiln_format kiln_format_exr;
+extern const struct kiln_format kiln_format_mp4;
+
+/* The format for the path's suffix, in any case of letters; NULL with KILN_USAGE and the list. */
+const struct kiln_format *kiln_format_find(const char *path, struct kiln_error *error);
+
+#endif

@@ -1,0 +1,385 @@
+/* The way of a picture into its file: a bounded queue, encoder threads, one file an image or one
+ * for all. Images are encoded side by side; a video has one encoder, so its frames stay in order.
+ * The first failure stops everything and is told by the next call. */
+#include "output/output.h"
+
+#include <errno.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/arena.h"
+#include "base/error.h"
+#include "output/formats.h"
+#include "output/pattern.h"
+
+enum { MAX_ENCODERS = 64, QUEUE_SIZE = MAX_ENCODERS + 1 };
+
+struct kiln_output {
+    struct kiln_arena *arena;
+    struct kiln_output_params params; /* its texts and ranges copied into the arena */
+    const struct kiln_format *format;
+    struct kiln_path_pattern pattern;
+
+    struct kiln_temporary video_file; /* one_file formats */
+    void *video_encoder;
+
+    size_t due_range; /* the frame that comes next */
+    uint32_t due_frame;
+
+    pthread_t encoders[MAX_ENCODERS];
+    uint32_t encoder_count;
+    pthread_mutex_t mutex;
+    pthread_cond_t work, room;
+    struct kiln_picture *queue[QUEUE_SIZE]; /* a ring */
+    uint32_t first, waiting;
+    uint32_t in_flight; /* waiting or being encoded */
+    bool ending;        /* no more pictures come */
+    bool failed;
+    struct kiln_error error; /* of the first failure */
+};
+
+/* ---- Checks before the first frame -------------------------------------------------------- */
+
+static bool check_ranges(const struct kiln_output_params *params, const struct kiln_format *format,
+                         struct kiln_error *error)
+{
+    if (params->range_count == 0)
+        return kiln_error_set(error, KILN_USAGE, "%s: there are no frames to write", params->path);
+    for (size_t i = 0; i < params->range_count; i++) {
+        const struct kiln_frame_range *range = &params->ranges[i];
+        if (range->last < range->first || (i > 0 && range->first <= range[-1].last))
+            return kiln_error_set(error, KILN_USAGE, "%s: frames %u-%u are not in ascending order",
+                                  params->path, range->first, range->last);
+        if (format->one_file && i > 0 && range->first != range[-1].last + 1)
+            return kiln_error_set(error, KILN_USAGE,
+                                  "%s: a video cannot leave out frames, but none lies between %u "
+                                  "and %u; write images, or one range",
+                                  params->path, range[-1].last, range->first);
+    }
+    return true;
+}
+
+static bool check_free(const struct kiln_output *output, const char *path, struct kiln_error *error)
+{
+    struct stat status;
+    if (lstat(path, &status) != 0) {
+        if (errno == ENOENT || errno == ENOTDIR)
+            return true;
+        return kiln_error_set_errno(error, KILN_IO, errno, "%s: the path cannot be used", path);
+    }
+    if (S_ISDIR(status.st_mode))
+        return kiln_error_set(error, KILN_IO, "%s: a folder has this name", path);
+    return output->params.overwrite ||
+           kiln_error_set(error, KILN_IO, "%s: the file exists (--force replaces it)", path);
+}
+
+static bool check_files(const struct kiln_output *output, struct kiln_error *error)
+{
+    char path[KILN_PATH_SIZE];
+    for (size_t i = 0; i < output->params.range_count; i++) {
+        const struct kiln_frame_range *range = &output->params.ranges[i];
+        for (uint64_t frame = range->first; frame <= range->last; frame++) {
+            if (!kiln_output_path(output, (uint32_t)frame, path, sizeof path))
+                return kiln_error_set(error, KILN_USAGE, "%s: the path is too long",
+                                      output->params.path);
+            if (!check_free(output, path, error))
+                return false;
+            if (!output->pattern.numbered)
+                return true;
+        }
+    }
+    return true;
+}
+
+/* Finds out by doing it whether files can be made there. */
+static bool check_folder(const struct kiln_output *output, struct kiln_error *error)
+{
+    char path[KILN_PATH_SIZE];
+    struct kiln_temporary probe = {0};
+    if (!kiln_output_path(output, output->params.ranges[0].first, path, sizeof path) ||
+        !kiln_temporary_open(&probe, path, error))
+        return false;
+    kiln_temporary_discard(&probe);
+    return true;
+}
+
+static enum kiln_numbering numbering(const struct kiln_output_params *params,
+                                     const struct kiln_format *format)
+{
+    if (format->one_file)
+        return KILN_NUMBER_NEVER;
+    bool one = params->range_count == 1 && params->ranges[0].first == params->ranges[0].last;
+    return one ? KILN_NUMBER_IF_ASKED : KILN_NUMBER_ALWAYS;
+}
+
+/* ---- Encoding ----------------------------------------------------------------------------- */
+
+static bool encode_image(struct kiln_output *output, const struct kiln_picture *picture,
+                         struct kiln_error *error)
+{
+    char path[KILN_PATH_SIZE];
+    struct kiln_temporary file = {0};
+    if (!kiln_output_path(output, picture->frame, path, sizeof path) ||
+        !kiln_temporary_open(&file, path, error))
+        return false;
+    const struct kiln_format *format = output->format;
+    void *encoder = format->open(&output->params, &file, error);
+    bool good = encoder && format->encode(encoder, picture, error) &&
+                (!format->finish || format->finish(encoder, error));
+    if (encoder)
+        format->close(encoder);
+    if (good)
+        return kiln_temporary_commit(&file, output->params.overwrite, error);
+    kiln_temporary_discard(&file);
+    return false;
+}
+
+static bool encode(struct kiln_output *output, const struct kiln_picture *picture,
+                   struct kiln_error *error)
+{
+    if (output->format->one_file)
+        return output->format->encode(output->video_encoder, picture, error);
+    return encode_image(output, picture, error);
+}
+
+/* The next picture, or NULL when no more come; the mutex is held. */
+static struct kiln_picture *take(struct kiln_output *output)
+{
+    while (output->waiting == 0 && !output->ending)
+        pthread_cond_wait(&output->work, &output->mutex);
+    if (output->waiting == 0)
+        return NULL;
+    struct kiln_picture *picture = output->queue[output->first];
+    output->first = (output->first + 1) % QUEUE_SIZE;
+    output->waiting--;
+    return picture;
+}
+
+static void *run_encoder(void *opaque)
+{
+    struct kiln_output *output = opaque;
+    pthread_mutex_lock(&output->mutex);
+    for (struct kiln_picture *picture = take(output); picture; picture = take(output)) {
+        bool skip = output->failed;
+        struct kiln_error error = {0};
+        pthread_mutex_unlock(&output->mutex);
+        bool good = skip || encode(output, picture, &error);
+        kiln_picture_destroy(&picture);
+        pthread_mutex_lock(&output->mutex);
+        if (!good && !output->failed) {
+            output->failed = true;
+            output->error = error;
+        }
+        output->in_flight--;
+        pthread_cond_signal(&output->room);
+    }
+    pthread_mutex_unlock(&output->mutex);
+    return NULL;
+}
+
+/* Signals stay with the caller's threads. */
+static bool start_encoders(struct kiln_output *output, struct kiln_error *error)
+{
+    uint32_t count = output->format->one_file ? 1 : output->params.threads;
+    count = count < 1 ? 1 : count > MAX_ENCODERS ? MAX_ENCODERS : count;
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    int status = 0;
+    while (output->encoder_count < count && status == 0) {
+        status =
+            pthread_create(&output->encoders[output->encoder_count], NULL, run_encoder, output);
+        output->encoder_count += status == 0;
+    }
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return output->encoder_count > 0 ||
+           kiln_error_set_errno(error, KILN_DEVICE_FAILED, status, "no thread for the encoder");
+}
+
+static void stop_encoders(struct kiln_output *output)
+{
+    pthread_mutex_lock(&output->mutex);
+    output->ending = true;
+    pthread_cond_broadcast(&output->work);
+    pthread_mutex_unlock(&output->mutex);
+    for (uint32_t i = 0; i < output->encoder_count; i++)
+        pthread_join(output->encoders[i], NULL);
+    output->encoder_count = 0;
+}
+
+/* ---- The interface ------------------------------------------------------------------------ */
+
+static struct kiln_output *create(const struct kiln_output_params *params, struct kiln_error *error)
+{
+    struct kiln_arena *arena = kiln_arena_create();
+    struct kiln_output *output = arena ? kiln_arena_alloc(arena, 1, sizeof *output) : NULL;
+    struct kiln_frame_range *ranges =
+        output ? kiln_arena_alloc(arena, params->range_count, sizeof *ranges) : NULL;
+    char *path = ranges ? kiln_arena_text(arena, params->path, strlen(params->path)) : NULL;
+    char *hash =
+        path ? kiln_arena_text(arena, params->scene_hash, strlen(params->scene_hash)) : NULL;
+    if (!hash) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the output", params->path);
+        kiln_arena_destroy(&arena);
+        return NULL;
+    }
+    memcpy(ranges, params->ranges, params->range_count * sizeof *ranges);
+    output->arena = arena;
+    output->params = *params;
+    output->params.path = path;
+    output->params.scene_hash = hash;
+    output->params.ranges = ranges;
+    output->due_frame = ranges[0].first;
+    pthread_mutex_init(&output->mutex, NULL);
+    pthread_cond_init(&output->work, NULL);
+    pthread_cond_init(&output->room, NULL);
+    return output;
+}
+
+static bool open_video(struct kiln_output *output, struct kiln_error *error)
+{
+    char path[KILN_PATH_SIZE];
+    if (!kiln_output_path(output, 0, path, sizeof path) ||
+        !kiln_temporary_open(&output->video_file, path, error))
+        return false;
+    output->video_encoder = output->format->open(&output->params, &output->video_file, error);
+    return output->video_encoder != NULL;
+}
+
+struct kiln_output *kiln_output_open(const struct kiln_output_params *params,
+                                     struct kiln_error *error)
+{
+    const struct kiln_format *format = kiln_format_find(params->path, error);
+    if (!format || !check_ranges(params, format, error) || !format->check(params, error))
+        return NULL;
+    struct kiln_output *output = create(params, error);
+    if (!output)
+        return NULL;
+    output->format = format;
+    bool good =
+        kiln_path_pattern_parse(&output->pattern, params->path, numbering(params, format), error) &&
+        check_files(output, error) && kiln_make_parent_folders(params->path, error) &&
+        (format->one_file ? open_video(output, error) : check_folder(output, error)) &&
+        start_encoders(output, error);
+    if (!good)
+        kiln_output_close(&output);
+    return output;
+}
+
+struct kiln_output_needs kiln_output_needs(const struct kiln_output *output)
+{
+    return output->format->needs(&output->params);
+}
+
+/* That the picture is the one that was promised; encoders rely on it. */
+static bool check_picture(const struct kiln_output *output, const struct kiln_picture *picture,
+                          struct kiln_error *error)
+{
+    struct kiln_output_needs needs = kiln_output_needs(output);
+    const struct kiln_output_params *params = &output->params;
+    if (output->due_range >= params->range_count || picture->frame != output->due_frame)
+        return kiln_error_set(error, KILN_USAGE, "%s: frame %u came where frame %u was due",
+                              params->path, picture->frame, output->due_frame);
+    if (picture->width != params->width || picture->height != params->height ||
+        (needs.bits > 0 && (picture->bits != needs.bits || !picture->display)) ||
+        (needs.layers && picture->layer_count == 0))
+        return kiln_error_set(error, KILN_USAGE,
+                              "%s: frame %u is not the picture that was announced", params->path,
+                              picture->frame);
+    return true;
+}
+
+static void advance(struct kiln_output *output)
+{
+    const struct kiln_frame_range *ranges = output->params.ranges;
+    if (output->due_frame < ranges[output->due_range].last) {
+        output->due_frame++;
+    } else {
+        output->due_range++;
+        if (output->due_range < output->params.range_count)
+            output->due_frame = ranges[output->due_range].first;
+    }
+}
+
+bool kiln_output_write(struct kiln_output *output, struct kiln_picture *picture,
+                       struct kiln_error *error)
+{
+    if (!check_picture(output, picture, error)) {
+        kiln_picture_destroy(&picture);
+        return false;
+    }
+    pthread_mutex_lock(&output->mutex);
+    while (output->in_flight > output->encoder_count && !output->failed)
+        pthread_cond_wait(&output->room, &output->mutex);
+    bool good = !output->failed;
+    if (good) {
+        output->queue[(output->first + output->waiting) % QUEUE_SIZE] = picture;
+        output->waiting++;
+        output->in_flight++;
+        pthread_cond_signal(&output->work);
+        advance(output);
+    } else {
+        *error = output->error;
+    }
+    pthread_mutex_unlock(&output->mutex);
+    if (!good)
+        kiln_picture_destroy(&picture);
+    return good;
+}
+
+static void end_video(struct kiln_output *output)
+{
+    if (output->video_encoder)
+        output->format->close(output->video_encoder);
+    output->video_encoder = NULL;
+    kiln_temporary_discard(&output->video_file);
+}
+
+bool kiln_output_finish(struct kiln_output *output, struct kiln_error *error)
+{
+    stop_encoders(output);
+    if (!output->failed && output->due_range < output->params.range_count) {
+        output->failed = true;
+        kiln_error_set(&output->error, KILN_USAGE, "%s: frame %u was never given",
+                       output->params.path, output->due_frame);
+    }
+    bool good = !output->failed;
+    if (!good)
+        *error = output->error;
+    if (output->format->one_file && output->video_encoder) {
+        good = good &&
+               (!output->format->finish || output->format->finish(output->video_encoder, error));
+        output->format->close(output->video_encoder);
+        output->video_encoder = NULL;
+        good = good && kiln_temporary_commit(&output->video_file, output->params.overwrite, error);
+        end_video(output);
+    }
+    return good;
+}
+
+void kiln_output_close(struct kiln_output **output)
+{
+    struct kiln_output *closing = *output;
+    if (!closing)
+        return;
+    *output = NULL;
+    /* Images that were handed over are still written; a video is lost anyway. */
+    pthread_mutex_lock(&closing->mutex);
+    closing->failed = closing->failed || closing->format->one_file;
+    pthread_mutex_unlock(&closing->mutex);
+    stop_encoders(closing);
+    end_video(closing);
+    pthread_cond_destroy(&closing->room);
+    pthread_cond_destroy(&closing->work);
+    pthread_mutex_destroy(&closing->mutex);
+    struct kiln_arena *arena = closing->arena;
+    kiln_arena_destroy(&arena);
+}
+
+bool kiln_output_path(const struct kiln_output *output, uint32_t frame, char *path, size_t size)
+{
+    return kiln_path_pattern_format(&output->pattern, frame, path, size);
+}

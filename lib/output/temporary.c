@@ -1,0 +1,201 @@
+/* Temporary names are the one state of the library at file scope: kiln_output_abandon_all must find
+ * them from a signal handler, where no lock and no owner can be asked. So they lie in a table of
+ * fixed size. A slot is claimed and released by an atomic, its path is written before it is marked
+ * as armed, and a file exists only while its slot is armed. */
+#include "output/temporary.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "output/output.h"
+
+enum { SLOT_COUNT = 256, MAX_ATTEMPTS = 64 };
+
+enum slot_state { SLOT_FREE, SLOT_CLAIMED, SLOT_ARMED };
+
+static struct slot {
+    atomic_int state;
+    char path[KILN_PATH_SIZE];
+} slots[SLOT_COUNT];
+
+static atomic_bool abandoned; /* the process is about to end: no new files */
+
+static int claim_slot(void)
+{
+    for (int i = 0; i < SLOT_COUNT; i++) {
+        int expected = SLOT_FREE;
+        if (atomic_compare_exchange_strong(&slots[i].state, &expected, SLOT_CLAIMED))
+            return i;
+    }
+    return -1;
+}
+
+static void release_slot(int slot)
+{
+    atomic_store(&slots[slot].state, SLOT_FREE);
+}
+
+void kiln_output_abandon_all(void)
+{
+    atomic_store(&abandoned, true);
+    for (int i = 0; i < SLOT_COUNT; i++) {
+        if (atomic_load(&slots[i].state) == SLOT_ARMED)
+            unlink(slots[i].path);
+    }
+}
+
+bool kiln_make_parent_folders(const char *path, struct kiln_error *error)
+{
+    char folder[KILN_PATH_SIZE];
+    size_t length = strlen(path);
+    if (length >= sizeof folder)
+        return kiln_error_set(error, KILN_USAGE, "%.200s...: the path is longer than %d bytes",
+                              path, KILN_PATH_SIZE - 1);
+    memcpy(folder, path, length + 1);
+    for (char *slash = strchr(folder + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
+        *slash = '\0';
+        struct stat status;
+        if (mkdir(folder, 0777) != 0 && errno != EEXIST)
+            return kiln_error_set_errno(error, KILN_IO, errno, "%s: the folder cannot be made",
+                                        folder);
+        if (stat(folder, &status) != 0 || !S_ISDIR(status.st_mode))
+            return kiln_error_set(error, KILN_IO, "%s: not a folder, but %s needs one here", folder,
+                                  path);
+        *slash = '/';
+    }
+    return true;
+}
+
+/* ".NAME.kiln-PID-N.tmp" beside the target; a long NAME is cut, since names have a limit. */
+static bool write_temporary_name(char path[KILN_PATH_SIZE], const char *target, int number)
+{
+    const char *slash = strrchr(target, '/');
+    const char *name = slash ? slash + 1 : target;
+    int length = snprintf(path, KILN_PATH_SIZE, "%.*s.%.100s.kiln-%ld-%d.tmp", (int)(name - target),
+                          target, name, (long)getpid(), number);
+    return length < KILN_PATH_SIZE;
+}
+
+/* A new file in an armed slot, or -1 with errno. */
+static int create_file(int slot, const char *target)
+{
+    for (int attempt = 0; attempt < MAX_ATTEMPTS; attempt++) {
+        if (!write_temporary_name(slots[slot].path, target, attempt * SLOT_COUNT + slot)) {
+            errno = ENAMETOOLONG;
+            return -1;
+        }
+        atomic_store(&slots[slot].state, SLOT_ARMED);
+        int file = atomic_load(&abandoned)
+                       ? -1
+                       : open(slots[slot].path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (file >= 0 && atomic_load(&abandoned)) {
+            unlink(slots[slot].path);
+            close(file);
+            file = -1;
+        }
+        if (atomic_load(&abandoned))
+            errno = ECANCELED;
+        if (file >= 0 || errno != EEXIST)
+            return file;
+        atomic_store(&slots[slot].state, SLOT_CLAIMED); /* another's file: try the next name */
+    }
+    return -1;
+}
+
+bool kiln_temporary_open(struct kiln_temporary *temporary, const char *target,
+                         struct kiln_error *error)
+{
+    int slot = claim_slot();
+    if (slot < 0)
+        return kiln_error_set(error, KILN_IO, "%s: more than %d files are being written at once",
+                              target, SLOT_COUNT);
+    *temporary = (struct kiln_temporary){.slot = slot, .target = strdup(target)};
+    int file = temporary->target ? create_file(slot, target) : -1;
+    if (file >= 0)
+        temporary->file = fdopen(file, "wb");
+    if (temporary->file)
+        return true;
+
+    kiln_error_set_errno(error, KILN_IO, errno, "%s: the file cannot be created", target);
+    if (file >= 0) {
+        unlink(slots[slot].path);
+        close(file);
+    }
+    release_slot(slot);
+    free(temporary->target);
+    *temporary = (struct kiln_temporary){0};
+    return false;
+}
+
+const char *kiln_temporary_path(const struct kiln_temporary *temporary)
+{
+    return slots[temporary->slot].path;
+}
+
+bool kiln_temporary_write(struct kiln_temporary *temporary, const void *bytes, size_t size)
+{
+    if (temporary->failure == 0 && fwrite(bytes, 1, size, temporary->file) != size)
+        temporary->failure = errno ? errno : EIO;
+    return temporary->failure == 0;
+}
+
+bool kiln_temporary_seek(struct kiln_temporary *temporary, int64_t offset)
+{
+    if (temporary->failure == 0 && ftello(temporary->file) != offset &&
+        fseeko(temporary->file, offset, SEEK_SET) != 0)
+        temporary->failure = errno ? errno : EIO;
+    return temporary->failure == 0;
+}
+
+static void end(struct kiln_temporary *temporary)
+{
+    release_slot(temporary->slot);
+    free(temporary->target);
+    *temporary = (struct kiln_temporary){0};
+}
+
+/* Renames; without overwrite, fails where a file has appeared meanwhile. File systems that cannot
+ * promise that get a plain rename: the name was free when the job began. */
+static bool move_into_place(const char *path, const char *target, bool overwrite)
+{
+    if (!overwrite) {
+        if (renameat2(AT_FDCWD, path, AT_FDCWD, target, RENAME_NOREPLACE) == 0)
+            return true;
+        if (errno != EINVAL && errno != ENOSYS)
+            return false;
+    }
+    return rename(path, target) == 0;
+}
+
+bool kiln_temporary_commit(struct kiln_temporary *temporary, bool overwrite,
+                           struct kiln_error *error)
+{
+    const char *path = slots[temporary->slot].path;
+    int failure = temporary->failure;
+    if (fclose(temporary->file) != 0 && failure == 0)
+        failure = errno ? errno : EIO;
+    if (failure == 0 && !move_into_place(path, temporary->target, overwrite))
+        failure = errno;
+    if (failure != 0) {
+        unlink(path);
+        kiln_error_set_errno(error, KILN_IO, failure, "%s: the file cannot be written",
+                             temporary->target);
+    }
+    end(temporary);
+    return failure == 0;
+}
+
+void kiln_temporary_discard(struct kiln_temporary *temporary)
+{
+    if (!temporary->file)
+        return;
+    fclose(temporary->file);
+    unlink(slots[temporary->slot].path);
+    end(temporary);
+}

@@ -1,0 +1,42 @@
+/* Files that appear whole or not at all: written beside their place under a temporary name, and
+ * renamed when complete. */
+#ifndef KILN_OUTPUT_TEMPORARY_H
+#define KILN_OUTPUT_TEMPORARY_H
+
+#include "kiln.h"
+
+enum { KILN_PATH_SIZE = 4096 };
+
+/* Zero-initialised is closed; open fills it. */
+struct kiln_temporary {
+    FILE *file;   /* NULL when closed */
+    char *target; /* the name it will get */
+    int slot;     /* in the registry of temporary names */
+    int failure;  /* errno of the first write that failed, else 0; sticky */
+};
+
+/* Creates the missing folders above path; KILN_IO, naming the folder, when that fails. */
+bool kiln_make_parent_folders(const char *path, struct kiln_error *error);
+
+/* Opens ".NAME.kiln-PID-N.tmp" in the target's folder; KILN_IO, naming the target, on failure. */
+bool kiln_temporary_open(struct kiln_temporary *temporary, const char *target,
+                         struct kiln_error *error);
+
+/* The name it has now; valid until commit or discard. */
+const char *kiln_temporary_path(const struct kiln_temporary *temporary);
+
+/* Appends at the current place. False after any failure; commit tells which. */
+bool kiln_temporary_write(struct kiln_temporary *temporary, const void *bytes, size_t size);
+
+/* Moves the place where the next write goes, from the start of the file. */
+bool kiln_temporary_seek(struct kiln_temporary *temporary, int64_t offset);
+
+/* Closes and renames the file to its target, replacing a file there only with overwrite; when
+ * anything failed since open, removes it instead: KILN_IO with the reason. Closed afterwards. */
+bool kiln_temporary_commit(struct kiln_temporary *temporary, bool overwrite,
+                           struct kiln_error *error);
+
+/* Closes and removes the file; does nothing when it is closed. */
+void kiln_temporary_discard(struct kiln_temporary *temporary);
+
+#endif

@@ -1,0 +1,416 @@
+/* What every output format shares: names of files, refusals, whole files or none, bounded memory.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <errno.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+
+#include "output/pattern.h"
+#include "support/pictures.h"
+
+static const char *const suffixes[] = {".png"};
+enum { SUFFIX_COUNT = sizeof suffixes / sizeof *suffixes };
+
+/* ---- Names -------------------------------------------------------------------------------- */
+
+static void names_are_numbered(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *path;
+        enum kiln_numbering numbering;
+        uint32_t frame;
+        const char *expected;
+    } cases[] = {
+        {"beam.png", KILN_NUMBER_IF_ASKED, 7, "beam.png"},
+        {"beam.png", KILN_NUMBER_ALWAYS, 7, "beam_0007.png"},
+        {"a.b/beam.v2.png", KILN_NUMBER_ALWAYS, 12345, "a.b/beam.v2_12345.png"},
+        {"out/f_###.png", KILN_NUMBER_ALWAYS, 7, "out/f_007.png"},
+        {"out/f_###.png", KILN_NUMBER_IF_ASKED, 4294967295u, "out/f_4294967295.png"},
+        {"f#.png", KILN_NUMBER_ALWAYS, 10, "f10.png"},
+        {"f%d.png", KILN_NUMBER_ALWAYS, 10, "f10.png"},
+        {"f%05d_x.png", KILN_NUMBER_ALWAYS, 10, "f00010_x.png"},
+        {"f%3d.png", KILN_NUMBER_ALWAYS, 10, "f010.png"},
+        {"100%%_%02d.png", KILN_NUMBER_ALWAYS, 3, "100%_03.png"},
+        {"50%/f#.png", KILN_NUMBER_ALWAYS, 3, "50%/f3.png"},
+        {"50%%.png", KILN_NUMBER_NEVER, 3, "50%.png"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct kiln_path_pattern pattern;
+        struct kiln_error error = {0};
+        char path[64];
+        assert_true(kiln_path_pattern_parse(&pattern, cases[i].path, cases[i].numbering, &error));
+        assert_true(kiln_path_pattern_format(&pattern, cases[i].frame, path, sizeof path));
+        assert_string_equal(path, cases[i].expected);
+        assert_false(
+            kiln_path_pattern_format(&pattern, cases[i].frame, path, strlen(cases[i].expected)));
+    }
+}
+
+static void bad_names_are_refused(void **state)
+{
+    (void)state;
+    static const char *const bad[] = {
+        "%s.png",         "%n.png",    "f%.png",     "f%x.png",        "%d_%d.png",
+        "##_#.png",       "f#_%d.png", "%-4d.png",   "%4.2d.png",      "%ld.png",
+        "%0d%.png",       "%10d.png",  "%1000d.png", "% d.png",        "out_##/f.png",
+        "out_%04d/f.png", "f%$d.png",  "f%1$d.png",  "##########.png",
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        struct kiln_path_pattern pattern;
+        struct kiln_error error = {0};
+        assert_false(kiln_path_pattern_parse(&pattern, bad[i], KILN_NUMBER_ALWAYS, &error));
+        assert_int_equal(error.code, KILN_USAGE);
+        assert_non_null(strstr(error.message, bad[i]));
+    }
+    char name[KILN_PATH_SIZE + 8];
+    struct kiln_path_pattern pattern;
+    struct kiln_error error = {0};
+    memset(name, 'x', sizeof name);
+    memcpy(name + 252, ".png", 5);
+    assert_false(kiln_path_pattern_parse(&pattern, name, KILN_NUMBER_ALWAYS, &error));
+    assert_int_equal(error.code, KILN_USAGE);
+    assert_false(kiln_path_pattern_parse(&pattern, "f#.mp4", KILN_NUMBER_NEVER, &error));
+    assert_int_equal(error.code, KILN_USAGE);
+}
+
+static void suffixes_are_looked_up(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *path, *message;
+    } cases[] = {
+        {"", "needs a file name"},           {"out/", "needs a file name"},
+        {"out/.png", "needs a file name"},   {"out.d/beam", "needs a file name"},
+        {"beam.pgn", "did you mean '.png'"}, {"beam.jpeg", "allowed are .png"},
+    };
+    const struct kiln_frame_range range = {0, 3};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct kiln_output_params params = test_output_params(cases[i].path, &range);
+        struct kiln_error error = {0};
+        assert_null(kiln_output_open(&params, &error));
+        assert_int_equal(error.code, KILN_USAGE);
+        assert_non_null(strstr(error.message, cases[i].message));
+    }
+    char *text = NULL;
+    size_t size = 0;
+    FILE *memory = open_memstream(&text, &size);
+    assert_true(kiln_write_outputs(memory));
+    fclose(memory);
+    for (size_t i = 0; i < SUFFIX_COUNT; i++)
+        assert_non_null(strstr(text, suffixes[i]));
+    free(text);
+}
+
+/* ---- Refusals before the first frame ------------------------------------------------------ */
+
+static void existing_files_are_kept(void **state)
+{
+    (void)state;
+    const struct kiln_frame_range ranges[] = {{0, 1}, {5, 6}};
+    char folder[32], path[64], last[64];
+    test_make_folder(folder);
+    snprintf(path, sizeof path, "%s/x.png", folder);
+    snprintf(last, sizeof last, "%s/x_0006.png", folder);
+    struct kiln_output_params params = test_output_params(path, ranges);
+    params.range_count = 2;
+    FILE *file = fopen(last, "w");
+    assert_non_null(file);
+    fputs("mine", file);
+    fclose(file);
+
+    struct kiln_error error = {0};
+    assert_false(test_write_all(&params, &error));
+    assert_int_equal(error.code, KILN_IO);
+    assert_non_null(strstr(error.message, "x_0006.png: the file exists (--force"));
+    assert_int_equal(test_count_files(folder), 1);
+
+    params.overwrite = true;
+    assert_true(test_write_all(&params, &error));
+    assert_int_equal(test_count_files(folder), 4);
+    struct stat status;
+    assert_int_equal(stat(last, &status), 0);
+    assert_true(status.st_size > 4);
+
+    /* A folder in the way is no file that could be replaced. */
+    unlink(last);
+    assert_int_equal(mkdir(last, 0777), 0);
+    assert_false(test_write_all(&params, &error));
+    assert_int_equal(error.code, KILN_IO);
+    assert_non_null(strstr(error.message, "a folder has this name"));
+    test_remove_folder(folder);
+}
+
+/* A file that appears between the check and the rename is not replaced either. */
+static void late_files_are_kept(void **state)
+{
+    (void)state;
+    const struct kiln_frame_range range = {3, 3};
+    for (size_t i = 0; i < SUFFIX_COUNT; i++) {
+        char folder[32], path[64];
+        test_make_folder(folder);
+        snprintf(path, sizeof path, "%s/x%s", folder, suffixes[i]);
+        struct kiln_output_params params = test_output_params(path, &range);
+        struct kiln_error error = {0};
+        struct kiln_output *output = kiln_output_open(&params, &error);
+        assert_non_null(output);
+        fclose(fopen(path, "w"));
+        assert_true(kiln_output_write(output, test_picture(output, &params, 3), &error));
+        assert_false(kiln_output_finish(output, &error));
+        assert_int_equal(error.code, KILN_IO);
+        kiln_output_close(&output);
+        assert_int_equal(test_count_files(folder), 1);
+        struct stat status;
+        assert_int_equal(stat(path, &status), 0);
+        assert_int_equal(status.st_size, 0);
+        test_remove_folder(folder);
+    }
+}
+
+static void folders_are_made(void **state)
+{
+    (void)state;
+    const struct kiln_frame_range range = {0, 0};
+    char folder[32], path[64];
+    test_make_folder(folder);
+    snprintf(path, sizeof path, "%s/a//b/c.d/x.png", folder);
+    struct kiln_output_params params = test_output_params(path, &range);
+    struct kiln_error error = {0};
+    assert_true(test_write_all(&params, &error));
+    assert_int_equal(access(path, R_OK), 0);
+
+    snprintf(path, sizeof path, "%s/a/b/c.d/x.png/y.png", folder);
+    assert_false(test_write_all(&params, &error));
+    assert_int_equal(error.code, KILN_IO);
+    assert_non_null(strstr(error.message, "x.png: not a folder"));
+    test_remove_folder(folder);
+
+    params.path = "/proc/kiln/x.png";
+    assert_false(test_write_all(&params, &error));
+    assert_int_equal(error.code, KILN_IO);
+    assert_non_null(strstr(error.message, "/proc/kiln: the folder cannot be made"));
+}
+
+static void ranges_must_ascend(void **state)
+{
+    (void)state;
+    static const struct kiln_frame_range bad[][2] = {
+        {{5, 4}, {6, 6}}, {{0, 4}, {4, 6}}, {{7, 8}, {1, 2}}};
+    struct kiln_error error = {0};
+    for (size_t i = 0; i < 3; i++) {
+        struct kiln_output_params params = test_output_params("x.png", bad[i]);
+        params.range_count = 2;
+        assert_null(kiln_output_open(&params, &error));
+        assert_int_equal(error.code, KILN_USAGE);
+    }
+    struct kiln_output_params params = test_output_params("x.png", bad[0]);
+    params.range_count = 0;
+    assert_null(kiln_output_open(&params, &error));
+    assert_int_equal(error.code, KILN_USAGE);
+}
+
+/* ---- Failures on the way: run in a child, since they change the process ---------------------- */
+
+/* Runs body in a child and expects that it returns true. */
+static void in_child(bool (*body)(const char *path), const char *path)
+{
+    pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0)
+        _exit(body(path) ? 0 : 1);
+    int status = 0;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), 0);
+}
+
+static struct kiln_output_params large_params(const char *path,
+                                              const struct kiln_frame_range *range)
+{
+    struct kiln_output_params params = test_output_params(path, range);
+    params.width = 320;
+    params.height = 180;
+    return params;
+}
+
+/* Stands for a full disk: writes beyond the limit fail. */
+static bool disk_is_full(const char *path)
+{
+    const struct kiln_frame_range range = {0, 19};
+    struct kiln_output_params params = large_params(path, &range);
+    struct rlimit limit = {700, 700};
+    signal(SIGXFSZ, SIG_IGN);
+    setrlimit(RLIMIT_FSIZE, &limit);
+    struct kiln_error error = {0};
+    return !test_write_all(&params, &error) && error.code == KILN_IO &&
+           strstr(error.message, "cannot be written: File too large");
+}
+
+static bool folder_is_read_only(const char *path)
+{
+    const struct kiln_frame_range range = {0, 19};
+    struct kiln_output_params params = large_params(path, &range);
+    char folder[64];
+    snprintf(folder, sizeof folder, "%.*s", (int)(strrchr(path, '/') - path), path);
+    if (chmod(folder, 0555) != 0 || (geteuid() == 0 && setuid(65534) != 0))
+        return false;
+    struct kiln_error error = {0};
+    return !test_write_all(&params, &error) && error.code == KILN_IO &&
+           strstr(error.message, "cannot be created: Permission denied");
+}
+
+static bool process_is_stopped(const char *path)
+{
+    const struct kiln_frame_range range = {0, 199};
+    struct kiln_output_params params = large_params(path, &range);
+    struct kiln_error error = {0};
+    struct kiln_output *output = kiln_output_open(&params, &error);
+    for (uint32_t frame = 0; output && frame < 5; frame++) {
+        if (!kiln_output_write(output, test_picture(output, &params, frame), &error))
+            return false;
+    }
+    kiln_output_abandon_all();
+    _exit(output ? 0 : 1);
+}
+
+/* Of an image sequence whole frames may stay, and nothing hidden; of a video nothing. */
+static void check_only_whole_files(const char *folder, const char *suffix)
+{
+    DIR *entries = opendir(folder);
+    assert_non_null(entries);
+    for (struct dirent *entry = readdir(entries); entry; entry = readdir(entries)) {
+        if (entry->d_name[0] == '.' && strlen(entry->d_name) < 3)
+            continue;
+        assert_true(entry->d_name[0] == 'x');
+        assert_string_equal(entry->d_name + strlen(entry->d_name) - strlen(suffix), suffix);
+        assert_string_not_equal(suffix, ".mp4");
+    }
+    closedir(entries);
+}
+
+static void failures_leave_nothing(void **state)
+{
+    (void)state;
+    static bool (*const bodies[])(const char *) = {disk_is_full, folder_is_read_only,
+                                                   process_is_stopped};
+    for (size_t i = 0; i < SUFFIX_COUNT; i++) {
+        for (size_t b = 0; b < 3; b++) {
+            char folder[32], path[64];
+            test_make_folder(folder);
+            snprintf(path, sizeof path, "%s/x%s", folder, suffixes[i]);
+            in_child(bodies[b], path);
+            check_only_whole_files(folder, suffixes[i]);
+            if (bodies[b] != process_is_stopped)
+                assert_int_equal(test_count_files(folder), 0);
+            test_remove_folder(folder);
+        }
+    }
+}
+
+static void closing_early_keeps_whole_images(void **state)
+{
+    (void)state;
+    const struct kiln_frame_range range = {0, 19};
+    for (size_t i = 0; i < SUFFIX_COUNT; i++) {
+        char folder[32], path[64];
+        test_make_folder(folder);
+        snprintf(path, sizeof path, "%s/x%s", folder, suffixes[i]);
+        struct kiln_output_params params = test_output_params(path, &range);
+        struct kiln_error error = {0};
+        struct kiln_output *output = kiln_output_open(&params, &error);
+        assert_non_null(output);
+        for (uint32_t frame = 0; frame < 3; frame++)
+            assert_true(kiln_output_write(output, test_picture(output, &params, frame), &error));
+        kiln_output_close(&output);
+        assert_null(output);
+        assert_int_equal(test_count_files(folder), strcmp(suffixes[i], ".mp4") == 0 ? 0 : 3);
+        test_remove_folder(folder);
+    }
+}
+
+static void pictures_must_be_as_announced(void **state)
+{
+    (void)state;
+    const struct kiln_frame_range range = {4, 6};
+    for (size_t i = 0; i < SUFFIX_COUNT; i++) {
+        char folder[32], path[64];
+        test_make_folder(folder);
+        snprintf(path, sizeof path, "%s/x%s", folder, suffixes[i]);
+        struct kiln_output_params params = test_output_params(path, &range);
+        struct kiln_error error = {0};
+        struct kiln_output *output = kiln_output_open(&params, &error);
+        assert_non_null(output);
+        assert_false(kiln_output_write(output, test_picture(output, &params, 5), &error));
+        assert_non_null(strstr(error.message, "frame 5 came where frame 4 was due"));
+        struct kiln_output_params other = params;
+        other.width = 32;
+        assert_false(kiln_output_write(output, test_picture(output, &other, 4), &error));
+        assert_true(kiln_output_write(output, test_picture(output, &params, 4), &error));
+        assert_false(kiln_output_finish(output, &error));
+        assert_non_null(strstr(error.message, "frame 5 was never given"));
+        kiln_output_close(&output);
+        test_remove_folder(folder);
+    }
+}
+
+/* ---- Memory ------------------------------------------------------------------------------- */
+
+static long peak_kib(const char *path, uint32_t frames)
+{
+    const struct kiln_frame_range range = {0, frames - 1};
+    struct kiln_output_params params = test_output_params(path, &range);
+    params.width = 160;
+    params.height = 90;
+    pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        struct kiln_error error = {0};
+        _exit(test_write_all(&params, &error) ? 0 : 1);
+    }
+    int status = 0;
+    struct rusage usage;
+    assert_int_equal(wait4(child, &status, 0, &usage), child);
+    assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+    return usage.ru_maxrss;
+}
+
+static void memory_does_not_grow_with_frames(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < SUFFIX_COUNT; i++) {
+        char folder[32], few[64], many[64];
+        test_make_folder(folder);
+        snprintf(few, sizeof few, "%s/few%s", folder, suffixes[i]);
+        snprintf(many, sizeof many, "%s/many%s", folder, suffixes[i]);
+        long peak_few = peak_kib(few, 30), peak_many = peak_kib(many, 300);
+        print_message("%s: peak %ld KiB with 30 frames, %ld KiB with 300\n", suffixes[i], peak_few,
+                      peak_many);
+        assert_true(peak_many - peak_few < 2048);
+        test_remove_folder(folder);
+    }
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        cmocka_unit_test(names_are_numbered),
+        cmocka_unit_test(bad_names_are_refused),
+        cmocka_unit_test(suffixes_are_looked_up),
+        cmocka_unit_test(existing_files_are_kept),
+        cmocka_unit_test(late_files_are_kept),
+        cmocka_unit_test(folders_are_made),
+        cmocka_unit_test(ranges_must_ascend),
+        cmocka_unit_test(failures_leave_nothing),
+        cmocka_unit_test(closing_early_keeps_whole_images),
+        cmocka_unit_test(pictures_must_be_as_announced),
+        cmocka_unit_test(memory_does_not_grow_with_frames),
+    };
+    return cmocka_run_group_tests_name("output", tests, NULL, NULL);
+}
