@@ -1,8 +1,8 @@
 /* What the host tells a simulation step, laid out alike in C and in a std140 block: every member is
  * a word, or a structure that starts at a multiple of 16 bytes and is one long.
  *
- * The kernels read these as globals in GLSL and through pointers in C; SIM_PARAM and SIM pass them
- * on, STEP(x) and COLLIDERS(x) name a member.
+ * The kernels read these as globals in GLSL and through pointers in C: SIM_PARAM and SIM pass them
+ * on, SIM_KEYS is their VALUE_KEYS, STEP(x) and COLLIDERS(x) name a member.
  */
 #ifndef KILN_SHARED_LAYOUT_H
 #define KILN_SHARED_LAYOUT_H
@@ -126,15 +126,20 @@ struct kiln_colliders {
 #ifdef GL_core_profile
 #define SIM
 #define SIM_PARAM
+#define SIM_KEYS
 #define STEP(x)      step_params.x
 #define COLLIDERS(x) colliders.x
 #else
-#define SIM step_params, colliders, value_keys,
-#define SIM_PARAM                                                                                  \
-    const struct kiln_step_params *step_params, const struct kiln_colliders *colliders,            \
-        const float4 *value_keys,
-#define STEP(x)      step_params->x
-#define COLLIDERS(x) colliders->x
+struct kiln_sim {
+    const struct kiln_step_params *step;
+    const struct kiln_colliders *colliders;
+    const float4 *value_keys;
+};
+#define SIM          sim,
+#define SIM_PARAM    const struct kiln_sim *sim,
+#define SIM_KEYS     sim->value_keys,
+#define STEP(x)      sim->step->x
+#define COLLIDERS(x) sim->colliders->x
 #endif
 
 #endif

@@ -1,0 +1,242 @@
+/* The arithmetic of the simulation: the same bits on every device (contract of determinism, 1).
+ *
+ * Built from + - * on floats, comparisons, floor and integer operations, which every IEEE machine
+ * rounds alike; division, roots and the rest are our own, since drivers round theirs differently.
+ * Denormals, which some stages flush, are taken as zero wherever they could matter: below 2^-100 a
+ * number is tiny. Every function is defined for every argument, NaN and infinities included.
+ */
+#ifndef KILN_SHARED_EXACT_H
+#define KILN_SHARED_EXACT_H
+
+#include "shared/platform.h"
+
+#define EXACT_SIGN_BIT  0x80000000u
+#define EXACT_SIZE_BITS 0x7fffffffu
+#define EXACT_TINY_BITS 0x0d800000u /* 2^-100 */
+#define EXACT_VAST_BITS 0x71800000u /* 2^100 */
+
+#define EXACT_TWO_PI 6.28318548f
+
+/* |x| < 2^-100: counts as zero. */
+FN bool exact_is_tiny(float x)
+{
+    return (FLOAT_BITS(x) & EXACT_SIZE_BITS) < EXACT_TINY_BITS;
+}
+
+/* x, with +0 for tiny numbers and for -0: what may be stored or compared with zero. */
+FN float exact_canon(float x)
+{
+    EXACT float y = exact_is_tiny(x) ? 0.0f : x;
+    return y;
+}
+
+FN float exact_abs(float x)
+{
+    EXACT float y = BITS_FLOAT(FLOAT_BITS(x) & EXACT_SIZE_BITS);
+    return y;
+}
+
+FN float exact_min(float a, float b)
+{
+    EXACT float y = a < b ? a : b;
+    return y;
+}
+
+FN float exact_max(float a, float b)
+{
+    EXACT float y = a > b ? a : b;
+    return y;
+}
+
+FN float exact_clamp(float x, float low, float high)
+{
+    EXACT float raised = exact_max(x, low);
+    EXACT float y = exact_min(raised, high);
+    return y;
+}
+
+/* a at t = 0, b at t = 1; within a and b for t from 0 to 1. */
+FN float exact_lerp(float a, float b, float t)
+{
+    EXACT float difference = b - a;
+    EXACT float part = difference * t;
+    EXACT float y = a + part;
+    EXACT float low = exact_min(a, b);
+    EXACT float high = exact_max(a, b);
+    EXACT float inside = exact_clamp(y, low, high);
+    return inside;
+}
+
+/* 1 / x within 1.5 ulp for 2^-100 <= |x| <= 2^100; 0 for anything else, zero included. A first
+ * guess from the exponent (off by at most 5.1 %) and three Newton steps. */
+FN float exact_rcp(float x)
+{
+    uint bits = FLOAT_BITS(x);
+    uint size = bits & EXACT_SIZE_BITS;
+    if (size < EXACT_TINY_BITS || size > EXACT_VAST_BITS)
+        return 0.0f;
+    EXACT float a = BITS_FLOAT(size);
+    EXACT float y = BITS_FLOAT(0x7ef311c7u - size);
+    EXACT float e = 2.0f - a * y;
+    y = y * e;
+    e = 2.0f - a * y;
+    y = y * e;
+    e = 1.0f - a * y;
+    y = y + y * e;
+    EXACT float signed_y = BITS_FLOAT(FLOAT_BITS(y) | (bits & EXACT_SIGN_BIT));
+    return signed_y;
+}
+
+/* a / b within 2 ulp while the result is no denormal; 0 where exact_rcp(b) is. */
+FN float exact_div(float a, float b)
+{
+    EXACT float r = exact_rcp(b);
+    EXACT float y = a * r;
+    return y;
+}
+
+/* 1 / sqrt(x) within 1.5 ulp for 2^-100 <= x <= 2^100; 0 for anything else, zero included. */
+FN float exact_rsqrt(float x)
+{
+    uint bits = FLOAT_BITS(x);
+    if (bits < EXACT_TINY_BITS || bits > EXACT_VAST_BITS) /* a sign makes it vast */
+        return 0.0f;
+    EXACT float y = BITS_FLOAT(0x5f375a86u - (bits >> 1));
+    EXACT float h = 0.5f * x;
+    EXACT float e = 1.5f - (h * y) * y;
+    y = y * e;
+    e = 1.5f - (h * y) * y;
+    y = y * e;
+    e = 0.5f - (h * y) * y;
+    y = y + y * e;
+    return y;
+}
+
+/* sqrt(x) within 2 ulp for 2^-100 <= x <= 2^100; 0 for anything else. */
+FN float exact_sqrt(float x)
+{
+    EXACT float r = exact_rsqrt(x);
+    if (r == 0.0f)
+        return 0.0f;
+    EXACT float y = x * r;
+    return y;
+}
+
+struct exact_angle {
+    float sine, cosine;
+};
+
+/* Sine and cosine of x radians, each within 1e-7 for |x| <= 8192; those of 0 for anything else.
+ * x is brought to [-pi/4, pi/4] by subtracting quarter turns in three parts, so short that the
+ * first two products are exact; there a minimax polynomial serves. */
+FN S(exact_angle) exact_sincos(float x)
+{
+    EXACT S(exact_angle) result;
+    result.sine = 0.0f;
+    result.cosine = 1.0f;
+    if (!(x >= -8192.0f && x <= 8192.0f))
+        return result;
+    EXACT float turns = x * 0.636619772f + 0.5f;
+    EXACT float quarter = FLOOR(turns);
+    EXACT float r = x - quarter * 1.5703125f;
+    r = r - quarter * 0.000483751297f;
+    r = r - quarter * 7.54978995e-8f;
+    EXACT float z = exact_canon(r * r);
+    EXACT float ps = -0.166666646f + z * (0.00833273656f + z * -0.000195853732f);
+    EXACT float s = r + r * (z * ps);
+    EXACT float pc = 0.0416666646f + z * (-0.00138882913f + z * 2.45454191e-5f);
+    EXACT float c = (1.0f - 0.5f * z) + (z * z) * pc;
+    uint q = UINT(INT(quarter)) & 3u;
+    EXACT float sine = (q & 1u) != 0u ? c : s;
+    EXACT float cosine = (q & 1u) != 0u ? s : c;
+    result.sine = (q & 2u) != 0u ? -sine : sine;
+    result.cosine = (q == 1u || q == 2u) ? -cosine : cosine;
+    return result;
+}
+
+/* e^x within 1e-7 of its size for |x| <= 69; 0 below, e^69 above; 1 for NaN. */
+FN float exact_exp(float x)
+{
+    if (x < -69.0f)
+        return 0.0f;
+    EXACT float limited = x > 69.0f ? 69.0f : x;
+    if (!(limited >= -69.0f))
+        return 1.0f;
+    EXACT float halves = limited * 1.44269504f + 0.5f;
+    EXACT float n = FLOOR(halves);
+    EXACT float r = limited - n * 0.693115234375f;
+    r = r - n * 3.19461833e-5f;
+    EXACT float high = 0.0416665501f + r * (0.00836377387f + r * 0.00139269266f);
+    EXACT float p = 0.5f + r * (0.166665734f + r * high);
+    EXACT float y = 1.0f + (r + (r * r) * p);
+    uint exponent = UINT(INT(n) + 127);
+    EXACT float power = BITS_FLOAT(exponent << 23);
+    EXACT float scaled = y * power;
+    return scaled;
+}
+
+/* ---- vectors -------------------------------------------------------------------------------- */
+
+FN float3 float3_add(float3 a, float3 b)
+{
+    EXACT float3 y = FLOAT3(a.x + b.x, a.y + b.y, a.z + b.z);
+    return y;
+}
+
+FN float3 float3_sub(float3 a, float3 b)
+{
+    EXACT float3 y = FLOAT3(a.x - b.x, a.y - b.y, a.z - b.z);
+    return y;
+}
+
+FN float3 float3_scale(float3 a, float factor)
+{
+    EXACT float3 y = FLOAT3(a.x * factor, a.y * factor, a.z * factor);
+    return y;
+}
+
+/* a + b * factor */
+FN float3 float3_add_scaled(float3 a, float3 b, float factor)
+{
+    EXACT float3 part = float3_scale(b, factor);
+    EXACT float3 y = float3_add(a, part);
+    return y;
+}
+
+FN float float3_dot(float3 a, float3 b)
+{
+    EXACT float y = a.x * b.x + a.y * b.y + a.z * b.z;
+    return y;
+}
+
+FN float3 float3_cross(float3 a, float3 b)
+{
+    EXACT float3 y = FLOAT3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+    return y;
+}
+
+FN float3 float3_canon(float3 a)
+{
+    EXACT float3 y = FLOAT3(exact_canon(a.x), exact_canon(a.y), exact_canon(a.z));
+    return y;
+}
+
+FN float float3_length(float3 a)
+{
+    EXACT float square = float3_dot(a, a);
+    EXACT float y = exact_sqrt(square);
+    return y;
+}
+
+/* a with length 1; `otherwise` when a is shorter than 2^-50. */
+FN float3 float3_normalize(float3 a, float3 otherwise)
+{
+    EXACT float square = float3_dot(a, a);
+    EXACT float r = exact_rsqrt(square);
+    if (r == 0.0f)
+        return otherwise;
+    EXACT float3 y = float3_scale(a, r);
+    return y;
+}
+
+#endif

@@ -1,0 +1,127 @@
+/* Random numbers without state (contract of determinism, 2): a hash of (seed, system, serial,
+ * purpose), so that any stage can draw a particle's numbers again.
+ */
+#ifndef KILN_SHARED_RANDOM_H
+#define KILN_SHARED_RANDOM_H
+
+#include "shared/exact.h"
+
+/* What a number is drawn for. A purpose that takes several numbers owns the following ones. */
+#define RANDOM_LIFE      0u
+#define RANDOM_SPEED     1u
+#define RANDOM_DIRECTION 2u /* 2 numbers */
+#define RANDOM_PLACE     4u /* 5 numbers */
+#define RANDOM_SCALE     9u
+#define RANDOM_ROTATION  10u
+#define RANDOM_SPIN      11u /* 2 numbers: rate and sign */
+#define RANDOM_CELL      13u
+#define RANDOM_BOUNCE    0x40000000u /* + step << 4 + bounce << 1: 2 numbers */
+
+/* A hash of 32 bits that changes half of the bits when one changes (the finaliser with the
+ * constants found by C. Wellons' search, bias 0.1). */
+FN uint random_mix(uint x)
+{
+    x ^= x >> 16u;
+    x *= 0x21f0aaadu;
+    x ^= x >> 15u;
+    x *= 0xd35a2d97u;
+    x ^= x >> 15u;
+    return x;
+}
+
+/* Of a system: one a run. */
+FN uint random_key(uint seed, uint system)
+{
+    return random_mix(random_mix(seed) + system * 0x9e3779b9u);
+}
+
+/* Of a particle; no two of one system share it. */
+FN uint random_stream(uint key, uint serial)
+{
+    return random_mix(serial + key);
+}
+
+FN uint random_bits(uint stream, uint purpose)
+{
+    return random_mix(stream ^ random_mix(purpose + 0x9e3779b9u));
+}
+
+/* In [0, 1): a multiple of 2^-24. */
+FN float random_to_unit(uint bits)
+{
+    EXACT float y = FLOAT(bits >> 8u) * 5.9604644775390625e-8f;
+    return y;
+}
+
+FN float random_unit(uint stream, uint purpose)
+{
+    EXACT float y = random_to_unit(random_bits(stream, purpose));
+    return y;
+}
+
+/* In [low, high]. */
+FN float random_between(uint stream, uint purpose, float low, float high)
+{
+    EXACT float u = random_unit(stream, purpose);
+    EXACT float y = exact_lerp(low, high, u);
+    return y;
+}
+
+/* Two unit vectors that make a right-handed frame with the unit vector w. */
+struct random_frame {
+    float3 u, v;
+};
+
+/* The frame of Duff et al., "Building an Orthonormal Basis, Revisited" (2017): no branch but a
+ * sign, no point where it fails. */
+FN S(random_frame) random_frame_about(float3 w)
+{
+    EXACT float side = w.z >= 0.0f ? 1.0f : -1.0f;
+    EXACT float sum = side + w.z;
+    EXACT float a = -exact_rcp(sum);
+    EXACT float b = w.x * w.y * a;
+    EXACT S(random_frame) frame;
+    frame.u = FLOAT3(1.0f + side * (w.x * w.x * a), side * b, -side * w.x);
+    frame.v = FLOAT3(b, side + w.y * w.y * a, -w.y);
+    return frame;
+}
+
+/* A direction uniform on the part of the unit sphere within the angle of `axis` (unit length) whose
+ * cosine is given: -1 is the whole sphere. Takes numbers purpose and purpose + 1; the height over
+ * the axis grows with the first: cosine of the angle = 1 - u (1 - cos_angle). */
+FN float3 random_direction(uint stream, uint purpose, float3 axis, float cos_angle)
+{
+    EXACT float u = random_unit(stream, purpose);
+    EXACT float turn = random_unit(stream, purpose + 1u);
+    EXACT float depth = u * (1.0f - cos_angle); /* 1 - cosine */
+    EXACT float square = depth * (2.0f - depth);
+    EXACT float radius = exact_sqrt(square);
+    EXACT float angle = turn * EXACT_TWO_PI;
+    EXACT S(exact_angle) around = exact_sincos(angle);
+    EXACT S(random_frame) frame = random_frame_about(axis);
+    EXACT float along = 1.0f - depth;
+    EXACT float sideways = radius * around.cosine;
+    EXACT float upwards = radius * around.sine;
+    EXACT float3 y = float3_scale(axis, along);
+    y = float3_add_scaled(y, frame.u, sideways);
+    y = float3_add_scaled(y, frame.v, upwards);
+    return y;
+}
+
+/* A point uniform in the unit ball, or on its surface. Takes 5 numbers: the largest of three is
+ * distributed as the radius, which saves a cube root. */
+FN float3 random_in_ball(uint stream, uint purpose, bool surface)
+{
+    EXACT float a = random_unit(stream, purpose + 2u);
+    EXACT float b = random_unit(stream, purpose + 3u);
+    EXACT float c = random_unit(stream, purpose + 4u);
+    EXACT float larger = exact_max(b, c);
+    EXACT float largest = exact_max(a, larger);
+    EXACT float radius = surface ? 1.0f : largest;
+    EXACT float3 up = FLOAT3(0.0f, 1.0f, 0.0f);
+    EXACT float3 direction = random_direction(stream, purpose, up, -1.0f);
+    EXACT float3 y = float3_scale(direction, radius);
+    return y;
+}
+
+#endif
