@@ -1,4 +1,13 @@
 # cmake --install: the program, the library, its header, a pkg-config file and the scenes.
+
+# The pkg-config file finds its prefix from where it lies, whatever --prefix it was installed to.
+# A static library does not carry its dependencies: whoever links it needs them, too.
+file(RELATIVE_PATH kiln_pc_to_prefix /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
+string(JOIN " " kiln_pc_requires ${kiln_linked_packages})
+set(kiln_pc_private "")
+if(BUILD_SHARED_LIBS)
+    set(kiln_pc_private ".private")
+endif()
 configure_file(cmake/kiln.pc.in ${CMAKE_CURRENT_BINARY_DIR}/kiln.pc @ONLY)
 install(TARGETS kiln_program kiln)
 install(FILES lib/kiln.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
