@@ -1,7 +1,6 @@
 /* What a machine lacks to render: judged from the devices found and the nodes under /dev. */
 #include "gpu/advice.h"
 
-#include <glob.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -33,22 +32,19 @@ static void add(char advice[256], const char *sentence)
     snprintf(advice + used, 256 - used, "%s%s", used ? "; " : "", sentence);
 }
 
-/* A GPU that this user may not open looks like no GPU. */
+/* A GPU that this user may not open looks like no GPU. The kernel numbers render nodes from 128. */
 static void advise_permission(char advice[256])
 {
-    glob_t nodes;
-    if (glob("/dev/dri/renderD*", 0, NULL, &nodes) != 0)
-        return;
-    for (size_t i = 0; i < nodes.gl_pathc; i++) {
-        if (access(nodes.gl_pathv[i], R_OK | W_OK) == 0)
+    for (unsigned number = 128; number < 192; number++) {
+        char node[64], sentence[160];
+        snprintf(node, sizeof node, "/dev/dri/renderD%u", number);
+        if (access(node, F_OK) != 0 || access(node, R_OK | W_OK) == 0)
             continue;
-        char sentence[160];
         snprintf(sentence, sizeof sentence, "no access to %s; add the user to the group render",
-                 nodes.gl_pathv[i]);
+                 node);
         add(advice, sentence);
-        break;
+        return;
     }
-    globfree(&nodes);
 }
 
 void kiln_device_advise(const struct kiln_device_info *infos, size_t count, const char *problem,

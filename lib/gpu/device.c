@@ -20,7 +20,7 @@ static void GLAPIENTRY on_debug_message(GLenum source, GLenum type, GLuint id, G
                                         GLsizei length, const GLchar *message, const void *user)
 {
     (void)id;
-    struct kiln_device *device = (struct kiln_device *)(uintptr_t)user;
+    struct kiln_device *device = (struct kiln_device *)user;
     const bool failure = type == GL_DEBUG_TYPE_ERROR || severity == GL_DEBUG_SEVERITY_HIGH;
     if (source == GL_DEBUG_SOURCE_APPLICATION)
         return;

@@ -82,7 +82,7 @@ static const char *find_text(const struct part *part, char **owned, struct kiln_
 {
     *owned = NULL;
     if (is_safe_path(part->path)) {
-        const char *dir = getenv("KILN_SHADER_DIR");
+        const char *dir = getenv("KILN_SHADER_DIR"); /* NOLINT(concurrency-mt-unsafe): only read */
         if (dir && dir[0] != '\0' && !read_override(dir, part->path, owned, error))
             return NULL;
         const char *text = *owned ? *owned : find_embedded(part->path);

@@ -1,0 +1,18 @@
+#!/usr/bin/env bash
+# What a newcomer meets: the two commands are in README.md, and every script can be run.
+set -euo pipefail
+cd "$1"
+failed=0
+for command in tools/demo tools/test; do
+    if ! grep -qF "$command" README.md; then
+        echo "README.md does not name $command"
+        failed=1
+    fi
+done
+while IFS= read -r -d '' file; do
+    if [[ ! -x $file ]] && head -c 2 "$file" | grep -q '^#!'; then
+        echo "$file: a script without its executable bit"
+        failed=1
+    fi
+done < <(find tools tests .ci -type f -not -path '*/node_modules/*' -print0)
+exit $failed

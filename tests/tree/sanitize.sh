@@ -1,0 +1,7 @@
+#!/usr/bin/env bash
+# The tests that need no GL, under the address and undefined-behaviour sanitizers:
+# sanitize.sh SOURCE BUILD.
+set -euo pipefail
+cmake -S "$1" -B "$2" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DKILN_SANITIZE=ON >/dev/null
+cmake --build "$2" -j 2
+exec ctest --test-dir "$2" -j 2 --output-on-failure -L '^(unit|fuzz)$'

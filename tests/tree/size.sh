@@ -1,0 +1,15 @@
+#!/usr/bin/env bash
+# Files stay short enough to read: 600 lines. (clang-tidy limits functions.)
+set -euo pipefail
+cd "$1"
+failed=0
+while read -r lines file; do
+    if ((lines > 600)); then
+        echo "$file: $lines lines; 600 are allowed"
+        failed=1
+    fi
+done < <(find lib cmd shaders tests tools cmake CMakeLists.txt -type f -not -path '*/node_modules/*' \
+    \( -name '*.[ch]' -o -name '*.sh' -o -name '*.mjs' -o -name '*.cmake' -o -name '*.txt' \
+    -o -name '*.glsl' -o -name '*.comp' -o -name '*.vert' -o -name '*.geom' -o -name '*.frag' \
+    -o -path 'tools/*' \) -exec wc -l {} \;)
+exit $failed

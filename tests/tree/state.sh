@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# No file-scope mutable state in the library: state.sh SOURCE LIBRARY. Two renderers live in one
+# process, and a run is saved by saving its structs.
+set -euo pipefail
+library=$2
+
+# The exceptions, "object symbol":
+allowed=(
+)
+
+# D, B and C are writable data. libepoxy's dispatch pointers are data of libepoxy, not of kiln.
+# .data.rel.ro (tables of pointers, constant once relocated) is also shown as d.
+failed=0
+while read -r object symbol; do
+    for entry in "${allowed[@]}"; do
+        [[ $entry == "$object $symbol" ]] && continue 2
+    done
+    echo "$object: '$symbol' is mutable state at file scope"
+    failed=1
+done < <(objdump -t "$library" | awk '
+    /^[^ ]+\.o:/ { object = $1; sub(/:.*/, "", object); next }
+    / O / || / \*COM\*/ {
+        section = ""
+        for (i = 1; i <= NF; i++) if ($i ~ /^\.(t?data|t?bss)|^\*COM\*$/) section = $i
+        if (section != "" && section !~ /^\.data\.rel\.ro/) print object, $NF
+    }')
+exit $failed
