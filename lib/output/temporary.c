@@ -115,21 +115,15 @@ bool kiln_temporary_open(struct kiln_temporary *temporary, const char *target,
     if (slot < 0)
         return kiln_error_set(error, KILN_IO, "%s: more than %d files are being written at once",
                               target, SLOT_COUNT);
-    *temporary = (struct kiln_temporary){.slot = slot, .target = strdup(target)};
-    int file = temporary->target ? create_file(slot, target) : -1;
-    if (file >= 0)
-        temporary->file = fdopen(file, "wb");
-    if (temporary->file)
-        return true;
-
-    kiln_error_set_errno(error, KILN_IO, errno, "%s: the file cannot be created", target);
+    char *copy = strdup(target);
+    int file = copy ? create_file(slot, target) : -1;
     if (file >= 0) {
-        unlink(slots[slot].path);
-        close(file);
+        *temporary = (struct kiln_temporary){.target = copy, .file = file, .slot = slot};
+        return true;
     }
+    kiln_error_set_errno(error, KILN_IO, errno, "%s: the file cannot be created", target);
     release_slot(slot);
-    free(temporary->target);
-    *temporary = (struct kiln_temporary){0};
+    free(copy);
     return false;
 }
 
@@ -140,16 +134,23 @@ const char *kiln_temporary_path(const struct kiln_temporary *temporary)
 
 bool kiln_temporary_write(struct kiln_temporary *temporary, const void *bytes, size_t size)
 {
-    if (temporary->failure == 0 && fwrite(bytes, 1, size, temporary->file) != size)
-        temporary->failure = errno ? errno : EIO;
+    const char *rest = bytes;
+    while (size > 0 && temporary->failure == 0) {
+        ssize_t written = write(temporary->file, rest, size);
+        if (written > 0) {
+            rest += written;
+            size -= (size_t)written;
+        } else if (written == 0 || errno != EINTR) {
+            temporary->failure = written == 0 ? EIO : errno;
+        }
+    }
     return temporary->failure == 0;
 }
 
 bool kiln_temporary_seek(struct kiln_temporary *temporary, int64_t offset)
 {
-    if (temporary->failure == 0 && ftello(temporary->file) != offset &&
-        fseeko(temporary->file, offset, SEEK_SET) != 0)
-        temporary->failure = errno ? errno : EIO;
+    if (temporary->failure == 0 && lseek(temporary->file, offset, SEEK_SET) != offset)
+        temporary->failure = errno;
     return temporary->failure == 0;
 }
 
@@ -178,8 +179,8 @@ bool kiln_temporary_commit(struct kiln_temporary *temporary, bool overwrite,
 {
     const char *path = slots[temporary->slot].path;
     int failure = temporary->failure;
-    if (fclose(temporary->file) != 0 && failure == 0)
-        failure = errno ? errno : EIO;
+    if (close(temporary->file) != 0 && failure == 0)
+        failure = errno;
     if (failure == 0 && !move_into_place(path, temporary->target, overwrite))
         failure = errno;
     if (failure != 0) {
@@ -193,9 +194,9 @@ bool kiln_temporary_commit(struct kiln_temporary *temporary, bool overwrite,
 
 void kiln_temporary_discard(struct kiln_temporary *temporary)
 {
-    if (!temporary->file)
+    if (!temporary->target)
         return;
-    fclose(temporary->file);
+    close(temporary->file);
     unlink(slots[temporary->slot].path);
     end(temporary);
 }

@@ -9,8 +9,8 @@ enum { KILN_PATH_SIZE = 4096 };
 
 /* Zero-initialised is closed; open fills it. */
 struct kiln_temporary {
-    FILE *file;   /* NULL when closed */
-    char *target; /* the name it will get */
+    char *target; /* the name it will get; NULL when closed */
+    int file;     /* descriptor */
     int slot;     /* in the registry of temporary names */
     int failure;  /* errno of the first write that failed, else 0; sticky */
 };
@@ -25,7 +25,7 @@ bool kiln_temporary_open(struct kiln_temporary *temporary, const char *target,
 /* The name it has now; valid until commit or discard. */
 const char *kiln_temporary_path(const struct kiln_temporary *temporary);
 
-/* Appends at the current place. False after any failure; commit tells which. */
+/* Writes at the current place, without a buffer. False after any failure; commit tells which. */
 bool kiln_temporary_write(struct kiln_temporary *temporary, const void *bytes, size_t size);
 
 /* Moves the place where the next write goes, from the start of the file. */

@@ -19,13 +19,20 @@ static const uint32_t test_layer_channels[] = {4, 1, 4};
 static const char test_scene_hash[] =
     "0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef";
 
-/* Smooth in x and y, another in each channel and frame: 0..255. Only alpha is ever translucent. */
+/* Up and down again between 0 and 200. */
+static inline uint32_t test_wave(uint32_t phase)
+{
+    return phase % 400 < 200 ? phase % 400 : 400 - phase % 400;
+}
+
+/* Smooth in x, y and time, another in each channel: 0..255. */
 static inline uint32_t test_level(uint32_t frame, uint32_t width, uint32_t x, uint32_t y,
                                   int channel)
 {
     uint32_t ramp = x * 200 / width;
-    uint32_t level[4] = {20 + ramp, 220 - ramp, 30 + (ramp + y + frame * 4) % 400 / 2, 255 - y};
-    return level[channel] & 255;
+    uint32_t level[4] = {20 + ramp, 220 - ramp, 30 + test_wave(ramp + y + frame * 4),
+                         255 - test_wave(y)};
+    return level[channel];
 }
 
 static inline float test_layer_value(uint32_t frame, uint32_t x, uint32_t y, uint32_t layer,
