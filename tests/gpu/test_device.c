@@ -201,32 +201,54 @@ static void out_of_memory_is_named(void **state)
     device->log = log;
 }
 
-/* In a child process, since a driver reads its environment once. */
-static void missing_drivers_are_explained(void **state)
+/* Lists in a child process with one more environment variable, since drivers and libraries are
+ * looked for once a process. */
+static void assert_explained(const char *variable, const char *value, const char *package)
 {
-    (void)state;
     int ends[2];
     assert_int_equal(pipe(ends), 0);
     pid_t child = fork();
     assert_true(child >= 0);
     if (child == 0) {
-        setenv("__EGL_VENDOR_LIBRARY_DIRS", "/nonexistent", 1);
+        setenv(variable, value, 1);
         dup2(ends[1], STDOUT_FILENO);
         execl("/proc/self/exe", "test_device", "--list", (char *)NULL);
         _exit(127);
     }
     close(ends[1]);
-    char text[512] = "";
+    char text[1024] = "";
     ssize_t length = read(ends[0], text, sizeof text - 1);
     close(ends[0]);
     int status = 0;
     assert_true(waitpid(child, &status, 0) == child);
     assert_true(WIFEXITED(status) && WEXITSTATUS(status) == KILN_NO_DEVICE);
     assert_true(length > 0);
-    assert_non_null(strstr(text, "libegl-mesa0"));
+    if (!strstr(text, package))
+        fail_msg("'%s' is not in '%s'", package, text);
 }
 
-/* What missing_drivers_are_explained runs. */
+static void missing_drivers_are_explained(void **state)
+{
+    (void)state;
+    assert_explained("__EGL_VENDOR_LIBRARY_DIRS", "/nonexistent", "libegl-mesa0");
+}
+
+/* A file that is no library hides the one behind it. */
+static void missing_libraries_are_explained(void **state)
+{
+    (void)state;
+    char dir[] = "/tmp/kiln-libraries-XXXXXX", path[64];
+    assert_non_null(mkdtemp(dir));
+    snprintf(path, sizeof path, "%s/libEGL.so.1", dir);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fclose(file);
+    assert_explained("LD_LIBRARY_PATH", dir, "install the package libegl1");
+    unlink(path);
+    rmdir(dir);
+}
+
+/* What assert_explained runs. */
 static int list_and_open(void)
 {
     char advice[256];
@@ -253,6 +275,7 @@ int main(int argc, char **argv)
         test_on_device(gl_errors_are_found_once),
         test_on_device(out_of_memory_is_named),
         test_on_device(missing_drivers_are_explained),
+        test_on_device(missing_libraries_are_explained),
     };
     return cmocka_run_group_tests_name("device", tests, test_device_open, test_device_close);
 }
