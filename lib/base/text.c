@@ -150,9 +150,9 @@ void kiln_text_free(struct kiln_text *text)
     *text = (struct kiln_text){0};
 }
 
-/* The length of the valid UTF-8 sequence at s, or 0. */
-static size_t utf8_length(const unsigned char *s)
+size_t kiln_text_utf8_length(const char *text)
 {
+    const unsigned char *s = (const unsigned char *)text;
     if (s[0] < 0x80)
         return 1;
     size_t length = s[0] >= 0xf0 ? 4 : s[0] >= 0xe0 ? 3 : 2;
@@ -172,7 +172,7 @@ void kiln_text_add_json(struct kiln_text *text, const char *string)
 {
     kiln_text_add(text, "\"");
     for (const unsigned char *s = (const unsigned char *)string; *s;) {
-        size_t length = utf8_length(s);
+        size_t length = kiln_text_utf8_length((const char *)s);
         if (length == 0)
             kiln_text_add(text, "\\ufffd");
         else if (*s == '"' || *s == '\\')

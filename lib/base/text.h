@@ -19,6 +19,9 @@ void kiln_text_add(struct kiln_text *text, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 void kiln_text_free(struct kiln_text *text);
 
+/* The length of the valid UTF-8 sequence that starts a zero-terminated text, or 0. */
+size_t kiln_text_utf8_length(const char *text);
+
 /* Adds a JSON string literal, quotes included. Invalid UTF-8 becomes U+FFFD. */
 void kiln_text_add_json(struct kiln_text *text, const char *string);
 
