@@ -2,7 +2,7 @@
  *
  * SI units, radians, metres, y up, right-handed; colours linear Rec. 709. Every number that a scene
  * may animate is a struct kiln_value (shared/value.h) whose keys lie in scene->keys; the option
- * table (options.c) says which clocks each may use, its unit, its range and its default.
+ * tables (options_*.c) say which clocks each may use, its unit, its range and its default.
  */
 #ifndef KILN_SCENE_SCENE_H
 #define KILN_SCENE_SCENE_H
@@ -209,15 +209,19 @@ struct kiln_scene {
     const char *name;       /* the file, as given */
     const char *asset_root; /* absolute folder */
 
+    uint32_t format_version; /* 1 */
     uint32_t seed;
     uint32_t width, height; /* px */
     struct kiln_rational fps;
     uint32_t frames;
 
-    uint32_t steps_per_frame; /* rate / fps, a whole number */
-    uint32_t warmup_steps;    /* before frame 0, clip time negative */
+    struct kiln_rational rate; /* steps a second: fps * steps_per_frame */
+    double warmup_s;           /* as written; warmup_steps is what counts */
+    uint32_t steps_per_frame;  /* rate / fps, a whole number */
+    uint32_t warmup_steps;     /* before frame 0, clip time negative */
     enum kiln_integration integration;
-    float dt_s; /* 1 / rate, rounded once */
+    struct kiln_bounds bounds; /* of systems without their own, which have it copied */
+    float dt_s;                /* 1 / rate, rounded once */
 
     struct kiln_camera camera;
     struct kiln_backdrop backdrop;

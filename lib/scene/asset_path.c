@@ -1,0 +1,129 @@
+/* A scene may come from anyone: its paths are refused by their text when they leave the folder,
+ * before the file system is asked, and by their real path when a link does. */
+#include "scene/asset_path.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/error.h"
+
+static const char builtin_prefix[] = "builtin:";
+
+const char *kiln_asset_root(struct kiln_arena *arena, const char *root, const char *file,
+                            struct kiln_error *error)
+{
+    char *folder = NULL;
+    if (root) {
+        folder = strdup(root);
+    } else {
+        const char *slash = file ? strrchr(file, '/') : NULL;
+        folder = !slash ? strdup(".") : slash == file ? strdup("/") : NULL;
+        if (slash && !folder)
+            folder = strndup(file, (size_t)(slash - file));
+    }
+    char *real = folder ? realpath(folder, NULL) : NULL;
+    struct stat status;
+    const char *result = NULL;
+    if (!folder)
+        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading a scene");
+    else if (!real || stat(real, &status) != 0)
+        kiln_error_set_errno(error, KILN_INVALID_INPUT, errno, "asset root '%s'", folder);
+    else if (!S_ISDIR(status.st_mode))
+        kiln_error_set(error, KILN_INVALID_INPUT, "asset root '%s' is not a folder", folder);
+    else if (!(result = kiln_arena_text(arena, real, strlen(real))))
+        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading a scene");
+    free(real);
+    free(folder);
+    return result;
+}
+
+/* The part of an absolute path below a folder, or NULL when it is not below. */
+static const char *below(const char *path, const char *root)
+{
+    size_t length = strcmp(root, "/") == 0 ? 0 : strlen(root);
+    if (strncmp(path, root, length) != 0 || path[length] != '/')
+        return NULL;
+    return path + length + 1;
+}
+
+/* Does a relative path climb out of its start by "..", whatever exists? */
+static bool climbs_out(const char *path)
+{
+    int depth = 0;
+    while (*path) {
+        size_t length = strcspn(path, "/");
+        if (length == 2 && path[0] == '.' && path[1] == '.')
+            depth--;
+        else if (length > 0 && !(length == 1 && path[0] == '.'))
+            depth++;
+        if (depth < 0)
+            return true;
+        path += length + (path[length] == '/');
+    }
+    return false;
+}
+
+static bool read_file_asset(struct kiln_reader *reader, const struct kiln_node *node,
+                            const char **asset)
+{
+    const char *root = reader->scene->asset_root;
+    char quoted[64];
+    kiln_node_quote(quoted, node->text);
+    if (node->text[0] == '/' || climbs_out(node->text))
+        return kiln_reader_error(reader, node,
+                                 "'%s' is outside the asset root; a path starts at the scene's "
+                                 "folder and stays below it",
+                                 quoted);
+
+    struct kiln_text joined = {0};
+    kiln_text_add(&joined, "%s/%s", root, node->text);
+    char *real = joined.failed ? NULL : realpath(joined.data, NULL);
+    int reason = errno;
+    kiln_text_free(&joined);
+    if (!real) {
+        char text[128];
+        return kiln_reader_error(reader, node, "cannot open '%s': %s", quoted,
+                                 strerror_r(reason, text, sizeof text));
+    }
+    struct stat status;
+    bool ok = false;
+    if (!below(real, root))
+        kiln_reader_error(reader, node, "'%s' leads outside the asset root", quoted);
+    else if (stat(real, &status) != 0 || !S_ISREG(status.st_mode))
+        kiln_reader_error(reader, node, "'%s' is not a file", quoted);
+    else if (!(*asset = kiln_arena_text(reader->arena, real, strlen(real))))
+        kiln_reader_out_of_memory(reader);
+    else
+        ok = true;
+    free(real);
+    return ok;
+}
+
+bool kiln_read_asset(struct kiln_reader *reader, const struct kiln_node *node,
+                     const char *const *builtins, const char **asset)
+{
+    size_t prefix = sizeof builtin_prefix - 1;
+    if (strncmp(node->text, builtin_prefix, prefix) != 0)
+        return read_file_asset(reader, node, asset);
+    size_t count = 0;
+    for (; builtins[count]; count++) {
+        if (strcmp(builtins[count], node->text + prefix) == 0) {
+            *asset = kiln_arena_text(reader->arena, node->text, strlen(node->text));
+            return *asset || kiln_reader_out_of_memory(reader);
+        }
+    }
+    char quoted[64], suggestion[512];
+    kiln_node_quote(quoted, node->text);
+    kiln_option_suggest(suggestion, sizeof suggestion, node->text + prefix, builtins, count);
+    return kiln_reader_error(reader, node, "unknown built-in asset '%s'%s", quoted, suggestion);
+}
+
+const char *kiln_asset_name(const struct kiln_scene *scene, const char *asset)
+{
+    if (strncmp(asset, builtin_prefix, sizeof builtin_prefix - 1) == 0)
+        return asset;
+    const char *relative = below(asset, scene->asset_root);
+    return relative ? relative : asset;
+}

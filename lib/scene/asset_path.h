@@ -1,0 +1,19 @@
+/* Names of textures in a scene: built-in ones, and files that stay below the asset root. */
+#ifndef KILN_SCENE_ASSET_PATH_H
+#define KILN_SCENE_ASSET_PATH_H
+
+#include "scene/reader.h"
+
+/* The absolute folder that a scene's paths start from: root, or without one the folder of the
+ * file, or without that the working directory. NULL with an error when there is no such folder. */
+const char *kiln_asset_root(struct kiln_arena *arena, const char *root, const char *file,
+                            struct kiln_error *error);
+
+/* Reads "builtin:name", with name one of builtins, or a file, which becomes its absolute path. */
+bool kiln_read_asset(struct kiln_reader *reader, const struct kiln_node *node,
+                     const char *const *builtins, const char **asset);
+
+/* The asset as a scene names it: relative to the asset root. */
+const char *kiln_asset_name(const struct kiln_scene *scene, const char *asset);
+
+#endif

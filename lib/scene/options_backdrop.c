@@ -1,0 +1,86 @@
+/* Sky, floor, sun, objects and lights. */
+#include "scene/option_rows.h"
+
+#define AT(field) offsetof(struct kiln_box, field)
+
+static const struct kiln_option box[] = {
+    VECTOR("center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]", "Centre."),
+    VECTOR("size", size, KILN_METRES, 0.001, FAR, TIME, "[1, 1, 1]", "Full edges."),
+    COLOR("color", color, 1, TIME, "[0.35, 0.34, 0.33]", "Part of the light that it reflects."),
+    BOOLEAN("collide", collide, "true", "Particles of systems that collide bounce off it."),
+    END,
+};
+
+static const struct kiln_option_kind object_kinds[] = {
+    {.name = "box", .members = box, .help = "A box along the axes."},
+    {.name = NULL},
+};
+
+static const struct kiln_option object = {.name = "object",
+                                          .type = &kiln_type_kind,
+                                          .kinds = object_kinds,
+                                          .kind_offset = KILN_KIND_NONE};
+
+#undef AT
+#define AT(field) offsetof(struct kiln_light, field)
+
+static const struct kiln_option point[] = {
+    VECTOR("position", position, KILN_METRES, -FAR, FAR, TIME, "[0, 2, 0]", "Where it is."),
+    COLOR("color", color, 1000000, TIME, "1", "Light that arrives 1 m away."),
+    VALUE("radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.2 m",
+          "Size, which bounds the light nearby."),
+    END,
+};
+
+static const struct kiln_option_kind light_kinds[] = {
+    {.name = "point", .members = point, .help = "Shines to all sides, without a shadow."},
+    {.name = NULL},
+};
+
+static const struct kiln_option light = {
+    .name = "light", .type = &kiln_type_kind, .kinds = light_kinds, .kind_offset = KILN_KIND_NONE};
+
+#undef AT
+#define AT(field) offsetof(struct kiln_backdrop, field)
+
+static const struct kiln_option sky[] = {
+    COLOR("top", sky_top, 1000, TIME, "[0.02, 0.03, 0.05]", "Overhead."),
+    COLOR("horizon", sky_horizon, 1000, TIME, "[0.12, 0.13, 0.16]", "At eye level."),
+    END,
+};
+
+static const struct kiln_option floor_rows[] = {
+    COLOR("color", floor_color, 1, TIME, "[0.35, 0.34, 0.33]",
+          "Part of the light that it reflects."),
+    VALUE("height", floor_height, KILN_METRES, -FAR, FAR, TIME, "0 m",
+          "May vary only while it does not collide."),
+    VALUE("checker", floor_checker, KILN_METRES, 0, FAR, TIME, "0 m",
+          "Edge of lighter and darker squares; 0 is plain."),
+    BOOLEAN("collide", floor_collide, "true", "Particles of systems that collide bounce off it."),
+    END,
+};
+
+static const struct kiln_option sun[] = {
+    VECTOR("direction", sun_direction, KILN_PLAIN, -FAR, FAR, TIME, "[0.5, 1, 0.3]",
+           "Towards the sun; of any length but 0."),
+    COLOR("color", sun_color, 1000000, TIME, "[0.8, 0.75, 0.65]", "Its light; 0 for none."),
+    END,
+};
+
+const struct kiln_option kiln_options_backdrop[] = {
+    BOOLEAN("transparent", transparent, "false",
+            "Pictures with alpha instead of a sky and a floor."),
+    GROUP("sky", 0, sky, "A gradient."),
+    {ROW("floor", switch, 0, "{}", "An endless plane."), .members = floor_rows,
+     .count_offset = AT(floor_enabled)},
+    GROUP("sun", 0, sun, "The one light with a shadow."),
+    VALUE("haze", haze, KILN_PER_METRE, 0, 100, TIME, "0.02",
+          "How fast the floor fades into the horizon."),
+    {ROW("objects", list, AT(boxes), "[]", "What stands on the floor."), .item = &object,
+     .item_size = sizeof(struct kiln_box), .count_offset = AT(box_count),
+     .max_count = KILN_MAX_BOXES},
+    {ROW("lights", list, AT(lights), "[]", "Lights besides the sun."), .item = &light,
+     .item_size = sizeof(struct kiln_light), .count_offset = AT(light_count),
+     .max_count = KILN_MAX_LIGHTS},
+    END,
+};

@@ -1,0 +1,118 @@
+/* A system, and how its particles are born (Heinz 2019, 2.1.2). */
+#include "scene/option_rows.h"
+
+#define AT(field) offsetof(struct kiln_emitter, field)
+
+/* What every shape has; the default spread of the directions differs. */
+#define PLACE(spread)                                                                              \
+    VECTOR("origin", origin, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",                            \
+           "Centre of the shape; when it moves, births are spread along the way."),                \
+        VECTOR("direction", direction, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",                   \
+               "Middle of the directions; of any length but 0."),                                  \
+        VALUE("angle", angle, KILN_ANGLE, 0, KILN_DEG(180), TIME, spread,                          \
+              "Largest angle between a particle's direction and the middle one.")
+
+static const struct kiln_option point[] = {
+    PLACE("0 deg"),
+    END,
+};
+
+static const struct kiln_option sphere[] = {
+    PLACE("0 deg"),
+    VALUE("radius", radius, KILN_METRES, 0, FAR, TIME, "0.1 m", "Radius."),
+    BOOLEAN("outward", outward, "true", "Directions point away from the origin instead."),
+    BOOLEAN("surface", surface, "false", "Births on the surface alone."),
+    END,
+};
+
+static const struct kiln_option box[] = {
+    PLACE("0 deg"),
+    VECTOR("size", size, KILN_METRES, 0, FAR, TIME, "[1, 1, 1]", "Full edges."),
+    BOOLEAN("surface", surface, "false", "Births on the six faces alone."),
+    END,
+};
+
+static const struct kiln_option disc[] = {
+    PLACE("0 deg"),
+    VALUE("radius", radius, KILN_METRES, 0, FAR, TIME, "0.5 m", "Radius; faces the direction."),
+    BOOLEAN("surface", surface, "false", "Births on the rim alone."),
+    END,
+};
+
+static const struct kiln_option cone[] = {
+    PLACE("15 deg"),
+    VALUE("radius", radius, KILN_METRES, 0, FAR, TIME, "0 m",
+          "Radius of the disc at the apex; particles leave along the cone's own lines."),
+    END,
+};
+
+static const struct kiln_option_kind shapes[] = {
+    {.name = "point", .value = KILN_EMITTER_POINT, .members = point, .help = "One place."},
+    {.name = "sphere", .value = KILN_EMITTER_SPHERE, .members = sphere, .help = "A ball."},
+    {.name = "box", .value = KILN_EMITTER_BOX, .members = box, .help = "A box along the axes."},
+    {.name = "disc", .value = KILN_EMITTER_DISC, .members = disc, .help = "A flat disc."},
+    {.name = "cone", .value = KILN_EMITTER_CONE, .members = cone, .help = "A nozzle."},
+    {.name = NULL},
+};
+
+const struct kiln_option kiln_options_emit[] = {
+    VALUE("rate", rate, KILN_PER_SECOND, 0, 1e7, TIME, "0", "Particles born a second."),
+    {ROW("bursts", bursts, AT(bursts), "{}", "Particles born at once, by clip time."),
+     LIMITS(KILN_PLAIN, 0, KILN_MAX_PARTICLES), .count_offset = AT(burst_count),
+     .max_count = KILN_MAX_BURSTS},
+    RANGE("life", life, KILN_SECONDS, 0.001, 10000, TIME, "1 s",
+          "How long a particle lives, drawn at its birth."),
+    RANGE("speed", speed, KILN_SPEED, 0, 10000, TIME, "1 m/s",
+          "Along its direction, drawn at its birth."),
+    {ROW("from", kind, 0, "{point: {}}", "Where particles are born, and which way they go."),
+     .kinds = shapes, .kind_offset = AT(shape)},
+    VALUE("inherit", inherit, KILN_FRACTION, 0, 1, TIME, "0",
+          "Part of the emitter's own velocity that its particles get."),
+    END,
+};
+
+#undef AT
+#define AT(field) offsetof(struct kiln_collide, field)
+
+static const char *const collide_modes[] = {
+    [KILN_COLLIDE_SWEPT] = "swept",
+    [KILN_COLLIDE_CLAMP] = "clamp",
+    NULL,
+};
+
+const struct kiln_option kiln_options_collide[] = {
+    CHOICE("mode", mode, collide_modes, "swept",
+           "swept finds the point of impact; clamp moves a particle inside to the nearest face."),
+    VALUE("randomness", randomness, KILN_FRACTION, 0, 1, BOTH, "0",
+          "0 reflects like a mirror, 1 into any direction away from the surface."),
+    VALUE("slowdown", slowdown, KILN_FRACTION, 0, 1, BOTH, "0.5",
+          "Factor on the speed at each impact."),
+    END,
+};
+
+#undef AT
+#define AT(field) offsetof(struct kiln_system, field)
+
+static const struct kiln_option demitter = {
+    .name = "demitter", .type = &kiln_type_bounds, LIMITS(KILN_METRES, -FAR, FAR)};
+
+static const struct kiln_option force = {.name = "force",
+                                         .type = &kiln_type_kind,
+                                         .kinds = kiln_force_kinds,
+                                         .kind_offset = offsetof(struct kiln_force, kind)};
+
+const struct kiln_option kiln_options_system[] = {
+    BOOLEAN("enabled", enabled, "true", "A system that is not has no particles."),
+    GROUP("emit", AT(emit), kiln_options_emit, "How particles are born."),
+    {ROW("forces", list, AT(forces), "[]", "What accelerates them, added up."), .item = &force,
+     .item_size = sizeof(struct kiln_force), .count_offset = AT(force_count),
+     .max_count = KILN_MAX_FORCES},
+    {ROW("collide", switch, AT(collide), "none", "How they bounce off the boxes and the floor."),
+     .members = kiln_options_collide, .count_offset = AT(collide.enabled)},
+    {ROW("demitters", list, AT(demitters), "[]", "Boxes in which particles die."),
+     .item = &demitter, .item_size = sizeof(struct kiln_bounds), .count_offset = AT(demitter_count),
+     .max_count = KILN_MAX_DEMITTERS},
+    BOUNDS("bounds", bounds, "none", "A box outside of which particles die."),
+    GROUP("look", AT(look), kiln_options_look, "What they look like."),
+    END,
+};

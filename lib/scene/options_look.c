@@ -1,0 +1,61 @@
+/* What the particles of a system look like. */
+#include "scene/option_rows.h"
+
+#define AT(field) offsetof(struct kiln_look, field)
+
+_Static_assert(AT(rows) == AT(columns) + sizeof(uint32_t), "cells are read as a pair");
+
+const char *const kiln_builtin_atlases[] = {"fire", "smoke", NULL};
+
+static const char *const blends[] = {
+    [KILN_BLEND_ALPHA] = "alpha",
+    [KILN_BLEND_ADD] = "add",
+    NULL,
+};
+
+static const char *const soft_formulas[] = {
+    [KILN_SOFT_CLAMPED] = "clamped",
+    [KILN_SOFT_LITERAL] = "literal",
+    NULL,
+};
+
+static const struct kiln_option fade[] = {
+    VALUE("in", fade_in, KILN_FRACTION, 0, 1, TIME, "0.1", "Part of the life to full opacity."),
+    VALUE("out", fade_out, KILN_FRACTION, 0, 1, TIME, "0.3", "Part of the life to vanish in."),
+    END,
+};
+
+const struct kiln_option kiln_options_look[] = {
+    {ROW("atlas", asset, AT(atlas), "\"builtin:smoke\"", "The texture: cells that play in order."),
+     .choices = kiln_builtin_atlases},
+    {ROW("cells", pair, AT(columns), "[8, 8]", "Columns and rows of an atlas file."),
+     LIMITS(KILN_PLAIN, 1, 64)},
+    CHOICE("blend", blend, blends, "alpha",
+           "alpha covers what is behind, like smoke; add shines through, like fire."),
+    VALUE("size", size, KILN_METRES, 0, 1000, BOTH, "0.5 m", "Edge of the billboard."),
+    RANGE("scale", scale, KILN_PLAIN, 0, 1000, TIME, "1", "Factor on size, drawn at birth."),
+    VALUE("stretch", stretch, KILN_SECONDS, 0, 10, BOTH, "0 s",
+          "Longer along the velocity by the speed times this; 0 keeps it square."),
+    RANGE("rotation", rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME,
+          "[0 deg, 360 deg]", "Turn at birth."),
+    RANGE("spin", spin, KILN_ANGULAR_SPEED, 0, KILN_DEG(36000), TIME, "0 deg/s",
+          "Speed of turning, drawn at birth, to either side."),
+    VALUE("cycles", cycles, KILN_PLAIN, 0, 1000, TIME, "1", "Passes through the atlas in a life."),
+    BOOLEAN("random_start", random_start, "false", "Each particle starts at a cell of its own."),
+    COLOR("color", color, 1000, BOTH, "1", "Multiplies the atlas or the glow."),
+    VALUE("opacity", opacity, KILN_FRACTION, 0, 1, BOTH, "1", "Multiplies the atlas's alpha."),
+    VALUE("temperature", temperature, KILN_KELVIN, 0, 20000, BOTH, "0 K",
+          "Glows with the colour of a black body; 0 does not."),
+    VALUE("intensity", intensity, KILN_PLAIN, 0, 1000000, BOTH, "1", "Factor on emitted light."),
+    GROUP("fade", 0, fade, "Opacity at birth and death."),
+    VALUE("soft", soft, KILN_PER_METRE, 0, 1000, BOTH, "2",
+          "Fades where it nears a surface, the faster the larger; 0 is hard."),
+    CHOICE("soft_formula", soft_formula, soft_formulas, "clamped",
+           "clamped, or literal as the thesis prints its equation 3.3."),
+    VALUE("near_fade", near_fade, KILN_METRES, 0, 1000, BOTH, "0.2 m",
+          "Transparent when this near to the camera's near plane."),
+    COLOR("bloom", bloom, 100, BOTH, "0", "Part of the colour that goes to the bloom."),
+    VALUE("lit", lit, KILN_FRACTION, 0, 1, BOTH, "0",
+          "0 shows its own colour, 1 is lit by sun, sky and lights."),
+    END,
+};

@@ -1,0 +1,39 @@
+/* From light to picture. */
+#include "scene/option_rows.h"
+
+#define AT(field) offsetof(struct kiln_post, field)
+
+static const char *const composes[] = {
+    [KILN_COMPOSE_MERGED] = "merged",
+    [KILN_COMPOSE_SEPARATE] = "separate",
+    NULL,
+};
+
+static const char *const bloom_kinds[] = {
+    [KILN_BLOOM_NONE] = "none",
+    [KILN_BLOOM_GAUSSIAN] = "gaussian",
+    NULL,
+};
+
+static const char *const tonemaps[] = {
+    [KILN_TONEMAP_NONE] = "none",
+    [KILN_TONEMAP_AGX] = "agx",
+    [KILN_TONEMAP_ACES] = "aces",
+    NULL,
+};
+
+static const struct kiln_option bloom[] = {
+    CHOICE("kind", bloom, bloom_kinds, "gaussian", "How the glow is spread."),
+    VALUE("strength", bloom_strength, KILN_PLAIN, 0, 100, TIME, "1", "Factor on the glow."),
+    END,
+};
+
+const struct kiln_option kiln_options_post[] = {
+    CHOICE("compose", compose, composes, "merged",
+           "merged sorts fire and smoke together; separate draws fire over smoke."),
+    GROUP("bloom", 0, bloom, "The glow around bright things."),
+    VALUE("exposure", exposure, KILN_STOPS, -20, 20, TIME, "0", "Doubles the light per stop."),
+    CHOICE("tonemap", tonemap, tonemaps, "agx", "How light becomes a picture."),
+    BOOLEAN("dither", dither, "true", "Hides the steps of 8-bit pictures."),
+    END,
+};

@@ -1,0 +1,60 @@
+/* Dimensions, and the units a scene may write them in. */
+#ifndef KILN_SCENE_UNIT_H
+#define KILN_SCENE_UNIT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* What a number measures; in memory always in the SI unit named here. */
+enum kiln_dimension {
+    KILN_PLAIN,         /* no unit */
+    KILN_FRACTION,      /* a part of a whole; may be written as "50 %" */
+    KILN_SECONDS,       /* s */
+    KILN_ANGLE,         /* rad; a bare number other than 0 is refused */
+    KILN_ANGULAR_SPEED, /* rad/s; the same */
+    KILN_METRES,        /* m */
+    KILN_SPEED,         /* m/s */
+    KILN_ACCELERATION,  /* m/s^2 */
+    KILN_PER_SECOND,    /* 1/s */
+    KILN_PER_METRE,     /* 1/m */
+    KILN_KELVIN,        /* K */
+    KILN_PIXELS,        /* px */
+    KILN_STOPS,         /* powers of two of light */
+    KILN_DIMENSION_COUNT
+};
+
+/* Limits in an option table: degrees as the radians that the loader makes of them. */
+#define KILN_PI     3.14159265358979323846
+#define KILN_DEG(x) ((x) * (KILN_PI / 180))
+
+/* The unit that numbers of a dimension are printed with, "" for none. */
+const char *kiln_unit_name(enum kiln_dimension dimension);
+
+/* All units of a dimension, as "m, cm or mm"; "" for none. */
+const char *kiln_unit_choices(enum kiln_dimension dimension);
+
+/* Does a number other than 0 need its unit written? */
+bool kiln_unit_is_required(enum kiln_dimension dimension);
+
+/* Splits "2.5 cm" into its number and its unit, which points into text. False when it does not
+ * start with a number. Blanks between the two are optional. */
+bool kiln_unit_split(const char *text, double *number, const char **unit);
+
+/* Converts a number in a unit to SI. False when the unit is not of this dimension. */
+bool kiln_unit_to_si(enum kiln_dimension dimension, const char *unit, double *number);
+
+/* Writes a number in SI with its unit, so that reading it gives the same float: angles in degrees
+ * where those are exact. */
+void kiln_unit_print(char out[48], enum kiln_dimension dimension, float value);
+
+/* The same for a limit or a double. */
+void kiln_unit_print_double(char out[48], enum kiln_dimension dimension, double value);
+
+/* A number without a unit; whole ones without an exponent. */
+void kiln_unit_print_number(char out[32], double value);
+
+/* The unit alternatives as a regular expression of JSON schema, optional where a bare number may
+ * stand: "( *(m|cm|mm))". "" for none. */
+void kiln_unit_pattern(char out[64], enum kiln_dimension dimension);
+
+#endif
