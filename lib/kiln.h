@@ -72,8 +72,9 @@ struct kiln_scene_params {
 };
 #define KILN_SCENE_DEFAULTS ((struct kiln_scene_params){.asset_root = NULL})
 
-/* Reads, validates and returns a scene, or NULL with KILN_INVALID_INPUT, or KILN_IO when the file
- * cannot be opened. The caller destroys it. */
+/* Reads, validates and returns a scene, which the caller destroys; or NULL with KILN_INVALID_INPUT,
+ * also when there is no such file, KILN_USAGE for an override that is no "key=value", KILN_IO when
+ * reading fails, or KILN_DEVICE_FAILED when memory is short. */
 struct kiln_scene *kiln_scene_load(const char *path, const struct kiln_scene_params *params,
                                    struct kiln_error *error);
 

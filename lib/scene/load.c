@@ -1,0 +1,167 @@
+/* From a file to a scene: bytes, tree, overrides, options, what follows from them, hash. */
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "base/hash.h"
+#include "scene/asset_path.h"
+#include "scene/override.h"
+#include "scene/printer.h"
+#include "scene/reader.h"
+#include "scene/validate.h"
+
+enum { MAX_FILE_SIZE = 4 << 20 };
+
+/* ---- bytes ---------------------------------------------------------------------------------- */
+
+static bool check_file(int file, const char *path, size_t *size, struct kiln_error *error)
+{
+    struct stat status;
+    if (fstat(file, &status) != 0)
+        return kiln_error_set_errno(error, KILN_IO, errno, "%s", path);
+    if (S_ISDIR(status.st_mode))
+        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: is a folder, not a scene file", path);
+    if (!S_ISREG(status.st_mode))
+        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: is not a regular file", path);
+    if (status.st_size > MAX_FILE_SIZE)
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "%s: %lld bytes; a scene file has at most %d", path,
+                              (long long)status.st_size, MAX_FILE_SIZE);
+    *size = (size_t)status.st_size;
+    return true;
+}
+
+/* The contents with a zero byte after them, to be freed; NULL with an error. */
+static char *read_file(const char *path, size_t *size, struct kiln_error *error)
+{
+    /* Without O_NONBLOCK, opening a pipe would wait for its writer. */
+    int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0) {
+        kiln_error_set_errno(error, KILN_INVALID_INPUT, errno, "%s", path);
+        return NULL;
+    }
+    char *text = NULL;
+    size_t expected = 0, length = 0;
+    bool ok = check_file(file, path, &expected, error);
+    if (ok && !(text = malloc(expected + 1)))
+        ok = kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading a scene");
+    while (ok && length < expected) {
+        ssize_t count = read(file, text + length, expected - length);
+        if (count == 0)
+            break; /* it shrank */
+        if (count < 0 && errno != EINTR)
+            ok = kiln_error_set_errno(error, KILN_IO, errno, "%s", path);
+        length += count > 0 ? (size_t)count : 0;
+    }
+    close(file);
+    if (!ok) {
+        free(text);
+        return NULL;
+    }
+    text[length] = '\0';
+    *size = length;
+    return text;
+}
+
+/* ---- scene ---------------------------------------------------------------------------------- */
+
+static bool keep_keys(struct kiln_reader *reader)
+{
+    /* At least one, so that the table is never an empty buffer. */
+    size_t count = reader->key_count ? reader->key_count : 1;
+    float4 *keys = kiln_arena_alloc(reader->arena, count, sizeof *keys);
+    if (!keys)
+        return kiln_reader_out_of_memory(reader);
+    memcpy(keys, reader->keys, count * sizeof *keys);
+    reader->scene->keys = keys;
+    reader->scene->key_count = reader->key_count;
+    return true;
+}
+
+static bool take_hash(struct kiln_scene *scene, struct kiln_error *error)
+{
+    struct kiln_text text;
+    bool ok =
+        kiln_print_scene(scene, &text) && kiln_hash_sha256(text.data, text.length, scene->hash);
+    kiln_text_free(&text);
+    return ok || kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading a scene");
+}
+
+static bool build(struct kiln_reader *reader, const char *text, size_t size,
+                  const struct kiln_origin *origin, const struct kiln_scene_params *params)
+{
+    struct kiln_node *root = kiln_node_parse(reader->scratch, text, size, origin, reader->error);
+    if (!root)
+        return false;
+    if (root->kind != KILN_NODE_MAP)
+        return kiln_reader_expected(reader, root, "a mapping of keys");
+    for (size_t i = 0; i < params->override_count; i++) {
+        if (!kiln_override(reader->scratch, root, params->overrides[i], reader->error))
+            return false;
+    }
+    return kiln_read_members(reader, kiln_options_root, root, reader->scene) && keep_keys(reader) &&
+           kiln_validate(reader, root) && take_hash(reader->scene, reader->error);
+}
+
+/* file: where relative paths start, or NULL. */
+static struct kiln_scene *create(const char *text, size_t size, const char *name, const char *file,
+                                 const struct kiln_scene_params *params, struct kiln_error *error)
+{
+    struct kiln_arena *arena = kiln_arena_create(), *scratch = kiln_arena_create();
+    struct kiln_reader *reader = scratch ? kiln_arena_alloc(scratch, 1, sizeof *reader) : NULL;
+    struct kiln_scene *scene = arena ? kiln_arena_alloc(arena, 1, sizeof *scene) : NULL;
+    char *kept_name = arena ? kiln_arena_text(arena, name, strlen(name)) : NULL;
+    bool ok = false;
+    if (!reader || !scene || !kept_name) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading a scene");
+    } else {
+        struct kiln_origin origin = {.name = kept_name, .has_lines = true};
+        *reader = (struct kiln_reader){
+            .arena = arena, .scratch = scratch, .error = error, .scene = scene};
+        scene->arena = arena;
+        scene->name = kept_name;
+        scene->asset_root = kiln_asset_root(arena, params->asset_root, file, error);
+        ok = scene->asset_root && build(reader, text, size, &origin, params);
+    }
+    kiln_arena_destroy(&scratch);
+    if (!ok)
+        kiln_arena_destroy(&arena);
+    return ok ? scene : NULL;
+}
+
+struct kiln_scene *kiln_scene_load(const char *path, const struct kiln_scene_params *params,
+                                   struct kiln_error *error)
+{
+    size_t size = 0;
+    char *text = read_file(path, &size, error);
+    if (!text)
+        return NULL;
+    struct kiln_scene *scene = create(text, size, path, path, params, error);
+    free(text);
+    return scene;
+}
+
+struct kiln_scene *kiln_scene_parse(const char *text, size_t size, const char *name,
+                                    const struct kiln_scene_params *params,
+                                    struct kiln_error *error)
+{
+    char *copy = size < SIZE_MAX ? malloc(size + 1) : NULL; /* with a zero byte after it */
+    if (!copy) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading a scene");
+        return NULL;
+    }
+    memcpy(copy, text, size);
+    copy[size] = '\0';
+    struct kiln_scene *scene = NULL;
+    if (size > MAX_FILE_SIZE)
+        kiln_error_set(error, KILN_INVALID_INPUT, "%s: %zu bytes; a scene file has at most %d",
+                       name, size, MAX_FILE_SIZE);
+    else
+        scene = create(copy, size, name, NULL, params, error);
+    free(copy);
+    return scene;
+}

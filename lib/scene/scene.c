@@ -1,0 +1,80 @@
+/* Questions to a scene that is loaded. */
+#include "scene/scene.h"
+
+#include <string.h>
+
+float kiln_scene_time(const struct kiln_scene *scene, uint32_t step)
+{
+    /* Both factors are below 2^32 and 2^21: the product is exact, and the quotient is IEEE's. */
+    double steps = (double)step - (double)scene->warmup_steps;
+    return (float)(steps * (double)scene->rate.den / (double)scene->rate.num);
+}
+
+uint32_t kiln_scene_frame_step(const struct kiln_scene *scene, uint32_t frame)
+{
+    return scene->warmup_steps + frame * scene->steps_per_frame;
+}
+
+float kiln_scene_value(const struct kiln_scene *scene, const struct kiln_value *value, float time_s)
+{
+    return value_at(scene->keys, *value, time_s, 0);
+}
+
+float3 kiln_scene_value3(const struct kiln_scene *scene, const struct kiln_value3 *value,
+                         float time_s)
+{
+    return FLOAT3(kiln_scene_value(scene, &value->x, time_s),
+                  kiln_scene_value(scene, &value->y, time_s),
+                  kiln_scene_value(scene, &value->z, time_s));
+}
+
+float kiln_scene_value_max(const struct kiln_scene *scene, const struct kiln_value *value)
+{
+    if (value->count == 0)
+        return value->constant;
+    float most = scene->keys[value->first].y;
+    for (uint32_t i = 1; i < value->count; i++) {
+        float y = scene->keys[value->first + i].y;
+        most = y > most ? y : most;
+    }
+    return most;
+}
+
+float kiln_scene_value_min(const struct kiln_scene *scene, const struct kiln_value *value)
+{
+    if (value->count == 0)
+        return value->constant;
+    float least = scene->keys[value->first].y;
+    for (uint32_t i = 1; i < value->count; i++) {
+        float y = scene->keys[value->first + i].y;
+        least = y < least ? y : least;
+    }
+    return least;
+}
+
+struct kiln_scene_info kiln_scene_info(const struct kiln_scene *scene)
+{
+    struct kiln_scene_info info = {
+        .width = scene->width,
+        .height = scene->height,
+        .frames = scene->frames,
+        .fps_num = scene->fps.num,
+        .fps_den = scene->fps.den,
+        .steps_per_frame = scene->steps_per_frame,
+        .warmup_steps = scene->warmup_steps,
+        .system_count = scene->system_count,
+    };
+    for (uint32_t i = 0; i < scene->system_count; i++)
+        info.particle_capacity += scene->systems[i].capacity;
+    memcpy(info.hash, scene->hash, sizeof info.hash);
+    return info;
+}
+
+void kiln_scene_destroy(struct kiln_scene **scene)
+{
+    if (!*scene)
+        return;
+    struct kiln_arena *arena = (*scene)->arena; /* the scene lies in it */
+    kiln_arena_destroy(&arena);
+    *scene = NULL;
+}

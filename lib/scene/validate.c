@@ -1,0 +1,196 @@
+#include "scene/validate.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Fails at the place of a dotted path, or at the nearest part of it that was written. */
+static bool fail(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
+                 const char *format, ...) __attribute__((format(printf, 4, 5)));
+
+static bool fail(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
+                 const char *format, ...)
+{
+    char message[KILN_MESSAGE_SIZE], name[64];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(message, sizeof message, format, args);
+    va_end(args);
+    const struct kiln_node *node = root;
+    for (const char *part = path; node && *part;) {
+        size_t length = strcspn(part, ".");
+        snprintf(name, sizeof name, "%.*s", (int)length, part);
+        const struct kiln_node *next = kiln_node_entry(node, name);
+        if (!next)
+            break;
+        node = next;
+        part += length + (part[length] == '.');
+    }
+    kiln_reader_leave(reader, 0);
+    snprintf(reader->path, sizeof reader->path, "%s", path);
+    reader->path_length = strlen(reader->path);
+    return kiln_reader_error(reader, node, "%s", message);
+}
+
+/* ---- clock ---------------------------------------------------------------------------------- */
+
+static bool settle_clock(struct kiln_reader *reader, const struct kiln_node *root)
+{
+    struct kiln_scene *scene = reader->scene;
+    uint64_t fps_num = scene->fps.num, fps_den = scene->fps.den;
+    if (scene->rate.num == 0) { /* auto */
+        uint64_t multiple = (60 * fps_den + fps_num - 1) / fps_num;
+        uint64_t num = fps_num * multiple, den = fps_den;
+        while (den % 2 == 0 && num % 2 == 0)
+            num /= 2, den /= 2;
+        for (uint64_t d = 3; d <= den; d += 2) {
+            while (den % d == 0 && num % d == 0)
+                num /= d, den /= d;
+        }
+        scene->rate = (struct kiln_rational){(uint32_t)num, (uint32_t)den};
+    }
+    /* rate / fps, a whole number? */
+    uint64_t above = scene->rate.num * fps_den, below = scene->rate.den * fps_num;
+    if (above % below != 0) {
+        char lower[32], upper[32];
+        double fps = (double)fps_num / (double)fps_den;
+        kiln_unit_print_number(lower, (double)(above / below ? above / below : 1) * fps);
+        kiln_unit_print_number(upper, (double)(above / below + 1) * fps);
+        return fail(reader, root, "simulation.rate",
+                    "must be a whole multiple of output.fps; the nearest are %s and %s", lower,
+                    upper);
+    }
+    scene->steps_per_frame = (uint32_t)(above / below);
+    scene->dt_s = (float)((double)scene->rate.den / (double)scene->rate.num);
+
+    double warmup = scene->warmup_s * (double)scene->rate.num / (double)scene->rate.den;
+    double steps = floor(warmup + 0.5) + (double)(scene->frames - 1) * scene->steps_per_frame;
+    if (steps > (double)KILN_MAX_STEPS)
+        return fail(reader, root, "output.frames",
+                    "the clip and its warm-up are %.0f steps; a run has at most %u", steps,
+                    KILN_MAX_STEPS);
+    scene->warmup_steps = (uint32_t)floor(warmup + 0.5);
+    return true;
+}
+
+/* ---- systems -------------------------------------------------------------------------------- */
+
+static bool settle_capacity(struct kiln_reader *reader, const struct kiln_node *root)
+{
+    struct kiln_scene *scene = reader->scene;
+    uint64_t total = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        struct kiln_system *system = &scene->systems[i];
+        struct kiln_demand demand = kiln_demand(scene, system);
+        char path[128];
+        snprintf(path, sizeof path, "systems.%s.emit.rate", system->name);
+        const uint64_t mebibyte = 1 << 20, bytes = sizeof(struct kiln_particle);
+        if (demand.slots > KILN_MAX_PARTICLES - total)
+            return fail(reader, root, path,
+                        "up to %" PRIu64 " particles at once need %" PRIu64
+                        " MiB; the systems of a scene may have %d in all (%" PRIu64
+                        " MiB), of which %" PRIu64 " are taken: lower rate, bursts or life",
+                        demand.slots, demand.slots * bytes / mebibyte, KILN_MAX_PARTICLES,
+                        KILN_MAX_PARTICLES * bytes / mebibyte, total);
+        if (demand.births > UINT32_MAX)
+            return fail(reader, root, path,
+                        "%" PRIu64 " births in the run; at most %" PRIu32 " can be told apart",
+                        demand.births, UINT32_MAX);
+        system->capacity = (uint32_t)demand.slots;
+        total += demand.slots;
+    }
+    return true;
+}
+
+/* Calls check at every key time of some values, and once where there is none. */
+static bool at_all_keys(const struct kiln_scene *scene, const struct kiln_value3 *const *vectors,
+                        unsigned count,
+                        bool (*check)(const struct kiln_scene *scene,
+                                      const struct kiln_value3 *const *vectors, float time_s))
+{
+    bool ok = check(scene, vectors, 0);
+    for (unsigned v = 0; v < count; v++) {
+        const struct kiln_value *parts[3] = {&vectors[v]->x, &vectors[v]->y, &vectors[v]->z};
+        for (unsigned c = 0; c < 3; c++) {
+            for (uint32_t i = 0; i < parts[c]->count; i++)
+                ok = ok && check(scene, vectors, scene->keys[parts[c]->first + i].x);
+        }
+    }
+    return ok;
+}
+
+static bool is_not_zero(const struct kiln_scene *scene, const struct kiln_value3 *const *vectors,
+                        float time_s)
+{
+    float3 v = kiln_scene_value3(scene, vectors[0], time_s);
+    return v.x != 0 || v.y != 0 || v.z != 0;
+}
+
+static bool are_apart(const struct kiln_scene *scene, const struct kiln_value3 *const *vectors,
+                      float time_s)
+{
+    float3 a = kiln_scene_value3(scene, vectors[0], time_s);
+    float3 b = kiln_scene_value3(scene, vectors[1], time_s);
+    return a.x != b.x || a.y != b.y || a.z != b.z;
+}
+
+static const char *shape_name(const struct kiln_emitter *emit)
+{
+    static const char *const names[] = {
+        [KILN_EMITTER_POINT] = "point", [KILN_EMITTER_SPHERE] = "sphere",
+        [KILN_EMITTER_BOX] = "box",     [KILN_EMITTER_DISC] = "disc",
+        [KILN_EMITTER_CONE] = "cone",
+    };
+    return names[emit->shape];
+}
+
+static bool check_systems(struct kiln_reader *reader, const struct kiln_node *root)
+{
+    struct kiln_scene *scene = reader->scene;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        struct kiln_system *system = &scene->systems[i];
+        const struct kiln_emitter *emit = &system->emit;
+        const struct kiln_value3 *direction = &emit->direction;
+        char path[128];
+        snprintf(path, sizeof path, "systems.%s.emit.from.%s.direction", system->name,
+                 shape_name(emit));
+        if (!emit->outward && !at_all_keys(scene, &direction, 1, is_not_zero))
+            return fail(reader, root, path, "must not be [0, 0, 0]");
+        if (!system->bounds.enabled)
+            system->bounds = scene->bounds;
+    }
+    return true;
+}
+
+/* ---- the rest ------------------------------------------------------------------------------- */
+
+static bool check_backdrop(struct kiln_reader *reader, const struct kiln_node *root)
+{
+    const struct kiln_scene *scene = reader->scene;
+    const struct kiln_backdrop *backdrop = &scene->backdrop;
+    const struct kiln_value3 *sun = &backdrop->sun_direction;
+    if (!at_all_keys(scene, &sun, 1, is_not_zero))
+        return fail(reader, root, "backdrop.sun.direction", "must not be [0, 0, 0]");
+    if (backdrop->floor_enabled && backdrop->floor_collide && backdrop->floor_height.count > 0)
+        return fail(reader, root, "backdrop.floor.height",
+                    "cannot vary while the floor collides; set backdrop.floor.collide to false");
+    return true;
+}
+
+static bool check_camera(struct kiln_reader *reader, const struct kiln_node *root)
+{
+    const struct kiln_scene *scene = reader->scene;
+    const struct kiln_value3 *ends[2] = {&scene->camera.position, &scene->camera.target};
+    if (!at_all_keys(scene, ends, 2, are_apart))
+        return fail(reader, root, "camera.target", "must not be where the camera is");
+    return true;
+}
+
+bool kiln_validate(struct kiln_reader *reader, const struct kiln_node *root)
+{
+    return settle_clock(reader, root) && check_camera(reader, root) &&
+           check_backdrop(reader, root) && check_systems(reader, root) &&
+           settle_capacity(reader, root);
+}
