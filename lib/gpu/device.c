@@ -329,12 +329,17 @@ static const struct kiln_device *choose(const struct scan *scan, const char *wan
     if (scan->count == 0)
         kiln_error_set(error, KILN_NO_DEVICE, "no device: %s", scan->problem);
     else if (!wanted)
-        kiln_error_set(error, KILN_NO_DEVICE, "no usable device; there are: %s", names.data);
-    else
-        kiln_error_set(error, ambiguous ? KILN_USAGE : KILN_NO_DEVICE,
-                       ambiguous ? "device '%s' means more than one; say its number: %s"
-                                 : "there is no device '%s'; there are: %s",
+        kiln_error_set(error, KILN_NO_DEVICE, "no usable device among %s; the first: %s",
+                       names.data, scan->devices[0].info.problem);
+    else if (ambiguous)
+        kiln_error_set(error, KILN_USAGE, "device '%s' means more than one; say its number: %s",
                        wanted, names.data);
+    else
+        kiln_error_set(error, KILN_NO_DEVICE, "there is no device '%s'; there are: %s%s", wanted,
+                       names.data,
+                       strcmp(wanted, "software") == 0
+                           ? "; the packages libegl-mesa0 and libgl1-mesa-dri bring a software one"
+                           : "");
     kiln_text_free(&names);
     return NULL;
 }

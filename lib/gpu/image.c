@@ -1,4 +1,4 @@
-/* Images. The texture has one level, is filtered linearly and clamped at its edge. */
+/* Images: a texture on one side, floats on the other. */
 #include "gpu/image.h"
 
 #include <stdlib.h>

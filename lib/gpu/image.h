@@ -1,4 +1,5 @@
-/* Two-dimensional float targets with a residency, like buffers. */
+/* Two-dimensional float targets with a residency, like buffers. The texture has one level, filters
+ * linearly and clamps at its edge. */
 #ifndef KILN_GPU_IMAGE_H
 #define KILN_GPU_IMAGE_H
 
