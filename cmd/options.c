@@ -1,0 +1,259 @@
+/* Reads the command line by the rows of the option tables. */
+#include "options.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "report.h"
+
+enum { MAX_OPTIONS = 64 };
+
+/* A table being applied to a command line. */
+struct parser {
+    struct arguments *arguments;
+    const struct option *options;
+    size_t option_count;
+    const char *place;
+    int argc, next; /* argv[next] is read next */
+    char **argv;
+};
+
+const char *suggest(char out[SUGGESTION_SIZE], const char *prefix, const char *found,
+                    const char *const *names, size_t count)
+{
+    const char *nearest = kiln_text_nearest(found, names, count);
+    out[0] = '\0';
+    if (nearest)
+        snprintf(out, SUGGESTION_SIZE, " (did you mean '%s%s'?)", prefix, nearest);
+    return out;
+}
+
+static int unknown_option(const struct parser *parser, const char *argument)
+{
+    const char *names[MAX_OPTIONS];
+    size_t count = 0;
+    for (; count < parser->option_count && count < MAX_OPTIONS; count++)
+        names[count] = parser->options[count].name;
+    char name[64] = "";
+    const char *start = argument + strspn(argument, "-");
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(start, "="), start);
+    char suggestion[SUGGESTION_SIZE];
+    return report(KILN_USAGE, "%s: unknown option '%.*s'%s", parser->place,
+                  (int)strcspn(argument, "="), argument,
+                  suggest(suggestion, "--", name, names, count));
+}
+
+static int wrong_value(const struct parser *parser, const struct option_use *use,
+                       const char *expected)
+{
+    return report(KILN_USAGE, "%s: --%s: found '%s', expected %s", parser->place, use->option->name,
+                  use->text, expected);
+}
+
+static int read_choice(const struct parser *parser, struct option_use *use)
+{
+    size_t length = strlen(use->text);
+    const char *word = use->option->placeholder;
+    for (size_t i = 0;; i++) {
+        size_t word_length = strcspn(word, "|");
+        if (word_length == length && strncmp(word, use->text, length) == 0) {
+            use->choice = i;
+            return 0;
+        }
+        if (word[word_length] == '\0')
+            break;
+        word += word_length + 1;
+    }
+    char expected[128];
+    snprintf(expected, sizeof expected, "one of %s", use->option->placeholder);
+    return wrong_value(parser, use, expected);
+}
+
+static int read_integer(const struct parser *parser, struct option_use *use)
+{
+    const struct option *option = use->option;
+    if (kiln_text_to_uint64(use->text, &use->integer[0]) &&
+        (double)use->integer[0] >= option->min && (double)use->integer[0] <= option->max)
+        return 0;
+    char expected[96];
+    snprintf(expected, sizeof expected, "a whole number from %.0f to %.0f", option->min,
+             option->max);
+    return wrong_value(parser, use, expected);
+}
+
+static int read_number(const struct parser *parser, struct option_use *use)
+{
+    const struct option *option = use->option;
+    if (kiln_text_to_double(use->text, &use->number) && use->number >= option->min &&
+        use->number <= option->max)
+        return 0;
+    char expected[96];
+    snprintf(expected, sizeof expected, "a number from %g to %g", option->min, option->max);
+    return wrong_value(parser, use, expected);
+}
+
+/* Two positive whole numbers around a separator; without the separator only the first, if the
+ * second may go. */
+static bool read_two(const char *text, char separator, bool second_may_go, uint64_t numbers[2])
+{
+    char first[24] = "";
+    const char *middle = strchr(text, separator);
+    size_t length = middle ? (size_t)(middle - text) : strlen(text);
+    if (length >= sizeof first || (!middle && !second_may_go))
+        return false;
+    snprintf(first, sizeof first, "%.*s", (int)length, text);
+    numbers[1] = 1;
+    return kiln_text_to_uint64(first, &numbers[0]) && numbers[0] > 0 &&
+           (!middle || (kiln_text_to_uint64(middle + 1, &numbers[1]) && numbers[1] > 0));
+}
+
+/* Every piece between commas must have a key before its '='. */
+static bool are_pairs(const char *text, bool commas)
+{
+    for (;;) {
+        size_t length = commas ? strcspn(text, ",") : strlen(text);
+        const char *equals = memchr(text, '=', length);
+        if (!equals || equals == text)
+            return false;
+        if (text[length] == '\0')
+            return true;
+        text += length + 1;
+    }
+}
+
+static int read_value(const struct parser *parser, struct option_use *use)
+{
+    switch (use->option->kind) {
+    case OPTION_FLAG:
+        return 0;
+    case OPTION_TEXT:
+        return *use->text ? 0 : wrong_value(parser, use, use->option->placeholder);
+    case OPTION_CHOICE:
+        return read_choice(parser, use);
+    case OPTION_INTEGER:
+        return read_integer(parser, use);
+    case OPTION_NUMBER:
+        return read_number(parser, use);
+    case OPTION_SIZE:
+        return read_two(use->text, 'x', false, use->integer)
+                   ? 0
+                   : wrong_value(parser, use, "WxH in pixels, such as 1280x720");
+    case OPTION_RATIO:
+        return read_two(use->text, '/', true, use->integer)
+                   ? 0
+                   : wrong_value(parser, use, "N or N/D, such as 30 or 30000/1001");
+    case OPTION_FRAMES:
+        return frame_list_parse(use->text, &use->frames)
+                   ? 0
+                   : wrong_value(parser, use, "frames and ranges, such as 0-149,200");
+    case OPTION_PAIRS:
+        return are_pairs(use->text, use->option->commas)
+                   ? 0
+                   : wrong_value(parser, use, use->option->placeholder);
+    }
+    return 0;
+}
+
+/* Records a use; joined is the value that came with the option in one argument, or NULL. */
+static int use_option(struct parser *parser, const struct option *option, const char *joined)
+{
+    struct option_use *use = &parser->arguments->uses[parser->arguments->use_count++];
+    *use = (struct option_use){.option = option, .text = joined};
+    if (option->kind == OPTION_FLAG && joined)
+        return report(KILN_USAGE, "%s: --%s: takes no value, found '%s'", parser->place,
+                      option->name, joined);
+    if (option->kind == OPTION_FLAG || (option->value_may_go && !joined))
+        return 0;
+    if (!joined) {
+        const char *next = parser->next < parser->argc ? parser->argv[parser->next] : NULL;
+        if (!next)
+            return report(KILN_USAGE, "%s: --%s: needs a value, %s", parser->place, option->name,
+                          option->placeholder);
+        if (strncmp(next, "--", 2) == 0)
+            return report(KILN_USAGE,
+                          "%s: --%s: needs a value, %s, found '%s' (a value that starts with two "
+                          "dashes is joined: --%s=%s)",
+                          parser->place, option->name, option->placeholder, next, option->name,
+                          next);
+        use->text = next;
+        parser->next++;
+    }
+    return read_value(parser, use);
+}
+
+static int read_long(struct parser *parser, const char *argument)
+{
+    size_t length = strcspn(argument + 2, "=");
+    for (size_t i = 0; i < parser->option_count; i++) {
+        const struct option *option = &parser->options[i];
+        if (strlen(option->name) == length && strncmp(option->name, argument + 2, length) == 0) {
+            const char *equals = argument + 2 + length;
+            return use_option(parser, option, *equals ? equals + 1 : NULL);
+        }
+    }
+    return unknown_option(parser, argument);
+}
+
+static int read_short(struct parser *parser, const char *argument)
+{
+    const struct option *found = NULL;
+    for (size_t i = 0; i < parser->option_count; i++) {
+        const struct option *option = &parser->options[i];
+        if (strcmp(option->name, argument + 1) == 0) /* "-output" is not "-o utput" */
+            return unknown_option(parser, argument);
+        if (option->letter == argument[1])
+            found = option;
+    }
+    if (!found || (found->kind == OPTION_FLAG && argument[2]))
+        return unknown_option(parser, argument);
+    return use_option(parser, found, argument[2] ? argument + 2 : NULL);
+}
+
+int arguments_parse(struct arguments *arguments, const struct option *options, size_t option_count,
+                    const char *place, int argc, char **argv)
+{
+    size_t most = argc > 0 ? (size_t)argc : 1;
+    *arguments = (struct arguments){.uses = calloc(most, sizeof *arguments->uses),
+                                    .operands = calloc(most, sizeof *arguments->operands)};
+    if (!arguments->uses || !arguments->operands)
+        return report_no_memory();
+    struct parser parser = {.arguments = arguments,
+                            .options = options,
+                            .option_count = option_count,
+                            .place = place,
+                            .argc = argc,
+                            .argv = argv};
+    bool options_ended = false;
+    while (parser.next < argc) {
+        const char *argument = argv[parser.next++];
+        int code = 0;
+        if (options_ended || argument[0] != '-' || argument[1] == '\0')
+            arguments->operands[arguments->operand_count++] = argument;
+        else if (strcmp(argument, "--") == 0)
+            options_ended = true;
+        else
+            code =
+                argument[1] == '-' ? read_long(&parser, argument) : read_short(&parser, argument);
+        if (code)
+            return code;
+    }
+    return 0;
+}
+
+void arguments_free(struct arguments *arguments)
+{
+    for (size_t i = 0; i < arguments->use_count; i++)
+        frame_list_free(&arguments->uses[i].frames);
+    free(arguments->uses);
+    free(arguments->operands);
+    *arguments = (struct arguments){0};
+}
+
+const struct option_use *arguments_last(const struct arguments *arguments, const char *name)
+{
+    for (size_t i = arguments->use_count; i > 0; i--) {
+        if (strcmp(arguments->uses[i - 1].option->name, name) == 0)
+            return &arguments->uses[i - 1];
+    }
+    return NULL;
+}

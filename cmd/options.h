@@ -1,0 +1,66 @@
+/* The command line: one row per option makes the parser, the errors, --help and the man page. */
+#ifndef KILN_CMD_OPTIONS_H
+#define KILN_CMD_OPTIONS_H
+
+#include "frames.h"
+
+enum option_kind {
+    OPTION_FLAG,
+    OPTION_TEXT,    /* anything but an empty text */
+    OPTION_CHOICE,  /* one of the words of its placeholder, "a|b|c" */
+    OPTION_INTEGER, /* min to max */
+    OPTION_NUMBER,  /* min to max, a decimal fraction */
+    OPTION_SIZE,    /* WxH */
+    OPTION_RATIO,   /* N or N/D */
+    OPTION_FRAMES,  /* 0-149,200 */
+    OPTION_PAIRS,   /* KEY=VALUE; more of them after commas where `commas` is set */
+};
+
+struct option {
+    const char *name;  /* without its dashes */
+    char letter;       /* of the short form, or 0 */
+    bool repeats;      /* every use counts; of others, the last one */
+    bool value_may_go; /* the value may be left out, and must be joined by '=' if it is there */
+    bool commas;
+    enum option_kind kind;
+    const char *placeholder; /* of its value; NULL for a flag */
+    const char *help;        /* what it does, as one or two sentences */
+    const char *fallback;    /* what holds without it, or NULL */
+    const char *sets;        /* the scene key that it stands for, or NULL */
+    double min, max;
+};
+
+/* One use of an option, checked. */
+struct option_use {
+    const struct option *option;
+    const char *text;    /* the value; NULL for a flag, or where it was left out */
+    uint64_t integer[2]; /* OPTION_INTEGER; OPTION_SIZE: width, height */
+    double number;       /* OPTION_NUMBER */
+    size_t choice;       /* OPTION_CHOICE: index of the word; 0 where it was left out */
+    struct frame_list frames;
+};
+
+/* What a command was given: options in their order, and operands in theirs. */
+struct arguments {
+    struct option_use *uses;
+    size_t use_count;
+    const char **operands;
+    size_t operand_count;
+};
+
+/* Reads argv, whose texts must outlive the arguments. Options and operands may come in any order,
+ * "--" ends the options. Returns 0, or the exit code after reporting what was found and what is
+ * allowed; `place` ("render") starts the message. The arguments must be freed in both cases. */
+int arguments_parse(struct arguments *arguments, const struct option *options, size_t option_count,
+                    const char *place, int argc, char **argv);
+void arguments_free(struct arguments *arguments);
+
+/* The last use of the option of that name, or NULL. */
+const struct option_use *arguments_last(const struct arguments *arguments, const char *name);
+
+/* " (did you mean 'rate'?)" for a misspelling of one of the names, or "". */
+enum { SUGGESTION_SIZE = 96 };
+const char *suggest(char out[SUGGESTION_SIZE], const char *prefix, const char *found,
+                    const char *const *names, size_t count);
+
+#endif

@@ -1,0 +1,58 @@
+/* Messages to the person. Nothing else in cmd/ writes to standard error but the progress line. */
+#include "report.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <string.h>
+#include <unistd.h>
+
+int report(enum kiln_code code, const char *format, ...)
+{
+    char message[KILN_MESSAGE_SIZE];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(message, sizeof message, format, args);
+    va_end(args);
+    fprintf(stderr, "kiln: %s\n", message);
+    return (int)code;
+}
+
+int report_error(const struct kiln_error *error)
+{
+    if (error->code != KILN_INVALID_INPUT)
+        return report(error->code, "%s", error->message);
+    fprintf(stderr, "%s\n", error->message);
+    return KILN_INVALID_INPUT;
+}
+
+int report_no_memory(void)
+{
+    return report(KILN_DEVICE_FAILED, "out of memory");
+}
+
+static void write_log(void *user, enum kiln_log_level level, const char *line)
+{
+    (void)user;
+    if (level == KILN_LOG_WARNING)
+        fprintf(stderr, "kiln: warning: %s\n", line);
+}
+
+struct kiln_log report_log(void)
+{
+    return (struct kiln_log){.write = write_log};
+}
+
+int report_finish(int code)
+{
+    bool failed = ferror(stdout) != 0;
+    if (fflush(stdout) == 0 && !failed)
+        return code;
+    /* The reason may be long gone: a stream remembers only that it failed. Writing finds it again.
+     */
+    errno = EIO;
+    ssize_t again = write(STDOUT_FILENO, "\n", 1);
+    if (again < 0 && errno == EPIPE)
+        return code ? code : KILN_IO;
+    int reported = report(KILN_IO, "standard output: %s", strerror(errno));
+    return code ? code : reported;
+}

@@ -1,0 +1,23 @@
+/* Messages to the person: one line each, on standard error. */
+#ifndef KILN_CMD_REPORT_H
+#define KILN_CMD_REPORT_H
+
+#include "kiln.h"
+
+/* Prints "kiln: " and the message; returns the code, so that a command can return it. */
+int report(enum kiln_code code, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* The same for an error of the library. Invalid input starts with its own file, line and column,
+ * where editors look for them, so nothing is put before it. */
+int report_error(const struct kiln_error *error);
+
+int report_no_memory(void);
+
+/* Prints the library's warnings; what it says for information is left out. */
+struct kiln_log report_log(void);
+
+/* Ends standard output: its failure is an error of the program, unless that has one already. A
+ * reader that went away (`kiln help scene | head`) is no news to anyone and gets no message. */
+int report_finish(int code);
+
+#endif
