@@ -1,8 +1,92 @@
-/* The program: picks the subcommand. */
-#include "kiln.h"
+/* The program: picks the subcommand, reads its options, runs it. */
+#include <fcntl.h>
+#include <signal.h>
+#include <string.h>
+#include <unistd.h>
 
-int main(void)
+#include "command.h"
+#include "report.h"
+
+const struct command *const commands[] = {&check_command, &devices_command, &help_command, NULL};
+
+size_t command_names(const char *names[MAX_COMMANDS])
 {
-    puts("kiln " KILN_VERSION);
-    return KILN_USAGE;
+    size_t count = 0;
+    for (; commands[count] && count < MAX_COMMANDS; count++)
+        names[count] = commands[count]->name;
+    return count;
+}
+
+/* A program started with a standard stream closed would get that number for the next file that it
+ * opens, and its messages would end up in a picture. Each is opened the wrong way round here, so
+ * that using it fails as it would have. */
+static void occupy_standard_streams(void)
+{
+    for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; stream++) {
+        if (fcntl(stream, F_GETFD) < 0)
+            open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+    }
+}
+
+static int check_operands(const struct command *command, const struct arguments *arguments)
+{
+    if (arguments->operand_count < command->least_operands)
+        return report(KILN_USAGE, "%s: needs %s", command->name, command->operands);
+    if (arguments->operand_count > command->most_operands)
+        return report(KILN_USAGE, "%s: one operand too many, '%s'", command->name,
+                      arguments->operands[command->most_operands]);
+    return 0;
+}
+
+static int run_command(const struct command *command, int argc, char **argv)
+{
+    struct arguments arguments;
+    int code = arguments_parse(&arguments, command->options, command->option_count, command->name,
+                               argc, argv);
+    if (code == 0 && arguments_last(&arguments, "help")) {
+        help_print_command(command);
+    } else if (code == 0) {
+        code = check_operands(command, &arguments);
+        if (code == 0)
+            code = command->run(&arguments);
+    }
+    arguments_free(&arguments);
+    return code;
+}
+
+static int unknown_command(const char *name)
+{
+    const char *names[MAX_COMMANDS + 2];
+    size_t count = command_names(names);
+    names[count++] = "--version";
+    names[count++] = "--help";
+    char suggestion[SUGGESTION_SIZE];
+    return report(KILN_USAGE, "unknown %s '%s'%s; 'kiln help' lists the commands",
+                  name[0] == '-' ? "option" : "command", name,
+                  suggest(suggestion, "", name, names, count));
+}
+
+int main(int argc, char **argv)
+{
+    occupy_standard_streams();
+    signal(SIGPIPE, SIG_IGN); /* failed writes are reported as such, */
+    signal(SIGXFSZ, SIG_IGN); /* those beyond the limit of a file's size, too */
+    const char *name = argc > 1 ? argv[1] : "";
+    if (argc < 2) {
+        help_print_overview(stderr);
+        return KILN_USAGE;
+    }
+    if (strcmp(name, "--version") == 0) {
+        puts("kiln " KILN_VERSION);
+        return report_finish(0);
+    }
+    if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0) {
+        help_print_overview(stdout);
+        return report_finish(0);
+    }
+    for (size_t i = 0; commands[i]; i++) {
+        if (strcmp(commands[i]->name, name) == 0)
+            return report_finish(run_command(commands[i], argc - 2, argv + 2));
+    }
+    return unknown_command(name);
 }

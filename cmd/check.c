@@ -1,0 +1,68 @@
+/* kiln check: is a scene right, and what does it say with every default spelled out? */
+#include <stdlib.h>
+
+#include "command.h"
+#include "overrides.h"
+#include "report.h"
+
+static const struct option options[] = {
+    SET_OPTION,
+    ASSET_ROOT_OPTION,
+    {.name = "hash", .kind = OPTION_FLAG, .help = "Print only the scene's hash."},
+    {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Print nothing but errors."},
+    HELP_OPTION,
+};
+
+/* Writes what was asked for to standard output; false when that failed, which report_finish says.
+ */
+static bool print_scene(const struct kiln_scene *scene, const char *path, bool hash, bool several)
+{
+    if (hash && several)
+        return printf("%s  %s\n", kiln_scene_info(scene).hash, path) >= 0;
+    if (hash)
+        return printf("%s\n", kiln_scene_info(scene).hash) >= 0;
+    if (several && printf("--- # %s\n", path) < 0)
+        return false;
+    return kiln_scene_print(scene, stdout);
+}
+
+static int run(const struct arguments *arguments)
+{
+    bool hash = arguments_last(arguments, "hash") != NULL;
+    bool quiet = arguments_last(arguments, "quiet") != NULL;
+    struct overrides overrides;
+    if (!overrides_create(&overrides, arguments))
+        return report_no_memory();
+    struct kiln_scene_params params = overrides_scene_params(&overrides, arguments);
+
+    int code = 0;
+    for (size_t i = 0; i < arguments->operand_count; i++) {
+        const char *path = arguments->operands[i];
+        struct kiln_error error = {0};
+        struct kiln_scene *scene = kiln_scene_load(path, &params, &error);
+        if (!scene) {
+            int failure = report_error(&error);
+            code = code ? code : failure;
+        } else if (!quiet && !print_scene(scene, path, hash, arguments->operand_count > 1)) {
+            code = code ? code : KILN_IO;
+        }
+        kiln_scene_destroy(&scene);
+    }
+    overrides_free(&overrides);
+    return code;
+}
+
+const struct command check_command = {
+    .name = "check",
+    .summary = "validate scenes and print them with every default",
+    .operands = "SCENE...",
+    .description =
+        "Reads each scene and prints it with every default spelled out. What it prints is a scene "
+        "file that renders to the same pictures. A wrong scene is reported and the others are "
+        "checked all the same.",
+    .options = options,
+    .option_count = sizeof options / sizeof *options,
+    .least_operands = 1,
+    .most_operands = SIZE_MAX,
+    .run = run,
+};

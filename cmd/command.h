@@ -1,0 +1,56 @@
+/* The subcommands: one row each, which the dispatch, the help and the man page read. */
+#ifndef KILN_CMD_COMMAND_H
+#define KILN_CMD_COMMAND_H
+
+#include "options.h"
+
+struct command {
+    const char *name;
+    const char *summary;     /* a line */
+    const char *operands;    /* of the synopsis, "SCENE..." */
+    const char *description; /* paragraphs, with an empty line between two */
+    const struct option *options;
+    size_t option_count;
+    size_t least_operands, most_operands;
+    int (*run)(const struct arguments *arguments); /* returns the exit code */
+};
+
+extern const struct command check_command, devices_command, help_command;
+
+/* All of them, in the order of the help; NULL ends the list. */
+extern const struct command *const commands[];
+
+/* Every command takes it, and it comes last in its table. */
+#define HELP_OPTION                                                                                \
+    {                                                                                              \
+        .name = "help", .letter = 'h', .kind = OPTION_FLAG, .help = "Print this help."             \
+    }
+
+/* For --help of a command. */
+void help_print_command(const struct command *command);
+
+/* The overview, for `kiln help`, or for standard error after `kiln` alone. */
+void help_print_overview(FILE *out);
+
+/* The man page, in roff. */
+void man_print(FILE *out);
+
+/* A meaning for each exit code; a NULL meaning ends the list. */
+struct exit_code {
+    const char *code;
+    const char *meaning;
+};
+extern const struct exit_code exit_codes[];
+
+/* Variables of the environment; as above. */
+struct variable {
+    const char *name;
+    const char *meaning;
+};
+extern const struct variable variables[];
+
+/* Names of all commands, for suggestions. Returns how many. */
+enum { MAX_COMMANDS = 16 };
+size_t command_names(const char *names[MAX_COMMANDS]);
+
+#endif

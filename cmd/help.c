@@ -1,0 +1,179 @@
+/* kiln help, and --help of every command: printed from the tables, never written twice. */
+#include <string.h>
+
+#include "command.h"
+#include "report.h"
+
+enum { WIDTH = 80, OPTION_INDENT = 30 };
+
+const struct exit_code exit_codes[] = {
+    {"0", "all went well"},
+    {"1", "a frame failed"},
+    {"2", "the command line makes no sense"},
+    {"3", "a scene or another input file is wrong"},
+    {"4", "no usable device"},
+    {"5", "the device was lost, memory ran out, or a frame took longer than its limit"},
+    {"6", "reading or writing failed"},
+    {"130", "stopped by SIGINT; only whole files are left"},
+    {"143", "stopped by SIGTERM; only whole files are left"},
+    {NULL, NULL},
+};
+
+const struct variable variables[] = {
+    {"KILN_SHADER_DIR", "Read shaders from this folder instead of those in the program."},
+    {NULL, NULL},
+};
+
+static bool write_exit_codes(FILE *out)
+{
+    for (const struct exit_code *row = exit_codes; row->code; row++)
+        fprintf(out, "%5s  %s\n", row->code, row->meaning);
+    return !ferror(out);
+}
+
+static bool write_man(FILE *out)
+{
+    man_print(out);
+    return !ferror(out);
+}
+
+struct topic {
+    const char *name;
+    const char *summary;
+    bool (*write)(FILE *out);
+};
+
+static const struct topic topics[] = {
+    {"scene", "every key of a scene file", kiln_scene_write_reference},
+    {"schema", "the JSON schema of scene files, for editors", kiln_scene_write_schema},
+    {"outputs", "what can be written, by suffix", kiln_write_outputs},
+    {"exit-codes", "what each exit code means", write_exit_codes},
+    {"man", "the manual page, for `man -l`", write_man},
+};
+enum { TOPIC_COUNT = sizeof topics / sizeof *topics };
+
+/* Prints words within WIDTH; the first line goes on at column `column`, others start at indent. An
+ * empty line in the text stays one. */
+static void print_wrapped(FILE *out, const char *text, size_t column, size_t indent)
+{
+    bool at_start = true;
+    while (*text) {
+        if (*text == '\n') {
+            fprintf(out, "\n\n");
+            text += strspn(text, "\n");
+            fprintf(out, "%*s", (int)indent, "");
+            column = indent;
+            at_start = true;
+        }
+        size_t length = strcspn(text, " \n");
+        if (!at_start && column + 1 + length > WIDTH) {
+            fprintf(out, "\n%*s", (int)indent, "");
+            column = indent;
+        } else if (!at_start) {
+            fputc(' ', out);
+            column++;
+        }
+        fwrite(text, 1, length, out);
+        column += length;
+        at_start = false;
+        text += length;
+        text += *text == ' ';
+    }
+    fputc('\n', out);
+}
+
+static void print_option(const struct option *option)
+{
+    char left[96], text[512];
+    int length = option->letter
+                     ? snprintf(left, sizeof left, "  -%c, --%s", option->letter, option->name)
+                     : snprintf(left, sizeof left, "      --%s", option->name);
+    if (option->placeholder)
+        snprintf(left + length, sizeof left - (size_t)length,
+                 option->value_may_go ? "[=%s]" : " %s", option->placeholder);
+    snprintf(text, sizeof text, "%s%s%s%s", option->help, option->fallback ? " Default: " : "",
+             option->fallback ? option->fallback : "", option->fallback ? "." : "");
+    if (strlen(left) + 2 > OPTION_INDENT)
+        printf("%s\n%*s", left, OPTION_INDENT, "");
+    else
+        printf("%-*s", OPTION_INDENT, left);
+    print_wrapped(stdout, text, OPTION_INDENT, OPTION_INDENT);
+}
+
+void help_print_command(const struct command *command)
+{
+    printf("usage: kiln %s [OPTION...]%s%s\n\n", command->name, *command->operands ? " " : "",
+           command->operands);
+    print_wrapped(stdout, command->description, 0, 0);
+    printf("\n");
+    bool any_repeats = false;
+    for (size_t i = 0; i < command->option_count; i++) {
+        print_option(&command->options[i]);
+        any_repeats = any_repeats || command->options[i].repeats;
+    }
+    if (!any_repeats)
+        return;
+    printf("\nOptions and operands may come in any order; '--' ends the options. Of an\n"
+           "option that is given twice the last one counts, but these add up:");
+    for (size_t i = 0; i < command->option_count; i++) {
+        if (command->options[i].repeats)
+            printf(" --%s", command->options[i].name);
+    }
+    printf(".\n");
+}
+
+void help_print_overview(FILE *out)
+{
+    fprintf(out, "kiln " KILN_VERSION ": renders particle effects without a display\n\n"
+                 "usage: kiln COMMAND [OPTION...] [OPERAND...]\n"
+                 "       kiln --version | --help\n\ncommands:\n");
+    for (size_t i = 0; commands[i]; i++)
+        fprintf(out, "  %-12s %s\n", commands[i]->name, commands[i]->summary);
+    fprintf(out, "\ntopics of 'kiln help TOPIC', beside the commands:\n");
+    for (size_t i = 0; i < TOPIC_COUNT; i++)
+        fprintf(out, "  %-12s %s\n", topics[i].name, topics[i].summary);
+}
+
+static int unknown_topic(const char *name)
+{
+    const char *names[MAX_COMMANDS + TOPIC_COUNT];
+    size_t count = command_names(names);
+    for (size_t i = 0; i < TOPIC_COUNT; i++)
+        names[count++] = topics[i].name;
+    char suggestion[SUGGESTION_SIZE];
+    return report(KILN_USAGE, "help: unknown topic '%s'%s; 'kiln help' lists the topics", name,
+                  suggest(suggestion, "", name, names, count));
+}
+
+static int run(const struct arguments *arguments)
+{
+    if (arguments->operand_count == 0) {
+        help_print_overview(stdout);
+        return 0;
+    }
+    const char *name = arguments->operands[0];
+    for (size_t i = 0; i < TOPIC_COUNT; i++) {
+        if (strcmp(topics[i].name, name) == 0)
+            return topics[i].write(stdout) ? 0 : KILN_IO;
+    }
+    for (size_t i = 0; commands[i]; i++) {
+        if (strcmp(commands[i]->name, name) == 0) {
+            help_print_command(commands[i]);
+            return 0;
+        }
+    }
+    return unknown_topic(name);
+}
+
+static const struct option options[] = {HELP_OPTION};
+
+const struct command help_command = {
+    .name = "help",
+    .summary = "explain a command or a topic",
+    .operands = "[TOPIC]",
+    .description = "Explains a command or a topic; without one, lists both.",
+    .options = options,
+    .option_count = sizeof options / sizeof *options,
+    .most_operands = 1,
+    .run = run,
+};

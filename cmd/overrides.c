@@ -1,0 +1,61 @@
+/* Turns options into overrides of the scene loader. */
+#include "overrides.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The override that a use stands for, in new memory; *is_one is false for other options. */
+static char *override_text(const struct option_use *use, bool *is_one)
+{
+    const char *key = use->option->sets;
+    char *text = NULL;
+    *is_one = true;
+    int length;
+    if (key && use->option->kind == OPTION_SIZE)
+        length =
+            asprintf(&text, "%s=[%" PRIu64 ", %" PRIu64 "]", key, use->integer[0], use->integer[1]);
+    else if (key)
+        length = asprintf(&text, "%s=%s", key, use->text);
+    else if (strcmp(use->option->name, "set") == 0)
+        length = asprintf(&text, "%s", use->text);
+    else
+        *is_one = false, length = 0;
+    return length < 0 ? NULL : text;
+}
+
+bool overrides_create(struct overrides *overrides, const struct arguments *arguments)
+{
+    *overrides = (struct overrides){.texts = calloc(arguments->use_count + 1, sizeof(char *))};
+    if (!overrides->texts)
+        return false;
+    for (size_t i = 0; i < arguments->use_count; i++) {
+        bool is_one;
+        char *text = override_text(&arguments->uses[i], &is_one);
+        if (!is_one)
+            continue;
+        if (!text) {
+            overrides_free(overrides);
+            return false;
+        }
+        overrides->texts[overrides->count++] = text;
+    }
+    return true;
+}
+
+void overrides_free(struct overrides *overrides)
+{
+    for (size_t i = 0; i < overrides->count; i++)
+        free(overrides->texts[i]);
+    free(overrides->texts);
+    *overrides = (struct overrides){0};
+}
+
+struct kiln_scene_params overrides_scene_params(const struct overrides *overrides,
+                                                const struct arguments *arguments)
+{
+    const struct option_use *root = arguments_last(arguments, "asset-root");
+    return (struct kiln_scene_params){.asset_root = root ? root->text : NULL,
+                                      .overrides = (const char *const *)overrides->texts,
+                                      .override_count = overrides->count};
+}

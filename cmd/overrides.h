@@ -1,0 +1,34 @@
+/* The options that change a scene: --set, and those that stand for one (--size, --fps, --seed). */
+#ifndef KILN_CMD_OVERRIDES_H
+#define KILN_CMD_OVERRIDES_H
+
+#include "options.h"
+
+/* Rows that the commands which load scenes share. */
+#define SET_OPTION                                                                                 \
+    {                                                                                              \
+        .name = "set", .repeats = true, .kind = OPTION_PAIRS, .placeholder = "KEY=VALUE",          \
+        .help = "Change a value of the scene, such as systems.fire.emit.rate=500. In a key, '*' "  \
+                "stands for every entry of a map or list."                                         \
+    }
+#define ASSET_ROOT_OPTION                                                                          \
+    {                                                                                              \
+        .name = "asset-root", .kind = OPTION_TEXT, .placeholder = "FOLDER",                        \
+        .help = "The folder that the scene's files must lie in.",                                  \
+        .fallback = "the folder of the scene"                                                      \
+    }
+
+struct overrides {
+    char **texts; /* "key=value", in the order of the command line */
+    size_t count;
+};
+
+/* False when memory is short. */
+bool overrides_create(struct overrides *overrides, const struct arguments *arguments);
+void overrides_free(struct overrides *overrides);
+
+/* How to load the scenes of a command line; borrows both. */
+struct kiln_scene_params overrides_scene_params(const struct overrides *overrides,
+                                                const struct arguments *arguments);
+
+#endif
