@@ -9,4 +9,8 @@
  * stays empty when the probe could not run, and error is set). */
 bool kiln_probe_exact(struct kiln_device *device, char reason[256], struct kiln_error *error);
 
+/* The same with so many vectors; kiln_probe_exact takes few enough to run at every start. */
+bool kiln_probe_vectors(struct kiln_device *device, uint32_t count, char reason[256],
+                        struct kiln_error *error);
+
 #endif

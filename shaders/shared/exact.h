@@ -3,7 +3,8 @@
  * Built from + - * on floats, comparisons, floor and integer operations, which every IEEE machine
  * rounds alike; division, roots and the rest are our own, since drivers round theirs differently.
  * Denormals, which some stages flush, are taken as zero wherever they could matter: below 2^-100 a
- * number is tiny. Every function is defined for every argument, NaN and infinities included.
+ * number is tiny. Every function is defined for every argument, NaN and infinities included; what
+ * keeps NaN out are tests of its bits, since a compiler may turn !(x < y) into x >= y.
  */
 #ifndef KILN_SHARED_EXACT_H
 #define KILN_SHARED_EXACT_H
@@ -134,7 +135,7 @@ FN S(exact_angle) exact_sincos(float x)
     EXACT S(exact_angle) result;
     result.sine = 0.0f;
     result.cosine = 1.0f;
-    if (!(x >= -8192.0f && x <= 8192.0f))
+    if ((FLOAT_BITS(x) & EXACT_SIZE_BITS) > 0x46000000u) /* 8192 */
         return result;
     EXACT float turns = x * 0.636619772f + 0.5f;
     EXACT float quarter = FLOOR(turns);
@@ -157,11 +158,14 @@ FN S(exact_angle) exact_sincos(float x)
 /* e^x within 1e-7 of its size for |x| <= 69; 0 below, e^69 above; 1 for NaN. */
 FN float exact_exp(float x)
 {
-    if (x < -69.0f)
-        return 0.0f;
-    EXACT float limited = x > 69.0f ? 69.0f : x;
-    if (!(limited >= -69.0f))
+    uint bits = FLOAT_BITS(x);
+    uint size = bits & EXACT_SIZE_BITS;
+    if (size > 0x7f800000u) /* NaN */
         return 1.0f;
+    bool far = size > 0x428a0000u; /* 69 */
+    if (far && bits != size)
+        return 0.0f;
+    EXACT float limited = far ? 69.0f : x;
     EXACT float halves = limited * 1.44269504f + 0.5f;
     EXACT float n = FLOOR(halves);
     EXACT float r = limited - n * 0.693115234375f;

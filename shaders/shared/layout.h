@@ -7,19 +7,9 @@
 #ifndef KILN_SHARED_LAYOUT_H
 #define KILN_SHARED_LAYOUT_H
 
+#include "shared/limits.h"
 #include "shared/platform.h"
 #include "shared/value.h"
-
-#define KILN_MAX_FORCES    16 /* a system */
-#define KILN_MAX_DEMITTERS 8  /* a system */
-#define KILN_MAX_BURSTS    64 /* a system */
-#define KILN_MAX_BOXES     32 /* a scene */
-
-/* The groups of births of a step: one of the rate and one of each burst. */
-#define KILN_MAX_BIRTH_GROUPS 65
-
-/* Boxes and the floor. */
-#define KILN_MAX_COLLIDERS 33
 
 /* Births of one step that follow one another at equal distances. Birth j of a group happens at
  * (first + j * spacing) / 2^32 of the step. */

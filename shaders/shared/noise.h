@@ -10,7 +10,7 @@
 
 /* Coordinates beyond this have too few bits left between lattice points: the field is zero there.
  */
-#define NOISE_REACH 1048576.0f
+#define NOISE_REACH_BITS 0x49800000u /* 2^20 */
 
 /* Brings the root of the mean square speed of one octave to 1. */
 #define NOISE_CURL_UNIT 0.20658f
@@ -56,8 +56,9 @@ FN float3 noise_curl_corner(uint bits, float3 r, float weight, float3 slope)
 FN float3 noise_curl_octave(float3 p, uint seed)
 {
     EXACT float3 sum = FLOAT3(0.0f, 0.0f, 0.0f);
-    if (!(p.x > -NOISE_REACH && p.x < NOISE_REACH && p.y > -NOISE_REACH && p.y < NOISE_REACH &&
-          p.z > -NOISE_REACH && p.z < NOISE_REACH))
+    if ((FLOAT_BITS(p.x) & EXACT_SIZE_BITS) > NOISE_REACH_BITS ||
+        (FLOAT_BITS(p.y) & EXACT_SIZE_BITS) > NOISE_REACH_BITS ||
+        (FLOAT_BITS(p.z) & EXACT_SIZE_BITS) > NOISE_REACH_BITS)
         return sum;
     EXACT float3 cell = FLOAT3(FLOOR(p.x), FLOOR(p.y), FLOOR(p.z));
     EXACT float3 f = float3_sub(p, cell);

@@ -7,15 +7,13 @@
 #ifndef KILN_SHARED_VALUE_H
 #define KILN_SHARED_VALUE_H
 
+#include "shared/limits.h"
 #include "shared/platform.h"
 
 /* What the x of a key means. A constant has count 0. */
 #define KILN_CLOCK_CONSTANT 0u
 #define KILN_CLOCK_TIME     1u /* seconds; 0 is the first frame of the clip, warm-up is before */
 #define KILN_CLOCK_LIFE     2u /* 0 at birth, 1 at death */
-
-/* The largest key table of a scene: 16 KiB, the least that every GL allows a uniform block. */
-#define KILN_MAX_VALUE_KEYS 1024
 
 struct kiln_value {
     float constant; /* of clock KILN_CLOCK_CONSTANT */

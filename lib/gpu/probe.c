@@ -1,0 +1,126 @@
+/* The probe runs the very functions that the simulation is made of, so a driver that passes it
+ * rounds, compares and hashes as C does. */
+#include "gpu/probe.h"
+
+#include <assert.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "gpu/buffer.h"
+#include "gpu/program.h"
+#include "shared/probe.h"
+
+/* Edges of the number line; the first vectors are all pairs of them. */
+static const uint32_t edges[] = {
+    0x00000000u, 0x80000000u, 0x00000001u, 0x807fffffu, 0x00800000u, 0x0d7fffffu, 0x0d800000u,
+    0x8d800000u, 0x33800000u, 0x3effffffu, 0x3f000000u, 0x3f7fffffu, 0x3f800000u, 0x3f800001u,
+    0xbf800000u, 0x3fc90fdbu, 0x40490fdbu, 0xc0490fdbu, 0x3f317218u, 0x42b17218u, 0xc28a0000u,
+    0x46000000u, 0x46000001u, 0x4affffffu, 0x4b000000u, 0x4b7fffffu, 0x5effffffu, 0x71800000u,
+    0x71800001u, 0x7f7fffffu, 0x7f800000u, 0xff800000u, 0x7fc00000u, 0xffffffffu,
+};
+enum { EDGES = sizeof edges / sizeof *edges };
+
+static const char *const word_names[PROBE_WORDS] = {
+    "a + b",       "a - b",       "a * b",       "a * b + c", "min",     "max",     "floor",
+    "compare",     "rcp",         "div",         "sqrt",      "rsqrt",   "sin",     "cos",
+    "exp",         "canon",       "unit x",      "unit y",    "unit z",  "dot",     "cross x",
+    "cross y",     "cross z",     "lerp",        "noise x",   "noise y", "noise z", "hash",
+    "direction x", "direction y", "direction z", "random",
+};
+static_assert(sizeof(struct probe_result) == PROBE_WORDS * sizeof(uint32_t), "std430");
+
+static uint4 vector_at(uint32_t index)
+{
+    uint32_t w = random_mix(index ^ 0x51ab2e07u);
+    if (index < EDGES * EDGES)
+        return UINT4(edges[index % EDGES], edges[index / EDGES], edges[random_mix(index) % EDGES],
+                     w);
+    return UINT4(random_mix(3 * index), random_mix(3 * index + 1), random_mix(3 * index + 2), w);
+}
+
+struct probe {
+    struct kiln_device *device;
+    GLuint program;
+    struct kiln_buffer vectors, results;
+};
+
+static bool run_on_device(struct probe *probe, uint32_t first, uint32_t count,
+                          struct kiln_error *error)
+{
+    uint4 *vectors = kiln_buffer_host(&probe->vectors, KILN_OVERWRITE, error);
+    if (!vectors)
+        return false;
+    for (uint32_t i = 0; i < count; i++)
+        vectors[i] = vector_at(first + i);
+    GLuint vector_buffer = kiln_buffer_gl(&probe->vectors, KILN_READ, error);
+    GLuint result_buffer = kiln_buffer_gl(&probe->results, KILN_OVERWRITE, error);
+    if (!vector_buffer || !result_buffer)
+        return false;
+    glUseProgram(probe->program);
+    glUniform1ui(0, count);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, vector_buffer);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, result_buffer);
+    kiln_device_dispatch(probe->device, count, 64);
+    return kiln_device_check(probe->device, "probe", error);
+}
+
+/* True when all results are C's; otherwise the reason is filled in. */
+static bool compare(const uint4 *vectors, const struct probe_result *results, uint32_t count,
+                    char reason[256])
+{
+    for (uint32_t i = 0; i < count; i++) {
+        struct probe_result expected = probe_run(vectors[i]);
+        uint32_t right[PROBE_WORDS], found[PROBE_WORDS];
+        memcpy(right, &expected, sizeof right);
+        memcpy(found, &results[i], sizeof found);
+        for (int word = 0; word < PROBE_WORDS; word++)
+            if (right[word] != found[word]) {
+                snprintf(reason, 256, "%s of (%08x, %08x, %08x, %08x) is %08x instead of %08x",
+                         word_names[word], vectors[i].x, vectors[i].y, vectors[i].z, vectors[i].w,
+                         found[word], right[word]);
+                return false;
+            }
+    }
+    return true;
+}
+
+static bool run(struct probe *probe, uint32_t count, char reason[256], struct kiln_error *error)
+{
+    enum { AT_ONCE = 1 << 16 };
+    const uint32_t most = count < AT_ONCE ? count : AT_ONCE;
+    kiln_buffer_init(&probe->vectors, probe->device, most * sizeof(uint4), "probe vectors");
+    kiln_buffer_init(&probe->results, probe->device, most * sizeof(struct probe_result),
+                     "probe results");
+    for (uint32_t first = 0; first < count; first += most) {
+        uint32_t now = count - first < most ? count - first : most;
+        if (!run_on_device(probe, first, now, error))
+            return false;
+        const uint4 *vectors = kiln_buffer_host(&probe->vectors, KILN_READ, error);
+        const struct probe_result *results = kiln_buffer_host(&probe->results, KILN_READ, error);
+        if (!vectors || !results || !compare(vectors, results, now, reason))
+            return false;
+    }
+    return true;
+}
+
+bool kiln_probe_vectors(struct kiln_device *device, uint32_t count, char reason[256],
+                        struct kiln_error *error)
+{
+    reason[0] = '\0';
+    struct probe probe = {.device = device};
+    probe.program = kiln_program_create(
+        device, &(struct kiln_program_params){.compute = "gpu/probe.comp"}, error);
+    if (!probe.program)
+        return false;
+    bool exact = run(&probe, count, reason, error);
+    kiln_buffer_finish(&probe.vectors);
+    kiln_buffer_finish(&probe.results);
+    glDeleteProgram(probe.program);
+    return exact;
+}
+
+bool kiln_probe_exact(struct kiln_device *device, char reason[256], struct kiln_error *error)
+{
+    return kiln_probe_vectors(device, 4096, reason, error);
+}

@@ -1,0 +1,24 @@
+/* The exactness probe: the shared arithmetic on vectors of bits; lib/gpu/probe.c compares with C. */
+#include "shared/probe.h"
+
+layout(local_size_x = 64) in;
+
+layout(std430, binding = 0) readonly buffer vector_block
+{
+    uint4 vectors[];
+};
+
+layout(std430, binding = 1) writeonly buffer result_block
+{
+    probe_result results[];
+};
+
+layout(location = 0) uniform uint count;
+
+void main()
+{
+    uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    uint i = group * 64u + gl_LocalInvocationID.x;
+    if (i < count)
+        results[i] = probe_run(vectors[i]);
+}

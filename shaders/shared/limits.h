@@ -1,0 +1,34 @@
+/* Sizes of tables, and the binding points of the simulation, that host and shaders agree on. */
+#ifndef KILN_SHARED_LIMITS_H
+#define KILN_SHARED_LIMITS_H
+
+/* The largest key table of a scene: 16 KiB, the least that every GL allows a uniform block. */
+#define KILN_MAX_VALUE_KEYS 1024
+
+#define KILN_MAX_FORCES    16 /* a system */
+#define KILN_MAX_DEMITTERS 8  /* a system */
+#define KILN_MAX_BURSTS    64 /* a system */
+#define KILN_MAX_BOXES     32 /* a scene */
+
+/* The groups of births of a step: one of the rate and one of each burst. */
+#define KILN_MAX_BIRTH_GROUPS 65
+
+/* Boxes and the floor. */
+#define KILN_MAX_COLLIDERS 33
+
+/* Uniform blocks of a step. */
+#define SIM_BIND_KEYS      0
+#define SIM_BIND_STEP      1
+#define SIM_BIND_COLLIDERS 2
+
+/* Storage blocks. */
+#define SIM_BIND_RECORDS 0
+#define SIM_BIND_SUMS    1
+
+/* Invocations of a work group. */
+#define SIM_GROUP_SIZE 64
+
+/* Slots that one invocation of the hash adds up. */
+#define SIM_HASH_SLOTS 16
+
+#endif
