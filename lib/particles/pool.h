@@ -29,6 +29,9 @@ void kiln_pool_init(struct kiln_pool *pool, struct kiln_device *device, const ui
                     uint32_t system_count);
 void kiln_pool_finish(struct kiln_pool *pool);
 
+/* Slots of a system that were ever born into: the first so many; the rest is still zero. */
+uint32_t kiln_pool_used(const struct kiln_pool_system *system);
+
 /* A draw entry names a particle of any system in 32 bits. */
 #define KILN_ENTRY(system, slot) ((uint32_t)(system) << 24 | (slot))
 #define KILN_ENTRY_SYSTEM(entry) ((entry) >> 24)
@@ -38,9 +41,5 @@ void kiln_pool_finish(struct kiln_pool *pool);
  * (system, serial) and returns how many there are. entries has room for slot_count. */
 uint32_t kiln_pool_alive(const struct kiln_pool *pool, const struct kiln_particle *records,
                          uint32_t *entries);
-
-/* The state hash on the host; see shared/state_hash.h. */
-struct kiln_state_hash kiln_pool_hash(const struct kiln_pool *pool,
-                                      const struct kiln_particle *records);
 
 #endif

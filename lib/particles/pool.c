@@ -1,0 +1,47 @@
+/* The slots of every system, and walks over them. */
+#include "particles/pool.h"
+
+void kiln_pool_init(struct kiln_pool *pool, struct kiln_device *device, const uint32_t *capacities,
+                    uint32_t system_count)
+{
+    *pool = (struct kiln_pool){.system_count = system_count};
+    for (uint32_t i = 0; i < system_count; i++) {
+        pool->systems[i] =
+            (struct kiln_pool_system){.base = pool->slot_count, .capacity = capacities[i]};
+        pool->slot_count += capacities[i];
+    }
+    kiln_buffer_init(&pool->records, device,
+                     (size_t)pool->slot_count * sizeof(struct kiln_particle), "particles");
+}
+
+void kiln_pool_finish(struct kiln_pool *pool)
+{
+    kiln_buffer_finish(&pool->records);
+    *pool = (struct kiln_pool){.system_count = 0};
+}
+
+uint32_t kiln_pool_used(const struct kiln_pool_system *system)
+{
+    return system->next_serial < system->capacity ? (uint32_t)system->next_serial
+                                                  : system->capacity;
+}
+
+uint32_t kiln_pool_alive(const struct kiln_pool *pool, const struct kiln_particle *records,
+                         uint32_t *entries)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < pool->system_count; i++) {
+        const struct kiln_pool_system *system = &pool->systems[i];
+        uint32_t used = kiln_pool_used(system);
+        if (used == 0)
+            continue;
+        /* from the oldest serial that may still have its slot: behind it, slots are in order */
+        uint32_t slot = (uint32_t)((system->next_serial - used) % system->capacity);
+        for (uint32_t k = 0; k < used; k++) {
+            entries[count] = KILN_ENTRY(i, system->base + slot);
+            count += particle_is_alive(records[system->base + slot]);
+            slot = slot + 1 == system->capacity ? 0 : slot + 1;
+        }
+    }
+    return count;
+}
