@@ -1,0 +1,79 @@
+/* Slots are stepped independently, so how they are shared out among threads cannot matter. */
+#include "sim/cpu.h"
+
+#include <stdatomic.h>
+
+#include "shared/state_hash.h"
+#include "shared/step.h"
+
+enum { SLOTS_AT_A_TIME = 2048 };
+
+struct work {
+    struct kiln_sim sim;
+    struct kiln_particle *records; /* of the system */
+};
+
+static void step_slots(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = context;
+    for (size_t slot = begin; slot < end; slot++)
+        work->records[slot] = step_slot(&work->sim, (uint)slot, work->records[slot]);
+}
+
+bool kiln_sim_cpu_step(struct kiln_threads *threads, const struct kiln_sim_params *params,
+                       const float4 *value_keys, struct kiln_pool *pool, struct kiln_error *error)
+{
+    struct kiln_particle *records = kiln_buffer_host(&pool->records, KILN_READ_WRITE, error);
+    if (!records)
+        return false;
+    for (uint32_t i = 0; i < params->system_count; i++) {
+        const struct kiln_step_params *step = &params->systems[i];
+        struct work work = {
+            .sim = {.step = step, .colliders = &params->colliders, .value_keys = value_keys},
+            .records = records + step->base,
+        };
+        kiln_threads_for(threads, step->used, SLOTS_AT_A_TIME, step_slots, &work);
+    }
+    return true;
+}
+
+struct hash_work {
+    const struct kiln_particle *records; /* of the system */
+    uint32_t system;
+    atomic_uint a, b, alive; /* sums of integers: their order is of no account */
+};
+
+static void hash_slots(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    struct hash_work *work = context;
+    uint32_t a = 0, b = 0, alive = 0;
+    for (size_t slot = begin; slot < end; slot++) {
+        struct state_hash_lanes lanes = state_hash_particle(work->system, work->records[slot]);
+        a += lanes.a;
+        b += lanes.b;
+        alive += particle_is_alive(work->records[slot]);
+    }
+    atomic_fetch_add(&work->a, a);
+    atomic_fetch_add(&work->b, b);
+    atomic_fetch_add(&work->alive, alive);
+}
+
+bool kiln_sim_cpu_hash(struct kiln_threads *threads, struct kiln_pool *pool,
+                       struct kiln_state_hash *hash, uint64_t *alive, struct kiln_error *error)
+{
+    const struct kiln_particle *records = kiln_buffer_host(&pool->records, KILN_READ, error);
+    if (!records)
+        return false;
+    struct hash_work work = {.system = 0};
+    for (uint32_t i = 0; i < pool->system_count; i++) {
+        const struct kiln_pool_system *system = &pool->systems[i];
+        work.records = records + system->base;
+        work.system = i;
+        kiln_threads_for(threads, kiln_pool_used(system), SLOTS_AT_A_TIME, hash_slots, &work);
+    }
+    *hash = (struct kiln_state_hash){{atomic_load(&work.a), atomic_load(&work.b)}};
+    *alive = atomic_load(&work.alive);
+    return true;
+}

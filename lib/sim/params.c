@@ -1,0 +1,249 @@
+/* From the scene to struct kiln_step_params. */
+#include "sim/params.h"
+
+#include <assert.h>
+#include <stddef.h>
+
+#include "base/error.h"
+#include "shared/exact.h"
+#include "shared/random.h"
+
+static_assert(sizeof(struct kiln_value) == 16, "std140");
+static_assert(sizeof(struct kiln_derived_params) == 48, "std140");
+static_assert(sizeof(struct kiln_emit_params) == 240, "std140");
+static_assert(sizeof(struct kiln_force_params) == 160, "std140");
+static_assert(sizeof(struct kiln_birth_group) == 16, "std140");
+static_assert(offsetof(struct kiln_step_params, step) == 288, "std140");
+static_assert(offsetof(struct kiln_step_params, randomness) == 352, "std140");
+static_assert(offsetof(struct kiln_step_params, bounds_min) == 384, "std140");
+static_assert(offsetof(struct kiln_step_params, groups) == 672, "std140");
+static_assert(offsetof(struct kiln_step_params, forces) == 1712, "std140");
+static_assert(sizeof(struct kiln_step_params) == 4272, "std140");
+static_assert(offsetof(struct kiln_colliders, boxes) == 16, "std140");
+static_assert(sizeof(struct kiln_collider) == 64, "std140");
+
+static_assert(KILN_MAX_BIRTH_GROUPS == KILN_MAX_BURSTS + 1, "the rate and each burst");
+static_assert(KILN_MAX_COLLIDERS == KILN_MAX_BOXES + 1, "each box and the floor");
+
+static_assert(EMIT_POINT == (uint)KILN_EMITTER_POINT && EMIT_SPHERE == (uint)KILN_EMITTER_SPHERE &&
+                  EMIT_BOX == (uint)KILN_EMITTER_BOX && EMIT_DISC == (uint)KILN_EMITTER_DISC &&
+                  EMIT_CONE == (uint)KILN_EMITTER_CONE,
+              "the shaders' names of enum kiln_emitter_shape");
+static_assert(FORCE_GRAVITY == (uint)KILN_FORCE_GRAVITY && FORCE_DRAG == (uint)KILN_FORCE_DRAG &&
+                  FORCE_WIND == (uint)KILN_FORCE_WIND && FORCE_CURL == (uint)KILN_FORCE_CURL,
+              "the shaders' names of enum kiln_force_kind");
+static_assert(INTEGRATE_SEMI_IMPLICIT == (uint)KILN_INTEGRATE_SEMI_IMPLICIT &&
+                  INTEGRATE_POSITION_FIRST == (uint)KILN_INTEGRATE_POSITION_FIRST,
+              "the shaders' names of enum kiln_integration");
+
+/* The floor is a box as wide and deep as the world: farther out, particles are lost. */
+#define WORLD 2097152.0f
+
+/* The key of the noise that all systems share: of no system. */
+enum { NOISE_SYSTEM = KILN_MAX_SYSTEMS };
+
+static float4 to_float4(const float v[3])
+{
+    return FLOAT4(exact_canon(v[0]), exact_canon(v[1]), exact_canon(v[2]), 0.0f);
+}
+
+static void fill_emitter(struct kiln_emit_params *params, const struct kiln_emitter *emit)
+{
+    *params = (struct kiln_emit_params){
+        .shape = (uint)emit->shape,
+        .outward = emit->outward,
+        .surface = emit->surface,
+        .speed = emit->speed,
+        .origin = emit->origin,
+        .direction = emit->direction,
+        .size = emit->size,
+        .angle = emit->angle,
+        .radius = emit->radius,
+        .inherit = emit->inherit,
+    };
+}
+
+static uint collide_kind(const struct kiln_collide *collide)
+{
+    if (!collide->enabled)
+        return COLLIDE_OFF;
+    return collide->mode == KILN_COLLIDE_CLAMP ? COLLIDE_CLAMP : COLLIDE_SWEPT;
+}
+
+static void fill_system(struct kiln_step_params *params, const struct kiln_scene *scene,
+                        uint32_t index)
+{
+    const struct kiln_system *system = &scene->systems[index];
+    *params = (struct kiln_step_params){
+        .derived = {.random_key = random_key(scene->seed, index),
+                    .warmup_steps = scene->warmup_steps,
+                    .dt_s = scene->dt_s,
+                    .life = system->emit.life},
+        .force_count = system->force_count,
+        .integration = (uint)scene->integration,
+        .collide = collide_kind(&system->collide),
+        .demitter_count = system->demitter_count,
+        .bounded = system->bounds.enabled,
+        .noise_seed = random_key(scene->seed, NOISE_SYSTEM),
+        .bounds_min = to_float4(system->bounds.min),
+        .bounds_max = to_float4(system->bounds.max),
+    };
+    fill_emitter(&params->emit, &system->emit);
+    for (uint32_t i = 0; i < system->demitter_count; i++) {
+        params->demitter_min[i] = to_float4(system->demitters[i].min);
+        params->demitter_max[i] = to_float4(system->demitters[i].max);
+    }
+}
+
+void kiln_sim_params_init(struct kiln_sim_params *params, const struct kiln_scene *scene)
+{
+    params->system_count = scene->system_count;
+    for (uint32_t i = 0; i < scene->system_count; i++)
+        fill_system(&params->systems[i], scene, i);
+}
+
+/* The value with its course over time taken at time_s; a curve over life stays one. */
+static struct kiln_value at_time(const struct kiln_scene *scene, struct kiln_value value,
+                                 float time_s)
+{
+    if (value.count != 0 && value.clock == KILN_CLOCK_LIFE)
+        return value;
+    return (struct kiln_value){.constant = kiln_scene_value(scene, &value, time_s)};
+}
+
+static struct kiln_value3 at_time3(const struct kiln_scene *scene, struct kiln_value3 value,
+                                   float time_s)
+{
+    return (struct kiln_value3){at_time(scene, value.x, time_s), at_time(scene, value.y, time_s),
+                                at_time(scene, value.z, time_s)};
+}
+
+static struct kiln_force_params force_at_time(const struct kiln_scene *scene,
+                                              const struct kiln_force *force, float time_s)
+{
+    return (struct kiln_force_params){
+        .kind = (uint)force->kind,
+        .octaves = force->octaves,
+        .vector = at_time3(scene, force->vector, time_s),
+        .drift = at_time3(scene, force->drift, time_s),
+        .strength = at_time(scene, force->strength, time_s),
+        .pull = at_time(scene, force->pull, time_s),
+        .scale = at_time(scene, force->scale, time_s),
+    };
+}
+
+/* A box's lower and upper corner. */
+static void box_corners(const struct kiln_scene *scene, const struct kiln_box *box, float time_s,
+                        float4 *min, float4 *max)
+{
+    float3 center = kiln_scene_value3(scene, &box->center, time_s);
+    float3 size = kiln_scene_value3(scene, &box->size, time_s);
+    float3 low = float3_canon(float3_add_scaled(center, size, -0.5f));
+    float3 high = float3_canon(float3_add_scaled(center, size, 0.5f));
+    *min = FLOAT4(low.x, low.y, low.z, 0.0f);
+    *max = FLOAT4(high.x, high.y, high.z, 0.0f);
+}
+
+static struct kiln_collider floor_collider(float before_m, float after_m)
+{
+    return (struct kiln_collider){
+        .min = FLOAT4(-WORLD, -WORLD, -WORLD, 0.0f),
+        .max = FLOAT4(WORLD, exact_canon(before_m), WORLD, 0.0f),
+        .min_end = FLOAT4(-WORLD, -WORLD, -WORLD, 0.0f),
+        .max_end = FLOAT4(WORLD, exact_canon(after_m), WORLD, 0.0f),
+    };
+}
+
+static void fill_colliders(struct kiln_colliders *colliders, const struct kiln_scene *scene,
+                           float start_s, float end_s)
+{
+    const struct kiln_backdrop *backdrop = &scene->backdrop;
+    colliders->count = 0;
+    colliders->steps_per_s = (float)((double)scene->rate.num / scene->rate.den);
+    for (uint32_t i = 0; i < backdrop->box_count; i++) {
+        if (!backdrop->boxes[i].collide)
+            continue;
+        struct kiln_collider *box = &colliders->boxes[colliders->count++];
+        box_corners(scene, &backdrop->boxes[i], start_s, &box->min, &box->max);
+        box_corners(scene, &backdrop->boxes[i], end_s, &box->min_end, &box->max_end);
+    }
+    if (backdrop->floor_collide)
+        colliders->boxes[colliders->count++] =
+            floor_collider(kiln_scene_value(scene, &backdrop->floor_height, start_s),
+                           kiln_scene_value(scene, &backdrop->floor_height, end_s));
+}
+
+struct rate_context {
+    const struct kiln_scene *scene;
+    const struct kiln_value *rate;
+};
+
+static float rate_at(const void *context, float time_s)
+{
+    const struct rate_context *c = context;
+    return kiln_scene_value(c->scene, c->rate, time_s);
+}
+
+/* Counts the births of one system and tells the step about them. */
+static bool count_births(struct kiln_step_params *params, const struct kiln_scene *scene,
+                         uint32_t index, struct kiln_pool_system *slots, struct kiln_error *error)
+{
+    const struct kiln_system *system = &scene->systems[index];
+    struct kiln_births births = {.count = 0};
+    if (system->enabled) {
+        struct rate_context context = {scene, &system->emit.rate};
+        struct kiln_births_source source = {
+            .rate = rate_at,
+            .context = &context,
+            .bursts = system->emit.bursts,
+            .burst_count = system->emit.burst_count,
+            .steps_num = scene->rate.num,
+            .steps_den = scene->rate.den,
+            .warmup_steps = scene->warmup_steps,
+        };
+        kiln_births_step(&source, params->step, &slots->birth_wait, &births);
+    }
+    if (births.count > slots->capacity)
+        return kiln_error_set(
+            error, KILN_INVALID_INPUT, "%s: systems.%s: %u births in step %u, but only %u slots",
+            scene->name, system->name, births.count, params->step, slots->capacity);
+    if (slots->next_serial + births.count > UINT32_MAX)
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "%s: systems.%s: more than 2^32 births by step %u", scene->name,
+                              system->name, params->step);
+    params->first_serial = (uint)slots->next_serial;
+    params->first_slot = slots->capacity ? params->first_serial % slots->capacity : 0;
+    params->birth_count = births.count;
+    params->group_count = births.group_count;
+    for (uint32_t i = 0; i < births.group_count; i++)
+        params->groups[i] = births.groups[i];
+    slots->next_serial += births.count;
+    return true;
+}
+
+bool kiln_sim_params_step(struct kiln_sim_params *params, const struct kiln_scene *scene,
+                          struct kiln_pool *pool, uint32_t step, struct kiln_error *error)
+{
+    if (step == 0 || step > KILN_MAX_STEPS)
+        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: step %u; a run has at most %u steps",
+                              scene->name, step, KILN_MAX_STEPS);
+    float start_s = kiln_scene_time(scene, step - 1);
+    float end_s = kiln_scene_time(scene, step);
+    for (uint32_t i = 0; i < params->system_count; i++) {
+        const struct kiln_system *system = &scene->systems[i];
+        struct kiln_step_params *p = &params->systems[i];
+        p->step = step;
+        p->time_s = start_s;
+        if (!count_births(p, scene, i, &pool->systems[i], error))
+            return false;
+        p->base = pool->systems[i].base;
+        p->capacity = pool->systems[i].capacity;
+        p->used = kiln_pool_used(&pool->systems[i]);
+        p->randomness = at_time(scene, system->collide.randomness, start_s);
+        p->slowdown = at_time(scene, system->collide.slowdown, start_s);
+        for (uint32_t k = 0; k < system->force_count; k++)
+            p->forces[k] = force_at_time(scene, &system->forces[k], start_s);
+    }
+    fill_colliders(&params->colliders, scene, start_s, end_s);
+    return true;
+}

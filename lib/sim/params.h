@@ -1,0 +1,26 @@
+/* What a step is told: the scene at one time, in the layout of the shaders. Births are counted
+ * here, on the host, so that no technique decides an order.
+ */
+#ifndef KILN_SIM_PARAMS_H
+#define KILN_SIM_PARAMS_H
+
+#include "particles/pool.h"
+#include "scene/scene.h"
+#include "shared/layout.h"
+
+struct kiln_sim_params {
+    uint32_t system_count;
+    struct kiln_step_params systems[KILN_MAX_SYSTEMS];
+    struct kiln_colliders colliders;
+};
+
+/* Fills in all that does not change during a run. */
+void kiln_sim_params_init(struct kiln_sim_params *params, const struct kiln_scene *scene);
+
+/* Counts the births of the step into the pool and fills in the rest: values over time become
+ * constants, all but the emitter's, which each birth takes at its own time. False with
+ * KILN_INVALID_INPUT when serials or the slots of a system run out. */
+bool kiln_sim_params_step(struct kiln_sim_params *params, const struct kiln_scene *scene,
+                          struct kiln_pool *pool, uint32_t step, struct kiln_error *error);
+
+#endif

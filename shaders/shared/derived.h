@@ -1,0 +1,44 @@
+/* What a particle has besides its record, recomputed from its serial and its birth (contract of
+ * determinism, 4): shared by the simulation and by whatever draws.
+ */
+#ifndef KILN_SHARED_DERIVED_H
+#define KILN_SHARED_DERIVED_H
+
+#include "shared/layout.h"
+#include "shared/particle.h"
+#include "shared/random.h"
+
+/* The particle's stream of random numbers. */
+FN uint particle_stream(S(kiln_derived_params) d, S(kiln_particle) p)
+{
+    return random_stream(d.random_key, p.position_serial.w);
+}
+
+/* Clip time at which it was born. */
+FN float particle_birth_time(S(kiln_derived_params) d, S(kiln_particle) p)
+{
+    EXACT float before = FLOAT(particle_birth_step(p) - 1u) - FLOAT(d.warmup_steps);
+    EXACT float steps = before + particle_birth_fraction(p);
+    EXACT float time_s = steps * d.dt_s;
+    return time_s;
+}
+
+/* Seconds that it lives in all. */
+FN float particle_life_s(VALUE_KEYS_PARAM S(kiln_derived_params) d, S(kiln_particle) p)
+{
+    EXACT float born_s = particle_birth_time(d, p);
+    EXACT float low = value_at(VALUE_KEYS d.life.min, born_s, 0.0f);
+    EXACT float high = value_at(VALUE_KEYS d.life.max, born_s, 0.0f);
+    EXACT float life_s = random_between(particle_stream(d, p), RANDOM_LIFE, low, high);
+    return life_s;
+}
+
+/* The part of its life that has passed at an age: 0 at birth, 1 at death. */
+FN float particle_progress(float age_s, float life_s)
+{
+    EXACT float part = exact_div(age_s, life_s);
+    EXACT float progress = exact_clamp(part, 0.0f, 1.0f);
+    return progress;
+}
+
+#endif

@@ -1,0 +1,118 @@
+/* Births (Heinz 2019, 2.1.2): when in the step, where on the emitter's shape, how fast and where
+ * to. Everything is taken at the particle's own birth time, so a moving emitter leaves an even
+ * trail.
+ */
+#ifndef KILN_SHARED_EMIT_H
+#define KILN_SHARED_EMIT_H
+
+#include "shared/derived.h"
+
+/* 64ths of the step that have passed at birth number `index` of this step. */
+FN uint emit_birth_fraction(SIM_PARAM uint index)
+{
+    uint j = index;
+    uint group = 0u;
+    while (group + 1u < STEP(group_count) && j >= STEP(groups[group].count)) {
+        j -= STEP(groups[group].count);
+        group++;
+    }
+    return (STEP(groups[group].first) + j * STEP(groups[group].spacing)) >> 26u;
+}
+
+struct emit_place {
+    float3 offset;    /* from the origin, m */
+    float3 direction; /* of flight, unit length */
+};
+
+/* Uniform in the box, or on its six faces by their area. */
+FN float3 emit_in_box(SIM_PARAM uint stream, float time_s)
+{
+    EXACT float3 size = value3_at(SIM_KEYS STEP(emit.size), time_s, 0.0f);
+    EXACT float3 at = FLOAT3(random_unit(stream, RANDOM_PLACE) - 0.5f,
+                             random_unit(stream, RANDOM_PLACE + 1u) - 0.5f,
+                             random_unit(stream, RANDOM_PLACE + 2u) - 0.5f);
+    if (STEP(emit.surface) != 0u) {
+        EXACT float x_area = size.y * size.z;
+        EXACT float xy_area = x_area + size.x * size.z;
+        EXACT float all_area = xy_area + size.x * size.y;
+        EXACT float pick = random_unit(stream, RANDOM_PLACE + 3u) * all_area;
+        EXACT float side = random_unit(stream, RANDOM_PLACE + 4u) < 0.5f ? -0.5f : 0.5f;
+        at.x = pick < x_area ? side : at.x;
+        at.y = pick >= x_area && pick < xy_area ? side : at.y;
+        at.z = pick >= xy_area ? side : at.z;
+    }
+    EXACT float3 y = FLOAT3(at.x * size.x, at.y * size.y, at.z * size.z);
+    return y;
+}
+
+/* Uniform on the disc about the unit vector `axis`, or on its rim; takes 2 numbers. */
+FN float3 emit_on_disc(uint stream, uint purpose, float3 axis, float radius, bool rim)
+{
+    EXACT float part = exact_sqrt(random_unit(stream, purpose));
+    EXACT float distance = rim ? radius : radius * part;
+    EXACT float turn = random_unit(stream, purpose + 1u) * EXACT_TWO_PI;
+    EXACT S(exact_angle) around = exact_sincos(turn);
+    EXACT S(random_frame) frame = random_frame_about(axis);
+    EXACT float along_u = distance * around.cosine;
+    EXACT float along_v = distance * around.sine;
+    EXACT float3 sideways = float3_scale(frame.u, along_u);
+    EXACT float3 y = float3_add_scaled(sideways, frame.v, along_v);
+    return y;
+}
+
+FN S(emit_place) emit_place_at(SIM_PARAM uint stream, float time_s)
+{
+    EXACT float3 up = FLOAT3(0.0f, 1.0f, 0.0f);
+    EXACT float3 towards = value3_at(SIM_KEYS STEP(emit.direction), time_s, 0.0f);
+    EXACT float3 axis = float3_normalize(towards, up);
+    EXACT float angle = value_at(SIM_KEYS STEP(emit.angle), time_s, 0.0f);
+    EXACT S(exact_angle) rim = exact_sincos(angle);
+    EXACT float radius = value_at(SIM_KEYS STEP(emit.radius), time_s, 0.0f);
+    EXACT S(emit_place) place;
+    place.direction = random_direction(stream, RANDOM_DIRECTION, axis, rim.cosine);
+    place.offset = FLOAT3(0.0f, 0.0f, 0.0f);
+    uint shape = STEP(emit.shape);
+    bool surface = STEP(emit.surface) != 0u;
+    if (shape == EMIT_SPHERE) {
+        EXACT float3 unit = random_in_ball(stream, RANDOM_PLACE, surface);
+        place.offset = float3_scale(unit, radius);
+        if (STEP(emit.outward) != 0u)
+            place.direction = float3_normalize(unit, axis);
+    } else if (shape == EMIT_BOX) {
+        place.offset = emit_in_box(SIM stream, time_s);
+    } else if (shape == EMIT_DISC) {
+        place.offset = emit_on_disc(stream, RANDOM_PLACE, axis, radius, surface);
+    } else if (shape == EMIT_CONE) {
+        /* A nozzle whose stream widens by the angle: with the direction's own numbers, the farther
+         * from the middle a particle starts, the farther from the axis it flies, as if all came
+         * from one point behind. */
+        place.offset = emit_on_disc(stream, RANDOM_DIRECTION, axis, radius, false);
+    }
+    return place;
+}
+
+struct emit_state {
+    float3 position; /* m */
+    float3 velocity; /* m/s */
+};
+
+/* Where a particle born at a clip time starts, and how fast. */
+FN S(emit_state) emit_particle(SIM_PARAM uint stream, float time_s)
+{
+    EXACT S(emit_place) place = emit_place_at(SIM stream, time_s);
+    EXACT float slowest = value_at(SIM_KEYS STEP(emit.speed.min), time_s, 0.0f);
+    EXACT float fastest = value_at(SIM_KEYS STEP(emit.speed.max), time_s, 0.0f);
+    EXACT float speed = random_between(stream, RANDOM_SPEED, slowest, fastest);
+    EXACT float3 origin = value3_at(SIM_KEYS STEP(emit.origin), time_s, 0.0f);
+    EXACT float3 origin_rate = FLOAT3(value_rate_at(SIM_KEYS STEP(emit.origin.x), time_s),
+                                      value_rate_at(SIM_KEYS STEP(emit.origin.y), time_s),
+                                      value_rate_at(SIM_KEYS STEP(emit.origin.z), time_s));
+    EXACT float inherit = value_at(SIM_KEYS STEP(emit.inherit), time_s, 0.0f);
+    EXACT float3 own = float3_scale(place.direction, speed);
+    EXACT S(emit_state) born;
+    born.position = float3_add(origin, place.offset);
+    born.velocity = float3_add_scaled(own, origin_rate, inherit);
+    return born;
+}
+
+#endif

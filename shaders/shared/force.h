@@ -1,0 +1,28 @@
+/* What every force is made of. A force changes a velocity by dv/dt = acceleration - pull * v: what
+ * drags is given as a pull, so that the sum of all forces is integrated exactly over a step and no
+ * pull, however strong, makes a particle overshoot.
+ */
+#ifndef KILN_SHARED_FORCE_H
+#define KILN_SHARED_FORCE_H
+
+#include "shared/layout.h"
+
+struct force_effect {
+    float3 acceleration; /* m/s^2 */
+    float pull;          /* 1/s, not negative */
+};
+
+/* The options of one force at this time of one particle's life, and where the particle is. */
+struct force_input {
+    float3 position;
+    float time_s;
+    float3 vector;
+    float strength;
+    float3 drift;
+    float pull;
+    float scale;
+    uint octaves;
+    uint seed;
+};
+
+#endif

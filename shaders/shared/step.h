@@ -1,0 +1,140 @@
+/* One step of one slot: birth, forces, motion, collision, death. Every simulation technique runs
+ * this very code and only moves data around it (contract of determinism, 1).
+ */
+#ifndef KILN_SHARED_STEP_H
+#define KILN_SHARED_STEP_H
+
+#include "shared/collide.h"
+#include "shared/emit.h"
+#include "shared/forces.h"
+
+/* Farther out, or faster, or not a number: the particle is lost. 2^20 m, m/s. */
+#define STEP_ABSURD_BITS 0x49800000u
+
+FN bool step_is_sane(float3 v)
+{
+    return (FLOAT_BITS(v.x) & EXACT_SIZE_BITS) <= STEP_ABSURD_BITS &&
+           (FLOAT_BITS(v.y) & EXACT_SIZE_BITS) <= STEP_ABSURD_BITS &&
+           (FLOAT_BITS(v.z) & EXACT_SIZE_BITS) <= STEP_ABSURD_BITS;
+}
+
+FN bool step_is_between(float3 p, float4 low, float4 high)
+{
+    return p.x >= low.x && p.x <= high.x && p.y >= low.y && p.y <= high.y && p.z >= low.z &&
+           p.z <= high.z;
+}
+
+/* Outside of the bounding volume, or in a demitter (Heinz 2019, 2.1.2). */
+FN bool step_is_removed(SIM_PARAM float3 p)
+{
+    bool removed = STEP(bounded) != 0u && !step_is_between(p, STEP(bounds_min), STEP(bounds_max));
+    for (uint i = 0u; i < STEP(demitter_count); i++)
+        removed = removed || step_is_between(p, STEP(demitter_min[i]), STEP(demitter_max[i]));
+    return removed;
+}
+
+FN S(kiln_particle) step_dead(void)
+{
+    S(kiln_particle) p;
+    p.position_serial = UINT4(0u, 0u, 0u, 0u);
+    p.velocity_birth = UINT4(0u, 0u, 0u, 0u);
+    return p;
+}
+
+FN S(kiln_particle) step_with_motion(S(kiln_particle) p, float3 position, float3 velocity)
+{
+    EXACT float3 x = float3_canon(position);
+    EXACT float3 v = float3_canon(velocity);
+    S(kiln_particle) moved;
+    moved.position_serial =
+        UINT4(FLOAT_BITS(x.x), FLOAT_BITS(x.y), FLOAT_BITS(x.z), p.position_serial.w);
+    moved.velocity_birth =
+        UINT4(FLOAT_BITS(v.x), FLOAT_BITS(v.y), FLOAT_BITS(v.z), p.velocity_birth.w);
+    return moved;
+}
+
+/* Birth number `index` of this step, as it is at the time of its birth. */
+FN S(kiln_particle) step_birth(SIM_PARAM uint index)
+{
+    S(kiln_particle) p = step_dead();
+    p.position_serial.w = STEP(first_serial) + index;
+    p.velocity_birth.w = (STEP(step) << KILN_BIRTH_STEP_SHIFT) |
+                         (emit_birth_fraction(SIM index) << KILN_BIRTH_FRACTION_SHIFT) |
+                         KILN_PARTICLE_ALIVE;
+    uint stream = particle_stream(STEP(derived), p);
+    EXACT float born_s = particle_birth_time(STEP(derived), p);
+    EXACT S(emit_state) born = emit_particle(SIM stream, born_s);
+    return step_with_motion(p, born.position, born.velocity);
+}
+
+/* Motion from the part `since` of the step to its end, without collision. */
+FN S(collide_state) step_integrate(SIM_PARAM S(collide_state) s, float life)
+{
+    EXACT float time_s = (1.0f - s.since) * STEP(derived.dt_s);
+    EXACT S(force_effect) forces = forces_sum(SIM s.position, life);
+    EXACT S(collide_state) moved;
+    moved.velocity = forces_apply(forces, s.velocity, time_s);
+    EXACT float3 carrying = moved.velocity;
+    if (STEP(integration) == INTEGRATE_POSITION_FIRST)
+        carrying = s.velocity;
+    moved.position = float3_add_scaled(s.position, carrying, time_s);
+    moved.since = 1.0f;
+    return moved;
+}
+
+FN S(collide_state) step_collide(SIM_PARAM S(collide_state) s, float3 end, float life, uint stream)
+{
+    EXACT S(collide_answer) answer;
+    answer.randomness = value_at(SIM_KEYS STEP(randomness), STEP(time_s), life);
+    answer.slowdown = value_at(SIM_KEYS STEP(slowdown), STEP(time_s), life);
+    answer.stream = stream;
+    answer.purpose = 0u;
+    if (STEP(collide) == COLLIDE_CLAMP)
+        return collide_clamp(SIM s, end, answer);
+    return collide_swept(SIM s, end, answer);
+}
+
+/* A particle, new ones included, at the end of this step: moved, or dead. */
+FN S(kiln_particle) step_particle(SIM_PARAM S(kiln_particle) p)
+{
+    EXACT float life_s = particle_life_s(SIM_KEYS STEP(derived), p);
+    EXACT float age_s = particle_age(p, STEP(step), STEP(derived.dt_s));
+    if (age_s >= life_s)
+        return step_dead();
+    bool born = particle_birth_step(p) == STEP(step);
+    EXACT float age_before_s = age_s - STEP(derived.dt_s);
+    EXACT float life = born ? 0.0f : particle_progress(age_before_s, life_s);
+
+    EXACT S(collide_state) start;
+    start.position = particle_position(p);
+    start.velocity = particle_velocity(p);
+    start.since = born ? particle_birth_fraction(p) : 0.0f;
+    EXACT S(collide_state) end = step_integrate(SIM start, life);
+    if (!step_is_sane(end.position) || !step_is_sane(end.velocity))
+        return step_dead();
+    if (STEP(collide) != COLLIDE_OFF) {
+        start.velocity = end.velocity;
+        uint stream = particle_stream(STEP(derived), p);
+        end = step_collide(SIM start, end.position, life, stream);
+        if (!step_is_sane(end.position) || !step_is_sane(end.velocity))
+            return step_dead();
+    }
+    if (step_is_removed(SIM end.position))
+        return step_dead();
+    return step_with_motion(p, end.position, end.velocity);
+}
+
+/* Slot `slot` of the system after this step; `old` is what lies there before it. */
+FN S(kiln_particle) step_slot(SIM_PARAM uint slot, S(kiln_particle) old)
+{
+    uint index = slot >= STEP(first_slot) ? slot - STEP(first_slot)
+                                          : slot + (STEP(capacity) - STEP(first_slot));
+    S(kiln_particle) p = old;
+    if (index < STEP(birth_count))
+        p = step_birth(SIM index);
+    if (!particle_is_alive(p))
+        return p;
+    return step_particle(SIM p);
+}
+
+#endif

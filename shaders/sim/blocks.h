@@ -1,0 +1,25 @@
+/* What the shared step reads as globals in GLSL. */
+#ifndef KILN_SIM_BLOCKS_H
+#define KILN_SIM_BLOCKS_H
+
+#include "shared/limits.h"
+#include "shared/platform.h"
+
+layout(std140, binding = SIM_BIND_KEYS) uniform key_block
+{
+    float4 value_keys[KILN_MAX_VALUE_KEYS];
+};
+
+#include "shared/layout.h"
+
+layout(std140, binding = SIM_BIND_STEP) uniform step_block
+{
+    kiln_step_params step_params;
+};
+
+layout(std140, binding = SIM_BIND_COLLIDERS) uniform collider_block
+{
+    kiln_colliders colliders;
+};
+
+#endif

@@ -1,0 +1,53 @@
+/* The state hash of one system and the number of its living particles, added to three sums. Integer
+ * sums are the same in any order, so here atomics are harmless. */
+#include "shared/limits.h"
+#include "shared/state_hash.h"
+
+layout(local_size_x = SIM_GROUP_SIZE) in;
+
+layout(std430, binding = SIM_BIND_RECORDS) readonly buffer record_block
+{
+    kiln_particle records[];
+};
+
+layout(std430, binding = SIM_BIND_SUMS) buffer sum_block
+{
+    uint sum_a, sum_b, alive;
+};
+
+layout(location = 0) uniform uint system;
+layout(location = 1) uniform uint base; /* the system's first slot */
+layout(location = 2) uniform uint used; /* its slots that were ever born into */
+
+shared uint group_sums[3];
+
+void main()
+{
+    if (gl_LocalInvocationID.x < 3u)
+        group_sums[gl_LocalInvocationID.x] = 0u;
+    barrier();
+    uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    uint first = group * SIM_GROUP_SIZE * SIM_HASH_SLOTS + gl_LocalInvocationID.x;
+    uint a = 0u;
+    uint b = 0u;
+    uint living = 0u;
+    for (uint i = 0u; i < SIM_HASH_SLOTS; i++) {
+        uint slot = first + i * SIM_GROUP_SIZE;
+        if (slot < used) {
+            kiln_particle p = records[base + slot];
+            state_hash_lanes lanes = state_hash_particle(system, p);
+            a += lanes.a;
+            b += lanes.b;
+            living += particle_is_alive(p) ? 1u : 0u;
+        }
+    }
+    atomicAdd(group_sums[0], a);
+    atomicAdd(group_sums[1], b);
+    atomicAdd(group_sums[2], living);
+    barrier();
+    if (gl_LocalInvocationID.x == 0u) {
+        atomicAdd(sum_a, group_sums[0]);
+        atomicAdd(sum_b, group_sums[1]);
+        atomicAdd(alive, group_sums[2]);
+    }
+}

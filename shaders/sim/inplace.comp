@@ -1,0 +1,23 @@
+/* Technique `inplace` (Heinz 2019, algorithm 3.2): one buffer, each invocation steps its slot where
+ * it lies. Unlike the thesis's, it finds no free slots by an atomic counter: the host says which
+ * slots are born into, so the order never depends on scheduling. */
+#include "sim/blocks.h"
+
+#include "shared/step.h"
+
+layout(local_size_x = SIM_GROUP_SIZE) in;
+
+layout(std430, binding = SIM_BIND_RECORDS) buffer record_block
+{
+    kiln_particle records[];
+};
+
+void main()
+{
+    uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    uint slot = group * SIM_GROUP_SIZE + gl_LocalInvocationID.x;
+    if (slot >= step_params.used)
+        return;
+    uint index = step_params.base + slot;
+    records[index] = step_slot(slot, records[index]);
+}

@@ -1,0 +1,289 @@
+/* Scenes built by hand, for tests of the stages behind the loader. */
+#ifndef TESTS_SUPPORT_SCENE_FIXTURE_H
+#define TESTS_SUPPORT_SCENE_FIXTURE_H
+
+#include <string.h>
+
+#include "particles/births.h"
+#include "scene/scene.h"
+
+struct scene_fixture {
+    struct kiln_scene scene;
+    float4 keys[256];
+};
+
+/* An empty scene: 300 frames at 60 a second, one step each. */
+static inline void fixture_init(struct scene_fixture *f)
+{
+    memset(f, 0, sizeof *f);
+    f->scene.name = "fixture";
+    f->scene.seed = 7;
+    f->scene.fps = (struct kiln_rational){60, 1};
+    f->scene.rate = (struct kiln_rational){60, 1};
+    f->scene.frames = 300;
+    f->scene.steps_per_frame = 1;
+    f->scene.dt_s = 1.0f / 60.0f;
+    f->scene.keys = f->keys;
+}
+
+static inline struct kiln_value fixture_constant(float x)
+{
+    return (struct kiln_value){.constant = x};
+}
+
+/* A value through (x, y) pairs. */
+static inline struct kiln_value fixture_keys(struct scene_fixture *f, uint32_t clock,
+                                             uint32_t count, const float (*points)[2])
+{
+    struct kiln_value value = {.first = f->scene.key_count, .count = count, .clock = clock};
+    for (uint32_t i = 0; i < count; i++) {
+        float slope = 0.0f;
+        if (i + 1 < count)
+            slope = (points[i + 1][1] - points[i][1]) / (points[i + 1][0] - points[i][0]);
+        f->keys[f->scene.key_count++] = FLOAT4(points[i][0], points[i][1], slope, 0.0f);
+    }
+    return value;
+}
+
+/* From y0 at x0 to y1 at x1, in seconds or parts of the life. */
+static inline struct kiln_value fixture_ramp(struct scene_fixture *f, uint32_t clock, float x0,
+                                             float y0, float x1, float y1)
+{
+    const float points[2][2] = {{x0, y0}, {x1, y1}};
+    return fixture_keys(f, clock, 2, points);
+}
+
+static inline struct kiln_value3 fixture_constant3(float x, float y, float z)
+{
+    return (struct kiln_value3){fixture_constant(x), fixture_constant(y), fixture_constant(z)};
+}
+
+static inline struct kiln_range fixture_range(float min, float max)
+{
+    return (struct kiln_range){fixture_constant(min), fixture_constant(max)};
+}
+
+/* A system that emits upwards from the origin, `rate` particles a second that live for 1 to 2 s. */
+static inline struct kiln_system *fixture_add_system(struct scene_fixture *f, const char *name,
+                                                     float rate)
+{
+    struct kiln_system *system = &f->scene.systems[f->scene.system_count++];
+    system->name = name;
+    system->enabled = true;
+    system->emit.rate = fixture_constant(rate);
+    system->emit.life = fixture_range(1.0f, 2.0f);
+    system->emit.speed = fixture_range(1.0f, 2.0f);
+    system->emit.direction = fixture_constant3(0.0f, 1.0f, 0.0f);
+    system->collide.slowdown = fixture_constant(1.0f);
+    return system;
+}
+
+static inline struct kiln_force *fixture_add_force(struct kiln_system *system,
+                                                   enum kiln_force_kind kind)
+{
+    struct kiln_force *force = &system->forces[system->force_count++];
+    force->kind = kind;
+    force->octaves = 1;
+    force->scale = fixture_constant(1.0f);
+    return force;
+}
+
+static inline struct kiln_box *fixture_add_box(struct scene_fixture *f, float x, float y, float z,
+                                               float width, float height, float depth)
+{
+    struct kiln_box *box = &f->scene.backdrop.boxes[f->scene.backdrop.box_count++];
+    box->center = fixture_constant3(x, y, z);
+    box->size = fixture_constant3(width, height, depth);
+    box->collide = true;
+    return box;
+}
+
+struct fixture_rate {
+    const struct kiln_scene *scene;
+    const struct kiln_value *rate;
+};
+
+static inline float fixture_rate_at(const void *context, float time_s)
+{
+    const struct fixture_rate *c = context;
+    return kiln_scene_value(c->scene, c->rate, time_s);
+}
+
+/* Gives every system the slots that it needs for so many steps. */
+static inline void fixture_finish(struct scene_fixture *f, uint32_t steps)
+{
+    for (uint32_t i = 0; i < f->scene.system_count; i++) {
+        struct kiln_system *system = &f->scene.systems[i];
+        struct fixture_rate context = {&f->scene, &system->emit.rate};
+        struct kiln_births_source source = {
+            .rate = fixture_rate_at,
+            .context = &context,
+            .bursts = system->emit.bursts,
+            .burst_count = system->emit.burst_count,
+            .steps_num = f->scene.rate.num,
+            .steps_den = f->scene.rate.den,
+            .warmup_steps = f->scene.warmup_steps,
+        };
+        float longest_s = kiln_scene_value_max(&f->scene, &system->emit.life.max);
+        struct kiln_births_bound bound =
+            kiln_births_bound(&source, steps, longest_s, f->scene.dt_s);
+        system->capacity = (uint32_t)bound.capacity;
+    }
+}
+
+/* ---- one scene with everything in it -------------------------------------------------------- */
+
+static inline void fixture_zoo_backdrop(struct scene_fixture *f)
+{
+    const uint32_t time = KILN_CLOCK_TIME;
+    struct kiln_backdrop *backdrop = &f->scene.backdrop;
+    backdrop->floor_collide = true;
+    backdrop->floor_height = fixture_constant(-0.5f);
+    fixture_add_box(f, 2.0f, 1.0f, 0.0f, 1.0f, 2.0f, 1.5f);
+    fixture_add_box(f, 2.5f, 1.0f, 0.2f, 0.5f, 0.5f, 3.0f);
+    struct kiln_box *moving = fixture_add_box(f, 0.0f, 1.5f, 0.0f, 0.5f, 0.4f, 0.5f);
+    moving->center.x = fixture_ramp(f, time, 0.3f, -2.0f, 2.0f, 2.0f);
+    moving->center.y = fixture_ramp(f, time, 0.0f, 0.2f, 3.0f, 2.0f);
+    struct kiln_box *growing = fixture_add_box(f, -1.0f, 0.5f, 0.5f, 0.2f, 0.2f, 0.2f);
+    growing->size.y = fixture_ramp(f, time, 0.5f, 0.1f, 2.5f, 2.0f);
+    fixture_add_box(f, 0.0f, 0.0f, 0.0f, 90.0f, 90.0f, 90.0f)->collide = false;
+}
+
+static inline void fixture_zoo_point(struct scene_fixture *f)
+{
+    struct kiln_system *s = fixture_add_system(f, "point", 300.0f);
+    s->emit.angle = fixture_constant(0.4f);
+    s->emit.direction = fixture_constant3(2.0f, 1.0f, 0.1f);
+    s->emit.speed = fixture_range(2.0f, 8.0f);
+    fixture_add_force(s, KILN_FORCE_GRAVITY)->vector = fixture_constant3(0.0f, -9.81f, 0.0f);
+    s->collide.enabled = true;
+    s->collide.randomness = fixture_ramp(f, KILN_CLOCK_LIFE, 0.0f, 0.0f, 1.0f, 1.0f);
+    s->collide.slowdown = fixture_ramp(f, KILN_CLOCK_TIME, 0.0f, 0.4f, 4.0f, 1.0f);
+}
+
+static inline void fixture_zoo_sphere(struct scene_fixture *f)
+{
+    static const float rates[4][2] = {{-0.5f, 0.0f}, {0.5f, 400.0f}, {1.5f, 30.0f}, {3.0f, 200.0f}};
+    struct kiln_system *s = fixture_add_system(f, "sphere", 0.0f);
+    s->emit.rate = fixture_keys(f, KILN_CLOCK_TIME, 4, rates);
+    s->emit.shape = KILN_EMITTER_SPHERE;
+    s->emit.surface = s->emit.outward = true;
+    s->emit.radius = fixture_ramp(f, KILN_CLOCK_TIME, 0.0f, 0.1f, 3.0f, 0.6f);
+    s->emit.origin = fixture_constant3(0.0f, 1.0f, 0.0f);
+    s->emit.origin.x = fixture_ramp(f, KILN_CLOCK_TIME, 0.0f, -2.0f, 2.0f, 2.0f);
+    s->emit.inherit = fixture_constant(0.7f);
+    s->emit.life.max = fixture_ramp(f, KILN_CLOCK_TIME, 0.0f, 1.2f, 3.0f, 2.0f);
+    fixture_add_force(s, KILN_FORCE_DRAG)->strength =
+        fixture_ramp(f, KILN_CLOCK_LIFE, 0.0f, 0.1f, 1.0f, 300.0f);
+    s->collide.enabled = true;
+    s->collide.slowdown = fixture_constant(0.8f);
+}
+
+static inline void fixture_zoo_box(struct scene_fixture *f)
+{
+    struct kiln_system *s = fixture_add_system(f, "box", 250.0f);
+    s->emit.shape = KILN_EMITTER_BOX;
+    s->emit.size = fixture_constant3(1.0f, 0.2f, 2.0f);
+    s->emit.angle = fixture_constant(3.14159274f);
+    struct kiln_force *wind = fixture_add_force(s, KILN_FORCE_WIND);
+    wind->vector = fixture_constant3(1.0f, 0.0f, 0.0f);
+    wind->vector.z = fixture_ramp(f, KILN_CLOCK_TIME, 0.0f, -2.0f, 2.0f, 2.0f);
+    wind->strength = fixture_constant(2.0f);
+    struct kiln_force *curl = fixture_add_force(s, KILN_FORCE_CURL);
+    curl->strength = fixture_constant(1.5f);
+    curl->pull = fixture_ramp(f, KILN_CLOCK_LIFE, 0.0f, 0.0f, 0.5f, 4.0f);
+    curl->scale = fixture_constant(0.8f);
+    curl->octaves = 3;
+    s->bounds = (struct kiln_bounds){true, {-1.5f, -0.4f, -2.0f}, {1.5f, 1.0f, 2.0f}};
+}
+
+static inline void fixture_zoo_disc(struct scene_fixture *f)
+{
+    struct kiln_system *s = fixture_add_system(f, "disc", 200.0f);
+    s->emit.shape = KILN_EMITTER_DISC;
+    s->emit.surface = true;
+    s->emit.radius = fixture_constant(0.5f);
+    s->emit.origin = fixture_constant3(0.0f, 0.1f, -1.0f);
+    s->emit.direction = fixture_constant3(0.3f, 1.0f, -0.5f);
+    struct kiln_force *curl = fixture_add_force(s, KILN_FORCE_CURL);
+    curl->strength = fixture_ramp(f, KILN_CLOCK_TIME, 0.0f, 0.0f, 4.0f, 3.0f);
+    curl->pull = fixture_constant(1.0f);
+    curl->scale = fixture_ramp(f, KILN_CLOCK_LIFE, 0.0f, 0.3f, 1.0f, 1.5f);
+    curl->drift = fixture_constant3(0.2f, -0.4f, 1.0f);
+    curl->octaves = 4;
+    s->demitters[0] = (struct kiln_bounds){true, {0.2f, 0.5f, -2.0f}, {0.6f, 3.0f, 0.0f}};
+    s->demitters[1] = (struct kiln_bounds){true, {-0.6f, 0.8f, -2.0f}, {-0.2f, 3.0f, 0.0f}};
+    s->demitter_count = 2;
+}
+
+static inline void fixture_zoo_cone(struct scene_fixture *f)
+{
+    struct kiln_system *s = fixture_add_system(f, "cone", 20.0f);
+    s->emit.shape = KILN_EMITTER_CONE;
+    s->emit.radius = fixture_constant(0.2f);
+    s->emit.angle = fixture_ramp(f, KILN_CLOCK_TIME, 0.0f, 0.0f, 3.0f, 1.5f);
+    s->emit.direction = fixture_constant3(1.0f, 0.0f, 0.0f);
+    s->emit.direction.y = fixture_ramp(f, KILN_CLOCK_TIME, 0.0f, -1.0f, 3.0f, 1.0f);
+    s->emit.speed = fixture_range(5.0f, 90.0f);
+    s->emit.origin = fixture_constant3(0.0f, 1.0f, 0.0f);
+    s->emit.bursts[0] = (struct kiln_burst){-0.31, 90};
+    s->emit.bursts[1] = (struct kiln_burst){1.0, 300};
+    s->emit.bursts[2] = (struct kiln_burst){1.011, 150};
+    s->emit.burst_count = 3;
+    fixture_add_force(s, KILN_FORCE_GRAVITY)->vector = fixture_constant3(0.0f, -5.0f, 0.0f);
+    s->collide.enabled = true;
+    s->collide.randomness = fixture_constant(0.4f);
+    s->collide.slowdown = fixture_constant(0.9f);
+}
+
+static inline void fixture_zoo_clamped(struct scene_fixture *f)
+{
+    struct kiln_system *s = fixture_add_system(f, "clamped", 150.0f);
+    s->emit.shape = KILN_EMITTER_BOX;
+    s->emit.surface = true;
+    s->emit.size = fixture_constant3(6.0f, 4.0f, 3.0f);
+    s->emit.angle = fixture_constant(1.0f);
+    s->emit.life = fixture_range(0.005f, 0.5f);
+    s->emit.direction = fixture_constant3(0.0f, -1.0f, 0.0f);
+    s->emit.speed = fixture_range(0.0f, 12.0f);
+    s->collide.enabled = true;
+    s->collide.mode = KILN_COLLIDE_CLAMP;
+    s->collide.randomness = fixture_constant(0.7f);
+    s->collide.slowdown = fixture_constant(0.5f);
+}
+
+static inline void fixture_zoo_rest(struct scene_fixture *f)
+{
+    struct kiln_system *off = fixture_add_system(f, "off", 100.0f);
+    off->enabled = false;
+    struct kiln_system *s = fixture_add_system(f, "ball", 100.0f);
+    s->emit.shape = KILN_EMITTER_SPHERE;
+    s->emit.radius = fixture_constant(2.0f);
+    s->emit.origin = fixture_constant3(1.0f, 1.0f, 0.0f);
+    struct kiln_force *lift = fixture_add_force(s, KILN_FORCE_GRAVITY);
+    lift->vector = fixture_constant3(0.0f, 0.0f, 0.0f);
+    lift->vector.y = fixture_ramp(f, KILN_CLOCK_LIFE, 0.0f, 9.0f, 1.0f, -9.0f);
+    s->collide.enabled = true;
+    s->collide.randomness = fixture_constant(1.0f);
+    s->collide.slowdown = fixture_constant(0.5f);
+}
+
+/* Every emitter, force, collider and kind of value, for so many steps. */
+static inline void fixture_zoo(struct scene_fixture *f, enum kiln_integration integration,
+                               uint32_t steps)
+{
+    fixture_init(f);
+    f->scene.integration = integration;
+    f->scene.warmup_steps = 30;
+    fixture_zoo_backdrop(f);
+    fixture_zoo_point(f);
+    fixture_zoo_sphere(f);
+    fixture_zoo_box(f);
+    fixture_zoo_disc(f);
+    fixture_zoo_cone(f);
+    fixture_zoo_clamped(f);
+    fixture_zoo_rest(f);
+    fixture_finish(f, steps);
+}
+
+#endif

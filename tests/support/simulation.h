@@ -1,0 +1,82 @@
+/* A run of a fixture scene. */
+#ifndef TESTS_SUPPORT_SIMULATION_H
+#define TESTS_SUPPORT_SIMULATION_H
+
+#include "gpu/probe.h"
+#include "sim/simulate.h"
+#include "support/device.h"
+#include "support/scene_fixture.h"
+
+struct simulation {
+    struct kiln_threads *threads;
+    struct kiln_simulate *simulate;
+    struct kiln_pool pool;
+    uint32_t step; /* steps done */
+};
+
+/* device NULL runs `cpu`. */
+static inline void simulation_start(struct simulation *run, const struct scene_fixture *f,
+                                    struct kiln_device *device, uint32_t threads)
+{
+    struct kiln_error error = {0};
+    *run = (struct simulation){.threads = kiln_threads_create(threads)};
+    assert_non_null(run->threads);
+    run->simulate =
+        kiln_simulate_create(device, &f->scene, device ? KILN_SIMULATE_INPLACE : KILN_SIMULATE_CPU,
+                             run->threads, &error);
+    if (!run->simulate)
+        fail_msg("%s", error.message);
+    uint32_t capacities[KILN_MAX_SYSTEMS];
+    for (uint32_t i = 0; i < f->scene.system_count; i++)
+        capacities[i] = f->scene.systems[i].capacity;
+    kiln_pool_init(&run->pool, device, capacities, f->scene.system_count);
+}
+
+static inline void simulation_run(struct simulation *run, uint32_t steps)
+{
+    struct kiln_error error = {0};
+    for (uint32_t i = 0; i < steps; i++)
+        if (!kiln_simulate_step(run->simulate, &run->pool, ++run->step, &error))
+            fail_msg("%s", error.message);
+}
+
+static inline struct kiln_state_hash simulation_hash(struct simulation *run, uint64_t *alive)
+{
+    struct kiln_error error = {0};
+    struct kiln_state_hash hash;
+    if (!kiln_simulate_hash(run->simulate, &run->pool, &hash, alive, &error))
+        fail_msg("%s", error.message);
+    return hash;
+}
+
+static inline const struct kiln_particle *simulation_records(struct simulation *run)
+{
+    struct kiln_error error = {0};
+    const struct kiln_particle *records = kiln_buffer_host(&run->pool.records, KILN_READ, &error);
+    assert_non_null(records);
+    return records;
+}
+
+static inline void simulation_end(struct simulation *run)
+{
+    kiln_pool_finish(&run->pool);
+    kiln_simulate_destroy(&run->simulate);
+    kiln_threads_destroy(&run->threads);
+}
+
+/* A group set-up: the device, if it may simulate; gpu.exact says whether one should. */
+static inline int simulation_device_open(void **state)
+{
+    test_device_open(state);
+    struct kiln_device *device = *state;
+    struct kiln_error error = {0};
+    char reason[256];
+    device->info.exact = kiln_probe_exact(device, reason, &error);
+    if (!device->info.exact) {
+        fprintf(stderr, "skipped: not exact: %s%s\n", reason, error.message);
+        exit(77);
+    }
+    return 0;
+}
+
+#endif
