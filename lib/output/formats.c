@@ -9,6 +9,7 @@
 
 static const struct kiln_format *const formats[] = {
     &kiln_format_png,
+    &kiln_format_exr,
     &kiln_format_mp4,
 };
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats };

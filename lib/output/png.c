@@ -145,7 +145,7 @@ static bool encode(void *opaque, const struct kiln_picture *picture, struct kiln
 
 const struct kiln_format kiln_format_png = {
     .suffix = ".png",
-    .name = "PNG",
+    .name = "PNG images",
     .help = "8 or 16 bits a channel, sRGB; with alpha when the backdrop is transparent",
     .needs = needs,
     .check = check,

@@ -15,7 +15,7 @@
 #include "output/pattern.h"
 #include "support/pictures.h"
 
-static const char *const suffixes[] = {".png", ".mp4"};
+static const char *const suffixes[] = {".png", ".exr", ".mp4"};
 enum { SUFFIX_COUNT = sizeof suffixes / sizeof *suffixes };
 
 /* ---- Names -------------------------------------------------------------------------------- */

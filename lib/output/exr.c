@@ -1,0 +1,284 @@
+/* OpenEXR by its C core: one part, the layers as channels (R, G, B, A for the beauty, "fire.R" and
+ * so on for the others, Z for the depth), linear, premultiplied, ZIP-compressed in blocks of 16
+ * lines. Alpha and colour are half or float as asked; depth is always float. */
+#include <math.h>
+#include <openexr.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "output/formats.h"
+
+enum { MAX_CHANNELS = KILN_MAX_LAYERS * 4, CHANNEL_NAME_SIZE = 32 };
+
+/* The largest half: more would read back as infinity. */
+static const float half_max = 65504.0f;
+
+struct exr_encoder {
+    const struct kiln_output_params *params;
+    struct kiln_temporary *file;
+    exr_context_t context;
+    exr_encode_pipeline_t pipeline;
+    bool pipeline_used;
+    float *block; /* the lines of one chunk, channel after channel */
+};
+
+/* Where a channel of the file comes from. */
+struct channel {
+    char name[CHANNEL_NAME_SIZE];
+    const struct kiln_layer *layer;
+    uint32_t component;
+    exr_pixel_type_t type;
+};
+
+static struct kiln_output_needs needs(const struct kiln_output_params *params)
+{
+    (void)params;
+    return (struct kiln_output_needs){.layers = true};
+}
+
+static bool check(const struct kiln_output_params *params, struct kiln_error *error)
+{
+    if (params->exr_bits != 16 && params->exr_bits != 32)
+        return kiln_error_set(error, KILN_USAGE,
+                              "an EXR of %u bits a channel; allowed are 16 (half) or 32 (float)",
+                              params->exr_bits);
+    return true;
+}
+
+/* The code that comes back says enough; from here the context, which holds its lock, cannot even be
+ * asked for its user data. Without a handler the library would print. */
+static void on_failure(exr_const_context_t context, exr_result_t code, const char *message)
+{
+    (void)context;
+    (void)code;
+    (void)message;
+}
+
+static int64_t on_write(exr_const_context_t context, void *opaque, const void *bytes, uint64_t size,
+                        uint64_t offset, exr_stream_error_func_ptr_t report)
+{
+    (void)context;
+    (void)report;
+    struct exr_encoder *encoder = opaque;
+    bool good = kiln_temporary_seek(encoder->file, (int64_t)offset) &&
+                kiln_temporary_write(encoder->file, bytes, size);
+    return good ? (int64_t)size : -1;
+}
+
+static bool fail(const struct exr_encoder *encoder, exr_result_t code, struct kiln_error *error)
+{
+    const char *target = encoder->file->target;
+    if (encoder->file->failure)
+        return kiln_error_set_errno(error, KILN_IO, encoder->file->failure,
+                                    "%s: the file cannot be written", target);
+    if (code == EXR_ERR_OUT_OF_MEMORY)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the EXR encoder",
+                              target);
+    return kiln_error_set(error, KILN_IO, "%s: OpenEXR failed: %s", target,
+                          exr_get_default_error_message(code));
+}
+
+static void close_encoder(void *opaque)
+{
+    struct exr_encoder *encoder = opaque;
+    if (encoder->pipeline_used)
+        exr_encoding_destroy(encoder->context, &encoder->pipeline);
+    if (encoder->context)
+        exr_finish(&encoder->context);
+    free(encoder->block);
+    free(encoder);
+}
+
+static void *open_encoder(const struct kiln_output_params *params, struct kiln_temporary *file,
+                          struct kiln_error *error)
+{
+    struct exr_encoder *encoder = calloc(1, sizeof *encoder);
+    if (!encoder) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the EXR encoder",
+                       file->target);
+        return NULL;
+    }
+    encoder->params = params;
+    encoder->file = file;
+    exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    initializer.user_data = encoder;
+    initializer.error_handler_fn = on_failure;
+    initializer.write_fn = on_write;
+    exr_result_t code =
+        exr_start_write(&encoder->context, file->target, EXR_WRITE_FILE_DIRECTLY, &initializer);
+    if (code == EXR_ERR_SUCCESS)
+        return encoder;
+    fail(encoder, code, error);
+    close_encoder(encoder);
+    return NULL;
+}
+
+/* ---- The header --------------------------------------------------------------------------- */
+
+static uint32_t list_channels(const struct exr_encoder *encoder, const struct kiln_picture *picture,
+                              struct channel channels[MAX_CHANNELS])
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < picture->layer_count; i++) {
+        const struct kiln_layer *layer = &picture->layers[i];
+        bool depth = layer->channels == 1;
+        bool bare = strcmp(layer->name, depth ? "depth" : "beauty") == 0;
+        for (uint32_t c = 0; c < layer->channels && c < 4; c++) {
+            struct channel *channel = &channels[count++];
+            channel->layer = layer;
+            channel->component = c;
+            channel->type =
+                depth || encoder->params->exr_bits == 32 ? EXR_PIXEL_FLOAT : EXR_PIXEL_HALF;
+            snprintf(channel->name, sizeof channel->name, "%.29s%s%c", bare ? "" : layer->name,
+                     bare ? "" : ".", depth ? 'Z' : "RGBA"[c]);
+        }
+    }
+    return count;
+}
+
+static exr_result_t write_metadata(const struct exr_encoder *encoder, uint32_t frame)
+{
+    const struct kiln_output_params *params = encoder->params;
+    char seed[16], number[16];
+    snprintf(seed, sizeof seed, "%u", params->seed);
+    snprintf(number, sizeof number, "%u", frame);
+    const char *const texts[][2] = {
+        {"software", "kiln " KILN_VERSION},
+        {"kiln:version", KILN_VERSION},
+        {"kiln:scene", params->scene_hash},
+        {"kiln:seed", seed},
+        {"kiln:frame", number},
+    };
+    exr_result_t code = EXR_ERR_SUCCESS;
+    for (size_t i = 0; i < sizeof texts / sizeof *texts && code == EXR_ERR_SUCCESS; i++)
+        code = exr_attr_set_string(encoder->context, 0, texts[i][0], texts[i][1]);
+    const exr_attr_chromaticities_t rec709 = {0.64f, 0.33f, 0.30f,   0.60f,
+                                              0.15f, 0.06f, 0.3127f, 0.3290f};
+    if (code == EXR_ERR_SUCCESS)
+        code = exr_attr_set_chromaticities(encoder->context, 0, "chromaticities", &rec709);
+    const exr_attr_rational_t rate = {(int32_t)params->fps_num, params->fps_den};
+    if (code == EXR_ERR_SUCCESS)
+        code = exr_attr_set_rational(encoder->context, 0, "framesPerSecond", &rate);
+    return code;
+}
+
+static exr_result_t write_header(const struct exr_encoder *encoder,
+                                 const struct kiln_picture *picture, const struct channel *channels,
+                                 uint32_t channel_count)
+{
+    int part = 0;
+    exr_context_t context = encoder->context;
+    exr_result_t code = exr_add_part(context, "kiln", EXR_STORAGE_SCANLINE, &part);
+    if (code == EXR_ERR_SUCCESS)
+        code = exr_initialize_required_attr_simple(context, part, (int32_t)picture->width,
+                                                   (int32_t)picture->height, EXR_COMPRESSION_ZIP);
+    for (uint32_t i = 0; i < channel_count && code == EXR_ERR_SUCCESS; i++)
+        code = exr_add_channel(context, part, channels[i].name, channels[i].type,
+                               EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
+    if (code == EXR_ERR_SUCCESS)
+        code = write_metadata(encoder, picture->frame);
+    if (code == EXR_ERR_SUCCESS)
+        code = exr_write_header(context);
+    return code;
+}
+
+/* ---- The pixels --------------------------------------------------------------------------- */
+
+static const struct channel *find_channel(const struct channel *channels, uint32_t count,
+                                          const char *name)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        if (strcmp(channels[i].name, name) == 0)
+            return &channels[i];
+    }
+    return NULL;
+}
+
+/* Lines y.. of one channel, side by side; halves are kept finite. */
+static void gather(const struct channel *channel, const struct kiln_picture *picture, uint32_t y,
+                   uint32_t lines, float *out)
+{
+    uint32_t step = channel->layer->channels;
+    const float *in =
+        channel->layer->pixels + (size_t)y * picture->width * step + channel->component;
+    size_t count = (size_t)lines * picture->width;
+    bool half = channel->type == EXR_PIXEL_HALF;
+    for (size_t i = 0; i < count; i++, in += step)
+        out[i] = half && fabsf(*in) > half_max ? copysignf(half_max, *in) : *in;
+}
+
+static exr_result_t write_chunk(struct exr_encoder *encoder, const struct kiln_picture *picture,
+                                const struct channel *channels, uint32_t channel_count, uint32_t y)
+{
+    exr_chunk_info_t chunk;
+    exr_encode_pipeline_t *pipeline = &encoder->pipeline;
+    exr_result_t code = exr_write_scanline_chunk_info(encoder->context, 0, (int)y, &chunk);
+    if (code == EXR_ERR_SUCCESS)
+        code = encoder->pipeline_used
+                   ? exr_encoding_update(encoder->context, 0, &chunk, pipeline)
+                   : exr_encoding_initialize(encoder->context, 0, &chunk, pipeline);
+    if (code != EXR_ERR_SUCCESS)
+        return code;
+    size_t plane = (size_t)picture->width * (size_t)chunk.height;
+    for (int i = 0; i < pipeline->channel_count; i++) {
+        exr_coding_channel_info_t *target = &pipeline->channels[i];
+        const struct channel *source = find_channel(channels, channel_count, target->channel_name);
+        if (!source)
+            return EXR_ERR_INVALID_ARGUMENT;
+        float *out = encoder->block + plane * (size_t)i;
+        gather(source, picture, y, (uint32_t)chunk.height, out);
+        target->user_data_type = EXR_PIXEL_FLOAT;
+        target->user_bytes_per_element = sizeof(float);
+        target->user_pixel_stride = sizeof(float);
+        target->user_line_stride = (int32_t)(picture->width * sizeof(float));
+        target->encode_from_ptr = (const uint8_t *)out;
+    }
+    if (!encoder->pipeline_used)
+        code = exr_encoding_choose_default_routines(encoder->context, 0, pipeline);
+    encoder->pipeline_used = true;
+    return code == EXR_ERR_SUCCESS ? exr_encoding_run(encoder->context, 0, pipeline) : code;
+}
+
+static bool encode(void *opaque, const struct kiln_picture *picture, struct kiln_error *error)
+{
+    struct exr_encoder *encoder = opaque;
+    struct channel channels[MAX_CHANNELS];
+    uint32_t channel_count = list_channels(encoder, picture, channels);
+    exr_result_t code = write_header(encoder, picture, channels, channel_count);
+    int32_t lines = 1;
+    if (code == EXR_ERR_SUCCESS)
+        code = exr_get_scanlines_per_chunk(encoder->context, 0, &lines);
+    if (code == EXR_ERR_SUCCESS) {
+        encoder->block =
+            malloc((size_t)lines * picture->width * channel_count * sizeof *encoder->block);
+        code = encoder->block ? EXR_ERR_SUCCESS : EXR_ERR_OUT_OF_MEMORY;
+    }
+    for (uint32_t y = 0; y < picture->height && code == EXR_ERR_SUCCESS; y += (uint32_t)lines)
+        code = write_chunk(encoder, picture, channels, channel_count, y);
+    return code == EXR_ERR_SUCCESS || fail(encoder, code, error);
+}
+
+/* The table of chunks is written last. */
+static bool finish(void *opaque, struct kiln_error *error)
+{
+    struct exr_encoder *encoder = opaque;
+    if (encoder->pipeline_used)
+        exr_encoding_destroy(encoder->context, &encoder->pipeline);
+    encoder->pipeline_used = false;
+    exr_result_t code = exr_finish(&encoder->context);
+    encoder->context = NULL;
+    return (code == EXR_ERR_SUCCESS && !encoder->file->failure) || fail(encoder, code, error);
+}
+
+const struct kiln_format kiln_format_exr = {
+    .suffix = ".exr",
+    .name = "OpenEXR images",
+    .help = "half or float, linear, premultiplied, with the layers that the frame is made of",
+    .needs = needs,
+    .check = check,
+    .open = open_encoder,
+    .encode = encode,
+    .finish = finish,
+    .close = close_encoder,
+};
