@@ -24,10 +24,12 @@ static bool allows_grey(const struct kiln_option *option)
 static bool read_plain(struct kiln_reader *reader, const struct kiln_option *option,
                        const struct kiln_node *node, float *out, unsigned count)
 {
+    struct kiln_option number = *option; /* what an error says is expected */
+    number.type = &kiln_type_number;
     if (count == 1)
-        return kiln_read_float(reader, option, node, out);
+        return kiln_read_float(reader, &number, node, out);
     if (node->kind == KILN_NODE_SCALAR && allows_grey(option)) {
-        if (!kiln_read_float(reader, option, node, out))
+        if (!kiln_read_float(reader, &number, node, out))
             return false;
         out[1] = out[2] = out[0];
         return true;
@@ -36,7 +38,7 @@ static bool read_plain(struct kiln_reader *reader, const struct kiln_option *opt
         return kiln_reader_expected(reader, node, "[x, y, z]");
     const struct kiln_node *item = node->first;
     for (unsigned i = 0; i < count; i++, item = item->next) {
-        if (!kiln_read_float(reader, option, item, &out[i]))
+        if (!kiln_read_float(reader, &number, item, &out[i]))
             return false;
     }
     return true;
@@ -164,10 +166,12 @@ bool kiln_read_animated(struct kiln_reader *reader, const struct kiln_option *op
     if (count == 3 && node->kind == KILN_NODE_LIST) {
         if (node->count != 3)
             return kiln_reader_mismatch(reader, option, node);
+        struct kiln_option component = *option;
+        component.type = &kiln_type_value;
         const struct kiln_node *item = node->first;
         for (uint32_t i = 0; i < 3; i++, item = item->next) {
             size_t before = kiln_reader_enter_index(reader, i);
-            if (!kiln_read_animated(reader, option, item, &values[i], 1))
+            if (!kiln_read_animated(reader, &component, item, &values[i], 1))
                 return false;
             kiln_reader_leave(reader, before);
         }

@@ -133,6 +133,10 @@ static bool place_node(struct builder *builder, struct kiln_node *node)
                                KILN_NODE_MAX_ENTRIES);
     if (parent->kind == KILN_NODE_LIST || *key) {
         node->key = *key;
+        if (*key && node->line == 0) { /* "key:" with nothing behind it */
+            node->line = (*key)->line;
+            node->column = (*key)->column;
+        }
         *key = NULL;
         kiln_node_append(parent, node);
         return true;
@@ -182,8 +186,12 @@ static bool add_scalar(struct builder *builder, struct fy_event *event)
     node->text = kiln_arena_text(builder->arena, text, length);
     if (!node->text)
         return out_of_memory(builder->error);
-    node->quoted =
-        event->scalar.value && fy_scalar_token_get_style(event->scalar.value) != FYSS_PLAIN;
+    enum fy_scalar_style style =
+        event->scalar.value ? fy_scalar_token_get_style(event->scalar.value) : FYSS_PLAIN;
+    node->quoted = style != FYSS_PLAIN;
+    /* libfyaml's mark is behind the opening quote. */
+    if (style == FYSS_SINGLE_QUOTED || style == FYSS_DOUBLE_QUOTED)
+        node->column--;
     return place_node(builder, node);
 }
 
@@ -310,7 +318,9 @@ struct kiln_node *kiln_node_parse(struct kiln_arena *arena, const char *text, si
         ok = take_all_events(&builder, parser, diag);
     if (ok && !builder.root) {
         struct kiln_node place = {.origin = origin};
-        ok = kiln_node_error(&place, error, "empty");
+        ok = kiln_node_error(&place, error, "%s",
+                             origin->has_lines ? "empty; a scene starts with 'kiln: 1'"
+                                               : "there is no value after '='");
     }
     if (parser)
         fy_parser_destroy(parser);

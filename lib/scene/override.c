@@ -19,6 +19,7 @@ struct override {
     const char *parts[MAX_PARTS]; /* of the key */
     uint32_t part_count;
     uint32_t places; /* set so far */
+    bool wild;       /* the key has a '*': what does not fit is passed over */
 };
 
 static bool out_of_memory(struct override *override)
@@ -147,6 +148,15 @@ static struct kiln_node *find_child(struct override *override, struct kiln_node 
     return add_entry(override, node, name);
 }
 
+/* Is this the name of a list that the scene does not have? */
+static bool lacks_list(const struct kiln_node *node, struct place place, const char *name)
+{
+    if (!place.members || place.closed || kiln_node_entry(node, name))
+        return false;
+    const struct kiln_option *option = kiln_option_find(place.members, name);
+    return option && option->type == &kiln_type_list;
+}
+
 /* Sets all places that the parts from this one on name below node. */
 static bool walk(struct override *override, struct kiln_node *node, struct place place,
                  uint32_t part)
@@ -161,6 +171,9 @@ static bool walk(struct override *override, struct kiln_node *node, struct place
     }
     const char *name = override->parts[part];
     if (strcmp(name, "*") != 0) {
+        if (lacks_list(node, place, name) && part + 1 < override->part_count)
+            return override->wild || fail(override, "there is no entry %s; the list is empty",
+                                          override->parts[part + 1]);
         struct kiln_node *child = find_child(override, node, place, name);
         return child && walk(override, child, place_under(node, place, child), part + 1);
     }
@@ -180,10 +193,6 @@ static bool walk(struct override *override, struct kiln_node *node, struct place
 /* Splits the key at its dots. */
 static bool split_key(struct override *override, char *key)
 {
-    for (const char *c = key; *c; c++) {
-        if (*c < 0x20 || *c > 0x7e)
-            return fail(override, "a key has no such characters");
-    }
     for (char *part = key; part;) {
         if (override->part_count == MAX_PARTS)
             return fail(override, "a key has at most %d parts", MAX_PARTS);
@@ -193,6 +202,7 @@ static bool split_key(struct override *override, char *key)
             *dot = '\0';
         if (*part == '\0')
             return fail(override, "a part of the key is empty");
+        override->wild |= strcmp(part, "*") == 0;
         part = dot ? dot + 1 : NULL;
     }
     return true;
@@ -204,7 +214,10 @@ bool kiln_override(struct kiln_arena *arena, struct kiln_node *root, const char 
     struct override override = {.arena = arena, .error = error};
     char quoted[64];
     const char *equals = strchr(text, '=');
-    if (!equals || equals == text || equals - text > MAX_KEY) {
+    bool printable = equals != NULL;
+    for (const char *c = text; printable && c < equals; c++)
+        printable = *c >= 0x20 && *c <= 0x7e;
+    if (!printable || equals == text || equals - text > MAX_KEY) {
         kiln_node_quote(quoted, text);
         return kiln_error_set(error, KILN_USAGE, "--set %s: expected KEY=VALUE", quoted);
     }

@@ -119,7 +119,10 @@ void kiln_option_describe_limits(const struct kiln_option *option, struct kiln_t
     char min[48], max[48];
     kiln_unit_print_double(min, option->dimension, option->min);
     kiln_unit_print_double(max, option->dimension, option->max);
-    kiln_text_add(out, " from %s to %s", min, max);
+    if (option->min == option->max)
+        kiln_text_add(out, " %s", min);
+    else
+        kiln_text_add(out, " from %s to %s", min, max);
 }
 
 /* A default becomes a tree once a load, however many systems use it. */

@@ -112,8 +112,15 @@ static bool read_kind(struct kiln_reader *reader, const struct kiln_option *opti
 {
     if (node->kind != KILN_NODE_MAP)
         return kiln_reader_mismatch(reader, option, node);
-    if (node->count != 1)
-        return kiln_reader_error(reader, node, "expected one kind, found %u keys", node->count);
+    if (node->count == 0)
+        return kiln_reader_mismatch(reader, option, node);
+    if (node->count > 1) {
+        char first[64], second[64];
+        kiln_node_quote(first, node->first->key->text);
+        kiln_node_quote(second, node->first->next->key->text);
+        return kiln_reader_error(reader, node->first->next->key,
+                                 "expected one kind, found '%s' and '%s'", first, second);
+    }
     const struct kiln_node *body = node->first;
     const struct kiln_option_kind *kind = find_kind(reader, option, body);
     if (!kind)
