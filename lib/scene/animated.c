@@ -26,6 +26,7 @@ static bool read_plain(struct kiln_reader *reader, const struct kiln_option *opt
 {
     struct kiln_option number = *option; /* what an error says is expected */
     number.type = &kiln_type_number;
+    number.clocks = 0;
     if (count == 1)
         return kiln_read_float(reader, &number, node, out);
     if (node->kind == KILN_NODE_SCALAR && allows_grey(option)) {
@@ -207,12 +208,4 @@ void kiln_print_animated(struct kiln_printer *printer, const struct kiln_option 
         kiln_text_add(&printer->text, "%s%s: %s", i ? ", " : "", x, y);
     }
     kiln_text_add(&printer->text, "}}");
-}
-
-void kiln_describe_clocks(const struct kiln_option *option, struct kiln_text *out)
-{
-    if (option->clocks & KILN_ALLOW_TIME)
-        kiln_text_add(out, ", or {keys: {time: value}}");
-    if (option->clocks & KILN_ALLOW_LIFE)
-        kiln_text_add(out, ", or {life: [...]}");
 }

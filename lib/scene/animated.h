@@ -18,9 +18,6 @@ bool kiln_read_animated(struct kiln_reader *reader, const struct kiln_option *op
 void kiln_print_animated(struct kiln_printer *printer, const struct kiln_option *option,
                          const struct kiln_value *value);
 
-/* Appends " or keys over time" and the like, as the option allows. */
-void kiln_describe_clocks(const struct kiln_option *option, struct kiln_text *out);
-
 /* Does a mapping look like an animated number: is its first key `keys` or `life`? */
 bool kiln_node_is_animated(const struct kiln_node *node);
 

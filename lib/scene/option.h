@@ -19,7 +19,6 @@ struct kiln_printer;
 
 /* What a type does with its rows. `field` points at the row's field in the scene. */
 struct kiln_option_type {
-    const char *name; /* for the reference: "number", "list" */
     bool (*read)(struct kiln_reader *reader, const struct kiln_option *option,
                  const struct kiln_node *node, void *field);
     /* Writes what follows "key:", the newline included. */
@@ -109,7 +108,10 @@ const struct kiln_option *kiln_option_find(const struct kiln_option *table, cons
 void kiln_option_suggest(char *out, size_t size, const char *name, const char *const *names,
                          size_t count);
 
-/* Appends " from 0 to 10 m". */
+/* What may vary, as words: "over time", "over time or life"; NULL for what may not. */
+const char *kiln_option_clocks(const struct kiln_option *option);
+
+/* Appends " from 0 m to 10 m". */
 void kiln_option_describe_limits(const struct kiln_option *option, struct kiln_text *out);
 
 #endif

@@ -80,6 +80,10 @@ bool kiln_reader_mismatch(struct kiln_reader *reader, const struct kiln_option *
 {
     struct kiln_text expected = {0};
     option->type->describe(option, &expected);
+    if (option->clocks & KILN_ALLOW_TIME)
+        kiln_text_add(&expected, ", or {keys: {time: value}}");
+    if (option->clocks & KILN_ALLOW_LIFE)
+        kiln_text_add(&expected, ", or {life: [...]}");
     if (expected.failed || !expected.data)
         kiln_reader_out_of_memory(reader);
     else
@@ -112,6 +116,20 @@ void kiln_option_suggest(char *out, size_t size, const char *name, const char *c
         length += (size_t)snprintf(out + length, size - length, "%s%s", i ? ", " : "", names[i]);
     if (count && length < size)
         snprintf(out + length, size - length, ")");
+}
+
+const char *kiln_option_clocks(const struct kiln_option *option)
+{
+    switch (option->clocks) {
+    case KILN_ALLOW_TIME:
+        return "over time";
+    case KILN_ALLOW_LIFE:
+        return "over life";
+    case KILN_ALLOW_BOTH:
+        return "over time or life";
+    default:
+        return NULL;
+    }
 }
 
 void kiln_option_describe_limits(const struct kiln_option *option, struct kiln_text *out)

@@ -45,19 +45,25 @@ static void add_kinds(struct kiln_text *out, const char *path, const struct kiln
 
 static void add_row(struct kiln_text *out, const char *path, const struct kiln_option *row)
 {
-    struct kiln_text allowed = {0};
-    kiln_text_add(&allowed, "%s: ", row->type->name);
-    row->type->describe(row, &allowed);
     kiln_text_add(out, "%s\n", path);
     add_wrapped(out, 4, row->help);
-    add_wrapped(out, 4, allowed.data ? allowed.data : "");
+    if (row->type == &kiln_type_group) {
+        kiln_text_add(out, "\n");
+        return;
+    }
+    struct kiln_text allowed = {0};
+    row->type->describe(row, &allowed);
     if (*kiln_unit_choices(row->dimension))
-        kiln_text_add(out, "    unit: %s\n", kiln_unit_choices(row->dimension));
+        kiln_text_add(&allowed, "; unit %s", kiln_unit_choices(row->dimension));
+    add_wrapped(out, 4, allowed.data ? allowed.data : "");
+    out->failed |= allowed.failed;
+    kiln_text_free(&allowed);
+    if (kiln_option_clocks(row))
+        kiln_text_add(out, "    may vary %s\n", kiln_option_clocks(row));
     if (row->fallback)
         kiln_text_add(out, "    default: %s\n\n", row->fallback);
     else
         kiln_text_add(out, "    must be given\n\n");
-    kiln_text_free(&allowed);
 }
 
 static void add_rows(struct kiln_text *out, const char *prefix, const struct kiln_option *rows)

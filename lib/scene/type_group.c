@@ -46,7 +46,7 @@ static void schema_group(const struct kiln_option *option, struct kiln_text *out
     kiln_schema_members(option->members, NULL, false, out);
 }
 
-const struct kiln_option_type kiln_type_group = {"group", read_group, print_group, describe_group,
+const struct kiln_option_type kiln_type_group = {read_group, print_group, describe_group,
                                                  schema_group};
 
 /* ---- switch: a group that may be absent ------------------------------------------------------ */
@@ -89,8 +89,8 @@ static void schema_switch(const struct kiln_option *option, struct kiln_text *ou
     kiln_text_add(out, "]}");
 }
 
-const struct kiln_option_type kiln_type_switch = {"group or none", read_switch, print_switch,
-                                                  describe_switch, schema_switch};
+const struct kiln_option_type kiln_type_switch = {read_switch, print_switch, describe_switch,
+                                                  schema_switch};
 
 /* ---- map: named entries; an entry's struct starts with its name ------------------------------ */
 
@@ -169,8 +169,7 @@ static void schema_map(const struct kiln_option *option, struct kiln_text *out)
     kiln_text_add(out, "}");
 }
 
-const struct kiln_option_type kiln_type_map = {"named groups", read_map, print_map, describe_map,
-                                               schema_map};
+const struct kiln_option_type kiln_type_map = {read_map, print_map, describe_map, schema_map};
 
 /* ---- list ----------------------------------------------------------------------------------- */
 
@@ -223,5 +222,4 @@ static void schema_list(const struct kiln_option *option, struct kiln_text *out)
     kiln_text_add(out, "}");
 }
 
-const struct kiln_option_type kiln_type_list = {"list", read_list, print_list, describe_list,
-                                                schema_list};
+const struct kiln_option_type kiln_type_list = {read_list, print_list, describe_list, schema_list};

@@ -202,5 +202,4 @@ static void schema_kind(const struct kiln_option *option, struct kiln_text *out)
     kiln_text_add(out, "]}");
 }
 
-const struct kiln_option_type kiln_type_kind = {"one of", read_kind, print_kind, describe_kind,
-                                                schema_kind};
+const struct kiln_option_type kiln_type_kind = {read_kind, print_kind, describe_kind, schema_kind};

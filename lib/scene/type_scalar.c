@@ -40,8 +40,8 @@ static void schema_boolean(const struct kiln_option *option, struct kiln_text *o
     kiln_text_add(out, "{\"type\": \"boolean\"}");
 }
 
-const struct kiln_option_type kiln_type_boolean = {"switch", read_boolean, print_boolean,
-                                                   describe_boolean, schema_boolean};
+const struct kiln_option_type kiln_type_boolean = {read_boolean, print_boolean, describe_boolean,
+                                                   schema_boolean};
 
 /* ---- integer -------------------------------------------------------------------------------- */
 
@@ -72,8 +72,8 @@ static void schema_integer(const struct kiln_option *option, struct kiln_text *o
                   option->max);
 }
 
-const struct kiln_option_type kiln_type_integer = {"whole number", read_integer, print_integer,
-                                                   describe_integer, schema_integer};
+const struct kiln_option_type kiln_type_integer = {read_integer, print_integer, describe_integer,
+                                                   schema_integer};
 
 /* ---- rational ------------------------------------------------------------------------------- */
 
@@ -166,7 +166,7 @@ static void schema_rational(const struct kiln_option *option, struct kiln_text *
                   option->word ? option->word : "");
 }
 
-const struct kiln_option_type kiln_type_rational = {"rational", read_rational, print_rational,
+const struct kiln_option_type kiln_type_rational = {read_rational, print_rational,
                                                     describe_rational, schema_rational};
 
 /* ---- number --------------------------------------------------------------------------------- */
@@ -195,8 +195,8 @@ static void describe_number(const struct kiln_option *option, struct kiln_text *
     kiln_option_describe_limits(option, out);
 }
 
-const struct kiln_option_type kiln_type_number = {"number", read_number, print_number,
-                                                  describe_number, kiln_schema_number};
+const struct kiln_option_type kiln_type_number = {read_number, print_number, describe_number,
+                                                  kiln_schema_number};
 
 /* ---- choice --------------------------------------------------------------------------------- */
 
@@ -248,5 +248,5 @@ static void schema_choice(const struct kiln_option *option, struct kiln_text *ou
     kiln_text_add(out, "]}");
 }
 
-const struct kiln_option_type kiln_type_choice = {"word", read_choice, print_choice,
-                                                  describe_choice, schema_choice};
+const struct kiln_option_type kiln_type_choice = {read_choice, print_choice, describe_choice,
+                                                  schema_choice};

@@ -40,8 +40,7 @@ static void schema_pair(const struct kiln_option *option, struct kiln_text *out)
     kiln_text_add(out, "}");
 }
 
-const struct kiln_option_type kiln_type_pair = {"pair", read_pair, print_pair, describe_pair,
-                                                schema_pair};
+const struct kiln_option_type kiln_type_pair = {read_pair, print_pair, describe_pair, schema_pair};
 
 /* ---- asset ---------------------------------------------------------------------------------- */
 
@@ -78,7 +77,7 @@ static void schema_asset(const struct kiln_option *option, struct kiln_text *out
     kiln_text_add(out, ")|(?!builtin:|/).+)$\"}");
 }
 
-const struct kiln_option_type kiln_type_asset = {"asset", read_asset, print_asset, describe_asset,
+const struct kiln_option_type kiln_type_asset = {read_asset, print_asset, describe_asset,
                                                  schema_asset};
 
 /* ---- bounds --------------------------------------------------------------------------------- */
@@ -136,7 +135,7 @@ static void print_bounds(struct kiln_printer *printer, const struct kiln_option 
 
 static void describe_bounds(const struct kiln_option *option, struct kiln_text *out)
 {
-    kiln_text_add(out, "{min: [x, y, z], max: [x, y, z]}, each");
+    kiln_text_add(out, "{min: [x, y, z], max: [x, y, z]}, each number");
     kiln_option_describe_limits(option, out);
     if (option->word)
         kiln_text_add(out, ", or %s", option->word);
@@ -161,7 +160,7 @@ static void schema_bounds(const struct kiln_option *option, struct kiln_text *ou
     kiln_text_free(&number);
 }
 
-const struct kiln_option_type kiln_type_bounds = {"box", read_bounds, print_bounds, describe_bounds,
+const struct kiln_option_type kiln_type_bounds = {read_bounds, print_bounds, describe_bounds,
                                                   schema_bounds};
 
 /* ---- bursts --------------------------------------------------------------------------------- */
@@ -231,5 +230,5 @@ static void schema_bursts(const struct kiln_option *option, struct kiln_text *ou
     kiln_text_add(out, "}");
 }
 
-const struct kiln_option_type kiln_type_bursts = {"bursts", read_bursts, print_bursts,
-                                                  describe_bursts, schema_bursts};
+const struct kiln_option_type kiln_type_bursts = {read_bursts, print_bursts, describe_bursts,
+                                                  schema_bursts};

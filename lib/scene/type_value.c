@@ -24,7 +24,6 @@ static void describe_value(const struct kiln_option *option, struct kiln_text *o
 {
     kiln_text_add(out, "a number");
     kiln_option_describe_limits(option, out);
-    kiln_describe_clocks(option, out);
 }
 
 /* {"keys": {...}} and {"life": ...} with `plain` as the schema of each key's value. */
@@ -67,8 +66,8 @@ static void schema_value(const struct kiln_option *option, struct kiln_text *out
     kiln_text_free(&plain);
 }
 
-const struct kiln_option_type kiln_type_value = {"animated number", read_value, print_value,
-                                                 describe_value, schema_value};
+const struct kiln_option_type kiln_type_value = {read_value, print_value, describe_value,
+                                                 schema_value};
 
 /* ---- vector and colour ---------------------------------------------------------------------- */
 
@@ -138,14 +137,12 @@ static void describe_vector(const struct kiln_option *option, struct kiln_text *
 {
     kiln_text_add(out, "[x, y, z], each");
     kiln_option_describe_limits(option, out);
-    kiln_describe_clocks(option, out);
 }
 
 static void describe_color(const struct kiln_option *option, struct kiln_text *out)
 {
     kiln_text_add(out, "[red, green, blue] or one number for grey, linear, each");
     kiln_option_describe_limits(option, out);
-    kiln_describe_clocks(option, out);
 }
 
 static void schema_vector(const struct kiln_option *option, struct kiln_text *out)
@@ -173,10 +170,10 @@ static void schema_vector(const struct kiln_option *option, struct kiln_text *ou
     kiln_text_free(&plain);
 }
 
-const struct kiln_option_type kiln_type_vector = {"animated vector", read_vector, print_vector,
-                                                  describe_vector, schema_vector};
-const struct kiln_option_type kiln_type_color = {"animated colour", read_vector, print_vector,
-                                                 describe_color, schema_vector};
+const struct kiln_option_type kiln_type_vector = {read_vector, print_vector, describe_vector,
+                                                  schema_vector};
+const struct kiln_option_type kiln_type_color = {read_vector, print_vector, describe_color,
+                                                 schema_vector};
 
 /* ---- range ---------------------------------------------------------------------------------- */
 
@@ -234,7 +231,6 @@ static void describe_range(const struct kiln_option *option, struct kiln_text *o
 {
     kiln_text_add(out, "[min, max] or one number,");
     kiln_option_describe_limits(option, out);
-    kiln_describe_clocks(option, out);
 }
 
 static void schema_range(const struct kiln_option *option, struct kiln_text *out)
@@ -250,5 +246,5 @@ static void schema_range(const struct kiln_option *option, struct kiln_text *out
     kiln_text_free(&value);
 }
 
-const struct kiln_option_type kiln_type_range = {"range", read_range, print_range, describe_range,
+const struct kiln_option_type kiln_type_range = {read_range, print_range, describe_range,
                                                  schema_range};
