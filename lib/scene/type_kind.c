@@ -39,23 +39,22 @@ static const struct kiln_option_kind *find_kind(struct kiln_reader *reader,
             return kind;
         variants[variant_count++] = kind->variant;
     }
+    kiln_reader_enter(reader, name);
     char suggestion[512], quoted[64];
-    if (first && field->kind == KILN_NODE_SCALAR) {
+    if (first) {
+        kiln_reader_enter(reader, "field");
+        if (field->kind != KILN_NODE_SCALAR) {
+            kiln_reader_expected(reader, field, "a word");
+            return NULL;
+        }
         kiln_node_quote(quoted, field->text);
         kiln_option_suggest(suggestion, sizeof suggestion, field->text, variants, variant_count);
-        kiln_reader_enter(reader, name);
-        kiln_reader_enter(reader, "field");
         kiln_reader_error(reader, field, "unknown word '%s'%s", quoted, suggestion);
-        return NULL;
-    }
-    if (first) {
-        kiln_reader_expected(reader, field, "a word");
         return NULL;
     }
     const char *names[32];
     size_t count = kind_names(option->kinds, names);
     kiln_option_suggest(suggestion, sizeof suggestion, name, names, count);
-    kiln_reader_enter(reader, name);
     kiln_reader_error(reader, node->key, "unknown kind%s", suggestion);
     return NULL;
 }

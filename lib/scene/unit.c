@@ -40,7 +40,7 @@ enum { UNIT_COUNT = sizeof units / sizeof *units };
 
 static const char *const choices[KILN_DIMENSION_COUNT] = {
     [KILN_PLAIN] = "",
-    [KILN_FRACTION] = "%",
+    [KILN_FRACTION] = "none or %",
     [KILN_SECONDS] = "s or ms",
     [KILN_ANGLE] = "deg or rad",
     [KILN_ANGULAR_SPEED] = "deg/s or rad/s",

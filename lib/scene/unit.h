@@ -30,7 +30,7 @@ enum kiln_dimension {
 /* The unit that numbers of a dimension are printed with, "" for none. */
 const char *kiln_unit_name(enum kiln_dimension dimension);
 
-/* All units of a dimension, as "m, cm or mm"; "" for none. */
+/* All units of a dimension, as "m, cm or mm"; "" when it never has one. */
 const char *kiln_unit_choices(enum kiln_dimension dimension);
 
 /* Does a number other than 0 need its unit written? */

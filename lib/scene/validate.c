@@ -85,7 +85,7 @@ static bool settle_capacity(struct kiln_reader *reader, const struct kiln_node *
         struct kiln_system *system = &scene->systems[i];
         struct kiln_demand demand = kiln_demand(scene, system);
         char path[128];
-        snprintf(path, sizeof path, "systems.%s.emit.rate", system->name);
+        snprintf(path, sizeof path, "systems.%s.emit", system->name);
         const uint64_t mebibyte = 1 << 20, bytes = sizeof(struct kiln_particle);
         if (demand.slots > KILN_MAX_PARTICLES - total)
             return fail(reader, root, path,

@@ -1,0 +1,485 @@
+/* lib/scene: bad scenes, and the exact words that say where, what was found and what is allowed. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "support/scenes.h"
+
+struct bad {
+    const char *text;
+    const char *message; /* after the name of the file */
+};
+
+static const struct bad keys[] = {
+    {"kiln: 1\n"
+     "systems:\n"
+     "  smoke:\n"
+     "    emit: {raet: 5}\n",
+     ":4:12: systems.smoke.emit.raet: unknown key (did you mean 'rate'?)"},
+    {"kiln: 1\n"
+     "colour: red\n",
+     ":2:1: colour: unknown key (there are: kiln, seed, output, simulation, camera, backdrop, "
+     "systems, post)"},
+    {"kiln: 1\n"
+     "seed: 1\n"
+     "seed: 2\n",
+     ":3:1: duplicate key 'seed' (first in line 2)"},
+    {"kiln: 1\n"
+     "<<: {seed: 1}\n",
+     ":2:1: merge keys are not allowed"},
+    {"kiln: 1\n"
+     "[a, b]: 3\n",
+     ":2:1: a key must be a word, not a list or mapping"},
+    {"kiln: 1\n"
+     "'': 3\n",
+     ":2:1: empty key"},
+    {"kiln: 1\n"
+     "\"a\\e[31mb\": 3\n",
+     ":2:1: a?[31mb: unknown key (there are: kiln, seed, output, simulation, camera, backdrop, "
+     "systems, post)"},
+    {"seed: 1\n", ":1:1: kiln: missing; it must be given"},
+    {"kiln: 2\n", ":1:7: kiln: 2 is out of range; allowed is 1"},
+};
+
+static const struct bad texts[] = {
+    {"", ": empty; a scene starts with 'kiln: 1'"},
+    {"# nothing here\n", ": empty; a scene starts with 'kiln: 1'"},
+    {"hello\n", ":1:1: expected a mapping of keys, found 'hello'"},
+    {"- 1\n", ":1:1: expected a mapping of keys, found a list"},
+    {"kiln: &x 1\n", ":1:10: anchors and aliases are not allowed"},
+    {"kiln: *x\n", ":1:8: anchors and aliases are not allowed"},
+    {"kiln: !!int 1\n", ":1:13: tags are not allowed"},
+    {"kiln: 1\n"
+     "---\n"
+     "kiln: 1\n",
+     ":2:1: a scene is one document; a second starts here"},
+    {"kiln: [1, 2\n"
+     "seed: 4\n",
+     ":3:1: not valid YAML: flow sequence without a closing bracket"},
+    {"kiln: \"abc\n", ":1:8: not valid YAML: double-quoted scalar without closing quote"},
+    {"kiln: 1\n"
+     "\tseed: 4\n",
+     ":1:7: not valid YAML: invalid multiline plain key"},
+    {"kiln: 1\n"
+     "seed: \"a\\0b\"\n",
+     ":2:8: a text must not contain zero bytes"},
+};
+
+static const struct bad types[] = {
+    {"kiln: 1\n"
+     "seed: abc\n",
+     ":2:7: seed: expected a whole number from 0 to 4294967295, found 'abc'"},
+    {"kiln: 1\n"
+     "seed: [1]\n",
+     ":2:7: seed: expected a whole number from 0 to 4294967295, found a list"},
+    {"kiln: 1\n"
+     "seed: {a: 1}\n",
+     ":2:7: seed: expected a whole number from 0 to 4294967295, found a mapping"},
+    {"kiln: 1\n"
+     "seed: \"7\"\n",
+     ":2:7: seed: expected a whole number from 0 to 4294967295, found the text \"7\""},
+    {"kiln: 1\n"
+     "seed:\n",
+     ":2:1: seed: expected a whole number from 0 to 4294967295, found nothing"},
+    {"kiln: 1\n"
+     "seed: 1.5\n",
+     ":2:7: seed: expected a whole number from 0 to 4294967295, found '1.5'"},
+    {"kiln: 1\n"
+     "post: {dither: yes}\n",
+     ":2:16: post.dither: expected true or false, found 'yes'"},
+    {"kiln: 1\n"
+     "post: {tonemap: agxx}\n",
+     ":2:17: post.tonemap: unknown word 'agxx' (did you mean 'agx'?)"},
+    {"kiln: 1\n"
+     "post: {tonemap: film}\n",
+     ":2:17: post.tonemap: expected none, agx or aces, found 'film'"},
+    {"kiln: 1\n"
+     "post: 3\n",
+     ":2:7: post: expected a mapping of keys, found '3'"},
+    {"kiln: 1\n"
+     "output: {fps: fast}\n",
+     ":2:15: output.fps: expected a rate like 30, 29.97 or 30000/1001 from 1 to 1000, found "
+     "'fast'"},
+    {"kiln: 1\n"
+     "output: {fps: 30/0}\n",
+     ":2:15: output.fps: expected a rate like 30, 29.97 or 30000/1001 from 1 to 1000, found "
+     "'30/0'"},
+    {"kiln: 1\n"
+     "output: {size: 720}\n",
+     ":2:16: output.size: expected two whole numbers [a, b], each from 16 px to 16384 px, found "
+     "'720'"},
+    {"kiln: 1\n"
+     "camera: {position: [1, 2]}\n",
+     ":2:20: camera.position: expected [x, y, z], each from -100000 m to 100000 m, or {keys: "
+     "{time: value}}, found a list"},
+    {"kiln: 1\n"
+     "camera: {position: 3}\n",
+     ":2:20: camera.position: expected [x, y, z], each from -100000 m to 100000 m, or {keys: "
+     "{time: value}}, found '3'"},
+    {"kiln: 1\n"
+     "camera: {position: [1, 2, x]}\n",
+     ":2:27: camera.position.2: expected a number from -100000 m to 100000 m, found 'x'"},
+    {"kiln: 1\n"
+     "systems: [a]\n",
+     ":2:10: systems: expected a mapping of up to 16 names to mappings of keys, found a list"},
+    {"kiln: 1\n"
+     "systems: {a: {forces: {drag: 1}}}\n",
+     ":2:23: systems.a.forces: expected a list of up to 16: {gravity, drag, curl or wind: {...}}, "
+     "found a mapping"},
+    {"kiln: 1\n"
+     "systems: {a: {collide: true}}\n",
+     ":2:24: systems.a.collide: expected a mapping of keys, or none, found 'true'"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {bursts: [1]}}}\n",
+     ":2:30: systems.a.emit.bursts: expected {time: particles, ...}, each a whole number from 0 to "
+     "16777216, found a list"},
+    {"kiln: 1\n"
+     "systems: {a: {bounds: {min: [0, 0, 0]}}}\n",
+     ":2:23: systems.a.bounds: expected {min: [x, y, z], max: [x, y, z]}, each number from -100000 "
+     "m to 100000 m, or none, found a mapping"},
+    {"kiln: 1\n"
+     "systems: {a: {look: {atlas: [a]}}}\n",
+     ":2:29: systems.a.look.atlas: expected \"builtin:fire\", \"builtin:smoke\", or the path of an "
+     "image file, from the scene's folder and inside it, found a list"},
+    {"kiln: 1\n"
+     "systems: {a: {look: {atlas: ''}}}\n",
+     ":2:29: systems.a.look.atlas: expected \"builtin:fire\", \"builtin:smoke\", or the path of an "
+     "image file, from the scene's folder and inside it, found the text \"\""},
+};
+
+static const struct bad limits[] = {
+    {"kiln: 1\n"
+     "seed: -1\n",
+     ":2:7: seed: -1 is out of range; allowed is from 0 to 4294967295"},
+    {"kiln: 1\n"
+     "seed: 4294967296\n",
+     ":2:7: seed: 4294967296 is out of range; allowed is from 0 to 4294967295"},
+    {"kiln: 1\n"
+     "output: {frames: 0}\n",
+     ":2:18: output.frames: 0 is out of range; allowed is from 1 to 1000000"},
+    {"kiln: 1\n"
+     "output: {frames: 1000001}\n",
+     ":2:18: output.frames: 1000001 is out of range; allowed is from 1 to 1000000"},
+    {"kiln: 1\n"
+     "output: {size: [8, 720]}\n",
+     ":2:17: output.size: 8 is out of range; allowed is from 16 px to 16384 px"},
+    {"kiln: 1\n"
+     "output: {size: [720, 100000]}\n",
+     ":2:22: output.size: 100000 is out of range; allowed is from 16 px to 16384 px"},
+    {"kiln: 1\n"
+     "output: {fps: 2000}\n",
+     ":2:15: output.fps: expected a rate like 30, 29.97 or 30000/1001 from 1 to 1000, found "
+     "'2000'"},
+    {"kiln: 1\n"
+     "camera: {near: .nan}\n",
+     ":2:16: camera.near: .nan is no finite number"},
+    {"kiln: 1\n"
+     "camera: {near: -.inf}\n",
+     ":2:16: camera.near: -.inf is no finite number"},
+    {"kiln: 1\n"
+     "camera: {near: nan}\n",
+     ":2:16: camera.near: nan is no finite number"},
+    {"kiln: 1\n"
+     "camera: {near: 1e39}\n",
+     ":2:16: camera.near: 1e39 is out of range; allowed is from 0.001 m to 100 m"},
+    {"kiln: 1\n"
+     "camera: {near: 1e999}\n",
+     ":2:16: camera.near: expected a number from 0.001 m to 100 m, found '1e999'"},
+    {"kiln: 1\n"
+     "camera: {fov: 200 deg}\n",
+     ":2:15: camera.fov: 200 deg is out of range; allowed is from 1 deg to 170 deg"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {life: [3, 2]}}}\n",
+     ":2:28: systems.a.emit.life: the first must not be above the second"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {life: [{keys: {0 s: 1, 1 s: 5}}, 2]}}}\n",
+     ":2:28: systems.a.emit.life: the first must not be above the second"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {life: 0}}}\n",
+     ":2:28: systems.a.emit.life: 0 is out of range; allowed is from 0.001 s to 10000 s"},
+    {"kiln: 1\n"
+     "systems: {a: {bounds: {min: [0, 0, 0], max: [1, 0, 1]}}}\n",
+     ":2:23: systems.a.bounds: min must be below max in x, y and z"},
+    {"kiln: 1\n"
+     "systems: {a b: {}}\n",
+     ":2:11: systems.a b: a name starts with a letter and has at most 32 letters, digits, '_' and "
+     "'-'"},
+    {"kiln: 1\n"
+     "systems: {'': {}}\n",
+     ":2:11: empty key"},
+    {"kiln: 1\n"
+     "systems: {s0: {}, s1: {}, s2: {}, s3: {}, s4: {}, s5: {}, s6: {}, s7: {}, s8: {}, s9: {}, "
+     "s10: {}, s11: {}, s12: {}, s13: {}, s14: {}, s15: {}, s16: {}}\n",
+     ":2:10: systems: 17 are too many; at most 16"},
+    {"kiln: 1\n"
+     "systems: {a: {demitters: [{min: [0, 0, 0], max: [1, 1, 1]}, {min: [0, 0, 0], max: [1, 1, "
+     "1]}, {min: [0, 0, 0], max: [1, 1, 1]}, {min: [0, 0, 0], max: [1, 1, 1]}, {min: [0, 0, 0], "
+     "max: [1, 1, 1]}, {min: [0, 0, 0], max: [1, 1, 1]}, {min: [0, 0, 0], max: [1, 1, 1]}, {min: "
+     "[0, 0, 0], max: [1, 1, 1]}, {min: [0, 0, 0], max: [1, 1, 1]}]}}\n",
+     ":2:26: systems.a.demitters: 9 are too many; at most 8"},
+};
+
+static const struct bad units[] = {
+    {"kiln: 1\n"
+     "camera: {fov: 45}\n",
+     ":2:15: camera.fov: an angle needs its unit: 45 deg or 45 rad"},
+    {"kiln: 1\n"
+     "camera: {fov: 45 s}\n",
+     ":2:15: camera.fov: 's' does not fit; the unit is deg or rad"},
+    {"kiln: 1\n"
+     "camera: {near: 5 %}\n",
+     ":2:16: camera.near: '%' does not fit; the unit is m, cm or mm"},
+    {"kiln: 1\n"
+     "output: {frames: 3 s}\n",
+     ":2:18: output.frames: 's' does not fit; this number has no unit"},
+    {"kiln: 1\n"
+     "systems: {a: {look: {spin: [0, 3]}}}\n",
+     ":2:32: systems.a.look.spin: an angle needs its unit: 3 deg/s or 3 rad/s"},
+    {"kiln: 1\n"
+     "systems: {a: {look: {fade: {in: 3 s}}}}\n",
+     ":2:33: systems.a.look.fade.in: 's' does not fit; the unit is none or %"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {life: 2 min}}}\n",
+     ":2:28: systems.a.emit.life: 'min' does not fit; the unit is s or ms"},
+};
+
+static const struct bad curves[] = {
+    {"kiln: 1\n"
+     "camera: {fov: {life: [40 deg, 50 deg]}}\n",
+     ":2:16: camera.fov.life: cannot vary over life here; allowed is a constant or {keys: {...}} "
+     "over time"},
+    {"kiln: 1\n"
+     "systems: {a: {look: {cycles: {life: [1, 2]}}}}\n",
+     ":2:31: systems.a.look.cycles.life: cannot vary over life here; allowed is a constant or "
+     "{keys: {...}} over time"},
+    {"kiln: 1\n"
+     "output: {frames: {keys: {0 s: 1}}}\n",
+     ":2:18: output.frames: expected a whole number from 1 to 1000000, found a mapping"},
+    {"kiln: 1\n"
+     "camera: {fov: {keys: [40 deg]}}\n",
+     ":2:22: camera.fov.keys: expected a mapping {time: value, ...}, found a list"},
+    {"kiln: 1\n"
+     "camera: {fov: {keys: {}}}\n",
+     ":2:22: camera.fov.keys: needs at least one key"},
+    {"kiln: 1\n"
+     "camera: {fov: {keys: {now: 40 deg}}}\n",
+     ":2:23: camera.fov.keys.now: expected a number from -100000 s to 1000000 s, found 'now'"},
+    {"kiln: 1\n"
+     "camera: {fov: {keys: {0 s: [1]}}}\n",
+     ":2:28: camera.fov.keys.0 s: expected a number from 1 deg to 170 deg, found a list"},
+    {"kiln: 1\n"
+     "camera: {fov: {keys: {1 s: 40 deg, 0 s: 50 deg}}}\n",
+     ":2:36: camera.fov.keys.0 s: keys must ascend, each after the one before"},
+    {"kiln: 1\n"
+     "camera: {fov: {keys: {1 s: 40 deg, 1000 ms: 50 deg}}}\n",
+     ":2:36: camera.fov.keys.1000 ms: keys must ascend, each after the one before"},
+    {"kiln: 1\n"
+     "camera: {fov: {keys: {0 s: 40 deg}, life: [1]}}\n",
+     ":2:15: camera.fov: expected a constant or {keys: {...}} over time, found a mapping"},
+    {"kiln: 1\n"
+     "camera: {fov: {from: 1}}\n",
+     ":2:15: camera.fov: expected a constant or {keys: {...}} over time, found a mapping"},
+    {"kiln: 1\n"
+     "systems: {a: {look: {size: {life: {0: 1, 2: 2}}}}}\n",
+     ":2:42: systems.a.look.size.life.2: 2 is out of range; allowed is from 0 to 1"},
+    {"kiln: 1\n"
+     "systems: {a: {look: {size: {life: 3}}}}\n",
+     ":2:35: systems.a.look.size.life: expected [first, ..., last] or {part of life: value}, found "
+     "'3'"},
+    {"kiln: 1\n"
+     "systems: {a: {look: {size: {life: []}}}}\n",
+     ":2:35: systems.a.look.size.life: needs at least one key"},
+    {"kiln: 1\n"
+     "camera: {position: {keys: {0 s: [1, 2]}}}\n",
+     ":2:33: camera.position.keys.0 s: expected [x, y, z], found a list"},
+    {"kiln: 1\n"
+     "camera: {position: {keys: {0 s: [1e5, 0, 0], 1e-40 s: [0, 0, 1]}}}\n",
+     ":2:46: camera.position.keys.1e-40 s: keys must ascend, each after the one before"},
+    {"kiln: 1\n"
+     "camera: {position: {keys: {0 s: [0, 1e5, 0], 1e-30: 0}}}\n",
+     ":2:53: camera.position.keys.1e-30: expected [x, y, z], found '0'"},
+};
+
+static const struct bad kinds[] = {
+    {"kiln: 1\n"
+     "systems: {a: {forces: [{gravty: [0, 1, 0]}]}}\n",
+     ":2:25: systems.a.forces.0.gravty: unknown kind (did you mean 'gravity'?)"},
+    {"kiln: 1\n"
+     "systems: {a: {forces: [gravity]}}\n",
+     ":2:24: systems.a.forces.0: expected {gravity, drag, curl or wind: {...}}, found 'gravity'"},
+    {"kiln: 1\n"
+     "systems: {a: {forces: [{}]}}\n",
+     ":2:24: systems.a.forces.0: expected {gravity, drag, curl or wind: {...}}, found a mapping"},
+    {"kiln: 1\n"
+     "systems: {a: {forces: [{gravity: [0, 1, 0], drag: 1}]}}\n",
+     ":2:45: systems.a.forces.0: expected one kind, found 'gravity' and 'drag'"},
+    {"kiln: 1\n"
+     "systems: {a: {forces: [{wind: {field: crul}}]}}\n",
+     ":2:39: systems.a.forces.0.wind.field: unknown word 'crul' (did you mean 'curl'?)"},
+    {"kiln: 1\n"
+     "systems: {a: {forces: [{wind: {field: [curl]}}]}}\n",
+     ":2:39: systems.a.forces.0.wind.field: expected a word, found a list"},
+    {"kiln: 1\n"
+     "systems: {a: {forces: [{wind: {octaves: 2}}]}}\n",
+     ":2:32: systems.a.forces.0.wind.octaves: unknown key (there are: velocity, pull)"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {from: {}}}}\n",
+     ":2:28: systems.a.emit.from: expected {point, sphere, box, disc or cone: {...}}, found a "
+     "mapping"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {from: cone}}}\n",
+     ":2:28: systems.a.emit.from: expected {point, sphere, box, disc or cone: {...}}, found "
+     "'cone'"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {from: {cone: 5}}}}\n",
+     ":2:35: systems.a.emit.from.cone: expected a mapping of keys, found '5'"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {from: {point: {radius: 1}}}}}\n",
+     ":2:37: systems.a.emit.from.point.radius: unknown key (there are: origin, direction, angle)"},
+};
+
+static const struct bad agreement[] = {
+    {"kiln: 1\n"
+     "simulation: {rate: 50}\n",
+     ":2:20: simulation.rate: must be a whole multiple of output.fps; the nearest are 30 and 60"},
+    {"kiln: 1\n"
+     "output: {fps: 29.97}\n"
+     "simulation: {rate: 60}\n",
+     ":3:20: simulation.rate: must be a whole multiple of output.fps; the nearest are 59.94 and "
+     "89.91"},
+    {"kiln: 1\n"
+     "output: {frames: 1000000}\n"
+     "simulation: {rate: 300}\n",
+     ":2:18: output.frames: the clip and its warm-up are 9999990 steps; a run has at most 4194303"},
+    {"kiln: 1\n"
+     "camera: {position: [1, 2, 3], target: [1, 2, 3]}\n",
+     ":2:39: camera.target: must not be where the camera is"},
+    {"kiln: 1\n"
+     "camera: {position: {keys: {0 s: [0, 0, 0], 1 s: [0, 1, 0]}}, target: [0, 1, 0]}\n",
+     ":2:70: camera.target: must not be where the camera is"},
+    {"kiln: 1\n"
+     "backdrop: {floor: {height: {keys: {0 s: 0, 1 s: 1}}}}\n",
+     ":2:28: backdrop.floor.height: cannot vary while the floor collides; set "
+     "backdrop.floor.collide to false"},
+    {"kiln: 1\n"
+     "backdrop: {sun: {direction: [0, 0, 0]}}\n",
+     ":2:29: backdrop.sun.direction: must not be [0, 0, 0]"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {from: {cone: {direction: [0, 0, 0]}}}}}\n",
+     ":2:47: systems.a.emit.from.cone.direction: must not be [0, 0, 0]"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {bursts: {1 s: 5, 500 ms: 1}}}}\n",
+     ":2:39: systems.a.emit.bursts.500 ms: bursts must ascend, each after the one before"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {rate: 10000000, life: 100 s}}}\n",
+     ":2:21: systems.a.emit: up to 49666670 particles at once need 1515 MiB; the systems of a "
+     "scene may have 16777216 in all (512 MiB), of which 0 are taken: lower rate, bursts or life"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {bursts: {1 s: 10000000}}}, b: {emit: {bursts: {1 s: 10000000}}}}\n",
+     ":2:59: systems.b.emit: up to 10000001 particles at once need 305 MiB; the systems of a scene "
+     "may have 16777216 in all (512 MiB), of which 10000001 are taken: lower rate, bursts or life"},
+    {"kiln: 1\n"
+     "output: {frames: 100000}\n"
+     "systems: {a: {emit: {rate: 10000000, life: 0.1 s}}}\n",
+     ":3:21: systems.a.emit: 33333001741 births in the run; at most 4294967295 can be told apart"},
+};
+static void expect_all(const struct bad *cases, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        struct kiln_error error = {0};
+        struct kiln_scene *scene = try_scene(cases[i].text, NULL, &error);
+        if (scene)
+            fail_msg("accepted:\n%s", cases[i].text);
+        char expected[KILN_MESSAGE_SIZE];
+        snprintf(expected, sizeof expected, "%s%s", SCENE_NAME, cases[i].message);
+        assert_string_equal(error.message, expected);
+        assert_int_equal(error.code, KILN_INVALID_INPUT);
+    }
+}
+
+#define BAD_TEST(table)                                                                            \
+    static void bad_##table(void **state)                                                          \
+    {                                                                                              \
+        (void)state;                                                                               \
+        expect_all(table, sizeof table / sizeof *table);                                           \
+    }
+
+BAD_TEST(keys)
+BAD_TEST(texts)
+BAD_TEST(types)
+BAD_TEST(limits)
+BAD_TEST(units)
+BAD_TEST(curves)
+BAD_TEST(kinds)
+BAD_TEST(agreement)
+
+static void expect_generated(char *text, const char *message)
+{
+    struct bad bad = {text, message};
+    expect_all(&bad, 1);
+    free(text);
+}
+
+/* `count` times a piece between a start and an end; freed by expect_generated. */
+static char *repeat(const char *start, const char *piece, size_t count, const char *end)
+{
+    size_t length = strlen(piece);
+    char *text = malloc(strlen(start) + count * length + strlen(end) + 1);
+    assert_non_null(text);
+    char *at = stpcpy(text, start);
+    for (size_t i = 0; i < count; i++)
+        at = stpcpy(at, piece);
+    strcpy(at, end);
+    return text;
+}
+
+static void bad_growth(void **state)
+{
+    (void)state;
+    expect_generated(repeat("kiln: ", "[", 100000, "\n"), ":1:70: nested deeper than 64 levels");
+    expect_generated(repeat("kiln: ", "{a: ", 100000, "\n"),
+                     ":1:259: nested deeper than 64 levels");
+    expect_generated(repeat("kiln: [", "1,", 5000, "]\n"),
+                     ":1:2056: more than 1024 entries in one list or mapping");
+    /* A bomb of aliases has no fuse. */
+    expect_generated(repeat("a: &a [x, x]\n", "b: [*a, *a]\n", 20, ""),
+                     ":1:7: anchors and aliases are not allowed");
+    /* Wide within each limit, but not in all. */
+    char *row = repeat("  - [", "1,", 999, "1]\n");
+    expect_generated(repeat("kiln:\n", row, 200, ""), ":132:1882: more than 131072 entries in all");
+    free(row);
+}
+
+/* Every key of all scenes lies in one table. */
+static void bad_key_count(void **state)
+{
+    (void)state;
+    char text[32768];
+    int length = snprintf(text, sizeof text, "kiln: 1\ncamera: {fov: {keys: {");
+    for (int i = 0; i < KILN_MAX_VALUE_KEYS; i++)
+        length +=
+            snprintf(text + length, sizeof text - (size_t)length, "%s%d: 45 deg", i ? ", " : "", i);
+    snprintf(text + length, sizeof text - (size_t)length, "}}}\n");
+    struct kiln_scene *scene = load_scene(text, NULL);
+    assert_int_equal(scene->key_count, KILN_MAX_VALUE_KEYS);
+    kiln_scene_destroy(&scene);
+
+    snprintf(text + length, sizeof text - (size_t)length, "}}, roll: {keys: {0: 0}}}\n");
+    expect_generated(strdup(text), ":2:13264: camera.roll.keys: 1 keys are too many; a scene has "
+                                   "at most 1024 and used 1024 before");
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bad_keys),   cmocka_unit_test(bad_texts),
+        cmocka_unit_test(bad_types),  cmocka_unit_test(bad_limits),
+        cmocka_unit_test(bad_units),  cmocka_unit_test(bad_curves),
+        cmocka_unit_test(bad_kinds),  cmocka_unit_test(bad_agreement),
+        cmocka_unit_test(bad_growth), cmocka_unit_test(bad_key_count),
+    };
+    return cmocka_run_group_tests_name("scene_errors", tests, NULL, NULL);
+}
