@@ -7,6 +7,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "asset/image.h"
 #include "base/error.h"
 
 static const char builtin_prefix[] = "builtin:";
@@ -65,6 +66,23 @@ static bool climbs_out(const char *path)
     return false;
 }
 
+static bool check_image(struct kiln_reader *reader, const struct kiln_node *node, const char *path,
+                        const char *name)
+{
+    struct kiln_error error = {0};
+    if (kiln_asset_image_check(path, &error))
+        return true;
+    /* The scene's own name for it instead of the whole path. */
+    size_t length = strlen(path);
+    const char *reason = error.message;
+    if (strncmp(reason, path, length) == 0)
+        reason += length + strspn(reason + length, ": ");
+    kiln_reader_error(reader, node, "'%s': %s", name, reason);
+    if (error.code == KILN_DEVICE_FAILED)
+        reader->error->code = error.code;
+    return false;
+}
+
 static bool read_file_asset(struct kiln_reader *reader, const struct kiln_node *node,
                             const char **asset)
 {
@@ -93,10 +111,10 @@ static bool read_file_asset(struct kiln_reader *reader, const struct kiln_node *
         kiln_reader_error(reader, node, "'%s' leads outside the asset root", quoted);
     else if (stat(real, &status) != 0 || !S_ISREG(status.st_mode))
         kiln_reader_error(reader, node, "'%s' is not a file", quoted);
-    else if (!(*asset = kiln_arena_text(reader->arena, real, strlen(real))))
-        kiln_reader_out_of_memory(reader);
-    else
-        ok = true;
+    else if (check_image(reader, node, real, quoted)) {
+        *asset = kiln_arena_text(reader->arena, real, strlen(real));
+        ok = *asset || kiln_reader_out_of_memory(reader);
+    }
     free(real);
     return ok;
 }

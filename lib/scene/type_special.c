@@ -44,10 +44,23 @@ const struct kiln_option_type kiln_type_pair = {read_pair, print_pair, describe_
 
 /* ---- asset ---------------------------------------------------------------------------------- */
 
+/* Is this a text for YAML? Without quotes, some words are numbers and such. */
+static bool is_text(const struct kiln_node *node)
+{
+    static const char *const others[] = {"true", "false", "null", "~"};
+    double number;
+    if (node->kind != KILN_NODE_SCALAR || *node->text == '\0')
+        return false;
+    bool is_other = kiln_text_to_double(node->text, &number);
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        is_other |= strcmp(node->text, others[i]) == 0;
+    return node->quoted || !is_other;
+}
+
 static bool read_asset(struct kiln_reader *reader, const struct kiln_option *option,
                        const struct kiln_node *node, void *field)
 {
-    if (node->kind != KILN_NODE_SCALAR || *node->text == '\0')
+    if (!is_text(node))
         return kiln_reader_mismatch(reader, option, node);
     return kiln_read_asset(reader, node, option->choices, field);
 }

@@ -1,3 +1,4 @@
+/* Checks across options, and what follows from them: steps, capacities, bounds. */
 #include "scene/validate.h"
 
 #include <inttypes.h>
@@ -77,29 +78,63 @@ static bool settle_clock(struct kiln_reader *reader, const struct kiln_node *roo
 
 /* ---- systems -------------------------------------------------------------------------------- */
 
+struct rate_context {
+    const struct kiln_scene *scene;
+    const struct kiln_value *rate;
+};
+
+static float rate_at(const void *context, float time_s)
+{
+    const struct rate_context *rate = context;
+    return kiln_scene_value(rate->scene, rate->rate, time_s);
+}
+
+/* What the births of a system need over the whole run. */
+static struct kiln_births_bound births_bound(const struct kiln_scene *scene,
+                                             const struct kiln_system *system)
+{
+    if (!system->enabled)
+        return (struct kiln_births_bound){0};
+    struct rate_context context = {.scene = scene, .rate = &system->emit.rate};
+    struct kiln_births_source source = {
+        .rate = rate_at,
+        .context = &context,
+        .bursts = system->emit.bursts,
+        .burst_count = system->emit.burst_count,
+        .steps_num = scene->rate.num,
+        .steps_den = scene->rate.den,
+        .warmup_steps = scene->warmup_steps,
+    };
+    /* Interpolating and drawing a life may round to a little above the largest key. */
+    float longest_s = kiln_scene_value_max(scene, &system->emit.life.max) * (1 + 0x1p-20f);
+    return kiln_births_bound(&source, kiln_scene_frame_step(scene, scene->frames - 1), longest_s,
+                             scene->dt_s);
+}
+
 static bool settle_capacity(struct kiln_reader *reader, const struct kiln_node *root)
 {
     struct kiln_scene *scene = reader->scene;
     uint64_t total = 0;
     for (uint32_t i = 0; i < scene->system_count; i++) {
         struct kiln_system *system = &scene->systems[i];
-        struct kiln_demand demand = kiln_demand(scene, system);
+        struct kiln_births_bound bound = births_bound(scene, system);
+        uint64_t slots = bound.capacity ? bound.capacity : 1; /* no buffer is empty */
         char path[128];
         snprintf(path, sizeof path, "systems.%s.emit", system->name);
         const uint64_t mebibyte = 1 << 20, bytes = sizeof(struct kiln_particle);
-        if (demand.slots > KILN_MAX_PARTICLES - total)
+        if (slots > KILN_MAX_PARTICLES - total)
             return fail(reader, root, path,
                         "up to %" PRIu64 " particles at once need %" PRIu64
                         " MiB; the systems of a scene may have %d in all (%" PRIu64
                         " MiB), of which %" PRIu64 " are taken: lower rate, bursts or life",
-                        demand.slots, demand.slots * bytes / mebibyte, KILN_MAX_PARTICLES,
+                        slots, slots * bytes / mebibyte, KILN_MAX_PARTICLES,
                         KILN_MAX_PARTICLES * bytes / mebibyte, total);
-        if (demand.births > UINT32_MAX)
+        if (bound.total > UINT32_MAX)
             return fail(reader, root, path,
                         "%" PRIu64 " births in the run; at most %" PRIu32 " can be told apart",
-                        demand.births, UINT32_MAX);
-        system->capacity = (uint32_t)demand.slots;
-        total += demand.slots;
+                        bound.total, UINT32_MAX);
+        system->capacity = (uint32_t)slots;
+        total += slots;
     }
     return true;
 }

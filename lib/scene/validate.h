@@ -8,11 +8,4 @@
  * is the tree, for the places of errors. scene->keys is set. */
 bool kiln_validate(struct kiln_reader *reader, const struct kiln_node *root);
 
-/* An upper bound of the slots that a system needs, at least 1, and of its births in a whole run:
- * Serial s lives in slot s mod capacity, so every window as long as the longest life must fit. */
-struct kiln_demand {
-    uint64_t slots, births;
-};
-struct kiln_demand kiln_demand(const struct kiln_scene *scene, const struct kiln_system *system);
-
 #endif

@@ -5,75 +5,26 @@
 #include <stdint.h>
 
 #include <cmocka.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "scene/scene.h"
+#include "support/scenes.h"
 
-/* The example of the design document. */
-static const char example[] =
-    "kiln: 1\n"
-    "seed: 7\n"
-    "output: {size: [1280, 720], fps: 30, frames: 150}\n"
-    "simulation: {rate: 60, warmup: 2 s}\n"
-    "camera: {position: [7, 2.5, 9], target: [2, 1, 0], fov: 45 deg}\n"
-    "backdrop:\n"
-    "  floor: {color: [0.35, 0.34, 0.33]}\n"
-    "  sky: {top: [0.02, 0.03, 0.05], horizon: [0.12, 0.13, 0.16]}\n"
-    "  objects:\n"
-    "    - box: {center: [4, 1, 0], size: [1, 2, 1], collide: true}\n"
-    "systems:\n"
-    "  smoke:\n"
-    "    emit: {rate: 20000, life: [3 s, 4 s], from: {cone: {origin: [0, 1, 0],\n"
-    "           direction: [1, 0.1, 0], angle: 8 deg}}, speed: [3, 4]}\n"
-    "    forces: [{gravity: [0, 0.4, 0]}, {drag: 0.2}, {wind: {field: curl, strength: 0.6}}]\n"
-    "    collide: {randomness: 0.4, slowdown: 0.5}\n"
-    "    look: {atlas: \"builtin:smoke\", blend: alpha, size: {life: [0.1, 1.2]},\n"
-    "           fade: {in: 0.2, out: 0.5}, soft: 2}\n"
-    "  fire:\n"
-    "    emit: {rate: {keys: {0 s: 20000, 3 s: 20000, 3.2 s: 0}}, life: [1 s, 1.4 s]}\n"
-    "    look: {atlas: \"builtin:fire\", blend: add, temperature: {life: [1900, 1000]},\n"
-    "           bloom: [1.0, 0.5, 0.25]}\n"
-    "post: {compose: merged, bloom: {kind: gaussian, strength: 1}, tonemap: agx}\n";
+#define GOOD KILN_SOURCE_DIR "/tests/fuzz/corpus/scene/good/"
 
-static struct kiln_scene *load(const char *text, const char *const *overrides, size_t count)
-{
-    struct kiln_error error = {0};
-    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
-    params.overrides = overrides;
-    params.override_count = count;
-    struct kiln_scene *scene = kiln_scene_parse(text, strlen(text), "test.yaml", &params, &error);
-    if (!scene)
-        fail_msg("%s", error.message);
-    return scene;
-}
-
-/* The caller frees it. */
-static char *print(const struct kiln_scene *scene)
-{
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    assert_non_null(out);
-    assert_true(kiln_scene_print(scene, out));
-    fclose(out);
-    return text;
-}
+static const float pi = 3.14159265358979323846f;
 
 static void example_loads(void **state)
 {
     (void)state;
-    struct kiln_scene *scene = load(example, NULL, 0);
+    struct kiln_scene *scene = load_scene_file(GOOD "example.yaml");
     assert_int_equal(scene->seed, 7);
     assert_int_equal(scene->width, 1280);
     assert_int_equal(scene->height, 720);
     assert_int_equal(scene->steps_per_frame, 2);
     assert_int_equal(scene->warmup_steps, 120);
     assert_true(scene->dt_s == 1.0f / 60.0f);
-    assert_int_equal(scene->system_count, 2);
-    assert_true(scene->camera.fov.constant == (float)(45 * (3.14159265358979323846 / 180)));
+    assert_true(scene->camera.fov.constant == pi / 4);
 
+    assert_int_equal(scene->system_count, 2);
     const struct kiln_system *smoke = &scene->systems[0];
     assert_string_equal(smoke->name, "smoke");
     assert_int_equal(smoke->emit.shape, KILN_EMITTER_CONE);
@@ -90,15 +41,11 @@ static void example_loads(void **state)
     assert_true(smoke->collide.enabled && smoke->collide.randomness.constant == 0.4f);
     assert_string_equal(smoke->look.atlas, "builtin:smoke");
     assert_int_equal(smoke->look.size.clock, KILN_CLOCK_LIFE);
-    assert_true(value_at(scene->keys, smoke->look.size, 0, 0.0f) == 0.1f);
-    assert_true(value_at(scene->keys, smoke->look.size, 0, 1.0f) == 1.2f);
 
     const struct kiln_system *fire = &scene->systems[1];
     assert_false(fire->collide.enabled);
     assert_int_equal(fire->look.blend, KILN_BLEND_ADD);
-    assert_true(kiln_scene_value(scene, &fire->emit.rate, 3.1f) > 9900.0f);
-    assert_true(kiln_scene_value(scene, &fire->emit.rate, 3.1f) < 10100.0f);
-    assert_true(kiln_scene_value(scene, &fire->emit.rate, 9) == 0);
+    assert_int_equal(fire->emit.rate.clock, KILN_CLOCK_TIME);
     assert_int_equal(scene->backdrop.box_count, 1);
     assert_true(scene->backdrop.floor_enabled);
     assert_int_equal(scene->post.tonemap, KILN_TONEMAP_AGX);
@@ -107,26 +54,239 @@ static void example_loads(void **state)
     kiln_scene_destroy(&scene);
 }
 
-static void printed_scene_loads_to_itself(void **state)
+/* Each field that everything.yaml sets has arrived, in SI. */
+static void every_key_arrives(void **state)
 {
     (void)state;
-    struct kiln_scene *scene = load(example, NULL, 0);
-    char *text = print(scene);
-    struct kiln_scene *again = load(text, NULL, 0);
-    char *text_again = print(again);
-    assert_string_equal(text, text_again);
-    assert_string_equal(scene->hash, again->hash);
-    free(text);
-    free(text_again);
+    struct kiln_scene *scene = load_scene_file(GOOD "everything.yaml");
+    assert_int_equal(scene->seed, UINT32_MAX);
+    assert_int_equal(scene->fps.num, 30000);
+    assert_int_equal(scene->fps.den, 1001);
+    assert_int_equal(scene->rate.num, 120000);
+    assert_int_equal(scene->rate.den, 1001);
+    assert_int_equal(scene->steps_per_frame, 4);
+    assert_int_equal(scene->warmup_steps, 60); /* 59.94 */
+    assert_int_equal(scene->integration, KILN_INTEGRATE_POSITION_FIRST);
+    assert_true(scene->bounds.enabled && scene->bounds.min[2] == -10 && scene->bounds.max[2] == 10);
+    assert_true(scene->camera.near_plane.constant == 0.01f);
+    assert_true(scene->camera.target.x.constant == 2 && scene->camera.target.y.count == 2);
+    assert_true(scene->camera.roll.constant == -pi / 60);
+
+    const struct kiln_backdrop *backdrop = &scene->backdrop;
+    assert_true(backdrop->transparent && !backdrop->floor_collide);
+    assert_true(backdrop->sky_top.z.constant == 0.01f);
+    assert_true(backdrop->floor_checker.constant == 0.25f);
+    assert_true(backdrop->haze.constant == 0.5f);
+    assert_int_equal(backdrop->box_count, 2);
+    assert_true(backdrop->boxes[0].size.z.constant == 0.5f && !backdrop->boxes[0].collide);
+    assert_true(backdrop->boxes[1].size.z.constant == 1 && backdrop->boxes[1].collide);
+    assert_int_equal(backdrop->light_count, 1);
+    assert_true(backdrop->lights[0].radius.constant == 0.05f);
+
+    const struct kiln_system *point = &scene->systems[0];
+    assert_false(point->enabled);
+    assert_int_equal(point->capacity, 1);
+    assert_int_equal(point->emit.burst_count, 3);
+    assert_true(point->emit.bursts[2].time_s == 0.5 && point->emit.bursts[1].count == 100);
+    assert_true(point->emit.angle.constant == 1 && point->emit.inherit.constant == 0.5f);
+    static const enum kiln_force_kind kinds[] = {
+        KILN_FORCE_GRAVITY, KILN_FORCE_GRAVITY, KILN_FORCE_DRAG, KILN_FORCE_DRAG, KILN_FORCE_DRAG,
+        KILN_FORCE_WIND,    KILN_FORCE_WIND,    KILN_FORCE_CURL, KILN_FORCE_CURL, KILN_FORCE_CURL};
+    assert_int_equal(point->force_count, sizeof kinds / sizeof *kinds);
+    for (uint32_t i = 0; i < point->force_count; i++)
+        assert_int_equal(point->forces[i].kind, kinds[i]);
+    assert_true(point->forces[5].vector.z.constant == 2);
+    assert_true(point->forces[6].strength.constant == 2);
+    assert_true(point->forces[7].scale.constant == 0.1f && point->forces[7].octaves == 4);
+    assert_int_equal(point->forces[7].pull.clock, KILN_CLOCK_LIFE);
+    assert_int_equal(point->collide.mode, KILN_COLLIDE_CLAMP);
+    assert_true(point->collide.slowdown.constant == 0.9f);
+    assert_int_equal(point->demitter_count, 2);
+    assert_true(point->demitters[1].enabled && point->demitters[1].max[0] == 3);
+    assert_true(point->bounds.enabled && point->bounds.max[0] == 5);
+    const struct kiln_look *look = &point->look;
+    assert_int_equal(look->columns, 4);
+    assert_int_equal(look->rows, 16);
+    assert_true(look->stretch.constant == 0.02f && look->spin.max.constant == 1);
+    assert_true(look->rotation.min.constant == -pi / 2);
+    assert_true(look->random_start && look->soft_formula == KILN_SOFT_LITERAL);
+    assert_true(look->fade_in.constant == 0.25f && look->fade_out.constant == 0.5f);
+    assert_true(look->lit.constant == 0.75f && look->bloom.y.count == 2);
+
+    const struct kiln_system *sphere = &scene->systems[1];
+    assert_int_equal(sphere->emit.shape, KILN_EMITTER_SPHERE);
+    assert_true(sphere->emit.surface && !sphere->emit.outward);
+    assert_true(sphere->bounds.enabled && sphere->bounds.max[1] == 20); /* the scene's */
+    assert_int_equal(scene->systems[2].emit.shape, KILN_EMITTER_BOX);
+    assert_true(scene->systems[2].emit.size.z.constant == 3);
+    assert_int_equal(scene->systems[3].emit.shape, KILN_EMITTER_DISC);
+    assert_int_equal(scene->systems[4].emit.shape, KILN_EMITTER_CONE);
+    assert_int_equal(scene->post.compose, KILN_COMPOSE_SEPARATE);
+    assert_int_equal(scene->post.bloom, KILN_BLOOM_NONE);
+    assert_int_equal(scene->post.tonemap, KILN_TONEMAP_ACES);
+    assert_false(scene->post.dither);
     kiln_scene_destroy(&scene);
-    kiln_scene_destroy(&again);
+}
+
+/* All that a run reads, compared bit by bit; pointers and the name aside. */
+static void assert_same_scene(const struct kiln_scene *a, const struct kiln_scene *b)
+{
+    struct kiln_scene left = *a, right = *b;
+    assert_int_equal(left.key_count, right.key_count);
+    if (left.key_count)
+        assert_memory_equal(left.keys, right.keys, left.key_count * sizeof *left.keys);
+    for (uint32_t i = 0; i < left.system_count; i++) {
+        assert_string_equal(left.systems[i].name, right.systems[i].name);
+        assert_string_equal(left.systems[i].look.atlas, right.systems[i].look.atlas);
+        left.systems[i].name = right.systems[i].name;
+        left.systems[i].look.atlas = right.systems[i].look.atlas;
+    }
+    left.arena = right.arena;
+    left.name = right.name;
+    left.asset_root = right.asset_root;
+    left.keys = right.keys;
+    assert_memory_equal(&left, &right, sizeof left);
+}
+
+static void printed_scenes_load_to_themselves(void **state)
+{
+    (void)state;
+    static const char *const files[] = {GOOD "minimal.yaml", GOOD "example.yaml",
+                                        GOOD "everything.yaml",
+                                        KILN_SOURCE_DIR "/scenes/fire_beam.yaml"};
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        struct kiln_scene *scene = load_scene_file(files[i]);
+        char *text = print_scene(scene);
+        struct kiln_scene *again = load_scene(text, NULL);
+        char *text_again = print_scene(again);
+        assert_string_equal(text, text_again);
+        assert_same_scene(scene, again);
+        free(text);
+        free(text_again);
+        kiln_scene_destroy(&scene);
+        kiln_scene_destroy(&again);
+    }
+}
+
+static void defaults_are_whole(void **state)
+{
+    (void)state;
+    struct kiln_scene *scene = load_scene("kiln: 1\n", NULL);
+    assert_int_equal(scene->width, 1280);
+    assert_int_equal(scene->frames, 150);
+    assert_int_equal(scene->system_count, 0);
+    assert_int_equal(scene->key_count, 0);
+    assert_non_null(scene->keys);
+    struct kiln_scene_info info = kiln_scene_info(scene);
+    assert_int_equal(info.particle_capacity, 0);
+    assert_int_equal(info.fps_num, 30);
+    assert_string_equal(info.hash, scene->hash);
+    assert_int_equal(strlen(info.hash), 64);
+    kiln_scene_destroy(&scene);
+}
+
+/* The rate that is chosen, and its steps. */
+static void rates_follow_the_frames(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *fps;
+        uint32_t num, den, steps_per_frame;
+    } cases[] = {
+        {"30", 60, 1, 2},
+        {"24", 72, 1, 3},
+        {"25", 75, 1, 3},
+        {"60", 60, 1, 1},
+        {"61", 61, 1, 1},
+        {"1000", 1000, 1, 1},
+        {"1", 60, 1, 60},
+        {"7", 63, 1, 9},
+        {"30000/1001", 90000, 1001, 3},
+        {"29.97", 8991, 100, 3},
+        {"24000/1001", 72000, 1001, 3},
+        {"12.5", 125, 2, 5},
+        {"60/2", 60, 1, 2},
+        {"30.0", 60, 1, 2},
+        {"999999/1000000", 0, 0, 0},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[64];
+        snprintf(text, sizeof text, "kiln: 1\noutput: {fps: %s}\n", cases[i].fps);
+        struct kiln_error error = {0};
+        struct kiln_scene *scene = try_scene(text, NULL, &error);
+        if (cases[i].num == 0) {
+            assert_null(scene);
+            continue;
+        }
+        assert_non_null(scene);
+        assert_int_equal(scene->rate.num, cases[i].num);
+        assert_int_equal(scene->rate.den, cases[i].den);
+        assert_int_equal(scene->steps_per_frame, cases[i].steps_per_frame);
+        kiln_scene_destroy(&scene);
+    }
+}
+
+static void capacity_holds_the_living(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *emit;
+        uint32_t least, most;
+    } cases[] = {
+        {"{}", 1, 1},
+        {"{rate: 600, life: 2 s}", 1200, 1220},
+        {"{rate: 600, life: [1, 2]}", 1200, 1220},
+        {"{rate: 600, life: 100 s}", 2980, 2980}, /* all births of the run */
+        {"{bursts: {0 s: 1000, 3 s: 10}, life: 1 s}", 1000, 1000},
+        {"{bursts: {0 s: 1000, 500 ms: 10}, life: 1 s}", 1010, 1010},
+        {"{bursts: {-1 s: 1000, 1000 s: 10}, life: 1 s}", 1, 1}, /* outside the run */
+        {"{rate: {keys: {0: 0, 1: 6000, 2: 0}}, life: 1 s}", 4500, 4650},
+        {"{rate: {keys: {0: 6000, 1: 0}}, life: {keys: {0: 1, 1: 9}}}", 3000, 3001},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[256];
+        snprintf(text, sizeof text, "kiln: 1\nsystems: {a: {emit: %s}}\n", cases[i].emit);
+        struct kiln_scene *scene = load_scene(text, NULL);
+        assert_in_range(scene->systems[0].capacity, cases[i].least, cases[i].most);
+        kiln_scene_destroy(&scene);
+    }
+}
+
+/* Both are also judged from outside: see schema.ajv. */
+static void reference_and_schema_name_every_key(void **state)
+{
+    (void)state;
+    bool (*const writers[])(FILE *) = {kiln_scene_write_reference, kiln_scene_write_schema};
+    static const char *const names[] = {"frames",  "warmup",    "sphere", "outward", "octaves",
+                                        "builtin", "demitters", "fade",   "exposure"};
+    for (size_t w = 0; w < 2; w++) {
+        char *text = NULL;
+        size_t size = 0;
+        FILE *out = open_memstream(&text, &size);
+        assert_true(writers[w](out));
+        fclose(out);
+        for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+            assert_non_null(strstr(text, names[i]));
+        free(text);
+
+        FILE *full = fopen("/dev/full", "w");
+        if (full) {
+            assert_false(writers[w](full));
+            fclose(full);
+        }
+    }
 }
 
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(example_loads),
-        cmocka_unit_test(printed_scene_loads_to_itself),
+        cmocka_unit_test(every_key_arrives),
+        cmocka_unit_test(printed_scenes_load_to_themselves),
+        cmocka_unit_test(defaults_are_whole),
+        cmocka_unit_test(rates_follow_the_frames),
+        cmocka_unit_test(capacity_holds_the_living),
+        cmocka_unit_test(reference_and_schema_name_every_key),
     };
     return cmocka_run_group_tests_name("scene", tests, NULL, NULL);
 }

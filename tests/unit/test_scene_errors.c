@@ -375,16 +375,16 @@ static const struct bad agreement[] = {
      ":2:39: systems.a.emit.bursts.500 ms: bursts must ascend, each after the one before"},
     {"kiln: 1\n"
      "systems: {a: {emit: {rate: 10000000, life: 100 s}}}\n",
-     ":2:21: systems.a.emit: up to 49666670 particles at once need 1515 MiB; the systems of a "
+     ":2:21: systems.a.emit: up to 49666667 particles at once need 1515 MiB; the systems of a "
      "scene may have 16777216 in all (512 MiB), of which 0 are taken: lower rate, bursts or life"},
     {"kiln: 1\n"
      "systems: {a: {emit: {bursts: {1 s: 10000000}}}, b: {emit: {bursts: {1 s: 10000000}}}}\n",
-     ":2:59: systems.b.emit: up to 10000001 particles at once need 305 MiB; the systems of a scene "
-     "may have 16777216 in all (512 MiB), of which 10000001 are taken: lower rate, bursts or life"},
+     ":2:59: systems.b.emit: up to 10000000 particles at once need 305 MiB; the systems of a scene "
+     "may have 16777216 in all (512 MiB), of which 10000000 are taken: lower rate, bursts or life"},
     {"kiln: 1\n"
      "output: {frames: 100000}\n"
      "systems: {a: {emit: {rate: 10000000, life: 0.1 s}}}\n",
-     ":3:21: systems.a.emit: 33333001741 births in the run; at most 4294967295 can be told apart"},
+     ":3:21: systems.a.emit: 33333000000 births in the run; at most 4294967295 can be told apart"},
 };
 static void expect_all(const struct bad *cases, size_t count)
 {

@@ -1,0 +1,234 @@
+/* lib/scene: files that are no scenes, and assets that are not the scene's to read. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/clock.h"
+#include "support/scenes.h"
+
+/* A folder of its own, which is the working directory during a test:
+ *     outside.png, scenes/, scenes/textures/  */
+struct place {
+    char folder[32];
+    int before;
+};
+
+static int enter_folder(void **state)
+{
+    struct place *place = calloc(1, sizeof *place);
+    strcpy(place->folder, "/tmp/kiln-scene-XXXXXX");
+    place->before = open(".", O_RDONLY | O_DIRECTORY);
+    if (place->before < 0 || !mkdtemp(place->folder) || chdir(place->folder) != 0 ||
+        mkdir("scenes", 0777) != 0 || mkdir("scenes/textures", 0777) != 0)
+        return -1;
+    *state = place;
+    return 0;
+}
+
+static int leave_folder(void **state)
+{
+    struct place *place = *state;
+    char command[64];
+    snprintf(command, sizeof command, "rm -r %s", place->folder);
+    int result = fchdir(place->before) != 0 || system(command) != 0;
+    close(place->before);
+    free(place);
+    return result;
+}
+
+static void write_file(const char *path, const void *bytes, size_t size)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+}
+
+static void expect_error(const char *path, const struct kiln_scene_params *params,
+                         const char *message)
+{
+    struct kiln_error error = {0};
+    struct kiln_scene *scene = kiln_scene_load(path, params, &error);
+    if (scene)
+        fail_msg("accepted: %s", path);
+    assert_string_equal(error.message, message);
+    assert_int_equal(error.code, KILN_INVALID_INPUT);
+}
+
+static void files_that_are_no_scenes(void **state)
+{
+    (void)state;
+    const struct kiln_scene_params *params = &KILN_SCENE_DEFAULTS;
+    expect_error("missing.yaml", params, "missing.yaml: No such file or directory");
+    expect_error("scenes", params, "scenes: is a folder, not a scene file");
+    expect_error("/dev/zero", params, "/dev/zero: is not a regular file");
+    assert_int_equal(mkfifo("pipe.yaml", 0666), 0);
+    expect_error("pipe.yaml", params, "pipe.yaml: is not a regular file"); /* and does not wait */
+    write_file("empty.yaml", "", 0);
+    expect_error("empty.yaml", params, "empty.yaml: empty; a scene starts with 'kiln: 1'");
+    static const char elf[] = "\x7f"
+                              "ELF\2\1\1\0\0\0";
+    write_file("binary.yaml", elf, sizeof elf);
+    expect_error("binary.yaml", params, "binary.yaml:1:8: not a text: a zero byte");
+    write_file("latin.yaml", "kiln: 1\n# caf\xe9\n", 15);
+    expect_error("latin.yaml", params, "latin.yaml:2:6: not a text: invalid UTF-8 (byte 0xe9)");
+    write_file("utf16.yaml", "\xff\xfek\0", 4);
+    expect_error("utf16.yaml", params, "utf16.yaml:1:1: not a text: invalid UTF-8 (byte 0xff)");
+    write_file("bom.yaml", "\xef\xbb\xbfkiln: 1\n", 11);
+    struct kiln_scene *scene = load_scene_file("bom.yaml");
+    kiln_scene_destroy(&scene);
+}
+
+/* Told by its size alone, before a byte is read. */
+static void huge_files_are_refused_early(void **state)
+{
+    (void)state;
+    int file = open("huge.yaml", O_WRONLY | O_CREAT, 0666);
+    assert_true(file >= 0);
+    assert_int_equal(ftruncate(file, (off_t)100 << 30), 0);
+    close(file);
+    double start = kiln_clock_seconds();
+    expect_error("huge.yaml", &KILN_SCENE_DEFAULTS,
+                 "huge.yaml: 107374182400 bytes; a scene file has at most 4194304");
+    assert_true(kiln_clock_seconds() - start < 5);
+
+    struct kiln_error error = {0};
+    size_t size = 5 << 20;
+    char *text = calloc(size, 1);
+    assert_null(kiln_scene_parse(text, size, "memory", &KILN_SCENE_DEFAULTS, &error));
+    assert_string_equal(error.message, "memory: 5242880 bytes; a scene file has at most 4194304");
+    free(text);
+}
+
+/* The smallest picture that an image loader takes: a bitmap of one pixel. */
+static const unsigned char bitmap[] = {
+    'B', 'M', 58, 0, 0, 0, 0, 0, 0, 0, 54, 0, 0, 0, /* file header */
+    40,  0,   0,  0, 1, 0, 0, 0, 1, 0, 0,  0, 1, 0, 24, 0, 0, 0, 0, 0,
+    4,   0,   0,  0, 0, 0, 0, 0, 0, 0, 0,  0, 0, 0, 0,  0, 0, 0, 0, 0, /* picture header */
+    255, 0,   0,  0,
+};
+
+static void write_scene(const char *path, const char *atlas)
+{
+    char text[256];
+    int length = snprintf(text, sizeof text, "kiln: 1\nsystems: {a: {look: {atlas: %s}}}\n", atlas);
+    write_file(path, text, (size_t)length);
+}
+
+static void expect_atlas_error(const char *atlas, const char *message)
+{
+    char expected[512];
+    snprintf(expected, sizeof expected, "scenes/s.yaml:2:29: systems.a.look.atlas: %s", message);
+    write_scene("scenes/s.yaml", atlas);
+    expect_error("scenes/s.yaml", &KILN_SCENE_DEFAULTS, expected);
+}
+
+static void assets_stay_below_the_scene(void **state)
+{
+    (void)state;
+    write_file("outside.bmp", bitmap, sizeof bitmap);
+    write_file("scenes/textures/in.bmp", bitmap, sizeof bitmap);
+    assert_int_equal(symlink("../outside.bmp", "scenes/link.bmp"), 0);
+    assert_int_equal(symlink("..", "scenes/up"), 0);
+    assert_int_equal(symlink("textures/in.bmp", "scenes/fine.bmp"), 0);
+
+    static const char outside[] =
+        "is outside the asset root; a path starts at the scene's folder and stays below it";
+    char message[256];
+    snprintf(message, sizeof message, "'../outside.bmp' %s", outside);
+    expect_atlas_error("../outside.bmp", message);
+    snprintf(message, sizeof message, "'textures/../../outside.bmp' %s", outside);
+    expect_atlas_error("textures/../../outside.bmp", message);
+    snprintf(message, sizeof message, "'/etc/passwd' %s", outside);
+    expect_atlas_error("/etc/passwd", message);
+    expect_atlas_error("link.bmp", "'link.bmp' leads outside the asset root");
+    expect_atlas_error("up/outside.bmp", "'up/outside.bmp' leads outside the asset root");
+    expect_atlas_error("textures", "'textures' is not a file");
+    expect_atlas_error("no.bmp", "cannot open 'no.bmp': No such file or directory");
+    expect_atlas_error("builtin:smoek",
+                       "unknown built-in asset 'builtin:smoek' (did you mean 'smoke'?)");
+    expect_atlas_error("3", "expected \"builtin:fire\", \"builtin:smoke\", or the path of an image "
+                            "file, from the scene's folder and inside it, found '3'");
+
+    static const char *const good[] = {"textures/in.bmp", "./textures/../textures/in.bmp",
+                                       "fine.bmp"};
+    for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
+        write_scene("scenes/s.yaml", good[i]);
+        struct kiln_scene *scene = load_scene_file("scenes/s.yaml");
+        char *text = print_scene(scene);
+        assert_true(scene->systems[0].look.atlas[0] == '/');
+        assert_non_null(strstr(text, "atlas: \"textures/in.bmp\"\n"));
+        free(text);
+        kiln_scene_destroy(&scene);
+    }
+}
+
+static void assets_must_be_pictures(void **state)
+{
+    (void)state;
+    write_file("scenes/text.png", "hello, world\n", 13);
+    write_scene("scenes/s.yaml", "text.png");
+    struct kiln_error error = {0};
+    assert_null(kiln_scene_load("scenes/s.yaml", &KILN_SCENE_DEFAULTS, &error));
+    static const char start[] = "scenes/s.yaml:2:29: systems.a.look.atlas: 'text.png': ";
+    assert_memory_equal(error.message, start, sizeof start - 1);
+    assert_null(strstr(error.message, "/tmp"));
+    assert_int_equal(error.code, KILN_INVALID_INPUT);
+
+    unsigned char flat[sizeof bitmap];
+    memcpy(flat, bitmap, sizeof flat);
+    flat[18] = 0; /* no columns */
+    write_file("scenes/flat.bmp", flat, sizeof flat);
+    write_scene("scenes/s.yaml", "flat.bmp");
+    assert_null(kiln_scene_load("scenes/s.yaml", &KILN_SCENE_DEFAULTS, &error));
+    flat[18] = 0xa0, flat[19] = 0x86, flat[20] = 1; /* 100,000 of them */
+    write_file("scenes/flat.bmp", flat, sizeof flat);
+    assert_null(kiln_scene_load("scenes/s.yaml", &KILN_SCENE_DEFAULTS, &error));
+    assert_int_equal(error.code, KILN_INVALID_INPUT);
+}
+
+static void asset_root_may_be_given(void **state)
+{
+    (void)state;
+    write_file("scenes/textures/in.bmp", bitmap, sizeof bitmap);
+    write_scene("s.yaml", "textures/in.bmp");
+    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    expect_error("s.yaml", &params,
+                 "s.yaml:2:29: systems.a.look.atlas: cannot open 'textures/in.bmp': No such file "
+                 "or directory");
+    params.asset_root = "nowhere";
+    expect_error("s.yaml", &params, "asset root 'nowhere': No such file or directory");
+    params.asset_root = "s.yaml";
+    expect_error("s.yaml", &params, "asset root 's.yaml' is not a folder");
+    params.asset_root = "scenes";
+    struct kiln_error error = {0};
+    struct kiln_scene *scene = kiln_scene_load("s.yaml", &params, &error);
+    assert_non_null(scene);
+
+    /* The hash does not know where the scene lies. */
+    write_scene("scenes/t.yaml", "textures/in.bmp");
+    struct kiln_scene *elsewhere = load_scene_file("scenes/t.yaml");
+    assert_string_equal(scene->hash, elsewhere->hash);
+    assert_string_equal(elsewhere->name, "scenes/t.yaml");
+    kiln_scene_destroy(&scene);
+    kiln_scene_destroy(&elsewhere);
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, enter_folder, leave_folder)
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        IN_FOLDER(files_that_are_no_scenes),    IN_FOLDER(huge_files_are_refused_early),
+        IN_FOLDER(assets_stay_below_the_scene), IN_FOLDER(assets_must_be_pictures),
+        IN_FOLDER(asset_root_may_be_given),
+    };
+    return cmocka_run_group_tests_name("scene_files", tests, NULL, NULL);
+}
