@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "gpu/advice.h"
 #include "gpu/egl.h"
+#include "gpu/probe.h"
 
 /* ---- Errors -------------------------------------------------------------------------------- */
 
@@ -344,6 +345,19 @@ static const struct kiln_device *choose(const struct scan *scan, const char *wan
     return NULL;
 }
 
+/* A device that is not exact draws, but its particles are stepped by the CPU. */
+static void probe(struct kiln_device *device)
+{
+    char reason[256] = "";
+    struct kiln_error error = {0};
+    if (!device->info.usable || !kiln_device_make_current(device, &error))
+        return;
+    device->info.exact = kiln_probe_exact(device, reason, &error);
+    if (!device->info.exact)
+        kiln_log_write(&device->log, KILN_LOG_INFO, "'%s' does not compute exactly: %s",
+                       device->info.name, reason[0] ? reason : error.message);
+}
+
 /* ---- The interface ------------------------------------------------------------------------- */
 
 size_t kiln_device_list(struct kiln_device_info *infos, size_t capacity, char advice[256])
@@ -358,6 +372,7 @@ size_t kiln_device_list(struct kiln_device_info *infos, size_t capacity, char ad
     scan_devices(scan, &KILN_DEVICE_DEFAULTS, true);
     const size_t count = scan->count;
     for (size_t i = 0; i < count; i++) {
+        probe(&scan->devices[i]);
         all[i] = scan->devices[i].info;
         if (i < capacity)
             infos[i] = all[i];
@@ -397,6 +412,7 @@ struct kiln_device *kiln_device_open(const struct kiln_device_params *params,
     }
     if (device->debug)
         watch_errors(device);
+    probe(device);
     return device;
 
 fail:

@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "gpu/probe.h"
 #include "support/device.h"
 
 static struct kiln_device *open_named(const char *wanted, struct kiln_error *error)
@@ -146,6 +147,20 @@ static void a_wrong_choice_names_what_there_is(void **state)
     assert_true(kiln_device_make_current(*state, &error));
 }
 
+/* The probe's verdict is the same wherever it is asked for; llvmpipe is known to be exact. */
+static void exactness_is_probed(void **state)
+{
+    const struct kiln_device_info *info = kiln_device_info(*state);
+    char reason[256];
+    struct kiln_error error = {0};
+    assert_true(info->exact == kiln_probe_exact(*state, reason, &error));
+    assert_true(info->exact || !strstr(info->name, "llvmpipe"));
+    struct kiln_device_info infos[32];
+    size_t count = kiln_device_list(infos, 32, NULL);
+    assert_true(info->index < count);
+    assert_true(infos[info->index].exact == info->exact);
+}
+
 static void two_devices_live_side_by_side(void **state)
 {
     struct kiln_device *first = *state;
@@ -271,6 +286,7 @@ int main(int argc, char **argv)
         test_on_device(a_device_is_chosen_by_number_and_name),
         test_on_device(software_is_chosen_by_name),
         test_on_device(a_wrong_choice_names_what_there_is),
+        test_on_device(exactness_is_probed),
         test_on_device(two_devices_live_side_by_side),
         test_on_device(gl_errors_are_found_once),
         test_on_device(out_of_memory_is_named),
