@@ -6,4 +6,5 @@ cmake -S "$1" -B "$2" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DKILN_SANITIZE
 cmake --build "$2" -j 2
 # An absurd size must be refused by kiln, not by the sanitizer.
 export ASAN_OPTIONS=allocator_may_return_null=1
+export LSAN_OPTIONS=print_suppressions=0:suppressions=$(dirname "$(realpath "$0")")/leaks.supp
 exec ctest --test-dir "$2" -j 2 --output-on-failure -L '^(unit|fuzz)$'
