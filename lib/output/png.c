@@ -1,8 +1,10 @@
-/* PNG by libpng. Files are many and short-lived, so speed comes before size: a low level and one
- * fixed filter take a fifth of the time of the defaults. */
+/* PNG by libpng. Files are many and short-lived, so speed comes before size. Rendered frames are
+ * smooth with dither on top, where looking for repeats finds little: one fixed filter, then runs
+ * and Huffman codes alone, take a quarter of the time of the defaults. */
 #include <png.h>
 #include <stdlib.h>
 #include <string.h>
+#include <zlib.h>
 
 #include "base/error.h"
 #include "output/formats.h"
@@ -95,7 +97,8 @@ static void add_text(struct png_encoder *encoder, const char *key, const char *v
 static void write_header(struct png_encoder *encoder, const struct kiln_picture *picture)
 {
     png_structp png = encoder->png;
-    png_set_compression_level(png, 2);
+    png_set_compression_level(png, 1);
+    png_set_compression_strategy(png, Z_RLE);
     png_set_compression_buffer_size(png, 1 << 17);
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
     png_set_IHDR(png, encoder->info, picture->width, picture->height, (int)picture->bits,
