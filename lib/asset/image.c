@@ -137,9 +137,9 @@ static bool open_decoder(struct decoding *decoding, enum AVCodecID id)
  * embedded thumbnail comes before the scan. */
 static bool jpeg_ends(const unsigned char *bytes, size_t size)
 {
-    for (size_t i = size - 1; i > 0; i--) {
-        if (bytes[i - 1] == 0xff && (bytes[i] == 0xd9 || bytes[i] == 0xda))
-            return bytes[i] == 0xd9;
+    for (size_t i = size; i >= 2; i--) {
+        if (bytes[i - 2] == 0xff && (bytes[i - 1] == 0xd9 || bytes[i - 1] == 0xda))
+            return bytes[i - 1] == 0xd9;
     }
     return false;
 }

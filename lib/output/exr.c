@@ -251,6 +251,8 @@ static bool encode(void *opaque, const struct kiln_picture *picture, struct kiln
     struct exr_encoder *encoder = opaque;
     struct channel channels[MAX_CHANNELS];
     uint32_t channel_count = list_channels(encoder, picture, channels);
+    if (channel_count == 0)
+        return fail(encoder, EXR_ERR_INVALID_ARGUMENT, error);
     exr_result_t code = write_header(encoder, picture, channels, channel_count);
     int32_t lines = 1;
     if (code == EXR_ERR_SUCCESS)

@@ -3,12 +3,10 @@
  * The first failure stops everything and is told by the next call. */
 #include "output/output.h"
 
-#include <errno.h>
 #include <pthread.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "base/arena.h"
 #include "base/error.h"
@@ -62,20 +60,6 @@ static bool check_ranges(const struct kiln_output_params *params, const struct k
     return true;
 }
 
-static bool check_free(const struct kiln_output *output, const char *path, struct kiln_error *error)
-{
-    struct stat status;
-    if (lstat(path, &status) != 0) {
-        if (errno == ENOENT || errno == ENOTDIR)
-            return true;
-        return kiln_error_set_errno(error, KILN_IO, errno, "%s: the path cannot be used", path);
-    }
-    if (S_ISDIR(status.st_mode))
-        return kiln_error_set(error, KILN_IO, "%s: a folder has this name", path);
-    return output->params.overwrite ||
-           kiln_error_set(error, KILN_IO, "%s: the file exists (--force replaces it)", path);
-}
-
 static bool check_files(const struct kiln_output *output, struct kiln_error *error)
 {
     char path[KILN_PATH_SIZE];
@@ -85,7 +69,7 @@ static bool check_files(const struct kiln_output *output, struct kiln_error *err
             if (!kiln_output_path(output, (uint32_t)frame, path, sizeof path))
                 return kiln_error_set(error, KILN_USAGE, "%s: the path is too long",
                                       output->params.path);
-            if (!check_free(output, path, error))
+            if (!kiln_target_check(path, output->params.overwrite, error))
                 return false;
             if (!output->pattern.numbered)
                 return true;

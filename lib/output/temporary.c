@@ -50,6 +50,20 @@ void kiln_output_abandon_all(void)
     }
 }
 
+bool kiln_target_check(const char *path, bool overwrite, struct kiln_error *error)
+{
+    struct stat status;
+    if (lstat(path, &status) != 0) {
+        if (errno == ENOENT || errno == ENOTDIR)
+            return true;
+        return kiln_error_set_errno(error, KILN_IO, errno, "%s: the path cannot be used", path);
+    }
+    if (S_ISDIR(status.st_mode))
+        return kiln_error_set(error, KILN_IO, "%s: a folder has this name", path);
+    return overwrite ||
+           kiln_error_set(error, KILN_IO, "%s: the file exists (--force replaces it)", path);
+}
+
 bool kiln_make_parent_folders(const char *path, struct kiln_error *error)
 {
     char folder[KILN_PATH_SIZE];

@@ -15,6 +15,10 @@ struct kiln_temporary {
     int failure;  /* errno of the first write that failed, else 0; sticky */
 };
 
+/* Whether a file may be put there: KILN_IO, naming it, when a folder has that name, or a file has
+ * and must not be overwritten. */
+bool kiln_target_check(const char *path, bool overwrite, struct kiln_error *error);
+
 /* Creates the missing folders above path; KILN_IO, naming the folder, when that fails. */
 bool kiln_make_parent_folders(const char *path, struct kiln_error *error);
 

@@ -1,0 +1,178 @@
+/* The manifest, read back as JSON. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <libfyaml.h>
+
+#include "output/manifest.h"
+#include "support/pictures.h"
+
+static const char scene_text[] = "kiln: 1\n"
+                                 "seed: 4000000007\n"
+                                 "output: {size: [320, 180], fps: 30000/1001, frames: 3}\n"
+                                 "systems:\n"
+                                 "  spray:\n"
+                                 "    emit: {rate: 100, life: 1 s, speed: 1}\n";
+
+static struct kiln_scene *make_scene(void)
+{
+    struct kiln_error error = {0};
+    struct kiln_scene *scene = kiln_scene_parse(scene_text, strlen(scene_text), "a \"b\".yaml",
+                                                &KILN_SCENE_DEFAULTS, &error);
+    assert_string_equal(error.message, "");
+    assert_non_null(scene);
+    return scene;
+}
+
+static struct kiln_progress make_progress(uint32_t frame)
+{
+    struct kiln_progress progress = {
+        .frame = frame, .alive = 5000000000u + frame, .state = {{0x1234abcd, frame}}};
+    for (int i = 0; i < KILN_PASS_COUNT; i++)
+        progress.pass_ms[i] = i + 0.25;
+    return progress;
+}
+
+/* Lines and numbers of the file by their path, such as "/frames/0/alive". */
+static void check_value(struct fy_document *json, const char *path, const char *expected)
+{
+    struct fy_node *node = fy_node_by_path(fy_document_root(json), path, FY_NT, FYNWF_DONT_FOLLOW);
+    assert_non_null(node);
+    const char *value = fy_node_get_scalar0(node);
+    assert_non_null(value);
+    assert_string_equal(value, expected);
+}
+
+static struct fy_document *read_json(const char *path)
+{
+    const struct fy_parse_cfg strict = {.flags = FYPCF_JSON_FORCE | FYPCF_QUIET};
+    struct fy_document *json = fy_document_build_from_file(&strict, path);
+    assert_non_null(json);
+    return json;
+}
+
+static void write_manifest(const struct kiln_manifest_params *params, uint32_t frames)
+{
+    struct kiln_error error = {0};
+    struct kiln_manifest *manifest = kiln_manifest_open(params, &error);
+    assert_string_equal(error.message, "");
+    assert_non_null(manifest);
+    for (uint32_t frame = 0; frame < frames; frame++) {
+        struct kiln_progress progress = make_progress(frame);
+        assert_true(kiln_manifest_add(manifest, &progress, frame ? "out/\xff.png" : NULL, &error));
+        assert_int_not_equal(access(params->path, F_OK), 0); /* not before it is whole */
+    }
+    const struct kiln_render_stats stats = {
+        .frames = frames, .steps = 12, .setup_s = 0.5, .total_s = 61.0625, .particle_bytes = 4096};
+    assert_true(kiln_manifest_finish(manifest, &stats, &error));
+    kiln_manifest_close(&manifest);
+    assert_null(manifest);
+}
+
+static void everything_is_in_it(void **state)
+{
+    (void)state;
+    char folder[32], path[64];
+    test_make_folder(folder);
+    snprintf(path, sizeof path, "%s/new/run.json", folder);
+    struct kiln_scene *scene = make_scene();
+    const struct kiln_device_info device = {
+        .software = true, .name = "llvm\\pipe", .vendor = "Mesa", .gl_version = "4.5"};
+    const struct kiln_manifest_params params = {.path = path,
+                                                .scene = scene,
+                                                .device = &device,
+                                                .techniques = "simulate=cpu sort=radix",
+                                                .output = "out/####.png"};
+    write_manifest(&params, 3);
+
+    struct fy_document *json = read_json(path);
+    check_value(json, "/kiln", KILN_VERSION);
+    check_value(json, "/scene/file", "a \"b\".yaml");
+    check_value(json, "/scene/hash", kiln_scene_info(scene).hash);
+    check_value(json, "/scene/seed", "4000000007");
+    check_value(json, "/scene/size/1", "180");
+    check_value(json, "/scene/fps/0", "30000");
+    check_value(json, "/device/name", "llvm\\pipe");
+    check_value(json, "/device/software", "true");
+    check_value(json, "/techniques/simulate", "cpu");
+    check_value(json, "/techniques/sort", "radix");
+    check_value(json, "/output", "out/####.png");
+    check_value(json, "/frames/0/state", "1234abcd00000000");
+    check_value(json, "/frames/2/frame", "2");
+    check_value(json, "/frames/2/state", "1234abcd00000002");
+    check_value(json, "/frames/2/alive", "5000000002");
+    check_value(json, "/frames/2/file", "out/\xef\xbf\xbd.png");
+    check_value(json, "/frames/2/ms/sort", "1.250");
+    check_value(json, "/totals/frames", "3");
+    check_value(json, "/totals/total_s", "61.063");
+    check_value(json, "/totals/particle_bytes", "4096");
+
+    /* The text in it is the scene. */
+    struct fy_node *text =
+        fy_node_by_path(fy_document_root(json), "/scene/text", FY_NT, FYNWF_DONT_FOLLOW);
+    const char *printed = text ? fy_node_get_scalar0(text) : NULL;
+    assert_non_null(printed);
+    struct kiln_error error = {0};
+    struct kiln_scene *again =
+        kiln_scene_parse(printed, strlen(printed), "again", &KILN_SCENE_DEFAULTS, &error);
+    assert_string_equal(error.message, "");
+    assert_string_equal(kiln_scene_info(again).hash, kiln_scene_info(scene).hash);
+    kiln_scene_destroy(&again);
+    fy_document_destroy(json);
+    kiln_scene_destroy(&scene);
+    test_remove_folder(folder);
+}
+
+static void little_is_enough(void **state)
+{
+    (void)state;
+    char folder[32], path[64];
+    test_make_folder(folder);
+    snprintf(path, sizeof path, "%s/run.json", folder);
+    struct kiln_scene *scene = make_scene();
+    const struct kiln_manifest_params params = {.path = path, .scene = scene, .techniques = ""};
+    write_manifest(&params, 0);
+    struct fy_document *json = read_json(path);
+    check_value(json, "/device", "null");
+    check_value(json, "/output", "null");
+    check_value(json, "/totals/frames", "0");
+    fy_document_destroy(json);
+    kiln_scene_destroy(&scene);
+    test_remove_folder(folder);
+}
+
+static void only_whole_manifests_stay(void **state)
+{
+    (void)state;
+    char folder[32], path[64];
+    test_make_folder(folder);
+    snprintf(path, sizeof path, "%s/run.json", folder);
+    struct kiln_scene *scene = make_scene();
+    const struct kiln_manifest_params params = {.path = path, .scene = scene, .techniques = ""};
+    struct kiln_error error = {0};
+    struct kiln_manifest *manifest = kiln_manifest_open(&params, &error);
+    assert_non_null(manifest);
+    assert_int_equal(test_count_files(folder), 1);
+    kiln_manifest_close(&manifest);
+    assert_int_equal(test_count_files(folder), 0);
+
+    write_manifest(&params, 1);
+    assert_null(kiln_manifest_open(&params, &error));
+    assert_int_equal(error.code, KILN_IO);
+    assert_non_null(strstr(error.message, "the file exists"));
+    kiln_scene_destroy(&scene);
+    test_remove_folder(folder);
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        cmocka_unit_test(everything_is_in_it),
+        cmocka_unit_test(little_is_enough),
+        cmocka_unit_test(only_whole_manifests_stay),
+    };
+    return cmocka_run_group_tests_name("manifest", tests, NULL, NULL);
+}
