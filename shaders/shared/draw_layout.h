@@ -1,0 +1,57 @@
+/* What the drawing stages read: uniform blocks shared by C and GLSL. Every member is 16 bytes or a
+ * group of 16, so that std140 and C agree on the offsets.
+ */
+#ifndef KILN_SHARED_DRAW_LAYOUT_H
+#define KILN_SHARED_DRAW_LAYOUT_H
+
+#include "shared/platform.h"
+
+#define KILN_DRAW_MAX_LIGHTS 16
+
+#define KILN_DRAW_MAX_BOXES 32
+#define KILN_DRAW_KEYS 1024 /* KILN_MAX_VALUE_KEYS, for blocks declared before value.h */
+
+/* Binding points of uniform blocks (VIEW to BACKDROP) and storage blocks (RECORDS, ENTRIES). */
+#define KILN_BIND_VIEW     0
+#define KILN_BIND_LOOKS    1
+#define KILN_BIND_KEYS     2
+#define KILN_BIND_BACKDROP 3
+#define KILN_BIND_RECORDS  0
+#define KILN_BIND_ENTRIES  1
+
+/* How cells of an atlas are read. */
+#define KILN_CELL_MASK  0u /* normal x, y, heat, density: coloured by the look */
+#define KILN_CELL_COLOR 1u /* premultiplied colour under a square root: tinted by the look */
+
+/* The camera of a frame. World axes: metres, y up, right-handed; a view looks along its -z. Pixels
+ * count from the top left corner, so y points down in clip space. */
+struct kiln_view {
+    float4 world_to_view[3]; /* rows */
+    float4 eye;              /* world position, m; w: near plane, m */
+    float4 frustum;          /* tan of half the field, x and y; width, height of the image, px */
+    float4 clock;            /* clip time, s; step, s; unused; unused */
+    uint4 clock_step;        /* steps done; seed; unused; unused */
+};
+
+struct kiln_draw_light {
+    float4 position_radius2; /* m, m^2 */
+    float4 color;            /* radiance at 1 m */
+};
+
+/* Sky, floor, boxes, sun and lights: what lies behind the particles, and what lights them. */
+struct kiln_draw_backdrop {
+    float4 sky_top;
+    float4 sky_horizon;
+    float4 floor_color; /* w: height, m */
+    float4
+        floor_params; /* x: 1 if there is one; y: edge of its squares, m; z: haze, 1/m; w: unused */
+    float4 sun_direction; /* unit, towards the sun */
+    float4 sun_color;     /* irradiance */
+    uint4 counts;         /* boxes, lights, 1 for a transparent background, unused */
+    float4 box_center[KILN_DRAW_MAX_BOXES];
+    float4 box_half[KILN_DRAW_MAX_BOXES];
+    float4 box_color[KILN_DRAW_MAX_BOXES];
+    S(kiln_draw_light) lights[KILN_DRAW_MAX_LIGHTS];
+};
+
+#endif
