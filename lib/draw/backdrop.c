@@ -1,0 +1,172 @@
+/* The backdrop: scene values at the frame's time into one uniform block, one full-screen pass. When
+ * neither the block nor the camera changed since the last frame, the picture is kept. */
+#include "draw/backdrop.h"
+
+#include "base/error.h"
+#include "gpu/framebuffer.h"
+#include "gpu/program.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdlib.h>
+
+static_assert(KILN_DRAW_MAX_BOXES == KILN_MAX_BOXES && KILN_DRAW_MAX_LIGHTS == KILN_MAX_LIGHTS,
+              "the block holds every box and light");
+
+/* What the picture depends on. */
+struct backdrop_inputs {
+    struct kiln_view view;
+    struct kiln_draw_backdrop block;
+};
+
+struct kiln_backdrop_stage {
+    struct kiln_device *device;
+    const struct kiln_scene *scene;
+    struct kiln_image *color, *depth;
+    GLuint program, framebuffer, vertex_array;
+    GLuint view_buffer, block_buffer;
+    struct backdrop_inputs drawn;
+    bool has_drawn;
+};
+
+static float4 with_w(float3 v, float w)
+{
+    return (float4){v.x, v.y, v.z, w};
+}
+
+static float3 normalized(float3 v)
+{
+    float length = sqrtf(v.x * v.x + v.y * v.y + v.z * v.z);
+    if (!(length > 0.0f))
+        return (float3){0.0f, 1.0f, 0.0f};
+    return (float3){v.x / length, v.y / length, v.z / length};
+}
+
+static void fill_boxes(const struct kiln_scene *scene, float time_s,
+                       struct kiln_draw_backdrop *block)
+{
+    for (uint32_t i = 0; i < scene->backdrop.box_count; i++) {
+        const struct kiln_box *box = &scene->backdrop.boxes[i];
+        float3 size = kiln_scene_value3(scene, &box->size, time_s);
+        block->box_center[i] = with_w(kiln_scene_value3(scene, &box->center, time_s), 0.0f);
+        block->box_half[i] = (float4){0.5f * size.x, 0.5f * size.y, 0.5f * size.z, 0.0f};
+        block->box_color[i] = with_w(kiln_scene_value3(scene, &box->color, time_s), 0.0f);
+    }
+}
+
+static void fill_lights(const struct kiln_scene *scene, float time_s,
+                        struct kiln_draw_backdrop *block)
+{
+    for (uint32_t i = 0; i < scene->backdrop.light_count; i++) {
+        const struct kiln_light *light = &scene->backdrop.lights[i];
+        float radius = kiln_scene_value(scene, &light->radius, time_s);
+        float3 position = kiln_scene_value3(scene, &light->position, time_s);
+        block->lights[i].position_radius2 = with_w(position, radius * radius);
+        block->lights[i].color = with_w(kiln_scene_value3(scene, &light->color, time_s), 0.0f);
+    }
+}
+
+static struct kiln_draw_backdrop make_block(const struct kiln_scene *scene, float time_s)
+{
+    const struct kiln_backdrop *b = &scene->backdrop;
+    struct kiln_draw_backdrop block = {
+        .sky_top = with_w(kiln_scene_value3(scene, &b->sky_top, time_s), 0.0f),
+        .sky_horizon = with_w(kiln_scene_value3(scene, &b->sky_horizon, time_s), 0.0f),
+        .floor_color = with_w(kiln_scene_value3(scene, &b->floor_color, time_s),
+                              kiln_scene_value(scene, &b->floor_height, time_s)),
+        .floor_params = {b->floor_enabled ? 1.0f : 0.0f,
+                         kiln_scene_value(scene, &b->floor_checker, time_s),
+                         kiln_scene_value(scene, &b->haze, time_s), 0.0f},
+        .sun_direction =
+            with_w(normalized(kiln_scene_value3(scene, &b->sun_direction, time_s)), 0.0f),
+        .sun_color = with_w(kiln_scene_value3(scene, &b->sun_color, time_s), 0.0f),
+        .counts = {b->box_count, b->light_count, b->transparent ? 1u : 0u, 0},
+    };
+    fill_boxes(scene, time_s, &block);
+    fill_lights(scene, time_s, &block);
+    return block;
+}
+
+/* The camera's clock does not show in the backdrop. */
+static bool same_picture(const struct backdrop_inputs *a, const struct backdrop_inputs *b)
+{
+    return memcmp(&a->block, &b->block, sizeof a->block) == 0 &&
+           memcmp(a->view.world_to_view, b->view.world_to_view, sizeof a->view.world_to_view) ==
+               0 &&
+           memcmp(&a->view.frustum, &b->view.frustum, sizeof a->view.frustum) == 0;
+}
+
+struct kiln_backdrop_stage *kiln_backdrop_create(struct kiln_device *device,
+                                                 const struct kiln_scene *scene,
+                                                 struct kiln_image *color, struct kiln_image *depth,
+                                                 struct kiln_error *error)
+{
+    struct kiln_backdrop_stage *stage = calloc(1, sizeof *stage);
+    if (!stage) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "backdrop: out of memory");
+        return NULL;
+    }
+    stage->device = device;
+    stage->scene = scene;
+    stage->color = color;
+    stage->depth = depth;
+    stage->program =
+        kiln_program_create(device,
+                            &(struct kiln_program_params){.vertex = "draw/fullscreen.vert",
+                                                          .fragment = "draw/backdrop.frag"},
+                            error);
+    struct kiln_image *targets[] = {color, depth};
+    if (stage->program)
+        stage->framebuffer = kiln_framebuffer_create(device, targets, 2, error);
+    if (!stage->framebuffer) {
+        kiln_backdrop_destroy(&stage);
+        return NULL;
+    }
+    glGenVertexArrays(1, &stage->vertex_array);
+    glGenBuffers(1, &stage->view_buffer);
+    glGenBuffers(1, &stage->block_buffer);
+    return stage;
+}
+
+void kiln_backdrop_destroy(struct kiln_backdrop_stage **stage)
+{
+    struct kiln_backdrop_stage *s = *stage;
+    if (!s)
+        return;
+    if (s->program)
+        glDeleteProgram(s->program);
+    kiln_framebuffer_destroy(&s->framebuffer);
+    glDeleteVertexArrays(1, &s->vertex_array);
+    glDeleteBuffers(1, &s->view_buffer);
+    glDeleteBuffers(1, &s->block_buffer);
+    free(s);
+    *stage = NULL;
+}
+
+static void upload(GLuint buffer, GLuint binding, const void *data, size_t size)
+{
+    glBindBuffer(GL_UNIFORM_BUFFER, buffer);
+    glBufferData(GL_UNIFORM_BUFFER, (GLsizeiptr)size, data, GL_STREAM_DRAW);
+    glBindBufferBase(GL_UNIFORM_BUFFER, binding, buffer);
+}
+
+bool kiln_backdrop_draw(struct kiln_backdrop_stage *stage, const struct kiln_view *view,
+                        struct kiln_error *error)
+{
+    struct backdrop_inputs now = {.view = *view, .block = make_block(stage->scene, view->clock.x)};
+    upload(stage->view_buffer, KILN_BIND_VIEW, &now.view, sizeof now.view);
+    upload(stage->block_buffer, KILN_BIND_BACKDROP, &now.block, sizeof now.block);
+    if (stage->has_drawn && same_picture(&now, &stage->drawn))
+        return true;
+
+    if (!kiln_image_gl(stage->color, KILN_OVERWRITE, error) ||
+        !kiln_image_gl(stage->depth, KILN_OVERWRITE, error))
+        return false;
+    glBindFramebuffer(GL_FRAMEBUFFER, stage->framebuffer);
+    glDisable(GL_BLEND);
+    glUseProgram(stage->program);
+    kiln_framebuffer_fill(stage->vertex_array, stage->color->width, stage->color->height);
+    stage->drawn = now;
+    stage->has_drawn = true;
+    return kiln_device_check(stage->device, "backdrop", error);
+}

@@ -1,0 +1,135 @@
+/* Every value of a look, at evenly spaced ages. */
+#include "draw/looks.h"
+
+#include "asset/blackbody.h"
+#include "shared/exact.h"
+
+/* A cell's cool parts are at this share of the hot parts' temperature. */
+static const float COOL_SHARE = 0.72f;
+
+struct sampler {
+    const struct kiln_scene *scene;
+    float time_s, life;
+};
+
+static float at(const struct sampler *s, const struct kiln_value *value)
+{
+    return value_at(s->scene->keys, *value, s->time_s, s->life);
+}
+
+static float3 at3(const struct sampler *s, const struct kiln_value3 *value)
+{
+    return value3_at(s->scene->keys, *value, s->time_s, s->life);
+}
+
+static float saturate(float x)
+{
+    return x < 0.0f ? 0.0f : x > 1.0f ? 1.0f : x;
+}
+
+/* 0 at birth and at death, 1 in between (Heinz 2019, 3.2.4). */
+static float fade(const struct sampler *s, const struct kiln_look *look)
+{
+    float in = at(s, &look->fade_in), out = at(s, &look->fade_out);
+    float risen = in > 0.0f ? saturate(s->life / in) : 1.0f;
+    float left = out > 0.0f ? saturate((1.0f - s->life) / out) : 1.0f;
+    return risen * left;
+}
+
+static float4 emitted(float3 tint, float kelvin, float w)
+{
+    float rgb[3];
+    kiln_blackbody_color(kelvin, rgb);
+    return (float4){tint.x * rgb[0], tint.y * rgb[1], tint.z * rgb[2], w};
+}
+
+/* What glows is tinted by the colour if it covers nothing; a covering particle keeps the colour for
+ * what it reflects. */
+static void sample_light(const struct sampler *s, const struct kiln_look *look,
+                         float4 row[KILN_LOOK_ROWS])
+{
+    bool additive = look->blend == KILN_BLEND_ADD;
+    float3 color = at3(s, &look->color);
+    float kelvin = at(s, &look->temperature), intensity = at(s, &look->intensity);
+    float near_fade = at(s, &look->near_fade), cycles = at(s, &look->cycles);
+
+    float3 tint = {intensity, intensity, intensity};
+    if (additive)
+        tint = float3_scale(color, intensity);
+    float4 cover = {color.x, color.y, color.z, at(s, &look->lit)};
+    row[KILN_LOOK_COVER] = additive ? (float4){0.0f, 0.0f, 0.0f, cover.w} : cover;
+    if (kelvin > 0.0f) {
+        row[KILN_LOOK_HOT] = emitted(tint, kelvin, near_fade);
+        row[KILN_LOOK_COOL] = emitted(tint, COOL_SHARE * kelvin, cycles);
+    } else {
+        float3 glow = additive ? tint : (float3){0.0f, 0.0f, 0.0f};
+        row[KILN_LOOK_HOT] = (float4){glow.x, glow.y, glow.z, near_fade};
+        row[KILN_LOOK_COOL] = (float4){glow.x, glow.y, glow.z, cycles};
+    }
+}
+
+static void sample_look(const struct sampler *s, const struct kiln_look *look,
+                        float4 row[KILN_LOOK_ROWS])
+{
+    float3 bloom = at3(s, &look->bloom);
+    row[KILN_LOOK_SHAPE] = (float4){at(s, &look->size), at(s, &look->stretch),
+                                    at(s, &look->opacity) * fade(s, look), at(s, &look->soft)};
+    row[KILN_LOOK_BLOOM] = (float4){bloom.x, bloom.y, bloom.z, 0.0f};
+    row[KILN_LOOK_SPREAD] = (float4){at(s, &look->scale.min), at(s, &look->scale.max),
+                                     at(s, &look->spin.min), at(s, &look->spin.max)};
+    row[KILN_LOOK_TURN] =
+        (float4){at(s, &look->rotation.min), at(s, &look->rotation.max), 0.0f, 0.0f};
+    sample_light(s, look, row);
+}
+
+void kiln_looks_sample(const struct kiln_scene *scene, float time_s, float4 *table)
+{
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        float4 *rows = table + (size_t)i * KILN_LOOK_ROWS * KILN_LOOK_SAMPLES;
+        for (uint32_t k = 0; k < KILN_LOOK_SAMPLES; k++) {
+            const struct sampler sampler = {
+                .scene = scene,
+                .time_s = time_s,
+                .life = (float)k / (float)(KILN_LOOK_SAMPLES - 1),
+            };
+            float4 texel[KILN_LOOK_ROWS];
+            sample_look(&sampler, &scene->systems[i].look, texel);
+            for (uint32_t row = 0; row < KILN_LOOK_ROWS; row++)
+                rows[row * KILN_LOOK_SAMPLES + k] = texel[row];
+        }
+    }
+}
+
+static bool varies(const struct kiln_value *value)
+{
+    return value->count > 0 && value->clock == KILN_CLOCK_TIME;
+}
+
+static bool varies3(const struct kiln_value3 *value)
+{
+    return varies(&value->x) || varies(&value->y) || varies(&value->z);
+}
+
+static bool range_varies(const struct kiln_range *range)
+{
+    return varies(&range->min) || varies(&range->max);
+}
+
+bool kiln_looks_vary(const struct kiln_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_look *look = &scene->systems[i].look;
+        const struct kiln_value *values[] = {&look->size,      &look->stretch,     &look->cycles,
+                                             &look->opacity,   &look->temperature, &look->intensity,
+                                             &look->fade_in,   &look->fade_out,    &look->soft,
+                                             &look->near_fade, &look->lit};
+        for (size_t k = 0; k < sizeof values / sizeof *values; k++) {
+            if (varies(values[k]))
+                return true;
+        }
+        if (varies3(&look->color) || varies3(&look->bloom) || range_varies(&look->scale) ||
+            range_varies(&look->rotation) || range_varies(&look->spin))
+            return true;
+    }
+    return false;
+}

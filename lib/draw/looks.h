@@ -1,0 +1,18 @@
+/* The looks of all systems, ready to be read while drawing (shared/look_layout.h). */
+#ifndef KILN_DRAW_LOOKS_H
+#define KILN_DRAW_LOOKS_H
+
+#include "scene/scene.h"
+#include "shared/look_layout.h"
+
+/* Texels of the table: KILN_LOOK_ROWS rows a system, each of KILN_LOOK_SAMPLES. */
+#define KILN_LOOK_TEXELS (KILN_MAX_SYSTEMS * KILN_LOOK_ROWS * KILN_LOOK_SAMPLES)
+
+/* Fills table (KILN_LOOK_TEXELS) with the looks of the scene at a clip time; row r of system s
+ * starts at (s * KILN_LOOK_ROWS + r) * KILN_LOOK_SAMPLES. */
+void kiln_looks_sample(const struct kiln_scene *scene, float time_s, float4 *table);
+
+/* Whether the table depends on the time at all. */
+bool kiln_looks_vary(const struct kiln_scene *scene);
+
+#endif

@@ -1,0 +1,177 @@
+/* Particles as points that the geometry shader turns into billboards: one draw call for the systems
+ * of a pass, whatever their looks; an entry names system and slot, and the vertex shader fetches
+ * the rest (Heinz 2019, 3.2.2: one draw call, nothing stored but what changes). */
+#include "draw/particles.h"
+#include "draw/looks.h"
+
+#include "base/error.h"
+#include "gpu/program.h"
+#include "shared/look_layout.h"
+#include "shared/random.h"
+
+#include <assert.h>
+#include <stdlib.h>
+
+static_assert(KILN_DRAW_KEYS == KILN_MAX_VALUE_KEYS, "the key block holds every key");
+
+struct kiln_particles_stage {
+    struct kiln_device *device;
+    const struct kiln_scene *scene;
+    const struct kiln_atlas *atlas;
+    GLuint program, vertex_array;
+    GLuint look_buffer, key_buffer;
+    GLuint look_table; /* texture, KILN_LOOK_SAMPLES wide */
+    float4 *table;     /* what is in it */
+    bool table_valid;
+    GLint additive_alpha;
+};
+
+static struct kiln_draw_look make_look(const struct kiln_scene *scene, uint32_t index,
+                                       const struct kiln_atlas_range *cells)
+{
+    const struct kiln_look *look = &scene->systems[index].look;
+    return (struct kiln_draw_look){
+        .derived = {.random_key = random_key(scene->seed, index),
+                    .warmup_steps = scene->warmup_steps,
+                    .dt_s = scene->dt_s,
+                    .life = scene->systems[index].emit.life},
+        .atlas = {cells->first_layer, cells->cells, cells->kind, KILN_ATLAS_CELL},
+        .flags = {look->blend == KILN_BLEND_ADD, look->random_start,
+                  look->soft_formula == KILN_SOFT_LITERAL, 0},
+    };
+}
+
+static GLuint make_uniform_buffer(const void *data, size_t size)
+{
+    GLuint buffer = 0;
+    glGenBuffers(1, &buffer);
+    glBindBuffer(GL_UNIFORM_BUFFER, buffer);
+    glBufferData(GL_UNIFORM_BUFFER, (GLsizeiptr)size, data, GL_STATIC_DRAW);
+    return buffer;
+}
+
+static void make_buffers(struct kiln_particles_stage *stage)
+{
+    const struct kiln_scene *scene = stage->scene;
+    struct kiln_draw_look looks[KILN_MAX_SYSTEMS] = {0};
+    for (uint32_t i = 0; i < scene->system_count; i++)
+        looks[i] = make_look(scene, i, &stage->atlas->systems[i]);
+    stage->look_buffer = make_uniform_buffer(looks, sizeof looks);
+
+    float4 keys[KILN_MAX_VALUE_KEYS] = {{0}};
+    if (scene->key_count)
+        memcpy(keys, scene->keys, scene->key_count * sizeof *keys);
+    stage->key_buffer = make_uniform_buffer(keys, sizeof keys);
+    glGenVertexArrays(1, &stage->vertex_array);
+
+    glGenTextures(1, &stage->look_table);
+    glBindTexture(GL_TEXTURE_2D, stage->look_table);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, KILN_LOOK_SAMPLES,
+                 KILN_LOOK_TEXELS / KILN_LOOK_SAMPLES, 0, GL_RGBA, GL_FLOAT, NULL);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
+
+/* Brings the table to a clip time. */
+static void update_looks(struct kiln_particles_stage *stage, float time_s)
+{
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, stage->look_table);
+    if (stage->table_valid && !kiln_looks_vary(stage->scene))
+        return;
+    kiln_looks_sample(stage->scene, time_s, stage->table);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, KILN_LOOK_SAMPLES, KILN_LOOK_TEXELS / KILN_LOOK_SAMPLES,
+                    GL_RGBA, GL_FLOAT, stage->table);
+    stage->table_valid = true;
+}
+
+struct kiln_particles_stage *kiln_particles_create(struct kiln_device *device,
+                                                   const struct kiln_scene *scene,
+                                                   const struct kiln_atlas *atlas,
+                                                   struct kiln_error *error)
+{
+    struct kiln_particles_stage *stage = calloc(1, sizeof *stage);
+    if (!stage) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "particles: out of memory");
+        return NULL;
+    }
+    *stage = (struct kiln_particles_stage){.device = device, .scene = scene, .atlas = atlas};
+    stage->table = calloc(KILN_LOOK_TEXELS, sizeof *stage->table);
+    if (!stage->table) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "particles: out of memory");
+        kiln_particles_destroy(&stage);
+        return NULL;
+    }
+    stage->program =
+        kiln_program_create(device,
+                            &(struct kiln_program_params){.vertex = "draw/particles.vert",
+                                                          .geometry = "draw/particles.geom",
+                                                          .fragment = "draw/particles.frag"},
+                            error);
+    if (!stage->program) {
+        kiln_particles_destroy(&stage);
+        return NULL;
+    }
+    stage->additive_alpha = glGetUniformLocation(stage->program, "additive_alpha");
+    make_buffers(stage);
+    if (!kiln_device_check(device, "particles set-up", error))
+        kiln_particles_destroy(&stage);
+    return stage;
+}
+
+void kiln_particles_destroy(struct kiln_particles_stage **stage)
+{
+    struct kiln_particles_stage *s = *stage;
+    if (!s)
+        return;
+    if (s->program)
+        glDeleteProgram(s->program);
+    glDeleteVertexArrays(1, &s->vertex_array);
+    glDeleteBuffers(1, &s->look_buffer);
+    glDeleteBuffers(1, &s->key_buffer);
+    glDeleteTextures(1, &s->look_table);
+    free(s->table);
+    free(s);
+    *stage = NULL;
+}
+
+static void bind_texture(GLuint unit, GLenum target, GLuint texture)
+{
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glBindTexture(target, texture);
+}
+
+bool kiln_particles_run(struct kiln_particles_stage *stage, const struct kiln_particles_draw *draw,
+                        struct kiln_error *error)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, draw->framebuffer);
+    glViewport(0, 0, (GLsizei)draw->width, (GLsizei)draw->height);
+    static const GLfloat transparent[4] = {0};
+    glClearBufferfv(GL_COLOR, 0, transparent);
+    if (!draw->keep_bloom)
+        glClearBufferfv(GL_COLOR, 1, transparent);
+    if (draw->count == 0)
+        return kiln_device_check(stage->device, "particles", error);
+
+    GLuint records = kiln_buffer_gl(&draw->pool->records, KILN_READ, error);
+    GLuint entries = records ? kiln_buffer_gl(draw->entries, KILN_READ, error) : 0;
+    GLuint depth = entries ? kiln_image_gl(draw->depth, KILN_READ, error) : 0;
+    if (!depth)
+        return false;
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, KILN_BIND_RECORDS, records);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, KILN_BIND_ENTRIES, entries);
+    glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_LOOKS, stage->look_buffer);
+    glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_KEYS, stage->key_buffer);
+    update_looks(stage, draw->time_s);
+    bind_texture(1, GL_TEXTURE_2D_ARRAY, stage->atlas->texture);
+    bind_texture(2, GL_TEXTURE_2D, depth);
+
+    glUseProgram(stage->program);
+    glUniform1f(stage->additive_alpha, draw->sum_alpha ? 1.0f : 0.0f);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, draw->sum_alpha ? GL_ONE : GL_ONE_MINUS_SRC_ALPHA);
+    glBindVertexArray(stage->vertex_array);
+    glDrawArrays(GL_POINTS, 0, (GLsizei)draw->count);
+    glDisable(GL_BLEND);
+    return kiln_device_check(stage->device, "particles", error);
+}

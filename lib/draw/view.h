@@ -1,0 +1,14 @@
+/* The camera of a frame. */
+#ifndef KILN_DRAW_VIEW_H
+#define KILN_DRAW_VIEW_H
+
+#include "scene/scene.h"
+#include "shared/draw_layout.h"
+
+/* The view of scene->camera after `step` steps. Camera values are read at that clip time. */
+struct kiln_view kiln_view_compute(const struct kiln_scene *scene, uint32_t step);
+
+/* The view direction in world space, unit length. */
+float3 kiln_view_forward(const struct kiln_view *view);
+
+#endif

@@ -1,0 +1,62 @@
+/* Shades a fragment of a billboard: two adjacent cells of the atlas mixed (Heinz 2019, 3.2.4,
+ * equation 3.2), lit or shining, faded where it nears the scene (3.2.6, equation 3.3). The bloom
+ * target gets the same, weighted (3.2.5). Colours leave premultiplied.
+ */
+#include "shared/draw_layout.h"
+
+#include "draw/billboard.glsl"
+
+layout(binding = 1) uniform sampler2DArray atlas;
+layout(binding = 2) uniform sampler2D scene_depth;
+
+uniform float additive_alpha; /* 0: fire covers nothing (merged); 1: its alpha is summed (separate) */
+
+layout(location = 0) noperspective in vec2 uv;
+layout(location = 1) flat in billboard quad;
+
+layout(location = 0) out vec4 out_color;
+layout(location = 1) out vec4 out_bloom;
+
+float soft_fade()
+{
+    float behind = texelFetch(scene_depth, ivec2(gl_FragCoord.xy), 0).r - quad.depth.x;
+    float hard = step(0.0, behind);
+    float scale = quad.cool.a;
+    if (scale <= 0.0)
+        return hard;
+    if (quad.depth.z > 0.0)
+        return hard * min(abs(behind) * scale, 1.0);
+    return clamp(behind * scale, 0.0, 1.0);
+}
+
+void main()
+{
+    vec4 cell = mix(textureLod(atlas, vec3(uv, quad.cells.x), quad.cells.w),
+                    textureLod(atlas, vec3(uv, quad.cells.y), quad.cells.w), quad.cells.z);
+    vec3 rgb;
+    float alpha;
+    vec2 slope = vec2(0.0);
+    if (uint(quad.depth.y) == KILN_CELL_MASK) {
+        slope = cell.xy * 2.0 - 1.0;
+        alpha = cell.a;
+        rgb = mix(quad.cool.rgb, quad.hot.rgb, cell.z);
+    } else {
+        cell *= cell; /* stored under a square root, which spends 8 bits better */
+        alpha = cell.a;
+        rgb = quad.hot.rgb;
+    }
+    float facing = sqrt(max(1.0 - dot(slope, slope), 0.0));
+    vec3 light = quad.light_0.rgb + quad.light_x.rgb * slope.x + quad.light_y.rgb * slope.y +
+                 quad.light_z.rgb * facing;
+    vec3 covering = quad.color.rgb * max(light, vec3(0.0));
+    if (uint(quad.depth.y) == KILN_CELL_MASK)
+        rgb = (rgb + covering) * alpha;
+    else
+        rgb = cell.rgb * (rgb + covering);
+
+    float fade = quad.color.a * soft_fade();
+    alpha *= fade;
+    rgb *= fade;
+    out_color = vec4(rgb, quad.hot.a > 0.0 ? additive_alpha * alpha : alpha);
+    out_bloom = vec4(quad.bloom.rgb * rgb, out_color.a);
+}

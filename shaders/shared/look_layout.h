@@ -1,0 +1,33 @@
+/* The looks of the systems as drawing reads them: a uniform block, and a table of everything that
+ * may vary over life, sampled evenly from birth to death. The table is made on the host for each
+ * frame in which it changes, so that shaders evaluate no keys (their many loops, inlined, keep a
+ * compiler busy for minutes) and every rasteriser reads the same numbers.
+ */
+#ifndef KILN_SHARED_LOOK_LAYOUT_H
+#define KILN_SHARED_LOOK_LAYOUT_H
+
+#include "shared/layout.h"
+
+/* Samples over life; a key between two of them is smoothed over a 127th of the life. */
+#define KILN_LOOK_SAMPLES 128
+
+/* Rows of a system's part of the table: one RGBA texel a sample. */
+#define KILN_LOOK_SHAPE 0  /* size, m; stretch, s; opacity with fades; scale of the soft fade, 1/m \
+                            */
+#define KILN_LOOK_COVER 1  /* colour that covers, rgb; lit */
+#define KILN_LOOK_HOT   2  /* light emitted where a cell's heat is 1, rgb; near fade, m */
+#define KILN_LOOK_COOL  3  /* light emitted where it is 0, rgb; passes through the atlas in a life \
+                            */
+#define KILN_LOOK_BLOOM  4 /* weights, rgb; unused */
+#define KILN_LOOK_SPREAD 5 /* scale, least and most; spin, least and most, rad/s */
+#define KILN_LOOK_TURN   6 /* rotation at birth, least and most, rad; unused */
+#define KILN_LOOK_ROWS   7
+
+/* The rest of a look, the same at any age. */
+struct kiln_draw_look {
+    S(kiln_derived_params) derived; /* for the progress through life */
+    uint4 atlas;                    /* first layer; cells; KILN_CELL_*; edge of a cell, px */
+    uint4 flags; /* additive; random start; literal soft formula (equation 3.3); unused */
+};
+
+#endif

@@ -1,0 +1,199 @@
+/* lib/draw/backdrop.c against a plain C ray caster. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "draw/backdrop.h"
+#include "support/device.h"
+
+enum { WIDTH = 96, HEIGHT = 54 };
+
+static const char SCENE[] = "kiln: 1\n"
+                            "output: {size: [96, 54], frames: 3, fps: 60}\n"
+                            "camera:\n"
+                            "  position: {keys: {0 s: [3, 2, 6], 1 s: [3.5, 2, 6]}}\n"
+                            "  target: [0.5, 1, 0]\n"
+                            "  fov: 50 deg\n"
+                            "backdrop:\n"
+                            "  haze: 0\n"
+                            "  sky: {top: [0.1, 0.2, 0.4], horizon: [0.4, 0.3, 0.2]}\n"
+                            "  sun: {direction: [0, 1, 0], color: [2, 1, 0.5]}\n"
+                            "  floor: {color: [0.5, 0.4, 0.3], height: -0.5 m}\n"
+                            "  objects:\n"
+                            "    - box: {center: [0, 0.75, 0], size: [1, 1.5, 1]}\n"
+                            "    - box: {center: [1.5, 0, -1], size: [0.5, 1, 2]}\n";
+
+struct fixture {
+    struct kiln_scene *scene;
+    struct kiln_image color, depth;
+    struct kiln_backdrop_stage *stage;
+};
+
+static struct fixture fixture_create(void)
+{
+    struct kiln_error error = {0};
+    struct fixture f = {
+        .scene = kiln_scene_parse(SCENE, sizeof SCENE - 1, "test", &KILN_SCENE_DEFAULTS, &error)};
+    if (!f.scene)
+        fail_msg("%s", error.message);
+    return f;
+}
+
+static void fixture_start(struct fixture *f, void *device)
+{
+    struct kiln_error error = {0};
+    kiln_image_init(&f->color, device, WIDTH, HEIGHT, GL_RGBA32F, "color");
+    kiln_image_init(&f->depth, device, WIDTH, HEIGHT, GL_R32F, "depth");
+    f->stage = kiln_backdrop_create(device, f->scene, &f->color, &f->depth, &error);
+    if (!f->stage)
+        fail_msg("%s", error.message);
+}
+
+static void fixture_end(struct fixture *f)
+{
+    kiln_backdrop_destroy(&f->stage);
+    kiln_image_finish(&f->color);
+    kiln_image_finish(&f->depth);
+    kiln_scene_destroy(&f->scene);
+}
+
+/* The ray through the centre of a pixel in world space, built from the camera itself: its parameter
+ * is view depth. */
+static void camera_ray(double px, double py, const double eye[3], double direction[3])
+{
+    const double target[3] = {0.5, 1, 0};
+    double f[3], length = 0;
+    for (int i = 0; i < 3; i++) {
+        f[i] = target[i] - eye[i];
+        length += f[i] * f[i];
+    }
+    for (int i = 0; i < 3; i++)
+        f[i] /= sqrt(length);
+    double flat = sqrt(f[0] * f[0] + f[2] * f[2]);
+    const double right[3] = {-f[2] / flat, 0, f[0] / flat};
+    const double up[3] = {right[1] * f[2] - right[2] * f[1], right[2] * f[0] - right[0] * f[2],
+                          right[0] * f[1] - right[1] * f[0]};
+    double tan_y = tan(25.0 * acos(-1.0) / 180.0);
+    double x = (2 * px / WIDTH - 1) * tan_y * WIDTH / HEIGHT, y = (1 - 2 * py / HEIGHT) * tan_y;
+    for (int i = 0; i < 3; i++)
+        direction[i] = f[i] + x * right[i] + y * up[i];
+}
+
+static double box_hit(const double center[3], const double size[3], const double o[3],
+                      const double d[3])
+{
+    double in = -1e30, out = 1e30;
+    for (int i = 0; i < 3; i++) {
+        double a = (center[i] - 0.5 * size[i] - o[i]) / d[i];
+        double b = (center[i] + 0.5 * size[i] - o[i]) / d[i];
+        in = fmax(in, fmin(a, b));
+        out = fmin(out, fmax(a, b));
+    }
+    return in <= out && in > 0 ? in : 1e9;
+}
+
+static double scene_depth(const double eye[3], double px, double py)
+{
+    static const double centers[2][3] = {{0, 0.75, 0}, {1.5, 0, -1}};
+    static const double sizes[2][3] = {{1, 1.5, 1}, {0.5, 1, 2}};
+    double d[3];
+    camera_ray(px, py, eye, d);
+    double t = d[1] < 0 ? (-0.5 - eye[1]) / d[1] : 1e9;
+    for (int i = 0; i < 2; i++)
+        t = fmin(t, box_hit(centers[i], sizes[i], eye, d));
+    return t;
+}
+
+static void depth_matches_c(void **state)
+{
+    struct kiln_error error = {0};
+    struct fixture f = fixture_create();
+    fixture_start(&f, *state);
+    struct kiln_view view = kiln_view_compute(f.scene, 0);
+    assert_true(kiln_backdrop_draw(f.stage, &view, &error));
+    const float *depth = kiln_image_host(&f.depth, KILN_READ, &error);
+    assert_non_null(depth);
+    const double eye[3] = {3, 2, 6};
+    int compared = 0;
+    for (int y = 0; y < HEIGHT; y++) {
+        for (int x = 0; x < WIDTH; x++) {
+            double t = scene_depth(eye, x + 0.5, y + 0.5);
+            /* Where a hundredth of a pixel decides, the driver may decide otherwise. */
+            double near = scene_depth(eye, x + 0.51, y + 0.51);
+            double far = scene_depth(eye, x + 0.49, y + 0.49);
+            if (fabs(near - t) > 0.05 * t || fabs(far - t) > 0.05 * t)
+                continue;
+            compared++;
+            if (fabs((double)depth[y * WIDTH + x] - t) > 2e-4 * t)
+                fail_msg("pixel %d,%d: depth %g, expected %g", x, y, (double)depth[y * WIDTH + x],
+                         t);
+        }
+    }
+    assert_true(compared > WIDTH * HEIGHT * 9 / 10);
+    fixture_end(&f);
+}
+
+static void sky_floor_and_shadow_have_their_colors(void **state)
+{
+    struct kiln_error error = {0};
+    struct fixture f = fixture_create();
+    fixture_start(&f, *state);
+    struct kiln_view view = kiln_view_compute(f.scene, 0);
+    assert_true(kiln_backdrop_draw(f.stage, &view, &error));
+    const float *color = kiln_image_host(&f.color, KILN_READ, &error);
+    assert_non_null(color);
+
+    /* The nearest floor, far from the boxes: sky from above, and the sun from the zenith. */
+    const float *floor_pixel = color + 4 * ((HEIGHT - 1) * WIDTH + WIDTH - 3);
+    const double pi = acos(-1.0);
+    static const double albedo[3] = {0.5, 0.4, 0.3}, sun[3] = {2, 1, 0.5}, top[3] = {0.1, 0.2, 0.4};
+    for (int c = 0; c < 3; c++) {
+        double expected = albedo[c] * (top[c] + sun[c] / pi);
+        assert_true(fabs((double)floor_pixel[c] - expected) < 0.02 * expected);
+    }
+    /* The sky reddens towards the horizon. */
+    const float *zenith = color, *lower = color + 4 * (8 * WIDTH);
+    assert_true(zenith[0] < lower[0] && zenith[2] > lower[2]);
+    for (int i = 0; i < WIDTH * HEIGHT; i++)
+        assert_true(color[4 * i + 3] == 1.0f);
+    fixture_end(&f);
+}
+
+/* The picture is kept while nothing changes, and drawn again when the camera moves. */
+static void only_changes_are_drawn_again(void **state)
+{
+    struct kiln_error error = {0};
+    struct fixture f = fixture_create();
+    fixture_start(&f, *state);
+    struct kiln_view view = kiln_view_compute(f.scene, 0);
+    assert_true(kiln_backdrop_draw(f.stage, &view, &error));
+    float *depth = kiln_image_host(&f.depth, KILN_READ_WRITE, &error);
+    assert_non_null(depth);
+    float before = depth[0];
+    depth[0] = -1.0f;
+    assert_true(kiln_backdrop_draw(f.stage, &view, &error));
+    depth = kiln_image_host(&f.depth, KILN_READ_WRITE, &error);
+    assert_true(depth[0] == -1.0f);
+
+    view = kiln_view_compute(f.scene, 30);
+    assert_true(kiln_backdrop_draw(f.stage, &view, &error));
+    depth = kiln_image_host(&f.depth, KILN_READ, &error);
+    assert_true(depth[0] == before);
+    fixture_end(&f);
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        test_on_device(depth_matches_c),
+        test_on_device(sky_floor_and_shadow_have_their_colors),
+        test_on_device(only_changes_are_drawn_again),
+    };
+    return cmocka_run_group_tests_name("backdrop", tests, test_device_open, test_device_close);
+}
