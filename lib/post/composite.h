@@ -1,0 +1,34 @@
+/* Stage 5b: scene, particles and bloom become the picture (Heinz 2019, 3.2.1, last step). */
+#ifndef KILN_POST_COMPOSITE_H
+#define KILN_POST_COMPOSITE_H
+
+#include "gpu/image.h"
+#include "scene/scene.h"
+
+struct kiln_composite_stage;
+
+/* bits: 8 or 16 of the display picture. */
+struct kiln_composite_stage *kiln_composite_create(struct kiln_device *device,
+                                                   const struct kiln_scene *scene, uint32_t bits,
+                                                   struct kiln_error *error);
+void kiln_composite_destroy(struct kiln_composite_stage **stage);
+
+struct kiln_composite_inputs {
+    struct kiln_image *scene, *particles; /* particles: premultiplied */
+    struct kiln_image *fire;              /* NULL unless composed separately */
+    struct kiln_image *bloom;             /* NULL for none */
+    uint32_t frame;
+    float time_s;
+};
+
+bool kiln_composite_run(struct kiln_composite_stage *stage,
+                        const struct kiln_composite_inputs *inputs, struct kiln_error *error);
+
+/* Copies the display picture (sRGB, RGBA, not premultiplied, 8 or 16 bits a channel, rows from the
+ * top), and the scene-linear premultiplied picture (float RGBA), to the host. */
+bool kiln_composite_read_display(struct kiln_composite_stage *stage, void *pixels,
+                                 struct kiln_error *error);
+bool kiln_composite_read_beauty(struct kiln_composite_stage *stage, float *pixels,
+                                struct kiln_error *error);
+
+#endif

@@ -1,0 +1,17 @@
+/* Averages blocks of pixels: nothing is skipped, so that sparks do not flicker in the bloom. */
+layout(binding = 0) uniform sampler2D source;
+uniform int factor;
+
+layout(location = 0) out vec4 out_color;
+
+void main()
+{
+    ivec2 first = ivec2(gl_FragCoord.xy) * factor;
+    ivec2 last = textureSize(source, 0) - 1;
+    vec4 sum = vec4(0.0);
+    for (int y = 0; y < factor; y++) {
+        for (int x = 0; x < factor; x++)
+            sum += texelFetch(source, min(first + ivec2(x, y), last), 0);
+    }
+    out_color = sum / float(factor * factor);
+}

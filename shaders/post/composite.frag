@@ -1,0 +1,104 @@
+/* Scene, particles, fire and blurred bloom become one picture (Heinz 2019, figure 3.1, last step),
+ * then exposure, tone map, sRGB and dither. */
+#include "post/tonemap.glsl"
+
+layout(binding = 0) uniform sampler2D scene;
+layout(binding = 1) uniform sampler2D particles; /* premultiplied: all (merged), or smoke */
+layout(binding = 2) uniform sampler2D fire;      /* premultiplied, alpha summed (separate) */
+layout(binding = 3) uniform sampler2D bloom;
+
+uniform float bloom_strength;
+uniform vec2 bloom_scale; /* texels of the bloom texture a pixel */
+uniform bool separate_fire;
+uniform float exposure; /* factor */
+uniform int tonemap;    /* 0 none, 1 AgX, 2 ACES: enum kiln_tonemap */
+uniform float levels;   /* of an output channel, 255 or 65535 */
+uniform bool dither;
+uniform uint frame;
+
+layout(location = 0) out vec4 out_display; /* not premultiplied */
+layout(location = 1) out vec4 out_beauty;  /* scene-linear, premultiplied */
+
+uint hash(uint x)
+{
+    x ^= x >> 16;
+    x *= 0x7feb352du;
+    x ^= x >> 15;
+    x *= 0x846ca68bu;
+    x ^= x >> 16;
+    return x;
+}
+
+/* Triangular noise of one level, different for each pixel, channel and frame, the same in each run. */
+vec3 dither_noise()
+{
+    uvec2 p = uvec2(gl_FragCoord.xy);
+    uint h = hash(p.x + hash(p.y + hash(frame)));
+    vec3 noise;
+    for (int c = 0; c < 3; c++) {
+        h = hash(h + uint(c));
+        noise[c] = (float(h & 0xffffu) + float(h >> 16)) / 65535.0 - 1.0;
+    }
+    return noise;
+}
+
+/* Cubic B-spline weights for four neighbours: the sixth-size bloom shows no diamond of a bilinear
+ * magnification. */
+vec4 spline_weights(float t)
+{
+    float s = 1.0 - t;
+    return vec4(s * s * s, 4.0 - 6.0 * t * t + 3.0 * t * t * t,
+                4.0 - 6.0 * s * s + 3.0 * s * s * s, t * t * t) / 6.0;
+}
+
+vec3 magnified_bloom()
+{
+    vec2 texel = gl_FragCoord.xy * bloom_scale - 0.5;
+    ivec2 base = ivec2(floor(texel));
+    vec4 wx = spline_weights(fract(texel.x));
+    vec4 wy = spline_weights(fract(texel.y));
+    ivec2 last = textureSize(bloom, 0) - 1;
+    vec3 sum = vec3(0.0);
+    for (int j = 0; j < 4; j++) {
+        for (int i = 0; i < 4; i++) {
+            ivec2 at = clamp(base + ivec2(i - 1, j - 1), ivec2(0), last);
+            sum += wx[i] * wy[j] * texelFetch(bloom, at, 0).rgb;
+        }
+    }
+    return sum;
+}
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec4 over = texelFetch(particles, pixel, 0);
+    vec4 color = texelFetch(scene, pixel, 0);
+    color = over + color * (1.0 - over.a);
+    if (separate_fire) {
+        vec4 flame = texelFetch(fire, pixel, 0);
+        flame.a = min(flame.a, 1.0);
+        color = flame + color * (1.0 - flame.a);
+    }
+    if (bloom_strength > 0.0)
+        color.rgb += bloom_strength * magnified_bloom();
+    out_beauty = color;
+
+    vec3 display = max(color.rgb * exposure, vec3(0.0));
+    if (tonemap == 1)
+        display = tonemap_agx(display);
+    else if (tonemap == 2)
+        display = tonemap_aces(display);
+    display = encode_srgb(min(display, vec3(1.0)));
+
+    /* A file's alpha is not premultiplied. Light without cover (fire on nothing) has no such form:
+     * its brightness becomes its cover, so that it still shows over black. */
+    float alpha = clamp(max(color.a, max(max(display.r, display.g), display.b)), 0.0, 1.0);
+    if (color.a < 1.0)
+        display = alpha > 0.0 ? min(display / alpha, vec3(1.0)) : vec3(0.0);
+    else
+        alpha = 1.0;
+    vec3 steps = display * levels + 0.5;
+    if (dither)
+        steps += 0.5 * dither_noise();
+    out_display = vec4(clamp(floor(steps), 0.0, levels) / levels, floor(alpha * levels + 0.5) / levels);
+}

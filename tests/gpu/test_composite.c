@@ -1,0 +1,270 @@
+/* lib/post/composite.c against a plain C reference. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "post/composite.h"
+#include "support/device.h"
+
+enum { WIDTH = 48, HEIGHT = 36, PIXELS = WIDTH * HEIGHT };
+
+static struct kiln_scene *parse(const char *post)
+{
+    char text[1024];
+    int length = snprintf(text, sizeof text,
+                          "kiln: 1\noutput: {size: [%d, %d], frames: 2}\n"
+                          "camera: {position: [0, 1, 5], target: [0, 1, 0]}\n"
+                          "post: {dither: false, %s}\n",
+                          WIDTH, HEIGHT, post);
+    struct kiln_error error = {0};
+    struct kiln_scene *scene =
+        kiln_scene_parse(text, (size_t)length, "test", &KILN_SCENE_DEFAULTS, &error);
+    if (!scene)
+        fail_msg("%s", error.message);
+    return scene;
+}
+
+/* An image whose pixels are random premultiplied colours; scale of the light, whether opaque. */
+static void fill(struct kiln_image *image, void *device, const char *label, float scale,
+                 bool opaque)
+{
+    struct kiln_error error = {0};
+    kiln_image_init(image, device, WIDTH, HEIGHT, GL_RGBA32F, label);
+    float *p = kiln_image_host(image, KILN_OVERWRITE, &error);
+    assert_non_null(p);
+    for (int i = 0; i < PIXELS; i++, p += 4) {
+        p[3] = opaque ? 1.0f : (float)(rand() % 1001) / 1000.0f;
+        for (int c = 0; c < 3; c++)
+            p[c] = scale * p[3] * (float)(rand() % 1001) / 1000.0f;
+    }
+}
+
+static double encode(double x)
+{
+    return x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055;
+}
+
+static double clamp01(double x)
+{
+    return x < 0 ? 0 : x > 1 ? 1 : x;
+}
+
+static void aces(double v[3])
+{
+    static const double in[3][3] = {
+        {0.59719, 0.35458, 0.04823}, {0.07600, 0.90834, 0.01566}, {0.02840, 0.13383, 0.83777}};
+    static const double out[3][3] = {{1.60475, -0.53108, -0.07367},
+                                     {-0.10208, 1.10813, -0.00605},
+                                     {-0.00327, -0.07276, 1.07602}};
+    double a[3], b[3];
+    for (int i = 0; i < 3; i++) {
+        a[i] = in[i][0] * v[0] + in[i][1] * v[1] + in[i][2] * v[2];
+        b[i] = (a[i] * (a[i] + 0.0245786) - 0.000090537) /
+               (a[i] * (0.983729 * a[i] + 0.4329510) + 0.238081);
+    }
+    for (int i = 0; i < 3; i++)
+        v[i] = clamp01(out[i][0] * b[0] + out[i][1] * b[1] + out[i][2] * b[2]);
+}
+
+/* The picture as formulas, without bloom. */
+static void reference(const float *scene, const float *particles, const float *fire,
+                      double exposure, bool use_aces, double out[4])
+{
+    double color[4];
+    for (int c = 0; c < 4; c++)
+        color[c] = (double)particles[c] + (double)scene[c] * (1.0 - (double)particles[3]);
+    if (fire) {
+        double alpha = fmin((double)fire[3], 1.0);
+        for (int c = 0; c < 4; c++)
+            color[c] = (c < 3 ? (double)fire[c] : alpha) + color[c] * (1.0 - alpha);
+    }
+    for (int c = 0; c < 3; c++)
+        color[c] *= exp2(exposure);
+    if (use_aces)
+        aces(color);
+    for (int c = 0; c < 3; c++)
+        out[c] = encode(clamp01(color[c]));
+    out[3] = 1.0;
+}
+
+static void check(void *device, const char *post, uint32_t bits, bool with_fire, double exposure,
+                  bool use_aces)
+{
+    struct kiln_error error = {0};
+    struct kiln_scene *scene = parse(post);
+    struct kiln_image back, particles, fire;
+    srand(11);
+    fill(&back, device, "scene", 1.5f, true);
+    fill(&particles, device, "particles", 2.0f, false);
+    fill(&fire, device, "fire", 3.0f, false);
+    struct kiln_composite_stage *stage = kiln_composite_create(device, scene, bits, &error);
+    assert_non_null(stage);
+    const struct kiln_composite_inputs inputs = {
+        .scene = &back, .particles = &particles, .fire = with_fire ? &fire : NULL};
+    assert_true(kiln_composite_run(stage, &inputs, &error));
+    uint16_t got[PIXELS * 4];
+    assert_true(kiln_composite_read_display(stage, got, &error));
+
+    double levels = bits == 16 ? 65535.0 : 255.0;
+    double tolerance = bits == 16 ? 6.0 : 1.0; /* levels: the driver's pow and log2 */
+    for (int i = 0; i < PIXELS; i++) {
+        double expected[4];
+        reference(back.host + 4 * i, particles.host + 4 * i, with_fire ? fire.host + 4 * i : NULL,
+                  exposure, use_aces, expected);
+        for (int c = 0; c < 4; c++) {
+            double value =
+                bits == 16 ? (double)got[4 * i + c] : (double)((const uint8_t *)got)[4 * i + c];
+            assert_true(fabs(value - levels * expected[c]) <= tolerance);
+        }
+    }
+    kiln_composite_destroy(&stage);
+    kiln_image_finish(&back);
+    kiln_image_finish(&particles);
+    kiln_image_finish(&fire);
+    kiln_scene_destroy(&scene);
+}
+
+static void merged_matches_c(void **state)
+{
+    check(*state, "tonemap: none", 8, false, 0.0, false);
+    check(*state, "tonemap: none, exposure: -1.5", 16, false, -1.5, false);
+}
+
+static void separate_fire_matches_c(void **state)
+{
+    check(*state, "tonemap: none, compose: separate", 16, true, 0.0, false);
+}
+
+static void aces_matches_c(void **state)
+{
+    check(*state, "tonemap: aces", 16, false, 0.0, true);
+}
+
+/* Published values of AgX's default look: mid grey stays near mid grey, white arrives late. */
+static void agx_keeps_grey_and_hue(void **state)
+{
+    struct kiln_error error = {0};
+    struct kiln_scene *scene = parse("tonemap: agx");
+    struct kiln_image back, none;
+    kiln_image_init(&back, *state, WIDTH, HEIGHT, GL_RGBA32F, "scene");
+    kiln_image_init(&none, *state, WIDTH, HEIGHT, GL_RGBA32F, "particles");
+    float *p = kiln_image_host(&back, KILN_OVERWRITE, &error);
+    float *q = kiln_image_host(&none, KILN_OVERWRITE, &error);
+    assert_true(p && q);
+    memset(q, 0, sizeof(float) * PIXELS * 4);
+    for (int i = 0; i < PIXELS; i++) {
+        float grey = 0.18f * exp2f(-10.0f + 20.0f * (float)i / PIXELS); /* a ramp of 20 stops */
+        p[4 * i] = p[4 * i + 1] = p[4 * i + 2] = grey;
+        p[4 * i + 3] = 1.0f;
+    }
+    struct kiln_composite_stage *stage = kiln_composite_create(*state, scene, 16, &error);
+    assert_non_null(stage);
+    const struct kiln_composite_inputs inputs = {.scene = &back, .particles = &none};
+    assert_true(kiln_composite_run(stage, &inputs, &error));
+    uint16_t got[PIXELS * 4];
+    assert_true(kiln_composite_read_display(stage, got, &error));
+    for (int i = 0; i < PIXELS; i++) {
+        assert_true(abs(got[4 * i] - got[4 * i + 1]) < 200 &&
+                    abs(got[4 * i] - got[4 * i + 2]) < 200);
+        assert_true(i == 0 || got[4 * i] + 2 >= got[4 * (i - 1)]);
+    }
+    assert_true(got[0] < 1000);                      /* ten stops below: black */
+    assert_true(got[4 * (PIXELS - 1)] > 64000);      /* ten above: white */
+    double middle = got[4 * (PIXELS / 2)] / 65535.0; /* 0.18 */
+    assert_true(middle > 0.42 && middle < 0.52);
+    kiln_composite_destroy(&stage);
+    kiln_image_finish(&back);
+    kiln_image_finish(&none);
+    kiln_scene_destroy(&scene);
+}
+
+/* Dither changes a level by one at most, keeps the mean, and differs from frame to frame only. */
+static void dither_is_small_and_repeatable(void **state)
+{
+    struct kiln_error error = {0};
+    struct kiln_scene *scene = parse("tonemap: none");
+    ((struct kiln_post *)&scene->post)->dither = true;
+    struct kiln_image back, none;
+    kiln_image_init(&back, *state, WIDTH, HEIGHT, GL_RGBA32F, "scene");
+    kiln_image_init(&none, *state, WIDTH, HEIGHT, GL_RGBA32F, "particles");
+    float *p = kiln_image_host(&back, KILN_OVERWRITE, &error);
+    float *q = kiln_image_host(&none, KILN_OVERWRITE, &error);
+    assert_true(p && q);
+    memset(q, 0, sizeof(float) * PIXELS * 4);
+    for (int i = 0; i < PIXELS * 4; i++)
+        p[i] = i % 4 == 3 ? 1.0f : 0.2160f; /* encodes to 128.3 levels */
+    struct kiln_composite_stage *stage = kiln_composite_create(*state, scene, 8, &error);
+    assert_non_null(stage);
+    struct kiln_composite_inputs inputs = {.scene = &back, .particles = &none, .frame = 5};
+    uint8_t first[PIXELS * 4], again[PIXELS * 4], other[PIXELS * 4];
+    assert_true(kiln_composite_run(stage, &inputs, &error));
+    assert_true(kiln_composite_read_display(stage, first, &error));
+    assert_true(kiln_composite_run(stage, &inputs, &error));
+    assert_true(kiln_composite_read_display(stage, again, &error));
+    inputs.frame = 6;
+    assert_true(kiln_composite_run(stage, &inputs, &error));
+    assert_true(kiln_composite_read_display(stage, other, &error));
+    assert_memory_equal(first, again, sizeof first);
+    assert_memory_not_equal(first, other, sizeof first);
+    double sum = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        assert_true(first[4 * i] >= 127 && first[4 * i] <= 130);
+        sum += first[4 * i];
+    }
+    assert_true(fabs(sum / PIXELS - 255.0 * encode(0.2160)) < 0.05);
+    kiln_composite_destroy(&stage);
+    kiln_image_finish(&back);
+    kiln_image_finish(&none);
+    kiln_scene_destroy(&scene);
+}
+
+/* Over nothing, straight alpha times colour gives the light back. */
+static void transparent_pictures_keep_the_light(void **state)
+{
+    struct kiln_error error = {0};
+    struct kiln_scene *scene = parse("tonemap: none");
+    struct kiln_image back, particles;
+    srand(3);
+    kiln_image_init(&back, *state, WIDTH, HEIGHT, GL_RGBA32F, "scene");
+    float *p = kiln_image_host(&back, KILN_OVERWRITE, &error);
+    assert_non_null(p);
+    memset(p, 0, sizeof(float) * PIXELS * 4);
+    fill(&particles, *state, "particles", 0.9f, false);
+    struct kiln_composite_stage *stage = kiln_composite_create(*state, scene, 16, &error);
+    assert_non_null(stage);
+    const struct kiln_composite_inputs inputs = {.scene = &back, .particles = &particles};
+    assert_true(kiln_composite_run(stage, &inputs, &error));
+    uint16_t got[PIXELS * 4];
+    assert_true(kiln_composite_read_display(stage, got, &error));
+    for (int i = 0; i < PIXELS; i++) {
+        double alpha = got[4 * i + 3] / 65535.0;
+        assert_true(alpha + 1e-4 >= (double)particles.host[4 * i + 3]);
+        for (int c = 0; c < 3; c++) {
+            double over_black = alpha * got[4 * i + c] / 65535.0;
+            assert_true(fabs(over_black - encode((double)particles.host[4 * i + c])) < 2e-4);
+        }
+    }
+    kiln_composite_destroy(&stage);
+    kiln_image_finish(&back);
+    kiln_image_finish(&particles);
+    kiln_scene_destroy(&scene);
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        test_on_device(merged_matches_c),
+        test_on_device(separate_fire_matches_c),
+        test_on_device(aces_matches_c),
+        test_on_device(agx_keeps_grey_and_hue),
+        test_on_device(dither_is_small_and_repeatable),
+        test_on_device(transparent_pictures_keep_the_light),
+    };
+    return cmocka_run_group_tests_name("composite", tests, test_device_open, test_device_close);
+}
