@@ -7,17 +7,21 @@
 #include "sim/simulate.h"
 #include "sort/sort.h"
 
+enum kiln_raster_technique { KILN_RASTER_GEOMETRY };
+
 struct kiln_techniques {
     enum kiln_simulate_technique simulate;
     enum kiln_sort_technique sort;
+    enum kiln_raster_technique raster;
 };
 
-/* Applies "stage=name" texts over the device's defaults. */
+/* Applies "stage=name" texts over the device's defaults; the last for a stage wins. KILN_USAGE
+ * names what there is; simulating on a device that is not exact is KILN_NO_DEVICE. */
 bool kiln_techniques_choose(const struct kiln_device_info *device, const char *const *flags,
                             size_t flag_count, struct kiln_techniques *techniques,
                             struct kiln_error *error);
 
-/* "simulate=cpu sort=cpu raster=geometry". */
+/* Writes "simulate=cpu sort=cpu raster=geometry". */
 void kiln_techniques_describe(const struct kiln_techniques *techniques, char *out, size_t size);
 
 #endif

@@ -1,0 +1,280 @@
+/* The frame loop: the file to read first.
+ *
+ * A job steps the simulation from its start to each wanted frame and draws it there. Undrawn frames
+ * are stepped as well, so a frame is the same bytes in any chunk of the clip. The stages behind one
+ * frame are in stages.c.
+ */
+#include "kiln.h"
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "base/log.h"
+#include "stages.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct job {
+    struct kiln_device *device;
+    const struct kiln_scene *scene;
+    const struct kiln_render_params *params;
+    struct kiln_frame_range whole_clip; /* what an empty list of ranges means */
+    const struct kiln_frame_range *ranges;
+    size_t range_count;
+
+    struct kiln_techniques techniques;
+    struct kiln_threads *threads;
+    struct kiln_run run;
+    struct kiln_stages stages;
+    struct kiln_output *output;     /* NULL when nothing is written */
+
+    double started_s;
+    uint32_t total_frames;
+    struct kiln_progress progress; /* of the frame at hand */
+    struct kiln_render_stats stats;
+};
+
+/* ---- the loop ---------------------------------------------------------------------------------
+ */
+
+static bool should_stop(const struct job *job, struct kiln_error *error)
+{
+    if (!job->params->stop || !job->params->stop(job->params->user))
+        return false;
+    kiln_error_set(error, KILN_INTERRUPTED, "stopped after %u of %u frames", job->progress.done,
+                   job->total_frames);
+    return true;
+}
+
+static bool step_to(struct job *job, uint32_t step, struct kiln_error *error)
+{
+    struct kiln_run *run = &job->run;
+    kiln_timer_begin(job->stages.timer, KILN_PASS_simulate);
+    bool ok = true;
+    while (ok && run->step < step) {
+        ok = !should_stop(job, error) &&
+             kiln_simulate_step(job->stages.simulate, &run->pool, run->step + 1, error);
+        if (ok)
+            run->step++;
+    }
+    kiln_timer_end(job->stages.timer);
+    return ok;
+}
+
+static struct kiln_output_needs output_needs(const struct job *job)
+{
+    if (job->output)
+        return kiln_output_needs(job->output);
+    return (struct kiln_output_needs){.bits = 8};
+}
+
+static bool write_picture(struct job *job, uint32_t frame, struct kiln_error *error)
+{
+    const struct kiln_scene *scene = job->scene;
+    struct kiln_output_needs needs = output_needs(job);
+    const char *names[KILN_MAX_LAYERS];
+    uint32_t channels[KILN_MAX_LAYERS];
+    uint32_t layers = needs.layers ? kiln_stages_layers(names, channels) : 0;
+    struct kiln_picture *picture = kiln_picture_create(scene->width, scene->height, needs.bits,
+                                                       names, channels, layers, error);
+    if (!picture)
+        return false;
+    picture->frame = frame;
+    picture->has_alpha = scene->backdrop.transparent;
+    if (!kiln_stages_read(&job->stages, picture, error)) {
+        kiln_picture_destroy(&picture);
+        return false;
+    }
+    if (!job->output) {
+        kiln_picture_destroy(&picture);
+        return true;
+    }
+    return kiln_output_write(job->output, picture, error);
+}
+
+static void report_frame(struct job *job, uint32_t frame)
+{
+    struct kiln_progress *p = &job->progress;
+    p->frame = frame;
+    p->done++;
+    p->total = job->total_frames;
+    p->elapsed_s = kiln_clock_seconds() - job->started_s;
+    p->eta_s = p->elapsed_s / p->done * (p->total - p->done);
+    for (int i = 0; i < KILN_PASS_COUNT; i++)
+        job->stats.pass_ms[i] += p->pass_ms[i];
+    if (job->params->progress)
+        job->params->progress(job->params->user, p);
+}
+
+static bool render_frame(struct job *job, uint32_t frame, struct kiln_error *error)
+{
+    if (should_stop(job, error) || !step_to(job, kiln_scene_frame_step(job->scene, frame), error))
+        return false;
+
+    struct kiln_pool *pool = &job->run.pool;
+    if (job->params->state_hash) {
+        uint64_t alive = 0;
+        if (!kiln_simulate_hash(job->stages.simulate, pool, &job->progress.state, &alive, error))
+            return false;
+    }
+    uint32_t drawn = 0;
+    if (!kiln_stages_draw(&job->stages, pool, job->run.step, frame, &drawn, error))
+        return false;
+    job->progress.alive = drawn;
+
+    double before_s = kiln_clock_seconds();
+    if (!write_picture(job, frame, error))
+        return false;
+    double output_ms = 1e3 * (kiln_clock_seconds() - before_s);
+    kiln_timer_collect(job->stages.timer, job->progress.pass_ms);
+    output_ms -= job->progress.pass_ms[KILN_PASS_readback];
+    job->progress.pass_ms[KILN_PASS_output] = output_ms > 0.0 ? output_ms : 0.0;
+    report_frame(job, frame);
+    return true;
+}
+
+static bool render_frames(struct job *job, struct kiln_error *error)
+{
+    for (size_t i = 0; i < job->range_count; i++) {
+        struct kiln_frame_range range = job->ranges[i];
+        for (uint32_t frame = range.first; frame <= range.last; frame++) {
+            if (!render_frame(job, frame, error))
+                return false;
+        }
+    }
+    return true;
+}
+
+/* ---- before and after -------------------------------------------------------------------------
+ */
+
+static bool choose_frames(struct job *job, struct kiln_error *error)
+{
+    job->ranges = job->params->ranges;
+    job->range_count = job->params->range_count;
+    if (job->range_count == 0) {
+        job->whole_clip = (struct kiln_frame_range){0, job->scene->frames - 1};
+        job->ranges = &job->whole_clip;
+        job->range_count = 1;
+    }
+    uint64_t next = 0;
+    for (size_t i = 0; i < job->range_count; i++) {
+        struct kiln_frame_range range = job->ranges[i];
+        if (range.first > range.last || range.first < next || range.last >= job->scene->frames)
+            return kiln_error_set(error, KILN_USAGE,
+                                  "frames %u-%u: expected ascending ranges within 0-%u",
+                                  range.first, range.last, job->scene->frames - 1);
+        next = (uint64_t)range.last + 1;
+        job->total_frames += range.last - range.first + 1;
+    }
+    return true;
+}
+
+static bool open_output(struct job *job, struct kiln_error *error)
+{
+    const struct kiln_render_params *params = job->params;
+    const struct kiln_scene *scene = job->scene;
+    if (params->output) {
+        job->output = kiln_output_open(
+            &(struct kiln_output_params){
+                .path = params->output,
+                .width = scene->width,
+                .height = scene->height,
+                .fps_num = scene->fps.num,
+                .fps_den = scene->fps.den,
+                .alpha = scene->backdrop.transparent,
+                .ranges = job->ranges,
+                .range_count = job->range_count,
+                .threads = kiln_threads_count(job->threads),
+                .overwrite = params->overwrite,
+                .png_bits = params->png_bits,
+                .exr_bits = params->exr_bits,
+                .quality = params->quality,
+                .scene_hash = scene->hash,
+                .seed = scene->seed,
+                .log = params->log,
+            },
+            error);
+        if (!job->output)
+            return false;
+    }
+    return true;
+}
+
+static void init_pool(struct job *job)
+{
+    uint32_t capacities[KILN_MAX_SYSTEMS] = {0};
+    for (uint32_t i = 0; i < job->scene->system_count; i++)
+        capacities[i] = job->scene->systems[i].capacity;
+    kiln_pool_init(&job->run.pool, job->device, capacities, job->scene->system_count);
+    job->stats.particle_capacity = job->run.pool.slot_count;
+    job->stats.particle_bytes =
+        (uint64_t)job->run.pool.slot_count * (sizeof(struct kiln_particle) + sizeof(uint32_t));
+}
+
+static bool begin(struct job *job, struct kiln_error *error)
+{
+    const struct kiln_render_params *params = job->params;
+    if (!choose_frames(job, error) || !kiln_device_make_current(job->device, error) ||
+        !kiln_techniques_choose(&job->device->info, params->techniques, params->technique_count,
+                                &job->techniques, error))
+        return false;
+    int32_t largest = job->device->info.max_texture_size;
+    if ((int64_t)job->scene->width > largest || (int64_t)job->scene->height > largest)
+        return kiln_error_set(
+            error, KILN_DEVICE_FAILED, "output.size: %u x %u pixels; %s draws up to %d a side",
+            job->scene->width, job->scene->height, job->device->info.name, largest);
+    kiln_techniques_describe(&job->techniques, job->stats.techniques, sizeof job->stats.techniques);
+    job->threads = kiln_threads_create(params->threads);
+    if (!job->threads)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "can not start %u threads",
+                              params->threads);
+    if (!open_output(job, error))
+        return false;
+    init_pool(job);
+    return kiln_stages_init(&job->stages, job->device, job->scene, &job->techniques,
+                            output_needs(job), job->threads, &job->run.pool, error);
+}
+
+static bool finish(struct job *job, struct kiln_error *error)
+{
+    struct kiln_render_stats *stats = &job->stats;
+    if (!kiln_simulate_hash(job->stages.simulate, &job->run.pool, &stats->state, &stats->alive,
+                            error))
+        return false;
+    stats->frames = job->progress.done;
+    stats->steps = job->run.step;
+    if (job->output) {
+        kiln_output_path(job->output, job->ranges[0].first, stats->first_file,
+                         sizeof stats->first_file);
+        if (!kiln_output_finish(job->output, error))
+            return false;
+    }
+    stats->total_s = kiln_clock_seconds() - job->started_s;
+    return true;
+}
+
+static void end(struct job *job)
+{
+    kiln_output_close(&job->output);
+    kiln_stages_finish(&job->stages);
+    kiln_pool_finish(&job->run.pool);
+    kiln_threads_destroy(&job->threads);
+}
+
+bool kiln_render(struct kiln_device *device, const struct kiln_scene *scene,
+                 const struct kiln_render_params *params, struct kiln_render_stats *stats,
+                 struct kiln_error *error)
+{
+    struct job job = {
+        .device = device, .scene = scene, .params = params, .started_s = kiln_clock_seconds()};
+    bool ok = begin(&job, error);
+    if (ok) {
+        job.stats.setup_s = kiln_clock_seconds() - job.started_s;
+        ok = render_frames(&job, error) && finish(&job, error);
+    }
+    end(&job);
+    if (stats)
+        *stats = job.stats;
+    return ok;
+}

@@ -1,0 +1,310 @@
+/* One frame through the stages, in the order of figure 3.1. */
+#include "stages.h"
+
+#include "base/error.h"
+#include "gpu/framebuffer.h"
+
+/* Float targets accumulate without the dark bias of 16 bits where that costs nothing: on software.
+ */
+static GLenum target_format(const struct kiln_device *device)
+{
+    return device->info.software ? GL_RGBA32F : GL_RGBA16F;
+}
+
+static uint32_t systems_with(const struct kiln_scene *scene, enum kiln_blend blend)
+{
+    uint32_t mask = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        if (scene->systems[i].enabled && scene->systems[i].look.blend == blend)
+            mask |= 1u << i;
+    }
+    return mask;
+}
+
+static bool init_targets(struct kiln_stages *s, bool layers, struct kiln_error *error)
+{
+    uint32_t w = s->scene->width, h = s->scene->height;
+    GLenum format = target_format(s->device);
+    kiln_image_init(&s->scene_color, s->device, w, h, format, "scene");
+    kiln_image_init(&s->scene_depth, s->device, w, h, GL_R32F, "scene depth");
+    kiln_image_init(&s->particle_color, s->device, w, h, format, "particles");
+    kiln_image_init(&s->bloom_color, s->device, w, h, format, "bloom source");
+    struct kiln_image *merged[] = {&s->particle_color, &s->bloom_color};
+    s->particle_framebuffer = kiln_framebuffer_create(s->device, merged, 2, error);
+    if (!s->particle_framebuffer)
+        return false;
+
+    bool separate = s->scene->post.compose == KILN_COMPOSE_SEPARATE;
+    if (layers && !separate) {
+        kiln_image_init(&s->layer_bloom, s->device, w, h, format, "layer bloom");
+        kiln_image_init(&s->smoke_color, s->device, w, h, format, "smoke");
+        struct kiln_image *smoke[] = {&s->smoke_color, &s->layer_bloom};
+        s->smoke_framebuffer = kiln_framebuffer_create(s->device, smoke, 2, error);
+        if (!s->smoke_framebuffer)
+            return false;
+    }
+    if (layers || separate) {
+        kiln_image_init(&s->fire_color, s->device, w, h, format, "fire");
+        struct kiln_image *fire[] = {&s->fire_color, separate ? &s->bloom_color : &s->layer_bloom};
+        s->fire_framebuffer = kiln_framebuffer_create(s->device, fire, 2, error);
+        if (!s->fire_framebuffer)
+            return false;
+    }
+    return true;
+}
+
+static bool init_atlas(struct kiln_stages *s, struct kiln_error *error)
+{
+    struct kiln_atlas_request requests[KILN_MAX_SYSTEMS];
+    for (uint32_t i = 0; i < s->scene->system_count; i++) {
+        const struct kiln_look *look = &s->scene->systems[i].look;
+        requests[i] = (struct kiln_atlas_request){look->atlas, look->columns, look->rows};
+    }
+    return kiln_atlas_init(&s->atlas, s->device, requests, s->scene->system_count, s->threads,
+                           error);
+}
+
+static bool init_stages(struct kiln_stages *s, const struct kiln_techniques *techniques,
+                        uint32_t bits, struct kiln_error *error)
+{
+    struct kiln_device *device = s->device;
+    s->simulate = kiln_simulate_create(device, s->scene, techniques->simulate, s->threads, error);
+    if (!s->simulate)
+        return false;
+    s->sort = kiln_sort_create(device, techniques->sort, s->threads, error);
+    if (!s->sort)
+        return false;
+    s->backdrop = kiln_backdrop_create(device, s->scene, &s->scene_color, &s->scene_depth, error);
+    if (!s->backdrop)
+        return false;
+    s->particles = kiln_particles_create(device, s->scene, &s->atlas, error);
+    if (!s->particles)
+        return false;
+    if (s->scene->post.bloom == KILN_BLOOM_GAUSSIAN) {
+        s->bloom = kiln_bloom_create(device, s->scene->width, s->scene->height,
+                                     target_format(device), error);
+        if (!s->bloom)
+            return false;
+    }
+    s->composite = kiln_composite_create(device, s->scene, bits ? bits : 8, error);
+    return s->composite != NULL;
+}
+
+bool kiln_stages_init(struct kiln_stages *stages, struct kiln_device *device,
+                      const struct kiln_scene *scene, const struct kiln_techniques *techniques,
+                      struct kiln_output_needs needs, struct kiln_threads *threads,
+                      const struct kiln_pool *pool, struct kiln_error *error)
+{
+    *stages = (struct kiln_stages){.device = device, .scene = scene, .threads = threads};
+    kiln_buffer_init(&stages->entries, device, pool->slot_count * sizeof(uint32_t), "entries");
+    stages->timer = kiln_timer_create(device);
+    if (!stages->timer) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "timers: out of memory");
+        goto fail;
+    }
+    if (!init_atlas(stages, error) || !init_targets(stages, needs.layers, error) ||
+        !init_stages(stages, techniques, needs.bits, error))
+        goto fail;
+    return true;
+
+fail:
+    kiln_stages_finish(stages);
+    return false;
+}
+
+void kiln_stages_finish(struct kiln_stages *stages)
+{
+    kiln_composite_destroy(&stages->composite);
+    kiln_bloom_destroy(&stages->bloom);
+    kiln_particles_destroy(&stages->particles);
+    kiln_backdrop_destroy(&stages->backdrop);
+    kiln_sort_destroy(&stages->sort);
+    kiln_simulate_destroy(&stages->simulate);
+    kiln_framebuffer_destroy(&stages->particle_framebuffer);
+    kiln_framebuffer_destroy(&stages->fire_framebuffer);
+    kiln_framebuffer_destroy(&stages->smoke_framebuffer);
+    struct kiln_image *images[] = {
+        &stages->scene_color, &stages->scene_depth, &stages->particle_color, &stages->fire_color,
+        &stages->smoke_color, &stages->bloom_color, &stages->layer_bloom};
+    for (size_t i = 0; i < sizeof images / sizeof *images; i++)
+        kiln_image_finish(images[i]);
+    kiln_atlas_finish(&stages->atlas);
+    kiln_buffer_finish(&stages->entries);
+    kiln_timer_destroy(&stages->timer);
+}
+
+/* Sorts the chosen systems and draws them into a framebuffer. */
+struct particle_pass {
+    uint32_t systems;
+    bool by_depth;
+    GLuint framebuffer;
+    bool keep_bloom; /* clear the colour only */
+    bool sum_alpha;
+};
+
+static bool draw_particles(struct kiln_stages *s, struct kiln_pool *pool,
+                           const struct kiln_view *view, const struct particle_pass *pass,
+                           uint32_t *count, struct kiln_error *error)
+{
+    const struct kiln_sort_params order = {
+        .eye = {view->eye.x, view->eye.y, view->eye.z},
+        .forward = kiln_view_forward(view),
+        .systems = pass->systems,
+        .by_depth = pass->by_depth,
+    };
+    kiln_timer_begin(s->timer, KILN_PASS_sort);
+    bool ok = kiln_sort_run(s->sort, pool, &order, &s->entries, count, error);
+    kiln_timer_end(s->timer);
+    if (!ok)
+        return false;
+
+    const struct kiln_particles_draw draw = {
+        .pool = pool,
+        .entries = &s->entries,
+        .count = *count,
+        .time_s = view->clock.x,
+        .depth = &s->scene_depth,
+        .framebuffer = pass->framebuffer,
+        .width = s->scene->width,
+        .height = s->scene->height,
+        .keep_bloom = pass->keep_bloom,
+        .sum_alpha = pass->sum_alpha,
+    };
+    kiln_timer_begin(s->timer, KILN_PASS_particles);
+    ok = kiln_particles_run(s->particles, &draw, error);
+    kiln_timer_end(s->timer);
+    return ok;
+}
+
+/* Fire and smoke in one sorted list: fire adds and covers nothing, smoke covers fire and its glow.
+ * The layers of an EXR are drawn apart. */
+static bool draw_merged(struct kiln_stages *s, struct kiln_pool *pool, const struct kiln_view *view,
+                        uint32_t *drawn, struct kiln_error *error)
+{
+    uint32_t fire = systems_with(s->scene, KILN_BLEND_ADD);
+    uint32_t smoke = systems_with(s->scene, KILN_BLEND_ALPHA);
+    struct particle_pass all = {
+        .systems = fire | smoke, .by_depth = smoke != 0, .framebuffer = s->particle_framebuffer};
+    if (!draw_particles(s, pool, view, &all, drawn, error))
+        return false;
+    if (!s->smoke_framebuffer)
+        return true;
+
+    uint32_t count = 0;
+    struct particle_pass smoke_layer = {
+        .systems = smoke, .by_depth = true, .framebuffer = s->smoke_framebuffer};
+    struct particle_pass fire_layer = {.systems = fire, .framebuffer = s->fire_framebuffer};
+    return draw_particles(s, pool, view, &smoke_layer, &count, error) &&
+           draw_particles(s, pool, view, &fire_layer, &count, error);
+}
+
+/* The thesis's order: smoke over the scene, then fire summed in a target of its own, so that it
+ * shines through smoke (Heinz 2019, 3.2.1 and figure 4.3). */
+static bool draw_separate(struct kiln_stages *s, struct kiln_pool *pool,
+                          const struct kiln_view *view, uint32_t *drawn, struct kiln_error *error)
+{
+    struct particle_pass smoke = {.systems = systems_with(s->scene, KILN_BLEND_ALPHA),
+                                  .by_depth = true,
+                                  .framebuffer = s->particle_framebuffer};
+    struct particle_pass fire = {.systems = systems_with(s->scene, KILN_BLEND_ADD),
+                                 .framebuffer = s->fire_framebuffer,
+                                 .keep_bloom = true,
+                                 .sum_alpha = true};
+    uint32_t smoke_count = 0, fire_count = 0;
+    bool ok = draw_particles(s, pool, view, &smoke, &smoke_count, error) &&
+              draw_particles(s, pool, view, &fire, &fire_count, error);
+    *drawn = smoke_count + fire_count;
+    return ok;
+}
+
+bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *pool, uint32_t step,
+                      uint32_t frame, uint32_t *drawn, struct kiln_error *error)
+{
+    struct kiln_stages *s = stages;
+    struct kiln_view view = kiln_view_compute(s->scene, step);
+
+    kiln_timer_begin(s->timer, KILN_PASS_backdrop);
+    bool ok = kiln_backdrop_draw(s->backdrop, &view, error);
+    kiln_timer_end(s->timer);
+    if (!ok)
+        return false;
+
+    bool separate = s->scene->post.compose == KILN_COMPOSE_SEPARATE;
+    ok = separate ? draw_separate(s, pool, &view, drawn, error)
+                  : draw_merged(s, pool, &view, drawn, error);
+    if (!ok)
+        return false;
+
+    struct kiln_image *bloom = NULL;
+    if (s->bloom) {
+        kiln_timer_begin(s->timer, KILN_PASS_bloom);
+        bloom = kiln_bloom_run(s->bloom, &s->bloom_color, error);
+        kiln_timer_end(s->timer);
+        if (!bloom)
+            return false;
+    }
+
+    const struct kiln_composite_inputs inputs = {
+        .scene = &s->scene_color,
+        .particles = &s->particle_color,
+        .fire = separate ? &s->fire_color : NULL,
+        .bloom = bloom,
+        .frame = frame,
+        .time_s = view.clock.x,
+    };
+    kiln_timer_begin(s->timer, KILN_PASS_composite);
+    ok = kiln_composite_run(s->composite, &inputs, error);
+    kiln_timer_end(s->timer);
+    return ok;
+}
+
+static const char *const LAYER_NAMES[] = {"beauty", "depth", "fire", "smoke", "bloom"};
+static const uint32_t LAYER_CHANNELS[] = {4, 1, 4, 4, 4};
+
+uint32_t kiln_stages_layers(const char *names[KILN_MAX_LAYERS], uint32_t channels[KILN_MAX_LAYERS])
+{
+    uint32_t count = sizeof LAYER_CHANNELS / sizeof *LAYER_CHANNELS;
+    for (uint32_t i = 0; i < count; i++) {
+        names[i] = LAYER_NAMES[i];
+        channels[i] = LAYER_CHANNELS[i];
+    }
+    return count;
+}
+
+static bool copy_layer(struct kiln_image *image, struct kiln_layer *layer, struct kiln_error *error)
+{
+    const float *pixels = kiln_image_host(image, KILN_READ, error);
+    if (!pixels)
+        return false;
+    size_t floats = (size_t)image->width * image->height * layer->channels;
+    memcpy(layer->pixels, pixels, floats * sizeof(float));
+    return true;
+}
+
+static bool read_layers(struct kiln_stages *s, struct kiln_picture *picture,
+                        struct kiln_error *error)
+{
+    bool separate = s->scene->post.compose == KILN_COMPOSE_SEPARATE;
+    struct kiln_image *sources[] = {NULL, &s->scene_depth, &s->fire_color,
+                                    separate ? &s->particle_color : &s->smoke_color,
+                                    &s->bloom_color};
+    if (!kiln_composite_read_beauty(s->composite, picture->layers[0].pixels, error))
+        return false;
+    for (uint32_t i = 1; i < picture->layer_count; i++) {
+        if (!copy_layer(sources[i], &picture->layers[i], error))
+            return false;
+    }
+    return true;
+}
+
+bool kiln_stages_read(struct kiln_stages *stages, struct kiln_picture *picture,
+                      struct kiln_error *error)
+{
+    kiln_timer_begin(stages->timer, KILN_PASS_readback);
+    bool ok = picture->bits == 0 ||
+              kiln_composite_read_display(stages->composite, picture->display, error);
+    if (ok && picture->layer_count > 0)
+        ok = read_layers(stages, picture, error);
+    kiln_timer_end(stages->timer);
+    return ok;
+}

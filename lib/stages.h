@@ -1,0 +1,61 @@
+/* The stages of a job and the images between them (Heinz 2019, figure 3.1). */
+#ifndef KILN_STAGES_H
+#define KILN_STAGES_H
+
+#include "asset/atlas.h"
+#include "draw/backdrop.h"
+#include "draw/particles.h"
+#include "gpu/timer.h"
+#include "output/output.h"
+#include "post/bloom.h"
+#include "post/composite.h"
+#include "run.h"
+#include "sim/simulate.h"
+#include "sort/sort.h"
+#include "technique.h"
+
+struct kiln_stages {
+    struct kiln_device *device;
+    const struct kiln_scene *scene;
+    struct kiln_threads *threads;
+    struct kiln_timer *timer;
+    struct kiln_atlas atlas;
+
+    struct kiln_simulate *simulate;
+    struct kiln_sort *sort;
+    struct kiln_backdrop_stage *backdrop;
+    struct kiln_particles_stage *particles;
+    struct kiln_bloom_stage *bloom;
+    struct kiln_composite_stage *composite;
+
+    struct kiln_buffer entries; /* draw entries of the pass at hand */
+    struct kiln_image scene_color, scene_depth;
+    struct kiln_image particle_color; /* all particles (merged), or smoke alone (separate) */
+    struct kiln_image fire_color;     /* separate composition, and for layers */
+    struct kiln_image smoke_color;    /* for layers of merged composition */
+    struct kiln_image bloom_color;    /* what will be blurred */
+    struct kiln_image layer_bloom;    /* bloom of the layer passes: drawn, not used */
+    GLuint particle_framebuffer, fire_framebuffer, smoke_framebuffer;
+};
+
+/* Sets everything up for a scene. needs says what the output will ask for; threads is borrowed.
+ * On failure nothing is left. */
+bool kiln_stages_init(struct kiln_stages *stages, struct kiln_device *device,
+                      const struct kiln_scene *scene, const struct kiln_techniques *techniques,
+                      struct kiln_output_needs needs, struct kiln_threads *threads,
+                      const struct kiln_pool *pool, struct kiln_error *error);
+void kiln_stages_finish(struct kiln_stages *stages);
+
+/* Draws the pool as it is after `step` steps: every stage from sort to composite. *drawn counts the
+ * particles. */
+bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *pool, uint32_t step,
+                      uint32_t frame, uint32_t *drawn, struct kiln_error *error);
+
+/* Copies what was drawn into a picture made for the same needs. */
+bool kiln_stages_read(struct kiln_stages *stages, struct kiln_picture *picture,
+                      struct kiln_error *error);
+
+/* The named layers of a frame, for kiln_picture_create; returns how many. */
+uint32_t kiln_stages_layers(const char *names[KILN_MAX_LAYERS], uint32_t channels[KILN_MAX_LAYERS]);
+
+#endif

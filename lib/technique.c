@@ -1,0 +1,143 @@
+/* One table: stages, their techniques, what each is for. */
+#include "technique.h"
+
+#include "base/error.h"
+#include "base/text.h"
+
+#include <string.h>
+
+enum stage { SIMULATE, SORT, RASTER, STAGE_COUNT };
+
+static const char *const STAGE_NAMES[STAGE_COUNT] = {
+    [SIMULATE] = "simulate", [SORT] = "sort", [RASTER] = "raster"};
+
+struct row {
+    enum stage stage;
+    const char *name;
+    int value; /* of the stage's enum */
+    const char *help;
+};
+
+static const struct row ROWS[] = {
+    {SIMULATE, "cpu", KILN_SIMULATE_CPU,
+     "host threads; the default unless the device is an exact GPU"},
+    {SIMULATE, "inplace", KILN_SIMULATE_INPLACE,
+     "compute, one buffer updated in place; the default on exact GPUs"},
+    {SORT, "cpu", KILN_SORT_CPU, "stable radix sort, host threads"},
+    {RASTER, "geometry", KILN_RASTER_GEOMETRY,
+     "points turned into billboards by a geometry shader"},
+};
+
+enum { ROW_COUNT = sizeof ROWS / sizeof *ROWS };
+
+/* The choices as numbers, one a stage. */
+struct choices {
+    int value[STAGE_COUNT];
+};
+
+static const struct row *find_row(enum stage stage, const char *name)
+{
+    for (size_t i = 0; i < ROW_COUNT; i++) {
+        if (ROWS[i].stage == stage && strcmp(ROWS[i].name, name) == 0)
+            return &ROWS[i];
+    }
+    return NULL;
+}
+
+static bool unknown_name(const char *what, const char *found, const char *const *names,
+                         size_t count, struct kiln_error *error)
+{
+    char list[256] = "";
+    for (size_t i = 0; i < count; i++) {
+        size_t used = strlen(list);
+        snprintf(list + used, sizeof list - used, "%s%s", i ? ", " : "", names[i]);
+    }
+    const char *nearest = kiln_text_nearest(found, names, count);
+    return kiln_error_set(error, KILN_USAGE, "%s '%s' is not known%s%s%s; there is: %s", what,
+                          found, nearest ? " (did you mean '" : "", nearest ? nearest : "",
+                          nearest ? "'?)" : "", list);
+}
+
+static bool apply_flag(const char *flag, struct choices *choices, struct kiln_error *error)
+{
+    const char *equals = strchr(flag, '=');
+    if (!equals || equals == flag || equals[1] == '\0')
+        return kiln_error_set(error, KILN_USAGE, "technique '%s': expected stage=name", flag);
+    char stage_name[64];
+    snprintf(stage_name, sizeof stage_name, "%.*s", (int)(equals - flag), flag);
+
+    size_t stage = 0;
+    while (stage < STAGE_COUNT && strcmp(STAGE_NAMES[stage], stage_name) != 0)
+        stage++;
+    if (stage == STAGE_COUNT)
+        return unknown_name("technique: stage", stage_name, STAGE_NAMES, STAGE_COUNT, error);
+
+    const struct row *row = find_row((enum stage)stage, equals + 1);
+    if (row) {
+        choices->value[stage] = row->value;
+        return true;
+    }
+    const char *names[ROW_COUNT];
+    size_t count = 0;
+    for (size_t i = 0; i < ROW_COUNT; i++) {
+        if (ROWS[i].stage == (enum stage)stage)
+            names[count++] = ROWS[i].name;
+    }
+    char what[96];
+    snprintf(what, sizeof what, "technique: %s", stage_name);
+    return unknown_name(what, equals + 1, names, count, error);
+}
+
+bool kiln_techniques_choose(const struct kiln_device_info *device, const char *const *flags,
+                            size_t flag_count, struct kiln_techniques *techniques,
+                            struct kiln_error *error)
+{
+    bool exact_gpu = device->exact && !device->software;
+    struct choices choices = {
+        .value = {
+            [SIMULATE] = exact_gpu ? KILN_SIMULATE_INPLACE : KILN_SIMULATE_CPU,
+            [SORT] = KILN_SORT_CPU,
+            [RASTER] = KILN_RASTER_GEOMETRY,
+        }};
+    for (size_t i = 0; i < flag_count; i++) {
+        if (!apply_flag(flags[i], &choices, error))
+            return false;
+    }
+    if (choices.value[SIMULATE] != KILN_SIMULATE_CPU && !device->exact)
+        return kiln_error_set(error, KILN_NO_DEVICE,
+                              "%s computes inexactly: it can not simulate; use simulate=cpu",
+                              device->name);
+    *techniques = (struct kiln_techniques){
+        .simulate = (enum kiln_simulate_technique)choices.value[SIMULATE],
+        .sort = (enum kiln_sort_technique)choices.value[SORT],
+        .raster = (enum kiln_raster_technique)choices.value[RASTER],
+    };
+    return true;
+}
+
+void kiln_techniques_describe(const struct kiln_techniques *techniques, char *out, size_t size)
+{
+    struct choices choices = {.value = {
+                                  [SIMULATE] = (int)techniques->simulate,
+                                  [SORT] = (int)techniques->sort,
+                                  [RASTER] = (int)techniques->raster,
+                              }};
+    size_t used = 0;
+    for (size_t i = 0; i < ROW_COUNT; i++) {
+        if (choices.value[ROWS[i].stage] != ROWS[i].value || used >= size)
+            continue;
+        int length = snprintf(out + used, size - used, "%s%s=%s", used ? " " : "",
+                              STAGE_NAMES[ROWS[i].stage], ROWS[i].name);
+        used += length > 0 ? (size_t)length : 0;
+    }
+}
+
+bool kiln_write_techniques(FILE *out)
+{
+    bool ok = true;
+    for (size_t i = 0; i < ROW_COUNT; i++)
+        ok = fprintf(out, "  %s=%-10s %s\n", STAGE_NAMES[ROWS[i].stage], ROWS[i].name,
+                     ROWS[i].help) > 0 &&
+             ok;
+    return ok;
+}

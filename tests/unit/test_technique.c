@@ -1,0 +1,70 @@
+/* lib/technique.c: the choice of techniques. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "technique.h"
+
+static bool choose(bool software, bool exact, const char *flag, char text[256],
+                   struct kiln_error *error)
+{
+    struct kiln_device_info device = {.software = software, .exact = exact, .name = "Device"};
+    struct kiln_techniques techniques;
+    if (!kiln_techniques_choose(&device, &flag, flag ? 1 : 0, &techniques, error))
+        return false;
+    kiln_techniques_describe(&techniques, text, 256);
+    return true;
+}
+
+static void defaults_follow_the_device(void **state)
+{
+    (void)state;
+    char text[256];
+    struct kiln_error error = {0};
+    assert_true(choose(true, true, NULL, text, &error));
+    assert_string_equal(text, "simulate=cpu sort=cpu raster=geometry");
+    assert_true(choose(false, true, NULL, text, &error));
+    assert_string_equal(text, "simulate=inplace sort=cpu raster=geometry");
+    assert_true(choose(false, false, NULL, text, &error));
+    assert_string_equal(text, "simulate=cpu sort=cpu raster=geometry");
+}
+
+static void flags_force_a_technique(void **state)
+{
+    (void)state;
+    char text[256];
+    struct kiln_error error = {0};
+    assert_true(choose(true, true, "simulate=inplace", text, &error));
+    assert_string_equal(text, "simulate=inplace sort=cpu raster=geometry");
+
+    assert_false(choose(true, true, "simulate", text, &error));
+    assert_int_equal(error.code, KILN_USAGE);
+    assert_string_equal(error.message, "technique 'simulate': expected stage=name");
+    assert_false(choose(true, true, "simulat=cpu", text, &error));
+    assert_string_equal(error.message, "technique: stage 'simulat' is not known (did you mean "
+                                       "'simulate'?); there is: simulate, sort, raster");
+    assert_false(choose(true, true, "sort=gpu", text, &error));
+    assert_int_equal(error.code, KILN_USAGE);
+}
+
+static void inexact_devices_do_not_simulate(void **state)
+{
+    (void)state;
+    char text[256];
+    struct kiln_error error = {0};
+    assert_false(choose(false, false, "simulate=inplace", text, &error));
+    assert_int_equal(error.code, KILN_NO_DEVICE);
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        cmocka_unit_test(defaults_follow_the_device),
+        cmocka_unit_test(flags_force_a_technique),
+        cmocka_unit_test(inexact_devices_do_not_simulate),
+    };
+    return cmocka_run_group_tests_name("technique", tests, NULL, NULL);
+}
