@@ -9,6 +9,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "output/manifest.h"
 #include "stages.h"
 
 #include <stdlib.h>
@@ -27,6 +28,7 @@ struct job {
     struct kiln_run run;
     struct kiln_stages stages;
     struct kiln_output *output;     /* NULL when nothing is written */
+    struct kiln_manifest *manifest; /* NULL when none is wanted */
 
     double started_s;
     uint32_t total_frames;
@@ -92,7 +94,7 @@ static bool write_picture(struct job *job, uint32_t frame, struct kiln_error *er
     return kiln_output_write(job->output, picture, error);
 }
 
-static void report_frame(struct job *job, uint32_t frame)
+static bool report_frame(struct job *job, uint32_t frame, struct kiln_error *error)
 {
     struct kiln_progress *p = &job->progress;
     p->frame = frame;
@@ -102,8 +104,13 @@ static void report_frame(struct job *job, uint32_t frame)
     p->eta_s = p->elapsed_s / p->done * (p->total - p->done);
     for (int i = 0; i < KILN_PASS_COUNT; i++)
         job->stats.pass_ms[i] += p->pass_ms[i];
+    char path[1024] = "";
+    bool written = job->output && kiln_output_path(job->output, frame, path, sizeof path);
+    if (job->manifest && !kiln_manifest_add(job->manifest, p, written ? path : NULL, error))
+        return false;
     if (job->params->progress)
         job->params->progress(job->params->user, p);
+    return true;
 }
 
 static bool render_frame(struct job *job, uint32_t frame, struct kiln_error *error)
@@ -112,7 +119,7 @@ static bool render_frame(struct job *job, uint32_t frame, struct kiln_error *err
         return false;
 
     struct kiln_pool *pool = &job->run.pool;
-    if (job->params->state_hash) {
+    if (job->params->state_hash || job->manifest) {
         uint64_t alive = 0;
         if (!kiln_simulate_hash(job->stages.simulate, pool, &job->progress.state, &alive, error))
             return false;
@@ -129,8 +136,7 @@ static bool render_frame(struct job *job, uint32_t frame, struct kiln_error *err
     kiln_timer_collect(job->stages.timer, job->progress.pass_ms);
     output_ms -= job->progress.pass_ms[KILN_PASS_readback];
     job->progress.pass_ms[KILN_PASS_output] = output_ms > 0.0 ? output_ms : 0.0;
-    report_frame(job, frame);
-    return true;
+    return report_frame(job, frame, error);
 }
 
 static bool render_frames(struct job *job, struct kiln_error *error)
@@ -198,6 +204,19 @@ static bool open_output(struct job *job, struct kiln_error *error)
         if (!job->output)
             return false;
     }
+    if (params->manifest) {
+        job->manifest = kiln_manifest_open(
+            &(struct kiln_manifest_params){
+                .path = params->manifest,
+                .overwrite = params->overwrite,
+                .scene = scene,
+                .device = &job->device->info,
+                .techniques = job->stats.techniques,
+                .output = params->output,
+            },
+            error);
+        return job->manifest != NULL;
+    }
     return true;
 }
 
@@ -251,11 +270,12 @@ static bool finish(struct job *job, struct kiln_error *error)
             return false;
     }
     stats->total_s = kiln_clock_seconds() - job->started_s;
-    return true;
+    return !job->manifest || kiln_manifest_finish(job->manifest, stats, error);
 }
 
 static void end(struct job *job)
 {
+    kiln_manifest_close(&job->manifest);
     kiln_output_close(&job->output);
     kiln_stages_finish(&job->stages);
     kiln_pool_finish(&job->run.pool);
