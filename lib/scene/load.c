@@ -35,6 +35,23 @@ static bool check_file(int file, const char *path, size_t *size, struct kiln_err
     return true;
 }
 
+static bool read_bytes(int file, const char *path, char *text, size_t expected, size_t *size,
+                       struct kiln_error *error)
+{
+    size_t length = 0;
+    while (length < expected) {
+        ssize_t count = read(file, text + length, expected - length);
+        if (count == 0)
+            break; /* it shrank */
+        if (count < 0 && errno != EINTR)
+            return kiln_error_set_errno(error, KILN_IO, errno, "%s", path);
+        length += count > 0 ? (size_t)count : 0;
+    }
+    text[length] = '\0';
+    *size = length;
+    return true;
+}
+
 /* The contents with a zero byte after them, to be freed; NULL with an error. */
 static char *read_file(const char *path, size_t *size, struct kiln_error *error)
 {
@@ -44,26 +61,18 @@ static char *read_file(const char *path, size_t *size, struct kiln_error *error)
         kiln_error_set_errno(error, KILN_INVALID_INPUT, errno, "%s", path);
         return NULL;
     }
+    size_t expected = 0;
     char *text = NULL;
-    size_t expected = 0, length = 0;
-    bool ok = check_file(file, path, &expected, error);
-    if (ok && !(text = malloc(expected + 1)))
-        ok = kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading a scene");
-    while (ok && length < expected) {
-        ssize_t count = read(file, text + length, expected - length);
-        if (count == 0)
-            break; /* it shrank */
-        if (count < 0 && errno != EINTR)
-            ok = kiln_error_set_errno(error, KILN_IO, errno, "%s", path);
-        length += count > 0 ? (size_t)count : 0;
+    if (check_file(file, path, &expected, error)) {
+        text = malloc(expected + 1);
+        if (!text)
+            kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading a scene");
+        else if (!read_bytes(file, path, text, expected, size, error)) {
+            free(text);
+            text = NULL;
+        }
     }
     close(file);
-    if (!ok) {
-        free(text);
-        return NULL;
-    }
-    text[length] = '\0';
-    *size = length;
     return text;
 }
 

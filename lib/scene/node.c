@@ -62,7 +62,7 @@ void kiln_node_quote(char out[64], const char *text)
     while (*text) {
         size_t bytes = kiln_text_utf8_length(text);
         if (length + (bytes ? bytes : 1) > SHOWN) {
-            strcpy(out + length, "...");
+            memcpy(out + length, "...", 4);
             return;
         }
         bool control = bytes == 0 || (unsigned char)*text < 0x20 || *text == 0x7f;

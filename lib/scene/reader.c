@@ -191,6 +191,18 @@ static bool check_keys(struct kiln_reader *reader, const struct kiln_option *mem
     return true;
 }
 
+/* The default, where there is one. A group that is not there ("none") has no required keys. */
+static const struct kiln_node *default_of(struct kiln_reader *reader,
+                                          const struct kiln_option *option,
+                                          const struct kiln_node *group)
+{
+    if (option->fallback)
+        return kiln_reader_default(reader, option);
+    if (group)
+        kiln_reader_error(reader, group, "missing; it must be given");
+    return NULL;
+}
+
 bool kiln_read_members(struct kiln_reader *reader, const struct kiln_option *members,
                        const struct kiln_node *node, void *base)
 {
@@ -201,9 +213,9 @@ bool kiln_read_members(struct kiln_reader *reader, const struct kiln_option *mem
     for (const struct kiln_option *row = members; row->name; row++) {
         const struct kiln_node *value = node ? kiln_node_entry(node, row->name) : NULL;
         size_t before = kiln_reader_enter(reader, row->name);
-        if (!value && !row->fallback && node)
-            return kiln_reader_error(reader, node, "missing; it must be given");
-        if (!value && !(value = kiln_reader_default(reader, row)))
+        if (!value)
+            value = default_of(reader, row, node);
+        if (!value)
             return false;
         if (!row->type->read(reader, row, value, (char *)base + row->offset))
             return false;

@@ -57,8 +57,9 @@ static bool settle_clock(struct kiln_reader *reader, const struct kiln_node *roo
     if (above % below != 0) {
         char lower[32], upper[32];
         double fps = (double)fps_num / (double)fps_den;
-        kiln_unit_print_number(lower, (double)(above / below ? above / below : 1) * fps);
-        kiln_unit_print_number(upper, (double)(above / below + 1) * fps);
+        uint64_t whole = above / below;
+        kiln_unit_print_number(lower, (double)(whole ? whole : 1) * fps);
+        kiln_unit_print_number(upper, (double)(whole + 1) * fps);
         return fail(reader, root, "simulation.rate",
                     "must be a whole multiple of output.fps; the nearest are %s and %s", lower,
                     upper);

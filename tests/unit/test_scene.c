@@ -55,7 +55,7 @@ static void example_loads(void **state)
 }
 
 /* Each field that everything.yaml sets has arrived, in SI. */
-static void every_key_arrives(void **state)
+static void every_key_of_the_clip_arrives(void **state)
 {
     (void)state;
     struct kiln_scene *scene = load_scene_file(GOOD "everything.yaml");
@@ -72,6 +72,13 @@ static void every_key_arrives(void **state)
     assert_true(scene->camera.target.x.constant == 2 && scene->camera.target.y.count == 2);
     assert_true(scene->camera.roll.constant == -pi / 60);
 
+    kiln_scene_destroy(&scene);
+}
+
+static void every_key_of_the_backdrop_arrives(void **state)
+{
+    (void)state;
+    struct kiln_scene *scene = load_scene_file(GOOD "everything.yaml");
     const struct kiln_backdrop *backdrop = &scene->backdrop;
     assert_true(backdrop->transparent && !backdrop->floor_collide);
     assert_true(backdrop->sky_top.z.constant == 0.01f);
@@ -83,6 +90,17 @@ static void every_key_arrives(void **state)
     assert_int_equal(backdrop->light_count, 1);
     assert_true(backdrop->lights[0].radius.constant == 0.05f);
 
+    assert_int_equal(scene->post.compose, KILN_COMPOSE_SEPARATE);
+    assert_int_equal(scene->post.bloom, KILN_BLOOM_NONE);
+    assert_int_equal(scene->post.tonemap, KILN_TONEMAP_ACES);
+    assert_false(scene->post.dither);
+    kiln_scene_destroy(&scene);
+}
+
+static void every_key_of_a_system_arrives(void **state)
+{
+    (void)state;
+    struct kiln_scene *scene = load_scene_file(GOOD "everything.yaml");
     const struct kiln_system *point = &scene->systems[0];
     assert_false(point->enabled);
     assert_int_equal(point->capacity, 1);
@@ -104,7 +122,14 @@ static void every_key_arrives(void **state)
     assert_int_equal(point->demitter_count, 2);
     assert_true(point->demitters[1].enabled && point->demitters[1].max[0] == 3);
     assert_true(point->bounds.enabled && point->bounds.max[0] == 5);
-    const struct kiln_look *look = &point->look;
+    kiln_scene_destroy(&scene);
+}
+
+static void every_key_of_looks_and_shapes_arrives(void **state)
+{
+    (void)state;
+    struct kiln_scene *scene = load_scene_file(GOOD "everything.yaml");
+    const struct kiln_look *look = &scene->systems[0].look;
     assert_int_equal(look->columns, 4);
     assert_int_equal(look->rows, 16);
     assert_true(look->stretch.constant == 0.02f && look->spin.max.constant == 1);
@@ -121,10 +146,6 @@ static void every_key_arrives(void **state)
     assert_true(scene->systems[2].emit.size.z.constant == 3);
     assert_int_equal(scene->systems[3].emit.shape, KILN_EMITTER_DISC);
     assert_int_equal(scene->systems[4].emit.shape, KILN_EMITTER_CONE);
-    assert_int_equal(scene->post.compose, KILN_COMPOSE_SEPARATE);
-    assert_int_equal(scene->post.bloom, KILN_BLOOM_NONE);
-    assert_int_equal(scene->post.tonemap, KILN_TONEMAP_ACES);
-    assert_false(scene->post.dither);
     kiln_scene_destroy(&scene);
 }
 
@@ -281,7 +302,10 @@ int main(void)
 {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(example_loads),
-        cmocka_unit_test(every_key_arrives),
+        cmocka_unit_test(every_key_of_the_clip_arrives),
+        cmocka_unit_test(every_key_of_the_backdrop_arrives),
+        cmocka_unit_test(every_key_of_a_system_arrives),
+        cmocka_unit_test(every_key_of_looks_and_shapes_arrives),
         cmocka_unit_test(printed_scenes_load_to_themselves),
         cmocka_unit_test(defaults_are_whole),
         cmocka_unit_test(rates_follow_the_frames),

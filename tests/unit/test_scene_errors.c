@@ -426,13 +426,15 @@ static void expect_generated(char *text, const char *message)
 /* `count` times a piece between a start and an end; freed by expect_generated. */
 static char *repeat(const char *start, const char *piece, size_t count, const char *end)
 {
-    size_t length = strlen(piece);
-    char *text = malloc(strlen(start) + count * length + strlen(end) + 1);
-    assert_non_null(text);
-    char *at = stpcpy(text, start);
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    fputs(start, out);
     for (size_t i = 0; i < count; i++)
-        at = stpcpy(at, piece);
-    strcpy(at, end);
+        fputs(piece, out);
+    fputs(end, out);
+    assert_int_equal(fclose(out), 0);
     return text;
 }
 

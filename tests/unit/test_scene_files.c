@@ -11,10 +11,11 @@
 #include <unistd.h>
 
 #include "base/clock.h"
+#include "support/pictures.h"
 #include "support/scenes.h"
 
-/* A folder of its own, which is the working directory during a test:
- *     outside.png, scenes/, scenes/textures/  */
+/* A folder of its own, which is the working directory during a test, with scenes/textures/ in it.
+ */
 struct place {
     char folder[32];
     int before;
@@ -22,25 +23,22 @@ struct place {
 
 static int enter_folder(void **state)
 {
-    struct place *place = calloc(1, sizeof *place);
-    strcpy(place->folder, "/tmp/kiln-scene-XXXXXX");
-    place->before = open(".", O_RDONLY | O_DIRECTORY);
-    if (place->before < 0 || !mkdtemp(place->folder) || chdir(place->folder) != 0 ||
-        mkdir("scenes", 0777) != 0 || mkdir("scenes/textures", 0777) != 0)
-        return -1;
-    *state = place;
+    static struct place place;
+    test_make_folder(place.folder);
+    place.before = open(".", O_RDONLY | O_DIRECTORY);
+    assert_true(place.before >= 0 && chdir(place.folder) == 0);
+    assert_true(mkdir("scenes", 0777) == 0 && mkdir("scenes/textures", 0777) == 0);
+    *state = &place;
     return 0;
 }
 
 static int leave_folder(void **state)
 {
     struct place *place = *state;
-    char command[64];
-    snprintf(command, sizeof command, "rm -r %s", place->folder);
-    int result = fchdir(place->before) != 0 || system(command) != 0;
+    assert_int_equal(fchdir(place->before), 0);
     close(place->before);
-    free(place);
-    return result;
+    test_remove_folder(place->folder);
+    return 0;
 }
 
 static void write_file(const char *path, const void *bytes, size_t size)

@@ -102,71 +102,70 @@ static void later_overrides_win(void **state)
     expect_same(overrides, "kiln: 1\nseed: 9\n");
 }
 
+static const struct {
+    const char *override, *message;
+    enum kiln_code code;
+} bad[] = {
+    {"seed", "--set seed: expected KEY=VALUE", KILN_USAGE},
+    {"=5", "--set =5: expected KEY=VALUE", KILN_USAGE},
+    {"a\x1b[3m=5", "--set a?[3m=5: expected KEY=VALUE", KILN_USAGE},
+    {"seed=", "--set seed: there is no value after '='", KILN_INVALID_INPUT},
+    {"seed=[1", "--set seed: not valid YAML: flow sequence without a closing bracket",
+     KILN_INVALID_INPUT},
+    {"seed=\xff", "--set seed: not a text: invalid UTF-8 (byte 0xff)", KILN_INVALID_INPUT},
+    {"seed=&x 1", "--set seed: anchors and aliases are not allowed", KILN_INVALID_INPUT},
+    {"seed=1\n---\n2", "--set seed: a scene is one document; a second starts here",
+     KILN_INVALID_INPUT},
+    {"seed={a: 1, a: 2}", "--set seed: duplicate key 'a'", KILN_INVALID_INPUT},
+    {"sed=1", "--set sed: unknown key (did you mean 'seed'?)", KILN_INVALID_INPUT},
+    {"seed.x=1",
+     "--set seed.x: seed: expected a whole number from 0 to 4294967295, found a mapping",
+     KILN_INVALID_INPUT},
+    {"systems.smoke.emit.raet=1",
+     "--set systems.smoke.emit.raet: unknown key (did you mean 'rate'?)", KILN_INVALID_INPUT},
+    {"systems.smok.emit.rate=1",
+     "--set systems.smok.emit.rate: there is no 'smok' (did you mean 'smoke'?)",
+     KILN_INVALID_INPUT},
+    {"systems.*.emit.rate=-1",
+     "--set systems.*.emit.rate: systems.smoke.emit.rate: -1 is out of range; allowed is from "
+     "0 1/s to 10000000 1/s",
+     KILN_INVALID_INPUT},
+    {"systems.smoke.forces.7.drag=1",
+     "--set systems.smoke.forces.7.drag: there is no entry 7; the list has 2", KILN_INVALID_INPUT},
+    {"systems.smoke.forces.first.drag=1",
+     "--set systems.smoke.forces.first.drag: 'first' is no index into a list", KILN_INVALID_INPUT},
+    {"systems.smoke.forces.0.drag=1",
+     "--set systems.smoke.forces.0.drag: there is no 'drag' (there are: gravity)",
+     KILN_INVALID_INPUT},
+    {"systems.fire.forces.0.drag=1",
+     "--set systems.fire.forces.0.drag: there is no entry 0; the list is empty",
+     KILN_INVALID_INPUT},
+    {"systems.*.forces.*.curl=1", "--set systems.*.forces.*.curl: there is nothing of that name",
+     KILN_INVALID_INPUT},
+    {"backdrop.lights.*.point.radius=1",
+     "--set backdrop.lights.*.point.radius: there is nothing of that name", KILN_INVALID_INPUT},
+    {"systems.smoke.emit.from.sphere.radius=1",
+     "--set systems.smoke.emit.from.sphere.radius: systems.smoke.emit.from: expected one kind, "
+     "found 'cone' and 'sphere'",
+     KILN_INVALID_INPUT},
+    {"seed..x=1", "--set seed..x: a part of the key is empty", KILN_INVALID_INPUT},
+    {"a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a=1",
+     "--set a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a: a key has at "
+     "most 32 parts",
+     KILN_INVALID_INPUT},
+};
+
 static void bad_overrides_are_named(void **state)
 {
     (void)state;
-    static const struct {
-        const char *override, *message;
-        enum kiln_code code;
-    } cases[] = {
-        {"seed", "--set seed: expected KEY=VALUE", KILN_USAGE},
-        {"=5", "--set =5: expected KEY=VALUE", KILN_USAGE},
-        {"a\x1b[3m=5", "--set a?[3m=5: expected KEY=VALUE", KILN_USAGE},
-        {"seed=", "--set seed: there is no value after '='", KILN_INVALID_INPUT},
-        {"seed=[1", "--set seed: not valid YAML: flow sequence without a closing bracket",
-         KILN_INVALID_INPUT},
-        {"seed=\xff", "--set seed: not a text: invalid UTF-8 (byte 0xff)", KILN_INVALID_INPUT},
-        {"seed=&x 1", "--set seed: anchors and aliases are not allowed", KILN_INVALID_INPUT},
-        {"seed=1\n---\n2", "--set seed: a scene is one document; a second starts here",
-         KILN_INVALID_INPUT},
-        {"seed={a: 1, a: 2}", "--set seed: duplicate key 'a'", KILN_INVALID_INPUT},
-        {"sed=1", "--set sed: unknown key (did you mean 'seed'?)", KILN_INVALID_INPUT},
-        {"seed.x=1",
-         "--set seed.x: seed: expected a whole number from 0 to 4294967295, found a mapping",
-         KILN_INVALID_INPUT},
-        {"systems.smoke.emit.raet=1",
-         "--set systems.smoke.emit.raet: unknown key (did you mean 'rate'?)", KILN_INVALID_INPUT},
-        {"systems.smok.emit.rate=1",
-         "--set systems.smok.emit.rate: there is no 'smok' (did you mean 'smoke'?)",
-         KILN_INVALID_INPUT},
-        {"systems.*.emit.rate=-1",
-         "--set systems.*.emit.rate: systems.smoke.emit.rate: -1 is out of range; allowed is from "
-         "0 1/s to 10000000 1/s",
-         KILN_INVALID_INPUT},
-        {"systems.smoke.forces.7.drag=1",
-         "--set systems.smoke.forces.7.drag: there is no entry 7; the list has 2",
-         KILN_INVALID_INPUT},
-        {"systems.smoke.forces.first.drag=1",
-         "--set systems.smoke.forces.first.drag: 'first' is no index into a list",
-         KILN_INVALID_INPUT},
-        {"systems.smoke.forces.0.drag=1",
-         "--set systems.smoke.forces.0.drag: there is no 'drag' (there are: gravity)",
-         KILN_INVALID_INPUT},
-        {"systems.fire.forces.0.drag=1",
-         "--set systems.fire.forces.0.drag: there is no entry 0; the list is empty",
-         KILN_INVALID_INPUT},
-        {"systems.*.forces.*.curl=1",
-         "--set systems.*.forces.*.curl: there is nothing of that name", KILN_INVALID_INPUT},
-        {"backdrop.lights.*.point.radius=1",
-         "--set backdrop.lights.*.point.radius: there is nothing of that name", KILN_INVALID_INPUT},
-        {"systems.smoke.emit.from.sphere.radius=1",
-         "--set systems.smoke.emit.from.sphere.radius: systems.smoke.emit.from: expected one kind, "
-         "found 'cone' and 'sphere'",
-         KILN_INVALID_INPUT},
-        {"seed..x=1", "--set seed..x: a part of the key is empty", KILN_INVALID_INPUT},
-        {"a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a=1",
-         "--set a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a: a key has at "
-         "most 32 parts",
-         KILN_INVALID_INPUT},
-    };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        const char *const overrides[] = {cases[i].override, NULL};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        const char *const overrides[] = {bad[i].override, NULL};
         struct kiln_error error = {0};
         struct kiln_scene *scene = try_scene(text, overrides, &error);
         if (scene)
-            fail_msg("accepted: %s", cases[i].override);
-        assert_string_equal(error.message, cases[i].message);
-        assert_int_equal(error.code, cases[i].code);
+            fail_msg("accepted: %s", bad[i].override);
+        assert_string_equal(error.message, bad[i].message);
+        assert_int_equal(error.code, bad[i].code);
     }
 }
 
