@@ -22,6 +22,7 @@
 enum {
     ENCODER_THREADS = 4,
     IO_BUFFER_SIZE = 1 << 17,
+    MAX_EDGE = 16384,
     KEYFRAME_SECONDS = 2, /* so that seeking stays quick */
 };
 
@@ -54,6 +55,10 @@ static bool check(const struct kiln_output_params *params, struct kiln_error *er
                               params->path, params->width, params->height,
                               params->width + params->width % 2,
                               params->height + params->height % 2);
+    if (params->width > MAX_EDGE || params->height > MAX_EDGE)
+        return kiln_error_set(error, KILN_USAGE,
+                              "%s: a video of %u x %u pixels; H.264 allows at most %d a side",
+                              params->path, params->width, params->height, MAX_EDGE);
     if (params->alpha)
         return kiln_error_set(error, KILN_USAGE,
                               "%s: the backdrop is transparent, but an MP4 video has no alpha; "
