@@ -164,7 +164,7 @@ static struct texel smoke_texel(const struct lobes *lobes, float u, float v, flo
     return (struct texel){
         .height = height,
         .heat = saturate(excess),
-        .density = smooth_step(0.0f, 0.75f, excess) * inside_cell,
+        .density = smooth_step(0.0f, 0.55f, excess) * inside_cell,
     };
 }
 
@@ -185,7 +185,7 @@ static const struct builtin {
     float relief; /* how much the height tilts the normal */
 } BUILTINS[] = {
     {"fire", fire_texel, 0.0f},
-    {"smoke", smoke_texel, 10.0f},
+    {"smoke", smoke_texel, 14.0f},
     {"spark", spark_texel, 0.0f},
 };
 

@@ -15,15 +15,16 @@ layout(location = 1) out float out_depth;
 
 const float FAR = 1e9;
 const float PI = 3.14159265;
-const int SAMPLES = 8;
+const int SAMPLES = 4;
 
-/* Eight rooks: each row and each column of an 8x8 grid holds one sample. */
-const vec2 SAMPLE_OFFSETS[SAMPLES] = vec2[](
-    vec2(0.0625, 0.4375), vec2(0.1875, 0.8125), vec2(0.3125, 0.1875), vec2(0.4375, 0.6875),
-    vec2(0.5625, 0.0625), vec2(0.6875, 0.5625), vec2(0.8125, 0.9375), vec2(0.9375, 0.3125));
+/* A rotated grid: no two samples share a row or a column. */
+const vec2 SAMPLE_OFFSETS[SAMPLES] =
+    vec2[](vec2(0.375, 0.125), vec2(0.875, 0.375), vec2(0.125, 0.625), vec2(0.625, 0.875));
 
+/* The sky's surface is -1, the floor's 0; a face of a box has a number of its own. */
 struct hit {
     float t;
+    int surface;
     vec3 normal;
     vec3 albedo;
 };
@@ -86,7 +87,7 @@ vec3 floor_albedo(vec2 position, vec2 footprint)
 
 hit trace(vec3 origin, vec3 direction)
 {
-    hit nearest = hit(FAR, vec3(0.0, 1.0, 0.0), vec3(0.0));
+    hit nearest = hit(FAR, -1, vec3(0.0, 1.0, 0.0), vec3(0.0));
     vec3 inverse = safe_inverse(direction);
     int found = -1;
     for (int i = 0; i < int(backdrop.counts.x); i++) {
@@ -99,6 +100,7 @@ hit trace(vec3 origin, vec3 direction)
     if (found >= 0) {
         nearest.normal = box_normal(found, origin + direction * nearest.t);
         nearest.albedo = backdrop.box_color[found].rgb;
+        nearest.surface = 14 + 27 * found + int(dot(nearest.normal, vec3(1.0, 3.0, 9.0)));
     }
     float height = origin.y - backdrop.floor_color.w;
     if (backdrop.floor_params.x > 0.0 && direction.y < -1e-6 && height > 0.0) {
@@ -109,7 +111,7 @@ hit trace(vec3 origin, vec3 direction)
             vec2 along = abs(direction.xz) / max(length(direction.xz), 1e-6);
             vec2 footprint = pixel * (1.0 + along * length(direction) / -direction.y);
             vec2 position = (origin + direction * t).xz;
-            nearest = hit(t, vec3(0.0, 1.0, 0.0), floor_albedo(position, footprint));
+            nearest = hit(t, 0, vec3(0.0, 1.0, 0.0), floor_albedo(position, footprint));
         }
     }
     return nearest;
@@ -136,11 +138,14 @@ float sky_visibility(vec3 point, vec3 normal)
         vec3 towards = backdrop.box_center[i].xyz - point;
         vec3 halves = backdrop.box_half[i].xyz;
         float away = length(max(abs(towards) - halves, vec3(0.0)));
-        float facing = clamp(dot(normalize(towards), normal) + 0.4, 0.0, 1.0);
+        float facing = clamp(dot(towards, normal) * inversesqrt(dot(towards, towards)) + 0.4, 0.0, 1.0);
         float size = min(min(halves.x, halves.y), halves.z);
         bool outside = dot(towards, normal) > -dot(halves, abs(normal)) + 1e-3;
         if (outside)
-            visible *= 1.0 - 0.7 * facing * exp(-2.0 * away / size);
+            {
+            float fall = 1.0 / (1.0 + 2.0 * away / size);
+            visible *= 1.0 - 0.7 * facing * fall * fall;
+        }
     }
     return visible;
 }
@@ -151,14 +156,11 @@ vec3 sky(vec3 direction)
     return mix(backdrop.sky_horizon.rgb, backdrop.sky_top.rgb, 1.0 - exp(-4.0 * up));
 }
 
-/* Lambert: radiance = albedo / pi * irradiance. */
-vec3 shade(hit h, vec3 point)
+/* What arrives from the sky and the point lights: smooth over a surface, and dear to compute. */
+vec3 soft_irradiance(hit h, vec3 point)
 {
     vec3 ambient = mix(backdrop.sky_horizon.rgb, backdrop.sky_top.rgb, 0.5 + 0.5 * h.normal.y);
     vec3 irradiance = PI * ambient * sky_visibility(point, h.normal);
-    float facing = dot(h.normal, backdrop.sun_direction.xyz);
-    if (facing > 0.0)
-        irradiance += backdrop.sun_color.rgb * facing * sun_visibility(point, h.normal);
     for (int i = 0; i < int(backdrop.counts.y); i++) {
         vec3 towards = backdrop.lights[i].position_radius2.xyz - point;
         float d2 = dot(towards, towards);
@@ -166,26 +168,49 @@ vec3 shade(hit h, vec3 point)
         irradiance += PI * backdrop.lights[i].color.rgb * cosine /
                       (d2 + backdrop.lights[i].position_radius2.w);
     }
-    return h.albedo / PI * irradiance;
+    return irradiance;
 }
 
-vec4 radiance(vec3 origin, vec3 direction)
+/* One sample, with the soft part of its light given. Lambert: radiance = albedo / pi * irradiance. */
+vec4 radiance(hit h, vec3 direction, vec3 irradiance)
 {
-    hit h = trace(origin, direction);
     bool transparent = backdrop.counts.z != 0u;
-    if (h.t >= FAR)
+    if (h.surface < 0)
         return transparent ? vec4(0.0) : vec4(sky(direction), 1.0);
-    vec3 color = shade(h, origin + direction * h.t);
+    vec3 point = view.eye.xyz + direction * h.t;
+    float facing = max(dot(h.normal, backdrop.sun_direction.xyz), 0.0);
+    vec3 sun = backdrop.sun_color.rgb * facing * sun_visibility(point, h.normal);
+    vec3 color = h.albedo / PI * (irradiance + sun);
     float clear = transparent ? 1.0 : exp(-backdrop.floor_params.z * h.t * length(direction));
     return vec4(mix(backdrop.sky_horizon.rgb, color, clear), 1.0);
 }
 
+/* Four samples a pixel; the soft light is computed at the centre, and once more for the samples that
+ * lie on another surface. */
 void main()
 {
-    vec2 corner = floor(gl_FragCoord.xy);
+    vec3 directions[SAMPLES];
+    hit hits[SAMPLES];
+    hit center = trace(view.eye.xyz, ray_direction(gl_FragCoord.xy));
+    vec3 center_direction = ray_direction(gl_FragCoord.xy);
+    hit other = center;
+    vec3 other_direction = center_direction;
+    for (int s = 0; s < SAMPLES; s++) {
+        directions[s] = ray_direction(floor(gl_FragCoord.xy) + SAMPLE_OFFSETS[s]);
+        hits[s] = trace(view.eye.xyz, directions[s]);
+        if (hits[s].surface != center.surface && hits[s].surface >= 0) {
+            other = hits[s];
+            other_direction = directions[s];
+        }
+    }
+    vec3 center_light = soft_irradiance(center, view.eye.xyz + center_direction * center.t);
+    vec3 other_light = soft_irradiance(other, view.eye.xyz + other_direction * other.t);
+
     vec4 sum = vec4(0.0);
-    for (int s = 0; s < SAMPLES; s++)
-        sum += radiance(view.eye.xyz, ray_direction(corner + SAMPLE_OFFSETS[s]));
+    for (int s = 0; s < SAMPLES; s++) {
+        bool as_center = hits[s].surface == center.surface;
+        sum += radiance(hits[s], directions[s], as_center ? center_light : other_light);
+    }
     out_color = sum / float(SAMPLES);
-    out_depth = trace(view.eye.xyz, ray_direction(gl_FragCoord.xy)).t;
+    out_depth = center.t;
 }
