@@ -10,7 +10,8 @@ enum kiln_simulate_technique { KILN_SIMULATE_CPU, KILN_SIMULATE_INPLACE };
 
 struct kiln_simulate;
 
-/* device may be NULL for `cpu`. threads is borrowed. */
+/* device may be NULL for `cpu`; scene and threads are borrowed. KILN_USAGE when the technique needs
+ * what the device does not have. */
 struct kiln_simulate *kiln_simulate_create(struct kiln_device *device,
                                            const struct kiln_scene *scene,
                                            enum kiln_simulate_technique technique,
