@@ -19,7 +19,7 @@ struct pass {
     size_t count;
     uint32_t stretches;
     unsigned shift;
-    uint32_t (*places)[DIGITS]; /* one row a stretch: first counts, then places in `to` */
+    uint32_t *places; /* DIGITS a stretch: first counts, then places in `to` */
 };
 
 size_t kiln_sort_count_words(const struct kiln_threads *threads)
@@ -42,7 +42,7 @@ static void count_digits(void *context, size_t begin, size_t end, uint32_t worke
     (void)worker;
     const struct pass *pass = context;
     for (size_t stretch = begin; stretch < end; stretch++) {
-        uint32_t *counts = pass->places[stretch];
+        uint32_t *counts = pass->places + stretch * DIGITS;
         memset(counts, 0, DIGITS * sizeof *counts);
         size_t last = stretch_begin(pass, stretch + 1);
         for (size_t i = stretch_begin(pass, stretch); i < last; i++)
@@ -57,8 +57,9 @@ static bool sum_counts(const struct pass *pass)
     for (uint32_t digit = 0; digit < DIGITS; digit++) {
         uint32_t before = place;
         for (uint32_t stretch = 0; stretch < pass->stretches; stretch++) {
-            uint32_t count = pass->places[stretch][digit];
-            pass->places[stretch][digit] = place;
+            uint32_t *at = &pass->places[(size_t)stretch * DIGITS + digit];
+            uint32_t count = *at;
+            *at = place;
             place += count;
         }
         if (place - before == pass->count)
@@ -72,7 +73,7 @@ static void move_pairs(void *context, size_t begin, size_t end, uint32_t worker)
     (void)worker;
     const struct pass *pass = context;
     for (size_t stretch = begin; stretch < end; stretch++) {
-        uint32_t *places = pass->places[stretch];
+        uint32_t *places = pass->places + stretch * DIGITS;
         size_t last = stretch_begin(pass, stretch + 1);
         for (size_t i = stretch_begin(pass, stretch); i < last; i++)
             pass->to[places[digit_of(pass, pass->from[i])]++] = pass->from[i];
@@ -87,8 +88,8 @@ kiln_sort_pair *kiln_sort_pairs(struct kiln_threads *threads, kiln_sort_pair *pa
     struct pass pass = {
         .count = count,
         .stretches = useful < most ? (uint32_t)useful : most,
-        .places = (uint32_t(*)[DIGITS])counts,
     };
+    pass.places = counts;
     kiln_sort_pair *sorted = pairs, *other = scratch;
     for (unsigned i = 0; i < PASSES && count > 1; i++) {
         pass.from = sorted;

@@ -12,6 +12,11 @@
  */
 #define NOISE_REACH_BITS 0x49800000u /* 2^20 */
 
+/* Odd numbers that spread the lattice points over the hash's arguments. */
+#define NOISE_X 0x8da6b343u
+#define NOISE_Y 0xd8163841u
+#define NOISE_Z 0xcb1ab31fu
+
 /* Brings the root of the mean square speed of one octave to 1. */
 #define NOISE_CURL_UNIT 0.20658f
 
@@ -52,6 +57,53 @@ FN float3 noise_curl_corner(uint bits, float3 r, float weight, float3 slope)
     return y;
 }
 
+/* A point's place in its lattice cell. */
+struct noise_cell {
+    uint lattice; /* hash argument of the lowest corner */
+    float3 part;  /* of the way to the highest */
+    S(noise_fade) x, y, z;
+};
+
+FN S(noise_cell) noise_cell_at(float3 p, uint seed)
+{
+    EXACT S(noise_cell) cell;
+    EXACT float3 low = FLOAT3(FLOOR(p.x), FLOOR(p.y), FLOOR(p.z));
+    cell.lattice =
+        UINT(INT(low.x)) * NOISE_X + UINT(INT(low.y)) * NOISE_Y + UINT(INT(low.z)) * NOISE_Z + seed;
+    cell.part = float3_sub(p, low);
+    cell.x = noise_fade_at(cell.part.x);
+    cell.y = noise_fade_at(cell.part.y);
+    cell.z = noise_fade_at(cell.part.z);
+    return cell;
+}
+
+/* The fade as a corner sees it: mirrored when the corner is the lower one. */
+FN S(noise_fade) noise_fade_of_corner(S(noise_fade) fade, bool upper)
+{
+    EXACT S(noise_fade) own;
+    own.weight = upper ? fade.weight : 1.0f - fade.weight;
+    own.slope = upper ? fade.slope : -fade.slope;
+    return own;
+}
+
+/* The part of corner 0 to 7: bit 0 is the upper one in x, bit 1 in y, bit 2 in z. */
+FN float3 noise_curl_of_corner(S(noise_cell) cell, uint corner)
+{
+    uint ux = corner & 1u;
+    uint uy = (corner >> 1u) & 1u;
+    uint uz = corner >> 2u;
+    EXACT S(noise_fade) x = noise_fade_of_corner(cell.x, ux != 0u);
+    EXACT S(noise_fade) y = noise_fade_of_corner(cell.y, uy != 0u);
+    EXACT S(noise_fade) z = noise_fade_of_corner(cell.z, uz != 0u);
+    EXACT float3 slope = FLOAT3(x.slope * y.weight * z.weight, y.slope * x.weight * z.weight,
+                                z.slope * x.weight * y.weight);
+    EXACT float3 r =
+        FLOAT3(cell.part.x - FLOAT(ux), cell.part.y - FLOAT(uy), cell.part.z - FLOAT(uz));
+    EXACT float weight = x.weight * y.weight * z.weight;
+    uint lattice = cell.lattice + ux * NOISE_X + uy * NOISE_Y + uz * NOISE_Z;
+    return noise_curl_corner(random_mix(lattice), r, weight, slope);
+}
+
 /* One octave with lattice points one unit apart, root of mean square speed about 1. */
 FN float3 noise_curl_octave(float3 p, uint seed)
 {
@@ -60,30 +112,9 @@ FN float3 noise_curl_octave(float3 p, uint seed)
         (FLOAT_BITS(p.y) & EXACT_SIZE_BITS) > NOISE_REACH_BITS ||
         (FLOAT_BITS(p.z) & EXACT_SIZE_BITS) > NOISE_REACH_BITS)
         return sum;
-    EXACT float3 cell = FLOAT3(FLOOR(p.x), FLOOR(p.y), FLOOR(p.z));
-    EXACT float3 f = float3_sub(p, cell);
-    EXACT S(noise_fade) fx = noise_fade_at(f.x);
-    EXACT S(noise_fade) fy = noise_fade_at(f.y);
-    EXACT S(noise_fade) fz = noise_fade_at(f.z);
-    uint base = UINT(INT(cell.x)) * 0x8da6b343u + UINT(INT(cell.y)) * 0xd8163841u +
-                UINT(INT(cell.z)) * 0xcb1ab31fu + seed;
+    EXACT S(noise_cell) cell = noise_cell_at(p, seed);
     for (uint corner = 0u; corner < 8u; corner++) {
-        bool ux = (corner & 1u) != 0u;
-        bool uy = (corner & 2u) != 0u;
-        bool uz = (corner & 4u) != 0u;
-        EXACT float wx = ux ? fx.weight : 1.0f - fx.weight;
-        EXACT float wy = uy ? fy.weight : 1.0f - fy.weight;
-        EXACT float wz = uz ? fz.weight : 1.0f - fz.weight;
-        EXACT float sx = ux ? fx.slope : -fx.slope;
-        EXACT float sy = uy ? fy.slope : -fy.slope;
-        EXACT float sz = uz ? fz.slope : -fz.slope;
-        EXACT float3 slope = FLOAT3(sx * wy * wz, sy * wx * wz, sz * wx * wy);
-        EXACT float3 r =
-            FLOAT3(f.x - (ux ? 1.0f : 0.0f), f.y - (uy ? 1.0f : 0.0f), f.z - (uz ? 1.0f : 0.0f));
-        EXACT float weight = wx * wy * wz;
-        uint at =
-            base + (ux ? 0x8da6b343u : 0u) + (uy ? 0xd8163841u : 0u) + (uz ? 0xcb1ab31fu : 0u);
-        EXACT float3 part = noise_curl_corner(random_mix(at), r, weight, slope);
+        EXACT float3 part = noise_curl_of_corner(cell, corner);
         sum = float3_add(sum, part);
     }
     EXACT float3 y = float3_scale(sum, NOISE_CURL_UNIT);
