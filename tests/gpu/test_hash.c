@@ -27,8 +27,8 @@ static void both_hashes_agree(void **state)
         for (int i = 0; i < 3; i++)
             fixture_add_system(&fixture, "any", 1.0f)->capacity = sizes[s] + (uint32_t)i;
         struct simulation cpu, inplace;
-        simulation_start(&cpu, &fixture, NULL, 3);
-        simulation_start(&inplace, &fixture, *state, 1);
+        simulation_start(&cpu, &fixture.scene, NULL, 3);
+        simulation_start(&inplace, &fixture.scene, *state, 1);
         struct kiln_error error = {0};
         struct kiln_pool *pool = &inplace.pool;
         fill(kiln_buffer_host(&pool->records, KILN_READ_WRITE, &error), pool->slot_count);
@@ -56,7 +56,7 @@ static void every_bit_counts(void **state)
     fixture_init(&fixture);
     fixture_add_system(&fixture, "any", 1.0f)->capacity = 8;
     struct simulation run;
-    simulation_start(&run, &fixture, *state, 1);
+    simulation_start(&run, &fixture.scene, *state, 1);
     run.pool.systems[0].next_serial = 8;
     struct kiln_error error = {0};
     for (uint32_t bit = 0; bit < 2 * 256; bit++) {

@@ -13,15 +13,15 @@ static struct scene_fixture fixture; /* too large for a stack */
 
 enum { STEPS = 300 };
 
-static void cpu_and_inplace_agree(struct kiln_device *device, enum kiln_integration order,
-                                  uint32_t threads)
+/* Steps the scene both ways and compares after each step. */
+static void both_agree(struct kiln_device *device, const struct kiln_scene *scene, uint32_t threads,
+                       uint32_t steps)
 {
-    fixture_zoo(&fixture, order, STEPS);
     struct simulation cpu, inplace;
-    simulation_start(&cpu, &fixture, NULL, threads);
-    simulation_start(&inplace, &fixture, device, 1);
+    simulation_start(&cpu, scene, NULL, threads);
+    simulation_start(&inplace, scene, device, 1);
     uint64_t most = 0;
-    for (uint32_t step = 1; step <= STEPS; step++) {
+    for (uint32_t step = 1; step <= steps; step++) {
         simulation_run(&cpu, 1);
         simulation_run(&inplace, 1);
         uint64_t cpu_alive, inplace_alive;
@@ -37,6 +37,13 @@ static void cpu_and_inplace_agree(struct kiln_device *device, enum kiln_integrat
                         cpu.pool.slot_count * sizeof(struct kiln_particle));
     simulation_end(&cpu);
     simulation_end(&inplace);
+}
+
+static void cpu_and_inplace_agree(struct kiln_device *device, enum kiln_integration order,
+                                  uint32_t threads)
+{
+    fixture_zoo(&fixture, order, STEPS);
+    both_agree(device, &fixture.scene, threads, STEPS);
 }
 
 static void one_thread(void **state)
@@ -59,14 +66,30 @@ static void position_first(void **state)
     cpu_and_inplace_agree(*state, KILN_INTEGRATE_POSITION_FIRST, 2);
 }
 
+/* The front-page scene as the loader makes it, with a tenth of its particles. */
+static void a_scene_from_a_file(void **state)
+{
+    struct kiln_error error = {0};
+    const char *const overrides[] = {"systems.*.emit.rate=2000"};
+    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    params.overrides = overrides;
+    params.override_count = 1;
+    struct kiln_scene *scene =
+        kiln_scene_load(KILN_SOURCE_DIR "/scenes/fire_beam.yaml", &params, &error);
+    if (!scene)
+        fail_msg("%s", error.message);
+    both_agree(*state, scene, 2, 120);
+    kiln_scene_destroy(&scene);
+}
+
 /* A run may change its technique half-way: the records move, the state goes on. */
 static void a_run_can_change_its_technique(void **state)
 {
     fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, 120);
     struct simulation cpu, inplace;
-    simulation_start(&cpu, &fixture, NULL, 1);
+    simulation_start(&cpu, &fixture.scene, NULL, 1);
     simulation_run(&cpu, 120);
-    simulation_start(&inplace, &fixture, *state, 1);
+    simulation_start(&inplace, &fixture.scene, *state, 1);
     simulation_run(&inplace, 50);
     struct kiln_error error = {0};
     struct kiln_simulate *other =
@@ -104,6 +127,7 @@ int main(void)
         test_on_device(two_threads),
         test_on_device(eight_threads),
         test_on_device(position_first),
+        test_on_device(a_scene_from_a_file),
         test_on_device(a_run_can_change_its_technique),
         test_on_device(inplace_needs_an_exact_device),
     };

@@ -38,7 +38,7 @@ static struct kiln_particle after(uint32_t steps)
 {
     fixture_finish(&fixture, steps);
     struct simulation run;
-    simulation_start(&run, &fixture, NULL, 1);
+    simulation_start(&run, &fixture.scene, NULL, 1);
     simulation_run(&run, steps);
     struct kiln_particle p = simulation_records(&run)[0];
     assert_true(particle_is_alive(p));
@@ -83,7 +83,7 @@ static void a_lossless_ball_keeps_bouncing(void **state)
     fixture_add_force(system, KILN_FORCE_GRAVITY)->vector = fixture_constant3(0, -10, 0);
     fixture_finish(&fixture, 500);
     struct simulation run;
-    simulation_start(&run, &fixture, NULL, 1);
+    simulation_start(&run, &fixture.scene, NULL, 1);
     double highest = 0;
     for (int step = 0; step < 500; step++) {
         simulation_run(&run, 1);
@@ -138,7 +138,7 @@ static void nothing_tunnels_at_ten_times_the_speed(void **state)
         fixture_add_box(&fixture, 0, 0, -1, 4, 4, thick);
         fixture_finish(&fixture, 120);
         struct simulation run;
-        simulation_start(&run, &fixture, NULL, 2);
+        simulation_start(&run, &fixture.scene, NULL, 2);
         for (uint32_t step = 1; step <= 120; step++) {
             simulation_run(&run, 1);
             const struct kiln_particle *records = simulation_records(&run);
@@ -194,7 +194,7 @@ static void nobody_ends_a_step_inside(void **state)
     for (int order = 0; order < 2; order++) {
         fixture_zoo(&fixture, (enum kiln_integration)order, 300);
         struct simulation run;
-        simulation_start(&run, &fixture, NULL, 2);
+        simulation_start(&run, &fixture.scene, NULL, 2);
         for (uint32_t step = 1; step <= 300; step++) {
             simulation_run(&run, 1);
             float end_s = kiln_scene_time(&fixture.scene, step);
@@ -234,7 +234,7 @@ static void energy_never_grows(void **state)
         fixture_add_box(&fixture, -1.5f, 0, 0.3f, 1, 6, 6);
         fixture_finish(&fixture, 120);
         struct simulation run;
-        simulation_start(&run, &fixture, NULL, 1);
+        simulation_start(&run, &fixture.scene, NULL, 1);
         static double before[2000];
         memset(before, 0, sizeof before);
         uint32_t slowed = 0;

@@ -34,7 +34,7 @@ static struct kiln_system *one_particle(struct scene_fixture *f)
 static void run_fixture(struct simulation *run, uint32_t steps)
 {
     fixture_finish(&fixture, steps);
-    simulation_start(run, &fixture, NULL, 1);
+    simulation_start(run, &fixture.scene, NULL, 1);
     simulation_run(run, steps);
 }
 
@@ -187,7 +187,7 @@ static void lives_end_on_time_and_slots_are_reborn(void **state)
     system->emit.life = fixture_range(0.1f, 0.4f);
     fixture_finish(&fixture, 200);
     struct simulation run;
-    simulation_start(&run, &fixture, NULL, 1);
+    simulation_start(&run, &fixture.scene, NULL, 1);
     const uint32_t capacity = system->capacity;
     assert_true(capacity < 300);
     const float dt_s = fixture.scene.dt_s;
@@ -233,7 +233,7 @@ static void demitters_bounds_and_absurdity_kill(void **state)
         }
         fixture_finish(&fixture, 60);
         struct simulation run;
-        simulation_start(&run, &fixture, NULL, 1);
+        simulation_start(&run, &fixture.scene, NULL, 1);
         simulation_run(&run, 28);
         simulation_hash(&run, &alive);
         assert_int_equal(alive, 1);
@@ -382,7 +382,7 @@ static void a_run_that_does_not_fit_is_refused(void **state)
     fixture_finish(&fixture, 60);
     fixture.scene.systems[0].capacity = 99; /* 100 births a step */
     struct simulation run;
-    simulation_start(&run, &fixture, NULL, 1);
+    simulation_start(&run, &fixture.scene, NULL, 1);
     struct kiln_error error = {0};
     assert_false(kiln_simulate_step(run.simulate, &run.pool, 1, &error));
     assert_int_equal(error.code, KILN_INVALID_INPUT);
@@ -391,7 +391,7 @@ static void a_run_that_does_not_fit_is_refused(void **state)
     simulation_end(&run);
 
     fixture.scene.systems[0].capacity = 1000;
-    simulation_start(&run, &fixture, NULL, 1);
+    simulation_start(&run, &fixture.scene, NULL, 1);
     run.pool.systems[0].next_serial = UINT32_MAX - 50;
     assert_false(kiln_simulate_step(run.simulate, &run.pool, 1, &error));
     assert_int_equal(error.code, KILN_INVALID_INPUT);
@@ -413,7 +413,7 @@ static void the_state_is_what_it_always_was(void **state)
         for (int t = 0; t < 3; t++) {
             fixture_zoo(&fixture, (enum kiln_integration)order, 300);
             struct simulation run;
-            simulation_start(&run, &fixture, NULL, threads[t]);
+            simulation_start(&run, &fixture.scene, NULL, threads[t]);
             simulation_run(&run, 300);
             uint64_t alive;
             struct kiln_state_hash hash = simulation_hash(&run, &alive);
