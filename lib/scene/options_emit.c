@@ -20,7 +20,7 @@ static const struct kiln_option point[] = {
 static const struct kiln_option sphere[] = {
     PLACE("0 deg"),
     VALUE("radius", radius, KILN_METRES, 0, FAR, TIME, "0.1 m", "Radius."),
-    BOOLEAN("outward", outward, "true", "Directions point away from the origin instead."),
+    BOOLEAN("outward", outward, "false", "Directions point away from the origin instead."),
     BOOLEAN("surface", surface, "false", "Births on the surface alone."),
     END,
 };

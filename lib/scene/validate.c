@@ -194,6 +194,11 @@ static bool check_systems(struct kiln_reader *reader, const struct kiln_node *ro
                  shape_name(emit));
         if (!emit->outward && !at_all_keys(scene, &direction, 1, is_not_zero))
             return fail(reader, root, path, "must not be [0, 0, 0]");
+        snprintf(path, sizeof path, "systems.%s.look.cells", system->name);
+        uint32_t cells = system->look.columns * system->look.rows;
+        if (cells > KILN_MAX_CELLS)
+            return fail(reader, root, path, "%u cells are too many; at most %d", cells,
+                        KILN_MAX_CELLS);
         if (!system->bounds.enabled)
             system->bounds = scene->bounds;
     }

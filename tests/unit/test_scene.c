@@ -140,7 +140,7 @@ static void every_key_of_looks_and_shapes_arrives(void **state)
 
     const struct kiln_system *sphere = &scene->systems[1];
     assert_int_equal(sphere->emit.shape, KILN_EMITTER_SPHERE);
-    assert_true(sphere->emit.surface && !sphere->emit.outward);
+    assert_true(sphere->emit.surface && sphere->emit.outward);
     assert_true(sphere->bounds.enabled && sphere->bounds.max[1] == 20); /* the scene's */
     assert_int_equal(scene->systems[2].emit.shape, KILN_EMITTER_BOX);
     assert_true(scene->systems[2].emit.size.z.constant == 3);

@@ -343,6 +343,9 @@ static const struct bad kinds[] = {
 
 static const struct bad agreement[] = {
     {"kiln: 1\n"
+     "systems: {a: {look: {cells: [64, 33]}}}\n",
+     ":2:29: systems.a.look.cells: 2112 cells are too many; at most 2048"},
+    {"kiln: 1\n"
      "simulation: {rate: 50}\n",
      ":2:20: simulation.rate: must be a whole multiple of output.fps; the nearest are 30 and 60"},
     {"kiln: 1\n"
