@@ -282,7 +282,7 @@ static bool finish(void *opaque, struct kiln_error *error)
 const struct kiln_format kiln_format_exr = {
     .suffix = ".exr",
     .name = "OpenEXR images",
-    .help = "half or float, linear, premultiplied, with the layers that the frame is made of",
+    .help = "half or float, linear, premultiplied; named layers",
     .needs = needs,
     .check = check,
     .open = open_encoder,

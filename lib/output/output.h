@@ -56,8 +56,9 @@ struct kiln_output_params {
 struct kiln_output;
 
 /* Checks everything that can be checked before the first frame (suffix, folder writable, existing
- * files, even sizes, codec present, gaps in a video) and opens the temporary file of a video.
- * NULL with KILN_USAGE or KILN_IO. */
+ * files, even sizes, codec present, gaps in a video), makes missing folders, and opens the
+ * temporary file of a video. Several images are numbered in their names (pattern.h); one alone
+ * keeps the plain name. NULL with KILN_USAGE or KILN_IO. */
 struct kiln_output *kiln_output_open(const struct kiln_output_params *params,
                                      struct kiln_error *error);
 struct kiln_output_needs kiln_output_needs(const struct kiln_output *output);

@@ -149,7 +149,7 @@ static bool encode(void *opaque, const struct kiln_picture *picture, struct kiln
 const struct kiln_format kiln_format_png = {
     .suffix = ".png",
     .name = "PNG images",
-    .help = "8 or 16 bits a channel, sRGB; with alpha when the backdrop is transparent",
+    .help = "8 or 16 bits, sRGB; alpha with a transparent backdrop",
     .needs = needs,
     .check = check,
     .open = open_encoder,
