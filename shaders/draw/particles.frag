@@ -11,7 +11,7 @@ layout(binding = 2) uniform sampler2D scene_depth;
 
 uniform float additive_alpha; /* 0: fire covers nothing (merged); 1: its alpha is summed (separate) */
 
-layout(location = 0) noperspective in vec2 uv;
+layout(location = 0) in vec2 uv;
 layout(location = 1) flat in billboard quad;
 
 layout(location = 0) out vec4 out_color;

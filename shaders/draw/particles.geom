@@ -13,7 +13,7 @@ layout(location = 0) in vec4 center[];
 layout(location = 1) in vec4 axes[];
 layout(location = 2) in billboard particle[];
 
-layout(location = 0) noperspective out vec2 uv;
+layout(location = 0) out vec2 uv;
 layout(location = 1) flat out billboard quad;
 
 void emit_corner(vec2 corner)
