@@ -7,6 +7,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "asset/builtin.h"
 #include "asset/image.h"
 #include "base/error.h"
 
@@ -119,22 +120,23 @@ static bool read_file_asset(struct kiln_reader *reader, const struct kiln_node *
     return ok;
 }
 
-bool kiln_read_asset(struct kiln_reader *reader, const struct kiln_node *node,
-                     const char *const *builtins, const char **asset)
+bool kiln_read_asset(struct kiln_reader *reader, const struct kiln_node *node, const char **asset)
 {
     size_t prefix = sizeof builtin_prefix - 1;
     if (strncmp(node->text, builtin_prefix, prefix) != 0)
         return read_file_asset(reader, node, asset);
-    size_t count = 0;
-    for (; builtins[count]; count++) {
-        if (strcmp(builtins[count], node->text + prefix) == 0) {
-            *asset = kiln_arena_text(reader->arena, node->text, strlen(node->text));
-            return *asset || kiln_reader_out_of_memory(reader);
-        }
+    const char *name = node->text + prefix;
+    if (kiln_builtin_exists(name)) {
+        *asset = kiln_arena_text(reader->arena, node->text, strlen(node->text));
+        return *asset || kiln_reader_out_of_memory(reader);
     }
+    const char *names[32];
+    size_t count = 0;
+    while (count < 32 && (names[count] = kiln_builtin_name(count)))
+        count++;
     char quoted[64], suggestion[512];
     kiln_node_quote(quoted, node->text);
-    kiln_option_suggest(suggestion, sizeof suggestion, node->text + prefix, builtins, count);
+    kiln_option_suggest(suggestion, sizeof suggestion, name, names, count);
     return kiln_reader_error(reader, node, "unknown built-in asset '%s'%s", quoted, suggestion);
 }
 

@@ -9,9 +9,8 @@
 const char *kiln_asset_root(struct kiln_arena *arena, const char *root, const char *file,
                             struct kiln_error *error);
 
-/* Reads "builtin:name", with name one of builtins, or a file, which becomes its absolute path. */
-bool kiln_read_asset(struct kiln_reader *reader, const struct kiln_node *node,
-                     const char *const *builtins, const char **asset);
+/* Reads "builtin:name", or the path of an image file, which becomes absolute. */
+bool kiln_read_asset(struct kiln_reader *reader, const struct kiln_node *node, const char **asset);
 
 /* The asset as a scene names it: relative to the asset root. */
 const char *kiln_asset_name(const struct kiln_scene *scene, const char *asset);

@@ -98,9 +98,6 @@ extern const struct kiln_option kiln_options_backdrop[];
 extern const struct kiln_option kiln_options_post[];
 extern const struct kiln_option_kind kiln_force_kinds[];
 
-/* The built-in atlases, NULL at the end. */
-extern const char *const kiln_builtin_atlases[];
-
 /* The row of a name in a table, or NULL. */
 const struct kiln_option *kiln_option_find(const struct kiln_option *table, const char *name);
 

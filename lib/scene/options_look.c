@@ -5,8 +5,6 @@
 
 _Static_assert(AT(rows) == AT(columns) + sizeof(uint32_t), "cells are read as a pair");
 
-const char *const kiln_builtin_atlases[] = {"fire", "smoke", NULL};
-
 static const char *const blends[] = {
     [KILN_BLEND_ALPHA] = "alpha",
     [KILN_BLEND_ADD] = "add",
@@ -26,8 +24,7 @@ static const struct kiln_option fade[] = {
 };
 
 const struct kiln_option kiln_options_look[] = {
-    {ROW("atlas", asset, AT(atlas), "\"builtin:smoke\"", "The texture: cells that play in order."),
-     .choices = kiln_builtin_atlases},
+    {ROW("atlas", asset, AT(atlas), "\"builtin:smoke\"", "The texture: cells that play in order.")},
     {ROW("cells", pair, AT(columns), "[8, 8]", "Columns and rows of an atlas file."),
      LIMITS(KILN_PLAIN, 1, 64)},
     CHOICE("blend", blend, blends, "alpha",

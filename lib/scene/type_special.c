@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "asset/builtin.h"
 #include "scene/asset_path.h"
 #include "scene/printer.h"
 #include "scene/reader.h"
@@ -62,7 +63,7 @@ static bool read_asset(struct kiln_reader *reader, const struct kiln_option *opt
 {
     if (!is_text(node))
         return kiln_reader_mismatch(reader, option, node);
-    return kiln_read_asset(reader, node, option->choices, field);
+    return kiln_read_asset(reader, node, field);
 }
 
 static void print_asset(struct kiln_printer *printer, const struct kiln_option *option,
@@ -77,16 +78,18 @@ static void print_asset(struct kiln_printer *printer, const struct kiln_option *
 
 static void describe_asset(const struct kiln_option *option, struct kiln_text *out)
 {
-    for (size_t i = 0; option->choices[i]; i++)
-        kiln_text_add(out, "\"builtin:%s\", ", option->choices[i]);
+    (void)option;
+    for (size_t i = 0; kiln_builtin_name(i); i++)
+        kiln_text_add(out, "\"builtin:%s\", ", kiln_builtin_name(i));
     kiln_text_add(out, "or the path of an image file, from the scene's folder and inside it");
 }
 
 static void schema_asset(const struct kiln_option *option, struct kiln_text *out)
 {
+    (void)option;
     kiln_text_add(out, "{\"type\": \"string\", \"pattern\": \"^(builtin:(");
-    for (size_t i = 0; option->choices[i]; i++)
-        kiln_text_add(out, "%s%s", i ? "|" : "", option->choices[i]);
+    for (size_t i = 0; kiln_builtin_name(i); i++)
+        kiln_text_add(out, "%s%s", i ? "|" : "", kiln_builtin_name(i));
     kiln_text_add(out, ")|(?!builtin:|/).+)$\"}");
 }
 

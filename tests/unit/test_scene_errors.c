@@ -142,11 +142,13 @@ static const struct bad types[] = {
      "m to 100000 m, or none, found a mapping"},
     {"kiln: 1\n"
      "systems: {a: {look: {atlas: [a]}}}\n",
-     ":2:29: systems.a.look.atlas: expected \"builtin:fire\", \"builtin:smoke\", or the path of an "
+     ":2:29: systems.a.look.atlas: expected \"builtin:fire\", \"builtin:smoke\", "
+     "\"builtin:spark\", or the path of an "
      "image file, from the scene's folder and inside it, found a list"},
     {"kiln: 1\n"
      "systems: {a: {look: {atlas: ''}}}\n",
-     ":2:29: systems.a.look.atlas: expected \"builtin:fire\", \"builtin:smoke\", or the path of an "
+     ":2:29: systems.a.look.atlas: expected \"builtin:fire\", \"builtin:smoke\", "
+     "\"builtin:spark\", or the path of an "
      "image file, from the scene's folder and inside it, found the text \"\""},
 };
 

@@ -152,8 +152,10 @@ static void assets_stay_below_the_scene(void **state)
     expect_atlas_error("no.bmp", "cannot open 'no.bmp': No such file or directory");
     expect_atlas_error("builtin:smoek",
                        "unknown built-in asset 'builtin:smoek' (did you mean 'smoke'?)");
-    expect_atlas_error("3", "expected \"builtin:fire\", \"builtin:smoke\", or the path of an image "
-                            "file, from the scene's folder and inside it, found '3'");
+    expect_atlas_error(
+        "3",
+        "expected \"builtin:fire\", \"builtin:smoke\", \"builtin:spark\", or the path of an image "
+        "file, from the scene's folder and inside it, found '3'");
 
     static const char *const good[] = {"textures/in.bmp", "./textures/../textures/in.bmp",
                                        "fine.bmp"};
