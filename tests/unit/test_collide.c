@@ -292,6 +292,27 @@ static void moving_boxes_push(void **state)
     struct kiln_particle p = after(30); /* met at 0.05 s */
     assert_near((double)particle_velocity(p).x, 20.0, 1e-3);
     assert_near((double)particle_position(p).x, 1.0 + 20.0 * 0.45, 1e-2);
+
+    one_particle(FLOAT3(1, 0, 0), FLOAT3(0, 0.0001f, 0));
+    box = fixture_add_box(&fixture, 0, 0, 0, 1, 1, 1); /* its face comes at half its growth */
+    box->size.x = fixture_ramp(&fixture, KILN_CLOCK_TIME, 0.0f, 1.0f, 1.0f, 21.0f);
+    assert_near((double)particle_velocity(after(30)).x, 20.0, 1e-3);
+}
+
+/* Past a corner within one step: beside the box in x, then in y, never in it. */
+static void a_near_miss_is_no_hit(void **state)
+{
+    (void)state;
+    one_particle(FLOAT3(-2.2f, 0, 0), FLOAT3(120, 120, 0)); /* 2 m a step each way */
+    fixture_add_box(&fixture, 0, 0, 0, 2, 2, 2);
+    struct kiln_particle p = after(2);
+    assert_near((double)particle_position(p).x, 1.8, 1e-4);
+    assert_near((double)particle_position(p).y, 4.0, 1e-4);
+    assert_near((double)particle_velocity(p).x, 120.0, 1e-4);
+
+    one_particle(FLOAT3(-1.8f, 0, 0), FLOAT3(120, 120, 0)); /* this one hits the side */
+    fixture_add_box(&fixture, 0, 0, 0, 2, 2, 2);
+    assert_near((double)particle_velocity(after(2)).x, -120.0, 1e-3);
 }
 
 /* Born inside, or caught between closing boxes: out by the nearest face, or up. */
@@ -325,6 +346,7 @@ int main(void)
         cmocka_unit_test(energy_never_grows),
         cmocka_unit_test(randomness_fills_the_hemisphere),
         cmocka_unit_test(moving_boxes_push),
+        cmocka_unit_test(a_near_miss_is_no_hit),
         cmocka_unit_test(the_trapped_are_freed),
     };
     return cmocka_run_group_tests_name("collide", tests, NULL, NULL);
