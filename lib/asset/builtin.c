@@ -176,7 +176,8 @@ static struct texel spark_texel(const struct lobes *lobes, float u, float v, flo
     float r2 = u * u + v * v;
     float core = saturate(1.0f - r2 / 0.16f);
     float halo = saturate(1.0f - r2 / 0.92f);
-    return (struct texel){.heat = core, .density = 0.75f * core * core + 0.25f * halo * halo * halo};
+    return (struct texel){.heat = core,
+                          .density = 0.75f * core * core + 0.25f * halo * halo * halo};
 }
 
 static const struct builtin {

@@ -9,7 +9,7 @@
 #define KILN_DRAW_MAX_LIGHTS 16
 
 #define KILN_DRAW_MAX_BOXES 32
-#define KILN_DRAW_KEYS 1024 /* KILN_MAX_VALUE_KEYS, for blocks declared before value.h */
+#define KILN_DRAW_KEYS      1024 /* KILN_MAX_VALUE_KEYS, for blocks declared before value.h */
 
 /* Binding points of uniform blocks (VIEW to BACKDROP) and storage blocks (RECORDS, ENTRIES). */
 #define KILN_BIND_VIEW     0
