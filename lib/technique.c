@@ -135,9 +135,10 @@ void kiln_techniques_describe(const struct kiln_techniques *techniques, char *ou
 bool kiln_write_techniques(FILE *out)
 {
     bool ok = true;
-    for (size_t i = 0; i < ROW_COUNT; i++)
-        ok = fprintf(out, "  %s=%-10s %s\n", STAGE_NAMES[ROWS[i].stage], ROWS[i].name,
-                     ROWS[i].help) > 0 &&
-             ok;
+    for (size_t i = 0; i < ROW_COUNT; i++) {
+        char name[64];
+        snprintf(name, sizeof name, "%s=%s", STAGE_NAMES[ROWS[i].stage], ROWS[i].name);
+        ok = fprintf(out, "  %-18s %s\n", name, ROWS[i].help) > 0 && ok;
+    }
     return ok;
 }
