@@ -196,11 +196,10 @@ struct kiln_render_params {
     size_t technique_count;
     uint32_t threads; /* worker threads; 0 takes one a core */
     bool overwrite;
-    bool state_hash;        /* compute it for each drawn frame; the manifest always has it */
-    uint32_t png_bits;      /* 8 or 16 */
-    uint32_t exr_bits;      /* 16 or 32 */
-    uint32_t quality;       /* video: 0 (smallest) to 100 (visually lossless) */
-    double frame_timeout_s; /* 0: none */
+    bool state_hash;   /* compute it for each drawn frame; the manifest always has it */
+    uint32_t png_bits; /* 8 or 16 */
+    uint32_t exr_bits; /* 16 or 32 */
+    uint32_t quality;  /* video: 0 (smallest) to 100 (visually lossless) */
     void (*progress)(void *user, const struct kiln_progress *progress);
     bool (*stop)(void *user); /* asked between frames and steps; true ends with KILN_INTERRUPTED */
     void *user;
