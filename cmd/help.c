@@ -46,6 +46,7 @@ struct topic {
 static const struct topic topics[] = {
     {"scene", "every key of a scene file", kiln_scene_write_reference},
     {"schema", "the JSON schema of scene files, for editors", kiln_scene_write_schema},
+    {"techniques", "the techniques of each stage", kiln_write_techniques},
     {"outputs", "what can be written, by suffix", kiln_write_outputs},
     {"exit-codes", "what each exit code means", write_exit_codes},
     {"man", "the manual page, for `man -l`", write_man},
@@ -132,6 +133,8 @@ void help_print_overview(FILE *out)
     fprintf(out, "\ntopics of 'kiln help TOPIC', beside the commands:\n");
     for (size_t i = 0; i < TOPIC_COUNT; i++)
         fprintf(out, "  %-12s %s\n", topics[i].name, topics[i].summary);
+    fprintf(out, "\nA first picture:\n"
+                 "  kiln render scenes/fire_beam.yaml -o fire.png --frames 60\n");
 }
 
 static int unknown_topic(const char *name)

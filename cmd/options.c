@@ -92,19 +92,23 @@ static int read_number(const struct parser *parser, struct option_use *use)
     return wrong_value(parser, use, expected);
 }
 
-/* Two positive whole numbers around a separator; without the separator only the first, if the
- * second may go. */
-static bool read_two(const char *text, char separator, bool second_may_go, uint64_t numbers[2])
+/* Two positive whole numbers around a separator. */
+static bool read_two(const char *text, char separator, uint64_t numbers[2])
 {
     char first[24] = "";
     const char *middle = strchr(text, separator);
-    size_t length = middle ? (size_t)(middle - text) : strlen(text);
-    if (length >= sizeof first || (!middle && !second_may_go))
+    if (!middle || (size_t)(middle - text) >= sizeof first)
         return false;
-    snprintf(first, sizeof first, "%.*s", (int)length, text);
-    numbers[1] = 1;
+    snprintf(first, sizeof first, "%.*s", (int)(middle - text), text);
     return kiln_text_to_uint64(first, &numbers[0]) && numbers[0] > 0 &&
-           (!middle || (kiln_text_to_uint64(middle + 1, &numbers[1]) && numbers[1] > 0));
+           kiln_text_to_uint64(middle + 1, &numbers[1]) && numbers[1] > 0;
+}
+
+static bool is_ratio(const char *text)
+{
+    uint64_t ratio[2];
+    double number;
+    return read_two(text, '/', ratio) || (kiln_text_to_double(text, &number) && number > 0);
 }
 
 /* Every piece between commas must have a key before its '='. */
@@ -135,13 +139,13 @@ static int read_value(const struct parser *parser, struct option_use *use)
     case OPTION_NUMBER:
         return read_number(parser, use);
     case OPTION_SIZE:
-        return read_two(use->text, 'x', false, use->integer)
+        return read_two(use->text, 'x', use->integer)
                    ? 0
                    : wrong_value(parser, use, "WxH in pixels, such as 1280x720");
     case OPTION_RATIO:
-        return read_two(use->text, '/', true, use->integer)
+        return is_ratio(use->text)
                    ? 0
-                   : wrong_value(parser, use, "N or N/D, such as 30 or 30000/1001");
+                   : wrong_value(parser, use, "a rate such as 30, 29.97 or 30000/1001");
     case OPTION_FRAMES:
         return frame_list_parse(use->text, &use->frames)
                    ? 0

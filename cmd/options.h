@@ -11,7 +11,7 @@ enum option_kind {
     OPTION_INTEGER, /* min to max */
     OPTION_NUMBER,  /* min to max, a decimal fraction */
     OPTION_SIZE,    /* WxH */
-    OPTION_RATIO,   /* N or N/D */
+    OPTION_RATIO,   /* N/D or a decimal fraction */
     OPTION_FRAMES,  /* 0-149,200 */
     OPTION_PAIRS,   /* KEY=VALUE; more of them after commas where `commas` is set */
 };

@@ -1,0 +1,168 @@
+/* From operands and options to jobs. */
+#include "plan.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "overrides.h"
+#include "report.h"
+
+static const char mark[] = "{scene}";
+
+/* The file's name without folder and suffix. */
+static const char *scene_stem(const char *path, size_t *length)
+{
+    const char *slash = strrchr(path, '/');
+    const char *name = slash ? slash + 1 : path;
+    const char *dot = strrchr(name, '.');
+    *length = dot && dot > name ? (size_t)(dot - name) : strlen(name);
+    return name;
+}
+
+static bool is_folder(const char *path)
+{
+    struct stat status;
+    size_t length = strlen(path);
+    return (length > 0 && path[length - 1] == '/') ||
+           (stat(path, &status) == 0 && S_ISDIR(status.st_mode));
+}
+
+/* Writes pattern with every mark replaced by the stem; returns the length. out may be NULL. */
+static size_t replace_marks(char *out, const char *pattern, const char *stem, size_t stem_length)
+{
+    size_t length = 0;
+    while (*pattern) {
+        bool is_mark = strncmp(pattern, mark, sizeof mark - 1) == 0;
+        const char *piece = is_mark ? stem : pattern;
+        size_t piece_length = is_mark ? stem_length : 1;
+        if (out)
+            memcpy(out + length, piece, piece_length);
+        length += piece_length;
+        pattern += is_mark ? sizeof mark - 1 : 1;
+    }
+    return length;
+}
+
+/* The file that a pattern means for a scene, in new memory; NULL when memory is short. A folder
+ * gets a file named after the scene. */
+static char *file_name(const char *pattern, const char *scene, const char *suffix)
+{
+    size_t stem_length;
+    const char *stem = scene_stem(scene, &stem_length);
+    char *name = calloc(replace_marks(NULL, pattern, stem, stem_length) + 1, 1);
+    if (!name)
+        return NULL;
+    size_t length = replace_marks(name, pattern, stem, stem_length);
+    if (!is_folder(name))
+        return name;
+    char *inside = NULL;
+    int written = asprintf(&inside, "%s%s%.*s%s", name, name[length - 1] == '/' ? "" : "/",
+                           (int)stem_length, stem, suffix);
+    free(name);
+    return written < 0 ? NULL : inside;
+}
+
+/* No two jobs may write one file. */
+static int check_clash(const struct job *a, const struct job *b)
+{
+    bool output = a->output && b->output && strcmp(a->output, b->output) == 0;
+    bool manifest = a->manifest && b->manifest && strcmp(a->manifest, b->manifest) == 0;
+    if (!output && !manifest)
+        return 0;
+    return report(KILN_USAGE,
+                  "render: --%s: '%s' and '%s' would both write '%s'; name a folder, or put "
+                  "{scene} into the name",
+                  output ? "output" : "manifest", a->path, b->path,
+                  output ? a->output : a->manifest);
+}
+
+static int name_files(struct plan *plan, const struct arguments *arguments)
+{
+    const struct option_use *output = arguments_last(arguments, "output");
+    const struct option_use *manifest = arguments_last(arguments, "manifest");
+    if (!output)
+        return report(KILN_USAGE, "render: needs --output FILE; '--output none' writes nothing");
+    bool writes = strcmp(output->text, "none") != 0;
+    for (size_t i = 0; i < plan->count; i++) {
+        struct job *job = &plan->jobs[i];
+        job->path = arguments->operands[i];
+        if (writes)
+            job->output = file_name(output->text, job->path, ".mp4");
+        if (manifest)
+            job->manifest = file_name(manifest->text, job->path, ".json");
+        if ((writes && !job->output) || (manifest && !job->manifest))
+            return report_no_memory();
+        for (size_t j = 0; j < i; j++) {
+            int code = check_clash(&plan->jobs[j], job);
+            if (code)
+                return code;
+        }
+    }
+    return 0;
+}
+
+/* Every frame that was asked for must exist. */
+static int choose_frames(struct job *job, const struct arguments *arguments)
+{
+    const struct option_use *frames = arguments_last(arguments, "frames");
+    uint32_t last = job->info.frames - 1;
+    if (!frames) {
+        job->every_frame = (struct kiln_frame_range){0, last};
+        job->frames = (struct frame_list){&job->every_frame, 1};
+        return 0;
+    }
+    job->frames = frames->frames;
+    struct kiln_frame_range end = frames->frames.ranges[frames->frames.count - 1];
+    if (end.last <= last)
+        return 0;
+    return report(KILN_USAGE, "render: --frames: found frame %u, but '%s' has frames 0-%u",
+                  end.last, job->path, last);
+}
+
+static int load_scenes(struct plan *plan, const struct arguments *arguments)
+{
+    struct overrides overrides;
+    if (!overrides_create(&overrides, arguments))
+        return report_no_memory();
+    struct kiln_scene_params params = overrides_scene_params(&overrides, arguments);
+    int code = 0;
+    for (size_t i = 0; i < plan->count; i++) {
+        struct job *job = &plan->jobs[i];
+        struct kiln_error error = {0};
+        job->scene = kiln_scene_load(job->path, &params, &error);
+        int failure;
+        if (job->scene) {
+            job->info = kiln_scene_info(job->scene);
+            failure = choose_frames(job, arguments);
+        } else {
+            failure = report_error(&error);
+        }
+        code = code ? code : failure;
+    }
+    overrides_free(&overrides);
+    return code;
+}
+
+int plan_create(struct plan *plan, const struct arguments *arguments)
+{
+    *plan = (struct plan){.jobs = calloc(arguments->operand_count, sizeof *plan->jobs),
+                          .count = arguments->operand_count};
+    if (!plan->jobs) {
+        plan->count = 0;
+        return report_no_memory();
+    }
+    int code = name_files(plan, arguments);
+    return code ? code : load_scenes(plan, arguments);
+}
+
+void plan_free(struct plan *plan)
+{
+    for (size_t i = 0; i < plan->count; i++) {
+        kiln_scene_destroy(&plan->jobs[i].scene);
+        free(plan->jobs[i].output);
+        free(plan->jobs[i].manifest);
+    }
+    free(plan->jobs);
+    *plan = (struct plan){0};
+}

@@ -1,0 +1,28 @@
+/* What `kiln render` is going to do, checked before any device is opened: which scene, which
+ * frames, into which files. */
+#ifndef KILN_CMD_PLAN_H
+#define KILN_CMD_PLAN_H
+
+#include "options.h"
+
+struct job {
+    const char *path; /* of the scene, as given */
+    struct kiln_scene *scene;
+    struct kiln_scene_info info;
+    struct frame_list frames; /* never empty; borrowed where --frames was given */
+    struct kiln_frame_range every_frame;
+    char *output;   /* NULL: nothing is written */
+    char *manifest; /* NULL: none */
+};
+
+struct plan {
+    struct job *jobs;
+    size_t count;
+};
+
+/* Returns 0, or the exit code after reporting what is wrong; every wrong scene is reported. The
+ * plan borrows the arguments, and must be freed in both cases. */
+int plan_create(struct plan *plan, const struct arguments *arguments);
+void plan_free(struct plan *plan);
+
+#endif

@@ -1,0 +1,96 @@
+/* Progress of a job. Times come from the renderer, so that nothing here needs a clock. */
+#include "progress.h"
+
+#include <inttypes.h>
+
+static const double tty_interval_s = 0.1, lines_interval_s = 5.0;
+
+void progress_start(struct progress *progress, enum progress_mode mode)
+{
+    *progress = (struct progress){.mode = mode};
+}
+
+const char *state_text(char out[STATE_TEXT_SIZE], struct kiln_state_hash state)
+{
+    snprintf(out, STATE_TEXT_SIZE, "%08" PRIx32 "%08" PRIx32, state.lane[0], state.lane[1]);
+    return out;
+}
+
+void print_pass_json(const double pass_ms[KILN_PASS_COUNT])
+{
+    for (int pass = 0; pass < KILN_PASS_COUNT; pass++)
+        printf("%s\"%s\": %.3f", pass ? ", " : "{", kiln_pass_name((enum kiln_pass)pass),
+               pass_ms[pass]);
+    printf("}");
+}
+
+/* "1:05" or "2:00:05". */
+static const char *duration_text(char out[32], double seconds)
+{
+    uint64_t whole = (uint64_t)(seconds + 0.5);
+    if (whole >= 3600)
+        snprintf(out, 32, "%" PRIu64 ":%02" PRIu64 ":%02" PRIu64, whole / 3600, whole / 60 % 60,
+                 whole % 60);
+    else
+        snprintf(out, 32, "%" PRIu64 ":%02" PRIu64, whole / 60, whole % 60);
+    return out;
+}
+
+static void print_line(const char *scene, const struct kiln_progress *frame)
+{
+    fprintf(stderr, "%s: %u of %u frames", scene, frame->done, frame->total);
+    if (frame->elapsed_s > 0)
+        fprintf(stderr, ", %.1f a second", (double)frame->done / frame->elapsed_s);
+    char left[32];
+    if (frame->eta_s >= 0)
+        fprintf(stderr, ", %s left", duration_text(left, frame->eta_s));
+}
+
+static void print_json(const char *scene, const struct kiln_progress *frame)
+{
+    char state[STATE_TEXT_SIZE];
+    printf("{\"event\": \"frame\", \"scene\": ");
+    kiln_write_json_string(stdout, scene);
+    printf(", \"frame\": %u, \"done\": %u, \"total\": %u, \"elapsed_s\": %.3f, ", frame->frame,
+           frame->done, frame->total, frame->elapsed_s);
+    if (frame->eta_s >= 0)
+        printf("\"eta_s\": %.3f, ", frame->eta_s);
+    else
+        printf("\"eta_s\": null, ");
+    printf("\"alive\": %" PRIu64 ", \"state\": \"%s\", \"pass_ms\": ", frame->alive,
+           state_text(state, frame->state));
+    print_pass_json(frame->pass_ms);
+    printf("}\n");
+    fflush(stdout);
+}
+
+void progress_show(struct progress *progress, const char *scene, const struct kiln_progress *frame)
+{
+    if (progress->mode == PROGRESS_NONE)
+        return;
+    if (progress->mode == PROGRESS_NDJSON) {
+        print_json(scene, frame);
+        return;
+    }
+    bool tty = progress->mode == PROGRESS_TTY;
+    bool last = frame->done == frame->total;
+    bool first = tty && !progress->line_open;
+    double interval_s = tty ? tty_interval_s : lines_interval_s;
+    if (last && !tty) /* the result follows */
+        return;
+    if (!first && !last && frame->elapsed_s - progress->last_s < interval_s)
+        return;
+    progress->last_s = frame->elapsed_s;
+    progress->line_open = tty;
+    if (tty)
+        fputc('\r', stderr);
+    print_line(scene, frame);
+    fputs(tty ? "\033[K" : "\n", stderr);
+}
+
+void progress_clear(struct progress *progress)
+{
+    if (progress->line_open)
+        fputs("\r\033[K", stderr);
+    progress->line_open = false;
+}

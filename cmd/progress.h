@@ -1,0 +1,36 @@
+/* What a running job says: a line that moves, lines now and then, or JSON for programs. */
+#ifndef KILN_CMD_PROGRESS_H
+#define KILN_CMD_PROGRESS_H
+
+#include "kiln.h"
+
+enum progress_mode {
+    PROGRESS_TTY,    /* one line on standard error, drawn over */
+    PROGRESS_LINES,  /* a line on standard error every few seconds */
+    PROGRESS_NDJSON, /* a JSON object a frame on standard output */
+    PROGRESS_NONE,
+};
+
+struct progress {
+    enum progress_mode mode;
+    double last_s;  /* of the job's time, when something was said last */
+    bool line_open; /* the moving line has something on it */
+};
+
+/* Begins a job. */
+void progress_start(struct progress *progress, enum progress_mode mode);
+
+/* Says how far the job is, if it is time to. */
+void progress_show(struct progress *progress, const char *scene, const struct kiln_progress *frame);
+
+/* Clears the moving line, before anything else is said. */
+void progress_clear(struct progress *progress);
+
+/* "0123456789abcdef" */
+enum { STATE_TEXT_SIZE = 17 };
+const char *state_text(char out[STATE_TEXT_SIZE], struct kiln_state_hash state);
+
+/* Writes {"simulate": 1.25, ...} to standard output. */
+void print_pass_json(const double pass_ms[KILN_PASS_COUNT]);
+
+#endif

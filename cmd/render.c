@@ -1,0 +1,365 @@
+/* kiln render: scenes in, frames out. All scenes of a call share one device. */
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "command.h"
+#include "overrides.h"
+#include "plan.h"
+#include "progress.h"
+#include "report.h"
+#include "signals.h"
+#include "stats.h"
+#include "watchdog.h"
+
+static const struct option options[] = {
+    {.name = "output",
+     .letter = 'o',
+     .kind = OPTION_TEXT,
+     .placeholder = "FILE",
+     .help = "Where to write; the suffix chooses the format (see 'kiln help outputs'). '%04d' or "
+             "'####' stands for the frame's number, '{scene}' for the scene file's name without "
+             "its suffix. A folder gets a video named after the scene. 'none' renders without "
+             "writing."},
+    {.name = "frames",
+     .kind = OPTION_FRAMES,
+     .placeholder = "RANGES",
+     .help = "Frames to draw, such as 0-149,200. They come out as they do in the full run.",
+     .fallback = "all"},
+    {.name = "size",
+     .kind = OPTION_SIZE,
+     .placeholder = "WxH",
+     .help = "Size of the picture in pixels: --set output.size=[W, H].",
+     .sets = "output.size"},
+    {.name = "fps",
+     .kind = OPTION_RATIO,
+     .placeholder = "RATE",
+     .help = "Frames a second, such as 30 or 30000/1001: --set output.fps=RATE.",
+     .sets = "output.fps"},
+    {.name = "seed",
+     .kind = OPTION_INTEGER,
+     .placeholder = "N",
+     .help = "Seed of everything random: --set seed=N.",
+     .sets = "seed",
+     .max = UINT32_MAX},
+    SET_OPTION,
+    ASSET_ROOT_OPTION,
+    {.name = "device",
+     .kind = OPTION_TEXT,
+     .placeholder = "DEVICE",
+     .help = "A number from 'kiln devices', a part of a device's name, or 'software'.",
+     .fallback = "the first GPU, or else the software device"},
+    {.name = "technique",
+     .repeats = true,
+     .commas = true,
+     .kind = OPTION_PAIRS,
+     .placeholder = "STAGE=NAME",
+     .help = "How to run a stage; more of them after commas (see 'kiln help techniques').",
+     .fallback = "what suits the device"},
+    {.name = "threads",
+     .kind = OPTION_INTEGER,
+     .placeholder = "N",
+     .help = "Threads that work beside the device; 0 takes one a core.",
+     .fallback = "0",
+     .max = 256},
+    {.name = "png-bits",
+     .kind = OPTION_CHOICE,
+     .placeholder = "8|16",
+     .help = "Bits a channel of PNG files.",
+     .fallback = "8"},
+    {.name = "exr-bits",
+     .kind = OPTION_CHOICE,
+     .placeholder = "16|32",
+     .help = "Bits a channel of EXR files: half or float.",
+     .fallback = "16"},
+    {.name = "quality",
+     .kind = OPTION_INTEGER,
+     .placeholder = "N",
+     .help = "Quality of videos, from 0 (smallest) to 100 (no loss that an eye can see).",
+     .fallback = "80",
+     .max = 100},
+    {.name = "manifest",
+     .kind = OPTION_TEXT,
+     .placeholder = "FILE",
+     .help = "Also write a JSON file that describes the run: scene, device, techniques, state of "
+             "each frame, times. A folder or '{scene}' as for --output."},
+    {.name = "force", .kind = OPTION_FLAG, .help = "Replace files that exist."},
+    {.name = "frame-timeout",
+     .kind = OPTION_NUMBER,
+     .placeholder = "S",
+     .help = "Give up with exit code 5 when a frame takes longer than S seconds. Frames that are "
+             "stepped over lengthen the limit of the next drawn one; set-up and warm-up belong to "
+             "the first.",
+     .fallback = "none",
+     .min = 0.001,
+     .max = 86400},
+    {.name = "progress",
+     .kind = OPTION_CHOICE,
+     .placeholder = "tty|lines|ndjson|none",
+     .help = "A moving line on standard error, a line now and then, or a JSON object a frame on "
+             "standard output.",
+     .fallback = "tty on a terminal, else lines"},
+    {.name = "stats",
+     .value_may_go = true,
+     .kind = OPTION_CHOICE,
+     .placeholder = "text|json",
+     .help = "Print times of each pass, particles, memory, techniques and the hash of the final "
+             "state."},
+    {.name = "quiet",
+     .letter = 'q',
+     .kind = OPTION_FLAG,
+     .help = "Print nothing but errors and what --stats asks for."},
+    HELP_OPTION,
+};
+
+struct render {
+    struct plan plan;
+    struct kiln_render_params params;
+    char *techniques;             /* the texts, cut at the commas */
+    const char **technique_names; /* into it */
+    const char *device;
+    bool quiet, stats, json; /* json: standard output is lines of JSON */
+    enum progress_mode progress_mode;
+    double frame_timeout_s;
+
+    const struct job *job; /* the one that runs */
+    struct progress progress;
+    struct watchdog *watchdog;
+    uint32_t frames_done;
+};
+
+/* ---- While a job runs ----------------------------------------------------------------------- */
+
+/* Gives the next frame its time: `after` is the one before it, -1 at the start of a job. */
+static void allow_frame(struct render *render, int64_t after)
+{
+    if (!render->watchdog)
+        return;
+    const struct frame_list *frames = &render->job->frames;
+    uint32_t next = frames->ranges[0].first;
+    if (after >= 0 && !frame_list_next(frames, (uint32_t)after, &next)) {
+        watchdog_disarm(render->watchdog);
+        return;
+    }
+    double limit_s = render->frame_timeout_s * (double)((int64_t)next - after);
+    watchdog_arm(render->watchdog, limit_s, "%s: frame %u", render->job->path, next);
+}
+
+static void show_frame(void *user, const struct kiln_progress *frame)
+{
+    struct render *render = user;
+    if (render->watchdog)
+        watchdog_disarm(render->watchdog); /* a slow reader of our output is no slow frame */
+    render->frames_done = frame->done;
+    progress_show(&render->progress, render->job->path, frame);
+    allow_frame(render, frame->frame);
+}
+
+static bool wants_stop(void *user)
+{
+    const struct render *render = user;
+    bool nobody_reads = render->progress_mode == PROGRESS_NDJSON && ferror(stdout);
+    return signals_received() || nobody_reads;
+}
+
+/* ---- From options to parameters ------------------------------------------------------------- */
+
+/* Cuts the values of every --technique at their commas. */
+static bool split_techniques(struct render *render, const struct arguments *arguments)
+{
+    size_t size = 1, pieces = 1;
+    for (size_t i = 0; i < arguments->use_count; i++) {
+        const char *text = arguments->uses[i].option->commas ? arguments->uses[i].text : "";
+        size += strlen(text) + 1;
+        for (; *text; text++)
+            pieces += *text == ',';
+    }
+    render->techniques = calloc(size, 1);
+    render->technique_names = calloc(pieces + arguments->use_count, sizeof(char *));
+    if (!render->techniques || !render->technique_names)
+        return false;
+    char *end = render->techniques;
+    for (size_t i = 0; i < arguments->use_count; i++) {
+        if (!arguments->uses[i].option->commas)
+            continue;
+        size_t length = strlen(arguments->uses[i].text) + 1;
+        char *rest = memcpy(end, arguments->uses[i].text, length);
+        end += length;
+        for (char *piece = strsep(&rest, ","); piece; piece = strsep(&rest, ","))
+            render->technique_names[render->params.technique_count++] = piece;
+    }
+    render->params.techniques = render->technique_names;
+    return true;
+}
+
+static size_t choice_of(const struct arguments *arguments, const char *name, size_t fallback)
+{
+    const struct option_use *use = arguments_last(arguments, name);
+    return use ? use->choice : fallback;
+}
+
+static uint32_t integer_of(const struct arguments *arguments, const char *name, uint32_t fallback)
+{
+    const struct option_use *use = arguments_last(arguments, name);
+    return use ? (uint32_t)use->integer[0] : fallback;
+}
+
+static bool read_options(struct render *render, const struct arguments *arguments)
+{
+    struct kiln_render_params *params = &render->params;
+    *params = KILN_RENDER_DEFAULTS;
+    params->threads = integer_of(arguments, "threads", params->threads);
+    params->quality = integer_of(arguments, "quality", params->quality);
+    params->png_bits = choice_of(arguments, "png-bits", 0) == 0 ? 8 : 16;
+    params->exr_bits = choice_of(arguments, "exr-bits", 0) == 0 ? 16 : 32;
+    params->overwrite = arguments_last(arguments, "force") != NULL;
+
+    const struct option_use *device = arguments_last(arguments, "device");
+    const struct option_use *timeout = arguments_last(arguments, "frame-timeout");
+    render->device = device ? device->text : NULL;
+    render->frame_timeout_s = timeout ? timeout->number : 0;
+
+    bool terminal = isatty(STDERR_FILENO) == 1;
+    enum progress_mode mode = (enum progress_mode)choice_of(
+        arguments, "progress", terminal ? PROGRESS_TTY : PROGRESS_LINES);
+    render->quiet = arguments_last(arguments, "quiet") != NULL;
+    render->progress_mode = render->quiet ? PROGRESS_NONE : mode;
+    render->stats = arguments_last(arguments, "stats") != NULL;
+    render->json =
+        render->progress_mode == PROGRESS_NDJSON || choice_of(arguments, "stats", 0) == 1;
+    params->state_hash = render->stats || render->progress_mode == PROGRESS_NDJSON;
+    params->progress = show_frame;
+    params->stop = wants_stop;
+    params->user = render;
+    params->log = report_log();
+    return split_techniques(render, arguments);
+}
+
+/* ---- Running -------------------------------------------------------------------------------- */
+
+/* The first line of output: nobody shall take a picture of a software device for a GPU's. */
+static void print_device(const struct render *render, const struct kiln_device_info *info)
+{
+    if (render->json) {
+        printf("{\"event\": \"device\", \"index\": %u, \"name\": ", info->index);
+        kiln_write_json_string(stdout, info->name);
+        printf(", \"software\": %s}\n", info->software ? "true" : "false");
+    } else if (!render->quiet) {
+        printf("device: %s%s\n", info->name, info->software ? " (software)" : "");
+    }
+    fflush(stdout);
+}
+
+static void print_job(const struct render *render, const struct kiln_render_stats *stats)
+{
+    const struct job_result result = {.scene = render->job->path,
+                                      .output = render->job->output,
+                                      .info = &render->job->info,
+                                      .stats = stats};
+    if (render->json) {
+        print_result_json(&result, render->stats);
+    } else {
+        if (!render->quiet || render->stats)
+            print_result(&result);
+        if (render->stats)
+            print_stats_text(&result);
+    }
+    fflush(stdout);
+}
+
+/* Why a job ended early, and the exit code for it. */
+static int report_failure(const struct render *render, const struct kiln_error *error)
+{
+    int number = signals_received();
+    if (error->code != KILN_INTERRUPTED)
+        return report_error(error);
+    if (number == 0) /* nobody reads: main says why */
+        return KILN_IO;
+    report(KILN_INTERRUPTED, "%s: stopped by %s after %u frames", render->job->path,
+           number == SIGINT ? "SIGINT" : "SIGTERM", render->frames_done);
+    return 128 + number;
+}
+
+static int run_job(struct render *render, struct kiln_device *device, const struct job *job)
+{
+    render->job = job;
+    render->frames_done = 0;
+    render->params.output = job->output;
+    render->params.manifest = job->manifest;
+    render->params.ranges = job->frames.ranges;
+    render->params.range_count = job->frames.count;
+    progress_start(&render->progress, render->progress_mode);
+    allow_frame(render, -1);
+
+    struct kiln_error error = {0};
+    struct kiln_render_stats stats = {0};
+    bool ok = kiln_render(device, job->scene, &render->params, &stats, &error);
+    if (render->watchdog)
+        watchdog_disarm(render->watchdog);
+    progress_clear(&render->progress);
+    if (!ok)
+        return report_failure(render, &error);
+    print_job(render, &stats);
+    return 0;
+}
+
+static int run_jobs(struct render *render)
+{
+    struct kiln_error error = {0};
+    struct kiln_device_params params = KILN_DEVICE_DEFAULTS;
+    params.wanted = render->device;
+    params.log = report_log();
+    if (render->watchdog)
+        watchdog_arm(render->watchdog, render->frame_timeout_s, "opening the device");
+    struct kiln_device *device = kiln_device_open(&params, &error);
+    if (render->watchdog)
+        watchdog_disarm(render->watchdog);
+    if (!device)
+        return report_error(&error);
+    print_device(render, kiln_device_info(device));
+    int code = 0;
+    for (size_t i = 0; i < render->plan.count && code == 0; i++)
+        code = run_job(render, device, &render->plan.jobs[i]);
+    kiln_device_close(&device);
+    return code;
+}
+
+static int run(const struct arguments *arguments)
+{
+    struct render render = {0};
+    int code = read_options(&render, arguments) ? 0 : report_no_memory();
+    if (code == 0)
+        code = plan_create(&render.plan, arguments);
+    if (code == 0 && render.frame_timeout_s > 0) {
+        render.watchdog = watchdog_create();
+        if (!render.watchdog)
+            code = report(KILN_DEVICE_FAILED, "cannot start a thread for --frame-timeout");
+    }
+    if (code == 0) {
+        signals_install();
+        code = run_jobs(&render);
+    }
+    watchdog_destroy(&render.watchdog);
+    plan_free(&render.plan);
+    free(render.technique_names);
+    free(render.techniques);
+    return code;
+}
+
+const struct command render_command = {
+    .name = "render",
+    .summary = "render scenes into images or videos",
+    .operands = "SCENE...",
+    .description =
+        "Renders each scene into images or a video. Files appear under their names only when they "
+        "are whole. The first line of output names the device, and says so when it is a software "
+        "device. Several scenes share the device; the first that fails ends the call.\n\n"
+        "With --stats=json or --progress ndjson, standard output is JSON: an object a line, whose "
+        "\"event\" is device, frame or result.",
+    .options = options,
+    .option_count = sizeof options / sizeof *options,
+    .least_operands = 1,
+    .most_operands = SIZE_MAX,
+    .run = run,
+};

@@ -1,0 +1,23 @@
+/* What a finished job did: the result line, and --stats as text or JSON. */
+#ifndef KILN_CMD_STATS_H
+#define KILN_CMD_STATS_H
+
+#include "kiln.h"
+
+struct job_result {
+    const char *scene;
+    const char *output; /* as asked for; NULL: nothing was written */
+    const struct kiln_scene_info *info;
+    const struct kiln_render_stats *stats;
+};
+
+/* "fire.mp4: 150 frames in 12.3 s" */
+void print_result(const struct job_result *result);
+
+/* A table: passes, totals, particles, memory. */
+void print_stats_text(const struct job_result *result);
+
+/* The result as a line of JSON; with the statistics if asked for. */
+void print_result_json(const struct job_result *result, bool with_stats);
+
+#endif

@@ -1,0 +1,20 @@
+/* Ends the program when a frame takes too long. A hung driver cannot be interrupted in any other
+ * way: the thread that called it never comes back. */
+#ifndef KILN_CMD_WATCHDOG_H
+#define KILN_CMD_WATCHDOG_H
+
+#include "kiln.h"
+
+struct watchdog;
+
+/* NULL when the system refuses a thread. */
+struct watchdog *watchdog_create(void);
+void watchdog_destroy(struct watchdog **watchdog);
+
+/* Allows limit_s from now for `what` ("fire.yaml: frame 12"): then the program says that it took
+ * longer, removes half-written files and exits with KILN_DEVICE_FAILED. */
+void watchdog_arm(struct watchdog *watchdog, double limit_s, const char *what, ...)
+    __attribute__((format(printf, 3, 4)));
+void watchdog_disarm(struct watchdog *watchdog);
+
+#endif
