@@ -1,0 +1,58 @@
+A scene with every default is a scene, and the same one.
+
+$ kiln check scenes/tiny.yaml >whole.yaml
+$ kiln check whole.yaml --asset-root scenes | cmp - whole.yaml
+$ [ "$(kiln check --hash scenes/tiny.yaml)" = "$(kiln check --hash whole.yaml --asset-root scenes)" ]
+$ kiln check --hash scenes/tiny.yaml | grep -cE '^[0-9a-f]{64}$'
+1|1
+$ kiln check --hash scenes/tiny.yaml whole.yaml --asset-root scenes | sed -E 's/^[0-9a-f]{64}/<hash>/'
+1|<hash>  scenes/tiny.yaml
+1|<hash>  whole.yaml
+$ kiln check scenes/tiny.yaml scenes/empty.yaml | grep '^---'
+1|--- # scenes/tiny.yaml
+1|--- # scenes/empty.yaml
+$ kiln check --quiet scenes/tiny.yaml scenes/empty.yaml
+
+It renders to the same state and the same bytes.
+
+$ kiln render scenes/tiny.yaml -o a.png --frames 20 --stats | grep state >a
+$ kiln render whole.yaml --asset-root scenes -o b.png --frames 20 --stats | grep state >b
+$ cmp a b && cmp a.png b.png
+
+Values can be set; what was set is in the output.
+
+$ kiln check scenes/tiny.yaml --set seed=9 --set output.size='[32, 18]' | grep -E '^seed|size: \[32'
+1|seed: 9
+1|  size: [32, 18]
+$ [ "$(kiln check --hash scenes/tiny.yaml)" != "$(kiln check --hash scenes/tiny.yaml --set seed=9)" ]
+$ kiln check -q scenes/tiny.yaml --set sed=9
+2|--set sed: unknown key (did you mean 'seed'?)
+= 3
+$ kiln check -q scenes/tiny.yaml --set systems.fire.emit.raet=9
+2|--set systems.fire.emit.raet: unknown key (did you mean 'rate'?)
+= 3
+$ kiln check -q scenes/tiny.yaml --set systems.fire.emit.rate=fast
+2|--set systems.fire.emit.rate: expected a number from 0 1/s to 10000000 1/s, found 'fast'
+= 3
+$ kiln check -q scenes/tiny.yaml --set systems.fire.emit.rate=nan
+2|--set systems.fire.emit.rate: nan is no finite number
+= 3
+
+Files of a scene are below its folder, or below the asset root.
+
+$ kiln check -q whole.yaml
+2|whole.yaml:66:14: systems.smoke.look.atlas: cannot open 'puff.png': No such file or directory
+= 3
+$ kiln check -q whole.yaml --asset-root nowhere
+2|asset root 'nowhere': No such file or directory
+= 3
+
+A wrong scene does not hide the others, in any order.
+
+$ kiln check --hash nowhere.yaml scenes/tiny.yaml | sed -E 's/^[0-9a-f]{64}/<hash>/'; echo ${PIPESTATUS[0]}
+1|<hash>  scenes/tiny.yaml
+1|3
+2|nowhere.yaml: No such file or directory
+$ kiln check -q scenes/tiny.yaml nowhere.yaml
+2|nowhere.yaml: No such file or directory
+= 3

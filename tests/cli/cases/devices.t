@@ -1,0 +1,68 @@
+Devices differ from machine to machine; their reports do not differ in form.
+
+$ kiln devices | sed -E 's/^[0-9]+: .*/<number>: <name>/; s/^(    [A-Za-z]+ +).*/\1<...>/; s/^ {14}.*/              <...>/; /^advice/d; /problem/d' | sort -u
+1|              <...>
+1|    OpenGL    <...>
+1|    exact     <...>
+1|    kind      <...>
+1|    limits    <...>
+1|    platform  <...>
+1|    usable    <...>
+1|    vendor    <...>
+1|<number>: <name>
+$ kiln devices --json | jq -r '.devices[0] | to_entries[] | "\(.key) \(.value | type)"'
+1|index number
+1|name string
+1|vendor string
+1|gl_version string
+1|platform string
+1|software boolean
+1|usable boolean
+1|problem string
+1|exact boolean
+1|max_work_group_invocations number
+1|max_shared_memory_bytes number
+1|max_storage_block_bytes number
+1|max_texture_size number
+1|max_array_layers number
+$ kiln devices --json | jq -r 'keys[], (.advice | type)'
+1|advice
+1|devices
+1|string
+
+A device that does not exist, and no device at all.
+
+$ kiln render scenes/tiny.yaml -o x.png --device 'Voodoo2 3000'
+2|kiln: there is no device 'Voodoo2 3000'; there are: <devices>
+= 4
+$ kiln render scenes/tiny.yaml -o x.png --device 99
+2|kiln: there is no device '99'; there are: <devices>
+= 4
+$ export __EGL_VENDOR_LIBRARY_FILENAMES=/dev/null EGL_PLATFORM=none LIBGL_DRIVERS_PATH=/nowhere
+> kiln devices; echo "exit $?"
+> kiln devices --json; echo "exit $?"
+> kiln render scenes/tiny.yaml -o x.png; echo "exit $?"
+> kiln render scenes/tiny.yaml -o x.png --device software
+1|advice: EGL has no driver that works without a display; install the package libegl-mesa0, or the GPU vendor's EGL
+1|exit 4
+1|{
+1|  "devices": [],
+1|  "advice": "EGL has no driver that works without a display; install the package libegl-mesa0, or the GPU vendor's EGL"
+1|}
+1|exit 4
+1|exit 4
+2|kiln: no usable device
+2|kiln: no usable device
+2|kiln: no device: EGL has no driver that works without a display; install the package libegl-mesa0, or the GPU vendor's EGL
+2|kiln: no device: EGL has no driver that works without a display; install the package libegl-mesa0, or the GPU vendor's EGL
+= 4
+$ ls
+1|scenes
+
+A software device is named in the first line of output.
+
+$ kiln render scenes/tiny.yaml -o none --frames 0 >output
+> name=$(sed -n '1s/^device: //p' output)
+> kiln devices --json | jq -e --arg name "${name% (software)}" --arg line "$name" \
+>     '[.devices[] | select(.name == $name)][0].software == ($line | endswith(" (software)"))'
+1|true

@@ -1,0 +1,145 @@
+What a run says.
+
+$ kiln render scenes/tiny.yaml -o tiny.png --frames 3 --progress none
+1|device: <device>
+1|tiny.png: 1 frame in <s> s
+$ kiln render scenes/tiny.yaml -o all_%d.png --frames 0-3 --progress none
+1|device: <device>
+1|all_0.png and 3 more: 4 frames in <s> s
+$ ls
+1|all_0.png
+1|all_1.png
+1|all_2.png
+1|all_3.png
+1|scenes
+1|tiny.png
+$ kiln render scenes/tiny.yaml -o quiet.png --frames 3 --quiet && cmp tiny.png quiet.png
+$ kiln render scenes/tiny.yaml -o none --frames 3 --progress none
+1|device: <device>
+1|scenes/tiny.yaml: nothing written: 1 frame in <s> s
+$ kiln render scenes/tiny.yaml -o tiny.mp4 --frames 0-5 --progress none && ls tiny.mp4
+1|device: <device>
+1|tiny.mp4: 6 frames in <s> s
+1|tiny.mp4
+$ kiln render scenes/tiny.yaml -o tiny.exr --frames 3 --progress none && ls tiny.exr
+1|device: <device>
+1|tiny.exr: 1 frame in <s> s
+1|tiny.exr
+
+Options and operands in any order; the last use of an option counts, --set adds up.
+
+$ kiln render -o b.png scenes/tiny.yaml --frames=3 --quiet && cmp tiny.png b.png
+$ kiln render --frames 9 --frames 3 -q -oc.png -- scenes/tiny.yaml && cmp tiny.png c.png
+$ kiln render scenes/tiny.yaml -q --frames 3 -o d.png --seed 9 --set seed=7 && cmp tiny.png d.png
+$ kiln render scenes/tiny.yaml -q --frames 3 -o e.png --set seed=7 --seed 9 && cmp -s tiny.png e.png
+= 1
+$ kiln render scenes/tiny.yaml -q --frames 3 -o f.png --size 32x18 --fps 60 && od -An -j16 -N8 -tu4 --endian=big f.png
+1|         32         18
+$ kiln render scenes/tiny.yaml -q --frames 3 -o g.png --png-bits 16 && od -An -j24 -N1 -tu1 g.png
+1|  16
+$ kiln render scenes/tiny.yaml -q --frames 3 -o i.png --fps 30/1 --size 64x36 && cmp tiny.png i.png
+$ cd scenes && cp tiny.yaml ./--odd.yaml && kiln render -q --frames 3 -o ../h.png -- --odd.yaml && cmp ../tiny.png ../h.png
+
+Threads and techniques change nothing.
+
+$ for threads in 1 2 8; do
+>     kiln render scenes/tiny.yaml --frames 20 -o t$threads.png --threads $threads --stats | grep state
+> done | uniq | wc -l
+1|1
+$ cmp t1.png t2.png && cmp t1.png t8.png
+$ for technique in simulate=cpu simulate=inplace simulate=cpu,sort=cpu; do
+>     kiln render scenes/tiny.yaml --frames 20 -o none --technique $technique --stats | grep state
+> done | uniq | wc -l
+1|1
+$ kiln render scenes/tiny.yaml --frames 20 -o none --technique simulate=cup
+1|device: <device>
+2|kiln: technique: simulate 'cup' is not known (did you mean 'cpu'?); there is: cpu, inplace
+= 2
+$ kiln render scenes/tiny.yaml --frames 20 -o none --technique simulat=cpu
+1|device: <device>
+2|kiln: technique: stage 'simulat' is not known (did you mean 'simulate'?); there is: simulate, sort, raster
+= 2
+
+Statistics and progress for people and for programs.
+
+$ kiln render scenes/tiny.yaml -o none --frames 0-3 --stats --progress none --technique simulate=cpu,sort=cpu --technique raster=geometry
+1|device: <device>
+1|scenes/tiny.yaml: nothing written: 4 frames in <s> s
+1|  pass                   ms   ms a frame   of total
+1|  simulate <ms>
+1|  sort <ms>
+1|  backdrop <ms>
+1|  particles <ms>
+1|  bloom <ms>
+1|  composite <ms>
+1|  readback <ms>
+1|  output <ms>
+1|  set-up <ms>
+1|  total <ms>
+1|  steps        18
+1|  particles    36 alive, 82 slots, 2952 bytes (36.0 a slot)
+1|  memory <MiB> at the peak
+1|  techniques   simulate=cpu sort=cpu raster=geometry
+1|  scene        <hash>
+1|  state        83c0efe7248147d7
+$ kiln render scenes/tiny.yaml -o none --frames 0-1 --stats=json --progress none | jq -r 'keys_unsorted | join(" ")'
+1|event index name software
+1|event scene output first_file frames total_s setup_s steps pass_ms alive particle_capacity particle_bytes peak_memory_bytes techniques scene_hash state
+$ kiln render scenes/tiny.yaml -o x_%d.png --frames 0,2 --progress ndjson | jq -c '[.event, .frame, .done, .total]'
+1|["device",null,null,null]
+1|["frame",0,1,2]
+1|["frame",2,2,2]
+1|["result",null,null,null]
+$ kiln render scenes/tiny.yaml -o none --frames 0-1 --progress tty 2>&1 >/dev/null | cat -v | sed -E 's/, [^\^]*/, .../g'
+1|^Mscenes/tiny.yaml: 1 of 2 frames, ...^[[K^Mscenes/tiny.yaml: 2 of 2 frames, ...^[[K^M^[[K
+$ kiln render scenes/tiny.yaml -o none --progress ndjson | jq -r 'select(.frame == 23).state' >last_state
+> kiln render scenes/tiny.yaml -o none --stats | sed -n 's/^  state *//p' | cmp - last_state
+
+Several scenes share a device.
+
+$ kiln render scenes/tiny.yaml scenes/empty.yaml -o x.mp4
+2|kiln: render: --output: 'scenes/tiny.yaml' and 'scenes/empty.yaml' would both write 'x.mp4'; name a folder, or put {scene} into the name
+= 2
+$ kiln render scenes/tiny.yaml scenes/tiny.yaml -o scenes
+2|kiln: render: --output: 'scenes/tiny.yaml' and 'scenes/tiny.yaml' would both write 'scenes/tiny.mp4'; name a folder, or put {scene} into the name
+= 2
+$ kiln render scenes/tiny.yaml scenes/empty.yaml -o '{scene}_s.png' --manifest x.json --frames 1
+2|kiln: render: --manifest: 'scenes/tiny.yaml' and 'scenes/empty.yaml' would both write 'x.json'; name a folder, or put {scene} into the name
+= 2
+$ kiln render scenes/tiny.yaml scenes/empty.yaml -o '{scene}_s.png' --frames 1 --progress none
+1|device: <device>
+1|tiny_s.png: 1 frame in <s> s
+1|empty_s.png: 1 frame in <s> s
+$ mkdir folder && kiln render scenes/tiny.yaml scenes/empty.yaml -o folder --manifest folder --frames 0-1 --progress none && ls folder
+1|device: <device>
+1|folder/tiny.mp4: 2 frames in <s> s
+1|folder/empty.mp4: 2 frames in <s> s
+1|empty.json
+1|empty.mp4
+1|tiny.json
+1|tiny.mp4
+$ kiln render scenes/tiny.yaml scenes/empty.yaml -o new/ --frames 1 --progress none && ls new
+1|device: <device>
+1|new/tiny.mp4: 1 frame in <s> s
+1|new/empty.mp4: 1 frame in <s> s
+1|empty.mp4
+1|tiny.mp4
+$ for scene in tiny empty; do jq -r .frames[].frame folder/$scene.json; done
+1|0
+1|1
+1|0
+1|1
+
+Paths are those of the working directory, wherever that is.
+
+$ mkdir -p a/b && cd a/b && kiln render ../../scenes/tiny.yaml -q --frames 3 -o ../here.png && cmp ../here.png ../../tiny.png
+
+Nothing to see, and one frame.
+
+$ kiln render scenes/empty.yaml -o empty_%d.png --stats --progress none | grep -E 'empty|particles'
+1|empty_0.png and 1 more: 2 frames in <s> s
+1|  particles <ms>
+1|  particles    0 alive, 1 slots, 36 bytes (36.0 a slot)
+$ kiln render scenes/tiny.yaml -o one.png --set output.frames=1 --progress none
+1|device: <device>
+1|one.png: 1 frame in <s> s

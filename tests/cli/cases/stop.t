@@ -1,0 +1,58 @@
+A signal leaves only whole files behind. The scene is long enough to be stopped half-way.
+
+$ cat >stop <<'END'
+> # stop SIGNAL OUTPUT: starts a render, waits for its third frame, sends the signal.
+> mkfifo frames
+> kiln render scenes/tiny.yaml --set output.frames=100000 -o "$2" --progress ndjson >frames &
+> job=$!
+> exec 3<frames
+> for line in 1 2 3 4; do read -r -u 3; done
+> cat <&3 >/dev/null &
+> kill -"$1" $job
+> wait $job
+> code=$?
+> rm frames
+> exit $code
+> END
+> chmod +x stop
+$ mkdir term && bash stop TERM term/frame_%d.png
+2|kiln: scenes/tiny.yaml: stopped by SIGTERM after <n> frames
+= 143
+$ [ "$(ls term | wc -l)" -ge 3 ] || ls term
+$ ls -A term | grep -v '^frame_[0-9]*\.png$'
+= 1
+$ for file in term/*; do tail -c 8 $file | od -An -tx1; done | sort -u
+1| 49 45 4e 44 ae 42 60 82
+$ mkdir int && bash stop INT int/clip.mp4; code=$?; find int -type f; exit $code
+2|kiln: scenes/tiny.yaml: stopped by SIGINT after <n> frames
+= 130
+
+A second signal ends a program that cannot answer the first: here nobody reads its progress, so that
+it waits for ever. Then files in the making are removed, too.
+
+$ mkdir twice && mkfifo frames
+> kiln render scenes/tiny.yaml --set output.frames=100000 -o twice/%d.png --progress ndjson >frames &
+> job=$!
+> exec 3<frames
+> count=0
+> until [ $count -gt 0 ] && [ $count = "$(ls twice | wc -l)" ]; do
+>     count=$(ls twice | wc -l)
+>     sleep 1
+> done
+> kill -TERM $job; sleep 0.5; kill -TERM $job
+> wait $job
+= 143
+$ ls -A twice | grep -v '^[0-9]*\.png$'
+= 1
+
+A frame over its limit, and a device that does not open in time. Nothing half-written is left.
+
+$ kiln render scenes/tiny.yaml -q -o late.mp4 --frame-timeout 3 --set systems.smoke.emit.rate=1000000 --set 'simulation.warmup=600 s'
+2|kiln: scenes/tiny.yaml: frame 0 took longer than its limit of 3 s
+= 5
+$ kiln render scenes/tiny.yaml -q -o late.mp4 --frame-timeout 0.001
+2|kiln: opening the device took longer than its limit of 0.001 s
+= 5
+$ find . -name '*late*'
+$ kiln render scenes/tiny.yaml -q -o intime.png --frames 0 --frame-timeout 100 && ls intime.png
+1|intime.png

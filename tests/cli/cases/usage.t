@@ -1,0 +1,222 @@
+The program without a command, its version, its help.
+
+$ kiln
+2|kiln 0.1.0: renders particle effects without a display
+2|
+2|usage: kiln COMMAND [OPTION...] [OPERAND...]
+2|       kiln --version | --help
+2|
+2|commands:
+2|  render       render scenes into images or videos
+2|  check        validate scenes and print them with every default
+2|  devices      list what can render on this machine, and what is missing
+2|  help         explain a command or a topic
+2|
+2|topics of 'kiln help TOPIC', beside the commands:
+2|  scene        every key of a scene file
+2|  schema       the JSON schema of scene files, for editors
+2|  techniques   the techniques of each stage
+2|  outputs      what can be written, by suffix
+2|  exit-codes   what each exit code means
+2|  man          the manual page, for `man -l`
+2|
+2|A first picture:
+2|  kiln render scenes/fire_beam.yaml -o fire.png --frames 60
+= 2
+$ kiln --version
+1|kiln 0.1.0
+$ kiln --help
+1|kiln 0.1.0: renders particle effects without a display
+1|
+1|usage: kiln COMMAND [OPTION...] [OPERAND...]
+1|       kiln --version | --help
+1|
+1|commands:
+1|  render       render scenes into images or videos
+1|  check        validate scenes and print them with every default
+1|  devices      list what can render on this machine, and what is missing
+1|  help         explain a command or a topic
+1|
+1|topics of 'kiln help TOPIC', beside the commands:
+1|  scene        every key of a scene file
+1|  schema       the JSON schema of scene files, for editors
+1|  techniques   the techniques of each stage
+1|  outputs      what can be written, by suffix
+1|  exit-codes   what each exit code means
+1|  man          the manual page, for `man -l`
+1|
+1|A first picture:
+1|  kiln render scenes/fire_beam.yaml -o fire.png --frames 60
+$ kiln -h | cmp - <(kiln help)
+$ kiln help | cmp - <(kiln --help)
+
+Unknown commands, options and topics name the nearest.
+
+$ kiln rendr
+2|kiln: unknown command 'rendr' (did you mean 'render'?); 'kiln help' lists the commands
+= 2
+$ kiln frobnicate
+2|kiln: unknown command 'frobnicate'; 'kiln help' lists the commands
+= 2
+$ kiln --versoin
+2|kiln: unknown option '--versoin' (did you mean '--version'?); 'kiln help' lists the commands
+= 2
+$ kiln help tecniques
+2|kiln: help: unknown topic 'tecniques' (did you mean 'techniques'?); 'kiln help' lists the topics
+= 2
+$ kiln help frobnicate
+2|kiln: help: unknown topic 'frobnicate'; 'kiln help' lists the topics
+= 2
+$ kiln help render check
+2|kiln: help: one operand too many, 'check'
+= 2
+$ kiln help --nope
+2|kiln: help: unknown option '--nope'
+= 2
+$ kiln devices gpu
+2|kiln: devices: one operand too many, 'gpu'
+= 2
+$ kiln check
+2|kiln: check: needs SCENE...
+= 2
+$ kiln render
+2|kiln: render: needs SCENE...
+= 2
+
+Help of a command is the same by both ways.
+
+$ kiln help render
+1|usage: kiln render [OPTION...] SCENE...
+1|
+1|Renders each scene into images or a video. Files appear under their names only
+1|when they are whole. The first line of output names the device, and says so when
+1|it is a software device. Several scenes share the device; the first that fails
+1|ends the call.
+1|
+1|With --stats=json or --progress ndjson, standard output is JSON: an object a
+1|line, whose "event" is device, frame or result.
+1|
+1|  -o, --output FILE           Where to write; the suffix chooses the format (see
+1|                              'kiln help outputs'). '%04d' or '####' stands for
+1|                              the frame's number, '{scene}' for the scene file's
+1|                              name without its suffix. A folder gets a video
+1|                              named after the scene. 'none' renders without
+1|                              writing.
+1|      --frames RANGES         Frames to draw, such as 0-149,200. They come out
+1|                              as they do in the full run. Default: all.
+1|      --size WxH              Size of the picture in pixels: --set
+1|                              output.size=[W, H].
+1|      --fps RATE              Frames a second, such as 30 or 30000/1001: --set
+1|                              output.fps=RATE.
+1|      --seed N                Seed of everything random: --set seed=N.
+1|      --set KEY=VALUE         Change a value of the scene, such as
+1|                              systems.fire.emit.rate=500. In a key, '*' stands
+1|                              for every entry of a map or list.
+1|      --asset-root FOLDER     The folder that the scene's files must lie in.
+1|                              Default: the folder of the scene.
+1|      --device DEVICE         A number from 'kiln devices', a part of a device's
+1|                              name, or 'software'. Default: the first GPU, or
+1|                              else the software device.
+1|      --technique STAGE=NAME  How to run a stage; more of them after commas (see
+1|                              'kiln help techniques'). Default: what suits the
+1|                              device.
+1|      --threads N             Threads that work beside the device; 0 takes one a
+1|                              core. Default: 0.
+1|      --png-bits 8|16         Bits a channel of PNG files. Default: 8.
+1|      --exr-bits 16|32        Bits a channel of EXR files: half or float.
+1|                              Default: 16.
+1|      --quality N             Quality of videos, from 0 (smallest) to 100 (no
+1|                              loss that an eye can see). Default: 80.
+1|      --manifest FILE         Also write a JSON file that describes the run:
+1|                              scene, device, techniques, state of each frame,
+1|                              times. A folder or '{scene}' as for --output.
+1|      --force                 Replace files that exist.
+1|      --frame-timeout S       Give up with exit code 5 when a frame takes longer
+1|                              than S seconds. Frames that are stepped over
+1|                              lengthen the limit of the next drawn one; set-up
+1|                              and warm-up belong to the first. Default: none.
+1|      --progress tty|lines|ndjson|none
+1|                              A moving line on standard error, a line now and
+1|                              then, or a JSON object a frame on standard output.
+1|                              Default: tty on a terminal, else lines.
+1|      --stats[=text|json]     Print times of each pass, particles, memory,
+1|                              techniques and the hash of the final state.
+1|  -q, --quiet                 Print nothing but errors and what --stats asks
+1|                              for.
+1|  -h, --help                  Print this help.
+1|
+1|Options and operands may come in any order; '--' ends the options. Of an
+1|option that is given twice the last one counts, but these add up: --set --technique.
+$ kiln render --help | cmp - <(kiln help render)
+$ kiln render scenes/tiny.yaml -h | cmp - <(kiln help render)
+$ kiln help check
+1|usage: kiln check [OPTION...] SCENE...
+1|
+1|Reads each scene and prints it with every default spelled out. What it prints is
+1|a scene file that renders to the same pictures. A wrong scene is reported and
+1|the others are checked all the same.
+1|
+1|      --set KEY=VALUE         Change a value of the scene, such as
+1|                              systems.fire.emit.rate=500. In a key, '*' stands
+1|                              for every entry of a map or list.
+1|      --asset-root FOLDER     The folder that the scene's files must lie in.
+1|                              Default: the folder of the scene.
+1|      --hash                  Print only the scene's hash.
+1|  -q, --quiet                 Print nothing but errors.
+1|  -h, --help                  Print this help.
+1|
+1|Options and operands may come in any order; '--' ends the options. Of an
+1|option that is given twice the last one counts, but these add up: --set.
+$ kiln help devices
+1|usage: kiln devices [OPTION...]
+1|
+1|Lists every device that OpenGL offers without a display, with its limits. A
+1|device is usable with OpenGL 4.3 or later; it is exact when it passed the probe
+1|of the arithmetic that the simulation needs, and otherwise particles move on the
+1|CPU. A software device is a rasteriser on the CPU. Advice names what is missing
+1|and the package that brings it.
+1|
+1|      --json                  Print JSON instead of text.
+1|  -h, --help                  Print this help.
+$ kiln help help
+1|usage: kiln help [OPTION...] [TOPIC]
+1|
+1|Explains a command or a topic; without one, lists both.
+1|
+1|  -h, --help                  Print this help.
+$ kiln help exit-codes
+1|    0  all went well
+1|    1  a frame failed
+1|    2  the command line makes no sense
+1|    3  a scene or another input file is wrong
+1|    4  no usable device
+1|    5  the device was lost, memory ran out, or a frame took longer than its limit
+1|    6  reading or writing failed
+1|  130  stopped by SIGINT; only whole files are left
+1|  143  stopped by SIGTERM; only whole files are left
+
+The other topics.
+
+$ kiln help techniques
+1|  simulate=cpu       host threads; the default unless the device is an exact GPU
+1|  simulate=inplace   compute, one buffer updated in place; the default on exact GPUs
+1|  sort=cpu           stable radix sort, host threads
+1|  raster=geometry    points turned into billboards by a geometry shader
+$ kiln help outputs
+1|Output formats, by the suffix of the output:
+1|
+1|  .png   PNG images: 8 or 16 bits a channel, sRGB; with alpha when the backdrop is transparent
+1|  .exr   OpenEXR images: half or float, linear, premultiplied, with the layers that the frame is made of
+1|  .mp4   H.264 video: 8 bits, sRGB over BT.709, quality 0 (small) to 100 (visually lossless), even sizes
+1|
+1|Images are numbered: frame_####.png and frame_%04d.png both give frame_0000.png;
+1|without a number in the name of several frames, _0000 is added before the suffix.
+1|Missing folders are made. A file appears under its name only when it is whole.
+$ kiln help scene | head -n 4
+1|A scene is a YAML file. Every key below may also be given with --set KEY=VALUE; '*' in a KEY
+1|stands for every entry of a mapping or list, and entries of a list are counted from 0.
+1|
+1|Numbers may carry a unit (2 s, 45 deg); without one they are in the SI unit, except that an
+$ kiln help schema | jq -r '.title, .type'
+1|kiln scene
+1|object
