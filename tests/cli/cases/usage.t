@@ -205,9 +205,9 @@ $ kiln help techniques
 $ kiln help outputs
 1|Output formats, by the suffix of the output:
 1|
-1|  .png   PNG images: 8 or 16 bits a channel, sRGB; with alpha when the backdrop is transparent
-1|  .exr   OpenEXR images: half or float, linear, premultiplied, with the layers that the frame is made of
-1|  .mp4   H.264 video: 8 bits, sRGB over BT.709, quality 0 (small) to 100 (visually lossless), even sizes
+1|  .png   PNG images: 8 or 16 bits, sRGB; alpha with a transparent backdrop
+1|  .exr   OpenEXR images: half or float, linear, premultiplied; named layers
+1|  .mp4   H.264 video: even sizes, no alpha; quality 0 to 100 (visually lossless)
 1|
 1|Images are numbered: frame_####.png and frame_%04d.png both give frame_0000.png;
 1|without a number in the name of several frames, _0000 is added before the suffix.
