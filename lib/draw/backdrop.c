@@ -6,12 +6,8 @@
 #include "gpu/framebuffer.h"
 #include "gpu/program.h"
 
-#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
-
-static_assert(KILN_DRAW_MAX_BOXES == KILN_MAX_BOXES && KILN_DRAW_MAX_LIGHTS == KILN_MAX_LIGHTS,
-              "the block holds every box and light");
 
 /* What the picture depends on. */
 struct backdrop_inputs {

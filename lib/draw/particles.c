@@ -9,10 +9,7 @@
 #include "shared/look_layout.h"
 #include "shared/random.h"
 
-#include <assert.h>
 #include <stdlib.h>
-
-static_assert(KILN_DRAW_KEYS == KILN_MAX_VALUE_KEYS, "the key block holds every key");
 
 struct kiln_particles_stage {
     struct kiln_device *device;

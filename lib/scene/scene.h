@@ -15,7 +15,6 @@
 
 enum {
     /* shared/layout.h has KILN_MAX_FORCES, _DEMITTERS and _BURSTS of a system, _BOXES of a scene */
-    KILN_MAX_LIGHTS = 16,         /* a scene */
     KILN_MAX_CELLS = 2048,        /* an atlas: the layers that every GL 4.3 has */
     KILN_MAX_PARTICLES = 1 << 24, /* slots of all systems: what a draw entry can address */
 };

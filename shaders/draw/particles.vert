@@ -1,7 +1,7 @@
 /* One particle: all that its billboard needs, from the record, the look and the clock. */
 #include "shared/draw_layout.h"
 
-layout(std140, binding = KILN_BIND_KEYS) uniform key_block { float4 value_keys[KILN_DRAW_KEYS]; };
+layout(std140, binding = KILN_BIND_KEYS) uniform key_block { float4 value_keys[KILN_MAX_VALUE_KEYS]; };
 #include "shared/derived.h"
 #include "shared/look_layout.h"
 

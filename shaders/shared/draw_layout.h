@@ -4,12 +4,8 @@
 #ifndef KILN_SHARED_DRAW_LAYOUT_H
 #define KILN_SHARED_DRAW_LAYOUT_H
 
+#include "shared/limits.h"
 #include "shared/platform.h"
-
-#define KILN_DRAW_MAX_LIGHTS 16
-
-#define KILN_DRAW_MAX_BOXES 32
-#define KILN_DRAW_KEYS      1024 /* KILN_MAX_VALUE_KEYS, for blocks declared before value.h */
 
 /* Binding points of uniform blocks (VIEW to BACKDROP) and storage blocks (RECORDS, ENTRIES). */
 #define KILN_BIND_VIEW     0
@@ -48,10 +44,10 @@ struct kiln_draw_backdrop {
     float4 sun_direction; /* unit, towards the sun */
     float4 sun_color;     /* irradiance */
     uint4 counts;         /* boxes, lights, 1 for a transparent background, unused */
-    float4 box_center[KILN_DRAW_MAX_BOXES];
-    float4 box_half[KILN_DRAW_MAX_BOXES];
-    float4 box_color[KILN_DRAW_MAX_BOXES];
-    S(kiln_draw_light) lights[KILN_DRAW_MAX_LIGHTS];
+    float4 box_center[KILN_MAX_BOXES];
+    float4 box_half[KILN_MAX_BOXES];
+    float4 box_color[KILN_MAX_BOXES];
+    S(kiln_draw_light) lights[KILN_MAX_LIGHTS];
 };
 
 #endif

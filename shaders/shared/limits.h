@@ -9,6 +9,7 @@
 #define KILN_MAX_DEMITTERS 8  /* a system */
 #define KILN_MAX_BURSTS    64 /* a system */
 #define KILN_MAX_BOXES     32 /* a scene */
+#define KILN_MAX_LIGHTS    16 /* a scene */
 
 /* The groups of births of a step: one of the rate and one of each burst. */
 #define KILN_MAX_BIRTH_GROUPS 65

@@ -1,0 +1,189 @@
+/* lib/stages.c: how the stages of a frame play together, and its named layers. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "stages.h"
+#include "support/device.h"
+
+enum { WIDTH = 96, HEIGHT = 64, PIXELS = WIDTH * HEIGHT, BEAUTY = 0, DEPTH, FIRE, SMOKE, BLOOM };
+
+static const char SCENE[] =
+    "kiln: 1\n"
+    "output: {size: [96, 64], fps: 60, frames: 60}\n"
+    "camera: {position: [0, 1, 4], target: [0, 1, 0]}\n"
+    "systems:\n"
+    "  smoke:\n"
+    "    emit: {rate: 60, life: 2 s, speed: 1 m/s, from: {sphere: {origin: [0, 1, 0.4]}}}\n"
+    "    look: {atlas: 'builtin:smoke', size: 0.8 m, opacity: 0.8, color: 0.02, lit: 1}\n"
+    "  fire:\n"
+    "    emit: {rate: 60, life: 1 s, speed: 1 m/s, from: {sphere: {origin: [0, 1, 0]}}}\n"
+    "    look: {atlas: 'builtin:fire', blend: add, size: 0.7 m, temperature: 1800,\n"
+    "           bloom: [1, 0.5, 0.25]}\n";
+
+/* A drawn frame with all layers. */
+struct frame {
+    struct kiln_scene *scene;
+    struct kiln_threads *threads;
+    struct kiln_run run;
+    struct kiln_stages stages;
+    struct kiln_picture *picture;
+    uint32_t drawn;
+};
+
+static void step_and_draw(struct frame *f, uint32_t steps)
+{
+    struct kiln_error error = {0};
+    const char *names[KILN_MAX_LAYERS];
+    uint32_t channels[KILN_MAX_LAYERS];
+    uint32_t count = kiln_stages_layers(names, channels);
+    for (uint32_t step = f->run.step + 1; step <= steps; step++)
+        assert_true(kiln_simulate_step(f->stages.simulate, &f->run.pool, step, &error));
+    f->run.step = steps;
+    if (!kiln_stages_draw(&f->stages, &f->run.pool, steps, 3, &f->drawn, &error))
+        fail_msg("%s", error.message);
+    kiln_picture_destroy(&f->picture);
+    f->picture = kiln_picture_create(WIDTH, HEIGHT, 8, names, channels, count, &error);
+    assert_non_null(f->picture);
+    assert_true(kiln_stages_read(&f->stages, f->picture, &error));
+}
+
+static void frame_init(struct frame *f, struct kiln_device *device, const char *override)
+{
+    struct kiln_error error = {0};
+    *f = (struct frame){0};
+    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    params.overrides = &override;
+    params.override_count = override ? 1 : 0;
+    f->scene = kiln_scene_parse(SCENE, sizeof SCENE - 1, "test", &params, &error);
+    if (!f->scene)
+        fail_msg("%s", error.message);
+    f->threads = kiln_threads_create(2);
+    uint32_t capacities[KILN_MAX_SYSTEMS];
+    for (uint32_t i = 0; i < f->scene->system_count; i++)
+        capacities[i] = f->scene->systems[i].capacity;
+    kiln_pool_init(&f->run.pool, device, capacities, f->scene->system_count);
+    struct kiln_techniques techniques = {0};
+    struct kiln_output_needs needs = {.bits = 8, .layers = true};
+    if (!kiln_stages_init(&f->stages, device, f->scene, &techniques, needs, f->threads,
+                          &f->run.pool, &error))
+        fail_msg("%s", error.message);
+}
+
+static void frame_finish(struct frame *f)
+{
+    kiln_picture_destroy(&f->picture);
+    kiln_stages_finish(&f->stages);
+    kiln_pool_finish(&f->run.pool);
+    kiln_threads_destroy(&f->threads);
+    kiln_scene_destroy(&f->scene);
+}
+
+static const float *layer(const struct frame *f, int index)
+{
+    return f->picture->layers[index].pixels;
+}
+
+static double sum(const float *pixels, int channel, int channels)
+{
+    double total = 0;
+    for (int i = 0; i < PIXELS; i++)
+        total += (double)pixels[i * channels + channel];
+    return total;
+}
+
+static void layers_hold_what_they_say(void **state)
+{
+    struct frame f;
+    frame_init(&f, *state, NULL);
+    step_and_draw(&f, 50);
+    assert_true(f.drawn > 60 && f.drawn <= 100);
+    assert_true(sum(layer(&f, FIRE), 0, 4) > 10.0);
+    assert_true(sum(layer(&f, FIRE), 3, 4) == 0.0); /* fire covers nothing */
+    assert_true(sum(layer(&f, SMOKE), 3, 4) > 100.0);
+    assert_true(sum(layer(&f, SMOKE), 0, 4) < 0.2 * sum(layer(&f, SMOKE), 3, 4)); /* dark */
+    for (int i = 0; i < PIXELS; i++) {
+        assert_true(layer(&f, BEAUTY)[4 * i + 3] == 1.0f);
+        assert_true(layer(&f, DEPTH)[i] > 2.3f);
+        assert_true(layer(&f, BLOOM)[4 * i] >= 0.0f);
+    }
+    frame_finish(&f);
+}
+
+/* Smoke in front of fire: merged it covers fire and its glow, separate fire shines through
+ * (Heinz 2019, figure 4.3). */
+static void fire_shines_through_only_when_separate(void **state)
+{
+    struct frame merged, separate;
+    frame_init(&merged, *state, NULL);
+    step_and_draw(&merged, 50);
+    frame_init(&separate, *state, "post.compose=separate");
+    step_and_draw(&separate, 50);
+    assert_int_equal(merged.drawn, separate.drawn);
+    double covered = sum(layer(&merged, BEAUTY), 0, 4);
+    double through = sum(layer(&separate, BEAUTY), 0, 4);
+    assert_true(through > 1.2 * covered);
+    assert_true(sum(layer(&separate, BLOOM), 0, 4) > 1.2 * sum(layer(&merged, BLOOM), 0, 4));
+    assert_true(sum(layer(&separate, FIRE), 3, 4) > 0.0);
+    frame_finish(&merged);
+    frame_finish(&separate);
+}
+
+/* What the bloom adds to the picture is the bloom layer, spread. */
+static void bloom_adds_light(void **state)
+{
+    struct frame with, without;
+    frame_init(&with, *state, NULL);
+    step_and_draw(&with, 50);
+    frame_init(&without, *state, "post.bloom.kind=none");
+    step_and_draw(&without, 50);
+    double gain = sum(layer(&with, BEAUTY), 0, 4) - sum(layer(&without, BEAUTY), 0, 4);
+    double glow = sum(layer(&with, BLOOM), 0, 4);
+    /* All of the bloom layer, but for what leaves the picture at its edges. */
+    assert_true(gain > 0.9 * glow && gain < 1.05 * glow);
+    frame_finish(&with);
+    frame_finish(&without);
+}
+
+/* Drawing changes nothing: a frame is the same whether earlier ones were drawn or not. */
+static void frames_do_not_depend_on_earlier_ones(void **state)
+{
+    struct frame all, last;
+    frame_init(&all, *state, NULL);
+    for (uint32_t step = 10; step <= 50; step += 10)
+        step_and_draw(&all, step);
+    frame_init(&last, *state, NULL);
+    step_and_draw(&last, 50);
+    assert_memory_equal(all.picture->display, last.picture->display, PIXELS * 4);
+    assert_memory_equal(layer(&all, BEAUTY), layer(&last, BEAUTY), PIXELS * 4 * sizeof(float));
+    frame_finish(&all);
+    frame_finish(&last);
+}
+
+static void no_particles_are_no_error(void **state)
+{
+    struct frame f;
+    frame_init(&f, *state, "systems.*.emit.rate=0");
+    step_and_draw(&f, 5);
+    assert_int_equal(f.drawn, 0);
+    assert_true(sum(layer(&f, FIRE), 0, 4) == 0.0 && sum(layer(&f, SMOKE), 3, 4) == 0.0);
+    frame_finish(&f);
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        test_on_device(layers_hold_what_they_say),
+        test_on_device(fire_shines_through_only_when_separate),
+        test_on_device(bloom_adds_light),
+        test_on_device(frames_do_not_depend_on_earlier_ones),
+        test_on_device(no_particles_are_no_error),
+    };
+    return cmocka_run_group_tests_name("stages", tests, test_device_open, test_device_close);
+}
