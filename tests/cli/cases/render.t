@@ -14,7 +14,7 @@ $ ls
 1|scenes
 1|tiny.png
 $ kiln render scenes/tiny.yaml -o quiet.png --frames 3 --quiet && cmp tiny.png quiet.png
-$ kiln render scenes/tiny.yaml -o none --frames 3 --progress none
+$ kiln render scenes/tiny.yaml -o none --frames 3 --progress lines
 1|device: <device>
 1|scenes/tiny.yaml: nothing written: 1 frame in <s> s
 $ kiln render scenes/tiny.yaml -o tiny.mp4 --frames 0-5 --progress none && ls tiny.mp4
@@ -40,6 +40,21 @@ $ kiln render scenes/tiny.yaml -q --frames 3 -o g.png --png-bits 16 && od -An -j
 $ kiln render scenes/tiny.yaml -q --frames 3 -o i.png --fps 30/1 --size 64x36 && cmp tiny.png i.png
 $ cd scenes && cp tiny.yaml ./--odd.yaml && kiln render -q --frames 3 -o ../h.png -- --odd.yaml && cmp ../tiny.png ../h.png
 
+Options of the formats.
+
+$ kiln render scenes/tiny.yaml -q --frames 3 -o float.exr --exr-bits 32 && [ $(stat -c %s float.exr) -gt $(stat -c %s tiny.exr) ]
+$ kiln render scenes/tiny.yaml -q -o poor.mp4 --quality 0 && kiln render scenes/tiny.yaml -q -o rich.mp4 --quality 100
+> [ $(stat -c %s poor.mp4) -lt $(stat -c %s rich.mp4) ]
+
+A device by its number and by a part of its name is the same device.
+
+$ number=$(kiln devices --json | jq '[.devices[] | select(.usable)][0].index')
+> name=$(kiln devices --json | jq -r '[.devices[] | select(.usable)][0].name')
+> kiln render scenes/tiny.yaml -o none --frames 0 --device $number --progress none >number
+> kiln render scenes/tiny.yaml -o none --frames 0 --device "${name:1:6}" --progress none >name
+> head -qn 1 number name | uniq | wc -l
+1|1
+
 Threads and techniques change nothing.
 
 $ for threads in 1 2 8; do
@@ -62,7 +77,7 @@ $ kiln render scenes/tiny.yaml --frames 20 -o none --technique simulat=cpu
 
 Statistics and progress for people and for programs.
 
-$ kiln render scenes/tiny.yaml -o none --frames 0-3 --stats --progress none --technique simulate=cpu,sort=cpu --technique raster=geometry
+$ kiln render scenes/tiny.yaml -o none --frames 0-3 --stats=text --progress none --technique simulate=cpu,sort=cpu --technique raster=geometry
 1|device: <device>
 1|scenes/tiny.yaml: nothing written: 4 frames in <s> s
 1|  pass                   ms   ms a frame   of total
