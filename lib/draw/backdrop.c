@@ -1,5 +1,6 @@
-/* The backdrop: scene values at the frame's time into one uniform block, one full-screen pass. When
- * neither the block nor the camera changed since the last frame, the picture is kept. */
+/* The backdrop: scene values at the frame's time into one uniform block, a full-screen pass, and a
+ * second one over the tiles with edges in them. When neither the block nor the camera changed since
+ * the last frame, the picture is kept. */
 #include "draw/backdrop.h"
 
 #include "base/error.h"
@@ -19,7 +20,9 @@ struct kiln_backdrop_stage {
     struct kiln_device *device;
     const struct kiln_scene *scene;
     struct kiln_image *color, *depth;
-    GLuint program, framebuffer, vertex_array;
+    struct kiln_image surfaces; /* what each pixel's centre shows */
+    GLuint cast, antialias;     /* programs */
+    GLuint cast_framebuffer, color_framebuffer, vertex_array;
     GLuint view_buffer, block_buffer;
     struct backdrop_inputs drawn;
     bool has_drawn;
@@ -92,6 +95,32 @@ static bool same_picture(const struct backdrop_inputs *a, const struct backdrop_
            memcmp(&a->view.frustum, &b->view.frustum, sizeof a->view.frustum) == 0;
 }
 
+static bool create_programs(struct kiln_backdrop_stage *stage, struct kiln_error *error)
+{
+    struct kiln_program_params params = {.vertex = "draw/fullscreen.vert",
+                                         .fragment = "draw/backdrop.frag",
+                                         .defines = "#define SAMPLES 1\n"};
+    stage->cast = kiln_program_create(stage->device, &params, error);
+    if (!stage->cast)
+        return false;
+    params.vertex = "draw/backdrop_edges.vert";
+    params.defines = "#define SAMPLES 4\n";
+    stage->antialias = kiln_program_create(stage->device, &params, error);
+    return stage->antialias != 0;
+}
+
+static bool create_targets(struct kiln_backdrop_stage *stage, struct kiln_error *error)
+{
+    kiln_image_init(&stage->surfaces, stage->device, stage->color->width, stage->color->height,
+                    GL_R32F, "backdrop surfaces");
+    struct kiln_image *targets[] = {stage->color, stage->depth, &stage->surfaces};
+    stage->cast_framebuffer = kiln_framebuffer_create(stage->device, targets, 3, error);
+    if (!stage->cast_framebuffer)
+        return false;
+    stage->color_framebuffer = kiln_framebuffer_create(stage->device, targets, 1, error);
+    return stage->color_framebuffer != 0;
+}
+
 struct kiln_backdrop_stage *kiln_backdrop_create(struct kiln_device *device,
                                                  const struct kiln_scene *scene,
                                                  struct kiln_image *color, struct kiln_image *depth,
@@ -106,15 +135,7 @@ struct kiln_backdrop_stage *kiln_backdrop_create(struct kiln_device *device,
     stage->scene = scene;
     stage->color = color;
     stage->depth = depth;
-    stage->program =
-        kiln_program_create(device,
-                            &(struct kiln_program_params){.vertex = "draw/fullscreen.vert",
-                                                          .fragment = "draw/backdrop.frag"},
-                            error);
-    struct kiln_image *targets[] = {color, depth};
-    if (stage->program)
-        stage->framebuffer = kiln_framebuffer_create(device, targets, 2, error);
-    if (!stage->framebuffer) {
+    if (!create_programs(stage, error) || !create_targets(stage, error)) {
         kiln_backdrop_destroy(&stage);
         return NULL;
     }
@@ -129,9 +150,11 @@ void kiln_backdrop_destroy(struct kiln_backdrop_stage **stage)
     struct kiln_backdrop_stage *s = *stage;
     if (!s)
         return;
-    if (s->program)
-        glDeleteProgram(s->program);
-    kiln_framebuffer_destroy(&s->framebuffer);
+    glDeleteProgram(s->cast); /* 0 is ignored */
+    glDeleteProgram(s->antialias);
+    kiln_framebuffer_destroy(&s->cast_framebuffer);
+    kiln_framebuffer_destroy(&s->color_framebuffer);
+    kiln_image_finish(&s->surfaces);
     glDeleteVertexArrays(1, &s->vertex_array);
     glDeleteBuffers(1, &s->view_buffer);
     glDeleteBuffers(1, &s->block_buffer);
@@ -146,6 +169,32 @@ static void upload(GLuint buffer, GLuint binding, const void *data, size_t size)
     glBindBufferBase(GL_UNIFORM_BUFFER, binding, buffer);
 }
 
+static bool cast(struct kiln_backdrop_stage *stage, struct kiln_error *error)
+{
+    if (!kiln_image_gl(stage->color, KILN_OVERWRITE, error) ||
+        !kiln_image_gl(stage->depth, KILN_OVERWRITE, error))
+        return false;
+    GLuint surfaces = kiln_image_gl(&stage->surfaces, KILN_OVERWRITE, error);
+    if (!surfaces)
+        return false;
+    uint32_t width = stage->color->width, height = stage->color->height;
+    glDisable(GL_BLEND);
+    glBindFramebuffer(GL_FRAMEBUFFER, stage->cast_framebuffer);
+    glUseProgram(stage->cast);
+    kiln_framebuffer_fill(stage->vertex_array, width, height);
+
+    glBindFramebuffer(GL_FRAMEBUFFER, stage->color_framebuffer);
+    glUseProgram(stage->antialias);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, surfaces);
+    glEnable(GL_PROGRAM_POINT_SIZE);
+    uint32_t columns = (width + KILN_EDGE_TILE - 1) / KILN_EDGE_TILE;
+    uint32_t rows = (height + KILN_EDGE_TILE - 1) / KILN_EDGE_TILE;
+    glDrawArrays(GL_POINTS, 0, (GLsizei)(columns * rows));
+    glDisable(GL_PROGRAM_POINT_SIZE);
+    return true;
+}
+
 bool kiln_backdrop_draw(struct kiln_backdrop_stage *stage, const struct kiln_view *view,
                         struct kiln_error *error)
 {
@@ -155,13 +204,8 @@ bool kiln_backdrop_draw(struct kiln_backdrop_stage *stage, const struct kiln_vie
     if (stage->has_drawn && same_picture(&now, &stage->drawn))
         return true;
 
-    if (!kiln_image_gl(stage->color, KILN_OVERWRITE, error) ||
-        !kiln_image_gl(stage->depth, KILN_OVERWRITE, error))
+    if (!cast(stage, error))
         return false;
-    glBindFramebuffer(GL_FRAMEBUFFER, stage->framebuffer);
-    glDisable(GL_BLEND);
-    glUseProgram(stage->program);
-    kiln_framebuffer_fill(stage->vertex_array, stage->color->width, stage->color->height);
     stage->drawn = now;
     stage->has_drawn = true;
     return kiln_device_check(stage->device, "backdrop", error);

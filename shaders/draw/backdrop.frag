@@ -2,24 +2,24 @@
  * horizon, boxes, one sun with hard shadows, point lights. View-space depth goes to a texture of its
  * own, for soft particles (Heinz 2019, 3.2.1 and 3.2.6).
  *
- * Rays instead of triangles: with few boxes it is as fast, antialiasing takes as many samples as one
- * likes, and the depth is that of the pixel's centre exactly.
+ * Two passes: one ray through the centre of each pixel, which also notes what it hit; then SAMPLES
+ * rays a pixel where backdrop_edges.vert finds that neighbours hit different things.
  */
+// variant: SAMPLES=1
+// variant: SAMPLES=4
 #include "shared/draw_layout.h"
 
 layout(std140, binding = KILN_BIND_VIEW) uniform view_block { kiln_view view; };
 layout(std140, binding = KILN_BIND_BACKDROP) uniform backdrop_block { kiln_draw_backdrop backdrop; };
 
 layout(location = 0) out vec4 out_color;
+#if SAMPLES == 1
 layout(location = 1) out float out_depth;
+layout(location = 2) out float out_surface; /* a number that changes at every edge */
+#endif
 
 const float FAR = 1e9;
 const float PI = 3.14159265;
-const int SAMPLES = 4;
-
-/* A rotated grid: no two samples share a row or a column. */
-const vec2 SAMPLE_OFFSETS[SAMPLES] =
-    vec2[](vec2(0.375, 0.125), vec2(0.875, 0.375), vec2(0.125, 0.625), vec2(0.625, 0.875));
 
 /* The sky's surface is -1, the floor's 0; a face of a box has a number of its own. */
 struct hit {
@@ -156,7 +156,7 @@ vec3 sky(vec3 direction)
     return mix(backdrop.sky_horizon.rgb, backdrop.sky_top.rgb, 1.0 - exp(-4.0 * up));
 }
 
-/* What arrives from the sky and the point lights: smooth over a surface, and dear to compute. */
+/* What arrives from the sky and the point lights. */
 vec3 soft_irradiance(hit h, vec3 point)
 {
     vec3 ambient = mix(backdrop.sky_horizon.rgb, backdrop.sky_top.rgb, 0.5 + 0.5 * h.normal.y);
@@ -171,46 +171,47 @@ vec3 soft_irradiance(hit h, vec3 point)
     return irradiance;
 }
 
-/* One sample, with the soft part of its light given. Lambert: radiance = albedo / pi * irradiance. */
-vec4 radiance(hit h, vec3 direction, vec3 irradiance)
+/* Light that the surface sends along the ray. Lambert: radiance = albedo / pi * irradiance. */
+vec4 radiance(hit h, vec3 direction, vec3 irradiance, float sunlit)
 {
     bool transparent = backdrop.counts.z != 0u;
     if (h.surface < 0)
         return transparent ? vec4(0.0) : vec4(sky(direction), 1.0);
-    vec3 point = view.eye.xyz + direction * h.t;
     float facing = max(dot(h.normal, backdrop.sun_direction.xyz), 0.0);
-    vec3 sun = backdrop.sun_color.rgb * facing * sun_visibility(point, h.normal);
-    vec3 color = h.albedo / PI * (irradiance + sun);
+    vec3 color = h.albedo / PI * (irradiance + backdrop.sun_color.rgb * facing * sunlit);
     float clear = transparent ? 1.0 : exp(-backdrop.floor_params.z * h.t * length(direction));
     return vec4(mix(backdrop.sky_horizon.rgb, color, clear), 1.0);
 }
 
-/* Four samples a pixel; the soft light is computed at the centre, and once more for the samples that
- * lie on another surface. */
+#if SAMPLES == 1
+
 void main()
 {
-    vec3 directions[SAMPLES];
-    hit hits[SAMPLES];
-    hit center = trace(view.eye.xyz, ray_direction(gl_FragCoord.xy));
-    vec3 center_direction = ray_direction(gl_FragCoord.xy);
-    hit other = center;
-    vec3 other_direction = center_direction;
-    for (int s = 0; s < SAMPLES; s++) {
-        directions[s] = ray_direction(floor(gl_FragCoord.xy) + SAMPLE_OFFSETS[s]);
-        hits[s] = trace(view.eye.xyz, directions[s]);
-        if (hits[s].surface != center.surface && hits[s].surface >= 0) {
-            other = hits[s];
-            other_direction = directions[s];
-        }
-    }
-    vec3 center_light = soft_irradiance(center, view.eye.xyz + center_direction * center.t);
-    vec3 other_light = soft_irradiance(other, view.eye.xyz + other_direction * other.t);
+    vec3 direction = ray_direction(gl_FragCoord.xy);
+    hit h = trace(view.eye.xyz, direction);
+    vec3 point = view.eye.xyz + direction * h.t;
+    float sunlit = sun_visibility(point, h.normal);
+    out_color = radiance(h, direction, soft_irradiance(h, point), sunlit);
+    out_depth = h.t;
+    out_surface = float(2 * h.surface) + (h.surface < 0 ? 0.0 : sunlit);
+}
 
+#else
+
+/* A rotated grid: no two samples share a row or a column. */
+const vec2 SAMPLE_OFFSETS[4] =
+    vec2[](vec2(0.375, 0.125), vec2(0.875, 0.375), vec2(0.125, 0.625), vec2(0.625, 0.875));
+
+void main()
+{
     vec4 sum = vec4(0.0);
     for (int s = 0; s < SAMPLES; s++) {
-        bool as_center = hits[s].surface == center.surface;
-        sum += radiance(hits[s], directions[s], as_center ? center_light : other_light);
+        vec3 direction = ray_direction(floor(gl_FragCoord.xy) + SAMPLE_OFFSETS[s]);
+        hit h = trace(view.eye.xyz, direction);
+        vec3 point = view.eye.xyz + direction * h.t;
+        sum += radiance(h, direction, soft_irradiance(h, point), sun_visibility(point, h.normal));
     }
     out_color = sum / float(SAMPLES);
-    out_depth = center.t;
 }
+
+#endif

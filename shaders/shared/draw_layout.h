@@ -15,6 +15,9 @@
 #define KILN_BIND_RECORDS  0
 #define KILN_BIND_ENTRIES  1
 
+/* Edge of the tiles in which the backdrop is antialiased, px. */
+#define KILN_EDGE_TILE 8
+
 /* How cells of an atlas are read. */
 #define KILN_CELL_MASK  0u /* normal x, y, heat, density: coloured by the look */
 #define KILN_CELL_COLOR 1u /* premultiplied colour under a square root: tinted by the look */
