@@ -138,7 +138,8 @@ static void shrink(const float *from, uint32_t edge, uint32_t kind, float *to)
         for (uint32_t x = 0; x < half; x++, to += 4) {
             float sum[4] = {0}, plain[3] = {0};
             for (uint32_t i = 0; i < 4; i++) {
-                const float *p = from + ((size_t)(2 * y + i / 2) * edge + 2 * x + i % 2) * 4;
+                const float *p =
+                    from + ((2 * (size_t)y + i / 2) * edge + 2 * (size_t)x + i % 2) * 4;
                 float weight = kind == KILN_CELL_MASK ? p[3] : 1.0f;
                 for (int c = 0; c < 3; c++) {
                     sum[c] += weight * p[c];

@@ -39,7 +39,8 @@ void kiln_blackbody_color(float kelvin, float rgb[3])
         return;
 
     float x = 0.0f, y = 0.0f, z = 0.0f;
-    for (float nm = 380.0f; nm <= 780.0f; nm += 5.0f) {
+    for (int wavelength = 380; wavelength <= 780; wavelength += 5) {
+        float nm = (float)wavelength;
         float power = planck(nm, kelvin);
         x += power * (lobe_at(&X[0], nm) + lobe_at(&X[1], nm) + lobe_at(&X[2], nm));
         y += power * (lobe_at(&Y[0], nm) + lobe_at(&Y[1], nm));

@@ -93,7 +93,7 @@ struct kiln_particles_stage *kiln_particles_create(struct kiln_device *device,
         return NULL;
     }
     *stage = (struct kiln_particles_stage){.device = device, .scene = scene, .atlas = atlas};
-    stage->table = calloc(KILN_LOOK_TEXELS, sizeof *stage->table);
+    stage->table = calloc((size_t)KILN_LOOK_TEXELS, sizeof *stage->table);
     if (!stage->table) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "particles: out of memory");
         kiln_particles_destroy(&stage);
