@@ -7,7 +7,6 @@
 #include "base/error.h"
 #include "gpu/program.h"
 #include "shared/look_layout.h"
-#include "shared/random.h"
 
 #include <stdlib.h>
 
@@ -28,10 +27,7 @@ static struct kiln_draw_look make_look(const struct kiln_scene *scene, uint32_t 
 {
     const struct kiln_look *look = &scene->systems[index].look;
     return (struct kiln_draw_look){
-        .derived = {.random_key = random_key(scene->seed, index),
-                    .warmup_steps = scene->warmup_steps,
-                    .dt_s = scene->dt_s,
-                    .life = scene->systems[index].emit.life},
+        .derived = kiln_scene_derived(scene, index),
         .atlas = {cells->first_layer, cells->cells, cells->kind, KILN_ATLAS_CELL},
         .flags = {look->blend == KILN_BLEND_ADD, look->random_start,
                   look->soft_formula == KILN_SOFT_LITERAL, 0},

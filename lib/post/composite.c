@@ -8,6 +8,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+enum { BLOOM_UNIT = 3 };
+
 struct uniforms {
     GLint bloom_strength, bloom_scale, separate_fire, exposure, tonemap, levels, dither, frame;
 };
@@ -17,6 +19,7 @@ struct kiln_composite_stage {
     const struct kiln_scene *scene;
     uint32_t bits;
     GLuint program, framebuffer, vertex_array;
+    GLuint linear; /* sampler of the bloom */
     struct kiln_image display, beauty;
     struct uniforms at;
 };
@@ -63,6 +66,11 @@ struct kiln_composite_stage *kiln_composite_create(struct kiln_device *device,
     }
     find_uniforms(stage);
     glGenVertexArrays(1, &stage->vertex_array);
+    glGenSamplers(1, &stage->linear);
+    glSamplerParameteri(stage->linear, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glSamplerParameteri(stage->linear, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glSamplerParameteri(stage->linear, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glSamplerParameteri(stage->linear, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     return stage;
 }
 
@@ -77,6 +85,7 @@ void kiln_composite_destroy(struct kiln_composite_stage **stage)
     kiln_image_finish(&s->display);
     kiln_image_finish(&s->beauty);
     glDeleteVertexArrays(1, &s->vertex_array);
+    glDeleteSamplers(1, &s->linear);
     free(s);
     *stage = NULL;
 }
@@ -125,7 +134,9 @@ bool kiln_composite_run(struct kiln_composite_stage *stage,
 
     glDisable(GL_BLEND);
     glBindFramebuffer(GL_FRAMEBUFFER, stage->framebuffer);
+    glBindSampler(BLOOM_UNIT, stage->linear);
     kiln_framebuffer_fill(stage->vertex_array, scene->width, scene->height);
+    glBindSampler(BLOOM_UNIT, 0);
     return kiln_device_check(stage->device, "composite", error);
 }
 

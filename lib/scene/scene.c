@@ -1,6 +1,8 @@
 /* Questions to a scene that is loaded. */
 #include "scene/scene.h"
 
+#include "shared/random.h"
+
 #include <string.h>
 
 float kiln_scene_time(const struct kiln_scene *scene, uint32_t step)
@@ -77,4 +79,35 @@ void kiln_scene_destroy(struct kiln_scene **scene)
     struct kiln_arena *arena = (*scene)->arena; /* the scene lies in it */
     kiln_arena_destroy(&arena);
     *scene = NULL;
+}
+
+struct kiln_derived_params kiln_scene_derived(const struct kiln_scene *scene, uint32_t system)
+{
+    return (struct kiln_derived_params){.random_key = random_key(scene->seed, system),
+                                        .warmup_steps = scene->warmup_steps,
+                                        .dt_s = scene->dt_s,
+                                        .life = scene->systems[system].emit.life};
+}
+
+static float rate_at(const void *context, float time_s)
+{
+    const struct kiln_scene_births *births = context;
+    return kiln_scene_value(births->scene, births->rate, time_s);
+}
+
+void kiln_scene_births_init(struct kiln_scene_births *births, const struct kiln_scene *scene,
+                            uint32_t system)
+{
+    const struct kiln_emitter *emit = &scene->systems[system].emit;
+    *births = (struct kiln_scene_births){
+        .source = {.rate = rate_at,
+                   .context = births,
+                   .bursts = emit->bursts,
+                   .burst_count = emit->burst_count,
+                   .steps_num = scene->rate.num,
+                   .steps_den = scene->rate.den,
+                   .warmup_steps = scene->warmup_steps},
+        .scene = scene,
+        .rate = &emit->rate,
+    };
 }

@@ -251,4 +251,17 @@ float3 kiln_scene_value3(const struct kiln_scene *scene, const struct kiln_value
 float kiln_scene_value_max(const struct kiln_scene *scene, const struct kiln_value *value);
 float kiln_scene_value_min(const struct kiln_scene *scene, const struct kiln_value *value);
 
+/* What is needed to recompute a particle of a system from its record (shared/derived.h). */
+struct kiln_derived_params kiln_scene_derived(const struct kiln_scene *scene, uint32_t system);
+
+/* The births of a system as lib/particles counts them. source.context points into the struct, which
+ * must stay where it was filled. */
+struct kiln_scene_births {
+    struct kiln_births_source source;
+    const struct kiln_scene *scene;
+    const struct kiln_value *rate;
+};
+void kiln_scene_births_init(struct kiln_scene_births *births, const struct kiln_scene *scene,
+                            uint32_t system);
+
 #endif

@@ -79,37 +79,18 @@ static bool settle_clock(struct kiln_reader *reader, const struct kiln_node *roo
 
 /* ---- systems -------------------------------------------------------------------------------- */
 
-struct rate_context {
-    const struct kiln_scene *scene;
-    const struct kiln_value *rate;
-};
-
-static float rate_at(const void *context, float time_s)
-{
-    const struct rate_context *rate = context;
-    return kiln_scene_value(rate->scene, rate->rate, time_s);
-}
-
 /* What the births of a system need over the whole run. */
-static struct kiln_births_bound births_bound(const struct kiln_scene *scene,
-                                             const struct kiln_system *system)
+static struct kiln_births_bound births_bound(const struct kiln_scene *scene, uint32_t index)
 {
+    const struct kiln_system *system = &scene->systems[index];
     if (!system->enabled)
         return (struct kiln_births_bound){0};
-    struct rate_context context = {.scene = scene, .rate = &system->emit.rate};
-    struct kiln_births_source source = {
-        .rate = rate_at,
-        .context = &context,
-        .bursts = system->emit.bursts,
-        .burst_count = system->emit.burst_count,
-        .steps_num = scene->rate.num,
-        .steps_den = scene->rate.den,
-        .warmup_steps = scene->warmup_steps,
-    };
+    struct kiln_scene_births births;
+    kiln_scene_births_init(&births, scene, index);
     /* Interpolating and drawing a life may round to a little above the largest key. */
     float longest_s = kiln_scene_value_max(scene, &system->emit.life.max) * (1 + 0x1p-20f);
-    return kiln_births_bound(&source, kiln_scene_frame_step(scene, scene->frames - 1), longest_s,
-                             scene->dt_s);
+    return kiln_births_bound(&births.source, kiln_scene_frame_step(scene, scene->frames - 1),
+                             longest_s, scene->dt_s);
 }
 
 static bool settle_capacity(struct kiln_reader *reader, const struct kiln_node *root)
@@ -118,7 +99,7 @@ static bool settle_capacity(struct kiln_reader *reader, const struct kiln_node *
     uint64_t total = 0;
     for (uint32_t i = 0; i < scene->system_count; i++) {
         struct kiln_system *system = &scene->systems[i];
-        struct kiln_births_bound bound = births_bound(scene, system);
+        struct kiln_births_bound bound = births_bound(scene, i);
         uint64_t slots = bound.capacity ? bound.capacity : 1; /* no buffer is empty */
         char path[128];
         snprintf(path, sizeof path, "systems.%s.emit", system->name);

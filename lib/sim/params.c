@@ -75,10 +75,7 @@ static void fill_system(struct kiln_step_params *params, const struct kiln_scene
 {
     const struct kiln_system *system = &scene->systems[index];
     *params = (struct kiln_step_params){
-        .derived = {.random_key = random_key(scene->seed, index),
-                    .warmup_steps = scene->warmup_steps,
-                    .dt_s = scene->dt_s,
-                    .life = system->emit.life},
+        .derived = kiln_scene_derived(scene, index),
         .force_count = system->force_count,
         .integration = (uint)scene->integration,
         .collide = collide_kind(&system->collide),
@@ -173,17 +170,6 @@ static void fill_colliders(struct kiln_colliders *colliders, const struct kiln_s
                            kiln_scene_value(scene, &backdrop->floor_height, end_s));
 }
 
-struct rate_context {
-    const struct kiln_scene *scene;
-    const struct kiln_value *rate;
-};
-
-static float rate_at(const void *context, float time_s)
-{
-    const struct rate_context *c = context;
-    return kiln_scene_value(c->scene, c->rate, time_s);
-}
-
 /* Counts the births of one system and tells the step about them. */
 static bool count_births(struct kiln_step_params *params, const struct kiln_scene *scene,
                          uint32_t index, struct kiln_pool_system *slots, struct kiln_error *error)
@@ -191,17 +177,9 @@ static bool count_births(struct kiln_step_params *params, const struct kiln_scen
     const struct kiln_system *system = &scene->systems[index];
     struct kiln_births births = {.count = 0};
     if (system->enabled) {
-        struct rate_context context = {scene, &system->emit.rate};
-        struct kiln_births_source source = {
-            .rate = rate_at,
-            .context = &context,
-            .bursts = system->emit.bursts,
-            .burst_count = system->emit.burst_count,
-            .steps_num = scene->rate.num,
-            .steps_den = scene->rate.den,
-            .warmup_steps = scene->warmup_steps,
-        };
-        kiln_births_step(&source, params->step, &slots->birth_wait, &births);
+        struct kiln_scene_births counted;
+        kiln_scene_births_init(&counted, scene, index);
+        kiln_births_step(&counted.source, params->step, &slots->birth_wait, &births);
     }
     if (births.count > slots->capacity)
         return kiln_error_set(

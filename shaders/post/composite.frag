@@ -5,7 +5,7 @@
 layout(binding = 0) uniform sampler2D scene;
 layout(binding = 1) uniform sampler2D particles; /* premultiplied: all (merged), or smoke */
 layout(binding = 2) uniform sampler2D fire;      /* premultiplied, alpha summed (separate) */
-layout(binding = 3) uniform sampler2D bloom;
+layout(binding = 3) uniform sampler2D bloom;     /* a sixth of the size, linear filter */
 
 uniform float bloom_strength;
 uniform vec2 bloom_scale; /* texels of the bloom texture a pixel */
@@ -42,27 +42,35 @@ vec3 dither_noise()
     return noise;
 }
 
-/* Cubic B-spline weights for four neighbours: the sixth-size bloom shows no diamond of a bilinear
- * magnification. */
-vec4 spline_weights(float t)
+/* Along one axis, the cubic B-spline of four neighbours as two linear fetches: where to fetch (texels
+ * from the second neighbour's centre) and with which weights (Sigg and Hadwiger, "Fast Third-Order
+ * Texture Filtering", GPU Gems 2, 2005). */
+struct spline {
+    vec2 offsets, weights;
+};
+
+spline spline_at(float t)
 {
     float s = 1.0 - t;
-    return vec4(s * s * s, 4.0 - 6.0 * t * t + 3.0 * t * t * t,
-                4.0 - 6.0 * s * s + 3.0 * s * s * s, t * t * t) / 6.0;
+    vec4 w = vec4(s * s * s, 4.0 - 6.0 * t * t + 3.0 * t * t * t,
+                  4.0 - 6.0 * s * s + 3.0 * s * s * s, t * t * t) / 6.0;
+    vec2 pairs = vec2(w.x + w.y, w.z + w.w);
+    return spline(vec2(w.y, w.w) / pairs + vec2(-1.0, 1.0), pairs);
 }
 
+/* Bilinear magnification would show the sixth-size bloom as diamonds. */
 vec3 magnified_bloom()
 {
     vec2 texel = gl_FragCoord.xy * bloom_scale - 0.5;
-    ivec2 base = ivec2(floor(texel));
-    vec4 wx = spline_weights(fract(texel.x));
-    vec4 wy = spline_weights(fract(texel.y));
-    ivec2 last = textureSize(bloom, 0) - 1;
+    vec2 base = floor(texel) + 0.5;
+    spline x = spline_at(fract(texel.x));
+    spline y = spline_at(fract(texel.y));
+    vec2 size = vec2(textureSize(bloom, 0));
     vec3 sum = vec3(0.0);
-    for (int j = 0; j < 4; j++) {
-        for (int i = 0; i < 4; i++) {
-            ivec2 at = clamp(base + ivec2(i - 1, j - 1), ivec2(0), last);
-            sum += wx[i] * wy[j] * texelFetch(bloom, at, 0).rgb;
+    for (int j = 0; j < 2; j++) {
+        for (int i = 0; i < 2; i++) {
+            vec2 at = (base + vec2(x.offsets[i], y.offsets[j])) / size;
+            sum += x.weights[i] * y.weights[j] * textureLod(bloom, at, 0.0).rgb;
         }
     }
     return sum;
