@@ -150,7 +150,7 @@ static void describe(struct kiln_device_info *info)
     copy_gl_string(info->name, GL_RENDERER);
     copy_gl_string(info->vendor, GL_VENDOR);
     copy_gl_string(info->gl_version, GL_VERSION);
-    info->software = is_software(info->name);
+    info->software = info->software || is_software(info->name);
     if (epoxy_gl_version() < 43) {
         snprintf(info->problem, sizeof info->problem,
                  "it has OpenGL %s; 4.3 or later is needed, from a newer driver", info->gl_version);
@@ -181,6 +181,7 @@ static void open_source(struct kiln_device *device, const struct kiln_egl_source
     *device = (struct kiln_device){.log = params->log, .debug = params->debug};
     struct kiln_device_info *info = &device->info;
     snprintf(info->platform, sizeof info->platform, "%s", source->platform);
+    info->software = source->software;
     if (kiln_egl_open(source, params->debug, &device->display, &device->context, info->problem))
         describe(info);
     else

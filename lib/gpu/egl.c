@@ -45,6 +45,10 @@ static void name_device(struct kiln_egl_source *source, size_t index)
     if (!query_string)
         return;
     const char *extensions = query_string(source->device, EGL_EXTENSIONS);
+    if (has_extension(extensions, "EGL_MESA_device_software")) {
+        source->software = true;
+        snprintf(source->name, sizeof source->name, "Mesa's software device");
+    }
     if (!has_extension(extensions, "EGL_EXT_device_drm"))
         return;
     const char *file = query_string(source->device, EGL_DRM_DEVICE_FILE_EXT);

@@ -11,6 +11,7 @@ enum { KILN_MAX_EGL_SOURCES = 32 };
 struct kiln_egl_source {
     const char *platform; /* "device" or "surfaceless" */
     void *device;         /* EGLDeviceEXT, or NULL */
+    bool software;        /* known to be one before it is opened */
     char name[128];       /* for messages until the renderer's name is known */
 };
 
