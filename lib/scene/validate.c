@@ -37,6 +37,28 @@ static bool fail(struct kiln_reader *reader, const struct kiln_node *root, const
 
 /* ---- clock ---------------------------------------------------------------------------------- */
 
+/* Writes a multiple of the frame rate as a scene may have it. */
+static void print_multiple(char out[32], struct kiln_rational fps, uint64_t multiple)
+{
+    uint64_t num = fps.num * multiple;
+    if (1000000 % fps.den == 0) /* no more decimals than a rate may have */
+        kiln_unit_print_number(out, (double)num / (double)fps.den);
+    else
+        snprintf(out, 32, "%" PRIu64 "/%" PRIu32, num, fps.den);
+}
+
+static bool refuse_rate(struct kiln_reader *reader, const struct kiln_node *root, uint64_t below)
+{
+    char lower[32], upper[32];
+    print_multiple(lower, reader->scene->fps, below);
+    print_multiple(upper, reader->scene->fps, below + 1);
+    if (below == 0)
+        return fail(reader, root, "simulation.rate",
+                    "must be a whole multiple of output.fps; the nearest is %s", upper);
+    return fail(reader, root, "simulation.rate",
+                "must be a whole multiple of output.fps; the nearest are %s and %s", lower, upper);
+}
+
 static bool settle_clock(struct kiln_reader *reader, const struct kiln_node *root)
 {
     struct kiln_scene *scene = reader->scene;
@@ -54,16 +76,8 @@ static bool settle_clock(struct kiln_reader *reader, const struct kiln_node *roo
     }
     /* rate / fps, a whole number? */
     uint64_t above = scene->rate.num * fps_den, below = scene->rate.den * fps_num;
-    if (above % below != 0) {
-        char lower[32], upper[32];
-        double fps = (double)fps_num / (double)fps_den;
-        uint64_t whole = above / below;
-        kiln_unit_print_number(lower, (double)(whole ? whole : 1) * fps);
-        kiln_unit_print_number(upper, (double)(whole + 1) * fps);
-        return fail(reader, root, "simulation.rate",
-                    "must be a whole multiple of output.fps; the nearest are %s and %s", lower,
-                    upper);
-    }
+    if (above % below != 0)
+        return refuse_rate(reader, root, above / below);
     scene->steps_per_frame = (uint32_t)(above / below);
     scene->dt_s = (float)((double)scene->rate.den / (double)scene->rate.num);
 

@@ -356,6 +356,15 @@ static const struct bad agreement[] = {
      ":3:20: simulation.rate: must be a whole multiple of output.fps; the nearest are 59.94 and "
      "89.91"},
     {"kiln: 1\n"
+     "output: {fps: 24000/1001}\n"
+     "simulation: {rate: 60}\n",
+     ":3:20: simulation.rate: must be a whole multiple of output.fps; the nearest are 48000/1001 "
+     "and 72000/1001"},
+    {"kiln: 1\n"
+     "output: {fps: 240}\n"
+     "simulation: {rate: 60}\n",
+     ":3:20: simulation.rate: must be a whole multiple of output.fps; the nearest is 240"},
+    {"kiln: 1\n"
      "output: {frames: 1000000}\n"
      "simulation: {rate: 300}\n",
      ":2:18: output.frames: the clip and its warm-up are 9999990 steps; a run has at most 4194303"},
