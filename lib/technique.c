@@ -11,6 +11,8 @@ enum stage { SIMULATE, SORT, RASTER, STAGE_COUNT };
 static const char *const STAGE_NAMES[STAGE_COUNT] = {
     [SIMULATE] = "simulate", [SORT] = "sort", [RASTER] = "raster"};
 
+#define AUTO "auto"
+
 struct row {
     enum stage stage;
     const char *name;
@@ -58,7 +60,8 @@ static bool unknown_name(const char *what, const char *found, const char *const 
                           nearest ? "'?)" : "", list);
 }
 
-static bool apply_flag(const char *flag, struct choices *choices, struct kiln_error *error)
+static bool apply_flag(const char *flag, const struct choices *automatic, struct choices *choices,
+                       struct kiln_error *error)
 {
     const char *equals = strchr(flag, '=');
     if (!equals || equals == flag || equals[1] == '\0')
@@ -72,17 +75,19 @@ static bool apply_flag(const char *flag, struct choices *choices, struct kiln_er
     if (stage == STAGE_COUNT)
         return unknown_name("technique: stage", stage_name, STAGE_NAMES, STAGE_COUNT, error);
 
+    bool is_auto = strcmp(equals + 1, AUTO) == 0;
     const struct row *row = find_row((enum stage)stage, equals + 1);
-    if (row) {
-        choices->value[stage] = row->value;
+    if (is_auto || row) {
+        choices->value[stage] = is_auto ? automatic->value[stage] : row->value;
         return true;
     }
-    const char *names[ROW_COUNT];
+    const char *names[ROW_COUNT + 1];
     size_t count = 0;
     for (size_t i = 0; i < ROW_COUNT; i++) {
         if (ROWS[i].stage == (enum stage)stage)
             names[count++] = ROWS[i].name;
     }
+    names[count++] = AUTO;
     char what[96];
     snprintf(what, sizeof what, "technique: %s", stage_name);
     return unknown_name(what, equals + 1, names, count, error);
@@ -93,14 +98,15 @@ bool kiln_techniques_choose(const struct kiln_device_info *device, const char *c
                             struct kiln_error *error)
 {
     bool exact_gpu = device->exact && !device->software;
-    struct choices choices = {
+    const struct choices automatic = {
         .value = {
             [SIMULATE] = exact_gpu ? KILN_SIMULATE_INPLACE : KILN_SIMULATE_CPU,
             [SORT] = KILN_SORT_CPU,
             [RASTER] = KILN_RASTER_GEOMETRY,
         }};
+    struct choices choices = automatic;
     for (size_t i = 0; i < flag_count; i++) {
-        if (!apply_flag(flags[i], &choices, error))
+        if (!apply_flag(flags[i], &automatic, &choices, error))
             return false;
     }
     if (choices.value[SIMULATE] != KILN_SIMULATE_CPU && !device->exact)
@@ -134,7 +140,7 @@ void kiln_techniques_describe(const struct kiln_techniques *techniques, char *ou
 
 bool kiln_write_techniques(FILE *out)
 {
-    bool ok = true;
+    bool ok = fprintf(out, "  %-18s %s\n", "STAGE=" AUTO, "the default of each stage") > 0;
     for (size_t i = 0; i < ROW_COUNT; i++) {
         char name[64];
         snprintf(name, sizeof name, "%s=%s", STAGE_NAMES[ROWS[i].stage], ROWS[i].name);

@@ -32,6 +32,19 @@ static void defaults_follow_the_device(void **state)
     assert_string_equal(text, "simulate=cpu sort=cpu raster=geometry");
 }
 
+static void auto_is_the_default(void **state)
+{
+    (void)state;
+    const char *const flags[] = {"simulate=cpu", "simulate=auto"};
+    struct kiln_device_info gpu = {.exact = true, .name = "Device"};
+    struct kiln_techniques techniques;
+    struct kiln_error error = {0};
+    assert_true(kiln_techniques_choose(&gpu, flags, 2, &techniques, &error));
+    assert_int_equal(techniques.simulate, KILN_SIMULATE_INPLACE);
+    assert_true(kiln_techniques_choose(&gpu, flags, 1, &techniques, &error));
+    assert_int_equal(techniques.simulate, KILN_SIMULATE_CPU);
+}
+
 static void flags_force_a_technique(void **state)
 {
     (void)state;
@@ -63,6 +76,7 @@ int main(void)
 {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(defaults_follow_the_device),
+        cmocka_unit_test(auto_is_the_default),
         cmocka_unit_test(flags_force_a_technique),
         cmocka_unit_test(inexact_devices_do_not_simulate),
     };

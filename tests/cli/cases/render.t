@@ -68,7 +68,7 @@ $ for technique in simulate=cpu simulate=inplace simulate=cpu,sort=cpu; do
 1|1
 $ kiln render scenes/tiny.yaml --frames 20 -o none --technique simulate=cup
 1|device: <device>
-2|kiln: technique: simulate 'cup' is not known (did you mean 'cpu'?); there is: cpu, inplace
+2|kiln: technique: simulate 'cup' is not known (did you mean 'cpu'?); there is: cpu, inplace, auto
 = 2
 $ kiln render scenes/tiny.yaml --frames 20 -o none --technique simulat=cpu
 1|device: <device>

@@ -198,6 +198,7 @@ $ kiln help exit-codes
 The other topics.
 
 $ kiln help techniques
+1|  STAGE=auto         the default of each stage
 1|  simulate=cpu       host threads; the default unless the device is an exact GPU
 1|  simulate=inplace   compute, one buffer updated in place; the default on exact GPUs
 1|  sort=cpu           stable radix sort, host threads
