@@ -28,39 +28,54 @@ static bool is_folder(const char *path)
            (stat(path, &status) == 0 && S_ISDIR(status.st_mode));
 }
 
-/* Writes pattern with every mark replaced by the stem; returns the length. out may be NULL. */
-static size_t replace_marks(char *out, const char *pattern, const char *stem, size_t stem_length)
+/* Adds the scene's name to a text. In the name of an output, what would stand for the number of a
+ * frame is escaped. */
+static void add_stem(FILE *out, const char *scene, bool escape)
 {
-    size_t length = 0;
+    size_t length;
+    const char *stem = scene_stem(scene, &length);
+    for (size_t i = 0; i < length; i++)
+        fprintf(out, "%s%c", escape && (stem[i] == '%' || stem[i] == '#') ? "%" : "", stem[i]);
+}
+
+/* Adds the pattern with every mark replaced; a folder's name knows no numbers and no escapes. */
+static void add_marked(FILE *out, const char *pattern, const char *scene, bool escape)
+{
+    const char *slash = strrchr(pattern, '/');
     while (*pattern) {
-        bool is_mark = strncmp(pattern, mark, sizeof mark - 1) == 0;
-        const char *piece = is_mark ? stem : pattern;
-        size_t piece_length = is_mark ? stem_length : 1;
-        if (out)
-            memcpy(out + length, piece, piece_length);
-        length += piece_length;
-        pattern += is_mark ? sizeof mark - 1 : 1;
+        if (strncmp(pattern, mark, sizeof mark - 1) == 0) {
+            add_stem(out, scene, escape && (!slash || pattern > slash));
+            pattern += sizeof mark - 1;
+        } else {
+            fputc(*pattern++, out);
+        }
     }
-    return length;
 }
 
 /* The file that a pattern means for a scene, in new memory; NULL when memory is short. A folder
  * gets a file named after the scene. */
-static char *file_name(const char *pattern, const char *scene, const char *suffix)
+static char *file_name(const char *pattern, const char *scene, const char *suffix, bool numbers)
 {
-    size_t stem_length;
-    const char *stem = scene_stem(scene, &stem_length);
-    char *name = calloc(replace_marks(NULL, pattern, stem, stem_length) + 1, 1);
-    if (!name)
+    char *name = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&name, &size);
+    if (!out)
         return NULL;
-    size_t length = replace_marks(name, pattern, stem, stem_length);
-    if (!is_folder(name))
+    add_marked(out, pattern, scene, false);
+    fflush(out);
+    if (name && is_folder(name)) {
+        fputs(name[size - 1] == '/' ? "" : "/", out);
+        add_stem(out, scene, numbers);
+        fputs(suffix, out);
+    } else if (numbers) {
+        rewind(out);
+        add_marked(out, pattern, scene, true);
+    }
+    bool failed = ferror(out) != 0;
+    if (fclose(out) == 0 && !failed)
         return name;
-    char *inside = NULL;
-    int written = asprintf(&inside, "%s%s%.*s%s", name, name[length - 1] == '/' ? "" : "/",
-                           (int)stem_length, stem, suffix);
     free(name);
-    return written < 0 ? NULL : inside;
+    return NULL;
 }
 
 /* No two jobs may write one file. */
@@ -88,11 +103,14 @@ static int name_files(struct plan *plan, const struct arguments *arguments)
         struct job *job = &plan->jobs[i];
         job->path = arguments->operands[i];
         if (writes)
-            job->output = file_name(output->text, job->path, ".mp4");
+            job->output = file_name(output->text, job->path, ".mp4", true);
         if (manifest)
-            job->manifest = file_name(manifest->text, job->path, ".json");
+            job->manifest = file_name(manifest->text, job->path, ".json", false);
         if ((writes && !job->output) || (manifest && !job->manifest))
             return report_no_memory();
+        if (job->output && job->manifest && strcmp(job->output, job->manifest) == 0)
+            return report(KILN_USAGE, "render: --output and --manifest would both write '%s'",
+                          job->output);
         for (size_t j = 0; j < i; j++) {
             int code = check_clash(&plan->jobs[j], job);
             if (code)

@@ -2,7 +2,6 @@
 #include "stats.h"
 
 #include <inttypes.h>
-#include <string.h>
 #include <sys/resource.h>
 
 #include "progress.h"
@@ -32,8 +31,8 @@ void print_result(const struct job_result *result)
     printf("%s", result->output ? stats->first_file : result->scene);
     if (!result->output)
         printf(": nothing written");
-    else if (stats->frames > 1 && strcmp(result->output, stats->first_file) != 0)
-        printf(" and %u more", stats->frames - 1);
+    else if (stats->files > 1)
+        printf(" and %u more", stats->files - 1);
     printf(": %u frame%s in %.3f s\n", stats->frames, plural(stats->frames), stats->total_s);
 }
 

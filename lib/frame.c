@@ -104,7 +104,7 @@ static bool report_frame(struct job *job, uint32_t frame, struct kiln_error *err
     p->eta_s = p->elapsed_s / p->done * (p->total - p->done);
     for (int i = 0; i < KILN_PASS_COUNT; i++)
         job->stats.pass_ms[i] += p->pass_ms[i];
-    char path[1024] = "";
+    char path[KILN_PATH_SIZE] = "";
     bool written = job->output && kiln_output_path(job->output, frame, path, sizeof path);
     if (job->manifest && !kiln_manifest_add(job->manifest, p, written ? path : NULL, error))
         return false;
@@ -264,6 +264,7 @@ static bool finish(struct job *job, struct kiln_error *error)
     stats->frames = job->progress.done;
     stats->steps = job->run.step;
     if (job->output) {
+        stats->files = kiln_output_is_one_file(job->output) ? 1 : stats->frames;
         kiln_output_path(job->output, job->ranges[0].first, stats->first_file,
                          sizeof stats->first_file);
         if (!kiln_output_finish(job->output, error))

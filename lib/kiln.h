@@ -43,7 +43,7 @@ enum kiln_code {
     KILN_INTERRUPTED = 130,  /* the caller asked to stop */
 };
 
-enum { KILN_MESSAGE_SIZE = 1024 };
+enum { KILN_MESSAGE_SIZE = 1024, KILN_PATH_SIZE = 4096 };
 
 /* An error as one complete line for a person: place, what was found, what is allowed. */
 struct kiln_error {
@@ -219,8 +219,9 @@ struct kiln_render_stats {
     struct kiln_state_hash state;    /* after the last step */
     uint64_t particle_bytes;         /* simulation and draw buffers */
     uint64_t particle_capacity;
-    char techniques[256]; /* "simulate=cpu sort=cpu ..." */
-    char first_file[512]; /* what was written first */
+    char techniques[256];            /* "simulate=cpu sort=cpu ..." */
+    uint32_t files;                  /* images, or 1 for a video; 0: nothing was to be written */
+    char first_file[KILN_PATH_SIZE]; /* what was written first */
 };
 
 /* Renders the job. Files appear under their names only when whole; after an error or a stop, what

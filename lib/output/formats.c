@@ -56,6 +56,7 @@ bool kiln_write_outputs(FILE *out)
     fprintf(out,
             "\nImages are numbered: frame_####.png and frame_%%04d.png both give frame_0000.png;\n"
             "without a number in the name of several frames, _0000 is added before the suffix.\n"
+            "A percent sign or hash of the name itself is written as %%%% or %%#.\n"
             "Missing folders are made. A file appears under its name only when it is whole.\n");
     return !ferror(out);
 }

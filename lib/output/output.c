@@ -367,3 +367,8 @@ bool kiln_output_path(const struct kiln_output *output, uint32_t frame, char *pa
 {
     return kiln_path_pattern_format(&output->pattern, frame, path, size);
 }
+
+bool kiln_output_is_one_file(const struct kiln_output *output)
+{
+    return output->format->one_file;
+}

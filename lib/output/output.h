@@ -78,6 +78,9 @@ void kiln_output_close(struct kiln_output **output);
 /* The path of the file for a frame (the one file, for a video); false if it does not fit. */
 bool kiln_output_path(const struct kiln_output *output, uint32_t frame, char *path, size_t size);
 
+/* Do all frames go into one file, as those of a video do? */
+bool kiln_output_is_one_file(const struct kiln_output *output);
+
 /* Removes the temporary files of every open output, with async-signal-safe calls only: for a
  * watchdog or a second signal, right before _exit. */
 void kiln_output_abandon_all(void);

@@ -46,7 +46,7 @@ static size_t read_number(const struct reading *reading, const char *c)
     if (length == 0)
         kiln_error_set(reading->error, KILN_USAGE,
                        "%s: '%.3s' in the file name; after a percent sign only d, a width and d "
-                       "(%%04d), or a second percent sign may follow",
+                       "(%%04d), a # or a second percent sign may follow",
                        reading->path, c);
     else if (pattern->numbered)
         kiln_error_set(reading->error, KILN_USAGE, "%s: the file name has two frame numbers",
@@ -66,8 +66,8 @@ static bool read_name(const struct reading *reading, const char *name)
     size_t before = (size_t)(name - reading->path), after = 0;
     memcpy(pattern->before, reading->path, before);
     for (const char *c = name; *c;) {
-        bool literal = (*c != '#' && *c != '%') || strncmp(c, "%%", 2) == 0;
-        if (!literal) {
+        bool escape = strncmp(c, "%%", 2) == 0 || strncmp(c, "%#", 2) == 0;
+        if (!escape && (*c == '#' || *c == '%')) {
             size_t length = read_number(reading, c);
             if (length == 0)
                 return false;
@@ -75,11 +75,11 @@ static bool read_name(const struct reading *reading, const char *name)
             c += length;
             continue;
         }
+        c += escape;
         if (pattern->numbered)
-            pattern->after[after++] = *c;
+            pattern->after[after++] = *c++;
         else
-            pattern->before[before++] = *c;
-        c += *c == '%' ? 2 : 1;
+            pattern->before[before++] = *c++;
     }
     pattern->before[before] = '\0';
     pattern->after[after] = '\0';

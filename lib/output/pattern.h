@@ -20,8 +20,9 @@ enum kiln_numbering {
 };
 
 /* Reads "frame_####.png" or "frame_%04d.png": in the file name, once, a run of # as wide as the
- * number or %d with an optional width, padded with zeros either way; %% is a percent sign. Anything
- * else after a percent sign is KILN_USAGE, as is a number in the folder. */
+ * number or %d with an optional width, padded with zeros either way; %% is a percent sign and %# a
+ * hash. Anything else after a percent sign is KILN_USAGE, as is a number in the folder, whose name
+ * is otherwise taken as it stands. */
 bool kiln_path_pattern_parse(struct kiln_path_pattern *pattern, const char *path,
                              enum kiln_numbering numbering, struct kiln_error *error);
 

@@ -60,6 +60,8 @@ bool kiln_target_check(const char *path, bool overwrite, struct kiln_error *erro
     }
     if (S_ISDIR(status.st_mode))
         return kiln_error_set(error, KILN_IO, "%s: a folder has this name", path);
+    if (!S_ISREG(status.st_mode) && !S_ISLNK(status.st_mode))
+        return kiln_error_set(error, KILN_IO, "%s: a device, pipe or socket has this name", path);
     return overwrite ||
            kiln_error_set(error, KILN_IO, "%s: the file exists (--force replaces it)", path);
 }

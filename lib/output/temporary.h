@@ -5,8 +5,6 @@
 
 #include "kiln.h"
 
-enum { KILN_PATH_SIZE = 4096 };
-
 /* Zero-initialised is closed; open fills it. */
 struct kiln_temporary {
     char *target; /* the name it will get; NULL when closed */
@@ -15,8 +13,8 @@ struct kiln_temporary {
     int failure;  /* errno of the first write that failed, else 0; sticky */
 };
 
-/* Whether a file may be put there: KILN_IO, naming it, when a folder has that name, or a file has
- * and must not be overwritten. */
+/* Whether a file may be put there: KILN_IO, naming it, when something else than a file or link has
+ * that name, or one of these has and must not be overwritten. */
 bool kiln_target_check(const char *path, bool overwrite, struct kiln_error *error);
 
 /* Creates the missing folders above path; KILN_IO, naming the folder, when that fails. */

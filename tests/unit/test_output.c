@@ -41,6 +41,8 @@ static void names_are_numbered(void **state)
         {"100%%_%02d.png", KILN_NUMBER_ALWAYS, 3, "100%_03.png"},
         {"50%/f#.png", KILN_NUMBER_ALWAYS, 3, "50%/f3.png"},
         {"50%%.png", KILN_NUMBER_NEVER, 3, "50%.png"},
+        {"take%#2_#%#.png", KILN_NUMBER_ALWAYS, 3, "take#2_3#.png"},
+        {"50%/take#2/a.png", KILN_NUMBER_NEVER, 3, "50%/take#2/a.png"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct kiln_path_pattern pattern;

@@ -21,7 +21,7 @@ $ kiln render scenes/tiny.yaml -q -o gap.mp4 --frames 0-3,8
 2|kiln: gap.mp4: a video cannot leave out frames, but none lies between 3 and 8; write images, or one range
 = 2
 $ kiln render scenes/tiny.yaml -q -o frame_%s.png
-2|kiln: frame_%s.png: '%s.' in the file name; after a percent sign only d, a width and d (%04d), or a second percent sign may follow
+2|kiln: frame_%s.png: '%s.' in the file name; after a percent sign only d, a width and d (%04d), a # or a second percent sign may follow
 = 2
 $ kiln render scenes/tiny.yaml -q -o frame_%d_%d.png
 2|kiln: frame_%d_%d.png: the file name has two frame numbers
@@ -35,6 +35,12 @@ $ kiln render scenes/tiny.yaml -q --frames 0 -o /sys/x.png
 $ kiln render scenes/tiny.yaml -q --frames 0 -o b.png --manifest /dev/null/x.json
 2|kiln: /dev/null: not a folder, but /dev/null/x.json needs one here
 = 6
+$ mkfifo pipe.png && kiln render scenes/tiny.yaml -q --frames 0 -o pipe.png --force
+2|kiln: pipe.png: a device, pipe or socket has this name
+= 6
+$ kiln render scenes/tiny.yaml -q --frames 0 -o b.png --manifest b.png --force
+2|kiln: render: --output and --manifest would both write 'b.png'
+= 2
 $ find . -type f | sort | grep -v scenes/
 1|./a.png
 

@@ -145,6 +145,31 @@ $ for scene in tiny empty; do jq -r .frames[].frame folder/$scene.json; done
 1|0
 1|1
 
+What means a frame's number in a pattern is only a letter in the name of a scene or folder.
+
+$ mkdir '50%' && cp scenes/tiny.yaml 'scenes/100% #1.yaml'
+$ kiln render 'scenes/100% #1.yaml' -o '50%' --frames 0-1 --progress none
+1|device: <device>
+1|50%/100% #1.mp4: 2 frames in <s> s
+$ kiln render 'scenes/100% #1.yaml' -o '50%/{scene}/{scene}_#.png' --frames 0-1 --progress none
+1|device: <device>
+1|50%/100% #1/100% #1_0.png and 1 more: 2 frames in <s> s
+$ kiln render scenes/tiny.yaml -o '50%/50%%%#.mp4' --frames 0-1 --progress none && ls '50%'
+1|device: <device>
+1|50%/50%#.mp4: 2 frames in <s> s
+1|100% #1
+1|100% #1.mp4
+1|50%#.mp4
+
+A path may be as long as the system allows, and is reported whole.
+
+$ long=long/$(printf '%0200d/%0200d/%0200d/%0200d/%0200d/%0200d' 0 0 0 0 0 0)
+> kiln render scenes/tiny.yaml -o $long/x.png --frames 0-1 --progress none --manifest long.json | sed -n 's/ and .*//p' | wc -c
+> jq '.frames[].file | length' long.json
+1|1222
+1|1221
+1|1221
+
 Paths are those of the working directory, wherever that is.
 
 $ mkdir -p a/b && cd a/b && kiln render ../../scenes/tiny.yaml -q --frames 3 -o ../here.png && cmp ../here.png ../../tiny.png

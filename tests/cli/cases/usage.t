@@ -212,6 +212,7 @@ $ kiln help outputs
 1|
 1|Images are numbered: frame_####.png and frame_%04d.png both give frame_0000.png;
 1|without a number in the name of several frames, _0000 is added before the suffix.
+1|A percent sign or hash of the name itself is written as %% or %#.
 1|Missing folders are made. A file appears under its name only when it is whole.
 $ kiln help scene | head -n 4
 1|A scene is a YAML file. Every key below may also be given with --set KEY=VALUE; '*' in a KEY
