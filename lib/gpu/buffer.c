@@ -1,6 +1,7 @@
 /* Buffers. Everything goes through GL_COPY_WRITE_BUFFER, which no draw or dispatch looks at. */
 #include "gpu/buffer.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -77,7 +78,9 @@ static bool allocate_gl(struct kiln_buffer *buffer, struct kiln_error *error)
     glGenBuffers(1, &gl);
     glBindBuffer(GL_COPY_WRITE_BUFFER, gl);
     glBufferData(GL_COPY_WRITE_BUFFER, (GLsizeiptr)size, NULL, GL_DYNAMIC_COPY);
-    if (!kiln_device_check(buffer->device, buffer->label, error)) {
+    char what[128]; /* the size says why memory runs out */
+    snprintf(what, sizeof what, "%s, %zu bytes", buffer->label, size);
+    if (!kiln_device_check(buffer->device, what, error)) {
         glDeleteBuffers(1, &gl);
         return false;
     }

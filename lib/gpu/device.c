@@ -54,7 +54,7 @@ static const char *error_name(GLenum error)
     case GL_INVALID_FRAMEBUFFER_OPERATION:
         return "invalid framebuffer operation";
     case GL_OUT_OF_MEMORY:
-        return "out of memory";
+        return "the device is out of memory";
     case GL_CONTEXT_LOST:
         return "the device was lost";
     default:

@@ -1,6 +1,7 @@
 /* Images: a texture on one side, floats on the other. */
 #include "gpu/image.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "base/error.h"
@@ -102,7 +103,9 @@ static bool allocate_gl(struct kiln_image *image, struct kiln_error *error)
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     kiln_device_label(image->device, GL_TEXTURE, gl, image->label);
     glBindTexture(GL_TEXTURE_2D, before);
-    if (!kiln_device_check(image->device, image->label, error)) {
+    char what[128]; /* the size says why memory runs out */
+    snprintf(what, sizeof what, "%s, %u x %u pixels", image->label, image->width, image->height);
+    if (!kiln_device_check(image->device, what, error)) {
         glDeleteTextures(1, &gl);
         return false;
     }
