@@ -2,7 +2,8 @@
 #include "stages.h"
 
 #include "base/error.h"
-#include "gpu/framebuffer.h"
+
+#include <string.h>
 
 /* Float targets accumulate without the dark bias of 16 bits where that costs nothing: on software.
  */
@@ -30,8 +31,7 @@ static bool init_targets(struct kiln_stages *s, bool layers, struct kiln_error *
     kiln_image_init(&s->particle_color, s->device, w, h, format, "particles");
     kiln_image_init(&s->bloom_color, s->device, w, h, format, "bloom source");
     struct kiln_image *merged[] = {&s->particle_color, &s->bloom_color};
-    s->particle_framebuffer = kiln_framebuffer_create(s->device, merged, 2, error);
-    if (!s->particle_framebuffer)
+    if (!kiln_framebuffer_init(&s->particle_framebuffer, s->device, merged, 2, error))
         return false;
 
     bool separate = s->scene->post.compose == KILN_COMPOSE_SEPARATE;
@@ -39,15 +39,13 @@ static bool init_targets(struct kiln_stages *s, bool layers, struct kiln_error *
         kiln_image_init(&s->layer_bloom, s->device, w, h, format, "layer bloom");
         kiln_image_init(&s->smoke_color, s->device, w, h, format, "smoke");
         struct kiln_image *smoke[] = {&s->smoke_color, &s->layer_bloom};
-        s->smoke_framebuffer = kiln_framebuffer_create(s->device, smoke, 2, error);
-        if (!s->smoke_framebuffer)
+        if (!kiln_framebuffer_init(&s->smoke_framebuffer, s->device, smoke, 2, error))
             return false;
     }
     if (layers || separate) {
         kiln_image_init(&s->fire_color, s->device, w, h, format, "fire");
         struct kiln_image *fire[] = {&s->fire_color, separate ? &s->bloom_color : &s->layer_bloom};
-        s->fire_framebuffer = kiln_framebuffer_create(s->device, fire, 2, error);
-        if (!s->fire_framebuffer)
+        if (!kiln_framebuffer_init(&s->fire_framebuffer, s->device, fire, 2, error))
             return false;
     }
     return true;
@@ -120,9 +118,9 @@ void kiln_stages_finish(struct kiln_stages *stages)
     kiln_backdrop_destroy(&stages->backdrop);
     kiln_sort_destroy(&stages->sort);
     kiln_simulate_destroy(&stages->simulate);
-    kiln_framebuffer_destroy(&stages->particle_framebuffer);
-    kiln_framebuffer_destroy(&stages->fire_framebuffer);
-    kiln_framebuffer_destroy(&stages->smoke_framebuffer);
+    kiln_framebuffer_finish(&stages->particle_framebuffer);
+    kiln_framebuffer_finish(&stages->fire_framebuffer);
+    kiln_framebuffer_finish(&stages->smoke_framebuffer);
     struct kiln_image *images[] = {
         &stages->scene_color, &stages->scene_depth, &stages->particle_color, &stages->fire_color,
         &stages->smoke_color, &stages->bloom_color, &stages->layer_bloom};
@@ -137,7 +135,7 @@ void kiln_stages_finish(struct kiln_stages *stages)
 struct particle_pass {
     uint32_t systems;
     bool by_depth;
-    GLuint framebuffer;
+    const struct kiln_framebuffer *framebuffer;
     bool keep_bloom; /* clear the colour only */
     bool sum_alpha;
 };
@@ -165,8 +163,6 @@ static bool draw_particles(struct kiln_stages *s, struct kiln_pool *pool,
         .time_s = view->clock.x,
         .depth = &s->scene_depth,
         .framebuffer = pass->framebuffer,
-        .width = s->scene->width,
-        .height = s->scene->height,
         .keep_bloom = pass->keep_bloom,
         .sum_alpha = pass->sum_alpha,
     };
@@ -184,16 +180,16 @@ static bool draw_merged(struct kiln_stages *s, struct kiln_pool *pool, const str
     uint32_t fire = systems_with(s->scene, KILN_BLEND_ADD);
     uint32_t smoke = systems_with(s->scene, KILN_BLEND_ALPHA);
     struct particle_pass all = {
-        .systems = fire | smoke, .by_depth = smoke != 0, .framebuffer = s->particle_framebuffer};
+        .systems = fire | smoke, .by_depth = smoke != 0, .framebuffer = &s->particle_framebuffer};
     if (!draw_particles(s, pool, view, &all, drawn, error))
         return false;
-    if (!s->smoke_framebuffer)
+    if (!s->smoke_framebuffer.gl)
         return true;
 
     uint32_t count = 0;
     struct particle_pass smoke_layer = {
-        .systems = smoke, .by_depth = true, .framebuffer = s->smoke_framebuffer};
-    struct particle_pass fire_layer = {.systems = fire, .framebuffer = s->fire_framebuffer};
+        .systems = smoke, .by_depth = true, .framebuffer = &s->smoke_framebuffer};
+    struct particle_pass fire_layer = {.systems = fire, .framebuffer = &s->fire_framebuffer};
     return draw_particles(s, pool, view, &smoke_layer, &count, error) &&
            draw_particles(s, pool, view, &fire_layer, &count, error);
 }
@@ -205,9 +201,9 @@ static bool draw_separate(struct kiln_stages *s, struct kiln_pool *pool,
 {
     struct particle_pass smoke = {.systems = systems_with(s->scene, KILN_BLEND_ALPHA),
                                   .by_depth = true,
-                                  .framebuffer = s->particle_framebuffer};
+                                  .framebuffer = &s->particle_framebuffer};
     struct particle_pass fire = {.systems = systems_with(s->scene, KILN_BLEND_ADD),
-                                 .framebuffer = s->fire_framebuffer,
+                                 .framebuffer = &s->fire_framebuffer,
                                  .keep_bloom = true,
                                  .sum_alpha = true};
     uint32_t smoke_count = 0, fire_count = 0;

@@ -35,7 +35,7 @@ struct kiln_stages {
     struct kiln_image smoke_color;    /* for layers of merged composition */
     struct kiln_image bloom_color;    /* what will be blurred */
     struct kiln_image layer_bloom;    /* bloom of the layer passes: drawn, not used */
-    GLuint particle_framebuffer, fire_framebuffer, smoke_framebuffer;
+    struct kiln_framebuffer particle_framebuffer, fire_framebuffer, smoke_framebuffer;
 };
 
 /* Sets everything up for a scene. needs says what the output will ask for; threads is borrowed.

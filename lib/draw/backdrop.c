@@ -22,8 +22,8 @@ struct kiln_backdrop_stage {
     struct kiln_image *color, *depth;
     struct kiln_image surfaces; /* what each pixel's centre shows */
     GLuint cast, antialias;     /* programs */
-    GLuint cast_framebuffer, color_framebuffer, vertex_array;
-    GLuint view_buffer, block_buffer;
+    struct kiln_framebuffer cast_framebuffer, color_framebuffer;
+    GLuint vertex_array, view_buffer, block_buffer;
     struct backdrop_inputs drawn;
     bool has_drawn;
 };
@@ -114,11 +114,8 @@ static bool create_targets(struct kiln_backdrop_stage *stage, struct kiln_error 
     kiln_image_init(&stage->surfaces, stage->device, stage->color->width, stage->color->height,
                     GL_R32F, "backdrop surfaces");
     struct kiln_image *targets[] = {stage->color, stage->depth, &stage->surfaces};
-    stage->cast_framebuffer = kiln_framebuffer_create(stage->device, targets, 3, error);
-    if (!stage->cast_framebuffer)
-        return false;
-    stage->color_framebuffer = kiln_framebuffer_create(stage->device, targets, 1, error);
-    return stage->color_framebuffer != 0;
+    return kiln_framebuffer_init(&stage->cast_framebuffer, stage->device, targets, 3, error) &&
+           kiln_framebuffer_init(&stage->color_framebuffer, stage->device, targets, 1, error);
 }
 
 struct kiln_backdrop_stage *kiln_backdrop_create(struct kiln_device *device,
@@ -152,8 +149,8 @@ void kiln_backdrop_destroy(struct kiln_backdrop_stage **stage)
         return;
     glDeleteProgram(s->cast); /* 0 is ignored */
     glDeleteProgram(s->antialias);
-    kiln_framebuffer_destroy(&s->cast_framebuffer);
-    kiln_framebuffer_destroy(&s->color_framebuffer);
+    kiln_framebuffer_finish(&s->cast_framebuffer);
+    kiln_framebuffer_finish(&s->color_framebuffer);
     kiln_image_finish(&s->surfaces);
     glDeleteVertexArrays(1, &s->vertex_array);
     glDeleteBuffers(1, &s->view_buffer);
@@ -171,19 +168,16 @@ static void upload(GLuint buffer, GLuint binding, const void *data, size_t size)
 
 static bool cast(struct kiln_backdrop_stage *stage, struct kiln_error *error)
 {
-    if (!kiln_image_gl(stage->color, KILN_OVERWRITE, error) ||
-        !kiln_image_gl(stage->depth, KILN_OVERWRITE, error))
+    if (!kiln_framebuffer_bind(&stage->cast_framebuffer, error))
         return false;
-    GLuint surfaces = kiln_image_gl(&stage->surfaces, KILN_OVERWRITE, error);
-    if (!surfaces)
+    glDisable(GL_BLEND);
+    glUseProgram(stage->cast);
+    kiln_framebuffer_fill(stage->vertex_array);
+
+    GLuint surfaces = kiln_image_gl(&stage->surfaces, KILN_READ, error);
+    if (!surfaces || !kiln_framebuffer_bind(&stage->color_framebuffer, error))
         return false;
     uint32_t width = stage->color->width, height = stage->color->height;
-    glDisable(GL_BLEND);
-    glBindFramebuffer(GL_FRAMEBUFFER, stage->cast_framebuffer);
-    glUseProgram(stage->cast);
-    kiln_framebuffer_fill(stage->vertex_array, width, height);
-
-    glBindFramebuffer(GL_FRAMEBUFFER, stage->color_framebuffer);
     glUseProgram(stage->antialias);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, surfaces);

@@ -137,8 +137,8 @@ static void bind_texture(GLuint unit, GLenum target, GLuint texture)
 bool kiln_particles_run(struct kiln_particles_stage *stage, const struct kiln_particles_draw *draw,
                         struct kiln_error *error)
 {
-    glBindFramebuffer(GL_FRAMEBUFFER, draw->framebuffer);
-    glViewport(0, 0, (GLsizei)draw->width, (GLsizei)draw->height);
+    if (!kiln_framebuffer_bind(draw->framebuffer, error))
+        return false;
     static const GLfloat transparent[4] = {0};
     glClearBufferfv(GL_COLOR, 0, transparent);
     if (!draw->keep_bloom)

@@ -4,7 +4,7 @@
 
 #include "asset/atlas.h"
 #include "draw/view.h"
-#include "gpu/image.h"
+#include "gpu/framebuffer.h"
 #include "particles/pool.h"
 
 struct kiln_particles_stage;
@@ -20,10 +20,9 @@ struct kiln_particles_draw {
     struct kiln_pool *pool;
     struct kiln_buffer *entries; /* draw entries in drawing order */
     uint32_t count;
-    float time_s;             /* clip time, for the looks */
-    struct kiln_image *depth; /* of the scene */
-    GLuint framebuffer;       /* color, bloom: premultiplied */
-    uint32_t width, height;
+    float time_s;                               /* clip time, for the looks */
+    struct kiln_image *depth;                   /* of the scene */
+    const struct kiln_framebuffer *framebuffer; /* color, bloom: premultiplied */
     bool keep_bloom; /* of an earlier pass; colour is always cleared first */
     bool sum_alpha; /* false: premultiplied `over`, in which additive particles cover nothing; true:
                      * colours and alpha are summed (figure 3.1, fire) */

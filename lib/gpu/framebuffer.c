@@ -3,48 +3,55 @@
 
 #include "base/error.h"
 
-enum { MAX_ATTACHMENTS = 4 };
-
-GLuint kiln_framebuffer_create(struct kiln_device *device, struct kiln_image *const *images,
-                               size_t count, struct kiln_error *error)
+bool kiln_framebuffer_init(struct kiln_framebuffer *framebuffer, struct kiln_device *device,
+                           struct kiln_image *const *images, size_t count, struct kiln_error *error)
 {
-    GLuint framebuffer = 0;
-    GLenum buffers[MAX_ATTACHMENTS];
-    glGenFramebuffers(1, &framebuffer);
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    for (size_t i = 0; i < count && i < MAX_ATTACHMENTS; i++) {
-        GLuint texture = kiln_image_gl(images[i], KILN_OVERWRITE, error);
+    *framebuffer = (struct kiln_framebuffer){.count = count};
+    if (count < 1 || count > KILN_MAX_TARGETS)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "a framebuffer of %zu images; 1 to %d",
+                              count, KILN_MAX_TARGETS);
+    GLenum buffers[KILN_MAX_TARGETS];
+    glGenFramebuffers(1, &framebuffer->gl);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer->gl);
+    for (size_t i = 0; i < count; i++) {
+        GLuint texture = kiln_image_gl(images[i], KILN_READ_WRITE, error);
         if (!texture)
-            goto fail;
+            return false;
+        framebuffer->images[i] = images[i];
         buffers[i] = GL_COLOR_ATTACHMENT0 + (GLenum)i;
         glFramebufferTexture2D(GL_FRAMEBUFFER, buffers[i], GL_TEXTURE_2D, texture, 0);
     }
     glDrawBuffers((GLsizei)count, buffers);
     GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
-    if (status != GL_FRAMEBUFFER_COMPLETE) {
-        kiln_error_set(error, KILN_DEVICE_FAILED,
-                       "%s: framebuffer with '%s' is incomplete (0x%04x)", device->info.name,
-                       images[0]->label, status);
-        goto fail;
+    if (status != GL_FRAMEBUFFER_COMPLETE)
+        return kiln_error_set(error, KILN_DEVICE_FAILED,
+                              "%s: framebuffer with '%s' is incomplete (0x%04x)", device->info.name,
+                              images[0]->label, status);
+    kiln_device_label(device, GL_FRAMEBUFFER, framebuffer->gl, images[0]->label);
+    return kiln_device_check(device, images[0]->label, error);
+}
+
+void kiln_framebuffer_finish(struct kiln_framebuffer *framebuffer)
+{
+    if (framebuffer->gl)
+        glDeleteFramebuffers(1, &framebuffer->gl);
+    *framebuffer = (struct kiln_framebuffer){.gl = 0};
+}
+
+bool kiln_framebuffer_bind(const struct kiln_framebuffer *framebuffer, struct kiln_error *error)
+{
+    for (size_t i = 0; i < framebuffer->count; i++) {
+        if (!kiln_image_gl(framebuffer->images[i], KILN_READ_WRITE, error))
+            return false;
     }
-    kiln_device_label(device, GL_FRAMEBUFFER, framebuffer, images[0]->label);
-    return framebuffer;
-
-fail:
-    kiln_framebuffer_destroy(&framebuffer);
-    return 0;
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer->gl);
+    glViewport(0, 0, (GLsizei)framebuffer->images[0]->width,
+               (GLsizei)framebuffer->images[0]->height);
+    return true;
 }
 
-void kiln_framebuffer_destroy(GLuint *framebuffer)
+void kiln_framebuffer_fill(GLuint vertex_array)
 {
-    if (*framebuffer)
-        glDeleteFramebuffers(1, framebuffer);
-    *framebuffer = 0;
-}
-
-void kiln_framebuffer_fill(GLuint vertex_array, uint32_t width, uint32_t height)
-{
-    glViewport(0, 0, (GLsizei)width, (GLsizei)height);
     glBindVertexArray(vertex_array);
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }

@@ -4,14 +4,28 @@
 
 #include "gpu/image.h"
 
-/* A framebuffer object that draws into up to 4 images, in order; 0 with an error. The images must
- * outlive it; the caller deletes it with kiln_framebuffer_destroy. */
-GLuint kiln_framebuffer_create(struct kiln_device *device, struct kiln_image *const *images,
-                               size_t count, struct kiln_error *error);
-void kiln_framebuffer_destroy(GLuint *framebuffer);
+enum { KILN_MAX_TARGETS = 4 };
 
-/* Draws one triangle over the whole of the bound framebuffer, width x height pixels, with the bound
- * program (its vertex shader is draw/fullscreen.vert). vertex_array: any, it has no attributes. */
-void kiln_framebuffer_fill(GLuint vertex_array, uint32_t width, uint32_t height);
+/* Images of one size that are drawn into together. Zero-initialised has none. */
+struct kiln_framebuffer {
+    GLuint gl;
+    struct kiln_image *images[KILN_MAX_TARGETS];
+    size_t count;
+};
+
+/* Up to KILN_MAX_TARGETS images, in the order of the shader's outputs; they must outlive it. False
+ * with an error; kiln_framebuffer_finish then frees what there is. */
+bool kiln_framebuffer_init(struct kiln_framebuffer *framebuffer, struct kiln_device *device,
+                           struct kiln_image *const *images, size_t count,
+                           struct kiln_error *error);
+void kiln_framebuffer_finish(struct kiln_framebuffer *framebuffer);
+
+/* Binds it with a viewport over all of it. What is drawn next is the images' contents: their host
+ * sides become stale. */
+bool kiln_framebuffer_bind(const struct kiln_framebuffer *framebuffer, struct kiln_error *error);
+
+/* Draws one triangle over the whole of the bound framebuffer with the bound program, whose vertex
+ * shader is draw/fullscreen.vert. vertex_array: any, it has no attributes. */
+void kiln_framebuffer_fill(GLuint vertex_array);
 
 #endif

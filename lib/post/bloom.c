@@ -14,7 +14,7 @@ enum { TAPS = 6 }; /* of one side, the centre included: 11 in all */
 
 struct level {
     struct kiln_image images[2]; /* shrunk and blurred down; blurred across */
-    GLuint framebuffers[2];
+    struct kiln_framebuffer framebuffers[2];
 };
 
 struct kiln_bloom_stage {
@@ -30,8 +30,7 @@ static bool init_level(struct kiln_bloom_stage *stage, struct level *level, uint
     for (int i = 0; i < 2; i++) {
         struct kiln_image *image = &level->images[i];
         kiln_image_init(image, stage->device, width, height, format, "bloom");
-        level->framebuffers[i] = kiln_framebuffer_create(stage->device, &image, 1, error);
-        if (!level->framebuffers[i])
+        if (!kiln_framebuffer_init(&level->framebuffers[i], stage->device, &image, 1, error))
             return false;
     }
     return true;
@@ -40,7 +39,7 @@ static bool init_level(struct kiln_bloom_stage *stage, struct level *level, uint
 static void finish_level(struct level *level)
 {
     for (int i = 0; i < 2; i++) {
-        kiln_framebuffer_destroy(&level->framebuffers[i]);
+        kiln_framebuffer_finish(&level->framebuffers[i]);
         kiln_image_finish(&level->images[i]);
     }
 }
@@ -113,13 +112,11 @@ static bool pass(struct kiln_bloom_stage *stage, struct kiln_image *from, struct
                  int target, struct kiln_error *error)
 {
     GLuint source = kiln_image_gl(from, KILN_READ, error);
-    struct kiln_image *image = &level->images[target];
-    if (!source || !kiln_image_gl(image, KILN_OVERWRITE, error))
+    if (!source || !kiln_framebuffer_bind(&level->framebuffers[target], error))
         return false;
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, source);
-    glBindFramebuffer(GL_FRAMEBUFFER, level->framebuffers[target]);
-    kiln_framebuffer_fill(stage->vertex_array, image->width, image->height);
+    kiln_framebuffer_fill(stage->vertex_array);
     return true;
 }
 

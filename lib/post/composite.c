@@ -18,7 +18,8 @@ struct kiln_composite_stage {
     struct kiln_device *device;
     const struct kiln_scene *scene;
     uint32_t bits;
-    GLuint program, framebuffer, vertex_array;
+    GLuint program, vertex_array;
+    struct kiln_framebuffer framebuffer;
     GLuint linear; /* sampler of the bloom */
     struct kiln_image display, beauty;
     struct uniforms at;
@@ -58,9 +59,7 @@ struct kiln_composite_stage *kiln_composite_create(struct kiln_device *device,
                     bits == 16 ? GL_RGBA16 : GL_RGBA8, "display");
     kiln_image_init(&stage->beauty, device, scene->width, scene->height, GL_RGBA32F, "beauty");
     struct kiln_image *targets[] = {&stage->display, &stage->beauty};
-    if (stage->program)
-        stage->framebuffer = kiln_framebuffer_create(device, targets, 2, error);
-    if (!stage->framebuffer) {
+    if (!stage->program || !kiln_framebuffer_init(&stage->framebuffer, device, targets, 2, error)) {
         kiln_composite_destroy(&stage);
         return NULL;
     }
@@ -81,7 +80,7 @@ void kiln_composite_destroy(struct kiln_composite_stage **stage)
         return;
     if (s->program)
         glDeleteProgram(s->program);
-    kiln_framebuffer_destroy(&s->framebuffer);
+    kiln_framebuffer_finish(&s->framebuffer);
     kiln_image_finish(&s->display);
     kiln_image_finish(&s->beauty);
     glDeleteVertexArrays(1, &s->vertex_array);
@@ -113,8 +112,7 @@ bool kiln_composite_run(struct kiln_composite_stage *stage,
 {
     const struct kiln_scene *scene = stage->scene;
     const struct kiln_post *post = &scene->post;
-    if (!kiln_image_gl(&stage->display, KILN_OVERWRITE, error) ||
-        !kiln_image_gl(&stage->beauty, KILN_OVERWRITE, error) || !bind_inputs(inputs, error))
+    if (!bind_inputs(inputs, error) || !kiln_framebuffer_bind(&stage->framebuffer, error))
         return false;
 
     glUseProgram(stage->program);
@@ -133,9 +131,8 @@ bool kiln_composite_run(struct kiln_composite_stage *stage,
     glUniform1ui(stage->at.frame, inputs->frame);
 
     glDisable(GL_BLEND);
-    glBindFramebuffer(GL_FRAMEBUFFER, stage->framebuffer);
     glBindSampler(BLOOM_UNIT, stage->linear);
-    kiln_framebuffer_fill(stage->vertex_array, scene->width, scene->height);
+    kiln_framebuffer_fill(stage->vertex_array);
     glBindSampler(BLOOM_UNIT, 0);
     return kiln_device_check(stage->device, "composite", error);
 }
@@ -143,7 +140,7 @@ bool kiln_composite_run(struct kiln_composite_stage *stage,
 bool kiln_composite_read_display(struct kiln_composite_stage *stage, void *pixels,
                                  struct kiln_error *error)
 {
-    glBindFramebuffer(GL_FRAMEBUFFER, stage->framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, stage->framebuffer.gl);
     glReadBuffer(GL_COLOR_ATTACHMENT0);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, (GLsizei)stage->scene->width, (GLsizei)stage->scene->height, GL_RGBA,

@@ -54,7 +54,7 @@ struct fixture {
     struct kiln_particles_stage *particles;
     struct kiln_pool pool;
     struct kiln_buffer entries;
-    GLuint framebuffer;
+    struct kiln_framebuffer framebuffer;
     struct kiln_view view;
     float4 *looks;
     float *cells[2]; /* of the systems */
@@ -101,8 +101,7 @@ static void make_targets(struct fixture *f)
     kiln_image_init(&f->color, f->device, WIDTH, HEIGHT, GL_RGBA32F, "particles");
     kiln_image_init(&f->bloom, f->device, WIDTH, HEIGHT, GL_RGBA32F, "bloom");
     struct kiln_image *targets[] = {&f->color, &f->bloom};
-    f->framebuffer = kiln_framebuffer_create(f->device, targets, 2, &error);
-    assert_true(f->framebuffer != 0);
+    assert_true(kiln_framebuffer_init(&f->framebuffer, f->device, targets, 2, &error));
 }
 
 static int set_up(void **state)
@@ -151,7 +150,7 @@ static int tear_down(void **state)
     kiln_pool_finish(&f->pool);
     kiln_particles_destroy(&f->particles);
     kiln_backdrop_destroy(&f->backdrop);
-    kiln_framebuffer_destroy(&f->framebuffer);
+    kiln_framebuffer_finish(&f->framebuffer);
     struct kiln_image *images[] = {&f->scene_color, &f->depth, &f->color, &f->bloom};
     for (size_t i = 0; i < 4; i++)
         kiln_image_finish(images[i]);
@@ -354,13 +353,9 @@ static void draw(struct fixture *f, bool sum_alpha)
         .count = COUNT,
         .time_s = f->view.clock.x,
         .depth = &f->depth,
-        .framebuffer = f->framebuffer,
-        .width = WIDTH,
-        .height = HEIGHT,
+        .framebuffer = &f->framebuffer,
         .sum_alpha = sum_alpha,
     };
-    assert_true(kiln_image_gl(&f->color, KILN_OVERWRITE, &error));
-    assert_true(kiln_image_gl(&f->bloom, KILN_OVERWRITE, &error));
     if (!kiln_particles_run(f->particles, &job, &error))
         fail_msg("%s", error.message);
     assert_non_null(kiln_image_host(&f->color, KILN_READ, &error));
