@@ -7,8 +7,20 @@
 #include "gpu/framebuffer.h"
 #include "gpu/program.h"
 
+#include <assert.h>
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
+#include <string.h>
+
+static_assert(sizeof(struct kiln_view) == 112, "std140");
+static_assert(offsetof(struct kiln_view, eye) == 48, "std140");
+static_assert(sizeof(struct kiln_draw_light) == 32, "std140");
+static_assert(offsetof(struct kiln_draw_backdrop, counts) == 96, "std140");
+static_assert(offsetof(struct kiln_draw_backdrop, box_half) == 112 + 16 * KILN_MAX_BOXES, "std140");
+static_assert(offsetof(struct kiln_draw_backdrop, lights) == 112 + 48 * KILN_MAX_BOXES, "std140");
+static_assert(sizeof(struct kiln_draw_backdrop) == 112 + 48 * KILN_MAX_BOXES + 32 * KILN_MAX_LIGHTS,
+              "std140, and no padding, which same_picture() would compare");
 
 /* What the picture depends on. */
 struct backdrop_inputs {
@@ -23,7 +35,8 @@ struct kiln_backdrop_stage {
     struct kiln_image surfaces; /* what each pixel's centre shows */
     GLuint cast, antialias;     /* programs */
     struct kiln_framebuffer cast_framebuffer, color_framebuffer;
-    GLuint vertex_array, view_buffer, block_buffer;
+    GLuint vertex_array;
+    struct kiln_buffer view_buffer, block_buffer;
     struct backdrop_inputs drawn;
     bool has_drawn;
 };
@@ -137,8 +150,8 @@ struct kiln_backdrop_stage *kiln_backdrop_create(struct kiln_device *device,
         return NULL;
     }
     glGenVertexArrays(1, &stage->vertex_array);
-    glGenBuffers(1, &stage->view_buffer);
-    glGenBuffers(1, &stage->block_buffer);
+    kiln_buffer_init(&stage->view_buffer, device, sizeof stage->drawn.view, "view");
+    kiln_buffer_init(&stage->block_buffer, device, sizeof stage->drawn.block, "backdrop");
     return stage;
 }
 
@@ -153,17 +166,10 @@ void kiln_backdrop_destroy(struct kiln_backdrop_stage **stage)
     kiln_framebuffer_finish(&s->color_framebuffer);
     kiln_image_finish(&s->surfaces);
     glDeleteVertexArrays(1, &s->vertex_array);
-    glDeleteBuffers(1, &s->view_buffer);
-    glDeleteBuffers(1, &s->block_buffer);
+    kiln_buffer_finish(&s->view_buffer);
+    kiln_buffer_finish(&s->block_buffer);
     free(s);
     *stage = NULL;
-}
-
-static void upload(GLuint buffer, GLuint binding, const void *data, size_t size)
-{
-    glBindBuffer(GL_UNIFORM_BUFFER, buffer);
-    glBufferData(GL_UNIFORM_BUFFER, (GLsizeiptr)size, data, GL_STREAM_DRAW);
-    glBindBufferBase(GL_UNIFORM_BUFFER, binding, buffer);
 }
 
 static bool cast(struct kiln_backdrop_stage *stage, struct kiln_error *error)
@@ -193,8 +199,12 @@ bool kiln_backdrop_draw(struct kiln_backdrop_stage *stage, const struct kiln_vie
                         struct kiln_error *error)
 {
     struct backdrop_inputs now = {.view = *view, .block = make_block(stage->scene, view->clock.x)};
-    upload(stage->view_buffer, KILN_BIND_VIEW, &now.view, sizeof now.view);
-    upload(stage->block_buffer, KILN_BIND_BACKDROP, &now.block, sizeof now.block);
+    GLuint view_buffer = kiln_buffer_upload(&stage->view_buffer, &now.view, error);
+    GLuint block_buffer = kiln_buffer_upload(&stage->block_buffer, &now.block, error);
+    if (!view_buffer || !block_buffer)
+        return false;
+    glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_VIEW, view_buffer);
+    glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_BACKDROP, block_buffer);
     if (stage->has_drawn && same_picture(&now, &stage->drawn))
         return true;
 

@@ -8,14 +8,21 @@
 #include "gpu/program.h"
 #include "shared/look_layout.h"
 
+#include <assert.h>
+#include <stddef.h>
 #include <stdlib.h>
+#include <string.h>
+
+static_assert(offsetof(struct kiln_draw_look, atlas) == 48, "std140");
+static_assert(sizeof(struct kiln_draw_look) == 80, "std140");
+static_assert(KILN_MAX_SYSTEMS * sizeof(struct kiln_draw_look) <= 16384, "of every GL");
 
 struct kiln_particles_stage {
     struct kiln_device *device;
     const struct kiln_scene *scene;
     const struct kiln_atlas *atlas;
     GLuint program, vertex_array;
-    GLuint look_buffer, key_buffer;
+    struct kiln_buffer looks, keys;
     GLuint look_table; /* texture, KILN_LOOK_SAMPLES wide */
     float4 *table;     /* what is in it */
     bool table_valid;
@@ -34,35 +41,30 @@ static struct kiln_draw_look make_look(const struct kiln_scene *scene, uint32_t 
     };
 }
 
-static GLuint make_uniform_buffer(const void *data, size_t size)
-{
-    GLuint buffer = 0;
-    glGenBuffers(1, &buffer);
-    glBindBuffer(GL_UNIFORM_BUFFER, buffer);
-    glBufferData(GL_UNIFORM_BUFFER, (GLsizeiptr)size, data, GL_STATIC_DRAW);
-    return buffer;
-}
-
-static void make_buffers(struct kiln_particles_stage *stage)
+static bool make_buffers(struct kiln_particles_stage *stage, struct kiln_error *error)
 {
     const struct kiln_scene *scene = stage->scene;
     struct kiln_draw_look looks[KILN_MAX_SYSTEMS] = {0};
     for (uint32_t i = 0; i < scene->system_count; i++)
         looks[i] = make_look(scene, i, &stage->atlas->systems[i]);
-    stage->look_buffer = make_uniform_buffer(looks, sizeof looks);
-
     float4 keys[KILN_MAX_VALUE_KEYS] = {{0}};
     if (scene->key_count)
         memcpy(keys, scene->keys, scene->key_count * sizeof *keys);
-    stage->key_buffer = make_uniform_buffer(keys, sizeof keys);
-    glGenVertexArrays(1, &stage->vertex_array);
+    kiln_buffer_init(&stage->looks, stage->device, sizeof looks, "looks");
+    kiln_buffer_init(&stage->keys, stage->device, sizeof keys, "value keys");
+    return kiln_buffer_upload(&stage->looks, looks, error) &&
+           kiln_buffer_upload(&stage->keys, keys, error);
+}
 
+static void make_look_table(struct kiln_particles_stage *stage)
+{
     glGenTextures(1, &stage->look_table);
     glBindTexture(GL_TEXTURE_2D, stage->look_table);
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, KILN_LOOK_SAMPLES,
                  KILN_LOOK_TEXELS / KILN_LOOK_SAMPLES, 0, GL_RGBA, GL_FLOAT, NULL);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    kiln_device_label(stage->device, GL_TEXTURE, stage->look_table, "look table");
 }
 
 /* Brings the table to a clip time. */
@@ -106,8 +108,9 @@ struct kiln_particles_stage *kiln_particles_create(struct kiln_device *device,
         return NULL;
     }
     stage->additive_alpha = glGetUniformLocation(stage->program, "additive_alpha");
-    make_buffers(stage);
-    if (!kiln_device_check(device, "particles set-up", error))
+    glGenVertexArrays(1, &stage->vertex_array);
+    make_look_table(stage);
+    if (!make_buffers(stage, error) || !kiln_device_check(device, "particles set-up", error))
         kiln_particles_destroy(&stage);
     return stage;
 }
@@ -120,8 +123,8 @@ void kiln_particles_destroy(struct kiln_particles_stage **stage)
     if (s->program)
         glDeleteProgram(s->program);
     glDeleteVertexArrays(1, &s->vertex_array);
-    glDeleteBuffers(1, &s->look_buffer);
-    glDeleteBuffers(1, &s->key_buffer);
+    kiln_buffer_finish(&s->looks);
+    kiln_buffer_finish(&s->keys);
     glDeleteTextures(1, &s->look_table);
     free(s->table);
     free(s);
@@ -148,13 +151,15 @@ bool kiln_particles_run(struct kiln_particles_stage *stage, const struct kiln_pa
 
     GLuint records = kiln_buffer_gl(&draw->pool->records, KILN_READ, error);
     GLuint entries = records ? kiln_buffer_gl(draw->entries, KILN_READ, error) : 0;
-    GLuint depth = entries ? kiln_image_gl(draw->depth, KILN_READ, error) : 0;
+    GLuint looks = entries ? kiln_buffer_gl(&stage->looks, KILN_READ, error) : 0;
+    GLuint keys = looks ? kiln_buffer_gl(&stage->keys, KILN_READ, error) : 0;
+    GLuint depth = keys ? kiln_image_gl(draw->depth, KILN_READ, error) : 0;
     if (!depth)
         return false;
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, KILN_BIND_RECORDS, records);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, KILN_BIND_ENTRIES, entries);
-    glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_LOOKS, stage->look_buffer);
-    glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_KEYS, stage->key_buffer);
+    glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_LOOKS, looks);
+    glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_KEYS, keys);
     update_looks(stage, draw->time_s);
     bind_texture(1, GL_TEXTURE_2D_ARRAY, stage->atlas->texture);
     bind_texture(2, GL_TEXTURE_2D, depth);

@@ -112,3 +112,12 @@ GLuint kiln_buffer_gl(struct kiln_buffer *buffer, enum kiln_access access, struc
         buffer->host_valid = false;
     return buffer->gl;
 }
+
+GLuint kiln_buffer_upload(struct kiln_buffer *buffer, const void *bytes, struct kiln_error *error)
+{
+    void *host = kiln_buffer_host(buffer, KILN_OVERWRITE, error);
+    if (!host)
+        return 0;
+    memcpy(host, bytes, buffer->size);
+    return kiln_buffer_gl(buffer, KILN_READ, error);
+}

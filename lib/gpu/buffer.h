@@ -34,4 +34,7 @@ void *kiln_buffer_host(struct kiln_buffer *buffer, enum kiln_access access,
 GLuint kiln_buffer_gl(struct kiln_buffer *buffer, enum kiln_access access,
                       struct kiln_error *error);
 
+/* Replaces all `size` bytes; returns the GL buffer object, or 0 with an error. */
+GLuint kiln_buffer_upload(struct kiln_buffer *buffer, const void *bytes, struct kiln_error *error);
+
 #endif

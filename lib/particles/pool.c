@@ -1,6 +1,10 @@
 /* The slots of every system, and walks over them. */
 #include "particles/pool.h"
 
+#include <assert.h>
+
+static_assert(sizeof(struct kiln_particle) == 32, "std430");
+
 void kiln_pool_init(struct kiln_pool *pool, struct kiln_device *device, const uint32_t *capacities,
                     uint32_t system_count)
 {

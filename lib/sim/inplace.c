@@ -67,14 +67,12 @@ static GLuint upload(struct kiln_inplace *inplace, const struct kiln_sim_params 
                      struct kiln_error *error)
 {
     unsigned char *steps = kiln_buffer_host(&inplace->steps, KILN_READ_WRITE, error);
-    void *colliders = kiln_buffer_host(&inplace->colliders, KILN_OVERWRITE, error);
-    if (!steps || !colliders)
+    if (!steps)
         return 0;
     for (uint32_t i = 0; i < params->system_count; i++)
         memcpy(steps + i * inplace->step_stride, &params->systems[i], sizeof params->systems[i]);
-    memcpy(colliders, &params->colliders, sizeof params->colliders);
     GLuint key_buffer = kiln_buffer_gl(&inplace->keys, KILN_READ, error);
-    GLuint collider_buffer = kiln_buffer_gl(&inplace->colliders, KILN_READ, error);
+    GLuint collider_buffer = kiln_buffer_upload(&inplace->colliders, &params->colliders, error);
     if (!key_buffer || !collider_buffer)
         return 0;
     glBindBufferBase(GL_UNIFORM_BUFFER, SIM_BIND_KEYS, key_buffer);

@@ -83,6 +83,11 @@ static void bytes_move_to_whoever_asks(void **state)
     peek(gl, words, COUNT);
     assert_int_equal(words[3], 333);
     assert_int_equal(words[100], 700);
+
+    words[COUNT - 1] = 99;
+    assert_int_equal(kiln_buffer_upload(&buffer, words, &error), gl);
+    peek(gl, words, COUNT);
+    assert_true(words[COUNT - 1] == 99 && host[COUNT - 1] == 99);
     kiln_buffer_finish(&buffer);
     assert_true(buffer.gl == 0 && buffer.host == NULL);
 }
