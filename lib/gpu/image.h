@@ -1,4 +1,4 @@
-/* Two-dimensional float targets with a residency, like buffers. The texture has one level, filters
+/* Two-dimensional targets with a residency, like buffers. The texture has one level, filters
  * linearly and clamps at its edge. */
 #ifndef KILN_GPU_IMAGE_H
 #define KILN_GPU_IMAGE_H
@@ -9,7 +9,7 @@ struct kiln_image {
     struct kiln_device *device; /* NULL: host only */
     const char *label;
     uint32_t width, height, channels; /* channels 1 or 4 */
-    GLenum gl_format; /* GL_R32F, GL_RGBA16F, GL_RGBA32F; the host side is always float */
+    GLenum gl_format; /* GL_R32F, or one of four channels; the host side is always float */
     float *host;      /* rows from the top, pixels interleaved */
     GLuint gl;        /* texture; row 0 is the top row: kiln draws with y down */
     bool host_valid, gl_valid;

@@ -7,11 +7,10 @@
 
 #include <math.h>
 #include <stdlib.h>
-
-enum { BLOOM_UNIT = 3 };
+#include <string.h>
 
 struct uniforms {
-    GLint bloom_strength, bloom_scale, separate_fire, exposure, tonemap, levels, dither, frame;
+    GLint bloom_strength, separate_fire, exposure, tonemap, levels, dither, frame;
 };
 
 struct kiln_composite_stage {
@@ -20,7 +19,6 @@ struct kiln_composite_stage {
     uint32_t bits;
     GLuint program, vertex_array;
     struct kiln_framebuffer framebuffer;
-    GLuint linear; /* sampler of the bloom */
     struct kiln_image display, beauty;
     struct uniforms at;
 };
@@ -30,7 +28,6 @@ static void find_uniforms(struct kiln_composite_stage *stage)
     GLuint p = stage->program;
     stage->at = (struct uniforms){
         .bloom_strength = glGetUniformLocation(p, "bloom_strength"),
-        .bloom_scale = glGetUniformLocation(p, "bloom_scale"),
         .separate_fire = glGetUniformLocation(p, "separate_fire"),
         .exposure = glGetUniformLocation(p, "exposure"),
         .tonemap = glGetUniformLocation(p, "tonemap"),
@@ -65,11 +62,6 @@ struct kiln_composite_stage *kiln_composite_create(struct kiln_device *device,
     }
     find_uniforms(stage);
     glGenVertexArrays(1, &stage->vertex_array);
-    glGenSamplers(1, &stage->linear);
-    glSamplerParameteri(stage->linear, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glSamplerParameteri(stage->linear, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glSamplerParameteri(stage->linear, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glSamplerParameteri(stage->linear, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     return stage;
 }
 
@@ -84,7 +76,6 @@ void kiln_composite_destroy(struct kiln_composite_stage **stage)
     kiln_image_finish(&s->display);
     kiln_image_finish(&s->beauty);
     glDeleteVertexArrays(1, &s->vertex_array);
-    glDeleteSamplers(1, &s->linear);
     free(s);
     *stage = NULL;
 }
@@ -117,10 +108,8 @@ bool kiln_composite_run(struct kiln_composite_stage *stage,
 
     glUseProgram(stage->program);
     float strength = 0.0f;
-    if (inputs->bloom) {
+    if (inputs->bloom)
         strength = kiln_scene_value(scene, &post->bloom_strength, inputs->time_s);
-        glUniform2f(stage->at.bloom_scale, 1.0f / 6.0f, 1.0f / 6.0f);
-    }
     glUniform1f(stage->at.bloom_strength, strength);
     glUniform1i(stage->at.separate_fire, inputs->fire != NULL);
     glUniform1f(stage->at.exposure,
@@ -131,9 +120,7 @@ bool kiln_composite_run(struct kiln_composite_stage *stage,
     glUniform1ui(stage->at.frame, inputs->frame);
 
     glDisable(GL_BLEND);
-    glBindSampler(BLOOM_UNIT, stage->linear);
     kiln_framebuffer_fill(stage->vertex_array);
-    glBindSampler(BLOOM_UNIT, 0);
     return kiln_device_check(stage->device, "composite", error);
 }
 

@@ -16,7 +16,7 @@ void kiln_composite_destroy(struct kiln_composite_stage **stage);
 struct kiln_composite_inputs {
     struct kiln_image *scene, *particles; /* particles: premultiplied */
     struct kiln_image *fire;              /* NULL unless composed separately */
-    struct kiln_image *bloom;             /* NULL for none */
+    struct kiln_image *bloom;             /* a sixth of the size; NULL for none */
     uint32_t frame;
     float time_s;
 };

@@ -5,10 +5,9 @@
 layout(binding = 0) uniform sampler2D scene;
 layout(binding = 1) uniform sampler2D particles; /* premultiplied: all (merged), or smoke */
 layout(binding = 2) uniform sampler2D fire;      /* premultiplied, alpha summed (separate) */
-layout(binding = 3) uniform sampler2D bloom;     /* a sixth of the size, linear filter */
+layout(binding = 3) uniform sampler2D bloom;     /* a sixth of the size */
 
 uniform float bloom_strength;
-uniform vec2 bloom_scale; /* texels of the bloom texture a pixel */
 uniform bool separate_fire;
 uniform float exposure; /* factor */
 uniform int tonemap;    /* 0 none, 1 AgX, 2 ACES: enum kiln_tonemap */
@@ -61,7 +60,7 @@ spline spline_at(float t)
 /* Bilinear magnification would show the sixth-size bloom as diamonds. */
 vec3 magnified_bloom()
 {
-    vec2 texel = gl_FragCoord.xy * bloom_scale - 0.5;
+    vec2 texel = gl_FragCoord.xy * (1.0 / 6.0) - 0.5;
     vec2 base = floor(texel) + 0.5;
     spline x = spline_at(fract(texel.x));
     spline y = spline_at(fract(texel.y));
