@@ -1,4 +1,5 @@
-/* Averages blocks of pixels: nothing is skipped, so that sparks do not flicker in the bloom. */
+/* Averages blocks of pixels: nothing is skipped, so that sparks do not flicker in the bloom. A sum in
+ * 16 bits that overflowed to infinity must not spread: it counts as the largest half. */
 layout(binding = 0) uniform sampler2D source;
 uniform int factor;
 
@@ -11,7 +12,7 @@ void main()
     vec4 sum = vec4(0.0);
     for (int y = 0; y < factor; y++) {
         for (int x = 0; x < factor; x++)
-            sum += texelFetch(source, min(first + ivec2(x, y), last), 0);
+            sum += min(texelFetch(source, min(first + ivec2(x, y), last), 0), vec4(65504.0));
     }
     out_color = sum / float(factor * factor);
 }

@@ -7,6 +7,8 @@ layout(binding = 1) uniform sampler2D particles; /* premultiplied: all (merged),
 layout(binding = 2) uniform sampler2D fire;      /* premultiplied, alpha summed (separate) */
 layout(binding = 3) uniform sampler2D bloom;     /* a sixth of the size */
 
+const float HALF_MAX = 65504.0;
+
 uniform float bloom_strength;
 uniform bool separate_fire;
 uniform float exposure; /* factor */
@@ -90,7 +92,8 @@ void main()
         color.rgb += bloom_strength * magnified_bloom();
     out_beauty = color;
 
-    vec3 display = max(color.rgb * exposure, vec3(0.0));
+    /* White long before the upper limit; beyond it, a tone map's squares overflow. */
+    vec3 display = clamp(color.rgb * exposure, 0.0, HALF_MAX);
     if (tonemap == 1)
         display = tonemap_agx(display);
     else if (tonemap == 2)

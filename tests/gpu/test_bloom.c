@@ -111,27 +111,50 @@ static void bloom_matches_c(void **state)
     }
 }
 
-/* Blurring moves light, it makes none: inside a large picture the sum stays. */
-static void bloom_keeps_the_light(void **state)
+enum { EDGE = 240, BLURRED = EDGE / 6 };
+
+/* The red channel, blurred in a format, of a black square with one bright pixel near its middle. */
+static void blur_spark(struct kiln_device *device, GLenum format, float brightness,
+                       float red[BLURRED * BLURRED])
 {
     struct kiln_error error = {0};
     struct kiln_image source;
-    kiln_image_init(&source, *state, 240, 240, GL_RGBA32F, "source");
+    kiln_image_init(&source, device, EDGE, EDGE, format, "source");
     float *pixels = kiln_image_host(&source, KILN_OVERWRITE, &error);
     assert_non_null(pixels);
-    memset(pixels, 0, sizeof(float) * 240 * 240 * 4);
-    pixels[(120 * 240 + 121) * 4] = 360.0f;
-    struct kiln_bloom_stage *stage = kiln_bloom_create(*state, 240, 240, GL_RGBA32F, &error);
+    memset(pixels, 0, sizeof(float) * EDGE * EDGE * 4);
+    pixels[(120 * EDGE + 121) * 4] = brightness;
+    struct kiln_bloom_stage *stage = kiln_bloom_create(device, EDGE, EDGE, format, &error);
     assert_non_null(stage);
     struct kiln_image *result = kiln_bloom_run(stage, &source, &error);
     assert_non_null(result);
     const float *got = kiln_image_host(result, KILN_READ, &error);
-    double sum = 0;
-    for (int i = 0; i < 40 * 40; i++)
-        sum += (double)got[4 * i];
-    assert_true(fabs(36.0 * sum - 360.0) < 1e-2);
+    assert_non_null(got);
+    for (int i = 0; i < BLURRED * BLURRED; i++)
+        red[i] = got[4 * i];
     kiln_bloom_destroy(&stage);
     kiln_image_finish(&source);
+}
+
+/* Blurring moves light, it makes none: inside a large picture the sum stays. */
+static void bloom_keeps_the_light(void **state)
+{
+    float red[BLURRED * BLURRED];
+    blur_spark(*state, GL_RGBA32F, 360.0f, red);
+    double sum = 0;
+    for (int i = 0; i < BLURRED * BLURRED; i++)
+        sum += (double)red[i];
+    assert_true(fabs(36.0 * sum - 360.0) < 1e-2);
+}
+
+/* The targets of a GPU have 16 bits: a pixel that overflowed glows like a bright one. */
+static void infinity_does_not_spread(void **state)
+{
+    float red[BLURRED * BLURRED], bright[BLURRED * BLURRED];
+    blur_spark(*state, GL_RGBA16F, INFINITY, red);
+    blur_spark(*state, GL_RGBA16F, 65504.0f, bright);
+    assert_true(bright[20 * BLURRED + 20] > 10.0f);
+    assert_memory_equal(red, bright, sizeof red);
 }
 
 int main(void)
@@ -139,6 +162,7 @@ int main(void)
     static const struct CMUnitTest tests[] = {
         test_on_device(bloom_matches_c),
         test_on_device(bloom_keeps_the_light),
+        test_on_device(infinity_does_not_spread),
     };
     return cmocka_run_group_tests_name("bloom", tests, test_device_open, test_device_close);
 }

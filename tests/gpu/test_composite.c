@@ -93,41 +93,78 @@ static void reference(const float *scene, const float *particles, const float *f
     out[3] = 1.0;
 }
 
+/* A stage for a scene, and its inputs; the tests say which of them take part. */
+struct fixture {
+    struct kiln_scene *scene;
+    struct kiln_composite_stage *stage;
+    struct kiln_image back, particles, fire;
+    struct kiln_composite_inputs inputs;
+};
+
+/* The backdrop random and opaque, the particles random, or nothing for a light of 0. */
+static void fixture_init(struct fixture *f, void *device, const char *post, uint32_t bits,
+                         float light)
+{
+    struct kiln_error error = {0};
+    *f = (struct fixture){.scene = parse(post)};
+    srand(11);
+    fill(&f->back, device, "scene", 1.5f, true);
+    fill(&f->particles, device, "particles", light, false);
+    fill(&f->fire, device, "fire", 3.0f, false);
+    if (light == 0.0f)
+        memset(f->particles.host, 0, sizeof(float) * PIXELS * 4);
+    f->stage = kiln_composite_create(device, f->scene, bits, &error);
+    assert_non_null(f->stage);
+    f->inputs = (struct kiln_composite_inputs){.scene = &f->back, .particles = &f->particles};
+}
+
+static void fixture_finish(struct fixture *f)
+{
+    kiln_composite_destroy(&f->stage);
+    kiln_image_finish(&f->back);
+    kiln_image_finish(&f->particles);
+    kiln_image_finish(&f->fire);
+    kiln_scene_destroy(&f->scene);
+}
+
+/* The backdrop's pixels, to be written before the first run. */
+static float *backdrop_pixels(struct fixture *f)
+{
+    struct kiln_error error = {0};
+    float *pixels = kiln_image_host(&f->back, KILN_OVERWRITE, &error);
+    assert_non_null(pixels);
+    return pixels;
+}
+
+/* Runs the stage and reads the display picture: 4 * PIXELS channels of the stage's bits. */
+static void run(struct fixture *f, void *got)
+{
+    struct kiln_error error = {0};
+    assert_true(kiln_composite_run(f->stage, &f->inputs, &error));
+    assert_true(kiln_composite_read_display(f->stage, got, &error));
+}
+
 static void check(void *device, const char *post, uint32_t bits, bool with_fire, double exposure,
                   bool use_aces)
 {
-    struct kiln_error error = {0};
-    struct kiln_scene *scene = parse(post);
-    struct kiln_image back, particles, fire;
-    srand(11);
-    fill(&back, device, "scene", 1.5f, true);
-    fill(&particles, device, "particles", 2.0f, false);
-    fill(&fire, device, "fire", 3.0f, false);
-    struct kiln_composite_stage *stage = kiln_composite_create(device, scene, bits, &error);
-    assert_non_null(stage);
-    const struct kiln_composite_inputs inputs = {
-        .scene = &back, .particles = &particles, .fire = with_fire ? &fire : NULL};
-    assert_true(kiln_composite_run(stage, &inputs, &error));
+    struct fixture f;
+    fixture_init(&f, device, post, bits, 2.0f);
+    f.inputs.fire = with_fire ? &f.fire : NULL;
     uint16_t got[PIXELS * 4];
-    assert_true(kiln_composite_read_display(stage, got, &error));
-
+    run(&f, got);
     double levels = bits == 16 ? 65535.0 : 255.0;
     double tolerance = bits == 16 ? 6.0 : 1.0; /* levels: the driver's pow and log2 */
     for (int i = 0; i < PIXELS; i++) {
         double expected[4];
-        reference(back.host + 4 * i, particles.host + 4 * i, with_fire ? fire.host + 4 * i : NULL,
-                  exposure, use_aces, expected);
+        reference(f.back.host + 4 * i, f.particles.host + 4 * i,
+                  with_fire ? f.fire.host + 4 * i : NULL, exposure, use_aces, expected);
         for (int c = 0; c < 4; c++) {
             double value =
                 bits == 16 ? (double)got[4 * i + c] : (double)((const uint8_t *)got)[4 * i + c];
             assert_true(fabs(value - levels * expected[c]) <= tolerance);
         }
     }
-    kiln_composite_destroy(&stage);
-    kiln_image_finish(&back);
-    kiln_image_finish(&particles);
-    kiln_image_finish(&fire);
-    kiln_scene_destroy(&scene);
+    fixture_finish(&f);
 }
 
 static void merged_matches_c(void **state)
@@ -149,26 +186,16 @@ static void aces_matches_c(void **state)
 /* Published values of AgX's default look: mid grey stays near mid grey, white arrives late. */
 static void agx_keeps_grey_and_hue(void **state)
 {
-    struct kiln_error error = {0};
-    struct kiln_scene *scene = parse("tonemap: agx");
-    struct kiln_image back, none;
-    kiln_image_init(&back, *state, WIDTH, HEIGHT, GL_RGBA32F, "scene");
-    kiln_image_init(&none, *state, WIDTH, HEIGHT, GL_RGBA32F, "particles");
-    float *p = kiln_image_host(&back, KILN_OVERWRITE, &error);
-    float *q = kiln_image_host(&none, KILN_OVERWRITE, &error);
-    assert_true(p && q);
-    memset(q, 0, sizeof(float) * PIXELS * 4);
+    struct fixture f;
+    fixture_init(&f, *state, "tonemap: agx", 16, 0.0f);
+    float *p = backdrop_pixels(&f);
     for (int i = 0; i < PIXELS; i++) {
         float grey = 0.18f * exp2f(-10.0f + 20.0f * (float)i / PIXELS); /* a ramp of 20 stops */
         p[4 * i] = p[4 * i + 1] = p[4 * i + 2] = grey;
         p[4 * i + 3] = 1.0f;
     }
-    struct kiln_composite_stage *stage = kiln_composite_create(*state, scene, 16, &error);
-    assert_non_null(stage);
-    const struct kiln_composite_inputs inputs = {.scene = &back, .particles = &none};
-    assert_true(kiln_composite_run(stage, &inputs, &error));
     uint16_t got[PIXELS * 4];
-    assert_true(kiln_composite_read_display(stage, got, &error));
+    run(&f, got);
     for (int i = 0; i < PIXELS; i++) {
         assert_true(abs(got[4 * i] - got[4 * i + 1]) < 200 &&
                     abs(got[4 * i] - got[4 * i + 2]) < 200);
@@ -178,38 +205,43 @@ static void agx_keeps_grey_and_hue(void **state)
     assert_true(got[4 * (PIXELS - 1)] > 64000);      /* ten above: white */
     double middle = got[4 * (PIXELS / 2)] / 65535.0; /* 0.18 */
     assert_true(middle > 0.42 && middle < 0.52);
-    kiln_composite_destroy(&stage);
-    kiln_image_finish(&back);
-    kiln_image_finish(&none);
-    kiln_scene_destroy(&scene);
+    fixture_finish(&f);
+}
+
+/* Sums of light may reach what float cannot square, and 16-bit targets overflow to infinity: both
+ * are white, not holes. */
+static void any_brightness_is_white(void **state)
+{
+    static const char *const posts[] = {"tonemap: none", "tonemap: agx", "tonemap: aces"};
+    for (size_t k = 0; k < 3; k++) {
+        struct fixture f;
+        fixture_init(&f, *state, posts[k], 8, 0.0f);
+        float *p = backdrop_pixels(&f);
+        for (int i = 0; i < PIXELS * 4; i++)
+            p[i] = i % 4 == 3 ? 1.0f : i < PIXELS ? 1e20f : i < 2 * PIXELS ? INFINITY : 1e5f;
+        uint8_t got[PIXELS * 4];
+        run(&f, got);
+        for (int i = 0; i < PIXELS * 4; i++)
+            assert_true(got[i] >= 250);
+        fixture_finish(&f);
+    }
 }
 
 /* Dither changes a level by one at most, keeps the mean, and differs from frame to frame only. */
 static void dither_is_small_and_repeatable(void **state)
 {
-    struct kiln_error error = {0};
-    struct kiln_scene *scene = parse("tonemap: none");
-    ((struct kiln_post *)&scene->post)->dither = true;
-    struct kiln_image back, none;
-    kiln_image_init(&back, *state, WIDTH, HEIGHT, GL_RGBA32F, "scene");
-    kiln_image_init(&none, *state, WIDTH, HEIGHT, GL_RGBA32F, "particles");
-    float *p = kiln_image_host(&back, KILN_OVERWRITE, &error);
-    float *q = kiln_image_host(&none, KILN_OVERWRITE, &error);
-    assert_true(p && q);
-    memset(q, 0, sizeof(float) * PIXELS * 4);
+    struct fixture f;
+    fixture_init(&f, *state, "tonemap: none", 8, 0.0f);
+    f.scene->post.dither = true;
+    float *p = backdrop_pixels(&f);
     for (int i = 0; i < PIXELS * 4; i++)
         p[i] = i % 4 == 3 ? 1.0f : 0.2160f; /* encodes to 128.3 levels */
-    struct kiln_composite_stage *stage = kiln_composite_create(*state, scene, 8, &error);
-    assert_non_null(stage);
-    struct kiln_composite_inputs inputs = {.scene = &back, .particles = &none, .frame = 5};
+    f.inputs.frame = 5;
     uint8_t first[PIXELS * 4], again[PIXELS * 4], other[PIXELS * 4];
-    assert_true(kiln_composite_run(stage, &inputs, &error));
-    assert_true(kiln_composite_read_display(stage, first, &error));
-    assert_true(kiln_composite_run(stage, &inputs, &error));
-    assert_true(kiln_composite_read_display(stage, again, &error));
-    inputs.frame = 6;
-    assert_true(kiln_composite_run(stage, &inputs, &error));
-    assert_true(kiln_composite_read_display(stage, other, &error));
+    run(&f, first);
+    run(&f, again);
+    f.inputs.frame = 6;
+    run(&f, other);
     assert_memory_equal(first, again, sizeof first);
     assert_memory_not_equal(first, other, sizeof first);
     double sum = 0;
@@ -218,42 +250,27 @@ static void dither_is_small_and_repeatable(void **state)
         sum += first[4 * i];
     }
     assert_true(fabs(sum / PIXELS - 255.0 * encode(0.2160)) < 0.05);
-    kiln_composite_destroy(&stage);
-    kiln_image_finish(&back);
-    kiln_image_finish(&none);
-    kiln_scene_destroy(&scene);
+    fixture_finish(&f);
 }
 
 /* Over nothing, straight alpha times colour gives the light back. */
 static void transparent_pictures_keep_the_light(void **state)
 {
-    struct kiln_error error = {0};
-    struct kiln_scene *scene = parse("tonemap: none");
-    struct kiln_image back, particles;
-    srand(3);
-    kiln_image_init(&back, *state, WIDTH, HEIGHT, GL_RGBA32F, "scene");
-    float *p = kiln_image_host(&back, KILN_OVERWRITE, &error);
-    assert_non_null(p);
-    memset(p, 0, sizeof(float) * PIXELS * 4);
-    fill(&particles, *state, "particles", 0.9f, false);
-    struct kiln_composite_stage *stage = kiln_composite_create(*state, scene, 16, &error);
-    assert_non_null(stage);
-    const struct kiln_composite_inputs inputs = {.scene = &back, .particles = &particles};
-    assert_true(kiln_composite_run(stage, &inputs, &error));
+    struct fixture f;
+    fixture_init(&f, *state, "tonemap: none", 16, 0.9f);
+    memset(backdrop_pixels(&f), 0, sizeof(float) * PIXELS * 4);
     uint16_t got[PIXELS * 4];
-    assert_true(kiln_composite_read_display(stage, got, &error));
+    run(&f, got);
     for (int i = 0; i < PIXELS; i++) {
+        const float *light = f.particles.host + 4 * i;
         double alpha = got[4 * i + 3] / 65535.0;
-        assert_true(alpha + 1e-4 >= (double)particles.host[4 * i + 3]);
+        assert_true(alpha + 1e-4 >= (double)light[3]);
         for (int c = 0; c < 3; c++) {
             double over_black = alpha * got[4 * i + c] / 65535.0;
-            assert_true(fabs(over_black - encode((double)particles.host[4 * i + c])) < 2e-4);
+            assert_true(fabs(over_black - encode((double)light[c])) < 2e-4);
         }
     }
-    kiln_composite_destroy(&stage);
-    kiln_image_finish(&back);
-    kiln_image_finish(&particles);
-    kiln_scene_destroy(&scene);
+    fixture_finish(&f);
 }
 
 int main(void)
@@ -263,6 +280,7 @@ int main(void)
         test_on_device(separate_fire_matches_c),
         test_on_device(aces_matches_c),
         test_on_device(agx_keeps_grey_and_hue),
+        test_on_device(any_brightness_is_white),
         test_on_device(dither_is_small_and_repeatable),
         test_on_device(transparent_pictures_keep_the_light),
     };
