@@ -11,3 +11,12 @@ $ ls list_*
 1|list_05.png
 1|list_23.png
 $ for file in list_*; do cmp $file ${file/list/full}; done
+
+So are the layers of EXR files, however they are composed.
+
+$ for compose in merged separate; do
+>     for frames in 0-6 5-6; do
+>         kiln render scenes/tiny.yaml -q -o ${compose}_$frames/%d.exr --frames $frames --set post.compose=$compose
+>     done
+>     cmp ${compose}_0-6/5.exr ${compose}_5-6/5.exr && cmp ${compose}_0-6/6.exr ${compose}_5-6/6.exr
+> done
