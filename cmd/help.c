@@ -14,6 +14,7 @@ const struct exit_code exit_codes[] = {
     {"4", "no usable device"},
     {"5", "the device was lost, memory ran out, or a frame took longer than its limit"},
     {"6", "reading or writing failed"},
+    {"129", "stopped by SIGHUP; only whole files are left"},
     {"130", "stopped by SIGINT; only whole files are left"},
     {"143", "stopped by SIGTERM; only whole files are left"},
     {NULL, NULL},

@@ -277,7 +277,10 @@ static int report_failure(const struct render *render, const struct kiln_error *
     if (number == 0) /* nobody reads: main says why */
         return KILN_IO;
     report(KILN_INTERRUPTED, "%s: stopped by %s after %u frames", render->job->path,
-           number == SIGINT ? "SIGINT" : "SIGTERM", render->frames_done);
+           number == SIGINT    ? "SIGINT"
+           : number == SIGTERM ? "SIGTERM"
+                               : "SIGHUP",
+           render->frames_done);
     return 128 + number;
 }
 

@@ -9,6 +9,7 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -98,18 +99,44 @@ static bool write_temporary_name(char path[KILN_PATH_SIZE], const char *target, 
     return length < KILN_PATH_SIZE;
 }
 
+/* Opens a new file, locked for as long as someone writes it; -1 with errno. */
+static int open_locked(const char *path)
+{
+    int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file < 0)
+        return -1;
+    struct stat status;
+    bool taken = flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    if (!taken && fstat(file, &status) == 0 && status.st_nlink > 0)
+        return file;
+    close(file); /* another took it for abandoned, right after it was made */
+    errno = EEXIST;
+    return -1;
+}
+
+/* Removes a file whose writer was killed: one that nobody locks. Else a job that is killed and
+ * tried again under the same process number, as in a container, would run out of names. */
+static bool remove_abandoned(const char *path)
+{
+    int file = open(path, O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
+    if (file < 0)
+        return false;
+    bool removed = flock(file, LOCK_EX | LOCK_NB) == 0 && unlink(path) == 0;
+    close(file);
+    return removed;
+}
+
 /* A new file in an armed slot, or -1 with errno. */
 static int create_file(int slot, const char *target)
 {
+    int number = slot;
     for (int attempt = 0; attempt < MAX_ATTEMPTS; attempt++) {
-        if (!write_temporary_name(slots[slot].path, target, attempt * SLOT_COUNT + slot)) {
+        if (!write_temporary_name(slots[slot].path, target, number)) {
             errno = ENAMETOOLONG;
             return -1;
         }
         atomic_store(&slots[slot].state, SLOT_ARMED);
-        int file = atomic_load(&abandoned)
-                       ? -1
-                       : open(slots[slot].path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        int file = atomic_load(&abandoned) ? -1 : open_locked(slots[slot].path);
         if (file >= 0 && atomic_load(&abandoned)) {
             unlink(slots[slot].path);
             close(file);
@@ -119,7 +146,9 @@ static int create_file(int slot, const char *target)
             errno = ECANCELED;
         if (file >= 0 || errno != EEXIST)
             return file;
-        atomic_store(&slots[slot].state, SLOT_CLAIMED); /* another's file: try the next name */
+        atomic_store(&slots[slot].state, SLOT_CLAIMED); /* another's file */
+        if (!remove_abandoned(slots[slot].path))
+            number += SLOT_COUNT;
     }
     return -1;
 }

@@ -3,7 +3,7 @@ A signal leaves only whole files behind. The scene is long enough to be stopped 
 $ cat >stop <<'END'
 > # stop SIGNAL OUTPUT: starts a render, waits for its third frame, sends the signal.
 > mkfifo frames
-> kiln render scenes/tiny.yaml --set output.frames=100000 -o "$2" --progress ndjson >frames &
+> env --default-signal kiln render scenes/tiny.yaml --set output.frames=100000 -o "$2" --progress ndjson >frames &
 > job=$!
 > exec 3<frames
 > for line in 1 2 3 4; do read -r -u 3; done
@@ -26,6 +26,9 @@ $ for file in term/*; do tail -c 8 $file | od -An -tx1; done | sort -u
 $ mkdir int && bash stop INT int/clip.mp4; code=$?; find int -type f; exit $code
 2|kiln: scenes/tiny.yaml: stopped by SIGINT after <n> frames
 = 130
+$ mkdir hup && bash stop HUP hup/clip.mp4; code=$?; find hup -type f; exit $code
+2|kiln: scenes/tiny.yaml: stopped by SIGHUP after <n> frames
+= 129
 
 A second signal ends a program that cannot answer the first: here nobody reads its progress, so that
 it waits for ever. Then files in the making are removed, too.

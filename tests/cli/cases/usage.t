@@ -192,6 +192,7 @@ $ kiln help exit-codes
 1|    4  no usable device
 1|    5  the device was lost, memory ran out, or a frame took longer than its limit
 1|    6  reading or writing failed
+1|  129  stopped by SIGHUP; only whole files are left
 1|  130  stopped by SIGINT; only whole files are left
 1|  143  stopped by SIGTERM; only whole files are left
 
