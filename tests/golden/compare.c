@@ -64,7 +64,7 @@ static bool measure_flip(const struct kiln_asset_image *a, const struct kiln_ass
 {
     size_t pixels = (size_t)a->width * a->height;
     float *p = linear_pixels(a), *q = linear_pixels(b);
-    float *errors = calloc(pixels, sizeof *errors);
+    float *errors = calloc(pixels + 1, sizeof *errors);
     struct kiln_threads *threads = kiln_threads_create(0);
     struct kiln_flip_pair pair = {p, q, a->width, a->height};
     struct kiln_error_pool pool = {0};
