@@ -13,13 +13,6 @@
 
 enum { LEVELS = 8 }; /* 128 to 1 */
 
-static const char BUILTIN_PREFIX[] = "builtin:";
-
-static bool is_builtin(const char *source)
-{
-    return strncmp(source, BUILTIN_PREFIX, sizeof BUILTIN_PREFIX - 1) == 0;
-}
-
 static bool out_of_memory(struct kiln_error *error, const char *source)
 {
     return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory for its cells", source);
@@ -198,8 +191,7 @@ static bool add_flipbook(const struct kiln_atlas_range *range,
     if (!ok) {
         out_of_memory(error, request->source);
     } else if (range->kind == KILN_CELL_MASK) {
-        kiln_builtin_generate(request->source + sizeof BUILTIN_PREFIX - 1, KILN_ATLAS_CELL, cells,
-                              threads);
+        kiln_builtin_generate(kiln_builtin_of(request->source), KILN_ATLAS_CELL, cells, threads);
     } else {
         ok = load_cells(request, cells, threads, error);
     }
@@ -217,7 +209,7 @@ static bool same_request(const struct kiln_atlas_request *a, const struct kiln_a
 {
     if (strcmp(a->source, b->source) != 0)
         return false;
-    return is_builtin(a->source) || (a->columns == b->columns && a->rows == b->rows);
+    return kiln_builtin_of(a->source) || (a->columns == b->columns && a->rows == b->rows);
 }
 
 /* Gives each system its layers; *shared tells which repeat an earlier system's. */
@@ -233,7 +225,7 @@ static void assign_layers(struct kiln_atlas *atlas, const struct kiln_atlas_requ
             atlas->systems[i] = atlas->systems[same];
             continue;
         }
-        bool builtin = is_builtin(requests[i].source);
+        bool builtin = kiln_builtin_of(requests[i].source) != NULL;
         atlas->systems[i] = (struct kiln_atlas_range){
             .first_layer = atlas->layers,
             .cells = builtin ? KILN_BUILTIN_CELLS : requests[i].columns * requests[i].rows,

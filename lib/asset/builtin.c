@@ -1,7 +1,6 @@
 /* Flames and smoke are noise pushed about by noise (domain warping), cut by a threshold that rises
  * with age, so that a sprite breaks up into shreds instead of fading (erosion). A cell is sampled
- * on
- * [-1, 1]^2, y up; t runs from 0 at birth to 1 at death. */
+ * on [-1, 1]^2, y up; t runs from 0 at birth to 1 at death. */
 #include "asset/builtin.h"
 
 #include "shared/noise.h"
@@ -41,9 +40,9 @@ static float noise(float x, float y, float z, uint32_t seed)
     float sum = 0.0f;
     for (int corner = 0; corner < 8; corner++) {
         int i = corner & 1, j = corner >> 1 & 1, k = corner >> 2;
-        uint32_t at = (uint32_t)((int)cell.x + i) * 0x8da6b343u ^
-                      (uint32_t)((int)cell.y + j) * 0xd8163841u ^
-                      (uint32_t)((int)cell.z + k) * 0xcb1ab31fu ^ seed;
+        uint32_t at = (uint32_t)((int)cell.x + i) * NOISE_X ^
+                      (uint32_t)((int)cell.y + j) * NOISE_Y ^
+                      (uint32_t)((int)cell.z + k) * NOISE_Z ^ seed;
         float3 gradient = noise_gradient(random_mix(at));
         float3 away = {f.x - (float)i, f.y - (float)j, f.z - (float)k};
         float weight = (i ? wx : 1.0f - wx) * (j ? wy : 1.0f - wy) * (k ? wz : 1.0f - wz);
@@ -199,6 +198,13 @@ static const struct builtin *find(const char *name)
             return &BUILTINS[i];
     }
     return NULL;
+}
+
+const char *kiln_builtin_of(const char *source)
+{
+    static const char prefix[] = "builtin:";
+    const size_t length = sizeof prefix - 1;
+    return strncmp(source, prefix, length) == 0 ? source + length : NULL;
 }
 
 bool kiln_builtin_exists(const char *name)

@@ -6,6 +6,9 @@
 
 enum { KILN_BUILTIN_CELLS = 64 }; /* 8x8 */
 
+/* The name in "builtin:NAME", or NULL when the source of an atlas is a file. */
+const char *kiln_builtin_of(const char *source);
+
 /* "fire", "smoke", "spark"; true if there is such a flipbook. */
 bool kiln_builtin_exists(const char *name);
 

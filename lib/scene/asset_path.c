@@ -11,8 +11,6 @@
 #include "asset/image.h"
 #include "base/error.h"
 
-static const char builtin_prefix[] = "builtin:";
-
 const char *kiln_asset_root(struct kiln_arena *arena, const char *root, const char *file,
                             struct kiln_error *error)
 {
@@ -122,10 +120,9 @@ static bool read_file_asset(struct kiln_reader *reader, const struct kiln_node *
 
 bool kiln_read_asset(struct kiln_reader *reader, const struct kiln_node *node, const char **asset)
 {
-    size_t prefix = sizeof builtin_prefix - 1;
-    if (strncmp(node->text, builtin_prefix, prefix) != 0)
+    const char *name = kiln_builtin_of(node->text);
+    if (!name)
         return read_file_asset(reader, node, asset);
-    const char *name = node->text + prefix;
     if (kiln_builtin_exists(name)) {
         *asset = kiln_arena_text(reader->arena, node->text, strlen(node->text));
         return *asset || kiln_reader_out_of_memory(reader);
@@ -142,7 +139,7 @@ bool kiln_read_asset(struct kiln_reader *reader, const struct kiln_node *node, c
 
 const char *kiln_asset_name(const struct kiln_scene *scene, const char *asset)
 {
-    if (strncmp(asset, builtin_prefix, sizeof builtin_prefix - 1) == 0)
+    if (kiln_builtin_of(asset))
         return asset;
     const char *relative = below(asset, scene->asset_root);
     return relative ? relative : asset;
