@@ -8,11 +8,8 @@
 
 struct kiln_threads;
 
-/* The processors that this process may run on, at least 1. */
-uint32_t kiln_thread_default_count(void);
-
-/* A pool of count workers, the caller counted as one; 0 takes the default count, more than 256
- * is taken as 256. NULL when the system refuses. */
+/* A pool of count workers, the caller counted as one; 0 takes one for each processor that this
+ * process may run on, more than 256 is taken as 256. NULL when the system refuses. */
 struct kiln_threads *kiln_threads_create(uint32_t count);
 void kiln_threads_destroy(struct kiln_threads **threads);
 uint32_t kiln_threads_count(const struct kiln_threads *threads);

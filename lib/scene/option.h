@@ -87,13 +87,10 @@ struct kiln_option {
     size_t max_count;
 };
 
-/* The tables. */
+/* The tables that others refer to. */
 extern const struct kiln_option kiln_options_root[];
 extern const struct kiln_option kiln_options_system[];
-extern const struct kiln_option kiln_options_emit[];
-extern const struct kiln_option kiln_options_collide[];
 extern const struct kiln_option kiln_options_look[];
-extern const struct kiln_option kiln_options_camera[];
 extern const struct kiln_option kiln_options_backdrop[];
 extern const struct kiln_option kiln_options_post[];
 extern const struct kiln_option_kind kiln_force_kinds[];

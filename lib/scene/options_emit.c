@@ -55,7 +55,7 @@ static const struct kiln_option_kind shapes[] = {
     {.name = NULL},
 };
 
-const struct kiln_option kiln_options_emit[] = {
+static const struct kiln_option emit_options[] = {
     VALUE("rate", rate, KILN_PER_SECOND, 0, 1e7, TIME, "0", "Particles born a second."),
     {ROW("bursts", bursts, AT(bursts), "{}", "Particles born at once, by clip time."),
      LIMITS(KILN_PLAIN, 0, KILN_MAX_PARTICLES), .count_offset = AT(burst_count),
@@ -80,7 +80,7 @@ static const char *const collide_modes[] = {
     NULL,
 };
 
-const struct kiln_option kiln_options_collide[] = {
+static const struct kiln_option collide_options[] = {
     CHOICE("mode", mode, collide_modes, "swept",
            "swept finds the point of impact; clamp moves a particle inside to the nearest face."),
     VALUE("randomness", randomness, KILN_FRACTION, 0, 1, BOTH, "0",
@@ -103,12 +103,12 @@ static const struct kiln_option force = {.name = "force",
 
 const struct kiln_option kiln_options_system[] = {
     BOOLEAN("enabled", enabled, "true", "A system that is not has no particles."),
-    GROUP("emit", AT(emit), kiln_options_emit, "How particles are born."),
+    GROUP("emit", AT(emit), emit_options, "How particles are born."),
     {ROW("forces", list, AT(forces), "[]", "What accelerates them, added up."), .item = &force,
      .item_size = sizeof(struct kiln_force), .count_offset = AT(force_count),
      .max_count = KILN_MAX_FORCES},
     {ROW("collide", switch, AT(collide), "none", "How they bounce off the boxes and the floor."),
-     .members = kiln_options_collide, .count_offset = AT(collide.enabled)},
+     .members = collide_options, .count_offset = AT(collide.enabled)},
     {ROW("demitters", list, AT(demitters), "[]", "Boxes in which particles die."),
      .item = &demitter, .item_size = sizeof(struct kiln_bounds), .count_offset = AT(demitter_count),
      .max_count = KILN_MAX_DEMITTERS},

@@ -1,6 +1,21 @@
 /* The top of a scene, its output, its clock, its camera and its systems. */
 #include "scene/option_rows.h"
 
+#define AT(field) offsetof(struct kiln_camera, field)
+
+static const struct kiln_option camera[] = {
+    VECTOR("position", position, KILN_METRES, -FAR, FAR, TIME, "[0, 1.5, 6]", "The eye."),
+    VECTOR("target", target, KILN_METRES, -FAR, FAR, TIME, "[0, 1, 0]", "What it looks at."),
+    VALUE("fov", fov, KILN_ANGLE, KILN_DEG(1), KILN_DEG(170), TIME, "45 deg",
+          "Vertical field of view."),
+    VALUE("roll", roll, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME, "0 deg",
+          "Turn about the line of sight."),
+    VALUE("near", near_plane, KILN_METRES, 0.001, 100, TIME, "0.05 m",
+          "Nothing nearer than this is drawn."),
+    END,
+};
+
+#undef AT
 #define AT(field) offsetof(struct kiln_scene, field)
 
 _Static_assert(AT(height) == AT(width) + sizeof(uint32_t), "size is read as a pair");
@@ -38,26 +53,11 @@ const struct kiln_option kiln_options_root[] = {
     INTEGER("seed", seed, 0, UINT32_MAX, "0", "Another seed gives another run of the same scene."),
     GROUP("output", 0, output, "The clip."),
     GROUP("simulation", 0, simulation, "The clock of the simulation."),
-    GROUP("camera", AT(camera), kiln_options_camera, "Where the picture is taken from."),
+    GROUP("camera", AT(camera), camera, "Where the picture is taken from."),
     GROUP("backdrop", AT(backdrop), kiln_options_backdrop, "What stands around the particles."),
     {ROW("systems", map, AT(systems), "{}", "The particle systems by their names."),
      .members = kiln_options_system, .item_size = sizeof(struct kiln_system),
      .count_offset = AT(system_count), .max_count = KILN_MAX_SYSTEMS},
     GROUP("post", AT(post), kiln_options_post, "From light to picture."),
-    END,
-};
-
-#undef AT
-#define AT(field) offsetof(struct kiln_camera, field)
-
-const struct kiln_option kiln_options_camera[] = {
-    VECTOR("position", position, KILN_METRES, -FAR, FAR, TIME, "[0, 1.5, 6]", "The eye."),
-    VECTOR("target", target, KILN_METRES, -FAR, FAR, TIME, "[0, 1, 0]", "What it looks at."),
-    VALUE("fov", fov, KILN_ANGLE, KILN_DEG(1), KILN_DEG(170), TIME, "45 deg",
-          "Vertical field of view."),
-    VALUE("roll", roll, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME, "0 deg",
-          "Turn about the line of sight."),
-    VALUE("near", near_plane, KILN_METRES, 0.001, 100, TIME, "0.05 m",
-          "Nothing nearer than this is drawn."),
     END,
 };

@@ -150,8 +150,8 @@ struct kiln_default {
     const struct kiln_node *node;
 };
 
-const struct kiln_node *kiln_reader_default(struct kiln_reader *reader,
-                                            const struct kiln_option *option)
+static const struct kiln_node *parse_default(struct kiln_reader *reader,
+                                             const struct kiln_option *option)
 {
     static const struct kiln_origin origin = {.name = "(default)", .has_lines = false};
     for (struct kiln_default *known = reader->defaults; known; known = known->next) {
@@ -197,7 +197,7 @@ static const struct kiln_node *default_of(struct kiln_reader *reader,
                                           const struct kiln_node *group)
 {
     if (option->fallback)
-        return kiln_reader_default(reader, option);
+        return parse_default(reader, option);
     if (group)
         kiln_reader_error(reader, group, "missing; it must be given");
     return NULL;
@@ -309,7 +309,7 @@ bool kiln_read_float(struct kiln_reader *reader, const struct kiln_option *optio
     if (!(fabs(number) <= 1e30) || (float)number < (float)option->min ||
         (float)number > (float)option->max)
         return limit_error(reader, option, node);
-    /* Some stages flush denormals and some do not (see shared/number.h): a value has none. */
+    /* Some stages flush denormals and some do not (see shared/exact.h): a value has none. */
     *value = fabs(number) < 0x1p-100 ? 0.0f : (float)number;
     return true;
 }

@@ -49,8 +49,4 @@ bool kiln_read_float(struct kiln_reader *reader, const struct kiln_option *optio
 bool kiln_read_whole(struct kiln_reader *reader, const struct kiln_option *option,
                      const struct kiln_node *node, uint32_t *value);
 
-/* The tree of an option's default. */
-const struct kiln_node *kiln_reader_default(struct kiln_reader *reader,
-                                            const struct kiln_option *option);
-
 #endif

@@ -42,18 +42,6 @@ float kiln_scene_value_max(const struct kiln_scene *scene, const struct kiln_val
     return most;
 }
 
-float kiln_scene_value_min(const struct kiln_scene *scene, const struct kiln_value *value)
-{
-    if (value->count == 0)
-        return value->constant;
-    float least = scene->keys[value->first].y;
-    for (uint32_t i = 1; i < value->count; i++) {
-        float y = scene->keys[value->first + i].y;
-        least = y < least ? y : least;
-    }
-    return least;
-}
-
 struct kiln_scene_info kiln_scene_info(const struct kiln_scene *scene)
 {
     struct kiln_scene_info info = {

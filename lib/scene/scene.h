@@ -14,7 +14,7 @@
 #include "shared/value.h"
 
 enum {
-    /* shared/layout.h has KILN_MAX_FORCES, _DEMITTERS and _BURSTS of a system, _BOXES of a scene */
+    /* shared/limits.h and particle.h have those that shaders know, too */
     KILN_MAX_CELLS = 2048,        /* an atlas: the layers that every GL 4.3 has */
     KILN_MAX_PARTICLES = 1 << 24, /* slots of all systems: what a draw entry can address */
 };
@@ -247,9 +247,8 @@ float kiln_scene_value(const struct kiln_scene *scene, const struct kiln_value *
 float3 kiln_scene_value3(const struct kiln_scene *scene, const struct kiln_value3 *value,
                          float time_s);
 
-/* The largest and smallest the value ever is: it is attained at a key. */
+/* The largest that the value ever is: it is attained at a key. */
 float kiln_scene_value_max(const struct kiln_scene *scene, const struct kiln_value *value);
-float kiln_scene_value_min(const struct kiln_scene *scene, const struct kiln_value *value);
 
 /* What is needed to recompute a particle of a system from its record (shared/derived.h). */
 struct kiln_derived_params kiln_scene_derived(const struct kiln_scene *scene, uint32_t system);

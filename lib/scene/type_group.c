@@ -108,15 +108,25 @@ static bool is_name(const char *text)
     return true;
 }
 
+/* How many entries there are so far, to be counted up while they are read; NULL with an error when
+ * the node has too many. */
+static uint32_t *begin_entries(struct kiln_reader *reader, const struct kiln_option *option,
+                               const struct kiln_node *node, void *field)
+{
+    if (node->count <= option->max_count)
+        return count_of(option, field);
+    kiln_reader_error(reader, node, "%u are too many; at most %zu", node->count, option->max_count);
+    return NULL;
+}
+
 static bool read_map(struct kiln_reader *reader, const struct kiln_option *option,
                      const struct kiln_node *node, void *field)
 {
     if (node->kind != KILN_NODE_MAP)
         return kiln_reader_mismatch(reader, option, node);
-    if (node->count > option->max_count)
-        return kiln_reader_error(reader, node, "%u are too many; at most %zu", node->count,
-                                 option->max_count);
-    uint32_t *count = count_of(option, field);
+    uint32_t *count = begin_entries(reader, option, node, field);
+    if (!count)
+        return false;
     for (const struct kiln_node *entry = node->first; entry; entry = entry->next) {
         void *item = (char *)field + *count * option->item_size;
         const char *name = entry->key->text;
@@ -178,10 +188,9 @@ static bool read_list(struct kiln_reader *reader, const struct kiln_option *opti
 {
     if (node->kind != KILN_NODE_LIST)
         return kiln_reader_mismatch(reader, option, node);
-    if (node->count > option->max_count)
-        return kiln_reader_error(reader, node, "%u are too many; at most %zu", node->count,
-                                 option->max_count);
-    uint32_t *count = count_of(option, field);
+    uint32_t *count = begin_entries(reader, option, node, field);
+    if (!count)
+        return false;
     for (const struct kiln_node *entry = node->first; entry; entry = entry->next) {
         void *item = (char *)field + *count * option->item_size;
         size_t before = kiln_reader_enter_index(reader, *count);

@@ -77,16 +77,6 @@ const struct kiln_option_type kiln_type_integer = {read_integer, print_integer, 
 
 /* ---- rational ------------------------------------------------------------------------------- */
 
-static uint64_t greatest_divisor(uint64_t a, uint64_t b)
-{
-    while (b) {
-        uint64_t rest = a % b;
-        a = b;
-        b = rest;
-    }
-    return a;
-}
-
 /* "30", "29.97" or "30000/1001" as a reduced fraction. */
 static bool parse_rational(const char *text, uint64_t *num, uint64_t *den)
 {
@@ -113,9 +103,7 @@ static bool parse_rational(const char *text, uint64_t *num, uint64_t *den)
     }
     if (*num == 0 || *den == 0)
         return false;
-    uint64_t divisor = greatest_divisor(*num, *den);
-    *num /= divisor;
-    *den /= divisor;
+    kiln_unit_reduce(num, den);
     return *num <= UINT32_MAX && *den <= 1000000;
 }
 

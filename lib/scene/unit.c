@@ -54,7 +54,8 @@ static const char *const choices[KILN_DIMENSION_COUNT] = {
     [KILN_STOPS] = "stops",
 };
 
-const char *kiln_unit_name(enum kiln_dimension dimension)
+/* The unit that numbers of a dimension are printed with, "" for none. */
+static const char *unit_name(enum kiln_dimension dimension)
 {
     if (dimension == KILN_FRACTION)
         return "";
@@ -73,6 +74,18 @@ const char *kiln_unit_choices(enum kiln_dimension dimension)
 bool kiln_unit_is_required(enum kiln_dimension dimension)
 {
     return dimension == KILN_ANGLE || dimension == KILN_ANGULAR_SPEED;
+}
+
+void kiln_unit_reduce(uint64_t *num, uint64_t *den)
+{
+    uint64_t divisor = *num, rest = *den;
+    while (rest) {
+        uint64_t next = divisor % rest;
+        divisor = rest;
+        rest = next;
+    }
+    *num /= divisor;
+    *den /= divisor;
 }
 
 /* The length of the decimal number at the start of a text, or 0. */
@@ -155,7 +168,7 @@ void kiln_unit_print(char out[48], enum kiln_dimension dimension, float value)
         }
     }
     print_float(number, value);
-    add_unit(out, number, kiln_unit_name(dimension));
+    add_unit(out, number, unit_name(dimension));
 }
 
 void kiln_unit_print_double(char out[48], enum kiln_dimension dimension, double value)
@@ -166,7 +179,7 @@ void kiln_unit_print_double(char out[48], enum kiln_dimension dimension, double 
         return;
     }
     kiln_unit_print_number(number, value);
-    add_unit(out, number, kiln_unit_name(dimension));
+    add_unit(out, number, unit_name(dimension));
 }
 
 void kiln_unit_pattern(char out[64], enum kiln_dimension dimension)

@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 /* What a number measures; in memory always in the SI unit named here. */
 enum kiln_dimension {
@@ -27,14 +28,14 @@ enum kiln_dimension {
 #define KILN_PI     3.14159265358979323846
 #define KILN_DEG(x) ((x) * (KILN_PI / 180))
 
-/* The unit that numbers of a dimension are printed with, "" for none. */
-const char *kiln_unit_name(enum kiln_dimension dimension);
-
 /* All units of a dimension, as "m, cm or mm"; "" when it never has one. */
 const char *kiln_unit_choices(enum kiln_dimension dimension);
 
 /* Does a number other than 0 need its unit written? */
 bool kiln_unit_is_required(enum kiln_dimension dimension);
+
+/* Reduces a fraction of two positive numbers. */
+void kiln_unit_reduce(uint64_t *num, uint64_t *den);
 
 /* Splits "2.5 cm" into its number and its unit, which points into text. False when it does not
  * start with a number. Blanks between the two are optional. */

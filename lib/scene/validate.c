@@ -66,12 +66,7 @@ static bool settle_clock(struct kiln_reader *reader, const struct kiln_node *roo
     if (scene->rate.num == 0) { /* auto */
         uint64_t multiple = (60 * fps_den + fps_num - 1) / fps_num;
         uint64_t num = fps_num * multiple, den = fps_den;
-        while (den % 2 == 0 && num % 2 == 0)
-            num /= 2, den /= 2;
-        for (uint64_t d = 3; d <= den; d += 2) {
-            while (den % d == 0 && num % d == 0)
-                num /= d, den /= d;
-        }
+        kiln_unit_reduce(&num, &den);
         scene->rate = (struct kiln_rational){(uint32_t)num, (uint32_t)den};
     }
     /* rate / fps, a whole number? */

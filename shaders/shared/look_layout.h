@@ -12,14 +12,10 @@
 #define KILN_LOOK_SAMPLES 128
 
 /* Rows of a system's part of the table: one RGBA texel a sample. */
-#define KILN_LOOK_SHAPE                                                                            \
-    0                     /* size, m; stretch, s; opacity with fades; scale of the soft fade, 1/m  \
-                           */
-#define KILN_LOOK_COVER 1 /* colour that covers, rgb; lit */
-#define KILN_LOOK_HOT   2 /* light emitted where a cell's heat is 1, rgb; near fade, m */
-#define KILN_LOOK_COOL                                                                             \
-    3                      /* light emitted where it is 0, rgb; passes through the atlas in a life \
-                            */
+#define KILN_LOOK_SHAPE  0 /* size, m; stretch, s; opacity with fades; soft fade, 1/m */
+#define KILN_LOOK_COVER  1 /* colour that covers, rgb; lit */
+#define KILN_LOOK_HOT    2 /* light emitted where a cell's heat is 1, rgb; near fade, m */
+#define KILN_LOOK_COOL   3 /* light emitted where it is 0, rgb; passes through the atlas */
 #define KILN_LOOK_BLOOM  4 /* weights, rgb; unused */
 #define KILN_LOOK_SPREAD 5 /* scale, least and most; spin, least and most, rad/s */
 #define KILN_LOOK_TURN   6 /* rotation at birth, least and most, rad; unused */
