@@ -72,26 +72,46 @@ static void write_manifest(const struct kiln_manifest_params *params, uint32_t f
     assert_null(manifest);
 }
 
+/* A scene, and a folder that the manifest goes to. */
+struct fixture {
+    char folder[32], path[64];
+    struct kiln_scene *scene;
+    struct kiln_manifest_params params;
+};
+
+static int set_up(void **state)
+{
+    static struct fixture f;
+    test_make_folder(f.folder);
+    snprintf(f.path, sizeof f.path, "%s/new/run.json", f.folder);
+    f.scene = make_scene();
+    f.params = (struct kiln_manifest_params){.path = f.path, .scene = f.scene, .techniques = ""};
+    *state = &f;
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    struct fixture *f = *state;
+    kiln_scene_destroy(&f->scene);
+    test_remove_folder(f->folder);
+    return 0;
+}
+
 static void everything_is_in_it(void **state)
 {
-    (void)state;
-    char folder[32], path[64];
-    test_make_folder(folder);
-    snprintf(path, sizeof path, "%s/new/run.json", folder);
-    struct kiln_scene *scene = make_scene();
+    struct fixture *f = *state;
     const struct kiln_device_info device = {
         .software = true, .name = "llvm\\pipe", .vendor = "Mesa", .gl_version = "4.5"};
-    const struct kiln_manifest_params params = {.path = path,
-                                                .scene = scene,
-                                                .device = &device,
-                                                .techniques = "simulate=cpu sort=radix",
-                                                .output = "out/####.png"};
-    write_manifest(&params, 3);
+    f->params.device = &device;
+    f->params.techniques = "simulate=cpu sort=radix";
+    f->params.output = "out/####.png";
+    write_manifest(&f->params, 3);
 
-    struct fy_document *json = read_json(path);
+    struct fy_document *json = read_json(f->path);
     check_value(json, "/kiln", KILN_VERSION);
     check_value(json, "/scene/file", "a \"b\".yaml");
-    check_value(json, "/scene/hash", kiln_scene_info(scene).hash);
+    check_value(json, "/scene/hash", kiln_scene_info(f->scene).hash);
     check_value(json, "/scene/seed", "4000000007");
     check_value(json, "/scene/size/1", "180");
     check_value(json, "/scene/fps/0", "30000");
@@ -120,62 +140,48 @@ static void everything_is_in_it(void **state)
     struct kiln_scene *again =
         kiln_scene_parse(printed, length, "again", &KILN_SCENE_DEFAULTS, &error);
     if (again)
-        assert_string_equal(kiln_scene_info(again).hash, kiln_scene_info(scene).hash);
+        assert_string_equal(kiln_scene_info(again).hash, kiln_scene_info(f->scene).hash);
     else
         fail_msg("the printed scene does not load: %s", error.message);
     kiln_scene_destroy(&again);
     fy_document_destroy(json);
-    kiln_scene_destroy(&scene);
-    test_remove_folder(folder);
 }
 
 static void little_is_enough(void **state)
 {
-    (void)state;
-    char folder[32], path[64];
-    test_make_folder(folder);
-    snprintf(path, sizeof path, "%s/run.json", folder);
-    struct kiln_scene *scene = make_scene();
-    const struct kiln_manifest_params params = {.path = path, .scene = scene, .techniques = ""};
-    write_manifest(&params, 0);
-    struct fy_document *json = read_json(path);
+    const struct fixture *f = *state;
+    write_manifest(&f->params, 0);
+    struct fy_document *json = read_json(f->path);
     check_value(json, "/device", "null");
     check_value(json, "/output", "null");
     check_value(json, "/totals/frames", "0");
     fy_document_destroy(json);
-    kiln_scene_destroy(&scene);
-    test_remove_folder(folder);
 }
 
 static void only_whole_manifests_stay(void **state)
 {
-    (void)state;
-    char folder[32], path[64];
-    test_make_folder(folder);
-    snprintf(path, sizeof path, "%s/run.json", folder);
-    struct kiln_scene *scene = make_scene();
-    const struct kiln_manifest_params params = {.path = path, .scene = scene, .techniques = ""};
+    const struct fixture *f = *state;
+    char parent[48];
+    snprintf(parent, sizeof parent, "%s/new", f->folder);
     struct kiln_error error = {0};
-    struct kiln_manifest *manifest = kiln_manifest_open(&params, &error);
+    struct kiln_manifest *manifest = kiln_manifest_open(&f->params, &error);
     assert_non_null(manifest);
-    assert_int_equal(test_count_files(folder), 1);
+    assert_int_equal(test_count_files(parent), 1);
     kiln_manifest_close(&manifest);
-    assert_int_equal(test_count_files(folder), 0);
+    assert_int_equal(test_count_files(parent), 0);
 
-    write_manifest(&params, 1);
-    assert_null(kiln_manifest_open(&params, &error));
+    write_manifest(&f->params, 1);
+    assert_null(kiln_manifest_open(&f->params, &error));
     assert_int_equal(error.code, KILN_IO);
     assert_non_null(strstr(error.message, "the file exists"));
-    kiln_scene_destroy(&scene);
-    test_remove_folder(folder);
 }
 
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
-        cmocka_unit_test(everything_is_in_it),
-        cmocka_unit_test(little_is_enough),
-        cmocka_unit_test(only_whole_manifests_stay),
+        cmocka_unit_test_setup_teardown(everything_is_in_it, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(little_is_enough, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(only_whole_manifests_stay, set_up, tear_down),
     };
     return cmocka_run_group_tests_name("manifest", tests, NULL, NULL);
 }

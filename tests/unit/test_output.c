@@ -150,29 +150,55 @@ static void existing_files_are_kept(void **state)
     test_remove_folder(folder);
 }
 
+/* An output of a format in a folder of its own. */
+struct opened {
+    char folder[32], path[64];
+    struct kiln_output_params params;
+    struct kiln_output *output;
+};
+
+static void open_in_folder(struct opened *opened, const char *suffix,
+                           const struct kiln_frame_range *range)
+{
+    struct kiln_error error = {0};
+    test_make_folder(opened->folder);
+    snprintf(opened->path, sizeof opened->path, "%s/x%s", opened->folder, suffix);
+    opened->params = test_output_params(opened->path, range);
+    opened->output = kiln_output_open(&opened->params, &error);
+    assert_non_null(opened->output);
+}
+
+static bool write_frame(struct opened *opened, uint32_t frame, struct kiln_error *error)
+{
+    return kiln_output_write(opened->output, test_picture(opened->output, &opened->params, frame),
+                             error);
+}
+
+static void close_in_folder(struct opened *opened)
+{
+    kiln_output_close(&opened->output);
+    assert_null(opened->output);
+    test_remove_folder(opened->folder);
+}
+
 /* A file that appears between the check and the rename is not replaced either. */
 static void late_files_are_kept(void **state)
 {
     (void)state;
     const struct kiln_frame_range range = {3, 3};
     for (size_t i = 0; i < SUFFIX_COUNT; i++) {
-        char folder[32], path[64];
-        test_make_folder(folder);
-        snprintf(path, sizeof path, "%s/x%s", folder, suffixes[i]);
-        struct kiln_output_params params = test_output_params(path, &range);
+        struct opened opened;
         struct kiln_error error = {0};
-        struct kiln_output *output = kiln_output_open(&params, &error);
-        assert_non_null(output);
-        fclose(fopen(path, "w"));
-        assert_true(kiln_output_write(output, test_picture(output, &params, 3), &error));
-        assert_false(kiln_output_finish(output, &error));
+        open_in_folder(&opened, suffixes[i], &range);
+        fclose(fopen(opened.path, "w"));
+        assert_true(write_frame(&opened, 3, &error));
+        assert_false(kiln_output_finish(opened.output, &error));
         assert_int_equal(error.code, KILN_IO);
-        kiln_output_close(&output);
-        assert_int_equal(test_count_files(folder), 1);
+        assert_int_equal(test_count_files(opened.folder), 1);
         struct stat status;
-        assert_int_equal(stat(path, &status), 0);
+        assert_int_equal(stat(opened.path, &status), 0);
         assert_int_equal(status.st_size, 0);
-        test_remove_folder(folder);
+        close_in_folder(&opened);
     }
 }
 
@@ -321,19 +347,14 @@ static void closing_early_keeps_whole_images(void **state)
     (void)state;
     const struct kiln_frame_range range = {0, 19};
     for (size_t i = 0; i < SUFFIX_COUNT; i++) {
-        char folder[32], path[64];
-        test_make_folder(folder);
-        snprintf(path, sizeof path, "%s/x%s", folder, suffixes[i]);
-        struct kiln_output_params params = test_output_params(path, &range);
+        struct opened opened;
         struct kiln_error error = {0};
-        struct kiln_output *output = kiln_output_open(&params, &error);
-        assert_non_null(output);
+        open_in_folder(&opened, suffixes[i], &range);
         for (uint32_t frame = 0; frame < 3; frame++)
-            assert_true(kiln_output_write(output, test_picture(output, &params, frame), &error));
-        kiln_output_close(&output);
-        assert_null(output);
-        assert_int_equal(test_count_files(folder), strcmp(suffixes[i], ".mp4") == 0 ? 0 : 3);
-        test_remove_folder(folder);
+            assert_true(write_frame(&opened, frame, &error));
+        kiln_output_close(&opened.output);
+        assert_int_equal(test_count_files(opened.folder), strcmp(suffixes[i], ".mp4") == 0 ? 0 : 3);
+        close_in_folder(&opened);
     }
 }
 
@@ -342,23 +363,19 @@ static void pictures_must_be_as_announced(void **state)
     (void)state;
     const struct kiln_frame_range range = {4, 6};
     for (size_t i = 0; i < SUFFIX_COUNT; i++) {
-        char folder[32], path[64];
-        test_make_folder(folder);
-        snprintf(path, sizeof path, "%s/x%s", folder, suffixes[i]);
-        struct kiln_output_params params = test_output_params(path, &range);
+        struct opened opened;
         struct kiln_error error = {0};
-        struct kiln_output *output = kiln_output_open(&params, &error);
-        assert_non_null(output);
-        assert_false(kiln_output_write(output, test_picture(output, &params, 5), &error));
+        open_in_folder(&opened, suffixes[i], &range);
+        assert_false(write_frame(&opened, 5, &error));
         assert_non_null(strstr(error.message, "frame 5 came where frame 4 was due"));
-        struct kiln_output_params other = params;
+        struct kiln_output_params other = opened.params;
         other.width = 32;
-        assert_false(kiln_output_write(output, test_picture(output, &other, 4), &error));
-        assert_true(kiln_output_write(output, test_picture(output, &params, 4), &error));
-        assert_false(kiln_output_finish(output, &error));
+        assert_false(
+            kiln_output_write(opened.output, test_picture(opened.output, &other, 4), &error));
+        assert_true(write_frame(&opened, 4, &error));
+        assert_false(kiln_output_finish(opened.output, &error));
         assert_non_null(strstr(error.message, "frame 5 was never given"));
-        kiln_output_close(&output);
-        test_remove_folder(folder);
+        close_in_folder(&opened);
     }
 }
 
