@@ -47,8 +47,7 @@ struct kiln_output_params {
     uint32_t threads; /* encoders; at least 1 */
     bool overwrite;
     uint32_t png_bits, exr_bits, quality;
-    const char
-        *scene_hash; /* 64 hex digits; copied into each file's metadata with seed, frame, version */
+    const char *scene_hash; /* 64 hex digits; goes into each file with seed, frame and version */
     uint32_t seed;
     struct kiln_log log;
 };

@@ -106,18 +106,17 @@ struct kiln_look {
     const char *atlas;      /* "builtin:fire", "builtin:smoke" or an absolute file path */
     uint32_t columns, rows; /* cells of an atlas file */
     enum kiln_blend blend;
-    struct kiln_value size;  /* m: edge of the billboard */
-    struct kiln_range scale; /* factor on size, drawn per particle */
-    struct kiln_value
-        stretch; /* s: longer along the velocity by speed * stretch; 0 keeps it square */
-    struct kiln_range rotation;          /* rad at birth */
-    struct kiln_range spin;              /* rad/s; the sign is drawn per particle */
-    struct kiln_value cycles;            /* passes through the atlas in a life */
-    bool random_start;                   /* each particle starts at a cell of its own */
-    struct kiln_value3 color;            /* linear; multiplies the atlas or the blackbody colour */
-    struct kiln_value opacity;           /* 0..1 */
-    struct kiln_value temperature;       /* K: blackbody colour; 0: none */
-    struct kiln_value intensity;         /* factor on emitted light */
+    struct kiln_value size;        /* m: edge of the billboard */
+    struct kiln_range scale;       /* factor on size, drawn per particle */
+    struct kiln_value stretch;     /* s: longer along the velocity by speed * stretch; 0: square */
+    struct kiln_range rotation;    /* rad at birth */
+    struct kiln_range spin;        /* rad/s; the sign is drawn per particle */
+    struct kiln_value cycles;      /* passes through the atlas in a life */
+    bool random_start;             /* each particle starts at a cell of its own */
+    struct kiln_value3 color;      /* linear; multiplies the atlas or the blackbody colour */
+    struct kiln_value opacity;     /* 0..1 */
+    struct kiln_value temperature; /* K: blackbody colour; 0: none */
+    struct kiln_value intensity;   /* factor on emitted light */
     struct kiln_value fade_in, fade_out; /* parts of the life */
     struct kiln_value soft;              /* 1/m: equation 3.3; 0: hard */
     enum kiln_soft_formula soft_formula;

@@ -141,8 +141,7 @@ float sky_visibility(vec3 point, vec3 normal)
         float facing = clamp(dot(towards, normal) * inversesqrt(dot(towards, towards)) + 0.4, 0.0, 1.0);
         float size = min(min(halves.x, halves.y), halves.z);
         bool outside = dot(towards, normal) > -dot(halves, abs(normal)) + 1e-3;
-        if (outside)
-            {
+        if (outside) {
             float fall = 1.0 / (1.0 + 2.0 * away / size);
             visible *= 1.0 - 0.7 * facing * fall * fall;
         }

@@ -41,9 +41,8 @@ struct kiln_draw_light {
 struct kiln_draw_backdrop {
     float4 sky_top;
     float4 sky_horizon;
-    float4 floor_color; /* w: height, m */
-    float4
-        floor_params; /* x: 1 if there is one; y: edge of its squares, m; z: haze, 1/m; w: unused */
+    float4 floor_color;   /* w: height, m */
+    float4 floor_params;  /* 1 if there is one; edge of its squares, m; haze, 1/m; unused */
     float4 sun_direction; /* unit, towards the sun */
     float4 sun_color;     /* irradiance */
     uint4 counts;         /* boxes, lights, 1 for a transparent background, unused */
