@@ -39,13 +39,22 @@ struct job {
 /* ---- the loop ---------------------------------------------------------------------------------
  */
 
-static bool should_stop(const struct job *job, struct kiln_error *error)
+/* A callback may have used another device on this thread. */
+static bool return_from_caller(const struct job *job, struct kiln_error *error)
 {
-    if (!job->params->stop || !job->params->stop(job->params->user))
+    return kiln_device_make_current(job->device, error);
+}
+
+/* False with KILN_INTERRUPTED when the caller wants no more. */
+static bool may_go_on(const struct job *job, struct kiln_error *error)
+{
+    if (!job->params->stop)
+        return true;
+    bool stop = job->params->stop(job->params->user);
+    if (!return_from_caller(job, error))
         return false;
-    kiln_error_set(error, KILN_INTERRUPTED, "stopped after %u of %u frames", job->progress.done,
-                   job->total_frames);
-    return true;
+    return !stop || kiln_error_set(error, KILN_INTERRUPTED, "stopped after %u of %u frames",
+                                   job->progress.done, job->total_frames);
 }
 
 static bool step_to(struct job *job, uint32_t step, struct kiln_error *error)
@@ -54,7 +63,7 @@ static bool step_to(struct job *job, uint32_t step, struct kiln_error *error)
     kiln_timer_begin(job->stages.timer, KILN_PASS_simulate);
     bool ok = true;
     while (ok && run->step < step) {
-        ok = !should_stop(job, error) &&
+        ok = may_go_on(job, error) &&
              kiln_simulate_step(job->stages.simulate, &run->pool, run->step + 1, error);
         if (ok)
             run->step++;
@@ -108,14 +117,15 @@ static bool report_frame(struct job *job, uint32_t frame, struct kiln_error *err
     bool written = job->output && kiln_output_path(job->output, frame, path, sizeof path);
     if (job->manifest && !kiln_manifest_add(job->manifest, p, written ? path : NULL, error))
         return false;
-    if (job->params->progress)
-        job->params->progress(job->params->user, p);
-    return true;
+    if (!job->params->progress)
+        return true;
+    job->params->progress(job->params->user, p);
+    return return_from_caller(job, error);
 }
 
 static bool render_frame(struct job *job, uint32_t frame, struct kiln_error *error)
 {
-    if (should_stop(job, error) || !step_to(job, kiln_scene_frame_step(job->scene, frame), error))
+    if (!may_go_on(job, error) || !step_to(job, kiln_scene_frame_step(job->scene, frame), error))
         return false;
 
     struct kiln_pool *pool = &job->run.pool;

@@ -224,8 +224,9 @@ struct kiln_render_stats {
     char first_file[KILN_PATH_SIZE]; /* what was written first */
 };
 
-/* Renders the job. Files appear under their names only when whole; after an error or a stop, what
- * was finished stays and nothing half-written is left. stats may be NULL. */
+/* Renders the job; its callbacks may use other devices, or render on this one. Files appear under
+ * their names only when whole; after an error or a stop, what was finished stays and nothing
+ * half-written is left. stats may be NULL. */
 bool kiln_render(struct kiln_device *device, const struct kiln_scene *scene,
                  const struct kiln_render_params *params, struct kiln_render_stats *stats,
                  struct kiln_error *error);

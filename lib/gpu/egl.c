@@ -171,11 +171,13 @@ bool kiln_egl_open(const struct kiln_egl_source *source, bool debug, void **disp
     return true;
 }
 
-/* The bound API belongs to the thread, and eglGetCurrentContext means the context of that API. */
+/* The bound API belongs to the thread, and eglGetCurrentContext means the context of that API.
+ * Making a context current flushes it: not where it is so already. */
 bool kiln_egl_make_current(void *display, void *context)
 {
     return eglBindAPI(EGL_OPENGL_API) &&
-           eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context);
+           (eglGetCurrentContext() == context ||
+            eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context));
 }
 
 void kiln_egl_close(void *display, void *context)

@@ -1,0 +1,133 @@
+/* lib/frame.c: jobs beside each other in one process. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "support/device.h"
+#include "support/pictures.h"
+#include "support/scenes.h"
+
+enum { FRAMES = 4 };
+
+static const char SMOKE[] =
+    "kiln: 1\n"
+    "output: {size: [64, 48], fps: 30, frames: 4}\n"
+    "systems:\n"
+    "  smoke:\n"
+    "    emit: {rate: 200, life: 1 s, speed: 2 m/s, from: {sphere: {origin: [0, 1, 0]}}}\n"
+    "    look: {atlas: 'builtin:smoke', size: 0.8 m, opacity: 0.8, lit: 1, bloom: 0.5}\n";
+static const char FIRE[] =
+    "kiln: 1\n"
+    "output: {size: [32, 32], fps: 30, frames: 2}\n"
+    "camera: {position: [3, 1, 1]}\n"
+    "backdrop: {transparent: true}\n"
+    "post: {compose: separate}\n"
+    "systems:\n"
+    "  fire:\n"
+    "    emit: {rate: 100, life: 1 s, speed: 1 m/s, from: {point: {origin: [0, 1, 0]}}}\n"
+    "    look: {atlas: 'builtin:fire', blend: add, size: 0.7 m, temperature: 1800, bloom: 1}\n";
+
+static const char *const ON_DEVICE[] = {"simulate=inplace"};
+
+/* What a job's caller does at each frame. */
+struct caller {
+    struct kiln_device *device; /* of the job beside; NULL: opens one of its own */
+    bool stays_away;            /* renders nothing beside */
+    int calls;
+};
+
+static void render_beside(void *user, const struct kiln_progress *progress)
+{
+    struct caller *caller = user;
+    (void)progress;
+    caller->calls++;
+    if (caller->stays_away)
+        return;
+    struct kiln_error error = {0};
+    struct kiln_device_params params = KILN_DEVICE_DEFAULTS;
+    params.wanted = getenv("KILN_TEST_DEVICE");
+    struct kiln_device *own = caller->device ? NULL : kiln_device_open(&params, &error);
+    struct kiln_scene *scene = load_scene(FIRE, NULL);
+    struct kiln_render_params job = KILN_RENDER_DEFAULTS;
+    job.techniques = ON_DEVICE;
+    job.technique_count = 1;
+    if (!kiln_render(own ? own : caller->device, scene, &job, NULL, &error))
+        fail_msg("%s", error.message);
+    kiln_scene_destroy(&scene);
+    kiln_device_close(&own);
+}
+
+static bool never(void *user)
+{
+    (void)user;
+    return false;
+}
+
+/* Renders the smoke with all layers into a folder. */
+static void render_smoke(struct kiln_device *device, struct caller *caller, const char *folder)
+{
+    char path[64];
+    snprintf(path, sizeof path, "%s/x_#.exr", folder);
+    struct kiln_error error = {0};
+    struct kiln_scene *scene = load_scene(SMOKE, NULL);
+    struct kiln_render_params job = KILN_RENDER_DEFAULTS;
+    job.output = path;
+    job.techniques = ON_DEVICE;
+    job.technique_count = 1;
+    job.progress = render_beside;
+    job.stop = never;
+    job.user = caller;
+    if (!kiln_render(device, scene, &job, NULL, &error))
+        fail_msg("%s", error.message);
+    assert_int_equal(caller->calls, FRAMES);
+    kiln_scene_destroy(&scene);
+}
+
+static size_t read_frame(const char *folder, int frame, char *bytes, size_t size)
+{
+    char path[64];
+    snprintf(path, sizeof path, "%s/x_%d.exr", folder, frame);
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    size_t length = fread(bytes, 1, size, file);
+    fclose(file);
+    assert_true(length > 0 && length < size);
+    return length;
+}
+
+/* Frames are the same bytes, whatever else the thread renders between them, and on which device. */
+static void jobs_do_not_disturb_each_other(void **state)
+{
+    struct caller callers[] = {
+        {.stays_away = true}, {.device = *state}, {.device = NULL /* opens one */}};
+    enum { JOBS = sizeof callers / sizeof *callers, MOST = 1 << 18 };
+    char folders[JOBS][32];
+    for (int i = 0; i < JOBS; i++) {
+        test_make_folder(folders[i]);
+        render_smoke(*state, &callers[i], folders[i]);
+    }
+    char *alone = malloc(MOST), *beside = malloc(MOST);
+    assert_true(alone && beside);
+    for (int frame = 0; frame < FRAMES; frame++) {
+        size_t length = read_frame(folders[0], frame, alone, MOST);
+        for (int i = 1; i < JOBS; i++) {
+            assert_int_equal(read_frame(folders[i], frame, beside, MOST), length);
+            assert_memory_equal(alone, beside, length);
+        }
+    }
+    free(alone);
+    free(beside);
+    for (int i = 0; i < JOBS; i++)
+        test_remove_folder(folders[i]);
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        test_on_device(jobs_do_not_disturb_each_other),
+    };
+    return cmocka_run_group_tests_name("frame", tests, test_device_open, test_device_close);
+}
