@@ -1,4 +1,5 @@
-/* SIGINT, SIGTERM and SIGHUP: the first asks the job to stop, the second ends the program at once. */
+/* SIGINT, SIGTERM and SIGHUP: the first asks the job to stop, the second ends the program at once.
+ */
 #ifndef KILN_CMD_SIGNALS_H
 #define KILN_CMD_SIGNALS_H
 
