@@ -432,18 +432,16 @@ static void convert_rows(void *context, size_t begin, size_t end, uint32_t worke
     }
 }
 
-static bool check_finite(const struct kiln_flip_pair *pair, struct kiln_error *error)
+bool kiln_flip_check_finite(const float *picture, const struct kiln_flip_pair *pair,
+                            struct kiln_error *error)
 {
     size_t count = (size_t)pair->width * pair->height * 3;
-    const float *pictures[2] = {pair->reference, pair->test};
-    for (int image = 0; image < 2; image++) {
-        for (size_t i = 0; i < count; i++) {
-            if (!isfinite(pictures[image][i]))
-                return kiln_error_set(error, KILN_INVALID_INPUT,
-                                      "%s picture: pixel %zu,%zu has a value that is not finite",
-                                      image ? "test" : "reference", i / 3 % pair->width,
-                                      i / 3 / pair->width);
-        }
+    for (size_t i = 0; i < count; i++) {
+        if (!isfinite(picture[i]))
+            return kiln_error_set(error, KILN_INVALID_INPUT,
+                                  "%s picture: pixel %zu,%zu has a value that is not finite",
+                                  picture == pair->test ? "test" : "reference", i / 3 % pair->width,
+                                  i / 3 / pair->width);
     }
     return true;
 }
@@ -455,7 +453,8 @@ bool kiln_flip_ldr(const struct kiln_flip_pair *pair, const struct kiln_flip_par
     if (!(params->pixels_per_degree >= 4.0f && params->pixels_per_degree <= 400.0f))
         return kiln_error_set(error, KILN_USAGE, "%g pixels a degree: expected 4 to 400",
                               (double)params->pixels_per_degree);
-    if (!check_finite(pair, error))
+    if (!kiln_flip_check_finite(pair->reference, pair, error) ||
+        !kiln_flip_check_finite(pair->test, pair, error))
         return false;
 
     struct flip flip = {.pair = pair, .errors = errors};

@@ -21,6 +21,11 @@ struct kiln_flip_pair {
     uint32_t width, height; /* both at least 1 */
 };
 
+/* False with KILN_INVALID_INPUT and the place when one picture of the pair has a value that is not
+ * finite. */
+bool kiln_flip_check_finite(const float *picture, const struct kiln_flip_pair *pair,
+                            struct kiln_error *error);
+
 /* The error of each pixel, 0 (none) to 1; values are clamped to 0..1 first. errors has room for
  * width * height. False with KILN_INVALID_INPUT when a value is not finite (the message says
  * where), with KILN_DEVICE_FAILED when memory is short. */
@@ -36,7 +41,8 @@ enum { KILN_FLIP_MAX_EXPOSURES = 64 };
 
 /* From the reference alone: its brightest pixel just not burnt out, to its median as bright as
  * that. A reference whose median is black (fire on black) gets the darkest exposure that its light
- * bears, never an empty range, in which any two pictures would be equal. */
+ * bears, never an empty range, in which any two pictures would be equal. The test picture may be
+ * NULL. Errors as above. */
 bool kiln_flip_choose_exposures(const struct kiln_flip_pair *pair,
                                 struct kiln_flip_exposures *exposures, struct kiln_error *error);
 

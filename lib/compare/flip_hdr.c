@@ -39,6 +39,8 @@ static int compare_floats(const void *a, const void *b)
 bool kiln_flip_choose_exposures(const struct kiln_flip_pair *pair,
                                 struct kiln_flip_exposures *exposures, struct kiln_error *error)
 {
+    if (!kiln_flip_check_finite(pair->reference, pair, error))
+        return false;
     size_t pixels = (size_t)pair->width * pair->height;
     float *values = malloc(pixels * sizeof *values);
     if (!values)
@@ -96,6 +98,10 @@ bool kiln_flip_hdr(const struct kiln_flip_pair *pair, const struct kiln_flip_par
     if (exposures->count < 2 || exposures->count > KILN_FLIP_MAX_EXPOSURES)
         return kiln_error_set(error, KILN_USAGE, "%u exposures: expected 2 to %d", exposures->count,
                               KILN_FLIP_MAX_EXPOSURES);
+    /* Here, since tone mapping would make a number of anything. */
+    if (!kiln_flip_check_finite(pair->reference, pair, error) ||
+        !kiln_flip_check_finite(pair->test, pair, error))
+        return false;
     float *mapped = malloc(6 * pixels * sizeof *mapped);
     float *now = malloc(pixels * sizeof *now);
     bool ok = mapped && now;

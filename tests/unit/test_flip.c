@@ -153,6 +153,16 @@ static void what_is_not_finite_is_refused(void **state)
         assert_int_equal(error.code, KILN_INVALID_INPUT);
         assert_string_equal(error.message,
                             "test picture: pixel 5,2 has a value that is not finite");
+
+        struct kiln_flip_exposures exposures = {.start = 0.0f, .stop = 1.0f, .count = 2};
+        error = (struct kiln_error){0};
+        assert_false(
+            kiln_flip_hdr(&pair, &KILN_FLIP_DEFAULTS, &exposures, threads, errors, &error));
+        assert_int_equal(error.code, KILN_INVALID_INPUT);
+        struct kiln_flip_pair turned = {b.rgb, NULL, 8, 8};
+        error = (struct kiln_error){0};
+        assert_false(kiln_flip_choose_exposures(&turned, &exposures, &error));
+        assert_non_null(strstr(error.message, "reference picture: pixel 5,2"));
         kiln_threads_destroy(&threads);
         free(a.rgb);
         free(b.rgb);
