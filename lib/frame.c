@@ -12,8 +12,7 @@
 #include "output/manifest.h"
 #include "stages.h"
 
-#include <stdlib.h>
-#include <string.h>
+#include <inttypes.h>
 
 struct job {
     struct kiln_device *device;
@@ -241,18 +240,33 @@ static void init_pool(struct job *job)
         (uint64_t)job->run.pool.slot_count * (sizeof(struct kiln_particle) + sizeof(uint32_t));
 }
 
+/* What the device cannot draw. A software device advertises smaller storage blocks than it takes.
+ */
+static bool check_limits(const struct job *job, struct kiln_error *error)
+{
+    const struct kiln_device_info *device = &job->device->info;
+    const struct kiln_scene *scene = job->scene;
+    int64_t largest = device->max_texture_size;
+    if ((int64_t)scene->width > largest || (int64_t)scene->height > largest)
+        return kiln_error_set(error, KILN_DEVICE_FAILED,
+                              "output.size: %u x %u pixels; %s draws up to %d a side", scene->width,
+                              scene->height, device->name, device->max_texture_size);
+    uint64_t particles = kiln_scene_info(scene).particle_capacity;
+    uint64_t most = (uint64_t)device->max_storage_block_bytes / sizeof(struct kiln_particle);
+    return device->software || particles <= most ||
+           kiln_error_set(error, KILN_DEVICE_FAILED,
+                          "systems: up to %" PRIu64 " particles at once; %s draws up to %" PRIu64,
+                          particles, device->name, most);
+}
+
 static bool begin(struct job *job, struct kiln_error *error)
 {
     const struct kiln_render_params *params = job->params;
     if (!choose_frames(job, error) || !kiln_device_make_current(job->device, error) ||
         !kiln_techniques_choose(&job->device->info, params->techniques, params->technique_count,
-                                &job->techniques, error))
+                                &job->techniques, error) ||
+        !check_limits(job, error))
         return false;
-    int32_t largest = job->device->info.max_texture_size;
-    if ((int64_t)job->scene->width > largest || (int64_t)job->scene->height > largest)
-        return kiln_error_set(
-            error, KILN_DEVICE_FAILED, "output.size: %u x %u pixels; %s draws up to %d a side",
-            job->scene->width, job->scene->height, job->device->info.name, largest);
     kiln_techniques_describe(&job->techniques, job->stats.techniques, sizeof job->stats.techniques);
     job->threads = kiln_threads_create(params->threads);
     if (!job->threads)

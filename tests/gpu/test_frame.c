@@ -69,7 +69,7 @@ static bool never(void *user)
 /* Renders the smoke with all layers into a folder. */
 static void render_smoke(struct kiln_device *device, struct caller *caller, const char *folder)
 {
-    char path[64];
+    char path[160];
     snprintf(path, sizeof path, "%s/x_#.exr", folder);
     struct kiln_error error = {0};
     struct kiln_scene *scene = load_scene(SMOKE, NULL);
@@ -88,7 +88,7 @@ static void render_smoke(struct kiln_device *device, struct caller *caller, cons
 
 static size_t read_frame(const char *folder, int frame, char *bytes, size_t size)
 {
-    char path[64];
+    char path[160];
     snprintf(path, sizeof path, "%s/x_%d.exr", folder, frame);
     FILE *file = fopen(path, "rb");
     assert_non_null(file);
@@ -124,10 +124,32 @@ static void jobs_do_not_disturb_each_other(void **state)
         test_remove_folder(folders[i]);
 }
 
+/* More than the device takes is said before anything is drawn. */
+static void limits_are_told(void **state)
+{
+    struct kiln_device *device = *state;
+    const struct kiln_device_info info = device->info;
+    struct kiln_scene *scene = load_scene(SMOKE, NULL);
+    struct kiln_error error = {0};
+    device->info.max_texture_size = 32;
+    assert_false(kiln_render(device, scene, &KILN_RENDER_DEFAULTS, NULL, &error));
+    assert_int_equal(error.code, KILN_DEVICE_FAILED);
+    assert_non_null(strstr(error.message, "64 x 48 pixels"));
+    device->info = info;
+    device->info.software = false;
+    device->info.max_storage_block_bytes = 32;
+    assert_false(kiln_render(device, scene, &KILN_RENDER_DEFAULTS, NULL, &error));
+    assert_int_equal(error.code, KILN_DEVICE_FAILED);
+    assert_non_null(strstr(error.message, "draws up to 1"));
+    device->info = info;
+    kiln_scene_destroy(&scene);
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
         test_on_device(jobs_do_not_disturb_each_other),
+        test_on_device(limits_are_told),
     };
     return cmocka_run_group_tests_name("frame", tests, test_device_open, test_device_close);
 }
