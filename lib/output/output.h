@@ -80,8 +80,4 @@ bool kiln_output_path(const struct kiln_output *output, uint32_t frame, char *pa
 /* Do all frames go into one file, as those of a video do? */
 bool kiln_output_is_one_file(const struct kiln_output *output);
 
-/* Removes the temporary files of every open output, with async-signal-safe calls only: for a
- * watchdog or a second signal, right before _exit. */
-void kiln_output_abandon_all(void);
-
 #endif

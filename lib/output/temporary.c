@@ -1,4 +1,4 @@
-/* Temporary names are the one state of the library at file scope: kiln_output_abandon_all must find
+/* Temporary names are the one state of the library at file scope: kiln_abandon_outputs must find
  * them from a signal handler, where no lock and no owner can be asked. So they lie in a table of
  * fixed size. A slot is claimed and released by an atomic, its path is written before it is marked
  * as armed, and a file exists only while its slot is armed. */
@@ -14,7 +14,6 @@
 #include <unistd.h>
 
 #include "base/error.h"
-#include "output/output.h"
 
 enum { SLOT_COUNT = 256, MAX_ATTEMPTS = 64 };
 
@@ -42,7 +41,7 @@ static void release_slot(int slot)
     atomic_store(&slots[slot].state, SLOT_FREE);
 }
 
-void kiln_output_abandon_all(void)
+void kiln_abandon_outputs(void)
 {
     atomic_store(&abandoned, true);
     for (int i = 0; i < SLOT_COUNT; i++) {

@@ -304,7 +304,7 @@ static bool process_is_stopped(const char *path)
         if (!kiln_output_write(output, test_picture(output, &params, frame), &error))
             return false;
     }
-    kiln_output_abandon_all();
+    kiln_abandon_outputs();
     _exit(output ? 0 : 1);
 }
 
