@@ -101,7 +101,7 @@ struct kiln_scene_info {
     uint32_t warmup_steps;
     uint32_t system_count;
     uint64_t particle_capacity; /* slots over all systems */
-    char hash[65];              /* SHA-256 of the scene with every default, in hex */
+    char hash[65]; /* SHA-256 of the scene with every default and of its textures, in hex */
 };
 struct kiln_scene_info kiln_scene_info(const struct kiln_scene *scene);
 

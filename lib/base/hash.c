@@ -6,17 +6,42 @@
 #include <stdint.h>
 #include <stdio.h>
 
+static void finish(struct AVSHA *sha, char hex[65])
+{
+    uint8_t digest[32];
+    av_sha_final(sha, digest);
+    for (size_t i = 0; i < sizeof digest; i++)
+        snprintf(hex + 2 * i, 3, "%02x", digest[i]);
+}
+
 bool kiln_hash_sha256(const void *bytes, size_t size, char hex[65])
 {
     struct AVSHA *sha = av_sha_alloc();
     if (!sha)
         return false;
-    uint8_t digest[32];
     av_sha_init(sha, 256);
     av_sha_update(sha, bytes, size);
-    av_sha_final(sha, digest);
+    finish(sha, hex);
     av_free(sha);
-    for (size_t i = 0; i < sizeof digest; i++)
-        snprintf(hex + 2 * i, 3, "%02x", digest[i]);
     return true;
+}
+
+bool kiln_hash_sha256_file(const char *path, char hex[65])
+{
+    FILE *file = fopen(path, "rb");
+    struct AVSHA *sha = file ? av_sha_alloc() : NULL;
+    bool ok = sha != NULL;
+    if (ok) {
+        uint8_t block[16384];
+        size_t size;
+        av_sha_init(sha, 256);
+        while ((size = fread(block, 1, sizeof block, file)) > 0)
+            av_sha_update(sha, block, size);
+        ok = !ferror(file);
+        finish(sha, hex);
+    }
+    av_free(sha);
+    if (file)
+        fclose(file);
+    return ok;
 }

@@ -91,11 +91,24 @@ static bool keep_keys(struct kiln_reader *reader)
     return true;
 }
 
+/* Of the printed scene and of what its textures contain, so that a changed picture is another
+ * scene. */
 static bool take_hash(struct kiln_scene *scene, struct kiln_error *error)
 {
     struct kiln_text text;
-    bool ok =
-        kiln_print_scene(scene, &text) && kiln_hash_sha256(text.data, text.length, scene->hash);
+    bool ok = kiln_print_scene(scene, &text);
+    for (uint32_t i = 0; ok && i < scene->system_count; i++) {
+        const char *atlas = scene->systems[i].look.atlas;
+        char hex[65];
+        if (atlas[0] != '/') /* built in */
+            continue;
+        if (!kiln_hash_sha256_file(atlas, hex)) {
+            kiln_text_free(&text);
+            return kiln_error_set_errno(error, KILN_INVALID_INPUT, errno, "%s", atlas);
+        }
+        kiln_text_add(&text, "%s\n", hex);
+    }
+    ok = ok && !text.failed && kiln_hash_sha256(text.data, text.length, scene->hash);
     kiln_text_free(&text);
     return ok || kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading a scene");
 }

@@ -230,7 +230,7 @@ struct kiln_scene {
 
     float4 *keys; /* (x, y, slope, 0) */
     uint32_t key_count;
-    char hash[65]; /* SHA-256 of what kiln_scene_print writes, in hex */
+    char hash[65]; /* SHA-256 of what kiln_scene_print writes and of the textures, in hex */
 };
 
 /* Clip time in seconds at the end of a step; steps count from 1, 0 is the start of the run. The

@@ -217,8 +217,17 @@ static void asset_root_may_be_given(void **state)
     struct kiln_scene *elsewhere = load_scene_file("scenes/t.yaml");
     assert_string_equal(scene->hash, elsewhere->hash);
     assert_string_equal(elsewhere->name, "scenes/t.yaml");
-    kiln_scene_destroy(&scene);
     kiln_scene_destroy(&elsewhere);
+
+    /* But it knows what the textures show. */
+    unsigned char changed[sizeof bitmap];
+    memcpy(changed, bitmap, sizeof bitmap);
+    changed[sizeof changed - 4] ^= 0xff; /* a pixel */
+    write_file("scenes/textures/in.bmp", changed, sizeof changed);
+    struct kiln_scene *repainted = load_scene_file("scenes/t.yaml");
+    assert_string_not_equal(scene->hash, repainted->hash);
+    kiln_scene_destroy(&repainted);
+    kiln_scene_destroy(&scene);
 }
 
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, enter_folder, leave_folder)
