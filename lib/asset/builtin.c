@@ -3,6 +3,7 @@
  * on [-1, 1]^2, y up; t runs from 0 at birth to 1 at death. */
 #include "asset/builtin.h"
 
+#include "base/vector.h"
 #include "shared/noise.h"
 
 #include <math.h>
@@ -30,24 +31,40 @@ static float smooth_step(float from, float to, float x)
 }
 
 /* Gradient noise with lattice points one unit apart, within about -1 and 1. */
+KILN_WIDE_VECTORS
 static float noise(float x, float y, float z, uint32_t seed)
 {
+    enum { CORNERS = 8 };
     float3 p = {x, y, z};
     float3 cell = {floorf(x), floorf(y), floorf(z)};
     float3 f = float3_sub(p, cell);
-    float wx = noise_fade_at(f.x).weight, wy = noise_fade_at(f.y).weight;
-    float wz = noise_fade_at(f.z).weight;
-    float sum = 0.0f;
-    for (int corner = 0; corner < 8; corner++) {
-        int i = corner & 1, j = corner >> 1 & 1, k = corner >> 2;
-        uint32_t at = (uint32_t)((int)cell.x + i) * NOISE_X ^
-                      (uint32_t)((int)cell.y + j) * NOISE_Y ^
-                      (uint32_t)((int)cell.z + k) * NOISE_Z ^ seed;
+    float wx[2], wy[2], wz[2];
+    wx[1] = noise_fade_at(f.x).weight;
+    wy[1] = noise_fade_at(f.y).weight;
+    wz[1] = noise_fade_at(f.z).weight;
+    wx[0] = 1.0f - wx[1];
+    wy[0] = 1.0f - wy[1];
+    wz[0] = 1.0f - wz[1];
+    /* All corners at once: tables instead of branches, so that the loop becomes vectors. */
+    static const uint32_t I[CORNERS] = {0, 1, 0, 1, 0, 1, 0, 1};
+    static const uint32_t J[CORNERS] = {0, 0, 1, 1, 0, 0, 1, 1};
+    static const uint32_t K[CORNERS] = {0, 0, 0, 0, 1, 1, 1, 1};
+    uint32_t cx = (uint32_t)(int)cell.x, cy = (uint32_t)(int)cell.y, cz = (uint32_t)(int)cell.z;
+    float parts[CORNERS];
+#pragma GCC unroll 1
+    for (int c = 0; c < CORNERS; c++) {
+        float i = (float)(int)I[c], j = (float)(int)J[c], k = (float)(int)K[c];
+        uint32_t at = (cx + I[c]) * NOISE_X ^ (cy + J[c]) * NOISE_Y ^ (cz + K[c]) * NOISE_Z ^ seed;
         float3 gradient = noise_gradient(random_mix(at));
-        float3 away = {f.x - (float)i, f.y - (float)j, f.z - (float)k};
-        float weight = (i ? wx : 1.0f - wx) * (j ? wy : 1.0f - wy) * (k ? wz : 1.0f - wz);
-        sum += weight * float3_dot(gradient, away);
+        float3 away = {f.x - i, f.y - j, f.z - k};
+        /* Exact, since i, j and k are 0 or 1. */
+        float weight = ((1.0f - i) * wx[0] + i * wx[1]) * ((1.0f - j) * wy[0] + j * wy[1]) *
+                       ((1.0f - k) * wz[0] + k * wz[1]);
+        parts[c] = weight * float3_dot(gradient, away);
     }
+    float sum = 0.0f;
+    for (int corner = 0; corner < CORNERS; corner++)
+        sum += parts[corner];
     return 0.32f * sum;
 }
 

@@ -1,23 +1,17 @@
 /* LDR-FLIP in tiles: colours are brought to the opponent space of the contrast sensitivity filters
  * once; each tile is then filtered across and down and judged while it lies in the cache. Inner
- * loops run over plain arrays, which the compiler turns into vector code for each of the processors
- * named in VECTORIZED. Constants and steps: HPG 2020, sections 4 and 5.
+ * loops run over plain arrays, which the compiler turns into vector code. Constants and steps: HPG
+ * 2020, sections 4 and 5.
  */
 #include "compare/flip.h"
 
 #include "base/error.h"
+#include "base/vector.h"
 
 #include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) &&                             \
-    !defined(__SANITIZE_ADDRESS__)
-#define VECTORIZED __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define VECTORIZED
-#endif
 
 enum {
     TILE_WIDTH = 256,
@@ -185,7 +179,7 @@ static inline float clamp01(float x)
 }
 
 /* A row of linear colours to the opponent space of the filters (HPG 2020, 4.1). */
-VECTORIZED
+KILN_WIDE_VECTORS
 static void to_opponent(const float *rgb, size_t count, float *y, float *x, float *z)
 {
     const float m00 = (float)(TO_XYZ[0][0] / 0.950428545),
@@ -255,7 +249,7 @@ static inline struct lab filtered_lab(const float from_xyz[3][3], float y, float
 
 /* to[i] = sum of weights[k] * from[i + k], k up to 2 radius: count is a multiple of LANES, and from
  * has 2 radius more. */
-VECTORIZED
+KILN_WIDE_VECTORS
 static void filter_across(const float *from, const float *weights, int radius, float *to, int count)
 {
     for (int i = 0; i < count; i += LANES) {
@@ -269,7 +263,7 @@ static void filter_across(const float *from, const float *weights, int radius, f
 }
 
 /* The same down the rows of a tile, `stride` floats apart. */
-VECTORIZED
+KILN_WIDE_VECTORS
 static void filter_down(const float *from, size_t stride, const float *weights, int radius,
                         float *to, int count)
 {
@@ -359,7 +353,7 @@ static inline float feature_size(float across, float down)
 }
 
 /* HPG 2020, 4.1.3, 4.2 and 4.3: colour error, remapped at the knee, raised by the feature error. */
-VECTORIZED
+KILN_WIDE_VECTORS
 static void judge_row(const struct row *row, const float from_xyz[3][3], float largest,
                       float *errors, int count)
 {

@@ -3,28 +3,18 @@
 
 #include <stdatomic.h>
 
+#include "base/vector.h"
 #include "shared/state_hash.h"
 #include "shared/step.h"
 
 enum { SLOTS_AT_A_TIME = 2048 };
-
-/* A second copy of a loop, with all that it calls, for processors with AVX2, chosen when the
- * program starts. It gives the same bits: nothing is contracted or reordered. Curl noise takes half
- * the time in it. (clang cannot do both at once; with sanitizers, the choice would come too early.)
- */
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) &&                             \
-    !defined(__SANITIZE_ADDRESS__)
-#define IN_WIDE_VECTORS __attribute__((flatten, target_clones("avx2", "default")))
-#else
-#define IN_WIDE_VECTORS
-#endif
 
 struct work {
     struct kiln_sim sim;
     struct kiln_particle *records; /* of the system */
 };
 
-IN_WIDE_VECTORS
+KILN_WIDE_VECTORS
 static void step_slots(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
