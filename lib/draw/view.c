@@ -19,6 +19,11 @@ struct kiln_view kiln_view_compute(const struct kiln_scene *scene, uint32_t step
     vec3 up = {0.0f, 1.0f, 0.0f};
     vec3 forward;
     glm_vec3_sub(center, eye, forward);
+    /* Keys may lead the eye through its target: any direction is better than none. */
+    if (glm_vec3_norm2(forward) < 1e-12f) {
+        glm_vec3_copy((vec3){0.0f, 0.0f, -1.0f}, forward);
+        glm_vec3_add(eye, forward, center);
+    }
     glm_vec3_normalize(forward);
     /* Straight down or up: the world's up says nothing about the picture's. */
     if (fabsf(forward[1]) > 0.9999f)
