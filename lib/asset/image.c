@@ -3,18 +3,14 @@
  * get_buffer, which is where the size is judged, before a pixel of it exists. */
 #include "asset/image.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <libavcodec/avcodec.h>
-#include <libavutil/pixdesc.h>
-#include <libswscale/swscale.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
+#include "asset/avframe.h"
 #include "asset/avlog.h"
+#include "asset/exr_in.h"
+#include "asset/file_in.h"
 #include "base/error.h"
 
 #define ALLOWED "PNG, JPEG, WebP, TIFF, BMP or EXR"
@@ -169,86 +165,13 @@ static bool decode_frame(struct decoding *decoding, const void *bytes, size_t si
     return true;
 }
 
-static const float *float_row(const AVFrame *frame, int plane, uint32_t y)
-{
-    return (const float *)(const void *)(frame->data[plane] +
-                                         (ptrdiff_t)y * frame->linesize[plane]);
-}
-
-/* The planes of FFmpeg's float formats come as green, blue, red, alpha. */
-static bool interleave_float(struct decoding *decoding, struct kiln_asset_image *image)
-{
-    static const int planes[2][3] = {{0, 0, 0}, {2, 0, 1}};
-    const AVFrame *frame = decoding->frame;
-    const int *plane = planes[frame->format != AV_PIX_FMT_GRAYF32];
-    bool alpha = frame->format == AV_PIX_FMT_GBRAPF32, finite = true;
-    float *out = image->pixels;
-    for (uint32_t y = 0; y < image->height; y++) {
-        for (uint32_t x = 0; x < image->width; x++, out += 4) {
-            for (int c = 0; c < 3; c++)
-                out[c] = float_row(frame, plane[c], y)[x];
-            out[3] = alpha ? float_row(frame, 3, y)[x] : 1.0f;
-            for (int c = 0; c < 4; c++)
-                finite = finite && isfinite(out[c]);
-        }
-    }
-    return finite || fail(decoding, KILN_INVALID_INPUT,
-                          "the EXR image is cut short or has pixels that are not finite numbers");
-}
-
-static bool convert_integer(struct decoding *decoding, struct kiln_asset_image *image)
-{
-    const AVFrame *frame = decoding->frame;
-    bool deep = image->type == KILN_IMAGE_U16;
-    enum AVPixelFormat format = deep ? AV_PIX_FMT_RGBA64 : AV_PIX_FMT_RGBA;
-    int width = (int)image->width, height = (int)image->height;
-    struct SwsContext *scaler = sws_getContext(
-        width, height, frame->format, width, height, format,
-        SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT | SWS_BITEXACT, NULL, NULL, NULL);
-    if (!scaler)
-        return fail(decoding, KILN_INVALID_INPUT, "the image's pixel format cannot be read");
-    if (frame->color_range == AVCOL_RANGE_JPEG)
-        sws_setColorspaceDetails(scaler, sws_getCoefficients(SWS_CS_DEFAULT), 1,
-                                 sws_getCoefficients(SWS_CS_DEFAULT), 1, 0, 1 << 16, 1 << 16);
-    uint8_t *rows[4] = {image->pixels};
-    int strides[4] = {width * (deep ? 8 : 4)};
-    int done = sws_scale(scaler, (const uint8_t *const *)frame->data, frame->linesize, 0, height,
-                         rows, strides);
-    sws_freeContext(scaler);
-    return done == height || fail(decoding, KILN_INVALID_INPUT, "the image cannot be converted");
-}
-
 static struct kiln_asset_image *convert_frame(struct decoding *decoding)
 {
-    const AVFrame *frame = decoding->frame;
-    const AVPixFmtDescriptor *layout = av_pix_fmt_desc_get(frame->format);
-    bool is_float = frame->format == AV_PIX_FMT_GBRPF32 || frame->format == AV_PIX_FMT_GBRAPF32 ||
-                    frame->format == AV_PIX_FMT_GRAYF32;
-    struct kiln_asset_image *image = calloc(1, sizeof *image);
-    if (!layout || !image) {
-        fail(decoding, KILN_DEVICE_FAILED, "out of memory while decoding the image");
-        free(image);
-        return NULL;
-    }
-    image->width = (uint32_t)frame->width;
-    image->height = (uint32_t)frame->height;
-    image->type = is_float                    ? KILN_IMAGE_F32
-                  : layout->comp[0].depth > 8 ? KILN_IMAGE_U16
-                                              : KILN_IMAGE_U8;
-    image->srgb = !is_float && frame->color_trc != AVCOL_TRC_LINEAR;
-    image->premultiplied = frame->format == AV_PIX_FMT_GBRAPF32;
-    static const size_t pixel_size[] = {
-        [KILN_IMAGE_U8] = 4, [KILN_IMAGE_U16] = 8, [KILN_IMAGE_F32] = 16};
-    /* swscale may write whole vectors past the last row's end. */
-    enum { SLACK = 64 };
-    image->pixels = malloc((size_t)image->width * image->height * pixel_size[image->type] + SLACK);
-    bool converted = false;
-    if (!image->pixels)
-        fail(decoding, KILN_DEVICE_FAILED, "out of memory while decoding the image");
-    else
-        converted = is_float ? interleave_float(decoding, image) : convert_integer(decoding, image);
-    if (!converted)
-        kiln_asset_image_destroy(&image);
+    struct kiln_asset_image *image = NULL;
+    const char *problem = NULL;
+    enum kiln_code code = kiln_avframe_convert(decoding->frame, &image, &problem);
+    if (code != KILN_OK)
+        fail(decoding, code, problem);
     return image;
 }
 
@@ -278,58 +201,38 @@ struct kiln_asset_image *kiln_asset_image_parse(const void *bytes, size_t size, 
     return image;
 }
 
-static bool read_all(int file, unsigned char *bytes, size_t size)
-{
-    for (size_t done = 0; done < size;) {
-        ssize_t got = read(file, bytes + done, size - done);
-        if (got < 0 && errno == EINTR)
-            continue;
-        if (got <= 0)
-            return false;
-        done += (size_t)got;
-    }
-    return true;
-}
-
-/* The file's bytes, or NULL with the error; a FIFO or device is refused without waiting for it. */
-static unsigned char *read_file(const char *path, size_t *size, struct kiln_error *error)
-{
-    int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-    struct stat status;
-    if (file < 0 || fstat(file, &status) != 0) {
-        kiln_error_set_errno(error, KILN_IO, errno, "%s: the image cannot be opened", path);
-        if (file >= 0)
-            close(file);
-        return NULL;
-    }
-    unsigned char *bytes = NULL;
-    if (!S_ISREG(status.st_mode)) {
-        kiln_error_set(error, KILN_INVALID_INPUT,
-                       "%s: not a file but a %s; allowed are " ALLOWED " files", path,
-                       S_ISDIR(status.st_mode) ? "folder" : "device or pipe");
-    } else if (status.st_size > KILN_MAX_IMAGE_BYTES) {
-        kiln_error_set(error, KILN_INVALID_INPUT,
-                       "%s: the image file has %jd bytes; allowed are at most %d", path,
-                       (intmax_t)status.st_size, KILN_MAX_IMAGE_BYTES);
-    } else if (!(bytes = malloc((size_t)status.st_size + 1))) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory while reading", path);
-    } else if (!read_all(file, bytes, (size_t)status.st_size)) {
-        kiln_error_set_errno(error, KILN_IO, errno, "%s: the image cannot be read", path);
-        free(bytes);
-        bytes = NULL;
-    }
-    *size = (size_t)status.st_size;
-    close(file);
-    return bytes;
-}
-
 struct kiln_asset_image *kiln_asset_image_load(const char *path, struct kiln_error *error)
 {
     size_t size = 0;
-    unsigned char *bytes = read_file(path, &size, error);
+    unsigned char *bytes =
+        kiln_file_read(path, "image", ALLOWED, KILN_MAX_IMAGE_BYTES, &size, error);
     if (!bytes)
         return NULL;
     struct kiln_asset_image *image = kiln_asset_image_parse(bytes, size, path, error);
+    free(bytes);
+    return image;
+}
+
+struct kiln_asset_image *kiln_asset_image_load_layer(const char *path, const char *layer,
+                                                     struct kiln_error *error)
+{
+    size_t size = 0;
+    unsigned char *bytes =
+        kiln_file_read(path, "image", ALLOWED, KILN_MAX_IMAGE_BYTES, &size, error);
+    if (!bytes)
+        return NULL;
+    const struct signature *signature = find_signature(bytes, size);
+    bool exr = signature && signature->codec == AV_CODEC_ID_EXR;
+    bool beauty = strcmp(layer, "beauty") == 0;
+    struct kiln_asset_image *image = NULL;
+    if (exr && !(beauty && kiln_exr_is_tiled(bytes, size)))
+        image = kiln_exr_parse(bytes, size, path, layer, error);
+    else if (beauty || !signature)
+        image = kiln_asset_image_parse(bytes, size, path, error);
+    else
+        kiln_error_set(error, KILN_INVALID_INPUT,
+                       "%s: no layer '%s': %s images have no layers but 'beauty'", path, layer,
+                       signature->name);
     free(bytes);
     return image;
 }

@@ -21,6 +21,7 @@ enum kiln_image_type {
 /* RGBA, rows from the top, tightly packed. Sources without alpha get the full value. */
 struct kiln_asset_image {
     uint32_t width, height;
+    uint32_t channels; /* of the source: 1 grey, 2 grey and alpha, 3 colour, 4 colour and alpha */
     enum kiln_image_type type;
     bool srgb;          /* encoded with sRGB's transfer function; else linear */
     bool premultiplied; /* colour is already multiplied by alpha (EXR) */
@@ -33,7 +34,12 @@ struct kiln_asset_image {
  * for its pixels), KILN_DEVICE_FAILED when memory is short. The caller destroys it. */
 struct kiln_asset_image *kiln_asset_image_load(const char *path, struct kiln_error *error);
 
-/* The same from bytes in memory; name stands for the file in messages. */
+/* The same for one layer of a file: EXR files have several, of which "beauty" is the picture; other
+ * formats have that one alone. KILN_INVALID_INPUT, too, when there is no such layer. */
+struct kiln_asset_image *kiln_asset_image_load_layer(const char *path, const char *layer,
+                                                     struct kiln_error *error);
+
+/* As the first, from bytes in memory; name stands for the file in messages. */
 struct kiln_asset_image *kiln_asset_image_parse(const void *bytes, size_t size, const char *name,
                                                 struct kiln_error *error);
 void kiln_asset_image_destroy(struct kiln_asset_image **image);
