@@ -47,7 +47,8 @@ struct kiln_output_params {
     uint32_t threads; /* encoders; at least 1 */
     bool overwrite;
     uint32_t png_bits, exr_bits, quality;
-    const char *scene_hash; /* 64 hex digits; goes into each file with seed, frame and version */
+    const char *scene_hash; /* 64 hex digits; goes into each file with seed, frame and version.
+                               NULL, for an encoder of PNG alone: the picture is of no scene */
     uint32_t seed;
     struct kiln_log log;
 };

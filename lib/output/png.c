@@ -109,11 +109,13 @@ static void write_header(struct png_encoder *encoder, const struct kiln_picture 
     char number[16];
     add_text(encoder, "Software", "kiln " KILN_VERSION);
     add_text(encoder, "kiln:version", KILN_VERSION);
-    add_text(encoder, "kiln:scene", encoder->params->scene_hash);
-    snprintf(number, sizeof number, "%u", encoder->params->seed);
-    add_text(encoder, "kiln:seed", number);
-    snprintf(number, sizeof number, "%u", picture->frame);
-    add_text(encoder, "kiln:frame", number);
+    if (encoder->params->scene_hash) {
+        add_text(encoder, "kiln:scene", encoder->params->scene_hash);
+        snprintf(number, sizeof number, "%u", encoder->params->seed);
+        add_text(encoder, "kiln:seed", number);
+        snprintf(number, sizeof number, "%u", picture->frame);
+        add_text(encoder, "kiln:frame", number);
+    }
     png_write_info(png, encoder->info);
 }
 
