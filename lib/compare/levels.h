@@ -1,0 +1,28 @@
+/* What differs by how many levels, and where most of it lies close together. */
+#ifndef KILN_COMPARE_LEVELS_H
+#define KILN_COMPARE_LEVELS_H
+
+#include "compare/subject.h"
+
+/* A pixel's difference is that of its worst channel, alpha included. */
+struct kiln_level_difference {
+    double maximum;     /* levels */
+    double mean;        /* over all pixels and channels */
+    double mean_square; /* the same, of squares */
+    uint64_t differing; /* pixels beyond the threshold */
+    uint32_t x, y;      /* the first of the worst pixels */
+    uint32_t window_width,
+        window_height;           /* the window's edge, or the picture's where that is less */
+    uint32_t window_x, window_y; /* the upper left corner of the densest window */
+    uint64_t window_differing;   /* pixels beyond the threshold in it */
+};
+
+/* Pixels that differ by more than threshold levels (0 or more) are differing; the densest window
+ * is that of window x window pixels (1 or more) with most of them. The two must match. False with
+ * KILN_DEVICE_FAILED when memory is short. */
+bool kiln_level_difference_measure(const struct kiln_subject *reference,
+                                   const struct kiln_subject *test, double threshold,
+                                   uint32_t window, struct kiln_level_difference *difference,
+                                   struct kiln_error *error);
+
+#endif

@@ -1,0 +1,34 @@
+/* Everything that is measured of a pair of pictures; the table in metric.h makes numbers with names
+ * of it. */
+#ifndef KILN_COMPARE_MEASURE_H
+#define KILN_COMPARE_MEASURE_H
+
+#include "compare/levels.h"
+#include "compare/pool.h"
+
+struct kiln_measure_params {
+    bool hdr;                 /* FLIP at several exposures of the reference, instead of clamped */
+    double pixels_per_degree; /* 4 to 400 */
+    double threshold;         /* levels; a pixel that differs by more is a differing one */
+    uint32_t window;          /* pixels, at least 1 */
+};
+
+struct kiln_measurement {
+    uint32_t width, height;
+    float *errors; /* FLIP's, one a pixel */
+    struct kiln_error_pool flip;
+    struct kiln_level_difference levels;
+    double ssim;
+    double flip_s; /* wall-clock time of FLIP */
+};
+
+/* Measures two pictures. With alpha, what an eye would see is measured on black and on white, and
+ * the worse of the two counts. False when they do not match (KILN_FRAME_FAILED), or as the parts
+ * say; the measurement must be finished in either case. */
+bool kiln_measurement_take(struct kiln_measurement *measurement,
+                           const struct kiln_subject *reference, const struct kiln_subject *test,
+                           const struct kiln_measure_params *params, struct kiln_threads *threads,
+                           struct kiln_error *error);
+void kiln_measurement_finish(struct kiln_measurement *measurement);
+
+#endif
