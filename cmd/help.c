@@ -8,7 +8,7 @@ enum { WIDTH = 80, OPTION_INDENT = 30 };
 
 const struct exit_code exit_codes[] = {
     {"0", "all went well"},
-    {"1", "a frame failed"},
+    {"1", "a frame failed, or a picture differs"},
     {"2", "the command line makes no sense"},
     {"3", "a scene or another input file is wrong"},
     {"4", "no usable device"},
@@ -48,6 +48,7 @@ static const struct topic topics[] = {
     {"scene", "every key of a scene file", kiln_scene_write_reference},
     {"schema", "the JSON schema of scene files, for editors", kiln_scene_write_schema},
     {"techniques", "the techniques of each stage", kiln_write_techniques},
+    {"metrics", "what pictures are compared by", kiln_write_metrics},
     {"outputs", "what can be written, by suffix", kiln_write_outputs},
     {"exit-codes", "what each exit code means", write_exit_codes},
     {"man", "the manual page, for `man -l`", write_man},

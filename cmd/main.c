@@ -7,8 +7,8 @@
 #include "command.h"
 #include "report.h"
 
-const struct command *const commands[] = {&render_command, &check_command, &devices_command,
-                                          &help_command, NULL};
+const struct command *const commands[] = {&render_command,  &compare_command, &check_command,
+                                          &devices_command, &help_command,    NULL};
 
 size_t command_names(const char *names[MAX_COMMANDS])
 {

@@ -111,6 +111,8 @@ void man_print(FILE *out)
                 "kiln render fire_beam.yaml -o still_%04d.png --frames 60,120 --size 640x360");
     put_example(out, "A queue of scenes with progress for a program:",
                 "kiln render a.yaml b.yaml -o '{scene}.mp4' --progress ndjson");
+    put_example(out, "A folder of pictures against another one, with pictures of the differences:",
+                "kiln compare golden/ out/ --diff differences/");
     put_heading(out, "see also");
     put(out, "kiln help scene: every key of a scene file.\n");
 }

@@ -6,6 +6,7 @@ $ kiln help man | grep '^\.SH\|^\.SS'
 1|.SH DESCRIPTION
 1|.SH COMMANDS
 1|.SS kiln render [\fIOPTION...\fR] \fISCENE...\fR
+1|.SS kiln compare [\fIOPTION...\fR] \fIREFERENCE TEST\fR
 1|.SS kiln check [\fIOPTION...\fR] \fISCENE...\fR
 1|.SS kiln devices [\fIOPTION...\fR] \fI\fR
 1|.SS kiln help [\fIOPTION...\fR] \fI[TOPIC]\fR
@@ -14,7 +15,7 @@ $ kiln help man | grep '^\.SH\|^\.SS'
 1|.SH EXAMPLES
 1|.SH SEE ALSO
 $ kiln help man | grep -c '^\.TP'
-1|39
+1|52
 $ kiln help man | { if command -v groff >/dev/null; then groff -man -ww -z 2>&1; fi; }
 $ kiln help man | grep -n '^[.'\'']' | grep -vE ':\.(TH|SH|SS|TP|PP|RS|RE|B)( |$)'
 = 1

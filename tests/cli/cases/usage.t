@@ -8,6 +8,7 @@ $ kiln
 2|
 2|commands:
 2|  render       render scenes into images or videos
+2|  compare      tell whether two pictures, folders or videos look the same
 2|  check        validate scenes and print them with every default
 2|  devices      list what can render on this machine, and what is missing
 2|  help         explain a command or a topic
@@ -16,6 +17,7 @@ $ kiln
 2|  scene        every key of a scene file
 2|  schema       the JSON schema of scene files, for editors
 2|  techniques   the techniques of each stage
+2|  metrics      what pictures are compared by
 2|  outputs      what can be written, by suffix
 2|  exit-codes   what each exit code means
 2|  man          the manual page, for `man -l`
@@ -33,6 +35,7 @@ $ kiln --help
 1|
 1|commands:
 1|  render       render scenes into images or videos
+1|  compare      tell whether two pictures, folders or videos look the same
 1|  check        validate scenes and print them with every default
 1|  devices      list what can render on this machine, and what is missing
 1|  help         explain a command or a topic
@@ -41,6 +44,7 @@ $ kiln --help
 1|  scene        every key of a scene file
 1|  schema       the JSON schema of scene files, for editors
 1|  techniques   the techniques of each stage
+1|  metrics      what pictures are compared by
 1|  outputs      what can be written, by suffix
 1|  exit-codes   what each exit code means
 1|  man          the manual page, for `man -l`
@@ -186,7 +190,7 @@ $ kiln help help
 1|  -h, --help                  Print this help.
 $ kiln help exit-codes
 1|    0  all went well
-1|    1  a frame failed
+1|    1  a frame failed, or a picture differs
 1|    2  the command line makes no sense
 1|    3  a scene or another input file is wrong
 1|    4  no usable device

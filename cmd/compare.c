@@ -1,0 +1,168 @@
+/* kiln compare: do two pictures, folders or videos look the same? */
+#include <signal.h>
+#include <stdlib.h>
+
+#include "command.h"
+#include "compare_report.h"
+#include "report.h"
+#include "signals.h"
+
+static const struct option options[] = {
+    {.name = "limit",
+     .letter = 'l',
+     .repeats = true,
+     .commas = true,
+     .kind = OPTION_PAIRS,
+     .placeholder = "METRIC=VALUE",
+     .help = "The worst value that passes; more of them after commas (see 'kiln help metrics').",
+     .fallback = KILN_COMPARE_DEFAULT_LIMITS},
+    {.name = "diff",
+     .letter = 'd',
+     .kind = OPTION_TEXT,
+     .placeholder = "FILE",
+     .help =
+         "Write a PNG of reference, test and FLIP's error map side by side. For several frames, "
+         "'%04d' or '####' stands for the number, and a folder gets a file named after each."},
+    {.name = "force", .kind = OPTION_FLAG, .help = "Let --diff replace files that exist."},
+    {.name = "layer",
+     .kind = OPTION_TEXT,
+     .placeholder = "NAME",
+     .help = "Layer of EXR files, such as depth or fire.",
+     .fallback = "beauty"},
+    {.name = "range",
+     .kind = OPTION_CHOICE,
+     .placeholder = "auto|ldr|hdr",
+     .help = "How FLIP judges light: clamped at white (ldr), or at several exposures of the "
+             "reference (hdr).",
+     .fallback = "auto: hdr for EXR"},
+    {.name = "ppd",
+     .kind = OPTION_NUMBER,
+     .placeholder = "N",
+     .help = "Pixels that the viewer sees in a degree.",
+     .fallback = "67.0206, a 0.7 m wide screen of 3840 pixels from 0.7 m",
+     .min = 4,
+     .max = 400},
+    {.name = "threshold",
+     .kind = OPTION_NUMBER,
+     .placeholder = "LEVELS",
+     .help = "Pixels that differ by more count as differing, in 1/255 of sRGB's range.",
+     .fallback = "2",
+     .min = 0,
+     .max = 255},
+    {.name = "window",
+     .kind = OPTION_INTEGER,
+     .placeholder = "N",
+     .help = "Edge in pixels of the window in which differing pixels are densest.",
+     .fallback = "32",
+     .min = 1,
+     .max = 16384},
+    {.name = "threads",
+     .kind = OPTION_INTEGER,
+     .placeholder = "N",
+     .help = "Threads that work; 0 takes one a core.",
+     .fallback = "0",
+     .max = 256},
+    {.name = "json",
+     .kind = OPTION_FLAG,
+     .help = "Print JSON instead of text: an object a line, whose \"event\" is frame or result."},
+    {.name = "stats", .kind = OPTION_FLAG, .help = "Also print the time that it took."},
+    {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Print nothing but errors."},
+    HELP_OPTION,
+};
+
+static void show_frame(void *user, const struct kiln_compare_result *result,
+                       const struct kiln_compare_frame *frame)
+{
+    compare_report_frame(user, result, frame);
+}
+
+static bool wants_stop(void *user)
+{
+    (void)user;
+    return signals_received() || ferror(stdout);
+}
+
+static struct kiln_compare_params read_params(const struct arguments *arguments)
+{
+    struct kiln_compare_params params = KILN_COMPARE_DEFAULTS;
+    params.reference = arguments->operands[0];
+    params.test = arguments->operands[1];
+    const struct option_use *diff = arguments_last(arguments, "diff");
+    const struct option_use *layer = arguments_last(arguments, "layer");
+    const struct option_use *range = arguments_last(arguments, "range");
+    const struct option_use *ppd = arguments_last(arguments, "ppd");
+    const struct option_use *threshold = arguments_last(arguments, "threshold");
+    const struct option_use *window = arguments_last(arguments, "window");
+    const struct option_use *threads = arguments_last(arguments, "threads");
+    params.diff = diff ? diff->text : NULL;
+    params.layer = layer ? layer->text : params.layer;
+    params.mode = range ? (enum kiln_compare_mode)range->choice : params.mode;
+    params.pixels_per_degree = ppd ? ppd->number : params.pixels_per_degree;
+    params.threshold = threshold ? threshold->number : params.threshold;
+    params.window = window ? (uint32_t)window->integer[0] : params.window;
+    params.threads = threads ? (uint32_t)threads->integer[0] : params.threads;
+    params.overwrite = arguments_last(arguments, "force") != NULL;
+    params.frame = show_frame;
+    params.stop = wants_stop;
+    return params;
+}
+
+static int report_failure(const struct kiln_error *error)
+{
+    int number = signals_received();
+    if (error->code != KILN_INTERRUPTED)
+        return report_error(error);
+    if (number == 0) /* nobody reads: main says why */
+        return KILN_IO;
+    report(KILN_INTERRUPTED, "compare: %s", error->message);
+    return 128 + number;
+}
+
+static int run(const struct arguments *arguments)
+{
+    struct kiln_compare_params params = read_params(arguments);
+    struct compare_report printed = {.reference = params.reference,
+                                     .test = params.test,
+                                     .json = arguments_last(arguments, "json") != NULL,
+                                     .quiet = arguments_last(arguments, "quiet") != NULL,
+                                     .stats = arguments_last(arguments, "stats") != NULL};
+    const char **limits = calloc(arguments->use_count + 1, sizeof *limits);
+    if (!limits)
+        return report_no_memory();
+    for (size_t i = 0; i < arguments->use_count; i++) {
+        if (arguments->uses[i].option->kind == OPTION_PAIRS)
+            limits[params.limit_count++] = arguments->uses[i].text;
+    }
+    params.limits = limits;
+    params.user = &printed;
+    signals_install();
+    struct kiln_compare_result result;
+    struct kiln_error error = {0};
+    bool ok = kiln_compare(&params, &result, &error);
+    free(limits);
+    compare_report_result(&printed, &result);
+    if (!ok)
+        return report_failure(&error);
+    return result.same ? 0 : KILN_FRAME_FAILED;
+}
+
+const struct command compare_command = {
+    .name = "compare",
+    .summary = "tell whether two pictures, folders or videos look the same",
+    .operands = "REFERENCE TEST",
+    .description =
+        "Compares the test with the reference by FLIP (how different they look when one flips "
+        "between them), SSIM, PSNR and differences of levels, and judges by limits. Each is a "
+        "picture, a video, a folder of pictures, which are paired by name, or a pattern such as "
+        "frame_%04d.png or frame_####.png, paired by number; those of a video count from 0. Frames "
+        "that are missing or too many are differences, and so are other sizes or channels. Alpha "
+        "is judged on black and on white.\n\n"
+        "Exit code 0: the same within the limits; 1: different; 2: usage; 3: something cannot be "
+        "read or has values that are not finite; 6: --diff cannot be written. --limit replaces all "
+        "default limits.",
+    .options = options,
+    .option_count = sizeof options / sizeof *options,
+    .least_operands = 2,
+    .most_operands = 2,
+    .run = run,
+};

@@ -1,0 +1,312 @@
+Two pictures: the table, the verdict, the exit code.
+
+$ picture() { ffmpeg -nostdin -loglevel error -y -f lavfi -i "$1" -frames:v 1 ${3-} "$2"; }
+> declare -f picture >picture.sh
+$ . ./picture.sh; picture color=c=0x808080:s=64x48,format=rgb24 grey.png
+> picture color=c=0x888888:s=64x48,format=rgb24 lighter.png
+> picture color=c=0x808080:s=48x64,format=rgb24 tall.png
+> picture color=c=0x808080:s=64x48,format=rgba clear.png
+> picture 'color=c=0x808080:s=64x48,format=rgb24,drawbox=x=20:y=10:w=5:h=5:color=white:t=fill' box.png
+$ kiln compare grey.png grey.png
+1|grey.png against grey.png: same
+1|  metric                  value      limit
+1|  flip.mean                   0       0.01  within
+1|  flip.p50                    0          -  -     
+1|  flip.p99                    0        0.1  within
+1|  flip.max                    0          -  -     
+1|  ssim                        1          -  -     
+1|  psnr                      inf          -  -     
+1|  abs.max                     0          -  -     
+1|  abs.mean                    0          -  -     
+1|  differing.count             0          -  -     
+1|  differing.share             0          -  -     
+1|  window.share                0        0.1  within
+1|  not one value differs
+$ kiln compare grey.png lighter.png
+1|lighter.png against grey.png: different
+1|  metric                  value      limit
+1|  flip.mean             0.12758       0.01  beyond
+1|  flip.p50              0.12758          -  -     
+1|  flip.p99              0.12758        0.1  beyond
+1|  flip.max              0.12758          -  -     
+1|  ssim                  0.99816          -  -     
+1|  psnr                   30.069          -  -     
+1|  abs.max                     8          -  -     
+1|  abs.mean                    8          -  -     
+1|  differing.count          3072          -  -     
+1|  differing.share             1          -  -     
+1|  window.share                1        0.1  beyond
+1|  largest difference at 0,0; densest window of 32x32 at 0,0: 1024 pixels
+= 1
+$ kiln compare grey.png box.png
+1|box.png against grey.png: different
+1|  metric                  value      limit
+1|  flip.mean            0.017372       0.01  beyond
+1|  flip.p50              0.69899          -  -     
+1|  flip.p99              0.94889        0.1  beyond
+1|  flip.max              0.94889          -  -     
+1|  ssim                  0.95641          -  -     
+1|  psnr                    26.95          -  -     
+1|  abs.max                   127          -  -     
+1|  abs.mean               1.0335          -  -     
+1|  differing.count            25          -  -     
+1|  differing.share      0.008138          -  -     
+1|  window.share         0.024414        0.1  within
+1|  largest difference at 20,10; densest window of 32x32 at 0,0: 25 pixels
+= 1
+$ kiln compare -q grey.png lighter.png
+= 1
+
+Limits are the caller's, all of them.
+
+$ kiln compare -q grey.png lighter.png --limit abs.max=8 --limit psnr=30,flip.p99.9=0.2
+$ kiln compare -q grey.png lighter.png --limit abs.max=7.9
+= 1
+$ kiln compare grey.png box.png -l flip.p10=0.5 --window 5 --threshold 0 | grep -E 'p10|window'
+1|  window.share                1          -  -     
+1|  flip.p10              0.17468        0.5  within
+1|  largest difference at 20,10; densest window of 5x5 at 20,10: 25 pixels
+$ kiln compare grey.png grey.png -l flip.maen=0.1
+2|kiln: limit 'flip.maen=0.1': unknown metric 'flip.maen' (did you mean 'flip.mean'?)
+= 2
+$ kiln compare grey.png grey.png -l flip.mean=x
+2|kiln: limit 'flip.mean=x': expected a number, 0 to 1
+= 2
+$ kiln compare grey.png grey.png -l flip.mean
+2|kiln: compare: --limit: found 'flip.mean', expected METRIC=VALUE
+= 2
+$ kiln compare grey.png grey.png -l flip.p200=0.5
+2|kiln: limit 'flip.p200=0.5': percentile '200'; allowed are 0 to 100, as in flip.p99.9
+= 2
+$ kiln help metrics
+1|  flip.mean                FLIP, how different they look when flipped: 0 to 1, the mean over all pixels
+1|  flip.p50                 FLIP's median, weighted by the errors
+1|  flip.p99                 FLIP's 99th percentile, weighted by the errors
+1|  flip.pN                  any other percentile, such as flip.p99.9
+1|  flip.max                 FLIP of the worst pixel
+1|  ssim                     structural similarity of luma (Wang 2004): 1 for equal pictures
+1|  psnr             dB      peak signal to noise over all channels: infinite for equal pictures
+1|  abs.max          levels  the largest difference of a channel, in 1/255 of sRGB's range
+1|  abs.mean         levels  the mean difference over all channels
+1|  differing.count  pixels  pixels that differ by more than --threshold levels
+1|  differing.share          their share of the picture, 0 to 1
+1|  window.share             their share of the --window where they are densest: finds small faults
+1|
+1|A limit is the worst value that passes: the least of ssim and psnr, the most of the
+1|others. Without --limit it is flip.mean=0.01,flip.p99=0.1,window.share=0.1.
+
+What does not match is no pass.
+
+$ kiln compare grey.png tall.png
+1|the sizes differ: the reference has 64 x 48 pixels, the test 48 x 64
+1|tall.png against grey.png: different
+= 1
+$ kiln compare grey.png clear.png
+1|the channels differ: the reference has RGB, the test RGBA
+1|clear.png against grey.png: different
+= 1
+$ kiln compare grey.png nowhere.png
+2|nowhere.png: No such file or directory
+= 3
+$ : >empty.png
+$ kiln compare grey.png empty.png
+1|empty.png against grey.png: unreadable
+2|empty.png: the image file is empty
+= 3
+$ head -c 100 grey.png >short.png
+$ kiln compare short.png grey.png 2>&1 | grep -c 'short.png: the PNG image is broken or cut short'; echo ${PIPESTATUS[0]}
+1|1
+1|3
+$ kiln compare grey.png
+2|kiln: compare: needs REFERENCE TEST
+= 2
+$ kiln compare grey.png grey.png grey.png
+2|kiln: compare: one operand too many, 'grey.png'
+= 2
+$ kiln compare grey.png . --range high
+2|kiln: compare: --range: found 'high', expected one of auto|ldr|hdr
+= 2
+
+JSON: an object a line.
+
+$ kiln compare grey.png lighter.png --json | jq -c '[.event, .verdict, .same, .beyond, .score > 10]'
+1|["frame","different",null,["flip.mean","flip.p99","window.share"],true]
+1|["result",null,false,null,false]
+$ kiln compare grey.png grey.png --json | jq -c '.metrics.psnr'
+1|null
+1|{"worst":null,"mean":null,"at":"grey.png","unit":"dB","better":"higher","limit":null}
+$ kiln compare grey.png lighter.png --json | jq -r 'select(.event == "result").metrics | keys[]'
+1|abs.max
+1|abs.mean
+1|differing.count
+1|differing.share
+1|flip.max
+1|flip.mean
+1|flip.p50
+1|flip.p99
+1|psnr
+1|ssim
+1|window.share
+$ kiln compare grey.png tall.png --json | jq -c '[.event, .verdict, .message, .same]'
+1|["frame","different","the sizes differ: the reference has 64 x 48 pixels, the test 48 x 64",null]
+1|["result",null,null,false]
+
+Pictures of the difference: reference, test, error map.
+
+$ kiln compare -q grey.png box.png --diff out/d.png
+= 1
+$ ffprobe -v error -show_entries stream=width,height -of csv=p=0 out/d.png
+1|192,48
+$ pixel() { ffmpeg -nostdin -loglevel error -i out/d.png -vf crop=1:1:$1:$2 -f rawvideo -pix_fmt rgb24 - | od -An -tu1; }
+> pixel 22 12; pixel 86 12; pixel 128 47
+1| 128 128 128
+1| 255 255 255
+1|   0   0   4
+$ kiln compare -q grey.png box.png --diff out/d.png
+2|kiln: out/d.png: the file exists (--force replaces it)
+= 6
+$ kiln compare -q grey.png box.png --diff out/d.png --force
+= 1
+$ kiln compare -q grey.png box.png --diff out/d.jpg
+2|kiln: out/d.jpg: pictures of differences are PNG; the name must end in .png, or be a folder
+= 2
+$ kiln compare -q grey.png box.png --diff grey.png/d.png
+2|kiln: grey.png: not a folder, but grey.png/d.png needs one here
+= 6
+
+Sequences: folders pair by name, patterns and videos by number.
+
+$ mkdir a b; for i in 0 1 2 3; do cp grey.png a/f_000$i.png; cp grey.png b/f_000$i.png; done
+> cp box.png b/f_0002.png; rm b/f_0001.png; cp grey.png b/f_0007.png; cp tall.png b/f_0003.png; : >b/notes.txt
+$ kiln compare a b
+1|  frame                    verdict            flip.mean  of limit
+1|  f_0000.png               same                       0       0 %
+1|  f_0001.png               missing     only in the reference
+1|  f_0002.png               different           0.017372     949 %
+1|  f_0003.png               different   the sizes differ: the reference has 64 x 48 pixels, the test 48 x 64
+1|  f_0007.png               extra       only in the test
+1|b against a: different
+1|  5 frames: 1 same, 2 different, 1 missing, 1 extra; the worst is f_0001.png
+1|  metric                  worst         mean      limit          at
+1|  flip.mean            0.017372     0.008686       0.01  beyond  f_0002.png
+1|  flip.p50              0.69899      0.34949          -  -       f_0002.png
+1|  flip.p99              0.94889      0.47444        0.1  beyond  f_0002.png
+1|  flip.max              0.94889      0.47444          -  -       f_0002.png
+1|  ssim                  0.95641       0.9782          -  -       f_0002.png
+1|  psnr                    26.95          inf          -  -       f_0002.png
+1|  abs.max                   127         63.5          -  -       f_0002.png
+1|  abs.mean               1.0335      0.51676          -  -       f_0002.png
+1|  differing.count            25         12.5          -  -       f_0002.png
+1|  differing.share      0.008138     0.004069          -  -       f_0002.png
+1|  window.share         0.024414     0.012207        0.1  within  f_0002.png
+= 1
+$ kiln compare a/f_%04d.png b/f_####.png --json | jq -c 'select(.event == "frame") | [.name, .verdict]'
+1|["f_0000.png","same"]
+1|["f_0001.png","missing"]
+1|["f_0002.png","different"]
+1|["f_0003.png","different"]
+1|["f_0007.png","extra"]
+$ kiln compare a b --json | jq -c 'select(.event == "result") | [.same, .frames, .counts, .worst_frame]'
+1|[false,5,{"same":1,"different":2,"missing":1,"extra":1,"unreadable":0},"f_0001.png"]
+$ kiln compare -q a a
+$ kiln compare -q a/f_%04d.png a/f_%04d.png --diff out/f_%02d.png
+$ kiln compare -q a b --diff out/b/
+= 1
+$ ls out out/b
+1|out:
+1|b
+1|d.png
+1|f_00.png
+1|f_01.png
+1|f_02.png
+1|f_03.png
+1|
+1|out/b:
+1|f_0000.png
+1|f_0002.png
+$ cp empty.png b/f_0000.png
+$ kiln compare a b
+1|  frame                    verdict            flip.mean  of limit
+1|  f_0000.png               unreadable  b/f_0000.png: the image file is empty
+1|  f_0001.png               missing     only in the reference
+1|  f_0002.png               different           0.017372     949 %
+1|  f_0003.png               different   the sizes differ: the reference has 64 x 48 pixels, the test 48 x 64
+1|  f_0007.png               extra       only in the test
+1|b against a: unreadable
+1|  5 frames: 2 different, 1 missing, 1 extra, 1 unreadable; the worst is f_0000.png
+1|  metric                  worst         mean      limit          at
+1|  flip.mean            0.017372     0.017372       0.01  beyond  f_0002.png
+1|  flip.p50              0.69899      0.69899          -  -       f_0002.png
+1|  flip.p99              0.94889      0.94889        0.1  beyond  f_0002.png
+1|  flip.max              0.94889      0.94889          -  -       f_0002.png
+1|  ssim                  0.95641      0.95641          -  -       f_0002.png
+1|  psnr                    26.95        26.95          -  -       f_0002.png
+1|  abs.max                   127          127          -  -       f_0002.png
+1|  abs.mean               1.0335       1.0335          -  -       f_0002.png
+1|  differing.count            25           25          -  -       f_0002.png
+1|  differing.share      0.008138     0.008138          -  -       f_0002.png
+1|  window.share         0.024414     0.024414        0.1  within  f_0002.png
+2|b/f_0000.png: the image file is empty
+= 3
+$ kiln compare a a/f_0000.png
+2|kiln: a is a folder and a/f_0000.png is a picture: they cannot be compared
+= 2
+$ kiln compare a/f_%04d.png a/g_%04d.png
+2|a/g_%04d.png: no file fits the pattern
+= 3
+$ mkdir void
+$ kiln compare void a
+2|void: the folder has no pictures (PNG, JPEG, WebP, TIFF, BMP or EXR, by their suffix)
+= 3
+
+Videos, whole ones and not.
+
+$ kiln render scenes/tiny.yaml -q -o v.mp4 --frames 0-9
+> kiln render scenes/tiny.yaml -q -o w.mp4 --frames 0-8
+> kiln render scenes/tiny.yaml -q -o v_%02d.png --frames 0-9
+$ kiln compare -q v.mp4 v.mp4
+$ kiln compare v.mp4 w.mp4 --limit flip.mean=0.1 | grep -E 'missing'
+1|  9                        missing     only in the reference
+1|  10 frames: 9 same, 1 missing; the worst is 9
+$ kiln compare -q v.mp4 v_%02d.png --limit flip.mean=0.2
+$ head -c $(($(wc -c <v.mp4) - 1)) v.mp4 >short.mp4
+$ kiln compare -q v.mp4 short.mp4 2>&1 | sed 's/ (.*//'; echo ${PIPESTATUS[0]}
+1|short.mp4: the video is broken or cut short
+1|3
+$ cp grey.png fake.mp4
+$ kiln compare -q fake.mp4 v.mp4 2>&1 | sed 's/ (.*//'
+1|fake.mp4: not a video; allowed are MP4, MOV, Matroska, WebM or AVI files
+
+Layers of EXR files.
+
+$ kiln render scenes/tiny.yaml -q -o x.exr --frames 10
+> kiln render scenes/tiny.yaml -q -o y.exr --frames 10 --set systems.fire.emit.rate=0
+$ for layer in beauty depth fire; do kiln compare -q x.exr x.exr --layer $layer || echo $layer; done
+$ kiln compare -q x.exr y.exr
+= 1
+$ kiln compare -q x.exr y.exr --layer fire
+= 1
+$ kiln compare -q x.exr y.exr --layer depth
+$ kiln compare -q x.exr x.exr --layer fier
+2|x.exr: no layer 'fier' in lines of full size; the file has the channels A, B, G, R, Z, bloom.A, bloom.B, bloom.G, bloom.R, fire.A, fire.B, fire.G, fire.R, smoke.A, smoke.B, smoke.G, smoke.R
+= 3
+$ kiln compare -q grey.png grey.png --layer fire
+2|grey.png: no layer 'fire': PNG images have no layers but 'beauty'
+= 3
+$ kiln compare -q x.exr grey.png
+2|kiln: x.exr is of floats and grey.png is not: choose the range of light, ldr or hdr
+= 2
+$ head -c $(($(wc -c <x.exr) / 2)) x.exr >short.exr
+$ kiln compare -q x.exr short.exr 2>&1 | sed 's/ (.*//'
+1|short.exr: the EXR image is broken or cut short
+
+Times.
+
+$ kiln compare grey.png grey.png --stats | tail -n 2
+1|  FLIP in <s> s
+1|  all in <s> s
+$ kiln compare grey.png grey.png --stats --json | tail -n 1 | grep -o '"flip_s.*'
+1|"flip_s": <s>, "total_s": <s>}
+$ kiln compare grey.png grey.png >/dev/full
+2|kiln: standard output: No space left on device
+= 6
