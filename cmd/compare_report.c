@@ -40,16 +40,16 @@ static void print_limit(const struct kiln_compare_column *column, double value)
 {
     bool within = column->higher_is_better ? value >= column->limit : value <= column->limit;
     if (column->limited)
-        printf(" %10g  %-6s", column->limit, within ? "within" : "beyond");
+        printf(" %10g  %s", column->limit, within ? "within" : "beyond");
     else
-        printf(" %10s  %-6s", "-", "-");
+        printf(" %10s", "-");
 }
 
 static void print_metrics(const struct kiln_compare_result *result)
 {
     char text[32];
     if (result->sequence)
-        printf("  %-16s %12s %12s %10s  %-6s  %s\n", "metric", "worst", "mean", "limit", "", "at");
+        printf("  %-16s %12s %12s  %-20s %10s\n", "metric", "worst", "mean", "at", "limit");
     else
         printf("  %-16s %12s %10s\n", "metric", "value", "limit");
     for (size_t i = 0; i < result->column_count; i++) {
@@ -57,9 +57,9 @@ static void print_metrics(const struct kiln_compare_result *result)
         printf("  %-16s %12s", column->name, value_text(text, result->worst[i]));
         if (result->sequence)
             printf(" %12s", value_text(text, result->mean[i]));
-        print_limit(column, result->worst[i]);
         if (result->sequence)
-            printf("  %s", result->worst_names[i]);
+            printf("  %-20s", result->worst_names[i]);
+        print_limit(column, result->worst[i]);
         printf("\n");
     }
 }

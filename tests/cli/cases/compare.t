@@ -11,30 +11,30 @@ $ kiln compare grey.png grey.png
 1|grey.png against grey.png: same
 1|  metric                  value      limit
 1|  flip.mean                   0       0.01  within
-1|  flip.p50                    0          -  -     
+1|  flip.p50                    0          -
 1|  flip.p99                    0        0.1  within
-1|  flip.max                    0          -  -     
-1|  ssim                        1          -  -     
-1|  psnr                      inf          -  -     
-1|  abs.max                     0          -  -     
-1|  abs.mean                    0          -  -     
-1|  differing.count             0          -  -     
-1|  differing.share             0          -  -     
+1|  flip.max                    0          -
+1|  ssim                        1          -
+1|  psnr                      inf          -
+1|  abs.max                     0          -
+1|  abs.mean                    0          -
+1|  differing.count             0          -
+1|  differing.share             0          -
 1|  window.share                0        0.1  within
 1|  not one value differs
 $ kiln compare grey.png lighter.png
 1|lighter.png against grey.png: different
 1|  metric                  value      limit
 1|  flip.mean             0.12758       0.01  beyond
-1|  flip.p50              0.12758          -  -     
+1|  flip.p50              0.12758          -
 1|  flip.p99              0.12758        0.1  beyond
-1|  flip.max              0.12758          -  -     
-1|  ssim                  0.99816          -  -     
-1|  psnr                   30.069          -  -     
-1|  abs.max                     8          -  -     
-1|  abs.mean                    8          -  -     
-1|  differing.count          3072          -  -     
-1|  differing.share             1          -  -     
+1|  flip.max              0.12758          -
+1|  ssim                  0.99816          -
+1|  psnr                   30.069          -
+1|  abs.max                     8          -
+1|  abs.mean                    8          -
+1|  differing.count          3072          -
+1|  differing.share             1          -
 1|  window.share                1        0.1  beyond
 1|  largest difference at 0,0; densest window of 32x32 at 0,0: 1024 pixels
 = 1
@@ -42,15 +42,15 @@ $ kiln compare grey.png box.png
 1|box.png against grey.png: different
 1|  metric                  value      limit
 1|  flip.mean            0.017372       0.01  beyond
-1|  flip.p50              0.69899          -  -     
+1|  flip.p50              0.69899          -
 1|  flip.p99              0.94889        0.1  beyond
-1|  flip.max              0.94889          -  -     
-1|  ssim                  0.95641          -  -     
-1|  psnr                    26.95          -  -     
-1|  abs.max                   127          -  -     
-1|  abs.mean               1.0335          -  -     
-1|  differing.count            25          -  -     
-1|  differing.share      0.008138          -  -     
+1|  flip.max              0.94889          -
+1|  ssim                  0.95641          -
+1|  psnr                    26.95          -
+1|  abs.max                   127          -
+1|  abs.mean               1.0335          -
+1|  differing.count            25          -
+1|  differing.share      0.008138          -
 1|  window.share         0.024414        0.1  within
 1|  largest difference at 20,10; densest window of 32x32 at 0,0: 25 pixels
 = 1
@@ -63,7 +63,7 @@ $ kiln compare -q grey.png lighter.png --limit abs.max=8 --limit psnr=30,flip.p9
 $ kiln compare -q grey.png lighter.png --limit abs.max=7.9
 = 1
 $ kiln compare grey.png box.png -l flip.p10=0.5 --window 5 --threshold 0 | grep -E 'p10|window'
-1|  window.share                1          -  -     
+1|  window.share                1          -
 1|  flip.p10              0.17468        0.5  within
 1|  largest difference at 20,10; densest window of 5x5 at 20,10: 25 pixels
 $ kiln compare grey.png grey.png -l flip.maen=0.1
@@ -187,18 +187,18 @@ $ kiln compare a b
 1|  f_0007.png               extra       only in the test
 1|b against a: different
 1|  5 frames: 1 same, 2 different, 1 missing, 1 extra; the worst is f_0001.png
-1|  metric                  worst         mean      limit          at
-1|  flip.mean            0.017372     0.008686       0.01  beyond  f_0002.png
-1|  flip.p50              0.69899      0.34949          -  -       f_0002.png
-1|  flip.p99              0.94889      0.47444        0.1  beyond  f_0002.png
-1|  flip.max              0.94889      0.47444          -  -       f_0002.png
-1|  ssim                  0.95641       0.9782          -  -       f_0002.png
-1|  psnr                    26.95          inf          -  -       f_0002.png
-1|  abs.max                   127         63.5          -  -       f_0002.png
-1|  abs.mean               1.0335      0.51676          -  -       f_0002.png
-1|  differing.count            25         12.5          -  -       f_0002.png
-1|  differing.share      0.008138     0.004069          -  -       f_0002.png
-1|  window.share         0.024414     0.012207        0.1  within  f_0002.png
+1|  metric                  worst         mean  at                        limit
+1|  flip.mean            0.017372     0.008686  f_0002.png                 0.01  beyond
+1|  flip.p50              0.69899      0.34949  f_0002.png                    -
+1|  flip.p99              0.94889      0.47444  f_0002.png                  0.1  beyond
+1|  flip.max              0.94889      0.47444  f_0002.png                    -
+1|  ssim                  0.95641       0.9782  f_0002.png                    -
+1|  psnr                    26.95          inf  f_0002.png                    -
+1|  abs.max                   127         63.5  f_0002.png                    -
+1|  abs.mean               1.0335      0.51676  f_0002.png                    -
+1|  differing.count            25         12.5  f_0002.png                    -
+1|  differing.share      0.008138     0.004069  f_0002.png                    -
+1|  window.share         0.024414     0.012207  f_0002.png                  0.1  within
 = 1
 $ kiln compare a/f_%04d.png b/f_####.png --json | jq -c 'select(.event == "frame") | [.name, .verdict]'
 1|["f_0000.png","same"]
@@ -234,18 +234,18 @@ $ kiln compare a b
 1|  f_0007.png               extra       only in the test
 1|b against a: unreadable
 1|  5 frames: 2 different, 1 missing, 1 extra, 1 unreadable; the worst is f_0000.png
-1|  metric                  worst         mean      limit          at
-1|  flip.mean            0.017372     0.017372       0.01  beyond  f_0002.png
-1|  flip.p50              0.69899      0.69899          -  -       f_0002.png
-1|  flip.p99              0.94889      0.94889        0.1  beyond  f_0002.png
-1|  flip.max              0.94889      0.94889          -  -       f_0002.png
-1|  ssim                  0.95641      0.95641          -  -       f_0002.png
-1|  psnr                    26.95        26.95          -  -       f_0002.png
-1|  abs.max                   127          127          -  -       f_0002.png
-1|  abs.mean               1.0335       1.0335          -  -       f_0002.png
-1|  differing.count            25           25          -  -       f_0002.png
-1|  differing.share      0.008138     0.008138          -  -       f_0002.png
-1|  window.share         0.024414     0.024414        0.1  within  f_0002.png
+1|  metric                  worst         mean  at                        limit
+1|  flip.mean            0.017372     0.017372  f_0002.png                 0.01  beyond
+1|  flip.p50              0.69899      0.69899  f_0002.png                    -
+1|  flip.p99              0.94889      0.94889  f_0002.png                  0.1  beyond
+1|  flip.max              0.94889      0.94889  f_0002.png                    -
+1|  ssim                  0.95641      0.95641  f_0002.png                    -
+1|  psnr                    26.95        26.95  f_0002.png                    -
+1|  abs.max                   127          127  f_0002.png                    -
+1|  abs.mean               1.0335       1.0335  f_0002.png                    -
+1|  differing.count            25           25  f_0002.png                    -
+1|  differing.share      0.008138     0.008138  f_0002.png                    -
+1|  window.share         0.024414     0.024414  f_0002.png                  0.1  within
 2|b/f_0000.png: the image file is empty
 = 3
 $ kiln compare a a/f_0000.png
@@ -299,6 +299,24 @@ $ kiln compare -q x.exr grey.png
 $ head -c $(($(wc -c <x.exr) / 2)) x.exr >short.exr
 $ kiln compare -q x.exr short.exr 2>&1 | sed 's/ (.*//'
 1|short.exr: the EXR image is broken or cut short
+
+Numbers that are none.
+
+$ exr() { ffmpeg -nostdin -loglevel error -f rawvideo -pix_fmt gbrpf32le -s 2x2 -i - -c:v exr -y $1; }
+> one='\0\0\x80\x3f' nan='\0\0\xc0\x7f' inf='\0\0\x80\x7f'
+> printf "$one$one$one$one$one$one$one$one$one$one$one$one" | exr one.exr
+> printf "$one$one$one$nan$one$one$one$one$one$one$one$one" | exr nan.exr
+> printf "$one$one$one$one$one$one$one$one$one$inf$one$one" | exr inf.exr
+> kiln compare -q one.exr one.exr
+$ kiln compare -q one.exr nan.exr
+2|nan.exr: pixel 1,1 has a value that is not finite
+= 3
+$ kiln compare -q nan.exr nan.exr
+2|nan.exr: pixel 1,1 has a value that is not finite
+= 3
+$ kiln compare -q inf.exr one.exr --range ldr
+2|inf.exr: pixel 1,0 has a value that is not finite
+= 3
 
 Times.
 
