@@ -1,0 +1,40 @@
+/* What holds for whatever a decoder of pictures returned. */
+#ifndef KILN_FUZZ_IMAGE_CHECK_H
+#define KILN_FUZZ_IMAGE_CHECK_H
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "asset/image.h"
+
+static inline void require(bool condition, const char *what)
+{
+    if (!condition) {
+        fprintf(stderr, "fuzz: %s\n", what);
+        abort();
+    }
+}
+
+/* An image within the limits or an error; destroys the image. */
+static inline void check_image(struct kiln_asset_image *image, const struct kiln_error *error)
+{
+    if (!image) {
+        require(error->code != KILN_OK && *error->message, "an error without a message");
+        return;
+    }
+    require(image->width >= 1 && image->width <= KILN_MAX_IMAGE_EDGE && image->height >= 1 &&
+                image->height <= KILN_MAX_IMAGE_EDGE &&
+                image->width * image->height <= KILN_MAX_IMAGE_PIXELS,
+            "an image beyond the limits");
+    require(image->channels >= 1 && image->channels <= 4, "an image without channels");
+    /* Every byte is there and was written: a sum that depends on them all. */
+    static const size_t bytes[] = {
+        [KILN_IMAGE_U8] = 4, [KILN_IMAGE_U16] = 8, [KILN_IMAGE_F32] = 16};
+    const uint8_t *pixels = image->pixels;
+    volatile uint8_t sum = 0;
+    for (size_t i = 0; i < (size_t)image->width * image->height * bytes[image->type]; i++)
+        sum = (uint8_t)(sum + pixels[i]);
+    kiln_asset_image_destroy(&image);
+}
+
+#endif

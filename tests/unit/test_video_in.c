@@ -1,0 +1,137 @@
+/* lib/asset/video_in: the frames that kiln writes come back, and no damage passes. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <sys/stat.h>
+
+#include "asset/file_in.h"
+#include "asset/video_in.h"
+#include "support/pictures.h"
+
+enum { FRAMES = 12 };
+
+struct clip {
+    char folder[32], path[64];
+};
+
+static struct clip make_clip(void)
+{
+    struct clip clip;
+    test_make_folder(clip.folder);
+    snprintf(clip.path, sizeof clip.path, "%s/x.mp4", clip.folder);
+    const struct kiln_frame_range range = {0, FRAMES - 1};
+    struct kiln_output_params params = test_output_params(clip.path, &range);
+    params.quality = 95;
+    struct kiln_error error = {0};
+    assert_true(test_write_all(&params, &error));
+    return clip;
+}
+
+/* The frames that can be read; -1 when that ends with an error, which is checked. */
+static int count_frames(const char *path, struct kiln_error *error)
+{
+    struct kiln_video_in *video = kiln_video_in_open(path, error);
+    struct kiln_asset_image *image = NULL;
+    int frames = 0;
+    bool good = video != NULL;
+    while (good && (good = kiln_video_in_read(video, &image, error)) && image) {
+        kiln_asset_image_destroy(&image);
+        frames++;
+    }
+    kiln_video_in_close(&video);
+    if (!good)
+        assert_true(error->code == KILN_INVALID_INPUT && strstr(error->message, path));
+    return good ? frames : -1;
+}
+
+static void frames_and_colours_come_back(void **state)
+{
+    (void)state;
+    struct clip clip = make_clip();
+    struct kiln_error error = {0};
+    struct kiln_video_in *video = kiln_video_in_open(clip.path, &error);
+    assert_non_null(video);
+    for (uint32_t frame = 0; frame < FRAMES; frame++) {
+        struct kiln_asset_image *image = NULL;
+        assert_true(kiln_video_in_read(video, &image, &error));
+        assert_non_null(image);
+        assert_int_equal(image->width, 64);
+        assert_int_equal(image->height, 36);
+        assert_int_equal(image->channels, 3);
+        double sum = 0;
+        const uint8_t *pixel = image->pixels;
+        for (uint32_t i = 0; i < 64 * 36; i++, pixel += 4) {
+            for (int c = 0; c < 3; c++)
+                sum += fabs((double)pixel[c] - test_level(frame, 64, i % 64, i / 64, c));
+        }
+        assert_true(sum / (64.0 * 36 * 3) < 2.0);
+        kiln_asset_image_destroy(&image);
+    }
+    struct kiln_asset_image *none = NULL;
+    assert_true(kiln_video_in_read(video, &none, &error));
+    assert_null(none);
+    kiln_video_in_close(&video);
+    test_remove_folder(clip.folder);
+}
+
+static void write_bytes(const char *path, const unsigned char *bytes, size_t size)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+}
+
+static void a_file_that_was_cut_short_is_refused(void **state)
+{
+    (void)state;
+    struct clip clip = make_clip();
+    struct kiln_error error = {0};
+    size_t size = 0;
+    unsigned char *bytes = kiln_file_read(clip.path, "video", "MP4", 1 << 24, &size, &error);
+    assert_non_null(bytes);
+    assert_int_equal(count_frames(clip.path, &error), FRAMES);
+    for (size_t length = 0; length < size; length += 1 + size / 40) {
+        write_bytes(clip.path, bytes, length);
+        assert_int_equal(count_frames(clip.path, &error), -1);
+    }
+    write_bytes(clip.path, bytes, size - 1);
+    assert_int_equal(count_frames(clip.path, &error), -1);
+    free(bytes);
+    test_remove_folder(clip.folder);
+}
+
+/* A playlist would make FFmpeg open what it names. */
+static void what_is_no_video_is_refused(void **state)
+{
+    (void)state;
+    struct clip clip = make_clip();
+    struct kiln_error error = {0};
+    char list[128], path[64];
+    snprintf(list, sizeof list, "ffconcat version 1.0\nfile '%s'\n", clip.path);
+    snprintf(path, sizeof path, "%s/list.mp4", clip.folder);
+    write_bytes(path, (const unsigned char *)list, strlen(list));
+    assert_int_equal(count_frames(path, &error), -1);
+    snprintf(list, sizeof list, "#EXTM3U\n#EXTINF:1,\n%s\n#EXT-X-ENDLIST\n", clip.path);
+    write_bytes(path, (const unsigned char *)list, strlen(list));
+    assert_int_equal(count_frames(path, &error), -1);
+    assert_int_equal(count_frames(clip.folder, &error), -1);
+    snprintf(path, sizeof path, "%s/fifo.mp4", clip.folder);
+    assert_int_equal(mkfifo(path, 0600), 0);
+    assert_int_equal(count_frames(path, &error), -1);
+    test_remove_folder(clip.folder);
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        cmocka_unit_test(frames_and_colours_come_back),
+        cmocka_unit_test(a_file_that_was_cut_short_is_refused),
+        cmocka_unit_test(what_is_no_video_is_refused),
+    };
+    return cmocka_run_group_tests_name("video_in", tests, NULL, NULL);
+}
