@@ -6,6 +6,8 @@
 
 #include <cmocka.h>
 
+#include <openexr.h>
+
 #include "asset/exr_in.h"
 #include "asset/file_in.h"
 #include "support/pictures.h"
@@ -106,6 +108,80 @@ static void other_bytes_are_refused(void **state)
     assert_false(kiln_exr_is_tiled(zeros, sizeof zeros));
 }
 
+enum { TILED_SIZE = 12, TILE = 8 };
+
+static void write_tile(exr_context_t file, int x, int y, exr_encode_pipeline_t *pipeline)
+{
+    exr_chunk_info_t chunk;
+    float values[TILE * TILE];
+    for (int i = 0; i < TILE * TILE; i++)
+        values[i] = (float)(100 * (y * TILE + i / TILE) + x * TILE + i % TILE);
+    assert_int_equal(exr_write_tile_chunk_info(file, 0, x, y, 0, 0, &chunk), EXR_ERR_SUCCESS);
+    bool first = x == 0 && y == 0;
+    assert_int_equal(first ? exr_encoding_initialize(file, 0, &chunk, pipeline)
+                           : exr_encoding_update(file, 0, &chunk, pipeline),
+                     EXR_ERR_SUCCESS);
+    for (int i = 0; i < pipeline->channel_count; i++) {
+        exr_coding_channel_info_t *channel = &pipeline->channels[i];
+        channel->user_data_type = EXR_PIXEL_FLOAT;
+        channel->user_bytes_per_element = 4;
+        channel->user_pixel_stride = 4;
+        channel->user_line_stride = TILE * 4;
+        channel->encode_from_ptr = (const uint8_t *)values;
+    }
+    if (first)
+        assert_int_equal(exr_encoding_choose_default_routines(file, 0, pipeline), EXR_ERR_SUCCESS);
+    assert_int_equal(exr_encoding_run(file, 0, pipeline), EXR_ERR_SUCCESS);
+}
+
+static void write_tiled(const char *path)
+{
+    exr_context_t file;
+    exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    exr_encode_pipeline_t pipeline = EXR_ENCODE_PIPELINE_INITIALIZER;
+    int part = 0;
+    assert_int_equal(exr_start_write(&file, path, EXR_WRITE_FILE_DIRECTLY, &initializer),
+                     EXR_ERR_SUCCESS);
+    assert_int_equal(exr_add_part(file, "tiled", EXR_STORAGE_TILED, &part), EXR_ERR_SUCCESS);
+    assert_int_equal(exr_initialize_required_attr_simple(file, part, TILED_SIZE, TILED_SIZE,
+                                                         EXR_COMPRESSION_NONE),
+                     EXR_ERR_SUCCESS);
+    assert_int_equal(
+        exr_set_tile_descriptor(file, part, TILE, TILE, EXR_TILE_ONE_LEVEL, EXR_TILE_ROUND_DOWN),
+        EXR_ERR_SUCCESS);
+    static const char *const names[] = {"R", "G", "B"};
+    for (int i = 0; i < 3; i++)
+        assert_int_equal(exr_add_channel(file, part, names[i], EXR_PIXEL_FLOAT,
+                                         EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1),
+                         EXR_ERR_SUCCESS);
+    assert_int_equal(exr_write_header(file), EXR_ERR_SUCCESS);
+    for (int i = 0; i < 4; i++)
+        write_tile(file, i % 2, i / 2, &pipeline);
+    exr_encoding_destroy(file, &pipeline);
+    assert_int_equal(exr_finish(&file), EXR_ERR_SUCCESS);
+}
+
+static void tiles_are_read_by_the_other_decoder(void **state)
+{
+    (void)state;
+    char folder[32], path[64];
+    test_make_folder(folder);
+    snprintf(path, sizeof path, "%s/tiled.exr", folder);
+    write_tiled(path);
+    struct kiln_error error = {0};
+    struct kiln_asset_image *image = kiln_asset_image_load_layer(path, "beauty", &error);
+    assert_string_equal(error.message, "");
+    assert_int_equal(image->channels, 3);
+    for (int i = 0; i < TILED_SIZE * TILED_SIZE; i++) {
+        float found = ((const float *)image->pixels)[4 * i];
+        assert_true(found == (float)(100 * (i / TILED_SIZE) + i % TILED_SIZE));
+    }
+    kiln_asset_image_destroy(&image);
+    assert_null(kiln_asset_image_load_layer(path, "fire", &error));
+    assert_int_equal(error.code, KILN_INVALID_INPUT);
+    test_remove_folder(folder);
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
@@ -113,6 +189,7 @@ int main(void)
         cmocka_unit_test(an_unknown_layer_is_refused),
         cmocka_unit_test(a_file_that_was_cut_short_is_refused),
         cmocka_unit_test(other_bytes_are_refused),
+        cmocka_unit_test(tiles_are_read_by_the_other_decoder),
     };
     return cmocka_run_group_tests_name("exr_in", tests, NULL, NULL);
 }

@@ -34,7 +34,7 @@ static struct level_picture noise(uint32_t width, uint32_t height, unsigned seed
     struct level_picture p = flat(width, height, 3, 0);
     srand(seed);
     for (size_t i = 0; i < (size_t)4 * width * height; i++)
-        p.rgba[i] = i % 4 == 3 ? 255 : (uint8_t)(rand() % 256);
+        p.rgba[i] = (uint8_t)(i % 4 == 3 ? 255 : rand() % 256);
     return p;
 }
 
@@ -184,7 +184,7 @@ static void ssim_is_its_definition(void **state)
         struct level_picture a = noise(sizes[i][0], sizes[i][1], 1);
         struct level_picture b = noise(sizes[i][0], sizes[i][1], 1);
         for (size_t k = 0; k < (size_t)4 * a.width * a.height; k += 3)
-            b.rgba[k] = k % 4 == 3 ? 255 : (uint8_t)(b.rgba[k] / 2);
+            b.rgba[k] = (uint8_t)(k % 4 == 3 ? 255 : b.rgba[k] / 2);
         double expected = ssim_by_definition(&a, &b);
         struct judged j = judge(a, b);
         assert_near(value(&j, "ssim"), expected, 1e-4);
@@ -288,6 +288,27 @@ static void float_pictures_go_beyond_white(void **state)
     assert_near(value(&j, "abs.max"), level, 1e-3);
     assert_true(value(&j, "flip.mean") > 0.01);
     assert_int_equal(j.frame.verdict, KILN_COMPARE_DIFFERENT);
+}
+
+/* Fire on black: the median of the reference is black, and an empty range of exposures would make
+ * any two such pictures equal. */
+static void fire_on_black_is_compared(void **state)
+{
+    (void)state;
+    static const float lights[][2] = {{20, 5}, {5, 20}, {0, 5}, {5, 0}};
+    for (size_t i = 0; i < sizeof lights / sizeof *lights; i++) {
+        struct kiln_subject *subjects[2];
+        for (int k = 0; k < 2; k++) {
+            float pixels[4 * 64 * 64] = {0};
+            for (size_t p = 0; p < sizeof pixels / sizeof *pixels; p++)
+                pixels[p] = p % 4 == 3 ? 1.0f : p / 4 / 64 < 4 ? lights[i][k] : 0.0f;
+            const struct kiln_asset_image image = {64, 64, 3, KILN_IMAGE_F32, .pixels = pixels};
+            subjects[k] = subject_of(&image);
+        }
+        struct judged j = judge_subjects(subjects[0], subjects[1], KILN_COMPARE_DEFAULT_LIMITS, 8);
+        assert_int_equal(j.frame.verdict, KILN_COMPARE_DIFFERENT);
+        assert_true(value(&j, "flip.p99") > 0.1);
+    }
 }
 
 static void deep_pictures_are_as_bright_as_others(void **state)
@@ -511,6 +532,7 @@ int main(void)
         cmocka_unit_test(low_range_metrics_are_symmetric),
         cmocka_unit_test(alpha_alone_is_a_difference),
         cmocka_unit_test(float_pictures_go_beyond_white),
+        cmocka_unit_test(fire_on_black_is_compared),
         cmocka_unit_test(deep_pictures_are_as_bright_as_others),
         cmocka_unit_test(what_is_not_finite_is_refused),
         cmocka_unit_test(what_does_not_match_is_no_pass),

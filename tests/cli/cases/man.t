@@ -22,7 +22,7 @@ $ kiln help man | grep -n '^[.'\'']' | grep -vE ':\.(TH|SH|SS|TP|PP|RS|RE|B)( |$
 
 Every option of every command is in it.
 
-$ for command in render check devices help; do
+$ for command in render compare check devices help; do
 >     kiln help $command | grep -oE '^ +(-., )?--[a-z-]+' | grep -oE -- '--[a-z-]+'
 > done | sort -u | while read -r option; do
 >     kiln help man | sed 's/\\-/-/g' | grep -qF -- "$option" || echo "$option is missing"

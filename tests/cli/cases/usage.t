@@ -153,6 +153,49 @@ $ kiln help render
 1|option that is given twice the last one counts, but these add up: --set --technique.
 $ kiln render --help | cmp - <(kiln help render)
 $ kiln render scenes/tiny.yaml -h | cmp - <(kiln help render)
+$ kiln help compare
+1|usage: kiln compare [OPTION...] REFERENCE TEST
+1|
+1|Compares the test with the reference by FLIP (how different they look when one
+1|flips between them), SSIM, PSNR and differences of levels, and judges by limits.
+1|Each is a picture, a video, a folder of pictures, which are paired by name, or a
+1|pattern such as frame_%04d.png or frame_####.png, paired by number; those of a
+1|video count from 0. Frames that are missing or too many are differences, and so
+1|are other sizes or channels. Alpha is judged on black and on white.
+1|
+1|Exit code 0: the same within the limits; 1: different; 2: usage; 3: something
+1|cannot be read or has values that are not finite; 6: --diff cannot be written.
+1|--limit replaces all default limits.
+1|
+1|  -l, --limit METRIC=VALUE    The worst value that passes; more of them after
+1|                              commas (see 'kiln help metrics'). Default:
+1|                              flip.mean=0.01,flip.p99=0.1,window.share=0.1.
+1|  -d, --diff FILE             Write a PNG of reference, test and FLIP's error
+1|                              map side by side. For several frames, '%04d' or
+1|                              '####' stands for the number, and a folder gets a
+1|                              file named after each.
+1|      --force                 Let --diff replace files that exist.
+1|      --layer NAME            Layer of EXR files, such as depth or fire.
+1|                              Default: beauty.
+1|      --range auto|ldr|hdr    How FLIP judges light: clamped at white (ldr), or
+1|                              at several exposures of the reference (hdr).
+1|                              Default: auto: hdr for EXR.
+1|      --ppd N                 Pixels that the viewer sees in a degree. Default:
+1|                              67.0206, a 0.7 m wide screen of 3840 pixels from
+1|                              0.7 m.
+1|      --threshold LEVELS      Pixels that differ by more count as differing, in
+1|                              1/255 of sRGB's range. Default: 2.
+1|      --window N              Edge in pixels of the window in which differing
+1|                              pixels are densest. Default: 32.
+1|      --threads N             Threads that work; 0 takes one a core. Default: 0.
+1|      --json                  Print JSON instead of text: an object a line,
+1|                              whose "event" is frame or result.
+1|      --stats                 Also print the time that it took.
+1|  -q, --quiet                 Print nothing but errors.
+1|  -h, --help                  Print this help.
+1|
+1|Options and operands may come in any order; '--' ends the options. Of an
+1|option that is given twice the last one counts, but these add up: --limit.
 $ kiln help check
 1|usage: kiln check [OPTION...] SCENE...
 1|
