@@ -122,6 +122,37 @@ static bool open_container(struct kiln_video_in *video)
     return status >= 0 || fail_status(video, status, "the video is broken or cut short");
 }
 
+static uint64_t big_endian(const unsigned char *bytes, int count)
+{
+    uint64_t value = 0;
+    for (int i = 0; i < count; i++)
+        value = value << 8 | bytes[i];
+    return value;
+}
+
+/* MP4 and MOV are a row of boxes, each with its size; AVI is one chunk with its size. FFmpeg takes
+ * what is there of the last one. Matroska's demuxer tells by itself. */
+static bool is_whole(const struct kiln_video_in *video)
+{
+    unsigned char b[16];
+    if (pread(video->file, b, sizeof b, 0) == sizeof b && memcmp(b, "RIFF", 4) == 0)
+        return (int64_t)(b[4] | b[5] << 8 | b[6] << 16 | (uint64_t)b[7] << 24) + 8 <= video->size;
+    if (!strstr(video->container->iformat->name, "mp4"))
+        return true;
+    for (int64_t at = 0; at < video->size;) {
+        ssize_t got = pread(video->file, b, sizeof b, at);
+        uint64_t size = got >= 8 ? big_endian(b, 4) : 2;
+        if (size == 0) /* up to the end of the file */
+            return true;
+        if (size == 1 && got == sizeof b)
+            size = big_endian(b + 8, 8);
+        if (size < 8 || size > (uint64_t)(video->size - at))
+            return false;
+        at += (int64_t)size;
+    }
+    return true;
+}
+
 /* Called by the decoder once it knows the size and before it takes memory for the pixels. */
 static int get_buffer(AVCodecContext *decoder, AVFrame *frame, int flags)
 {
@@ -188,7 +219,9 @@ struct kiln_video_in *kiln_video_in_open(const char *path, struct kiln_error *er
         (struct kiln_video_in){.path = copy, .error = error, .file = file, .size = (int64_t)size};
     kiln_avlog_begin(&video->avlog);
     bool ok = size > 0 || fail(video, KILN_INVALID_INPUT, "the video file is empty");
-    ok = ok && open_container(video) && open_decoder(video);
+    ok = ok && open_container(video) &&
+         (is_whole(video) || fail(video, KILN_INVALID_INPUT, "the video is cut short")) &&
+         open_decoder(video);
     kiln_avlog_end(&video->avlog);
     if (!ok)
         kiln_video_in_close(&video);

@@ -271,8 +271,19 @@ $ kiln compare v.mp4 w.mp4 --limit flip.mean=0.1 | grep -E 'missing'
 $ kiln compare -q v.mp4 v_%02d.png --limit flip.mean=0.2
 $ head -c $(($(wc -c <v.mp4) - 1)) v.mp4 >short.mp4
 $ kiln compare -q v.mp4 short.mp4 2>&1 | sed 's/ (.*//'; echo ${PIPESTATUS[0]}
-1|short.mp4: the video is broken or cut short
+1|short.mp4: the video is cut short
 1|3
+$ for kind in mov avi mkv; do
+>     ffmpeg -nostdin -loglevel error -i v.mp4 v.$kind && head -c -50 v.$kind >short.$kind
+>     kiln compare -q v.$kind v.$kind; echo "$kind: $?"
+>     kiln compare -q v.$kind short.$kind 2>/dev/null; echo "$kind cut short: $?"
+> done
+1|mov: 0
+1|mov cut short: 3
+1|avi: 0
+1|avi cut short: 3
+1|mkv: 0
+1|mkv cut short: 3
 $ cp grey.png fake.mp4
 $ kiln compare -q fake.mp4 v.mp4 2>&1 | sed 's/ (.*//'
 1|fake.mp4: not a video; allowed are MP4, MOV, Matroska, WebM or AVI files
