@@ -135,8 +135,10 @@ static uint64_t big_endian(const unsigned char *bytes, int count)
 static bool is_whole(const struct kiln_video_in *video)
 {
     unsigned char b[16];
-    if (pread(video->file, b, sizeof b, 0) == sizeof b && memcmp(b, "RIFF", 4) == 0)
-        return (int64_t)(b[4] | b[5] << 8 | b[6] << 16 | (uint64_t)b[7] << 24) + 8 <= video->size;
+    if (pread(video->file, b, sizeof b, 0) == sizeof b && memcmp(b, "RIFF", 4) == 0) {
+        const unsigned char size[4] = {b[7], b[6], b[5], b[4]};
+        return (int64_t)big_endian(size, 4) + 8 <= video->size;
+    }
     if (!strstr(video->container->iformat->name, "mp4"))
         return true;
     for (int64_t at = 0; at < video->size;) {
