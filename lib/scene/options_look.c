@@ -49,7 +49,7 @@ const struct kiln_option kiln_options_look[] = {
     VALUE("soft", soft, KILN_PER_METRE, 0, 1000, BOTH, "2",
           "Fades where it nears a surface, the faster the larger; 0 is hard."),
     CHOICE("soft_formula", soft_formula, soft_formulas, "clamped",
-           "clamped, or literal as the thesis prints its equation 3.3."),
+           "clamped to 0..1; or literal, as the thesis prints equation 3.3: without a bound."),
     VALUE("near_fade", near_fade, KILN_METRES, 0, 1000, BOTH, "0.2 m",
           "Transparent when this near to the camera's near plane."),
     COLOR("bloom", bloom, 100, BOTH, "0", "Part of the colour that goes to the bloom."),

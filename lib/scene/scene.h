@@ -99,7 +99,7 @@ enum kiln_blend {
 
 enum kiln_soft_formula {
     KILN_SOFT_CLAMPED, /* clamp((scene - particle) * s, 0, 1) */
-    KILN_SOFT_LITERAL, /* abs(scene - particle) * s, as printed (Heinz 2019, equation 3.3) */
+    KILN_SOFT_LITERAL, /* abs(scene - distance of the particle) * s, as printed (Heinz 2019, 3.3) */
 };
 
 struct kiln_look {

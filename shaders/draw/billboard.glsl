@@ -5,7 +5,7 @@ struct billboard {
     vec4 hot;     /* emitted where the cell's heat is 1; a: 1 additive, 0 covering */
     vec4 cool;    /* emitted where it is 0; a: scale of the soft fade, 1/m */
     vec4 cells;   /* two layers of the atlas, the mix between them, level of detail */
-    vec4 depth;   /* view depth, m; KILN_CELL_*; 1: literal soft formula; unused */
+    vec4 depth;   /* view depth, m; KILN_CELL_*; 1: literal soft formula; distance, m */
     vec4 bloom;   /* weights of equation 3.2; a: unused */
     vec4 light_0; /* light from everywhere, and how it changes along the billboard's axes (right, */
     vec4 light_x; /* up, towards the viewer): spherical harmonics of degrees 0 and 1 */

@@ -17,16 +17,18 @@ layout(location = 1) flat in billboard quad;
 layout(location = 0) out vec4 out_color;
 layout(location = 1) out vec4 out_bloom;
 
-float soft_fade()
+/* Equation 3.3, clamped to a fade; or as it is printed, with the particle's distance for its depth and
+ * without a bound, so that far from the scene only the bound of alpha itself remains. */
+float soft_factor()
 {
-    float behind = texelFetch(scene_depth, ivec2(gl_FragCoord.xy), 0).r - quad.depth.x;
-    float hard = step(0.0, behind);
+    float scene = texelFetch(scene_depth, ivec2(gl_FragCoord.xy), 0).r;
+    float visible = step(quad.depth.x, scene);
     float scale = quad.cool.a;
     if (scale <= 0.0)
-        return hard;
+        return visible;
     if (quad.depth.z > 0.0)
-        return hard * min(abs(behind) * scale, 1.0);
-    return clamp(behind * scale, 0.0, 1.0);
+        return visible * abs(scene - quad.depth.w) * scale;
+    return clamp((scene - quad.depth.x) * scale, 0.0, 1.0);
 }
 
 void main()
@@ -54,7 +56,7 @@ void main()
     else
         rgb = cell.rgb * (rgb + covering);
 
-    float fade = quad.color.a * soft_fade();
+    float fade = min(quad.color.a * soft_factor(), 1.0 / max(alpha, 1e-6)); /* alpha up to 1 */
     alpha *= fade;
     rgb *= fade;
     out_color = vec4(rgb, quad.hot.a > 0.0 ? additive_alpha * alpha : alpha);

@@ -132,7 +132,7 @@ void main()
     float pixels_per_m = view.frustum.w / (2.0 * view.frustum.y * max(depth, 1e-3));
     particle.cells = choose_cells(looks[system].atlas, life * cool.w, looks[system].flags.y != 0u,
                                   stream, 2.0 * half_size * pixels_per_m);
-    particle.depth =
-        vec4(depth, float(looks[system].atlas.z), float(looks[system].flags.z), 0.0);
+    particle.depth = vec4(depth, float(looks[system].atlas.z), float(looks[system].flags.z),
+                          length(center.xyz));
     light_particle(cover.w, position, right, up.xy);
 }

@@ -58,6 +58,7 @@ struct fixture {
     struct kiln_view view;
     float4 *looks;
     float *cells[2]; /* of the systems */
+    bool literal;    /* smoke fades by the formula as it is printed */
 };
 
 static float random_within(float low, float high)
@@ -104,7 +105,7 @@ static void make_targets(struct fixture *f)
     assert_true(kiln_framebuffer_init(&f->framebuffer, f->device, targets, 2, &error));
 }
 
-static int set_up(void **state)
+static int set_up_with(void **state, const char *const *overrides, size_t count)
 {
     struct kiln_error error = {0};
     struct fixture *f = calloc(1, sizeof *f);
@@ -112,7 +113,11 @@ static int set_up(void **state)
     void *device = NULL;
     test_device_open(&device);
     f->device = device;
-    f->scene = kiln_scene_parse(SCENE, sizeof SCENE - 1, "test", &KILN_SCENE_DEFAULTS, &error);
+    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    params.overrides = overrides;
+    params.override_count = count;
+    f->literal = count > 0;
+    f->scene = kiln_scene_parse(SCENE, sizeof SCENE - 1, "test", &params, &error);
     if (!f->scene)
         fail_msg("%s", error.message);
     f->threads = kiln_threads_create(2);
@@ -138,6 +143,19 @@ static int set_up(void **state)
     }
     *state = f;
     return 0;
+}
+
+static int set_up(void **state)
+{
+    return set_up_with(state, NULL, 0);
+}
+
+/* So soft that the bound of alpha is not reached before the floor and the box. */
+static int set_up_literal(void **state)
+{
+    static const char *const overrides[] = {"systems.smoke.look.soft_formula=literal",
+                                            "systems.smoke.look.soft=0.2"};
+    return set_up_with(state, overrides, 2);
 }
 
 static int tear_down(void **state)
@@ -172,6 +190,7 @@ struct sprite {
     double center[3], right[2], up[2]; /* view space; unit axes */
     double half_width, half_height, depth;
     double life, opacity, soft;
+    double distance; /* m; used by the literal formula, else 0 */
     double cover[3], hot[3], cool[3], bloom[3];
     double light[4][3]; /* constant, right, up, towards the viewer */
 };
@@ -265,6 +284,9 @@ static struct sprite make_sprite(const struct fixture *f, uint32_t entry)
     to_view(f, position, 1, s.center);
     s.depth = -s.center[2];
     s.soft = (double)shape.w;
+    if (f->scene->systems[s.system].look.soft_formula == KILN_SOFT_LITERAL)
+        s.distance =
+            sqrt(s.center[0] * s.center[0] + s.center[1] * s.center[1] + s.center[2] * s.center[2]);
     double near = (s.depth - (double)f->view.eye.w) / (double)hot.w;
     s.opacity = (double)shape.z * fmin(fmax(near, 0), 1);
     s.half_width =
@@ -330,10 +352,12 @@ static void shade(const struct fixture *f, const struct sprite *s, int px, int p
     for (int c = 0; c < 4; c++)
         cell[c] = first[c] + (second[c] - first[c]) * (position - (double)k);
 
-    double behind = (double)f->depth.host[py * WIDTH + px] - s->depth;
+    double scene = (double)f->depth.host[py * WIDTH + px], behind = scene - s->depth;
     double fade = s->soft > 0 ? fmin(fmax(behind * s->soft, 0), 1) : behind >= 0;
+    if (s->distance > 0)
+        fade = behind >= 0 ? fabs(scene - s->distance) * s->soft : 0;
     double nx = 2 * cell[0] - 1, ny = 2 * cell[1] - 1, nz = sqrt(fmax(1 - nx * nx - ny * ny, 0));
-    double alpha = cell[3] * s->opacity * fade;
+    double alpha = fmin(cell[3] * s->opacity * fade, 1);
     for (int c = 0; c < 3; c++) {
         double light =
             s->light[0][c] + s->light[1][c] * nx + s->light[2][c] * ny + s->light[3][c] * nz;
@@ -379,6 +403,9 @@ static void particles_match_c(void **state)
     int off = 0;
     for (int p = 0; p < PIXELS; p++) {
         double color[4] = {0}, bloom[4] = {0};
+        /* Before the sky, the literal formula makes a cell's faintest texel opaque. */
+        if (f->literal && f->depth.host[p] > 8.0f)
+            continue;
         for (int i = 0; i < COUNT; i++) {
             double over[4], glow[3];
             shade(f, &sprites[i], p % WIDTH, p / WIDTH, over, glow);
@@ -434,5 +461,8 @@ int main(void)
         cmocka_unit_test(particles_match_c),
         cmocka_unit_test(sums_do_not_depend_on_order),
     };
-    return cmocka_run_group_tests_name("particles", tests, set_up, tear_down);
+    static const struct CMUnitTest literal[] = {cmocka_unit_test(particles_match_c)};
+    int failed = cmocka_run_group_tests_name("particles", tests, set_up, tear_down);
+    return failed + cmocka_run_group_tests_name("particles, equation 3.3 as it is printed", literal,
+                                                set_up_literal, tear_down);
 }

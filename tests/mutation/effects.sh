@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# effects.sh KILN FOLDER: no option of a scene is without effect. Each override of effects.txt must
+# change the picture of FOLDER/effects.yaml, in at least one value.
+set -euo pipefail
+
+kiln=$1 folder=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+draw() {
+    "$kiln" render "$folder/effects.yaml" --frames 40 --device software --quiet --force \
+        -o "$work/$1.png" "${@:2}"
+}
+
+draw base
+failed=0 count=0
+while IFS= read -r override; do
+    [[ -z $override || $override == '#'* ]] && continue
+    count=$((count + 1))
+    draw changed --set "$override" </dev/null
+    if "$kiln" compare --quiet --limit abs.max=0 "$work/base.png" "$work/changed.png"; then
+        echo "--set '$override' changes nothing" >&2
+        failed=1
+    fi
+done <"$folder/effects.txt"
+echo "$count overrides"
+exit "$failed"
