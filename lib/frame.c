@@ -35,8 +35,7 @@ struct job {
     struct kiln_render_stats stats;
 };
 
-/* ---- the loop ---------------------------------------------------------------------------------
- */
+/* ---- the loop -------------------------------------------------------------------------------- */
 
 /* A callback may have used another device on this thread. */
 static bool return_from_caller(const struct job *job, struct kiln_error *error)
@@ -160,8 +159,7 @@ static bool render_frames(struct job *job, struct kiln_error *error)
     return true;
 }
 
-/* ---- before and after -------------------------------------------------------------------------
- */
+/* ---- before and after ------------------------------------------------------------------------ */
 
 static bool choose_frames(struct job *job, struct kiln_error *error)
 {

@@ -18,8 +18,7 @@ static bool out_of_memory(struct kiln_error *error, const char *source)
     return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory for its cells", source);
 }
 
-/* ---- image files ------------------------------------------------------------------------------
- */
+/* ---- image files ----------------------------------------------------------------------------- */
 
 static float decode_srgb(float x)
 {
@@ -120,8 +119,7 @@ static bool load_cells(const struct kiln_atlas_request *request, float *cells,
     return divides;
 }
 
-/* ---- levels of detail -------------------------------------------------------------------------
- */
+/* ---- levels of detail ------------------------------------------------------------------------ */
 
 /* Halves a level in place of the next; normals and heat count as much as their density. */
 static void shrink(const float *from, uint32_t edge, uint32_t kind, float *to)
@@ -202,8 +200,7 @@ static bool add_flipbook(const struct kiln_atlas_range *range,
     return ok;
 }
 
-/* ---- the texture ------------------------------------------------------------------------------
- */
+/* ---- the texture ----------------------------------------------------------------------------- */
 
 static bool same_request(const struct kiln_atlas_request *a, const struct kiln_atlas_request *b)
 {

@@ -52,8 +52,7 @@ struct flip {
     uint32_t tiles_across;
 };
 
-/* ---- set-up -----------------------------------------------------------------------------------
- */
+/* ---- set-up ---------------------------------------------------------------------------------- */
 
 static void invert(const double m[3][3], float out[3][3])
 {
@@ -140,8 +139,7 @@ static void make_feature_filters(struct filters *f, double ppd)
         f->radius[i] = radius;
 }
 
-/* ---- colours ----------------------------------------------------------------------------------
- */
+/* ---- colours --------------------------------------------------------------------------------- */
 
 /* x^p for 0 < x: 2^(p log2 x), each by a polynomial; relative error below 2e-6 for |p log2 x| < 20.
  * libm's is as exact as a double but does not vectorise. */
@@ -244,8 +242,7 @@ static inline struct lab filtered_lab(const float from_xyz[3][3], float y, float
     return hunt_lab(clamp01(r), clamp01(g), clamp01(b));
 }
 
-/* ---- filters ----------------------------------------------------------------------------------
- */
+/* ---- filters --------------------------------------------------------------------------------- */
 
 /* to[i] = sum of weights[k] * from[i + k], k up to 2 radius: count is a multiple of LANES, and from
  * has 2 radius more. */
@@ -316,8 +313,7 @@ static void filter_tile_across(const struct flip *flip, struct tile *tile, int64
     }
 }
 
-/* ---- the error of a row of a tile ---------------------------------------------------------------
- */
+/* ---- the error of a row of a tile ------------------------------------------------------------ */
 
 enum { FEATURE_COUNT = 4 }; /* edges across and down, points across and down */
 
@@ -382,8 +378,7 @@ static void judge_row(const struct row *row, const float from_xyz[3][3], float l
     }
 }
 
-/* ---- the picture ------------------------------------------------------------------------------
- */
+/* ---- the picture ----------------------------------------------------------------------------- */
 
 struct tile_job {
     struct flip *flip;

@@ -74,8 +74,7 @@ enum kiln_integration {
     KILN_INTEGRATE_POSITION_FIRST, /* the thesis's order: position, then velocity (3.3.2) */
 };
 
-/* ---- collide: Heinz 2019, 3.5 -----------------------------------------------------------------
- */
+/* ---- collide: Heinz 2019, 3.5 ---------------------------------------------------------------- */
 
 enum kiln_collide_mode {
     KILN_COLLIDE_SWEPT, /* exact point of impact along the path of the step */
@@ -89,8 +88,7 @@ struct kiln_collide {
     struct kiln_value slowdown;   /* factor on the speed, 0..1 */
 };
 
-/* ---- look -------------------------------------------------------------------------------------
- */
+/* ---- look ------------------------------------------------------------------------------------ */
 
 enum kiln_blend {
     KILN_BLEND_ALPHA, /* covers: smoke */
@@ -125,8 +123,7 @@ struct kiln_look {
     struct kiln_value lit;       /* 0 unlit .. 1 lit by sun, sky and lights */
 };
 
-/* ---- systems ----------------------------------------------------------------------------------
- */
+/* ---- systems --------------------------------------------------------------------------------- */
 
 struct kiln_bounds {
     bool enabled;
@@ -147,8 +144,7 @@ struct kiln_system {
     uint32_t capacity; /* slots; the most births in any window of the longest life */
 };
 
-/* ---- the rest ---------------------------------------------------------------------------------
- */
+/* ---- the rest -------------------------------------------------------------------------------- */
 
 struct kiln_box {
     struct kiln_value3 center, size; /* m; clock constant or time */
