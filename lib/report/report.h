@@ -1,0 +1,27 @@
+/* Reports of a run: one file a format, one row of the table in report.c. */
+#ifndef KILN_REPORT_REPORT_H
+#define KILN_REPORT_REPORT_H
+
+#include "suite/result.h"
+
+/* The run or runs that are reported. */
+struct kiln_results {
+    struct kiln_arena *arena;
+    struct kiln_result **tests; /* ordered by name */
+    const char **folders;       /* of each test's result: its pictures are in there */
+    size_t count;
+    double total_s;
+    const char *started; /* of the earliest test */
+};
+
+struct kiln_report_format {
+    const char *name; /* NULL ends the table */
+    const char *help;
+    bool (*write)(const struct kiln_results *results, const struct kiln_results_output *output,
+                  FILE *out, struct kiln_error *error);
+};
+
+extern const struct kiln_report_format kiln_report_json, kiln_report_junit, kiln_report_tap,
+    kiln_report_github, kiln_report_html;
+
+#endif

@@ -1,0 +1,67 @@
+/* The golden pictures of a test, by their names:
+ *
+ *     frame_0024.png              the default
+ *     frame_0024@llvmpipe.png     for devices whose name is or starts with that, "llvmpipe-..."
+ *     frame_0024~2.png            another picture that is right, of the default
+ *     frame_0024@llvmpipe~2.png   the same, of the device's
+ *
+ * Of a device's pictures the most specific name counts, and its default and alternatives are looked
+ * at together; where a device has none, those without a device are.
+ */
+#ifndef KILN_SUITE_GOLDEN_H
+#define KILN_SUITE_GOLDEN_H
+
+#include "suite/expect.h"
+
+enum { KILN_MAX_GOLDENS = 16, KILN_DEVICE_NAME_SIZE = 128 };
+
+/* A device's name for files and expect.yaml: its GL renderer in lower case, with runs of anything
+ * but letters, digits and dots as one '-': "llvmpipe-llvm-15.0.6-256-bits",
+ * "nvidia-h200-pcie-sse2". */
+void kiln_device_name(const char *renderer, char name[KILN_DEVICE_NAME_SIZE]);
+
+struct kiln_goldens {
+    size_t count;
+    char paths[KILN_MAX_GOLDENS][KILN_PATH_SIZE]; /* the main one first */
+    char device[KILN_DEVICE_NAME_SIZE];           /* in their names; "": the default's */
+};
+
+/* Finds the accepted pictures of a frame; none is no error: paths[0] then is the name it would
+ * have. KILN_IO when the folder cannot be read, KILN_INVALID_INPUT for more than there may be. */
+bool kiln_goldens_find(const struct kiln_test *test, uint32_t frame, const char *device_name,
+                       struct kiln_goldens *goldens, struct kiln_error *error);
+
+/* Where a picture would be accepted: in place of the first golden, for the device alone, or as one
+ * more. */
+bool kiln_goldens_place(const struct kiln_test *test, uint32_t frame, const char *device_name,
+                        enum kiln_approve_as as, char path[KILN_PATH_SIZE],
+                        struct kiln_error *error);
+
+/* A lock on a test's goldens, so that processes that accept pictures wait for each other. Makes the
+ * folder. Below 0 with KILN_IO. */
+int kiln_goldens_lock(const struct kiln_test *test, struct kiln_error *error);
+void kiln_goldens_unlock(int lock);
+
+/* Copies a file to another name, whole or not at all, replacing it; makes missing folders. KILN_IO.
+ */
+bool kiln_file_copy(const char *from, const char *to, struct kiln_error *error);
+
+/* SHA-256 of a picture as it is decoded: size, channels, type and pixels. Errors as
+ * kiln_asset_image_load. */
+bool kiln_pixel_hash(const char *path, char hex[65], struct kiln_error *error);
+
+/* One accepted picture and what goes with it: the picture to its place, state and pixels into
+ * expect, the scene beside it (text as kiln_scene_print writes it; NULL leaves what is there). The
+ * caller holds the lock, and writes expect. */
+struct kiln_acceptance {
+    uint32_t frame;
+    const char *picture; /* a file */
+    const char *state;
+    const char *device_name;
+    enum kiln_approve_as as;
+};
+bool kiln_goldens_accept(struct kiln_arena *arena, const struct kiln_test *test,
+                         struct kiln_expect *expect, const struct kiln_acceptance *acceptance,
+                         char path[KILN_PATH_SIZE], struct kiln_error *error);
+
+#endif

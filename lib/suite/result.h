@@ -1,0 +1,96 @@
+/* What became of a test: written by the process that ran it, read by reports, by `approve` and by
+ * the run. It is a JSON file, RESULTS/NAME/result.json, beside the pictures that it names. */
+#ifndef KILN_SUITE_RESULT_H
+#define KILN_SUITE_RESULT_H
+
+#include "base/arena.h"
+#include "kiln.h"
+
+enum { KILN_TEST_MAX_FRAMES = 1000 };
+
+/* What decided about a frame. */
+enum kiln_judged_by {
+    KILN_JUDGED_BY_NOTHING, /* no golden, or nothing was rendered */
+    KILN_JUDGED_BY_STATE,   /* the state hash differs: the simulation changed */
+    KILN_JUDGED_BY_PIXELS,  /* the pixels' hash is known */
+    KILN_JUDGED_BY_METRICS,
+    KILN_JUDGED_BY_COUNT
+};
+/* "nothing", "state", "pixels", "metrics" */
+const char *kiln_judged_by_name(enum kiln_judged_by judged_by);
+
+/* Texts are never NULL, "" where there is nothing; files are relative to the result's folder and
+ * have '/' in no name of their own. */
+struct kiln_result_frame {
+    uint32_t number;
+    enum kiln_test_status status;
+    enum kiln_judged_by judged_by;
+    const char *message;   /* why, "" for a pass */
+    const char *picture;   /* what was rendered */
+    const char *reference; /* a copy of the golden that was nearest; "" without one */
+    const char *error_map; /* FLIP's, in magma; "" where it was not measured */
+    const char *golden;    /* the golden's own path, as a person would open it; where it would be */
+    const char *state, *state_expected;   /* 16 hex digits; expected "" when nothing is */
+    const char *pixels, *pixels_expected; /* SHA-256 of the decoded pixels */
+    bool measured;                        /* what follows means something */
+    double values[KILN_MAX_COLUMNS];      /* by the result's columns */
+    bool beyond[KILN_MAX_COLUMNS];
+    double score;
+    uint32_t worst_x, worst_y;
+    uint32_t window_x, window_y, window_width, window_height, window_differing;
+};
+
+/* A key of the scene that is not as it was when the goldens were accepted. */
+struct kiln_result_change {
+    const char *key;            /* "systems.fire.emit.rate" */
+    const char *before, *after; /* as a scene would write them; "" where it is not there */
+};
+
+struct kiln_result {
+    const char *name;   /* of the test, with its device */
+    const char *test;   /* path of the test file or scene */
+    const char *scene;  /* path of the scene */
+    const char *about;  /* the test's own description */
+    const char *golden; /* the folder of its goldens */
+    enum kiln_test_status status;
+    enum kiln_code code;
+    const char *message;     /* the cause in one line: of an error, or of the worst frame */
+    const char *log;         /* file with what its process printed, or "" */
+    const char *device;      /* GL renderer */
+    const char *device_name; /* as in expect.yaml: "llvmpipe-llvm-15.0.6-256-bits" */
+    const char *driver;      /* GL version and vendor */
+    const char *platform;
+    const char *techniques, *techniques_expected;
+    const char *version; /* of kiln */
+    uint32_t seed;
+    uint32_t width, height;
+    uint32_t threads, repeat;
+    const char *scene_hash, *scene_hash_expected;
+    const char *started; /* 2026-01-31T12:00:00Z */
+    double total_s;
+    double warn; /* the score beyond which a frame that passes is warned of */
+    bool hdr;
+    const char *rerun, *approve; /* the exact commands */
+    size_t column_count;
+    struct kiln_compare_column columns[KILN_MAX_COLUMNS];
+    size_t frame_count;
+    struct kiln_result_frame *frames; /* ascending by number */
+    size_t change_count;
+    struct kiln_result_change *changes;
+    size_t note_count;
+    const char **notes; /* for people: stale limits, goldens written */
+};
+
+/* A score of a result's worst frame: the highest of the measured ones, 0 without any. */
+double kiln_result_score(const struct kiln_result *result);
+
+/* Writes FOLDER/result.json, whole or not at all; makes missing folders. KILN_IO. */
+bool kiln_result_write(const struct kiln_result *result, const char *folder,
+                       struct kiln_error *error);
+
+/* Reads what write wrote; all of it lies in the arena. NULL with KILN_INVALID_INPUT: no such file,
+ * or not such a one, with line and column. */
+struct kiln_result *kiln_result_read(struct kiln_arena *arena, const char *folder,
+                                     struct kiln_error *error);
+
+#endif
