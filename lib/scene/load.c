@@ -1,12 +1,10 @@
 /* From a file to a scene: bytes, tree, overrides, options, what follows from them, hash. */
 #include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/hash.h"
 #include "scene/asset_path.h"
 #include "scene/override.h"
@@ -15,68 +13,6 @@
 #include "scene/validate.h"
 
 enum { MAX_FILE_SIZE = 4 << 20 };
-
-/* ---- bytes ---------------------------------------------------------------------------------- */
-
-static bool check_file(int file, const char *path, size_t *size, struct kiln_error *error)
-{
-    struct stat status;
-    if (fstat(file, &status) != 0)
-        return kiln_error_set_errno(error, KILN_IO, errno, "%s", path);
-    if (S_ISDIR(status.st_mode))
-        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: is a folder, not a scene file", path);
-    if (!S_ISREG(status.st_mode))
-        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: is not a regular file", path);
-    if (status.st_size > MAX_FILE_SIZE)
-        return kiln_error_set(error, KILN_INVALID_INPUT,
-                              "%s: %lld bytes; a scene file has at most %d", path,
-                              (long long)status.st_size, MAX_FILE_SIZE);
-    *size = (size_t)status.st_size;
-    return true;
-}
-
-static bool read_bytes(int file, const char *path, char *text, size_t expected, size_t *size,
-                       struct kiln_error *error)
-{
-    size_t length = 0;
-    while (length < expected) {
-        ssize_t count = read(file, text + length, expected - length);
-        if (count == 0)
-            break; /* it shrank */
-        if (count < 0 && errno != EINTR)
-            return kiln_error_set_errno(error, KILN_IO, errno, "%s", path);
-        length += count > 0 ? (size_t)count : 0;
-    }
-    text[length] = '\0';
-    *size = length;
-    return true;
-}
-
-/* The contents with a zero byte after them, to be freed; NULL with an error. */
-static char *read_file(const char *path, size_t *size, struct kiln_error *error)
-{
-    /* Without O_NONBLOCK, opening a pipe would wait for its writer. */
-    int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-    if (file < 0) {
-        kiln_error_set_errno(error, KILN_INVALID_INPUT, errno, "%s", path);
-        return NULL;
-    }
-    size_t expected = 0;
-    char *text = NULL;
-    if (check_file(file, path, &expected, error)) {
-        text = malloc(expected + 1);
-        if (!text)
-            kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading a scene");
-        else if (!read_bytes(file, path, text, expected, size, error)) {
-            free(text);
-            text = NULL;
-        }
-    }
-    close(file);
-    return text;
-}
-
-/* ---- scene ---------------------------------------------------------------------------------- */
 
 static bool keep_keys(struct kiln_reader *reader)
 {
@@ -159,7 +95,7 @@ struct kiln_scene *kiln_scene_load(const char *path, const struct kiln_scene_par
                                    struct kiln_error *error)
 {
     size_t size = 0;
-    char *text = read_file(path, &size, error);
+    char *text = kiln_text_file_read(path, "a scene file", MAX_FILE_SIZE, &size, error);
     if (!text)
         return NULL;
     struct kiln_scene *scene = create(text, size, path, path, params, error);

@@ -202,6 +202,19 @@ static bool refuse(struct builder *builder, struct fy_event *event, const char *
     return node && kiln_node_error(node, builder->error, "%s", reason);
 }
 
+static const char *kind_of(const struct kiln_origin *origin)
+{
+    return origin->kind ? origin->kind : "a scene";
+}
+
+static bool refuse_second_document(struct builder *builder, struct fy_event *event)
+{
+    char reason[96];
+    snprintf(reason, sizeof reason, "%s is one document; a second starts here",
+             kind_of(builder->origin));
+    return refuse(builder, event, reason);
+}
+
 static bool refuse_decoration(struct builder *builder, struct fy_event *event,
                               struct fy_token *anchor, struct fy_token *tag)
 {
@@ -217,7 +230,7 @@ static bool take_event(struct builder *builder, struct fy_event *event)
     switch (event->type) {
     case FYET_DOCUMENT_START:
         if (builder->documents++ > 0)
-            return refuse(builder, event, "a scene is one document; a second starts here");
+            return refuse_second_document(builder, event);
         return true;
     case FYET_ALIAS:
         return refuse(builder, event, "anchors and aliases are not allowed");
@@ -318,9 +331,11 @@ struct kiln_node *kiln_node_parse(struct kiln_arena *arena, const char *text, si
         ok = take_all_events(&builder, parser, diag);
     if (ok && !builder.root) {
         struct kiln_node place = {.origin = origin};
-        ok = kiln_node_error(&place, error, "%s",
-                             origin->has_lines ? "empty; a scene starts with 'kiln: 1'"
-                                               : "there is no value after '='");
+        if (origin->has_lines)
+            ok = kiln_node_error(&place, error, "empty; %s starts with '%s'", kind_of(origin),
+                                 origin->version ? origin->version : "kiln: 1");
+        else
+            ok = kiln_node_error(&place, error, "there is no value after '='");
     }
     if (parser)
         fy_parser_destroy(parser);

@@ -19,7 +19,9 @@ enum {
 /* Where a text came from: a file, or "--set key". */
 struct kiln_origin {
     const char *name;
-    bool has_lines; /* false: positions inside it mean nothing to the reader */
+    bool has_lines;      /* false: positions inside it mean nothing to the reader */
+    const char *kind;    /* for messages: "a test"; NULL: "a scene" */
+    const char *version; /* what such a file starts with: "kiln_test: 1"; NULL: "kiln: 1" */
 };
 
 enum kiln_node_kind { KILN_NODE_SCALAR, KILN_NODE_LIST, KILN_NODE_MAP };

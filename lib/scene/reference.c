@@ -1,7 +1,7 @@
 /* The reference of scene keys, from the option tables. */
-#include <string.h>
+#include "scene/reference.h"
 
-#include "scene/option.h"
+#include <string.h>
 
 enum { WIDTH = 100 };
 
@@ -85,7 +85,17 @@ static void add_rows(struct kiln_text *out, const char *prefix, const struct kil
     }
 }
 
-static const char introduction[] =
+bool kiln_reference_write(FILE *out, const char *introduction, const struct kiln_option *rows)
+{
+    struct kiln_text text = {0};
+    kiln_text_add(&text, "%s", introduction);
+    add_rows(&text, "", rows);
+    bool ok = !text.failed && fputs(text.data, out) >= 0 && fflush(out) == 0;
+    kiln_text_free(&text);
+    return ok;
+}
+
+static const char scene_introduction[] =
     "A scene is a YAML file. Every key below may also be given with --set KEY=VALUE; '*' in a KEY\n"
     "stands for every entry of a mapping or list, and entries of a list are counted from 0.\n"
     "\n"
@@ -105,10 +115,5 @@ static const char introduction[] =
 
 bool kiln_scene_write_reference(FILE *out)
 {
-    struct kiln_text text = {0};
-    kiln_text_add(&text, "%s", introduction);
-    add_rows(&text, "", kiln_options_root);
-    bool ok = !text.failed && fputs(text.data, out) >= 0 && fflush(out) == 0;
-    kiln_text_free(&text);
-    return ok;
+    return kiln_reference_write(out, scene_introduction, kiln_options_root);
 }

@@ -1,0 +1,67 @@
+#include "base/file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/error.h"
+
+static bool check_file(int file, const char *path, const char *what, size_t limit, size_t *size,
+                       struct kiln_error *error)
+{
+    struct stat status;
+    if (fstat(file, &status) != 0)
+        return kiln_error_set_errno(error, KILN_IO, errno, "%s", path);
+    if (S_ISDIR(status.st_mode))
+        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: is a folder, not %s", path, what);
+    if (!S_ISREG(status.st_mode))
+        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: is not a regular file", path);
+    if ((uint64_t)status.st_size > limit)
+        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: %lld bytes; %s has at most %zu", path,
+                              (long long)status.st_size, what, limit);
+    *size = (size_t)status.st_size;
+    return true;
+}
+
+static bool read_bytes(int file, const char *path, char *text, size_t expected, size_t *size,
+                       struct kiln_error *error)
+{
+    size_t length = 0;
+    while (length < expected) {
+        ssize_t count = read(file, text + length, expected - length);
+        if (count == 0)
+            break; /* it shrank */
+        if (count < 0 && errno != EINTR)
+            return kiln_error_set_errno(error, KILN_IO, errno, "%s", path);
+        length += count > 0 ? (size_t)count : 0;
+    }
+    text[length] = '\0';
+    *size = length;
+    return true;
+}
+
+char *kiln_text_file_read(const char *path, const char *what, size_t limit, size_t *size,
+                          struct kiln_error *error)
+{
+    /* Without O_NONBLOCK, opening a pipe would wait for its writer. */
+    int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0) {
+        kiln_error_set_errno(error, KILN_INVALID_INPUT, errno, "%s", path);
+        return NULL;
+    }
+    size_t expected = 0;
+    char *text = NULL;
+    if (check_file(file, path, what, limit, &expected, error)) {
+        text = malloc(expected + 1);
+        if (!text)
+            kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", path);
+        else if (!read_bytes(file, path, text, expected, size, error)) {
+            free(text);
+            text = NULL;
+        }
+    }
+    close(file);
+    return text;
+}

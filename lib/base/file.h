@@ -1,0 +1,14 @@
+/* Text files in: whole, of limited size, and never something else than a file. */
+#ifndef KILN_BASE_FILE_H
+#define KILN_BASE_FILE_H
+
+#include "kiln.h"
+
+/* The contents of a regular file with a zero byte after them, which *size does not count; the
+ * caller frees them. what stands for it in messages: "a scene file". NULL with KILN_INVALID_INPUT
+ * when it cannot be opened, is no regular file or has more bytes than limit, KILN_IO when reading
+ * fails, KILN_DEVICE_FAILED when memory is short. */
+char *kiln_text_file_read(const char *path, const char *what, size_t limit, size_t *size,
+                          struct kiln_error *error);
+
+#endif
