@@ -1,6 +1,7 @@
 /* kiln compare: do two pictures, folders or videos look the same? */
 #include <signal.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "command.h"
 #include "compare_report.h"
@@ -23,7 +24,24 @@ static const struct option options[] = {
      .help =
          "Write a PNG of reference, test and FLIP's error map side by side. For several frames, "
          "'%04d' or '####' stands for the number, and a folder gets a file named after each."},
-    {.name = "force", .kind = OPTION_FLAG, .help = "Let --diff replace files that exist."},
+    {.name = "error-map",
+     .kind = OPTION_TEXT,
+     .placeholder = "FILE",
+     .help = "Write a PNG of FLIP's error map alone, of the pictures' size; names as --diff."},
+    {.name = "force",
+     .kind = OPTION_FLAG,
+     .help = "Let --diff and --error-map replace files that exist."},
+    {.name = "ignore",
+     .letter = 'i',
+     .repeats = true,
+     .kind = OPTION_RECT,
+     .placeholder = "X,Y,WxH",
+     .help = "Do not judge this rectangle: there, the test is taken from the reference."},
+    {.name = "mask",
+     .repeats = true,
+     .kind = OPTION_TEXT,
+     .placeholder = "FILE",
+     .help = "Do not judge where this picture, of the same size, is black."},
     {.name = "layer",
      .kind = OPTION_TEXT,
      .placeholder = "NAME",
@@ -88,6 +106,7 @@ static struct kiln_compare_params read_params(const struct arguments *arguments)
     params.reference = arguments->operands[0];
     params.test = arguments->operands[1];
     const struct option_use *diff = arguments_last(arguments, "diff");
+    const struct option_use *error_map = arguments_last(arguments, "error-map");
     const struct option_use *layer = arguments_last(arguments, "layer");
     const struct option_use *range = arguments_last(arguments, "range");
     const struct option_use *ppd = arguments_last(arguments, "ppd");
@@ -95,6 +114,7 @@ static struct kiln_compare_params read_params(const struct arguments *arguments)
     const struct option_use *window = arguments_last(arguments, "window");
     const struct option_use *threads = arguments_last(arguments, "threads");
     params.diff = diff ? diff->text : NULL;
+    params.error_map = error_map ? error_map->text : NULL;
     params.layer = layer ? layer->text : params.layer;
     params.mode = range ? (enum kiln_compare_mode)range->choice : params.mode;
     params.pixels_per_degree = ppd ? ppd->number : params.pixels_per_degree;
@@ -118,6 +138,25 @@ static int report_failure(const struct kiln_error *error)
     return 128 + number;
 }
 
+/* The options that repeat. Each has room for every use. */
+static void read_lists(const struct arguments *arguments, const char **limits,
+                       struct kiln_compare_mask *masks, struct kiln_compare_params *params)
+{
+    for (size_t i = 0; i < arguments->use_count; i++) {
+        const struct option_use *use = &arguments->uses[i];
+        if (use->option->kind == OPTION_PAIRS)
+            limits[params->limit_count++] = use->text;
+        else if (use->option->kind == OPTION_RECT)
+            masks[params->mask_count++] = (struct kiln_compare_mask){
+                (uint32_t)use->integer[0], (uint32_t)use->integer[1], (uint32_t)use->integer[2],
+                (uint32_t)use->integer[3], NULL};
+        else if (strcmp(use->option->name, "mask") == 0)
+            masks[params->mask_count++] = (struct kiln_compare_mask){.picture = use->text};
+    }
+    params->limits = limits;
+    params->masks = masks;
+}
+
 static int run(const struct arguments *arguments)
 {
     struct kiln_compare_params params = read_params(arguments);
@@ -127,19 +166,20 @@ static int run(const struct arguments *arguments)
                                      .quiet = arguments_last(arguments, "quiet") != NULL,
                                      .stats = arguments_last(arguments, "stats") != NULL};
     const char **limits = calloc(arguments->use_count + 1, sizeof *limits);
-    if (!limits)
+    struct kiln_compare_mask *masks = calloc(arguments->use_count + 1, sizeof *masks);
+    if (!limits || !masks) {
+        free(limits);
+        free(masks);
         return report_no_memory();
-    for (size_t i = 0; i < arguments->use_count; i++) {
-        if (arguments->uses[i].option->kind == OPTION_PAIRS)
-            limits[params.limit_count++] = arguments->uses[i].text;
     }
-    params.limits = limits;
+    read_lists(arguments, limits, masks, &params);
     params.user = &printed;
     signals_install();
     struct kiln_compare_result result;
     struct kiln_error error = {0};
     bool ok = kiln_compare(&params, &result, &error);
     free(limits);
+    free(masks);
     compare_report_result(&printed, &result);
     if (!ok)
         return report_failure(&error);
@@ -158,8 +198,8 @@ const struct command compare_command = {
         "that are missing or too many are differences, and so are other sizes or channels. Alpha "
         "is judged on black and on white.\n\n"
         "Exit code 0: the same within the limits; 1: different; 2: usage; 3: something cannot be "
-        "read or has values that are not finite; 6: --diff cannot be written. --limit replaces all "
-        "default limits.",
+        "read or has values that are not finite, except where it is masked; 6: --diff or "
+        "--error-map cannot be written. --limit replaces all default limits.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .least_operands = 2,

@@ -104,6 +104,22 @@ static bool read_two(const char *text, char separator, uint64_t numbers[2])
            kiln_text_to_uint64(middle + 1, &numbers[1]) && numbers[1] > 0;
 }
 
+/* X,Y,WxH, each of which fits a picture. */
+static bool read_rect(const char *text, uint64_t numbers[4])
+{
+    for (int i = 0; i < 2; i++) {
+        char number[12] = "";
+        size_t length = strcspn(text, ",");
+        if (text[length] == '\0' || length >= sizeof number)
+            return false;
+        snprintf(number, sizeof number, "%.*s", (int)length, text);
+        if (!kiln_text_to_uint64(number, &numbers[i]) || numbers[i] > UINT32_MAX)
+            return false;
+        text += length + 1;
+    }
+    return read_two(text, 'x', numbers + 2) && numbers[2] <= UINT32_MAX && numbers[3] <= UINT32_MAX;
+}
+
 static bool is_ratio(const char *text)
 {
     uint64_t ratio[2];
@@ -146,6 +162,10 @@ static int read_value(const struct parser *parser, struct option_use *use)
         return is_ratio(use->text)
                    ? 0
                    : wrong_value(parser, use, "a rate such as 30, 29.97 or 30000/1001");
+    case OPTION_RECT:
+        return read_rect(use->text, use->integer)
+                   ? 0
+                   : wrong_value(parser, use, "X,Y,WxH in pixels, such as 0,0,320x24");
     case OPTION_FRAMES:
         return frame_list_parse(use->text, &use->frames)
                    ? 0

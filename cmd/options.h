@@ -12,6 +12,7 @@ enum option_kind {
     OPTION_NUMBER,  /* min to max, a decimal fraction */
     OPTION_SIZE,    /* WxH */
     OPTION_RATIO,   /* N/D or a decimal fraction */
+    OPTION_RECT,    /* X,Y,WxH */
     OPTION_FRAMES,  /* 0-149,200 */
     OPTION_PAIRS,   /* KEY=VALUE; more of them after commas where `commas` is set */
 };
@@ -34,7 +35,7 @@ struct option {
 struct option_use {
     const struct option *option;
     const char *text;    /* the value; NULL for a flag, or where it was left out */
-    uint64_t integer[2]; /* OPTION_INTEGER; OPTION_SIZE: width, height */
+    uint64_t integer[4]; /* OPTION_INTEGER; OPTION_SIZE: width, height; OPTION_RECT: x, y, those */
     double number;       /* OPTION_NUMBER */
     size_t choice;       /* OPTION_CHOICE: index of the word; 0 where it was left out */
     struct frame_list frames;

@@ -7,6 +7,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "compare/mask.h"
 #include "compare/metric.h"
 #include "difference.h"
 #include "footage.h"
@@ -15,7 +16,8 @@ struct comparison {
     const struct kiln_compare_params *params;
     struct kiln_footage *footage[2]; /* reference, test */
     struct kiln_metric_set set;
-    struct kiln_difference_plan diff;
+    struct kiln_difference_plan diff, error_map;
+    struct kiln_mask mask; /* of the size of the frame before */
     struct kiln_threads *threads;
     struct kiln_compare_result result;
     double sums[KILN_MAX_COLUMNS];
@@ -93,32 +95,75 @@ static bool compare_subjects(struct comparison *comparison,
         frame->verdict = KILN_COMPARE_DIFFERENT;
         frame->message = error->message;
     }
-    if (ok && params->diff)
-        ok = kiln_difference_write(&comparison->diff, frame->name, number, subjects[0], subjects[1],
-                                   measurement.errors, error);
+    const struct kiln_difference_plan *plans[] = {
+        params->diff ? &comparison->diff : NULL, params->error_map ? &comparison->error_map : NULL};
+    for (size_t i = 0; i < 2; i++)
+        ok = ok && (!plans[i] || kiln_difference_write(plans[i], frame->name, number, subjects[0],
+                                                       subjects[1], measurement.errors, error));
     kiln_measurement_finish(&measurement);
     return ok || error->code == KILN_FRAME_FAILED;
 }
 
 /* Decodes both sides even if the first fails, so that they stay in step. */
-static bool load_subjects(struct comparison *comparison, const char *frame,
-                          struct kiln_subject *subjects[2], struct kiln_error *error)
+static bool load_images(struct comparison *comparison, struct kiln_asset_image *images[2],
+                        struct kiln_error *error)
 {
     struct kiln_error errors[2] = {0};
+    for (int i = 0; i < 2; i++) {
+        images[i] = kiln_footage_take(comparison->footage[i], &errors[i]);
+        if (!images[i] && kiln_footage_kind(comparison->footage[i]) == KILN_FOOTAGE_VIDEO)
+            comparison->ended = true;
+    }
+    *error = images[0] ? errors[1] : errors[0];
+    return images[0] && images[1];
+}
+
+/* The mask for a pair of pictures; none for those of two sizes, which differ anyway. */
+static bool make_mask(struct comparison *comparison, struct kiln_asset_image *const images[2],
+                      const struct kiln_mask **mask, struct kiln_error *error)
+{
+    const struct kiln_compare_params *params = comparison->params;
+    uint32_t width = images[0]->width, height = images[0]->height;
+    *mask = NULL;
+    if (params->mask_count == 0 || width != images[1]->width || height != images[1]->height)
+        return true;
+    *mask = &comparison->mask;
+    return (comparison->mask.width == width && comparison->mask.height == height) ||
+           kiln_mask_make(&comparison->mask, params->masks, params->mask_count, width, height,
+                          error);
+}
+
+static bool make_subjects(struct comparison *comparison, const char *frame,
+                          struct kiln_asset_image *const images[2],
+                          struct kiln_subject *subjects[2], struct kiln_error *error)
+{
+    const struct kiln_mask *mask;
+    if (!make_mask(comparison, images, &mask, error))
+        return false;
     for (int i = 0; i < 2; i++) {
         char name[KILN_PATH_SIZE]; /* for messages */
         bool still = kiln_footage_kind(comparison->footage[i]) == KILN_FOOTAGE_STILL;
         snprintf(name, sizeof name, "%s%s%s", kiln_footage_path(comparison->footage[i]),
                  still ? "" : ": frame ", still ? "" : frame);
-        struct kiln_asset_image *image = kiln_footage_take(comparison->footage[i], &errors[i]);
-        if (!image && kiln_footage_kind(comparison->footage[i]) == KILN_FOOTAGE_VIDEO)
-            comparison->ended = true;
-        if (image)
-            subjects[i] = kiln_subject_create(image, name, comparison->threads, &errors[i]);
-        kiln_asset_image_destroy(&image);
+        subjects[i] = kiln_subject_create(images[i], mask ? mask->masked : NULL, name,
+                                          comparison->threads, error);
+        if (!subjects[i])
+            return false;
     }
-    *error = subjects[0] ? errors[1] : errors[0];
-    return subjects[0] && subjects[1];
+    if (mask)
+        kiln_mask_apply(mask, subjects[0], subjects[1]);
+    return true;
+}
+
+static bool load_subjects(struct comparison *comparison, const char *frame,
+                          struct kiln_subject *subjects[2], struct kiln_error *error)
+{
+    struct kiln_asset_image *images[2] = {NULL, NULL};
+    bool ok = load_images(comparison, images, error) &&
+              make_subjects(comparison, frame, images, subjects, error);
+    for (int i = 0; i < 2; i++)
+        kiln_asset_image_destroy(&images[i]);
+    return ok;
 }
 
 static bool compare_frame(struct comparison *comparison, struct kiln_compare_frame *frame,
@@ -290,10 +335,12 @@ static bool prepare(struct comparison *comparison, struct kiln_error *error)
     comparison->result.sequence = kiln_footage_kind(comparison->footage[0]) != KILN_FOOTAGE_STILL;
     comparison->result.column_count = comparison->set.count;
     memcpy(comparison->result.columns, comparison->set.columns, sizeof comparison->result.columns);
+    bool sequence = comparison->result.sequence;
     if (!check_kinds(comparison, error) ||
-        (params->diff &&
-         !kiln_difference_plan_make(&comparison->diff, params->diff, comparison->result.sequence,
-                                    params->overwrite, error)))
+        (params->diff && !kiln_difference_plan_make(&comparison->diff, params->diff, false,
+                                                    sequence, params->overwrite, error)) ||
+        (params->error_map && !kiln_difference_plan_make(&comparison->error_map, params->error_map,
+                                                         true, sequence, params->overwrite, error)))
         return false;
     comparison->threads = kiln_threads_create(params->threads);
     return comparison->threads ||
@@ -311,6 +358,7 @@ bool kiln_compare(const struct kiln_compare_params *params, struct kiln_compare_
     found->total_s = kiln_clock_seconds() - start_s;
     *result = *found;
     kiln_threads_destroy(&comparison.threads);
+    kiln_mask_finish(&comparison.mask);
     kiln_footage_close(&comparison.footage[0]);
     kiln_footage_close(&comparison.footage[1]);
     return ok;

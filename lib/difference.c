@@ -19,11 +19,11 @@ static bool is_folder(const char *path)
            (stat(path, &status) == 0 && S_ISDIR(status.st_mode));
 }
 
-bool kiln_difference_plan_make(struct kiln_difference_plan *plan, const char *path, bool sequence,
-                               bool overwrite, struct kiln_error *error)
+bool kiln_difference_plan_make(struct kiln_difference_plan *plan, const char *path, bool map_alone,
+                               bool sequence, bool overwrite, struct kiln_error *error)
 {
     *plan = (struct kiln_difference_plan){
-        .path = path, .overwrite = overwrite, .folder = is_folder(path)};
+        .path = path, .map_alone = map_alone, .overwrite = overwrite, .folder = is_folder(path)};
     if (plan->folder)
         return true;
     const char *dot = strrchr(path, '.');
@@ -75,6 +75,12 @@ static void draw_panels(const struct kiln_subject *reference, const struct kiln_
     }
 }
 
+static void draw_map(const float *errors, size_t pixels, uint8_t *display)
+{
+    for (size_t i = 0; i < pixels; i++)
+        kiln_magma_color(errors[i], display + 4 * i);
+}
+
 /* Encodes the picture into the open file. */
 static bool encode(const struct kiln_picture *picture, struct kiln_temporary *file,
                    struct kiln_error *error)
@@ -101,12 +107,16 @@ bool kiln_difference_write(const struct kiln_difference_plan *plan, const char *
     struct kiln_temporary file = {0};
     if (!kiln_target_check(path, plan->overwrite, error) || !kiln_make_parent_folders(path, error))
         return false;
+    uint32_t width = (plan->map_alone ? 1 : PANELS) * reference->width;
     struct kiln_picture *picture =
-        kiln_picture_create(PANELS * reference->width, reference->height, 8, NULL, NULL, 0, error);
+        kiln_picture_create(width, reference->height, 8, NULL, NULL, 0, error);
     if (!picture)
         return false;
     picture->frame = number;
-    draw_panels(reference, test, errors, picture->display);
+    if (plan->map_alone)
+        draw_map(errors, (size_t)width * reference->height, picture->display);
+    else
+        draw_panels(reference, test, errors, picture->display);
     bool ok = kiln_temporary_open(&file, path, error);
     if (ok && encode(picture, &file, error))
         ok = kiln_temporary_commit(&file, plan->overwrite, error);

@@ -10,6 +10,7 @@
 
 struct conversion {
     const struct kiln_asset_image *image;
+    const uint8_t *masked; /* or NULL */
     struct kiln_subject *subject;
     float linear_of[256], level_of[256]; /* for eight bits */
     atomic_size_t bad;                   /* the first pixel that is not finite; SIZE_MAX: none */
@@ -58,6 +59,14 @@ static void convert_bytes(const struct conversion *conversion, size_t begin, siz
         subject->alpha[i] = (float)((const uint8_t *)conversion->image->pixels)[4 * i + 3] / 255.0f;
 }
 
+static void put_black(const struct kiln_subject *subject, size_t pixel)
+{
+    for (size_t c = 0; c < 3; c++)
+        subject->linear[3 * pixel + c] = subject->levels[3 * pixel + c] = 0.0f;
+    if (subject->alpha)
+        subject->alpha[pixel] = 1.0f;
+}
+
 static void note_bad(struct conversion *conversion, size_t pixel)
 {
     size_t first = atomic_load(&conversion->bad);
@@ -90,7 +99,9 @@ static void convert_values(struct conversion *conversion, size_t begin, size_t e
         }
         if (subject->alpha)
             subject->alpha[i] = alpha;
-        if (!finite)
+        if (!finite && conversion->masked && conversion->masked[i])
+            put_black(subject, i);
+        else if (!finite)
             note_bad(conversion, i);
     }
 }
@@ -126,10 +137,11 @@ static struct kiln_subject *allocate(const struct kiln_asset_image *image)
     return subject;
 }
 
-struct kiln_subject *kiln_subject_create(const struct kiln_asset_image *image, const char *name,
+struct kiln_subject *kiln_subject_create(const struct kiln_asset_image *image,
+                                         const uint8_t *masked, const char *name,
                                          struct kiln_threads *threads, struct kiln_error *error)
 {
-    struct conversion conversion = {.image = image, .subject = allocate(image)};
+    struct conversion conversion = {.image = image, .masked = masked, .subject = allocate(image)};
     if (!conversion.subject) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory to compare %u x %u pixels", name,
                        image->width, image->height);

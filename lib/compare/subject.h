@@ -17,9 +17,11 @@ struct kiln_subject {
     float *alpha;      /* 0..1; NULL without alpha */
 };
 
-/* name stands for the picture in messages. NULL with KILN_INVALID_INPUT when a value is not finite
+/* masked, a byte a pixel or NULL, is 1 where values need not be finite: those become black. name
+ * stands for the picture in messages. NULL with KILN_INVALID_INPUT when another value is not finite
  * (the message says where), KILN_DEVICE_FAILED when memory is short. */
-struct kiln_subject *kiln_subject_create(const struct kiln_asset_image *image, const char *name,
+struct kiln_subject *kiln_subject_create(const struct kiln_asset_image *image,
+                                         const uint8_t *masked, const char *name,
                                          struct kiln_threads *threads, struct kiln_error *error);
 void kiln_subject_destroy(struct kiln_subject **subject);
 

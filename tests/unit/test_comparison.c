@@ -8,6 +8,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "asset/image.h"
 #include "support/pictures.h"
 
 struct sequences {
@@ -141,12 +142,141 @@ static void requests_without_sense_are_refused(void **state)
     test_remove_folder(s.folder);
 }
 
+/* ---- Masks -------------------------------------------------------------------------------- */
+
+/* A PNG of one colour with a box of another. */
+static void write_box(const char *path, uint32_t width, uint32_t height, uint8_t ground,
+                      const uint32_t box[4], uint8_t level)
+{
+    struct kiln_error error = {0};
+    const struct kiln_frame_range range = {0, 0};
+    struct kiln_output_params params = test_output_params(path, &range);
+    params.width = width;
+    params.height = height;
+    params.overwrite = true;
+    struct kiln_output *output = kiln_output_open(&params, &error);
+    assert_non_null(output);
+    struct kiln_picture *picture = test_picture(output, &params, 0);
+    for (size_t i = 0; i < (size_t)width * height; i++) {
+        bool inside = i % width - box[0] < box[2] && i / width - box[1] < box[3];
+        memset((uint8_t *)picture->display + 4 * i, inside ? level : ground, 3);
+    }
+    assert_true(kiln_output_write(output, picture, &error));
+    assert_true(kiln_output_finish(output, &error));
+    kiln_output_close(&output);
+}
+
+struct masked {
+    char folder[32], reference[64], test[64], mask[64], map[64];
+    struct kiln_compare_params params;
+    struct kiln_compare_result result;
+    struct kiln_error error;
+};
+
+static const uint32_t fault[4] = {20, 10, 6, 4}; /* of the test, in a picture of 64 x 36 */
+
+static void masked_setup(struct masked *m)
+{
+    *m = (struct masked){.params = KILN_COMPARE_DEFAULTS};
+    test_make_folder(m->folder);
+    snprintf(m->reference, sizeof m->reference, "%s/reference.png", m->folder);
+    snprintf(m->test, sizeof m->test, "%s/test.png", m->folder);
+    snprintf(m->mask, sizeof m->mask, "%s/mask.png", m->folder);
+    snprintf(m->map, sizeof m->map, "%s/map.png", m->folder);
+    write_box(m->reference, 64, 36, 90, fault, 90);
+    write_box(m->test, 64, 36, 90, fault, 200);
+    m->params.reference = m->reference;
+    m->params.test = m->test;
+}
+
+/* Pixels that differ with one mask, or -1 for an error. */
+static int differing(struct masked *m, const struct kiln_compare_mask *mask)
+{
+    m->params.masks = mask;
+    m->params.mask_count = mask ? 1 : 0;
+    m->error = (struct kiln_error){0};
+    if (!kiln_compare(&m->params, &m->result, &m->error))
+        return -1;
+    for (size_t i = 0; i < m->result.column_count; i++) {
+        if (strcmp(m->result.columns[i].name, "differing.count") == 0)
+            return (int)m->result.worst[i];
+    }
+    return -1;
+}
+
+static void masked_rectangles_are_not_judged(void **state)
+{
+    (void)state;
+    struct masked m;
+    masked_setup(&m);
+    assert_int_equal(differing(&m, NULL), 24);
+    assert_false(m.result.same);
+    assert_int_equal(differing(&m, &(struct kiln_compare_mask){20, 10, 6, 4, NULL}), 0);
+    assert_true(m.result.same);
+    assert_int_equal(differing(&m, &(struct kiln_compare_mask){21, 10, 6, 4, NULL}), 4);
+    assert_int_equal(differing(&m, &(struct kiln_compare_mask){20, 11, UINT32_MAX, 2, NULL}), 12);
+    assert_int_equal(differing(&m, &(struct kiln_compare_mask){64, 0, 5, 5, NULL}), 24);
+    assert_int_equal(differing(&m, &(struct kiln_compare_mask){0, 0, 0, 36, NULL}), 24);
+    assert_int_equal(differing(&m, &(struct kiln_compare_mask){0, 0, 64, 36, NULL}), -1);
+    assert_int_equal(m.error.code, KILN_USAGE);
+    assert_int_equal(differing(&m, &(struct kiln_compare_mask){0, 0, 64, 35, NULL}), 0);
+    test_remove_folder(m.folder);
+}
+
+static void mask_pictures_must_fit(void **state)
+{
+    (void)state;
+    struct masked m;
+    masked_setup(&m);
+    const struct kiln_compare_mask mask = {.picture = m.mask};
+    write_box(m.mask, 64, 36, 255, fault, 0);
+    assert_int_equal(differing(&m, &mask), 0);
+    write_box(m.mask, 64, 36, 255, fault, 1);
+    assert_int_equal(differing(&m, &mask), 24);
+    write_box(m.mask, 64, 36, 0, fault, 255);
+    assert_int_equal(differing(&m, &mask), 24);
+    write_box(m.mask, 64, 36, 0, fault, 0);
+    assert_int_equal(differing(&m, &mask), -1);
+    assert_int_equal(m.error.code, KILN_USAGE);
+    write_box(m.mask, 63, 36, 255, fault, 0);
+    assert_int_equal(differing(&m, &mask), -1);
+    assert_int_equal(m.error.code, KILN_INVALID_INPUT);
+    assert_non_null(strstr(m.error.message, "63 x 36"));
+    assert_int_equal(m.result.counts[KILN_COMPARE_UNREADABLE], 1);
+    test_remove_folder(m.folder);
+}
+
+static void the_error_map_is_black_where_nothing_is_judged(void **state)
+{
+    (void)state;
+    struct masked m;
+    masked_setup(&m);
+    m.params.error_map = m.map;
+    m.params.overwrite = true;
+    for (int masked = 0; masked < 2; masked++) {
+        const struct kiln_compare_mask mask = {20, 10, 6, 4, NULL};
+        assert_int_equal(differing(&m, masked ? &mask : NULL), masked ? 0 : 24);
+        struct kiln_asset_image *map = kiln_asset_image_load(m.map, &m.error);
+        assert_non_null(map);
+        assert_true(map->width == 64 && map->height == 36);
+        const uint8_t *centre = (const uint8_t *)map->pixels + 4 * (12 * 64 + 23);
+        const uint8_t *corner = (const uint8_t *)map->pixels + 4 * (35 * 64 + 63);
+        assert_true((centre[0] > 200) == !masked);
+        assert_true(corner[0] < 8 && corner[1] < 8 && corner[2] < 8);
+        kiln_asset_image_destroy(&map);
+    }
+    test_remove_folder(m.folder);
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(frames_are_told_and_summed_up),
         cmocka_unit_test(threads_change_nothing),
         cmocka_unit_test(requests_without_sense_are_refused),
+        cmocka_unit_test(masked_rectangles_are_not_judged),
+        cmocka_unit_test(mask_pictures_must_fit),
+        cmocka_unit_test(the_error_map_is_black_where_nothing_is_judged),
     };
     return cmocka_run_group_tests_name("comparison", tests, NULL, NULL);
 }

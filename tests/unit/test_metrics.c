@@ -43,7 +43,7 @@ static struct kiln_subject *subject_of(const struct kiln_asset_image *image)
     struct kiln_error error = {0};
     struct kiln_threads *threads = kiln_threads_create(2);
     assert_non_null(threads);
-    struct kiln_subject *subject = kiln_subject_create(image, "picture", threads, &error);
+    struct kiln_subject *subject = kiln_subject_create(image, NULL, "picture", threads, &error);
     kiln_threads_destroy(&threads);
     assert_string_equal(error.message, "");
     return subject;
@@ -337,7 +337,7 @@ static void what_is_not_finite_is_refused(void **state)
             const struct kiln_asset_image image = {3, 2, 4, KILN_IMAGE_F32, .pixels = pixels};
             struct kiln_error error = {0};
             struct kiln_threads *threads = kiln_threads_create(1);
-            assert_null(kiln_subject_create(&image, "x.exr", threads, &error));
+            assert_null(kiln_subject_create(&image, NULL, "x.exr", threads, &error));
             assert_int_equal(error.code, KILN_INVALID_INPUT);
             assert_string_equal(error.message, "x.exr: pixel 1,1 has a value that is not finite");
             kiln_threads_destroy(&threads);

@@ -174,6 +174,59 @@ $ kiln compare -q grey.png box.png --diff grey.png/d.png
 2|kiln: grey.png: not a folder, but grey.png/d.png needs one here
 = 6
 
+$ kiln compare -q grey.png box.png --error-map out/map.png --diff out/both.png
+= 1
+$ ffprobe -v error -show_entries stream=width,height -of csv=p=0 out/map.png
+1|64,48
+$ bytes() { ffmpeg -nostdin -loglevel error -i $1 -vf crop=64:48:$2:0 -f rawvideo -pix_fmt rgb24 - | sha256sum; }
+> [ "$(bytes out/map.png 0)" = "$(bytes out/both.png 128)" ] && echo the same map
+1|the same map
+$ kiln compare -q grey.png box.png --error-map out/map.png
+2|kiln: out/map.png: the file exists (--force replaces it)
+= 6
+$ kiln compare -q grey.png box.png --error-map out/map.exr
+2|kiln: out/map.exr: pictures of differences are PNG; the name must end in .png, or be a folder
+= 2
+
+What is not judged: rectangles and masks, black where nothing is.
+
+$ kiln compare -q grey.png box.png --ignore 20,10,5x5
+$ kiln compare -q grey.png box.png --ignore 20,10,5x4 --limit abs.max=0
+= 1
+$ kiln compare -q grey.png box.png -i 20,10,5x4 -i 0,14,4000000000x1 --limit abs.max=0
+$ . ./picture.sh; picture 'color=c=white:s=64x48,format=rgb24,drawbox=x=20:y=10:w=5:h=5:color=black:t=fill' mask.png
+> kiln compare -q grey.png box.png --mask mask.png --limit abs.max=0
+$ . ./picture.sh; picture 'color=c=white:s=64x48,format=rgb24,drawbox=x=21:y=10:w=5:h=5:color=black:t=fill' aside.png
+> kiln compare grey.png box.png --mask aside.png | grep -E 'differing.count|largest'
+1|  differing.count             5          -
+1|  largest difference at 20,10; densest window of 32x32 at 0,0: 5 pixels
+$ kiln compare -q grey.png box.png --mask aside.png --ignore 20,0,1x48 --limit abs.max=0
+$ kiln compare -q grey.png grey.png --ignore 0,0,64x48
+2|kiln: the masks cover all 64 x 48 pixels: nothing is left to judge
+= 2
+$ kiln compare -q grey.png box.png --ignore 0,0,64x24 --ignore 0,24,64x24
+2|kiln: the masks cover all 64 x 48 pixels: nothing is left to judge
+= 2
+$ kiln compare -q grey.png box.png --ignore 64,48,9x9
+= 1
+$ kiln compare -q grey.png grey.png --mask tall.png
+2|tall.png: the mask has 48 x 64 pixels, the pictures 64 x 48
+= 3
+$ kiln compare -q grey.png grey.png --mask nowhere.png
+2|nowhere.png: the image cannot be opened: No such file or directory
+= 3
+$ kiln compare -q grey.png tall.png --mask mask.png
+= 1
+$ kiln compare -q grey.png grey.png --ignore 1,2,3
+2|kiln: compare: --ignore: found '1,2,3', expected X,Y,WxH in pixels, such as 0,0,320x24
+= 2
+$ kiln compare -q grey.png grey.png --ignore 1,2,0x3
+2|kiln: compare: --ignore: found '1,2,0x3', expected X,Y,WxH in pixels, such as 0,0,320x24
+= 2
+$ kiln compare -q grey.png grey.png --ignore=-1,2,3x3
+2|kiln: compare: --ignore: found '-1,2,3x3', expected X,Y,WxH in pixels, such as 0,0,320x24
+= 2
+
 Sequences: folders pair by name, patterns and videos by number.
 
 $ mkdir a b; for i in 0 1 2 3; do cp grey.png a/f_000$i.png; cp grey.png b/f_000$i.png; done
@@ -215,11 +268,13 @@ $ kiln compare -q a b --diff out/b/
 $ ls out out/b
 1|out:
 1|b
+1|both.png
 1|d.png
 1|f_00.png
 1|f_01.png
 1|f_02.png
 1|f_03.png
+1|map.png
 1|
 1|out/b:
 1|f_0000.png
@@ -326,6 +381,12 @@ $ kiln compare -q nan.exr nan.exr
 2|nan.exr: pixel 1,1 has a value that is not finite
 = 3
 $ kiln compare -q inf.exr one.exr --range ldr
+2|inf.exr: pixel 1,0 has a value that is not finite
+= 3
+
+$ kiln compare -q one.exr nan.exr --ignore 1,1,1x1
+$ kiln compare -q nan.exr one.exr --ignore 1,1,1x1 --limit abs.max=0
+$ kiln compare -q inf.exr nan.exr --ignore 1,1,1x1
 2|inf.exr: pixel 1,0 has a value that is not finite
 = 3
 
