@@ -5,7 +5,7 @@
 #include "options.h"
 
 struct command {
-    const char *name;
+    const char *name;        /* "render", or two words: "test approve" */
     const char *summary;     /* a line */
     const char *operands;    /* of the synopsis, "SCENE..." */
     const char *description; /* paragraphs, with an empty line between two */
@@ -20,6 +20,13 @@ extern const struct command render_command, compare_command, check_command, devi
 
 /* All of them, in the order of the help; NULL ends the list. */
 extern const struct command *const commands[];
+
+/* The command whose name is the first word, or the first and the second one; the longer name
+ * counts. second may be NULL. NULL when there is none. */
+const struct command *command_find(const char *first, const char *second);
+
+/* Whether the command is one of two words whose first is `group`. */
+bool command_is_under(const struct command *command, const char *group);
 
 /* Every command takes it, and it comes last in its table. */
 #define HELP_OPTION                                                                                \

@@ -103,6 +103,30 @@ static void print_option(const struct option *option)
     print_wrapped(stdout, text, OPTION_INDENT, OPTION_INDENT);
 }
 
+static void print_repeating(const struct command *command)
+{
+    printf("\nOptions and operands may come in any order; '--' ends the options. Of an\n"
+           "option that is given twice the last one counts, but these add up:");
+    for (size_t i = 0; i < command->option_count; i++) {
+        if (command->options[i].repeats)
+            printf(" --%s", command->options[i].name);
+    }
+    printf(".\n");
+}
+
+/* The commands of two words that begin with this one. */
+static void print_group(const struct command *command)
+{
+    bool any = false;
+    for (size_t i = 0; commands[i]; i++) {
+        if (!command_is_under(commands[i], command->name))
+            continue;
+        printf("%s  %-16s %s\n", any ? "" : "\nRelated commands:\n", commands[i]->name,
+               commands[i]->summary);
+        any = true;
+    }
+}
+
 void help_print_command(const struct command *command)
 {
     printf("usage: kiln %s [OPTION...]%s%s\n\n", command->name, *command->operands ? " " : "",
@@ -114,15 +138,9 @@ void help_print_command(const struct command *command)
         print_option(&command->options[i]);
         any_repeats = any_repeats || command->options[i].repeats;
     }
-    if (!any_repeats)
-        return;
-    printf("\nOptions and operands may come in any order; '--' ends the options. Of an\n"
-           "option that is given twice the last one counts, but these add up:");
-    for (size_t i = 0; i < command->option_count; i++) {
-        if (command->options[i].repeats)
-            printf(" --%s", command->options[i].name);
-    }
-    printf(".\n");
+    if (any_repeats)
+        print_repeating(command);
+    print_group(command);
 }
 
 void help_print_overview(FILE *out)
@@ -131,10 +149,10 @@ void help_print_overview(FILE *out)
                  "usage: kiln COMMAND [OPTION...] [OPERAND...]\n"
                  "       kiln --version | --help\n\ncommands:\n");
     for (size_t i = 0; commands[i]; i++)
-        fprintf(out, "  %-12s %s\n", commands[i]->name, commands[i]->summary);
+        fprintf(out, "  %-16s %s\n", commands[i]->name, commands[i]->summary);
     fprintf(out, "\ntopics of 'kiln help TOPIC', beside the commands:\n");
     for (size_t i = 0; i < TOPIC_COUNT; i++)
-        fprintf(out, "  %-12s %s\n", topics[i].name, topics[i].summary);
+        fprintf(out, "  %-16s %s\n", topics[i].name, topics[i].summary);
     fprintf(out, "\nA first picture:\n"
                  "  kiln render scenes/fire_beam.yaml -o fire.png --frames 60\n");
 }
@@ -157,15 +175,24 @@ static int run(const struct arguments *arguments)
         return 0;
     }
     const char *name = arguments->operands[0];
+    const char *second = arguments->operand_count > 1 ? arguments->operands[1] : NULL;
+    const struct command *command = command_find(name, second);
+    if (second && (!command || strcmp(command->name, name) == 0)) {
+        for (size_t i = 0; commands[i]; i++) {
+            char both[64];
+            snprintf(both, sizeof both, "%s %s", name, second);
+            if (command_is_under(commands[i], name))
+                return unknown_topic(both);
+        }
+        return report(KILN_USAGE, "help: one operand too many, '%s'", second);
+    }
+    if (command) {
+        help_print_command(command);
+        return 0;
+    }
     for (size_t i = 0; i < TOPIC_COUNT; i++) {
         if (strcmp(topics[i].name, name) == 0)
             return topics[i].write(stdout) ? 0 : KILN_IO;
-    }
-    for (size_t i = 0; commands[i]; i++) {
-        if (strcmp(commands[i]->name, name) == 0) {
-            help_print_command(commands[i]);
-            return 0;
-        }
     }
     return unknown_topic(name);
 }
@@ -179,6 +206,6 @@ const struct command help_command = {
     .description = "Explains a command or a topic; without one, lists both.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
-    .most_operands = 1,
+    .most_operands = 2, /* a command of two words */
     .run = run,
 };

@@ -18,6 +18,32 @@ size_t command_names(const char *names[MAX_COMMANDS])
     return count;
 }
 
+/* Whether two words joined by a space are the name. */
+static bool is_name(const char *name, const char *first, const char *second)
+{
+    size_t length = strlen(first);
+    return strncmp(name, first, length) == 0 && name[length] == ' ' &&
+           strcmp(name + length + 1, second) == 0;
+}
+
+const struct command *command_find(const char *first, const char *second)
+{
+    const struct command *found = NULL;
+    for (size_t i = 0; commands[i]; i++) {
+        if (second && is_name(commands[i]->name, first, second))
+            return commands[i];
+        if (strcmp(commands[i]->name, first) == 0)
+            found = commands[i];
+    }
+    return found;
+}
+
+bool command_is_under(const struct command *command, const char *group)
+{
+    size_t length = strlen(group);
+    return strncmp(command->name, group, length) == 0 && command->name[length] == ' ';
+}
+
 /* A program started with a standard stream closed would get that number for the next file that it
  * opens, and its messages would end up in a picture. Each is opened the wrong way round here, so
  * that using it fails as it would have. */
@@ -85,9 +111,9 @@ int main(int argc, char **argv)
         help_print_overview(stdout);
         return report_finish(0);
     }
-    for (size_t i = 0; commands[i]; i++) {
-        if (strcmp(commands[i]->name, name) == 0)
-            return report_finish(run_command(commands[i], argc - 2, argv + 2));
-    }
-    return unknown_command(name);
+    const struct command *command = command_find(name, argc > 2 ? argv[2] : NULL);
+    if (!command)
+        return unknown_command(name);
+    int words = strchr(command->name, ' ') ? 2 : 1;
+    return report_finish(run_command(command, argc - 1 - words, argv + 1 + words));
 }

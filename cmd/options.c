@@ -166,6 +166,11 @@ static int read_value(const struct parser *parser, struct option_use *use)
         return read_rect(use->text, use->integer)
                    ? 0
                    : wrong_value(parser, use, "X,Y,WxH in pixels, such as 0,0,320x24");
+    case OPTION_PART:
+        return read_two(use->text, '/', use->integer) && use->integer[0] <= use->integer[1] &&
+                       use->integer[1] <= UINT32_MAX
+                   ? 0
+                   : wrong_value(parser, use, "I/N, the I-th of N parts, such as 1/4");
     case OPTION_FRAMES:
         return frame_list_parse(use->text, &use->frames)
                    ? 0
@@ -280,4 +285,74 @@ const struct option_use *arguments_last(const struct arguments *arguments, const
             return &arguments->uses[i - 1];
     }
     return NULL;
+}
+
+bool arguments_flag(const struct arguments *arguments, const char *name)
+{
+    return arguments_last(arguments, name) != NULL;
+}
+
+const char *arguments_text(const struct arguments *arguments, const char *name,
+                           const char *fallback)
+{
+    const struct option_use *use = arguments_last(arguments, name);
+    return use ? use->text : fallback;
+}
+
+uint32_t arguments_integer(const struct arguments *arguments, const char *name, uint32_t fallback)
+{
+    const struct option_use *use = arguments_last(arguments, name);
+    return use ? (uint32_t)use->integer[0] : fallback;
+}
+
+double arguments_number(const struct arguments *arguments, const char *name, double fallback)
+{
+    const struct option_use *use = arguments_last(arguments, name);
+    return use ? use->number : fallback;
+}
+
+size_t arguments_choice(const struct arguments *arguments, const char *name, size_t fallback)
+{
+    const struct option_use *use = arguments_last(arguments, name);
+    return use ? use->choice : fallback;
+}
+
+bool value_list_create(struct value_list *list, const struct arguments *arguments, const char *name)
+{
+    *list = (struct value_list){0};
+    size_t size = 1, most = 1;
+    for (size_t i = 0; i < arguments->use_count; i++) {
+        if (strcmp(arguments->uses[i].option->name, name) != 0)
+            continue;
+        size += strlen(arguments->uses[i].text) + 1;
+        most++;
+        for (const char *c = arguments->uses[i].text; *c; c++)
+            most += *c == ',';
+    }
+    list->cut = calloc(size, 1);
+    list->items = calloc(most, sizeof *list->items);
+    if (!list->cut || !list->items)
+        return false;
+    char *end = list->cut;
+    for (size_t i = 0; i < arguments->use_count; i++) {
+        const struct option_use *use = &arguments->uses[i];
+        if (strcmp(use->option->name, name) != 0)
+            continue;
+        size_t length = strlen(use->text) + 1;
+        char *rest = memcpy(end, use->text, length);
+        end += length;
+        if (!use->option->commas)
+            list->items[list->count++] = rest;
+        else
+            for (char *piece = strsep(&rest, ","); piece; piece = strsep(&rest, ","))
+                list->items[list->count++] = piece;
+    }
+    return true;
+}
+
+void value_list_free(struct value_list *list)
+{
+    free(list->items);
+    free(list->cut);
+    *list = (struct value_list){0};
 }

@@ -13,6 +13,7 @@ enum option_kind {
     OPTION_SIZE,    /* WxH */
     OPTION_RATIO,   /* N/D or a decimal fraction */
     OPTION_RECT,    /* X,Y,WxH */
+    OPTION_PART,    /* I/N: the I-th of N parts */
     OPTION_FRAMES,  /* 0-149,200 */
     OPTION_PAIRS,   /* KEY=VALUE; more of them after commas where `commas` is set */
 };
@@ -35,7 +36,8 @@ struct option {
 struct option_use {
     const struct option *option;
     const char *text;    /* the value; NULL for a flag, or where it was left out */
-    uint64_t integer[4]; /* OPTION_INTEGER; OPTION_SIZE: width, height; OPTION_RECT: x, y, those */
+    uint64_t integer[4]; /* OPTION_INTEGER; OPTION_SIZE: width, height; _RECT: x, y, those; _PART:
+                            I, N */
     double number;       /* OPTION_NUMBER */
     size_t choice;       /* OPTION_CHOICE: index of the word; 0 where it was left out */
     struct frame_list frames;
@@ -58,6 +60,26 @@ void arguments_free(struct arguments *arguments);
 
 /* The last use of the option of that name, or NULL. */
 const struct option_use *arguments_last(const struct arguments *arguments, const char *name);
+
+/* The same for its value, or the fallback where it is not used. */
+bool arguments_flag(const struct arguments *arguments, const char *name);
+const char *arguments_text(const struct arguments *arguments, const char *name,
+                           const char *fallback);
+uint32_t arguments_integer(const struct arguments *arguments, const char *name, uint32_t fallback);
+double arguments_number(const struct arguments *arguments, const char *name, double fallback);
+size_t arguments_choice(const struct arguments *arguments, const char *name, size_t fallback);
+
+/* The values of every use of an option, in their order; cut at the commas where it has them. */
+struct value_list {
+    const char **items; /* into `cut` */
+    size_t count;
+    char *cut;
+};
+
+/* False when memory is short. Must be freed in both cases. */
+bool value_list_create(struct value_list *list, const struct arguments *arguments,
+                       const char *name);
+void value_list_free(struct value_list *list);
 
 /* " (did you mean 'rate'?)" for a misspelling of one of the names, or "". */
 enum { SUGGESTION_SIZE = 96 };

@@ -116,8 +116,7 @@ static const struct option options[] = {
 struct render {
     struct plan plan;
     struct kiln_render_params params;
-    char *techniques;             /* the texts, cut at the commas */
-    const char **technique_names; /* into it */
+    struct value_list techniques;
     const char *device;
     bool quiet, stats, json; /* json: standard output is lines of JSON */
     enum progress_mode progress_mode;
@@ -165,75 +164,37 @@ static bool wants_stop(void *user)
 
 /* ---- From options to parameters ------------------------------------------------------------- */
 
-/* Cuts the values of every --technique at their commas. */
-static bool split_techniques(struct render *render, const struct arguments *arguments)
-{
-    size_t size = 1, pieces = 1;
-    for (size_t i = 0; i < arguments->use_count; i++) {
-        const char *text = arguments->uses[i].option->commas ? arguments->uses[i].text : "";
-        size += strlen(text) + 1;
-        for (; *text; text++)
-            pieces += *text == ',';
-    }
-    render->techniques = calloc(size, 1);
-    render->technique_names = calloc(pieces + arguments->use_count, sizeof(char *));
-    if (!render->techniques || !render->technique_names)
-        return false;
-    char *end = render->techniques;
-    for (size_t i = 0; i < arguments->use_count; i++) {
-        if (!arguments->uses[i].option->commas)
-            continue;
-        size_t length = strlen(arguments->uses[i].text) + 1;
-        char *rest = memcpy(end, arguments->uses[i].text, length);
-        end += length;
-        for (char *piece = strsep(&rest, ","); piece; piece = strsep(&rest, ","))
-            render->technique_names[render->params.technique_count++] = piece;
-    }
-    render->params.techniques = render->technique_names;
-    return true;
-}
-
-static size_t choice_of(const struct arguments *arguments, const char *name, size_t fallback)
-{
-    const struct option_use *use = arguments_last(arguments, name);
-    return use ? use->choice : fallback;
-}
-
-static uint32_t integer_of(const struct arguments *arguments, const char *name, uint32_t fallback)
-{
-    const struct option_use *use = arguments_last(arguments, name);
-    return use ? (uint32_t)use->integer[0] : fallback;
-}
-
 static bool read_options(struct render *render, const struct arguments *arguments)
 {
     struct kiln_render_params *params = &render->params;
     *params = KILN_RENDER_DEFAULTS;
-    params->threads = integer_of(arguments, "threads", params->threads);
-    params->quality = integer_of(arguments, "quality", params->quality);
-    params->png_bits = choice_of(arguments, "png-bits", 0) == 0 ? 8 : 16;
-    params->exr_bits = choice_of(arguments, "exr-bits", 0) == 0 ? 16 : 32;
-    params->overwrite = arguments_last(arguments, "force") != NULL;
+    params->threads = arguments_integer(arguments, "threads", params->threads);
+    params->quality = arguments_integer(arguments, "quality", params->quality);
+    params->png_bits = arguments_choice(arguments, "png-bits", 0) == 0 ? 8 : 16;
+    params->exr_bits = arguments_choice(arguments, "exr-bits", 0) == 0 ? 16 : 32;
+    params->overwrite = arguments_flag(arguments, "force");
 
-    const struct option_use *device = arguments_last(arguments, "device");
-    const struct option_use *timeout = arguments_last(arguments, "frame-timeout");
-    render->device = device ? device->text : NULL;
-    render->frame_timeout_s = timeout ? timeout->number : 0;
+    render->device = arguments_text(arguments, "device", NULL);
+    render->frame_timeout_s = arguments_number(arguments, "frame-timeout", 0);
 
     bool terminal = isatty(STDERR_FILENO) == 1;
-    enum progress_mode mode = (enum progress_mode)choice_of(
+    enum progress_mode mode = (enum progress_mode)arguments_choice(
         arguments, "progress", terminal ? PROGRESS_TTY : PROGRESS_LINES);
-    render->quiet = arguments_last(arguments, "quiet") != NULL;
+    render->quiet = arguments_flag(arguments, "quiet");
     render->progress_mode = render->quiet ? PROGRESS_NONE : mode;
-    render->stats = arguments_last(arguments, "stats") != NULL;
+    render->stats = arguments_flag(arguments, "stats");
     render->json =
-        render->progress_mode == PROGRESS_NDJSON || choice_of(arguments, "stats", 0) == 1;
+        render->progress_mode == PROGRESS_NDJSON || arguments_choice(arguments, "stats", 0) == 1;
     params->state_hash = render->stats || render->progress_mode == PROGRESS_NDJSON;
     params->progress = show_frame;
     params->stop = wants_stop;
     params->user = render;
     params->log = report_log();
-    return split_techniques(render, arguments);
+    if (!value_list_create(&render->techniques, arguments, "technique"))
+        return false;
+    params->techniques = render->techniques.items;
+    params->technique_count = render->techniques.count;
+    return true;
 }
 
 /* ---- Running -------------------------------------------------------------------------------- */
@@ -345,8 +306,7 @@ static int run(const struct arguments *arguments)
     }
     watchdog_destroy(&render.watchdog);
     plan_free(&render.plan);
-    free(render.technique_names);
-    free(render.techniques);
+    value_list_free(&render.techniques);
     return code;
 }
 

@@ -7,20 +7,20 @@ $ kiln
 2|       kiln --version | --help
 2|
 2|commands:
-2|  render       render scenes into images or videos
-2|  compare      tell whether two pictures, folders or videos look the same
-2|  check        validate scenes and print them with every default
-2|  devices      list what can render on this machine, and what is missing
-2|  help         explain a command or a topic
+2|  render           render scenes into images or videos
+2|  compare          tell whether two pictures, folders or videos look the same
+2|  check            validate scenes and print them with every default
+2|  devices          list what can render on this machine, and what is missing
+2|  help             explain a command or a topic
 2|
 2|topics of 'kiln help TOPIC', beside the commands:
-2|  scene        every key of a scene file
-2|  schema       the JSON schema of scene files, for editors
-2|  techniques   the techniques of each stage
-2|  metrics      what pictures are compared by
-2|  outputs      what can be written, by suffix
-2|  exit-codes   what each exit code means
-2|  man          the manual page, for `man -l`
+2|  scene            every key of a scene file
+2|  schema           the JSON schema of scene files, for editors
+2|  techniques       the techniques of each stage
+2|  metrics          what pictures are compared by
+2|  outputs          what can be written, by suffix
+2|  exit-codes       what each exit code means
+2|  man              the manual page, for `man -l`
 2|
 2|A first picture:
 2|  kiln render scenes/fire_beam.yaml -o fire.png --frames 60
@@ -34,20 +34,20 @@ $ kiln --help
 1|       kiln --version | --help
 1|
 1|commands:
-1|  render       render scenes into images or videos
-1|  compare      tell whether two pictures, folders or videos look the same
-1|  check        validate scenes and print them with every default
-1|  devices      list what can render on this machine, and what is missing
-1|  help         explain a command or a topic
+1|  render           render scenes into images or videos
+1|  compare          tell whether two pictures, folders or videos look the same
+1|  check            validate scenes and print them with every default
+1|  devices          list what can render on this machine, and what is missing
+1|  help             explain a command or a topic
 1|
 1|topics of 'kiln help TOPIC', beside the commands:
-1|  scene        every key of a scene file
-1|  schema       the JSON schema of scene files, for editors
-1|  techniques   the techniques of each stage
-1|  metrics      what pictures are compared by
-1|  outputs      what can be written, by suffix
-1|  exit-codes   what each exit code means
-1|  man          the manual page, for `man -l`
+1|  scene            every key of a scene file
+1|  schema           the JSON schema of scene files, for editors
+1|  techniques       the techniques of each stage
+1|  metrics          what pictures are compared by
+1|  outputs          what can be written, by suffix
+1|  exit-codes       what each exit code means
+1|  man              the manual page, for `man -l`
 1|
 1|A first picture:
 1|  kiln render scenes/fire_beam.yaml -o fire.png --frames 60
@@ -164,8 +164,8 @@ $ kiln help compare
 1|are other sizes or channels. Alpha is judged on black and on white.
 1|
 1|Exit code 0: the same within the limits; 1: different; 2: usage; 3: something
-1|cannot be read or has values that are not finite; 6: --diff cannot be written.
-1|--limit replaces all default limits.
+1|cannot be read or has values that are not finite, except where it is masked; 6:
+1|--diff or --error-map cannot be written. --limit replaces all default limits.
 1|
 1|  -l, --limit METRIC=VALUE    The worst value that passes; more of them after
 1|                              commas (see 'kiln help metrics'). Default:
@@ -174,7 +174,14 @@ $ kiln help compare
 1|                              map side by side. For several frames, '%04d' or
 1|                              '####' stands for the number, and a folder gets a
 1|                              file named after each.
-1|      --force                 Let --diff replace files that exist.
+1|      --error-map FILE        Write a PNG of FLIP's error map alone, of the
+1|                              pictures' size; names as --diff.
+1|      --force                 Let --diff and --error-map replace files that
+1|                              exist.
+1|  -i, --ignore X,Y,WxH        Do not judge this rectangle: there, the test is
+1|                              taken from the reference.
+1|      --mask FILE             Do not judge where this picture, of the same size,
+1|                              is black.
 1|      --layer NAME            Layer of EXR files, such as depth or fire.
 1|                              Default: beauty.
 1|      --range auto|ldr|hdr    How FLIP judges light: clamped at white (ldr), or
@@ -195,7 +202,7 @@ $ kiln help compare
 1|  -h, --help                  Print this help.
 1|
 1|Options and operands may come in any order; '--' ends the options. Of an
-1|option that is given twice the last one counts, but these add up: --limit.
+1|option that is given twice the last one counts, but these add up: --limit --ignore --mask.
 $ kiln help check
 1|usage: kiln check [OPTION...] SCENE...
 1|
