@@ -4,9 +4,10 @@
 #define KILN_SUITE_RESULT_H
 
 #include "base/arena.h"
+#include "base/text.h"
 #include "kiln.h"
 
-enum { KILN_TEST_MAX_FRAMES = 1000 };
+enum { KILN_TEST_MAX_FRAMES = 1000, KILN_RESULT_MAX_ENTRIES = 1000 };
 
 /* What decided about a frame. */
 enum kiln_judged_by {
@@ -92,5 +93,15 @@ bool kiln_result_write(const struct kiln_result *result, const char *folder,
  * or not such a one, with line and column. */
 struct kiln_result *kiln_result_read(struct kiln_arena *arena, const char *folder,
                                      struct kiln_error *error);
+
+/* The same of a text, which must end in a zero byte that size does not count; name stands for the
+ * file in messages. */
+struct kiln_result *kiln_result_parse(struct kiln_arena *arena, const char *text, size_t size,
+                                      const char *name, struct kiln_error *error);
+
+/* Adds what write writes, as the members of a JSON object without its braces. An infinite value is
+ * null. Of more changes or notes than KILN_RESULT_MAX_ENTRIES, the last one says how many are left
+ * out. */
+void kiln_result_add_json(struct kiln_text *text, const struct kiln_result *result);
 
 #endif

@@ -1,0 +1,137 @@
+/* What a result is: the names in it, and the members of its file. */
+#include "suite/result.h"
+
+#include <stddef.h>
+
+#include "base/error.h"
+#include "suite/result_member.h"
+
+static const char *const status_names[KILN_TEST_STATUS_COUNT] = {
+    [KILN_TEST_PASS] = "pass", [KILN_TEST_SKIP] = "skip", [KILN_TEST_WARN] = "warn",
+    [KILN_TEST_NEW] = "new",   [KILN_TEST_FAIL] = "fail", [KILN_TEST_ERROR] = "error",
+};
+
+const char *kiln_test_status_name(enum kiln_test_status status)
+{
+    return status_names[status];
+}
+
+static const char *const judged_by_names[KILN_JUDGED_BY_COUNT] = {
+    [KILN_JUDGED_BY_NOTHING] = "nothing",
+    [KILN_JUDGED_BY_STATE] = "state",
+    [KILN_JUDGED_BY_PIXELS] = "pixels",
+    [KILN_JUDGED_BY_METRICS] = "metrics",
+};
+
+const char *kiln_judged_by_name(enum kiln_judged_by judged_by)
+{
+    return judged_by_names[judged_by];
+}
+
+double kiln_result_score(const struct kiln_result *result)
+{
+    double score = 0;
+    for (size_t i = 0; i < result->frame_count; i++) {
+        const struct kiln_result_frame *frame = &result->frames[i];
+        if (frame->measured && frame->score > score)
+            score = frame->score;
+    }
+    return score;
+}
+
+bool kiln_result_path(char path[KILN_PATH_SIZE], const char *folder, struct kiln_error *error)
+{
+    int length = snprintf(path, KILN_PATH_SIZE, "%s/result.json", folder);
+    return length < KILN_PATH_SIZE ||
+           kiln_error_set(error, KILN_IO, "%.200s...: the path is longer than %d bytes", folder,
+                          KILN_PATH_SIZE - 1);
+}
+
+/* ---- Members ------------------------------------------------------------------------------ */
+
+#define MEMBER(type, kind, name)                                                                   \
+    {                                                                                              \
+#name, KILN_MEMBER_##kind, offsetof(struct type, name)                                     \
+    }
+#define MEMBERS_END                                                                                \
+    {                                                                                              \
+        NULL, KILN_MEMBER_END, 0                                                                   \
+    }
+
+const struct kiln_member kiln_result_members[] = {
+    MEMBER(kiln_result, TEXT, name),
+    MEMBER(kiln_result, TEXT, test),
+    MEMBER(kiln_result, TEXT, scene),
+    MEMBER(kiln_result, TEXT, about),
+    MEMBER(kiln_result, TEXT, golden),
+    MEMBER(kiln_result, STATUS, status),
+    MEMBER(kiln_result, CODE, code),
+    MEMBER(kiln_result, TEXT, message),
+    MEMBER(kiln_result, FILE, log),
+    MEMBER(kiln_result, TEXT, device),
+    MEMBER(kiln_result, TEXT, device_name),
+    MEMBER(kiln_result, TEXT, driver),
+    MEMBER(kiln_result, TEXT, platform),
+    MEMBER(kiln_result, TEXT, techniques),
+    MEMBER(kiln_result, TEXT, techniques_expected),
+    MEMBER(kiln_result, TEXT, version),
+    MEMBER(kiln_result, UINT32, seed),
+    MEMBER(kiln_result, UINT32, width),
+    MEMBER(kiln_result, UINT32, height),
+    MEMBER(kiln_result, UINT32, threads),
+    MEMBER(kiln_result, UINT32, repeat),
+    MEMBER(kiln_result, TEXT, scene_hash),
+    MEMBER(kiln_result, TEXT, scene_hash_expected),
+    MEMBER(kiln_result, TEXT, started),
+    MEMBER(kiln_result, DOUBLE, total_s),
+    MEMBER(kiln_result, DOUBLE, warn),
+    MEMBER(kiln_result, BOOL, hdr),
+    MEMBER(kiln_result, TEXT, rerun),
+    MEMBER(kiln_result, TEXT, approve),
+    MEMBERS_END,
+};
+
+const struct kiln_member kiln_result_column_members[] = {
+    MEMBER(kiln_compare_column, NAME, name),
+    MEMBER(kiln_compare_column, TEXT, unit),
+    MEMBER(kiln_compare_column, BOOL, higher_is_better),
+    MEMBER(kiln_compare_column, BOOL, limited),
+    MEMBER(kiln_compare_column, DOUBLE, limit),
+    MEMBERS_END,
+};
+
+const struct kiln_member kiln_result_frame_members[] = {
+    MEMBER(kiln_result_frame, UINT32, number),
+    MEMBER(kiln_result_frame, STATUS, status),
+    MEMBER(kiln_result_frame, JUDGED_BY, judged_by),
+    MEMBER(kiln_result_frame, TEXT, message),
+    MEMBER(kiln_result_frame, FILE, picture),
+    MEMBER(kiln_result_frame, FILE, reference),
+    MEMBER(kiln_result_frame, FILE, error_map),
+    MEMBER(kiln_result_frame, TEXT, golden),
+    MEMBER(kiln_result_frame, TEXT, state),
+    MEMBER(kiln_result_frame, TEXT, state_expected),
+    MEMBER(kiln_result_frame, TEXT, pixels),
+    MEMBER(kiln_result_frame, TEXT, pixels_expected),
+    MEMBER(kiln_result_frame, BOOL, measured),
+    MEMBERS_END,
+};
+
+const struct kiln_member kiln_result_measured_members[] = {
+    MEMBER(kiln_result_frame, DOUBLE, score),
+    MEMBER(kiln_result_frame, UINT32, worst_x),
+    MEMBER(kiln_result_frame, UINT32, worst_y),
+    MEMBER(kiln_result_frame, UINT32, window_x),
+    MEMBER(kiln_result_frame, UINT32, window_y),
+    MEMBER(kiln_result_frame, UINT32, window_width),
+    MEMBER(kiln_result_frame, UINT32, window_height),
+    MEMBER(kiln_result_frame, UINT32, window_differing),
+    MEMBERS_END,
+};
+
+const struct kiln_member kiln_result_change_members[] = {
+    MEMBER(kiln_result_change, TEXT, key),
+    MEMBER(kiln_result_change, TEXT, before),
+    MEMBER(kiln_result_change, TEXT, after),
+    MEMBERS_END,
+};

@@ -1,0 +1,38 @@
+/* The members of the objects in result.json: what is written and read is listed here alone. */
+#ifndef KILN_SUITE_RESULT_MEMBER_H
+#define KILN_SUITE_RESULT_MEMBER_H
+
+#include "suite/result.h"
+
+enum { KILN_RESULT_VERSION = 1 };
+
+enum kiln_member_kind {
+    KILN_MEMBER_TEXT,
+    KILN_MEMBER_FILE, /* a text: a name in the result's folder, or "" */
+    KILN_MEMBER_NAME, /* a text in an array of KILN_METRIC_NAME_SIZE */
+    KILN_MEMBER_UINT32,
+    KILN_MEMBER_DOUBLE,
+    KILN_MEMBER_BOOL,
+    KILN_MEMBER_CODE,
+    KILN_MEMBER_STATUS,
+    KILN_MEMBER_JUDGED_BY,
+    KILN_MEMBER_END
+};
+
+struct kiln_member {
+    const char *name;
+    enum kiln_member_kind kind;
+    size_t offset;
+};
+
+/* Each ends with a NULL name. */
+extern const struct kiln_member kiln_result_members[], kiln_result_column_members[],
+    kiln_result_frame_members[], kiln_result_change_members[];
+
+/* Of frames that were measured, beside "metrics" and "beyond". */
+extern const struct kiln_member kiln_result_measured_members[];
+
+/* FOLDER/result.json; KILN_IO when that is too long. */
+bool kiln_result_path(char path[KILN_PATH_SIZE], const char *folder, struct kiln_error *error);
+
+#endif

@@ -1,0 +1,343 @@
+/* lib/suite/result*.c: result.json. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/text.h"
+#include "suite/result_member.h"
+#include "support/pictures.h"
+#include "support/results.h"
+
+/* Whatever a scene, a driver or a crash may put into a text. */
+static const char nasty[] = "a \"b\" \\ / 'c' # : , {} [] & * ! | > % @ ` \t\n\r\x01\x1f\x7f "
+                            "\xc3\xa9 \xc2\x85\xc2\x80 \xe2\x80\xa8 \xef\xbb\xbf \xef\xbf\xbe "
+                            "\xf0\x9f\x94\xa5";
+
+/* Sets every member to a value of its own, so that two that are mixed up would be seen. */
+static void fill(const struct kiln_member *members, void *object, uint32_t *next,
+                 struct kiln_arena *arena)
+{
+    for (const struct kiln_member *m = members; m->name; m++) {
+        void *value = (char *)object + m->offset;
+        uint32_t number = ++*next;
+        char text[256];
+        snprintf(text, sizeof text, m->kind == KILN_MEMBER_TEXT ? "%u %s" : "%u_%.0s", number,
+                 nasty);
+        switch (m->kind) {
+        case KILN_MEMBER_TEXT:
+        case KILN_MEMBER_FILE:
+            *(const char **)value = kiln_arena_text(arena, text, strlen(text));
+            break;
+        case KILN_MEMBER_NAME:
+            snprintf(value, KILN_METRIC_NAME_SIZE, "flip.p%u", number);
+            break;
+        case KILN_MEMBER_UINT32:
+            *(uint32_t *)value = UINT32_MAX - number;
+            break;
+        case KILN_MEMBER_DOUBLE:
+            *(double *)value = number % 3 ? 1.0 / number : (double)INFINITY;
+            break;
+        case KILN_MEMBER_BOOL:
+            *(bool *)value = true;
+            break;
+        case KILN_MEMBER_CODE:
+            *(enum kiln_code *)value = KILN_INTERRUPTED;
+            break;
+        case KILN_MEMBER_STATUS:
+            *(enum kiln_test_status *)value =
+                (enum kiln_test_status)(number % KILN_TEST_STATUS_COUNT);
+            break;
+        case KILN_MEMBER_JUDGED_BY:
+            *(enum kiln_judged_by *)value = (enum kiln_judged_by)(1 + number % 3);
+            break;
+        case KILN_MEMBER_END:
+            fail();
+        }
+    }
+}
+
+static void assert_member(const struct kiln_member *m, const void *a, const void *b)
+{
+    a = (const char *)a + m->offset;
+    b = (const char *)b + m->offset;
+    switch (m->kind) {
+    case KILN_MEMBER_TEXT:
+    case KILN_MEMBER_FILE:
+        assert_string_equal(*(const char *const *)a, *(const char *const *)b);
+        break;
+    case KILN_MEMBER_NAME:
+        assert_string_equal(a, b);
+        break;
+    case KILN_MEMBER_DOUBLE:
+        assert_true(*(const double *)a == *(const double *)b);
+        break;
+    case KILN_MEMBER_BOOL:
+        assert_int_equal(*(const bool *)a, *(const bool *)b);
+        break;
+    default:
+        assert_memory_equal(a, b, 4);
+    }
+}
+
+static void assert_members(const struct kiln_member *members, const void *a, const void *b)
+{
+    for (const struct kiln_member *m = members; m->name; m++)
+        assert_member(m, a, b);
+}
+
+enum { COLUMNS = 13 };
+
+/* A result of so many frames, of which every second is measured. */
+static struct kiln_result full_result(struct kiln_arena *arena, uint32_t frames)
+{
+    struct kiln_result result = {.column_count = COLUMNS, .change_count = 2, .note_count = 2};
+    uint32_t next = 0;
+    fill(kiln_result_members, &result, &next, arena);
+    for (size_t i = 0; i < COLUMNS; i++)
+        fill(kiln_result_column_members, &result.columns[i], &next, arena);
+    result.frame_count = frames;
+    result.frames = kiln_arena_alloc(arena, frames + 1, sizeof *result.frames);
+    for (uint32_t i = 0; i < frames; i++) {
+        struct kiln_result_frame *frame = &result.frames[i];
+        fill(kiln_result_frame_members, frame, &next, arena);
+        frame->number = i * 2;
+        frame->measured = i % 2 == 0;
+        if (!frame->measured)
+            continue;
+        fill(kiln_result_measured_members, frame, &next, arena);
+        for (size_t c = 0; c < COLUMNS; c++) {
+            frame->values[c] = c == 3 ? (double)INFINITY : 0.1 * (double)(next + c);
+            frame->beyond[c] = c % 3 == 0;
+        }
+    }
+    result.changes = kiln_arena_alloc(arena, 2, sizeof *result.changes);
+    result.notes = kiln_arena_alloc(arena, 2, sizeof *result.notes);
+    for (size_t i = 0; i < 2; i++) {
+        fill(kiln_result_change_members, &result.changes[i], &next, arena);
+        result.notes[i] = i ? nasty : "";
+    }
+    return result;
+}
+
+static void assert_results(const struct kiln_result *a, const struct kiln_result *b)
+{
+    assert_members(kiln_result_members, a, b);
+    assert_int_equal(a->column_count, b->column_count);
+    for (size_t i = 0; i < a->column_count; i++)
+        assert_members(kiln_result_column_members, &a->columns[i], &b->columns[i]);
+    assert_int_equal(a->frame_count, b->frame_count);
+    for (size_t i = 0; i < a->frame_count; i++) {
+        const struct kiln_result_frame *f = &a->frames[i], *g = &b->frames[i];
+        assert_members(kiln_result_frame_members, f, g);
+        assert_members(kiln_result_measured_members, f, g);
+        for (size_t c = 0; c < KILN_MAX_COLUMNS; c++)
+            assert_true(f->values[c] == g->values[c] && f->beyond[c] == g->beyond[c]);
+    }
+    assert_int_equal(a->change_count, b->change_count);
+    for (size_t i = 0; i < a->change_count; i++)
+        assert_members(kiln_result_change_members, &a->changes[i], &b->changes[i]);
+    assert_int_equal(a->note_count, b->note_count);
+    for (size_t i = 0; i < a->note_count; i++)
+        assert_string_equal(a->notes[i], b->notes[i]);
+}
+
+/* What is written is read as it was, in new folders, and over an older result. */
+static void results_survive_the_file(void **state)
+{
+    (void)state;
+    static const uint32_t frames[] = {3, 0, KILN_TEST_MAX_FRAMES};
+    char folder[32], inner[64];
+    test_make_folder(folder);
+    snprintf(inner, sizeof inner, "%s/effects/fire", folder);
+    for (size_t i = 0; i < sizeof frames / sizeof *frames; i++) {
+        struct kiln_arena *arena = kiln_arena_create();
+        struct kiln_result result = full_result(arena, frames[i]);
+        struct kiln_error error = {0};
+        assert_true(kiln_result_write(&result, inner, &error));
+        struct kiln_result *back = kiln_result_read(arena, inner, &error);
+        if (!back)
+            fail_msg("%s", error.message);
+        assert_results(&result, back);
+        kiln_arena_destroy(&arena);
+    }
+    test_remove_folder(folder);
+}
+
+static void long_lists_are_cut_and_say_so(void **state)
+{
+    (void)state;
+    struct kiln_arena *arena = kiln_arena_create();
+    struct kiln_result result = test_empty_result("a");
+    result.change_count = result.note_count = 5000;
+    result.changes = kiln_arena_alloc(arena, 5000, sizeof *result.changes);
+    result.notes = kiln_arena_alloc(arena, 5000, sizeof *result.notes);
+    for (size_t i = 0; i < 5000; i++) {
+        result.changes[i] = (struct kiln_result_change){"key", "1", "2"};
+        result.notes[i] = "note";
+    }
+    struct kiln_text text = {0};
+    kiln_text_add(&text, "{\"kiln_result\": 1, ");
+    kiln_result_add_json(&text, &result);
+    kiln_text_add(&text, "}");
+    struct kiln_error error = {0};
+    struct kiln_result *back = kiln_result_parse(arena, text.data, text.length, "a", &error);
+    if (!back)
+        fail_msg("%s", error.message);
+    assert_int_equal(back->change_count, KILN_RESULT_MAX_ENTRIES);
+    assert_int_equal(back->note_count, KILN_RESULT_MAX_ENTRIES);
+    assert_string_equal(back->changes[998].key, "key");
+    assert_string_equal(back->changes[999].key, "and 4001 more");
+    assert_string_equal(back->notes[999], "and 4001 more");
+    kiln_text_free(&text);
+    kiln_arena_destroy(&arena);
+}
+
+static void the_score_is_the_worst_measured(void **state)
+{
+    (void)state;
+    struct kiln_result_frame frames[3] = {
+        {.measured = true, .score = 0.5}, {.score = 9}, {.measured = true, .score = 0.75}};
+    struct kiln_result result = {.frames = frames, .frame_count = 3};
+    assert_true(kiln_result_score(&result) == 0.75);
+    result.frame_count = 0;
+    assert_true(kiln_result_score(&result) == 0);
+}
+
+/* ---- Broken files ------------------------------------------------------------------------- */
+
+/* A good result's text with the first `from` replaced. */
+static char *spoil(const char *good, const char *from, const char *to)
+{
+    const char *at = strstr(good, from);
+    if (!at)
+        fail_msg("%s is not there", from);
+    char *text = malloc(strlen(good) + strlen(to) + 1);
+    assert_non_null(text);
+    sprintf(text, "%.*s%s%s", (int)(at - good), good, to, at + strlen(from));
+    return text;
+}
+
+static void broken_results_are_refused_with_their_place(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *from, *to, *message;
+    } cases[] = {
+        {"\"kiln_result\": 1", "\"kiln_result\": 2", "r.json:2:18: kiln_result: found 2; "},
+        {"\"kiln_result\": 1,", "", "r.json:1:1: not the result of a test"},
+        {"\"scene\": \"\",", "", "r.json:1:1: scene is missing"},
+        {"\"scene\": \"\"", "\"scene\": []", "scene: found a list; allowed is a text in quotes"},
+        {"\"scene\": \"\"", "\"scene\": x", "scene: found x; allowed is a text in quotes"},
+        {"\"scene\"", "\"scenery\": 1, \"scene\"", "r.json:1:1: 35 members; allowed are 34"},
+        {"\"scene\"", "\"name\": 1, \"scene\"", "duplicate key 'name' (first in line 3)"},
+        {"\"status\": \"pass\"", "\"status\": \"god\"", "status: found \"god\"; allowed is pass,"},
+        {"\"code\": 0", "\"code\": 8", "code: found 8; allowed is 0 to 7 or 130"},
+        {"\"seed\": 0", "\"seed\": 4294967296", "seed: found 4294967296; allowed is a whole"},
+        {"\"seed\": 0", "\"seed\": \"0\"", "seed: found \"0\"; allowed is a whole number"},
+        {"\"warn\": 0", "\"warn\": .nan", "warn: found .nan; allowed is a number, or null"},
+        {"\"hdr\": false", "\"hdr\": no", "hdr: found no; allowed is true or false"},
+        {"\"log\": \"\"", "\"log\": \"../../x\"", "log: found \"../../x\"; allowed is the name of"},
+        {"\"log\": \"\"", "\"log\": \"..\"", "log: found \"..\"; allowed is the name of a file"},
+        {"\"picture\": \"\"", "\"picture\": \"/etc/passwd\"", "allowed is the name of a file in"},
+        {"\"judged_by\": \"nothing\"", "\"judged_by\": \"luck\"", "judged_by: found \"luck\""},
+        {"\"number\": 7", "\"number\": 5", "frame 5 comes after frame 5; frames must ascend"},
+        {"\"columns\": [", "\"columns\": 5, \"x\": [", "columns: found 5; allowed is a list of at"},
+        {"\"name\": \"psnr\"", "\"name\": \"a_name_that_is_much_too_long\"", "of 1 to 23 bytes"},
+        {"\"psnr\": null", "\"psnr\": \"null\"", "psnr: found \"null\"; allowed is a number, or"},
+        {"\"psnr\": null", "\"pnsr\": null", "metrics: psnr is missing"},
+        {"\"psnr\": null", "\"psnr\": null, \"x\": 1", "2 members; allowed are 1"},
+        {"\"beyond\": [\"psnr\"]", "\"beyond\": [\"ssim\"]", "found \"ssim\"; allowed is a metric"},
+        {"\"beyond\": [\"psnr\"]", "\"beyond\": 1", "beyond: a list of metrics must be here"},
+        {"\"measured\": true", "\"measured\": false", "23 members; allowed are 13"},
+        {"\"notes\": []", "\"notes\": [{}]", "notes: found an object; allowed is a text in quotes"},
+        {"\"changes\": []", "\"changes\": [1]", "key is missing"},
+        {"\"notes\"", "&a \"notes\"", "anchors and aliases are not allowed"},
+        {"}\n", "}\n---\n", "a second starts here"},
+    };
+    struct kiln_result_frame frames[2] = {test_empty_frame(5), test_empty_frame(7)};
+    frames[0].measured = frames[0].beyond[0] = true;
+    frames[0].values[0] = (double)INFINITY;
+    struct kiln_result result = test_empty_result("a");
+    result.column_count = 1;
+    result.columns[0] = (struct kiln_compare_column){.name = "psnr", .unit = "dB"};
+    result.frame_count = 2;
+    result.frames = frames;
+    struct kiln_text good = {0};
+    kiln_text_add(&good, "{\n  \"kiln_result\": 1,\n  ");
+    kiln_result_add_json(&good, &result);
+    kiln_text_add(&good, "}\n");
+    struct kiln_arena *arena = kiln_arena_create();
+    struct kiln_error error = {0};
+    if (!kiln_result_parse(arena, good.data, good.length, "r.json", &error))
+        fail_msg("%s", error.message);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char *text = spoil(good.data, cases[i].from, cases[i].to);
+        assert_null(kiln_result_parse(arena, text, strlen(text), "r.json", &error));
+        assert_int_equal(error.code, KILN_INVALID_INPUT);
+        if (!strstr(error.message, cases[i].message) || strncmp(error.message, "r.json:", 7) != 0)
+            fail_msg("%s: %s", cases[i].to, error.message);
+        free(text);
+    }
+    /* Cut off anywhere before the last brace. */
+    for (size_t length = 0; length + 2 < good.length; length += 7) {
+        char *text = strndup(good.data, length);
+        assert_null(kiln_result_parse(arena, text, length, "r.json", &error));
+        assert_int_equal(error.code, KILN_INVALID_INPUT);
+        free(text);
+    }
+    kiln_text_free(&good);
+    kiln_arena_destroy(&arena);
+}
+
+static void files_that_are_no_result(void **state)
+{
+    (void)state;
+    char folder[32], path[64];
+    test_make_folder(folder);
+    snprintf(path, sizeof path, "%s/result.json", folder);
+    struct kiln_arena *arena = kiln_arena_create();
+    struct kiln_error error = {0};
+    assert_null(kiln_result_read(arena, folder, &error));
+    assert_int_equal(error.code, KILN_INVALID_INPUT);
+    assert_non_null(strstr(error.message, "result.json: there is no result"));
+
+    assert_int_equal(mkdir(path, 0777), 0);
+    assert_null(kiln_result_read(arena, folder, &error));
+    assert_int_equal(error.code, KILN_INVALID_INPUT);
+    struct kiln_result result = test_empty_result("a");
+    assert_false(kiln_result_write(&result, folder, &error));
+    assert_int_equal(error.code, KILN_IO);
+    assert_int_equal(rmdir(path), 0);
+
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    fputs("{\"name\": \"\xff\"}", file);
+    fclose(file);
+    assert_null(kiln_result_read(arena, folder, &error));
+    assert_non_null(strstr(error.message, "result.json:1:11: not a text: invalid UTF-8"));
+    assert_int_equal(truncate(path, 0), 0);
+    assert_null(kiln_result_read(arena, folder, &error));
+    assert_non_null(strstr(error.message, "result.json: empty"));
+    kiln_arena_destroy(&arena);
+    test_remove_folder(folder);
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        cmocka_unit_test(results_survive_the_file),
+        cmocka_unit_test(long_lists_are_cut_and_say_so),
+        cmocka_unit_test(the_score_is_the_worst_measured),
+        cmocka_unit_test(broken_results_are_refused_with_their_place),
+        cmocka_unit_test(files_that_are_no_result),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
