@@ -7,6 +7,7 @@
 #include <string.h>
 
 enum stage { SIMULATE, SORT, RASTER, STAGE_COUNT };
+_Static_assert((int)STAGE_COUNT == (int)KILN_STAGE_COUNT, "the header says how many");
 
 static const char *const STAGE_NAMES[STAGE_COUNT] = {
     [SIMULATE] = "simulate", [SORT] = "sort", [RASTER] = "raster"};
@@ -132,6 +133,32 @@ bool kiln_technique_pinned(size_t stage, char out[64])
     }
     snprintf(out, 64, "%s=%s", STAGE_NAMES[stage], row->name);
     return true;
+}
+
+/* The rows of a stage in their order, with `cpu` before the others. */
+static size_t list_rows(enum stage stage, const struct row *rows[ROW_COUNT])
+{
+    const struct row *first = find_row(stage, "cpu");
+    size_t count = 0;
+    if (first)
+        rows[count++] = first;
+    for (size_t i = 0; i < ROW_COUNT; i++) {
+        if (ROWS[i].stage == stage && &ROWS[i] != first)
+            rows[count++] = &ROWS[i];
+    }
+    return count;
+}
+
+bool kiln_techniques_combination(size_t index, struct kiln_technique_list *list)
+{
+    for (int stage = 0; stage < STAGE_COUNT; stage++) {
+        const struct row *rows[ROW_COUNT];
+        size_t count = list_rows((enum stage)stage, rows);
+        snprintf(list->flags[stage], sizeof list->flags[stage], "%s=%s", STAGE_NAMES[stage],
+                 rows[index % count]->name);
+        index /= count;
+    }
+    return index == 0;
 }
 
 void kiln_techniques_describe(const struct kiln_techniques *techniques, char *out, size_t size)

@@ -7,6 +7,8 @@
 #include "sim/simulate.h"
 #include "sort/sort.h"
 
+enum { KILN_STAGE_COUNT = 3, KILN_TECHNIQUE_SIZE = 32 };
+
 enum kiln_raster_technique { KILN_RASTER_GEOMETRY };
 
 struct kiln_techniques {
@@ -26,6 +28,16 @@ bool kiln_techniques_choose(const struct kiln_device_info *device, const char *c
  * pictures do not depend on the device: cpu where there is such a technique, or else the stage's
  * first. False beyond the last stage. */
 bool kiln_technique_pinned(size_t stage, char out[64]);
+
+/* One technique for each stage that has several, as "stage=name". */
+struct kiln_technique_list {
+    char flags[KILN_STAGE_COUNT][KILN_TECHNIQUE_SIZE];
+};
+
+/* The index-th of all combinations; false beyond the last. The first takes the technique `cpu`
+ * where a stage has it and the first of its table elsewhere, which makes the same picture on every
+ * machine. Whether a device allows it is for kiln_techniques_choose to say. */
+bool kiln_techniques_combination(size_t index, struct kiln_technique_list *list);
 
 /* Writes "simulate=cpu sort=cpu raster=geometry". */
 void kiln_techniques_describe(const struct kiln_techniques *techniques, char *out, size_t size);

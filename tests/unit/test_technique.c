@@ -72,6 +72,30 @@ static void inexact_devices_do_not_simulate(void **state)
     assert_int_equal(error.code, KILN_NO_DEVICE);
 }
 
+static void combinations_start_with_the_pinned_one(void **state)
+{
+    (void)state;
+    struct kiln_device_info gpu = {.exact = true, .name = "Device"};
+    struct kiln_technique_list list;
+    char seen[16][256] = {{0}};
+    size_t count = 0;
+    for (; kiln_techniques_combination(count, &list); count++) {
+        const char *flags[KILN_STAGE_COUNT];
+        struct kiln_techniques techniques;
+        struct kiln_error error = {0};
+        for (int i = 0; i < KILN_STAGE_COUNT; i++)
+            flags[i] = list.flags[i];
+        assert_true(kiln_techniques_choose(&gpu, flags, KILN_STAGE_COUNT, &techniques, &error));
+        kiln_techniques_describe(&techniques, seen[count], sizeof seen[count]);
+        for (size_t i = 0; i < count; i++)
+            assert_string_not_equal(seen[i], seen[count]);
+        assert_true(count < 15);
+    }
+    assert_true(count >= 2);
+    assert_string_equal(seen[0], "simulate=cpu sort=cpu raster=geometry");
+    assert_string_equal(seen[1], "simulate=inplace sort=cpu raster=geometry");
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
@@ -79,6 +103,7 @@ int main(void)
         cmocka_unit_test(auto_is_the_default),
         cmocka_unit_test(flags_force_a_technique),
         cmocka_unit_test(inexact_devices_do_not_simulate),
+        cmocka_unit_test(combinations_start_with_the_pinned_one),
     };
     return cmocka_run_group_tests_name("technique", tests, NULL, NULL);
 }
