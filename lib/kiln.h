@@ -396,9 +396,9 @@ struct kiln_suite_params {
 #define KILN_SUITE_DEFAULTS ((struct kiln_suite_params){.golden = "golden", .results = "out/test"})
 
 /* Finds and reads the tests, ordered by name; no scene is loaded yet. A test file that is wrong is
- * no error here but that of its test. NULL with KILN_USAGE (a path that does not exist, a name that
- * no test has, two tests of one name, shard 4 of 3), KILN_IO, or KILN_DEVICE_FAILED when memory is
- * short. */
+ * no error here but that of its test. NULL with KILN_USAGE (a path that does not exist, a folder
+ * without a test, a name that no test has, two tests of one name, shard 4 of 3), KILN_IO, or
+ * KILN_DEVICE_FAILED when memory is short. */
 struct kiln_suite *kiln_suite_load(const struct kiln_suite_params *params,
                                    struct kiln_error *error);
 void kiln_suite_destroy(struct kiln_suite **suite);
@@ -413,6 +413,9 @@ struct kiln_test_info {
 
 /* The texts belong to the suite. */
 struct kiln_test_info kiln_suite_test(const struct kiln_suite *suite, size_t index);
+
+/* The keys of a test file, for people. */
+bool kiln_test_write_reference(FILE *out);
 
 enum kiln_update {
     KILN_UPDATE_NONE,

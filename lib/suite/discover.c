@@ -1,0 +1,285 @@
+/* A file that may be a test and cannot be read is an error, not passed over: a run must not be
+ * green because it did not see a test. */
+#include "suite/discover.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/text.h"
+#include "scene/node.h"
+#include "suite/expect.h"
+#include "suite/test_file.h"
+
+enum { MAX_SCENE_SIZE = 4 << 20 }; /* of scene files */
+
+struct search {
+    struct kiln_arena *arena;
+    struct kiln_findings *findings;
+    struct kiln_error *error;
+    const char *operand;
+    struct stat skipped[2]; /* the folders of goldens and of results */
+    size_t skipped_count;
+    size_t seen; /* files of tests, those that were known included */
+};
+
+static bool out_of_memory(struct search *search)
+{
+    return kiln_error_set(search->error, KILN_DEVICE_FAILED, "out of memory while finding tests");
+}
+
+/* ---- one file ------------------------------------------------------------------------------- */
+
+/* "effects/fire.test.yaml" without its end. */
+static const char *name_of(struct kiln_arena *arena, const char *path)
+{
+    static const char *const ends[] = {".test.yaml", ".test.yml", ".yaml", ".yml"};
+    size_t length = strlen(path);
+    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) {
+        size_t end = strlen(ends[i]);
+        if (length >= end && strcmp(path + length - end, ends[i]) == 0)
+            return kiln_arena_text(arena, path, length - end);
+    }
+    return kiln_arena_text(arena, path, length);
+}
+
+/* The folder's real path and the file's own name: two links to one file are two tests. */
+static const char *identity_of(struct kiln_arena *arena, const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    char folder[KILN_PATH_SIZE];
+    size_t length = slash ? (size_t)(slash - path) : 0;
+    if (length >= sizeof folder)
+        return NULL;
+    memcpy(folder, path, length);
+    folder[length] = '\0';
+    char *real = realpath(!slash ? "." : length ? folder : "/", NULL);
+    struct kiln_text text = {0};
+    kiln_text_add(&text, "%s/%s", real ? real : folder, slash ? slash + 1 : path);
+    const char *identity = text.failed ? NULL : kiln_arena_text(arena, text.data, text.length);
+    kiln_text_free(&text);
+    free(real);
+    return identity;
+}
+
+/* named: the part of the path that names the test. */
+static bool add_file(struct search *search, const char *path, const char *named, bool in_folder)
+{
+    struct kiln_findings *findings = search->findings;
+    struct kiln_found found = {
+        .path = kiln_arena_text(search->arena, path, strlen(path)),
+        .name = name_of(search->arena, named),
+        .identity = identity_of(search->arena, path),
+        .in_folder = in_folder,
+    };
+    if (!found.path || !found.name || !found.identity)
+        return out_of_memory(search);
+    search->seen++;
+    for (size_t i = 0; i < findings->count; i++) {
+        if (strcmp(findings->items[i].identity, found.identity) == 0) {
+            findings->items[i].in_folder &= in_folder;
+            return true;
+        }
+    }
+    if (findings->count == findings->capacity) {
+        size_t capacity = findings->capacity ? 2 * findings->capacity : 64;
+        struct kiln_found *items =
+            kiln_arena_alloc(search->arena, capacity, sizeof *findings->items);
+        if (!items)
+            return out_of_memory(search);
+        if (findings->count)
+            memcpy(items, findings->items, findings->count * sizeof *items);
+        findings->items = items;
+        findings->capacity = capacity;
+    }
+    findings->items[findings->count++] = found;
+    return true;
+}
+
+/* ---- is it a test? -------------------------------------------------------------------------- */
+
+/* Where no tree can be had, the text must do: a scene with a fault is a test that fails. */
+static bool has_line_with_key(const char *text)
+{
+    for (const char *line = text; line; line = strchr(line, '\n')) {
+        line += *line == '\n';
+        if (strncmp(line, "kiln:", 5) == 0)
+            return true;
+    }
+    return false;
+}
+
+static bool is_scene(const char *text, size_t size, const char *path, bool *is)
+{
+    struct kiln_arena *scratch = kiln_arena_create();
+    struct kiln_origin origin = {.name = path, .has_lines = true};
+    struct kiln_error error = {0};
+    const struct kiln_node *root =
+        scratch ? kiln_node_parse(scratch, text, size, &origin, &error) : NULL;
+    bool ok = scratch && error.code != KILN_DEVICE_FAILED;
+    *is = root ? kiln_node_entry(root, "kiln") != NULL : has_line_with_key(text);
+    kiln_arena_destroy(&scratch);
+    return ok;
+}
+
+/* A YAML file of a folder: of another kind, it is passed over. */
+static bool add_if_scene(struct search *search, const char *path, const char *named)
+{
+    struct kiln_error error = {0};
+    size_t size = 0;
+    if (access(path, R_OK) != 0)
+        return kiln_error_set_errno(search->error, KILN_IO, errno, "%s", path);
+    char *text = kiln_text_file_read(path, "a scene file", MAX_SCENE_SIZE, &size, &error);
+    bool is = false, ok = true;
+    if (text)
+        ok = is_scene(text, size, path, &is) || out_of_memory(search);
+    else if (error.code != KILN_INVALID_INPUT) {
+        *search->error = error;
+        ok = false;
+    }
+    free(text);
+    return ok && (!is || add_file(search, path, named, true));
+}
+
+/* ---- folders -------------------------------------------------------------------------------- */
+
+static bool is_skipped(const struct search *search, const struct stat *status)
+{
+    for (size_t i = 0; i < search->skipped_count; i++) {
+        if (search->skipped[i].st_dev == status->st_dev &&
+            search->skipped[i].st_ino == status->st_ino)
+            return true;
+    }
+    return false;
+}
+
+static bool search_folder(struct search *search, const char *folder, const char *named);
+
+/* path: of the entry; named: what of it names a test. */
+static bool search_entry(struct search *search, const char *path, const char *named,
+                         bool has_goldens)
+{
+    struct stat status;
+    if (lstat(path, &status) != 0)
+        return errno == ENOENT || kiln_error_set_errno(search->error, KILN_IO, errno, "%s", path);
+    if (S_ISDIR(status.st_mode))
+        return is_skipped(search, &status) || search_folder(search, path, named);
+    if (!kiln_test_file_is_yaml(path) || has_goldens)
+        return true;
+    if (stat(path, &status) != 0)
+        return kiln_error_set_errno(search->error, KILN_IO, errno, "%s", path);
+    if (!S_ISREG(status.st_mode))
+        return true;
+    return kiln_test_file_is(path) ? add_file(search, path, named, true)
+                                   : add_if_scene(search, path, named);
+}
+
+static int is_visible(const struct dirent *entry)
+{
+    return entry->d_name[0] != '.';
+}
+
+static int by_bytes(const struct dirent **a, const struct dirent **b)
+{
+    return strcmp((*a)->d_name, (*b)->d_name);
+}
+
+/* The scene beside what was accepted of a test is no test: goldens of another run may be here. */
+static bool has_expect_file(struct dirent *const *entries, int count)
+{
+    for (int i = 0; i < count; i++) {
+        if (strcmp(entries[i]->d_name, "expect.yaml") == 0)
+            return true;
+    }
+    return false;
+}
+
+/* folder "" is the working directory. named: of the folder, "" for the operand. */
+static bool search_folder(struct search *search, const char *folder, const char *named)
+{
+    struct dirent **entries = NULL;
+    int count = scandir(*folder ? folder : ".", &entries, is_visible, by_bytes);
+    if (count < 0)
+        return kiln_error_set_errno(search->error, KILN_IO, errno, "%s: the folder cannot be read",
+                                    *folder ? folder : ".");
+    bool has_goldens = has_expect_file(entries, count), ok = true;
+    for (int i = 0; i < count; i++) {
+        struct kiln_text path = {0}, name = {0};
+        bool slash = *folder && folder[strlen(folder) - 1] != '/';
+        kiln_text_add(&path, "%s%s%s", folder, slash ? "/" : "", entries[i]->d_name);
+        kiln_text_add(&name, "%s%s%s", named, *named ? "/" : "", entries[i]->d_name);
+        if (path.failed || name.failed)
+            ok = ok && out_of_memory(search);
+        else if (ok && path.length >= KILN_PATH_SIZE)
+            ok = kiln_error_set(search->error, KILN_IO, "%.200s...: the path is too long",
+                                path.data);
+        else if (ok)
+            ok = search_entry(search, path.data, name.data, has_goldens);
+        kiln_text_free(&path);
+        kiln_text_free(&name);
+        free(entries[i]);
+    }
+    free(entries);
+    return ok;
+}
+
+/* ---- operands ------------------------------------------------------------------------------- */
+
+/* "scenes//" as "scenes", "." as "". */
+static bool search_operand_folder(struct search *search)
+{
+    const char *operand = search->operand;
+    size_t length = strlen(operand), before = search->seen;
+    while (length > 1 && operand[length - 1] == '/')
+        length--;
+    bool here = length == 1 && *operand == '.';
+    char *folder = strndup(operand, here ? 0 : length);
+    bool ok = folder ? search_folder(search, folder, "") : out_of_memory(search);
+    free(folder);
+    return ok &&
+           (search->seen > before ||
+            kiln_error_set(search->error, KILN_USAGE,
+                           "%s: no test in this folder: no *.test.yaml, and no scene", operand));
+}
+
+static bool search_operand(struct search *search)
+{
+    const char *operand = search->operand;
+    struct stat status;
+    if (strlen(operand) >= KILN_PATH_SIZE)
+        return kiln_error_set(search->error, KILN_USAGE, "%.200s...: the path is too long",
+                              operand);
+    if (stat(operand, &status) != 0)
+        return kiln_error_set_errno(search->error, KILN_USAGE, errno, "%s", operand);
+    if (S_ISDIR(status.st_mode))
+        return search_operand_folder(search);
+    if (!kiln_test_file_is_yaml(operand))
+        return kiln_error_set(search->error, KILN_USAGE,
+                              "%s: not a test; a test is a *.test.yaml or a scene, *.yaml or *.yml",
+                              operand);
+    const char *slash = strrchr(operand, '/');
+    return add_file(search, operand, slash ? slash + 1 : operand, false);
+}
+
+bool kiln_discover(struct kiln_arena *arena, const struct kiln_suite_params *params,
+                   struct kiln_findings *findings, struct kiln_error *error)
+{
+    struct search search = {.arena = arena, .findings = findings, .error = error};
+    const char *const skipped[] = {params->golden, params->results};
+    for (size_t i = 0; i < 2; i++) {
+        if (stat(skipped[i], &search.skipped[search.skipped_count]) == 0)
+            search.skipped_count++;
+    }
+    bool ok = true;
+    for (size_t i = 0; ok && i < params->path_count; i++) {
+        search.operand = params->paths[i];
+        ok = search_operand(&search);
+    }
+    return ok;
+}

@@ -1,0 +1,27 @@
+/* Finding the files that are tests. */
+#ifndef KILN_SUITE_DISCOVER_H
+#define KILN_SUITE_DISCOVER_H
+
+#include "suite/suite.h"
+
+struct kiln_found {
+    const char *path;
+    const char *name;     /* of the test: its path below the operand, without a suffix */
+    const char *identity; /* equal for one file that was found twice */
+    bool in_folder;       /* not an operand itself */
+};
+
+/* In the order of the operands and, in a folder, of names. */
+struct kiln_findings {
+    struct kiln_found *items; /* in the arena */
+    size_t count, capacity;
+};
+
+/* Looks at the operands. In folders, a file of tests or a YAML file with the key kiln is taken;
+ * those folders that are hidden, hold goldens or results, or are links, are not looked into. A file
+ * that two operands reach is taken once. KILN_USAGE for an operand that is nothing of all that or a
+ * folder without any test, KILN_IO, KILN_DEVICE_FAILED. */
+bool kiln_discover(struct kiln_arena *arena, const struct kiln_suite_params *params,
+                   struct kiln_findings *findings, struct kiln_error *error);
+
+#endif

@@ -1,0 +1,337 @@
+/* From files to a list of tests: found, read, named, chosen. */
+#include "suite/suite.h"
+
+#include <fnmatch.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "scene/node.h"
+#include "suite/discover.h"
+#include "suite/golden.h"
+#include "suite/test_file.h"
+
+/* A name goes into names of folders, and with a device into a summary's 256 bytes. */
+enum { MAX_NAME = 200, MAX_FULL_NAME = 255 };
+
+struct entry {
+    struct kiln_found found;
+    struct kiln_test_file file;
+    bool dropped; /* a scene that a test file names */
+};
+
+struct loader {
+    const struct kiln_suite_params *params;
+    struct kiln_suite *suite;
+    struct kiln_error *error;
+    struct entry *entries; /* by name */
+    size_t count;
+};
+
+static bool out_of_memory(struct loader *loader)
+{
+    return kiln_error_set(loader->error, KILN_DEVICE_FAILED, "out of memory while reading tests");
+}
+
+/* ---- files ---------------------------------------------------------------------------------- */
+
+static int by_name(const void *a, const void *b)
+{
+    const struct entry *x = a, *y = b;
+    int order = strcmp(x->found.name, y->found.name);
+    return order ? order : strcmp(x->found.path, y->found.path);
+}
+
+static bool read_files(struct loader *loader)
+{
+    struct kiln_arena *arena = loader->suite->arena;
+    struct kiln_findings findings = {0};
+    if (!kiln_discover(arena, loader->params, &findings, loader->error))
+        return false;
+    loader->entries = kiln_arena_alloc(arena, findings.count + 1, sizeof *loader->entries);
+    if (!loader->entries)
+        return out_of_memory(loader);
+    for (; loader->count < findings.count; loader->count++) {
+        struct entry *entry = &loader->entries[loader->count];
+        entry->found = findings.items[loader->count];
+        if (!kiln_test_file_read(arena, entry->found.path, &entry->file, loader->error))
+            return false;
+    }
+    qsort(loader->entries, loader->count, sizeof *loader->entries, by_name);
+    return true;
+}
+
+/* A scene of a folder that a test file names is that test's. One that has the name of a test file
+ * which cannot be read probably is, too. */
+static void drop_named_scenes(struct loader *loader)
+{
+    for (size_t i = 0; i < loader->count; i++) {
+        const struct entry *test = &loader->entries[i];
+        struct stat scene, other;
+        if (!kiln_test_file_is(test->found.path))
+            continue;
+        bool known = stat(test->file.test.scene, &scene) == 0;
+        bool broken = test->file.test.problem.code != KILN_OK;
+        for (size_t j = 0; j < loader->count; j++) {
+            struct entry *entry = &loader->entries[j];
+            if (!entry->found.in_folder || kiln_test_file_is(entry->found.path))
+                continue;
+            bool same = known && stat(entry->found.path, &other) == 0 &&
+                        scene.st_dev == other.st_dev && scene.st_ino == other.st_ino;
+            if (same || (broken && strcmp(entry->found.name, test->found.name) == 0))
+                entry->dropped = true;
+        }
+    }
+    size_t kept = 0;
+    for (size_t i = 0; i < loader->count; i++) {
+        if (!loader->entries[i].dropped)
+            loader->entries[kept++] = loader->entries[i];
+    }
+    loader->count = kept;
+}
+
+/* ---- names ---------------------------------------------------------------------------------- */
+
+static bool is_name(const char *name)
+{
+    static const char allowed[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                  "0123456789._-/";
+    bool hidden = *name == '.' || strstr(name, "/.");
+    size_t length = strlen(name);
+    return length > 0 && length <= MAX_NAME && !hidden && strspn(name, allowed) == length;
+}
+
+static bool check_names(struct loader *loader)
+{
+    for (size_t i = 0; i < loader->count; i++) {
+        const struct kiln_found *found = &loader->entries[i].found;
+        char quoted[64];
+        kiln_node_quote(quoted, found->name);
+        if (!is_name(found->name))
+            return kiln_error_set(loader->error, KILN_USAGE,
+                                  "%s: '%s' cannot name a test: up to %d letters, digits, '.', '_' "
+                                  "and '-' can, and none that starts with '.'",
+                                  found->path, quoted, MAX_NAME);
+        if (i > 0 && strcmp(found[0].name, loader->entries[i - 1].found.name) == 0)
+            return kiln_error_set(loader->error, KILN_USAGE,
+                                  "%s and %s: two tests of the name '%s'",
+                                  loader->entries[i - 1].found.path, found->path, found->name);
+    }
+    return true;
+}
+
+static char *join(struct kiln_arena *arena, const char *a, const char *between, const char *b)
+{
+    size_t length[3] = {strlen(a), strlen(between), strlen(b)};
+    char *text = kiln_arena_alloc(arena, length[0] + length[1] + length[2] + 1, 1);
+    if (text) {
+        memcpy(text, a, length[0]);
+        memcpy(text + length[0], between, length[1]);
+        memcpy(text + length[0] + length[1], b, length[2]);
+    }
+    return text;
+}
+
+/* ---- tests ---------------------------------------------------------------------------------- */
+
+/* One test of an entry; device NULL: that of the run. */
+static bool add_test(struct loader *loader, const struct entry *entry, const char *device)
+{
+    struct kiln_suite *suite = loader->suite;
+    struct kiln_test *test = &suite->tests[suite->count];
+    *test = entry->file.test;
+    test->name = test->full_name = entry->found.name;
+    test->device = device;
+    test->may_skip = device != NULL;
+    if (entry->file.device_count > 1) {
+        char name[KILN_DEVICE_NAME_SIZE];
+        kiln_device_name(device, name);
+        test->full_name = join(suite->arena, test->name, "@", name);
+    }
+    if (!test->full_name)
+        return out_of_memory(loader);
+    if (strlen(test->full_name) > MAX_FULL_NAME)
+        return kiln_error_set(loader->error, KILN_USAGE,
+                              "%s: the name with its device, '%.40s...', "
+                              "is longer than %d bytes",
+                              test->path, test->full_name, MAX_FULL_NAME);
+    test->results = join(suite->arena, suite->results_folder, "/", test->full_name);
+    test->golden = join(suite->arena, loader->params->golden, "/", test->name);
+    suite->count++;
+    return (test->results && test->golden) || out_of_memory(loader);
+}
+
+static int by_full_name(const void *a, const void *b)
+{
+    return strcmp(((const struct kiln_test *)a)->full_name,
+                  ((const struct kiln_test *)b)->full_name);
+}
+
+static bool make_tests(struct loader *loader)
+{
+    struct kiln_suite *suite = loader->suite;
+    size_t total = 0;
+    for (size_t i = 0; i < loader->count; i++)
+        total += loader->entries[i].file.device_count + 1;
+    suite->tests = kiln_arena_alloc(suite->arena, total + 1, sizeof *suite->tests);
+    if (!suite->tests)
+        return out_of_memory(loader);
+    for (size_t i = 0; i < loader->count; i++) {
+        const struct entry *entry = &loader->entries[i];
+        if (entry->file.device_count == 0 && !add_test(loader, entry, NULL))
+            return false;
+        for (size_t d = 0; d < entry->file.device_count; d++) {
+            if (!add_test(loader, entry, entry->file.devices[d]))
+                return false;
+        }
+    }
+    qsort(suite->tests, suite->count, sizeof *suite->tests, by_full_name);
+    return true;
+}
+
+/* ---- choosing ------------------------------------------------------------------------------- */
+
+/* A name without a device means the test on all of them. */
+static bool has_name(const struct kiln_test *test, const char *wanted)
+{
+    return strcmp(wanted, test->full_name) == 0 || strcmp(wanted, test->name) == 0 ||
+           fnmatch(wanted, test->full_name, 0) == 0 || fnmatch(wanted, test->name, 0) == 0;
+}
+
+static bool unknown_name(struct loader *loader, const char *name)
+{
+    const struct kiln_suite *suite = loader->suite;
+    const char **names = kiln_arena_alloc(suite->arena, suite->count + 1, sizeof *names);
+    if (!names)
+        return out_of_memory(loader);
+    for (size_t i = 0; i < suite->count; i++)
+        names[i] = suite->tests[i].full_name;
+    const char *nearest = kiln_text_nearest(name, names, suite->count);
+    char quoted[64];
+    kiln_node_quote(quoted, name);
+    return kiln_error_set(loader->error, KILN_USAGE, "no test has the name '%s'%s%s%s", quoted,
+                          nearest ? " (did you mean '" : "", nearest ? nearest : "",
+                          nearest ? "'?)" : "; 'kiln test list' shows what there is");
+}
+
+static bool choose_names(struct loader *loader)
+{
+    const struct kiln_suite_params *params = loader->params;
+    struct kiln_suite *suite = loader->suite;
+    if (params->name_count == 0)
+        return true;
+    bool *chosen = kiln_arena_alloc(suite->arena, suite->count + 1, sizeof *chosen);
+    if (!chosen)
+        return out_of_memory(loader);
+    for (size_t n = 0; n < params->name_count; n++) {
+        bool any = false;
+        for (size_t i = 0; i < suite->count; i++) {
+            bool has = has_name(&suite->tests[i], params->names[n]);
+            chosen[i] |= has;
+            any |= has;
+        }
+        if (!any)
+            return unknown_name(loader, params->names[n]);
+    }
+    size_t kept = 0;
+    for (size_t i = 0; i < suite->count; i++) {
+        if (chosen[i])
+            suite->tests[kept++] = suite->tests[i];
+    }
+    suite->count = kept;
+    return true;
+}
+
+static void choose_shard(struct loader *loader)
+{
+    struct kiln_suite *suite = loader->suite;
+    uint32_t shard = loader->params->shard, shards = loader->params->shards;
+    size_t kept = 0;
+    for (size_t i = 0; i < suite->count; i++) {
+        if (shards == 0 || i % shards == shard - 1)
+            suite->tests[kept++] = suite->tests[i];
+    }
+    suite->count = kept;
+}
+
+/* ---- the suite ------------------------------------------------------------------------------ */
+
+static bool check_params(const struct kiln_suite_params *params, struct kiln_error *error)
+{
+    if (params->path_count == 0)
+        return kiln_error_set(error, KILN_USAGE, "no tests, scenes or folders are given");
+    bool all = params->shard == 0 && params->shards == 0;
+    return all || (params->shard >= 1 && params->shard <= params->shards) ||
+           kiln_error_set(error, KILN_USAGE,
+                          "shard %u/%u: the first number goes from 1 to the second", params->shard,
+                          params->shards);
+}
+
+/* "out/" as "out", "" as "."; so that paths do not stutter. */
+static char *tidy_folder(struct kiln_arena *arena, const char *folder)
+{
+    size_t length = strlen(folder);
+    while (length > 1 && folder[length - 1] == '/')
+        length--;
+    return length ? kiln_arena_text(arena, folder, length) : kiln_arena_text(arena, ".", 1);
+}
+
+static bool load(struct kiln_suite *suite, const struct kiln_suite_params *params,
+                 struct kiln_error *error)
+{
+    struct kiln_suite_params own = *params;
+    struct loader loader = {.params = &own, .suite = suite, .error = error};
+    suite->results_folder = tidy_folder(suite->arena, params->results);
+    own.golden = tidy_folder(suite->arena, params->golden);
+    own.results = suite->results_folder;
+    if (!own.golden || !own.results)
+        return out_of_memory(&loader);
+    if (!read_files(&loader))
+        return false;
+    drop_named_scenes(&loader);
+    if (!check_names(&loader) || !make_tests(&loader) || !choose_names(&loader))
+        return false;
+    choose_shard(&loader);
+    return true;
+}
+
+struct kiln_suite *kiln_suite_load(const struct kiln_suite_params *params, struct kiln_error *error)
+{
+    if (!check_params(params, error))
+        return NULL;
+    struct kiln_arena *arena = kiln_arena_create();
+    struct kiln_suite *suite = arena ? kiln_arena_alloc(arena, 1, sizeof *suite) : NULL;
+    if (!suite)
+        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading tests");
+    else
+        suite->arena = arena;
+    if (suite && load(suite, params, error))
+        return suite;
+    kiln_arena_destroy(&arena);
+    return NULL;
+}
+
+void kiln_suite_destroy(struct kiln_suite **suite)
+{
+    if (!*suite)
+        return;
+    struct kiln_arena *arena = (*suite)->arena; /* which holds the suite, too */
+    kiln_arena_destroy(&arena);
+    *suite = NULL;
+}
+
+size_t kiln_suite_count(const struct kiln_suite *suite)
+{
+    return suite->count;
+}
+
+struct kiln_test_info kiln_suite_test(const struct kiln_suite *suite, size_t index)
+{
+    const struct kiln_test *test = &suite->tests[index];
+    return (struct kiln_test_info){.name = test->full_name,
+                                   .path = test->path,
+                                   .results = test->results,
+                                   .time_limit_s = test->time_limit_s};
+}

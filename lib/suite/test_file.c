@@ -1,0 +1,346 @@
+/* Test files are read by the option tables' machinery, as scenes are: the same errors, the same
+ * reference. */
+#include "suite/test_file.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "scene/option_rows.h"
+#include "scene/reader.h"
+#include "scene/reference.h"
+#include "suite/golden.h"
+#include "suite/type.h"
+#include "technique.h"
+
+enum { MAX_FILE_SIZE = 1 << 20, MAX_OVERRIDES = 64, MAX_TEXT = 4000 };
+
+/* What the table below fills. */
+struct document {
+    uint32_t version;
+    const char *scene, *about, *reason;
+    const char *set[MAX_OVERRIDES];
+    uint32_t set_count;
+    uint32_t size[2];
+    uint32_t frames[KILN_TEST_MAX_FRAMES];
+    uint32_t frame_count;
+    enum kiln_test_format format;
+    const char *devices[KILN_TEST_MAX_DEVICES];
+    uint32_t device_count;
+    const char *techniques[KILN_TEST_MAX_TECHNIQUES];
+    uint32_t technique_count;
+    struct kiln_expect_value limits[KILN_MAX_COLUMNS];
+    uint32_t limit_count;
+    double warn, threshold, time_limit_s;
+    uint32_t window;
+    struct kiln_test_mask masks[KILN_TEST_MAX_MASKS];
+    uint32_t mask_count;
+};
+
+static const char *const formats[] = {
+    [KILN_TEST_PNG] = "png",
+    [KILN_TEST_PNG16] = "png16",
+    [KILN_TEST_EXR] = "exr",
+    NULL,
+};
+
+static const struct kiln_option override_item = {.type = &kiln_type_override,
+                                                 LIMITS(KILN_PLAIN, 1, MAX_TEXT)};
+static const struct kiln_option device_item = {.type = &kiln_type_device,
+                                               LIMITS(KILN_PLAIN, 1, 127)};
+static const struct kiln_option technique_item = {.type = &kiln_type_technique,
+                                                  LIMITS(KILN_PLAIN, 1, 60)};
+
+#define AT(field) offsetof(struct document, field)
+
+/* name, field, item, count, largest count, help */
+#define LIST(n, f, i, c, most, h)                                                                  \
+    {                                                                                              \
+        ROW(n, list, AT(f), "[]", h), .item = &(i), .kind_offset = KILN_KIND_NONE,                 \
+                                      .item_size = sizeof((struct document *)0)->f[0],             \
+                                      .count_offset = AT(c), .max_count = most                     \
+    }
+/* name, field, smallest and largest length, default, help */
+#define TEXT(n, f, least, def, h)                                                                  \
+    {                                                                                              \
+        ROW(n, text, AT(f), def, h), LIMITS(KILN_PLAIN, least, MAX_TEXT)                           \
+    }
+
+static const struct kiln_option rows[] = {
+    INTEGER("kiln_test", version, 1, 1, NULL, "Version of the format of test files."),
+    TEXT("scene", scene, 1, NULL, "The scene's path, from the test file's folder."),
+    TEXT("about", about, 0, "\"\"", "What the test is for; it is shown in reports."),
+    LIST("set", set, override_item, set_count, MAX_OVERRIDES, "Keys of the scene to change."),
+    {ROW("size", size, AT(size), "scene", "Width and height of the pictures."),
+     LIMITS(KILN_PIXELS, 16, 16384)},
+    {ROW("frames", frames, AT(frames), "auto",
+         "The frames to judge; auto: the middle and the last one of the scene."),
+     .count_offset = AT(frame_count), .max_count = KILN_TEST_MAX_FRAMES},
+    CHOICE("format", format, formats, "png", "Of the pictures, the goldens too."),
+    LIST("devices", devices, device_item, device_count, KILN_TEST_MAX_DEVICES,
+         "Devices to test, each as a test of its own if there are several; it is skipped where "
+         "there is no such device. None takes that of the run."),
+    LIST("techniques", techniques, technique_item, technique_count, KILN_TEST_MAX_TECHNIQUES,
+         "Techniques of stages; for the others it is cpu or, where there is none, the first."),
+    {ROW("limits", limits, AT(limits), "{}",
+         "The worst values that pass, in place of the default ones, which "
+         "are " KILN_COMPARE_DEFAULT_LIMITS "."),
+     .count_offset = AT(limit_count), .max_count = KILN_MAX_COLUMNS},
+    TEXT("reason", reason, 0, "\"\"", "Why these limits."),
+    {ROW("warn", number, AT(warn), "0.5",
+         "A frame that passes with a score above this is a warning; 1 is just within the limits."),
+     LIMITS(KILN_PLAIN, 0, 1)},
+    {ROW("threshold", number, AT(threshold), "2", "Pixels that differ by more levels are counted."),
+     LIMITS(KILN_PLAIN, 0, 255)},
+    INTEGER("window", window, 1, 16384, "32",
+            "Edge of the square, in pixels, whose densest place is looked for."),
+    {ROW("masks", list, AT(masks), "[]", "Parts of the pictures that are not judged."),
+     .item = &kiln_mask_item, .kind_offset = KILN_KIND_NONE,
+     .item_size = sizeof(struct kiln_test_mask), .count_offset = AT(mask_count),
+     .max_count = KILN_TEST_MAX_MASKS},
+    {ROW("time_limit", number, AT(time_limit_s), "120 s", "A test that takes longer is stopped."),
+     LIMITS(KILN_SECONDS, 0.1, 86400)},
+    END,
+};
+
+bool kiln_test_write_reference(FILE *out)
+{
+    static const char introduction[] =
+        "A golden-image test is a YAML file whose name ends in .test.yaml, beside the scene that "
+        "it\n"
+        "names or anywhere else:\n"
+        "\n"
+        "    kiln_test: 1\n"
+        "    scene: ../scenes/fire.yaml\n"
+        "    frames: [24, 96]\n"
+        "    size: [320, 180]\n"
+        "\n"
+        "A scene that no such file names is a test with every default.\n"
+        "\n";
+    return kiln_reference_write(out, introduction, rows);
+}
+
+/* ---- from the document to the test ---------------------------------------------------------- */
+
+static bool out_of_memory(struct kiln_error *error)
+{
+    return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading tests");
+}
+
+/* A path as the file at `base` means it. */
+static const char *resolve(struct kiln_arena *arena, const char *base, const char *path)
+{
+    const char *slash = strrchr(base, '/');
+    size_t folder = slash && *path != '/' ? (size_t)(slash + 1 - base) : 0;
+    size_t length = strlen(path);
+    char *joined = kiln_arena_alloc(arena, folder + length + 1, 1);
+    if (joined) {
+        memcpy(joined, base, folder);
+        memcpy(joined + folder, path, length);
+    }
+    return joined;
+}
+
+static bool add_text(struct kiln_arena *arena, const char **texts, size_t *count, const char *text)
+{
+    texts[*count] = kiln_arena_text(arena, text, strlen(text));
+    return texts[(*count)++] != NULL;
+}
+
+/* The techniques that every test pins; the test's own come after them and go over them. */
+static bool take_techniques(struct kiln_arena *arena, const struct document *document,
+                            struct kiln_test *test)
+{
+    enum { MAX_STAGES = 16 };
+    test->techniques =
+        kiln_arena_alloc(arena, MAX_STAGES + document->technique_count, sizeof *test->techniques);
+    bool ok = test->techniques != NULL;
+    char pinned[64];
+    for (size_t i = 0; ok && i < MAX_STAGES && kiln_technique_pinned(i, pinned); i++)
+        ok = add_text(arena, test->techniques, &test->technique_count, pinned);
+    for (uint32_t i = 0; ok && i < document->technique_count; i++)
+        test->techniques[test->technique_count++] = document->techniques[i];
+    return ok;
+}
+
+static bool take_limits(struct kiln_arena *arena, const struct document *document,
+                        struct kiln_test *test)
+{
+    test->limits = kiln_arena_alloc(arena, document->limit_count + 1u, sizeof *test->limits);
+    bool ok = test->limits != NULL;
+    for (uint32_t i = 0; ok && i < document->limit_count; i++) {
+        char number[32], limit[64];
+        kiln_text_from_double(number, document->limits[i].value);
+        snprintf(limit, sizeof limit, "%s=%s", document->limits[i].metric, number);
+        ok = add_text(arena, test->limits, &test->limit_count, limit);
+    }
+    return ok;
+}
+
+static bool take_overrides(struct kiln_arena *arena, const struct document *document,
+                           struct kiln_test *test)
+{
+    test->overrides = kiln_arena_alloc(arena, document->set_count + 1u, sizeof *test->overrides);
+    bool ok = test->overrides != NULL;
+    for (uint32_t i = 0; ok && i < document->set_count; i++)
+        test->overrides[test->override_count++] = document->set[i];
+    char size[64];
+    snprintf(size, sizeof size, "output.size=[%u, %u]", document->size[0], document->size[1]);
+    if (ok && document->size[0] > 0)
+        ok = add_text(arena, test->overrides, &test->override_count, size);
+    return ok;
+}
+
+/* The document lies in the arena, too: its arrays are the test's. */
+static bool take_document(struct kiln_arena *arena, struct document *document, const char *path,
+                          struct kiln_test_file *file)
+{
+    struct kiln_test *test = &file->test;
+    test->about = document->about;
+    test->limits_reason = document->reason;
+    test->frames = document->frames;
+    test->frame_count = document->frame_count;
+    test->format = document->format;
+    test->warn = document->warn;
+    test->threshold = document->threshold;
+    test->window = document->window;
+    test->masks = document->masks;
+    test->mask_count = document->mask_count;
+    test->time_limit_s = document->time_limit_s;
+    test->technique_count = test->limit_count = test->override_count = 0;
+    file->devices = document->devices;
+    file->device_count = document->device_count;
+    bool ok = true;
+    for (size_t i = 0; ok && i < test->mask_count; i++) {
+        struct kiln_test_mask *mask = &test->masks[i];
+        if (mask->picture)
+            ok = (mask->picture = resolve(arena, path, mask->picture)) != NULL;
+    }
+    return ok && take_techniques(arena, document, test) && take_limits(arena, document, test) &&
+           take_overrides(arena, document, test);
+}
+
+/* ---- reading -------------------------------------------------------------------------------- */
+
+static bool ends_with(const char *text, const char *end)
+{
+    size_t length = strlen(text), end_length = strlen(end);
+    return length >= end_length && strcmp(text + length - end_length, end) == 0;
+}
+
+bool kiln_test_file_is(const char *path)
+{
+    return ends_with(path, ".test.yaml") || ends_with(path, ".test.yml");
+}
+
+bool kiln_test_file_is_yaml(const char *path)
+{
+    return ends_with(path, ".yaml") || ends_with(path, ".yml");
+}
+
+/* Two devices whose names make the same test would overwrite each other's results. */
+static bool check_devices(struct kiln_reader *reader, const struct kiln_node *root,
+                          const struct document *document)
+{
+    for (uint32_t i = 0; i < document->device_count; i++) {
+        for (uint32_t j = 0; j < i; j++) {
+            char a[KILN_DEVICE_NAME_SIZE], b[KILN_DEVICE_NAME_SIZE];
+            kiln_device_name(document->devices[i], a);
+            kiln_device_name(document->devices[j], b);
+            if (strcmp(a, b) == 0) {
+                kiln_reader_enter(reader, "devices");
+                return kiln_reader_error(reader, kiln_node_entry(root, "devices"),
+                                         "'%s' is given twice", a);
+            }
+        }
+    }
+    return true;
+}
+
+static bool read_document(struct kiln_reader *reader, const struct kiln_node *root,
+                          struct document *document)
+{
+    if (root->kind != KILN_NODE_MAP)
+        return kiln_reader_expected(reader, root, "a mapping of keys");
+    return kiln_read_members(reader, rows, root, document) && check_devices(reader, root, document);
+}
+
+/* What a test has when no file says anything. */
+static bool take_defaults(struct kiln_arena *arena, struct kiln_arena *scratch, const char *path,
+                          struct kiln_test_file *file, struct kiln_error *error)
+{
+    struct kiln_reader *reader = kiln_arena_alloc(scratch, 1, sizeof *reader);
+    struct document *document = kiln_arena_alloc(arena, 1, sizeof *document);
+    if (!reader || !document)
+        return out_of_memory(error);
+    *reader = (struct kiln_reader){.arena = arena, .scratch = scratch, .error = error};
+    static const struct kiln_origin origin = {.name = "", .has_lines = false};
+    static const char least[] = "{kiln_test: 1, scene: scene}";
+    const struct kiln_node *root =
+        kiln_node_parse(scratch, least, sizeof least - 1, &origin, error);
+    return root && read_document(reader, root, document) &&
+           (take_document(arena, document, path, file) || out_of_memory(error));
+}
+
+/* The test file's own text; a fault of it is the problem. */
+static bool take_text(struct kiln_arena *arena, struct kiln_arena *scratch, const char *text,
+                      size_t size, struct kiln_test_file *file, struct kiln_error *problem)
+{
+    const char *path = file->test.path;
+    struct kiln_reader *reader = kiln_arena_alloc(scratch, 1, sizeof *reader);
+    struct document *document = kiln_arena_alloc(arena, 1, sizeof *document);
+    if (!reader || !document)
+        return out_of_memory(problem);
+    *reader = (struct kiln_reader){.arena = arena, .scratch = scratch, .error = problem};
+    struct kiln_origin origin = {
+        .name = path, .has_lines = true, .kind = "a test", .version = "kiln_test: 1"};
+    const struct kiln_node *root = kiln_node_parse(scratch, text, size, &origin, problem);
+    if (!root)
+        return false;
+    const struct kiln_node *scene = kiln_node_entry(root, "scene");
+    if (scene && scene->kind == KILN_NODE_SCALAR && *scene->text &&
+        !(file->test.scene = resolve(arena, path, scene->text)))
+        return out_of_memory(problem);
+    return read_document(reader, root, document) &&
+           (take_document(arena, document, path, file) || out_of_memory(problem));
+}
+
+/* The defaults, and over them the text; NULL: the file is a scene, or could not be read. */
+static bool take_file(struct kiln_arena *arena, const char *text, size_t size, const char *path,
+                      struct kiln_test_file *file, struct kiln_error *error)
+{
+    struct kiln_arena *scratch = kiln_arena_create();
+    const char *own_path = kiln_arena_text(arena, path, strlen(path));
+    *file = (struct kiln_test_file){.test = {.path = own_path, .scene = own_path}};
+    struct kiln_error problem = {0};
+    bool ok = scratch && own_path ? take_defaults(arena, scratch, path, file, error)
+                                  : out_of_memory(error);
+    if (ok && text && !take_text(arena, scratch, text, size, file, &problem)) {
+        ok = problem.code != KILN_DEVICE_FAILED;
+        *(ok ? &file->test.problem : error) = problem;
+    }
+    kiln_arena_destroy(&scratch);
+    return ok;
+}
+
+bool kiln_test_file_parse(struct kiln_arena *arena, const char *text, size_t size, const char *path,
+                          struct kiln_test_file *file, struct kiln_error *error)
+{
+    return take_file(arena, text, size, path, file, error);
+}
+
+bool kiln_test_file_read(struct kiln_arena *arena, const char *path, struct kiln_test_file *file,
+                         struct kiln_error *error)
+{
+    struct kiln_error problem = {0};
+    char *text = NULL;
+    size_t size = 0;
+    if (kiln_test_file_is(path))
+        text = kiln_text_file_read(path, "a test file", MAX_FILE_SIZE, &size, &problem);
+    bool ok = take_file(arena, text, size, path, file, error);
+    free(text);
+    if (ok && problem.code != KILN_OK)
+        file->test.problem = problem;
+    return ok;
+}
