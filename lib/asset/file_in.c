@@ -61,8 +61,6 @@ unsigned char *kiln_file_read(const char *path, const char *what, const char *al
         kiln_error_set_errno(error, KILN_IO, errno, "%s: the %s cannot be read", path, what);
         free(bytes);
         bytes = NULL;
-    } else {
-        bytes[*size] = '\0';
     }
     close(file);
     return bytes;

@@ -10,9 +10,8 @@
 int kiln_file_open(const char *path, const char *what, const char *allowed, size_t *size,
                    struct kiln_error *error);
 
-/* The bytes of such a file of at most `limit` bytes, and a zero after them; the caller frees them.
- * Or NULL: as above, KILN_INVALID_INPUT when it is larger, KILN_DEVICE_FAILED when memory is short.
- */
+/* The bytes of such a file of at most `limit` bytes, which the caller frees, or NULL: as above,
+ * KILN_INVALID_INPUT when it is larger, KILN_DEVICE_FAILED when memory is short. */
 unsigned char *kiln_file_read(const char *path, const char *what, const char *allowed, size_t limit,
                               size_t *size, struct kiln_error *error);
 

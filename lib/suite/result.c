@@ -6,16 +6,6 @@
 #include "base/error.h"
 #include "suite/result_member.h"
 
-static const char *const status_names[KILN_TEST_STATUS_COUNT] = {
-    [KILN_TEST_PASS] = "pass", [KILN_TEST_SKIP] = "skip", [KILN_TEST_WARN] = "warn",
-    [KILN_TEST_NEW] = "new",   [KILN_TEST_FAIL] = "fail", [KILN_TEST_ERROR] = "error",
-};
-
-const char *kiln_test_status_name(enum kiln_test_status status)
-{
-    return status_names[status];
-}
-
 static const char *const judged_by_names[KILN_JUDGED_BY_COUNT] = {
     [KILN_JUDGED_BY_NOTHING] = "nothing",
     [KILN_JUDGED_BY_STATE] = "state",

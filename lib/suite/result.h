@@ -54,7 +54,7 @@ struct kiln_result {
     const char *about;  /* the test's own description */
     const char *golden; /* the folder of its goldens */
     enum kiln_test_status status;
-    enum kiln_code code;
+    enum kiln_code code;     /* ok for pass, skip and warn, and only for these */
     const char *message;     /* the cause in one line: of an error, or of the worst frame */
     const char *log;         /* file with what its process printed, or "" */
     const char *device;      /* GL renderer */

@@ -1,12 +1,12 @@
 /* Reading trusts nothing: results travel between machines, and the files that they name are opened
  * by reports. So a member more or less is an error, and so is a name that leaves the folder. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
-#include "asset/file_in.h"
 #include "base/error.h"
+#include "base/file.h"
 #include "base/text.h"
 #include "scene/node.h"
 #include "suite/result_member.h"
@@ -220,6 +220,18 @@ static void *allocate(const struct reading *reading, uint32_t count, size_t size
 
 /* ---- The parts of a result ---------------------------------------------------------------- */
 
+/* A run that is red in its report and green in its exit code would be believed. */
+static bool check_code(const struct reading *reading, const struct kiln_node *root,
+                       const struct kiln_result *result)
+{
+    const struct kiln_node *code = kiln_node_entry(root, "code");
+    bool good = result->status < KILN_TEST_NEW;
+    return good == (result->code == KILN_OK) ||
+           refuse(reading, code, "code",
+                  good ? "0, as the status is no failure"
+                       : "another than 0, as the status is a failure");
+}
+
 static bool read_columns(const struct reading *reading, const struct kiln_node *root,
                          struct kiln_result *result)
 {
@@ -372,9 +384,9 @@ struct kiln_result *kiln_result_parse(struct kiln_arena *arena, const char *text
     uint32_t count = 5; /* the version and the lists */
     bool ok = root && check_version(&reading, root) &&
               read_members(&reading, root, kiln_result_members, result, &count) &&
-              read_columns(&reading, root, result) && read_frames(&reading, root, result) &&
-              read_changes(&reading, root, result) && read_notes(&reading, root, result) &&
-              check_count(&reading, root, count);
+              check_code(&reading, root, result) && read_columns(&reading, root, result) &&
+              read_frames(&reading, root, result) && read_changes(&reading, root, result) &&
+              read_notes(&reading, root, result) && check_count(&reading, root, count);
     return ok ? result : NULL;
 }
 
@@ -384,16 +396,11 @@ struct kiln_result *kiln_result_read(struct kiln_arena *arena, const char *folde
     char path[KILN_PATH_SIZE];
     if (!kiln_result_path(path, folder, error))
         return NULL;
-    if (access(path, F_OK) != 0) {
-        kiln_error_set(error, KILN_INVALID_INPUT, "%s: there is no result", path);
-        return NULL;
-    }
     size_t size = 0;
-    unsigned char *bytes =
-        kiln_file_read(path, "result", "result.json", MAX_FILE_SIZE, &size, error);
-    if (!bytes)
+    char *text = kiln_text_file_read(path, "the result of a test", MAX_FILE_SIZE, &size, error);
+    if (!text)
         return NULL;
-    struct kiln_result *result = kiln_result_parse(arena, (const char *)bytes, size, path, error);
-    free(bytes);
+    struct kiln_result *result = kiln_result_parse(arena, text, size, path, error);
+    free(text);
     return result;
 }

