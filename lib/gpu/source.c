@@ -10,8 +10,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/embedded.h"
 #include "base/error.h"
-#include "gpu/embedded.h"
 
 enum { MAX_DEPTH = 32, MAX_FILE_SIZE = 1 << 20 };
 
@@ -27,14 +27,6 @@ static bool is_safe_path(const char *path)
 {
     return path[0] != '\0' && path[0] != '/' && !strstr(path, "..") &&
            strlen(path) < KILN_MAX_SOURCE_PATH;
-}
-
-static const char *find_embedded(const char *path)
-{
-    for (size_t i = 0; i < kiln_embedded_file_count; i++)
-        if (strcmp(kiln_embedded_files[i].path, path) == 0)
-            return kiln_embedded_files[i].text;
-    return NULL;
 }
 
 /* Reads dir/path. *text stays NULL when there is no such file. */
@@ -85,7 +77,7 @@ static const char *find_text(const struct part *part, char **owned, struct kiln_
         const char *dir = getenv("KILN_SHADER_DIR"); /* NOLINT(concurrency-mt-unsafe): only read */
         if (dir && dir[0] != '\0' && !read_override(dir, part->path, owned, error))
             return NULL;
-        const char *text = *owned ? *owned : find_embedded(part->path);
+        const char *text = *owned ? *owned : kiln_embedded_find(kiln_embedded_shaders, part->path);
         if (text)
             return text;
     }

@@ -1,0 +1,21 @@
+# Files that are put into the library, each folder as one C table (lib/base/embedded.h).
+set(kiln_embedded_sources "")
+function(kiln_embed table root)
+    list(TRANSFORM ARGN PREPEND ${root}/ OUTPUT_VARIABLE globs)
+    file(GLOB_RECURSE files CONFIGURE_DEPENDS RELATIVE ${root} ${globs})
+    list(TRANSFORM files PREPEND ${root}/ OUTPUT_VARIABLE paths)
+    string(REPLACE ";" "," files "${files}")
+    set(source ${CMAKE_CURRENT_BINARY_DIR}/${table}.c)
+    set(script ${CMAKE_CURRENT_SOURCE_DIR}/cmake/embed.cmake)
+    add_custom_command(
+        OUTPUT ${source}
+        COMMAND ${CMAKE_COMMAND} -DOUT=${source} -DTABLE=${table} -DROOT=${root} -DFILES=${files}
+            -P ${script}
+        DEPENDS ${paths} ${script}
+        VERBATIM)
+    set(kiln_embedded_sources ${kiln_embedded_sources} ${source} PARENT_SCOPE)
+endfunction()
+
+kiln_embed(kiln_embedded_shaders ${CMAKE_CURRENT_SOURCE_DIR}/shaders
+    *.h *.glsl *.comp *.vert *.geom *.frag)
+kiln_embed(kiln_embedded_page ${CMAKE_CURRENT_SOURCE_DIR}/lib/report/page *.html *.css *.js)
