@@ -1,0 +1,292 @@
+/* Every picture is looked at twice: once for its size and kind, to plan, and once to be written. */
+#include "report/gallery.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "asset/file_in.h"
+#include "asset/image.h"
+#include "base/error.h"
+#include "base/text.h"
+#include "report/markup.h"
+#include "report/preview.h"
+
+struct kiln_gallery {
+    const struct kiln_results *results;
+    struct kiln_arena *arena;
+    const char *page_folder;           /* absolute; "" when it cannot be told */
+    bool link;                         /* all of them */
+    struct kiln_gallery_place **tests; /* of each test: roles of all frames */
+    const char **inside;               /* paths by number */
+    uint32_t inside_count, crowded_out;
+    uint64_t bytes; /* of those inside */
+};
+
+size_t kiln_gallery_worst_frame(const struct kiln_result *result)
+{
+    size_t worst = 0;
+    for (size_t i = 1; i < result->frame_count; i++) {
+        const struct kiln_result_frame *a = &result->frames[worst], *b = &result->frames[i];
+        double a_score = a->measured ? a->score : 0, b_score = b->measured ? b->score : 0;
+        if (b->status > a->status || (b->status == a->status && b_score > a_score))
+            worst = i;
+    }
+    return worst;
+}
+
+/* ---- Links -------------------------------------------------------------------------------- */
+
+/* The path of a file from the page's folder, given the absolute path of the file's folder. */
+static void add_relative(struct kiln_text *out, const char *from, const char *folder)
+{
+    size_t common = 0; /* of whole names */
+    size_t i = 0;
+    for (; from[i] && from[i] == folder[i]; i++)
+        if (from[i] == '/')
+            common = i;
+    if ((!from[i] || from[i] == '/') && (!folder[i] || folder[i] == '/'))
+        common = i;
+    for (const char *rest = from + common; *rest; rest++)
+        if (rest[0] == '/' && rest[1] != '\0')
+            kiln_text_add(out, "../");
+    const char *rest = folder + common;
+    rest += *rest == '/';
+    kiln_text_add(out, "%s%s", rest, *rest ? "/" : "");
+}
+
+static char *absolute_folder_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    char folder[KILN_PATH_SIZE] = ".";
+    if (slash == path)
+        return strdup("/");
+    if (slash)
+        snprintf(folder, sizeof folder, "%.*s", (int)(slash - path), path);
+    return realpath(folder, NULL);
+}
+
+/* NULL when memory is short. */
+static const char *relative_path(struct kiln_gallery *gallery, const char *path)
+{
+    char *folder = absolute_folder_of(path);
+    const char *slash = strrchr(path, '/');
+    struct kiln_text text = {0};
+    if (folder && *gallery->page_folder) {
+        add_relative(&text, gallery->page_folder, folder);
+        kiln_text_add(&text, "%s", slash ? slash + 1 : path);
+    } else {
+        kiln_text_add(&text, "%s", path);
+    }
+    const char *copy = text.failed ? NULL : kiln_arena_text(gallery->arena, text.data, text.length);
+    kiln_text_free(&text);
+    free(folder);
+    return copy;
+}
+
+/* frame_0024.exr -> frame_0024.preview.png */
+static void preview_path(const char *path, char out[KILN_PATH_SIZE])
+{
+    const char *slash = strrchr(path, '/'), *dot = strrchr(path, '.');
+    size_t stem = dot && (!slash || dot > slash) ? (size_t)(dot - path) : strlen(path);
+    snprintf(out, KILN_PATH_SIZE, "%.*s.preview.png", (int)stem, path);
+}
+
+static bool make_preview(const char *path, const char *target, struct kiln_error *error)
+{
+    struct kiln_temporary file = {0};
+    bool ok = kiln_temporary_open(&file, target, error) && kiln_preview_write(path, &file, error) &&
+              kiln_temporary_commit(&file, true, error);
+    kiln_temporary_discard(&file);
+    return ok;
+}
+
+static bool link_to(struct kiln_gallery *gallery, const char *path,
+                    struct kiln_gallery_place *place)
+{
+    struct kiln_error error = {0};
+    char target[KILN_PATH_SIZE];
+    snprintf(target, sizeof target, "%s", path);
+    if (!kiln_preview_is_plain(path)) {
+        preview_path(path, target);
+        if (!make_preview(path, target, &error)) {
+            place->kind = KILN_GALLERY_BROKEN;
+            place->text = kiln_arena_text(gallery->arena, error.message, strlen(error.message));
+            return place->text != NULL;
+        }
+    }
+    place->kind = KILN_GALLERY_LINKED;
+    place->text = relative_path(gallery, target);
+    return place->text != NULL;
+}
+
+/* ---- The plan ----------------------------------------------------------------------------- */
+
+static bool have_equal_bytes(const char *a, const char *b)
+{
+    FILE *files[2] = {fopen(a, "rb"), fopen(b, "rb")};
+    bool equal = files[0] && files[1];
+    while (equal) {
+        char blocks[2][4096];
+        size_t got = fread(blocks[0], 1, sizeof blocks[0], files[0]);
+        equal = fread(blocks[1], 1, sizeof blocks[1], files[1]) == got &&
+                memcmp(blocks[0], blocks[1], got) == 0;
+        if (got < sizeof blocks[0])
+            break;
+    }
+    for (int i = 0; i < 2; i++)
+        if (files[i])
+            fclose(files[i]);
+    return equal;
+}
+
+static bool place_picture(struct kiln_gallery *gallery, const char *path,
+                          struct kiln_gallery_place *place)
+{
+    struct stat status;
+    uint64_t size = stat(path, &status) == 0 ? (uint64_t)status.st_size : 0;
+    bool fits = gallery->bytes + size <= KILN_GALLERY_BYTES;
+    if (gallery->link || !fits) {
+        gallery->crowded_out += !gallery->link;
+        return link_to(gallery, path, place);
+    }
+    place->kind = KILN_GALLERY_INSIDE;
+    place->number = gallery->inside_count;
+    gallery->bytes += size;
+    const char *copy = kiln_arena_text(gallery->arena, path, strlen(path));
+    gallery->inside[gallery->inside_count++] = copy;
+    return copy != NULL;
+}
+
+static bool place_frame(struct kiln_gallery *gallery, size_t test, size_t index)
+{
+    const struct kiln_result_frame *frame = &gallery->results->tests[test]->frames[index];
+    struct kiln_gallery_place *places = gallery->tests[test] + index * KILN_GALLERY_ROLE_COUNT;
+    const char *const names[KILN_GALLERY_ROLE_COUNT] = {
+        [KILN_GALLERY_REFERENCE] = frame->reference,
+        [KILN_GALLERY_RESULT] = frame->picture,
+        [KILN_GALLERY_ERROR_MAP] = frame->error_map,
+    };
+    char paths[KILN_GALLERY_ROLE_COUNT][KILN_PATH_SIZE];
+    for (int i = 0; i < KILN_GALLERY_ROLE_COUNT; i++) {
+        if (!*names[i])
+            continue;
+        snprintf(paths[i], sizeof paths[i], "%s/%s", gallery->results->folders[test], names[i]);
+        if (i == KILN_GALLERY_RESULT && *names[KILN_GALLERY_REFERENCE] &&
+            have_equal_bytes(paths[i], paths[KILN_GALLERY_REFERENCE]))
+            places[i] = places[KILN_GALLERY_REFERENCE];
+        else if (!place_picture(gallery, paths[i], &places[i]))
+            return false;
+    }
+    return true;
+}
+
+static bool place_test(struct kiln_gallery *gallery, size_t test)
+{
+    const struct kiln_result *result = gallery->results->tests[test];
+    gallery->tests[test] = kiln_arena_alloc(
+        gallery->arena, KILN_GALLERY_ROLE_COUNT * result->frame_count + 1, sizeof **gallery->tests);
+    if (!gallery->tests[test])
+        return false;
+    size_t worst = kiln_gallery_worst_frame(result);
+    if (result->frame_count > 0 && !place_frame(gallery, test, worst))
+        return false;
+    for (size_t i = 0; i < result->frame_count; i++)
+        if (i != worst && !place_frame(gallery, test, i))
+            return false;
+    return true;
+}
+
+static bool allocate(struct kiln_gallery *gallery)
+{
+    size_t frames = 0;
+    for (size_t i = 0; i < gallery->results->count; i++)
+        frames += gallery->results->tests[i]->frame_count;
+    gallery->inside = kiln_arena_alloc(gallery->arena, KILN_GALLERY_ROLE_COUNT * frames + 1,
+                                       sizeof *gallery->inside);
+    gallery->tests =
+        kiln_arena_alloc(gallery->arena, gallery->results->count + 1, sizeof *gallery->tests);
+    return gallery->inside && gallery->tests;
+}
+
+static const char *find_page_folder(struct kiln_arena *arena, const char *path)
+{
+    char *folder = strcmp(path, "-") == 0 ? realpath(".", NULL) : absolute_folder_of(path);
+    const char *copy = kiln_arena_text(arena, folder ? folder : "", folder ? strlen(folder) : 0);
+    free(folder);
+    return copy;
+}
+
+struct kiln_gallery *kiln_gallery_plan(const struct kiln_results *results, const size_t *order,
+                                       const struct kiln_results_output *output,
+                                       struct kiln_error *error)
+{
+    struct kiln_gallery *gallery = kiln_arena_alloc(results->arena, 1, sizeof *gallery);
+    bool ok = gallery != NULL;
+    if (ok) {
+        gallery->results = results;
+        gallery->arena = results->arena;
+        gallery->link = output->link;
+        gallery->page_folder = find_page_folder(results->arena, output->path);
+        ok = gallery->page_folder && allocate(gallery);
+    }
+    for (size_t i = 0; ok && i < results->count; i++)
+        ok = place_test(gallery, order[i]);
+    if (!ok)
+        kiln_error_set(error, KILN_DEVICE_FAILED, "no memory for the report's list of pictures");
+    return ok ? gallery : NULL;
+}
+
+const struct kiln_gallery_place *kiln_gallery_places(const struct kiln_gallery *gallery,
+                                                     size_t test, size_t frame)
+{
+    return gallery->tests[test] + frame * KILN_GALLERY_ROLE_COUNT;
+}
+
+uint32_t kiln_gallery_inside(const struct kiln_gallery *gallery)
+{
+    return gallery->inside_count;
+}
+
+uint32_t kiln_gallery_crowded_out(const struct kiln_gallery *gallery)
+{
+    return gallery->crowded_out;
+}
+
+/* ---- The pictures ------------------------------------------------------------------------- */
+
+/* The bytes of a PNG that a browser shows, which the caller frees. */
+static unsigned char *read_shown(const char *path, size_t *size, struct kiln_error *error)
+{
+    if (kiln_preview_is_plain(path))
+        return kiln_file_read(path, "picture", "PNG", KILN_MAX_IMAGE_BYTES, size, error);
+    char target[KILN_PATH_SIZE];
+    preview_path(path, target);
+    struct kiln_temporary file = {0};
+    unsigned char *bytes = NULL;
+    if (kiln_temporary_open(&file, target, error) && kiln_preview_write(path, &file, error))
+        bytes = kiln_file_read(kiln_temporary_path(&file), "picture", "PNG", KILN_MAX_IMAGE_BYTES,
+                               size, error);
+    kiln_temporary_discard(&file);
+    return bytes;
+}
+
+void kiln_gallery_write(const struct kiln_gallery *gallery, FILE *out)
+{
+    for (uint32_t i = 0; i < gallery->inside_count; i++) {
+        struct kiln_error error = {0};
+        size_t size = 0;
+        unsigned char *bytes = read_shown(gallery->inside[i], &size, &error);
+        fprintf(out, "<script type=\"text/plain\" id=\"p%u\"", i);
+        if (!bytes) {
+            fputs(" data-problem=\"", out);
+            kiln_markup_write_text(out, error.message);
+            fputc('"', out);
+        }
+        fputc('>', out);
+        if (bytes)
+            kiln_markup_write_base64(out, bytes, size);
+        fputs("</script>\n", out);
+        free(bytes);
+    }
+}

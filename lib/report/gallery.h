@@ -1,0 +1,56 @@
+/* The pictures of a report page: inside of it, or linked. */
+#ifndef KILN_REPORT_GALLERY_H
+#define KILN_REPORT_GALLERY_H
+
+#include "report/report.h"
+
+/* A page that holds more than this of pictures takes a browser seconds and gigabytes: those of the
+ * least concern are linked then. */
+enum { KILN_GALLERY_BYTES = 160 << 20 };
+
+enum kiln_gallery_role {
+    KILN_GALLERY_REFERENCE,
+    KILN_GALLERY_RESULT,
+    KILN_GALLERY_ERROR_MAP,
+    KILN_GALLERY_ROLE_COUNT
+};
+
+/* Where a picture is. */
+struct kiln_gallery_place {
+    enum kiln_gallery_kind {
+        KILN_GALLERY_NONE,   /* there is no such picture */
+        KILN_GALLERY_INSIDE, /* in the page, by its number */
+        KILN_GALLERY_LINKED, /* a path relative to the page's folder */
+        KILN_GALLERY_BROKEN, /* it cannot be shown; the text says why */
+    } kind;
+    uint32_t number;
+    const char *text; /* a path, or why not; of the arena */
+};
+
+struct kiln_gallery;
+
+/* Decides for every picture, in the given order of tests (count indices) and the worst frame of
+ * each first. Pictures that a browser cannot show get a preview beside them when they are linked.
+ * Equal pictures of one frame are in the page once. The gallery lives in results->arena. NULL with
+ * KILN_DEVICE_FAILED when memory is short. */
+struct kiln_gallery *kiln_gallery_plan(const struct kiln_results *results, const size_t *order,
+                                       const struct kiln_results_output *output,
+                                       struct kiln_error *error);
+
+/* Of a frame: KILN_GALLERY_ROLE_COUNT places. */
+const struct kiln_gallery_place *kiln_gallery_places(const struct kiln_gallery *gallery,
+                                                     size_t test, size_t frame);
+
+/* How many are inside, and how many linked for want of space. */
+uint32_t kiln_gallery_inside(const struct kiln_gallery *gallery);
+uint32_t kiln_gallery_crowded_out(const struct kiln_gallery *gallery);
+
+/* Writes those inside, one <script type="text/plain" id="pN"> each, in base64. One that cannot be
+ * read is an empty one with the reason as its data-problem. One picture is in memory at a time. */
+void kiln_gallery_write(const struct kiln_gallery *gallery, FILE *out);
+
+/* The frame that a person should see first: of the worst status, the highest score; 0 without
+ * frames. */
+size_t kiln_gallery_worst_frame(const struct kiln_result *result);
+
+#endif

@@ -1,0 +1,34 @@
+/* Templates, and text from anywhere on its way into an HTML page: nothing in it can end the place
+ * it was put to. Failed writes are left to whoever asks the stream for them. */
+#ifndef KILN_REPORT_MARKUP_H
+#define KILN_REPORT_MARKUP_H
+
+#include "kiln.h"
+
+/* What stands for {{name}} in a template; name NULL ends a list. */
+struct kiln_markup_field {
+    const char *name;
+    void (*write)(FILE *out, const void *user);
+    const void *user;
+};
+
+/* Writes a template with its fields. KILN_USAGE for a name that has none, or "{{" without "}}". */
+bool kiln_markup_write_template(FILE *out, const char *text, const struct kiln_markup_field *fields,
+                                struct kiln_error *error);
+
+/* HTML text or an attribute's value (in double quotes). Invalid UTF-8 and control characters other
+ * than line feed and tab become U+FFFD. */
+void kiln_markup_write_text(FILE *out, const char *text);
+
+/* A JSON string with its quotes, for a <script> element: it has no '<', '>' or '&'. */
+void kiln_markup_write_json(FILE *out, const char *text);
+
+/* A JSON number, or the strings "inf", "-inf" or "nan". */
+void kiln_markup_write_number(FILE *out, double value);
+
+/* A path as a relative URL: what is special in URLs or in HTML is percent-encoded. */
+void kiln_markup_write_url(FILE *out, const char *path);
+
+void kiln_markup_write_base64(FILE *out, const void *bytes, size_t size);
+
+#endif

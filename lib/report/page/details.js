@@ -1,0 +1,166 @@
+/* What is known of a test and a frame, in words and numbers. */
+
+/* Four digits that count; the numbers that JSON has not come as texts. */
+function formatNumber(value) {
+    if (value === "inf") return "\u221e";
+    if (value === "-inf") return "\u2212\u221e";
+    if (typeof value !== "number") return "not a number";
+    if (value === 0) return "0";
+    const size = Math.abs(value);
+    if (size >= 1e6 || size < 1e-4) return value.toExponential(2);
+    return size >= 1000 ? value.toFixed(0) : String(Number(value.toPrecision(4)));
+}
+
+function card(name, small, ...children) {
+    return make("section", { class: "card", "aria-label": name },
+        make("h3", {}, name, small ? make("small", {}, small) : null), ...children);
+}
+
+/* How much of its limit a value takes up: 1 is all of it. */
+function shareOf(column, value) {
+    const number = (v) => (v === "inf" ? Infinity : typeof v === "number" ? v : NaN);
+    const over = column.higher ? column.limit : number(value);
+    const under = column.higher ? number(value) : column.limit;
+    if (Number.isNaN(over) || Number.isNaN(under)) return Infinity;
+    if (under === Infinity) return 0;
+    return under > 0 ? over / under : over > under ? Infinity : 0;
+}
+
+/* The limit is in the middle. */
+function barOf(share) {
+    const width = Math.min(100, share * 50);
+    return makeSvg("svg", { viewBox: "0 0 100 10", preserveAspectRatio: "none", "aria-hidden": "true" },
+        makeSvg("rect", { class: "ground", width: 100, height: 10 }),
+        makeSvg("rect", { class: "value", y: 2, width, height: 6 }),
+        makeSvg("rect", { class: "mark-limit", x: 49.6, width: 0.8, height: 10 }));
+}
+
+function metricRow(column, value, beyond) {
+    const limited = column.limit !== undefined;
+    const share = limited ? shareOf(column, value) : 0;
+    const times = share >= 100 ? "> 100" : formatNumber(Number(share.toPrecision(3)));
+    const verdict = !limited ? "" : beyond ? `${times}\u00d7, beyond` : `${times}\u00d7`;
+    return make("tr", { class: beyond ? "beyond" : limited ? "within" : "free" },
+        make("th", { scope: "row" }, column.name),
+        make("td", { class: "number" }, formatNumber(value) + (column.unit ? " " + column.unit : "")),
+        make("td", { class: "number" }, limited ? (column.higher ? "\u2265 " : "\u2264 ") + formatNumber(column.limit) : "\u2013"),
+        make("td", { class: "bar" }, limited ? barOf(share) : null),
+        make("td", { class: "number" }, verdict));
+}
+
+function metricsCard(test, frame) {
+    const judged = {
+        nothing: "nothing was compared",
+        state: "judged by the state hash: the simulation changed",
+        pixels: "judged by its pixels, which are known",
+        metrics: "judged by the metrics",
+    };
+    const small = judged[frame.judgedBy] || "";
+    if (!frame.values) return card("Metrics", small, make("p", { class: "command muted" }, "This frame was not measured."));
+    const rows = test.columns.map((column, i) => ({ column, value: frame.values[i], beyond: Boolean(frame.beyond[i]) }));
+    rows.sort((a, b) => (b.column.limit !== undefined) - (a.column.limit !== undefined));
+    const head = ["Metric", "Value", "Limit", "", "Of limit"].map((text, i) =>
+        make("th", { scope: "col", class: i && i !== 3 ? "number" : "" }, text || make("span", { class: "sr" }, "Bar")));
+    const [x, y] = frame.worst, [left, top, width, height, count] = frame.window;
+    const where = width ? `Largest difference at ${x}, ${y}; densest window ${width}\u00d7${height} at ${left}, ${top}: ${count} pixels.` : "";
+    return card("Metrics", small,
+        make("div", { class: "scroll" }, make("table", {}, make("thead", {}, make("tr", {}, ...head)),
+            make("tbody", {}, ...rows.map((row) => metricRow(row.column, row.value, row.beyond))))),
+        where ? make("p", { class: "command muted" }, where) : null);
+}
+
+/* A value beside what was accepted. */
+function compared(now, accepted, name) {
+    if (!now && !accepted) return make("span", { class: "muted" }, "not known");
+    const value = make("span", { class: name }, now || "none");
+    if (!accepted) return make("span", {}, value, make("span", { class: "muted" }, " nothing accepted"));
+    if (now === accepted) return make("span", {}, value, make("span", { class: "same" }, " as accepted"));
+    return make("span", {}, value, make("span", { class: "other" }, " accepted: "), make("span", { class: name }, accepted));
+}
+
+function pairsCard(name, pairs) {
+    const list = make("dl", { class: "pairs" });
+    for (const [key, value] of pairs)
+        if (value !== "" && value !== null) list.append(make("dt", {}, key), make("dd", {}, value));
+    return card(name, "", list);
+}
+
+function runCard(test) {
+    const log = test.log ? `${test.folder}/${test.log}` : "";
+    return pairsCard("Run", [
+        ["Device", test.device],
+        ["Driver", test.driver],
+        ["Platform", test.platform],
+        ["Techniques", test.techniques || test.techniquesExpected ? compared(test.techniques, test.techniquesExpected, "") : ""],
+        ["Picture", test.width ? `${test.width} \u00d7 ${test.height}${test.hdr ? ", linear; shown tone-mapped" : ""}` : ""],
+        ["Seed", String(test.seed)],
+        ["Threads", `${test.threads}${test.repeat > 1 ? `, rendered ${test.repeat} times` : ""}`],
+        ["Scene", test.scene],
+        ["Test", test.test === test.scene ? "" : test.test],
+        ["Goldens", test.golden],
+        ["Log", log ? make("span", { class: "mono" }, log) : ""],
+        ["Started", `${test.started}, took ${formatNumber(Number(test.totalSeconds.toPrecision(3)))} s`],
+        ["kiln", test.version],
+    ]);
+}
+
+function hashesCard(test, frame) {
+    const pairs = [];
+    if (frame)
+        pairs.push(["State", compared(frame.state, frame.stateExpected, "hash")],
+            ["Pixels", compared(frame.pixels, frame.pixelsExpected, "hash")]);
+    pairs.push(["Scene", compared(test.sceneHash, test.sceneHashExpected, "hash")]);
+    if (test.deviceName) pairs.push(["Known as", make("span", { class: "hash" }, test.deviceName)]);
+    if (frame && frame.golden) pairs.push(["Golden", make("span", { class: "mono" }, frame.golden)]);
+    return pairsCard("Hashes", pairs);
+}
+
+function changesCard(test) {
+    const count = test.changes.length;
+    const rows = test.changes.map(([key, before, after]) => make("tr", {},
+        make("th", { scope: "row", class: "mono" }, key),
+        make("td", { class: "before" }, before || "\u2013"), make("td", { class: "after" }, after || "\u2013")));
+    const head = ["Key", "Accepted", "Now"].map((text) => make("th", { scope: "col" }, text));
+    return card("Scene", `${count} ${count === 1 ? "key differs" : "keys differ"} from the accepted one`,
+        make("div", { class: "scroll" }, make("table", {}, make("thead", {}, make("tr", {}, ...head)), make("tbody", {}, ...rows))));
+}
+
+async function copy(text, name) {
+    let done = false;
+    try {
+        await navigator.clipboard.writeText(text);
+        done = true;
+    } catch {
+        const area = make("textarea", { value: text });
+        document.body.append(area);
+        area.select();
+        done = document.execCommand("copy");
+        area.remove();
+    }
+    byId("spoken").textContent = done ? `${name}: copied` : "The browser does not let the page copy.";
+    return done;
+}
+
+function command(id, name, text) {
+    const button = make("button", { type: "button", id }, "Copy", make("span", { class: "sr" }, ` the command to ${name}`));
+    button.addEventListener("click", async () => {
+        const done = await copy(text, "The command to " + name);
+        button.firstChild.textContent = done ? "Copied" : "Not copied";
+        setTimeout(() => { button.firstChild.textContent = "Copy"; }, 1500);
+    });
+    return make("div", { class: "command" }, make("div", {}, make("span", {}, `To ${name}`), make("code", {}, text)), button);
+}
+
+function showDetails(test, frame) {
+    const cards = [];
+    if (frame) cards.push(metricsCard(test, frame));
+    const commands = [];
+    if (test.rerun) commands.push(command("copy-rerun", "run it again", test.rerun));
+    if (test.approve) commands.push(command("copy-approve", "approve the pictures", test.approve));
+    if (commands.length) cards.push(card("Commands", "", ...commands));
+    if (test.changes.length) cards.push(changesCard(test));
+    if (test.notes.length)
+        cards.push(card("Notes", "", make("ul", { class: "notes" }, ...test.notes.map((note) => make("li", {}, note)))));
+    cards.push(runCard(test), hashesCard(test, frame));
+    byId("facts").replaceChildren(...cards);
+}

@@ -1,0 +1,94 @@
+/* The curve is a fit of ACES (Narkowicz 2015) as HDR-FLIP takes it, which maps 0.6 x: black stays
+ * black, and what is far beyond white bends into it instead of being cut off. */
+#include "report/preview.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "asset/image.h"
+#include "base/error.h"
+#include "output/formats.h"
+
+bool kiln_preview_is_plain(const char *path)
+{
+    static const unsigned char signature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+    enum { DEPTH_OFFSET = 24 }; /* in IHDR, which comes first */
+    unsigned char head[DEPTH_OFFSET + 1];
+    FILE *file = fopen(path, "rb");
+    bool plain = file && fread(head, 1, sizeof head, file) == sizeof head &&
+                 memcmp(head, signature, sizeof signature) == 0 && head[DEPTH_OFFSET] <= 8;
+    if (file)
+        fclose(file);
+    return plain;
+}
+
+static float value_at(const struct kiln_asset_image *image, size_t index)
+{
+    switch (image->type) {
+    case KILN_IMAGE_U8:
+        return (float)((const uint8_t *)image->pixels)[index] / 255.0f;
+    case KILN_IMAGE_U16:
+        return (float)((const uint16_t *)image->pixels)[index] / 65535.0f;
+    case KILN_IMAGE_F32:
+        break;
+    }
+    return ((const float *)image->pixels)[index];
+}
+
+static float tone_map(float x)
+{
+    float y = 0.6f * x;
+    return y * (2.51f * y + 0.03f) / (y * (2.43f * y + 0.59f) + 0.14f);
+}
+
+static float encode_srgb(float x)
+{
+    return x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1.0f / 2.4f) - 0.055f;
+}
+
+/* NaN, too, becomes black. */
+static uint8_t to_byte(float x)
+{
+    return (uint8_t)(x > 0.0f ? (x < 1.0f ? x * 255.0f + 0.5f : 255.0f) : 0.0f);
+}
+
+static void convert(const struct kiln_asset_image *image, uint8_t *out)
+{
+    enum { BRIGHTEST = 65504 }; /* of half floats; the curve is flat long before */
+    size_t pixels = (size_t)image->width * image->height;
+    for (size_t i = 0; i < pixels; i++) {
+        float alpha = value_at(image, 4 * i + 3);
+        for (size_t c = 0; c < 3; c++) {
+            float x = value_at(image, 4 * i + c);
+            if (!image->srgb)
+                x = x > 0.0f ? encode_srgb(tone_map(fminf(x, BRIGHTEST))) : 0.0f;
+            out[4 * i + c] = to_byte(image->premultiplied ? x : x * alpha);
+        }
+        out[4 * i + 3] = 255;
+    }
+}
+
+static bool encode(const struct kiln_picture *picture, struct kiln_temporary *file,
+                   struct kiln_error *error)
+{
+    const struct kiln_output_params params = {
+        .width = picture->width, .height = picture->height, .png_bits = 8};
+    void *encoder = kiln_format_png.open(&params, file, error);
+    bool ok = encoder && kiln_format_png.encode(encoder, picture, error);
+    if (encoder)
+        kiln_format_png.close(encoder);
+    return ok;
+}
+
+bool kiln_preview_write(const char *path, struct kiln_temporary *file, struct kiln_error *error)
+{
+    struct kiln_asset_image *image = kiln_asset_image_load(path, error);
+    struct kiln_picture *picture =
+        image ? kiln_picture_create(image->width, image->height, 8, NULL, NULL, 0, error) : NULL;
+    if (picture)
+        convert(image, picture->display);
+    kiln_asset_image_destroy(&image);
+    bool ok = picture && encode(picture, file, error);
+    kiln_picture_destroy(&picture);
+    return ok;
+}

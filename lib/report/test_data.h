@@ -1,0 +1,11 @@
+/* A test as the report page's script wants it. */
+#ifndef KILN_REPORT_TEST_DATA_H
+#define KILN_REPORT_TEST_DATA_H
+
+#include "report/gallery.h"
+
+/* Writes a test as a JSON object, for a <script> element. */
+void kiln_test_data_write(FILE *out, const struct kiln_results *results, size_t test,
+                          const struct kiln_gallery *gallery);
+
+#endif
