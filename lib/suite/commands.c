@@ -1,0 +1,95 @@
+/* Commands that a person can type in the folder from which the run was started. */
+#include <string.h>
+
+#include "base/text.h"
+#include "suite/trial.h"
+
+static void add_word(struct kiln_text *text, const char *word)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                "_@%+=:,./-";
+    kiln_text_add(text, " ");
+    if (*word && strspn(word, plain) == strlen(word)) {
+        kiln_text_add(text, "%s", word);
+        return;
+    }
+    kiln_text_add(text, "'");
+    for (const char *c = word; *c; c++)
+        kiln_text_add(text, "%s%c", *c == '\'' ? "'\\'" : "", *c);
+    kiln_text_add(text, "'");
+}
+
+static void add_option(struct kiln_text *text, const char *option, const char *value)
+{
+    kiln_text_add(text, " %s", option);
+    add_word(text, value);
+}
+
+/* The golden folder of the run, of which test->golden is GOLDEN/NAME. */
+static void add_folders(const struct kiln_trial *trial, struct kiln_text *text, bool golden)
+{
+    const struct kiln_test *test = trial->test;
+    size_t length = strlen(test->golden), name = strlen(test->name);
+    const char *folder = NULL;
+    if (length > name + 1)
+        folder = kiln_arena_text(trial->arena, test->golden, length - name - 1);
+    if (golden && folder && strcmp(folder, KILN_SUITE_DEFAULTS.golden) != 0)
+        add_option(text, "--golden", folder);
+    const char *results = trial->suite->results_folder;
+    if (results && strcmp(results, KILN_SUITE_DEFAULTS.results) != 0)
+        add_option(text, "--results", results);
+}
+
+/* The operands that find the test under its name: a name with a folder in it counts from the folder
+ * that was searched. */
+static void add_operands(const struct kiln_trial *trial, struct kiln_text *text)
+{
+    const struct kiln_test *test = trial->test;
+    const char *end = strstr(test->path, ".test.yaml");
+    end = end ? end : strrchr(test->path, '.');
+    size_t stem = end ? (size_t)(end - test->path) : strlen(test->path);
+    size_t name = strlen(test->name);
+    const char *folder = NULL;
+    bool below = strchr(test->name, '/') && stem >= name &&
+                 strncmp(test->path + stem - name, test->name, name) == 0;
+    if (below)
+        folder = stem > name ? kiln_arena_text(trial->arena, test->path, stem - name) : ".";
+    add_word(text, folder ? folder : test->path);
+    if (folder || strcmp(test->name, test->full_name) != 0)
+        add_word(text, test->full_name);
+}
+
+static const char *take(struct kiln_trial *trial, struct kiln_text *text)
+{
+    trial->no_memory = trial->no_memory || text->failed;
+    const char *command = text->failed ? "" : kiln_trial_text(trial, "%s", text->data);
+    kiln_text_free(text);
+    return command;
+}
+
+const char *kiln_trial_rerun_command(struct kiln_trial *trial)
+{
+    const struct kiln_test_params *params = trial->params;
+    struct kiln_text text = {0};
+    kiln_text_add(&text, "kiln test");
+    add_folders(trial, &text, true);
+    if (params->device && !trial->test->device)
+        add_option(&text, "--device", params->device);
+    for (size_t i = 0; i < params->technique_count; i++)
+        add_option(&text, "--technique", params->techniques[i]);
+    if (params->repeat > 1)
+        kiln_text_add(&text, " --repeat %u", params->repeat);
+    kiln_text_add(&text, "%s%s", params->ignore_hashes ? " --ignore-hashes" : "",
+                  params->strict ? " --strict" : "");
+    add_operands(trial, &text);
+    return take(trial, &text);
+}
+
+const char *kiln_trial_approve_command(struct kiln_trial *trial)
+{
+    struct kiln_text text = {0};
+    kiln_text_add(&text, "kiln test approve");
+    add_folders(trial, &text, false);
+    add_word(&text, trial->test->full_name);
+    return take(trial, &text);
+}

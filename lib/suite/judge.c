@@ -1,0 +1,230 @@
+/* One frame: the state first, which is the same everywhere; then pixels that are known to be right
+ * on this device; then how different it looks. */
+#include <math.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "suite/trial.h"
+
+struct judging {
+    struct kiln_trial *trial;
+    struct kiln_result_frame *frame;
+    struct kiln_trial_frame *own;
+    char picture[KILN_PATH_SIZE];
+    struct kiln_goldens goldens;
+    char hashes[KILN_MAX_GOLDENS][65];
+    size_t nearest;
+    struct kiln_error error;
+};
+
+static bool decide(struct judging *j, enum kiln_test_status status, enum kiln_judged_by judged_by,
+                   const char *message)
+{
+    j->frame->status = status;
+    j->frame->judged_by = judged_by;
+    j->frame->message = message;
+    return true;
+}
+
+/* ---- What is accepted --------------------------------------------------------------------- */
+
+static bool find_goldens(struct judging *j)
+{
+    struct kiln_trial *trial = j->trial;
+    if (!kiln_trial_path(trial, j->frame->picture, j->picture, &j->error) ||
+        !kiln_goldens_find(trial->test, j->frame->number, trial->rendering.device_name, &j->goldens,
+                           &j->error))
+        return false;
+    j->frame->golden = kiln_trial_text(trial, "%s", j->goldens.paths[0]);
+    j->own->has_golden = j->goldens.count > 0;
+    for (size_t i = 0; i < j->goldens.count; i++) {
+        if (!kiln_pixel_hash(j->goldens.paths[i], j->hashes[i], &j->error))
+            return false;
+        if (!j->own->equals_golden && strcmp(j->hashes[i], j->frame->pixels) == 0) {
+            j->own->equals_golden = true;
+            memcpy(j->own->golden_hash, j->hashes[i], sizeof j->own->golden_hash);
+        }
+    }
+    return true;
+}
+
+/* The pixels of this device, while the golden that they were accepted with is there. */
+static void find_expected(struct judging *j)
+{
+    const struct kiln_trial *trial = j->trial;
+    const struct kiln_expect_frame *expected = kiln_expect_find(trial->expect, j->frame->number);
+    if (!expected)
+        return;
+    j->frame->state_expected = expected->state ? expected->state : "";
+    for (size_t i = 0; i < expected->pixel_count; i++) {
+        const struct kiln_expect_pixels *pixels = &expected->pixels[i];
+        if (strcmp(pixels->device, trial->rendering.device_name) != 0)
+            continue;
+        for (size_t k = 0; k < j->goldens.count; k++) {
+            if (strcmp(pixels->golden, j->hashes[k]) == 0) {
+                j->frame->pixels_expected = pixels->hash;
+                j->nearest = k;
+            }
+        }
+    }
+}
+
+/* A copy beside the picture, so that a report shows what the picture was judged by whatever becomes
+ * of the golden. */
+static bool copy_reference(struct judging *j)
+{
+    const char *golden = j->goldens.paths[j->nearest];
+    char path[KILN_PATH_SIZE];
+    const char *name = kiln_trial_text(j->trial, "frame_%04u_reference%s", j->frame->number,
+                                       kiln_test_suffix(j->trial->test));
+    if (!kiln_trial_path(j->trial, name, path, &j->error) ||
+        !kiln_file_copy(golden, path, &j->error))
+        return false;
+    j->frame->golden = kiln_trial_text(j->trial, "%s", golden);
+    j->frame->reference = name;
+    return true;
+}
+
+/* ---- Metrics ------------------------------------------------------------------------------ */
+
+static void take_values(struct judging *j, const struct kiln_trial_comparison *comparison)
+{
+    struct kiln_result_frame *frame = j->frame;
+    const struct kiln_compare_frame *found = &comparison->frame;
+    frame->measured = found->measured;
+    if (!found->measured)
+        return;
+    memcpy(frame->values, found->values, sizeof frame->values);
+    memcpy(frame->beyond, found->beyond, sizeof frame->beyond);
+    frame->score = found->score;
+    frame->worst_x = found->worst_x;
+    frame->worst_y = found->worst_y;
+    frame->window_x = found->window_x;
+    frame->window_y = found->window_y;
+    frame->window_width = found->window_width;
+    frame->window_height = found->window_height;
+    frame->window_differing = found->window_differing;
+    j->trial->result->hdr = comparison->result.hdr;
+}
+
+/* Compares with every golden and keeps the nearest; the map is made of that one alone. */
+static bool measure(struct judging *j, struct kiln_trial_comparison *best)
+{
+    double least = INFINITY;
+    for (size_t i = 0; i < j->goldens.count && j->goldens.count > 1; i++) {
+        if (!kiln_trial_compare(j->trial, j->goldens.paths[i], j->picture, NULL, best, &j->error))
+            return false;
+        if (i == 0 || best->frame.score < least) {
+            least = best->frame.score;
+            j->nearest = i;
+        }
+    }
+    char path[KILN_PATH_SIZE];
+    const char *name = kiln_trial_text(j->trial, "frame_%04u_error.png", j->frame->number);
+    if (!kiln_trial_path(j->trial, name, path, &j->error) ||
+        !kiln_trial_compare(j->trial, j->goldens.paths[j->nearest], j->picture, path, best,
+                            &j->error))
+        return false;
+    take_values(j, best);
+    j->frame->error_map = best->frame.measured ? name : "";
+    return true;
+}
+
+/* "flip.mean is 0.02, beyond 0.01; ...", or the metric nearest to its limit. */
+static const char *describe(struct judging *j, const struct kiln_trial_comparison *comparison,
+                            bool beyond)
+{
+    const struct kiln_result *result = j->trial->result;
+    char text[KILN_MESSAGE_SIZE] = "";
+    size_t used = 0;
+    if (!comparison->frame.measured)
+        return kiln_trial_text(j->trial, "%s", comparison->message);
+    for (size_t i = 0; i < result->column_count && used < sizeof text; i++) {
+        const struct kiln_compare_column *column = &result->columns[i];
+        if (!column->limited || (beyond && !j->frame->beyond[i]))
+            continue;
+        int length = snprintf(text + used, sizeof text - used, "%s%s is %.4g, %s %.4g",
+                              used ? "; " : "", column->name, j->frame->values[i],
+                              beyond ? "beyond" : "the limit", column->limit);
+        used += length > 0 ? (size_t)length : 0;
+    }
+    return kiln_trial_text(j->trial, "%s", text);
+}
+
+/* ---- The verdict -------------------------------------------------------------------------- */
+
+static bool state_changed(const struct judging *j)
+{
+    return !j->trial->params->ignore_hashes && *j->frame->state_expected &&
+           strcmp(j->frame->state_expected, j->frame->state) != 0;
+}
+
+static const char *describe_state(struct judging *j, const char *picture)
+{
+    return kiln_trial_text(j->trial,
+                           "the simulation changed: state %s at frame %u, accepted was %s; %s",
+                           j->frame->state, j->frame->number, j->frame->state_expected, picture);
+}
+
+/* Numbers that are none must not become a golden either. */
+static bool judge_new(struct judging *j)
+{
+    struct kiln_trial_comparison comparison;
+    if (!kiln_trial_compare(j->trial, j->picture, j->picture, NULL, &comparison, &j->error))
+        return false;
+    if (state_changed(j))
+        return decide(j, KILN_TEST_FAIL, KILN_JUDGED_BY_STATE,
+                      describe_state(j, "there is no golden picture"));
+    return decide(j, KILN_TEST_NEW, KILN_JUDGED_BY_NOTHING,
+                  kiln_trial_text(j->trial, "frame %u has no golden: there is no %s",
+                                  j->frame->number, j->goldens.paths[0]));
+}
+
+static bool judge_by_metrics(struct judging *j, bool known)
+{
+    struct kiln_trial_comparison comparison;
+    if (!measure(j, &comparison) || !copy_reference(j))
+        return false;
+    bool same = comparison.result.same;
+    const char *beyond = same ? "the picture is within its limits" : describe(j, &comparison, true);
+    if (state_changed(j))
+        return decide(j, KILN_TEST_FAIL, KILN_JUDGED_BY_STATE, describe_state(j, beyond));
+    if (known && j->trial->params->strict)
+        return decide(j, KILN_TEST_FAIL, KILN_JUDGED_BY_PIXELS,
+                      kiln_trial_text(j->trial,
+                                      "frame %u has other pixels than were accepted on %s; %s",
+                                      j->frame->number, j->trial->rendering.device_name, beyond));
+    if (!same)
+        return decide(j, KILN_TEST_FAIL, KILN_JUDGED_BY_METRICS,
+                      kiln_trial_text(j->trial, "frame %u: %s", j->frame->number, beyond));
+    if (j->frame->score > j->trial->warn)
+        return decide(j, KILN_TEST_WARN, KILN_JUDGED_BY_METRICS,
+                      kiln_trial_text(j->trial, "frame %u is at %.0f %% of its limits: %s",
+                                      j->frame->number, 100 * j->frame->score,
+                                      describe(j, &comparison, false)));
+    return decide(j, KILN_TEST_PASS, KILN_JUDGED_BY_METRICS, "");
+}
+
+static bool judge(struct judging *j)
+{
+    if (!find_goldens(j))
+        return false;
+    find_expected(j);
+    if (j->goldens.count == 0)
+        return judge_new(j);
+    bool known = !j->trial->params->ignore_hashes && *j->frame->pixels_expected;
+    if (!known || state_changed(j) || strcmp(j->frame->pixels, j->frame->pixels_expected) != 0)
+        return judge_by_metrics(j, known);
+    return copy_reference(j) && decide(j, KILN_TEST_PASS, KILN_JUDGED_BY_PIXELS, "");
+}
+
+void kiln_trial_judge(struct kiln_trial *trial, size_t index)
+{
+    struct judging j = {
+        .trial = trial, .frame = &trial->result->frames[index], .own = &trial->frames[index]};
+    if (judge(&j))
+        return;
+    j.own->code = j.error.code;
+    decide(&j, KILN_TEST_ERROR, KILN_JUDGED_BY_NOTHING,
+           kiln_trial_text(trial, "frame %u: %s", j.frame->number, j.error.message));
+}

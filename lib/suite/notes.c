@@ -1,0 +1,131 @@
+/* Notes: what a tester should know although nothing failed. A limit that is far above all that was
+ * ever measured hides the fault that it is there to find. */
+#include <math.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "compare/metric.h"
+#include "suite/trial.h"
+
+enum { STALE_FACTOR = 10 };
+
+/* How far a value is from that of equal pictures, on a scale on which factors mean something. */
+static double distance(const struct kiln_compare_column *column, double value)
+{
+    if (strcmp(column->unit, "dB") == 0)
+        return pow(10.0, -value / 20.0);
+    return column->higher_is_better ? 1.0 - value : value;
+}
+
+static const struct kiln_compare_column *find_column(const struct kiln_metric_set *set,
+                                                     const char *name)
+{
+    for (size_t i = 0; i < set->count; i++) {
+        if (strcmp(set->columns[i].name, name) == 0)
+            return &set->columns[i];
+    }
+    return NULL;
+}
+
+/* The worst that this run or a calibration measured; false when neither did. */
+static bool worst_measured(const struct kiln_trial *trial, size_t column, double *worst)
+{
+    const struct kiln_result *result = trial->result;
+    const struct kiln_compare_column *c = &result->columns[column];
+    bool found = false;
+    for (size_t i = 0; i < result->frame_count; i++) {
+        const struct kiln_result_frame *frame = &result->frames[i];
+        if (!frame->measured)
+            continue;
+        if (!found || distance(c, frame->values[column]) > distance(c, *worst))
+            *worst = frame->values[column];
+        found = true;
+    }
+    for (size_t i = 0; i < trial->expect->measured_count; i++) {
+        const struct kiln_expect_value *value = &trial->expect->measured[i];
+        if (strcmp(value->metric, c->name) != 0)
+            continue;
+        if (!found || distance(c, value->value) > distance(c, *worst))
+            *worst = value->value;
+        found = true;
+    }
+    return found;
+}
+
+static void note_limits(struct kiln_trial *trial)
+{
+    static const char *const default_limits[] = {KILN_COMPARE_DEFAULT_LIMITS};
+    const struct kiln_result *result = trial->result;
+    struct kiln_metric_set defaults;
+    struct kiln_error error = {0};
+    if (!trial->own_limits || !kiln_metric_set_make(&defaults, default_limits, 1, &error))
+        return;
+    const char *reason = trial->expect->reason ? trial->expect->reason : trial->test->limits_reason;
+    for (size_t i = 0; i < result->column_count; i++) {
+        const struct kiln_compare_column *c = &result->columns[i];
+        const struct kiln_compare_column *usual = find_column(&defaults, c->name);
+        if (!c->limited || !usual || !usual->limited ||
+            distance(c, c->limit) <= distance(c, usual->limit))
+            continue;
+        double worst = 0;
+        if (worst_measured(trial, i, &worst) &&
+            distance(c, c->limit) > STALE_FACTOR * distance(c, worst))
+            kiln_trial_note(trial, "limit %s=%.4g is stale: nothing %s %.4g was ever measured",
+                            c->name, c->limit, c->higher_is_better ? "below" : "above", worst);
+        if (!reason || !*reason)
+            kiln_trial_note(trial,
+                            "limit %s=%.4g is looser than the default one, %.4g, and has "
+                            "no reason",
+                            c->name, c->limit, usual->limit);
+    }
+}
+
+static void note_states(struct kiln_trial *trial)
+{
+    const struct kiln_result *result = trial->result;
+    char list[256] = "";
+    size_t used = 0, count = 0;
+    for (size_t i = 0; i < result->frame_count; i++) {
+        const struct kiln_result_frame *frame = &result->frames[i];
+        if (!trial->frames[i].has_golden || *frame->state_expected ||
+            frame->status == KILN_TEST_ERROR)
+            continue;
+        if (used < sizeof list) {
+            int length =
+                snprintf(list + used, sizeof list - used, "%s%u", used ? ", " : "", frame->number);
+            used += length > 0 ? (size_t)length : 0;
+        }
+        count++;
+    }
+    if (count > 0)
+        kiln_trial_note(trial, "no state was accepted of frame%s %s: --update all adds it",
+                        count > 1 ? "s" : "", list);
+}
+
+static void note_scene(struct kiln_trial *trial)
+{
+    const struct kiln_result *result = trial->result;
+    bool passes = result->status == KILN_TEST_PASS || result->status == KILN_TEST_WARN;
+    if (!passes || !*result->scene_hash_expected ||
+        strcmp(result->scene_hash, result->scene_hash_expected) == 0)
+        return;
+    if (result->change_count > 0)
+        kiln_trial_note(trial, "the scene has changed in %zu key%s, and everything passes",
+                        result->change_count, result->change_count > 1 ? "s" : "");
+    else
+        kiln_trial_note(trial, "the scene or a file that it uses has changed, and everything "
+                               "passes");
+}
+
+void kiln_trial_take_notes(struct kiln_trial *trial)
+{
+    const struct kiln_result *result = trial->result;
+    note_limits(trial);
+    if (!trial->params->ignore_hashes)
+        note_states(trial);
+    note_scene(trial);
+    if (*result->techniques_expected &&
+        strcmp(result->techniques, result->techniques_expected) != 0)
+        kiln_trial_note(trial, "the techniques are %s, accepted were %s", result->techniques,
+                        result->techniques_expected);
+}

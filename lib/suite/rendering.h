@@ -1,0 +1,51 @@
+/* Frames of a test's scene, rendered into a folder. */
+#ifndef KILN_SUITE_RENDERING_H
+#define KILN_SUITE_RENDERING_H
+
+#include "suite/golden.h"
+
+struct kiln_rendering_params {
+    const struct kiln_test *test;
+    const char *device;            /* wanted, as in kiln_device_params */
+    const char *const *techniques; /* "stage=name", over all others */
+    size_t technique_count;
+    uint32_t threads;
+    const char *folder;   /* for pictures; it exists */
+    const char *addition; /* to their names: frame_0024ADDITION.png */
+    bool (*stop)(void *user);
+    void *user;
+    struct kiln_log log;
+};
+
+struct kiln_rendered_frame {
+    uint32_t number;
+    bool drawn;
+    char state[17];
+    char pixels[65]; /* SHA-256 of the decoded picture */
+    char path[KILN_PATH_SIZE];
+};
+
+/* Zero-initialised knows nothing; what is known before an error stays. */
+struct kiln_rendering {
+    bool no_device; /* of that name is there */
+    struct kiln_device_info device;
+    char device_name[KILN_DEVICE_NAME_SIZE];
+    struct kiln_scene_info scene;
+    uint32_t seed;
+    const char *scene_text; /* as kiln_scene_print writes it */
+    char techniques[256];
+    size_t frame_count;
+    struct kiln_rendered_frame *frames; /* ascending */
+};
+
+/* The suffix of a test's pictures, ".png" or ".exr". */
+const char *kiln_test_suffix(const struct kiln_test *test);
+
+/* Loads the scene, opens the device, renders and hashes; all texts lie in the arena. Techniques are
+ * those that every machine has, then the test's, then the given ones. False with what the parts
+ * say, KILN_INVALID_INPUT for a frame that the scene does not have, KILN_FRAME_FAILED for one that
+ * was not drawn. */
+bool kiln_rendering_make(struct kiln_arena *arena, const struct kiln_rendering_params *params,
+                         struct kiln_rendering *rendering, struct kiln_error *error);
+
+#endif

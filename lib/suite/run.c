@@ -1,0 +1,337 @@
+/* A run of one test, from its file to its result. Whatever goes wrong on the way is in the result,
+ * so that a run of many tests tells of each. */
+#include <dirent.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/thread.h"
+#include "output/temporary.h"
+#include "suite/summary.h"
+#include "suite/trial.h"
+
+enum { MAX_SCENE_SIZE = 16 << 20 };
+
+/* ---- The folder of results ---------------------------------------------------------------- */
+
+static bool ends_in(const char *name, const char *suffix)
+{
+    size_t length = strlen(name), end = strlen(suffix);
+    return length > end && strcmp(name + length - end, suffix) == 0;
+}
+
+/* Whether an earlier run may have left it here. What this process prints into is not earlier. */
+static bool is_left_over(const char *name, const char *path)
+{
+    struct stat log, out;
+    if (strncmp(name, "frame_", 6) == 0)
+        return ends_in(name, ".png") || ends_in(name, ".exr");
+    if (strcmp(name, "log.txt") == 0)
+        return stat(path, &log) == 0 && !(fstat(STDERR_FILENO, &out) == 0 &&
+                                          out.st_dev == log.st_dev && out.st_ino == log.st_ino);
+    return strcmp(name, "scene.yaml") == 0 || ends_in(name, ".json");
+}
+
+static bool empty_folder(const struct kiln_trial *trial, struct kiln_error *error)
+{
+    char path[KILN_PATH_SIZE];
+    if (!kiln_trial_path(trial, "result.json", path, error) ||
+        !kiln_make_parent_folders(path, error))
+        return false;
+    DIR *folder = opendir(trial->test->results);
+    if (!folder)
+        return kiln_error_set(error, KILN_IO, "%s: the folder cannot be read",
+                              trial->test->results);
+    bool ok = true;
+    for (struct dirent *entry = readdir(folder); ok && entry; entry = readdir(folder)) {
+        ok = kiln_trial_path(trial, entry->d_name, path, error);
+        if (ok && is_left_over(entry->d_name, path) && unlink(path) != 0)
+            ok = kiln_error_set(error, KILN_IO, "%s: the file of an earlier run cannot be removed",
+                                path);
+    }
+    closedir(folder);
+    return ok;
+}
+
+static bool write_scene(const struct kiln_trial *trial, struct kiln_error *error)
+{
+    char path[KILN_PATH_SIZE];
+    struct kiln_temporary file = {0};
+    const char *text = trial->rendering.scene_text;
+    bool ok = kiln_trial_path(trial, "scene.yaml", path, error) &&
+              kiln_temporary_open(&file, path, error);
+    if (ok)
+        kiln_temporary_write(&file, text, strlen(text)); /* commit tells of failures */
+    ok = ok && kiln_temporary_commit(&file, true, error);
+    kiln_temporary_discard(&file);
+    return ok;
+}
+
+/* ---- Rendering ---------------------------------------------------------------------------- */
+
+static bool render(struct kiln_trial *trial, const char *addition, struct kiln_rendering *rendering,
+                   struct kiln_error *error)
+{
+    const struct kiln_test_params *params = trial->params;
+    const struct kiln_rendering_params rendered = {
+        .test = trial->test,
+        .device = trial->test->device ? trial->test->device : params->device,
+        .techniques = params->techniques,
+        .technique_count = params->technique_count,
+        .threads = params->threads,
+        .folder = trial->test->results,
+        .addition = addition,
+        .stop = params->stop,
+        .user = params->user,
+        .log = params->log,
+    };
+    return kiln_rendering_make(trial->arena, &rendered, rendering, error);
+}
+
+static void take_rendering(struct kiln_trial *trial)
+{
+    const struct kiln_rendering *rendering = &trial->rendering;
+    struct kiln_result *result = trial->result;
+    result->device = rendering->device.name;
+    result->device_name = rendering->device_name;
+    result->platform = rendering->device.platform;
+    if (*rendering->device.name)
+        result->driver = kiln_trial_text(trial, "%s, %s", rendering->device.gl_version,
+                                         rendering->device.vendor);
+    result->techniques = rendering->techniques;
+    result->seed = rendering->seed;
+    result->width = rendering->scene.width;
+    result->height = rendering->scene.height;
+    result->scene_hash = rendering->scene.hash;
+}
+
+static bool take_frames(struct kiln_trial *trial)
+{
+    const struct kiln_rendering *rendering = &trial->rendering;
+    size_t count = rendering->frame_count;
+    struct kiln_result_frame *frames = kiln_arena_alloc(trial->arena, count, sizeof *frames);
+    trial->frames = kiln_arena_alloc(trial->arena, count, sizeof *trial->frames);
+    if (!frames || !trial->frames)
+        return false;
+    for (size_t i = 0; i < count; i++) {
+        const char *path = rendering->frames[i].path;
+        const char *slash = strrchr(path, '/');
+        frames[i] = (struct kiln_result_frame){
+            .number = rendering->frames[i].number,
+            .picture = slash ? slash + 1 : path,
+            .state = rendering->frames[i].state,
+            .pixels = rendering->frames[i].pixels,
+            .message = "",
+            .reference = "",
+            .error_map = "",
+            .golden = "",
+            .state_expected = "",
+            .pixels_expected = "",
+        };
+    }
+    trial->result->frames = frames;
+    trial->result->frame_count = count;
+    return true;
+}
+
+/* Compares another render with the first, and removes its pictures where they are the same. */
+static void compare_repeat(struct kiln_trial *trial, uint32_t render_number,
+                           const struct kiln_rendering *again)
+{
+    for (size_t i = 0; i < trial->result->frame_count && i < again->frame_count; i++) {
+        const struct kiln_rendered_frame *a = &trial->rendering.frames[i], *b = &again->frames[i];
+        bool state = strcmp(a->state, b->state) == 0, pixels = strcmp(a->pixels, b->pixels) == 0;
+        if (pixels)
+            unlink(b->path);
+        if ((state && pixels) || trial->frames[i].unsteady)
+            continue;
+        trial->frames[i].unsteady = kiln_trial_text(
+            trial, "render %u of %u differs from the first: frame %u has %s %s, not %s",
+            render_number, trial->params->repeat, a->number, state ? "the pixels" : "the state",
+            state ? b->pixels : b->state, state ? a->pixels : a->state);
+    }
+}
+
+static bool repeat(struct kiln_trial *trial, struct kiln_error *error)
+{
+    for (uint32_t i = 2; i <= trial->params->repeat; i++) {
+        char addition[32];
+        struct kiln_rendering again;
+        snprintf(addition, sizeof addition, "_render%u", i);
+        if (!render(trial, addition, &again, error))
+            return false;
+        compare_repeat(trial, i, &again);
+    }
+    return true;
+}
+
+/* ---- Judging ------------------------------------------------------------------------------ */
+
+static bool judge_frames(struct kiln_trial *trial, struct kiln_error *error)
+{
+    const struct kiln_test_params *params = trial->params;
+    for (size_t i = 0; i < trial->result->frame_count; i++) {
+        struct kiln_result_frame *frame = &trial->result->frames[i];
+        if (params->stop && params->stop(params->user))
+            return kiln_error_set(error, KILN_INTERRUPTED, "stopped after %zu frames", i);
+        kiln_trial_judge(trial, i);
+        if (!trial->frames[i].unsteady || frame->status == KILN_TEST_ERROR)
+            continue;
+        frame->status = KILN_TEST_FAIL;
+        frame->message = trial->frames[i].unsteady;
+    }
+    return true;
+}
+
+/* Of several frames of the worst status, that of the highest score; one without values has the
+ * highest. */
+static void sum_up(struct kiln_trial *trial)
+{
+    struct kiln_result *result = trial->result;
+    double worst = -1;
+    result->status = KILN_TEST_PASS;
+    result->code = KILN_OK;
+    result->message = "";
+    for (size_t i = 0; i < result->frame_count; i++) {
+        const struct kiln_result_frame *frame = &result->frames[i];
+        double score = frame->measured ? frame->score : INFINITY;
+        if (frame->status < result->status || (frame->status == result->status && score <= worst))
+            continue;
+        if (frame->status > KILN_TEST_PASS)
+            result->message = frame->message;
+        result->status = frame->status;
+        worst = score;
+    }
+    if (result->status == KILN_TEST_FAIL)
+        result->code = KILN_FRAME_FAILED;
+    if (result->status == KILN_TEST_NEW)
+        result->code = KILN_GOLDEN_MISSING;
+    for (size_t i = 0; result->status == KILN_TEST_ERROR && i < result->frame_count; i++)
+        result->code = kiln_code_worse(result->code, trial->frames[i].code);
+}
+
+/* Where the accepted scene cannot be read, that is a note: nothing is judged by it. */
+static void take_changes(struct kiln_trial *trial)
+{
+    struct kiln_result *result = trial->result;
+    struct kiln_error error = {0};
+    char path[KILN_PATH_SIZE];
+    size_t size;
+    int length = snprintf(path, sizeof path, "%s/scene.yaml", trial->test->golden);
+    if (length < 0 || (size_t)length >= sizeof path || access(path, F_OK) != 0)
+        return;
+    char *text = kiln_text_file_read(path, "the accepted scene", MAX_SCENE_SIZE, &size, &error);
+    if (!text || !kiln_scene_diff(trial->arena, text, path, trial->rendering.scene_text,
+                                  &result->changes, &result->change_count, &error))
+        kiln_trial_note(trial, "what changed in the scene is not known: %s", error.message);
+    free(text);
+}
+
+static const char *join_techniques(struct kiln_trial *trial)
+{
+    const struct kiln_expect *expect = trial->expect;
+    const char *text = "";
+    for (size_t i = 0; i < expect->technique_count; i++)
+        text = kiln_trial_text(trial, "%s%s%s", text, i ? " " : "", expect->techniques[i]);
+    return text;
+}
+
+/* ---- The run ------------------------------------------------------------------------------ */
+
+static bool prepare(struct kiln_trial *trial, struct kiln_error *error)
+{
+    if (trial->test->problem.code != KILN_OK) {
+        *error = trial->test->problem;
+        return false;
+    }
+    trial->expect = kiln_expect_read(trial->arena, trial->test->golden, error);
+    if (!trial->expect || !kiln_trial_set_limits(trial, error))
+        return false;
+    trial->result->scene_hash_expected = trial->expect->scene_hash ? trial->expect->scene_hash : "";
+    trial->result->techniques_expected = join_techniques(trial);
+    trial->result->hdr = trial->test->format == KILN_TEST_EXR;
+    return true;
+}
+
+static bool run(struct kiln_trial *trial, struct kiln_error *error)
+{
+    if (!prepare(trial, error))
+        return false;
+    bool rendered = render(trial, "", &trial->rendering, error);
+    take_rendering(trial);
+    if (!rendered)
+        return false;
+    if (!write_scene(trial, error))
+        return false;
+    if (!take_frames(trial))
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", trial->test->path);
+    if (!repeat(trial, error) || !judge_frames(trial, error))
+        return false;
+    sum_up(trial);
+    take_changes(trial);
+    kiln_trial_take_notes(trial);
+    if (!kiln_trial_update(trial, error))
+        return false;
+    sum_up(trial);
+    return true;
+}
+
+static void note_error(struct kiln_trial *trial, const struct kiln_error *error)
+{
+    bool skip = trial->rendering.no_device && trial->test->may_skip;
+    struct kiln_result *result = trial->result;
+    result->status = skip ? KILN_TEST_SKIP : KILN_TEST_ERROR;
+    result->code = skip ? KILN_OK : error->code != KILN_OK ? error->code : KILN_DEVICE_FAILED;
+    result->message = kiln_trial_text(trial, "%s", error->message);
+}
+
+static uint32_t count_threads(uint32_t wanted)
+{
+    struct kiln_threads *threads = wanted ? NULL : kiln_threads_create(0);
+    uint32_t count = threads ? kiln_threads_count(threads) : wanted;
+    kiln_threads_destroy(&threads);
+    return count;
+}
+
+bool kiln_test_run(const struct kiln_suite *suite, size_t index,
+                   const struct kiln_test_params *params, struct kiln_test_summary *summary,
+                   struct kiln_error *error)
+{
+    struct kiln_trial trial = {.suite = suite,
+                               .test = &suite->tests[index],
+                               .params = params,
+                               .arena = kiln_arena_create(),
+                               .started_s = kiln_clock_seconds()};
+    struct kiln_error problem = {0};
+    trial.result = trial.arena ? kiln_result_start(trial.arena, trial.test) : NULL;
+    bool ok = trial.result ||
+              kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", trial.test->path);
+    if (ok && empty_folder(&trial, error)) {
+        trial.result->threads = count_threads(params->threads);
+        trial.result->repeat = params->repeat;
+        bool done = run(&trial, &problem);
+        if (problem.code == KILN_INTERRUPTED)
+            *error = problem;
+        if (done && trial.no_memory)
+            done =
+                kiln_error_set(&problem, KILN_DEVICE_FAILED, "%s: out of memory", trial.test->path);
+        if (!done)
+            note_error(&trial, &problem);
+        trial.result->rerun = kiln_trial_rerun_command(&trial);
+        if (trial.result->frame_count > 0)
+            trial.result->approve = kiln_trial_approve_command(&trial);
+        trial.result->total_s = kiln_clock_seconds() - trial.started_s;
+        ok = problem.code != KILN_INTERRUPTED &&
+             kiln_result_write(trial.result, trial.test->results, error);
+        kiln_summary_take(summary, trial.result);
+    } else {
+        ok = false;
+    }
+    kiln_arena_destroy(&trial.arena);
+    return ok;
+}

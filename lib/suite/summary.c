@@ -1,0 +1,131 @@
+/* Results in short, and those of tests that could not write their own. */
+#include "suite/summary.h"
+
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "suite/trial.h"
+
+static const char *text_or_empty(const char *text)
+{
+    return text ? text : "";
+}
+
+static const char *time_text(struct kiln_arena *arena)
+{
+    char text[32] = "";
+    time_t now = time(NULL);
+    struct tm parts;
+    if (!gmtime_r(&now, &parts) || strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts) == 0)
+        return "";
+    return text_or_empty(kiln_arena_text(arena, text, strlen(text)));
+}
+
+/* The file that its process prints into, if there is one. */
+static const char *find_log(const struct kiln_test *test)
+{
+    char path[KILN_PATH_SIZE];
+    int length = snprintf(path, sizeof path, "%s/log.txt", test->results);
+    bool fits = length >= 0 && (size_t)length < sizeof path;
+    return fits && access(path, F_OK) == 0 ? "log.txt" : "";
+}
+
+struct kiln_result *kiln_result_start(struct kiln_arena *arena, const struct kiln_test *test)
+{
+    struct kiln_result *result = kiln_arena_alloc(arena, 1, sizeof *result);
+    if (!result)
+        return NULL;
+    *result = (struct kiln_result){
+        .name = test->full_name,
+        .test = test->path,
+        .scene = text_or_empty(test->scene),
+        .about = text_or_empty(test->about),
+        .golden = text_or_empty(test->golden),
+        .message = "",
+        .log = find_log(test),
+        .device = "",
+        .device_name = "",
+        .driver = "",
+        .platform = "",
+        .techniques = "",
+        .techniques_expected = "",
+        .version = KILN_VERSION,
+        .repeat = 1,
+        .scene_hash = "",
+        .scene_hash_expected = "",
+        .started = time_text(arena),
+        .rerun = "",
+        .approve = "",
+    };
+    return result;
+}
+
+void kiln_summary_take(struct kiln_test_summary *summary, const struct kiln_result *result)
+{
+    *summary = (struct kiln_test_summary){
+        .status = result->status,
+        .code = result->code,
+        .frames = (uint32_t)result->frame_count,
+        .notes = (uint32_t)result->note_count,
+        .score = kiln_result_score(result),
+        .total_s = result->total_s,
+    };
+    snprintf(summary->name, sizeof summary->name, "%s", result->name);
+    snprintf(summary->message, sizeof summary->message, "%s", result->message);
+}
+
+bool kiln_test_record_error(const struct kiln_suite *suite, size_t index, enum kiln_code code,
+                            const char *message, double total_s, struct kiln_error *error)
+{
+    const struct kiln_test *test = &suite->tests[index];
+    struct kiln_arena *arena = kiln_arena_create();
+    struct kiln_result *result = arena ? kiln_result_start(arena, test) : NULL;
+    bool ok = result || kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", test->path);
+    if (ok) {
+        result->status = KILN_TEST_ERROR;
+        result->code = code;
+        result->message = message;
+        result->total_s = total_s;
+        const struct kiln_test_params params = KILN_TEST_DEFAULTS;
+        struct kiln_trial trial = {
+            .arena = arena, .suite = suite, .test = test, .params = &params, .result = result};
+        result->rerun = kiln_trial_rerun_command(&trial);
+        ok = kiln_result_write(result, test->results, error);
+    }
+    kiln_arena_destroy(&arena);
+    return ok;
+}
+
+bool kiln_test_read_summary(const struct kiln_suite *suite, size_t index,
+                            struct kiln_test_summary *summary, struct kiln_error *error)
+{
+    const struct kiln_test *test = &suite->tests[index];
+    struct kiln_arena *arena = kiln_arena_create();
+    const struct kiln_result *result = arena ? kiln_result_read(arena, test->results, error) : NULL;
+    if (!arena)
+        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", test->path);
+    if (result)
+        kiln_summary_take(summary, result);
+    kiln_arena_destroy(&arena);
+    return result != NULL;
+}
+
+bool kiln_test_read_note(const struct kiln_suite *suite, size_t index, uint32_t note,
+                         char text[KILN_MESSAGE_SIZE], struct kiln_error *error)
+{
+    const struct kiln_test *test = &suite->tests[index];
+    struct kiln_arena *arena = kiln_arena_create();
+    const struct kiln_result *result = arena ? kiln_result_read(arena, test->results, error) : NULL;
+    if (!arena)
+        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", test->path);
+    bool ok = result && note < result->note_count;
+    if (ok)
+        snprintf(text, KILN_MESSAGE_SIZE, "%s", result->notes[note]);
+    else if (result)
+        kiln_error_set(error, KILN_USAGE, "%s: note %u of %zu", test->full_name, note,
+                       result->note_count);
+    kiln_arena_destroy(&arena);
+    return ok;
+}

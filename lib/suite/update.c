@@ -1,0 +1,185 @@
+/* Accepting what a run rendered. Other runs may accept pictures of the same test for other devices
+ * at the same time: what was accepted is read again under the lock, and only this device's entries
+ * and the frames in question change. */
+#include <string.h>
+
+#include "base/error.h"
+#include "output/temporary.h"
+#include "suite/trial.h"
+
+/* What is to be done about a frame. */
+enum action {
+    LEAVE,
+    ACCEPT_HASHES,  /* the picture is a golden already */
+    ACCEPT_PICTURE, /* it becomes one */
+};
+
+static enum action choose_action(const struct kiln_trial *trial, size_t index)
+{
+    const struct kiln_result_frame *frame = &trial->result->frames[index];
+    const struct kiln_trial_frame *own = &trial->frames[index];
+    enum kiln_update least = KILN_UPDATE_ALL;
+    if (own->unsteady || frame->status == KILN_TEST_ERROR)
+        return LEAVE;
+    if (frame->status == KILN_TEST_NEW)
+        least = KILN_UPDATE_MISSING;
+    else if (frame->status == KILN_TEST_FAIL)
+        least = KILN_UPDATE_FAILED;
+    if (trial->params->update < least)
+        return LEAVE;
+    if (frame->judged_by == KILN_JUDGED_BY_PIXELS && frame->status == KILN_TEST_PASS)
+        return *frame->state_expected || !own->equals_golden ? LEAVE : ACCEPT_HASHES;
+    return own->equals_golden ? ACCEPT_HASHES : ACCEPT_PICTURE;
+}
+
+/* Pictures that pass may be of a scene that has changed: all that is accepted is brought up to
+ * date. */
+static bool is_scene_new(const struct kiln_trial *trial)
+{
+    const struct kiln_expect *expect = trial->expect;
+    return trial->params->update == KILN_UPDATE_ALL && expect->scene_hash &&
+           trial->result->status <= KILN_TEST_WARN &&
+           (strcmp(expect->scene_hash, trial->rendering.scene.hash) != 0 ||
+            strcmp(trial->result->techniques, trial->result->techniques_expected) != 0);
+}
+
+/* ---- A dry run ---------------------------------------------------------------------------- */
+
+static bool announce(struct kiln_trial *trial, size_t index, enum action action,
+                     struct kiln_error *error)
+{
+    uint32_t number = trial->result->frames[index].number;
+    char path[KILN_PATH_SIZE];
+    if (action == ACCEPT_HASHES) {
+        kiln_trial_note(trial, "would accept the hashes of frame %u on %s", number,
+                        trial->rendering.device_name);
+        return true;
+    }
+    if (!kiln_goldens_place(trial->test, number, trial->rendering.device_name, KILN_APPROVE_REPLACE,
+                            path, error))
+        return false;
+    kiln_trial_note(trial, "would write %s", path);
+    return true;
+}
+
+/* ---- A real one --------------------------------------------------------------------------- */
+
+static bool accept(struct kiln_trial *trial, size_t index, enum action action,
+                   struct kiln_error *error)
+{
+    struct kiln_result_frame *frame = &trial->result->frames[index];
+    const char *device = trial->rendering.device_name;
+    char path[KILN_PATH_SIZE], picture[KILN_PATH_SIZE];
+    if (action == ACCEPT_HASHES) {
+        const struct kiln_expect_pixels pixels = {device, frame->pixels,
+                                                  trial->frames[index].golden_hash};
+        if (!kiln_expect_accept(trial->arena, trial->expect, frame->number, frame->state, &pixels))
+            return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory",
+                                  trial->test->golden);
+        kiln_trial_note(trial, "accepted the hashes of frame %u on %s", frame->number, device);
+    } else {
+        if (!kiln_trial_path(trial, frame->picture, picture, error))
+            return false;
+        const struct kiln_acceptance acceptance = {.frame = frame->number,
+                                                   .picture = picture,
+                                                   .state = frame->state,
+                                                   .device_name = device,
+                                                   .as = KILN_APPROVE_REPLACE};
+        if (!kiln_goldens_accept(trial->arena, trial->test, trial->expect, &acceptance, path,
+                                 error))
+            return false;
+        kiln_trial_note(trial, "wrote %s", path);
+    }
+    frame->status = KILN_TEST_PASS;
+    frame->message = "written";
+    return true;
+}
+
+static bool write_scene(const struct kiln_trial *trial, struct kiln_error *error)
+{
+    char path[KILN_PATH_SIZE];
+    int length = snprintf(path, sizeof path, "%s/scene.yaml", trial->test->golden);
+    if (length < 0 || (size_t)length >= sizeof path)
+        return kiln_error_set(error, KILN_IO, "%s: the path is too long", trial->test->golden);
+    struct kiln_temporary file = {0};
+    const char *text = trial->rendering.scene_text;
+    bool ok = kiln_temporary_open(&file, path, error);
+    if (ok)
+        kiln_temporary_write(&file, text, strlen(text)); /* commit tells of failures */
+    ok = ok && kiln_temporary_commit(&file, true, error);
+    kiln_temporary_discard(&file);
+    return ok;
+}
+
+static bool split_techniques(struct kiln_trial *trial)
+{
+    const char *rest = trial->rendering.techniques;
+    size_t count = 0;
+    const char **list = kiln_arena_alloc(trial->arena, strlen(rest) / 2 + 1, sizeof *list);
+    while (list && *rest) {
+        size_t length = strcspn(rest, " ");
+        list[count] = kiln_arena_text(trial->arena, rest, length);
+        if (!list[count++])
+            return false;
+        rest += length + (rest[length] == ' ');
+    }
+    trial->expect->techniques = list;
+    trial->expect->technique_count = count;
+    return list != NULL;
+}
+
+/* The scene goes with all pictures: while one of them is not accepted, the scene of before stays,
+ * so that a report tells what changed since. */
+static bool accept_scene(struct kiln_trial *trial, struct kiln_error *error)
+{
+    for (size_t i = 0; i < trial->result->frame_count; i++) {
+        enum kiln_test_status status = trial->result->frames[i].status;
+        if (status >= KILN_TEST_NEW && trial->expect->scene_hash)
+            return true;
+    }
+    trial->expect->scene_hash = trial->rendering.scene.hash;
+    if (!split_techniques(trial))
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", trial->test->golden);
+    return write_scene(trial, error);
+}
+
+static bool accept_all(struct kiln_trial *trial, const enum action *actions,
+                       struct kiln_error *error)
+{
+    trial->expect = kiln_expect_read(trial->arena, trial->test->golden, error);
+    if (!trial->expect)
+        return false;
+    for (size_t i = 0; i < trial->result->frame_count; i++) {
+        if (actions[i] != LEAVE && !accept(trial, i, actions[i], error))
+            return false;
+    }
+    return accept_scene(trial, error) &&
+           kiln_expect_write(trial->expect, trial->test->golden, error);
+}
+
+bool kiln_trial_update(struct kiln_trial *trial, struct kiln_error *error)
+{
+    size_t count = trial->result->frame_count, wanted = 0;
+    enum action *actions = kiln_arena_alloc(trial->arena, count + 1, sizeof *actions);
+    if (!actions)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", trial->test->golden);
+    for (size_t i = 0; i < count; i++) {
+        actions[i] = choose_action(trial, i);
+        wanted += actions[i] != LEAVE;
+        if (trial->params->dry_run && actions[i] != LEAVE && !announce(trial, i, actions[i], error))
+            return false;
+    }
+    bool scene = is_scene_new(trial);
+    if (scene && trial->params->dry_run)
+        kiln_trial_note(trial, "would write %s/scene.yaml", trial->test->golden);
+    if ((wanted == 0 && !scene) || trial->params->dry_run)
+        return true;
+    int lock = kiln_goldens_lock(trial->test, error);
+    if (lock < 0)
+        return false;
+    bool ok = accept_all(trial, actions, error);
+    kiln_goldens_unlock(lock);
+    if (ok && scene)
+        kiln_trial_note(trial, "wrote %s/scene.yaml", trial->test->golden);
+    return ok;
+}
