@@ -122,19 +122,6 @@ bool kiln_techniques_choose(const struct kiln_device_info *device, const char *c
     return true;
 }
 
-bool kiln_technique_pinned(size_t stage, char out[64])
-{
-    if (stage >= STAGE_COUNT)
-        return false;
-    const struct row *row = find_row((enum stage)stage, "cpu");
-    for (size_t i = 0; !row; i++) {
-        if (ROWS[i].stage == (enum stage)stage)
-            row = &ROWS[i];
-    }
-    snprintf(out, 64, "%s=%s", STAGE_NAMES[stage], row->name);
-    return true;
-}
-
 /* The rows of a stage in their order, with `cpu` before the others. */
 static size_t list_rows(enum stage stage, const struct row *rows[ROW_COUNT])
 {

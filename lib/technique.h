@@ -24,11 +24,6 @@ bool kiln_techniques_choose(const struct kiln_device_info *device, const char *c
                             size_t flag_count, struct kiln_techniques *techniques,
                             struct kiln_error *error);
 
-/* Writes the "stage=name" that golden-image tests pin for the stage of an index, so that their
- * pictures do not depend on the device: cpu where there is such a technique, or else the stage's
- * first. False beyond the last stage. */
-bool kiln_technique_pinned(size_t stage, char out[64]);
-
 /* One technique for each stage that has several, as "stage=name". */
 struct kiln_technique_list {
     char flags[KILN_STAGE_COUNT][KILN_TECHNIQUE_SIZE];

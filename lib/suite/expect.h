@@ -20,6 +20,7 @@
 #ifndef KILN_SUITE_EXPECT_H
 #define KILN_SUITE_EXPECT_H
 
+#include "base/text.h"
 #include "suite/suite.h"
 
 struct kiln_expect_pixels {
@@ -47,8 +48,8 @@ struct kiln_expect {
     struct kiln_expect_value *limits, *measured;
     size_t limit_count, measured_count;
     const char *reason;
-    double warn; /* below 0: the test's */
-    struct kiln_test_mask *masks;
+    double warn;                  /* below 0: the test's */
+    struct kiln_test_mask *masks; /* pictures as they can be opened; in the file, from its folder */
     size_t mask_count;
     struct kiln_expect_frame *frames; /* ascending */
     size_t frame_count;
@@ -59,7 +60,16 @@ struct kiln_expect {
 struct kiln_expect *kiln_expect_read(struct kiln_arena *arena, const char *golden,
                                      struct kiln_error *error);
 
-/* Writes it, whole or not at all; makes missing folders. KILN_IO. */
+/* Reads such a file's text, which must end in a zero byte that size does not count. */
+struct kiln_expect *kiln_expect_parse(struct kiln_arena *arena, const char *text, size_t size,
+                                      const char *golden, struct kiln_error *error);
+
+/* The text of the file; false when memory is short. */
+bool kiln_expect_print(const struct kiln_expect *expect, const char *golden,
+                       struct kiln_text *text);
+
+/* Writes it, whole or not at all; makes missing folders. Comments that someone wrote into the
+ * file are lost. KILN_IO; KILN_INVALID_INPUT when it could not be read again (too many entries). */
 bool kiln_expect_write(const struct kiln_expect *expect, const char *golden,
                        struct kiln_error *error);
 
@@ -67,7 +77,8 @@ bool kiln_expect_write(const struct kiln_expect *expect, const char *golden,
 struct kiln_expect_frame *kiln_expect_find(const struct kiln_expect *expect, uint32_t number);
 
 /* Notes what was accepted of a frame on a device (an entry more, or in place of that device's);
- * other devices' entries stay. False when memory is short. */
+ * other devices' entries stay. The texts are copied; state NULL leaves what is there, pixels NULL
+ * adds none. False when memory is short. */
 bool kiln_expect_accept(struct kiln_arena *arena, struct kiln_expect *expect, uint32_t number,
                         const char *state, const struct kiln_expect_pixels *pixels);
 

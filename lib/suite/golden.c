@@ -1,4 +1,19 @@
+/* A golden is found by the names in its folder, never by trying to open what may be there: one that
+ * cannot be read must not look as if it were missing. */
 #include "suite/golden.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "asset/image.h"
+#include "base/error.h"
+#include "base/hash.h"
+#include "output/temporary.h"
 
 void kiln_device_name(const char *renderer, char name[KILN_DEVICE_NAME_SIZE])
 {
@@ -16,4 +31,344 @@ void kiln_device_name(const char *renderer, char name[KILN_DEVICE_NAME_SIZE])
         gap = !kept;
     }
     name[length] = '\0';
+}
+
+/* ---- names ---------------------------------------------------------------------------------- */
+
+/* What a golden's name says. number 1 has no "~1". */
+struct golden_name {
+    char device[KILN_DEVICE_NAME_SIZE]; /* "" without one */
+    unsigned number;
+};
+
+static const char *suffix_of(const struct kiln_test *test)
+{
+    return test->format == KILN_TEST_EXR ? ".exr" : ".png";
+}
+
+static bool write_path(const struct kiln_test *test, uint32_t frame, const char *device,
+                       unsigned number, char path[KILN_PATH_SIZE], struct kiln_error *error)
+{
+    char alternative[16] = "";
+    if (number > 1)
+        snprintf(alternative, sizeof alternative, "~%u", number);
+    int length = snprintf(path, KILN_PATH_SIZE, "%s/frame_%04u%s%s%s%s", test->golden, frame,
+                          *device ? "@" : "", device, alternative, suffix_of(test));
+    return length < KILN_PATH_SIZE ||
+           kiln_error_set(error, KILN_IO, "%.200s...: the path is too long", test->golden);
+}
+
+enum match { OTHER_FILE, GOLDEN, MALFORMED };
+
+/* "@llvmpipe~2", what is between the frame's number and the suffix. */
+static enum match parse_middle(const char *middle, size_t length, struct golden_name *name)
+{
+    const char *tilde = memchr(middle, '~', length);
+    size_t device = tilde ? (size_t)(tilde - middle) : length;
+    *name = (struct golden_name){.number = 1};
+    if (device > 0) {
+        char clean[KILN_DEVICE_NAME_SIZE];
+        if (device > sizeof name->device)
+            return MALFORMED;
+        memcpy(name->device, middle + 1, device - 1);
+        kiln_device_name(name->device, clean);
+        if (!*clean || strcmp(clean, name->device) != 0)
+            return MALFORMED;
+    }
+    if (!tilde)
+        return GOLDEN;
+    size_t digits = length - device - 1;
+    if (digits < 1 || digits > 3 || tilde[1] == '0' || strspn(tilde + 1, "0123456789") != digits)
+        return MALFORMED;
+    name->number = 0;
+    for (size_t i = 1; i <= digits; i++)
+        name->number = name->number * 10 + (unsigned)(tilde[i] - '0');
+    return name->number >= 2 ? GOLDEN : MALFORMED;
+}
+
+static enum match parse_name(const char *text, const struct kiln_test *test, uint32_t frame,
+                             struct golden_name *name)
+{
+    char start[32];
+    const char *suffix = suffix_of(test);
+    size_t length = strlen(text), end = strlen(suffix);
+    size_t begin = (size_t)snprintf(start, sizeof start, "frame_%04u", frame);
+    if (strncmp(text, start, begin) != 0 || length < begin + end ||
+        strcmp(text + length - end, suffix) != 0)
+        return OTHER_FILE;
+    const char *middle = text + begin;
+    if (middle + end < text + length && *middle != '@' && *middle != '~')
+        return OTHER_FILE;
+    return parse_middle(middle, length - begin - end, name);
+}
+
+static bool is_for(const char *device, const char *device_name)
+{
+    size_t length = strlen(device);
+    return length == 0 || (strncmp(device, device_name, length) == 0 &&
+                           (device_name[length] == '\0' || device_name[length] == '-'));
+}
+
+/* ---- finding -------------------------------------------------------------------------------- */
+
+struct numbers {
+    unsigned values[KILN_MAX_GOLDENS]; /* ascending */
+    size_t count;
+};
+
+static bool add_number(struct numbers *numbers, unsigned number)
+{
+    if (numbers->count == KILN_MAX_GOLDENS)
+        return false;
+    size_t at = numbers->count++;
+    for (; at > 0 && numbers->values[at - 1] > number; at--)
+        numbers->values[at] = numbers->values[at - 1];
+    numbers->values[at] = number;
+    return true;
+}
+
+/* One entry of the folder: those of a more specific device take the place of the others. */
+static bool take_entry(const char *entry, const struct kiln_test *test, uint32_t frame,
+                       const char *device_name, char device[KILN_DEVICE_NAME_SIZE],
+                       struct numbers *numbers, struct kiln_error *error)
+{
+    struct golden_name name;
+    enum match match = parse_name(entry, test, frame, &name);
+    if (match == MALFORMED)
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "%s/%.200s: no golden's name; those are frame_%04u%s and, before the "
+                              "suffix, @ with a device's name in lower case, ~ with a number from "
+                              "2, or both",
+                              test->golden, entry, frame, suffix_of(test));
+    if (match == OTHER_FILE || !is_for(name.device, device_name))
+        return true;
+    size_t length = strlen(name.device), before = strlen(device);
+    if (numbers->count > 0 && length < before)
+        return true;
+    if (length > before)
+        *numbers = (struct numbers){0};
+    memcpy(device, name.device, length + 1);
+    return add_number(numbers, name.number) ||
+           kiln_error_set(error, KILN_INVALID_INPUT,
+                          "%s: more than %d accepted pictures of frame %u", test->golden,
+                          KILN_MAX_GOLDENS, frame);
+}
+
+static bool read_folder(const struct kiln_test *test, uint32_t frame, const char *device_name,
+                        char device[KILN_DEVICE_NAME_SIZE], struct numbers *numbers,
+                        struct kiln_error *error)
+{
+    struct stat status;
+    DIR *folder = opendir(test->golden);
+    if (!folder) {
+        int reason = errno; /* a link that leads nowhere is not a folder that is missing */
+        if (reason == ENOENT && lstat(test->golden, &status) != 0 && errno == ENOENT)
+            return true;
+        return kiln_error_set_errno(error, KILN_IO, reason, "%s: the folder cannot be read",
+                                    test->golden);
+    }
+    bool ok = true;
+    errno = 0;
+    for (struct dirent *entry = readdir(folder); ok && entry; entry = readdir(folder)) {
+        ok = take_entry(entry->d_name, test, frame, device_name, device, numbers, error);
+        errno = 0;
+    }
+    if (ok && errno != 0)
+        ok = kiln_error_set_errno(error, KILN_IO, errno, "%s: the folder cannot be read",
+                                  test->golden);
+    closedir(folder);
+    return ok;
+}
+
+static bool find(const struct kiln_test *test, uint32_t frame, const char *device_name,
+                 char device[KILN_DEVICE_NAME_SIZE], struct numbers *numbers,
+                 struct kiln_error *error)
+{
+    *device = '\0';
+    *numbers = (struct numbers){0};
+    return read_folder(test, frame, device_name, device, numbers, error);
+}
+
+bool kiln_goldens_find(const struct kiln_test *test, uint32_t frame, const char *device_name,
+                       struct kiln_goldens *goldens, struct kiln_error *error)
+{
+    struct numbers numbers;
+    if (!find(test, frame, device_name, goldens->device, &numbers, error))
+        return false;
+    goldens->count = numbers.count;
+    if (numbers.count == 0)
+        return write_path(test, frame, "", 1, goldens->paths[0], error);
+    for (size_t i = 0; i < numbers.count; i++) {
+        if (!write_path(test, frame, goldens->device, numbers.values[i], goldens->paths[i], error))
+            return false;
+    }
+    return true;
+}
+
+/* The first number from 1 that is not taken. */
+static unsigned free_number(const struct numbers *numbers)
+{
+    unsigned number = 1;
+    for (size_t i = 0; i < numbers->count && numbers->values[i] == number; i++)
+        number++;
+    return number;
+}
+
+bool kiln_goldens_place(const struct kiln_test *test, uint32_t frame, const char *device_name,
+                        enum kiln_approve_as as, char path[KILN_PATH_SIZE],
+                        struct kiln_error *error)
+{
+    char device[KILN_DEVICE_NAME_SIZE];
+    struct numbers numbers;
+    if (as == KILN_APPROVE_DEVICE)
+        return write_path(test, frame, device_name, 1, path, error);
+    if (!find(test, frame, device_name, device, &numbers, error))
+        return false;
+    if (as == KILN_APPROVE_REPLACE)
+        return write_path(test, frame, device, numbers.count ? numbers.values[0] : 1, path, error);
+    if (numbers.count == KILN_MAX_GOLDENS)
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "%s: frame %u has %d accepted pictures; there can be no more",
+                              test->golden, frame, KILN_MAX_GOLDENS);
+    return write_path(test, frame, device, free_number(&numbers), path, error);
+}
+
+/* ---- files ---------------------------------------------------------------------------------- */
+
+int kiln_goldens_lock(const struct kiln_test *test, struct kiln_error *error)
+{
+    char inside[KILN_PATH_SIZE];
+    if (snprintf(inside, sizeof inside, "%s/", test->golden) >= (int)sizeof inside) {
+        kiln_error_set(error, KILN_IO, "%.200s...: the path is too long", test->golden);
+        return -1;
+    }
+    if (!kiln_make_parent_folders(inside, error))
+        return -1;
+    /* The folder itself: no file of ours is left in it. */
+    int lock = open(test->golden, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    int result = lock < 0 ? -1 : flock(lock, LOCK_EX);
+    while (lock >= 0 && result != 0 && errno == EINTR)
+        result = flock(lock, LOCK_EX);
+    if (result == 0)
+        return lock;
+    kiln_error_set_errno(error, KILN_IO, errno, "%s: the folder cannot be locked", test->golden);
+    if (lock >= 0)
+        close(lock);
+    return -1;
+}
+
+void kiln_goldens_unlock(int lock)
+{
+    if (lock < 0)
+        return;
+    flock(lock, LOCK_UN); /* closing alone would not, if a child process has the descriptor, too */
+    close(lock);
+}
+
+static bool write_file(const char *path, const void *bytes, size_t size, struct kiln_error *error)
+{
+    struct kiln_temporary file = {0};
+    if (!kiln_make_parent_folders(path, error) || !kiln_target_check(path, true, error) ||
+        !kiln_temporary_open(&file, path, error))
+        return false;
+    kiln_temporary_write(&file, bytes, size);
+    return kiln_temporary_commit(&file, true, error);
+}
+
+static bool copy_bytes(int from, const char *name, struct kiln_temporary *to,
+                       struct kiln_error *error)
+{
+    char buffer[1 << 16];
+    for (;;) {
+        ssize_t count = read(from, buffer, sizeof buffer);
+        if (count == 0)
+            return true;
+        if (count < 0 && errno != EINTR)
+            return kiln_error_set_errno(error, KILN_IO, errno, "%s", name);
+        if (count > 0 && !kiln_temporary_write(to, buffer, (size_t)count))
+            return true; /* committing will tell */
+    }
+}
+
+bool kiln_file_copy(const char *from, const char *to, struct kiln_error *error)
+{
+    struct kiln_temporary target = {0};
+    struct stat status;
+    int file = open(from, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    bool ok = true;
+    if (file < 0 || fstat(file, &status) != 0)
+        ok = kiln_error_set_errno(error, KILN_IO, errno, "%s", from);
+    else if (!S_ISREG(status.st_mode))
+        ok = kiln_error_set(error, KILN_INVALID_INPUT, "%s: is not a regular file", from);
+    ok = ok && kiln_make_parent_folders(to, error) && kiln_target_check(to, true, error) &&
+         kiln_temporary_open(&target, to, error);
+    if (ok) {
+        ok = copy_bytes(file, from, &target, error);
+        if (ok)
+            ok = kiln_temporary_commit(&target, true, error);
+        else
+            kiln_temporary_discard(&target);
+    }
+    if (file >= 0)
+        close(file);
+    return ok;
+}
+
+bool kiln_pixel_hash(const char *path, char hex[65], struct kiln_error *error)
+{
+    static const size_t bytes[] = {[KILN_IMAGE_U8] = 1, [KILN_IMAGE_U16] = 2, [KILN_IMAGE_F32] = 4};
+    struct kiln_asset_image *image = kiln_asset_image_load(path, error);
+    if (!image)
+        return false;
+    size_t size = (size_t)image->width * image->height * 4 * bytes[image->type];
+    char pixels[65], text[160];
+    bool ok = kiln_hash_sha256(image->pixels, size, pixels);
+    int length = snprintf(text, sizeof text, "%ux%u %u %d %d %d %s", image->width, image->height,
+                          image->channels, (int)image->type, image->srgb, image->premultiplied,
+                          ok ? pixels : "");
+    ok = ok && kiln_hash_sha256(text, (size_t)length, hex);
+    kiln_asset_image_destroy(&image);
+    return ok || kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", path);
+}
+
+/* ---- accepting ------------------------------------------------------------------------------ */
+
+static bool put_picture(const struct kiln_acceptance *acceptance, const char *path,
+                        const char *pixels, struct kiln_error *error)
+{
+    char there[65];
+    struct kiln_error ignored = {0}; /* what is there may be missing or broken: it is replaced */
+    if (kiln_pixel_hash(path, there, &ignored) && strcmp(there, pixels) == 0)
+        return true;
+    return kiln_file_copy(acceptance->picture, path, error);
+}
+
+static bool put_scene(const struct kiln_test *test, const char *scene, struct kiln_error *error)
+{
+    char path[KILN_PATH_SIZE];
+    if (snprintf(path, sizeof path, "%s/scene.yaml", test->golden) >= (int)sizeof path)
+        return kiln_error_set(error, KILN_IO, "%.200s...: the path is too long", test->golden);
+    return write_file(path, scene, strlen(scene), error);
+}
+
+bool kiln_goldens_accept(struct kiln_arena *arena, const struct kiln_test *test,
+                         struct kiln_expect *expect, const struct kiln_acceptance *acceptance,
+                         char path[KILN_PATH_SIZE], struct kiln_error *error)
+{
+    char pixels[65];
+    bool own = acceptance->as == KILN_APPROVE_REPLACE && acceptance->golden;
+    if (own && snprintf(path, KILN_PATH_SIZE, "%s", acceptance->golden) >= KILN_PATH_SIZE)
+        return kiln_error_set(error, KILN_IO, "%.200s...: the path is too long",
+                              acceptance->golden);
+    if (!own && !kiln_goldens_place(test, acceptance->frame, acceptance->device_name,
+                                    acceptance->as, path, error))
+        return false;
+    if (!kiln_pixel_hash(acceptance->picture, pixels, error) ||
+        !put_picture(acceptance, path, pixels, error) ||
+        (acceptance->scene && !put_scene(test, acceptance->scene, error)))
+        return false;
+    const struct kiln_expect_pixels accepted = {
+        .device = acceptance->device_name, .hash = pixels, .golden = pixels};
+    return kiln_expect_accept(arena, expect, acceptance->frame, acceptance->state, &accepted) ||
+           kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while accepting pictures");
 }

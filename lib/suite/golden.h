@@ -27,7 +27,9 @@ struct kiln_goldens {
 };
 
 /* Finds the accepted pictures of a frame; none is no error: paths[0] then is the name it would
- * have. KILN_IO when the folder cannot be read, KILN_INVALID_INPUT for more than there may be. */
+ * have. What has a golden's name counts, whatever it is: reading it will tell. KILN_IO when the
+ * folder cannot be read, KILN_INVALID_INPUT for more than there may be, and for names that are
+ * nearly those above. */
 bool kiln_goldens_find(const struct kiln_test *test, uint32_t frame, const char *device_name,
                        struct kiln_goldens *goldens, struct kiln_error *error);
 
@@ -42,23 +44,26 @@ bool kiln_goldens_place(const struct kiln_test *test, uint32_t frame, const char
 int kiln_goldens_lock(const struct kiln_test *test, struct kiln_error *error);
 void kiln_goldens_unlock(int lock);
 
-/* Copies a file to another name, whole or not at all, replacing it; makes missing folders. KILN_IO.
- */
+/* Copies a file to another name, whole or not at all, replacing it; makes missing folders. KILN_IO,
+ * KILN_INVALID_INPUT when `from` is no regular file. */
 bool kiln_file_copy(const char *from, const char *to, struct kiln_error *error);
 
-/* SHA-256 of a picture as it is decoded: size, channels, type and pixels. Errors as
- * kiln_asset_image_load. */
+/* SHA-256 of a picture as it is decoded: size, channels, type, how light is encoded, and pixels.
+ * Errors as kiln_asset_image_load. */
 bool kiln_pixel_hash(const char *path, char hex[65], struct kiln_error *error);
 
-/* One accepted picture and what goes with it: the picture to its place, state and pixels into
- * expect, the scene beside it (text as kiln_scene_print writes it; NULL leaves what is there). The
- * caller holds the lock, and writes expect. */
+/* One accepted picture and what goes with it: the picture to its place, unless one of the same
+ * pixels is there; state and pixels into expect; the scene beside it. The caller holds the lock,
+ * and writes expect. path gets the place. KILN_INVALID_INPUT when the picture cannot be decoded,
+ * KILN_IO, KILN_DEVICE_FAILED. */
 struct kiln_acceptance {
     uint32_t frame;
     const char *picture; /* a file */
-    const char *state;
+    const char *state;   /* NULL leaves what is there */
     const char *device_name;
     enum kiln_approve_as as;
+    const char *golden; /* replace: that one; NULL: the first of the frame's */
+    const char *scene;  /* as kiln_scene_print writes it; NULL leaves what is there */
 };
 bool kiln_goldens_accept(struct kiln_arena *arena, const struct kiln_test *test,
                          struct kiln_expect *expect, const struct kiln_acceptance *acceptance,

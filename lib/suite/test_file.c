@@ -152,13 +152,13 @@ static bool add_text(struct kiln_arena *arena, const char **texts, size_t *count
 static bool take_techniques(struct kiln_arena *arena, const struct document *document,
                             struct kiln_test *test)
 {
-    enum { MAX_STAGES = 16 };
-    test->techniques =
-        kiln_arena_alloc(arena, MAX_STAGES + document->technique_count, sizeof *test->techniques);
+    struct kiln_technique_list pinned;
+    kiln_techniques_combination(0, &pinned);
+    test->techniques = kiln_arena_alloc(arena, KILN_STAGE_COUNT + document->technique_count,
+                                        sizeof *test->techniques);
     bool ok = test->techniques != NULL;
-    char pinned[64];
-    for (size_t i = 0; ok && i < MAX_STAGES && kiln_technique_pinned(i, pinned); i++)
-        ok = add_text(arena, test->techniques, &test->technique_count, pinned);
+    for (size_t i = 0; ok && i < KILN_STAGE_COUNT; i++)
+        ok = add_text(arena, test->techniques, &test->technique_count, pinned.flags[i]);
     for (uint32_t i = 0; ok && i < document->technique_count; i++)
         test->techniques[test->technique_count++] = document->techniques[i];
     return ok;

@@ -1,0 +1,522 @@
+/* expect.yaml is read by an option table, as scenes are. It is written by hand here: it names only
+ * what is known, and its frames are one line a device. */
+#include "suite/expect.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "output/temporary.h"
+#include "scene/option_rows.h"
+#include "scene/reader.h"
+#include "suite/golden.h"
+#include "suite/type.h"
+
+enum { MAX_FILE_SIZE = 16 << 20, MAX_DEVICES = 64, MAX_TEXT = 4000 };
+
+/* What the table below fills. */
+struct document {
+    uint32_t version;
+    const char *scene_hash, *reason;
+    const char *techniques[KILN_TEST_MAX_TECHNIQUES];
+    uint32_t technique_count;
+    struct kiln_expect_value limits[KILN_MAX_COLUMNS], measured[KILN_MAX_COLUMNS];
+    uint32_t limit_count, measured_count;
+    double warn;
+    struct kiln_test_mask masks[KILN_TEST_MAX_MASKS];
+    uint32_t mask_count;
+    struct kiln_expect_frame *frames;
+    uint32_t frame_count;
+    struct kiln_expect expect;
+};
+
+static bool out_of_memory(struct kiln_error *error)
+{
+    return kiln_error_set(error, KILN_DEVICE_FAILED,
+                          "out of memory while reading what is expected");
+}
+
+/* ---- types ---------------------------------------------------------------------------------- */
+
+/* A hash of `max` digits; "" is read as NULL where `min` is 0. */
+static bool read_hex(struct kiln_reader *reader, const struct kiln_option *option,
+                     const struct kiln_node *node, void *field)
+{
+    const char *text = node->kind == KILN_NODE_SCALAR ? node->text : "-", *kept = NULL;
+    size_t length = strlen(text);
+    bool none = length == 0 && node->quoted && option->min == 0;
+    if (!none && ((double)length != option->max || strspn(text, "0123456789abcdef") != length))
+        return kiln_reader_mismatch(reader, option, node);
+    if (!none && !(kept = kiln_arena_text(reader->arena, text, length)))
+        return kiln_reader_out_of_memory(reader);
+    memcpy(field, &kept, sizeof kept);
+    return true;
+}
+
+static void describe_hex(const struct kiln_option *option, struct kiln_text *out)
+{
+    kiln_text_add(out, "a hash of %.0f hex digits", option->max);
+}
+
+static const struct kiln_option_type type_hex = {.read = read_hex, .describe = describe_hex};
+
+#define AT(field) offsetof(struct kiln_expect_pixels, field)
+
+static const struct kiln_option pixels_rows[] = {
+    {.name = "hash", .type = &type_hex, .offset = AT(hash), LIMITS(KILN_PLAIN, 64, 64)},
+    {.name = "golden", .type = &type_hex, .offset = AT(golden), LIMITS(KILN_PLAIN, 64, 64)},
+    END,
+};
+
+/* Devices to their hashes; the field is the whole frame. */
+static bool read_pixels(struct kiln_reader *reader, const struct kiln_option *option,
+                        const struct kiln_node *node, void *field)
+{
+    struct kiln_expect_frame *frame = field;
+    if (node->kind != KILN_NODE_MAP)
+        return kiln_reader_mismatch(reader, option, node);
+    if (node->count > MAX_DEVICES)
+        return kiln_reader_error(reader, node, "%u devices are too many; at most %d", node->count,
+                                 MAX_DEVICES);
+    frame->pixels = kiln_arena_alloc(reader->arena, node->count + 1u, sizeof *frame->pixels);
+    if (!frame->pixels)
+        return kiln_reader_out_of_memory(reader);
+    for (const struct kiln_node *entry = node->first; entry; entry = entry->next) {
+        struct kiln_expect_pixels *pixels = &frame->pixels[frame->pixel_count];
+        const char *device = entry->key->text;
+        char name[KILN_DEVICE_NAME_SIZE];
+        size_t before = kiln_reader_enter(reader, device);
+        kiln_device_name(device, name);
+        if (strcmp(name, device) != 0)
+            return kiln_reader_error(reader, entry->key,
+                                     "no device's name; those have lower-case letters, digits, "
+                                     "'.' and '-', as in llvmpipe-llvm-15.0.6-256-bits");
+        pixels->device = kiln_arena_text(reader->arena, device, strlen(device));
+        if (!pixels->device)
+            return kiln_reader_out_of_memory(reader);
+        if (!kiln_read_members(reader, pixels_rows, entry, pixels))
+            return false;
+        kiln_reader_leave(reader, before);
+        frame->pixel_count++;
+    }
+    return true;
+}
+
+static void describe_pixels(const struct kiln_option *option, struct kiln_text *out)
+{
+    (void)option;
+    kiln_text_add(out, "{device: {hash: ..., golden: ...}, ...}");
+}
+
+static const struct kiln_option_type type_pixels = {.read = read_pixels,
+                                                    .describe = describe_pixels};
+
+#undef AT
+#define AT(field) offsetof(struct kiln_expect_frame, field)
+
+static const struct kiln_option frame_rows[] = {
+    {.name = "state",
+     .type = &type_hex,
+     .offset = AT(state),
+     .fallback = "\"\"",
+     LIMITS(KILN_PLAIN, 0, 16)},
+    {.name = "pixels", .type = &type_pixels, .offset = 0, .fallback = "{}"},
+    END,
+};
+
+static const struct kiln_option frame_number = {.type = &kiln_type_integer,
+                                                LIMITS(KILN_PLAIN, 0, KILN_TEST_MAX_FRAME)};
+
+static int by_number(const void *a, const void *b)
+{
+    uint32_t x = ((const struct kiln_expect_frame *)a)->number;
+    uint32_t y = ((const struct kiln_expect_frame *)b)->number;
+    return (x > y) - (x < y);
+}
+
+/* The field is the whole document. */
+static bool read_frames(struct kiln_reader *reader, const struct kiln_option *option,
+                        const struct kiln_node *node, void *field)
+{
+    struct document *document = field;
+    if (node->kind != KILN_NODE_MAP)
+        return kiln_reader_mismatch(reader, option, node);
+    document->frames = kiln_arena_alloc(reader->arena, node->count + 1u, sizeof *document->frames);
+    if (!document->frames)
+        return kiln_reader_out_of_memory(reader);
+    for (const struct kiln_node *entry = node->first; entry; entry = entry->next) {
+        struct kiln_expect_frame *frame = &document->frames[document->frame_count];
+        size_t before = kiln_reader_enter(reader, entry->key->text);
+        if (!kiln_read_whole(reader, &frame_number, entry->key, &frame->number))
+            return false;
+        for (uint32_t i = 0; i < document->frame_count; i++) {
+            if (document->frames[i].number == frame->number)
+                return kiln_reader_error(reader, entry->key, "frame %u is here twice",
+                                         frame->number);
+        }
+        if (!kiln_read_members(reader, frame_rows, entry, frame))
+            return false;
+        kiln_reader_leave(reader, before);
+        document->frame_count++;
+    }
+    qsort(document->frames, document->frame_count, sizeof *document->frames, by_number);
+    return true;
+}
+
+static void describe_frames(const struct kiln_option *option, struct kiln_text *out)
+{
+    (void)option;
+    kiln_text_add(out, "{number: {state: ..., pixels: ...}, ...}");
+}
+
+static const struct kiln_option_type type_frames = {.read = read_frames,
+                                                    .describe = describe_frames};
+
+/* ---- the file ------------------------------------------------------------------------------- */
+
+#undef AT
+#define AT(field) offsetof(struct document, field)
+
+static const struct kiln_option technique_item = {.type = &kiln_type_text,
+                                                  LIMITS(KILN_PLAIN, 1, 60)};
+
+static const struct kiln_option rows[] = {
+    INTEGER("kiln_expect", version, 1, 1, NULL, "Version of the format."),
+    {.name = "scene_hash",
+     .type = &type_hex,
+     .offset = AT(scene_hash),
+     .fallback = "\"\"",
+     LIMITS(KILN_PLAIN, 0, 64)},
+    {ROW("techniques", list, AT(techniques), "[]", "Those that were accepted."),
+     .item = &technique_item, .item_size = sizeof(const char *),
+     .count_offset = AT(technique_count), .max_count = KILN_TEST_MAX_TECHNIQUES},
+    {ROW("limits", limits, AT(limits), "{}", "Over those of the test."),
+     .count_offset = AT(limit_count), .max_count = KILN_MAX_COLUMNS},
+    {ROW("reason", text, AT(reason), "\"\"", "Why these limits."), LIMITS(KILN_PLAIN, 0, MAX_TEXT)},
+    {ROW("warn", number, AT(warn), "-1", "A score; below 0 is the test's."),
+     LIMITS(KILN_PLAIN, -1, 1)},
+    {ROW("masks", list, AT(masks), "[]", "In place of the test's."), .item = &kiln_mask_item,
+     .item_size = sizeof(struct kiln_test_mask), .count_offset = AT(mask_count),
+     .max_count = KILN_TEST_MAX_MASKS},
+    {ROW("measured", limits, AT(measured), "{}", "The worst values of calibration."),
+     .count_offset = AT(measured_count), .max_count = KILN_MAX_COLUMNS},
+    {.name = "frames", .type = &type_frames, .offset = 0, .fallback = "{}"},
+    END,
+};
+
+/* Mask pictures are named from the folder of goldens. */
+static bool resolve_masks(struct kiln_arena *arena, struct document *document, const char *golden)
+{
+    for (uint32_t i = 0; i < document->mask_count; i++) {
+        struct kiln_test_mask *mask = &document->masks[i];
+        if (!mask->picture || *mask->picture == '/')
+            continue;
+        size_t folder = strlen(golden), name = strlen(mask->picture);
+        char *joined = kiln_arena_alloc(arena, folder + name + 2, 1);
+        if (!joined)
+            return false;
+        memcpy(joined, golden, folder);
+        joined[folder] = '/';
+        memcpy(joined + folder + 1, mask->picture, name);
+        mask->picture = joined;
+    }
+    return true;
+}
+
+/* The document lies in the arena, too: its arrays are those of what is expected. */
+static struct kiln_expect *take_document(struct document *document)
+{
+    document->expect = (struct kiln_expect){
+        .scene_hash = document->scene_hash,
+        .techniques = document->techniques,
+        .technique_count = document->technique_count,
+        .limits = document->limits,
+        .measured = document->measured,
+        .limit_count = document->limit_count,
+        .measured_count = document->measured_count,
+        .reason = document->reason,
+        .warn = document->warn,
+        .masks = document->masks,
+        .mask_count = document->mask_count,
+        .frames = document->frames,
+        .frame_count = document->frame_count,
+    };
+    return &document->expect;
+}
+
+static struct kiln_expect *read_root(struct kiln_reader *reader, const struct kiln_node *root,
+                                     const char *golden)
+{
+    struct document *document = kiln_arena_alloc(reader->arena, 1, sizeof *document);
+    if (!document) {
+        out_of_memory(reader->error);
+        return NULL;
+    }
+    if (root->kind != KILN_NODE_MAP) {
+        kiln_reader_expected(reader, root, "a mapping of keys");
+        return NULL;
+    }
+    if (!kiln_read_members(reader, rows, root, document))
+        return NULL;
+    if (resolve_masks(reader->arena, document, golden))
+        return take_document(document);
+    out_of_memory(reader->error);
+    return NULL;
+}
+
+struct kiln_expect *kiln_expect_parse(struct kiln_arena *arena, const char *text, size_t size,
+                                      const char *golden, struct kiln_error *error)
+{
+    struct kiln_arena *scratch = kiln_arena_create();
+    struct kiln_reader *reader = scratch ? kiln_arena_alloc(scratch, 1, sizeof *reader) : NULL;
+    struct kiln_text path = {0};
+    kiln_text_add(&path, "%s/expect.yaml", golden);
+    struct kiln_expect *expect = NULL;
+    if (!reader || path.failed) {
+        out_of_memory(error);
+    } else {
+        struct kiln_origin origin = {.name = path.data,
+                                     .has_lines = true,
+                                     .kind = "what is expected",
+                                     .version = "kiln_expect: 1"};
+        *reader = (struct kiln_reader){.arena = arena, .scratch = scratch, .error = error};
+        const struct kiln_node *root = kiln_node_parse(scratch, text, size, &origin, error);
+        expect = root ? read_root(reader, root, golden) : NULL;
+    }
+    kiln_text_free(&path);
+    kiln_arena_destroy(&scratch);
+    return expect;
+}
+
+struct kiln_expect *kiln_expect_read(struct kiln_arena *arena, const char *golden,
+                                     struct kiln_error *error)
+{
+    static const char nothing[] = "kiln_expect: 1";
+    struct stat status;
+    char path[KILN_PATH_SIZE];
+    size_t size = 0;
+    if (snprintf(path, sizeof path, "%s/expect.yaml", golden) >= (int)sizeof path) {
+        kiln_error_set(error, KILN_IO, "%.200s...: the path is too long", golden);
+        return NULL;
+    }
+    if (lstat(path, &status) != 0) {
+        if (errno == ENOENT)
+            return kiln_expect_parse(arena, nothing, sizeof nothing - 1, golden, error);
+        kiln_error_set_errno(error, KILN_IO, errno, "%s", path);
+        return NULL;
+    }
+    char *text = kiln_text_file_read(path, "an expect.yaml", MAX_FILE_SIZE, &size, error);
+    struct kiln_expect *expect = text ? kiln_expect_parse(arena, text, size, golden, error) : NULL;
+    free(text);
+    return expect;
+}
+
+/* ---- writing -------------------------------------------------------------------------------- */
+
+static void print_text(struct kiln_text *text, const char *name, const char *value)
+{
+    if (!value || !*value)
+        return;
+    kiln_text_add(text, "%s: ", name);
+    kiln_text_add_json(text, value);
+    kiln_text_add(text, "\n");
+}
+
+static void print_values(struct kiln_text *text, const char *name,
+                         const struct kiln_expect_value *values, size_t count)
+{
+    bool any = false;
+    for (size_t i = 0; i < count; i++) {
+        if (!isfinite(values[i].value)) /* psnr of pictures that are equal */
+            continue;
+        char number[32];
+        kiln_text_from_double(number, values[i].value);
+        kiln_text_add(text, any ? ", %s: %s" : "%s: {%s: %s", any ? values[i].metric : name,
+                      any ? number : values[i].metric, number);
+        any = true;
+    }
+    if (any)
+        kiln_text_add(text, "}\n");
+}
+
+static void print_techniques(struct kiln_text *text, const struct kiln_expect *expect)
+{
+    for (size_t i = 0; i < expect->technique_count; i++) {
+        kiln_text_add(text, "%s", i ? ", " : "techniques: [");
+        kiln_text_add_json(text, expect->techniques[i]);
+    }
+    if (expect->technique_count)
+        kiln_text_add(text, "]\n");
+}
+
+static void print_masks(struct kiln_text *text, const struct kiln_expect *expect,
+                        const char *golden)
+{
+    size_t folder = strlen(golden);
+    for (size_t i = 0; i < expect->mask_count; i++) {
+        const struct kiln_test_mask *mask = &expect->masks[i];
+        kiln_text_add(text, "%s", i ? "  - {" : "masks:\n  - {");
+        if (mask->picture) {
+            bool inside = strncmp(mask->picture, golden, folder) == 0 &&
+                          mask->picture[folder] == '/' && mask->picture[folder + 1] != '/';
+            kiln_text_add(text, "picture: ");
+            kiln_text_add_json(text, mask->picture + (inside ? folder + 1 : 0));
+        } else {
+            kiln_text_add(text, "rect: [%u, %u, %u, %u]", mask->rect[0], mask->rect[1],
+                          mask->rect[2], mask->rect[3]);
+        }
+        if (mask->reason && *mask->reason) {
+            kiln_text_add(text, ", reason: ");
+            kiln_text_add_json(text, mask->reason);
+        }
+        kiln_text_add(text, "}\n");
+    }
+}
+
+static void print_frames(struct kiln_text *text, const struct kiln_expect *expect)
+{
+    for (size_t i = 0; i < expect->frame_count; i++) {
+        const struct kiln_expect_frame *frame = &expect->frames[i];
+        bool empty = !frame->state && frame->pixel_count == 0;
+        kiln_text_add(text, "%s  %u:%s\n", i ? "" : "frames:\n", frame->number, empty ? " {}" : "");
+        if (frame->state)
+            kiln_text_add(text, "    state: \"%s\"\n", frame->state);
+        for (size_t p = 0; p < frame->pixel_count; p++) {
+            const struct kiln_expect_pixels *pixels = &frame->pixels[p];
+            kiln_text_add(text, "%s      %s: {hash: \"%s\", golden: \"%s\"}\n",
+                          p ? "" : "    pixels:\n", pixels->device, pixels->hash, pixels->golden);
+        }
+    }
+}
+
+bool kiln_expect_print(const struct kiln_expect *expect, const char *golden, struct kiln_text *text)
+{
+    kiln_text_add(text, "# Written by kiln test, and rewritten by it: comments are not kept.\n"
+                        "kiln_expect: 1\n");
+    print_text(text, "scene_hash", expect->scene_hash);
+    print_techniques(text, expect);
+    print_values(text, "limits", expect->limits, expect->limit_count);
+    print_text(text, "reason", expect->reason);
+    if (expect->warn >= 0) {
+        char number[32];
+        kiln_text_from_double(number, expect->warn);
+        kiln_text_add(text, "warn: %s\n", number);
+    }
+    print_masks(text, expect, golden);
+    print_values(text, "measured", expect->measured, expect->measured_count);
+    print_frames(text, expect);
+    return !text->failed;
+}
+
+/* A file that could not be read again must not take the place of one that can. */
+static bool check_text(const struct kiln_text *text, const char *golden, struct kiln_error *error)
+{
+    struct kiln_arena *arena = kiln_arena_create();
+    bool ok = arena ? kiln_expect_parse(arena, text->data, text->length, golden, error) != NULL
+                    : out_of_memory(error);
+    kiln_arena_destroy(&arena);
+    return ok && (text->length <= MAX_FILE_SIZE ||
+                  kiln_error_set(error, KILN_INVALID_INPUT,
+                                 "%s/expect.yaml: it would have more than %d bytes", golden,
+                                 MAX_FILE_SIZE));
+}
+
+bool kiln_expect_write(const struct kiln_expect *expect, const char *golden,
+                       struct kiln_error *error)
+{
+    struct kiln_text text = {0}, path = {0};
+    struct kiln_temporary file = {0};
+    kiln_text_add(&path, "%s/expect.yaml", golden);
+    bool ok = kiln_expect_print(expect, golden, &text) && !path.failed;
+    if (!ok)
+        out_of_memory(error);
+    ok = ok && check_text(&text, golden, error) && kiln_make_parent_folders(path.data, error) &&
+         kiln_target_check(path.data, true, error) && kiln_temporary_open(&file, path.data, error);
+    if (ok) {
+        kiln_temporary_write(&file, text.data, text.length);
+        ok = kiln_temporary_commit(&file, true, error);
+    }
+    kiln_text_free(&text);
+    kiln_text_free(&path);
+    return ok;
+}
+
+/* ---- entries -------------------------------------------------------------------------------- */
+
+struct kiln_expect_frame *kiln_expect_find(const struct kiln_expect *expect, uint32_t number)
+{
+    const struct kiln_expect_frame key = {.number = number};
+    if (expect->frame_count == 0)
+        return NULL;
+    return bsearch(&key, expect->frames, expect->frame_count, sizeof key, by_number);
+}
+
+static struct kiln_expect_frame *insert_frame(struct kiln_arena *arena, struct kiln_expect *expect,
+                                              uint32_t number)
+{
+    size_t at = 0, count = expect->frame_count;
+    while (at < count && expect->frames[at].number < number)
+        at++;
+    struct kiln_expect_frame *frames = kiln_arena_alloc(arena, count + 1, sizeof *frames);
+    if (!frames)
+        return NULL;
+    if (count) {
+        memcpy(frames, expect->frames, at * sizeof *frames);
+        memcpy(frames + at + 1, expect->frames + at, (count - at) * sizeof *frames);
+    }
+    frames[at].number = number;
+    expect->frames = frames;
+    expect->frame_count++;
+    return &frames[at];
+}
+
+static struct kiln_expect_pixels *insert_pixels(struct kiln_arena *arena,
+                                                struct kiln_expect_frame *frame, const char *device)
+{
+    size_t at = 0, count = frame->pixel_count;
+    for (size_t i = 0; i < count; i++) { /* a person may have written them in any order */
+        int order = strcmp(frame->pixels[i].device, device);
+        if (order == 0)
+            return &frame->pixels[i];
+        if (order < 0)
+            at = i + 1;
+    }
+    struct kiln_expect_pixels *pixels = kiln_arena_alloc(arena, count + 1, sizeof *pixels);
+    if (!pixels)
+        return NULL;
+    if (count) {
+        memcpy(pixels, frame->pixels, at * sizeof *pixels);
+        memcpy(pixels + at + 1, frame->pixels + at, (count - at) * sizeof *pixels);
+    }
+    frame->pixels = pixels;
+    frame->pixel_count++;
+    return &pixels[at];
+}
+
+bool kiln_expect_accept(struct kiln_arena *arena, struct kiln_expect *expect, uint32_t number,
+                        const char *state, const struct kiln_expect_pixels *pixels)
+{
+    struct kiln_expect_frame *frame = kiln_expect_find(expect, number);
+    if (!frame)
+        frame = insert_frame(arena, expect, number);
+    if (!frame)
+        return false;
+    if (state && !(frame->state = kiln_arena_text(arena, state, strlen(state))))
+        return false;
+    if (!pixels)
+        return true;
+    struct kiln_expect_pixels copy = {
+        .device = kiln_arena_text(arena, pixels->device, strlen(pixels->device)),
+        .hash = kiln_arena_text(arena, pixels->hash, strlen(pixels->hash)),
+        .golden = kiln_arena_text(arena, pixels->golden, strlen(pixels->golden)),
+    };
+    struct kiln_expect_pixels *entry =
+        copy.device && copy.hash && copy.golden ? insert_pixels(arena, frame, copy.device) : NULL;
+    if (entry)
+        *entry = copy;
+    return entry != NULL;
+}
