@@ -244,3 +244,14 @@ void kiln_temporary_discard(struct kiln_temporary *temporary)
     unlink(slots[temporary->slot].path);
     end(temporary);
 }
+
+bool kiln_temporary_write_file(const char *path, const void *bytes, size_t size,
+                               struct kiln_error *error)
+{
+    struct kiln_temporary file = {0};
+    if (!kiln_target_check(path, true, error) || !kiln_make_parent_folders(path, error) ||
+        !kiln_temporary_open(&file, path, error))
+        return false;
+    kiln_temporary_write(&file, bytes, size); /* commit tells of failures */
+    return kiln_temporary_commit(&file, true, error);
+}

@@ -38,6 +38,10 @@ bool kiln_temporary_seek(struct kiln_temporary *temporary, int64_t offset);
 bool kiln_temporary_commit(struct kiln_temporary *temporary, bool overwrite,
                            struct kiln_error *error);
 
+/* Writes a whole file, in place of what has that name; makes missing folders. KILN_IO. */
+bool kiln_temporary_write_file(const char *path, const void *bytes, size_t size,
+                               struct kiln_error *error);
+
 /* Closes and removes the file; does nothing when it is closed. */
 void kiln_temporary_discard(struct kiln_temporary *temporary);
 

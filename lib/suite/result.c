@@ -125,3 +125,26 @@ const struct kiln_member kiln_result_change_members[] = {
     MEMBER(kiln_result_change, TEXT, after),
     MEMBERS_END,
 };
+
+/* ---- Empty ones --------------------------------------------------------------------------- */
+
+static void clear_texts(const struct kiln_member *members, void *object)
+{
+    for (const struct kiln_member *m = members; m->name; m++) {
+        if (m->kind == KILN_MEMBER_TEXT || m->kind == KILN_MEMBER_FILE)
+            *(const char **)((char *)object + m->offset) = "";
+    }
+}
+
+void kiln_result_init(struct kiln_result *result, const char *name)
+{
+    *result = (struct kiln_result){0};
+    clear_texts(kiln_result_members, result);
+    result->name = name;
+}
+
+void kiln_result_frame_init(struct kiln_result_frame *frame, uint32_t number)
+{
+    *frame = (struct kiln_result_frame){.number = number};
+    clear_texts(kiln_result_frame_members, frame);
+}

@@ -82,6 +82,10 @@ struct kiln_result {
     const char **notes; /* for people: stale limits, goldens written */
 };
 
+/* Nothing is said but the name: texts are "", numbers 0. */
+void kiln_result_init(struct kiln_result *result, const char *name);
+void kiln_result_frame_init(struct kiln_result_frame *frame, uint32_t number);
+
 /* A score of a result's worst frame: the highest of the measured ones, 0 without any. */
 double kiln_result_score(const struct kiln_result *result);
 

@@ -176,22 +176,14 @@ bool kiln_result_write(const struct kiln_result *result, const char *folder,
                        struct kiln_error *error)
 {
     char path[KILN_PATH_SIZE];
-    struct kiln_temporary file = {0};
-    if (!kiln_result_path(path, folder, error) || !kiln_target_check(path, true, error) ||
-        !kiln_make_parent_folders(path, error) || !kiln_temporary_open(&file, path, error))
+    if (!kiln_result_path(path, folder, error))
         return false;
     struct kiln_text text = {0};
     kiln_text_add(&text, "{\n  \"kiln_result\": %d,\n  ", KILN_RESULT_VERSION);
     kiln_result_add_json(&text, result);
     kiln_text_add(&text, "\n}\n");
-    bool whole = !text.failed;
-    if (whole) {
-        kiln_temporary_write(&file, text.data, text.length); /* commit tells of failures */
-        whole = kiln_temporary_commit(&file, true, error);
-    } else {
-        kiln_temporary_discard(&file);
-        kiln_error_set(error, KILN_IO, "%s: no memory to write it", path);
-    }
+    bool written = text.failed ? kiln_error_set(error, KILN_IO, "%s: no memory to write it", path)
+                               : kiln_temporary_write_file(path, text.data, text.length, error);
     kiln_text_free(&text);
-    return whole;
+    return written;
 }

@@ -14,7 +14,6 @@
 #include "base/text.h"
 #include "suite/result_member.h"
 #include "support/pictures.h"
-#include "support/results.h"
 
 /* Whatever a scene, a driver or a crash may put into a text. */
 static const char nasty[] = "a \"b\" \\ / 'c' # : , {} [] & * ! | > % @ ` \t\n\r\x01\x1f\x7f "
@@ -176,7 +175,8 @@ static void long_lists_are_cut_and_say_so(void **state)
 {
     (void)state;
     struct kiln_arena *arena = kiln_arena_create();
-    struct kiln_result result = test_empty_result("a");
+    struct kiln_result result;
+    kiln_result_init(&result, "a");
     result.change_count = result.note_count = 5000;
     result.changes = kiln_arena_alloc(arena, 5000, sizeof *result.changes);
     result.notes = kiln_arena_alloc(arena, 5000, sizeof *result.notes);
@@ -265,10 +265,13 @@ static void broken_results_are_refused_with_their_place(void **state)
         {"\"notes\"", "&a \"notes\"", "anchors and aliases are not allowed"},
         {"}\n", "}\n---\n", "a second starts here"},
     };
-    struct kiln_result_frame frames[2] = {test_empty_frame(5), test_empty_frame(7)};
+    struct kiln_result_frame frames[2];
+    kiln_result_frame_init(&frames[0], 5);
+    kiln_result_frame_init(&frames[1], 7);
     frames[0].measured = frames[0].beyond[0] = true;
     frames[0].values[0] = (double)INFINITY;
-    struct kiln_result result = test_empty_result("a");
+    struct kiln_result result;
+    kiln_result_init(&result, "a");
     result.column_count = 1;
     result.columns[0] = (struct kiln_compare_column){.name = "psnr", .unit = "dB"};
     result.frame_count = 2;
@@ -315,7 +318,8 @@ static void files_that_are_no_result(void **state)
     assert_int_equal(mkdir(path, 0777), 0);
     assert_null(kiln_result_read(arena, folder, &error));
     assert_int_equal(error.code, KILN_INVALID_INPUT);
-    struct kiln_result result = test_empty_result("a");
+    struct kiln_result result;
+    kiln_result_init(&result, "a");
     assert_false(kiln_result_write(&result, folder, &error));
     assert_int_equal(error.code, KILN_IO);
     assert_int_equal(rmdir(path), 0);

@@ -1,0 +1,111 @@
+/* Workflow commands of GitHub's runners: lines on standard output that become annotations. Only so
+ * many are shown of a step, so what is broken comes first. */
+#include <string.h>
+
+#include "report/words.h"
+
+/* What is special in a message; in a property, these and what ends one. */
+static void write_escaped(FILE *out, const char *text, const char *special)
+{
+    for (; *text; text++) {
+        if (strchr(special, *text))
+            fprintf(out, "%%%02X", (unsigned char)*text);
+        else if ((unsigned char)*text >= 0x20 || *text == '\t')
+            fputc(*text, out);
+    }
+}
+
+static void write_message(FILE *out, const char *text)
+{
+    write_escaped(out, text, "%\r\n");
+}
+
+static void write_property(FILE *out, const char *text)
+{
+    write_escaped(out, text, "%\r\n:,");
+}
+
+/* The command up to its message; file "" for none. */
+static void open_command(FILE *out, const char *command, const char *file, const char *title,
+                         const char *name)
+{
+    fprintf(out, "::%s ", command);
+    if (*file) {
+        fputs("file=", out);
+        write_property(out, file);
+        fputs(",", out);
+    }
+    fputs("title=", out);
+    write_property(out, title);
+    write_property(out, name);
+    fputs("::", out);
+}
+
+static const char *title_of(enum kiln_test_status status)
+{
+    switch (status) {
+    case KILN_TEST_FAIL:
+        return "Golden image differs: ";
+    case KILN_TEST_NEW:
+        return "Golden image is missing: ";
+    case KILN_TEST_WARN:
+        return "Golden image nearly differs: ";
+    default:
+        return "Golden image test broke: ";
+    }
+}
+
+static void write_test(FILE *out, const struct kiln_result *result, const char *command)
+{
+    open_command(out, command, result->test, title_of(result->status), result->name);
+    write_message(out, result->message);
+    if (*result->rerun) {
+        write_message(out, "\nto run it again: ");
+        write_message(out, result->rerun);
+    }
+    if (*result->approve && result->status != KILN_TEST_ERROR) {
+        write_message(out, "\nto accept it: ");
+        write_message(out, result->approve);
+    }
+    fputs("\n", out);
+}
+
+static void write_stale_notes(FILE *out, const struct kiln_result *result)
+{
+    for (size_t i = 0; i < result->note_count; i++) {
+        if (!strstr(result->notes[i], " is stale"))
+            continue;
+        open_command(out, "warning", result->test, "Stale limit: ", result->name);
+        write_message(out, result->notes[i]);
+        fputs("\n", out);
+    }
+}
+
+static bool write_github(const struct kiln_results *results,
+                         const struct kiln_results_output *output, FILE *out,
+                         struct kiln_error *error)
+{
+    (void)output;
+    (void)error;
+    for (size_t i = 0; i < results->count; i++) {
+        if (results->tests[i]->status >= KILN_TEST_NEW)
+            write_test(out, results->tests[i], "error");
+    }
+    for (size_t i = 0; i < results->count; i++) {
+        if (results->tests[i]->status == KILN_TEST_WARN)
+            write_test(out, results->tests[i], "warning");
+        write_stale_notes(out, results->tests[i]);
+    }
+    char summary[256];
+    kiln_words_summary(summary, results);
+    open_command(out, "notice", "", "kiln test", "");
+    write_message(out, summary);
+    fputs("\n", out);
+    return true;
+}
+
+const struct kiln_report_format kiln_report_github = {
+    .name = "github",
+    .help = "annotations for GitHub Actions, which reads them from standard output",
+    .write = write_github,
+};

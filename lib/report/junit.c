@@ -1,0 +1,387 @@
+/* JUnit XML as Jenkins and GitLab read it. A test of kiln is a suite with one case: what describes
+ * it are properties, which only a suite may have in every dialect. The pictures of frames that are
+ * not right are attachments, named by "[[ATTACHMENT|path]]" in the output of the case. */
+#include <string.h>
+
+#include "base/text.h"
+#include "report/words.h"
+#include "suite/result_member.h"
+
+/* ---- XML ---------------------------------------------------------------------------------- */
+
+/* Whether XML 1.0 has this character, which is valid UTF-8. The controls from U+007F, which it has,
+ * are left out with the others. */
+static bool is_allowed(const unsigned char *s)
+{
+    if (s[0] < 0x20)
+        return s[0] == '\t' || s[0] == '\n' || s[0] == '\r';
+    bool control = s[0] == 0x7f || (s[0] == 0xc2 && s[1] < 0xa0);
+    bool no_character = s[0] == 0xef && s[1] == 0xbf && s[2] > 0xbd; /* U+FFFE, U+FFFF */
+    return !control && !no_character;
+}
+
+/* What would be markup, or a blank that readers change. */
+static const char *entity_of(char c)
+{
+    switch (c) {
+    case '&':
+        return "&amp;";
+    case '<':
+        return "&lt;";
+    case '>':
+        return "&gt;";
+    case '"':
+        return "&quot;";
+    case '\t':
+        return "&#9;";
+    case '\n':
+        return "&#10;";
+    case '\r':
+        return "&#13;";
+    default:
+        return NULL;
+    }
+}
+
+/* As an attribute's value or as text; in the latter, lines stay lines. */
+static void write_xml(FILE *out, const char *text, bool attribute)
+{
+    while (*text) {
+        size_t length = kiln_text_utf8_length(text);
+        const char *entity =
+            !attribute && (*text == '\n' || *text == '\t') ? NULL : entity_of(*text);
+        if (length == 0)
+            fputs("\xef\xbf\xbd", out);
+        else if (entity)
+            fputs(entity, out);
+        else if (is_allowed((const unsigned char *)text))
+            fwrite(text, 1, length, out);
+        text += length ? length : 1;
+    }
+}
+
+static void write_attribute(FILE *out, const char *name, const char *value)
+{
+    fprintf(out, " %s=\"", name);
+    write_xml(out, value, true);
+    fputs("\"", out);
+}
+
+static void write_text(FILE *out, const char *text)
+{
+    write_xml(out, text, false);
+}
+
+/* ---- Properties --------------------------------------------------------------------------- */
+
+static void write_property(FILE *out, const char *name, const char *value)
+{
+    if (!*value)
+        return;
+    fputs("      <property", out);
+    write_attribute(out, "name", name);
+    write_attribute(out, "value", value);
+    fputs("/>\n", out);
+}
+
+/* Every text and number of the result, but for those that are said elsewhere. */
+static void write_facts(FILE *out, const struct kiln_result *result)
+{
+    static const char *const elsewhere[] = {"name", "message", "started"};
+    for (const struct kiln_member *m = kiln_result_members; m->name; m++) {
+        const void *value = (const char *)result + m->offset;
+        bool said = false;
+        for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++)
+            said = said || strcmp(m->name, elsewhere[i]) == 0;
+        char number[32];
+        if (m->kind == KILN_MEMBER_UINT32) {
+            snprintf(number, sizeof number, "%u", *(const uint32_t *)value);
+            write_property(out, m->name, number);
+        } else if (m->kind == KILN_MEMBER_TEXT && !said) {
+            write_property(out, m->name, *(const char *const *)value);
+        }
+    }
+}
+
+/* "0.0153 (at most 0.01)" */
+static void write_metrics(FILE *out, const struct kiln_result *result)
+{
+    for (size_t i = 0; i < result->column_count; i++) {
+        const struct kiln_compare_column *column = &result->columns[i];
+        double worst = 0;
+        if (!kiln_words_worst(result, i, &worst))
+            return;
+        char number[32], limit[32], value[128];
+        kiln_words_number(number, worst);
+        kiln_words_number(limit, column->limit);
+        int length =
+            snprintf(value, sizeof value, "%s%s%s", number, *column->unit ? " " : "", column->unit);
+        if (column->limited && length > 0 && (size_t)length < sizeof value)
+            snprintf(value + length, sizeof value - (size_t)length, " (at %s %s)",
+                     column->higher_is_better ? "least" : "most", limit);
+        write_property(out, column->name, value);
+    }
+}
+
+static void write_hashes(FILE *out, const struct kiln_result *result)
+{
+    size_t told = 0;
+    for (size_t i = 0; i < result->frame_count && told < KILN_REPORT_MAX_FRAMES; i++, told++) {
+        const struct kiln_result_frame *frame = &result->frames[i];
+        const struct {
+            const char *what, *hash;
+        } hashes[] = {{"state", frame->state},
+                      {"state_expected", frame->state_expected},
+                      {"pixels", frame->pixels},
+                      {"pixels_expected", frame->pixels_expected}};
+        for (size_t h = 0; h < sizeof hashes / sizeof *hashes; h++) {
+            char name[64];
+            snprintf(name, sizeof name, "frame_%u.%s", frame->number, hashes[h].what);
+            write_property(out, name, hashes[h].hash);
+        }
+    }
+}
+
+static void write_properties(FILE *out, const struct kiln_result *result)
+{
+    char frames[32], score[32];
+    snprintf(frames, sizeof frames, "%zu", result->frame_count);
+    kiln_words_number(score, kiln_result_score(result));
+    fputs("    <properties>\n", out);
+    write_property(out, "status", kiln_test_status_name(result->status));
+    write_facts(out, result);
+    write_property(out, "frames", frames);
+    write_property(out, "score", score);
+    write_metrics(out, result);
+    write_hashes(out, result);
+    fputs("    </properties>\n", out);
+}
+
+/* ---- What became of it -------------------------------------------------------------------- */
+
+static const char *failure_type(const struct kiln_result *result)
+{
+    static const char *const types[KILN_JUDGED_BY_COUNT] = {
+        [KILN_JUDGED_BY_NOTHING] = "picture-differs",
+        [KILN_JUDGED_BY_STATE] = "simulation-changed",
+        [KILN_JUDGED_BY_PIXELS] = "pixels-differ",
+        [KILN_JUDGED_BY_METRICS] = "picture-differs",
+    };
+    if (result->status == KILN_TEST_NEW)
+        return "golden-missing";
+    for (size_t i = 0; i < result->frame_count; i++) {
+        if (result->frames[i].status == KILN_TEST_FAIL)
+            return types[result->frames[i].judged_by];
+    }
+    return "not-repeatable"; /* each frame is right, and the test is not */
+}
+
+static const char *error_type(enum kiln_code code)
+{
+    switch (code) {
+    case KILN_USAGE:
+        return "usage";
+    case KILN_INVALID_INPUT:
+        return "invalid-input";
+    case KILN_NO_DEVICE:
+        return "no-device";
+    case KILN_DEVICE_FAILED:
+        return "device-failed";
+    case KILN_IO:
+        return "input-output";
+    case KILN_INTERRUPTED:
+        return "interrupted";
+    default:
+        return "error";
+    }
+}
+
+/* Calls tell for frames that are not right, and returns how many more of these there are. */
+static uint32_t tell_frames(FILE *out, const struct kiln_result *result, const char *folder,
+                            void (*tell)(FILE *out, const struct kiln_result_frame *frame,
+                                         const char *folder))
+{
+    uint32_t told = 0, more = 0;
+    for (size_t i = 0; i < result->frame_count; i++) {
+        if (result->frames[i].status == KILN_TEST_PASS)
+            continue;
+        if (told == KILN_REPORT_MAX_FRAMES) {
+            more++;
+            continue;
+        }
+        told++;
+        tell(out, &result->frames[i], folder);
+    }
+    return more;
+}
+
+static void tell_cause(FILE *out, const struct kiln_result_frame *frame, const char *folder)
+{
+    (void)folder;
+    fprintf(out, "frame %u: %s: ", frame->number, kiln_test_status_name(frame->status));
+    write_text(out, frame->message);
+    fputs("\n", out);
+}
+
+/* The causes of the frames, and what to do. */
+static void write_causes(FILE *out, const struct kiln_result *result)
+{
+    write_text(out, result->message);
+    fputs("\n", out);
+    uint32_t more = tell_frames(out, result, "", tell_cause);
+    if (more)
+        fprintf(out, "and %u frames more\n", more);
+    for (size_t i = 0; i < result->change_count && i < KILN_REPORT_MAX_FRAMES; i++) {
+        const struct kiln_result_change *change = &result->changes[i];
+        fputs("scene: ", out);
+        write_text(out, change->key);
+        fputs(": ", out);
+        write_text(out, *change->before ? change->before : "(nothing)");
+        fputs(" -&gt; ", out);
+        write_text(out, *change->after ? change->after : "(nothing)");
+        fputs("\n", out);
+    }
+    if (*result->rerun) {
+        fputs("to run it again: ", out);
+        write_text(out, result->rerun);
+        fputs("\n", out);
+    }
+    if (*result->approve && result->status != KILN_TEST_ERROR) {
+        fputs("to accept it: ", out);
+        write_text(out, result->approve);
+        fputs("\n", out);
+    }
+}
+
+static void write_problem(FILE *out, const struct kiln_result *result)
+{
+    bool error = result->status == KILN_TEST_ERROR;
+    const char *element = error ? "error" : "failure";
+    fprintf(out, "      <%s", element);
+    write_attribute(out, "type", error ? error_type(result->code) : failure_type(result));
+    write_attribute(out, "message", result->message);
+    fputs(">", out);
+    write_causes(out, result);
+    fprintf(out, "</%s>\n", element);
+}
+
+static void write_attachment(FILE *out, const char *folder, const char *file)
+{
+    if (!*file)
+        return;
+    fputs("[[ATTACHMENT|", out);
+    write_text(out, folder);
+    fputs("/", out);
+    write_text(out, file);
+    fputs("]]\n", out);
+}
+
+static void tell_pictures(FILE *out, const struct kiln_result_frame *frame, const char *folder)
+{
+    write_attachment(out, folder, frame->picture);
+    write_attachment(out, folder, frame->reference);
+    write_attachment(out, folder, frame->error_map);
+}
+
+static void write_output(FILE *out, const struct kiln_result *result, const char *folder)
+{
+    fputs("      <system-out>", out);
+    if (result->status == KILN_TEST_WARN)
+        write_causes(out, result);
+    for (size_t i = 0; i < result->note_count; i++) {
+        fputs("note: ", out);
+        write_text(out, result->notes[i]);
+        fputs("\n", out);
+    }
+    tell_frames(out, result, folder, tell_pictures);
+    if (result->status >= KILN_TEST_NEW)
+        write_attachment(out, folder, result->log);
+    fputs("</system-out>\n", out);
+}
+
+/* ---- The document ------------------------------------------------------------------------- */
+
+/* Of "effects/fire" the class "kiln.effects" and the name "fire". */
+static void write_case_name(FILE *out, const char *name)
+{
+    const char *slash = strrchr(name, '/');
+    write_attribute(out, "name", slash ? slash + 1 : name);
+    char class[KILN_PATH_SIZE] = "";
+    if (slash)
+        snprintf(class, sizeof class, ".%.*s", (int)(slash - name), name);
+    for (char *c = class; *c; c++)
+        *c = *c == '/' ? '.' : *c;
+    fputs(" classname=\"kiln", out);
+    write_xml(out, class, true);
+    fputs("\"", out);
+}
+
+static void write_case(FILE *out, const struct kiln_result *result, const char *folder,
+                       const char *seconds)
+{
+    fputs("    <testcase", out);
+    write_case_name(out, result->name);
+    write_attribute(out, "time", seconds);
+    fputs(">\n", out);
+    if (result->status == KILN_TEST_SKIP) {
+        fputs("      <skipped>", out);
+        write_text(out, result->message);
+        fputs("</skipped>\n", out);
+    }
+    if (result->status >= KILN_TEST_NEW)
+        write_problem(out, result);
+    write_output(out, result, folder);
+    fputs("    </testcase>\n", out);
+}
+
+static void write_counts(FILE *out, const uint32_t counts[KILN_TEST_STATUS_COUNT], uint32_t tests,
+                         const char *seconds)
+{
+    fprintf(out, " tests=\"%u\" failures=\"%u\" errors=\"%u\"", tests,
+            counts[KILN_TEST_FAIL] + counts[KILN_TEST_NEW], counts[KILN_TEST_ERROR]);
+    write_attribute(out, "time", seconds);
+}
+
+static void write_suite(FILE *out, const struct kiln_result *result, const char *folder)
+{
+    char seconds[32], started[32];
+    kiln_words_seconds(seconds, result->total_s);
+    /* The dialects that have a pattern for times know no time zone. */
+    snprintf(started, sizeof started, "%.*s", (int)strcspn(result->started, "Z"), result->started);
+    uint32_t counts[KILN_TEST_STATUS_COUNT] = {0};
+    counts[result->status]++;
+    fputs("  <testsuite", out);
+    write_attribute(out, "name", result->name);
+    write_counts(out, counts, 1, seconds);
+    fprintf(out, " skipped=\"%u\"", counts[KILN_TEST_SKIP]);
+    if (*started)
+        write_attribute(out, "timestamp", started);
+    fputs(">\n", out);
+    write_properties(out, result);
+    write_case(out, result, folder, seconds);
+    fputs("  </testsuite>\n", out);
+}
+
+static bool write_junit(const struct kiln_results *results,
+                        const struct kiln_results_output *output, FILE *out,
+                        struct kiln_error *error)
+{
+    (void)output;
+    (void)error;
+    struct kiln_results_summary summary = kiln_results_summary(results);
+    char seconds[32];
+    kiln_words_seconds(seconds, summary.total_s);
+    fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"kiln\"", out);
+    write_counts(out, summary.counts, summary.tests, seconds);
+    fputs(">\n", out);
+    for (size_t i = 0; i < results->count; i++)
+        write_suite(out, results->tests[i], results->folders[i]);
+    fputs("</testsuites>\n", out);
+    return true;
+}
+
+const struct kiln_report_format kiln_report_junit = {
+    .name = "junit",
+    .help = "JUnit XML with the pictures as attachments, for Jenkins, GitLab and the like",
+    .write = write_junit,
+};

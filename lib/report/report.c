@@ -1,0 +1,94 @@
+/* The formats of reports, and where they go. */
+#include "report/report.h"
+
+#include <errno.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "output/temporary.h"
+
+static const struct kiln_report_format *const formats[] = {
+    &kiln_report_junit,
+    &kiln_report_json,
+    &kiln_report_tap,
+    &kiln_report_github,
+    &kiln_report_html,
+};
+enum { FORMAT_COUNT = sizeof formats / sizeof *formats };
+
+static const struct kiln_report_format *find_format(const char *name, struct kiln_error *error)
+{
+    char allowed[256] = "";
+    size_t length = 0;
+    for (size_t i = 0; i < FORMAT_COUNT; i++) {
+        if (strcmp(formats[i]->name, name) == 0)
+            return formats[i];
+        length += (size_t)snprintf(allowed + length, sizeof allowed - length, "%s%s", i ? ", " : "",
+                                   formats[i]->name);
+    }
+    kiln_error_set(error, KILN_USAGE, "'%s' is no format of a report; there are %s", name, allowed);
+    return NULL;
+}
+
+/* Writes to a stream that may fail at any place; whether it has is asked once. */
+static bool write_to(const struct kiln_report_format *format, const struct kiln_results *results,
+                     const struct kiln_results_output *output, FILE *out, struct kiln_error *error)
+{
+    errno = 0;
+    if (!format->write(results, output, out, error))
+        return false;
+    if (fflush(out) == 0 && !ferror(out))
+        return true;
+    const char *name = strcmp(output->path, "-") == 0 ? "standard output" : output->path;
+    return kiln_error_set_errno(error, KILN_IO, errno ? errno : EIO,
+                                "%s: the report cannot be written", name);
+}
+
+/* A stream of its own on the file, to be closed before that is committed. */
+static FILE *open_stream(const struct kiln_temporary *file)
+{
+    int copy = dup(file->file);
+    FILE *out = copy < 0 ? NULL : fdopen(copy, "wb");
+    if (!out && copy >= 0)
+        close(copy);
+    return out;
+}
+
+static bool write_file(const struct kiln_report_format *format, const struct kiln_results *results,
+                       const struct kiln_results_output *output, struct kiln_error *error)
+{
+    struct kiln_temporary file = {0};
+    if (!kiln_target_check(output->path, true, error) ||
+        !kiln_make_parent_folders(output->path, error) ||
+        !kiln_temporary_open(&file, output->path, error))
+        return false;
+    FILE *out = open_stream(&file);
+    bool good = out && write_to(format, results, output, out, error);
+    if (!out || (fclose(out) != 0 && good))
+        good = kiln_error_set_errno(error, KILN_IO, errno, "%s: the report cannot be written",
+                                    output->path);
+    if (good)
+        return kiln_temporary_commit(&file, true, error);
+    kiln_temporary_discard(&file);
+    return false;
+}
+
+bool kiln_results_write(const struct kiln_results *results,
+                        const struct kiln_results_output *output, struct kiln_error *error)
+{
+    const struct kiln_report_format *format = find_format(output->format, error);
+    if (!format)
+        return false;
+    if (strcmp(output->path, "-") == 0)
+        return write_to(format, results, output, stdout, error);
+    return write_file(format, results, output, error);
+}
+
+bool kiln_write_reports(FILE *out)
+{
+    fprintf(out, "Reports of golden-image tests:\n\n");
+    for (size_t i = 0; i < FORMAT_COUNT; i++)
+        fprintf(out, "  %-7s %s\n", formats[i]->name, formats[i]->help);
+    return !ferror(out);
+}

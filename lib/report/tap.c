@@ -1,0 +1,131 @@
+/* The Test Anything Protocol, version 14, with a block of YAML under each test. */
+#include <math.h>
+
+#include "base/text.h"
+#include "report/words.h"
+
+/* A description ends at '#', and is one line. */
+static void write_description(FILE *out, const char *text)
+{
+    for (; *text; text++) {
+        unsigned char c = (unsigned char)*text;
+        if (c == '#' || c == '\\')
+            fputc('\\', out);
+        fputc(c < 0x20 || c == 0x7f ? ' ' : c, out);
+    }
+}
+
+/* A member of the block; a JSON string is a YAML scalar, too. */
+static void write_text(FILE *out, const char *key, const char *text)
+{
+    if (!*text)
+        return;
+    fprintf(out, "  %s: ", key);
+    kiln_write_json_string(out, text);
+    fputs("\n", out);
+}
+
+static void write_number(FILE *out, double value)
+{
+    char number[32] = ".inf";
+    if (isfinite(value))
+        kiln_words_number(number, value);
+    fputs(number, out);
+}
+
+/* The metrics that have limits, and those that are beyond them. */
+static void write_metrics(FILE *out, const struct kiln_result *result,
+                          const struct kiln_result_frame *frame)
+{
+    const char *before = "      metrics: {";
+    for (size_t i = 0; i < result->column_count; i++) {
+        if (!result->columns[i].limited)
+            continue;
+        fputs(before, out);
+        kiln_write_json_string(out, result->columns[i].name);
+        fputs(": {value: ", out);
+        write_number(out, frame->values[i]);
+        fputs(", limit: ", out);
+        write_number(out, result->columns[i].limit);
+        fprintf(out, ", beyond: %s}", frame->beyond[i] ? "true" : "false");
+        before = ", ";
+    }
+    if (*before == ',')
+        fputs("}\n", out);
+}
+
+static void write_frames(FILE *out, const struct kiln_result *result)
+{
+    uint32_t told = 0, left_out = 0;
+    for (size_t i = 0; i < result->frame_count; i++) {
+        const struct kiln_result_frame *frame = &result->frames[i];
+        if (frame->status == KILN_TEST_PASS)
+            continue;
+        if (told == KILN_REPORT_MAX_FRAMES) {
+            left_out++;
+            continue;
+        }
+        if (told++ == 0)
+            fputs("  frames:\n", out);
+        fprintf(out, "    - frame: %u\n      status: %s\n      judged_by: %s\n      message: ",
+                frame->number, kiln_test_status_name(frame->status),
+                kiln_judged_by_name(frame->judged_by));
+        kiln_write_json_string(out, frame->message);
+        fputs("\n", out);
+        if (frame->measured)
+            write_metrics(out, result, frame);
+    }
+    if (left_out)
+        fprintf(out, "  frames_left_out: %u\n", left_out);
+}
+
+static void write_block(FILE *out, const struct kiln_result *result)
+{
+    char seconds[32];
+    kiln_words_seconds(seconds, result->total_s);
+    fprintf(out, "  ---\n  status: %s\n  seconds: %s\n", kiln_test_status_name(result->status),
+            seconds);
+    write_text(out, "message", result->message);
+    write_text(out, "test", result->test);
+    write_text(out, "device", result->device);
+    if (result->status >= KILN_TEST_NEW || result->status == KILN_TEST_WARN) {
+        fprintf(out, "  code: %d\n  seed: %u\n", (int)result->code, result->seed);
+        write_text(out, "techniques", result->techniques);
+        write_text(out, "rerun", result->rerun);
+        write_text(out, "approve", result->approve);
+    }
+    write_frames(out, result);
+    for (size_t i = 0; i < result->note_count; i++) {
+        fputs(i ? "    - " : "  notes:\n    - ", out);
+        kiln_write_json_string(out, result->notes[i]);
+        fputs("\n", out);
+    }
+    fputs("  ...\n", out);
+}
+
+static bool write_tap(const struct kiln_results *results, const struct kiln_results_output *output,
+                      FILE *out, struct kiln_error *error)
+{
+    (void)output;
+    (void)error;
+    fprintf(out, "TAP version 14\n1..%zu%s\n", results->count,
+            results->count ? "" : " # SKIP there are no tests");
+    for (size_t i = 0; i < results->count; i++) {
+        const struct kiln_result *result = results->tests[i];
+        fprintf(out, "%s %zu - ", result->code == KILN_OK ? "ok" : "not ok", i + 1);
+        write_description(out, result->name);
+        if (result->status == KILN_TEST_SKIP) {
+            fputs(" # SKIP ", out);
+            write_description(out, result->message);
+        }
+        fputs("\n", out);
+        write_block(out, result);
+    }
+    return true;
+}
+
+const struct kiln_report_format kiln_report_tap = {
+    .name = "tap",
+    .help = "the Test Anything Protocol, version 14, for prove and the like",
+    .write = write_tap,
+};

@@ -1,0 +1,22 @@
+/* What the text formats of reports say alike. */
+#ifndef KILN_REPORT_WORDS_H
+#define KILN_REPORT_WORDS_H
+
+#include "report/report.h"
+
+/* Of the frames that are not right, so many are told of one by one. */
+enum { KILN_REPORT_MAX_FRAMES = 20 };
+
+/* A value for people, of few digits: "0.0153", "inf". The point is '.' in any locale. */
+void kiln_words_number(char out[32], double value);
+
+/* Seconds to the millisecond: "12.345". */
+void kiln_words_seconds(char out[32], double seconds);
+
+/* "7 tests: 3 pass, 1 fail, 3 error; in 12.345 s". */
+void kiln_words_summary(char out[256], const struct kiln_results *results);
+
+/* The value of a column that is the worst over the frames that were measured; false without any. */
+bool kiln_words_worst(const struct kiln_result *result, size_t column, double *value);
+
+#endif
