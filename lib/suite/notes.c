@@ -60,7 +60,8 @@ static void note_limits(struct kiln_trial *trial)
     struct kiln_error error = {0};
     if (!trial->own_limits || !kiln_metric_set_make(&defaults, default_limits, 1, &error))
         return;
-    const char *reason = trial->expect->reason ? trial->expect->reason : trial->test->limits_reason;
+    const char *own = trial->expect->reason, *test = trial->test->limits_reason;
+    bool reason = (own && *own) || (test && *test);
     for (size_t i = 0; i < result->column_count; i++) {
         const struct kiln_compare_column *c = &result->columns[i];
         const struct kiln_compare_column *usual = find_column(&defaults, c->name);
@@ -72,7 +73,7 @@ static void note_limits(struct kiln_trial *trial)
             distance(c, c->limit) > STALE_FACTOR * distance(c, worst))
             kiln_trial_note(trial, "limit %s=%.4g is stale: nothing %s %.4g was ever measured",
                             c->name, c->limit, c->higher_is_better ? "below" : "above", worst);
-        if (!reason || !*reason)
+        if (!reason)
             kiln_trial_note(trial,
                             "limit %s=%.4g is looser than the default one, %.4g, and has "
                             "no reason",

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/thread.h"
+#include "compare/mask.h"
 #include "output/temporary.h"
 #include "suite/summary.h"
 #include "suite/trial.h"
@@ -188,6 +189,17 @@ static bool judge_frames(struct kiln_trial *trial, struct kiln_error *error)
     return true;
 }
 
+/* Masks without sense are found even where known pixels pass without a look at them. */
+static bool check_masks(const struct kiln_trial *trial, struct kiln_error *error)
+{
+    struct kiln_mask mask = {0};
+    const struct kiln_scene_info *scene = &trial->rendering.scene;
+    bool ok = trial->mask_count == 0 || kiln_mask_make(&mask, trial->masks, trial->mask_count,
+                                                       scene->width, scene->height, error);
+    kiln_mask_finish(&mask);
+    return ok;
+}
+
 /* Of several frames of the worst status, that of the highest score; one without values has the
  * highest. */
 static void sum_up(struct kiln_trial *trial)
@@ -270,7 +282,7 @@ static bool run(struct kiln_trial *trial, struct kiln_error *error)
         return false;
     if (!take_frames(trial))
         return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", trial->test->path);
-    if (!repeat(trial, error) || !judge_frames(trial, error))
+    if (!check_masks(trial, error) || !repeat(trial, error) || !judge_frames(trial, error))
         return false;
     sum_up(trial);
     take_changes(trial);
@@ -288,6 +300,13 @@ static void note_error(struct kiln_trial *trial, const struct kiln_error *error)
     result->status = skip ? KILN_TEST_SKIP : KILN_TEST_ERROR;
     result->code = skip ? KILN_OK : error->code != KILN_OK ? error->code : KILN_DEVICE_FAILED;
     result->message = kiln_trial_text(trial, "%s", error->message);
+    for (size_t i = 0; i < result->frame_count; i++) {
+        struct kiln_result_frame *frame = &result->frames[i];
+        if (frame->status != KILN_TEST_PASS || frame->judged_by != KILN_JUDGED_BY_NOTHING)
+            continue;
+        frame->status = KILN_TEST_ERROR;
+        frame->message = "not judged: see the test's error";
+    }
 }
 
 static uint32_t count_threads(uint32_t wanted)

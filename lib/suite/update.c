@@ -48,11 +48,16 @@ static bool is_scene_new(const struct kiln_trial *trial)
 static bool announce(struct kiln_trial *trial, size_t index, enum action action,
                      struct kiln_error *error)
 {
-    uint32_t number = trial->result->frames[index].number;
+    const struct kiln_result_frame *frame = &trial->result->frames[index];
+    uint32_t number = frame->number;
     char path[KILN_PATH_SIZE];
     if (action == ACCEPT_HASHES) {
         kiln_trial_note(trial, "would accept the hashes of frame %u on %s", number,
                         trial->rendering.device_name);
+        return true;
+    }
+    if (trial->frames[index].has_golden) {
+        kiln_trial_note(trial, "would write %s", frame->golden);
         return true;
     }
     if (!kiln_goldens_place(trial->test, number, trial->rendering.device_name, KILN_APPROVE_REPLACE,
@@ -80,11 +85,13 @@ static bool accept(struct kiln_trial *trial, size_t index, enum action action,
     } else {
         if (!kiln_trial_path(trial, frame->picture, picture, error))
             return false;
-        const struct kiln_acceptance acceptance = {.frame = frame->number,
-                                                   .picture = picture,
-                                                   .state = frame->state,
-                                                   .device_name = device,
-                                                   .as = KILN_APPROVE_REPLACE};
+        const struct kiln_acceptance acceptance = {
+            .frame = frame->number,
+            .picture = picture,
+            .state = frame->state,
+            .device_name = device,
+            .as = KILN_APPROVE_REPLACE,
+            .golden = trial->frames[index].has_golden ? frame->golden : NULL};
         if (!kiln_goldens_accept(trial->arena, trial->test, trial->expect, &acceptance, path,
                                  error))
             return false;

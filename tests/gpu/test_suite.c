@@ -1,0 +1,373 @@
+/* How frames of a test are judged. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "support/suite.h"
+
+static void accept_goldens(const char *more)
+{
+    spark_write(more);
+    spark_update(KILN_UPDATE_MISSING);
+}
+
+static struct kiln_test_params without_hashes(void)
+{
+    struct kiln_test_params params = spark_params();
+    params.ignore_hashes = true;
+    return params;
+}
+
+/* ---- Goldens that are missing, pixels that are known --------------------------------------- */
+
+static void a_missing_golden_is_new_and_nothing_is_written(void **state)
+{
+    (void)state;
+    spark_write("");
+    struct spark_run run = spark_run(NULL);
+    assert_true(run.ok);
+    assert_int_equal(run.summary.status, KILN_TEST_NEW);
+    assert_int_equal(run.summary.code, KILN_GOLDEN_MISSING);
+    assert_int_equal(run.summary.frames, 2);
+    assert_non_null(strstr(run.summary.message, SPARK_GOLDEN));
+    assert_string_equal(run.result->frames[0].picture, "frame_0003.png");
+    assert_string_equal(run.result->frames[0].golden, SPARK_GOLDEN);
+    assert_string_equal(run.result->frames[0].reference, "");
+    assert_int_equal(access("out/test/spark/frame_0005.png", R_OK), 0);
+    assert_int_equal(access("golden", F_OK), -1);
+    assert_string_equal(run.result->rerun, "kiln test spark.test.yaml");
+    assert_string_equal(run.result->approve, "kiln test approve spark");
+    assert_string_equal(run.result->techniques, "simulate=cpu sort=cpu raster=geometry");
+    assert_int_equal(run.result->seed, 7);
+    spark_end(&run);
+}
+
+static void known_pixels_pass_at_once(void **state)
+{
+    (void)state;
+    accept_goldens("");
+    struct spark_run run = spark_run(NULL);
+    assert_true(run.ok);
+    assert_int_equal(run.summary.status, KILN_TEST_PASS);
+    assert_int_equal(run.summary.code, KILN_OK);
+    assert_string_equal(run.summary.message, "");
+    assert_int_equal(run.summary.notes, 0);
+    for (size_t i = 0; i < 2; i++) {
+        const struct kiln_result_frame *frame = &run.result->frames[i];
+        assert_int_equal(frame->judged_by, KILN_JUDGED_BY_PIXELS);
+        assert_false(frame->measured);
+        assert_string_equal(frame->state, frame->state_expected);
+        assert_string_equal(frame->pixels, frame->pixels_expected);
+    }
+    assert_string_not_equal(run.result->frames[0].state, run.result->frames[1].state);
+    assert_string_equal(run.result->scene_hash, run.result->scene_hash_expected);
+    spark_end(&run);
+}
+
+static void without_hashes_metrics_judge(void **state)
+{
+    (void)state;
+    accept_goldens("");
+    const struct kiln_test_params params = without_hashes();
+    struct spark_run run = spark_run(&params);
+    assert_true(run.ok);
+    assert_int_equal(run.summary.status, KILN_TEST_PASS);
+    assert_int_equal(run.result->frames[0].judged_by, KILN_JUDGED_BY_METRICS);
+    assert_true(run.result->frames[0].measured && run.result->frames[0].score == 0);
+    assert_string_equal(run.result->frames[0].error_map, "frame_0003_error.png");
+    assert_int_equal(access("out/test/spark/frame_0003_error.png", R_OK), 0);
+    assert_int_equal(access("out/test/spark/frame_0003_reference.png", R_OK), 0);
+    spark_end(&run);
+}
+
+static void another_state_is_a_changed_simulation(void **state)
+{
+    (void)state;
+    accept_goldens("");
+    spark_replace("spark.yaml", "seed: 7", "seed: 8");
+    struct spark_run run = spark_run(NULL);
+    assert_true(run.ok);
+    assert_int_equal(run.summary.status, KILN_TEST_FAIL);
+    assert_int_equal(run.summary.code, KILN_FRAME_FAILED);
+    assert_non_null(strstr(run.summary.message, "the simulation changed"));
+    assert_int_equal(run.result->frames[0].judged_by, KILN_JUDGED_BY_STATE);
+    assert_true(run.result->frames[0].measured && run.result->frames[0].score > 1);
+    assert_int_equal(run.result->change_count, 1);
+    assert_string_equal(run.result->changes[0].key, "seed");
+    assert_string_equal(run.result->changes[0].before, "7");
+    assert_string_equal(run.result->changes[0].after, "8");
+    spark_end(&run);
+    const struct kiln_test_params params = without_hashes();
+    spark_expect(&params, KILN_TEST_FAIL, KILN_JUDGED_BY_METRICS);
+}
+
+static void a_changed_state_fails_even_with_equal_pixels(void **state)
+{
+    (void)state;
+    accept_goldens("");
+    struct spark_run run = spark_run(NULL);
+    char accepted[17];
+    snprintf(accepted, sizeof accepted, "%s", run.result->frames[0].state);
+    spark_end(&run);
+    spark_replace("golden/spark/expect.yaml", accepted, "0123456789abcdef");
+    run = spark_run(NULL);
+    assert_int_equal(run.summary.status, KILN_TEST_FAIL);
+    assert_int_equal(run.result->frames[0].judged_by, KILN_JUDGED_BY_STATE);
+    assert_string_equal(run.result->frames[0].state_expected, "0123456789abcdef");
+    assert_int_equal(run.result->frames[1].status, KILN_TEST_PASS);
+    spark_end(&run);
+    const struct kiln_test_params params = without_hashes();
+    spark_expect(&params, KILN_TEST_PASS, KILN_JUDGED_BY_METRICS);
+}
+
+/* ---- Metrics ------------------------------------------------------------------------------ */
+
+/* The hashes of a golden that was replaced are believed no more. */
+static void small_differences_are_within_limits(void **state)
+{
+    (void)state;
+    accept_goldens("");
+    spark_paint(SPARK_GOLDEN, 2, 2, 1, 1, 1);
+    struct spark_run run = spark_run(NULL);
+    assert_int_equal(run.summary.status, KILN_TEST_PASS);
+    assert_int_equal(run.result->frames[0].judged_by, KILN_JUDGED_BY_METRICS);
+    assert_true(run.summary.score > 0 && run.summary.score < 1);
+    assert_string_equal(run.result->frames[0].pixels_expected, "");
+    assert_int_equal(run.result->frames[1].judged_by, KILN_JUDGED_BY_PIXELS);
+    spark_end(&run);
+
+    spark_write("warn: 0.000001\n");
+    run = spark_run(NULL);
+    assert_int_equal(run.summary.status, KILN_TEST_WARN);
+    assert_int_equal(run.summary.code, KILN_OK);
+    assert_non_null(strstr(run.summary.message, "frame 3 is at"));
+    spark_end(&run);
+}
+
+static void large_differences_fail(void **state)
+{
+    (void)state;
+    accept_goldens("");
+    spark_paint(SPARK_GOLDEN, 2, 2, 8, 8, 120);
+    struct spark_run run = spark_run(NULL);
+    assert_int_equal(run.summary.status, KILN_TEST_FAIL);
+    assert_int_equal(run.summary.code, KILN_FRAME_FAILED);
+    assert_non_null(strstr(run.summary.message, "frame 3: flip.mean is "));
+    assert_true(run.summary.score > 1);
+    const struct kiln_result_frame *frame = &run.result->frames[0];
+    assert_int_equal(frame->judged_by, KILN_JUDGED_BY_METRICS);
+    assert_true(frame->worst_x >= 2 && frame->worst_x < 10 && frame->worst_y < 10);
+    assert_int_equal(frame->window_differing, 64);
+    spark_end(&run);
+
+    spark_write("limits: {flip.mean: 1}\nreason: anything goes\n");
+    run = spark_run(NULL);
+    assert_int_equal(run.summary.status, KILN_TEST_PASS);
+    spark_end(&run);
+}
+
+static void accepted_limits_come_over_those_of_the_test(void **state)
+{
+    (void)state;
+    accept_goldens("limits: {flip.mean: 1}\nreason: anything goes\n");
+    spark_paint(SPARK_GOLDEN, 2, 2, 8, 8, 120);
+    spark_replace("golden/spark/expect.yaml", "kiln_expect: 1\n",
+                  "kiln_expect: 1\nlimits: {flip.mean: 0.001}\n");
+    struct spark_run run = spark_run(NULL);
+    assert_int_equal(run.summary.status, KILN_TEST_FAIL);
+    assert_non_null(strstr(run.summary.message, "beyond 0.001"));
+    spark_end(&run);
+}
+
+static void another_size_fails(void **state)
+{
+    (void)state;
+    accept_goldens("");
+    spark_write("size: [32, 48]\n");
+    const struct kiln_test_params params = without_hashes();
+    struct spark_run run = spark_run(&params);
+    assert_int_equal(run.summary.status, KILN_TEST_FAIL);
+    assert_non_null(strstr(run.summary.message, "the sizes differ"));
+    assert_false(run.result->frames[0].measured);
+    assert_string_equal(run.result->frames[0].error_map, "");
+    assert_string_equal(run.result->frames[0].reference, "frame_0003_reference.png");
+    spark_end(&run);
+}
+
+static void masked_pixels_are_not_judged(void **state)
+{
+    (void)state;
+    accept_goldens("");
+    spark_paint(SPARK_GOLDEN, 2, 2, 8, 8, 120);
+    spark_write("masks: [{rect: [2, 2, 8, 7], reason: most of it}]\n");
+    const struct kiln_test_params params = without_hashes();
+    spark_expect(&params, KILN_TEST_FAIL, KILN_JUDGED_BY_METRICS);
+    spark_write("masks: [{rect: [2, 2, 8, 8], reason: all of it}]\n");
+    spark_expect(&params, KILN_TEST_PASS, KILN_JUDGED_BY_METRICS);
+    spark_write("masks: [{rect: [0, 0, 99, 99], reason: too much}]\n");
+    struct spark_run run = spark_run(&params);
+    assert_int_equal(run.summary.status, KILN_TEST_ERROR);
+    assert_int_equal(run.summary.code, KILN_USAGE);
+    spark_end(&run);
+}
+
+/* ---- Several goldens ---------------------------------------------------------------------- */
+
+static void the_nearest_of_several_goldens_counts(void **state)
+{
+    (void)state;
+    struct kiln_error error = {0};
+    accept_goldens("");
+    assert_true(kiln_file_copy(SPARK_GOLDEN, "golden/spark/frame_0003~2.png", &error));
+    spark_paint(SPARK_GOLDEN, 2, 2, 8, 8, 120);
+    const struct kiln_test_params params = without_hashes();
+    struct spark_run run = spark_run(&params);
+    assert_int_equal(run.summary.status, KILN_TEST_PASS);
+    assert_string_equal(run.result->frames[0].golden, "golden/spark/frame_0003~2.png");
+    assert_true(run.result->frames[0].score == 0);
+    spark_end(&run);
+
+    /* Its hash is of a golden that is still there, under another name. */
+    run = spark_run(NULL);
+    assert_int_equal(run.result->frames[0].judged_by, KILN_JUDGED_BY_PIXELS);
+    assert_string_equal(run.result->frames[0].golden, "golden/spark/frame_0003~2.png");
+    spark_end(&run);
+}
+
+static void a_device_is_judged_by_its_own_goldens(void **state)
+{
+    (void)state;
+    struct kiln_error error = {0};
+    accept_goldens("");
+    struct spark_run run = spark_run(NULL);
+    char own[KILN_PATH_SIZE];
+    snprintf(own, sizeof own, "golden/spark/frame_0003@%s.png", run.result->device_name);
+    spark_end(&run);
+    assert_true(kiln_file_copy(SPARK_GOLDEN, own, &error));
+    assert_true(kiln_file_copy(SPARK_GOLDEN, "golden/spark/frame_0003@no-such-device.png", &error));
+    spark_paint("golden/spark/frame_0003@no-such-device.png", 2, 2, 8, 8, 120);
+    spark_paint(SPARK_GOLDEN, 2, 2, 8, 8, 120);
+    const struct kiln_test_params params = without_hashes();
+    run = spark_run(&params);
+    assert_int_equal(run.summary.status, KILN_TEST_PASS);
+    assert_string_equal(run.result->frames[0].golden, own);
+    spark_end(&run);
+
+    spark_paint(own, 2, 2, 8, 8, 120);
+    spark_paint(SPARK_GOLDEN, 2, 2, 8, 8, 120);
+    run = spark_run(&params);
+    assert_int_equal(run.summary.status, KILN_TEST_FAIL);
+    assert_string_equal(run.result->frames[0].golden, own);
+    spark_end(&run);
+}
+
+static void strictly_only_known_pixels_pass(void **state)
+{
+    (void)state;
+    accept_goldens("");
+    struct spark_run run = spark_run(NULL);
+    char hash[80];
+    snprintf(hash, sizeof hash, "hash: \"%s\"", run.result->frames[0].pixels);
+    spark_end(&run);
+    struct kiln_test_params params = spark_params();
+    params.strict = true;
+    spark_expect(&params, KILN_TEST_PASS, KILN_JUDGED_BY_PIXELS);
+    spark_replace("golden/spark/expect.yaml", hash,
+                  "hash: "
+                  "\"00000000000000000000000000000000ffffffffffffffffffffffffffffffff\"");
+    run = spark_run(NULL);
+    assert_int_equal(run.summary.status, KILN_TEST_PASS);
+    assert_int_equal(run.result->frames[0].judged_by, KILN_JUDGED_BY_METRICS);
+    spark_end(&run);
+    run = spark_run(&params);
+    assert_int_equal(run.summary.status, KILN_TEST_FAIL);
+    assert_int_equal(run.result->frames[0].judged_by, KILN_JUDGED_BY_PIXELS);
+    assert_int_equal(run.result->frames[1].status, KILN_TEST_PASS);
+    spark_end(&run);
+}
+
+/* ---- What cannot be judged ---------------------------------------------------------------- */
+
+static void expect_error(enum kiln_code code, const char *part)
+{
+    struct spark_run run = spark_run(NULL);
+    assert_true(run.ok);
+    if (run.summary.status != KILN_TEST_ERROR || !strstr(run.summary.message, part))
+        fail_msg("%s: %s", kiln_test_status_name(run.summary.status), run.summary.message);
+    assert_int_equal(run.summary.code, code);
+    spark_end(&run);
+}
+
+static void what_cannot_be_judged_is_an_error(void **state)
+{
+    (void)state;
+    accept_goldens("");
+    struct kiln_error error = {0};
+    assert_true(kiln_file_copy(SPARK_GOLDEN, "kept.png", &error));
+    test_write_file(SPARK_GOLDEN, "no picture");
+    expect_error(KILN_INVALID_INPUT, SPARK_GOLDEN);
+    test_write_file(SPARK_GOLDEN, "");
+    expect_error(KILN_INVALID_INPUT, SPARK_GOLDEN);
+    assert_true(kiln_file_copy("kept.png", SPARK_GOLDEN, &error));
+    spark_write("masks: [{rect: [0, 0, 48, 32], reason: all}]\n");
+    expect_error(KILN_USAGE, "nothing is left to judge");
+    spark_write("masks: [{picture: spark.yaml, reason: none}]\n");
+    expect_error(KILN_INVALID_INPUT, "spark.yaml");
+    spark_write("set: [output.frames=5]\n");
+    expect_error(KILN_INVALID_INPUT, "frame 5: the last one of spark.yaml is 4");
+    spark_write("set: [output.frams=5]\n");
+    expect_error(KILN_INVALID_INPUT, "output.frams");
+    spark_write("technique: [simulate=cpu]\n");
+    expect_error(KILN_INVALID_INPUT, "spark.test.yaml:4:1");
+    spark_write("techniques: [simulate=abacus]\n");
+    expect_error(KILN_INVALID_INPUT, "abacus");
+    spark_write("");
+    test_write_file("golden/spark/expect.yaml", "kiln_expect: 1\nfarmes: {}\n");
+    expect_error(KILN_INVALID_INPUT, "golden/spark/expect.yaml:2:1");
+}
+
+static void a_device_that_is_absent_is_skipped(void **state)
+{
+    (void)state;
+    spark_write("devices: [no-such-device]\n");
+    struct spark_run run = spark_run(NULL);
+    assert_int_equal(run.summary.status, KILN_TEST_SKIP);
+    assert_int_equal(run.summary.code, KILN_OK);
+    assert_non_null(strstr(run.summary.message, "no-such-device"));
+    spark_end(&run);
+
+    spark_write("");
+    struct kiln_test_params params = spark_params();
+    params.device = "no-such-device";
+    run = spark_run(&params);
+    assert_int_equal(run.summary.status, KILN_TEST_ERROR);
+    assert_int_equal(run.summary.code, KILN_NO_DEVICE);
+    assert_string_equal(run.result->rerun, "kiln test --device no-such-device spark.test.yaml");
+    spark_end(&run);
+}
+
+int main(void)
+{
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, test_enter_folder, test_leave_folder)
+    static const struct CMUnitTest tests[] = {
+        IN_FOLDER(a_missing_golden_is_new_and_nothing_is_written),
+        IN_FOLDER(known_pixels_pass_at_once),
+        IN_FOLDER(without_hashes_metrics_judge),
+        IN_FOLDER(another_state_is_a_changed_simulation),
+        IN_FOLDER(a_changed_state_fails_even_with_equal_pixels),
+        IN_FOLDER(small_differences_are_within_limits),
+        IN_FOLDER(large_differences_fail),
+        IN_FOLDER(accepted_limits_come_over_those_of_the_test),
+        IN_FOLDER(another_size_fails),
+        IN_FOLDER(masked_pixels_are_not_judged),
+        IN_FOLDER(the_nearest_of_several_goldens_counts),
+        IN_FOLDER(a_device_is_judged_by_its_own_goldens),
+        IN_FOLDER(strictly_only_known_pixels_pass),
+        IN_FOLDER(what_cannot_be_judged_is_an_error),
+        IN_FOLDER(a_device_that_is_absent_is_skipped),
+    };
+    return cmocka_run_group_tests_name("suite", tests, spark_needs_device, NULL);
+}

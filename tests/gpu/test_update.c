@@ -1,0 +1,374 @@
+/* What updates of goldens write, and what they leave; repeated renders; notes. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "support/suite.h"
+
+#define EXPECT        "golden/spark/expect.yaml"
+#define SECOND_GOLDEN "golden/spark/frame_0005.png"
+
+/* What a file was: another inode or time tells that it was written, even with the same bytes. */
+struct file_state {
+    struct stat status;
+    char *bytes;
+};
+
+static struct file_state file_state(const char *path)
+{
+    struct file_state file;
+    if (stat(path, &file.status) != 0)
+        fail_msg("%s does not exist", path);
+    file.bytes = test_read_file(path);
+    return file;
+}
+
+static bool is_untouched(const char *path, struct file_state *before)
+{
+    struct file_state now = file_state(path);
+    bool same = now.status.st_ino == before->status.st_ino &&
+                now.status.st_mtim.tv_nsec == before->status.st_mtim.tv_nsec &&
+                now.status.st_size == before->status.st_size;
+    free(now.bytes);
+    free(before->bytes);
+    return same;
+}
+
+static struct spark_run run_update(enum kiln_update update, bool dry_run)
+{
+    struct kiln_test_params params = spark_params();
+    params.update = update;
+    params.dry_run = dry_run;
+    struct spark_run run = spark_run(&params);
+    assert_true(run.ok);
+    return run;
+}
+
+static void a_dry_run_writes_nothing(void **state)
+{
+    (void)state;
+    spark_write("");
+    struct spark_run run = run_update(KILN_UPDATE_ALL, true);
+    assert_int_equal(run.summary.status, KILN_TEST_NEW);
+    assert_true(spark_has_note(&run, "would write " SPARK_GOLDEN));
+    assert_true(spark_has_note(&run, "would write " SECOND_GOLDEN));
+    assert_int_equal(run.summary.notes, 2);
+    assert_int_equal(access("golden", F_OK), -1);
+    spark_end(&run);
+}
+
+static void missing_writes_what_is_missing_alone(void **state)
+{
+    (void)state;
+    spark_write("");
+    struct spark_run run = run_update(KILN_UPDATE_MISSING, false);
+    assert_int_equal(run.summary.status, KILN_TEST_PASS);
+    assert_string_equal(run.result->frames[0].message, "written");
+    assert_true(spark_has_note(&run, "wrote " SPARK_GOLDEN));
+    spark_end(&run);
+    assert_int_equal(access("golden/spark/scene.yaml", R_OK), 0);
+
+    assert_int_equal(unlink(SPARK_GOLDEN), 0);
+    spark_paint(SECOND_GOLDEN, 2, 2, 8, 8, 120);
+    struct file_state second = file_state(SECOND_GOLDEN);
+    run = run_update(KILN_UPDATE_MISSING, false);
+    assert_int_equal(run.summary.status, KILN_TEST_FAIL);
+    assert_int_equal(run.result->frames[0].status, KILN_TEST_PASS);
+    assert_true(is_untouched(SECOND_GOLDEN, &second));
+    assert_int_equal(access(SPARK_GOLDEN, R_OK), 0);
+    spark_end(&run);
+}
+
+/* Adds what another device accepted, and returns a part of its entry. */
+static const char *add_other_device(void)
+{
+    static const char entry[] =
+        "other-9: {hash: \"1111111111111111111111111111111111111111111111111111111111111111\", "
+        "golden: \"2222222222222222222222222222222222222222222222222222222222222222\"}";
+    char text[512];
+    snprintf(text, sizeof text, "pixels:\n      %s\n", entry);
+    spark_replace(EXPECT, "pixels:\n", text);
+    return entry;
+}
+
+static void failed_leaves_passing_frames_and_other_devices(void **state)
+{
+    (void)state;
+    struct kiln_error error = {0};
+    spark_write("");
+    spark_update(KILN_UPDATE_MISSING);
+    const char *entry = add_other_device();
+    assert_true(kiln_file_copy(SECOND_GOLDEN, "golden/spark/frame_0003@other-9.png", &error));
+    spark_paint(SPARK_GOLDEN, 2, 2, 8, 8, 120);
+    struct file_state second = file_state(SECOND_GOLDEN);
+    struct file_state other = file_state("golden/spark/frame_0003@other-9.png");
+    struct spark_run run = run_update(KILN_UPDATE_FAILED, true);
+    assert_int_equal(run.summary.status, KILN_TEST_FAIL);
+    assert_true(spark_has_note(&run, "would write " SPARK_GOLDEN));
+    spark_end(&run);
+
+    run = run_update(KILN_UPDATE_FAILED, false);
+    assert_int_equal(run.summary.status, KILN_TEST_PASS);
+    assert_int_equal(run.summary.notes, 1);
+    spark_end(&run);
+    assert_true(is_untouched(SECOND_GOLDEN, &second));
+    assert_true(is_untouched("golden/spark/frame_0003@other-9.png", &other));
+    char *expect = test_read_file(EXPECT);
+    assert_non_null(strstr(expect, entry));
+    free(expect);
+    spark_expect(NULL, KILN_TEST_PASS, KILN_JUDGED_BY_PIXELS);
+}
+
+static void passing_by_metrics_is_replaced_by_all_alone(void **state)
+{
+    (void)state;
+    spark_write("");
+    spark_update(KILN_UPDATE_MISSING);
+    spark_paint(SPARK_GOLDEN, 2, 2, 1, 1, 1);
+    struct file_state first = file_state(SPARK_GOLDEN), second = file_state(SECOND_GOLDEN);
+    struct file_state expect = file_state(EXPECT);
+    spark_update(KILN_UPDATE_FAILED);
+    assert_true(is_untouched(SPARK_GOLDEN, &first));
+    assert_true(is_untouched(EXPECT, &expect));
+    spark_update(KILN_UPDATE_ALL);
+    assert_true(is_untouched(SECOND_GOLDEN, &second));
+    spark_expect(NULL, KILN_TEST_PASS, KILN_JUDGED_BY_PIXELS);
+}
+
+/* As on a machine whose pixels nobody has looked at, but which draws the same. */
+static void equal_pixels_of_a_new_device_are_noted_by_all(void **state)
+{
+    (void)state;
+    spark_write("");
+    spark_update(KILN_UPDATE_MISSING);
+    struct spark_run run = spark_run(NULL);
+    for (size_t i = 0; i < 2; i++)
+        spark_replace(EXPECT, run.result->device_name, "elsewhere");
+    spark_end(&run);
+    struct file_state first = file_state(SPARK_GOLDEN);
+    spark_expect(NULL, KILN_TEST_PASS, KILN_JUDGED_BY_METRICS);
+    run = run_update(KILN_UPDATE_ALL, false);
+    assert_true(spark_has_note(&run, "accepted the hashes of frame 3 on "));
+    spark_end(&run);
+    assert_true(is_untouched(SPARK_GOLDEN, &first));
+    spark_expect(NULL, KILN_TEST_PASS, KILN_JUDGED_BY_PIXELS);
+    char *expect = test_read_file(EXPECT);
+    assert_non_null(strstr(expect, "elsewhere"));
+    free(expect);
+}
+
+static void a_changed_state_is_accepted_by_failed(void **state)
+{
+    (void)state;
+    spark_write("");
+    spark_update(KILN_UPDATE_MISSING);
+    spark_replace("spark.yaml", "seed: 7", "seed: 8");
+    struct spark_run run = run_update(KILN_UPDATE_MISSING, false);
+    assert_int_equal(run.summary.status, KILN_TEST_FAIL);
+    spark_end(&run);
+    spark_update(KILN_UPDATE_FAILED);
+    run = spark_run(NULL);
+    assert_int_equal(run.summary.status, KILN_TEST_PASS);
+    assert_int_equal(run.result->change_count, 0);
+    assert_int_equal(run.summary.notes, 0);
+    spark_end(&run);
+}
+
+/* A scene can change and look the same: its text is brought up to date by all. */
+static void a_scene_that_looks_the_same_is_accepted_by_all(void **state)
+{
+    (void)state;
+    spark_write("");
+    spark_update(KILN_UPDATE_MISSING);
+    spark_write("set: [output.frames=7]\n");
+    struct spark_run run = spark_run(NULL);
+    assert_int_equal(run.summary.status, KILN_TEST_PASS);
+    assert_true(spark_has_note(&run, "the scene has changed in 1 key, and everything passes"));
+    spark_end(&run);
+    run = run_update(KILN_UPDATE_ALL, true);
+    assert_true(spark_has_note(&run, "would write golden/spark/scene.yaml"));
+    spark_end(&run);
+    spark_update(KILN_UPDATE_ALL);
+    assert_int_equal(spark_expect(NULL, KILN_TEST_PASS, KILN_JUDGED_BY_PIXELS), 0);
+}
+
+static void broken_goldens_are_never_replaced(void **state)
+{
+    (void)state;
+    spark_write("");
+    spark_update(KILN_UPDATE_MISSING);
+    test_write_file(SPARK_GOLDEN, "no picture");
+    struct file_state first = file_state(SPARK_GOLDEN);
+    struct spark_run run = run_update(KILN_UPDATE_ALL, false);
+    assert_int_equal(run.summary.status, KILN_TEST_ERROR);
+    spark_end(&run);
+    assert_true(is_untouched(SPARK_GOLDEN, &first));
+}
+
+/* ---- Repeats ------------------------------------------------------------------------------ */
+
+/* Changes the scene file once it was read. */
+static bool change_scene(void *user)
+{
+    bool *changed = user;
+    if (!*changed)
+        spark_replace("spark.yaml", "seed: 7", "seed: 8");
+    *changed = true;
+    return false;
+}
+
+static void repeats_must_have_the_same_hashes(void **state)
+{
+    (void)state;
+    spark_write("");
+    spark_update(KILN_UPDATE_MISSING);
+    struct kiln_test_params params = spark_params();
+    params.repeat = 3;
+    spark_expect(&params, KILN_TEST_PASS, KILN_JUDGED_BY_PIXELS);
+    assert_int_equal(access("out/test/spark/frame_0003_render2.png", F_OK), -1);
+
+    bool changed = false;
+    params.stop = change_scene;
+    params.user = &changed;
+    params.update = KILN_UPDATE_ALL;
+    struct file_state first = file_state(SPARK_GOLDEN);
+    struct spark_run run = spark_run(&params);
+    assert_true(run.ok);
+    assert_int_equal(run.summary.status, KILN_TEST_FAIL);
+    assert_non_null(strstr(run.summary.message, "render 2 of 3 differs from the first: frame "));
+    assert_int_equal(access("out/test/spark/frame_0003_render2.png", R_OK), 0);
+    spark_end(&run);
+    assert_true(is_untouched(SPARK_GOLDEN, &first));
+}
+
+static bool stop_at_once(void *user)
+{
+    (void)user;
+    return true;
+}
+
+static void stopping_is_no_result(void **state)
+{
+    (void)state;
+    spark_write("");
+    struct kiln_test_params params = spark_params();
+    params.stop = stop_at_once;
+    struct spark_run run = spark_run(&params);
+    assert_false(run.ok);
+    assert_int_equal(run.error.code, KILN_INTERRUPTED);
+    assert_int_equal(access("out/test/spark/result.json", F_OK), -1);
+    spark_end(&run);
+}
+
+/* ---- Notes and errors of others ------------------------------------------------------------- */
+
+static void stale_limits_are_noted(void **state)
+{
+    (void)state;
+    const struct kiln_test_params usual = spark_params();
+    struct kiln_test_params params = usual;
+    params.ignore_hashes = true;
+    spark_write("limits: {flip.mean: 0.3, flip.p99: 0.05}\n");
+    spark_update(KILN_UPDATE_MISSING);
+
+    /* Nothing was ever measured: nobody knows whether it is stale. */
+    struct spark_run run = spark_run(&usual);
+    assert_true(spark_has_note(&run, "limit flip.mean=0.3 is looser than the default one"));
+    assert_false(spark_has_note(&run, "stale"));
+    spark_end(&run);
+
+    run = spark_run(&params);
+    assert_true(spark_has_note(&run, "limit flip.mean=0.3 is stale: nothing above 0 was ever"));
+    assert_false(spark_has_note(&run, "flip.p99"));
+    char note[KILN_MESSAGE_SIZE];
+    assert_true(kiln_test_read_note(run.suite, 0, 0, note, &run.error));
+    assert_string_equal(note, run.result->notes[0]);
+    assert_false(kiln_test_read_note(run.suite, 0, run.summary.notes, note, &run.error));
+    assert_int_equal(run.error.code, KILN_USAGE);
+    spark_end(&run);
+
+    spark_replace(EXPECT, "kiln_expect: 1\n", "kiln_expect: 1\nmeasured: {flip.mean: 0.05}\n");
+    spark_write("limits: {flip.mean: 0.3, flip.p99: 0.05}\nreason: fog\n");
+    run = spark_run(&params);
+    if (run.summary.notes > 0)
+        fail_msg("%s", run.result->notes[0]);
+    spark_end(&run);
+}
+
+static void crashes_are_recorded(void **state)
+{
+    (void)state;
+    spark_write("about: sparks\n");
+    struct kiln_suite *suite = spark_suite();
+    struct kiln_test_summary summary;
+    struct kiln_error error = {0};
+    assert_false(kiln_test_read_summary(suite, 0, &summary, &error));
+    assert_int_equal(error.code, KILN_INVALID_INPUT);
+    assert_true(
+        kiln_test_record_error(suite, 0, KILN_DEVICE_FAILED, "crashed: signal 11", 2.5, &error));
+    assert_true(kiln_test_read_summary(suite, 0, &summary, &error));
+    assert_int_equal(summary.status, KILN_TEST_ERROR);
+    assert_int_equal(summary.code, KILN_DEVICE_FAILED);
+    assert_string_equal(summary.name, "spark");
+    assert_string_equal(summary.message, "crashed: signal 11");
+    assert_true(summary.total_s == 2.5);
+    kiln_suite_destroy(&suite);
+}
+
+static void files_of_earlier_runs_go_and_no_others(void **state)
+{
+    (void)state;
+    spark_write("");
+    test_write_file("out/test/spark/frame_0001.png", "old");
+    test_write_file("out/test/spark/log.txt", "old");
+    test_write_file("out/test/spark/notes.txt", "mine");
+    test_write_file("out/test/spark/below/frame_0001.png", "of another test");
+    struct spark_run run = spark_run(NULL);
+    assert_true(run.ok);
+    spark_end(&run);
+    assert_int_equal(access("out/test/spark/frame_0001.png", F_OK), -1);
+    assert_int_equal(access("out/test/spark/log.txt", F_OK), -1);
+    assert_int_equal(access("out/test/spark/notes.txt", F_OK), 0);
+    assert_int_equal(access("out/test/spark/below/frame_0001.png", F_OK), 0);
+}
+
+static void exr_goldens_work_too(void **state)
+{
+    (void)state;
+    spark_write("format: exr\n");
+    spark_update(KILN_UPDATE_MISSING);
+    spark_expect(NULL, KILN_TEST_PASS, KILN_JUDGED_BY_PIXELS);
+    struct kiln_test_params params = spark_params();
+    params.ignore_hashes = true;
+    struct spark_run run = spark_run(&params);
+    assert_int_equal(run.summary.status, KILN_TEST_PASS);
+    assert_true(run.result->hdr);
+    assert_string_equal(run.result->frames[0].reference, "frame_0003_reference.exr");
+    assert_string_equal(run.result->frames[0].error_map, "frame_0003_error.png");
+    spark_end(&run);
+}
+
+int main(void)
+{
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, test_enter_folder, test_leave_folder)
+    static const struct CMUnitTest tests[] = {
+        IN_FOLDER(a_dry_run_writes_nothing),
+        IN_FOLDER(missing_writes_what_is_missing_alone),
+        IN_FOLDER(failed_leaves_passing_frames_and_other_devices),
+        IN_FOLDER(passing_by_metrics_is_replaced_by_all_alone),
+        IN_FOLDER(equal_pixels_of_a_new_device_are_noted_by_all),
+        IN_FOLDER(a_changed_state_is_accepted_by_failed),
+        IN_FOLDER(a_scene_that_looks_the_same_is_accepted_by_all),
+        IN_FOLDER(broken_goldens_are_never_replaced),
+        IN_FOLDER(repeats_must_have_the_same_hashes),
+        IN_FOLDER(stopping_is_no_result),
+        IN_FOLDER(stale_limits_are_noted),
+        IN_FOLDER(crashes_are_recorded),
+        IN_FOLDER(files_of_earlier_runs_go_and_no_others),
+        IN_FOLDER(exr_goldens_work_too),
+    };
+    return cmocka_run_group_tests_name("update", tests, spark_needs_device, NULL);
+}
