@@ -49,7 +49,7 @@ static const char *title_of(enum kiln_test_status status)
     case KILN_TEST_NEW:
         return "Golden image is missing: ";
     case KILN_TEST_WARN:
-        return "Golden image nearly differs: ";
+        return "Golden image is close to its limits: ";
     default:
         return "Golden image test broke: ";
     }

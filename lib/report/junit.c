@@ -94,7 +94,7 @@ static void write_facts(FILE *out, const struct kiln_result *result)
         for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++)
             said = said || strcmp(m->name, elsewhere[i]) == 0;
         char number[32];
-        if (m->kind == KILN_MEMBER_UINT32) {
+        if (m->kind == KILN_MEMBER_UINT32 && result->frame_count) {
             snprintf(number, sizeof number, "%u", *(const uint32_t *)value);
             write_property(out, m->name, number);
         } else if (m->kind == KILN_MEMBER_TEXT && !said) {
@@ -283,8 +283,13 @@ static void tell_pictures(FILE *out, const struct kiln_result_frame *frame, cons
     write_attachment(out, folder, frame->error_map);
 }
 
+/* Of a case that says nothing, there is none. */
 static void write_output(FILE *out, const struct kiln_result *result, const char *folder)
 {
+    bool quiet = result->status <= KILN_TEST_SKIP ||
+                 (result->status == KILN_TEST_ERROR && !*result->log && !result->frame_count);
+    if (quiet && result->note_count == 0)
+        return;
     fputs("      <system-out>", out);
     if (result->status == KILN_TEST_WARN)
         write_causes(out, result);

@@ -9,11 +9,7 @@
 #include "output/temporary.h"
 
 static const struct kiln_report_format *const formats[] = {
-    &kiln_report_junit,
-    &kiln_report_json,
-    &kiln_report_tap,
-    &kiln_report_github,
-    &kiln_report_html,
+    &kiln_report_junit, &kiln_report_json, &kiln_report_tap, &kiln_report_github, &kiln_report_html,
 };
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats };
 

@@ -1,4 +1,6 @@
-/* The Test Anything Protocol, version 14, with a block of YAML under each test. */
+/* The Test Anything Protocol with a block of YAML under each test. All that is used of it is in
+ * version 13 and means the same in version 14; the head says 13, because the prove of Debian 12
+ * fails whatever says 14. */
 #include <math.h>
 
 #include "base/text.h"
@@ -108,7 +110,7 @@ static bool write_tap(const struct kiln_results *results, const struct kiln_resu
 {
     (void)output;
     (void)error;
-    fprintf(out, "TAP version 14\n1..%zu%s\n", results->count,
+    fprintf(out, "TAP version 13\n1..%zu%s\n", results->count,
             results->count ? "" : " # SKIP there are no tests");
     for (size_t i = 0; i < results->count; i++) {
         const struct kiln_result *result = results->tests[i];
@@ -126,6 +128,6 @@ static bool write_tap(const struct kiln_results *results, const struct kiln_resu
 
 const struct kiln_report_format kiln_report_tap = {
     .name = "tap",
-    .help = "the Test Anything Protocol, version 14, for prove and the like",
+    .help = "the Test Anything Protocol, version 13, for prove and the like",
     .write = write_tap,
 };
