@@ -11,9 +11,11 @@ const struct exit_code exit_codes[] = {
     {"1", "a frame failed, or a picture differs"},
     {"2", "the command line makes no sense"},
     {"3", "a scene or another input file is wrong"},
-    {"4", "no usable device"},
-    {"5", "the device was lost, memory ran out, or a frame took longer than its limit"},
+    {"4", "no usable device, or every test was skipped for want of one"},
+    {"5", "the device was lost, memory ran out, a frame or test took longer than its limit, or a "
+          "test crashed"},
     {"6", "reading or writing failed"},
+    {"7", "a golden picture is missing"},
     {"129", "stopped by SIGHUP; only whole files are left"},
     {"130", "stopped by SIGINT; only whole files are left"},
     {"143", "stopped by SIGTERM; only whole files are left"},
@@ -22,38 +24,12 @@ const struct exit_code exit_codes[] = {
 
 const struct variable variables[] = {
     {"KILN_SHADER_DIR", "Read shaders from this folder instead of those in the program."},
+    {"LP_NUM_THREADS",
+     "Threads of Mesa's software device. 'kiln test' sets it where it is not set, "
+     "so that its jobs share the cores."},
+    {"NO_COLOR", "Where it is set, terminals get no colours."},
     {NULL, NULL},
 };
-
-static bool write_exit_codes(FILE *out)
-{
-    for (const struct exit_code *row = exit_codes; row->code; row++)
-        fprintf(out, "%5s  %s\n", row->code, row->meaning);
-    return !ferror(out);
-}
-
-static bool write_man(FILE *out)
-{
-    man_print(out);
-    return !ferror(out);
-}
-
-struct topic {
-    const char *name;
-    const char *summary;
-    bool (*write)(FILE *out);
-};
-
-static const struct topic topics[] = {
-    {"scene", "every key of a scene file", kiln_scene_write_reference},
-    {"schema", "the JSON schema of scene files, for editors", kiln_scene_write_schema},
-    {"techniques", "the techniques of each stage", kiln_write_techniques},
-    {"metrics", "what pictures are compared by", kiln_write_metrics},
-    {"outputs", "what can be written, by suffix", kiln_write_outputs},
-    {"exit-codes", "what each exit code means", write_exit_codes},
-    {"man", "the manual page, for `man -l`", write_man},
-};
-enum { TOPIC_COUNT = sizeof topics / sizeof *topics };
 
 /* Prints words within WIDTH; the first line goes on at column `column`, others start at indent. An
  * empty line in the text stays one. */
@@ -84,6 +60,47 @@ static void print_wrapped(FILE *out, const char *text, size_t column, size_t ind
     }
     fputc('\n', out);
 }
+
+static bool write_exit_codes(FILE *out)
+{
+    for (const struct exit_code *row = exit_codes; row->code; row++) {
+        fprintf(out, "%5s  ", row->code);
+        print_wrapped(out, row->meaning, 7, 7);
+    }
+    return !ferror(out);
+}
+
+static bool write_tests(FILE *out)
+{
+    if (!kiln_test_write_reference(out))
+        return false;
+    fprintf(out, "\nReports of 'kiln test' and 'kiln test report':\n\n");
+    return kiln_write_reports(out);
+}
+
+static bool write_man(FILE *out)
+{
+    man_print(out);
+    return !ferror(out);
+}
+
+struct topic {
+    const char *name;
+    const char *summary;
+    bool (*write)(FILE *out);
+};
+
+static const struct topic topics[] = {
+    {"scene", "every key of a scene file", kiln_scene_write_reference},
+    {"schema", "the JSON schema of scene files, for editors", kiln_scene_write_schema},
+    {"techniques", "the techniques of each stage", kiln_write_techniques},
+    {"metrics", "what pictures are compared by", kiln_write_metrics},
+    {"outputs", "what can be written, by suffix", kiln_write_outputs},
+    {"tests", "every key of a test file, and the reports", write_tests},
+    {"exit-codes", "what each exit code means", write_exit_codes},
+    {"man", "the manual page, for `man -l`", write_man},
+};
+enum { TOPIC_COUNT = sizeof topics / sizeof *topics };
 
 static void print_option(const struct option *option)
 {

@@ -113,6 +113,12 @@ void man_print(FILE *out)
                 "kiln render a.yaml b.yaml -o '{scene}.mp4' --progress ndjson");
     put_example(out, "A folder of pictures against another one, with pictures of the differences:",
                 "kiln compare golden/ out/ --diff differences/");
+    put_example(out,
+                "Golden-image tests of all scenes in a folder, with the first goldens written:",
+                "kiln test scenes/ --update missing");
+    put_example(out, "The same in continuous integration, with a report for its pages:",
+                "kiln test scenes/ --junit out/junit.xml");
     put_heading(out, "see also");
     put(out, "kiln help scene: every key of a scene file.\n");
+    put(out, "kiln help tests: every key of a test file.\n");
 }

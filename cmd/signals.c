@@ -9,24 +9,38 @@
 
 static volatile sig_atomic_t received;
 
+static void end_program(int number)
+{
+    kiln_abandon_outputs();
+    _exit(128 + number);
+}
+
 static void on_signal(int number)
 {
-    if (received) {
-        kiln_abandon_outputs();
-        _exit(128 + number);
-    }
+    if (received)
+        end_program(number);
     received = number;
 }
 
-void signals_install(void)
+static void install(void (*handler)(int))
 {
-    struct sigaction action = {.sa_handler = on_signal, .sa_flags = SA_RESTART};
+    struct sigaction action = {.sa_handler = handler, .sa_flags = SA_RESTART};
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
     struct sigaction before;
     if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN) /* not by nohup */
         sigaction(SIGHUP, &action, NULL);
+}
+
+void signals_install(void)
+{
+    install(on_signal);
+}
+
+void signals_end_at_once(void)
+{
+    install(end_program);
 }
 
 int signals_received(void)

@@ -5,6 +5,10 @@
 
 void signals_install(void);
 
+/* From now on already the first ends the program at once: nothing half-written is left, but nothing
+ * is finished either. */
+void signals_end_at_once(void);
+
 /* The signal that asked to stop, or 0. */
 int signals_received(void);
 

@@ -12,10 +12,11 @@ BEGIN {
     rank["base"] = 1; rank["gpu"] = 2; rank["asset"] = rank["particles"] = 3; rank["scene"] = 4
     rank["sim"] = rank["sort"] = rank["draw"] = rank["post"] = rank["output"] = rank["compare"] = 5
     rank["frame"] = 6; rank["suite"] = 7; rank["report"] = 8
-    # What a program may take from the system: the C library and POSIX.
-    split("assert ctype errno fcntl float inttypes limits locale math poll pthread setjmp signal " \
-          "stdalign stdarg stdatomic stdbool stddef stdint stdio stdlib string strings sys/ioctl " \
-          "sys/resource sys/stat sys/time sys/types sys/wait termios time unistd", names, " ")
+    # What a program may take from the system: the C library, POSIX and what Linux adds to it.
+    split("assert ctype errno fcntl float inttypes limits locale math poll pthread sched setjmp " \
+          "signal stdalign stdarg stdatomic stdbool stddef stdint stdio stdlib string strings " \
+          "sys/file sys/ioctl sys/prctl sys/resource sys/stat sys/time sys/types sys/wait termios " \
+          "time unistd", names, " ")
     for (i in names) libc[names[i] ".h"] = 1
 }
 FNR == 1 {

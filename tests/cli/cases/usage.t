@@ -9,6 +9,9 @@ $ kiln
 2|commands:
 2|  render           render scenes into images or videos
 2|  compare          tell whether two pictures, folders or videos look the same
+2|  test             render tests and compare them with golden pictures
+2|  test report      write reports of runs, such as the shards of one
+2|  test list        list the tests that 'kiln test' would run
 2|  check            validate scenes and print them with every default
 2|  devices          list what can render on this machine, and what is missing
 2|  help             explain a command or a topic
@@ -19,6 +22,7 @@ $ kiln
 2|  techniques       the techniques of each stage
 2|  metrics          what pictures are compared by
 2|  outputs          what can be written, by suffix
+2|  tests            every key of a test file, and the reports
 2|  exit-codes       what each exit code means
 2|  man              the manual page, for `man -l`
 2|
@@ -36,6 +40,9 @@ $ kiln --help
 1|commands:
 1|  render           render scenes into images or videos
 1|  compare          tell whether two pictures, folders or videos look the same
+1|  test             render tests and compare them with golden pictures
+1|  test report      write reports of runs, such as the shards of one
+1|  test list        list the tests that 'kiln test' would run
 1|  check            validate scenes and print them with every default
 1|  devices          list what can render on this machine, and what is missing
 1|  help             explain a command or a topic
@@ -46,6 +53,7 @@ $ kiln --help
 1|  techniques       the techniques of each stage
 1|  metrics          what pictures are compared by
 1|  outputs          what can be written, by suffix
+1|  tests            every key of a test file, and the reports
 1|  exit-codes       what each exit code means
 1|  man              the manual page, for `man -l`
 1|
@@ -243,9 +251,11 @@ $ kiln help exit-codes
 1|    1  a frame failed, or a picture differs
 1|    2  the command line makes no sense
 1|    3  a scene or another input file is wrong
-1|    4  no usable device
-1|    5  the device was lost, memory ran out, or a frame took longer than its limit
+1|    4  no usable device, or every test was skipped for want of one
+1|    5  the device was lost, memory ran out, a frame or test took longer than its
+1|       limit, or a test crashed
 1|    6  reading or writing failed
+1|    7  a golden picture is missing
 1|  129  stopped by SIGHUP; only whole files are left
 1|  130  stopped by SIGINT; only whole files are left
 1|  143  stopped by SIGTERM; only whole files are left

@@ -1,0 +1,398 @@
+/* kiln test: do scenes still give the pictures that were accepted? Finds the tests, runs each in a
+ * process of its own, tells what became of them in the order of their names, and writes reports. */
+#include <sched.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "command.h"
+#include "report.h"
+#include "signals.h"
+#include "test_files.h"
+#include "test_outputs.h"
+#include "test_pool.h"
+#include "test_report.h"
+#include "test_select.h"
+
+static const struct option options[] = {
+    FILTER_OPTION,
+    SHARD_OPTION,
+    GOLDEN_OPTION,
+    RESULTS_OPTION,
+    {.name = "update",
+     .letter = 'u',
+     .kind = OPTION_CHOICE,
+     .placeholder = "missing|failed|all",
+     .help = "Write goldens: those that are missing; also those of frames that fail; or those of "
+             "all frames. Other devices' goldens stay as they are."},
+    {.name = "dry-run",
+     .letter = 'n',
+     .kind = OPTION_FLAG,
+     .help = "With --update: say what would be written, and write none of it."},
+    {.name = "device",
+     .kind = OPTION_TEXT,
+     .placeholder = "DEVICE",
+     .help = "A number from 'kiln devices', a part of a device's name, or 'software', for tests "
+             "that name none.",
+     .fallback = "the first GPU, or else the software device"},
+    {.name = "technique",
+     .repeats = true,
+     .commas = true,
+     .kind = OPTION_PAIRS,
+     .placeholder = "STAGE=NAME",
+     .help = "How to run a stage, over what the tests pin; more of them after commas (see 'kiln "
+             "help techniques')."},
+    {.name = "jobs",
+     .letter = 'j',
+     .kind = OPTION_INTEGER,
+     .placeholder = "N",
+     .help = "Tests that run at a time.",
+     .fallback = "one a core",
+     .min = 1,
+     .max = 256},
+    {.name = "threads",
+     .kind = OPTION_INTEGER,
+     .placeholder = "N",
+     .help = "Threads of each test; 0 shares the cores between the jobs.",
+     .fallback = "0",
+     .max = 256},
+    {.name = "repeat",
+     .kind = OPTION_INTEGER,
+     .placeholder = "N",
+     .help = "Render each test N times; every render must give the same hashes.",
+     .fallback = "1",
+     .min = 1,
+     .max = 1000},
+    {.name = "time-limit",
+     .kind = OPTION_NUMBER,
+     .placeholder = "S",
+     .help = "End a test that takes longer than S seconds; it is an error.",
+     .fallback = "what the tests say, or 120",
+     .min = 0.001,
+     .max = 86400},
+    {.name = "ignore-hashes",
+     .kind = OPTION_FLAG,
+     .help = "Judge by the metrics alone, as if neither state nor pixels had ever been hashed."},
+    {.name = "strict",
+     .kind = OPTION_FLAG,
+     .help = "On a device whose pixels are known, let only those pass."},
+    OUTPUT_OPTIONS("report.html in the results"),
+    HELP_OPTION,
+};
+
+struct test_run {
+    const struct kiln_suite *suite;
+    size_t count;
+    struct kiln_test_params params;
+    double time_limit_s; /* 0: the tests' own */
+    uint32_t jobs;
+    char log[KILN_PATH_SIZE]; /* of the task that was asked for last */
+    struct kiln_test_summary *summaries;
+    bool *ended;
+    size_t ended_count, printed; /* tests 0 to printed-1 have had their line */
+    enum kiln_code code;         /* the worst so far */
+    struct test_report report;
+};
+
+static double now_s(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* ---- One test ------------------------------------------------------------------------------- */
+
+static struct test_task task_of(void *user, size_t index)
+{
+    struct test_run *run = user;
+    struct kiln_test_info test = kiln_suite_test(run->suite, index);
+    snprintf(run->log, sizeof run->log, "%s/log.txt", test.results);
+    return (struct test_task){.log = run->log,
+                              .time_limit_s =
+                                  run->time_limit_s > 0 ? run->time_limit_s : test.time_limit_s};
+}
+
+/* In the process of the test. */
+static int run_test(void *user, size_t index)
+{
+    const struct test_run *run = user;
+    char threads[16];
+    snprintf(threads, sizeof threads, "%u", run->params.threads);
+    setenv("LP_NUM_THREADS", threads, 0); /* of Mesa's software device */
+    struct kiln_test_summary summary;
+    struct kiln_error error = {0};
+    if (kiln_test_run(run->suite, index, &run->params, &summary, &error))
+        return 0;
+    report_error(&error);
+    return (int)error.code;
+}
+
+/* Why the process has left no result to believe in; false when it has. */
+static bool describe_failure(const struct test_end *end, double time_limit_s,
+                             char text[KILN_MESSAGE_SIZE])
+{
+    if (end->problem[0])
+        snprintf(text, KILN_MESSAGE_SIZE, "%s", end->problem);
+    else if (end->timed_out)
+        snprintf(text, KILN_MESSAGE_SIZE, "took longer than %g s", time_limit_s);
+    else if (end->signal == SIGKILL)
+        snprintf(text, KILN_MESSAGE_SIZE,
+                 "crashed: signal %d (%s), as when the system is out of memory", end->signal,
+                 strsignal(end->signal));
+    else if (end->signal)
+        snprintf(text, KILN_MESSAGE_SIZE, "crashed: signal %d (%s)", end->signal,
+                 strsignal(end->signal));
+    else if (end->exit_code)
+        snprintf(text, KILN_MESSAGE_SIZE, "ended without a result, with exit code %d",
+                 end->exit_code);
+    else
+        return false;
+    return true;
+}
+
+/* Takes a test for an error whose process did not say so itself. */
+static void record_failure(struct test_run *run, size_t index, const struct test_end *end,
+                           const char *cause)
+{
+    struct kiln_test_summary *summary = &run->summaries[index];
+    enum kiln_code code = end->exit_code == KILN_IO && !end->signal ? KILN_IO : KILN_DEVICE_FAILED;
+    char line[LOG_LINE_SIZE] = "", message[KILN_MESSAGE_SIZE];
+    if (!end->problem[0])
+        last_log_line(task_of(run, index).log, line);
+    snprintf(message, sizeof message, "%.500s%s%s", cause, *line ? "; its log ends: " : "", line);
+    struct kiln_error error = {0};
+    if (kiln_test_record_error(run->suite, index, code, message, end->total_s, &error) &&
+        kiln_test_read_summary(run->suite, index, summary, &error))
+        return;
+    report_error(&error);
+    *summary = (struct kiln_test_summary){.status = KILN_TEST_ERROR,
+                                          .code = kiln_code_worse(code, error.code),
+                                          .total_s = end->total_s};
+    snprintf(summary->message, sizeof summary->message, "%s", message);
+}
+
+/* Tests end in any order; their lines come in that of the names. */
+static void print_ended(struct test_run *run)
+{
+    for (; run->printed < run->count && run->ended[run->printed]; run->printed++)
+        test_report_test(&run->report, run->suite, run->printed, &run->summaries[run->printed]);
+}
+
+static void end_test(void *user, size_t index, const struct test_end *end)
+{
+    struct test_run *run = user;
+    char cause[KILN_MESSAGE_SIZE];
+    struct kiln_error error = {0};
+    if (describe_failure(end, task_of(run, index).time_limit_s, cause))
+        record_failure(run, index, end, cause);
+    else if (!kiln_test_read_summary(run->suite, index, &run->summaries[index], &error))
+        record_failure(run, index, end, error.message);
+    run->ended[index] = true;
+    run->ended_count++;
+    run->code = kiln_code_worse(run->code, run->summaries[index].code);
+    print_ended(run);
+}
+
+static bool wants_stop(void *user)
+{
+    (void)user;
+    return signals_received() != 0;
+}
+
+/* ---- The run -------------------------------------------------------------------------------- */
+
+/* What an earlier run left must not be taken for this one's. */
+static int remove_stale(const struct test_run *run, const char *results)
+{
+    for (size_t i = 0; i <= run->count; i++) {
+        const char *folder = i < run->count ? kiln_suite_test(run->suite, i).results : results;
+        char *path = join_path(folder, i < run->count ? "result.json" : "run.json");
+        if (!path)
+            return report_no_memory();
+        if (!remove_file(path)) {
+            int code = report(KILN_IO, "%s: cannot remove the result of an earlier run", path);
+            free(path);
+            return code;
+        }
+        free(path);
+    }
+    return 0;
+}
+
+/* Writes what programs and people read later; summary is filled where that is possible. Returns the
+ * worse of the code and what went wrong here. */
+static enum kiln_code write_results(const struct test_run *run, struct test_outputs *outputs,
+                                    const char *folder, double total_s,
+                                    struct kiln_results_summary *summary)
+{
+    struct kiln_error error = {0};
+    struct kiln_results *results = NULL;
+    if (kiln_suite_write_run(run->suite, total_s, &error))
+        results = kiln_results_load(&folder, 1, &error);
+    if (!results) {
+        report_error(&error);
+        outputs->page = NULL;
+        return kiln_code_worse(run->code, error.code);
+    }
+    *summary = kiln_results_summary(results);
+    enum kiln_code code =
+        test_outputs_write(outputs, results, kiln_code_worse(run->code, summary->code));
+    kiln_results_destroy(&results);
+    return code;
+}
+
+static int finish(struct test_run *run, struct test_outputs *outputs, double total_s)
+{
+    struct kiln_results_summary summary = {0};
+    int code = (int)write_results(run, outputs, run->report.results, total_s, &summary);
+    bool nothing = summary.tests > 0 && summary.counts[KILN_TEST_SKIP] == summary.tests;
+    if (!run->report.quiet || code) {
+        if (summary.tests > 0)
+            test_report_counts(run->report.out, &summary);
+        test_report_end(&run->report, outputs->page);
+    }
+    if (code == 0 && nothing)
+        return report(KILN_NO_DEVICE,
+                      "test: every test was skipped, so nothing was tested: none is for a device "
+                      "of this machine");
+    return code;
+}
+
+static int run_tests(struct test_run *run, struct test_outputs *outputs)
+{
+    const struct test_pool pool = {.count = run->count,
+                                   .jobs = run->jobs,
+                                   .task = task_of,
+                                   .run = run_test,
+                                   .ended = end_test,
+                                   .stop = wants_stop,
+                                   .user = run};
+    struct kiln_error error = {0};
+    double started_s = now_s();
+    signals_install();
+    if (test_pool_run(&pool, &error))
+        return finish(run, outputs, now_s() - started_s);
+    int number = signals_received();
+    if (error.code != KILN_INTERRUPTED)
+        return report_error(&error);
+    report(KILN_INTERRUPTED, "test: stopped by %s after %zu of %zu tests",
+           number == SIGINT    ? "SIGINT"
+           : number == SIGTERM ? "SIGTERM"
+                               : "SIGHUP",
+           run->ended_count, run->count);
+    return 128 + number;
+}
+
+static uint32_t core_count(void)
+{
+    cpu_set_t set;
+    return sched_getaffinity(0, sizeof set, &set) == 0 ? (uint32_t)CPU_COUNT(&set) : 1;
+}
+
+/* How many tests run at a time, and how many threads each has. */
+static void share_cores(struct test_run *run, const struct arguments *arguments)
+{
+    uint32_t cores = core_count();
+    uint32_t jobs = arguments_integer(arguments, "jobs", cores);
+    jobs = jobs > run->count ? (uint32_t)run->count : jobs;
+    run->jobs = jobs > 0 ? jobs : 1;
+    run->params.threads = arguments_integer(arguments, "threads", 0);
+    if (run->params.threads == 0)
+        run->params.threads = cores > run->jobs ? cores / run->jobs : 1;
+}
+
+static int read_options(struct test_run *run, struct test_outputs *outputs,
+                        const struct arguments *arguments, const struct value_list *techniques,
+                        const char *page)
+{
+    struct kiln_test_params *params = &run->params;
+    *params = KILN_TEST_DEFAULTS;
+    params->device = arguments_text(arguments, "device", NULL);
+    params->techniques = techniques->items;
+    params->technique_count = techniques->count;
+    params->repeat = arguments_integer(arguments, "repeat", params->repeat);
+    params->update = arguments_flag(arguments, "update")
+                         ? (enum kiln_update)(arguments_choice(arguments, "update", 0) + 1)
+                         : KILN_UPDATE_NONE;
+    params->dry_run = arguments_flag(arguments, "dry-run");
+    params->ignore_hashes = arguments_flag(arguments, "ignore-hashes");
+    params->strict = arguments_flag(arguments, "strict");
+    params->log = report_log();
+    run->time_limit_s = arguments_number(arguments, "time-limit", 0);
+    run->report.quiet = arguments_flag(arguments, "quiet");
+    if (params->dry_run && params->update == KILN_UPDATE_NONE)
+        return report(KILN_USAGE, "test: --dry-run: says what --update would write; use it with "
+                                  "--update missing, failed or all");
+    if (params->ignore_hashes && params->strict)
+        return report(KILN_USAGE, "test: --ignore-hashes and --strict exclude each other");
+    return test_outputs_read(outputs, arguments, "test", page);
+}
+
+static int run_suite(struct test_run *run, struct test_outputs *outputs,
+                     const struct arguments *arguments)
+{
+    struct kiln_suite *suite;
+    int code = select_tests(&suite, arguments, "test");
+    if (code == 0) {
+        run->suite = suite;
+        run->count = kiln_suite_count(suite);
+        run->summaries = calloc(run->count, sizeof *run->summaries);
+        run->ended = calloc(run->count, sizeof *run->ended);
+        code = run->summaries && run->ended ? 0 : report_no_memory();
+    }
+    if (code == 0)
+        code = claim_folder(run->report.results);
+    if (code == 0)
+        code = remove_stale(run, run->report.results);
+    if (code == 0) {
+        share_cores(run, arguments);
+        test_report_start(&run->report, suite, outputs->standard_output ? stderr : stdout);
+        code = run_tests(run, outputs);
+    }
+    free(run->summaries);
+    free(run->ended);
+    kiln_suite_destroy(&suite);
+    return code;
+}
+
+static int run(const struct arguments *arguments)
+{
+    struct test_run run = {.report.results = arguments_text(arguments, "results", DEFAULT_RESULTS)};
+    struct test_outputs outputs = {0};
+    struct value_list techniques;
+    bool ok = value_list_create(&techniques, arguments, "technique");
+    char *page = join_path(run.report.results, "report.html");
+    int code = ok && page ? read_options(&run, &outputs, arguments, &techniques, page)
+                          : report_no_memory();
+    if (code == 0)
+        code = run_suite(&run, &outputs, arguments);
+    value_list_free(&techniques);
+    free(page);
+    return code;
+}
+
+const struct command test_command = {
+    .name = "test",
+    .summary = "render tests and compare them with golden pictures",
+    .operands = "[PATH | NAME]...",
+    .description =
+        "Renders frames of scenes and judges them by what was once accepted. " SELECT_DESCRIPTION
+        "\n\n"
+        "A frame is judged by the hash of the simulation's state, which is the same everywhere; "
+        "then by the hash of the picture's pixels on this device; then by how different it looks "
+        "from the golden picture (see 'kiln compare'). A golden that is missing is a failure, and "
+        "is never written without --update. 'kiln help tests' explains test files.\n\n"
+        "Each test has a process of its own: a crash or a hang is the error of that test alone. "
+        "What the process prints goes to log.txt in its results.\n\n"
+        "Exit code 0: every test passed; 1: a picture or the state differs; 7: a golden is "
+        "missing; 2: usage, or there are no tests; 3: a test, scene or golden cannot be read; 4: "
+        "no usable device, or every test was skipped; 5: a test crashed or took too long; 6: "
+        "results or a report cannot be written. Of several, the worst: 5, 6, 4, 3, 2, 1, 7.",
+    .options = options,
+    .option_count = sizeof options / sizeof *options,
+    .most_operands = SIZE_MAX,
+    .run = run,
+};

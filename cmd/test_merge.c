@@ -1,0 +1,59 @@
+/* kiln test report: reports of runs that are over, such as the shards of one. */
+#include <stdlib.h>
+
+#include "command.h"
+#include "report.h"
+#include "test_files.h"
+#include "test_outputs.h"
+#include "test_report.h"
+
+static const struct option options[] = {
+    OUTPUT_OPTIONS("report.html in the first folder"),
+    HELP_OPTION,
+};
+
+static int write_reports(const struct arguments *arguments, struct test_outputs *outputs)
+{
+    struct kiln_error error = {0};
+    struct kiln_results *results =
+        kiln_results_load(arguments->operands, arguments->operand_count, &error);
+    if (!results)
+        return report_error(&error);
+    struct kiln_results_summary summary = kiln_results_summary(results);
+    enum kiln_code code = test_outputs_write(outputs, results, summary.code);
+    kiln_results_destroy(&results);
+    if (code || !arguments_flag(arguments, "quiet")) {
+        FILE *out = outputs->standard_output ? stderr : stdout;
+        test_report_counts(out, &summary);
+        if (outputs->page)
+            fprintf(out, "report: %s\n", outputs->page);
+    }
+    return (int)code;
+}
+
+static int run(const struct arguments *arguments)
+{
+    char *page = join_path(arguments->operands[0], "report.html");
+    if (!page)
+        return report_no_memory();
+    struct test_outputs outputs;
+    int code = test_outputs_read(&outputs, arguments, "test report", page);
+    if (code == 0)
+        code = write_reports(arguments, &outputs);
+    free(page);
+    return code;
+}
+
+const struct command test_report_command = {
+    .name = "test report",
+    .summary = "write reports of runs, such as the shards of one",
+    .operands = "FOLDER...",
+    .description =
+        "Reads the results of one or several runs and writes reports of all of them together. The "
+        "exit code is that of the worst test, as 'kiln test' would have given it.",
+    .options = options,
+    .option_count = sizeof options / sizeof *options,
+    .least_operands = 1,
+    .most_operands = SIZE_MAX,
+    .run = run,
+};

@@ -1,0 +1,53 @@
+#include "test_outputs.h"
+
+#include <string.h>
+
+#include "report.h"
+
+int test_outputs_read(struct test_outputs *outputs, const struct arguments *arguments,
+                      const char *command, const char *page)
+{
+    *outputs = (struct test_outputs){0};
+    if (arguments_flag(arguments, "no-report") && arguments_flag(arguments, "report"))
+        return report(KILN_USAGE, "%s: --report and --no-report exclude each other", command);
+    if (!arguments_flag(arguments, "no-report"))
+        outputs->page = arguments_text(arguments, "report", page);
+    const struct kiln_results_output all[MAX_OUTPUTS] = {
+        {"json", arguments_text(arguments, "json", NULL), false},
+        {"junit", arguments_text(arguments, "junit", NULL), false},
+        {"tap", arguments_text(arguments, "tap", NULL), false},
+        {"html", outputs->page, arguments_flag(arguments, "link")},
+        {"github", arguments_flag(arguments, "github") ? "-" : NULL, false},
+    };
+    size_t on_standard_output = 0;
+    for (size_t i = 0; i < MAX_OUTPUTS; i++) {
+        if (!all[i].path)
+            continue;
+        outputs->files[outputs->count++] = all[i];
+        bool takes_it = strcmp(all[i].path, "-") == 0;
+        on_standard_output += takes_it;
+        /* Annotations are lines that may stand among others. */
+        outputs->standard_output |= takes_it && strcmp(all[i].format, "github") != 0;
+    }
+    if (on_standard_output > 1)
+        return report(KILN_USAGE,
+                      "%s: only one of --json, --junit, --tap, --report and --github "
+                      "can go to standard output",
+                      command);
+    return 0;
+}
+
+enum kiln_code test_outputs_write(struct test_outputs *outputs, const struct kiln_results *results,
+                                  enum kiln_code code)
+{
+    for (size_t i = 0; i < outputs->count; i++) {
+        struct kiln_error error = {0};
+        if (kiln_results_write(results, &outputs->files[i], &error))
+            continue;
+        report_error(&error);
+        if (outputs->page == outputs->files[i].path)
+            outputs->page = NULL;
+        code = kiln_code_worse(code, error.code);
+    }
+    return code;
+}

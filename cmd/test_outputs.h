@@ -1,0 +1,55 @@
+/* The reports of a run: the options that `kiln test` and `kiln test report` share. */
+#ifndef KILN_CMD_TEST_OUTPUTS_H
+#define KILN_CMD_TEST_OUTPUTS_H
+
+#include "options.h"
+
+/* Rows of an option table. */
+#define OUTPUT_OPTIONS(report_fallback)                                                            \
+    {.name = "report",                                                                             \
+     .kind = OPTION_TEXT,                                                                          \
+     .placeholder = "FILE",                                                                        \
+     .help = "Where the page goes that shows the run: one HTML file.",                             \
+     .fallback = report_fallback},                                                                 \
+        {.name = "no-report", .kind = OPTION_FLAG, .help = "Write no page."},                      \
+        {.name = "link",                                                                           \
+         .kind = OPTION_FLAG,                                                                      \
+         .help = "Let the page refer to the pictures in the results, instead of holding them."},   \
+        {.name = "junit",                                                                          \
+         .kind = OPTION_TEXT,                                                                      \
+         .placeholder = "FILE",                                                                    \
+         .help = "Also write JUnit XML; '-' is standard output, here and below."},                 \
+        {.name = "json",                                                                           \
+         .kind = OPTION_TEXT,                                                                      \
+         .placeholder = "FILE",                                                                    \
+         .help = "Also write all results as one JSON document."},                                  \
+        {.name = "tap",                                                                            \
+         .kind = OPTION_TEXT,                                                                      \
+         .placeholder = "FILE",                                                                    \
+         .help = "Also write the Test Anything Protocol."},                                        \
+        {.name = "github",                                                                         \
+         .kind = OPTION_FLAG,                                                                      \
+         .help = "Also print annotations for GitHub Actions on standard output."},                 \
+    {                                                                                              \
+        .name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Print only what went wrong." \
+    }
+
+enum { MAX_OUTPUTS = 5 };
+
+struct test_outputs {
+    struct kiln_results_output files[MAX_OUTPUTS]; /* borrow the arguments */
+    size_t count;
+    const char *page; /* where the HTML file goes; NULL without one, or when writing it failed */
+    bool standard_output; /* one of them takes it: what people read goes to standard error */
+};
+
+/* page is where the HTML file goes without --report. Returns 0, or the exit code after reporting
+ * what cannot be. */
+int test_outputs_read(struct test_outputs *outputs, const struct arguments *arguments,
+                      const char *command, const char *page);
+
+/* Writes all of them. Returns the worse of the code and what went wrong here, which it reports. */
+enum kiln_code test_outputs_write(struct test_outputs *outputs, const struct kiln_results *results,
+                                  enum kiln_code code);
+
+#endif

@@ -1,0 +1,167 @@
+/* A line a test. Words come first, colours only help to find them. */
+#include "test_report.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "test_files.h"
+#include "test_select.h"
+
+enum { MAX_NAME_WIDTH = 40, STATUS_WIDTH = 5 };
+
+static const char *colour_of(enum kiln_test_status status)
+{
+    switch (status) {
+    case KILN_TEST_PASS:
+        return "\033[32m"; /* green */
+    case KILN_TEST_SKIP:
+        return "\033[2m"; /* faint */
+    case KILN_TEST_WARN:
+    case KILN_TEST_NEW:
+        return "\033[33m"; /* yellow */
+    default:
+        return "\033[1;31m"; /* bold red */
+    }
+}
+
+static bool wants_colour(FILE *out)
+{
+    const char *term = getenv("TERM"), *refused = getenv("NO_COLOR");
+    return isatty(fileno(out)) == 1 && term && strcmp(term, "dumb") != 0 && !(refused && *refused);
+}
+
+void test_report_start(struct test_report *report, const struct kiln_suite *suite, FILE *out)
+{
+    report->out = out;
+    report->colour = wants_colour(out);
+    for (size_t i = 0; i < kiln_suite_count(suite); i++) {
+        int width = (int)strlen(kiln_suite_test(suite, i).name);
+        if (width > report->name_width)
+            report->name_width = width < MAX_NAME_WIDTH ? width : MAX_NAME_WIDTH;
+    }
+}
+
+static bool is_red(enum kiln_test_status status)
+{
+    return status == KILN_TEST_NEW || status == KILN_TEST_FAIL || status == KILN_TEST_ERROR;
+}
+
+static void print_notes(struct test_report *report, const struct kiln_suite *suite, size_t index,
+                        const struct kiln_test_summary *summary, bool silent)
+{
+    for (uint32_t i = 0; i < summary->notes; i++) {
+        char text[KILN_MESSAGE_SIZE];
+        struct kiln_error error = {0};
+        if (!kiln_test_read_note(suite, index, i, text, &error))
+            return;
+        report->written += strncmp(text, "wrote ", 6) == 0;
+        report->to_write += strncmp(text, "would write ", 12) == 0;
+        if (!silent)
+            fprintf(report->out, "%*s%s\n", STATUS_WIDTH + 2, "", text);
+    }
+}
+
+/* Where the output of a test's process is, if it has any. */
+static void print_log_place(const struct test_report *report, const char *results)
+{
+    char path[KILN_PATH_SIZE], line[LOG_LINE_SIZE];
+    snprintf(path, sizeof path, "%s/log.txt", results);
+    if (*last_log_line(path, line))
+        fprintf(report->out, "%*slog: %s\n", STATUS_WIDTH + 2, "", path);
+}
+
+void test_report_test(struct test_report *report, const struct kiln_suite *suite, size_t index,
+                      const struct kiln_test_summary *summary)
+{
+    bool red = is_red(summary->status), silent = report->quiet && !red;
+    if (!silent) {
+        fprintf(report->out, "%s%-*s%s  %-*s ", report->colour ? colour_of(summary->status) : "",
+                STATUS_WIDTH, kiln_test_status_name(summary->status),
+                report->colour ? "\033[0m" : "", report->name_width,
+                kiln_suite_test(suite, index).name);
+        if (summary->frames > 0)
+            fprintf(report->out, " %u frame%s in %.3f s", summary->frames,
+                    summary->frames == 1 ? "" : "s", summary->total_s);
+        if (summary->message[0])
+            fprintf(report->out, "%s %s", summary->frames > 0 ? ":" : "", summary->message);
+        fputc('\n', report->out);
+    }
+    print_notes(report, suite, index, summary, silent);
+    if (summary->status == KILN_TEST_ERROR)
+        print_log_place(report, kiln_suite_test(suite, index).results);
+    if (summary->status == KILN_TEST_NEW || summary->status == KILN_TEST_FAIL) {
+        size_t most = sizeof report->accept / sizeof *report->accept;
+        if (report->accept_count < most)
+            report->accept[report->accept_count] = kiln_suite_test(suite, index).name;
+        report->accept_count++;
+    }
+    fflush(report->out);
+}
+
+void test_report_counts(FILE *out, const struct kiln_results_summary *summary)
+{
+    fprintf(out, "%u test%s in %.3f s:", summary->tests, summary->tests == 1 ? "" : "s",
+            summary->total_s);
+    const char *separator = "";
+    for (int i = 0; i < KILN_TEST_STATUS_COUNT; i++) {
+        if (summary->counts[i] == 0)
+            continue;
+        fprintf(out, "%s %u %s", separator, summary->counts[i],
+                kiln_test_status_name((enum kiln_test_status)i));
+        separator = ",";
+    }
+    fputc('\n', out);
+}
+
+void print_shell_word(FILE *out, const char *word)
+{
+    const char *plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789@%+=:,./-_";
+    if (*word && word[strspn(word, plain)] == '\0') {
+        fputs(word, out);
+        return;
+    }
+    fputc('\'', out);
+    for (; *word; word++) {
+        if (*word == '\'')
+            fputs("'\\''", out);
+        else
+            fputc(*word, out);
+    }
+    fputc('\'', out);
+}
+
+static void print_approvals(const struct test_report *report)
+{
+    FILE *out = report->out;
+    size_t shown = sizeof report->accept / sizeof *report->accept;
+    if (report->accept_count < shown)
+        shown = report->accept_count;
+    if (shown > 0)
+        fprintf(out, "where the pictures are right, accept them:\n");
+    for (size_t i = 0; i < shown; i++) {
+        fprintf(out, "  kiln test approve ");
+        print_shell_word(out, report->accept[i]);
+        if (strcmp(report->results, DEFAULT_RESULTS) != 0) {
+            fprintf(out, " --results ");
+            print_shell_word(out, report->results);
+        }
+        fputc('\n', out);
+    }
+    if (report->accept_count > shown)
+        fprintf(out, "  and %u more\n", report->accept_count - (uint32_t)shown);
+}
+
+void test_report_end(const struct test_report *report, const char *page)
+{
+    if (page)
+        fprintf(report->out, "report: %s\n", page);
+    if (report->written > 0)
+        fprintf(report->out, "%u picture%s written: look at %s before you keep %s\n",
+                report->written, report->written == 1 ? " was" : "s were",
+                report->written == 1 ? "it" : "them", report->written == 1 ? "it" : "them");
+    if (report->to_write > 0)
+        fprintf(report->out, "%u picture%s would be written; this was a dry run\n",
+                report->to_write, report->to_write == 1 ? "" : "s");
+    print_approvals(report);
+}

@@ -1,0 +1,34 @@
+/* What `kiln test` prints for people. */
+#ifndef KILN_CMD_TEST_REPORT_H
+#define KILN_CMD_TEST_REPORT_H
+
+#include "kiln.h"
+
+struct test_report {
+    FILE *out;
+    bool quiet; /* only tests that went wrong */
+    bool colour;
+    int name_width;             /* of the column of names */
+    const char *results;        /* the folder, as given */
+    uint32_t written, to_write; /* pictures that updates wrote, or would write */
+    const char *accept[10];     /* the first tests whose pictures might be accepted */
+    uint32_t accept_count;      /* of all such tests */
+};
+
+/* Begins the report of a suite's run; the suite outlives it. */
+void test_report_start(struct test_report *report, const struct kiln_suite *suite, FILE *out);
+
+/* A line for a test that has ended, and one for each of its notes. */
+void test_report_test(struct test_report *report, const struct kiln_suite *suite, size_t index,
+                      const struct kiln_test_summary *summary);
+
+/* "5 tests in 1.234 s: 4 pass, 1 fail" */
+void test_report_counts(FILE *out, const struct kiln_results_summary *summary);
+
+/* What to look at and what to do next; page may be NULL. */
+void test_report_end(const struct test_report *report, const char *page);
+
+/* Writes a word so that a shell takes it as one. */
+void print_shell_word(FILE *out, const char *word);
+
+#endif

@@ -1,0 +1,45 @@
+/* Which tests a command line means: the operands and options that `kiln test` shares with
+ * `kiln test calibrate` and `kiln test list`. */
+#ifndef KILN_CMD_TEST_SELECT_H
+#define KILN_CMD_TEST_SELECT_H
+
+#include "options.h"
+
+#define DEFAULT_RESULTS "out/test"
+
+#define GOLDEN_OPTION                                                                              \
+    {                                                                                              \
+        .name = "golden", .kind = OPTION_TEXT, .placeholder = "FOLDER",                            \
+        .help = "Where the goldens are: FOLDER/TEST/frame_0024.png.", .fallback = "golden"         \
+    }
+#define RESULTS_OPTION                                                                             \
+    {                                                                                              \
+        .name = "results", .letter = 'o', .kind = OPTION_TEXT, .placeholder = "FOLDER",            \
+        .help = "Where results go: FOLDER/TEST/result.json, pictures and log.txt.",                \
+        .fallback = DEFAULT_RESULTS                                                                \
+    }
+#define FILTER_OPTION                                                                              \
+    {                                                                                              \
+        .name = "filter", .letter = 'f', .repeats = true, .kind = OPTION_TEXT,                     \
+        .placeholder = "PATTERN",                                                                  \
+        .help = "Take the tests whose names fit a shell pattern, such as 'effects/*'; the same "   \
+                "as the pattern as an operand."                                                    \
+    }
+#define SHARD_OPTION                                                                               \
+    {                                                                                              \
+        .name = "shard", .kind = OPTION_PART, .placeholder = "I/N",                                \
+        .help = "Take the I-th of N parts of the tests, for N machines; give each other "          \
+                "--results, and merge these by 'kiln test report'."                                \
+    }
+
+/* What operands are, for descriptions. */
+#define SELECT_DESCRIPTION                                                                         \
+    "A PATH is a test file (*.test.yaml), a scene, or a folder, which is searched for both; "      \
+    "without one, the working directory is. A NAME, or a shell pattern of names, takes some of "   \
+    "the tests. A test is named by its path in the folder, without its suffix: effects/fire."
+
+/* Finds the tests of a command, whose arguments must outlive nothing. Returns 0, or the exit code
+ * after reporting what is wrong; to find none is an error. The caller destroys the suite. */
+int select_tests(struct kiln_suite **suite, const struct arguments *arguments, const char *command);
+
+#endif

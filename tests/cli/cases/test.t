@@ -1,0 +1,300 @@
+Tests of scenes against golden pictures. What a folder has: a test file, and the scenes that no test
+file names.
+
+$ cat >fire.test.yaml <<'END'
+> kiln_test: 1
+> scene: scenes/tiny.yaml
+> frames: [6]
+> END
+$ kiln test list --files
+1|fire	fire.test.yaml
+1|scenes/empty	scenes/empty.yaml
+
+A golden that is missing is a failure, and is not written before one is told to.
+
+$ kiln test fire
+1|new    fire  1 frame in <s> s: frame 6 has no golden: there is no golden/fire/frame_0006.png
+1|1 test in <s> s: 1 new
+1|report: out/test/report.html
+1|where the pictures are right, accept them:
+1|  kiln test approve fire
+= 7
+$ ls golden
+2|ls: cannot access 'golden': No such file or directory
+= 2
+$ kiln test fire --update missing --dry-run
+1|new    fire  1 frame in <s> s: frame 6 has no golden: there is no golden/fire/frame_0006.png
+1|       would write golden/fire/frame_0006.png
+1|1 test in <s> s: 1 new
+1|report: out/test/report.html
+1|1 picture would be written; this was a dry run
+1|where the pictures are right, accept them:
+1|  kiln test approve fire
+= 7
+$ ls golden
+2|ls: cannot access 'golden': No such file or directory
+= 2
+$ kiln test fire --update missing
+1|pass   fire  1 frame in <s> s
+1|       wrote golden/fire/frame_0006.png
+1|1 test in <s> s: 1 pass
+1|report: out/test/report.html
+1|1 picture was written: look at it before you keep it
+$ find golden -type f | sort
+1|golden/fire/expect.yaml
+1|golden/fire/frame_0006.png
+1|golden/fire/scene.yaml
+$ kiln test fire
+1|pass   fire  1 frame in <s> s
+1|1 test in <s> s: 1 pass
+1|report: out/test/report.html
+$ kiln test fire -q
+$ kiln test fire --repeat 2 --threads 3 --strict
+1|pass   fire  1 frame in <s> s
+1|1 test in <s> s: 1 pass
+1|report: out/test/report.html
+
+A picture that has changed fails, and can be accepted.
+
+$ echo 'set: [systems.fire.look.size=0.6]' >>fire.test.yaml
+$ kiln test fire
+1|fail   fire  1 frame in <s> s: frame 6: flip.mean is <value>, beyond 0.01; flip.p99 is <value>, beyond 0.1
+1|1 test in <s> s: 1 fail
+1|report: out/test/report.html
+1|where the pictures are right, accept them:
+1|  kiln test approve fire
+= 1
+$ kiln test fire -q --update missing
+1|fail   fire  1 frame in <s> s: frame 6: flip.mean is <value>, beyond 0.01; flip.p99 is <value>, beyond 0.1
+1|1 test in <s> s: 1 fail
+1|report: out/test/report.html
+1|where the pictures are right, accept them:
+1|  kiln test approve fire
+= 1
+
+So does a simulation that has changed, however like the picture is.
+
+$ sed -i 's/^set:.*/set: [systems.fire.look.size=0.6, simulation.rate=120]/' fire.test.yaml
+$ kiln test fire
+1|fail   fire  1 frame in <s> s: the simulation changed: state a6edc2d5ec8d500c at frame 6, accepted was 3bdb35dd0e9813d8; flip.mean is <value>, beyond 0.01; flip.p99 is <value>, beyond 0.1
+1|1 test in <s> s: 1 fail
+1|report: out/test/report.html
+1|where the pictures are right, accept them:
+1|  kiln test approve fire
+= 1
+$ kiln test fire --ignore-hashes --json - | jq -c '.tests[] | [.name, .status]'
+1|["fire","fail"]
+2|fail   fire  1 frame in <s> s: frame 6: flip.mean is <value>, beyond 0.01; flip.p99 is <value>, beyond 0.1
+2|1 test in <s> s: 1 fail
+2|report: out/test/report.html
+2|where the pictures are right, accept them:
+2|  kiln test approve fire
+$ kiln test fire --update failed
+1|pass   fire  1 frame in <s> s
+1|       wrote golden/fire/frame_0006.png
+1|1 test in <s> s: 1 pass
+1|report: out/test/report.html
+1|1 picture was written: look at it before you keep it
+$ kiln test fire
+1|pass   fire  1 frame in <s> s
+1|1 test in <s> s: 1 pass
+1|report: out/test/report.html
+
+What is no test, and names of none.
+
+$ kiln test fier
+2|kiln: no test has the name 'fier' (did you mean 'fire'?)
+= 2
+$ kiln test 'f*z'
+2|kiln: no test has the name 'f*z'; 'kiln test list' shows what there is
+= 2
+$ kiln test nowhere.yaml
+2|kiln: nowhere.yaml: No such file or directory
+= 2
+$ mkdir void; kiln test void
+2|kiln: void: no test in this folder: no *.test.yaml, and no scene
+= 2
+$ kiln test fire --shard 2/2
+2|kiln: test: --shard: part 2 of 2 has no tests; take fewer parts
+= 2
+$ kiln test fire --shard 3/2
+2|kiln: test: --shard: found '3/2', expected I/N, the I-th of N parts, such as 1/4
+= 2
+$ kiln test fire --dry-run
+2|kiln: test: --dry-run: says what --update would write; use it with --update missing, failed or all
+= 2
+$ kiln test fire --strict --ignore-hashes
+2|kiln: test: --ignore-hashes and --strict exclude each other
+= 2
+$ kiln test fire --report page.html --no-report
+2|kiln: test: --report and --no-report exclude each other
+= 2
+$ kiln test fire --json - --tap -
+2|kiln: test: only one of --json, --junit, --tap, --report and --github can go to standard output
+= 2
+$ kiln help test lsit
+2|kiln: help: unknown topic 'test lsit' (did you mean 'test list'?); 'kiln help' lists the topics
+= 2
+
+A test that is wrong, one for a device that is not here, and one that takes too long are the errors
+of these tests. Lines come in the order of the names.
+
+$ echo 'scne: x' >wrong.test.yaml
+> printf 'kiln_test: 1\nscene: scenes/empty.yaml\nframes: [0]\ndevices: [no-such-device]\n' >elsewhere.test.yaml
+> printf 'kiln_test: 1\nscene: scenes/tiny.yaml\nframes: [0]\nset: [systems.smoke.emit.rate=1000000, simulation.warmup=4000 s]\n' >slow.test.yaml
+$ kiln test fire wrong
+1|pass   fire   1 frame in <s> s
+1|error  wrong  wrong.test.yaml:1:1: scne: unknown key (did you mean 'scene'?)
+1|2 tests in <s> s: 1 pass, 1 error
+1|report: out/test/report.html
+= 3
+$ kiln test elsewhere
+1|skip   elsewhere  there is no device 'no-such-device'; there are: <devices>
+1|1 test in <s> s: 1 skip
+1|report: out/test/report.html
+2|kiln: test: every test was skipped, so nothing was tested: none is for a device of this machine
+= 4
+$ kiln test elsewhere fire
+1|skip   elsewhere  there is no device 'no-such-device'; there are: <devices>
+1|pass   fire       1 frame in <s> s
+1|2 tests in <s> s: 1 pass, 1 skip
+1|report: out/test/report.html
+$ kiln test slow fire --time-limit 3
+1|pass   fire  1 frame in <s> s
+1|error  slow  took longer than 3 s
+1|2 tests in <s> s: 1 pass, 1 error
+1|report: out/test/report.html
+= 5
+$ kiln test wrong slow fire elsewhere --time-limit 3 -q
+1|error  slow       took longer than 3 s
+1|error  wrong      wrong.test.yaml:1:1: scne: unknown key (did you mean 'scene'?)
+1|4 tests in <s> s: 1 pass, 1 skip, 2 error
+1|report: out/test/report.html
+= 5
+
+Names, patterns and shards.
+
+$ kiln test list 'f*' elsewhere
+1|elsewhere
+1|fire
+$ kiln test list --filter '*e*' --shard 1/2; kiln test list --filter '*e*' --shard 2/2
+1|elsewhere
+1|fire
+
+Reports are written also when tests fail, and each can go to standard output instead of the text.
+
+$ kiln test fire wrong --no-report --junit out/r/junit.xml --json out/r/all.json --tap out/r/all.tap; echo $?; ls out/r
+1|pass   fire   1 frame in <s> s
+1|error  wrong  wrong.test.yaml:1:1: scne: unknown key (did you mean 'scene'?)
+1|2 tests in <s> s: 1 pass, 1 error
+1|3
+1|all.json
+1|all.tap
+1|junit.xml
+$ kiln test fire wrong --no-report --junit - 2>/dev/null | grep -c '<testcase'
+1|2
+$ kiln test fire wrong --no-report --tap - 2>/dev/null | grep -E '^(1\.\.|ok|not ok)'
+1|1..2
+1|ok 1 - fire
+1|not ok 2 - wrong
+$ kiln test fire wrong --no-report --json - 2>/dev/null | jq -c '.tests[] | [.name, .status]'
+1|["fire","pass"]
+1|["wrong","error"]
+$ kiln test fire wrong --no-report --github
+1|pass   fire   1 frame in <s> s
+1|error  wrong  wrong.test.yaml:1:1: scne: unknown key (did you mean 'scene'?)
+1|::error file=wrong.test.yaml,title=Golden image test broke%3A wrong::wrong.test.yaml:1:1: scne: unknown key (did you mean 'scene'?)%0Ato run it again: kiln test wrong.test.yaml
+1|::notice title=kiln test::2 tests: 1 pass, 1 error; in <s> s
+1|2 tests in <s> s: 1 pass, 1 error
+= 3
+$ kiln test fire --report page.html --junit fire.test.yaml/junit.xml; echo $?; ls page.html
+1|pass   fire  1 frame in <s> s
+1|1 test in <s> s: 1 pass
+1|report: page.html
+1|6
+1|page.html
+2|kiln: fire.test.yaml: not a folder, but fire.test.yaml/junit.xml needs one here
+$ kiln test wrong -q --junit fire.test.yaml/junit.xml
+1|error  wrong  wrong.test.yaml:1:1: scne: unknown key (did you mean 'scene'?)
+1|1 test in <s> s: 1 error
+1|report: out/test/report.html
+2|kiln: fire.test.yaml: not a folder, but fire.test.yaml/junit.xml needs one here
+= 6
+$ kiln test slow -q --time-limit 1 --junit fire.test.yaml/junit.xml
+1|error  slow  took longer than 1 s
+1|1 test in <s> s: 1 error
+1|report: out/test/report.html
+2|kiln: fire.test.yaml: not a folder, but fire.test.yaml/junit.xml needs one here
+= 5
+$ kiln test fire -o fire.test.yaml
+2|kiln: fire.test.yaml: cannot open the folder: Not a directory
+= 6
+$ kiln test fire --no-report >/dev/full
+2|kiln: standard output: No space left on device
+= 6
+
+Shards are merged.
+
+$ kiln test fire wrong --shard 1/2 -o out/1 --no-report -q; kiln test fire wrong --shard 2/2 -o out/2 --no-report -q
+1|error  wrong  wrong.test.yaml:1:1: scne: unknown key (did you mean 'scene'?)
+1|1 test in <s> s: 1 error
+= 3
+$ kiln test report out/1 out/2 --tap out/all.tap; echo $?; ls out/1/report.html; grep -c 'ok ' out/all.tap
+1|2 tests in <s> s: 1 pass, 1 error
+1|report: out/1/report.html
+1|3
+1|out/1/report.html
+1|2
+$ kiln test report out/1 -q; kiln test report void
+2|void/run.json: No such file or directory
+= 3
+
+A crash is the error of its test, and the other tests go on. The process is killed from outside: the
+run is the parent of it.
+
+$ cat >child <<'END'
+> # child FOLDER RUN: waits until the test 'slow' has begun, and prints the children of the run.
+> children=
+> until [ -e "out/$1/slow/log.txt" ] && [ -n "$children" ]; do
+>     sleep 0.1
+>     children=$(cat "/proc/$2/task/$2/children")
+> done
+> echo $children
+> END
+$ kiln test fire slow -j1 -o out/crash --no-report & run=$!
+> child=$(bash child crash $run); kill -SEGV $child; wait $run
+1|pass   fire  1 frame in <s> s
+1|error  slow  crashed: signal 11 (Segmentation fault)
+1|2 tests in <s> s: 1 pass, 1 error
+= 5
+
+A signal to the run ends its tests, and leaves neither processes nor half-written files.
+
+$ env --default-signal kiln test slow fire -j2 -o out/stop & run=$!
+> child=$(bash child stop $run); kill -TERM $run; wait $run; code=$?
+> for id in $child; do [ ! -d /proc/$id ] || echo "$id is left"; done
+> find . -name '*.tmp'; exit $code
+2|kiln: test: stopped by SIGTERM after <n> of 2 tests
+= 143
+$ env --default-signal kiln test slow -o out/int & run=$!
+> child=$(bash child int $run); kill -INT $run; wait $run
+2|kiln: test: stopped by SIGINT after <n> of 1 tests
+= 130
+$ env --default-signal kiln test slow -o out/killed & run=$!
+> child=$(bash child killed $run); kill -KILL $run; wait $run 2>/dev/null
+> for try in 1 2 3 4 5 6 7 8 9; do
+>     left=$(grep -s '^State' /proc/$child/status | grep -v zombie) || break
+>     sleep 0.1
+> done
+> echo "left: $left"
+1|left: 
+
+Two runs do not share a folder of results.
+
+$ kiln test slow -o out/both --time-limit 4 --no-report -q & run=$!
+> bash child both $run >/dev/null; kiln test fire -o out/both; echo $?; wait $run
+1|2
+1|error  slow  took longer than 4 s
+1|1 test in <s> s: 1 error
+2|kiln: out/both: another run writes its results there; give this one another folder by --results
+= 5
