@@ -314,8 +314,10 @@ static void write_case_name(FILE *out, const char *name)
     char class[KILN_PATH_SIZE] = "";
     if (slash)
         snprintf(class, sizeof class, ".%.*s", (int)(slash - name), name);
-    for (char *c = class; *c; c++)
-        *c = *c == '/' ? '.' : *c;
+    for (char *c = class; *c; c++) {
+        if (*c == '/')
+            *c = '.';
+    }
     fputs(" classname=\"kiln", out);
     write_xml(out, class, true);
     fputs("\"", out);

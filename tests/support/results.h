@@ -117,7 +117,7 @@ static inline void test_fill_bad(struct test_results *all)
     result = test_result(all, 6, "broken", KILN_TEST_ERROR, "x.yaml:1:1: unknown key 'a'");
     result->log = "log.txt";
 
-    result = test_result(all, 7, TEST_NASTY_NAME, KILN_TEST_ERROR, TEST_NASTY_NAME);
+    test_result(all, 7, TEST_NASTY_NAME, KILN_TEST_ERROR, TEST_NASTY_NAME);
     static const enum kiln_code codes[] = {
         [3] = KILN_FRAME_FAILED,  [4] = KILN_FRAME_FAILED,  [5] = KILN_GOLDEN_MISSING,
         [6] = KILN_INVALID_INPUT, [7] = KILN_DEVICE_FAILED,
