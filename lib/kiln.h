@@ -482,12 +482,13 @@ struct kiln_approve_params {
     const char *name;    /* of the test */
     enum kiln_approve_as as;
     bool dry_run;
-    void (*change)(void *user, const char *line); /* told of each file: "write golden/..." */
+    void (*change)(void *user, const char *line); /* told of each file: "wrote golden/..." */
     void *user;
 };
 
-/* KILN_USAGE with the nearest name when there is no such result, KILN_INVALID_INPUT when it has no
- * pictures (an error) or the scene has changed since, KILN_IO. */
+/* Of the frames that are new, fail or draw a warning; those that pass stay as they are. KILN_USAGE
+ * with the nearest name when there is no such result, KILN_INVALID_INPUT when it has no pictures
+ * (an error), or when the scene, the pictures or the goldens have changed since, KILN_IO. */
 bool kiln_test_approve(const struct kiln_approve_params *params, struct kiln_error *error);
 
 /* Measures how much pictures of a test differ for reasons that nobody means, and proposes limits.

@@ -520,3 +520,21 @@ bool kiln_expect_accept(struct kiln_arena *arena, struct kiln_expect *expect, ui
         *entry = copy;
     return entry != NULL;
 }
+
+bool kiln_expect_set_techniques(struct kiln_arena *arena, struct kiln_expect *expect,
+                                const char *techniques)
+{
+    const char **list = kiln_arena_alloc(arena, strlen(techniques) / 2 + 1, sizeof *list);
+    size_t count = 0;
+    for (const char *rest = techniques + strspn(techniques, " "); list && *rest;) {
+        size_t length = strcspn(rest, " ");
+        list[count] = kiln_arena_text(arena, rest, length);
+        if (!list[count++])
+            return false;
+        rest += length;
+        rest += strspn(rest, " ");
+    }
+    expect->techniques = list;
+    expect->technique_count = count;
+    return list != NULL;
+}

@@ -82,4 +82,8 @@ struct kiln_expect_frame *kiln_expect_find(const struct kiln_expect *expect, uin
 bool kiln_expect_accept(struct kiln_arena *arena, struct kiln_expect *expect, uint32_t number,
                         const char *state, const struct kiln_expect_pixels *pixels);
 
+/* Takes over the techniques of a run, "simulate=cpu sort=cpu". False when memory is short. */
+bool kiln_expect_set_techniques(struct kiln_arena *arena, struct kiln_expect *expect,
+                                const char *techniques);
+
 #endif

@@ -343,12 +343,36 @@ static bool put_picture(const struct kiln_acceptance *acceptance, const char *pa
     return kiln_file_copy(acceptance->picture, path, error);
 }
 
-static bool put_scene(const struct kiln_test *test, const char *scene, struct kiln_error *error)
+bool kiln_goldens_write_scene(const struct kiln_test *test, const char *text,
+                              struct kiln_error *error)
 {
     char path[KILN_PATH_SIZE];
     if (snprintf(path, sizeof path, "%s/scene.yaml", test->golden) >= (int)sizeof path)
         return kiln_error_set(error, KILN_IO, "%.200s...: the path is too long", test->golden);
-    return write_file(path, scene, strlen(scene), error);
+    return write_file(path, text, strlen(text), error);
+}
+
+/* Where the picture goes. As one more, it goes where its pixels already are, if they are. */
+static bool choose_place(const struct kiln_test *test, const struct kiln_acceptance *acceptance,
+                         const char *pixels, char path[KILN_PATH_SIZE], struct kiln_error *error)
+{
+    const char *device = acceptance->device_name, *place = NULL;
+    struct kiln_goldens goldens = {0};
+    if (acceptance->as == KILN_APPROVE_REPLACE)
+        place = acceptance->golden;
+    if (acceptance->as == KILN_APPROVE_ALTERNATIVE &&
+        !kiln_goldens_find(test, acceptance->frame, device, &goldens, error))
+        return false;
+    for (size_t i = 0; !place && i < goldens.count; i++) {
+        char there[65];
+        struct kiln_error ignored = {0};
+        if (kiln_pixel_hash(goldens.paths[i], there, &ignored) && strcmp(there, pixels) == 0)
+            place = goldens.paths[i];
+    }
+    if (!place)
+        return kiln_goldens_place(test, acceptance->frame, device, acceptance->as, path, error);
+    return snprintf(path, KILN_PATH_SIZE, "%s", place) < KILN_PATH_SIZE ||
+           kiln_error_set(error, KILN_IO, "%.200s...: the path is too long", place);
 }
 
 bool kiln_goldens_accept(struct kiln_arena *arena, const struct kiln_test *test,
@@ -356,16 +380,9 @@ bool kiln_goldens_accept(struct kiln_arena *arena, const struct kiln_test *test,
                          char path[KILN_PATH_SIZE], struct kiln_error *error)
 {
     char pixels[65];
-    bool own = acceptance->as == KILN_APPROVE_REPLACE && acceptance->golden;
-    if (own && snprintf(path, KILN_PATH_SIZE, "%s", acceptance->golden) >= KILN_PATH_SIZE)
-        return kiln_error_set(error, KILN_IO, "%.200s...: the path is too long",
-                              acceptance->golden);
-    if (!own && !kiln_goldens_place(test, acceptance->frame, acceptance->device_name,
-                                    acceptance->as, path, error))
-        return false;
     if (!kiln_pixel_hash(acceptance->picture, pixels, error) ||
-        !put_picture(acceptance, path, pixels, error) ||
-        (acceptance->scene && !put_scene(test, acceptance->scene, error)))
+        !choose_place(test, acceptance, pixels, path, error) ||
+        !put_picture(acceptance, path, pixels, error))
         return false;
     const struct kiln_expect_pixels accepted = {
         .device = acceptance->device_name, .hash = pixels, .golden = pixels};

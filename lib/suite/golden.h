@@ -53,9 +53,9 @@ bool kiln_file_copy(const char *from, const char *to, struct kiln_error *error);
 bool kiln_pixel_hash(const char *path, char hex[65], struct kiln_error *error);
 
 /* One accepted picture and what goes with it: the picture to its place, unless one of the same
- * pixels is there; state and pixels into expect; the scene beside it. The caller holds the lock,
- * and writes expect. path gets the place. KILN_INVALID_INPUT when the picture cannot be decoded,
- * KILN_IO, KILN_DEVICE_FAILED. */
+ * pixels is there (as one more, anywhere among the frame's); state and pixels into expect; the
+ * scene beside it. The caller holds the lock, and writes expect. path gets the place.
+ * KILN_INVALID_INPUT when the picture cannot be decoded, KILN_IO, KILN_DEVICE_FAILED. */
 struct kiln_acceptance {
     uint32_t frame;
     const char *picture; /* a file */
@@ -63,10 +63,14 @@ struct kiln_acceptance {
     const char *device_name;
     enum kiln_approve_as as;
     const char *golden; /* replace: that one; NULL: the first of the frame's */
-    const char *scene;  /* as kiln_scene_print writes it; NULL leaves what is there */
 };
 bool kiln_goldens_accept(struct kiln_arena *arena, const struct kiln_test *test,
                          struct kiln_expect *expect, const struct kiln_acceptance *acceptance,
                          char path[KILN_PATH_SIZE], struct kiln_error *error);
+
+/* Writes the accepted scene beside the goldens, scene.yaml: text as kiln_scene_print writes it. The
+ * caller holds the lock. KILN_IO. */
+bool kiln_goldens_write_scene(const struct kiln_test *test, const char *text,
+                              struct kiln_error *error);
 
 #endif

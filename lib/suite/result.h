@@ -11,7 +11,7 @@ enum { KILN_TEST_MAX_FRAMES = 1000, KILN_RESULT_MAX_ENTRIES = 1000 };
 
 /* What decided about a frame. */
 enum kiln_judged_by {
-    KILN_JUDGED_BY_NOTHING, /* no golden, or nothing was rendered */
+    KILN_JUDGED_BY_NOTHING, /* no golden, or nothing was rendered, or each time something else */
     KILN_JUDGED_BY_STATE,   /* the state hash differs: the simulation changed */
     KILN_JUDGED_BY_PIXELS,  /* the pixels' hash is known */
     KILN_JUDGED_BY_METRICS,

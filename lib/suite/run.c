@@ -184,6 +184,7 @@ static bool judge_frames(struct kiln_trial *trial, struct kiln_error *error)
         if (!trial->frames[i].unsteady || frame->status == KILN_TEST_ERROR)
             continue;
         frame->status = KILN_TEST_FAIL;
+        frame->judged_by = KILN_JUDGED_BY_NOTHING;
         frame->message = trial->frames[i].unsteady;
     }
     return true;

@@ -33,7 +33,7 @@ struct kiln_test {
     enum kiln_test_format format;
     const char *device;      /* wanted, or NULL: that of the run */
     bool may_skip;           /* that device may be absent: the test is skipped then */
-    const char **techniques; /* "stage=name", pinned */
+    const char **techniques; /* "stage=name", over those that every test pins */
     size_t technique_count;
     const char **limits; /* "metric=value"; none: the default ones */
     size_t limit_count;

@@ -12,7 +12,6 @@
 #include "scene/reference.h"
 #include "suite/golden.h"
 #include "suite/type.h"
-#include "technique.h"
 
 enum { MAX_FILE_SIZE = 1 << 20, MAX_OVERRIDES = 64, MAX_TEXT = 4000 };
 
@@ -148,22 +147,6 @@ static bool add_text(struct kiln_arena *arena, const char **texts, size_t *count
     return texts[(*count)++] != NULL;
 }
 
-/* The techniques that every test pins; the test's own come after them and go over them. */
-static bool take_techniques(struct kiln_arena *arena, const struct document *document,
-                            struct kiln_test *test)
-{
-    struct kiln_technique_list pinned;
-    kiln_techniques_combination(0, &pinned);
-    test->techniques = kiln_arena_alloc(arena, KILN_STAGE_COUNT + document->technique_count,
-                                        sizeof *test->techniques);
-    bool ok = test->techniques != NULL;
-    for (size_t i = 0; ok && i < KILN_STAGE_COUNT; i++)
-        ok = add_text(arena, test->techniques, &test->technique_count, pinned.flags[i]);
-    for (uint32_t i = 0; ok && i < document->technique_count; i++)
-        test->techniques[test->technique_count++] = document->techniques[i];
-    return ok;
-}
-
 static bool take_limits(struct kiln_arena *arena, const struct document *document,
                         struct kiln_test *test)
 {
@@ -208,7 +191,9 @@ static bool take_document(struct kiln_arena *arena, struct document *document, c
     test->masks = document->masks;
     test->mask_count = document->mask_count;
     test->time_limit_s = document->time_limit_s;
-    test->technique_count = test->limit_count = test->override_count = 0;
+    test->techniques = document->techniques;
+    test->technique_count = document->technique_count;
+    test->limit_count = test->override_count = 0;
     file->devices = document->devices;
     file->device_count = document->device_count;
     bool ok = true;
@@ -217,8 +202,7 @@ static bool take_document(struct kiln_arena *arena, struct document *document, c
         if (mask->picture)
             ok = (mask->picture = resolve(arena, path, mask->picture)) != NULL;
     }
-    return ok && take_techniques(arena, document, test) && take_limits(arena, document, test) &&
-           take_overrides(arena, document, test);
+    return ok && take_limits(arena, document, test) && take_overrides(arena, document, test);
 }
 
 /* ---- reading -------------------------------------------------------------------------------- */

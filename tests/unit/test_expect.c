@@ -230,6 +230,18 @@ static void entries_are_added_in_their_order(void **state)
     kiln_arena_destroy(&r.arena);
 }
 
+static void techniques_are_taken_from_a_run(void **state)
+{
+    (void)state;
+    struct reading r = read_text(whole);
+    assert_true(kiln_expect_set_techniques(r.arena, r.expect, "sort=cpu  raster=geometry "));
+    assert_int_equal(r.expect->technique_count, 2);
+    assert_string_equal(r.expect->techniques[1], "raster=geometry");
+    assert_true(kiln_expect_set_techniques(r.arena, r.expect, ""));
+    assert_int_equal(r.expect->technique_count, 0);
+    kiln_arena_destroy(&r.arena);
+}
+
 static void a_device_has_one_entry_in_any_order(void **state)
 {
     (void)state;
@@ -325,6 +337,7 @@ int main(void)
         cmocka_unit_test(deep_and_wide_files_are_refused),
         cmocka_unit_test(other_devices_stay_as_they_are),
         cmocka_unit_test(entries_are_added_in_their_order),
+        cmocka_unit_test(techniques_are_taken_from_a_run),
         cmocka_unit_test(a_device_has_one_entry_in_any_order),
         cmocka_unit_test(values_that_are_no_numbers_are_left_out),
         IN_FOLDER(files_are_written_whole),

@@ -1,0 +1,345 @@
+/* Accepting what a run left behind. Nothing is rendered, so everything that the pictures depend on
+ * is checked: the scene is loaded again and must be the one that was rendered, and the pictures
+ * must be those that were judged. Only then is the first file written. */
+#include <dirent.h>
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "scene/node.h"
+#include "suite/golden.h"
+#include "suite/test_file.h"
+
+struct approval {
+    const struct kiln_approve_params *params;
+    struct kiln_error *error;
+    struct kiln_arena *arena;
+    char folder[KILN_PATH_SIZE]; /* of the result */
+    struct kiln_result *result;
+    struct kiln_test_file file;
+    struct kiln_expect *expect;
+    char *scene_text;
+    char scene_hash[65];
+    size_t frame_count; /* to accept */
+};
+
+static bool out_of_memory(struct approval *a)
+{
+    return kiln_error_set(a->error, KILN_DEVICE_FAILED, "out of memory while approving");
+}
+
+/* Refuses, for a reason that another run mends. */
+static bool run_again(struct approval *a, const char *what)
+{
+    return kiln_error_set(a->error, KILN_INVALID_INPUT, "%s: %s; run it again%s%s", a->params->name,
+                          what, *a->result->rerun ? ": " : "", a->result->rerun);
+}
+
+static bool join(char path[KILN_PATH_SIZE], const char *folder, const char *name,
+                 struct kiln_error *error)
+{
+    return snprintf(path, KILN_PATH_SIZE, "%s/%s", folder, name) < KILN_PATH_SIZE ||
+           kiln_error_set(error, KILN_IO, "%.200s...: the path is too long", folder);
+}
+
+/* ---- which result --------------------------------------------------------------------------- */
+
+struct names {
+    struct kiln_arena *arena;
+    const char **items;
+    size_t count, capacity;
+    bool failed;
+};
+
+static void add_name(struct names *names, const char *name)
+{
+    if (names->count == names->capacity) {
+        size_t capacity = names->capacity ? 2 * names->capacity : 64;
+        const char **items = kiln_arena_alloc(names->arena, capacity, sizeof *items);
+        names->failed |= items == NULL;
+        if (!items)
+            return;
+        if (names->count)
+            memcpy(items, names->items, names->count * sizeof *items);
+        names->items = items;
+        names->capacity = capacity;
+    }
+    names->items[names->count] = kiln_arena_text(names->arena, name, strlen(name));
+    names->failed |= names->items[names->count++] == NULL;
+}
+
+/* The folders that hold a result.json, by their paths below the first. What cannot be read holds
+ * none that could be approved. */
+static void list_results(struct names *names, const char *folder, const char *name)
+{
+    DIR *entries = opendir(folder);
+    char path[KILN_PATH_SIZE], below[KILN_PATH_SIZE];
+    struct stat status;
+    for (struct dirent *e = entries ? readdir(entries) : NULL; e; e = readdir(entries)) {
+        if (strcmp(e->d_name, "result.json") == 0)
+            add_name(names, name);
+        if (e->d_name[0] == '.' ||
+            snprintf(path, sizeof path, "%s/%s", folder, e->d_name) >= (int)sizeof path ||
+            snprintf(below, sizeof below, "%s%s%s", name, *name ? "/" : "", e->d_name) >=
+                (int)sizeof below)
+            continue;
+        if (lstat(path, &status) == 0 && S_ISDIR(status.st_mode))
+            list_results(names, path, below);
+    }
+    if (entries)
+        closedir(entries);
+}
+
+static bool find_result(struct approval *a)
+{
+    const struct kiln_approve_params *params = a->params;
+    struct names names = {.arena = a->arena};
+    list_results(&names, params->results, "");
+    if (names.failed)
+        return out_of_memory(a);
+    for (size_t i = 0; i < names.count; i++) {
+        if (strcmp(names.items[i], params->name) == 0)
+            return join(a->folder, params->results, params->name, a->error);
+    }
+    char quoted[64];
+    const char *nearest = kiln_text_nearest(params->name, names.items, names.count);
+    kiln_node_quote(quoted, params->name);
+    return kiln_error_set(a->error, KILN_USAGE, "no result of a test '%s' in %s%s%s%s", quoted,
+                          params->results, nearest ? " (did you mean '" : "",
+                          nearest ? nearest : "", nearest ? "'?)" : "");
+}
+
+/* ---- is it fresh? --------------------------------------------------------------------------- */
+
+/* The folder is that of the test's goldens and no other. */
+static bool is_golden_of(const char *golden, const char *name)
+{
+    size_t length = strcspn(name, "@"), folder = strlen(golden);
+    return folder > length + 1 && golden[folder - length - 1] == '/' &&
+           strncmp(golden + folder - length, name, length) == 0;
+}
+
+static bool read_result(struct approval *a)
+{
+    a->result = kiln_result_read(a->arena, a->folder, a->error);
+    if (!a->result)
+        return false;
+    const struct kiln_result *r = a->result;
+    char device[KILN_DEVICE_NAME_SIZE];
+    if (strcmp(r->name, a->params->name) != 0 || !is_golden_of(r->golden, r->name))
+        return kiln_error_set(a->error, KILN_INVALID_INPUT,
+                              "%s/result.json: is not of this test: it names '%s', with goldens "
+                              "in %s",
+                              a->folder, r->name, r->golden);
+    if (r->status == KILN_TEST_SKIP)
+        return run_again(a, "it was skipped and has no pictures");
+    if (r->status == KILN_TEST_ERROR || r->frame_count == 0)
+        return kiln_error_set(a->error, KILN_INVALID_INPUT,
+                              "%s: the test ended with an error, and nothing can be accepted: %s",
+                              a->params->name, r->message);
+    kiln_device_name(r->device_name, device);
+    if (!*device || strcmp(device, r->device_name) != 0)
+        return kiln_error_set(a->error, KILN_INVALID_INPUT,
+                              "%s/result.json: no device's name: '%s'", a->folder, r->device_name);
+    return true;
+}
+
+static bool read_test(struct approval *a)
+{
+    struct kiln_test *test = &a->file.test;
+    if (!kiln_test_file_read(a->arena, a->result->test, &a->file, a->error))
+        return false;
+    if (test->problem.code != KILN_OK) {
+        *a->error = test->problem;
+        return false;
+    }
+    test->golden = a->result->golden;
+    test->results = a->folder;
+    return true;
+}
+
+static bool print_scene(struct approval *a, const struct kiln_scene *scene)
+{
+    size_t size = 0;
+    FILE *out = open_memstream(&a->scene_text, &size);
+    bool ok = out && kiln_scene_print(scene, out);
+    if (out)
+        ok = fclose(out) == 0 && ok;
+    return ok || out_of_memory(a);
+}
+
+static bool check_scene(struct approval *a)
+{
+    const struct kiln_test *test = &a->file.test;
+    const struct kiln_scene_params params = {.overrides = test->overrides,
+                                             .override_count = test->override_count};
+    struct kiln_scene *scene = kiln_scene_load(test->scene, &params, a->error);
+    if (!scene)
+        return false;
+    memcpy(a->scene_hash, kiln_scene_info(scene).hash, sizeof a->scene_hash);
+    bool same = strcmp(a->scene_hash, a->result->scene_hash) == 0;
+    bool ok = same ? print_scene(a, scene) : run_again(a, "the scene has changed since the run");
+    kiln_scene_destroy(&scene);
+    return ok;
+}
+
+/* ---- pictures ------------------------------------------------------------------------------- */
+
+static bool is_wanted(const struct kiln_result_frame *frame)
+{
+    return frame->status == KILN_TEST_WARN || frame->status == KILN_TEST_NEW ||
+           frame->status == KILN_TEST_FAIL;
+}
+
+static bool has_suffix(const struct kiln_test *test, const char *picture)
+{
+    const char *suffix = strrchr(picture, '.');
+    return suffix && strcmp(suffix, test->format == KILN_TEST_EXR ? ".exr" : ".png") == 0;
+}
+
+/* The golden that the picture was judged by is as it was, or none is there still. One that is the
+ * picture itself was approved before. */
+static bool check_golden(struct approval *a, const struct kiln_result_frame *frame)
+{
+    static const char changed[] = "its goldens have changed since the run";
+    struct kiln_goldens goldens;
+    char path[KILN_PATH_SIZE], golden[65], reference[65];
+    if (!kiln_goldens_find(&a->file.test, frame->number, a->result->device_name, &goldens,
+                           a->error))
+        return false;
+    bool found = goldens.count == 0 && strcmp(goldens.paths[0], frame->golden) == 0;
+    for (size_t i = 0; i < goldens.count; i++)
+        found |= strcmp(goldens.paths[i], frame->golden) == 0;
+    if (!found)
+        return run_again(a, changed);
+    if (goldens.count == 0)
+        return !*frame->reference || run_again(a, changed);
+    if (!kiln_pixel_hash(frame->golden, golden, a->error))
+        return false;
+    if (strcmp(golden, frame->pixels) == 0)
+        return true;
+    if (!*frame->reference || strchr(frame->reference, '/'))
+        return run_again(a, changed);
+    return join(path, a->folder, frame->reference, a->error) &&
+           kiln_pixel_hash(path, reference, a->error) &&
+           (strcmp(golden, reference) == 0 || run_again(a, changed));
+}
+
+static bool check_frame(struct approval *a, const struct kiln_result_frame *frame)
+{
+    char picture[KILN_PATH_SIZE], pixels[65];
+    /* Nothing decides about a frame that fails only when its renders differ from each other. */
+    if (frame->status == KILN_TEST_FAIL && frame->judged_by == KILN_JUDGED_BY_NOTHING)
+        return kiln_error_set(a->error, KILN_INVALID_INPUT, "%s: cannot be accepted: %s",
+                              a->params->name, frame->message);
+    if (!*frame->picture || strchr(frame->picture, '/'))
+        return kiln_error_set(a->error, KILN_INVALID_INPUT,
+                              "%s/result.json: frame %u has no picture", a->folder, frame->number);
+    if (!has_suffix(&a->file.test, frame->picture))
+        return run_again(a, "the test's format has changed since the run");
+    if (!join(picture, a->folder, frame->picture, a->error) ||
+        !kiln_pixel_hash(picture, pixels, a->error))
+        return false;
+    if (strcmp(pixels, frame->pixels) != 0)
+        return kiln_error_set(a->error, KILN_INVALID_INPUT,
+                              "%s: is not the picture that was judged: its pixels have changed "
+                              "since the run",
+                              picture);
+    return check_golden(a, frame);
+}
+
+static bool check_frames(struct approval *a)
+{
+    for (size_t i = 0; i < a->result->frame_count; i++) {
+        const struct kiln_result_frame *frame = &a->result->frames[i];
+        if (!is_wanted(frame))
+            continue;
+        if (!check_frame(a, frame))
+            return false;
+        a->frame_count++;
+    }
+    return true;
+}
+
+/* ---- writing -------------------------------------------------------------------------------- */
+
+static void tell(const struct approval *a, const char *folder, const char *name)
+{
+    char line[KILN_PATH_SIZE + 300];
+    snprintf(line, sizeof line, "%s %s%s%s", a->params->dry_run ? "would write" : "wrote", folder,
+             *name ? "/" : "", name);
+    if (a->params->change)
+        a->params->change(a->params->user, line);
+}
+
+static bool accept_frame(struct approval *a, const struct kiln_result_frame *frame)
+{
+    char path[KILN_PATH_SIZE], picture[KILN_PATH_SIZE];
+    const struct kiln_acceptance acceptance = {.frame = frame->number,
+                                               .picture = picture,
+                                               .state = frame->state,
+                                               .device_name = a->result->device_name,
+                                               .as = a->params->as,
+                                               .golden = frame->golden};
+    bool replace = a->params->as == KILN_APPROVE_REPLACE;
+    if (!join(picture, a->folder, frame->picture, a->error))
+        return false;
+    if (a->params->dry_run && !replace &&
+        !kiln_goldens_place(&a->file.test, frame->number, a->result->device_name, a->params->as,
+                            path, a->error))
+        return false;
+    if (!a->params->dry_run &&
+        !kiln_goldens_accept(a->arena, &a->file.test, a->expect, &acceptance, path, a->error))
+        return false;
+    tell(a, a->params->dry_run && replace ? frame->golden : path, "");
+    return true;
+}
+
+/* The scene goes with all of the test's pictures: none is left that was not accepted. */
+static bool write_all(struct approval *a)
+{
+    const struct kiln_test *test = &a->file.test;
+    for (size_t i = 0; i < a->result->frame_count; i++) {
+        if (is_wanted(&a->result->frames[i]) && !accept_frame(a, &a->result->frames[i]))
+            return false;
+    }
+    a->expect->scene_hash = a->scene_hash;
+    if (!kiln_expect_set_techniques(a->arena, a->expect, a->result->techniques))
+        return out_of_memory(a);
+    if (!a->params->dry_run && !kiln_goldens_write_scene(test, a->scene_text, a->error))
+        return false;
+    tell(a, test->golden, "scene.yaml");
+    if (!a->params->dry_run && !kiln_expect_write(a->expect, test->golden, a->error))
+        return false;
+    tell(a, test->golden, "expect.yaml");
+    return true;
+}
+
+/* What is checked and what is written must be the same goldens: all of it is under the lock. */
+static bool approve_locked(struct approval *a)
+{
+    a->expect = kiln_expect_read(a->arena, a->file.test.golden, a->error);
+    if (!a->expect || !check_frames(a))
+        return false;
+    bool scene_known = a->expect->scene_hash && strcmp(a->expect->scene_hash, a->scene_hash) == 0;
+    return (a->frame_count == 0 && scene_known) || write_all(a);
+}
+
+bool kiln_test_approve(const struct kiln_approve_params *params, struct kiln_error *error)
+{
+    struct approval a = {.params = params, .error = error, .arena = kiln_arena_create()};
+    bool ok = a.arena || out_of_memory(&a);
+    ok = ok && find_result(&a) && read_result(&a) && read_test(&a) && check_scene(&a);
+    if (ok) {
+        int lock = params->dry_run ? -1 : kiln_goldens_lock(&a.file.test, error);
+        ok = (params->dry_run || lock >= 0) && approve_locked(&a);
+        kiln_goldens_unlock(lock);
+    }
+    free(a.scene_text);
+    kiln_arena_destroy(&a.arena);
+    return ok;
+}
