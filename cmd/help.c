@@ -72,10 +72,7 @@ static bool write_exit_codes(FILE *out)
 
 static bool write_tests(FILE *out)
 {
-    if (!kiln_test_write_reference(out))
-        return false;
-    fprintf(out, "\nReports of 'kiln test' and 'kiln test report':\n\n");
-    return kiln_write_reports(out);
+    return kiln_test_write_reference(out) && kiln_write_reports(out);
 }
 
 static bool write_man(FILE *out)

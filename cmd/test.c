@@ -247,6 +247,7 @@ static enum kiln_code write_results(const struct test_run *run, struct test_outp
 static int finish(struct test_run *run, struct test_outputs *outputs, double total_s)
 {
     struct kiln_results_summary summary = {0};
+    signals_end_at_once(); /* nothing looks for them any more */
     int code = (int)write_results(run, outputs, run->report.results, total_s, &summary);
     bool nothing = summary.tests > 0 && summary.counts[KILN_TEST_SKIP] == summary.tests;
     if (!run->report.quiet || code) {

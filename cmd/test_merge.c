@@ -3,6 +3,7 @@
 
 #include "command.h"
 #include "report.h"
+#include "signals.h"
 #include "test_files.h"
 #include "test_outputs.h"
 #include "test_report.h"
@@ -38,6 +39,7 @@ static int run(const struct arguments *arguments)
         return report_no_memory();
     struct test_outputs outputs;
     int code = test_outputs_read(&outputs, arguments, "test report", page);
+    signals_end_at_once();
     if (code == 0)
         code = write_reports(arguments, &outputs);
     free(page);
