@@ -118,6 +118,7 @@ void man_print(FILE *out)
                 "kiln test scenes/ --update missing");
     put_example(out, "The same in continuous integration, with a report for its pages:",
                 "kiln test scenes/ --junit out/junit.xml");
+    put_example(out, "A picture that has changed is right:", "kiln test approve fire_beam");
     put_heading(out, "see also");
     put(out, "kiln help scene: every key of a scene file.\n");
     put(out, "kiln help tests: every key of a test file.\n");

@@ -71,24 +71,43 @@ $ kiln test fire -q --update missing
 1|where the pictures are right, accept them:
 1|  kiln test approve fire
 = 1
+$ kiln test approve fire --dry-run
+1|would write golden/fire/frame_0006.png
+1|would write golden/fire/scene.yaml
+1|would write golden/fire/expect.yaml
+$ kiln test approve fire
+1|wrote golden/fire/frame_0006.png
+1|wrote golden/fire/scene.yaml
+1|wrote golden/fire/expect.yaml
+$ kiln test fire
+1|pass   fire  1 frame in <s> s
+1|1 test in <s> s: 1 pass
+1|report: out/test/report.html
+$ kiln test approve fire
+1|fire: nothing to accept, every picture passes
+$ kiln test approve fir
+2|kiln: no result of a test 'fir' in out/test (did you mean 'fire'?)
+= 2
+$ kiln test approve
+2|kiln: test approve: needs NAME...
+= 2
 
 So does a simulation that has changed, however like the picture is.
 
 $ sed -i 's/^set:.*/set: [systems.fire.look.size=0.6, simulation.rate=120]/' fire.test.yaml
 $ kiln test fire
-1|fail   fire  1 frame in <s> s: the simulation changed: state a6edc2d5ec8d500c at frame 6, accepted was 3bdb35dd0e9813d8; flip.mean is <value>, beyond 0.01; flip.p99 is <value>, beyond 0.1
+1|fail   fire  1 frame in <s> s: the simulation changed: state a6edc2d5ec8d500c at frame 6, accepted was 3bdb35dd0e9813d8; the picture is within its limits
 1|1 test in <s> s: 1 fail
 1|report: out/test/report.html
 1|where the pictures are right, accept them:
 1|  kiln test approve fire
 = 1
 $ kiln test fire --ignore-hashes --json - | jq -c '.tests[] | [.name, .status]'
-1|["fire","fail"]
-2|fail   fire  1 frame in <s> s: frame 6: flip.mean is <value>, beyond 0.01; flip.p99 is <value>, beyond 0.1
-2|1 test in <s> s: 1 fail
+1|["fire","pass"]
+2|pass   fire  1 frame in <s> s
+2|       the scene has changed in 1 key, and everything passes
+2|1 test in <s> s: 1 pass
 2|report: out/test/report.html
-2|where the pictures are right, accept them:
-2|  kiln test approve fire
 $ kiln test fire --update failed
 1|pass   fire  1 frame in <s> s
 1|       wrote golden/fire/frame_0006.png
@@ -107,6 +126,10 @@ $ kiln test fier
 = 2
 $ kiln test 'f*z'
 2|kiln: no test has the name 'f*z'; 'kiln test list' shows what there is
+= 2
+$ kiln test aprove
+2|kiln: no test has the name 'aprove'; 'kiln test list' shows what there is
+2|kiln: test: 'aprove' is no command either (did you mean 'kiln test approve'?)
 = 2
 $ kiln test nowhere.yaml
 2|kiln: nowhere.yaml: No such file or directory
@@ -132,8 +155,8 @@ $ kiln test fire --report page.html --no-report
 $ kiln test fire --json - --tap -
 2|kiln: test: only one of --json, --junit, --tap, --report and --github can go to standard output
 = 2
-$ kiln help test lsit
-2|kiln: help: unknown topic 'test lsit' (did you mean 'test list'?); 'kiln help' lists the topics
+$ kiln help test aprove
+2|kiln: help: unknown topic 'test aprove' (did you mean 'test approve'?); 'kiln help' lists the topics
 = 2
 
 A test that is wrong, one for a device that is not here, and one that takes too long are the errors
@@ -154,6 +177,10 @@ $ kiln test elsewhere
 1|report: out/test/report.html
 2|kiln: test: every test was skipped, so nothing was tested: none is for a device of this machine
 = 4
+$ kiln test approve elsewhere wrong
+2|elsewhere: it was skipped and has no pictures; run it again: kiln test elsewhere.test.yaml
+2|wrong: the test ended with an error, and nothing can be accepted: wrong.test.yaml:1:1: scne: unknown key (did you mean 'scene'?)
+= 3
 $ kiln test elsewhere fire
 1|skip   elsewhere  there is no device 'no-such-device'; there are: <devices>
 1|pass   fire       1 frame in <s> s
