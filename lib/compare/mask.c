@@ -61,23 +61,28 @@ static bool add_picture(struct kiln_mask *mask, const char *path, struct kiln_er
 bool kiln_mask_make(struct kiln_mask *mask, const struct kiln_compare_mask *masks, size_t count,
                     uint32_t width, uint32_t height, struct kiln_error *error)
 {
-    kiln_mask_finish(mask);
     size_t pixels = (size_t)width * height;
-    *mask = (struct kiln_mask){.width = width, .height = height, .masked = calloc(pixels, 1)};
-    bool ok = mask->masked || kiln_error_set(error, KILN_DEVICE_FAILED,
-                                             "no memory for a mask of %zu pixels", pixels);
+    struct kiln_mask made = {.width = width, .height = height, .masked = calloc(pixels, 1)};
+    bool ok = true;
+    kiln_mask_finish(mask);
+    if (!made.masked) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "no memory for a mask of %zu pixels", pixels);
+        return false;
+    }
     for (size_t i = 0; ok && i < count; i++) {
         if (masks[i].picture)
-            ok = add_picture(mask, masks[i].picture, error);
+            ok = add_picture(&made, masks[i].picture, error);
         else
-            add_rectangle(mask, &masks[i]);
+            add_rectangle(&made, &masks[i]);
     }
-    if (ok && !memchr(mask->masked, 0, pixels))
+    if (ok && !memchr(made.masked, 0, pixels))
         ok = kiln_error_set(error, KILN_USAGE,
                             "the masks cover all %u x %u pixels: nothing is left to judge", width,
                             height);
-    if (!ok)
-        kiln_mask_finish(mask);
+    if (ok)
+        *mask = made;
+    else
+        kiln_mask_finish(&made);
     return ok;
 }
 

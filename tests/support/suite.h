@@ -129,8 +129,10 @@ static inline void spark_paint(const char *path, uint32_t x0, uint32_t y0, uint3
 {
     struct kiln_error error = {0};
     struct kiln_asset_image *image = kiln_asset_image_load(path, &error);
-    if (!image)
+    if (!image) {
         fail_msg("%s", error.message);
+        return;
+    }
     assert_int_equal(image->type, KILN_IMAGE_U8);
     const struct kiln_frame_range range = {0, 0};
     struct kiln_output_params params = test_output_params(path, &range);

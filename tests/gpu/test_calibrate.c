@@ -1,0 +1,183 @@
+/* Limits from measurements. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+
+#include "support/suite.h"
+
+#define EXPECT "golden/spark/expect.yaml"
+
+struct calibrated {
+    struct kiln_calibration calibration;
+    struct kiln_error error;
+    char renders[8][128];
+    uint32_t told;
+    bool ok;
+};
+
+static void see(void *user, const char *line)
+{
+    struct calibrated *seen = user;
+    snprintf(seen->renders[seen->told % 8], sizeof seen->renders[0], "%s", line);
+    seen->told++;
+}
+
+static struct kiln_calibrate_params calibrate_params(const char **device)
+{
+    struct kiln_calibrate_params params = KILN_CALIBRATE_DEFAULTS;
+    *device = getenv("KILN_TEST_DEVICE");
+    params.devices = device;
+    params.device_count = *device ? 1 : 0;
+    params.renders = 4;
+    params.render = see;
+    return params;
+}
+
+static struct calibrated calibrate(struct kiln_calibrate_params *params)
+{
+    struct calibrated seen = {0};
+    struct kiln_suite *suite = spark_suite();
+    params->user = &seen;
+    seen.ok = kiln_test_calibrate(suite, 0, params, &seen.calibration, &seen.error);
+    kiln_suite_destroy(&suite);
+    return seen;
+}
+
+static const struct kiln_calibrated *metric(const struct calibrated *seen, const char *name)
+{
+    for (size_t i = 0; i < seen->calibration.count; i++) {
+        if (strcmp(seen->calibration.metrics[i].metric, name) == 0)
+            return &seen->calibration.metrics[i];
+    }
+    fail_msg("no %s", name);
+    return NULL;
+}
+
+static void renders_differ_in_threads_and_techniques(void **state)
+{
+    (void)state;
+    const char *device;
+    spark_write("");
+    struct kiln_calibrate_params params = calibrate_params(&device);
+    struct calibrated seen = calibrate(&params);
+    if (!seen.ok)
+        fail_msg("%s", seen.error.message);
+    assert_int_equal(seen.calibration.renders, 4);
+    assert_true(seen.told >= 4);
+    for (uint32_t i = 0; i < seen.told && i < 4; i++) {
+        for (uint32_t k = 0; k < i; k++)
+            assert_string_not_equal(seen.renders[i], seen.renders[k]);
+    }
+    assert_non_null(strstr(seen.renders[0], "threads=1 simulate=cpu"));
+    assert_true(seen.calibration.equal);
+    assert_int_equal(seen.calibration.count, 3);
+    assert_true(metric(&seen, "flip.mean")->worst == 0);
+    assert_true(metric(&seen, "flip.mean")->now == 0.01);
+    assert_true(metric(&seen, "flip.mean")->proposed == 0.001);
+    assert_true(metric(&seen, "flip.p99")->proposed == 0.025);
+    assert_true(metric(&seen, "window.share")->proposed == 0.01);
+    assert_int_equal(access("golden", F_OK), -1);
+    assert_int_equal(test_count_files("out/test/spark"), 0);
+}
+
+static void the_worst_value_is_measured_against_the_golden(void **state)
+{
+    (void)state;
+    const char *device;
+    spark_write("");
+    spark_update(KILN_UPDATE_MISSING);
+    spark_paint(SPARK_GOLDEN, 2, 2, 10, 10, 20);
+    struct kiln_calibrate_params params = calibrate_params(&device);
+    params.renders = 2;
+    params.write = true;
+    struct calibrated seen = calibrate(&params);
+    assert_true(seen.ok && seen.calibration.equal);
+    const struct kiln_calibrated *mean = metric(&seen, "flip.mean");
+    assert_true(mean->worst > 0.01);
+    assert_true(mean->proposed >= 3 * mean->worst * (1 - 1e-9) &&
+                mean->proposed <= 3 * mean->worst * 1.1 + 1e-9);
+    assert_true(metric(&seen, "flip.p99")->proposed <= 1);
+
+    /* What was written is in force: the painted golden passes now, and nothing is stale. */
+    struct spark_run run = spark_run(NULL);
+    if (run.summary.status != KILN_TEST_PASS)
+        fail_msg("%s", run.summary.message);
+    assert_int_equal(run.result->frames[0].judged_by, KILN_JUDGED_BY_METRICS);
+    assert_int_equal(run.summary.notes, 0);
+    spark_end(&run);
+    char *expect = test_read_file(EXPECT);
+    assert_non_null(strstr(expect, "calibrated 20"));
+    assert_non_null(strstr(expect, "2 renders on "));
+    assert_non_null(strstr(expect, "looser than the default: flip.mean"));
+    assert_non_null(strstr(expect, "measured"));
+    assert_non_null(strstr(expect, "state"));
+    free(expect);
+}
+
+/* Changes the scene once it was read. */
+static bool change_scene(void *user)
+{
+    struct calibrated *seen = user;
+    char *scene = test_read_file("spark.yaml");
+    if (seen->told == 1 && strstr(scene, "seed: 7"))
+        spark_replace("spark.yaml", "seed: 7", "seed: 8");
+    free(scene);
+    return false;
+}
+
+static void states_that_differ_fail(void **state)
+{
+    (void)state;
+    const char *device;
+    spark_write("");
+    struct kiln_calibrate_params params = calibrate_params(&device);
+    params.write = true;
+    params.stop = change_scene;
+    struct calibrated seen = calibrate(&params);
+    assert_false(seen.ok);
+    assert_int_equal(seen.error.code, KILN_FRAME_FAILED);
+    assert_non_null(strstr(seen.error.message, "render 2 has the state "));
+    assert_int_equal(access(EXPECT, F_OK), -1);
+
+    spark_write("");
+    spark_update(KILN_UPDATE_MISSING);
+    spark_replace("spark.yaml", "seed: 7", "seed: 8");
+    params.stop = NULL;
+    seen = calibrate(&params);
+    assert_false(seen.ok);
+    assert_non_null(strstr(seen.error.message, "the simulation changed"));
+}
+
+static void requests_without_sense_are_refused(void **state)
+{
+    (void)state;
+    const char *device;
+    spark_write("");
+    for (int i = 0; i < 4; i++) {
+        struct kiln_calibrate_params params = calibrate_params(&device);
+        params.renders = i == 0 ? 1 : 2;
+        params.margin = i == 1 ? 0.5 : i == 2 ? NAN : 3;
+        const char *const absent[] = {"no-such-device"};
+        params.devices = i == 3 ? absent : params.devices;
+        params.device_count = i == 3 ? 1 : params.device_count;
+        struct calibrated seen = calibrate(&params);
+        assert_false(seen.ok);
+        assert_int_equal(seen.error.code, i == 3 ? KILN_NO_DEVICE : KILN_USAGE);
+    }
+}
+
+int main(void)
+{
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, test_enter_folder, test_leave_folder)
+    static const struct CMUnitTest tests[] = {
+        IN_FOLDER(renders_differ_in_threads_and_techniques),
+        IN_FOLDER(the_worst_value_is_measured_against_the_golden),
+        IN_FOLDER(states_that_differ_fail),
+        IN_FOLDER(requests_without_sense_are_refused),
+    };
+    return cmocka_run_group_tests_name("calibrate", tests, spark_needs_device, NULL);
+}
