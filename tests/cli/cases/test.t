@@ -325,3 +325,31 @@ $ kiln test slow -o out/both --time-limit 4 --no-report -q & run=$!
 1|1 test in <s> s: 1 error
 2|kiln: out/both: another run writes its results there; give this one another folder by --results
 = 5
+
+Limits from measurements.
+
+$ kiln test calibrate fire --renders 2 | sed 's/^  threads=.*/  <threads and techniques>/'
+1|fire
+1|  <threads and techniques>
+1|  <threads and techniques>
+1|  2 renders, equal to the bit
+1|  metric                  limit     measured     proposed
+1|  flip.mean                0.01            0        0.001
+1|  flip.p99                  0.1            0        0.025
+1|  window.share              0.1            0         0.01
+$ kiln test calibrate fire --renders 2 -q --write; grep -E '^(measured|limits)' golden/fire/expect.yaml
+1|limits: {flip.mean: 0.001, flip.p99: 0.025, window.share: 0.01}
+1|measured: {flip.mean: 0, flip.p99: 0, window.share: 0}
+$ kiln test fire --no-report
+1|pass   fire  1 frame in <s> s
+1|1 test in <s> s: 1 pass
+$ kiln test calibrate wrong fier
+2|kiln: no test has the name 'fier' (did you mean 'fire'?)
+= 2
+$ kiln test calibrate wrong
+1|wrong
+2|wrong.test.yaml:1:1: scne: unknown key (did you mean 'scene'?)
+= 3
+$ kiln test calibrate fire --renders 1
+2|kiln: test calibrate: --renders: found '1', expected a whole number from 2 to 1000
+= 2

@@ -11,6 +11,7 @@ $ kiln
 2|  compare          tell whether two pictures, folders or videos look the same
 2|  test             render tests and compare them with golden pictures
 2|  test approve     accept pictures of the last run as goldens
+2|  test calibrate   measure how much tests vary, and propose limits
 2|  test report      write reports of runs, such as the shards of one
 2|  test list        list the tests that 'kiln test' would run
 2|  check            validate scenes and print them with every default
@@ -43,6 +44,7 @@ $ kiln --help
 1|  compare          tell whether two pictures, folders or videos look the same
 1|  test             render tests and compare them with golden pictures
 1|  test approve     accept pictures of the last run as goldens
+1|  test calibrate   measure how much tests vary, and propose limits
 1|  test report      write reports of runs, such as the shards of one
 1|  test list        list the tests that 'kiln test' would run
 1|  check            validate scenes and print them with every default
