@@ -17,4 +17,8 @@ void *kiln_arena_alloc(struct kiln_arena *arena, size_t count, size_t size);
 /* A copy of the first length bytes of text, with a terminating zero; NULL as above. */
 char *kiln_arena_text(struct kiln_arena *arena, const char *text, size_t length);
 
+/* A text made as by printf; NULL as above. */
+char *kiln_arena_format(struct kiln_arena *arena, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
 #endif

@@ -76,22 +76,23 @@ static void add_name(struct names *names, const char *name)
  * none that could be approved. */
 static void list_results(struct names *names, const char *folder, const char *name)
 {
-    DIR *entries = opendir(folder);
-    char path[KILN_PATH_SIZE], below[KILN_PATH_SIZE];
-    struct stat status;
-    for (struct dirent *e = entries ? readdir(entries) : NULL; e; e = readdir(entries)) {
-        if (strcmp(e->d_name, "result.json") == 0)
+    struct dirent **entries = NULL;
+    int count = scandir(folder, &entries, NULL, NULL);
+    for (int i = 0; i < count; i++) {
+        const char *entry = entries[i]->d_name;
+        struct stat status;
+        const char *path = kiln_arena_format(names->arena, "%s/%s", folder, entry);
+        const char *below =
+            kiln_arena_format(names->arena, "%s%s%s", name, *name ? "/" : "", entry);
+        names->failed |= !path || !below;
+        if (strcmp(entry, "result.json") == 0)
             add_name(names, name);
-        if (e->d_name[0] == '.' ||
-            snprintf(path, sizeof path, "%s/%s", folder, e->d_name) >= (int)sizeof path ||
-            snprintf(below, sizeof below, "%s%s%s", name, *name ? "/" : "", e->d_name) >=
-                (int)sizeof below)
-            continue;
-        if (lstat(path, &status) == 0 && S_ISDIR(status.st_mode))
+        else if (*entry != '.' && path && below && lstat(path, &status) == 0 &&
+                 S_ISDIR(status.st_mode))
             list_results(names, path, below);
+        free(entries[i]);
     }
-    if (entries)
-        closedir(entries);
+    free(entries);
 }
 
 static bool find_result(struct approval *a)

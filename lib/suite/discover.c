@@ -60,10 +60,8 @@ static const char *identity_of(struct kiln_arena *arena, const char *path)
     memcpy(folder, path, length);
     folder[length] = '\0';
     char *real = realpath(!slash ? "." : length ? folder : "/", NULL);
-    struct kiln_text text = {0};
-    kiln_text_add(&text, "%s/%s", real ? real : folder, slash ? slash + 1 : path);
-    const char *identity = text.failed ? NULL : kiln_arena_text(arena, text.data, text.length);
-    kiln_text_free(&text);
+    const char *identity =
+        kiln_arena_format(arena, "%s/%s", real ? real : folder, slash ? slash + 1 : path);
     free(real);
     return identity;
 }

@@ -215,14 +215,9 @@ static bool resolve_masks(struct kiln_arena *arena, struct document *document, c
         struct kiln_test_mask *mask = &document->masks[i];
         if (!mask->picture || *mask->picture == '/')
             continue;
-        size_t folder = strlen(golden), name = strlen(mask->picture);
-        char *joined = kiln_arena_alloc(arena, folder + name + 2, 1);
-        if (!joined)
+        mask->picture = kiln_arena_format(arena, "%s/%s", golden, mask->picture);
+        if (!mask->picture)
             return false;
-        memcpy(joined, golden, folder);
-        joined[folder] = '/';
-        memcpy(joined + folder + 1, mask->picture, name);
-        mask->picture = joined;
     }
     return true;
 }

@@ -122,18 +122,6 @@ static bool check_names(struct loader *loader)
     return true;
 }
 
-static char *join(struct kiln_arena *arena, const char *a, const char *between, const char *b)
-{
-    size_t length[3] = {strlen(a), strlen(between), strlen(b)};
-    char *text = kiln_arena_alloc(arena, length[0] + length[1] + length[2] + 1, 1);
-    if (text) {
-        memcpy(text, a, length[0]);
-        memcpy(text + length[0], between, length[1]);
-        memcpy(text + length[0] + length[1], b, length[2]);
-    }
-    return text;
-}
-
 /* ---- tests ---------------------------------------------------------------------------------- */
 
 /* One test of an entry; device NULL: that of the run. */
@@ -148,7 +136,7 @@ static bool add_test(struct loader *loader, const struct entry *entry, const cha
     if (entry->file.device_count > 1) {
         char name[KILN_DEVICE_NAME_SIZE];
         kiln_device_name(device, name);
-        test->full_name = join(suite->arena, test->name, "@", name);
+        test->full_name = kiln_arena_format(suite->arena, "%s@%s", test->name, name);
     }
     if (!test->full_name)
         return out_of_memory(loader);
@@ -157,8 +145,9 @@ static bool add_test(struct loader *loader, const struct entry *entry, const cha
                               "%s: the name with its device, '%.40s...', "
                               "is longer than %d bytes",
                               test->path, test->full_name, MAX_FULL_NAME);
-    test->results = join(suite->arena, suite->results_folder, "/", test->full_name);
-    test->golden = join(suite->arena, loader->params->golden, "/", test->name);
+    test->results =
+        kiln_arena_format(suite->arena, "%s/%s", suite->results_folder, test->full_name);
+    test->golden = kiln_arena_format(suite->arena, "%s/%s", loader->params->golden, test->name);
     suite->count++;
     return (test->results && test->golden) || out_of_memory(loader);
 }

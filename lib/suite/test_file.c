@@ -131,14 +131,8 @@ static bool out_of_memory(struct kiln_error *error)
 static const char *resolve(struct kiln_arena *arena, const char *base, const char *path)
 {
     const char *slash = strrchr(base, '/');
-    size_t folder = slash && *path != '/' ? (size_t)(slash + 1 - base) : 0;
-    size_t length = strlen(path);
-    char *joined = kiln_arena_alloc(arena, folder + length + 1, 1);
-    if (joined) {
-        memcpy(joined, base, folder);
-        memcpy(joined + folder, path, length);
-    }
-    return joined;
+    int folder = slash && *path != '/' ? (int)(slash + 1 - base) : 0;
+    return kiln_arena_format(arena, "%.*s%s", folder, base, path);
 }
 
 static bool add_text(struct kiln_arena *arena, const char **texts, size_t *count, const char *text)

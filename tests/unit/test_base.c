@@ -25,6 +25,7 @@ static void arena_refuses_overflow(void **state)
     assert_non_null(large);
     assert_int_equal((uintptr_t)large % _Alignof(max_align_t), 0);
     assert_int_equal(large[(1 << 20) - 1], 0);
+    assert_string_equal(kiln_arena_format(arena, "%s/%.2s%u", "a", "bcd", 7u), "a/bc7");
     kiln_arena_destroy(&arena);
     assert_null(arena);
     kiln_arena_destroy(&arena);

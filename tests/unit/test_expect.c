@@ -168,9 +168,9 @@ static void deep_and_wide_files_are_refused(void **state)
     (void)state;
     char *text = malloc(1 << 20);
     assert_non_null(text);
-    strcpy(text, START "reason: ");
-    memset(text + strlen(text), '[', 100000);
-    text[100000 + sizeof START] = '\0';
+    size_t start = (size_t)snprintf(text, 64, START "reason: ");
+    memset(text + start, '[', 100000);
+    text[start + 100000] = '\0';
     struct kiln_arena *arena = kiln_arena_create();
     struct kiln_error error = {0};
     assert_null(kiln_expect_parse(arena, text, strlen(text), "g", &error));

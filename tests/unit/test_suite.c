@@ -347,64 +347,64 @@ static void a_test_file_says_all(void **state)
 
 #define START "kiln_test: 1\nscene: s.yaml\n"
 
+static const struct {
+    const char *text, *message;
+} wrong_files[] = {
+    {"", ": empty; a test starts with 'kiln_test: 1'"},
+    {"- 1\n", ":1:1: expected a mapping of keys, found a list"},
+    {"scene: a.yaml\n", ":1:1: kiln_test: missing; it must be given"},
+    {"kiln_test: 1\n", ":1:1: scene: missing; it must be given"},
+    {"kiln_test: 2\nscene: s.yaml\n", ":1:12: kiln_test: 2 is out of range; allowed is 1"},
+    {START "frame: 3\n", ":3:1: frame: unknown key (did you mean 'frames'?)"},
+    {START "scene: b.yaml\n", ":3:1: duplicate key 'scene' (first in line 2)"},
+    {START "---\nscene: b.yaml\n", ":3:1: a test is one document; a second starts here"},
+    {START "about: &a x\n", ":3:11: anchors and aliases are not allowed"},
+    {"kiln_test: 1\nscene: \"\"\n", ":2:8: scene: must not be empty"},
+    {"kiln_test: 1\nscene: [a]\n", ":2:8: scene: expected a text, found a list"},
+    {START "set: [seed]\n", ":3:7: set.0: expected key=value, as for --set, found 'seed'"},
+    {START "size: [320]\n", ":3:7: size: expected [width, height], each from 16 px to 16384 "
+                            "px, or scene, found a list"},
+    {START "size: [8, 180]\n", ":3:8: size: 8 is out of range; allowed is from 16 px to 16384 px"},
+    {START "frames: 4-2\n", ":3:9: frames: expected up to 1000 frames as [24, 96] or "
+                            "\"0-23,40\", or auto, found '4-2'"},
+    {START "frames: [1, 1000000]\n", ":3:13: frames: expected up to 1000 frames as [24, 96] or "
+                                     "\"0-23,40\", or auto, found '1000000'"},
+    {START "frames: []\n", ":3:9: frames: expected up to 1000 frames as [24, 96] or "
+                           "\"0-23,40\", or auto, found a list"},
+    {START "frames: 0-1000\n", ":3:9: frames: more than 1000 frames"},
+    {START "format: pgn\n", ":3:9: format: unknown word 'pgn' (did you mean 'png'?)"},
+    {START "devices: ['()']\n", ":3:11: devices.0: expected software, a part of a device's "
+                                "name, or its number, found the text \"()\""},
+    {START "devices: [H 200, h-200]\n", ":3:10: devices: 'h-200' is given twice"},
+    {START "techniques: [simulat=cpu]\n",
+     ":3:14: techniques.0: stage 'simulat' is not known (did you mean 'simulate'?); there is: "
+     "simulate, sort, raster"},
+    {START "techniques: [cpu]\n", ":3:14: techniques.0: technique 'cpu': expected stage=name"},
+    {START "limits: {flip.mena: 0.1}\n",
+     ":3:10: limits.flip.mena: unknown metric 'flip.mena' (did you mean 'flip.mean'?)"},
+    {START "limits: {flip.mean: -1}\n", ":3:10: limits.flip.mean: expected a number, 0 to 1"},
+    {START "limits: {flip.mean: '0.1,flip.p99=1'}\n",
+     ":3:21: limits.flip.mean: expected {metric: number, ...}, as 'kiln help metrics' lists "
+     "them, found the text \"0.1,flip.p99=1\""},
+    {START "warn: 2\n", ":3:7: warn: 2 is out of range; allowed is from 0 to 1"},
+    {START "window: 0\n", ":3:9: window: 0 is out of range; allowed is from 1 to 16384"},
+    {START "masks: [{reason: x}]\n",
+     ":3:9: masks.0: expected either rect or picture, found neither"},
+    {START "masks: [{rect: [0, 0, 1, 1], picture: a.png}]\n",
+     ":3:9: masks.0: expected either rect or picture, found both"},
+    {START "masks: [{rect: [0, 0, 0, 1]}]\n",
+     ":3:23: masks.0.rect: a rectangle without an area masks nothing"},
+    {START "time_limit: 120 m\n", ":3:13: time_limit: 'm' does not fit; the unit is s or ms"},
+};
+
 static void wrong_test_files_say_where(void **state)
 {
     (void)state;
-    const struct {
-        const char *text, *message;
-    } cases[] = {
-        {"", ": empty; a test starts with 'kiln_test: 1'"},
-        {"- 1\n", ":1:1: expected a mapping of keys, found a list"},
-        {"scene: a.yaml\n", ":1:1: kiln_test: missing; it must be given"},
-        {"kiln_test: 1\n", ":1:1: scene: missing; it must be given"},
-        {"kiln_test: 2\nscene: s.yaml\n", ":1:12: kiln_test: 2 is out of range; allowed is 1"},
-        {START "frame: 3\n", ":3:1: frame: unknown key (did you mean 'frames'?)"},
-        {START "scene: b.yaml\n", ":3:1: duplicate key 'scene' (first in line 2)"},
-        {START "---\nscene: b.yaml\n", ":3:1: a test is one document; a second starts here"},
-        {START "about: &a x\n", ":3:11: anchors and aliases are not allowed"},
-        {"kiln_test: 1\nscene: \"\"\n", ":2:8: scene: must not be empty"},
-        {"kiln_test: 1\nscene: [a]\n", ":2:8: scene: expected a text, found a list"},
-        {START "set: [seed]\n", ":3:7: set.0: expected key=value, as for --set, found 'seed'"},
-        {START "size: [320]\n", ":3:7: size: expected [width, height], each from 16 px to 16384 "
-                                "px, or scene, found a list"},
-        {START "size: [8, 180]\n",
-         ":3:8: size: 8 is out of range; allowed is from 16 px to 16384 px"},
-        {START "frames: 4-2\n", ":3:9: frames: expected up to 1000 frames as [24, 96] or "
-                                "\"0-23,40\", or auto, found '4-2'"},
-        {START "frames: [1, 1000000]\n", ":3:13: frames: expected up to 1000 frames as [24, 96] or "
-                                         "\"0-23,40\", or auto, found '1000000'"},
-        {START "frames: []\n", ":3:9: frames: expected up to 1000 frames as [24, 96] or "
-                               "\"0-23,40\", or auto, found a list"},
-        {START "frames: 0-1000\n", ":3:9: frames: more than 1000 frames"},
-        {START "format: pgn\n", ":3:9: format: unknown word 'pgn' (did you mean 'png'?)"},
-        {START "devices: ['()']\n", ":3:11: devices.0: expected software, a part of a device's "
-                                    "name, or its number, found the text \"()\""},
-        {START "devices: [H 200, h-200]\n", ":3:10: devices: 'h-200' is given twice"},
-        {START "techniques: [simulat=cpu]\n",
-         ":3:14: techniques.0: stage 'simulat' is not known (did you mean 'simulate'?); there is: "
-         "simulate, sort, raster"},
-        {START "techniques: [cpu]\n", ":3:14: techniques.0: technique 'cpu': expected stage=name"},
-        {START "limits: {flip.mena: 0.1}\n",
-         ":3:10: limits.flip.mena: unknown metric 'flip.mena' (did you mean 'flip.mean'?)"},
-        {START "limits: {flip.mean: -1}\n", ":3:10: limits.flip.mean: expected a number, 0 to 1"},
-        {START "limits: {flip.mean: '0.1,flip.p99=1'}\n",
-         ":3:21: limits.flip.mean: expected {metric: number, ...}, as 'kiln help metrics' lists "
-         "them, found the text \"0.1,flip.p99=1\""},
-        {START "warn: 2\n", ":3:7: warn: 2 is out of range; allowed is from 0 to 1"},
-        {START "window: 0\n", ":3:9: window: 0 is out of range; allowed is from 1 to 16384"},
-        {START "masks: [{reason: x}]\n",
-         ":3:9: masks.0: expected either rect or picture, found neither"},
-        {START "masks: [{rect: [0, 0, 1, 1], picture: a.png}]\n",
-         ":3:9: masks.0: expected either rect or picture, found both"},
-        {START "masks: [{rect: [0, 0, 0, 1]}]\n",
-         ":3:23: masks.0.rect: a rectangle without an area masks nothing"},
-        {START "time_limit: 120 m\n", ":3:13: time_limit: 'm' does not fit; the unit is s or ms"},
-    };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    for (size_t i = 0; i < sizeof wrong_files / sizeof *wrong_files; i++) {
         struct kiln_suite *suite;
-        const struct kiln_test *test = load_one(cases[i].text, &suite);
+        const struct kiln_test *test = load_one(wrong_files[i].text, &suite);
         char message[512];
-        snprintf(message, sizeof message, "x/t.test.yaml%s", cases[i].message);
+        snprintf(message, sizeof message, "x/t.test.yaml%s", wrong_files[i].message);
         assert_string_equal(test->problem.message, message);
         assert_int_equal(test->problem.code, KILN_INVALID_INPUT);
         assert_string_equal(test->name, "t");
