@@ -93,13 +93,13 @@ function runCard(test) {
         ["Platform", test.platform],
         ["Techniques", test.techniques || test.techniquesExpected ? compared(test.techniques, test.techniquesExpected, "") : ""],
         ["Picture", test.width ? `${test.width} \u00d7 ${test.height}${test.hdr ? ", linear; shown tone-mapped" : ""}` : ""],
-        ["Seed", String(test.seed)],
+        ["Seed", test.width ? String(test.seed) : ""],
         ["Threads", `${test.threads}${test.repeat > 1 ? `, rendered ${test.repeat} times` : ""}`],
         ["Scene", test.scene],
         ["Test", test.test === test.scene ? "" : test.test],
         ["Goldens", test.golden],
         ["Log", log ? make("span", { class: "mono" }, log) : ""],
-        ["Started", `${test.started}, took ${formatNumber(Number(test.totalSeconds.toPrecision(3)))} s`],
+        ["Started", `${test.started}, took ${test.totalSeconds.toFixed(2)} s`],
         ["kiln", test.version],
     ]);
 }
@@ -109,10 +109,11 @@ function hashesCard(test, frame) {
     if (frame)
         pairs.push(["State", compared(frame.state, frame.stateExpected, "hash")],
             ["Pixels", compared(frame.pixels, frame.pixelsExpected, "hash")]);
-    pairs.push(["Scene", compared(test.sceneHash, test.sceneHashExpected, "hash")]);
+    if (test.sceneHash || test.sceneHashExpected)
+        pairs.push(["Scene", compared(test.sceneHash, test.sceneHashExpected, "hash")]);
     if (test.deviceName) pairs.push(["Known as", make("span", { class: "hash" }, test.deviceName)]);
     if (frame && frame.golden) pairs.push(["Golden", make("span", { class: "mono" }, frame.golden)]);
-    return pairsCard("Hashes", pairs);
+    return pairs.length ? pairsCard("Hashes", pairs) : null;
 }
 
 function changesCard(test) {
@@ -162,5 +163,5 @@ function showDetails(test, frame) {
     if (test.notes.length)
         cards.push(card("Notes", "", make("ul", { class: "notes" }, ...test.notes.map((note) => make("li", {}, note)))));
     cards.push(runCard(test), hashesCard(test, frame));
-    byId("facts").replaceChildren(...cards);
+    byId("facts").replaceChildren(...cards.filter(Boolean));
 }

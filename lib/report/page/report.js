@@ -45,7 +45,7 @@ function showReason(test, frame) {
     const about = [];
     if (frame && test.frames.length > 1)
         about.push(`Frame ${frame.number}${worst ? ", the worst of " + test.frames.length : ""}`);
-    if (status === "new" && frame && frame.golden) about.push("Golden: " + frame.golden);
+    if (status === "new" && frame && frame.golden && !text.includes(frame.golden)) about.push("Golden: " + frame.golden);
     if (test.status === "error" && test.log) about.push(`Log: ${test.folder}/${test.log}`);
     if (about.length) reason.append(make("small", {}, about.join(". ")));
 }
@@ -312,3 +312,4 @@ viewer.onMode = writeAddress;
 timeline.onPick = setFrame;
 addEventListener("hashchange", route);
 route();
+performance.mark("kiln-ready"); /* the list and the first test are there */

@@ -33,12 +33,12 @@ const timeline = {
         this.listen();
         const last = test.frames.length - 1;
         const red = test.frames.filter((frame) => !["pass", "warn", "skip"].includes(frame.status)).length;
-        const middle = red ? `${red} of ${last + 1} frames beyond the limits` : `${last + 1} frames`;
+        const middle = red ? `${red} of ${last + 1} frames did not pass` : `${last + 1} frames`;
         out.replaceChildren(
             make("div", { class: "line" },
                 button("\u2039", "Frame before (,)", () => this.pick(this.index - 1)),
                 button("\u203a", "Next frame (.)", () => this.pick(this.index + 1)),
-                button("Worst", "Worst frame (w)", () => this.pick(test.first)), this.now),
+                button("Worst frame", "Worst frame (w)", () => this.pick(test.first)), this.now),
             this.track,
             make("div", { class: "ends" }, make("span", {}, String(test.frames[0].number)),
                 make("span", {}, middle), make("span", {}, String(test.frames[last].number))));
@@ -48,7 +48,6 @@ const timeline = {
         const count = scores.length, gap = count > 200 ? 0 : 0.12;
         const svg = makeSvg("svg", { viewBox: `0 0 ${count} 100`, preserveAspectRatio: "none", "aria-hidden": "true" });
         this.marker = makeSvg("rect", { class: "at", x: 0, y: 0, width: 1, height: 100 });
-        svg.append(this.marker);
         scores.forEach((score, i) => {
             const { status, score: own } = this.test.frames[i];
             const unmeasured = typeof own !== "number" && status !== "pass";
@@ -57,6 +56,7 @@ const timeline = {
         });
         const limit = 100 - this.heightOf(1);
         svg.append(makeSvg("line", { class: "limit", x1: 0, x2: count, y1: limit, y2: limit }));
+        svg.append(this.marker);
         return svg;
     },
 

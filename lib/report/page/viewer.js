@@ -15,7 +15,7 @@ const MODES = [
 const AMOUNTS = {
     split: { name: "Position", min: 0, max: 100, step: 1, start: 50, say: (v) => v + " %" },
     opacity: { name: "Result", min: 0, max: 100, step: 5, start: 50, say: (v) => v + " %" },
-    rate: { name: "Changes", min: 0.5, max: 10, step: 0.5, start: 2, say: (v) => v + " a second" },
+    rate: { name: "Rate", min: 0.5, max: 10, step: 0.5, start: 2, say: (v) => v + " / s" },
     gain: { name: "Gain", min: 0, max: 7, step: 1, start: 3, say: (v) => "\u00d7" + 2 ** v },
 };
 
@@ -155,21 +155,24 @@ const viewer = {
         if (key) this.setAmount(this.amounts[key] + direction * (key === "split" ? 5 : AMOUNTS[key].step));
     },
 
-    /* As many columns as make the pictures largest, in a stage no higher than they need. */
+    /* The lowest of the arrangements in which pictures are about as large as they can be, in a stage
+     * no higher than they need. */
     layout() {
         const stage = byId("stage"), count = Math.max(1, this.panes.length);
         const [width, height] = this.size();
         const room = stage.clientWidth || 1;
-        const highest = Math.max(220, Math.min(innerHeight * 0.56, innerHeight - 330));
-        let best = { scale: 0 };
+        const highest = Math.max(220, Math.min(innerHeight * 0.56, innerHeight - 425));
+        const ways = [];
         for (let columns = 1; columns <= count; columns++) {
             const rows = Math.ceil(count / columns);
             const scale = Math.min(room / columns / width, highest / rows / height);
-            if (scale > best.scale * 1.001) best = { scale, columns, rows };
+            ways.push({ columns, rows, scale, height: (room / columns) * (height / width) * rows });
         }
+        const largest = Math.max(...ways.map((way) => way.scale));
+        const best = ways.filter((way) => way.scale >= 0.87 * largest)
+            .reduce((a, b) => (b.height < a.height ? b : a));
         stage.style.gridTemplateColumns = `repeat(${best.columns}, 1fr)`;
-        const needed = (room / best.columns) * (height / width) * best.rows;
-        stage.style.height = Math.max(120, Math.min(highest, needed)) + "px";
+        stage.style.height = Math.max(120, Math.min(highest, best.height)) + "px";
         stage.style.gridAutoRows = "1fr";
         this.draw();
     },
@@ -266,10 +269,10 @@ const viewer = {
 
     drawMarks(context, x, y, scale, ratio) {
         const outline = (left, top, width, height, color) => {
-            context.lineWidth = 3 * ratio;
-            context.strokeStyle = "#000a";
+            context.lineWidth = 4 * ratio;
+            context.strokeStyle = "#000b";
             context.strokeRect(x + left * scale, y + top * scale, width * scale, height * scale);
-            context.lineWidth = 1 * ratio;
+            context.lineWidth = 1.6 * ratio;
             context.strokeStyle = color;
             context.strokeRect(x + left * scale, y + top * scale, width * scale, height * scale);
         };

@@ -1,0 +1,68 @@
+#!/usr/bin/env bash
+# The report page in Chromium: page.sh KILN MAKE_REPORT SOURCE OUT. Its reports are of real runs;
+# screenshots of every view stay in OUT.
+set -euo pipefail
+kiln=$1
+make_report=$2
+source=$3
+out=$4
+
+for program in node npm; do
+    if ! command -v "$program" >/dev/null; then
+        echo "skipped: the page is driven by npm's playwright-core, and there is no $program"
+        exit 77
+    fi
+done
+export KILN_CHROMIUM=${KILN_CHROMIUM:-$(command -v chromium || true)}
+if [[ -z $KILN_CHROMIUM ]]; then
+    echo "skipped: there is no chromium (tools/setup installs it)"
+    exit 77
+fi
+if [[ ! -d $source/tests/node_modules/playwright-core ]]; then
+    npm ci --prefix "$source/tests" --no-audit --no-fund --loglevel=error
+fi
+
+rm -rf "$out"
+mkdir -p "$out/tests"/{effects,post,weather} "$out/many"
+"$make_report" "$out/many" 1000 &
+cp "$source/scenes/fire_beam.yaml" "$out/beam.yaml"
+cd "$out"
+
+# define NAME FRAMES [LINE]: a test of the scene.
+define() {
+    printf 'kiln_test: 1\nscene: ../../beam.yaml\nsize: [160, 90]\nframes: %s\n%s\n' \
+        "$2" "${3:-}" >"tests/$1.test.yaml"
+}
+# run [OPTION...]: like kiln test, whose code says only that something is red.
+run() {
+    local code=0
+    "$kiln" test --device software --quiet "$@" tests >log.txt 2>&1 || code=$?
+    if ((code != 0 && code != 1 && code != 3)); then
+        cat log.txt
+        exit 1
+    fi
+}
+
+# What is right: five tests as they were accepted.
+define effects/fire_beam '"66-89"' 'about: The flame reaches the block and turns to smoke.'
+define effects/linear '[66]' 'format: exr'
+define post/bloom '[66, 67]'
+define post/tonemap '[66, 67]'
+run --update missing
+
+# Then fewer particles from a moment on, other glow, a little more glow; no golden, a scene with a
+# mistake, and a device that there is not.
+define effects/fire_beam '"66-89"' \
+    'about: The flame reaches the block and turns to smoke.
+set: ["systems.fire.emit.rate={keys: {2.2 s: 380, 2.5 s: 60}}"]'
+define effects/linear '[66]' 'format: exr
+set: [post.bloom.strength=0.6]'
+define post/bloom '[66, 67]' 'set: [post.bloom.strength=0.162]'
+define post/sparks '[66]'
+define weather/storm '[66]' 'about: "</script><script>window.harmed=1</script><!--"
+set: ["systems.<img src=x onerror=window.harmed=2>=1"]'
+define weather/rain '[66]' 'devices: [no-such-device]'
+run
+"$kiln" test report --quiet --link --report linked.html out/test >log.txt 2>&1 || true
+wait
+exec node "$source/tests/report/page.mjs" "$out"
