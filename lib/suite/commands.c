@@ -8,7 +8,7 @@ static void add_word(struct kiln_text *text, const char *word)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
                                 "_@%+=:,./-";
-    kiln_text_add(text, " ");
+    kiln_text_add(text, *word == '-' ? " ./" : " "); /* a path, no option */
     if (*word && strspn(word, plain) == strlen(word)) {
         kiln_text_add(text, "%s", word);
         return;
@@ -40,23 +40,27 @@ static void add_folders(const struct kiln_trial *trial, struct kiln_text *text, 
         add_option(text, "--results", results);
 }
 
-/* The operands that find the test under its name: a name with a folder in it counts from the folder
- * that was searched. */
-static void add_operands(const struct kiln_trial *trial, struct kiln_text *text)
+/* What finds the test under its name: a name with a folder in it counts from the folder that was
+ * searched. */
+static void add_selection(const struct kiln_trial *trial, struct kiln_text *text)
 {
     const struct kiln_test *test = trial->test;
     const char *end = strstr(test->path, ".test.yaml");
     end = end ? end : strrchr(test->path, '.');
     size_t stem = end ? (size_t)(end - test->path) : strlen(test->path);
     size_t name = strlen(test->name);
-    const char *folder = NULL;
     bool below = strchr(test->name, '/') && stem >= name &&
                  strncmp(test->path + stem - name, test->name, name) == 0;
-    if (below)
-        folder = stem > name ? kiln_arena_text(trial->arena, test->path, stem - name) : ".";
-    add_word(text, folder ? folder : test->path);
-    if (folder || strcmp(test->name, test->full_name) != 0)
-        add_word(text, test->full_name);
+    if (below || strcmp(test->name, test->full_name) != 0)
+        add_option(text, "--filter", test->full_name);
+    if (!below)
+        add_word(text, test->path);
+    if (!below || stem == name)
+        return;
+    size_t length = stem - name; /* with a slash at its end, which may be all of it */
+    const char *folder =
+        kiln_arena_text(trial->arena, test->path, length > 1 ? length - 1 : length);
+    add_word(text, folder ? folder : ".");
 }
 
 static const char *take(struct kiln_trial *trial, struct kiln_text *text)
@@ -81,7 +85,7 @@ const char *kiln_trial_rerun_command(struct kiln_trial *trial)
         kiln_text_add(&text, " --repeat %u", params->repeat);
     kiln_text_add(&text, "%s%s", params->ignore_hashes ? " --ignore-hashes" : "",
                   params->strict ? " --strict" : "");
-    add_operands(trial, &text);
+    add_selection(trial, &text);
     return take(trial, &text);
 }
 

@@ -35,7 +35,7 @@ static bool is_left_over(const char *name, const char *path)
     if (strcmp(name, "log.txt") == 0)
         return stat(path, &log) == 0 && !(fstat(STDERR_FILENO, &out) == 0 &&
                                           out.st_dev == log.st_dev && out.st_ino == log.st_ino);
-    return strcmp(name, "scene.yaml") == 0 || ends_in(name, ".json");
+    return ends_in(name, ".json");
 }
 
 static bool empty_folder(const struct kiln_trial *trial, struct kiln_error *error)
@@ -56,20 +56,6 @@ static bool empty_folder(const struct kiln_trial *trial, struct kiln_error *erro
                                 path);
     }
     closedir(folder);
-    return ok;
-}
-
-static bool write_scene(const struct kiln_trial *trial, struct kiln_error *error)
-{
-    char path[KILN_PATH_SIZE];
-    struct kiln_temporary file = {0};
-    const char *text = trial->rendering.scene_text;
-    bool ok = kiln_trial_path(trial, "scene.yaml", path, error) &&
-              kiln_temporary_open(&file, path, error);
-    if (ok)
-        kiln_temporary_write(&file, text, strlen(text)); /* commit tells of failures */
-    ok = ok && kiln_temporary_commit(&file, true, error);
-    kiln_temporary_discard(&file);
     return ok;
 }
 
@@ -278,8 +264,6 @@ static bool run(struct kiln_trial *trial, struct kiln_error *error)
     bool rendered = render(trial, "", &trial->rendering, error);
     take_rendering(trial);
     if (!rendered)
-        return false;
-    if (!write_scene(trial, error))
         return false;
     if (!take_frames(trial))
         return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", trial->test->path);

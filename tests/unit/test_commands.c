@@ -1,0 +1,83 @@
+/* The commands that a result offers to a person. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <string.h>
+
+#include "suite/trial.h"
+
+struct fixture {
+    struct kiln_suite suite;
+    struct kiln_test test;
+    struct kiln_test_params params;
+    struct kiln_trial trial;
+};
+
+static void fixture_init(struct fixture *f, const char *name, const char *path)
+{
+    *f = (struct fixture){
+        .suite = {.results_folder = (char *)"out/test"},
+        .test = {.name = name, .full_name = name, .path = path},
+        .params = KILN_TEST_DEFAULTS,
+    };
+    f->trial = (struct kiln_trial){
+        .arena = kiln_arena_create(), .suite = &f->suite, .test = &f->test, .params = &f->params};
+    f->test.golden = kiln_trial_text(&f->trial, "golden/%s", name);
+}
+
+static void expect_rerun(const char *name, const char *full_name, const char *path,
+                         const char *expected)
+{
+    struct fixture f;
+    fixture_init(&f, name, path);
+    f.test.full_name = full_name;
+    assert_string_equal(kiln_trial_rerun_command(&f.trial), expected);
+    kiln_arena_destroy(&f.trial.arena);
+}
+
+static void a_test_is_found_under_its_name_again(void **state)
+{
+    (void)state;
+    expect_rerun("fire", "fire", "fire.test.yaml", "kiln test fire.test.yaml");
+    expect_rerun("fire", "fire", "a/b/fire.yml", "kiln test a/b/fire.yml");
+    expect_rerun("b/fire", "b/fire", "a/b/fire.test.yaml", "kiln test --filter b/fire a");
+    expect_rerun("b/fire", "b/fire", "b/fire.test.yaml", "kiln test --filter b/fire");
+    expect_rerun("b/fire", "b/fire", "/b/fire.yaml", "kiln test --filter b/fire /");
+    expect_rerun("fire", "fire@gpu", "a/fire.yaml", "kiln test --filter fire@gpu a/fire.yaml");
+    expect_rerun("-a", "-a", "-a.yaml", "kiln test ./-a.yaml");
+    expect_rerun("b/c", "b/c", "it's mine/b/c.yaml", "kiln test --filter b/c 'it'\\''s mine'");
+}
+
+static void what_was_asked_for_is_asked_for_again(void **state)
+{
+    (void)state;
+    struct fixture f;
+    const char *const techniques[] = {"sort=cpu"};
+    fixture_init(&f, "fire", "fire.yaml");
+    f.test.golden = "my goldens/fire";
+    f.suite.results_folder = (char *)"r";
+    f.params.device = "nvidia h200";
+    f.params.techniques = techniques;
+    f.params.technique_count = 1;
+    f.params.repeat = 3;
+    f.params.strict = f.params.ignore_hashes = true;
+    assert_string_equal(kiln_trial_rerun_command(&f.trial),
+                        "kiln test --golden 'my goldens' --results r --device 'nvidia h200' "
+                        "--technique sort=cpu --repeat 3 --ignore-hashes --strict fire.yaml");
+    assert_string_equal(kiln_trial_approve_command(&f.trial), "kiln test approve --results r fire");
+    f.test.device = "software"; /* is in the test file */
+    assert_null(strstr(kiln_trial_rerun_command(&f.trial), "--device"));
+    kiln_arena_destroy(&f.trial.arena);
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_test_is_found_under_its_name_again),
+        cmocka_unit_test(what_was_asked_for_is_asked_for_again),
+    };
+    return cmocka_run_group_tests_name("commands", tests, NULL, NULL);
+}
