@@ -44,18 +44,18 @@ static bool empty_folder(const struct kiln_trial *trial, struct kiln_error *erro
     if (!kiln_trial_path(trial, "result.json", path, error) ||
         !kiln_make_parent_folders(path, error))
         return false;
-    DIR *folder = opendir(trial->test->results);
-    if (!folder)
-        return kiln_error_set(error, KILN_IO, "%s: the folder cannot be read",
-                              trial->test->results);
-    bool ok = true;
-    for (struct dirent *entry = readdir(folder); ok && entry; entry = readdir(folder)) {
-        ok = kiln_trial_path(trial, entry->d_name, path, error);
-        if (ok && is_left_over(entry->d_name, path) && unlink(path) != 0)
+    struct dirent **entries = NULL;
+    int count = scandir(trial->test->results, &entries, NULL, NULL);
+    bool ok = count >= 0 ||
+              kiln_error_set(error, KILN_IO, "%s: the folder cannot be read", trial->test->results);
+    for (int i = 0; i < count; i++) {
+        ok = ok && kiln_trial_path(trial, entries[i]->d_name, path, error);
+        if (ok && is_left_over(entries[i]->d_name, path) && unlink(path) != 0)
             ok = kiln_error_set(error, KILN_IO, "%s: the file of an earlier run cannot be removed",
                                 path);
+        free(entries[i]);
     }
-    closedir(folder);
+    free(entries);
     return ok;
 }
 
@@ -302,6 +302,31 @@ static uint32_t count_threads(uint32_t wanted)
     return count;
 }
 
+/* What happens is in the result, but for what is nobody's result. */
+static bool run_to_result(struct kiln_trial *trial, struct kiln_error *error)
+{
+    struct kiln_result *result = trial->result;
+    struct kiln_error problem = {0};
+    if (!empty_folder(trial, error))
+        return false;
+    result->threads = count_threads(trial->params->threads);
+    result->repeat = trial->params->repeat;
+    bool done = run(trial, &problem);
+    if (problem.code == KILN_INTERRUPTED) {
+        *error = problem;
+        return false;
+    }
+    if (done && trial->no_memory)
+        done = kiln_error_set(&problem, KILN_DEVICE_FAILED, "%s: out of memory", trial->test->path);
+    if (!done)
+        note_error(trial, &problem);
+    result->rerun = kiln_trial_rerun_command(trial);
+    if (result->frame_count > 0)
+        result->approve = kiln_trial_approve_command(trial);
+    result->total_s = kiln_clock_seconds() - trial->started_s;
+    return kiln_result_write(result, trial->test->results, error);
+}
+
 bool kiln_test_run(const struct kiln_suite *suite, size_t index,
                    const struct kiln_test_params *params, struct kiln_test_summary *summary,
                    struct kiln_error *error)
@@ -311,30 +336,13 @@ bool kiln_test_run(const struct kiln_suite *suite, size_t index,
                                .params = params,
                                .arena = kiln_arena_create(),
                                .started_s = kiln_clock_seconds()};
-    struct kiln_error problem = {0};
+    bool ok = false;
     trial.result = trial.arena ? kiln_result_start(trial.arena, trial.test) : NULL;
-    bool ok = trial.result ||
-              kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", trial.test->path);
-    if (ok && empty_folder(&trial, error)) {
-        trial.result->threads = count_threads(params->threads);
-        trial.result->repeat = params->repeat;
-        bool done = run(&trial, &problem);
-        if (problem.code == KILN_INTERRUPTED)
-            *error = problem;
-        if (done && trial.no_memory)
-            done =
-                kiln_error_set(&problem, KILN_DEVICE_FAILED, "%s: out of memory", trial.test->path);
-        if (!done)
-            note_error(&trial, &problem);
-        trial.result->rerun = kiln_trial_rerun_command(&trial);
-        if (trial.result->frame_count > 0)
-            trial.result->approve = kiln_trial_approve_command(&trial);
-        trial.result->total_s = kiln_clock_seconds() - trial.started_s;
-        ok = problem.code != KILN_INTERRUPTED &&
-             kiln_result_write(trial.result, trial.test->results, error);
+    if (trial.result) {
+        ok = run_to_result(&trial, error);
         kiln_summary_take(summary, trial.result);
     } else {
-        ok = false;
+        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", trial.test->path);
     }
     kiln_arena_destroy(&trial.arena);
     return ok;

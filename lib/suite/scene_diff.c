@@ -137,10 +137,12 @@ bool kiln_scene_diff(struct kiln_arena *arena, const char *before, const char *n
               read_entries(&b, after, "the scene as it is", error);
     if (ok) {
         *changes = kiln_arena_alloc(arena, a.count + b.count + 1, sizeof **changes);
-        ok = *changes || kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", name);
+        ok = *changes != NULL;
+        if (ok)
+            *count = merge(&a, &b, *changes);
+        else
+            kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", name);
     }
-    if (ok)
-        *count = merge(&a, &b, *changes);
     free(a.entries);
     free(b.entries);
     return ok;

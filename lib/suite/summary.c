@@ -82,8 +82,10 @@ bool kiln_test_record_error(const struct kiln_suite *suite, size_t index, enum k
     const struct kiln_test *test = &suite->tests[index];
     struct kiln_arena *arena = kiln_arena_create();
     struct kiln_result *result = arena ? kiln_result_start(arena, test) : NULL;
-    bool ok = result || kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", test->path);
-    if (ok) {
+    bool ok = false;
+    if (!result) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", test->path);
+    } else {
         result->status = KILN_TEST_ERROR;
         result->code = code;
         result->message = message;
