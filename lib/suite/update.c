@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "output/temporary.h"
 #include "suite/trial.h"
 
 /* What is to be done about a frame. */
@@ -102,39 +101,6 @@ static bool accept(struct kiln_trial *trial, size_t index, enum action action,
     return true;
 }
 
-static bool write_scene(const struct kiln_trial *trial, struct kiln_error *error)
-{
-    char path[KILN_PATH_SIZE];
-    int length = snprintf(path, sizeof path, "%s/scene.yaml", trial->test->golden);
-    if (length < 0 || (size_t)length >= sizeof path)
-        return kiln_error_set(error, KILN_IO, "%s: the path is too long", trial->test->golden);
-    struct kiln_temporary file = {0};
-    const char *text = trial->rendering.scene_text;
-    bool ok = kiln_temporary_open(&file, path, error);
-    if (ok)
-        kiln_temporary_write(&file, text, strlen(text)); /* commit tells of failures */
-    ok = ok && kiln_temporary_commit(&file, true, error);
-    kiln_temporary_discard(&file);
-    return ok;
-}
-
-static bool split_techniques(struct kiln_trial *trial)
-{
-    const char *rest = trial->rendering.techniques;
-    size_t count = 0;
-    const char **list = kiln_arena_alloc(trial->arena, strlen(rest) / 2 + 1, sizeof *list);
-    while (list && *rest) {
-        size_t length = strcspn(rest, " ");
-        list[count] = kiln_arena_text(trial->arena, rest, length);
-        if (!list[count++])
-            return false;
-        rest += length + (rest[length] == ' ');
-    }
-    trial->expect->techniques = list;
-    trial->expect->technique_count = count;
-    return list != NULL;
-}
-
 /* The scene goes with all pictures: while one of them is not accepted, the scene of before stays,
  * so that a report tells what changed since. */
 static bool accept_scene(struct kiln_trial *trial, struct kiln_error *error)
@@ -145,9 +111,9 @@ static bool accept_scene(struct kiln_trial *trial, struct kiln_error *error)
             return true;
     }
     trial->expect->scene_hash = trial->rendering.scene.hash;
-    if (!split_techniques(trial))
+    if (!kiln_expect_set_techniques(trial->arena, trial->expect, trial->rendering.techniques))
         return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", trial->test->golden);
-    return write_scene(trial, error);
+    return kiln_goldens_write_scene(trial->test, trial->rendering.scene_text, error);
 }
 
 static bool accept_all(struct kiln_trial *trial, const enum action *actions,
