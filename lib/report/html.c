@@ -124,6 +124,10 @@ static void write_facts(FILE *out, const void *user)
         fputs("</time>", out);
     }
     fprintf(out, "<span>%.1f s</span><span>kiln " KILN_VERSION "</span>", page->summary.total_s);
+    uint32_t crowded_out = kiln_gallery_crowded_out(page->gallery);
+    if (crowded_out > 0)
+        fprintf(out, "<span>%u picture%s linked: the page holds %d MiB of them</span>", crowded_out,
+                crowded_out == 1 ? " is" : "s are", KILN_GALLERY_BYTES >> 20);
 }
 
 /* A button for each status that there is, the worst first. */

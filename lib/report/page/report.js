@@ -102,6 +102,7 @@ function showTest(row, frameNumber) {
     byId("test-before").disabled = !list.neighbor(-1);
     byId("test-next").disabled = !list.neighbor(1);
     if (fresh) {
+        byId("spoken").textContent = `${test.name}: ${test.status}`;
         viewer.cursor = null;
         viewer.fit();
         byId("detail").scrollTop = 0;
@@ -137,15 +138,14 @@ function setFrame(index) {
     if (index === page.frame || !page.test.frames[index]) return;
     showFrame(index);
     writeAddress();
+    byId("spoken").textContent = timeline.now.textContent;
 }
 
 /* ---- Theme -------------------------------------------------------------------------------- */
 
-const dark = matchMedia("(prefers-color-scheme: dark)");
-
 function setTheme(theme) {
-    const actual = theme === "auto" ? (dark.matches ? "dark" : "light") : theme;
-    document.documentElement.dataset.theme = actual;
+    if (theme === "auto") delete document.documentElement.dataset.theme;
+    else document.documentElement.dataset.theme = theme;
     byId("theme").lastElementChild.textContent = theme;
     byId("theme").dataset.theme = theme;
     try {
@@ -168,7 +168,6 @@ function startTheme() {
         /* as above */
     }
     setTheme(["auto", "light", "dark"].includes(theme) ? theme : "auto");
-    dark.addEventListener("change", () => setTheme(byId("theme").dataset.theme));
 }
 
 /* ---- Keys --------------------------------------------------------------------------------- */
@@ -239,10 +238,10 @@ function onKey(event) {
         if (key === "Escape") target.blur();
         return;
     }
-    if (key === " " && target.closest("button, a, select")) return;
+    if (key === " " && (target.closest("button, a, select") || viewer.effective().id !== "flicker")) return;
     const name = key === " " ? "Space" : key;
     const entry = KEYS.find((row) => row.act && row.keys.includes(name));
-    if (!entry || !page.test) return;
+    if (!entry || (!page.test && !"/t?".includes(key))) return;
     event.preventDefault();
     entry.act();
 }

@@ -478,11 +478,15 @@ function showReadout(shown, cursor) {
     const said = [`${cursor[0]}, ${cursor[1]}`];
     for (const [kind, rgb] of colors) {
         if (rgb === null) continue;
+        if (rgb === undefined) {
+            parts.push(make("span", { class: "key" }, "Colours of linked files are kept from a page that is a file itself."));
+            break;
+        }
         const swatch = make("i", { class: "swatch" });
-        const text = rgb ? `${hexOf(rgb)}  ${rgb.map((v) => String(v).padStart(3)).join(" ")}` : "not readable: linked files are guarded by the browser";
-        if (rgb) swatch.style.background = hexOf(rgb);
+        swatch.style.background = hexOf(rgb);
+        const text = `${hexOf(rgb)}  ${rgb.map((v) => String(v).padStart(3)).join(" ")}`;
         parts.push(make("span", {}, make("span", { class: "key" }, TITLES[kind]), swatch, text));
-        said.push(`${TITLES[kind]} ${rgb ? rgb.join(" ") : "not readable"}`);
+        said.push(`${TITLES[kind]} ${rgb.join(" ")}`);
     }
     const [a, b] = colors.map(([, rgb]) => rgb);
     if (a && b) {
