@@ -298,6 +298,47 @@ static void stale_limits_are_noted(void **state)
     spark_end(&run);
 }
 
+static void what_was_accepted_of_another_kind_is_noted(void **state)
+{
+    (void)state;
+    spark_write("");
+    spark_update(KILN_UPDATE_MISSING);
+    spark_replace(EXPECT, "simulate=cpu", "simulate=inplace");
+    struct spark_run run = spark_run(NULL);
+    assert_int_equal(run.summary.status, KILN_TEST_PASS);
+    assert_true(spark_has_note(&run, "accepted were simulate=inplace "));
+    char accepted[32];
+    snprintf(accepted, sizeof accepted, "state: \"%s\"", run.result->frames[0].state);
+    spark_end(&run);
+
+    spark_replace(EXPECT, accepted, "");
+    run = spark_run(NULL);
+    assert_int_equal(run.summary.status, KILN_TEST_PASS);
+    assert_true(spark_has_note(&run, "no state was accepted of frame 3: --update all adds it"));
+    spark_end(&run);
+    spark_update(KILN_UPDATE_ALL);
+    assert_int_equal(spark_expect(NULL, KILN_TEST_PASS, KILN_JUDGED_BY_PIXELS), 0);
+}
+
+/* The golden that the picture was judged by is replaced, not the first one. */
+static void failed_replaces_the_nearest_golden(void **state)
+{
+    (void)state;
+    struct kiln_error error = {0};
+    spark_write("");
+    spark_update(KILN_UPDATE_MISSING);
+    assert_true(kiln_file_copy(SPARK_GOLDEN, "golden/spark/frame_0003~2.png", &error));
+    spark_paint("golden/spark/frame_0003~2.png", 2, 2, 8, 8, 60);
+    spark_paint(SPARK_GOLDEN, 2, 2, 12, 12, 120);
+    struct file_state first = file_state(SPARK_GOLDEN);
+    struct spark_run run = run_update(KILN_UPDATE_FAILED, false);
+    assert_int_equal(run.summary.status, KILN_TEST_PASS);
+    assert_true(spark_has_note(&run, "wrote golden/spark/frame_0003~2.png"));
+    spark_end(&run);
+    assert_true(is_untouched(SPARK_GOLDEN, &first));
+    spark_expect(NULL, KILN_TEST_PASS, KILN_JUDGED_BY_PIXELS);
+}
+
 static void crashes_are_recorded(void **state)
 {
     (void)state;
@@ -366,6 +407,8 @@ int main(void)
         IN_FOLDER(repeats_must_have_the_same_hashes),
         IN_FOLDER(stopping_is_no_result),
         IN_FOLDER(stale_limits_are_noted),
+        IN_FOLDER(what_was_accepted_of_another_kind_is_noted),
+        IN_FOLDER(failed_replaces_the_nearest_golden),
         IN_FOLDER(crashes_are_recorded),
         IN_FOLDER(files_of_earlier_runs_go_and_no_others),
         IN_FOLDER(exr_goldens_work_too),
