@@ -18,11 +18,15 @@ const list = {
     filter() {
         const words = byId("search").value.toLowerCase().split(/\s+/).filter(Boolean);
         let count = 0;
+        /* Chromium takes 60 times as long to hide a thousand rows one by one where they are shown. */
+        byId("rows").hidden = true;
+        void byId("rows").offsetHeight;
         for (const row of this.rows) {
             const wanted = this.statuses.size === 0 || this.statuses.has(row.classList[0]);
             row.hidden = !wanted || !words.every((word) => this.textOf(row).includes(word));
             count += !row.hidden;
         }
+        byId("rows").hidden = false;
         byId("found").textContent = count === this.rows.length
             ? `${count} ${count === 1 ? "test" : "tests"}` : `${count} of ${this.rows.length} tests`;
         byId("none").hidden = count > 0 || this.rows.length === 0;
