@@ -1,7 +1,7 @@
 // The report page, used as a person would use it: page.mjs OUT, where OUT has the reports that
 // page.sh made. Each view is asserted by what is on the page, and photographed into OUT.
 import assert from "node:assert/strict";
-import { statSync } from "node:fs";
+import { readFileSync, statSync } from "node:fs";
 import { join } from "node:path";
 import { after, test } from "node:test";
 import { drawn, faint, settle, shown, source, startBrowser, unnamed } from "./browser.mjs";
@@ -294,10 +294,12 @@ test("says what is known of a test", async () => {
     await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
     await page.keyboard.press("a");
     await page.waitForFunction(() => document.querySelector("#spoken").textContent.includes("copied"));
-    assert.equal(await page.evaluate(() => navigator.clipboard.readText()), "kiln test approve effects/fire_beam");
+    const said = JSON.parse(readFileSync(join(out, "out/test/effects/fire_beam/result.json"), "utf8"));
+    assert.match(said.approve, /^kiln test approve .*effects\/fire_beam/);
+    assert.equal(await page.evaluate(() => navigator.clipboard.readText()), said.approve);
     await page.click("#copy-rerun");
     await page.waitForFunction(() => document.querySelector("#copy-rerun").textContent.startsWith("Copied"));
-    assert.equal(await page.evaluate(() => navigator.clipboard.readText()), "kiln test --device software tests/ effects/fire_beam");
+    assert.equal(await page.evaluate(() => navigator.clipboard.readText()), said.rerun);
     await page.locator("#facts").scrollIntoViewIfNeeded();
     await page.evaluate(() => document.querySelector("main").scrollTo(0, 1e5));
     await photograph(page, "facts-light");
