@@ -78,9 +78,9 @@ static bool init_stages(struct kiln_stages *s, const struct kiln_techniques *tec
     s->particles = kiln_particles_create(device, s->scene, &s->atlas, error);
     if (!s->particles)
         return false;
-    if (s->scene->post.bloom == KILN_BLOOM_GAUSSIAN) {
-        s->bloom = kiln_bloom_create(device, s->scene->width, s->scene->height,
-                                     target_format(device), error);
+    if (s->scene->post.bloom != KILN_BLOOM_NONE) {
+        s->bloom =
+            kiln_bloom_create(device, s->scene, &s->bloom_color, target_format(device), error);
         if (!s->bloom)
             return false;
     }
@@ -137,7 +137,7 @@ struct particle_pass {
     bool by_depth;
     const struct kiln_framebuffer *framebuffer;
     bool keep_bloom; /* clear the colour only */
-    bool sum_alpha;
+    bool sum_alpha, fire_covers;
 };
 
 static bool draw_particles(struct kiln_stages *s, struct kiln_pool *pool,
@@ -165,6 +165,7 @@ static bool draw_particles(struct kiln_stages *s, struct kiln_pool *pool,
         .framebuffer = pass->framebuffer,
         .keep_bloom = pass->keep_bloom,
         .sum_alpha = pass->sum_alpha,
+        .fire_covers = pass->fire_covers,
     };
     kiln_timer_begin(s->timer, KILN_PASS_particles);
     ok = kiln_particles_run(s->particles, &draw, error);
@@ -172,15 +173,18 @@ static bool draw_particles(struct kiln_stages *s, struct kiln_pool *pool,
     return ok;
 }
 
-/* Fire and smoke in one sorted list: fire adds and covers nothing, smoke covers fire and its glow.
- * The layers of an EXR are drawn apart. */
+/* Fire and smoke in one sorted list: fire adds and covers nothing, smoke covers fire and its glow;
+ * or fire covers, too (Heinz 2019, 2.3.1). The layers of an EXR are drawn apart. */
 static bool draw_merged(struct kiln_stages *s, struct kiln_pool *pool, const struct kiln_view *view,
                         uint32_t *drawn, struct kiln_error *error)
 {
     uint32_t fire = systems_with(s->scene, KILN_BLEND_ADD);
     uint32_t smoke = systems_with(s->scene, KILN_BLEND_ALPHA);
-    struct particle_pass all = {
-        .systems = fire | smoke, .by_depth = smoke != 0, .framebuffer = &s->particle_framebuffer};
+    bool fire_covers = s->scene->post.compose == KILN_COMPOSE_ALPHA;
+    struct particle_pass all = {.systems = fire | smoke,
+                                .by_depth = smoke != 0 || fire_covers,
+                                .framebuffer = &s->particle_framebuffer,
+                                .fire_covers = fire_covers};
     if (!draw_particles(s, pool, view, &all, drawn, error))
         return false;
     if (!s->smoke_framebuffer.gl)
@@ -189,7 +193,10 @@ static bool draw_merged(struct kiln_stages *s, struct kiln_pool *pool, const str
     uint32_t count = 0;
     struct particle_pass smoke_layer = {
         .systems = smoke, .by_depth = true, .framebuffer = &s->smoke_framebuffer};
-    struct particle_pass fire_layer = {.systems = fire, .framebuffer = &s->fire_framebuffer};
+    struct particle_pass fire_layer = {.systems = fire,
+                                       .by_depth = fire_covers,
+                                       .framebuffer = &s->fire_framebuffer,
+                                       .fire_covers = fire_covers};
     return draw_particles(s, pool, view, &smoke_layer, &count, error) &&
            draw_particles(s, pool, view, &fire_layer, &count, error);
 }
@@ -231,23 +238,23 @@ bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *pool, uint32
     if (!ok)
         return false;
 
-    struct kiln_image *bloom = NULL;
-    if (s->bloom) {
-        kiln_timer_begin(s->timer, KILN_PASS_bloom);
-        bloom = kiln_bloom_run(s->bloom, &s->bloom_color, error);
-        kiln_timer_end(s->timer);
-        if (!bloom)
-            return false;
-    }
-
-    const struct kiln_composite_inputs inputs = {
+    struct kiln_composite_inputs inputs = {
         .scene = &s->scene_color,
         .particles = &s->particle_color,
         .fire = separate ? &s->fire_color : NULL,
-        .bloom = bloom,
         .frame = frame,
         .time_s = view.clock.x,
     };
+    if (s->bloom) {
+        const struct kiln_bloom_inputs light = {inputs.scene, inputs.particles, inputs.fire,
+                                                inputs.time_s};
+        kiln_timer_begin(s->timer, KILN_PASS_bloom);
+        inputs.bloom = kiln_bloom_run(s->bloom, &light, &inputs.bloom_scale, error);
+        kiln_timer_end(s->timer);
+        if (!inputs.bloom)
+            return false;
+    }
+
     kiln_timer_begin(s->timer, KILN_PASS_composite);
     ok = kiln_composite_run(s->composite, &inputs, error);
     kiln_timer_end(s->timer);

@@ -165,7 +165,7 @@ bool kiln_particles_run(struct kiln_particles_stage *stage, const struct kiln_pa
     bind_texture(2, GL_TEXTURE_2D, depth);
 
     glUseProgram(stage->program);
-    glUniform1f(stage->additive_alpha, draw->sum_alpha ? 1.0f : 0.0f);
+    glUniform1f(stage->additive_alpha, draw->sum_alpha || draw->fire_covers ? 1.0f : 0.0f);
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, draw->sum_alpha ? GL_ONE : GL_ONE_MINUS_SRC_ALPHA);
     glBindVertexArray(stage->vertex_array);

@@ -26,6 +26,7 @@ struct kiln_particles_draw {
     bool keep_bloom; /* of an earlier pass; colour is always cleared first */
     bool sum_alpha; /* false: premultiplied `over`, in which additive particles cover nothing; true:
                      * colours and alpha are summed (figure 3.1, fire) */
+    bool fire_covers; /* premultiplied `over` in which additive particles cover like others */
 };
 
 /* Draws with the view and backdrop blocks that kiln_backdrop_draw left bound. */

@@ -1,93 +1,111 @@
-/* The thesis's four blurs: horizontal and vertical at a third of the size, then at a sixth. Each
- * shrinking averages whole blocks first, where the thesis samples bilinearly and may miss a spark.
- */
+/* What glows, by weights or by the bright pass, goes to one of the ways to spread it. */
 #include "post/bloom.h"
 
 #include "base/error.h"
-#include "gpu/framebuffer.h"
 #include "gpu/program.h"
+#include "post/bloom_spread.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-enum { TAPS = 6 }; /* of one side, the centre included: 11 in all */
-
-struct level {
-    struct kiln_image images[2]; /* shrunk and blurred down; blurred across */
-    struct kiln_framebuffer framebuffers[2];
-};
-
 struct kiln_bloom_stage {
     struct kiln_device *device;
-    GLuint shrink, blur, vertex_array;
-    GLint factor, direction;
-    struct level third, sixth;
+    const struct kiln_scene *scene;
+    struct kiln_image *source;
+    struct kiln_bloom_gaussian *gaussian; /* one of these two */
+    struct kiln_bloom_pyramid *pyramid;
+    GLuint bright; /* 0: the source comes with its weights */
+    GLint exposure, threshold, separate_fire;
+    struct kiln_framebuffer source_framebuffer; /* of the bright pass */
+    GLuint vertex_array;
 };
 
-static bool init_level(struct kiln_bloom_stage *stage, struct level *level, uint32_t width,
-                       uint32_t height, GLenum format, struct kiln_error *error)
+/* ---- What the ways to spread share -------------------------------------------------------- */
+
+bool kiln_bloom_target_init(struct kiln_bloom_target *target, struct kiln_device *device,
+                            uint32_t width, uint32_t height, GLenum format,
+                            struct kiln_error *error)
 {
-    for (int i = 0; i < 2; i++) {
-        struct kiln_image *image = &level->images[i];
-        kiln_image_init(image, stage->device, width, height, format, "bloom");
-        if (!kiln_framebuffer_init(&level->framebuffers[i], stage->device, &image, 1, error))
-            return false;
-    }
+    kiln_image_init(&target->image, device, width, height, format, "bloom");
+    struct kiln_image *image = &target->image;
+    return kiln_framebuffer_init(&target->framebuffer, device, &image, 1, error);
+}
+
+void kiln_bloom_target_finish(struct kiln_bloom_target *target)
+{
+    kiln_framebuffer_finish(&target->framebuffer);
+    kiln_image_finish(&target->image);
+}
+
+static bool bind_image(GLuint unit, struct kiln_image *image, struct kiln_error *error)
+{
+    GLuint texture = image ? kiln_image_gl(image, KILN_READ, error) : 0;
+    if (image && !texture)
+        return false;
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glBindTexture(GL_TEXTURE_2D, texture);
     return true;
 }
 
-static void finish_level(struct level *level)
+bool kiln_bloom_pass(const struct kiln_framebuffer *target, struct kiln_image *first,
+                     struct kiln_image *second, GLuint vertex_array, struct kiln_error *error)
 {
-    for (int i = 0; i < 2; i++) {
-        kiln_framebuffer_finish(&level->framebuffers[i]);
-        kiln_image_finish(&level->images[i]);
-    }
+    if (!bind_image(0, first, error) || !bind_image(1, second, error) ||
+        !kiln_framebuffer_bind(target, error))
+        return false;
+    kiln_framebuffer_fill(vertex_array);
+    return true;
 }
 
-static void set_weights(GLuint program)
+GLuint kiln_bloom_program(struct kiln_device *device, const char *fragment,
+                          struct kiln_error *error)
 {
-    const double sigma = 2.0;
-    double weights[TAPS], sum = 0.0;
-    for (int i = 0; i < TAPS; i++) {
-        weights[i] = exp(-0.5 * (double)(i * i) / (sigma * sigma));
-        sum += i == 0 ? weights[i] : 2.0 * weights[i];
-    }
-    float normalized[TAPS];
-    for (int i = 0; i < TAPS; i++)
-        normalized[i] = (float)(weights[i] / sum);
-    glUseProgram(program);
-    glUniform1fv(glGetUniformLocation(program, "weights"), TAPS, normalized);
+    return kiln_program_create(
+        device,
+        &(struct kiln_program_params){.vertex = "draw/fullscreen.vert", .fragment = fragment},
+        error);
 }
 
-struct kiln_bloom_stage *kiln_bloom_create(struct kiln_device *device, uint32_t width,
-                                           uint32_t height, GLenum format, struct kiln_error *error)
+/* ---- The stage ---------------------------------------------------------------------------- */
+
+static bool init_bright(struct kiln_bloom_stage *stage, struct kiln_error *error)
+{
+    stage->bright = kiln_bloom_program(stage->device, "post/bloom_bright.frag", error);
+    if (!stage->bright)
+        return false;
+    stage->exposure = glGetUniformLocation(stage->bright, "exposure");
+    stage->threshold = glGetUniformLocation(stage->bright, "threshold");
+    stage->separate_fire = glGetUniformLocation(stage->bright, "separate_fire");
+    return kiln_framebuffer_init(&stage->source_framebuffer, stage->device, &stage->source, 1,
+                                 error);
+}
+
+static bool init_spread(struct kiln_bloom_stage *stage, GLenum format, struct kiln_error *error)
+{
+    uint32_t width = stage->source->width, height = stage->source->height;
+    if (stage->scene->post.bloom == KILN_BLOOM_PYRAMID)
+        stage->pyramid = kiln_bloom_pyramid_create(stage->device, width, height, format, error);
+    else
+        stage->gaussian = kiln_bloom_gaussian_create(stage->device, width, height, format, error);
+    return stage->pyramid || stage->gaussian;
+}
+
+struct kiln_bloom_stage *kiln_bloom_create(struct kiln_device *device,
+                                           const struct kiln_scene *scene,
+                                           struct kiln_image *source, GLenum format,
+                                           struct kiln_error *error)
 {
     struct kiln_bloom_stage *stage = calloc(1, sizeof *stage);
     if (!stage) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "bloom: out of memory");
         return NULL;
     }
-    stage->device = device;
-    stage->shrink =
-        kiln_program_create(device,
-                            &(struct kiln_program_params){.vertex = "draw/fullscreen.vert",
-                                                          .fragment = "post/bloom_shrink.frag"},
-                            error);
-    if (stage->shrink)
-        stage->blur =
-            kiln_program_create(device,
-                                &(struct kiln_program_params){.vertex = "draw/fullscreen.vert",
-                                                              .fragment = "post/bloom_blur.frag"},
-                                error);
-    if (!stage->blur ||
-        !init_level(stage, &stage->third, (width + 2) / 3, (height + 2) / 3, format, error) ||
-        !init_level(stage, &stage->sixth, (width + 5) / 6, (height + 5) / 6, format, error)) {
+    *stage = (struct kiln_bloom_stage){.device = device, .scene = scene, .source = source};
+    bool bright = scene->post.bloom_source == KILN_BLOOM_BRIGHT;
+    if (!init_spread(stage, format, error) || (bright && !init_bright(stage, error))) {
         kiln_bloom_destroy(&stage);
         return NULL;
     }
-    set_weights(stage->blur);
-    stage->factor = glGetUniformLocation(stage->shrink, "factor");
-    stage->direction = glGetUniformLocation(stage->blur, "direction");
     glGenVertexArrays(1, &stage->vertex_array);
     return stage;
 }
@@ -97,51 +115,48 @@ void kiln_bloom_destroy(struct kiln_bloom_stage **stage)
     struct kiln_bloom_stage *s = *stage;
     if (!s)
         return;
-    finish_level(&s->third);
-    finish_level(&s->sixth);
-    if (s->shrink)
-        glDeleteProgram(s->shrink);
-    if (s->blur)
-        glDeleteProgram(s->blur);
+    kiln_bloom_gaussian_destroy(&s->gaussian);
+    kiln_bloom_pyramid_destroy(&s->pyramid);
+    kiln_framebuffer_finish(&s->source_framebuffer);
+    glDeleteProgram(s->bright); /* 0 is ignored */
     glDeleteVertexArrays(1, &s->vertex_array);
     free(s);
     *stage = NULL;
 }
 
-static bool pass(struct kiln_bloom_stage *stage, struct kiln_image *from, struct level *level,
-                 int target, struct kiln_error *error)
+static bool pass_bright(struct kiln_bloom_stage *stage, const struct kiln_bloom_inputs *inputs,
+                        struct kiln_error *error)
 {
-    GLuint source = kiln_image_gl(from, KILN_READ, error);
-    if (!source || !kiln_framebuffer_bind(&level->framebuffers[target], error))
-        return false;
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, source);
-    kiln_framebuffer_fill(stage->vertex_array);
-    return true;
+    const struct kiln_post *post = &stage->scene->post;
+    float exposure = kiln_scene_value(stage->scene, &post->exposure, inputs->time_s);
+    float threshold = kiln_scene_value(stage->scene, &post->bloom_threshold, inputs->time_s);
+    glUseProgram(stage->bright);
+    glUniform1f(stage->exposure, exp2f(exposure));
+    glUniform1f(stage->threshold, threshold);
+    glUniform1i(stage->separate_fire, inputs->fire != NULL);
+    return bind_image(2, inputs->fire, error) &&
+           kiln_bloom_pass(&stage->source_framebuffer, inputs->scene, inputs->particles,
+                           stage->vertex_array, error);
 }
 
-static bool blur_level(struct kiln_bloom_stage *stage, struct kiln_image *source, int factor,
-                       struct level *level, struct kiln_error *error)
-{
-    glUseProgram(stage->shrink);
-    glUniform1i(stage->factor, factor);
-    if (!pass(stage, source, level, 0, error))
-        return false;
-    glUseProgram(stage->blur);
-    glUniform2i(stage->direction, 1, 0);
-    if (!pass(stage, &level->images[0], level, 1, error))
-        return false;
-    glUniform2i(stage->direction, 0, 1);
-    return pass(stage, &level->images[1], level, 0, error);
-}
-
-struct kiln_image *kiln_bloom_run(struct kiln_bloom_stage *stage, struct kiln_image *source,
+struct kiln_image *kiln_bloom_run(struct kiln_bloom_stage *stage,
+                                  const struct kiln_bloom_inputs *inputs, float *scale,
                                   struct kiln_error *error)
 {
+    const struct kiln_post *post = &stage->scene->post;
     glDisable(GL_BLEND);
-    if (!blur_level(stage, source, 3, &stage->third, error) ||
-        !blur_level(stage, &stage->third.images[0], 2, &stage->sixth, error) ||
-        !kiln_device_check(stage->device, "bloom", error))
+    if (stage->bright && !pass_bright(stage, inputs, error))
         return NULL;
-    return &stage->sixth.images[0];
+    struct kiln_image *result;
+    if (stage->pyramid) {
+        float radius = kiln_scene_value(stage->scene, &post->bloom_radius, inputs->time_s);
+        *scale = 1.0f / 2.0f;
+        result = kiln_bloom_pyramid_run(stage->pyramid, stage->source, radius, stage->vertex_array,
+                                        error);
+    } else {
+        *scale = 1.0f / 6.0f;
+        result =
+            kiln_bloom_gaussian_run(stage->gaussian, stage->source, stage->vertex_array, error);
+    }
+    return result && kiln_device_check(stage->device, "bloom", error) ? result : NULL;
 }

@@ -10,7 +10,7 @@
 #include <string.h>
 
 struct uniforms {
-    GLint bloom_strength, separate_fire, exposure, tonemap, levels, dither, frame;
+    GLint bloom_strength, bloom_scale, separate_fire, exposure, tonemap, levels, dither, frame;
 };
 
 struct kiln_composite_stage {
@@ -28,6 +28,7 @@ static void find_uniforms(struct kiln_composite_stage *stage)
     GLuint p = stage->program;
     stage->at = (struct uniforms){
         .bloom_strength = glGetUniformLocation(p, "bloom_strength"),
+        .bloom_scale = glGetUniformLocation(p, "bloom_scale"),
         .separate_fire = glGetUniformLocation(p, "separate_fire"),
         .exposure = glGetUniformLocation(p, "exposure"),
         .tonemap = glGetUniformLocation(p, "tonemap"),
@@ -111,6 +112,7 @@ bool kiln_composite_run(struct kiln_composite_stage *stage,
     if (inputs->bloom)
         strength = kiln_scene_value(scene, &post->bloom_strength, inputs->time_s);
     glUniform1f(stage->at.bloom_strength, strength);
+    glUniform1f(stage->at.bloom_scale, inputs->bloom_scale);
     glUniform1i(stage->at.separate_fire, inputs->fire != NULL);
     glUniform1f(stage->at.exposure,
                 exp2f(kiln_scene_value(scene, &post->exposure, inputs->time_s)));

@@ -16,7 +16,8 @@ void kiln_composite_destroy(struct kiln_composite_stage **stage);
 struct kiln_composite_inputs {
     struct kiln_image *scene, *particles; /* particles: premultiplied */
     struct kiln_image *fire;              /* NULL unless composed separately */
-    struct kiln_image *bloom;             /* a sixth of the size; NULL for none */
+    struct kiln_image *bloom;             /* smaller; NULL for none */
+    float bloom_scale;                    /* its size in parts of the picture's */
     uint32_t frame;
     float time_s;
 };

@@ -6,12 +6,20 @@
 static const char *const composes[] = {
     [KILN_COMPOSE_MERGED] = "merged",
     [KILN_COMPOSE_SEPARATE] = "separate",
+    [KILN_COMPOSE_ALPHA] = "alpha",
     NULL,
 };
 
 static const char *const bloom_kinds[] = {
     [KILN_BLOOM_NONE] = "none",
     [KILN_BLOOM_GAUSSIAN] = "gaussian",
+    [KILN_BLOOM_PYRAMID] = "pyramid",
+    NULL,
+};
+
+static const char *const bloom_sources[] = {
+    [KILN_BLOOM_WEIGHTS] = "weights",
+    [KILN_BLOOM_BRIGHT] = "bright",
     NULL,
 };
 
@@ -23,14 +31,23 @@ static const char *const tonemaps[] = {
 };
 
 static const struct kiln_option bloom[] = {
-    CHOICE("kind", bloom, bloom_kinds, "gaussian", "How the glow is spread."),
+    CHOICE("kind", bloom, bloom_kinds, "gaussian",
+           "How the glow is spread: gaussian by some 40 pixels, pyramid by parts of the picture."),
+    CHOICE("source", bloom_source, bloom_sources, "weights",
+           "What glows: particles by look.bloom, or all that is brighter than the threshold."),
     VALUE("strength", bloom_strength, KILN_PLAIN, 0, 100, TIME, "1", "Factor on the glow."),
+    VALUE("threshold", bloom_threshold, KILN_PLAIN, 0, 1000000, TIME, "1",
+          "Exposed light beyond which the source bright glows."),
+    VALUE("radius", bloom_radius, KILN_FRACTION, 0, 1, TIME, "0.7",
+          "How far the pyramid spreads the glow."),
     END,
 };
 
 const struct kiln_option kiln_options_post[] = {
     CHOICE("compose", compose, composes, "merged",
-           "merged sorts fire and smoke together; separate draws fire over smoke."),
+           "merged sorts fire and smoke together; separate draws fire over smoke; alpha is merged "
+           "with "
+           "fire that covers what is behind it."),
     GROUP("bloom", 0, bloom, "The glow around bright things."),
     VALUE("exposure", exposure, KILN_STOPS, -20, 20, TIME, "0", "Doubles the light per stop."),
     CHOICE("tonemap", tonemap, tonemaps, "agx", "How light becomes a picture."),

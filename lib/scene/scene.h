@@ -184,16 +184,26 @@ struct kiln_camera {
 enum kiln_compose {
     KILN_COMPOSE_MERGED,   /* fire and smoke sorted together, premultiplied */
     KILN_COMPOSE_SEPARATE, /* smoke onto the scene, then fire over it (figure 3.1) */
+    KILN_COMPOSE_ALPHA,    /* sorted together, and fire covers like smoke (Heinz 2019, 2.3.1) */
 };
 
-enum kiln_bloom_kind { KILN_BLOOM_NONE, KILN_BLOOM_GAUSSIAN };
+enum kiln_bloom_kind { KILN_BLOOM_NONE, KILN_BLOOM_GAUSSIAN, KILN_BLOOM_PYRAMID };
+
+/* What glows. */
+enum kiln_bloom_source {
+    KILN_BLOOM_WEIGHTS, /* particles, by the weights of their looks */
+    KILN_BLOOM_BRIGHT,  /* all that is brighter than a threshold */
+};
 
 enum kiln_tonemap { KILN_TONEMAP_NONE, KILN_TONEMAP_AGX, KILN_TONEMAP_ACES };
 
 struct kiln_post {
     enum kiln_compose compose;
     enum kiln_bloom_kind bloom;
+    enum kiln_bloom_source bloom_source;
     struct kiln_value bloom_strength;
+    struct kiln_value bloom_threshold; /* of exposed light */
+    struct kiln_value bloom_radius;    /* of the pyramid: 0 to 1 */
     struct kiln_value exposure; /* stops */
     enum kiln_tonemap tonemap;
     bool dither;

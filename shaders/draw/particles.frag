@@ -9,7 +9,7 @@
 layout(binding = 1) uniform sampler2DArray atlas;
 layout(binding = 2) uniform sampler2D scene_depth;
 
-uniform float additive_alpha; /* 0: fire covers nothing (merged); 1: its alpha is summed (separate) */
+uniform float additive_alpha; /* 0: fire covers nothing (merged); 1: it does, or its alpha is summed */
 
 layout(location = 0) in vec2 uv;
 layout(location = 1) flat in billboard quad;

@@ -1,16 +1,14 @@
 /* Scene, particles, fire and blurred bloom become one picture (Heinz 2019, figure 3.1, last step),
  * then exposure, tone map, sRGB and dither. */
+#include "post/compose.glsl"
 #include "post/tonemap.glsl"
 
-layout(binding = 0) uniform sampler2D scene;
-layout(binding = 1) uniform sampler2D particles; /* premultiplied: all (merged), or smoke */
-layout(binding = 2) uniform sampler2D fire;      /* premultiplied, alpha summed (separate) */
-layout(binding = 3) uniform sampler2D bloom;     /* a sixth of the size */
+layout(binding = 3) uniform sampler2D bloom; /* smaller */
 
 const float HALF_MAX = 65504.0;
 
 uniform float bloom_strength;
-uniform bool separate_fire;
+uniform float bloom_scale; /* its size in parts of the picture's */
 uniform float exposure; /* factor */
 uniform int tonemap;    /* 0 none, 1 AgX, 2 ACES: enum kiln_tonemap */
 uniform float levels;   /* of an output channel, 255 or 65535 */
@@ -59,10 +57,10 @@ spline spline_at(float t)
     return spline(vec2(w.y, w.w) / pairs + vec2(-1.0, 1.0), pairs);
 }
 
-/* Bilinear magnification would show the sixth-size bloom as diamonds. */
+/* Bilinear magnification would show a bloom of a sixth of the size as diamonds. */
 vec3 magnified_bloom()
 {
-    vec2 texel = gl_FragCoord.xy * (1.0 / 6.0) - 0.5;
+    vec2 texel = gl_FragCoord.xy * bloom_scale - 0.5;
     vec2 base = floor(texel) + 0.5;
     spline x = spline_at(fract(texel.x));
     spline y = spline_at(fract(texel.y));
@@ -80,14 +78,7 @@ vec3 magnified_bloom()
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    vec4 over = texelFetch(particles, pixel, 0);
-    vec4 color = texelFetch(scene, pixel, 0);
-    color = over + color * (1.0 - over.a);
-    if (separate_fire) {
-        vec4 flame = texelFetch(fire, pixel, 0);
-        flame.a = min(flame.a, 1.0);
-        color = flame + color * (1.0 - flame.a);
-    }
+    vec4 color = composed(pixel);
     if (bloom_strength > 0.0)
         color.rgb += bloom_strength * magnified_bloom();
     out_beauty = color;

@@ -1,0 +1,90 @@
+/* A pyramid of halved pictures, put together again from its top: each level is mixed with the
+ * doubled one below it, so that the glow has a bright core and a wide, faint skirt. Its depth
+ * follows the picture, and so does the glow: it covers the same part of a picture of any size.
+ */
+#include "post/bloom_spread.h"
+
+#include "base/error.h"
+
+#include <stdlib.h>
+
+enum { MAX_LEVELS = 12, LEAST_EDGE = 8 }; /* pixels of the shorter side of the last level */
+
+struct kiln_bloom_pyramid {
+    GLuint halve, join;
+    GLint radius;
+    uint32_t levels;
+    struct kiln_bloom_target down[MAX_LEVELS]; /* a half, a quarter, ... */
+    struct kiln_bloom_target up[MAX_LEVELS];   /* of all but the last level */
+};
+
+static bool init_targets(struct kiln_bloom_pyramid *pyramid, struct kiln_device *device,
+                         uint32_t width, uint32_t height, GLenum format, struct kiln_error *error)
+{
+    do {
+        width = (width + 1) / 2;
+        height = (height + 1) / 2;
+        uint32_t i = pyramid->levels++;
+        if (!kiln_bloom_target_init(&pyramid->down[i], device, width, height, format, error) ||
+            !kiln_bloom_target_init(&pyramid->up[i], device, width, height, format, error))
+            return false;
+    } while (pyramid->levels < MAX_LEVELS && width >= 2 * LEAST_EDGE && height >= 2 * LEAST_EDGE);
+    return true;
+}
+
+struct kiln_bloom_pyramid *kiln_bloom_pyramid_create(struct kiln_device *device, uint32_t width,
+                                                     uint32_t height, GLenum format,
+                                                     struct kiln_error *error)
+{
+    struct kiln_bloom_pyramid *pyramid = calloc(1, sizeof *pyramid);
+    if (!pyramid) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "bloom: out of memory");
+        return NULL;
+    }
+    pyramid->halve = kiln_bloom_program(device, "post/bloom_down.frag", error);
+    if (pyramid->halve)
+        pyramid->join = kiln_bloom_program(device, "post/bloom_up.frag", error);
+    if (!pyramid->join || !init_targets(pyramid, device, width, height, format, error)) {
+        kiln_bloom_pyramid_destroy(&pyramid);
+        return NULL;
+    }
+    pyramid->radius = glGetUniformLocation(pyramid->join, "radius");
+    return pyramid;
+}
+
+void kiln_bloom_pyramid_destroy(struct kiln_bloom_pyramid **pyramid)
+{
+    if (!*pyramid)
+        return;
+    for (uint32_t i = 0; i < (*pyramid)->levels; i++) {
+        kiln_bloom_target_finish(&(*pyramid)->down[i]);
+        kiln_bloom_target_finish(&(*pyramid)->up[i]);
+    }
+    glDeleteProgram((*pyramid)->halve); /* 0 is ignored */
+    glDeleteProgram((*pyramid)->join);
+    free(*pyramid);
+    *pyramid = NULL;
+}
+
+struct kiln_image *kiln_bloom_pyramid_run(struct kiln_bloom_pyramid *pyramid,
+                                          struct kiln_image *source, float radius,
+                                          GLuint vertex_array, struct kiln_error *error)
+{
+    glUseProgram(pyramid->halve);
+    struct kiln_image *above = source;
+    for (uint32_t i = 0; i < pyramid->levels; i++) {
+        if (!kiln_bloom_pass(&pyramid->down[i].framebuffer, above, NULL, vertex_array, error))
+            return NULL;
+        above = &pyramid->down[i].image;
+    }
+    glUseProgram(pyramid->join);
+    glUniform1f(pyramid->radius, radius);
+    struct kiln_image *below = above;
+    for (uint32_t i = pyramid->levels - 1; i-- > 0;) {
+        if (!kiln_bloom_pass(&pyramid->up[i].framebuffer, &pyramid->down[i].image, below,
+                             vertex_array, error))
+            return NULL;
+        below = &pyramid->up[i].image;
+    }
+    return below;
+}

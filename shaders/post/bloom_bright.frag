@@ -1,0 +1,16 @@
+/* The bright-pass filter (Heinz 2019, 2.1.5): of each pixel, what its strongest channel has beyond the
+ * threshold. The colour stays, so that a bright red glows red. */
+#include "post/compose.glsl"
+
+uniform float exposure;  /* factor */
+uniform float threshold; /* of exposed light */
+
+layout(location = 0) out vec4 out_color;
+
+void main()
+{
+    vec4 color = min(composed(ivec2(gl_FragCoord.xy)), vec4(65504.0));
+    float strongest = max(max(color.r, color.g), color.b) * exposure;
+    float beyond = max(strongest - threshold, 0.0) / max(strongest, 1e-6);
+    out_color = vec4(color.rgb * beyond, 0.0);
+}

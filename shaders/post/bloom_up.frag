@@ -1,0 +1,27 @@
+/* A level of the pyramid and what lies below it, which is doubled by the quadratic B-spline. */
+layout(binding = 0) uniform sampler2D level;
+layout(binding = 1) uniform sampler2D below;
+uniform float radius; /* 0: this level alone, 1: what lies below alone */
+
+layout(location = 0) out vec4 out_color;
+
+/* The spline's weights a quarter of a texel to the left or to the right of a texel's centre. */
+vec3 spline_weights(int odd)
+{
+    return odd == 0 ? vec3(0.28125, 0.6875, 0.03125) : vec3(0.03125, 0.6875, 0.28125);
+}
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    ivec2 last = textureSize(below, 0) - 1;
+    vec3 wx = spline_weights(pixel.x & 1), wy = spline_weights(pixel.y & 1);
+    vec4 sum = vec4(0.0);
+    for (int y = 0; y < 3; y++) {
+        for (int x = 0; x < 3; x++) {
+            ivec2 at = clamp(pixel / 2 + ivec2(x, y) - 1, ivec2(0), last);
+            sum += wx[x] * wy[y] * texelFetch(below, at, 0);
+        }
+    }
+    out_color = mix(texelFetch(level, pixel, 0), sum, radius);
+}
