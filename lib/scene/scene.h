@@ -204,7 +204,7 @@ struct kiln_post {
     struct kiln_value bloom_strength;
     struct kiln_value bloom_threshold; /* of exposed light */
     struct kiln_value bloom_radius;    /* of the pyramid: 0 to 1 */
-    struct kiln_value exposure; /* stops */
+    struct kiln_value exposure;        /* stops */
     enum kiln_tonemap tonemap;
     bool dither;
 };
