@@ -56,7 +56,12 @@ static bool init_atlas(struct kiln_stages *s, struct kiln_error *error)
     struct kiln_atlas_request requests[KILN_MAX_SYSTEMS];
     for (uint32_t i = 0; i < s->scene->system_count; i++) {
         const struct kiln_look *look = &s->scene->systems[i].look;
-        requests[i] = (struct kiln_atlas_request){look->atlas, look->columns, look->rows};
+        requests[i] = (struct kiln_atlas_request){.sources = look->atlas,
+                                                  .count = look->atlas_count,
+                                                  .columns = look->columns,
+                                                  .rows = look->rows,
+                                                  .motion = look->motion,
+                                                  .motion_scale = (float)look->motion_scale};
     }
     return kiln_atlas_init(&s->atlas, s->device, requests, s->scene->system_count, s->threads,
                            error);

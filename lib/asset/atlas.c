@@ -1,122 +1,31 @@
-/* Cells are prepared in float on the host, one flipbook at a time: generated, or cut out of an
- * image and resized in premultiplied linear light, then shrunk level by level and stored in 8 bits.
+/* Cells are prepared in float on the host, one flipbook at a time: generated, or read from a file,
+ * then shrunk level by level and stored in 8 bits. How they move is a second texture with the same
+ * layers, much coarser, since gas moves together.
  */
 #include "asset/atlas.h"
 
 #include "asset/builtin.h"
-#include "asset/image.h"
+#include "asset/cells_in.h"
 #include "base/error.h"
-#include "shared/draw_layout.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 enum { LEVELS = 8 }; /* 128 to 1 */
 
+/* One flipbook of all that are asked for, once each. */
+struct flipbook {
+    struct kiln_cells_source source;
+    const char *builtin; /* its name, or NULL */
+    const struct kiln_atlas_request *request;
+    struct kiln_atlas_range *range;
+    struct kiln_film *film;
+    bool failed; /* out of memory */
+};
+
 static bool out_of_memory(struct kiln_error *error, const char *source)
 {
     return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory for its cells", source);
-}
-
-/* ---- image files ----------------------------------------------------------------------------- */
-
-static float decode_srgb(float x)
-{
-    return x <= 0.04045f ? x / 12.92f : powf((x + 0.055f) / 1.055f, 2.4f);
-}
-
-/* A pixel of the image as premultiplied linear light. */
-static void read_pixel(const struct kiln_asset_image *image, uint32_t x, uint32_t y, float rgba[4])
-{
-    size_t at = ((size_t)y * image->width + x) * 4;
-    for (int c = 0; c < 4; c++) {
-        if (image->type == KILN_IMAGE_U8)
-            rgba[c] = (float)((const uint8_t *)image->pixels)[at + (size_t)c] / 255.0f;
-        else if (image->type == KILN_IMAGE_U16)
-            rgba[c] = (float)((const uint16_t *)image->pixels)[at + (size_t)c] / 65535.0f;
-        else
-            rgba[c] = ((const float *)image->pixels)[at + (size_t)c];
-    }
-    for (int c = 0; c < 3; c++) {
-        if (image->srgb)
-            rgba[c] = decode_srgb(rgba[c]);
-        if (!image->premultiplied)
-            rgba[c] *= rgba[3];
-    }
-}
-
-struct area {
-    float x0, y0, x1, y1; /* in pixels of the image */
-};
-
-/* The mean over an area; an area smaller than a pixel is the pixel under its middle. */
-static void average_area(const struct kiln_asset_image *image, struct area area, float rgba[4])
-{
-    float sum[4] = {0}, weight = 0.0f;
-    for (uint32_t y = (uint32_t)area.y0; (float)y < area.y1 && y < image->height; y++) {
-        float wy = fminf((float)y + 1.0f, area.y1) - fmaxf((float)y, area.y0);
-        for (uint32_t x = (uint32_t)area.x0; (float)x < area.x1 && x < image->width; x++) {
-            float w = wy * (fminf((float)x + 1.0f, area.x1) - fmaxf((float)x, area.x0));
-            float pixel[4];
-            read_pixel(image, x, y, pixel);
-            for (int c = 0; c < 4; c++)
-                sum[c] += w * pixel[c];
-            weight += w;
-        }
-    }
-    for (int c = 0; c < 4; c++)
-        rgba[c] = weight > 0.0f ? sum[c] / weight : 0.0f;
-}
-
-struct resize {
-    const struct kiln_asset_image *image;
-    uint32_t columns;
-    uint32_t cell_width, cell_height;
-    float *cells;
-};
-
-static void resize_cells(void *context, size_t begin, size_t end, uint32_t worker)
-{
-    (void)worker;
-    const struct resize *job = context;
-    float step_x = (float)job->cell_width / KILN_ATLAS_CELL;
-    float step_y = (float)job->cell_height / KILN_ATLAS_CELL;
-    for (size_t cell = begin; cell < end; cell++) {
-        float left = (float)(cell % job->columns * job->cell_width);
-        float top = (float)(cell / job->columns * job->cell_height);
-        float *out = job->cells + cell * KILN_ATLAS_CELL * KILN_ATLAS_CELL * 4;
-        for (uint32_t y = 0; y < KILN_ATLAS_CELL; y++) {
-            for (uint32_t x = 0; x < KILN_ATLAS_CELL; x++, out += 4) {
-                struct area area = {left + (float)x * step_x, top + (float)y * step_y,
-                                    left + (float)(x + 1) * step_x, top + (float)(y + 1) * step_y};
-                average_area(job->image, area, out);
-            }
-        }
-    }
-}
-
-static bool load_cells(const struct kiln_atlas_request *request, float *cells,
-                       struct kiln_threads *threads, struct kiln_error *error)
-{
-    struct kiln_asset_image *image = kiln_asset_image_load(request->source, error);
-    if (!image)
-        return false;
-    bool divides = image->width % request->columns == 0 && image->height % request->rows == 0;
-    if (divides) {
-        struct resize job = {.image = image,
-                             .columns = request->columns,
-                             .cell_width = image->width / request->columns,
-                             .cell_height = image->height / request->rows,
-                             .cells = cells};
-        kiln_threads_for(threads, (size_t)request->columns * request->rows, 1, resize_cells, &job);
-    } else {
-        kiln_error_set(error, KILN_INVALID_INPUT,
-                       "%s: %u x %u pixels do not divide into %u columns and %u rows",
-                       request->source, image->width, image->height, request->columns,
-                       request->rows);
-    }
-    kiln_asset_image_destroy(&image);
-    return divides;
 }
 
 /* ---- levels of detail ------------------------------------------------------------------------ */
@@ -178,21 +87,21 @@ static void upload_cell(float *cell, uint32_t kind, uint32_t layer, uint8_t *byt
     }
 }
 
-static bool add_flipbook(const struct kiln_atlas_range *range,
-                         const struct kiln_atlas_request *request, struct kiln_threads *threads,
+static bool upload_cells(const struct flipbook *book, struct kiln_threads *threads,
                          struct kiln_error *error)
 {
+    const struct kiln_atlas_range *range = book->range;
     const size_t cell_pixels = (size_t)KILN_ATLAS_CELL * KILN_ATLAS_CELL;
     float *cells = calloc(range->cells, cell_pixels * 4 * sizeof(float));
     uint8_t *bytes = malloc(cell_pixels * 4);
     bool ok = cells && bytes;
-    if (!ok) {
-        out_of_memory(error, request->source);
-    } else if (range->kind == KILN_CELL_MASK) {
-        kiln_builtin_generate(kiln_builtin_of(request->source), KILN_ATLAS_CELL, cells, threads);
-    } else {
-        ok = load_cells(request, cells, threads, error);
-    }
+    if (!ok)
+        out_of_memory(error, book->source.path);
+    else if (book->builtin)
+        kiln_builtin_generate(book->builtin, range->cells, KILN_ATLAS_CELL, book->film, cells,
+                              threads);
+    else
+        ok = kiln_cells_load(&book->source, cells, threads, error);
     for (uint32_t i = 0; ok && i < range->cells; i++)
         upload_cell(cells + i * cell_pixels * 4, range->kind, range->first_layer + i, bytes);
     free(cells);
@@ -200,36 +109,66 @@ static bool add_flipbook(const struct kiln_atlas_range *range,
     return ok;
 }
 
-/* ---- the texture ----------------------------------------------------------------------------- */
+/* ---- motion ---------------------------------------------------------------------------------- */
 
-static bool same_request(const struct kiln_atlas_request *a, const struct kiln_atlas_request *b)
+/* Whether the cells of a flipbook are to be moved. */
+static bool moves(const struct flipbook *book)
 {
-    if (strcmp(a->source, b->source) != 0)
-        return false;
-    return kiln_builtin_of(a->source) || (a->columns == b->columns && a->rows == b->rows);
+    const char *motion = book->request->motion;
+    return motion[0] == '/' || (book->film && strcmp(motion, "auto") == 0);
 }
 
-/* Gives each system its layers; *shared tells which repeat an earlier system's. */
-static void assign_layers(struct kiln_atlas *atlas, const struct kiln_atlas_request *requests,
-                          uint32_t count, bool *shared)
+/* Stores motion relative to its largest part, rows from the top and y down as textures have it. */
+static void encode_motion(const float *motion, size_t pixels, float largest, int8_t *bytes)
 {
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t same = 0;
-        while (same < i && !same_request(&requests[same], &requests[i]))
-            same++;
-        shared[i] = same < i;
-        if (shared[i]) {
-            atlas->systems[i] = atlas->systems[same];
-            continue;
-        }
-        bool builtin = kiln_builtin_of(requests[i].source) != NULL;
-        atlas->systems[i] = (struct kiln_atlas_range){
-            .first_layer = atlas->layers,
-            .cells = builtin ? KILN_BUILTIN_CELLS : requests[i].columns * requests[i].rows,
-            .kind = builtin ? KILN_CELL_MASK : KILN_CELL_COLOR,
-        };
-        atlas->layers += atlas->systems[i].cells;
+    for (size_t i = 0; i < 2 * pixels; i++) {
+        float part = motion[i] / largest * (i % 2 ? -127.0f : 127.0f);
+        bytes[i] = (int8_t)floorf(part + 0.5f);
     }
+}
+
+static bool upload_motion(const struct flipbook *book, struct kiln_threads *threads,
+                          struct kiln_error *error)
+{
+    struct kiln_atlas_range *range = book->range;
+    const size_t pixels = (size_t)range->cells * KILN_ATLAS_MOTION * KILN_ATLAS_MOTION;
+    float *motion = malloc(pixels * 2 * sizeof *motion);
+    int8_t *bytes = malloc(pixels * 2);
+    bool ok = (motion && bytes) || out_of_memory(error, book->source.path);
+    float scale = 1.0f;
+    if (ok && book->request->motion[0] == '/') {
+        struct kiln_cells_source source = book->source;
+        source.path = book->request->motion;
+        source.edge = KILN_ATLAS_MOTION;
+        ok = kiln_cells_load_motion(&source, motion, threads, error);
+        scale = book->request->motion_scale;
+    } else if (ok) {
+        kiln_builtin_motion(book->film, KILN_ATLAS_MOTION, motion);
+    }
+    float largest = 0.0f;
+    for (size_t i = 0; ok && i < pixels * 2; i++)
+        largest = fmaxf(largest, fabsf(motion[i]));
+    if (ok && largest > 0.0f) {
+        encode_motion(motion, pixels, largest, bytes);
+        glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, (GLint)range->first_layer, KILN_ATLAS_MOTION,
+                        KILN_ATLAS_MOTION, (GLsizei)range->cells, GL_RG, GL_BYTE, bytes);
+        range->motion = largest * scale;
+    }
+    free(motion);
+    free(bytes);
+    return ok;
+}
+
+/* ---- textures -------------------------------------------------------------------------------- */
+
+/* Of the bound texture. */
+static void set_filters(GLint levels, GLint shrinking)
+{
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, levels - 1);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, shrinking);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
 static void create_texture(struct kiln_atlas *atlas)
@@ -241,11 +180,98 @@ static void create_texture(struct kiln_atlas *atlas)
         glTexImage3D(GL_TEXTURE_2D_ARRAY, level, GL_RGBA8, edge, edge, (GLsizei)atlas->layers, 0,
                      GL_RGBA, GL_UNSIGNED_BYTE, NULL);
     }
-    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, LEVELS - 1);
-    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    set_filters(LEVELS, GL_LINEAR_MIPMAP_NEAREST);
+}
+
+/* One texel where nothing moves. */
+static void create_motion_texture(struct kiln_atlas *atlas, bool any)
+{
+    GLsizei edge = any ? KILN_ATLAS_MOTION : 1, layers = any ? (GLsizei)atlas->layers : 1;
+    glGenTextures(1, &atlas->motion);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, atlas->motion);
+    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RG8_SNORM, edge, edge, layers, 0, GL_RG, GL_BYTE, NULL);
+    set_filters(1, GL_LINEAR);
+}
+
+/* ---- all flipbooks --------------------------------------------------------------------------- */
+
+static bool same_flipbook(const struct flipbook *a, const struct flipbook *b)
+{
+    return strcmp(a->source.path, b->source.path) == 0 && a->source.columns == b->source.columns &&
+           a->source.rows == b->source.rows &&
+           strcmp(a->request->motion, b->request->motion) == 0 &&
+           a->request->motion_scale == b->request->motion_scale;
+}
+
+struct flipbooks {
+    struct flipbook books[KILN_MAX_SYSTEMS * KILN_MAX_TEXTURES];
+    uint32_t count;
+    struct kiln_atlas_range *copies[KILN_MAX_SYSTEMS * KILN_MAX_TEXTURES]; /* ranges like an */
+    uint32_t originals[KILN_MAX_SYSTEMS * KILN_MAX_TEXTURES];              /* earlier book's */
+    uint32_t copy_count;
+};
+
+/* Gives a texture its layers, or notes that an earlier one is the same. */
+static void add_texture(struct flipbooks *all, struct kiln_atlas *atlas,
+                        const struct kiln_atlas_request *request, uint32_t texture,
+                        struct kiln_atlas_range *range)
+{
+    struct flipbook book = {
+        .source = {request->sources[texture], request->columns, request->rows, KILN_ATLAS_CELL},
+        .builtin = kiln_builtin_of(request->sources[texture]),
+        .request = request,
+        .range = range,
+    };
+    uint32_t same = 0;
+    while (same < all->count && !same_flipbook(&all->books[same], &book))
+        same++;
+    if (same < all->count) {
+        all->copies[all->copy_count] = range;
+        all->originals[all->copy_count++] = same;
+        return;
+    }
+    *range = (struct kiln_atlas_range){
+        .first_layer = atlas->layers,
+        .cells = request->columns * request->rows,
+        .kind = book.builtin ? KILN_CELL_MASK : KILN_CELL_COLOR,
+    };
+    atlas->layers += range->cells;
+    all->books[all->count++] = book;
+}
+
+static void make_films(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    struct flipbooks *all = context;
+    for (size_t i = begin; i < end; i++) {
+        struct flipbook *book = &all->books[i];
+        if (book->builtin)
+            book->failed = !kiln_builtin_film(book->builtin, book->range->cells, &book->film);
+    }
+}
+
+static bool fill_textures(struct kiln_atlas *atlas, struct flipbooks *all,
+                          struct kiln_threads *threads, struct kiln_error *error)
+{
+    kiln_threads_for(threads, all->count, 1, make_films, all);
+    bool ok = true, any_moves = false;
+    for (uint32_t i = 0; i < all->count; i++)
+        any_moves |= moves(&all->books[i]);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    create_texture(atlas);
+    for (uint32_t i = 0; ok && i < all->count; i++) {
+        const struct flipbook *book = &all->books[i];
+        ok = book->failed ? out_of_memory(error, book->source.path)
+                          : upload_cells(book, threads, error);
+    }
+    create_motion_texture(atlas, any_moves);
+    for (uint32_t i = 0; ok && i < all->count; i++)
+        ok = !moves(&all->books[i]) || upload_motion(&all->books[i], threads, error);
+    for (uint32_t i = 0; i < all->copy_count; i++)
+        *all->copies[i] = *all->books[all->originals[i]].range;
+    for (uint32_t i = 0; i < all->count; i++)
+        free(all->books[i].film);
+    return ok;
 }
 
 bool kiln_atlas_init(struct kiln_atlas *atlas, struct kiln_device *device,
@@ -253,31 +279,30 @@ bool kiln_atlas_init(struct kiln_atlas *atlas, struct kiln_device *device,
                      struct kiln_threads *threads, struct kiln_error *error)
 {
     *atlas = (struct kiln_atlas){0};
-    bool shared[KILN_MAX_SYSTEMS] = {false};
-    assign_layers(atlas, requests, count, shared);
+    struct flipbooks all = {0};
+    for (uint32_t i = 0; i < count; i++) {
+        atlas->systems[i].count = requests[i].count;
+        for (uint32_t k = 0; k < requests[i].count; k++)
+            add_texture(&all, atlas, &requests[i], k, &atlas->systems[i].textures[k]);
+    }
     if ((int64_t)atlas->layers > device->info.max_array_layers)
         return kiln_error_set(error, KILN_DEVICE_FAILED,
                               "the atlases have %u cells together; %s takes %d", atlas->layers,
                               device->info.name, device->info.max_array_layers);
-    create_texture(atlas);
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    for (uint32_t i = 0; i < count; i++) {
-        if (!shared[i] && !add_flipbook(&atlas->systems[i], &requests[i], threads, error)) {
-            kiln_atlas_finish(atlas);
-            return false;
-        }
-        glBindTexture(GL_TEXTURE_2D_ARRAY, atlas->texture);
+    bool ok = fill_textures(atlas, &all, threads, error);
+    if (ok) {
+        kiln_device_label(device, GL_TEXTURE, atlas->texture, "atlas");
+        kiln_device_label(device, GL_TEXTURE, atlas->motion, "atlas motion");
+        ok = kiln_device_check(device, "atlas", error);
     }
-    kiln_device_label(device, GL_TEXTURE, atlas->texture, "atlas");
-    if (!kiln_device_check(device, "atlas", error)) {
+    if (!ok)
         kiln_atlas_finish(atlas);
-        return false;
-    }
-    return true;
+    return ok;
 }
 
 void kiln_atlas_finish(struct kiln_atlas *atlas)
 {
     glDeleteTextures(1, &atlas->texture);
+    glDeleteTextures(1, &atlas->motion);
     *atlas = (struct kiln_atlas){0};
 }

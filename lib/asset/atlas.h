@@ -6,30 +6,46 @@
 
 #include "base/thread.h"
 #include "gpu/device.h"
+#include "shared/draw_layout.h"
 #include "shared/particle.h"
 
-enum { KILN_ATLAS_CELL = 128 }; /* edge of a layer, px; cells of files are resized to it */
+enum { KILN_ATLAS_MOTION = 32 }; /* edge of a layer of motion, texels */
 
-/* One system's cells. */
+/* The cells of one texture. */
 struct kiln_atlas_range {
     uint32_t first_layer, cells;
     uint32_t kind; /* KILN_CELL_MASK or KILN_CELL_COLOR (shared/draw_layout.h) */
+    float motion;  /* edges of the cell that a full value of the motion texture means; 0: none */
+};
+
+/* The textures of a system, of which each particle has one. */
+struct kiln_atlas_textures {
+    struct kiln_atlas_range textures[KILN_MAX_TEXTURES];
+    uint32_t count;
 };
 
 struct kiln_atlas {
     GLuint texture; /* 2-D array, RGBA8, with mip levels */
-    struct kiln_atlas_range systems[KILN_MAX_SYSTEMS];
+    GLuint
+        motion; /* 2-D array of the same layers, RG8_SNORM: where cells are on their way to the */
+                /* next; 1 x 1 x 1 when none moves */
+    struct kiln_atlas_textures systems[KILN_MAX_SYSTEMS];
     uint32_t layers;
 };
 
-/* What a system asks for: "builtin:NAME", or an image file cut into columns x rows cells. */
+/* What a system asks for. */
 struct kiln_atlas_request {
-    const char *source;
-    uint32_t columns, rows;
+    const char *const
+        *sources;           /* "builtin:NAME", or image files cut into columns x rows cells, or */
+    uint32_t count;         /* videos, whose first columns x rows frames are the cells; 1 to */
+                            /* KILN_MAX_TEXTURES of them */
+    uint32_t columns, rows; /* a built-in flipbook is made with as many cells */
+    const char *motion;     /* "none", "auto" (what built-in ones know) or an absolute path */
+    float motion_scale;     /* of a file: edges of the cell that a full value means */
 };
 
-/* Makes the texture for count systems; equal requests share layers. A file that is no image or does
- * not divide into the cells is KILN_INVALID_INPUT; more layers than the device has,
+/* Makes the textures for count systems; equal ones share layers. A file that is neither image nor
+ * video or does not have the cells is KILN_INVALID_INPUT; more layers than the device has,
  * KILN_DEVICE_FAILED. */
 bool kiln_atlas_init(struct kiln_atlas *atlas, struct kiln_device *device,
                      const struct kiln_atlas_request *requests, uint32_t count,

@@ -13,8 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static_assert(offsetof(struct kiln_draw_look, atlas) == 48, "std140");
-static_assert(sizeof(struct kiln_draw_look) == 80, "std140");
+static_assert(offsetof(struct kiln_draw_look, flags) == 48, "std140");
+static_assert(sizeof(struct kiln_draw_look) == 64 + 16 * KILN_MAX_TEXTURES, "std140");
 static_assert(KILN_MAX_SYSTEMS * sizeof(struct kiln_draw_look) <= 16384, "of every GL");
 
 struct kiln_particles_stage {
@@ -30,15 +30,20 @@ struct kiln_particles_stage {
 };
 
 static struct kiln_draw_look make_look(const struct kiln_scene *scene, uint32_t index,
-                                       const struct kiln_atlas_range *cells)
+                                       const struct kiln_atlas_textures *textures)
 {
     const struct kiln_look *look = &scene->systems[index].look;
-    return (struct kiln_draw_look){
+    struct kiln_draw_look made = {
         .derived = kiln_scene_derived(scene, index),
-        .atlas = {cells->first_layer, cells->cells, cells->kind, KILN_ATLAS_CELL},
         .flags = {look->blend == KILN_BLEND_ADD, look->random_start,
-                  look->soft_formula == KILN_SOFT_LITERAL, 0},
+                  look->soft_formula == KILN_SOFT_LITERAL, textures->count},
     };
+    for (uint32_t i = 0; i < textures->count; i++) {
+        const struct kiln_atlas_range *cells = &textures->textures[i];
+        made.textures[i] =
+            (uint4){cells->first_layer, cells->cells, cells->kind, FLOAT_BITS(cells->motion)};
+    }
+    return made;
 }
 
 static bool make_buffers(struct kiln_particles_stage *stage, struct kiln_error *error)
@@ -163,6 +168,7 @@ bool kiln_particles_run(struct kiln_particles_stage *stage, const struct kiln_pa
     update_looks(stage, draw->time_s);
     bind_texture(1, GL_TEXTURE_2D_ARRAY, stage->atlas->texture);
     bind_texture(2, GL_TEXTURE_2D, depth);
+    bind_texture(3, GL_TEXTURE_2D_ARRAY, stage->atlas->motion);
 
     glUseProgram(stage->program);
     glUniform1f(stage->additive_alpha, draw->sum_alpha || draw->fire_covers ? 1.0f : 0.0f);

@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 
 #include "asset/builtin.h"
-#include "asset/image.h"
+#include "asset/cells_in.h"
 #include "base/error.h"
 
 const char *kiln_asset_root(struct kiln_arena *arena, const char *root, const char *file,
@@ -69,7 +69,7 @@ static bool check_image(struct kiln_reader *reader, const struct kiln_node *node
                         const char *name)
 {
     struct kiln_error error = {0};
-    if (kiln_asset_image_check(path, &error))
+    if (kiln_cells_check(path, &error))
         return true;
     /* The scene's own name for it instead of the whole path. */
     size_t length = strlen(path);

@@ -9,7 +9,7 @@
 const char *kiln_asset_root(struct kiln_arena *arena, const char *root, const char *file,
                             struct kiln_error *error);
 
-/* Reads "builtin:name", or the path of an image file, which becomes absolute. */
+/* Reads "builtin:name", or the path of an image or video file, which becomes absolute. */
 bool kiln_read_asset(struct kiln_reader *reader, const struct kiln_node *node, const char **asset);
 
 /* The asset as a scene names it: relative to the asset root. */

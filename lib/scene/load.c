@@ -27,25 +27,33 @@ static bool keep_keys(struct kiln_reader *reader)
     return true;
 }
 
+static bool add_file_hash(struct kiln_text *text, const char *path, struct kiln_error *error)
+{
+    char hex[65];
+    if (path[0] != '/') /* built in */
+        return true;
+    if (!kiln_hash_sha256_file(path, hex))
+        return kiln_error_set_errno(error, KILN_INVALID_INPUT, errno, "%s", path);
+    kiln_text_add(text, "%s\n", hex);
+    return true;
+}
+
 /* Of the printed scene and of what its textures contain, so that a changed picture is another
  * scene. */
 static bool take_hash(struct kiln_scene *scene, struct kiln_error *error)
 {
     struct kiln_text text;
-    bool ok = kiln_print_scene(scene, &text);
-    for (uint32_t i = 0; ok && i < scene->system_count; i++) {
-        const char *atlas = scene->systems[i].look.atlas;
-        char hex[65];
-        if (atlas[0] != '/') /* built in */
-            continue;
-        if (!kiln_hash_sha256_file(atlas, hex)) {
-            kiln_text_free(&text);
-            return kiln_error_set_errno(error, KILN_INVALID_INPUT, errno, "%s", atlas);
-        }
-        kiln_text_add(&text, "%s\n", hex);
+    bool ok = kiln_print_scene(scene, &text), read = true;
+    for (uint32_t i = 0; ok && read && i < scene->system_count; i++) {
+        const struct kiln_look *look = &scene->systems[i].look;
+        for (uint32_t k = 0; read && k < look->atlas_count; k++)
+            read = add_file_hash(&text, look->atlas[k], error);
+        read = read && add_file_hash(&text, look->motion, error);
     }
     ok = ok && !text.failed && kiln_hash_sha256(text.data, text.length, scene->hash);
     kiln_text_free(&text);
+    if (!read)
+        return false;
     return ok || kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading a scene");
 }
 

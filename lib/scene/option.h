@@ -37,7 +37,10 @@ extern const struct kiln_option_type kiln_type_rational; /* 30000/1001; struct k
 extern const struct kiln_option_type kiln_type_number;   /* 2 s; double */
 extern const struct kiln_option_type kiln_type_choice;   /* a word of `choices`; an enum */
 extern const struct kiln_option_type kiln_type_pair;     /* [1280, 720]; uint32_t[2] */
-extern const struct kiln_option_type kiln_type_asset;    /* builtin:name or a path; const char * */
+extern const struct kiln_option_type kiln_type_assets;   /* builtin:name, a path, or a list of */
+                                                         /* these; const char *[], count */
+extern const struct kiln_option_type kiln_type_motion;   /* a word of `choices` or a path; */
+                                                         /* const char * */
 extern const struct kiln_option_type kiln_type_bounds;   /* {min, max} or none; kiln_bounds */
 extern const struct kiln_option_type kiln_type_bursts;   /* {1 s: 100}; kiln_burst[], count */
 extern const struct kiln_option_type kiln_type_value;    /* animated; struct kiln_value */

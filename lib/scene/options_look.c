@@ -17,6 +17,8 @@ static const char *const soft_formulas[] = {
     NULL,
 };
 
+static const char *const motions[] = {"auto", "none", NULL};
+
 static const struct kiln_option fade[] = {
     VALUE("in", fade_in, KILN_FRACTION, 0, 1, TIME, "0.1", "Part of the life to full opacity."),
     VALUE("out", fade_out, KILN_FRACTION, 0, 1, TIME, "0.3", "Part of the life to vanish in."),
@@ -24,9 +26,19 @@ static const struct kiln_option fade[] = {
 };
 
 const struct kiln_option kiln_options_look[] = {
-    {ROW("atlas", asset, AT(atlas), "\"builtin:smoke\"", "The texture: cells that play in order.")},
-    {ROW("cells", pair, AT(columns), "[8, 8]", "Columns and rows of an atlas file."),
+    {ROW("atlas", assets, AT(atlas), "\"builtin:smoke\"",
+         "The texture: cells that play in order. Of several, each particle gets one."),
+     .count_offset = AT(atlas_count), .max_count = KILN_MAX_TEXTURES},
+    {ROW("cells", pair, AT(columns), "[8, 8]",
+         "Columns and rows of an atlas file; a built-in atlas and a video have as many cells."),
      LIMITS(KILN_PLAIN, 1, 64)},
+    {ROW("motion", motion, AT(motion), "auto",
+         "An image of where each cell moves until the next (red right, green up, half is none), "
+         "so that few cells play smoothly; auto: what built-in atlases know; none: cells mix."),
+     .choices = motions},
+    {ROW("motion_scale", number, AT(motion_scale), "1",
+         "What full red or green of a motion file means, in edges of a cell."),
+     LIMITS(KILN_PLAIN, 0, 10)},
     CHOICE("blend", blend, blends, "alpha",
            "alpha covers what is behind, like smoke; add shines through, like fire."),
     VALUE("size", size, KILN_METRES, 0, 1000, BOTH, "0.5 m", "Edge of the billboard."),

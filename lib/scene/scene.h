@@ -10,6 +10,7 @@
 #include "base/arena.h"
 #include "kiln.h"
 #include "particles/births.h"
+#include "shared/draw_layout.h"
 #include "shared/particle.h"
 #include "shared/value.h"
 
@@ -101,8 +102,11 @@ enum kiln_soft_formula {
 };
 
 struct kiln_look {
-    const char *atlas;      /* "builtin:fire", "builtin:smoke" or an absolute file path */
-    uint32_t columns, rows; /* cells of an atlas file */
+    const char *atlas[KILN_MAX_TEXTURES]; /* "builtin:NAME" or absolute file paths, of which each */
+    uint32_t atlas_count;                 /* particle gets one */
+    uint32_t columns, rows;               /* cells of each */
+    const char *motion;  /* "none", "auto" (of built-in atlases) or an absolute file path */
+    double motion_scale; /* edges of a cell that the file's full value means */
     enum kiln_blend blend;
     struct kiln_value size;        /* m: edge of the billboard */
     struct kiln_range scale;       /* factor on size, drawn per particle */

@@ -1,9 +1,7 @@
-/* Types with a form of their own: pair, asset, bounds, bursts. */
+/* Types with a form of their own: pair, bounds, bursts. */
 #include <math.h>
 #include <string.h>
 
-#include "asset/builtin.h"
-#include "scene/asset_path.h"
 #include "scene/printer.h"
 #include "scene/reader.h"
 #include "scene/schema.h"
@@ -42,59 +40,6 @@ static void schema_pair(const struct kiln_option *option, struct kiln_text *out)
 }
 
 const struct kiln_option_type kiln_type_pair = {read_pair, print_pair, describe_pair, schema_pair};
-
-/* ---- asset ---------------------------------------------------------------------------------- */
-
-/* Is this a text for YAML? Without quotes, some words are numbers and such. */
-static bool is_text(const struct kiln_node *node)
-{
-    static const char *const others[] = {"true", "false", "null", "~"};
-    double number;
-    if (node->kind != KILN_NODE_SCALAR || *node->text == '\0')
-        return false;
-    bool is_other = kiln_text_to_double(node->text, &number);
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        is_other |= strcmp(node->text, others[i]) == 0;
-    return node->quoted || !is_other;
-}
-
-static bool read_asset(struct kiln_reader *reader, const struct kiln_option *option,
-                       const struct kiln_node *node, void *field)
-{
-    if (!is_text(node))
-        return kiln_reader_mismatch(reader, option, node);
-    return kiln_read_asset(reader, node, field);
-}
-
-static void print_asset(struct kiln_printer *printer, const struct kiln_option *option,
-                        const void *field)
-{
-    (void)option;
-    const char *asset = *(const char *const *)field;
-    kiln_text_add(&printer->text, " ");
-    kiln_text_add_json(&printer->text, kiln_asset_name(printer->scene, asset));
-    kiln_text_add(&printer->text, "\n");
-}
-
-static void describe_asset(const struct kiln_option *option, struct kiln_text *out)
-{
-    (void)option;
-    for (size_t i = 0; kiln_builtin_name(i); i++)
-        kiln_text_add(out, "\"builtin:%s\", ", kiln_builtin_name(i));
-    kiln_text_add(out, "or the path of an image file, from the scene's folder and inside it");
-}
-
-static void schema_asset(const struct kiln_option *option, struct kiln_text *out)
-{
-    (void)option;
-    kiln_text_add(out, "{\"type\": \"string\", \"pattern\": \"^(builtin:(");
-    for (size_t i = 0; kiln_builtin_name(i); i++)
-        kiln_text_add(out, "%s%s", i ? "|" : "", kiln_builtin_name(i));
-    kiln_text_add(out, ")|(?!builtin:|/).+)$\"}");
-}
-
-const struct kiln_option_type kiln_type_asset = {read_asset, print_asset, describe_asset,
-                                                 schema_asset};
 
 /* ---- bounds --------------------------------------------------------------------------------- */
 

@@ -189,6 +189,10 @@ static bool check_systems(struct kiln_reader *reader, const struct kiln_node *ro
         if (cells > KILN_MAX_CELLS)
             return fail(reader, root, path, "%u cells are too many; at most %d", cells,
                         KILN_MAX_CELLS);
+        snprintf(path, sizeof path, "systems.%s.look.motion", system->name);
+        if (system->look.motion[0] == '/' &&
+            (system->look.atlas_count > 1 || system->look.atlas[0][0] != '/'))
+            return fail(reader, root, path, "a motion file goes with one atlas file");
         if (!system->bounds.enabled)
             system->bounds = scene->bounds;
     }

@@ -6,7 +6,7 @@ struct billboard {
     vec4 cool;    /* emitted where it is 0; a: scale of the soft fade, 1/m */
     vec4 cells;   /* two layers of the atlas, the mix between them, level of detail */
     vec4 depth;   /* view depth, m; KILN_CELL_*; 1: literal soft formula; distance, m */
-    vec4 bloom;   /* weights of equation 3.2; a: unused */
+    vec4 bloom;   /* weights of equation 3.2; a: scale of the motion between the cells */
     vec4 light_0; /* light from everywhere, and how it changes along the billboard's axes (right, */
     vec4 light_x; /* up, towards the viewer): spherical harmonics of degrees 0 and 1 */
     vec4 light_y;

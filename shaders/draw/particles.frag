@@ -8,6 +8,7 @@
 
 layout(binding = 1) uniform sampler2DArray atlas;
 layout(binding = 2) uniform sampler2D scene_depth;
+layout(binding = 3) uniform sampler2DArray atlas_motion;
 
 uniform float additive_alpha; /* 0: fire covers nothing (merged); 1: it does, or its alpha is summed */
 
@@ -31,10 +32,20 @@ float soft_factor()
     return clamp((scene - quad.depth.x) * scale, 0.0, 1.0);
 }
 
+/* Between two cells of the flipbook. What is here on its way from the one to the other is found in
+ * both by following the motion back and forth, so that edges move instead of fading over. */
+vec4 cell_between()
+{
+    float part = quad.cells.z;
+    vec2 way = textureLod(atlas_motion, vec3(uv, quad.cells.x), 0.0).xy * quad.bloom.a;
+    vec4 from = textureLod(atlas, vec3(uv - part * way, quad.cells.x), quad.cells.w);
+    vec4 to = textureLod(atlas, vec3(uv + (1.0 - part) * way, quad.cells.y), quad.cells.w);
+    return mix(from, to, part);
+}
+
 void main()
 {
-    vec4 cell = mix(textureLod(atlas, vec3(uv, quad.cells.x), quad.cells.w),
-                    textureLod(atlas, vec3(uv, quad.cells.y), quad.cells.w), quad.cells.z);
+    vec4 cell = cell_between();
     vec3 rgb;
     float alpha;
     vec2 slope = vec2(0.0);

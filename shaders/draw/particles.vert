@@ -64,6 +64,14 @@ void light_particle(float lit, vec3 position, vec2 right, vec2 up)
     }
 }
 
+/* Which of the system's textures a particle has. */
+uint4 choose_texture(uint system, uint stream)
+{
+    uint count = looks[system].flags.w;
+    uint chosen = uint(random_unit(stream, RANDOM_TEXTURE) * float(count));
+    return looks[system].textures[min(chosen, count - 1u)];
+}
+
 /* Equation 3.2: two adjacent cells and the mix between them, by the progress through life. */
 vec4 choose_cells(uint4 atlas, float passes, bool random_start, uint stream, float diameter_px)
 {
@@ -73,7 +81,7 @@ vec4 choose_cells(uint4 atlas, float passes, bool random_start, uint stream, flo
         position += random_unit(stream, RANDOM_CELL) * cells;
     float first = floor(position);
     float base = float(atlas.x);
-    float level = floor(log2(max(float(atlas.w) / max(diameter_px, 1.0), 1.0)));
+    float level = floor(log2(max(float(KILN_ATLAS_CELL) / max(diameter_px, 1.0), 1.0)));
     return vec4(base + mod(first, cells), base + mod(first + 1.0, cells), position - first, level);
 }
 
@@ -127,12 +135,13 @@ void main()
     particle.color = vec4(cover.rgb, shape.z * near_fade);
     particle.hot = vec4(hot.rgb, float(looks[system].flags.x));
     particle.cool = vec4(cool.rgb, shape.w);
-    particle.bloom = look_at(system, KILN_LOOK_BLOOM, life);
+    uint4 texture_cells = choose_texture(system, stream);
+    particle.bloom = vec4(look_at(system, KILN_LOOK_BLOOM, life).rgb, uintBitsToFloat(texture_cells.w));
 
     float pixels_per_m = view.frustum.w / (2.0 * view.frustum.y * max(depth, 1e-3));
-    particle.cells = choose_cells(looks[system].atlas, life * cool.w, looks[system].flags.y != 0u,
+    particle.cells = choose_cells(texture_cells, life * cool.w, looks[system].flags.y != 0u,
                                   stream, 2.0 * half_size * pixels_per_m);
-    particle.depth = vec4(depth, float(looks[system].atlas.z), float(looks[system].flags.z),
+    particle.depth = vec4(depth, float(texture_cells.z), float(looks[system].flags.z),
                           length(center.xyz));
     light_particle(cover.w, position, right, up.xy);
 }

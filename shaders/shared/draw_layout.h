@@ -18,6 +18,12 @@
 /* Edge of the tiles in which the backdrop is antialiased, px. */
 #define KILN_EDGE_TILE 8
 
+/* Edge of an atlas's cells, px. */
+#define KILN_ATLAS_CELL 128
+
+/* Textures that the particles of a system may have. */
+#define KILN_MAX_TEXTURES 8
+
 /* How cells of an atlas are read. */
 #define KILN_CELL_MASK  0u /* normal x, y, heat, density: coloured by the look */
 #define KILN_CELL_COLOR 1u /* premultiplied colour under a square root: tinted by the look */

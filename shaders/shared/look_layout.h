@@ -6,6 +6,7 @@
 #ifndef KILN_SHARED_LOOK_LAYOUT_H
 #define KILN_SHARED_LOOK_LAYOUT_H
 
+#include "shared/draw_layout.h"
 #include "shared/layout.h"
 
 /* Samples over life; a key between two of them is smoothed over a 127th of the life. */
@@ -24,8 +25,9 @@
 /* The rest of a look, the same at any age. */
 struct kiln_draw_look {
     S(kiln_derived_params) derived; /* for the progress through life */
-    uint4 atlas;                    /* first layer; cells; KILN_CELL_*; edge of a cell, px */
-    uint4 flags; /* additive; random start; literal soft formula (equation 3.3); unused */
+    uint4 flags; /* additive; random start; literal soft formula (equation 3.3); textures */
+    uint4 textures[KILN_MAX_TEXTURES]; /* first layer; cells; KILN_CELL_*; bits of the float that */
+                                       /* scales the motion */
 };
 
 #endif

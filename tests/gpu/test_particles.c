@@ -44,6 +44,8 @@ static const char SCENE[] =
     "           temperature: {life: [1900, 1200]}, soft: 0, bloom: [1, 0.5, 0.25],\n"
     "           rotation: [0 deg, 360 deg], near_fade: 0.5 m}\n";
 
+enum { FIRE_CELLS = 16 }; /* smoke has 32, which do not move */
+
 struct fixture {
     struct kiln_device *device;
     struct kiln_scene *scene;
@@ -58,7 +60,9 @@ struct fixture {
     struct kiln_view view;
     float4 *looks;
     float *cells[2]; /* of the systems */
-    bool literal;    /* smoke fades by the formula as it is printed */
+    uint32_t cell_count[2];
+    float motion[FIRE_CELLS * KILN_ATLAS_MOTION * KILN_ATLAS_MOTION * 2];
+    bool literal; /* smoke fades by the formula as it is printed */
 };
 
 static float random_within(float low, float high)
@@ -121,8 +125,10 @@ static int set_up_with(void **state, const char *const *overrides, size_t count)
     if (!f->scene)
         fail_msg("%s", error.message);
     f->threads = kiln_threads_create(2);
-    static const struct kiln_atlas_request requests[] = {{"builtin:smoke", 8, 8},
-                                                         {"builtin:fire", 8, 8}};
+    static const char *const sources[2] = {"builtin:smoke", "builtin:fire"};
+    const struct kiln_atlas_request requests[] = {
+        {.sources = &sources[0], .count = 1, .columns = 8, .rows = 4, .motion = "none"},
+        {.sources = &sources[1], .count = 1, .columns = 4, .rows = 4, .motion = "auto"}};
     assert_true(kiln_atlas_init(&f->atlas, f->device, requests, 2, f->threads, &error));
     make_targets(f);
     f->backdrop = kiln_backdrop_create(f->device, f->scene, &f->scene_color, &f->depth, &error);
@@ -136,10 +142,18 @@ static int set_up_with(void **state, const char *const *overrides, size_t count)
     assert_non_null(f->looks);
     kiln_looks_sample(f->scene, f->view.clock.x, f->looks);
     for (int i = 0; i < 2; i++) {
-        size_t floats = (size_t)KILN_BUILTIN_CELLS * KILN_ATLAS_CELL * KILN_ATLAS_CELL * 4;
+        f->cell_count[i] = requests[i].columns * requests[i].rows;
+        size_t floats = (size_t)f->cell_count[i] * KILN_ATLAS_CELL * KILN_ATLAS_CELL * 4;
         f->cells[i] = calloc(floats, sizeof(float));
         assert_non_null(f->cells[i]);
-        kiln_builtin_generate(i ? "fire" : "smoke", KILN_ATLAS_CELL, f->cells[i], f->threads);
+        const char *name = kiln_builtin_of(sources[i]);
+        struct kiln_film *film = NULL;
+        assert_true(kiln_builtin_film(name, f->cell_count[i], &film));
+        kiln_builtin_generate(name, f->cell_count[i], KILN_ATLAS_CELL, film, f->cells[i],
+                              f->threads);
+        if (i == 1)
+            kiln_builtin_motion(film, KILN_ATLAS_MOTION, f->motion);
+        free(film);
     }
     *state = f;
     return 0;
@@ -332,6 +346,22 @@ static void sample_cell(const float *cell, double x, double y, double out[4])
     }
 }
 
+/* The way to the next cell, likewise; not rounded. */
+static void sample_motion(const float *motion, double x, double y, double out[2])
+{
+    double tx = x * KILN_ATLAS_MOTION - 0.5, ty = y * KILN_ATLAS_MOTION - 0.5;
+    int x0 = (int)floor(tx), y0 = (int)floor(ty);
+    out[0] = out[1] = 0;
+    for (int k = 0; k < 4; k++) {
+        int px = x0 + (k & 1), py = y0 + (k >> 1);
+        double w = (k & 1 ? tx - x0 : 1 - (tx - x0)) * (k >> 1 ? ty - y0 : 1 - (ty - y0));
+        px = px < 0 ? 0 : px > KILN_ATLAS_MOTION - 1 ? KILN_ATLAS_MOTION - 1 : px;
+        py = py < 0 ? 0 : py > KILN_ATLAS_MOTION - 1 ? KILN_ATLAS_MOTION - 1 : py;
+        for (int c = 0; c < 2; c++)
+            out[c] += w * (double)motion[(py * KILN_ATLAS_MOTION + px) * 2 + c];
+    }
+}
+
 /* The fragment of a sprite at a pixel: premultiplied colour and alpha. */
 static void shade(const struct fixture *f, const struct sprite *s, int px, int py, double out[4],
                   double bloom[3])
@@ -344,12 +374,17 @@ static void shade(const struct fixture *f, const struct sprite *s, int px, int p
     memset(bloom, 0, 3 * sizeof *bloom);
     if (fabs(a) >= 1 || fabs(b) >= 1)
         return;
-    double first[4], second[4], cell[4], position = s->life * (KILN_BUILTIN_CELLS - 1);
+    double first[4], second[4], cell[4];
+    double position = s->life * (f->cell_count[s->system] - 1);
     size_t k = (size_t)position, size = KILN_ATLAS_CELL * KILN_ATLAS_CELL * 4;
-    sample_cell(f->cells[s->system] + k * size, 0.5 + 0.5 * a, 0.5 - 0.5 * b, first);
-    sample_cell(f->cells[s->system] + (k + 1) * size, 0.5 + 0.5 * a, 0.5 - 0.5 * b, second);
+    double x = 0.5 + 0.5 * a, y = 0.5 - 0.5 * b, part = position - (double)k, way[2] = {0};
+    if (s->system == 1)
+        sample_motion(f->motion + k * KILN_ATLAS_MOTION * KILN_ATLAS_MOTION * 2, x, y, way);
+    const float *cells = f->cells[s->system] + k * size;
+    sample_cell(cells, x - part * way[0], y + part * way[1], first);
+    sample_cell(cells + size, x + (1 - part) * way[0], y - (1 - part) * way[1], second);
     for (int c = 0; c < 4; c++)
-        cell[c] = first[c] + (second[c] - first[c]) * (position - (double)k);
+        cell[c] = first[c] + (second[c] - first[c]) * part;
 
     double scene = (double)f->depth.host[py * WIDTH + px], behind = scene - s->depth;
     double fade = s->soft > 0 ? fmin(fmax(behind * s->soft, 0), 1) : behind >= 0;

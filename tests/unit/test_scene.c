@@ -39,7 +39,7 @@ static void example_loads(void **state)
     assert_int_equal(smoke->forces[2].kind, KILN_FORCE_CURL);
     assert_true(smoke->forces[2].strength.constant == 0.6f);
     assert_true(smoke->collide.enabled && smoke->collide.randomness.constant == 0.4f);
-    assert_string_equal(smoke->look.atlas, "builtin:smoke");
+    assert_string_equal(smoke->look.atlas[0], "builtin:smoke");
     assert_int_equal(smoke->look.size.clock, KILN_CLOCK_LIFE);
 
     const struct kiln_system *fire = &scene->systems[1];
@@ -158,9 +158,14 @@ static void assert_same_scene(const struct kiln_scene *a, const struct kiln_scen
         assert_memory_equal(left.keys, right.keys, left.key_count * sizeof *left.keys);
     for (uint32_t i = 0; i < left.system_count; i++) {
         assert_string_equal(left.systems[i].name, right.systems[i].name);
-        assert_string_equal(left.systems[i].look.atlas, right.systems[i].look.atlas);
+        assert_int_equal(left.systems[i].look.atlas_count, right.systems[i].look.atlas_count);
+        for (uint32_t k = 0; k < left.systems[i].look.atlas_count; k++)
+            assert_string_equal(left.systems[i].look.atlas[k], right.systems[i].look.atlas[k]);
+        assert_string_equal(left.systems[i].look.motion, right.systems[i].look.motion);
         left.systems[i].name = right.systems[i].name;
-        left.systems[i].look.atlas = right.systems[i].look.atlas;
+        memcpy(left.systems[i].look.atlas, right.systems[i].look.atlas,
+               sizeof left.systems[i].look.atlas);
+        left.systems[i].look.motion = right.systems[i].look.motion;
     }
     left.arena = right.arena;
     left.name = right.name;

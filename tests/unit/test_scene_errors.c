@@ -8,6 +8,13 @@
 
 #include "support/scenes.h"
 
+#define ATLASES                                                                                    \
+    "\"builtin:fire\", \"builtin:flame\", \"builtin:tongue\", \"builtin:smoke\", "                 \
+    "\"builtin:puff\", "                                                                           \
+    "\"builtin:spark\", \"builtin:star\", \"builtin:drop\", \"builtin:splash\", "                  \
+    "\"builtin:debris\", or the path of an image or video file, "                                  \
+    "from the scene's folder and inside it; or a list of 1 to 8 of these"
+
 struct bad {
     const char *text;
     const char *message; /* after the name of the file */
@@ -141,15 +148,21 @@ static const struct bad types[] = {
      ":2:23: systems.a.bounds: expected {min: [x, y, z], max: [x, y, z]}, each number from -100000 "
      "m to 100000 m, or none, found a mapping"},
     {"kiln: 1\n"
+     "systems: {a: {look: {atlas: []}}}\n",
+     ":2:29: systems.a.look.atlas: expected " ATLASES ", found a list"},
+    {"kiln: 1\n"
+     "systems: {a: {look: {atlas: [builtin:fire, 3]}}}\n",
+     ":2:44: systems.a.look.atlas: expected " ATLASES ", found '3'"},
+    {"kiln: 1\n"
      "systems: {a: {look: {atlas: [a]}}}\n",
-     ":2:29: systems.a.look.atlas: expected \"builtin:fire\", \"builtin:smoke\", "
-     "\"builtin:spark\", or the path of an "
-     "image file, from the scene's folder and inside it, found a list"},
+     ":2:30: systems.a.look.atlas: cannot open 'a': No such file or directory"},
+    {"kiln: 1\n"
+     "systems: {a: {look: {motion: builtin:fire}}}\n",
+     ":2:30: systems.a.look.motion: expected auto, none, or the path of an image file, from the "
+     "scene's folder and inside it, found 'builtin:fire'"},
     {"kiln: 1\n"
      "systems: {a: {look: {atlas: ''}}}\n",
-     ":2:29: systems.a.look.atlas: expected \"builtin:fire\", \"builtin:smoke\", "
-     "\"builtin:spark\", or the path of an "
-     "image file, from the scene's folder and inside it, found the text \"\""},
+     ":2:29: systems.a.look.atlas: expected " ATLASES ", found the text \"\""},
 };
 
 static const struct bad limits[] = {

@@ -152,18 +152,13 @@ static void assets_stay_below_the_scene(void **state)
     expect_atlas_error("no.bmp", "cannot open 'no.bmp': No such file or directory");
     expect_atlas_error("builtin:smoek",
                        "unknown built-in asset 'builtin:smoek' (did you mean 'smoke'?)");
-    expect_atlas_error(
-        "3",
-        "expected \"builtin:fire\", \"builtin:smoke\", \"builtin:spark\", or the path of an image "
-        "file, from the scene's folder and inside it, found '3'");
-
     static const char *const good[] = {"textures/in.bmp", "./textures/../textures/in.bmp",
                                        "fine.bmp"};
     for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
         write_scene("scenes/s.yaml", good[i]);
         struct kiln_scene *scene = load_scene_file("scenes/s.yaml");
         char *text = print_scene(scene);
-        assert_true(scene->systems[0].look.atlas[0] == '/');
+        assert_true(scene->systems[0].look.atlas[0][0] == '/');
         assert_non_null(strstr(text, "atlas: \"textures/in.bmp\"\n"));
         free(text);
         kiln_scene_destroy(&scene);

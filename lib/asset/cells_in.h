@@ -1,0 +1,30 @@
+/* Cells of flipbooks out of files: images cut into columns and rows, and the frames of videos. */
+#ifndef KILN_ASSET_CELLS_IN_H
+#define KILN_ASSET_CELLS_IN_H
+
+#include "base/thread.h"
+#include "kiln.h"
+
+struct kiln_cells_source {
+    const char *path;
+    uint32_t columns, rows; /* a video's cells are its first columns x rows frames */
+    uint32_t edge;          /* of the cells made, px: resized in premultiplied linear light */
+};
+
+/* Fills columns * rows cells of edge x edge RGBA floats, premultiplied and linear, rows from the
+ * top. KILN_INVALID_INPUT when the file is neither an image nor a video, an image does not divide
+ * into the cells, or a video has too few frames. */
+bool kiln_cells_load(const struct kiln_cells_source *source, float *cells,
+                     struct kiln_threads *threads, struct kiln_error *error);
+
+/* Fills as many cells of edge x edge pairs with the motion that an image stores in red (to the
+ * right) and green (up): its full value is 1, half of it (128 of 255) is 0, whatever transfer
+ * function the image names. */
+bool kiln_cells_load_motion(const struct kiln_cells_source *source, float *motion,
+                            struct kiln_threads *threads, struct kiln_error *error);
+
+/* Whether a file is one that kiln_cells_load could read, but for the number of its cells: decodes
+ * an image, or the first frame of a video. */
+bool kiln_cells_check(const char *path, struct kiln_error *error);
+
+#endif

@@ -1,0 +1,134 @@
+/* Types that name textures: assets (one, or a list of which each particle gets one) and motion. */
+#include <string.h>
+
+#include "asset/builtin.h"
+#include "scene/asset_path.h"
+#include "scene/printer.h"
+#include "scene/reader.h"
+#include "scene/schema.h"
+
+/* Is this a text for YAML? Without quotes, some words are numbers and such. */
+static bool is_text(const struct kiln_node *node)
+{
+    static const char *const others[] = {"true", "false", "null", "~"};
+    double number;
+    if (node->kind != KILN_NODE_SCALAR || *node->text == '\0')
+        return false;
+    bool is_other = kiln_text_to_double(node->text, &number);
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        is_other |= strcmp(node->text, others[i]) == 0;
+    return node->quoted || !is_other;
+}
+
+/* ---- assets --------------------------------------------------------------------------------- */
+
+static bool read_assets(struct kiln_reader *reader, const struct kiln_option *option,
+                        const struct kiln_node *node, void *field)
+{
+    const char **assets = field;
+    uint32_t *count = (uint32_t *)((char *)field - option->offset + option->count_offset);
+    const struct kiln_node *item = node;
+    *count = 1;
+    if (node->kind == KILN_NODE_LIST) {
+        if (node->count < 1 || node->count > option->max_count)
+            return kiln_reader_mismatch(reader, option, node);
+        *count = (uint32_t)node->count;
+        item = node->first;
+    }
+    for (uint32_t i = 0; i < *count; i++, item = item->next) {
+        if (!is_text(item))
+            return kiln_reader_mismatch(reader, option, item);
+        if (!kiln_read_asset(reader, item, &assets[i]))
+            return false;
+    }
+    return true;
+}
+
+static void print_assets(struct kiln_printer *printer, const struct kiln_option *option,
+                         const void *field)
+{
+    const char *const *assets = field;
+    uint32_t count =
+        *(const uint32_t *)((const char *)field - option->offset + option->count_offset);
+    kiln_text_add(&printer->text, count > 1 ? " [" : " ");
+    for (uint32_t i = 0; i < count; i++) {
+        kiln_text_add(&printer->text, "%s", i ? ", " : "");
+        kiln_text_add_json(&printer->text, kiln_asset_name(printer->scene, assets[i]));
+    }
+    kiln_text_add(&printer->text, count > 1 ? "]\n" : "\n");
+}
+
+static void describe_assets(const struct kiln_option *option, struct kiln_text *out)
+{
+    for (size_t i = 0; kiln_builtin_name(i); i++)
+        kiln_text_add(out, "\"builtin:%s\", ", kiln_builtin_name(i));
+    kiln_text_add(out,
+                  "or the path of an image or video file, from the scene's folder and inside it; "
+                  "or a list of 1 to %zu of these",
+                  option->max_count);
+}
+
+static void schema_assets(const struct kiln_option *option, struct kiln_text *out)
+{
+    struct kiln_text one = {0};
+    kiln_text_add(&one, "{\"type\": \"string\", \"pattern\": \"^(builtin:(");
+    for (size_t i = 0; kiln_builtin_name(i); i++)
+        kiln_text_add(&one, "%s%s", i ? "|" : "", kiln_builtin_name(i));
+    kiln_text_add(&one, ")|(?!builtin:|/).+)$\"}");
+    const char *item = one.data ? one.data : "";
+    kiln_text_add(out,
+                  "{\"anyOf\": [%s, {\"type\": \"array\", \"minItems\": 1, \"maxItems\": %zu, "
+                  "\"items\": %s}]}",
+                  item, option->max_count, item);
+    out->failed |= one.failed;
+    kiln_text_free(&one);
+}
+
+const struct kiln_option_type kiln_type_assets = {read_assets, print_assets, describe_assets,
+                                                  schema_assets};
+
+/* ---- motion --------------------------------------------------------------------------------- */
+
+static bool read_motion(struct kiln_reader *reader, const struct kiln_option *option,
+                        const struct kiln_node *node, void *field)
+{
+    const char **motion = field;
+    if (!is_text(node) || kiln_builtin_of(node->text))
+        return kiln_reader_mismatch(reader, option, node);
+    for (const char *const *word = option->choices; *word; word++) {
+        if (strcmp(node->text, *word) == 0) {
+            *motion = *word;
+            return true;
+        }
+    }
+    return kiln_read_asset(reader, node, motion);
+}
+
+static void print_motion(struct kiln_printer *printer, const struct kiln_option *option,
+                         const void *field)
+{
+    (void)option;
+    const char *motion = *(const char *const *)field;
+    kiln_text_add(&printer->text, " ");
+    if (motion[0] == '/')
+        kiln_text_add_json(&printer->text, kiln_asset_name(printer->scene, motion));
+    else
+        kiln_text_add(&printer->text, "%s", motion);
+    kiln_text_add(&printer->text, "\n");
+}
+
+static void describe_motion(const struct kiln_option *option, struct kiln_text *out)
+{
+    for (const char *const *word = option->choices; *word; word++)
+        kiln_text_add(out, "%s, ", *word);
+    kiln_text_add(out, "or the path of an image file, from the scene's folder and inside it");
+}
+
+static void schema_motion(const struct kiln_option *option, struct kiln_text *out)
+{
+    (void)option;
+    kiln_text_add(out, "{\"type\": \"string\", \"pattern\": \"^(?!builtin:|/).+$\"}");
+}
+
+const struct kiln_option_type kiln_type_motion = {read_motion, print_motion, describe_motion,
+                                                  schema_motion};
