@@ -70,8 +70,9 @@ static struct texel_site site_at(const struct generation *job, size_t cell, floa
         const struct kiln_film_cell *gas = &job->film->cells[cell];
         site.time = gas->time;
         site.heat = kiln_fluid_sample(gas->heat, u, v);
-        site.place_x = kiln_fluid_sample(gas->place_x, u, v);
-        site.place_y = kiln_fluid_sample(gas->place_y, u, v);
+        float weight = kiln_fluid_sample(gas->weight, u, v);
+        site.place_x = kiln_fluid_sample(gas->place_x, u, v) / weight;
+        site.place_y = kiln_fluid_sample(gas->place_y, u, v) / weight;
     }
     return site;
 }

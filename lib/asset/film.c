@@ -28,6 +28,16 @@ static void mix(const float *from, const float *to, float part, float *out)
         out[i] = from[i] + part * (to[i] - from[i]);
 }
 
+static void weigh(struct kiln_film_cell *cell)
+{
+    for (uint32_t i = 0; i < KILN_FLUID_SIZE; i++) {
+        float hot = cell->heat[i] * cell->heat[i];
+        cell->weight[i] = hot * hot + 1e-6f;
+        cell->place_x[i] *= cell->weight[i];
+        cell->place_y[i] *= cell->weight[i];
+    }
+}
+
 /* Where a cell lies, in steps. */
 static float step_of(const struct kiln_film *film, uint32_t cell)
 {
@@ -46,6 +56,7 @@ static uint32_t record(const struct kiln_fluid *fluid, const struct moment *befo
         mix(before->heat, fluid->heat, part, cell->heat);
         mix(before->place_x, fluid->place_x, part, cell->place_x);
         mix(before->place_y, fluid->place_y, part, cell->place_y);
+        weigh(cell);
         next++;
     }
     return next;

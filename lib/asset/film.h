@@ -17,7 +17,9 @@ struct kiln_film_gas {
 struct kiln_film_cell {
     float time;
     float heat[KILN_FLUID_SIZE];
-    float place_x[KILN_FLUID_SIZE], place_y[KILN_FLUID_SIZE]; /* see struct kiln_fluid */
+    /* Places as in struct kiln_fluid, times their weight: hot gas counts most, so that at a flame's
+     * rim its places go on instead of jumping to those of the air. */
+    float place_x[KILN_FLUID_SIZE], place_y[KILN_FLUID_SIZE], weight[KILN_FLUID_SIZE];
     /* How far what is there halfway to the next cell moves from this one to the next; 0 in the last
      * cell. In half edges of a cell. */
     float motion_x[KILN_FLUID_SIZE], motion_y[KILN_FLUID_SIZE];

@@ -105,7 +105,9 @@ static struct texel flame_texel(const struct texel_site *s)
     float sheets = kiln_noise_ridges(2.4f * (x + warp), 2.0f * (y + warp), 0.9f * s->time, 5, 141);
     float height = texel_smooth(-0.3f, 1.0f, s->v);
     float threshold = texel_mix(0.20f, 0.46f, s->time * s->time) + 0.12f * height;
-    float excess = s->heat + 1.2f * (sheets - 0.36f) * texel_saturate(1.5f * s->heat) - threshold;
+    /* At the rim, where the air's places and the gas's meet, there is no detail. */
+    float within = texel_smooth(0.12f, 0.55f, s->heat);
+    float excess = s->heat + 1.2f * (sheets - 0.36f) * within - threshold;
     float foot = texel_smooth(-0.92f, -0.45f, s->v);
     float top = texel_smooth(0.97f, 0.5f, s->v);
     return (struct texel){
