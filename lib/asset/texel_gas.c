@@ -146,12 +146,14 @@ static struct texel fire_texel(const struct texel_site *s)
     float warp_y = 0.18f * kiln_noise_octaves(3.0f * x, 3.0f * y + 9.0f, 0.4f * s->time, 2, 233);
     float sheets =
         kiln_noise_ridges(2.1f * (x + warp_x), 2.1f * (y + warp_y), 0.2f * s->time, 5, 241);
-    float threshold = texel_mix(0.18f, 1.02f, 0.55f * s->time * s->time + 0.45f * s->time);
+    float threshold = texel_mix(0.18f, 1.10f, 0.65f * s->time * s->time + 0.35f * s->time);
     float there = texel_saturate(4.0f * s->heat);
-    float excess = 0.75f * s->heat + 1.15f * (sheets - 0.34f) * there - threshold;
+    float torn = texel_mix(1.15f, 0.80f, s->time); /* in the end, few thick shreds are left */
+    float excess = 0.75f * s->heat + torn * (sheets - 0.34f) * there - threshold;
     return (struct texel){
         .heat = texel_saturate(1.2f * excess) * texel_saturate(0.3f + sheets),
-        .density = texel_smooth(0.0f, 0.26f, excess) * inside_cell(s->u, s->v),
+        .density =
+            texel_smooth(0.0f, texel_mix(0.26f, 0.45f, s->time), excess) * inside_cell(s->u, s->v),
     };
 }
 
