@@ -134,8 +134,10 @@ static bool upload_motion(const struct flipbook *book, struct kiln_threads *thre
     const size_t pixels = (size_t)range->cells * KILN_ATLAS_MOTION * KILN_ATLAS_MOTION;
     float *motion = malloc(pixels * 2 * sizeof *motion);
     int8_t *bytes = malloc(pixels * 2);
-    bool ok = (motion && bytes) || out_of_memory(error, book->source.path);
+    bool ok = motion && bytes;
     float scale = 1.0f;
+    if (!ok)
+        out_of_memory(error, book->source.path);
     if (ok && book->request->motion[0] == '/') {
         struct kiln_cells_source source = book->source;
         source.path = book->request->motion;

@@ -207,10 +207,12 @@ static bool load_video(const struct kiln_cells_source *source, float *cells,
     for (uint32_t i = 0; ok && i < count; i++) {
         struct kiln_asset_image *image = NULL;
         ok = kiln_video_in_read(video, &image, error);
-        if (ok && !image)
-            ok = kiln_error_set(error, KILN_INVALID_INPUT,
-                                "%s: a video of %u frames; the %u columns and %u rows take %u",
-                                source->path, i, source->columns, source->rows, count);
+        if (ok && !image) {
+            kiln_error_set(error, KILN_INVALID_INPUT,
+                           "%s: a video of %u frames; the %u columns and %u rows take %u",
+                           source->path, i, source->columns, source->rows, count);
+            ok = false;
+        }
         if (ok)
             ok = resize_image(image, &frame, false,
                               cells + (size_t)i * source->edge * source->edge * 4, threads, error);

@@ -21,9 +21,9 @@ void kiln_fluid_init(struct kiln_fluid *fluid)
     }
 }
 
-static uint32_t held(int index)
+static size_t held(int index)
 {
-    return index < 0 ? 0 : index >= EDGE ? EDGE - 1 : (uint32_t)index;
+    return index < 0 ? 0 : index >= EDGE ? EDGE - 1 : (size_t)index;
 }
 
 /* Gauss and Seidel's sweeps, over-relaxed, from the last step's solution. */
@@ -34,8 +34,8 @@ static void solve_stream(struct kiln_fluid *fluid)
     for (int sweep = 0; sweep < SWEEPS; sweep++) {
         for (int y = 0; y < EDGE; y++) {
             const float *below = stream + held(y - 1) * EDGE, *above = stream + held(y + 1) * EDGE;
-            float *row = stream + y * EDGE;
-            const float *turning = fluid->vorticity + y * EDGE;
+            float *row = stream + (size_t)y * EDGE;
+            const float *turning = fluid->vorticity + (size_t)y * EDGE;
             for (int x = 1; x < EDGE - 1; x++) {
                 float around = below[x] + above[x] + row[x - 1] + row[x + 1];
                 float solved = 0.25f * (around + SPACING * SPACING * turning[x]);
@@ -53,9 +53,9 @@ static void take_velocity(struct kiln_fluid *fluid)
         for (int x = 0; x < EDGE; x++) {
             int i = y * EDGE + x;
             float up =
-                stream[held(y + 1) * EDGE + (uint32_t)x] - stream[held(y - 1) * EDGE + (uint32_t)x];
-            float slope = stream[(uint32_t)(y * EDGE) + held(x + 1)] -
-                          stream[(uint32_t)(y * EDGE) + held(x - 1)];
+                stream[held(y + 1) * EDGE + (size_t)x] - stream[held(y - 1) * EDGE + (size_t)x];
+            float slope =
+                stream[(size_t)y * EDGE + held(x + 1)] - stream[(size_t)y * EDGE + held(x - 1)];
             float wider = (fluid->swelling - fluid->strain) * kiln_fluid_at((uint32_t)x);
             float higher = (fluid->swelling + fluid->strain) * kiln_fluid_at((uint32_t)y);
             fluid->velocity_x[i] = scale * up + wider;
@@ -71,10 +71,10 @@ static void turn(struct kiln_fluid *fluid, float dt)
     const float kept = 1.0f - fluid->drag * dt;
     for (int y = 0; y < EDGE; y++) {
         for (int x = 0; x < EDGE; x++) {
-            uint32_t row = (uint32_t)(y * EDGE);
+            size_t row = (size_t)y * EDGE;
             float slope = fluid->heat[row + held(x + 1)] - fluid->heat[row + held(x - 1)];
-            fluid->vorticity[row + (uint32_t)x] =
-                kept * fluid->vorticity[row + (uint32_t)x] + scale * slope;
+            fluid->vorticity[row + (size_t)x] =
+                kept * fluid->vorticity[row + (size_t)x] + scale * slope;
         }
     }
 }
@@ -91,7 +91,7 @@ static void cubic_weights(float t, float w[4])
 
 /* Where a sample's gas was before, as indices and weights of 4 x 4 samples. */
 struct origin {
-    uint32_t columns[4], rows[4];
+    size_t columns[4], rows[4];
     float wx[4], wy[4];
 };
 
