@@ -22,6 +22,15 @@ static float3 at3(const struct sampler *s, const struct kiln_value3 *value)
     return value3_at(s->scene->keys, *value, s->time_s, s->life);
 }
 
+/* The mean of a curve over the life so far: times the age, it is what has gone by of a speed. */
+static float mean_at(const struct sampler *s, const struct kiln_value *value)
+{
+    bool over_life = value->count > 0 && value->clock == KILN_CLOCK_LIFE;
+    if (!over_life || s->life <= 0.0f)
+        return at(s, value);
+    return value_sum_at(s->scene->keys, *value, s->life) / s->life;
+}
+
 static float saturate(float x)
 {
     return x < 0.0f ? 0.0f : x > 1.0f ? 1.0f : x;
@@ -76,7 +85,7 @@ static void sample_look(const struct sampler *s, const struct kiln_look *look,
                                     at(s, &look->opacity) * fade(s, look), at(s, &look->soft)};
     row[KILN_LOOK_BLOOM] = (float4){bloom.x, bloom.y, bloom.z, 0.0f};
     row[KILN_LOOK_SPREAD] = (float4){at(s, &look->scale.min), at(s, &look->scale.max),
-                                     at(s, &look->spin.min), at(s, &look->spin.max)};
+                                     mean_at(s, &look->spin.min), mean_at(s, &look->spin.max)};
     row[KILN_LOOK_TURN] =
         (float4){at(s, &look->rotation.min), at(s, &look->rotation.max), 0.0f, 0.0f};
     sample_light(s, look, row);

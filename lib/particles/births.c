@@ -68,9 +68,8 @@ void kiln_births_step(const struct kiln_births_source *source, uint32_t step, ui
     add_bursts(source, step, births);
 }
 
-/* Whole steps after which a particle is dead wherever in its birth step it was born, by the same
- * float comparison as in the simulation. */
-static uint32_t steps_of_life(float longest_life_s, float dt_s, uint32_t steps)
+/* By the same float comparison as in the simulation. */
+uint32_t kiln_births_lifespan(float longest_life_s, float dt_s, uint32_t steps)
 {
     double guess = floor((double)longest_life_s / (double)dt_s);
     if (!(guess < (double)steps))
@@ -82,9 +81,9 @@ static uint32_t steps_of_life(float longest_life_s, float dt_s, uint32_t steps)
 }
 
 struct kiln_births_bound kiln_births_bound(const struct kiln_births_source *source, uint32_t steps,
-                                           float longest_life_s, float dt_s)
+                                           uint32_t lifespan)
 {
-    uint64_t window = (uint64_t)steps_of_life(longest_life_s, dt_s, steps) + 1;
+    uint64_t window = (uint64_t)lifespan + 1;
     struct kiln_births_bound bound = {0, 0};
     uint64_t inside = 0, lead_wait = 0, trail_wait = 0;
     struct kiln_births births;

@@ -42,14 +42,19 @@ struct kiln_births {
 void kiln_births_step(const struct kiln_births_source *source, uint32_t step, uint64_t *wait,
                       struct kiln_births *births);
 
+/* Steps after its birth step by whose end a particle is dead, wherever in that step it was born; at
+ * most `steps`. */
+uint32_t kiln_births_lifespan(float longest_life_s, float dt_s, uint32_t steps);
+
 struct kiln_births_bound {
-    uint64_t capacity; /* the most births in any ceil(longest life / dt) + 1 steps on end */
+    uint64_t capacity; /* the most births in any lifespan + 1 steps on end */
     uint64_t total;    /* births of all steps */
 };
 
 /* What steps 1 .. steps will need: a system with `capacity` slots has a free one for each birth
- * when serial s takes slot s mod capacity, and serials reach `total`, which must fit 32 bits. */
+ * when serial s takes slot s mod capacity, and serials reach `total`, which must fit 32 bits. The
+ * lifespan is that of a particle and all that descends from it. */
 struct kiln_births_bound kiln_births_bound(const struct kiln_births_source *source, uint32_t steps,
-                                           float longest_life_s, float dt_s);
+                                           uint32_t lifespan);
 
 #endif

@@ -1,5 +1,5 @@
-/* Reading and printing keys. Slopes are divided here, once, in IEEE float: every technique then
- * interpolates with the same bits. */
+/* Reading and printing keys. Slopes are divided, and areas added up, here, once, in IEEE float:
+ * every technique then interpolates with the same bits. */
 #include "scene/animated.h"
 
 #include <math.h>
@@ -71,12 +71,18 @@ static bool begin_curve(struct kiln_reader *reader, const struct kiln_node *node
     return true;
 }
 
+/* Some stages flush denormals and some do not (see shared/exact.h). */
+static float without_denormals(float x)
+{
+    return fabsf(x) < 0x1p-100f ? 0 : x;
+}
+
 static bool add_point(struct kiln_reader *reader, const struct kiln_node *node, struct curve *curve,
                       float x, const float *y)
 {
     for (unsigned i = 0; i < curve->count; i++) {
         float4 *key = &reader->keys[curve->values[i].first + curve->points];
-        *key = FLOAT4(x, y[i], 0, 0);
+        *key = FLOAT4(x, y[i], 0, without_denormals(x * y[i]));
         if (curve->points == 0)
             continue;
         if (x <= key[-1].x)
@@ -84,7 +90,9 @@ static bool add_point(struct kiln_reader *reader, const struct kiln_node *node, 
         float slope = (y[i] - key[-1].y) / (x - key[-1].x);
         if (!isfinite(slope))
             return kiln_reader_error(reader, node, "too close to the key before");
-        key[-1].z = fabsf(slope) < 0x1p-100f ? 0 : slope;
+        key[-1].z = without_denormals(slope);
+        float area = (x - key[-1].x) * (0.5f * (key[-1].y + y[i]));
+        key->w = without_denormals(key[-1].w + area);
     }
     curve->points++;
     return true;

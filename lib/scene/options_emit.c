@@ -55,7 +55,73 @@ static const struct kiln_option_kind shapes[] = {
     {.name = NULL},
 };
 
+static const char *const aligns[] = {
+    [KILN_ALIGN_WORLD] = "world",
+    [KILN_ALIGN_VELOCITY] = "velocity",
+    [KILN_ALIGN_NORMAL] = "normal",
+    NULL,
+};
+
+/* At most so many in one place: a system of them still fits. */
+#define COUNT                                                                                      \
+    INTEGER("count", parent.count, 1, 65536, "10", "Particles born of one particle of the parent.")
+#define ALIGN(words, which)                                                                        \
+    CHOICE("align", parent.align, words, "world", "Where the y axis of `from` points: up; " which)
+#define TO_VELOCITY "velocity turns it to where the parent's particle flies."
+
+static const char *const aligns_in_flight[] = {
+    [KILN_ALIGN_WORLD] = "world",
+    [KILN_ALIGN_VELOCITY] = "velocity",
+    NULL,
+};
+
+static const struct kiln_option death[] = {COUNT, ALIGN(aligns_in_flight, TO_VELOCITY), END};
+
+static const struct kiln_option bounce[] = {
+    COUNT,
+    ALIGN(aligns, "velocity turns it to where the parent's particle flies on, normal away from "
+                  "the surface."),
+    END,
+};
+
+static const struct kiln_option trail[] = {
+    VALUE("rate", parent.rate, KILN_PER_SECOND, 0, 1e6, KILN_ALLOW_LIFE, "20",
+          "Particles born a second, while a particle of the parent lives; over its life."),
+    ALIGN(aligns_in_flight, TO_VELOCITY),
+    END,
+};
+
+static const struct kiln_option_kind events[] = {
+    {.name = "death",
+     .value = KILN_EVENT_DEATH,
+     .members = death,
+     .shortcut = "count",
+     .help = "At the end of its life, not where bounds, a demitter or an impact end it."},
+    {.name = "bounce",
+     .value = KILN_EVENT_BOUNCE,
+     .members = bounce,
+     .shortcut = "count",
+     .help = "When it first meets a surface; with the velocity that it has afterwards."},
+    {.name = "trail",
+     .value = KILN_EVENT_TRAIL,
+     .members = trail,
+     .shortcut = "rate",
+     .help = "All along its way, the first one where it is born."},
+    {.name = NULL},
+};
+
+static const struct kiln_option parent[] = {
+    {ROW("system", name, AT(parent.name), NULL, "Of whose particles these are born.")},
+    {ROW("on", kind, 0, "{death: {}}", "When, and how many."), .kinds = events,
+     .kind_offset = AT(parent.event)},
+    END,
+};
+
 static const struct kiln_option emit_options[] = {
+    {ROW("parent", switch, 0, "none",
+         "Born of another system's particles, in the place of rate and bursts; `from` is then "
+         "around the parent's particle."),
+     .members = parent, .count_offset = AT(parent.enabled)},
     VALUE("rate", rate, KILN_PER_SECOND, 0, 1e7, TIME, "0", "Particles born a second."),
     {ROW("bursts", bursts, AT(bursts), "{}", "Particles born at once, by clip time."),
      LIMITS(KILN_PLAIN, 0, KILN_MAX_PARTICLES), .count_offset = AT(burst_count),
@@ -67,7 +133,7 @@ static const struct kiln_option emit_options[] = {
     {ROW("from", kind, 0, "{point: {}}", "Where particles are born, and which way they go."),
      .kinds = shapes, .kind_offset = AT(shape)},
     VALUE("inherit", inherit, KILN_FRACTION, 0, 1, TIME, "0",
-          "Part of the emitter's own velocity that its particles get."),
+          "Part of the velocity of the emitter, or of the parent's particle, that they get."),
     END,
 };
 
@@ -87,6 +153,7 @@ static const struct kiln_option collide_options[] = {
           "0 reflects like a mirror, 1 into any direction away from the surface."),
     VALUE("slowdown", slowdown, KILN_FRACTION, 0, 1, BOTH, "0.5",
           "Factor on the speed at each impact."),
+    BOOLEAN("dies", dies, "false", "A particle ends at its first impact, like rain."),
     END,
 };
 

@@ -35,6 +35,12 @@ static const struct kiln_option curl[] = {
     END,
 };
 
+static const struct kiln_option limit[] = {
+    VALUE("speed", strength, KILN_SPEED, 0, 10000, BOTH, "10 m/s",
+          "What is above it is taken off the speed, in every step."),
+    END,
+};
+
 const struct kiln_option_kind kiln_force_kinds[] = {
     {.name = "gravity",
      .value = KILN_FORCE_GRAVITY,
@@ -51,6 +57,11 @@ const struct kiln_option_kind kiln_force_kinds[] = {
      .members = curl,
      .shortcut = "strength",
      .help = "Turbulent air: noise without sources, in which smoke swirls."},
+    {.name = "limit",
+     .value = KILN_FORCE_LIMIT,
+     .members = limit,
+     .shortcut = "speed",
+     .help = "No faster than this; of several, the lowest counts."},
     {.name = "wind",
      .variant = "uniform",
      .value = KILN_FORCE_WIND,

@@ -203,6 +203,18 @@ static const struct kiln_node *default_of(struct kiln_reader *reader,
     return NULL;
 }
 
+bool kiln_reader_is_text(const struct kiln_node *node)
+{
+    static const char *const others[] = {"true", "false", "null", "~"};
+    double number;
+    if (node->kind != KILN_NODE_SCALAR || *node->text == '\0')
+        return false;
+    bool is_other = kiln_text_to_double(node->text, &number);
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        is_other |= strcmp(node->text, others[i]) == 0;
+    return node->quoted || !is_other;
+}
+
 bool kiln_read_members(struct kiln_reader *reader, const struct kiln_option *members,
                        const struct kiln_node *node, void *base)
 {
@@ -215,9 +227,9 @@ bool kiln_read_members(struct kiln_reader *reader, const struct kiln_option *mem
         size_t before = kiln_reader_enter(reader, row->name);
         if (!value)
             value = default_of(reader, row, node);
-        if (!value)
+        if (!value && (node || row->fallback))
             return false;
-        if (!row->type->read(reader, row, value, (char *)base + row->offset))
+        if (value && !row->type->read(reader, row, value, (char *)base + row->offset))
             return false;
         kiln_reader_leave(reader, before);
     }

@@ -34,6 +34,9 @@ bool kiln_reader_expected(struct kiln_reader *reader, const struct kiln_node *no
                           const char *expected);
 bool kiln_reader_out_of_memory(struct kiln_reader *reader);
 
+/* Is this a text for YAML? Without quotes, some words are numbers and such. */
+bool kiln_reader_is_text(const struct kiln_node *node);
+
 /* Fills one struct from a mapping: all members, defaults for those that are missing. node NULL
  * takes every default. */
 bool kiln_read_members(struct kiln_reader *reader, const struct kiln_option *members,

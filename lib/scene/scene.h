@@ -34,8 +34,33 @@ enum kiln_emitter_shape {
     KILN_EMITTER_CONE,
 };
 
+enum kiln_event {
+    KILN_EVENT_DEATH,  /* the end of its life */
+    KILN_EVENT_BOUNCE, /* its first impact */
+    KILN_EVENT_TRAIL,  /* its life, all along */
+};
+
+enum kiln_align {
+    KILN_ALIGN_WORLD,    /* the shape lies in space as it is written */
+    KILN_ALIGN_VELOCITY, /* its y axis turns to where the parent flies */
+    KILN_ALIGN_NORMAL,   /* its y axis turns to the normal of what the parent has met */
+};
+
+/* Particles that are born of those of another system: shared/family.h. */
+struct kiln_parent {
+    bool enabled;
+    const char *name;
+    uint32_t system; /* its index */
+    enum kiln_event event;
+    enum kiln_align align;
+    uint32_t count;         /* death, bounce: children of one parent */
+    struct kiln_value rate; /* trail: children a second; clock constant or life, the parent's */
+    uint32_t slots;         /* that one parent's children need: above 0 when enabled */
+};
+
 struct kiln_emitter {
-    struct kiln_value rate;                    /* particles a second; clock constant or time */
+    struct kiln_parent parent; /* if enabled, there are no births by rate or in bursts */
+    struct kiln_value rate;    /* particles a second; clock constant or time */
     struct kiln_burst bursts[KILN_MAX_BURSTS]; /* ascending in time */
     uint32_t burst_count;
     struct kiln_range life;  /* s, at birth */
@@ -48,7 +73,7 @@ struct kiln_emitter {
     bool surface;                 /* sphere, box, disc: births on the surface or rim alone */
     struct kiln_value radius;     /* m: sphere, disc, base of the cone */
     struct kiln_value3 size;      /* m: box, full edges */
-    struct kiln_value inherit;    /* part of the emitter's own velocity that a particle gets */
+    struct kiln_value inherit;    /* part of the emitter's (or parent's) velocity that it gets */
 };
 
 /* ---- forces: one row here, one in shared/forces.h, one option list --------------------------- */
@@ -57,8 +82,10 @@ enum kiln_force_kind {
     KILN_FORCE_GRAVITY, /* vector: acceleration, m/s^2 */
     KILN_FORCE_DRAG,    /* strength: 1/s, towards rest */
     KILN_FORCE_WIND,    /* vector: air velocity, m/s; strength: 1/s, pull towards it */
-    KILN_FORCE_CURL,    /* curl noise: strength m/s of air velocity, scale m, speed m/s of drift, */
-};                      /* pull 1/s towards the air, octaves */
+    KILN_FORCE_CURL,    /* curl noise: strength m/s of air velocity, scale m, speed m/s of drift,
+                         * pull 1/s towards the air, octaves */
+    KILN_FORCE_LIMIT,   /* strength: m/s, the most that is left of the speed */
+};
 
 struct kiln_force {
     enum kiln_force_kind kind;
@@ -84,6 +111,7 @@ enum kiln_collide_mode {
 
 struct kiln_collide {
     bool enabled;
+    bool dies; /* of its first impact */
     enum kiln_collide_mode mode;
     struct kiln_value randomness; /* 0 mirror .. 1 any direction of the hemisphere */
     struct kiln_value slowdown;   /* factor on the speed, 0..1 */
@@ -145,7 +173,8 @@ struct kiln_system {
     uint32_t demitter_count;
     struct kiln_bounds bounds; /* a particle outside dies (2.1.2) */
     struct kiln_look look;
-    uint32_t capacity; /* slots; the most births in any window of the longest life */
+    uint32_t capacity; /* slots; the most births in any window of the longest life, that of the
+                        * longest-lived descendants included; of children, parents' times slots */
 };
 
 /* ---- the rest -------------------------------------------------------------------------------- */
@@ -238,7 +267,7 @@ struct kiln_scene {
     uint32_t system_count;
     struct kiln_post post;
 
-    float4 *keys; /* (x, y, slope, 0) */
+    float4 *keys; /* (x, y, slope, integral from 0) */
     uint32_t key_count;
     char hash[65]; /* SHA-256 of what kiln_scene_print writes and of the textures, in hex */
 };

@@ -7,19 +7,6 @@
 #include "scene/reader.h"
 #include "scene/schema.h"
 
-/* Is this a text for YAML? Without quotes, some words are numbers and such. */
-static bool is_text(const struct kiln_node *node)
-{
-    static const char *const others[] = {"true", "false", "null", "~"};
-    double number;
-    if (node->kind != KILN_NODE_SCALAR || *node->text == '\0')
-        return false;
-    bool is_other = kiln_text_to_double(node->text, &number);
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        is_other |= strcmp(node->text, others[i]) == 0;
-    return node->quoted || !is_other;
-}
-
 /* ---- assets --------------------------------------------------------------------------------- */
 
 static bool read_assets(struct kiln_reader *reader, const struct kiln_option *option,
@@ -36,7 +23,7 @@ static bool read_assets(struct kiln_reader *reader, const struct kiln_option *op
         item = node->first;
     }
     for (uint32_t i = 0; i < *count; i++, item = item->next) {
-        if (!is_text(item))
+        if (!kiln_reader_is_text(item))
             return kiln_reader_mismatch(reader, option, item);
         if (!kiln_read_asset(reader, item, &assets[i]))
             return false;
@@ -93,7 +80,7 @@ static bool read_motion(struct kiln_reader *reader, const struct kiln_option *op
                         const struct kiln_node *node, void *field)
 {
     const char **motion = field;
-    if (!is_text(node) || kiln_builtin_of(node->text))
+    if (!kiln_reader_is_text(node) || kiln_builtin_of(node->text))
         return kiln_reader_mismatch(reader, option, node);
     for (const char *const *word = option->choices; *word; word++) {
         if (strcmp(node->text, *word) == 0) {

@@ -1,4 +1,4 @@
-/* Types with a form of their own: pair, bounds, bursts. */
+/* Types with a form of their own: pair, name, bounds, bursts. */
 #include <math.h>
 #include <string.h>
 
@@ -40,6 +40,44 @@ static void schema_pair(const struct kiln_option *option, struct kiln_text *out)
 }
 
 const struct kiln_option_type kiln_type_pair = {read_pair, print_pair, describe_pair, schema_pair};
+
+/* ---- name: which systems there are is known when all are read ----------------------------------
+ */
+
+static bool read_name(struct kiln_reader *reader, const struct kiln_option *option,
+                      const struct kiln_node *node, void *field)
+{
+    if (!kiln_reader_is_text(node))
+        return kiln_reader_mismatch(reader, option, node);
+    const char *copy = kiln_arena_text(reader->arena, node->text, strlen(node->text));
+    if (!copy)
+        return kiln_reader_out_of_memory(reader);
+    memcpy(field, &copy, sizeof copy);
+    return true;
+}
+
+static void print_name(struct kiln_printer *printer, const struct kiln_option *option,
+                       const void *field)
+{
+    (void)option;
+    kiln_text_add(&printer->text, " ");
+    kiln_text_add_json(&printer->text, *(const char *const *)field);
+    kiln_text_add(&printer->text, "\n");
+}
+
+static void describe_name(const struct kiln_option *option, struct kiln_text *out)
+{
+    (void)option;
+    kiln_text_add(out, "the name of another system");
+}
+
+static void schema_name(const struct kiln_option *option, struct kiln_text *out)
+{
+    (void)option;
+    kiln_text_add(out, "{\"type\": \"string\", \"minLength\": 1}");
+}
+
+const struct kiln_option_type kiln_type_name = {read_name, print_name, describe_name, schema_name};
 
 /* ---- bounds --------------------------------------------------------------------------------- */
 

@@ -177,8 +177,8 @@ const struct kiln_option_type kiln_type_color = {read_vector, print_vector, desc
 
 /* ---- range ---------------------------------------------------------------------------------- */
 
-/* Ends are straight lines between keys, so min <= max everywhere when it holds at every key. Both
- * clocks are the same: a range is drawn at birth, and varies over time if at all. */
+/* Ends are straight lines between keys, so min <= max everywhere when it holds at every key of the
+ * one clock that they have. */
 static bool is_ordered(const float4 *keys, const struct kiln_range *range)
 {
     const struct kiln_value *ends[2] = {&range->min, &range->max};
@@ -207,6 +207,8 @@ static bool read_range(struct kiln_reader *reader, const struct kiln_option *opt
     if (!kiln_read_animated(reader, option, node->first, &range->min, 1) ||
         !kiln_read_animated(reader, option, node->first->next, &range->max, 1))
         return false;
+    if (range->min.count > 0 && range->max.count > 0 && range->min.clock != range->max.clock)
+        return kiln_reader_error(reader, node, "both must vary over time, or both over life");
     if (!is_ordered(reader->keys, range))
         return kiln_reader_error(reader, node, "the first must not be above the second");
     return true;

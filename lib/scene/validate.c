@@ -1,18 +1,16 @@
 /* Checks across options, and what follows from them: steps, capacities, bounds. */
 #include "scene/validate.h"
 
+#include "scene/family.h"
+
 #include <inttypes.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Fails at the place of a dotted path, or at the nearest part of it that was written. */
-static bool fail(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
-                 const char *format, ...) __attribute__((format(printf, 4, 5)));
-
-static bool fail(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
-                 const char *format, ...)
+bool kiln_validate_fail(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
+                        const char *format, ...)
 {
     char message[KILN_MESSAGE_SIZE], name[64];
     va_list args;
@@ -53,10 +51,12 @@ static bool refuse_rate(struct kiln_reader *reader, const struct kiln_node *root
     print_multiple(lower, reader->scene->fps, below);
     print_multiple(upper, reader->scene->fps, below + 1);
     if (below == 0)
-        return fail(reader, root, "simulation.rate",
-                    "must be a whole multiple of output.fps; the nearest is %s", upper);
-    return fail(reader, root, "simulation.rate",
-                "must be a whole multiple of output.fps; the nearest are %s and %s", lower, upper);
+        return kiln_validate_fail(reader, root, "simulation.rate",
+                                  "must be a whole multiple of output.fps; the nearest is %s",
+                                  upper);
+    return kiln_validate_fail(reader, root, "simulation.rate",
+                              "must be a whole multiple of output.fps; the nearest are %s and %s",
+                              lower, upper);
 }
 
 static bool settle_clock(struct kiln_reader *reader, const struct kiln_node *root)
@@ -79,9 +79,9 @@ static bool settle_clock(struct kiln_reader *reader, const struct kiln_node *roo
     double warmup = scene->warmup_s * (double)scene->rate.num / (double)scene->rate.den;
     double steps = floor(warmup + 0.5) + (double)(scene->frames - 1) * scene->steps_per_frame;
     if (steps > (double)KILN_MAX_STEPS)
-        return fail(reader, root, "output.frames",
-                    "the clip and its warm-up are %.0f steps; a run has at most %u", steps,
-                    KILN_MAX_STEPS);
+        return kiln_validate_fail(reader, root, "output.frames",
+                                  "the clip and its warm-up are %.0f steps; a run has at most %u",
+                                  steps, KILN_MAX_STEPS);
     scene->warmup_steps = (uint32_t)floor(warmup + 0.5);
     return true;
 }
@@ -92,38 +92,48 @@ static bool settle_clock(struct kiln_reader *reader, const struct kiln_node *roo
 static struct kiln_births_bound births_bound(const struct kiln_scene *scene, uint32_t index)
 {
     const struct kiln_system *system = &scene->systems[index];
+    const struct kiln_parent *parent = &system->emit.parent;
     if (!system->enabled)
         return (struct kiln_births_bound){0};
+    if (parent->enabled) { /* which comes earlier, and has its slots already */
+        struct kiln_births_bound bound = births_bound(scene, parent->system);
+        bound.capacity = (uint64_t)scene->systems[parent->system].capacity * parent->slots;
+        bound.total *= parent->slots; /* below 2^63: there are not so many generations */
+        return bound;
+    }
     struct kiln_scene_births births;
     kiln_scene_births_init(&births, scene, index);
-    /* Interpolating and drawing a life may round to a little above the largest key. */
-    float longest_s = kiln_scene_value_max(scene, &system->emit.life.max) * (1 + 0x1p-20f);
-    return kiln_births_bound(&births.source, kiln_scene_frame_step(scene, scene->frames - 1),
-                             longest_s, scene->dt_s);
+    uint32_t steps = kiln_scene_frame_step(scene, scene->frames - 1);
+    return kiln_births_bound(&births.source, steps, kiln_family_lifespan(scene, index, steps));
 }
 
 static bool settle_capacity(struct kiln_reader *reader, const struct kiln_node *root)
 {
     struct kiln_scene *scene = reader->scene;
     uint64_t total = 0;
+    uint32_t order[KILN_MAX_SYSTEMS];
+    kiln_family_order(scene, order);
     for (uint32_t i = 0; i < scene->system_count; i++) {
-        struct kiln_system *system = &scene->systems[i];
-        struct kiln_births_bound bound = births_bound(scene, i);
+        struct kiln_system *system = &scene->systems[order[i]];
+        struct kiln_births_bound bound = births_bound(scene, order[i]);
         uint64_t slots = bound.capacity ? bound.capacity : 1; /* no buffer is empty */
         char path[128];
         snprintf(path, sizeof path, "systems.%s.emit", system->name);
         const uint64_t mebibyte = 1 << 20, bytes = sizeof(struct kiln_particle);
+        const char *advice = system->emit.parent.enabled ? "children, or the parents' rate or life"
+                                                         : "rate, bursts or life";
         if (slots > KILN_MAX_PARTICLES - total)
-            return fail(reader, root, path,
-                        "up to %" PRIu64 " particles at once need %" PRIu64
-                        " MiB; the systems of a scene may have %d in all (%" PRIu64
-                        " MiB), of which %" PRIu64 " are taken: lower rate, bursts or life",
-                        slots, slots * bytes / mebibyte, KILN_MAX_PARTICLES,
-                        KILN_MAX_PARTICLES * bytes / mebibyte, total);
+            return kiln_validate_fail(reader, root, path,
+                                      "up to %" PRIu64 " particles at once need %" PRIu64
+                                      " MiB; the systems of a scene may have %d in all (%" PRIu64
+                                      " MiB), of which %" PRIu64 " are taken: lower %s",
+                                      slots, slots * bytes / mebibyte, KILN_MAX_PARTICLES,
+                                      KILN_MAX_PARTICLES * bytes / mebibyte, total, advice);
         if (bound.total > UINT32_MAX)
-            return fail(reader, root, path,
-                        "%" PRIu64 " births in the run; at most %" PRIu32 " can be told apart",
-                        bound.total, UINT32_MAX);
+            return kiln_validate_fail(reader, root, path,
+                                      "%" PRIu64 " births in the run; at most %" PRIu32
+                                      " can be told apart",
+                                      bound.total, UINT32_MAX);
         system->capacity = (uint32_t)slots;
         total += slots;
     }
@@ -183,16 +193,16 @@ static bool check_systems(struct kiln_reader *reader, const struct kiln_node *ro
         snprintf(path, sizeof path, "systems.%s.emit.from.%s.direction", system->name,
                  shape_name(emit));
         if (!emit->outward && !at_all_keys(scene, &direction, 1, is_not_zero))
-            return fail(reader, root, path, "must not be [0, 0, 0]");
+            return kiln_validate_fail(reader, root, path, "must not be [0, 0, 0]");
         snprintf(path, sizeof path, "systems.%s.look.cells", system->name);
         uint32_t cells = system->look.columns * system->look.rows;
         if (cells > KILN_MAX_CELLS)
-            return fail(reader, root, path, "%u cells are too many; at most %d", cells,
-                        KILN_MAX_CELLS);
+            return kiln_validate_fail(reader, root, path, "%u cells are too many; at most %d",
+                                      cells, KILN_MAX_CELLS);
         snprintf(path, sizeof path, "systems.%s.look.motion", system->name);
         if (system->look.motion[0] == '/' &&
             (system->look.atlas_count > 1 || system->look.atlas[0][0] != '/'))
-            return fail(reader, root, path, "a motion file goes with one atlas file");
+            return kiln_validate_fail(reader, root, path, "a motion file goes with one atlas file");
         if (!system->bounds.enabled)
             system->bounds = scene->bounds;
     }
@@ -207,10 +217,11 @@ static bool check_backdrop(struct kiln_reader *reader, const struct kiln_node *r
     const struct kiln_backdrop *backdrop = &scene->backdrop;
     const struct kiln_value3 *sun = &backdrop->sun_direction;
     if (!at_all_keys(scene, &sun, 1, is_not_zero))
-        return fail(reader, root, "backdrop.sun.direction", "must not be [0, 0, 0]");
+        return kiln_validate_fail(reader, root, "backdrop.sun.direction", "must not be [0, 0, 0]");
     if (backdrop->floor_enabled && backdrop->floor_collide && backdrop->floor_height.count > 0)
-        return fail(reader, root, "backdrop.floor.height",
-                    "cannot vary while the floor collides; set backdrop.floor.collide to false");
+        return kiln_validate_fail(
+            reader, root, "backdrop.floor.height",
+            "cannot vary while the floor collides; set backdrop.floor.collide to false");
     return true;
 }
 
@@ -219,7 +230,7 @@ static bool check_camera(struct kiln_reader *reader, const struct kiln_node *roo
     const struct kiln_scene *scene = reader->scene;
     const struct kiln_value3 *ends[2] = {&scene->camera.position, &scene->camera.target};
     if (!at_all_keys(scene, ends, 2, are_apart))
-        return fail(reader, root, "camera.target", "must not be where the camera is");
+        return kiln_validate_fail(reader, root, "camera.target", "must not be where the camera is");
     return true;
 }
 
@@ -227,5 +238,5 @@ bool kiln_validate(struct kiln_reader *reader, const struct kiln_node *root)
 {
     return settle_clock(reader, root) && check_camera(reader, root) &&
            check_backdrop(reader, root) && check_systems(reader, root) &&
-           settle_capacity(reader, root);
+           kiln_family_settle(reader, root) && settle_capacity(reader, root);
 }

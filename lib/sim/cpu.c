@@ -5,13 +5,14 @@
 
 #include "base/vector.h"
 #include "shared/state_hash.h"
-#include "shared/step.h"
+#include "shared/step_family.h"
 
 enum { SLOTS_AT_A_TIME = 2048 };
 
 struct work {
     struct kiln_sim sim;
     struct kiln_particle *records; /* of the system */
+    struct kiln_trace *traces;     /* of all systems */
 };
 
 KILN_WIDE_VECTORS
@@ -23,19 +24,43 @@ static void step_slots(void *context, size_t begin, size_t end, uint32_t worker)
         work->records[slot] = step_slot(&work->sim, (uint)slot, work->records[slot]);
 }
 
+/* Parents' slots have been stepped before their children's are. */
+KILN_WIDE_VECTORS
+static void step_family_slots(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = context;
+    const struct kiln_sim *sim = &work->sim;
+    const struct kiln_family_params *family = &sim->step->family;
+    for (size_t slot = begin; slot < end; slot++) {
+        struct kiln_trace parent = trace_nothing();
+        if (family->born_of != BORN_OF_CLOCK)
+            parent = work->traces[family_parent_trace(sim, (uint)slot)];
+        struct step_result after = step_family_slot(sim, (uint)slot, work->records[slot], parent);
+        work->records[slot] = after.particle;
+        if (family->traced)
+            work->traces[family->traces + slot] = after.trace;
+    }
+}
+
 bool kiln_sim_cpu_step(struct kiln_threads *threads, const struct kiln_sim_params *params,
-                       const float4 *value_keys, struct kiln_pool *pool, struct kiln_error *error)
+                       const float4 *value_keys, struct kiln_pool *pool, struct kiln_buffer *traces,
+                       struct kiln_error *error)
 {
     struct kiln_particle *records = kiln_buffer_host(&pool->records, KILN_READ_WRITE, error);
-    if (!records)
+    struct kiln_trace *scratch =
+        params->trace_count ? kiln_buffer_host(traces, KILN_READ_WRITE, error) : NULL;
+    if (!records || (params->trace_count && !scratch))
         return false;
-    for (uint32_t i = 0; i < params->system_count; i++) {
-        const struct kiln_step_params *step = &params->systems[i];
+    for (uint32_t k = 0; k < params->system_count; k++) {
+        const struct kiln_step_params *step = &params->systems[params->order[k]];
         struct work work = {
             .sim = {.step = step, .colliders = &params->colliders, .value_keys = value_keys},
             .records = records + step->base,
+            .traces = scratch,
         };
-        kiln_threads_for(threads, step->used, SLOTS_AT_A_TIME, step_slots, &work);
+        kiln_threads_for(threads, step->used, SLOTS_AT_A_TIME,
+                         kiln_sim_is_family(step) ? step_family_slots : step_slots, &work);
     }
     return true;
 }

@@ -6,8 +6,10 @@
 #include "base/thread.h"
 #include "sim/params.h"
 
+/* traces: struct kiln_trace [params->trace_count], scratch. */
 bool kiln_sim_cpu_step(struct kiln_threads *threads, const struct kiln_sim_params *params,
-                       const float4 *value_keys, struct kiln_pool *pool, struct kiln_error *error);
+                       const float4 *value_keys, struct kiln_pool *pool, struct kiln_buffer *traces,
+                       struct kiln_error *error);
 
 /* The sums over the host's records, in threads. */
 bool kiln_sim_cpu_hash(struct kiln_threads *threads, struct kiln_pool *pool,

@@ -6,12 +6,27 @@
 #include "base/error.h"
 #include "gpu/program.h"
 
-static bool create_programs(struct kiln_inplace *inplace, struct kiln_error *error)
+static bool has_families(const struct kiln_sim_params *params)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < params->system_count; i++)
+        any = any || kiln_sim_is_family(&params->systems[i]);
+    return any;
+}
+
+static bool create_programs(struct kiln_inplace *inplace, const struct kiln_sim_params *params,
+                            struct kiln_error *error)
 {
     inplace->step_program = kiln_program_create(
         inplace->device, &(struct kiln_program_params){.compute = "sim/inplace.comp"}, error);
     if (!inplace->step_program)
         return false;
+    if (has_families(params)) {
+        inplace->family_program = kiln_program_create(
+            inplace->device, &(struct kiln_program_params){.compute = "sim/family.comp"}, error);
+        if (!inplace->family_program)
+            return false;
+    }
     inplace->hash_program = kiln_program_create(
         inplace->device, &(struct kiln_program_params){.compute = "sim/hash.comp"}, error);
     return inplace->hash_program != 0;
@@ -26,7 +41,8 @@ static size_t step_stride(void)
 }
 
 bool kiln_inplace_init(struct kiln_inplace *inplace, struct kiln_device *device,
-                       const struct kiln_scene *scene, struct kiln_error *error)
+                       const struct kiln_scene *scene, const struct kiln_sim_params *params,
+                       struct kiln_error *error)
 {
     *inplace = (struct kiln_inplace){.device = device};
     if (!device)
@@ -35,7 +51,7 @@ bool kiln_inplace_init(struct kiln_inplace *inplace, struct kiln_device *device,
         return kiln_error_set(error, KILN_USAGE,
                               "simulate=inplace: %s does not compute exactly; use simulate=cpu",
                               device->info.name);
-    if (!create_programs(inplace, error))
+    if (!create_programs(inplace, params, error))
         return false;
     inplace->step_stride = step_stride();
     kiln_buffer_init(&inplace->keys, device, KILN_MAX_VALUE_KEYS * sizeof(float4), "value keys");
@@ -58,6 +74,7 @@ void kiln_inplace_finish(struct kiln_inplace *inplace)
     kiln_buffer_finish(&inplace->colliders);
     kiln_buffer_finish(&inplace->sums);
     glDeleteProgram(inplace->step_program);
+    glDeleteProgram(inplace->family_program);
     glDeleteProgram(inplace->hash_program);
     *inplace = (struct kiln_inplace){.device = NULL};
 }
@@ -81,18 +98,28 @@ static GLuint upload(struct kiln_inplace *inplace, const struct kiln_sim_params 
 }
 
 bool kiln_inplace_step(struct kiln_inplace *inplace, const struct kiln_sim_params *params,
-                       struct kiln_pool *pool, struct kiln_error *error)
+                       struct kiln_pool *pool, struct kiln_buffer *traces, struct kiln_error *error)
 {
     GLuint steps = upload(inplace, params, error);
     GLuint records = kiln_buffer_gl(&pool->records, KILN_READ_WRITE, error);
     if (!steps || !records)
         return false;
-    glUseProgram(inplace->step_program);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SIM_BIND_RECORDS, records);
-    for (uint32_t i = 0; i < params->system_count; i++) {
+    if (params->trace_count > 0) {
+        GLuint scratch = kiln_buffer_gl(traces, KILN_READ_WRITE, error);
+        if (!scratch)
+            return false;
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SIM_BIND_TRACES, scratch);
+    }
+    for (uint32_t k = 0; k < params->system_count; k++) {
+        uint32_t i = params->order[k];
+        const struct kiln_step_params *step = &params->systems[i];
+        if (step->family.born_of != BORN_OF_CLOCK) /* its parent has written traces */
+            glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+        glUseProgram(kiln_sim_is_family(step) ? inplace->family_program : inplace->step_program);
         glBindBufferRange(GL_UNIFORM_BUFFER, SIM_BIND_STEP, steps,
                           (GLintptr)(i * inplace->step_stride), sizeof(struct kiln_step_params));
-        kiln_device_dispatch(inplace->device, params->systems[i].used, SIM_GROUP_SIZE);
+        kiln_device_dispatch(inplace->device, step->used, SIM_GROUP_SIZE);
     }
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     return kiln_device_check(inplace->device, "simulate", error);

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "shared/exact.h"
 #include "shared/random.h"
+#include "shared/trace.h"
 
 static_assert(sizeof(struct kiln_value) == 16, "std140");
 static_assert(sizeof(struct kiln_derived_params) == 48, "std140");
@@ -18,7 +19,9 @@ static_assert(offsetof(struct kiln_step_params, randomness) == 352, "std140");
 static_assert(offsetof(struct kiln_step_params, bounds_min) == 384, "std140");
 static_assert(offsetof(struct kiln_step_params, groups) == 672, "std140");
 static_assert(offsetof(struct kiln_step_params, forces) == 1712, "std140");
-static_assert(sizeof(struct kiln_step_params) == 4272, "std140");
+static_assert(offsetof(struct kiln_step_params, family) == 4272, "std140");
+static_assert(sizeof(struct kiln_step_params) == 4320, "std140");
+static_assert(sizeof(struct kiln_trace) == 112, "std430");
 static_assert(offsetof(struct kiln_colliders, boxes) == 16, "std140");
 static_assert(sizeof(struct kiln_collider) == 64, "std140");
 
@@ -30,11 +33,21 @@ static_assert(EMIT_POINT == (uint)KILN_EMITTER_POINT && EMIT_SPHERE == (uint)KIL
                   EMIT_CONE == (uint)KILN_EMITTER_CONE,
               "the shaders' names of enum kiln_emitter_shape");
 static_assert(FORCE_GRAVITY == (uint)KILN_FORCE_GRAVITY && FORCE_DRAG == (uint)KILN_FORCE_DRAG &&
-                  FORCE_WIND == (uint)KILN_FORCE_WIND && FORCE_CURL == (uint)KILN_FORCE_CURL,
+                  FORCE_WIND == (uint)KILN_FORCE_WIND && FORCE_CURL == (uint)KILN_FORCE_CURL &&
+                  FORCE_LIMIT == (uint)KILN_FORCE_LIMIT,
               "the shaders' names of enum kiln_force_kind");
 static_assert(INTEGRATE_SEMI_IMPLICIT == (uint)KILN_INTEGRATE_SEMI_IMPLICIT &&
                   INTEGRATE_POSITION_FIRST == (uint)KILN_INTEGRATE_POSITION_FIRST,
               "the shaders' names of enum kiln_integration");
+
+static_assert(BORN_OF_DEATH == 1 + (uint)KILN_EVENT_DEATH &&
+                  BORN_OF_BOUNCE == 1 + (uint)KILN_EVENT_BOUNCE &&
+                  BORN_OF_TRAIL == 1 + (uint)KILN_EVENT_TRAIL,
+              "the shaders' names of enum kiln_event");
+static_assert(ALIGN_WORLD == (uint)KILN_ALIGN_WORLD &&
+                  ALIGN_VELOCITY == (uint)KILN_ALIGN_VELOCITY &&
+                  ALIGN_NORMAL == (uint)KILN_ALIGN_NORMAL,
+              "the shaders' names of enum kiln_align");
 
 /* The floor is a box as wide and deep as the world: farther out, particles are lost. */
 #define WORLD 2097152.0f
@@ -86,10 +99,45 @@ static void fill_system(struct kiln_step_params *params, const struct kiln_scene
         .bounds_max = to_float4(system->bounds.max),
     };
     fill_emitter(&params->emit, &system->emit);
+    for (uint32_t i = 0; i < system->force_count; i++)
+        params->limited |= system->forces[i].kind == KILN_FORCE_LIMIT;
     for (uint32_t i = 0; i < system->demitter_count; i++) {
         params->demitter_min[i] = to_float4(system->demitters[i].min);
         params->demitter_max[i] = to_float4(system->demitters[i].max);
     }
+}
+
+/* Parents come first, so that their traces have places when their children ask. */
+static void fill_families(struct kiln_sim_params *params, const struct kiln_scene *scene)
+{
+    params->trace_count = 0;
+    kiln_family_order(scene, params->order);
+    for (uint32_t k = 0; k < scene->system_count; k++) {
+        uint32_t index = params->order[k];
+        const struct kiln_system *system = &scene->systems[index];
+        const struct kiln_parent *parent = &system->emit.parent;
+        struct kiln_family_params *family = &params->systems[index].family;
+        *family =
+            (struct kiln_family_params){.dies = system->collide.enabled && system->collide.dies};
+        if (parent->enabled) {
+            family->born_of = 1 + (uint)parent->event;
+            family->align = (uint)parent->align;
+            family->slots = parent->slots;
+            family->rate = parent->rate;
+            family->parent_traces = params->systems[parent->system].family.traces;
+        }
+        if (kiln_family_has_children(scene, index)) {
+            family->traced = 1;
+            family->traces = params->trace_count;
+            params->trace_count += system->capacity;
+        }
+    }
+}
+
+bool kiln_sim_is_family(const struct kiln_step_params *params)
+{
+    const struct kiln_family_params *family = &params->family;
+    return family->born_of != BORN_OF_CLOCK || family->traced != 0 || family->dies != 0;
 }
 
 void kiln_sim_params_init(struct kiln_sim_params *params, const struct kiln_scene *scene)
@@ -97,6 +145,7 @@ void kiln_sim_params_init(struct kiln_sim_params *params, const struct kiln_scen
     params->system_count = scene->system_count;
     for (uint32_t i = 0; i < scene->system_count; i++)
         fill_system(&params->systems[i], scene, i);
+    fill_families(params, scene);
 }
 
 /* The value with its course over time taken at time_s; a curve over life stays one. */
@@ -170,6 +219,29 @@ static void fill_colliders(struct kiln_colliders *colliders, const struct kiln_s
                            kiln_scene_value(scene, &backdrop->floor_height, end_s));
 }
 
+/* Children have their serials from their parents': there is nothing to count. */
+static bool count_children(struct kiln_step_params *params, const struct kiln_scene *scene,
+                           uint32_t index, struct kiln_pool *pool, struct kiln_error *error)
+{
+    const struct kiln_parent *parent = &scene->systems[index].emit.parent;
+    const struct kiln_pool_system *born = &pool->systems[parent->system];
+    struct kiln_pool_system *slots = &pool->systems[index];
+    if (!scene->systems[index].enabled)
+        return true;
+    if (slots->capacity != (uint64_t)born->capacity * parent->slots)
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "%s: systems.%s: %u slots, but %u parents with %u children each",
+                              scene->name, scene->systems[index].name, slots->capacity,
+                              born->capacity, parent->slots);
+    uint64_t serials = born->next_serial * parent->slots;
+    if (serials > UINT32_MAX)
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "%s: systems.%s: more than 2^32 births by step %u", scene->name,
+                              scene->systems[index].name, params->step);
+    slots->next_serial = serials;
+    return true;
+}
+
 /* Counts the births of one system and tells the step about them. */
 static bool count_births(struct kiln_step_params *params, const struct kiln_scene *scene,
                          uint32_t index, struct kiln_pool_system *slots, struct kiln_error *error)
@@ -207,12 +279,14 @@ bool kiln_sim_params_step(struct kiln_sim_params *params, const struct kiln_scen
                               scene->name, step, KILN_MAX_STEPS);
     float start_s = kiln_scene_time(scene, step - 1);
     float end_s = kiln_scene_time(scene, step);
-    for (uint32_t i = 0; i < params->system_count; i++) {
+    for (uint32_t n = 0; n < params->system_count; n++) {
+        uint32_t i = params->order[n];
         const struct kiln_system *system = &scene->systems[i];
         struct kiln_step_params *p = &params->systems[i];
         p->step = step;
         p->time_s = start_s;
-        if (!count_births(p, scene, i, &pool->systems[i], error))
+        if (system->emit.parent.enabled ? !count_children(p, scene, i, pool, error)
+                                        : !count_births(p, scene, i, &pool->systems[i], error))
             return false;
         p->base = pool->systems[i].base;
         p->capacity = pool->systems[i].capacity;

@@ -5,14 +5,19 @@
 #define KILN_SIM_PARAMS_H
 
 #include "particles/pool.h"
-#include "scene/scene.h"
+#include "scene/family.h"
 #include "shared/layout.h"
 
 struct kiln_sim_params {
     uint32_t system_count;
     struct kiln_step_params systems[KILN_MAX_SYSTEMS];
     struct kiln_colliders colliders;
+    uint32_t order[KILN_MAX_SYSTEMS]; /* of the systems in a step: parents before their children */
+    uint32_t trace_count;             /* of the systems with children: one a slot */
 };
+
+/* Does the system need the kernel for families (shared/step_family.h)? */
+bool kiln_sim_is_family(const struct kiln_step_params *params);
 
 /* Fills in all that does not change during a run. */
 void kiln_sim_params_init(struct kiln_sim_params *params, const struct kiln_scene *scene);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/error.h"
+#include "shared/trace.h"
 #include "sim/cpu.h"
 #include "sim/inplace.h"
 
@@ -13,6 +14,7 @@ struct kiln_simulate {
     struct kiln_threads *threads;
     struct kiln_sim_params params;
     struct kiln_inplace inplace;
+    struct kiln_buffer traces; /* of parents, within a step: no part of the state */
 };
 
 struct kiln_simulate *kiln_simulate_create(struct kiln_device *device,
@@ -29,8 +31,10 @@ struct kiln_simulate *kiln_simulate_create(struct kiln_device *device,
     simulate->technique = technique;
     simulate->threads = threads;
     kiln_sim_params_init(&simulate->params, scene);
+    kiln_buffer_init(&simulate->traces, technique == KILN_SIMULATE_CPU ? NULL : device,
+                     (size_t)simulate->params.trace_count * sizeof(struct kiln_trace), "traces");
     if (technique == KILN_SIMULATE_INPLACE &&
-        !kiln_inplace_init(&simulate->inplace, device, scene, error))
+        !kiln_inplace_init(&simulate->inplace, device, scene, &simulate->params, error))
         kiln_simulate_destroy(&simulate);
     return simulate;
 }
@@ -39,6 +43,8 @@ void kiln_simulate_destroy(struct kiln_simulate **simulate)
 {
     if (*simulate && (*simulate)->inplace.device)
         kiln_inplace_finish(&(*simulate)->inplace);
+    if (*simulate)
+        kiln_buffer_finish(&(*simulate)->traces);
     free(*simulate);
     *simulate = NULL;
 }
@@ -51,9 +57,10 @@ bool kiln_simulate_step(struct kiln_simulate *simulate, struct kiln_pool *pool, 
     switch (simulate->technique) {
     case KILN_SIMULATE_CPU:
         return kiln_sim_cpu_step(simulate->threads, &simulate->params, simulate->scene->keys, pool,
-                                 error);
+                                 &simulate->traces, error);
     case KILN_SIMULATE_INPLACE:
-        return kiln_inplace_step(&simulate->inplace, &simulate->params, pool, error);
+        return kiln_inplace_step(&simulate->inplace, &simulate->params, pool, &simulate->traces,
+                                 error);
     }
     return false;
 }

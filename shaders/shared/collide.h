@@ -229,15 +229,52 @@ FN S(collide_state) collide_impact(SIM_PARAM S(collide_state) s, S(kiln_collider
     return after;
 }
 
+/* The first impact of a step, for whoever asks. */
+struct collide_touch {
+    float3 position; /* just outside of the face */
+    float3 velocity; /* after the impact */
+    float since;     /* part of the step that had passed */
+    uint face;
+    bool happened;
+};
+
+/* How a particle's way through a step ends, and how it began to bounce. */
+struct collide_way {
+    S(collide_state) end;
+    S(collide_touch) first;
+};
+
+FN S(collide_touch) collide_no_touch(void)
+{
+    EXACT S(collide_touch) touch;
+    touch.position = FLOAT3(0.0f, 0.0f, 0.0f);
+    touch.velocity = FLOAT3(0.0f, 0.0f, 0.0f);
+    touch.since = 0.0f;
+    touch.face = 0u;
+    touch.happened = false;
+    return touch;
+}
+
+FN S(collide_touch) collide_touched(S(collide_state) s, uint face)
+{
+    EXACT S(collide_touch) touch;
+    touch.position = s.position;
+    touch.velocity = s.velocity;
+    touch.since = s.since;
+    touch.face = face;
+    touch.happened = true;
+    return touch;
+}
+
 struct collide_hit {
     float part; /* of the segment; below 0: no hit */
     uint box;
     uint face;
 };
 
-/* The first impact on the way from s to `end` at the end of the step. A start inside a box (born
- * there) is an impact at once on its nearest face. */
-FN S(collide_hit) collide_first(SIM_PARAM S(collide_state) s, float3 end)
+/* The first impact on the way from s to `end` when the part `until` of the step has passed. A start
+ * inside a box (born there) is an impact at once on its nearest face. */
+FN S(collide_hit) collide_first(SIM_PARAM S(collide_state) s, float3 end, float until)
 {
     EXACT S(collide_hit) hit;
     hit.part = -1.0f;
@@ -246,7 +283,7 @@ FN S(collide_hit) collide_first(SIM_PARAM S(collide_state) s, float3 end)
     for (uint i = 0u; i < COLLIDERS(count); i++) {
         EXACT S(kiln_collider) c = COLLIDERS(boxes[i]);
         EXACT S(collide_box) at_start = collide_box_at(c, s.since);
-        EXACT S(collide_box) at_end = collide_box_at(c, 1.0f);
+        EXACT S(collide_box) at_end = collide_box_at(c, until);
         EXACT S(collide_span) span = collide_segment(at_start, at_end, s.position, end);
         bool inside = !span.misses && !span.outside;
         bool enters = !span.misses && span.outside && span.enter < span.leave;
@@ -261,13 +298,13 @@ FN S(collide_hit) collide_first(SIM_PARAM S(collide_state) s, float3 end)
 
 /* The last resort, when the bounces of a step are used up between boxes that close in: up, until no
  * box is around. Each pass leaves at least one box below. */
-FN float3 collide_rise(SIM_PARAM float3 position)
+FN float3 collide_rise(SIM_PARAM float3 position, float until)
 {
     EXACT float3 p = position;
     for (uint pass = 0u; pass < COLLIDERS(count); pass++) {
         bool free = true;
         for (uint i = 0u; i < COLLIDERS(count); i++) {
-            EXACT S(collide_box) box = collide_box_at(COLLIDERS(boxes[i]), 1.0f);
+            EXACT S(collide_box) box = collide_box_at(COLLIDERS(boxes[i]), until);
             if (collide_inside(box, p)) {
                 p = collide_put_beside(box, 3u, p);
                 free = false;
@@ -285,44 +322,53 @@ FN uint collide_purpose(SIM_PARAM uint bounce)
     return RANDOM_BOUNCE + (STEP(step) << 4u) + (bounce << 1u);
 }
 
-/* From s, whose position is where the particle is and `end` where it would be at the end of the
- * step; the result is at the end of the step, outside of every box. */
-FN S(collide_state)
-    collide_swept(SIM_PARAM S(collide_state) s, float3 end, S(collide_answer) answer)
+/* From s, whose position is where the particle is and `end` where it would be when the part `until`
+ * of the step (1: all of it) has passed; the result is at that time, outside of every box. */
+FN S(collide_way)
+    collide_swept(SIM_PARAM S(collide_state) s, float3 end, float until, S(collide_answer) answer)
 {
+    EXACT S(collide_way) way;
+    way.first = collide_no_touch();
     EXACT S(collide_state) now = s;
     EXACT float3 target = end;
     EXACT float dt_s = STEP(derived.dt_s);
     EXACT S(collide_answer) draw = answer;
     for (uint bounce = 0u; bounce < COLLIDE_BOUNCES; bounce++) {
-        EXACT S(collide_hit) hit = collide_first(SIM now, target);
+        EXACT S(collide_hit) hit = collide_first(SIM now, target, until);
         if (hit.part < 0.0f) {
             now.position = target;
-            return now;
+            way.end = now;
+            return way;
         }
-        EXACT float3 way = float3_sub(target, now.position);
-        now.position = float3_add_scaled(now.position, way, hit.part);
-        EXACT float left = 1.0f - now.since;
+        EXACT float3 ahead = float3_sub(target, now.position);
+        now.position = float3_add_scaled(now.position, ahead, hit.part);
+        EXACT float left = until - now.since;
         now.since = now.since + left * hit.part;
         draw.purpose = collide_purpose(SIM bounce);
         now = collide_impact(SIM now, COLLIDERS(boxes[hit.box]), hit.face, draw);
-        EXACT float rest_s = (1.0f - now.since) * dt_s;
+        if (bounce == 0u)
+            way.first = collide_touched(now, hit.face);
+        EXACT float rest_s = (until - now.since) * dt_s;
         target = float3_add_scaled(now.position, now.velocity, rest_s);
     }
-    now.position = collide_rise(SIM now.position);
-    return now;
+    now.position = collide_rise(SIM now.position, until);
+    way.end = now;
+    return way;
 }
 
 /* The thesis's way: whoever ends inside a box is put on the nearest face. Fast particles tunnel. */
-FN S(collide_state)
-    collide_clamp(SIM_PARAM S(collide_state) s, float3 end, S(collide_answer) answer)
+FN S(collide_way)
+    collide_clamp(SIM_PARAM S(collide_state) s, float3 end, float until, S(collide_answer) answer)
 {
+    EXACT S(collide_way) way;
+    way.first = collide_no_touch();
     EXACT S(collide_state) now = s;
     now.position = end;
+    now.since = until;
     EXACT S(collide_answer) draw = answer;
     uint impacts = 0u;
     for (uint i = 0u; i < COLLIDERS(count); i++) {
-        EXACT S(collide_box) box = collide_box_at(COLLIDERS(boxes[i]), 1.0f);
+        EXACT S(collide_box) box = collide_box_at(COLLIDERS(boxes[i]), until);
         if (collide_inside(box, now.position)) {
             uint face = collide_nearest_face(box, now.position);
             uint axis = face >> 1u;
@@ -332,9 +378,12 @@ FN S(collide_state)
             draw.purpose = collide_purpose(SIM impacts & 7u);
             impacts++;
             now.velocity = collide_bounce(draw, now.velocity, face, true);
+            if (impacts == 1u)
+                way.first = collide_touched(now, face);
         }
     }
-    return now;
+    way.end = now;
+    return way;
 }
 
 #endif

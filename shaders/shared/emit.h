@@ -96,22 +96,53 @@ struct emit_state {
     float3 velocity; /* m/s */
 };
 
-/* Where a particle born at a clip time starts, and how fast. */
-FN S(emit_state) emit_particle(SIM_PARAM uint stream, float time_s)
+/* A birth at a clip time as the shape says, from a resting emitter. */
+FN S(emit_state) emit_at_rest(SIM_PARAM uint stream, float time_s)
 {
     EXACT S(emit_place) place = emit_place_at(SIM stream, time_s);
     EXACT float slowest = value_at(SIM_KEYS STEP(emit.speed.min), time_s, 0.0f);
     EXACT float fastest = value_at(SIM_KEYS STEP(emit.speed.max), time_s, 0.0f);
     EXACT float speed = random_between(stream, RANDOM_SPEED, slowest, fastest);
     EXACT float3 origin = value3_at(SIM_KEYS STEP(emit.origin), time_s, 0.0f);
+    EXACT S(emit_state) born;
+    born.position = float3_add(origin, place.offset);
+    born.velocity = float3_scale(place.direction, speed);
+    return born;
+}
+
+/* Where a particle born at a clip time starts, and how fast. */
+FN S(emit_state) emit_particle(SIM_PARAM uint stream, float time_s)
+{
+    EXACT S(emit_state) born = emit_at_rest(SIM stream, time_s);
     EXACT float3 origin_rate = FLOAT3(value_rate_at(SIM_KEYS STEP(emit.origin.x), time_s),
                                       value_rate_at(SIM_KEYS STEP(emit.origin.y), time_s),
                                       value_rate_at(SIM_KEYS STEP(emit.origin.z), time_s));
     EXACT float inherit = value_at(SIM_KEYS STEP(emit.inherit), time_s, 0.0f);
-    EXACT float3 own = float3_scale(place.direction, speed);
+    born.velocity = float3_add_scaled(born.velocity, origin_rate, inherit);
+    return born;
+}
+
+/* v of a space whose y axis points along the unit vector `axis`. */
+FN float3 emit_turned(float3 v, float3 axis)
+{
+    EXACT S(random_frame) frame = random_frame_about(axis);
+    EXACT float3 across = float3_scale(frame.u, v.x);
+    EXACT float3 upwards = float3_add_scaled(across, axis, v.y);
+    EXACT float3 y = float3_add_scaled(upwards, frame.v, -v.z);
+    return y;
+}
+
+/* The same of a particle that is born of another: `parent` at that moment is the origin of the
+ * shape's space and `axis` its y axis. */
+FN S(emit_state) emit_child(SIM_PARAM uint stream, float time_s, S(emit_state) parent, float3 axis)
+{
+    EXACT S(emit_state) own = emit_at_rest(SIM stream, time_s);
+    EXACT float inherit = value_at(SIM_KEYS STEP(emit.inherit), time_s, 0.0f);
+    EXACT float3 offset = emit_turned(own.position, axis);
+    EXACT float3 thrown = emit_turned(own.velocity, axis);
     EXACT S(emit_state) born;
-    born.position = float3_add(origin, place.offset);
-    born.velocity = float3_add_scaled(own, origin_rate, inherit);
+    born.position = float3_add(parent.position, offset);
+    born.velocity = float3_add_scaled(thrown, parent.velocity, inherit);
     return born;
 }
 

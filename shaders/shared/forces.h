@@ -1,5 +1,5 @@
 /* The forces of a system, added up and integrated. A new force is a file force_name.h with one
- * function, and a row here.
+ * function, and a row here; a limit adds nothing up and has none.
  */
 #ifndef KILN_SHARED_FORCES_H
 #define KILN_SHARED_FORCES_H
@@ -7,6 +7,7 @@
 #include "shared/force_curl.h"
 #include "shared/force_drag.h"
 #include "shared/force_gravity.h"
+#include "shared/force_limit.h"
 #include "shared/force_wind.h"
 
 #define FORCES(ROW)                                                                                \

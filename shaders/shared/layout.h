@@ -53,6 +53,7 @@ struct kiln_emit_params {
 #define FORCE_DRAG    1u
 #define FORCE_WIND    2u
 #define FORCE_CURL    3u
+#define FORCE_LIMIT   4u
 
 struct kiln_force_params {
     uint kind;
@@ -72,6 +73,30 @@ struct kiln_force_params {
 #define COLLIDE_SWEPT 1u
 #define COLLIDE_CLAMP 2u
 
+/* What a particle is born of: the clock, or an event of a particle of its parent system. */
+#define BORN_OF_CLOCK  0u
+#define BORN_OF_DEATH  1u
+#define BORN_OF_BOUNCE 2u
+#define BORN_OF_TRAIL  3u
+
+/* What an emitter's y axis becomes at a birth of a parent. */
+#define ALIGN_WORLD    0u
+#define ALIGN_VELOCITY 1u
+#define ALIGN_NORMAL   2u
+
+/* How a system is related to others: see family.h. */
+struct kiln_family_params {
+    uint born_of;
+    uint align;
+    uint slots;         /* reserved for the children of one parent */
+    uint parent_traces; /* the first trace of the parent system */
+    uint traced;        /* 1: has children, so it leaves traces */
+    uint traces;        /* its first trace */
+    uint dies;          /* 1: of its first impact */
+    uint unused;
+    S(kiln_value) rate; /* trail: children a second of the parent's life */
+};
+
 struct kiln_step_params {
     S(kiln_derived_params) derived;
     S(kiln_emit_params) emit;
@@ -90,7 +115,7 @@ struct kiln_step_params {
     uint bounded;
     uint noise_seed;
     float time_s; /* clip time at the start of the step */
-    uint unused;
+    uint limited; /* 1: a force limits the speed */
     S(kiln_value) randomness;
     S(kiln_value) slowdown;
     float4 bounds_min, bounds_max;
@@ -98,6 +123,7 @@ struct kiln_step_params {
     float4 demitter_max[KILN_MAX_DEMITTERS];
     S(kiln_birth_group) groups[KILN_MAX_BIRTH_GROUPS];
     S(kiln_force_params) forces[KILN_MAX_FORCES];
+    S(kiln_family_params) family;
 };
 
 /* A box at the start and at the end of the step; its faces move evenly in between. */

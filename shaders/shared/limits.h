@@ -11,6 +11,9 @@
 #define KILN_MAX_BOXES     32 /* a scene */
 #define KILN_MAX_LIGHTS    16 /* a scene */
 
+/* Systems from a first parent to its last descendants. */
+#define KILN_MAX_GENERATIONS 4
+
 /* The groups of births of a step: one of the rate and one of each burst. */
 #define KILN_MAX_BIRTH_GROUPS 65
 
@@ -25,6 +28,7 @@
 /* Storage blocks. */
 #define SIM_BIND_RECORDS 0
 #define SIM_BIND_SUMS    1
+#define SIM_BIND_TRACES  2
 
 /* Invocations of a work group. */
 #define SIM_GROUP_SIZE 64

@@ -18,8 +18,8 @@
 #define KILN_LOOK_HOT    2 /* light emitted where a cell's heat is 1, rgb; near fade, m */
 #define KILN_LOOK_COOL   3 /* light emitted where it is 0, rgb; passes through the atlas */
 #define KILN_LOOK_BLOOM  4 /* weights, rgb; unused */
-#define KILN_LOOK_SPREAD 5 /* scale, least and most; spin, least and most, rad/s */
-#define KILN_LOOK_TURN   6 /* rotation at birth, least and most, rad; unused */
+#define KILN_LOOK_SPREAD 5 /* scale, least and most; mean spin so far, least and most, rad/s */
+#define KILN_LOOK_TURN   6 /* rotation, least and most, rad; unused */
 #define KILN_LOOK_ROWS   7
 
 /* The rest of a look, the same at any age. */

@@ -21,6 +21,7 @@ struct kiln_particle {
 /* The birth word: step of birth (22 bits), 64ths of that step that had passed (6), flags (4).
  * A run of more steps than 22 bits hold is refused. */
 #define KILN_PARTICLE_ALIVE       1u
+#define KILN_PARTICLE_BOUNCED     2u /* of systems with children: has met a surface */
 #define KILN_BIRTH_STEP_SHIFT     10u
 #define KILN_BIRTH_FRACTION_SHIFT 4u
 #define KILN_BIRTH_FRACTION_MASK  63u

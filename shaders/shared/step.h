@@ -6,6 +6,7 @@
 
 #include "shared/collide.h"
 #include "shared/emit.h"
+#include "shared/family.h"
 #include "shared/forces.h"
 
 /* Farther out, or faster, or not a number: the particle is lost. 2^20 m, m/s. */
@@ -67,22 +68,25 @@ FN S(kiln_particle) step_birth(SIM_PARAM uint index)
     return step_with_motion(p, born.position, born.velocity);
 }
 
-/* Motion from the part `since` of the step to its end, without collision. */
-FN S(collide_state) step_integrate(SIM_PARAM S(collide_state) s, float life)
+/* Motion from the part `since` of the step to the part `until`, without collision. */
+FN S(collide_state) step_integrate(SIM_PARAM S(collide_state) s, float until, float life)
 {
-    EXACT float time_s = (1.0f - s.since) * STEP(derived.dt_s);
+    EXACT float time_s = (until - s.since) * STEP(derived.dt_s);
     EXACT S(force_effect) forces = forces_sum(SIM s.position, life);
     EXACT S(collide_state) moved;
     moved.velocity = forces_apply(forces, s.velocity, time_s);
+    if (STEP(limited) != 0u)
+        moved.velocity = force_limit_all(SIM moved.velocity, life);
     EXACT float3 carrying = moved.velocity;
     if (STEP(integration) == INTEGRATE_POSITION_FIRST)
         carrying = s.velocity;
     moved.position = float3_add_scaled(s.position, carrying, time_s);
-    moved.since = 1.0f;
+    moved.since = until;
     return moved;
 }
 
-FN S(collide_state) step_collide(SIM_PARAM S(collide_state) s, float3 end, float life, uint stream)
+FN S(collide_way)
+    step_collide(SIM_PARAM S(collide_state) s, float3 end, float until, float life, uint stream)
 {
     EXACT S(collide_answer) answer;
     answer.randomness = value_at(SIM_KEYS STEP(randomness), STEP(time_s), life);
@@ -90,8 +94,46 @@ FN S(collide_state) step_collide(SIM_PARAM S(collide_state) s, float3 end, float
     answer.stream = stream;
     answer.purpose = 0u;
     if (STEP(collide) == COLLIDE_CLAMP)
-        return collide_clamp(SIM s, end, answer);
-    return collide_swept(SIM s, end, answer);
+        return collide_clamp(SIM s, end, until, answer);
+    return collide_swept(SIM s, end, until, answer);
+}
+
+/* A particle's way from its start to the part `until` of the step. */
+struct step_way {
+    S(collide_state) start;
+    S(collide_state) end;
+    S(collide_touch) first; /* impact */
+    bool lost;              /* where particles may not be */
+};
+
+FN S(step_way) step_move(SIM_PARAM S(kiln_particle) p, float age_s, float life_s, float until)
+{
+    bool born = particle_birth_step(p) == STEP(step);
+    EXACT float age_before_s = age_s - STEP(derived.dt_s);
+    EXACT float life = born ? 0.0f : particle_progress(age_before_s, life_s);
+
+    EXACT S(step_way) way;
+    way.start.position = particle_position(p);
+    way.start.velocity = particle_velocity(p);
+    way.start.since = born ? particle_birth_fraction(p) : 0.0f;
+    way.end = step_integrate(SIM way.start, until, life);
+    way.first = collide_no_touch();
+    way.lost = true;
+    if (!step_is_sane(way.end.position) || !step_is_sane(way.end.velocity))
+        return way;
+    if (STEP(collide) != COLLIDE_OFF) {
+        EXACT S(collide_state) start = way.start;
+        start.velocity = way.end.velocity;
+        uint stream = particle_stream(STEP(derived), p);
+        EXACT S(collide_way) bounced =
+            step_collide(SIM start, way.end.position, until, life, stream);
+        way.end = bounced.end;
+        way.first = bounced.first;
+        if (!step_is_sane(way.end.position) || !step_is_sane(way.end.velocity))
+            return way;
+    }
+    way.lost = step_is_removed(SIM way.end.position);
+    return way;
 }
 
 /* A particle, new ones included, at the end of this step: moved, or dead. */
@@ -101,34 +143,23 @@ FN S(kiln_particle) step_particle(SIM_PARAM S(kiln_particle) p)
     EXACT float age_s = particle_age(p, STEP(step), STEP(derived.dt_s));
     if (age_s >= life_s)
         return step_dead();
-    bool born = particle_birth_step(p) == STEP(step);
-    EXACT float age_before_s = age_s - STEP(derived.dt_s);
-    EXACT float life = born ? 0.0f : particle_progress(age_before_s, life_s);
+    EXACT S(step_way) way = step_move(SIM p, age_s, life_s, 1.0f);
+    if (way.lost)
+        return step_dead();
+    return step_with_motion(p, way.end.position, way.end.velocity);
+}
 
-    EXACT S(collide_state) start;
-    start.position = particle_position(p);
-    start.velocity = particle_velocity(p);
-    start.since = born ? particle_birth_fraction(p) : 0.0f;
-    EXACT S(collide_state) end = step_integrate(SIM start, life);
-    if (!step_is_sane(end.position) || !step_is_sane(end.velocity))
-        return step_dead();
-    if (STEP(collide) != COLLIDE_OFF) {
-        start.velocity = end.velocity;
-        uint stream = particle_stream(STEP(derived), p);
-        end = step_collide(SIM start, end.position, life, stream);
-        if (!step_is_sane(end.position) || !step_is_sane(end.velocity))
-            return step_dead();
-    }
-    if (step_is_removed(SIM end.position))
-        return step_dead();
-    return step_with_motion(p, end.position, end.velocity);
+/* Which birth of this step a slot is for; none if that is not below birth_count. */
+FN uint step_birth_index(SIM_PARAM uint slot)
+{
+    return slot >= STEP(first_slot) ? slot - STEP(first_slot)
+                                    : slot + (STEP(capacity) - STEP(first_slot));
 }
 
 /* Slot `slot` of the system after this step; `old` is what lies there before it. */
 FN S(kiln_particle) step_slot(SIM_PARAM uint slot, S(kiln_particle) old)
 {
-    uint index = slot >= STEP(first_slot) ? slot - STEP(first_slot)
-                                          : slot + (STEP(capacity) - STEP(first_slot));
+    uint index = step_birth_index(SIM slot);
     S(kiln_particle) p = old;
     if (index < STEP(birth_count))
         p = step_birth(SIM index);

@@ -39,7 +39,8 @@ struct kiln_range {
 #define VALUE_KEYS_PARAM const float4 *value_keys,
 #endif
 
-/* A key is (x, y, slope to the next key, 0); the slope is divided once, on the host. */
+/* A key is (x, y, slope to the next key, integral from 0 to x); the host works out the last two,
+ * once. */
 FN float value_at_key(VALUE_KEYS_PARAM S(kiln_value) v, float x)
 {
     uint last = v.first + v.count - 1u;
@@ -70,6 +71,40 @@ FN float3 value3_at(VALUE_KEYS_PARAM S(kiln_value3) v, float time_s, float life)
         FLOAT3(value_at(VALUE_KEYS v.x, time_s, life), value_at(VALUE_KEYS v.y, time_s, life),
                value_at(VALUE_KEYS v.z, time_s, life));
     return y;
+}
+
+/* The integral of a curve over life (or of a constant) from 0 to x >= 0. While the values are not
+ * negative it never falls as x rises, in floats as well: of a piece that rises, the area from its
+ * left end is a product of two factors that both grow; of one that falls, the area to its right end
+ * is one of two that both shrink. */
+FN float value_sum_at(VALUE_KEYS_PARAM S(kiln_value) v, float x)
+{
+    if (v.count == 0u) {
+        EXACT float flat_sum = v.constant * x;
+        return flat_sum;
+    }
+    uint last = v.first + v.count - 1u;
+    uint k = v.first;
+    while (k < last && value_keys[k + 1u].x <= x)
+        k++;
+    EXACT float4 key = value_keys[k];
+    EXACT float dx = x - key.x;
+    EXACT float before = key.y * x;
+    EXACT float half_slope = key.z * 0.5f;
+    EXACT float height = key.y + half_slope * dx;
+    EXACT float sum = key.w + height * dx;
+    if (dx < 0.0f)
+        return before;
+    if (k == last)
+        return sum;
+    EXACT float4 next = value_keys[k + 1u];
+    EXACT float left = next.x - x;
+    EXACT float height_left = next.y - half_slope * left;
+    EXACT float falling = next.w - height_left * left;
+    sum = key.z < 0.0f ? falling : sum;
+    sum = sum < key.w ? key.w : sum;
+    sum = sum > next.w ? next.w : sum;
+    return sum;
 }
 
 /* How fast a value over time changes, per second: 0 before the first and from the last key on. */

@@ -66,6 +66,15 @@ static void position_first(void **state)
     cpu_and_inplace_agree(*state, KILN_INTEGRATE_POSITION_FIRST, 2);
 }
 
+static void families_agree(void **state)
+{
+    for (int order = 0; order < 2; order++) {
+        fixture_family(&fixture, (enum kiln_integration)order);
+        fixture_finish(&fixture, 200);
+        both_agree(*state, &fixture.scene, 2, 200);
+    }
+}
+
 /* The front-page scene as the loader makes it, with a tenth of its particles. */
 static void a_scene_from_a_file(void **state)
 {
@@ -127,6 +136,7 @@ int main(void)
         test_on_device(two_threads),
         test_on_device(eight_threads),
         test_on_device(position_first),
+        test_on_device(families_agree),
         test_on_device(a_scene_from_a_file),
         test_on_device(a_run_can_change_its_technique),
         test_on_device(inplace_needs_an_exact_device),

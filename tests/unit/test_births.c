@@ -133,7 +133,8 @@ static void senseless_rates_give_no_births(void **state)
     static const float rates[] = {0.0f, -1.0f, NAN};
     for (size_t r = 0; r < sizeof rates / sizeof *rates; r++) {
         struct kiln_births_source source = at_60_hz(&rates[r]);
-        struct kiln_births_bound bound = kiln_births_bound(&source, 100, 1.0f, 1.0f / 60.0f);
+        struct kiln_births_bound bound =
+            kiln_births_bound(&source, 100, kiln_births_lifespan(1.0f, 1.0f / 60.0f, 100));
         assert_int_equal(bound.capacity, 0);
         assert_int_equal(bound.total, 0);
     }
@@ -178,7 +179,8 @@ static void the_bound_is_the_fullest_window(void **state)
                 sum += counts[k];
             most = sum > most ? sum : most;
         }
-        struct kiln_births_bound bound = kiln_births_bound(&source, STEPS, lives[l], dt_s);
+        struct kiln_births_bound bound =
+            kiln_births_bound(&source, STEPS, kiln_births_lifespan(lives[l], dt_s, STEPS));
         assert_int_equal(bound.total, total);
         assert_int_equal(bound.capacity, most);
     }

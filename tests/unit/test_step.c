@@ -99,6 +99,30 @@ static void wind_and_gravity_find_their_balance(void **state)
     }
 }
 
+/* The direction stays, the speed is no more than the limit of that age; of two, the lower. */
+static void limits_take_what_is_above(void **state)
+{
+    (void)state;
+    struct kiln_system *system = one_particle(&fixture);
+    system->emit.life = fixture_range(1.0f, 1.0f);
+    fixture_add_force(system, KILN_FORCE_GRAVITY)->vector = fixture_constant3(0.6f, 0.8f, 0.0f);
+    fixture_add_force(system, KILN_FORCE_LIMIT)->strength =
+        fixture_ramp(&fixture, KILN_CLOCK_LIFE, 0.0f, 10.0f, 1.0f, 0.0f);
+    fixture_add_force(system, KILN_FORCE_LIMIT)->strength = fixture_constant(5.4f);
+    fixture_finish(&fixture, 60);
+    struct simulation run;
+    simulation_start(&run, &fixture.scene, NULL, 1);
+    for (int step = 1; step < 60; step++) {
+        simulation_run(&run, 1);
+        double free_fall = 5.0 + step / 60.0, limit = 10.0 * (1.0 - (step - 1) / 60.0);
+        double expected = fmin(fmin(free_fall, limit), 5.4);
+        float3 v = particle_velocity(simulation_records(&run)[0]);
+        assert_near((double)v.x, 0.6 * expected, 1e-4);
+        assert_near((double)v.y, 0.8 * expected, 1e-4);
+    }
+    simulation_end(&run);
+}
+
 static void damping_is_the_closed_form(void **state)
 {
     (void)state;
@@ -435,6 +459,7 @@ int main(void)
         cmocka_unit_test(constant_acceleration_gives_the_sums_of_each_order),
         cmocka_unit_test(drag_decays_exponentially),
         cmocka_unit_test(wind_and_gravity_find_their_balance),
+        cmocka_unit_test(limits_take_what_is_above),
         cmocka_unit_test(damping_is_the_closed_form),
         cmocka_unit_test(curl_noise_carries_at_its_speed),
         cmocka_unit_test(births_are_spread_inside_the_step),

@@ -190,6 +190,34 @@ static void clip_time_is_exact(void **state)
     }
 }
 
+/* The sum of a curve against the trapezoids that it consists of, held outside of its keys; and it
+ * never falls, not by a bit. */
+static void sums_are_the_areas(void **state)
+{
+    (void)state;
+    struct kiln_scene *scene = load_scene(
+        "kiln: 1\nsystems: {a: {look: {opacity: {life: {0.1: 0.4, 0.3: 1, 0.5: 0, 0.8: 0.002}},\n"
+        "  size: 3}}}\n",
+        NULL);
+    const struct kiln_look *look = &scene->systems[0].look;
+    const struct kiln_value *curve = &look->opacity;
+    static const double sums[][2] = {{0, 0},       {0.1, 0.04}, {0.2, 0.095},  {0.3, 0.18},
+                                     {0.4, 0.255}, {0.5, 0.28}, {0.8, 0.2803}, {1, 0.2807}};
+    for (size_t i = 0; i < sizeof sums / sizeof *sums; i++) {
+        double sum = (double)value_sum_at(scene->keys, *curve, (float)sums[i][0]);
+        if (!(fabs(sum - sums[i][1]) < 1e-6))
+            fail_msg("%g up to %g, not %g", sum, sums[i][0], sums[i][1]);
+    }
+    float before = 0;
+    for (uint32_t i = 0; i <= 1 << 20; i++) {
+        float sum = value_sum_at(scene->keys, *curve, (float)i * 0x1p-20f);
+        assert_true(sum >= before);
+        before = sum;
+    }
+    assert_true(value_sum_at(scene->keys, look->size, 0.5f) == 1.5f);
+    kiln_scene_destroy(&scene);
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
@@ -201,6 +229,7 @@ int main(void)
         cmocka_unit_test(vectors_vary_whole_or_in_parts),
         cmocka_unit_test(colors_may_be_grey),
         cmocka_unit_test(clip_time_is_exact),
+        cmocka_unit_test(sums_are_the_areas),
     };
     return cmocka_run_group_tests_name("value", tests, NULL, NULL);
 }

@@ -1,0 +1,165 @@
+/* Parents by name, and the slots and the time that their descendants need. */
+#include "scene/family.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "scene/validate.h"
+
+bool kiln_family_has_children(const struct kiln_scene *scene, uint32_t system)
+{
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_system *other = &scene->systems[i];
+        if (other->enabled && other->emit.parent.enabled && other->emit.parent.system == system)
+            return true;
+    }
+    return false;
+}
+
+/* Systems from the first parent to this one. */
+static uint32_t generation(const struct kiln_scene *scene, uint32_t system)
+{
+    uint32_t count = 1;
+    const struct kiln_parent *parent = &scene->systems[system].emit.parent;
+    while (parent->enabled && count <= scene->system_count) {
+        parent = &scene->systems[parent->system].emit.parent;
+        count++;
+    }
+    return count; /* of a ring: more than there are systems */
+}
+
+void kiln_family_order(const struct kiln_scene *scene, uint32_t order[KILN_MAX_SYSTEMS])
+{
+    uint32_t count = 0;
+    for (uint32_t g = 1; g <= KILN_MAX_GENERATIONS; g++) {
+        for (uint32_t i = 0; i < scene->system_count; i++) {
+            if (generation(scene, i) == g)
+                order[count++] = i;
+        }
+    }
+}
+
+/* Interpolating and drawing a life may round to a little above the largest key. */
+static float longest_life_s(const struct kiln_scene *scene, uint32_t system)
+{
+    return kiln_scene_value_max(scene, &scene->systems[system].emit.life.max) * (1 + 0x1p-20f);
+}
+
+uint64_t kiln_family_slots(const struct kiln_scene *scene, const struct kiln_parent *parent)
+{
+    if (parent->event != KILN_EVENT_TRAIL)
+        return parent->count;
+    /* child j is born if the float sum * life, which rises with the life, passes j */
+    double sum = (double)value_sum_at(scene->keys, parent->rate, 1);
+    double most = sum * (double)longest_life_s(scene, parent->system) * (1 + 0x1p-20);
+    return (uint64_t)floor(most) + 1;
+}
+
+uint32_t kiln_family_lifespan(const struct kiln_scene *scene, uint32_t system, uint32_t steps)
+{
+    uint32_t longest = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_system *child = &scene->systems[i];
+        if (!child->enabled || !child->emit.parent.enabled || child->emit.parent.system != system)
+            continue;
+        uint32_t lifespan = kiln_family_lifespan(scene, i, steps);
+        longest = lifespan > longest ? lifespan : longest;
+    }
+    uint32_t own = kiln_births_lifespan(longest_life_s(scene, system), scene->dt_s, steps);
+    return own < steps - longest ? own + longest : steps;
+}
+
+/* ---- settling ------------------------------------------------------------------------------- */
+
+static bool find_parent(struct kiln_reader *reader, const struct kiln_node *root, uint32_t index)
+{
+    struct kiln_scene *scene = reader->scene;
+    struct kiln_system *system = &scene->systems[index];
+    const char *names[KILN_MAX_SYSTEMS];
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        names[i] = scene->systems[i].name;
+        system->emit.parent.system = i;
+        if (strcmp(names[i], system->emit.parent.name) == 0)
+            return true;
+    }
+    char path[128], suggestion[512], quoted[64];
+    snprintf(path, sizeof path, "systems.%s.emit.parent.system", system->name);
+    kiln_option_suggest(suggestion, sizeof suggestion, system->emit.parent.name, names,
+                        scene->system_count);
+    kiln_node_quote(quoted, system->emit.parent.name);
+    return kiln_validate_fail(reader, root, path, "unknown system '%s'%s", quoted, suggestion);
+}
+
+static bool check_generations(struct kiln_reader *reader, const struct kiln_node *root,
+                              uint32_t index)
+{
+    const struct kiln_scene *scene = reader->scene;
+    uint32_t generations = generation(scene, index);
+    bool ring = generations > scene->system_count;
+    if (!ring && generations <= KILN_MAX_GENERATIONS)
+        return true;
+    char path[128];
+    snprintf(path, sizeof path, "systems.%s.emit.parent.system", scene->systems[index].name);
+    if (ring)
+        return kiln_validate_fail(reader, root, path,
+                                  "born of its own descendants; the first parent must have none");
+    return kiln_validate_fail(reader, root, path, "%u generations of systems; at most %d",
+                              generations, KILN_MAX_GENERATIONS);
+}
+
+/* What a system with a parent must not say, or must. */
+static bool check_births(struct kiln_reader *reader, const struct kiln_node *root,
+                         const struct kiln_system *system)
+{
+    const struct kiln_scene *scene = reader->scene;
+    const struct kiln_parent *parent = &system->emit.parent;
+    const struct kiln_system *born_of = &scene->systems[parent->system];
+    char path[128];
+    snprintf(path, sizeof path, "systems.%s.emit.rate", system->name);
+    if (kiln_scene_value_max(scene, &system->emit.rate) > 0)
+        return kiln_validate_fail(reader, root, path,
+                                  "must be 0 where there is a parent: emit.parent.on counts");
+    snprintf(path, sizeof path, "systems.%s.emit.bursts", system->name);
+    if (system->emit.burst_count > 0)
+        return kiln_validate_fail(reader, root, path,
+                                  "must be {} where there is a parent: emit.parent.on counts");
+    snprintf(path, sizeof path, "systems.%s.emit.parent.on", system->name);
+    if (parent->event == KILN_EVENT_TRAIL && kiln_scene_value_max(scene, &parent->rate) <= 0)
+        return kiln_validate_fail(reader, root, path, "the rate is 0 all along");
+    if (parent->event == KILN_EVENT_BOUNCE && !born_of->collide.enabled)
+        return kiln_validate_fail(reader, root, path,
+                                  "particles of '%s' never bounce: set systems.%s.collide",
+                                  born_of->name, born_of->name);
+    return true;
+}
+
+static bool settle_slots(struct kiln_reader *reader, const struct kiln_node *root,
+                         struct kiln_system *system)
+{
+    uint64_t slots = kiln_family_slots(reader->scene, &system->emit.parent);
+    char path[128];
+    snprintf(path, sizeof path, "systems.%s.emit.parent.on", system->name);
+    if (slots > KILN_MAX_PARTICLES)
+        return kiln_validate_fail(reader, root, path,
+                                  "up to %" PRIu64 " particles born of one; at most %d", slots,
+                                  KILN_MAX_PARTICLES);
+    system->emit.parent.slots = (uint32_t)slots;
+    return true;
+}
+
+bool kiln_family_settle(struct kiln_reader *reader, const struct kiln_node *root)
+{
+    struct kiln_scene *scene = reader->scene;
+    bool ok = true;
+    for (uint32_t i = 0; ok && i < scene->system_count; i++)
+        ok = !scene->systems[i].emit.parent.enabled || find_parent(reader, root, i);
+    for (uint32_t i = 0; ok && i < scene->system_count; i++) {
+        struct kiln_system *system = &scene->systems[i];
+        if (system->emit.parent.enabled)
+            ok = check_generations(reader, root, i) && check_births(reader, root, system) &&
+                 settle_slots(reader, root, system);
+    }
+    return ok;
+}

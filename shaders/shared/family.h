@@ -1,0 +1,97 @@
+/* Particles that are born of particles (contract of determinism, 3). Child j of a parent in slot p
+ * lives in slot p * n + j and has the serial n * parent's + j, n being the slots that a parent's
+ * children have reserved: no counter hands anything out, so no order decides anything.
+ */
+#ifndef KILN_SHARED_FAMILY_H
+#define KILN_SHARED_FAMILY_H
+
+#include "shared/trace.h"
+
+/* 64ths of the step that have passed at the part `since` of it, and at least `least`: what a birth
+ * word can say. */
+FN uint family_sixty_fourths(float since, uint least)
+{
+    EXACT float whole = FLOOR(since * 64.0f);
+    EXACT float inside = exact_clamp(whole, 0.0f, 63.0f);
+    uint y = UINT(inside);
+    return y > least ? y : least;
+}
+
+/* What of the parent's step makes one of its children. */
+struct family_event {
+    float since; /* part of the step that had passed */
+    bool happens;
+};
+
+/* Child j of a trail is born when the integral of the rate over the parent's life passes j: in the
+ * step that begins before and ends behind, and within it evenly. */
+FN S(family_event) family_trail(SIM_PARAM S(kiln_trace) t, uint j)
+{
+    EXACT float life_s = BITS_FLOAT(t.serial_event.w);
+    EXACT float sum_before = value_sum_at(SIM_KEYS STEP(family.rate), t.start_velocity.w);
+    EXACT float sum_after = value_sum_at(SIM_KEYS STEP(family.rate), t.end_velocity.w);
+    EXACT float before = sum_before * life_s;
+    EXACT float after = sum_after * life_s;
+    EXACT float count = FLOAT(j);
+    EXACT float passed = count - before;
+    EXACT float whole = after - before;
+    EXACT float part = exact_div(passed, whole);
+    EXACT float step_part = t.end.w - t.start.w;
+    EXACT S(family_event) e;
+    e.since = t.start.w + step_part * part;
+    e.happens = count >= before && count < after;
+    return e;
+}
+
+FN S(family_event) family_event_of(SIM_PARAM S(kiln_trace) t, uint j)
+{
+    EXACT S(family_event) e;
+    e.since = 0.0f;
+    e.happens = false;
+    uint what = t.serial_event.y;
+    if (STEP(family.born_of) == BORN_OF_TRAIL) {
+        if ((what & TRACE_ALIVE) != 0u)
+            e = family_trail(SIM t, j);
+    } else if (STEP(family.born_of) == BORN_OF_BOUNCE) {
+        e.since = t.turn.w;
+        e.happens = (what & TRACE_BOUNCE) != 0u;
+    } else {
+        e.since = t.end.w;
+        e.happens = (what & TRACE_DEATH) != 0u;
+    }
+    return e;
+}
+
+/* The parent at the event. */
+FN S(emit_state) family_parent_at(SIM_PARAM S(kiln_trace) t, float since)
+{
+    EXACT S(emit_state) s;
+    if (STEP(family.born_of) == BORN_OF_TRAIL) {
+        s = trace_at(t, since);
+    } else if (STEP(family.born_of) == BORN_OF_BOUNCE) {
+        s.position = trace_vector(t.turn);
+        s.velocity = trace_vector(t.turn_velocity);
+    } else {
+        s.position = trace_vector(t.end);
+        s.velocity = trace_vector(t.end_velocity);
+    }
+    return s;
+}
+
+FN float3 family_axis(SIM_PARAM S(kiln_trace) t, float3 velocity)
+{
+    EXACT float3 axis = FLOAT3(0.0f, 1.0f, 0.0f);
+    if (STEP(family.align) == ALIGN_NORMAL)
+        axis = trace_normal(t);
+    else if (STEP(family.align) == ALIGN_VELOCITY)
+        axis = float3_normalize(velocity, axis);
+    return axis;
+}
+
+/* The parent slot's trace, among all. */
+FN uint family_parent_trace(SIM_PARAM uint slot)
+{
+    return STEP(family.parent_traces) + slot / STEP(family.slots);
+}
+
+#endif

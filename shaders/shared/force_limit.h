@@ -1,0 +1,32 @@
+/* A speed that no particle exceeds, over its life if need be: what is above it is taken off, in the
+ * direction of flight, after all forces have acted. Those add up; of limits, the lowest counts.
+ */
+#ifndef KILN_SHARED_FORCE_LIMIT_H
+#define KILN_SHARED_FORCE_LIMIT_H
+
+#include "shared/exact.h"
+#include "shared/force.h"
+
+FN float3 force_limit_one(float3 velocity, float limit)
+{
+    EXACT float square = float3_dot(velocity, velocity);
+    EXACT float most = limit * limit;
+    if (square <= most)
+        return velocity;
+    EXACT float factor = limit * exact_rsqrt(square);
+    EXACT float3 y = float3_scale(velocity, factor);
+    return y;
+}
+
+FN float3 force_limit_all(SIM_PARAM float3 velocity, float life)
+{
+    EXACT float3 y = velocity;
+    for (uint i = 0u; i < STEP(force_count); i++) {
+        EXACT float limit = value_at(SIM_KEYS STEP(forces[i].strength), STEP(time_s), life);
+        if (STEP(forces[i].kind) == FORCE_LIMIT)
+            y = force_limit_one(y, limit);
+    }
+    return y;
+}
+
+#endif

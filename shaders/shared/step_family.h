@@ -1,0 +1,147 @@
+/* The step of systems that have children, are children, or die of an impact: what step.h does, and
+ * births out of the parents' traces, an own trace, and a last step that ends with the life. A
+ * kernel of its own, because every other system would pay for it.
+ */
+#ifndef KILN_SHARED_STEP_FAMILY_H
+#define KILN_SHARED_STEP_FAMILY_H
+
+#include "shared/step.h"
+
+struct step_result {
+    S(kiln_particle) particle;
+    S(kiln_trace) trace;
+};
+
+FN S(step_result) step_result_dead(void)
+{
+    EXACT S(step_result) r;
+    r.particle = step_dead();
+    r.trace = trace_nothing();
+    return r;
+}
+
+/* The part of the step at which a life ends that does so in it, in whole 64ths: as births do, so
+ * that a child born of it begins where its parent ended. */
+FN float step_end_of_life(SIM_PARAM S(kiln_particle) p, float age_s, float life_s)
+{
+    EXACT float over_s = age_s - life_s;
+    EXACT float over = over_s * COLLIDERS(steps_per_s);
+    EXACT float until = 1.0f - over;
+    bool born = particle_birth_step(p) == STEP(step);
+    EXACT float born_at = particle_birth_fraction(p) * 64.0f;
+    uint least = born ? UINT(born_at) : 0u;
+    EXACT float y = FLOAT(family_sixty_fourths(until, least)) * 0.015625f;
+    return y;
+}
+
+/* Progress through life where the step starts. */
+FN float step_progress_before(SIM_PARAM S(kiln_particle) p, float life_s)
+{
+    if (particle_birth_step(p) == STEP(step))
+        return 0.0f;
+    EXACT float age_s = particle_age(p, STEP(step) - 1u, STEP(derived.dt_s));
+    EXACT float y = particle_progress(age_s, life_s);
+    return y;
+}
+
+FN S(kiln_trace) step_trace(SIM_PARAM S(kiln_particle) p, S(step_way) way, uint events,
+                            float life_s, float progress_after)
+{
+    EXACT S(kiln_trace) t;
+    EXACT float progress = step_progress_before(SIM p, life_s);
+    t.start = trace_pack(way.start.position, way.start.since);
+    t.turn = trace_pack(way.first.position, way.first.since);
+    t.end = trace_pack(way.end.position, way.end.since);
+    t.start_velocity = trace_pack(way.start.velocity, progress);
+    t.turn_velocity = trace_pack(way.first.velocity, 0.0f);
+    t.end_velocity = trace_pack(way.end.velocity, progress_after);
+    t.serial_event = UINT4(p.position_serial.w, events, way.first.face, FLOAT_BITS(life_s));
+    return t;
+}
+
+/* Like step_particle. */
+FN S(step_result) step_family_particle(SIM_PARAM S(kiln_particle) p)
+{
+    EXACT S(step_result) r = step_result_dead();
+    EXACT float life_s = particle_life_s(SIM_KEYS STEP(derived), p);
+    EXACT float age_s = particle_age(p, STEP(step), STEP(derived.dt_s));
+    bool ends = age_s >= life_s;
+    bool traced = STEP(family.traced) != 0u;
+    if (ends && !traced)
+        return r;
+    EXACT float until = 1.0f;
+    if (ends)
+        until = step_end_of_life(SIM p, age_s, life_s);
+    EXACT S(step_way) way = step_move(SIM p, age_s, life_s, until);
+    if (way.lost)
+        return r;
+    way.end.since = until;
+    bool stopped = STEP(family.dies) != 0u && way.first.happened;
+    EXACT float progress = ends ? 1.0f : particle_progress(age_s, life_s);
+    if (stopped) {
+        EXACT float skipped = 1.0f - way.first.since;
+        EXACT float reached_s = age_s - skipped * STEP(derived.dt_s);
+        progress = particle_progress(reached_s, life_s);
+        way.end.position = way.first.position;
+        way.end.velocity = way.first.velocity;
+        way.end.since = way.first.since;
+    }
+    if (!ends && !stopped)
+        r.particle = step_with_motion(p, way.end.position, way.end.velocity);
+    if (!traced)
+        return r;
+    uint events = TRACE_ALIVE;
+    if (way.first.happened) {
+        bool again = (p.velocity_birth.w & KILN_PARTICLE_BOUNCED) != 0u;
+        events |= again ? TRACE_TURN : TRACE_TURN | TRACE_BOUNCE;
+        if (!ends && !stopped)
+            r.particle.velocity_birth.w |= KILN_PARTICLE_BOUNCED;
+    }
+    if (ends && !stopped)
+        events |= TRACE_DEATH;
+    r.trace = step_trace(SIM p, way, events, life_s, progress);
+    return r;
+}
+
+/* The child for which a slot is reserved, if the parent's step has the event of its birth; else
+ * what lies there. */
+FN S(kiln_particle) step_child(SIM_PARAM uint slot, S(kiln_particle) old, S(kiln_trace) parent)
+{
+    uint j = slot % STEP(family.slots);
+    EXACT S(family_event) event = family_event_of(SIM parent, j);
+    if (!event.happens)
+        return old;
+    EXACT float start_at = parent.start.w * 64.0f;
+    uint sixty_fourths = family_sixty_fourths(event.since, UINT(start_at));
+    EXACT float since = FLOAT(sixty_fourths) * 0.015625f;
+    S(kiln_particle) p = step_dead();
+    p.position_serial.w = parent.serial_event.x * STEP(family.slots) + j;
+    p.velocity_birth.w = (STEP(step) << KILN_BIRTH_STEP_SHIFT) |
+                         (sixty_fourths << KILN_BIRTH_FRACTION_SHIFT) | KILN_PARTICLE_ALIVE;
+    uint stream = particle_stream(STEP(derived), p);
+    EXACT float born_s = particle_birth_time(STEP(derived), p);
+    EXACT S(emit_state) at = family_parent_at(SIM parent, since);
+    EXACT float3 axis = family_axis(SIM parent, at.velocity);
+    EXACT S(emit_state) born = emit_child(SIM stream, born_s, at, axis);
+    return step_with_motion(p, born.position, born.velocity);
+}
+
+/* Like step_slot; `parent` is the trace at family_parent_trace, of no account to a system without
+ * a parent. The result's trace belongs to this slot and counts if the system is traced. */
+FN S(step_result) step_family_slot(SIM_PARAM uint slot, S(kiln_particle) old, S(kiln_trace) parent)
+{
+    S(kiln_particle) p = old;
+    if (STEP(family.born_of) != BORN_OF_CLOCK) {
+        p = step_child(SIM slot, old, parent);
+    } else {
+        uint index = step_birth_index(SIM slot);
+        if (index < STEP(birth_count))
+            p = step_birth(SIM index);
+    }
+    EXACT S(step_result) r = step_result_dead();
+    if (particle_is_alive(p))
+        r = step_family_particle(SIM p);
+    return r;
+}
+
+#endif

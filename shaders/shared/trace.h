@@ -1,0 +1,95 @@
+/* What a particle of a system with children did in the step at hand: enough to find where it was,
+ * and how fast, at any time of the step. Written when the parent is stepped and read when its
+ * children are, in the same step, so that it is no part of the state.
+ */
+#ifndef KILN_SHARED_TRACE_H
+#define KILN_SHARED_TRACE_H
+
+#include "shared/collide.h"
+#include "shared/derived.h"
+#include "shared/emit.h"
+
+/* Events of the step; 0 where no particle was alive. */
+#define TRACE_ALIVE  1u
+#define TRACE_TURN   2u /* it met a surface in this step */
+#define TRACE_BOUNCE 4u /* for the first time in its life */
+#define TRACE_DEATH  8u /* its life came to its end */
+
+struct kiln_trace {
+    float4 start;          /* position, m; part of the step that had passed */
+    float4 turn;           /* the first impact, just outside of the surface */
+    float4 end;            /* of the step or the life */
+    float4 start_velocity; /* m/s; progress through life */
+    float4 turn_velocity;  /* after the impact; unused */
+    float4 end_velocity;   /* m/s; progress through life */
+    uint4 serial_event;    /* serial; TRACE_*; face of the impact; life in seconds as float bits */
+};
+
+FN float4 trace_pack(float3 v, float w)
+{
+    EXACT float3 c = float3_canon(v);
+    EXACT float d = exact_canon(w);
+    EXACT float4 y = FLOAT4(c.x, c.y, c.z, d);
+    return y;
+}
+
+FN float3 trace_vector(float4 v)
+{
+    EXACT float3 y = FLOAT3(v.x, v.y, v.z);
+    return y;
+}
+
+FN S(kiln_trace) trace_nothing(void)
+{
+    EXACT S(kiln_trace) t;
+    t.start = FLOAT4(0.0f, 0.0f, 0.0f, 0.0f);
+    t.turn = t.start;
+    t.end = t.start;
+    t.start_velocity = t.start;
+    t.turn_velocity = t.start;
+    t.end_velocity = t.start;
+    t.serial_event = UINT4(0u, 0u, 0u, 0u);
+    return t;
+}
+
+/* Where the particle was when the part `since` of the step had passed: on the straight lines from
+ * its start over the first impact to its end. Its velocity changes evenly from start to end, or at
+ * the impact. */
+FN S(emit_state) trace_at(S(kiln_trace) t, float since)
+{
+    bool turned = (t.serial_event.y & TRACE_TURN) != 0u;
+    bool before = turned && since < t.turn.w;
+    EXACT float4 from = t.start;
+    EXACT float4 to = t.end;
+    if (before)
+        to = t.turn;
+    if (turned && !before)
+        from = t.turn;
+    EXACT float passed = since - from.w;
+    EXACT float whole = to.w - from.w;
+    EXACT float quotient = exact_div(passed, whole);
+    EXACT float part = exact_clamp(quotient, 0.0f, 1.0f);
+    EXACT float3 a = trace_vector(from);
+    EXACT float3 b = trace_vector(to);
+    EXACT float3 way = float3_sub(b, a);
+    EXACT float3 slow = trace_vector(t.start_velocity);
+    EXACT float3 fast = trace_vector(t.end_velocity);
+    EXACT float3 change = float3_sub(fast, slow);
+    EXACT float changed = turned ? (before ? 0.0f : 1.0f) : part;
+    EXACT S(emit_state) s;
+    s.position = float3_add_scaled(a, way, part);
+    s.velocity = float3_add_scaled(slow, change, changed);
+    return s;
+}
+
+/* The normal of the surface that it met. */
+FN float3 trace_normal(S(kiln_trace) t)
+{
+    uint face = t.serial_event.z;
+    EXACT float3 zero = FLOAT3(0.0f, 0.0f, 0.0f);
+    EXACT float out_sign = (face & 1u) != 0u ? 1.0f : -1.0f;
+    EXACT float3 y = collide_with_component(zero, face >> 1u, out_sign);
+    return y;
+}
+
+#endif
