@@ -14,7 +14,7 @@
 #include "asset/file_in.h"
 #include "base/error.h"
 
-#define ALLOWED "MP4, MOV, Matroska, WebM or AVI"
+#define ALLOWED "MP4, MOV, Matroska, WebM, AVI, GIF or APNG"
 
 enum { IO_BUFFER_SIZE = 1 << 16, MAX_STREAMS = 32, PROBE_BYTES = 5000000 };
 
@@ -37,7 +37,8 @@ struct kiln_video_in {
 
 bool kiln_video_in_has_suffix(const char *path)
 {
-    static const char *const suffixes[] = {".mp4", ".m4v", ".mov", ".mkv", ".webm", ".avi"};
+    static const char *const suffixes[] = {".mp4",  ".m4v", ".mov", ".mkv",
+                                           ".webm", ".avi", ".gif", ".apng"};
     const char *dot = strrchr(path, '.');
     for (size_t i = 0; dot && i < sizeof suffixes / sizeof *suffixes; i++) {
         if (strcasecmp(dot, suffixes[i]) == 0)
@@ -112,7 +113,8 @@ static bool open_container(struct kiln_video_in *video)
     video->container->max_streams = MAX_STREAMS;
     video->container->probesize = PROBE_BYTES;
     AVDictionary *options = NULL;
-    av_dict_set(&options, "format_whitelist", "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,avi", 0);
+    av_dict_set(&options, "format_whitelist", "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,avi,gif,apng",
+                0);
     av_dict_set(&options, "protocol_whitelist", "file", 0);
     int status = avformat_open_input(&video->container, NULL, NULL, &options);
     av_dict_free(&options);
@@ -130,11 +132,23 @@ static uint64_t big_endian(const unsigned char *bytes, int count)
     return value;
 }
 
-/* MP4 and MOV are a row of boxes, each with its size; AVI is one chunk with its size. FFmpeg takes
- * what is there of the last one. Matroska's demuxer tells by itself. */
+/* Does the file end with these bytes? */
+static bool ends_with(const struct kiln_video_in *video, const char *end, size_t size)
+{
+    char found[16];
+    return pread(video->file, found, size, video->size - (int64_t)size) == (ssize_t)size &&
+           memcmp(found, end, size) == 0;
+}
+
+/* MP4 and MOV are a row of boxes, each with its size; AVI is one chunk with its size; GIF and APNG
+ * have a last block. FFmpeg takes what is there. Matroska's demuxer tells by itself. */
 static bool is_whole(const struct kiln_video_in *video)
 {
     unsigned char b[16];
+    if (strcmp(video->container->iformat->name, "gif") == 0)
+        return ends_with(video, ";", 1);
+    if (strcmp(video->container->iformat->name, "apng") == 0)
+        return ends_with(video, "IEND\xae\x42\x60\x82", 8);
     if (pread(video->file, b, sizeof b, 0) == sizeof b && memcmp(b, "RIFF", 4) == 0) {
         const unsigned char size[4] = {b[7], b[6], b[5], b[4]};
         return (int64_t)big_endian(size, 4) + 8 <= video->size;
@@ -172,6 +186,17 @@ static int get_buffer(AVCodecContext *decoder, AVFrame *frame, int flags)
     return avcodec_default_get_buffer2(decoder, frame, flags);
 }
 
+/* The alpha of a WebM video is a second stream, which FFmpeg's own decoder of VP9 leaves out. */
+static const AVCodec *choose_decoder(const struct kiln_video_in *video, const AVCodec *codec)
+{
+    const AVStream *stream = video->container->streams[video->stream];
+    const AVDictionaryEntry *alpha = av_dict_get(stream->metadata, "alpha_mode", NULL, 0);
+    const AVCodec *other = alpha && strcmp(alpha->value, "1") == 0 && codec->id == AV_CODEC_ID_VP9
+                               ? avcodec_find_decoder_by_name("libvpx-vp9")
+                               : NULL;
+    return other ? other : codec;
+}
+
 static bool open_decoder(struct kiln_video_in *video)
 {
     const AVCodec *codec = NULL;
@@ -183,7 +208,7 @@ static bool open_decoder(struct kiln_video_in *video)
         if ((int)i != video->stream)
             video->container->streams[i]->discard = AVDISCARD_ALL;
     }
-    video->decoder = avcodec_alloc_context3(codec);
+    video->decoder = avcodec_alloc_context3(choose_decoder(video, codec));
     video->packet = av_packet_alloc();
     video->frame = av_frame_alloc();
     if (!video->decoder || !video->packet || !video->frame)
@@ -197,7 +222,7 @@ static bool open_decoder(struct kiln_video_in *video)
     video->decoder->err_recognition =
         AV_EF_CRCCHECK | AV_EF_BITSTREAM | AV_EF_BUFFER | AV_EF_EXPLODE;
     if (status >= 0)
-        status = avcodec_open2(video->decoder, codec, NULL);
+        status = avcodec_open2(video->decoder, NULL, NULL);
     return status >= 0 || fail_status(video, status, "the video decoder does not start");
 }
 

@@ -8,7 +8,7 @@
 enum { KILN_MAX_VIDEO_FRAMES = 1000000 };
 
 /* Whether a file name ends as one of the videos that can be opened does (.mp4, .mov, .mkv, .webm,
- * .avi, .m4v), in any case of letters. */
+ * .avi, .m4v, .gif, .apng), in any case of letters. */
 bool kiln_video_in_has_suffix(const char *path);
 
 struct kiln_video_in;

@@ -9,11 +9,13 @@
 /* An encoder makes one file: of one picture, or of all when one_file is set. Encoders of different
  * files run on different threads at once; one encoder's calls never overlap. The parameters and the
  * file outlive it. Whoever calls commits or discards the file. */
+struct kiln_video_settings;
 struct kiln_format {
     const char *suffix; /* with its dot, lower case */
     const char *name;
     const char *help;
     bool one_file; /* all frames go into one file, in order and without gaps */
+    const struct kiln_video_settings *video; /* of those by FFmpeg, else NULL */
     struct kiln_output_needs (*needs)(const struct kiln_output_params *params);
     /* What can be refused before any file is touched. */
     bool (*check)(const struct kiln_output_params *params, struct kiln_error *error);
@@ -29,6 +31,12 @@ struct kiln_format {
 extern const struct kiln_format kiln_format_png;
 extern const struct kiln_format kiln_format_exr;
 extern const struct kiln_format kiln_format_mp4;
+extern const struct kiln_format kiln_format_webm;
+extern const struct kiln_format kiln_format_mkv;
+extern const struct kiln_format kiln_format_mov;
+extern const struct kiln_format kiln_format_gif;
+extern const struct kiln_format kiln_format_apng;
+extern const struct kiln_format kiln_format_webp;
 
 /* The format for the path's suffix, in any case of letters; NULL with KILN_USAGE and the list. */
 const struct kiln_format *kiln_format_find(const char *path, struct kiln_error *error);

@@ -233,10 +233,13 @@ static bool open_video(struct kiln_output *output, struct kiln_error *error)
     return output->video_encoder != NULL;
 }
 
-struct kiln_output *kiln_output_open(const struct kiln_output_params *params,
+struct kiln_output *kiln_output_open(const struct kiln_output_params *given,
                                      struct kiln_error *error)
 {
-    const struct kiln_format *format = kiln_format_find(params->path, error);
+    const struct kiln_format *format = kiln_format_find(given->path, error);
+    struct kiln_output_params with_format = *given;
+    with_format.format = format;
+    const struct kiln_output_params *params = &with_format;
     if (!format || !check_ranges(params, format, error) || !format->check(params, error))
         return NULL;
     struct kiln_output *output = create(params, error);

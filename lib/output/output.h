@@ -37,8 +37,11 @@ struct kiln_output_needs {
     bool layers;   /* the float layers */
 };
 
+struct kiln_format;
+
 struct kiln_output_params {
-    const char *path; /* as the user gave it */
+    const char *path;                 /* as the user gave it */
+    const struct kiln_format *format; /* of the path; kiln_output_open finds it */
     uint32_t width, height;
     uint32_t fps_num, fps_den;
     bool alpha;

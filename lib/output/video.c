@@ -1,33 +1,36 @@
-/* H.264 in MP4 by FFmpeg. The pixels are converted with BT.709's matrix to limited range, and the
- * tags say just that: primaries and matrix of BT.709, and sRGB's transfer function, since that is
- * what the frames are encoded with. Players that honour the tag show the PNG's colours, and those
- * that ignore it take the pixels as they are, which on an sRGB screen is the same.
+/* Clips by FFmpeg: conversion, encoding, muxing. Formats differ by their settings alone.
  *
- * The same frames give the same bytes on every machine: x264's result depends on its number of
- * threads, so that is fixed, and nothing of the time or the place is written. */
-#include <libavcodec/avcodec.h>
+ * Pixels of luma and chroma are made with BT.709's matrix in limited range, and the tags say just
+ * that: primaries and matrix of BT.709, and sRGB's transfer function, since that is what the frames
+ * are encoded with. Players that honour the tag show the PNG's colours, and those that ignore it
+ * take the pixels as they are, which on an sRGB screen is the same.
+ *
+ * The same frames give the same bytes on every machine: some encoders' results depend on their
+ * number of threads, so that is fixed, and nothing of the time or the place is written. */
+#include "output/video.h"
+
 #include <libavformat/avformat.h>
 #include <libavutil/avstring.h>
 #include <libavutil/opt.h>
+#include <libavutil/pixdesc.h>
 #include <libswscale/swscale.h>
 #include <limits.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "asset/avlog.h"
 #include "base/error.h"
-#include "output/formats.h"
-
-#define ENCODER_NAME "libx264"
+#include "output/bleed.h"
 
 enum {
     ENCODER_THREADS = 4,
     IO_BUFFER_SIZE = 1 << 17,
-    MAX_EDGE = 16384,
     KEYFRAME_SECONDS = 2, /* so that seeking stays quick */
 };
 
 struct video_encoder {
     const struct kiln_output_params *params;
+    const struct kiln_video_settings *settings;
     struct kiln_temporary *file;
     struct kiln_avlog avlog;
     AVFormatContext *container;
@@ -36,34 +39,68 @@ struct video_encoder {
     AVCodecContext *codec;
     AVFrame *frame;
     AVPacket *packet;
-    struct SwsContext *scaler;
+    struct SwsContext *scaler; /* NULL for palettes */
     int64_t frames;
 };
 
-static struct kiln_output_needs needs(const struct kiln_output_params *params)
+struct kiln_output_needs kiln_video_needs(const struct kiln_output_params *params)
 {
-    (void)params;
-    return (struct kiln_output_needs){.bits = 8};
+    uint32_t bits = params->format->video->bits;
+    return (struct kiln_output_needs){.bits = bits ? bits : params->png_bits};
 }
 
-static bool check(const struct kiln_output_params *params, struct kiln_error *error)
+static enum AVPixelFormat pixel_format(const struct kiln_output_params *params)
 {
-    if (params->width % 2 || params->height % 2)
+    return params->format->video->pixels[params->alpha][kiln_video_needs(params).bits > 8];
+}
+
+static bool is_rgb(enum AVPixelFormat format)
+{
+    return av_pix_fmt_desc_get(format)->flags & (AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_PAL);
+}
+
+static bool check_size(const struct kiln_output_params *params, struct kiln_error *error)
+{
+    const struct kiln_video_settings *settings = params->format->video;
+    if (settings->even_sizes && (params->width % 2 || params->height % 2))
         return kiln_error_set(error, KILN_USAGE,
-                              "%s: a video of %u x %u pixels; H.264 needs even sizes, the nearest "
-                              "is %ux%u",
-                              params->path, params->width, params->height,
+                              "%s: a video of %u x %u pixels; %s needs even sizes, the nearest is "
+                              "%ux%u",
+                              params->path, params->width, params->height, settings->codec,
                               params->width + params->width % 2,
                               params->height + params->height % 2);
-    if (params->width > MAX_EDGE || params->height > MAX_EDGE)
+    return (params->width <= settings->max_edge && params->height <= settings->max_edge) ||
+           kiln_error_set(
+               error, KILN_USAGE, "%s: a video of %u x %u pixels; %s allows at most %u a side",
+               params->path, params->width, params->height, settings->codec, settings->max_edge);
+}
+
+/* That this FFmpeg has what the format takes; builds differ. */
+static bool check_parts(const struct kiln_output_params *params, struct kiln_error *error)
+{
+    const struct kiln_video_settings *settings = params->format->video;
+    bool encoder = avcodec_find_encoder_by_name(settings->encoder) != NULL;
+    if (encoder && av_guess_format(settings->muxer, NULL, NULL))
+        return true;
+    return kiln_error_set(error, KILN_IO,
+                          "%s: this FFmpeg has no %s %s; install a libavcodec and libavformat that "
+                          "were built with it (on Debian, %s)",
+                          params->path, encoder ? "muxer" : "encoder",
+                          encoder ? settings->muxer : settings->encoder, settings->packages);
+}
+
+bool kiln_video_check(const struct kiln_output_params *params, struct kiln_error *error)
+{
+    if (!check_size(params, error))
+        return false;
+    if (params->png_bits != 8 && params->png_bits != 16)
+        return kiln_error_set(error, KILN_USAGE, "%s: %u bits a channel; allowed are 8 or 16",
+                              params->path, params->png_bits);
+    if (pixel_format(params) == AV_PIX_FMT_NONE)
         return kiln_error_set(error, KILN_USAGE,
-                              "%s: a video of %u x %u pixels; H.264 allows at most %d a side",
-                              params->path, params->width, params->height, MAX_EDGE);
-    if (params->alpha)
-        return kiln_error_set(error, KILN_USAGE,
-                              "%s: the backdrop is transparent, but an MP4 video has no alpha; "
-                              "write images, or make the backdrop opaque",
-                              params->path);
+                              "%s: the backdrop is transparent, but %s has no alpha; write images, "
+                              "a .webm or a .mov, or make the backdrop opaque",
+                              params->path, params->format->video->kind);
     if (params->quality > 100)
         return kiln_error_set(error, KILN_USAGE, "%s: quality %u; allowed are 0 to 100",
                               params->path, params->quality);
@@ -71,13 +108,7 @@ static bool check(const struct kiln_output_params *params, struct kiln_error *er
         params->fps_den > INT_MAX)
         return kiln_error_set(error, KILN_USAGE, "%s: %u/%u is no frame rate for a video",
                               params->path, params->fps_num, params->fps_den);
-    if (!avcodec_find_encoder_by_name(ENCODER_NAME))
-        return kiln_error_set(error, KILN_IO,
-                              "%s: this FFmpeg has no encoder " ENCODER_NAME "; install a "
-                              "libavcodec that was built with it (on Debian, libavcodec59 and "
-                              "libx264-164)",
-                              params->path);
-    return true;
+    return check_parts(params, error);
 }
 
 /* Reports what went wrong: the disk's answer if it gave one, else FFmpeg's. */
@@ -115,41 +146,41 @@ static int64_t seek_bytes(void *opaque, int64_t offset, int whence)
     return kiln_temporary_seek(encoder->file, offset) ? offset : AVERROR(encoder->file->failure);
 }
 
-/* quality 100 is a rate factor of 10, beyond what eyes can tell; 80 is 18, 50 is 30, 0 is 50. */
-static double rate_factor(uint32_t quality)
+static void set_colors(AVCodecContext *codec)
 {
-    return 50.0 - 0.4 * quality;
+    bool rgb = is_rgb(codec->pix_fmt);
+    codec->color_primaries = AVCOL_PRI_BT709;
+    codec->color_trc = AVCOL_TRC_IEC61966_2_1;
+    codec->colorspace = rgb ? AVCOL_SPC_RGB : AVCOL_SPC_BT709;
+    codec->color_range = rgb ? AVCOL_RANGE_JPEG : AVCOL_RANGE_MPEG;
+    codec->chroma_sample_location = rgb ? AVCHROMA_LOC_UNSPECIFIED : AVCHROMA_LOC_LEFT;
 }
 
 static int open_codec(struct video_encoder *encoder)
 {
     const struct kiln_output_params *params = encoder->params;
-    const AVCodec *x264 = avcodec_find_encoder_by_name(ENCODER_NAME);
-    AVCodecContext *codec = encoder->codec = avcodec_alloc_context3(x264);
+    const AVCodec *found = avcodec_find_encoder_by_name(encoder->settings->encoder);
+    AVCodecContext *codec = encoder->codec = avcodec_alloc_context3(found);
     if (!codec)
         return AVERROR(ENOMEM);
     codec->width = (int)params->width;
     codec->height = (int)params->height;
-    codec->pix_fmt = AV_PIX_FMT_YUV420P;
+    codec->pix_fmt = pixel_format(params);
     codec->framerate = (AVRational){(int)params->fps_num, (int)params->fps_den};
     codec->time_base = av_inv_q(codec->framerate);
     uint64_t keyframe = (uint64_t)params->fps_num * KEYFRAME_SECONDS / params->fps_den;
     codec->gop_size = keyframe < 1 ? 1 : keyframe > 600 ? 600 : (int)keyframe;
-    codec->color_primaries = AVCOL_PRI_BT709;
-    codec->color_trc = AVCOL_TRC_IEC61966_2_1;
-    codec->colorspace = AVCOL_SPC_BT709;
-    codec->color_range = AVCOL_RANGE_MPEG;
-    codec->chroma_sample_location = AVCHROMA_LOC_LEFT;
+    if (encoder->settings->intra)
+        codec->gop_size = 1;
+    set_colors(codec);
     codec->thread_count = ENCODER_THREADS;
     codec->flags |= AV_CODEC_FLAG_BITEXACT | AV_CODEC_FLAG_GLOBAL_HEADER;
-    /* Within 0.1 dB of "medium" at the same rate factor, in 60 % of the time and less memory. */
-    av_opt_set(codec->priv_data, "preset", "faster", 0);
-    av_opt_set(codec->priv_data, "aq-mode", "3", 0); /* bits for dark gradients: night and smoke */
-    av_opt_set_double(codec->priv_data, "crf", rate_factor(params->quality), 0);
-    return avcodec_open2(codec, x264, NULL);
+    if (encoder->settings->tune)
+        encoder->settings->tune(codec, params);
+    return avcodec_open2(codec, found, NULL);
 }
 
-static int open_scaler(struct video_encoder *encoder)
+static int open_frame(struct video_encoder *encoder)
 {
     AVFrame *frame = encoder->frame = av_frame_alloc();
     encoder->packet = av_packet_alloc();
@@ -164,27 +195,33 @@ static int open_scaler(struct video_encoder *encoder)
     frame->colorspace = codec->colorspace;
     frame->color_range = codec->color_range;
     frame->chroma_location = codec->chroma_sample_location;
-    int status = av_frame_get_buffer(frame, 0);
-    if (status < 0)
-        return status;
+    frame->quality = codec->global_quality;
+    return av_frame_get_buffer(frame, 0);
+}
 
+static int open_scaler(struct video_encoder *encoder)
+{
+    const AVFrame *frame = encoder->frame;
+    if (frame->format == AV_PIX_FMT_PAL8)
+        return 0;
     struct SwsContext *scaler = encoder->scaler = sws_alloc_context();
     if (!scaler)
         return AVERROR(ENOMEM);
+    bool deep = kiln_video_needs(encoder->params).bits > 8, rgb = is_rgb(frame->format);
     av_opt_set_int(scaler, "srcw", frame->width, 0);
     av_opt_set_int(scaler, "srch", frame->height, 0);
-    av_opt_set_int(scaler, "src_format", AV_PIX_FMT_RGBA, 0);
+    av_opt_set_int(scaler, "src_format", deep ? AV_PIX_FMT_RGBA64 : AV_PIX_FMT_RGBA, 0);
     av_opt_set_int(scaler, "src_range", 1, 0);
     av_opt_set_int(scaler, "dstw", frame->width, 0);
     av_opt_set_int(scaler, "dsth", frame->height, 0);
-    av_opt_set_int(scaler, "dst_format", AV_PIX_FMT_YUV420P, 0);
-    av_opt_set_int(scaler, "dst_range", 0, 0);
+    av_opt_set_int(scaler, "dst_format", frame->format, 0);
+    av_opt_set_int(scaler, "dst_range", rgb, 0);
     av_opt_set_int(scaler, "dst_h_chr_pos", 0, 0); /* left, as tagged */
     av_opt_set_int(scaler, "dst_v_chr_pos", 128, 0);
     av_opt_set_int(scaler, "sws_flags",
                    SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INP | SWS_BITEXACT, 0);
-    status = sws_init_context(scaler, NULL, NULL);
-    if (status < 0)
+    int status = sws_init_context(scaler, NULL, NULL);
+    if (status < 0 || rgb)
         return status;
     const int *bt709 = sws_getCoefficients(SWS_CS_ITU709);
     status = sws_setColorspaceDetails(scaler, bt709, 1, bt709, 0, 0, 1 << 16, 1 << 16);
@@ -198,11 +235,31 @@ static void describe(const struct kiln_output_params *params, char *out, size_t 
              params->ranges[params->range_count - 1].last);
 }
 
-/* The index goes to the front, so that a player can start before it has the whole file; for that
- * FFmpeg opens the temporary file once more, by its url. */
+static int write_header(struct video_encoder *encoder)
+{
+    AVFormatContext *container = encoder->container;
+    const struct kiln_video_settings *settings = encoder->settings;
+    char comment[256];
+    describe(encoder->params, comment, sizeof comment);
+    av_dict_set(&container->metadata, "comment", comment, 0);
+    if (encoder->codec->pix_fmt == AV_PIX_FMT_YUVA420P) /* alpha as a second stream: tell WebM */
+        av_dict_set(&encoder->stream->metadata, "alpha_mode", "1", 0);
+    AVDictionary *options = NULL;
+    if (settings->muxer_options)
+        av_dict_parse_string(&options, settings->muxer_options, "=", ":", 0);
+    if (settings->prepare)
+        settings->prepare(encoder->params, &options);
+    int status = avformat_write_header(container, &options);
+    av_dict_free(&options);
+    return status;
+}
+
+/* The index of MP4 and MOV goes to the front, so that a player can start before it has the whole
+ * file; for that FFmpeg opens the temporary file once more, by its url. */
 static int open_container(struct video_encoder *encoder)
 {
-    int status = avformat_alloc_output_context2(&encoder->container, NULL, "mp4", NULL);
+    int status =
+        avformat_alloc_output_context2(&encoder->container, NULL, encoder->settings->muxer, NULL);
     if (status < 0)
         return status;
     AVFormatContext *container = encoder->container;
@@ -222,19 +279,10 @@ static int open_container(struct video_encoder *encoder)
     encoder->stream->time_base = encoder->codec->time_base;
     encoder->stream->avg_frame_rate = encoder->codec->framerate;
     status = avcodec_parameters_from_context(encoder->stream->codecpar, encoder->codec);
-    if (status < 0)
-        return status;
-    char comment[256];
-    describe(encoder->params, comment, sizeof comment);
-    av_dict_set(&container->metadata, "comment", comment, 0);
-    AVDictionary *options = NULL;
-    av_dict_set(&options, "movflags", "+faststart", 0);
-    status = avformat_write_header(container, &options);
-    av_dict_free(&options);
-    return status;
+    return status < 0 ? status : write_header(encoder);
 }
 
-static void close_encoder(void *opaque)
+void kiln_video_close(void *opaque)
 {
     struct video_encoder *encoder = opaque;
     kiln_avlog_begin(&encoder->avlog);
@@ -250,8 +298,8 @@ static void close_encoder(void *opaque)
     free(encoder);
 }
 
-static void *open_encoder(const struct kiln_output_params *params, struct kiln_temporary *file,
-                          struct kiln_error *error)
+void *kiln_video_open(const struct kiln_output_params *params, struct kiln_temporary *file,
+                      struct kiln_error *error)
 {
     struct video_encoder *encoder = calloc(1, sizeof *encoder);
     if (!encoder) {
@@ -259,10 +307,13 @@ static void *open_encoder(const struct kiln_output_params *params, struct kiln_t
         return NULL;
     }
     encoder->params = params;
+    encoder->settings = params->format->video;
     encoder->file = file;
     encoder->avlog.log = &params->log;
     kiln_avlog_begin(&encoder->avlog);
     int status = open_codec(encoder);
+    if (status >= 0)
+        status = open_frame(encoder);
     if (status >= 0)
         status = open_scaler(encoder);
     if (status >= 0)
@@ -271,7 +322,7 @@ static void *open_encoder(const struct kiln_output_params *params, struct kiln_t
     if (status >= 0)
         return encoder;
     fail(encoder, status, "the video encoder does not start", error);
-    close_encoder(encoder);
+    kiln_video_close(encoder);
     return NULL;
 }
 
@@ -295,27 +346,54 @@ static int push(struct video_encoder *encoder, const AVFrame *frame)
     return status;
 }
 
-static bool encode(void *opaque, const struct kiln_picture *picture, struct kiln_error *error)
+/* Gives the codec the encoder's frame, unless making it failed. */
+static bool push_frame(struct video_encoder *encoder, int status, int64_t number,
+                       struct kiln_error *error)
 {
-    struct video_encoder *encoder = opaque;
-    kiln_avlog_begin(&encoder->avlog);
-    AVFrame *frame = encoder->frame;
-    int status = av_frame_make_writable(frame);
     if (status >= 0) {
-        const uint8_t *rows[4] = {picture->display};
-        int strides[4] = {frame->width * 4};
-        status = sws_scale(encoder->scaler, rows, strides, 0, frame->height, frame->data,
-                           frame->linesize);
-    }
-    if (status >= 0) {
-        frame->pts = encoder->frames++;
-        status = push(encoder, frame);
+        encoder->frame->pts = number;
+        status = push(encoder, encoder->frame);
     }
     kiln_avlog_end(&encoder->avlog);
     return status >= 0 || fail(encoder, status, "a frame cannot be encoded", error);
 }
 
-static bool finish(void *opaque, struct kiln_error *error)
+bool kiln_video_encode(void *opaque, const struct kiln_picture *picture, struct kiln_error *error)
+{
+    struct video_encoder *encoder = opaque;
+    AVFrame *frame = encoder->frame;
+    /* Lossy codecs smear the colours of pixels that nobody sees into those beside them. */
+    if (picture->has_alpha && !is_rgb(frame->format) && !kiln_bleed_colors(picture, error))
+        return false;
+    kiln_avlog_begin(&encoder->avlog);
+    int status = av_frame_make_writable(frame);
+    if (status >= 0) {
+        const uint8_t *rows[4] = {picture->display};
+        int strides[4] = {frame->width * (int)(picture->bits / 2)};
+        status = sws_scale(encoder->scaler, rows, strides, 0, frame->height, frame->data,
+                           frame->linesize);
+    }
+    return push_frame(encoder, status, encoder->frames++, error);
+}
+
+bool kiln_video_encode_indices(void *opaque, const uint8_t *indices, const uint32_t palette[256],
+                               int64_t number, struct kiln_error *error)
+{
+    struct video_encoder *encoder = opaque;
+    AVFrame *frame = encoder->frame;
+    kiln_avlog_begin(&encoder->avlog);
+    int status = av_frame_make_writable(frame);
+    if (status >= 0) {
+        size_t width = (size_t)frame->width;
+        for (int y = 0; y < frame->height; y++)
+            memcpy(frame->data[0] + (ptrdiff_t)y * frame->linesize[0], indices + (size_t)y * width,
+                   width);
+        memcpy(frame->data[1], palette, 256 * sizeof *palette);
+    }
+    return push_frame(encoder, status, number, error);
+}
+
+bool kiln_video_finish(void *opaque, struct kiln_error *error)
 {
     struct video_encoder *encoder = opaque;
     kiln_avlog_begin(&encoder->avlog);
@@ -327,16 +405,3 @@ static bool finish(void *opaque, struct kiln_error *error)
     return (status >= 0 && !encoder->file->failure) ||
            fail(encoder, status, "the video cannot be completed", error);
 }
-
-const struct kiln_format kiln_format_mp4 = {
-    .suffix = ".mp4",
-    .name = "H.264 video",
-    .help = "even sizes, no alpha; quality 0 to 100 (visually lossless)",
-    .one_file = true,
-    .needs = needs,
-    .check = check,
-    .open = open_encoder,
-    .encode = encode,
-    .finish = finish,
-    .close = close_encoder,
-};

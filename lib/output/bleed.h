@@ -1,0 +1,12 @@
+/* Colours for pixels that nobody sees. */
+#ifndef KILN_OUTPUT_BLEED_H
+#define KILN_OUTPUT_BLEED_H
+
+#include "output/output.h"
+
+/* Gives pixels whose alpha is zero the colour of the visible ones around them. Alone they look the
+ * same; but whatever mixes neighbours (a texture filter, a lossy codec) would else draw their black
+ * into the edges. KILN_DEVICE_FAILED when memory is short. */
+bool kiln_bleed_colors(const struct kiln_picture *picture, struct kiln_error *error);
+
+#endif

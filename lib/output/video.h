@@ -1,0 +1,44 @@
+/* Clips by FFmpeg: one core for every encoder and container (video.c), told apart by a row of
+ * settings each (video_formats.c). */
+#ifndef KILN_OUTPUT_VIDEO_H
+#define KILN_OUTPUT_VIDEO_H
+
+#include <libavcodec/avcodec.h>
+
+#include "output/formats.h"
+
+struct kiln_video_settings {
+    const char *muxer; /* FFmpeg's names */
+    const char *encoder;
+    const char *codec;    /* what people call it: "H.264" */
+    const char *kind;     /* of file, with its article: "an MP4 video" */
+    const char *packages; /* of Debian, that bring the encoder */
+    uint32_t bits;        /* of the display pixels that it takes; 0: as params.png_bits says */
+    /* By (has alpha, has more than 8 bits); AV_PIX_FMT_NONE where the format holds no such pixels.
+     */
+    enum AVPixelFormat pixels[2][2];
+    bool even_sizes;
+    uint32_t max_edge;
+    bool intra;                /* every frame stands alone */
+    const char *muxer_options; /* "key=value:key=value", or NULL */
+    void (*tune)(AVCodecContext *codec, const struct kiln_output_params *params); /* or NULL */
+    /* Adds options of the muxer that depend on the clip, and warns; NULL: there are none. */
+    void (*prepare)(const struct kiln_output_params *params, AVDictionary **options);
+};
+
+/* The functions of a struct kiln_format whose settings are params->format->video. */
+struct kiln_output_needs kiln_video_needs(const struct kiln_output_params *params);
+bool kiln_video_check(const struct kiln_output_params *params, struct kiln_error *error);
+void *kiln_video_open(const struct kiln_output_params *params, struct kiln_temporary *file,
+                      struct kiln_error *error);
+bool kiln_video_encode(void *encoder, const struct kiln_picture *picture, struct kiln_error *error);
+bool kiln_video_finish(void *encoder, struct kiln_error *error);
+void kiln_video_close(void *encoder);
+
+/* For settings with pixels of AV_PIX_FMT_PAL8, in place of kiln_video_encode: one byte a pixel,
+ * rows from the top, and 256 colours as 0xAARRGGBB. frame counts from 0 and ascends, but may leave
+ * out some: the one before then lasts longer. */
+bool kiln_video_encode_indices(void *encoder, const uint8_t *indices, const uint32_t palette[256],
+                               int64_t frame, struct kiln_error *error);
+
+#endif

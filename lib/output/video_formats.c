@@ -1,0 +1,219 @@
+/* What tells FFmpeg's formats from one another: a row of settings each. Whatever decides about the
+ * bytes is set here and the same on every machine; the numbers of threads lie in video.c. */
+#include <libavutil/opt.h>
+
+#include "base/log.h"
+#include "output/video.h"
+
+enum { MAX_EDGE = 16384, MAX_WEBP_EDGE = 16383, MAX_APNG_DELAY = 65535 };
+
+#define VIDEO_FORMAT(settings)                                                                     \
+    .one_file = true, .video = &(settings), .needs = kiln_video_needs, .check = kiln_video_check,  \
+    .open = kiln_video_open, .encode = kiln_video_encode, .finish = kiln_video_finish,             \
+    .close = kiln_video_close
+
+static void set_option(AVCodecContext *codec, const char *key, const char *value)
+{
+    av_opt_set(codec->priv_data, key, value, 0);
+}
+
+/* ---- MP4 ---------------------------------------------------------------------------------- */
+
+/* quality 100 is a rate factor of 10, beyond what eyes can tell; 80 is 18, 50 is 30, 0 is 50. */
+static void tune_h264(AVCodecContext *codec, const struct kiln_output_params *params)
+{
+    /* Within 0.1 dB of "medium" at the same rate factor, in 60 % of the time and less memory. */
+    set_option(codec, "preset", "faster");
+    set_option(codec, "aq-mode", "3"); /* bits for dark gradients: night and smoke */
+    av_opt_set_double(codec->priv_data, "crf", 50.0 - 0.4 * params->quality, 0);
+}
+
+static const struct kiln_video_settings mp4 = {
+    .muxer = "mp4",
+    .encoder = "libx264",
+    .codec = "H.264",
+    .kind = "an MP4 video",
+    .packages = "libavcodec59 and libx264-164",
+    .bits = 8,
+    .pixels = {{AV_PIX_FMT_YUV420P, AV_PIX_FMT_NONE}, {AV_PIX_FMT_NONE, AV_PIX_FMT_NONE}},
+    .even_sizes = true,
+    .max_edge = MAX_EDGE,
+    .muxer_options = "movflags=+faststart",
+    .tune = tune_h264,
+};
+
+const struct kiln_format kiln_format_mp4 = {
+    .suffix = ".mp4",
+    .name = "H.264 video",
+    .help = "even sizes, no alpha; quality 0 to 100 (visually lossless)",
+    VIDEO_FORMAT(mp4),
+};
+
+/* ---- WebM --------------------------------------------------------------------------------- */
+
+/* quality 100 is a level of 8, 80 is 19, 0 is 63. Tiles may be encoded side by side without a
+ * change of bytes; rows of macroblocks may not. */
+static void tune_vp9(AVCodecContext *codec, const struct kiln_output_params *params)
+{
+    set_option(codec, "deadline", "good");
+    set_option(codec, "cpu-used", "4");
+    set_option(codec, "row-mt", "0");
+    set_option(codec, "tile-columns", "2");
+    av_opt_set_int(codec->priv_data, "crf", 63 - (55 * (int)params->quality + 50) / 100, 0);
+    codec->bit_rate = 0; /* the level alone decides */
+    /* The two streams of a clip with alpha must keep their frames side by side. */
+    if (params->alpha)
+        set_option(codec, "auto-alt-ref", "0");
+}
+
+static const struct kiln_video_settings webm = {
+    .muxer = "webm",
+    .encoder = "libvpx-vp9",
+    .codec = "VP9",
+    .kind = "a WebM video",
+    .packages = "libavcodec59 and libvpx7",
+    .bits = 8,
+    .pixels = {{AV_PIX_FMT_YUV420P, AV_PIX_FMT_NONE}, {AV_PIX_FMT_YUVA420P, AV_PIX_FMT_NONE}},
+    .max_edge = MAX_EDGE,
+    .tune = tune_vp9,
+};
+
+const struct kiln_format kiln_format_webm = {
+    .suffix = ".webm",
+    .name = "VP9 video",
+    .help = "for the web, with alpha; quality 0 to 100; times in whole milliseconds",
+    VIDEO_FORMAT(webm),
+};
+
+/* ---- Matroska ------------------------------------------------------------------------------ */
+
+static void tune_ffv1(AVCodecContext *codec, const struct kiln_output_params *params)
+{
+    codec->level = 3; /* the version with slices and their checksums */
+    codec->slices = params->width < 16 || params->height < 16 ? 1 : 4;
+    set_option(codec, "slicecrc", "1");
+}
+
+static const struct kiln_video_settings mkv = {
+    .muxer = "matroska",
+    .encoder = "ffv1",
+    .codec = "FFV1",
+    .kind = "an MKV video",
+    .packages = "libavcodec59",
+    .pixels = {{AV_PIX_FMT_BGR0, AV_PIX_FMT_RGB48}, {AV_PIX_FMT_BGRA, AV_PIX_FMT_RGBA64}},
+    .max_edge = MAX_EDGE,
+    .intra = true,
+    .tune = tune_ffv1,
+};
+
+const struct kiln_format kiln_format_mkv = {
+    .suffix = ".mkv",
+    .name = "FFV1 video",
+    .help = "lossless, 8 or 16 bits (--png-bits), with alpha; times in whole milliseconds",
+    VIDEO_FORMAT(mkv),
+};
+
+/* ---- QuickTime ----------------------------------------------------------------------------- */
+
+/* A fixed quantiser: 1 at quality 100, 3 at 80, 11 at 0. */
+static void tune_prores(AVCodecContext *codec, const struct kiln_output_params *params)
+{
+    set_option(codec, "profile", "4444");
+    set_option(codec, "vendor", "apl0"); /* some programs open nothing else */
+    set_option(codec, "alpha_bits", params->alpha ? "16" : "0");
+    codec->flags |= AV_CODEC_FLAG_QSCALE;
+    codec->global_quality = FF_QP2LAMBDA * (11 - (int)params->quality / 10);
+}
+
+static const struct kiln_video_settings mov = {
+    .muxer = "mov",
+    .encoder = "prores_ks",
+    .codec = "ProRes",
+    .kind = "a MOV video",
+    .packages = "libavcodec59",
+    .bits = 16,
+    .pixels = {{AV_PIX_FMT_NONE, AV_PIX_FMT_YUV444P10}, {AV_PIX_FMT_NONE, AV_PIX_FMT_YUVA444P10}},
+    .max_edge = MAX_EDGE,
+    .intra = true,
+    .muxer_options = "movflags=+faststart",
+    .tune = tune_prores,
+};
+
+const struct kiln_format kiln_format_mov = {
+    .suffix = ".mov",
+    .name = "ProRes 4444 video",
+    .help = "for editing, 10 bits, with alpha; quality 0 to 100",
+    VIDEO_FORMAT(mov),
+};
+
+/* ---- Animated PNG -------------------------------------------------------------------------- */
+
+static void tune_apng(AVCodecContext *codec, const struct kiln_output_params *params)
+{
+    (void)params;
+    set_option(codec, "pred", "sub"); /* as the single images of png.c */
+    codec->compression_level = 3;
+    codec->sample_aspect_ratio = (AVRational){1, 1}; /* else it writes one of 0 */
+}
+
+/* A delay is a fraction of 16-bit numbers. */
+static void prepare_apng(const struct kiln_output_params *params, AVDictionary **options)
+{
+    AVRational delay;
+    if (!av_reduce(&delay.num, &delay.den, params->fps_den, params->fps_num, MAX_APNG_DELAY))
+        kiln_log_write(&params->log, KILN_LOG_WARNING,
+                       "%s: APNG cannot hold %u/%u frames a second; it gets %d/%d", params->path,
+                       params->fps_num, params->fps_den, delay.den, delay.num);
+    char text[32];
+    snprintf(text, sizeof text, "%d/%d", delay.num, delay.den);
+    av_dict_set(options, "final_delay", text, 0);
+}
+
+static const struct kiln_video_settings apng = {
+    .muxer = "apng",
+    .encoder = "apng",
+    .codec = "APNG",
+    .kind = "an APNG animation",
+    .packages = "libavcodec59",
+    .pixels = {{AV_PIX_FMT_RGB24, AV_PIX_FMT_RGB48BE}, {AV_PIX_FMT_RGBA, AV_PIX_FMT_RGBA64BE}},
+    .max_edge = MAX_EDGE,
+    .muxer_options = "plays=0",
+    .tune = tune_apng,
+    .prepare = prepare_apng,
+};
+
+const struct kiln_format kiln_format_apng = {
+    .suffix = ".apng",
+    .name = "animated PNG",
+    .help = "lossless, 8 or 16 bits (--png-bits), with alpha; plays forever",
+    VIDEO_FORMAT(apng),
+};
+
+/* ---- Animated WebP ------------------------------------------------------------------------- */
+
+static void tune_webp(AVCodecContext *codec, const struct kiln_output_params *params)
+{
+    set_option(codec, "lossless", params->quality == 100 ? "1" : "0");
+    av_opt_set_double(codec->priv_data, "quality", params->quality == 100 ? 50 : params->quality,
+                      0); /* lossless: effort */
+}
+
+static const struct kiln_video_settings webp = {
+    .muxer = "webp",
+    .encoder = "libwebp_anim",
+    .codec = "WebP",
+    .kind = "a WebP animation",
+    .packages = "libavcodec59, libwebp7 and libwebpmux3",
+    .bits = 8,
+    .pixels = {{AV_PIX_FMT_BGRA, AV_PIX_FMT_NONE}, {AV_PIX_FMT_BGRA, AV_PIX_FMT_NONE}},
+    .max_edge = MAX_WEBP_EDGE,
+    .muxer_options = "loop=0",
+    .tune = tune_webp,
+};
+
+const struct kiln_format kiln_format_webp = {
+    .suffix = ".webp",
+    .name = "animated WebP",
+    .help = "with alpha; quality 0 to 100 (lossless); times in whole milliseconds; plays forever",
+    VIDEO_FORMAT(webp),
+};
