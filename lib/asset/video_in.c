@@ -310,6 +310,18 @@ static bool feed(struct kiln_video_in *video)
     return status >= 0 || fail_status(video, status, "the video has a broken frame");
 }
 
+/* FFmpeg gives every GIF an alpha; whether it has one shows in the pixels. */
+static uint32_t count_gif_channels(const struct kiln_asset_image *image)
+{
+    const uint8_t *pixels = image->pixels;
+    size_t count = (size_t)image->width * image->height;
+    for (size_t i = 0; i < count; i++) {
+        if (pixels[4 * i + 3] != 255)
+            return 4;
+    }
+    return 3;
+}
+
 static bool receive(struct kiln_video_in *video, struct kiln_asset_image **image)
 {
     int status = avcodec_receive_frame(video->decoder, video->frame);
@@ -328,6 +340,8 @@ static bool receive(struct kiln_video_in *video, struct kiln_asset_image **image
         return fail(video, KILN_INVALID_INPUT, "the video has more than 1000000 frames");
     const char *problem = NULL;
     enum kiln_code code = kiln_avframe_convert(video->frame, image, &problem);
+    if (code == KILN_OK && video->decoder->codec_id == AV_CODEC_ID_GIF)
+        (*image)->channels = count_gif_channels(*image);
     return code == KILN_OK || fail(video, code, problem);
 }
 

@@ -8,8 +8,8 @@
 #include "base/text.h"
 
 static const struct kiln_format *const formats[] = {
-    &kiln_format_png, &kiln_format_exr, &kiln_format_mp4,  &kiln_format_webm,
-    &kiln_format_mkv, &kiln_format_mov, &kiln_format_apng, &kiln_format_webp,
+    &kiln_format_png, &kiln_format_exr, &kiln_format_mp4,  &kiln_format_webm, &kiln_format_mkv,
+    &kiln_format_mov, &kiln_format_gif, &kiln_format_apng, &kiln_format_webp,
 };
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats };
 
