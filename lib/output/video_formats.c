@@ -89,8 +89,9 @@ const struct kiln_format kiln_format_webm = {
 
 static void tune_ffv1(AVCodecContext *codec, const struct kiln_output_params *params)
 {
+    (void)params;
     codec->level = 3; /* the version with slices and their checksums */
-    codec->slices = params->width < 16 || params->height < 16 ? 1 : 4;
+    codec->slices = 4;
     set_option(codec, "slicecrc", "1");
 }
 
