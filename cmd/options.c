@@ -141,6 +141,18 @@ static bool are_pairs(const char *text, bool commas)
     }
 }
 
+static int read_grid(const struct parser *parser, struct option_use *use)
+{
+    double most = use->option->max;
+    if (read_two(use->text, 'x', use->integer) && (double)use->integer[0] <= most &&
+        (double)use->integer[1] <= most)
+        return 0;
+    char expected[96];
+    snprintf(expected, sizeof expected, "COLUMNSxROWS, such as 8x8, with at most %.0f of each",
+             most);
+    return wrong_value(parser, use, expected);
+}
+
 static int read_value(const struct parser *parser, struct option_use *use)
 {
     switch (use->option->kind) {
@@ -158,6 +170,8 @@ static int read_value(const struct parser *parser, struct option_use *use)
         return read_two(use->text, 'x', use->integer)
                    ? 0
                    : wrong_value(parser, use, "WxH in pixels, such as 1280x720");
+    case OPTION_GRID:
+        return read_grid(parser, use);
     case OPTION_RATIO:
         return is_ratio(use->text)
                    ? 0

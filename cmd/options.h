@@ -11,6 +11,7 @@ enum option_kind {
     OPTION_INTEGER, /* min to max */
     OPTION_NUMBER,  /* min to max, a decimal fraction */
     OPTION_SIZE,    /* WxH */
+    OPTION_GRID,    /* COLUMNSxROWS, each up to max */
     OPTION_RATIO,   /* N/D or a decimal fraction */
     OPTION_RECT,    /* X,Y,WxH */
     OPTION_PART,    /* I/N: the I-th of N parts */
@@ -36,8 +37,8 @@ struct option {
 struct option_use {
     const struct option *option;
     const char *text;    /* the value; NULL for a flag, or where it was left out */
-    uint64_t integer[4]; /* OPTION_INTEGER; OPTION_SIZE: width, height; _RECT: x, y, those; _PART:
-                            I, N */
+    uint64_t integer[4]; /* OPTION_INTEGER; OPTION_SIZE, _GRID: width, height; _RECT: x, y, those;
+                            _PART: I, N */
     double number;       /* OPTION_NUMBER */
     size_t choice;       /* OPTION_CHOICE: index of the word; 0 where it was left out */
     struct frame_list frames;

@@ -103,7 +103,8 @@ static int name_files(struct plan *plan, const struct arguments *arguments)
         struct job *job = &plan->jobs[i];
         job->path = arguments->operands[i];
         if (writes)
-            job->output = file_name(output->text, job->path, ".mp4", true);
+            job->output = file_name(output->text, job->path,
+                                    plan->flipbook.columns > 0 ? ".png" : ".mp4", true);
         if (manifest)
             job->manifest = file_name(manifest->text, job->path, ".json", false);
         if ((writes && !job->output) || (manifest && !job->manifest))
@@ -138,6 +139,41 @@ static int choose_frames(struct job *job, const struct arguments *arguments)
                   end.last, job->path, last);
 }
 
+static int read_flipbook(struct plan *plan, const struct arguments *arguments)
+{
+    const struct option_use *grid = arguments_last(arguments, "flipbook");
+    const struct option_use *alpha = arguments_last(arguments, "flipbook-alpha");
+    const struct option_use *motion = arguments_last(arguments, "flipbook-motion");
+    const struct option_use *padding = arguments_last(arguments, "flipbook-padding");
+    const struct option_use *part = alpha ? alpha : motion ? motion : padding;
+    if (!grid)
+        return part ? report(KILN_USAGE, "render: --%s: there is no --flipbook to apply it to",
+                             part->option->name)
+                    : 0;
+    plan->flipbook = (struct kiln_flipbook){
+        .columns = (uint32_t)grid->integer[0],
+        .rows = (uint32_t)grid->integer[1],
+        .padding = padding ? (uint32_t)padding->integer[0] : 0,
+        .premultiplied = alpha && alpha->choice == 1,
+        .motion = motion != NULL,
+    };
+    return 0;
+}
+
+/* Leaves of the job's frames those that a flipbook shows. */
+static int choose_cells(struct job *job, const struct kiln_flipbook *flipbook)
+{
+    size_t count = (size_t)flipbook->columns * flipbook->rows;
+    struct kiln_error error = {0};
+    job->cells = calloc(count, sizeof *job->cells);
+    if (!job->cells)
+        return report_no_memory();
+    if (!kiln_flipbook_sample(flipbook, job->frames.ranges, job->frames.count, job->cells, &error))
+        return report(error.code, "render: --flipbook: '%s': %s", job->path, error.message);
+    job->frames = (struct frame_list){job->cells, count};
+    return 0;
+}
+
 static int load_scenes(struct plan *plan, const struct arguments *arguments)
 {
     struct overrides overrides;
@@ -153,6 +189,8 @@ static int load_scenes(struct plan *plan, const struct arguments *arguments)
         if (job->scene) {
             job->info = kiln_scene_info(job->scene);
             failure = choose_frames(job, arguments);
+            if (failure == 0 && plan->flipbook.columns > 0)
+                failure = choose_cells(job, &plan->flipbook);
         } else {
             failure = report_error(&error);
         }
@@ -170,7 +208,8 @@ int plan_create(struct plan *plan, const struct arguments *arguments)
         plan->count = 0;
         return report_no_memory();
     }
-    int code = name_files(plan, arguments);
+    int code = read_flipbook(plan, arguments);
+    code = code ? code : name_files(plan, arguments);
     return code ? code : load_scenes(plan, arguments);
 }
 
@@ -180,6 +219,7 @@ void plan_free(struct plan *plan)
         kiln_scene_destroy(&plan->jobs[i].scene);
         free(plan->jobs[i].output);
         free(plan->jobs[i].manifest);
+        free(plan->jobs[i].cells);
     }
     free(plan->jobs);
     *plan = (struct plan){0};

@@ -11,13 +11,15 @@ struct job {
     struct kiln_scene_info info;
     struct frame_list frames; /* never empty; borrowed where --frames was given */
     struct kiln_frame_range every_frame;
-    char *output;   /* NULL: nothing is written */
-    char *manifest; /* NULL: none */
+    struct kiln_frame_range *cells; /* of a flipbook; the list points here then */
+    char *output;                   /* NULL: nothing is written */
+    char *manifest;                 /* NULL: none */
 };
 
 struct plan {
     struct job *jobs;
     size_t count;
+    struct kiln_flipbook flipbook; /* columns 0: none */
 };
 
 /* Returns 0, or the exit code after reporting what is wrong; every wrong scene is reported. The

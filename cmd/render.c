@@ -66,7 +66,7 @@ static const struct option options[] = {
     {.name = "png-bits",
      .kind = OPTION_CHOICE,
      .placeholder = "8|16",
-     .help = "Bits a channel of PNG files.",
+     .help = "Bits a channel of PNG, APNG and MKV files.",
      .fallback = "8"},
     {.name = "exr-bits",
      .kind = OPTION_CHOICE,
@@ -79,6 +79,28 @@ static const struct option options[] = {
      .help = "Quality of videos, from 0 (smallest) to 100 (no loss that an eye can see).",
      .fallback = "80",
      .max = 100},
+    {.name = "flipbook",
+     .kind = OPTION_GRID,
+     .placeholder = "COLUMNSxROWS",
+     .help =
+         "Write one PNG of so many cells, for game engines, each a frame of --size; beside it a "
+         ".json of its layout. The cells are spread evenly over --frames, and only they are "
+         "drawn.",
+     .max = 64},
+    {.name = "flipbook-alpha",
+     .kind = OPTION_CHOICE,
+     .placeholder = "straight|premultiplied",
+     .help = "Whether the colours of a flipbook are those of the cover alone, or times alpha.",
+     .fallback = "straight"},
+    {.name = "flipbook-motion",
+     .kind = OPTION_FLAG,
+     .help = "Also write how pixels move from cell to cell, as FILE_motion.png."},
+    {.name = "flipbook-padding",
+     .kind = OPTION_INTEGER,
+     .placeholder = "N",
+     .help = "Pixels to add on each side of a cell, so that filters see nothing of its neighbours.",
+     .fallback = "0",
+     .max = 256},
     {.name = "manifest",
      .kind = OPTION_TEXT,
      .placeholder = "FILE",
@@ -253,6 +275,7 @@ static int run_job(struct render *render, struct kiln_device *device, const stru
     render->params.manifest = job->manifest;
     render->params.ranges = job->frames.ranges;
     render->params.range_count = job->frames.count;
+    render->params.flipbook = render->plan.flipbook;
     progress_start(&render->progress, render->progress_mode);
     allow_frame(render, -1);
 

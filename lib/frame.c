@@ -203,6 +203,7 @@ static bool open_output(struct job *job, struct kiln_error *error)
                 .png_bits = params->png_bits,
                 .exr_bits = params->exr_bits,
                 .quality = params->quality,
+                .flipbook = params->flipbook,
                 .scene_hash = scene->hash,
                 .seed = scene->seed,
                 .log = params->log,
@@ -286,7 +287,7 @@ static bool finish(struct job *job, struct kiln_error *error)
     stats->frames = job->progress.done;
     stats->steps = job->run.step;
     if (job->output) {
-        stats->files = kiln_output_is_one_file(job->output) ? 1 : stats->frames;
+        stats->files = kiln_output_file_count(job->output);
         kiln_output_path(job->output, job->ranges[0].first, stats->first_file,
                          sizeof stats->first_file);
         if (!kiln_output_finish(job->output, error))

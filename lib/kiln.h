@@ -187,6 +187,24 @@ struct kiln_progress {
     double pass_ms[KILN_PASS_COUNT];
 };
 
+/* An atlas for game engines: frames as cells of one PNG, in rows from the top, each from the left.
+ * Beside FILE.png comes FILE.json, its layout, and with `motion` FILE_motion.png: where each pixel
+ * of a cell goes in the next one. */
+struct kiln_flipbook {
+    uint32_t columns, rows; /* 1 to 64; 0 and 0: no flipbook */
+    uint32_t padding;       /* pixels added on each side of a cell, 0 to 256 */
+    bool premultiplied;     /* colours times alpha, as seen over black; else straight, with colours
+                               where alpha is zero as well */
+    bool motion;
+};
+
+/* Chooses the frames of the cells, evenly out of ascending ranges: the k-th cell of n shows the
+ * frame at k/n of them. cells has room for columns * rows entries. KILN_USAGE when the ranges have
+ * fewer frames. */
+bool kiln_flipbook_sample(const struct kiln_flipbook *flipbook,
+                          const struct kiln_frame_range *ranges, size_t range_count,
+                          struct kiln_frame_range *cells, struct kiln_error *error);
+
 struct kiln_render_params {
     const char *output;   /* a file, a pattern with %d or #, or NULL to render without writing */
     const char *manifest; /* a JSON file that describes the run, or NULL */
@@ -197,9 +215,11 @@ struct kiln_render_params {
     uint32_t threads; /* worker threads; 0 takes one a core */
     bool overwrite;
     bool state_hash;   /* compute it for each drawn frame; the manifest always has it */
-    uint32_t png_bits; /* 8 or 16 */
+    uint32_t png_bits; /* 8 or 16; of APNG and MKV, too */
     uint32_t exr_bits; /* 16 or 32 */
     uint32_t quality;  /* video: 0 (smallest) to 100 (visually lossless) */
+    /* One cell for each frame: ranges come from kiln_flipbook_sample. */
+    struct kiln_flipbook flipbook;
     void (*progress)(void *user, const struct kiln_progress *progress);
     bool (*stop)(void *user); /* asked between frames and steps; true ends with KILN_INTERRUPTED */
     void *user;
@@ -220,7 +240,7 @@ struct kiln_render_stats {
     uint64_t particle_bytes;         /* simulation and draw buffers */
     uint64_t particle_capacity;
     char techniques[256];            /* "simulate=cpu sort=cpu ..." */
-    uint32_t files;                  /* images, or 1 for a video; 0: nothing was to be written */
+    uint32_t files;                  /* images, 1 for a video; 0: nothing was to be written */
     char first_file[KILN_PATH_SIZE]; /* what was written first */
 };
 

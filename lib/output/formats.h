@@ -14,7 +14,8 @@ struct kiln_format {
     const char *suffix; /* with its dot, lower case */
     const char *name;
     const char *help;
-    bool one_file; /* all frames go into one file, in order and without gaps */
+    bool one_file; /* all frames go into one file, in order and, unless `gaps`, without gaps */
+    bool gaps;
     const struct kiln_video_settings *video; /* of those by FFmpeg, else NULL */
     struct kiln_output_needs (*needs)(const struct kiln_output_params *params);
     /* What can be refused before any file is touched. */

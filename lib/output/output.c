@@ -10,6 +10,7 @@
 
 #include "base/arena.h"
 #include "base/error.h"
+#include "output/flipbook.h"
 #include "output/formats.h"
 #include "output/pattern.h"
 
@@ -51,7 +52,7 @@ static bool check_ranges(const struct kiln_output_params *params, const struct k
         if (range->last < range->first || (i > 0 && range->first <= range[-1].last))
             return kiln_error_set(error, KILN_USAGE, "%s: frames %u-%u are not in ascending order",
                                   params->path, range->first, range->last);
-        if (format->one_file && i > 0 && range->first != range[-1].last + 1)
+        if (format->one_file && !format->gaps && i > 0 && range->first != range[-1].last + 1)
             return kiln_error_set(error, KILN_USAGE,
                                   "%s: a video cannot leave out frames, but none lies between %u "
                                   "and %u; write images, or one range",
@@ -233,10 +234,23 @@ static bool open_video(struct kiln_output *output, struct kiln_error *error)
     return output->video_encoder != NULL;
 }
 
+static const struct kiln_format *find_format(const struct kiln_output_params *params,
+                                             struct kiln_error *error)
+{
+    const struct kiln_format *format = kiln_format_find(params->path, error);
+    if (!format || params->flipbook.columns == 0)
+        return format;
+    if (format == &kiln_format_png)
+        return &kiln_format_flipbook;
+    kiln_error_set(error, KILN_USAGE, "%s: a flipbook is one .png file, not %s", params->path,
+                   format->suffix);
+    return NULL;
+}
+
 struct kiln_output *kiln_output_open(const struct kiln_output_params *given,
                                      struct kiln_error *error)
 {
-    const struct kiln_format *format = kiln_format_find(given->path, error);
+    const struct kiln_format *format = find_format(given, error);
     struct kiln_output_params with_format = *given;
     with_format.format = format;
     const struct kiln_output_params *params = &with_format;
@@ -371,7 +385,13 @@ bool kiln_output_path(const struct kiln_output *output, uint32_t frame, char *pa
     return kiln_path_pattern_format(&output->pattern, frame, path, size);
 }
 
-bool kiln_output_is_one_file(const struct kiln_output *output)
+uint32_t kiln_output_file_count(const struct kiln_output *output)
 {
-    return output->format->one_file;
+    const struct kiln_output_params *params = &output->params;
+    if (params->flipbook.columns > 0)
+        return params->flipbook.motion ? 3 : 2;
+    uint32_t frames = 0;
+    for (size_t i = 0; i < params->range_count; i++)
+        frames += params->ranges[i].last - params->ranges[i].first + 1;
+    return output->format->one_file ? 1 : frames;
 }

@@ -18,6 +18,7 @@ struct kiln_picture {
     uint32_t frame;
     uint32_t width, height;
     bool has_alpha; /* display alpha is meaningful */
+    bool is_data;   /* the display pixels are no colours: files name no colour space for them */
     uint32_t bits;  /* of the display pixels: 8 or 16 */
     void *display;  /* sRGB, RGBA, not premultiplied, rows from the top, host byte order */
     struct kiln_layer layers[KILN_MAX_LAYERS]; /* only what the format asked for */
@@ -50,6 +51,7 @@ struct kiln_output_params {
     uint32_t threads; /* encoders; at least 1 */
     bool overwrite;
     uint32_t png_bits, exr_bits, quality;
+    struct kiln_flipbook flipbook; /* columns 0: none */
     const char *scene_hash; /* 64 hex digits; goes into each file with seed, frame and version.
                                NULL, for an encoder of PNG alone: the picture is of no scene */
     uint32_t seed;
@@ -81,7 +83,7 @@ void kiln_output_close(struct kiln_output **output);
 /* The path of the file for a frame (the one file, for a video); false if it does not fit. */
 bool kiln_output_path(const struct kiln_output *output, uint32_t frame, char *path, size_t size);
 
-/* Do all frames go into one file, as those of a video do? */
-bool kiln_output_is_one_file(const struct kiln_output *output);
+/* How many files there will be: one a frame, one for a video, some for a flipbook. */
+uint32_t kiln_output_file_count(const struct kiln_output *output);
 
 #endif

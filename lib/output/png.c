@@ -104,7 +104,8 @@ static void write_header(struct png_encoder *encoder, const struct kiln_picture 
     png_set_IHDR(png, encoder->info, picture->width, picture->height, (int)picture->bits,
                  picture->has_alpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    png_set_sRGB_gAMA_and_cHRM(png, encoder->info, PNG_sRGB_INTENT_PERCEPTUAL);
+    if (!picture->is_data)
+        png_set_sRGB_gAMA_and_cHRM(png, encoder->info, PNG_sRGB_INTENT_PERCEPTUAL);
 
     char number[16];
     add_text(encoder, "Software", "kiln " KILN_VERSION);
@@ -114,7 +115,8 @@ static void write_header(struct png_encoder *encoder, const struct kiln_picture 
         snprintf(number, sizeof number, "%u", encoder->params->seed);
         add_text(encoder, "kiln:seed", number);
         snprintf(number, sizeof number, "%u", picture->frame);
-        add_text(encoder, "kiln:frame", number);
+        if (encoder->params->flipbook.columns == 0)
+            add_text(encoder, "kiln:frame", number);
     }
     png_write_info(png, encoder->info);
 }

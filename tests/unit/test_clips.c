@@ -519,22 +519,20 @@ static void what_is_not_finished_is_removed(void **state)
     }
 }
 
+#define TEST(function) cmocka_unit_test_setup_teardown(function, make_folder, remove_folder)
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(clips_come_back, make_folder, remove_folder),
-        cmocka_unit_test_setup_teardown(lossless_ones_hold_16_bits, make_folder, remove_folder),
-        cmocka_unit_test_setup_teardown(the_smallest_picture_alone_will_do, make_folder,
-                                        remove_folder),
-        cmocka_unit_test_setup_teardown(bytes_depend_on_the_frames_alone, make_folder,
-                                        remove_folder),
-        cmocka_unit_test_setup_teardown(gif_keeps_time_and_says_how, make_folder, remove_folder),
-        cmocka_unit_test_setup_teardown(apng_says_when_a_rate_does_not_fit, make_folder,
-                                        remove_folder),
-        cmocka_unit_test_setup_teardown(webp_comes_back, make_folder, remove_folder),
-        cmocka_unit_test_setup_teardown(impossible_clips_are_refused, make_folder, remove_folder),
-        cmocka_unit_test_setup_teardown(what_is_not_finished_is_removed, make_folder,
-                                        remove_folder),
+        TEST(clips_come_back),
+        TEST(lossless_ones_hold_16_bits),
+        TEST(the_smallest_picture_alone_will_do),
+        TEST(bytes_depend_on_the_frames_alone),
+        TEST(gif_keeps_time_and_says_how),
+        TEST(apng_says_when_a_rate_does_not_fit),
+        TEST(webp_comes_back),
+        TEST(impossible_clips_are_refused),
+        TEST(what_is_not_finished_is_removed),
     };
     return cmocka_run_group_tests_name("clips", tests, NULL, NULL);
 }

@@ -1,0 +1,510 @@
+/* An atlas of cells in rows from the top, each a frame with its padding inside: engines divide the
+ * texture by columns and rows and know nothing of gaps. Motion is estimated on smaller pictures: it
+ * is smooth, and an engine filters it anyway. */
+#include "output/flipbook.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "base/text.h"
+#include "output/bleed.h"
+#include "output/flow.h"
+
+enum {
+    MAX_CELLS_A_SIDE = 64,
+    MAX_PADDING = 256,
+    MAX_EDGE = 16384,      /* of the atlas: what GPUs take */
+    MAX_MOTION_EDGE = 128, /* of a cell of the motion atlas */
+    FEATURES = 2,          /* what flow is estimated from: brightness over black, and cover */
+};
+
+struct flipbook_encoder {
+    const struct kiln_output_params *params;
+    struct kiln_temporary *file;
+    struct kiln_temporary layout_file, motion_file;
+    struct kiln_picture *atlas;
+    uint32_t cells;                   /* filled */
+    uint32_t cell_width, cell_height; /* with padding */
+
+    uint32_t motion_width, motion_height; /* of a cell */
+    float *features[2];                   /* of this cell and the one before */
+    float *flows;                         /* from each cell to the next, in cells' own pixels */
+};
+
+static uint32_t cell_count(const struct kiln_output_params *params)
+{
+    return params->flipbook.columns * params->flipbook.rows;
+}
+
+/* ---- Frames for cells ----------------------------------------------------------------------- */
+
+/* The n-th frame of the ranges, or the number of frames where n is beyond them. */
+static uint64_t nth_frame(const struct kiln_frame_range *ranges, size_t range_count, uint64_t n,
+                          uint32_t *frame)
+{
+    uint64_t before = 0;
+    for (size_t i = 0; i < range_count; i++) {
+        uint64_t length = (uint64_t)ranges[i].last - ranges[i].first + 1;
+        if (n < before + length) {
+            *frame = ranges[i].first + (uint32_t)(n - before);
+            return n;
+        }
+        before += length;
+    }
+    return before;
+}
+
+bool kiln_flipbook_sample(const struct kiln_flipbook *flipbook,
+                          const struct kiln_frame_range *ranges, size_t range_count,
+                          struct kiln_frame_range *cells, struct kiln_error *error)
+{
+    if (flipbook->columns < 1 || flipbook->columns > MAX_CELLS_A_SIDE || flipbook->rows < 1 ||
+        flipbook->rows > MAX_CELLS_A_SIDE)
+        return kiln_error_set(error, KILN_USAGE, "a flipbook of %u x %u cells; allowed are 1 to %d",
+                              flipbook->columns, flipbook->rows, MAX_CELLS_A_SIDE);
+    uint32_t count = flipbook->columns * flipbook->rows, frame = 0;
+    uint64_t frames = nth_frame(ranges, range_count, UINT64_MAX, &frame);
+    if (frames < count)
+        return kiln_error_set(error, KILN_USAGE,
+                              "a flipbook of %u x %u cells from %" PRIu64
+                              " frames; it needs at least %u: take fewer cells, or a higher rate",
+                              flipbook->columns, flipbook->rows, frames, count);
+    for (uint32_t i = 0; i < count; i++) {
+        nth_frame(ranges, range_count, i * frames / count, &frame);
+        cells[i] = (struct kiln_frame_range){frame, frame};
+    }
+    return true;
+}
+
+/* The least and the most frames from one cell to the next. */
+static void measure_steps(const struct kiln_output_params *params, uint32_t *least, uint32_t *most)
+{
+    uint32_t before = 0, frame = 0;
+    *least = UINT32_MAX;
+    *most = 0;
+    for (uint32_t i = 0; i < cell_count(params); i++, before = frame) {
+        nth_frame(params->ranges, params->range_count, i, &frame);
+        if (i > 0) {
+            *least = frame - before < *least ? frame - before : *least;
+            *most = frame - before > *most ? frame - before : *most;
+        }
+    }
+}
+
+/* ---- Opening -------------------------------------------------------------------------------- */
+
+static struct kiln_output_needs needs(const struct kiln_output_params *params)
+{
+    return (struct kiln_output_needs){.bits = params->png_bits};
+}
+
+static bool check(const struct kiln_output_params *params, struct kiln_error *error)
+{
+    const struct kiln_flipbook *flipbook = &params->flipbook;
+    if (!kiln_format_png.check(params, error))
+        return false;
+    if (flipbook->columns < 1 || flipbook->columns > MAX_CELLS_A_SIDE || flipbook->rows < 1 ||
+        flipbook->rows > MAX_CELLS_A_SIDE || flipbook->padding > MAX_PADDING)
+        return kiln_error_set(error, KILN_USAGE,
+                              "%s: a flipbook of %u x %u cells, padded by %u; allowed are 1 to %d "
+                              "cells, and 0 to %d pixels",
+                              params->path, flipbook->columns, flipbook->rows, flipbook->padding,
+                              MAX_CELLS_A_SIDE, MAX_PADDING);
+    uint64_t width = flipbook->columns * ((uint64_t)params->width + 2 * flipbook->padding);
+    uint64_t height = flipbook->rows * ((uint64_t)params->height + 2 * flipbook->padding);
+    if (width > MAX_EDGE || height > MAX_EDGE)
+        return kiln_error_set(
+            error, KILN_USAGE,
+            "%s: a flipbook of %" PRIu64 " x %" PRIu64
+            " pixels; allowed are %d a side: make the frames smaller (%u x %u) or "
+            "the cells fewer",
+            params->path, width, height, MAX_EDGE, params->width, params->height);
+    uint32_t frame;
+    uint64_t frames = nth_frame(params->ranges, params->range_count, UINT64_MAX, &frame);
+    return frames == cell_count(params) ||
+           kiln_error_set(error, KILN_USAGE, "%s: %" PRIu64 " frames for %u x %u cells",
+                          params->path, frames, flipbook->columns, flipbook->rows);
+}
+
+static void warn(const struct kiln_output_params *params)
+{
+    uint32_t least, most;
+    measure_steps(params, &least, &most);
+    if (least < most)
+        kiln_log_write(
+            &params->log, KILN_LOG_WARNING,
+            "%s: the cells are %u to %u frames apart, so motion will not be even; choose "
+            "a multiple of %u frames",
+            params->path, least, most, cell_count(params));
+    if (!params->alpha)
+        kiln_log_write(&params->log, KILN_LOG_WARNING,
+                       "%s: the backdrop is opaque, so the flipbook has no alpha "
+                       "(backdrop.transparent: true)",
+                       params->path);
+}
+
+/* Opens "NAME" and an ending beside the atlas, whose own ending is ".png". */
+static bool open_beside(const struct flipbook_encoder *encoder, const char *ending,
+                        struct kiln_temporary *file, struct kiln_error *error)
+{
+    char path[KILN_PATH_SIZE];
+    const char *atlas = encoder->file->target;
+    int stem = (int)(strrchr(atlas, '.') - atlas);
+    if (snprintf(path, sizeof path, "%.*s%s", stem, atlas, ending) >= (int)sizeof path)
+        return kiln_error_set(error, KILN_USAGE, "%s: the path is too long", encoder->params->path);
+    return kiln_target_check(path, encoder->params->overwrite, error) &&
+           kiln_temporary_open(file, path, error);
+}
+
+static void close_encoder(void *opaque)
+{
+    struct flipbook_encoder *encoder = opaque;
+    kiln_temporary_discard(&encoder->layout_file);
+    kiln_temporary_discard(&encoder->motion_file);
+    kiln_picture_destroy(&encoder->atlas);
+    free(encoder->features[0]);
+    free(encoder->features[1]);
+    free(encoder->flows);
+    free(encoder);
+}
+
+static bool create_motion(struct flipbook_encoder *encoder, struct kiln_error *error)
+{
+    uint32_t longer =
+        encoder->cell_width > encoder->cell_height ? encoder->cell_width : encoder->cell_height;
+    uint32_t shrink = (longer + MAX_MOTION_EDGE - 1) / MAX_MOTION_EDGE;
+    encoder->motion_width = (encoder->cell_width + shrink - 1) / shrink;
+    encoder->motion_height = (encoder->cell_height + shrink - 1) / shrink;
+    size_t pixels = (size_t)encoder->motion_width * encoder->motion_height;
+    for (int i = 0; i < 2; i++)
+        encoder->features[i] = malloc(FEATURES * pixels * sizeof(float));
+    encoder->flows = calloc(cell_count(encoder->params) * pixels, 2 * sizeof(float));
+    return (encoder->features[0] && encoder->features[1] && encoder->flows) ||
+           kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the motion",
+                          encoder->params->path);
+}
+
+static void *open_encoder(const struct kiln_output_params *params, struct kiln_temporary *file,
+                          struct kiln_error *error)
+{
+    const struct kiln_flipbook *flipbook = &params->flipbook;
+    struct flipbook_encoder *encoder = calloc(1, sizeof *encoder);
+    if (!encoder) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the flipbook", params->path);
+        return NULL;
+    }
+    encoder->params = params;
+    encoder->file = file;
+    encoder->cell_width = params->width + 2 * flipbook->padding;
+    encoder->cell_height = params->height + 2 * flipbook->padding;
+    encoder->atlas = kiln_picture_create(encoder->cell_width * flipbook->columns,
+                                         encoder->cell_height * flipbook->rows, params->png_bits,
+                                         NULL, NULL, 0, error);
+    bool good =
+        encoder->atlas && open_beside(encoder, ".json", &encoder->layout_file, error) &&
+        (!flipbook->motion || (open_beside(encoder, "_motion.png", &encoder->motion_file, error) &&
+                               create_motion(encoder, error)));
+    if (good) {
+        encoder->atlas->has_alpha = params->alpha;
+        warn(params);
+        return encoder;
+    }
+    close_encoder(encoder);
+    return NULL;
+}
+
+/* ---- Cells ---------------------------------------------------------------------------------- */
+
+static uint32_t read_sample(const struct kiln_picture *picture, size_t index)
+{
+    return picture->bits == 8 ? ((const uint8_t *)picture->display)[index]
+                              : ((const uint16_t *)picture->display)[index];
+}
+
+static void write_sample(const struct kiln_picture *picture, size_t index, uint32_t value)
+{
+    if (picture->bits == 8)
+        ((uint8_t *)picture->display)[index] = (uint8_t)value;
+    else
+        ((uint16_t *)picture->display)[index] = (uint16_t)value;
+}
+
+static uint32_t clamp(uint32_t position, uint32_t padding, uint32_t size)
+{
+    uint32_t inside = position < padding ? 0 : position - padding;
+    return inside < size ? inside : size - 1;
+}
+
+/* One pixel of a cell. Padding continues the edge: its colour alone where there is alpha, so that a
+ * filter finds nothing of the neighbour; multiplied by alpha, that is black. */
+static void copy_pixel(const struct flipbook_encoder *encoder, const struct kiln_picture *picture,
+                       uint32_t x, uint32_t y, size_t out)
+{
+    const struct kiln_flipbook *flipbook = &encoder->params->flipbook;
+    uint32_t px = clamp(x, flipbook->padding, picture->width);
+    uint32_t py = clamp(y, flipbook->padding, picture->height);
+    size_t in = 4 * ((size_t)py * picture->width + px);
+    const uint32_t full = (1u << picture->bits) - 1;
+    bool inside = px + flipbook->padding == x && py + flipbook->padding == y;
+    uint32_t alpha = inside || !picture->has_alpha ? read_sample(picture, in + 3) : 0;
+    for (size_t c = 0; c < 3; c++) {
+        uint32_t value = read_sample(picture, in + c);
+        if (flipbook->premultiplied && picture->has_alpha)
+            value = (uint32_t)(((uint64_t)value * alpha + full / 2) / full);
+        write_sample(encoder->atlas, out + c, value);
+    }
+    write_sample(encoder->atlas, out + 3, alpha);
+}
+
+/* The upper left corner of a cell in an atlas of such cells, in samples. */
+static size_t cell_origin(const struct flipbook_encoder *encoder, uint32_t cell, uint32_t width,
+                          uint32_t height)
+{
+    uint32_t columns = encoder->params->flipbook.columns;
+    return 4 *
+           ((size_t)(cell / columns) * height * width * columns + (size_t)(cell % columns) * width);
+}
+
+static void fill_cell(struct flipbook_encoder *encoder, const struct kiln_picture *picture)
+{
+    uint32_t width = encoder->cell_width, height = encoder->cell_height;
+    size_t origin = cell_origin(encoder, encoder->cells, width, height);
+    for (uint32_t y = 0; y < height; y++) {
+        size_t out = origin + (size_t)4 * y * encoder->atlas->width;
+        for (uint32_t x = 0; x < width; x++, out += 4)
+            copy_pixel(encoder, picture, x, y, out);
+    }
+}
+
+/* ---- Motion --------------------------------------------------------------------------------- */
+
+/* A smaller picture of the cell: brightness over black and cover, averaged. */
+static void measure_features(const struct flipbook_encoder *encoder, float *features)
+{
+    static const float weights[3] = {0.3f, 0.55f, 0.15f};
+    const struct kiln_picture *atlas = encoder->atlas;
+    bool premultiplied = encoder->params->flipbook.premultiplied;
+    float full = (float)((1u << atlas->bits) - 1);
+    size_t origin = cell_origin(encoder, encoder->cells, encoder->cell_width, encoder->cell_height);
+    for (uint32_t my = 0; my < encoder->motion_height; my++) {
+        uint32_t top = my * encoder->cell_height / encoder->motion_height;
+        uint32_t bottom = (my + 1) * encoder->cell_height / encoder->motion_height;
+        for (uint32_t mx = 0; mx < encoder->motion_width; mx++, features += FEATURES) {
+            uint32_t left = mx * encoder->cell_width / encoder->motion_width;
+            uint32_t right = (mx + 1) * encoder->cell_width / encoder->motion_width;
+            float light = 0, cover = 0;
+            for (uint32_t y = top; y < bottom; y++) {
+                for (uint32_t x = left; x < right; x++) {
+                    size_t at = origin + 4 * ((size_t)y * atlas->width + x);
+                    float alpha = (float)read_sample(atlas, at + 3) / full;
+                    float by = (premultiplied || !atlas->has_alpha ? 1.0f : alpha) / full;
+                    for (size_t c = 0; c < 3; c++)
+                        light += by * weights[c] * (float)read_sample(atlas, at + c);
+                    cover += alpha;
+                }
+            }
+            float count = (float)((bottom - top) * (right - left));
+            features[0] = light / count;
+            features[1] = atlas->has_alpha ? cover / count : 0;
+        }
+    }
+}
+
+static bool add_motion(struct flipbook_encoder *encoder, struct kiln_error *error)
+{
+    uint32_t width = encoder->motion_width, height = encoder->motion_height;
+    float *now = encoder->features[encoder->cells % 2];
+    const float *before = encoder->features[(encoder->cells + 1) % 2];
+    measure_features(encoder, now);
+    if (encoder->cells == 0)
+        return true;
+    float *flow = encoder->flows + (size_t)2 * width * height * (encoder->cells - 1);
+    return kiln_flow_estimate(before, now, width, height, FEATURES, flow) ||
+           kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the motion",
+                          encoder->params->path);
+}
+
+/* The largest motion along an axis, as a part of a cell: what 255 stands for. At least a pixel. */
+static float motion_scale(const struct flipbook_encoder *encoder)
+{
+    uint32_t width = encoder->motion_width, height = encoder->motion_height;
+    float scale = 1.0f / (float)(width > height ? width : height);
+    size_t count = (size_t)2 * width * height * cell_count(encoder->params);
+    for (size_t i = 0; i < count; i += 2) {
+        scale = fmaxf(scale, fabsf(encoder->flows[i]) / (float)width);
+        scale = fmaxf(scale, fabsf(encoder->flows[i + 1]) / (float)height);
+    }
+    return scale;
+}
+
+/* -1..1 as 0..255. */
+static uint8_t encode_motion(float motion)
+{
+    return (uint8_t)floorf(127.5f + 127.5f * motion + 0.5f);
+}
+
+static struct kiln_picture *draw_motion(const struct flipbook_encoder *encoder, float scale,
+                                        struct kiln_error *error)
+{
+    const struct kiln_flipbook *flipbook = &encoder->params->flipbook;
+    uint32_t width = encoder->motion_width, height = encoder->motion_height;
+    struct kiln_picture *picture = kiln_picture_create(
+        width * flipbook->columns, height * flipbook->rows, 8, NULL, NULL, 0, error);
+    if (!picture)
+        return NULL;
+    picture->is_data = true;
+    const float *flow = encoder->flows;
+    for (uint32_t cell = 0; cell < cell_count(encoder->params); cell++) {
+        for (uint32_t y = 0; y < height; y++) {
+            uint8_t *out = (uint8_t *)picture->display + cell_origin(encoder, cell, width, height) +
+                           (size_t)4 * y * picture->width;
+            for (uint32_t x = 0; x < width; x++, out += 4, flow += 2) {
+                out[0] = encode_motion(flow[0] / (float)width / scale);
+                out[1] = encode_motion(flow[1] / (float)height / scale);
+                out[2] = 0;
+                out[3] = 255;
+            }
+        }
+    }
+    return picture;
+}
+
+/* ---- Files ---------------------------------------------------------------------------------- */
+
+static bool write_png(const struct flipbook_encoder *encoder, const struct kiln_picture *picture,
+                      struct kiln_temporary *file, struct kiln_error *error)
+{
+    void *png = kiln_format_png.open(encoder->params, file, error);
+    bool good = png && kiln_format_png.encode(png, picture, error);
+    if (png)
+        kiln_format_png.close(png);
+    return good;
+}
+
+static void add_name(struct kiln_text *text, const struct kiln_temporary *file)
+{
+    const char *slash = strrchr(file->target, '/');
+    kiln_text_add_json(text, slash ? slash + 1 : file->target);
+}
+
+static void add_frames(struct kiln_text *text, const struct kiln_output_params *params)
+{
+    uint32_t frame = 0, first = 0;
+    kiln_text_add(text, "  \"frames\": [");
+    for (uint32_t i = 0; i < cell_count(params); i++) {
+        nth_frame(params->ranges, params->range_count, i, &frame);
+        first = i == 0 ? frame : first;
+        kiln_text_add(text, "%s%u", i > 0 ? ", " : "", frame);
+    }
+    double step = cell_count(params) > 1 ? (double)(frame - first) / (cell_count(params) - 1) : 1;
+    char rate[32];
+    kiln_text_from_double(rate, (double)params->fps_num / params->fps_den / step);
+    kiln_text_add(text, "],\n  \"frame_rate\": [%u, %u],\n  \"cells_per_second\": %s,\n",
+                  params->fps_num, params->fps_den, rate);
+}
+
+static void add_motion_layout(struct kiln_text *text, const struct flipbook_encoder *encoder,
+                              float scale)
+{
+    if (!encoder->motion_file.target) {
+        kiln_text_add(text, "  \"motion\": null,\n");
+        return;
+    }
+    char number[32];
+    kiln_text_from_float(number, scale);
+    kiln_text_add(text, "  \"motion\": {\n    \"image\": ");
+    add_name(text, &encoder->motion_file);
+    kiln_text_add(text,
+                  ",\n    \"cell\": {\"width\": %u, \"height\": %u},\n"
+                  "    \"encoding\": \"(channel / 255 * 2 - 1) * scale\",\n"
+                  "    \"scale\": %s,\n"
+                  "    \"unit\": \"cell\",\n"
+                  "    \"red\": \"right\",\n    \"green\": \"down\",\n"
+                  "    \"from\": \"this cell\",\n    \"to\": \"the next cell\",\n"
+                  "    \"color_space\": \"linear\"\n  },\n",
+                  encoder->motion_width, encoder->motion_height, number);
+}
+
+static bool write_layout(struct flipbook_encoder *encoder, float scale, struct kiln_error *error)
+{
+    const struct kiln_output_params *params = encoder->params;
+    const struct kiln_flipbook *flipbook = &params->flipbook;
+    struct kiln_text text = {0};
+    kiln_text_add(&text, "{\n  \"kiln_flipbook\": 1,\n  \"image\": ");
+    add_name(&text, encoder->file);
+    kiln_text_add(&text,
+                  ",\n  \"size\": {\"width\": %u, \"height\": %u},\n"
+                  "  \"columns\": %u,\n  \"rows\": %u,\n  \"cells\": %u,\n"
+                  "  \"order\": \"rows from the top, each from the left\",\n"
+                  "  \"cell\": {\"width\": %u, \"height\": %u, \"padding\": %u},\n",
+                  encoder->atlas->width, encoder->atlas->height, flipbook->columns, flipbook->rows,
+                  cell_count(params), encoder->cell_width, encoder->cell_height, flipbook->padding);
+    kiln_text_add(&text, "  \"alpha\": \"%s\",\n  \"color_space\": \"srgb\",\n",
+                  !params->alpha            ? "none"
+                  : flipbook->premultiplied ? "premultiplied"
+                                            : "straight");
+    add_frames(&text, params);
+    add_motion_layout(&text, encoder, scale);
+    kiln_text_add(&text,
+                  "  \"kiln\": {\"version\": \"%s\", \"scene_hash\": \"%s\", \"seed\": %u}\n}\n",
+                  KILN_VERSION, params->scene_hash, params->seed);
+    bool good = !text.failed;
+    if (good) /* the commit tells of failures */
+        kiln_temporary_write(&encoder->layout_file, text.data, text.length);
+    kiln_text_free(&text);
+    return good ||
+           kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the layout", params->path);
+}
+
+static bool encode(void *opaque, const struct kiln_picture *picture, struct kiln_error *error)
+{
+    struct flipbook_encoder *encoder = opaque;
+    const struct kiln_flipbook *flipbook = &encoder->params->flipbook;
+    if (picture->has_alpha && !flipbook->premultiplied && !kiln_bleed_colors(picture, error))
+        return false;
+    fill_cell(encoder, picture);
+    if (flipbook->motion && !add_motion(encoder, error))
+        return false;
+    encoder->cells++;
+    return true;
+}
+
+static bool write_motion(struct flipbook_encoder *encoder, float scale, struct kiln_error *error)
+{
+    struct kiln_picture *motion = draw_motion(encoder, scale, error);
+    bool good = motion && write_png(encoder, motion, &encoder->motion_file, error);
+    kiln_picture_destroy(&motion);
+    return good;
+}
+
+/* The atlas itself gets its name last, by the caller. */
+static bool finish(void *opaque, struct kiln_error *error)
+{
+    struct flipbook_encoder *encoder = opaque;
+    const struct kiln_output_params *params = encoder->params;
+    bool motion = params->flipbook.motion;
+    float scale = motion ? motion_scale(encoder) : 0;
+    return (!motion || write_motion(encoder, scale, error)) &&
+           write_layout(encoder, scale, error) &&
+           write_png(encoder, encoder->atlas, encoder->file, error) &&
+           (!motion || kiln_temporary_commit(&encoder->motion_file, params->overwrite, error)) &&
+           kiln_temporary_commit(&encoder->layout_file, params->overwrite, error);
+}
+
+const struct kiln_format kiln_format_flipbook = {
+    .suffix = ".png",
+    .name = "flipbook",
+    .help = "frames in one PNG, with a layout and motion vectors",
+    .one_file = true,
+    .gaps = true,
+    .needs = needs,
+    .check = check,
+    .open = open_encoder,
+    .encode = encode,
+    .finish = finish,
+    .close = close_encoder,
+};

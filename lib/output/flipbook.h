@@ -1,0 +1,11 @@
+/* Flipbooks: frames side by side in one picture, as game engines play them. */
+#ifndef KILN_OUTPUT_FLIPBOOK_H
+#define KILN_OUTPUT_FLIPBOOK_H
+
+#include "output/formats.h"
+
+/* In place of the PNG format, where params.flipbook has cells: the atlas, and beside it the layout
+ * (NAME.json) and, if wanted, the motion (NAME_motion.png). */
+extern const struct kiln_format kiln_format_flipbook;
+
+#endif
