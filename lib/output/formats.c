@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "output/video.h"
 
 static const struct kiln_format *const formats[] = {
     &kiln_format_png, &kiln_format_exr, &kiln_format_mp4,  &kiln_format_webm, &kiln_format_mkv,
@@ -50,12 +51,42 @@ const struct kiln_format *kiln_format_find(const char *path, struct kiln_error *
 bool kiln_write_outputs(FILE *out)
 {
     fprintf(out, "Output formats, by the suffix of the output:\n\n");
-    for (size_t i = 0; i < FORMAT_COUNT; i++)
+    for (size_t i = 0; i < FORMAT_COUNT; i++) {
+        char missing[64] = "";
+        if (formats[i]->video)
+            kiln_video_missing(formats[i]->video, missing);
         fprintf(out, "  %-6s %s: %s\n", formats[i]->suffix, formats[i]->name, formats[i]->help);
-    fprintf(out,
-            "\nImages are numbered: frame_####.png and frame_%%04d.png both give frame_0000.png;\n"
-            "without a number in the name of several frames, _0000 is added before the suffix.\n"
-            "A percent sign or hash of the name itself is written as %%%% or %%#.\n"
-            "Missing folders are made. A file appears under its name only when it is whole.\n");
+        if (*missing)
+            fprintf(out, "         not here: this FFmpeg has no %s\n", missing);
+    }
+    static const char notes[] =
+        "\nImages are numbered: frame_####.png and frame_%04d.png both give frame_0000.png;\n"
+        "without a number in the name of several frames, _0000 is added before the suffix.\n"
+        "A percent sign or hash of the name itself is written as %% or %#.\n"
+        "Missing folders are made. A file appears under its name only when it is whole.\n"
+        "\nA clip is one file of neighbouring frames that starts at time 0; nothing in it tells\n"
+        "date or machine, and the same frames give the same bytes with any --threads. The\n"
+        "clips of --frames 0-74 and 75-149 are no halves of the whole one's bytes: to split\n"
+        "work, render images and encode those. Rates are exact in MP4, MOV and APNG (up to 65535\n"
+        "in its fraction, else the nearest, with a warning). GIF counts 1/100 s: of up to 50 "
+        "frames\n"
+        "a second it holds all, some 1/100 s longer than others, so that time is kept; of more,\n"
+        "each second, third... one. A warning says which. While frames are drawn, a GIF takes 3\n"
+        "bytes a pixel and frame beside the file, since one palette is made for all.\n"
+        "\nAlpha comes from backdrop.transparent; MP4 and GIF have none and refuse. It is\n"
+        "straight, not multiplied into colours. Colours are sRGB; of videos BT.709 with sRGB's\n"
+        "transfer function, tagged so.\n"
+        "\n--flipbook 8x8 writes 64 frames as cells of one PNG, rows from the top, for game\n"
+        "engines. Cell k of n shows frame k/n of --frames, and --size is a cell's; padding\n"
+        "comes on top, inside the cell. Beside FILE.png stands FILE.json: the grid, which frames,\n"
+        "cells a second, alpha. Straight alpha has the neighbours' colours where it is zero;\n"
+        "premultiplied is what shows over black, for additive or premultiplied blending.\n"
+        "--flipbook-motion adds FILE_motion.png, to be read as linear, not sRGB: red and green\n"
+        "say how far right and down a pixel is in the next cell, (value * 2 - 1) * scale cells,\n"
+        "with scale from the JSON (engines with v upwards: negate green). An engine at t between\n"
+        "cells a and b mixes a at uv - t * motion and b at uv + (1 - t) * motion. Of the last\n"
+        "cell it is 0. All cells must be drawn by one command: chunks of frames make no "
+        "flipbook.\n";
+    fputs(notes, out);
     return !ferror(out);
 }

@@ -206,8 +206,7 @@ static const struct kiln_video_settings settings = {
 const struct kiln_format kiln_format_gif = {
     .suffix = ".gif",
     .name = "GIF animation",
-    .help = "255 colours a clip, no alpha; at most 50 frames a second (above, 1 in 2 or more is\n"
-            "         left out), times in 1/100 s; plays forever",
+    .help = "255 colours a clip, no alpha, at most 50 frames a second; plays forever",
     .one_file = true,
     .video = &settings,
     .needs = kiln_video_needs,

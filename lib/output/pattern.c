@@ -117,8 +117,9 @@ bool kiln_path_pattern_parse(struct kiln_path_pattern *pattern, const char *path
     if (!read_name(&reading, name))
         return false;
     if (pattern->numbered && numbering == KILN_NUMBER_NEVER)
-        return kiln_error_set(error, KILN_USAGE,
-                              "%s: a frame number in the name of a video, which is one file", path);
+        return kiln_error_set(
+            error, KILN_USAGE,
+            "%s: a frame number in the name of a video or flipbook, which is one file", path);
     if (!pattern->numbered && numbering == KILN_NUMBER_ALWAYS)
         add_number(pattern);
     return true;

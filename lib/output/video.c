@@ -75,18 +75,23 @@ static bool check_size(const struct kiln_output_params *params, struct kiln_erro
                params->path, params->width, params->height, settings->codec, settings->max_edge);
 }
 
-/* That this FFmpeg has what the format takes; builds differ. */
+void kiln_video_missing(const struct kiln_video_settings *settings, char missing[64])
+{
+    missing[0] = '\0';
+    if (!avcodec_find_encoder_by_name(settings->encoder))
+        snprintf(missing, 64, "encoder %s", settings->encoder);
+    else if (!av_guess_format(settings->muxer, NULL, NULL))
+        snprintf(missing, 64, "muxer %s", settings->muxer);
+}
+
 static bool check_parts(const struct kiln_output_params *params, struct kiln_error *error)
 {
-    const struct kiln_video_settings *settings = params->format->video;
-    bool encoder = avcodec_find_encoder_by_name(settings->encoder) != NULL;
-    if (encoder && av_guess_format(settings->muxer, NULL, NULL))
-        return true;
-    return kiln_error_set(error, KILN_IO,
-                          "%s: this FFmpeg has no %s %s; install a libavcodec and libavformat that "
-                          "were built with it (on Debian, %s)",
-                          params->path, encoder ? "muxer" : "encoder",
-                          encoder ? settings->muxer : settings->encoder, settings->packages);
+    char missing[64];
+    kiln_video_missing(params->format->video, missing);
+    return !*missing || kiln_error_set(error, KILN_IO,
+                                       "%s: this FFmpeg has no %s; install one that was built with "
+                                       "it (on Debian, %s)",
+                                       params->path, missing, params->format->video->packages);
 }
 
 bool kiln_video_check(const struct kiln_output_params *params, struct kiln_error *error)

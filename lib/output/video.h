@@ -26,6 +26,10 @@ struct kiln_video_settings {
     void (*prepare)(const struct kiln_output_params *params, AVDictionary **options);
 };
 
+/* What this FFmpeg, being built without it, lacks for a format: "encoder libvpx-vp9"; "" if
+ * nothing. */
+void kiln_video_missing(const struct kiln_video_settings *settings, char missing[64]);
+
 /* The functions of a struct kiln_format whose settings are params->format->video. */
 struct kiln_output_needs kiln_video_needs(const struct kiln_output_params *params);
 bool kiln_video_check(const struct kiln_output_params *params, struct kiln_error *error);

@@ -81,7 +81,7 @@ static const struct kiln_video_settings webm = {
 const struct kiln_format kiln_format_webm = {
     .suffix = ".webm",
     .name = "VP9 video",
-    .help = "for the web, with alpha; quality 0 to 100; times in whole milliseconds",
+    .help = "for the web, with alpha; quality 0 to 100; times in whole ms",
     VIDEO_FORMAT(webm),
 };
 
@@ -110,7 +110,7 @@ static const struct kiln_video_settings mkv = {
 const struct kiln_format kiln_format_mkv = {
     .suffix = ".mkv",
     .name = "FFV1 video",
-    .help = "lossless, 8 or 16 bits (--png-bits), with alpha; times in whole milliseconds",
+    .help = "lossless, 8 or 16 bits (--png-bits), with alpha; times in whole ms",
     VIDEO_FORMAT(mkv),
 };
 
@@ -215,6 +215,6 @@ static const struct kiln_video_settings webp = {
 const struct kiln_format kiln_format_webp = {
     .suffix = ".webp",
     .name = "animated WebP",
-    .help = "with alpha; quality 0 to 100 (lossless); times in whole milliseconds; plays forever",
+    .help = "with alpha; quality 0 to 100 (lossless); times in whole ms; plays forever",
     VIDEO_FORMAT(webp),
 };

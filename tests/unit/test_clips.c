@@ -491,7 +491,7 @@ static void impossible_clips_are_refused(void **state)
     encoders_are_missing = true;
     for (size_t i = 0; i < sizeof encoders / sizeof *encoders; i++) {
         char message[64];
-        snprintf(message, sizeof message, "this FFmpeg has no encoder %s; install a libavcodec",
+        snprintf(message, sizeof message, "this FFmpeg has no encoder %s; install one that was",
                  encoders[i].encoder);
         refuse(good, encoders[i].suffix, KILN_IO, message);
     }

@@ -20,3 +20,15 @@ $ for compose in merged separate; do
 >     done
 >     cmp ${compose}_0-6/5.exr ${compose}_5-6/5.exr && cmp ${compose}_0-6/6.exr ${compose}_5-6/6.exr
 > done
+
+A clip of a chunk holds the frames of the full run, and is the same with any number of threads.
+
+$ for suffix in mkv webm; do
+>     kiln render scenes/tiny.yaml -q -o part.$suffix --frames 10-19 --threads 1
+>     kiln render scenes/tiny.yaml -q -o again.$suffix --frames 10-19 --threads 5
+>     cmp part.$suffix again.$suffix
+> done
+$ for i in {0..9}; do cp full_1$i.png part_$i.png; done
+$ kiln compare part_%d.png part.mkv | grep -E "differing.count|frames"
+1|  10 frames: 10 same
+1|  differing.count             0            0  part_0.png                    -

@@ -341,7 +341,7 @@ $ for kind in mov avi mkv; do
 1|mkv cut short: 3
 $ cp grey.png fake.mp4
 $ kiln compare -q fake.mp4 v.mp4 2>&1 | sed 's/ (.*//'
-1|fake.mp4: not a video; allowed are MP4, MOV, Matroska, WebM or AVI files
+1|fake.mp4: not a video; allowed are MP4, MOV, Matroska, WebM, AVI, GIF or APNG files
 
 Layers of EXR files.
 

@@ -6,10 +6,10 @@ $ kiln render scenes/tiny.yaml -q --frames 0 -o a.png
 = 6
 $ kiln render scenes/tiny.yaml -q --frames 0 -o a.png --force
 $ kiln render scenes/tiny.yaml -q -o a.gfi
-2|kiln: a.gfi: unknown output format '.gfi'; allowed are .png, .exr, .mp4
+2|kiln: a.gfi: unknown output format '.gfi' (did you mean '.gif'?); allowed are .png, .exr, .mp4, .webm, .mkv, .mov, .gif, .apng, .webp
 = 2
 $ kiln render scenes/tiny.yaml -q -o nosuffix
-2|kiln: nosuffix: the output needs a file name with a suffix that tells its format: .png, .exr, .mp4
+2|kiln: nosuffix: the output needs a file name with a suffix that tells its format: .png, .exr, .mp4, .webm, .mkv, .mov, .gif, .apng, .webp
 = 2
 $ kiln render scenes/tiny.yaml -q --frames 0 -o a.png/b.png
 2|kiln: a.png: not a folder, but a.png/b.png needs one here
@@ -47,11 +47,145 @@ $ kiln render scenes/tiny.yaml -q --frames 0 -o huge.png --size 16384x16384 --de
 $ find . -type f | sort | grep -v scenes/
 1|./a.png
 
+Clips: what a format cannot hold is refused before the work, what it bends is said.
+
+$ for suffix in webm mkv mov apng webp; do kiln render scenes/tiny.yaml -q --frames 0-5 -o clips/a.$suffix --size 33x17 || exit; done; ls -A clips
+1|a.apng
+1|a.mkv
+1|a.mov
+1|a.webm
+1|a.webp
+$ kiln render scenes/tiny.yaml -q --frames 0-5 -o clips/frame_%d.png --size 33x17
+$ for suffix in mkv apng; do kiln compare clips/frame_%d.png clips/a.$suffix | grep -E "differing.count|^ *all"; done
+1|  differing.count             0            0  frame_0.png                   -
+1|  differing.count             0            0  frame_0.png                   -
+$ kiln render scenes/tiny.yaml -q -o clips/a.gif
+2|kiln: warning: clips/a.gif: GIF holds times in 1/100 s; of 30 frames a second, frames last 0.03 or 0.04 s, on average 0.0333 s
+$ ffprobe -v error -show_entries stream=nb_read_frames,duration -count_frames -of csv=p=0 clips/a.gif
+1|0.800000,24
+$ kiln render scenes/tiny.yaml -q -o clips/b.gif --fps 60
+2|kiln: warning: clips/b.gif: GIF plays at most 50 frames a second; of 60, 1 in 2 is written; frames last 0.03 or 0.04 s, on average 0.0333 s
+$ kiln render scenes/tiny.yaml -q -o clips/c.gif --fps 20
+$ kiln render scenes/tiny.yaml -q -o clear.gif --set backdrop.transparent=true
+2|kiln: clear.gif: the backdrop is transparent, but a GIF animation has no alpha; write images, a .webm or a .mov, or make the backdrop opaque
+= 2
+$ kiln render scenes/tiny.yaml -q -o clear.mp4 --set backdrop.transparent=true
+2|kiln: clear.mp4: the backdrop is transparent, but an MP4 video has no alpha; write images, a .webm or a .mov, or make the backdrop opaque
+= 2
+$ kiln render scenes/tiny.yaml -q -o gap.webm --frames 0-3,8
+2|kiln: gap.webm: a video cannot leave out frames, but none lies between 3 and 8; write images, or one range
+= 2
+$ kiln render scenes/tiny.yaml -q -o clip_%d.mov
+2|kiln: clip_%d.mov: a frame number in the name of a video or flipbook, which is one file
+= 2
+$ kiln render scenes/tiny.yaml -q -o clips/a.gif
+2|kiln: clips/a.gif: the file exists (--force replaces it)
+= 6
+$ kiln render scenes/tiny.yaml -q -o a.webn
+2|kiln: a.webn: unknown output format '.webn' (did you mean '.webm'?); allowed are .png, .exr, .mp4, .webm, .mkv, .mov, .gif, .apng, .webp
+= 2
+
+Flipbooks.
+
+$ kiln render scenes/tiny.yaml -o book.png --flipbook 3x4 --flipbook-motion --flipbook-padding 2 --frames 0-11 --set backdrop.transparent=true --progress none
+1|device: <device>
+1|book.png and 2 more: 12 frames in <s> s
+$ grep -v scene_hash book.json
+1|{
+1|  "kiln_flipbook": 1,
+1|  "image": "book.png",
+1|  "size": {"width": 204, "height": 160},
+1|  "columns": 3,
+1|  "rows": 4,
+1|  "cells": 12,
+1|  "order": "rows from the top, each from the left",
+1|  "cell": {"width": 68, "height": 40, "padding": 2},
+1|  "alpha": "straight",
+1|  "color_space": "srgb",
+1|  "frames": [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11],
+1|  "frame_rate": [30, 1],
+1|  "cells_per_second": 30,
+1|  "motion": {
+1|    "image": "book_motion.png",
+1|    "cell": {"width": 68, "height": 40},
+1|    "encoding": "(channel / 255 * 2 - 1) * scale",
+1|    "scale": 0.014705882,
+1|    "unit": "cell",
+1|    "red": "right",
+1|    "green": "down",
+1|    "from": "this cell",
+1|    "to": "the next cell",
+1|    "color_space": "linear"
+1|  },
+1|}
+$ ls -A | grep book
+1|book.json
+1|book.png
+1|book_motion.png
+$ kiln render scenes/tiny.yaml -q -o whole/ --flipbook 4x2 --flipbook-alpha premultiplied && ls whole && grep -E 'frames|alpha' whole/tiny.json
+1|tiny.json
+1|tiny.png
+1|  "alpha": "none",
+1|  "frames": [0, 3, 6, 9, 12, 15, 18, 21],
+2|kiln: warning: whole/tiny.png: the backdrop is opaque, so the flipbook has no alpha (backdrop.transparent: true)
+$ kiln render scenes/tiny.yaml -q -o uneven.png --flipbook 4x4 --set backdrop.transparent=true
+2|kiln: warning: uneven.png: the cells are 1 to 2 frames apart, so motion will not be even; choose a multiple of 16 frames
+$ kiln render scenes/tiny.yaml -q -o more.png --flipbook 5x5
+2|kiln: render: --flipbook: 'scenes/tiny.yaml': a flipbook of 5 x 5 cells from 24 frames; it needs at least 25: take fewer cells, or a higher rate
+= 2
+$ kiln render scenes/tiny.yaml -q -o more.png --flipbook 2x2 --frames 3-5
+2|kiln: render: --flipbook: 'scenes/tiny.yaml': a flipbook of 2 x 2 cells from 3 frames; it needs at least 4: take fewer cells, or a higher rate
+= 2
+$ kiln render scenes/tiny.yaml -q -o more.png --flipbook 0x4
+2|kiln: render: --flipbook: found '0x4', expected COLUMNSxROWS, such as 8x8, with at most 64 of each
+= 2
+$ kiln render scenes/tiny.yaml -q -o more.png --flipbook 65x4
+2|kiln: render: --flipbook: found '65x4', expected COLUMNSxROWS, such as 8x8, with at most 64 of each
+= 2
+$ kiln render scenes/tiny.yaml -q -o more.png --flipbook eight
+2|kiln: render: --flipbook: found 'eight', expected COLUMNSxROWS, such as 8x8, with at most 64 of each
+= 2
+$ kiln render scenes/tiny.yaml -q -o more.png --flipbook-motion
+2|kiln: render: --flipbook-motion: there is no --flipbook to apply it to
+= 2
+$ kiln render scenes/tiny.yaml -q -o more.png --flipbook 2x2 --flipbook-alpha none
+2|kiln: render: --flipbook-alpha: found 'none', expected one of straight|premultiplied
+= 2
+$ kiln render scenes/tiny.yaml -q -o more.png --flipbook 2x2 --flipbook-padding 300
+2|kiln: render: --flipbook-padding: found '300', expected a whole number from 0 to 256
+= 2
+$ kiln render scenes/tiny.yaml -q -o more.exr --flipbook 2x2
+2|kiln: more.exr: a flipbook is one .png file, not .exr
+= 2
+$ kiln render scenes/tiny.yaml -q -o more_%d.png --flipbook 2x2
+2|kiln: more_%d.png: a frame number in the name of a video or flipbook, which is one file
+= 2
+$ kiln render scenes/tiny.yaml -q -o more.png --flipbook 4x4 --size 8192x64
+2|kiln: more.png: a flipbook of 32768 x 256 pixels; allowed are 16384 a side: make the frames smaller (8192 x 64) or the cells fewer
+= 2
+$ kiln render scenes/tiny.yaml -q -o book.png --flipbook 3x4
+2|kiln: book.png: the file exists (--force replaces it)
+= 6
+$ touch sole.json && kiln render scenes/tiny.yaml -q -o sole.png --flipbook 2x2 --frames 0-3
+2|kiln: sole.json: the file exists (--force replaces it)
+= 6
+$ ls -A | grep -E 'more|sole'
+1|sole.json
+
 A full disk: the shell lets no file grow beyond a few kilobytes.
 
 $ mkdir full && ulimit -f 2 && kiln render scenes/tiny.yaml -q -o full/a.mp4 --size 256x144; code=$?; find full -type f; exit $code
 2|kiln: full/a.mp4: the file cannot be written: File too large
 = 6
+$ ulimit -f 2 && for suffix in webm gif mkv mov apng webp; do kiln render scenes/tiny.yaml -q -o full/a.$suffix --size 256x144 --quality 100 2>&1 | grep -v warning; done; kiln render scenes/tiny.yaml -q -o full/a.png --flipbook 2x2 --frames 0-3; find full -type f
+1|kiln: full/a.webm: the file cannot be written: File too large
+1|kiln: full/a.gif: the file cannot be written: File too large
+1|kiln: full/a.mkv: the file cannot be written: File too large
+1|kiln: full/a.mov: the file cannot be written: File too large
+1|kiln: full/a.apng: the file cannot be written: File too large
+1|kiln: full/a.webp: the file cannot be written: File too large
+2|kiln: warning: full/a.png: the backdrop is opaque, so the flipbook has no alpha (backdrop.transparent: true)
+2|kiln: full/a.png: the file cannot be written: File too large
 $ ulimit -f 2 && kiln render scenes/tiny.yaml -q -o full/a_%d.png --frames 0-3 --size 256x144; code=$?; find full -type f; exit $code
 2|kiln: full/a_0.png: the file cannot be written: File too large
 = 6

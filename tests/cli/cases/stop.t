@@ -26,6 +26,14 @@ $ for file in term/*; do tail -c 8 $file | od -An -tx1; done | sort -u
 $ mkdir int && bash stop INT int/clip.mp4; code=$?; find int -type f; exit $code
 2|kiln: scenes/tiny.yaml: stopped by SIGINT after <n> frames
 = 130
+$ for suffix in webm mkv mov gif apng webp; do bash stop TERM clip.$suffix; done; find . -name '*clip*'
+2|kiln: scenes/tiny.yaml: stopped by SIGTERM after <n> frames
+2|kiln: scenes/tiny.yaml: stopped by SIGTERM after <n> frames
+2|kiln: scenes/tiny.yaml: stopped by SIGTERM after <n> frames
+2|kiln: warning: clip.gif: GIF holds times in 1/100 s; of 30 frames a second, frames last 0.03 or 0.04 s, on average 0.0333 s
+2|kiln: scenes/tiny.yaml: stopped by SIGTERM after <n> frames
+2|kiln: scenes/tiny.yaml: stopped by SIGTERM after <n> frames
+2|kiln: scenes/tiny.yaml: stopped by SIGTERM after <n> frames
 $ mkdir hup && bash stop HUP hup/clip.mp4; code=$?; find hup -type f; exit $code
 2|kiln: scenes/tiny.yaml: stopped by SIGHUP after <n> frames
 = 129

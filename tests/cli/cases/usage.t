@@ -138,11 +138,24 @@ $ kiln help render
 1|                              device.
 1|      --threads N             Threads that work beside the device; 0 takes one a
 1|                              core. Default: 0.
-1|      --png-bits 8|16         Bits a channel of PNG files. Default: 8.
+1|      --png-bits 8|16         Bits a channel of PNG, APNG and MKV files.
+1|                              Default: 8.
 1|      --exr-bits 16|32        Bits a channel of EXR files: half or float.
 1|                              Default: 16.
 1|      --quality N             Quality of videos, from 0 (smallest) to 100 (no
 1|                              loss that an eye can see). Default: 80.
+1|      --flipbook COLUMNSxROWS
+1|                              Write one PNG of so many cells, for game engines,
+1|                              each a frame of --size; beside it a .json of its
+1|                              layout. The cells are spread evenly over --frames,
+1|                              and only they are drawn.
+1|      --flipbook-alpha straight|premultiplied
+1|                              Whether the colours of a flipbook are those of the
+1|                              cover alone, or times alpha. Default: straight.
+1|      --flipbook-motion       Also write how pixels move from cell to cell, as
+1|                              FILE_motion.png.
+1|      --flipbook-padding N    Pixels to add on each side of a cell, so that
+1|                              filters see nothing of its neighbours. Default: 0.
 1|      --manifest FILE         Also write a JSON file that describes the run:
 1|                              scene, device, techniques, state of each frame,
 1|                              times. A folder or '{scene}' as for --output.
@@ -278,11 +291,41 @@ $ kiln help outputs
 1|  .png   PNG images: 8 or 16 bits, sRGB; alpha with a transparent backdrop
 1|  .exr   OpenEXR images: half or float, linear, premultiplied; named layers
 1|  .mp4   H.264 video: even sizes, no alpha; quality 0 to 100 (visually lossless)
+1|  .webm  VP9 video: for the web, with alpha; quality 0 to 100; times in whole ms
+1|  .mkv   FFV1 video: lossless, 8 or 16 bits (--png-bits), with alpha; times in whole ms
+1|  .mov   ProRes 4444 video: for editing, 10 bits, with alpha; quality 0 to 100
+1|  .gif   GIF animation: 255 colours a clip, no alpha, at most 50 frames a second; plays forever
+1|  .apng  animated PNG: lossless, 8 or 16 bits (--png-bits), with alpha; plays forever
+1|  .webp  animated WebP: with alpha; quality 0 to 100 (lossless); times in whole ms; plays forever
 1|
 1|Images are numbered: frame_####.png and frame_%04d.png both give frame_0000.png;
 1|without a number in the name of several frames, _0000 is added before the suffix.
 1|A percent sign or hash of the name itself is written as %% or %#.
 1|Missing folders are made. A file appears under its name only when it is whole.
+1|
+1|A clip is one file of neighbouring frames that starts at time 0; nothing in it tells
+1|date or machine, and the same frames give the same bytes with any --threads. The
+1|clips of --frames 0-74 and 75-149 are no halves of the whole one's bytes: to split
+1|work, render images and encode those. Rates are exact in MP4, MOV and APNG (up to 65535
+1|in its fraction, else the nearest, with a warning). GIF counts 1/100 s: of up to 50 frames
+1|a second it holds all, some 1/100 s longer than others, so that time is kept; of more,
+1|each second, third... one. A warning says which. While frames are drawn, a GIF takes 3
+1|bytes a pixel and frame beside the file, since one palette is made for all.
+1|
+1|Alpha comes from backdrop.transparent; MP4 and GIF have none and refuse. It is
+1|straight, not multiplied into colours. Colours are sRGB; of videos BT.709 with sRGB's
+1|transfer function, tagged so.
+1|
+1|--flipbook 8x8 writes 64 frames as cells of one PNG, rows from the top, for game
+1|engines. Cell k of n shows frame k/n of --frames, and --size is a cell's; padding
+1|comes on top, inside the cell. Beside FILE.png stands FILE.json: the grid, which frames,
+1|cells a second, alpha. Straight alpha has the neighbours' colours where it is zero;
+1|premultiplied is what shows over black, for additive or premultiplied blending.
+1|--flipbook-motion adds FILE_motion.png, to be read as linear, not sRGB: red and green
+1|say how far right and down a pixel is in the next cell, (value * 2 - 1) * scale cells,
+1|with scale from the JSON (engines with v upwards: negate green). An engine at t between
+1|cells a and b mixes a at uv - t * motion and b at uv + (1 - t) * motion. Of the last
+1|cell it is 0. All cells must be drawn by one command: chunks of frames make no flipbook.
 $ kiln help scene | head -n 4
 1|A scene is a YAML file. Every key below may also be given with --set KEY=VALUE; '*' in a KEY
 1|stands for every entry of a mapping or list, and entries of a list are counted from 0.
