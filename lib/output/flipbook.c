@@ -114,8 +114,9 @@ static bool check(const struct kiln_output_params *params, struct kiln_error *er
                               "cells, and 0 to %d pixels",
                               params->path, flipbook->columns, flipbook->rows, flipbook->padding,
                               MAX_CELLS_A_SIDE, MAX_PADDING);
-    uint64_t width = flipbook->columns * ((uint64_t)params->width + 2 * flipbook->padding);
-    uint64_t height = flipbook->rows * ((uint64_t)params->height + 2 * flipbook->padding);
+    uint64_t width =
+        flipbook->columns * ((uint64_t)params->width + 2 * (uint64_t)flipbook->padding);
+    uint64_t height = flipbook->rows * ((uint64_t)params->height + 2 * (uint64_t)flipbook->padding);
     if (width > MAX_EDGE || height > MAX_EDGE)
         return kiln_error_set(
             error, KILN_USAGE,

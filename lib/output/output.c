@@ -247,13 +247,21 @@ static const struct kiln_format *find_format(const struct kiln_output_params *pa
     return NULL;
 }
 
-struct kiln_output *kiln_output_open(const struct kiln_output_params *given,
+/* Both what the format's functions are given and what stays in the output. */
+static struct kiln_output_params with_format(const struct kiln_output_params *params,
+                                             const struct kiln_format *format)
+{
+    struct kiln_output_params result = *params;
+    result.format = format;
+    return result;
+}
+
+struct kiln_output *kiln_output_open(const struct kiln_output_params *params,
                                      struct kiln_error *error)
 {
-    const struct kiln_format *format = find_format(given, error);
-    struct kiln_output_params with_format = *given;
-    with_format.format = format;
-    const struct kiln_output_params *params = &with_format;
+    const struct kiln_format *format = find_format(params, error);
+    const struct kiln_output_params complete = with_format(params, format);
+    params = &complete;
     if (!format || !check_ranges(params, format, error) || !format->check(params, error))
         return NULL;
     struct kiln_output *output = create(params, error);

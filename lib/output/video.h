@@ -30,19 +30,20 @@ struct kiln_video_settings {
  * nothing. */
 void kiln_video_missing(const struct kiln_video_settings *settings, char missing[64]);
 
-/* The functions of a struct kiln_format whose settings are params->format->video. */
+/* The functions of a struct kiln_format whose settings are params->format->video; opaque is what
+ * kiln_video_open returned. */
 struct kiln_output_needs kiln_video_needs(const struct kiln_output_params *params);
 bool kiln_video_check(const struct kiln_output_params *params, struct kiln_error *error);
 void *kiln_video_open(const struct kiln_output_params *params, struct kiln_temporary *file,
                       struct kiln_error *error);
-bool kiln_video_encode(void *encoder, const struct kiln_picture *picture, struct kiln_error *error);
-bool kiln_video_finish(void *encoder, struct kiln_error *error);
-void kiln_video_close(void *encoder);
+bool kiln_video_encode(void *opaque, const struct kiln_picture *picture, struct kiln_error *error);
+bool kiln_video_finish(void *opaque, struct kiln_error *error);
+void kiln_video_close(void *opaque);
 
 /* For settings with pixels of AV_PIX_FMT_PAL8, in place of kiln_video_encode: one byte a pixel,
- * rows from the top, and 256 colours as 0xAARRGGBB. frame counts from 0 and ascends, but may leave
+ * rows from the top, and 256 colours as 0xAARRGGBB. number counts from 0 and ascends, but may leave
  * out some: the one before then lasts longer. */
-bool kiln_video_encode_indices(void *encoder, const uint8_t *indices, const uint32_t palette[256],
-                               int64_t frame, struct kiln_error *error);
+bool kiln_video_encode_indices(void *opaque, const uint8_t *indices, const uint32_t palette[256],
+                               int64_t number, struct kiln_error *error);
 
 #endif

@@ -387,7 +387,8 @@ static void compare_webp_frame(struct webp *webp, const struct kiln_output_param
 {
     for (uint32_t i = 0; i < params->width * params->height * 4; i++) {
         uint32_t pixel = i / 4, x = pixel % params->width, y = pixel / params->width;
-        double value = wanted(params, params->ranges[0].first + webp->frames, x, y, i % 4, false);
+        double value =
+            wanted(params, params->ranges[0].first + webp->frames, x, y, (int)(i % 4), false);
         webp->error += fabs(webp->canvas[i] - value);
         webp->samples++;
     }

@@ -122,7 +122,7 @@ static void half_way_beats_a_cross_fade(void **state)
     print_message("error half-way: still %.1f, faded %.1f, by motion %.1f\n", still, faded, bent);
     assert_true(bent < 0.2 * faded);
     int center = 44 * EDGE + 40;
-    assert_true(hypot(flow[2 * center] - 10, flow[2 * center + 1] + 6) < 0.5);
+    assert_true(hypot((double)flow[2 * center] - 10, (double)flow[2 * center + 1] + 6) < 0.5);
 }
 
 /* Something new must not drag what stands beside it. */
@@ -140,7 +140,7 @@ static void what_appears_pulls_nothing_along(void **state)
     for (int i = 0; i < PIXELS; i++) {
         int x = i % EDGE, y = i / EDGE;
         if (hypot(x - 70, y - 30) > 24)
-            assert_true(hypot(flow[2 * i], flow[2 * i + 1]) < 0.3);
+            assert_true(hypot((double)flow[2 * i], (double)flow[2 * i + 1]) < 0.3);
     }
 }
 
