@@ -520,6 +520,37 @@ static void what_is_not_finished_is_removed(void **state)
     }
 }
 
+/* FFmpeg would take what is left; a comparison must not. */
+static void what_was_cut_short_is_not_read(void **state)
+{
+    (void)state;
+    static const char *const suffixes[] = {"gif", "apng", "mkv", "webm", "mov"};
+    const struct kiln_frame_range range = {0, 9};
+    char path[64];
+    for (size_t i = 0; i < sizeof suffixes / sizeof *suffixes; i++) {
+        snprintf(path, sizeof path, "%s/clip.%s", folder, suffixes[i]);
+        const struct kiln_output_params params = test_output_params(path, &range);
+        write_clip(&params);
+        uint8_t *bytes;
+        off_t size = (off_t)read_bytes(path, &bytes);
+        free(bytes);
+        assert_int_equal(truncate(path, size - size / 10), 0);
+        struct kiln_error error = {0};
+        struct kiln_video_in *video = kiln_video_in_open(path, &error);
+        struct kiln_asset_image *image = NULL;
+        bool good = video != NULL, more = good;
+        while (more) {
+            good = kiln_video_in_read(video, &image, &error);
+            more = good && image;
+            kiln_asset_image_destroy(&image);
+        }
+        assert_false(good);
+        assert_int_equal(error.code, KILN_INVALID_INPUT);
+        kiln_video_in_close(&video);
+        unlink(path);
+    }
+}
+
 #define TEST(function) cmocka_unit_test_setup_teardown(function, make_folder, remove_folder)
 
 int main(void)
@@ -534,6 +565,7 @@ int main(void)
         TEST(webp_comes_back),
         TEST(impossible_clips_are_refused),
         TEST(what_is_not_finished_is_removed),
+        TEST(what_was_cut_short_is_not_read),
     };
     return cmocka_run_group_tests_name("clips", tests, NULL, NULL);
 }
