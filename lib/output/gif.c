@@ -127,10 +127,10 @@ static bool encode(void *opaque, const struct kiln_picture *picture, struct kiln
     if (encoder->frames++ % encoder->stride != 0)
         return true;
     size_t pixels = (size_t)picture->width * picture->height;
-    const uint8_t *display = picture->display;
+    const uint16_t *display = picture->display;
     for (size_t i = 0; i < pixels; i++) {
         for (size_t c = 0; c < 3; c++)
-            encoder->rgb[3 * i + c] = display[4 * i + c];
+            encoder->rgb[3 * i + c] = (uint8_t)((display[4 * i + c] + 128) / 257);
     }
     kiln_histogram_add(encoder->histogram, encoder->rgb, pixels);
     return kiln_temporary_write(&encoder->waiting, encoder->rgb, 3 * pixels) ||
@@ -196,8 +196,8 @@ static const struct kiln_video_settings settings = {
     .codec = "GIF",
     .kind = "a GIF animation",
     .packages = "libavcodec59",
-    .bits = 8,
-    .pixels = {{AV_PIX_FMT_PAL8, AV_PIX_FMT_NONE}, {AV_PIX_FMT_NONE, AV_PIX_FMT_NONE}},
+    .bits = 16, /* those of 8 are dithered, anew in each frame: nothing would stand still */
+    .pixels = {{AV_PIX_FMT_NONE, AV_PIX_FMT_PAL8}, {AV_PIX_FMT_NONE, AV_PIX_FMT_NONE}},
     .max_edge = 16384,
     .muxer_options = "loop=0",
     .prepare = prepare,
