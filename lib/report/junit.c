@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "report/markup.h"
 #include "report/words.h"
 #include "suite/result_member.h"
 
@@ -24,14 +25,6 @@ static bool is_allowed(const unsigned char *s)
 static const char *entity_of(char c)
 {
     switch (c) {
-    case '&':
-        return "&amp;";
-    case '<':
-        return "&lt;";
-    case '>':
-        return "&gt;";
-    case '"':
-        return "&quot;";
     case '\t':
         return "&#9;";
     case '\n':
@@ -39,7 +32,7 @@ static const char *entity_of(char c)
     case '\r':
         return "&#13;";
     default:
-        return NULL;
+        return kiln_markup_entity(c);
     }
 }
 

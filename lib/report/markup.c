@@ -39,7 +39,7 @@ bool kiln_markup_write_template(FILE *out, const char *text, const struct kiln_m
     }
 }
 
-static const char *entity_of(char c)
+const char *kiln_markup_entity(char c)
 {
     switch (c) {
     case '&':
@@ -66,7 +66,7 @@ void kiln_markup_write_text(FILE *out, const char *text)
 {
     while (*text) {
         size_t length = kiln_text_utf8_length(text);
-        const char *entity = entity_of(*text);
+        const char *entity = kiln_markup_entity(*text);
         if (length == 0 || is_control((unsigned char)*text))
             fputs("\xef\xbf\xbd", out);
         else if (entity)

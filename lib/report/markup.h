@@ -16,6 +16,9 @@ struct kiln_markup_field {
 bool kiln_markup_write_template(FILE *out, const char *text, const struct kiln_markup_field *fields,
                                 struct kiln_error *error);
 
+/* What stands for a character that is markup, in HTML and XML; or NULL. */
+const char *kiln_markup_entity(char c);
+
 /* HTML text or an attribute's value (in double quotes). Invalid UTF-8 and control characters other
  * than line feed and tab become U+FFFD. */
 void kiln_markup_write_text(FILE *out, const char *text);
