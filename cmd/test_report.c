@@ -114,23 +114,6 @@ void test_report_counts(FILE *out, const struct kiln_results_summary *summary)
     fputc('\n', out);
 }
 
-void print_shell_word(FILE *out, const char *word)
-{
-    const char *plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789@%+=:,./-_";
-    if (*word && word[strspn(word, plain)] == '\0') {
-        fputs(word, out);
-        return;
-    }
-    fputc('\'', out);
-    for (; *word; word++) {
-        if (*word == '\'')
-            fputs("'\\''", out);
-        else
-            fputc(*word, out);
-    }
-    fputc('\'', out);
-}
-
 static void print_approvals(const struct test_report *report)
 {
     FILE *out = report->out;
@@ -141,10 +124,10 @@ static void print_approvals(const struct test_report *report)
         fprintf(out, "where the pictures are right, accept them:\n");
     for (size_t i = 0; i < shown; i++) {
         fprintf(out, "  kiln test approve ");
-        print_shell_word(out, report->accept[i]);
+        kiln_write_shell_word(out, report->accept[i]);
         if (strcmp(report->results, DEFAULT_RESULTS) != 0) {
             fprintf(out, " --results ");
-            print_shell_word(out, report->results);
+            kiln_write_shell_word(out, report->results);
         }
         fputc('\n', out);
     }

@@ -28,7 +28,4 @@ void test_report_counts(FILE *out, const struct kiln_results_summary *summary);
 /* What to look at and what to do next; page may be NULL. */
 void test_report_end(const struct test_report *report, const char *page);
 
-/* Writes a word so that a shell takes it as one. */
-void print_shell_word(FILE *out, const char *word);
-
 #endif

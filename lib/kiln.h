@@ -591,6 +591,9 @@ const char *kiln_text_nearest(const char *name, const char *const *candidates, s
 /* Writes a JSON string literal, quotes included. Invalid UTF-8 becomes U+FFFD. */
 bool kiln_write_json_string(FILE *out, const char *string);
 
+/* Writes a word so that a shell takes it as one. */
+bool kiln_write_shell_word(FILE *out, const char *word);
+
 #ifdef __cplusplus
 }
 #endif

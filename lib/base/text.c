@@ -186,11 +186,34 @@ void kiln_text_add_json(struct kiln_text *text, const char *string)
     kiln_text_add(text, "\"");
 }
 
+void kiln_text_add_shell_word(struct kiln_text *text, const char *word)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                "_@%+=:,./-";
+    bool quoted = !*word || word[strspn(word, plain)];
+    kiln_text_add(text, quoted ? "'" : "");
+    for (const char *c = word; *c; c++)
+        kiln_text_add(text, "%s%c", *c == '\'' ? "'\\'" : "", *c);
+    kiln_text_add(text, quoted ? "'" : "");
+}
+
+static bool write_text(FILE *out, struct kiln_text *text)
+{
+    bool written = !text->failed && fputs(text->data, out) >= 0;
+    kiln_text_free(text);
+    return written;
+}
+
 bool kiln_write_json_string(FILE *out, const char *string)
 {
     struct kiln_text text = {0};
     kiln_text_add_json(&text, string);
-    bool written = !text.failed && fputs(text.data, out) >= 0;
-    kiln_text_free(&text);
-    return written;
+    return write_text(out, &text);
+}
+
+bool kiln_write_shell_word(FILE *out, const char *word)
+{
+    struct kiln_text text = {0};
+    kiln_text_add_shell_word(&text, word);
+    return write_text(out, &text);
 }

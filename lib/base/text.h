@@ -25,4 +25,7 @@ size_t kiln_text_utf8_length(const char *text);
 /* Adds a JSON string literal, quotes included. Invalid UTF-8 becomes U+FFFD. */
 void kiln_text_add_json(struct kiln_text *text, const char *string);
 
+/* Adds a word so that a shell takes it as one. */
+void kiln_text_add_shell_word(struct kiln_text *text, const char *word);
+
 #endif

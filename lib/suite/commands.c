@@ -6,17 +6,8 @@
 
 static void add_word(struct kiln_text *text, const char *word)
 {
-    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
-                                "_@%+=:,./-";
     kiln_text_add(text, *word == '-' ? " ./" : " "); /* a path, no option */
-    if (*word && strspn(word, plain) == strlen(word)) {
-        kiln_text_add(text, "%s", word);
-        return;
-    }
-    kiln_text_add(text, "'");
-    for (const char *c = word; *c; c++)
-        kiln_text_add(text, "%s%c", *c == '\'' ? "'\\'" : "", *c);
-    kiln_text_add(text, "'");
+    kiln_text_add_shell_word(text, word);
 }
 
 static void add_option(struct kiln_text *text, const char *option, const char *value)
