@@ -8,6 +8,14 @@
 
 #include "base/error.h"
 
+bool kiln_path_join(char path[KILN_PATH_SIZE], const char *folder, const char *name,
+                    struct kiln_error *error)
+{
+    return snprintf(path, KILN_PATH_SIZE, "%s/%s", folder, name) < KILN_PATH_SIZE ||
+           kiln_error_set(error, KILN_IO, "%.200s...: the path is longer than %d bytes", folder,
+                          KILN_PATH_SIZE - 1);
+}
+
 static bool check_file(int file, const char *path, const char *what, size_t limit, size_t *size,
                        struct kiln_error *error)
 {

@@ -1,8 +1,12 @@
-/* Text files in: whole, of limited size, and never something else than a file. */
+/* Paths, and text files in: whole, of limited size, and never something else than a file. */
 #ifndef KILN_BASE_FILE_H
 #define KILN_BASE_FILE_H
 
 #include "kiln.h"
+
+/* "FOLDER/NAME"; KILN_IO when that is too long. */
+bool kiln_path_join(char path[KILN_PATH_SIZE], const char *folder, const char *name,
+                    struct kiln_error *error);
 
 /* The contents of a regular file with a zero byte after them, which *size does not count; the
  * caller frees them. what stands for it in messages: "a scene file". NULL with KILN_INVALID_INPUT

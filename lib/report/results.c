@@ -15,15 +15,6 @@
 /* Tests are listed in groups, since a list of a file that kiln reads ends at 1024 entries. */
 enum { RUN_VERSION = 1, GROUP_SIZE = 1000, MAX_RUN_SIZE = 64 << 20 };
 
-static bool join_path(char path[KILN_PATH_SIZE], const char *folder, const char *name,
-                      struct kiln_error *error)
-{
-    int length = snprintf(path, KILN_PATH_SIZE, "%s/%s", folder, name);
-    return length < KILN_PATH_SIZE ||
-           kiln_error_set(error, KILN_IO, "%.200s...: the path is longer than %d bytes", folder,
-                          KILN_PATH_SIZE - 1);
-}
-
 static bool out_of_memory(struct kiln_error *error)
 {
     return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for the results");
@@ -32,7 +23,7 @@ static bool out_of_memory(struct kiln_error *error)
 bool kiln_suite_write_run(const struct kiln_suite *suite, double total_s, struct kiln_error *error)
 {
     char path[KILN_PATH_SIZE], seconds[32];
-    if (!join_path(path, suite->results_folder, "run.json", error))
+    if (!kiln_path_join(path, suite->results_folder, "run.json", error))
         return false;
     kiln_text_from_double(seconds, total_s);
     struct kiln_text text = {0};
@@ -136,7 +127,8 @@ static bool load_test(struct loading *loading, const char *run, const struct kil
     kiln_node_quote(quoted, name);
     if (!is_test_name(name))
         return kiln_node_error(node, error, "'%s' is no name of a test", quoted);
-    if (!join_path(path, run, name, error) || !join_path(file, path, "result.json", error))
+    if (!kiln_path_join(path, run, name, error) ||
+        !kiln_path_join(file, path, "result.json", error))
         return false;
     char *folder = kiln_arena_text(loading->arena, path, strlen(path));
     if (!folder || !grow(loading))
@@ -200,7 +192,7 @@ static bool load_run(struct loading *loading, const char *folder)
 {
     char path[KILN_PATH_SIZE];
     struct kiln_error *error = loading->error;
-    if (!join_path(path, folder, "run.json", error))
+    if (!kiln_path_join(path, folder, "run.json", error))
         return false;
     size_t size = 0;
     char *text = kiln_text_file_read(path, "the list of a run", MAX_RUN_SIZE, &size, error);

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/text.h"
 #include "scene/node.h"
 #include "suite/golden.h"
@@ -37,13 +38,6 @@ static bool run_again(struct approval *a, const char *what)
 {
     return kiln_error_set(a->error, KILN_INVALID_INPUT, "%s: %s; run it again%s%s", a->params->name,
                           what, *a->result->rerun ? ": " : "", a->result->rerun);
-}
-
-static bool join(char path[KILN_PATH_SIZE], const char *folder, const char *name,
-                 struct kiln_error *error)
-{
-    return snprintf(path, KILN_PATH_SIZE, "%s/%s", folder, name) < KILN_PATH_SIZE ||
-           kiln_error_set(error, KILN_IO, "%.200s...: the path is too long", folder);
 }
 
 /* ---- which result --------------------------------------------------------------------------- */
@@ -104,7 +98,7 @@ static bool find_result(struct approval *a)
         return out_of_memory(a);
     for (size_t i = 0; i < names.count; i++) {
         if (strcmp(names.items[i], params->name) == 0)
-            return join(a->folder, params->results, params->name, a->error);
+            return kiln_path_join(a->folder, params->results, params->name, a->error);
     }
     char quoted[64];
     const char *nearest = kiln_text_nearest(params->name, names.items, names.count);
@@ -199,7 +193,7 @@ static bool is_wanted(const struct kiln_result_frame *frame)
 static bool has_suffix(const struct kiln_test *test, const char *picture)
 {
     const char *suffix = strrchr(picture, '.');
-    return suffix && strcmp(suffix, test->format == KILN_TEST_EXR ? ".exr" : ".png") == 0;
+    return suffix && strcmp(suffix, kiln_test_suffix(test)) == 0;
 }
 
 /* The golden that the picture was judged by is as it was, or none is there still. One that is the
@@ -225,7 +219,7 @@ static bool check_golden(struct approval *a, const struct kiln_result_frame *fra
         return true;
     if (!*frame->reference || strchr(frame->reference, '/'))
         return run_again(a, changed);
-    return join(path, a->folder, frame->reference, a->error) &&
+    return kiln_path_join(path, a->folder, frame->reference, a->error) &&
            kiln_pixel_hash(path, reference, a->error) &&
            (strcmp(golden, reference) == 0 || run_again(a, changed));
 }
@@ -242,7 +236,7 @@ static bool check_frame(struct approval *a, const struct kiln_result_frame *fram
                               "%s/result.json: frame %u has no picture", a->folder, frame->number);
     if (!has_suffix(&a->file.test, frame->picture))
         return run_again(a, "the test's format has changed since the run");
-    if (!join(picture, a->folder, frame->picture, a->error) ||
+    if (!kiln_path_join(picture, a->folder, frame->picture, a->error) ||
         !kiln_pixel_hash(picture, pixels, a->error))
         return false;
     if (strcmp(pixels, frame->pixels) != 0)
@@ -287,7 +281,7 @@ static bool accept_frame(struct approval *a, const struct kiln_result_frame *fra
                                                .as = a->params->as,
                                                .golden = frame->golden};
     bool replace = a->params->as == KILN_APPROVE_REPLACE;
-    if (!join(picture, a->folder, frame->picture, a->error))
+    if (!kiln_path_join(picture, a->folder, frame->picture, a->error))
         return false;
     if (a->params->dry_run && !replace &&
         !kiln_goldens_place(&a->file.test, frame->number, a->result->device_name, a->params->as,

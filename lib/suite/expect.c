@@ -199,7 +199,7 @@ static const struct kiln_option rows[] = {
     {ROW("reason", text, AT(reason), "\"\"", "Why these limits."), LIMITS(KILN_PLAIN, 0, MAX_TEXT)},
     {ROW("warn", number, AT(warn), "-1", "A score; below 0 is the test's."),
      LIMITS(KILN_PLAIN, -1, 1)},
-    {ROW("masks", list, AT(masks), "[]", "In place of the test's."), .item = &kiln_mask_item,
+    {ROW("masks", list, AT(masks), "[]", "More than those of the test."), .item = &kiln_mask_item,
      .item_size = sizeof(struct kiln_test_mask), .count_offset = AT(mask_count),
      .max_count = KILN_TEST_MAX_MASKS},
     {ROW("measured", limits, AT(measured), "{}", "The worst values of calibration."),
@@ -294,10 +294,8 @@ struct kiln_expect *kiln_expect_read(struct kiln_arena *arena, const char *golde
     struct stat status;
     char path[KILN_PATH_SIZE];
     size_t size = 0;
-    if (snprintf(path, sizeof path, "%s/expect.yaml", golden) >= (int)sizeof path) {
-        kiln_error_set(error, KILN_IO, "%.200s...: the path is too long", golden);
+    if (!kiln_path_join(path, golden, "expect.yaml", error))
         return NULL;
-    }
     if (lstat(path, &status) != 0) {
         if (errno == ENOENT)
             return kiln_expect_parse(arena, nothing, sizeof nothing - 1, golden, error);
@@ -423,20 +421,13 @@ static bool check_text(const struct kiln_text *text, const char *golden, struct 
 bool kiln_expect_write(const struct kiln_expect *expect, const char *golden,
                        struct kiln_error *error)
 {
-    struct kiln_text text = {0}, path = {0};
-    struct kiln_temporary file = {0};
-    kiln_text_add(&path, "%s/expect.yaml", golden);
-    bool ok = kiln_expect_print(expect, golden, &text) && !path.failed;
-    if (!ok)
-        out_of_memory(error);
-    ok = ok && check_text(&text, golden, error) && kiln_make_parent_folders(path.data, error) &&
-         kiln_target_check(path.data, true, error) && kiln_temporary_open(&file, path.data, error);
-    if (ok) {
-        kiln_temporary_write(&file, text.data, text.length);
-        ok = kiln_temporary_commit(&file, true, error);
-    }
+    char path[KILN_PATH_SIZE];
+    struct kiln_text text = {0};
+    bool ok = kiln_path_join(path, golden, "expect.yaml", error) &&
+              (kiln_expect_print(expect, golden, &text) || out_of_memory(error)) &&
+              check_text(&text, golden, error) &&
+              kiln_temporary_write_file(path, text.data, text.length, error);
     kiln_text_free(&text);
-    kiln_text_free(&path);
     return ok;
 }
 

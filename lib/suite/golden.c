@@ -13,6 +13,7 @@
 
 #include "asset/image.h"
 #include "base/error.h"
+#include "base/file.h"
 #include "base/hash.h"
 #include "output/temporary.h"
 
@@ -45,7 +46,7 @@ struct golden_name {
     unsigned number;
 };
 
-static const char *suffix_of(const struct kiln_test *test)
+const char *kiln_test_suffix(const struct kiln_test *test)
 {
     return test->format == KILN_TEST_EXR ? ".exr" : ".png";
 }
@@ -57,7 +58,7 @@ static bool write_path(const struct kiln_test *test, uint32_t frame, const char 
     if (number > 1)
         snprintf(alternative, sizeof alternative, "~%u", number);
     int length = snprintf(path, KILN_PATH_SIZE, "%s/frame_%04u%s%s%s%s", test->golden, frame,
-                          *device ? "@" : "", device, alternative, suffix_of(test));
+                          *device ? "@" : "", device, alternative, kiln_test_suffix(test));
     return length < KILN_PATH_SIZE ||
            kiln_error_set(error, KILN_IO, "%.200s...: the path is too long", test->golden);
 }
@@ -94,7 +95,7 @@ static enum match parse_name(const char *text, const struct kiln_test *test, uin
                              struct golden_name *name)
 {
     char start[32];
-    const char *suffix = suffix_of(test);
+    const char *suffix = kiln_test_suffix(test);
     size_t length = strlen(text), end = strlen(suffix);
     size_t begin = (size_t)snprintf(start, sizeof start, "frame_%04u", frame);
     if (strncmp(text, start, begin) != 0 || length < begin + end ||
@@ -143,7 +144,7 @@ static bool take_entry(const char *entry, const struct kiln_test *test, uint32_t
                               "%s/%.200s: no golden's name; those are frame_%04u%s and, before the "
                               "suffix, @ with a device's name in lower case, ~ with a number from "
                               "2, or both",
-                              test->golden, entry, frame, suffix_of(test));
+                              test->golden, entry, frame, kiln_test_suffix(test));
     if (match == OTHER_FILE || !is_for(name.device, device_name))
         return true;
     size_t length = strlen(name.device), before = strlen(device);
@@ -239,11 +240,8 @@ bool kiln_goldens_place(const struct kiln_test *test, uint32_t frame, const char
 int kiln_goldens_lock(const struct kiln_test *test, struct kiln_error *error)
 {
     char inside[KILN_PATH_SIZE];
-    if (snprintf(inside, sizeof inside, "%s/", test->golden) >= (int)sizeof inside) {
-        kiln_error_set(error, KILN_IO, "%.200s...: the path is too long", test->golden);
-        return -1;
-    }
-    if (!kiln_make_parent_folders(inside, error))
+    if (!kiln_path_join(inside, test->golden, "", error) ||
+        !kiln_make_parent_folders(inside, error))
         return -1;
     /* The folder itself: no file of ours is left in it. */
     int lock = open(test->golden, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -264,16 +262,6 @@ void kiln_goldens_unlock(int lock)
         return;
     flock(lock, LOCK_UN); /* closing alone would not, if a child process has the descriptor, too */
     close(lock);
-}
-
-static bool write_file(const char *path, const void *bytes, size_t size, struct kiln_error *error)
-{
-    struct kiln_temporary file = {0};
-    if (!kiln_make_parent_folders(path, error) || !kiln_target_check(path, true, error) ||
-        !kiln_temporary_open(&file, path, error))
-        return false;
-    kiln_temporary_write(&file, bytes, size);
-    return kiln_temporary_commit(&file, true, error);
 }
 
 static bool copy_bytes(int from, const char *name, struct kiln_temporary *to,
@@ -348,9 +336,8 @@ bool kiln_goldens_write_scene(const struct kiln_test *test, const char *text,
                               struct kiln_error *error)
 {
     char path[KILN_PATH_SIZE];
-    if (snprintf(path, sizeof path, "%s/scene.yaml", test->golden) >= (int)sizeof path)
-        return kiln_error_set(error, KILN_IO, "%.200s...: the path is too long", test->golden);
-    return write_file(path, text, strlen(text), error);
+    return kiln_path_join(path, test->golden, "scene.yaml", error) &&
+           kiln_temporary_write_file(path, text, strlen(text), error);
 }
 
 /* Where the picture goes. As one more, it goes where its pixels already are, if they are. */

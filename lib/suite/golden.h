@@ -20,6 +20,9 @@ enum { KILN_MAX_GOLDENS = 16, KILN_DEVICE_NAME_SIZE = 128 };
  * "nvidia-h200-pcie-sse2". */
 void kiln_device_name(const char *renderer, char name[KILN_DEVICE_NAME_SIZE]);
 
+/* The suffix of a test's pictures, ".png" or ".exr". */
+const char *kiln_test_suffix(const struct kiln_test *test);
+
 struct kiln_goldens {
     size_t count;
     char paths[KILN_MAX_GOLDENS][KILN_PATH_SIZE]; /* the main one first */

@@ -19,11 +19,6 @@ struct job {
     struct kiln_error *error;
 };
 
-const char *kiln_test_suffix(const struct kiln_test *test)
-{
-    return test->format == KILN_TEST_EXR ? ".exr" : ".png";
-}
-
 static bool no_memory(const struct job *job)
 {
     return kiln_error_set(job->error, KILN_DEVICE_FAILED, "%s: out of memory",

@@ -38,9 +38,6 @@ struct kiln_rendering {
     struct kiln_rendered_frame *frames; /* ascending */
 };
 
-/* The suffix of a test's pictures, ".png" or ".exr". */
-const char *kiln_test_suffix(const struct kiln_test *test);
-
 /* Loads the scene, opens the device, renders and hashes; all texts lie in the arena. Techniques are
  * those that every machine has, then the test's, then the given ones. False with what the parts
  * say, KILN_INVALID_INPUT for a frame that the scene does not have, KILN_FRAME_FAILED for one that

@@ -29,14 +29,6 @@ double kiln_result_score(const struct kiln_result *result)
     return score;
 }
 
-bool kiln_result_path(char path[KILN_PATH_SIZE], const char *folder, struct kiln_error *error)
-{
-    int length = snprintf(path, KILN_PATH_SIZE, "%s/result.json", folder);
-    return length < KILN_PATH_SIZE ||
-           kiln_error_set(error, KILN_IO, "%.200s...: the path is longer than %d bytes", folder,
-                          KILN_PATH_SIZE - 1);
-}
-
 /* ---- Members ------------------------------------------------------------------------------ */
 
 #define MEMBER(type, kind, name)                                                                   \

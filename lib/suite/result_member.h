@@ -32,7 +32,4 @@ extern const struct kiln_member kiln_result_members[], kiln_result_column_member
 /* Of frames that were measured, beside "metrics" and "beyond". */
 extern const struct kiln_member kiln_result_measured_members[];
 
-/* FOLDER/result.json; KILN_IO when that is too long. */
-bool kiln_result_path(char path[KILN_PATH_SIZE], const char *folder, struct kiln_error *error);
-
 #endif

@@ -394,7 +394,7 @@ struct kiln_result *kiln_result_read(struct kiln_arena *arena, const char *folde
                                      struct kiln_error *error)
 {
     char path[KILN_PATH_SIZE];
-    if (!kiln_result_path(path, folder, error))
+    if (!kiln_path_join(path, folder, "result.json", error))
         return NULL;
     size_t size = 0;
     char *text = kiln_text_file_read(path, "the result of a test", MAX_FILE_SIZE, &size, error);

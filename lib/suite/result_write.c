@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/text.h"
 #include "output/temporary.h"
 #include "suite/result_member.h"
@@ -176,7 +177,7 @@ bool kiln_result_write(const struct kiln_result *result, const char *folder,
                        struct kiln_error *error)
 {
     char path[KILN_PATH_SIZE];
-    if (!kiln_result_path(path, folder, error))
+    if (!kiln_path_join(path, folder, "result.json", error))
         return false;
     struct kiln_text text = {0};
     kiln_text_add(&text, "{\n  \"kiln_result\": %d,\n  ", KILN_RESULT_VERSION);

@@ -108,18 +108,10 @@ static bool take_frames(struct kiln_trial *trial)
     for (size_t i = 0; i < count; i++) {
         const char *path = rendering->frames[i].path;
         const char *slash = strrchr(path, '/');
-        frames[i] = (struct kiln_result_frame){
-            .number = rendering->frames[i].number,
-            .picture = slash ? slash + 1 : path,
-            .state = rendering->frames[i].state,
-            .pixels = rendering->frames[i].pixels,
-            .message = "",
-            .reference = "",
-            .error_map = "",
-            .golden = "",
-            .state_expected = "",
-            .pixels_expected = "",
-        };
+        kiln_result_frame_init(&frames[i], rendering->frames[i].number);
+        frames[i].picture = slash ? slash + 1 : path;
+        frames[i].state = rendering->frames[i].state;
+        frames[i].pixels = rendering->frames[i].pixels;
     }
     trial->result->frames = frames;
     trial->result->frame_count = count;
@@ -221,8 +213,7 @@ static void take_changes(struct kiln_trial *trial)
     struct kiln_error error = {0};
     char path[KILN_PATH_SIZE];
     size_t size;
-    int length = snprintf(path, sizeof path, "%s/scene.yaml", trial->test->golden);
-    if (length < 0 || (size_t)length >= sizeof path || access(path, F_OK) != 0)
+    if (!kiln_path_join(path, trial->test->golden, "scene.yaml", &error) || access(path, F_OK) != 0)
         return;
     char *text = kiln_text_file_read(path, "the accepted scene", MAX_SCENE_SIZE, &size, &error);
     if (!text || !kiln_scene_diff(trial->arena, text, path, trial->rendering.scene_text,

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/file.h"
 #include "suite/trial.h"
 
 static const char *text_or_empty(const char *text)
@@ -27,8 +28,8 @@ static const char *time_text(struct kiln_arena *arena)
 static const char *find_log(const struct kiln_test *test)
 {
     char path[KILN_PATH_SIZE];
-    int length = snprintf(path, sizeof path, "%s/log.txt", test->results);
-    bool fits = length >= 0 && (size_t)length < sizeof path;
+    struct kiln_error ignored = {0};
+    bool fits = kiln_path_join(path, test->results, "log.txt", &ignored);
     return fits && access(path, F_OK) == 0 ? "log.txt" : "";
 }
 
@@ -37,28 +38,15 @@ struct kiln_result *kiln_result_start(struct kiln_arena *arena, const struct kil
     struct kiln_result *result = kiln_arena_alloc(arena, 1, sizeof *result);
     if (!result)
         return NULL;
-    *result = (struct kiln_result){
-        .name = test->full_name,
-        .test = test->path,
-        .scene = text_or_empty(test->scene),
-        .about = text_or_empty(test->about),
-        .golden = text_or_empty(test->golden),
-        .message = "",
-        .log = find_log(test),
-        .device = "",
-        .device_name = "",
-        .driver = "",
-        .platform = "",
-        .techniques = "",
-        .techniques_expected = "",
-        .version = KILN_VERSION,
-        .repeat = 1,
-        .scene_hash = "",
-        .scene_hash_expected = "",
-        .started = time_text(arena),
-        .rerun = "",
-        .approve = "",
-    };
+    kiln_result_init(result, test->full_name);
+    result->test = test->path;
+    result->scene = text_or_empty(test->scene);
+    result->about = text_or_empty(test->about);
+    result->golden = text_or_empty(test->golden);
+    result->log = find_log(test);
+    result->version = KILN_VERSION;
+    result->repeat = 1;
+    result->started = time_text(arena);
     return result;
 }
 

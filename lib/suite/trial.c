@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/text.h"
 #include "compare/metric.h"
 
@@ -53,9 +54,7 @@ void kiln_trial_note(struct kiln_trial *trial, const char *format, ...)
 bool kiln_trial_path(const struct kiln_trial *trial, const char *file, char path[KILN_PATH_SIZE],
                      struct kiln_error *error)
 {
-    int length = snprintf(path, KILN_PATH_SIZE, "%s/%s", trial->test->results, file);
-    return (length >= 0 && length < KILN_PATH_SIZE) ||
-           kiln_error_set(error, KILN_IO, "%s: the path is too long", trial->test->results);
+    return kiln_path_join(path, trial->test->results, file, error);
 }
 
 /* ---- Limits ------------------------------------------------------------------------------- */
