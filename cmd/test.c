@@ -4,16 +4,15 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "command.h"
 #include "report.h"
 #include "signals.h"
 #include "test_files.h"
+#include "test_lines.h"
 #include "test_outputs.h"
 #include "test_pool.h"
-#include "test_report.h"
 #include "test_select.h"
 
 static const struct option options[] = {
@@ -93,15 +92,8 @@ struct test_run {
     bool *ended;
     size_t ended_count, printed; /* tests 0 to printed-1 have had their line */
     enum kiln_code code;         /* the worst so far */
-    struct test_report report;
+    struct test_lines lines;
 };
-
-static double now_s(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 /* ---- One test ------------------------------------------------------------------------------- */
 
@@ -178,7 +170,7 @@ static void record_failure(struct test_run *run, size_t index, const struct test
 static void print_ended(struct test_run *run)
 {
     for (; run->printed < run->count && run->ended[run->printed]; run->printed++)
-        test_report_test(&run->report, run->suite, run->printed, &run->summaries[run->printed]);
+        test_lines_test(&run->lines, run->suite, run->printed, &run->summaries[run->printed]);
 }
 
 static void end_test(void *user, size_t index, const struct test_end *end)
@@ -248,12 +240,12 @@ static int finish(struct test_run *run, struct test_outputs *outputs, double tot
 {
     struct kiln_results_summary summary = {0};
     signals_end_at_once(); /* nothing looks for them any more */
-    int code = (int)write_results(run, outputs, run->report.results, total_s, &summary);
+    int code = (int)write_results(run, outputs, run->lines.results, total_s, &summary);
     bool nothing = summary.tests > 0 && summary.counts[KILN_TEST_SKIP] == summary.tests;
-    if (!run->report.quiet || code) {
+    if (!run->lines.quiet || code) {
         if (summary.tests > 0)
-            test_report_counts(run->report.out, &summary);
-        test_report_end(&run->report, outputs->page);
+            test_lines_counts(run->lines.out, &summary);
+        test_lines_end(&run->lines, outputs->page);
     }
     if (code == 0 && nothing)
         return report(KILN_NO_DEVICE,
@@ -323,7 +315,7 @@ static int read_options(struct test_run *run, struct test_outputs *outputs,
     params->strict = arguments_flag(arguments, "strict");
     params->log = report_log();
     run->time_limit_s = arguments_number(arguments, "time-limit", 0);
-    run->report.quiet = arguments_flag(arguments, "quiet");
+    run->lines.quiet = arguments_flag(arguments, "quiet");
     if (params->dry_run && params->update == KILN_UPDATE_NONE)
         return report(KILN_USAGE, "test: --dry-run: says what --update would write; use it with "
                                   "--update missing, failed or all");
@@ -345,12 +337,12 @@ static int run_suite(struct test_run *run, struct test_outputs *outputs,
         code = run->summaries && run->ended ? 0 : report_no_memory();
     }
     if (code == 0)
-        code = claim_folder(run->report.results);
+        code = claim_folder(run->lines.results);
     if (code == 0)
-        code = remove_stale(run, run->report.results);
+        code = remove_stale(run, run->lines.results);
     if (code == 0) {
         share_cores(run, arguments);
-        test_report_start(&run->report, suite, outputs->standard_output ? stderr : stdout);
+        test_lines_start(&run->lines, suite, outputs->standard_output ? stderr : stdout);
         code = run_tests(run, outputs);
     }
     free(run->summaries);
@@ -361,11 +353,11 @@ static int run_suite(struct test_run *run, struct test_outputs *outputs,
 
 static int run(const struct arguments *arguments)
 {
-    struct test_run run = {.report.results = arguments_text(arguments, "results", DEFAULT_RESULTS)};
+    struct test_run run = {.lines.results = arguments_text(arguments, "results", DEFAULT_RESULTS)};
     struct test_outputs outputs = {0};
     struct value_list techniques;
     bool ok = value_list_create(&techniques, arguments, "technique");
-    char *page = join_path(run.report.results, "report.html");
+    char *page = join_path(run.lines.results, "report.html");
     int code = ok && page ? read_options(&run, &outputs, arguments, &techniques, page)
                           : report_no_memory();
     if (code == 0)

@@ -5,8 +5,8 @@
 #include "report.h"
 #include "signals.h"
 #include "test_files.h"
+#include "test_lines.h"
 #include "test_outputs.h"
-#include "test_report.h"
 
 static const struct option options[] = {
     OUTPUT_OPTIONS("report.html in the first folder"),
@@ -25,7 +25,7 @@ static int write_reports(const struct arguments *arguments, struct test_outputs 
     kiln_results_destroy(&results);
     if (code || !arguments_flag(arguments, "quiet")) {
         FILE *out = outputs->standard_output ? stderr : stdout;
-        test_report_counts(out, &summary);
+        test_lines_counts(out, &summary);
         if (outputs->page)
             fprintf(out, "report: %s\n", outputs->page);
     }

@@ -41,7 +41,7 @@ struct run {
     sigset_t old_mask; /* the signals that were blocked before */
 };
 
-static double now_s(void)
+double now_s(void)
 {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);

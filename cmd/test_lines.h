@@ -1,10 +1,10 @@
 /* What `kiln test` prints for people. */
-#ifndef KILN_CMD_TEST_REPORT_H
-#define KILN_CMD_TEST_REPORT_H
+#ifndef KILN_CMD_TEST_LINES_H
+#define KILN_CMD_TEST_LINES_H
 
 #include "kiln.h"
 
-struct test_report {
+struct test_lines {
     FILE *out;
     bool quiet; /* only tests that went wrong */
     bool colour;
@@ -15,17 +15,17 @@ struct test_report {
     uint32_t accept_count;      /* of all such tests */
 };
 
-/* Begins the report of a suite's run; the suite outlives it. */
-void test_report_start(struct test_report *report, const struct kiln_suite *suite, FILE *out);
+/* Begins the lines of a suite's run; the suite outlives them. */
+void test_lines_start(struct test_lines *lines, const struct kiln_suite *suite, FILE *out);
 
 /* A line for a test that has ended, and one for each of its notes. */
-void test_report_test(struct test_report *report, const struct kiln_suite *suite, size_t index,
-                      const struct kiln_test_summary *summary);
+void test_lines_test(struct test_lines *lines, const struct kiln_suite *suite, size_t index,
+                     const struct kiln_test_summary *summary);
 
 /* "5 tests in 1.234 s: 4 pass, 1 fail" */
-void test_report_counts(FILE *out, const struct kiln_results_summary *summary);
+void test_lines_counts(FILE *out, const struct kiln_results_summary *summary);
 
 /* What to look at and what to do next; page may be NULL. */
-void test_report_end(const struct test_report *report, const char *page);
+void test_lines_end(const struct test_lines *lines, const char *page);
 
 #endif

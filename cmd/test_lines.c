@@ -1,0 +1,150 @@
+/* Words come first, colours only help to find them. */
+#include "test_lines.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "test_files.h"
+#include "test_select.h"
+
+enum { MAX_NAME_WIDTH = 40, STATUS_WIDTH = 5 };
+
+static const char *colour_of(enum kiln_test_status status)
+{
+    switch (status) {
+    case KILN_TEST_PASS:
+        return "\033[32m"; /* green */
+    case KILN_TEST_SKIP:
+        return "\033[2m"; /* faint */
+    case KILN_TEST_WARN:
+    case KILN_TEST_NEW:
+        return "\033[33m"; /* yellow */
+    default:
+        return "\033[1;31m"; /* bold red */
+    }
+}
+
+static bool wants_colour(FILE *out)
+{
+    const char *term = getenv("TERM"), *refused = getenv("NO_COLOR");
+    return isatty(fileno(out)) == 1 && term && strcmp(term, "dumb") != 0 && !(refused && *refused);
+}
+
+void test_lines_start(struct test_lines *lines, const struct kiln_suite *suite, FILE *out)
+{
+    lines->out = out;
+    lines->colour = wants_colour(out);
+    for (size_t i = 0; i < kiln_suite_count(suite); i++) {
+        int width = (int)strlen(kiln_suite_test(suite, i).name);
+        if (width > lines->name_width)
+            lines->name_width = width < MAX_NAME_WIDTH ? width : MAX_NAME_WIDTH;
+    }
+}
+
+static bool is_red(enum kiln_test_status status)
+{
+    return status == KILN_TEST_NEW || status == KILN_TEST_FAIL || status == KILN_TEST_ERROR;
+}
+
+static void print_notes(struct test_lines *lines, const struct kiln_suite *suite, size_t index,
+                        const struct kiln_test_summary *summary, bool silent)
+{
+    for (uint32_t i = 0; i < summary->notes; i++) {
+        char text[KILN_MESSAGE_SIZE];
+        struct kiln_error error = {0};
+        if (!kiln_test_read_note(suite, index, i, text, &error))
+            return;
+        lines->written += strncmp(text, "wrote ", 6) == 0;
+        lines->to_write += strncmp(text, "would write ", 12) == 0;
+        if (!silent)
+            fprintf(lines->out, "%*s%s\n", STATUS_WIDTH + 2, "", text);
+    }
+}
+
+/* Where the output of a test's process is, if it has any. */
+static void print_log_place(const struct test_lines *lines, const char *results)
+{
+    char path[KILN_PATH_SIZE], line[LOG_LINE_SIZE];
+    snprintf(path, sizeof path, "%s/log.txt", results);
+    if (*last_log_line(path, line))
+        fprintf(lines->out, "%*slog: %s\n", STATUS_WIDTH + 2, "", path);
+}
+
+void test_lines_test(struct test_lines *lines, const struct kiln_suite *suite, size_t index,
+                     const struct kiln_test_summary *summary)
+{
+    bool red = is_red(summary->status), silent = lines->quiet && !red;
+    if (!silent) {
+        fprintf(lines->out, "%s%-*s%s  %-*s ", lines->colour ? colour_of(summary->status) : "",
+                STATUS_WIDTH, kiln_test_status_name(summary->status),
+                lines->colour ? "\033[0m" : "", lines->name_width,
+                kiln_suite_test(suite, index).name);
+        if (summary->frames > 0)
+            fprintf(lines->out, " %u frame%s in %.3f s", summary->frames,
+                    summary->frames == 1 ? "" : "s", summary->total_s);
+        if (summary->message[0])
+            fprintf(lines->out, "%s %s", summary->frames > 0 ? ":" : "", summary->message);
+        fputc('\n', lines->out);
+    }
+    print_notes(lines, suite, index, summary, silent);
+    if (summary->status == KILN_TEST_ERROR)
+        print_log_place(lines, kiln_suite_test(suite, index).results);
+    if (summary->status == KILN_TEST_NEW || summary->status == KILN_TEST_FAIL) {
+        size_t most = sizeof lines->accept / sizeof *lines->accept;
+        if (lines->accept_count < most)
+            lines->accept[lines->accept_count] = kiln_suite_test(suite, index).name;
+        lines->accept_count++;
+    }
+    fflush(lines->out);
+}
+
+void test_lines_counts(FILE *out, const struct kiln_results_summary *summary)
+{
+    fprintf(out, "%u test%s in %.3f s:", summary->tests, summary->tests == 1 ? "" : "s",
+            summary->total_s);
+    const char *separator = "";
+    for (int i = 0; i < KILN_TEST_STATUS_COUNT; i++) {
+        if (summary->counts[i] == 0)
+            continue;
+        fprintf(out, "%s %u %s", separator, summary->counts[i],
+                kiln_test_status_name((enum kiln_test_status)i));
+        separator = ",";
+    }
+    fputc('\n', out);
+}
+
+static void print_approvals(const struct test_lines *lines)
+{
+    FILE *out = lines->out;
+    size_t shown = sizeof lines->accept / sizeof *lines->accept;
+    if (lines->accept_count < shown)
+        shown = lines->accept_count;
+    if (shown > 0)
+        fprintf(out, "where the pictures are right, accept them:\n");
+    for (size_t i = 0; i < shown; i++) {
+        fprintf(out, "  kiln test approve ");
+        kiln_write_shell_word(out, lines->accept[i]);
+        if (strcmp(lines->results, DEFAULT_RESULTS) != 0) {
+            fprintf(out, " --results ");
+            kiln_write_shell_word(out, lines->results);
+        }
+        fputc('\n', out);
+    }
+    if (lines->accept_count > shown)
+        fprintf(out, "  and %u more\n", lines->accept_count - (uint32_t)shown);
+}
+
+void test_lines_end(const struct test_lines *lines, const char *page)
+{
+    if (page)
+        fprintf(lines->out, "report: %s\n", page);
+    if (lines->written > 0)
+        fprintf(lines->out, "%u picture%s written: look at %s before you keep %s\n", lines->written,
+                lines->written == 1 ? " was" : "s were", lines->written == 1 ? "it" : "them",
+                lines->written == 1 ? "it" : "them");
+    if (lines->to_write > 0)
+        fprintf(lines->out, "%u picture%s would be written; this was a dry run\n", lines->to_write,
+                lines->to_write == 1 ? "" : "s");
+    print_approvals(lines);
+}
