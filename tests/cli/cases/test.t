@@ -324,8 +324,11 @@ $ env --default-signal kiln test slow -o out/killed & run=$!
 Two runs do not share a folder of results.
 
 $ env --default-signal kiln test slow -o out/both & run=$!
-> bash child both $run >/dev/null; kiln test fire -o out/both; echo $?; kill -TERM $run; wait $run
+> bash child both $run >/dev/null; kiln test fire -o out/both; echo $?
+> kiln test calibrate fire -o out/both; echo $?; kill -TERM $run; wait $run
 1|2
+1|2
+2|kiln: out/both: another run writes its results there; give this one another folder by --results
 2|kiln: out/both: another run writes its results there; give this one another folder by --results
 2|kiln: test: stopped by SIGTERM after <n> of 1 tests
 = 143
