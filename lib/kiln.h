@@ -409,7 +409,7 @@ struct kiln_suite_params {
     const char *const *names; /* of the tests to take, or shell patterns of them; 0 takes all */
     size_t name_count;
     const char *golden;     /* the folder of the goldens: GOLDEN/TEST/frame_0024.png */
-    const char *results;    /* the folder for results: RESULTS/TEST/result.json and pictures */
+    const char *results;    /* another, for results: RESULTS/TEST/result.json and pictures */
     uint32_t shard, shards; /* of the tests by their order, each shards-th from the shard-th (from
                              * 1); 0 and 0 take all */
 };

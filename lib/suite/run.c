@@ -41,6 +41,11 @@ static bool is_left_over(const char *name, const char *path)
 static bool empty_folder(const struct kiln_trial *trial, struct kiln_error *error)
 {
     char path[KILN_PATH_SIZE];
+    if (!kiln_trial_path(trial, "expect.yaml", path, error))
+        return false;
+    if (access(path, F_OK) == 0)
+        return kiln_error_set(error, KILN_IO, "%s: is a folder of goldens, and not for results",
+                              trial->test->results);
     if (!kiln_trial_path(trial, "result.json", path, error) ||
         !kiln_make_parent_folders(path, error))
         return false;

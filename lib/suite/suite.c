@@ -258,6 +258,19 @@ static bool check_params(const struct kiln_suite_params *params, struct kiln_err
                           params->shards);
 }
 
+/* One folder for both would make each picture the golden that it is judged by. */
+static bool check_folders(const struct kiln_suite_params *params, struct kiln_error *error)
+{
+    struct stat golden, results;
+    bool there = stat(params->golden, &golden) == 0 && stat(params->results, &results) == 0;
+    bool same = there ? golden.st_dev == results.st_dev && golden.st_ino == results.st_ino
+                      : strcmp(params->golden, params->results) == 0;
+    return !same || kiln_error_set(error, KILN_USAGE,
+                                   "%s: the folder of the results is that of the goldens; results "
+                                   "need one of their own",
+                                   params->results);
+}
+
 /* "out/" as "out", "" as "."; so that paths do not stutter. */
 static char *tidy_folder(struct kiln_arena *arena, const char *folder)
 {
@@ -277,7 +290,7 @@ static bool load(struct kiln_suite *suite, const struct kiln_suite_params *param
     own.results = suite->results_folder;
     if (!own.golden || !own.results)
         return out_of_memory(&loader);
-    if (!read_files(&loader))
+    if (!check_folders(&own, error) || !read_files(&loader))
         return false;
     drop_named_scenes(&loader);
     if (!check_names(&loader) || !make_tests(&loader) || !choose_names(&loader))

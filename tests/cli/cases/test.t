@@ -261,6 +261,26 @@ $ kiln test fire --no-report >/dev/full
 2|kiln: standard output: No space left on device
 = 6
 
+Results do not go where goldens are, whose pictures they would replace.
+
+$ cp -r golden kept; ln -s golden link
+$ kiln test fire --results golden; kiln test fire --golden none --results none/
+2|kiln: golden: the folder of the results is that of the goldens; results need one of their own
+2|kiln: none: the folder of the results is that of the goldens; results need one of their own
+= 2
+$ kiln test fire --results link/
+2|kiln: link: the folder of the results is that of the goldens; results need one of their own
+= 2
+$ mkdir -p out/nested; cp -r golden/fire out/nested/fire
+$ kiln test fire --results out/nested --no-report
+1|error  fire  ended without a result, with exit code 6; its log ends: kiln: out/nested/fire: is a folder of goldens, and not for results
+1|       log: out/nested/fire/log.txt
+1|1 test in <s> s: 1 error
+= 6
+$ diff -r golden kept; diff -rq golden/fire out/nested/fire; rm -r kept link
+1|Only in out/nested/fire: log.txt
+1|Only in out/nested/fire: result.json
+
 Shards are merged.
 
 $ kiln test fire wrong --shard 1/2 -o out/1 --no-report -q; kiln test fire wrong --shard 2/2 -o out/2 --no-report -q
