@@ -103,17 +103,27 @@ static bool add_file(struct search *search, const char *path, const char *named,
 /* ---- is it a test? -------------------------------------------------------------------------- */
 
 /* Where no tree can be had, the text must do: a scene with a fault is a test that fails. */
-static bool has_line_with_key(const char *text)
+static bool has_line_with_key(const char *text, const char *key)
 {
+    static const char byte_order_mark[] = "\xef\xbb\xbf";
+    size_t mark = sizeof byte_order_mark - 1, length = strlen(key);
+    text += strncmp(text, byte_order_mark, mark) == 0 ? mark : 0;
     for (const char *line = text; line; line = strchr(line, '\n')) {
         line += *line == '\n';
-        if (strncmp(line, "kiln:", 5) == 0)
+        const char *word = line + strspn(line, *line == '{' ? "{ \t\"'" : "\"'");
+        if (strncmp(word, key, length) == 0 &&
+            word[length + strspn(word + length, " \t\"'")] == ':')
             return true;
     }
     return false;
 }
 
-static bool is_scene(const char *text, size_t size, const char *path, bool *is)
+/* Which of the keys a YAML file's top level has. */
+struct keys {
+    bool scene, test;
+};
+
+static bool find_keys(const char *text, size_t size, const char *path, struct keys *keys)
 {
     struct kiln_arena *scratch = kiln_arena_create();
     struct kiln_origin origin = {.name = path, .has_lines = true};
@@ -121,7 +131,9 @@ static bool is_scene(const char *text, size_t size, const char *path, bool *is)
     const struct kiln_node *root =
         scratch ? kiln_node_parse(scratch, text, size, &origin, &error) : NULL;
     bool ok = scratch && error.code != KILN_DEVICE_FAILED;
-    *is = root ? kiln_node_entry(root, "kiln") != NULL : has_line_with_key(text);
+    keys->scene = root ? kiln_node_entry(root, "kiln") != NULL : has_line_with_key(text, "kiln");
+    keys->test =
+        root ? kiln_node_entry(root, "kiln_test") != NULL : has_line_with_key(text, "kiln_test");
     kiln_arena_destroy(&scratch);
     return ok;
 }
@@ -134,15 +146,20 @@ static bool add_if_scene(struct search *search, const char *path, const char *na
     if (access(path, R_OK) != 0)
         return kiln_error_set_errno(search->error, KILN_IO, errno, "%s", path);
     char *text = kiln_text_file_read(path, "a scene file", MAX_SCENE_SIZE, &size, &error);
-    bool is = false, ok = true;
+    struct keys keys = {0};
+    bool ok = true;
     if (text)
-        ok = is_scene(text, size, path, &is) || out_of_memory(search);
+        ok = find_keys(text, size, path, &keys) || out_of_memory(search);
     else if (error.code != KILN_INVALID_INPUT) {
         *search->error = error;
         ok = false;
     }
     free(text);
-    return ok && (!is || add_file(search, path, named, true));
+    if (ok && keys.test)
+        return kiln_error_set(
+            search->error, KILN_USAGE,
+            "%s: has the key kiln_test, but a test file's name ends in .test.yaml", path);
+    return ok && (!keys.scene || add_file(search, path, named, true));
 }
 
 /* ---- folders -------------------------------------------------------------------------------- */
@@ -157,6 +174,22 @@ static bool is_skipped(const struct search *search, const struct stat *status)
     return false;
 }
 
+/* The scene beside what was accepted of a test is no test: goldens of another run may be here. */
+static bool has_expect_file(struct dirent *const *entries, int count)
+{
+    for (int i = 0; i < count; i++) {
+        if (strcmp(entries[i]->d_name, "expect.yaml") == 0)
+            return true;
+    }
+    return false;
+}
+
+static bool is_accepted_scene(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return strcmp(slash ? slash + 1 : path, "scene.yaml") == 0;
+}
+
 static bool search_folder(struct search *search, const char *folder, const char *named);
 
 /* path: of the entry; named: what of it names a test. */
@@ -168,7 +201,7 @@ static bool search_entry(struct search *search, const char *path, const char *na
         return errno == ENOENT || kiln_error_set_errno(search->error, KILN_IO, errno, "%s", path);
     if (S_ISDIR(status.st_mode))
         return is_skipped(search, &status) || search_folder(search, path, named);
-    if (!kiln_test_file_is_yaml(path) || has_goldens)
+    if (!kiln_test_file_is_yaml(path) || (has_goldens && is_accepted_scene(path)))
         return true;
     if (stat(path, &status) != 0)
         return kiln_error_set_errno(search->error, KILN_IO, errno, "%s", path);
@@ -186,16 +219,6 @@ static int is_visible(const struct dirent *entry)
 static int by_bytes(const struct dirent **a, const struct dirent **b)
 {
     return strcmp((*a)->d_name, (*b)->d_name);
-}
-
-/* The scene beside what was accepted of a test is no test: goldens of another run may be here. */
-static bool has_expect_file(struct dirent *const *entries, int count)
-{
-    for (int i = 0; i < count; i++) {
-        if (strcmp(entries[i]->d_name, "expect.yaml") == 0)
-            return true;
-    }
-    return false;
 }
 
 /* folder "" is the working directory. named: of the folder, "" for the operand. */

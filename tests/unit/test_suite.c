@@ -92,6 +92,10 @@ static void folders_are_searched(void **state)
     static const char *const elsewhere[] = {"elsewhere"};
     params = paths(elsewhere, 1);
     expect_usage(&params, "elsewhere: no test in this folder: no *.test.yaml, and no scene");
+    /* But no other file is, wherever an expect.yaml is dropped. */
+    test_write_file("elsewhere/fire/torch.yaml", scene);
+    test_write_file("elsewhere/fire/smoke.test.yaml", fire_test);
+    expect_names(&params, "fire/smoke fire/torch");
 }
 
 static void paths_lead_from_the_test_file(void **state)
@@ -132,13 +136,21 @@ static void scenes_with_faults_are_not_passed_over(void **state)
     (void)state;
     test_write_file("a.yaml", "# a scene\nkiln: 1\nsystems: {\n");
     test_write_file("b.yaml", "name: [\nno kiln: 1\n");
+    test_write_file("c.yaml", "\"kiln\" : 1\nsystems: {\n");
+    test_write_file("d.yaml", "{ kiln: 1, systems: [}\n");
+    test_write_file("e.yaml", "\xef\xbb\xbfkiln: 1\nsystems: {\n");
     struct kiln_suite_params params = paths(here, 1);
-    expect_names(&params, "a");
+    expect_names(&params, "a c d e");
 
-    assert_int_equal(symlink("gone.yaml", "c.yaml"), 0);
+    test_write_file("fire-test.yaml", fire_test);
+    expect_usage(&params, "fire-test.yaml: has the key kiln_test, but a test file's name ends in "
+                          ".test.yaml");
+    assert_int_equal(unlink("fire-test.yaml"), 0);
+
+    assert_int_equal(symlink("gone.yaml", "x.yaml"), 0);
     struct kiln_error error = {0};
     assert_null(kiln_suite_load(&params, &error));
-    assert_string_equal(error.message, "c.yaml: No such file or directory");
+    assert_string_equal(error.message, "x.yaml: No such file or directory");
     assert_int_equal(error.code, KILN_IO);
 }
 
