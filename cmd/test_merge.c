@@ -21,7 +21,14 @@ static int write_reports(const struct arguments *arguments, struct test_outputs 
     if (!results)
         return report_error(&error);
     struct kiln_results_summary summary = kiln_results_summary(results);
-    enum kiln_code code = test_outputs_write(outputs, results, summary.code);
+    enum kiln_code code = summary.code;
+    if (summary.missing_shard > 0)
+        code = kiln_code_worse(
+            code, (enum kiln_code)report(KILN_INVALID_INPUT,
+                                         "test report: shard %u of %u is missing: its tests were "
+                                         "judged nowhere",
+                                         summary.missing_shard, summary.shards));
+    code = test_outputs_write(outputs, results, code);
     kiln_results_destroy(&results);
     if (code || !arguments_flag(arguments, "quiet")) {
         FILE *out = outputs->standard_output ? stderr : stdout;
@@ -52,7 +59,8 @@ const struct command test_report_command = {
     .operands = "FOLDER...",
     .description =
         "Reads the results of one or several runs and writes reports of all of them together. The "
-        "exit code is that of the worst test, as 'kiln test' would have given it.",
+        "exit code is that of the worst test, as 'kiln test' would have given it; it is 3 when a "
+        "shard is missing.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .least_operands = 1,

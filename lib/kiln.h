@@ -511,8 +511,7 @@ struct kiln_approve_params {
  * (an error), or when the scene, the pictures or the goldens have changed since, KILN_IO. */
 bool kiln_test_approve(const struct kiln_approve_params *params, struct kiln_error *error);
 
-/* Measures how much pictures of a test differ for reasons that nobody means, and proposes limits.
- */
+/* Measures how pictures of a test differ for reasons that nobody means, and proposes limits. */
 struct kiln_calibrate_params {
     const char *const *devices; /* 0: the default one */
     size_t device_count;
@@ -557,6 +556,7 @@ struct kiln_results_summary {
     uint32_t counts[KILN_TEST_STATUS_COUNT];
     enum kiln_code code; /* that of the worst test */
     double total_s;
+    uint32_t missing_shard, shards; /* the first that is not there, of how many; 0: all are */
 };
 struct kiln_results_summary kiln_results_summary(const struct kiln_results *results);
 

@@ -4,6 +4,11 @@
 
 #include "suite/result.h"
 
+/* A run that was one of several, which have the same tests between them. */
+struct kiln_report_shard {
+    uint64_t number, count, tests;
+};
+
 /* The run or runs that are reported. */
 struct kiln_results {
     struct kiln_arena *arena;
@@ -12,6 +17,8 @@ struct kiln_results {
     size_t count;
     double total_s;
     const char *started; /* of the earliest test */
+    struct kiln_report_shard *shards;
+    size_t shard_count;
 };
 
 struct kiln_report_format {

@@ -29,6 +29,9 @@ bool kiln_suite_write_run(const struct kiln_suite *suite, double total_s, struct
     struct kiln_text text = {0};
     kiln_text_add(&text, "{\n  \"kiln_run\": %d,\n  \"version\": \"%s\",\n  \"total_s\": %s,\n",
                   RUN_VERSION, KILN_VERSION, seconds);
+    if (suite->shards > 0)
+        kiln_text_add(&text, "  \"shard\": %u,\n  \"shards\": %u,\n  \"all_tests\": %zu,\n",
+                      suite->shard, suite->shards, suite->all_count);
     kiln_text_add(&text, "  \"tests\": [");
     for (size_t i = 0; i < suite->count; i++) {
         const char *before = i == 0 ? "[\n    " : i % GROUP_SIZE ? ",\n    " : "], [\n    ";
@@ -59,6 +62,8 @@ struct loading {
     struct kiln_error *error;
     struct entry *entries;
     size_t count, capacity;
+    struct kiln_report_shard *shards; /* with room for one of each run */
+    size_t shard_count;
     double total_s;
 };
 
@@ -188,6 +193,29 @@ static bool read_head(struct loading *loading, const struct kiln_node *root)
     return true;
 }
 
+static bool read_count(const struct loading *loading, const struct kiln_node *root, const char *key,
+                       uint64_t *count)
+{
+    const struct kiln_node *node = kiln_node_entry(root, key);
+    return (node && node->kind == KILN_NODE_SCALAR && kiln_text_to_uint64(node->text, count) &&
+            *count > 0 && *count <= UINT32_MAX) ||
+           kiln_node_error(node ? node : root, loading->error, "%s: a number from 1 must be here",
+                           key);
+}
+
+static bool read_shard(struct loading *loading, const struct kiln_node *root)
+{
+    struct kiln_report_shard *shard = &loading->shards[loading->shard_count];
+    if (!kiln_node_entry(root, "shards"))
+        return true;
+    if (!read_count(loading, root, "shard", &shard->number) ||
+        !read_count(loading, root, "shards", &shard->count) ||
+        !read_count(loading, root, "all_tests", &shard->tests))
+        return false;
+    loading->shard_count++;
+    return true;
+}
+
 static bool load_run(struct loading *loading, const char *folder)
 {
     char path[KILN_PATH_SIZE];
@@ -206,7 +234,8 @@ static bool load_run(struct loading *loading, const char *folder)
     else
         root = kiln_node_parse(loading->arena, text, size, &origin, error);
     free(text);
-    return root && read_head(loading, root) && load_tests(loading, folder, root);
+    return root && read_head(loading, root) && read_shard(loading, root) &&
+           load_tests(loading, folder, root);
 }
 
 /* ---- Results ------------------------------------------------------------------------------ */
@@ -238,6 +267,8 @@ static struct kiln_results *collect(const struct loading *loading)
     results->arena = loading->arena;
     results->count = loading->count;
     results->total_s = loading->total_s;
+    results->shards = loading->shards;
+    results->shard_count = loading->shard_count;
     results->started = "";
     results->tests = kiln_arena_alloc(loading->arena, loading->count + 1, sizeof *results->tests);
     results->folders =
@@ -263,7 +294,10 @@ struct kiln_results *kiln_results_load(const char *const *folders, size_t folder
         out_of_memory(error);
         return NULL;
     }
-    bool ok = true;
+    loading.shards = kiln_arena_alloc(loading.arena, folder_count + 1, sizeof *loading.shards);
+    bool ok = loading.shards != NULL;
+    if (!ok)
+        out_of_memory(error);
     for (size_t i = 0; ok && i < folder_count; i++)
         ok = load_run(&loading, folders[i]);
     if (ok && loading.count)
@@ -288,6 +322,34 @@ void kiln_results_destroy(struct kiln_results **results)
     *results = NULL;
 }
 
+/* Whether the shard of this number is there of the run that another shard is of. */
+static bool has_shard(const struct kiln_results *results, const struct kiln_report_shard *of,
+                      uint64_t number)
+{
+    for (size_t i = 0; i < results->shard_count; i++) {
+        const struct kiln_report_shard *shard = &results->shards[i];
+        if (shard->number == number && shard->count == of->count && shard->tests == of->tests)
+            return true;
+    }
+    return false;
+}
+
+/* Tests of a shard that is missing were judged nowhere. */
+static void find_missing_shard(const struct kiln_results *results,
+                               struct kiln_results_summary *summary)
+{
+    for (size_t i = 0; i < results->shard_count && !summary->missing_shard; i++) {
+        const struct kiln_report_shard *shard = &results->shards[i];
+        uint64_t number = 1;
+        while (number <= shard->count && has_shard(results, shard, number))
+            number++;
+        if (number <= shard->count) {
+            summary->missing_shard = (uint32_t)number;
+            summary->shards = (uint32_t)shard->count;
+        }
+    }
+}
+
 struct kiln_results_summary kiln_results_summary(const struct kiln_results *results)
 {
     struct kiln_results_summary summary = {.tests = (uint32_t)results->count,
@@ -296,5 +358,6 @@ struct kiln_results_summary kiln_results_summary(const struct kiln_results *resu
         summary.counts[results->tests[i]->status]++;
         summary.code = kiln_code_worse(summary.code, results->tests[i]->code);
     }
+    find_missing_shard(results, &summary);
     return summary;
 }

@@ -238,6 +238,9 @@ static void choose_shard(struct loader *loader)
     struct kiln_suite *suite = loader->suite;
     uint32_t shard = loader->params->shard, shards = loader->params->shards;
     size_t kept = 0;
+    suite->shard = shard;
+    suite->shards = shards;
+    suite->all_count = suite->count;
     for (size_t i = 0; i < suite->count; i++) {
         if (shards == 0 || i % shards == shard - 1)
             suite->tests[kept++] = suite->tests[i];

@@ -50,6 +50,8 @@ struct kiln_suite {
     struct kiln_arena *arena;
     struct kiln_test *tests;
     size_t count;
+    uint32_t shard, shards; /* as asked for; 0 and 0: all tests */
+    size_t all_count;       /* tests of all shards */
     char *results_folder;
 };
 

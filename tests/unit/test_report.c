@@ -175,6 +175,49 @@ static void shards_are_put_together(void **state)
     assert_refused(shards, 2, "effects/smoke: there are two results, in ");
 }
 
+static void write_part(const char *out, const char *name, uint32_t shard, uint32_t shards,
+                       size_t all_count)
+{
+    char folder[32];
+    snprintf(folder, sizeof folder, "%s", out);
+    struct kiln_test test = {.full_name = name, .path = "a.yaml"};
+    struct kiln_suite suite = {.results_folder = folder,
+                               .tests = &test,
+                               .count = 1,
+                               .shard = shard,
+                               .shards = shards,
+                               .all_count = all_count};
+    struct kiln_error error = {0};
+    assert_true(kiln_suite_write_run(&suite, 2, &error));
+}
+
+static void expect_missing(const char *const *folders, size_t count, uint32_t shard,
+                           uint32_t shards)
+{
+    struct kiln_results *results = load(folders, count);
+    const struct kiln_results_summary summary = kiln_results_summary(results);
+    assert_int_equal(summary.missing_shard, shard);
+    assert_int_equal(summary.shards, shards);
+    kiln_results_destroy(&results);
+}
+
+/* A machine that was lost took its tests with it, and nothing else would tell. */
+static void missing_shards_are_told(void **state)
+{
+    (void)state;
+    static const char *const shards[] = {"c", "a", "b", "all"};
+    write_part("a", "one", 1, 3, 3);
+    write_part("b", "two", 2, 3, 3);
+    write_part("c", "three", 3, 3, 3);
+    write_shard("all", "alone");
+    expect_missing(shards, 4, 0, 0);
+    expect_missing(shards, 2, 2, 3);
+    write_part("b", "two", 2, 3, 4); /* of other tests */
+    expect_missing(shards, 3, 2, 3);
+    write_part("a", "one", 1, UINT32_MAX, 3);
+    expect_missing(shards + 1, 1, 2, UINT32_MAX);
+}
+
 static void broken_runs_are_refused(void **state)
 {
     (void)state;
@@ -187,6 +230,8 @@ static void broken_runs_are_refused(void **state)
         {"{\"kiln_run\": 1}", "total_s: a number of seconds must be here"},
         {"{\"kiln_run\": 1, \"total_s\": []}", "total_s: a number of seconds must be here"},
         {"{\"kiln_run\": 1, \"total_s\": 1}", "tests: lists of tests must be here"},
+        {"{\"kiln_run\": 1, \"total_s\": 1, \"shard\": 0, \"shards\": 1}",
+         "shard: a number from 1 must be here"},
         {"{\"kiln_run\": 1, \"total_s\": 1, \"tests\": [1]}",
          "tests: a list of tests must be here"},
         {"{\"kiln_run\": 1, \"total_s\": 1, \"tests\": [[1]]}", "name: a text in quotes must be"},
@@ -361,6 +406,7 @@ int main(void)
         in_folder(an_empty_run_is_green),
         in_folder(large_runs_are_listed),
         in_folder(shards_are_put_together),
+        in_folder(missing_shards_are_told),
         in_folder(broken_runs_are_refused),
         in_folder(results_of_other_tests_are_refused),
         in_folder(reports_have_their_exact_text),

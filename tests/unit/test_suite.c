@@ -236,6 +236,11 @@ static void shards_share_the_tests(void **state)
     params.shard = 1;
     params.shards = 3;
     expect_names(&params, "effects/far other");
+    struct kiln_suite *suite = load(&params);
+    assert_int_equal(suite->shard, 1);
+    assert_int_equal(suite->shards, 3);
+    assert_int_equal(suite->all_count, 4);
+    kiln_suite_destroy(&suite);
     params.shard = 3;
     expect_names(&params, "fire");
     params.shard = params.shards = 9;
