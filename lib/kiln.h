@@ -440,7 +440,7 @@ bool kiln_test_write_reference(FILE *out);
 enum kiln_update {
     KILN_UPDATE_NONE,
     KILN_UPDATE_MISSING, /* write goldens that do not exist */
-    KILN_UPDATE_FAILED,  /* and replace those of frames that fail */
+    KILN_UPDATE_FAILED,  /* and replace those of frames that fail, or that cannot be decoded */
     KILN_UPDATE_ALL,     /* and those of frames that pass */
 };
 

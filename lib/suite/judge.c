@@ -28,6 +28,26 @@ static bool decide(struct judging *j, enum kiln_test_status status, enum kiln_ju
 
 /* ---- What is accepted --------------------------------------------------------------------- */
 
+/* Numbers that are none must not become a golden. */
+static bool check_picture(struct judging *j, struct kiln_error *error)
+{
+    struct kiln_trial_comparison comparison;
+    return kiln_trial_compare(j->trial, j->picture, j->picture, NULL, &comparison, error);
+}
+
+/* A golden that cannot be decoded is the frame's error, but one that an update can mend. */
+static bool hash_golden(struct judging *j, size_t index)
+{
+    struct kiln_error ignored = {0};
+    if (kiln_pixel_hash(j->goldens.paths[index], j->hashes[index], &j->error))
+        return true;
+    if (j->error.code != KILN_INVALID_INPUT || !check_picture(j, &ignored))
+        return false;
+    j->own->broken_golden = true;
+    j->frame->golden = kiln_trial_text(j->trial, "%s", j->goldens.paths[index]);
+    return false;
+}
+
 static bool find_goldens(struct judging *j)
 {
     struct kiln_trial *trial = j->trial;
@@ -38,7 +58,7 @@ static bool find_goldens(struct judging *j)
     j->frame->golden = kiln_trial_text(trial, "%s", j->goldens.paths[0]);
     j->own->has_golden = j->goldens.count > 0;
     for (size_t i = 0; i < j->goldens.count; i++) {
-        if (!kiln_pixel_hash(j->goldens.paths[i], j->hashes[i], &j->error))
+        if (!hash_golden(j, i))
             return false;
         if (!j->own->equals_golden && strcmp(j->hashes[i], j->frame->pixels) == 0) {
             j->own->equals_golden = true;
@@ -166,11 +186,9 @@ static const char *describe_state(struct judging *j, const char *picture)
                            j->frame->state, j->frame->number, j->frame->state_expected, picture);
 }
 
-/* Numbers that are none must not become a golden either. */
 static bool judge_new(struct judging *j)
 {
-    struct kiln_trial_comparison comparison;
-    if (!kiln_trial_compare(j->trial, j->picture, j->picture, NULL, &comparison, &j->error))
+    if (!check_picture(j, &j->error))
         return false;
     if (state_changed(j))
         return decide(j, KILN_TEST_FAIL, KILN_JUDGED_BY_STATE,
@@ -226,5 +244,6 @@ void kiln_trial_judge(struct kiln_trial *trial, size_t index)
         return;
     j.own->code = j.error.code;
     decide(&j, KILN_TEST_ERROR, KILN_JUDGED_BY_NOTHING,
-           kiln_trial_text(trial, "frame %u: %s", j.frame->number, j.error.message));
+           kiln_trial_text(trial, "frame %u: %s%s", j.frame->number, j.error.message,
+                           j.own->broken_golden ? "; --update failed replaces it" : ""));
 }

@@ -1,6 +1,8 @@
 /* Notes: what a tester should know although nothing failed. A limit that is far above all that was
  * ever measured hides the fault that it is there to find. */
+#include <dirent.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
@@ -52,16 +54,50 @@ static bool worst_measured(const struct kiln_trial *trial, size_t column, double
     return found;
 }
 
+/* The test's limits are instead of the default ones: what is not among them may be anything. */
+static void note_missing_limits(struct kiln_trial *trial, const struct kiln_metric_set *defaults)
+{
+    for (size_t i = 0; i < defaults->count; i++) {
+        const struct kiln_compare_column *usual = &defaults->columns[i];
+        const struct kiln_compare_column *own = NULL;
+        for (size_t k = 0; k < trial->result->column_count; k++) {
+            if (strcmp(trial->result->columns[k].name, usual->name) == 0)
+                own = &trial->result->columns[k];
+        }
+        if (usual->limited && (!own || !own->limited))
+            kiln_trial_note(trial,
+                            "%s has no limit, but would by default, %.4g, and there is no reason",
+                            usual->name, usual->limit);
+    }
+}
+
+/* What makes the count of differing pixels smaller. */
+static void note_settings(struct kiln_trial *trial)
+{
+    const struct kiln_compare_params usual = KILN_COMPARE_DEFAULTS;
+    const struct kiln_test *test = trial->test;
+    if (test->threshold > usual.threshold)
+        kiln_trial_note(trial, "threshold %.4g is above the default one, %.4g, and has no reason",
+                        test->threshold, usual.threshold);
+    if (test->window > usual.window)
+        kiln_trial_note(trial, "window %u is above the default one, %u, and has no reason",
+                        test->window, usual.window);
+}
+
 static void note_limits(struct kiln_trial *trial)
 {
     static const char *const default_limits[] = {KILN_COMPARE_DEFAULT_LIMITS};
     const struct kiln_result *result = trial->result;
     struct kiln_metric_set defaults;
     struct kiln_error error = {0};
-    if (!trial->own_limits || !kiln_metric_set_make(&defaults, default_limits, 1, &error))
-        return;
     const char *own = trial->expect->reason, *test = trial->test->limits_reason;
     bool reason = (own && *own) || (test && *test);
+    if (!reason)
+        note_settings(trial);
+    if (!trial->own_limits || !kiln_metric_set_make(&defaults, default_limits, 1, &error))
+        return;
+    if (!reason)
+        note_missing_limits(trial, &defaults);
     for (size_t i = 0; i < result->column_count; i++) {
         const struct kiln_compare_column *c = &result->columns[i];
         const struct kiln_compare_column *usual = find_column(&defaults, c->name);
@@ -118,6 +154,49 @@ static void note_scene(struct kiln_trial *trial)
                                "passes");
 }
 
+/* Does the name of a golden say one of the frames, and the format of the test's? */
+static bool is_used(const struct kiln_trial *trial, const char *name)
+{
+    const char *suffix = kiln_test_suffix(trial->test);
+    size_t length = strlen(name), end = strlen(suffix);
+    if (length < end || strcmp(name + length - end, suffix) != 0)
+        return false;
+    for (size_t i = 0; i < trial->result->frame_count; i++) {
+        char start[32];
+        size_t begin =
+            (size_t)snprintf(start, sizeof start, "frame_%04u", trial->result->frames[i].number);
+        if (strncmp(name, start, begin) == 0 && strchr(".@~", name[begin]))
+            return true;
+    }
+    return false;
+}
+
+/* A golden that no frame is judged by any more, as when the list of frames got shorter. */
+static void note_unused(struct kiln_trial *trial)
+{
+    struct dirent **entries = NULL;
+    int count = scandir(trial->test->golden, &entries, NULL, alphasort);
+    const char *first = NULL;
+    int unused = 0;
+    for (int i = 0; i < count; i++) {
+        const char *name = entries[i]->d_name, *suffix = strrchr(name, '.');
+        if (strncmp(name, "frame_", 6) != 0 || !suffix ||
+            (strcmp(suffix, ".png") != 0 && strcmp(suffix, ".exr") != 0) || is_used(trial, name))
+            continue;
+        first = first ? first : name;
+        unused++;
+    }
+    if (unused == 1)
+        kiln_trial_note(trial, "%s/%s is the golden of no frame of the test", trial->test->golden,
+                        first);
+    else if (unused > 1)
+        kiln_trial_note(trial, "%s/%s and %d more are goldens of no frame of the test",
+                        trial->test->golden, first, unused - 1);
+    for (int i = 0; i < count; i++)
+        free(entries[i]);
+    free(entries);
+}
+
 void kiln_trial_take_notes(struct kiln_trial *trial)
 {
     const struct kiln_result *result = trial->result;
@@ -125,6 +204,7 @@ void kiln_trial_take_notes(struct kiln_trial *trial)
     if (!trial->params->ignore_hashes)
         note_states(trial);
     note_scene(trial);
+    note_unused(trial);
     if (*result->techniques_expected &&
         strcmp(result->techniques, result->techniques_expected) != 0)
         kiln_trial_note(trial, "the techniques are %s, accepted were %s", result->techniques,

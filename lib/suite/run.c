@@ -32,6 +32,8 @@ static bool is_left_over(const char *name, const char *path)
     struct stat log, out;
     if (strncmp(name, "frame_", 6) == 0)
         return ends_in(name, ".png") || ends_in(name, ".exr");
+    if (strncmp(name, ".frame_", 7) == 0)
+        return ends_in(name, ".tmp"); /* of a process that was killed */
     if (strcmp(name, "log.txt") == 0)
         return stat(path, &log) == 0 && !(fstat(STDERR_FILENO, &out) == 0 &&
                                           out.st_dev == log.st_dev && out.st_ino == log.st_ino);
@@ -174,12 +176,22 @@ static bool judge_frames(struct kiln_trial *trial, struct kiln_error *error)
 }
 
 /* Masks without sense are found even where known pixels pass without a look at them. */
-static bool check_masks(const struct kiln_trial *trial, struct kiln_error *error)
+static bool check_masks(struct kiln_trial *trial, struct kiln_error *error)
 {
     struct kiln_mask mask = {0};
     const struct kiln_scene_info *scene = &trial->rendering.scene;
-    bool ok = trial->mask_count == 0 || kiln_mask_make(&mask, trial->masks, trial->mask_count,
-                                                       scene->width, scene->height, error);
+    size_t count = (size_t)scene->width * scene->height, masked = 0;
+    if (trial->mask_count == 0)
+        return true;
+    bool ok =
+        kiln_mask_make(&mask, trial->masks, trial->mask_count, scene->width, scene->height, error);
+    for (size_t i = 0; ok && i < count; i++)
+        masked += mask.masked[i];
+    if (2 * masked > count)
+        kiln_trial_note(trial, "the masks leave %.2g %% of the picture to judge",
+                        100.0 * (double)(count - masked) / (double)count);
+    if (!ok && error->code == KILN_USAGE)
+        error->code = KILN_INVALID_INPUT; /* it is the test's, not the command line's */
     kiln_mask_finish(&mask);
     return ok;
 }

@@ -8,6 +8,7 @@
 struct kiln_trial_frame {
     enum kiln_code code; /* of an error */
     bool has_golden;
+    bool broken_golden; /* which cannot be decoded, while the picture could take its place */
     bool equals_golden; /* to the bit */
     char golden_hash[65];
     const char *unsteady; /* how another render differed; NULL: none did */

@@ -18,11 +18,11 @@ static enum action choose_action(const struct kiln_trial *trial, size_t index)
     const struct kiln_result_frame *frame = &trial->result->frames[index];
     const struct kiln_trial_frame *own = &trial->frames[index];
     enum kiln_update least = KILN_UPDATE_ALL;
-    if (own->unsteady || frame->status == KILN_TEST_ERROR)
+    if (own->unsteady || (frame->status == KILN_TEST_ERROR && !own->broken_golden))
         return LEAVE;
     if (frame->status == KILN_TEST_NEW)
         least = KILN_UPDATE_MISSING;
-    else if (frame->status == KILN_TEST_FAIL)
+    else if (frame->status == KILN_TEST_FAIL || own->broken_golden)
         least = KILN_UPDATE_FAILED;
     if (trial->params->update < least)
         return LEAVE;

@@ -210,7 +210,7 @@ static void masked_pixels_are_not_judged(void **state)
     spark_write("masks: [{rect: [0, 0, 99, 99], reason: too much}]\n");
     struct spark_run run = spark_run(&params);
     assert_int_equal(run.summary.status, KILN_TEST_ERROR);
-    assert_int_equal(run.summary.code, KILN_USAGE);
+    assert_int_equal(run.summary.code, KILN_INVALID_INPUT);
     spark_end(&run);
 }
 
@@ -313,7 +313,7 @@ static void what_cannot_be_judged_is_an_error(void **state)
     expect_error(KILN_INVALID_INPUT, SPARK_GOLDEN);
     assert_true(kiln_file_copy("kept.png", SPARK_GOLDEN, &error));
     spark_write("masks: [{rect: [0, 0, 48, 32], reason: all}]\n");
-    expect_error(KILN_USAGE, "nothing is left to judge");
+    expect_error(KILN_INVALID_INPUT, "nothing is left to judge");
     spark_write("masks: [{picture: spark.yaml, reason: none}]\n");
     expect_error(KILN_INVALID_INPUT, "spark.yaml");
     spark_write("set: [output.frames=5]\n");

@@ -195,17 +195,25 @@ static void a_scene_that_looks_the_same_is_accepted_by_all(void **state)
     assert_int_equal(spark_expect(NULL, KILN_TEST_PASS, KILN_JUDGED_BY_PIXELS), 0);
 }
 
-static void broken_goldens_are_never_replaced(void **state)
+static void broken_goldens_are_replaced_when_told(void **state)
 {
     (void)state;
     spark_write("");
     spark_update(KILN_UPDATE_MISSING);
     test_write_file(SPARK_GOLDEN, "no picture");
-    struct file_state first = file_state(SPARK_GOLDEN);
-    struct spark_run run = run_update(KILN_UPDATE_ALL, false);
+    struct file_state first = file_state(SPARK_GOLDEN), second = file_state(SECOND_GOLDEN);
+    struct spark_run run = run_update(KILN_UPDATE_MISSING, false);
     assert_int_equal(run.summary.status, KILN_TEST_ERROR);
+    assert_non_null(strstr(run.summary.message, "; --update failed replaces it"));
     spark_end(&run);
     assert_true(is_untouched(SPARK_GOLDEN, &first));
+    run = run_update(KILN_UPDATE_FAILED, true);
+    assert_int_equal(run.summary.status, KILN_TEST_ERROR);
+    assert_true(spark_has_note(&run, "would write " SPARK_GOLDEN));
+    spark_end(&run);
+    spark_update(KILN_UPDATE_FAILED);
+    assert_true(is_untouched(SECOND_GOLDEN, &second));
+    spark_expect(NULL, KILN_TEST_PASS, KILN_JUDGED_BY_PIXELS);
 }
 
 /* ---- Repeats ------------------------------------------------------------------------------ */
@@ -264,6 +272,48 @@ static void stopping_is_no_result(void **state)
 }
 
 /* ---- Notes and errors of others ------------------------------------------------------------- */
+
+/* Whatever makes a test see less is told, unless a reason is given. */
+static void what_is_not_judged_is_noted(void **state)
+{
+    (void)state;
+    static const char loose[] = "limits: {psnr: 0}\nthreshold: 255\nwindow: 4000\n"
+                                "masks: [{rect: [0, 0, 48, 30], reason: clock}]\n";
+    char text[256];
+    spark_write("");
+    spark_update(KILN_UPDATE_MISSING);
+    spark_write(loose);
+    struct spark_run run = spark_run(NULL);
+    assert_int_equal(run.summary.status, KILN_TEST_PASS);
+    assert_true(spark_has_note(&run, "flip.mean has no limit, but would by default, 0.01"));
+    assert_true(spark_has_note(&run, "window.share has no limit"));
+    assert_true(spark_has_note(&run, "threshold 255 is above the default one, 2"));
+    assert_true(spark_has_note(&run, "window 4000 is above the default one, 32"));
+    assert_true(spark_has_note(&run, "the masks leave 6.2 % of the picture to judge"));
+    spark_end(&run);
+    snprintf(text, sizeof text, "%sreason: fog\n", loose);
+    spark_write(text);
+    assert_int_equal(spark_expect(NULL, KILN_TEST_PASS, KILN_JUDGED_BY_PIXELS), 1);
+}
+
+static void goldens_of_no_frame_are_noted(void **state)
+{
+    (void)state;
+    struct kiln_error error = {0};
+    spark_write("");
+    spark_update(KILN_UPDATE_MISSING);
+    assert_true(kiln_file_copy(SPARK_GOLDEN, "golden/spark/frame_0003@nvidia.png", &error));
+    assert_int_equal(spark_expect(NULL, KILN_TEST_PASS, KILN_JUDGED_BY_PIXELS), 0);
+    spark_replace("spark.test.yaml", "[3, 5]", "[3]");
+    struct spark_run run = spark_run(NULL);
+    assert_int_equal(run.summary.status, KILN_TEST_PASS);
+    assert_true(spark_has_note(&run, SECOND_GOLDEN " is the golden of no frame of the test"));
+    spark_end(&run);
+    assert_true(kiln_file_copy(SPARK_GOLDEN, "golden/spark/frame_3.png", &error));
+    run = spark_run(NULL);
+    assert_true(spark_has_note(&run, SECOND_GOLDEN " and 1 more are goldens of no frame"));
+    spark_end(&run);
+}
 
 static void stale_limits_are_noted(void **state)
 {
@@ -364,6 +414,7 @@ static void files_of_earlier_runs_go_and_no_others(void **state)
     (void)state;
     spark_write("");
     test_write_file("out/test/spark/frame_0001.png", "old");
+    test_write_file("out/test/spark/.frame_0001.png.kiln-7-0.tmp", "of a process that crashed");
     test_write_file("out/test/spark/log.txt", "old");
     test_write_file("out/test/spark/notes.txt", "mine");
     test_write_file("out/test/spark/below/frame_0001.png", "of another test");
@@ -371,6 +422,7 @@ static void files_of_earlier_runs_go_and_no_others(void **state)
     assert_true(run.ok);
     spark_end(&run);
     assert_int_equal(access("out/test/spark/frame_0001.png", F_OK), -1);
+    assert_int_equal(access("out/test/spark/.frame_0001.png.kiln-7-0.tmp", F_OK), -1);
     assert_int_equal(access("out/test/spark/log.txt", F_OK), -1);
     assert_int_equal(access("out/test/spark/notes.txt", F_OK), 0);
     assert_int_equal(access("out/test/spark/below/frame_0001.png", F_OK), 0);
@@ -403,9 +455,11 @@ int main(void)
         IN_FOLDER(equal_pixels_of_a_new_device_are_noted_by_all),
         IN_FOLDER(a_changed_state_is_accepted_by_failed),
         IN_FOLDER(a_scene_that_looks_the_same_is_accepted_by_all),
-        IN_FOLDER(broken_goldens_are_never_replaced),
+        IN_FOLDER(broken_goldens_are_replaced_when_told),
         IN_FOLDER(repeats_must_have_the_same_hashes),
         IN_FOLDER(stopping_is_no_result),
+        IN_FOLDER(what_is_not_judged_is_noted),
+        IN_FOLDER(goldens_of_no_frame_are_noted),
         IN_FOLDER(stale_limits_are_noted),
         IN_FOLDER(what_was_accepted_of_another_kind_is_noted),
         IN_FOLDER(failed_replaces_the_nearest_golden),

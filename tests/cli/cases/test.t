@@ -329,7 +329,7 @@ A signal to the run ends its tests, and leaves neither processes nor half-writte
 $ env --default-signal kiln test slow fire -j2 -o out/stop & run=$!
 > child=$(bash child stop $run); kill -TERM $run; wait $run; code=$?
 > for id in $child; do [ ! -d /proc/$id ] || echo "$id is left"; done
-> find . -name '*.tmp'; exit $code
+> find out/stop -name '*.tmp'; exit $code
 2|kiln: test: stopped by SIGTERM after <n> of 2 tests
 = 143
 $ env --default-signal kiln test slow -o out/int & run=$!
