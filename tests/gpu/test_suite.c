@@ -329,6 +329,19 @@ static void what_cannot_be_judged_is_an_error(void **state)
     expect_error(KILN_INVALID_INPUT, "golden/spark/expect.yaml:2:1");
 }
 
+static void results_of_before_are_removed_and_nothing_else(void **state)
+{
+    (void)state;
+    spark_write("");
+    test_write_file("out/test/spark/frame_0099.png", "");
+    test_write_file("out/test/spark/notes.json", "mine");
+    struct spark_run run = spark_run(NULL);
+    assert_true(run.ok);
+    assert_int_equal(access("out/test/spark/frame_0099.png", F_OK), -1);
+    assert_int_equal(access("out/test/spark/notes.json", F_OK), 0);
+    spark_end(&run);
+}
+
 static void a_device_that_is_absent_is_skipped(void **state)
 {
     (void)state;
@@ -367,6 +380,7 @@ int main(void)
         IN_FOLDER(a_device_is_judged_by_its_own_goldens),
         IN_FOLDER(strictly_only_known_pixels_pass),
         IN_FOLDER(what_cannot_be_judged_is_an_error),
+        IN_FOLDER(results_of_before_are_removed_and_nothing_else),
         IN_FOLDER(a_device_that_is_absent_is_skipped),
     };
     return cmocka_run_group_tests_name("suite", tests, spark_needs_device, NULL);
