@@ -23,18 +23,6 @@ struct kiln_gallery {
     uint64_t bytes; /* of those inside */
 };
 
-size_t kiln_gallery_worst_frame(const struct kiln_result *result)
-{
-    size_t worst = 0;
-    for (size_t i = 1; i < result->frame_count; i++) {
-        const struct kiln_result_frame *a = &result->frames[worst], *b = &result->frames[i];
-        double a_score = a->measured ? a->score : 0, b_score = b->measured ? b->score : 0;
-        if (b->status > a->status || (b->status == a->status && b_score > a_score))
-            worst = i;
-    }
-    return worst;
-}
-
 /* ---- Links -------------------------------------------------------------------------------- */
 
 /* The path of a file from the page's folder, given the absolute path of the file's folder. */
@@ -188,7 +176,7 @@ static bool place_test(struct kiln_gallery *gallery, size_t test)
         gallery->arena, KILN_GALLERY_ROLE_COUNT * result->frame_count + 1, sizeof **gallery->tests);
     if (!gallery->tests[test])
         return false;
-    size_t worst = kiln_gallery_worst_frame(result);
+    size_t worst = kiln_result_worst_frame(result);
     if (result->frame_count > 0 && !place_frame(gallery, test, worst))
         return false;
     for (size_t i = 0; i < result->frame_count; i++)

@@ -49,8 +49,4 @@ uint32_t kiln_gallery_crowded_out(const struct kiln_gallery *gallery);
  * read is an empty one with the reason as its data-problem. One picture is in memory at a time. */
 void kiln_gallery_write(const struct kiln_gallery *gallery, FILE *out);
 
-/* The frame that a person should see first: of the worst status, the highest score; 0 without
- * frames. */
-size_t kiln_gallery_worst_frame(const struct kiln_result *result);
-
 #endif

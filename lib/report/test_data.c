@@ -162,7 +162,7 @@ void kiln_test_data_write(FILE *out, const struct kiln_results *results, size_t 
     add_text(out, "folder", results->folders[test]);
     add_facts(out, result);
     add_columns(out, result);
-    fprintf(out, ",\"first\":%zu,\"frames\":[", kiln_gallery_worst_frame(result));
+    fprintf(out, ",\"first\":%zu,\"frames\":[", kiln_result_worst_frame(result));
     for (size_t i = 0; i < result->frame_count; i++) {
         fputs(i ? "," : "", out);
         add_frame(out, result, &result->frames[i], kiln_gallery_places(gallery, test, i));

@@ -1,6 +1,7 @@
 /* What a result is: the names in it, and the members of its file. */
 #include "suite/result.h"
 
+#include <math.h>
 #include <stddef.h>
 
 #include "base/error.h"
@@ -27,6 +28,24 @@ double kiln_result_score(const struct kiln_result *result)
             score = frame->score;
     }
     return score;
+}
+
+static double urgency(const struct kiln_result_frame *frame)
+{
+    if (frame->measured)
+        return frame->score;
+    return frame->status > KILN_TEST_PASS ? INFINITY : 0;
+}
+
+size_t kiln_result_worst_frame(const struct kiln_result *result)
+{
+    size_t worst = 0;
+    for (size_t i = 1; i < result->frame_count; i++) {
+        const struct kiln_result_frame *a = &result->frames[worst], *b = &result->frames[i];
+        if (b->status > a->status || (b->status == a->status && urgency(b) > urgency(a)))
+            worst = i;
+    }
+    return worst;
 }
 
 /* ---- Members ------------------------------------------------------------------------------ */

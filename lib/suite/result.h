@@ -89,6 +89,10 @@ void kiln_result_frame_init(struct kiln_result_frame *frame, uint32_t number);
 /* A score of a result's worst frame: the highest of the measured ones, 0 without any. */
 double kiln_result_score(const struct kiln_result *result);
 
+/* The frame that a person should see first: of the worst status, the highest score, which one
+ * without values has unless it passed. 0 without frames. */
+size_t kiln_result_worst_frame(const struct kiln_result *result);
+
 /* Writes FOLDER/result.json, whole or not at all; makes missing folders. KILN_IO. */
 bool kiln_result_write(const struct kiln_result *result, const char *folder,
                        struct kiln_error *error);

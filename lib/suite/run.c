@@ -1,7 +1,6 @@
 /* A run of one test, from its file to its result. Whatever goes wrong on the way is in the result,
  * so that a run of many tests tells of each. */
 #include <dirent.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -196,25 +195,13 @@ static bool check_masks(struct kiln_trial *trial, struct kiln_error *error)
     return ok;
 }
 
-/* Of several frames of the worst status, that of the highest score; one without values has the
- * highest. */
 static void sum_up(struct kiln_trial *trial)
 {
     struct kiln_result *result = trial->result;
-    double worst = -1;
-    result->status = KILN_TEST_PASS;
+    const struct kiln_result_frame *worst = &result->frames[kiln_result_worst_frame(result)];
+    result->status = worst->status;
     result->code = KILN_OK;
-    result->message = "";
-    for (size_t i = 0; i < result->frame_count; i++) {
-        const struct kiln_result_frame *frame = &result->frames[i];
-        double score = frame->measured ? frame->score : INFINITY;
-        if (frame->status < result->status || (frame->status == result->status && score <= worst))
-            continue;
-        if (frame->status > KILN_TEST_PASS)
-            result->message = frame->message;
-        result->status = frame->status;
-        worst = score;
-    }
+    result->message = worst->status > KILN_TEST_PASS ? worst->message : "";
     if (result->status == KILN_TEST_FAIL)
         result->code = KILN_FRAME_FAILED;
     if (result->status == KILN_TEST_NEW)

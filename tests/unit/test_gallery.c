@@ -287,24 +287,6 @@ static void a_page_has_a_size(void **state)
     close_album(&album);
 }
 
-static void the_worst_frame_is_the_worst_status(void **state)
-{
-    (void)state;
-    struct kiln_result result;
-    struct kiln_result_frame frames[3];
-    kiln_result_init(&result, "a");
-    assert_int_equal(kiln_gallery_worst_frame(&result), 0);
-    result.frames = frames;
-    result.frame_count = 3;
-    for (uint32_t i = 0; i < 3; i++)
-        kiln_result_frame_init(&frames[i], i);
-    frames[1].measured = true;
-    frames[1].score = 0.5;
-    assert_int_equal(kiln_gallery_worst_frame(&result), 1);
-    frames[2].status = KILN_TEST_FAIL;
-    assert_int_equal(kiln_gallery_worst_frame(&result), 2);
-}
-
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
@@ -314,7 +296,6 @@ int main(void)
         cmocka_unit_test(links_are_relative_to_the_page),
         cmocka_unit_test(broken_pictures_say_why),
         cmocka_unit_test(a_page_has_a_size),
-        cmocka_unit_test(the_worst_frame_is_the_worst_status),
     };
     return cmocka_run_group_tests_name("gallery", tests, NULL, NULL);
 }

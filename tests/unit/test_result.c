@@ -339,9 +339,31 @@ static void files_that_are_no_result(void **state)
     test_remove_folder(folder);
 }
 
+static void the_worst_frame_is_that_of_the_worst_status(void **state)
+{
+    (void)state;
+    struct kiln_result result;
+    struct kiln_result_frame frames[4];
+    kiln_result_init(&result, "a");
+    assert_int_equal(kiln_result_worst_frame(&result), 0);
+    result.frames = frames;
+    result.frame_count = 4;
+    for (uint32_t i = 0; i < 4; i++)
+        kiln_result_frame_init(&frames[i], i);
+    frames[1].measured = true;
+    frames[1].score = 0.5;
+    assert_int_equal(kiln_result_worst_frame(&result), 1);
+    frames[2] = frames[1];
+    frames[2].status = KILN_TEST_FAIL;
+    assert_int_equal(kiln_result_worst_frame(&result), 2);
+    frames[3].status = KILN_TEST_FAIL; /* of another size: no score says how bad that is */
+    assert_int_equal(kiln_result_worst_frame(&result), 3);
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_worst_frame_is_that_of_the_worst_status),
         cmocka_unit_test(results_survive_the_file),
         cmocka_unit_test(long_lists_are_cut_and_say_so),
         cmocka_unit_test(the_score_is_the_worst_measured),
