@@ -155,6 +155,7 @@ struct kiln_frame_range {
 #define KILN_PASSES(X)                                                                             \
     X(simulate)                                                                                    \
     X(sort)                                                                                        \
+    X(lighting)                                                                                    \
     X(backdrop)                                                                                    \
     X(particles)                                                                                   \
     X(bloom)                                                                                       \

@@ -77,6 +77,9 @@ static bool init_stages(struct kiln_stages *s, const struct kiln_techniques *tec
     s->sort = kiln_sort_create(device, techniques->sort, s->threads, error);
     if (!s->sort)
         return false;
+    s->lighting = kiln_lighting_create(device, s->scene, error);
+    if (!s->lighting)
+        return false;
     s->backdrop = kiln_backdrop_create(device, s->scene, &s->scene_color, &s->scene_depth, error);
     if (!s->backdrop)
         return false;
@@ -121,6 +124,7 @@ void kiln_stages_finish(struct kiln_stages *stages)
     kiln_bloom_destroy(&stages->bloom);
     kiln_particles_destroy(&stages->particles);
     kiln_backdrop_destroy(&stages->backdrop);
+    kiln_lighting_destroy(&stages->lighting);
     kiln_sort_destroy(&stages->sort);
     kiln_simulate_destroy(&stages->simulate);
     kiln_framebuffer_finish(&stages->particle_framebuffer);
@@ -231,8 +235,15 @@ bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *pool, uint32
     struct kiln_stages *s = stages;
     struct kiln_view view = kiln_view_compute(s->scene, step);
 
+    struct kiln_lighting lighting;
+    kiln_timer_begin(s->timer, KILN_PASS_lighting);
+    bool ok = kiln_lighting_run(s->lighting, pool, &view, &lighting, error);
+    kiln_timer_end(s->timer);
+    if (!ok)
+        return false;
+
     kiln_timer_begin(s->timer, KILN_PASS_backdrop);
-    bool ok = kiln_backdrop_draw(s->backdrop, &view, error);
+    ok = kiln_backdrop_draw(s->backdrop, &view, &lighting, error);
     kiln_timer_end(s->timer);
     if (!ok)
         return false;

@@ -19,7 +19,8 @@ static_assert(sizeof(struct kiln_draw_light) == 32, "std140");
 static_assert(offsetof(struct kiln_draw_backdrop, counts) == 96, "std140");
 static_assert(offsetof(struct kiln_draw_backdrop, box_half) == 112 + 16 * KILN_MAX_BOXES, "std140");
 static_assert(offsetof(struct kiln_draw_backdrop, lights) == 112 + 48 * KILN_MAX_BOXES, "std140");
-static_assert(sizeof(struct kiln_draw_backdrop) == 112 + 48 * KILN_MAX_BOXES + 32 * KILN_MAX_LIGHTS,
+static_assert(sizeof(struct kiln_draw_backdrop) ==
+                  208 + 48 * KILN_MAX_BOXES + 32 * (KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS),
               "std140, and no padding, which same_picture() would compare");
 
 /* What the picture depends on. */
@@ -78,6 +79,16 @@ static void fill_lights(const struct kiln_scene *scene, float time_s,
     }
 }
 
+/* What the particles light and shade. */
+static void add_lighting(struct kiln_draw_backdrop *block, const struct kiln_lighting *lighting)
+{
+    for (uint32_t i = 0; i < lighting->fire_count; i++)
+        block->lights[block->counts.y++] = lighting->fire[i];
+    block->counts.w = lighting->smoke ? 1u : 0u;
+    memcpy(block->sun_to_grid, lighting->sun_to_grid, sizeof block->sun_to_grid);
+    memcpy(block->sky_to_grid, lighting->sky_to_grid, sizeof block->sky_to_grid);
+}
+
 static struct kiln_draw_backdrop make_block(const struct kiln_scene *scene, float time_s)
 {
     const struct kiln_backdrop *b = &scene->backdrop;
@@ -99,10 +110,10 @@ static struct kiln_draw_backdrop make_block(const struct kiln_scene *scene, floa
     return block;
 }
 
-/* The camera's clock does not show in the backdrop. */
+/* The camera's clock does not show in the backdrop; smoke does, whose grids are not compared. */
 static bool same_picture(const struct backdrop_inputs *a, const struct backdrop_inputs *b)
 {
-    return memcmp(&a->block, &b->block, sizeof a->block) == 0 &&
+    return a->block.counts.w == 0 && memcmp(&a->block, &b->block, sizeof a->block) == 0 &&
            memcmp(a->view.world_to_view, b->view.world_to_view, sizeof a->view.world_to_view) ==
                0 &&
            memcmp(&a->view.frustum, &b->view.frustum, sizeof a->view.frustum) == 0;
@@ -196,9 +207,10 @@ static bool cast(struct kiln_backdrop_stage *stage, struct kiln_error *error)
 }
 
 bool kiln_backdrop_draw(struct kiln_backdrop_stage *stage, const struct kiln_view *view,
-                        struct kiln_error *error)
+                        const struct kiln_lighting *lighting, struct kiln_error *error)
 {
     struct backdrop_inputs now = {.view = *view, .block = make_block(stage->scene, view->clock.x)};
+    add_lighting(&now.block, lighting);
     GLuint view_buffer = kiln_buffer_upload(&stage->view_buffer, &now.view, error);
     GLuint block_buffer = kiln_buffer_upload(&stage->block_buffer, &now.block, error);
     if (!view_buffer || !block_buffer)

@@ -2,6 +2,7 @@
 #ifndef KILN_DRAW_BACKDROP_H
 #define KILN_DRAW_BACKDROP_H
 
+#include "draw/lighting.h"
 #include "draw/view.h"
 #include "gpu/image.h"
 
@@ -16,8 +17,8 @@ struct kiln_backdrop_stage *kiln_backdrop_create(struct kiln_device *device,
 void kiln_backdrop_destroy(struct kiln_backdrop_stage **stage);
 
 /* Draws it, unless the picture of the last call still holds. Also uploads the uniform block that
- * lights the particles (KILN_BIND_BACKDROP). */
+ * lights the particles (KILN_BIND_BACKDROP); the grids of its smoke must be bound. */
 bool kiln_backdrop_draw(struct kiln_backdrop_stage *stage, const struct kiln_view *view,
-                        struct kiln_error *error);
+                        const struct kiln_lighting *lighting, struct kiln_error *error);
 
 #endif

@@ -67,5 +67,11 @@ const struct kiln_option kiln_options_look[] = {
     COLOR("bloom", bloom, 100, BOTH, "0", "Part of the colour that goes to the bloom."),
     VALUE("lit", lit, KILN_FRACTION, 0, 1, BOTH, "0",
           "0 shows its own colour, 1 is lit by sun, sky and lights."),
+    VALUE("shadow", shadow, KILN_PLAIN, 0, 100, TIME, "1",
+          "Of what covers: factor on the light that it keeps off itself and what is behind it."),
+    VALUE("light", light, KILN_PLAIN, 0, 1000000, TIME, "0",
+          "Factor on the light that what glows sheds on backdrop and smoke; 0 sheds none."),
+    INTEGER("lights", light_count, 1, KILN_MAX_FIRE_LIGHTS, "4",
+            "Moving lights that shed it, by the particles' ages; a scene has up to 16 in all."),
     END,
 };

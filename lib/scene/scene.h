@@ -153,6 +153,9 @@ struct kiln_look {
     struct kiln_value near_fade; /* m: transparent this near to the camera's near plane */
     struct kiln_value3 bloom;    /* weights of equation 3.2, per channel */
     struct kiln_value lit;       /* 0 unlit .. 1 lit by sun, sky and lights */
+    struct kiln_value shadow;    /* of particles that cover: factor on the light they keep off */
+    struct kiln_value light;     /* factor on the light that they shed on other things; 0: none */
+    uint32_t light_count;        /* by so many lights */
 };
 
 /* ---- systems --------------------------------------------------------------------------------- */

@@ -12,6 +12,8 @@
 layout(std140, binding = KILN_BIND_VIEW) uniform view_block { kiln_view view; };
 layout(std140, binding = KILN_BIND_BACKDROP) uniform backdrop_block { kiln_draw_backdrop backdrop; };
 
+#include "draw/smoke_shadow.glsl"
+
 layout(location = 0) out vec4 out_color;
 #if SAMPLES == 1
 layout(location = 1) out float out_depth;
@@ -159,7 +161,8 @@ vec3 sky(vec3 direction)
 vec3 soft_irradiance(hit h, vec3 point)
 {
     vec3 ambient = mix(backdrop.sky_horizon.rgb, backdrop.sky_top.rgb, 0.5 + 0.5 * h.normal.y);
-    vec3 irradiance = PI * ambient * sky_visibility(point, h.normal);
+    vec3 irradiance =
+        PI * ambient * sky_visibility(point, h.normal) * skylight_through_smoke(point);
     for (int i = 0; i < int(backdrop.counts.y); i++) {
         vec3 towards = backdrop.lights[i].position_radius2.xyz - point;
         float d2 = dot(towards, towards);
@@ -190,7 +193,8 @@ void main()
     hit h = trace(view.eye.xyz, direction);
     vec3 point = view.eye.xyz + direction * h.t;
     float sunlit = sun_visibility(point, h.normal);
-    out_color = radiance(h, direction, soft_irradiance(h, point), sunlit);
+    out_color = radiance(h, direction, soft_irradiance(h, point),
+                         sunlit * sunlight_through_smoke(point));
     out_depth = h.t;
     out_surface = float(2 * h.surface) + (h.surface < 0 ? 0.0 : sunlit);
 }
@@ -208,7 +212,8 @@ void main()
         vec3 direction = ray_direction(floor(gl_FragCoord.xy) + SAMPLE_OFFSETS[s]);
         hit h = trace(view.eye.xyz, direction);
         vec3 point = view.eye.xyz + direction * h.t;
-        sum += radiance(h, direction, soft_irradiance(h, point), sun_visibility(point, h.normal));
+        sum += radiance(h, direction, soft_irradiance(h, point),
+                        sun_visibility(point, h.normal) * sunlight_through_smoke(point));
     }
     out_color = sum / float(SAMPLES);
 }

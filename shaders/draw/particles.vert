@@ -13,6 +13,7 @@ layout(std430, binding = KILN_BIND_ENTRIES) readonly buffer entry_block { uint e
 layout(binding = 0) uniform sampler2D look_table; /* see shared/look_layout.h */
 
 #include "draw/billboard.glsl"
+#include "draw/smoke_shadow.glsl"
 
 layout(location = 0) out vec4 center; /* in view space; w: unused */
 layout(location = 1) out vec4 axes;   /* half of the billboard's edges in view space: right, up */
@@ -51,10 +52,12 @@ void light_particle(float lit, vec3 position, vec2 right, vec2 up)
     particle.light_x = particle.light_y = particle.light_z = vec4(0.0);
     if (lit <= 0.0)
         return;
-    vec3 horizon = backdrop.sky_horizon.rgb * lit;
-    particle.light_0.rgb += horizon;
-    add_light(backdrop.sky_top.rgb * lit, vec3(0.0, 1.0, 0.0), right, up);
-    add_light(backdrop.sun_color.rgb * lit / PI, backdrop.sun_direction.xyz, right, up);
+    /* The horizon's light comes from all sides and crosses less of the smoke than that from above. */
+    float sky = skylight_through_smoke(position);
+    float sun = sunlight_through_smoke(position);
+    particle.light_0.rgb += backdrop.sky_horizon.rgb * lit * sqrt(sky);
+    add_light(backdrop.sky_top.rgb * lit * sky, vec3(0.0, 1.0, 0.0), right, up);
+    add_light(backdrop.sun_color.rgb * lit * sun / PI, backdrop.sun_direction.xyz, right, up);
     for (int i = 0; i < int(backdrop.counts.y); i++) {
         vec3 towards = backdrop.lights[i].position_radius2.xyz - position;
         float d2 = dot(towards, towards);

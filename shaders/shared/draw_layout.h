@@ -51,11 +51,13 @@ struct kiln_draw_backdrop {
     float4 floor_params;  /* 1 if there is one; edge of its squares, m; haze, 1/m; unused */
     float4 sun_direction; /* unit, towards the sun */
     float4 sun_color;     /* irradiance */
-    uint4 counts;         /* boxes, lights, 1 for a transparent background, unused */
+    uint4 counts;         /* boxes; lights; 1: a transparent background; 1: smoke in the grids */
     float4 box_center[KILN_MAX_BOXES];
     float4 box_half[KILN_MAX_BOXES];
     float4 box_color[KILN_MAX_BOXES];
-    S(kiln_draw_light) lights[KILN_MAX_LIGHTS];
+    S(kiln_draw_light) lights[KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS];
+    float4 sun_to_grid[3]; /* rows: world positions to the grids of smoke (smoke_shadow.glsl) */
+    float4 sky_to_grid[3];
 };
 
 #endif

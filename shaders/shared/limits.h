@@ -14,6 +14,9 @@
 /* Systems from a first parent to its last descendants. */
 #define KILN_MAX_GENERATIONS 4
 
+/* Lights that fire sheds, besides those. */
+#define KILN_MAX_FIRE_LIGHTS 16
+
 /* The groups of births of a step: one of the rate and one of each burst. */
 #define KILN_MAX_BIRTH_GROUPS 65
 

@@ -14,6 +14,8 @@
 
 enum { WIDTH = 96, HEIGHT = 54 };
 
+static const struct kiln_lighting NO_LIGHTING = {0};
+
 static const char SCENE[] = "kiln: 1\n"
                             "output: {size: [96, 54], frames: 3, fps: 60}\n"
                             "camera:\n"
@@ -116,7 +118,7 @@ static void depth_matches_c(void **state)
     struct fixture f = fixture_create();
     fixture_start(&f, *state);
     struct kiln_view view = kiln_view_compute(f.scene, 0);
-    assert_true(kiln_backdrop_draw(f.stage, &view, &error));
+    assert_true(kiln_backdrop_draw(f.stage, &view, &NO_LIGHTING, &error));
     const float *depth = kiln_image_host(&f.depth, KILN_READ, &error);
     assert_non_null(depth);
     const double eye[3] = {3, 2, 6};
@@ -145,7 +147,7 @@ static void sky_floor_and_shadow_have_their_colors(void **state)
     struct fixture f = fixture_create();
     fixture_start(&f, *state);
     struct kiln_view view = kiln_view_compute(f.scene, 0);
-    assert_true(kiln_backdrop_draw(f.stage, &view, &error));
+    assert_true(kiln_backdrop_draw(f.stage, &view, &NO_LIGHTING, &error));
     const float *color = kiln_image_host(&f.color, KILN_READ, &error);
     assert_non_null(color);
 
@@ -172,17 +174,17 @@ static void only_changes_are_drawn_again(void **state)
     struct fixture f = fixture_create();
     fixture_start(&f, *state);
     struct kiln_view view = kiln_view_compute(f.scene, 0);
-    assert_true(kiln_backdrop_draw(f.stage, &view, &error));
+    assert_true(kiln_backdrop_draw(f.stage, &view, &NO_LIGHTING, &error));
     float *depth = kiln_image_host(&f.depth, KILN_READ_WRITE, &error);
     assert_non_null(depth);
     float before = depth[0];
     depth[0] = -1.0f;
-    assert_true(kiln_backdrop_draw(f.stage, &view, &error));
+    assert_true(kiln_backdrop_draw(f.stage, &view, &NO_LIGHTING, &error));
     depth = kiln_image_host(&f.depth, KILN_READ_WRITE, &error);
     assert_true(depth[0] == -1.0f);
 
     view = kiln_view_compute(f.scene, 30);
-    assert_true(kiln_backdrop_draw(f.stage, &view, &error));
+    assert_true(kiln_backdrop_draw(f.stage, &view, &NO_LIGHTING, &error));
     depth = kiln_image_host(&f.depth, KILN_READ, &error);
     assert_true(depth[0] == before);
     fixture_end(&f);

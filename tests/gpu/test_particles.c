@@ -136,7 +136,7 @@ static int set_up_with(void **state, const char *const *overrides, size_t count)
     assert_true(f->backdrop && f->particles);
     place_particles(f);
     f->view = kiln_view_compute(f->scene, STEP);
-    assert_true(kiln_backdrop_draw(f->backdrop, &f->view, &error));
+    assert_true(kiln_backdrop_draw(f->backdrop, &f->view, &f->lighting, &error));
 
     f->looks = calloc(KILN_LOOK_TEXELS, sizeof *f->looks);
     assert_non_null(f->looks);

@@ -1,0 +1,33 @@
+/* Stage 4, first: the light of a frame that follows from its particles: what fire sheds, what smoke
+ * keeps off. Backdrop and particles are lit by it.
+ */
+#ifndef KILN_DRAW_LIGHTING_H
+#define KILN_DRAW_LIGHTING_H
+
+#include "draw/living.h"
+
+/* Texture units of the smoke's grids (draw/smoke_shadow.glsl). */
+enum { KILN_UNIT_SMOKE_SUN = 3, KILN_UNIT_SMOKE_SKY = 4 };
+
+/* Of one frame. */
+struct kiln_lighting {
+    uint32_t fire_count;
+    struct kiln_draw_light fire[KILN_MAX_FIRE_LIGHTS];
+    bool smoke;                            /* there is some: the rows mean something */
+    float4 sun_to_grid[3], sky_to_grid[3]; /* world positions to 0..1 in the grids */
+};
+
+struct kiln_lighting_stage;
+
+/* NULL with an error. The scene must outlive it. */
+struct kiln_lighting_stage *kiln_lighting_create(struct kiln_device *device,
+                                                 const struct kiln_scene *scene,
+                                                 struct kiln_error *error);
+void kiln_lighting_destroy(struct kiln_lighting_stage **stage);
+
+/* The light of the pool's particles at a view; leaves the grids bound to their units. */
+bool kiln_lighting_run(struct kiln_lighting_stage *stage, struct kiln_pool *pool,
+                       const struct kiln_view *view, struct kiln_lighting *lighting,
+                       struct kiln_error *error);
+
+#endif
