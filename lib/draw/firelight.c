@@ -9,6 +9,8 @@
 /* The part of a billboard's square that its cell fills with light. */
 static const double FILL = 0.25;
 
+static const double PI = 3.14159265358979;
+
 /* Sums over the particles of one light. */
 struct gathering {
     double color[3];    /* light sent, m^2 */
@@ -56,7 +58,7 @@ static void gather(void *context, const struct kiln_living *particle)
 /* A patch of radiance L and area A lights a surface that faces it at distance d by L A / d^2; a
  * light of colour c (what arrives at 1 m, over pi) by pi c / d^2. The light's radius is how far its
  * particles are spread, so that a surface among them is not lit by a point. */
-static struct kiln_draw_light make_light(const struct gathering *light, double strength)
+static struct kiln_draw_light make_light(const struct gathering *light, float3 strength)
 {
     double mean[3], square = 0.0;
     for (int c = 0; c < 3; c++) {
@@ -65,12 +67,12 @@ static struct kiln_draw_light make_light(const struct gathering *light, double s
     }
     double radius = light->radius / light->energy;
     double spread = light->square / light->energy - square;
-    double factor = strength / 3.14159265358979;
     return (struct kiln_draw_light){
         .position_radius2 = {(float)mean[0], (float)mean[1], (float)mean[2],
                              (float)(radius * radius + (spread > 0.0 ? spread : 0.0))},
-        .color = {(float)(factor * light->color[0]), (float)(factor * light->color[1]),
-                  (float)(factor * light->color[2]), 0.0f},
+        .color = {strength.x * (float)(light->color[0] / PI),
+                  strength.y * (float)(light->color[1] / PI),
+                  strength.z * (float)(light->color[2] / PI), 0.0f},
     };
 }
 
@@ -81,14 +83,14 @@ uint32_t kiln_firelight_gather(const struct kiln_scene *scene, const struct kiln
     uint32_t count = 0;
     for (uint32_t i = 0; i < scene->system_count; i++) {
         const struct kiln_look *look = &scene->systems[i].look;
-        float strength = kiln_scene_value(scene, &look->light, view->clock.x);
-        if (!scene->systems[i].enabled || !(strength > 0.0f))
+        float3 strength = kiln_scene_value3(scene, &look->light, view->clock.x);
+        if (!scene->systems[i].enabled || !(strength.x + strength.y + strength.z > 0.0f))
             continue;
         struct gatherer gatherer = {.count = look->light_count};
         kiln_living_visit(scene, pool, records, view, table, i, gather, &gatherer);
         for (uint32_t k = 0; k < gatherer.count && count < KILN_MAX_FIRE_LIGHTS; k++) {
             if (gatherer.lights[k].energy > 0.0)
-                lights[count++] = make_light(&gatherer.lights[k], (double)strength);
+                lights[count++] = make_light(&gatherer.lights[k], strength);
         }
     }
     return count;
@@ -97,8 +99,10 @@ uint32_t kiln_firelight_gather(const struct kiln_scene *scene, const struct kiln
 bool kiln_firelight_exists(const struct kiln_scene *scene)
 {
     for (uint32_t i = 0; i < scene->system_count; i++) {
-        if (scene->systems[i].enabled &&
-            kiln_scene_value_max(scene, &scene->systems[i].look.light) > 0.0f)
+        const struct kiln_value3 *light = &scene->systems[i].look.light;
+        if (scene->systems[i].enabled && (kiln_scene_value_max(scene, &light->x) > 0.0f ||
+                                          kiln_scene_value_max(scene, &light->y) > 0.0f ||
+                                          kiln_scene_value_max(scene, &light->z) > 0.0f))
             return true;
     }
     return false;

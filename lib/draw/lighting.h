@@ -7,7 +7,7 @@
 #include "draw/living.h"
 
 /* Texture units of the smoke's grids (draw/smoke_shadow.glsl). */
-enum { KILN_UNIT_SMOKE_SUN = 3, KILN_UNIT_SMOKE_SKY = 4 };
+enum { KILN_UNIT_SMOKE_SUN = 4, KILN_UNIT_SMOKE_SKY = 5 };
 
 /* Of one frame. */
 struct kiln_lighting {

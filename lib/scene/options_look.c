@@ -69,8 +69,9 @@ const struct kiln_option kiln_options_look[] = {
           "0 shows its own colour, 1 is lit by sun, sky and lights."),
     VALUE("shadow", shadow, KILN_PLAIN, 0, 100, TIME, "1",
           "Of what covers: factor on the light that it keeps off itself and what is behind it."),
-    VALUE("light", light, KILN_PLAIN, 0, 1000000, TIME, "0",
-          "Factor on the light that what glows sheds on backdrop and smoke; 0 sheds none."),
+    COLOR("light", light, 1000000, TIME, "0",
+          "Factor on the light that what glows sheds on backdrop and smoke; 1 is what it amounts "
+          "to."),
     INTEGER("lights", light_count, 1, KILN_MAX_FIRE_LIGHTS, "4",
             "Moving lights that shed it, by the particles' ages; a scene has up to 16 in all."),
     END,

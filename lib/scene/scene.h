@@ -154,7 +154,7 @@ struct kiln_look {
     struct kiln_value3 bloom;    /* weights of equation 3.2, per channel */
     struct kiln_value lit;       /* 0 unlit .. 1 lit by sun, sky and lights */
     struct kiln_value shadow;    /* of particles that cover: factor on the light they keep off */
-    struct kiln_value light;     /* factor on the light that they shed on other things; 0: none */
+    struct kiln_value3 light;    /* factor on the light that they shed on other things; 0: none */
     uint32_t light_count;        /* by so many lights */
 };
 

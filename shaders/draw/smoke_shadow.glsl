@@ -1,6 +1,6 @@
 /* The part of the light that gets through the smoke to a place (lib/draw/smoke_shadow.h). */
-layout(binding = 3) uniform sampler3D smoke_to_sun;
-layout(binding = 4) uniform sampler3D smoke_to_sky;
+layout(binding = 4) uniform sampler3D smoke_to_sun;
+layout(binding = 5) uniform sampler3D smoke_to_sky;
 
 float smoke_transmittance(sampler3D depth, vec4 row_x, vec4 row_y, vec4 row_z, vec3 position)
 {

@@ -58,6 +58,7 @@ struct fixture {
     struct kiln_buffer entries;
     struct kiln_framebuffer framebuffer;
     struct kiln_view view;
+    struct kiln_lighting lighting; /* none */
     float4 *looks;
     float *cells[2]; /* of the systems */
     uint32_t cell_count[2];

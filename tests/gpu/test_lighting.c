@@ -1,0 +1,142 @@
+/* lib/draw/lighting as the backdrop shows it: fire lights the floor, smoke shades it. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <string.h>
+
+#include "draw/backdrop.h"
+#include "support/device.h"
+#include "support/scenes.h"
+
+enum { WIDTH = 64, HEIGHT = 36, STEP = 30, SLOTS = 512 };
+
+/* Seen from above: the sun is in the zenith, the floor 5 m below the eye. */
+static const char SCENE[] = "kiln: 1\n"
+                            "output: {size: [64, 36], fps: 60}\n"
+                            "camera: {position: [0, 5, 0], target: [0, 0, 0], fov: 40 deg}\n"
+                            "backdrop:\n"
+                            "  haze: 0\n"
+                            "  sky: {top: [0.1, 0.2, 0.4], horizon: [0.1, 0.2, 0.4]}\n"
+                            "  sun: {direction: [0, 1, 0], color: [2, 1, 0.5]}\n"
+                            "  floor: {color: [0.5, 0.5, 0.5]}\n"
+                            "systems:\n"
+                            "  smoke:\n"
+                            "    emit: {life: 1 s}\n"
+                            "    look: {size: 0.5 m, opacity: 0.5, fade: {in: 0, out: 0}}\n"
+                            "  fire:\n"
+                            "    emit: {life: 1 s}\n"
+                            "    look: {blend: add, color: [3, 1, 0.3], size: 1 m, light: 1,\n"
+                            "           fade: {in: 0, out: 0}}\n";
+
+struct fixture {
+    struct kiln_scene *scene;
+    struct kiln_pool pool;
+    struct kiln_view view;
+    struct kiln_image color, depth;
+    struct kiln_lighting_stage *lighting;
+    struct kiln_backdrop_stage *backdrop;
+};
+
+static void set_up(struct fixture *f, void *device)
+{
+    struct kiln_error error = {0};
+    static const uint32_t capacities[2] = {SLOTS, SLOTS};
+    *f = (struct fixture){.scene = load_scene(SCENE, NULL)};
+    kiln_pool_init(&f->pool, device, capacities, 2);
+    kiln_image_init(&f->color, device, WIDTH, HEIGHT, GL_RGBA32F, "color");
+    kiln_image_init(&f->depth, device, WIDTH, HEIGHT, GL_R32F, "depth");
+    f->lighting = kiln_lighting_create(device, f->scene, &error);
+    f->backdrop = kiln_backdrop_create(device, f->scene, &f->color, &f->depth, &error);
+    assert_true(f->lighting && f->backdrop);
+    f->view = kiln_view_compute(f->scene, STEP);
+}
+
+static void tear_down(struct fixture *f)
+{
+    kiln_backdrop_destroy(&f->backdrop);
+    kiln_lighting_destroy(&f->lighting);
+    kiln_image_finish(&f->color);
+    kiln_image_finish(&f->depth);
+    kiln_pool_finish(&f->pool);
+    kiln_scene_destroy(&f->scene);
+}
+
+static void place(struct fixture *f, uint32_t system, float x, float y, float z)
+{
+    struct kiln_error error = {0};
+    struct kiln_particle *records = kiln_buffer_host(&f->pool.records, KILN_READ_WRITE, &error);
+    assert_non_null(records);
+    struct kiln_pool_system *slots = &f->pool.systems[system];
+    uint32_t serial = (uint32_t)slots->next_serial++;
+    records[slots->base + serial] = (struct kiln_particle){
+        .position_serial = {FLOAT_BITS(x), FLOAT_BITS(y), FLOAT_BITS(z), serial},
+        .velocity_birth = {0, 0, 0, 1u << KILN_BIRTH_STEP_SHIFT | KILN_PARTICLE_ALIVE}};
+}
+
+/* Draws the floor and takes a pixel of it. */
+static void draw(struct fixture *f, int x, int y, float rgb[3])
+{
+    struct kiln_error error = {0};
+    struct kiln_lighting lighting;
+    assert_true(kiln_lighting_run(f->lighting, &f->pool, &f->view, &lighting, &error));
+    assert_true(kiln_backdrop_draw(f->backdrop, &f->view, &lighting, &error));
+    const float *pixels = kiln_image_host(&f->color, KILN_READ, &error);
+    assert_non_null(pixels);
+    memcpy(rgb, pixels + 4 * (y * WIDTH + x), 3 * sizeof *rgb);
+}
+
+/* A layer of puffs over the middle of the picture: sun and sky come through it alone. */
+static void smoke_shades_the_floor(void **state)
+{
+    struct fixture f;
+    set_up(&f, *state);
+    float clear[3], shaded[3], aside[3];
+    draw(&f, WIDTH / 2, HEIGHT / 2, clear);
+    for (int i = 0; i < 400; i++)
+        place(&f, 0, -1 + 2 * ((float)(i % 20) + 0.5f) / 20, 1,
+              -1 + 2 * ((float)(i / 20) + 0.5f) / 20);
+    draw(&f, WIDTH / 2, HEIGHT / 2, shaded);
+    draw(&f, 1, 1, aside);
+    const double pi = acos(-1.0);
+    double depth = 100 * -log(1 - 0.6 * 0.5) * 15 / 16 * 0.25 * 0.25 * 32 * pi / 105;
+    for (int c = 0; c < 3; c++) {
+        double expected = (double)clear[c] * exp(-depth);
+        if (fabs((double)shaded[c] - expected) > 0.05 * expected)
+            fail_msg("channel %d is %g instead of %g", c, (double)shaded[c], expected);
+        assert_true(fabsf(aside[c] - clear[c]) < 1e-5f);
+    }
+    tear_down(&f);
+}
+
+/* The floor next to a fire is brighter and redder than without it. */
+static void fire_lights_the_floor(void **state)
+{
+    struct fixture f;
+    set_up(&f, *state);
+    float without[3], with[3], far[3];
+    draw(&f, WIDTH / 2 + 4, HEIGHT / 2, without);
+    place(&f, 1, 0, 0.5f, 0);
+    draw(&f, WIDTH / 2 + 4, HEIGHT / 2, with);
+    draw(&f, WIDTH - 1, HEIGHT / 2, far);
+    assert_true(with[0] > 1.1f * without[0]);
+    assert_true(with[0] / with[2] > 1.1f * without[0] / without[2]);
+    assert_true(far[0] > without[0] && far[0] < with[0]);
+    /* And the light goes out with its particle. */
+    f.pool.systems[1].next_serial = 0;
+    draw(&f, WIDTH / 2 + 4, HEIGHT / 2, with);
+    assert_memory_equal(with, without, sizeof with);
+    tear_down(&f);
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        test_on_device(smoke_shades_the_floor),
+        test_on_device(fire_lights_the_floor),
+    };
+    return cmocka_run_group_tests_name("lighting", tests, test_device_open, test_device_close);
+}
