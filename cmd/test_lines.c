@@ -33,6 +33,7 @@ static bool wants_colour(FILE *out)
 
 void test_lines_start(struct test_lines *lines, const struct kiln_suite *suite, FILE *out)
 {
+    lines->suite = suite;
     lines->out = out;
     lines->colour = wants_colour(out);
     for (size_t i = 0; i < kiln_suite_count(suite); i++) {
@@ -135,6 +136,17 @@ static void print_approvals(const struct test_lines *lines)
         fprintf(out, "  and %u more\n", lines->accept_count - (uint32_t)shown);
 }
 
+static void print_unused(const struct test_lines *lines)
+{
+    enum { SHOWN = 5 };
+    size_t count = 0;
+    const char *const *paths = kiln_suite_unused(lines->suite, &count);
+    for (size_t i = 0; i < count && i < SHOWN; i++)
+        fprintf(lines->out, "%s: no test uses these goldens; was one renamed or lost?\n", paths[i]);
+    if (count > SHOWN)
+        fprintf(lines->out, "and %zu more folders of goldens that no test uses\n", count - SHOWN);
+}
+
 void test_lines_end(const struct test_lines *lines, const char *page)
 {
     if (page)
@@ -146,5 +158,6 @@ void test_lines_end(const struct test_lines *lines, const char *page)
     if (lines->to_write > 0)
         fprintf(lines->out, "%u picture%s would be written; this was a dry run\n", lines->to_write,
                 lines->to_write == 1 ? "" : "s");
+    print_unused(lines);
     print_approvals(lines);
 }

@@ -5,6 +5,7 @@
 #include "kiln.h"
 
 struct test_lines {
+    const struct kiln_suite *suite;
     FILE *out;
     bool quiet; /* only tests that went wrong */
     bool colour;

@@ -411,8 +411,7 @@ struct kiln_suite_params {
     size_t name_count;
     const char *golden;     /* the folder of the goldens: GOLDEN/TEST/frame_0024.png */
     const char *results;    /* another, for results: RESULTS/TEST/result.json and pictures */
-    uint32_t shard, shards; /* of the tests by their order, each shards-th from the shard-th (from
-                             * 1); 0 and 0 take all */
+    uint32_t shard, shards; /* the shard-th test (from 1) and each shards-th after it; 0, 0: all */
 };
 #define KILN_SUITE_DEFAULTS ((struct kiln_suite_params){.golden = "golden", .results = "out/test"})
 
@@ -434,6 +433,8 @@ struct kiln_test_info {
 
 /* The texts belong to the suite. */
 struct kiln_test_info kiln_suite_test(const struct kiln_suite *suite, size_t index);
+/* Folders of goldens that no test uses; none unless all tests of folders are asked for. */
+const char *const *kiln_suite_unused(const struct kiln_suite *suite, size_t *count);
 
 /* The keys of a test file, for people. */
 bool kiln_test_write_reference(FILE *out);
@@ -473,8 +474,7 @@ struct kiln_test_summary {
 };
 
 /* Renders and judges one test, updates goldens as told, and writes its result, whatever it is. A
- * test that fails is no error here: false with KILN_INTERRUPTED, or when the result itself cannot
- * be written. */
+ * test that fails is no error here: false with KILN_INTERRUPTED, or for an unwritable result. */
 bool kiln_test_run(const struct kiln_suite *suite, size_t index,
                    const struct kiln_test_params *params, struct kiln_test_summary *summary,
                    struct kiln_error *error);

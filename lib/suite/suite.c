@@ -12,6 +12,7 @@
 #include "suite/discover.h"
 #include "suite/golden.h"
 #include "suite/test_file.h"
+#include "suite/unused.h"
 
 /* A name goes into names of folders, and with a device into a summary's 256 bytes. */
 enum { MAX_NAME = 200, MAX_FULL_NAME = 255 };
@@ -283,6 +284,17 @@ static char *tidy_folder(struct kiln_arena *arena, const char *folder)
     return length ? kiln_arena_text(arena, folder, length) : kiln_arena_text(arena, ".", 1);
 }
 
+/* Are all tests of folders asked for, though it be by shards? */
+static bool is_whole(const struct kiln_suite_params *params)
+{
+    struct stat status;
+    for (size_t i = 0; i < params->path_count; i++) {
+        if (stat(params->paths[i], &status) != 0 || !S_ISDIR(status.st_mode))
+            return false;
+    }
+    return params->name_count == 0;
+}
+
 static bool load(struct kiln_suite *suite, const struct kiln_suite_params *params,
                  struct kiln_error *error)
 {
@@ -296,7 +308,11 @@ static bool load(struct kiln_suite *suite, const struct kiln_suite_params *param
     if (!check_folders(&own, error) || !read_files(&loader))
         return false;
     drop_named_scenes(&loader);
-    if (!check_names(&loader) || !make_tests(&loader) || !choose_names(&loader))
+    if (!check_names(&loader) || !make_tests(&loader))
+        return false;
+    if (is_whole(&own) && !kiln_unused_find(suite, own.golden))
+        return out_of_memory(&loader);
+    if (!choose_names(&loader))
         return false;
     choose_shard(&loader);
     return true;
@@ -339,4 +355,10 @@ struct kiln_test_info kiln_suite_test(const struct kiln_suite *suite, size_t ind
                                    .path = test->path,
                                    .results = test->results,
                                    .time_limit_s = test->time_limit_s};
+}
+
+const char *const *kiln_suite_unused(const struct kiln_suite *suite, size_t *count)
+{
+    *count = suite->unused_count;
+    return suite->unused;
 }

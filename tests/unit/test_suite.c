@@ -256,6 +256,42 @@ static void shards_share_the_tests(void **state)
     }
 }
 
+static void goldens_of_no_test_are_found(void **state)
+{
+    (void)state;
+    make_tree();
+    test_write_file("golden/effects/far/expect.yaml", "");
+    test_write_file("golden/effects/gone/expect.yaml", "");
+    test_write_file("golden/fir/expect.yaml", "");
+    test_write_file("golden/fire/expect.yaml", "");
+    test_write_file("golden/notes/readme.md", "");
+    static const char *const folder[] = {"scenes"}, *const file[] = {"scenes/other.yml"};
+    static const char *const names[] = {"fire"};
+    struct kiln_suite_params params = paths(folder, 1);
+    params.shard = params.shards = 4;
+    struct kiln_suite *suite = load(&params);
+    size_t count = 0;
+    const char *const *unused = kiln_suite_unused(suite, &count);
+    assert_int_equal(count, 2);
+    assert_string_equal(unused[0], "golden/effects/gone");
+    assert_string_equal(unused[1], "golden/fir");
+    kiln_suite_destroy(&suite);
+
+    /* Of a part of the tests, nothing can be said. */
+    params = paths(folder, 1);
+    params.names = names;
+    params.name_count = 1;
+    suite = load(&params);
+    kiln_suite_unused(suite, &count);
+    assert_int_equal(count, 0);
+    kiln_suite_destroy(&suite);
+    params = paths(file, 1);
+    suite = load(&params);
+    kiln_suite_unused(suite, &count);
+    assert_int_equal(count, 0);
+    kiln_suite_destroy(&suite);
+}
+
 static void devices_make_tests(void **state)
 {
     (void)state;
@@ -483,6 +519,7 @@ int main(void)
         IN_FOLDER(names_become_folders),
         IN_FOLDER(names_are_chosen),
         IN_FOLDER(shards_share_the_tests),
+        IN_FOLDER(goldens_of_no_test_are_found),
         IN_FOLDER(devices_make_tests),
         IN_FOLDER(a_scene_has_the_defaults),
         IN_FOLDER(a_test_file_says_all),

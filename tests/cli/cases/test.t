@@ -261,6 +261,18 @@ $ kiln test fire --no-report >/dev/full
 2|kiln: standard output: No space left on device
 = 6
 
+A test that is gone leaves its goldens, which a run of a whole folder tells.
+
+$ mkdir one; cp -r fire.test.yaml scenes one; mv golden/fire golden/fir
+$ kiln test one --no-report; mv golden/fir golden/fire; rm -r one
+1|new    fire          1 frame in <s> s: frame 6 has no golden: there is no golden/fire/frame_0006.png
+1|new    scenes/empty  1 frame in <s> s: frame 1 has no golden: there is no golden/scenes/empty/frame_0001.png
+1|2 tests in <s> s: 2 new
+1|golden/fir: no test uses these goldens; was one renamed or lost?
+1|where the pictures are right, accept them:
+1|  kiln test approve fire
+1|  kiln test approve scenes/empty
+
 Results do not go where goldens are, whose pictures they would replace.
 
 $ cp -r golden kept; ln -s golden link
