@@ -97,7 +97,8 @@ const viewer = {
         const kinds = this.kinds();
         if (kinds.join() !== this.panes.map((pane) => pane.kind).join()) {
             this.panes = kinds.map((kind) => {
-                const canvas = make("canvas", { role: "img" });
+                const name = TITLES[kind] || MODES.find((mode) => mode.id === kind).name;
+                const canvas = make("canvas", { role: "img", "aria-label": name }); /* until it is drawn */
                 const figure = make("figure", { class: "pane" }, canvas);
                 const caption = make("figcaption", {});
                 const right = make("figcaption", { class: "right", hidden: true });
