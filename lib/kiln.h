@@ -580,8 +580,7 @@ bool kiln_write_reports(FILE *out);
 
 /* ---- Text: as kiln reads and writes it, for programs that take the same --------------------- */
 
-/* Reads a whole text as a decimal number with '.' as its point in any locale. False when something
- * is left over, or it is not finite. */
+/* A whole text as a decimal number, its point '.' in any locale; false when it is no finite one. */
 bool kiln_text_to_double(const char *text, double *value);
 bool kiln_text_to_uint64(const char *text, uint64_t *value);
 
