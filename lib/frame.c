@@ -121,6 +121,20 @@ static bool report_frame(struct job *job, uint32_t frame, struct kiln_error *err
     return return_from_caller(job, error);
 }
 
+/* All moments of a frame while the shutter is open: one, unless the scene asks for more. */
+static bool draw_moments(struct job *job, uint32_t frame, struct kiln_error *error)
+{
+    for (uint32_t moment = 0; moment < job->scene->camera.shutter_samples; moment++) {
+        uint32_t drawn = 0;
+        if (!step_to(job, kiln_scene_moment_step(job->scene, frame, moment), error) ||
+            !kiln_stages_draw(&job->stages, &job->run.pool, job->run.step, moment, &drawn, error))
+            return false;
+        if (moment == 0)
+            job->progress.alive = drawn;
+    }
+    return true;
+}
+
 static bool render_frame(struct job *job, uint32_t frame, struct kiln_error *error)
 {
     if (!may_go_on(job, error) || !step_to(job, kiln_scene_frame_step(job->scene, frame), error))
@@ -132,10 +146,8 @@ static bool render_frame(struct job *job, uint32_t frame, struct kiln_error *err
         if (!kiln_simulate_hash(job->stages.simulate, pool, &job->progress.state, &alive, error))
             return false;
     }
-    uint32_t drawn = 0;
-    if (!kiln_stages_draw(&job->stages, pool, job->run.step, frame, &drawn, error))
+    if (!draw_moments(job, frame, error) || !kiln_stages_compose(&job->stages, frame, error))
         return false;
-    job->progress.alive = drawn;
 
     double before_s = kiln_clock_seconds();
     if (!write_picture(job, frame, error))

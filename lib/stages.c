@@ -67,6 +67,12 @@ static bool init_atlas(struct kiln_stages *s, struct kiln_error *error)
                            error);
 }
 
+/* What will be blurred. */
+static struct kiln_image *bloom_source(struct kiln_stages *s)
+{
+    return s->shutter ? kiln_shutter_image(s->shutter, KILN_SHUTTER_BLOOM) : &s->bloom_color;
+}
+
 static bool init_stages(struct kiln_stages *s, const struct kiln_techniques *techniques,
                         uint32_t bits, struct kiln_error *error)
 {
@@ -86,9 +92,14 @@ static bool init_stages(struct kiln_stages *s, const struct kiln_techniques *tec
     s->particles = kiln_particles_create(device, s->scene, &s->atlas, error);
     if (!s->particles)
         return false;
+    if (s->scene->camera.shutter_samples > 1) {
+        s->shutter = kiln_shutter_create(device, s->scene->width, s->scene->height, error);
+        if (!s->shutter)
+            return false;
+    }
     if (s->scene->post.bloom != KILN_BLOOM_NONE) {
         s->bloom =
-            kiln_bloom_create(device, s->scene, &s->bloom_color, target_format(device), error);
+            kiln_bloom_create(device, s->scene, bloom_source(s), target_format(device), error);
         if (!s->bloom)
             return false;
     }
@@ -102,6 +113,7 @@ bool kiln_stages_init(struct kiln_stages *stages, struct kiln_device *device,
                       const struct kiln_pool *pool, struct kiln_error *error)
 {
     *stages = (struct kiln_stages){.device = device, .scene = scene, .threads = threads};
+    stages->layers = needs.layers;
     kiln_buffer_init(&stages->entries, device, pool->slot_count * sizeof(uint32_t), "entries");
     stages->timer = kiln_timer_create(device);
     if (!stages->timer) {
@@ -122,6 +134,7 @@ void kiln_stages_finish(struct kiln_stages *stages)
 {
     kiln_composite_destroy(&stages->composite);
     kiln_bloom_destroy(&stages->bloom);
+    kiln_shutter_destroy(&stages->shutter);
     kiln_particles_destroy(&stages->particles);
     kiln_backdrop_destroy(&stages->backdrop);
     kiln_lighting_destroy(&stages->lighting);
@@ -229,8 +242,41 @@ static bool draw_separate(struct kiln_stages *s, struct kiln_pool *pool,
     return ok;
 }
 
+/* The pictures of the moment that was drawn last. */
+static struct kiln_composite_inputs moment_inputs(struct kiln_stages *s)
+{
+    bool separate = s->scene->post.compose == KILN_COMPOSE_SEPARATE;
+    return (struct kiln_composite_inputs){
+        .scene = &s->scene_color,
+        .particles = &s->particle_color,
+        .fire = separate ? &s->fire_color : NULL,
+    };
+}
+
+/* The image that is read as the layer of smoke. */
+static struct kiln_image *smoke_layer(struct kiln_stages *s)
+{
+    bool separate = s->scene->post.compose == KILN_COMPOSE_SEPARATE;
+    return separate ? &s->particle_color : &s->smoke_color;
+}
+
+/* Adds the moment to the sums of its frame. */
+static bool add_moment(struct kiln_stages *s, uint32_t moment, struct kiln_error *error)
+{
+    float weight = 1.0f / (float)s->scene->camera.shutter_samples;
+    bool first = moment == 0;
+    const struct kiln_composite_inputs inputs = moment_inputs(s);
+    return kiln_shutter_add_composed(s->shutter, &inputs, weight, first, error) &&
+           kiln_shutter_add(s->shutter, KILN_SHUTTER_BLOOM, &s->bloom_color, weight, first,
+                            error) &&
+           (!s->layers || (kiln_shutter_add(s->shutter, KILN_SHUTTER_FIRE, &s->fire_color, weight,
+                                            first, error) &&
+                           kiln_shutter_add(s->shutter, KILN_SHUTTER_SMOKE, smoke_layer(s), weight,
+                                            first, error)));
+}
+
 bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *pool, uint32_t step,
-                      uint32_t frame, uint32_t *drawn, struct kiln_error *error)
+                      uint32_t moment, uint32_t *drawn, struct kiln_error *error)
 {
     struct kiln_stages *s = stages;
     struct kiln_view view = kiln_view_compute(s->scene, step);
@@ -251,16 +297,23 @@ bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *pool, uint32
     bool separate = s->scene->post.compose == KILN_COMPOSE_SEPARATE;
     ok = separate ? draw_separate(s, pool, &view, drawn, error)
                   : draw_merged(s, pool, &view, drawn, error);
-    if (!ok)
-        return false;
+    if (!ok || !s->shutter)
+        return ok;
+    kiln_timer_begin(s->timer, KILN_PASS_composite);
+    ok = add_moment(s, moment, error);
+    kiln_timer_end(s->timer);
+    return ok;
+}
 
-    struct kiln_composite_inputs inputs = {
-        .scene = &s->scene_color,
-        .particles = &s->particle_color,
-        .fire = separate ? &s->fire_color : NULL,
-        .frame = frame,
-        .time_s = view.clock.x,
-    };
+bool kiln_stages_compose(struct kiln_stages *stages, uint32_t frame, struct kiln_error *error)
+{
+    struct kiln_stages *s = stages;
+    struct kiln_composite_inputs inputs = moment_inputs(s);
+    if (s->shutter)
+        inputs = (struct kiln_composite_inputs){
+            .scene = kiln_shutter_image(s->shutter, KILN_SHUTTER_COMPOSED)};
+    inputs.frame = frame;
+    inputs.time_s = kiln_scene_time(s->scene, kiln_scene_frame_step(s->scene, frame));
     if (s->bloom) {
         const struct kiln_bloom_inputs light = {inputs.scene, inputs.particles, inputs.fire,
                                                 inputs.time_s};
@@ -270,9 +323,8 @@ bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *pool, uint32
         if (!inputs.bloom)
             return false;
     }
-
     kiln_timer_begin(s->timer, KILN_PASS_composite);
-    ok = kiln_composite_run(s->composite, &inputs, error);
+    bool ok = kiln_composite_run(s->composite, &inputs, error);
     kiln_timer_end(s->timer);
     return ok;
 }
@@ -303,10 +355,12 @@ static bool copy_layer(struct kiln_image *image, struct kiln_layer *layer, struc
 static bool read_layers(struct kiln_stages *s, struct kiln_picture *picture,
                         struct kiln_error *error)
 {
-    bool separate = s->scene->post.compose == KILN_COMPOSE_SEPARATE;
-    struct kiln_image *sources[] = {NULL, &s->scene_depth, &s->fire_color,
-                                    separate ? &s->particle_color : &s->smoke_color,
-                                    &s->bloom_color};
+    struct kiln_image *sources[] = {NULL, &s->scene_depth, &s->fire_color, smoke_layer(s),
+                                    bloom_source(s)};
+    if (s->shutter) { /* the depth is that of the last moment: depths have no mean */
+        sources[2] = kiln_shutter_image(s->shutter, KILN_SHUTTER_FIRE);
+        sources[3] = kiln_shutter_image(s->shutter, KILN_SHUTTER_SMOKE);
+    }
     if (!kiln_composite_read_beauty(s->composite, picture->layers[0].pixels, error))
         return false;
     for (uint32_t i = 1; i < picture->layer_count; i++) {

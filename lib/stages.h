@@ -9,6 +9,7 @@
 #include "output/output.h"
 #include "post/bloom.h"
 #include "post/composite.h"
+#include "post/shutter.h"
 #include "run.h"
 #include "sim/simulate.h"
 #include "sort/sort.h"
@@ -18,6 +19,7 @@ struct kiln_stages {
     struct kiln_device *device;
     const struct kiln_scene *scene;
     struct kiln_threads *threads;
+    bool layers; /* of an EXR are asked for */
     struct kiln_timer *timer;
     struct kiln_atlas atlas;
 
@@ -26,6 +28,7 @@ struct kiln_stages {
     struct kiln_lighting_stage *lighting;
     struct kiln_backdrop_stage *backdrop;
     struct kiln_particles_stage *particles;
+    struct kiln_shutter_stage *shutter; /* NULL: a frame is a single moment */
     struct kiln_bloom_stage *bloom;
     struct kiln_composite_stage *composite;
 
@@ -47,10 +50,13 @@ bool kiln_stages_init(struct kiln_stages *stages, struct kiln_device *device,
                       const struct kiln_pool *pool, struct kiln_error *error);
 void kiln_stages_finish(struct kiln_stages *stages);
 
-/* Draws the pool as it is after `step` steps: every stage from sort to composite. *drawn counts the
- * particles. */
+/* Draws the pool as it is after `step` steps, as one of the moments of a frame (from 0; there are
+ * scene->shutter_samples): every stage from sort to particles. *drawn counts the particles. */
 bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *pool, uint32_t step,
-                      uint32_t frame, uint32_t *drawn, struct kiln_error *error);
+                      uint32_t moment, uint32_t *drawn, struct kiln_error *error);
+
+/* Makes the picture of a frame of the moments that were drawn: bloom and composite. */
+bool kiln_stages_compose(struct kiln_stages *stages, uint32_t frame, struct kiln_error *error);
 
 /* Copies what was drawn into a picture made for the same needs. */
 bool kiln_stages_read(struct kiln_stages *stages, struct kiln_picture *picture,

@@ -15,7 +15,7 @@ struct kiln_bloom_stage {
     struct kiln_bloom_gaussian *gaussian; /* one of these two */
     struct kiln_bloom_pyramid *pyramid;
     GLuint bright; /* 0: the source comes with its weights */
-    GLint exposure, threshold, separate_fire;
+    GLint exposure, threshold, separate_fire, scene_alone;
     struct kiln_framebuffer source_framebuffer; /* of the bright pass */
     GLuint vertex_array;
 };
@@ -75,6 +75,7 @@ static bool init_bright(struct kiln_bloom_stage *stage, struct kiln_error *error
         return false;
     stage->exposure = glGetUniformLocation(stage->bright, "exposure");
     stage->threshold = glGetUniformLocation(stage->bright, "threshold");
+    stage->scene_alone = glGetUniformLocation(stage->bright, "scene_alone");
     stage->separate_fire = glGetUniformLocation(stage->bright, "separate_fire");
     return kiln_framebuffer_init(&stage->source_framebuffer, stage->device, &stage->source, 1,
                                  error);
@@ -133,6 +134,7 @@ static bool pass_bright(struct kiln_bloom_stage *stage, const struct kiln_bloom_
     glUseProgram(stage->bright);
     glUniform1f(stage->exposure, exp2f(exposure));
     glUniform1f(stage->threshold, threshold);
+    glUniform1i(stage->scene_alone, inputs->particles == NULL);
     glUniform1i(stage->separate_fire, inputs->fire != NULL);
     return bind_image(2, inputs->fire, error) &&
            kiln_bloom_pass(&stage->source_framebuffer, inputs->scene, inputs->particles,

@@ -10,7 +10,8 @@
 #include <string.h>
 
 struct uniforms {
-    GLint bloom_strength, bloom_scale, separate_fire, exposure, tonemap, levels, dither, frame;
+    GLint bloom_strength, bloom_scale, separate_fire, scene_alone, exposure, tonemap, levels,
+        dither, frame;
 };
 
 struct kiln_composite_stage {
@@ -29,6 +30,7 @@ static void find_uniforms(struct kiln_composite_stage *stage)
     stage->at = (struct uniforms){
         .bloom_strength = glGetUniformLocation(p, "bloom_strength"),
         .bloom_scale = glGetUniformLocation(p, "bloom_scale"),
+        .scene_alone = glGetUniformLocation(p, "scene_alone"),
         .separate_fire = glGetUniformLocation(p, "separate_fire"),
         .exposure = glGetUniformLocation(p, "exposure"),
         .tonemap = glGetUniformLocation(p, "tonemap"),
@@ -113,6 +115,7 @@ bool kiln_composite_run(struct kiln_composite_stage *stage,
         strength = kiln_scene_value(scene, &post->bloom_strength, inputs->time_s);
     glUniform1f(stage->at.bloom_strength, strength);
     glUniform1f(stage->at.bloom_scale, inputs->bloom_scale);
+    glUniform1i(stage->at.scene_alone, inputs->particles == NULL);
     glUniform1i(stage->at.separate_fire, inputs->fire != NULL);
     glUniform1f(stage->at.exposure,
                 exp2f(kiln_scene_value(scene, &post->exposure, inputs->time_s)));

@@ -14,7 +14,7 @@ struct kiln_composite_stage *kiln_composite_create(struct kiln_device *device,
 void kiln_composite_destroy(struct kiln_composite_stage **stage);
 
 struct kiln_composite_inputs {
-    struct kiln_image *scene, *particles; /* particles: premultiplied */
+    struct kiln_image *scene, *particles; /* particles: premultiplied; NULL: the scene has them */
     struct kiln_image *fire;              /* NULL unless composed separately */
     struct kiln_image *bloom;             /* smaller; NULL for none */
     float bloom_scale;                    /* its size in parts of the picture's */

@@ -3,6 +3,15 @@
 
 #define AT(field) offsetof(struct kiln_camera, field)
 
+static const struct kiln_option shutter[] = {
+    INTEGER("samples", shutter_samples, 1, 256, "1",
+            "Moments of a frame, each after a step of its own; 1 is sharp."),
+    {ROW("angle", number, AT(shutter_angle), "180 deg",
+         "How long the shutter is open: a full turn is the whole time of a frame."),
+     LIMITS(KILN_ANGLE, KILN_DEG(1), KILN_DEG(360))},
+    END,
+};
+
 static const struct kiln_option camera[] = {
     VECTOR("position", position, KILN_METRES, -FAR, FAR, TIME, "[0, 1.5, 6]", "The eye."),
     VECTOR("target", target, KILN_METRES, -FAR, FAR, TIME, "[0, 1, 0]", "What it looks at."),
@@ -12,6 +21,7 @@ static const struct kiln_option camera[] = {
           "Turn about the line of sight."),
     VALUE("near", near_plane, KILN_METRES, 0.001, 100, TIME, "0.05 m",
           "Nothing nearer than this is drawn."),
+    GROUP("shutter", 0, shutter, "Motion blur: a frame is the mean of several moments."),
     END,
 };
 
@@ -37,7 +47,9 @@ static const char *const integrations[] = {
 
 static const struct kiln_option simulation[] = {
     {ROW("rate", rational, AT(rate), "auto",
-         "Steps a second, a whole multiple of output.fps; auto: the smallest that is at least 60."),
+         "Steps a second, a whole multiple of output.fps; auto: the smallest that is at least 60 "
+         "and has "
+         "a step for each moment of the shutter."),
      LIMITS(KILN_PLAIN, 1, 100000), .word = "auto"},
     {ROW("warmup", number, AT(warmup_s), "0 s",
          "Simulated before the first frame, in whole steps; clip time is negative there."),

@@ -1,5 +1,6 @@
 /* Questions to a scene that is loaded. */
 #include "scene/scene.h"
+#include "scene/unit.h"
 
 #include "shared/random.h"
 
@@ -15,6 +16,14 @@ float kiln_scene_time(const struct kiln_scene *scene, uint32_t step)
 uint32_t kiln_scene_frame_step(const struct kiln_scene *scene, uint32_t frame)
 {
     return scene->warmup_steps + frame * scene->steps_per_frame;
+}
+
+uint32_t kiln_scene_moment_step(const struct kiln_scene *scene, uint32_t frame, uint32_t moment)
+{
+    const struct kiln_camera *camera = &scene->camera;
+    double open_steps = scene->steps_per_frame * camera->shutter_angle / KILN_DEG(360);
+    double after = moment * open_steps / camera->shutter_samples + 1e-6; /* whole steps stay so */
+    return kiln_scene_frame_step(scene, frame) + (uint32_t)after;
 }
 
 float kiln_scene_value(const struct kiln_scene *scene, const struct kiln_value *value, float time_s)

@@ -215,6 +215,8 @@ struct kiln_camera {
     struct kiln_value fov;               /* rad, vertical */
     struct kiln_value roll;              /* rad */
     struct kiln_value near_plane;        /* m */
+    uint32_t shutter_samples;            /* moments of a frame that are drawn; 1: no blur */
+    double shutter_angle;                /* rad; a full turn is open all the time */
 };
 
 enum kiln_compose {
@@ -281,6 +283,10 @@ float kiln_scene_time(const struct kiln_scene *scene, uint32_t step);
 
 /* Steps to have run before frame `frame` is drawn. */
 uint32_t kiln_scene_frame_step(const struct kiln_scene *scene, uint32_t frame);
+
+/* Steps to have run before one of a frame's moments is drawn, which lie evenly in the time that the
+ * shutter is open, from the frame's own time. */
+uint32_t kiln_scene_moment_step(const struct kiln_scene *scene, uint32_t frame, uint32_t moment);
 
 /* Values on the host, at a clip time; for values over time or constant. */
 float kiln_scene_value(const struct kiln_scene *scene, const struct kiln_value *value,

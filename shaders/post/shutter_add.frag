@@ -1,0 +1,11 @@
+/* Adds a moment's image to its sum over a frame. */
+layout(binding = 0) uniform sampler2D source;
+
+uniform float weight;
+
+layout(location = 0) out vec4 out_color;
+
+void main()
+{
+    out_color = weight * texelFetch(source, ivec2(gl_FragCoord.xy), 0);
+}

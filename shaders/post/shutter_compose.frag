@@ -1,0 +1,11 @@
+/* Adds a moment's picture of light to the sum of a frame. */
+#include "post/compose.glsl"
+
+uniform float weight;
+
+layout(location = 0) out vec4 out_color;
+
+void main()
+{
+    out_color = weight * composed(ivec2(gl_FragCoord.xy));
+}
