@@ -20,45 +20,7 @@ layout(location = 1) out float out_depth;
 layout(location = 2) out float out_surface; /* a number that changes at every edge */
 #endif
 
-const float FAR = 1e9;
-const float PI = 3.14159265;
-
-/* The sky's surface is -1, the floor's 0; a face of a box has a number of its own. */
-struct hit {
-    float t;
-    int surface;
-    vec3 normal;
-    vec3 albedo;
-};
-
-vec3 view_to_world(vec3 v)
-{
-    return view.world_to_view[0].xyz * v.x + view.world_to_view[1].xyz * v.y +
-           view.world_to_view[2].xyz * v.z;
-}
-
-/* The ray through a pixel position, with view-space z of -1: its t is view-space depth. */
-vec3 ray_direction(vec2 pixel)
-{
-    vec2 ndc = pixel / view.frustum.zw * 2.0 - 1.0;
-    return view_to_world(vec3(ndc.x * view.frustum.x, -ndc.y * view.frustum.y, -1.0));
-}
-
-vec3 safe_inverse(vec3 direction)
-{
-    vec3 magnitude = max(abs(direction), vec3(1e-8));
-    return mix(vec3(1.0), vec3(-1.0), lessThan(direction, vec3(0.0))) / magnitude;
-}
-
-/* Slabs: entry and exit of the ray through box i. */
-vec2 box_interval(int i, vec3 origin, vec3 inverse)
-{
-    vec3 center = (backdrop.box_center[i].xyz - origin) * inverse;
-    vec3 extent = backdrop.box_half[i].xyz * abs(inverse);
-    vec3 near = center - extent;
-    vec3 far = center + extent;
-    return vec2(max(max(near.x, near.y), near.z), min(min(far.x, far.y), far.z));
-}
+#include "draw/surface.glsl"
 
 vec3 box_normal(int i, vec3 point)
 {
@@ -117,72 +79,6 @@ hit trace(vec3 origin, vec3 direction)
         }
     }
     return nearest;
-}
-
-float sun_visibility(vec3 point, vec3 normal)
-{
-    vec3 origin = point + normal * 1e-3;
-    vec3 inverse = safe_inverse(backdrop.sun_direction.xyz);
-    for (int i = 0; i < int(backdrop.counts.x); i++) {
-        vec2 interval = box_interval(i, origin, inverse);
-        if (max(interval.x, 0.0) < interval.y)
-            return 0.0;
-    }
-    return 1.0;
-}
-
-/* How much of the sky the boxes near a point hide: falls off with the distance in units of the box.
- * Not a solid angle, but it anchors a box to the floor. */
-float sky_visibility(vec3 point, vec3 normal)
-{
-    float visible = 1.0;
-    for (int i = 0; i < int(backdrop.counts.x); i++) {
-        vec3 towards = backdrop.box_center[i].xyz - point;
-        vec3 halves = backdrop.box_half[i].xyz;
-        float away = length(max(abs(towards) - halves, vec3(0.0)));
-        float facing = clamp(dot(towards, normal) * inversesqrt(dot(towards, towards)) + 0.4, 0.0, 1.0);
-        float size = min(min(halves.x, halves.y), halves.z);
-        bool outside = dot(towards, normal) > -dot(halves, abs(normal)) + 1e-3;
-        if (outside) {
-            float fall = 1.0 / (1.0 + 2.0 * away / size);
-            visible *= 1.0 - 0.7 * facing * fall * fall;
-        }
-    }
-    return visible;
-}
-
-vec3 sky(vec3 direction)
-{
-    float up = clamp(normalize(direction).y, 0.0, 1.0);
-    return mix(backdrop.sky_horizon.rgb, backdrop.sky_top.rgb, 1.0 - exp(-4.0 * up));
-}
-
-/* What arrives from the sky and the point lights. */
-vec3 soft_irradiance(hit h, vec3 point)
-{
-    vec3 ambient = mix(backdrop.sky_horizon.rgb, backdrop.sky_top.rgb, 0.5 + 0.5 * h.normal.y);
-    vec3 irradiance =
-        PI * ambient * sky_visibility(point, h.normal) * skylight_through_smoke(point);
-    for (int i = 0; i < int(backdrop.counts.y); i++) {
-        vec3 towards = backdrop.lights[i].position_radius2.xyz - point;
-        float d2 = dot(towards, towards);
-        float cosine = max(dot(h.normal, towards) * inversesqrt(max(d2, 1e-9)), 0.0);
-        irradiance += PI * backdrop.lights[i].color.rgb * cosine /
-                      (d2 + backdrop.lights[i].position_radius2.w);
-    }
-    return irradiance;
-}
-
-/* Light that the surface sends along the ray. Lambert: radiance = albedo / pi * irradiance. */
-vec4 radiance(hit h, vec3 direction, vec3 irradiance, float sunlit)
-{
-    bool transparent = backdrop.counts.z != 0u;
-    if (h.surface < 0)
-        return transparent ? vec4(0.0) : vec4(sky(direction), 1.0);
-    float facing = max(dot(h.normal, backdrop.sun_direction.xyz), 0.0);
-    vec3 color = h.albedo / PI * (irradiance + backdrop.sun_color.rgb * facing * sunlit);
-    float clear = transparent ? 1.0 : exp(-backdrop.floor_params.z * h.t * length(direction));
-    return vec4(mix(backdrop.sky_horizon.rgb, color, clear), 1.0);
 }
 
 #if SAMPLES == 1
