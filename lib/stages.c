@@ -12,6 +12,17 @@ static GLenum target_format(const struct kiln_device *device)
     return device->info.software ? GL_RGBA32F : GL_RGBA16F;
 }
 
+static uint32_t spheres_of(const struct kiln_scene *scene)
+{
+    uint32_t mask = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        if (scene->systems[i].enabled && scene->systems[i].look.shape == KILN_SHAPE_SPHERE)
+            mask |= 1u << i;
+    }
+    return mask;
+}
+
+/* Of all that is blended. */
 static uint32_t systems_with(const struct kiln_scene *scene, enum kiln_blend blend)
 {
     uint32_t mask = 0;
@@ -19,7 +30,7 @@ static uint32_t systems_with(const struct kiln_scene *scene, enum kiln_blend ble
         if (scene->systems[i].enabled && scene->systems[i].look.blend == blend)
             mask |= 1u << i;
     }
-    return mask;
+    return mask & ~spheres_of(scene);
 }
 
 static bool init_targets(struct kiln_stages *s, bool layers, struct kiln_error *error)
@@ -28,6 +39,8 @@ static bool init_targets(struct kiln_stages *s, bool layers, struct kiln_error *
     GLenum format = target_format(s->device);
     kiln_image_init(&s->scene_color, s->device, w, h, format, "scene");
     kiln_image_init(&s->scene_depth, s->device, w, h, GL_R32F, "scene depth");
+    kiln_image_init(&s->backdrop_color, s->device, w, h, format, "backdrop");
+    kiln_image_init(&s->backdrop_depth, s->device, w, h, GL_R32F, "backdrop depth");
     kiln_image_init(&s->particle_color, s->device, w, h, format, "particles");
     kiln_image_init(&s->bloom_color, s->device, w, h, format, "bloom source");
     struct kiln_image *merged[] = {&s->particle_color, &s->bloom_color};
@@ -73,6 +86,25 @@ static struct kiln_image *bloom_source(struct kiln_stages *s)
     return s->shutter ? kiln_shutter_image(s->shutter, KILN_SHUTTER_BLOOM) : &s->bloom_color;
 }
 
+/* The backdrop draws the scene itself, or what spheres are then put before. */
+static bool init_scenery(struct kiln_stages *s, struct kiln_error *error)
+{
+    const struct kiln_spheres_targets targets = {
+        .backdrop_color = &s->backdrop_color,
+        .backdrop_depth = &s->backdrop_depth,
+        .color = &s->scene_color,
+        .depth = &s->scene_depth,
+        .bloom = &s->bloom_color,
+    };
+    bool spheres = spheres_of(s->scene) != 0;
+    s->backdrop =
+        kiln_backdrop_create(s->device, s->scene, spheres ? &s->backdrop_color : &s->scene_color,
+                             spheres ? &s->backdrop_depth : &s->scene_depth, error);
+    if (s->backdrop && spheres)
+        s->spheres = kiln_spheres_create(s->device, s->particles, &targets, error);
+    return s->backdrop && (s->spheres || !spheres);
+}
+
 static bool init_stages(struct kiln_stages *s, const struct kiln_techniques *techniques,
                         uint32_t bits, struct kiln_error *error)
 {
@@ -86,11 +118,8 @@ static bool init_stages(struct kiln_stages *s, const struct kiln_techniques *tec
     s->lighting = kiln_lighting_create(device, s->scene, error);
     if (!s->lighting)
         return false;
-    s->backdrop = kiln_backdrop_create(device, s->scene, &s->scene_color, &s->scene_depth, error);
-    if (!s->backdrop)
-        return false;
     s->particles = kiln_particles_create(device, s->scene, &s->atlas, error);
-    if (!s->particles)
+    if (!s->particles || !init_scenery(s, error))
         return false;
     if (s->scene->camera.shutter_samples > 1) {
         s->shutter = kiln_shutter_create(device, s->scene->width, s->scene->height, error);
@@ -135,6 +164,7 @@ void kiln_stages_finish(struct kiln_stages *stages)
     kiln_composite_destroy(&stages->composite);
     kiln_bloom_destroy(&stages->bloom);
     kiln_shutter_destroy(&stages->shutter);
+    kiln_spheres_destroy(&stages->spheres);
     kiln_particles_destroy(&stages->particles);
     kiln_backdrop_destroy(&stages->backdrop);
     kiln_lighting_destroy(&stages->lighting);
@@ -144,8 +174,9 @@ void kiln_stages_finish(struct kiln_stages *stages)
     kiln_framebuffer_finish(&stages->fire_framebuffer);
     kiln_framebuffer_finish(&stages->smoke_framebuffer);
     struct kiln_image *images[] = {
-        &stages->scene_color, &stages->scene_depth, &stages->particle_color, &stages->fire_color,
-        &stages->smoke_color, &stages->bloom_color, &stages->layer_bloom};
+        &stages->backdrop_color, &stages->backdrop_depth, &stages->scene_color,
+        &stages->scene_depth,    &stages->particle_color, &stages->fire_color,
+        &stages->smoke_color,    &stages->bloom_color,    &stages->layer_bloom};
     for (size_t i = 0; i < sizeof images / sizeof *images; i++)
         kiln_image_finish(images[i]);
     kiln_atlas_finish(&stages->atlas);
@@ -162,20 +193,27 @@ struct particle_pass {
     bool sum_alpha, fire_covers;
 };
 
-static bool draw_particles(struct kiln_stages *s, struct kiln_pool *pool,
-                           const struct kiln_view *view, const struct particle_pass *pass,
+static bool sort_particles(struct kiln_stages *s, struct kiln_pool *pool,
+                           const struct kiln_view *view, uint32_t systems, bool by_depth,
                            uint32_t *count, struct kiln_error *error)
 {
     const struct kiln_sort_params order = {
         .eye = {view->eye.x, view->eye.y, view->eye.z},
         .forward = kiln_view_forward(view),
-        .systems = pass->systems,
-        .by_depth = pass->by_depth,
+        .systems = systems,
+        .by_depth = by_depth,
     };
     kiln_timer_begin(s->timer, KILN_PASS_sort);
     bool ok = kiln_sort_run(s->sort, pool, &order, &s->entries, count, error);
     kiln_timer_end(s->timer);
-    if (!ok)
+    return ok;
+}
+
+static bool draw_particles(struct kiln_stages *s, struct kiln_pool *pool,
+                           const struct kiln_view *view, const struct particle_pass *pass,
+                           uint32_t *count, struct kiln_error *error)
+{
+    if (!sort_particles(s, pool, view, pass->systems, pass->by_depth, count, error))
         return false;
 
     const struct kiln_particles_draw draw = {
@@ -190,7 +228,19 @@ static bool draw_particles(struct kiln_stages *s, struct kiln_pool *pool,
         .fire_covers = pass->fire_covers,
     };
     kiln_timer_begin(s->timer, KILN_PASS_particles);
-    ok = kiln_particles_run(s->particles, &draw, error);
+    bool ok = kiln_particles_run(s->particles, &draw, error);
+    kiln_timer_end(s->timer);
+    return ok;
+}
+
+/* A depth test orders the spheres, so their list need not be sorted. */
+static bool draw_spheres(struct kiln_stages *s, struct kiln_pool *pool,
+                         const struct kiln_view *view, uint32_t *count, struct kiln_error *error)
+{
+    if (!sort_particles(s, pool, view, spheres_of(s->scene), false, count, error))
+        return false;
+    kiln_timer_begin(s->timer, KILN_PASS_particles);
+    bool ok = kiln_spheres_draw(s->spheres, pool, &s->entries, *count, view->clock.x, error);
     kiln_timer_end(s->timer);
     return ok;
 }
@@ -206,6 +256,7 @@ static bool draw_merged(struct kiln_stages *s, struct kiln_pool *pool, const str
     struct particle_pass all = {.systems = fire | smoke,
                                 .by_depth = smoke != 0 || fire_covers,
                                 .framebuffer = &s->particle_framebuffer,
+                                .keep_bloom = s->spheres != NULL,
                                 .fire_covers = fire_covers};
     if (!draw_particles(s, pool, view, &all, drawn, error))
         return false;
@@ -230,7 +281,8 @@ static bool draw_separate(struct kiln_stages *s, struct kiln_pool *pool,
 {
     struct particle_pass smoke = {.systems = systems_with(s->scene, KILN_BLEND_ALPHA),
                                   .by_depth = true,
-                                  .framebuffer = &s->particle_framebuffer};
+                                  .framebuffer = &s->particle_framebuffer,
+                                  .keep_bloom = s->spheres != NULL};
     struct particle_pass fire = {.systems = systems_with(s->scene, KILN_BLEND_ADD),
                                  .framebuffer = &s->fire_framebuffer,
                                  .keep_bloom = true,
@@ -294,11 +346,17 @@ bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *pool, uint32
     if (!ok)
         return false;
 
+    uint32_t spheres = 0;
+    if (s->spheres && !draw_spheres(s, pool, &view, &spheres, error))
+        return false;
     bool separate = s->scene->post.compose == KILN_COMPOSE_SEPARATE;
     ok = separate ? draw_separate(s, pool, &view, drawn, error)
                   : draw_merged(s, pool, &view, drawn, error);
-    if (!ok || !s->shutter)
-        return ok;
+    if (!ok)
+        return false;
+    *drawn += spheres;
+    if (!s->shutter)
+        return true;
     kiln_timer_begin(s->timer, KILN_PASS_composite);
     ok = add_moment(s, moment, error);
     kiln_timer_end(s->timer);

@@ -5,6 +5,7 @@
 #include "asset/atlas.h"
 #include "draw/backdrop.h"
 #include "draw/particles.h"
+#include "draw/spheres.h"
 #include "gpu/timer.h"
 #include "output/output.h"
 #include "post/bloom.h"
@@ -28,12 +29,14 @@ struct kiln_stages {
     struct kiln_lighting_stage *lighting;
     struct kiln_backdrop_stage *backdrop;
     struct kiln_particles_stage *particles;
+    struct kiln_spheres_stage *spheres; /* NULL without any */
     struct kiln_shutter_stage *shutter; /* NULL: a frame is a single moment */
     struct kiln_bloom_stage *bloom;
     struct kiln_composite_stage *composite;
 
-    struct kiln_buffer entries; /* draw entries of the pass at hand */
-    struct kiln_image scene_color, scene_depth;
+    struct kiln_buffer entries;                       /* draw entries of the pass at hand */
+    struct kiln_image backdrop_color, backdrop_depth; /* of a scene with spheres */
+    struct kiln_image scene_color, scene_depth;       /* the backdrop, and spheres if any */
     struct kiln_image particle_color; /* all particles (merged), or smoke alone (separate) */
     struct kiln_image fire_color;     /* separate composition, and for layers */
     struct kiln_image smoke_color;    /* for layers of merged composition */

@@ -1,6 +1,8 @@
 /* Every value of a look, at evenly spaced ages. */
 #include "draw/looks.h"
 
+#include <math.h>
+
 #include "asset/blackbody.h"
 #include "shared/exact.h"
 
@@ -86,8 +88,15 @@ static void sample_look(const struct sampler *s, const struct kiln_look *look,
     row[KILN_LOOK_BLOOM] = (float4){bloom.x, bloom.y, bloom.z, 0.0f};
     row[KILN_LOOK_SPREAD] = (float4){at(s, &look->scale.min), at(s, &look->scale.max),
                                      mean_at(s, &look->spin.min), mean_at(s, &look->spin.max)};
-    row[KILN_LOOK_TURN] =
-        (float4){at(s, &look->rotation.min), at(s, &look->rotation.max), 0.0f, 0.0f};
+    row[KILN_LOOK_TURN] = (float4){at(s, &look->rotation.min), at(s, &look->rotation.max),
+                                   at(s, &look->point_size), at(s, &look->line_width)};
+    float3 axis = at3(s, &look->axis);
+    float length = sqrtf(axis.x * axis.x + axis.y * axis.y + axis.z * axis.z);
+    if (!(length > 0.0f)) { /* keys may lead it through zero */
+        axis = (float3){0.0f, 1.0f, 0.0f};
+        length = 1.0f;
+    }
+    row[KILN_LOOK_AXIS] = (float4){axis.x / length, axis.y / length, axis.z / length, 0.0f};
     sample_light(s, look, row);
 }
 
@@ -128,16 +137,18 @@ bool kiln_looks_vary(const struct kiln_scene *scene)
 {
     for (uint32_t i = 0; i < scene->system_count; i++) {
         const struct kiln_look *look = &scene->systems[i].look;
-        const struct kiln_value *values[] = {&look->size,      &look->stretch,     &look->cycles,
-                                             &look->opacity,   &look->temperature, &look->intensity,
-                                             &look->fade_in,   &look->fade_out,    &look->soft,
-                                             &look->near_fade, &look->lit};
+        const struct kiln_value *values[] = {
+            &look->size,        &look->stretch,   &look->cycles,  &look->opacity,
+            &look->temperature, &look->intensity, &look->fade_in, &look->fade_out,
+            &look->soft,        &look->near_fade, &look->lit,     &look->point_size,
+            &look->line_width};
         for (size_t k = 0; k < sizeof values / sizeof *values; k++) {
             if (varies(values[k]))
                 return true;
         }
-        if (varies3(&look->color) || varies3(&look->bloom) || range_varies(&look->scale) ||
-            range_varies(&look->rotation) || range_varies(&look->spin))
+        if (varies3(&look->color) || varies3(&look->bloom) || varies3(&look->axis) ||
+            range_varies(&look->scale) || range_varies(&look->rotation) ||
+            range_varies(&look->spin))
             return true;
     }
     return false;

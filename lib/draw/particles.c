@@ -14,8 +14,12 @@
 #include <string.h>
 
 static_assert(offsetof(struct kiln_draw_look, flags) == 48, "std140");
-static_assert(sizeof(struct kiln_draw_look) == 64 + 16 * KILN_MAX_TEXTURES, "std140");
+static_assert(sizeof(struct kiln_draw_look) == 80 + 16 * KILN_MAX_TEXTURES, "std140");
 static_assert(KILN_MAX_SYSTEMS * sizeof(struct kiln_draw_look) <= 16384, "of every GL");
+static_assert(LOOK_POINT == KILN_SHAPE_POINT && LOOK_LINE == KILN_SHAPE_LINE, "shapes");
+static_assert(LOOK_SCREEN == KILN_FACING_SCREEN && LOOK_VIEWPOINT == KILN_FACING_VIEWPOINT &&
+                  LOOK_AXIAL == KILN_FACING_AXIAL && LOOK_VELOCITY == KILN_FACING_VELOCITY,
+              "facings");
 
 struct kiln_particles_stage {
     struct kiln_device *device;
@@ -37,6 +41,7 @@ static struct kiln_draw_look make_look(const struct kiln_scene *scene, uint32_t 
         .derived = kiln_scene_derived(scene, index),
         .flags = {look->blend == KILN_BLEND_ADD, look->random_start,
                   look->soft_formula == KILN_SOFT_LITERAL, textures->count},
+        .form = {look->shape, look->facing, look->point_round, look->line_to == KILN_LINE_PREVIOUS},
     };
     for (uint32_t i = 0; i < textures->count; i++) {
         const struct kiln_atlas_range *cells = &textures->textures[i];
@@ -85,6 +90,21 @@ static void update_looks(struct kiln_particles_stage *stage, float time_s)
     stage->table_valid = true;
 }
 
+/* Does any system need more than billboards parallel to the picture? One program draws all that is
+ * sorted together, in one call, however the depths of the shapes interleave; the one that knows all
+ * shapes is slower, so only scenes that need it pay. */
+static bool needs_shapes(const struct kiln_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_look *look = &scene->systems[i].look;
+        bool plane = look->facing == KILN_FACING_SCREEN || look->facing == KILN_FACING_VELOCITY;
+        bool billboard = look->shape == KILN_SHAPE_BILLBOARD;
+        if (scene->systems[i].enabled && look->shape != KILN_SHAPE_SPHERE && !(billboard && plane))
+            return true;
+    }
+    return false;
+}
+
 struct kiln_particles_stage *kiln_particles_create(struct kiln_device *device,
                                                    const struct kiln_scene *scene,
                                                    const struct kiln_atlas *atlas,
@@ -102,12 +122,12 @@ struct kiln_particles_stage *kiln_particles_create(struct kiln_device *device,
         kiln_particles_destroy(&stage);
         return NULL;
     }
-    stage->program =
-        kiln_program_create(device,
-                            &(struct kiln_program_params){.vertex = "draw/particles.vert",
-                                                          .geometry = "draw/particles.geom",
-                                                          .fragment = "draw/particles.frag"},
-                            error);
+    const struct kiln_program_params program = {
+        .vertex = "draw/particles.vert",
+        .geometry = "draw/particles.geom",
+        .fragment = "draw/particles.frag",
+        .defines = needs_shapes(scene) ? "#define SHAPES 1\n" : "#define SHAPES 0\n"};
+    stage->program = kiln_program_create(device, &program, error);
     if (!stage->program) {
         kiln_particles_destroy(&stage);
         return NULL;
@@ -142,6 +162,23 @@ static void bind_texture(GLuint unit, GLenum target, GLuint texture)
     glBindTexture(target, texture);
 }
 
+bool kiln_particles_bind(struct kiln_particles_stage *stage, struct kiln_pool *pool,
+                         struct kiln_buffer *entries, float time_s, struct kiln_error *error)
+{
+    GLuint records = kiln_buffer_gl(&pool->records, KILN_READ, error);
+    GLuint order = records ? kiln_buffer_gl(entries, KILN_READ, error) : 0;
+    GLuint looks = order ? kiln_buffer_gl(&stage->looks, KILN_READ, error) : 0;
+    GLuint keys = looks ? kiln_buffer_gl(&stage->keys, KILN_READ, error) : 0;
+    if (!keys)
+        return false;
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, KILN_BIND_RECORDS, records);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, KILN_BIND_ENTRIES, order);
+    glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_LOOKS, looks);
+    glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_KEYS, keys);
+    update_looks(stage, time_s);
+    return true;
+}
+
 bool kiln_particles_run(struct kiln_particles_stage *stage, const struct kiln_particles_draw *draw,
                         struct kiln_error *error)
 {
@@ -154,18 +191,9 @@ bool kiln_particles_run(struct kiln_particles_stage *stage, const struct kiln_pa
     if (draw->count == 0)
         return kiln_device_check(stage->device, "particles", error);
 
-    GLuint records = kiln_buffer_gl(&draw->pool->records, KILN_READ, error);
-    GLuint entries = records ? kiln_buffer_gl(draw->entries, KILN_READ, error) : 0;
-    GLuint looks = entries ? kiln_buffer_gl(&stage->looks, KILN_READ, error) : 0;
-    GLuint keys = looks ? kiln_buffer_gl(&stage->keys, KILN_READ, error) : 0;
-    GLuint depth = keys ? kiln_image_gl(draw->depth, KILN_READ, error) : 0;
-    if (!depth)
+    GLuint depth = kiln_image_gl(draw->depth, KILN_READ, error);
+    if (!depth || !kiln_particles_bind(stage, draw->pool, draw->entries, draw->time_s, error))
         return false;
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, KILN_BIND_RECORDS, records);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, KILN_BIND_ENTRIES, entries);
-    glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_LOOKS, looks);
-    glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_KEYS, keys);
-    update_looks(stage, draw->time_s);
     bind_texture(1, GL_TEXTURE_2D_ARRAY, stage->atlas->texture);
     bind_texture(2, GL_TEXTURE_2D, depth);
     bind_texture(3, GL_TEXTURE_2D_ARRAY, stage->atlas->motion);

@@ -29,6 +29,12 @@ struct kiln_particles_draw {
     bool fire_covers; /* premultiplied `over` in which additive particles cover like others */
 };
 
+/* Binds what vertex shaders read of particles (shaders/draw/record.glsl), but for the view block
+ * that kiln_backdrop_draw leaves bound: for stages that draw other shapes. entries name the
+ * particles. */
+bool kiln_particles_bind(struct kiln_particles_stage *stage, struct kiln_pool *pool,
+                         struct kiln_buffer *entries, float time_s, struct kiln_error *error);
+
 /* Draws with the view and backdrop blocks that kiln_backdrop_draw left bound. */
 bool kiln_particles_run(struct kiln_particles_stage *stage, const struct kiln_particles_draw *draw,
                         struct kiln_error *error);

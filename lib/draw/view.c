@@ -37,7 +37,7 @@ struct kiln_view kiln_view_compute(const struct kiln_scene *scene, uint32_t step
     struct kiln_view view = {
         .eye = {position.x, position.y, position.z,
                 kiln_scene_value(scene, &camera->near_plane, time_s)},
-        .clock = {time_s, scene->dt_s, 0.0f, 0.0f},
+        .clock = {time_s, scene->dt_s, scene->dt_s * (float)scene->steps_per_frame, 0.0f},
         .clock_step = {step, scene->seed, 0, 0},
     };
     for (int row = 0; row < 3; row++)

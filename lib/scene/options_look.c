@@ -11,6 +11,41 @@ static const char *const blends[] = {
     NULL,
 };
 
+static const char *const shapes[] = {
+    [KILN_SHAPE_BILLBOARD] = "billboard",
+    [KILN_SHAPE_POINT] = "point",
+    [KILN_SHAPE_LINE] = "line",
+    [KILN_SHAPE_SPHERE] = "sphere",
+    NULL,
+};
+
+static const char *const facings[] = {
+    [KILN_FACING_SCREEN] = "screen",       [KILN_FACING_VIEWPLANE] = "viewplane",
+    [KILN_FACING_VIEWPOINT] = "viewpoint", [KILN_FACING_AXIAL] = "axial",
+    [KILN_FACING_VELOCITY] = "velocity",   NULL,
+};
+
+static const char *const line_ends[] = {
+    [KILN_LINE_VELOCITY] = "velocity",
+    [KILN_LINE_PREVIOUS] = "previous",
+    NULL,
+};
+
+static const struct kiln_option point[] = {
+    VALUE("size", point_size, KILN_PIXELS, 0, 10000, BOTH, "0 px",
+          "Diameter in pixels; 0 takes the size in metres."),
+    BOOLEAN("round", point_round, "true", "A disc; false is a square."),
+    END,
+};
+
+static const struct kiln_option line[] = {
+    VALUE("width", line_width, KILN_PIXELS, 0, 1000, BOTH, "1.5 px", "Width in pixels."),
+    CHOICE("to", line_to, line_ends, "velocity",
+           "velocity: back along it by the speed times stretch; previous: to where the particle "
+           "was a frame ago."),
+    END,
+};
+
 static const char *const soft_formulas[] = {
     [KILN_SOFT_CLAMPED] = "clamped",
     [KILN_SOFT_LITERAL] = "literal",
@@ -44,8 +79,19 @@ const struct kiln_option kiln_options_look[] = {
     VALUE("size", size, KILN_METRES, 0, 1000, BOTH, "0.5 m", "Edge of the billboard."),
     RANGE("scale", scale, KILN_PLAIN, 0, 1000, TIME, "1",
           "Factor on size, drawn for each particle."),
+    CHOICE("shape", shape, shapes, "billboard",
+           "billboard: the texture on a quad; point, line: plain, without a texture; sphere: "
+           "opaque, lit like the backdrop, scaled by opacity and fade."),
+    CHOICE("facing", facing, facings, "screen",
+           "A billboard is parallel to the picture and upright in it (screen), in the world "
+           "(viewplane) or along its velocity; or turned to the eye, upright in the world "
+           "(viewpoint) or about the axis (axial), which it never leaves."),
+    VECTOR("axis", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
+           "What axial billboards turn about; of any length but 0."),
+    GROUP("point", 0, point, "How points look."),
+    GROUP("line", 0, line, "How lines look."),
     VALUE("stretch", stretch, KILN_SECONDS, 0, 10, BOTH, "0 s",
-          "Longer along the velocity by the speed times this; 0 keeps it square."),
+          "Longer along the velocity by the speed times this; 0 keeps a billboard square."),
     RANGE("rotation", rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), BOTH,
           "[0 deg, 360 deg]", "Turn, drawn for each particle; spin comes on top."),
     RANGE("spin", spin, KILN_ANGULAR_SPEED, 0, KILN_DEG(36000), BOTH, "0 deg/s",

@@ -124,6 +124,27 @@ enum kiln_blend {
     KILN_BLEND_ADD,   /* shines and covers nothing: fire */
 };
 
+enum kiln_shape {
+    KILN_SHAPE_BILLBOARD,
+    KILN_SHAPE_POINT,  /* a disc or a square without a texture */
+    KILN_SHAPE_LINE,   /* from the particle back along its way */
+    KILN_SHAPE_SPHERE, /* opaque, lit like the backdrop */
+};
+
+/* How a billboard stands to the camera (Heinz 2019, 2.1.1). */
+enum kiln_facing {
+    KILN_FACING_SCREEN,    /* parallel to the picture, up is the picture's */
+    KILN_FACING_VIEWPLANE, /* parallel to the picture, up is the world's */
+    KILN_FACING_VIEWPOINT, /* turned to the eye, up is the world's */
+    KILN_FACING_AXIAL,     /* turned to the eye about an axis, which is up */
+    KILN_FACING_VELOCITY,  /* parallel to the picture, up is where the particle goes */
+};
+
+enum kiln_line_to {
+    KILN_LINE_VELOCITY, /* back along the velocity by speed * stretch */
+    KILN_LINE_PREVIOUS, /* to where the particle was a frame ago */
+};
+
 enum kiln_soft_formula {
     KILN_SOFT_CLAMPED, /* clamp((scene - particle) * s, 0, 1) */
     KILN_SOFT_LITERAL, /* abs(scene - distance of the particle) * s, as printed (Heinz 2019, 3.3) */
@@ -136,8 +157,15 @@ struct kiln_look {
     const char *motion;  /* "none", "auto" (of built-in atlases) or an absolute file path */
     double motion_scale; /* edges of a cell that the file's full value means */
     enum kiln_blend blend;
-    struct kiln_value size;        /* m: edge of the billboard */
-    struct kiln_range scale;       /* factor on size, drawn per particle */
+    struct kiln_value size;  /* m: edge of the billboard */
+    struct kiln_range scale; /* factor on size, drawn per particle */
+    enum kiln_shape shape;
+    enum kiln_facing facing;      /* of a billboard */
+    struct kiln_value3 axis;      /* of an axial one; need not be normalised, not zero */
+    struct kiln_value point_size; /* px: diameter; 0: size, in metres */
+    bool point_round;             /* a disc; else a square */
+    struct kiln_value line_width; /* px */
+    enum kiln_line_to line_to;
     struct kiln_value stretch;     /* s: longer along the velocity by speed * stretch; 0: square */
     struct kiln_range rotation;    /* rad at birth */
     struct kiln_range spin;        /* rad/s; the sign is drawn per particle */

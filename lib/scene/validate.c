@@ -193,6 +193,21 @@ static bool are_apart(const struct kiln_scene *scene, const struct kiln_value3 *
     return a.x != b.x || a.y != b.y || a.z != b.z;
 }
 
+static bool check_shape(struct kiln_reader *reader, const struct kiln_node *root,
+                        const struct kiln_system *system)
+{
+    const struct kiln_look *look = &system->look;
+    const struct kiln_value3 *axis = &look->axis;
+    char path[128];
+    snprintf(path, sizeof path, "systems.%s.look.axis", system->name);
+    if (!at_all_keys(reader->scene, &axis, 1, is_not_zero))
+        return fail(reader, root, path, "must not be [0, 0, 0]");
+    snprintf(path, sizeof path, "systems.%s.look.blend", system->name);
+    if (look->shape == KILN_SHAPE_SPHERE && look->blend != KILN_BLEND_ALPHA)
+        return fail(reader, root, path, "must be alpha for spheres, which cover what is behind");
+    return true;
+}
+
 static const char *shape_name(const struct kiln_emitter *emit)
 {
     static const char *const names[] = {
@@ -224,6 +239,8 @@ static bool check_systems(struct kiln_reader *reader, const struct kiln_node *ro
         if (system->look.motion[0] == '/' &&
             (system->look.atlas_count > 1 || system->look.atlas[0][0] != '/'))
             return kiln_validate_fail(reader, root, path, "a motion file goes with one atlas file");
+        if (!check_shape(reader, root, system))
+            return false;
         if (!system->bounds.enabled)
             system->bounds = scene->bounds;
     }

@@ -2,6 +2,8 @@
  * equation 3.2), lit or shining, faded where it nears the scene (3.2.6, equation 3.3). The bloom
  * target gets the same, weighted (3.2.5). Colours leave premultiplied.
  */
+// variant: SHAPES=0
+// variant: SHAPES=1
 #include "shared/draw_layout.h"
 
 #include "draw/billboard.glsl"
@@ -14,22 +16,56 @@ uniform float additive_alpha; /* 0: fire covers nothing (merged); 1: it does, or
 
 layout(location = 0) in vec2 uv;
 layout(location = 1) flat in billboard quad;
+#if SHAPES
+layout(location = 11) in float view_depth; /* of points and lines: its reciprocal */
+#endif
 
 layout(location = 0) out vec4 out_color;
 layout(location = 1) out vec4 out_bloom;
+
+#if SHAPES
+
+bool is_plain()
+{
+    return uint(quad.depth.y) >= KILN_CELL_PLAIN;
+}
+
+/* The part of a pixel inside a disc or rectangle whose half edges are quad.cells.xy. */
+float coverage()
+{
+    if (uint(quad.depth.y) == KILN_CELL_DISC)
+        return clamp(quad.cells.x + 0.5 - length(uv), 0.0, 1.0);
+    vec2 inside = clamp(quad.cells.xy + 0.5 - abs(uv), 0.0, 1.0);
+    return inside.x * inside.y;
+}
+
+float fragment_depth()
+{
+    return is_plain() ? 1.0 / view_depth : view_depth;
+}
+
+#else
+
+float fragment_depth()
+{
+    return quad.depth.x;
+}
+
+#endif
 
 /* Equation 3.3, clamped to a fade; or as it is printed, with the particle's distance for its depth and
  * without a bound, so that far from the scene only the bound of alpha itself remains. */
 float soft_factor()
 {
     float scene = texelFetch(scene_depth, ivec2(gl_FragCoord.xy), 0).r;
-    float visible = step(quad.depth.x, scene);
+    float depth = fragment_depth();
+    float visible = step(depth, scene);
     float scale = quad.cool.a;
     if (scale <= 0.0)
         return visible;
     if (quad.depth.z > 0.0)
         return visible * abs(scene - quad.depth.w) * scale;
-    return clamp((scene - quad.depth.x) * scale, 0.0, 1.0);
+    return clamp((scene - depth) * scale, 0.0, 1.0);
 }
 
 /* Between two cells of the flipbook. What is here on its way from the one to the other is found in
@@ -46,10 +82,15 @@ vec4 cell_between()
 void main()
 {
     vec4 cell = cell_between();
+    bool masks = uint(quad.depth.y) != KILN_CELL_COLOR;
+#if SHAPES
+    if (is_plain())
+        cell = vec4(0.5, 0.5, 1.0, coverage());
+#endif
     vec3 rgb;
     float alpha;
     vec2 slope = vec2(0.0);
-    if (uint(quad.depth.y) == KILN_CELL_MASK) {
+    if (masks) {
         slope = cell.xy * 2.0 - 1.0;
         alpha = cell.a;
         rgb = mix(quad.cool.rgb, quad.hot.rgb, cell.z);
@@ -62,7 +103,7 @@ void main()
     vec3 light = quad.light_0.rgb + quad.light_x.rgb * slope.x + quad.light_y.rgb * slope.y +
                  quad.light_z.rgb * facing;
     vec3 covering = quad.color.rgb * max(light, vec3(0.0));
-    if (uint(quad.depth.y) == KILN_CELL_MASK)
+    if (masks)
         rgb = (rgb + covering) * alpha;
     else
         rgb = cell.rgb * (rgb + covering);

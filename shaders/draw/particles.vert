@@ -1,33 +1,29 @@
-/* One particle: all that its billboard needs, from the record, the look and the clock. */
+/* One particle: all that its billboard needs, from the record, the look and the clock. SHAPES: of a
+ * scene that has more than billboards parallel to the picture; others do not pay for it.
+ */
+// variant: SHAPES=0
+// variant: SHAPES=1
 #include "shared/draw_layout.h"
 
-layout(std140, binding = KILN_BIND_KEYS) uniform key_block { float4 value_keys[KILN_MAX_VALUE_KEYS]; };
-#include "shared/derived.h"
-#include "shared/look_layout.h"
+#include "draw/record.glsl"
 
-layout(std140, binding = KILN_BIND_VIEW) uniform view_block { kiln_view view; };
-layout(std140, binding = KILN_BIND_LOOKS) uniform look_block { kiln_draw_look looks[KILN_MAX_SYSTEMS]; };
 layout(std140, binding = KILN_BIND_BACKDROP) uniform backdrop_block { kiln_draw_backdrop backdrop; };
-layout(std430, binding = KILN_BIND_RECORDS) readonly buffer record_block { kiln_particle records[]; };
-layout(std430, binding = KILN_BIND_ENTRIES) readonly buffer entry_block { uint entries[]; };
-layout(binding = 0) uniform sampler2D look_table; /* see shared/look_layout.h */
 
 #include "draw/billboard.glsl"
 #include "draw/smoke_shadow.glsl"
 
-layout(location = 0) out vec4 center; /* in view space; w: unused */
-layout(location = 1) out vec4 axes;   /* half of the billboard's edges in view space: right, up */
-layout(location = 2) out billboard particle;
+layout(location = 0) out vec4 center; /* in view space; w: LOOK_* shape */
+layout(location = 1) out vec4 right;  /* half of the billboard's edge in view space; w: half of a */
+                                      /* point's or line's width, px */
+layout(location = 2) out vec4 up;     /* the other edge; of a line: all of the way to its end */
+layout(location = 3) out billboard particle;
+
+/* The plane of a billboard: unit vectors in view space. */
+struct plane {
+    vec3 right, up, normal;
+};
 
 const float PI = 3.14159265;
-/* A row of the system's table at the particle's progress through life. */
-vec4 look_at(uint system, int row, float life)
-{
-    float x = life * float(KILN_LOOK_SAMPLES - 1);
-    ivec2 texel = ivec2(min(int(x), KILN_LOOK_SAMPLES - 2), int(system) * KILN_LOOK_ROWS + row);
-    return mix(texelFetch(look_table, texel, 0), texelFetch(look_table, texel + ivec2(1, 0), 0),
-               x - float(texel.x));
-}
 
 vec3 world_to_view_vector(vec3 v)
 {
@@ -37,16 +33,16 @@ vec3 world_to_view_vector(vec3 v)
 
 /* Smoke scatters: a sprite's far side is dimmer, not black. Light from a direction is half ambient,
  * half along the normal. */
-void add_light(vec3 radiance, vec3 direction, vec2 right, vec2 up)
+void add_light(vec3 radiance, vec3 direction, plane p)
 {
     vec3 v = world_to_view_vector(direction);
     particle.light_0.rgb += 0.5 * radiance;
-    particle.light_x.rgb += 0.5 * radiance * dot(v.xy, right);
-    particle.light_y.rgb += 0.5 * radiance * dot(v.xy, up);
-    particle.light_z.rgb += 0.5 * radiance * v.z;
+    particle.light_x.rgb += 0.5 * radiance * dot(v, p.right);
+    particle.light_y.rgb += 0.5 * radiance * dot(v, p.up);
+    particle.light_z.rgb += 0.5 * radiance * dot(v, p.normal);
 }
 
-void light_particle(float lit, vec3 position, vec2 right, vec2 up)
+void light_particle(float lit, vec3 position, plane p)
 {
     particle.light_0 = vec4(1.0 - lit);
     particle.light_x = particle.light_y = particle.light_z = vec4(0.0);
@@ -56,14 +52,14 @@ void light_particle(float lit, vec3 position, vec2 right, vec2 up)
     float sky = skylight_through_smoke(position);
     float sun = sunlight_through_smoke(position);
     particle.light_0.rgb += backdrop.sky_horizon.rgb * lit * sqrt(sky);
-    add_light(backdrop.sky_top.rgb * lit * sky, vec3(0.0, 1.0, 0.0), right, up);
-    add_light(backdrop.sun_color.rgb * lit * sun / PI, backdrop.sun_direction.xyz, right, up);
+    add_light(backdrop.sky_top.rgb * lit * sky, vec3(0.0, 1.0, 0.0), p);
+    add_light(backdrop.sun_color.rgb * lit * sun / PI, backdrop.sun_direction.xyz, p);
     for (int i = 0; i < int(backdrop.counts.y); i++) {
         vec3 towards = backdrop.lights[i].position_radius2.xyz - position;
         float d2 = dot(towards, towards);
         float falloff = 1.0 / (d2 + backdrop.lights[i].position_radius2.w);
         add_light(backdrop.lights[i].color.rgb * lit * falloff,
-                  towards * inversesqrt(max(d2, 1e-9)), right, up);
+                  towards * inversesqrt(max(d2, 1e-9)), p);
     }
 }
 
@@ -88,13 +84,14 @@ vec4 choose_cells(uint4 atlas, float passes, bool random_start, uint stream, flo
     return vec4(base + mod(first, cells), base + mod(first + 1.0, cells), position - first, level);
 }
 
-/* The billboard's upward direction in view space, and its half length: a stretched particle lies
- * along its velocity. */
-vec3 point_up(float angle, float half_size, float stretch, vec3 velocity)
+/* The billboard's upward direction in its plane, and its half length: a stretched particle lies
+ * along its velocity there. Slow ones keep their turn. */
+vec3 point_up(float angle, float half_size, float stretch, vec2 moving, uint facing)
 {
     vec3 up = vec3(-sin(angle), cos(angle), half_size);
-    if (stretch > 0.0) {
-        vec2 moving = world_to_view_vector(velocity).xy;
+    if (facing == LOOK_AXIAL)
+        return vec3(0.0, 1.0, half_size + 0.5 * abs(moving.y) * stretch);
+    if (stretch > 0.0 || facing == LOOK_VELOCITY) {
         float speed = length(moving);
         vec2 turned = mix(up.xy, moving / max(speed, 1e-4), smoothstep(0.05, 0.2, speed));
         up.xy = normalize(turned + vec2(0.0, 1e-5));
@@ -102,6 +99,41 @@ vec3 point_up(float angle, float half_size, float stretch, vec3 velocity)
     }
     return up;
 }
+
+#if SHAPES
+
+/* The plane that a billboard turns in (Heinz 2019, 2.1.1). Where the direction that says what is up
+ * points at the eye, the picture's right is the billboard's. */
+plane facing_plane(uint facing, vec3 axis)
+{
+    bool to_eye = facing == LOOK_VIEWPOINT || facing == LOOK_AXIAL;
+    bool in_picture = facing == LOOK_SCREEN || facing == LOOK_VELOCITY;
+    vec3 normal = to_eye ? -normalize(center.xyz) : vec3(0.0, 0.0, 1.0);
+    vec3 upward = in_picture ? vec3(0.0, 1.0, 0.0) : world_to_view_vector(axis);
+    vec3 sideways = cross(upward, normal);
+    if (dot(sideways, sideways) < 1e-8)
+        sideways = vec3(1.0, 0.0, 0.0) - normal * normal.x;
+    sideways = normalize(sideways);
+    if (facing != LOOK_AXIAL)
+        return plane(sideways, cross(normal, sideways), normal);
+    return plane(sideways, upward, cross(sideways, upward));
+}
+
+/* A point or a line, which has no texture. What is narrower than a pixel is drawn as wide as one,
+ * and the fainter. */
+void make_plain(uint4 form, vec2 widths_px, float size_px, vec3 moving, float stretch)
+{
+    bool is_line = form.x == LOOK_LINE;
+    float width = is_line ? widths_px.y : widths_px.x > 0.0 ? widths_px.x : size_px;
+    float thin = min(width, 1.0);
+    center.w = float(form.x);
+    right.w = 0.5 * max(width, 1.0);
+    up.xyz = is_line ? moving * -(form.w != 0u ? view.clock.z : stretch) : vec3(0.0);
+    particle.color.a *= is_line ? thin : thin * thin;
+    particle.depth.y = float(!is_line && form.z != 0u ? KILN_CELL_DISC : KILN_CELL_PLAIN);
+}
+
+#endif
 
 void main()
 {
@@ -119,20 +151,32 @@ void main()
     vec4 cover = look_at(system, KILN_LOOK_COVER, life);
 
     vec3 position = particle_position(record);
-    vec4 p = vec4(position, 1.0);
-    center = vec4(dot(view.world_to_view[0], p), dot(view.world_to_view[1], p),
-                  dot(view.world_to_view[2], p), 1.0);
+    center = vec4(world_to_view_point(position), 0.0);
     float depth = -center.z;
 
-    float half_size =
-        0.5 * shape.x * mix(spread.x, spread.y, random_unit(stream, RANDOM_SCALE));
+    float scale = mix(spread.x, spread.y, random_unit(stream, RANDOM_SCALE));
+    float half_size = 0.5 * shape.x * scale;
     float angle = mix(turn.x, turn.y, random_unit(stream, RANDOM_ROTATION));
     float spin = mix(spread.z, spread.w, random_unit(stream, RANDOM_SPIN));
     bool backwards = random_unit(stream, RANDOM_SPIN + 1u) < 0.5;
     angle += (backwards ? -spin : spin) * age;
-    vec3 up = point_up(angle, half_size, shape.y, particle_velocity(record));
-    vec2 right = backwards ? vec2(-up.y, up.x) : vec2(up.y, -up.x); /* half are mirrored */
-    axes = vec4(right * half_size, up.xy * up.z);
+
+    plane facing = plane(vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0));
+    uint4 form = looks[system].form;
+#if SHAPES
+    vec3 world_up = vec3(0.0, 1.0, 0.0);
+    vec3 axis = form.y == LOOK_AXIAL ? look_at(system, KILN_LOOK_AXIS, life).xyz : world_up;
+    facing = facing_plane(form.y, axis);
+#endif
+    vec3 moving = world_to_view_vector(particle_velocity(record));
+    vec2 moving_in_plane = vec2(dot(moving, facing.right), dot(moving, facing.up));
+    vec3 upward = point_up(angle, half_size, shape.y, moving_in_plane, form.y);
+    vec2 sideways = backwards ? vec2(-upward.y, upward.x) : vec2(upward.y, -upward.x); /* half are
+                                                                                       * mirrored */
+    plane turned = plane(facing.right * sideways.x + facing.up * sideways.y,
+                         facing.right * upward.x + facing.up * upward.y, facing.normal);
+    right = vec4(turned.right * half_size, 0.0);
+    up = vec4(turned.up * upward.z, 0.0);
 
     float near_fade = clamp((depth - view.eye.w) / max(hot.w, 1e-6), 0.0, 1.0);
     particle.color = vec4(cover.rgb, shape.z * near_fade);
@@ -146,5 +190,9 @@ void main()
                                   stream, 2.0 * half_size * pixels_per_m);
     particle.depth = vec4(depth, float(texture_cells.z), float(looks[system].flags.z),
                           length(center.xyz));
-    light_particle(cover.w, position, right, up.xy);
+    light_particle(cover.w, position, turned);
+#if SHAPES
+    if (form.x != 0u)
+        make_plain(form, turn.zw * scale, 2.0 * half_size * pixels_per_m, moving, shape.y);
+#endif
 }

@@ -27,6 +27,8 @@
 /* How cells of an atlas are read. */
 #define KILN_CELL_MASK  0u /* normal x, y, heat, density: coloured by the look */
 #define KILN_CELL_COLOR 1u /* premultiplied colour under a square root: tinted by the look */
+#define KILN_CELL_PLAIN 2u /* no texture: a rectangle... */
+#define KILN_CELL_DISC  3u /* ...or a disc, whose edges are as sharp as pixels allow */
 
 /* The camera of a frame. World axes: metres, y up, right-handed; a view looks along its -z. Pixels
  * count from the top left corner, so y points down in clip space. */
@@ -34,7 +36,7 @@ struct kiln_view {
     float4 world_to_view[3]; /* rows */
     float4 eye;              /* world position, m; w: near plane, m */
     float4 frustum;          /* tan of half the field, x and y; width, height of the image, px */
-    float4 clock;            /* clip time, s; step, s; unused; unused */
+    float4 clock;            /* clip time, s; step, s; frame, s; unused */
     uint4 clock_step;        /* steps done; seed; unused; unused */
 };
 

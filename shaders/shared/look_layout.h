@@ -19,13 +19,23 @@
 #define KILN_LOOK_COOL   3 /* light emitted where it is 0, rgb; passes through the atlas */
 #define KILN_LOOK_BLOOM  4 /* weights, rgb; unused */
 #define KILN_LOOK_SPREAD 5 /* scale, least and most; mean spin so far, least and most, rad/s */
-#define KILN_LOOK_TURN   6 /* rotation, least and most, rad; unused */
-#define KILN_LOOK_ROWS   7
+#define KILN_LOOK_TURN   6 /* rotation, least and most, rad; point, line width, px */
+#define KILN_LOOK_AXIS   7 /* unit vector in the world; unused */
+#define KILN_LOOK_ROWS   8
+
+/* enum kiln_shape and enum kiln_facing of the scene. */
+#define LOOK_POINT     1u
+#define LOOK_LINE      2u
+#define LOOK_SCREEN    0u
+#define LOOK_VIEWPOINT 2u
+#define LOOK_AXIAL     3u
+#define LOOK_VELOCITY  4u
 
 /* The rest of a look, the same at any age. */
 struct kiln_draw_look {
     S(kiln_derived_params) derived; /* for the progress through life */
     uint4 flags; /* additive; random start; literal soft formula (equation 3.3); textures */
+    uint4 form;  /* LOOK_* shape; LOOK_* facing; points are round; lines reach back a frame */
     uint4 textures[KILN_MAX_TEXTURES]; /* first layer; cells; KILN_CELL_*; bits of the float that */
                                        /* scales the motion */
 };

@@ -1,0 +1,45 @@
+/* The rectangle of the picture that a sphere covers, and a pixel around it: between the tangents from
+ * the eye. A sphere that reaches the near plane is not drawn. */
+#include "shared/draw_layout.h"
+
+layout(points) in;
+layout(triangle_strip, max_vertices = 4) out;
+
+layout(std140, binding = KILN_BIND_VIEW) uniform view_block { kiln_view view; };
+
+layout(location = 0) in vec4 center[];
+layout(location = 1) in vec4 reflected[];
+layout(location = 2) in vec4 emitted[];
+layout(location = 3) in vec4 bloom_weights[];
+
+layout(location = 0) flat out vec4 sphere;
+layout(location = 1) flat out vec4 albedo;
+layout(location = 2) flat out vec4 glow;
+layout(location = 3) flat out vec4 bloom;
+
+/* Slopes of the two tangents at a circle, in a plane through the eye: x sideways, depth ahead. */
+vec2 tangents(float x, float depth, float radius)
+{
+    float t = sqrt(max(x * x + depth * depth - radius * radius, 0.0));
+    return vec2((x * t - depth * radius) / (depth * t + x * radius),
+                (x * t + depth * radius) / (depth * t - x * radius));
+}
+
+void main()
+{
+    float radius = center[0].w, depth = -center[0].z;
+    if (radius <= 0.0 || depth - radius <= view.eye.w)
+        return;
+    vec2 pixel = 2.0 / view.frustum.zw;
+    vec2 x = tangents(center[0].x, depth, radius) / view.frustum.x + vec2(-pixel.x, pixel.x);
+    vec2 y = tangents(-center[0].y, depth, radius) / view.frustum.y + vec2(-pixel.y, pixel.y);
+    for (int i = 0; i < 4; i++) {
+        gl_Position = vec4(i < 2 ? x.x : x.y, (i & 1) == 0 ? y.x : y.y, 0.0, 1.0);
+        sphere = center[0];
+        albedo = reflected[0];
+        glow = emitted[0];
+        bloom = bloom_weights[0];
+        EmitVertex();
+    }
+    EndPrimitive();
+}

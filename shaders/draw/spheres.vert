@@ -1,0 +1,32 @@
+/* One opaque sphere, from the record, the look and the clock. It cannot fade, so it grows and
+ * shrinks by its opacity. */
+#include "shared/draw_layout.h"
+
+#include "draw/record.glsl"
+
+layout(location = 0) out vec4 center;        /* in view space; w: radius, m */
+layout(location = 1) out vec4 reflected;     /* albedo; a: 1 lit .. 0 shows it as it is */
+layout(location = 2) out vec4 emitted;       /* radiance */
+layout(location = 3) out vec4 bloom_weights; /* of equation 3.2 */
+
+void main()
+{
+    uint entry = entries[gl_VertexID];
+    uint system = entry >> 24;
+    kiln_particle record = records[entry & 0xffffffu];
+    uint stream = particle_stream(looks[system].derived, record);
+    float age = particle_age(record, view.clock_step.x, view.clock.y);
+    float life = particle_progress(age, particle_life_s(looks[system].derived, record));
+    vec4 shape = look_at(system, KILN_LOOK_SHAPE, life);
+    vec4 spread = look_at(system, KILN_LOOK_SPREAD, life);
+
+    center.xyz = world_to_view_point(particle_position(record));
+    float scale = mix(spread.x, spread.y, random_unit(stream, RANDOM_SCALE));
+    float radius = 0.5 * shape.x * scale * shape.z;
+    /* No smaller than a pixel, or it would twinkle between the samples. */
+    float pixel_m = 2.0 * view.frustum.y * max(-center.z, 1e-3) / view.frustum.w;
+    center.w = radius > 0.0 ? max(radius, 0.5 * pixel_m) : 0.0;
+    reflected = look_at(system, KILN_LOOK_COVER, life);
+    emitted = look_at(system, KILN_LOOK_HOT, life);
+    bloom_weights = look_at(system, KILN_LOOK_BLOOM, life);
+}

@@ -1,0 +1,308 @@
+/* Billboards of every kind, points and lines (Heinz 2019, 2.1.1) before a rolled camera, against
+ * planes, discs and segments that are worked out in the world. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "support/drawing.h"
+
+enum { WIDTH = 320, HEIGHT = 240, PIXELS = WIDTH * HEIGHT, STEP = 30 };
+
+/* With a wall at 10 m, alpha is (10 - depth) * 0.08. */
+static const char SCENE[] =
+    "kiln: 1\n"
+    "output: {size: [320, 240], fps: 30, frames: 100}\n"
+    "simulation: {rate: 60}\n"
+    "camera: {position: [1, 3.5, 3], target: [0.2, 1, 0.1], fov: 60 deg, roll: 25 deg, near: 0.1}\n"
+    "systems:\n"
+    "  a:\n"
+    "    emit: {rate: 1, life: 10 s}\n"
+    "    look: {size: 1.2 m, rotation: 0 deg, soft: 0.08, fade: {in: 0, out: 0}, near_fade: 0 m}\n";
+
+static const double WALL_M = 10, SOFT = 0.08;
+static const float3 POSITION = {0.9f, 1.3f, 0.4f}, VELOCITY = {1.0f, 2.0f, -0.5f};
+
+struct billboard {
+    vec center, right, up, normal; /* right and up: half edges */
+    bool mirrored;
+};
+
+/* The plane of each facing, from the definitions of 2.1.1. */
+static struct billboard plane_of(const struct drawing *d, enum kiln_facing facing, vec axis)
+{
+    const vec y = {0, 1, 0};
+    struct billboard b = {.center = vec_of(POSITION), .normal = drawing_axis(d, 2)};
+    vec to_eye = vec_unit(vec_add(drawing_eye(d), b.center, -1));
+    if (facing == KILN_FACING_VIEWPOINT)
+        b.normal = to_eye;
+    vec upward = facing == KILN_FACING_SCREEN     ? drawing_axis(d, 1)
+                 : facing == KILN_FACING_AXIAL    ? vec_unit(axis)
+                 : facing == KILN_FACING_VELOCITY ? vec_of(VELOCITY)
+                                                  : y;
+    if (facing == KILN_FACING_AXIAL)
+        b.normal = vec_add(to_eye, upward, -vec_dot(to_eye, upward));
+    b.normal = vec_unit(b.normal);
+    b.up = vec_unit(vec_add(upward, b.normal, -vec_dot(upward, b.normal)));
+    b.right = vec_cross(b.up, b.normal);
+    return b;
+}
+
+/* Turns it by an angle, against the clock as the viewer sees it, and gives it its edges. */
+static void turn_and_scale(struct billboard *b, double angle, double half_width, double half_height)
+{
+    vec up = vec_add((vec){0}, b->up, cos(angle) * half_height);
+    vec right = vec_add((vec){0}, b->right, cos(angle) * half_width);
+    vec old_up = b->up;
+    b->up = vec_add(up, b->right, -sin(angle) * half_height);
+    b->right = vec_add(right, old_up, sin(angle) * half_width);
+}
+
+/* Which half of the billboards is mirrored is drawn with the sign of the spin. */
+static bool is_mirrored(const struct drawing *d, uint32_t serial)
+{
+    uint32_t stream = random_stream(random_key(d->scene->seed, 0), serial);
+    return random_unit(stream, RANDOM_SPIN + 1) < 0.5f;
+}
+
+/* Every pixel shows the place of the texture that its ray meets, as opaque as the depth there. */
+static void check_plane(const struct drawing *d, const struct billboard *b)
+{
+    int inside = 0;
+    for (int p = 0; p < PIXELS; p++) {
+        const float *pixel = d->color.host + 4 * p;
+        vec ray = drawing_ray(d, p % WIDTH + 0.5, p / WIDTH + 0.5);
+        vec to_center = vec_add(b->center, drawing_eye(d), -1);
+        double depth = vec_dot(to_center, b->normal) / vec_dot(ray, b->normal);
+        vec at = vec_add(vec_add((vec){0}, ray, depth), to_center, -1);
+        double x = vec_dot(at, b->right) / vec_dot(b->right, b->right);
+        double y = vec_dot(at, b->up) / vec_dot(b->up, b->up);
+        double edge = fmax(fabs(x), fabs(y));
+        if (fabs(edge - 1) < 0.02)
+            continue;
+        if (edge > 1 || depth <= 0) {
+            assert_true(pixel[3] == 0.0f);
+            continue;
+        }
+        inside++;
+        double alpha = (WALL_M - depth) * SOFT;
+        assert_true(fabs((double)pixel[3] - alpha) < 1e-3);
+        double sideways = b->mirrored ? -x : x;
+        if (edge < 0.95) { /* the texture is clamped beyond */
+            assert_true(fabs((double)pixel[0] / alpha - (0.5 + 0.5 * sideways)) < 0.02);
+            assert_true(fabs((double)pixel[1] / alpha - (0.5 - 0.5 * y)) < 0.02);
+        }
+    }
+    assert_true(inside > 1000);
+}
+
+static void check_facing(struct kiln_device *device, enum kiln_facing facing, double angle,
+                         double stretch)
+{
+    static const char *const words[] = {"screen", "viewplane", "viewpoint", "axial", "velocity"};
+    char facing_text[64], angle_text[64], stretch_text[64];
+    snprintf(facing_text, sizeof facing_text, "systems.a.look.facing=%s", words[facing]);
+    snprintf(angle_text, sizeof angle_text, "systems.a.look.rotation=%.9g rad", angle);
+    snprintf(stretch_text, sizeof stretch_text, "systems.a.look.stretch=%g s", stretch);
+    const char *overrides[] = {facing_text, angle_text, stretch_text,
+                               "systems.a.look.axis=[1, 3, 0.5]"};
+    struct drawing d;
+    drawing_init(&d, device, SCENE, overrides, 4);
+    bool seen[2] = {false, false};
+    for (uint32_t serial = 0; serial < 8; serial++) {
+        struct kiln_particle particle = drawing_particle(serial, POSITION, VELOCITY);
+        drawing_place(&d, &particle, 1, STEP);
+        drawing_run(&d, 1, (float)WALL_M);
+        struct billboard b = plane_of(&d, facing, (vec){1, 3, 0.5});
+        double along = hypot(vec_dot(vec_of(VELOCITY), b.right), vec_dot(vec_of(VELOCITY), b.up));
+        if (facing == KILN_FACING_AXIAL) {
+            along = fabs(vec_dot(vec_of(VELOCITY), b.up));
+            angle = 0; /* it would leave its axis */
+        } else if (facing == KILN_FACING_VELOCITY) {
+            angle = 0; /* it would leave its way */
+        } else if (stretch > 0) {
+            angle = -atan2(vec_dot(vec_of(VELOCITY), b.right), vec_dot(vec_of(VELOCITY), b.up));
+        }
+        b.mirrored = is_mirrored(&d, serial);
+        turn_and_scale(&b, angle, 0.6, 0.6 + 0.5 * along * stretch);
+        check_plane(&d, &b);
+        seen[b.mirrored] = true;
+    }
+    assert_true(seen[0] && seen[1]);
+    drawing_finish(&d);
+}
+
+static void billboards_face_as_defined(void **state)
+{
+    for (int facing = KILN_FACING_SCREEN; facing <= KILN_FACING_VELOCITY; facing++) {
+        check_facing(*state, (enum kiln_facing)facing, 0, 0);
+        check_facing(*state, (enum kiln_facing)facing, 0.5, 0);
+        check_facing(*state, (enum kiln_facing)facing, 0.5, 0.2);
+    }
+}
+
+/* Where there is no up, the picture's right is the billboard's: nothing vanishes. */
+static void a_view_along_the_axis_has_a_picture(void **state)
+{
+    static const char *const facings[] = {"viewplane", "viewpoint", "axial"};
+    for (size_t i = 0; i < 3; i++) {
+        char facing[64];
+        snprintf(facing, sizeof facing, "systems.a.look.facing=%s", facings[i]);
+        const char *overrides[] = {facing, "camera.position=[0.9, 6, 0.4]",
+                                   "camera.target=[0.9, 0, 0.4]", "camera.roll=0 deg"};
+        struct drawing d;
+        drawing_init(&d, *state, SCENE, overrides, 4);
+        struct kiln_particle particle = drawing_particle(0, POSITION, VELOCITY);
+        drawing_place(&d, &particle, 1, STEP);
+        drawing_run(&d, 1, (float)WALL_M);
+        int covered = 0;
+        for (int p = 0; p < PIXELS; p++)
+            covered += d.color.host[4 * p + 3] > 0.0f;
+        double edge = 1.2 * HEIGHT / (2 * tan(acos(-1) / 6) * 4.7); /* px */
+        if (i < 2) /* an axial one is seen from its end */
+            assert_true(fabs(covered - edge * edge) < 4 * edge);
+        else
+            assert_true(covered < 4 * edge);
+        drawing_finish(&d);
+    }
+}
+
+/* ---- points and lines ------------------------------------------------------------------------ */
+
+static double clamp_unit(double x)
+{
+    return fmin(fmax(x, 0), 1);
+}
+
+/* The part of a pixel at (x, y) px from the middle that a rectangle or a disc covers. */
+static double coverage(double x, double y, double half_x, double half_y, bool round)
+{
+    if (round)
+        return clamp_unit(half_x + 0.5 - hypot(x, y));
+    return clamp_unit(half_x + 0.5 - fabs(x)) * clamp_unit(half_y + 0.5 - fabs(y));
+}
+
+static void check_point(struct kiln_device *device, const char *const *overrides, size_t count,
+                        double diameter_px, bool round)
+{
+    struct drawing d;
+    drawing_init(&d, device, SCENE, overrides, count);
+    struct kiln_particle particle = drawing_particle(0, POSITION, VELOCITY);
+    drawing_place(&d, &particle, 1, STEP);
+    drawing_run(&d, 1, (float)WALL_M);
+    vec center = drawing_project(&d, vec_of(POSITION));
+    if (diameter_px <= 0)
+        diameter_px = 1.2 * HEIGHT / (2 * (double)d.view.frustum.y * center.z);
+    double thin = fmin(diameter_px, 1), half = fmax(diameter_px, 1) / 2, sum = 0;
+    for (int p = 0; p < PIXELS; p++) {
+        double alpha =
+            coverage(p % WIDTH + 0.5 - center.x, p / WIDTH + 0.5 - center.y, half, half, round);
+        alpha *= thin * thin * (WALL_M - center.z) * SOFT;
+        assert_true(fabs((double)d.color.host[4 * p + 3] - alpha) < 2e-3);
+        assert_true(d.color.host[4 * p] == d.color.host[4 * p + 3]); /* white: no texture */
+        sum += alpha;
+    }
+    assert_true(sum > 0.01);
+    drawing_finish(&d);
+}
+
+static void points_have_their_size(void **state)
+{
+    static const char *const metres[] = {"systems.a.look.shape=point"};
+    static const char *const pixels[] = {"systems.a.look.shape=point",
+                                         "systems.a.look.point.size=7.5 px"};
+    static const char *const square[] = {"systems.a.look.shape=point",
+                                         "systems.a.look.point={size: 7.5 px, round: false}",
+                                         "systems.a.look.facing=axial"}; /* has no say */
+    static const char *const tiny[] = {
+        "systems.a.look.shape=point",
+        "systems.a.look.point={size: {life: {0: 0.1 px, 0.1: 0.9 px}}}"};
+    static const char *const scaled[] = {"systems.a.look.shape=point", "systems.a.look.scale=2",
+                                         "systems.a.look.point.size=7.5 px"};
+    check_point(*state, metres, 1, 0, true);
+    check_point(*state, pixels, 2, 7.5, true);
+    check_point(*state, square, 3, 7.5, false);
+    check_point(*state, tiny, 2, 0.5, true);
+    check_point(*state, scaled, 3, 15, true);
+}
+
+/* From the particle back to `tail`: square ends reach out by half of the width. */
+static void check_line(struct kiln_device *device, const char *const *overrides, size_t count,
+                       float3 position, float3 velocity, double seconds, double width_px)
+{
+    struct drawing d;
+    drawing_init(&d, device, SCENE, overrides, count);
+    struct kiln_particle particle = drawing_particle(0, position, velocity);
+    drawing_place(&d, &particle, 1, STEP);
+    drawing_run(&d, 1, (float)WALL_M);
+    vec head = drawing_project(&d, vec_of(position));
+    vec tail = drawing_project(&d, vec_add(vec_of(position), vec_of(velocity), -seconds));
+    double length = hypot(head.x - tail.x, head.y - tail.y), sum = 0;
+    double dx = length > 0 ? (head.x - tail.x) / length : 1;
+    double dy = length > 0 ? (head.y - tail.y) / length : 0;
+    for (int p = 0; p < PIXELS; p++) {
+        double x = p % WIDTH + 0.5 - (head.x + tail.x) / 2;
+        double y = p / WIDTH + 0.5 - (head.y + tail.y) / 2;
+        double along = x * dx + y * dy, across = y * dx - x * dy;
+        double part = length > 0 ? 0.5 + along / length : 0;
+        double depth = 1 / (1 / tail.z + (1 / head.z - 1 / tail.z) * part);
+        double alpha = coverage(along, across, (length + width_px) / 2, width_px / 2, false) *
+                       (WALL_M - depth) * SOFT;
+        double tolerance = fabs(part - 0.5) < 0.5 ? 4e-3 : 2e-2; /* ends share a depth */
+        assert_true(fabs((double)d.color.host[4 * p + 3] - alpha) < tolerance);
+        sum += alpha;
+    }
+    assert_true(sum > 2);
+    drawing_finish(&d);
+}
+
+static void lines_lie_along_the_way(void **state)
+{
+    static const char *const back[] = {"systems.a.look.shape=line", "systems.a.look.stretch=0.4 s",
+                                       "systems.a.look.line.width=3 px"};
+    static const char *const frame[] = {"systems.a.look.shape=line", "systems.a.look.stretch=9 s",
+                                        "systems.a.look.line={width: 2 px, to: previous}"};
+    static const float3 fast = {20.0f, 10.0f, -15.0f}, rest = {0.0f, 0.0f, 0.0f};
+    check_line(*state, back, 3, POSITION, VELOCITY, 0.4, 3);
+    check_line(*state, back, 3, POSITION, rest, 0.4, 3); /* a dot */
+    check_line(*state, frame, 3, POSITION, fast, 1.0 / 30, 2);
+}
+
+/* A line whose tail is behind the camera ends at the near plane, off the picture's edge. */
+static void lines_end_at_the_near_plane(void **state)
+{
+    static const char *const overrides[] = {"systems.a.look.shape=line",
+                                            "systems.a.look.stretch=1 s",
+                                            "systems.a.look.line.width=4 px"};
+    struct drawing d;
+    drawing_init(&d, *state, SCENE, overrides, 3);
+    const struct kiln_particle particle =
+        drawing_particle(0, (float3){0.2f, 1.0f, 0.1f}, (float3){-2.0f, -5.0f, -6.0f});
+    drawing_place(&d, &particle, 1, STEP);
+    drawing_run(&d, 1, (float)WALL_M);
+    int covered = 0;
+    bool at_edge = false;
+    for (int p = 0; p < PIXELS; p++) {
+        assert_true(isfinite(d.color.host[4 * p + 3]));
+        bool here = d.color.host[4 * p + 3] > 0.0f;
+        covered += here;
+        int x = p % WIDTH, y = p / WIDTH;
+        at_edge |= here && (x == 0 || y == 0 || x == WIDTH - 1 || y == HEIGHT - 1);
+    }
+    assert_true(at_edge && covered > 4 * 60 && covered < 6 * WIDTH);
+    drawing_finish(&d);
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        test_on_device(billboards_face_as_defined),
+        test_on_device(a_view_along_the_axis_has_a_picture),
+        test_on_device(points_have_their_size),
+        test_on_device(lines_lie_along_the_way),
+        test_on_device(lines_end_at_the_near_plane),
+    };
+    return cmocka_run_group_tests(tests, test_device_open, test_device_close);
+}

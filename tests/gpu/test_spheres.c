@@ -1,0 +1,296 @@
+/* lib/draw/spheres.c against spheres that are intersected in double precision: depth, silhouettes,
+ * light, and that the order of the list is no matter. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "draw/spheres.h"
+#include "support/drawing.h"
+
+enum { WIDTH = 320, HEIGHT = 240, PIXELS = WIDTH * HEIGHT, STEP = 30, COUNT = 24 };
+
+/* A box hides some, and the floor cuts others. */
+static const char SCENE[] =
+    "kiln: 1\n"
+    "output: {size: [320, 240], fps: 30, frames: 100}\n"
+    "simulation: {rate: 60}\n"
+    "camera: {position: [0.5, 1.5, 3], target: [0, 0.8, 0], fov: 75 deg, roll: 20 deg, near: 0.1}\n"
+    "backdrop:\n"
+    "  haze: 0\n"
+    "  objects:\n"
+    "    - box: {center: [-0.5, 0.7, 0.4], size: [0.6, 0.6, 0.6]}\n"
+    "systems:\n"
+    "  a:\n"
+    "    emit: {rate: 1, life: 10 s}\n"
+    "    look: {shape: sphere, size: 0.8 m, scale: 0.5, fade: {in: 0, out: 0},\n"
+    "           color: [0.8, 0.4, 0.2], bloom: [1, 0.5, 0]}\n";
+
+static const double ALBEDO[3] = {0.8, 0.4, 0.2};
+
+struct fixture {
+    struct drawing drawing;
+    struct kiln_image depth, color, bloom;
+    struct kiln_spheres_stage *stage;
+};
+
+static void init(struct fixture *f, struct kiln_device *device, const char *const *overrides,
+                 size_t count)
+{
+    struct kiln_error error = {0};
+    struct drawing *d = &f->drawing;
+    drawing_init(d, device, SCENE, overrides, count);
+    kiln_image_init(&f->color, device, WIDTH, HEIGHT, GL_RGBA32F, "scene");
+    kiln_image_init(&f->depth, device, WIDTH, HEIGHT, GL_R32F, "scene depth");
+    kiln_image_init(&f->bloom, device, WIDTH, HEIGHT, GL_RGBA32F, "sphere bloom");
+    const struct kiln_spheres_targets targets = {&d->backdrop_color, &d->backdrop_depth, &f->color,
+                                                 &f->depth, &f->bloom};
+    f->stage = kiln_spheres_create(device, d->particles, &targets, &error);
+    if (!f->stage)
+        fail_msg("%s", error.message);
+}
+
+static void finish(struct fixture *f)
+{
+    kiln_spheres_destroy(&f->stage);
+    kiln_image_finish(&f->color);
+    kiln_image_finish(&f->depth);
+    kiln_image_finish(&f->bloom);
+    drawing_finish(&f->drawing);
+}
+
+static void draw(struct fixture *f, uint32_t count)
+{
+    struct kiln_error error = {0};
+    struct drawing *d = &f->drawing;
+    if (!kiln_spheres_draw(f->stage, &d->pool, &d->entries, count, d->view.clock.x, &error))
+        fail_msg("%s", error.message);
+    struct kiln_image *images[] = {&f->color, &f->depth, &f->bloom, &d->backdrop_color,
+                                   &d->backdrop_depth};
+    for (size_t i = 0; i < sizeof images / sizeof *images; i++)
+        assert_non_null(kiln_image_host(images[i], KILN_READ, &error));
+}
+
+static float within(float low, float high)
+{
+    return low + (high - low) * (float)(rand() % 10001) / 10000.0f;
+}
+
+static void place_cloud(struct fixture *f, struct kiln_particle particles[COUNT])
+{
+    srand(11);
+    for (uint32_t i = 0; i < COUNT; i++) {
+        float3 position = {within(-2.0f, 2.0f), within(0.0f, 2.0f), within(-1.0f, 1.5f)};
+        particles[i] = drawing_particle(i, position, (float3){0.0f, 0.0f, 0.0f});
+    }
+    drawing_place(&f->drawing, particles, COUNT, STEP);
+}
+
+struct meeting {
+    double depth;   /* of the nearest sphere, or of the backdrop */
+    vec normal;     /* of the sphere; zero for the backdrop */
+    double edge_px; /* to the nearest silhouette */
+};
+
+/* What the ray through a place in the picture meets first. */
+static struct meeting meet(const struct fixture *f, const struct kiln_particle *particles,
+                           uint32_t count, double radius, double x, double y)
+{
+    const struct drawing *d = &f->drawing;
+    vec ray = drawing_ray(d, x, y);
+    double pixel = 2 * (double)d->view.frustum.y / HEIGHT;
+    size_t p = (size_t)y * WIDTH + (size_t)x;
+    struct meeting first = {.depth = (double)d->backdrop_depth.host[p], .edge_px = 1e9};
+    for (uint32_t i = 0; i < count; i++) {
+        vec center = vec_add(vec_of(particle_position(particles[i])), drawing_eye(d), -1);
+        double t = vec_dot(ray, center) / vec_dot(ray, ray);
+        vec away = vec_add(vec_add((vec){0}, ray, t), center, -1);
+        double inside = radius * radius - vec_dot(away, away);
+        double edge = fabs(sqrt(vec_dot(away, away)) - radius) / (t * pixel);
+        first.edge_px = fmin(first.edge_px, edge);
+        double hit = t - sqrt(fmax(inside, 0) / vec_dot(ray, ray));
+        if (inside >= 0 && hit < first.depth) {
+            first.depth = hit;
+            first.normal = vec_unit(vec_add(vec_add((vec){0}, ray, hit), center, -1));
+        }
+    }
+    return first;
+}
+
+static void depth_is_where_the_ray_meets_a_sphere(void **state)
+{
+    struct fixture f;
+    init(&f, *state, NULL, 0);
+    struct kiln_particle particles[COUNT];
+    place_cloud(&f, particles);
+    draw(&f, COUNT);
+    int spheres = 0, kept = 0;
+    for (int p = 0; p < PIXELS; p++) {
+        struct meeting m = meet(&f, particles, COUNT, 0.2, p % WIDTH + 0.5, p / WIDTH + 0.5);
+        if (m.edge_px < 1)
+            continue;
+        assert_true(fabs((double)f.depth.host[p] - m.depth) < 1e-4 * m.depth);
+        bool is_sphere = vec_dot(m.normal, m.normal) > 0;
+        for (int c = 0; c < 3; c++) {
+            double color = is_sphere ? ALBEDO[c] : (double)f.drawing.backdrop_color.host[4 * p + c];
+            double glow = is_sphere ? ALBEDO[c] * (double[]){1, 0.5, 0}[c] : 0;
+            assert_true(fabs((double)f.color.host[4 * p + c] - color) < 1e-3);
+            assert_true(fabs((double)f.bloom.host[4 * p + c] - glow) < 1e-3);
+        }
+        spheres += is_sphere;
+        kept += !is_sphere;
+    }
+    assert_true(spheres > 3000 && kept > 20000);
+    finish(&f);
+}
+
+/* One sphere at the side, where perspective makes it an ellipse: its part of each pixel, and so its
+ * area, against 256 rays a pixel. At its opacity, half as large. */
+static void silhouettes_are_smooth(void **state)
+{
+    static const char *const half[] = {"systems.a.look.opacity=0.5"};
+    for (size_t count = 0; count < 2; count++) {
+        struct fixture f;
+        init(&f, *state, half, count);
+        struct kiln_particle particle =
+            drawing_particle(0, (float3){1.4f, 1.9f, 0.8f}, (float3){0.0f, 0.0f, 0.0f});
+        drawing_place(&f.drawing, &particle, 1, STEP);
+        draw(&f, 1);
+        double drawn = 0, expected = 0, partly = 0;
+        for (int p = 0; p < PIXELS; p++) {
+            double part = 0;
+            for (int k = 0; k < 256; k++) {
+                double x = p % WIDTH + (k % 16 + 0.5) / 16, y = p / WIDTH + (k / 16 + 0.5) / 16;
+                struct meeting m = meet(&f, &particle, 1, count ? 0.1 : 0.2, x, y);
+                part += vec_dot(m.normal, m.normal) > 0 ? 1.0 / 256 : 0;
+            }
+            double seen = (double)f.bloom.host[4 * p] / ALBEDO[0];
+            assert_true(fabs(seen - part) < 0.3);
+            drawn += seen;
+            expected += part;
+            partly += seen > 0.1 && seen < 0.9;
+        }
+        assert_true(expected > 200 && partly > 20);
+        assert_true(fabs(drawn - expected) < 0.01 * expected);
+        finish(&f);
+    }
+}
+
+static void order_is_no_matter(void **state)
+{
+    struct fixture f;
+    init(&f, *state, NULL, 0);
+    struct kiln_particle particles[COUNT];
+    place_cloud(&f, particles);
+    draw(&f, COUNT);
+    float *before = malloc(PIXELS * 5 * sizeof(float));
+    assert_non_null(before);
+    memcpy(before, f.color.host, PIXELS * 4 * sizeof(float));
+    memcpy(before + PIXELS * 4, f.depth.host, PIXELS * sizeof(float));
+    struct kiln_error error = {0};
+    uint32_t *entries = kiln_buffer_host(&f.drawing.entries, KILN_READ_WRITE, &error);
+    assert_non_null(entries);
+    for (uint32_t i = 0; i < COUNT; i++)
+        entries[i] = KILN_ENTRY(0, COUNT - 1 - i);
+    draw(&f, COUNT);
+    assert_memory_equal(before, f.color.host, PIXELS * 4 * sizeof(float));
+    assert_memory_equal(before + PIXELS * 4, f.depth.host, PIXELS * sizeof(float));
+    free(before);
+    finish(&f);
+}
+
+/* Lambert under sky, sun and a lamp, and what it emits on top. */
+static void light_is_the_backdrops(void **state)
+{
+    static const char *const overrides[] = {
+        "systems.a.look.lit=1",
+        "systems.a.look.bloom=0",
+        "backdrop.objects=[]",
+        "backdrop.sun={direction: [3, 4, 0], color: [2, 1.5, 1]}",
+        "backdrop.sky={top: [0.1, 0.2, 0.4], horizon: [0.3, 0.2, 0.1]}",
+        "backdrop.lights=[{point: {position: [-1, 2, 2], color: [3, 1, 2], radius: 0.5 m}}]"};
+    static const double sun[3] = {2, 1.5, 1}, top[3] = {0.1, 0.2, 0.4},
+                        horizon[3] = {0.3, 0.2, 0.1};
+    static const double lamp[3] = {3, 1, 2}, pi = 3.14159265;
+    struct fixture f;
+    init(&f, *state, overrides, 6);
+    struct kiln_particle particles[COUNT];
+    place_cloud(&f, particles);
+    draw(&f, COUNT);
+    int checked = 0;
+    for (int p = 0; p < PIXELS; p++) {
+        double x = p % WIDTH + 0.5, y = p / WIDTH + 0.5;
+        struct meeting m = meet(&f, particles, COUNT, 0.2, x, y);
+        if (m.edge_px < 1 || vec_dot(m.normal, m.normal) == 0)
+            continue;
+        vec point = vec_add(drawing_eye(&f.drawing), drawing_ray(&f.drawing, x, y), m.depth);
+        vec towards = vec_add((vec){-1, 2, 2}, point, -1);
+        double d2 = vec_dot(towards, towards);
+        double lamp_cos = fmax(vec_dot(m.normal, vec_unit(towards)), 0) / (d2 + 0.25);
+        double sun_cos = fmax(vec_dot(m.normal, (vec){0.6, 0.8, 0}), 0);
+        for (int c = 0; c < 3; c++) {
+            double sky = horizon[c] + (top[c] - horizon[c]) * (0.5 + 0.5 * m.normal.y);
+            double color = ALBEDO[c] * (sky + lamp[c] * lamp_cos + sun[c] * sun_cos / pi);
+            assert_true(fabs((double)f.color.host[4 * p + c] - color) < 2e-3 * (1 + color));
+        }
+        checked++;
+    }
+    assert_true(checked > 3000);
+    finish(&f);
+}
+
+/* What glows does so besides, and goes to the bloom. */
+static void hot_spheres_shine(void **state)
+{
+    static const char *const overrides[] = {"systems.a.look.temperature=1500 K",
+                                            "systems.a.look.intensity=5"};
+    struct fixture f[2];
+    double red[2] = {0}, bloom[2] = {0};
+    for (size_t i = 0; i < 2; i++) {
+        init(&f[i], *state, overrides, i * 2);
+        struct kiln_particle particles[COUNT];
+        place_cloud(&f[i], particles);
+        draw(&f[i], COUNT);
+        for (int p = 0; p < PIXELS; p++) {
+            red[i] += (double)f[i].color.host[4 * p];
+            bloom[i] += (double)f[i].bloom.host[4 * p];
+        }
+        finish(&f[i]);
+    }
+    assert_true(red[1] > 1.2 * red[0] && bloom[1] > 2 * bloom[0]);
+    assert_true(fabs((red[1] - red[0]) - (bloom[1] - bloom[0])) < 0.01 * red[1]);
+}
+
+/* A sphere that the camera is in is not drawn, nor one that has shrunk to nothing. */
+static void no_sphere_fills_the_picture(void **state)
+{
+    static const char *const gone[] = {"systems.a.look.opacity=0"};
+    for (size_t i = 0; i < 2; i++) {
+        struct fixture f;
+        init(&f, *state, gone, i);
+        const float3 near = {0.5f, 1.45f, 2.85f}, far = {0.0f, 0.8f, 0.0f};
+        struct kiln_particle particle =
+            drawing_particle(0, i ? far : near, (float3){0.0f, 0.0f, 0.0f});
+        drawing_place(&f.drawing, &particle, 1, STEP);
+        draw(&f, 1);
+        assert_memory_equal(f.color.host, f.drawing.backdrop_color.host,
+                            PIXELS * 4 * sizeof(float));
+        assert_memory_equal(f.depth.host, f.drawing.backdrop_depth.host, PIXELS * sizeof(float));
+        finish(&f);
+    }
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        test_on_device(depth_is_where_the_ray_meets_a_sphere),
+        test_on_device(silhouettes_are_smooth),
+        test_on_device(order_is_no_matter),
+        test_on_device(light_is_the_backdrops),
+        test_on_device(hot_spheres_shine),
+        test_on_device(no_sphere_fills_the_picture),
+    };
+    return cmocka_run_group_tests(tests, test_device_open, test_device_close);
+}

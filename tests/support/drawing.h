@@ -1,0 +1,228 @@
+/* Hand-made particles before the drawing stages: a scene's text and its records, drawn into float
+ * images over a depth that the test chooses. */
+#ifndef TESTS_SUPPORT_DRAWING_H
+#define TESTS_SUPPORT_DRAWING_H
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "draw/backdrop.h"
+#include "draw/particles.h"
+#include "gpu/framebuffer.h"
+#include "shared/derived.h"
+#include "support/device.h"
+
+enum { DRAWING_MOST = 32, DRAWING_CELL = 128 };
+
+struct drawing {
+    struct kiln_device *device;
+    struct kiln_scene *scene;
+    struct kiln_atlas atlas;
+    struct kiln_image backdrop_color, backdrop_depth; /* as the backdrop drew them */
+    struct kiln_image depth;                          /* what particles are compared with */
+    struct kiln_image color, bloom;
+    struct kiln_framebuffer framebuffer;
+    struct kiln_backdrop_stage *backdrop;
+    struct kiln_particles_stage *particles;
+    struct kiln_pool pool;
+    struct kiln_buffer entries;
+    struct kiln_view view;
+};
+
+/* A texture whose colour is where it is: red from left to right, green from top to bottom, blue 1.
+ */
+static inline void drawing_make_atlas(struct drawing *d)
+{
+    static unsigned char texels[DRAWING_CELL * DRAWING_CELL * 4];
+    for (int i = 0; i < DRAWING_CELL * DRAWING_CELL; i++) {
+        double x = (i % DRAWING_CELL + 0.5) / DRAWING_CELL;
+        double y = (i / DRAWING_CELL + 0.5) / DRAWING_CELL;
+        unsigned char texel[4] = {(unsigned char)(sqrt(x) * 255 + 0.5),
+                                  (unsigned char)(sqrt(y) * 255 + 0.5), 255, 255};
+        memcpy(texels + 4 * i, texel, 4);
+    }
+    static const signed char still[2] = {0, 0};
+    GLuint textures[2];
+    glGenTextures(2, textures);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, textures[0]);
+    glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_RGBA8, DRAWING_CELL, DRAWING_CELL, 1);
+    glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, DRAWING_CELL, DRAWING_CELL, 1, GL_RGBA,
+                    GL_UNSIGNED_BYTE, texels);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, textures[1]);
+    glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_RG8_SNORM, 1, 1, 1);
+    glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, 1, 1, 1, GL_RG, GL_BYTE, still);
+    d->atlas = (struct kiln_atlas){.texture = textures[0], .motion = textures[1], .layers = 1};
+    for (int i = 0; i < KILN_MAX_SYSTEMS; i++)
+        d->atlas.systems[i] = (struct kiln_atlas_textures){
+            .textures = {{.cells = 1, .kind = KILN_CELL_COLOR}}, .count = 1};
+}
+
+static inline void drawing_make_targets(struct drawing *d)
+{
+    struct kiln_error error = {0};
+    uint32_t w = d->scene->width, h = d->scene->height;
+    kiln_image_init(&d->backdrop_color, d->device, w, h, GL_RGBA32F, "backdrop");
+    kiln_image_init(&d->backdrop_depth, d->device, w, h, GL_R32F, "backdrop depth");
+    kiln_image_init(&d->depth, d->device, w, h, GL_R32F, "depth");
+    kiln_image_init(&d->color, d->device, w, h, GL_RGBA32F, "particles");
+    kiln_image_init(&d->bloom, d->device, w, h, GL_RGBA32F, "bloom");
+    struct kiln_image *targets[] = {&d->color, &d->bloom};
+    assert_true(kiln_framebuffer_init(&d->framebuffer, d->device, targets, 2, &error));
+}
+
+/* The text of a scene with one system, and overrides for it. */
+static inline void drawing_init(struct drawing *d, struct kiln_device *device, const char *text,
+                                const char *const *overrides, size_t override_count)
+{
+    struct kiln_error error = {0};
+    *d = (struct drawing){.device = device};
+    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    params.overrides = overrides;
+    params.override_count = override_count;
+    d->scene = kiln_scene_parse(text, strlen(text), "test", &params, &error);
+    if (!d->scene)
+        fail_msg("%s", error.message);
+    drawing_make_atlas(d);
+    drawing_make_targets(d);
+    d->backdrop =
+        kiln_backdrop_create(device, d->scene, &d->backdrop_color, &d->backdrop_depth, &error);
+    d->particles = kiln_particles_create(device, d->scene, &d->atlas, &error);
+    if (!d->backdrop || !d->particles)
+        fail_msg("%s", error.message);
+    static const uint32_t capacity = DRAWING_MOST;
+    kiln_pool_init(&d->pool, device, &capacity, 1);
+    kiln_buffer_init(&d->entries, device, DRAWING_MOST * sizeof(uint32_t), "entries");
+}
+
+static inline void drawing_finish(struct drawing *d)
+{
+    kiln_buffer_finish(&d->entries);
+    kiln_pool_finish(&d->pool);
+    kiln_particles_destroy(&d->particles);
+    kiln_backdrop_destroy(&d->backdrop);
+    kiln_framebuffer_finish(&d->framebuffer);
+    struct kiln_image *images[] = {&d->backdrop_color, &d->backdrop_depth, &d->depth, &d->color,
+                                   &d->bloom};
+    for (size_t i = 0; i < sizeof images / sizeof *images; i++)
+        kiln_image_finish(images[i]);
+    kiln_atlas_finish(&d->atlas);
+    kiln_scene_destroy(&d->scene);
+}
+
+/* A particle that was born at the start of step 1. */
+static inline struct kiln_particle drawing_particle(uint32_t serial, float3 position,
+                                                    float3 velocity)
+{
+    return (struct kiln_particle){
+        .position_serial = {FLOAT_BITS(position.x), FLOAT_BITS(position.y), FLOAT_BITS(position.z),
+                            serial},
+        .velocity_birth = {FLOAT_BITS(velocity.x), FLOAT_BITS(velocity.y), FLOAT_BITS(velocity.z),
+                           1u << KILN_BIRTH_STEP_SHIFT | KILN_PARTICLE_ALIVE}};
+}
+
+/* Puts particles into the pool and the entries, in order, and the camera at a step. */
+static inline void drawing_place(struct drawing *d, const struct kiln_particle *particles,
+                                 uint32_t count, uint32_t step)
+{
+    struct kiln_error error = {0};
+    struct kiln_particle *records = kiln_buffer_host(&d->pool.records, KILN_OVERWRITE, &error);
+    uint32_t *entries = kiln_buffer_host(&d->entries, KILN_OVERWRITE, &error);
+    assert_true(records && entries && count <= DRAWING_MOST);
+    memset(records, 0, DRAWING_MOST * sizeof *records);
+    memcpy(records, particles, count * sizeof *records);
+    for (uint32_t i = 0; i < DRAWING_MOST; i++)
+        entries[i] = KILN_ENTRY(0, i);
+    d->view = kiln_view_compute(d->scene, step);
+    assert_true(kiln_backdrop_draw(d->backdrop, &d->view, &error));
+}
+
+/* Makes the scene a wall at a depth, and draws the particles before it. */
+static inline void drawing_run(struct drawing *d, uint32_t count, float depth_m)
+{
+    struct kiln_error error = {0};
+    float *depth = kiln_image_host(&d->depth, KILN_OVERWRITE, &error);
+    assert_non_null(depth);
+    for (uint32_t i = 0; i < d->scene->width * d->scene->height; i++)
+        depth[i] = depth_m;
+    const struct kiln_particles_draw job = {.pool = &d->pool,
+                                            .entries = &d->entries,
+                                            .count = count,
+                                            .time_s = d->view.clock.x,
+                                            .depth = &d->depth,
+                                            .framebuffer = &d->framebuffer};
+    if (!kiln_particles_run(d->particles, &job, &error))
+        fail_msg("%s", error.message);
+    assert_non_null(kiln_image_host(&d->color, KILN_READ, &error));
+    assert_non_null(kiln_image_host(&d->bloom, KILN_READ, &error));
+}
+
+/* ---- vectors of the world in double ---------------------------------------------------------- */
+
+typedef struct {
+    double x, y, z;
+} vec;
+
+static inline vec vec_of(float3 v)
+{
+    return (vec){(double)v.x, (double)v.y, (double)v.z};
+}
+
+static inline double vec_dot(vec a, vec b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+/* a + b * t */
+static inline vec vec_add(vec a, vec b, double t)
+{
+    return (vec){a.x + b.x * t, a.y + b.y * t, a.z + b.z * t};
+}
+
+static inline vec vec_cross(vec a, vec b)
+{
+    return (vec){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+static inline vec vec_unit(vec a)
+{
+    double scale = 1 / sqrt(vec_dot(a, a));
+    return (vec){a.x * scale, a.y * scale, a.z * scale};
+}
+
+/* Row of the camera: 0 its right, 1 its up, 2 backwards. */
+static inline vec drawing_axis(const struct drawing *d, int row)
+{
+    const float4 *r = &d->view.world_to_view[row];
+    return (vec){(double)r->x, (double)r->y, (double)r->z};
+}
+
+static inline vec drawing_eye(const struct drawing *d)
+{
+    return (vec){(double)d->view.eye.x, (double)d->view.eye.y, (double)d->view.eye.z};
+}
+
+/* The ray through a position in the picture; its t is view depth. */
+static inline vec drawing_ray(const struct drawing *d, double x, double y)
+{
+    double w = (double)d->view.frustum.z, h = (double)d->view.frustum.w;
+    vec ray = {0};
+    ray = vec_add(ray, drawing_axis(d, 0), (2 * x / w - 1) * (double)d->view.frustum.x);
+    ray = vec_add(ray, drawing_axis(d, 1), (1 - 2 * y / h) * (double)d->view.frustum.y);
+    return vec_add(ray, drawing_axis(d, 2), -1);
+}
+
+/* The inverse: where in the picture a point of the world is, and its depth. */
+static inline vec drawing_project(const struct drawing *d, vec point)
+{
+    vec away = vec_add(point, drawing_eye(d), -1);
+    double depth = -vec_dot(away, drawing_axis(d, 2));
+    double x = vec_dot(away, drawing_axis(d, 0)) / depth / (double)d->view.frustum.x;
+    double y = vec_dot(away, drawing_axis(d, 1)) / depth / (double)d->view.frustum.y;
+    return (vec){(x + 1) / 2 * (double)d->view.frustum.z, (1 - y) / 2 * (double)d->view.frustum.w,
+                 depth};
+}
+
+#endif
