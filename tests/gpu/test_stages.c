@@ -135,6 +135,35 @@ static void fire_shines_through_only_when_separate(void **state)
     frame_finish(&separate);
 }
 
+/* Smoke in front of fire, drawn as spheres: they hide it, are not smoke, and lie in the depth that
+ * fire is compared with; their bloom stays. */
+static void spheres_belong_to_the_scene(void **state)
+{
+    struct frame smoke, spheres;
+    frame_init(&smoke, *state, NULL);
+    step_and_draw(&smoke, 50);
+    frame_init(&spheres, *state, "systems.smoke.look={shape: sphere, size: 0.5 m, bloom: 1}");
+    step_and_draw(&spheres, 50);
+    assert_int_equal(smoke.drawn, spheres.drawn);
+    assert_true(sum(layer(&spheres, SMOKE), 3, 4) == 0.0);
+    int nearer = 0;
+    double fire = 0, unhidden = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        float depth = layer(&spheres, DEPTH)[i];
+        assert_true(depth <= layer(&smoke, DEPTH)[i]);
+        if (depth == layer(&smoke, DEPTH)[i])
+            continue;
+        nearer++;
+        fire += (double)layer(&spheres, FIRE)[4 * i];
+        unhidden += (double)layer(&smoke, FIRE)[4 * i];
+        assert_true(layer(&spheres, BLOOM)[4 * i] > 0.45f); /* two of four samples of white */
+    }
+    assert_true(nearer > 200 && unhidden > 10.0 && fire < 0.1 * unhidden);
+    assert_true(sum(layer(&spheres, FIRE), 0, 4) > 10.0); /* beside them */
+    frame_finish(&smoke);
+    frame_finish(&spheres);
+}
+
 /* What the bloom adds to the picture is the bloom layer, spread. */
 static void bloom_adds_light(void **state)
 {
@@ -174,6 +203,7 @@ static void frames_do_not_depend_on_earlier_ones(void **state)
     expect_same_after_others(state, "post.compose=merged");
     expect_same_after_others(state, "post.compose=separate");
     expect_same_after_others(state, "post.bloom.kind=none");
+    expect_same_after_others(state, "systems.smoke.look={shape: sphere, size: 0.5 m, bloom: 1}");
 }
 
 static void no_particles_are_no_error(void **state)
@@ -191,6 +221,7 @@ int main(void)
     static const struct CMUnitTest tests[] = {
         test_on_device(layers_hold_what_they_say),
         test_on_device(fire_shines_through_only_when_separate),
+        test_on_device(spheres_belong_to_the_scene),
         test_on_device(bloom_adds_light),
         test_on_device(frames_do_not_depend_on_earlier_ones),
         test_on_device(no_particles_are_no_error),

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # effects.sh KILN FOLDER: no option of a scene is without effect. Each override of effects.txt must
-# change the picture of FOLDER/effects.yaml, in at least one value.
+# change the picture of FOLDER/effects.yaml, in at least one value. "A given B" stands for an option A
+# that shows only where B is set.
 set -euo pipefail
 
 kiln=$1 folder=$2
@@ -14,12 +15,17 @@ draw() {
 
 draw base
 failed=0 count=0
-while IFS= read -r override; do
-    [[ -z $override || $override == '#'* ]] && continue
+while IFS= read -r row; do
+    [[ -z $row || $row == '#'* ]] && continue
     count=$((count + 1))
-    draw changed --set "$override" </dev/null
-    if "$kiln" compare --quiet --limit abs.max=0 "$work/base.png" "$work/changed.png"; then
-        echo "--set '$override' changes nothing" >&2
+    before=base given=()
+    if [[ $row == *' given '* ]]; then
+        before=given given=(--set "${row#* given }")
+        draw given "${given[@]}" </dev/null
+    fi
+    draw changed "${given[@]}" --set "${row% given *}" </dev/null
+    if "$kiln" compare --quiet --limit abs.max=0 "$work/$before.png" "$work/changed.png"; then
+        echo "--set '$row' changes nothing" >&2
         failed=1
     fi
 done <"$folder/effects.txt"

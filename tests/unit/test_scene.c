@@ -133,12 +133,21 @@ static void every_key_of_looks_and_shapes_arrives(void **state)
     assert_int_equal(look->columns, 4);
     assert_int_equal(look->rows, 16);
     assert_true(look->stretch.constant == 0.02f && look->spin.max.constant == 1);
+    assert_int_equal(look->shape, KILN_SHAPE_LINE);
+    assert_int_equal(look->facing, KILN_FACING_AXIAL);
+    assert_true(look->axis.y.count == 2 && look->axis.z.constant == -1);
+    assert_true(look->point_size.count == 2 && !look->point_round);
+    assert_int_equal(look->line_to, KILN_LINE_PREVIOUS);
+    assert_true(look->line_width.clock == KILN_CLOCK_LIFE);
     assert_true(look->rotation.min.constant == -pi / 2);
     assert_true(look->random_start && look->soft_formula == KILN_SOFT_LITERAL);
     assert_true(look->fade_in.constant == 0.25f && look->fade_out.constant == 0.5f);
     assert_true(look->lit.constant == 0.75f && look->bloom.y.count == 2);
 
     const struct kiln_system *sphere = &scene->systems[1];
+    assert_int_equal(sphere->look.shape, KILN_SHAPE_SPHERE);
+    assert_int_equal(sphere->look.facing, KILN_FACING_SCREEN);
+    assert_true(sphere->look.point_round && sphere->look.line_width.constant == 1.5f);
     assert_int_equal(sphere->emit.shape, KILN_EMITTER_SPHERE);
     assert_true(sphere->emit.surface && sphere->emit.outward);
     assert_true(sphere->bounds.enabled && sphere->bounds.max[1] == 20); /* the scene's */

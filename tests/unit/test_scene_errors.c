@@ -252,6 +252,20 @@ static const struct bad units[] = {
      "output: {frames: 3 s}\n",
      ":2:18: output.frames: 's' does not fit; this number has no unit"},
     {"kiln: 1\n"
+     "systems: {a: {look: {shape: ball}}}\n",
+     ":2:29: systems.a.look.shape: expected billboard, point, line or sphere, found 'ball'"},
+    {"kiln: 1\n"
+     "systems: {a: {look: {facing: eye}}}\n",
+     ":2:30: systems.a.look.facing: expected screen, viewplane, viewpoint, axial or velocity, "
+     "found 'eye'"},
+    {"kiln: 1\n"
+     "systems: {a: {look: {point: {size: 3 m}}}}\n",
+     ":2:36: systems.a.look.point.size: 'm' does not fit; the unit is px"},
+    {"kiln: 1\n"
+     "systems: {a: {look: {line: {width: -1}}}}\n",
+     ":2:36: systems.a.look.line.width: -1 is out of range; allowed is from 0 px to "
+     "1000 px"},
+    {"kiln: 1\n"
      "systems: {a: {look: {spin: [0, 3]}}}\n",
      ":2:32: systems.a.look.spin: an angle needs its unit: 3 deg/s or 3 rad/s"},
     {"kiln: 1\n"
@@ -363,6 +377,15 @@ static const struct bad agreement[] = {
     {"kiln: 1\n"
      "systems: {a: {look: {cells: [64, 33]}}}\n",
      ":2:29: systems.a.look.cells: 2112 cells are too many; at most 2048"},
+    {"kiln: 1\n"
+     "systems: {a: {look: {axis: [0, 0, 0]}}}\n",
+     ":2:28: systems.a.look.axis: must not be [0, 0, 0]"},
+    {"kiln: 1\n"
+     "systems: {a: {look: {axis: {keys: {0 s: [1, 0, 0], 2 s: [0, 0, 0]}}}}}\n",
+     ":2:28: systems.a.look.axis: must not be [0, 0, 0]"},
+    {"kiln: 1\n"
+     "systems: {a: {look: {shape: sphere, blend: add}}}\n",
+     ":2:44: systems.a.look.blend: must be alpha for spheres, which cover what is behind"},
     {"kiln: 1\n"
      "simulation: {rate: 50}\n",
      ":2:20: simulation.rate: must be a whole multiple of output.fps; the nearest are 30 and 60"},
