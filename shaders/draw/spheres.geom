@@ -1,5 +1,6 @@
-/* The rectangle of the picture that a sphere covers, and a pixel around it: between the tangents from
- * the eye. A sphere that reaches the near plane is not drawn. */
+/* The rectangle of the picture that a sphere covers: between the tangents from the eye, and a pixel
+ * around it, because a driver may have a pixel's samples elsewhere than the fragment shader. A sphere
+ * that reaches the near plane is not drawn. */
 #include "shared/draw_layout.h"
 
 layout(points) in;

@@ -11,7 +11,8 @@
 
 enum { WIDTH = 320, HEIGHT = 240, PIXELS = WIDTH * HEIGHT, STEP = 30 };
 
-/* With a wall at 10 m, alpha is (10 - depth) * 0.08. */
+/* With a wall at 10 m, alpha is (10 - depth) * 0.08. Nothing is drawn of system b, but with it the
+ * program is the one that knows all shapes. */
 static const char SCENE[] =
     "kiln: 1\n"
     "output: {size: [320, 240], fps: 30, frames: 100}\n"
@@ -20,7 +21,8 @@ static const char SCENE[] =
     "systems:\n"
     "  a:\n"
     "    emit: {rate: 1, life: 10 s}\n"
-    "    look: {size: 1.2 m, rotation: 0 deg, soft: 0.08, fade: {in: 0, out: 0}, near_fade: 0 m}\n";
+    "    look: {size: 1.2 m, rotation: 0 deg, soft: 0.08, fade: {in: 0, out: 0}, near_fade: 0 m}\n"
+    "  b: {enabled: true, emit: {rate: 1}, look: {shape: point}}\n";
 
 static const double WALL_M = 10, SOFT = 0.08;
 static const float3 POSITION = {0.9f, 1.3f, 0.4f}, VELOCITY = {1.0f, 2.0f, -0.5f};
@@ -99,7 +101,7 @@ static void check_plane(const struct drawing *d, const struct billboard *b)
 }
 
 static void check_facing(struct kiln_device *device, enum kiln_facing facing, double angle,
-                         double stretch)
+                         double stretch, bool all_shapes)
 {
     static const char *const words[] = {"screen", "viewplane", "viewpoint", "axial", "velocity"};
     char facing_text[64], angle_text[64], stretch_text[64];
@@ -107,9 +109,9 @@ static void check_facing(struct kiln_device *device, enum kiln_facing facing, do
     snprintf(angle_text, sizeof angle_text, "systems.a.look.rotation=%.9g rad", angle);
     snprintf(stretch_text, sizeof stretch_text, "systems.a.look.stretch=%g s", stretch);
     const char *overrides[] = {facing_text, angle_text, stretch_text,
-                               "systems.a.look.axis=[1, 3, 0.5]"};
+                               "systems.a.look.axis=[1, 3, 0.5]", "systems.b.enabled=false"};
     struct drawing d;
-    drawing_init(&d, device, SCENE, overrides, 4);
+    drawing_init(&d, device, SCENE, overrides, all_shapes ? 4 : 5);
     bool seen[2] = {false, false};
     for (uint32_t serial = 0; serial < 8; serial++) {
         struct kiln_particle particle = drawing_particle(serial, POSITION, VELOCITY);
@@ -137,9 +139,11 @@ static void check_facing(struct kiln_device *device, enum kiln_facing facing, do
 static void billboards_face_as_defined(void **state)
 {
     for (int facing = KILN_FACING_SCREEN; facing <= KILN_FACING_VELOCITY; facing++) {
-        check_facing(*state, (enum kiln_facing)facing, 0, 0);
-        check_facing(*state, (enum kiln_facing)facing, 0.5, 0);
-        check_facing(*state, (enum kiln_facing)facing, 0.5, 0.2);
+        for (int all_shapes = 0; all_shapes < 2; all_shapes++) {
+            check_facing(*state, (enum kiln_facing)facing, 0, 0, all_shapes);
+            check_facing(*state, (enum kiln_facing)facing, 0.5, 0, all_shapes);
+            check_facing(*state, (enum kiln_facing)facing, 0.5, 0.2, all_shapes);
+        }
     }
 }
 

@@ -168,6 +168,8 @@ static void silhouettes_are_smooth(void **state)
             }
             double seen = (double)f.bloom.host[4 * p] / ALBEDO[0];
             assert_true(fabs(seen - part) < 0.3);
+            bool is_sphere = f.depth.host[p] < f.drawing.backdrop_depth.host[p];
+            assert_true(is_sphere == (seen > 0.4)); /* two samples decide */
             drawn += seen;
             expected += part;
             partly += seen > 0.1 && seen < 0.9;
