@@ -66,6 +66,7 @@ static bool init_targets(struct kiln_stages *s, bool layers, struct kiln_error *
 
 static bool init_atlas(struct kiln_stages *s, struct kiln_error *error)
 {
+    static const char *const plain = "builtin:spark";
     struct kiln_atlas_request requests[KILN_MAX_SYSTEMS];
     for (uint32_t i = 0; i < s->scene->system_count; i++) {
         const struct kiln_look *look = &s->scene->systems[i].look;
@@ -75,6 +76,9 @@ static bool init_atlas(struct kiln_stages *s, struct kiln_error *error)
                                                   .rows = look->rows,
                                                   .motion = look->motion,
                                                   .motion_scale = (float)look->motion_scale};
+        if (look->shape != KILN_SHAPE_BILLBOARD) /* shows no texture: the least there is */
+            requests[i] = (struct kiln_atlas_request){
+                .sources = &plain, .count = 1, .columns = 1, .rows = 1, .motion = "none"};
     }
     return kiln_atlas_init(&s->atlas, s->device, requests, s->scene->system_count, s->threads,
                            error);
