@@ -209,11 +209,18 @@ static void set_rows(const struct smoke *smoke, struct kiln_smoke_grid *grid)
     }
 }
 
+/* Spheres are no smoke, and what is a few pixels wide hides nothing. */
+static bool is_smoke(const struct kiln_system *system)
+{
+    return system->enabled && system->look.blend == KILN_BLEND_ALPHA &&
+           system->look.shape == KILN_SHAPE_BILLBOARD;
+}
+
 /* 0 for a system that throws no shadow. */
 static float shadow_of(const struct kiln_scene *scene, uint32_t system, float time_s)
 {
     const struct kiln_system *s = &scene->systems[system];
-    if (!s->enabled || s->look.blend != KILN_BLEND_ALPHA)
+    if (!is_smoke(s))
         return 0.0f;
     return kiln_scene_value(scene, &s->look.shadow, time_s);
 }
@@ -269,8 +276,7 @@ bool kiln_smoke_exists(const struct kiln_scene *scene)
 {
     for (uint32_t i = 0; i < scene->system_count; i++) {
         const struct kiln_system *system = &scene->systems[i];
-        if (system->enabled && system->look.blend == KILN_BLEND_ALPHA &&
-            kiln_scene_value_max(scene, &system->look.shadow) > 0.0f)
+        if (is_smoke(system) && kiln_scene_value_max(scene, &system->look.shadow) > 0.0f)
             return true;
     }
     return false;

@@ -201,10 +201,11 @@ static bool check_shape(struct kiln_reader *reader, const struct kiln_node *root
     char path[128];
     snprintf(path, sizeof path, "systems.%s.look.axis", system->name);
     if (!at_all_keys(reader->scene, &axis, 1, is_not_zero))
-        return fail(reader, root, path, "must not be [0, 0, 0]");
+        return kiln_validate_fail(reader, root, path, "must not be [0, 0, 0]");
     snprintf(path, sizeof path, "systems.%s.look.blend", system->name);
     if (look->shape == KILN_SHAPE_SPHERE && look->blend != KILN_BLEND_ALPHA)
-        return fail(reader, root, path, "must be alpha for spheres, which cover what is behind");
+        return kiln_validate_fail(reader, root, path,
+                                  "must be alpha for spheres, which cover what is behind");
     return true;
 }
 

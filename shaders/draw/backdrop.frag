@@ -12,7 +12,6 @@
 layout(std140, binding = KILN_BIND_VIEW) uniform view_block { kiln_view view; };
 layout(std140, binding = KILN_BIND_BACKDROP) uniform backdrop_block { kiln_draw_backdrop backdrop; };
 
-
 layout(location = 0) out vec4 out_color;
 #if SAMPLES == 1
 layout(location = 1) out float out_depth;

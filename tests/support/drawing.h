@@ -136,7 +136,8 @@ static inline void drawing_place(struct drawing *d, const struct kiln_particle *
     for (uint32_t i = 0; i < DRAWING_MOST; i++)
         entries[i] = KILN_ENTRY(0, i);
     d->view = kiln_view_compute(d->scene, step);
-    assert_true(kiln_backdrop_draw(d->backdrop, &d->view, &error));
+    const struct kiln_lighting none = {0};
+    assert_true(kiln_backdrop_draw(d->backdrop, &d->view, &none, &error));
 }
 
 /* Makes the scene a wall at a depth, and draws the particles before it. */

@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "support/scenes.h"
+#include "support/bad_scenes.h"
 
 #define ATLASES                                                                                    \
     "\"builtin:fire\", \"builtin:flame\", \"builtin:tongue\", \"builtin:smoke\", "                 \
@@ -14,11 +14,6 @@
     "\"builtin:spark\", \"builtin:star\", \"builtin:drop\", \"builtin:splash\", "                  \
     "\"builtin:debris\", or the path of an image or video file, "                                  \
     "from the scene's folder and inside it; or a list of 1 to 8 of these"
-
-struct bad {
-    const char *text;
-    const char *message; /* after the name of the file */
-};
 
 static const struct bad keys[] = {
     {"kiln: 1\n"
@@ -440,105 +435,6 @@ static const struct bad agreement[] = {
      ":3:21: systems.a.emit: 33333000000 births in the run; at most 4294967295 can be told apart"},
 };
 
-#define CHILD(name, of, on) "  " name ": {emit: {parent: {system: " of ", on: " on "}}}\n"
-
-static const struct bad families[] = {
-    {"kiln: 1\n"
-     "systems:\n"
-     "  rockets: {emit: {rate: 1}}\n" CHILD("stars", "rokets", "{death: 5}"),
-     ":4:35: systems.stars.emit.parent.system: unknown system 'rokets' (did you mean 'rockets'?)"},
-    {"kiln: 1\n"
-     "systems: {a: {emit: {parent: {on: {death: 5}}}}}\n",
-     ":2:30: systems.a.emit.parent.system: missing; it must be given"},
-    {"kiln: 1\n"
-     "systems: {a: {emit: {parent: {system: 3}}}}\n",
-     ":2:39: systems.a.emit.parent.system: expected the name of another system, found '3'"},
-    {"kiln: 1\n"
-     "systems: {a: {emit: {parent: b}}}\n",
-     ":2:30: systems.a.emit.parent: expected a mapping of keys, or none, found 'b'"},
-    {"kiln: 1\n"
-     "systems:\n"
-     "  a: {emit: {rate: 1}}\n" CHILD("b", "a", "{birth: 5}"),
-     ":4:39: systems.b.emit.parent.on.birth: unknown kind (there are: death, bounce, trail)"},
-    {"kiln: 1\n"
-     "systems:\n"
-     "  a: {emit: {rate: 1}}\n" CHILD("b", "a", "{death: {count: 5, align: normal}}"),
-     ":4:64: systems.b.emit.parent.on.death.align: expected world or velocity, found 'normal'"},
-    {"kiln: 1\n"
-     "systems:\n"
-     "  a: {emit: {rate: 1}}\n" CHILD("b", "a", "{death: 0}"),
-     ":4:46: systems.b.emit.parent.on.death.count: 0 is out of range; allowed is from 1 to 65536"},
-    {"kiln: 1\n"
-     "systems:\n"
-     "  a: {emit: {rate: 1}}\n" CHILD("b", "a", "{trail: {life: [0, 0]}}"),
-     ":4:38: systems.b.emit.parent.on: the rate is 0 all along"},
-    {"kiln: 1\n"
-     "systems:\n"
-     "  a: {emit: {rate: 1}}\n" CHILD("b", "a", "{trail: {keys: {0 s: 1}}}"),
-     ":4:47: systems.b.emit.parent.on.trail.rate.keys: cannot vary over time here; allowed is a "
-     "constant or {life: ...} over a particle's life"},
-    {"kiln: 1\n"
-     "systems:\n"
-     "  a: {emit: {rate: 1}}\n" CHILD("b", "a", "{bounce: 5}"),
-     ":4:38: systems.b.emit.parent.on: particles of 'a' never bounce: set systems.a.collide"},
-    {"kiln: 1\n"
-     "systems: {a: {emit: {rate: 1}}, b: {emit: {rate: 5, parent: {system: a}}}}\n",
-     ":2:50: systems.b.emit.rate: must be 0 where there is a parent: emit.parent.on counts"},
-    {"kiln: 1\n"
-     "systems: {a: {emit: {rate: 1}}, b: {emit: {bursts: {1 s: 3}, parent: {system: a}}}}\n",
-     ":2:52: systems.b.emit.bursts: must be {} where there is a parent: emit.parent.on counts"},
-    {"kiln: 1\n"
-     "systems:\n" CHILD("a", "c", "{death: 5}") CHILD("b", "a", "{death: 5}")
-         CHILD("c", "b", "{death: 5}"),
-     ":3:31: systems.a.emit.parent.system: born of its own descendants; the first parent must have "
-     "none"},
-    {"kiln: 1\n"
-     "systems:\n"
-     "  a: {emit: {rate: 1}}\n" CHILD("b", "a", "{death: 5}") CHILD("c", "b", "{death: 5}")
-         CHILD("d", "c", "{death: 5}") CHILD("e", "d", "{death: 5}"),
-     ":7:31: systems.e.emit.parent.system: 5 generations of systems; at most 4"},
-    {"kiln: 1\n"
-     "systems:\n"
-     "  a: {emit: {rate: 1000}}\n" CHILD("b", "a", "{death: 60000}"),
-     ":4:13: systems.b.emit: up to 123000000 particles at once need 3753 MiB; the systems of a "
-     "scene may have 16777216 in all (512 MiB), of which 2050 are taken: lower children, or the "
-     "parents' rate or life"},
-    {"kiln: 1\n"
-     "systems:\n"
-     "  a: {emit: {rate: 1, life: 10000 s}}\n" CHILD("b", "a", "{trail: 100000}"),
-     ":4:38: systems.b.emit.parent.on: up to 1000001931 particles born of one; at most 16777216"},
-    {"kiln: 1\n"
-     "output: {frames: 30000}\n"
-     "systems:\n"
-     "  a: {emit: {rate: 1000, life: 0.01 s}}\n"
-     "  b: {emit: {life: 0.01 s, parent: {system: a, on: {death: 10000}}}}\n",
-     ":5:13: systems.b.emit: 9999670000 births in the run; at most 4294967295 can be told apart"},
-    {"kiln: 1\n"
-     "systems: {a: {look: {rotation: [{life: [0, 0]}, {keys: {0 s: 0}}]}}}\n",
-     ":2:32: systems.a.look.rotation: both must vary over time, or both over life"},
-};
-
-static void expect_all(const struct bad *cases, size_t count)
-{
-    for (size_t i = 0; i < count; i++) {
-        struct kiln_error error = {0};
-        struct kiln_scene *scene = try_scene(cases[i].text, NULL, &error);
-        if (scene)
-            fail_msg("accepted:\n%s", cases[i].text);
-        char expected[KILN_MESSAGE_SIZE];
-        snprintf(expected, sizeof expected, "%s%s", SCENE_NAME, cases[i].message);
-        assert_string_equal(error.message, expected);
-        assert_int_equal(error.code, KILN_INVALID_INPUT);
-    }
-}
-
-#define BAD_TEST(table)                                                                            \
-    static void bad_##table(void **state)                                                          \
-    {                                                                                              \
-        (void)state;                                                                               \
-        expect_all(table, sizeof table / sizeof *table);                                           \
-    }
-
 BAD_TEST(keys)
 BAD_TEST(texts)
 BAD_TEST(types)
@@ -547,7 +443,6 @@ BAD_TEST(units)
 BAD_TEST(curves)
 BAD_TEST(kinds)
 BAD_TEST(agreement)
-BAD_TEST(families)
 
 static void expect_generated(char *text, const char *message)
 {
@@ -610,12 +505,11 @@ static void bad_key_count(void **state)
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bad_keys),      cmocka_unit_test(bad_texts),
-        cmocka_unit_test(bad_types),     cmocka_unit_test(bad_limits),
-        cmocka_unit_test(bad_units),     cmocka_unit_test(bad_curves),
-        cmocka_unit_test(bad_kinds),     cmocka_unit_test(bad_agreement),
-        cmocka_unit_test(bad_families),  cmocka_unit_test(bad_growth),
-        cmocka_unit_test(bad_key_count),
+        cmocka_unit_test(bad_keys),   cmocka_unit_test(bad_texts),
+        cmocka_unit_test(bad_types),  cmocka_unit_test(bad_limits),
+        cmocka_unit_test(bad_units),  cmocka_unit_test(bad_curves),
+        cmocka_unit_test(bad_kinds),  cmocka_unit_test(bad_agreement),
+        cmocka_unit_test(bad_growth), cmocka_unit_test(bad_key_count),
     };
     return cmocka_run_group_tests_name("scene_errors", tests, NULL, NULL);
 }

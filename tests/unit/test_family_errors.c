@@ -1,0 +1,97 @@
+/* lib/scene/family: bad families of systems, and the exact words that say so. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "support/bad_scenes.h"
+
+#define CHILD(name, of, on) "  " name ": {emit: {parent: {system: " of ", on: " on "}}}\n"
+
+static const struct bad families[] = {
+    {"kiln: 1\n"
+     "systems:\n"
+     "  rockets: {emit: {rate: 1}}\n" CHILD("stars", "rokets", "{death: 5}"),
+     ":4:35: systems.stars.emit.parent.system: unknown system 'rokets' (did you mean 'rockets'?)"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {parent: {on: {death: 5}}}}}\n",
+     ":2:30: systems.a.emit.parent.system: missing; it must be given"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {parent: {system: 3}}}}\n",
+     ":2:39: systems.a.emit.parent.system: expected the name of another system, found '3'"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {parent: b}}}\n",
+     ":2:30: systems.a.emit.parent: expected a mapping of keys, or none, found 'b'"},
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a: {emit: {rate: 1}}\n" CHILD("b", "a", "{birth: 5}"),
+     ":4:39: systems.b.emit.parent.on.birth: unknown kind (there are: death, bounce, trail)"},
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a: {emit: {rate: 1}}\n" CHILD("b", "a", "{death: {count: 5, align: normal}}"),
+     ":4:64: systems.b.emit.parent.on.death.align: expected world or velocity, found 'normal'"},
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a: {emit: {rate: 1}}\n" CHILD("b", "a", "{death: 0}"),
+     ":4:46: systems.b.emit.parent.on.death.count: 0 is out of range; allowed is from 1 to 65536"},
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a: {emit: {rate: 1}}\n" CHILD("b", "a", "{trail: {life: [0, 0]}}"),
+     ":4:38: systems.b.emit.parent.on: the rate is 0 all along"},
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a: {emit: {rate: 1}}\n" CHILD("b", "a", "{trail: {keys: {0 s: 1}}}"),
+     ":4:47: systems.b.emit.parent.on.trail.rate.keys: cannot vary over time here; allowed is a "
+     "constant or {life: ...} over a particle's life"},
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a: {emit: {rate: 1}}\n" CHILD("b", "a", "{bounce: 5}"),
+     ":4:38: systems.b.emit.parent.on: particles of 'a' never bounce: set systems.a.collide"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {rate: 1}}, b: {emit: {rate: 5, parent: {system: a}}}}\n",
+     ":2:50: systems.b.emit.rate: must be 0 where there is a parent: emit.parent.on counts"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {rate: 1}}, b: {emit: {bursts: {1 s: 3}, parent: {system: a}}}}\n",
+     ":2:52: systems.b.emit.bursts: must be {} where there is a parent: emit.parent.on counts"},
+    {"kiln: 1\n"
+     "systems:\n" CHILD("a", "c", "{death: 5}") CHILD("b", "a", "{death: 5}")
+         CHILD("c", "b", "{death: 5}"),
+     ":3:31: systems.a.emit.parent.system: born of its own descendants; the first parent must have "
+     "none"},
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a: {emit: {rate: 1}}\n" CHILD("b", "a", "{death: 5}") CHILD("c", "b", "{death: 5}")
+         CHILD("d", "c", "{death: 5}") CHILD("e", "d", "{death: 5}"),
+     ":7:31: systems.e.emit.parent.system: 5 generations of systems; at most 4"},
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a: {emit: {rate: 1000}}\n" CHILD("b", "a", "{death: 60000}"),
+     ":4:13: systems.b.emit: up to 123000000 particles at once need 3753 MiB; the systems of a "
+     "scene may have 16777216 in all (512 MiB), of which 2050 are taken: lower children, or the "
+     "parents' rate or life"},
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a: {emit: {rate: 1, life: 10000 s}}\n" CHILD("b", "a", "{trail: 100000}"),
+     ":4:38: systems.b.emit.parent.on: up to 1000001931 particles born of one; at most 16777216"},
+    {"kiln: 1\n"
+     "output: {frames: 30000}\n"
+     "systems:\n"
+     "  a: {emit: {rate: 1000, life: 0.01 s}}\n"
+     "  b: {emit: {life: 0.01 s, parent: {system: a, on: {death: 10000}}}}\n",
+     ":5:13: systems.b.emit: 9999670000 births in the run; at most 4294967295 can be told apart"},
+    {"kiln: 1\n"
+     "systems: {a: {look: {rotation: [{life: [0, 0]}, {keys: {0 s: 0}}]}}}\n",
+     ":2:32: systems.a.look.rotation: both must vary over time, or both over life"},
+};
+
+BAD_TEST(families)
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bad_families),
+    };
+    return cmocka_run_group_tests_name("family_errors", tests, NULL, NULL);
+}
