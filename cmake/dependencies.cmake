@@ -6,10 +6,13 @@ pkg_check_modules(KILN_DEPS IMPORTED_TARGET cglm ${kiln_linked_packages})
 # Headers only: libepoxy loads EGL when it is first called, so that a machine without it gets an
 # error from kiln, not from the loader.
 pkg_check_modules(KILN_EGL egl)
+# Headers only: assimp is loaded when a scene has a mesh (lib/asset/mesh_import.c).
+pkg_check_modules(KILN_ASSIMP assimp>=5)
 # Of OpenEXR only the C core: the rest is C++ and would be loaded at every start.
 pkg_check_modules(KILN_EXR OpenEXR)
 find_library(KILN_EXR_CORE OpenEXRCore)
-if(NOT KILN_DEPS_FOUND OR NOT KILN_EGL_FOUND OR NOT KILN_EXR_FOUND OR NOT KILN_EXR_CORE)
+if(NOT KILN_DEPS_FOUND OR NOT KILN_EGL_FOUND OR NOT KILN_ASSIMP_FOUND OR
+   NOT KILN_EXR_FOUND OR NOT KILN_EXR_CORE)
     message(FATAL_ERROR "A library is missing; run tools/setup to install all that kiln needs.")
 endif()
 add_library(kiln_dependencies INTERFACE)

@@ -1,0 +1,309 @@
+/* The parent's side: a child imports into shared memory, and what it left there is checked. */
+#include "asset/mesh.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "asset/file_in.h"
+#include "asset/mesh_import.h"
+#include "base/clock.h"
+#include "base/error.h"
+
+#define ALLOWED "OBJ, glTF or GLB"
+
+/* The sanitizers' own tables are larger than any limit. */
+#ifdef __has_feature
+#if __has_feature(address_sanitizer)
+#define UNLIMITED
+#endif
+#endif
+#ifdef __SANITIZE_ADDRESS__
+#define UNLIMITED
+#endif
+
+static const float MAX_COORDINATE = 1e6f;
+
+/* ---- the child ------------------------------------------------------------------------------- */
+
+#ifndef UNLIMITED
+static rlim_t bytes_in_use(void)
+{
+    unsigned long pages = 0;
+    FILE *file = fopen("/proc/self/statm", "r");
+    if (file) {
+        if (fscanf(file, "%*u %*u %*u %*u %*u %lu", &pages) != 1)
+            pages = 0;
+        fclose(file);
+    }
+    return (rlim_t)pages * (rlim_t)sysconf(_SC_PAGESIZE);
+}
+#endif
+
+static void limit(int resource, rlim_t most)
+{
+    struct rlimit limits;
+    if (getrlimit(resource, &limits) == 0 && most < limits.rlim_cur) {
+        limits.rlim_cur = most;
+        setrlimit(resource, &limits);
+    }
+}
+
+/* Whatever the importer does to this process or prints, nobody else is touched. */
+static void run_child(const struct kiln_mesh_request *request, struct kiln_mesh_result *result)
+{
+    static const int signals[] = {SIGSEGV, SIGBUS,  SIGFPE,  SIGILL, SIGABRT,
+                                  SIGINT,  SIGTERM, SIGPIPE, SIGXCPU};
+    for (size_t i = 0; i < sizeof signals / sizeof *signals; i++)
+        signal(signals[i], SIG_DFL);
+    int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
+    if (nowhere >= 0) {
+        dup2(nowhere, STDOUT_FILENO);
+        dup2(nowhere, STDERR_FILENO);
+    }
+    limit(RLIMIT_CORE, 0);
+    limit(RLIMIT_FSIZE, 0);
+#ifndef UNLIMITED
+    limit(RLIMIT_DATA, bytes_in_use() + KILN_MAX_MESH_MEMORY);
+#endif
+    kiln_mesh_import(request, result);
+    result->done = true;
+    _exit(0);
+}
+
+/* ---- the parent ------------------------------------------------------------------------------ */
+
+/* True when the child ended in time; else it is killed. */
+static bool await(pid_t child)
+{
+    const struct timespec pause = {.tv_nsec = 500000};
+    double start_s = kiln_clock_seconds();
+    while (kiln_clock_seconds() - start_s < KILN_MAX_MESH_SECONDS) {
+        pid_t ended = waitpid(child, NULL, WNOHANG);
+        if (ended == child || (ended < 0 && errno != EINTR))
+            return true;
+        nanosleep(&pause, NULL);
+    }
+    kill(child, SIGKILL);
+    while (waitpid(child, NULL, 0) < 0 && errno == EINTR)
+        continue;
+    return false;
+}
+
+static bool run(const struct kiln_mesh_request *request, struct kiln_mesh_result *result,
+                struct kiln_error *error)
+{
+    pid_t child = fork();
+    if (child == 0)
+        run_child(request, result);
+    if (child < 0)
+        return kiln_error_set_errno(error, KILN_DEVICE_FAILED, errno,
+                                    "%s: no process for the importer", request->name);
+    if (!await(child))
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "%s: the importer was not done with the mesh after %d s",
+                              request->name, KILN_MAX_MESH_SECONDS);
+    if (!result->done)
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "%s: the mesh is broken: the importer fails on it", request->name);
+    if (result->ok)
+        return true;
+    *error = result->error;
+    error->message[sizeof error->message - 1] = '\0';
+    /* Texts of the file may be in it. */
+    for (char *c = error->message; *c; c++) {
+        if ((unsigned char)*c < ' ' || *c == 127)
+            *c = ' ';
+    }
+    return false;
+}
+
+static bool check_vertex(const float v[6])
+{
+    float length2 = v[3] * v[3] + v[4] * v[4] + v[5] * v[5];
+    for (int c = 0; c < 3; c++) {
+        if (!(fabsf(v[c]) <= MAX_COORDINATE))
+            return false;
+    }
+    return fabsf(length2 - 1.0f) < 1e-3f;
+}
+
+static bool check(const struct kiln_mesh_request *request, const struct kiln_mesh_result *result,
+                  struct kiln_error *error)
+{
+    bool good = result->vertex_count >= 3 && result->vertex_count <= KILN_MAX_MESH_VERTICES &&
+                result->triangle_count >= 1 && result->triangle_count <= KILN_MAX_MESH_TRIANGLES &&
+                memchr(result->hash, '\0', sizeof result->hash) == result->hash + 64;
+    for (uint32_t i = 0; good && i < result->triangle_count; i++) {
+        for (int c = 0; c < 3; c++)
+            good = good && result->triangles[i][c] < result->vertex_count;
+    }
+    if (!good)
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "%s: the mesh is broken: the importer made nonsense of it",
+                              request->name);
+    for (uint32_t i = 0; i < result->vertex_count; i++) {
+        if (!check_vertex(result->vertices[i]))
+            return kiln_error_set(error, KILN_INVALID_INPUT,
+                                  "%s: vertex %u lies at %g %g %g; allowed are numbers within "
+                                  "-%g and %g",
+                                  request->name, i, (double)result->vertices[i][0],
+                                  (double)result->vertices[i][1], (double)result->vertices[i][2],
+                                  (double)MAX_COORDINATE, (double)MAX_COORDINATE);
+    }
+    return true;
+}
+
+static struct kiln_mesh *copy(const struct kiln_mesh_result *result)
+{
+    struct kiln_mesh *mesh = calloc(1, sizeof *mesh);
+    if (!mesh)
+        return NULL;
+    mesh->vertex_count = result->vertex_count;
+    mesh->triangle_count = result->triangle_count;
+    mesh->vertices = malloc(mesh->vertex_count * sizeof *mesh->vertices);
+    mesh->triangles = malloc(mesh->triangle_count * sizeof *mesh->triangles);
+    if (!mesh->vertices || !mesh->triangles) {
+        kiln_mesh_destroy(&mesh);
+        return NULL;
+    }
+    memcpy(mesh->vertices, result->vertices, mesh->vertex_count * sizeof *mesh->vertices);
+    memcpy(mesh->triangles, result->triangles, mesh->triangle_count * sizeof *mesh->triangles);
+    memcpy(mesh->hash, result->hash, sizeof mesh->hash);
+    for (int c = 0; c < 3; c++)
+        mesh->min[c] = mesh->max[c] = mesh->vertices[0][c];
+    for (uint32_t i = 1; i < mesh->vertex_count; i++) {
+        for (int c = 0; c < 3; c++) {
+            mesh->min[c] = fminf(mesh->min[c], mesh->vertices[i][c]);
+            mesh->max[c] = fmaxf(mesh->max[c], mesh->vertices[i][c]);
+        }
+    }
+    return mesh;
+}
+
+static struct kiln_mesh *import(const struct kiln_mesh_request *request, struct kiln_error *error)
+{
+    struct kiln_mesh_result *result = mmap(NULL, sizeof *result, PROT_READ | PROT_WRITE,
+                                           MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (result == MAP_FAILED) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory while reading the mesh",
+                       request->name);
+        return NULL;
+    }
+    struct kiln_mesh *mesh = NULL;
+    if (run(request, result, error) && check(request, result, error)) {
+        mesh = copy(result);
+        if (!mesh)
+            kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory while reading the mesh",
+                           request->name);
+    }
+    munmap(result, sizeof *result);
+    return mesh;
+}
+
+/* An OBJ has a line for each vertex and each polygon: too many are found before they take time. */
+static bool check_lines(const struct kiln_mesh_request *request, struct kiln_error *error)
+{
+    const char *line = request->bytes, *end = line + request->size;
+    size_t vertices = 0, faces = 0;
+    while (line && end - line >= 2) {
+        vertices += line[0] == 'v' && line[1] == ' ';
+        faces += line[0] == 'f' && line[1] == ' ';
+        line = memchr(line, '\n', (size_t)(end - line));
+        line = line ? line + 1 : NULL;
+    }
+    if (vertices <= KILN_MAX_MESH_VERTICES && faces <= KILN_MAX_MESH_TRIANGLES)
+        return true;
+    return kiln_error_set(
+        error, KILN_INVALID_INPUT,
+        "%s: the mesh has %zu vertices and %zu faces; allowed are %d vertices and "
+        "%d triangles",
+        request->name, vertices, faces, KILN_MAX_MESH_VERTICES, KILN_MAX_MESH_TRIANGLES);
+}
+
+/* The importer goes by the name's end; the contents must at least begin as that says. */
+static bool find_extension(struct kiln_mesh_request *request, struct kiln_error *error)
+{
+    static const char *const extensions[] = {".obj", ".gltf", ".glb"};
+    const char *dot = strrchr(request->name, '.');
+    for (size_t i = 0; dot && i < sizeof extensions / sizeof *extensions; i++) {
+        if (strcasecmp(dot, extensions[i]) == 0)
+            request->extension = extensions[i];
+    }
+    if (!request->extension)
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "%s: not a mesh by its name; allowed are " ALLOWED
+                              " files (.obj, .gltf, .glb)",
+                              request->name);
+    const unsigned char *bytes = request->bytes;
+    if (request->size == 0)
+        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: the mesh file is empty",
+                              request->name);
+    bool good = true;
+    size_t start = 0;
+    if (strcmp(request->extension, ".glb") == 0) {
+        good = request->size >= 20 && memcmp(bytes, "glTF", 4) == 0;
+    } else if (strcmp(request->extension, ".gltf") == 0) {
+        while (start < request->size && strchr(" \t\r\n", bytes[start]))
+            start++;
+        good = start < request->size && bytes[start] == '{';
+    } else {
+        good = !memchr(bytes, '\0', request->size);
+        if (good)
+            return check_lines(request, error);
+    }
+    return good || kiln_error_set(error, KILN_INVALID_INPUT, "%s: not a %s file by its contents",
+                                  request->name, request->extension + 1);
+}
+
+struct kiln_mesh *kiln_mesh_parse(const void *bytes, size_t size, const char *name,
+                                  struct kiln_error *error)
+{
+    struct kiln_mesh_request request = {.name = name, .bytes = bytes, .size = size};
+    if (size > KILN_MAX_MESH_BYTES) {
+        kiln_error_set(error, KILN_INVALID_INPUT,
+                       "%s: the mesh file has %zu bytes; allowed are at most %d", name, size,
+                       KILN_MAX_MESH_BYTES);
+        return NULL;
+    }
+    return find_extension(&request, error) ? import(&request, error) : NULL;
+}
+
+struct kiln_mesh *kiln_mesh_load(const char *path, const char *root, struct kiln_error *error)
+{
+    struct kiln_mesh_request request = {.name = path, .root = root};
+    const char *slash = strrchr(path, '/');
+    char *folder = slash ? strndup(path, (size_t)(slash - path)) : strdup(".");
+    unsigned char *bytes =
+        kiln_file_read(path, "mesh", ALLOWED, KILN_MAX_MESH_BYTES, &request.size, error);
+    struct kiln_mesh *mesh = NULL;
+    request.folder = folder;
+    request.bytes = bytes;
+    if (!folder)
+        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory while reading", path);
+    else if (bytes && find_extension(&request, error))
+        mesh = import(&request, error);
+    free(bytes);
+    free(folder);
+    return mesh;
+}
+
+void kiln_mesh_destroy(struct kiln_mesh **mesh)
+{
+    if (!*mesh)
+        return;
+    free((*mesh)->vertices);
+    free((*mesh)->triangles);
+    free(*mesh);
+    *mesh = NULL;
+}

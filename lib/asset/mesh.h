@@ -1,0 +1,41 @@
+/* Meshes in, by assimp: OBJ, glTF and GLB. The importer runs in a child process with limits on its
+ * memory and time, so that a file that it cannot bear is an error and no crash; it reads the file
+ * itself and the buffers that a glTF file names, and nothing else. */
+#ifndef KILN_ASSET_MESH_H
+#define KILN_ASSET_MESH_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "kiln.h"
+
+enum {
+    KILN_MAX_MESH_BYTES = 64 << 20, /* of the file, and of each buffer that it names */
+    KILN_MAX_MESH_VERTICES = 1 << 20,
+    KILN_MAX_MESH_TRIANGLES = 1 << 20,
+    KILN_MAX_MESH_MEMORY = 1 << 30, /* bytes that the importer may take */
+    KILN_MAX_MESH_SECONDS = 30,     /* that it may take */
+};
+
+/* Everything in the file, in one piece: nodes are resolved, polygons are triangles. */
+struct kiln_mesh {
+    uint32_t vertex_count, triangle_count; /* at least 1 triangle */
+    float (*vertices)[6];                  /* position, within 1e6; unit normal */
+    uint32_t (*triangles)[3];              /* below vertex_count */
+    float min[3], max[3];                  /* of the positions */
+    char hash[65];                         /* SHA-256 of what was read, in hex */
+};
+
+/* Reads a file whose name ends in .obj, .gltf or .glb; files that it names must lie below `root`,
+ * an absolute folder. NULL: KILN_IO when it cannot be read or there is no importer,
+ * KILN_INVALID_INPUT with what was found and what is allowed when it is no mesh, broken, cut short,
+ * beyond the limits above or names files elsewhere, KILN_DEVICE_FAILED when memory is short. The
+ * caller destroys it. */
+struct kiln_mesh *kiln_mesh_load(const char *path, const char *root, struct kiln_error *error);
+
+/* The same from bytes in memory, which may name no other files; name stands for the file. */
+struct kiln_mesh *kiln_mesh_parse(const void *bytes, size_t size, const char *name,
+                                  struct kiln_error *error);
+void kiln_mesh_destroy(struct kiln_mesh **mesh);
+
+#endif

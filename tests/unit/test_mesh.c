@@ -1,0 +1,294 @@
+/* lib/asset/mesh: what is read of a mesh file, and what is refused. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "asset/mesh.h"
+#include "support/folders.h"
+
+static struct kiln_mesh *parse(const char *text, const char *name)
+{
+    struct kiln_error error = {0};
+    struct kiln_mesh *mesh = kiln_mesh_parse(text, strlen(text), name, &error);
+    if (!mesh)
+        fail_msg("%s", error.message);
+    return mesh;
+}
+
+static void refuse(const void *bytes, size_t size, const char *name, const char *reason)
+{
+    struct kiln_error error = {0};
+    assert_null(kiln_mesh_parse(bytes, size, name, &error));
+    assert_int_equal(error.code, KILN_INVALID_INPUT);
+    if (!strstr(error.message, reason) || strncmp(error.message, name, strlen(name)) != 0)
+        fail_msg("'%s' instead of '%s: ...%s...'", error.message, name, reason);
+}
+
+static void refuse_text(const char *text, const char *name, const char *reason)
+{
+    refuse(text, strlen(text), name, reason);
+}
+
+static const char CUBE[] = "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\n"
+                           "v -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
+                           "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6\n";
+
+/* Twelve triangles; at creases, every face has corners of its own, whose normals are the face's. */
+static void cube_is_read(void **state)
+{
+    (void)state;
+    struct kiln_mesh *mesh = parse(CUBE, "cube.OBJ");
+    assert_int_equal(mesh->triangle_count, 12);
+    assert_int_equal(mesh->vertex_count, 24);
+    for (int c = 0; c < 3; c++)
+        assert_true(mesh->min[c] == -1.0f && mesh->max[c] == 1.0f);
+    double area = 0;
+    for (uint32_t i = 0; i < mesh->triangle_count; i++) {
+        const float *p = mesh->vertices[mesh->triangles[i][0]];
+        const float *q = mesh->vertices[mesh->triangles[i][1]];
+        const float *r = mesh->vertices[mesh->triangles[i][2]];
+        double cross[3], along = 0;
+        for (int c = 0; c < 3; c++) {
+            int d = (c + 1) % 3, e = (c + 2) % 3;
+            cross[c] = (double)(q[d] - p[d]) * (double)(r[e] - p[e]) -
+                       (double)(q[e] - p[e]) * (double)(r[d] - p[d]);
+            along += cross[c] * (double)p[3 + c];
+        }
+        area += 0.5 * along; /* the normal is that of the winding, of length 1 */
+    }
+    assert_true(fabs(area - 24.0) < 1e-4);
+    kiln_mesh_destroy(&mesh);
+    assert_null(mesh);
+}
+
+/* Flatter edges are smoothed: on a finely turned cylinder, normals point away from the axis. */
+static void round_things_are_smooth(void **state)
+{
+    (void)state;
+    enum { SIDES = 24 };
+    char text[8192] = "";
+    size_t length = 0;
+    for (int i = 0; i < SIDES; i++) {
+        double a = 2 * acos(-1.0) * i / SIDES;
+        length += (size_t)snprintf(text + length, sizeof text - length, "v %f 0 %f\nv %f 1 %f\n",
+                                   cos(a), sin(a), cos(a), sin(a));
+    }
+    for (int i = 0; i < SIDES; i++) {
+        int next = (i + 1) % SIDES;
+        length += (size_t)snprintf(text + length, sizeof text - length, "f %d %d %d %d\n",
+                                   2 * i + 1, 2 * i + 2, 2 * next + 2, 2 * next + 1);
+    }
+    struct kiln_mesh *mesh = parse(text, "tube.obj");
+    for (uint32_t i = 0; i < mesh->vertex_count; i++) {
+        const float *v = mesh->vertices[i];
+        assert_true(v[0] * v[3] + v[2] * v[5] > 0.995f);
+    }
+    kiln_mesh_destroy(&mesh);
+}
+
+/* ---- glTF ------------------------------------------------------------------------------------ */
+
+/* A tetrahedron twice as large and 2 m up. */
+static const char GLTF[] =
+    "{\"asset\": {\"version\": \"2.0\"}, \"scene\": 0, \"scenes\": [{\"nodes\": [0]}],"
+    " \"nodes\": [{\"translation\": [0, 2, 0], \"children\": [1]}, {\"mesh\": 0, \"scale\": [2, 2, "
+    "2]}],"
+    " \"meshes\": [{\"primitives\": [{\"attributes\": {\"POSITION\": 0}, \"indices\": 1}]}],"
+    " \"accessors\": [{\"bufferView\": 0, \"componentType\": 5126, \"count\": 4, \"type\": "
+    "\"VEC3\","
+    " \"min\": [0, 0, 0], \"max\": [1, 1, 1]},"
+    " {\"bufferView\": 1, \"componentType\": 5123, \"count\": 12, \"type\": \"SCALAR\"}],"
+    " \"bufferViews\": [{\"buffer\": 0, \"byteLength\": 48},"
+    " {\"buffer\": 0, \"byteOffset\": 48, \"byteLength\": 24}],"
+    " \"buffers\": [{\"byteLength\": 72, \"uri\": \"%s\"}]}";
+
+static void write_gltf(const char *path, const char *uri)
+{
+    char text[2048];
+    snprintf(text, sizeof text, GLTF, uri);
+    test_write_file(path, text);
+}
+
+static void write_buffer(const char *path, float size)
+{
+    const float positions[12] = {0, 0, 0, size, 0, 0, 0, size, 0, 0, 0, size};
+    const uint16_t corners[12] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_true(fwrite(positions, sizeof positions, 1, file) == 1 &&
+                fwrite(corners, sizeof corners, 1, file) == 1);
+    assert_int_equal(fclose(file), 0);
+}
+
+static struct kiln_mesh *load(const char *path, const char *root)
+{
+    struct kiln_error error = {0};
+    struct kiln_mesh *mesh = kiln_mesh_load(path, root, &error);
+    if (!mesh)
+        fail_msg("%s", error.message);
+    return mesh;
+}
+
+static void buffers_below_are_read_and_hashed(void **state)
+{
+    const struct test_place *place = *state;
+    test_write_file("files/deep/empty", "");
+    write_gltf("files/t.gltf", "deep/t.bin");
+    write_buffer("files/deep/t.bin", 1.0f);
+    struct kiln_mesh *mesh = load("files/t.gltf", place->folder);
+    assert_int_equal(mesh->triangle_count, 4);
+    assert_true(mesh->min[1] == 2.0f && mesh->max[1] == 4.0f && mesh->max[0] == 2.0f);
+    char hash[65];
+    memcpy(hash, mesh->hash, sizeof hash);
+    assert_int_equal(strlen(hash), 64);
+    kiln_mesh_destroy(&mesh);
+
+    mesh = load("files/t.gltf", place->folder);
+    assert_string_equal(mesh->hash, hash);
+    kiln_mesh_destroy(&mesh);
+    write_buffer("files/deep/t.bin", 0.5f);
+    mesh = load("files/t.gltf", place->folder);
+    assert_true(mesh->max[0] == 1.0f);
+    assert_string_not_equal(mesh->hash, hash);
+    kiln_mesh_destroy(&mesh);
+}
+
+static void buffers_elsewhere_are_refused(void **state)
+{
+    const struct test_place *place = *state;
+    test_write_file("files/empty", "");
+    test_write_file("elsewhere/empty", "");
+    write_buffer("elsewhere/t.bin", 1.0f);
+    write_buffer("files/t.bin", 1.0f);
+    assert_int_equal(symlink("../elsewhere/t.bin", "files/link.bin"), 0);
+    char root[64], absolute[64];
+    snprintf(root, sizeof root, "%s/files", place->folder);
+    snprintf(absolute, sizeof absolute, "%s/files/t.bin", place->folder);
+    const struct {
+        const char *uri, *reason;
+    } cases[] = {
+        {"../elsewhere/t.bin", "in its folder or below"},
+        {"./../files/t.bin", "in its folder or below"},
+        {absolute, "in its folder or below"},
+        {"file:///etc/passwd", "in its folder or below"},
+        {"http://localhost/t.bin", "in its folder or below"},
+        {"link.bin", "outside the asset root"},
+        {"missing.bin", "does not exist"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct kiln_error error = {0};
+        write_gltf("files/t.gltf", cases[i].uri);
+        struct kiln_mesh *mesh = kiln_mesh_load("files/t.gltf", root, &error);
+        if (mesh)
+            fail_msg("%s was read", cases[i].uri);
+        assert_int_equal(error.code, KILN_INVALID_INPUT);
+        if (!strstr(error.message, cases[i].reason))
+            fail_msg("%s: %s", cases[i].uri, error.message);
+    }
+    write_gltf("files/t.gltf", "t.bin");
+    struct kiln_mesh *mesh = load("files/t.gltf", root);
+    kiln_mesh_destroy(&mesh);
+    char text[2048];
+    snprintf(text, sizeof text, GLTF, "t.bin");
+    refuse_text(text, "memory.gltf", "it may name no other files");
+}
+
+/* ---- what is no mesh ------------------------------------------------------------------------- */
+
+static void nonsense_is_refused(void **state)
+{
+    (void)state;
+    refuse_text(CUBE, "cube.stl", "allowed are OBJ, glTF or GLB");
+    refuse_text(CUBE, "cube", "not a mesh by its name");
+    refuse_text("", "empty.obj", "the mesh file is empty");
+    refuse_text(CUBE, "cube.glb", "not a glb file by its contents");
+    refuse_text(CUBE, "cube.gltf", "not a gltf file by its contents");
+    refuse("v 0 0 0\0", 8, "zero.obj", "not a obj file by its contents");
+    refuse_text("v 0 0 0\nv 1 0 0\nv 0 1 0\n", "points.obj", "points.obj");
+    refuse_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2 3\n", "lines.obj", "lines.obj");
+    refuse_text("v 0 0 0\nv 1e9 0 0\nv 0 1 0\nf 1 2 3\n", "far.obj", "allowed are numbers within");
+    refuse_text("{\"asset\": {\"version\": \"2.0\"}", "cut.gltf", "the mesh is broken");
+    refuse_text("{}", "none.gltf", "the mesh is broken");
+}
+
+static void cut_files_are_refused(void **state)
+{
+    (void)state;
+    char *glb = NULL;
+    long size = 0;
+    FILE *file = fopen(KILN_SOURCE_DIR "/tests/fuzz/corpus/mesh/good/tetrahedron.glb", "rb");
+    assert_non_null(file);
+    assert_true(fseek(file, 0, SEEK_END) == 0 && (size = ftell(file)) > 64);
+    rewind(file);
+    glb = malloc((size_t)size);
+    assert_non_null(glb);
+    assert_int_equal(fread(glb, (size_t)size, 1, file), 1);
+    fclose(file);
+    struct kiln_error error = {0};
+    struct kiln_mesh *mesh = kiln_mesh_parse(glb, (size_t)size, "whole.glb", &error);
+    assert_non_null(mesh);
+    assert_int_equal(mesh->triangle_count, 4);
+    kiln_mesh_destroy(&mesh);
+    for (int i = 1; i < 8; i++)
+        refuse(glb, (size_t)(size * i / 8), "cut.glb", "cut.glb: ");
+    free(glb);
+}
+
+static void large_files_are_refused(void **state)
+{
+    (void)state;
+    struct kiln_error error = {0};
+    test_write_file("huge.obj", CUBE);
+    assert_int_equal(truncate("huge.obj", KILN_MAX_MESH_BYTES + 1), 0);
+    assert_null(kiln_mesh_load("huge.obj", "/", &error));
+    assert_int_equal(error.code, KILN_INVALID_INPUT);
+    assert_non_null(strstr(error.message, "allowed are at most 67108864"));
+
+    const char *face = "f 1 2 3\n";
+    size_t faces = KILN_MAX_MESH_TRIANGLES + 1, length = strlen(face);
+    const char *corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    char *text = malloc(strlen(corners) + faces * length + 1);
+    assert_non_null(text);
+    strcpy(text, corners);
+    for (size_t i = 0; i < faces; i++)
+        memcpy(text + strlen(corners) + i * length, face, length + 1);
+    refuse_text(text, "many.obj", "3 vertices and 1048577 faces; allowed are 1048576 ");
+    free(text);
+}
+
+static void files_must_be_files(void **state)
+{
+    (void)state;
+    struct kiln_error error = {0};
+    test_write_file("folder.obj/file", "");
+    assert_null(kiln_mesh_load("folder.obj", "/", &error));
+    assert_int_equal(error.code, KILN_INVALID_INPUT);
+    assert_null(kiln_mesh_load("missing.obj", "/", &error));
+    assert_int_equal(error.code, KILN_IO);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cube_is_read),
+        cmocka_unit_test(round_things_are_smooth),
+        cmocka_unit_test_setup_teardown(buffers_below_are_read_and_hashed, test_enter_folder,
+                                        test_leave_folder),
+        cmocka_unit_test_setup_teardown(buffers_elsewhere_are_refused, test_enter_folder,
+                                        test_leave_folder),
+        cmocka_unit_test(nonsense_is_refused),
+        cmocka_unit_test(cut_files_are_refused),
+        cmocka_unit_test_setup_teardown(large_files_are_refused, test_enter_folder,
+                                        test_leave_folder),
+        cmocka_unit_test_setup_teardown(files_must_be_files, test_enter_folder, test_leave_folder),
+    };
+    return cmocka_run_group_tests_name("mesh", tests, NULL, NULL);
+}
