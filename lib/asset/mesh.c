@@ -37,16 +37,22 @@ static const float MAX_COORDINATE = 1e6f;
 /* ---- the child ------------------------------------------------------------------------------- */
 
 #ifndef UNLIMITED
+/* The sixth number of statm: pages of data. */
 static rlim_t bytes_in_use(void)
 {
-    unsigned long pages = 0;
+    char text[256] = "";
     FILE *file = fopen("/proc/self/statm", "r");
     if (file) {
-        if (fscanf(file, "%*u %*u %*u %*u %*u %lu", &pages) != 1)
-            pages = 0;
+        if (!fgets(text, sizeof text, file))
+            text[0] = '\0';
         fclose(file);
     }
-    return (rlim_t)pages * (rlim_t)sysconf(_SC_PAGESIZE);
+    const char *number = text;
+    for (int i = 0; i < 5 && number; i++) {
+        number = strchr(number, ' ');
+        number = number ? number + 1 : NULL;
+    }
+    return number ? (rlim_t)strtoul(number, NULL, 10) * (rlim_t)sysconf(_SC_PAGESIZE) : 0;
 }
 #endif
 

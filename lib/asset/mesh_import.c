@@ -35,11 +35,11 @@ struct assimp {
     const char *(*error_string)(void);
 };
 
-static bool find(void *library, const char *name, void *function)
+static void find(void *library, const char *name, void *function)
 {
     void *found = dlsym(library, name);
-    memcpy(function, &found, sizeof found); /* POSIX: an object pointer holds a function's */
-    return found != NULL;
+    if (found)
+        memcpy(function, &found, sizeof found); /* POSIX: an object pointer holds a function's */
 }
 
 static bool load_library(struct assimp *assimp, struct kiln_error *error, const char *name)
@@ -50,11 +50,13 @@ static bool load_library(struct assimp *assimp, struct kiln_error *error, const 
                               "%s: meshes need " LIBRARY
                               ", which is not installed (Debian's package libassimp5)",
                               name);
-    return (find(library, "aiCreatePropertyStore", &assimp->create_properties) &&
-            find(library, "aiSetImportPropertyInteger", &assimp->set_integer) &&
-            find(library, "aiSetImportPropertyFloat", &assimp->set_float) &&
-            find(library, "aiImportFileExWithProperties", &assimp->import) &&
-            find(library, "aiGetErrorString", &assimp->error_string)) ||
+    find(library, "aiCreatePropertyStore", &assimp->create_properties);
+    find(library, "aiSetImportPropertyInteger", &assimp->set_integer);
+    find(library, "aiSetImportPropertyFloat", &assimp->set_float);
+    find(library, "aiImportFileExWithProperties", &assimp->import);
+    find(library, "aiGetErrorString", &assimp->error_string);
+    return (assimp->create_properties && assimp->set_integer && assimp->set_float &&
+            assimp->import && assimp->error_string) ||
            kiln_error_set(error, KILN_IO, "%s: " LIBRARY " is not the one that kiln knows", name);
 }
 

@@ -1,9 +1,12 @@
-/* The backdrop: scene values at the frame's time into one uniform block, a full-screen pass, and a
- * second one over the tiles with edges in them. When neither the block nor the camera changed since
- * the last frame, the picture is kept. */
+/* The backdrop: scene values at the frame's time into uniform blocks, the meshes, a full-screen
+ * pass, and a second one over the tiles with edges in them. When neither a block nor the camera
+ * changed since the last frame, the picture is kept. */
 #include "draw/backdrop.h"
 
+#include "asset/texture.h"
 #include "base/error.h"
+#include "draw/meshes.h"
+#include "draw/shapes.h"
 #include "gpu/framebuffer.h"
 #include "gpu/program.h"
 
@@ -17,16 +20,18 @@ static_assert(sizeof(struct kiln_view) == 112, "std140");
 static_assert(offsetof(struct kiln_view, eye) == 48, "std140");
 static_assert(sizeof(struct kiln_draw_light) == 32, "std140");
 static_assert(offsetof(struct kiln_draw_backdrop, counts) == 96, "std140");
-static_assert(offsetof(struct kiln_draw_backdrop, box_half) == 112 + 16 * KILN_MAX_BOXES, "std140");
-static_assert(offsetof(struct kiln_draw_backdrop, lights) == 112 + 48 * KILN_MAX_BOXES, "std140");
+static_assert(offsetof(struct kiln_draw_backdrop, box_half) == 112 + 16 * KILN_MAX_OBJECTS,
+              "std140");
+static_assert(offsetof(struct kiln_draw_backdrop, lights) == 112 + 48 * KILN_MAX_OBJECTS, "std140");
 static_assert(sizeof(struct kiln_draw_backdrop) ==
-                  208 + 48 * KILN_MAX_BOXES + 32 * (KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS),
+                  208 + 48 * KILN_MAX_OBJECTS + 32 * (KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS),
               "std140, and no padding, which same_picture() would compare");
 
 /* What the picture depends on. */
 struct backdrop_inputs {
     struct kiln_view view;
     struct kiln_draw_backdrop block;
+    struct kiln_draw_shapes shapes;
 };
 
 struct kiln_backdrop_stage {
@@ -37,7 +42,10 @@ struct kiln_backdrop_stage {
     GLuint cast, antialias;     /* programs */
     struct kiln_framebuffer cast_framebuffer, color_framebuffer;
     GLuint vertex_array;
-    struct kiln_buffer view_buffer, block_buffer;
+    struct kiln_buffer view_buffer, block_buffer, shapes_buffer;
+    struct kiln_meshes *meshes;
+    struct kiln_texture floor_image, sky_image;
+    struct kiln_sky_light sky_light; /* of the image */
     struct backdrop_inputs drawn;
     bool has_drawn;
 };
@@ -58,12 +66,15 @@ static float3 normalized(float3 v)
 static void fill_boxes(const struct kiln_scene *scene, float time_s,
                        struct kiln_draw_backdrop *block)
 {
-    for (uint32_t i = 0; i < scene->backdrop.box_count; i++) {
-        const struct kiln_box *box = &scene->backdrop.boxes[i];
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        const struct kiln_object *box = &scene->backdrop.objects[i];
+        if (box->kind != KILN_OBJECT_BOX)
+            continue;
+        uint k = block->counts.x++;
         float3 size = kiln_scene_value3(scene, &box->size, time_s);
-        block->box_center[i] = with_w(kiln_scene_value3(scene, &box->center, time_s), 0.0f);
-        block->box_half[i] = (float4){0.5f * size.x, 0.5f * size.y, 0.5f * size.z, 0.0f};
-        block->box_color[i] = with_w(kiln_scene_value3(scene, &box->color, time_s), 0.0f);
+        block->box_center[k] = with_w(kiln_scene_value3(scene, &box->center, time_s), 0.0f);
+        block->box_half[k] = (float4){0.5f * size.x, 0.5f * size.y, 0.5f * size.z, 0.0f};
+        block->box_color[k] = with_w(kiln_scene_value3(scene, &box->color, time_s), 0.0f);
     }
 }
 
@@ -89,6 +100,35 @@ static void add_lighting(struct kiln_draw_backdrop *block, const struct kiln_lig
     memcpy(block->sky_to_grid, lighting->sky_to_grid, sizeof block->sky_to_grid);
 }
 
+/* Surfaces, particles and the haze are lit by the image, where there is one. */
+static void light_by_image(const struct kiln_backdrop_stage *stage, float intensity,
+                           struct kiln_draw_backdrop *block)
+{
+    const float *up = stage->sky_light.up, *horizon = stage->sky_light.horizon;
+    block->sky_top = (float4){up[0] * intensity, up[1] * intensity, up[2] * intensity, 0.0f};
+    block->sky_horizon =
+        (float4){horizon[0] * intensity, horizon[1] * intensity, horizon[2] * intensity, 0.0f};
+}
+
+/* Where the pictures of the floor and the sky lie. */
+static void fill_maps(const struct kiln_backdrop_stage *stage, float time_s,
+                      struct kiln_draw_shapes *shapes)
+{
+    const float full_turn = 6.28318531f;
+    const struct kiln_scene *scene = stage->scene;
+    const struct kiln_texture *floor_image = &stage->floor_image, *sky = &stage->sky_image;
+    if (floor_image->gl) {
+        float tile = kiln_scene_value(scene, &scene->backdrop.floor_tile, time_s);
+        float width = (float)floor_image->width, height = (float)floor_image->height;
+        shapes->floor_map = (float4){1.0f / tile, width / (tile * height), width / tile, 0.0f};
+    }
+    if (sky->gl)
+        shapes->sky_map =
+            (float4){kiln_scene_value(scene, &scene->backdrop.sky_rotation, time_s) / full_turn,
+                     kiln_scene_value(scene, &scene->backdrop.sky_intensity, time_s),
+                     (float)sky->width / full_turn, 0.0f};
+}
+
 static struct kiln_draw_backdrop make_block(const struct kiln_scene *scene, float time_s)
 {
     const struct kiln_backdrop *b = &scene->backdrop;
@@ -103,7 +143,7 @@ static struct kiln_draw_backdrop make_block(const struct kiln_scene *scene, floa
         .sun_direction =
             with_w(normalized(kiln_scene_value3(scene, &b->sun_direction, time_s)), 0.0f),
         .sun_color = with_w(kiln_scene_value3(scene, &b->sun_color, time_s), 0.0f),
-        .counts = {b->box_count, b->light_count, b->transparent ? 1u : 0u, 0},
+        .counts = {0, b->light_count, b->transparent ? 1u : 0u, 0},
     };
     fill_boxes(scene, time_s, &block);
     fill_lights(scene, time_s, &block);
@@ -114,6 +154,7 @@ static struct kiln_draw_backdrop make_block(const struct kiln_scene *scene, floa
 static bool same_picture(const struct backdrop_inputs *a, const struct backdrop_inputs *b)
 {
     return a->block.counts.w == 0 && memcmp(&a->block, &b->block, sizeof a->block) == 0 &&
+           memcmp(&a->shapes, &b->shapes, sizeof a->shapes) == 0 &&
            memcmp(a->view.world_to_view, b->view.world_to_view, sizeof a->view.world_to_view) ==
                0 &&
            memcmp(&a->view.frustum, &b->view.frustum, sizeof a->view.frustum) == 0;
@@ -121,16 +162,34 @@ static bool same_picture(const struct backdrop_inputs *a, const struct backdrop_
 
 static bool create_programs(struct kiln_backdrop_stage *stage, struct kiln_error *error)
 {
-    struct kiln_program_params params = {.vertex = "draw/fullscreen.vert",
-                                         .fragment = "draw/backdrop.frag",
-                                         .defines = "#define SAMPLES 1\n"};
+    const struct kiln_shape_features features = kiln_shape_features(stage->scene);
+    char defines[160];
+    struct kiln_program_params params = {
+        .vertex = "draw/fullscreen.vert", .fragment = "draw/backdrop.frag", .defines = defines};
+    kiln_shape_defines(&features, 1, defines);
     stage->cast = kiln_program_create(stage->device, &params, error);
     if (!stage->cast)
         return false;
     params.vertex = "draw/backdrop_edges.vert";
-    params.defines = "#define SAMPLES 4\n";
+    kiln_shape_defines(&features, KILN_EDGE_SAMPLES, defines);
     stage->antialias = kiln_program_create(stage->device, &params, error);
     return stage->antialias != 0;
+}
+
+/* What the scene has in files. */
+static bool load_files(struct kiln_backdrop_stage *stage, struct kiln_error *error)
+{
+    const struct kiln_backdrop *backdrop = &stage->scene->backdrop;
+    stage->meshes = kiln_meshes_create(stage->device, stage->scene, error);
+    if (!stage->meshes)
+        return false;
+    if (backdrop->floor_image && !kiln_texture_init(&stage->floor_image, stage->device,
+                                                    backdrop->floor_image, GL_REPEAT, error))
+        return false;
+    return !backdrop->sky_image ||
+           (kiln_sky_light_measure(&stage->sky_light, backdrop->sky_image, error) &&
+            kiln_texture_init(&stage->sky_image, stage->device, backdrop->sky_image,
+                              GL_CLAMP_TO_EDGE, error));
 }
 
 static bool create_targets(struct kiln_backdrop_stage *stage, struct kiln_error *error)
@@ -156,13 +215,15 @@ struct kiln_backdrop_stage *kiln_backdrop_create(struct kiln_device *device,
     stage->scene = scene;
     stage->color = color;
     stage->depth = depth;
-    if (!create_programs(stage, error) || !create_targets(stage, error)) {
+    if (!create_programs(stage, error) || !create_targets(stage, error) ||
+        !load_files(stage, error)) {
         kiln_backdrop_destroy(&stage);
         return NULL;
     }
     glGenVertexArrays(1, &stage->vertex_array);
     kiln_buffer_init(&stage->view_buffer, device, sizeof stage->drawn.view, "view");
     kiln_buffer_init(&stage->block_buffer, device, sizeof stage->drawn.block, "backdrop");
+    kiln_buffer_init(&stage->shapes_buffer, device, sizeof stage->drawn.shapes, "shapes");
     return stage;
 }
 
@@ -179,12 +240,30 @@ void kiln_backdrop_destroy(struct kiln_backdrop_stage **stage)
     glDeleteVertexArrays(1, &s->vertex_array);
     kiln_buffer_finish(&s->view_buffer);
     kiln_buffer_finish(&s->block_buffer);
+    kiln_buffer_finish(&s->shapes_buffer);
+    kiln_meshes_destroy(&s->meshes);
+    kiln_texture_finish(&s->floor_image);
+    kiln_texture_finish(&s->sky_image);
     free(s);
     *stage = NULL;
 }
 
-static bool cast(struct kiln_backdrop_stage *stage, struct kiln_error *error)
+static void bind_picture(GLenum unit, const struct kiln_texture *texture)
 {
+    if (!texture->gl)
+        return;
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glBindTexture(GL_TEXTURE_2D, texture->gl);
+    glActiveTexture(GL_TEXTURE0);
+}
+
+static bool cast(struct kiln_backdrop_stage *stage, const struct kiln_draw_shapes *shapes,
+                 struct kiln_error *error)
+{
+    if (!kiln_meshes_draw(stage->meshes, shapes, error))
+        return false;
+    bind_picture(KILN_UNIT_FLOOR, &stage->floor_image);
+    bind_picture(KILN_UNIT_SKY, &stage->sky_image);
     if (!kiln_framebuffer_bind(&stage->cast_framebuffer, error))
         return false;
     glDisable(GL_BLEND);
@@ -209,18 +288,25 @@ static bool cast(struct kiln_backdrop_stage *stage, struct kiln_error *error)
 bool kiln_backdrop_draw(struct kiln_backdrop_stage *stage, const struct kiln_view *view,
                         const struct kiln_lighting *lighting, struct kiln_error *error)
 {
-    struct backdrop_inputs now = {.view = *view, .block = make_block(stage->scene, view->clock.x)};
+    float time_s = view->clock.x;
+    struct backdrop_inputs now = {.view = *view, .block = make_block(stage->scene, time_s)};
+    kiln_shapes_fill(stage->scene, kiln_meshes_loaded(stage->meshes), time_s, &now.shapes);
+    fill_maps(stage, time_s, &now.shapes);
+    if (stage->sky_image.gl)
+        light_by_image(stage, now.shapes.sky_map.y, &now.block);
     add_lighting(&now.block, lighting);
     GLuint view_buffer = kiln_buffer_upload(&stage->view_buffer, &now.view, error);
     GLuint block_buffer = kiln_buffer_upload(&stage->block_buffer, &now.block, error);
-    if (!view_buffer || !block_buffer)
+    GLuint shapes_buffer = kiln_buffer_upload(&stage->shapes_buffer, &now.shapes, error);
+    if (!view_buffer || !block_buffer || !shapes_buffer)
         return false;
     glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_VIEW, view_buffer);
     glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_BACKDROP, block_buffer);
+    glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_SHAPES, shapes_buffer);
     if (stage->has_drawn && same_picture(&now, &stage->drawn))
         return true;
 
-    if (!cast(stage, error))
+    if (!cast(stage, &now.shapes, error))
         return false;
     stage->drawn = now;
     stage->has_drawn = true;

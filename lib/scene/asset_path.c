@@ -65,11 +65,19 @@ static bool climbs_out(const char *path)
     return false;
 }
 
-static bool check_image(struct kiln_reader *reader, const struct kiln_node *node, const char *path,
-                        const char *name)
+typedef bool check_file(const char *path, const char *root, struct kiln_error *error);
+
+static bool check_cells(const char *path, const char *root, struct kiln_error *error)
+{
+    (void)root;
+    return kiln_cells_check(path, error);
+}
+
+static bool check_contents(struct kiln_reader *reader, const struct kiln_node *node,
+                           check_file *check, const char *path, const char *name)
 {
     struct kiln_error error = {0};
-    if (kiln_cells_check(path, &error))
+    if (check(path, reader->scene->asset_root, &error))
         return true;
     /* The scene's own name for it instead of the whole path. */
     size_t length = strlen(path);
@@ -82,8 +90,8 @@ static bool check_image(struct kiln_reader *reader, const struct kiln_node *node
     return false;
 }
 
-static bool read_file_asset(struct kiln_reader *reader, const struct kiln_node *node,
-                            const char **asset)
+bool kiln_read_file_asset(struct kiln_reader *reader, const struct kiln_node *node,
+                          check_file *check, const char **asset)
 {
     const char *root = reader->scene->asset_root;
     char quoted[64];
@@ -110,7 +118,7 @@ static bool read_file_asset(struct kiln_reader *reader, const struct kiln_node *
         kiln_reader_error(reader, node, "'%s' leads outside the asset root", quoted);
     else if (stat(real, &status) != 0 || !S_ISREG(status.st_mode))
         kiln_reader_error(reader, node, "'%s' is not a file", quoted);
-    else if (check_image(reader, node, real, quoted)) {
+    else if (check_contents(reader, node, check, real, quoted)) {
         *asset = kiln_arena_text(reader->arena, real, strlen(real));
         ok = *asset || kiln_reader_out_of_memory(reader);
     }
@@ -122,7 +130,7 @@ bool kiln_read_asset(struct kiln_reader *reader, const struct kiln_node *node, c
 {
     const char *name = kiln_builtin_of(node->text);
     if (!name)
-        return read_file_asset(reader, node, asset);
+        return kiln_read_file_asset(reader, node, check_cells, asset);
     if (kiln_builtin_exists(name)) {
         *asset = kiln_arena_text(reader->arena, node->text, strlen(node->text));
         return *asset || kiln_reader_out_of_memory(reader);

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "asset/mesh.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
@@ -38,8 +39,29 @@ static bool add_file_hash(struct kiln_text *text, const char *path, struct kiln_
     return true;
 }
 
-/* Of the printed scene and of what its textures contain, so that a changed picture is another
- * scene. */
+static bool add_backdrop_hashes(const struct kiln_scene *scene, struct kiln_text *text,
+                                struct kiln_error *error)
+{
+    const struct kiln_backdrop *backdrop = &scene->backdrop;
+    if (backdrop->sky_image && !add_file_hash(text, backdrop->sky_image, error))
+        return false;
+    if (backdrop->floor_image && !add_file_hash(text, backdrop->floor_image, error))
+        return false;
+    for (uint32_t i = 0; i < backdrop->object_count; i++) {
+        const struct kiln_object *object = &backdrop->objects[i];
+        if (object->kind != KILN_OBJECT_MESH)
+            continue;
+        struct kiln_mesh *mesh = kiln_mesh_load(object->file, scene->asset_root, error);
+        if (!mesh)
+            return false;
+        kiln_text_add(text, "%s\n", mesh->hash);
+        kiln_mesh_destroy(&mesh);
+    }
+    return true;
+}
+
+/* Of the printed scene and of what its textures and meshes contain, so that a changed picture is
+ * another scene. */
 static bool take_hash(struct kiln_scene *scene, struct kiln_error *error)
 {
     struct kiln_text text;
@@ -50,6 +72,7 @@ static bool take_hash(struct kiln_scene *scene, struct kiln_error *error)
             read = add_file_hash(&text, look->atlas[k], error);
         read = read && add_file_hash(&text, look->motion, error);
     }
+    read = read && (!ok || add_backdrop_hashes(scene, &text, error));
     ok = ok && !text.failed && kiln_hash_sha256(text.data, text.length, scene->hash);
     kiln_text_free(&text);
     if (!read)

@@ -42,6 +42,8 @@ extern const struct kiln_option_type kiln_type_assets;   /* builtin:name, a path
 extern const struct kiln_option_type kiln_type_motion;   /* a word of `choices` or a path; */
                                                          /* const char * */
 extern const struct kiln_option_type kiln_type_name;     /* of a system; const char * */
+extern const struct kiln_option_type kiln_type_picture;  /* an image's path or none; const char * */
+extern const struct kiln_option_type kiln_type_mesh;     /* a mesh's path; const char * */
 extern const struct kiln_option_type kiln_type_bounds;   /* {min, max} or none; kiln_bounds */
 extern const struct kiln_option_type kiln_type_bursts;   /* {1 s: 100}; kiln_burst[], count */
 extern const struct kiln_option_type kiln_type_value;    /* animated; struct kiln_value */

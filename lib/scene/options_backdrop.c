@@ -1,25 +1,70 @@
 /* Sky, floor, sun, objects and lights. */
 #include "scene/option_rows.h"
 
-#define AT(field) offsetof(struct kiln_box, field)
+#define AT(field) offsetof(struct kiln_object, field)
+
+#define REFLECTANCE                                                                                \
+    COLOR("color", color, 1, TIME, "[0.35, 0.34, 0.33]", "Part of the light that it reflects.")
+
+#define NOT_YET                                                                                    \
+    BOOLEAN("collide", collide, "false", "Must be false: particles bounce off boxes alone so far.")
 
 static const struct kiln_option box[] = {
     VECTOR("center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]", "Centre."),
     VECTOR("size", size, KILN_METRES, 0.001, FAR, TIME, "[1, 1, 1]", "Full edges."),
-    COLOR("color", color, 1, TIME, "[0.35, 0.34, 0.33]", "Part of the light that it reflects."),
+    REFLECTANCE,
     BOOLEAN("collide", collide, "true", "Particles of systems that collide bounce off it."),
     END,
 };
 
+static const struct kiln_option sphere[] = {
+    VECTOR("center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]", "Centre."),
+    VALUE("radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.5 m", "From centre to surface."),
+    REFLECTANCE,
+    NOT_YET,
+    END,
+};
+
+static const struct kiln_option cylinder[] = {
+    VECTOR("center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]", "Centre."),
+    VECTOR("axis", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
+           "Along it; of any length but 0."),
+    VALUE("radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.5 m", "Of its round side."),
+    VALUE("height", height, KILN_METRES, 0.001, FAR, TIME, "1 m", "Along the axis, end to end."),
+    REFLECTANCE,
+    NOT_YET,
+    END,
+};
+
+static const struct kiln_option mesh[] = {
+    {ROW("file", mesh, AT(file), NULL,
+         "Triangles in an OBJ, glTF or GLB file, in metres and y up; its materials are left out.")},
+    VECTOR("position", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",
+           "Where the origin of the file lies."),
+    VECTOR("rotation", rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME, "[0, 0, 0]",
+           "About x, then about y, then about z."),
+    VALUE("scale", scale, KILN_PLAIN, 0.000001, FAR, TIME, "1", "Metres for a unit of the file."),
+    REFLECTANCE,
+    NOT_YET,
+    END,
+};
+
 static const struct kiln_option_kind object_kinds[] = {
-    {.name = "box", .members = box, .help = "A box along the axes."},
+    {.name = "box", .value = KILN_OBJECT_BOX, .members = box, .help = "A box along the axes."},
+    {.name = "sphere", .value = KILN_OBJECT_SPHERE, .members = sphere, .help = "A sphere."},
+    {.name = "cylinder",
+     .value = KILN_OBJECT_CYLINDER,
+     .members = cylinder,
+     .help = "A cylinder with flat ends, along any axis."},
+    {.name = "mesh",
+     .value = KILN_OBJECT_MESH,
+     .members = mesh,
+     .help = "A mesh from a file; a scene has at most 8."},
     {.name = NULL},
 };
 
-static const struct kiln_option object = {.name = "object",
-                                          .type = &kiln_type_kind,
-                                          .kinds = object_kinds,
-                                          .kind_offset = KILN_KIND_NONE};
+static const struct kiln_option object = {
+    .name = "object", .type = &kiln_type_kind, .kinds = object_kinds, .kind_offset = AT(kind)};
 
 #undef AT
 #define AT(field) offsetof(struct kiln_light, field)
@@ -46,6 +91,12 @@ static const struct kiln_option light = {
 static const struct kiln_option sky[] = {
     COLOR("top", sky_top, 1000, TIME, "[0.02, 0.03, 0.05]", "Overhead."),
     COLOR("horizon", sky_horizon, 1000, TIME, "[0.12, 0.13, 0.16]", "At eye level."),
+    {ROW("image", picture, AT(sky_image), "none",
+         "The whole sphere around the scene as one picture, left to right and top to bottom, in "
+         "place of the gradient; its middle lies towards -z. Its averages light the scene.")},
+    VALUE("rotation", sky_rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME, "0 deg",
+          "Turns the image about y."),
+    VALUE("intensity", sky_intensity, KILN_PLAIN, 0, 1000000, TIME, "1", "Factor on the image."),
     END,
 };
 
@@ -56,6 +107,9 @@ static const struct kiln_option floor_rows[] = {
           "May vary only while it does not collide."),
     VALUE("checker", floor_checker, KILN_METRES, 0, FAR, TIME, "0 m",
           "Edge of lighter and darker squares; 0 is plain."),
+    {ROW("image", picture, AT(floor_image), "none",
+         "A picture that repeats, its top towards -z, in place of colour and squares.")},
+    VALUE("tile", floor_tile, KILN_METRES, 0.001, FAR, TIME, "1 m", "Width of the picture."),
     BOOLEAN("collide", floor_collide, "true", "Particles of systems that collide bounce off it."),
     END,
 };
@@ -64,21 +118,23 @@ static const struct kiln_option sun[] = {
     VECTOR("direction", sun_direction, KILN_PLAIN, -FAR, FAR, TIME, "[0.5, 1, 0.3]",
            "Towards the sun; of any length but 0."),
     COLOR("color", sun_color, 1000000, TIME, "[0.8, 0.75, 0.65]", "Its light; 0 for none."),
+    VALUE("size", sun_size, KILN_ANGLE, 0, KILN_DEG(30), TIME, "0 deg",
+          "Its diameter in the sky: the larger, the softer are the edges of shadows."),
     END,
 };
 
 const struct kiln_option kiln_options_backdrop[] = {
     BOOLEAN("transparent", transparent, "false",
             "Pictures with alpha instead of a sky and a floor."),
-    GROUP("sky", 0, sky, "A gradient."),
+    GROUP("sky", 0, sky, "A gradient or an image."),
     {ROW("floor", switch, 0, "{}", "An endless plane."), .members = floor_rows,
      .count_offset = AT(floor_enabled)},
     GROUP("sun", 0, sun, "The one light with a shadow."),
     VALUE("haze", haze, KILN_PER_METRE, 0, 100, TIME, "0.02",
           "How fast the floor fades into the horizon."),
-    {ROW("objects", list, AT(boxes), "[]", "What stands on the floor."), .item = &object,
-     .item_size = sizeof(struct kiln_box), .count_offset = AT(box_count),
-     .max_count = KILN_MAX_BOXES},
+    {ROW("objects", list, AT(objects), "[]", "What stands on the floor."), .item = &object,
+     .item_size = sizeof(struct kiln_object), .count_offset = AT(object_count),
+     .max_count = KILN_MAX_OBJECTS},
     {ROW("lights", list, AT(lights), "[]", "Lights besides the sun."), .item = &light,
      .item_size = sizeof(struct kiln_light), .count_offset = AT(light_count),
      .max_count = KILN_MAX_LIGHTS},

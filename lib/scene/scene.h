@@ -210,9 +210,25 @@ struct kiln_system {
 
 /* ---- the rest -------------------------------------------------------------------------------- */
 
-struct kiln_box {
-    struct kiln_value3 center, size; /* m; clock constant or time */
-    struct kiln_value3 color;        /* albedo */
+enum kiln_object_kind {
+    KILN_OBJECT_BOX, /* along the axes */
+    KILN_OBJECT_SPHERE,
+    KILN_OBJECT_CYLINDER, /* with flat ends */
+    KILN_OBJECT_MESH,
+};
+
+/* Values have the clock constant or time. */
+struct kiln_object {
+    enum kiln_object_kind kind;
+    struct kiln_value3 center;   /* m; of a mesh, where the origin of its file lies */
+    struct kiln_value3 color;    /* albedo */
+    struct kiln_value3 size;     /* m: box, full edges */
+    struct kiln_value radius;    /* m: sphere, cylinder */
+    struct kiln_value height;    /* m: cylinder, along its axis */
+    struct kiln_value3 axis;     /* cylinder: not zero, of any length; constant if it collides */
+    const char *file;            /* mesh: an absolute path */
+    struct kiln_value3 rotation; /* rad: mesh, about x, then y, then z */
+    struct kiln_value scale;     /* mesh: metres for a unit of the file */
     bool collide;
 };
 
@@ -225,15 +241,21 @@ struct kiln_light {
 struct kiln_backdrop {
     bool transparent; /* no sky, no floor: alpha in the output */
     struct kiln_value3 sky_top, sky_horizon;
+    const char *sky_image;           /* equirectangular, an absolute path; NULL: the gradient */
+    struct kiln_value sky_rotation;  /* rad: of the image, about y */
+    struct kiln_value sky_intensity; /* factor on the image */
     bool floor_enabled, floor_collide;
     struct kiln_value3 floor_color;
     struct kiln_value floor_height;   /* m; constant while it collides */
     struct kiln_value floor_checker;  /* m: edge of the squares; 0: plain */
+    const char *floor_image;          /* repeated, an absolute path; NULL: the colour */
+    struct kiln_value floor_tile;     /* m: width of the image */
     struct kiln_value3 sun_direction; /* towards the sun */
     struct kiln_value3 sun_color;     /* irradiance; 0 0 0: none */
+    struct kiln_value sun_size;       /* rad: its diameter; 0: hard shadows */
     struct kiln_value haze;           /* 1/m: floor fades into the horizon */
-    struct kiln_box boxes[KILN_MAX_BOXES];
-    uint32_t box_count;
+    struct kiln_object objects[KILN_MAX_OBJECTS];
+    uint32_t object_count;
     struct kiln_light lights[KILN_MAX_LIGHTS];
     uint32_t light_count;
 };

@@ -119,7 +119,8 @@ static void print_vector(struct kiln_printer *printer, const struct kiln_option 
 {
     const struct kiln_value3 *v = field;
     struct kiln_option bare = *option; /* three units in a row are hard to read */
-    bare.dimension = KILN_PLAIN;
+    if (!kiln_unit_is_required(option->dimension))
+        bare.dimension = KILN_PLAIN;
     if (share_keys(printer->scene, v)) {
         print_shared_keys(printer, &bare, v);
         return;

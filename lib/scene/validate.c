@@ -250,6 +250,41 @@ static bool check_systems(struct kiln_reader *reader, const struct kiln_node *ro
 
 /* ---- the rest ------------------------------------------------------------------------------- */
 
+static const char *object_name(enum kiln_object_kind kind)
+{
+    static const char *const names[] = {
+        [KILN_OBJECT_BOX] = "box",
+        [KILN_OBJECT_SPHERE] = "sphere",
+        [KILN_OBJECT_CYLINDER] = "cylinder",
+        [KILN_OBJECT_MESH] = "mesh",
+    };
+    return names[kind];
+}
+
+static bool check_objects(struct kiln_reader *reader, const struct kiln_node *root)
+{
+    const struct kiln_scene *scene = reader->scene;
+    uint32_t meshes = 0;
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        const struct kiln_object *object = &scene->backdrop.objects[i];
+        const struct kiln_value3 *axis = &object->axis;
+        const char *name = object_name(object->kind);
+        char path[64];
+        snprintf(path, sizeof path, "backdrop.objects.%u.%s.axis", i, name);
+        if (object->kind == KILN_OBJECT_CYLINDER && !at_all_keys(scene, &axis, 1, is_not_zero))
+            return kiln_validate_fail(reader, root, path, "must not be [0, 0, 0]");
+        snprintf(path, sizeof path, "backdrop.objects.%u.%s.collide", i, name);
+        if (object->kind != KILN_OBJECT_BOX && object->collide)
+            return kiln_validate_fail(
+                reader, root, path, "particles do not bounce off a %s yet; it must be false", name);
+        meshes += object->kind == KILN_OBJECT_MESH;
+        if (meshes > KILN_MAX_MESHES)
+            return kiln_validate_fail(reader, root, "backdrop.objects", "more than %d meshes",
+                                      KILN_MAX_MESHES);
+    }
+    return true;
+}
+
 static bool check_backdrop(struct kiln_reader *reader, const struct kiln_node *root)
 {
     const struct kiln_scene *scene = reader->scene;
@@ -261,7 +296,7 @@ static bool check_backdrop(struct kiln_reader *reader, const struct kiln_node *r
         return kiln_validate_fail(
             reader, root, "backdrop.floor.height",
             "cannot vary while the floor collides; set backdrop.floor.collide to false");
-    return true;
+    return check_objects(reader, root);
 }
 
 static bool check_camera(struct kiln_reader *reader, const struct kiln_node *root)

@@ -26,7 +26,7 @@ static_assert(offsetof(struct kiln_colliders, boxes) == 16, "std140");
 static_assert(sizeof(struct kiln_collider) == 64, "std140");
 
 static_assert(KILN_MAX_BIRTH_GROUPS == KILN_MAX_BURSTS + 1, "the rate and each burst");
-static_assert(KILN_MAX_COLLIDERS == KILN_MAX_BOXES + 1, "each box and the floor");
+static_assert(KILN_MAX_COLLIDERS == KILN_MAX_OBJECTS + 1, "each object and the floor");
 
 static_assert(EMIT_POINT == (uint)KILN_EMITTER_POINT && EMIT_SPHERE == (uint)KILN_EMITTER_SPHERE &&
                   EMIT_BOX == (uint)KILN_EMITTER_BOX && EMIT_DISC == (uint)KILN_EMITTER_DISC &&
@@ -179,7 +179,7 @@ static struct kiln_force_params force_at_time(const struct kiln_scene *scene,
 }
 
 /* A box's lower and upper corner. */
-static void box_corners(const struct kiln_scene *scene, const struct kiln_box *box, float time_s,
+static void box_corners(const struct kiln_scene *scene, const struct kiln_object *box, float time_s,
                         float4 *min, float4 *max)
 {
     float3 center = kiln_scene_value3(scene, &box->center, time_s);
@@ -206,12 +206,13 @@ static void fill_colliders(struct kiln_colliders *colliders, const struct kiln_s
     const struct kiln_backdrop *backdrop = &scene->backdrop;
     colliders->count = 0;
     colliders->steps_per_s = (float)((double)scene->rate.num / scene->rate.den);
-    for (uint32_t i = 0; i < backdrop->box_count; i++) {
-        if (!backdrop->boxes[i].collide)
+    for (uint32_t i = 0; i < backdrop->object_count; i++) {
+        const struct kiln_object *object = &backdrop->objects[i];
+        if (!object->collide)
             continue;
         struct kiln_collider *box = &colliders->boxes[colliders->count++];
-        box_corners(scene, &backdrop->boxes[i], start_s, &box->min, &box->max);
-        box_corners(scene, &backdrop->boxes[i], end_s, &box->min_end, &box->max_end);
+        box_corners(scene, object, start_s, &box->min, &box->max);
+        box_corners(scene, object, end_s, &box->min_end, &box->max_end);
     }
     if (backdrop->floor_collide)
         colliders->boxes[colliders->count++] =

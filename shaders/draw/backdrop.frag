@@ -1,16 +1,24 @@
 /* The scene behind the particles, cast analytically: a sky gradient, a floor that fades into the
  * horizon, boxes, one sun with hard shadows, point lights. View-space depth goes to a texture of its
- * own, for soft particles (Heinz 2019, 3.2.1 and 3.2.6).
+ * own, for soft particles (Heinz 2019, 3.2.1 and 3.2.6). What not every scene has is compiled in by
+ * defines: ROUND shapes, MESHES, FLOOR_IMAGE, SKY_IMAGE, SOFT_SUN.
  *
  * Two passes: one ray through the centre of each pixel, which also notes what it hit; then SAMPLES
  * rays a pixel where backdrop_edges.vert finds that neighbours hit different things.
  */
 // variant: SAMPLES=1
 // variant: SAMPLES=4
+// variant: SAMPLES=1 ROUND=1
+// variant: SAMPLES=4 ROUND=1 SOFT_SUN=1
+// variant: SAMPLES=1 MESHES=1
+// variant: SAMPLES=1 ROUND=1 MESHES=1 FLOOR_IMAGE=1 SKY_IMAGE=1 SOFT_SUN=1
+// variant: SAMPLES=4 ROUND=1 MESHES=1 FLOOR_IMAGE=1 SKY_IMAGE=1 SOFT_SUN=1
 #include "shared/draw_layout.h"
+#include "shared/shape_layout.h"
 
 layout(std140, binding = KILN_BIND_VIEW) uniform view_block { kiln_view view; };
 layout(std140, binding = KILN_BIND_BACKDROP) uniform backdrop_block { kiln_draw_backdrop backdrop; };
+layout(std140, binding = KILN_BIND_SHAPES) uniform shape_block { kiln_draw_shapes shapes; };
 
 layout(location = 0) out vec4 out_color;
 #if SAMPLES == 1
@@ -47,7 +55,12 @@ vec3 floor_albedo(vec2 position, vec2 footprint)
     return color * (1.0 + 0.2 * wave.x * wave.y);
 }
 
-hit trace(vec3 origin, vec3 direction)
+#ifdef FLOOR_IMAGE
+#include "draw/floor_image.glsl"
+#endif
+
+/* layer: of the rasterised meshes, those that this ray hits. */
+hit trace(vec3 origin, vec3 direction, int layer)
 {
     hit nearest = hit(FAR, -1, vec3(0.0, 1.0, 0.0), vec3(0.0));
     vec3 inverse = safe_inverse(direction);
@@ -64,6 +77,13 @@ hit trace(vec3 origin, vec3 direction)
         nearest.albedo = backdrop.box_color[found].rgb;
         nearest.surface = 14 + 27 * found + int(dot(nearest.normal, vec3(1.0, 3.0, 9.0)));
     }
+#ifdef ROUND
+    trace_spheres(origin, direction, nearest);
+    trace_cylinders(origin, direction, nearest);
+#endif
+#ifdef MESHES
+    trace_meshes(layer, nearest);
+#endif
     float height = origin.y - backdrop.floor_color.w;
     if (backdrop.floor_params.x > 0.0 && direction.y < -1e-6 && height > 0.0) {
         float t = height / -direction.y;
@@ -73,7 +93,12 @@ hit trace(vec3 origin, vec3 direction)
             vec2 along = abs(direction.xz) / max(length(direction.xz), 1e-6);
             vec2 footprint = pixel * (1.0 + along * length(direction) / -direction.y);
             vec2 position = (origin + direction * t).xz;
-            nearest = hit(t, 0, vec3(0.0, 1.0, 0.0), floor_albedo(position, footprint));
+#ifdef FLOOR_IMAGE
+            vec3 albedo = floor_picture(position, direction, t);
+#else
+            vec3 albedo = floor_albedo(position, footprint);
+#endif
+            nearest = hit(t, 0, vec3(0.0, 1.0, 0.0), albedo);
         }
     }
     return nearest;
@@ -84,27 +109,32 @@ hit trace(vec3 origin, vec3 direction)
 void main()
 {
     vec3 direction = ray_direction(gl_FragCoord.xy);
-    hit h = trace(view.eye.xyz, direction);
+    hit h = trace(view.eye.xyz, direction, 0);
     vec3 point = view.eye.xyz + direction * h.t;
     float sunlit = sun_visibility(point, h.normal);
     out_color = radiance(h, direction, soft_irradiance(h, point),
                          sunlit * sunlight_through_smoke(point));
     out_depth = h.t;
+#ifdef MESHES
+    if (h.surface >= SURFACE_MESHES)
+        h.surface = mark_mesh_edge(h.surface);
+#endif
+#if defined(SOFT_SUN) || defined(MESHES)
+    sunlit = floor(sunlit * 4.0) * 0.25; /* a wide penumbra is no edge */
+#endif
     out_surface = float(2 * h.surface) + (h.surface < 0 ? 0.0 : sunlit);
 }
 
 #else
 
-/* A rotated grid: no two samples share a row or a column. */
-const vec2 SAMPLE_OFFSETS[4] =
-    vec2[](vec2(0.375, 0.125), vec2(0.875, 0.375), vec2(0.125, 0.625), vec2(0.625, 0.875));
+const vec2 SAMPLE_OFFSETS[KILN_EDGE_SAMPLES] = vec2[](KILN_EDGE_OFFSETS(vec2));
 
 void main()
 {
     vec4 sum = vec4(0.0);
     for (int s = 0; s < SAMPLES; s++) {
         vec3 direction = ray_direction(floor(gl_FragCoord.xy) + SAMPLE_OFFSETS[s]);
-        hit h = trace(view.eye.xyz, direction);
+        hit h = trace(view.eye.xyz, direction, 1 + s);
         vec3 point = view.eye.xyz + direction * h.t;
         sum += radiance(h, direction, soft_irradiance(h, point),
                         sun_visibility(point, h.normal) * sunlight_through_smoke(point));

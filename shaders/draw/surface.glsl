@@ -1,11 +1,15 @@
-/* A point of a surface and the light that it sends to the eye: sky, sun with a hard shadow, point
- * lights, haze, less what smoke keeps off. For shaders that have the blocks `view` and `backdrop`. */
+/* A point of a surface and the light that it sends to the eye: sky, sun with its shadow, point lights,
+ * haze, less what smoke keeps off. For shaders that have the blocks `view` and `backdrop`, and
+ * `shapes` with the defines of backdrop.frag. */
 #include "draw/smoke_shadow.glsl"
 
 const float FAR = 1e9;
 const float PI = 3.14159265;
 
-/* The sky's surface is -1, the floor's 0; a face of a box has a number of its own. */
+/* The sky's surface is -1, the floor's 0; a face of a box has a number of its own, below 1000. */
+const int SURFACE_SPHERES = 1000;
+const int SURFACE_CYLINDERS = 1100; /* side and ends */
+const int SURFACE_MESHES = 1200;    /* 4 of each */
 struct hit {
     float t;
     int surface;
@@ -42,9 +46,38 @@ vec2 box_interval(int i, vec3 origin, vec3 inverse)
     return vec2(max(max(near.x, near.y), near.z), min(min(far.x, far.y), far.z));
 }
 
-float sun_visibility(vec3 point, vec3 normal)
+#ifdef SOFT_SUN
+#include "draw/sun_cover.glsl"
+#endif
+#ifdef ROUND
+#include "draw/round.glsl"
+#endif
+#ifdef MESHES
+#include "draw/mesh_trace.glsl"
+#endif
+#ifdef SKY_IMAGE
+#include "draw/sky_image.glsl"
+#endif
+
+/* The sun's light that boxes let through. */
+#ifdef SOFT_SUN
+
+float box_sun_visibility(vec3 origin)
 {
-    vec3 origin = point + normal * 1e-3;
+    float visible = 1.0;
+    vec3 inverse = safe_inverse(backdrop.sun_direction.xyz);
+    for (int i = 0; i < int(backdrop.counts.x); i++) {
+        vec3 center = (backdrop.box_center[i].xyz - origin) * inverse;
+        vec3 extent = backdrop.box_half[i].xyz * abs(inverse);
+        visible *= 1.0 - box_cover(center - extent, center + extent, inverse, shapes.sun_right.w);
+    }
+    return visible;
+}
+
+#else
+
+float box_sun_visibility(vec3 origin)
+{
     vec3 inverse = safe_inverse(backdrop.sun_direction.xyz);
     for (int i = 0; i < int(backdrop.counts.x); i++) {
         vec2 interval = box_interval(i, origin, inverse);
@@ -52,6 +85,21 @@ float sun_visibility(vec3 point, vec3 normal)
             return 0.0;
     }
     return 1.0;
+}
+
+#endif
+
+float sun_visibility(vec3 point, vec3 normal)
+{
+    vec3 origin = point + normal * 1e-3;
+    float visible = box_sun_visibility(origin);
+#ifdef ROUND
+    visible *= round_sun_visibility(origin);
+#endif
+#ifdef MESHES
+    visible *= mesh_sun_visibility(origin, normal);
+#endif
+    return visible;
 }
 
 /* How much of the sky the boxes near a point hide: falls off with the distance in units of the box.
@@ -71,13 +119,31 @@ float sky_visibility(vec3 point, vec3 normal)
             visible *= 1.0 - 0.7 * facing * fall * fall;
         }
     }
+#ifdef ROUND
+    visible *= round_sky_visibility(point, normal);
+#endif
+#ifdef MESHES
+    visible *= mesh_sky_visibility(point, normal);
+#endif
     return visible;
 }
 
 vec3 sky(vec3 direction)
 {
+#ifdef SKY_IMAGE
+    return sky_picture(direction, 2.0 * view.frustum.y / view.frustum.w);
+#endif
     float up = clamp(normalize(direction).y, 0.0, 1.0);
     return mix(backdrop.sky_horizon.rgb, backdrop.sky_top.rgb, 1.0 - exp(-4.0 * up));
+}
+
+/* What the floor fades into far away. */
+vec3 horizon(vec3 direction)
+{
+#ifdef SKY_IMAGE
+    return sky_picture(vec3(direction.x, 0.0, direction.z), 0.1);
+#endif
+    return backdrop.sky_horizon.rgb;
 }
 
 /* What arrives from the sky and the point lights. */
@@ -105,5 +171,5 @@ vec4 radiance(hit h, vec3 direction, vec3 irradiance, float sunlit)
     float facing = max(dot(h.normal, backdrop.sun_direction.xyz), 0.0);
     vec3 color = h.albedo / PI * (irradiance + backdrop.sun_color.rgb * facing * sunlit);
     float clear = transparent ? 1.0 : exp(-backdrop.floor_params.z * h.t * length(direction));
-    return vec4(mix(backdrop.sky_horizon.rgb, color, clear), 1.0);
+    return vec4(mix(horizon(direction), color, clear), 1.0);
 }

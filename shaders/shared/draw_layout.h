@@ -54,9 +54,9 @@ struct kiln_draw_backdrop {
     float4 sun_direction; /* unit, towards the sun */
     float4 sun_color;     /* irradiance */
     uint4 counts;         /* boxes; lights; 1: a transparent background; 1: smoke in the grids */
-    float4 box_center[KILN_MAX_BOXES];
-    float4 box_half[KILN_MAX_BOXES];
-    float4 box_color[KILN_MAX_BOXES];
+    float4 box_center[KILN_MAX_OBJECTS];
+    float4 box_half[KILN_MAX_OBJECTS];
+    float4 box_color[KILN_MAX_OBJECTS];
     S(kiln_draw_light) lights[KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS];
     float4 sun_to_grid[3]; /* rows: world positions to the grids of smoke (smoke_shadow.glsl) */
     float4 sky_to_grid[3];

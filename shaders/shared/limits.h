@@ -8,7 +8,8 @@
 #define KILN_MAX_FORCES    16 /* a system */
 #define KILN_MAX_DEMITTERS 8  /* a system */
 #define KILN_MAX_BURSTS    64 /* a system */
-#define KILN_MAX_BOXES     32 /* a scene */
+#define KILN_MAX_OBJECTS   32 /* a scene */
+#define KILN_MAX_MESHES    8  /* a scene; they count as objects, too */
 #define KILN_MAX_LIGHTS    16 /* a scene */
 
 /* Systems from a first parent to its last descendants. */
@@ -20,7 +21,7 @@
 /* The groups of births of a step: one of the rate and one of each burst. */
 #define KILN_MAX_BIRTH_GROUPS 65
 
-/* Boxes and the floor. */
+/* Objects and the floor. */
 #define KILN_MAX_COLLIDERS 33
 
 /* Uniform blocks of a step. */

@@ -92,10 +92,10 @@ static inline struct kiln_force *fixture_add_force(struct kiln_system *system,
     return force;
 }
 
-static inline struct kiln_box *fixture_add_box(struct scene_fixture *f, float x, float y, float z,
-                                               float width, float height, float depth)
+static inline struct kiln_object *fixture_add_box(struct scene_fixture *f, float x, float y,
+                                                  float z, float width, float height, float depth)
 {
-    struct kiln_box *box = &f->scene.backdrop.boxes[f->scene.backdrop.box_count++];
+    struct kiln_object *box = &f->scene.backdrop.objects[f->scene.backdrop.object_count++];
     box->center = fixture_constant3(x, y, z);
     box->size = fixture_constant3(width, height, depth);
     box->collide = true;
@@ -167,10 +167,10 @@ static inline void fixture_zoo_backdrop(struct scene_fixture *f)
     backdrop->floor_height = fixture_constant(-0.5f);
     fixture_add_box(f, 2.0f, 1.0f, 0.0f, 1.0f, 2.0f, 1.5f);
     fixture_add_box(f, 2.5f, 1.0f, 0.2f, 0.5f, 0.5f, 3.0f);
-    struct kiln_box *moving = fixture_add_box(f, 0.0f, 1.5f, 0.0f, 0.5f, 0.4f, 0.5f);
+    struct kiln_object *moving = fixture_add_box(f, 0.0f, 1.5f, 0.0f, 0.5f, 0.4f, 0.5f);
     moving->center.x = fixture_ramp(f, time, 0.3f, -2.0f, 2.0f, 2.0f);
     moving->center.y = fixture_ramp(f, time, 0.0f, 0.2f, 3.0f, 2.0f);
-    struct kiln_box *growing = fixture_add_box(f, -1.0f, 0.5f, 0.5f, 0.2f, 0.2f, 0.2f);
+    struct kiln_object *growing = fixture_add_box(f, -1.0f, 0.5f, 0.5f, 0.2f, 0.2f, 0.2f);
     growing->size.y = fixture_ramp(f, time, 0.5f, 0.1f, 2.5f, 2.0f);
     fixture_add_box(f, 0.0f, 0.0f, 0.0f, 90.0f, 90.0f, 90.0f)->collide = false;
 }

@@ -101,11 +101,11 @@ static bool inside_any(const struct kiln_scene *scene, float3 p, float time_s)
     const struct kiln_backdrop *b = &scene->backdrop;
     if (b->floor_collide && p.y < kiln_scene_value(scene, &b->floor_height, time_s))
         return true;
-    for (uint32_t i = 0; i < b->box_count; i++) {
-        if (!b->boxes[i].collide)
+    for (uint32_t i = 0; i < b->object_count; i++) {
+        if (!b->objects[i].collide)
             continue;
-        float3 center = kiln_scene_value3(scene, &b->boxes[i].center, time_s);
-        float3 size = kiln_scene_value3(scene, &b->boxes[i].size, time_s);
+        float3 center = kiln_scene_value3(scene, &b->objects[i].center, time_s);
+        float3 size = kiln_scene_value3(scene, &b->objects[i].size, time_s);
         float3 low = float3_add_scaled(center, size, -0.5f);
         float3 high = float3_add_scaled(center, size, 0.5f);
         if (p.x > low.x && p.x < high.x && p.y > low.y && p.y < high.y && p.z > low.z &&
@@ -287,7 +287,7 @@ static void moving_boxes_push(void **state)
 {
     (void)state;
     one_particle(FLOAT3(1, 0, 0), FLOAT3(0, 0.0001f, 0));
-    struct kiln_box *box = fixture_add_box(&fixture, 0, 0, 0, 1, 1, 1);
+    struct kiln_object *box = fixture_add_box(&fixture, 0, 0, 0, 1, 1, 1);
     box->center.x = fixture_ramp(&fixture, KILN_CLOCK_TIME, 0.0f, 0.0f, 1.0f, 10.0f);
     struct kiln_particle p = after(30); /* met at 0.05 s */
     assert_near((double)particle_velocity(p).x, 20.0, 1e-3);
@@ -326,8 +326,8 @@ static void the_trapped_are_freed(void **state)
     assert_near((double)particle_velocity(p).y, 0.5, 1e-6);
 
     one_particle(FLOAT3(0, 0.5f, 0), FLOAT3(0.001f, 0, 0));
-    struct kiln_box *left = fixture_add_box(&fixture, -1, 0, 0, 1.5f, 4, 4);
-    struct kiln_box *right = fixture_add_box(&fixture, 1, 0, 0, 1.5f, 4, 4);
+    struct kiln_object *left = fixture_add_box(&fixture, -1, 0, 0, 1.5f, 4, 4);
+    struct kiln_object *right = fixture_add_box(&fixture, 1, 0, 0, 1.5f, 4, 4);
     left->center.x = fixture_ramp(&fixture, KILN_CLOCK_TIME, 0, -1, 0.1f, -0.7f);
     right->center.x = fixture_ramp(&fixture, KILN_CLOCK_TIME, 0, 1, 0.1f, 0.7f);
     p = after(10);

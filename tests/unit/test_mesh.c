@@ -226,11 +226,10 @@ static void cut_files_are_refused(void **state)
     long size = 0;
     FILE *file = fopen(KILN_SOURCE_DIR "/tests/fuzz/corpus/mesh/good/tetrahedron.glb", "rb");
     assert_non_null(file);
-    assert_true(fseek(file, 0, SEEK_END) == 0 && (size = ftell(file)) > 64);
-    rewind(file);
-    glb = malloc((size_t)size);
+    glb = malloc(65536);
     assert_non_null(glb);
-    assert_int_equal(fread(glb, (size_t)size, 1, file), 1);
+    size = (long)fread(glb, 1, 65536, file);
+    assert_true(size > 64 && size < 65536);
     fclose(file);
     struct kiln_error error = {0};
     struct kiln_mesh *mesh = kiln_mesh_parse(glb, (size_t)size, "whole.glb", &error);
@@ -257,7 +256,7 @@ static void large_files_are_refused(void **state)
     const char *corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     char *text = malloc(strlen(corners) + faces * length + 1);
     assert_non_null(text);
-    strcpy(text, corners);
+    memcpy(text, corners, strlen(corners));
     for (size_t i = 0; i < faces; i++)
         memcpy(text + strlen(corners) + i * length, face, length + 1);
     refuse_text(text, "many.obj", "3 vertices and 1048577 faces; allowed are 1048576 ");

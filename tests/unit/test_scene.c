@@ -46,7 +46,7 @@ static void example_loads(void **state)
     assert_false(fire->collide.enabled);
     assert_int_equal(fire->look.blend, KILN_BLEND_ADD);
     assert_int_equal(fire->emit.rate.clock, KILN_CLOCK_TIME);
-    assert_int_equal(scene->backdrop.box_count, 1);
+    assert_int_equal(scene->backdrop.object_count, 1);
     assert_true(scene->backdrop.floor_enabled);
     assert_int_equal(scene->post.tonemap, KILN_TONEMAP_AGX);
     kiln_scene_destroy(&scene);
@@ -84,9 +84,9 @@ static void every_key_of_the_backdrop_arrives(void **state)
     assert_true(backdrop->sky_top.z.constant == 0.01f);
     assert_true(backdrop->floor_checker.constant == 0.25f);
     assert_true(backdrop->haze.constant == 0.5f);
-    assert_int_equal(backdrop->box_count, 2);
-    assert_true(backdrop->boxes[0].size.z.constant == 0.5f && !backdrop->boxes[0].collide);
-    assert_true(backdrop->boxes[1].size.z.constant == 1 && backdrop->boxes[1].collide);
+    assert_int_equal(backdrop->object_count, 2);
+    assert_true(backdrop->objects[0].size.z.constant == 0.5f && !backdrop->objects[0].collide);
+    assert_true(backdrop->objects[1].size.z.constant == 1 && backdrop->objects[1].collide);
     assert_int_equal(backdrop->light_count, 1);
     assert_true(backdrop->lights[0].radius.constant == 0.05f);
 

@@ -225,6 +225,42 @@ static void asset_root_may_be_given(void **state)
     kiln_scene_destroy(&scene);
 }
 
+static struct kiln_scene *load_with_mesh(const char *mesh)
+{
+    static const char text[] =
+        "kiln: 1\nbackdrop: {objects: [{mesh: {file: textures/m.obj, scale: 2}}]}\n";
+    write_file("scenes/m.yaml", text, sizeof text - 1);
+    write_file("scenes/textures/m.obj", mesh, strlen(mesh));
+    struct kiln_scene *scene = load_scene_file("scenes/m.yaml");
+    assert_int_equal(scene->backdrop.object_count, 1);
+    assert_int_equal(scene->backdrop.objects[0].kind, KILN_OBJECT_MESH);
+    return scene;
+}
+
+/* A broken mesh is an error at its place; what a good one contains belongs to the hash. */
+static void meshes_are_checked_and_hashed(void **state)
+{
+    (void)state;
+    const char *corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    struct kiln_scene *scene = load_with_mesh(corners);
+    struct kiln_scene *same = load_with_mesh(corners);
+    struct kiln_scene *moved = load_with_mesh("v 0 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\n");
+    assert_string_equal(scene->hash, same->hash);
+    assert_string_not_equal(scene->hash, moved->hash);
+    kiln_scene_destroy(&scene);
+    kiln_scene_destroy(&same);
+    kiln_scene_destroy(&moved);
+
+    write_file("scenes/textures/m.obj", "v 0 0 0\n", 8);
+    struct kiln_error error = {0};
+    assert_null(kiln_scene_load("scenes/m.yaml", &KILN_SCENE_DEFAULTS, &error));
+    assert_int_equal(error.code, KILN_INVALID_INPUT);
+    const char *start = "scenes/m.yaml:2:38: backdrop.objects.0.mesh.file: 'textures/m.obj': the "
+                        "mesh is broken";
+    if (strncmp(error.message, start, strlen(start)) != 0)
+        fail_msg("%s", error.message);
+}
+
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, enter_folder, leave_folder)
 
 int main(void)
@@ -232,7 +268,7 @@ int main(void)
     static const struct CMUnitTest tests[] = {
         IN_FOLDER(files_that_are_no_scenes),    IN_FOLDER(huge_files_are_refused_early),
         IN_FOLDER(assets_stay_below_the_scene), IN_FOLDER(assets_must_be_pictures),
-        IN_FOLDER(asset_root_may_be_given),
+        IN_FOLDER(asset_root_may_be_given),     IN_FOLDER(meshes_are_checked_and_hashed),
     };
     return cmocka_run_group_tests_name("scene_files", tests, NULL, NULL);
 }

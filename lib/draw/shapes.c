@@ -1,0 +1,133 @@
+/* Scene values at a time into the block that shaders read. Pictures alone depend on it. */
+#include "draw/shapes.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdio.h>
+
+static_assert(sizeof(struct kiln_draw_mesh) == 96, "std140");
+static_assert(offsetof(struct kiln_draw_shapes, spheres) == 80, "std140");
+static_assert(offsetof(struct kiln_draw_shapes, meshes) == 80 + 80 * KILN_MAX_OBJECTS, "std140");
+static_assert(sizeof(struct kiln_draw_shapes) == 80 + 80 * KILN_MAX_OBJECTS + 96 * KILN_MAX_MESHES,
+              "std140, and no padding, which the backdrop would compare");
+
+struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
+{
+    const struct kiln_backdrop *backdrop = &scene->backdrop;
+    struct kiln_shape_features features = {
+        .floor_image = backdrop->floor_image != NULL,
+        .sky_image = backdrop->sky_image != NULL,
+        .soft_sun = kiln_scene_value_max(scene, &backdrop->sun_size) > 0.0f,
+    };
+    for (uint32_t i = 0; i < backdrop->object_count; i++) {
+        enum kiln_object_kind kind = backdrop->objects[i].kind;
+        features.round |= kind == KILN_OBJECT_SPHERE || kind == KILN_OBJECT_CYLINDER;
+        features.meshes |= kind == KILN_OBJECT_MESH;
+    }
+    return features;
+}
+
+void kiln_shape_defines(const struct kiln_shape_features *features, int samples, char out[160])
+{
+    snprintf(out, 160, "#define SAMPLES %d\n%s%s%s%s%s", samples,
+             features->round ? "#define ROUND 1\n" : "",
+             features->meshes ? "#define MESHES 1\n" : "",
+             features->floor_image ? "#define FLOOR_IMAGE 1\n" : "",
+             features->sky_image ? "#define SKY_IMAGE 1\n" : "",
+             features->soft_sun ? "#define SOFT_SUN 1\n" : "");
+}
+
+static float4 with_w(float3 v, float w)
+{
+    return (float4){v.x, v.y, v.z, w};
+}
+
+static float3 cross(float3 a, float3 b)
+{
+    return (float3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+static float3 normalized(float3 v)
+{
+    float length = sqrtf(v.x * v.x + v.y * v.y + v.z * v.z);
+    if (!(length > 0.0f))
+        return (float3){0.0f, 1.0f, 0.0f};
+    return (float3){v.x / length, v.y / length, v.z / length};
+}
+
+static void fill_sun(const struct kiln_scene *scene, float time_s, struct kiln_draw_shapes *shapes)
+{
+    const struct kiln_backdrop *backdrop = &scene->backdrop;
+    float3 sun = normalized(kiln_scene_value3(scene, &backdrop->sun_direction, time_s));
+    float3 aside = fabsf(sun.y) < 0.9f ? (float3){0.0f, 1.0f, 0.0f} : (float3){1.0f, 0.0f, 0.0f};
+    float3 right = normalized(cross(aside, sun));
+    float radius = 0.5f * kiln_scene_value(scene, &backdrop->sun_size, time_s);
+    shapes->sun_right = with_w(right, tanf(radius));
+    shapes->sun_up = with_w(cross(sun, right), tanf(radius));
+}
+
+/* Rows of the rotation about x, then y, then z. */
+static void rotation_rows(float3 angles, float rows[3][3])
+{
+    float sx = sinf(angles.x), cx = cosf(angles.x), sy = sinf(angles.y), cy = cosf(angles.y);
+    float sz = sinf(angles.z), cz = cosf(angles.z);
+    const float r[3][3] = {{cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx},
+                           {sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx},
+                           {-sy, cy * sx, cy * cx}};
+    for (int i = 0; i < 9; i++)
+        rows[i / 3][i % 3] = r[i / 3][i % 3];
+}
+
+static void fill_mesh(const struct kiln_scene *scene, const struct kiln_object *object,
+                      const struct kiln_mesh *mesh, float time_s, struct kiln_draw_mesh *out)
+{
+    float3 at = kiln_scene_value3(scene, &object->center, time_s);
+    const float position[3] = {at.x, at.y, at.z};
+    float scale = kiln_scene_value(scene, &object->scale, time_s);
+    float rows[3][3], center[3], half_size[3], radius2 = 0.0f;
+    rotation_rows(kiln_scene_value3(scene, &object->rotation, time_s), rows);
+    for (int i = 0; i < 3; i++) {
+        center[i] = position[i];
+        half_size[i] = 0.0f;
+        for (int c = 0; c < 3; c++) {
+            rows[i][c] *= scale;
+            center[i] += rows[i][c] * 0.5f * (mesh->min[c] + mesh->max[c]);
+            half_size[i] += fabsf(rows[i][c]) * 0.5f * (mesh->max[c] - mesh->min[c]);
+        }
+        float half_edge = scale * 0.5f * (mesh->max[i] - mesh->min[i]);
+        radius2 += half_edge * half_edge;
+        out->to_world[i] = (float4){rows[i][0], rows[i][1], rows[i][2], position[i]};
+    }
+    out->color = with_w(kiln_scene_value3(scene, &object->color, time_s), 0.0f);
+    out->center = (float4){center[0], center[1], center[2], fmaxf(sqrtf(radius2), 1e-6f)};
+    out->half_size = (float4){half_size[0], half_size[1], half_size[2], 0.0f};
+}
+
+void kiln_shapes_fill(const struct kiln_scene *scene, struct kiln_mesh *const *meshes, float time_s,
+                      struct kiln_draw_shapes *shapes)
+{
+    *shapes = (struct kiln_draw_shapes){.counts = {0, 0, 0, 0}};
+    fill_sun(scene, time_s, shapes);
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        const struct kiln_object *object = &scene->backdrop.objects[i];
+        float3 center = kiln_scene_value3(scene, &object->center, time_s);
+        float4 color = with_w(kiln_scene_value3(scene, &object->color, time_s), 0.0f);
+        float radius = kiln_scene_value(scene, &object->radius, time_s);
+        if (object->kind == KILN_OBJECT_SPHERE) {
+            uint k = shapes->counts.x++;
+            shapes->spheres[k] = with_w(center, radius);
+            shapes->sphere_color[k] = color;
+        } else if (object->kind == KILN_OBJECT_CYLINDER) {
+            uint k = shapes->counts.y++;
+            float3 axis = normalized(kiln_scene_value3(scene, &object->axis, time_s));
+            shapes->cylinders[k] = with_w(center, radius);
+            shapes->cylinder_axis[k] =
+                with_w(axis, 0.5f * kiln_scene_value(scene, &object->height, time_s));
+            shapes->cylinder_color[k] = color;
+        } else if (object->kind == KILN_OBJECT_MESH) {
+            uint k = shapes->counts.z++;
+            fill_mesh(scene, object, meshes[k], time_s, &shapes->meshes[k]);
+        }
+    }
+}

@@ -1,0 +1,23 @@
+/* The block of the backdrop's spheres, cylinders, meshes and pictures. */
+#ifndef KILN_DRAW_SHAPES_H
+#define KILN_DRAW_SHAPES_H
+
+#include "asset/mesh.h"
+#include "scene/scene.h"
+#include "shared/shape_layout.h"
+
+/* What a scene needs of the shaders; sets of these choose a variant. */
+struct kiln_shape_features {
+    bool round, meshes, floor_image, sky_image, soft_sun;
+};
+struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene);
+
+/* The "#define" lines of the variant, SAMPLES rays a pixel; for kiln_program_params. */
+void kiln_shape_defines(const struct kiln_shape_features *features, int samples, char out[160]);
+
+/* Spheres, cylinders, meshes and the sun's frame at a clip time; meshes are in the scene's order.
+ * The pictures' maps are left 0. */
+void kiln_shapes_fill(const struct kiln_scene *scene, struct kiln_mesh *const *meshes, float time_s,
+                      struct kiln_draw_shapes *shapes);
+
+#endif

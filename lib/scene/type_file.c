@@ -1,0 +1,95 @@
+/* Files that a scene names: picture, mesh. */
+#include <string.h>
+
+#include "asset/image.h"
+#include "asset/mesh.h"
+#include "scene/asset_path.h"
+#include "scene/printer.h"
+#include "scene/reader.h"
+
+static bool is_none(const struct kiln_node *node)
+{
+    return node->kind == KILN_NODE_SCALAR && strcmp(node->text, "none") == 0;
+}
+
+static bool read_file(struct kiln_reader *reader, const struct kiln_option *option,
+                      const struct kiln_node *node,
+                      bool (*check)(const char *, const char *, struct kiln_error *),
+                      const char **file)
+{
+    double number;
+    bool is_text = node->kind == KILN_NODE_SCALAR && *node->text &&
+                   (node->quoted || !kiln_text_to_double(node->text, &number));
+    if (!is_text)
+        return kiln_reader_mismatch(reader, option, node);
+    return kiln_read_file_asset(reader, node, check, file);
+}
+
+static void print_file(struct kiln_printer *printer, const struct kiln_option *option,
+                       const void *field)
+{
+    (void)option;
+    const char *file = *(const char *const *)field;
+    kiln_text_add(&printer->text, " ");
+    if (file)
+        kiln_text_add_json(&printer->text, kiln_asset_name(printer->scene, file));
+    else
+        kiln_text_add(&printer->text, "none");
+    kiln_text_add(&printer->text, "\n");
+}
+
+static void schema_file(const struct kiln_option *option, struct kiln_text *out)
+{
+    (void)option;
+    kiln_text_add(out, "{\"type\": \"string\", \"pattern\": \"^(?!/).+$\"}");
+}
+
+/* ---- picture --------------------------------------------------------------------------------- */
+
+static bool check_picture(const char *path, const char *root, struct kiln_error *error)
+{
+    (void)root;
+    return kiln_asset_image_check(path, error);
+}
+
+static bool read_picture(struct kiln_reader *reader, const struct kiln_option *option,
+                         const struct kiln_node *node, void *field)
+{
+    const char **picture = field;
+    *picture = NULL;
+    return is_none(node) || read_file(reader, option, node, check_picture, picture);
+}
+
+static void describe_picture(const struct kiln_option *option, struct kiln_text *out)
+{
+    (void)option;
+    kiln_text_add(out, "the path of an image file, from the scene's folder and inside it, or none");
+}
+
+const struct kiln_option_type kiln_type_picture = {read_picture, print_file, describe_picture,
+                                                   schema_file};
+
+/* ---- mesh ------------------------------------------------------------------------------------ */
+
+static bool check_mesh(const char *path, const char *root, struct kiln_error *error)
+{
+    struct kiln_mesh *mesh = kiln_mesh_load(path, root, error);
+    bool good = mesh != NULL;
+    kiln_mesh_destroy(&mesh);
+    return good;
+}
+
+static bool read_mesh(struct kiln_reader *reader, const struct kiln_option *option,
+                      const struct kiln_node *node, void *field)
+{
+    return read_file(reader, option, node, check_mesh, field);
+}
+
+static void describe_mesh(const struct kiln_option *option, struct kiln_text *out)
+{
+    (void)option;
+    kiln_text_add(out, "the path of an OBJ, glTF or GLB file, from the scene's folder and inside "
+                       "it");
+}
+
+const struct kiln_option_type kiln_type_mesh = {read_mesh, print_file, describe_mesh, schema_file};

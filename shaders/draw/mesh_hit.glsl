@@ -1,0 +1,31 @@
+/* How a mesh's fragment is kept for the backdrop: its depth, and its number with its normal, an
+ * octahedron unfolded into 2 x 14 bits. */
+
+uvec2 pack_mesh_hit(float depth, int mesh, vec3 normal)
+{
+    vec3 n = normal / (abs(normal.x) + abs(normal.y) + abs(normal.z));
+    vec2 folded = (1.0 - abs(n.yx)) * vec2(n.x < 0.0 ? -1.0 : 1.0, n.y < 0.0 ? -1.0 : 1.0);
+    vec2 flat_normal = n.z < 0.0 ? folded : n.xy;
+    uvec2 bits = uvec2(clamp(flat_normal * 0.5 + 0.5, 0.0, 1.0) * 16383.0 + 0.5);
+    return uvec2(floatBitsToUint(depth), uint(mesh + 1) << 28 | bits.x << 14 | bits.y);
+}
+
+float mesh_hit_depth(uvec2 packed_hit)
+{
+    return uintBitsToFloat(packed_hit.x);
+}
+
+/* -1 where there is none. */
+int mesh_hit_index(uvec2 packed_hit)
+{
+    return int(packed_hit.y >> 28) - 1;
+}
+
+vec3 mesh_hit_normal(uvec2 packed_hit)
+{
+    vec2 p = vec2(packed_hit.y >> 14 & 16383u, packed_hit.y & 16383u) / 16383.0 * 2.0 - 1.0;
+    float z = 1.0 - abs(p.x) - abs(p.y);
+    float fold = max(-z, 0.0);
+    vec2 xy = p - vec2(p.x < 0.0 ? -fold : fold, p.y < 0.0 ? -fold : fold);
+    return normalize(vec3(xy, z));
+}

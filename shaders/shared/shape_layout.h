@@ -1,0 +1,49 @@
+/* What the backdrop has beyond sky, floor and boxes: one more uniform block, laid out like those of
+ * draw_layout.h. Scenes without any of it run shaders without it.
+ */
+#ifndef KILN_SHARED_SHAPE_LAYOUT_H
+#define KILN_SHARED_SHAPE_LAYOUT_H
+
+#include "shared/limits.h"
+#include "shared/platform.h"
+
+#define KILN_BIND_SHAPES 4 /* a uniform block */
+
+/* Texture units of the backdrop. */
+#define KILN_UNIT_SURFACES    0
+#define KILN_UNIT_MESH_HITS   1 /* what the rays of a pixel hit: its centre, then its samples */
+#define KILN_UNIT_MESH_SHADOW 2 /* a layer a mesh, as the sun sees it */
+#define KILN_UNIT_FLOOR       3
+#define KILN_UNIT_SKY         4
+
+/* Rays of a pixel at an edge: a rotated grid, in which no two share a row or a column. */
+#define KILN_EDGE_SAMPLES 4
+#define KILN_EDGE_OFFSETS(pair)                                                                    \
+    pair(0.375f, 0.125f), pair(0.875f, 0.375f), pair(0.125f, 0.625f), pair(0.625f, 0.875f)
+
+/* Edge of a mesh's shadow map, texels; a mesh fills all of them but a border. */
+#define KILN_SHADOW_EDGE   1024
+#define KILN_SHADOW_MARGIN 0.01f /* border, in parts of the half edge */
+
+struct kiln_draw_mesh {
+    float4 to_world[3]; /* rows */
+    float4 color;
+    float4 center;    /* of its bounds in the world, m; w: radius of the sphere around them */
+    float4 half_size; /* m */
+};
+
+struct kiln_draw_shapes {
+    uint4 counts;     /* spheres, cylinders, meshes, unused */
+    float4 sun_right; /* unit, across the sun's direction; w: tangent of the sun's radius */
+    float4 sun_up;    /* the same */
+    float4 floor_map; /* repetitions a metre in x and z, texels a metre in x; unused */
+    float4 sky_map;   /* turn, parts of a circle; factor; texels a radian; unused */
+    float4 spheres[KILN_MAX_OBJECTS]; /* centre; w: radius */
+    float4 sphere_color[KILN_MAX_OBJECTS];
+    float4 cylinders[KILN_MAX_OBJECTS];     /* centre; w: radius */
+    float4 cylinder_axis[KILN_MAX_OBJECTS]; /* unit; w: half of the height */
+    float4 cylinder_color[KILN_MAX_OBJECTS];
+    S(kiln_draw_mesh) meshes[KILN_MAX_MESHES];
+};
+
+#endif
