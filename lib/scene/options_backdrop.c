@@ -6,9 +6,6 @@
 #define REFLECTANCE                                                                                \
     COLOR("color", color, 1, TIME, "[0.35, 0.34, 0.33]", "Part of the light that it reflects.")
 
-#define NOT_YET                                                                                    \
-    BOOLEAN("collide", collide, "false", "Must be false: particles bounce off boxes alone so far.")
-
 static const struct kiln_option box[] = {
     VECTOR("center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]", "Centre."),
     VECTOR("size", size, KILN_METRES, 0.001, FAR, TIME, "[1, 1, 1]", "Full edges."),
@@ -21,18 +18,18 @@ static const struct kiln_option sphere[] = {
     VECTOR("center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]", "Centre."),
     VALUE("radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.5 m", "From centre to surface."),
     REFLECTANCE,
-    NOT_YET,
+    BOOLEAN("collide", collide, "true", "Particles of systems that collide bounce off it."),
     END,
 };
 
 static const struct kiln_option cylinder[] = {
     VECTOR("center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]", "Centre."),
     VECTOR("axis", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
-           "Along it; of any length but 0."),
+           "Along it; of any length but 0. May vary only while it does not collide."),
     VALUE("radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.5 m", "Of its round side."),
     VALUE("height", height, KILN_METRES, 0.001, FAR, TIME, "1 m", "Along the axis, end to end."),
     REFLECTANCE,
-    NOT_YET,
+    BOOLEAN("collide", collide, "true", "Particles of systems that collide bounce off it."),
     END,
 };
 
@@ -45,7 +42,7 @@ static const struct kiln_option mesh[] = {
            "About x, then about y, then about z."),
     VALUE("scale", scale, KILN_PLAIN, 0.000001, FAR, TIME, "1", "Metres for a unit of the file."),
     REFLECTANCE,
-    NOT_YET,
+    BOOLEAN("collide", collide, "false", "Must be false: particles do not bounce off meshes yet."),
     END,
 };
 

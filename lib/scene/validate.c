@@ -250,15 +250,9 @@ static bool check_systems(struct kiln_reader *reader, const struct kiln_node *ro
 
 /* ---- the rest ------------------------------------------------------------------------------- */
 
-static const char *object_name(enum kiln_object_kind kind)
+static bool is_constant(const struct kiln_value3 *value)
 {
-    static const char *const names[] = {
-        [KILN_OBJECT_BOX] = "box",
-        [KILN_OBJECT_SPHERE] = "sphere",
-        [KILN_OBJECT_CYLINDER] = "cylinder",
-        [KILN_OBJECT_MESH] = "mesh",
-    };
-    return names[kind];
+    return value->x.count == 0 && value->y.count == 0 && value->z.count == 0;
 }
 
 static bool check_objects(struct kiln_reader *reader, const struct kiln_node *root)
@@ -268,17 +262,22 @@ static bool check_objects(struct kiln_reader *reader, const struct kiln_node *ro
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
         const struct kiln_object *object = &scene->backdrop.objects[i];
         const struct kiln_value3 *axis = &object->axis;
-        const char *name = object_name(object->kind);
+        bool cylinder = object->kind == KILN_OBJECT_CYLINDER;
         char path[64];
-        snprintf(path, sizeof path, "backdrop.objects.%u.%s.axis", i, name);
-        if (object->kind == KILN_OBJECT_CYLINDER && !at_all_keys(scene, &axis, 1, is_not_zero))
+        snprintf(path, sizeof path, "backdrop.objects.%u.cylinder.axis", i);
+        if (cylinder && !at_all_keys(scene, &axis, 1, is_not_zero))
             return kiln_validate_fail(reader, root, path, "must not be [0, 0, 0]");
-        snprintf(path, sizeof path, "backdrop.objects.%u.%s.collide", i, name);
-        if (object->kind != KILN_OBJECT_BOX && object->collide)
+        if (cylinder && object->collide && !is_constant(axis))
             return kiln_validate_fail(
-                reader, root, path, "particles do not bounce off a %s yet; it must be false", name);
-        meshes += object->kind == KILN_OBJECT_MESH;
-        if (meshes > KILN_MAX_MESHES)
+                reader, root, path,
+                "cannot vary while the cylinder collides; set its collide to false");
+        if (object->kind != KILN_OBJECT_MESH)
+            continue;
+        snprintf(path, sizeof path, "backdrop.objects.%u.mesh.collide", i);
+        if (object->collide)
+            return kiln_validate_fail(reader, root, path,
+                                      "meshes do not collide yet; it must be false");
+        if (++meshes > KILN_MAX_MESHES)
             return kiln_validate_fail(reader, root, "backdrop.objects", "more than %d meshes",
                                       KILN_MAX_MESHES);
     }

@@ -14,16 +14,29 @@ static bool has_families(const struct kiln_sim_params *params)
     return any;
 }
 
-static bool create_programs(struct kiln_inplace *inplace, const struct kiln_sim_params *params,
-                            struct kiln_error *error)
+static bool has_round_colliders(const struct kiln_scene *scene)
 {
-    inplace->step_program = kiln_program_create(
-        inplace->device, &(struct kiln_program_params){.compute = "sim/inplace.comp"}, error);
+    bool any = false;
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        const struct kiln_object *object = &scene->backdrop.objects[i];
+        any = any || (object->collide && object->kind != KILN_OBJECT_BOX);
+    }
+    return any;
+}
+
+static bool create_programs(struct kiln_inplace *inplace, const struct kiln_scene *scene,
+                            const struct kiln_sim_params *params, struct kiln_error *error)
+{
+    struct kiln_program_params program = {
+        .compute = "sim/inplace.comp",
+        .defines = has_round_colliders(scene) ? "#define COLLIDE_ROUND 1\n" : NULL,
+    };
+    inplace->step_program = kiln_program_create(inplace->device, &program, error);
     if (!inplace->step_program)
         return false;
     if (has_families(params)) {
-        inplace->family_program = kiln_program_create(
-            inplace->device, &(struct kiln_program_params){.compute = "sim/family.comp"}, error);
+        program.compute = "sim/family.comp";
+        inplace->family_program = kiln_program_create(inplace->device, &program, error);
         if (!inplace->family_program)
             return false;
     }
@@ -51,7 +64,7 @@ bool kiln_inplace_init(struct kiln_inplace *inplace, struct kiln_device *device,
         return kiln_error_set(error, KILN_USAGE,
                               "simulate=inplace: %s does not compute exactly; use simulate=cpu",
                               device->info.name);
-    if (!create_programs(inplace, params, error))
+    if (!create_programs(inplace, scene, params, error))
         return false;
     inplace->step_stride = step_stride();
     kiln_buffer_init(&inplace->keys, device, KILN_MAX_VALUE_KEYS * sizeof(float4), "value keys");

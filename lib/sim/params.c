@@ -23,7 +23,7 @@ static_assert(offsetof(struct kiln_step_params, family) == 4272, "std140");
 static_assert(sizeof(struct kiln_step_params) == 4320, "std140");
 static_assert(sizeof(struct kiln_trace) == 112, "std430");
 static_assert(offsetof(struct kiln_colliders, boxes) == 16, "std140");
-static_assert(sizeof(struct kiln_collider) == 64, "std140");
+static_assert(sizeof(struct kiln_collider) == 128, "std140");
 
 static_assert(KILN_MAX_BIRTH_GROUPS == KILN_MAX_BURSTS + 1, "the rate and each burst");
 static_assert(KILN_MAX_COLLIDERS == KILN_MAX_OBJECTS + 1, "each object and the floor");
@@ -190,6 +190,67 @@ static void box_corners(const struct kiln_scene *scene, const struct kiln_object
     *max = FLOAT4(high.x, high.y, high.z, 0.0f);
 }
 
+static float4 canon4(float3 v, float w)
+{
+    return FLOAT4(exact_canon(v.x), exact_canon(v.y), exact_canon(v.z), exact_canon(w));
+}
+
+/* A round shape at a time: its centre and radius, half of its height, and what bounds it. */
+struct round_values {
+    float4 center;
+    float half_height;
+    float4 min, max;
+};
+
+static struct round_values round_values(const struct kiln_scene *scene,
+                                        const struct kiln_object *object, float3 axis, float time_s)
+{
+    float3 center = kiln_scene_value3(scene, &object->center, time_s);
+    float radius = kiln_scene_value(scene, &object->radius, time_s);
+    float half = 0.0f;
+    if (object->kind == KILN_OBJECT_CYLINDER)
+        half = 0.5f * kiln_scene_value(scene, &object->height, time_s);
+    float3 reach = FLOAT3(radius + half * exact_abs(axis.x), radius + half * exact_abs(axis.y),
+                          radius + half * exact_abs(axis.z));
+    return (struct round_values){.center = canon4(center, radius),
+                                 .half_height = exact_canon(half),
+                                 .min = canon4(float3_sub(center, reach), 0.0f),
+                                 .max = canon4(float3_add(center, reach), 0.0f)};
+}
+
+static struct kiln_collider round_collider(const struct kiln_scene *scene,
+                                           const struct kiln_object *object, float start_s,
+                                           float end_s)
+{
+    float3 axis = FLOAT3(0.0f, 0.0f, 0.0f);
+    if (object->kind == KILN_OBJECT_CYLINDER) /* it does not vary */
+        axis = float3_normalize(kiln_scene_value3(scene, &object->axis, start_s),
+                                FLOAT3(0.0f, 1.0f, 0.0f));
+    struct round_values start = round_values(scene, object, axis, start_s);
+    struct round_values end = round_values(scene, object, axis, end_s);
+    return (struct kiln_collider){
+        .min = start.min,
+        .max = start.max,
+        .min_end = end.min,
+        .max_end = end.max,
+        .center = start.center,
+        .center_end = end.center,
+        .axis = canon4(axis, start.half_height),
+        .kind = object->kind == KILN_OBJECT_SPHERE ? COLLIDER_SPHERE : COLLIDER_CYLINDER,
+        .half_height_end = end.half_height,
+    };
+}
+
+static struct kiln_collider box_collider(const struct kiln_scene *scene,
+                                         const struct kiln_object *object, float start_s,
+                                         float end_s)
+{
+    struct kiln_collider box = {.kind = COLLIDER_BOX};
+    box_corners(scene, object, start_s, &box.min, &box.max);
+    box_corners(scene, object, end_s, &box.min_end, &box.max_end);
+    return box;
+}
+
 static struct kiln_collider floor_collider(float before_m, float after_m)
 {
     return (struct kiln_collider){
@@ -210,9 +271,9 @@ static void fill_colliders(struct kiln_colliders *colliders, const struct kiln_s
         const struct kiln_object *object = &backdrop->objects[i];
         if (!object->collide)
             continue;
-        struct kiln_collider *box = &colliders->boxes[colliders->count++];
-        box_corners(scene, object, start_s, &box->min, &box->max);
-        box_corners(scene, object, end_s, &box->min_end, &box->max_end);
+        colliders->boxes[colliders->count++] = object->kind == KILN_OBJECT_BOX
+                                                   ? box_collider(scene, object, start_s, end_s)
+                                                   : round_collider(scene, object, start_s, end_s);
     }
     if (backdrop->floor_collide)
         colliders->boxes[colliders->count++] =

@@ -1,5 +1,5 @@
 /* Collision with axis-aligned boxes and the floor (Heinz 2019, 3.5), which is one more box, high at
- * its top and without end in all other directions.
+ * its top and without end in all other directions; and with round shapes (shared/collide_round.h).
  *
  * Swept: the path of the step is a segment, and each of a box's six faces moves evenly during the
  * step, so the distance to it changes evenly along the path; the particle is inside while all six
@@ -10,152 +10,18 @@
 #ifndef KILN_SHARED_COLLIDE_H
 #define KILN_SHARED_COLLIDE_H
 
-#include "shared/layout.h"
+#include "shared/collide_round.h"
 #include "shared/random.h"
+
+/* Shaders of scenes without round colliders are spared their code. */
+#if defined(GL_core_profile) && !defined(COLLIDE_ROUND)
+#define COLLIDE_IS_ROUND(collider) false
+#else
+#define COLLIDE_IS_ROUND(collider) ((collider).kind != COLLIDER_BOX)
+#endif
 
 /* Impacts in one step; after the last, a particle rests for the remainder of the step. */
 #define COLLIDE_BOUNCES 4u
-
-/* Faces: 0 and 1 of x, the lower and the upper, 2 and 3 of y, 4 and 5 of z. */
-#define COLLIDE_FACES 6u
-
-FN float collide_component(float3 v, uint axis)
-{
-    EXACT float y = axis == 0u ? v.x : axis == 1u ? v.y : v.z;
-    return y;
-}
-
-FN float3 collide_with_component(float3 v, uint axis, float value)
-{
-    EXACT float3 y =
-        FLOAT3(axis == 0u ? value : v.x, axis == 1u ? value : v.y, axis == 2u ? value : v.z);
-    return y;
-}
-
-/* Between a at the start and b at the end of the step; exactly b at the end. */
-FN float collide_moving(float a, float b, float since)
-{
-    EXACT float y = a + (b - a) * since;
-    EXACT float moved = since >= 1.0f ? b : y;
-    return moved;
-}
-
-struct collide_box {
-    float3 min, max;
-};
-
-/* The box when the part `since` of the step has passed. */
-FN S(collide_box) collide_box_at(S(kiln_collider) c, float since)
-{
-    EXACT S(collide_box) box;
-    box.min = FLOAT3(collide_moving(c.min.x, c.min_end.x, since),
-                     collide_moving(c.min.y, c.min_end.y, since),
-                     collide_moving(c.min.z, c.min_end.z, since));
-    box.max = FLOAT3(collide_moving(c.max.x, c.max_end.x, since),
-                     collide_moving(c.max.y, c.max_end.y, since),
-                     collide_moving(c.max.z, c.max_end.z, since));
-    return box;
-}
-
-FN bool collide_inside(S(collide_box) box, float3 p)
-{
-    return p.x > box.min.x && p.x < box.max.x && p.y > box.min.y && p.y < box.max.y &&
-           p.z > box.min.z && p.z < box.max.z;
-}
-
-/* What is known of a segment and a box after some of the faces. */
-struct collide_span {
-    float enter; /* parts of the segment */
-    float leave;
-    uint face;    /* of the entry */
-    bool misses;  /* outside of one face all the way */
-    bool outside; /* starts outside of some face */
-};
-
-/* One face more: d0 and d1 are the distances to it, positive inside, at the segment's ends. */
-FN S(collide_span) collide_face(S(collide_span) before, uint face, float d0, float d1)
-{
-    EXACT S(collide_span) span = before;
-    bool in0 = d0 > 0.0f;
-    bool in1 = d1 > 0.0f;
-    span.misses = span.misses || (!in0 && !in1);
-    span.outside = span.outside || !in0;
-    if (in0 != in1) {
-        EXACT float change = d0 - d1;
-        EXACT float quotient = exact_div(d0, change);
-        EXACT float part = exact_min(quotient, 1.0f);
-        if (in1 && part >= span.enter) {
-            span.enter = part;
-            span.face = face;
-        }
-        if (in0)
-            span.leave = exact_min(span.leave, part);
-    }
-    return span;
-}
-
-/* The segment from a (when the box is at `start`) to b (when it is at `end`). */
-FN S(collide_span) collide_segment(S(collide_box) start, S(collide_box) end, float3 a, float3 b)
-{
-    EXACT S(collide_span) span;
-    span.enter = 0.0f;
-    span.leave = 2.0f;
-    span.face = 0u;
-    span.misses = false;
-    span.outside = false;
-    span = collide_face(span, 0u, a.x - start.min.x, b.x - end.min.x);
-    span = collide_face(span, 1u, start.max.x - a.x, end.max.x - b.x);
-    if (span.misses)
-        return span;
-    span = collide_face(span, 2u, a.y - start.min.y, b.y - end.min.y);
-    span = collide_face(span, 3u, start.max.y - a.y, end.max.y - b.y);
-    if (span.misses)
-        return span;
-    span = collide_face(span, 4u, a.z - start.min.z, b.z - end.min.z);
-    span = collide_face(span, 5u, start.max.z - a.z, end.max.z - b.z);
-    return span;
-}
-
-/* The face that a point inside is nearest to. */
-FN uint collide_nearest_face(S(collide_box) box, float3 p)
-{
-    uint face = 0u;
-    EXACT float least = p.x - box.min.x;
-    EXACT float d = box.max.x - p.x;
-    face = d < least ? 1u : face;
-    least = exact_min(d, least);
-    d = p.y - box.min.y;
-    face = d < least ? 2u : face;
-    least = exact_min(d, least);
-    d = box.max.y - p.y;
-    face = d < least ? 3u : face;
-    least = exact_min(d, least);
-    d = p.z - box.min.z;
-    face = d < least ? 4u : face;
-    least = exact_min(d, least);
-    d = box.max.z - p.z;
-    face = d < least ? 5u : face;
-    return face;
-}
-
-/* The coordinate just outside of a face: 0.06 mm, or the two units in the last place that make a
- * difference far from the origin. */
-FN float collide_beside(float at, bool upper)
-{
-    EXACT float gap = 6.103515625e-5f + exact_abs(at) * 2.384185791015625e-7f;
-    EXACT float y = upper ? at + gap : at - gap;
-    return y;
-}
-
-FN float3 collide_put_beside(S(collide_box) box, uint face, float3 p)
-{
-    uint axis = face >> 1u;
-    bool upper = (face & 1u) != 0u;
-    EXACT float at = upper ? collide_component(box.max, axis) : collide_component(box.min, axis);
-    EXACT float beside = collide_beside(at, upper);
-    EXACT float3 y = collide_with_component(p, axis, beside);
-    return y;
-}
 
 /* Metres a second of a box; across a face, that of the face. */
 FN float3 collide_box_velocity(S(kiln_collider) c, uint face, float steps_per_s)
@@ -209,17 +75,60 @@ FN float3 collide_bounce(S(collide_answer) answer, float3 velocity, uint face, b
     return y;
 }
 
+/* The same for a surface of any direction. */
+FN float3 collide_bounce_off(S(collide_answer) answer, float3 velocity, float3 normal, bool literal)
+{
+    EXACT float outwards = float3_dot(velocity, normal);
+    if (outwards >= 0.0f)
+        return velocity;
+    EXACT float twice = -2.0f * outwards;
+    EXACT float3 mirrored = float3_add_scaled(velocity, normal, twice);
+    EXACT float square = float3_dot(velocity, velocity);
+    EXACT float speed = exact_sqrt(square);
+    EXACT float3 straight = float3_normalize(mirrored, normal);
+    EXACT float3 pole = normal;
+    if (literal)
+        pole = straight;
+    EXACT float3 astray = random_direction(answer.stream, answer.purpose, pole, 0.0f);
+    EXACT float kept = 1.0f - answer.randomness;
+    EXACT float3 part = float3_scale(straight, kept);
+    EXACT float3 mixed = float3_add_scaled(part, astray, answer.randomness);
+    EXACT float3 direction = float3_normalize(mixed, straight);
+    EXACT float slowed = speed * answer.slowdown;
+    EXACT float3 y = float3_scale(direction, slowed);
+    return y;
+}
+
 struct collide_state {
     float3 position;
     float3 velocity;
     float since; /* part of the step that has passed */
 };
 
-/* The state after an impact on a face of a box. */
+FN S(collide_state) collide_round_impact(SIM_PARAM S(collide_state) s, S(kiln_collider) c,
+                                         uint face, S(collide_answer) answer)
+{
+    EXACT S(collide_state) after = s;
+    EXACT S(collide_round) shape = collide_round_at(c, s.since);
+    EXACT float gap = collide_round_gap(shape);
+    EXACT float3 normal = collide_round_normal(c.kind, shape, face, s.position);
+    after.position = collide_round_put(c.kind, shape, face, s.position, gap);
+    EXACT float3 ground = collide_round_velocity(c, face, normal, COLLIDERS(steps_per_s));
+    EXACT float3 relative = float3_sub(s.velocity, ground);
+    EXACT float3 bounced = collide_bounce_off(answer, relative, normal, false);
+    after.velocity = float3_add(ground, bounced);
+    return after;
+}
+
+/* The state after an impact on a face of a collider. */
 FN S(collide_state) collide_impact(SIM_PARAM S(collide_state) s, S(kiln_collider) c, uint face,
                                    S(collide_answer) answer)
 {
     EXACT S(collide_state) after = s;
+    if (COLLIDE_IS_ROUND(c)) {
+        after = collide_round_impact(SIM s, c, face, answer);
+        return after;
+    }
     EXACT S(collide_box) box = collide_box_at(c, s.since);
     after.position = collide_put_beside(box, face, s.position);
     EXACT float3 ground = collide_box_velocity(c, face, COLLIDERS(steps_per_s));
@@ -234,7 +143,7 @@ struct collide_touch {
     float3 position; /* just outside of the face */
     float3 velocity; /* after the impact */
     float since;     /* part of the step that had passed */
-    uint face;
+    uint face;       /* for collide_normal_of */
     bool happened;
 };
 
@@ -272,6 +181,74 @@ struct collide_hit {
     uint face;
 };
 
+/* The way of a segment through a collider, between two parts of the step. */
+FN S(collide_span)
+    collide_through(S(kiln_collider) c, float since, float until, float3 from, float3 end)
+{
+    EXACT S(collide_span) span;
+    if (COLLIDE_IS_ROUND(c)) {
+        EXACT S(collide_round) round_at_start = collide_round_at(c, since);
+        EXACT S(collide_round) round_at_end = collide_round_at(c, until);
+        span = collide_round_segment(c.kind, round_at_start, round_at_end, from, end);
+    } else {
+        EXACT S(collide_box) at_start = collide_box_at(c, since);
+        EXACT S(collide_box) at_end = collide_box_at(c, until);
+        span = collide_segment(at_start, at_end, from, end);
+    }
+    return span;
+}
+
+/* The face that a point inside is nearest to when the part `since` of the step has passed. */
+FN uint collide_nearest(S(kiln_collider) c, float since, float3 p)
+{
+    uint face;
+    if (COLLIDE_IS_ROUND(c)) {
+        EXACT S(collide_round) shape = collide_round_at(c, since);
+        face = collide_round_nearest(c.kind, shape, p);
+    } else {
+        EXACT S(collide_box) box = collide_box_at(c, since);
+        face = collide_nearest_face(box, p);
+    }
+    return face;
+}
+
+/* Is a point inside when the part `until` of the step has passed? */
+FN bool collide_is_inside(S(kiln_collider) c, float until, float3 p)
+{
+    bool inside;
+    if (COLLIDE_IS_ROUND(c)) {
+        EXACT S(collide_round) shape = collide_round_at(c, until);
+        inside = collide_round_inside(c.kind, shape, p);
+    } else {
+        EXACT S(collide_box) box = collide_box_at(c, until);
+        inside = collide_inside(box, p);
+    }
+    return inside;
+}
+
+/* The face of an impact, for whoever asks for its normal later (collide_normal_of). */
+FN uint collide_face_met(S(kiln_collider) c, S(collide_state) s, uint face)
+{
+    uint met = face;
+    if (COLLIDE_IS_ROUND(c)) {
+        EXACT S(collide_round) shape = collide_round_at(c, s.since);
+        EXACT float3 normal = collide_round_normal(c.kind, shape, face, s.position);
+        met = collide_pack_normal(normal);
+    }
+    return met;
+}
+
+/* Outwards, from a face that collide_face_met gave. */
+FN float3 collide_normal_of(uint face)
+{
+    EXACT float3 zero = FLOAT3(0.0f, 0.0f, 0.0f);
+    EXACT float out_sign = (face & 1u) != 0u ? 1.0f : -1.0f;
+    EXACT float3 y = collide_with_component(zero, face >> 1u, out_sign);
+    if (face >= COLLIDE_FACES)
+        y = collide_unpack_normal(face);
+    return y;
+}
+
 /* The first impact on the way from s to `end` when the part `until` of the step has passed. A start
  * inside a box (born there) is an impact at once on its nearest face. */
 FN S(collide_hit) collide_first(SIM_PARAM S(collide_state) s, float3 end, float until)
@@ -282,15 +259,13 @@ FN S(collide_hit) collide_first(SIM_PARAM S(collide_state) s, float3 end, float 
     hit.face = 0u;
     for (uint i = 0u; i < COLLIDERS(count); i++) {
         EXACT S(kiln_collider) c = COLLIDERS(boxes[i]);
-        EXACT S(collide_box) at_start = collide_box_at(c, s.since);
-        EXACT S(collide_box) at_end = collide_box_at(c, until);
-        EXACT S(collide_span) span = collide_segment(at_start, at_end, s.position, end);
+        EXACT S(collide_span) span = collide_through(c, s.since, until, s.position, end);
         bool inside = !span.misses && !span.outside;
         bool enters = !span.misses && span.outside && span.enter < span.leave;
         if ((inside || enters) && (hit.part < 0.0f || span.enter < hit.part)) {
             hit.part = span.enter;
             hit.box = i;
-            hit.face = inside ? collide_nearest_face(at_start, s.position) : span.face;
+            hit.face = inside ? collide_nearest(c, s.since, s.position) : span.face;
         }
     }
     return hit;
@@ -304,8 +279,8 @@ FN float3 collide_rise(SIM_PARAM float3 position, float until)
     for (uint pass = 0u; pass < COLLIDERS(count); pass++) {
         bool free = true;
         for (uint i = 0u; i < COLLIDERS(count); i++) {
-            EXACT S(collide_box) box = collide_box_at(COLLIDERS(boxes[i]), until);
-            if (collide_inside(box, p)) {
+            if (collide_is_inside(COLLIDERS(boxes[i]), until, p)) {
+                EXACT S(collide_box) box = collide_box_at(COLLIDERS(boxes[i]), until);
                 p = collide_put_beside(box, 3u, p);
                 free = false;
             }
@@ -347,7 +322,8 @@ FN S(collide_way)
         draw.purpose = collide_purpose(SIM bounce);
         now = collide_impact(SIM now, COLLIDERS(boxes[hit.box]), hit.face, draw);
         if (bounce == 0u)
-            way.first = collide_touched(now, hit.face);
+            way.first =
+                collide_touched(now, collide_face_met(COLLIDERS(boxes[hit.box]), now, hit.face));
         EXACT float rest_s = (until - now.since) * dt_s;
         target = float3_add_scaled(now.position, now.velocity, rest_s);
     }
@@ -368,8 +344,20 @@ FN S(collide_way)
     EXACT S(collide_answer) draw = answer;
     uint impacts = 0u;
     for (uint i = 0u; i < COLLIDERS(count); i++) {
-        EXACT S(collide_box) box = collide_box_at(COLLIDERS(boxes[i]), until);
-        if (collide_inside(box, now.position)) {
+        EXACT S(kiln_collider) c = COLLIDERS(boxes[i]);
+        EXACT S(collide_box) box = collide_box_at(c, until);
+        bool inside = collide_is_inside(c, until, now.position);
+        if (inside && COLLIDE_IS_ROUND(c)) {
+            EXACT S(collide_round) shape = collide_round_at(c, until);
+            uint side = collide_round_nearest(c.kind, shape, now.position);
+            EXACT float3 normal = collide_round_normal(c.kind, shape, side, now.position);
+            now.position = collide_round_put(c.kind, shape, side, now.position, 0.0f);
+            draw.purpose = collide_purpose(SIM impacts & 7u);
+            impacts++;
+            now.velocity = collide_bounce_off(draw, now.velocity, normal, true);
+            if (impacts == 1u)
+                way.first = collide_touched(now, collide_pack_normal(normal));
+        } else if (inside) {
             uint face = collide_nearest_face(box, now.position);
             uint axis = face >> 1u;
             EXACT float at = (face & 1u) != 0u ? collide_component(box.max, axis)

@@ -126,10 +126,20 @@ struct kiln_step_params {
     S(kiln_family_params) family;
 };
 
-/* A box at the start and at the end of the step; its faces move evenly in between. */
+#define COLLIDER_BOX      0u
+#define COLLIDER_SPHERE   1u
+#define COLLIDER_CYLINDER 2u
+
+/* A collider at the start and at the end of the step; it moves evenly in between. A box has min and
+ * max alone; those of a round shape bound it. */
 struct kiln_collider {
     float4 min, max;
     float4 min_end, max_end;
+    float4 center, center_end; /* round: w: radius */
+    float4 axis;               /* cylinder: unit; w: half height at the start */
+    uint kind;
+    float half_height_end;
+    uint unused0, unused1;
 };
 
 struct kiln_colliders {

@@ -85,10 +85,7 @@ FN S(emit_state) trace_at(S(kiln_trace) t, float since)
 /* The normal of the surface that it met. */
 FN float3 trace_normal(S(kiln_trace) t)
 {
-    uint face = t.serial_event.z;
-    EXACT float3 zero = FLOAT3(0.0f, 0.0f, 0.0f);
-    EXACT float out_sign = (face & 1u) != 0u ? 1.0f : -1.0f;
-    EXACT float3 y = collide_with_component(zero, face >> 1u, out_sign);
+    EXACT float3 y = collide_normal_of(t.serial_event.z);
     return y;
 }
 

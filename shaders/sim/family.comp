@@ -1,5 +1,7 @@
 /* As inplace.comp, for systems that are related to others: a child finds its birth in the trace that
  * its parent has left in this step. Parents are dispatched before their children. */
+// variant: 
+// variant: COLLIDE_ROUND=1
 #include "sim/blocks.h"
 
 #include "shared/step_family.h"

@@ -102,6 +102,26 @@ static inline struct kiln_object *fixture_add_box(struct scene_fixture *f, float
     return box;
 }
 
+static inline struct kiln_object *fixture_add_sphere(struct scene_fixture *f, float x, float y,
+                                                     float z, float radius)
+{
+    struct kiln_object *sphere = fixture_add_box(f, x, y, z, 0.0f, 0.0f, 0.0f);
+    sphere->kind = KILN_OBJECT_SPHERE;
+    sphere->radius = fixture_constant(radius);
+    return sphere;
+}
+
+/* Upright, until its axis is changed. */
+static inline struct kiln_object *fixture_add_cylinder(struct scene_fixture *f, float x, float y,
+                                                       float z, float radius, float height)
+{
+    struct kiln_object *cylinder = fixture_add_sphere(f, x, y, z, radius);
+    cylinder->kind = KILN_OBJECT_CYLINDER;
+    cylinder->height = fixture_constant(height);
+    cylinder->axis = fixture_constant3(0.0f, 1.0f, 0.0f);
+    return cylinder;
+}
+
 struct fixture_rate {
     const struct kiln_scene *scene;
     const struct kiln_value *rate;
@@ -173,6 +193,12 @@ static inline void fixture_zoo_backdrop(struct scene_fixture *f)
     struct kiln_object *growing = fixture_add_box(f, -1.0f, 0.5f, 0.5f, 0.2f, 0.2f, 0.2f);
     growing->size.y = fixture_ramp(f, time, 0.5f, 0.1f, 2.5f, 2.0f);
     fixture_add_box(f, 0.0f, 0.0f, 0.0f, 90.0f, 90.0f, 90.0f)->collide = false;
+    struct kiln_object *sphere = fixture_add_sphere(f, 0.8f, 0.8f, 0.2f, 0.4f);
+    sphere->center.z = fixture_ramp(f, time, 0.0f, -1.0f, 4.0f, 1.0f);
+    struct kiln_object *cylinder = fixture_add_cylinder(f, -0.5f, 2.2f, 0.0f, 0.25f, 1.0f);
+    cylinder->axis = fixture_constant3(1.0f, 0.5f, -0.3f);
+    cylinder->radius = fixture_ramp(f, time, 0.5f, 0.1f, 3.0f, 0.5f);
+    cylinder->height = fixture_ramp(f, time, 0.0f, 0.2f, 2.0f, 1.4f);
 }
 
 static inline void fixture_zoo_point(struct scene_fixture *f)

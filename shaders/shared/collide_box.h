@@ -1,0 +1,149 @@
+/* Moving boxes and segments: the geometry of shared/collide.h. */
+#ifndef KILN_SHARED_COLLIDE_BOX_H
+#define KILN_SHARED_COLLIDE_BOX_H
+
+#include "shared/exact.h"
+#include "shared/layout.h"
+
+/* Faces: 0 and 1 of x, the lower and the upper, 2 and 3 of y, 4 and 5 of z. */
+#define COLLIDE_FACES 6u
+
+FN float collide_component(float3 v, uint axis)
+{
+    EXACT float y = axis == 0u ? v.x : axis == 1u ? v.y : v.z;
+    return y;
+}
+
+FN float3 collide_with_component(float3 v, uint axis, float value)
+{
+    EXACT float3 y =
+        FLOAT3(axis == 0u ? value : v.x, axis == 1u ? value : v.y, axis == 2u ? value : v.z);
+    return y;
+}
+
+/* Between a at the start and b at the end of the step; exactly b at the end. */
+FN float collide_moving(float a, float b, float since)
+{
+    EXACT float y = a + (b - a) * since;
+    EXACT float moved = since >= 1.0f ? b : y;
+    return moved;
+}
+
+struct collide_box {
+    float3 min, max;
+};
+
+/* The box when the part `since` of the step has passed. */
+FN S(collide_box) collide_box_at(S(kiln_collider) c, float since)
+{
+    EXACT S(collide_box) box;
+    box.min = FLOAT3(collide_moving(c.min.x, c.min_end.x, since),
+                     collide_moving(c.min.y, c.min_end.y, since),
+                     collide_moving(c.min.z, c.min_end.z, since));
+    box.max = FLOAT3(collide_moving(c.max.x, c.max_end.x, since),
+                     collide_moving(c.max.y, c.max_end.y, since),
+                     collide_moving(c.max.z, c.max_end.z, since));
+    return box;
+}
+
+FN bool collide_inside(S(collide_box) box, float3 p)
+{
+    return p.x > box.min.x && p.x < box.max.x && p.y > box.min.y && p.y < box.max.y &&
+           p.z > box.min.z && p.z < box.max.z;
+}
+
+/* What is known of a segment and a box after some of the faces. */
+struct collide_span {
+    float enter; /* parts of the segment */
+    float leave;
+    uint face;    /* of the entry */
+    bool misses;  /* outside of one face all the way */
+    bool outside; /* starts outside of some face */
+};
+
+/* One face more: d0 and d1 are the distances to it, positive inside, at the segment's ends. */
+FN S(collide_span) collide_face(S(collide_span) before, uint face, float d0, float d1)
+{
+    EXACT S(collide_span) span = before;
+    bool in0 = d0 > 0.0f;
+    bool in1 = d1 > 0.0f;
+    span.misses = span.misses || (!in0 && !in1);
+    span.outside = span.outside || !in0;
+    if (in0 != in1) {
+        EXACT float change = d0 - d1;
+        EXACT float quotient = exact_div(d0, change);
+        EXACT float part = exact_min(quotient, 1.0f);
+        if (in1 && part >= span.enter) {
+            span.enter = part;
+            span.face = face;
+        }
+        if (in0)
+            span.leave = exact_min(span.leave, part);
+    }
+    return span;
+}
+
+/* The segment from a (when the box is at `start`) to b (when it is at `end`). */
+FN S(collide_span) collide_segment(S(collide_box) start, S(collide_box) end, float3 a, float3 b)
+{
+    EXACT S(collide_span) span;
+    span.enter = 0.0f;
+    span.leave = 2.0f;
+    span.face = 0u;
+    span.misses = false;
+    span.outside = false;
+    span = collide_face(span, 0u, a.x - start.min.x, b.x - end.min.x);
+    span = collide_face(span, 1u, start.max.x - a.x, end.max.x - b.x);
+    if (span.misses)
+        return span;
+    span = collide_face(span, 2u, a.y - start.min.y, b.y - end.min.y);
+    span = collide_face(span, 3u, start.max.y - a.y, end.max.y - b.y);
+    if (span.misses)
+        return span;
+    span = collide_face(span, 4u, a.z - start.min.z, b.z - end.min.z);
+    span = collide_face(span, 5u, start.max.z - a.z, end.max.z - b.z);
+    return span;
+}
+
+/* The face that a point inside is nearest to. */
+FN uint collide_nearest_face(S(collide_box) box, float3 p)
+{
+    uint face = 0u;
+    EXACT float least = p.x - box.min.x;
+    EXACT float d = box.max.x - p.x;
+    face = d < least ? 1u : face;
+    least = exact_min(d, least);
+    d = p.y - box.min.y;
+    face = d < least ? 2u : face;
+    least = exact_min(d, least);
+    d = box.max.y - p.y;
+    face = d < least ? 3u : face;
+    least = exact_min(d, least);
+    d = p.z - box.min.z;
+    face = d < least ? 4u : face;
+    least = exact_min(d, least);
+    d = box.max.z - p.z;
+    face = d < least ? 5u : face;
+    return face;
+}
+
+/* The coordinate just outside of a face: 0.06 mm, or the two units in the last place that make a
+ * difference far from the origin. */
+FN float collide_beside(float at, bool upper)
+{
+    EXACT float gap = 6.103515625e-5f + exact_abs(at) * 2.384185791015625e-7f;
+    EXACT float y = upper ? at + gap : at - gap;
+    return y;
+}
+
+FN float3 collide_put_beside(S(collide_box) box, uint face, float3 p)
+{
+    uint axis = face >> 1u;
+    bool upper = (face & 1u) != 0u;
+    EXACT float at = upper ? collide_component(box.max, axis) : collide_component(box.min, axis);
+    EXACT float beside = collide_beside(at, upper);
+    EXACT float3 y = collide_with_component(p, axis, beside);
+    return y;
+}
+
+#endif
