@@ -87,17 +87,17 @@ float mesh_sun_visibility(vec3 point, vec3 normal)
     return visible;
 }
 
-/* As the boxes do, by its bounds; inside of a hollow the middle is in front, and it gets darker. */
+/* As the boxes do, by the ellipsoid in its bounds; inside of a hollow the middle is in front, and it
+ * gets darker. */
 float mesh_sky_visibility(vec3 point, vec3 normal)
 {
     float visible = 1.0;
     for (int i = 0; i < int(shapes.counts.z); i++) {
         vec3 towards = shapes.meshes[i].center.xyz - point;
-        vec3 halves = shapes.meshes[i].half_size.xyz;
-        float away = length(max(abs(towards) - halves, vec3(0.0)));
+        float away = length(towards / max(shapes.meshes[i].half_size.xyz, vec3(1e-4)));
         float facing =
             clamp(dot(towards, normal) * inversesqrt(max(dot(towards, towards), 1e-9)) + 0.4, 0.0, 1.0);
-        float fall = 1.0 / (1.0 + 2.0 * away / max(max(halves.x, halves.y), halves.z));
+        float fall = 1.0 / (1.0 + 2.0 * max(away - 1.0, 0.0));
         visible *= 1.0 - 0.7 * facing * fall * fall;
     }
     return visible;

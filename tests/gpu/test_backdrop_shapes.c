@@ -15,6 +15,7 @@
 #include "asset/texture.h"
 #include "draw/backdrop.h"
 #include "support/device.h"
+#include "support/folders.h"
 
 enum { WIDTH = 128, HEIGHT = 72 };
 
@@ -215,11 +216,11 @@ struct picture {
     const float *colors, *depths;
 };
 
-static struct picture draw(void *device, const char *text)
+static struct picture draw_below(void *device, const char *text, const char *asset_root)
 {
     struct kiln_error error = {0};
     struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
-    params.asset_root = KILN_SOURCE_DIR "/scenes";
+    params.asset_root = asset_root;
     struct picture p = {.scene = kiln_scene_parse(text, strlen(text), "test", &params, &error)};
     if (!p.scene)
         fail_msg("%s", error.message);
@@ -233,6 +234,11 @@ static struct picture draw(void *device, const char *text)
     p.depths = kiln_image_host(&p.depth, KILN_READ, &error);
     assert_true(p.colors && p.depths);
     return p;
+}
+
+static struct picture draw(void *device, const char *text)
+{
+    return draw_below(device, text, KILN_SOURCE_DIR "/scenes");
 }
 
 static void finish(struct picture *p)
@@ -439,6 +445,128 @@ static void mesh_shadows_soften(void **state)
     finish(&soft);
 }
 
+/* ---- pictures as floor and sky --------------------------------------------------------------- */
+
+#define PICTURE "kiln: 1\noutput: {size: [128, 72], frames: 1}\n"
+#define DOWN    "camera: {position: [0, 2.5, 5], target: [0, 0.5, 0], fov: 40 deg}\nbackdrop:\n"
+#define LEVEL   "camera: {position: [0, 2.5, 5], target: [0, 2.5, 0], fov: 40 deg}\nbackdrop:\n"
+
+enum { SKY_WIDTH = 64, SKY_HEIGHT = 32 };
+
+/* A BMP file of four colours: left and right, upper and lower half. */
+static void write_quarters(const char *path)
+{
+    enum { ROW = SKY_WIDTH * 3, SIZE = 54 + ROW * SKY_HEIGHT };
+    static unsigned char file[SIZE];
+    static const unsigned char quarters[4][3] = {
+        {0, 0, 255}, {0, 255, 0}, {255, 0, 0}, {255, 255, 255}}; /* blue, green, red */
+    memset(file, 0, sizeof file);
+    memcpy(file, "BM", 2);
+    file[2] = SIZE & 255;
+    file[3] = SIZE >> 8;
+    file[10] = 54; /* of the pixels */
+    file[14] = 40; /* bytes of the second header */
+    file[18] = SKY_WIDTH;
+    file[22] = SKY_HEIGHT;
+    file[26] = 1;
+    file[28] = 24;
+    for (int y = 0; y < SKY_HEIGHT; y++) { /* from the bottom */
+        for (int x = 0; x < SKY_WIDTH; x++) {
+            int quarter = (y < SKY_HEIGHT / 2 ? 2 : 0) + (x < SKY_WIDTH / 2 ? 0 : 1);
+            memcpy(file + 54 + y * ROW + x * 3, quarters[quarter], 3);
+        }
+    }
+    FILE *out = fopen(path, "wb");
+    assert_non_null(out);
+    assert_int_equal(fwrite(file, sizeof file, 1, out), 1);
+    assert_int_equal(fclose(out), 0);
+}
+
+static struct picture draw_in(void *device, const char *folder, const char *backdrop)
+{
+    char text[1024];
+    snprintf(text, sizeof text, "%s%s", PICTURE, backdrop);
+    return draw_below(device, text, folder);
+}
+
+static void assert_color(const float *pixel, double red, double green, double blue)
+{
+    const double expected[3] = {red, green, blue};
+    for (int c = 0; c < 3; c++) {
+        if (fabs((double)pixel[c] - expected[c]) > 0.02)
+            fail_msg("channel %d is %g, expected %g", c, (double)pixel[c], expected[c]);
+    }
+}
+
+/* Left of the middle of the picture lies left of -z, and it turns with its rotation. */
+static void skies_lie_where_they_should(void **state)
+{
+    char folder[32], path[64];
+    test_make_folder(folder);
+    snprintf(path, sizeof path, "%s/sky.bmp", folder);
+    write_quarters(path);
+    struct picture p = draw_in(*state, folder, LEVEL "  floor: none\n  sky: {image: sky.bmp}\n");
+    assert_color(p.colors + 4 * (1 * WIDTH + 2), 1, 0, 0); /* blue, green, red in the file */
+    assert_color(p.colors + 4 * (1 * WIDTH + WIDTH - 3), 0, 1, 0);
+    assert_color(p.colors + 4 * ((HEIGHT - 2) * WIDTH + 2), 0, 0, 1);
+    assert_color(p.colors + 4 * ((HEIGHT - 2) * WIDTH + WIDTH - 3), 1, 1, 1);
+    finish(&p);
+    p = draw_in(*state, folder,
+                LEVEL "  floor: none\n  sky: {image: sky.bmp, rotation: 90 deg, intensity: 0.5}\n");
+    assert_color(p.colors + 4 * (1 * WIDTH + 2), 0, 0.5, 0); /* what was to the right */
+    finish(&p);
+
+    /* What faces up gets the mean of the upper half, and the band at the horizon that of both. */
+    struct kiln_error error = {0};
+    struct kiln_sky_light light;
+    assert_true(kiln_sky_light_measure(&light, path, &error));
+    assert_true(fabsf(light.up[0] - 0.5f) < 1e-3f && fabsf(light.up[1] - 0.5f) < 1e-3f);
+    assert_true(light.up[2] == 0.0f && light.horizon[2] > 0.05f);
+    test_remove_folder(folder);
+}
+
+/* Near by, the picture itself, in its size; far away, where thousands of tiles share a pixel, its
+ * mean without a pattern. */
+static void floors_repeat_without_aliasing(void **state)
+{
+    char folder[32], path[64];
+    test_make_folder(folder);
+    snprintf(path, sizeof path, "%s/tile.bmp", folder);
+    write_quarters(path);
+    const char *light = DOWN "  haze: 0\n  sky: {top: 0, horizon: 0}\n"
+                             "  sun: {direction: [0, 1, 0], color: 3.14159265}\n";
+    char text[512];
+    snprintf(text, sizeof text, "%s  floor: {image: tile.bmp, tile: 8 m}\n", light);
+    struct picture p = draw_in(*state, folder, text);
+    int compared = 0;
+    for (int y = HEIGHT / 2; y < HEIGHT; y += 2) {
+        for (int x = 0; x < WIDTH; x += 3) {
+            struct vec d = pixel_ray(x + 0.5, y + 0.5);
+            struct vec at = along(eye, d, -eye.v[1] / d.v[1]);
+            double u = at.v[0] / 8 - floor(at.v[0] / 8), v = at.v[2] / 4 - floor(at.v[2] / 4);
+            double edge =
+                fmin(fmin(fabs(u - 0.5), fmin(u, 1 - u)), fmin(fabs(v - 0.5), fmin(v, 1 - v)));
+            if (edge < 0.05)
+                continue;
+            static const double colors[4][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+            const double *c = colors[(v < 0.5 ? 0 : 2) + (u < 0.5 ? 0 : 1)];
+            assert_color(p.colors + 4 * (y * WIDTH + x), c[0], c[1], c[2]);
+            compared++;
+        }
+    }
+    assert_true(compared > 300);
+    finish(&p);
+
+    snprintf(text, sizeof text, "%s  floor: {image: tile.bmp, tile: 2 mm}\n", light);
+    p = draw_in(*state, folder, text);
+    for (int y = HEIGHT / 2; y < HEIGHT; y++) {
+        for (int x = 0; x < WIDTH; x++)
+            assert_color(p.colors + 4 * (y * WIDTH + x), 0.5, 0.5, 0.5);
+    }
+    finish(&p);
+    test_remove_folder(folder);
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
@@ -446,6 +574,8 @@ int main(void)
         test_on_device(soft_shadows_match_c),
         test_on_device(meshes_match_c),
         test_on_device(mesh_shadows_soften),
+        test_on_device(skies_lie_where_they_should),
+        test_on_device(floors_repeat_without_aliasing),
     };
     return cmocka_run_group_tests_name("backdrop_shapes", tests, test_device_open,
                                        test_device_close);

@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
-# effects.sh KILN FOLDER: no option of a scene is without effect. Each override of effects.txt must
-# change the picture of FOLDER/effects.yaml, in at least one value. "A given B" stands for an option A
+# effects.sh KILN FOLDER NAME: no option of a scene is without effect. Each override of NAME.txt must
+# change the picture of FOLDER/NAME.yaml, in at least one value. "A given B" stands for an option A
 # that shows only where B is set.
 set -euo pipefail
 
-kiln=$1 folder=$2
+kiln=$1 folder=$2 name=$3
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 draw() {
-    "$kiln" render "$folder/effects.yaml" --frames 40 --device software --quiet --force \
+    "$kiln" render "$folder/$name.yaml" --frames 40 --device software --quiet --force \
         -o "$work/$1.png" "${@:2}"
 }
 
@@ -28,6 +28,6 @@ while IFS= read -r row; do
         echo "--set '$row' changes nothing" >&2
         failed=1
     fi
-done <"$folder/effects.txt"
+done <"$folder/$name.txt"
 echo "$count overrides"
 exit "$failed"
