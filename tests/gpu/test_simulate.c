@@ -66,6 +66,13 @@ static void position_first(void **state)
     cpu_and_inplace_agree(*state, KILN_INTEGRATE_POSITION_FIRST, 2);
 }
 
+static void round_colliders(void **state)
+{
+    fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, STEPS);
+    fixture_add_round(&fixture);
+    both_agree(*state, &fixture.scene, 2, STEPS);
+}
+
 static void families_agree(void **state)
 {
     for (int order = 0; order < 2; order++) {
@@ -136,6 +143,7 @@ int main(void)
         test_on_device(two_threads),
         test_on_device(eight_threads),
         test_on_device(position_first),
+        test_on_device(round_colliders),
         test_on_device(families_agree),
         test_on_device(a_scene_from_a_file),
         test_on_device(a_run_can_change_its_technique),

@@ -193,6 +193,12 @@ static inline void fixture_zoo_backdrop(struct scene_fixture *f)
     struct kiln_object *growing = fixture_add_box(f, -1.0f, 0.5f, 0.5f, 0.2f, 0.2f, 0.2f);
     growing->size.y = fixture_ramp(f, time, 0.5f, 0.1f, 2.5f, 2.0f);
     fixture_add_box(f, 0.0f, 0.0f, 0.0f, 90.0f, 90.0f, 90.0f)->collide = false;
+}
+
+/* A sphere that moves and a cylinder that grows, beside what there is. */
+static inline void fixture_add_round(struct scene_fixture *f)
+{
+    const uint32_t time = KILN_CLOCK_TIME;
     struct kiln_object *sphere = fixture_add_sphere(f, 0.8f, 0.8f, 0.2f, 0.4f);
     sphere->center.z = fixture_ramp(f, time, 0.0f, -1.0f, 4.0f, 1.0f);
     struct kiln_object *cylinder = fixture_add_cylinder(f, -0.5f, 2.2f, 0.0f, 0.25f, 1.0f);

@@ -169,6 +169,7 @@ static void nobody_ends_a_step_inside(void **state)
     (void)state;
     uint32_t met = 0;
     fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, 300);
+    fixture_add_round(&fixture);
     const struct kiln_scene *scene = &fixture.scene;
     struct simulation run;
     simulation_start(&run, scene, NULL, 2);

@@ -255,7 +255,7 @@ static void meshes_are_checked_and_hashed(void **state)
     struct kiln_error error = {0};
     assert_null(kiln_scene_load("scenes/m.yaml", &KILN_SCENE_DEFAULTS, &error));
     assert_int_equal(error.code, KILN_INVALID_INPUT);
-    const char *start = "scenes/m.yaml:2:38: backdrop.objects.0.mesh.file: 'textures/m.obj': the "
+    const char *start = "scenes/m.yaml:2:36: backdrop.objects.0.mesh.file: 'textures/m.obj': the "
                         "mesh is broken";
     if (strncmp(error.message, start, strlen(start)) != 0)
         fail_msg("%s", error.message);

@@ -1,0 +1,60 @@
+/* lib/scene: what is wrong with the objects and pictures of a backdrop, in the exact words. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "support/scenes.h"
+
+static const struct {
+    const char *text;
+    const char *message; /* after the name of the file */
+} bad[] = {
+    {"kiln: 1\n"
+     "backdrop: {objects: [{box: {}}, {cylinder: {axis: [0, 0, 0]}}]}\n",
+     ":2:21: backdrop.objects.1.cylinder.axis: must not be [0, 0, 0]"},
+    {"kiln: 1\n"
+     "backdrop: {objects: [{cylinder: {axis: {keys: {0 s: [0, 1, 0], 1 s: [1, 0, 0]}}}}]}\n",
+     ":2:21: backdrop.objects.0.cylinder.axis: cannot vary while the cylinder collides; set its "
+     "collide to false"},
+    {"kiln: 1\n"
+     "backdrop: {objects: [{mesh: {}}]}\n",
+     ":2:29: backdrop.objects.0.mesh.file: missing; it must be given"},
+    {"kiln: 1\n"
+     "backdrop: {objects: [{mesh: {file: 7}}]}\n",
+     ":2:36: backdrop.objects.0.mesh.file: expected the path of an OBJ, glTF or GLB file, from the "
+     "scene's folder and inside it, found '7'"},
+    {"kiln: 1\n"
+     "backdrop: {objects: [{mesh: {file: ../pot.obj}}]}\n",
+     ":2:36: backdrop.objects.0.mesh.file: '../pot.obj' is outside the asset root; a path starts "
+     "at the scene's folder and stays below it"},
+    {"kiln: 1\n"
+     "backdrop: {sky: {image: /etc/passwd}}\n",
+     ":2:25: backdrop.sky.image: '/etc/passwd' is outside the asset root; a path starts at the "
+     "scene's folder and stays below it"},
+    {"kiln: 1\n"
+     "backdrop: {floor: {image: no-such-file.png}}\n",
+     ":2:27: backdrop.floor.image: cannot open 'no-such-file.png': No such file or directory"},
+};
+
+static void bad_backdrops(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        struct kiln_error error = {0};
+        char expected[KILN_MESSAGE_SIZE];
+        if (try_scene(bad[i].text, NULL, &error))
+            fail_msg("accepted: %s", bad[i].text);
+        snprintf(expected, sizeof expected, "%s%s", SCENE_NAME, bad[i].message);
+        assert_string_equal(error.message, expected);
+        assert_int_equal(error.code, KILN_INVALID_INPUT);
+    }
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {cmocka_unit_test(bad_backdrops)};
+    return cmocka_run_group_tests_name("scene_backdrop", tests, NULL, NULL);
+}
