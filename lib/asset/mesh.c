@@ -56,13 +56,29 @@ static rlim_t bytes_in_use(void)
 }
 #endif
 
-static void limit(int resource, rlim_t most)
+static void lower(struct rlimit *limits, rlim_t most)
+{
+    if (most < limits->rlim_cur)
+        limits->rlim_cur = most;
+}
+
+static void limit_resources(void)
 {
     struct rlimit limits;
-    if (getrlimit(resource, &limits) == 0 && most < limits.rlim_cur) {
-        limits.rlim_cur = most;
-        setrlimit(resource, &limits);
+    if (getrlimit(RLIMIT_CORE, &limits) == 0) {
+        lower(&limits, 0);
+        setrlimit(RLIMIT_CORE, &limits);
     }
+    if (getrlimit(RLIMIT_FSIZE, &limits) == 0) {
+        lower(&limits, 0);
+        setrlimit(RLIMIT_FSIZE, &limits);
+    }
+#ifndef UNLIMITED
+    if (getrlimit(RLIMIT_DATA, &limits) == 0) {
+        lower(&limits, bytes_in_use() + KILN_MAX_MESH_MEMORY);
+        setrlimit(RLIMIT_DATA, &limits);
+    }
+#endif
 }
 
 /* Whatever the importer does to this process or prints, nobody else is touched. */
@@ -77,11 +93,7 @@ static void run_child(const struct kiln_mesh_request *request, struct kiln_mesh_
         dup2(nowhere, STDOUT_FILENO);
         dup2(nowhere, STDERR_FILENO);
     }
-    limit(RLIMIT_CORE, 0);
-    limit(RLIMIT_FSIZE, 0);
-#ifndef UNLIMITED
-    limit(RLIMIT_DATA, bytes_in_use() + KILN_MAX_MESH_MEMORY);
-#endif
+    limit_resources();
     kiln_mesh_import(request, result);
     result->done = true;
     _exit(0);

@@ -62,10 +62,11 @@ static void upload(struct kiln_device *device, const struct kiln_mesh *mesh,
     glBufferData(GL_ELEMENT_ARRAY_BUFFER,
                  (GLsizeiptr)(mesh->triangle_count * sizeof *mesh->triangles), mesh->triangles,
                  GL_STATIC_DRAW);
-    glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, (GLsizei)stride, NULL);
-    /* GL takes the offset in the buffer for a pointer. */
-    glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, (GLsizei)stride,
-                          (const char *)NULL + 3 * sizeof(float));
+    glVertexAttribFormat(0, 3, GL_FLOAT, GL_FALSE, 0);
+    glVertexAttribBinding(0, 0);
+    glVertexAttribFormat(1, 3, GL_FLOAT, GL_FALSE, 3 * sizeof(float));
+    glVertexAttribBinding(1, 0);
+    glBindVertexBuffer(0, drawn->vertices, 0, (GLsizei)stride);
     glEnableVertexAttribArray(0);
     glEnableVertexAttribArray(1);
     glBindVertexArray(0);
