@@ -14,7 +14,7 @@
 #define KILN_UNIT_MESH_HITS   1 /* what the rays of a pixel hit: its centre, then its samples */
 #define KILN_UNIT_MESH_SHADOW 2 /* a layer a mesh, as the sun sees it */
 #define KILN_UNIT_FLOOR       3
-#define KILN_UNIT_SKY         4
+#define KILN_UNIT_SKY         6 /* 4 and 5 are those of smoke */
 
 /* Rays of a pixel at an edge: a rotated grid, in which no two share a row or a column. */
 #define KILN_EDGE_SAMPLES 4

@@ -228,7 +228,8 @@ static struct picture draw_below(void *device, const char *text, const char *ass
     kiln_image_init(&p.depth, device, WIDTH, HEIGHT, GL_R32F, "depth");
     p.stage = kiln_backdrop_create(device, p.scene, &p.color, &p.depth, &error);
     struct kiln_view view = kiln_view_compute(p.scene, 0);
-    if (!p.stage || !kiln_backdrop_draw(p.stage, &view, &error))
+    static const struct kiln_lighting lighting; /* none */
+    if (!p.stage || !kiln_backdrop_draw(p.stage, &view, &lighting, &error))
         fail_msg("%s", error.message);
     p.colors = kiln_image_host(&p.color, KILN_READ, &error);
     p.depths = kiln_image_host(&p.depth, KILN_READ, &error);
