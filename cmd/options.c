@@ -257,7 +257,9 @@ int arguments_parse(struct arguments *arguments, const struct option *options, s
 {
     size_t most = argc > 0 ? (size_t)argc : 1;
     *arguments = (struct arguments){.uses = calloc(most, sizeof *arguments->uses),
-                                    .operands = calloc(most, sizeof *arguments->operands)};
+                                    .operands = calloc(most, sizeof *arguments->operands),
+                                    .words = (const char *const *)argv,
+                                    .word_count = argc > 0 ? (size_t)argc : 0};
     if (!arguments->uses || !arguments->operands)
         return report_no_memory();
     struct parser parser = {.arguments = arguments,

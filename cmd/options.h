@@ -50,6 +50,8 @@ struct arguments {
     size_t use_count;
     const char **operands;
     size_t operand_count;
+    const char *const *words; /* all of it, as it was given */
+    size_t word_count;
 };
 
 /* Reads argv, whose texts must outlive the arguments. Options and operands may come in any order,

@@ -95,8 +95,10 @@ static bool write_picture(struct job *job, uint32_t frame, struct kiln_error *er
         return false;
     }
     if (!job->output) {
+        if (job->params->picture)
+            job->params->picture(job->params->user, frame, picture->display);
         kiln_picture_destroy(&picture);
-        return true;
+        return return_from_caller(job, error);
     }
     return kiln_output_write(job->output, picture, error);
 }

@@ -221,6 +221,9 @@ struct kiln_render_params {
     uint32_t quality;  /* video: 0 (smallest) to 100 (visually lossless) */
     /* One cell for each frame: ranges come from kiln_flipbook_sample. */
     struct kiln_flipbook flipbook;
+    /* Told of each frame where output is NULL: 8-bit sRGB, RGBA, alpha not premultiplied, rows from
+     * the top; until the call returns. */
+    void (*picture)(void *user, uint32_t frame, const uint8_t *pixels);
     void (*progress)(void *user, const struct kiln_progress *progress);
     bool (*stop)(void *user); /* asked between frames and steps; true ends with KILN_INTERRUPTED */
     void *user;
@@ -373,6 +376,92 @@ bool kiln_compare(const struct kiln_compare_params *params, struct kiln_compare_
 
 /* The metrics and what each is for, for people. */
 bool kiln_write_metrics(FILE *out);
+
+/* ---- Figures -------------------------------------------------------------------------------- */
+
+/* A figure is pictures with labels on paper, for documents: a sheet of renders over sweeps of
+ * parameters, a reference with a result and their error map, a strip of the frames of a clip.
+ * Beside FILE.png comes FILE.png.figure.json, which says what it was made by and from. */
+enum kiln_figure_kind { KILN_FIGURE_SHEET, KILN_FIGURE_TRIPTYCH, KILN_FIGURE_STRIP };
+
+/* A sweep: an axis of panels, "key=value,value,...". The key is of the scene, or "frame", or "time"
+ * (in seconds). */
+struct kiln_figure_sweep {
+    enum {
+        KILN_SWEEP_KEY,
+        KILN_SWEEP_TOGETHER, /* no axis: changes along with the sweep before, value by value */
+        KILN_SWEEP_VARIANT,  /* "key=value;key=value": a panel; neighbours make an axis */
+    } kind;
+    const char *text;
+};
+
+/* A part of every picture that is shown enlarged below it, in a coloured frame. */
+struct kiln_figure_inset {
+    double x, y, width, height;
+    bool parts; /* of the picture's size, 0 to 1; else pixels */
+};
+
+struct kiln_figure_params {
+    enum kiln_figure_kind kind;
+    const char *const *inputs; /* scenes; reference and test; a scene, or what compare takes */
+    size_t input_count;
+    const char *output; /* .png, .svg or .pdf */
+    bool overwrite;
+    struct kiln_scene_params scene; /* applied before what is swept */
+    const struct kiln_figure_sweep *sweeps;
+    size_t sweep_count;
+    const struct kiln_frame_range *ranges; /* frames to show; 0: the middle one, of a strip some */
+    size_t range_count;
+    uint32_t strip; /* a strip without ranges: how many frames, evenly over the clip */
+    const struct kiln_figure_inset *insets;
+    size_t inset_count;        /* up to 4 */
+    uint32_t columns;          /* 0: as many as look right */
+    uint32_t width;            /* of a panel, to which larger pictures are reduced; 0: their own */
+    uint32_t text_size;        /* pixels, 8 to 64 */
+    const char *title;         /* NULL: none */
+    const char *const *labels; /* of the panels, in place of the parameters */
+    size_t label_count;
+    bool unlabelled, dark;
+    const char *device; /* as in kiln_device_params */
+    const char *const *techniques;
+    size_t technique_count;
+    uint32_t threads;
+    const char *const *command; /* what was asked for, for the sidecar and `kiln figure --check` */
+    size_t command_count;
+    const char *check; /* a sidecar: draw, write nothing, and say whether its figure is stale */
+    bool (*stop)(void *user);
+    void *user;
+    struct kiln_log log;
+};
+#define KILN_FIGURE_DEFAULTS ((struct kiln_figure_params){.strip = 6, .text_size = 14})
+
+struct kiln_figure_result {
+    uint32_t width, height, panels;
+    bool stale;                     /* of a check: */
+    char reason[KILN_MESSAGE_SIZE]; /* why */
+};
+
+/* Draws a figure and writes it and its sidecar. KILN_USAGE for a request that makes no sense,
+ * otherwise what loading, rendering and comparing say. */
+bool kiln_figure_make(const struct kiln_figure_params *params, struct kiln_figure_result *result,
+                      struct kiln_error *error);
+
+/* Figures by their sidecars. */
+struct kiln_figure_list;
+struct kiln_figure_entry {
+    const char *sidecar, *figure; /* paths */
+    const char *folder;           /* in which the command was given */
+    const char *const *command;
+    size_t command_count;
+};
+
+/* Sidecars, and all below folders, ordered by path. KILN_INVALID_INPUT when one is broken, or there
+ * is none. */
+struct kiln_figure_list *kiln_figure_list_load(const char *const *paths, size_t count,
+                                               struct kiln_error *error);
+void kiln_figure_list_destroy(struct kiln_figure_list **list);
+size_t kiln_figure_list_count(const struct kiln_figure_list *list);
+struct kiln_figure_entry kiln_figure_list_entry(const struct kiln_figure_list *list, size_t index);
 
 /* ---- Golden-image tests --------------------------------------------------------------------- */
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The include law of lib/ and cmd/: a file includes headers of its own room and of rooms to its left,
-#     base < gpu < asset, particles < scene < sim, sort, draw, post, output, compare < frame < suite < report < cmd
+#     base < gpu < asset, particles < scene < sim, sort, draw, post, output, compare < frame < suite < report < figure < cmd
 # and cmd/ includes nothing of lib/ but kiln.h. shaders/shared is below all, kiln.h is for all.
 set -euo pipefail
 cd "$1"
@@ -11,7 +11,7 @@ function complain(text) { printf "%s:%d: %s\n", FILENAME, FNR, text; failed = 1 
 BEGIN {
     rank["base"] = 1; rank["gpu"] = 2; rank["asset"] = rank["particles"] = 3; rank["scene"] = 4
     rank["sim"] = rank["sort"] = rank["draw"] = rank["post"] = rank["output"] = rank["compare"] = 5
-    rank["frame"] = 6; rank["suite"] = 7; rank["report"] = 8
+    rank["frame"] = 6; rank["suite"] = 7; rank["report"] = 8; rank["figure"] = 9
     # What a program may take from the system: the C library, POSIX and what Linux adds to it.
     split("assert ctype errno fcntl float inttypes limits locale math poll pthread sched setjmp " \
           "signal stdalign stdarg stdatomic stdbool stddef stdint stdio stdlib string strings " \

@@ -1,11 +1,14 @@
 #!/usr/bin/env bash
-# Files stay short enough to read: 600 lines. (clang-tidy limits functions.)
+# Files stay short enough to read: 600 lines; the one public header may have 800. (clang-tidy limits
+# functions.)
 set -euo pipefail
 cd "$1"
 failed=0
 while read -r lines file; do
-    if ((lines > 600)); then
-        echo "$file: $lines lines; 600 are allowed"
+    most=600
+    [ "$file" != lib/kiln.h ] || most=800
+    if ((lines > most)); then
+        echo "$file: $lines lines; $most are allowed"
         failed=1
     fi
 done < <(find lib cmd shaders tests tools cmake CMakeLists.txt -type f -not -path '*/node_modules/*' \

@@ -12,6 +12,10 @@ $ kiln help man | grep '^\.SH\|^\.SS'
 1|.SS kiln test calibrate [\fIOPTION...\fR] \fI[PATH | NAME]...\fR
 1|.SS kiln test report [\fIOPTION...\fR] \fIFOLDER...\fR
 1|.SS kiln test list [\fIOPTION...\fR] \fI[PATH | NAME]...\fR
+1|.SS kiln figure [\fIOPTION...\fR] \fI\fR
+1|.SS kiln figure sheet [\fIOPTION...\fR] \fISCENE...\fR
+1|.SS kiln figure triptych [\fIOPTION...\fR] \fIREFERENCE TEST\fR
+1|.SS kiln figure strip [\fIOPTION...\fR] \fISCENE | CLIP\fR
 1|.SS kiln check [\fIOPTION...\fR] \fISCENE...\fR
 1|.SS kiln devices [\fIOPTION...\fR] \fI\fR
 1|.SS kiln help [\fIOPTION...\fR] \fI[TOPIC]\fR
@@ -20,7 +24,7 @@ $ kiln help man | grep '^\.SH\|^\.SS'
 1|.SH EXAMPLES
 1|.SH SEE ALSO
 $ kiln help man | grep -c '^\.TP'
-1|114
+1|170
 $ kiln help man | { if command -v groff >/dev/null; then groff -man -ww -z 2>&1; fi; }
 $ kiln help man | grep -n '^[.'\'']' | grep -vE ':\.(TH|SH|SS|TP|PP|RS|RE|B)( |$)'
 = 1

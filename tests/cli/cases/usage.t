@@ -14,6 +14,10 @@ $ kiln
 2|  test calibrate   measure how much tests vary, and propose limits
 2|  test report      write reports of runs, such as the shards of one
 2|  test list        list the tests that 'kiln test' would run
+2|  figure           figures for documents, and whether they are up to date
+2|  figure sheet     a sheet of pictures over sweeps of parameters
+2|  figure triptych  a reference, a result and their error map
+2|  figure strip     frames of a scene or a clip in a row
 2|  check            validate scenes and print them with every default
 2|  devices          list what can render on this machine, and what is missing
 2|  help             explain a command or a topic
@@ -47,6 +51,10 @@ $ kiln --help
 1|  test calibrate   measure how much tests vary, and propose limits
 1|  test report      write reports of runs, such as the shards of one
 1|  test list        list the tests that 'kiln test' would run
+1|  figure           figures for documents, and whether they are up to date
+1|  figure sheet     a sheet of pictures over sweeps of parameters
+1|  figure triptych  a reference, a result and their error map
+1|  figure strip     frames of a scene or a clip in a row
 1|  check            validate scenes and print them with every default
 1|  devices          list what can render on this machine, and what is missing
 1|  help             explain a command or a topic

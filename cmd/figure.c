@@ -1,0 +1,132 @@
+/* kiln figure --check: do figures still show what their commands make? Each command is run in the
+ * folder in which it was given, without writing anything. */
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "figure_make.h"
+#include "report.h"
+#include "signals.h"
+
+static const struct option options[] = {
+    {.name = "check",
+     .repeats = true,
+     .kind = OPTION_TEXT,
+     .placeholder = "PATH",
+     .help = "A folder, which is searched for FILE.figure.json, or such a file."},
+    {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Name only what is stale."},
+    HELP_OPTION,
+};
+
+static const struct {
+    const struct command *command;
+    enum kiln_figure_kind kind;
+} kinds[] = {{&figure_sheet_command, KILN_FIGURE_SHEET},
+             {&figure_triptych_command, KILN_FIGURE_TRIPTYCH},
+             {&figure_strip_command, KILN_FIGURE_STRIP}};
+
+/* Runs the command of a sidecar, in whose folder the program is by now. */
+static int run_command(const struct kiln_figure_entry *entry, const char *sidecar,
+                       struct kiln_figure_result *result)
+{
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        const struct command *command = kinds[i].command;
+        if (entry->command_count < 2 || strcmp(entry->command[0], "figure") != 0 ||
+            strcmp(entry->command[1], strchr(command->name, ' ') + 1) != 0)
+            continue;
+        struct arguments arguments;
+        int code =
+            arguments_parse(&arguments, command->options, command->option_count, command->name,
+                            (int)entry->command_count - 2, (char **)(entry->command + 2));
+        if (code == 0 && arguments.operand_count < command->least_operands)
+            code = report(KILN_USAGE, "%s: needs %s", command->name, command->operands);
+        if (code == 0)
+            code = figure_make(command, kinds[i].kind, &arguments, sidecar, result);
+        arguments_free(&arguments);
+        return code;
+    }
+    return report(KILN_INVALID_INPUT, "%s: its command is none of 'kiln figure'", entry->sidecar);
+}
+
+static int check_entry(const struct kiln_figure_entry *entry, int home, bool quiet)
+{
+    char *sidecar = realpath(entry->sidecar, NULL);
+    if (!sidecar)
+        return report(KILN_IO, "%s: the file cannot be read", entry->sidecar);
+    struct kiln_figure_result result = {0};
+    int code;
+    if (chdir(entry->folder) != 0)
+        code = report(KILN_IO, "%s: the folder of its command, '%s', cannot be entered",
+                      entry->sidecar, entry->folder);
+    else
+        code = run_command(entry, sidecar, &result);
+    free(sidecar);
+    if (fchdir(home) != 0)
+        return report(KILN_IO, "the working directory cannot be entered again");
+    if (code)
+        return code;
+    if (result.stale)
+        printf("%s: stale: %s\n", entry->figure, result.reason);
+    else if (!quiet)
+        printf("%s: up to date\n", entry->figure);
+    fflush(stdout);
+    return result.stale ? KILN_FRAME_FAILED : 0;
+}
+
+static int check_all(const struct kiln_figure_list *list, bool quiet)
+{
+    int home = open(".", O_RDONLY | O_DIRECTORY | O_CLOEXEC), code = 0;
+    if (home < 0)
+        return report(KILN_IO, "the working directory cannot be opened");
+    for (size_t i = 0; i < kiln_figure_list_count(list) && !signals_received(); i++) {
+        struct kiln_figure_entry entry = kiln_figure_list_entry(list, i);
+        code = (int)kiln_code_worse((enum kiln_code)code,
+                                    (enum kiln_code)check_entry(&entry, home, quiet));
+    }
+    close(home);
+    return signals_received() ? 128 + signals_received() : code;
+}
+
+static int run(const struct arguments *arguments)
+{
+    if (arguments->operand_count > 0) {
+        static const char *const names[] = {"sheet", "triptych", "strip", "--check"};
+        char suggestion[SUGGESTION_SIZE];
+        return report(
+            KILN_USAGE, "figure: unknown figure '%s'%s; allowed are sheet, triptych and strip",
+            arguments->operands[0], suggest(suggestion, "", arguments->operands[0], names, 4));
+    }
+    struct value_list paths;
+    int code = 0;
+    if (!value_list_create(&paths, arguments, "check"))
+        code = report_no_memory();
+    else if (paths.count == 0)
+        code = report(KILN_USAGE, "figure: needs sheet, triptych or strip, or --check PATH");
+    if (code) {
+        value_list_free(&paths);
+        return code;
+    }
+    struct kiln_error error = {0};
+    struct kiln_figure_list *list = kiln_figure_list_load(paths.items, paths.count, &error);
+    code = list ? check_all(list, arguments_flag(arguments, "quiet")) : report_error(&error);
+    kiln_figure_list_destroy(&list);
+    value_list_free(&paths);
+    return code;
+}
+
+const struct command figure_command = {
+    .name = "figure",
+    .summary = "figures for documents, and whether they are up to date",
+    .operands = "",
+    .description =
+        "Figures are made by 'kiln figure sheet', 'triptych' and 'strip'. --check draws those that "
+        "have a sidecar again, each by its command and in the folder in which that was given, and "
+        "names those that are stale: whose pixels have changed, or whose file is not the one that "
+        "was written. Nothing is written.\n\n"
+        "Exit code 0: all are up to date; 1: some are stale; otherwise that of what failed.",
+    .options = options,
+    .option_count = sizeof options / sizeof *options,
+    .most_operands = SIZE_MAX,
+    .run = run,
+};

@@ -1,0 +1,162 @@
+/* From options to a figure. */
+#include "figure_make.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "overrides.h"
+#include "report.h"
+#include "signals.h"
+
+/* Lists that the parameters borrow. */
+struct lists {
+    struct overrides overrides;
+    struct value_list techniques, labels;
+    struct kiln_figure_sweep *sweeps;
+    struct kiln_figure_inset *insets;
+    const char **command;
+};
+
+static void lists_free(struct lists *lists)
+{
+    overrides_free(&lists->overrides);
+    value_list_free(&lists->techniques);
+    value_list_free(&lists->labels);
+    free(lists->sweeps);
+    free(lists->insets);
+    free(lists->command);
+}
+
+static bool lists_create(struct lists *lists, const struct arguments *arguments)
+{
+    *lists = (struct lists){0};
+    lists->sweeps = calloc(arguments->use_count + 1, sizeof *lists->sweeps);
+    lists->insets = calloc(arguments->use_count + 1, sizeof *lists->insets);
+    lists->command = calloc(arguments->word_count + 2, sizeof *lists->command);
+    return lists->sweeps && lists->insets && lists->command &&
+           overrides_create(&lists->overrides, arguments) &&
+           value_list_create(&lists->techniques, arguments, "technique") &&
+           value_list_create(&lists->labels, arguments, "label");
+}
+
+/* X,Y,WxH; with a point in it anywhere, all of it are parts. */
+static bool read_inset(const char *text, struct kiln_figure_inset *inset)
+{
+    char copy[96];
+    double *values[] = {&inset->x, &inset->y, &inset->width, &inset->height};
+    if (strlen(text) >= sizeof copy)
+        return false;
+    memcpy(copy, text, strlen(text) + 1);
+    char *rest = copy;
+    for (int i = 0; i < 4; i++) {
+        char *piece = strsep(&rest, i < 2 ? "," : i == 2 ? "x" : "");
+        if (!piece || !kiln_text_to_double(piece, values[i]))
+            return false;
+    }
+    inset->parts = strchr(text, '.') != NULL;
+    return true;
+}
+
+static int read_repeated(const struct command *command, const struct arguments *arguments,
+                         struct lists *lists, struct kiln_figure_params *params)
+{
+    static const char *const sweeps[] = {[KILN_SWEEP_KEY] = "sweep",
+                                         [KILN_SWEEP_TOGETHER] = "with",
+                                         [KILN_SWEEP_VARIANT] = "variant"};
+    for (size_t i = 0; i < arguments->use_count; i++) {
+        const struct option_use *use = &arguments->uses[i];
+        for (int kind = 0; kind < 3; kind++) {
+            if (strcmp(use->option->name, sweeps[kind]) != 0)
+                continue;
+            lists->sweeps[params->sweep_count].kind = kind;
+            lists->sweeps[params->sweep_count++].text = use->text;
+        }
+        if (strcmp(use->option->name, "inset") == 0 &&
+            !read_inset(use->text, &lists->insets[params->inset_count++]))
+            return report(
+                KILN_USAGE,
+                "%s: --inset: found '%s'; expected X,Y,WxH in pixels or in parts, such as "
+                "320,180,160x90 or 0.4,0.25,0.2x0.2",
+                command->name, use->text);
+    }
+    return 0;
+}
+
+static bool wants_stop(void *user)
+{
+    (void)user;
+    return signals_received() != 0;
+}
+
+static struct kiln_figure_params make_params(const struct arguments *arguments,
+                                             const struct lists *lists)
+{
+    struct kiln_figure_params params = KILN_FIGURE_DEFAULTS;
+    const struct option_use *frames = arguments_last(arguments, "frames");
+    params.inputs = arguments->operands;
+    params.input_count = arguments->operand_count;
+    params.output = arguments_text(arguments, "output", NULL);
+    params.overwrite = arguments_flag(arguments, "force");
+    params.scene = overrides_scene_params(&lists->overrides, arguments);
+    params.sweeps = lists->sweeps;
+    params.insets = lists->insets;
+    if (frames) {
+        params.ranges = frames->frames.ranges;
+        params.range_count = frames->frames.count;
+    }
+    params.strip = arguments_integer(arguments, "count", params.strip);
+    params.columns = arguments_integer(arguments, "columns", 0);
+    params.width = arguments_integer(arguments, "width", 0);
+    params.text_size = arguments_integer(arguments, "text-size", params.text_size);
+    params.title = arguments_text(arguments, "title", NULL);
+    params.labels = lists->labels.items;
+    params.label_count = lists->labels.count;
+    params.unlabelled = arguments_flag(arguments, "no-labels");
+    params.dark = arguments_flag(arguments, "dark");
+    params.device = arguments_text(arguments, "device", NULL);
+    params.techniques = lists->techniques.items;
+    params.technique_count = lists->techniques.count;
+    params.threads = arguments_integer(arguments, "threads", 0);
+    params.stop = wants_stop;
+    params.log = report_log();
+    return params;
+}
+
+/* What the sidecar keeps: the words of the command, in which "figure sheet" are two. */
+static void list_command(const struct command *command, const struct arguments *arguments,
+                         struct lists *lists, struct kiln_figure_params *params)
+{
+    size_t count = 0;
+    lists->command[count++] = "figure";
+    lists->command[count++] = strchr(command->name, ' ') + 1;
+    for (size_t i = 0; i < arguments->word_count; i++)
+        lists->command[count++] = arguments->words[i];
+    params->command = lists->command;
+    params->command_count = count;
+}
+
+int figure_make(const struct command *command, enum kiln_figure_kind kind,
+                const struct arguments *arguments, const char *check,
+                struct kiln_figure_result *result)
+{
+    if (!arguments_flag(arguments, "output"))
+        return report(KILN_USAGE, "%s: needs --output FILE", command->name);
+    struct lists lists;
+    if (!lists_create(&lists, arguments)) {
+        lists_free(&lists);
+        return report_no_memory();
+    }
+    struct kiln_figure_params params = make_params(arguments, &lists);
+    params.kind = kind;
+    params.check = check;
+    list_command(command, arguments, &lists, &params);
+    int code = read_repeated(command, arguments, &lists, &params);
+    struct kiln_figure_result made;
+    struct kiln_error error = {0};
+    signals_install();
+    if (code == 0 && !kiln_figure_make(&params, result ? result : &made, &error))
+        code = error.code == KILN_USAGE ? report(KILN_USAGE, "%s: %s", command->name, error.message)
+                                        : report_error(&error);
+    lists_free(&lists);
+    return code == KILN_INTERRUPTED && signals_received() ? 128 + signals_received() : code;
+}

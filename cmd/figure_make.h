@@ -1,0 +1,94 @@
+/* What `kiln figure sheet`, `triptych` and `strip` share: rows of options, and what becomes of
+ * them. `kiln figure --check` runs the same code over words that a sidecar has kept. */
+#ifndef KILN_CMD_FIGURE_MAKE_H
+#define KILN_CMD_FIGURE_MAKE_H
+
+#include "command.h"
+
+#define FIGURE_OUTPUT_OPTIONS                                                                      \
+    {.name = "output",                                                                             \
+     .letter = 'o',                                                                                \
+     .kind = OPTION_TEXT,                                                                          \
+     .placeholder = "FILE",                                                                        \
+     .help = "Where to write: .png, or .svg or .pdf with vector lettering. Beside it comes "       \
+             "FILE.figure.json, for 'kiln figure --check'."},                                      \
+    {                                                                                              \
+        .name = "force", .kind = OPTION_FLAG, .help = "Replace a figure that exists."              \
+    }
+
+#define FIGURE_LOOK_OPTIONS                                                                        \
+    {.name = "inset",                                                                              \
+     .repeats = true,                                                                              \
+     .kind = OPTION_TEXT,                                                                          \
+     .placeholder = "X,Y,WxH",                                                                     \
+     .help =                                                                                       \
+         "Show a part of each picture enlarged below it, in a coloured frame: in pixels, or "      \
+         "in parts of the picture where a number has a point (0.4,0.25,0.2x0.2). Up to four."},    \
+        {.name = "width",                                                                          \
+         .kind = OPTION_INTEGER,                                                                   \
+         .placeholder = "PIXELS",                                                                  \
+         .help = "Reduce larger pictures to this width.",                                          \
+         .fallback = "their own",                                                                  \
+         .min = 16,                                                                                \
+         .max = 16384},                                                                            \
+        {.name = "title",                                                                          \
+         .kind = OPTION_TEXT,                                                                      \
+         .placeholder = "TEXT",                                                                    \
+         .help = "A line above the pictures."},                                                    \
+        {.name = "label",                                                                          \
+         .repeats = true,                                                                          \
+         .kind = OPTION_TEXT,                                                                      \
+         .placeholder = "TEXT",                                                                    \
+         .help = "The label of a picture; give one for each, in their order.",                     \
+         .fallback = "what tells it from the others"},                                             \
+        {.name = "no-labels", .kind = OPTION_FLAG, .help = "Leave the labels out."},               \
+        {.name = "text-size",                                                                      \
+         .kind = OPTION_INTEGER,                                                                   \
+         .placeholder = "PIXELS",                                                                  \
+         .help = "The size of the lettering; margins and gaps go with it.",                        \
+         .fallback = "14",                                                                         \
+         .min = 8,                                                                                 \
+         .max = 64},                                                                               \
+    {                                                                                              \
+        .name = "dark", .kind = OPTION_FLAG, .help = "Light lettering on dark paper."              \
+    }
+
+#define FIGURE_SCENE_OPTIONS                                                                       \
+    {.name = "size",                                                                               \
+     .kind = OPTION_SIZE,                                                                          \
+     .placeholder = "WxH",                                                                         \
+     .help = "Size of each picture in pixels: --set output.size=[W, H].",                          \
+     .sets = "output.size"},                                                                       \
+        {.name = "seed",                                                                           \
+         .kind = OPTION_INTEGER,                                                                   \
+         .placeholder = "N",                                                                       \
+         .help = "Seed of everything random: --set seed=N.",                                       \
+         .sets = "seed",                                                                           \
+         .max = UINT32_MAX},                                                                       \
+        SET_OPTION, ASSET_ROOT_OPTION,                                                             \
+        {.name = "device",                                                                         \
+         .kind = OPTION_TEXT,                                                                      \
+         .placeholder = "DEVICE",                                                                  \
+         .help = "A number from 'kiln devices', a part of a device's name, or 'software'.",        \
+         .fallback = "the first GPU, or else the software device"},                                \
+    {                                                                                              \
+        .name = "technique", .repeats = true, .commas = true, .kind = OPTION_PAIRS,                \
+        .placeholder = "STAGE=NAME",                                                               \
+        .help = "How to run a stage; more of them after commas (see 'kiln help techniques').",     \
+        .fallback = "what makes the same picture everywhere"                                       \
+    }
+
+#define FIGURE_THREADS_OPTION                                                                      \
+    {                                                                                              \
+        .name = "threads", .kind = OPTION_INTEGER, .placeholder = "N", .help = "Worker threads.",  \
+        .fallback = "one a core", .max = 256                                                       \
+    }
+
+/* Draws the figure that a command's arguments ask for and returns the exit code, after reporting
+ * what is wrong. check: the sidecar that it is checked against, in place of being written, and
+ * where what came out goes; else both are NULL. */
+int figure_make(const struct command *command, enum kiln_figure_kind kind,
+                const struct arguments *arguments, const char *check,
+                struct kiln_figure_result *result);
+
+#endif

@@ -1,0 +1,50 @@
+/* kiln figure strip: frames of a clip in a row. */
+#include "figure_make.h"
+#include "overrides.h"
+
+static const struct option options[] = {
+    FIGURE_OUTPUT_OPTIONS,
+    {.name = "count",
+     .letter = 'n',
+     .kind = OPTION_INTEGER,
+     .placeholder = "N",
+     .help = "How many frames, evenly from the first to the last.",
+     .fallback = "6",
+     .min = 1,
+     .max = 1024},
+    {.name = "frames",
+     .letter = 'f',
+     .kind = OPTION_FRAMES,
+     .placeholder = "RANGES",
+     .help = "These frames instead."},
+    {.name = "columns",
+     .kind = OPTION_INTEGER,
+     .placeholder = "N",
+     .help = "Frames in a row.",
+     .fallback = "all",
+     .min = 1,
+     .max = 1024},
+    FIGURE_SCENE_OPTIONS,
+    FIGURE_LOOK_OPTIONS,
+    FIGURE_THREADS_OPTION,
+    HELP_OPTION,
+};
+
+static int run(const struct arguments *arguments)
+{
+    return figure_make(&figure_strip_command, KILN_FIGURE_STRIP, arguments, NULL, NULL);
+}
+
+const struct command figure_strip_command = {
+    .name = "figure strip",
+    .summary = "frames of a scene or a clip in a row",
+    .operands = "SCENE | CLIP",
+    .description =
+        "Shows frames of a scene, which is rendered (a file that ends in .yaml), or of a clip: a "
+        "video, a folder of pictures, or a pattern such as frame_%04d.png.",
+    .options = options,
+    .option_count = sizeof options / sizeof *options,
+    .least_operands = 1,
+    .most_operands = 1,
+    .run = run,
+};

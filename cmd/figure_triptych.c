@@ -1,0 +1,28 @@
+/* kiln figure triptych: a reference, a result and their difference. */
+#include "figure_make.h"
+
+static const struct option options[] = {
+    FIGURE_OUTPUT_OPTIONS,
+    FIGURE_LOOK_OPTIONS,
+    FIGURE_THREADS_OPTION,
+    HELP_OPTION,
+};
+
+static int run(const struct arguments *arguments)
+{
+    return figure_make(&figure_triptych_command, KILN_FIGURE_TRIPTYCH, arguments, NULL, NULL);
+}
+
+const struct command figure_triptych_command = {
+    .name = "figure triptych",
+    .summary = "a reference, a result and their error map",
+    .operands = "REFERENCE TEST",
+    .description =
+        "Shows two pictures and the map of FLIP's errors beside them, from black (none) to pale "
+        "yellow (1), with their mean, as 'kiln compare' measures it.",
+    .options = options,
+    .option_count = sizeof options / sizeof *options,
+    .least_operands = 2,
+    .most_operands = 2,
+    .run = run,
+};

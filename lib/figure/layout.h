@@ -1,0 +1,15 @@
+/* Where the panels of a figure lie. */
+#ifndef KILN_FIGURE_LAYOUT_H
+#define KILN_FIGURE_LAYOUT_H
+
+#include "figure/panels.h"
+
+/* The colour of the paper. */
+uint32_t kiln_layout_paper(bool dark);
+
+/* Fills a drawing whose arena is set. KILN_USAGE for an inset outside of a picture, for labels that
+ * are not as many as the panels, for a figure that is too large. */
+bool kiln_layout_make(struct kiln_drawing *drawing, const struct kiln_panels *panels,
+                      const struct kiln_figure_params *params, struct kiln_error *error);
+
+#endif

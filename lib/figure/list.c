@@ -1,0 +1,140 @@
+/* Sidecars below folders. */
+#include <dirent.h>
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "figure/record.h"
+
+enum { MAX_DEPTH = 64 };
+
+struct kiln_figure_list {
+    struct kiln_arena *arena;
+    struct kiln_figure_entry *entries;
+    size_t count, capacity;
+};
+
+static bool add_entry(struct kiln_figure_list *list, const char *path, struct kiln_error *error)
+{
+    struct kiln_record *record = kiln_record_read(list->arena, path, error);
+    if (!record)
+        return false;
+    if (list->count == list->capacity) {
+        size_t capacity = list->capacity ? 2 * list->capacity : 16;
+        struct kiln_figure_entry *grown = kiln_arena_alloc(list->arena, capacity, sizeof *grown);
+        if (!grown)
+            return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for the figures");
+        if (list->count)
+            memcpy(grown, list->entries, list->count * sizeof *grown);
+        list->entries = grown;
+        list->capacity = capacity;
+    }
+    size_t length = strlen(path) - (sizeof KILN_RECORD_SUFFIX - 1);
+    const char *slash = strrchr(path, '/');
+    size_t folder = slash ? (size_t)(slash - path) + 1 : 0;
+    struct kiln_figure_entry *entry = &list->entries[list->count++];
+    *entry = (struct kiln_figure_entry){
+        .sidecar = kiln_arena_format(list->arena, "%s", path),
+        .figure = kiln_arena_text(list->arena, path, length),
+        .folder = kiln_arena_format(list->arena, "%.*s%s", *record->folder == '/' ? 0 : (int)folder,
+                                    path, record->folder),
+        .command = record->command,
+        .command_count = record->command_count};
+    return (entry->sidecar && entry->figure && entry->folder) ||
+           kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for the figures");
+}
+
+static bool is_sidecar(const char *path)
+{
+    size_t length = strlen(path), end = sizeof KILN_RECORD_SUFFIX - 1;
+    return length > end && strcmp(path + length - end, KILN_RECORD_SUFFIX) == 0;
+}
+
+static bool search(struct kiln_figure_list *list, const char *folder, int depth,
+                   struct kiln_error *error)
+{
+    struct dirent **names;
+    int count = scandir(folder, &names, NULL, alphasort);
+    if (count < 0)
+        return kiln_error_set_errno(error, KILN_IO, errno, "%s: the folder cannot be read", folder);
+    bool ok = true;
+    for (int i = 0; i < count; i++) {
+        char path[KILN_PATH_SIZE];
+        struct stat status;
+        const char *name = names[i]->d_name;
+        ok = ok && (*name == '.' || kiln_path_join(path, folder, name, error));
+        if (ok && *name != '.' && lstat(path, &status) == 0) {
+            if (S_ISDIR(status.st_mode) && depth < MAX_DEPTH)
+                ok = search(list, path, depth + 1, error);
+            else if (S_ISREG(status.st_mode) && is_sidecar(path))
+                ok = add_entry(list, path, error);
+        }
+        free(names[i]);
+    }
+    free(names);
+    return ok;
+}
+
+static bool add_path(struct kiln_figure_list *list, const char *path, struct kiln_error *error)
+{
+    struct stat status;
+    if (stat(path, &status) != 0)
+        return kiln_error_set_errno(error, KILN_INVALID_INPUT, errno, "%s", path);
+    if (!S_ISDIR(status.st_mode))
+        return is_sidecar(path)
+                   ? add_entry(list, path, error)
+                   : kiln_error_set(error, KILN_INVALID_INPUT,
+                                    "%s: expected a folder, or a file whose name ends in %s", path,
+                                    KILN_RECORD_SUFFIX);
+    size_t before = list->count, length = strlen(path);
+    while (length > 1 && path[length - 1] == '/')
+        length--;
+    const char *folder = kiln_arena_text(list->arena, path, length);
+    if (!folder)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for the figures");
+    return search(list, folder, 0, error) &&
+           (list->count > before ||
+            kiln_error_set(error, KILN_INVALID_INPUT, "%s: no figures in it: none with a %s", path,
+                           KILN_RECORD_SUFFIX));
+}
+
+struct kiln_figure_list *kiln_figure_list_load(const char *const *paths, size_t count,
+                                               struct kiln_error *error)
+{
+    struct kiln_figure_list *list = calloc(1, sizeof *list);
+    struct kiln_arena *arena = kiln_arena_create();
+    if (!list || !arena) {
+        free(list);
+        kiln_arena_destroy(&arena);
+        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for the figures");
+        return NULL;
+    }
+    list->arena = arena;
+    bool ok = true;
+    for (size_t i = 0; ok && i < count; i++)
+        ok = add_path(list, paths[i], error);
+    if (!ok)
+        kiln_figure_list_destroy(&list);
+    return list;
+}
+
+void kiln_figure_list_destroy(struct kiln_figure_list **list)
+{
+    if (*list)
+        kiln_arena_destroy(&(*list)->arena);
+    free(*list);
+    *list = NULL;
+}
+
+size_t kiln_figure_list_count(const struct kiln_figure_list *list)
+{
+    return list->count;
+}
+
+struct kiln_figure_entry kiln_figure_list_entry(const struct kiln_figure_list *list, size_t index)
+{
+    return list->entries[index];
+}

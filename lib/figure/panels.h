@@ -1,0 +1,45 @@
+/* The pictures of a figure, with what they were made from. */
+#ifndef KILN_FIGURE_PANELS_H
+#define KILN_FIGURE_PANELS_H
+
+#include "base/arena.h"
+#include "figure/drawing.h"
+
+struct kiln_panel {
+    const char *label;
+    const char *source;  /* the path of the scene or picture */
+    char scene_hash[65]; /* "" without a scene */
+    bool has_frame;
+    uint32_t frame;
+    double time_s;  /* of the frame; below 0: not known */
+    char state[17]; /* the state hash; "" without a scene */
+    char hash[65];  /* SHA-256 of the pixels */
+    bool is_map;    /* of errors: gets a scale */
+    struct kiln_pixels pixels;
+};
+
+struct kiln_panels {
+    struct kiln_arena *arena; /* of all that follows */
+    struct kiln_panel *items;
+    size_t count;
+    size_t columns;   /* that look right */
+    char device[128]; /* that rendered; "" if none did */
+    uint32_t paper;   /* 0xRRGGBB: below pictures with holes */
+};
+
+/* Makes the panels of a figure of its kind. False as kiln_figure_make says. */
+bool kiln_panels_of_sheet(struct kiln_panels *panels, const struct kiln_figure_params *params,
+                          struct kiln_error *error);
+bool kiln_panels_of_triptych(struct kiln_panels *panels, const struct kiln_figure_params *params,
+                             struct kiln_error *error);
+bool kiln_panels_of_strip(struct kiln_panels *panels, const struct kiln_figure_params *params,
+                          struct kiln_error *error);
+
+/* Lays 8-bit RGBA over the paper. */
+bool kiln_panel_take_pixels(struct kiln_panels *panels, struct kiln_panel *panel, uint32_t width,
+                            uint32_t height, const uint8_t *rgba, struct kiln_error *error);
+
+/* Whether a file is a scene by its name. */
+bool kiln_is_scene_name(const char *path);
+
+#endif

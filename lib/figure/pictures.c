@@ -1,0 +1,293 @@
+/* Panels of pictures that exist: two of them with their difference, or frames of a clip. Light is
+ * shown as kiln compare shows it: clamped to white, alpha over black. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "compare/magma.h"
+#include "compare/measure.h"
+#include "figure/panels.h"
+#include "footage.h"
+
+static bool take_subject(struct kiln_panels *panels, struct kiln_panel *panel,
+                         const struct kiln_subject *subject, struct kiln_error *error)
+{
+    size_t count = (size_t)subject->width * subject->height;
+    uint8_t *rgba = malloc(count * 4);
+    if (!rgba)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", panel->source);
+    for (size_t i = 0; i < count; i++) {
+        for (size_t c = 0; c < 3; c++) {
+            float level = subject->levels[3 * i + c];
+            level = level > 0.0f ? level : 0.0f;
+            rgba[4 * i + c] = (uint8_t)(level < 255.0f ? level + 0.5f : 255.0f);
+        }
+        rgba[4 * i + 3] = 255;
+    }
+    bool ok = kiln_panel_take_pixels(panels, panel, subject->width, subject->height, rgba, error);
+    free(rgba);
+    return ok;
+}
+
+/* ---- Triptychs ------------------------------------------------------------------------------ */
+
+static bool take_map(struct kiln_panels *panels, struct kiln_panel *panel,
+                     const struct kiln_measurement *measurement, struct kiln_error *error)
+{
+    size_t count = (size_t)measurement->width * measurement->height;
+    uint8_t *rgba = malloc(count * 4);
+    if (!rgba)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for an error map");
+    for (size_t i = 0; i < count; i++) {
+        kiln_magma_color(measurement->errors[i], rgba + 4 * i);
+        rgba[4 * i + 3] = 255;
+    }
+    bool ok =
+        kiln_panel_take_pixels(panels, panel, measurement->width, measurement->height, rgba, error);
+    free(rgba);
+    panel->is_map = true;
+    panel->label = kiln_arena_format(panels->arena, "FLIP %.4f", measurement->flip.mean);
+    return ok && (panel->label ||
+                  kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for an error map"));
+}
+
+static bool measure(struct kiln_panels *panels, struct kiln_subject *const subjects[2],
+                    struct kiln_threads *threads, struct kiln_error *error)
+{
+    struct kiln_measurement measurement = {0};
+    const struct kiln_compare_params usual = KILN_COMPARE_DEFAULTS;
+    struct kiln_measure_params params = {.hdr = subjects[0]->hdr,
+                                         .pixels_per_degree = usual.pixels_per_degree,
+                                         .threshold = usual.threshold,
+                                         .window = usual.window};
+    bool ok =
+        kiln_measurement_take(&measurement, subjects[0], subjects[1], &params, threads, error) &&
+        take_subject(panels, &panels->items[0], subjects[0], error) &&
+        take_subject(panels, &panels->items[1], subjects[1], error) &&
+        take_map(panels, &panels->items[2], &measurement, error);
+    kiln_measurement_finish(&measurement);
+    if (!ok && error->code == KILN_FRAME_FAILED) /* two sizes: no verdict, but nonsense */
+        error->code = KILN_INVALID_INPUT;
+    return ok;
+}
+
+static struct kiln_subject *load_subject(const char *path, struct kiln_threads *threads,
+                                         struct kiln_error *error)
+{
+    struct kiln_asset_image *image = kiln_asset_image_load(path, error);
+    struct kiln_subject *subject =
+        image ? kiln_subject_create(image, NULL, path, threads, error) : NULL;
+    kiln_asset_image_destroy(&image);
+    return subject;
+}
+
+static bool compare(struct kiln_panels *panels, const char *const paths[2],
+                    struct kiln_threads *threads, struct kiln_error *error)
+{
+    struct kiln_subject *subjects[2] = {load_subject(paths[0], threads, error), NULL};
+    if (subjects[0])
+        subjects[1] = load_subject(paths[1], threads, error);
+    bool ok = subjects[0] && subjects[1];
+    if (ok && subjects[0]->hdr != subjects[1]->hdr)
+        ok = kiln_error_set(error, KILN_INVALID_INPUT,
+                            "%s and %s: one is of floats and the other is not", paths[0], paths[1]);
+    ok = ok && measure(panels, subjects, threads, error);
+    kiln_subject_destroy(&subjects[0]);
+    kiln_subject_destroy(&subjects[1]);
+    return ok;
+}
+
+bool kiln_panels_of_triptych(struct kiln_panels *panels, const struct kiln_figure_params *params,
+                             struct kiln_error *error)
+{
+    if (params->input_count != 2)
+        return kiln_error_set(error, KILN_USAGE, "a triptych of %zu pictures; it needs two",
+                              params->input_count);
+    static const char *const labels[3] = {"reference", "result", ""};
+    panels->items = kiln_arena_alloc(panels->arena, 3, sizeof *panels->items);
+    if (!panels->items)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a triptych");
+    panels->count = panels->columns = 3;
+    for (size_t i = 0; i < 3; i++) {
+        panels->items[i].label = labels[i];
+        panels->items[i].source = params->inputs[i < 2 ? i : 1];
+        panels->items[i].time_s = -1;
+    }
+    struct kiln_threads *threads = kiln_threads_create(params->threads);
+    bool ok = threads ? compare(panels, params->inputs, threads, error)
+                      : kiln_error_set(error, KILN_DEVICE_FAILED, "cannot start threads");
+    kiln_threads_destroy(&threads);
+    return ok;
+}
+
+/* ---- Strips --------------------------------------------------------------------------------- */
+
+static bool is_wanted(const struct kiln_frame_range *ranges, size_t count, uint32_t number)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (number >= ranges[i].first && number <= ranges[i].last)
+            return true;
+    }
+    return false;
+}
+
+static bool take_frame(struct kiln_panels *panels, struct kiln_footage *footage, uint32_t number,
+                       struct kiln_threads *threads, struct kiln_error *error)
+{
+    struct kiln_panel *panel = &panels->items[panels->count];
+    panel->source = kiln_footage_path(footage);
+    panel->has_frame = true;
+    panel->frame = number;
+    panel->time_s = -1;
+    panel->label = kiln_arena_format(panels->arena, "frame %u", number);
+    struct kiln_asset_image *image = kiln_footage_take(footage, error);
+    struct kiln_subject *subject =
+        image ? kiln_subject_create(image, NULL, panel->source, threads, error) : NULL;
+    bool ok = panel->label && subject && take_subject(panels, panel, subject, error);
+    kiln_subject_destroy(&subject);
+    kiln_asset_image_destroy(&image);
+    panels->count += ok;
+    return ok || error->code != KILN_OK ||
+           kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a strip");
+}
+
+/* Which number the next frame has. */
+static bool next_number(struct kiln_footage *footage, uint32_t position, uint32_t *number)
+{
+    struct kiln_footage_frame frame;
+    if (!kiln_footage_peek(footage, &frame))
+        return false;
+    bool numbers = kiln_footage_kind(footage) >= KILN_FOOTAGE_NUMBERED;
+    *number = numbers ? frame.number : position;
+    return true;
+}
+
+/* Counts the frames, and lists an even choice of them by their numbers. Of a video that means to
+ * decode it. */
+static bool choose_evenly(const char *path, uint32_t wanted, struct kiln_frame_range *ranges,
+                          size_t *count, struct kiln_error *error)
+{
+    uint32_t numbers_size = 1024, total = 0, number;
+    uint32_t *numbers = malloc(numbers_size * sizeof *numbers);
+    struct kiln_footage *footage = kiln_footage_open(path, "beauty", error);
+    while (footage && numbers && next_number(footage, total, &number)) {
+        if (total == numbers_size) {
+            numbers_size *= 2;
+            uint32_t *grown = realloc(numbers, numbers_size * sizeof *numbers);
+            if (!grown)
+                break;
+            numbers = grown;
+        }
+        numbers[total++] = number;
+        kiln_footage_skip(footage);
+    }
+    *count = wanted < total ? wanted : total;
+    for (uint32_t i = 0; i < *count; i++) {
+        uint64_t place = *count > 1 ? (uint64_t)i * (total - 1) / (*count - 1) : total / 2;
+        ranges[i] = (struct kiln_frame_range){numbers[place], numbers[place]};
+    }
+    free(numbers);
+    bool ok = footage != NULL;
+    kiln_footage_close(&footage);
+    return ok && (*count > 0 || kiln_error_set(error, KILN_INVALID_INPUT, "%s: no frames", path));
+}
+
+static bool take_frames(struct kiln_panels *panels, const char *path,
+                        const struct kiln_frame_range *ranges, size_t count,
+                        struct kiln_error *error)
+{
+    struct kiln_threads *threads = kiln_threads_create(1);
+    struct kiln_footage *footage = kiln_footage_open(path, "beauty", error);
+    uint32_t number, most = (uint32_t)panels->count;
+    bool ok = footage != NULL && threads != NULL;
+    panels->count = 0;
+    for (uint32_t position = 0; ok && panels->count < most; position++) {
+        if (!next_number(footage, position, &number))
+            break;
+        if (is_wanted(ranges, count, number))
+            ok = take_frame(panels, footage, number, threads, error);
+        else
+            kiln_footage_skip(footage);
+    }
+    kiln_footage_close(&footage);
+    kiln_threads_destroy(&threads);
+    return ok;
+}
+
+static bool strip_of_clip(struct kiln_panels *panels, const struct kiln_figure_params *params,
+                          struct kiln_error *error)
+{
+    struct kiln_frame_range *even = kiln_arena_alloc(panels->arena, params->strip, sizeof *even);
+    const struct kiln_frame_range *ranges = params->ranges;
+    size_t count = params->range_count;
+    const char *path = params->inputs[0];
+    if (!even)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a strip");
+    if (count == 0) {
+        if (!choose_evenly(path, params->strip, even, &count, error))
+            return false;
+        ranges = even;
+    }
+    for (size_t i = 0; i < count; i++)
+        panels->count += (size_t)ranges[i].last - ranges[i].first + 1;
+    if (panels->count > 1024)
+        return kiln_error_set(error, KILN_USAGE, "%zu frames; a figure has up to 1024 panels",
+                              panels->count);
+    size_t wanted = panels->count;
+    panels->items = kiln_arena_alloc(panels->arena, wanted, sizeof *panels->items);
+    if (!panels->items)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a strip");
+    if (!take_frames(panels, path, ranges, count, error))
+        return false;
+    panels->columns = panels->count;
+    return panels->count == wanted ||
+           kiln_error_set(error, KILN_USAGE, "%s: found %zu of the %zu frames that were asked for",
+                          path, panels->count, wanted);
+}
+
+/* The sheet of a scene's frames in a row. */
+static bool strip_of_scene(struct kiln_panels *panels, const struct kiln_figure_params *params,
+                           struct kiln_error *error)
+{
+    struct kiln_figure_params sheet = *params;
+    if (params->range_count == 0) {
+        struct kiln_scene *scene = kiln_scene_load(params->inputs[0], &params->scene, error);
+        if (!scene)
+            return false;
+        uint32_t frames = kiln_scene_info(scene).frames;
+        kiln_scene_destroy(&scene);
+        uint32_t count = params->strip < frames ? params->strip : frames;
+        struct kiln_frame_range *even = kiln_arena_alloc(panels->arena, count, sizeof *even);
+        if (!even)
+            return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a strip");
+        for (uint32_t i = 0; i < count; i++) {
+            uint64_t frame = count > 1 ? (uint64_t)i * (frames - 1) / (count - 1) : frames / 2;
+            even[i] = (struct kiln_frame_range){(uint32_t)frame, (uint32_t)frame};
+        }
+        sheet.ranges = even;
+        sheet.range_count = count;
+    }
+    if (!kiln_panels_of_sheet(panels, &sheet, error))
+        return false;
+    for (size_t i = 0; i < panels->count; i++) {
+        struct kiln_panel *panel = &panels->items[i];
+        panel->label = kiln_arena_format(panels->arena, "%.2f s", panel->time_s);
+        if (!panel->label)
+            return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a strip");
+    }
+    panels->columns = panels->count;
+    return true;
+}
+
+bool kiln_panels_of_strip(struct kiln_panels *panels, const struct kiln_figure_params *params,
+                          struct kiln_error *error)
+{
+    if (params->input_count != 1)
+        return kiln_error_set(error, KILN_USAGE, "a strip of %zu clips; it needs one",
+                              params->input_count);
+    if (params->strip < 1 || params->strip > 1024)
+        return kiln_error_set(error, KILN_USAGE, "a strip of %u frames; allowed are 1 to 1024",
+                              params->strip);
+    return kiln_is_scene_name(params->inputs[0]) ? strip_of_scene(panels, params, error)
+                                                 : strip_of_clip(panels, params, error);
+}

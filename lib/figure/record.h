@@ -1,0 +1,32 @@
+/* The sidecar of a figure, FILE.png.figure.json: what it was made by, from what, and what came out.
+ */
+#ifndef KILN_FIGURE_RECORD_H
+#define KILN_FIGURE_RECORD_H
+
+#include "base/text.h"
+#include "figure/panels.h"
+
+#define KILN_RECORD_SUFFIX ".figure.json"
+
+struct kiln_record {
+    const char *version;  /* of kiln */
+    const char *folder;   /* where the command was given, from the folder of the sidecar */
+    const char **command; /* the words after `kiln` */
+    size_t command_count;
+    const char *device; /* that rendered; "" if none did */
+    uint32_t width, height;
+    const char *pixels; /* SHA-256 of the figure's pixels, also of what is written as vectors */
+    const char *file;   /* SHA-256 of the figure's file */
+    struct kiln_panel *panels; /* without their pixels */
+    size_t panel_count;
+};
+
+/* The text of a sidecar, which the caller frees. */
+bool kiln_record_write(const struct kiln_record *record, struct kiln_text *text,
+                       struct kiln_error *error);
+
+/* Reads a sidecar into the arena. KILN_INVALID_INPUT when it is none. */
+struct kiln_record *kiln_record_read(struct kiln_arena *arena, const char *path,
+                                     struct kiln_error *error);
+
+#endif

@@ -1,0 +1,139 @@
+A figure needs a kind, something to show and a place.
+$ kiln figure
+2|kiln: figure: needs sheet, triptych or strip, or --check PATH
+= 2
+$ kiln figure shet
+2|kiln: figure: unknown figure 'shet' (did you mean 'sheet'?); allowed are sheet, triptych and strip
+= 2
+$ kiln figure sheet -o a.png
+2|kiln: figure sheet: needs SCENE...
+= 2
+$ kiln figure sheet scenes/tiny.yaml
+2|kiln: figure sheet: needs --output FILE
+= 2
+$ kiln figure sheet scenes/tiny.yaml -o a.jpg
+2|kiln: figure sheet: a.jpg: a figure is PNG, SVG or PDF; the name must end in .png, .svg or .pdf
+= 2
+$ kiln figure sheet scenes/none.yaml -o a.png
+2|scenes/none.yaml: No such file or directory
+= 3
+$ kiln figure sheet scenes/tiny.yaml -o a.png --sweep rate
+2|kiln: figure sheet: --sweep: found 'rate', expected KEY=VALUE,...
+= 2
+$ kiln figure sheet scenes/tiny.yaml -o a.png --sweep seed=
+2|kiln: figure sheet: --sweep: found 'seed='; expected KEY=VALUE,VALUE,...
+= 2
+$ kiln figure sheet scenes/tiny.yaml -o a.png --sweep systems.*.emit.raet=1,2
+2|--set systems.*.emit.raet: systems.smoke.emit.raet: unknown key (did you mean 'rate'?)
+= 3
+$ kiln figure sheet scenes/tiny.yaml -o a.png --sweep seed=1,2 --with fps=1
+2|kiln: figure sheet: --with fps=1: found 1 values; --sweep seed=1,2 before it has 2
+= 2
+$ kiln figure sheet scenes/tiny.yaml -o a.png --with seed=1
+2|kiln: figure sheet: --with seed=1: there is no --sweep before it
+= 2
+$ kiln figure sheet scenes/tiny.yaml -o a.png --variant 'seed=1;x'
+2|kiln: figure sheet: --variant: found 'seed=1;x'; expected KEY=VALUE;KEY=VALUE...
+= 2
+$ kiln figure sheet scenes/tiny.yaml -o a.png --sweep frame=3,99
+2|kiln: figure sheet: frame 99: 'scenes/tiny.yaml' has frames 0-23
+= 2
+$ kiln figure sheet scenes/tiny.yaml -o a.png --sweep frame=0.5
+2|kiln: figure sheet: --sweep frame=0.5: found '0.5'; expected the number of a frame
+= 2
+$ kiln figure sheet scenes/tiny.yaml -o a.png --sweep frame=1,2 --frames 3
+2|kiln: figure sheet: --frames: --sweep frame=1,2 says already what to show
+= 2
+$ kiln figure sheet scenes/tiny.yaml -o a.png --sweep time=soon
+2|kiln: figure sheet: --sweep time=soon: found 'soon'; expected seconds, such as 1.5
+= 2
+$ kiln figure sheet scenes/tiny.yaml -o a.png --inset 1,2,3
+2|kiln: figure sheet: --inset: found '1,2,3'; expected X,Y,WxH in pixels or in parts, such as 320,180,160x90 or 0.4,0.25,0.2x0.2
+= 2
+$ kiln figure sheet scenes/tiny.yaml -o a.png --inset 60,30,10x10
+2|kiln: figure sheet: --inset 60,30,10x10: found a part that is not in a picture of 64 x 36
+= 2
+$ kiln figure sheet scenes/tiny.yaml -o a.png --sweep seed=1,2 --label one
+2|kiln: figure sheet: found 1 labels for 2 pictures
+= 2
+$ kiln figure sheet scenes/tiny.yaml -o a.png --text-size 4
+2|kiln: figure sheet: --text-size: found '4', expected a whole number from 8 to 64
+= 2
+$ kiln figure strip scenes/tiny.yaml -o a.png --count 0
+2|kiln: figure strip: --count: found '0', expected a whole number from 1 to 1024
+= 2
+$ kiln figure triptych scenes/puff.png -o a.png
+2|kiln: figure triptych: needs REFERENCE TEST
+= 2
+$ kiln figure triptych scenes/puff.png scenes/tiny.yaml -o a.png
+2|scenes/tiny.yaml: not an image: it starts with the bytes 23 20 41 20; allowed are PNG, JPEG, WebP, TIFF, BMP or EXR files
+= 3
+$ kiln figure strip missing.mp4 -o a.png
+2|missing.mp4: No such file or directory
+= 3
+$ kiln figure --check scenes
+2|scenes: no figures in it: none with a .figure.json
+= 3
+$ kiln figure --check scenes/puff.png
+2|scenes/puff.png: expected a folder, or a file whose name ends in .figure.json
+= 3
+Nothing was written so far, not even in part.
+$ find . -type f -not -path './scenes/*'
+
+A sheet over two sweeps, and its sidecar.
+$ kiln figure sheet scenes/tiny.yaml -o doc/rates.png --sweep systems.*.emit.rate=5,60 --sweep time=0.2,0.4 --title 'Rates at 45°'
+$ grep -o '"label": "[^"]*"' doc/rates.png.figure.json
+1|"label": "rate = 5, 0.2 s"
+1|"label": "rate = 5, 0.4 s"
+1|"label": "rate = 60, 0.2 s"
+1|"label": "rate = 60, 0.4 s"
+$ grep '"folder"\|"command"' doc/rates.png.figure.json
+1|"folder": "..",
+1|"command": ["figure", "sheet", "scenes/tiny.yaml", "-o", "doc/rates.png", "--sweep", "systems.*.emit.rate=5,60", "--sweep", "time=0.2,0.4", "--title", "Rates at 45°"],
+It is not replaced unless that is wanted, and comes out the same.
+$ kiln figure sheet scenes/tiny.yaml -o doc/rates.png
+2|kiln: doc/rates.png: the file exists (--force replaces it)
+= 6
+$ kiln figure sheet scenes/tiny.yaml -o doc/again.png --sweep systems.*.emit.rate=5,60 --sweep time=0.2,0.4 --title 'Rates at 45°' --threads 1
+$ cmp doc/rates.png doc/again.png && rm doc/again.png*
+
+The other kinds, and vectors.
+$ kiln figure strip scenes/tiny.yaml -n 3 -o doc/strip.svg --dark && xmllint --noout doc/strip.svg
+$ kiln render scenes/tiny.yaml -q -o clip/f_####.png --frames 8-11
+$ kiln figure triptych clip/f_0008.png clip/f_0011.png -o doc/pair.pdf --inset 0.3,0.3,0.25x0.25
+$ head -c 8 doc/pair.pdf; tail -n 1 doc/pair.pdf
+1|%PDF-1.4%%EOF
+$ kiln figure strip clip/f_####.png -n 2 -o doc/clip.png
+$ grep -o '"label": "[^"]*"' doc/clip.png.figure.json
+1|"label": "frame 8"
+1|"label": "frame 11"
+$ kiln figure strip clip/f_####.png --frames 8,30 -o doc/none.png
+2|kiln: figure strip: clip/f_####.png: found 1 of the 2 frames that were asked for
+= 2
+$ kiln figure triptych clip/f_0008.png scenes/puff.png -o doc/none.png
+2|the sizes differ: the reference has 64 x 36 pixels, the test 32 x 32
+= 3
+
+All of them are what their commands make, from wherever one asks.
+$ kiln figure --check doc
+1|doc/clip.png: up to date
+1|doc/pair.pdf: up to date
+1|doc/rates.png: up to date
+1|doc/strip.svg: up to date
+$ cd doc && kiln figure --check strip.svg.figure.json
+1|strip.svg: up to date
+$ kiln figure --check doc --quiet
+Then a scene changes, a picture, a file, a sidecar.
+$ sed -i 's/drag: 0.2/drag: 0.9/' scenes/tiny.yaml
+$ cp clip/f_0010.png clip/f_0011.png
+$ rm doc/clip.png
+$ kiln figure --check doc
+1|doc/clip.png: stale: the figure is not there
+1|doc/pair.pdf: stale: the picture has changed in 'result'
+1|doc/rates.png: stale: the scene has changed in 'rate = 5, 0.2 s'
+1|doc/strip.svg: stale: the scene has changed in '0.00 s'
+= 1
+$ sed -i 's/"pixels": "/"pixels": "x/' doc/pair.pdf.figure.json
+$ kiln figure --check doc
+2|doc/pair.pdf.figure.json:8:11: pixels: expected 64 hex digits
+= 3
