@@ -1,0 +1,371 @@
+/* lib/figure: the lettering, the panels of sweeps, the layout, what is written and read back. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "asset/image.h"
+#include "base/hash.h"
+#include "figure/font_glyphs.h"
+#include "figure/layout.h"
+#include "figure/record.h"
+#include "figure/sweep.h"
+
+/* ---- Lettering ------------------------------------------------------------------------------ */
+
+static void the_font_has_ascii_and_signs(void **state)
+{
+    (void)state;
+    for (uint32_t code = ' '; code <= '~'; code++)
+        assert_true(kiln_font_has(code));
+    static const uint32_t signs[] = {0xB0, 0xD7, 0xB1, 0xB5, 0x2013, 0x2026, 0x2212};
+    for (size_t i = 0; i < sizeof signs / sizeof *signs; i++)
+        assert_true(kiln_font_has(signs[i]));
+    assert_false(kiln_font_has(0x4E2D));
+    for (uint32_t i = 1; i < kiln_font_glyph_count; i++)
+        assert_true(kiln_font_glyphs[i - 1].code < kiln_font_glyphs[i].code);
+}
+
+struct bounds {
+    double left, right, bottom, top;
+    int moves;
+};
+
+static void reach(struct bounds *bounds, double x, double y)
+{
+    bounds->left = x < bounds->left ? x : bounds->left;
+    bounds->right = x > bounds->right ? x : bounds->right;
+    bounds->bottom = y < bounds->bottom ? y : bounds->bottom;
+    bounds->top = y > bounds->top ? y : bounds->top;
+}
+
+static void on_move(void *user, double x, double y)
+{
+    ((struct bounds *)user)->moves++;
+    reach(user, x, y);
+}
+
+static void on_line(void *user, double x, double y)
+{
+    reach(user, x, y);
+}
+
+static void on_curve(void *user, const double points[6])
+{
+    reach(user, points[4], points[5]);
+}
+
+/* Neighbours do not run into each other, and no two glyphs are the same. */
+static void glyphs_stay_in_their_room(void **state)
+{
+    (void)state;
+    for (uint32_t i = 1; i < kiln_font_glyph_count; i++) {
+        const struct kiln_glyph *glyph = &kiln_font_glyphs[i];
+        char text[8] = {(char)glyph->code};
+        if (glyph->code >= 0x80)
+            continue;
+        struct bounds bounds = {1e9, -1e9, 1e9, -1e9, 0};
+        kiln_font_draw(text, &(struct kiln_font_pen){on_move, on_line, on_curve, &bounds});
+        assert_true(bounds.moves > 0);
+        assert_true(bounds.left >= -4 && bounds.right <= glyph->advance);
+        assert_true(bounds.bottom >= -KILN_FONT_DESCENT && bounds.top <= KILN_FONT_ASCENT);
+        for (uint32_t k = i + 1; k < kiln_font_glyph_count; k++)
+            assert_true(strcmp(glyph->path, kiln_font_glyphs[k].path) != 0);
+    }
+}
+
+static void broken_utf8_is_lettered_all_the_same(void **state)
+{
+    (void)state;
+    const char *text = "\xff\xc2\xb0";
+    assert_int_equal(kiln_font_next(&text), 0xFFFD);
+    assert_int_equal(kiln_font_next(&text), 0xB0);
+    assert_int_equal(kiln_font_next(&text), 0);
+    assert_int_equal(kiln_font_width("\xff"), kiln_font_width("\xe4\xb8\xad"));
+}
+
+/* ---- Sweeps --------------------------------------------------------------------------------- */
+
+static void sweeps_make_their_product(void **state)
+{
+    (void)state;
+    static const char *const scenes[] = {"a.yaml"};
+    static const struct kiln_figure_sweep sweeps[] = {
+        {KILN_SWEEP_KEY, "systems.*.emit.rate=5,20000"},
+        {KILN_SWEEP_TOGETHER, "x.scale=[2, 2],[1, 1]"},
+        {KILN_SWEEP_KEY, "time=1,2.5 s,3"},
+    };
+    struct kiln_figure_params params = KILN_FIGURE_DEFAULTS;
+    params.inputs = scenes;
+    params.input_count = 1;
+    params.sweeps = sweeps;
+    params.sweep_count = 3;
+    struct kiln_arena *arena = kiln_arena_create();
+    struct kiln_choices choices;
+    struct kiln_error error = {0};
+    assert_true(kiln_choices_make(arena, &params, &choices, &error));
+    assert_int_equal(choices.count, 6);
+    assert_int_equal(choices.last_axis, 3);
+    const struct kiln_choice *choice = &choices.items[4];
+    assert_string_equal(choice->label, "rate = 20000, 2.5 s");
+    assert_int_equal(choice->override_count, 2);
+    assert_string_equal(choice->overrides[0], "systems.*.emit.rate=20000");
+    assert_string_equal(choice->overrides[1], "x.scale=[1, 1]");
+    assert_int_equal(choice->moment, KILN_MOMENT_TIME);
+    assert_true(choice->when == 2.5);
+    kiln_arena_destroy(&arena);
+}
+
+/* ---- Layout --------------------------------------------------------------------------------- */
+
+enum { WIDTH = 96, HEIGHT = 54, PANELS = 4 };
+
+struct figure {
+    struct kiln_arena *arena;
+    struct kiln_panels panels;
+    struct kiln_drawing drawing;
+    struct kiln_figure_params params;
+    uint8_t rgba[WIDTH * HEIGHT * 4];
+};
+
+static int make_figure(void **state)
+{
+    struct figure *figure = calloc(1, sizeof *figure);
+    figure->arena = kiln_arena_create();
+    figure->drawing.arena = figure->panels.arena = figure->arena;
+    figure->panels.items = kiln_arena_alloc(figure->arena, PANELS, sizeof *figure->panels.items);
+    figure->panels.count = PANELS;
+    figure->panels.columns = 2;
+    for (size_t i = 0; i < WIDTH * HEIGHT; i++) {
+        figure->rgba[4 * i] = (uint8_t)i;
+        figure->rgba[4 * i + 1] = (uint8_t)(i / WIDTH);
+        figure->rgba[4 * i + 3] = 255;
+    }
+    for (size_t i = 0; i < PANELS; i++)
+        figure->panels.items[i] = (struct kiln_panel){
+            .label = "a < b & \"c\"", .source = "s", .pixels = {WIDTH, HEIGHT, figure->rgba}};
+    figure->params = KILN_FIGURE_DEFAULTS;
+    *state = figure;
+    return 0;
+}
+
+static int free_figure(void **state)
+{
+    struct figure *figure = *state;
+    kiln_arena_destroy(&figure->arena);
+    free(figure);
+    return 0;
+}
+
+static bool overlap(const struct kiln_mark *a, const struct kiln_mark *b)
+{
+    return a->x < b->x + (int32_t)b->width && b->x < a->x + (int32_t)a->width &&
+           a->y < b->y + (int32_t)b->height && b->y < a->y + (int32_t)a->height;
+}
+
+static void pictures_lie_apart_and_on_the_paper(void **state)
+{
+    struct figure *figure = *state;
+    static const struct kiln_figure_inset insets[] = {{0.1, 0.2, 0.3, 0.4, true},
+                                                      {40, 20, 16, 9, false}};
+    figure->params.insets = insets;
+    figure->params.inset_count = 2;
+    figure->params.title = "A title";
+    struct kiln_error error = {0};
+    assert_true(kiln_layout_make(&figure->drawing, &figure->panels, &figure->params, &error));
+    int pictures = 0;
+    for (size_t i = 0; i < figure->drawing.count; i++) {
+        const struct kiln_mark *mark = &figure->drawing.marks[i];
+        if (mark->kind != KILN_MARK_PICTURE)
+            continue;
+        pictures++;
+        assert_true(mark->x > 0 && mark->x + (int32_t)mark->width < (int32_t)figure->drawing.width);
+        assert_true(mark->y > 0 &&
+                    mark->y + (int32_t)mark->height < (int32_t)figure->drawing.height);
+        for (size_t k = 0; k < i; k++)
+            assert_true(figure->drawing.marks[k].kind != KILN_MARK_PICTURE ||
+                        !overlap(mark, &figure->drawing.marks[k]));
+    }
+    assert_int_equal(pictures, PANELS * 3);
+}
+
+/* What a reader sees of a panel is that panel, to the bit. */
+static void pixels_are_those_of_the_panels(void **state)
+{
+    struct figure *figure = *state;
+    struct kiln_error error = {0};
+    struct kiln_pixels pixels;
+    assert_true(kiln_layout_make(&figure->drawing, &figure->panels, &figure->params, &error));
+    assert_true(kiln_drawing_rasterise(&figure->drawing, &pixels, &error));
+    const struct kiln_mark *mark = &figure->drawing.marks[0];
+    assert_int_equal(mark->width, WIDTH);
+    for (uint32_t y = 0; y < HEIGHT; y++)
+        assert_memory_equal(
+            pixels.rgba + 4 * ((size_t)(mark->y + (int32_t)y) * pixels.width + (size_t)mark->x),
+            figure->rgba + (size_t)4 * WIDTH * y, (size_t)4 * WIDTH);
+    uint8_t *bytes;
+    size_t size;
+    assert_true(kiln_pixels_png(&pixels, &bytes, &size, &error));
+    struct kiln_asset_image *image = kiln_asset_image_parse(bytes, size, "figure", &error);
+    assert_non_null(image);
+    assert_memory_equal(image->pixels, pixels.rgba, (size_t)pixels.width * pixels.height * 4);
+    kiln_asset_image_destroy(&image);
+    free(bytes);
+    free(pixels.rgba);
+}
+
+static void lettering_is_there_and_has_smooth_edges(void **state)
+{
+    struct figure *figure = *state;
+    figure->drawing.width = 200;
+    figure->drawing.height = 40;
+    figure->drawing.paper = 0xffffff;
+    struct kiln_mark mark = {.kind = KILN_MARK_TEXT, .x = 10, .y = 30, .height = 20, .text = "IH"};
+    kiln_drawing_add(&figure->drawing, &mark);
+    struct kiln_pixels pixels;
+    struct kiln_error error = {0};
+    assert_true(kiln_drawing_rasterise(&figure->drawing, &pixels, &error));
+    int black = 0, grey = 0;
+    for (size_t i = 0; i < (size_t)200 * 40; i++) {
+        black += pixels.rgba[4 * i] == 0;
+        grey += pixels.rgba[4 * i] > 0 && pixels.rgba[4 * i] < 255;
+    }
+    assert_in_range(black, 60, 260); /* three stems of 20 pixels and a bar, 2.4 wide */
+    assert_in_range(grey, 20, 260);
+    free(pixels.rgba);
+}
+
+/* A reduced picture has the light of the larger one. */
+static void reducing_averages_light(void **state)
+{
+    (void)state;
+    uint8_t checks[4 * 4 * 4], out[2 * 2 * 4];
+    for (size_t i = 0; i < 16; i++)
+        memset(checks + 4 * i, (i + i / 4) % 2 ? 255 : 0, 4);
+    assert_true(kiln_pixels_resize(&(struct kiln_pixels){4, 4, checks}, 2, 2, out));
+    for (size_t i = 0; i < 4; i++)
+        assert_int_equal(out[4 * i], 188); /* half of white's light, in sRGB */
+}
+
+static void requests_that_make_no_sense_are_refused(void **state)
+{
+    struct figure *figure = *state;
+    struct kiln_error error = {0};
+    static const struct kiln_figure_inset outside = {0.9, 0.2, 0.3, 0.4, true};
+    figure->params.insets = &outside;
+    figure->params.inset_count = 1;
+    assert_false(kiln_layout_make(&figure->drawing, &figure->panels, &figure->params, &error));
+    assert_int_equal(error.code, KILN_USAGE);
+    figure->params.inset_count = 0;
+    for (size_t i = 0; i < PANELS; i++)
+        figure->panels.items[i].pixels.height = 20000;
+    assert_false(kiln_layout_make(&figure->drawing, &figure->panels, &figure->params, &error));
+    assert_non_null(strstr(error.message, "--width"));
+}
+
+/* ---- Files ---------------------------------------------------------------------------------- */
+
+static void vectors_are_the_same_twice_and_hold_no_font(void **state)
+{
+    struct figure *figure = *state;
+    struct kiln_error error = {0};
+    assert_true(kiln_layout_make(&figure->drawing, &figure->panels, &figure->params, &error));
+    bool (*const writers[])(const struct kiln_drawing *, uint8_t **, size_t *,
+                            struct kiln_error *) = {kiln_drawing_svg, kiln_drawing_pdf};
+    for (int i = 0; i < 2; i++) {
+        uint8_t *bytes[2];
+        size_t sizes[2];
+        for (int k = 0; k < 2; k++)
+            assert_true(writers[i](&figure->drawing, &bytes[k], &sizes[k], &error));
+        assert_int_equal(sizes[0], sizes[1]);
+        assert_memory_equal(bytes[0], bytes[1], sizes[0]);
+        if (i == 0) {
+            assert_null(strstr((char *)bytes[0], "<text"));
+            assert_non_null(
+                strstr((char *)bytes[0], "aria-label=\"a &lt; b &amp; &quot;c&quot;\""));
+        } else {
+            assert_memory_equal(bytes[0] + sizes[0] - 6, "%%EOF\n", 6);
+            const char *start = strstr((char *)bytes[0] + sizes[0] - 40, "startxref\n");
+            assert_non_null(start);
+            assert_memory_equal(bytes[0] + strtol(start + 10, NULL, 10), "xref\n", 5);
+        }
+        free(bytes[0]);
+        free(bytes[1]);
+    }
+}
+
+static void sidecars_come_back_as_they_were(void **state)
+{
+    struct figure *figure = *state;
+    static const char *command[] = {"figure", "sheet", "a \"b\".yaml", "\xc3\xa9\n"};
+    struct kiln_panel *panel = &figure->panels.items[1];
+    panel->has_frame = true;
+    panel->frame = 30;
+    memset(panel->scene_hash, 'a', 64);
+    memcpy(panel->state, "0123456789abcdef", 17);
+    for (size_t i = 0; i < PANELS; i++)
+        memset(figure->panels.items[i].hash, 'b', 64);
+    struct kiln_record record = {.version = "1.2.3",
+                                 .folder = "../..",
+                                 .command = command,
+                                 .command_count = 4,
+                                 .device = "",
+                                 .width = 10,
+                                 .height = 20,
+                                 .pixels = panel->hash,
+                                 .file = panel->scene_hash,
+                                 .panels = figure->panels.items,
+                                 .panel_count = PANELS};
+    struct kiln_text text = {0};
+    struct kiln_error error = {0};
+    assert_true(kiln_record_write(&record, &text, &error));
+    char path[] = "/tmp/kiln-figure-XXXXXX";
+    int file = mkstemp(path);
+    assert_true(file >= 0 && write(file, text.data, text.length) == (ssize_t)text.length);
+    close(file);
+    struct kiln_record *read = kiln_record_read(figure->arena, path, &error);
+    unlink(path);
+    if (!read)
+        fail_msg("%s", error.message);
+    assert_int_equal(read->command_count, 4);
+    for (size_t i = 0; i < 4; i++)
+        assert_string_equal(read->command[i], command[i]);
+    assert_string_equal(read->folder, "../..");
+    assert_int_equal(read->height, 20);
+    assert_int_equal(read->panel_count, PANELS);
+    assert_string_equal(read->panels[1].state, panel->state);
+    assert_int_equal(read->panels[1].frame, 30);
+    assert_string_equal(read->panels[0].scene_hash, "");
+    struct kiln_text again = {0};
+    assert_true(kiln_record_write(read, &again, &error));
+    assert_string_equal(again.data, text.data);
+    kiln_text_free(&again);
+    kiln_text_free(&text);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_font_has_ascii_and_signs),
+        cmocka_unit_test(glyphs_stay_in_their_room),
+        cmocka_unit_test(broken_utf8_is_lettered_all_the_same),
+        cmocka_unit_test(sweeps_make_their_product),
+        cmocka_unit_test(reducing_averages_light),
+        cmocka_unit_test_setup_teardown(pictures_lie_apart_and_on_the_paper, make_figure,
+                                        free_figure),
+        cmocka_unit_test_setup_teardown(pixels_are_those_of_the_panels, make_figure, free_figure),
+        cmocka_unit_test_setup_teardown(lettering_is_there_and_has_smooth_edges, make_figure,
+                                        free_figure),
+        cmocka_unit_test_setup_teardown(requests_that_make_no_sense_are_refused, make_figure,
+                                        free_figure),
+        cmocka_unit_test_setup_teardown(vectors_are_the_same_twice_and_hold_no_font, make_figure,
+                                        free_figure),
+        cmocka_unit_test_setup_teardown(sidecars_come_back_as_they_were, make_figure, free_figure),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
