@@ -45,19 +45,23 @@ static void find(void *library, const char *name, void *function)
 static bool load_library(struct assimp *assimp, struct kiln_error *error, const char *name)
 {
     void *library = dlopen(LIBRARY, RTLD_NOW | RTLD_LOCAL);
-    if (!library)
-        return kiln_error_set(error, KILN_IO,
-                              "%s: meshes need " LIBRARY
-                              ", which is not installed (Debian's package libassimp5)",
-                              name);
+    if (!library) {
+        kiln_error_set(error, KILN_IO,
+                       "%s: meshes need " LIBRARY
+                       ", which is not installed (Debian's package libassimp5)",
+                       name);
+        return false;
+    }
     find(library, "aiCreatePropertyStore", &assimp->create_properties);
     find(library, "aiSetImportPropertyInteger", &assimp->set_integer);
     find(library, "aiSetImportPropertyFloat", &assimp->set_float);
     find(library, "aiImportFileExWithProperties", &assimp->import);
     find(library, "aiGetErrorString", &assimp->error_string);
-    return (assimp->create_properties && assimp->set_integer && assimp->set_float &&
-            assimp->import && assimp->error_string) ||
-           kiln_error_set(error, KILN_IO, "%s: " LIBRARY " is not the one that kiln knows", name);
+    if (assimp->create_properties && assimp->set_integer && assimp->set_float && assimp->import &&
+        assimp->error_string)
+        return true;
+    kiln_error_set(error, KILN_IO, "%s: " LIBRARY " is not the one that kiln knows", name);
+    return false;
 }
 
 /* ---- files ----------------------------------------------------------------------------------- */

@@ -147,39 +147,40 @@ static void deposit(void *context, const struct kiln_living *particle)
         add_ball(smoke->levels[level], edge, reach, total / (sum * cell * cell * cell));
 }
 
+/* The two coarse cells that a fine one lies between: its own, of weight 3/4, and the next, of 1/4.
+ */
+struct between {
+    int cells[2];
+};
+
+static struct between between_of(int fine, int coarse_edge)
+{
+    int own = fine / 2, next = fine & 1 ? own + 1 : own - 1;
+    next = next < 0 ? 0 : next > coarse_edge - 1 ? coarse_edge - 1 : next;
+    return (struct between){{own, next}};
+}
+
+/* Adds weight times a coarse row to a fine one. */
+static void add_coarser_row(const float *coarse, int coarse_edge, float weight, float *fine)
+{
+    for (int x = 0; x < 2 * coarse_edge; x++) {
+        struct between at = between_of(x, coarse_edge);
+        fine[x] += weight * (0.75f * coarse[at.cells[0]] + 0.25f * coarse[at.cells[1]]);
+    }
+}
+
 /* Adds a level to the one of twice its edge, linearly interpolated. */
 static void add_coarser(const float *coarse, int coarse_edge, float *fine)
 {
+    static const float weights[2] = {0.75f, 0.25f};
     int edge = 2 * coarse_edge;
-    for (int z = 0; z < edge; z++) {
-        for (int y = 0; y < edge; y++) {
-            int at[3][2]; /* coarse cells: the nearer, the farther; of y, z */
-            const int here[2] = {y, z};
-            for (int i = 0; i < 2; i++) {
-                int near = here[i] / 2, far = here[i] & 1 ? near + 1 : near - 1;
-                at[i][0] = near;
-                at[i][1] = far < 0 ? 0 : far > coarse_edge - 1 ? coarse_edge - 1 : far;
-            }
-            const float *rows[2][2];
-            for (int j = 0; j < 2; j++) {
-                for (int i = 0; i < 2; i++)
-                    rows[j][i] =
-                        coarse + ((size_t)at[1][j] * (size_t)coarse_edge + (size_t)at[0][i]) *
-                                     (size_t)coarse_edge;
-            }
-            float *out = fine + ((size_t)z * (size_t)edge + (size_t)y) * (size_t)edge;
-            for (int x = 0; x < edge; x++) {
-                int near = x / 2, far = x & 1 ? near + 1 : near - 1;
-                far = far < 0 ? 0 : far > coarse_edge - 1 ? coarse_edge - 1 : far;
-                float sum = 0.0f;
-                for (int j = 0; j < 2; j++) {
-                    for (int i = 0; i < 2; i++) {
-                        float weight = (j ? 0.25f : 0.75f) * (i ? 0.25f : 0.75f);
-                        sum += weight * (0.75f * rows[j][i][near] + 0.25f * rows[j][i][far]);
-                    }
-                }
-                out[x] += sum;
-            }
+    for (int row = 0; row < edge * edge; row++) {
+        struct between y = between_of(row % edge, coarse_edge);
+        struct between z = between_of(row / edge, coarse_edge);
+        for (int i = 0; i < 4; i++) {
+            int from = z.cells[i / 2] * coarse_edge + y.cells[i % 2];
+            add_coarser_row(coarse + (size_t)from * (size_t)coarse_edge, coarse_edge,
+                            weights[i / 2] * weights[i % 2], fine + (size_t)row * (size_t)edge);
         }
     }
 }

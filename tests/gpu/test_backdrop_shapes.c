@@ -462,7 +462,8 @@ static void write_quarters(const char *path)
     static const unsigned char quarters[4][3] = {
         {0, 0, 255}, {0, 255, 0}, {255, 0, 0}, {255, 255, 255}}; /* blue, green, red */
     memset(file, 0, sizeof file);
-    memcpy(file, "BM", 2);
+    file[0] = 'B';
+    file[1] = 'M';
     file[2] = SIZE & 255;
     file[3] = SIZE >> 8;
     file[10] = 54; /* of the pixels */

@@ -59,7 +59,8 @@ static struct kiln_asset_image *load_layer(const char *path, const char *layer)
     struct kiln_asset_image *image = kiln_asset_image_load_layer(path, layer, &error);
     if (!image)
         fail_msg("%s", error.message);
-    assert_true(image->width == WIDTH && image->height == HEIGHT && image->type == KILN_IMAGE_F32);
+    assert_true(image && image->width == WIDTH && image->height == HEIGHT &&
+                image->type == KILN_IMAGE_F32);
     return image;
 }
 

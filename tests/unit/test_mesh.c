@@ -256,9 +256,9 @@ static void large_files_are_refused(void **state)
     const char *corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     char *text = malloc(strlen(corners) + faces * length + 1);
     assert_non_null(text);
-    memcpy(text, corners, strlen(corners));
+    char *end = stpcpy(text, corners);
     for (size_t i = 0; i < faces; i++)
-        memcpy(text + strlen(corners) + i * length, face, length + 1);
+        end = stpcpy(end, face);
     refuse_text(text, "many.obj", "3 vertices and 1048577 faces; allowed are 1048576 ");
     free(text);
 }
