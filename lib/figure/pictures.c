@@ -66,8 +66,11 @@ static bool measure(struct kiln_panels *panels, struct kiln_subject *const subje
         take_subject(panels, &panels->items[1], subjects[1], error) &&
         take_map(panels, &panels->items[2], &measurement, error);
     kiln_measurement_finish(&measurement);
-    if (!ok && error->code == KILN_FRAME_FAILED) /* two sizes: no verdict, but nonsense */
-        error->code = KILN_INVALID_INPUT;
+    if (!ok && error->code == KILN_FRAME_FAILED) { /* two sizes: no verdict, but nonsense */
+        struct kiln_error cause = *error;
+        kiln_error_set(error, KILN_INVALID_INPUT, "%s: %.900s", panels->items[1].source,
+                       cause.message);
+    }
     return ok;
 }
 

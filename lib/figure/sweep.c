@@ -86,12 +86,17 @@ static size_t count_values(const char *text, char separator)
     return count;
 }
 
-/* The key's last word, which is what a reader looks for. */
+/* The key's last word, which is what a reader looks for; the last two where one says too little. */
 static const char *tail_of(const char *key, size_t length)
 {
     size_t start = length;
     while (start > 0 && key[start - 1] != '.')
         start--;
+    bool says_little = (length - start == 4 && strncmp(key + start, "kind", 4) == 0) ||
+                       (length - start == 7 && strncmp(key + start, "enabled", 7) == 0);
+    if (says_little && start > 1)
+        for (start--; start > 0 && key[start - 1] != '.';)
+            start--;
     return key + start;
 }
 

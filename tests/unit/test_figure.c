@@ -98,13 +98,14 @@ static void sweeps_make_their_product(void **state)
     static const struct kiln_figure_sweep sweeps[] = {
         {KILN_SWEEP_KEY, "systems.*.emit.rate=5,20000"},
         {KILN_SWEEP_TOGETHER, "x.scale=[2, 2],[1, 1]"},
+        {KILN_SWEEP_KEY, "post.bloom.kind=none"},
         {KILN_SWEEP_KEY, "time=1,2.5 s,3"},
     };
     struct kiln_figure_params params = KILN_FIGURE_DEFAULTS;
     params.inputs = scenes;
     params.input_count = 1;
     params.sweeps = sweeps;
-    params.sweep_count = 3;
+    params.sweep_count = 4;
     struct kiln_arena *arena = kiln_arena_create();
     struct kiln_choices choices;
     struct kiln_error error = {0};
@@ -112,8 +113,8 @@ static void sweeps_make_their_product(void **state)
     assert_int_equal(choices.count, 6);
     assert_int_equal(choices.last_axis, 3);
     const struct kiln_choice *choice = &choices.items[4];
-    assert_string_equal(choice->label, "rate = 20000, 2.5 s");
-    assert_int_equal(choice->override_count, 2);
+    assert_string_equal(choice->label, "rate = 20000, bloom.kind = none, 2.5 s");
+    assert_int_equal(choice->override_count, 3);
     assert_string_equal(choice->overrides[0], "systems.*.emit.rate=20000");
     assert_string_equal(choice->overrides[1], "x.scale=[1, 1]");
     assert_int_equal(choice->moment, KILN_MOMENT_TIME);

@@ -111,7 +111,7 @@ $ kiln figure strip clip/f_####.png --frames 8,30 -o doc/none.png
 2|kiln: figure strip: clip/f_####.png: found 1 of the 2 frames that were asked for
 = 2
 $ kiln figure triptych clip/f_0008.png scenes/puff.png -o doc/none.png
-2|the sizes differ: the reference has 64 x 36 pixels, the test 32 x 32
+2|scenes/puff.png: the sizes differ: the reference has 64 x 36 pixels, the test 32 x 32
 = 3
 
 All of them are what their commands make, from wherever one asks.

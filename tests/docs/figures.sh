@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# The figures of the documents can be checked, and a change of what they show is seen: figures.sh
+# KILN SOURCE. That they are up to date is for `kiln figure --check docs` to say: pixels differ from
+# driver to driver.
+set -euo pipefail
+kiln=$(realpath "$1")
+source=$(realpath "$2")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# expect CODE LINE COMMAND...
+expect() {
+    local code=0
+    said=$("${@:3}" 2>&1) || code=$?
+    if [ "$code" != "$1" ] || ! grep -qxF -- "$2" <<<"$said"; then
+        printf '%s\nexit code %s; expected %s and the line "%s"\n' "$said" "$code" "$1" "$2"
+        exit 1
+    fi
+}
+
+cp -r "$source/tests/cli/scenes" "$work/"
+cd "$work"
+"$kiln" figure sheet scenes/tiny.yaml -o docs/a/seeds.png --sweep seed=1,2
+"$kiln" figure strip scenes/tiny.yaml -o docs/strip.pdf -n 2
+cp -r docs/a/seeds.png before.png
+cd /
+expect 0 "$work/docs/a/seeds.png: up to date" "$kiln" figure --check "$work/docs"
+sed -i 's/fov: 45/fov: 40/' "$work/scenes/tiny.yaml"
+expect 1 "$work/docs/a/seeds.png: stale: the scene has changed in 'seed = 1'" \
+    "$kiln" figure --check "$work/docs"
+cmp "$work/before.png" "$work/docs/a/seeds.png" # a check writes nothing
+cd "$work"
+"$kiln" figure sheet scenes/tiny.yaml -o docs/a/seeds.png --sweep seed=1,2 --force
+"$kiln" figure strip scenes/tiny.yaml -o docs/strip.pdf -n 2 --force
+expect 0 "docs/strip.pdf: up to date" "$kiln" figure --check docs
+printf x >>docs/strip.pdf
+expect 1 "docs/strip.pdf: stale: the file is not the one that was written with its sidecar" \
+    "$kiln" figure --check docs
+rm docs/strip.pdf
+expect 1 "docs/strip.pdf: stale: the figure is not there" "$kiln" figure --check docs
+# The sidecars of the tree name commands that exist and scenes that load.
+code=0
+"$kiln" figure --check "$source/docs" || code=$?
+[ $code -le 1 ]
