@@ -68,7 +68,7 @@ static int read_repeated(const struct command *command, const struct arguments *
         for (int kind = 0; kind < 3; kind++) {
             if (strcmp(use->option->name, sweeps[kind]) != 0)
                 continue;
-            lists->sweeps[params->sweep_count].kind = kind;
+            lists->sweeps[params->sweep_count].kind = (enum kiln_sweep_kind)kind;
             lists->sweeps[params->sweep_count++].text = use->text;
         }
         if (strcmp(use->option->name, "inset") == 0 &&

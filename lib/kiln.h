@@ -384,14 +384,16 @@ bool kiln_write_metrics(FILE *out);
  * Beside FILE.png comes FILE.png.figure.json, which says what it was made by and from. */
 enum kiln_figure_kind { KILN_FIGURE_SHEET, KILN_FIGURE_TRIPTYCH, KILN_FIGURE_STRIP };
 
+enum kiln_sweep_kind {
+    KILN_SWEEP_KEY,
+    KILN_SWEEP_TOGETHER, /* no axis: changes along with the sweep before, value by value */
+    KILN_SWEEP_VARIANT,  /* "key=value;key=value": a panel; neighbours make an axis */
+};
+
 /* A sweep: an axis of panels, "key=value,value,...". The key is of the scene, or "frame", or "time"
  * (in seconds). */
 struct kiln_figure_sweep {
-    enum {
-        KILN_SWEEP_KEY,
-        KILN_SWEEP_TOGETHER, /* no axis: changes along with the sweep before, value by value */
-        KILN_SWEEP_VARIANT,  /* "key=value;key=value": a panel; neighbours make an axis */
-    } kind;
+    enum kiln_sweep_kind kind;
     const char *text;
 };
 

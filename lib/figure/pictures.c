@@ -202,7 +202,9 @@ static bool take_frames(struct kiln_panels *panels, const char *path,
     struct kiln_threads *threads = kiln_threads_create(1);
     struct kiln_footage *footage = kiln_footage_open(path, "beauty", error);
     uint32_t number, most = (uint32_t)panels->count;
-    bool ok = footage != NULL && threads != NULL;
+    bool ok = footage != NULL;
+    if (ok && !threads)
+        ok = kiln_error_set(error, KILN_DEVICE_FAILED, "cannot start threads");
     panels->count = 0;
     for (uint32_t position = 0; ok && panels->count < most; position++) {
         if (!next_number(footage, position, &number))
