@@ -100,8 +100,10 @@ static bool is_name(const char *name)
     static const char allowed[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
                                   "0123456789._-/";
     bool hidden = *name == '.' || strstr(name, "/.");
+    bool like_an_option = *name == '-'; /* in the commands that reports give */
     size_t length = strlen(name);
-    return length > 0 && length <= MAX_NAME && !hidden && strspn(name, allowed) == length;
+    return length > 0 && length <= MAX_NAME && !hidden && !like_an_option &&
+           strspn(name, allowed) == length;
 }
 
 static bool check_names(struct loader *loader)
@@ -113,7 +115,7 @@ static bool check_names(struct loader *loader)
         if (!is_name(found->name))
             return kiln_error_set(loader->error, KILN_USAGE,
                                   "%s: '%s' cannot name a test: up to %d letters, digits, '.', '_' "
-                                  "and '-' can, and none that starts with '.'",
+                                  "and '-' can, and none that starts with '.' or '-'",
                                   found->path, quoted, MAX_NAME);
         if (i > 0 && strcmp(found[0].name, loader->entries[i - 1].found.name) == 0)
             return kiln_error_set(loader->error, KILN_USAGE,

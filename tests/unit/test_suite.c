@@ -200,12 +200,17 @@ static void names_become_folders(void **state)
     test_write_file("my fire.yaml", scene);
     struct kiln_suite_params params = paths(here, 1);
     expect_usage(&params, "my fire.yaml: 'my fire' cannot name a test: up to 200 letters, digits, "
-                          "'.', '_' and '-' can, and none that starts with '.'");
+                          "'.', '_' and '-' can, and none that starts with '.' or '-'");
     test_write_file("..test.yaml", fire_test);
+    test_write_file("-q.test.yaml", fire_test);
+    static const char *const dash[] = {"./-q.test.yaml"};
+    params = paths(dash, 1);
+    expect_usage(&params, "./-q.test.yaml: '-q' cannot name a test: up to 200 letters, digits, "
+                          "'.', '_' and '-' can, and none that starts with '.' or '-'");
     static const char *const dots[] = {"..test.yaml"};
     params = paths(dots, 1);
     expect_usage(&params, "..test.yaml: '.' cannot name a test: up to 200 letters, digits, '.', "
-                          "'_' and '-' can, and none that starts with '.'");
+                          "'_' and '-' can, and none that starts with '.' or '-'");
 }
 
 static void names_are_chosen(void **state)
