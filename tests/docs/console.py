@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""console.py [--update] KILN DOCUMENT: a document's examples do what it says.
+"""console.py [--update] [--keep FOLDER] KILN DOCUMENT: a document's examples do what it says.
 
-In an empty folder, in the order of the document: a block "```yaml PATH" is a file, and a block
-"```console" is a session: each line "$ COMMAND" is run, and the lines up to the next one must be what
+In an empty folder, in the order of the document: a block "```yaml PATH" is a file, "```yaml more of
+PATH" is written to its end, and a block "```console" is a session: each line "$ COMMAND" is run, and the lines up to the next one must be what
 it prints, then "exit code N" where that is not 0. Times are written as "N s"; of fractions the
-digits are not compared. With --update, what is
-printed is written into the document.
+digits are not compared. With --update, what is printed is written into the document; with --keep,
+the files are left in that folder, which should be empty.
 """
+import argparse
 import os
 import re
 import subprocess
@@ -34,36 +35,53 @@ def play(block, folder, environment):
     return printed
 
 
-def main():
-    update = sys.argv[1] == "--update"
-    program, path = sys.argv[-2:]
+def write_file(folder, name, block):
+    more = name.startswith("more of ")
+    target = os.path.join(folder, name.removeprefix("more of "))
+    os.makedirs(os.path.dirname(target), exist_ok=True)
+    with open(target, "a" if more else "w", encoding="utf-8") as file:
+        file.write("\n".join(block) + "\n")
+
+
+def check(path, folder, environment, update):
+    """Returns the lines of the document, and how many sessions were played."""
     with open(path, encoding="utf-8") as file:
         lines = file.read().splitlines()
-    environment = dict(os.environ, LC_ALL="C", TERM="dumb",
-                       PATH=os.path.dirname(os.path.abspath(program)) + ":" + os.environ["PATH"])
     result, sessions = [], 0
-    with tempfile.TemporaryDirectory() as folder:
-        while lines:
-            line = lines.pop(0)
-            result.append(line)
-            start = re.fullmatch(r"```(yaml (\S+)|console)", line)
-            if not start:
-                continue
-            end = lines.index("```")
-            block, lines = lines[:end], lines[end:]
-            if start[2]:
-                target = os.path.join(folder, start[2])
-                os.makedirs(os.path.dirname(target), exist_ok=True)
-                with open(target, "w", encoding="utf-8") as file:
-                    file.write("\n".join(block) + "\n")
-            else:
-                sessions += 1
-                printed = play(block, folder, environment)
-                if rough(printed) != rough(block) and not update:
-                    sys.exit(f"{path}: this is not what comes out:\n" + "\n".join(block) +
-                             "\n---- but:\n" + "\n".join(printed))
-                block = printed
-            result += block
+    while lines:
+        line = lines.pop(0)
+        result.append(line)
+        start = re.fullmatch(r"```(yaml (\S.*)|console)", line)
+        if not start:
+            continue
+        end = lines.index("```")
+        block, lines = lines[:end], lines[end:]
+        if start[2]:
+            write_file(folder, start[2], block)
+        else:
+            sessions += 1
+            printed = play(block, folder, environment)
+            if rough(printed) != rough(block) and not update:
+                sys.exit(f"{path}: this is not what comes out:\n" + "\n".join(block) +
+                         "\n---- but:\n" + "\n".join(printed))
+            block = printed
+        result += block
+    return result, sessions
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--update", action="store_true")
+    parser.add_argument("--keep", metavar="FOLDER")
+    parser.add_argument("kiln")
+    parser.add_argument("document")
+    given = parser.parse_args()
+    path, update = given.document, given.update
+    environment = dict(os.environ, LC_ALL="C", TERM="dumb",
+                       PATH=os.path.dirname(os.path.abspath(given.kiln)) + ":" +
+                       os.environ["PATH"])
+    with tempfile.TemporaryDirectory() as scratch:
+        result, sessions = check(path, given.keep or scratch, environment, update)
     if update:
         with open(path, "w", encoding="utf-8") as file:
             file.write("\n".join(result) + "\n")
