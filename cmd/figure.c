@@ -51,6 +51,8 @@ static int run_command(const struct kiln_figure_entry *entry, const char *sideca
 
 static int check_entry(const struct kiln_figure_entry *entry, int home, bool quiet)
 {
+    if (entry->problem)
+        return report_error(entry->problem);
     char *sidecar = realpath(entry->sidecar, NULL);
     if (!sidecar)
         return report(KILN_IO, "%s: the file cannot be read", entry->sidecar);
@@ -69,7 +71,7 @@ static int check_entry(const struct kiln_figure_entry *entry, int home, bool qui
     if (result.stale)
         printf("%s: stale: %s\n", entry->figure, result.reason);
     else if (!quiet)
-        printf("%s: up to date\n", entry->figure);
+        printf("%s: up to date%s%s\n", entry->figure, *result.reason ? ": " : "", result.reason);
     fflush(stdout);
     return result.stale ? KILN_FRAME_FAILED : 0;
 }
@@ -123,8 +125,11 @@ const struct command figure_command = {
         "Figures are made by 'kiln figure sheet', 'triptych' and 'strip'. --check draws those that "
         "have a sidecar again, each by its command and in the folder in which that was given, and "
         "names those that are stale: whose pixels have changed, or whose file is not the one that "
-        "was written. Nothing is written.\n\n"
-        "Exit code 0: all are up to date; 1: some are stale; otherwise that of what failed.",
+        "was written. What another device, driver or processor drew may differ within the limits "
+        "of 'kiln compare', which is said. Nothing is written.\n\n"
+        "Exit code 0: all are up to date; 1: some are stale. A figure that cannot be checked does "
+        "not keep the others from it, and gives another code: 3 for a broken sidecar or scene, 2 "
+        "for a command that makes no sense; of several the gravest, which 1 never is.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .most_operands = SIZE_MAX,

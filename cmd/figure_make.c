@@ -112,6 +112,7 @@ static struct kiln_figure_params make_params(const struct arguments *arguments,
     params.labels = lists->labels.items;
     params.label_count = lists->labels.count;
     params.unlabelled = arguments_flag(arguments, "no-labels");
+    params.plain = arguments_flag(arguments, "plain");
     params.dark = arguments_flag(arguments, "dark");
     params.device = arguments_text(arguments, "device", NULL);
     params.techniques = lists->techniques.items;
@@ -122,15 +123,21 @@ static struct kiln_figure_params make_params(const struct arguments *arguments,
     return params;
 }
 
-/* What the sidecar keeps: the words of the command, in which "figure sheet" are two. */
+/* What the sidecar keeps: the words of the command, in which "figure sheet" are two, without
+ * --force, which says nothing of the figure. A value is never that: it would be joined by '='. */
 static void list_command(const struct command *command, const struct arguments *arguments,
                          struct lists *lists, struct kiln_figure_params *params)
 {
     size_t count = 0;
     lists->command[count++] = "figure";
     lists->command[count++] = strchr(command->name, ' ') + 1;
-    for (size_t i = 0; i < arguments->word_count; i++)
-        lists->command[count++] = arguments->words[i];
+    bool options_ended = false;
+    for (size_t i = 0; i < arguments->word_count; i++) {
+        const char *word = arguments->words[i];
+        options_ended = options_ended || strcmp(word, "--") == 0;
+        if (options_ended || strcmp(word, "--force") != 0)
+            lists->command[count++] = word;
+    }
     params->command = lists->command;
     params->command_count = count;
 }

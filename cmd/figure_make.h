@@ -10,8 +10,9 @@
      .letter = 'o',                                                                                \
      .kind = OPTION_TEXT,                                                                          \
      .placeholder = "FILE",                                                                        \
-     .help = "Where to write: .png, or .svg or .pdf with vector lettering. Beside it comes "       \
-             "FILE.figure.json, for 'kiln figure --check'."},                                      \
+     .help =                                                                                       \
+         "Where to write: .png, .jpg (smaller, of a fixed high quality), or .svg or .pdf with "    \
+         "vector lettering. Beside it comes FILE.figure.json, for 'kiln figure --check'."},        \
     {                                                                                              \
         .name = "force", .kind = OPTION_FLAG, .help = "Replace a figure that exists."              \
     }
@@ -42,6 +43,9 @@
          .help = "The label of a picture; give one for each, in their order.",                     \
          .fallback = "what tells it from the others"},                                             \
         {.name = "no-labels", .kind = OPTION_FLAG, .help = "Leave the labels out."},               \
+        {.name = "plain",                                                                          \
+         .kind = OPTION_FLAG,                                                                      \
+         .help = "Nothing but the pictures, edge to edge: of one, the picture itself."},           \
         {.name = "text-size",                                                                      \
          .kind = OPTION_INTEGER,                                                                   \
          .placeholder = "PIXELS",                                                                  \

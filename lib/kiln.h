@@ -407,7 +407,7 @@ struct kiln_figure_params {
     enum kiln_figure_kind kind;
     const char *const *inputs; /* scenes; reference and test; a scene, or what compare takes */
     size_t input_count;
-    const char *output; /* .png, .svg or .pdf */
+    const char *output; /* .png, .jpg, .svg or .pdf */
     bool overwrite;
     struct kiln_scene_params scene; /* applied before what is swept */
     const struct kiln_figure_sweep *sweeps;
@@ -424,6 +424,7 @@ struct kiln_figure_params {
     const char *const *labels; /* of the panels, in place of the parameters */
     size_t label_count;
     bool unlabelled, dark;
+    bool plain;         /* nothing but the pictures, edge to edge */
     const char *device; /* as in kiln_device_params */
     const char *const *techniques;
     size_t technique_count;
@@ -439,8 +440,8 @@ struct kiln_figure_params {
 
 struct kiln_figure_result {
     uint32_t width, height, panels;
-    bool stale;                     /* of a check: */
-    char reason[KILN_MESSAGE_SIZE]; /* why */
+    bool stale;                     /* of a check */
+    char reason[KILN_MESSAGE_SIZE]; /* why; or how it was judged, if not by its pixels' hash */
 };
 
 /* Draws a figure and writes it and its sidecar. KILN_USAGE for a request that makes no sense,
@@ -455,10 +456,11 @@ struct kiln_figure_entry {
     const char *folder;           /* in which the command was given */
     const char *const *command;
     size_t command_count;
+    const struct kiln_error *problem; /* why it cannot be read, and has no command; else NULL */
 };
 
-/* Sidecars, and all below folders, ordered by path. KILN_INVALID_INPUT when one is broken, or there
- * is none. */
+/* Sidecars, and all below folders, ordered by path. A broken one is a problem of its entry;
+ * KILN_INVALID_INPUT when there is none. */
 struct kiln_figure_list *kiln_figure_list_load(const char *const *paths, size_t count,
                                                struct kiln_error *error);
 void kiln_figure_list_destroy(struct kiln_figure_list **list);

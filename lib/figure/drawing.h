@@ -57,9 +57,12 @@ bool kiln_drawing_rasterise(const struct kiln_drawing *drawing, struct kiln_pixe
 bool kiln_pixels_resize(const struct kiln_pixels *pixels, uint32_t width, uint32_t height,
                         uint8_t *out);
 
-/* The bytes of a PNG file, of an SVG document, of a PDF of one page; the caller frees them. */
+/* The bytes of a PNG file, of a JPEG file, of an SVG document, of a PDF of one page; the caller
+ * frees them. A JPEG has a fixed quality (a quantiser of 2 of FFmpeg's 31) and full chroma. */
 bool kiln_pixels_png(const struct kiln_pixels *pixels, uint8_t **bytes, size_t *size,
                      struct kiln_error *error);
+bool kiln_pixels_jpeg(const struct kiln_pixels *pixels, uint8_t **bytes, size_t *size,
+                      struct kiln_error *error);
 bool kiln_drawing_svg(const struct kiln_drawing *drawing, uint8_t **bytes, size_t *size,
                       struct kiln_error *error);
 bool kiln_drawing_pdf(const struct kiln_drawing *drawing, uint8_t **bytes, size_t *size,

@@ -2,7 +2,7 @@
  * of those that are there. */
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/error.h"
@@ -10,10 +10,12 @@
 #include "base/hash.h"
 #include "figure/layout.h"
 #include "figure/record.h"
+#include "figure/verdict.h"
 #include "output/temporary.h"
 
 struct job {
     const struct kiln_figure_params *params;
+    const struct kiln_figure_format *format;
     struct kiln_arena *arena;
     struct kiln_panels panels;
     struct kiln_drawing drawing;
@@ -27,19 +29,6 @@ static bool no_memory(const struct job *job)
     return kiln_error_set(job->error, KILN_DEVICE_FAILED, "%s: out of memory", job->params->output);
 }
 
-enum format { PNG, SVG, PDF, NO_FORMAT };
-
-static enum format format_of(const char *path)
-{
-    const char *dot = strrchr(path, '.');
-    if (!dot)
-        return NO_FORMAT;
-    return strcasecmp(dot, ".png") == 0   ? PNG
-           : strcasecmp(dot, ".svg") == 0 ? SVG
-           : strcasecmp(dot, ".pdf") == 0 ? PDF
-                                          : NO_FORMAT;
-}
-
 static bool sidecar_path(const struct job *job, char path[KILN_PATH_SIZE])
 {
     int length = snprintf(path, KILN_PATH_SIZE, "%s%s", job->params->output, KILN_RECORD_SUFFIX);
@@ -47,24 +36,50 @@ static bool sidecar_path(const struct job *job, char path[KILN_PATH_SIZE])
            kiln_error_set(job->error, KILN_IO, "%s: the path is too long", job->params->output);
 }
 
-/* What can be refused before anything is rendered. */
-static bool check_request(const struct job *job)
+/* Whether a path leads to an existing file that is the same as another one. */
+static bool is_same_file(const char *path, const struct stat *other)
+{
+    struct stat status;
+    return stat(path, &status) == 0 && status.st_dev == other->st_dev &&
+           status.st_ino == other->st_ino;
+}
+
+/* Whether the figure may lie where it is wanted. */
+static bool check_target(const struct job *job)
 {
     const struct kiln_figure_params *params = job->params;
-    if (!params->output || format_of(params->output) == NO_FORMAT)
-        return kiln_error_set(job->error, KILN_USAGE,
-                              "%s: a figure is PNG, SVG or PDF; the name must end in .png, .svg or "
-                              ".pdf",
-                              params->output ? params->output : "");
+    char sidecar[KILN_PATH_SIZE];
+    struct stat figure;
+    if (stat(params->output, &figure) == 0) {
+        for (size_t i = 0; i < params->input_count; i++) {
+            if (is_same_file(params->inputs[i], &figure))
+                return kiln_error_set(job->error, KILN_USAGE,
+                                      "%s: the figure would replace what it is made of",
+                                      params->output);
+        }
+    }
+    return kiln_target_check(params->output, params->overwrite, job->error) &&
+           sidecar_path(job, sidecar) && kiln_target_check(sidecar, params->overwrite, job->error);
+}
+
+/* What can be refused before anything is rendered. */
+static bool check_request(struct job *job)
+{
+    const struct kiln_figure_params *params = job->params;
+    if (!params->output)
+        return kiln_error_set(job->error, KILN_USAGE, "a figure without a file");
+    job->format = kiln_figure_format_find(params->output, job->error);
+    if (!job->format)
+        return false;
     if (params->text_size < 8 || params->text_size > 64)
         return kiln_error_set(job->error, KILN_USAGE, "text of %u pixels; allowed are 8 to 64",
                               params->text_size);
+    if (params->plain && (params->title || params->label_count > 0))
+        return kiln_error_set(job->error, KILN_USAGE,
+                              "--plain leaves no room for a title or labels");
     if (params->input_count == 0)
         return kiln_error_set(job->error, KILN_USAGE, "a figure of nothing");
-    char sidecar[KILN_PATH_SIZE];
-    return params->check || (sidecar_path(job, sidecar) &&
-                             kiln_target_check(params->output, params->overwrite, job->error) &&
-                             kiln_target_check(sidecar, true, job->error));
+    return params->check || check_target(job);
 }
 
 static bool draw(struct job *job)
@@ -119,7 +134,9 @@ static bool write_sidecar(struct job *job, const uint8_t *bytes, size_t size)
     char file[65], path[KILN_PATH_SIZE];
     struct kiln_record record = {.version = KILN_VERSION,
                                  .command_count = job->params->command_count,
-                                 .device = job->panels.device,
+                                 .device = job->panels.maker.device,
+                                 .driver = job->panels.maker.driver,
+                                 .cpu = job->panels.maker.cpu,
                                  .width = job->drawing.width,
                                  .height = job->drawing.height,
                                  .pixels = job->hash,
@@ -143,10 +160,9 @@ static bool write_figure(struct job *job)
 {
     uint8_t *bytes = NULL;
     size_t size = 0;
-    enum format format = format_of(job->params->output);
-    bool ok = format == PNG   ? kiln_pixels_png(&job->pixels, &bytes, &size, job->error)
-              : format == SVG ? kiln_drawing_svg(&job->drawing, &bytes, &size, job->error)
-                              : kiln_drawing_pdf(&job->drawing, &bytes, &size, job->error);
+    bool ok = job->format->of_pixels
+                  ? job->format->of_pixels(&job->pixels, &bytes, &size, job->error)
+                  : job->format->of_drawing(&job->drawing, &bytes, &size, job->error);
     ok = ok && kiln_temporary_write_file(job->params->output, bytes, size, job->error) &&
          write_sidecar(job, bytes, size);
     free(bytes);
@@ -161,38 +177,14 @@ static void say_stale(struct kiln_figure_result *result, const char *reason)
     snprintf(result->reason, sizeof result->reason, "%s", reason);
 }
 
-/* What a panel has of each thing that can change, from the scene to the pixels. */
-static const char *hash_of(const struct kiln_panel *panel, int thing)
+/* Whether the command of a sidecar makes the figure that lies beside it: what was copied or renamed
+ * does not. */
+static bool is_own_sidecar(const struct job *job)
 {
-    return thing == 0 ? panel->scene_hash : thing == 1 ? panel->state : panel->hash;
-}
-
-/* Names the first panel whose thing is another one; false when there is none. */
-static bool explain_thing(const struct job *job, const struct kiln_record *record, int thing,
-                          struct kiln_figure_result *result)
-{
-    static const char *const things[] = {"scene", "simulation", "picture"};
-    for (size_t i = 0; i < record->panel_count; i++) {
-        const struct kiln_panel *is = &job->panels.items[i];
-        if (strcmp(hash_of(&record->panels[i], thing), hash_of(is, thing)) == 0)
-            continue;
-        const char *quote = *is->label ? "'" : "";
-        result->stale = true;
-        snprintf(result->reason, sizeof result->reason, "the %s has changed%s%s%.200s%s",
-                 things[thing], *is->label ? " in " : "", quote, is->label, quote);
-        return true;
-    }
-    return false;
-}
-
-static void explain(const struct job *job, const struct kiln_record *record,
-                    struct kiln_figure_result *result)
-{
-    if (record->panel_count != job->panels.count)
-        say_stale(result, "it has other panels now");
-    else if (!explain_thing(job, record, 0, result) && !explain_thing(job, record, 1, result) &&
-             !explain_thing(job, record, 2, result))
-        say_stale(result, "its layout or its lettering has changed");
+    char sidecar[KILN_PATH_SIZE];
+    struct stat given;
+    return sidecar_path(job, sidecar) && stat(job->params->check, &given) == 0 &&
+           is_same_file(sidecar, &given);
 }
 
 static bool check_figure(struct job *job, struct kiln_figure_result *result)
@@ -201,6 +193,12 @@ static bool check_figure(struct job *job, struct kiln_figure_result *result)
     char file[65];
     if (!record)
         return false;
+    if (!is_own_sidecar(job)) {
+        result->stale = true;
+        snprintf(result->reason, sizeof result->reason, "its command makes another file, '%.300s'",
+                 job->params->output);
+        return true;
+    }
     if (access(job->params->output, F_OK) != 0) {
         say_stale(result, "the figure is not there");
         return true;
@@ -214,9 +212,13 @@ static bool check_figure(struct job *job, struct kiln_figure_result *result)
     }
     if (!draw(job))
         return false;
-    if (strcmp(job->hash, record->pixels) != 0)
-        explain(job, record, result);
-    return true;
+    const struct kiln_figure_now now = {.panels = &job->panels,
+                                        .pixels = &job->pixels,
+                                        .hash = job->hash,
+                                        .format = job->format,
+                                        .path = job->params->output,
+                                        .threads = job->params->threads};
+    return kiln_figure_judge(record, &now, result, job->error);
 }
 
 bool kiln_figure_make(const struct kiln_figure_params *params, struct kiln_figure_result *result,

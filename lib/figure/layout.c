@@ -6,8 +6,7 @@
 
 #include "base/error.h"
 #include "compare/magma.h"
-
-enum { MAX_INSETS = 4 };
+#include "figure/inset.h"
 
 struct theme {
     uint32_t paper, ink, faint, rule;
@@ -17,7 +16,7 @@ static const struct theme light_theme = {0xffffff, 0x24272b, 0x6c7278, 0xd8dbde}
 static const struct theme dark_theme = {0x15171a, 0xe4e6e8, 0x9aa0a6, 0x3a3e43};
 
 /* Told apart by eyes of every kind (after Okabe and Ito), and on fire. */
-static const uint32_t inset_colors[MAX_INSETS] = {0x56b4e9, 0xe69f00, 0x00b97f, 0xe07bb5};
+static const uint32_t inset_colors[KILN_MAX_INSETS] = {0x56b4e9, 0xe69f00, 0x00b97f, 0xe07bb5};
 
 struct layout {
     struct kiln_drawing *drawing;
@@ -66,43 +65,6 @@ static const char *fit_text(const struct layout *l, const char *text, uint32_t c
 
 /* ---- Insets --------------------------------------------------------------------------------- */
 
-struct rect {
-    uint32_t x, y, width, height;
-};
-
-static struct rect inset_rect(const struct kiln_figure_inset *inset,
-                              const struct kiln_pixels *pixels)
-{
-    double sx = inset->parts ? pixels->width : 1, sy = inset->parts ? pixels->height : 1;
-    return (struct rect){(uint32_t)(inset->x * sx + 0.5), (uint32_t)(inset->y * sy + 0.5),
-                         (uint32_t)(inset->width * sx + 0.5), (uint32_t)(inset->height * sy + 0.5)};
-}
-
-static bool check_insets(const struct layout *l)
-{
-    const struct kiln_figure_params *params = l->params;
-    if (params->inset_count > MAX_INSETS)
-        return kiln_error_set(l->error, KILN_USAGE, "found %zu insets; up to %d fit below a panel",
-                              params->inset_count, (int)MAX_INSETS);
-    for (size_t i = 0; i < params->inset_count * l->panels->count; i++) {
-        const struct kiln_figure_inset *inset = &params->insets[i % params->inset_count];
-        const struct kiln_pixels *pixels = &l->panels->items[i / params->inset_count].pixels;
-        bool sane = inset->x >= 0 && inset->y >= 0 && inset->x < 65536 && inset->y < 65536 &&
-                    inset->width > 0 && inset->height > 0 && inset->width < 65536 &&
-                    inset->height < 65536;
-        struct rect rect = {0};
-        if (sane)
-            rect = inset_rect(inset, pixels);
-        if (!sane || rect.width == 0 || rect.height == 0 || rect.x + rect.width > pixels->width ||
-            rect.y + rect.height > pixels->height)
-            return kiln_error_set(
-                l->error, KILN_USAGE,
-                "--inset %g,%g,%gx%g: found a part that is not in a picture of %u x %u", inset->x,
-                inset->y, inset->width, inset->height, pixels->width, pixels->height);
-    }
-    return true;
-}
-
 /* Insets of one height that fill the width of the panel together, or less where that would make
  * them larger than half of it. */
 static uint32_t inset_height(const struct layout *l, const struct kiln_pixels *pixels,
@@ -111,7 +73,8 @@ static uint32_t inset_height(const struct layout *l, const struct kiln_pixels *p
     size_t count = l->params->inset_count;
     double aspects = 0;
     for (size_t i = 0; i < count; i++) {
-        struct rect rect = inset_rect(&l->params->insets[i], pixels);
+        struct kiln_rect rect =
+            kiln_inset_rect(&l->params->insets[i], pixels->width, pixels->height);
         aspects += (double)rect.width / rect.height;
     }
     if (count == 0 || width < (count - 1) * l->gap / 2 + count)
@@ -121,7 +84,7 @@ static uint32_t inset_height(const struct layout *l, const struct kiln_pixels *p
     return (uint32_t)(fitting < most ? fitting : most);
 }
 
-static bool crop(const struct layout *l, const struct kiln_pixels *pixels, struct rect rect,
+static bool crop(const struct layout *l, const struct kiln_pixels *pixels, struct kiln_rect rect,
                  struct kiln_pixels *out)
 {
     uint8_t *rgba = kiln_arena_alloc(l->drawing->arena, (size_t)rect.width * rect.height, 4);
@@ -141,7 +104,8 @@ static void add_insets(const struct layout *l, const struct kiln_pixels *pixels,
 {
     uint32_t at = x, row = inset_height(l, pixels, width, height);
     for (size_t i = 0; i < l->params->inset_count; i++) {
-        struct rect rect = inset_rect(&l->params->insets[i], pixels);
+        struct kiln_rect rect =
+            kiln_inset_rect(&l->params->insets[i], pixels->width, pixels->height);
         struct kiln_mark mark = {.kind = KILN_MARK_FRAME, .color = inset_colors[i], .stroke = 2};
         mark.x = (int32_t)(x + (uint64_t)rect.x * width / pixels->width) - 1;
         mark.y = (int32_t)(y + (uint64_t)rect.y * height / pixels->height) - 1;
@@ -232,13 +196,14 @@ static void add_cell(const struct layout *l, size_t index)
         .kind = KILN_MARK_PICTURE, .x = (int32_t)x, .y = (int32_t)y, .pixels = panel->pixels};
     picture_size(l, &panel->pixels, &mark.width, &mark.height);
     kiln_drawing_add(l->drawing, &mark);
-    kiln_drawing_add(l->drawing, &(struct kiln_mark){.kind = KILN_MARK_FRAME,
-                                                     .x = mark.x - 1,
-                                                     .y = mark.y - 1,
-                                                     .width = mark.width + 2,
-                                                     .height = mark.height + 2,
-                                                     .color = l->theme->rule,
-                                                     .stroke = 1});
+    if (!l->params->plain)
+        kiln_drawing_add(l->drawing, &(struct kiln_mark){.kind = KILN_MARK_FRAME,
+                                                         .x = mark.x - 1,
+                                                         .y = mark.y - 1,
+                                                         .width = mark.width + 2,
+                                                         .height = mark.height + 2,
+                                                         .color = l->theme->rule,
+                                                         .stroke = 1});
     if (l->params->inset_count > 0)
         add_insets(l, &panel->pixels, x, y, mark.width, mark.height);
     if (l->label_height > 0)
@@ -249,7 +214,7 @@ static void add_cell(const struct layout *l, size_t index)
 
 static bool any_label(const struct layout *l)
 {
-    if (l->params->unlabelled)
+    if (l->params->unlabelled || l->params->plain)
         return false;
     for (size_t i = 0; i < l->panels->count; i++) {
         if (*l->panels->items[i].label)
@@ -261,6 +226,10 @@ static bool any_label(const struct layout *l)
 static void measure(struct layout *l)
 {
     const struct kiln_panels *panels = l->panels;
+    uint32_t size = l->params->text_size;
+    l->capital = (size * 10 + 7) / 14;
+    l->margin = l->params->plain ? 0 : size * 3 / 2;
+    l->gap = l->params->plain ? 0 : size;
     for (size_t i = 0; i < panels->count; i++) {
         uint32_t width, height;
         picture_size(l, &panels->items[i].pixels, &width, &height);
@@ -273,13 +242,9 @@ static void measure(struct layout *l)
     l->columns = (uint32_t)(columns < panels->count ? columns : panels->count);
     l->columns = l->columns > 0 ? l->columns : 1;
     l->rows = (uint32_t)((panels->count + l->columns - 1) / l->columns);
-    uint32_t size = l->params->text_size;
-    l->capital = (size * 10 + 7) / 14;
-    l->margin = size * 3 / 2;
-    l->gap = size;
     bool labels = any_label(l);
     l->label_height = labels ? l->capital + size * 3 / 4 : 0;
-    l->row_gap = labels ? size * 10 / 7 : size;
+    l->row_gap = labels ? size * 10 / 7 : l->gap;
     l->top = l->margin;
 }
 
@@ -302,12 +267,18 @@ static void add_title(struct layout *l)
                                                      .color = l->theme->rule});
 }
 
-static bool check_labels(const struct layout *l)
+static bool check_request(const struct layout *l)
 {
     const struct kiln_figure_params *params = l->params;
-    return params->label_count == 0 || params->label_count == l->panels->count ||
-           kiln_error_set(l->error, KILN_USAGE, "found %zu labels for %zu pictures",
-                          params->label_count, l->panels->count);
+    if (params->label_count > 0 && params->label_count != l->panels->count)
+        return kiln_error_set(l->error, KILN_USAGE, "found %zu labels for %zu pictures",
+                              params->label_count, l->panels->count);
+    for (size_t i = 0; i < l->panels->count; i++) {
+        const struct kiln_pixels *pixels = &l->panels->items[i].pixels;
+        if (!kiln_insets_check(params, pixels->width, pixels->height, l->error))
+            return false;
+    }
+    return true;
 }
 
 bool kiln_layout_make(struct kiln_drawing *drawing, const struct kiln_panels *panels,
@@ -318,7 +289,7 @@ bool kiln_layout_make(struct kiln_drawing *drawing, const struct kiln_panels *pa
                        .params = params,
                        .theme = params->dark ? &dark_theme : &light_theme,
                        .error = error};
-    if (!check_labels(&l) || !check_insets(&l))
+    if (!check_request(&l))
         return false;
     measure(&l);
     bool titled = params->title && *params->title;

@@ -17,33 +17,51 @@ struct kiln_figure_list {
     size_t count, capacity;
 };
 
-static bool add_entry(struct kiln_figure_list *list, const char *path, struct kiln_error *error)
+static struct kiln_figure_entry *new_entry(struct kiln_figure_list *list)
 {
-    struct kiln_record *record = kiln_record_read(list->arena, path, error);
-    if (!record)
-        return false;
     if (list->count == list->capacity) {
         size_t capacity = list->capacity ? 2 * list->capacity : 16;
         struct kiln_figure_entry *grown = kiln_arena_alloc(list->arena, capacity, sizeof *grown);
         if (!grown)
-            return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for the figures");
+            return NULL;
         if (list->count)
             memcpy(grown, list->entries, list->count * sizeof *grown);
         list->entries = grown;
         list->capacity = capacity;
     }
+    return &list->entries[list->count++];
+}
+
+/* What is known of a sidecar without its text; false when memory is short. */
+static bool start_entry(struct kiln_arena *arena, struct kiln_figure_entry *entry, const char *path)
+{
     size_t length = strlen(path) - (sizeof KILN_RECORD_SUFFIX - 1);
+    *entry = (struct kiln_figure_entry){.sidecar = kiln_arena_format(arena, "%s", path),
+                                        .figure = kiln_arena_text(arena, path, length),
+                                        .folder = ".",
+                                        .problem = NULL};
+    return entry->sidecar && entry->figure;
+}
+
+static bool add_entry(struct kiln_figure_list *list, const char *path, struct kiln_error *error)
+{
+    struct kiln_figure_entry *entry = new_entry(list);
+    struct kiln_error *problem = kiln_arena_alloc(list->arena, 1, sizeof *problem);
+    if (!entry || !problem || !start_entry(list->arena, entry, path))
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for the figures");
+    *problem = (struct kiln_error){0};
+    const struct kiln_record *record = kiln_record_read(list->arena, path, problem);
+    if (!record) {
+        entry->problem = problem;
+        return true;
+    }
     const char *slash = strrchr(path, '/');
     size_t folder = slash ? (size_t)(slash - path) + 1 : 0;
-    struct kiln_figure_entry *entry = &list->entries[list->count++];
-    *entry = (struct kiln_figure_entry){
-        .sidecar = kiln_arena_format(list->arena, "%s", path),
-        .figure = kiln_arena_text(list->arena, path, length),
-        .folder = kiln_arena_format(list->arena, "%.*s%s", *record->folder == '/' ? 0 : (int)folder,
-                                    path, record->folder),
-        .command = record->command,
-        .command_count = record->command_count};
-    return (entry->sidecar && entry->figure && entry->folder) ||
+    entry->folder = kiln_arena_format(
+        list->arena, "%.*s%s", *record->folder == '/' ? 0 : (int)folder, path, record->folder);
+    entry->command = record->command;
+    entry->command_count = record->command_count;
+    return entry->folder ||
            kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for the figures");
 }
 

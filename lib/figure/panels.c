@@ -7,8 +7,10 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/cpu.h"
 #include "base/error.h"
 #include "base/hash.h"
+#include "figure/inset.h"
 #include "figure/sweep.h"
 #include "scene/scene.h"
 #include "technique.h"
@@ -64,8 +66,10 @@ static bool load_scene(struct rendering *r, const struct kiln_choice *choice)
     struct kiln_scene_params params = r->params->scene;
     size_t count = params.override_count + choice->override_count;
     const char **overrides = kiln_arena_alloc(r->panels->arena, count + 1, sizeof *overrides);
-    if (!overrides)
-        return no_memory(r);
+    if (!overrides) {
+        no_memory(r);
+        return false;
+    }
     for (size_t i = 0; i < params.override_count; i++)
         overrides[i] = params.overrides[i];
     for (size_t i = 0; i < choice->override_count; i++)
@@ -85,9 +89,11 @@ static bool choose_frame(const struct rendering *r, const struct kiln_choice *ch
     double number = choice->moment == KILN_MOMENT_TIME    ? floor(choice->when * rate + 0.5)
                     : choice->moment == KILN_MOMENT_FRAME ? choice->when
                                                           : info.frames / 2;
-    if (number >= info.frames)
-        return kiln_error_set(r->error, KILN_USAGE, "frame %.0f: '%s' has frames 0-%u", number,
-                              r->params->inputs[choice->scene], info.frames - 1);
+    if (number >= info.frames) {
+        kiln_error_set(r->error, KILN_USAGE, "frame %.0f: '%s' has frames 0-%u", number,
+                       r->params->inputs[choice->scene], info.frames - 1);
+        return false;
+    }
     panel->label = choice->label;
     panel->source = r->params->inputs[choice->scene];
     memcpy(panel->scene_hash, info.hash, sizeof panel->scene_hash);
@@ -208,14 +214,16 @@ static bool make_run(struct rendering *r, size_t first)
     return render_run(r);
 }
 
-/* Every scene is loaded once before the device is opened: a wrong one should not cost minutes. */
+/* Every scene is loaded once before the device is opened: a wrong one should not cost minutes, nor
+ * should an inset outside of its pictures. */
 static bool check_runs(struct rendering *r)
 {
     for (size_t i = 0; i < r->choices->count; i++) {
         struct kiln_panel panel;
         bool known = i > 0 && same_run(&r->choices->items[i - 1], &r->choices->items[i]);
         if ((!known && !load_scene(r, &r->choices->items[i])) ||
-            !choose_frame(r, &r->choices->items[i], &panel))
+            !choose_frame(r, &r->choices->items[i], &panel) ||
+            !kiln_insets_check(r->params, r->scene->width, r->scene->height, r->error))
             return false;
     }
     return true;
@@ -227,10 +235,14 @@ static bool open_device(struct rendering *r)
     params.wanted = r->params->device;
     params.log = r->params->log;
     r->device = kiln_device_open(&params, r->error);
-    if (r->device)
-        snprintf(r->panels->device, sizeof r->panels->device, "%s",
-                 kiln_device_info(r->device)->name);
-    return r->device != NULL;
+    if (!r->device)
+        return false;
+    const struct kiln_device_info *info = kiln_device_info(r->device);
+    struct kiln_maker *maker = &r->panels->maker;
+    snprintf(maker->device, sizeof maker->device, "%s", info->name);
+    snprintf(maker->driver, sizeof maker->driver, "%s, %s", info->gl_version, info->vendor);
+    kiln_cpu_name(maker->cpu);
+    return true;
 }
 
 static bool render_panels(struct kiln_panels *panels, const struct kiln_figure_params *params,

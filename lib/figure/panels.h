@@ -18,13 +18,18 @@ struct kiln_panel {
     struct kiln_pixels pixels;
 };
 
+/* What rendered, each "" if nothing did. Where all three are the same, so are the pixels. */
+struct kiln_maker {
+    char device[128], driver[272], cpu[128];
+};
+
 struct kiln_panels {
     struct kiln_arena *arena; /* of all that follows */
     struct kiln_panel *items;
     size_t count;
-    size_t columns;   /* that look right */
-    char device[128]; /* that rendered; "" if none did */
-    uint32_t paper;   /* 0xRRGGBB: below pictures with holes */
+    size_t columns; /* that look right */
+    struct kiln_maker maker;
+    uint32_t paper; /* 0xRRGGBB: below pictures with holes */
 };
 
 /* Makes the panels of a figure of its kind. False as kiln_figure_make says. */

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "compare/magma.h"
 #include "compare/measure.h"
+#include "figure/inset.h"
 #include "figure/panels.h"
 #include "footage.h"
 
@@ -84,9 +85,10 @@ static struct kiln_subject *load_subject(const char *path, struct kiln_threads *
     return subject;
 }
 
-static bool compare(struct kiln_panels *panels, const char *const paths[2],
+static bool compare(struct kiln_panels *panels, const struct kiln_figure_params *params,
                     struct kiln_threads *threads, struct kiln_error *error)
 {
+    const char *const *paths = params->inputs;
     struct kiln_subject *subjects[2] = {load_subject(paths[0], threads, error), NULL};
     if (subjects[0])
         subjects[1] = load_subject(paths[1], threads, error);
@@ -94,7 +96,8 @@ static bool compare(struct kiln_panels *panels, const char *const paths[2],
     if (ok && subjects[0]->hdr != subjects[1]->hdr)
         ok = kiln_error_set(error, KILN_INVALID_INPUT,
                             "%s and %s: one is of floats and the other is not", paths[0], paths[1]);
-    ok = ok && measure(panels, subjects, threads, error);
+    ok = ok && kiln_insets_check(params, subjects[0]->width, subjects[0]->height, error) &&
+         measure(panels, subjects, threads, error);
     kiln_subject_destroy(&subjects[0]);
     kiln_subject_destroy(&subjects[1]);
     return ok;
@@ -117,7 +120,7 @@ bool kiln_panels_of_triptych(struct kiln_panels *panels, const struct kiln_figur
         panels->items[i].time_s = -1;
     }
     struct kiln_threads *threads = kiln_threads_create(params->threads);
-    bool ok = threads ? compare(panels, params->inputs, threads, error)
+    bool ok = threads ? compare(panels, params, threads, error)
                       : kiln_error_set(error, KILN_DEVICE_FAILED, "cannot start threads");
     kiln_threads_destroy(&threads);
     return ok;
@@ -134,8 +137,9 @@ static bool is_wanted(const struct kiln_frame_range *ranges, size_t count, uint3
     return false;
 }
 
-static bool take_frame(struct kiln_panels *panels, struct kiln_footage *footage, uint32_t number,
-                       struct kiln_threads *threads, struct kiln_error *error)
+static bool take_frame(struct kiln_panels *panels, const struct kiln_figure_params *params,
+                       struct kiln_footage *footage, uint32_t number, struct kiln_threads *threads,
+                       struct kiln_error *error)
 {
     struct kiln_panel *panel = &panels->items[panels->count];
     panel->source = kiln_footage_path(footage);
@@ -146,12 +150,15 @@ static bool take_frame(struct kiln_panels *panels, struct kiln_footage *footage,
     struct kiln_asset_image *image = kiln_footage_take(footage, error);
     struct kiln_subject *subject =
         image ? kiln_subject_create(image, NULL, panel->source, threads, error) : NULL;
-    bool ok = panel->label && subject && take_subject(panels, panel, subject, error);
+    bool ok = panel->label && subject &&
+              kiln_insets_check(params, subject->width, subject->height, error) &&
+              take_subject(panels, panel, subject, error);
     kiln_subject_destroy(&subject);
     kiln_asset_image_destroy(&image);
     panels->count += ok;
-    return ok || error->code != KILN_OK ||
-           kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a strip");
+    if (!panel->label)
+        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a strip");
+    return ok;
 }
 
 /* Which number the next frame has. */
@@ -195,12 +202,12 @@ static bool choose_evenly(const char *path, uint32_t wanted, struct kiln_frame_r
     return ok && (*count > 0 || kiln_error_set(error, KILN_INVALID_INPUT, "%s: no frames", path));
 }
 
-static bool take_frames(struct kiln_panels *panels, const char *path,
+static bool take_frames(struct kiln_panels *panels, const struct kiln_figure_params *params,
                         const struct kiln_frame_range *ranges, size_t count,
                         struct kiln_error *error)
 {
     struct kiln_threads *threads = kiln_threads_create(1);
-    struct kiln_footage *footage = kiln_footage_open(path, "beauty", error);
+    struct kiln_footage *footage = kiln_footage_open(params->inputs[0], "beauty", error);
     uint32_t number, most = (uint32_t)panels->count;
     bool ok = footage != NULL;
     if (ok && !threads)
@@ -210,7 +217,7 @@ static bool take_frames(struct kiln_panels *panels, const char *path,
         if (!next_number(footage, position, &number))
             break;
         if (is_wanted(ranges, count, number))
-            ok = take_frame(panels, footage, number, threads, error);
+            ok = take_frame(panels, params, footage, number, threads, error);
         else
             kiln_footage_skip(footage);
     }
@@ -242,7 +249,7 @@ static bool strip_of_clip(struct kiln_panels *panels, const struct kiln_figure_p
     panels->items = kiln_arena_alloc(panels->arena, wanted, sizeof *panels->items);
     if (!panels->items)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a strip");
-    if (!take_frames(panels, path, ranges, count, error))
+    if (!take_frames(panels, params, ranges, count, error))
         return false;
     panels->columns = panels->count;
     return panels->count == wanted ||

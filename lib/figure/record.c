@@ -9,7 +9,7 @@
 #include "base/text.h"
 #include "scene/node.h"
 
-enum { VERSION = 1, MAX_SIZE = 16 << 20 };
+enum { VERSION = 2, MAX_SIZE = 16 << 20 };
 
 static void add_member(struct kiln_text *text, const char *before, const char *name,
                        const char *value)
@@ -44,6 +44,8 @@ bool kiln_record_write(const struct kiln_record *record, struct kiln_text *text,
         kiln_text_add_json(text, record->command[i]);
     }
     add_member(text, "],\n", "device", record->device);
+    add_member(text, ",\n", "driver", record->driver);
+    add_member(text, ",\n", "cpu", record->cpu);
     kiln_text_add(text, ",\n\"size\": [%u, %u]", record->width, record->height);
     add_member(text, ",\n", "pixels", record->pixels);
     add_member(text, ",\n", "file", record->file);
@@ -161,6 +163,8 @@ static bool read_root(struct kiln_arena *arena, const struct kiln_node *root,
     return read_text(root, "version", &record->version, error) &&
            read_text(root, "folder", &record->folder, error) &&
            read_text(root, "device", &record->device, error) &&
+           read_text(root, "driver", &record->driver, error) &&
+           read_text(root, "cpu", &record->cpu, error) &&
            read_hash(root, "pixels", 64, true, hash, error) &&
            read_hash(root, "file", 64, true, hash, error) &&
            read_text(root, "pixels", &record->pixels, error) &&
@@ -168,24 +172,28 @@ static bool read_root(struct kiln_arena *arena, const struct kiln_node *root,
            read_command(arena, root, record, error) && read_panels(arena, root, record, error);
 }
 
+struct kiln_record *kiln_record_parse(struct kiln_arena *arena, const char *text, size_t size,
+                                      const char *name, struct kiln_error *error)
+{
+    struct kiln_record *record = kiln_arena_alloc(arena, 1, sizeof *record);
+    struct kiln_origin *origin = kiln_arena_alloc(arena, 1, sizeof *origin);
+    const char *kept_name = kiln_arena_format(arena, "%s", name);
+    if (!record || !origin || !kept_name) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", name);
+        return NULL;
+    }
+    *origin = (struct kiln_origin){
+        .name = kept_name, .has_lines = true, .kind = "a figure", .version = "\"kiln_figure\": 2"};
+    const struct kiln_node *root = kiln_node_parse(arena, text, size, origin, error);
+    return root && read_root(arena, root, record, error) ? record : NULL;
+}
+
 struct kiln_record *kiln_record_read(struct kiln_arena *arena, const char *path,
                                      struct kiln_error *error)
 {
     size_t size;
     char *text = kiln_text_file_read(path, "the sidecar of a figure", MAX_SIZE, &size, error);
-    if (!text)
-        return NULL;
-    struct kiln_record *record = kiln_arena_alloc(arena, 1, sizeof *record);
-    struct kiln_origin *origin = kiln_arena_alloc(arena, 1, sizeof *origin);
-    const char *name = kiln_arena_format(arena, "%s", path);
-    struct kiln_node *root = NULL;
-    if (record && origin && name) {
-        *origin = (struct kiln_origin){
-            .name = name, .has_lines = true, .kind = "a figure", .version = "\"kiln_figure\": 1"};
-        root = kiln_node_parse(arena, text, size, origin, error);
-    } else {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", path);
-    }
+    struct kiln_record *record = text ? kiln_record_parse(arena, text, size, path, error) : NULL;
     free(text);
-    return root && read_root(arena, root, record, error) ? record : NULL;
+    return record;
 }

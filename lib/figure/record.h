@@ -13,7 +13,7 @@ struct kiln_record {
     const char *folder;   /* where the command was given, from the folder of the sidecar */
     const char **command; /* the words after `kiln` */
     size_t command_count;
-    const char *device; /* that rendered; "" if none did */
+    const char *device, *driver, *cpu; /* as in kiln_maker */
     uint32_t width, height;
     const char *pixels; /* SHA-256 of the figure's pixels, also of what is written as vectors */
     const char *file;   /* SHA-256 of the figure's file */
@@ -25,7 +25,12 @@ struct kiln_record {
 bool kiln_record_write(const struct kiln_record *record, struct kiln_text *text,
                        struct kiln_error *error);
 
-/* Reads a sidecar into the arena. KILN_INVALID_INPUT when it is none. */
+/* Reads the text of a sidecar, which must end in a zero byte that size does not count, into the
+ * arena. name stands for it in messages. NULL with KILN_INVALID_INPUT when it is none. */
+struct kiln_record *kiln_record_parse(struct kiln_arena *arena, const char *text, size_t size,
+                                      const char *name, struct kiln_error *error);
+
+/* The same of a file. */
 struct kiln_record *kiln_record_read(struct kiln_arena *arena, const char *path,
                                      struct kiln_error *error);
 

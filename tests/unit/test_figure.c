@@ -220,6 +220,55 @@ static void pixels_are_those_of_the_panels(void **state)
     free(pixels.rgba);
 }
 
+/* Panel by panel, edge to edge. */
+static void plain_pictures_have_no_paper(void **state)
+{
+    struct figure *figure = *state;
+    struct kiln_error error = {0};
+    struct kiln_pixels pixels;
+    figure->params.plain = true;
+    assert_true(kiln_layout_make(&figure->drawing, &figure->panels, &figure->params, &error));
+    assert_true(kiln_drawing_rasterise(&figure->drawing, &pixels, &error));
+    assert_int_equal(pixels.width, 2 * WIDTH);
+    assert_int_equal(pixels.height, 2 * HEIGHT);
+    for (size_t y = 0; y < pixels.height; y++)
+        for (size_t x = 0; x < pixels.width; x += WIDTH)
+            assert_memory_equal(pixels.rgba + 4 * (y * pixels.width + x),
+                                figure->rgba + 4 * (y % HEIGHT * WIDTH), (size_t)4 * WIDTH);
+    free(pixels.rgba);
+}
+
+/* JPEG loses little of what eyes see, nothing of where colours end, and is the same twice. */
+static void jpegs_look_like_their_pixels(void **state)
+{
+    (void)state;
+    static const uint8_t colors[4][4] = {
+        {0, 0, 0, 255}, {255, 255, 255, 255}, {230, 40, 20, 255}, {10, 60, 200, 255}};
+    enum { EDGE = 64 };
+    static uint8_t rgba[EDGE * EDGE * 4];
+    for (size_t i = 0; i < (size_t)EDGE * EDGE; i++)
+        memcpy(rgba + 4 * i, colors[i / (EDGE * 16) % 2 * 2 + i % EDGE / 16 % 2], 4);
+    struct kiln_error error = {0};
+    const struct kiln_pixels pixels = {EDGE, EDGE, rgba};
+    uint8_t *bytes[2];
+    size_t sizes[2];
+    for (int i = 0; i < 2; i++)
+        assert_true(kiln_pixels_jpeg(&pixels, &bytes[i], &sizes[i], &error));
+    assert_int_equal(sizes[0], sizes[1]);
+    assert_memory_equal(bytes[0], bytes[1], sizes[0]);
+    assert_memory_equal(bytes[0] + 6, "JFIF", 5);
+    struct kiln_asset_image *image = kiln_asset_image_parse(bytes[0], sizes[0], "jpeg", &error);
+    assert_non_null(image);
+    assert_int_equal(image->width, EDGE);
+    assert_int_equal(image->height, EDGE);
+    const uint8_t *decoded = (const uint8_t *)image->pixels;
+    for (size_t i = 0; i < sizeof rgba; i++)
+        assert_true(abs(decoded[i] - rgba[i]) <= 3);
+    kiln_asset_image_destroy(&image);
+    free(bytes[0]);
+    free(bytes[1]);
+}
+
 static void lettering_is_there_and_has_smooth_edges(void **state)
 {
     struct figure *figure = *state;
@@ -315,7 +364,9 @@ static void sidecars_come_back_as_they_were(void **state)
                                  .folder = "../..",
                                  .command = command,
                                  .command_count = 4,
-                                 .device = "",
+                                 .device = "a GPU",
+                                 .driver = "1.0",
+                                 .cpu = "",
                                  .width = 10,
                                  .height = 20,
                                  .pixels = panel->hash,
@@ -337,6 +388,7 @@ static void sidecars_come_back_as_they_were(void **state)
     for (size_t i = 0; i < 4; i++)
         assert_string_equal(read->command[i], command[i]);
     assert_string_equal(read->folder, "../..");
+    assert_string_equal(read->driver, "1.0");
     assert_int_equal(read->height, 20);
     assert_int_equal(read->panel_count, PANELS);
     assert_string_equal(read->panels[1].state, panel->state);
@@ -360,6 +412,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(pictures_lie_apart_and_on_the_paper, make_figure,
                                         free_figure),
         cmocka_unit_test_setup_teardown(pixels_are_those_of_the_panels, make_figure, free_figure),
+        cmocka_unit_test_setup_teardown(plain_pictures_have_no_paper, make_figure, free_figure),
+        cmocka_unit_test(jpegs_look_like_their_pixels),
         cmocka_unit_test_setup_teardown(lettering_is_there_and_has_smooth_edges, make_figure,
                                         free_figure),
         cmocka_unit_test_setup_teardown(requests_that_make_no_sense_are_refused, make_figure,

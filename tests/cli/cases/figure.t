@@ -11,8 +11,8 @@ $ kiln figure sheet -o a.png
 $ kiln figure sheet scenes/tiny.yaml
 2|kiln: figure sheet: needs --output FILE
 = 2
-$ kiln figure sheet scenes/tiny.yaml -o a.jpg
-2|kiln: figure sheet: a.jpg: a figure is PNG, SVG or PDF; the name must end in .png, .svg or .pdf
+$ kiln figure sheet scenes/tiny.yaml -o a.bmp
+2|kiln: figure sheet: a.bmp: the name of a figure must end in .png, .jpg, .jpeg, .svg or .pdf
 = 2
 $ kiln figure sheet scenes/none.yaml -o a.png
 2|scenes/none.yaml: No such file or directory
@@ -52,6 +52,21 @@ $ kiln figure sheet scenes/tiny.yaml -o a.png --inset 1,2,3
 = 2
 $ kiln figure sheet scenes/tiny.yaml -o a.png --inset 60,30,10x10
 2|kiln: figure sheet: --inset 60,30,10x10: found a part that is not in a picture of 64 x 36
+= 2
+$ kiln figure sheet scenes/tiny.yaml -o a.png --inset 0.5,0.5,0.2x0.2 --inset 0.9,0.5,0.2x0.2 --device none
+2|kiln: figure sheet: --inset 0.9,0.5,0.2x0.2: found a part that is not in a picture of 64 x 36
+= 2
+$ kiln figure triptych scenes/puff.png scenes/puff.png -o a.png --inset 30,0,10x10
+2|kiln: figure triptych: --inset 30,0,10x10: found a part that is not in a picture of 32 x 32
+= 2
+$ kiln figure strip scenes/puff.png -o a.png -n 1 --inset 30,0,10x10
+2|kiln: figure strip: --inset 30,0,10x10: found a part that is not in a picture of 32 x 32
+= 2
+$ kiln figure sheet scenes/tiny.yaml -o a.png --plain --title T
+2|kiln: figure sheet: --plain leaves no room for a title or labels
+= 2
+$ kiln figure triptych scenes/puff.png scenes/puff.png -o scenes/../scenes/puff.png --force
+2|kiln: figure triptych: scenes/../scenes/puff.png: the figure would replace what it is made of
 = 2
 $ kiln figure sheet scenes/tiny.yaml -o a.png --sweep seed=1,2 --label one
 2|kiln: figure sheet: found 1 labels for 2 pictures
@@ -114,6 +129,19 @@ $ kiln figure triptych clip/f_0008.png scenes/puff.png -o doc/none.png
 2|scenes/puff.png: the sizes differ: the reference has 64 x 36 pixels, the test 32 x 32
 = 3
 
+A picture alone, as JPEG: no paper around it.
+$ kiln figure sheet scenes/tiny.yaml --plain --frames 8 -o doc/alone.jpg
+$ kiln figure sheet scenes/tiny.yaml --plain --frames 8 --force -o doc/alone.jpg
+$ grep '"command"\|"size"' doc/alone.jpg.figure.json
+1|"command": ["figure", "sheet", "scenes/tiny.yaml", "--plain", "--frames", "8", "-o", "doc/alone.jpg"],
+1|"size": [64, 36],
+$ kiln compare clip/f_0008.png doc/alone.jpg --quiet --limit psnr=40
+$ rm doc/alone.jpg
+$ kiln figure sheet scenes/tiny.yaml --plain --frames 8 -o doc/alone.jpg
+2|kiln: doc/alone.jpg.figure.json: the file exists (--force replaces it)
+= 6
+$ rm doc/alone*
+
 All of them are what their commands make, from wherever one asks.
 $ kiln figure --check doc
 1|doc/clip.png: up to date
@@ -123,6 +151,21 @@ $ kiln figure --check doc
 $ cd doc && kiln figure --check strip.svg.figure.json
 1|strip.svg: up to date
 $ kiln figure --check doc --quiet
+What another machine drew may look a little different; vectors cannot be looked at.
+$ sed -i.old 's/"cpu": "\([^"]\)/"cpu": "an older \1/; s/^"pixels": "......../"pixels": "01234567/' doc/*.json
+$ kiln figure --check doc | sed 's/an older [^\x27]*/an older CPU/'; echo ${PIPESTATUS[0]}
+1|doc/clip.png: stale: its layout or its lettering has changed
+1|doc/pair.pdf: stale: its layout or its lettering has changed
+1|doc/rates.png: up to date: drawn by 'an older CPU', within the limits: flip.mean 0.0000 of 0.01, flip.p99 0.0000 of 0.1, window.share 0.0000 of 0.1
+1|doc/strip.svg: up to date: drawn by 'an older CPU'; scene and simulation are the same, and pictures within vectors are not compared
+1|1
+$ for f in doc/*.old; do mv $f ${f%.old}; done
+Copies and new names have the command of another figure.
+$ cp doc/rates.png doc/copy.png; cp doc/rates.png.figure.json doc/copy.png.figure.json
+$ kiln figure --check doc/copy.png.figure.json
+1|doc/copy.png: stale: its command makes another file, 'doc/rates.png'
+= 1
+$ rm doc/copy*
 Then a scene changes, a picture, a file, a sidecar.
 $ sed -i 's/drag: 0.2/drag: 0.9/' scenes/tiny.yaml
 $ cp clip/f_0010.png clip/f_0011.png
@@ -135,5 +178,8 @@ $ kiln figure --check doc
 = 1
 $ sed -i 's/"pixels": "/"pixels": "x/' doc/pair.pdf.figure.json
 $ kiln figure --check doc
-2|doc/pair.pdf.figure.json:8:11: pixels: expected 64 hex digits
+1|doc/clip.png: stale: the figure is not there
+1|doc/rates.png: stale: the scene has changed in 'rate = 5, 0.2 s'
+1|doc/strip.svg: stale: the scene has changed in '0.00 s'
+2|doc/pair.pdf.figure.json:10:11: pixels: expected 64 hex digits
 = 3

@@ -24,7 +24,7 @@ $ kiln help man | grep '^\.SH\|^\.SS'
 1|.SH EXAMPLES
 1|.SH SEE ALSO
 $ kiln help man | grep -c '^\.TP'
-1|170
+1|173
 $ kiln help man | { if command -v groff >/dev/null; then groff -man -ww -z 2>&1; fi; }
 $ kiln help man | grep -n '^[.'\'']' | grep -vE ':\.(TH|SH|SS|TP|PP|RS|RE|B)( |$)'
 = 1

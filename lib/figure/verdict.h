@@ -1,0 +1,23 @@
+/* Whether a figure that was drawn again is what its sidecar says. */
+#ifndef KILN_FIGURE_VERDICT_H
+#define KILN_FIGURE_VERDICT_H
+
+#include "figure/format.h"
+#include "figure/record.h"
+
+/* A figure as it is drawn now. */
+struct kiln_figure_now {
+    const struct kiln_panels *panels;
+    const struct kiln_pixels *pixels;
+    const char *hash;
+    const struct kiln_figure_format *format;
+    const char *path; /* of the file that it was written to */
+    uint32_t threads;
+};
+
+/* Fills in whether it is stale and why. By its pixels' hash where the same device, driver and
+ * processor drew it; else, if scene and simulation are the same, by the limits of kiln compare. */
+bool kiln_figure_judge(const struct kiln_record *record, const struct kiln_figure_now *now,
+                       struct kiln_figure_result *result, struct kiln_error *error);
+
+#endif
