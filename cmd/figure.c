@@ -127,9 +127,9 @@ const struct command figure_command = {
         "names those that are stale: whose pixels have changed, or whose file is not the one that "
         "was written. What another device, driver or processor drew may differ within the limits "
         "of 'kiln compare', which is said. Nothing is written.\n\n"
-        "Exit code 0: all are up to date; 1: some are stale. A figure that cannot be checked does "
-        "not keep the others from it, and gives another code: 3 for a broken sidecar or scene, 2 "
-        "for a command that makes no sense; of several the gravest, which 1 never is.",
+        "Exit code 0: all are up to date; 1: some are stale. A figure that cannot be checked is "
+        "reported, the others are checked all the same, and the code is that of the gravest "
+        "failure: 3 for a broken sidecar or scene, 2 for a command that makes no sense.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .most_operands = SIZE_MAX,

@@ -407,7 +407,7 @@ struct kiln_figure_params {
     enum kiln_figure_kind kind;
     const char *const *inputs; /* scenes; reference and test; a scene, or what compare takes */
     size_t input_count;
-    const char *output; /* .png, .jpg, .svg or .pdf */
+    const char *output; /* .png, .jpg (of one quality, about 92 of 100), .svg or .pdf */
     bool overwrite;
     struct kiln_scene_params scene; /* applied before what is swept */
     const struct kiln_figure_sweep *sweeps;

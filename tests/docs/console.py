@@ -4,8 +4,9 @@
 In an empty folder, in the order of the document: a block "```yaml PATH" is a file, "```yaml more of
 PATH" is written to its end, and a block "```console" is a session: each line "$ COMMAND" is run, and the lines up to the next one must be what
 it prints, then "exit code N" where that is not 0. Times are written as "N s"; of fractions the
-digits are not compared. With --update, what is printed is written into the document; with --keep,
-the files are left in that folder, which should be empty.
+digits are not compared. A picture that the document shows as NAME.jpg must look like the NAME.png
+that a session drew, if one did. With --update, what is printed is written into the document; with
+--keep, the files are left in that folder, which should be empty, and pictures are not looked at.
 """
 import argparse
 import os
@@ -69,6 +70,20 @@ def check(path, folder, environment, update):
     return result, sessions
 
 
+def compare_pictures(path, lines, folder, environment):
+    """Beyond these limits it is not JPEG's loss, nor a driver's rounding."""
+    for target, stem in re.findall(r"!\[[^]]*\]\((\S*?(\w+)\.jpg)\)", "\n".join(lines)):
+        shown = os.path.join(os.path.dirname(os.path.abspath(path)), target)
+        drawn = os.path.join(folder, f"{stem}.png")
+        if not os.path.exists(drawn):
+            continue
+        done = subprocess.run(["kiln", "compare", drawn, shown, "--limit",
+                               "flip.mean=0.04,flip.p99=0.2"], env=environment, text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        if done.returncode:
+            sys.exit(f"{path}: {target} is stale (tools/pictures draws it):\n{done.stdout}")
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--update", action="store_true")
@@ -82,6 +97,8 @@ def main():
                        os.environ["PATH"])
     with tempfile.TemporaryDirectory() as scratch:
         result, sessions = check(path, given.keep or scratch, environment, update)
+        if not given.keep:
+            compare_pictures(path, result, scratch, environment)
     if update:
         with open(path, "w", encoding="utf-8") as file:
             file.write("\n".join(result) + "\n")
