@@ -160,6 +160,19 @@ $ kiln figure --check doc | sed 's/an older [^\x27]*/an older CPU/'; echo ${PIPE
 1|doc/strip.svg: up to date: drawn by 'an older CPU'; scene and simulation are the same, and pictures within vectors are not compared
 1|1
 $ for f in doc/*.old; do mv $f ${f%.old}; done
+Not another picture, though, nor one of another size.
+$ kiln figure sheet scenes/tiny.yaml --plain --frames 8 -o far/far.png
+$ sed -i 's/"cpu": "/"cpu": "an older /; s/^"pixels": "......../"pixels": "01234567/' far/*.json
+$ cp clip/f_0011.png far/far.png
+$ sed -i "s/^\"file\": \"[0-9a-f]*/\"file\": \"$(sha256sum <far/far.png | cut -d' ' -f1)/" far/*.json
+$ kiln figure --check far | grep -o 'stale: drawn by\|beyond the limits: flip.mean'
+1|stale: drawn by
+1|beyond the limits: flip.mean
+$ cp scenes/puff.png far/far.png
+$ sed -i "s/^\"file\": \"[0-9a-f]*/\"file\": \"$(sha256sum <far/far.png | cut -d' ' -f1)/" far/*.json
+$ kiln figure --check far
+1|far/far.png: stale: it has another size now
+= 1
 Copies and new names have the command of another figure.
 $ cp doc/rates.png doc/copy.png; cp doc/rates.png.figure.json doc/copy.png.figure.json
 $ kiln figure --check doc/copy.png.figure.json
