@@ -119,7 +119,7 @@ static bool init_stages(struct kiln_stages *s, const struct kiln_techniques *tec
     s->sort = kiln_sort_create(device, techniques->sort, s->threads, error);
     if (!s->sort)
         return false;
-    s->lighting = kiln_lighting_create(device, s->scene, error);
+    s->lighting = kiln_lighting_create(device, s->scene, s->threads, error);
     if (!s->lighting)
         return false;
     s->particles = kiln_particles_create(device, s->scene, &s->atlas, error);

@@ -1,5 +1,5 @@
-/* Computed on the host: a few hundred thousand additions a frame, in a fixed order, so that the
- * picture does not depend on threads. */
+/* Computed on the host: a few hundred thousand additions a frame, in an order that does not depend
+ * on threads. */
 #include "draw/lighting.h"
 
 #include "base/error.h"
@@ -13,27 +13,32 @@
 
 enum { SUN, SKY, GRIDS };
 
+enum { CELLS = KILN_SMOKE_GRID * KILN_SMOKE_GRID * KILN_SMOKE_GRID };
+
 struct kiln_lighting_stage {
     struct kiln_device *device;
     const struct kiln_scene *scene;
+    struct kiln_threads *threads;
     bool fire, smoke; /* whether the scene has any */
+    bool sun;         /* whether it shines ever */
     bool table_valid;
-    float4 *table;          /* looks */
-    float *scratch, *depth; /* of a grid */
+    float4 *table; /* looks */
+    struct kiln_smoke puffs;
+    struct kiln_smoke_shadow *shadow;
+    float *depths; /* of the grids */
     GLuint textures[GRIDS];
 };
 
 static bool allocate(struct kiln_lighting_stage *stage)
 {
-    const size_t cells = (size_t)KILN_SMOKE_GRID * KILN_SMOKE_GRID * KILN_SMOKE_GRID;
     if (stage->fire || stage->smoke)
         stage->table = calloc((size_t)KILN_LOOK_TEXELS, sizeof *stage->table);
     if (stage->smoke) {
-        stage->scratch = malloc(kiln_smoke_scratch_floats() * sizeof *stage->scratch);
-        stage->depth = malloc(cells * sizeof *stage->depth);
+        stage->shadow = kiln_smoke_shadow_create();
+        stage->depths = malloc((size_t)GRIDS * CELLS * sizeof *stage->depths);
     }
     return (stage->table || !(stage->fire || stage->smoke)) &&
-           ((stage->scratch && stage->depth) || !stage->smoke);
+           ((stage->shadow && stage->depths) || !stage->smoke);
 }
 
 static void make_textures(struct kiln_lighting_stage *stage)
@@ -54,8 +59,17 @@ static void make_textures(struct kiln_lighting_stage *stage)
     }
 }
 
+static bool sun_exists(const struct kiln_scene *scene)
+{
+    const struct kiln_value3 *color = &scene->backdrop.sun_color;
+    return kiln_scene_value_max(scene, &color->x) > 0.0f ||
+           kiln_scene_value_max(scene, &color->y) > 0.0f ||
+           kiln_scene_value_max(scene, &color->z) > 0.0f;
+}
+
 struct kiln_lighting_stage *kiln_lighting_create(struct kiln_device *device,
                                                  const struct kiln_scene *scene,
+                                                 struct kiln_threads *threads,
                                                  struct kiln_error *error)
 {
     struct kiln_lighting_stage *stage = calloc(1, sizeof *stage);
@@ -65,8 +79,10 @@ struct kiln_lighting_stage *kiln_lighting_create(struct kiln_device *device,
     }
     *stage = (struct kiln_lighting_stage){.device = device,
                                           .scene = scene,
+                                          .threads = threads,
                                           .fire = kiln_firelight_exists(scene),
-                                          .smoke = kiln_smoke_exists(scene)};
+                                          .smoke = kiln_smoke_exists(scene),
+                                          .sun = sun_exists(scene)};
     if (!allocate(stage)) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "lighting: out of memory");
         kiln_lighting_destroy(&stage);
@@ -83,8 +99,9 @@ void kiln_lighting_destroy(struct kiln_lighting_stage **stage)
         return;
     glDeleteTextures(GRIDS, (*stage)->textures); /* 0 is ignored */
     free((*stage)->table);
-    free((*stage)->scratch);
-    free((*stage)->depth);
+    free((*stage)->depths);
+    kiln_smoke_finish(&(*stage)->puffs);
+    kiln_smoke_shadow_destroy(&(*stage)->shadow);
     free(*stage);
     *stage = NULL;
 }
@@ -98,19 +115,36 @@ static float3 sun_direction(const struct kiln_scene *scene, float time_s)
     return (float3){v.x / length, v.y / length, v.z / length};
 }
 
-static bool fill_grid(struct kiln_lighting_stage *stage, const struct kiln_pool *pool,
-                      const struct kiln_particle *records, const struct kiln_view *view,
-                      float3 direction, int which, float4 rows[3])
+static void upload(struct kiln_lighting_stage *stage, const struct kiln_smoke_grid *grid, int which,
+                   float4 rows[3])
 {
-    struct kiln_smoke_grid grid = {.depth = stage->depth};
-    if (!kiln_smoke_grid_fill(&grid, stage->scene, pool, records, view, stage->table, direction,
-                              stage->scratch))
-        return false;
     glActiveTexture(GL_TEXTURE0 + KILN_UNIT_SMOKE_SUN + (GLenum)which);
     glBindTexture(GL_TEXTURE_3D, stage->textures[which]);
     glTexSubImage3D(GL_TEXTURE_3D, 0, 0, 0, 0, KILN_SMOKE_GRID, KILN_SMOKE_GRID, KILN_SMOKE_GRID,
-                    GL_RED, GL_FLOAT, grid.depth);
-    memcpy(rows, grid.world_to_grid, sizeof grid.world_to_grid);
+                    GL_RED, GL_FLOAT, grid->depth);
+    memcpy(rows, grid->world_to_grid, sizeof grid->world_to_grid);
+}
+
+/* Where there is no sun, every place lies beside its grid. */
+static bool shade(struct kiln_lighting_stage *stage, const struct kiln_living_moment *moment,
+                  struct kiln_lighting *lighting, struct kiln_error *error)
+{
+    struct kiln_smoke_grid grids[GRIDS] = {
+        {.direction = {0.0f, 1.0f, 0.0f}, .depth = stage->depths},
+        {.direction = sun_direction(stage->scene, moment->view->clock.x),
+         .depth = stage->depths + CELLS},
+    };
+    if (!kiln_smoke_gather(&stage->puffs, moment, stage->threads, error))
+        return false;
+    lighting->smoke = kiln_smoke_shadow_fill(stage->shadow, &stage->puffs, stage->threads, grids,
+                                             stage->sun ? 2 : 1);
+    if (!lighting->smoke)
+        return true;
+    for (int i = 0; i < 3; i++)
+        lighting->sun_to_grid[i] = (float4){0.0f, 0.0f, 0.0f, -1.0f};
+    upload(stage, &grids[0], SKY, lighting->sky_to_grid);
+    if (stage->sun)
+        upload(stage, &grids[1], SUN, lighting->sun_to_grid);
     return true;
 }
 
@@ -127,14 +161,10 @@ bool kiln_lighting_run(struct kiln_lighting_stage *stage, struct kiln_pool *pool
     if (!stage->table_valid || kiln_looks_vary(stage->scene))
         kiln_looks_sample(stage->scene, view->clock.x, stage->table);
     stage->table_valid = true;
+    const struct kiln_living_moment moment = {stage->scene, pool, records, view, stage->table};
     if (stage->fire)
-        lighting->fire_count =
-            kiln_firelight_gather(stage->scene, pool, records, view, stage->table, lighting->fire);
-    if (stage->smoke)
-        lighting->smoke =
-            fill_grid(stage, pool, records, view, sun_direction(stage->scene, view->clock.x), SUN,
-                      lighting->sun_to_grid) &&
-            fill_grid(stage, pool, records, view, (float3){0.0f, 1.0f, 0.0f}, SKY,
-                      lighting->sky_to_grid);
+        lighting->fire_count = kiln_firelight_gather(&moment, stage->threads, lighting->fire);
+    if (stage->smoke && !shade(stage, &moment, lighting, error))
+        return false;
     return kiln_device_check(stage->device, "lighting", error);
 }

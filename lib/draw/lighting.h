@@ -4,6 +4,7 @@
 #ifndef KILN_DRAW_LIGHTING_H
 #define KILN_DRAW_LIGHTING_H
 
+#include "base/thread.h"
 #include "draw/living.h"
 
 /* Texture units of the smoke's grids (draw/smoke_shadow.glsl). */
@@ -19,9 +20,10 @@ struct kiln_lighting {
 
 struct kiln_lighting_stage;
 
-/* NULL with an error. The scene must outlive it. */
+/* NULL with an error. Scene and threads must outlive it. */
 struct kiln_lighting_stage *kiln_lighting_create(struct kiln_device *device,
                                                  const struct kiln_scene *scene,
+                                                 struct kiln_threads *threads,
                                                  struct kiln_error *error);
 void kiln_lighting_destroy(struct kiln_lighting_stage **stage);
 

@@ -21,34 +21,45 @@ static float4 look_at(const float4 *rows, uint32_t row, float progress)
     return mix4(samples[i], samples[i + 1], x - (float)i);
 }
 
-void kiln_living_visit(const struct kiln_scene *scene, const struct kiln_pool *pool,
-                       const struct kiln_particle *records, const struct kiln_view *view,
-                       const float4 *table, uint32_t system,
-                       void (*visit)(void *context, const struct kiln_living *particle),
-                       void *context)
+struct kiln_living_system kiln_living_system(const struct kiln_living_moment *moment,
+                                             uint32_t index)
 {
-    const struct kiln_derived_params derived = kiln_scene_derived(scene, system);
-    const struct kiln_pool_system *slots = &pool->systems[system];
-    const float4 *rows = table + (size_t)system * KILN_LOOK_ROWS * KILN_LOOK_SAMPLES;
-    uint32_t used = kiln_pool_used(slots);
-    for (uint32_t i = 0; i < used; i++) {
-        struct kiln_particle record = records[slots->base + i];
-        if (!particle_is_alive(record))
-            continue;
-        float age_s = particle_age(record, view->clock_step.x, scene->dt_s);
-        float progress = particle_progress(age_s, particle_life_s(scene->keys, derived, record));
-        float4 shape = look_at(rows, KILN_LOOK_SHAPE, progress);
-        float4 spread = look_at(rows, KILN_LOOK_SPREAD, progress);
-        float4 hot = look_at(rows, KILN_LOOK_HOT, progress);
-        float4 cool = look_at(rows, KILN_LOOK_COOL, progress);
-        float scale = random_unit(particle_stream(derived, record), RANDOM_SCALE);
-        const struct kiln_living particle = {
-            .position = particle_position(record),
-            .radius = 0.5f * shape.x * (spread.x + (spread.y - spread.x) * scale),
-            .progress = progress,
-            .opacity = shape.z,
-            .glow = {0.5f * (hot.x + cool.x), 0.5f * (hot.y + cool.y), 0.5f * (hot.z + cool.z)},
-        };
-        visit(context, &particle);
-    }
+    const struct kiln_pool_system *slots = &moment->pool->systems[index];
+    return (struct kiln_living_system){
+        .derived = kiln_scene_derived(moment->scene, index),
+        .keys = moment->scene->keys,
+        .records = moment->records + slots->base,
+        .rows = moment->table + (size_t)index * KILN_LOOK_ROWS * KILN_LOOK_SAMPLES,
+        .used = kiln_pool_used(slots),
+        .step = moment->view->clock_step.x,
+        .dt_s = moment->scene->dt_s,
+    };
+}
+
+bool kiln_living_at(const struct kiln_living_system *system, uint32_t slot,
+                    struct kiln_living *particle)
+{
+    const struct kiln_particle record = system->records[slot];
+    if (!particle_is_alive(record))
+        return false;
+    float age_s = particle_age(record, system->step, system->dt_s);
+    float progress =
+        particle_progress(age_s, particle_life_s(system->keys, system->derived, record));
+    float4 shape = look_at(system->rows, KILN_LOOK_SHAPE, progress);
+    float4 spread = look_at(system->rows, KILN_LOOK_SPREAD, progress);
+    float scale = random_unit(particle_stream(system->derived, record), RANDOM_SCALE);
+    *particle = (struct kiln_living){
+        .position = particle_position(record),
+        .radius = 0.5f * shape.x * (spread.x + (spread.y - spread.x) * scale),
+        .progress = progress,
+        .opacity = shape.z,
+    };
+    return true;
+}
+
+float3 kiln_living_glow(const struct kiln_living_system *system, float progress)
+{
+    float4 hot = look_at(system->rows, KILN_LOOK_HOT, progress);
+    float4 cool = look_at(system->rows, KILN_LOOK_COOL, progress);
+    return (float3){0.5f * (hot.x + cool.x), 0.5f * (hot.y + cool.y), 0.5f * (hot.z + cool.z)};
 }

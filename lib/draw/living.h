@@ -7,20 +7,42 @@
 #include "scene/scene.h"
 #include "shared/draw_layout.h"
 
+/* A pool at one moment. */
+struct kiln_living_moment {
+    const struct kiln_scene *scene;
+    const struct kiln_pool *pool;
+    const struct kiln_particle *records; /* of the pool */
+    const struct kiln_view *view;
+    const float4 *table; /* of kiln_looks_sample at the view's time */
+};
+
+/* What the particles of one system follow from. */
+struct kiln_living_system {
+    struct kiln_derived_params derived;
+    const float4 *keys;
+    const struct kiln_particle *records; /* of the system */
+    const float4 *rows;                  /* of its look */
+    uint32_t used;                       /* slots to ask for: 0 .. used - 1 */
+    uint32_t step;
+    float dt_s;
+};
+
 struct kiln_living {
     float3 position; /* m */
     float radius;    /* m: half of the billboard's edge */
     float progress;  /* through its life, 0 to 1 */
     float opacity;   /* at this age, fades included */
-    float3 glow;     /* emitted light, the mean of its hot and cool parts */
 };
 
-/* Calls visit for each living particle of a system in the order of its slots. table: of
- * kiln_looks_sample at the view's time; records: of the pool. */
-void kiln_living_visit(const struct kiln_scene *scene, const struct kiln_pool *pool,
-                       const struct kiln_particle *records, const struct kiln_view *view,
-                       const float4 *table, uint32_t system,
-                       void (*visit)(void *context, const struct kiln_living *particle),
-                       void *context);
+/* What the moment names must outlive the result. */
+struct kiln_living_system kiln_living_system(const struct kiln_living_moment *moment,
+                                             uint32_t index);
+
+/* The particle in a slot; false when none lives there. */
+bool kiln_living_at(const struct kiln_living_system *system, uint32_t slot,
+                    struct kiln_living *particle);
+
+/* The light that a particle emits, the mean of its hot and cool parts. */
+float3 kiln_living_glow(const struct kiln_living_system *system, float progress);
 
 #endif

@@ -1,27 +1,98 @@
 /* Each particle is a ball whose density falls off smoothly, put into a grid of about its own
  * fineness: a pyramid of grids, so that a large puff costs no more cells than a small one. The
  * pyramid is added up, and then summed along the light.
+ *
+ * The smoke is cut into parts, as many as its amount asks for, each with a pyramid of its own; they
+ * are added up in order, so that threads do not matter. What of a pyramid is empty is not even
+ * cleared: most of it, mostly.
  */
 #include "draw/smoke_shadow.h"
 
+#include "base/vector.h"
+
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-enum { EDGE = KILN_SMOKE_GRID, LEVELS = 5 }; /* 64, 32, 16, 8 and 4 cells */
+enum {
+    EDGE = KILN_SMOKE_GRID,
+    LEVELS = 5, /* 64, 32, 16, 8 and 4 cells */
+    MOST_PARTS = 8,
+    LEAST_PART = 2, /* stretches of puffs */
+    BAND = 8,       /* rows of a slice that are summed along the light together */
+    LANES = 8,      /* cells of a row that a ball reaches at most */
+};
 
-static const float FILL = 0.6f;        /* of a cell of the atlas, in its middle */
 static const float MOST_CELLS = 2.5f;  /* of a ball's radius, in its grid */
 static const float LEAST_CELLS = 1.2f; /* smaller balls are put in as large as this */
 
-struct smoke {
-    float3 axes[3];        /* of the grid; the third to the light */
-    float low[3], high[3]; /* bounds along the axes, m */
+/* The smoke of a part in one grid. */
+struct pyramid {
+    float *levels[LEVELS];    /* extinction, 1/m */
+    uint64_t touched[LEVELS]; /* a bit a slice of cells; the others have no contents */
+    float low[3], high[3];    /* bounds along the axes, m */
     bool any;
-    float shadow;          /* of the system at hand */
-    float cell;            /* m */
-    float origin[3];       /* the grid's low corner along the axes, m */
-    float *levels[LEVELS]; /* extinction, 1/m */
 };
+
+struct box {
+    struct kiln_smoke_grid *grid;
+    float3 axes[3];  /* of the grid; the third to the light */
+    float cell;      /* m */
+    float origin[3]; /* the grid's low corner along the axes, m */
+    float *finer;    /* level 1, interpolated along its rows */
+    bool coarse;     /* whether any level but the finest has contents */
+    struct pyramid parts[MOST_PARTS];
+};
+
+struct kiln_smoke_shadow {
+    struct box boxes[KILN_MAX_SMOKE_GRIDS];
+    float *memory;
+    /* Of one call. */
+    const struct kiln_smoke *smoke;
+    uint32_t parts;
+};
+
+static size_t level_floats(int level)
+{
+    size_t edge = (size_t)(EDGE >> level);
+    return edge * edge * edge;
+}
+
+struct kiln_smoke_shadow *kiln_smoke_shadow_create(void)
+{
+    size_t pyramid = 0, finer = 2 * level_floats(1);
+    for (int level = 0; level < LEVELS; level++)
+        pyramid += level_floats(level);
+    struct kiln_smoke_shadow *shadow = calloc(1, sizeof *shadow);
+    float *memory = malloc(KILN_MAX_SMOKE_GRIDS * (MOST_PARTS * pyramid + finer) * sizeof *memory);
+    if (!shadow || !memory) {
+        free(shadow);
+        free(memory);
+        return NULL;
+    }
+    shadow->memory = memory;
+    for (int i = 0; i < KILN_MAX_SMOKE_GRIDS; i++) {
+        struct box *box = &shadow->boxes[i];
+        for (int part = 0; part < MOST_PARTS; part++) {
+            for (int level = 0; level < LEVELS; level++) {
+                box->parts[part].levels[level] = memory;
+                memory += level_floats(level);
+            }
+        }
+        box->finer = memory;
+        memory += finer;
+    }
+    return shadow;
+}
+
+void kiln_smoke_shadow_destroy(struct kiln_smoke_shadow **shadow)
+{
+    if (!*shadow)
+        return;
+    free((*shadow)->memory);
+    free(*shadow);
+    *shadow = NULL;
+}
 
 static float3 cross(float3 a, float3 b)
 {
@@ -43,108 +114,222 @@ static void choose_axes(float3 axes[3], float3 direction)
     axes[2] = direction;
 }
 
-/* Optical depth through a particle's middle. */
-static float middle_depth(const struct smoke *smoke, const struct kiln_living *particle)
+/* The stretches of a part. */
+static uint32_t first_stretch(const struct kiln_smoke_shadow *shadow, size_t part)
 {
-    float alpha = FILL * particle->opacity;
-    return -logf(1.0f - (alpha < 0.98f ? alpha : 0.98f)) * smoke->shadow;
+    return (uint32_t)((uint64_t)shadow->smoke->stretch_count * part / shadow->parts);
 }
 
-static void widen(void *context, const struct kiln_living *particle)
+static void widen(const struct box *box, struct pyramid *part, const struct kiln_puff *puff)
 {
-    struct smoke *smoke = context;
-    if (!(particle->radius > 0.0f && particle->opacity > 0.0f))
-        return;
     for (int i = 0; i < 3; i++) {
-        float at = dot(smoke->axes[i], particle->position);
-        float low = at - particle->radius, high = at + particle->radius;
-        smoke->low[i] = smoke->any && smoke->low[i] < low ? smoke->low[i] : low;
-        smoke->high[i] = smoke->any && smoke->high[i] > high ? smoke->high[i] : high;
+        float at = dot(box->axes[i], puff->position);
+        float low = at - puff->radius, high = at + puff->radius;
+        part->low[i] = part->any && part->low[i] < low ? part->low[i] : low;
+        part->high[i] = part->any && part->high[i] > high ? part->high[i] : high;
     }
-    smoke->any = true;
+    part->any = true;
+}
+
+/* Work is a part of a grid: grid * parts + part. */
+static void find_bounds(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    struct kiln_smoke_shadow *shadow = context;
+    for (size_t work = begin; work < end; work++) {
+        struct box *box = &shadow->boxes[work / shadow->parts];
+        size_t index = work % shadow->parts;
+        struct pyramid *part = &box->parts[index];
+        part->any = false;
+        uint32_t last = first_stretch(shadow, index + 1);
+        for (uint32_t stretch = first_stretch(shadow, index); stretch < last; stretch++) {
+            const struct kiln_puff *puffs =
+                shadow->smoke->puffs + (size_t)stretch * KILN_SMOKE_STRETCH;
+            for (uint32_t i = 0; i < shadow->smoke->counts[stretch]; i++)
+                widen(box, part, &puffs[i]);
+        }
+    }
 }
 
 /* The cells lie at multiples of their size in the world, and their size is one of few, so that the
- * grid does not crawl when the smoke grows. */
-static void place_grid(struct smoke *smoke)
+ * grid does not crawl when the smoke grows. False when there is no smoke. */
+static bool place_grid(struct box *box, uint32_t parts)
 {
-    float longest = 0.0f;
-    for (int i = 0; i < 3; i++)
-        longest = fmaxf(longest, smoke->high[i] - smoke->low[i]);
-    float least = longest / (EDGE - 4);
-    smoke->cell = exp2f(0.25f * ceilf(4.0f * log2f(fmaxf(least, 1e-4f))));
-    for (int i = 0; i < 3; i++) {
-        float margin = 0.5f * (EDGE * smoke->cell - (smoke->high[i] - smoke->low[i]));
-        smoke->origin[i] = smoke->cell * floorf((smoke->low[i] - margin) / smoke->cell);
+    float low[3], high[3], longest = 0.0f;
+    bool any = false;
+    for (uint32_t k = 0; k < parts; k++) {
+        const struct pyramid *part = &box->parts[k];
+        for (int i = 0; i < 3 && part->any; i++) {
+            low[i] = any && low[i] < part->low[i] ? low[i] : part->low[i];
+            high[i] = any && high[i] > part->high[i] ? high[i] : part->high[i];
+        }
+        any = any || part->any;
     }
+    if (!any)
+        return false;
+    for (int i = 0; i < 3; i++)
+        longest = fmaxf(longest, high[i] - low[i]);
+    float least = longest / (EDGE - 4);
+    box->cell = exp2f(0.25f * ceilf(4.0f * log2f(fmaxf(least, 1e-4f))));
+    float edge_m = box->cell * EDGE;
+    for (int i = 0; i < 3; i++) {
+        float margin = 0.5f * (edge_m - (high[i] - low[i]));
+        box->origin[i] = box->cell * floorf((low[i] - margin) / box->cell);
+        float3 axis = box->axes[i];
+        box->grid->world_to_grid[i] =
+            (float4){axis.x / edge_m, axis.y / edge_m, axis.z / edge_m, -box->origin[i] / edge_m};
+    }
+    return true;
 }
 
-/* The cells of one axis that a ball reaches: their squared distances from its centre in radii. */
+/* The cells of one axis that a ball reaches. */
 struct reach {
     int first, count;
-    float squares[8];
+    float squares[LANES]; /* squared distances from its centre in radii, beyond its reach, too */
 };
 
-static struct reach reach_of(float center, float radius, int edge)
+static inline struct reach reach_of(float center, float radius, int edge)
 {
     int first = (int)floorf(center - radius), last = (int)ceilf(center + radius) - 1;
-    struct reach reach = {.first = first < 0 ? 0 : first};
+    first = first < 0 ? 0 : first;
     last = last > edge - 1 ? edge - 1 : last;
-    for (int i = reach.first; i <= last && reach.count < 8; i++) {
-        float away = ((float)i + 0.5f - center) / radius;
-        reach.squares[reach.count++] = away * away;
-    }
-    return reach;
+    int count = last - first + 1;
+    return (struct reach){.first = first, .count = count > LANES ? LANES : count};
 }
 
-/* Adds scale * (1 - d^2)^2 to the cells, d in radii; scale 0 adds nothing. Returns the sum of the
- * weights. */
-static float add_ball(float *cells, int edge, const struct reach reach[3], float scale)
+static inline void measure(struct reach *reach, float center, float radius)
 {
-    float sum = 0.0f;
-    for (int z = 0; z < reach[2].count; z++) {
-        for (int y = 0; y < reach[1].count; y++) {
-            float square = reach[2].squares[z] + reach[1].squares[y];
-            float *row = cells + ((size_t)(reach[2].first + z) * (size_t)edge +
-                                  (size_t)(reach[1].first + y)) *
-                                     (size_t)edge;
-            for (int x = 0; x < reach[0].count; x++) {
-                float inside = fmaxf(1.0f - square - reach[0].squares[x], 0.0f);
-                float weight = inside * inside;
-                sum += weight;
-                row[reach[0].first + x] += scale * weight;
+    for (int i = 0; i < LANES; i++) {
+        float away = ((float)(reach->first + i) + 0.5f - center) / radius;
+        reach->squares[i] = away * away;
+    }
+}
+
+/* Cells of a row at once. */
+typedef float cells4 __attribute__((vector_size(16)));
+typedef int32_t mask4 __attribute__((vector_size(16)));
+
+/* A ball in the cells of its level: (1 - d^2)^2, d in radii, in rows of a fixed width. */
+struct ball {
+    struct reach reach[3];
+    int quads; /* of a row: 1, or 2 if the ball is wider */
+    cells4 weights[LANES * LANES][2];
+};
+
+/* Returns the sum of the weights. */
+static inline float weigh(struct ball *ball)
+{
+    cells4 sum = {0.0f, 0.0f, 0.0f, 0.0f}, squares[2];
+    memcpy(squares, ball->reach[0].squares, sizeof squares);
+    for (int z = 0; z < ball->reach[2].count; z++) {
+        for (int y = 0; y < ball->reach[1].count; y++) {
+            float room = 1.0f - (ball->reach[2].squares[z] + ball->reach[1].squares[y]);
+            for (int i = 0; i < ball->quads; i++) {
+                cells4 inside = room - squares[i];
+                inside = (cells4)((mask4)inside & (mask4)(inside > 0.0f));
+                sum += ball->weights[z * LANES + y][i] = inside * inside;
             }
         }
     }
-    return sum;
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
-/* Extinction of e (1 - d^2)^2 has the optical depth 16/15 e r through the middle of a ball and, in
- * all, e r^3 32 pi / 105. The sum is what is kept, however few cells there are. */
-static void deposit(void *context, const struct kiln_living *particle)
+static inline void add_ball(float *cells, int edge, const struct ball *ball, float scale)
 {
-    struct smoke *smoke = context;
-    float radius = particle->radius;
-    if (!(radius > 0.0f && particle->opacity > 0.0f))
-        return;
-    float total = middle_depth(smoke, particle) * 15.0f / 16.0f * radius * radius *
-                  (32.0f * 3.14159265f / 105.0f);
+    for (int z = 0; z < ball->reach[2].count; z++) {
+        for (int y = 0; y < ball->reach[1].count; y++) {
+            int row = (ball->reach[2].first + z) * edge + ball->reach[1].first + y;
+            float *at = cells + (size_t)row * (size_t)edge + (size_t)ball->reach[0].first;
+            for (int i = 0; i < ball->quads; i++, at += 4) {
+                cells4 sum;
+                memcpy(&sum, at, sizeof sum);
+                sum += scale * ball->weights[z * LANES + y][i];
+                memcpy(at, &sum, sizeof sum);
+            }
+        }
+    }
+}
+
+/* Clears the slices of a level that are about to be written for the first time. */
+static inline void touch(struct pyramid *part, int level, const struct reach *reach)
+{
+    size_t slice = (size_t)(EDGE >> level) * (size_t)(EDGE >> level);
+    for (int z = reach->first; z < reach->first + reach->count; z++) {
+        if (!(part->touched[level] >> z & 1))
+            memset(part->levels[level] + (size_t)z * slice, 0, slice * sizeof(float));
+        part->touched[level] |= (uint64_t)1 << z;
+    }
+}
+
+/* The sum is what is kept, however few cells there are. */
+static inline void deposit(const struct box *box, struct pyramid *part,
+                           const struct kiln_puff *puff)
+{
     int level = 0;
-    float cell = smoke->cell;
-    while (level < LEVELS - 1 && radius > MOST_CELLS * cell) {
+    float cell = box->cell;
+    while (level < LEVELS - 1 && puff->radius > MOST_CELLS * cell) {
         level++;
         cell *= 2.0f;
     }
     int edge = EDGE >> level;
-    struct reach reach[3];
-    float radius_cells = fmaxf(radius / cell, LEAST_CELLS);
-    for (int i = 0; i < 3; i++) {
-        float at = (dot(smoke->axes[i], particle->position) - smoke->origin[i]) / cell;
-        reach[i] = reach_of(at, radius_cells, edge);
+    float at[3], radius = fmaxf(puff->radius / cell, LEAST_CELLS);
+    for (int i = 0; i < 3; i++)
+        at[i] = (dot(box->axes[i], puff->position) - box->origin[i]) / cell;
+    struct ball ball;
+    for (int i = 0; i < 3; i++)
+        ball.reach[i] = reach_of(at[i], radius, edge);
+    ball.quads = ball.reach[0].count > 4 ? 2 : 1;
+    int last_first = edge - 4 * ball.quads; /* rows of the ball end with those of the grid */
+    if (ball.reach[0].first > last_first)
+        ball.reach[0].first = last_first;
+    for (int i = 0; i < 3; i++)
+        measure(&ball.reach[i], at[i], radius);
+    float sum = weigh(&ball);
+    if (!(sum > 0.0f))
+        return;
+    touch(part, level, &ball.reach[2]);
+    float scale = puff->extinction / (sum * cell * cell * cell);
+    add_ball(part->levels[level], edge, &ball, scale);
+}
+
+KILN_WIDE_VECTORS
+static void deposit_parts(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    struct kiln_smoke_shadow *shadow = context;
+    for (size_t work = begin; work < end; work++) {
+        const struct box *box = &shadow->boxes[work / shadow->parts];
+        size_t index = work % shadow->parts;
+        struct pyramid *part = &shadow->boxes[work / shadow->parts].parts[index];
+        memset(part->touched, 0, sizeof part->touched);
+        uint32_t last = first_stretch(shadow, index + 1);
+        for (uint32_t stretch = first_stretch(shadow, index); stretch < last; stretch++) {
+            const struct kiln_puff *puffs =
+                shadow->smoke->puffs + (size_t)stretch * KILN_SMOKE_STRETCH;
+            for (uint32_t i = 0; i < shadow->smoke->counts[stretch]; i++)
+                deposit(box, part, &puffs[i]);
+        }
     }
-    float sum = add_ball(smoke->levels[level], edge, reach, 0.0f);
-    if (sum > 0.0f)
-        add_ball(smoke->levels[level], edge, reach, total / (sum * cell * cell * cell));
+}
+
+/* Adds a level of all parts up in the first one. */
+static void add_parts(struct box *box, int level, uint32_t parts)
+{
+    struct pyramid *sum = &box->parts[0];
+    size_t slice = (size_t)(EDGE >> level) * (size_t)(EDGE >> level);
+    for (int z = 0; z < EDGE >> level; z++) {
+        float *cells = sum->levels[level] + (size_t)z * slice;
+        for (uint32_t k = 1; k < parts; k++) {
+            if (!(box->parts[k].touched[level] >> z & 1))
+                continue;
+            const float *more = box->parts[k].levels[level] + (size_t)z * slice;
+            if (!(sum->touched[level] >> z & 1))
+                memset(cells, 0, slice * sizeof *cells);
+            sum->touched[level] |= (uint64_t)1 << z;
+            for (size_t i = 0; i < slice; i++)
+                cells[i] += more[i];
+        }
+    }
 }
 
 /* The two coarse cells that a fine one lies between: its own, of weight 3/4, and the next, of 1/4.
@@ -160,125 +345,134 @@ static struct between between_of(int fine, int coarse_edge)
     return (struct between){{own, next}};
 }
 
-/* Adds weight times a coarse row to a fine one. */
-static void add_coarser_row(const float *coarse, int coarse_edge, float weight, float *fine)
+/* Interpolates a level along its rows: each becomes one of twice as many cells. */
+static inline void refine_rows(const float *restrict coarse, int coarse_edge, float *restrict rows)
 {
-    for (int x = 0; x < 2 * coarse_edge; x++) {
-        struct between at = between_of(x, coarse_edge);
-        fine[x] += weight * (0.75f * coarse[at.cells[0]] + 0.25f * coarse[at.cells[1]]);
+    for (int row = 0; row < coarse_edge * coarse_edge; row++) {
+        const float *from = coarse + (size_t)row * (size_t)coarse_edge;
+        float *to = rows + 2 * (size_t)row * (size_t)coarse_edge;
+        int last = coarse_edge - 1;
+        to[0] = 0.75f * from[0] + 0.25f * from[0];
+        for (int x = 0; x < last; x++) {
+            to[2 * x + 1] = 0.75f * from[x] + 0.25f * from[x + 1];
+            to[2 * x + 2] = 0.75f * from[x + 1] + 0.25f * from[x];
+        }
+        to[2 * last + 1] = 0.75f * from[last] + 0.25f * from[last];
     }
 }
 
-/* Adds a level to the one of twice its edge, linearly interpolated. */
-static void add_coarser(const float *coarse, int coarse_edge, float *fine)
+/* Adds to row (y, z) of a level what lies in the refined rows of the coarser one. */
+static inline void add_coarser(const float *rows, int edge, int y, int z, float *restrict fine)
 {
-    static const float weights[2] = {0.75f, 0.25f};
-    int edge = 2 * coarse_edge;
-    for (int row = 0; row < edge * edge; row++) {
-        struct between y = between_of(row % edge, coarse_edge);
-        struct between z = between_of(row / edge, coarse_edge);
-        for (int i = 0; i < 4; i++) {
-            int from = z.cells[i / 2] * coarse_edge + y.cells[i % 2];
-            add_coarser_row(coarse + (size_t)from * (size_t)coarse_edge, coarse_edge,
-                            weights[i / 2] * weights[i % 2], fine + (size_t)row * (size_t)edge);
+    struct between at_y = between_of(y, edge / 2), at_z = between_of(z, edge / 2);
+    const float *from[4];
+    for (int i = 0; i < 4; i++)
+        from[i] =
+            rows + (size_t)(at_z.cells[i / 2] * (edge / 2) + at_y.cells[i % 2]) * (size_t)edge;
+    const float *restrict a = from[0], *restrict b = from[1];
+    const float *restrict c = from[2], *restrict d = from[3];
+    for (int x = 0; x < edge; x++) {
+        float nearer = fine[x] + 0.5625f * a[x] + 0.1875f * b[x];
+        fine[x] = nearer + 0.1875f * c[x] + 0.0625f * d[x];
+    }
+}
+
+/* Brings every level of all parts but the finest together in `finer`. */
+KILN_WIDE_VECTORS
+static void add_levels(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    struct kiln_smoke_shadow *shadow = context;
+    for (size_t which = begin; which < end; which++) {
+        struct box *box = &shadow->boxes[which];
+        box->coarse = false;
+        for (int level = LEVELS - 1; level > 0; level--) {
+            int edge = EDGE >> level;
+            float *cells = box->parts[0].levels[level];
+            add_parts(box, level, shadow->parts);
+            uint64_t touched = box->parts[0].touched[level];
+            if (!box->coarse && !touched)
+                continue;
+            for (int row = 0; row < edge * edge; row++) {
+                float *fine = cells + (size_t)row * (size_t)edge;
+                if (!(touched >> (row / edge) & 1))
+                    memset(fine, 0, (size_t)edge * sizeof *fine);
+                if (box->coarse)
+                    add_coarser(box->finer, edge, row % edge, row / edge, fine);
+            }
+            box->coarse = true;
+            refine_rows(cells, edge, box->finer);
         }
     }
 }
 
-/* From extinction to the optical depth between a cell's centre and the light. */
-static void sum_towards_light(const struct smoke *smoke, float *depth)
+/* The extinction of a row of cells. */
+static inline void add_row(const struct kiln_smoke_shadow *shadow, const struct box *box, int y,
+                           int z, float *restrict extinction)
 {
-    const float *extinction = smoke->levels[0];
-    enum { SLICE = EDGE * EDGE };
-    float above[SLICE] = {0}; /* up to the cell's upper face */
-    for (int z = EDGE - 1; z >= 0; z--) {
-        for (int i = 0; i < SLICE; i++) {
-            float own = extinction[(size_t)z * SLICE + (size_t)i] * smoke->cell;
-            depth[(size_t)z * SLICE + (size_t)i] = above[i] + 0.5f * own;
-            above[i] += own;
+    for (uint32_t k = 0; k < shadow->parts; k++) {
+        const struct pyramid *part = &box->parts[k];
+        if (!(part->touched[0] >> z & 1))
+            continue;
+        const float *restrict cells = part->levels[0] + (size_t)(z * EDGE + y) * EDGE;
+        for (int x = 0; x < EDGE; x++)
+            extinction[x] += cells[x];
+    }
+    if (box->coarse)
+        add_coarser(box->finer, EDGE, y, z, extinction);
+}
+
+/* From extinction to the optical depth between a cell's centre and the light. above: up to the
+ * cell's upper face. */
+static inline void advance(const float *restrict extinction, float cell, float *restrict above,
+                           float *restrict depth)
+{
+    for (int x = 0; x < EDGE; x++) {
+        float own = extinction[x] * cell;
+        depth[x] = above[x] + 0.5f * own;
+        above[x] += own;
+    }
+}
+
+/* Some rows of every slice of a grid: grid * (EDGE / BAND) + band. */
+KILN_WIDE_VECTORS
+static void sum_towards_light(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct kiln_smoke_shadow *shadow = context;
+    for (size_t work = begin; work < end; work++) {
+        const struct box *box = &shadow->boxes[work / (EDGE / BAND)];
+        int first = (int)(work % (EDGE / BAND)) * BAND;
+        float above[BAND][EDGE] = {{0}};
+        for (int z = EDGE - 1; z >= 0; z--) {
+            for (int y = first; y < first + BAND; y++) {
+                float extinction[EDGE] = {0};
+                add_row(shadow, box, y, z, extinction);
+                advance(extinction, box->cell, above[y - first],
+                        box->grid->depth + (size_t)(z * EDGE + y) * EDGE);
+            }
         }
     }
 }
 
-static void set_rows(const struct smoke *smoke, struct kiln_smoke_grid *grid)
+bool kiln_smoke_shadow_fill(struct kiln_smoke_shadow *shadow, const struct kiln_smoke *smoke,
+                            struct kiln_threads *threads, struct kiln_smoke_grid *grids,
+                            uint32_t count)
 {
-    float edge_m = smoke->cell * EDGE;
-    for (int i = 0; i < 3; i++) {
-        float3 axis = smoke->axes[i];
-        grid->world_to_grid[i] =
-            (float4){axis.x / edge_m, axis.y / edge_m, axis.z / edge_m, -smoke->origin[i] / edge_m};
+    uint32_t useful = smoke->stretch_count / LEAST_PART;
+    shadow->parts = useful < 1 ? 1 : useful > MOST_PARTS ? MOST_PARTS : useful;
+    shadow->smoke = smoke;
+    for (uint32_t i = 0; i < count; i++) {
+        shadow->boxes[i].grid = &grids[i];
+        choose_axes(shadow->boxes[i].axes, grids[i].direction);
     }
-}
-
-/* Spheres are no smoke, and what is a few pixels wide hides nothing. */
-static bool is_smoke(const struct kiln_system *system)
-{
-    return system->enabled && system->look.blend == KILN_BLEND_ALPHA &&
-           system->look.shape == KILN_SHAPE_BILLBOARD;
-}
-
-/* 0 for a system that throws no shadow. */
-static float shadow_of(const struct kiln_scene *scene, uint32_t system, float time_s)
-{
-    const struct kiln_system *s = &scene->systems[system];
-    if (!is_smoke(s))
-        return 0.0f;
-    return kiln_scene_value(scene, &s->look.shadow, time_s);
-}
-
-static void visit_smoke(struct smoke *smoke, const struct kiln_scene *scene,
-                        const struct kiln_pool *pool, const struct kiln_particle *records,
-                        const struct kiln_view *view, const float4 *table,
-                        void (*visit)(void *context, const struct kiln_living *particle))
-{
-    for (uint32_t i = 0; i < scene->system_count; i++) {
-        smoke->shadow = shadow_of(scene, i, view->clock.x);
-        if (smoke->shadow > 0.0f)
-            kiln_living_visit(scene, pool, records, view, table, i, visit, smoke);
+    kiln_threads_for(threads, (size_t)count * shadow->parts, 1, find_bounds, shadow);
+    for (uint32_t i = 0; i < count; i++) {
+        if (!place_grid(&shadow->boxes[i], shadow->parts))
+            return false;
     }
-}
-
-size_t kiln_smoke_scratch_floats(void)
-{
-    size_t floats = 0;
-    for (int level = 0; level < LEVELS; level++) {
-        size_t edge = EDGE >> level;
-        floats += edge * edge * edge;
-    }
-    return floats;
-}
-
-bool kiln_smoke_grid_fill(struct kiln_smoke_grid *grid, const struct kiln_scene *scene,
-                          const struct kiln_pool *pool, const struct kiln_particle *records,
-                          const struct kiln_view *view, const float4 *table, float3 direction,
-                          float *scratch)
-{
-    struct smoke smoke = {.any = false};
-    choose_axes(smoke.axes, direction);
-    visit_smoke(&smoke, scene, pool, records, view, table, widen);
-    if (!smoke.any)
-        return false;
-    place_grid(&smoke);
-    memset(scratch, 0, kiln_smoke_scratch_floats() * sizeof *scratch);
-    for (int level = 0; level < LEVELS; level++) {
-        size_t edge = EDGE >> level;
-        smoke.levels[level] = scratch;
-        scratch += edge * edge * edge;
-    }
-    visit_smoke(&smoke, scene, pool, records, view, table, deposit);
-    for (int level = LEVELS - 1; level > 0; level--)
-        add_coarser(smoke.levels[level], EDGE >> level, smoke.levels[level - 1]);
-    sum_towards_light(&smoke, grid->depth);
-    set_rows(&smoke, grid);
+    kiln_threads_for(threads, (size_t)count * shadow->parts, 1, deposit_parts, shadow);
+    kiln_threads_for(threads, count, 1, add_levels, shadow);
+    kiln_threads_for(threads, (size_t)count * (EDGE / BAND), 1, sum_towards_light, shadow);
     return true;
-}
-
-bool kiln_smoke_exists(const struct kiln_scene *scene)
-{
-    for (uint32_t i = 0; i < scene->system_count; i++) {
-        const struct kiln_system *system = &scene->systems[i];
-        if (is_smoke(system) && kiln_scene_value_max(scene, &system->look.shadow) > 0.0f)
-            return true;
-    }
-    return false;
 }

@@ -37,6 +37,7 @@ struct fixture {
     struct kiln_pool pool;
     struct kiln_view view;
     struct kiln_image color, depth;
+    struct kiln_threads *threads;
     struct kiln_lighting_stage *lighting;
     struct kiln_backdrop_stage *backdrop;
 };
@@ -47,9 +48,11 @@ static void set_up(struct fixture *f, void *device)
     static const uint32_t capacities[2] = {SLOTS, SLOTS};
     *f = (struct fixture){.scene = load_scene(SCENE, NULL)};
     kiln_pool_init(&f->pool, device, capacities, 2);
+    f->threads = kiln_threads_create(2);
+    assert_non_null(f->threads);
     kiln_image_init(&f->color, device, WIDTH, HEIGHT, GL_RGBA32F, "color");
     kiln_image_init(&f->depth, device, WIDTH, HEIGHT, GL_R32F, "depth");
-    f->lighting = kiln_lighting_create(device, f->scene, &error);
+    f->lighting = kiln_lighting_create(device, f->scene, f->threads, &error);
     f->backdrop = kiln_backdrop_create(device, f->scene, &f->color, &f->depth, &error);
     assert_true(f->lighting && f->backdrop);
     f->view = kiln_view_compute(f->scene, STEP);
@@ -59,6 +62,7 @@ static void tear_down(struct fixture *f)
 {
     kiln_backdrop_destroy(&f->backdrop);
     kiln_lighting_destroy(&f->lighting);
+    kiln_threads_destroy(&f->threads);
     kiln_image_finish(&f->color);
     kiln_image_finish(&f->depth);
     kiln_pool_finish(&f->pool);

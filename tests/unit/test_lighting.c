@@ -25,6 +25,7 @@ struct fixture {
     struct kiln_pool pool;
     struct kiln_particle *records;
     struct kiln_view view;
+    struct kiln_threads *threads;
 };
 
 enum { STEP = 30 };
@@ -42,10 +43,13 @@ static void set_up(struct fixture *f, const char *text, const char *override)
     assert_non_null(f->records);
     f->view = kiln_view_compute(f->scene, STEP);
     kiln_looks_sample(f->scene, f->view.clock.x, table);
+    f->threads = kiln_threads_create(2);
+    assert_non_null(f->threads);
 }
 
 static void tear_down(struct fixture *f)
 {
+    kiln_threads_destroy(&f->threads);
     kiln_pool_finish(&f->pool);
     kiln_scene_destroy(&f->scene);
 }
@@ -68,6 +72,17 @@ static void assert_near(double found, double expected, double tolerance)
         fail_msg("%.9g instead of %.9g", found, expected);
 }
 
+static struct kiln_living_moment moment_of(const struct fixture *f)
+{
+    return (struct kiln_living_moment){f->scene, &f->pool, f->records, &f->view, table};
+}
+
+static uint32_t gather_fire(const struct fixture *f, struct kiln_draw_light *lights)
+{
+    const struct kiln_living_moment moment = moment_of(f);
+    return kiln_firelight_gather(&moment, f->threads, lights);
+}
+
 static const char FIRE[] =
     "kiln: 1\n"
     "output: {fps: 60}\n"
@@ -86,10 +101,10 @@ static void a_particle_sheds_what_it_emits(void **state)
     set_up(&f, FIRE, NULL);
     struct kiln_draw_light lights[KILN_MAX_FIRE_LIGHTS];
     assert_true(kiln_firelight_exists(f.scene));
-    assert_int_equal(kiln_firelight_gather(f.scene, &f.pool, f.records, &f.view, table, lights), 0);
+    assert_int_equal(gather_fire(&f, lights), 0);
 
     place(&f, 0, (float3){1, 2, 3}, 1); /* half of its life has passed: the middle light */
-    assert_int_equal(kiln_firelight_gather(f.scene, &f.pool, f.records, &f.view, table, lights), 1);
+    assert_int_equal(gather_fire(&f, lights), 1);
     const double area = 0.4 * 0.4, pi = acos(-1.0), factor = 0.25 * area * 0.5 / pi;
     assert_near((double)lights[0].color.x, 3 * factor, 1e-6);
     assert_near((double)lights[0].color.y, 2 * factor, 1e-6);
@@ -113,7 +128,7 @@ static void light_moves_without_jumps(void **state)
     place(&f, 0, (float3){0, 0, 0}, 1);
     for (uint32_t step = 1; step < 60; step++) {
         f.view.clock_step.x = step;
-        uint32_t count = kiln_firelight_gather(f.scene, &f.pool, f.records, &f.view, table, lights);
+        uint32_t count = gather_fire(&f, lights);
         assert_in_range(count, 1, 2);
         double sum = 0;
         for (uint32_t i = 0; i < count; i++)
@@ -135,7 +150,7 @@ static void a_light_is_as_wide_as_its_particles(void **state)
     struct kiln_draw_light lights[KILN_MAX_FIRE_LIGHTS];
     place(&f, 0, (float3){-2, 1, 0}, 1);
     place(&f, 0, (float3){4, 1, 0}, 1);
-    assert_int_equal(kiln_firelight_gather(f.scene, &f.pool, f.records, &f.view, table, lights), 1);
+    assert_int_equal(gather_fire(&f, lights), 1);
     assert_near((double)lights[0].position_radius2.x, 1, 1e-6);
     assert_near((double)lights[0].position_radius2.w, 9 + 0.04, 1e-5);
     tear_down(&f);
@@ -165,12 +180,16 @@ static float depth_at(const struct kiln_smoke_grid *grid, float3 position)
 static bool fill(struct fixture *f, float3 direction, struct kiln_smoke_grid *grid)
 {
     static float depth[GRID * GRID * GRID];
-    float *scratch = malloc(kiln_smoke_scratch_floats() * sizeof *scratch);
-    assert_non_null(scratch);
-    grid->depth = depth;
-    bool any = kiln_smoke_grid_fill(grid, f->scene, &f->pool, f->records, &f->view, table,
-                                    direction, scratch);
-    free(scratch);
+    struct kiln_error error = {0};
+    const struct kiln_living_moment moment = moment_of(f);
+    struct kiln_smoke smoke = {0};
+    struct kiln_smoke_shadow *shadow = kiln_smoke_shadow_create();
+    assert_non_null(shadow);
+    *grid = (struct kiln_smoke_grid){.direction = direction, .depth = depth};
+    assert_true(kiln_smoke_gather(&smoke, &moment, f->threads, &error));
+    bool any = kiln_smoke_shadow_fill(shadow, &smoke, f->threads, grid, 1);
+    kiln_smoke_shadow_destroy(&shadow);
+    kiln_smoke_finish(&smoke);
     return any;
 }
 
@@ -180,7 +199,7 @@ static void a_slab_dims_by_its_optical_depth(void **state)
 {
     (void)state;
     static const float3 directions[] = {{0, 1, 0}, {1, 0, 0}, {0.6f, 0.8f, 0}, {0, -0.6f, 0.8f}};
-    /* Extinction of a puff, summed over space: see deposit(). */
+    /* Extinction of a puff, summed over space: see extinction_of(). */
     const double pi = acos(-1.0);
     const double puff = -log(1 - 0.6 * 0.5) * 15 / 16 * 0.25 * 0.25 * 32 * pi / 105;
     for (size_t d = 0; d < sizeof directions / sizeof *directions; d++) {
