@@ -13,6 +13,7 @@
 #include "base/text.h"
 #include "scene/node.h"
 #include "suite/golden.h"
+#include "suite/rendering.h"
 #include "suite/test_file.h"
 
 struct approval {
@@ -167,6 +168,19 @@ static bool print_scene(struct approval *a, const struct kiln_scene *scene)
     return ok || out_of_memory(a);
 }
 
+/* A frame that the test judges no more would leave a golden that nothing uses; one that it judges
+ * now would have none. */
+static bool check_numbers(struct approval *a, uint32_t scene_frames)
+{
+    uint32_t usual[2];
+    const uint32_t *numbers = NULL;
+    size_t count = kiln_test_frames(&a->file.test, scene_frames, usual, &numbers);
+    bool same = count == a->result->frame_count;
+    for (size_t i = 0; i < count && same; i++)
+        same = a->result->frames[i].number == numbers[i];
+    return same || run_again(a, "the test's frames have changed since the run");
+}
+
 static bool check_scene(struct approval *a)
 {
     const struct kiln_test *test = &a->file.test;
@@ -175,9 +189,11 @@ static bool check_scene(struct approval *a)
     struct kiln_scene *scene = kiln_scene_load(test->scene, &params, a->error);
     if (!scene)
         return false;
-    memcpy(a->scene_hash, kiln_scene_info(scene).hash, sizeof a->scene_hash);
+    const struct kiln_scene_info info = kiln_scene_info(scene);
+    memcpy(a->scene_hash, info.hash, sizeof a->scene_hash);
     bool same = strcmp(a->scene_hash, a->result->scene_hash) == 0;
     bool ok = same ? print_scene(a, scene) : run_again(a, "the scene has changed since the run");
+    ok = ok && check_numbers(a, info.frames);
     kiln_scene_destroy(&scene);
     return ok;
 }

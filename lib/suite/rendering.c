@@ -43,15 +43,22 @@ static bool load_scene(struct job *job)
     return job->rendering->scene_text || no_memory(job);
 }
 
-/* Those of the test, or the middle and the last one. */
+size_t kiln_test_frames(const struct kiln_test *test, uint32_t scene_frames, uint32_t usual[2],
+                        const uint32_t **numbers)
+{
+    usual[0] = scene_frames / 2;
+    usual[1] = scene_frames - 1;
+    bool own = test->frame_count > 0, single = usual[0] == usual[1];
+    *numbers = own ? test->frames : usual + single;
+    return own ? test->frame_count : single ? 1 : 2;
+}
+
 static bool choose_frames(struct job *job)
 {
     const struct kiln_test *test = job->params->test;
-    uint32_t last = job->rendering->scene.frames - 1;
-    const uint32_t usual[2] = {job->rendering->scene.frames / 2, last};
-    bool own = test->frame_count > 0;
-    const uint32_t *numbers = own ? test->frames : usual + (usual[0] == last);
-    size_t count = own ? test->frame_count : usual[0] == last ? 1 : 2;
+    uint32_t usual[2], last = job->rendering->scene.frames - 1;
+    const uint32_t *numbers = NULL;
+    size_t count = kiln_test_frames(test, job->rendering->scene.frames, usual, &numbers);
     if (numbers[count - 1] > last)
         return kiln_error_set(job->error, KILN_INVALID_INPUT,
                               "%s: frame %u: the last one of %s is %u", test->path,

@@ -4,6 +4,11 @@
 
 #include "suite/golden.h"
 
+/* The frames that a test judges of a scene of so many: its own, or the middle and the last one,
+ * which are put in `usual`. Returns how many; *numbers: ascending, the test's or `usual`. */
+size_t kiln_test_frames(const struct kiln_test *test, uint32_t scene_frames, uint32_t usual[2],
+                        const uint32_t **numbers);
+
 struct kiln_rendering_params {
     const struct kiln_test *test;
     const char *device;            /* wanted, as in kiln_device_params */

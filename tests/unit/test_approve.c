@@ -66,7 +66,8 @@ static struct run *make_run(void)
 {
     static struct run run;
     test_write_file("s.yaml", scene);
-    test_write_file("fire.test.yaml", "kiln_test: 1\nscene: s.yaml\nset: [seed=7]\n");
+    test_write_file("fire.test.yaml",
+                    "kiln_test: 1\nscene: s.yaml\nset: [seed=7]\nframes: [1, 2, 3]\n");
     const struct kiln_frame_range range = {1, 3};
     struct kiln_output_params output = test_output_params("out/test/fire/frame_####.png", &range);
     struct kiln_error error = {0};
@@ -296,15 +297,27 @@ static void what_has_changed_since_is_refused(void **state)
     expect_refusal("fire: the scene has changed since the run; run it again: kiln test "
                    "fire.test.yaml",
                    KILN_INVALID_INPUT);
-    test_write_file("fire.test.yaml", "kiln_test: 1\nscene: s.yaml\nset: [seed=7]\nformat: exr\n");
+    test_write_file("fire.test.yaml",
+                    "kiln_test: 1\nscene: s.yaml\nset: [seed=7]\nframes: [1, 2, 3]\nformat: exr\n");
     expect_refusal("fire: the test's format has changed since the run; run it again: kiln test "
                    "fire.test.yaml",
                    KILN_INVALID_INPUT);
+    static const char *const others[] = {"[1, 2]", "[0, 1, 2, 3]", "[0, 2, 3]", "auto"};
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        char text[128];
+        snprintf(text, sizeof text, "kiln_test: 1\nscene: s.yaml\nset: [seed=7]\nframes: %s\n",
+                 others[i]);
+        test_write_file("fire.test.yaml", text);
+        expect_refusal("fire: the test's frames have changed since the run; run it again: kiln "
+                       "test fire.test.yaml",
+                       KILN_INVALID_INPUT);
+    }
     test_write_file("fire.test.yaml", "kiln_test: 1\nscene: s.yaml\nset: [sed=7]\n");
     expect_refusal("--set sed: unknown key (did you mean 'seed'?)", KILN_INVALID_INPUT);
     test_write_file("fire.test.yaml", "kiln_test: 1\n");
     expect_refusal("fire.test.yaml:1:1: scene: missing; it must be given", KILN_INVALID_INPUT);
-    test_write_file("fire.test.yaml", "kiln_test: 1\nscene: s.yaml\nset: [seed=7]\n");
+    test_write_file("fire.test.yaml",
+                    "kiln_test: 1\nscene: s.yaml\nset: [seed=7]\nframes: [1, 2, 3]\n");
 
     copy("out/test/fire/frame_0001.png", "out/test/fire/frame_0003.png");
     expect_refusal("out/test/fire/frame_0003.png: is not the picture that was judged: its pixels "
