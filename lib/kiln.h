@@ -92,6 +92,26 @@ bool kiln_scene_print(const struct kiln_scene *scene, FILE *out);
 bool kiln_scene_write_reference(FILE *out);
 bool kiln_scene_write_schema(FILE *out);
 
+/* A key of scene files, in words for people. */
+struct kiln_scene_key {
+    const char *path;     /* "systems.NAME.emit.rate"; N stands for an entry of a list */
+    const char *help;     /* what it is for */
+    const char *variant;  /* the word of `field` that it belongs to, or NULL */
+    const char *shortcut; /* the key inside that a bare value means, or NULL */
+    const char *allowed;  /* of its value; NULL when it only holds other keys */
+    const char *varies;   /* "over time", or NULL */
+    const char *fallback; /* the default; NULL with `allowed`: must be given */
+    const char *words;    /* that its value may be, "true|false", perhaps beside others; or NULL */
+    bool holds_keys;
+};
+
+/* Visits all keys in the order of the reference; the texts last until the visit returns. False when
+ * memory is short. */
+bool kiln_scene_visit_keys(void (*visit)(void *user, const struct kiln_scene_key *key), void *user);
+
+/* What the reference says before the keys. */
+const char *kiln_scene_introduction(void);
+
 /* Facts of a scene that a caller plans with. */
 struct kiln_scene_info {
     uint32_t width, height; /* pixels */
@@ -104,6 +124,11 @@ struct kiln_scene_info {
     char hash[65]; /* SHA-256 of the scene with every default and of its textures, in hex */
 };
 struct kiln_scene_info kiln_scene_info(const struct kiln_scene *scene);
+
+/* Visits the names of the systems in a scene file, whatever else may be wrong with it. False when
+ * it cannot be read as YAML, with the error of kiln_scene_load. */
+bool kiln_scene_visit_systems(const char *path, void (*visit)(void *user, const char *name),
+                              void *user, struct kiln_error *error);
 
 /* ---- Devices ------------------------------------------------------------------------------ */
 
@@ -262,6 +287,10 @@ void kiln_abandon_outputs(void);
 /* The techniques of each stage and what each is for, for people. */
 bool kiln_write_techniques(FILE *out);
 
+/* Visits each as "stage=name". */
+void kiln_visit_techniques(void (*visit)(void *user, const char *name, const char *help),
+                           void *user);
+
 /* The outputs that this build can write, and their options, for people. */
 bool kiln_write_outputs(FILE *out);
 
@@ -376,6 +405,9 @@ bool kiln_compare(const struct kiln_compare_params *params, struct kiln_compare_
 
 /* The metrics and what each is for, for people. */
 bool kiln_write_metrics(FILE *out);
+
+/* Visits those with names of their own. */
+void kiln_visit_metrics(void (*visit)(void *user, const char *name, const char *help), void *user);
 
 /* ---- Figures -------------------------------------------------------------------------------- */
 
@@ -653,6 +685,9 @@ struct kiln_results_summary {
     uint32_t missing_shard, shards; /* the first that is not there, of how many; 0: all are */
 };
 struct kiln_results_summary kiln_results_summary(const struct kiln_results *results);
+
+/* The name of a test, which belongs to the results; index below the summary's `tests`. */
+const char *kiln_results_name(const struct kiln_results *results, size_t index);
 
 /* Of two codes the worse: a device that failed, then input and output, no device, invalid input,
  * usage, a picture that differs, a missing golden, ok; being interrupted comes before all. */

@@ -165,13 +165,24 @@ void kiln_techniques_describe(const struct kiln_techniques *techniques, char *ou
     }
 }
 
-bool kiln_write_techniques(FILE *out)
+void kiln_visit_techniques(void (*visit)(void *user, const char *name, const char *help),
+                           void *user)
 {
-    bool ok = fprintf(out, "  %-18s %s\n", "STAGE=" AUTO, "the default of each stage") > 0;
     for (size_t i = 0; i < ROW_COUNT; i++) {
         char name[64];
         snprintf(name, sizeof name, "%s=%s", STAGE_NAMES[ROWS[i].stage], ROWS[i].name);
-        ok = fprintf(out, "  %-18s %s\n", name, ROWS[i].help) > 0 && ok;
+        visit(user, name, ROWS[i].help);
     }
-    return ok;
+}
+
+static void write_technique(void *user, const char *name, const char *help)
+{
+    fprintf(user, "  %-18s %s\n", name, help);
+}
+
+bool kiln_write_techniques(FILE *out)
+{
+    write_technique(out, "STAGE=" AUTO, "the default of each stage");
+    kiln_visit_techniques(write_technique, out);
+    return !ferror(out);
 }

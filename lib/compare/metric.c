@@ -316,3 +316,11 @@ bool kiln_write_metrics(FILE *out)
             KILN_COMPARE_DEFAULT_LIMITS);
     return !ferror(out);
 }
+
+void kiln_visit_metrics(void (*visit)(void *user, const char *name, const char *help), void *user)
+{
+    for (size_t i = 0; i < METRIC_COUNT; i++) {
+        if (!strchr(metrics[i].name, 'N')) /* of any percentile */
+            visit(user, metrics[i].name, metrics[i].help);
+    }
+}

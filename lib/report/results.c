@@ -361,3 +361,8 @@ struct kiln_results_summary kiln_results_summary(const struct kiln_results *resu
     find_missing_shard(results, &summary);
     return summary;
 }
+
+const char *kiln_results_name(const struct kiln_results *results, size_t index)
+{
+    return results->tests[index]->name;
+}

@@ -154,3 +154,25 @@ struct kiln_scene *kiln_scene_parse(const char *text, size_t size, const char *n
     free(copy);
     return scene;
 }
+
+bool kiln_scene_visit_systems(const char *path, void (*visit)(void *user, const char *name),
+                              void *user, struct kiln_error *error)
+{
+    size_t size = 0;
+    char *text = kiln_text_file_read(path, "a scene file", MAX_FILE_SIZE, &size, error);
+    struct kiln_arena *arena = text ? kiln_arena_create() : NULL;
+    const struct kiln_origin origin = {.name = path, .has_lines = true};
+    const struct kiln_node *root =
+        arena ? kiln_node_parse(arena, text, size, &origin, error) : NULL;
+    if (text && !arena)
+        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading a scene");
+    const struct kiln_node *systems = root ? kiln_node_entry(root, "systems") : NULL;
+    if (systems && systems->kind == KILN_NODE_MAP) {
+        for (const struct kiln_node *system = systems->first; system; system = system->next)
+            visit(user, system->key->text);
+    }
+    bool ok = root != NULL;
+    kiln_arena_destroy(&arena);
+    free(text);
+    return ok;
+}
