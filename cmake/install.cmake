@@ -1,4 +1,5 @@
-# cmake --install: the program, the library, its header, a pkg-config file and the scenes.
+# cmake --install: the program, the library, its header, a pkg-config file, the scenes and what bash
+# and zsh complete command lines with. docs/ adds manual pages and the schema of scenes.
 
 # The pkg-config file finds its prefix from where it lies, whatever --prefix it was installed to.
 # A static library does not carry its dependencies: whoever links it needs them, too.
@@ -13,3 +14,6 @@ install(TARGETS kiln_program kiln)
 install(FILES lib/kiln.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/kiln.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/kiln)
+install(FILES cmd/completion/kiln.bash
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME kiln)
+install(FILES cmd/completion/_kiln DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)

@@ -18,13 +18,13 @@ struct command {
 extern const struct command render_command, compare_command, test_command, test_approve_command,
     test_calibrate_command, test_report_command, test_list_command, figure_command,
     figure_sheet_command, figure_triptych_command, figure_strip_command, check_command,
-    devices_command, help_command;
+    devices_command, help_command, complete_command;
 
-/* All of them, in the order of the help; NULL ends the list. */
+/* All but `complete`, in the order of the help; NULL ends the list. */
 extern const struct command *const commands[];
 
 /* The command whose name is the first word, or the first and the second one; the longer name
- * counts. second may be NULL. NULL when there is none. */
+ * counts; `complete`, too. second may be NULL. NULL when there is none. */
 const struct command *command_find(const char *first, const char *second);
 
 /* Whether the command is one of two words whose first is `group`. */
@@ -41,6 +41,13 @@ void help_print_command(const struct command *command);
 
 /* The overview, for `kiln help`, or for standard error after `kiln` alone. */
 void help_print_overview(FILE *out);
+
+/* Visits the topics of `kiln help` that are no commands. */
+void help_visit_topics(void (*visit)(void *user, const char *name, const char *summary),
+                       void *user);
+
+/* How to have command lines completed. */
+bool help_write_completion(FILE *out);
 
 /* The man page, in roff. */
 void man_print(FILE *out);

@@ -14,7 +14,8 @@ static const struct option options[] = {
      .repeats = true,
      .kind = OPTION_TEXT,
      .placeholder = "PATH",
-     .help = "A folder, which is searched for FILE.figure.json, or such a file."},
+     .help = "A folder, which is searched for FILE.figure.json, or such a file.",
+     .files = "*.figure.json"},
     {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Name only what is stale."},
     HELP_OPTION,
 };

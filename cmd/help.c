@@ -75,6 +75,22 @@ static bool write_tests(FILE *out)
     return kiln_test_write_reference(out) && kiln_write_reports(out);
 }
 
+bool help_write_completion(FILE *out)
+{
+    fputs("bash and zsh complete commands, options, their values, keys of scenes and the names of\n"
+          "systems at a press of Tab. 'cmake --install' puts the scripts where the shells look: "
+          "bash\n"
+          "with the package bash-completion, zsh after compinit. By hand, in .bashrc or .zshrc:\n"
+          "\n"
+          "    . PREFIX/share/bash-completion/completions/kiln\n"
+          "    fpath=(PREFIX/share/zsh/site-functions $fpath); autoload -U compinit; compinit\n"
+          "\n"
+          "Before it is installed, the scripts are cmd/completion/kiln.bash and the folder of\n"
+          "cmd/completion/_kiln; they ask the kiln of the command line.\n",
+          out);
+    return !ferror(out);
+}
+
 static bool write_man(FILE *out)
 {
     man_print(out);
@@ -95,9 +111,16 @@ static const struct topic topics[] = {
     {"outputs", "what can be written, by suffix", kiln_write_outputs},
     {"tests", "every key of a test file, and the reports", write_tests},
     {"exit-codes", "what each exit code means", write_exit_codes},
+    {"completion", "command lines completed by bash and zsh", help_write_completion},
     {"man", "the manual page, for `man -l`", write_man},
 };
 enum { TOPIC_COUNT = sizeof topics / sizeof *topics };
+
+void help_visit_topics(void (*visit)(void *user, const char *name, const char *summary), void *user)
+{
+    for (size_t i = 0; i < TOPIC_COUNT; i++)
+        visit(user, topics[i].name, topics[i].summary);
+}
 
 static void print_option(const struct option *option)
 {

@@ -32,7 +32,8 @@ static bool is_name(const char *name, const char *first, const char *second)
 
 const struct command *command_find(const char *first, const char *second)
 {
-    const struct command *found = NULL;
+    const struct command *found =
+        strcmp(first, complete_command.name) == 0 ? &complete_command : NULL;
     for (size_t i = 0; commands[i]; i++) {
         if (second && is_name(commands[i]->name, first, second))
             return commands[i];

@@ -30,6 +30,7 @@ struct option {
     const char *help;        /* what it does, as one or two sentences */
     const char *fallback;    /* what holds without it, or NULL */
     const char *sets;        /* the scene key that it stands for, or NULL */
+    const char *files;       /* what the names of its files match, "*.png"; NULL: anything */
     double min, max;
 };
 

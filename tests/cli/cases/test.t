@@ -71,6 +71,8 @@ $ kiln test fire -q --update missing
 1|where the pictures are right, accept them:
 1|  kiln test approve fire
 = 1
+$ kiln complete -- test approve fi | cut -f 1,2
+1|word	fire
 $ kiln test approve fire --dry-run
 1|would write golden/fire/frame_0006.png
 1|would write golden/fire/scene.yaml

@@ -30,6 +30,7 @@ $ kiln
 2|  outputs          what can be written, by suffix
 2|  tests            every key of a test file, and the reports
 2|  exit-codes       what each exit code means
+2|  completion       command lines completed by bash and zsh
 2|  man              the manual page, for `man -l`
 2|
 2|A first picture:
@@ -67,6 +68,7 @@ $ kiln --help
 1|  outputs          what can be written, by suffix
 1|  tests            every key of a test file, and the reports
 1|  exit-codes       what each exit code means
+1|  completion       command lines completed by bash and zsh
 1|  man              the manual page, for `man -l`
 1|
 1|A first picture:
@@ -215,7 +217,7 @@ $ kiln help compare
 1|                              taken from the reference.
 1|      --mask FILE             Do not judge where this picture, of the same size,
 1|                              is black.
-1|      --layer NAME            Layer of EXR files, such as depth or fire.
+1|      --layer LAYER           Layer of EXR files, such as depth or fire.
 1|                              Default: beauty.
 1|      --range auto|ldr|hdr    How FLIP judges light: clamped at white (ldr), or
 1|                              at several exposures of the reference (hdr).

@@ -1,0 +1,458 @@
+/* kiln complete: what may follow on a command line, from the same tables that read it. The scripts
+ * in cmd/completion ask it at each press of Tab and only hand its lines on to their shell. It is in
+ * no list of commands, since nobody types it. */
+#include <string.h>
+
+#include "command.h"
+#include "report.h"
+#include "test_select.h"
+
+#define SCENE_FILES "*.y*ml"
+
+/* The command line up to the word that is being typed, which comes last. */
+struct line {
+    const char *const *words;
+    size_t count;
+    const char *typed;
+    const struct command *command;
+    const struct option *pending; /* whose value is typed, or NULL */
+    const char *operand;          /* the first, or NULL */
+    size_t operand_count;
+    const char *results; /* of --results */
+    bool options_ended;
+};
+
+/* What is being completed: `prefix_length` bytes of the word stay as they are, `rest` follows. */
+struct value {
+    const struct line *line;
+    const struct option *option; /* whose value it is; NULL for an operand */
+    size_t prefix_length;
+    const char *rest;
+    const char *part;   /* of a key: what is typed behind its last dot */
+    char offered[4096]; /* parts of keys, each between newlines */
+};
+
+/* A line for the script: its kind is "word"; "part", behind which no space comes; "folder" or
+ * "file:PATTERN", which the shell finds behind the text. Only those may have an empty one: shells
+ * take tabs that follow each other for one. */
+static void put(const char *kind, const struct value *value, const char *text, const char *note)
+{
+    printf("%s\t%.*s%s\t%s\n", kind, (int)value->prefix_length, value->line->typed, text, note);
+}
+
+/* Puts a word if it starts as what is typed does. */
+static void offer(const struct value *value, const char *kind, const char *word, const char *note)
+{
+    if (strncmp(word, value->rest, strlen(value->rest)) == 0)
+        put(kind, value, word, note);
+}
+
+/* Those of "a|b|c". */
+static void offer_words(const struct value *value, const char *words)
+{
+    while (*words) {
+        char word[64];
+        size_t length = strcspn(words, "|");
+        snprintf(word, sizeof word, "%.*s", (int)length, words);
+        offer(value, "word", word, "");
+        words += length + (words[length] == '|');
+    }
+}
+
+/* Goes on behind the last of a separator, where there is one. */
+static void skip_past(struct value *value, char separator)
+{
+    const char *last = strrchr(value->rest, separator);
+    if (last) {
+        value->rest = last + 1;
+        value->prefix_length = (size_t)(value->rest - value->line->typed);
+    }
+}
+
+/* ---- Keys of a scene ------------------------------------------------------------------------ */
+
+/* Whether a part of a path stands for any entry: NAME of a map, N of a list. */
+static bool is_entry(const char *part)
+{
+    return *part >= 'A' && *part <= 'Z';
+}
+
+/* Goes along a path beside a typed key, whose parts may be anything where the path has entries.
+ * Returns the part of the path at the last part that is typed, which *part gets; or NULL where they
+ * differ. */
+static const char *follow(const char *path, const char *typed, const char **part)
+{
+    for (;;) {
+        size_t length = strcspn(path, "."), typed_length = strcspn(typed, ".");
+        if (typed[typed_length] == '\0') {
+            *part = typed;
+            return path;
+        }
+        bool fits = is_entry(path) ? typed_length > 0
+                                   : typed_length == length && strncmp(path, typed, length) == 0;
+        if (!fits || path[length] == '\0')
+            return NULL;
+        path += length + 1;
+        typed += typed_length + 1;
+    }
+}
+
+/* Puts a part of a key behind the parts that are typed, once. */
+static void put_part(struct value *value, const char *part, char end, const char *note)
+{
+    char line[128];
+    size_t used = strlen(value->offered);
+    int length = snprintf(line, sizeof line, "\n%s%c\n", part, end);
+    if (length < 0 || (size_t)length >= sizeof line || strstr(value->offered, line) ||
+        strncmp(line + 1, value->part, strlen(value->part)) != 0)
+        return;
+    snprintf(value->offered + used, sizeof value->offered - used, "%s", line);
+    line[length - 1] = '\0';
+    const struct value place = {.line = value->line,
+                                .prefix_length = (size_t)(value->part - value->line->typed)};
+    put("part", &place, line + 1, note);
+}
+
+static void put_system(void *user, const char *name)
+{
+    put_part(user, name, '.', "a system");
+}
+
+static void put_entries(struct value *value, bool named)
+{
+    if (strstr(value->offered, "\n*.\n"))
+        return;
+    struct kiln_error error = {0};
+    put_part(value, "*", '.', "every entry");
+    if (!named)
+        put_part(value, "0", '.', "the first entry");
+    else if (value->line->operand)
+        kiln_scene_visit_systems(value->line->operand, put_system, value, &error);
+}
+
+static void put_key(void *user, const struct kiln_scene_key *key)
+{
+    struct value *value = user;
+    const char *part = follow(key->path, value->rest, &value->part);
+    if (!part)
+        return;
+    if (is_entry(part)) {
+        put_entries(value, part[1] == 'A');
+        return;
+    }
+    char name[96];
+    size_t length = strcspn(part, ".");
+    snprintf(name, sizeof name, "%.*s", (int)length, part);
+    if (part[length] == '.')
+        put_part(value, name, '.', "");
+    else if (!key->holds_keys || key->words || key->shortcut)
+        put_part(value, name, '=', key->help);
+}
+
+/* Words that the key may be, of KEY=WORD. */
+static void put_key_words(void *user, const struct kiln_scene_key *key)
+{
+    const struct value *value = user;
+    const char *part = NULL, *end = key->words ? follow(key->path, value->part, &part) : NULL;
+    if (end && strcmp(end, part) == 0)
+        offer_words(value, key->words);
+}
+
+/* KEY=VALUE, where a separator may part several values (',') or several of these (';'). */
+static void put_pair(struct value *value, char separator)
+{
+    if (separator == ';')
+        skip_past(value, ';');
+    const char *equals = strchr(value->rest, '=');
+    if (!equals) {
+        kiln_scene_visit_keys(put_key, value);
+        return;
+    }
+    char key[256];
+    snprintf(key, sizeof key, "%.*s", (int)(equals - value->rest), value->rest);
+    value->part = key;
+    value->rest = equals + 1;
+    value->prefix_length = (size_t)(value->rest - value->line->typed);
+    if (separator == ',')
+        skip_past(value, ',');
+    kiln_scene_visit_keys(put_key_words, value);
+}
+
+static void put_set(struct value *value)
+{
+    put_pair(value, '\0');
+}
+
+static void put_sweep(struct value *value)
+{
+    if (!strchr(value->rest, '=')) {
+        offer(value, "part", "frame=", "frames of the clip");
+        offer(value, "part", "time=", "times in seconds");
+    }
+    put_pair(value, ',');
+}
+
+static void put_variant(struct value *value)
+{
+    put_pair(value, ';');
+}
+
+/* ---- What placeholders stand for ------------------------------------------------------------ */
+
+static void put_matching(const struct value *value, const char *fallback)
+{
+    char kind[64];
+    const char *files = value->option ? value->option->files : NULL;
+    snprintf(kind, sizeof kind, "file:%s", files ? files : fallback);
+    put(kind, value, "", "");
+}
+
+static void put_files(struct value *value)
+{
+    put_matching(value, "*");
+}
+
+static void put_scenes(struct value *value)
+{
+    put_matching(value, SCENE_FILES);
+}
+
+static void put_folders(struct value *value)
+{
+    put("folder", value, "", "");
+}
+
+/* Tests of the last run, as far as their names are typed. */
+static void put_tests(struct value *value)
+{
+    struct kiln_error error = {0};
+    struct kiln_results *results = kiln_results_load(&value->line->results, 1, &error);
+    size_t count = results ? kiln_results_summary(results).tests : 0;
+    for (size_t i = 0; i < count; i++)
+        offer(value, "word", kiln_results_name(results, i), "");
+    kiln_results_destroy(&results);
+}
+
+/* Only what is known without asking OpenGL, which takes its time. */
+static void put_devices(struct value *value)
+{
+    offer(value, "word", "software", "the first software device");
+}
+
+static void put_technique(void *user, const char *name, const char *help)
+{
+    offer(user, "word", name, help);
+}
+
+static void put_techniques(struct value *value)
+{
+    kiln_visit_techniques(put_technique, value);
+}
+
+static void put_metric(void *user, const char *name, const char *help)
+{
+    char text[KILN_METRIC_NAME_SIZE + 1];
+    snprintf(text, sizeof text, "%s=", name);
+    offer(user, "part", text, help);
+}
+
+static void put_metrics(struct value *value)
+{
+    kiln_visit_metrics(put_metric, value);
+}
+
+static void put_topic(void *user, const char *name, const char *summary)
+{
+    offer(user, "word", name, summary);
+}
+
+/* The second words of the commands of two. */
+static void put_second_words(const struct value *value, const char *first)
+{
+    for (size_t i = 0; commands[i]; i++) {
+        if (command_is_under(commands[i], first))
+            offer(value, "word", commands[i]->name + strlen(first) + 1, commands[i]->summary);
+    }
+}
+
+static void put_commands(const struct value *value)
+{
+    for (size_t i = 0; commands[i]; i++) {
+        if (!strchr(commands[i]->name, ' '))
+            offer(value, "word", commands[i]->name, commands[i]->summary);
+    }
+}
+
+static void put_topics(struct value *value)
+{
+    if (value->line->operand) {
+        put_second_words(value, value->line->operand);
+    } else {
+        put_commands(value);
+        help_visit_topics(put_topic, value);
+    }
+}
+
+static const struct {
+    const char *placeholder;
+    void (*put)(struct value *value);
+} meanings[] = {
+    {"SCENE", put_scenes},         {"PATH", put_scenes},
+    {"CLIP", put_files},           {"FILE", put_files},
+    {"REFERENCE", put_files},      {"TEST", put_files},
+    {"FOLDER", put_folders},       {"NAME", put_tests},
+    {"PATTERN", put_tests},        {"TOPIC", put_topics},
+    {"DEVICE", put_devices},       {"STAGE=NAME", put_techniques},
+    {"METRIC=VALUE", put_metrics}, {"KEY=VALUE", put_set},
+    {"KEY=VALUE,...", put_sweep},  {"KEY=VALUE;...", put_variant},
+};
+
+static void put_meaning(struct value *value, const char *placeholder, size_t length)
+{
+    for (size_t i = 0; i < sizeof meanings / sizeof *meanings; i++) {
+        if (strlen(meanings[i].placeholder) == length &&
+            strncmp(meanings[i].placeholder, placeholder, length) == 0)
+            meanings[i].put(value);
+    }
+}
+
+/* ---- The command line ----------------------------------------------------------------------- */
+
+/* The option of "--name", "--name=VALUE", "-n" or "-nVALUE"; *attached is the value, or NULL. */
+static const struct option *find_option(const struct command *command, const char *word,
+                                        const char **attached)
+{
+    bool is_long = word[1] == '-';
+    size_t length = is_long ? strcspn(word + 2, "=") : 0;
+    for (size_t i = 0; i < command->option_count; i++) {
+        const struct option *option = &command->options[i];
+        const char *end = is_long ? word + 2 + length : word + 2;
+        bool is_it =
+            is_long ? strlen(option->name) == length && strncmp(word + 2, option->name, length) == 0
+                    : option->letter && word[1] == option->letter;
+        if (!is_it)
+            continue;
+        *attached = *end ? end + is_long : NULL;
+        return option;
+    }
+    return NULL;
+}
+
+/* Reads the words behind the command as arguments_parse would. */
+static void read_words(struct line *line, size_t first)
+{
+    for (size_t i = first; i + 1 < line->count; i++) {
+        const char *word = line->words[i], *attached = NULL;
+        if (line->options_ended || word[0] != '-' || word[1] == '\0') {
+            line->operand = line->operand ? line->operand : word;
+            line->operand_count++;
+            continue;
+        }
+        line->options_ended = strcmp(word, "--") == 0;
+        const struct option *option =
+            line->options_ended ? NULL : find_option(line->command, word, &attached);
+        if (!option || option->kind == OPTION_FLAG)
+            continue;
+        if (!attached && !option->value_may_go) {
+            if (i + 2 == line->count)
+                line->pending = option;
+            else
+                attached = line->words[++i];
+        }
+        if (attached && strcmp(option->name, "results") == 0)
+            line->results = attached;
+    }
+}
+
+/* `typed` is where the value starts in the word. */
+static void put_option_values(const struct line *line, const struct option *option,
+                              const char *typed)
+{
+    struct value value = {.line = line,
+                          .option = option,
+                          .prefix_length = (size_t)(typed - line->typed),
+                          .rest = typed};
+    if (option->kind == OPTION_FLAG)
+        return;
+    if (option->commas)
+        skip_past(&value, ',');
+    if (option->kind == OPTION_CHOICE)
+        offer_words(&value, option->placeholder);
+    else
+        put_meaning(&value, option->placeholder, strlen(option->placeholder));
+}
+
+static void put_options(const struct line *line)
+{
+    const struct value value = {.line = line, .rest = line->typed};
+    for (size_t i = 0; i < line->command->option_count; i++) {
+        char name[64];
+        snprintf(name, sizeof name, "--%s", line->command->options[i].name);
+        offer(&value, "word", name, line->command->options[i].help);
+    }
+}
+
+/* What the words of the synopsis stand for, such as "[PATH | NAME]...". */
+static void put_operands(const struct line *line)
+{
+    struct value value = {.line = line, .rest = line->typed};
+    if (line->count == 2)
+        put_second_words(&value, line->command->name);
+    if (line->operand_count >= line->command->most_operands)
+        return;
+    for (const char *word = line->command->operands; *word;) {
+        size_t length = strspn(word, "ABCDEFGHIJKLMNOPQRSTUVWXYZ");
+        put_meaning(&value, word, length);
+        word += length > 0 ? length : 1;
+    }
+}
+
+static int run(const struct arguments *arguments)
+{
+    struct line line = {.words = arguments->operands,
+                        .count = arguments->operand_count,
+                        .typed = arguments->operands[arguments->operand_count - 1],
+                        .results = DEFAULT_RESULTS};
+    if (line.count == 1) {
+        const struct value value = {.line = &line, .rest = line.typed};
+        put_commands(&value);
+        offer(&value, "word", "--help", "list commands and topics");
+        offer(&value, "word", "--version", "say which kiln this is");
+        return 0;
+    }
+    line.command = command_find(line.words[0], line.count > 2 ? line.words[1] : NULL);
+    if (!line.command)
+        return 0;
+    read_words(&line, strchr(line.command->name, ' ') ? 2 : 1);
+    const char *value = NULL;
+    bool is_option = !line.options_ended && line.typed[0] == '-';
+    const struct option *option =
+        is_option && line.typed[1] ? find_option(line.command, line.typed, &value) : NULL;
+    if (line.pending)
+        put_option_values(&line, line.pending, line.typed);
+    else if (option && value)
+        put_option_values(&line, option, value);
+    else if (is_option)
+        put_options(&line);
+    else
+        put_operands(&line);
+    return 0;
+}
+
+static const struct option options[] = {HELP_OPTION};
+
+const struct command complete_command = {
+    .name = "complete",
+    .summary = "say what may follow on a command line",
+    .operands = "-- WORD...",
+    .description =
+        "For the scripts that let bash and zsh complete command lines of kiln. The WORDs are a "
+        "command line without 'kiln', the last of them as far as it is typed. Prints a line for "
+        "each continuation: its kind (word; part, behind which no space comes; folder or "
+        "file:PATTERN, which the shell is to find), a text and what it means, with tabs between.",
+    .options = options,
+    .option_count = sizeof options / sizeof *options,
+    .least_operands = 1,
+    .most_operands = SIZE_MAX,
+    .run = run,
+};

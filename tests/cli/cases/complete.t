@@ -1,0 +1,97 @@
+What may follow on a command line, for the scripts of bash and zsh; tests/completion has it typed.
+
+$ kiln complete -- re
+1|word	render	render scenes into images or videos
+$ kiln complete -- compl
+$ kiln complete -- figure ''
+1|word	sheet	a sheet of pictures over sweeps of parameters
+1|word	triptych	a reference, a result and their error map
+1|word	strip	frames of a scene or a clip in a row
+$ kiln complete -- help exi
+1|word	exit-codes	what each exit code means
+$ kiln complete -- render --flipbook-a
+1|word	--flipbook-alpha	Whether the colours of a flipbook are those of the cover alone, or times alpha.
+$ kiln complete -- render --progress ''
+1|word	tty	
+1|word	lines	
+1|word	ndjson	
+1|word	none	
+$ kiln complete -- render --stats=
+1|word	--stats=text	
+1|word	--stats=json	
+$ kiln complete -- render --technique sort=cpu,
+1|word	sort=cpu,simulate=cpu	host threads; the default unless the device is an exact GPU
+1|word	sort=cpu,simulate=inplace	compute, one buffer updated in place; the default on exact GPUs
+1|word	sort=cpu,sort=cpu	stable radix sort, host threads
+1|word	sort=cpu,raster=geometry	points turned into billboards by a geometry shader
+$ kiln complete -- compare --limit ss
+1|part	ssim=	structural similarity of luma (Wang 2004): 1 for equal pictures
+$ kiln complete -- render --device ''
+1|word	software	the first software device
+$ kiln complete -- render -o out/
+1|file:*		
+$ kiln complete -- render -oout/
+1|file:*	-o	
+$ kiln complete -- render --output=out/
+1|file:*	--output=	
+$ kiln complete -- figure --check ''
+1|file:*.figure.json		
+$ kiln complete -- test --golden ''
+1|folder		
+$ kiln complete -- test report ''
+1|folder		
+$ kiln complete -- compare a.png b.png ''
+$ kiln complete -- render -- --out
+1|file:*.y*ml		
+
+Keys of scenes, with the systems of the scene on the line; other things may be wrong with it.
+
+$ printf 'kiln: 1\nsystems:\n  blaze: {emit: {raet: 5}}\n  smoke: {}\n' >broken.yaml
+$ kiln complete -- check broken.yaml --set systems.
+1|part	systems.*.	every entry
+1|part	systems.blaze.	a system
+1|part	systems.smoke.	a system
+$ kiln complete -- check broken.yaml --set systems.bl
+1|part	systems.blaze.	a system
+$ kiln complete -- check none.yaml --set systems.
+1|part	systems.*.	every entry
+$ kiln complete -- check broken.yaml --set systems.blaze.emit.ra
+1|part	systems.blaze.emit.rate=	Particles born a second.
+$ kiln complete -- check --set 'systems.*.collide.'
+1|part	systems.*.collide.mode=	swept finds the point of impact; clamp moves a particle inside to the nearest face.
+1|part	systems.*.collide.randomness=	0 reflects like a mirror, 1 into any direction away from the surface.
+1|part	systems.*.collide.slowdown=	Factor on the speed at each impact.
+1|part	systems.*.collide.dies=	A particle ends at its first impact, like rain.
+$ kiln complete -- check --set 'systems.*.forces.'
+1|part	systems.*.forces.*.	every entry
+1|part	systems.*.forces.0.	the first entry
+$ kiln complete -- check --set 'systems.*.forces.0.wind.f'
+1|part	systems.*.forces.0.wind.field=	Which of these it is.
+$ kiln complete -- check --set 'systems.*.forces.0.wind.field='
+1|word	systems.*.forces.0.wind.field=uniform	
+1|word	systems.*.forces.0.wind.field=curl	
+$ kiln complete -- check --set post.tonemap=a
+1|word	post.tonemap=agx	
+1|word	post.tonemap=aces	
+$ kiln complete -- check --set backdrop.transparent=
+1|word	backdrop.transparent=true	
+1|word	backdrop.transparent=false	
+$ kiln complete -- check --set post.nothing
+$ kiln complete -- figure sheet --sweep ti
+1|part	time=	times in seconds
+$ kiln complete -- figure sheet --sweep post.tonemap=none,a
+1|word	post.tonemap=none,agx	
+1|word	post.tonemap=none,aces	
+$ kiln complete -- figure sheet --variant 'seed=1;post.tonemap=ac'
+1|word	seed=1;post.tonemap=aces	
+$ kiln complete -- figure sheet --variant 'seed=1;post.tonem'
+1|part	seed=1;post.tonemap=	How light becomes a picture.
+
+Nothing follows what makes no sense.
+
+$ kiln complete -- rendre --out
+$ kiln complete -- render --outptu=
+$ kiln complete -- render --seed ''
+$ kiln complete
+2|kiln: complete: needs -- WORD...
+= 2
