@@ -49,8 +49,10 @@ void help_visit_topics(void (*visit)(void *user, const char *name, const char *s
 /* How to have command lines completed. */
 bool help_write_completion(FILE *out);
 
-/* The man page, in roff. */
-void man_print(FILE *out);
+/* The man pages, in roff: kiln(1), and kiln-scene(5) of the keys of a scene. False when memory is
+ * short. */
+bool man_print(FILE *out);
+bool man_print_scene(FILE *out);
 
 /* A meaning for each exit code; a NULL meaning ends the list. */
 struct exit_code {

@@ -93,8 +93,12 @@ bool help_write_completion(FILE *out)
 
 static bool write_man(FILE *out)
 {
-    man_print(out);
-    return !ferror(out);
+    return man_print(out) && !ferror(out);
+}
+
+static bool write_man_scene(FILE *out)
+{
+    return man_print_scene(out) && !ferror(out);
 }
 
 struct topic {
@@ -113,6 +117,7 @@ static const struct topic topics[] = {
     {"exit-codes", "what each exit code means", write_exit_codes},
     {"completion", "command lines completed by bash and zsh", help_write_completion},
     {"man", "the manual page, for `man -l`", write_man},
+    {"man-scene", "the manual page of scene files", write_man_scene},
 };
 enum { TOPIC_COUNT = sizeof topics / sizeof *topics };
 

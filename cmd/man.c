@@ -1,5 +1,7 @@
-/* The manual page, in the man macros of roff, from the same tables as --help. */
+/* The manual pages, in the man macros of roff, from the same tables as --help. */
 #include <ctype.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "command.h"
 
@@ -28,6 +30,51 @@ static void put_heading(FILE *out, const char *title)
     for (const char *c = title; *c; c++)
         fputc(toupper((unsigned char)*c), out);
     fputc('\n', out);
+}
+
+/* A text of paragraphs, in which lines that start with blanks stay as they are. */
+static void put_text(FILE *out, const char *text)
+{
+    bool verbatim = false, parted = false, at_start = true;
+    for (; *text; at_start = false) {
+        size_t length = strcspn(text, "\n");
+        char line[512];
+        snprintf(line, sizeof line, "%.*s", (int)length, text);
+        text += length + (text[length] == '\n');
+        if (length == 0) {
+            parted = true;
+            continue;
+        }
+        bool changes = verbatim != (*line == ' ');
+        if (changes && verbatim)
+            fputs(".fi\n", out);
+        if ((changes || parted) && !at_start)
+            fputs(".PP\n", out);
+        if (changes && !verbatim)
+            fputs(".nf\n", out);
+        verbatim = *line == ' ';
+        parted = false;
+        put(out, line);
+        fputc('\n', out);
+    }
+    if (verbatim)
+        fputs(".fi\n", out);
+}
+
+/* What a topic of `kiln help` prints. False when memory is short. */
+static bool put_topic(FILE *out, const char *title, bool (*write)(FILE *out))
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *memory = open_memstream(&text, &size);
+    bool ok = memory && write(memory);
+    ok = memory && fclose(memory) == 0 && ok;
+    if (ok) {
+        put_heading(out, title);
+        put_text(out, text);
+    }
+    free(text);
+    return ok;
 }
 
 /* A paragraph with a bold tag. */
@@ -67,22 +114,65 @@ static void put_option(FILE *out, const struct option *option)
 
 static void put_command(FILE *out, const struct command *command)
 {
-    fprintf(out, ".SS kiln %s [\\fIOPTION...\\fR] \\fI%s\\fR\n", command->name, command->operands);
+    fprintf(out, ".SS kiln %s [\\fIOPTION...\\fR]", command->name);
+    if (*command->operands)
+        fprintf(out, " \\fI%s\\fR", command->operands);
+    fputc('\n', out);
     put(out, command->description);
     fputc('\n', out);
     for (size_t i = 0; i < command->option_count; i++)
         put_option(out, &command->options[i]);
 }
 
-static void put_example(FILE *out, const char *what, const char *command)
+static void put_examples(FILE *out)
 {
-    put(out, what);
-    fputs("\n.PP\n.RS\n", out);
-    put(out, command);
-    fputs("\n.RE\n.PP\n", out);
+    static const struct {
+        const char *what, *command;
+    } rows[] = {
+        {"A video of a whole scene:", "kiln render fire_beam.yaml -o fire.mp4"},
+        {"Two stills at another size:",
+         "kiln render fire_beam.yaml -o still_%04d.png --frames 60,120 --size 640x360"},
+        {"A queue of scenes with progress for a program:",
+         "kiln render a.yaml b.yaml -o '{scene}.mp4' --progress ndjson"},
+        {"A folder of pictures against another one, with pictures of the differences:",
+         "kiln compare golden/ out/ --diff differences/"},
+        {"Golden-image tests of all scenes in a folder, with the first goldens written:",
+         "kiln test scenes/ --update missing"},
+        {"The same in continuous integration, with a report for its pages:",
+         "kiln test scenes/ --junit out/junit.xml"},
+        {"A picture that has changed is right:", "kiln test approve fire_beam"},
+        {"Four jets side by side, with labels, for a document:",
+         "kiln figure sheet fire_beam.yaml -o sizes.png --sweep "
+         "'systems.*.emit.rate=5,25,200,2000'"},
+    };
+    put_heading(out, "examples");
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        if (i > 0)
+            fputs(".PP\n", out);
+        put(out, rows[i].what);
+        fputs("\n.PP\n.RS\n.nf\n", out);
+        put(out, rows[i].command);
+        fputs("\n.fi\n.RE\n", out);
+    }
 }
 
-void man_print(FILE *out)
+/* Paths that matter, and what they are. */
+static void put_files(FILE *out)
+{
+    put_heading(out, "files");
+    put_tagged(out, "golden/",
+               "Pictures that 'kiln test' compares with, and expect.yaml, the "
+               "hashes and limits of a test; elsewhere by --golden.");
+    put_tagged(out, "out/test/",
+               "Results of 'kiln test': report.html, run.json, and for each test "
+               "result.json, pictures and log.txt; elsewhere by --results.");
+    put_tagged(out, "NAME.test.yaml", "A test: see 'kiln help tests'.");
+    put_tagged(out, "share/kiln/scenes/",
+               "Scenes to begin with, below the prefix of the "
+               "installation.");
+}
+
+bool man_print(FILE *out)
 {
     fprintf(out, ".TH KILN 1 \"\" \"kiln %s\" \"User Commands\"\n", KILN_VERSION);
     put_heading(out, "name");
@@ -99,27 +189,70 @@ void man_print(FILE *out)
     put_heading(out, "commands");
     for (size_t i = 0; commands[i]; i++)
         put_command(out, commands[i]);
+    bool ok = put_topic(out, "outputs", kiln_write_outputs) &&
+              put_topic(out, "techniques", kiln_write_techniques) &&
+              put_topic(out, "metrics", kiln_write_metrics) &&
+              put_topic(out, "test files", kiln_test_write_reference) &&
+              put_topic(out, "reports", kiln_write_reports) &&
+              put_topic(out, "completion", help_write_completion);
     put_heading(out, "exit status");
     for (const struct exit_code *row = exit_codes; row->code; row++)
         put_tagged(out, row->code, row->meaning);
     put_heading(out, "environment");
     for (const struct variable *row = variables; row->name; row++)
         put_tagged(out, row->name, row->meaning);
-    put_heading(out, "examples");
-    put_example(out, "A video of a whole scene:", "kiln render fire_beam.yaml -o fire.mp4");
-    put_example(out, "Two stills at another size:",
-                "kiln render fire_beam.yaml -o still_%04d.png --frames 60,120 --size 640x360");
-    put_example(out, "A queue of scenes with progress for a program:",
-                "kiln render a.yaml b.yaml -o '{scene}.mp4' --progress ndjson");
-    put_example(out, "A folder of pictures against another one, with pictures of the differences:",
-                "kiln compare golden/ out/ --diff differences/");
-    put_example(out,
-                "Golden-image tests of all scenes in a folder, with the first goldens written:",
-                "kiln test scenes/ --update missing");
-    put_example(out, "The same in continuous integration, with a report for its pages:",
-                "kiln test scenes/ --junit out/junit.xml");
-    put_example(out, "A picture that has changed is right:", "kiln test approve fire_beam");
+    put_files(out);
+    put_examples(out);
     put_heading(out, "see also");
-    put(out, "kiln help scene: every key of a scene file.\n");
-    put(out, "kiln help tests: every key of a test file.\n");
+    fputs(".BR kiln\\-scene (5)\n", out);
+    return ok;
+}
+
+/* ---- kiln-scene(5) -------------------------------------------------------------------------- */
+
+static void put_line(FILE *out, const char *label, const char *text)
+{
+    fputs(".br\n", out);
+    put(out, label);
+    put(out, text);
+    fputc('\n', out);
+}
+
+static void put_key(void *user, const struct kiln_scene_key *key)
+{
+    FILE *out = user;
+    fputs(".TP\n\\fB", out);
+    put(out, key->path);
+    fputs("\\fR", out);
+    if (key->variant) {
+        fputs(" with field: ", out);
+        put(out, key->variant);
+    }
+    fputc('\n', out);
+    put(out, key->help);
+    fputc('\n', out);
+    if (key->shortcut)
+        put_line(out, "A bare value is that of ", key->shortcut);
+    if (key->allowed)
+        put_line(out, "", key->allowed);
+    if (key->varies)
+        put_line(out, "may vary ", key->varies);
+    if (key->fallback)
+        put_line(out, "default: ", key->fallback);
+    else if (key->allowed)
+        put_line(out, "must be given", "");
+}
+
+bool man_print_scene(FILE *out)
+{
+    fprintf(out, ".TH KILN\\-SCENE 5 \"\" \"kiln %s\" \"File Formats\"\n", KILN_VERSION);
+    put_heading(out, "name");
+    fputs("kiln\\-scene \\- scene files of kiln\n", out);
+    put_heading(out, "description");
+    put_text(out, kiln_scene_introduction());
+    put_heading(out, "keys");
+    bool ok = kiln_scene_visit_keys(put_key, out);
+    put_heading(out, "see also");
+    fputs(".BR kiln (1)\n", out);
+    return ok;
 }

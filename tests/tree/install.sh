@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # An installed kiln stands alone: install.sh BUILD CC. Installs to a temporary prefix, runs the
-# program from /, and builds a user of the library through pkg-config.
+# program from /, builds a user of the library through pkg-config, shows the manual pages and has
+# command lines completed. With DESTDIR everything lands below it, as packagers need it.
 set -euo pipefail
 build=$1 cc=$2
 prefix=$(mktemp -d)
@@ -13,7 +14,13 @@ for file in bin/kiln include/kiln.h; do
 done
 headers=$(find "$prefix/include" -type f | wc -l)
 [[ $headers == 1 ]] || { echo "$headers headers are installed; kiln has one"; exit 1; }
-[[ -f $prefix/share/kiln/scenes/fire_beam.yaml ]] || { echo "the scenes are not installed"; exit 1; }
+for file in kiln/scenes/fire_beam.yaml kiln/scene.schema.json man/man1/kiln.1 man/man5/kiln-scene.5 \
+    bash-completion/completions/kiln zsh/site-functions/_kiln; do
+    [[ -f $prefix/share/$file ]] || { echo "share/$file is not installed"; exit 1; }
+done
+DESTDIR=$prefix/package cmake --install "$build" --prefix /usr >/dev/null
+diff <(cd "$prefix" && find bin include share -type f | sort) \
+    <(cd "$prefix/package/usr" && find bin include share -type f | sort)
 
 (cd / && "$prefix/bin/kiln" help >"$prefix/help.txt")
 grep -q render "$prefix/help.txt" || { echo "kiln help says nothing of render"; exit 1; }
@@ -39,3 +46,10 @@ read -ra flags <<<"$(pkg-config --cflags --libs kiln)"
 said=$("$prefix/user")
 echo "$said"
 [[ $said == "kiln $version, "* ]] || { echo "the versions of kiln.h and kiln.pc differ: $version"; exit 1; }
+
+tests=$(dirname "$(realpath "$0")")/..
+"$tests/docs/man.sh" "$prefix/share/man/man1/kiln.1" "$prefix/share/man/man5/kiln-scene.5"
+found=$(man -M "$prefix/share/man" -w 5 kiln-scene)
+[[ $found == "$prefix/share/man/man5/kiln-scene.5" ]] || { echo "man finds kiln-scene in '$found'"; exit 1; }
+"$tests/completion/press_tab.py" bash "$prefix/bin/kiln" "$prefix/share/bash-completion/completions/kiln"
+"$tests/completion/press_tab.py" zsh "$prefix/bin/kiln" "$prefix/share/zsh/site-functions/_kiln"

@@ -32,6 +32,7 @@ $ kiln
 2|  exit-codes       what each exit code means
 2|  completion       command lines completed by bash and zsh
 2|  man              the manual page, for `man -l`
+2|  man-scene        the manual page of scene files
 2|
 2|A first picture:
 2|  kiln render scenes/fire_beam.yaml -o fire.png --frames 60
@@ -70,6 +71,7 @@ $ kiln --help
 1|  exit-codes       what each exit code means
 1|  completion       command lines completed by bash and zsh
 1|  man              the manual page, for `man -l`
+1|  man-scene        the manual page of scene files
 1|
 1|A first picture:
 1|  kiln render scenes/fire_beam.yaml -o fire.png --frames 60
