@@ -120,7 +120,9 @@ static void fill_maps(const struct kiln_backdrop_stage *stage, float time_s,
     if (floor_image->gl) {
         float tile = kiln_scene_value(scene, &scene->backdrop.floor_tile, time_s);
         float width = (float)floor_image->width, height = (float)floor_image->height;
-        shapes->floor_map = (float4){1.0f / tile, width / (tile * height), width / tile, 0.0f};
+        shapes->floor_map.x = 1.0f / tile;
+        shapes->floor_map.y = width / (tile * height);
+        shapes->floor_map.z = width / tile;
     }
     if (sky->gl)
         shapes->sky_map =
@@ -163,7 +165,7 @@ static bool same_picture(const struct backdrop_inputs *a, const struct backdrop_
 static bool create_programs(struct kiln_backdrop_stage *stage, struct kiln_error *error)
 {
     const struct kiln_shape_features features = kiln_shape_features(stage->scene);
-    char defines[160];
+    char defines[KILN_SHAPE_DEFINES];
     struct kiln_program_params params = {
         .vertex = "draw/fullscreen.vert", .fragment = "draw/backdrop.frag", .defines = defines};
     kiln_shape_defines(&features, 1, defines);

@@ -7,9 +7,9 @@
 #include <stdio.h>
 
 static_assert(sizeof(struct kiln_draw_mesh) == 96, "std140");
-static_assert(offsetof(struct kiln_draw_shapes, spheres) == 80, "std140");
-static_assert(offsetof(struct kiln_draw_shapes, meshes) == 80 + 80 * KILN_MAX_OBJECTS, "std140");
-static_assert(sizeof(struct kiln_draw_shapes) == 80 + 80 * KILN_MAX_OBJECTS + 96 * KILN_MAX_MESHES,
+static_assert(offsetof(struct kiln_draw_shapes, spheres) == 96, "std140");
+static_assert(offsetof(struct kiln_draw_shapes, meshes) == 96 + 80 * KILN_MAX_OBJECTS, "std140");
+static_assert(sizeof(struct kiln_draw_shapes) == 96 + 80 * KILN_MAX_OBJECTS + 96 * KILN_MAX_MESHES,
               "std140, and no padding, which the backdrop would compare");
 
 struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
@@ -17,6 +17,7 @@ struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
     const struct kiln_backdrop *backdrop = &scene->backdrop;
     struct kiln_shape_features features = {
         .floor_image = backdrop->floor_image != NULL,
+        .floor_gloss = kiln_scene_value_max(scene, &backdrop->floor_gloss) > 0.0f,
         .sky_image = backdrop->sky_image != NULL,
         .soft_sun = kiln_scene_value_max(scene, &backdrop->sun_size) > 0.0f,
     };
@@ -28,12 +29,14 @@ struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
     return features;
 }
 
-void kiln_shape_defines(const struct kiln_shape_features *features, int samples, char out[160])
+void kiln_shape_defines(const struct kiln_shape_features *features, int samples,
+                        char out[KILN_SHAPE_DEFINES])
 {
-    snprintf(out, 160, "#define SAMPLES %d\n%s%s%s%s%s", samples,
+    snprintf(out, KILN_SHAPE_DEFINES, "#define SAMPLES %d\n%s%s%s%s%s%s", samples,
              features->round ? "#define ROUND 1\n" : "",
              features->meshes ? "#define MESHES 1\n" : "",
              features->floor_image ? "#define FLOOR_IMAGE 1\n" : "",
+             features->floor_gloss ? "#define FLOOR_GLOSS 1\n" : "",
              features->sky_image ? "#define SKY_IMAGE 1\n" : "",
              features->soft_sun ? "#define SOFT_SUN 1\n" : "");
 }
@@ -65,6 +68,20 @@ static void fill_sun(const struct kiln_scene *scene, float time_s, struct kiln_d
     float radius = 0.5f * kiln_scene_value(scene, &backdrop->sun_size, time_s);
     shapes->sun_right = with_w(right, tanf(radius));
     shapes->sun_up = with_w(cross(sun, right), tanf(radius));
+}
+
+/* A wave of height h and length l is pi h / l steep; the shorter ones are as steep as the longest.
+ */
+static void fill_gloss(const struct kiln_scene *scene, float time_s,
+                       struct kiln_draw_shapes *shapes)
+{
+    const struct kiln_backdrop *backdrop = &scene->backdrop;
+    float roughness = kiln_scene_value(scene, &backdrop->floor_roughness, time_s);
+    float height = kiln_scene_value(scene, &backdrop->floor_wave_height, time_s);
+    float length = kiln_scene_value(scene, &backdrop->floor_wave_length, time_s);
+    shapes->floor_gloss = (float4){kiln_scene_value(scene, &backdrop->floor_gloss, time_s),
+                                   roughness * roughness, length, 3.14159265f * height / length};
+    shapes->floor_map.w = height > 0.0f ? time_s : 0.0f;
 }
 
 /* Rows of the rotation about x, then y, then z. */
@@ -109,6 +126,8 @@ void kiln_shapes_fill(const struct kiln_scene *scene, struct kiln_mesh *const *m
 {
     *shapes = (struct kiln_draw_shapes){.counts = {0, 0, 0, 0}};
     fill_sun(scene, time_s, shapes);
+    if (kiln_shape_features(scene).floor_gloss)
+        fill_gloss(scene, time_s, shapes);
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
         const struct kiln_object *object = &scene->backdrop.objects[i];
         float3 center = kiln_scene_value3(scene, &object->center, time_s);

@@ -8,12 +8,15 @@
 
 /* What a scene needs of the shaders; sets of these choose a variant. */
 struct kiln_shape_features {
-    bool round, meshes, floor_image, sky_image, soft_sun;
+    bool round, meshes, floor_image, floor_gloss, sky_image, soft_sun;
 };
 struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene);
 
+#define KILN_SHAPE_DEFINES 192 /* bytes of their text */
+
 /* The "#define" lines of the variant, SAMPLES rays a pixel; for kiln_program_params. */
-void kiln_shape_defines(const struct kiln_shape_features *features, int samples, char out[160]);
+void kiln_shape_defines(const struct kiln_shape_features *features, int samples,
+                        char out[KILN_SHAPE_DEFINES]);
 
 /* Spheres, cylinders, meshes and the sun's frame at a clip time; meshes are in the scene's order.
  * The pictures' maps are left 0. */

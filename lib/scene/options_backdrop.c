@@ -107,6 +107,15 @@ static const struct kiln_option floor_rows[] = {
     {ROW("image", picture, AT(floor_image), "none",
          "A picture that repeats, its top towards -z, in place of colour and squares.")},
     VALUE("tile", floor_tile, KILN_METRES, 0.001, FAR, TIME, "1 m", "Width of the picture."),
+    VALUE("gloss", floor_gloss, KILN_PLAIN, 0, 10, TIME, "0",
+          "Mirrors sky, lights and objects but meshes as water does, times this; particles by the "
+          "light that they shed (look.light)."),
+    VALUE("roughness", floor_roughness, KILN_PLAIN, 0, 1, TIME, "0.3",
+          "How wide gloss spreads lights."),
+    VALUE("wave_height", floor_wave_height, KILN_METRES, 0, 100, TIME, "0 m",
+          "Of waves that tilt what gloss mirrors, trough to crest; the floor itself stays flat."),
+    VALUE("wave_length", floor_wave_length, KILN_METRES, 0.001, 10000, TIME, "1 m",
+          "Of the longest waves; smaller ones ride on them."),
     BOOLEAN("collide", floor_collide, "true", "Particles of systems that collide bounce off it."),
     END,
 };

@@ -246,14 +246,17 @@ struct kiln_backdrop {
     struct kiln_value sky_intensity; /* factor on the image */
     bool floor_enabled, floor_collide;
     struct kiln_value3 floor_color;
-    struct kiln_value floor_height;   /* m; constant while it collides */
-    struct kiln_value floor_checker;  /* m: edge of the squares; 0: plain */
-    const char *floor_image;          /* repeated, an absolute path; NULL: the colour */
-    struct kiln_value floor_tile;     /* m: width of the image */
-    struct kiln_value3 sun_direction; /* towards the sun */
-    struct kiln_value3 sun_color;     /* irradiance; 0 0 0: none */
-    struct kiln_value sun_size;       /* rad: its diameter; 0: hard shadows */
-    struct kiln_value haze;           /* 1/m: floor fades into the horizon */
+    struct kiln_value floor_height;  /* m; constant while it collides */
+    struct kiln_value floor_checker; /* m: edge of the squares; 0: plain */
+    const char *floor_image;         /* repeated, an absolute path; NULL: the colour */
+    struct kiln_value floor_tile;    /* m: width of the image */
+    struct kiln_value floor_gloss;   /* factor on what it mirrors; 0: matt */
+    struct kiln_value floor_roughness;
+    struct kiln_value floor_wave_height, floor_wave_length; /* m */
+    struct kiln_value3 sun_direction;                       /* towards the sun */
+    struct kiln_value3 sun_color;                           /* irradiance; 0 0 0: none */
+    struct kiln_value sun_size;                             /* rad: its diameter; 0: hard shadows */
+    struct kiln_value haze;                                 /* 1/m: floor fades into the horizon */
     struct kiln_object objects[KILN_MAX_OBJECTS];
     uint32_t object_count;
     struct kiln_light lights[KILN_MAX_LIGHTS];

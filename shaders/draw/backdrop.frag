@@ -1,7 +1,7 @@
 /* The scene behind the particles, cast analytically: a sky gradient, a floor that fades into the
  * horizon, boxes, one sun with hard shadows, point lights. View-space depth goes to a texture of its
  * own, for soft particles (Heinz 2019, 3.2.1 and 3.2.6). What not every scene has is compiled in by
- * defines: ROUND shapes, MESHES, FLOOR_IMAGE, SKY_IMAGE, SOFT_SUN.
+ * defines: ROUND shapes, MESHES, FLOOR_IMAGE, FLOOR_GLOSS, SKY_IMAGE, SOFT_SUN.
  *
  * Two passes: one ray through the centre of each pixel, which also notes what it hit; then SAMPLES
  * rays a pixel where backdrop_edges.vert finds that neighbours hit different things.
@@ -13,6 +13,8 @@
 // variant: SAMPLES=1 MESHES=1
 // variant: SAMPLES=1 ROUND=1 MESHES=1 FLOOR_IMAGE=1 SKY_IMAGE=1 SOFT_SUN=1
 // variant: SAMPLES=4 ROUND=1 MESHES=1 FLOOR_IMAGE=1 SKY_IMAGE=1 SOFT_SUN=1
+// variant: SAMPLES=1 FLOOR_GLOSS=1
+// variant: SAMPLES=4 ROUND=1 MESHES=1 FLOOR_IMAGE=1 FLOOR_GLOSS=1 SKY_IMAGE=1 SOFT_SUN=1
 #include "shared/draw_layout.h"
 #include "shared/shape_layout.h"
 
@@ -59,8 +61,36 @@ vec3 floor_albedo(vec2 position, vec2 footprint)
 #include "draw/floor_image.glsl"
 #endif
 
-/* layer: of the rasterised meshes, those that this ray hits. */
-hit trace(vec3 origin, vec3 direction, int layer)
+/* The floor that one pixel covers: longer along the view where it is seen flat. */
+vec2 floor_footprint(vec3 direction, float t)
+{
+    float pixel = 2.0 * view.frustum.y / view.frustum.w * t;
+    vec2 along = abs(direction.xz) / max(length(direction.xz), 1e-6);
+    return pixel * (1.0 + along * length(direction) / max(abs(direction.y), 1e-6));
+}
+
+#ifdef FLOOR_GLOSS
+#include "draw/floor_gloss.glsl"
+#endif
+
+/* The ray's t at the floor, and what the floor reflects there; beyond everything for a ray that goes
+ * up. */
+vec4 floor_along(vec3 origin, vec3 direction)
+{
+    float height = origin.y - backdrop.floor_color.w;
+    if (backdrop.floor_params.x <= 0.0 || direction.y >= -1e-6 || height <= 0.0)
+        return vec4(vec3(0.0), 2.0 * FAR);
+    float t = height / -direction.y;
+    vec2 position = (origin + direction * t).xz;
+#ifdef FLOOR_IMAGE
+    return vec4(floor_picture(position, direction, t), t);
+#else
+    return vec4(floor_albedo(position, floor_footprint(direction, t)), t);
+#endif
+}
+
+/* ground: by floor_along(). layer: of the rasterised meshes, those that this ray hits; -1: none. */
+hit trace(vec3 origin, vec3 direction, vec4 ground, int layer)
 {
     hit nearest = hit(FAR, -1, vec3(0.0, 1.0, 0.0), vec3(0.0));
     vec3 inverse = safe_inverse(direction);
@@ -82,38 +112,64 @@ hit trace(vec3 origin, vec3 direction, int layer)
     trace_cylinders(origin, direction, nearest);
 #endif
 #ifdef MESHES
-    trace_meshes(layer, nearest);
+    if (layer >= 0)
+        trace_meshes(layer, nearest);
 #endif
-    float height = origin.y - backdrop.floor_color.w;
-    if (backdrop.floor_params.x > 0.0 && direction.y < -1e-6 && height > 0.0) {
-        float t = height / -direction.y;
-        if (t < nearest.t) {
-            /* The floor that one pixel covers: longer along the view where it is seen flat. */
-            float pixel = 2.0 * view.frustum.y / view.frustum.w * t;
-            vec2 along = abs(direction.xz) / max(length(direction.xz), 1e-6);
-            vec2 footprint = pixel * (1.0 + along * length(direction) / -direction.y);
-            vec2 position = (origin + direction * t).xz;
-#ifdef FLOOR_IMAGE
-            vec3 albedo = floor_picture(position, direction, t);
-#else
-            vec3 albedo = floor_albedo(position, footprint);
-#endif
-            nearest = hit(t, 0, vec3(0.0, 1.0, 0.0), albedo);
-        }
-    }
+    if (ground.w < nearest.t)
+        nearest = hit(ground.w, 0, vec3(0.0, 1.0, 0.0), ground.rgb);
     return nearest;
+}
+
+/* What a ray from the eye finds. */
+struct sight {
+    vec4 color;
+    hit first;
+    float sunlit; /* part of the sun there, before smoke */
+};
+
+/* Follows a ray, and on from a floor that mirrors: in a loop, since compilers take minutes over a
+ * second copy of all this, and with its test at the end, since software GL runs the body once more
+ * after one at the start. */
+sight look(vec3 direction, int layer)
+{
+    sight seen;
+    vec3 origin = view.eye.xyz;
+    vec4 ground = floor_along(origin, direction);
+    bool first = true, goes_on = false;
+#ifdef FLOOR_GLOSS
+    mirror m = floor_mirror(direction);
+#endif
+    do {
+        hit h = trace(origin, direction, ground, first ? layer : -1);
+        vec3 point = origin + direction * h.t;
+        float sunlit = sun_visibility(point, h.normal);
+        float arriving = sunlit * sunlight_through_smoke(point);
+        vec4 color = radiance(h, direction, soft_irradiance(h, point), arriving);
+        if (first)
+            seen = sight(color, h, sunlit);
+#ifdef FLOOR_GLOSS
+        if (!first)
+            seen.color.rgb += m.weight * color.rgb;
+        goes_on = first && h.surface == 0;
+        if (goes_on)
+            seen.color.rgb += m.lights + arriving * m.sun;
+        origin = point;
+        direction = m.onwards;
+        ground.w = 2.0 * FAR;
+        first = false;
+#endif
+    } while (goes_on);
+    return seen;
 }
 
 #if SAMPLES == 1
 
 void main()
 {
-    vec3 direction = ray_direction(gl_FragCoord.xy);
-    hit h = trace(view.eye.xyz, direction, 0);
-    vec3 point = view.eye.xyz + direction * h.t;
-    float sunlit = sun_visibility(point, h.normal);
-    out_color = radiance(h, direction, soft_irradiance(h, point),
-                         sunlit * sunlight_through_smoke(point));
+    sight seen = look(ray_direction(gl_FragCoord.xy), 0);
+    hit h = seen.first;
+    float sunlit = seen.sunlit;
+    out_color = seen.color;
     out_depth = h.t;
 #ifdef MESHES
     if (h.surface >= SURFACE_MESHES)
@@ -132,13 +188,8 @@ const vec2 SAMPLE_OFFSETS[KILN_EDGE_SAMPLES] = vec2[](KILN_EDGE_OFFSETS(vec2));
 void main()
 {
     vec4 sum = vec4(0.0);
-    for (int s = 0; s < SAMPLES; s++) {
-        vec3 direction = ray_direction(floor(gl_FragCoord.xy) + SAMPLE_OFFSETS[s]);
-        hit h = trace(view.eye.xyz, direction, 1 + s);
-        vec3 point = view.eye.xyz + direction * h.t;
-        sum += radiance(h, direction, soft_irradiance(h, point),
-                        sun_visibility(point, h.normal) * sunlight_through_smoke(point));
-    }
+    for (int s = 0; s < SAMPLES; s++)
+        sum += look(ray_direction(floor(gl_FragCoord.xy) + SAMPLE_OFFSETS[s]), 1 + s).color;
     out_color = sum / float(SAMPLES);
 }
 

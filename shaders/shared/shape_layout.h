@@ -33,11 +33,12 @@ struct kiln_draw_mesh {
 };
 
 struct kiln_draw_shapes {
-    uint4 counts;     /* spheres, cylinders, meshes, unused */
-    float4 sun_right; /* unit, across the sun's direction; w: tangent of the sun's radius */
-    float4 sun_up;    /* the same */
-    float4 floor_map; /* repetitions a metre in x and z, texels a metre in x; unused */
-    float4 sky_map;   /* turn, parts of a circle; factor; texels a radian; unused */
+    uint4 counts;       /* spheres, cylinders, meshes, unused */
+    float4 sun_right;   /* unit, across the sun's direction; w: tangent of the sun's radius */
+    float4 sun_up;      /* the same */
+    float4 floor_map;   /* repetitions a metre in x and z, texels a metre in x; time of waves, s */
+    float4 floor_gloss; /* factor; roughness; length of the longest wave, m; slope of each */
+    float4 sky_map;     /* turn, parts of a circle; factor; texels a radian; unused */
     float4 spheres[KILN_MAX_OBJECTS]; /* centre; w: radius */
     float4 sphere_color[KILN_MAX_OBJECTS];
     float4 cylinders[KILN_MAX_OBJECTS];     /* centre; w: radius */
