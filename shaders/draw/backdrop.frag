@@ -172,11 +172,7 @@ void main()
     out_color = seen.color;
     out_depth = h.t;
 #ifdef MESHES
-    if (h.surface >= SURFACE_MESHES)
-        h.surface = mark_mesh_edge(h.surface);
-#endif
-#if defined(SOFT_SUN) || defined(MESHES)
-    sunlit = floor(sunlit * 4.0) * 0.25; /* a wide penumbra is no edge */
+    h.surface = mark_mesh_edge(h.surface);
 #endif
     out_surface = float(2 * h.surface) + (h.surface < 0 ? 0.0 : sunlit);
 }

@@ -24,25 +24,19 @@ int mark_mesh_edge(int surface)
     float depth = mesh_hit_depth(center);
     vec3 normal = mesh_hit_normal(center);
     bool edge = false;
-    for (int s = 1; s <= KILN_EDGE_SAMPLES; s++) {
+    int samples = surface >= SURFACE_MESHES ? KILN_EDGE_SAMPLES : 1; /* a loop saves what `if` cannot */
+    for (int s = 1; s <= samples; s++) {
         uvec2 other = texelFetch(mesh_hits, ivec3(pixel, s), 0).xy;
         edge = edge || mesh_hit_index(other) != mesh_hit_index(center) ||
                abs(mesh_hit_depth(other) - depth) > 0.01 * depth ||
                dot(mesh_hit_normal(other), normal) < 0.95;
     }
-    return edge ? surface + 1 + (pixel.x + pixel.y & 1) : surface;
+    return edge && surface >= SURFACE_MESHES ? surface + 1 + (pixel.x + pixel.y & 1) : surface;
 }
 
-/* Coverage and depth of a mesh as the sun sees it, averaged over texels of a level; the second is
- * 0 nearest to the sun and 1 farthest, and weighted by the first. Depth of the receiver in the same
- * measure: how much of the texels lies before it, by how many `slack`. */
-float cover_before(vec3 at, float level, float depth, float slack)
-{
-    vec2 seen = textureLod(mesh_shadow, at, level).rg;
-    float before = depth - seen.g / max(seen.r, 1e-4);
-    return seen.r * clamp(before / slack - 0.5, 0.0, 1.0);
-}
-
+/* The map has coverage and depth of a mesh as the sun sees it, averaged over texels of a level; the
+ * second is 0 nearest to the sun and 1 farthest, and weighted by the first. How much of the sun the
+ * mesh covers: the part of the texels around that lies before the receiver by more than `slack`. */
 float mesh_sun_cover(int i, vec3 point, vec3 normal)
 {
     vec3 from = point - shapes.meshes[i].center.xyz;
@@ -56,25 +50,37 @@ float mesh_sun_cover(int i, vec3 point, vec3 normal)
     vec2 slope = vec2(dot(normal, shapes.sun_right.xyz), dot(normal, shapes.sun_up.xyz)) / facing;
     float texel = 1.0 / float(KILN_SHADOW_EDGE);
     float slack = 1.5 * texel * (1.0 + 0.5 * (abs(slope.x) + abs(slope.y)));
+    /* The first fetch looks for anything between that the others could find, over more than they
+     * reach; where there is nothing, or the surface is turned away, it is the only one. A branch
+     * would not save them on a processor, where both sides of it run; a loop does. */
+    int taps = dot(normal, sun) > 0.0 ? 5 : 1;
 #ifdef SOFT_SUN
-    /* How far the sun's disc spreads at the distance of what is between: its mean depth first, over
-     * all that could be. */
     float spread = shapes.sun_right.w;
-    float widest = spread * max(depth, 0.0) / texel;
-    vec2 around = textureLod(mesh_shadow, vec3(uv, i), log2(max(widest, 1.0))).rg;
-    float gap = depth - min(around.g / max(around.r, 1e-4), depth);
-    float stride = max(0.7 * spread * gap, 0.5 * texel);
-    float level = log2(max(stride / texel, 1.0));
+    float level = log2(max(spread * max(depth, 0.0) / texel, 1.0)) + 1.0;
 #else
-    float stride = 0.5 * texel, level = 0.0;
+    float level = 1.0;
 #endif
-    float cover = 0.0;
-    for (int k = 0; k < 9; k++) {
-        vec2 at = vec2(k % 3 - 1, k / 3 - 1);
-        vec2 aside = at * stride;
-        float weight = (2.0 - abs(at.x)) * (2.0 - abs(at.y)) / 16.0;
-        cover += weight * cover_before(vec3(uv + aside, i), level, depth + dot(slope, aside),
-                                       slack + 0.5 * stride);
+    float stride = 0.0, cover = 0.0;
+    for (int k = 0; k < taps; k++) {
+        /* Four bilinear fetches half a step aside make a tent, as nine would. */
+        vec2 aside = vec2(k & 1, k >> 1 & 1) * 2.0 * stride - stride;
+        vec2 seen = textureLod(mesh_shadow, vec3(uv + aside, i), level).rg;
+        float middle = seen.g / max(seen.r, 1e-4);
+        if (k == 0) {
+            taps = seen.r > 0.0 ? taps : 1;
+            /* How far the sun's disc spreads at the distance of what is between. */
+#ifdef SOFT_SUN
+            float gap = depth - min(middle, depth);
+            float width = max(0.75 * spread * gap, texel);
+#else
+            float width = texel;
+#endif
+            level = log2(width / texel);
+            stride = 0.5 * width;
+        } else {
+            float before = depth + dot(slope, aside) - middle;
+            cover += 0.25 * seen.r * clamp(before / (slack + stride) - 0.5, 0.0, 1.0);
+        }
     }
     return cover;
 }
