@@ -104,8 +104,10 @@ static bool init_scenery(struct kiln_stages *s, struct kiln_error *error)
     s->backdrop =
         kiln_backdrop_create(s->device, s->scene, spheres ? &s->backdrop_color : &s->scene_color,
                              spheres ? &s->backdrop_depth : &s->scene_depth, error);
+    if (s->backdrop)
+        kiln_lighting_use_meshes(s->lighting, kiln_backdrop_meshes(s->backdrop));
     if (s->backdrop && spheres)
-        s->spheres = kiln_spheres_create(s->device, s->particles, &targets, error);
+        s->spheres = kiln_spheres_create(s->device, s->particles, &targets, s->scene, error);
     return s->backdrop && (s->spheres || !spheres);
 }
 

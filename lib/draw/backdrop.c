@@ -96,6 +96,7 @@ static void add_lighting(struct kiln_draw_backdrop *block, const struct kiln_lig
     for (uint32_t i = 0; i < lighting->fire_count; i++)
         block->lights[block->counts.y++] = lighting->fire[i];
     block->counts.w = lighting->smoke ? 1u : 0u;
+    block->sun_color.w = lighting->sunlit ? 1.0f : 0.0f;
     memcpy(block->sun_to_grid, lighting->sun_to_grid, sizeof block->sun_to_grid);
     memcpy(block->sky_to_grid, lighting->sky_to_grid, sizeof block->sky_to_grid);
 }
@@ -152,10 +153,12 @@ static struct kiln_draw_backdrop make_block(const struct kiln_scene *scene, floa
     return block;
 }
 
-/* The camera's clock does not show in the backdrop; smoke does, whose grids are not compared. */
+/* The camera's clock does not show in the backdrop; smoke and spheres do, whose grids and lists are
+ * not compared. */
 static bool same_picture(const struct backdrop_inputs *a, const struct backdrop_inputs *b)
 {
-    return a->block.counts.w == 0 && memcmp(&a->block, &b->block, sizeof a->block) == 0 &&
+    return a->block.counts.w == 0 && a->shapes.counts.w == 0 &&
+           memcmp(&a->block, &b->block, sizeof a->block) == 0 &&
            memcmp(&a->shapes, &b->shapes, sizeof a->shapes) == 0 &&
            memcmp(a->view.world_to_view, b->view.world_to_view, sizeof a->view.world_to_view) ==
                0 &&
@@ -265,7 +268,6 @@ static bool cast(struct kiln_backdrop_stage *stage, const struct kiln_draw_shape
     if (!kiln_meshes_draw(stage->meshes, shapes, error))
         return false;
     bind_picture(KILN_UNIT_FLOOR, &stage->floor_image);
-    bind_picture(KILN_UNIT_SKY, &stage->sky_image);
     if (!kiln_framebuffer_bind(&stage->cast_framebuffer, error))
         return false;
     glDisable(GL_BLEND);
@@ -287,6 +289,11 @@ static bool cast(struct kiln_backdrop_stage *stage, const struct kiln_draw_shape
     return true;
 }
 
+struct kiln_mesh *const *kiln_backdrop_meshes(const struct kiln_backdrop_stage *stage)
+{
+    return kiln_meshes_loaded(stage->meshes);
+}
+
 bool kiln_backdrop_draw(struct kiln_backdrop_stage *stage, const struct kiln_view *view,
                         const struct kiln_lighting *lighting, struct kiln_error *error)
 {
@@ -297,6 +304,8 @@ bool kiln_backdrop_draw(struct kiln_backdrop_stage *stage, const struct kiln_vie
     if (stage->sky_image.gl)
         light_by_image(stage, now.shapes.sky_map.y, &now.block);
     add_lighting(&now.block, lighting);
+    now.shapes.counts.w = lighting->spheres.edge;
+    memcpy(now.shapes.world_to_bin, lighting->spheres.world_to_bin, sizeof now.shapes.world_to_bin);
     GLuint view_buffer = kiln_buffer_upload(&stage->view_buffer, &now.view, error);
     GLuint block_buffer = kiln_buffer_upload(&stage->block_buffer, &now.block, error);
     GLuint shapes_buffer = kiln_buffer_upload(&stage->shapes_buffer, &now.shapes, error);
@@ -305,6 +314,8 @@ bool kiln_backdrop_draw(struct kiln_backdrop_stage *stage, const struct kiln_vie
     glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_VIEW, view_buffer);
     glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_BACKDROP, block_buffer);
     glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_SHAPES, shapes_buffer);
+    bind_picture(KILN_UNIT_SKY, &stage->sky_image);
+    kiln_meshes_bind_shadows(stage->meshes);
     if (stage->has_drawn && same_picture(&now, &stage->drawn))
         return true;
 

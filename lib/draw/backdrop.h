@@ -16,8 +16,12 @@ struct kiln_backdrop_stage *kiln_backdrop_create(struct kiln_device *device,
                                                  struct kiln_error *error);
 void kiln_backdrop_destroy(struct kiln_backdrop_stage **stage);
 
+/* The scene's meshes in its order; they live as long as the stage. */
+struct kiln_mesh *const *kiln_backdrop_meshes(const struct kiln_backdrop_stage *stage);
+
 /* Draws it, unless the picture of the last call still holds. Also uploads the uniform block that
- * lights the particles (KILN_BIND_BACKDROP); the grids of its smoke must be bound. */
+ * lights the particles (KILN_BIND_BACKDROP), and leaves bound what shaders need besides that light
+ * surfaces like it does (shaders/draw/surface.glsl); what kiln_lighting_run binds must be bound. */
 bool kiln_backdrop_draw(struct kiln_backdrop_stage *stage, const struct kiln_view *view,
                         const struct kiln_lighting *lighting, struct kiln_error *error);
 

@@ -27,17 +27,24 @@ struct kiln_lighting_stage {
     struct kiln_smoke_shadow *shadow;
     float *depths; /* of the grids */
     GLuint textures[GRIDS];
+    struct kiln_sphere_shadow *spheres; /* NULL: there are none, here and below */
+    struct kiln_sun_shade *shade;
 };
+
+static bool any_light(const struct kiln_lighting_stage *stage)
+{
+    return stage->fire || stage->smoke || stage->spheres || stage->shade;
+}
 
 static bool allocate(struct kiln_lighting_stage *stage)
 {
-    if (stage->fire || stage->smoke)
+    if (any_light(stage))
         stage->table = calloc((size_t)KILN_LOOK_TEXELS, sizeof *stage->table);
     if (stage->smoke) {
         stage->shadow = kiln_smoke_shadow_create();
         stage->depths = malloc((size_t)GRIDS * CELLS * sizeof *stage->depths);
     }
-    return (stage->table || !(stage->fire || stage->smoke)) &&
+    return (stage->table || !any_light(stage)) &&
            ((stage->shadow && stage->depths) || !stage->smoke);
 }
 
@@ -67,6 +74,22 @@ static bool sun_exists(const struct kiln_scene *scene)
            kiln_scene_value_max(scene, &color->z) > 0.0f;
 }
 
+static bool create_shadows(struct kiln_lighting_stage *stage, struct kiln_error *error)
+{
+    const struct kiln_scene *scene = stage->scene;
+    if (kiln_shape_features(scene).spheres) {
+        stage->spheres = kiln_sphere_shadow_create(stage->device, scene, error);
+        if (!stage->spheres)
+            return false;
+    }
+    if (kiln_sun_shade_exists(scene)) {
+        stage->shade = kiln_sun_shade_create(stage->device, scene, error);
+        if (!stage->shade)
+            return false;
+    }
+    return true;
+}
+
 struct kiln_lighting_stage *kiln_lighting_create(struct kiln_device *device,
                                                  const struct kiln_scene *scene,
                                                  struct kiln_threads *threads,
@@ -83,6 +106,10 @@ struct kiln_lighting_stage *kiln_lighting_create(struct kiln_device *device,
                                           .fire = kiln_firelight_exists(scene),
                                           .smoke = kiln_smoke_exists(scene),
                                           .sun = sun_exists(scene)};
+    if (!create_shadows(stage, error)) {
+        kiln_lighting_destroy(&stage);
+        return NULL;
+    }
     if (!allocate(stage)) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "lighting: out of memory");
         kiln_lighting_destroy(&stage);
@@ -98,6 +125,8 @@ void kiln_lighting_destroy(struct kiln_lighting_stage **stage)
     if (!*stage)
         return;
     glDeleteTextures(GRIDS, (*stage)->textures); /* 0 is ignored */
+    kiln_sphere_shadow_destroy(&(*stage)->spheres);
+    kiln_sun_shade_destroy(&(*stage)->shade);
     free((*stage)->table);
     free((*stage)->depths);
     kiln_smoke_finish(&(*stage)->puffs);
@@ -148,12 +177,29 @@ static bool shade(struct kiln_lighting_stage *stage, const struct kiln_living_mo
     return true;
 }
 
+static bool cast_shadows(struct kiln_lighting_stage *stage, const struct kiln_living_moment *moment,
+                         struct kiln_lighting *lighting, struct kiln_error *error)
+{
+    if (stage->spheres &&
+        !kiln_sphere_shadow_run(stage->spheres, moment, &lighting->spheres, error))
+        return false;
+    if (stage->shade)
+        lighting->sunlit = kiln_sun_shade_run(stage->shade, moment, stage->threads, error);
+    return !stage->shade || lighting->sunlit;
+}
+
+void kiln_lighting_use_meshes(struct kiln_lighting_stage *stage, struct kiln_mesh *const *meshes)
+{
+    if (stage->shade)
+        kiln_sun_shade_use_meshes(stage->shade, meshes);
+}
+
 bool kiln_lighting_run(struct kiln_lighting_stage *stage, struct kiln_pool *pool,
                        const struct kiln_view *view, struct kiln_lighting *lighting,
                        struct kiln_error *error)
 {
     *lighting = (struct kiln_lighting){.smoke = false};
-    if (!stage->fire && !stage->smoke)
+    if (!any_light(stage))
         return true;
     const struct kiln_particle *records = kiln_buffer_host(&pool->records, KILN_READ, error);
     if (!records)
@@ -162,6 +208,8 @@ bool kiln_lighting_run(struct kiln_lighting_stage *stage, struct kiln_pool *pool
         kiln_looks_sample(stage->scene, view->clock.x, stage->table);
     stage->table_valid = true;
     const struct kiln_living_moment moment = {stage->scene, pool, records, view, stage->table};
+    if (!cast_shadows(stage, &moment, lighting, error))
+        return false;
     if (stage->fire)
         lighting->fire_count = kiln_firelight_gather(&moment, stage->threads, lighting->fire);
     if (stage->smoke && !shade(stage, &moment, lighting, error))

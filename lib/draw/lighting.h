@@ -1,11 +1,13 @@
 /* Stage 4, first: the light of a frame that follows from its particles: what fire sheds, what smoke
- * keeps off. Backdrop and particles are lit by it.
+ * and spheres keep off. Backdrop and particles are lit by it.
  */
 #ifndef KILN_DRAW_LIGHTING_H
 #define KILN_DRAW_LIGHTING_H
 
 #include "base/thread.h"
 #include "draw/living.h"
+#include "draw/sphere_shadow.h"
+#include "draw/sun_shade.h"
 
 /* Texture units of the smoke's grids (draw/smoke_shadow.glsl). */
 enum { KILN_UNIT_SMOKE_SUN = 4, KILN_UNIT_SMOKE_SKY = 5 };
@@ -16,6 +18,9 @@ struct kiln_lighting {
     struct kiln_draw_light fire[KILN_MAX_FIRE_LIGHTS];
     bool smoke;                            /* there is some: the rows mean something */
     float4 sun_to_grid[3], sky_to_grid[3]; /* world positions to 0..1 in the grids */
+    struct kiln_sphere_bins spheres;       /* opaque particles */
+    const float *sunlit; /* by slot: the part of the sun that a lit particle sees past the backdrop,
+                          * smoke apart; valid until the next run. NULL: all of it */
 };
 
 struct kiln_lighting_stage;
@@ -26,6 +31,10 @@ struct kiln_lighting_stage *kiln_lighting_create(struct kiln_device *device,
                                                  struct kiln_threads *threads,
                                                  struct kiln_error *error);
 void kiln_lighting_destroy(struct kiln_lighting_stage **stage);
+
+/* The scene's meshes (kiln_backdrop_meshes), which must outlive the use of the stage: before its
+ * first run. */
+void kiln_lighting_use_meshes(struct kiln_lighting_stage *stage, struct kiln_mesh *const *meshes);
 
 /* The light of the pool's particles at a view; leaves the grids bound to their units. */
 bool kiln_lighting_run(struct kiln_lighting_stage *stage, struct kiln_pool *pool,

@@ -253,6 +253,13 @@ static void bind_layers(GLenum unit, GLuint texture)
     glBindTexture(GL_TEXTURE_2D_ARRAY, texture);
 }
 
+void kiln_meshes_bind_shadows(const struct kiln_meshes *meshes)
+{
+    if (meshes->shadows)
+        bind_layers(KILN_UNIT_MESH_SHADOW, meshes->shadows);
+    glActiveTexture(GL_TEXTURE0);
+}
+
 bool kiln_meshes_draw(struct kiln_meshes *meshes, const struct kiln_draw_shapes *shapes,
                       struct kiln_error *error)
 {

@@ -16,6 +16,9 @@ void kiln_meshes_destroy(struct kiln_meshes **meshes);
 /* In the scene's order, for kiln_shapes_fill. */
 struct kiln_mesh *const *kiln_meshes_loaded(const struct kiln_meshes *meshes);
 
+/* Binds the texture that kiln_meshes_draw fills with what the sun sees to KILN_UNIT_MESH_SHADOW. */
+void kiln_meshes_bind_shadows(const struct kiln_meshes *meshes);
+
 /* Draws what the camera and the sun see of them and leaves that bound to KILN_UNIT_MESH_HITS and
  * KILN_UNIT_MESH_SHADOW; the blocks of the view, the backdrop and the shapes must be bound.
  * Changes the framebuffer, the viewport and the program. */

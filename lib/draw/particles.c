@@ -3,6 +3,7 @@
  * the rest (Heinz 2019, 3.2.2: one draw call, nothing stored but what changes). */
 #include "draw/particles.h"
 #include "draw/looks.h"
+#include "draw/sun_shade.h"
 
 #include "base/error.h"
 #include "gpu/program.h"
@@ -10,6 +11,7 @@
 
 #include <assert.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -122,11 +124,13 @@ struct kiln_particles_stage *kiln_particles_create(struct kiln_device *device,
         kiln_particles_destroy(&stage);
         return NULL;
     }
-    const struct kiln_program_params program = {
-        .vertex = "draw/particles.vert",
-        .geometry = "draw/particles.geom",
-        .fragment = "draw/particles.frag",
-        .defines = needs_shapes(scene) ? "#define SHAPES 1\n" : "#define SHAPES 0\n"};
+    char defines[64];
+    snprintf(defines, sizeof defines, "#define SHAPES %d\n%s", needs_shapes(scene) ? 1 : 0,
+             kiln_sun_shade_exists(scene) ? "#define SUN_SHADE 1\n" : "");
+    const struct kiln_program_params program = {.vertex = "draw/particles.vert",
+                                                .geometry = "draw/particles.geom",
+                                                .fragment = "draw/particles.frag",
+                                                .defines = defines};
     stage->program = kiln_program_create(device, &program, error);
     if (!stage->program) {
         kiln_particles_destroy(&stage);

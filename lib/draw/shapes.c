@@ -7,9 +7,9 @@
 #include <stdio.h>
 
 static_assert(sizeof(struct kiln_draw_mesh) == 96, "std140");
-static_assert(offsetof(struct kiln_draw_shapes, spheres) == 96, "std140");
-static_assert(offsetof(struct kiln_draw_shapes, meshes) == 96 + 80 * KILN_MAX_OBJECTS, "std140");
-static_assert(sizeof(struct kiln_draw_shapes) == 96 + 80 * KILN_MAX_OBJECTS + 96 * KILN_MAX_MESHES,
+static_assert(offsetof(struct kiln_draw_shapes, spheres) == 128, "std140");
+static_assert(offsetof(struct kiln_draw_shapes, meshes) == 128 + 80 * KILN_MAX_OBJECTS, "std140");
+static_assert(sizeof(struct kiln_draw_shapes) == 128 + 80 * KILN_MAX_OBJECTS + 96 * KILN_MAX_MESHES,
               "std140, and no padding, which the backdrop would compare");
 
 struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
@@ -26,6 +26,9 @@ struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
         features.round |= kind == KILN_OBJECT_SPHERE || kind == KILN_OBJECT_CYLINDER;
         features.meshes |= kind == KILN_OBJECT_MESH;
     }
+    for (uint32_t i = 0; i < scene->system_count; i++)
+        features.spheres |=
+            scene->systems[i].enabled && scene->systems[i].look.shape == KILN_SHAPE_SPHERE;
     return features;
 }
 
@@ -35,6 +38,7 @@ void kiln_shape_defines(const struct kiln_shape_features *features, int samples,
     snprintf(out, KILN_SHAPE_DEFINES, "#define SAMPLES %d\n%s%s%s%s%s%s", samples,
              features->round ? "#define ROUND 1\n" : "",
              features->meshes ? "#define MESHES 1\n" : "",
+             features->spheres ? "#define SPHERES 1\n" : "",
              features->floor_image ? "#define FLOOR_IMAGE 1\n" : "",
              features->floor_gloss ? "#define FLOOR_GLOSS 1\n" : "",
              features->sky_image ? "#define SKY_IMAGE 1\n" : "",
@@ -59,15 +63,14 @@ static float3 normalized(float3 v)
     return (float3){v.x / length, v.y / length, v.z / length};
 }
 
-static void fill_sun(const struct kiln_scene *scene, float time_s, struct kiln_draw_shapes *shapes)
+struct kiln_sun_frame kiln_sun_frame_at(const struct kiln_scene *scene, float time_s)
 {
     const struct kiln_backdrop *backdrop = &scene->backdrop;
     float3 sun = normalized(kiln_scene_value3(scene, &backdrop->sun_direction, time_s));
     float3 aside = fabsf(sun.y) < 0.9f ? (float3){0.0f, 1.0f, 0.0f} : (float3){1.0f, 0.0f, 0.0f};
     float3 right = normalized(cross(aside, sun));
     float radius = 0.5f * kiln_scene_value(scene, &backdrop->sun_size, time_s);
-    shapes->sun_right = with_w(right, tanf(radius));
-    shapes->sun_up = with_w(cross(sun, right), tanf(radius));
+    return (struct kiln_sun_frame){right, cross(sun, right), sun, tanf(radius)};
 }
 
 /* A wave of height h and length l is pi h / l steep; the shorter ones are as steep as the longest.
@@ -125,7 +128,9 @@ void kiln_shapes_fill(const struct kiln_scene *scene, struct kiln_mesh *const *m
                       struct kiln_draw_shapes *shapes)
 {
     *shapes = (struct kiln_draw_shapes){.counts = {0, 0, 0, 0}};
-    fill_sun(scene, time_s, shapes);
+    const struct kiln_sun_frame sun = kiln_sun_frame_at(scene, time_s);
+    shapes->sun_right = with_w(sun.right, sun.spread);
+    shapes->sun_up = with_w(sun.up, sun.spread);
     if (kiln_shape_features(scene).floor_gloss)
         fill_gloss(scene, time_s, shapes);
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {

@@ -6,9 +6,12 @@
 #include "scene/scene.h"
 #include "shared/shape_layout.h"
 
-/* What a scene needs of the shaders; sets of these choose a variant. */
+enum { KILN_SHAPE_DEFINES = 192 };
+
+/* What a scene needs of the shaders; sets of these choose a variant. spheres are particles that
+ * throw shadows. */
 struct kiln_shape_features {
-    bool round, meshes, floor_image, floor_gloss, sky_image, soft_sun;
+    bool round, meshes, spheres, floor_image, floor_gloss, sky_image, soft_sun;
 };
 struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene);
 
@@ -18,8 +21,15 @@ struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene);
 void kiln_shape_defines(const struct kiln_shape_features *features, int samples,
                         char out[KILN_SHAPE_DEFINES]);
 
+/* Unit vectors towards the sun and across, and the tangent of its radius. */
+struct kiln_sun_frame {
+    float3 right, up, towards;
+    float spread;
+};
+struct kiln_sun_frame kiln_sun_frame_at(const struct kiln_scene *scene, float time_s);
+
 /* Spheres, cylinders, meshes and the sun's frame at a clip time; meshes are in the scene's order.
- * The pictures' maps are left 0. */
+ * The pictures' maps and the bins of particles are left 0. */
 void kiln_shapes_fill(const struct kiln_scene *scene, struct kiln_mesh *const *meshes, float time_s,
                       struct kiln_draw_shapes *shapes);
 

@@ -5,6 +5,7 @@
 #include "draw/spheres.h"
 
 #include "base/error.h"
+#include "draw/shapes.h"
 #include "gpu/program.h"
 
 #include <stdlib.h>
@@ -22,11 +23,16 @@ struct kiln_spheres_stage {
     GLuint vertex_array;
 };
 
-static bool create_programs(struct kiln_spheres_stage *stage, struct kiln_error *error)
+static bool create_programs(struct kiln_spheres_stage *stage, const struct kiln_scene *scene,
+                            struct kiln_error *error)
 {
+    const struct kiln_shape_features features = kiln_shape_features(scene);
+    char defines[KILN_SHAPE_DEFINES];
+    kiln_shape_defines(&features, 1, defines);
     const struct kiln_program_params cast = {.vertex = "draw/spheres.vert",
                                              .geometry = "draw/spheres.geom",
-                                             .fragment = "draw/spheres.frag"};
+                                             .fragment = "draw/spheres.frag",
+                                             .defines = defines};
     const struct kiln_program_params resolve = {.vertex = "draw/fullscreen.vert",
                                                 .fragment = "draw/spheres_resolve.frag"};
     stage->cast = kiln_program_create(stage->device, &cast, error);
@@ -70,6 +76,7 @@ static bool create_samples(struct kiln_spheres_stage *stage, struct kiln_error *
 struct kiln_spheres_stage *kiln_spheres_create(struct kiln_device *device,
                                                struct kiln_particles_stage *particles,
                                                const struct kiln_spheres_targets *targets,
+                                               const struct kiln_scene *scene,
                                                struct kiln_error *error)
 {
     struct kiln_spheres_stage *stage = calloc(1, sizeof *stage);
@@ -79,10 +86,10 @@ struct kiln_spheres_stage *kiln_spheres_create(struct kiln_device *device,
     }
     *stage =
         (struct kiln_spheres_stage){.device = device, .particles = particles, .targets = *targets};
-    struct kiln_image *scene[] = {targets->color, targets->depth, targets->bloom};
+    struct kiln_image *written[] = {targets->color, targets->depth, targets->bloom};
     glGenVertexArrays(1, &stage->vertex_array);
-    if (!create_programs(stage, error) || !create_samples(stage, error) ||
-        !kiln_framebuffer_init(&stage->scene, device, scene, 3, error))
+    if (!create_programs(stage, scene, error) || !create_samples(stage, error) ||
+        !kiln_framebuffer_init(&stage->scene, device, written, 3, error))
         kiln_spheres_destroy(&stage);
     return stage;
 }

@@ -18,6 +18,7 @@ struct kiln_spheres_targets {
 struct kiln_spheres_stage *kiln_spheres_create(struct kiln_device *device,
                                                struct kiln_particles_stage *particles,
                                                const struct kiln_spheres_targets *targets,
+                                               const struct kiln_scene *scene,
                                                struct kiln_error *error);
 void kiln_spheres_destroy(struct kiln_spheres_stage **stage);
 

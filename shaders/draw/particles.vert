@@ -1,8 +1,10 @@
 /* One particle: all that its billboard needs, from the record, the look and the clock. SHAPES: of a
- * scene that has more than billboards parallel to the picture; others do not pay for it.
+ * scene that has more than billboards parallel to the picture; others do not pay for it, nor for
+ * SUN_SHADE, which objects of the backdrop throw.
  */
 // variant: SHAPES=0
 // variant: SHAPES=1
+// variant: SHAPES=1 SUN_SHADE=1
 #include "shared/draw_layout.h"
 
 #include "draw/record.glsl"
@@ -11,6 +13,10 @@ layout(std140, binding = KILN_BIND_BACKDROP) uniform backdrop_block { kiln_draw_
 
 #include "draw/billboard.glsl"
 #include "draw/smoke_shadow.glsl"
+
+#ifdef SUN_SHADE
+layout(binding = KILN_UNIT_SUN_SHADE) uniform sampler2D sun_shade;
+#endif
 
 layout(location = 0) out vec4 center; /* in view space; w: LOOK_* shape */
 layout(location = 1) out vec4 right;  /* half of the billboard's edge in view space; w: half of a */
@@ -42,7 +48,18 @@ void add_light(vec3 radiance, vec3 direction, plane p)
     particle.light_z.rgb += 0.5 * radiance * dot(v, p.normal);
 }
 
-void light_particle(float lit, vec3 position, plane p)
+/* The part of the sun that a particle sees past the backdrop. */
+float sunlight_past_backdrop(uint slot)
+{
+#ifdef SUN_SHADE
+    ivec2 at = ivec2(slot % uint(KILN_SUN_SHADE_ROW), slot / uint(KILN_SUN_SHADE_ROW));
+    if (backdrop.sun_color.w > 0.0)
+        return texelFetch(sun_shade, at, 0).r;
+#endif
+    return 1.0;
+}
+
+void light_particle(float lit, uint slot, vec3 position, plane p)
 {
     particle.light_0 = vec4(1.0 - lit);
     particle.light_x = particle.light_y = particle.light_z = vec4(0.0);
@@ -50,7 +67,7 @@ void light_particle(float lit, vec3 position, plane p)
         return;
     /* The horizon's light comes from all sides and crosses less of the smoke than that from above. */
     float sky = skylight_through_smoke(position);
-    float sun = sunlight_through_smoke(position);
+    float sun = sunlight_through_smoke(position) * sunlight_past_backdrop(slot);
     particle.light_0.rgb += backdrop.sky_horizon.rgb * lit * sqrt(sky);
     add_light(backdrop.sky_top.rgb * lit * sky, vec3(0.0, 1.0, 0.0), p);
     add_light(backdrop.sun_color.rgb * lit * sun / PI, backdrop.sun_direction.xyz, p);
@@ -190,7 +207,7 @@ void main()
                                   stream, 2.0 * half_size * pixels_per_m);
     particle.depth = vec4(depth, float(texture_cells.z), float(looks[system].flags.z),
                           length(center.xyz));
-    light_particle(cover.w, position, turned);
+    light_particle(cover.w, entry & 0xffffffu, position, turned);
 #if SHAPES
     if (form.x != 0u)
         make_plain(form, turn.zw * scale, 2.0 * half_size * pixels_per_m, moving, shape.y);

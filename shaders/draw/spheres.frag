@@ -1,9 +1,13 @@
 /* A sphere, cast by one ray a pixel and lit like the backdrop. Its silhouette is found at the four
  * samples of a pixel, whose nearest spheres a depth test keeps. */
+// variant: SPHERES=1
+// variant: SPHERES=1 ROUND=1 MESHES=1 SKY_IMAGE=1 SOFT_SUN=1
 #include "shared/draw_layout.h"
+#include "shared/shape_layout.h"
 
 layout(std140, binding = KILN_BIND_VIEW) uniform view_block { kiln_view view; };
 layout(std140, binding = KILN_BIND_BACKDROP) uniform backdrop_block { kiln_draw_backdrop backdrop; };
+layout(std140, binding = KILN_BIND_SHAPES) uniform shape_block { kiln_draw_shapes shapes; };
 layout(binding = 2) uniform sampler2D scene_depth;
 
 #include "draw/surface.glsl"

@@ -55,6 +55,9 @@ vec2 box_interval(int i, vec3 origin, vec3 inverse)
 #ifdef MESHES
 #include "draw/mesh_trace.glsl"
 #endif
+#ifdef SPHERES
+#include "draw/sphere_shadow.glsl"
+#endif
 #ifdef SKY_IMAGE
 #include "draw/sky_image.glsl"
 #endif
@@ -98,6 +101,9 @@ float sun_visibility(vec3 point, vec3 normal)
 #endif
 #ifdef MESHES
     visible *= mesh_sun_visibility(origin, normal);
+#endif
+#ifdef SPHERES
+    visible *= sphere_sun_visibility(origin);
 #endif
     return visible;
 }

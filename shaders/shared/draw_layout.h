@@ -30,6 +30,11 @@
 #define KILN_CELL_PLAIN 2u /* no texture: a rectangle... */
 #define KILN_CELL_DISC  3u /* ...or a disc, whose edges are as sharp as pixels allow */
 
+/* What each particle sees of the sun past the backdrop (lib/draw/sun_shade.h), by its slot: a
+ * texture unit, and the slots in a row of the texture. */
+#define KILN_UNIT_SUN_SHADE 10
+#define KILN_SUN_SHADE_ROW  1024
+
 /* The camera of a frame. World axes: metres, y up, right-handed; a view looks along its -z. Pixels
  * count from the top left corner, so y points down in clip space. */
 struct kiln_view {
@@ -52,7 +57,7 @@ struct kiln_draw_backdrop {
     float4 floor_color;   /* w: height, m */
     float4 floor_params;  /* 1 if there is one; edge of its squares, m; haze, 1/m; unused */
     float4 sun_direction; /* unit, towards the sun */
-    float4 sun_color;     /* irradiance */
+    float4 sun_color;     /* irradiance; w: 1 if each particle has a shade, or 0 */
     uint4 counts;         /* boxes; lights; 1: a transparent background; 1: smoke in the grids */
     float4 box_center[KILN_MAX_OBJECTS];
     float4 box_half[KILN_MAX_OBJECTS];

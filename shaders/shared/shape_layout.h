@@ -12,9 +12,11 @@
 /* Texture units of the backdrop. */
 #define KILN_UNIT_SURFACES    0
 #define KILN_UNIT_MESH_HITS   1 /* what the rays of a pixel hit: its centre, then its samples */
-#define KILN_UNIT_MESH_SHADOW 2 /* a layer a mesh, as the sun sees it */
 #define KILN_UNIT_FLOOR       3
 #define KILN_UNIT_SKY         6 /* 4 and 5 are those of smoke */
+#define KILN_UNIT_MESH_SHADOW 7 /* a layer a mesh, as the sun sees it */
+#define KILN_UNIT_SPHERE_BINS 8 /* particles that are spheres */
+#define KILN_UNIT_SPHERE_LIST 9
 
 /* Rays of a pixel at an edge: a rotated grid, in which no two share a row or a column. */
 #define KILN_EDGE_SAMPLES 4
@@ -25,6 +27,13 @@
 #define KILN_SHADOW_EDGE   1024
 #define KILN_SHADOW_MARGIN 0.01f /* border, in parts of the half edge */
 
+/* Spheres throw their shadows by lists: at most so many bins along each edge; entries in a row of
+ * the list's texture. A shadow is gone where the penumbra is so many times as wide as the sphere.
+ */
+#define KILN_SPHERE_BINS 128
+#define KILN_SPHERE_ROW  1024
+#define KILN_SPHERE_FADE 16.0f
+
 struct kiln_draw_mesh {
     float4 to_world[3]; /* rows */
     float4 color;
@@ -33,9 +42,10 @@ struct kiln_draw_mesh {
 };
 
 struct kiln_draw_shapes {
-    uint4 counts;       /* spheres, cylinders, meshes, unused */
-    float4 sun_right;   /* unit, across the sun's direction; w: tangent of the sun's radius */
-    float4 sun_up;      /* the same */
+    uint4 counts;           /* spheres, cylinders, meshes; bins of particles along an edge, or 0 */
+    float4 sun_right;       /* unit, across the sun's direction; w: tangent of the sun's radius */
+    float4 sun_up;          /* the same */
+    float4 world_to_bin[2]; /* rows: world positions to bins of particles */
     float4 floor_map;   /* repetitions a metre in x and z, texels a metre in x; time of waves, s */
     float4 floor_gloss; /* factor; roughness; length of the longest wave, m; slope of each */
     float4 sky_map;     /* turn, parts of a circle; factor; texels a radian; unused */

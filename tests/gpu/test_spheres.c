@@ -47,7 +47,7 @@ static void init(struct fixture *f, struct kiln_device *device, const char *cons
     kiln_image_init(&f->bloom, device, WIDTH, HEIGHT, GL_RGBA32F, "sphere bloom");
     const struct kiln_spheres_targets targets = {&d->backdrop_color, &d->backdrop_depth, &f->color,
                                                  &f->depth, &f->bloom};
-    f->stage = kiln_spheres_create(device, d->particles, &targets, &error);
+    f->stage = kiln_spheres_create(device, d->particles, &targets, d->scene, &error);
     if (!f->stage)
         fail_msg("%s", error.message);
 }

@@ -1,0 +1,32 @@
+/* The shadow of particles that are opaque spheres: lists of those that may lie between a place and
+ * the sun, by bins across the sun's direction. Shaders take the exact cover of each from them
+ * (shaders/draw/sphere_shadow.glsl), so that a shadow is as sharp as the sun is small.
+ */
+#ifndef KILN_DRAW_SPHERE_SHADOW_H
+#define KILN_DRAW_SPHERE_SHADOW_H
+
+#include "draw/living.h"
+#include "draw/shapes.h"
+#include "gpu/device.h"
+
+/* Of one frame. */
+struct kiln_sphere_bins {
+    uint32_t edge;          /* bins in each direction; 0: there is no sphere */
+    float4 world_to_bin[2]; /* rows: a world position to bins */
+};
+
+struct kiln_sphere_shadow;
+
+/* NULL with an error. The scene must outlive it. */
+struct kiln_sphere_shadow *kiln_sphere_shadow_create(struct kiln_device *device,
+                                                     const struct kiln_scene *scene,
+                                                     struct kiln_error *error);
+void kiln_sphere_shadow_destroy(struct kiln_sphere_shadow **shadow);
+
+/* Lists the living spheres, whatever the order in which they will be drawn, and leaves the lists
+ * bound to KILN_UNIT_SPHERE_BINS and KILN_UNIT_SPHERE_LIST. */
+bool kiln_sphere_shadow_run(struct kiln_sphere_shadow *shadow,
+                            const struct kiln_living_moment *moment, struct kiln_sphere_bins *bins,
+                            struct kiln_error *error);
+
+#endif

@@ -1,0 +1,187 @@
+/* On the host, a particle at a time: what an object hides of the sun has a closed form, except for
+ * a mesh, which has a map. What every technique of drawing reads is the same number. */
+#include "draw/sun_shade.h"
+
+#include "base/error.h"
+#include "draw/sun_mesh.h"
+
+#include <stdlib.h>
+
+enum { GRAIN = 512 }; /* slots that a worker takes at a time */
+
+struct kiln_sun_shade {
+    struct kiln_device *device;
+    const struct kiln_scene *scene;
+    struct kiln_mesh *const *meshes;
+    struct kiln_sun_mesh *maps; /* a mesh each */
+    struct kiln_sun_frame sun;  /* these are of the frame at hand */
+    struct kiln_draw_shapes shapes;
+    uint32_t box_count;
+    float3 box_center[KILN_MAX_OBJECTS], box_half[KILN_MAX_OBJECTS];
+    float *visible; /* rows of KILN_SUN_SHADE_ROW slots */
+    size_t rows;
+    GLuint texture;
+};
+
+static bool is_shaded(const struct kiln_scene *scene, uint32_t system)
+{
+    const struct kiln_system *s = &scene->systems[system];
+    return s->enabled && s->look.shape != KILN_SHAPE_SPHERE &&
+           kiln_scene_value_max(scene, &s->look.lit) > 0.0f;
+}
+
+bool kiln_sun_shade_exists(const struct kiln_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        if (is_shaded(scene, i))
+            return scene->backdrop.object_count > 0;
+    }
+    return false;
+}
+
+struct kiln_sun_shade *kiln_sun_shade_create(struct kiln_device *device,
+                                             const struct kiln_scene *scene,
+                                             struct kiln_error *error)
+{
+    size_t meshes = 0;
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++)
+        meshes += scene->backdrop.objects[i].kind == KILN_OBJECT_MESH;
+    struct kiln_sun_shade *shade = calloc(1, sizeof *shade);
+    if (shade)
+        shade->maps = calloc(meshes ? meshes : 1, sizeof *shade->maps);
+    if (!shade || !shade->maps) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "shade of particles: out of memory");
+        free(shade);
+        return NULL;
+    }
+    shade->device = device;
+    shade->scene = scene;
+    glGenTextures(1, &shade->texture);
+    glActiveTexture(GL_TEXTURE0 + KILN_UNIT_SUN_SHADE);
+    glBindTexture(GL_TEXTURE_2D, shade->texture);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glActiveTexture(GL_TEXTURE0);
+    kiln_device_label(device, GL_TEXTURE, shade->texture, "sun on particles");
+    return shade;
+}
+
+void kiln_sun_shade_destroy(struct kiln_sun_shade **shade)
+{
+    if (!*shade)
+        return;
+    glDeleteTextures(1, &(*shade)->texture);
+    free((*shade)->maps);
+    free((*shade)->visible);
+    free(*shade);
+    *shade = NULL;
+}
+
+void kiln_sun_shade_use_meshes(struct kiln_sun_shade *shade, struct kiln_mesh *const *meshes)
+{
+    shade->meshes = meshes;
+}
+
+static float3 xyz(float4 v)
+{
+    return (float3){v.x, v.y, v.z};
+}
+
+static void place_objects(struct kiln_sun_shade *shade, float time_s)
+{
+    const struct kiln_scene *scene = shade->scene;
+    shade->sun = kiln_sun_frame_at(scene, time_s);
+    kiln_shapes_fill(scene, shade->meshes, time_s, &shade->shapes);
+    shade->box_count = 0;
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        const struct kiln_object *object = &scene->backdrop.objects[i];
+        if (object->kind != KILN_OBJECT_BOX)
+            continue;
+        float3 size = kiln_scene_value3(scene, &object->size, time_s);
+        uint32_t k = shade->box_count++;
+        shade->box_center[k] = kiln_scene_value3(scene, &object->center, time_s);
+        shade->box_half[k] = (float3){0.5f * size.x, 0.5f * size.y, 0.5f * size.z};
+    }
+    for (uint32_t i = 0; i < shade->shapes.counts.z; i++)
+        kiln_sun_mesh_update(&shade->maps[i], shade->meshes[i], &shade->shapes.meshes[i],
+                             &shade->sun);
+}
+
+/* One whose particles are at hand. */
+struct seen_system {
+    const struct kiln_sun_shade *shade;
+    struct kiln_living_system system;
+    float *visible; /* from its slots */
+};
+
+/* As with the backdrop's surfaces, what two objects let through is multiplied. */
+static float look_at_sun(const struct kiln_sun_shade *shade, const struct kiln_living *particle)
+{
+    const struct kiln_draw_shapes *shapes = &shade->shapes;
+    const struct kiln_sun_frame *sun = &shade->sun;
+    const struct kiln_ball ball = {particle->position, particle->radius};
+    float visible = 1.0f;
+    for (uint32_t i = 0; i < shade->box_count; i++)
+        visible *= 1.0f - kiln_box_sun_cover(shade->box_center[i], shade->box_half[i], ball, sun);
+    for (uint32_t i = 0; i < shapes->counts.x; i++)
+        visible *=
+            1.0f - kiln_sphere_sun_cover(xyz(shapes->spheres[i]), shapes->spheres[i].w, ball, sun);
+    for (uint32_t i = 0; i < shapes->counts.y; i++)
+        visible *= 1.0f - kiln_cylinder_sun_cover(xyz(shapes->cylinders[i]), shapes->cylinders[i].w,
+                                                  xyz(shapes->cylinder_axis[i]),
+                                                  shapes->cylinder_axis[i].w, ball, sun);
+    for (uint32_t i = 0; i < shapes->counts.z; i++)
+        visible *= 1.0f - kiln_sun_mesh_cover(&shade->maps[i], ball);
+    return visible;
+}
+
+static void look_from_slots(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct seen_system *seen = context;
+    struct kiln_living particle;
+    for (size_t slot = begin; slot < end; slot++) {
+        if (kiln_living_at(&seen->system, (uint32_t)slot, &particle))
+            seen->visible[slot] = look_at_sun(seen->shade, &particle);
+    }
+}
+
+/* Room for all slots, whose number does not change. */
+static bool make_room(struct kiln_sun_shade *shade, uint32_t slots)
+{
+    if (shade->visible)
+        return true;
+    shade->rows = (slots + KILN_SUN_SHADE_ROW - 1) / KILN_SUN_SHADE_ROW;
+    shade->visible = calloc(shade->rows * KILN_SUN_SHADE_ROW, sizeof *shade->visible);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_R32F, KILN_SUN_SHADE_ROW, (GLsizei)shade->rows, 0, GL_RED,
+                 GL_FLOAT, NULL);
+    return shade->visible;
+}
+
+const float *kiln_sun_shade_run(struct kiln_sun_shade *shade,
+                                const struct kiln_living_moment *moment,
+                                struct kiln_threads *threads, struct kiln_error *error)
+{
+    glActiveTexture(GL_TEXTURE0 + KILN_UNIT_SUN_SHADE);
+    glBindTexture(GL_TEXTURE_2D, shade->texture);
+    bool room = make_room(shade, moment->pool->slot_count);
+    if (room) {
+        place_objects(shade, moment->view->clock.x);
+        for (uint32_t i = 0; i < shade->scene->system_count; i++) {
+            struct seen_system seen = {.shade = shade};
+            if (!is_shaded(shade->scene, i))
+                continue;
+            seen.system = kiln_living_system(moment, i);
+            seen.visible = shade->visible + moment->pool->systems[i].base;
+            kiln_threads_for(threads, seen.system.used, GRAIN, look_from_slots, &seen);
+        }
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, KILN_SUN_SHADE_ROW, (GLsizei)shade->rows, GL_RED,
+                        GL_FLOAT, shade->visible);
+    }
+    glActiveTexture(GL_TEXTURE0);
+    if (!room) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "shade of particles: out of memory");
+        return NULL;
+    }
+    return shade->visible;
+}

@@ -1,0 +1,38 @@
+/* The sun's light that particles let through which are opaque spheres (lib/draw/sphere_shadow.h). */
+layout(binding = KILN_UNIT_SPHERE_BINS) uniform usampler2D sphere_bins;
+layout(binding = KILN_UNIT_SPHERE_LIST) uniform sampler2D sphere_list;
+
+/* How much of the sun's disc, which a point sees through a disc as wide as the penumbra, a sphere
+ * hides from it: two discs, within 3 % of their exact common part. */
+float sphere_cover(vec4 sphere, vec3 origin, vec3 sun, float spread)
+{
+    vec3 towards = sphere.xyz - origin;
+    float t = dot(towards, sun);
+    float across = length(towards - sun * t);
+    float radius = max(t * spread, 1e-5);
+    float smaller = min(radius, sphere.w), ratio = smaller / max(radius, sphere.w);
+    float x = clamp((radius + sphere.w - across) / (2.0 * smaller), 0.0, 1.0);
+    float large_over_small = x * x * (3.0 - 2.0 * x), like_over_like = x * (0.55 + 0.45 * x);
+    float part = mix(large_over_small, like_over_like, ratio);
+    float most = smaller / radius;
+    float fade = clamp(2.0 - 2.0 * radius / (sphere.w * KILN_SPHERE_FADE), 0.0, 1.0);
+    return t > 0.0 ? part * most * most * fade : 0.0;
+}
+
+float sphere_sun_visibility(vec3 origin)
+{
+    vec4 p = vec4(origin, 1.0);
+    vec2 at = vec2(dot(shapes.world_to_bin[0], p), dot(shapes.world_to_bin[1], p));
+    float edge = float(shapes.counts.w);
+    uvec2 bin = texelFetch(sphere_bins, ivec2(clamp(at, 0.0, max(edge - 1.0, 0.0))), 0).xy;
+    bool inside = all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(edge)));
+    int count = inside ? int(bin.y) : 0;
+    float visible = 1.0;
+    for (int i = 0; i < count; i++) {
+        int entry = int(bin.x) + i;
+        vec4 sphere =
+            texelFetch(sphere_list, ivec2(entry % KILN_SPHERE_ROW, entry / KILN_SPHERE_ROW), 0);
+        visible *= 1.0 - sphere_cover(sphere, origin, backdrop.sun_direction.xyz, shapes.sun_right.w);
+    }
+    return visible;
+}
