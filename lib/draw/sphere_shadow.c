@@ -164,7 +164,7 @@ static struct range bins_of(const struct layout *layout, const struct sphere *s)
 /* Bins so large that their lists are not too long in all; returns the entries. */
 static size_t choose_bins(const struct kiln_sphere_shadow *shadow, struct layout *layout)
 {
-    for (;; layout->edge /= 2, layout->size *= 2.0f) {
+    for (;;) {
         size_t entries = 0;
         for (size_t i = 0; i < shadow->count; i++) {
             struct range r = bins_of(layout, &shadow->spheres[i]);
@@ -172,6 +172,8 @@ static size_t choose_bins(const struct kiln_sphere_shadow *shadow, struct layout
         }
         if (entries <= MOST_ENTRIES || layout->edge == 1)
             return entries;
+        layout->edge /= 2;
+        layout->size *= 2.0f;
     }
 }
 

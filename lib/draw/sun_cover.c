@@ -47,6 +47,28 @@ static struct slabs cross_slabs(float3 center, float3 half_size, float3 from, fl
     return s;
 }
 
+/* How much edges of two directions look like one: 1 where they are parallel. */
+static float likeness(float a, float b)
+{
+    float cosine = a * b / sqrtf(fmaxf((1.0f - a * a) * (1.0f - b * b), 1e-12f));
+    float square = fminf(cosine * cosine, 1.0f);
+    return square * square * square * square;
+}
+
+static float both(float a, float b, float alike)
+{
+    return a * b + (fminf(a, b) - a * b) * alike;
+}
+
+/* Of strips whose edges lie along the axes. At a corner of the outline two covers are multiplied;
+ * but a sun across an axis sees two of the strips end at the same edge. */
+static float common_cover(const float covers[3], float3 towards)
+{
+    float yz = likeness(towards.y, towards.z), xz = likeness(towards.x, towards.z);
+    float first = both(covers[0], covers[1], likeness(towards.x, towards.y));
+    return both(first, covers[2], fmaxf(xz, yz));
+}
+
 /* Its outline is the common part of three strips (sun_cover.glsl). Beside it, the way behind is
  * taken at its edge. */
 float kiln_box_sun_cover(float3 center, float3 half_size, struct kiln_ball ball,
@@ -59,22 +81,27 @@ float kiln_box_sun_cover(float3 center, float3 half_size, struct kiln_ball ball,
     if (ahead < -size || away > size + penumbra(ahead + size, ball, sun))
         return 0.0f;
     struct slabs s = cross_slabs(center, half_size, ball.center, sun->towards);
-    float cover = 1.0f, outside = 0.0f;
-    for (int a = 0; a < 3; a++) {
-        int b = (a + 1) % 3;
+    float covers[3], outside = 0.0f;
+    for (int i = 0; i < 3; i++) {
+        int a = (i + 1) % 3, b = (i + 2) % 3; /* its edges lie along axis i */
         float qa = s.inverse[a] * s.inverse[a], qb = s.inverse[b] * s.inverse[b], sum = qa + qb;
         float scale = 1.0f / sqrtf(sum);
         float one = (s.out[b] - s.in[a]) * scale, other = (s.out[a] - s.in[b]) * scale;
-        float along = (s.in[a] * qb + s.in[b] * qa) / sum;
-        cover *= strip_cover(one, other, penumbra(along, ball, sun));
+        float one_at = (s.in[a] * qb + s.out[b] * qa) / sum;
+        float other_at = (s.in[b] * qa + s.out[a] * qb) / sum;
+        covers[i] = fmaxf(disc_cover(one / penumbra(one_at, ball, sun)) +
+                              disc_cover(other / penumbra(other_at, ball, sun)) - 1.0f,
+                          0.0f);
         outside = fmaxf(outside, -fminf(one, other));
     }
-    if (outside > 0.0f) {
-        float step = fminf(1.001f * outside / fmaxf(away, 1e-6f), 1.0f);
-        float3 edge = float3_add_scaled(ball.center, across, step);
-        s = cross_slabs(center, half_size, edge, sun->towards);
+    float cover = common_cover(covers, sun->towards);
+    float way = INFINITY, step = outside + 1e-3f * size;
+    for (int i = 0; i < 3; i++) {
+        float climb = 1.0f / s.inverse[i];
+        way = fminf(way, s.out[i] +
+                             step * sqrtf(fmaxf(1.0f - climb * climb, 0.0f)) * fabsf(s.inverse[i]));
     }
-    return cover * behind(fminf(fminf(s.out[0], s.out[1]), s.out[2]), ball);
+    return cover * behind(way, ball);
 }
 
 float kiln_sphere_sun_cover(float3 center, float radius, struct kiln_ball ball,
@@ -96,8 +123,10 @@ float kiln_cylinder_sun_cover(float3 center, float radius, float3 axis, float ha
 {
     float3 to = float3_sub(center, ball.center);
     float climb = float3_dot(axis, sun->towards);
-    float slant = sqrtf(fmaxf(1.0f - climb * climb, 1e-8f));
-    float3 right = float3_scale(float3_cross(axis, sun->towards), 1.0f / slant);
+    float slant = sqrtf(fmaxf(1.0f - climb * climb, 1e-6f));
+    /* Seen along its axis, it is round. */
+    float3 right =
+        slant > 1e-3f ? float3_scale(float3_cross(axis, sun->towards), 1.0f / slant) : sun->right;
     float3 up = float3_cross(sun->towards, right);
     float x = float3_dot(to, right), y = float3_dot(to, up), ahead = float3_dot(to, sun->towards);
     float inside = sqrtf(fmaxf(radius * radius - x * x, 0.0f));

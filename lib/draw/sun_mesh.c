@@ -79,10 +79,10 @@ static void draw_triangle(struct kiln_sun_mesh *map, const struct corner c[3])
 static void average_levels(float *cells)
 {
     const float *fine = cells;
-    for (int edge = EDGE / 2; edge > 0; edge /= 2) {
-        float *coarse = cells += (size_t)(4 * edge * edge);
-        for (int i = 0; i < edge * edge; i++) {
-            const float *from = fine + (size_t)(4 * edge * (i / edge) + 2 * (i % edge));
+    for (size_t edge = EDGE / 2; edge > 0; edge /= 2) {
+        float *coarse = cells += 4 * edge * edge;
+        for (size_t i = 0; i < edge * edge; i++) {
+            const float *from = fine + 4 * edge * (i / edge) + 2 * (i % edge);
             coarse[i] = 0.25f * (from[0] + from[1] + from[2 * edge] + from[2 * edge + 1]);
         }
         fine = coarse;
@@ -137,7 +137,7 @@ float kiln_sun_mesh_cover(const struct kiln_sun_mesh *map, struct kiln_ball ball
         return 0.0f;
     size_t first = 0;
     int edge = EDGE;
-    for (; edge > 1 && (float)(2 * EDGE / edge) <= width; edge /= 2)
+    for (; edge > 1 && (float)(4 * EDGE / edge) <= width; edge /= 2)
         first += (size_t)(edge * edge);
     float cover = 0.0f, scale = (float)edge / EDGE, aside = 0.5f * fmaxf(width, 1.0f);
     for (int i = 0; i < 4; i++) {

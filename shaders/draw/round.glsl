@@ -136,8 +136,9 @@ float round_sun_visibility(vec3 origin)
         float halves = shapes.cylinder_axis[i].w, radius = shapes.cylinders[i].w;
         vec3 towards = shapes.cylinders[i].xyz - origin;
         float climb = dot(axis, sun);
-        float slant = sqrt(max(1.0 - climb * climb, 1e-8));
-        vec3 right = cross(axis, sun) / slant; /* its silhouette is a band along `up`, with round ends */
+        float slant = sqrt(max(1.0 - climb * climb, 1e-6));
+        /* Its silhouette is a band along `up`, with round ends; seen along its axis, it is round. */
+        vec3 right = slant > 1e-3 ? cross(axis, sun) / slant : shapes.sun_right.xyz;
         vec3 up = cross(sun, right);
         float x = dot(towards, right), y = dot(towards, up);
         float along = clamp(-y / (slant * (dot(axis, up) < 0.0 ? -1.0 : 1.0)), -halves, halves);

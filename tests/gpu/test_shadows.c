@@ -1,0 +1,322 @@
+/* Shadows of particles and on particles: of spheres on the floor and on each other, against rays
+ * that are counted; of a box on spheres and on smoke. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <unistd.h>
+
+#include "draw/lighting.h"
+#include "draw/spheres.h"
+#include "support/drawing.h"
+
+enum { WIDTH = 160, HEIGHT = 90, STEP = 30 };
+
+/* The floor from above, in nothing but sunlight: white, of an irradiance of pi. */
+#define HEAD                                                                                       \
+    "kiln: 1\n"                                                                                    \
+    "output: {size: [160, 90], fps: 60}\n"                                                         \
+    "camera: {position: [0, 8, 0.1], target: [0, 0, 0], fov: 40 deg}\n"
+#define SUN                                                                                        \
+    "  haze: 0\n"                                                                                  \
+    "  sky: {top: 0, horizon: 0}\n"                                                                \
+    "  floor: {color: 1}\n"                                                                        \
+    "  sun: {direction: [-3, 4, 0], color: 3.14159265}\n"
+#define SPHERES                                                                                    \
+    "systems:\n"                                                                                   \
+    "  a:\n"                                                                                       \
+    "    emit: {life: 1 s}\n"                                                                      \
+    "    look: {shape: sphere, size: 0.6 m, color: 1, lit: 1, fade: {in: 0, out: 0}}\n"
+
+static const double RADIUS = 0.3;
+static const vec TOWARDS = {-0.6, 0.8, 0};
+
+struct fixture {
+    struct drawing drawing;
+    struct kiln_threads *threads;
+    struct kiln_lighting_stage *lighting;
+    struct kiln_spheres_stage *spheres; /* NULL: the particles have another shape */
+    struct kiln_image color, depth, bloom;
+};
+
+static void init(struct fixture *f, struct kiln_device *device, const char *text,
+                 const char *override)
+{
+    struct kiln_error error = {0};
+    struct drawing *d = &f->drawing;
+    *f = (struct fixture){.spheres = NULL};
+    drawing_init(d, device, text, &override, override ? 1 : 0);
+    kiln_image_init(&f->color, device, WIDTH, HEIGHT, GL_RGBA32F, "scene");
+    kiln_image_init(&f->depth, device, WIDTH, HEIGHT, GL_R32F, "scene depth");
+    kiln_image_init(&f->bloom, device, WIDTH, HEIGHT, GL_RGBA32F, "sphere bloom");
+    const struct kiln_spheres_targets targets = {&d->backdrop_color, &d->backdrop_depth, &f->color,
+                                                 &f->depth, &f->bloom};
+    f->threads = kiln_threads_create(2);
+    assert_non_null(f->threads);
+    f->lighting = kiln_lighting_create(device, d->scene, f->threads, &error);
+    if (!f->lighting)
+        fail_msg("%s", error.message);
+    kiln_lighting_use_meshes(f->lighting, kiln_backdrop_meshes(d->backdrop));
+    if (d->scene->systems[0].look.shape != KILN_SHAPE_SPHERE)
+        return;
+    f->spheres = kiln_spheres_create(device, d->particles, &targets, d->scene, &error);
+    if (!f->spheres)
+        fail_msg("%s", error.message);
+}
+
+static void finish(struct fixture *f)
+{
+    kiln_spheres_destroy(&f->spheres);
+    kiln_lighting_destroy(&f->lighting);
+    kiln_threads_destroy(&f->threads);
+    kiln_image_finish(&f->color);
+    kiln_image_finish(&f->depth);
+    kiln_image_finish(&f->bloom);
+    drawing_finish(&f->drawing);
+}
+
+/* The backdrop and the particles at these places; the pixels are in drawing.backdrop_color, and
+ * color or drawing.color. */
+static void draw(struct fixture *f, const vec *places, uint32_t count)
+{
+    struct kiln_error error = {0};
+    struct drawing *d = &f->drawing;
+    struct kiln_particle particles[DRAWING_MOST];
+    for (uint32_t i = 0; i < count; i++) {
+        const float3 at = {(float)places[i].x, (float)places[i].y, (float)places[i].z};
+        particles[i] = drawing_particle(i, at, (float3){0.0f, 0.0f, 0.0f});
+    }
+    drawing_place(d, particles, count, STEP);
+    d->pool.systems[0].next_serial = count;
+    struct kiln_lighting lighting;
+    if (!kiln_lighting_run(f->lighting, &d->pool, &d->view, &lighting, &error) ||
+        !kiln_backdrop_draw(d->backdrop, &d->view, &lighting, &error))
+        fail_msg("%s", error.message);
+    if (!f->spheres)
+        drawing_run(d, count, 100.0f);
+    else if (!kiln_spheres_draw(f->spheres, &d->pool, &d->entries, count, d->view.clock.x, &error))
+        fail_msg("%s", error.message);
+    assert_non_null(kiln_image_host(&d->backdrop_color, KILN_READ, &error));
+    assert_non_null(kiln_image_host(&f->color, KILN_READ, &error));
+    assert_non_null(kiln_image_host(&f->depth, KILN_READ, &error));
+}
+
+/* Where the ray through a pixel's middle meets the floor. */
+static vec floor_at(const struct drawing *d, int x, int y)
+{
+    vec eye = drawing_eye(d), ray = drawing_ray(d, x + 0.5, y + 0.5);
+    return vec_add(eye, ray, -eye.y / ray.y);
+}
+
+/* The part of the sun's disc, of an angular radius, that a point sees past spheres. */
+static double sun_seen(vec point, const vec *places, uint32_t count, double sun_radius)
+{
+    enum { RAYS = 300 };
+    const vec right = {0.8, 0.6, 0}, up = {0, 0, 1};
+    int seen = 0;
+    for (int i = 0; i < RAYS; i++) {
+        double r = tan(sun_radius) * sqrt((i + 0.5) / RAYS), turn = 2.39996323 * i;
+        vec ray = vec_unit(vec_add(vec_add(TOWARDS, right, r * cos(turn)), up, r * sin(turn)));
+        bool hidden = false;
+        for (uint32_t k = 0; k < count && !hidden; k++) {
+            vec to = vec_add(places[k], point, -1);
+            double t = vec_dot(to, ray);
+            vec away = vec_add(to, ray, -t);
+            hidden = t > 0 && vec_dot(away, away) < RADIUS * RADIUS;
+        }
+        seen += !hidden;
+    }
+    return (double)seen / RAYS;
+}
+
+/* Compares the floor with the rays; returns the pixels in penumbra. */
+static int check_floor(const struct fixture *f, const vec *places, uint32_t count,
+                       double sun_radius, double tolerance)
+{
+    const struct drawing *d = &f->drawing;
+    int dark = 0, partly = 0, compared = 0, wrong = 0;
+    for (int y = 0; y < HEIGHT; y++) {
+        for (int x = 0; x < WIDTH; x++) {
+            vec at = floor_at(d, x, y);
+            double expected = sun_seen(at, places, count, sun_radius);
+            double found = (double)d->backdrop_color.host[4 * (y * WIDTH + x)] / 0.8;
+            partly += found > 0.05 && found < 0.95;
+            dark += found < 0.05;
+            bool even = true; /* a sharp edge within the pixel has four rays of its own */
+            for (int k = 0; k < 4; k++) {
+                vec aside = {at.x + (k & 1 ? 0.05 : -0.05), 0, at.z + (k & 2 ? 0.05 : -0.05)};
+                even = even && fabs(sun_seen(aside, places, count, sun_radius) - expected) < 0.5;
+            }
+            if (!even)
+                continue;
+            compared++;
+            wrong += fabs(found - expected) > tolerance;
+        }
+    }
+    if (wrong > WIDTH * HEIGHT / 1000) /* gaps between shadows that are finer than pixels */
+        fail_msg("%d of %d pixels are wrong", wrong, compared);
+    assert_true(compared > WIDTH * HEIGHT * 3 / 4);
+    assert_true(dark > 20 || sun_radius > 0.1);
+    return partly;
+}
+
+/* 2 m above the floor its shadow lies 1.5 m aside; the penumbra is as wide as the sun. */
+static void the_shadow_of_a_sphere_lies_where_geometry_says(void **state)
+{
+    static const char *const sizes[] = {NULL, "backdrop.sun.size=4 deg", "backdrop.sun.size=12 deg",
+                                        "backdrop.sun.size=24 deg"};
+    static const double degrees[] = {0, 4, 12, 24};
+    const vec place = {0, 2, 0};
+    int penumbra[4];
+    for (int i = 0; i < 4; i++) {
+        struct fixture f;
+        init(&f, *state, HEAD "backdrop:\n" SUN SPHERES, sizes[i]);
+        draw(&f, &place, 1);
+        penumbra[i] = check_floor(&f, &place, 1, degrees[i] / 2 * acos(-1.0) / 180, 0.06);
+        /* In the middle of the shadow, and where the sphere itself stands over the floor. */
+        vec middle = drawing_project(&f.drawing, (vec){1.5, 0, 0});
+        size_t pixel = (size_t)middle.y * WIDTH + (size_t)middle.x;
+        assert_true(degrees[i] > 20 || f.drawing.backdrop_color.host[4 * pixel] < 0.01f);
+        finish(&f);
+    }
+    assert_true(penumbra[1] > penumbra[0] && penumbra[2] > 2 * penumbra[1]);
+    assert_true(penumbra[3] > penumbra[2]);
+}
+
+/* So many that bins have several, whatever their order; where two overlap, their covers are
+ * multiplied, which a small sun hardly shows. */
+static void spheres_of_a_cloud_all_throw_shadows(void **state)
+{
+    struct fixture f;
+    init(&f, *state, HEAD "backdrop:\n" SUN SPHERES, "backdrop.sun.size=0.2 deg");
+    vec places[24];
+    srand(3);
+    for (int i = 0; i < 24; i++)
+        places[i] =
+            (vec){rand() % 600 * 0.01 - 3.5, 0.4 + rand() % 200 * 0.01, rand() % 400 * 0.01 - 2};
+    draw(&f, places, 24);
+    check_floor(&f, places, 24, 0.1 * acos(-1.0) / 180, 0.25);
+    float *before = malloc(WIDTH * HEIGHT * 4 * sizeof *before);
+    assert_non_null(before);
+    memcpy(before, f.drawing.backdrop_color.host, WIDTH * HEIGHT * 4 * sizeof *before);
+    draw(&f, places, 1); /* the picture is not kept */
+    check_floor(&f, places, 1, 0.1 * acos(-1.0) / 180, 0.25);
+    draw(&f, places, 24);
+    assert_memory_equal(before, f.drawing.backdrop_color.host, WIDTH * HEIGHT * 4 * sizeof *before);
+    free(before);
+    finish(&f);
+}
+
+/* Light of the pixel that shows the top of the sphere at a place. */
+static double light_of(const struct fixture *f, vec place)
+{
+    vec at = drawing_project(&f->drawing, place);
+    size_t pixel = (size_t)at.y * WIDTH + (size_t)at.x;
+    assert_true((double)f->depth.host[pixel] < at.z); /* it is there */
+    return (double)f->color.host[4 * pixel];
+}
+
+/* The second is in the shadow of the first, the third beside it. */
+static void spheres_shade_each_other(void **state)
+{
+    const vec places[] = {{-0.75, 2, 0}, {0.375, 0.5, 0}, {0.375, 0.5, 1.5}};
+    struct fixture f;
+    init(&f, *state, HEAD "backdrop:\n" SUN SPHERES, NULL);
+    draw(&f, places, 3);
+    assert_true(light_of(&f, places[0]) > 0.6 && light_of(&f, places[2]) > 0.6);
+    assert_true(light_of(&f, places[1]) < 0.01);
+    finish(&f);
+}
+
+/* Behind each kind of object, and beside it. */
+static void the_backdrop_shades_spheres(void **state)
+{
+    static const char *const objects[] = {
+        "backdrop.objects=[{box: {center: [-1, 1, 0], size: [0.4, 2, 1]}}]",
+        "backdrop.objects=[{sphere: {center: [-1, 1.7, 0], radius: 0.8 m}}]",
+        "backdrop.objects=[{cylinder: {center: [-1, 1, 0], radius: 0.5 m, height: 2 m}}]"};
+    const vec places[] = {{-0.3, 0.5, 0}, {-0.3, 0.5, 2}};
+    for (int i = 0; i < 3; i++) {
+        struct fixture f;
+        init(&f, *state, HEAD "backdrop:\n" SUN SPHERES, objects[i]);
+        draw(&f, places, 2);
+        assert_true(light_of(&f, places[0]) < 0.01);
+        assert_true(light_of(&f, places[1]) > 0.6);
+        finish(&f);
+    }
+}
+
+/* A sun that is no point, along its axis: the floor around is light. */
+static void a_cylinder_is_round_from_above(void **state)
+{
+    static const char text[] =
+        HEAD "backdrop:\n"
+             "  haze: 0\n"
+             "  sky: {top: 0, horizon: 0}\n"
+             "  floor: {color: 1}\n"
+             "  sun: {direction: [0, 1, 0], color: 3.14159265, size: 2 deg}\n"
+             "  objects:\n"
+             "    - cylinder: {center: [0, 0.5, 0], radius: 0.7 m, height: 0.4 m}\n" SPHERES;
+    struct fixture f;
+    init(&f, *state, text, NULL);
+    draw(&f, NULL, 0);
+    for (int i = 0; i < 8; i++) {
+        double turn = 0.8 * i;
+        vec at = drawing_project(&f.drawing, (vec){1.1 * cos(turn), 0, 1.1 * sin(turn)});
+        size_t pixel = (size_t)at.y * WIDTH + (size_t)at.x;
+        assert_true(f.drawing.backdrop_color.host[4 * pixel] > 0.99f);
+    }
+    finish(&f);
+}
+
+#define SMOKE                                                                                      \
+    "systems:\n"                                                                                   \
+    "  a:\n"                                                                                       \
+    "    emit: {life: 1 s}\n"                                                                      \
+    "    look: {size: 0.4 m, color: 1, lit: 1, soft: 0, fade: {in: 0, out: 0}}\n"
+
+/* Smoke behind a thing is dark, before it and beside it as light as without it, and on its way out
+ * of the shadow it is in between. */
+static void the_backdrop_shades_smoke(void **state)
+{
+    static const char *const objects[] = {
+        NULL, "backdrop.objects=[{box: {center: [-1, 1, 0], size: [0.4, 2, 1]}}]",
+        "backdrop.objects=[{mesh: {file: pot.obj, position: [-1, 1.2, 0], scale: 4}}]"};
+    const vec places[] = {{-0.3, 0.6, 0}, {-2, 1, 0}, {-0.3, 0.6, 1.6}, {-0.3, 0.6, 0.5}};
+    double light[3][4];
+    for (int i = 0; i < 3; i++) {
+        struct fixture f;
+        init(&f, *state, HEAD "backdrop:\n" SUN SMOKE, objects[i]);
+        draw(&f, places, 4);
+        for (int k = 0; k < 4; k++) {
+            vec at = drawing_project(&f.drawing, places[k]);
+            size_t pixel = (size_t)at.y * WIDTH + (size_t)at.x;
+            light[i][k] = (double)f.drawing.color.host[4 * pixel + 2]; /* blue is even in it */
+        }
+        finish(&f);
+    }
+    for (int i = 1; i < 3; i++) {
+        assert_true(light[0][0] > 0.1 && light[i][0] < 0.1 * light[0][0]);
+        assert_true(fabs(light[i][1] - light[0][1]) < 0.02 * light[0][1]);
+        assert_true(fabs(light[i][2] - light[0][2]) < 0.02 * light[0][2]);
+    }
+    assert_true(light[1][3] > 0.3 * light[0][3] && light[1][3] < 0.7 * light[0][3]);
+}
+
+int main(void)
+{
+    if (chdir(KILN_SOURCE_DIR "/scenes/meshes") != 0)
+        return 1;
+    static const struct CMUnitTest tests[] = {
+        test_on_device(the_shadow_of_a_sphere_lies_where_geometry_says),
+        test_on_device(spheres_of_a_cloud_all_throw_shadows),
+        test_on_device(spheres_shade_each_other),
+        test_on_device(the_backdrop_shades_spheres),
+        test_on_device(a_cylinder_is_round_from_above),
+        test_on_device(the_backdrop_shades_smoke),
+    };
+    return cmocka_run_group_tests_name("shadows", tests, test_device_open, test_device_close);
+}
