@@ -35,7 +35,7 @@ struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
 void kiln_shape_defines(const struct kiln_shape_features *features, int samples,
                         char out[KILN_SHAPE_DEFINES])
 {
-    snprintf(out, KILN_SHAPE_DEFINES, "#define SAMPLES %d\n%s%s%s%s%s%s", samples,
+    snprintf(out, KILN_SHAPE_DEFINES, "#define SAMPLES %d\n%s%s%s%s%s%s%s", samples,
              features->round ? "#define ROUND 1\n" : "",
              features->meshes ? "#define MESHES 1\n" : "",
              features->spheres ? "#define SPHERES 1\n" : "",
