@@ -13,6 +13,7 @@
 enum {
     TICKS_PER_S = 100,
     MAX_RATE = 50, /* browsers play what is faster at 10 frames a second */
+    MIN_DELAY = TICKS_PER_S / MAX_RATE,
     MAX_DELAY = 65535,
     TRANSPARENT = 255,
 };
@@ -48,12 +49,14 @@ static int64_t tick(const struct kiln_output_params *params, uint64_t frame)
     return av_rescale((int64_t)frame, (int64_t)params->fps_den * TICKS_PER_S, params->fps_num);
 }
 
-/* Without this, the last frame would last as long as the one before. */
+/* Without this, the last frame would last as long as the one before; and less than what MAX_RATE
+ * allows, browsers would show for a tenth of a second. */
 static void prepare(const struct kiln_output_params *params, AVDictionary **options)
 {
     uint64_t length = clip_length(params), stride = choose_stride(params);
     uint64_t last = (length - 1) / stride * stride;
-    av_dict_set_int(options, "final_delay", tick(params, length) - tick(params, last), 0);
+    int64_t delay = tick(params, length) - tick(params, last);
+    av_dict_set_int(options, "final_delay", delay < MIN_DELAY ? MIN_DELAY : delay, 0);
 }
 
 static bool check(const struct kiln_output_params *params, struct kiln_error *error)

@@ -294,6 +294,11 @@ static void gif_keeps_time_and_says_how(void **state)
          "0.03 or 0.04 s, on average 0.0333 s"},
         {100, 1, 9, 5, 10,
          "clip.gif: GIF plays at most 50 frames a second; of 100, 1 in 2 is written"},
+        {100, 1, 8, 5, 10, /* the last frame alone would last 1/100 s */
+         "clip.gif: GIF plays at most 50 frames a second; of 100, 1 in 2 is written"},
+        {120, 1, 9, 4, 10, /* and here nothing */
+         "clip.gif: GIF plays at most 50 frames a second; of 120, 1 in 3 is written; frames last "
+         "0.02 or 0.03 s, on average 0.0250 s"},
         {1, 3, 1, 2, 600, ""},
     };
     char path[64], line[256];
