@@ -131,7 +131,7 @@ static const struct kiln_option sun[] = {
 
 const struct kiln_option kiln_options_backdrop[] = {
     BOOLEAN("transparent", transparent, "false",
-            "Pictures with alpha instead of a sky and a floor."),
+            "Pictures with alpha instead of a sky; a floor stays, unless it is none."),
     GROUP("sky", 0, sky, "A gradient or an image."),
     {ROW("floor", switch, 0, "{}", "An endless plane."), .members = floor_rows,
      .count_offset = AT(floor_enabled)},
