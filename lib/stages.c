@@ -124,7 +124,8 @@ static bool init_stages(struct kiln_stages *s, const struct kiln_techniques *tec
     s->lighting = kiln_lighting_create(device, s->scene, s->threads, error);
     if (!s->lighting)
         return false;
-    s->particles = kiln_particles_create(device, s->scene, &s->atlas, error);
+    s->particles =
+        kiln_particles_create(device, s->scene, &s->atlas, techniques->raster, s->threads, error);
     if (!s->particles || !init_scenery(s, error))
         return false;
     if (s->scene->camera.shutter_samples > 1) {
@@ -226,7 +227,9 @@ static bool draw_particles(struct kiln_stages *s, struct kiln_pool *pool,
         .pool = pool,
         .entries = &s->entries,
         .count = *count,
-        .time_s = view->clock.x,
+        .view = view,
+        .backdrop = kiln_backdrop_block(s->backdrop),
+        .lighting = &s->light,
         .depth = &s->scene_depth,
         .framebuffer = pass->framebuffer,
         .keep_bloom = pass->keep_bloom,
@@ -339,15 +342,14 @@ bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *pool, uint32
     struct kiln_stages *s = stages;
     struct kiln_view view = kiln_view_compute(s->scene, step);
 
-    struct kiln_lighting lighting;
     kiln_timer_begin(s->timer, KILN_PASS_lighting);
-    bool ok = kiln_lighting_run(s->lighting, pool, &view, &lighting, error);
+    bool ok = kiln_lighting_run(s->lighting, pool, &view, &s->light, error);
     kiln_timer_end(s->timer);
     if (!ok)
         return false;
 
     kiln_timer_begin(s->timer, KILN_PASS_backdrop);
-    ok = kiln_backdrop_draw(s->backdrop, &view, &lighting, error);
+    ok = kiln_backdrop_draw(s->backdrop, &view, &s->light, error);
     kiln_timer_end(s->timer);
     if (!ok)
         return false;

@@ -27,6 +27,7 @@ struct kiln_stages {
     struct kiln_simulate *simulate;
     struct kiln_sort *sort;
     struct kiln_lighting_stage *lighting;
+    struct kiln_lighting light; /* of the moment at hand */
     struct kiln_backdrop_stage *backdrop;
     struct kiln_particles_stage *particles;
     struct kiln_spheres_stage *spheres; /* NULL without any */

@@ -27,6 +27,7 @@ static const struct row ROWS[] = {
     {SIMULATE, "inplace", KILN_SIMULATE_INPLACE,
      "compute, one buffer updated in place; the default on exact GPUs"},
     {SORT, "cpu", KILN_SORT_CPU, "stable radix sort, host threads"},
+    {RASTER, "cpu", KILN_RASTER_CPU, "host threads, tiles and vectors"},
     {RASTER, "geometry", KILN_RASTER_GEOMETRY,
      "points turned into billboards by a geometry shader"},
 };

@@ -3,13 +3,12 @@
 #ifndef KILN_TECHNIQUE_H
 #define KILN_TECHNIQUE_H
 
+#include "draw/particles.h"
 #include "kiln.h"
 #include "sim/simulate.h"
 #include "sort/sort.h"
 
 enum { KILN_STAGE_COUNT = 3, KILN_TECHNIQUE_SIZE = 32 };
-
-enum kiln_raster_technique { KILN_RASTER_GEOMETRY };
 
 struct kiln_techniques {
     enum kiln_simulate_technique simulate;

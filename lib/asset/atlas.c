@@ -11,8 +11,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { LEVELS = 8 }; /* 128 to 1 */
-
 /* One flipbook of all that are asked for, once each. */
 struct flipbook {
     struct kiln_cells_source source;
@@ -74,27 +72,24 @@ static void encode(const float *from, size_t pixels, uint32_t kind, uint8_t *to)
     }
 }
 
-/* Uploads one cell with its levels; `cell` is overwritten. */
-static void upload_cell(float *cell, uint32_t kind, uint32_t layer, uint8_t *bytes)
+/* Stores a cell's levels one after the other; `cell` is overwritten. */
+static void store_cell(float *cell, uint32_t kind, uint8_t *texels)
 {
-    uint32_t edge = KILN_ATLAS_CELL;
-    for (int level = 0; level < LEVELS; level++, edge /= 2) {
-        encode(cell, (size_t)edge * edge, kind, bytes);
-        glTexSubImage3D(GL_TEXTURE_2D_ARRAY, level, 0, 0, (GLint)layer, (GLsizei)edge,
-                        (GLsizei)edge, 1, GL_RGBA, GL_UNSIGNED_BYTE, bytes);
+    for (uint32_t edge = KILN_ATLAS_CELL; edge > 0; edge /= 2) {
+        encode(cell, (size_t)edge * edge, kind, texels);
+        texels += 4 * (size_t)edge * edge;
         if (edge > 1)
             shrink(cell, edge, kind, cell);
     }
 }
 
-static bool upload_cells(const struct flipbook *book, struct kiln_threads *threads,
-                         struct kiln_error *error)
+static bool make_cells(struct kiln_atlas *atlas, const struct flipbook *book,
+                       struct kiln_threads *threads, struct kiln_error *error)
 {
     const struct kiln_atlas_range *range = book->range;
     const size_t cell_pixels = (size_t)KILN_ATLAS_CELL * KILN_ATLAS_CELL;
     float *cells = calloc(range->cells, cell_pixels * 4 * sizeof(float));
-    uint8_t *bytes = malloc(cell_pixels * 4);
-    bool ok = cells && bytes;
+    bool ok = cells != NULL;
     if (!ok)
         out_of_memory(error, book->source.path);
     else if (book->builtin)
@@ -103,9 +98,9 @@ static bool upload_cells(const struct flipbook *book, struct kiln_threads *threa
     else
         ok = kiln_cells_load(&book->source, cells, threads, error);
     for (uint32_t i = 0; ok && i < range->cells; i++)
-        upload_cell(cells + i * cell_pixels * 4, range->kind, range->first_layer + i, bytes);
+        store_cell(cells + i * cell_pixels * 4, range->kind,
+                   atlas->texels + (size_t)(range->first_layer + i) * KILN_ATLAS_LAYER_BYTES);
     free(cells);
-    free(bytes);
     return ok;
 }
 
@@ -127,14 +122,13 @@ static void encode_motion(const float *motion, size_t pixels, float largest, int
     }
 }
 
-static bool upload_motion(const struct flipbook *book, struct kiln_threads *threads,
-                          struct kiln_error *error)
+static bool make_motion(struct kiln_atlas *atlas, const struct flipbook *book,
+                        struct kiln_threads *threads, struct kiln_error *error)
 {
     struct kiln_atlas_range *range = book->range;
     const size_t pixels = (size_t)range->cells * KILN_ATLAS_MOTION * KILN_ATLAS_MOTION;
     float *motion = malloc(pixels * 2 * sizeof *motion);
-    int8_t *bytes = malloc(pixels * 2);
-    bool ok = motion && bytes;
+    bool ok = motion != NULL;
     float scale = 1.0f;
     if (!ok)
         out_of_memory(error, book->source.path);
@@ -151,13 +145,11 @@ static bool upload_motion(const struct flipbook *book, struct kiln_threads *thre
     for (size_t i = 0; ok && i < pixels * 2; i++)
         largest = fmaxf(largest, fabsf(motion[i]));
     if (ok && largest > 0.0f) {
-        encode_motion(motion, pixels, largest, bytes);
-        glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, (GLint)range->first_layer, KILN_ATLAS_MOTION,
-                        KILN_ATLAS_MOTION, (GLsizei)range->cells, GL_RG, GL_BYTE, bytes);
+        encode_motion(motion, pixels, largest,
+                      atlas->moves + (size_t)range->first_layer * KILN_ATLAS_MOVES_BYTES);
         range->motion = largest * scale;
     }
     free(motion);
-    free(bytes);
     return ok;
 }
 
@@ -173,26 +165,54 @@ static void set_filters(GLint levels, GLint shrinking)
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
-static void create_texture(struct kiln_atlas *atlas)
+static void upload_cells(struct kiln_atlas *atlas)
 {
     glGenTextures(1, &atlas->texture);
     glBindTexture(GL_TEXTURE_2D_ARRAY, atlas->texture);
-    for (int level = 0; level < LEVELS; level++) {
-        GLsizei edge = KILN_ATLAS_CELL >> level;
-        glTexImage3D(GL_TEXTURE_2D_ARRAY, level, GL_RGBA8, edge, edge, (GLsizei)atlas->layers, 0,
-                     GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+    glTexStorage3D(GL_TEXTURE_2D_ARRAY, KILN_ATLAS_LEVELS, GL_RGBA8, KILN_ATLAS_CELL,
+                   KILN_ATLAS_CELL, (GLsizei)atlas->layers);
+    for (uint32_t layer = 0; layer < atlas->layers; layer++) {
+        for (uint32_t level = 0; level < KILN_ATLAS_LEVELS; level++) {
+            GLsizei edge = KILN_ATLAS_CELL >> level;
+            glTexSubImage3D(GL_TEXTURE_2D_ARRAY, (GLint)level, 0, 0, (GLint)layer, edge, edge, 1,
+                            GL_RGBA, GL_UNSIGNED_BYTE, kiln_atlas_level(atlas, layer, level));
+        }
     }
-    set_filters(LEVELS, GL_LINEAR_MIPMAP_NEAREST);
+    set_filters(KILN_ATLAS_LEVELS, GL_LINEAR_MIPMAP_NEAREST);
 }
 
 /* One texel where nothing moves. */
-static void create_motion_texture(struct kiln_atlas *atlas, bool any)
+static void upload_moves(struct kiln_atlas *atlas)
 {
-    GLsizei edge = any ? KILN_ATLAS_MOTION : 1, layers = any ? (GLsizei)atlas->layers : 1;
+    static const int8_t still[2] = {0};
+    GLsizei edge = atlas->moves ? KILN_ATLAS_MOTION : 1;
+    GLsizei layers = atlas->moves ? (GLsizei)atlas->layers : 1;
     glGenTextures(1, &atlas->motion);
     glBindTexture(GL_TEXTURE_2D_ARRAY, atlas->motion);
-    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RG8_SNORM, edge, edge, layers, 0, GL_RG, GL_BYTE, NULL);
+    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RG8_SNORM, edge, edge, layers, 0, GL_RG, GL_BYTE,
+                 atlas->moves ? atlas->moves : still);
     set_filters(1, GL_LINEAR);
+}
+
+/* Without a device, the cells stay on the host. */
+static bool upload(struct kiln_atlas *atlas, struct kiln_device *device, struct kiln_error *error)
+{
+    if (!device)
+        return true;
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    upload_cells(atlas);
+    upload_moves(atlas);
+    kiln_device_label(device, GL_TEXTURE, atlas->texture, "atlas");
+    kiln_device_label(device, GL_TEXTURE, atlas->motion, "atlas motion");
+    return kiln_device_check(device, "atlas", error);
+}
+
+const uint8_t *kiln_atlas_level(const struct kiln_atlas *atlas, uint32_t layer, uint32_t level)
+{
+    size_t offset = (size_t)layer * KILN_ATLAS_LAYER_BYTES;
+    for (uint32_t i = 0; i < level; i++)
+        offset += 4 * (size_t)(KILN_ATLAS_CELL >> i) * (KILN_ATLAS_CELL >> i);
+    return atlas->texels + offset;
 }
 
 /* ---- all flipbooks --------------------------------------------------------------------------- */
@@ -252,27 +272,23 @@ static void make_films(void *context, size_t begin, size_t end, uint32_t worker)
     }
 }
 
-static bool fill_textures(struct kiln_atlas *atlas, struct flipbooks *all,
-                          struct kiln_threads *threads, struct kiln_error *error)
+static bool fill_layers(struct kiln_atlas *atlas, struct flipbooks *all,
+                        struct kiln_threads *threads, struct kiln_error *error)
 {
-    kiln_threads_for(threads, all->count, 1, make_films, all);
     bool ok = true, any_moves = false;
     for (uint32_t i = 0; i < all->count; i++)
         any_moves |= moves(&all->books[i]);
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    create_texture(atlas);
+    atlas->texels = malloc((size_t)atlas->layers * KILN_ATLAS_LAYER_BYTES);
+    if (any_moves)
+        atlas->moves = calloc(atlas->layers, KILN_ATLAS_MOVES_BYTES);
+    if (!atlas->texels || (any_moves && !atlas->moves))
+        return out_of_memory(error, "atlas");
     for (uint32_t i = 0; ok && i < all->count; i++) {
         const struct flipbook *book = &all->books[i];
         ok = book->failed ? out_of_memory(error, book->source.path)
-                          : upload_cells(book, threads, error);
+                          : make_cells(atlas, book, threads, error) &&
+                                (!moves(book) || make_motion(atlas, book, threads, error));
     }
-    create_motion_texture(atlas, any_moves);
-    for (uint32_t i = 0; ok && i < all->count; i++)
-        ok = !moves(&all->books[i]) || upload_motion(&all->books[i], threads, error);
-    for (uint32_t i = 0; i < all->copy_count; i++)
-        *all->copies[i] = *all->books[all->originals[i]].range;
-    for (uint32_t i = 0; i < all->count; i++)
-        free(all->books[i].film);
     return ok;
 }
 
@@ -287,16 +303,16 @@ bool kiln_atlas_init(struct kiln_atlas *atlas, struct kiln_device *device,
         for (uint32_t k = 0; k < requests[i].count; k++)
             add_texture(&all, atlas, &requests[i], k, &atlas->systems[i].textures[k]);
     }
-    if ((int64_t)atlas->layers > device->info.max_array_layers)
+    if (device && (int64_t)atlas->layers > device->info.max_array_layers)
         return kiln_error_set(error, KILN_DEVICE_FAILED,
                               "the atlases have %u cells together; %s takes %d", atlas->layers,
                               device->info.name, device->info.max_array_layers);
-    bool ok = fill_textures(atlas, &all, threads, error);
-    if (ok) {
-        kiln_device_label(device, GL_TEXTURE, atlas->texture, "atlas");
-        kiln_device_label(device, GL_TEXTURE, atlas->motion, "atlas motion");
-        ok = kiln_device_check(device, "atlas", error);
-    }
+    kiln_threads_for(threads, all.count, 1, make_films, &all);
+    bool ok = fill_layers(atlas, &all, threads, error) && upload(atlas, device, error);
+    for (uint32_t i = 0; i < all.copy_count; i++)
+        *all.copies[i] = *all.books[all.originals[i]].range;
+    for (uint32_t i = 0; i < all.count; i++)
+        free(all.books[i].film);
     if (!ok)
         kiln_atlas_finish(atlas);
     return ok;
@@ -304,7 +320,11 @@ bool kiln_atlas_init(struct kiln_atlas *atlas, struct kiln_device *device,
 
 void kiln_atlas_finish(struct kiln_atlas *atlas)
 {
-    glDeleteTextures(1, &atlas->texture);
-    glDeleteTextures(1, &atlas->motion);
+    if (atlas->texture) {
+        glDeleteTextures(1, &atlas->texture);
+        glDeleteTextures(1, &atlas->motion);
+    }
+    free(atlas->texels);
+    free(atlas->moves);
     *atlas = (struct kiln_atlas){0};
 }

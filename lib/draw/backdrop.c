@@ -325,3 +325,9 @@ bool kiln_backdrop_draw(struct kiln_backdrop_stage *stage, const struct kiln_vie
     stage->has_drawn = true;
     return kiln_device_check(stage->device, "backdrop", error);
 }
+
+/* A kept picture was drawn with an equal block. */
+const struct kiln_draw_backdrop *kiln_backdrop_block(const struct kiln_backdrop_stage *stage)
+{
+    return &stage->drawn.block;
+}

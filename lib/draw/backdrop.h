@@ -25,4 +25,7 @@ struct kiln_mesh *const *kiln_backdrop_meshes(const struct kiln_backdrop_stage *
 bool kiln_backdrop_draw(struct kiln_backdrop_stage *stage, const struct kiln_view *view,
                         const struct kiln_lighting *lighting, struct kiln_error *error);
 
+/* What lights the particles, as of the last kiln_backdrop_draw. */
+const struct kiln_draw_backdrop *kiln_backdrop_block(const struct kiln_backdrop_stage *stage);
+
 #endif

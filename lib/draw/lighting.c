@@ -6,6 +6,7 @@
 #include "draw/firelight.h"
 #include "draw/looks.h"
 #include "draw/smoke_shadow.h"
+#include "shared/exact.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -171,6 +172,8 @@ static bool shade(struct kiln_lighting_stage *stage, const struct kiln_living_mo
         return true;
     for (int i = 0; i < 3; i++)
         lighting->sun_to_grid[i] = (float4){0.0f, 0.0f, 0.0f, -1.0f};
+    lighting->sky_depth = grids[0].depth;
+    lighting->sun_depth = grids[1].depth;
     upload(stage, &grids[0], SKY, lighting->sky_to_grid);
     if (stage->sun)
         upload(stage, &grids[1], SUN, lighting->sun_to_grid);
@@ -215,4 +218,58 @@ bool kiln_lighting_run(struct kiln_lighting_stage *stage, struct kiln_pool *pool
     if (stage->smoke && !shade(stage, &moment, lighting, error))
         return false;
     return kiln_device_check(stage->device, "lighting", error);
+}
+
+static float row_at(float4 row, float3 p)
+{
+    return row.x * p.x + row.y * p.y + row.z * p.z + row.w;
+}
+
+/* Trilinear between the cells' centres, clamped at the faces, as the texture is read. */
+static float grid_at(const float *depth, const float at[3])
+{
+    uint32_t from[3], step[3];
+    float part[3];
+    for (int i = 0; i < 3; i++) {
+        float cell =
+            exact_clamp(at[i] * (float)KILN_SMOKE_GRID - 0.5f, 0.0f, (float)(KILN_SMOKE_GRID - 1));
+        from[i] = (uint32_t)cell;
+        step[i] = from[i] + 1 < KILN_SMOKE_GRID ? 1 : 0;
+        part[i] = cell - (float)from[i];
+    }
+    const uint32_t row = KILN_SMOKE_GRID, layer = KILN_SMOKE_GRID * KILN_SMOKE_GRID;
+    const float *base = depth + from[2] * layer + from[1] * row + from[0];
+    float planes[2];
+    for (uint32_t z = 0; z < 2; z++) {
+        const float *near = base + z * step[2] * layer, *far = near + step[1] * row;
+        float upper = near[0] + (near[step[0]] - near[0]) * part[0];
+        float lower = far[0] + (far[step[0]] - far[0]) * part[0];
+        planes[z] = upper + (lower - upper) * part[1];
+    }
+    return planes[0] + (planes[1] - planes[0]) * part[2];
+}
+
+/* As shaders/draw/smoke_shadow.glsl has it. */
+static float transmittance(const float *depth, const float4 rows[3], float3 position)
+{
+    float at[3];
+    for (int i = 0; i < 3; i++)
+        at[i] = row_at(rows[i], position);
+    /* Beside the smoke, or between it and the light. */
+    bool outside = at[0] < 0.0f || at[1] < 0.0f || at[0] > 1.0f || at[1] > 1.0f || at[2] > 1.0f;
+    return outside ? 1.0f : exact_exp(-grid_at(depth, at));
+}
+
+float kiln_lighting_sun(const struct kiln_lighting *lighting, float3 position)
+{
+    if (!lighting->smoke)
+        return 1.0f;
+    return transmittance(lighting->sun_depth, lighting->sun_to_grid, position);
+}
+
+float kiln_lighting_sky(const struct kiln_lighting *lighting, float3 position)
+{
+    if (!lighting->smoke)
+        return 1.0f;
+    return transmittance(lighting->sky_depth, lighting->sky_to_grid, position);
 }

@@ -18,6 +18,7 @@ struct kiln_lighting {
     struct kiln_draw_light fire[KILN_MAX_FIRE_LIGHTS];
     bool smoke;                            /* there is some: the rows mean something */
     float4 sun_to_grid[3], sky_to_grid[3]; /* world positions to 0..1 in the grids */
+    const float *sun_depth, *sky_depth;    /* optical depth in them: KILN_SMOKE_GRID cubed */
     struct kiln_sphere_bins spheres;       /* opaque particles */
     const float *sunlit; /* by slot: the part of the sun that a lit particle sees past the backdrop,
                           * smoke apart; valid until the next run. NULL: all of it */
@@ -40,5 +41,9 @@ void kiln_lighting_use_meshes(struct kiln_lighting_stage *stage, struct kiln_mes
 bool kiln_lighting_run(struct kiln_lighting_stage *stage, struct kiln_pool *pool,
                        const struct kiln_view *view, struct kiln_lighting *lighting,
                        struct kiln_error *error);
+
+/* The part of the sun's and of the sky's light that gets through the smoke to a place. */
+float kiln_lighting_sun(const struct kiln_lighting *lighting, float3 position);
+float kiln_lighting_sky(const struct kiln_lighting *lighting, float3 position);
 
 #endif

@@ -1,13 +1,20 @@
 /* Every value of a look, at evenly spaced ages. */
 #include "draw/looks.h"
 
+#include <assert.h>
 #include <math.h>
+#include <string.h>
 
 #include "asset/blackbody.h"
 #include "shared/exact.h"
 
 /* A cell's cool parts are at this share of the hot parts' temperature. */
 static const float COOL_SHARE = 0.72f;
+
+static_assert(LOOK_POINT == KILN_SHAPE_POINT && LOOK_LINE == KILN_SHAPE_LINE, "shapes");
+static_assert(LOOK_SCREEN == KILN_FACING_SCREEN && LOOK_VIEWPOINT == KILN_FACING_VIEWPOINT &&
+                  LOOK_AXIAL == KILN_FACING_AXIAL && LOOK_VELOCITY == KILN_FACING_VELOCITY,
+              "facings");
 
 struct sampler {
     const struct kiln_scene *scene;
@@ -152,4 +159,30 @@ bool kiln_looks_vary(const struct kiln_scene *scene)
             return true;
     }
     return false;
+}
+
+static struct kiln_draw_look make_look(const struct kiln_scene *scene, uint32_t index,
+                                       const struct kiln_atlas_textures *textures)
+{
+    const struct kiln_look *look = &scene->systems[index].look;
+    struct kiln_draw_look made = {
+        .derived = kiln_scene_derived(scene, index),
+        .flags = {look->blend == KILN_BLEND_ADD, look->random_start,
+                  look->soft_formula == KILN_SOFT_LITERAL, textures->count},
+        .form = {look->shape, look->facing, look->point_round, look->line_to == KILN_LINE_PREVIOUS},
+    };
+    for (uint32_t i = 0; i < textures->count; i++) {
+        const struct kiln_atlas_range *cells = &textures->textures[i];
+        made.textures[i] =
+            (uint4){cells->first_layer, cells->cells, cells->kind, FLOAT_BITS(cells->motion)};
+    }
+    return made;
+}
+
+void kiln_looks_fill(const struct kiln_scene *scene, const struct kiln_atlas *atlas,
+                     struct kiln_draw_look looks[KILN_MAX_SYSTEMS])
+{
+    memset(looks, 0, KILN_MAX_SYSTEMS * sizeof *looks);
+    for (uint32_t i = 0; i < scene->system_count; i++)
+        looks[i] = make_look(scene, i, &atlas->systems[i]);
 }

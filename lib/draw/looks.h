@@ -2,6 +2,7 @@
 #ifndef KILN_DRAW_LOOKS_H
 #define KILN_DRAW_LOOKS_H
 
+#include "asset/atlas.h"
 #include "scene/scene.h"
 #include "shared/look_layout.h"
 
@@ -14,5 +15,10 @@ void kiln_looks_sample(const struct kiln_scene *scene, float time_s, float4 *tab
 
 /* Whether the table depends on the time at all. */
 bool kiln_looks_vary(const struct kiln_scene *scene);
+
+/* The rest of the looks, with the cells that the atlas gave them; of systems beyond the scene's,
+ * zeros. */
+void kiln_looks_fill(const struct kiln_scene *scene, const struct kiln_atlas *atlas,
+                     struct kiln_draw_look looks[KILN_MAX_SYSTEMS]);
 
 #endif

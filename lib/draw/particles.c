@@ -1,213 +1,63 @@
-/* Particles as points that the geometry shader turns into billboards: one draw call for the systems
- * of a pass, whatever their looks; an entry names system and slot, and the vertex shader fetches
- * the rest (Heinz 2019, 3.2.2: one draw call, nothing stored but what changes). */
+/* The stage: hands over to its technique. */
 #include "draw/particles.h"
-#include "draw/looks.h"
-#include "draw/sun_shade.h"
 
 #include "base/error.h"
-#include "gpu/program.h"
-#include "shared/look_layout.h"
+#include "draw/particles_cpu.h"
+#include "draw/particles_geometry.h"
 
-#include <assert.h>
-#include <stddef.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-
-static_assert(offsetof(struct kiln_draw_look, flags) == 48, "std140");
-static_assert(sizeof(struct kiln_draw_look) == 80 + 16 * KILN_MAX_TEXTURES, "std140");
-static_assert(KILN_MAX_SYSTEMS * sizeof(struct kiln_draw_look) <= 16384, "of every GL");
-static_assert(LOOK_POINT == KILN_SHAPE_POINT && LOOK_LINE == KILN_SHAPE_LINE, "shapes");
-static_assert(LOOK_SCREEN == KILN_FACING_SCREEN && LOOK_VIEWPOINT == KILN_FACING_VIEWPOINT &&
-                  LOOK_AXIAL == KILN_FACING_AXIAL && LOOK_VELOCITY == KILN_FACING_VELOCITY,
-              "facings");
 
 struct kiln_particles_stage {
-    struct kiln_device *device;
-    const struct kiln_scene *scene;
-    const struct kiln_atlas *atlas;
-    GLuint program, vertex_array;
-    struct kiln_buffer looks, keys;
-    GLuint look_table; /* texture, KILN_LOOK_SAMPLES wide */
-    float4 *table;     /* what is in it */
-    bool table_valid;
-    GLint additive_alpha;
+    enum kiln_raster_technique technique;
+    struct kiln_geometry *geometry; /* of every device */
+    struct kiln_tiles *tiles;       /* `cpu` */
 };
 
-static struct kiln_draw_look make_look(const struct kiln_scene *scene, uint32_t index,
-                                       const struct kiln_atlas_textures *textures)
-{
-    const struct kiln_look *look = &scene->systems[index].look;
-    struct kiln_draw_look made = {
-        .derived = kiln_scene_derived(scene, index),
-        .flags = {look->blend == KILN_BLEND_ADD, look->random_start,
-                  look->soft_formula == KILN_SOFT_LITERAL, textures->count},
-        .form = {look->shape, look->facing, look->point_round, look->line_to == KILN_LINE_PREVIOUS},
-    };
-    for (uint32_t i = 0; i < textures->count; i++) {
-        const struct kiln_atlas_range *cells = &textures->textures[i];
-        made.textures[i] =
-            (uint4){cells->first_layer, cells->cells, cells->kind, FLOAT_BITS(cells->motion)};
-    }
-    return made;
-}
-
-static bool make_buffers(struct kiln_particles_stage *stage, struct kiln_error *error)
-{
-    const struct kiln_scene *scene = stage->scene;
-    struct kiln_draw_look looks[KILN_MAX_SYSTEMS] = {0};
-    for (uint32_t i = 0; i < scene->system_count; i++)
-        looks[i] = make_look(scene, i, &stage->atlas->systems[i]);
-    float4 keys[KILN_MAX_VALUE_KEYS] = {{0}};
-    if (scene->key_count)
-        memcpy(keys, scene->keys, scene->key_count * sizeof *keys);
-    kiln_buffer_init(&stage->looks, stage->device, sizeof looks, "looks");
-    kiln_buffer_init(&stage->keys, stage->device, sizeof keys, "value keys");
-    return kiln_buffer_upload(&stage->looks, looks, error) &&
-           kiln_buffer_upload(&stage->keys, keys, error);
-}
-
-static void make_look_table(struct kiln_particles_stage *stage)
-{
-    glGenTextures(1, &stage->look_table);
-    glBindTexture(GL_TEXTURE_2D, stage->look_table);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, KILN_LOOK_SAMPLES,
-                 KILN_LOOK_TEXELS / KILN_LOOK_SAMPLES, 0, GL_RGBA, GL_FLOAT, NULL);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    kiln_device_label(stage->device, GL_TEXTURE, stage->look_table, "look table");
-}
-
-/* Brings the table to a clip time. */
-static void update_looks(struct kiln_particles_stage *stage, float time_s)
-{
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, stage->look_table);
-    if (stage->table_valid && !kiln_looks_vary(stage->scene))
-        return;
-    kiln_looks_sample(stage->scene, time_s, stage->table);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, KILN_LOOK_SAMPLES, KILN_LOOK_TEXELS / KILN_LOOK_SAMPLES,
-                    GL_RGBA, GL_FLOAT, stage->table);
-    stage->table_valid = true;
-}
-
-/* Does any system need more than billboards parallel to the picture? One program draws all that is
- * sorted together, in one call, however the depths of the shapes interleave; the one that knows all
- * shapes is slower, so only scenes that need it pay. */
-static bool needs_shapes(const struct kiln_scene *scene)
-{
-    for (uint32_t i = 0; i < scene->system_count; i++) {
-        const struct kiln_look *look = &scene->systems[i].look;
-        bool plane = look->facing == KILN_FACING_SCREEN || look->facing == KILN_FACING_VELOCITY;
-        bool billboard = look->shape == KILN_SHAPE_BILLBOARD;
-        if (scene->systems[i].enabled && look->shape != KILN_SHAPE_SPHERE && !(billboard && plane))
-            return true;
-    }
-    return false;
-}
-
-struct kiln_particles_stage *kiln_particles_create(struct kiln_device *device,
-                                                   const struct kiln_scene *scene,
-                                                   const struct kiln_atlas *atlas,
-                                                   struct kiln_error *error)
+struct kiln_particles_stage *
+kiln_particles_create(struct kiln_device *device, const struct kiln_scene *scene,
+                      const struct kiln_atlas *atlas, enum kiln_raster_technique technique,
+                      struct kiln_threads *threads, struct kiln_error *error)
 {
     struct kiln_particles_stage *stage = calloc(1, sizeof *stage);
     if (!stage) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "particles: out of memory");
         return NULL;
     }
-    *stage = (struct kiln_particles_stage){.device = device, .scene = scene, .atlas = atlas};
-    stage->table = calloc((size_t)KILN_LOOK_TEXELS, sizeof *stage->table);
-    if (!stage->table) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "particles: out of memory");
-        kiln_particles_destroy(&stage);
-        return NULL;
-    }
-    char defines[64];
-    snprintf(defines, sizeof defines, "#define SHAPES %d\n%s", needs_shapes(scene) ? 1 : 0,
-             kiln_sun_shade_exists(scene) ? "#define SUN_SHADE 1\n" : "");
-    const struct kiln_program_params program = {.vertex = "draw/particles.vert",
-                                                .geometry = "draw/particles.geom",
-                                                .fragment = "draw/particles.frag",
-                                                .defines = defines};
-    stage->program = kiln_program_create(device, &program, error);
-    if (!stage->program) {
-        kiln_particles_destroy(&stage);
-        return NULL;
-    }
-    stage->additive_alpha = glGetUniformLocation(stage->program, "additive_alpha");
-    glGenVertexArrays(1, &stage->vertex_array);
-    make_look_table(stage);
-    if (!make_buffers(stage, error) || !kiln_device_check(device, "particles set-up", error))
+    stage->technique = technique;
+    bool draws = technique == KILN_RASTER_GEOMETRY;
+    if (device)
+        stage->geometry = kiln_geometry_create(device, scene, atlas, draws, error);
+    if (technique == KILN_RASTER_CPU)
+        stage->tiles = kiln_tiles_create(scene, atlas, threads, error);
+    if ((device && !stage->geometry) || (technique == KILN_RASTER_CPU && !stage->tiles))
         kiln_particles_destroy(&stage);
     return stage;
 }
 
 void kiln_particles_destroy(struct kiln_particles_stage **stage)
 {
-    struct kiln_particles_stage *s = *stage;
-    if (!s)
+    if (!*stage)
         return;
-    if (s->program)
-        glDeleteProgram(s->program);
-    glDeleteVertexArrays(1, &s->vertex_array);
-    kiln_buffer_finish(&s->looks);
-    kiln_buffer_finish(&s->keys);
-    glDeleteTextures(1, &s->look_table);
-    free(s->table);
-    free(s);
+    kiln_geometry_destroy(&(*stage)->geometry);
+    kiln_tiles_destroy(&(*stage)->tiles);
+    free(*stage);
     *stage = NULL;
-}
-
-static void bind_texture(GLuint unit, GLenum target, GLuint texture)
-{
-    glActiveTexture(GL_TEXTURE0 + unit);
-    glBindTexture(target, texture);
 }
 
 bool kiln_particles_bind(struct kiln_particles_stage *stage, struct kiln_pool *pool,
                          struct kiln_buffer *entries, float time_s, struct kiln_error *error)
 {
-    GLuint records = kiln_buffer_gl(&pool->records, KILN_READ, error);
-    GLuint order = records ? kiln_buffer_gl(entries, KILN_READ, error) : 0;
-    GLuint looks = order ? kiln_buffer_gl(&stage->looks, KILN_READ, error) : 0;
-    GLuint keys = looks ? kiln_buffer_gl(&stage->keys, KILN_READ, error) : 0;
-    if (!keys)
-        return false;
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, KILN_BIND_RECORDS, records);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, KILN_BIND_ENTRIES, order);
-    glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_LOOKS, looks);
-    glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_KEYS, keys);
-    update_looks(stage, time_s);
-    return true;
+    return kiln_geometry_bind(stage->geometry, pool, entries, time_s, error);
 }
 
 bool kiln_particles_run(struct kiln_particles_stage *stage, const struct kiln_particles_draw *draw,
                         struct kiln_error *error)
 {
-    if (!kiln_framebuffer_bind(draw->framebuffer, error))
-        return false;
-    static const GLfloat transparent[4] = {0};
-    glClearBufferfv(GL_COLOR, 0, transparent);
-    if (!draw->keep_bloom)
-        glClearBufferfv(GL_COLOR, 1, transparent);
-    if (draw->count == 0)
-        return kiln_device_check(stage->device, "particles", error);
-
-    GLuint depth = kiln_image_gl(draw->depth, KILN_READ, error);
-    if (!depth || !kiln_particles_bind(stage, draw->pool, draw->entries, draw->time_s, error))
-        return false;
-    bind_texture(1, GL_TEXTURE_2D_ARRAY, stage->atlas->texture);
-    bind_texture(2, GL_TEXTURE_2D, depth);
-    bind_texture(3, GL_TEXTURE_2D_ARRAY, stage->atlas->motion);
-
-    glUseProgram(stage->program);
-    glUniform1f(stage->additive_alpha, draw->sum_alpha || draw->fire_covers ? 1.0f : 0.0f);
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_ONE, draw->sum_alpha ? GL_ONE : GL_ONE_MINUS_SRC_ALPHA);
-    glBindVertexArray(stage->vertex_array);
-    glDrawArrays(GL_POINTS, 0, (GLsizei)draw->count);
-    glDisable(GL_BLEND);
-    return kiln_device_check(stage->device, "particles", error);
+    switch (stage->technique) {
+    case KILN_RASTER_GEOMETRY:
+        return kiln_geometry_run(stage->geometry, draw, error);
+    case KILN_RASTER_CPU:
+        return kiln_tiles_run(stage->tiles, draw, error);
+    }
+    return false;
 }

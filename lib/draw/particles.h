@@ -1,26 +1,33 @@
-/* Stage 4b: the particles as billboards (Heinz 2019, 3.2.3 to 3.2.6), technique `geometry`. */
+/* Stage 4b: the particles as billboards (Heinz 2019, 3.2.3 to 3.2.6). Techniques `geometry` and
+ * `cpu` make the same pictures within the error of their arithmetic. */
 #ifndef KILN_DRAW_PARTICLES_H
 #define KILN_DRAW_PARTICLES_H
 
 #include "asset/atlas.h"
+#include "base/thread.h"
+#include "draw/lighting.h"
 #include "draw/view.h"
 #include "gpu/framebuffer.h"
 #include "particles/pool.h"
 
+enum kiln_raster_technique { KILN_RASTER_GEOMETRY, KILN_RASTER_CPU };
+
 struct kiln_particles_stage;
 
-/* scene and atlas must outlive the stage. */
-struct kiln_particles_stage *kiln_particles_create(struct kiln_device *device,
-                                                   const struct kiln_scene *scene,
-                                                   const struct kiln_atlas *atlas,
-                                                   struct kiln_error *error);
+/* scene, atlas and threads must outlive the stage; device may be NULL for `cpu`. */
+struct kiln_particles_stage *
+kiln_particles_create(struct kiln_device *device, const struct kiln_scene *scene,
+                      const struct kiln_atlas *atlas, enum kiln_raster_technique technique,
+                      struct kiln_threads *threads, struct kiln_error *error);
 void kiln_particles_destroy(struct kiln_particles_stage **stage);
 
 struct kiln_particles_draw {
     struct kiln_pool *pool;
     struct kiln_buffer *entries; /* draw entries in drawing order */
     uint32_t count;
-    float time_s;                               /* clip time, for the looks */
+    const struct kiln_view *view;
+    const struct kiln_draw_backdrop *backdrop; /* what lights them */
+    const struct kiln_lighting *lighting;
     struct kiln_image *depth;                   /* of the scene */
     const struct kiln_framebuffer *framebuffer; /* color, bloom: premultiplied */
     bool keep_bloom; /* of an earlier pass; colour is always cleared first */
@@ -31,11 +38,11 @@ struct kiln_particles_draw {
 
 /* Binds what vertex shaders read of particles (shaders/draw/record.glsl), but for the view block
  * that kiln_backdrop_draw leaves bound: for stages that draw other shapes. entries name the
- * particles. */
+ * particles. Of a device. */
 bool kiln_particles_bind(struct kiln_particles_stage *stage, struct kiln_pool *pool,
                          struct kiln_buffer *entries, float time_s, struct kiln_error *error);
 
-/* Draws with the view and backdrop blocks that kiln_backdrop_draw left bound. */
+/* Draws with what kiln_backdrop_draw drew and, for `geometry`, left bound. */
 bool kiln_particles_run(struct kiln_particles_stage *stage, const struct kiln_particles_draw *draw,
                         struct kiln_error *error);
 

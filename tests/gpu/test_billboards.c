@@ -308,5 +308,8 @@ int main(void)
         test_on_device(lines_lie_along_the_way),
         test_on_device(lines_end_at_the_near_plane),
     };
-    return cmocka_run_group_tests(tests, test_device_open, test_device_close);
+    int failed =
+        cmocka_run_group_tests_name("geometry", tests, test_device_open, test_device_close);
+    drawing_technique = KILN_RASTER_CPU;
+    return failed + cmocka_run_group_tests_name("cpu", tests, test_device_open, test_device_close);
 }

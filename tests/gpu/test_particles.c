@@ -1,5 +1,5 @@
-/* lib/draw/particles.c against a plain C rasteriser that follows equations 3.1 to 3.3 of Heinz 2019
- * pixel by pixel. */
+/* Each technique of lib/draw/particles.c against a plain C rasteriser that follows equations 3.1
+ * to 3.3 of Heinz 2019 pixel by pixel. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -110,7 +110,8 @@ static void make_targets(struct fixture *f)
     assert_true(kiln_framebuffer_init(&f->framebuffer, f->device, targets, 2, &error));
 }
 
-static int set_up_with(void **state, const char *const *overrides, size_t count)
+static int set_up_with(void **state, enum kiln_raster_technique technique,
+                       const char *const *overrides, size_t count)
 {
     struct kiln_error error = {0};
     struct fixture *f = calloc(1, sizeof *f);
@@ -133,7 +134,8 @@ static int set_up_with(void **state, const char *const *overrides, size_t count)
     assert_true(kiln_atlas_init(&f->atlas, f->device, requests, 2, f->threads, &error));
     make_targets(f);
     f->backdrop = kiln_backdrop_create(f->device, f->scene, &f->scene_color, &f->depth, &error);
-    f->particles = kiln_particles_create(f->device, f->scene, &f->atlas, &error);
+    f->particles =
+        kiln_particles_create(f->device, f->scene, &f->atlas, technique, f->threads, &error);
     assert_true(f->backdrop && f->particles);
     place_particles(f);
     f->view = kiln_view_compute(f->scene, STEP);
@@ -160,17 +162,28 @@ static int set_up_with(void **state, const char *const *overrides, size_t count)
     return 0;
 }
 
-static int set_up(void **state)
+static int set_up_geometry(void **state)
 {
-    return set_up_with(state, NULL, 0);
+    return set_up_with(state, KILN_RASTER_GEOMETRY, NULL, 0);
+}
+
+static int set_up_cpu(void **state)
+{
+    return set_up_with(state, KILN_RASTER_CPU, NULL, 0);
 }
 
 /* So soft that the bound of alpha is not reached before the floor and the box. */
-static int set_up_literal(void **state)
+static const char *const LITERAL[] = {"systems.smoke.look.soft_formula=literal",
+                                      "systems.smoke.look.soft=0.2"};
+
+static int set_up_literal_geometry(void **state)
 {
-    static const char *const overrides[] = {"systems.smoke.look.soft_formula=literal",
-                                            "systems.smoke.look.soft=0.2"};
-    return set_up_with(state, overrides, 2);
+    return set_up_with(state, KILN_RASTER_GEOMETRY, LITERAL, 2);
+}
+
+static int set_up_literal_cpu(void **state)
+{
+    return set_up_with(state, KILN_RASTER_CPU, LITERAL, 2);
 }
 
 static int tear_down(void **state)
@@ -410,7 +423,9 @@ static void draw(struct fixture *f, bool sum_alpha)
         .pool = &f->pool,
         .entries = &f->entries,
         .count = COUNT,
-        .time_s = f->view.clock.x,
+        .view = &f->view,
+        .backdrop = kiln_backdrop_block(f->backdrop),
+        .lighting = &f->lighting,
         .depth = &f->depth,
         .framebuffer = &f->framebuffer,
         .sum_alpha = sum_alpha,
@@ -497,7 +512,10 @@ int main(void)
         cmocka_unit_test(sums_do_not_depend_on_order),
     };
     static const struct CMUnitTest literal[] = {cmocka_unit_test(particles_match_c)};
-    int failed = cmocka_run_group_tests_name("particles", tests, set_up, tear_down);
-    return failed + cmocka_run_group_tests_name("particles, equation 3.3 as it is printed", literal,
-                                                set_up_literal, tear_down);
+    return cmocka_run_group_tests_name("geometry", tests, set_up_geometry, tear_down) +
+           cmocka_run_group_tests_name("geometry, equation 3.3 as it is printed", literal,
+                                       set_up_literal_geometry, tear_down) +
+           cmocka_run_group_tests_name("cpu", tests, set_up_cpu, tear_down) +
+           cmocka_run_group_tests_name("cpu, equation 3.3 as it is printed", literal,
+                                       set_up_literal_cpu, tear_down);
 }

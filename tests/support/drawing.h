@@ -15,8 +15,12 @@
 
 enum { DRAWING_MOST = 32, DRAWING_CELL = 128 };
 
+/* What drawing_init takes for the particles. */
+static enum kiln_raster_technique drawing_technique = KILN_RASTER_GEOMETRY;
+
 struct drawing {
     struct kiln_device *device;
+    struct kiln_threads *threads;
     struct kiln_scene *scene;
     struct kiln_atlas atlas;
     struct kiln_image backdrop_color, backdrop_depth; /* as the backdrop drew them */
@@ -32,29 +36,42 @@ struct drawing {
 
 /* A texture whose colour is where it is: red from left to right, green from top to bottom, blue 1.
  */
-static inline void drawing_make_atlas(struct drawing *d)
+static inline void drawing_fill_level(unsigned char *texels, int edge)
 {
-    static unsigned char texels[DRAWING_CELL * DRAWING_CELL * 4];
-    for (int i = 0; i < DRAWING_CELL * DRAWING_CELL; i++) {
-        double x = (i % DRAWING_CELL + 0.5) / DRAWING_CELL;
-        double y = (i / DRAWING_CELL + 0.5) / DRAWING_CELL;
+    for (int i = 0; i < edge * edge; i++) {
+        double x = (i % edge + 0.5) / edge, y = (i / edge + 0.5) / edge;
         unsigned char texel[4] = {(unsigned char)(sqrt(x) * 255 + 0.5),
                                   (unsigned char)(sqrt(y) * 255 + 0.5), 255, 255};
         memcpy(texels + 4 * i, texel, 4);
     }
+}
+
+static inline void drawing_make_atlas(struct drawing *d)
+{
     static const signed char still[2] = {0, 0};
     GLuint textures[2];
     glGenTextures(2, textures);
+    d->atlas = (struct kiln_atlas){.texels = calloc(1, KILN_ATLAS_LAYER_BYTES),
+                                   .texture = textures[0],
+                                   .motion = textures[1],
+                                   .layers = 1};
+    assert_non_null(d->atlas.texels);
     glBindTexture(GL_TEXTURE_2D_ARRAY, textures[0]);
-    glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_RGBA8, DRAWING_CELL, DRAWING_CELL, 1);
-    glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, DRAWING_CELL, DRAWING_CELL, 1, GL_RGBA,
-                    GL_UNSIGNED_BYTE, texels);
+    glTexStorage3D(GL_TEXTURE_2D_ARRAY, KILN_ATLAS_LEVELS, GL_RGBA8, DRAWING_CELL, DRAWING_CELL, 1);
+    unsigned char *texels = d->atlas.texels;
+    for (int level = 0; level < KILN_ATLAS_LEVELS; level++) {
+        int edge = DRAWING_CELL >> level;
+        drawing_fill_level(texels, edge);
+        glTexSubImage3D(GL_TEXTURE_2D_ARRAY, level, 0, 0, 0, edge, edge, 1, GL_RGBA,
+                        GL_UNSIGNED_BYTE, texels);
+        texels += 4 * edge * edge;
+    }
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     glBindTexture(GL_TEXTURE_2D_ARRAY, textures[1]);
     glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_RG8_SNORM, 1, 1, 1);
     glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, 1, 1, 1, GL_RG, GL_BYTE, still);
-    d->atlas = (struct kiln_atlas){.texture = textures[0], .motion = textures[1], .layers = 1};
     for (int i = 0; i < KILN_MAX_SYSTEMS; i++)
         d->atlas.systems[i] = (struct kiln_atlas_textures){
             .textures = {{.cells = 1, .kind = KILN_CELL_COLOR}}, .count = 1};
@@ -78,7 +95,7 @@ static inline void drawing_init(struct drawing *d, struct kiln_device *device, c
                                 const char *const *overrides, size_t override_count)
 {
     struct kiln_error error = {0};
-    *d = (struct drawing){.device = device};
+    *d = (struct drawing){.device = device, .threads = kiln_threads_create(2)};
     struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
     params.overrides = overrides;
     params.override_count = override_count;
@@ -89,7 +106,8 @@ static inline void drawing_init(struct drawing *d, struct kiln_device *device, c
     drawing_make_targets(d);
     d->backdrop =
         kiln_backdrop_create(device, d->scene, &d->backdrop_color, &d->backdrop_depth, &error);
-    d->particles = kiln_particles_create(device, d->scene, &d->atlas, &error);
+    d->particles =
+        kiln_particles_create(device, d->scene, &d->atlas, drawing_technique, d->threads, &error);
     if (!d->backdrop || !d->particles)
         fail_msg("%s", error.message);
     static const uint32_t capacity = DRAWING_MOST;
@@ -110,6 +128,7 @@ static inline void drawing_finish(struct drawing *d)
         kiln_image_finish(images[i]);
     kiln_atlas_finish(&d->atlas);
     kiln_scene_destroy(&d->scene);
+    kiln_threads_destroy(&d->threads);
 }
 
 /* A particle that was born at the start of step 1. */
@@ -148,10 +167,13 @@ static inline void drawing_run(struct drawing *d, uint32_t count, float depth_m)
     assert_non_null(depth);
     for (uint32_t i = 0; i < d->scene->width * d->scene->height; i++)
         depth[i] = depth_m;
+    const struct kiln_lighting none = {0};
     const struct kiln_particles_draw job = {.pool = &d->pool,
                                             .entries = &d->entries,
                                             .count = count,
-                                            .time_s = d->view.clock.x,
+                                            .view = &d->view,
+                                            .backdrop = kiln_backdrop_block(d->backdrop),
+                                            .lighting = &none,
                                             .depth = &d->depth,
                                             .framebuffer = &d->framebuffer};
     if (!kiln_particles_run(d->particles, &job, &error))

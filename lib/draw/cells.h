@@ -1,0 +1,43 @@
+/* The cells of flipbooks as the CPU rasteriser samples them (Heinz 2019, 3.2.4, equation 3.2). A
+ * large particle takes a sample of both cells that it is between, and one of their motion. For a
+ * small one they are mixed beforehand: its place between them is rounded to one of
+ * KILN_CELL_PHASES, and what is mixed is kept. (Mixed large ones would not stay in the cache.)
+ */
+#ifndef KILN_DRAW_CELLS_H
+#define KILN_DRAW_CELLS_H
+
+#include "asset/atlas.h"
+#include "base/thread.h"
+
+enum { KILN_CELL_PHASES = 16, KILN_CELL_MIXED_LEVEL = 2 /* and smaller ones are mixed */ };
+
+struct kiln_cells;
+
+/* A cell: phase / KILN_CELL_PHASES of the way from a layer of the atlas to the next one of its
+ * texture, at a level of detail; 0 is the layer itself. */
+struct kiln_cell_name {
+    uint32_t layer, next_layer, phase, level;
+    float motion; /* of the texture: kiln_atlas_range */
+};
+
+/* NULL with an error; the atlas must outlive it. */
+struct kiln_cells *kiln_cells_create(const struct kiln_atlas *atlas, struct kiln_error *error);
+void kiln_cells_destroy(struct kiln_cells **cells);
+
+/* The number of a cell, which will be there after the next kiln_cells_mix. Any thread may ask. */
+uint32_t kiln_cells_want(struct kiln_cells *cells, const struct kiln_cell_name *name);
+
+/* Mixes what was wanted and is not there yet. */
+bool kiln_cells_mix(struct kiln_cells *cells, struct kiln_threads *threads,
+                    struct kiln_error *error);
+
+/* Motion, by layer: RGBA as above with KILN_ATLAS_MOTION for an edge; right and down in red and
+ * green, 128 for none, 127 more for a full move. NULL when nothing moves. */
+const uint8_t *kiln_cells_moves(const struct kiln_cells *cells, uint32_t layer);
+
+/* By number, the texels of the cells that are there: RGBA as in the atlas, kiln_cells_pitch(level)
+ * a row, in which the last column and the last row stand twice. */
+const uint8_t *const *kiln_cells_texels(const struct kiln_cells *cells);
+uint32_t kiln_cells_pitch(uint32_t level);
+
+#endif

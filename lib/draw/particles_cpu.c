@@ -1,0 +1,254 @@
+/* The particles in pieces of so many that memory stays bounded: made into sprites, sorted into the
+ * tiles that they touch, then tile by tile drawn in order. */
+#include "draw/particles_cpu.h"
+
+#include "base/error.h"
+#include "draw/bins.h"
+#include "draw/looks.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { SPRITES_AT_A_TIME = 1 << 18, MAKE_AT_A_TIME = 512 };
+
+struct kiln_tiles {
+    const struct kiln_scene *scene;
+    struct kiln_threads *threads;
+    struct kiln_cells *cells;
+    struct kiln_bins bins;
+    struct kiln_draw_look looks[KILN_MAX_SYSTEMS];
+    float4 *table;
+    bool table_valid;
+    struct kiln_sprite *sprites;
+    uint32_t sprite_room;
+    struct kiln_tile *tiles; /* one a thread */
+    kiln_tile_draw *draw;
+};
+
+static bool out_of_memory(struct kiln_error *error)
+{
+    return kiln_error_set(error, KILN_DEVICE_FAILED, "particles: out of memory");
+}
+
+/* The machine's widest vectors, or those that the environment names: for tests, and for measuring
+ * what a lesser machine would take. */
+static kiln_tile_draw *choose_drawing(struct kiln_error *error)
+{
+    const char *name = getenv("KILN_SIMD"); /* NOLINT(concurrency-mt-unsafe): only read */
+    kiln_tile_draw *draw = kiln_tile_drawing(name);
+    if (!draw)
+        kiln_error_set(error, KILN_USAGE, "KILN_SIMD is '%s'; this machine has: %s", name,
+                       kiln_tile_drawings());
+    return draw;
+}
+
+struct kiln_tiles *kiln_tiles_create(const struct kiln_scene *scene, const struct kiln_atlas *atlas,
+                                     struct kiln_threads *threads, struct kiln_error *error)
+{
+    struct kiln_tiles *tiles = calloc(1, sizeof *tiles);
+    if (!tiles) {
+        out_of_memory(error);
+        return NULL;
+    }
+    tiles->scene = scene;
+    tiles->threads = threads;
+    tiles->draw = choose_drawing(error);
+    if (!tiles->draw) {
+        kiln_tiles_destroy(&tiles);
+        return NULL;
+    }
+    kiln_looks_fill(scene, atlas, tiles->looks);
+    tiles->table = calloc((size_t)KILN_LOOK_TEXELS, sizeof *tiles->table);
+    tiles->tiles = aligned_alloc(64, kiln_threads_count(threads) * sizeof *tiles->tiles);
+    tiles->cells = kiln_cells_create(atlas, error);
+    if (!tiles->table || !tiles->tiles || !tiles->cells ||
+        !kiln_bins_init(&tiles->bins, scene->width, scene->height, error)) {
+        out_of_memory(error);
+        kiln_tiles_destroy(&tiles);
+    }
+    return tiles;
+}
+
+void kiln_tiles_destroy(struct kiln_tiles **tiles)
+{
+    struct kiln_tiles *t = *tiles;
+    if (!t)
+        return;
+    kiln_cells_destroy(&t->cells);
+    kiln_bins_finish(&t->bins);
+    free(t->table);
+    free(t->sprites);
+    free(t->tiles);
+    free(t);
+    *tiles = NULL;
+}
+
+/* ---- sprites --------------------------------------------------------------------------------- */
+
+struct making {
+    const struct kiln_sprite_pass *pass;
+    const uint32_t *entries;
+    struct kiln_sprite *sprites;
+};
+
+static void make_sprites(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct making *making = context;
+    kiln_sprites_make(making->pass, making->entries + begin, end - begin, making->sprites + begin);
+}
+
+static bool make_room(struct kiln_tiles *tiles, uint32_t count, struct kiln_error *error)
+{
+    uint32_t wanted = count < SPRITES_AT_A_TIME ? count : SPRITES_AT_A_TIME;
+    if (wanted <= tiles->sprite_room)
+        return true;
+    free(tiles->sprites);
+    tiles->sprites = aligned_alloc(64, (size_t)wanted * sizeof *tiles->sprites);
+    tiles->sprite_room = tiles->sprites ? wanted : 0;
+    return tiles->sprites || out_of_memory(error);
+}
+
+/* ---- tiles ----------------------------------------------------------------------------------- */
+
+struct drawing {
+    struct kiln_tiles *tiles;
+    float *color, *bloom; /* pixels of the targets */
+    const float *depth;
+    uint32_t width, height;
+    bool first, last; /* piece of the pass */
+    bool keep_bloom, sum;
+};
+
+static void load_row(const struct drawing *d, struct kiln_tile *tile, int y, size_t at)
+{
+    float(*planes)[KILN_TILE_PITCH] = tile->pixels[y];
+    size_t count = (size_t)tile->width;
+    memcpy(planes[KILN_TILE_DEPTH], d->depth + at, count * sizeof(float));
+    if (d->first)
+        memset(planes, 0, KILN_TILE_DEPTH * sizeof *planes);
+    for (size_t x = 0; x < count && !d->first; x++) {
+        for (int c = 0; c < 4; c++)
+            planes[KILN_TILE_RED + c][x] = d->color[4 * (at + x) + (size_t)c];
+    }
+    for (size_t x = 0; x < count && (!d->first || d->keep_bloom); x++) {
+        for (int c = 0; c < 3; c++)
+            planes[KILN_TILE_GLOW_RED + c][x] = d->bloom[4 * (at + x) + (size_t)c];
+    }
+}
+
+static void store_row(const struct drawing *d, const struct kiln_tile *tile, int y, size_t at)
+{
+    const float(*planes)[KILN_TILE_PITCH] = (const float(*)[KILN_TILE_PITCH])tile->pixels[y];
+    for (size_t x = 0; x < (size_t)tile->width; x++) {
+        float *color = d->color + 4 * (at + x), *bloom = d->bloom + 4 * (at + x);
+        for (int c = 0; c < 3; c++) {
+            color[c] = planes[KILN_TILE_RED + c][x];
+            bloom[c] = planes[KILN_TILE_GLOW_RED + c][x];
+        }
+        float alpha = planes[KILN_TILE_ALPHA][x];
+        color[3] = alpha;
+        /* The glow's alpha goes the same way, from what an earlier pass has left. */
+        float before = d->keep_bloom ? bloom[3] : 0.0f;
+        if (d->last)
+            bloom[3] = alpha + before * (d->sum ? 1.0f : 1.0f - alpha);
+    }
+}
+
+static void draw_tile(const struct drawing *d, size_t number, struct kiln_tile *tile)
+{
+    const struct kiln_bins *bins = &d->tiles->bins;
+    uint32_t x = (uint32_t)(number % bins->columns) * KILN_TILE_WIDTH;
+    uint32_t y = (uint32_t)(number / bins->columns) * KILN_TILE_HEIGHT;
+    uint32_t width = d->width - x, height = d->height - y;
+    tile->x = (int)x;
+    tile->y = (int)y;
+    tile->width = width < KILN_TILE_WIDTH ? (int)width : KILN_TILE_WIDTH;
+    tile->height = height < KILN_TILE_HEIGHT ? (int)height : KILN_TILE_HEIGHT;
+    tile->nearest = bins->depth[number].nearest;
+    tile->over = d->sum ? 0.0f : 1.0f;
+    tile->glows = true;
+    for (int row = 0; row < tile->height; row++)
+        load_row(d, tile, row, (size_t)(y + (uint32_t)row) * d->width + x);
+    d->tiles->draw(tile, d->tiles->sprites, d->tiles->cells, bins->list + bins->first[number],
+                   bins->first[number + 1] - bins->first[number]);
+    for (int row = 0; row < tile->height; row++)
+        store_row(d, tile, row, (size_t)(y + (uint32_t)row) * d->width + x);
+}
+
+static void draw_tiles(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    const struct drawing *d = context;
+    for (size_t number = begin; number < end; number++)
+        draw_tile(d, number, &d->tiles->tiles[worker]);
+}
+
+/* ---- a pass ---------------------------------------------------------------------------------- */
+
+static bool draw_piece(struct kiln_tiles *tiles, const struct kiln_sprite_pass *pass,
+                       const uint32_t *entries, uint32_t count, struct drawing *drawing,
+                       struct kiln_error *error)
+{
+    struct making making = {pass, entries, tiles->sprites};
+    kiln_threads_for(tiles->threads, count, MAKE_AT_A_TIME, make_sprites, &making);
+    if (!kiln_cells_mix(tiles->cells, tiles->threads, error) ||
+        !kiln_bins_fill(&tiles->bins, tiles->sprites, count, tiles->threads, error))
+        return false;
+    size_t tile_count = (size_t)tiles->bins.columns * tiles->bins.rows;
+    kiln_threads_for(tiles->threads, tile_count, 1, draw_tiles, drawing);
+    return true;
+}
+
+/* The pixels that a pass reads and writes. */
+static bool open_images(const struct kiln_particles_draw *draw, struct drawing *d,
+                        struct kiln_error *error)
+{
+    struct kiln_image *color = draw->framebuffer->images[0], *bloom = draw->framebuffer->images[1];
+    d->depth = kiln_image_host(draw->depth, KILN_READ, error);
+    d->color = d->depth ? kiln_image_host(color, KILN_OVERWRITE, error) : NULL;
+    d->bloom =
+        d->color
+            ? kiln_image_host(bloom, draw->keep_bloom ? KILN_READ_WRITE : KILN_OVERWRITE, error)
+            : NULL;
+    d->width = color->width;
+    d->height = color->height;
+    return d->bloom != NULL;
+}
+
+bool kiln_tiles_run(struct kiln_tiles *tiles, const struct kiln_particles_draw *draw,
+                    struct kiln_error *error)
+{
+    struct drawing drawing = {
+        .tiles = tiles, .keep_bloom = draw->keep_bloom, .sum = draw->sum_alpha};
+    const struct kiln_particle *records = kiln_buffer_host(&draw->pool->records, KILN_READ, error);
+    const uint32_t *entries = records ? kiln_buffer_host(draw->entries, KILN_READ, error) : NULL;
+    if (!entries || !open_images(draw, &drawing, error) || !make_room(tiles, draw->count, error))
+        return false;
+    if (!tiles->table_valid || kiln_looks_vary(tiles->scene))
+        kiln_looks_sample(tiles->scene, draw->view->clock.x, tiles->table);
+    tiles->table_valid = true;
+    struct kiln_sprite_pass pass = {
+        .scene = tiles->scene,
+        .looks = tiles->looks,
+        .table = tiles->table,
+        .records = records,
+        .view = draw->view,
+        .backdrop = draw->backdrop,
+        .lighting = draw->lighting,
+        .cells = tiles->cells,
+        .fire_covers = draw->sum_alpha || draw->fire_covers,
+    };
+    kiln_sprite_lights_fill(&pass.lights, draw->backdrop);
+    kiln_bins_measure(&tiles->bins, drawing.depth, drawing.width, drawing.height, tiles->threads);
+    uint32_t done = 0;
+    do { /* at least once, for the clear picture of no particles */
+        uint32_t left = draw->count - done;
+        uint32_t count = left < SPRITES_AT_A_TIME ? left : SPRITES_AT_A_TIME;
+        drawing.first = done == 0;
+        drawing.last = count == left;
+        if (!draw_piece(tiles, &pass, entries + done, count, &drawing, error))
+            return false;
+        done += count;
+    } while (done < draw->count);
+    return true;
+}

@@ -1,0 +1,22 @@
+/* Technique `geometry` of the particles, and what other stages of a device read of particles. */
+#ifndef KILN_DRAW_PARTICLES_GEOMETRY_H
+#define KILN_DRAW_PARTICLES_GEOMETRY_H
+
+#include "draw/particles.h"
+
+struct kiln_geometry;
+
+/* draws: false when it is only asked to bind. */
+struct kiln_geometry *kiln_geometry_create(struct kiln_device *device,
+                                           const struct kiln_scene *scene,
+                                           const struct kiln_atlas *atlas, bool draws,
+                                           struct kiln_error *error);
+void kiln_geometry_destroy(struct kiln_geometry **geometry);
+
+/* See kiln_particles_bind and kiln_particles_run. */
+bool kiln_geometry_bind(struct kiln_geometry *geometry, struct kiln_pool *pool,
+                        struct kiln_buffer *entries, float time_s, struct kiln_error *error);
+bool kiln_geometry_run(struct kiln_geometry *geometry, const struct kiln_particles_draw *draw,
+                       struct kiln_error *error);
+
+#endif

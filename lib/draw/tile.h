@@ -1,0 +1,51 @@
+/* A part of the picture that stays in the first cache while everything that touches it is drawn,
+ * in order. Sprites are drawn by the widest vectors that the machine has, with the same bits. */
+#ifndef KILN_DRAW_TILE_H
+#define KILN_DRAW_TILE_H
+
+#include "draw/sprite.h"
+
+enum {
+    KILN_TILE_WIDTH = 64,
+    KILN_TILE_HEIGHT = 16,
+    KILN_TILE_PITCH = KILN_TILE_WIDTH + 16, /* a vector may reach beyond the right edge */
+};
+
+/* Colour, alpha and glow of what was drawn, premultiplied; the depth of the scene, m. */
+enum kiln_tile_plane {
+    KILN_TILE_RED,
+    KILN_TILE_GREEN,
+    KILN_TILE_BLUE,
+    KILN_TILE_ALPHA,
+    KILN_TILE_GLOW_RED,
+    KILN_TILE_GLOW_GREEN,
+    KILN_TILE_GLOW_BLUE,
+    KILN_TILE_DEPTH,
+    KILN_TILE_PLANES,
+};
+
+struct kiln_tile {
+    _Alignas(64) float pixels[KILN_TILE_HEIGHT][KILN_TILE_PLANES][KILN_TILE_PITCH];
+    int x, y, width, height; /* in the picture, px */
+    float nearest;           /* depth in it, m */
+    float over;              /* 1: what covers hides what is behind; 0: alpha is summed up */
+    bool glows;              /* the glow is wanted */
+};
+
+/* Draws sprites in the order of the list into the tile; their cells have been mixed. */
+typedef void kiln_tile_draw(struct kiln_tile *tile, const struct kiln_sprite *sprites,
+                            const struct kiln_cells *cells, const uint32_t *list, size_t count);
+
+kiln_tile_draw kiln_tile_draw_plain;
+#ifdef __x86_64__
+kiln_tile_draw kiln_tile_draw_sse41, kiln_tile_draw_avx2, kiln_tile_draw_avx512;
+#endif
+
+/* The code for vectors of a name ("plain", "sse4.1", "avx2", "avx512"), or NULL when this machine
+ * does not have them; for NULL, the widest ones that it has. */
+kiln_tile_draw *kiln_tile_drawing(const char *name);
+
+/* The names that this machine has, narrowest first, joined by commas. */
+const char *kiln_tile_drawings(void);
+
+#endif
