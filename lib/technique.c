@@ -27,7 +27,8 @@ static const struct row ROWS[] = {
     {SIMULATE, "inplace", KILN_SIMULATE_INPLACE,
      "compute, one buffer updated in place; the default on exact GPUs"},
     {SORT, "cpu", KILN_SORT_CPU, "stable radix sort, host threads"},
-    {RASTER, "cpu", KILN_RASTER_CPU, "host threads, tiles and vectors"},
+    {RASTER, "cpu", KILN_RASTER_CPU,
+     "host threads, by tiles and vectors; the same pixels on every machine"},
     {RASTER, "geometry", KILN_RASTER_GEOMETRY,
      "points turned into billboards by a geometry shader"},
 };

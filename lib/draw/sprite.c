@@ -1,14 +1,10 @@
 /* As shaders/draw/particles.vert and particles.geom do it, but in arithmetic of our own, so that
  * pictures do not depend on the machine's mathematics either.
  */
-#include "draw/sprite.h"
+#include "draw/sprite_light.h"
 
 #include "base/vector.h"
 #include "shared/derived.h"
-
-enum { LIGHTS_AT_A_TIME = 8 };
-
-static const float PI = 3.14159265f;
 
 /* The plane of a billboard: unit vectors in view space. */
 struct plane {
@@ -141,17 +137,8 @@ static void turn_billboard(struct subject *p)
         float3_add_scaled(float3_scale(plane.right, up_x), plane.up, up_y), plane.normal};
 }
 
-/* ---- light ----------------------------------------------------------------------------------- */
-
-/* Light from everywhere, and how it changes along the billboard's axes. */
-struct light {
-    float parts[4][3];
-};
-
-/* The billboard's axes in the world. */
-struct axes {
-    float3 right, up, normal;
-};
+/* ---- colour ------------------------------------------------------------------------------------
+ */
 
 static float3 to_world(const struct kiln_view *view, float3 v)
 {
@@ -161,97 +148,13 @@ static float3 to_world(const struct kiln_view *view, float3 v)
                     rows[0].z * v.x + rows[1].z * v.y + rows[2].z * v.z};
 }
 
-/* Smoke scatters: a sprite's far side is dimmer, not black. Light from a direction is half ambient,
- * half along the normal: factors for the four parts of the light. */
-static void add_light(struct light *light, const float radiance[3], const float factors[4])
-{
-    for (int part = 0; part < 4; part++) {
-        for (int c = 0; c < 3; c++)
-            light->parts[part][c] += radiance[c] * factors[part];
-    }
-}
-
-static void add_far_light(struct light *light, const struct axes *axes, float4 radiance,
-                          float factor, float3 direction)
-{
-    const float color[3] = {radiance.x, radiance.y, radiance.z};
-    float half = 0.5f * factor;
-    const float factors[4] = {half, half * float3_dot(direction, axes->right),
-                              half * float3_dot(direction, axes->up),
-                              half * float3_dot(direction, axes->normal)};
-    add_light(light, color, factors);
-}
-
-void kiln_sprite_lights_fill(struct kiln_sprite_lights *lights,
-                             const struct kiln_draw_backdrop *backdrop)
-{
-    *lights = (struct kiln_sprite_lights){.count = 0};
-    uint32_t count = backdrop->counts.y;
-    for (uint32_t i = 0; i < count && i < KILN_SPRITE_LIGHTS; i++) {
-        const struct kiln_draw_light *light = &backdrop->lights[i];
-        lights->x[i] = light->position_radius2.x;
-        lights->y[i] = light->position_radius2.y;
-        lights->z[i] = light->position_radius2.z;
-        lights->radius2[i] = light->position_radius2.w;
-        lights->color[i][0] = light->color.x;
-        lights->color[i][1] = light->color.y;
-        lights->color[i][2] = light->color.z;
-    }
-    lights->count = (count + LIGHTS_AT_A_TIME - 1) / LIGHTS_AT_A_TIME * LIGHTS_AT_A_TIME;
-}
-
-static void add_point_lights(struct light *light, const struct kiln_sprite_lights *lights,
-                             const struct axes *axes, float lit, float3 position)
-{
-    float factors[4][LIGHTS_AT_A_TIME];
-    for (uint32_t first = 0; first < lights->count; first += LIGHTS_AT_A_TIME) {
-        for (uint32_t k = 0; k < LIGHTS_AT_A_TIME; k++) {
-            uint32_t i = first + k;
-            float x = lights->x[i] - position.x, y = lights->y[i] - position.y;
-            float z = lights->z[i] - position.z;
-            float d2 = x * x + y * y + z * z;
-            float half = 0.5f * lit / (d2 + lights->radius2[i] + 1e-12f);
-            float towards = half / sqrtf(d2 + 1e-9f);
-            factors[0][k] = half;
-            factors[1][k] = (x * axes->right.x + y * axes->right.y + z * axes->right.z) * towards;
-            factors[2][k] = (x * axes->up.x + y * axes->up.y + z * axes->up.z) * towards;
-            factors[3][k] =
-                (x * axes->normal.x + y * axes->normal.y + z * axes->normal.z) * towards;
-        }
-        for (uint32_t k = 0; k < LIGHTS_AT_A_TIME; k++) {
-            const float at[4] = {factors[0][k], factors[1][k], factors[2][k], factors[3][k]};
-            add_light(light, lights->color[first + k], at);
-        }
-    }
-}
-
-static struct light light_particle(const struct subject *p, float3 position)
-{
-    const struct kiln_draw_backdrop *b = p->pass->backdrop;
-    float lit = p->cover.w;
-    struct light light = {{{1.0f - lit, 1.0f - lit, 1.0f - lit}}};
-    if (lit <= 0.0f)
-        return light;
-    const struct axes axes = {to_world(p->pass->view, p->plane.right),
-                              to_world(p->pass->view, p->plane.up),
-                              to_world(p->pass->view, p->plane.normal)};
-    /* The horizon's light comes from all sides and crosses less of the smoke than that from above.
-     */
-    float sky = kiln_lighting_sky(p->pass->lighting, position);
-    float sun = kiln_lighting_sun(p->pass->lighting, position);
-    const float horizon[3] = {b->sky_horizon.x, b->sky_horizon.y, b->sky_horizon.z};
-    const float ambient[4] = {lit * exact_sqrt(sky)};
-    add_light(&light, horizon, ambient);
-    add_far_light(&light, &axes, b->sky_top, lit * sky, (float3){0.0f, 1.0f, 0.0f});
-    float3 sun_direction = {b->sun_direction.x, b->sun_direction.y, b->sun_direction.z};
-    add_far_light(&light, &axes, b->sun_color, lit * sun / PI, sun_direction);
-    add_point_lights(&light, &p->pass->lights, &axes, lit, position);
-    return light;
-}
-
 static void shade(const struct subject *p, float3 position, struct kiln_sprite *s)
 {
-    const struct light light = light_particle(p, position);
+    const struct kiln_view *view = p->pass->view;
+    const struct kiln_sprite_axes axes = {to_world(view, p->plane.right),
+                                          to_world(view, p->plane.up),
+                                          to_world(view, p->plane.normal)};
+    const struct kiln_sprite_light light = kiln_sprite_light(p->pass, p->cover.w, &axes, position);
     const float albedo[3] = {p->cover.x, p->cover.y, p->cover.z};
     const float hot[3] = {p->hot.x, p->hot.y, p->hot.z};
     const float cool[3] = {p->cool.x, p->cool.y, p->cool.z};
