@@ -28,9 +28,9 @@ static const struct row ROWS[] = {
      "compute, one buffer updated in place; the default on exact GPUs"},
     {SORT, "cpu", KILN_SORT_CPU, "stable radix sort, host threads"},
     {RASTER, "cpu", KILN_RASTER_CPU,
-     "host threads, by tiles and vectors; the same pixels on every machine"},
+     "host threads, tiles and vectors; the default on software devices"},
     {RASTER, "geometry", KILN_RASTER_GEOMETRY,
-     "points turned into billboards by a geometry shader"},
+     "points turned into billboards by a geometry shader; the default on GPUs"},
 };
 
 enum { ROW_COUNT = sizeof ROWS / sizeof *ROWS };
@@ -105,7 +105,7 @@ bool kiln_techniques_choose(const struct kiln_device_info *device, const char *c
         .value = {
             [SIMULATE] = exact_gpu ? KILN_SIMULATE_INPLACE : KILN_SIMULATE_CPU,
             [SORT] = KILN_SORT_CPU,
-            [RASTER] = KILN_RASTER_GEOMETRY,
+            [RASTER] = device->software ? KILN_RASTER_CPU : KILN_RASTER_GEOMETRY,
         }};
     struct choices choices = automatic;
     for (size_t i = 0; i < flag_count; i++) {

@@ -25,7 +25,7 @@ static void defaults_follow_the_device(void **state)
     char text[256];
     struct kiln_error error = {0};
     assert_true(choose(true, true, NULL, text, &error));
-    assert_string_equal(text, "simulate=cpu sort=cpu raster=geometry");
+    assert_string_equal(text, "simulate=cpu sort=cpu raster=cpu");
     assert_true(choose(false, true, NULL, text, &error));
     assert_string_equal(text, "simulate=inplace sort=cpu raster=geometry");
     assert_true(choose(false, false, NULL, text, &error));
@@ -51,7 +51,9 @@ static void flags_force_a_technique(void **state)
     char text[256];
     struct kiln_error error = {0};
     assert_true(choose(true, true, "simulate=inplace", text, &error));
-    assert_string_equal(text, "simulate=inplace sort=cpu raster=geometry");
+    assert_string_equal(text, "simulate=inplace sort=cpu raster=cpu");
+    assert_true(choose(true, true, "raster=geometry", text, &error));
+    assert_string_equal(text, "simulate=cpu sort=cpu raster=geometry");
 
     assert_false(choose(true, true, "simulate", text, &error));
     assert_int_equal(error.code, KILN_USAGE);
@@ -91,9 +93,10 @@ static void combinations_start_with_the_pinned_one(void **state)
             assert_string_not_equal(seen[i], seen[count]);
         assert_true(count < 15);
     }
-    assert_true(count >= 2);
-    assert_string_equal(seen[0], "simulate=cpu sort=cpu raster=geometry");
-    assert_string_equal(seen[1], "simulate=inplace sort=cpu raster=geometry");
+    assert_true(count >= 4);
+    assert_string_equal(seen[0], "simulate=cpu sort=cpu raster=cpu");
+    assert_string_equal(seen[1], "simulate=inplace sort=cpu raster=cpu");
+    assert_string_equal(seen[2], "simulate=cpu sort=cpu raster=geometry");
 }
 
 int main(void)
