@@ -9,7 +9,11 @@
 #include "asset/atlas.h"
 #include "base/thread.h"
 
-enum { KILN_CELL_PHASES = 16, KILN_CELL_MIXED_LEVEL = 2 /* and smaller ones are mixed */ };
+enum {
+    KILN_CELL_PHASES = 16,
+    KILN_CELL_MIXED_LEVEL = 2, /* the largest that is mixed... */
+    KILN_CELL_MOVED_LEVEL = 3, /* ...and of what moves, which mixing blurs */
+};
 
 struct kiln_cells;
 

@@ -16,6 +16,7 @@ struct subject {
     const struct kiln_sprite_pass *pass;
     const struct kiln_draw_look *look;
     const float4 *rows; /* of its system in the table */
+    uint32_t slot;
     struct kiln_particle record;
     uint32_t stream;
     float progress, age_s;
@@ -154,7 +155,8 @@ static void shade(const struct subject *p, float3 position, struct kiln_sprite *
     const struct kiln_sprite_axes axes = {to_world(view, p->plane.right),
                                           to_world(view, p->plane.up),
                                           to_world(view, p->plane.normal)};
-    const struct kiln_sprite_light light = kiln_sprite_light(p->pass, p->cover.w, &axes, position);
+    const struct kiln_sprite_light light =
+        kiln_sprite_light(p->pass, p->slot, p->cover.w, &axes, position);
     const float albedo[3] = {p->cover.x, p->cover.y, p->cover.z};
     const float hot[3] = {p->hot.x, p->hot.y, p->hot.z};
     const float cool[3] = {p->cool.x, p->cool.y, p->cool.z};
@@ -206,7 +208,7 @@ static void choose_cells(const struct subject *p, uint4 texture, uint32_t level,
         position += random_unit(p->stream, RANDOM_CELL) * (float)texture.y;
     position = exact_clamp(position, 0.0f, 1e6f);
     struct kiln_cell_name name = {.level = level, .motion = BITS_FLOAT(texture.w)};
-    if (level >= KILN_CELL_MIXED_LEVEL) {
+    if (level >= (name.motion > 0.0f ? KILN_CELL_MOVED_LEVEL : KILN_CELL_MIXED_LEVEL)) {
         uint32_t phase = (uint32_t)(position * (float)KILN_CELL_PHASES + 0.5f);
         uint32_t cell = phase / KILN_CELL_PHASES % texture.y;
         name.phase = phase % KILN_CELL_PHASES;
@@ -423,7 +425,8 @@ static void read_particle(const struct kiln_sprite_pass *pass, uint32_t entry, s
     p->pass = pass;
     p->look = &pass->looks[system];
     p->rows = pass->table + (size_t)system * KILN_LOOK_ROWS * KILN_LOOK_SAMPLES;
-    p->record = pass->records[KILN_ENTRY_SLOT(entry)];
+    p->slot = KILN_ENTRY_SLOT(entry);
+    p->record = pass->records[p->slot];
     p->stream = particle_stream(p->look->derived, p->record);
     p->age_s = particle_age(p->record, view->clock_step.x, view->clock.y);
     p->progress = particle_progress(

@@ -75,8 +75,9 @@ static void add_point_lights(struct kiln_sprite_light *light,
 }
 
 KILN_WIDE_VECTORS
-struct kiln_sprite_light kiln_sprite_light(const struct kiln_sprite_pass *pass, float lit,
-                                           const struct kiln_sprite_axes *axes, float3 position)
+struct kiln_sprite_light kiln_sprite_light(const struct kiln_sprite_pass *pass, uint32_t slot,
+                                           float lit, const struct kiln_sprite_axes *axes,
+                                           float3 position)
 {
     const struct kiln_draw_backdrop *b = pass->backdrop;
     struct kiln_sprite_light light = {{{1.0f - lit, 1.0f - lit, 1.0f - lit}}};
@@ -86,6 +87,8 @@ struct kiln_sprite_light kiln_sprite_light(const struct kiln_sprite_pass *pass, 
      */
     float sky = kiln_lighting_sky(pass->lighting, position);
     float sun = kiln_lighting_sun(pass->lighting, position);
+    if (pass->lighting->sunlit)
+        sun *= pass->lighting->sunlit[slot];
     const float horizon[3] = {b->sky_horizon.x, b->sky_horizon.y, b->sky_horizon.z};
     const float ambient[4] = {lit * exact_sqrt(sky)};
     add_light(&light, horizon, ambient);

@@ -15,8 +15,10 @@ struct kiln_sprite_axes {
     float3 right, up, normal;
 };
 
-/* lit: how much of it is reflected; the rest of a sprite is as bright as if in white light. */
-struct kiln_sprite_light kiln_sprite_light(const struct kiln_sprite_pass *pass, float lit,
-                                           const struct kiln_sprite_axes *axes, float3 position);
+/* Of the particle in a slot. lit: how much of the light is reflected; the rest of a sprite is as
+ * bright as if in white light. */
+struct kiln_sprite_light kiln_sprite_light(const struct kiln_sprite_pass *pass, uint32_t slot,
+                                           float lit, const struct kiln_sprite_axes *axes,
+                                           float3 position);
 
 #endif
