@@ -170,7 +170,7 @@ static void upload_cells(struct kiln_atlas *atlas)
     glGenTextures(1, &atlas->texture);
     glBindTexture(GL_TEXTURE_2D_ARRAY, atlas->texture);
     glTexStorage3D(GL_TEXTURE_2D_ARRAY, KILN_ATLAS_LEVELS, GL_RGBA8, KILN_ATLAS_CELL,
-                   KILN_ATLAS_CELL, (GLsizei)atlas->layers);
+                   KILN_ATLAS_CELL, atlas->layers ? (GLsizei)atlas->layers : 1);
     for (uint32_t layer = 0; layer < atlas->layers; layer++) {
         for (uint32_t level = 0; level < KILN_ATLAS_LEVELS; level++) {
             GLsizei edge = KILN_ATLAS_CELL >> level;
@@ -278,7 +278,7 @@ static bool fill_layers(struct kiln_atlas *atlas, struct flipbooks *all,
     bool ok = true, any_moves = false;
     for (uint32_t i = 0; i < all->count; i++)
         any_moves |= moves(&all->books[i]);
-    atlas->texels = malloc((size_t)atlas->layers * KILN_ATLAS_LAYER_BYTES);
+    atlas->texels = malloc((size_t)atlas->layers * KILN_ATLAS_LAYER_BYTES + 1); /* none: not NULL */
     if (any_moves)
         atlas->moves = calloc(atlas->layers, KILN_ATLAS_MOVES_BYTES);
     if (!atlas->texels || (any_moves && !atlas->moves))

@@ -63,7 +63,7 @@ struct kiln_cells *kiln_cells_create(const struct kiln_atlas *atlas, struct kiln
     struct kiln_cells *cells = calloc(1, sizeof *cells);
     if (cells) {
         cells->atlas = atlas;
-        cells->slot_count = atlas->layers * PHASE_LEVELS;
+        cells->slot_count = (atlas->layers ? atlas->layers : 1) * PHASE_LEVELS;
         cells->slots = calloc(cells->slot_count, sizeof *cells->slots);
         cells->texels = calloc(cells->slot_count, sizeof *cells->texels);
         cells->missing = calloc(cells->slot_count, sizeof *cells->missing);

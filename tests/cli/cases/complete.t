@@ -23,7 +23,8 @@ $ kiln complete -- render --technique sort=cpu,
 1|word	sort=cpu,simulate=cpu	host threads; the default unless the device is an exact GPU
 1|word	sort=cpu,simulate=inplace	compute, one buffer updated in place; the default on exact GPUs
 1|word	sort=cpu,sort=cpu	stable radix sort, host threads
-1|word	sort=cpu,raster=geometry	points turned into billboards by a geometry shader
+1|word	sort=cpu,raster=cpu	host threads, tiles and vectors; the default on software devices
+1|word	sort=cpu,raster=geometry	points turned into billboards by a geometry shader; the default on GPUs
 $ kiln complete -- compare --limit ss
 1|part	ssim=	structural similarity of luma (Wang 2004): 1 for equal pictures
 $ kiln complete -- render --device ''

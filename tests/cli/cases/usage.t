@@ -296,7 +296,8 @@ $ kiln help techniques
 1|  simulate=cpu       host threads; the default unless the device is an exact GPU
 1|  simulate=inplace   compute, one buffer updated in place; the default on exact GPUs
 1|  sort=cpu           stable radix sort, host threads
-1|  raster=geometry    points turned into billboards by a geometry shader
+1|  raster=cpu         host threads, tiles and vectors; the default on software devices
+1|  raster=geometry    points turned into billboards by a geometry shader; the default on GPUs
 $ kiln help outputs
 1|Output formats, by the suffix of the output:
 1|
