@@ -175,6 +175,12 @@ static struct kiln_asset_image *convert_frame(struct decoding *decoding)
     return image;
 }
 
+/* FFmpeg has no decoder for WebP's animations: the extended header says that one follows. */
+static bool is_animated_webp(const unsigned char *bytes, size_t size)
+{
+    return size > 20 && memcmp(bytes + 12, "VP8X", 4) == 0 && (bytes[20] & 2) != 0;
+}
+
 struct kiln_asset_image *kiln_asset_image_parse(const void *bytes, size_t size, const char *name,
                                                 struct kiln_error *error)
 {
@@ -187,6 +193,12 @@ struct kiln_asset_image *kiln_asset_image_parse(const void *bytes, size_t size, 
         kiln_error_set(error, KILN_INVALID_INPUT,
                        "%s: the image file has %zu bytes; allowed are at most %d", name, size,
                        KILN_MAX_IMAGE_BYTES);
+        return NULL;
+    }
+    if (signature->codec == AV_CODEC_ID_WEBP && is_animated_webp(bytes, size)) {
+        kiln_error_set(error, KILN_INVALID_INPUT,
+                       "%s: an animated WebP, which FFmpeg does not decode; use a video or APNG",
+                       name);
         return NULL;
     }
     struct decoding decoding = {.name = name, .format = signature->name, .error = error};

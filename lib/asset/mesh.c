@@ -280,8 +280,9 @@ static bool find_extension(struct kiln_mesh_request *request, struct kiln_error 
         if (good)
             return check_lines(request, error);
     }
-    return good || kiln_error_set(error, KILN_INVALID_INPUT, "%s: not a %s file by its contents",
-                                  request->name, request->extension + 1);
+    return good ||
+           kiln_error_set(error, KILN_INVALID_INPUT, "%s: by its contents, this is no .%s file",
+                          request->name, request->extension + 1);
 }
 
 struct kiln_mesh *kiln_mesh_parse(const void *bytes, size_t size, const char *name,

@@ -288,9 +288,11 @@ static bool put_scene(const struct kiln_mesh_request *request, const struct aiSc
         if (!put_mesh(request, scene->mMeshes[i], result))
             return false;
     }
-    return result->triangle_count > 0 ||
-           kiln_error_set(&result->error, KILN_INVALID_INPUT, "%s: the mesh has no triangles",
-                          request->name);
+    const char *lacks = result->triangle_count == 0 ? "no triangles"
+                        : result->vertex_count < 3  ? "no triangle with an area"
+                                                    : NULL;
+    return !lacks || kiln_error_set(&result->error, KILN_INVALID_INPUT, "%s: the mesh has %s",
+                                    request->name, lacks);
 }
 
 static struct aiPropertyStore *make_properties(const struct assimp *assimp)

@@ -86,6 +86,16 @@ static void sample_light(const struct sampler *s, const struct kiln_look *look,
     }
 }
 
+/* Of any length but 0, through which keys may lead it: then it points up. In double, since squares
+ * of small floats vanish. */
+static float4 unit(float3 v)
+{
+    double x = (double)v.x, y = (double)v.y, z = (double)v.z, length = sqrt(x * x + y * y + z * z);
+    if (!(length > 0.0))
+        return (float4){0.0f, 1.0f, 0.0f, 0.0f};
+    return (float4){(float)(x / length), (float)(y / length), (float)(z / length), 0.0f};
+}
+
 static void sample_look(const struct sampler *s, const struct kiln_look *look,
                         float4 row[KILN_LOOK_ROWS])
 {
@@ -97,13 +107,7 @@ static void sample_look(const struct sampler *s, const struct kiln_look *look,
                                      mean_at(s, &look->spin.min), mean_at(s, &look->spin.max)};
     row[KILN_LOOK_TURN] = (float4){at(s, &look->rotation.min), at(s, &look->rotation.max),
                                    at(s, &look->point_size), at(s, &look->line_width)};
-    float3 axis = at3(s, &look->axis);
-    float length = sqrtf(axis.x * axis.x + axis.y * axis.y + axis.z * axis.z);
-    if (!(length > 0.0f)) { /* keys may lead it through zero */
-        axis = (float3){0.0f, 1.0f, 0.0f};
-        length = 1.0f;
-    }
-    row[KILN_LOOK_AXIS] = (float4){axis.x / length, axis.y / length, axis.z / length, 0.0f};
+    row[KILN_LOOK_AXIS] = unit(at3(s, &look->axis));
     sample_light(s, look, row);
 }
 

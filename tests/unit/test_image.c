@@ -293,9 +293,20 @@ static void floats_must_be_finite(void **state)
     av_packet_free(&file);
 }
 
+static void an_animated_webp_says_so(void **state)
+{
+    (void)state;
+    static const unsigned char bytes[32] = "RIFF\x18\0\0\0WEBPVP8X\x0a\0\0\0\x02";
+    struct kiln_error error = {0};
+    assert_null(kiln_asset_image_parse(bytes, sizeof bytes, "moving.webp", &error));
+    assert_int_equal(error.code, KILN_INVALID_INPUT);
+    assert_non_null(strstr(error.message, "moving.webp: an animated WebP"));
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
+        cmocka_unit_test(an_animated_webp_says_so),
         cmocka_unit_test(every_format_is_decoded),
         cmocka_unit_test(truncated_files_are_refused),
         cmocka_unit_test(claimed_sizes_are_limited),

@@ -49,10 +49,27 @@ static void turns_follow_their_curves(void **state)
     kiln_scene_destroy(&scene);
 }
 
+static void an_axis_has_any_length_but_0(void **state)
+{
+    (void)state;
+    struct kiln_scene *scene = load_scene("kiln: 1\n"
+                                          "systems:\n"
+                                          "  a: {look: {axis: [3e-30, 0, 4e-30]}}\n"
+                                          "  b: {look: {axis: [0, 0, -1e5]}}\n",
+                                          NULL);
+    kiln_looks_sample(scene, 0, table);
+    assert_near(texel(0, KILN_LOOK_AXIS, 5).x, 0.6);
+    assert_near(texel(0, KILN_LOOK_AXIS, 5).y, 0);
+    assert_near(texel(0, KILN_LOOK_AXIS, 5).z, 0.8);
+    assert_near(texel(1, KILN_LOOK_AXIS, 5).z, -1);
+    kiln_scene_destroy(&scene);
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(turns_follow_their_curves),
+        cmocka_unit_test(an_axis_has_any_length_but_0),
     };
     return cmocka_run_group_tests_name("looks", tests, NULL, NULL);
 }

@@ -209,12 +209,13 @@ static void nonsense_is_refused(void **state)
     refuse_text(CUBE, "cube.stl", "allowed are OBJ, glTF or GLB");
     refuse_text(CUBE, "cube", "not a mesh by its name");
     refuse_text("", "empty.obj", "the mesh file is empty");
-    refuse_text(CUBE, "cube.glb", "not a glb file by its contents");
-    refuse_text(CUBE, "cube.gltf", "not a gltf file by its contents");
-    refuse("v 0 0 0\0", 8, "zero.obj", "not a obj file by its contents");
+    refuse_text(CUBE, "cube.glb", "this is no .glb file");
+    refuse_text(CUBE, "cube.gltf", "this is no .gltf file");
+    refuse("v 0 0 0\0", 8, "zero.obj", "this is no .obj file");
     refuse_text("v 0 0 0\nv 1 0 0\nv 0 1 0\n", "points.obj", "points.obj");
     refuse_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2 3\n", "lines.obj", "lines.obj");
     refuse_text("v 0 0 0\nv 1e9 0 0\nv 0 1 0\nf 1 2 3\n", "far.obj", "allowed are numbers within");
+    refuse_text("v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n", "flat.obj", "no triangle with an area");
     refuse_text("{\"asset\": {\"version\": \"2.0\"}", "cut.gltf", "the mesh is broken");
     refuse_text("{}", "none.gltf", "the mesh is broken");
 }
