@@ -156,9 +156,11 @@ bool kiln_temporary_open(struct kiln_temporary *temporary, const char *target,
                          struct kiln_error *error)
 {
     int slot = claim_slot();
-    if (slot < 0)
-        return kiln_error_set(error, KILN_IO, "%s: more than %d files are being written at once",
-                              target, SLOT_COUNT);
+    if (slot < 0) {
+        kiln_error_set(error, KILN_IO, "%s: more than %d files are being written at once", target,
+                       SLOT_COUNT);
+        return false;
+    }
     char *copy = strdup(target);
     int file = copy ? create_file(slot, target) : -1;
     if (file >= 0) {
@@ -218,22 +220,70 @@ static bool move_into_place(const char *path, const char *target, bool overwrite
     return rename(path, target) == 0;
 }
 
+/* Closes the file under the name it has; errno of what failed since it was opened, or 0. */
+static int close_file(struct kiln_temporary *temporary)
+{
+    if (close(temporary->file) != 0 && temporary->failure == 0)
+        temporary->failure = errno;
+    return temporary->failure;
+}
+
+static bool fail(const struct kiln_temporary *temporary, int failure, struct kiln_error *error)
+{
+    return kiln_error_set_errno(error, KILN_IO, failure, "%s: the file cannot be written",
+                                temporary->target);
+}
+
 bool kiln_temporary_commit(struct kiln_temporary *temporary, bool overwrite,
                            struct kiln_error *error)
 {
-    const char *path = slots[temporary->slot].path;
-    int failure = temporary->failure;
-    if (close(temporary->file) != 0 && failure == 0)
-        failure = errno;
-    if (failure == 0 && !move_into_place(path, temporary->target, overwrite))
-        failure = errno;
-    if (failure != 0) {
-        unlink(path);
-        kiln_error_set_errno(error, KILN_IO, failure, "%s: the file cannot be written",
-                             temporary->target);
+    return kiln_temporary_commit_all(&temporary, 1, overwrite, error);
+}
+
+/* That all are whole and may get their names. */
+static bool close_all(struct kiln_temporary *const *files, size_t count, bool overwrite,
+                      struct kiln_error *error)
+{
+    bool good = true;
+    for (size_t i = 0; i < count; i++) {
+        int failure = close_file(files[i]);
+        if (good && failure != 0)
+            good = fail(files[i], failure, error);
     }
-    end(temporary);
-    return failure == 0;
+    for (size_t i = 0; i < count && good; i++)
+        good = kiln_target_check(files[i]->target, overwrite, error);
+    return good;
+}
+
+/* How many got their names; all, unless there is an error. */
+static size_t rename_all(struct kiln_temporary *const *files, size_t count, bool overwrite,
+                         struct kiln_error *error)
+{
+    const char *last = files[count - 1]->target;
+    if (overwrite && count > 1 && unlink(last) != 0 && errno != ENOENT) {
+        fail(files[count - 1], errno, error);
+        return 0;
+    }
+    for (size_t i = 0; i < count; i++) {
+        if (!move_into_place(slots[files[i]->slot].path, files[i]->target, overwrite)) {
+            fail(files[i], errno, error);
+            return i;
+        }
+    }
+    return count;
+}
+
+bool kiln_temporary_commit_all(struct kiln_temporary *const *files, size_t count, bool overwrite,
+                               struct kiln_error *error)
+{
+    size_t renamed =
+        close_all(files, count, overwrite, error) ? rename_all(files, count, overwrite, error) : 0;
+    for (size_t i = 0; i < count; i++) {
+        if (renamed < count)
+            unlink(i < renamed ? files[i]->target : slots[files[i]->slot].path);
+        end(files[i]);
+    }
+    return renamed == count;
 }
 
 void kiln_temporary_discard(struct kiln_temporary *temporary)

@@ -38,6 +38,12 @@ bool kiln_temporary_seek(struct kiln_temporary *temporary, int64_t offset);
 bool kiln_temporary_commit(struct kiln_temporary *temporary, bool overwrite,
                            struct kiln_error *error);
 
+/* The same for files that belong together: all get their names, in this order, or none does. Where
+ * old ones are replaced, the one of the last name goes before the first new one comes, so that
+ * whoever finds that finds what belongs to it. All are closed afterwards. */
+bool kiln_temporary_commit_all(struct kiln_temporary *const *files, size_t count, bool overwrite,
+                               struct kiln_error *error);
+
 /* Writes a whole file, in place of what has that name; makes missing folders. KILN_IO. */
 bool kiln_temporary_write_file(const char *path, const void *bytes, size_t size,
                                struct kiln_error *error);

@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include <cmocka.h>
+#include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,6 +13,7 @@
 #include <unistd.h>
 
 #include "output/temporary.h"
+#include "support/pictures.h"
 
 enum { KILLED_JOBS = 100 };
 
@@ -68,11 +70,122 @@ static void files_of_living_jobs_stay(void **state)
     unlink(path);
 }
 
+/* ---- Files that belong together ------------------------------------------------------------ */
+
+enum { SET = 3 };
+static const char *const set_names[SET] = {"set.png", "set_motion.png", "set.json"};
+
+/* Opens a temporary file for each name, as `folder`/NAME, and writes `text` into it. */
+static void open_set(const char *folder, const char *text, struct kiln_temporary files[SET])
+{
+    struct kiln_error error = {0};
+    for (int i = 0; i < SET; i++) {
+        char path[64];
+        snprintf(path, sizeof path, "%s/%s", folder, set_names[i]);
+        files[i] = (struct kiln_temporary){0};
+        assert_true(kiln_temporary_open(&files[i], path, &error));
+        assert_true(kiln_temporary_write(&files[i], text, strlen(text)));
+    }
+}
+
+static bool commit_set(struct kiln_temporary files[SET], bool overwrite, struct kiln_error *error)
+{
+    struct kiln_temporary *const set[SET] = {&files[0], &files[1], &files[2]};
+    bool good = kiln_temporary_commit_all(set, SET, overwrite, error);
+    for (int i = 0; i < SET; i++)
+        assert_null(files[i].target); /* closed in any case */
+    return good;
+}
+
+static void check_set(const char *folder, const char *text)
+{
+    assert_int_equal(test_count_files(folder), SET);
+    for (int i = 0; i < SET; i++) {
+        char path[64], found[16] = "";
+        snprintf(path, sizeof path, "%s/%s", folder, set_names[i]);
+        FILE *file = fopen(path, "r");
+        assert_non_null(file);
+        assert_non_null(fgets(found, sizeof found, file));
+        fclose(file);
+        assert_string_equal(found, text);
+    }
+}
+
+static void sets_come_whole(void **state)
+{
+    (void)state;
+    char folder[32];
+    struct kiln_temporary files[SET];
+    struct kiln_error error = {0};
+    test_make_folder(folder);
+    open_set(folder, "old", files);
+    assert_true(commit_set(files, false, &error));
+    check_set(folder, "old");
+    open_set(folder, "new", files);
+    assert_false(commit_set(files, false, &error));
+    assert_int_equal(error.code, KILN_IO);
+    check_set(folder, "old");
+    open_set(folder, "new", files);
+    assert_true(commit_set(files, true, &error));
+    check_set(folder, "new");
+    test_remove_folder(folder);
+}
+
+/* Whichever file cannot be completed or moved, none gets its name, and an old set stays. */
+static void sets_come_whole_or_not_at_all(void **state)
+{
+    (void)state;
+    for (int bad = 0; bad < SET; bad++) {
+        for (int old = 0; old < 2; old++) {
+            char folder[32];
+            struct kiln_temporary files[SET];
+            struct kiln_error error = {0};
+            test_make_folder(folder);
+            if (old) {
+                open_set(folder, "old", files);
+                assert_true(commit_set(files, false, &error));
+            }
+            open_set(folder, "new", files);
+            files[bad].failure = ENOSPC;
+            assert_false(commit_set(files, true, &error));
+            assert_int_equal(error.code, KILN_IO);
+            assert_non_null(strstr(error.message, set_names[bad]));
+            assert_non_null(strstr(error.message, "No space left"));
+            if (old)
+                check_set(folder, "old");
+            else
+                assert_int_equal(test_count_files(folder), 0);
+            test_remove_folder(folder);
+        }
+    }
+}
+
+/* A rename that fails after others takes these back. */
+static void sets_are_taken_back(void **state)
+{
+    (void)state;
+    for (int bad = 0; bad < SET; bad++) {
+        char folder[32];
+        struct kiln_temporary files[SET];
+        struct kiln_error error = {0};
+        test_make_folder(folder);
+        open_set(folder, "new", files);
+        assert_int_equal(unlink(kiln_temporary_path(&files[bad])), 0); /* what shall be moved */
+        assert_false(commit_set(files, true, &error));
+        assert_non_null(strstr(error.message, set_names[bad]));
+        assert_int_equal(test_count_files(folder), 0);
+        test_remove_folder(folder);
+    }
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_of_killed_jobs_make_room),
         cmocka_unit_test(files_of_living_jobs_stay),
+        cmocka_unit_test(sets_come_whole),
+        cmocka_unit_test(sets_come_whole_or_not_at_all),
+        cmocka_unit_test(sets_are_taken_back),
     };
     return cmocka_run_group_tests_name("temporary", tests, NULL, NULL);
 }
