@@ -482,18 +482,28 @@ static bool write_motion(struct flipbook_encoder *encoder, float scale, struct k
     return good;
 }
 
-/* The atlas itself gets its name last, by the caller. */
 static bool finish(void *opaque, struct kiln_error *error)
 {
     struct flipbook_encoder *encoder = opaque;
-    const struct kiln_output_params *params = encoder->params;
-    bool motion = params->flipbook.motion;
+    bool motion = encoder->params->flipbook.motion;
     float scale = motion ? motion_scale(encoder) : 0;
     return (!motion || write_motion(encoder, scale, error)) &&
            write_layout(encoder, scale, error) &&
-           write_png(encoder, encoder->atlas, encoder->file, error) &&
-           (!motion || kiln_temporary_commit(&encoder->motion_file, params->overwrite, error)) &&
-           kiln_temporary_commit(&encoder->layout_file, params->overwrite, error);
+           write_png(encoder, encoder->atlas, encoder->file, error);
+}
+
+/* The layout comes last: where it is, the pictures that it names are there and are its own. */
+static bool commit(void *opaque, struct kiln_error *error)
+{
+    struct flipbook_encoder *encoder = opaque;
+    const struct kiln_output_params *params = encoder->params;
+    struct kiln_temporary *files[] = {encoder->file, &encoder->layout_file, &encoder->layout_file};
+    size_t count = 2;
+    if (params->flipbook.motion) {
+        files[1] = &encoder->motion_file;
+        count = 3;
+    }
+    return kiln_temporary_commit_all(files, count, params->overwrite, error);
 }
 
 const struct kiln_format kiln_format_flipbook = {
@@ -507,5 +517,6 @@ const struct kiln_format kiln_format_flipbook = {
     .open = open_encoder,
     .encode = encode,
     .finish = finish,
+    .commit = commit,
     .close = close_encoder,
 };

@@ -86,7 +86,8 @@ bool kiln_write_outputs(FILE *out)
         "with scale from the JSON (engines with v upwards: negate green). An engine at t between\n"
         "cells a and b mixes a at uv - t * motion and b at uv + (1 - t) * motion. Of the last\n"
         "cell it is 0. All cells must be drawn by one command: chunks of frames make no "
-        "flipbook.\n";
+        "flipbook.\n"
+        "Its files appear together, the .json last: where that is, they are whole.\n";
     fputs(notes, out);
     return !ferror(out);
 }

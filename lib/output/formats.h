@@ -26,6 +26,9 @@ struct kiln_format {
     /* Writes what is still missing; NULL when nothing is. Failed writes may be left to the commit
      * to report. */
     bool (*finish)(void *encoder, struct kiln_error *error);
+    /* Gives the file its name, and files that belong to it theirs: all or none. NULL: there are no
+     * others. */
+    bool (*commit)(void *encoder, struct kiln_error *error);
     void (*close)(void *encoder); /* with or without a finish before */
 };
 

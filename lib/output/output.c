@@ -347,6 +347,17 @@ static void end_video(struct kiln_output *output)
     kiln_temporary_discard(&output->video_file);
 }
 
+static bool finish_video(struct kiln_output *output, struct kiln_error *error)
+{
+    const struct kiln_format *format = output->format;
+    void *encoder = output->video_encoder;
+    if (format->finish && !format->finish(encoder, error))
+        return false;
+    if (format->commit)
+        return format->commit(encoder, error);
+    return kiln_temporary_commit(&output->video_file, output->params.overwrite, error);
+}
+
 bool kiln_output_finish(struct kiln_output *output, struct kiln_error *error)
 {
     stop_encoders(output);
@@ -359,11 +370,7 @@ bool kiln_output_finish(struct kiln_output *output, struct kiln_error *error)
     if (!good)
         *error = output->error;
     if (output->format->one_file && output->video_encoder) {
-        good = good &&
-               (!output->format->finish || output->format->finish(output->video_encoder, error));
-        output->format->close(output->video_encoder);
-        output->video_encoder = NULL;
-        good = good && kiln_temporary_commit(&output->video_file, output->params.overwrite, error);
+        good = good && finish_video(output, error);
         end_video(output);
     }
     return good;

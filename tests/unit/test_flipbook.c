@@ -6,6 +6,7 @@
 
 #include <cmocka.h>
 #include <math.h>
+#include <sys/stat.h>
 
 #include "asset/image.h"
 #include "support/pictures.h"
@@ -324,6 +325,37 @@ static void what_is_not_finished_is_removed(void **state)
     assert_int_equal(test_count_files(folder), 0);
 }
 
+/* Something appears at a name of the set while frames are drawn: then none of its files comes, and
+ * the one that was there stays. */
+static void files_come_together(void **state)
+{
+    (void)state;
+    static const char *const endings[] = {".png", "_motion.png", ".json"};
+    const struct kiln_frame_range four = {0, 3};
+    for (size_t i = 0; i < 6; i++) {
+        struct kiln_output_params params = test_output_params(path, &four);
+        params.flipbook = (struct kiln_flipbook){.columns = 2, .rows = 2, .motion = true};
+        params.overwrite = i >= 3; /* files are replaced, but a folder is in the way */
+        struct kiln_error error = {0};
+        struct kiln_output *output = kiln_output_open(&params, &error);
+        assert_non_null(output);
+        for (uint32_t frame = 0; frame < 4; frame++)
+            assert_true(kiln_output_write(output, test_picture(output, &params, frame), &error));
+        char taken[64];
+        snprintf(taken, sizeof taken, "%s/book%s", folder, endings[i % 3]);
+        if (params.overwrite)
+            assert_int_equal(mkdir(taken, 0777), 0);
+        else
+            fclose(fopen(taken, "w"));
+        assert_false(kiln_output_finish(output, &error));
+        assert_int_equal(error.code, KILN_IO);
+        assert_non_null(strstr(error.message, taken));
+        kiln_output_close(&output);
+        assert_int_equal(test_count_files(folder), 1);
+        assert_int_equal(remove(taken), 0);
+    }
+}
+
 #define TEST(function) cmocka_unit_test_setup_teardown(function, make_folder, remove_folder)
 
 int main(void)
@@ -336,6 +368,7 @@ int main(void)
         TEST(doubtful_ones_are_warned_of),
         TEST(impossible_ones_are_refused),
         TEST(what_is_not_finished_is_removed),
+        TEST(files_come_together),
     };
     return cmocka_run_group_tests_name("flipbook", tests, NULL, NULL);
 }

@@ -339,6 +339,7 @@ $ kiln help outputs
 1|with scale from the JSON (engines with v upwards: negate green). An engine at t between
 1|cells a and b mixes a at uv - t * motion and b at uv + (1 - t) * motion. Of the last
 1|cell it is 0. All cells must be drawn by one command: chunks of frames make no flipbook.
+1|Its files appear together, the .json last: where that is, they are whole.
 $ kiln help scene | head -n 4
 1|A scene is a YAML file. Every key below may also be given with --set KEY=VALUE; '*' in a KEY
 1|stands for every entry of a mapping or list, and entries of a list are counted from 0.
