@@ -147,7 +147,7 @@ struct render {
     const struct job *job; /* the one that runs */
     struct progress progress;
     struct watchdog *watchdog;
-    uint32_t frames_done;
+    uint32_t frames_done, frames_total;
 };
 
 /* ---- While a job runs ----------------------------------------------------------------------- */
@@ -173,6 +173,7 @@ static void show_frame(void *user, const struct kiln_progress *frame)
     if (render->watchdog)
         watchdog_disarm(render->watchdog); /* a slow reader of our output is no slow frame */
     render->frames_done = frame->done;
+    render->frames_total = frame->total;
     progress_show(&render->progress, render->job->path, frame);
     allow_frame(render, frame->frame);
 }
@@ -259,18 +260,20 @@ static int report_failure(const struct render *render, const struct kiln_error *
         return report_error(error);
     if (number == 0) /* nobody reads: main says why */
         return KILN_IO;
-    report(KILN_INTERRUPTED, "%s: stopped by %s after %u frames", render->job->path,
-           number == SIGINT    ? "SIGINT"
-           : number == SIGTERM ? "SIGTERM"
-                               : "SIGHUP",
-           render->frames_done);
+    const char *name = number == SIGINT ? "SIGINT" : number == SIGTERM ? "SIGTERM" : "SIGHUP";
+    if (render->frames_done > 0 && render->frames_done == render->frames_total)
+        report(KILN_INTERRUPTED, "%s: stopped by %s before %s was complete", render->job->path,
+               name, render->job->output);
+    else
+        report(KILN_INTERRUPTED, "%s: stopped by %s after %u frames", render->job->path, name,
+               render->frames_done);
     return 128 + number;
 }
 
 static int run_job(struct render *render, struct kiln_device *device, const struct job *job)
 {
     render->job = job;
-    render->frames_done = 0;
+    render->frames_done = render->frames_total = 0;
     render->params.output = job->output;
     render->params.manifest = job->manifest;
     render->params.ranges = job->frames.ranges;

@@ -81,21 +81,6 @@ static void draw_map(const float *errors, size_t pixels, uint8_t *display)
         kiln_magma_color(errors[i], display + 4 * i);
 }
 
-/* Encodes the picture into the open file. */
-static bool encode(const struct kiln_picture *picture, struct kiln_temporary *file,
-                   struct kiln_error *error)
-{
-    const struct kiln_format *format = &kiln_format_png;
-    const struct kiln_output_params params = {
-        .width = picture->width, .height = picture->height, .png_bits = 8};
-    void *encoder = format->open(&params, file, error);
-    bool ok = encoder && format->encode(encoder, picture, error) &&
-              (!format->finish || format->finish(encoder, error));
-    if (encoder)
-        format->close(encoder);
-    return ok;
-}
-
 bool kiln_difference_write(const struct kiln_difference_plan *plan, const char *name,
                            uint32_t number, const struct kiln_subject *reference,
                            const struct kiln_subject *test, const float *errors,
@@ -117,11 +102,10 @@ bool kiln_difference_write(const struct kiln_difference_plan *plan, const char *
         draw_map(errors, (size_t)width * reference->height, picture->display);
     else
         draw_panels(reference, test, errors, picture->display);
-    bool ok = kiln_temporary_open(&file, path, error);
-    if (ok && encode(picture, &file, error))
-        ok = kiln_temporary_commit(&file, plan->overwrite, error);
-    else
-        ok = false;
+    const struct kiln_output_params no_scene = {0};
+    bool ok = kiln_temporary_open(&file, path, error) &&
+              kiln_png_write(&no_scene, picture, &file, NULL, error) &&
+              kiln_temporary_commit(&file, plan->overwrite, error);
     kiln_temporary_discard(&file);
     kiln_picture_destroy(&picture);
     return ok;

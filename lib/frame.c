@@ -44,8 +44,9 @@ static bool return_from_caller(const struct job *job, struct kiln_error *error)
 }
 
 /* False with KILN_INTERRUPTED when the caller wants no more. */
-static bool may_go_on(const struct job *job, struct kiln_error *error)
+static bool may_go_on(void *user, struct kiln_error *error)
 {
+    const struct job *job = user;
     if (!job->params->stop)
         return true;
     bool stop = job->params->stop(job->params->user);
@@ -221,6 +222,7 @@ static bool open_output(struct job *job, struct kiln_error *error)
                 .scene_hash = scene->hash,
                 .seed = scene->seed,
                 .log = params->log,
+                .caller = {may_go_on, job},
             },
             error);
         if (!job->output)

@@ -250,7 +250,9 @@ struct kiln_render_params {
      * the top; until the call returns. */
     void (*picture)(void *user, uint32_t frame, const uint8_t *pixels);
     void (*progress)(void *user, const struct kiln_progress *progress);
-    bool (*stop)(void *user); /* asked between frames and steps; true ends with KILN_INTERRUPTED */
+    /* Asked between frames and steps, and while a clip is completed; true ends with
+     * KILN_INTERRUPTED. */
+    bool (*stop)(void *user);
     void *user;
     struct kiln_log log;
 };

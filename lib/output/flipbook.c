@@ -376,16 +376,6 @@ static struct kiln_picture *draw_motion(const struct flipbook_encoder *encoder, 
 
 /* ---- Files ---------------------------------------------------------------------------------- */
 
-static bool write_png(const struct flipbook_encoder *encoder, const struct kiln_picture *picture,
-                      struct kiln_temporary *file, struct kiln_error *error)
-{
-    void *png = kiln_format_png.open(encoder->params, file, error);
-    bool good = png && kiln_format_png.encode(png, picture, error);
-    if (png)
-        kiln_format_png.close(png);
-    return good;
-}
-
 static void add_name(struct kiln_text *text, const struct kiln_temporary *file)
 {
     const char *slash = strrchr(file->target, '/');
@@ -474,22 +464,24 @@ static bool encode(void *opaque, const struct kiln_picture *picture, struct kiln
     return true;
 }
 
-static bool write_motion(struct flipbook_encoder *encoder, float scale, struct kiln_error *error)
+static bool write_motion(struct flipbook_encoder *encoder, float scale,
+                         const struct kiln_output_caller *caller, struct kiln_error *error)
 {
     struct kiln_picture *motion = draw_motion(encoder, scale, error);
-    bool good = motion && write_png(encoder, motion, &encoder->motion_file, error);
+    bool good =
+        motion && kiln_png_write(encoder->params, motion, &encoder->motion_file, caller, error);
     kiln_picture_destroy(&motion);
     return good;
 }
 
-static bool finish(void *opaque, struct kiln_error *error)
+static bool finish(void *opaque, const struct kiln_output_caller *caller, struct kiln_error *error)
 {
     struct flipbook_encoder *encoder = opaque;
     bool motion = encoder->params->flipbook.motion;
     float scale = motion ? motion_scale(encoder) : 0;
-    return (!motion || write_motion(encoder, scale, error)) &&
+    return (!motion || write_motion(encoder, scale, caller, error)) &&
            write_layout(encoder, scale, error) &&
-           write_png(encoder, encoder->atlas, encoder->file, error);
+           kiln_png_write(encoder->params, encoder->atlas, encoder->file, caller, error);
 }
 
 /* The layout comes last: where it is, the pictures that it names are there and are its own. */

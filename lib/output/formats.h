@@ -8,7 +8,8 @@
 
 /* An encoder makes one file: of one picture, or of all when one_file is set. Encoders of different
  * files run on different threads at once; one encoder's calls never overlap. The parameters and the
- * file outlive it. Whoever calls commits or discards the file. */
+ * file outlive it. Whoever calls commits or discards the file; a format of one file that has others
+ * commits all. */
 struct kiln_video_settings;
 struct kiln_format {
     const char *suffix; /* with its dot, lower case */
@@ -24,8 +25,9 @@ struct kiln_format {
                   struct kiln_error *error);
     bool (*encode)(void *encoder, const struct kiln_picture *picture, struct kiln_error *error);
     /* Writes what is still missing; NULL when nothing is. Failed writes may be left to the commit
-     * to report. */
-    bool (*finish)(void *encoder, struct kiln_error *error);
+     * to report. What takes longer than a second asks the caller (which may be NULL) meanwhile. */
+    bool (*finish)(void *encoder, const struct kiln_output_caller *caller,
+                   struct kiln_error *error);
     /* Gives the file its name, and files that belong to it theirs: all or none. NULL: there are no
      * others. */
     bool (*commit)(void *encoder, struct kiln_error *error);
@@ -44,5 +46,11 @@ extern const struct kiln_format kiln_format_webp;
 
 /* The format for the path's suffix, in any case of letters; NULL with KILN_USAGE and the list. */
 const struct kiln_format *kiln_format_find(const char *path, struct kiln_error *error);
+
+/* Encodes a picture as PNG into the open file. Of params, scene_hash (with seed and flipbook) is
+ * what matters; the picture brings the rest. Asks the caller (which may be NULL) meanwhile. */
+bool kiln_png_write(const struct kiln_output_params *params, const struct kiln_picture *picture,
+                    struct kiln_temporary *file, const struct kiln_output_caller *caller,
+                    struct kiln_error *error);
 
 #endif

@@ -143,7 +143,7 @@ static bool encode(void *opaque, const struct kiln_picture *picture, struct kiln
 
 static bool write_frames(struct gif_encoder *encoder, FILE *waiting, void *video,
                          const struct kiln_palette *palette, struct kiln_dither *dither,
-                         struct kiln_error *error)
+                         const struct kiln_output_caller *caller, struct kiln_error *error)
 {
     const struct kiln_output_params *params = encoder->params;
     size_t width = params->width, row_size = 3 * width, size = row_size * params->height;
@@ -158,21 +158,25 @@ static bool write_frames(struct gif_encoder *encoder, FILE *waiting, void *video
             return kiln_error_set_errno(error, KILN_IO, ferror(waiting) ? errno : EIO,
                                         "%s: frames that wait for the palette cannot be read",
                                         params->path);
-        for (uint32_t y = 0; y < params->height; y++)
+        for (uint32_t y = 0; y < params->height; y++) {
+            if (!kiln_output_may_go_on(caller, error))
+                return false;
             kiln_dither_row(dither, y, encoder->rgb + y * row_size, params->width,
                             encoder->indices + y * width);
+        }
         if (!kiln_video_encode_indices(video, encoder->indices, colors, (int64_t)frame, error))
             return false;
     }
     return true;
 }
 
-static bool finish(void *opaque, struct kiln_error *error)
+static bool finish(void *opaque, const struct kiln_output_caller *caller, struct kiln_error *error)
 {
     struct gif_encoder *encoder = opaque;
     struct kiln_palette palette;
-    bool made = kiln_palette_make(&palette, encoder->histogram, TRANSPARENT);
-    struct kiln_dither *dither = made ? kiln_dither_create(&palette) : NULL;
+    if (!kiln_palette_make(&palette, encoder->histogram, TRANSPARENT, caller, error))
+        return false;
+    struct kiln_dither *dither = kiln_dither_create(&palette);
     if (!dither)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the palette",
                               encoder->params->path);
@@ -183,8 +187,8 @@ static bool finish(void *opaque, struct kiln_error *error)
                              encoder->params->path);
     void *video = waiting ? kiln_video_open(encoder->params, encoder->file, error) : NULL;
     if (video) {
-        good = write_frames(encoder, waiting, video, &palette, dither, error) &&
-               kiln_video_finish(video, error);
+        good = write_frames(encoder, waiting, video, &palette, dither, caller, error) &&
+               kiln_video_finish(video, caller, error);
         kiln_video_close(video);
     }
     if (waiting)

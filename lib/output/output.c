@@ -113,7 +113,7 @@ static bool encode_image(struct kiln_output *output, const struct kiln_picture *
     const struct kiln_format *format = output->format;
     void *encoder = format->open(&output->params, &file, error);
     bool good = encoder && format->encode(encoder, picture, error) &&
-                (!format->finish || format->finish(encoder, error));
+                (!format->finish || format->finish(encoder, NULL, error));
     if (encoder)
         format->close(encoder);
     if (good)
@@ -351,7 +351,7 @@ static bool finish_video(struct kiln_output *output, struct kiln_error *error)
 {
     const struct kiln_format *format = output->format;
     void *encoder = output->video_encoder;
-    if (format->finish && !format->finish(encoder, error))
+    if (format->finish && !format->finish(encoder, &output->params.caller, error))
         return false;
     if (format->commit)
         return format->commit(encoder, error);

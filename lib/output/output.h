@@ -38,6 +38,19 @@ struct kiln_output_needs {
     bool layers;   /* the float layers */
 };
 
+/* Whether what takes long is still wanted. */
+struct kiln_output_caller {
+    bool (*may_go_on)(void *user, struct kiln_error *error); /* false: why not; NULL: always */
+    void *user;
+};
+
+/* True without a caller. */
+static inline bool kiln_output_may_go_on(const struct kiln_output_caller *caller,
+                                         struct kiln_error *error)
+{
+    return !caller || !caller->may_go_on || caller->may_go_on(caller->user, error);
+}
+
 struct kiln_format;
 
 struct kiln_output_params {
@@ -56,6 +69,7 @@ struct kiln_output_params {
                                NULL, for an encoder of PNG alone: the picture is of no scene */
     uint32_t seed;
     struct kiln_log log;
+    struct kiln_output_caller caller; /* asked by kiln_output_finish alone, on its thread */
 };
 
 struct kiln_output;
@@ -74,7 +88,8 @@ struct kiln_output_needs kiln_output_needs(const struct kiln_output *output);
 bool kiln_output_write(struct kiln_output *output, struct kiln_picture *picture,
                        struct kiln_error *error);
 
-/* Waits for the encoders, completes and renames the files. */
+/* Waits for the encoders, completes and renames the files. Asks params.caller every now and then
+ * while that takes long; with its error the file is given up. */
 bool kiln_output_finish(struct kiln_output *output, struct kiln_error *error);
 
 /* Without a finish before: whole image files stay, a video and half-written files are removed. */

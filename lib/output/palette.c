@@ -12,6 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/error.h"
+
 enum {
     COUNT_BITS = 6,
     COUNT_CELLS = 1 << (3 * COUNT_BITS),
@@ -148,11 +150,15 @@ static void split_box(struct box *box, struct box *upper)
     measure_box(upper);
 }
 
-static uint32_t split_all(struct box *boxes, uint32_t most)
+/* How many boxes there are in the end; 0 when the caller wants no more. */
+static uint32_t split_all(struct box *boxes, uint32_t most, const struct kiln_output_caller *caller,
+                          struct kiln_error *error)
 {
     uint32_t count = 1;
     measure_box(&boxes[0]);
     while (count < most) {
+        if (!kiln_output_may_go_on(caller, error))
+            return 0;
         struct box *worst = &boxes[0];
         for (uint32_t i = 1; i < count; i++)
             worst = boxes[i].error > worst->error ? &boxes[i] : worst;
@@ -199,29 +205,42 @@ static void refine(double (*colors)[3], uint32_t count, const struct point *poin
     }
 }
 
+static bool choose_colors(struct kiln_palette *palette, struct point *points, size_t point_count,
+                          uint32_t most, const struct kiln_output_caller *caller,
+                          struct kiln_error *error)
+{
+    struct box boxes[KILN_MAX_PALETTE] = {{.points = points, .count = point_count}};
+    double colors[KILN_MAX_PALETTE][3];
+    palette->count = split_all(boxes, most, caller, error);
+    if (palette->count == 0)
+        return false;
+    for (uint32_t i = 0; i < palette->count; i++)
+        memcpy(colors[i], boxes[i].mean, sizeof colors[i]);
+    for (int round = 0; round < ROUNDS; round++) {
+        if (!kiln_output_may_go_on(caller, error))
+            return false;
+        refine(colors, palette->count, points, point_count);
+    }
+    for (uint32_t i = 0; i < palette->count; i++) {
+        for (int c = 0; c < 3; c++)
+            palette->colors[i][c] = (uint8_t)(colors[i][c] + 0.5);
+    }
+    return true;
+}
+
 bool kiln_palette_make(struct kiln_palette *palette, const struct kiln_histogram *histogram,
-                       uint32_t most)
+                       uint32_t most, const struct kiln_output_caller *caller,
+                       struct kiln_error *error)
 {
     *palette = (struct kiln_palette){.count = 1};
     struct point *points = malloc(COUNT_CELLS * sizeof *points);
     if (!points)
-        return false;
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "no memory for the palette");
     size_t point_count = list_points(histogram, points);
-    if (point_count > 0) {
-        struct box boxes[KILN_MAX_PALETTE] = {{.points = points, .count = point_count}};
-        double colors[KILN_MAX_PALETTE][3];
-        palette->count = split_all(boxes, most);
-        for (uint32_t i = 0; i < palette->count; i++)
-            memcpy(colors[i], boxes[i].mean, sizeof colors[i]);
-        for (int round = 0; round < ROUNDS; round++)
-            refine(colors, palette->count, points, point_count);
-        for (uint32_t i = 0; i < palette->count; i++) {
-            for (int c = 0; c < 3; c++)
-                palette->colors[i][c] = (uint8_t)(colors[i][c] + 0.5);
-        }
-    }
+    bool good =
+        point_count == 0 || choose_colors(palette, points, point_count, most, caller, error);
     free(points);
-    return true;
+    return good;
 }
 
 /* ---- Dither -------------------------------------------------------------------------------- */

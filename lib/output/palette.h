@@ -2,7 +2,7 @@
 #ifndef KILN_OUTPUT_PALETTE_H
 #define KILN_OUTPUT_PALETTE_H
 
-#include "kiln.h"
+#include "output/output.h"
 
 enum { KILN_MAX_PALETTE = 256 };
 
@@ -22,9 +22,11 @@ struct kiln_palette {
 };
 
 /* At most `most` colours (1 to 256) that stand for those counted; fewer if so few were counted, and
- * black where none was. A function of the counts alone. False when memory is short. */
+ * black where none was. A function of the counts alone. False when memory is short, or as the
+ * caller (which may be NULL) says. */
 bool kiln_palette_make(struct kiln_palette *palette, const struct kiln_histogram *histogram,
-                       uint32_t most);
+                       uint32_t most, const struct kiln_output_caller *caller,
+                       struct kiln_error *error);
 
 /* Mixes of a palette's colours for all others. */
 struct kiln_dither;

@@ -14,7 +14,8 @@ struct png_encoder {
     png_infop info;
     const struct kiln_output_params *params;
     struct kiln_temporary *file;
-    char failure[128]; /* libpng's own words */
+    const struct kiln_output_caller *caller; /* or NULL */
+    char failure[128];                       /* libpng's own words */
 };
 
 static struct kiln_output_needs needs(const struct kiln_output_params *params)
@@ -121,7 +122,8 @@ static void write_header(struct png_encoder *encoder, const struct kiln_picture 
     png_write_info(png, encoder->info);
 }
 
-static void write_pixels(struct png_encoder *encoder, const struct kiln_picture *picture)
+static bool write_pixels(struct png_encoder *encoder, const struct kiln_picture *picture,
+                         struct kiln_error *error)
 {
     if (picture->bits == 16 && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__)
         png_set_swap(encoder->png);
@@ -129,9 +131,13 @@ static void write_pixels(struct png_encoder *encoder, const struct kiln_picture 
         png_set_filler(encoder->png, 0, PNG_FILLER_AFTER);
     size_t stride = picture->width * (size_t)(picture->bits / 2);
     const png_byte *row = picture->display;
-    for (uint32_t y = 0; y < picture->height; y++, row += stride)
+    for (uint32_t y = 0; y < picture->height; y++, row += stride) {
+        if (!kiln_output_may_go_on(encoder->caller, error))
+            return false;
         png_write_row(encoder->png, row);
+    }
     png_write_end(encoder->png, NULL);
+    return true;
 }
 
 /* Nothing that changes after setjmp is read after the jump. */
@@ -146,8 +152,20 @@ static bool encode(void *opaque, const struct kiln_picture *picture, struct kiln
                               encoder->failure);
     }
     write_header(encoder, picture);
-    write_pixels(encoder, picture);
-    return true;
+    return write_pixels(encoder, picture, error);
+}
+
+bool kiln_png_write(const struct kiln_output_params *params, const struct kiln_picture *picture,
+                    struct kiln_temporary *file, const struct kiln_output_caller *caller,
+                    struct kiln_error *error)
+{
+    struct png_encoder *encoder = open_encoder(params, file, error);
+    if (!encoder)
+        return false;
+    encoder->caller = caller;
+    bool good = encode(encoder, picture, error);
+    close_encoder(encoder);
+    return good;
 }
 
 const struct kiln_format kiln_format_png = {

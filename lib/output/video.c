@@ -333,11 +333,15 @@ void *kiln_video_open(const struct kiln_output_params *params, struct kiln_tempo
 
 /* ---- Frames ------------------------------------------------------------------------------- */
 
-/* Gives the codec a frame (NULL: no more come) and the container all packets it has ready. */
-static int push(struct video_encoder *encoder, const AVFrame *frame)
+/* Gives the codec a frame (NULL: no more come) and the container all packets it has ready.
+ * AVERROR_EXIT when the caller wants no more, with its error. */
+static int push(struct video_encoder *encoder, const AVFrame *frame,
+                const struct kiln_output_caller *caller, struct kiln_error *error)
 {
     int status = avcodec_send_frame(encoder->codec, frame);
     while (status >= 0) {
+        if (!kiln_output_may_go_on(caller, error))
+            return AVERROR_EXIT;
         status = avcodec_receive_packet(encoder->codec, encoder->packet);
         if (status == AVERROR(EAGAIN) || status == AVERROR_EOF)
             return 0;
@@ -357,7 +361,7 @@ static bool push_frame(struct video_encoder *encoder, int status, int64_t number
 {
     if (status >= 0) {
         encoder->frame->pts = number;
-        status = push(encoder, encoder->frame);
+        status = push(encoder, encoder->frame, NULL, error);
     }
     kiln_avlog_end(&encoder->avlog);
     return status >= 0 || fail(encoder, status, "a frame cannot be encoded", error);
@@ -398,15 +402,19 @@ bool kiln_video_encode_indices(void *opaque, const uint8_t *indices, const uint3
     return push_frame(encoder, status, number, error);
 }
 
-bool kiln_video_finish(void *opaque, struct kiln_error *error)
+/* Codecs that look ahead still have seconds of frames, and give one at a time. */
+bool kiln_video_finish(void *opaque, const struct kiln_output_caller *caller,
+                       struct kiln_error *error)
 {
     struct video_encoder *encoder = opaque;
     kiln_avlog_begin(&encoder->avlog);
-    int status = push(encoder, NULL);
+    int status = push(encoder, NULL, caller, error);
     if (status >= 0)
         status = av_write_trailer(encoder->container);
     avio_flush(encoder->io);
     kiln_avlog_end(&encoder->avlog);
+    if (status == AVERROR_EXIT)
+        return false;
     return (status >= 0 && !encoder->file->failure) ||
            fail(encoder, status, "the video cannot be completed", error);
 }

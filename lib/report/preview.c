@@ -68,18 +68,6 @@ static void convert(const struct kiln_asset_image *image, uint8_t *out)
     }
 }
 
-static bool encode(const struct kiln_picture *picture, struct kiln_temporary *file,
-                   struct kiln_error *error)
-{
-    const struct kiln_output_params params = {
-        .width = picture->width, .height = picture->height, .png_bits = 8};
-    void *encoder = kiln_format_png.open(&params, file, error);
-    bool ok = encoder && kiln_format_png.encode(encoder, picture, error);
-    if (encoder)
-        kiln_format_png.close(encoder);
-    return ok;
-}
-
 bool kiln_preview_write(const char *path, struct kiln_temporary *file, struct kiln_error *error)
 {
     struct kiln_asset_image *image = kiln_asset_image_load(path, error);
@@ -88,7 +76,8 @@ bool kiln_preview_write(const char *path, struct kiln_temporary *file, struct ki
     if (picture)
         convert(image, picture->display);
     kiln_asset_image_destroy(&image);
-    bool ok = picture && encode(picture, file, error);
+    const struct kiln_output_params no_scene = {0};
+    bool ok = picture && kiln_png_write(&no_scene, picture, file, NULL, error);
     kiln_picture_destroy(&picture);
     return ok;
 }

@@ -145,11 +145,52 @@ static void limits_are_told(void **state)
     kiln_scene_destroy(&scene);
 }
 
+/* How many frames are done, and after how many the caller wants no more. */
+struct stopper {
+    uint32_t done, after;
+};
+
+static void count_frame(void *user, const struct kiln_progress *progress)
+{
+    ((struct stopper *)user)->done = progress->done;
+}
+
+static bool is_enough(void *user)
+{
+    const struct stopper *stopper = user;
+    return stopper->done == stopper->after;
+}
+
+/* A caller can stop a clip at any time, also when all its frames are drawn and it is completed. */
+static void clips_stop_until_they_are_complete(void **state)
+{
+    struct kiln_scene *scene = load_scene(SMOKE, NULL);
+    for (uint32_t after = 0; after <= FRAMES; after++) {
+        char folder[32], path[64];
+        test_make_folder(folder);
+        snprintf(path, sizeof path, "%s/clip.gif", folder);
+        struct stopper stopper = {.after = after};
+        struct kiln_error error = {0};
+        struct kiln_render_params job = KILN_RENDER_DEFAULTS;
+        job.output = path;
+        job.progress = count_frame;
+        job.stop = is_enough;
+        job.user = &stopper;
+        assert_false(kiln_render(*state, scene, &job, NULL, &error));
+        assert_int_equal(error.code, KILN_INTERRUPTED);
+        assert_int_equal(stopper.done, after);
+        assert_int_equal(test_count_files(folder), 0);
+        test_remove_folder(folder);
+    }
+    kiln_scene_destroy(&scene);
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
         test_on_device(jobs_do_not_disturb_each_other),
         test_on_device(limits_are_told),
+        test_on_device(clips_stop_until_they_are_complete),
     };
     return cmocka_run_group_tests_name("frame", tests, test_device_open, test_device_close);
 }

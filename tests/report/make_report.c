@@ -51,12 +51,9 @@ static void paint(uint8_t *pixels, uint32_t seed)
 static bool encode(const struct kiln_picture *picture, struct kiln_temporary *file,
                    struct kiln_error *error)
 {
-    const struct kiln_output_params params = {.width = WIDTH, .height = HEIGHT, .png_bits = 8};
-    void *encoder = kiln_format_png.open(&params, file, error);
-    bool ok = encoder && kiln_format_png.encode(encoder, picture, error);
-    if (encoder)
-        kiln_format_png.close(encoder);
-    return ok && kiln_temporary_commit(file, true, error);
+    const struct kiln_output_params no_scene = {0};
+    return kiln_png_write(&no_scene, picture, file, NULL, error) &&
+           kiln_temporary_commit(file, true, error);
 }
 
 static bool write_picture(struct maker *maker, const char *path, uint32_t seed)

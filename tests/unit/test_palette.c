@@ -16,7 +16,8 @@ static struct kiln_palette make(const uint8_t *rgb, size_t pixels, uint32_t most
     struct kiln_histogram *histogram = kiln_histogram_create();
     struct kiln_palette palette;
     kiln_histogram_add(histogram, rgb, pixels);
-    assert_true(kiln_palette_make(&palette, histogram, most));
+    struct kiln_error error = {0};
+    assert_true(kiln_palette_make(&palette, histogram, most, NULL, &error));
     kiln_histogram_destroy(&histogram);
     assert_null(histogram);
     return palette;
