@@ -17,18 +17,15 @@ static int write_reports(const struct arguments *arguments, struct test_outputs 
 {
     struct kiln_error error = {0};
     struct kiln_results *results =
-        kiln_results_load(arguments->operands, arguments->operand_count, &error);
+        kiln_results_load_whole(arguments->operands, arguments->operand_count, &error);
     if (!results)
         return report_error(&error);
     struct kiln_results_summary summary = kiln_results_summary(results);
-    enum kiln_code code = summary.code;
     if (summary.missing_shard > 0)
-        code = kiln_code_worse(
-            code, (enum kiln_code)report(KILN_INVALID_INPUT,
-                                         "test report: shard %u of %u is missing: its tests were "
-                                         "judged nowhere",
-                                         summary.missing_shard, summary.shards));
-    code = test_outputs_write(outputs, results, code);
+        report(KILN_INVALID_INPUT,
+               "test report: shard %u of %u is missing: its tests were judged nowhere",
+               summary.missing_shard, summary.shards);
+    enum kiln_code code = test_outputs_write(outputs, results, summary.code);
     kiln_results_destroy(&results);
     if (code || !arguments_flag(arguments, "quiet")) {
         FILE *out = outputs->standard_output ? stderr : stdout;
@@ -59,8 +56,8 @@ const struct command test_report_command = {
     .operands = "FOLDER...",
     .description =
         "Reads the results of one or several runs and writes reports of all of them together. The "
-        "exit code is that of the worst test, as 'kiln test' would have given it; it is 3 when a "
-        "shard is missing.",
+        "exit code is that of the worst test, as 'kiln test' would have given it. A shard that is "
+        "missing is told in the reports as a test that is an error, of exit code 3.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .least_operands = 1,

@@ -677,6 +677,11 @@ struct kiln_results;
 /* KILN_INVALID_INPUT when a folder has no run.json, or something in it is broken. */
 struct kiln_results *kiln_results_load(const char *const *folders, size_t folder_count,
                                        struct kiln_error *error);
+
+/* The same where no shard may be missing: in place of the tests of such ones is an error of code
+ * KILN_INVALID_INPUT, named "shard 2 of 4" or "shards 2-4 of 4". */
+struct kiln_results *kiln_results_load_whole(const char *const *folders, size_t folder_count,
+                                             struct kiln_error *error);
 void kiln_results_destroy(struct kiln_results **results);
 
 struct kiln_results_summary {

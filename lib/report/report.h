@@ -4,11 +4,6 @@
 
 #include "suite/result.h"
 
-/* A run that was one of several, which have the same tests between them. */
-struct kiln_report_shard {
-    uint64_t number, count, tests;
-};
-
 /* The run or runs that are reported. */
 struct kiln_results {
     struct kiln_arena *arena;
@@ -16,9 +11,8 @@ struct kiln_results {
     const char **folders;       /* of each test's result: its pictures are in there */
     size_t count;
     double total_s;
-    const char *started; /* of the earliest test */
-    struct kiln_report_shard *shards;
-    size_t shard_count;
+    const char *started;            /* of the earliest test */
+    uint32_t missing_shard, shards; /* as in the summary */
 };
 
 struct kiln_report_format {

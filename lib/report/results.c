@@ -1,5 +1,6 @@
 /* A run is a list of tests in RESULTS/run.json, and a result of each in RESULTS/NAME. Shards of one
  * run, each from another machine, are put together here. */
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -57,13 +58,19 @@ struct entry {
     const char *run;    /* the folder of the run */
 };
 
+/* A run that was one of several, which have the same tests between them. */
+struct shard {
+    uint64_t number, count, tests;
+};
+
 struct loading {
     struct kiln_arena *arena;
     struct kiln_error *error;
     struct entry *entries;
     size_t count, capacity;
-    struct kiln_report_shard *shards; /* with room for one of each run */
+    struct shard *shards; /* with room for one of each run */
     size_t shard_count;
+    uint32_t missing_shard, missing_of; /* the first that is missing, of how many; 0: none */
     double total_s;
 };
 
@@ -205,13 +212,16 @@ static bool read_count(const struct loading *loading, const struct kiln_node *ro
 
 static bool read_shard(struct loading *loading, const struct kiln_node *root)
 {
-    struct kiln_report_shard *shard = &loading->shards[loading->shard_count];
+    struct shard *shard = &loading->shards[loading->shard_count];
     if (!kiln_node_entry(root, "shards"))
         return true;
     if (!read_count(loading, root, "shard", &shard->number) ||
         !read_count(loading, root, "shards", &shard->count) ||
         !read_count(loading, root, "all_tests", &shard->tests))
         return false;
+    if (shard->number > shard->count)
+        return kiln_node_error(kiln_node_entry(root, "shard"), loading->error,
+                               "shard: a number up to that of the shards must be here");
     loading->shard_count++;
     return true;
 }
@@ -236,6 +246,76 @@ static bool load_run(struct loading *loading, const char *folder)
     free(text);
     return root && read_head(loading, root) && read_shard(loading, root) &&
            load_tests(loading, folder, root);
+}
+
+/* ---- Missing shards ----------------------------------------------------------------------- */
+
+static int compare_counts(uint64_t a, uint64_t b)
+{
+    return (a > b) - (a < b);
+}
+
+/* Those of one run lie side by side. */
+static int by_run(const void *a, const void *b)
+{
+    const struct shard *x = a, *y = b;
+    if (x->tests != y->tests)
+        return compare_counts(x->tests, y->tests);
+    if (x->count != y->count)
+        return compare_counts(x->count, y->count);
+    return compare_counts(x->number, y->number);
+}
+
+/* What stands for the tests of the shards `first` to `last`, which were judged nowhere. */
+static bool add_missing(struct loading *loading, uint64_t first, uint64_t last, uint64_t count)
+{
+    char name[64], message[128], range[32] = "";
+    bool one = first == last;
+    if (!one)
+        snprintf(range, sizeof range, "-%" PRIu64, last);
+    snprintf(name, sizeof name, "shard%s %" PRIu64 "%s of %" PRIu64, one ? "" : "s", first, range,
+             count);
+    snprintf(message, sizeof message, "%s %s missing: %s tests were judged nowhere", name,
+             one ? "is" : "are", one ? "its" : "their");
+    struct kiln_result *result = kiln_arena_alloc(loading->arena, 1, sizeof *result);
+    const char *name_copy = kiln_arena_text(loading->arena, name, strlen(name));
+    const char *message_copy = kiln_arena_text(loading->arena, message, strlen(message));
+    if (!result || !name_copy || !message_copy || !grow(loading))
+        return out_of_memory(loading->error);
+    kiln_result_init(result, name_copy);
+    result->status = KILN_TEST_ERROR;
+    result->code = KILN_INVALID_INPUT;
+    result->message = message_copy;
+    loading->entries[loading->count++] = (struct entry){result, "", ""};
+    return true;
+}
+
+/* Looks for gaps in the numbers of each run's shards; `tell` adds an entry for each. */
+static bool find_missing(struct loading *loading, bool tell)
+{
+    struct shard *shards = loading->shards;
+    if (loading->shard_count)
+        qsort(shards, loading->shard_count, sizeof *shards, by_run);
+    uint64_t due = 1; /* the number that comes next */
+    for (size_t i = 0; i < loading->shard_count; i++) {
+        const struct shard *shard = &shards[i], *next = shard + 1;
+        bool last = i + 1 == loading->shard_count || next->count != shard->count ||
+                    next->tests != shard->tests;
+        const uint64_t gaps[2][2] = {{due, shard->number - 1},
+                                     {shard->number + 1, last ? shard->count : 0}};
+        for (int g = 0; g < 2; g++) {
+            if (gaps[g][0] > gaps[g][1])
+                continue;
+            if (loading->missing_shard == 0) {
+                loading->missing_shard = (uint32_t)gaps[g][0];
+                loading->missing_of = (uint32_t)shard->count;
+            }
+            if (tell && !add_missing(loading, gaps[g][0], gaps[g][1], shard->count))
+                return false;
+        }
+        due = last ? 1 : shard->number + 1;
+    }
+    return true;
 }
 
 /* ---- Results ------------------------------------------------------------------------------ */
@@ -267,8 +347,8 @@ static struct kiln_results *collect(const struct loading *loading)
     results->arena = loading->arena;
     results->count = loading->count;
     results->total_s = loading->total_s;
-    results->shards = loading->shards;
-    results->shard_count = loading->shard_count;
+    results->missing_shard = loading->missing_shard;
+    results->shards = loading->missing_of;
     results->started = "";
     results->tests = kiln_arena_alloc(loading->arena, loading->count + 1, sizeof *results->tests);
     results->folders =
@@ -286,24 +366,39 @@ static struct kiln_results *collect(const struct loading *loading)
     return results;
 }
 
-struct kiln_results *kiln_results_load(const char *const *folders, size_t folder_count,
-                                       struct kiln_error *error)
+static void sort(const struct loading *loading)
+{
+    if (loading->count)
+        qsort(loading->entries, loading->count, sizeof *loading->entries, by_name);
+}
+
+static bool load_runs(struct loading *loading, const char *const *folders, size_t folder_count,
+                      bool whole)
+{
+    loading->shards = kiln_arena_alloc(loading->arena, folder_count + 1, sizeof *loading->shards);
+    if (!loading->shards)
+        return out_of_memory(loading->error);
+    for (size_t i = 0; i < folder_count; i++) {
+        if (!load_run(loading, folders[i]))
+            return false;
+    }
+    sort(loading);
+    if (!check_names(loading) || !find_missing(loading, whole))
+        return false;
+    sort(loading);
+    return true;
+}
+
+static struct kiln_results *load(const char *const *folders, size_t folder_count, bool whole,
+                                 struct kiln_error *error)
 {
     struct loading loading = {.arena = kiln_arena_create(), .error = error};
     if (!loading.arena) {
         out_of_memory(error);
         return NULL;
     }
-    loading.shards = kiln_arena_alloc(loading.arena, folder_count + 1, sizeof *loading.shards);
-    bool ok = loading.shards != NULL;
-    if (!ok)
-        out_of_memory(error);
-    for (size_t i = 0; ok && i < folder_count; i++)
-        ok = load_run(&loading, folders[i]);
-    if (ok && loading.count)
-        qsort(loading.entries, loading.count, sizeof *loading.entries, by_name);
     struct kiln_results *results = NULL;
-    if (ok && check_names(&loading)) {
+    if (load_runs(&loading, folders, folder_count, whole)) {
         results = collect(&loading);
         if (!results)
             out_of_memory(error);
@@ -311,6 +406,18 @@ struct kiln_results *kiln_results_load(const char *const *folders, size_t folder
     if (!results)
         kiln_arena_destroy(&loading.arena);
     return results;
+}
+
+struct kiln_results *kiln_results_load(const char *const *folders, size_t folder_count,
+                                       struct kiln_error *error)
+{
+    return load(folders, folder_count, false, error);
+}
+
+struct kiln_results *kiln_results_load_whole(const char *const *folders, size_t folder_count,
+                                             struct kiln_error *error)
+{
+    return load(folders, folder_count, true, error);
 }
 
 void kiln_results_destroy(struct kiln_results **results)
@@ -322,43 +429,16 @@ void kiln_results_destroy(struct kiln_results **results)
     *results = NULL;
 }
 
-/* Whether the shard of this number is there of the run that another shard is of. */
-static bool has_shard(const struct kiln_results *results, const struct kiln_report_shard *of,
-                      uint64_t number)
-{
-    for (size_t i = 0; i < results->shard_count; i++) {
-        const struct kiln_report_shard *shard = &results->shards[i];
-        if (shard->number == number && shard->count == of->count && shard->tests == of->tests)
-            return true;
-    }
-    return false;
-}
-
-/* Tests of a shard that is missing were judged nowhere. */
-static void find_missing_shard(const struct kiln_results *results,
-                               struct kiln_results_summary *summary)
-{
-    for (size_t i = 0; i < results->shard_count && !summary->missing_shard; i++) {
-        const struct kiln_report_shard *shard = &results->shards[i];
-        uint64_t number = 1;
-        while (number <= shard->count && has_shard(results, shard, number))
-            number++;
-        if (number <= shard->count) {
-            summary->missing_shard = (uint32_t)number;
-            summary->shards = (uint32_t)shard->count;
-        }
-    }
-}
-
 struct kiln_results_summary kiln_results_summary(const struct kiln_results *results)
 {
     struct kiln_results_summary summary = {.tests = (uint32_t)results->count,
-                                           .total_s = results->total_s};
+                                           .total_s = results->total_s,
+                                           .missing_shard = results->missing_shard,
+                                           .shards = results->shards};
     for (size_t i = 0; i < results->count; i++) {
         summary.counts[results->tests[i]->status]++;
         summary.code = kiln_code_worse(summary.code, results->tests[i]->code);
     }
-    find_missing_shard(results, &summary);
     return summary;
 }
 

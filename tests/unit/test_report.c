@@ -218,6 +218,73 @@ static void missing_shards_are_told(void **state)
     expect_missing(shards + 1, 1, 2, UINT32_MAX);
 }
 
+/* Every report tells of them as of a test that broke, since that is what people look for; a shard's
+ * own run does not. */
+static void reports_tell_of_missing_shards(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *format, *one, *several;
+    } formats[] = {
+        {"junit", "<testsuite name=\"shard 2 of 6\" tests=\"1\" failures=\"0\" errors=\"1\"",
+         "type=\"invalid-input\" message=\"shards 4-6 of 6 are missing: their tests were judged "
+         "nowhere\""},
+        {"tap", "not ok 3 - shard 2 of 6\n", "not ok 4 - shards 4-6 of 6\n"},
+        {"github",
+         "::error title=Golden image test broke%3A shard 2 of 6::shard 2 of 6 is missing: its "
+         "tests "
+         "were judged nowhere\n",
+         "::shards 4-6 of 6 are missing: their tests were judged nowhere\n"},
+        {"json", "\"name\": \"shard 2 of 6\"", "\"name\": \"shards 4-6 of 6\""},
+        {"html", "4 of 4 tests did not pass", "shards 4-6 of 6 are missing"},
+    };
+    static const char *const shards[] = {"c", "a"};
+    struct kiln_error error = {0};
+    write_part("a", "one", 1, 6, 9);
+    write_part("c", "other", 3, 6, 9);
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
+        const struct kiln_results_output output = {.format = formats[i].format, .path = "report"};
+        struct kiln_results *results = kiln_results_load_whole(shards, 2, &error);
+        assert_non_null(results);
+        const struct kiln_results_summary summary = kiln_results_summary(results);
+        assert_int_equal(summary.tests, 4);
+        assert_int_equal(summary.counts[KILN_TEST_ERROR], 4);
+        assert_true(kiln_results_write(results, &output, &error));
+        kiln_results_destroy(&results);
+        char *text = read_text("report");
+        assert_non_null(strstr(text, formats[i].one));
+        assert_non_null(strstr(text, formats[i].several));
+        free(text);
+
+        results = load(shards, 2);
+        assert_true(kiln_results_write(results, &output, &error));
+        kiln_results_destroy(&results);
+        text = read_text("report");
+        assert_null(strstr(text, " of 6"));
+        free(text);
+    }
+}
+
+/* Runs of which nothing is missing have nothing added, and the exit code of the tests alone. */
+static void whole_runs_are_left_alone(void **state)
+{
+    (void)state;
+    static const char *const shards[] = {"b", "a"}, *const first[] = {"a"};
+    struct kiln_error error = {0};
+    write_run("a", true);
+    struct kiln_results *results = kiln_results_load_whole(first, 1, &error);
+    assert_non_null(results);
+    assert_int_equal(kiln_results_summary(results).tests, 3);
+    assert_int_equal(kiln_results_summary(results).code, KILN_OK);
+    kiln_results_destroy(&results);
+    write_part("a", "one", 1, 2, 2);
+    write_part("b", "two", 2, 2, 2);
+    results = kiln_results_load_whole(shards, 2, &error);
+    assert_non_null(results);
+    assert_int_equal(kiln_results_summary(results).tests, 2);
+    kiln_results_destroy(&results);
+}
+
 static void broken_runs_are_refused(void **state)
 {
     (void)state;
@@ -232,6 +299,8 @@ static void broken_runs_are_refused(void **state)
         {"{\"kiln_run\": 1, \"total_s\": 1}", "tests: lists of tests must be here"},
         {"{\"kiln_run\": 1, \"total_s\": 1, \"shard\": 0, \"shards\": 1}",
          "shard: a number from 1 must be here"},
+        {"{\"kiln_run\": 1, \"total_s\": 1, \"shard\": 3, \"shards\": 2, \"all_tests\": 4}",
+         "shard: a number up to that of the shards must be here"},
         {"{\"kiln_run\": 1, \"total_s\": 1, \"tests\": [1]}",
          "tests: a list of tests must be here"},
         {"{\"kiln_run\": 1, \"total_s\": 1, \"tests\": [[1]]}", "name: a text in quotes must be"},
@@ -407,6 +476,8 @@ int main(void)
         in_folder(large_runs_are_listed),
         in_folder(shards_are_put_together),
         in_folder(missing_shards_are_told),
+        in_folder(reports_tell_of_missing_shards),
+        in_folder(whole_runs_are_left_alone),
         in_folder(broken_runs_are_refused),
         in_folder(results_of_other_tests_are_refused),
         in_folder(reports_have_their_exact_text),

@@ -307,10 +307,11 @@ $ kiln test report out/1 out/2 --tap out/all.tap; echo $?; ls out/1/report.html;
 1|3
 1|out/1/report.html
 1|2
-$ kiln test report out/1 -q; echo $?; kiln test report void
-1|1 test in <s> s: 1 pass
+$ kiln test report out/1 -q --junit out/half.xml; echo $?; grep -c 'message="shard 2 of 2 is missing' out/half.xml; kiln test report void
+1|2 tests in <s> s: 1 pass, 1 error
 1|report: out/1/report.html
 1|3
+1|1
 2|kiln: test report: shard 2 of 2 is missing: its tests were judged nowhere
 2|void/run.json: No such file or directory
 = 3
