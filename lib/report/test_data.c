@@ -1,72 +1,76 @@
-/* Each object starts with a member that is always there, so that all others follow a comma. */
+/* What the page's scripts read: the members of result.json by their names there, as scripts write
+ * names ("device_name" is "deviceName"), and what is made for the page. */
 #include "report/test_data.h"
 
+#include <ctype.h>
+
 #include "report/markup.h"
+#include "suite/result_member.h"
 
-static void add_text(FILE *out, const char *key, const char *text)
+/* ---- Members of a result ------------------------------------------------------------------ */
+
+static void add_key(FILE *out, const char *name)
 {
-    fprintf(out, ",\"%s\":", key);
-    kiln_markup_write_json(out, text);
+    fputc('"', out);
+    for (const char *c = name; *c; c++)
+        fputc(*c == '_' && c[1] ? toupper(*++c) : *c, out);
+    fputs("\":", out);
 }
 
-static void add_number(FILE *out, const char *key, double value)
+static void add_value(FILE *out, enum kiln_member_kind kind, const void *value)
 {
-    fprintf(out, ",\"%s\":", key);
-    kiln_markup_write_number(out, value);
+    switch (kind) {
+    case KILN_MEMBER_TEXT:
+    case KILN_MEMBER_FILE:
+        kiln_markup_write_json(out, *(const char *const *)value);
+        break;
+    case KILN_MEMBER_NAME:
+        kiln_markup_write_json(out, value);
+        break;
+    case KILN_MEMBER_UINT32:
+        fprintf(out, "%u", *(const uint32_t *)value);
+        break;
+    case KILN_MEMBER_DOUBLE:
+        kiln_markup_write_number(out, *(const double *)value);
+        break;
+    case KILN_MEMBER_BOOL:
+        fputs(*(const bool *)value ? "true" : "false", out);
+        break;
+    case KILN_MEMBER_CODE:
+        fprintf(out, "%d", (int)*(const enum kiln_code *)value);
+        break;
+    case KILN_MEMBER_STATUS:
+        kiln_markup_write_json(out, kiln_test_status_name(*(const enum kiln_test_status *)value));
+        break;
+    case KILN_MEMBER_JUDGED_BY:
+        kiln_markup_write_json(out, kiln_judged_by_name(*(const enum kiln_judged_by *)value));
+        break;
+    case KILN_MEMBER_END:
+        break;
+    }
 }
 
-static void add_facts(FILE *out, const struct kiln_result *result)
+static void add_members(FILE *out, const struct kiln_member *members, const void *object)
 {
-    const struct {
-        const char *key, *text;
-    } texts[] = {
-        {"test", result->test},
-        {"scene", result->scene},
-        {"about", result->about},
-        {"golden", result->golden},
-        {"status", kiln_test_status_name(result->status)},
-        {"message", result->message},
-        {"log", result->log},
-        {"device", result->device},
-        {"deviceName", result->device_name},
-        {"driver", result->driver},
-        {"platform", result->platform},
-        {"techniques", result->techniques},
-        {"techniquesExpected", result->techniques_expected},
-        {"version", result->version},
-        {"sceneHash", result->scene_hash},
-        {"sceneHashExpected", result->scene_hash_expected},
-        {"started", result->started},
-        {"rerun", result->rerun},
-        {"approve", result->approve},
-    };
-    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
-        add_text(out, texts[i].key, texts[i].text);
-    add_number(out, "code", result->code);
-    add_number(out, "seed", result->seed);
-    add_number(out, "width", result->width);
-    add_number(out, "height", result->height);
-    add_number(out, "threads", result->threads);
-    add_number(out, "repeat", result->repeat);
-    add_number(out, "totalSeconds", result->total_s);
-    add_number(out, "warn", result->warn);
-    fprintf(out, ",\"hdr\":%s", result->hdr ? "true" : "false");
+    for (const struct kiln_member *m = members; m->name; m++) {
+        fputs(m == members ? "" : ",", out);
+        add_key(out, m->name);
+        add_value(out, m->kind, (const char *)object + m->offset);
+    }
 }
 
 static void add_columns(FILE *out, const struct kiln_result *result)
 {
     fputs(",\"columns\":[", out);
     for (size_t i = 0; i < result->column_count; i++) {
-        const struct kiln_compare_column *column = &result->columns[i];
-        fprintf(out, "%s{\"higher\":%s", i ? "," : "", column->higher_is_better ? "true" : "false");
-        add_text(out, "name", column->name);
-        add_text(out, "unit", column->unit);
-        if (column->limited)
-            add_number(out, "limit", column->limit);
+        fputs(i ? ",{" : "{", out);
+        add_members(out, kiln_result_column_members, &result->columns[i]);
         fputc('}', out);
     }
     fputc(']', out);
 }
+
+/* ---- What is made for the page ------------------------------------------------------------ */
 
 static void add_pictures(FILE *out, const struct kiln_gallery_place *places)
 {
@@ -99,7 +103,8 @@ static void add_pictures(FILE *out, const struct kiln_gallery_place *places)
 static void add_measurement(FILE *out, const struct kiln_result *result,
                             const struct kiln_result_frame *frame)
 {
-    add_number(out, "score", frame->score);
+    fputc(',', out);
+    add_members(out, kiln_result_measured_members, frame);
     fputs(",\"values\":[", out);
     for (size_t i = 0; i < result->column_count; i++) {
         fputs(i ? "," : "", out);
@@ -108,24 +113,15 @@ static void add_measurement(FILE *out, const struct kiln_result *result,
     fputs("],\"beyond\":[", out);
     for (size_t i = 0; i < result->column_count; i++)
         fprintf(out, "%s%d", i ? "," : "", frame->beyond[i]);
-    fprintf(out, "],\"worst\":[%u,%u],\"window\":[%u,%u,%u,%u,%u]", frame->worst_x, frame->worst_y,
-            frame->window_x, frame->window_y, frame->window_width, frame->window_height,
-            frame->window_differing);
+    fputc(']', out);
 }
 
 static void add_frame(FILE *out, const struct kiln_result *result,
                       const struct kiln_result_frame *frame,
                       const struct kiln_gallery_place *places)
 {
-    fprintf(out, "{\"number\":%u", frame->number);
-    add_text(out, "status", kiln_test_status_name(frame->status));
-    add_text(out, "judgedBy", kiln_judged_by_name(frame->judged_by));
-    add_text(out, "message", frame->message);
-    add_text(out, "golden", frame->golden);
-    add_text(out, "state", frame->state);
-    add_text(out, "stateExpected", frame->state_expected);
-    add_text(out, "pixels", frame->pixels);
-    add_text(out, "pixelsExpected", frame->pixels_expected);
+    fputc('{', out);
+    add_members(out, kiln_result_frame_members, frame);
     add_pictures(out, places);
     if (frame->measured)
         add_measurement(out, result, frame);
@@ -157,10 +153,10 @@ void kiln_test_data_write(FILE *out, const struct kiln_results *results, size_t 
                           const struct kiln_gallery *gallery)
 {
     const struct kiln_result *result = results->tests[test];
-    fputs("{\"name\":", out);
-    kiln_markup_write_json(out, result->name);
-    add_text(out, "folder", results->folders[test]);
-    add_facts(out, result);
+    fputs("{\"folder\":", out);
+    kiln_markup_write_json(out, results->folders[test]);
+    fputc(',', out);
+    add_members(out, kiln_result_members, result);
     add_columns(out, result);
     fprintf(out, ",\"first\":%zu,\"frames\":[", kiln_result_worst_frame(result));
     for (size_t i = 0; i < result->frame_count; i++) {

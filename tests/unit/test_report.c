@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "report/words.h"
+#include "suite/result_member.h"
 #include "support/pictures.h"
 #include "support/results.h"
 
@@ -357,6 +358,43 @@ static void reports_have_their_exact_text(void **state)
     kiln_results_destroy(&results);
 }
 
+/* "device_name" is "deviceName" to a script. */
+static void assert_has_members(const char *page, const struct kiln_member *members)
+{
+    for (const struct kiln_member *m = members; m->name; m++) {
+        char key[64] = "\"";
+        size_t length = 1;
+        bool raise = false;
+        for (const char *c = m->name; *c; c++) {
+            if (*c != '_')
+                key[length++] = (char)(raise ? *c - 'a' + 'A' : *c);
+            raise = *c == '_';
+        }
+        snprintf(key + length, sizeof key - length, "\":");
+        if (!strstr(page, key))
+            fail_msg("the page has no %s", key);
+    }
+}
+
+/* The page's scripts can show whatever is known of a result. */
+static void pages_have_every_member(void **state)
+{
+    (void)state;
+    static const char *const out[] = {"out"};
+    write_run("out", false);
+    struct kiln_results *results = load(out, 1);
+    const struct kiln_results_output output = {.format = "html", .path = "page.html"};
+    struct kiln_error error = {0};
+    assert_true(kiln_results_write(results, &output, &error));
+    char *page = read_text("page.html");
+    assert_has_members(page, kiln_result_members);
+    assert_has_members(page, kiln_result_column_members);
+    assert_has_members(page, kiln_result_frame_members);
+    assert_has_members(page, kiln_result_measured_members);
+    free(page);
+    kiln_results_destroy(&results);
+}
+
 /* Of very many frames that fail, some are told of; the others are counted. */
 static void long_sequences_are_cut(void **state)
 {
@@ -481,6 +519,7 @@ int main(void)
         in_folder(broken_runs_are_refused),
         in_folder(results_of_other_tests_are_refused),
         in_folder(reports_have_their_exact_text),
+        in_folder(pages_have_every_member),
         in_folder(long_sequences_are_cut),
         in_folder(reports_that_cannot_be_written),
         cmocka_unit_test(every_format_is_listed),

@@ -19,8 +19,8 @@ function card(name, small, ...children) {
 /* How much of its limit a value takes up: 1 is all of it. */
 function shareOf(column, value) {
     const number = (v) => (v === "inf" ? Infinity : typeof v === "number" ? v : NaN);
-    const over = column.higher ? column.limit : number(value);
-    const under = column.higher ? number(value) : column.limit;
+    const over = column.higherIsBetter ? column.limit : number(value);
+    const under = column.higherIsBetter ? number(value) : column.limit;
     if (Number.isNaN(over) || Number.isNaN(under)) return Infinity;
     if (under === Infinity) return 0;
     return under > 0 ? over / under : over > under ? Infinity : 0;
@@ -36,14 +36,14 @@ function barOf(share) {
 }
 
 function metricRow(column, value, beyond) {
-    const limited = column.limit !== undefined;
+    const { limited } = column;
     const share = limited ? shareOf(column, value) : 0;
     const times = share >= 100 ? "> 100" : formatNumber(Number(share.toPrecision(3)));
     const verdict = !limited ? "" : beyond ? `${times}\u00d7, beyond` : `${times}\u00d7`;
     return make("tr", { class: beyond ? "beyond" : limited ? "within" : "free" },
         make("th", { scope: "row" }, column.name),
         make("td", { class: "number" }, formatNumber(value) + (column.unit ? " " + column.unit : "")),
-        make("td", { class: "number" }, limited ? (column.higher ? "\u2265 " : "\u2264 ") + formatNumber(column.limit) : "\u2013"),
+        make("td", { class: "number" }, limited ? (column.higherIsBetter ? "\u2265 " : "\u2264 ") + formatNumber(column.limit) : "\u2013"),
         make("td", { class: "bar" }, limited ? barOf(share) : null),
         make("td", { class: "number" }, verdict));
 }
@@ -56,13 +56,13 @@ function metricsCard(test, frame) {
         metrics: "judged by the metrics",
     };
     const small = judged[frame.judgedBy] || "";
-    if (!frame.values) return card("Metrics", small, make("p", { class: "command muted" }, "This frame was not measured."));
+    if (!frame.measured) return card("Metrics", small, make("p", { class: "command muted" }, "This frame was not measured."));
     const rows = test.columns.map((column, i) => ({ column, value: frame.values[i], beyond: Boolean(frame.beyond[i]) }));
-    rows.sort((a, b) => (b.column.limit !== undefined) - (a.column.limit !== undefined));
+    rows.sort((a, b) => b.column.limited - a.column.limited);
     const head = ["Metric", "Value", "Limit", "", "Of limit"].map((text, i) =>
         make("th", { scope: "col", class: i && i !== 3 ? "number" : "" }, text || make("span", { class: "sr" }, "Bar")));
-    const [x, y] = frame.worst, [left, top, width, height, count] = frame.window;
-    const where = width ? `Largest difference at ${x}, ${y}; densest window ${width}\u00d7${height} at ${left}, ${top}: ${count} pixels.` : "";
+    const window = `${frame.windowWidth}\u00d7${frame.windowHeight} at ${frame.windowX}, ${frame.windowY}`;
+    const where = frame.windowWidth ? `Largest difference at ${frame.worstX}, ${frame.worstY}; densest window ${window}: ${frame.windowDiffering} pixels.` : "";
     return card("Metrics", small,
         make("div", { class: "scroll" }, make("table", {}, make("thead", {}, make("tr", {}, ...head)),
             make("tbody", {}, ...rows.map((row) => metricRow(row.column, row.value, row.beyond))))),
@@ -94,12 +94,12 @@ function runCard(test) {
         ["Techniques", test.techniques || test.techniquesExpected ? compared(test.techniques, test.techniquesExpected, "") : ""],
         ["Picture", test.width ? `${test.width} \u00d7 ${test.height}${test.hdr ? ", linear; shown tone-mapped" : ""}` : ""],
         ["Seed", test.width ? String(test.seed) : ""],
-        ["Threads", `${test.threads}${test.repeat > 1 ? `, rendered ${test.repeat} times` : ""}`],
+        ["Threads", test.threads ? `${test.threads}${test.repeat > 1 ? `, rendered ${test.repeat} times` : ""}` : ""],
         ["Scene", test.scene],
         ["Test", test.test === test.scene ? "" : test.test],
         ["Goldens", test.golden],
         ["Log", log ? make("span", { class: "mono" }, log) : ""],
-        ["Started", `${test.started}, took ${test.totalSeconds.toFixed(2)} s`],
+        ["Started", test.started ? `${test.started}, took ${test.totalS.toFixed(2)} s` : ""],
         ["kiln", test.version],
     ]);
 }

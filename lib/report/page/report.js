@@ -67,8 +67,12 @@ async function showPictures(test, frame) {
         }
     }));
     if (wish !== page.shown) return;
-    viewer.show(shown, problems, frame.worst ? { worst: frame.worst, window: frame.window } : null);
-    byId("zoom-worst").disabled = byId("marks").disabled = !frame.worst;
+    const places = {
+        worst: [frame.worstX, frame.worstY],
+        window: [frame.windowX, frame.windowY, frame.windowWidth, frame.windowHeight],
+    };
+    viewer.show(shown, problems, frame.measured ? places : null);
+    byId("zoom-worst").disabled = byId("marks").disabled = !frame.measured;
     showReadout(shown, viewer.cursor);
     byId("stage").dataset.frame = frame.number; /* says that it is there */
     for (const step of [1, -1]) {
