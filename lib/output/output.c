@@ -42,6 +42,19 @@ struct kiln_output {
 
 /* ---- Checks before the first frame -------------------------------------------------------- */
 
+static bool refuse_gap(const char *path, uint32_t first, uint32_t last, struct kiln_error *error)
+{
+    char range[32] = "";
+    if (first < last)
+        snprintf(range, sizeof range, "s %u-%u", first, last);
+    else
+        snprintf(range, sizeof range, " %u", first);
+    return kiln_error_set(error, KILN_USAGE,
+                          "%s: a clip cannot leave out frames, but frame%s would be missing; write "
+                          "images, or one range",
+                          path, range);
+}
+
 static bool check_ranges(const struct kiln_output_params *params, const struct kiln_format *format,
                          struct kiln_error *error)
 {
@@ -53,10 +66,7 @@ static bool check_ranges(const struct kiln_output_params *params, const struct k
             return kiln_error_set(error, KILN_USAGE, "%s: frames %u-%u are not in ascending order",
                                   params->path, range->first, range->last);
         if (format->one_file && !format->gaps && i > 0 && range->first != range[-1].last + 1)
-            return kiln_error_set(error, KILN_USAGE,
-                                  "%s: a video cannot leave out frames, but none lies between %u "
-                                  "and %u; write images, or one range",
-                                  params->path, range[-1].last, range->first);
+            return refuse_gap(params->path, range[-1].last + 1, range->first - 1, error);
     }
     return true;
 }

@@ -18,7 +18,7 @@ $ kiln render scenes/tiny.yaml -q -o odd.mp4 --size 63x36
 2|kiln: odd.mp4: a video of 63 x 36 pixels; H.264 needs even sizes, the nearest is 64x36
 = 2
 $ kiln render scenes/tiny.yaml -q -o gap.mp4 --frames 0-3,8
-2|kiln: gap.mp4: a video cannot leave out frames, but none lies between 3 and 8; write images, or one range
+2|kiln: gap.mp4: a clip cannot leave out frames, but frames 4-7 would be missing; write images, or one range
 = 2
 $ kiln render scenes/tiny.yaml -q -o frame_%s.png
 2|kiln: frame_%s.png: '%s.' in the file name; after a percent sign only d, a width and d (%04d), a # or a second percent sign may follow
@@ -73,7 +73,7 @@ $ kiln render scenes/tiny.yaml -q -o clear.mp4 --set backdrop.transparent=true
 2|kiln: clear.mp4: the backdrop is transparent, but an MP4 video has no alpha; write images, a .webm or a .mov, or make the backdrop opaque
 = 2
 $ kiln render scenes/tiny.yaml -q -o gap.webm --frames 0-3,8
-2|kiln: gap.webm: a video cannot leave out frames, but none lies between 3 and 8; write images, or one range
+2|kiln: gap.webm: a clip cannot leave out frames, but frames 4-7 would be missing; write images, or one range
 = 2
 $ kiln render scenes/tiny.yaml -q -o clip_%d.mov
 2|kiln: clip_%d.mov: a frame number in the name of a video or flipbook, which is one file
