@@ -34,7 +34,7 @@ static void spread_moves(const int8_t *from, uint8_t *to)
         for (uint32_t x = 0; x < MOVES_PITCH; x++, to += 4) {
             uint32_t row = y < KILN_ATLAS_MOTION ? y : KILN_ATLAS_MOTION - 1;
             uint32_t column = x < KILN_ATLAS_MOTION ? x : KILN_ATLAS_MOTION - 1;
-            const int8_t *pair = from + 2 * (row * KILN_ATLAS_MOTION + column);
+            const int8_t *pair = from + 2 * (size_t)(row * KILN_ATLAS_MOTION + column);
             to[0] = (uint8_t)(128 + pair[0]);
             to[1] = (uint8_t)(128 + pair[1]);
         }
@@ -46,7 +46,7 @@ static bool make_moves(struct kiln_cells *cells)
     const struct kiln_atlas *atlas = cells->atlas;
     if (!atlas->moves)
         return true;
-    cells->moves = calloc(atlas->layers, MOVES_BYTES);
+    cells->moves = calloc((size_t)atlas->layers + 1, MOVES_BYTES); /* none: not NULL */
     for (uint32_t i = 0; cells->moves && i < atlas->layers; i++)
         spread_moves(atlas->moves + (size_t)i * KILN_ATLAS_MOVES_BYTES,
                      cells->moves + (size_t)i * MOVES_BYTES);

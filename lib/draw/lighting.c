@@ -145,14 +145,12 @@ static float3 sun_direction(const struct kiln_scene *scene, float time_s)
     return (float3){v.x / length, v.y / length, v.z / length};
 }
 
-static void upload(struct kiln_lighting_stage *stage, const struct kiln_smoke_grid *grid, int which,
-                   float4 rows[3])
+static void upload(struct kiln_lighting_stage *stage, const struct kiln_smoke_grid *grid, int which)
 {
     glActiveTexture(GL_TEXTURE0 + KILN_UNIT_SMOKE_SUN + (GLenum)which);
     glBindTexture(GL_TEXTURE_3D, stage->textures[which]);
     glTexSubImage3D(GL_TEXTURE_3D, 0, 0, 0, 0, KILN_SMOKE_GRID, KILN_SMOKE_GRID, KILN_SMOKE_GRID,
                     GL_RED, GL_FLOAT, grid->depth);
-    memcpy(rows, grid->world_to_grid, sizeof grid->world_to_grid);
 }
 
 /* Where there is no sun, every place lies beside its grid. */
@@ -174,9 +172,12 @@ static bool shade(struct kiln_lighting_stage *stage, const struct kiln_living_mo
         lighting->sun_to_grid[i] = (float4){0.0f, 0.0f, 0.0f, -1.0f};
     lighting->sky_depth = grids[0].depth;
     lighting->sun_depth = grids[1].depth;
-    upload(stage, &grids[0], SKY, lighting->sky_to_grid);
-    if (stage->sun)
-        upload(stage, &grids[1], SUN, lighting->sun_to_grid);
+    upload(stage, &grids[0], SKY);
+    memcpy(lighting->sky_to_grid, grids[0].world_to_grid, sizeof lighting->sky_to_grid);
+    if (!stage->sun)
+        return true;
+    upload(stage, &grids[1], SUN);
+    memcpy(lighting->sun_to_grid, grids[1].world_to_grid, sizeof lighting->sun_to_grid);
     return true;
 }
 
@@ -237,10 +238,10 @@ static float grid_at(const float *depth, const float at[3])
         step[i] = from[i] + 1 < KILN_SMOKE_GRID ? 1 : 0;
         part[i] = cell - (float)from[i];
     }
-    const uint32_t row = KILN_SMOKE_GRID, layer = KILN_SMOKE_GRID * KILN_SMOKE_GRID;
+    const size_t row = KILN_SMOKE_GRID, layer = row * row;
     const float *base = depth + from[2] * layer + from[1] * row + from[0];
     float planes[2];
-    for (uint32_t z = 0; z < 2; z++) {
+    for (size_t z = 0; z < 2; z++) {
         const float *near = base + z * step[2] * layer, *far = near + step[1] * row;
         float upper = near[0] + (near[step[0]] - near[0]) * part[0];
         float lower = far[0] + (far[step[0]] - far[0]) * part[0];

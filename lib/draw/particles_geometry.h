@@ -11,12 +11,12 @@ struct kiln_geometry *kiln_geometry_create(struct kiln_device *device,
                                            const struct kiln_scene *scene,
                                            const struct kiln_atlas *atlas, bool draws,
                                            struct kiln_error *error);
-void kiln_geometry_destroy(struct kiln_geometry **geometry);
+void kiln_geometry_destroy(struct kiln_geometry **stage);
 
 /* See kiln_particles_bind and kiln_particles_run. */
-bool kiln_geometry_bind(struct kiln_geometry *geometry, struct kiln_pool *pool,
+bool kiln_geometry_bind(struct kiln_geometry *stage, struct kiln_pool *pool,
                         struct kiln_buffer *entries, float time_s, struct kiln_error *error);
-bool kiln_geometry_run(struct kiln_geometry *geometry, const struct kiln_particles_draw *draw,
+bool kiln_geometry_run(struct kiln_geometry *stage, const struct kiln_particles_draw *draw,
                        struct kiln_error *error);
 
 #endif

@@ -157,7 +157,7 @@ SIMD void draw_pixels(const struct kiln_tile *tile, const struct kiln_sprite *s,
     vf from_anchor = vf_count() + ((float)(tile->x + x) + 0.5f - s->x);
     struct place at = {row->u + s->u_x * from_anchor, row->v + s->v_x * from_anchor};
     vf depth = vf_all(s->depth);
-    vi inside = (vi)(at.u == at.u);
+    vi inside = ~(vi){0};
     if (deep) {
         vf q = row->q + s->q_x * from_anchor;
         inside &= q > 0.0f;
@@ -181,28 +181,28 @@ SIMD void draw_pixels(const struct kiln_tile *tile, const struct kiln_sprite *s,
     c.red *= part;
     c.green *= part;
     c.blue *= part;
-    float *pixels = &row->pixels[0][x];
+    float(*pixels)[KILN_TILE_PITCH] = row->pixels;
     if (covers) {
         c.alpha *= part;
         vf passed = 1.0f - c.alpha * tile->over;
-        blend(pixels + KILN_TILE_RED * KILN_TILE_PITCH, c.red, passed);
-        blend(pixels + KILN_TILE_GREEN * KILN_TILE_PITCH, c.green, passed);
-        blend(pixels + KILN_TILE_BLUE * KILN_TILE_PITCH, c.blue, passed);
-        blend(pixels + KILN_TILE_ALPHA * KILN_TILE_PITCH, c.alpha, passed);
+        blend(pixels[KILN_TILE_RED] + x, c.red, passed);
+        blend(pixels[KILN_TILE_GREEN] + x, c.green, passed);
+        blend(pixels[KILN_TILE_BLUE] + x, c.blue, passed);
+        blend(pixels[KILN_TILE_ALPHA] + x, c.alpha, passed);
         if (tile->glows) {
-            blend(pixels + KILN_TILE_GLOW_RED * KILN_TILE_PITCH, c.red * s->bloom[0], passed);
-            blend(pixels + KILN_TILE_GLOW_GREEN * KILN_TILE_PITCH, c.green * s->bloom[1], passed);
-            blend(pixels + KILN_TILE_GLOW_BLUE * KILN_TILE_PITCH, c.blue * s->bloom[2], passed);
+            blend(pixels[KILN_TILE_GLOW_RED] + x, c.red * s->bloom[0], passed);
+            blend(pixels[KILN_TILE_GLOW_GREEN] + x, c.green * s->bloom[1], passed);
+            blend(pixels[KILN_TILE_GLOW_BLUE] + x, c.blue * s->bloom[2], passed);
         }
         return;
     }
-    add(pixels + KILN_TILE_RED * KILN_TILE_PITCH, c.red);
-    add(pixels + KILN_TILE_GREEN * KILN_TILE_PITCH, c.green);
-    add(pixels + KILN_TILE_BLUE * KILN_TILE_PITCH, c.blue);
+    add(pixels[KILN_TILE_RED] + x, c.red);
+    add(pixels[KILN_TILE_GREEN] + x, c.green);
+    add(pixels[KILN_TILE_BLUE] + x, c.blue);
     if (tile->glows) {
-        add(pixels + KILN_TILE_GLOW_RED * KILN_TILE_PITCH, c.red * s->bloom[0]);
-        add(pixels + KILN_TILE_GLOW_GREEN * KILN_TILE_PITCH, c.green * s->bloom[1]);
-        add(pixels + KILN_TILE_GLOW_BLUE * KILN_TILE_PITCH, c.blue * s->bloom[2]);
+        add(pixels[KILN_TILE_GLOW_RED] + x, c.red * s->bloom[0]);
+        add(pixels[KILN_TILE_GLOW_GREEN] + x, c.green * s->bloom[1]);
+        add(pixels[KILN_TILE_GLOW_BLUE] + x, c.blue * s->bloom[2]);
     }
 }
 

@@ -41,6 +41,7 @@ struct video_encoder {
     AVPacket *packet;
     struct SwsContext *scaler; /* NULL for palettes */
     int64_t frames;
+    bool begun; /* the container waits for its end */
 };
 
 struct kiln_output_needs kiln_video_needs(const struct kiln_output_params *params)
@@ -256,6 +257,7 @@ static int write_header(struct video_encoder *encoder)
         settings->prepare(encoder->params, &options);
     int status = avformat_write_header(container, &options);
     av_dict_free(&options);
+    encoder->begun = status >= 0;
     return status;
 }
 
@@ -287,10 +289,26 @@ static int open_container(struct video_encoder *encoder)
     return status < 0 ? status : write_header(encoder);
 }
 
+/* FFmpeg's GIF writer keeps a packet, which only the end of the file frees: ends it in memory. */
+static void abandon(struct video_encoder *encoder)
+{
+    AVIOContext *nowhere = NULL;
+    if (strcmp(encoder->container->oformat->name, "gif") != 0 || avio_open_dyn_buf(&nowhere) < 0)
+        return;
+    encoder->container->pb = nowhere;
+    av_write_trailer(encoder->container);
+    uint8_t *bytes = NULL;
+    avio_close_dyn_buf(nowhere, &bytes);
+    av_free(bytes);
+    encoder->container->pb = encoder->io;
+}
+
 void kiln_video_close(void *opaque)
 {
     struct video_encoder *encoder = opaque;
     kiln_avlog_begin(&encoder->avlog);
+    if (encoder->begun)
+        abandon(encoder);
     sws_freeContext(encoder->scaler);
     av_packet_free(&encoder->packet);
     av_frame_free(&encoder->frame);
@@ -409,8 +427,10 @@ bool kiln_video_finish(void *opaque, const struct kiln_output_caller *caller,
     struct video_encoder *encoder = opaque;
     kiln_avlog_begin(&encoder->avlog);
     int status = push(encoder, NULL, caller, error);
-    if (status >= 0)
+    if (status >= 0) {
         status = av_write_trailer(encoder->container);
+        encoder->begun = false;
+    }
     avio_flush(encoder->io);
     kiln_avlog_end(&encoder->avlog);
     if (status == AVERROR_EXIT)

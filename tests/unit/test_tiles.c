@@ -13,6 +13,7 @@
 #include "draw/particles.h"
 #include "draw/tile.h"
 #include "shared/particle.h"
+#include "support/scenes.h"
 
 enum { WIDTH = 301, HEIGHT = 173, PIXELS = WIDTH * HEIGHT, STEP = 40, COUNT = 600 };
 
@@ -94,10 +95,7 @@ static int set_up(void **state)
     struct kiln_error error = {0};
     struct fixture *f = calloc(1, sizeof *f);
     assert_non_null(f);
-    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
-    f->scene = kiln_scene_parse(SCENE, sizeof SCENE - 1, "test", &params, &error);
-    if (!f->scene)
-        fail_msg("%s", error.message);
+    f->scene = load_scene(SCENE, NULL);
     f->threads = kiln_threads_create(2);
     struct kiln_atlas_request requests[SYSTEMS];
     for (int i = 0; i < SYSTEMS; i++) {
