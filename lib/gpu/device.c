@@ -353,7 +353,7 @@ static void probe(struct kiln_device *device)
     struct kiln_error error = {0};
     if (!device->info.usable || !kiln_device_make_current(device, &error))
         return;
-    device->info.exact = kiln_probe_exact(device, reason, &error);
+    device->info.exact = kiln_probe_exact(device, KILN_PROBE_COMPUTE, reason, &error);
     if (!device->info.exact)
         kiln_log_write(&device->log, KILN_LOG_INFO, "'%s' does not compute exactly: %s",
                        device->info.name, reason[0] ? reason : error.message);

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "gpu/buffer.h"
+#include "gpu/capture.h"
 #include "gpu/program.h"
 #include "shared/probe.h"
 
@@ -41,9 +42,31 @@ static uint4 vector_at(uint32_t index)
 
 struct probe {
     struct kiln_device *device;
+    enum kiln_probe_stage stage;
     GLuint program;
+    struct kiln_capture capture; /* of the geometry stage */
     struct kiln_buffer vectors, results;
 };
+
+static void run_compute(struct probe *probe, uint32_t count, GLuint vectors, GLuint results)
+{
+    glUniform1ui(0, count);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, vectors);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, results);
+    kiln_device_dispatch(probe->device, count, 64);
+}
+
+static void run_geometry(struct probe *probe, uint32_t count, GLuint vectors, GLuint results)
+{
+    kiln_capture_begin(&probe->capture);
+    glBindVertexBuffer(0, vectors, 0, sizeof(uint4));
+    glBindBufferRange(GL_TRANSFORM_FEEDBACK_BUFFER, 0, results, 0,
+                      (GLsizeiptr)(count * sizeof(struct probe_result)));
+    glBeginTransformFeedback(GL_POINTS);
+    glDrawArrays(GL_POINTS, 0, (GLsizei)count);
+    glEndTransformFeedback();
+    kiln_capture_end();
+}
 
 static bool run_on_device(struct probe *probe, uint32_t first, uint32_t count,
                           struct kiln_error *error)
@@ -58,10 +81,10 @@ static bool run_on_device(struct probe *probe, uint32_t first, uint32_t count,
     if (!vector_buffer || !result_buffer)
         return false;
     glUseProgram(probe->program);
-    glUniform1ui(0, count);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, vector_buffer);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, result_buffer);
-    kiln_device_dispatch(probe->device, count, 64);
+    if (probe->stage == KILN_PROBE_GEOMETRY)
+        run_geometry(probe, count, vector_buffer, result_buffer);
+    else
+        run_compute(probe, count, vector_buffer, result_buffer);
     return kiln_device_check(probe->device, "probe", error);
 }
 
@@ -104,23 +127,39 @@ static bool run(struct probe *probe, uint32_t count, char reason[256], struct ki
     return true;
 }
 
-bool kiln_probe_vectors(struct kiln_device *device, uint32_t count, char reason[256],
-                        struct kiln_error *error)
+static bool init_probe(struct probe *probe, struct kiln_error *error)
+{
+    struct kiln_program_params files = {.compute = "gpu/probe.comp"};
+    if (probe->stage == KILN_PROBE_GEOMETRY) {
+        static const char *const words[] = {"sums",        "orders",     "roots",      "curves",
+                                            "unit_square", "cross_lerp", "noise_hash", "around"};
+        files = (struct kiln_program_params){.vertex = "gpu/probe.vert",
+                                             .geometry = "gpu/probe.geom",
+                                             .captured = words,
+                                             .captured_count = sizeof words / sizeof *words};
+        if (!kiln_capture_init(&probe->capture, probe->device, 1, error))
+            return false;
+    }
+    probe->program = kiln_program_create(probe->device, &files, error);
+    return probe->program != 0;
+}
+
+bool kiln_probe_vectors(struct kiln_device *device, enum kiln_probe_stage stage, uint32_t count,
+                        char reason[256], struct kiln_error *error)
 {
     reason[0] = '\0';
-    struct probe probe = {.device = device};
-    probe.program = kiln_program_create(
-        device, &(struct kiln_program_params){.compute = "gpu/probe.comp"}, error);
-    if (!probe.program)
-        return false;
-    bool exact = run(&probe, count, reason, error);
+    struct probe probe = {.device = device, .stage = stage};
+    bool exact = init_probe(&probe, error) && run(&probe, count, reason, error);
     kiln_buffer_finish(&probe.vectors);
     kiln_buffer_finish(&probe.results);
-    glDeleteProgram(probe.program);
+    kiln_capture_finish(&probe.capture);
+    if (probe.program)
+        glDeleteProgram(probe.program);
     return exact;
 }
 
-bool kiln_probe_exact(struct kiln_device *device, char reason[256], struct kiln_error *error)
+bool kiln_probe_exact(struct kiln_device *device, enum kiln_probe_stage stage, char reason[256],
+                      struct kiln_error *error)
 {
-    return kiln_probe_vectors(device, 4096, reason, error);
+    return kiln_probe_vectors(device, stage, 4096, reason, error);
 }

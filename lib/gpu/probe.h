@@ -4,13 +4,18 @@
 
 #include "gpu/device.h"
 
-/* Runs edge and random vectors through the shared exact arithmetic in the compute stage and
- * compares with C, bit for bit. False: `reason` says which function differed first and how (it
+/* A stage that simulates; for the geometry stage, vectors arrive as vertices and results leave by
+ * transform feedback. */
+enum kiln_probe_stage { KILN_PROBE_COMPUTE, KILN_PROBE_GEOMETRY };
+
+/* Runs edge and random vectors through the shared exact arithmetic in a stage and compares with C,
+ * bit for bit. False: `reason` says which function differed first and how (it
  * stays empty when the probe could not run, and error is set). */
-bool kiln_probe_exact(struct kiln_device *device, char reason[256], struct kiln_error *error);
+bool kiln_probe_exact(struct kiln_device *device, enum kiln_probe_stage stage, char reason[256],
+                      struct kiln_error *error);
 
 /* The same with so many vectors; kiln_probe_exact takes few enough to run at every start. */
-bool kiln_probe_vectors(struct kiln_device *device, uint32_t count, char reason[256],
-                        struct kiln_error *error);
+bool kiln_probe_vectors(struct kiln_device *device, enum kiln_probe_stage stage, uint32_t count,
+                        char reason[256], struct kiln_error *error);
 
 #endif

@@ -129,6 +129,9 @@ GLuint kiln_program_create(struct kiln_device *device, const struct kiln_program
     for (size_t i = 0; ok && i < MAX_STAGES; i++)
         if (stages[i].file)
             ok = compile(&build, stages[i].stage, stages[i].file, params->defines, error);
+    if (params->captured_count > 0)
+        glTransformFeedbackVaryings(build.program, (GLsizei)params->captured_count,
+                                    params->captured, GL_INTERLEAVED_ATTRIBS);
     ok = ok && link_program(&build, error);
 
     for (size_t i = 0; i < build.shader_count; i++) {

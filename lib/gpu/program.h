@@ -9,6 +9,10 @@
 struct kiln_program_params {
     const char *compute, *vertex, *geometry, *fragment;
     const char *defines;
+    /* Outputs of the last stage before rasterising that transform feedback writes, one behind the
+     * other into one buffer. */
+    const char *const *captured;
+    size_t captured_count;
 };
 
 /* Compiles and links; 0 on failure, and then the message names the shader file and line. `#include

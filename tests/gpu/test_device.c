@@ -153,7 +153,7 @@ static void exactness_is_probed(void **state)
     const struct kiln_device_info *info = kiln_device_info(*state);
     char reason[256];
     struct kiln_error error = {0};
-    assert_true(info->exact == kiln_probe_exact(*state, reason, &error));
+    assert_true(info->exact == kiln_probe_exact(*state, KILN_PROBE_COMPUTE, reason, &error));
     assert_true(info->exact || !strstr(info->name, "llvmpipe"));
     struct kiln_device_info infos[32];
     size_t count = kiln_device_list(infos, 32, NULL);

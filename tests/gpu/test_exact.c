@@ -9,19 +9,30 @@
 #include "gpu/probe.h"
 #include "support/device.h"
 
-static void a_million_vectors_agree_with_c(void **state)
+static void vectors_agree_with_c(struct kiln_device *device, enum kiln_probe_stage stage)
 {
     struct kiln_error error = {0};
     char reason[256];
-    if (!kiln_probe_vectors(*state, 1 << 20, reason, &error))
+    if (!kiln_probe_vectors(device, stage, 1 << 20, reason, &error))
         fail_msg("%s%s", reason, error.message);
     assert_string_equal(reason, "");
+}
+
+static void compute_agrees_with_c(void **state)
+{
+    vectors_agree_with_c(*state, KILN_PROBE_COMPUTE);
+}
+
+static void geometry_agrees_with_c(void **state)
+{
+    vectors_agree_with_c(*state, KILN_PROBE_GEOMETRY);
 }
 
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
-        test_on_device(a_million_vectors_agree_with_c),
+        test_on_device(compute_agrees_with_c),
+        test_on_device(geometry_agrees_with_c),
     };
     return cmocka_run_group_tests_name("exact", tests, test_device_open, test_device_close);
 }

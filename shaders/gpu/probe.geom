@@ -1,0 +1,36 @@
+/* As probe.comp, in the geometry stage: the results leave by transform feedback. */
+layout(points) in;
+layout(points, max_vertices = 1) out;
+
+#include "shared/probe.h"
+
+in vertex_block
+{
+    uvec4 bits;
+}
+vertices[];
+
+/* As in struct probe_result; the host names them in this order. */
+out uvec4 sums;
+out uvec4 orders;
+out uvec4 roots;
+out uvec4 curves;
+out uvec4 unit_square;
+out uvec4 cross_lerp;
+out uvec4 noise_hash;
+out uvec4 around;
+
+void main()
+{
+    probe_result r = probe_run(vertices[0].bits);
+    sums = r.sums;
+    orders = r.orders;
+    roots = r.roots;
+    curves = r.curves;
+    unit_square = r.unit;
+    cross_lerp = r.cross;
+    noise_hash = r.noise;
+    around = r.around;
+    EmitVertex();
+    EndPrimitive();
+}
