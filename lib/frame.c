@@ -251,8 +251,8 @@ static void init_pool(struct job *job)
         capacities[i] = job->scene->systems[i].capacity;
     kiln_pool_init(&job->run.pool, job->device, capacities, job->scene->system_count);
     job->stats.particle_capacity = job->run.pool.slot_count;
-    job->stats.particle_bytes =
-        (uint64_t)job->run.pool.slot_count * (sizeof(struct kiln_particle) + sizeof(uint32_t));
+    size_t slot_bytes = kiln_simulate_slot_bytes(job->techniques.simulate) + sizeof(uint32_t);
+    job->stats.particle_bytes = (uint64_t)job->run.pool.slot_count * slot_bytes;
 }
 
 /* What the device cannot draw. A software device advertises smaller storage blocks than it takes.

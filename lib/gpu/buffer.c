@@ -1,6 +1,7 @@
 /* Buffers. Everything goes through GL_COPY_WRITE_BUFFER, which no draw or dispatch looks at. */
 #include "gpu/buffer.h"
 
+#include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -111,6 +112,17 @@ GLuint kiln_buffer_gl(struct kiln_buffer *buffer, enum kiln_access access, struc
     if (access != KILN_READ)
         buffer->host_valid = false;
     return buffer->gl;
+}
+
+void kiln_buffer_swap_gl(struct kiln_buffer *a, struct kiln_buffer *b)
+{
+    assert(a->size == b->size && a->gl && b->gl && a->gl_valid && b->gl_valid);
+    const GLuint gl = a->gl;
+    a->gl = b->gl;
+    b->gl = gl;
+    a->host_valid = b->host_valid = false;
+    kiln_device_label(a->device, GL_BUFFER, a->gl, a->label);
+    kiln_device_label(b->device, GL_BUFFER, b->gl, b->label);
 }
 
 GLuint kiln_buffer_upload(struct kiln_buffer *buffer, const void *bytes, struct kiln_error *error)

@@ -34,6 +34,10 @@ void *kiln_buffer_host(struct kiln_buffer *buffer, enum kiln_access access,
 GLuint kiln_buffer_gl(struct kiln_buffer *buffer, enum kiln_access access,
                       struct kiln_error *error);
 
+/* Exchanges the contents of two buffers of one device and size that were last written in GL,
+ * without copying: each takes the other's buffer object. */
+void kiln_buffer_swap_gl(struct kiln_buffer *a, struct kiln_buffer *b);
+
 /* Replaces all `size` bytes; returns the GL buffer object, or 0 with an error. */
 GLuint kiln_buffer_upload(struct kiln_buffer *buffer, const void *bytes, struct kiln_error *error);
 

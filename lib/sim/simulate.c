@@ -6,16 +6,49 @@
 #include "base/error.h"
 #include "shared/trace.h"
 #include "sim/cpu.h"
+#include "sim/feedback.h"
+#include "sim/hash.h"
 #include "sim/inplace.h"
+#include "sim/pingpong.h"
 
 struct kiln_simulate {
     const struct kiln_scene *scene;
     enum kiln_simulate_technique technique;
     struct kiln_threads *threads;
     struct kiln_sim_params params;
-    struct kiln_inplace inplace;
     struct kiln_buffer traces; /* of parents, within a step: no part of the state */
+    /* of all techniques in GL: */
+    struct kiln_sim_blocks blocks;
+    struct kiln_sim_hash hash;
+    /* of one of them: */
+    struct kiln_sim_programs inplace;
+    struct kiln_pingpong pingpong;
+    struct kiln_feedback feedback;
 };
+
+static bool init_on_device(struct kiln_simulate *s, struct kiln_device *device,
+                           struct kiln_error *error)
+{
+    if (!device)
+        return kiln_error_set(error, KILN_USAGE, "only simulate=cpu needs no device");
+    if (!device->info.exact)
+        return kiln_error_set(error, KILN_USAGE, "%s does not compute exactly; use simulate=cpu",
+                              device->info.name);
+    if (!kiln_sim_blocks_init(&s->blocks, device, s->scene, error) ||
+        !kiln_sim_hash_init(&s->hash, device, error))
+        return false;
+    switch (s->technique) {
+    case KILN_SIMULATE_CPU:
+        break;
+    case KILN_SIMULATE_INPLACE:
+        return kiln_inplace_init(&s->inplace, device, s->scene, &s->params, error);
+    case KILN_SIMULATE_PINGPONG:
+        return kiln_pingpong_init(&s->pingpong, device, s->scene, &s->params, error);
+    case KILN_SIMULATE_FEEDBACK:
+        return kiln_feedback_init(&s->feedback, device, s->scene, &s->params, error);
+    }
+    return false;
+}
 
 struct kiln_simulate *kiln_simulate_create(struct kiln_device *device,
                                            const struct kiln_scene *scene,
@@ -33,34 +66,46 @@ struct kiln_simulate *kiln_simulate_create(struct kiln_device *device,
     kiln_sim_params_init(&simulate->params, scene);
     kiln_buffer_init(&simulate->traces, technique == KILN_SIMULATE_CPU ? NULL : device,
                      (size_t)simulate->params.trace_count * sizeof(struct kiln_trace), "traces");
-    if (technique == KILN_SIMULATE_INPLACE &&
-        !kiln_inplace_init(&simulate->inplace, device, scene, &simulate->params, error))
+    if (technique != KILN_SIMULATE_CPU && !init_on_device(simulate, device, error))
         kiln_simulate_destroy(&simulate);
     return simulate;
 }
 
 void kiln_simulate_destroy(struct kiln_simulate **simulate)
 {
-    if (*simulate && (*simulate)->inplace.device)
-        kiln_inplace_finish(&(*simulate)->inplace);
-    if (*simulate)
-        kiln_buffer_finish(&(*simulate)->traces);
-    free(*simulate);
+    struct kiln_simulate *s = *simulate;
+    if (!s)
+        return;
+    if (s->blocks.device) { /* else GL was never used */
+        kiln_feedback_finish(&s->feedback);
+        kiln_pingpong_finish(&s->pingpong);
+        kiln_sim_programs_finish(&s->inplace);
+        kiln_sim_hash_finish(&s->hash);
+        kiln_sim_blocks_finish(&s->blocks);
+    }
+    kiln_buffer_finish(&s->traces);
+    free(s);
     *simulate = NULL;
 }
 
 bool kiln_simulate_step(struct kiln_simulate *simulate, struct kiln_pool *pool, uint32_t step,
                         struct kiln_error *error)
 {
-    if (!kiln_sim_params_step(&simulate->params, simulate->scene, pool, step, error))
+    struct kiln_simulate *s = simulate;
+    if (!kiln_sim_params_step(&s->params, s->scene, pool, step, error))
         return false;
-    switch (simulate->technique) {
+    if (s->technique != KILN_SIMULATE_CPU &&
+        !kiln_sim_blocks_upload(&s->blocks, &s->params, &s->traces, error))
+        return false;
+    switch (s->technique) {
     case KILN_SIMULATE_CPU:
-        return kiln_sim_cpu_step(simulate->threads, &simulate->params, simulate->scene->keys, pool,
-                                 &simulate->traces, error);
+        return kiln_sim_cpu_step(s->threads, &s->params, s->scene->keys, pool, &s->traces, error);
     case KILN_SIMULATE_INPLACE:
-        return kiln_inplace_step(&simulate->inplace, &simulate->params, pool, &simulate->traces,
-                                 error);
+        return kiln_inplace_step(&s->inplace, &s->blocks, &s->params, pool, error);
+    case KILN_SIMULATE_PINGPONG:
+        return kiln_pingpong_step(&s->pingpong, &s->blocks, &s->params, pool, error);
+    case KILN_SIMULATE_FEEDBACK:
+        return kiln_feedback_step(&s->feedback, &s->blocks, &s->params, pool, error);
     }
     return false;
 }
@@ -68,11 +113,13 @@ bool kiln_simulate_step(struct kiln_simulate *simulate, struct kiln_pool *pool, 
 bool kiln_simulate_hash(struct kiln_simulate *simulate, struct kiln_pool *pool,
                         struct kiln_state_hash *hash, uint64_t *alive, struct kiln_error *error)
 {
-    switch (simulate->technique) {
-    case KILN_SIMULATE_CPU:
+    if (simulate->technique == KILN_SIMULATE_CPU)
         return kiln_sim_cpu_hash(simulate->threads, pool, hash, alive, error);
-    case KILN_SIMULATE_INPLACE:
-        return kiln_inplace_hash(&simulate->inplace, pool, hash, alive, error);
-    }
-    return false;
+    return kiln_sim_hash_run(&simulate->hash, pool, hash, alive, error);
+}
+
+size_t kiln_simulate_slot_bytes(enum kiln_simulate_technique technique)
+{
+    bool two = technique == KILN_SIMULATE_PINGPONG || technique == KILN_SIMULATE_FEEDBACK;
+    return (two ? 2 : 1) * sizeof(struct kiln_particle);
 }

@@ -33,11 +33,15 @@
 #define SIM_BIND_RECORDS 0
 #define SIM_BIND_SUMS    1
 #define SIM_BIND_TRACES  2
+#define SIM_BIND_SECOND  3 /* records, of techniques with two buffers */
 
 /* Invocations of a work group. */
 #define SIM_GROUP_SIZE 64
 
 /* Slots that one invocation of the hash adds up. */
 #define SIM_HASH_SLOTS 16
+
+/* Births that one emitter spawns; 8 words each, of 1024 that every geometry shader may write. */
+#define SIM_EMITTER_BIRTHS 32
 
 #endif

@@ -3,9 +3,9 @@
  * slots are born into, so the order never depends on scheduling. */
 // variant: 
 // variant: COLLIDE_ROUND=1
-#include "sim/blocks.h"
-
-#include "shared/step.h"
+// variant: FAMILY=1
+// variant: FAMILY=1 COLLIDE_ROUND=1
+#include "sim/slot.glsl"
 
 layout(local_size_x = SIM_GROUP_SIZE) in;
 
@@ -21,5 +21,5 @@ void main()
     if (slot >= step_params.used)
         return;
     uint index = step_params.base + slot;
-    records[index] = step_slot(slot, records[index]);
+    records[index] = slot_after(slot, records[index]);
 }

@@ -1,4 +1,4 @@
-/* Techniques `cpu` and `inplace` give the same state, with everything in the scene. */
+/* All techniques give the same state, with everything in the scene. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,64 +13,80 @@ static struct scene_fixture fixture; /* too large for a stack */
 
 enum { STEPS = 300 };
 
-/* Steps the scene both ways and compares after each step. */
-static void both_agree(struct kiln_device *device, const struct kiln_scene *scene, uint32_t threads,
-                       uint32_t steps)
+static const struct {
+    enum kiln_simulate_technique technique;
+    const char *name;
+} ON_DEVICE[] = {
+    {KILN_SIMULATE_INPLACE, "inplace"},
+    {KILN_SIMULATE_PINGPONG, "pingpong"},
+    {KILN_SIMULATE_FEEDBACK, "feedback"},
+};
+enum { ON_DEVICE_COUNT = sizeof ON_DEVICE / sizeof *ON_DEVICE };
+
+/* Steps the scene in all ways and compares after each step. */
+static void all_agree(struct kiln_device *device, const struct kiln_scene *scene, uint32_t threads,
+                      uint32_t steps)
 {
-    struct simulation cpu, inplace;
+    struct simulation cpu, others[ON_DEVICE_COUNT];
     simulation_start(&cpu, scene, NULL, threads);
-    simulation_start(&inplace, scene, device, 1);
+    for (size_t i = 0; i < ON_DEVICE_COUNT; i++)
+        simulation_start_with(&others[i], scene, device, ON_DEVICE[i].technique, 1);
     uint64_t most = 0;
     for (uint32_t step = 1; step <= steps; step++) {
         simulation_run(&cpu, 1);
-        simulation_run(&inplace, 1);
-        uint64_t cpu_alive, inplace_alive;
+        uint64_t cpu_alive, alive;
         struct kiln_state_hash a = simulation_hash(&cpu, &cpu_alive);
-        struct kiln_state_hash b = simulation_hash(&inplace, &inplace_alive);
-        if (cpu_alive != inplace_alive || a.lane[0] != b.lane[0] || a.lane[1] != b.lane[1])
-            fail_msg("step %u: %08x%08x of %u on cpu, %08x%08x of %u inplace", step, a.lane[0],
-                     a.lane[1], (unsigned)cpu_alive, b.lane[0], b.lane[1], (unsigned)inplace_alive);
+        for (size_t i = 0; i < ON_DEVICE_COUNT; i++) {
+            simulation_run(&others[i], 1);
+            struct kiln_state_hash b = simulation_hash(&others[i], &alive);
+            if (cpu_alive != alive || a.lane[0] != b.lane[0] || a.lane[1] != b.lane[1])
+                fail_msg("step %u: %08x%08x of %u on cpu, %08x%08x of %u with %s", step, a.lane[0],
+                         a.lane[1], (unsigned)cpu_alive, b.lane[0], b.lane[1], (unsigned)alive,
+                         ON_DEVICE[i].name);
+        }
         most = cpu_alive > most ? cpu_alive : most;
     }
     assert_true(most > 1000);
-    assert_memory_equal(simulation_records(&cpu), simulation_records(&inplace),
-                        cpu.pool.slot_count * sizeof(struct kiln_particle));
+    for (size_t i = 0; i < ON_DEVICE_COUNT; i++) {
+        assert_memory_equal(simulation_records(&cpu), simulation_records(&others[i]),
+                            cpu.pool.slot_count * sizeof(struct kiln_particle));
+        simulation_end(&others[i]);
+    }
     simulation_end(&cpu);
-    simulation_end(&inplace);
 }
 
-static void cpu_and_inplace_agree(struct kiln_device *device, enum kiln_integration order,
-                                  uint32_t threads)
+static void the_zoo_agrees(struct kiln_device *device, enum kiln_integration order,
+                           uint32_t threads)
 {
     fixture_zoo(&fixture, order, STEPS);
-    both_agree(device, &fixture.scene, threads, STEPS);
+    all_agree(device, &fixture.scene, threads, STEPS);
 }
 
 static void one_thread(void **state)
 {
-    cpu_and_inplace_agree(*state, KILN_INTEGRATE_SEMI_IMPLICIT, 1);
+    the_zoo_agrees(*state, KILN_INTEGRATE_SEMI_IMPLICIT, 1);
 }
 
 static void two_threads(void **state)
 {
-    cpu_and_inplace_agree(*state, KILN_INTEGRATE_SEMI_IMPLICIT, 2);
+    the_zoo_agrees(*state, KILN_INTEGRATE_SEMI_IMPLICIT, 2);
 }
 
 static void eight_threads(void **state)
 {
-    cpu_and_inplace_agree(*state, KILN_INTEGRATE_SEMI_IMPLICIT, 8);
+    the_zoo_agrees(*state, KILN_INTEGRATE_SEMI_IMPLICIT, 8);
 }
 
 static void position_first(void **state)
 {
-    cpu_and_inplace_agree(*state, KILN_INTEGRATE_POSITION_FIRST, 2);
+    the_zoo_agrees(*state, KILN_INTEGRATE_POSITION_FIRST, 2);
 }
 
 static void round_colliders(void **state)
 {
     fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, STEPS);
     fixture_add_round(&fixture);
-    both_agree(*state, &fixture.scene, 2, STEPS);
+    all_agree(*state, &fixture.scene, 2, STEPS);
 }
 
 static void families_agree(void **state)
@@ -78,7 +94,40 @@ static void families_agree(void **state)
     for (int order = 0; order < 2; order++) {
         fixture_family(&fixture, (enum kiln_integration)order);
         fixture_finish(&fixture, 200);
-        both_agree(*state, &fixture.scene, 2, 200);
+        all_agree(*state, &fixture.scene, 2, 200);
+    }
+}
+
+/* A step with many more births than one emitter spawns, and not a multiple; then steps without. */
+static void births_are_split_among_emitters(void **state)
+{
+    fixture_init(&fixture);
+    struct kiln_system *s = fixture_add_system(&fixture, "burst", 0.0f);
+    s->emit.bursts[0] = (struct kiln_burst){0.1, 5000 * SIM_EMITTER_BIRTHS + 1};
+    s->emit.bursts[1] = (struct kiln_burst){0.5, SIM_EMITTER_BIRTHS};
+    s->emit.bursts[2] = (struct kiln_burst){0.6, SIM_EMITTER_BIRTHS - 1};
+    s->emit.burst_count = 3;
+    fixture_finish(&fixture, 60);
+    all_agree(*state, &fixture.scene, 2, 60);
+}
+
+static void no_systems_and_no_births(void **state)
+{
+    for (uint32_t systems = 0; systems <= 1; systems++) {
+        fixture_init(&fixture);
+        if (systems)
+            fixture_add_system(&fixture, "quiet", 0.0f);
+        fixture_finish(&fixture, 10);
+        for (size_t i = 0; i < ON_DEVICE_COUNT; i++) {
+            struct simulation run;
+            uint64_t alive = 1;
+            simulation_start_with(&run, &fixture.scene, *state, ON_DEVICE[i].technique, 1);
+            simulation_run(&run, 10);
+            struct kiln_state_hash hash = simulation_hash(&run, &alive);
+            assert_int_equal(alive, 0);
+            assert_int_equal(hash.lane[0] | hash.lane[1], 0);
+            simulation_end(&run);
+        }
     }
 }
 
@@ -94,46 +143,73 @@ static void a_scene_from_a_file(void **state)
         kiln_scene_load(KILN_SOURCE_DIR "/scenes/fire_beam.yaml", &params, &error);
     if (!scene)
         fail_msg("%s", error.message);
-    both_agree(*state, scene, 2, 120);
+    all_agree(*state, scene, 2, 120);
     kiln_scene_destroy(&scene);
 }
 
-/* A run may change its technique half-way: the records move, the state goes on. */
-static void a_run_can_change_its_technique(void **state)
+/* Runs `steps` steps of a run with another technique. */
+static void continue_with(struct simulation *run, struct kiln_device *device,
+                          enum kiln_simulate_technique technique, uint32_t steps)
 {
-    fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, 120);
-    struct simulation cpu, inplace;
-    simulation_start(&cpu, &fixture.scene, NULL, 1);
-    simulation_run(&cpu, 120);
-    simulation_start(&inplace, &fixture.scene, *state, 1);
-    simulation_run(&inplace, 50);
     struct kiln_error error = {0};
     struct kiln_simulate *other =
-        kiln_simulate_create(NULL, &fixture.scene, KILN_SIMULATE_CPU, inplace.threads, &error);
-    assert_non_null(other);
-    for (uint32_t step = 51; step <= 90; step++)
-        assert_true(kiln_simulate_step(other, &inplace.pool, step, &error));
-    inplace.step = 90;
-    simulation_run(&inplace, 30);
-    assert_memory_equal(simulation_records(&cpu), simulation_records(&inplace),
-                        cpu.pool.slot_count * sizeof(struct kiln_particle));
+        kiln_simulate_create(device, &fixture.scene, technique, run->threads, &error);
+    if (!other)
+        fail_msg("%s", error.message);
+    for (uint32_t i = 0; i < steps; i++)
+        assert_true(kiln_simulate_step(other, &run->pool, ++run->step, &error));
     kiln_simulate_destroy(&other);
-    simulation_end(&cpu);
-    simulation_end(&inplace);
 }
 
-static void inplace_needs_an_exact_device(void **state)
+/* A run may change its technique on the way: the records move, the state goes on. Families have
+ * traces, which are no state. */
+static void a_run_can_change_its_technique(void **state)
+{
+    struct simulation cpu, run;
+    fixture_family(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT);
+    fixture_finish(&fixture, 160);
+    simulation_start(&cpu, &fixture.scene, NULL, 1);
+    simulation_run(&cpu, 160);
+    simulation_start(&run, &fixture.scene, *state, 1);
+    simulation_run(&run, 40);
+    for (size_t i = 1; i < ON_DEVICE_COUNT; i++) {
+        continue_with(&run, *state, ON_DEVICE[i].technique, 21);
+        continue_with(&run, NULL, KILN_SIMULATE_CPU, 19);
+        continue_with(&run, *state, ON_DEVICE[i].technique, 10);
+    }
+    simulation_run(&run, 160 - run.step);
+    assert_memory_equal(simulation_records(&cpu), simulation_records(&run),
+                        cpu.pool.slot_count * sizeof(struct kiln_particle));
+    simulation_end(&cpu);
+    simulation_end(&run);
+}
+
+static void two_buffers_count_twice(void **state)
+{
+    (void)state;
+    assert_int_equal(kiln_simulate_slot_bytes(KILN_SIMULATE_CPU), 32);
+    assert_int_equal(kiln_simulate_slot_bytes(KILN_SIMULATE_INPLACE), 32);
+    assert_int_equal(kiln_simulate_slot_bytes(KILN_SIMULATE_PINGPONG), 64);
+    assert_int_equal(kiln_simulate_slot_bytes(KILN_SIMULATE_FEEDBACK), 64);
+}
+
+static void an_exact_device_is_needed(void **state)
 {
     struct kiln_device *device = *state;
-    struct kiln_error error = {0};
     fixture_init(&fixture);
-    assert_null(kiln_simulate_create(NULL, &fixture.scene, KILN_SIMULATE_INPLACE, NULL, &error));
-    assert_int_equal(error.code, KILN_USAGE);
     bool exact = device->info.exact;
-    device->info.exact = false;
-    assert_null(kiln_simulate_create(device, &fixture.scene, KILN_SIMULATE_INPLACE, NULL, &error));
-    assert_int_equal(error.code, KILN_USAGE);
-    device->info.exact = exact;
+    for (size_t i = 0; i < ON_DEVICE_COUNT; i++) {
+        struct kiln_error error = {0};
+        assert_null(
+            kiln_simulate_create(NULL, &fixture.scene, ON_DEVICE[i].technique, NULL, &error));
+        assert_int_equal(error.code, KILN_USAGE);
+        error = (struct kiln_error){0};
+        device->info.exact = false;
+        assert_null(
+            kiln_simulate_create(device, &fixture.scene, ON_DEVICE[i].technique, NULL, &error));
+        assert_int_equal(error.code, KILN_USAGE);
+        device->info.exact = exact;
+    }
 }
 
 int main(void)
@@ -145,9 +221,12 @@ int main(void)
         test_on_device(position_first),
         test_on_device(round_colliders),
         test_on_device(families_agree),
+        test_on_device(births_are_split_among_emitters),
+        test_on_device(no_systems_and_no_births),
         test_on_device(a_scene_from_a_file),
         test_on_device(a_run_can_change_its_technique),
-        test_on_device(inplace_needs_an_exact_device),
+        test_on_device(two_buffers_count_twice),
+        test_on_device(an_exact_device_is_needed),
     };
     return cmocka_run_group_tests_name("simulate", tests, simulation_device_open,
                                        test_device_close);

@@ -13,21 +13,29 @@ struct simulation {
     uint32_t step; /* steps done */
 };
 
-/* device NULL runs `cpu`. */
-static inline void simulation_start(struct simulation *run, const struct kiln_scene *scene,
-                                    struct kiln_device *device, uint32_t threads)
+/* device: NULL for `cpu`. */
+static inline void simulation_start_with(struct simulation *run, const struct kiln_scene *scene,
+                                         struct kiln_device *device,
+                                         enum kiln_simulate_technique technique, uint32_t threads)
 {
     struct kiln_error error = {0};
     *run = (struct simulation){.threads = kiln_threads_create(threads)};
     assert_non_null(run->threads);
-    run->simulate = kiln_simulate_create(
-        device, scene, device ? KILN_SIMULATE_INPLACE : KILN_SIMULATE_CPU, run->threads, &error);
+    run->simulate = kiln_simulate_create(device, scene, technique, run->threads, &error);
     if (!run->simulate)
         fail_msg("%s", error.message);
     uint32_t capacities[KILN_MAX_SYSTEMS];
     for (uint32_t i = 0; i < scene->system_count; i++)
         capacities[i] = scene->systems[i].capacity;
     kiln_pool_init(&run->pool, device, capacities, scene->system_count);
+}
+
+/* `inplace` on the device, or `cpu` where it is NULL. */
+static inline void simulation_start(struct simulation *run, const struct kiln_scene *scene,
+                                    struct kiln_device *device, uint32_t threads)
+{
+    simulation_start_with(run, scene, device, device ? KILN_SIMULATE_INPLACE : KILN_SIMULATE_CPU,
+                          threads);
 }
 
 static inline void simulation_run(struct simulation *run, uint32_t steps)

@@ -69,9 +69,14 @@ static void inexact_devices_do_not_simulate(void **state)
 {
     (void)state;
     char text[256];
-    struct kiln_error error = {0};
-    assert_false(choose(false, false, "simulate=inplace", text, &error));
-    assert_int_equal(error.code, KILN_NO_DEVICE);
+    const char *const flags[] = {"simulate=inplace", "simulate=pingpong", "simulate=feedback"};
+    for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) {
+        struct kiln_error error = {0};
+        assert_false(choose(false, false, flags[i], text, &error));
+        assert_int_equal(error.code, KILN_NO_DEVICE);
+        assert_true(choose(true, true, flags[i], text, &error));
+        assert_memory_equal(text, flags[i], strlen(flags[i]));
+    }
 }
 
 static void combinations_start_with_the_pinned_one(void **state)
@@ -93,10 +98,10 @@ static void combinations_start_with_the_pinned_one(void **state)
             assert_string_not_equal(seen[i], seen[count]);
         assert_true(count < 15);
     }
-    assert_true(count >= 4);
+    assert_true(count >= 8);
     assert_string_equal(seen[0], "simulate=cpu sort=cpu raster=cpu");
     assert_string_equal(seen[1], "simulate=inplace sort=cpu raster=cpu");
-    assert_string_equal(seen[2], "simulate=cpu sort=cpu raster=geometry");
+    assert_string_equal(seen[4], "simulate=cpu sort=cpu raster=geometry");
 }
 
 int main(void)

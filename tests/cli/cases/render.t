@@ -62,13 +62,13 @@ $ for threads in 1 2 8; do
 > done | uniq | wc -l
 1|1
 $ cmp t1.png t2.png && cmp t1.png t8.png
-$ for technique in simulate=cpu simulate=inplace simulate=cpu,sort=cpu; do
+$ for technique in simulate=cpu simulate=inplace simulate=pingpong simulate=feedback; do
 >     kiln render scenes/tiny.yaml --frames 20 -o none --technique $technique --stats | grep state
 > done | uniq | wc -l
 1|1
 $ kiln render scenes/tiny.yaml --frames 20 -o none --technique simulate=cup
 1|device: <device>
-2|kiln: technique: simulate 'cup' is not known (did you mean 'cpu'?); there is: cpu, inplace, auto
+2|kiln: technique: simulate 'cup' is not known (did you mean 'cpu'?); there is: cpu, inplace, pingpong, feedback, auto
 = 2
 $ kiln render scenes/tiny.yaml --frames 20 -o none --technique simulat=cpu
 1|device: <device>

@@ -1,0 +1,127 @@
+/* The host uploads a few kilobytes a step and reads nothing back. */
+#include "sim/blocks.h"
+
+#include <string.h>
+
+#include "shared/trace.h"
+
+static size_t step_stride(void)
+{
+    GLint alignment = 0;
+    glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &alignment);
+    size_t unit = alignment > 0 ? (size_t)alignment : 256;
+    return (sizeof(struct kiln_step_params) + unit - 1) / unit * unit;
+}
+
+bool kiln_sim_blocks_init(struct kiln_sim_blocks *blocks, struct kiln_device *device,
+                          const struct kiln_scene *scene, struct kiln_error *error)
+{
+    *blocks = (struct kiln_sim_blocks){.device = device, .step_stride = step_stride()};
+    kiln_buffer_init(&blocks->keys, device, KILN_MAX_VALUE_KEYS * sizeof(float4), "value keys");
+    kiln_buffer_init(&blocks->steps, device, KILN_MAX_SYSTEMS * blocks->step_stride,
+                     "step parameters");
+    kiln_buffer_init(&blocks->colliders, device, sizeof(struct kiln_colliders), "colliders");
+    float4 *keys = kiln_buffer_host(&blocks->keys, KILN_READ_WRITE, error);
+    if (!keys)
+        return false;
+    if (scene->key_count > 0)
+        memcpy(keys, scene->keys, scene->key_count * sizeof *keys);
+    return true;
+}
+
+void kiln_sim_blocks_finish(struct kiln_sim_blocks *blocks)
+{
+    kiln_buffer_finish(&blocks->keys);
+    kiln_buffer_finish(&blocks->steps);
+    kiln_buffer_finish(&blocks->colliders);
+    *blocks = (struct kiln_sim_blocks){.device = NULL};
+}
+
+bool kiln_sim_blocks_upload(struct kiln_sim_blocks *blocks, const struct kiln_sim_params *params,
+                            struct kiln_buffer *traces, struct kiln_error *error)
+{
+    unsigned char *steps = kiln_buffer_host(&blocks->steps, KILN_READ_WRITE, error);
+    if (!steps)
+        return false;
+    for (uint32_t i = 0; i < params->system_count; i++)
+        memcpy(steps + i * blocks->step_stride, &params->systems[i], sizeof params->systems[i]);
+    GLuint key_buffer = kiln_buffer_gl(&blocks->keys, KILN_READ, error);
+    GLuint collider_buffer = kiln_buffer_upload(&blocks->colliders, &params->colliders, error);
+    if (!key_buffer || !collider_buffer || !kiln_buffer_gl(&blocks->steps, KILN_READ, error))
+        return false;
+    glBindBufferBase(GL_UNIFORM_BUFFER, SIM_BIND_KEYS, key_buffer);
+    glBindBufferBase(GL_UNIFORM_BUFFER, SIM_BIND_COLLIDERS, collider_buffer);
+    if (params->trace_count == 0)
+        return true;
+    GLuint scratch = kiln_buffer_gl(traces, KILN_READ_WRITE, error);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SIM_BIND_TRACES, scratch);
+    return scratch != 0;
+}
+
+void kiln_sim_blocks_bind(const struct kiln_sim_blocks *blocks,
+                          const struct kiln_sim_params *params, uint32_t system)
+{
+    if (params->systems[system].family.born_of != BORN_OF_CLOCK) /* its parent has left traces */
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    glBindBufferRange(GL_UNIFORM_BUFFER, SIM_BIND_STEP, blocks->steps.gl,
+                      (GLintptr)(system * blocks->step_stride), sizeof(struct kiln_step_params));
+}
+
+GLuint kiln_sim_second(struct kiln_buffer *second, const struct kiln_pool *pool,
+                       struct kiln_error *error)
+{
+    if (second->size != pool->records.size) {
+        struct kiln_device *device = second->device;
+        kiln_buffer_finish(second);
+        kiln_buffer_init(second, device, pool->records.size, KILN_SIM_SECOND);
+    }
+    return kiln_buffer_gl(second, KILN_READ_WRITE, error);
+}
+
+static bool has_families(const struct kiln_sim_params *params)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < params->system_count; i++)
+        any = any || kiln_sim_is_family(&params->systems[i]);
+    return any;
+}
+
+static bool has_round_colliders(const struct kiln_scene *scene)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        const struct kiln_object *object = &scene->backdrop.objects[i];
+        any = any || (object->collide && object->kind != KILN_OBJECT_BOX);
+    }
+    return any;
+}
+
+bool kiln_sim_programs_init(struct kiln_sim_programs *programs, struct kiln_device *device,
+                            const struct kiln_scene *scene, const struct kiln_sim_params *params,
+                            struct kiln_program_params files, struct kiln_error *error)
+{
+    *programs = (struct kiln_sim_programs){.alone = 0};
+    bool round = has_round_colliders(scene);
+    files.defines = round ? "#define COLLIDE_ROUND 1\n" : NULL;
+    programs->alone = kiln_program_create(device, &files, error);
+    if (!programs->alone || !has_families(params))
+        return programs->alone != 0;
+    files.defines = round ? "#define FAMILY 1\n#define COLLIDE_ROUND 1\n" : "#define FAMILY 1\n";
+    programs->family = kiln_program_create(device, &files, error);
+    return programs->family != 0;
+}
+
+void kiln_sim_programs_finish(struct kiln_sim_programs *programs)
+{
+    if (programs->alone)
+        glDeleteProgram(programs->alone);
+    if (programs->family)
+        glDeleteProgram(programs->family);
+    *programs = (struct kiln_sim_programs){.alone = 0};
+}
+
+GLuint kiln_sim_programs_of(const struct kiln_sim_programs *programs,
+                            const struct kiln_step_params *step)
+{
+    return kiln_sim_is_family(step) ? programs->family : programs->alone;
+}
