@@ -66,6 +66,14 @@ $ for technique in simulate=cpu simulate=inplace simulate=pingpong simulate=feed
 >     kiln render scenes/tiny.yaml --frames 20 -o none --technique $technique --stats | grep state
 > done | uniq | wc -l
 1|1
+Two buffers count twice.
+$ for technique in cpu inplace pingpong feedback; do
+>     kiln render scenes/tiny.yaml --frames 20 -o none --technique simulate=$technique --stats | grep slots
+> done
+1|  particles    52 alive, 82 slots, 2952 bytes (36.0 a slot)
+1|  particles    52 alive, 82 slots, 2952 bytes (36.0 a slot)
+1|  particles    52 alive, 82 slots, 5576 bytes (68.0 a slot)
+1|  particles    52 alive, 82 slots, 5576 bytes (68.0 a slot)
 $ kiln render scenes/tiny.yaml --frames 20 -o none --technique simulate=cup
 1|device: <device>
 2|kiln: technique: simulate 'cup' is not known (did you mean 'cpu'?); there is: cpu, inplace, pingpong, feedback, auto
