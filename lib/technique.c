@@ -30,7 +30,9 @@ static const struct row ROWS[] = {
      "compute, from one buffer to another; twice the memory"},
     {SIMULATE, "feedback", KILN_SIMULATE_FEEDBACK,
      "geometry shaders and transform feedback; twice the memory"},
-    {SORT, "cpu", KILN_SORT_CPU, "stable radix sort, host threads"},
+    {SORT, "cpu", KILN_SORT_CPU, "stable radix sort, host threads; the default"},
+    {SORT, "radix", KILN_SORT_RADIX, "stable radix sort, compute"},
+    {SORT, "bitonic", KILN_SORT_BITONIC, "bitonic merge sort, compute, padded to a power of two"},
     {RASTER, "cpu", KILN_RASTER_CPU,
      "host threads, tiles and vectors; the default on software devices"},
     {RASTER, "geometry", KILN_RASTER_GEOMETRY,
@@ -120,6 +122,9 @@ bool kiln_techniques_choose(const struct kiln_device_info *device, const char *c
         return kiln_error_set(error, KILN_NO_DEVICE,
                               "%s computes inexactly: it can not simulate; use simulate=cpu",
                               device->name);
+    if (choices.value[SORT] != KILN_SORT_CPU && !device->exact)
+        return kiln_error_set(error, KILN_NO_DEVICE,
+                              "%s computes inexactly: it can not sort; use sort=cpu", device->name);
     *techniques = (struct kiln_techniques){
         .simulate = (enum kiln_simulate_technique)choices.value[SIMULATE],
         .sort = (enum kiln_sort_technique)choices.value[SORT],

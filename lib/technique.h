@@ -18,7 +18,7 @@ struct kiln_techniques {
 
 /* Applies "stage=name" texts over the device's defaults, which "stage=auto" asks for; the last for
  * a stage wins. KILN_USAGE
- * names what there is; simulating on a device that is not exact is KILN_NO_DEVICE. */
+ * names what there is; simulating or sorting on a device that is not exact is KILN_NO_DEVICE. */
 bool kiln_techniques_choose(const struct kiln_device_info *device, const char *const *flags,
                             size_t flag_count, struct kiln_techniques *techniques,
                             struct kiln_error *error);

@@ -24,6 +24,16 @@ void kiln_buffer_finish(struct kiln_buffer *buffer)
     *buffer = (struct kiln_buffer){.device = NULL};
 }
 
+void kiln_buffer_reserve(struct kiln_buffer *buffer, size_t size)
+{
+    if (buffer->size >= size)
+        return;
+    struct kiln_device *device = buffer->device;
+    const char *label = buffer->label;
+    kiln_buffer_finish(buffer);
+    kiln_buffer_init(buffer, device, size, label);
+}
+
 /* Never empty, so that size 0 gives an address, too. */
 static size_t storage_size(const struct kiln_buffer *buffer)
 {

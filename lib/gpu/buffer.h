@@ -25,6 +25,9 @@ void kiln_buffer_init(struct kiln_buffer *buffer, struct kiln_device *device, si
                       const char *label);
 void kiln_buffer_finish(struct kiln_buffer *buffer);
 
+/* Makes it at least so large; what is in it is lost if it grows. */
+void kiln_buffer_reserve(struct kiln_buffer *buffer, size_t size);
+
 /* The bytes on the host, or NULL with an error (KILN_DEVICE_FAILED: memory). */
 void *kiln_buffer_host(struct kiln_buffer *buffer, enum kiln_access access,
                        struct kiln_error *error);

@@ -1,106 +1,115 @@
-/* Least significant digit first, 11 bits a pass. Each thread owns one stretch of the pairs: it
- * counts the digits in it, and after a sum over (digit, stretch) knows where each of its pairs
- * goes, so the result is stable and the same for any number of threads. */
+/* Lists the living, gives each a key that grows towards the camera, and sorts. */
 #include "sort/cpu.h"
 
-#include <stdbool.h>
-#include <string.h>
+#include <stdlib.h>
 
-enum {
-    DIGIT_BITS = 11,
-    DIGITS = 1 << DIGIT_BITS,
-    PASSES = 3,
-    LEAST_STRETCH = 8192, /* pairs; shorter ones are not worth a thread */
+#include "base/error.h"
+#include "shared/keys.h"
+#include "sort/pairs.h"
+
+enum { ENTRIES_AT_A_TIME = 8192 };
+
+struct kiln_sort_cpu {
+    struct kiln_threads *threads;
+    size_t capacity;                 /* of the arrays */
+    kiln_sort_pair *pairs, *scratch; /* (depth key, entry) */
+    uint32_t *counts;
 };
 
-struct pass {
-    const kiln_sort_pair *from;
-    kiln_sort_pair *to;
-    size_t count;
-    uint32_t stretches;
-    unsigned shift;
-    uint32_t *places; /* DIGITS a stretch: first counts, then places in `to` */
-};
-
-size_t kiln_sort_count_words(const struct kiln_threads *threads)
+struct kiln_sort_cpu *kiln_sort_cpu_create(struct kiln_threads *threads, struct kiln_error *error)
 {
-    return (size_t)kiln_threads_count(threads) * DIGITS;
-}
-
-static size_t stretch_begin(const struct pass *pass, size_t stretch)
-{
-    return pass->count * stretch / pass->stretches;
-}
-
-static uint32_t digit_of(const struct pass *pass, kiln_sort_pair pair)
-{
-    return (uint32_t)(pair >> pass->shift) & (DIGITS - 1);
-}
-
-static void count_digits(void *context, size_t begin, size_t end, uint32_t worker)
-{
-    (void)worker;
-    const struct pass *pass = context;
-    for (size_t stretch = begin; stretch < end; stretch++) {
-        uint32_t *counts = pass->places + stretch * DIGITS;
-        memset(counts, 0, DIGITS * sizeof *counts);
-        size_t last = stretch_begin(pass, stretch + 1);
-        for (size_t i = stretch_begin(pass, stretch); i < last; i++)
-            counts[digit_of(pass, pass->from[i])]++;
+    struct kiln_sort_cpu *sort = calloc(1, sizeof *sort);
+    if (sort)
+        sort->counts = malloc(kiln_sort_count_words(threads) * sizeof *sort->counts);
+    if (!sort || !sort->counts) {
+        free(sort);
+        kiln_error_set(error, KILN_DEVICE_FAILED, "sort: no memory");
+        return NULL;
     }
+    sort->threads = threads;
+    return sort;
 }
 
-/* Turns counts into places. False when all pairs have the same digit: nothing would move. */
-static bool sum_counts(const struct pass *pass)
+void kiln_sort_cpu_destroy(struct kiln_sort_cpu **sort)
 {
-    uint32_t place = 0;
-    for (uint32_t digit = 0; digit < DIGITS; digit++) {
-        uint32_t before = place;
-        for (uint32_t stretch = 0; stretch < pass->stretches; stretch++) {
-            uint32_t *at = &pass->places[(size_t)stretch * DIGITS + digit];
-            uint32_t count = *at;
-            *at = place;
-            place += count;
-        }
-        if (place - before == pass->count)
-            return false;
-    }
+    if (!*sort)
+        return;
+    free((*sort)->pairs);
+    free((*sort)->scratch);
+    free((*sort)->counts);
+    free(*sort);
+    *sort = NULL;
+}
+
+static bool reserve(struct kiln_sort_cpu *sort, size_t capacity, struct kiln_error *error)
+{
+    if (capacity <= sort->capacity)
+        return true;
+    free(sort->pairs);
+    free(sort->scratch);
+    sort->pairs = malloc(capacity * sizeof *sort->pairs);
+    sort->scratch = malloc(capacity * sizeof *sort->scratch);
+    sort->capacity = sort->pairs && sort->scratch ? capacity : 0;
+    if (sort->capacity == 0)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "sort: no memory for %zu particles",
+                              capacity);
     return true;
 }
 
-static void move_pairs(void *context, size_t begin, size_t end, uint32_t worker)
+/* Keeps the entries of the chosen systems, in order. */
+static uint32_t choose(uint32_t *entries, uint32_t count, uint32_t systems)
+{
+    uint32_t chosen = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        entries[chosen] = entries[i];
+        chosen += systems >> KILN_ENTRY_SYSTEM(entries[i]) & 1u;
+    }
+    return chosen;
+}
+
+struct key_work {
+    const struct kiln_sort_params *params;
+    const struct kiln_particle *records;
+    uint32_t *entries;
+    kiln_sort_pair *pairs;
+};
+
+static void make_keys(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
-    const struct pass *pass = context;
-    for (size_t stretch = begin; stretch < end; stretch++) {
-        uint32_t *places = pass->places + stretch * DIGITS;
-        size_t last = stretch_begin(pass, stretch + 1);
-        for (size_t i = stretch_begin(pass, stretch); i < last; i++)
-            pass->to[places[digit_of(pass, pass->from[i])]++] = pass->from[i];
+    const struct key_work *work = context;
+    for (size_t i = begin; i < end; i++) {
+        uint32_t entry = work->entries[i];
+        struct kiln_particle p = work->records[KILN_ENTRY_SLOT(entry)];
+        uint32_t key = key_of_particle(p, work->params->eye, work->params->forward);
+        work->pairs[i] = (kiln_sort_pair)key << 32 | entry;
     }
 }
 
-kiln_sort_pair *kiln_sort_pairs(struct kiln_threads *threads, kiln_sort_pair *pairs,
-                                kiln_sort_pair *scratch, size_t count, uint32_t *counts)
+static void take_entries(void *context, size_t begin, size_t end, uint32_t worker)
 {
-    size_t useful = count / LEAST_STRETCH + 1;
-    uint32_t most = kiln_threads_count(threads);
-    struct pass pass = {
-        .count = count,
-        .stretches = useful < most ? (uint32_t)useful : most,
-    };
-    pass.places = counts;
-    kiln_sort_pair *sorted = pairs, *other = scratch;
-    for (unsigned i = 0; i < PASSES && count > 1; i++) {
-        pass.from = sorted;
-        pass.to = other;
-        pass.shift = 32 + i * DIGIT_BITS;
-        kiln_threads_for(threads, pass.stretches, 1, count_digits, &pass);
-        if (!sum_counts(&pass))
-            continue;
-        kiln_threads_for(threads, pass.stretches, 1, move_pairs, &pass);
-        other = sorted;
-        sorted = pass.to;
-    }
-    return sorted;
+    (void)worker;
+    const struct key_work *work = context;
+    for (size_t i = begin; i < end; i++)
+        work->entries[i] = (uint32_t)work->pairs[i];
+}
+
+bool kiln_sort_cpu_run(struct kiln_sort_cpu *sort, struct kiln_pool *pool,
+                       const struct kiln_sort_params *params, struct kiln_buffer *entries,
+                       uint32_t *count, struct kiln_error *error)
+{
+    const struct kiln_particle *records = kiln_buffer_host(&pool->records, KILN_READ, error);
+    uint32_t *list = kiln_buffer_host(entries, KILN_READ_WRITE, error);
+    if (!records || !list)
+        return false;
+    *count = choose(list, kiln_pool_alive(pool, records, list), params->systems);
+    if (!params->by_depth)
+        return true;
+    if (!reserve(sort, *count, error))
+        return false;
+    struct key_work work = {params, records, list, sort->pairs};
+    kiln_threads_for(sort->threads, *count, ENTRIES_AT_A_TIME, make_keys, &work);
+    work.pairs = kiln_sort_pairs(sort->threads, sort->pairs, sort->scratch, *count, sort->counts);
+    kiln_threads_for(sort->threads, *count, ENTRIES_AT_A_TIME, take_entries, &work);
+    return true;
 }

@@ -1,22 +1,18 @@
-/* Technique `cpu`: a stable radix sort in threads. */
+/* Technique `cpu`: lists and sorts in host threads. */
 #ifndef KILN_SORT_CPU_H
 #define KILN_SORT_CPU_H
 
-#include <stddef.h>
-#include <stdint.h>
+#include "sort/sort.h"
 
-#include "base/thread.h"
+struct kiln_sort_cpu;
 
-/* A key in the upper, what it belongs to in the lower 32 bits. */
-typedef uint64_t kiln_sort_pair;
+/* threads are borrowed. NULL with an error when there is no memory. */
+struct kiln_sort_cpu *kiln_sort_cpu_create(struct kiln_threads *threads, struct kiln_error *error);
+void kiln_sort_cpu_destroy(struct kiln_sort_cpu **sort);
 
-/* Words of memory for the counts of so many threads. */
-size_t kiln_sort_count_words(const struct kiln_threads *threads);
-
-/* Sorts by ascending key; pairs with equal keys keep their order. The result is in `pairs` or in
- * `scratch`, which has the same size: the one that is returned. counts has kiln_sort_count_words.
- */
-kiln_sort_pair *kiln_sort_pairs(struct kiln_threads *threads, kiln_sort_pair *pairs,
-                                kiln_sort_pair *scratch, size_t count, uint32_t *counts);
+/* Like kiln_sort_run. */
+bool kiln_sort_cpu_run(struct kiln_sort_cpu *sort, struct kiln_pool *pool,
+                       const struct kiln_sort_params *params, struct kiln_buffer *entries,
+                       uint32_t *count, struct kiln_error *error);
 
 #endif

@@ -1,35 +1,51 @@
-/* The stage: lists the living, gives each a key that grows towards the camera, and sorts. */
+/* The stage: hands over to its technique. */
 #include "sort/sort.h"
 
 #include <stdlib.h>
 
 #include "base/error.h"
-#include "shared/exact.h"
+#include "sort/bitonic.h"
 #include "sort/cpu.h"
-
-enum { ENTRIES_AT_A_TIME = 8192 };
+#include "sort/radix.h"
 
 struct kiln_sort {
-    struct kiln_threads *threads;
-    size_t capacity;                 /* of the arrays */
-    kiln_sort_pair *pairs, *scratch; /* (depth key, entry) */
-    uint32_t *counts;
+    enum kiln_sort_technique technique;
+    struct kiln_sort_cpu *cpu;
+    struct kiln_radix *radix;
+    struct kiln_bitonic *bitonic;
 };
+
+static bool create_technique(struct kiln_sort *sort, struct kiln_device *device,
+                             struct kiln_threads *threads, struct kiln_error *error)
+{
+    if (sort->technique == KILN_SORT_CPU) {
+        sort->cpu = kiln_sort_cpu_create(threads, error);
+        return sort->cpu != NULL;
+    }
+    if (!device)
+        return kiln_error_set(error, KILN_USAGE, "this sort needs a device; use sort=cpu");
+    if (!device->info.exact)
+        return kiln_error_set(error, KILN_USAGE,
+                              "%s does not compute exactly: it can not sort; use sort=cpu",
+                              device->info.name);
+    if (sort->technique == KILN_SORT_RADIX)
+        sort->radix = kiln_radix_create(device, error);
+    else
+        sort->bitonic = kiln_bitonic_create(device, error);
+    return sort->radix || sort->bitonic;
+}
 
 struct kiln_sort *kiln_sort_create(struct kiln_device *device, enum kiln_sort_technique technique,
                                    struct kiln_threads *threads, struct kiln_error *error)
 {
-    (void)device; /* `cpu`, so far the only technique, needs none */
-    (void)technique;
     struct kiln_sort *sort = calloc(1, sizeof *sort);
-    if (sort)
-        sort->counts = malloc(kiln_sort_count_words(threads) * sizeof *sort->counts);
-    if (!sort || !sort->counts) {
-        free(sort);
+    if (!sort) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "sort: no memory");
         return NULL;
     }
-    sort->threads = threads;
+    sort->technique = technique;
+    if (!create_technique(sort, device, threads, error))
+        kiln_sort_destroy(&sort);
     return sort;
 }
 
@@ -37,90 +53,24 @@ void kiln_sort_destroy(struct kiln_sort **sort)
 {
     if (!*sort)
         return;
-    free((*sort)->pairs);
-    free((*sort)->scratch);
-    free((*sort)->counts);
+    kiln_sort_cpu_destroy(&(*sort)->cpu);
+    kiln_radix_destroy(&(*sort)->radix);
+    kiln_bitonic_destroy(&(*sort)->bitonic);
     free(*sort);
     *sort = NULL;
-}
-
-static bool reserve(struct kiln_sort *sort, size_t capacity, struct kiln_error *error)
-{
-    if (capacity <= sort->capacity)
-        return true;
-    free(sort->pairs);
-    free(sort->scratch);
-    sort->pairs = malloc(capacity * sizeof *sort->pairs);
-    sort->scratch = malloc(capacity * sizeof *sort->scratch);
-    sort->capacity = sort->pairs && sort->scratch ? capacity : 0;
-    if (sort->capacity == 0)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "sort: no memory for %zu particles",
-                              capacity);
-    return true;
-}
-
-/* Keeps the entries of the chosen systems, in order. */
-static uint32_t choose(uint32_t *entries, uint32_t count, uint32_t systems)
-{
-    uint32_t chosen = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        entries[chosen] = entries[i];
-        chosen += systems >> KILN_ENTRY_SYSTEM(entries[i]) & 1u;
-    }
-    return chosen;
-}
-
-struct key_work {
-    const struct kiln_sort_params *params;
-    const struct kiln_particle *records;
-    uint32_t *entries;
-    kiln_sort_pair *pairs;
-};
-
-/* Ascending for descending depth: the order of floats as unsigned integers, turned round. */
-static uint32_t depth_key(float depth_m)
-{
-    uint32_t bits = FLOAT_BITS(exact_canon(depth_m));
-    return bits & EXACT_SIGN_BIT ? bits : ~(bits | EXACT_SIGN_BIT);
-}
-
-static void make_keys(void *context, size_t begin, size_t end, uint32_t worker)
-{
-    (void)worker;
-    const struct key_work *work = context;
-    for (size_t i = begin; i < end; i++) {
-        uint32_t entry = work->entries[i];
-        float3 position = particle_position(work->records[KILN_ENTRY_SLOT(entry)]);
-        float3 from_eye = float3_sub(position, work->params->eye);
-        uint32_t key = depth_key(float3_dot(from_eye, work->params->forward));
-        work->pairs[i] = (kiln_sort_pair)key << 32 | entry;
-    }
-}
-
-static void take_entries(void *context, size_t begin, size_t end, uint32_t worker)
-{
-    (void)worker;
-    const struct key_work *work = context;
-    for (size_t i = begin; i < end; i++)
-        work->entries[i] = (uint32_t)work->pairs[i];
 }
 
 bool kiln_sort_run(struct kiln_sort *sort, struct kiln_pool *pool,
                    const struct kiln_sort_params *params, struct kiln_buffer *entries,
                    uint32_t *count, struct kiln_error *error)
 {
-    const struct kiln_particle *records = kiln_buffer_host(&pool->records, KILN_READ, error);
-    uint32_t *list = kiln_buffer_host(entries, KILN_READ_WRITE, error);
-    if (!records || !list)
-        return false;
-    *count = choose(list, kiln_pool_alive(pool, records, list), params->systems);
-    if (!params->by_depth)
-        return true;
-    if (!reserve(sort, *count, error))
-        return false;
-    struct key_work work = {params, records, list, sort->pairs};
-    kiln_threads_for(sort->threads, *count, ENTRIES_AT_A_TIME, make_keys, &work);
-    work.pairs = kiln_sort_pairs(sort->threads, sort->pairs, sort->scratch, *count, sort->counts);
-    kiln_threads_for(sort->threads, *count, ENTRIES_AT_A_TIME, take_entries, &work);
-    return true;
+    switch (sort->technique) {
+    case KILN_SORT_CPU:
+        return kiln_sort_cpu_run(sort->cpu, pool, params, entries, count, error);
+    case KILN_SORT_RADIX:
+        return kiln_radix_run(sort->radix, pool, params, entries, count, error);
+    case KILN_SORT_BITONIC:
+        return kiln_bitonic_run(sort->bitonic, pool, params, entries, count, error);
+    }
+    return false;
 }

@@ -1,11 +1,11 @@
-/* Stage 3: the living particles, ordered for drawing. */
+/* Stage 3: the living particles, ordered for drawing. All techniques give the same list. */
 #ifndef KILN_SORT_SORT_H
 #define KILN_SORT_SORT_H
 
 #include "base/thread.h"
 #include "particles/pool.h"
 
-enum kiln_sort_technique { KILN_SORT_CPU };
+enum kiln_sort_technique { KILN_SORT_CPU, KILN_SORT_RADIX, KILN_SORT_BITONIC };
 
 struct kiln_sort;
 
@@ -16,12 +16,15 @@ struct kiln_sort_params {
     bool by_depth;    /* farthest first; false keeps (system, serial) order */
 };
 
+/* device may be NULL for `cpu`; threads are borrowed. KILN_USAGE when the technique needs what the
+ * device does not have. */
 struct kiln_sort *kiln_sort_create(struct kiln_device *device, enum kiln_sort_technique technique,
                                    struct kiln_threads *threads, struct kiln_error *error);
 void kiln_sort_destroy(struct kiln_sort **sort);
 
 /* Fills entries (room for the pool's slot_count) with the draw entries of the living particles of
- * the chosen systems, ordered by (view depth descending, system, serial), and counts them. */
+ * the chosen systems, ordered by (view depth descending, system, serial), and counts them. Where
+ * the technique runs on the device, so do records and entries; the count alone is read back. */
 bool kiln_sort_run(struct kiln_sort *sort, struct kiln_pool *pool,
                    const struct kiln_sort_params *params, struct kiln_buffer *entries,
                    uint32_t *count, struct kiln_error *error);

@@ -9,41 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "shared/random.h"
-#include "sort/cpu.h"
 #include "sort/sort.h"
-
-/* By the whole pair: the lower half numbers them, so this is the stable order. */
-static int by_pair(const void *a, const void *b)
-{
-    kiln_sort_pair x = *(const kiln_sort_pair *)a, y = *(const kiln_sort_pair *)b;
-    return (x > y) - (x < y);
-}
-
-enum pattern { RANDOM, SORTED, REVERSED, EQUAL, LOW_BITS, TOP_BIT, FEW, ONE_ODD_ONE, PATTERNS };
-
-static uint32_t key_of(enum pattern pattern, uint32_t i, uint32_t count)
-{
-    switch (pattern) {
-    case RANDOM:
-        return random_mix(i);
-    case SORTED:
-        return i * 3;
-    case REVERSED:
-        return UINT32_MAX - i;
-    case EQUAL:
-        return 0x40000000u;
-    case LOW_BITS:
-        return random_mix(i) & 1u;
-    case TOP_BIT:
-        return random_mix(i) & 0x80000000u;
-    case FEW: /* either side of each digit's border */
-        return (const uint32_t[]){
-            0, 0x7ff, 0x800, 0x3fffff, 0x400000, UINT32_MAX}[random_mix(i) % 6];
-    default:
-        return i == count / 2 ? 1 : 2;
-    }
-}
+#include "support/sort_keys.h"
 
 static void pairs_are_sorted_like_qsort(void **state)
 {

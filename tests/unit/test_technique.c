@@ -55,6 +55,11 @@ static void flags_force_a_technique(void **state)
     assert_true(choose(true, true, "raster=geometry", text, &error));
     assert_string_equal(text, "simulate=cpu sort=cpu raster=geometry");
 
+    assert_true(choose(true, true, "sort=radix", text, &error));
+    assert_string_equal(text, "simulate=cpu sort=radix raster=cpu");
+    assert_true(choose(false, true, "sort=bitonic", text, &error));
+    assert_string_equal(text, "simulate=inplace sort=bitonic raster=geometry");
+
     assert_false(choose(true, true, "simulate", text, &error));
     assert_int_equal(error.code, KILN_USAGE);
     assert_string_equal(error.message, "technique 'simulate': expected stage=name");
@@ -63,9 +68,11 @@ static void flags_force_a_technique(void **state)
                                        "'simulate'?); there is: simulate, sort, raster");
     assert_false(choose(true, true, "sort=gpu", text, &error));
     assert_int_equal(error.code, KILN_USAGE);
+    assert_string_equal(error.message, "technique: sort 'gpu' is not known (did you mean 'cpu'?); "
+                                       "there is: cpu, radix, bitonic, auto");
 }
 
-static void inexact_devices_do_not_simulate(void **state)
+static void inexact_devices_do_not_simulate_or_sort(void **state)
 {
     (void)state;
     char text[256];
@@ -77,6 +84,10 @@ static void inexact_devices_do_not_simulate(void **state)
         assert_true(choose(true, true, flags[i], text, &error));
         assert_memory_equal(text, flags[i], strlen(flags[i]));
     }
+    struct kiln_error error = {0};
+    assert_false(choose(false, false, "sort=radix", text, &error));
+    assert_int_equal(error.code, KILN_NO_DEVICE);
+    assert_string_equal(error.message, "Device computes inexactly: it can not sort; use sort=cpu");
 }
 
 static void combinations_start_with_the_pinned_one(void **state)
@@ -84,7 +95,7 @@ static void combinations_start_with_the_pinned_one(void **state)
     (void)state;
     struct kiln_device_info gpu = {.exact = true, .name = "Device"};
     struct kiln_technique_list list;
-    char seen[16][256] = {{0}};
+    static char seen[128][256];
     size_t count = 0;
     for (; kiln_techniques_combination(count, &list); count++) {
         const char *flags[KILN_STAGE_COUNT];
@@ -96,12 +107,13 @@ static void combinations_start_with_the_pinned_one(void **state)
         kiln_techniques_describe(&techniques, seen[count], sizeof seen[count]);
         for (size_t i = 0; i < count; i++)
             assert_string_not_equal(seen[i], seen[count]);
-        assert_true(count < 15);
+        assert_true(count < 127);
     }
-    assert_true(count >= 8);
+    assert_true(count >= 24);
     assert_string_equal(seen[0], "simulate=cpu sort=cpu raster=cpu");
     assert_string_equal(seen[1], "simulate=inplace sort=cpu raster=cpu");
-    assert_string_equal(seen[4], "simulate=cpu sort=cpu raster=geometry");
+    assert_string_equal(seen[4], "simulate=cpu sort=radix raster=cpu");
+    assert_string_equal(seen[12], "simulate=cpu sort=cpu raster=geometry");
 }
 
 int main(void)
@@ -110,7 +122,7 @@ int main(void)
         cmocka_unit_test(defaults_follow_the_device),
         cmocka_unit_test(auto_is_the_default),
         cmocka_unit_test(flags_force_a_technique),
-        cmocka_unit_test(inexact_devices_do_not_simulate),
+        cmocka_unit_test(inexact_devices_do_not_simulate_or_sort),
         cmocka_unit_test(combinations_start_with_the_pinned_one),
     };
     return cmocka_run_group_tests_name("technique", tests, NULL, NULL);

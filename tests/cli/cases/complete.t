@@ -24,7 +24,9 @@ $ kiln complete -- render --technique sort=cpu,
 1|word	sort=cpu,simulate=inplace	compute, one buffer updated in place; the default on exact GPUs
 1|word	sort=cpu,simulate=pingpong	compute, from one buffer to another; twice the memory
 1|word	sort=cpu,simulate=feedback	geometry shaders and transform feedback; twice the memory
-1|word	sort=cpu,sort=cpu	stable radix sort, host threads
+1|word	sort=cpu,sort=cpu	stable radix sort, host threads; the default
+1|word	sort=cpu,sort=radix	stable radix sort, compute
+1|word	sort=cpu,sort=bitonic	bitonic merge sort, compute, padded to a power of two
 1|word	sort=cpu,raster=cpu	host threads, tiles and vectors; the default on software devices
 1|word	sort=cpu,raster=geometry	points turned into billboards by a geometry shader; the default on GPUs
 $ kiln complete -- compare --limit ss

@@ -74,6 +74,16 @@ $ for technique in cpu inplace pingpong feedback; do
 1|  particles    52 alive, 82 slots, 2952 bytes (36.0 a slot)
 1|  particles    52 alive, 82 slots, 5576 bytes (68.0 a slot)
 1|  particles    52 alive, 82 slots, 5576 bytes (68.0 a slot)
+$ for sort in cpu radix bitonic; do
+>     kiln render scenes/tiny.yaml --frames 20 -o $sort.png --technique simulate=inplace,sort=$sort
+> done
+1|device: <device>
+1|cpu.png: 1 frame in <s> s
+1|device: <device>
+1|radix.png: 1 frame in <s> s
+1|device: <device>
+1|bitonic.png: 1 frame in <s> s
+$ cmp cpu.png radix.png && cmp cpu.png bitonic.png
 $ kiln render scenes/tiny.yaml --frames 20 -o none --technique simulate=cup
 1|device: <device>
 2|kiln: technique: simulate 'cup' is not known (did you mean 'cpu'?); there is: cpu, inplace, pingpong, feedback, auto

@@ -297,7 +297,9 @@ $ kiln help techniques
 1|  simulate=inplace   compute, one buffer updated in place; the default on exact GPUs
 1|  simulate=pingpong  compute, from one buffer to another; twice the memory
 1|  simulate=feedback  geometry shaders and transform feedback; twice the memory
-1|  sort=cpu           stable radix sort, host threads
+1|  sort=cpu           stable radix sort, host threads; the default
+1|  sort=radix         stable radix sort, compute
+1|  sort=bitonic       bitonic merge sort, compute, padded to a power of two
 1|  raster=cpu         host threads, tiles and vectors; the default on software devices
 1|  raster=geometry    points turned into billboards by a geometry shader; the default on GPUs
 $ kiln help outputs

@@ -1,0 +1,169 @@
+/* Least significant digit first. Each pass counts the digits of every tile of pairs, sums the
+ * counts by (digit, tile), and moves each tile's pairs behind those that come before. No work group
+ * waits for another, and no atomic decides an order. */
+#include "sort/radix.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/error.h"
+#include "gpu/program.h"
+#include "shared/sort_layout.h"
+#include "sort/alive.h"
+
+enum { KEY_BITS = 32, PAIR_BYTES = 8 };
+
+/* How the work is cut, which changes no result. A counter for every digit and invocation must fit
+ * in 32 KiB of shared memory. */
+struct shape {
+    uint32_t bits;       /* of a digit */
+    uint32_t group_size; /* invocations of a work group */
+    uint32_t items;      /* pairs of an invocation */
+};
+
+/* Software devices gain from few passes and long stretches, GPUs from many invocations. */
+static const struct shape FOR_SOFTWARE = {8, 16, 256}, FOR_GPUS = {6, 64, 32};
+
+struct kiln_radix {
+    struct kiln_device *device;
+    const struct shape *shape;
+    struct kiln_alive alive;
+    struct kiln_scan scan;
+    GLuint count_program, scatter_program, last_program;
+    struct kiln_buffer pairs, other; /* of the list; what passes write in turn */
+    struct kiln_buffer counts;       /* by digit, then by tile */
+};
+
+static GLuint create_program(struct kiln_radix *radix, const char *file, const char *more,
+                             struct kiln_error *error)
+{
+    char defines[256];
+    const struct shape *shape = radix->shape;
+    snprintf(defines, sizeof defines,
+             "#define RADIX_BITS %u\n#define RADIX_GROUP_SIZE %u\n#define RADIX_ITEMS %u\n%s",
+             shape->bits, shape->group_size, shape->items, more);
+    const struct kiln_program_params params = {.compute = file, .defines = defines};
+    return kiln_program_create(radix->device, &params, error);
+}
+
+static bool create_programs(struct kiln_radix *radix, struct kiln_error *error)
+{
+    radix->count_program = create_program(radix, "sort/radix_count.comp", "", error);
+    if (!radix->count_program)
+        return false;
+    radix->scatter_program = create_program(radix, "sort/radix_scatter.comp", "", error);
+    if (!radix->scatter_program)
+        return false;
+    radix->last_program =
+        create_program(radix, "sort/radix_scatter.comp", "#define LAST 1\n", error);
+    return radix->last_program != 0;
+}
+
+struct kiln_radix *kiln_radix_create(struct kiln_device *device, struct kiln_error *error)
+{
+    struct kiln_radix *radix = calloc(1, sizeof *radix);
+    if (!radix) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "sort: no memory");
+        return NULL;
+    }
+    radix->device = device;
+    radix->shape = device->info.software ? &FOR_SOFTWARE : &FOR_GPUS;
+    kiln_buffer_init(&radix->pairs, device, 0, "sort pairs");
+    kiln_buffer_init(&radix->other, device, 0, "other sort pairs");
+    kiln_buffer_init(&radix->counts, device, 0, "counts of digits");
+    if (!kiln_alive_init(&radix->alive, device, KILN_ALIVE_ENTRIES, error) ||
+        !kiln_scan_init(&radix->scan, device, error) || !create_programs(radix, error))
+        kiln_radix_destroy(&radix);
+    return radix;
+}
+
+void kiln_radix_destroy(struct kiln_radix **radix)
+{
+    if (!*radix)
+        return;
+    kiln_alive_finish(&(*radix)->alive);
+    kiln_scan_finish(&(*radix)->scan);
+    kiln_buffer_finish(&(*radix)->pairs);
+    kiln_buffer_finish(&(*radix)->other);
+    kiln_buffer_finish(&(*radix)->counts);
+    glDeleteProgram((*radix)->count_program);
+    glDeleteProgram((*radix)->scatter_program);
+    glDeleteProgram((*radix)->last_program);
+    free(*radix);
+    *radix = NULL;
+}
+
+/* Where a pass reads and writes. */
+struct pass {
+    uint32_t count, tiles, shift;
+    GLuint from, to; /* to: pairs, or entries in the last pass */
+    GLuint counts;
+};
+
+static uint32_t tile_size(const struct kiln_radix *radix)
+{
+    return radix->shape->group_size * radix->shape->items;
+}
+
+static void dispatch(struct kiln_radix *radix, GLuint program, const struct pass *pass)
+{
+    glUseProgram(program);
+    glUniform1ui(0, pass->count);
+    glUniform1ui(1, pass->shift);
+    glUniform1ui(2, pass->tiles);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SORT_BIND_PAIRS, pass->from);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SORT_BIND_COUNTS, pass->counts);
+    kiln_device_dispatch(radix->device, pass->count, tile_size(radix));
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+static bool run_pass(struct kiln_radix *radix, const struct pass *pass, bool last,
+                     struct kiln_error *error)
+{
+    dispatch(radix, radix->count_program, pass);
+    if (!kiln_scan_run(&radix->scan, pass->counts, pass->tiles << radix->shape->bits, error))
+        return false;
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, last ? SORT_BIND_ENTRIES : SORT_BIND_PAIRS_OUT,
+                     pass->to);
+    dispatch(radix, last ? radix->last_program : radix->scatter_program, pass);
+    return true;
+}
+
+bool kiln_radix_pairs(struct kiln_radix *radix, struct kiln_buffer *pairs, uint32_t count,
+                      struct kiln_buffer *entries, struct kiln_error *error)
+{
+    if (count == 0)
+        return true;
+    struct pass pass = {.count = count, .tiles = (count - 1) / tile_size(radix) + 1};
+    kiln_buffer_reserve(&radix->other, pairs->size);
+    kiln_buffer_reserve(&radix->counts,
+                        ((size_t)pass.tiles << radix->shape->bits) * sizeof(uint32_t));
+    pass.from = kiln_buffer_gl(pairs, KILN_READ_WRITE, error);
+    pass.to = pass.from ? kiln_buffer_gl(&radix->other, KILN_OVERWRITE, error) : 0;
+    pass.counts = pass.to ? kiln_buffer_gl(&radix->counts, KILN_OVERWRITE, error) : 0;
+    GLuint sorted = pass.counts ? kiln_buffer_gl(entries, KILN_READ_WRITE, error) : 0;
+    if (!sorted)
+        return false;
+    const uint32_t bits = radix->shape->bits;
+    for (pass.shift = 0; pass.shift < KEY_BITS; pass.shift += bits) {
+        const bool last = pass.shift + bits >= KEY_BITS;
+        const GLuint from = pass.from;
+        pass.to = last ? sorted : pass.to;
+        if (!run_pass(radix, &pass, last, error))
+            return false;
+        pass.from = pass.to;
+        pass.to = from;
+    }
+    return kiln_device_check(radix->device, "sort: radix", error);
+}
+
+bool kiln_radix_run(struct kiln_radix *radix, struct kiln_pool *pool,
+                    const struct kiln_sort_params *params, struct kiln_buffer *entries,
+                    uint32_t *count, struct kiln_error *error)
+{
+    if (!params->by_depth)
+        return kiln_alive_run(&radix->alive, pool, params, entries, NULL, count, error);
+    kiln_buffer_reserve(&radix->pairs, (size_t)pool->slot_count * PAIR_BYTES);
+    return kiln_alive_run(&radix->alive, pool, params, NULL, &radix->pairs, count, error) &&
+           kiln_radix_pairs(radix, &radix->pairs, *count, entries, error);
+}

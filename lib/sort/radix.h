@@ -1,0 +1,23 @@
+/* Technique `radix`: lists and sorts in compute; a stable radix sort. */
+#ifndef KILN_SORT_RADIX_H
+#define KILN_SORT_RADIX_H
+
+#include "sort/sort.h"
+
+struct kiln_radix;
+
+/* NULL with an error. */
+struct kiln_radix *kiln_radix_create(struct kiln_device *device, struct kiln_error *error);
+void kiln_radix_destroy(struct kiln_radix **radix);
+
+/* Like kiln_sort_run. */
+bool kiln_radix_run(struct kiln_radix *radix, struct kiln_pool *pool,
+                    const struct kiln_sort_params *params, struct kiln_buffer *entries,
+                    uint32_t *count, struct kiln_error *error);
+
+/* Writes the second words of the first `count` pairs (key, any) of a buffer to entries, by
+ * ascending key; those of equal keys keep their order. The pairs are lost. */
+bool kiln_radix_pairs(struct kiln_radix *radix, struct kiln_buffer *pairs, uint32_t count,
+                      struct kiln_buffer *entries, struct kiln_error *error);
+
+#endif

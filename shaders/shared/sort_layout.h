@@ -1,0 +1,25 @@
+/* Sizes and binding points of the sort on the device. A pair is a key and what it belongs to. */
+#ifndef KILN_SHARED_SORT_LAYOUT_H
+#define KILN_SHARED_SORT_LAYOUT_H
+
+/* Storage blocks. */
+#define SORT_BIND_RECORDS   0
+#define SORT_BIND_COUNTS    1 /* of blocks or digits; scanned in place */
+#define SORT_BIND_ENTRIES   2
+#define SORT_BIND_PAIRS     3
+#define SORT_BIND_PAIRS_OUT 4
+#define SORT_BIND_SUMS      5 /* of blocks of counts */
+#define SORT_BIND_TOTAL     6
+
+/* Invocations of a work group, where nothing else is said. */
+#define SORT_GROUP_SIZE 256
+
+/* Slots, or counts, that one invocation takes; a work group takes a block of them. */
+#define SORT_ITEMS 8
+#define SORT_BLOCK (SORT_GROUP_SIZE * SORT_ITEMS)
+
+/* Bitonic: a work group sorts a block of pairs in shared memory, eight each at a time. */
+#define BITONIC_GROUP_SIZE 256
+#define BITONIC_BLOCK      (BITONIC_GROUP_SIZE * 8)
+
+#endif

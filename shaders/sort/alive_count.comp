@@ -1,0 +1,11 @@
+/* How many particles live in each block of a system. */
+#include "sort/alive.glsl"
+
+layout(local_size_x = SORT_GROUP_SIZE) in;
+
+void main()
+{
+    group_sum_before(uint(bitCount(living_of_stretch())));
+    if (gl_LocalInvocationID.x == 0u && group_index() * SORT_BLOCK < used)
+        counts[first_block + group_index()] = group_total();
+}

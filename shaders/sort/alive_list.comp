@@ -1,0 +1,51 @@
+/* The entries of the living of a system, in order, after those of the blocks before: alone, or as
+ * pairs of their depth's key and either the entry or its place in the list. */
+// variant: 
+// variant: PAIRED=1
+// variant: NUMBERED=1
+#include "shared/keys.h"
+#include "sort/alive.glsl"
+
+layout(local_size_x = SORT_GROUP_SIZE) in;
+
+#ifndef PAIRED
+layout(std430, binding = SORT_BIND_ENTRIES) writeonly buffer entry_block
+{
+    uint entries[];
+};
+#endif
+
+#if defined(PAIRED) || defined(NUMBERED)
+layout(std430, binding = SORT_BIND_PAIRS) writeonly buffer pair_block
+{
+    uvec2 pairs[];
+};
+
+layout(location = 6) uniform vec3 eye;     /* m */
+layout(location = 7) uniform vec3 forward; /* unit length */
+#endif
+
+void write(uint place, uint slot)
+{
+    uint entry = system << 24u | slot;
+#ifndef PAIRED
+    entries[place] = entry;
+#endif
+#ifdef PAIRED
+    pairs[place] = uvec2(key_of_particle(records[slot], eye, forward), entry);
+#elif defined(NUMBERED)
+    pairs[place] = uvec2(key_of_particle(records[slot], eye, forward), place);
+#endif
+}
+
+void main()
+{
+    uint living = living_of_stretch();
+    uint place = group_sum_before(uint(bitCount(living)));
+    if (stretch_begin() < used)
+        place += counts[first_block + group_index()];
+    for (uint k = 0u; k < SORT_ITEMS; k++) {
+        if ((living >> k & 1u) != 0u)
+            write(place++, slot_of(stretch_begin() + k));
+    }
+}

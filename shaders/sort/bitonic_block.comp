@@ -1,0 +1,75 @@
+/* Bitonic sort (Heinz 2019, 2.4.1) of a block in shared memory: all comparisons over distances
+ * shorter than it, for bunches of some sizes. Each invocation has eight pairs at a time, for three
+ * passes; where fewer are left, it repeats some that are done, which changes nothing. */
+// variant: 
+// variant: FROM_START=1
+#include "sort/bitonic.glsl"
+
+layout(local_size_x = BITONIC_GROUP_SIZE) in;
+
+layout(location = 0) uniform uint count; /* a power of two */
+layout(location = 1) uniform uint size;  /* of a bunch: all of it orders the same way */
+
+shared uvec2 block[BITONIC_BLOCK];
+
+void passes(uint first, uint bunch, uint spacing)
+{
+    uint at = first_of(gl_LocalInvocationID.x, spacing, 3u);
+    bool descending = ((first + at) & bunch) != 0u;
+    uvec2 p[8];
+    for (uint i = 0u; i < 8u; i++)
+        p[i] = block[at + i * spacing];
+    order_far(p, descending);
+    order_middle(p, descending, descending);
+    order_near(p, bvec4(descending));
+    for (uint i = 0u; i < 8u; i++)
+        block[at + i * spacing] = p[i];
+    barrier();
+}
+
+/* All distances from half a bunch, or half the block, down to 1. */
+void merge(uint first, uint bunch)
+{
+    uint spacing = min(bunch, BITONIC_BLOCK) / 8u;
+    for (; spacing > 1u; spacing = max(spacing / 8u, 1u))
+        passes(first, bunch, spacing);
+    passes(first, bunch, 1u);
+}
+
+/* Bunches of 2, 4 and 8. */
+void sort_eight(uint first)
+{
+    uint at = gl_LocalInvocationID.x * 8u;
+    uvec2 p[8];
+    for (uint i = 0u; i < 8u; i++)
+        p[i] = block[at + i];
+    order_near(p, bvec4(false, true, false, true));
+    order_middle(p, false, true);
+    order_near(p, bvec4(false, false, true, true));
+    bool descending = ((first + at) & 8u) != 0u;
+    order_far(p, descending);
+    order_middle(p, descending, descending);
+    order_near(p, bvec4(descending));
+    for (uint i = 0u; i < 8u; i++)
+        block[at + i] = p[i];
+    barrier();
+}
+
+void main()
+{
+    uint first = group_index() * BITONIC_BLOCK;
+    for (uint i = gl_LocalInvocationID.x; i < BITONIC_BLOCK; i += BITONIC_GROUP_SIZE)
+        block[i] = first + i < count ? pairs[first + i] : uvec2(0xffffffffu);
+    barrier();
+#ifdef FROM_START
+    sort_eight(first);
+    for (uint bunch = 16u; bunch <= BITONIC_BLOCK; bunch *= 2u)
+        merge(first, bunch);
+#else
+    merge(first, size);
+#endif
+    for (uint i = gl_LocalInvocationID.x; i < BITONIC_BLOCK; i += BITONIC_GROUP_SIZE) {
+        if (first + i < count)
+            pairs[first + i] = block[i];
+    }
+}

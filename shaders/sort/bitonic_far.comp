@@ -1,0 +1,32 @@
+/* LEVELS passes of comparisons over distances that span blocks. */
+// variant: LEVELS=1
+// variant: LEVELS=2
+// variant: LEVELS=3
+#include "sort/bitonic.glsl"
+
+layout(local_size_x = SORT_GROUP_SIZE) in;
+
+#define HELD (1u << LEVELS)
+
+layout(location = 0) uniform uint count;   /* a power of two */
+layout(location = 1) uniform uint size;    /* of a bunch */
+layout(location = 2) uniform uint spacing; /* the least distance of these passes */
+
+void main()
+{
+    uint i = group_index() * SORT_GROUP_SIZE + gl_LocalInvocationID.x;
+    if (i >= count / HELD)
+        return;
+    uint at = first_of(i, spacing, LEVELS);
+    bool descending = (at & size) != 0u;
+    uvec2 p[HELD];
+    for (uint k = 0u; k < HELD; k++)
+        p[k] = pairs[at + k * spacing];
+    for (uint distance = HELD / 2u; distance > 0u; distance /= 2u)
+        for (uint k = 0u; k < HELD / 2u; k++) {
+            uint low = first_of(k, distance, 1u);
+            order(p[low], p[low + distance], descending);
+        }
+    for (uint k = 0u; k < HELD; k++)
+        pairs[at + k * spacing] = p[k];
+}

@@ -1,0 +1,14 @@
+/* Fills the list up to a power of two with pairs that come after all others. */
+#include "sort/bitonic.glsl"
+
+layout(local_size_x = SORT_GROUP_SIZE) in;
+
+layout(location = 0) uniform uint count; /* of the list */
+layout(location = 1) uniform uint padded;
+
+void main()
+{
+    uint i = count + group_index() * SORT_GROUP_SIZE + gl_LocalInvocationID.x;
+    if (i < padded)
+        pairs[i] = uvec2(0xffffffffu, i);
+}

@@ -1,0 +1,23 @@
+/* The entries, in the order of their pairs. */
+#include "sort/bitonic.glsl"
+
+layout(local_size_x = SORT_GROUP_SIZE) in;
+
+layout(std430, binding = SORT_BIND_COUNTS) readonly buffer list_block
+{
+    uint list[];
+};
+
+layout(std430, binding = SORT_BIND_ENTRIES) writeonly buffer entry_block
+{
+    uint entries[];
+};
+
+layout(location = 0) uniform uint count;
+
+void main()
+{
+    uint i = group_index() * SORT_GROUP_SIZE + gl_LocalInvocationID.x;
+    if (i < count)
+        entries[i] = list[pairs[i].y];
+}

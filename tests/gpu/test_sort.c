@@ -1,0 +1,323 @@
+/* Sorting on the device: against qsort, and against technique `cpu`, entry by entry. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <stdlib.h>
+
+#include "sort/bitonic.h"
+#include "sort/radix.h"
+#include "sort/sort.h"
+#include "support/simulation.h"
+#include "support/sort_keys.h"
+
+static struct scene_fixture fixture; /* too large for a stack */
+
+/* A list of entries with keys, its pairs, and what comes of it. */
+struct list {
+    struct kiln_buffer pairs, entries, sorted;
+    kiln_sort_pair *expected; /* (key, place) */
+};
+
+enum { MOST = 1 << 20 };
+
+static uint32_t entry_of(uint32_t place)
+{
+    return place * 7u + 1u;
+}
+
+/* places: a pair holds its place beside its key, else the entry. */
+static void fill(struct list *list, enum pattern pattern, uint32_t count, bool places)
+{
+    struct kiln_error error = {0};
+    uint32_t *pairs = kiln_buffer_host(&list->pairs, KILN_OVERWRITE, &error);
+    uint32_t *entries = kiln_buffer_host(&list->entries, KILN_OVERWRITE, &error);
+    assert_true(pairs && entries);
+    for (uint32_t i = 0; i < count; i++) {
+        pairs[2 * i] = key_of(pattern, i, count);
+        pairs[2 * i + 1] = places ? i : entry_of(i);
+        entries[i] = entry_of(i);
+        list->expected[i] = (kiln_sort_pair)pairs[2 * i] << 32 | i;
+    }
+    qsort(list->expected, count, sizeof *list->expected, by_pair);
+}
+
+static void expect_sorted(struct list *list, const char *technique, int pattern, uint32_t count)
+{
+    struct kiln_error error = {0};
+    const uint32_t *sorted = kiln_buffer_host(&list->sorted, KILN_READ, &error);
+    assert_non_null(sorted);
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t expected = entry_of((uint32_t)list->expected[i]);
+        if (sorted[i] != expected)
+            fail_msg("%s, pattern %d of %u: %u at %u instead of %u", technique, pattern, count,
+                     sorted[i], i, expected);
+    }
+}
+
+static void list_init(struct list *list, struct kiln_device *device)
+{
+    kiln_buffer_init(&list->pairs, device, MOST * sizeof(kiln_sort_pair), "pairs");
+    kiln_buffer_init(&list->entries, device, MOST * sizeof(uint32_t), "list");
+    kiln_buffer_init(&list->sorted, device, MOST * sizeof(uint32_t), "sorted");
+    list->expected = malloc(MOST * sizeof *list->expected);
+    assert_non_null(list->expected);
+}
+
+static void list_finish(struct list *list)
+{
+    kiln_buffer_finish(&list->pairs);
+    kiln_buffer_finish(&list->entries);
+    kiln_buffer_finish(&list->sorted);
+    free(list->expected);
+}
+
+/* Around the sizes of tiles, blocks and groups; the large ones with a few patterns only. */
+static const uint32_t COUNTS[] = {0, 1, 2, 3, 255, 256, 257, 2047, 2048, 2049, 65536, 100003, MOST};
+enum { COUNT_COUNT = sizeof COUNTS / sizeof *COUNTS };
+
+static bool is_worth_it(uint32_t count, int pattern)
+{
+    return count < 100000 || pattern == RANDOM || (count < MOST && pattern == FEW);
+}
+
+/* As on software devices, or as on others. */
+static void expect_radix_sorts(struct kiln_device *device, bool software)
+{
+    struct kiln_error error = {0};
+    const bool is_software = device->info.software;
+    device->info.software = software;
+    struct kiln_radix *radix = kiln_radix_create(device, &error);
+    device->info.software = is_software;
+    if (!radix)
+        fail_msg("%s", error.message);
+    struct list list;
+    list_init(&list, device);
+    for (int c = 0; c < COUNT_COUNT; c++)
+        for (int pattern = 0; pattern < PATTERNS; pattern++) {
+            if (!is_worth_it(COUNTS[c], pattern))
+                continue;
+            fill(&list, (enum pattern)pattern, COUNTS[c], false);
+            if (!kiln_radix_pairs(radix, &list.pairs, COUNTS[c], &list.sorted, &error))
+                fail_msg("%s", error.message);
+            expect_sorted(&list, "radix", pattern, COUNTS[c]);
+        }
+    list_finish(&list);
+    kiln_radix_destroy(&radix);
+    assert_null(radix);
+}
+
+static void radix_sorts_like_qsort(void **state)
+{
+    expect_radix_sorts(*state, true);
+    expect_radix_sorts(*state, false);
+}
+
+static void bitonic_sorts_like_qsort(void **state)
+{
+    struct kiln_error error = {0};
+    struct kiln_bitonic *bitonic = kiln_bitonic_create(*state, &error);
+    if (!bitonic)
+        fail_msg("%s", error.message);
+    struct list list;
+    list_init(&list, *state);
+    for (int c = 0; c < COUNT_COUNT; c++)
+        for (int pattern = 0; pattern < PATTERNS; pattern++) {
+            if (!is_worth_it(COUNTS[c], pattern))
+                continue;
+            assert_true(kiln_bitonic_padded(COUNTS[c]) <= MOST);
+            fill(&list, (enum pattern)pattern, COUNTS[c], true);
+            if (!kiln_bitonic_pairs(bitonic, &list.pairs, &list.entries, COUNTS[c], &list.sorted,
+                                    &error))
+                fail_msg("%s", error.message);
+            expect_sorted(&list, "bitonic", pattern, COUNTS[c]);
+        }
+    list_finish(&list);
+    kiln_bitonic_destroy(&bitonic);
+    assert_null(bitonic);
+}
+
+static void lengths_are_padded_to_powers_of_two(void **state)
+{
+    (void)state;
+    assert_int_equal(kiln_bitonic_padded(0), 1);
+    assert_int_equal(kiln_bitonic_padded(1), 1);
+    assert_int_equal(kiln_bitonic_padded(3), 4);
+    assert_int_equal(kiln_bitonic_padded(4), 4);
+    assert_int_equal(kiln_bitonic_padded((1u << 24) - 1), 1u << 24);
+}
+
+static const char *const NAMES[] = {
+    [KILN_SORT_CPU] = "cpu", [KILN_SORT_RADIX] = "radix", [KILN_SORT_BITONIC] = "bitonic"};
+
+/* The techniques beside each other on one pool. */
+struct contest {
+    struct kiln_sort *sorts[3];
+    struct kiln_buffer entries[3];
+    struct kiln_threads *threads;
+};
+
+static void contest_init(struct contest *contest, struct kiln_device *device, uint32_t slots)
+{
+    struct kiln_error error = {0};
+    contest->threads = kiln_threads_create(2);
+    for (int i = 0; i < 3; i++) {
+        contest->sorts[i] =
+            kiln_sort_create(device, (enum kiln_sort_technique)i, contest->threads, &error);
+        if (!contest->sorts[i])
+            fail_msg("%s", error.message);
+        kiln_buffer_init(&contest->entries[i], device, slots * sizeof(uint32_t), "entries");
+    }
+}
+
+static void contest_finish(struct contest *contest)
+{
+    for (int i = 0; i < 3; i++) {
+        kiln_sort_destroy(&contest->sorts[i]);
+        kiln_buffer_finish(&contest->entries[i]);
+    }
+    kiln_threads_destroy(&contest->threads);
+}
+
+/* Returns how many particles were listed. */
+static uint32_t expect_same_lists(struct contest *contest, struct kiln_pool *pool,
+                                  const struct kiln_sort_params *params)
+{
+    struct kiln_error error = {0};
+    uint32_t counts[3] = {0, 1, 2};
+    const uint32_t *lists[3];
+    for (int i = 0; i < 3; i++) {
+        if (!kiln_sort_run(contest->sorts[i], pool, params, &contest->entries[i], &counts[i],
+                           &error))
+            fail_msg("%s", error.message);
+        lists[i] = kiln_buffer_host(&contest->entries[i], KILN_READ, &error);
+        assert_non_null(lists[i]);
+        assert_int_equal(counts[i], counts[0]);
+        for (uint32_t k = 0; k < counts[0]; k++)
+            if (lists[i][k] != lists[0][k])
+                fail_msg("%s: %08x at %u of %u instead of %08x; systems %x", NAMES[i], lists[i][k],
+                         k, counts[0], lists[0][k], params->systems);
+    }
+    return counts[0];
+}
+
+/* Slots around and beyond the sizes of blocks, rings that have come round, and few depths. */
+static void fill_pool(struct kiln_pool *pool, struct kiln_device *device)
+{
+    static const uint32_t capacities[] = {1, 0, 2048, 20000, 2047, 7, 5000};
+    enum { SYSTEMS = sizeof capacities / sizeof *capacities };
+    struct kiln_error error = {0};
+    kiln_pool_init(pool, device, capacities, SYSTEMS);
+    struct kiln_particle *records = kiln_buffer_host(&pool->records, KILN_READ_WRITE, &error);
+    assert_non_null(records);
+    for (uint32_t system = 0; system < SYSTEMS; system++) {
+        uint32_t capacity = capacities[system];
+        pool->systems[system].next_serial = system == 6 ? capacity / 2 : capacity * 3u + 777u;
+        for (uint32_t i = 0; i < capacity; i++) {
+            struct kiln_particle *p = &records[pool->systems[system].base + i];
+            float z = (float)(random_mix(i + system * 1000u) % 64) - 32.0f;
+            float bits = z == 0.0f && i % 2 ? -0.0f : z;
+            p->position_serial = UINT4(i, FLOAT_BITS(0.25f), FLOAT_BITS(bits), i);
+            p->velocity_birth.w = i % 5 != 3 ? KILN_PARTICLE_ALIVE : 0;
+        }
+    }
+}
+
+static void all_techniques_list_alike(void **state)
+{
+    struct kiln_pool pool;
+    fill_pool(&pool, *state);
+    struct contest contest;
+    contest_init(&contest, *state, pool.slot_count);
+    static const uint32_t masks[] = {0, 1, 2, 0x7f, 0x55, 0x2a, 0x08, 0x40, 0xffff};
+    for (size_t i = 0; i < sizeof masks / sizeof *masks; i++)
+        for (int by_depth = 0; by_depth < 2; by_depth++) {
+            const struct kiln_sort_params params = {
+                .eye = {1, 2, 8}, .forward = {0, 0, -1}, .systems = masks[i], .by_depth = by_depth};
+            uint32_t count = expect_same_lists(&contest, &pool, &params);
+            assert_true((count > 20000) == (masks[i] == 0x7f || masks[i] == 0xffff));
+        }
+    contest_finish(&contest);
+    kiln_pool_finish(&pool);
+}
+
+/* With views that no axis is parallel to, where each rounding counts; state on the device. */
+static void all_techniques_sort_a_scene_alike(void **state)
+{
+    fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, 120);
+    struct simulation run;
+    simulation_start(&run, &fixture.scene, *state, 1);
+    struct contest contest;
+    contest_init(&contest, *state, run.pool.slot_count);
+    const float3 forwards[] = {{0.36f, 0.48f, -0.8f}, {-0.577350269f, 0.577350269f, 0.577350269f}};
+    uint32_t most = 0;
+    for (int frame = 0; frame < 12; frame++) {
+        simulation_run(&run, 10);
+        const struct kiln_sort_params params = {.eye = {0.1f, 1.7f, 3.3f + (float)frame},
+                                                .forward = forwards[frame % 2],
+                                                .systems = 0xffff,
+                                                .by_depth = true};
+        uint32_t count = expect_same_lists(&contest, &run.pool, &params);
+        most = count > most ? count : most;
+    }
+    assert_true(run.pool.system_count > 2);
+    assert_true(most > 1000);
+    contest_finish(&contest);
+    simulation_end(&run);
+}
+
+static void records_stay_on_the_device(void **state)
+{
+    struct kiln_error error = {0};
+    struct kiln_pool pool;
+    fill_pool(&pool, *state);
+    assert_true(kiln_buffer_gl(&pool.records, KILN_READ_WRITE, &error));
+    const struct kiln_sort_params params = {
+        .forward = {0, 0, -1}, .systems = 0x7f, .by_depth = true};
+    for (int technique = KILN_SORT_RADIX; technique <= KILN_SORT_BITONIC; technique++) {
+        struct kiln_sort *sort =
+            kiln_sort_create(*state, (enum kiln_sort_technique)technique, NULL, &error);
+        struct kiln_buffer entries;
+        kiln_buffer_init(&entries, *state, pool.slot_count * sizeof(uint32_t), "entries");
+        uint32_t count = 0;
+        assert_true(kiln_sort_run(sort, &pool, &params, &entries, &count, &error));
+        assert_true(count > 0);
+        assert_false(pool.records.host_valid);
+        assert_false(entries.host_valid);
+        kiln_buffer_finish(&entries);
+        kiln_sort_destroy(&sort);
+    }
+    kiln_pool_finish(&pool);
+}
+
+static void sorting_there_needs_an_exact_device(void **state)
+{
+    struct kiln_device *device = *state;
+    struct kiln_error error = {0};
+    bool exact = device->info.exact;
+    for (int technique = KILN_SORT_RADIX; technique <= KILN_SORT_BITONIC; technique++) {
+        device->info.exact = exact;
+        assert_null(kiln_sort_create(NULL, (enum kiln_sort_technique)technique, NULL, &error));
+        assert_int_equal(error.code, KILN_USAGE);
+        device->info.exact = false;
+        assert_null(kiln_sort_create(device, (enum kiln_sort_technique)technique, NULL, &error));
+        assert_int_equal(error.code, KILN_USAGE);
+    }
+    device->info.exact = exact;
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        test_on_device(radix_sorts_like_qsort),
+        test_on_device(bitonic_sorts_like_qsort),
+        test_on_device(lengths_are_padded_to_powers_of_two),
+        test_on_device(all_techniques_list_alike),
+        test_on_device(all_techniques_sort_a_scene_alike),
+        test_on_device(records_stay_on_the_device),
+        test_on_device(sorting_there_needs_an_exact_device),
+    };
+    return cmocka_run_group_tests_name("sort", tests, simulation_device_open, test_device_close);
+}
