@@ -57,12 +57,12 @@ static void expect_sorted(struct list *list, const char *technique, int pattern,
     }
 }
 
-static void list_init(struct list *list, struct kiln_device *device)
+static void list_init(struct list *list, struct kiln_device *device, size_t most)
 {
-    kiln_buffer_init(&list->pairs, device, MOST * sizeof(kiln_sort_pair), "pairs");
-    kiln_buffer_init(&list->entries, device, MOST * sizeof(uint32_t), "list");
-    kiln_buffer_init(&list->sorted, device, MOST * sizeof(uint32_t), "sorted");
-    list->expected = malloc(MOST * sizeof *list->expected);
+    kiln_buffer_init(&list->pairs, device, most * sizeof(kiln_sort_pair), "pairs");
+    kiln_buffer_init(&list->entries, device, most * sizeof(uint32_t), "list");
+    kiln_buffer_init(&list->sorted, device, most * sizeof(uint32_t), "sorted");
+    list->expected = malloc(most * sizeof *list->expected);
     assert_non_null(list->expected);
 }
 
@@ -94,7 +94,7 @@ static void expect_radix_sorts(struct kiln_device *device, bool software)
     if (!radix)
         fail_msg("%s", error.message);
     struct list list;
-    list_init(&list, device);
+    list_init(&list, device, MOST);
     for (int c = 0; c < COUNT_COUNT; c++)
         for (int pattern = 0; pattern < PATTERNS; pattern++) {
             if (!is_worth_it(COUNTS[c], pattern))
@@ -122,7 +122,7 @@ static void bitonic_sorts_like_qsort(void **state)
     if (!bitonic)
         fail_msg("%s", error.message);
     struct list list;
-    list_init(&list, *state);
+    list_init(&list, *state, MOST);
     for (int c = 0; c < COUNT_COUNT; c++)
         for (int pattern = 0; pattern < PATTERNS; pattern++) {
             if (!is_worth_it(COUNTS[c], pattern))
@@ -137,6 +137,62 @@ static void bitonic_sorts_like_qsort(void **state)
     list_finish(&list);
     kiln_bitonic_destroy(&bitonic);
     assert_null(bitonic);
+}
+
+static uint32_t large_key(uint32_t place)
+{
+    return random_mix(place) >> 8;
+}
+
+static void fill_large(struct list *list, uint32_t count)
+{
+    struct kiln_error error = {0};
+    uint32_t *pairs = kiln_buffer_host(&list->pairs, KILN_OVERWRITE, &error);
+    uint32_t *entries = kiln_buffer_host(&list->entries, KILN_OVERWRITE, &error);
+    uint32_t *sorted = kiln_buffer_host(&list->sorted, KILN_OVERWRITE, &error);
+    assert_true(pairs && entries && sorted);
+    for (uint32_t i = 0; i < count; i++) {
+        pairs[2 * i] = large_key(i);
+        pairs[2 * i + 1] = i;
+        entries[i] = i;
+        sorted[i] = UINT32_MAX; /* of no use to the next technique */
+    }
+}
+
+/* Ascending keys, and places where keys are equal: no place can then occur twice. */
+static void expect_large(struct list *list, uint32_t count)
+{
+    struct kiln_error error = {0};
+    const uint32_t *sorted = kiln_buffer_host(&list->sorted, KILN_READ, &error);
+    assert_non_null(sorted);
+    for (uint32_t i = 1; i < count; i++) {
+        uint32_t before = large_key(sorted[i - 1]), key = large_key(sorted[i]);
+        if (sorted[i] >= count || key < before || (key == before && sorted[i] <= sorted[i - 1]))
+            fail_msg("%u at %u, after %u", sorted[i], i, sorted[i - 1]);
+    }
+}
+
+/* As many as a draw entry can address: more work groups than one axis of a dispatch takes. */
+static void the_most_particles_are_sorted(void **state)
+{
+    const uint32_t count = 1u << 24;
+    struct kiln_error error = {0};
+    struct kiln_radix *radix = kiln_radix_create(*state, &error);
+    struct kiln_bitonic *bitonic = kiln_bitonic_create(*state, &error);
+    assert_true(radix && bitonic);
+    struct list list;
+    list_init(&list, *state, count);
+    fill_large(&list, count);
+    if (!kiln_radix_pairs(radix, &list.pairs, count, &list.sorted, &error))
+        fail_msg("%s", error.message);
+    expect_large(&list, count);
+    kiln_radix_destroy(&radix);
+    fill_large(&list, count);
+    if (!kiln_bitonic_pairs(bitonic, &list.pairs, &list.entries, count, &list.sorted, &error))
+        fail_msg("%s", error.message);
+    expect_large(&list, count);
+    list_finish(&list);
+    kiln_bitonic_destroy(&bitonic);
 }
 
 static void lengths_are_padded_to_powers_of_two(void **state)
@@ -313,6 +369,7 @@ int main(void)
     static const struct CMUnitTest tests[] = {
         test_on_device(radix_sorts_like_qsort),
         test_on_device(bitonic_sorts_like_qsort),
+        test_on_device(the_most_particles_are_sorted),
         test_on_device(lengths_are_padded_to_powers_of_two),
         test_on_device(all_techniques_list_alike),
         test_on_device(all_techniques_sort_a_scene_alike),
