@@ -179,6 +179,49 @@ FN float exact_exp(float x)
     return scaled;
 }
 
+/* log2(x) within 2e-7 of the greater of 1 and its size for 2^-100 <= x <= 2^100; beyond, infinity
+ * included, that of the nearer end; -100 for negative numbers and NaN. */
+FN float exact_log2(float x)
+{
+    uint bits = FLOAT_BITS(x);
+    bits = bits > 0x7f800000u || bits < EXACT_TINY_BITS ? EXACT_TINY_BITS : bits;
+    bits = bits > EXACT_VAST_BITS ? EXACT_VAST_BITS : bits;
+    int exponent = (INT(bits) - 0x3f3504f3) >> 23; /* so that the rest is 0.707 to 1.414 */
+    uint rest = bits - (UINT(exponent) << 23);
+    EXACT float f = BITS_FLOAT(rest) - 1.0f;
+    EXACT float high = -0.239169881f + f * (0.216078226f + f * (-0.205861881f + f * 0.123109685f));
+    EXACT float middle = 0.480910753f + f * (-0.360693268f + f * (0.287903261f + f * high));
+    EXACT float p = f * (1.44269502f + f * (-0.721347468f + f * middle));
+    EXACT float y = FLOAT(exponent) + p;
+    return y;
+}
+
+/* 2^x within 2e-7 of its size for |x| <= 100; 0 below, 2^100 above; 1 for NaN. */
+FN float exact_exp2(float x)
+{
+    uint size = FLOAT_BITS(x) & EXACT_SIZE_BITS;
+    EXACT float number = size > 0x7f800000u ? 0.0f : x;
+    EXACT float limited = exact_clamp(number, -100.0f, 100.0f);
+    EXACT float n = FLOOR(limited + 0.5f);
+    EXACT float r = limited - n;
+    EXACT float high = 0.00961808256f + r * (0.00133908634f + r * 0.000154531629f);
+    EXACT float p = 0.693147188f + r * (0.240226508f + r * (0.0555035711f + r * high));
+    EXACT float y = 1.0f + r * p;
+    uint exponent = UINT(INT(n) + 127);
+    EXACT float power = BITS_FLOAT(exponent << 23);
+    EXACT float scaled = number < -100.0f ? 0.0f : y * power;
+    return scaled;
+}
+
+/* x^y, as 2^(y log2 x): within 2e-7 of its size times the greater of 1 and |y log2 x|, and as those
+ * two limit it; 0 for no positive x and a y > 1. */
+FN float exact_pow(float x, float y)
+{
+    EXACT float exponent = y * exact_log2(x);
+    EXACT float power = exact_exp2(exponent);
+    return power;
+}
+
 /* ---- vectors -------------------------------------------------------------------------------- */
 
 FN float3 float3_add(float3 a, float3 b)

@@ -99,6 +99,31 @@ static void exponentials_are_near_the_closed_form(void **state)
     assert_true(exact_exp(1000.0f) == exact_exp(69.0f));
 }
 
+static void powers_and_logarithms_are_near_the_closed_form(void **state)
+{
+    (void)state;
+    double logs = 0, powers = 0, roots = 0;
+    for (uint32_t i = 0; i < SAMPLES; i++) {
+        float x = i % 2 ? exact_abs(random_float(i, 27, 227)) : random_in(i, 0.5f, 2.0f);
+        double log = log2((double)x);
+        logs = fmax(logs, fabs((double)exact_log2(x) - log) / fmax(1.0, fabs(log)));
+        float y = i % 2 ? random_in(i, -100.0f, 100.0f) : random_in(i, -2.0f, 2.0f);
+        double power = exp2((double)y);
+        powers = fmax(powers, fabs((double)exact_exp2(y) - power) / power);
+        float base = random_in(i, 0.003f, 1.0f); /* what sRGB takes roots of */
+        double root = pow((double)base, 1.0 / 2.4);
+        roots = fmax(roots, fabs((double)exact_pow(base, 1.0f / 2.4f) - root) / root);
+    }
+    print_message("log2: %.3g, exp2: %.3g, pow: %.3g\n", logs, powers, roots);
+    assert_at_most("log2", logs, 2e-7);
+    assert_at_most("exp2", powers, 2e-7);
+    assert_at_most("pow", roots, 7e-7);
+    for (int n = -100; n <= 100; n++) {
+        float power = ldexpf(1.0f, n);
+        assert_true(exact_log2(power) == (float)n && exact_exp2((float)n) == power);
+    }
+}
+
 static void every_argument_has_an_answer(void **state)
 {
     (void)state;
@@ -121,6 +146,12 @@ static void every_argument_has_an_answer(void **state)
     assert_true(exact_sqrt(-1.0f) == 0.0f && exact_rsqrt(-1.0f) == 0.0f);
     assert_true(exact_sincos(NAN).cosine == 1.0f);
     assert_true(exact_exp(NAN) == 1.0f);
+    assert_true(exact_exp2(NAN) == 1.0f && exact_exp2(-INFINITY) == 0.0f);
+    assert_true(exact_exp2(INFINITY) == 0x1p100f && exact_exp2(-101.0f) == 0.0f);
+    const float lowest[] = {0.0f, -0.0f, tiny, denormal, -1.0f, -INFINITY, NAN, -NAN};
+    for (size_t i = 0; i < sizeof lowest / sizeof *lowest; i++)
+        assert_true(exact_log2(lowest[i]) == -100.0f);
+    assert_true(exact_log2(INFINITY) == 100.0f && exact_pow(0.0f, 2.2f) == 0.0f);
 }
 
 static void between_stays_between(void **state)
@@ -162,6 +193,7 @@ int main(void)
         cmocka_unit_test(reciprocals_and_roots_are_near_the_closed_form),
         cmocka_unit_test(sine_and_cosine_are_near_the_closed_form),
         cmocka_unit_test(exponentials_are_near_the_closed_form),
+        cmocka_unit_test(powers_and_logarithms_are_near_the_closed_form),
         cmocka_unit_test(every_argument_has_an_answer),
         cmocka_unit_test(between_stays_between),
         cmocka_unit_test(vectors_follow_their_definitions),
