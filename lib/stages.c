@@ -139,7 +139,13 @@ static bool init_stages(struct kiln_stages *s, const struct kiln_techniques *tec
         if (!s->bloom)
             return false;
     }
-    s->composite = kiln_composite_create(device, s->scene, bits ? bits : 8, error);
+    s->composite =
+        kiln_composite_create(device, s->scene,
+                              &(struct kiln_composite_params){.technique = techniques->composite,
+                                                              .threads = s->threads,
+                                                              .bits = bits ? bits : 8,
+                                                              .beauty = s->layers},
+                              error);
     return s->composite != NULL;
 }
 

@@ -6,11 +6,11 @@
 
 #include <string.h>
 
-enum stage { SIMULATE, SORT, RASTER, STAGE_COUNT };
+enum stage { SIMULATE, SORT, RASTER, COMPOSITE, STAGE_COUNT };
 _Static_assert((int)STAGE_COUNT == (int)KILN_STAGE_COUNT, "the header says how many");
 
 static const char *const STAGE_NAMES[STAGE_COUNT] = {
-    [SIMULATE] = "simulate", [SORT] = "sort", [RASTER] = "raster"};
+    [SIMULATE] = "simulate", [SORT] = "sort", [RASTER] = "raster", [COMPOSITE] = "composite"};
 
 #define AUTO "auto"
 
@@ -37,6 +37,8 @@ static const struct row ROWS[] = {
      "host threads, tiles and vectors; the default on software devices"},
     {RASTER, "geometry", KILN_RASTER_GEOMETRY,
      "points turned into billboards by a geometry shader; the default on GPUs"},
+    {COMPOSITE, "cpu", KILN_COMPOSITE_CPU, "host threads, rows; the default on software devices"},
+    {COMPOSITE, "gl", KILN_COMPOSITE_GL, "one fragment shader; the default on GPUs"},
 };
 
 enum { ROW_COUNT = sizeof ROWS / sizeof *ROWS };
@@ -112,6 +114,7 @@ bool kiln_techniques_choose(const struct kiln_device_info *device, const char *c
             [SIMULATE] = exact_gpu ? KILN_SIMULATE_INPLACE : KILN_SIMULATE_CPU,
             [SORT] = KILN_SORT_CPU,
             [RASTER] = device->software ? KILN_RASTER_CPU : KILN_RASTER_GEOMETRY,
+            [COMPOSITE] = device->software ? KILN_COMPOSITE_CPU : KILN_COMPOSITE_GL,
         }};
     struct choices choices = automatic;
     for (size_t i = 0; i < flag_count; i++) {
@@ -129,6 +132,7 @@ bool kiln_techniques_choose(const struct kiln_device_info *device, const char *c
         .simulate = (enum kiln_simulate_technique)choices.value[SIMULATE],
         .sort = (enum kiln_sort_technique)choices.value[SORT],
         .raster = (enum kiln_raster_technique)choices.value[RASTER],
+        .composite = (enum kiln_composite_technique)choices.value[COMPOSITE],
     };
     return true;
 }
@@ -165,6 +169,7 @@ void kiln_techniques_describe(const struct kiln_techniques *techniques, char *ou
                                   [SIMULATE] = (int)techniques->simulate,
                                   [SORT] = (int)techniques->sort,
                                   [RASTER] = (int)techniques->raster,
+                                  [COMPOSITE] = (int)techniques->composite,
                               }};
     size_t used = 0;
     for (size_t i = 0; i < ROW_COUNT; i++) {

@@ -5,15 +5,17 @@
 
 #include "draw/particles.h"
 #include "kiln.h"
+#include "post/composite.h"
 #include "sim/simulate.h"
 #include "sort/sort.h"
 
-enum { KILN_STAGE_COUNT = 3, KILN_TECHNIQUE_SIZE = 32 };
+enum { KILN_STAGE_COUNT = 4, KILN_TECHNIQUE_SIZE = 32 };
 
 struct kiln_techniques {
     enum kiln_simulate_technique simulate;
     enum kiln_sort_technique sort;
     enum kiln_raster_technique raster;
+    enum kiln_composite_technique composite;
 };
 
 /* Applies "stage=name" texts over the device's defaults, which "stage=auto" asks for; the last for
@@ -33,7 +35,7 @@ struct kiln_technique_list {
  * machine. Whether a device allows it is for kiln_techniques_choose to say. */
 bool kiln_techniques_combination(size_t index, struct kiln_technique_list *list);
 
-/* Writes "simulate=cpu sort=cpu raster=geometry". */
+/* Writes "simulate=cpu sort=cpu raster=geometry composite=gl". */
 void kiln_techniques_describe(const struct kiln_techniques *techniques, char *out, size_t size);
 
 #endif

@@ -2,14 +2,27 @@
 #ifndef KILN_POST_COMPOSITE_H
 #define KILN_POST_COMPOSITE_H
 
+#include "base/thread.h"
 #include "gpu/image.h"
 #include "scene/scene.h"
 
+/* Both make the same picture, to a level of rounding. */
+enum kiln_composite_technique { KILN_COMPOSITE_GL, KILN_COMPOSITE_CPU };
+
 struct kiln_composite_stage;
 
-/* bits: 8 or 16 of the display picture. */
+struct kiln_composite_params {
+    enum kiln_composite_technique technique;
+    struct kiln_threads *threads; /* of `cpu` */
+    uint32_t bits;                /* 8 or 16 of the display picture */
+    bool beauty;                  /* whether kiln_composite_read_beauty will be called */
+};
+
+/* The scene and the threads must outlive the stage; device may be NULL for `cpu`. NULL with an
+ * error. */
 struct kiln_composite_stage *kiln_composite_create(struct kiln_device *device,
-                                                   const struct kiln_scene *scene, uint32_t bits,
+                                                   const struct kiln_scene *scene,
+                                                   const struct kiln_composite_params *params,
                                                    struct kiln_error *error);
 void kiln_composite_destroy(struct kiln_composite_stage **stage);
 

@@ -1,4 +1,4 @@
-/* lib/post/composite.c against a plain C reference. */
+/* lib/post/composite*.c against a plain reference: each technique. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,6 +13,8 @@
 #include "support/device.h"
 
 enum { WIDTH = 48, HEIGHT = 36, PIXELS = WIDTH * HEIGHT };
+
+static enum kiln_composite_technique technique = KILN_COMPOSITE_GL;
 
 static struct kiln_scene *parse(const char *post)
 {
@@ -96,6 +98,7 @@ static void reference(const float *scene, const float *particles, const float *f
 /* A stage for a scene, and its inputs; the tests say which of them take part. */
 struct fixture {
     struct kiln_scene *scene;
+    struct kiln_threads *threads;
     struct kiln_composite_stage *stage;
     struct kiln_image back, particles, fire;
     struct kiln_composite_inputs inputs;
@@ -113,7 +116,11 @@ static void fixture_init(struct fixture *f, void *device, const char *post, uint
     fill(&f->fire, device, "fire", 3.0f, false);
     if (light == 0.0f)
         memset(f->particles.host, 0, sizeof(float) * PIXELS * 4);
-    f->stage = kiln_composite_create(device, f->scene, bits, &error);
+    f->threads = kiln_threads_create(2);
+    assert_non_null(f->threads);
+    const struct kiln_composite_params params = {
+        .technique = technique, .threads = f->threads, .bits = bits};
+    f->stage = kiln_composite_create(device, f->scene, &params, &error);
     assert_non_null(f->stage);
     f->inputs = (struct kiln_composite_inputs){.scene = &f->back, .particles = &f->particles};
 }
@@ -121,6 +128,7 @@ static void fixture_init(struct fixture *f, void *device, const char *post, uint
 static void fixture_finish(struct fixture *f)
 {
     kiln_composite_destroy(&f->stage);
+    kiln_threads_destroy(&f->threads);
     kiln_image_finish(&f->back);
     kiln_image_finish(&f->particles);
     kiln_image_finish(&f->fire);
@@ -284,5 +292,7 @@ int main(void)
         test_on_device(dither_is_small_and_repeatable),
         test_on_device(transparent_pictures_keep_the_light),
     };
-    return cmocka_run_group_tests_name("composite", tests, test_device_open, test_device_close);
+    int failed = cmocka_run_group_tests_name("gl", tests, test_device_open, test_device_close);
+    technique = KILN_COMPOSITE_CPU;
+    return failed + cmocka_run_group_tests_name("cpu", tests, test_device_open, test_device_close);
 }

@@ -1,0 +1,56 @@
+/* Scene, particles and fire as one picture of light, on the host: what shaders/post/compose.glsl is
+ * in GL. */
+#ifndef KILN_POST_COMPOSE_H
+#define KILN_POST_COMPOSE_H
+
+#include "post/composite.h"
+
+/* A pixel, RGBA. The rows of host images need not be aligned to it. */
+typedef float kiln_quad __attribute__((vector_size(16)));
+typedef float kiln_quad_unaligned __attribute__((vector_size(16), aligned(4), may_alias));
+
+static inline kiln_quad kiln_quad_load(const float *from)
+{
+    return *(const kiln_quad_unaligned *)from;
+}
+
+static inline void kiln_quad_store(float *to, kiln_quad quad)
+{
+    *(kiln_quad_unaligned *)to = quad;
+}
+
+/* Pixels of the inputs; those of particles and fire may be NULL. */
+struct kiln_compose_light {
+    const float *scene, *particles, *fire;
+};
+
+/* False with an error. */
+static inline bool kiln_compose_open(struct kiln_compose_light *light, struct kiln_image *scene,
+                                     struct kiln_image *particles, struct kiln_image *fire,
+                                     struct kiln_error *error)
+{
+    *light = (struct kiln_compose_light){.scene = kiln_image_host(scene, KILN_READ, error)};
+    if (particles && light->scene)
+        light->particles = kiln_image_host(particles, KILN_READ, error);
+    if (particles && fire && light->particles)
+        light->fire = kiln_image_host(fire, KILN_READ, error);
+    return light->scene && (!particles || light->particles) && (!particles || !fire || light->fire);
+}
+
+/* The pixel that begins at a float of the images. */
+static inline kiln_quad kiln_compose(const struct kiln_compose_light *light, size_t at)
+{
+    kiln_quad color = kiln_quad_load(light->scene + at);
+    if (light->particles) {
+        kiln_quad over = kiln_quad_load(light->particles + at);
+        color = over + color * (1.0f - over[3]);
+    }
+    if (light->fire) {
+        kiln_quad flame = kiln_quad_load(light->fire + at);
+        flame[3] = flame[3] < 1.0f ? flame[3] : 1.0f;
+        color = flame + color * (1.0f - flame[3]);
+    }
+    return color;
+}
+
+#endif

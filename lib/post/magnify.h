@@ -1,0 +1,42 @@
+/* The small picture of the glow, made as large as the frame by the cubic B-spline, on the host. */
+#ifndef KILN_POST_MAGNIFY_H
+#define KILN_POST_MAGNIFY_H
+
+#include "post/compose.h"
+
+/* Where a pixel lies between four neighbours along one axis, and their weights. */
+struct kiln_magnify_taps {
+    int32_t first; /* texel; beyond the edge, the edge's counts */
+    float weights[4];
+};
+
+struct kiln_magnifier {
+    uint32_t width, small_width, small_height; /* of the frame; of the glow */
+    float scale;                               /* the glow's size in parts of the frame's */
+    struct kiln_magnify_taps *columns;         /* one a pixel */
+    kiln_quad *rows;                           /* a row of the glow, with its edges, a thread */
+    size_t row_length;
+};
+
+/* Makes ready for a glow of a size, which costs nothing when it is the last one's. */
+bool kiln_magnifier_prepare(struct kiln_magnifier *magnifier, uint32_t width,
+                            const struct kiln_image *glow, float scale, uint32_t threads,
+                            struct kiln_error *error);
+void kiln_magnifier_finish(struct kiln_magnifier *magnifier);
+
+/* The glow's row, times a strength, for the frame's row y; its alpha is 0. It belongs to the thread
+ * `worker` and holds until its next call. */
+const kiln_quad *kiln_magnifier_row(const struct kiln_magnifier *magnifier, const float *glow,
+                                    uint32_t y, float strength, uint32_t worker);
+
+/* The glow at pixel x of that row. */
+static inline kiln_quad kiln_magnified(const struct kiln_magnifier *magnifier, const kiln_quad *row,
+                                       size_t x)
+{
+    const struct kiln_magnify_taps *taps = &magnifier->columns[x];
+    const kiln_quad *from = row + taps->first;
+    return (from[0] * taps->weights[0] + from[1] * taps->weights[1]) +
+           (from[2] * taps->weights[2] + from[3] * taps->weights[3]);
+}
+
+#endif
