@@ -134,8 +134,12 @@ static bool init_stages(struct kiln_stages *s, const struct kiln_techniques *tec
             return false;
     }
     if (s->scene->post.bloom != KILN_BLOOM_NONE) {
-        s->bloom =
-            kiln_bloom_create(device, s->scene, bloom_source(s), target_format(device), error);
+        s->bloom = kiln_bloom_create(device, s->scene,
+                                     &(struct kiln_bloom_params){.technique = techniques->bloom,
+                                                                 .threads = s->threads,
+                                                                 .source = bloom_source(s),
+                                                                 .format = target_format(device)},
+                                     error);
         if (!s->bloom)
             return false;
     }

@@ -6,11 +6,14 @@
 
 #include <string.h>
 
-enum stage { SIMULATE, SORT, RASTER, COMPOSITE, STAGE_COUNT };
+enum stage { SIMULATE, SORT, RASTER, BLOOM, COMPOSITE, STAGE_COUNT };
 _Static_assert((int)STAGE_COUNT == (int)KILN_STAGE_COUNT, "the header says how many");
 
-static const char *const STAGE_NAMES[STAGE_COUNT] = {
-    [SIMULATE] = "simulate", [SORT] = "sort", [RASTER] = "raster", [COMPOSITE] = "composite"};
+static const char *const STAGE_NAMES[STAGE_COUNT] = {[SIMULATE] = "simulate",
+                                                     [SORT] = "sort",
+                                                     [RASTER] = "raster",
+                                                     [BLOOM] = "bloom",
+                                                     [COMPOSITE] = "composite"};
 
 #define AUTO "auto"
 
@@ -37,6 +40,8 @@ static const struct row ROWS[] = {
      "host threads, tiles and vectors; the default on software devices"},
     {RASTER, "geometry", KILN_RASTER_GEOMETRY,
      "points turned into billboards by a geometry shader; the default on GPUs"},
+    {BLOOM, "cpu", KILN_BLOOM_CPU, "host threads, rows; the default on software devices"},
+    {BLOOM, "gl", KILN_BLOOM_GL, "fragment shaders; the default on GPUs"},
     {COMPOSITE, "cpu", KILN_COMPOSITE_CPU, "host threads, rows; the default on software devices"},
     {COMPOSITE, "gl", KILN_COMPOSITE_GL, "one fragment shader; the default on GPUs"},
 };
@@ -114,6 +119,7 @@ bool kiln_techniques_choose(const struct kiln_device_info *device, const char *c
             [SIMULATE] = exact_gpu ? KILN_SIMULATE_INPLACE : KILN_SIMULATE_CPU,
             [SORT] = KILN_SORT_CPU,
             [RASTER] = device->software ? KILN_RASTER_CPU : KILN_RASTER_GEOMETRY,
+            [BLOOM] = device->software ? KILN_BLOOM_CPU : KILN_BLOOM_GL,
             [COMPOSITE] = device->software ? KILN_COMPOSITE_CPU : KILN_COMPOSITE_GL,
         }};
     struct choices choices = automatic;
@@ -132,6 +138,7 @@ bool kiln_techniques_choose(const struct kiln_device_info *device, const char *c
         .simulate = (enum kiln_simulate_technique)choices.value[SIMULATE],
         .sort = (enum kiln_sort_technique)choices.value[SORT],
         .raster = (enum kiln_raster_technique)choices.value[RASTER],
+        .bloom = (enum kiln_bloom_technique)choices.value[BLOOM],
         .composite = (enum kiln_composite_technique)choices.value[COMPOSITE],
     };
     return true;
@@ -169,6 +176,7 @@ void kiln_techniques_describe(const struct kiln_techniques *techniques, char *ou
                                   [SIMULATE] = (int)techniques->simulate,
                                   [SORT] = (int)techniques->sort,
                                   [RASTER] = (int)techniques->raster,
+                                  [BLOOM] = (int)techniques->bloom,
                                   [COMPOSITE] = (int)techniques->composite,
                               }};
     size_t used = 0;

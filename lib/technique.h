@@ -5,16 +5,18 @@
 
 #include "draw/particles.h"
 #include "kiln.h"
+#include "post/bloom.h"
 #include "post/composite.h"
 #include "sim/simulate.h"
 #include "sort/sort.h"
 
-enum { KILN_STAGE_COUNT = 4, KILN_TECHNIQUE_SIZE = 32 };
+enum { KILN_STAGE_COUNT = 5, KILN_TECHNIQUE_SIZE = 32 };
 
 struct kiln_techniques {
     enum kiln_simulate_technique simulate;
     enum kiln_sort_technique sort;
     enum kiln_raster_technique raster;
+    enum kiln_bloom_technique bloom;
     enum kiln_composite_technique composite;
 };
 
@@ -35,7 +37,7 @@ struct kiln_technique_list {
  * machine. Whether a device allows it is for kiln_techniques_choose to say. */
 bool kiln_techniques_combination(size_t index, struct kiln_technique_list *list);
 
-/* Writes "simulate=cpu sort=cpu raster=geometry composite=gl". */
+/* Writes "simulate=cpu sort=cpu raster=geometry bloom=gl composite=gl". */
 void kiln_techniques_describe(const struct kiln_techniques *techniques, char *out, size_t size);
 
 #endif

@@ -1,99 +1,20 @@
-/* What glows, by weights or by the bright pass, goes to one of the ways to spread it. */
+/* The stage: hands over to its technique. */
 #include "post/bloom.h"
 
 #include "base/error.h"
-#include "gpu/program.h"
-#include "post/bloom_spread.h"
+#include "post/bloom_cpu.h"
+#include "post/bloom_gl.h"
 
-#include <math.h>
 #include <stdlib.h>
 
-struct kiln_bloom_stage {
-    struct kiln_device *device;
-    const struct kiln_scene *scene;
-    struct kiln_image *source;
-    struct kiln_bloom_gaussian *gaussian; /* one of these two */
-    struct kiln_bloom_pyramid *pyramid;
-    GLuint bright; /* 0: the source comes with its weights */
-    GLint exposure, threshold, separate_fire, scene_alone;
-    struct kiln_framebuffer source_framebuffer; /* of the bright pass */
-    GLuint vertex_array;
+struct kiln_bloom_stage { /* one of these two */
+    struct kiln_bloom_gl *gl;
+    struct kiln_bloom_cpu *cpu;
 };
-
-/* ---- What the ways to spread share -------------------------------------------------------- */
-
-bool kiln_bloom_target_init(struct kiln_bloom_target *target, struct kiln_device *device,
-                            uint32_t width, uint32_t height, GLenum format,
-                            struct kiln_error *error)
-{
-    kiln_image_init(&target->image, device, width, height, format, "bloom");
-    struct kiln_image *image = &target->image;
-    return kiln_framebuffer_init(&target->framebuffer, device, &image, 1, error);
-}
-
-void kiln_bloom_target_finish(struct kiln_bloom_target *target)
-{
-    kiln_framebuffer_finish(&target->framebuffer);
-    kiln_image_finish(&target->image);
-}
-
-static bool bind_image(GLuint unit, struct kiln_image *image, struct kiln_error *error)
-{
-    GLuint texture = image ? kiln_image_gl(image, KILN_READ, error) : 0;
-    if (image && !texture)
-        return false;
-    glActiveTexture(GL_TEXTURE0 + unit);
-    glBindTexture(GL_TEXTURE_2D, texture);
-    return true;
-}
-
-bool kiln_bloom_pass(const struct kiln_framebuffer *target, struct kiln_image *first,
-                     struct kiln_image *second, GLuint vertex_array, struct kiln_error *error)
-{
-    if (!bind_image(0, first, error) || !bind_image(1, second, error) ||
-        !kiln_framebuffer_bind(target, error))
-        return false;
-    kiln_framebuffer_fill(vertex_array);
-    return true;
-}
-
-GLuint kiln_bloom_program(struct kiln_device *device, const char *fragment,
-                          struct kiln_error *error)
-{
-    return kiln_program_create(
-        device,
-        &(struct kiln_program_params){.vertex = "draw/fullscreen.vert", .fragment = fragment},
-        error);
-}
-
-/* ---- The stage ---------------------------------------------------------------------------- */
-
-static bool init_bright(struct kiln_bloom_stage *stage, struct kiln_error *error)
-{
-    stage->bright = kiln_bloom_program(stage->device, "post/bloom_bright.frag", error);
-    if (!stage->bright)
-        return false;
-    stage->exposure = glGetUniformLocation(stage->bright, "exposure");
-    stage->threshold = glGetUniformLocation(stage->bright, "threshold");
-    stage->scene_alone = glGetUniformLocation(stage->bright, "scene_alone");
-    stage->separate_fire = glGetUniformLocation(stage->bright, "separate_fire");
-    return kiln_framebuffer_init(&stage->source_framebuffer, stage->device, &stage->source, 1,
-                                 error);
-}
-
-static bool init_spread(struct kiln_bloom_stage *stage, GLenum format, struct kiln_error *error)
-{
-    uint32_t width = stage->source->width, height = stage->source->height;
-    if (stage->scene->post.bloom == KILN_BLOOM_PYRAMID)
-        stage->pyramid = kiln_bloom_pyramid_create(stage->device, width, height, format, error);
-    else
-        stage->gaussian = kiln_bloom_gaussian_create(stage->device, width, height, format, error);
-    return stage->pyramid || stage->gaussian;
-}
 
 struct kiln_bloom_stage *kiln_bloom_create(struct kiln_device *device,
                                            const struct kiln_scene *scene,
-                                           struct kiln_image *source, GLenum format,
+                                           const struct kiln_bloom_params *params,
                                            struct kiln_error *error)
 {
     struct kiln_bloom_stage *stage = calloc(1, sizeof *stage);
@@ -101,64 +22,29 @@ struct kiln_bloom_stage *kiln_bloom_create(struct kiln_device *device,
         kiln_error_set(error, KILN_DEVICE_FAILED, "bloom: out of memory");
         return NULL;
     }
-    *stage = (struct kiln_bloom_stage){.device = device, .scene = scene, .source = source};
-    bool bright = scene->post.bloom_source == KILN_BLOOM_BRIGHT;
-    if (!init_spread(stage, format, error) || (bright && !init_bright(stage, error))) {
+    if (params->technique == KILN_BLOOM_CPU)
+        stage->cpu = kiln_bloom_cpu_create(device, scene, params, error);
+    else
+        stage->gl = kiln_bloom_gl_create(device, scene, params, error);
+    if (!stage->cpu && !stage->gl)
         kiln_bloom_destroy(&stage);
-        return NULL;
-    }
-    glGenVertexArrays(1, &stage->vertex_array);
     return stage;
 }
 
 void kiln_bloom_destroy(struct kiln_bloom_stage **stage)
 {
-    struct kiln_bloom_stage *s = *stage;
-    if (!s)
+    if (!*stage)
         return;
-    kiln_bloom_gaussian_destroy(&s->gaussian);
-    kiln_bloom_pyramid_destroy(&s->pyramid);
-    kiln_framebuffer_finish(&s->source_framebuffer);
-    glDeleteProgram(s->bright); /* 0 is ignored */
-    glDeleteVertexArrays(1, &s->vertex_array);
-    free(s);
+    kiln_bloom_gl_destroy(&(*stage)->gl);
+    kiln_bloom_cpu_destroy(&(*stage)->cpu);
+    free(*stage);
     *stage = NULL;
-}
-
-static bool pass_bright(struct kiln_bloom_stage *stage, const struct kiln_bloom_inputs *inputs,
-                        struct kiln_error *error)
-{
-    const struct kiln_post *post = &stage->scene->post;
-    float exposure = kiln_scene_value(stage->scene, &post->exposure, inputs->time_s);
-    float threshold = kiln_scene_value(stage->scene, &post->bloom_threshold, inputs->time_s);
-    glUseProgram(stage->bright);
-    glUniform1f(stage->exposure, exp2f(exposure));
-    glUniform1f(stage->threshold, threshold);
-    glUniform1i(stage->scene_alone, inputs->particles == NULL);
-    glUniform1i(stage->separate_fire, inputs->fire != NULL);
-    return bind_image(2, inputs->fire, error) &&
-           kiln_bloom_pass(&stage->source_framebuffer, inputs->scene, inputs->particles,
-                           stage->vertex_array, error);
 }
 
 struct kiln_image *kiln_bloom_run(struct kiln_bloom_stage *stage,
                                   const struct kiln_bloom_inputs *inputs, float *scale,
                                   struct kiln_error *error)
 {
-    const struct kiln_post *post = &stage->scene->post;
-    glDisable(GL_BLEND);
-    if (stage->bright && !pass_bright(stage, inputs, error))
-        return NULL;
-    struct kiln_image *result;
-    if (stage->pyramid) {
-        float radius = kiln_scene_value(stage->scene, &post->bloom_radius, inputs->time_s);
-        *scale = 1.0f / 2.0f;
-        result = kiln_bloom_pyramid_run(stage->pyramid, stage->source, radius, stage->vertex_array,
-                                        error);
-    } else {
-        *scale = 1.0f / 6.0f;
-        result =
-            kiln_bloom_gaussian_run(stage->gaussian, stage->source, stage->vertex_array, error);
-    }
-    return result && kiln_device_check(stage->device, "bloom", error) ? result : NULL;
+    return stage->cpu ? kiln_bloom_cpu_run(stage->cpu, inputs, scale, error)
+                      : kiln_bloom_gl_run(stage->gl, inputs, scale, error);
 }

@@ -3,17 +3,28 @@
 #ifndef KILN_POST_BLOOM_H
 #define KILN_POST_BLOOM_H
 
+#include "base/thread.h"
 #include "gpu/image.h"
 #include "scene/scene.h"
 
+/* Both make the same glow, to rounding. */
+enum kiln_bloom_technique { KILN_BLOOM_GL, KILN_BLOOM_CPU };
+
 struct kiln_bloom_stage;
 
-/* source: the image in which the particles leave their weighted colours, or which the bright pass
- * fills; format is that of the intermediate images. All must outlive the stage. The scene's bloom
- * must not be KILN_BLOOM_NONE. */
+struct kiln_bloom_params {
+    enum kiln_bloom_technique technique;
+    struct kiln_threads *threads; /* of `cpu` */
+    struct kiln_image *source;    /* in which the particles leave their weighted colours, or which
+                                   * the bright pass fills */
+    GLenum format;                /* of the intermediate images */
+};
+
+/* What is passed must outlive the stage; device may be NULL for `cpu`. The scene's bloom must not
+ * be KILN_BLOOM_NONE. NULL with an error. */
 struct kiln_bloom_stage *kiln_bloom_create(struct kiln_device *device,
                                            const struct kiln_scene *scene,
-                                           struct kiln_image *source, GLenum format,
+                                           const struct kiln_bloom_params *params,
                                            struct kiln_error *error);
 void kiln_bloom_destroy(struct kiln_bloom_stage **stage);
 

@@ -5,11 +5,9 @@
 #include "post/bloom_spread.h"
 
 #include "base/error.h"
+#include "post/bloom_kernels.h"
 
-#include <math.h>
 #include <stdlib.h>
-
-enum { TAPS = 6 }; /* of one side, the centre included: 11 in all */
 
 struct level {
     struct kiln_bloom_target down, across; /* shrunk and blurred down; blurred across */
@@ -36,17 +34,10 @@ static void finish_level(struct level *level)
 
 static void set_weights(GLuint program)
 {
-    const double sigma = 2.0;
-    double weights[TAPS], sum = 0.0;
-    for (int i = 0; i < TAPS; i++) {
-        weights[i] = exp(-0.5 * (double)(i * i) / (sigma * sigma));
-        sum += i == 0 ? weights[i] : 2.0 * weights[i];
-    }
-    float normalized[TAPS];
-    for (int i = 0; i < TAPS; i++)
-        normalized[i] = (float)(weights[i] / sum);
+    float weights[KILN_BLOOM_TAPS];
+    kiln_bloom_gaussian_weights(weights);
     glUseProgram(program);
-    glUniform1fv(glGetUniformLocation(program, "weights"), TAPS, normalized);
+    glUniform1fv(glGetUniformLocation(program, "weights"), KILN_BLOOM_TAPS, weights);
 }
 
 struct kiln_bloom_gaussian *kiln_bloom_gaussian_create(struct kiln_device *device, uint32_t width,

@@ -5,17 +5,16 @@
 #include "post/bloom_spread.h"
 
 #include "base/error.h"
+#include "post/bloom_kernels.h"
 
 #include <stdlib.h>
-
-enum { MAX_LEVELS = 12, LEAST_EDGE = 8 }; /* pixels of the shorter side of the last level */
 
 struct kiln_bloom_pyramid {
     GLuint halve, join;
     GLint radius;
     uint32_t levels;
-    struct kiln_bloom_target down[MAX_LEVELS]; /* a half, a quarter, ... */
-    struct kiln_bloom_target up[MAX_LEVELS];   /* of all but the last level */
+    struct kiln_bloom_target down[KILN_BLOOM_MAX_LEVELS]; /* a half, a quarter, ... */
+    struct kiln_bloom_target up[KILN_BLOOM_MAX_LEVELS];   /* of all but the last level */
 };
 
 static bool init_targets(struct kiln_bloom_pyramid *pyramid, struct kiln_device *device,
@@ -28,7 +27,8 @@ static bool init_targets(struct kiln_bloom_pyramid *pyramid, struct kiln_device 
         if (!kiln_bloom_target_init(&pyramid->down[i], device, width, height, format, error) ||
             !kiln_bloom_target_init(&pyramid->up[i], device, width, height, format, error))
             return false;
-    } while (pyramid->levels < MAX_LEVELS && width >= 2 * LEAST_EDGE && height >= 2 * LEAST_EDGE);
+    } while (pyramid->levels < KILN_BLOOM_MAX_LEVELS && width >= 2 * KILN_BLOOM_LEAST_EDGE &&
+             height >= 2 * KILN_BLOOM_LEAST_EDGE);
     return true;
 }
 

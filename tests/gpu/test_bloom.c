@@ -1,4 +1,4 @@
-/* lib/post/bloom*.c against a plain C reference. */
+/* lib/post/bloom*.c against a plain reference: each technique. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,6 +11,8 @@
 
 #include "post/bloom.h"
 #include "support/device.h"
+
+static enum kiln_bloom_technique technique = KILN_BLOOM_GL;
 
 struct plane { /* RGBA in double */
     int width, height;
@@ -77,6 +79,7 @@ static struct plane blur(struct plane from, int dx, int dy)
 struct fixture {
     struct kiln_scene *scene;
     struct kiln_image source;
+    struct kiln_threads *threads;
     struct kiln_bloom_stage *stage;
 };
 
@@ -99,7 +102,10 @@ static float *fixture_init(struct fixture *f, struct kiln_device *device, const 
     struct kiln_error error = {0};
     f->scene = parse(post);
     kiln_image_init(&f->source, device, (uint32_t)width, (uint32_t)height, format, "source");
-    f->stage = kiln_bloom_create(device, f->scene, &f->source, format, &error);
+    f->threads = kiln_threads_create(3);
+    assert_non_null(f->threads);
+    const struct kiln_bloom_params params = {technique, f->threads, &f->source, format};
+    f->stage = kiln_bloom_create(device, f->scene, &params, &error);
     assert_non_null(f->stage);
     float *pixels = kiln_image_host(&f->source, KILN_OVERWRITE, &error);
     assert_non_null(pixels);
@@ -109,6 +115,7 @@ static float *fixture_init(struct fixture *f, struct kiln_device *device, const 
 static void fixture_finish(struct fixture *f)
 {
     kiln_bloom_destroy(&f->stage);
+    kiln_threads_destroy(&f->threads);
     kiln_image_finish(&f->source);
     kiln_scene_destroy(&f->scene);
 }
@@ -345,5 +352,7 @@ int main(void)
         test_on_device(bloom_keeps_the_light),
         test_on_device(infinity_does_not_spread),
     };
-    return cmocka_run_group_tests_name("bloom", tests, test_device_open, test_device_close);
+    int failed = cmocka_run_group_tests_name("gl", tests, test_device_open, test_device_close);
+    technique = KILN_BLOOM_CPU;
+    return failed + cmocka_run_group_tests_name("cpu", tests, test_device_open, test_device_close);
 }

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "post/bloom.h"
 #include "post/composite.h"
 #include "support/device.h"
 
@@ -194,11 +195,87 @@ static void composites_of_any_size_are_alike(void **state)
     }
 }
 
+/* ---- bloom ----------------------------------------------------------------------------------- */
+
+/* The glow, and what glows, copied; *count floats of the glow. */
+static float *glow(void *device, const struct kiln_scene *scene,
+                   enum kiln_bloom_technique technique, uint32_t threads, struct inputs *in,
+                   size_t *count)
+{
+    struct kiln_error error = {0};
+    struct kiln_threads *workers = kiln_threads_create(threads);
+    struct kiln_image source;
+    size_t pixels = (size_t)scene->width * scene->height * 4;
+    kiln_image_init(&source, device, scene->width, scene->height, GL_RGBA32F, "source");
+    float *to = kiln_image_host(&source, KILN_OVERWRITE, &error);
+    memcpy(to, kiln_image_host(&in->fire, KILN_READ, &error), pixels * sizeof *to);
+    const struct kiln_bloom_params params = {technique, workers, &source, GL_RGBA32F};
+    struct kiln_bloom_stage *stage = kiln_bloom_create(device, scene, &params, &error);
+    assert_non_null(stage);
+    const struct kiln_bloom_inputs inputs = {in->all.scene, in->all.particles, in->all.fire, 0};
+    float scale = 0.0f;
+    struct kiln_image *result = kiln_bloom_run(stage, &inputs, &scale, &error);
+    assert_non_null(result);
+    size_t small = (size_t)result->width * result->height * 4;
+    *count = small + pixels;
+    float *out = malloc(*count * sizeof *out);
+    memcpy(out, kiln_image_host(result, KILN_READ, &error), small * sizeof *out);
+    memcpy(out + small, kiln_image_host(&source, KILN_READ, &error), pixels * sizeof *out);
+    kiln_bloom_destroy(&stage);
+    kiln_image_finish(&source);
+    kiln_threads_destroy(&workers);
+    return out;
+}
+
+static void check_bloom(void *device, const char *post, const struct variant *v)
+{
+    struct kiln_scene *scene = parse(post, v->width, v->height);
+    struct inputs in;
+    inputs_init(&in, device, v);
+    size_t count = 0;
+    float *gl = glow(device, scene, KILN_BLOOM_GL, 1, &in, &count);
+    float *one = glow(device, scene, KILN_BLOOM_CPU, 1, &in, &count);
+    float *three = glow(device, scene, KILN_BLOOM_CPU, 3, &in, &count);
+    assert_memory_equal(one, three, count * sizeof *one);
+    for (size_t i = 0; i < count; i++)
+        assert_true(fabs((double)(gl[i] - one[i])) <= 1e-5 * fmax(0.1, fabs((double)gl[i])));
+    free(gl);
+    free(one);
+    free(three);
+    inputs_finish(&in);
+    kiln_scene_destroy(&scene);
+}
+
+static void blooms_are_alike(void **state)
+{
+    static const char *const posts[] = {
+        "bloom: {kind: gaussian}",
+        "bloom: {kind: gaussian, source: bright, threshold: 0.8}, exposure: 1.5",
+        "bloom: {kind: pyramid, radius: 0.7}",
+        "bloom: {kind: pyramid, source: bright, threshold: 2}",
+    };
+    static const uint32_t sizes[][2] = {{1, 1}, {3, 5}, {301, 173}, {2, 64}, {96, 48}};
+    srand(5);
+    for (size_t k = 0; k < sizeof posts / sizeof *posts; k++) {
+        for (uint32_t s = 0; s < 2 * sizeof sizes / sizeof *sizes; s++) {
+            const struct variant v = {
+                .width = sizes[s / 2][0],
+                .height = sizes[s / 2][1],
+                .particles = true,
+                .fire = s % 2 != 0,
+                .bloom_scale = 0.5f,
+            };
+            check_bloom(*state, posts[k], &v);
+        }
+    }
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
         test_on_device(composites_are_alike),
         test_on_device(composites_of_any_size_are_alike),
+        test_on_device(blooms_are_alike),
     };
     return cmocka_run_group_tests_name("post", tests, test_device_open, test_device_close);
 }

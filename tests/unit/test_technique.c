@@ -25,11 +25,11 @@ static void defaults_follow_the_device(void **state)
     char text[256];
     struct kiln_error error = {0};
     assert_true(choose(true, true, NULL, text, &error));
-    assert_string_equal(text, "simulate=cpu sort=cpu raster=cpu composite=cpu");
+    assert_string_equal(text, "simulate=cpu sort=cpu raster=cpu bloom=cpu composite=cpu");
     assert_true(choose(false, true, NULL, text, &error));
-    assert_string_equal(text, "simulate=inplace sort=cpu raster=geometry composite=gl");
+    assert_string_equal(text, "simulate=inplace sort=cpu raster=geometry bloom=gl composite=gl");
     assert_true(choose(false, false, NULL, text, &error));
-    assert_string_equal(text, "simulate=cpu sort=cpu raster=geometry composite=gl");
+    assert_string_equal(text, "simulate=cpu sort=cpu raster=geometry bloom=gl composite=gl");
 }
 
 static void auto_is_the_default(void **state)
@@ -51,21 +51,23 @@ static void flags_force_a_technique(void **state)
     char text[256];
     struct kiln_error error = {0};
     assert_true(choose(true, true, "simulate=inplace", text, &error));
-    assert_string_equal(text, "simulate=inplace sort=cpu raster=cpu composite=cpu");
+    assert_string_equal(text, "simulate=inplace sort=cpu raster=cpu bloom=cpu composite=cpu");
     assert_true(choose(true, true, "raster=geometry", text, &error));
-    assert_string_equal(text, "simulate=cpu sort=cpu raster=geometry composite=cpu");
+    assert_string_equal(text, "simulate=cpu sort=cpu raster=geometry bloom=cpu composite=cpu");
 
     assert_true(choose(true, true, "sort=radix", text, &error));
-    assert_string_equal(text, "simulate=cpu sort=radix raster=cpu");
+    assert_string_equal(text, "simulate=cpu sort=radix raster=cpu bloom=cpu composite=cpu");
     assert_true(choose(false, true, "sort=bitonic", text, &error));
-    assert_string_equal(text, "simulate=inplace sort=bitonic raster=geometry");
+    assert_string_equal(text,
+                        "simulate=inplace sort=bitonic raster=geometry bloom=gl composite=gl");
 
     assert_false(choose(true, true, "simulate", text, &error));
     assert_int_equal(error.code, KILN_USAGE);
     assert_string_equal(error.message, "technique 'simulate': expected stage=name");
     assert_false(choose(true, true, "simulat=cpu", text, &error));
-    assert_string_equal(error.message, "technique: stage 'simulat' is not known (did you mean "
-                                       "'simulate'?); there is: simulate, sort, raster, composite");
+    assert_string_equal(error.message,
+                        "technique: stage 'simulat' is not known (did you mean "
+                        "'simulate'?); there is: simulate, sort, raster, bloom, composite");
     assert_false(choose(true, true, "sort=gpu", text, &error));
     assert_int_equal(error.code, KILN_USAGE);
     assert_string_equal(error.message, "technique: sort 'gpu' is not known (did you mean 'cpu'?); "
@@ -109,11 +111,11 @@ static void combinations_start_with_the_pinned_one(void **state)
             assert_string_not_equal(seen[i], seen[count]);
         assert_true(count < 127);
     }
-    assert_true(count >= 24);
-    assert_string_equal(seen[0], "simulate=cpu sort=cpu raster=cpu");
-    assert_string_equal(seen[1], "simulate=inplace sort=cpu raster=cpu");
-    assert_string_equal(seen[4], "simulate=cpu sort=radix raster=cpu");
-    assert_string_equal(seen[12], "simulate=cpu sort=cpu raster=geometry");
+    assert_true(count >= 96);
+    assert_string_equal(seen[0], "simulate=cpu sort=cpu raster=cpu bloom=cpu composite=cpu");
+    assert_string_equal(seen[1], "simulate=inplace sort=cpu raster=cpu bloom=cpu composite=cpu");
+    assert_string_equal(seen[4], "simulate=cpu sort=radix raster=cpu bloom=cpu composite=cpu");
+    assert_string_equal(seen[12], "simulate=cpu sort=cpu raster=geometry bloom=cpu composite=cpu");
 }
 
 int main(void)

@@ -29,6 +29,8 @@ $ kiln complete -- render --technique sort=cpu,
 1|word	sort=cpu,sort=bitonic	bitonic merge sort, compute, padded to a power of two
 1|word	sort=cpu,raster=cpu	host threads, tiles and vectors; the default on software devices
 1|word	sort=cpu,raster=geometry	points turned into billboards by a geometry shader; the default on GPUs
+1|word	sort=cpu,bloom=cpu	host threads, rows; the default on software devices
+1|word	sort=cpu,bloom=gl	fragment shaders; the default on GPUs
 1|word	sort=cpu,composite=cpu	host threads, rows; the default on software devices
 1|word	sort=cpu,composite=gl	one fragment shader; the default on GPUs
 $ kiln complete -- compare --limit ss

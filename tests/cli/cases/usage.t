@@ -302,6 +302,8 @@ $ kiln help techniques
 1|  sort=bitonic       bitonic merge sort, compute, padded to a power of two
 1|  raster=cpu         host threads, tiles and vectors; the default on software devices
 1|  raster=geometry    points turned into billboards by a geometry shader; the default on GPUs
+1|  bloom=cpu          host threads, rows; the default on software devices
+1|  bloom=gl           fragment shaders; the default on GPUs
 1|  composite=cpu      host threads, rows; the default on software devices
 1|  composite=gl       one fragment shader; the default on GPUs
 $ kiln help outputs
