@@ -158,9 +158,10 @@ static size_t list_rows(enum stage stage, const struct row *rows[ROW_COUNT])
     return count;
 }
 
+/* The stages at the end of a frame vary fastest: their techniques are those whose pixels differ. */
 bool kiln_techniques_combination(size_t index, struct kiln_technique_list *list)
 {
-    for (int stage = 0; stage < STAGE_COUNT; stage++) {
+    for (int stage = STAGE_COUNT; stage-- > 0;) {
         const struct row *rows[ROW_COUNT];
         size_t count = list_rows((enum stage)stage, rows);
         snprintf(list->flags[stage], sizeof list->flags[stage], "%s=%s", STAGE_NAMES[stage],

@@ -113,9 +113,11 @@ static void combinations_start_with_the_pinned_one(void **state)
     }
     assert_true(count >= 96);
     assert_string_equal(seen[0], "simulate=cpu sort=cpu raster=cpu bloom=cpu composite=cpu");
-    assert_string_equal(seen[1], "simulate=inplace sort=cpu raster=cpu bloom=cpu composite=cpu");
-    assert_string_equal(seen[4], "simulate=cpu sort=radix raster=cpu bloom=cpu composite=cpu");
-    assert_string_equal(seen[12], "simulate=cpu sort=cpu raster=geometry bloom=cpu composite=cpu");
+    assert_string_equal(seen[1], "simulate=cpu sort=cpu raster=cpu bloom=cpu composite=gl");
+    assert_string_equal(seen[2], "simulate=cpu sort=cpu raster=cpu bloom=gl composite=cpu");
+    assert_string_equal(seen[4], "simulate=cpu sort=cpu raster=geometry bloom=cpu composite=cpu");
+    assert_string_equal(seen[8], "simulate=cpu sort=radix raster=cpu bloom=cpu composite=cpu");
+    assert_string_equal(seen[24], "simulate=inplace sort=cpu raster=cpu bloom=cpu composite=cpu");
 }
 
 int main(void)
