@@ -341,7 +341,7 @@ $ kiln test fire slow -j1 -o out/crash --no-report & run=$!
 
 A signal to the run ends its tests, and leaves neither processes nor half-written files.
 
-$ env --default-signal kiln test slow fire -j2 -o out/stop & run=$!
+$ env --default-signal kiln test slow fire -j2 -o out/stop >/dev/null & run=$! # may end before
 > child=$(bash child stop $run); kill -TERM $run; wait $run; code=$?
 > for id in $child; do [ ! -d /proc/$id ] || echo "$id is left"; done
 > find out/stop -name '*.tmp'; exit $code
