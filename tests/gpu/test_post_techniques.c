@@ -12,16 +12,13 @@
 #include "post/bloom.h"
 #include "post/composite.h"
 #include "support/device.h"
+#include "support/scenes.h"
 
 static struct kiln_scene *parse(const char *post, uint32_t width, uint32_t height)
 {
     char text[512];
-    int length = snprintf(text, sizeof text, "kiln: 1\npost: {%s}\n", post);
-    struct kiln_error error = {0};
-    struct kiln_scene *scene =
-        kiln_scene_parse(text, (size_t)length, "test", &KILN_SCENE_DEFAULTS, &error);
-    if (!scene)
-        fail_msg("%s", error.message);
+    snprintf(text, sizeof text, "kiln: 1\npost: {%s}\n", post);
+    struct kiln_scene *scene = load_scene(text, NULL);
     scene->width = width;
     scene->height = height;
     return scene;
