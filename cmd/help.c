@@ -24,8 +24,8 @@ const struct exit_code exit_codes[] = {
 
 const struct variable variables[] = {
     {"KILN_SIMD",
-     "Vectors of raster=cpu: plain, sse4.1, avx2 or avx512, as the machine has them; the "
-     "pixels are the same."},
+     "Vectors of the techniques 'cpu': plain, sse4.1, avx2 or avx512, as the machine has them; "
+     "the pixels are the same."},
     {"KILN_SHADER_DIR", "Read shaders from this folder instead of those in the program."},
     {"LP_NUM_THREADS",
      "Threads of Mesa's software device. 'kiln test' sets it where it is not set, "

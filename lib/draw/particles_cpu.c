@@ -30,18 +30,6 @@ static bool out_of_memory(struct kiln_error *error)
     return kiln_error_set(error, KILN_DEVICE_FAILED, "particles: out of memory");
 }
 
-/* The machine's widest vectors, or those that the environment names: for tests, and for measuring
- * what a lesser machine would take. */
-static kiln_tile_draw *choose_drawing(struct kiln_error *error)
-{
-    const char *name = getenv("KILN_SIMD"); /* NOLINT(concurrency-mt-unsafe): only read */
-    kiln_tile_draw *draw = kiln_tile_drawing(name);
-    if (!draw)
-        kiln_error_set(error, KILN_USAGE, "KILN_SIMD is '%s'; this machine has: %s", name,
-                       kiln_tile_drawings());
-    return draw;
-}
-
 struct kiln_tiles *kiln_tiles_create(const struct kiln_scene *scene, const struct kiln_atlas *atlas,
                                      struct kiln_threads *threads, struct kiln_error *error)
 {
@@ -52,11 +40,12 @@ struct kiln_tiles *kiln_tiles_create(const struct kiln_scene *scene, const struc
     }
     tiles->scene = scene;
     tiles->threads = threads;
-    tiles->draw = choose_drawing(error);
-    if (!tiles->draw) {
+    enum kiln_simd simd;
+    if (!kiln_simd_choose(&simd, error)) {
         kiln_tiles_destroy(&tiles);
         return NULL;
     }
+    tiles->draw = KILN_SIMD_PICK(kiln_tile_draw, simd);
     kiln_looks_fill(scene, atlas, tiles->looks);
     tiles->table = calloc((size_t)KILN_LOOK_TEXELS, sizeof *tiles->table);
     tiles->tiles = aligned_alloc(64, kiln_threads_count(threads) * sizeof *tiles->tiles);

@@ -3,6 +3,7 @@
 #ifndef KILN_DRAW_TILE_H
 #define KILN_DRAW_TILE_H
 
+#include "base/simd.h"
 #include "draw/sprite.h"
 
 enum {
@@ -36,16 +37,6 @@ struct kiln_tile {
 typedef void kiln_tile_draw(struct kiln_tile *tile, const struct kiln_sprite *sprites,
                             const struct kiln_cells *cells, const uint32_t *list, size_t count);
 
-kiln_tile_draw kiln_tile_draw_plain;
-#ifdef __x86_64__
-kiln_tile_draw kiln_tile_draw_sse41, kiln_tile_draw_avx2, kiln_tile_draw_avx512;
-#endif
-
-/* The code for vectors of a name ("plain", "sse4.1", "avx2", "avx512"), or NULL when this machine
- * does not have them; for NULL, the widest ones that it has. */
-kiln_tile_draw *kiln_tile_drawing(const char *name);
-
-/* The names that this machine has, narrowest first, joined by commas. */
-const char *kiln_tile_drawings(void);
+KILN_SIMD_DECLARE(kiln_tile_draw, kiln_tile_draw);
 
 #endif

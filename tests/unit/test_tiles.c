@@ -190,14 +190,13 @@ static void every_width_and_thread_count_gives_the_same_bytes(void **state)
     }
     assert_true(light > 0.2 * PIXELS && alpha > 0.1 * PIXELS); /* there is something to see */
 
-    static const char *const widths[] = {"plain", "sse4.1", "avx2", "avx512"};
-    for (size_t i = 0; i < sizeof widths / sizeof *widths; i++) {
-        if (!kiln_tile_drawing(widths[i])) {
-            print_message("no %s here\n", widths[i]);
+    for (enum kiln_simd simd = 0; simd < KILN_SIMD_COUNT; simd++) {
+        if (!kiln_simd_has(simd)) {
+            print_message("no %s here\n", kiln_simd_name(simd));
             continue;
         }
         for (uint32_t threads = 1; threads <= 5; threads += 2) {
-            draw(f, widths[i], threads, COUNT, false, false);
+            draw(f, kiln_simd_name(simd), threads, COUNT, false, false);
             assert_memory_equal(color, f->color.host, bytes);
             assert_memory_equal(bloom, f->bloom.host, bytes);
         }

@@ -1,0 +1,58 @@
+/* What the processor says of itself. */
+#include "base/simd.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/text.h"
+
+const char *kiln_simd_name(enum kiln_simd simd)
+{
+    static const char *const names[KILN_SIMD_COUNT] = {[KILN_SIMD_PLAIN] = "plain",
+                                                       [KILN_SIMD_SSE41] = "sse4.1",
+                                                       [KILN_SIMD_AVX2] = "avx2",
+                                                       [KILN_SIMD_AVX512] = "avx512"};
+    return names[simd];
+}
+
+bool kiln_simd_has(enum kiln_simd simd)
+{
+#ifdef __x86_64__
+    switch (simd) {
+    case KILN_SIMD_SSE41:
+        return __builtin_cpu_supports("sse4.1");
+    case KILN_SIMD_AVX2:
+        return __builtin_cpu_supports("avx2");
+    case KILN_SIMD_AVX512:
+        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+               __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+    default:
+        return simd == KILN_SIMD_PLAIN;
+    }
+#else
+    return simd == KILN_SIMD_PLAIN;
+#endif
+}
+
+bool kiln_simd_choose(enum kiln_simd *simd, struct kiln_error *error)
+{
+    const char *wanted = getenv("KILN_SIMD"); /* NOLINT(concurrency-mt-unsafe): only read */
+    struct kiln_text names = {0};
+    bool found = false;
+    for (int i = 0; i < KILN_SIMD_COUNT; i++) {
+        const char *name = kiln_simd_name((enum kiln_simd)i);
+        if (!kiln_simd_has((enum kiln_simd)i))
+            continue;
+        kiln_text_add(&names, "%s%s", i ? ", " : "", name);
+        if (!wanted || strcmp(name, wanted) == 0) {
+            *simd = (enum kiln_simd)i;
+            found = true;
+        }
+    }
+    if (!found)
+        kiln_error_set(error, KILN_USAGE, "KILN_SIMD is '%s'; this machine has: %s", wanted,
+                       names.data ? names.data : "");
+    kiln_text_free(&names);
+    return found;
+}

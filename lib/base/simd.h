@@ -1,0 +1,72 @@
+/* Code for wide vectors, and which of it this process runs.
+ *
+ * A file lib/ROOM/NAME_simd.c is compiled once for each level that the processor's kind may have
+ * (CMakeLists.txt), with KILN_SIMD_LEVEL as a number for the preprocessor. It exports one thing, a
+ * table of functions or a function, named by KILN_SIMD_NAME:
+ *
+ *     rows.h:       struct rows { void (*blur)(...); void (*shrink)(...); };
+ *                   KILN_SIMD_DECLARE(const struct rows, kiln_rows);
+ *     rows_simd.c:  const struct rows KILN_SIMD_NAME(kiln_rows) = {.blur = blur, ...};
+ *     stage.c:      enum kiln_simd simd;
+ *                   if (!kiln_simd_choose(&simd, error))
+ *                       return NULL;
+ *                   stage->rows = KILN_SIMD_PICK(kiln_rows, simd);
+ *
+ * All levels must give the same bits: nothing is contracted or reordered, so plain loops do, and
+ * what is written for one level rounds as the others do. All other functions of such a file, and
+ * those of headers that it includes, are static: of two copies of an inline one the linker would
+ * take either, and that may hold instructions which the machine lacks.
+ */
+#ifndef KILN_BASE_SIMD_H
+#define KILN_BASE_SIMD_H
+
+#include "kiln.h"
+
+/* Narrowest first; each has what those before it have. */
+enum kiln_simd {
+    KILN_SIMD_PLAIN,  /* any machine of the kind: SSE2 on x86-64 */
+    KILN_SIMD_SSE41,  /* SSE4.1 */
+    KILN_SIMD_AVX2,   /* AVX2 */
+    KILN_SIMD_AVX512, /* AVX-512 F, BW, DQ and VL */
+    KILN_SIMD_COUNT
+};
+
+/* What the file at hand is compiled for. */
+#ifndef KILN_SIMD_LEVEL
+#define KILN_SIMD_LEVEL 0
+#endif
+#if KILN_SIMD_LEVEL == 0
+#define KILN_SIMD_NAME(name) name##_plain
+#elif KILN_SIMD_LEVEL == 1
+#define KILN_SIMD_NAME(name) name##_sse41
+#elif KILN_SIMD_LEVEL == 2
+#define KILN_SIMD_NAME(name) name##_avx2
+#else
+#define KILN_SIMD_NAME(name) name##_avx512
+#endif
+
+/* Declares what is exported, and takes the address of a level's. */
+#ifdef __x86_64__
+#define KILN_SIMD_DECLARE(type, name)                                                              \
+    extern type name##_plain, name##_sse41, name##_avx2, name##_avx512
+#define KILN_SIMD_PICK(name, simd)                                                                 \
+    ((simd) == KILN_SIMD_AVX512  ? &name##_avx512                                                  \
+     : (simd) == KILN_SIMD_AVX2  ? &name##_avx2                                                    \
+     : (simd) == KILN_SIMD_SSE41 ? &name##_sse41                                                   \
+                                 : &name##_plain)
+#else
+#define KILN_SIMD_DECLARE(type, name) extern type name##_plain
+#define KILN_SIMD_PICK(name, simd)    ((void)(simd), &name##_plain)
+#endif
+
+/* "plain", "sse4.1", "avx2", "avx512". */
+const char *kiln_simd_name(enum kiln_simd simd);
+
+/* Whether this machine and this build have it. */
+bool kiln_simd_has(enum kiln_simd simd);
+
+/* The widest that there is, or the one that the environment names by KILN_SIMD: for tests, and for
+ * measuring what a lesser machine would take. KILN_USAGE for another name. */
+bool kiln_simd_choose(enum kiln_simd *simd, struct kiln_error *error);
+
+#endif

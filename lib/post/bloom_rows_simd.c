@@ -1,0 +1,178 @@
+/* What the shaders of post/bloom_*.frag do, row by row. Where a filter has two directions, a row is
+ * first put together from several, then filtered along itself.
+ */
+#include "post/bloom_rows.h"
+
+static const float HALF_MAX = 65504.0f; /* what an overflow of 16 bits counts as */
+
+static inline kiln_quad limited(kiln_quad light)
+{
+    typedef int32_t mask __attribute__((vector_size(16)));
+    const kiln_quad most = {HALF_MAX, HALF_MAX, HALF_MAX, HALF_MAX};
+    mask below = light < most;
+    return (kiln_quad)(((mask)light & below) | ((mask)most & ~below));
+}
+
+/* A row of a picture, the nearest one beyond its edges. */
+static inline const float *row_at(const struct kiln_bloom_view *view, int64_t y)
+{
+    int64_t last = (int64_t)view->height - 1;
+    y = y < 0 ? 0 : y > last ? last : y;
+    return view->pixels + (size_t)y * view->width * 4;
+}
+
+/* Room for a row of the thread; its pixel 0. */
+static inline kiln_quad *own_row(const struct kiln_bloom_pass *p, uint32_t worker)
+{
+    return p->rows + worker * p->row_length + KILN_BLOOM_EDGE;
+}
+
+static inline void extend(kiln_quad *row, size_t width)
+{
+    for (size_t k = 1; k <= KILN_BLOOM_EDGE; k++) {
+        *(row - k) = row[0];
+        row[width - 1 + k] = row[width - 1];
+    }
+}
+
+static inline void shrink_row(const struct kiln_bloom_pass *p, size_t y, uint32_t worker)
+{
+    kiln_quad *row = own_row(p, worker);
+    const size_t factor = p->factor, last = p->from.width - 1;
+    const float share = (float)(factor * factor);
+    for (size_t x = 0; x < p->to_width; x++) {
+        kiln_quad sum = {0};
+        for (size_t dy = 0; dy < factor; dy++) {
+            const float *from = row_at(&p->from, (int64_t)(y * factor + dy));
+            for (size_t dx = 0; dx < factor; dx++) {
+                size_t at = x * factor + dx;
+                sum += limited(kiln_quad_load(from + 4 * (at < last ? at : last)));
+            }
+        }
+        row[x] = sum / share;
+    }
+    extend(row, p->to_width);
+    const float *weights = p->weights;
+    float *to = p->to + y * p->to_width * 4;
+    for (size_t x = 0; x < p->to_width; x++) {
+        const kiln_quad *here = row + x;
+        kiln_quad sum = here[0] * weights[0];
+        for (int i = 1; i < KILN_BLOOM_TAPS; i++)
+            sum += (here[i] + here[-i]) * weights[i];
+        kiln_quad_store(to + 4 * x, sum);
+    }
+}
+
+static inline void blur_row(const struct kiln_bloom_pass *p, size_t y)
+{
+    const float *rows[2 * KILN_BLOOM_TAPS - 1];
+    for (int i = 0; i < 2 * KILN_BLOOM_TAPS - 1; i++)
+        rows[i] = row_at(&p->from, (int64_t)y + i - (KILN_BLOOM_TAPS - 1));
+    const float *weights = p->weights;
+    const int middle = KILN_BLOOM_TAPS - 1;
+    float *to = p->to + y * p->to_width * 4;
+    for (size_t x = 0; x < 4 * (size_t)p->to_width; x += 4) {
+        kiln_quad sum = kiln_quad_load(rows[middle] + x) * weights[0];
+        for (int i = 1; i < KILN_BLOOM_TAPS; i++)
+            sum += (kiln_quad_load(rows[middle + i] + x) + kiln_quad_load(rows[middle - i] + x)) *
+                   weights[i];
+        kiln_quad_store(to + x, sum);
+    }
+}
+
+static inline void halve_row(const struct kiln_bloom_pass *p, size_t y, uint32_t worker)
+{
+    const float *rows[4];
+    for (int i = 0; i < 4; i++)
+        rows[i] = row_at(&p->from, 2 * (int64_t)y - 1 + i);
+    kiln_quad *row = own_row(p, worker);
+    for (size_t x = 0; x < p->from.width; x++) {
+        kiln_quad outer =
+            limited(kiln_quad_load(rows[0] + 4 * x)) + limited(kiln_quad_load(rows[3] + 4 * x));
+        kiln_quad inner =
+            limited(kiln_quad_load(rows[1] + 4 * x)) + limited(kiln_quad_load(rows[2] + 4 * x));
+        row[x] = outer * 0.125f + inner * 0.375f;
+    }
+    extend(row, p->from.width);
+    float *to = p->to + y * p->to_width * 4;
+    for (size_t x = 0; x < p->to_width; x++) {
+        const kiln_quad *here = row + 2 * x;
+        kiln_quad_store(to + 4 * x, (here[-1] + here[2]) * 0.125f + (here[0] + here[1]) * 0.375f);
+    }
+}
+
+static inline void join_row(const struct kiln_bloom_pass *p, size_t y, uint32_t worker)
+{
+    static const float weights[2][3] = {{0.28125f, 0.6875f, 0.03125f},
+                                        {0.03125f, 0.6875f, 0.28125f}};
+    const float *w = weights[y & 1], *rows[3];
+    for (int i = 0; i < 3; i++)
+        rows[i] = row_at(&p->from, (int64_t)(y / 2) - 1 + i);
+    kiln_quad *row = own_row(p, worker);
+    for (size_t x = 0; x < p->from.width; x++)
+        row[x] = kiln_quad_load(rows[0] + 4 * x) * w[0] + kiln_quad_load(rows[1] + 4 * x) * w[1] +
+                 kiln_quad_load(rows[2] + 4 * x) * w[2];
+    extend(row, p->from.width);
+    const float *level = row_at(&p->level, (int64_t)y);
+    float *to = p->to + y * p->to_width * 4;
+    for (size_t x = 0; x < p->to_width; x++) {
+        const kiln_quad *here = row + x / 2;
+        w = weights[x & 1];
+        kiln_quad sum = here[-1] * w[0] + here[0] * w[1] + here[1] * w[2];
+        kiln_quad_store(to + 4 * x,
+                        kiln_quad_load(level + 4 * x) * (1.0f - p->radius) + sum * p->radius);
+    }
+}
+
+static inline void bright_row(const struct kiln_bloom_pass *p, size_t y)
+{
+    for (size_t x = 0; x < p->to_width; x++) {
+        size_t at = 4 * (y * p->to_width + x);
+        kiln_quad color = limited(kiln_compose(&p->light, at));
+        float strongest = exact_max(exact_max(color[0], color[1]), color[2]) * p->exposure;
+        float beyond = exact_max(strongest - p->threshold, 0.0f) / exact_max(strongest, 1e-6f);
+        color *= beyond;
+        color[3] = 0.0f;
+        kiln_quad_store(p->to + at, color);
+    }
+}
+
+static void shrink_rows(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    for (size_t y = begin; y < end; y++)
+        shrink_row(context, y, worker);
+}
+
+static void blur_rows(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    for (size_t y = begin; y < end; y++)
+        blur_row(context, y);
+}
+
+static void halve_rows(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    for (size_t y = begin; y < end; y++)
+        halve_row(context, y, worker);
+}
+
+static void join_rows(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    for (size_t y = begin; y < end; y++)
+        join_row(context, y, worker);
+}
+
+static void bright_rows(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    for (size_t y = begin; y < end; y++)
+        bright_row(context, y);
+}
+
+const struct kiln_bloom_rows KILN_SIMD_NAME(kiln_bloom_rows) = {
+    .bright = bright_rows,
+    .shrink = shrink_rows,
+    .blur = blur_rows,
+    .halve = halve_rows,
+    .join = join_rows,
+};
