@@ -210,18 +210,27 @@ struct particle_pass {
     bool sum_alpha, fire_covers;
 };
 
+/* Where blending does not ask for an order, none is made. */
+static enum kiln_sort_order order_of(const struct kiln_stages *s, bool by_depth)
+{
+    if (!by_depth)
+        return KILN_SORT_BY_SERIAL;
+    return kiln_particles_nearest_first(s->particles) ? KILN_SORT_FRONT_TO_BACK
+                                                      : KILN_SORT_BACK_TO_FRONT;
+}
+
 static bool sort_particles(struct kiln_stages *s, struct kiln_pool *pool,
                            const struct kiln_view *view, uint32_t systems, bool by_depth,
                            uint32_t *count, struct kiln_error *error)
 {
-    const struct kiln_sort_params order = {
+    const struct kiln_sort_params params = {
         .eye = {view->eye.x, view->eye.y, view->eye.z},
         .forward = kiln_view_forward(view),
         .systems = systems,
-        .by_depth = by_depth,
+        .order = order_of(s, by_depth),
     };
     kiln_timer_begin(s->timer, KILN_PASS_sort);
-    bool ok = kiln_sort_run(s->sort, pool, &order, &s->entries, count, error);
+    bool ok = kiln_sort_run(s->sort, pool, &params, &s->entries, count, error);
     kiln_timer_end(s->timer);
     return ok;
 }

@@ -44,6 +44,16 @@ void kiln_particles_destroy(struct kiln_particles_stage **stage)
     *stage = NULL;
 }
 
+bool kiln_particles_nearest_first(const struct kiln_particles_stage *stage)
+{
+    switch (stage->technique) {
+    case KILN_RASTER_GEOMETRY:
+    case KILN_RASTER_CPU:
+        break;
+    }
+    return false;
+}
+
 bool kiln_particles_bind(struct kiln_particles_stage *stage, struct kiln_pool *pool,
                          struct kiln_buffer *entries, float time_s, struct kiln_error *error)
 {

@@ -21,6 +21,10 @@ kiln_particles_create(struct kiln_device *device, const struct kiln_scene *scene
                       struct kiln_threads *threads, struct kiln_error *error);
 void kiln_particles_destroy(struct kiln_particles_stage **stage);
 
+/* Does the technique take sorted particles from the nearest to the farthest? Else it takes them the
+ * other way round. */
+bool kiln_particles_nearest_first(const struct kiln_particles_stage *stage);
+
 struct kiln_particles_draw {
     struct kiln_pool *pool;
     struct kiln_buffer *entries; /* draw entries in drawing order */

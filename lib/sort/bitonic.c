@@ -123,8 +123,8 @@ static void sort_padded(struct kiln_bitonic *bitonic, uint32_t padded)
 }
 
 bool kiln_bitonic_pairs(struct kiln_bitonic *bitonic, struct kiln_buffer *pairs,
-                        struct kiln_buffer *list, uint32_t count, struct kiln_buffer *entries,
-                        struct kiln_error *error)
+                        struct kiln_buffer *list, uint32_t count, bool reverse,
+                        struct kiln_buffer *entries, struct kiln_error *error)
 {
     if (count == 0)
         return true;
@@ -140,7 +140,8 @@ bool kiln_bitonic_pairs(struct kiln_bitonic *bitonic, struct kiln_buffer *pairs,
     dispatch(bitonic, bitonic->pad_program, (uint32_t[]){count, padded}, 2, padded - count,
              SORT_GROUP_SIZE);
     sort_padded(bitonic, padded);
-    dispatch(bitonic, bitonic->take_program, (uint32_t[]){count}, 1, count, SORT_GROUP_SIZE);
+    dispatch(bitonic, bitonic->take_program, (uint32_t[]){count, reverse}, 2, count,
+             SORT_GROUP_SIZE);
     return kiln_device_check(bitonic->device, "sort: bitonic", error);
 }
 
@@ -149,11 +150,12 @@ bool kiln_bitonic_run(struct kiln_bitonic *bitonic, struct kiln_pool *pool,
                       uint32_t *count, struct kiln_error *error)
 {
     struct kiln_alive *alive = &bitonic->alive;
-    if (!params->by_depth)
+    if (params->order == KILN_SORT_BY_SERIAL)
         return kiln_alive_run(alive, pool, params, entries, NULL, count, error);
     kiln_buffer_reserve(&bitonic->pairs,
                         (size_t)kiln_bitonic_padded(pool->slot_count) * PAIR_BYTES);
     kiln_buffer_reserve(&bitonic->list, (size_t)pool->slot_count * sizeof(uint32_t));
     return kiln_alive_run(alive, pool, params, &bitonic->list, &bitonic->pairs, count, error) &&
-           kiln_bitonic_pairs(bitonic, &bitonic->pairs, &bitonic->list, *count, entries, error);
+           kiln_bitonic_pairs(bitonic, &bitonic->pairs, &bitonic->list, *count,
+                              params->order == KILN_SORT_FRONT_TO_BACK, entries, error);
 }

@@ -19,9 +19,9 @@ bool kiln_bitonic_run(struct kiln_bitonic *bitonic, struct kiln_pool *pool,
 uint32_t kiln_bitonic_padded(uint32_t count);
 
 /* Writes the words of a list of `count` to entries, ordered by pairs: (key, place in the list),
- * ascending. The pairs are lost. */
+ * ascending, or descending in `reverse`. The pairs are lost. */
 bool kiln_bitonic_pairs(struct kiln_bitonic *bitonic, struct kiln_buffer *pairs,
-                        struct kiln_buffer *list, uint32_t count, struct kiln_buffer *entries,
-                        struct kiln_error *error);
+                        struct kiln_buffer *list, uint32_t count, bool reverse,
+                        struct kiln_buffer *entries, struct kiln_error *error);
 
 #endif

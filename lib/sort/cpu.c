@@ -72,6 +72,7 @@ struct key_work {
     const struct kiln_particle *records;
     uint32_t *entries;
     kiln_sort_pair *pairs;
+    size_t count;
 };
 
 static void make_keys(void *context, size_t begin, size_t end, uint32_t worker)
@@ -90,8 +91,9 @@ static void take_entries(void *context, size_t begin, size_t end, uint32_t worke
 {
     (void)worker;
     const struct key_work *work = context;
+    bool reverse = work->params->order == KILN_SORT_FRONT_TO_BACK;
     for (size_t i = begin; i < end; i++)
-        work->entries[i] = (uint32_t)work->pairs[i];
+        work->entries[reverse ? work->count - 1 - i : i] = (uint32_t)work->pairs[i];
 }
 
 bool kiln_sort_cpu_run(struct kiln_sort_cpu *sort, struct kiln_pool *pool,
@@ -103,11 +105,11 @@ bool kiln_sort_cpu_run(struct kiln_sort_cpu *sort, struct kiln_pool *pool,
     if (!records || !list)
         return false;
     *count = choose(list, kiln_pool_alive(pool, records, list), params->systems);
-    if (!params->by_depth)
+    if (params->order == KILN_SORT_BY_SERIAL)
         return true;
     if (!reserve(sort, *count, error))
         return false;
-    struct key_work work = {params, records, list, sort->pairs};
+    struct key_work work = {params, records, list, sort->pairs, *count};
     kiln_threads_for(sort->threads, *count, ENTRIES_AT_A_TIME, make_keys, &work);
     work.pairs = kiln_sort_pairs(sort->threads, sort->pairs, sort->scratch, *count, sort->counts);
     kiln_threads_for(sort->threads, *count, ENTRIES_AT_A_TIME, take_entries, &work);

@@ -96,6 +96,7 @@ void kiln_radix_destroy(struct kiln_radix **radix)
 /* Where a pass reads and writes. */
 struct pass {
     uint32_t count, tiles, shift;
+    bool reverse;    /* the last pass: from the end */
     GLuint from, to; /* to: pairs, or entries in the last pass */
     GLuint counts;
 };
@@ -111,6 +112,8 @@ static void dispatch(struct kiln_radix *radix, GLuint program, const struct pass
     glUniform1ui(0, pass->count);
     glUniform1ui(1, pass->shift);
     glUniform1ui(2, pass->tiles);
+    if (program == radix->last_program)
+        glUniform1ui(3, pass->reverse);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SORT_BIND_PAIRS, pass->from);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SORT_BIND_COUNTS, pass->counts);
     kiln_device_dispatch(radix->device, pass->count, tile_size(radix));
@@ -130,11 +133,12 @@ static bool run_pass(struct kiln_radix *radix, const struct pass *pass, bool las
 }
 
 bool kiln_radix_pairs(struct kiln_radix *radix, struct kiln_buffer *pairs, uint32_t count,
-                      struct kiln_buffer *entries, struct kiln_error *error)
+                      bool reverse, struct kiln_buffer *entries, struct kiln_error *error)
 {
     if (count == 0)
         return true;
-    struct pass pass = {.count = count, .tiles = (count - 1) / tile_size(radix) + 1};
+    struct pass pass = {
+        .count = count, .tiles = (count - 1) / tile_size(radix) + 1, .reverse = reverse};
     kiln_buffer_reserve(&radix->other, pairs->size);
     kiln_buffer_reserve(&radix->counts,
                         ((size_t)pass.tiles << radix->shape->bits) * sizeof(uint32_t));
@@ -161,9 +165,10 @@ bool kiln_radix_run(struct kiln_radix *radix, struct kiln_pool *pool,
                     const struct kiln_sort_params *params, struct kiln_buffer *entries,
                     uint32_t *count, struct kiln_error *error)
 {
-    if (!params->by_depth)
+    if (params->order == KILN_SORT_BY_SERIAL)
         return kiln_alive_run(&radix->alive, pool, params, entries, NULL, count, error);
     kiln_buffer_reserve(&radix->pairs, (size_t)pool->slot_count * PAIR_BYTES);
     return kiln_alive_run(&radix->alive, pool, params, NULL, &radix->pairs, count, error) &&
-           kiln_radix_pairs(radix, &radix->pairs, *count, entries, error);
+           kiln_radix_pairs(radix, &radix->pairs, *count, params->order == KILN_SORT_FRONT_TO_BACK,
+                            entries, error);
 }

@@ -16,8 +16,9 @@ bool kiln_radix_run(struct kiln_radix *radix, struct kiln_pool *pool,
                     uint32_t *count, struct kiln_error *error);
 
 /* Writes the second words of the first `count` pairs (key, any) of a buffer to entries, by
- * ascending key; those of equal keys keep their order. The pairs are lost. */
+ * ascending key; those of equal keys keep their order. `reverse` writes that list from its end. The
+ * pairs are lost. */
 bool kiln_radix_pairs(struct kiln_radix *radix, struct kiln_buffer *pairs, uint32_t count,
-                      struct kiln_buffer *entries, struct kiln_error *error);
+                      bool reverse, struct kiln_buffer *entries, struct kiln_error *error);
 
 #endif

@@ -9,11 +9,17 @@ enum kiln_sort_technique { KILN_SORT_CPU, KILN_SORT_RADIX, KILN_SORT_BITONIC };
 
 struct kiln_sort;
 
+enum kiln_sort_order {
+    KILN_SORT_BY_SERIAL,     /* (system, serial): nothing is sorted */
+    KILN_SORT_BACK_TO_FRONT, /* (view depth descending, system, serial) */
+    KILN_SORT_FRONT_TO_BACK, /* the reverse of that, so equal depths by descending serials, too */
+};
+
 struct kiln_sort_params {
     float3 eye;       /* camera position, m */
     float3 forward;   /* view direction, unit length */
     uint32_t systems; /* bit i: system i takes part */
-    bool by_depth;    /* farthest first; false keeps (system, serial) order */
+    enum kiln_sort_order order;
 };
 
 /* device may be NULL for `cpu`; threads are borrowed. KILN_USAGE when the technique needs what the
@@ -23,8 +29,8 @@ struct kiln_sort *kiln_sort_create(struct kiln_device *device, enum kiln_sort_te
 void kiln_sort_destroy(struct kiln_sort **sort);
 
 /* Fills entries (room for the pool's slot_count) with the draw entries of the living particles of
- * the chosen systems, ordered by (view depth descending, system, serial), and counts them. Where
- * the technique runs on the device, so do records and entries; the count alone is read back. */
+ * the chosen systems in the order that is asked for, and counts them. Where the technique runs on
+ * the device, so do records and entries; the count alone is read back. */
 bool kiln_sort_run(struct kiln_sort *sort, struct kiln_pool *pool,
                    const struct kiln_sort_params *params, struct kiln_buffer *entries,
                    uint32_t *count, struct kiln_error *error);

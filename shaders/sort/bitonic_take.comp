@@ -14,10 +14,11 @@ layout(std430, binding = SORT_BIND_ENTRIES) writeonly buffer entry_block
 };
 
 layout(location = 0) uniform uint count;
+layout(location = 1) uniform uint reverse; /* not 0: from the end */
 
 void main()
 {
     uint i = group_index() * SORT_GROUP_SIZE + gl_LocalInvocationID.x;
     if (i < count)
-        entries[i] = list[pairs[i].y];
+        entries[i] = list[pairs[reverse != 0u ? count - 1u - i : i].y];
 }

@@ -13,6 +13,8 @@ layout(std430, binding = SORT_BIND_ENTRIES) writeonly buffer entry_block
 {
     uint entries[];
 };
+
+layout(location = 3) uniform uint reverse; /* not 0: the list starts at its end */
 #else
 layout(std430, binding = SORT_BIND_PAIRS_OUT) writeonly buffer pair_out_block
 {
@@ -40,7 +42,7 @@ void main()
             uint place = columns[at];
             columns[at] = place + 1u;
 #ifdef LAST
-            entries[place] = pair.y;
+            entries[reverse != 0u ? count - 1u - place : place] = pair.y;
 #else
             pairs_out[place] = pair;
 #endif

@@ -44,13 +44,15 @@ static void fill(struct list *list, enum pattern pattern, uint32_t count, bool p
     qsort(list->expected, count, sizeof *list->expected, by_pair);
 }
 
-static void expect_sorted(struct list *list, const char *technique, int pattern, uint32_t count)
+static void expect_sorted(struct list *list, const char *technique, int pattern, uint32_t count,
+                          bool reverse)
 {
     struct kiln_error error = {0};
     const uint32_t *sorted = kiln_buffer_host(&list->sorted, KILN_READ, &error);
     assert_non_null(sorted);
     for (uint32_t i = 0; i < count; i++) {
-        uint32_t expected = entry_of((uint32_t)list->expected[i]);
+        uint32_t from = reverse ? count - 1 - i : i;
+        uint32_t expected = entry_of((uint32_t)list->expected[from]);
         if (sorted[i] != expected)
             fail_msg("%s, pattern %d of %u: %u at %u instead of %u", technique, pattern, count,
                      sorted[i], i, expected);
@@ -99,10 +101,11 @@ static void expect_radix_sorts(struct kiln_device *device, bool software)
         for (int pattern = 0; pattern < PATTERNS; pattern++) {
             if (!is_worth_it(COUNTS[c], pattern))
                 continue;
+            bool reverse = pattern % 2;
             fill(&list, (enum pattern)pattern, COUNTS[c], false);
-            if (!kiln_radix_pairs(radix, &list.pairs, COUNTS[c], &list.sorted, &error))
+            if (!kiln_radix_pairs(radix, &list.pairs, COUNTS[c], reverse, &list.sorted, &error))
                 fail_msg("%s", error.message);
-            expect_sorted(&list, "radix", pattern, COUNTS[c]);
+            expect_sorted(&list, "radix", pattern, COUNTS[c], reverse);
         }
     list_finish(&list);
     kiln_radix_destroy(&radix);
@@ -128,11 +131,12 @@ static void bitonic_sorts_like_qsort(void **state)
             if (!is_worth_it(COUNTS[c], pattern))
                 continue;
             assert_true(kiln_bitonic_padded(COUNTS[c]) <= MOST);
+            bool reverse = pattern % 2;
             fill(&list, (enum pattern)pattern, COUNTS[c], true);
-            if (!kiln_bitonic_pairs(bitonic, &list.pairs, &list.entries, COUNTS[c], &list.sorted,
-                                    &error))
+            if (!kiln_bitonic_pairs(bitonic, &list.pairs, &list.entries, COUNTS[c], reverse,
+                                    &list.sorted, &error))
                 fail_msg("%s", error.message);
-            expect_sorted(&list, "bitonic", pattern, COUNTS[c]);
+            expect_sorted(&list, "bitonic", pattern, COUNTS[c], reverse);
         }
     list_finish(&list);
     kiln_bitonic_destroy(&bitonic);
@@ -183,12 +187,13 @@ static void the_most_particles_are_sorted(void **state)
     struct list list;
     list_init(&list, *state, count);
     fill_large(&list, count);
-    if (!kiln_radix_pairs(radix, &list.pairs, count, &list.sorted, &error))
+    if (!kiln_radix_pairs(radix, &list.pairs, count, false, &list.sorted, &error))
         fail_msg("%s", error.message);
     expect_large(&list, count);
     kiln_radix_destroy(&radix);
     fill_large(&list, count);
-    if (!kiln_bitonic_pairs(bitonic, &list.pairs, &list.entries, count, &list.sorted, &error))
+    if (!kiln_bitonic_pairs(bitonic, &list.pairs, &list.entries, count, false, &list.sorted,
+                            &error))
         fail_msg("%s", error.message);
     expect_large(&list, count);
     list_finish(&list);
@@ -289,9 +294,11 @@ static void all_techniques_list_alike(void **state)
     contest_init(&contest, *state, pool.slot_count);
     static const uint32_t masks[] = {0, 1, 2, 0x7f, 0x55, 0x2a, 0x08, 0x40, 0xffff};
     for (size_t i = 0; i < sizeof masks / sizeof *masks; i++)
-        for (int by_depth = 0; by_depth < 2; by_depth++) {
-            const struct kiln_sort_params params = {
-                .eye = {1, 2, 8}, .forward = {0, 0, -1}, .systems = masks[i], .by_depth = by_depth};
+        for (int order = 0; order <= KILN_SORT_FRONT_TO_BACK; order++) {
+            const struct kiln_sort_params params = {.eye = {1, 2, 8},
+                                                    .forward = {0, 0, -1},
+                                                    .systems = masks[i],
+                                                    .order = (enum kiln_sort_order)order};
             uint32_t count = expect_same_lists(&contest, &pool, &params);
             assert_true((count > 20000) == (masks[i] == 0x7f || masks[i] == 0xffff));
         }
@@ -314,7 +321,7 @@ static void all_techniques_sort_a_scene_alike(void **state)
         const struct kiln_sort_params params = {.eye = {0.1f, 1.7f, 3.3f + (float)frame},
                                                 .forward = forwards[frame % 2],
                                                 .systems = 0xffff,
-                                                .by_depth = true};
+                                                .order = KILN_SORT_BACK_TO_FRONT};
         uint32_t count = expect_same_lists(&contest, &run.pool, &params);
         most = count > most ? count : most;
     }
@@ -331,7 +338,7 @@ static void records_stay_on_the_device(void **state)
     fill_pool(&pool, *state);
     assert_true(kiln_buffer_gl(&pool.records, KILN_READ_WRITE, &error));
     const struct kiln_sort_params params = {
-        .forward = {0, 0, -1}, .systems = 0x7f, .by_depth = true};
+        .forward = {0, 0, -1}, .systems = 0x7f, .order = KILN_SORT_FRONT_TO_BACK};
     for (int technique = KILN_SORT_RADIX; technique <= KILN_SORT_BITONIC; technique++) {
         struct kiln_sort *sort =
             kiln_sort_create(*state, (enum kiln_sort_technique)technique, NULL, &error);

@@ -106,8 +106,10 @@ static void farthest_come_first_and_ties_by_system_and_serial(void **state)
         assert_non_null(sort);
         struct kiln_buffer entries;
         kiln_buffer_init(&entries, NULL, pool.slot_count * sizeof(uint32_t), "entries");
-        struct kiln_sort_params params = {
-            .eye = {1, 2, 8}, .forward = {0, 0, -1}, .systems = 5, .by_depth = true};
+        struct kiln_sort_params params = {.eye = {1, 2, 8},
+                                          .forward = {0, 0, -1},
+                                          .systems = 5,
+                                          .order = KILN_SORT_BACK_TO_FRONT};
         uint32_t count = 0;
         assert_true(kiln_sort_run(sort, &pool, &params, &entries, &count, &error));
         assert_int_equal(count, 2 * (capacity / 5 * 4));
@@ -125,7 +127,7 @@ static void farthest_come_first_and_ties_by_system_and_serial(void **state)
                          (system == system_before && b.position_serial.w > a.position_serial.w);
             assert_true(z > z_before || (z == z_before && later));
         }
-        params.by_depth = false;
+        params.order = KILN_SORT_BY_SERIAL;
         assert_true(kiln_sort_run(sort, &pool, &params, &entries, &count, &error));
         list = kiln_buffer_host(&entries, KILN_READ, &error);
         for (uint32_t i = 1; i < count; i++) {
@@ -144,12 +146,42 @@ static void farthest_come_first_and_ties_by_system_and_serial(void **state)
     kiln_pool_finish(&pool);
 }
 
+/* Ties included. */
+static void front_to_back_is_the_exact_reverse(void **state)
+{
+    (void)state;
+    struct kiln_error error = {0};
+    struct kiln_pool pool;
+    fill_pool(&pool, 20000);
+    struct kiln_threads *threads = kiln_threads_create(2);
+    struct kiln_sort *sort = kiln_sort_create(NULL, KILN_SORT_CPU, threads, &error);
+    struct kiln_sort_params params = {.forward = {0, 0, -1}, .systems = 7};
+    struct kiln_buffer lists[2];
+    const uint32_t *entries[2];
+    uint32_t counts[2];
+    for (int i = 0; i < 2; i++) {
+        kiln_buffer_init(&lists[i], NULL, pool.slot_count * sizeof(uint32_t), "entries");
+        params.order = i ? KILN_SORT_FRONT_TO_BACK : KILN_SORT_BACK_TO_FRONT;
+        assert_true(kiln_sort_run(sort, &pool, &params, &lists[i], &counts[i], &error));
+        entries[i] = kiln_buffer_host(&lists[i], KILN_READ, &error);
+    }
+    assert_true(counts[0] == counts[1] && counts[0] > 40000);
+    for (uint32_t i = 0; i < counts[0]; i++)
+        assert_int_equal(entries[0][i], entries[1][counts[0] - 1 - i]);
+    for (int i = 0; i < 2; i++)
+        kiln_buffer_finish(&lists[i]);
+    kiln_sort_destroy(&sort);
+    kiln_threads_destroy(&threads);
+    kiln_pool_finish(&pool);
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(pairs_are_sorted_like_qsort),
         cmocka_unit_test(the_most_particles_are_sorted),
         cmocka_unit_test(farthest_come_first_and_ties_by_system_and_serial),
+        cmocka_unit_test(front_to_back_is_the_exact_reverse),
     };
     return cmocka_run_group_tests_name("sort", tests, NULL, NULL);
 }
