@@ -162,10 +162,30 @@ static bool render_frame(struct job *job, uint32_t frame, struct kiln_error *err
     return report_frame(job, frame, error);
 }
 
+/* Frames that are not drawn, where they matter to later ones for more than their steps. */
+static bool pass_over_frames(struct job *job, uint32_t first, uint32_t end,
+                             struct kiln_error *error)
+{
+    if (!kiln_stages_keep_history(&job->stages))
+        return true;
+    for (uint32_t frame = first; frame < end; frame++)
+        for (uint32_t moment = 0; moment < job->scene->camera.shutter_samples; moment++) {
+            uint32_t step = kiln_scene_moment_step(job->scene, frame, moment);
+            if (!step_to(job, step, error) ||
+                !kiln_stages_pass_over(&job->stages, &job->run.pool, job->run.step, error))
+                return false;
+        }
+    return true;
+}
+
 static bool render_frames(struct job *job, struct kiln_error *error)
 {
+    uint32_t next = 0;
     for (size_t i = 0; i < job->range_count; i++) {
         struct kiln_frame_range range = job->ranges[i];
+        if (!pass_over_frames(job, next, range.first, error))
+            return false;
+        next = range.last + 1;
         for (uint32_t frame = range.first; frame <= range.last; frame++) {
             if (!render_frame(job, frame, error))
                 return false;

@@ -118,7 +118,9 @@ static bool init_stages(struct kiln_stages *s, const struct kiln_techniques *tec
     s->simulate = kiln_simulate_create(device, s->scene, techniques->simulate, s->threads, error);
     if (!s->simulate)
         return false;
-    s->sort = kiln_sort_create(device, techniques->sort, s->threads, error);
+    s->sort = techniques->sort_spread > 0
+                  ? kiln_sort_create_spread(device, techniques->sort_spread, s->threads, error)
+                  : kiln_sort_create(device, techniques->sort, s->threads, error);
     if (!s->sort)
         return false;
     s->lighting = kiln_lighting_create(device, s->scene, s->threads, error);
@@ -219,16 +221,32 @@ static enum kiln_sort_order order_of(const struct kiln_stages *s, bool by_depth)
                                                       : KILN_SORT_BACK_TO_FRONT;
 }
 
+static struct kiln_sort_params sort_params(const struct kiln_view *view)
+{
+    return (struct kiln_sort_params){
+        .eye = {view->eye.x, view->eye.y, view->eye.z},
+        .forward = kiln_view_forward(view),
+    };
+}
+
+/* Takes a sort that is spread over frames on to this moment. */
+static bool follow(struct kiln_stages *s, struct kiln_pool *pool, const struct kiln_view *view,
+                   struct kiln_error *error)
+{
+    const struct kiln_sort_params params = sort_params(view);
+    kiln_timer_begin(s->timer, KILN_PASS_sort);
+    bool ok = kiln_sort_follow(s->sort, pool, &params, error);
+    kiln_timer_end(s->timer);
+    return ok;
+}
+
 static bool sort_particles(struct kiln_stages *s, struct kiln_pool *pool,
                            const struct kiln_view *view, uint32_t systems, bool by_depth,
                            uint32_t *count, struct kiln_error *error)
 {
-    const struct kiln_sort_params params = {
-        .eye = {view->eye.x, view->eye.y, view->eye.z},
-        .forward = kiln_view_forward(view),
-        .systems = systems,
-        .order = order_of(s, by_depth),
-    };
+    struct kiln_sort_params params = sort_params(view);
+    params.systems = systems;
+    params.order = order_of(s, by_depth);
     kiln_timer_begin(s->timer, KILN_PASS_sort);
     bool ok = kiln_sort_run(s->sort, pool, &params, &s->entries, count, error);
     kiln_timer_end(s->timer);
@@ -360,6 +378,8 @@ bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *pool, uint32
 {
     struct kiln_stages *s = stages;
     struct kiln_view view = kiln_view_compute(s->scene, step);
+    if (!follow(s, pool, &view, error))
+        return false;
 
     kiln_timer_begin(s->timer, KILN_PASS_lighting);
     bool ok = kiln_lighting_run(s->lighting, pool, &view, &s->light, error);
@@ -388,6 +408,18 @@ bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *pool, uint32
     ok = add_moment(s, moment, error);
     kiln_timer_end(s->timer);
     return ok;
+}
+
+bool kiln_stages_keep_history(const struct kiln_stages *stages)
+{
+    return kiln_sort_keeps_history(stages->sort);
+}
+
+bool kiln_stages_pass_over(struct kiln_stages *stages, struct kiln_pool *pool, uint32_t step,
+                           struct kiln_error *error)
+{
+    const struct kiln_view view = kiln_view_compute(stages->scene, step);
+    return follow(stages, pool, &view, error);
 }
 
 bool kiln_stages_compose(struct kiln_stages *stages, uint32_t frame, struct kiln_error *error)

@@ -59,6 +59,12 @@ void kiln_stages_finish(struct kiln_stages *stages);
 bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *pool, uint32_t step,
                       uint32_t moment, uint32_t *drawn, struct kiln_error *error);
 
+/* What a moment that is not drawn leaves for later ones, where kiln_stages_keep_history: the same
+ * as one that is. */
+bool kiln_stages_pass_over(struct kiln_stages *stages, struct kiln_pool *pool, uint32_t step,
+                           struct kiln_error *error);
+bool kiln_stages_keep_history(const struct kiln_stages *stages);
+
 /* Makes the picture of a frame of the moments that were drawn: bloom and composite. */
 bool kiln_stages_compose(struct kiln_stages *stages, uint32_t frame, struct kiln_error *error);
 

@@ -17,6 +17,9 @@ static const char *const STAGE_NAMES[STAGE_COUNT] = {[SIMULATE] = "simulate",
 
 #define AUTO "auto"
 
+/* The one technique of sorting with a number behind it. */
+#define SPREADABLE "oddeven"
+
 struct row {
     enum stage stage;
     const char *name;
@@ -36,6 +39,8 @@ static const struct row ROWS[] = {
     {SORT, "cpu", KILN_SORT_CPU, "stable radix sort, host threads; the default"},
     {SORT, "radix", KILN_SORT_RADIX, "stable radix sort, compute"},
     {SORT, "bitonic", KILN_SORT_BITONIC, "bitonic merge sort, compute, padded to a power of two"},
+    {SORT, SPREADABLE, KILN_SORT_ODDEVEN,
+     "odd-even merge sort, compute; " SPREADABLE ":N spreads it over N frames"},
     {RASTER, "cpu", KILN_RASTER_CPU,
      "host threads, tiles and vectors; the default on software devices"},
     {RASTER, "geometry", KILN_RASTER_GEOMETRY,
@@ -51,6 +56,7 @@ enum { ROW_COUNT = sizeof ROWS / sizeof *ROWS };
 /* The choices as numbers, one a stage. */
 struct choices {
     int value[STAGE_COUNT];
+    uint32_t sort_spread;
 };
 
 static const struct row *find_row(enum stage stage, const char *name)
@@ -76,6 +82,25 @@ static bool unknown_name(const char *what, const char *found, const char *const 
                           nearest ? "'?)" : "", list);
 }
 
+/* Takes ":N" off "oddeven:N". */
+static bool take_spread(char *name, uint32_t *spread, struct kiln_error *error)
+{
+    *spread = 0;
+    char *colon = strchr(name, ':');
+    if (!colon || (size_t)(colon - name) != strlen(SPREADABLE) ||
+        strncmp(name, SPREADABLE, strlen(SPREADABLE)) != 0)
+        return true;
+    uint64_t frames = 0;
+    if (!kiln_text_to_uint64(colon + 1, &frames) || frames < 1 || frames > KILN_SORT_MAX_SPREAD)
+        return kiln_error_set(error, KILN_USAGE,
+                              "technique: sort=%s: expected " SPREADABLE
+                              ":N with the frames that it is spread over, 1 to %d",
+                              name, KILN_SORT_MAX_SPREAD);
+    *spread = (uint32_t)frames;
+    *colon = '\0';
+    return true;
+}
+
 static bool apply_flag(const char *flag, const struct choices *automatic, struct choices *choices,
                        struct kiln_error *error)
 {
@@ -91,9 +116,16 @@ static bool apply_flag(const char *flag, const struct choices *automatic, struct
     if (stage == STAGE_COUNT)
         return unknown_name("technique: stage", stage_name, STAGE_NAMES, STAGE_COUNT, error);
 
-    bool is_auto = strcmp(equals + 1, AUTO) == 0;
-    const struct row *row = find_row((enum stage)stage, equals + 1);
+    char name[64];
+    snprintf(name, sizeof name, "%s", equals + 1);
+    uint32_t spread = 0;
+    if (stage == SORT && !take_spread(name, &spread, error))
+        return false;
+    bool is_auto = strcmp(name, AUTO) == 0;
+    const struct row *row = find_row((enum stage)stage, name);
     if (is_auto || row) {
+        if (stage == SORT)
+            choices->sort_spread = spread;
         choices->value[stage] = is_auto ? automatic->value[stage] : row->value;
         return true;
     }
@@ -137,6 +169,7 @@ bool kiln_techniques_choose(const struct kiln_device_info *device, const char *c
     *techniques = (struct kiln_techniques){
         .simulate = (enum kiln_simulate_technique)choices.value[SIMULATE],
         .sort = (enum kiln_sort_technique)choices.value[SORT],
+        .sort_spread = choices.sort_spread,
         .raster = (enum kiln_raster_technique)choices.value[RASTER],
         .bloom = (enum kiln_bloom_technique)choices.value[BLOOM],
         .composite = (enum kiln_composite_technique)choices.value[COMPOSITE],
@@ -187,6 +220,8 @@ void kiln_techniques_describe(const struct kiln_techniques *techniques, char *ou
         int length = snprintf(out + used, size - used, "%s%s=%s", used ? " " : "",
                               STAGE_NAMES[ROWS[i].stage], ROWS[i].name);
         used += length > 0 ? (size_t)length : 0;
+        if (ROWS[i].stage == SORT && techniques->sort_spread > 0 && used < size)
+            used += (size_t)snprintf(out + used, size - used, ":%u", techniques->sort_spread);
     }
 }
 

@@ -15,14 +15,15 @@ enum { KILN_STAGE_COUNT = 5, KILN_TECHNIQUE_SIZE = 32 };
 struct kiln_techniques {
     enum kiln_simulate_technique simulate;
     enum kiln_sort_technique sort;
+    uint32_t sort_spread; /* frames over which `oddeven` divides its passes; 0: a frame has all */
     enum kiln_raster_technique raster;
     enum kiln_bloom_technique bloom;
     enum kiln_composite_technique composite;
 };
 
 /* Applies "stage=name" texts over the device's defaults, which "stage=auto" asks for; the last for
- * a stage wins. KILN_USAGE
- * names what there is; simulating or sorting on a device that is not exact is KILN_NO_DEVICE. */
+ * a stage wins. "sort=oddeven:N" spreads it over N frames. KILN_USAGE names what there is;
+ * simulating or sorting on a device that is not exact is KILN_NO_DEVICE. */
 bool kiln_techniques_choose(const struct kiln_device_info *device, const char *const *flags,
                             size_t flag_count, struct kiln_techniques *techniques,
                             struct kiln_error *error);

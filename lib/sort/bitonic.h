@@ -2,7 +2,7 @@
 #ifndef KILN_SORT_BITONIC_H
 #define KILN_SORT_BITONIC_H
 
-#include "sort/sort.h"
+#include "sort/network.h"
 
 struct kiln_bitonic;
 
@@ -10,18 +10,7 @@ struct kiln_bitonic;
 struct kiln_bitonic *kiln_bitonic_create(struct kiln_device *device, struct kiln_error *error);
 void kiln_bitonic_destroy(struct kiln_bitonic **bitonic);
 
-/* Like kiln_sort_run. */
-bool kiln_bitonic_run(struct kiln_bitonic *bitonic, struct kiln_pool *pool,
-                      const struct kiln_sort_params *params, struct kiln_buffer *entries,
-                      uint32_t *count, struct kiln_error *error);
-
-/* How many pairs a buffer must have room for to sort `count`: the next power of two. */
-uint32_t kiln_bitonic_padded(uint32_t count);
-
-/* Writes the words of a list of `count` to entries, ordered by pairs: (key, place in the list),
- * ascending, or descending in `reverse`. The pairs are lost. */
-bool kiln_bitonic_pairs(struct kiln_bitonic *bitonic, struct kiln_buffer *pairs,
-                        struct kiln_buffer *list, uint32_t count, bool reverse,
-                        struct kiln_buffer *entries, struct kiln_error *error);
+/* What lists, and sorts by the technique; it lives as long. */
+struct kiln_network *kiln_bitonic_network(struct kiln_bitonic *bitonic);
 
 #endif

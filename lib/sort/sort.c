@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "sort/bitonic.h"
 #include "sort/cpu.h"
+#include "sort/kept.h"
 #include "sort/radix.h"
 
 struct kiln_sort {
@@ -13,6 +14,9 @@ struct kiln_sort {
     struct kiln_sort_cpu *cpu;
     struct kiln_radix *radix;
     struct kiln_bitonic *bitonic;
+    struct kiln_oddeven *oddeven;
+    bool keeps; /* an order, which is: */
+    struct kiln_kept kept;
 };
 
 static bool create_technique(struct kiln_sort *sort, struct kiln_device *device,
@@ -30,9 +34,11 @@ static bool create_technique(struct kiln_sort *sort, struct kiln_device *device,
                               device->info.name);
     if (sort->technique == KILN_SORT_RADIX)
         sort->radix = kiln_radix_create(device, error);
-    else
+    else if (sort->technique == KILN_SORT_BITONIC)
         sort->bitonic = kiln_bitonic_create(device, error);
-    return sort->radix || sort->bitonic;
+    else
+        sort->oddeven = kiln_oddeven_create(device, error);
+    return sort->radix || sort->bitonic || sort->oddeven;
 }
 
 struct kiln_sort *kiln_sort_create(struct kiln_device *device, enum kiln_sort_technique technique,
@@ -49,15 +55,46 @@ struct kiln_sort *kiln_sort_create(struct kiln_device *device, enum kiln_sort_te
     return sort;
 }
 
+struct kiln_sort *kiln_sort_create_spread(struct kiln_device *device, uint32_t frames,
+                                          struct kiln_threads *threads, struct kiln_error *error)
+{
+    if (frames < 1 || frames > KILN_SORT_MAX_SPREAD) {
+        kiln_error_set(error, KILN_USAGE, "a sort can be spread over 1 to %d frames, not %u",
+                       KILN_SORT_MAX_SPREAD, frames);
+        return NULL;
+    }
+    struct kiln_sort *sort = kiln_sort_create(device, KILN_SORT_ODDEVEN, threads, error);
+    if (!sort)
+        return NULL;
+    sort->keeps = true;
+    if (!kiln_kept_init(&sort->kept, device, sort->oddeven, frames, error))
+        kiln_sort_destroy(&sort);
+    return sort;
+}
+
 void kiln_sort_destroy(struct kiln_sort **sort)
 {
     if (!*sort)
         return;
+    if ((*sort)->keeps)
+        kiln_kept_finish(&(*sort)->kept);
+    kiln_oddeven_destroy(&(*sort)->oddeven);
     kiln_sort_cpu_destroy(&(*sort)->cpu);
     kiln_radix_destroy(&(*sort)->radix);
     kiln_bitonic_destroy(&(*sort)->bitonic);
     free(*sort);
     *sort = NULL;
+}
+
+bool kiln_sort_keeps_history(const struct kiln_sort *sort)
+{
+    return sort->keeps;
+}
+
+bool kiln_sort_follow(struct kiln_sort *sort, struct kiln_pool *pool,
+                      const struct kiln_sort_params *params, struct kiln_error *error)
+{
+    return !sort->keeps || kiln_kept_sort(&sort->kept, pool, params->eye, params->forward, error);
 }
 
 bool kiln_sort_run(struct kiln_sort *sort, struct kiln_pool *pool,
@@ -70,7 +107,13 @@ bool kiln_sort_run(struct kiln_sort *sort, struct kiln_pool *pool,
     case KILN_SORT_RADIX:
         return kiln_radix_run(sort->radix, pool, params, entries, count, error);
     case KILN_SORT_BITONIC:
-        return kiln_bitonic_run(sort->bitonic, pool, params, entries, count, error);
+        return kiln_network_run(kiln_bitonic_network(sort->bitonic), pool, params, entries, count,
+                                error);
+    case KILN_SORT_ODDEVEN:
+        if (sort->keeps && params->order != KILN_SORT_BY_SERIAL)
+            return kiln_kept_list(&sort->kept, pool, params, entries, count, error);
+        return kiln_network_run(kiln_oddeven_network(sort->oddeven), pool, params, entries, count,
+                                error);
     }
     return false;
 }

@@ -1,11 +1,15 @@
-/* Stage 3: the living particles, ordered for drawing. All techniques give the same list. */
+/* Stage 3: the living particles, ordered for drawing. All techniques give the same list; one that
+ * is spread over frames does once it has caught up with what moves. */
 #ifndef KILN_SORT_SORT_H
 #define KILN_SORT_SORT_H
 
 #include "base/thread.h"
 #include "particles/pool.h"
 
-enum kiln_sort_technique { KILN_SORT_CPU, KILN_SORT_RADIX, KILN_SORT_BITONIC };
+enum kiln_sort_technique { KILN_SORT_CPU, KILN_SORT_RADIX, KILN_SORT_BITONIC, KILN_SORT_ODDEVEN };
+
+/* Frames that a sort can be spread over. */
+enum { KILN_SORT_MAX_SPREAD = 64 };
 
 struct kiln_sort;
 
@@ -26,7 +30,22 @@ struct kiln_sort_params {
  * device does not have. */
 struct kiln_sort *kiln_sort_create(struct kiln_device *device, enum kiln_sort_technique technique,
                                    struct kiln_threads *threads, struct kiln_error *error);
+
+/* The same with technique `oddeven`, which keeps an order from frame to frame and divides the
+ * passes of a whole sort over so many of them: 1 to KILN_SORT_MAX_SPREAD. */
+struct kiln_sort *kiln_sort_create_spread(struct kiln_device *device, uint32_t frames,
+                                          struct kiln_threads *threads, struct kiln_error *error);
 void kiln_sort_destroy(struct kiln_sort **sort);
+
+/* Does the list depend on earlier frames? Then each moment that could be drawn, drawn or not, must
+ * be told in its turn by kiln_sort_follow. */
+bool kiln_sort_keeps_history(const struct kiln_sort *sort);
+
+/* Takes a kept order on to the next moment, always of the same pool; before kiln_sort_run, which
+ * then lists in this order. Of no effect without history. params->systems and ->order do not
+ * matter. */
+bool kiln_sort_follow(struct kiln_sort *sort, struct kiln_pool *pool,
+                      const struct kiln_sort_params *params, struct kiln_error *error);
 
 /* Fills entries (room for the pool's slot_count) with the draw entries of the living particles of
  * the chosen systems in the order that is asked for, and counts them. Where the technique runs on

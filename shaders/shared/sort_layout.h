@@ -18,8 +18,7 @@
 #define SORT_ITEMS 8
 #define SORT_BLOCK (SORT_GROUP_SIZE * SORT_ITEMS)
 
-/* Bitonic: a work group sorts a block of pairs in shared memory, eight each at a time. */
-#define BITONIC_GROUP_SIZE 256
-#define BITONIC_BLOCK      (BITONIC_GROUP_SIZE * 8)
+/* Sorting networks: a work group sorts a block of pairs in shared memory. */
+#define NETWORK_BLOCK (SORT_GROUP_SIZE * 8)
 
 #endif

@@ -1,4 +1,5 @@
-/* The slots of one system in the order of serials: each invocation takes a stretch of them. */
+/* The slots of one system in the order of serials, or all in the order that is kept: each invocation
+ * takes a stretch of them. */
 #ifndef KILN_SORT_ALIVE_GLSL
 #define KILN_SORT_ALIVE_GLSL
 
@@ -15,6 +16,28 @@ layout(std430, binding = SORT_BIND_COUNTS) buffer count_block
     uint counts[]; /* of the living in each block of all systems */
 };
 
+#ifdef KEPT /* all slots, in the order that is kept between frames */
+
+#include "sort/kept.glsl"
+
+layout(location = 3) uniform uint used; /* slots of the pool */
+layout(location = 4) uniform uint chosen; /* bit i: system i takes part */
+layout(location = 5) uniform uint reverse; /* not 0: from the end of the order */
+
+const uint first_block = 0u;
+
+uint slot_of(uint i)
+{
+    return pairs[reverse != 0u ? used - 1u - i : i].y;
+}
+
+uint system_of(uint slot)
+{
+    return kept_system_of(slot);
+}
+
+#else
+
 layout(location = 0) uniform uint base; /* the system's first slot */
 layout(location = 1) uniform uint capacity;
 layout(location = 2) uniform uint oldest;      /* slot of the oldest serial, from base */
@@ -29,21 +52,35 @@ uint slot_of(uint i)
     return base + (slot >= capacity ? slot - capacity : slot);
 }
 
+uint system_of(uint slot)
+{
+    return system;
+}
+
+#endif
+
+bool is_listed(uint slot)
+{
+    bool alive = (records[slot].velocity_birth.w & KILN_PARTICLE_ALIVE) != 0u;
+#ifdef KEPT
+    alive = alive && (chosen >> system_of(slot) & 1u) != 0u;
+#endif
+    return alive;
+}
+
 uint stretch_begin()
 {
     return group_index() * SORT_BLOCK + gl_LocalInvocationID.x * SORT_ITEMS;
 }
 
-/* Bit k: the k-th of the stretch lives. */
+/* Bit k: the k-th of the stretch lives, and is wanted. */
 uint living_of_stretch()
 {
     uint first = stretch_begin();
     uint living = 0u;
     for (uint k = 0u; k < SORT_ITEMS; k++) {
-        if (first + k < used) {
-            uint word = records[slot_of(first + k)].velocity_birth.w;
-            living |= (word & KILN_PARTICLE_ALIVE) != 0u ? 1u << k : 0u;
-        }
+        if (first + k < used)
+            living |= is_listed(slot_of(first + k)) ? 1u << k : 0u;
     }
     return living;
 }

@@ -1,4 +1,6 @@
 /* How many particles live in each block of a system. */
+// variant: 
+// variant: KEPT=1
 #include "sort/alive.glsl"
 
 layout(local_size_x = SORT_GROUP_SIZE) in;

@@ -3,6 +3,7 @@
 // variant: 
 // variant: PAIRED=1
 // variant: NUMBERED=1
+// variant: KEPT=1
 #include "shared/keys.h"
 #include "sort/alive.glsl"
 
@@ -27,7 +28,7 @@ layout(location = 7) uniform vec3 forward; /* unit length */
 
 void write(uint place, uint slot)
 {
-    uint entry = system << 24u | slot;
+    uint entry = system_of(slot) << 24u | slot;
 #ifndef PAIRED
     entries[place] = entry;
 #endif

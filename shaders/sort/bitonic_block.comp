@@ -5,12 +5,12 @@
 // variant: FROM_START=1
 #include "sort/bitonic.glsl"
 
-layout(local_size_x = BITONIC_GROUP_SIZE) in;
+layout(local_size_x = SORT_GROUP_SIZE) in;
 
 layout(location = 0) uniform uint count; /* a power of two */
 layout(location = 1) uniform uint size;  /* of a bunch: all of it orders the same way */
 
-shared uvec2 block[BITONIC_BLOCK];
+shared uvec2 block[NETWORK_BLOCK];
 
 void passes(uint first, uint bunch, uint spacing)
 {
@@ -30,7 +30,7 @@ void passes(uint first, uint bunch, uint spacing)
 /* All distances from half a bunch, or half the block, down to 1. */
 void merge(uint first, uint bunch)
 {
-    uint spacing = min(bunch, BITONIC_BLOCK) / 8u;
+    uint spacing = min(bunch, NETWORK_BLOCK) / 8u;
     for (; spacing > 1u; spacing = max(spacing / 8u, 1u))
         passes(first, bunch, spacing);
     passes(first, bunch, 1u);
@@ -57,18 +57,18 @@ void sort_eight(uint first)
 
 void main()
 {
-    uint first = group_index() * BITONIC_BLOCK;
-    for (uint i = gl_LocalInvocationID.x; i < BITONIC_BLOCK; i += BITONIC_GROUP_SIZE)
+    uint first = group_index() * NETWORK_BLOCK;
+    for (uint i = gl_LocalInvocationID.x; i < NETWORK_BLOCK; i += SORT_GROUP_SIZE)
         block[i] = first + i < count ? pairs[first + i] : uvec2(0xffffffffu);
     barrier();
 #ifdef FROM_START
     sort_eight(first);
-    for (uint bunch = 16u; bunch <= BITONIC_BLOCK; bunch *= 2u)
+    for (uint bunch = 16u; bunch <= NETWORK_BLOCK; bunch *= 2u)
         merge(first, bunch);
 #else
     merge(first, size);
 #endif
-    for (uint i = gl_LocalInvocationID.x; i < BITONIC_BLOCK; i += BITONIC_GROUP_SIZE) {
+    for (uint i = gl_LocalInvocationID.x; i < NETWORK_BLOCK; i += SORT_GROUP_SIZE) {
         if (first + i < count)
             pairs[first + i] = block[i];
     }

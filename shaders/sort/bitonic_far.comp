@@ -2,7 +2,7 @@
 // variant: LEVELS=1
 // variant: LEVELS=2
 // variant: LEVELS=3
-#include "sort/bitonic.glsl"
+#include "sort/network.glsl"
 
 layout(local_size_x = SORT_GROUP_SIZE) in;
 

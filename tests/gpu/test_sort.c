@@ -8,6 +8,7 @@
 #include <stdlib.h>
 
 #include "sort/bitonic.h"
+#include "sort/oddeven.h"
 #include "sort/radix.h"
 #include "sort/sort.h"
 #include "support/simulation.h"
@@ -118,29 +119,39 @@ static void radix_sorts_like_qsort(void **state)
     expect_radix_sorts(*state, false);
 }
 
-static void bitonic_sorts_like_qsort(void **state)
+static void expect_network_sorts(struct kiln_device *device, struct kiln_network *network,
+                                 const char *technique)
 {
     struct kiln_error error = {0};
-    struct kiln_bitonic *bitonic = kiln_bitonic_create(*state, &error);
-    if (!bitonic)
-        fail_msg("%s", error.message);
     struct list list;
-    list_init(&list, *state, MOST);
+    list_init(&list, device, MOST);
     for (int c = 0; c < COUNT_COUNT; c++)
         for (int pattern = 0; pattern < PATTERNS; pattern++) {
             if (!is_worth_it(COUNTS[c], pattern))
                 continue;
-            assert_true(kiln_bitonic_padded(COUNTS[c]) <= MOST);
             bool reverse = pattern % 2;
+            assert_true(kiln_network_padded(COUNTS[c]) <= MOST);
             fill(&list, (enum pattern)pattern, COUNTS[c], true);
-            if (!kiln_bitonic_pairs(bitonic, &list.pairs, &list.entries, COUNTS[c], reverse,
+            if (!kiln_network_pairs(network, &list.pairs, &list.entries, COUNTS[c], reverse,
                                     &list.sorted, &error))
                 fail_msg("%s", error.message);
-            expect_sorted(&list, "bitonic", pattern, COUNTS[c], reverse);
+            expect_sorted(&list, technique, pattern, COUNTS[c], reverse);
         }
     list_finish(&list);
+}
+
+static void networks_sort_like_qsort(void **state)
+{
+    struct kiln_error error = {0};
+    struct kiln_bitonic *bitonic = kiln_bitonic_create(*state, &error);
+    struct kiln_oddeven *oddeven = kiln_oddeven_create(*state, &error);
+    if (!bitonic || !oddeven)
+        fail_msg("%s", error.message);
+    expect_network_sorts(*state, kiln_bitonic_network(bitonic), "bitonic");
+    expect_network_sorts(*state, kiln_oddeven_network(oddeven), "oddeven");
     kiln_bitonic_destroy(&bitonic);
-    assert_null(bitonic);
+    kiln_oddeven_destroy(&oddeven);
+    assert_true(!bitonic && !oddeven);
 }
 
 static uint32_t large_key(uint32_t place)
@@ -183,7 +194,8 @@ static void the_most_particles_are_sorted(void **state)
     struct kiln_error error = {0};
     struct kiln_radix *radix = kiln_radix_create(*state, &error);
     struct kiln_bitonic *bitonic = kiln_bitonic_create(*state, &error);
-    assert_true(radix && bitonic);
+    struct kiln_oddeven *oddeven = kiln_oddeven_create(*state, &error);
+    assert_true(radix && bitonic && oddeven);
     struct list list;
     list_init(&list, *state, count);
     fill_large(&list, count);
@@ -191,32 +203,42 @@ static void the_most_particles_are_sorted(void **state)
         fail_msg("%s", error.message);
     expect_large(&list, count);
     kiln_radix_destroy(&radix);
-    fill_large(&list, count);
-    if (!kiln_bitonic_pairs(bitonic, &list.pairs, &list.entries, count, false, &list.sorted,
-                            &error))
-        fail_msg("%s", error.message);
-    expect_large(&list, count);
+    struct kiln_network *const networks[] = {kiln_bitonic_network(bitonic),
+                                             kiln_oddeven_network(oddeven)};
+    for (int i = 0; i < 2; i++) {
+        fill_large(&list, count);
+        if (!kiln_network_pairs(networks[i], &list.pairs, &list.entries, count, false, &list.sorted,
+                                &error))
+            fail_msg("%s", error.message);
+        expect_large(&list, count);
+    }
     list_finish(&list);
     kiln_bitonic_destroy(&bitonic);
+    kiln_oddeven_destroy(&oddeven);
 }
 
 static void lengths_are_padded_to_powers_of_two(void **state)
 {
     (void)state;
-    assert_int_equal(kiln_bitonic_padded(0), 1);
-    assert_int_equal(kiln_bitonic_padded(1), 1);
-    assert_int_equal(kiln_bitonic_padded(3), 4);
-    assert_int_equal(kiln_bitonic_padded(4), 4);
-    assert_int_equal(kiln_bitonic_padded((1u << 24) - 1), 1u << 24);
+    assert_int_equal(kiln_network_padded(0), 1);
+    assert_int_equal(kiln_network_padded(1), 1);
+    assert_int_equal(kiln_network_padded(3), 4);
+    assert_int_equal(kiln_network_padded(4), 4);
+    assert_int_equal(kiln_network_padded((1u << 24) - 1), 1u << 24);
 }
 
 static const char *const NAMES[] = {
-    [KILN_SORT_CPU] = "cpu", [KILN_SORT_RADIX] = "radix", [KILN_SORT_BITONIC] = "bitonic"};
+    [KILN_SORT_CPU] = "cpu",
+    [KILN_SORT_RADIX] = "radix",
+    [KILN_SORT_BITONIC] = "bitonic",
+    [KILN_SORT_ODDEVEN] = "oddeven",
+};
+enum { TECHNIQUES = sizeof NAMES / sizeof *NAMES };
 
 /* The techniques beside each other on one pool. */
 struct contest {
-    struct kiln_sort *sorts[3];
-    struct kiln_buffer entries[3];
+    struct kiln_sort *sorts[TECHNIQUES];
+    struct kiln_buffer entries[TECHNIQUES];
     struct kiln_threads *threads;
 };
 
@@ -224,7 +246,7 @@ static void contest_init(struct contest *contest, struct kiln_device *device, ui
 {
     struct kiln_error error = {0};
     contest->threads = kiln_threads_create(2);
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < TECHNIQUES; i++) {
         contest->sorts[i] =
             kiln_sort_create(device, (enum kiln_sort_technique)i, contest->threads, &error);
         if (!contest->sorts[i])
@@ -235,7 +257,7 @@ static void contest_init(struct contest *contest, struct kiln_device *device, ui
 
 static void contest_finish(struct contest *contest)
 {
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < TECHNIQUES; i++) {
         kiln_sort_destroy(&contest->sorts[i]);
         kiln_buffer_finish(&contest->entries[i]);
     }
@@ -247,9 +269,9 @@ static uint32_t expect_same_lists(struct contest *contest, struct kiln_pool *poo
                                   const struct kiln_sort_params *params)
 {
     struct kiln_error error = {0};
-    uint32_t counts[3] = {0, 1, 2};
-    const uint32_t *lists[3];
-    for (int i = 0; i < 3; i++) {
+    uint32_t counts[TECHNIQUES] = {0, 1, 2, 3};
+    const uint32_t *lists[TECHNIQUES];
+    for (int i = 0; i < TECHNIQUES; i++) {
         if (!kiln_sort_run(contest->sorts[i], pool, params, &contest->entries[i], &counts[i],
                            &error))
             fail_msg("%s", error.message);
@@ -331,6 +353,143 @@ static void all_techniques_sort_a_scene_alike(void **state)
     simulation_end(&run);
 }
 
+/* A spread sort beside a whole one on a scene's run. */
+struct spread {
+    struct simulation run;
+    struct kiln_sort *whole, *spread;
+    struct kiln_buffer whole_list, spread_list;
+    uint32_t *seen; /* slot: the last list that it was in */
+    uint32_t lists;
+};
+
+static void spread_init(struct spread *s, struct kiln_device *device, uint32_t frames)
+{
+    struct kiln_error error = {0};
+    *s = (struct spread){.lists = 0};
+    fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, 240);
+    simulation_start(&s->run, &fixture.scene, device, 1);
+    s->whole = kiln_sort_create(NULL, KILN_SORT_CPU, s->run.threads, &error);
+    s->spread = kiln_sort_create_spread(device, frames, s->run.threads, &error);
+    if (!s->whole || !s->spread)
+        fail_msg("%s", error.message);
+    size_t bytes = s->run.pool.slot_count * sizeof(uint32_t);
+    kiln_buffer_init(&s->whole_list, NULL, bytes, "whole");
+    kiln_buffer_init(&s->spread_list, device, bytes, "spread");
+    s->seen = calloc(s->run.pool.slot_count, sizeof *s->seen);
+    assert_non_null(s->seen);
+}
+
+static void spread_finish(struct spread *s)
+{
+    kiln_sort_destroy(&s->whole);
+    kiln_sort_destroy(&s->spread);
+    kiln_buffer_finish(&s->whole_list);
+    kiln_buffer_finish(&s->spread_list);
+    free(s->seen);
+    simulation_end(&s->run);
+}
+
+/* Fails unless both list the same particles, each once; true when also in the same order. */
+static bool spread_agrees(struct spread *s, const struct kiln_sort_params *params)
+{
+    struct kiln_error error = {0};
+    uint32_t counts[2];
+    if (!kiln_sort_run(s->whole, &s->run.pool, params, &s->whole_list, &counts[0], &error) ||
+        !kiln_sort_run(s->spread, &s->run.pool, params, &s->spread_list, &counts[1], &error))
+        fail_msg("%s", error.message);
+    const uint32_t *whole = kiln_buffer_host(&s->whole_list, KILN_READ, &error);
+    const uint32_t *spread = kiln_buffer_host(&s->spread_list, KILN_READ, &error);
+    assert_true(whole && spread);
+    assert_int_equal(counts[0], counts[1]);
+    s->lists += 2;
+    for (uint32_t i = 0; i < counts[0]; i++)
+        s->seen[KILN_ENTRY_SLOT(whole[i])] = s->lists - 1;
+    for (uint32_t i = 0; i < counts[0]; i++) {
+        uint32_t slot = KILN_ENTRY_SLOT(spread[i]);
+        assert_true(s->seen[slot] == s->lists - 1); /* chosen, living, and not yet listed */
+        s->seen[slot] = s->lists;
+    }
+    return memcmp(whole, spread, counts[0] * sizeof *whole) == 0;
+}
+
+static bool spread_follows(struct spread *s, struct kiln_sort_params *params)
+{
+    struct kiln_error error = {0};
+    if (!kiln_sort_follow(s->spread, &s->run.pool, params, &error))
+        fail_msg("%s", error.message);
+    static const uint32_t masks[] = {0xffff, 5, 0};
+    bool same = true;
+    for (int i = 0; i < 6; i++) {
+        params->systems = masks[i % 3];
+        params->order = i % 2 ? KILN_SORT_FRONT_TO_BACK : KILN_SORT_BACK_TO_FRONT;
+        same = spread_agrees(s, params) && same;
+    }
+    return same;
+}
+
+/* While particles are born, move and die before a camera that turns, each is listed once; and when
+ * all rests, the order is soon that of the others. */
+static void a_spread_sort_converges(void **state)
+{
+    static const uint32_t frames[] = {1, 3, 16, 64};
+    const float3 forwards[] = {{0.36f, 0.48f, -0.8f}, {-0.577350269f, 0.577350269f, 0.577350269f}};
+    for (size_t f = 0; f < sizeof frames / sizeof *frames; f++) {
+        struct spread s;
+        spread_init(&s, *state, frames[f]);
+        struct kiln_sort_params params = {.eye = {0.1f, 1.7f, 3.3f}, .forward = forwards[0]};
+        simulation_run(&s.run, 60);
+        assert_true(spread_follows(&s, &params)); /* it starts whole */
+        uint32_t late = 0;
+        for (int frame = 0; frame < 45; frame++) {
+            simulation_run(&s.run, 4);
+            params.forward = forwards[frame / 7 % 2];
+            late += !spread_follows(&s, &params);
+        }
+        assert_true(frames[f] == 1 ? late == 0 : late > 10);
+        for (uint32_t frame = 0; frame < 2 * frames[f] - 1; frame++)
+            assert_true(kiln_sort_follow(s.spread, &s.run.pool, &params, &(struct kiln_error){0}));
+        for (int frame = 0; frame < 3; frame++)
+            assert_true(spread_follows(&s, &params));
+        spread_finish(&s);
+    }
+}
+
+/* Of one slot or none, of systems without slots, and spread too far. */
+static void small_pools_are_spread(void **state)
+{
+    static const uint32_t capacities[][3] = {{0, 0, 0}, {0, 1, 0}, {2, 0, 1}};
+    struct kiln_error error = {0};
+    for (size_t i = 0; i < sizeof capacities / sizeof *capacities; i++) {
+        struct kiln_pool pool;
+        kiln_pool_init(&pool, *state, capacities[i], 3);
+        struct kiln_particle *records = kiln_buffer_host(&pool.records, KILN_READ_WRITE, &error);
+        for (uint32_t slot = 0; slot < pool.slot_count; slot++)
+            records[slot].velocity_birth.w = KILN_PARTICLE_ALIVE;
+        for (int system = 0; system < 3; system++)
+            pool.systems[system].next_serial = capacities[i][system];
+        struct kiln_sort *sort = kiln_sort_create_spread(*state, 4, NULL, &error);
+        struct kiln_buffer entries;
+        kiln_buffer_init(&entries, *state, pool.slot_count * sizeof(uint32_t), "entries");
+        const struct kiln_sort_params params = {
+            .forward = {0, 0, -1}, .systems = 7, .order = KILN_SORT_FRONT_TO_BACK};
+        for (int frame = 0; frame < 6; frame++) {
+            uint32_t count = 99;
+            assert_true(kiln_sort_follow(sort, &pool, &params, &error));
+            assert_true(kiln_sort_run(sort, &pool, &params, &entries, &count, &error));
+            assert_int_equal(count, pool.slot_count);
+        }
+        const uint32_t *list = kiln_buffer_host(&entries, KILN_READ, &error);
+        for (uint32_t k = 0; i == 2 && k < 3; k++)
+            assert_int_equal(list[k], ((const uint32_t[]){0x02000002, 1, 0})[k]);
+        kiln_buffer_finish(&entries);
+        kiln_sort_destroy(&sort);
+        kiln_pool_finish(&pool);
+    }
+    assert_null(kiln_sort_create_spread(*state, 0, NULL, &error));
+    assert_null(kiln_sort_create_spread(*state, KILN_SORT_MAX_SPREAD + 1, NULL, &error));
+    assert_int_equal(error.code, KILN_USAGE);
+}
+
 static void records_stay_on_the_device(void **state)
 {
     struct kiln_error error = {0};
@@ -339,7 +498,7 @@ static void records_stay_on_the_device(void **state)
     assert_true(kiln_buffer_gl(&pool.records, KILN_READ_WRITE, &error));
     const struct kiln_sort_params params = {
         .forward = {0, 0, -1}, .systems = 0x7f, .order = KILN_SORT_FRONT_TO_BACK};
-    for (int technique = KILN_SORT_RADIX; technique <= KILN_SORT_BITONIC; technique++) {
+    for (int technique = KILN_SORT_RADIX; technique < TECHNIQUES; technique++) {
         struct kiln_sort *sort =
             kiln_sort_create(*state, (enum kiln_sort_technique)technique, NULL, &error);
         struct kiln_buffer entries;
@@ -360,7 +519,7 @@ static void sorting_there_needs_an_exact_device(void **state)
     struct kiln_device *device = *state;
     struct kiln_error error = {0};
     bool exact = device->info.exact;
-    for (int technique = KILN_SORT_RADIX; technique <= KILN_SORT_BITONIC; technique++) {
+    for (int technique = KILN_SORT_RADIX; technique < TECHNIQUES; technique++) {
         device->info.exact = exact;
         assert_null(kiln_sort_create(NULL, (enum kiln_sort_technique)technique, NULL, &error));
         assert_int_equal(error.code, KILN_USAGE);
@@ -375,11 +534,13 @@ int main(void)
 {
     static const struct CMUnitTest tests[] = {
         test_on_device(radix_sorts_like_qsort),
-        test_on_device(bitonic_sorts_like_qsort),
+        test_on_device(networks_sort_like_qsort),
         test_on_device(the_most_particles_are_sorted),
         test_on_device(lengths_are_padded_to_powers_of_two),
         test_on_device(all_techniques_list_alike),
         test_on_device(all_techniques_sort_a_scene_alike),
+        test_on_device(a_spread_sort_converges),
+        test_on_device(small_pools_are_spread),
         test_on_device(records_stay_on_the_device),
         test_on_device(sorting_there_needs_an_exact_device),
     };

@@ -71,7 +71,35 @@ static void flags_force_a_technique(void **state)
     assert_false(choose(true, true, "sort=gpu", text, &error));
     assert_int_equal(error.code, KILN_USAGE);
     assert_string_equal(error.message, "technique: sort 'gpu' is not known (did you mean 'cpu'?); "
-                                       "there is: cpu, radix, bitonic, auto");
+                                       "there is: cpu, radix, bitonic, oddeven, auto");
+}
+
+static void a_sort_can_be_spread_over_frames(void **state)
+{
+    (void)state;
+    char text[256];
+    struct kiln_error error = {0};
+    assert_true(choose(true, true, "sort=oddeven:8", text, &error));
+    assert_string_equal(text, "simulate=cpu sort=oddeven:8 raster=cpu bloom=cpu composite=cpu");
+    assert_true(choose(true, true, "sort=oddeven", text, &error));
+    assert_string_equal(text, "simulate=cpu sort=oddeven raster=cpu bloom=cpu composite=cpu");
+    const char *const bad[] = {"0", "65", "-1", "", "8x", "8:8"};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        char flag[32];
+        snprintf(flag, sizeof flag, "sort=oddeven:%s", bad[i]);
+        assert_false(choose(true, true, flag, text, &error));
+        assert_int_equal(error.code, KILN_USAGE);
+        assert_non_null(strstr(error.message, "spread over, 1 to 64"));
+    }
+    assert_false(choose(true, true, "sort=radix:8", text, &error));
+    assert_non_null(strstr(error.message, "'radix:8' is not known"));
+
+    /* The last one for a stage counts, its number as well. */
+    const char *const flags[] = {"sort=oddeven:8", "sort=auto"};
+    struct kiln_device_info device = {.software = true, .exact = true, .name = "Device"};
+    struct kiln_techniques techniques;
+    assert_true(kiln_techniques_choose(&device, flags, 2, &techniques, &error));
+    assert_int_equal(techniques.sort_spread, 0);
 }
 
 static void inexact_devices_do_not_simulate_or_sort(void **state)
@@ -97,7 +125,7 @@ static void combinations_start_with_the_pinned_one(void **state)
     (void)state;
     struct kiln_device_info gpu = {.exact = true, .name = "Device"};
     struct kiln_technique_list list;
-    static char seen[128][256];
+    static char seen[512][256];
     size_t count = 0;
     for (; kiln_techniques_combination(count, &list); count++) {
         const char *flags[KILN_STAGE_COUNT];
@@ -109,15 +137,15 @@ static void combinations_start_with_the_pinned_one(void **state)
         kiln_techniques_describe(&techniques, seen[count], sizeof seen[count]);
         for (size_t i = 0; i < count; i++)
             assert_string_not_equal(seen[i], seen[count]);
-        assert_true(count < 127);
+        assert_true(count < 511);
     }
-    assert_true(count >= 96);
+    assert_true(count >= 128);
     assert_string_equal(seen[0], "simulate=cpu sort=cpu raster=cpu bloom=cpu composite=cpu");
     assert_string_equal(seen[1], "simulate=cpu sort=cpu raster=cpu bloom=cpu composite=gl");
     assert_string_equal(seen[2], "simulate=cpu sort=cpu raster=cpu bloom=gl composite=cpu");
     assert_string_equal(seen[4], "simulate=cpu sort=cpu raster=geometry bloom=cpu composite=cpu");
     assert_string_equal(seen[8], "simulate=cpu sort=radix raster=cpu bloom=cpu composite=cpu");
-    assert_string_equal(seen[24], "simulate=inplace sort=cpu raster=cpu bloom=cpu composite=cpu");
+    assert_string_equal(seen[32], "simulate=inplace sort=cpu raster=cpu bloom=cpu composite=cpu");
 }
 
 int main(void)
@@ -126,6 +154,7 @@ int main(void)
         cmocka_unit_test(defaults_follow_the_device),
         cmocka_unit_test(auto_is_the_default),
         cmocka_unit_test(flags_force_a_technique),
+        cmocka_unit_test(a_sort_can_be_spread_over_frames),
         cmocka_unit_test(inexact_devices_do_not_simulate_or_sort),
         cmocka_unit_test(combinations_start_with_the_pinned_one),
     };

@@ -27,6 +27,7 @@ $ kiln complete -- render --technique sort=cpu,
 1|word	sort=cpu,sort=cpu	stable radix sort, host threads; the default
 1|word	sort=cpu,sort=radix	stable radix sort, compute
 1|word	sort=cpu,sort=bitonic	bitonic merge sort, compute, padded to a power of two
+1|word	sort=cpu,sort=oddeven	odd-even merge sort, compute; oddeven:N spreads it over N frames
 1|word	sort=cpu,raster=cpu	host threads, tiles and vectors; the default on software devices
 1|word	sort=cpu,raster=geometry	points turned into billboards by a geometry shader; the default on GPUs
 1|word	sort=cpu,bloom=cpu	host threads, rows; the default on software devices

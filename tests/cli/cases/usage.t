@@ -300,6 +300,7 @@ $ kiln help techniques
 1|  sort=cpu           stable radix sort, host threads; the default
 1|  sort=radix         stable radix sort, compute
 1|  sort=bitonic       bitonic merge sort, compute, padded to a power of two
+1|  sort=oddeven       odd-even merge sort, compute; oddeven:N spreads it over N frames
 1|  raster=cpu         host threads, tiles and vectors; the default on software devices
 1|  raster=geometry    points turned into billboards by a geometry shader; the default on GPUs
 1|  bloom=cpu          host threads, rows; the default on software devices

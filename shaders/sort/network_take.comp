@@ -1,5 +1,5 @@
 /* The entries, in the order of their pairs. */
-#include "sort/bitonic.glsl"
+#include "sort/network.glsl"
 
 layout(local_size_x = SORT_GROUP_SIZE) in;
 

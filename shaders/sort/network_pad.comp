@@ -1,5 +1,5 @@
 /* Fills the list up to a power of two with pairs that come after all others. */
-#include "sort/bitonic.glsl"
+#include "sort/network.glsl"
 
 layout(local_size_x = SORT_GROUP_SIZE) in;
 

@@ -1,0 +1,36 @@
+/* An order that is kept from frame to frame and sorted a little in each (Kolb, Latta and
+ * Rezk-Salama 2004; UberFlow, 4.3 and 5; Heinz 2019, 2.4.1). It has every slot of the pool exactly
+ * once, born into or not, so nothing can be lost or drawn twice; the living among them are listed.
+ */
+#ifndef KILN_SORT_KEPT_H
+#define KILN_SORT_KEPT_H
+
+#include "sort/oddeven.h"
+
+struct kiln_kept {
+    struct kiln_device *device;
+    struct kiln_oddeven *oddeven; /* borrowed */
+    uint32_t frames;              /* over which the passes of a whole sort are divided */
+    uint32_t turn;                /* which of them is next */
+    bool started;                 /* the first time, everything is sorted */
+    GLuint pad_program, rank_program, slot_program, count_program, list_program;
+    struct kiln_scan scan;
+    struct kiln_buffer pairs, counts;
+};
+
+/* frames: 1 or more. kiln_kept_finish frees what there is, also when this fails. */
+bool kiln_kept_init(struct kiln_kept *kept, struct kiln_device *device,
+                    struct kiln_oddeven *oddeven, uint32_t frames, struct kiln_error *error);
+void kiln_kept_finish(struct kiln_kept *kept);
+
+/* Sorts on: one frame's share of the passes, by the keys of this moment. Always for the same pool.
+ */
+bool kiln_kept_sort(struct kiln_kept *kept, struct kiln_pool *pool, float3 eye, float3 forward,
+                    struct kiln_error *error);
+
+/* Like kiln_sort_run, in the order as it is; not KILN_SORT_BY_SERIAL. */
+bool kiln_kept_list(struct kiln_kept *kept, struct kiln_pool *pool,
+                    const struct kiln_sort_params *params, struct kiln_buffer *entries,
+                    uint32_t *count, struct kiln_error *error);
+
+#endif

@@ -1,0 +1,101 @@
+/* Pairs hold places instead of entries, so that no two are equal: a network is not stable. */
+#include "sort/network.h"
+
+#include "gpu/program.h"
+#include "shared/sort_layout.h"
+
+enum { PAIR_BYTES = 8 };
+
+bool kiln_network_programs(struct kiln_device *device, const struct kiln_network_kernel *kernels,
+                           size_t count, struct kiln_error *error)
+{
+    for (size_t i = 0; i < count; i++) {
+        const struct kiln_program_params params = {.compute = kernels[i].file,
+                                                   .defines = kernels[i].defines};
+        *kernels[i].program = kiln_program_create(device, &params, error);
+        if (!*kernels[i].program)
+            return false;
+    }
+    return true;
+}
+
+bool kiln_network_init(struct kiln_network *network, struct kiln_device *device,
+                       void (*sort)(void *context, uint32_t padded), void *context,
+                       struct kiln_error *error)
+{
+    *network = (struct kiln_network){.device = device, .sort = sort, .context = context};
+    kiln_buffer_init(&network->pairs, device, 0, "sort pairs");
+    kiln_buffer_init(&network->list, device, 0, "unsorted entries");
+    const struct kiln_network_kernel kernels[] = {
+        {"sort/network_pad.comp", NULL, &network->pad_program},
+        {"sort/network_take.comp", NULL, &network->take_program},
+    };
+    return kiln_alive_init(&network->alive, device, KILN_ALIVE_PLACES, error) &&
+           kiln_network_programs(device, kernels, sizeof kernels / sizeof *kernels, error);
+}
+
+void kiln_network_finish(struct kiln_network *network)
+{
+    kiln_alive_finish(&network->alive);
+    kiln_buffer_finish(&network->pairs);
+    kiln_buffer_finish(&network->list);
+    glDeleteProgram(network->pad_program);
+    glDeleteProgram(network->take_program);
+    *network = (struct kiln_network){.device = NULL};
+}
+
+uint32_t kiln_network_padded(uint32_t count)
+{
+    uint32_t padded = 1;
+    while (padded < count)
+        padded *= 2;
+    return padded;
+}
+
+void kiln_network_dispatch(struct kiln_device *device, GLuint program, const uint32_t *uniforms,
+                           GLint uniform_count, uint32_t work, uint32_t group_work)
+{
+    glUseProgram(program);
+    for (GLint i = 0; i < uniform_count; i++)
+        glUniform1ui(i, uniforms[i]);
+    kiln_device_dispatch(device, work, group_work);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+bool kiln_network_pairs(struct kiln_network *network, struct kiln_buffer *pairs,
+                        struct kiln_buffer *list, uint32_t count, bool reverse,
+                        struct kiln_buffer *entries, struct kiln_error *error)
+{
+    if (count == 0)
+        return true;
+    GLuint pair_buffer = kiln_buffer_gl(pairs, KILN_READ_WRITE, error);
+    GLuint list_buffer = pair_buffer ? kiln_buffer_gl(list, KILN_READ, error) : 0;
+    GLuint sorted = list_buffer ? kiln_buffer_gl(entries, KILN_READ_WRITE, error) : 0;
+    if (!sorted)
+        return false;
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SORT_BIND_PAIRS, pair_buffer);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SORT_BIND_COUNTS, list_buffer);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SORT_BIND_ENTRIES, sorted);
+    uint32_t padded = kiln_network_padded(count);
+    kiln_network_dispatch(network->device, network->pad_program, (uint32_t[]){count, padded}, 2,
+                          padded - count, SORT_GROUP_SIZE);
+    network->sort(network->context, padded);
+    kiln_network_dispatch(network->device, network->take_program, (uint32_t[]){count, reverse}, 2,
+                          count, SORT_GROUP_SIZE);
+    return kiln_device_check(network->device, "sort: network", error);
+}
+
+bool kiln_network_run(struct kiln_network *network, struct kiln_pool *pool,
+                      const struct kiln_sort_params *params, struct kiln_buffer *entries,
+                      uint32_t *count, struct kiln_error *error)
+{
+    struct kiln_alive *alive = &network->alive;
+    if (params->order == KILN_SORT_BY_SERIAL)
+        return kiln_alive_run(alive, pool, params, entries, NULL, count, error);
+    kiln_buffer_reserve(&network->pairs,
+                        (size_t)kiln_network_padded(pool->slot_count) * PAIR_BYTES);
+    kiln_buffer_reserve(&network->list, (size_t)pool->slot_count * sizeof(uint32_t));
+    return kiln_alive_run(alive, pool, params, &network->list, &network->pairs, count, error) &&
+           kiln_network_pairs(network, &network->pairs, &network->list, *count,
+                              params->order == KILN_SORT_FRONT_TO_BACK, entries, error);
+}

@@ -1,0 +1,52 @@
+/* What sorting networks share: the living as pairs (key, place in their list), padded to a power of
+ * two, and the list in the order of the sorted pairs. */
+#ifndef KILN_SORT_NETWORK_H
+#define KILN_SORT_NETWORK_H
+
+#include "sort/alive.h"
+
+struct kiln_network {
+    struct kiln_device *device;
+    struct kiln_alive alive;
+    GLuint pad_program, take_program;
+    struct kiln_buffer pairs, list;
+    /* Sorts the bound pairs, whose number is a power of two. */
+    void (*sort)(void *context, uint32_t padded);
+    void *context;
+};
+
+/* kiln_network_finish frees what there is, also when this fails. */
+bool kiln_network_init(struct kiln_network *network, struct kiln_device *device,
+                       void (*sort)(void *context, uint32_t padded), void *context,
+                       struct kiln_error *error);
+void kiln_network_finish(struct kiln_network *network);
+
+/* Like kiln_sort_run. */
+bool kiln_network_run(struct kiln_network *network, struct kiln_pool *pool,
+                      const struct kiln_sort_params *params, struct kiln_buffer *entries,
+                      uint32_t *count, struct kiln_error *error);
+
+/* How many pairs a buffer must have room for to sort `count`: the next power of two. */
+uint32_t kiln_network_padded(uint32_t count);
+
+/* Writes the words of a list of `count` to entries, ordered by pairs: (key, place in the list),
+ * ascending, or descending in `reverse`. The pairs are lost. */
+bool kiln_network_pairs(struct kiln_network *network, struct kiln_buffer *pairs,
+                        struct kiln_buffer *list, uint32_t count, bool reverse,
+                        struct kiln_buffer *entries, struct kiln_error *error);
+
+/* A kernel of a network. */
+struct kiln_network_kernel {
+    const char *file, *defines;
+    GLuint *program;
+};
+
+/* Creates the programs; false with an error at the first that fails. */
+bool kiln_network_programs(struct kiln_device *device, const struct kiln_network_kernel *kernels,
+                           size_t count, struct kiln_error *error);
+
+/* One kernel over so many invocations' worth of work, with uniforms at the locations from 0. */
+void kiln_network_dispatch(struct kiln_device *device, GLuint program, const uint32_t *uniforms,
+                           GLint uniform_count, uint32_t work, uint32_t group_work);
+
+#endif

@@ -1,0 +1,79 @@
+/* Batcher's odd-even merge sort (Heinz 2019, 2.4.1): more passes than bitonic sorting, but fewer
+ * comparisons. Merges within a block run as one kernel in shared memory. A longer merge reaches
+ * past every block's edge even over short distances, so each of its passes goes through the buffer.
+ */
+#include "sort/oddeven.h"
+
+#include <stdlib.h>
+
+#include "base/error.h"
+#include "shared/sort_layout.h"
+
+struct kiln_oddeven {
+    struct kiln_device *device;
+    struct kiln_network network;
+    GLuint block_program, far_program;
+};
+
+uint32_t kiln_oddeven_passes(uint32_t padded)
+{
+    uint32_t stages = 0;
+    while (1u << stages < padded)
+        stages++;
+    return stages * (stages + 1) / 2;
+}
+
+void kiln_oddeven_run_passes(struct kiln_oddeven *oddeven, uint32_t padded, uint32_t first,
+                             uint32_t end)
+{
+    const uint32_t in_blocks = kiln_oddeven_passes(NETWORK_BLOCK);
+    if (first < end && first < in_blocks)
+        kiln_network_dispatch(oddeven->device, oddeven->block_program,
+                              (uint32_t[]){padded, first, end}, 3, padded, NETWORK_BLOCK);
+    uint32_t pass = 0;
+    for (uint32_t stage = 0; pass < end; stage++)
+        for (uint32_t distance = 1u << stage; distance > 0 && pass < end; distance /= 2, pass++)
+            if (pass >= first && pass >= in_blocks)
+                kiln_network_dispatch(oddeven->device, oddeven->far_program,
+                                      (uint32_t[]){padded, stage, distance}, 3, padded / 2,
+                                      SORT_GROUP_SIZE);
+}
+
+static void sort_padded(void *context, uint32_t padded)
+{
+    kiln_oddeven_run_passes(context, padded, 0, kiln_oddeven_passes(padded));
+}
+
+struct kiln_oddeven *kiln_oddeven_create(struct kiln_device *device, struct kiln_error *error)
+{
+    struct kiln_oddeven *oddeven = calloc(1, sizeof *oddeven);
+    if (!oddeven) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "sort: no memory");
+        return NULL;
+    }
+    oddeven->device = device;
+    const struct kiln_network_kernel kernels[] = {
+        {"sort/oddeven_block.comp", NULL, &oddeven->block_program},
+        {"sort/oddeven_far.comp", NULL, &oddeven->far_program},
+    };
+    if (!kiln_network_init(&oddeven->network, device, sort_padded, oddeven, error) ||
+        !kiln_network_programs(device, kernels, sizeof kernels / sizeof *kernels, error))
+        kiln_oddeven_destroy(&oddeven);
+    return oddeven;
+}
+
+void kiln_oddeven_destroy(struct kiln_oddeven **oddeven)
+{
+    if (!*oddeven)
+        return;
+    kiln_network_finish(&(*oddeven)->network);
+    glDeleteProgram((*oddeven)->block_program);
+    glDeleteProgram((*oddeven)->far_program);
+    free(*oddeven);
+    *oddeven = NULL;
+}
+
+struct kiln_network *kiln_oddeven_network(struct kiln_oddeven *oddeven)
+{
+    return &oddeven->network;
+}

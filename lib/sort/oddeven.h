@@ -1,0 +1,24 @@
+/* Technique `oddeven`: lists and sorts in compute, by odd-even merges, all at once or with their
+ * passes divided over frames. */
+#ifndef KILN_SORT_ODDEVEN_H
+#define KILN_SORT_ODDEVEN_H
+
+#include "sort/network.h"
+
+struct kiln_oddeven;
+
+/* NULL with an error. */
+struct kiln_oddeven *kiln_oddeven_create(struct kiln_device *device, struct kiln_error *error);
+void kiln_oddeven_destroy(struct kiln_oddeven **oddeven);
+
+/* What lists, and sorts all at once; it lives as long. */
+struct kiln_network *kiln_oddeven_network(struct kiln_oddeven *oddeven);
+
+/* How many passes sort so many pairs, a power of two. */
+uint32_t kiln_oddeven_passes(uint32_t padded);
+
+/* Runs the passes with the numbers first .. end - 1 over the bound pairs. */
+void kiln_oddeven_run_passes(struct kiln_oddeven *oddeven, uint32_t padded, uint32_t first,
+                             uint32_t end);
+
+#endif

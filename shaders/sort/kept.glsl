@@ -1,0 +1,21 @@
+/* An order of all slots that lasts from frame to frame: pairs of a key and, between frames, a slot;
+ * while they are sorted, its rank, which is its place by (system, serial) among all slots. */
+#ifndef KILN_SORT_KEPT_GLSL
+#define KILN_SORT_KEPT_GLSL
+
+#include "shared/particle.h"
+#include "sort/network.glsl"
+
+layout(location = 8) uniform uint kept_system_count;
+layout(location = 9) uniform uvec3 kept_systems[KILN_MAX_SYSTEMS]; /* base, capacity, oldest */
+
+/* Of a slot, or of a rank. */
+uint kept_system_of(uint slot)
+{
+    uint system = 0u;
+    for (uint i = 1u; i < kept_system_count; i++)
+        system = kept_systems[i].x <= slot ? i : system;
+    return system;
+}
+
+#endif

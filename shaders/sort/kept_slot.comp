@@ -1,0 +1,17 @@
+/* After a sort: ranks become slots again, which mean the same after the next births. */
+#include "sort/kept.glsl"
+
+layout(local_size_x = SORT_GROUP_SIZE) in;
+
+layout(location = 0) uniform uint slots;
+
+void main()
+{
+    uint i = group_index() * SORT_GROUP_SIZE + gl_LocalInvocationID.x;
+    if (i >= slots)
+        return;
+    uint rank = pairs[i].y;
+    uvec3 system = kept_systems[kept_system_of(rank)];
+    uint place = rank - system.x + system.z;
+    pairs[i].y = system.x + (place >= system.y ? place - system.y : place);
+}

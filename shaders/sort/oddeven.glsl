@@ -1,0 +1,22 @@
+/* Which pairs Batcher's odd-even merge sort compares (Batcher 1968; Heinz 2019, 2.4.1). Pass number
+ * s (s + 1) / 2 + t, of t = 0 .. s, merges stretches of 2^s pairs into twice that, over a distance
+ * of 2^(s - t). Each comparison puts the lesser first, so that no pass undoes what is in order: that
+ * is why the passes may be divided over frames, as those of a bitonic sort may not. */
+#ifndef KILN_SORT_ODDEVEN_GLSL
+#define KILN_SORT_ODDEVEN_GLSL
+
+#include "sort/network.glsl"
+
+/* The first pair of comparison i of a pass over a distance, in merges of 2^stage pairs; false where
+ * it has none. */
+bool comparison(uint i, uint stage, uint distance, out uint low)
+{
+    uint merged = 1u << stage;
+    low = first_of(i, distance, 1u);
+    if (distance == merged)
+        return true;
+    low += distance;
+    return (low & (2u * merged - 1u)) + distance < 2u * merged;
+}
+
+#endif

@@ -1,0 +1,22 @@
+/* One pass of the odd-even merge sort. */
+#include "sort/oddeven.glsl"
+
+layout(local_size_x = SORT_GROUP_SIZE) in;
+
+layout(location = 0) uniform uint count; /* a power of two */
+layout(location = 1) uniform uint stage;
+layout(location = 2) uniform uint distance;
+
+void main()
+{
+    uint i = group_index() * SORT_GROUP_SIZE + gl_LocalInvocationID.x;
+    uint low;
+    if (i >= count / 2u || !comparison(i, stage, distance, low))
+        return;
+    uvec2 a = pairs[low];
+    uvec2 b = pairs[low + distance];
+    if (is_after(a, b)) {
+        pairs[low] = b;
+        pairs[low + distance] = a;
+    }
+}
