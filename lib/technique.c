@@ -45,6 +45,8 @@ static const struct row ROWS[] = {
      "host threads, tiles and vectors; the default on software devices"},
     {RASTER, "geometry", KILN_RASTER_GEOMETRY,
      "points turned into billboards by a geometry shader; the default on GPUs"},
+    {RASTER, "instanced", KILN_RASTER_INSTANCED,
+     "a quad for each particle, without a geometry shader"},
     {BLOOM, "cpu", KILN_BLOOM_CPU, "host threads, rows; the default on software devices"},
     {BLOOM, "gl", KILN_BLOOM_GL, "fragment shaders; the default on GPUs"},
     {COMPOSITE, "cpu", KILN_COMPOSITE_CPU, "host threads, rows; the default on software devices"},

@@ -168,7 +168,7 @@ static void read_move(const int8_t *moves, float x, float y, float way[2])
                          lower[2 * at.from[0] + c], lower[2 * at.to[0] + c], at.part);
 }
 
-/* As cell_between() of shaders/draw/particles.frag, at each texel. */
+/* As cell_between() of shaders/draw/shade.glsl, at each texel. */
 static void mix(const struct kiln_cells *cells, uint32_t number)
 {
     const struct slot *slot = &cells->slots[number];

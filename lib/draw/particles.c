@@ -24,9 +24,8 @@ kiln_particles_create(struct kiln_device *device, const struct kiln_scene *scene
         return NULL;
     }
     stage->technique = technique;
-    bool draws = technique == KILN_RASTER_GEOMETRY;
     if (device)
-        stage->geometry = kiln_geometry_create(device, scene, atlas, draws, error);
+        stage->geometry = kiln_geometry_create(device, scene, atlas, technique, error);
     if (technique == KILN_RASTER_CPU)
         stage->tiles = kiln_tiles_create(scene, atlas, threads, error);
     if ((device && !stage->geometry) || (technique == KILN_RASTER_CPU && !stage->tiles))
@@ -48,6 +47,7 @@ bool kiln_particles_nearest_first(const struct kiln_particles_stage *stage)
 {
     switch (stage->technique) {
     case KILN_RASTER_GEOMETRY:
+    case KILN_RASTER_INSTANCED:
     case KILN_RASTER_CPU:
         break;
     }
@@ -65,6 +65,7 @@ bool kiln_particles_run(struct kiln_particles_stage *stage, const struct kiln_pa
 {
     switch (stage->technique) {
     case KILN_RASTER_GEOMETRY:
+    case KILN_RASTER_INSTANCED:
         return kiln_geometry_run(stage->geometry, draw, error);
     case KILN_RASTER_CPU:
         return kiln_tiles_run(stage->tiles, draw, error);

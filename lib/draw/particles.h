@@ -1,5 +1,5 @@
-/* Stage 4b: the particles as billboards (Heinz 2019, 3.2.3 to 3.2.6). Techniques `geometry` and
- * `cpu` make the same pictures within the error of their arithmetic. */
+/* Stage 4b: the particles as billboards (Heinz 2019, 3.2.3 to 3.2.6). All techniques make the
+ * same pictures within the error of their arithmetic. */
 #ifndef KILN_DRAW_PARTICLES_H
 #define KILN_DRAW_PARTICLES_H
 
@@ -10,7 +10,7 @@
 #include "gpu/framebuffer.h"
 #include "particles/pool.h"
 
-enum kiln_raster_technique { KILN_RASTER_GEOMETRY, KILN_RASTER_CPU };
+enum kiln_raster_technique { KILN_RASTER_GEOMETRY, KILN_RASTER_INSTANCED, KILN_RASTER_CPU };
 
 struct kiln_particles_stage;
 
@@ -46,7 +46,7 @@ struct kiln_particles_draw {
 bool kiln_particles_bind(struct kiln_particles_stage *stage, struct kiln_pool *pool,
                          struct kiln_buffer *entries, float time_s, struct kiln_error *error);
 
-/* Draws with what kiln_backdrop_draw drew and, for `geometry`, left bound. */
+/* Draws with what kiln_backdrop_draw drew and, but for `cpu`, left bound. */
 bool kiln_particles_run(struct kiln_particles_stage *stage, const struct kiln_particles_draw *draw,
                         struct kiln_error *error);
 

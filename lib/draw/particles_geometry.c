@@ -1,6 +1,7 @@
-/* Particles as points that the geometry shader turns into billboards: one draw call for the systems
- * of a pass, whatever their looks; an entry names system and slot, and the vertex shader fetches
- * the rest (Heinz 2019, 3.2.2: one draw call, nothing stored but what changes). */
+/* Particles as points that the geometry shader turns into billboards, or as instances of a quad:
+ * one draw call for the systems of a pass, whatever their looks; an entry names system and slot,
+ * and the vertex shader fetches the rest (Heinz 2019, 3.2.2: one draw call, nothing stored but what
+ * changes). */
 #include "draw/particles_geometry.h"
 #include "draw/looks.h"
 #include "draw/sun_shade.h"
@@ -22,6 +23,7 @@ struct kiln_geometry {
     struct kiln_device *device;
     const struct kiln_scene *scene;
     const struct kiln_atlas *atlas;
+    enum kiln_raster_technique technique;
     GLuint program; /* 0: only binds what others draw */
     GLuint vertex_array;
     struct kiln_buffer looks, keys;
@@ -89,10 +91,12 @@ static bool create_program(struct kiln_geometry *stage, struct kiln_error *error
     char defines[64];
     snprintf(defines, sizeof defines, "#define SHAPES %d\n%s", needs_shapes(stage->scene) ? 1 : 0,
              kiln_sun_shade_exists(stage->scene) ? "#define SUN_SHADE 1\n" : "");
-    const struct kiln_program_params program = {.vertex = "draw/particles.vert",
-                                                .geometry = "draw/particles.geom",
-                                                .fragment = "draw/particles.frag",
-                                                .defines = defines};
+    bool instanced = stage->technique == KILN_RASTER_INSTANCED;
+    const struct kiln_program_params program = {
+        .vertex = instanced ? "draw/particles_instanced.vert" : "draw/particles_geometry.vert",
+        .geometry = instanced ? NULL : "draw/particles_geometry.geom",
+        .fragment = "draw/particles.frag",
+        .defines = defines};
     stage->program = kiln_program_create(stage->device, &program, error);
     if (stage->program)
         stage->additive_alpha = glGetUniformLocation(stage->program, "additive_alpha");
@@ -101,7 +105,8 @@ static bool create_program(struct kiln_geometry *stage, struct kiln_error *error
 
 struct kiln_geometry *kiln_geometry_create(struct kiln_device *device,
                                            const struct kiln_scene *scene,
-                                           const struct kiln_atlas *atlas, bool draws,
+                                           const struct kiln_atlas *atlas,
+                                           enum kiln_raster_technique technique,
                                            struct kiln_error *error)
 {
     struct kiln_geometry *stage = calloc(1, sizeof *stage);
@@ -109,13 +114,15 @@ struct kiln_geometry *kiln_geometry_create(struct kiln_device *device,
         kiln_error_set(error, KILN_DEVICE_FAILED, "particles: out of memory");
         return NULL;
     }
-    *stage = (struct kiln_geometry){.device = device, .scene = scene, .atlas = atlas};
+    *stage = (struct kiln_geometry){
+        .device = device, .scene = scene, .atlas = atlas, .technique = technique};
     stage->table = calloc((size_t)KILN_LOOK_TEXELS, sizeof *stage->table);
     if (!stage->table) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "particles: out of memory");
         kiln_geometry_destroy(&stage);
         return NULL;
     }
+    bool draws = technique == KILN_RASTER_GEOMETRY || technique == KILN_RASTER_INSTANCED;
     if (draws && !create_program(stage, error)) {
         kiln_geometry_destroy(&stage);
         return NULL;
@@ -190,7 +197,10 @@ bool kiln_geometry_run(struct kiln_geometry *stage, const struct kiln_particles_
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, draw->sum_alpha ? GL_ONE : GL_ONE_MINUS_SRC_ALPHA);
     glBindVertexArray(stage->vertex_array);
-    glDrawArrays(GL_POINTS, 0, (GLsizei)draw->count);
+    if (stage->technique == KILN_RASTER_INSTANCED)
+        glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, (GLsizei)draw->count);
+    else
+        glDrawArrays(GL_POINTS, 0, (GLsizei)draw->count);
     glDisable(GL_BLEND);
     return kiln_device_check(stage->device, "particles", error);
 }

@@ -1,4 +1,5 @@
-/* Technique `geometry` of the particles, and what other stages of a device read of particles. */
+/* Techniques `geometry` and `instanced` of the particles, and what other stages of a device read of
+ * particles. */
 #ifndef KILN_DRAW_PARTICLES_GEOMETRY_H
 #define KILN_DRAW_PARTICLES_GEOMETRY_H
 
@@ -6,10 +7,11 @@
 
 struct kiln_geometry;
 
-/* draws: false when it is only asked to bind. */
+/* Of another technique, it is only asked to bind. */
 struct kiln_geometry *kiln_geometry_create(struct kiln_device *device,
                                            const struct kiln_scene *scene,
-                                           const struct kiln_atlas *atlas, bool draws,
+                                           const struct kiln_atlas *atlas,
+                                           enum kiln_raster_technique technique,
                                            struct kiln_error *error);
 void kiln_geometry_destroy(struct kiln_geometry **stage);
 

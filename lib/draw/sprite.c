@@ -1,4 +1,4 @@
-/* As shaders/draw/particles.vert and particles.geom do it, but in arithmetic of our own, so that
+/* As shaders/draw/particle.glsl and corner.glsl do it, but in arithmetic of our own, so that
  * pictures do not depend on the machine's mathematics either.
  */
 #include "draw/sprite_light.h"

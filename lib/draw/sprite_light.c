@@ -1,4 +1,4 @@
-/* As light_particle() of shaders/draw/particles.vert. */
+/* As light_particle() of shaders/draw/particle.glsl. */
 #include "draw/sprite_light.h"
 
 #include "base/vector.h"

@@ -1,5 +1,5 @@
 /* Sprites into a tile: included by a file for each level of KILN_SIMD_LEVEL, which says what
- * TILE_DRAW is called. The operations of a pixel are those of shaders/draw/particles.frag (Heinz
+ * TILE_DRAW is called. The operations of a pixel are those of shaders/draw/shade.glsl (Heinz
  * 2019, 3.2.3 to 3.2.6); all lanes do them, and those outside of the sprite with alpha 0.
  */
 #include "draw/simd.h"

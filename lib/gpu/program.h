@@ -4,7 +4,7 @@
 
 #include "gpu/device.h"
 
-/* The files of a program, named under shaders/ ("draw/particles.vert"); NULL stages are absent.
+/* The files of a program, named under shaders/ ("draw/particles.frag"); NULL stages are absent.
  * defines is text put after #version, "#define N 1\n" lines, or NULL. */
 struct kiln_program_params {
     const char *compute, *vertex, *geometry, *fragment;

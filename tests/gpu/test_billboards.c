@@ -308,8 +308,19 @@ int main(void)
         test_on_device(lines_lie_along_the_way),
         test_on_device(lines_end_at_the_near_plane),
     };
-    int failed =
-        cmocka_run_group_tests_name("geometry", tests, test_device_open, test_device_close);
-    drawing_technique = KILN_RASTER_CPU;
-    return failed + cmocka_run_group_tests_name("cpu", tests, test_device_open, test_device_close);
+    static const struct {
+        enum kiln_raster_technique technique;
+        const char *name;
+    } techniques[] = {
+        {KILN_RASTER_GEOMETRY, "geometry"},
+        {KILN_RASTER_INSTANCED, "instanced"},
+        {KILN_RASTER_CPU, "cpu"},
+    };
+    int failed = 0;
+    for (size_t i = 0; i < sizeof techniques / sizeof *techniques; i++) {
+        drawing_technique = techniques[i].technique;
+        failed += cmocka_run_group_tests_name(techniques[i].name, tests, test_device_open,
+                                              test_device_close);
+    }
+    return failed;
 }

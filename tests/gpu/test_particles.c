@@ -110,8 +110,10 @@ static void make_targets(struct fixture *f)
     assert_true(kiln_framebuffer_init(&f->framebuffer, f->device, targets, 2, &error));
 }
 
-static int set_up_with(void **state, enum kiln_raster_technique technique,
-                       const char *const *overrides, size_t count)
+/* What is tested now. */
+static enum kiln_raster_technique technique;
+
+static int set_up_with(void **state, const char *const *overrides, size_t count)
 {
     struct kiln_error error = {0};
     struct fixture *f = calloc(1, sizeof *f);
@@ -162,28 +164,17 @@ static int set_up_with(void **state, enum kiln_raster_technique technique,
     return 0;
 }
 
-static int set_up_geometry(void **state)
+static int set_up(void **state)
 {
-    return set_up_with(state, KILN_RASTER_GEOMETRY, NULL, 0);
-}
-
-static int set_up_cpu(void **state)
-{
-    return set_up_with(state, KILN_RASTER_CPU, NULL, 0);
+    return set_up_with(state, NULL, 0);
 }
 
 /* So soft that the bound of alpha is not reached before the floor and the box. */
-static const char *const LITERAL[] = {"systems.smoke.look.soft_formula=literal",
-                                      "systems.smoke.look.soft=0.2"};
-
-static int set_up_literal_geometry(void **state)
+static int set_up_literal(void **state)
 {
-    return set_up_with(state, KILN_RASTER_GEOMETRY, LITERAL, 2);
-}
-
-static int set_up_literal_cpu(void **state)
-{
-    return set_up_with(state, KILN_RASTER_CPU, LITERAL, 2);
+    static const char *const literal[] = {"systems.smoke.look.soft_formula=literal",
+                                          "systems.smoke.look.soft=0.2"};
+    return set_up_with(state, literal, 2);
 }
 
 static int tear_down(void **state)
@@ -512,10 +503,20 @@ int main(void)
         cmocka_unit_test(sums_do_not_depend_on_order),
     };
     static const struct CMUnitTest literal[] = {cmocka_unit_test(particles_match_c)};
-    return cmocka_run_group_tests_name("geometry", tests, set_up_geometry, tear_down) +
-           cmocka_run_group_tests_name("geometry, equation 3.3 as it is printed", literal,
-                                       set_up_literal_geometry, tear_down) +
-           cmocka_run_group_tests_name("cpu", tests, set_up_cpu, tear_down) +
-           cmocka_run_group_tests_name("cpu, equation 3.3 as it is printed", literal,
-                                       set_up_literal_cpu, tear_down);
+    static const struct {
+        enum kiln_raster_technique technique;
+        const char *name, *literal_name;
+    } techniques[] = {
+        {KILN_RASTER_GEOMETRY, "geometry", "geometry, equation 3.3 as it is printed"},
+        {KILN_RASTER_INSTANCED, "instanced", "instanced, equation 3.3 as it is printed"},
+        {KILN_RASTER_CPU, "cpu", "cpu, equation 3.3 as it is printed"},
+    };
+    int failed = 0;
+    for (size_t i = 0; i < sizeof techniques / sizeof *techniques; i++) {
+        technique = techniques[i].technique;
+        failed += cmocka_run_group_tests_name(techniques[i].name, tests, set_up, tear_down);
+        failed += cmocka_run_group_tests_name(techniques[i].literal_name, literal, set_up_literal,
+                                              tear_down);
+    }
+    return failed;
 }

@@ -181,7 +181,7 @@ static float sample(const float *grid, uint32_t channels, uint32_t channel, floa
     return sum;
 }
 
-/* Density as the fragment shader finds it (draw/particles.frag), at a progress through life. */
+/* Density as the fragment shader finds it (draw/shade.glsl), at a progress through life. */
 static float played(const struct book *book, bool moving, float life, uint32_t x, uint32_t y)
 {
     float position = life * (float)(book->count - 1), first = floorf(position);

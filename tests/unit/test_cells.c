@@ -192,7 +192,7 @@ static float sample(const float *cell, float x, float y)
     return sum;
 }
 
-/* 16 cells of a file, played as the fragment shader does (draw/particles.frag) at 61 times: with
+/* 16 cells of a file, played as the fragment shader does (draw/shade.glsl) at 61 times: with
  * the motion file, nearer to what was filmed than mixed, by a lot. */
 static void motion_of_a_file_makes_up_for_cells(void **state)
 {

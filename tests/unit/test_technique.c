@@ -139,13 +139,14 @@ static void combinations_start_with_the_pinned_one(void **state)
             assert_string_not_equal(seen[i], seen[count]);
         assert_true(count < 511);
     }
-    assert_true(count >= 128);
+    assert_true(count >= 192);
     assert_string_equal(seen[0], "simulate=cpu sort=cpu raster=cpu bloom=cpu composite=cpu");
     assert_string_equal(seen[1], "simulate=cpu sort=cpu raster=cpu bloom=cpu composite=gl");
     assert_string_equal(seen[2], "simulate=cpu sort=cpu raster=cpu bloom=gl composite=cpu");
     assert_string_equal(seen[4], "simulate=cpu sort=cpu raster=geometry bloom=cpu composite=cpu");
-    assert_string_equal(seen[8], "simulate=cpu sort=radix raster=cpu bloom=cpu composite=cpu");
-    assert_string_equal(seen[32], "simulate=inplace sort=cpu raster=cpu bloom=cpu composite=cpu");
+    assert_string_equal(seen[8], "simulate=cpu sort=cpu raster=instanced bloom=cpu composite=cpu");
+    assert_string_equal(seen[12], "simulate=cpu sort=radix raster=cpu bloom=cpu composite=cpu");
+    assert_string_equal(seen[48], "simulate=inplace sort=cpu raster=cpu bloom=cpu composite=cpu");
 }
 
 int main(void)

@@ -30,6 +30,7 @@ $ kiln complete -- render --technique sort=cpu,
 1|word	sort=cpu,sort=oddeven	odd-even merge sort, compute; oddeven:N spreads it over N frames
 1|word	sort=cpu,raster=cpu	host threads, tiles and vectors; the default on software devices
 1|word	sort=cpu,raster=geometry	points turned into billboards by a geometry shader; the default on GPUs
+1|word	sort=cpu,raster=instanced	a quad for each particle, without a geometry shader
 1|word	sort=cpu,bloom=cpu	host threads, rows; the default on software devices
 1|word	sort=cpu,bloom=gl	fragment shaders; the default on GPUs
 1|word	sort=cpu,composite=cpu	host threads, rows; the default on software devices

@@ -303,6 +303,7 @@ $ kiln help techniques
 1|  sort=oddeven       odd-even merge sort, compute; oddeven:N spreads it over N frames
 1|  raster=cpu         host threads, tiles and vectors; the default on software devices
 1|  raster=geometry    points turned into billboards by a geometry shader; the default on GPUs
+1|  raster=instanced   a quad for each particle, without a geometry shader
 1|  bloom=cpu          host threads, rows; the default on software devices
 1|  bloom=gl           fragment shaders; the default on GPUs
 1|  composite=cpu      host threads, rows; the default on software devices

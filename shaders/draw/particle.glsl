@@ -1,28 +1,20 @@
-/* One particle: all that its billboard needs, from the record, the look and the clock. SHAPES: of a
- * scene that has more than billboards parallel to the picture; others do not pay for it, nor for
- * SUN_SHADE, which objects of the backdrop throw.
+/* One particle: all that its billboard needs, from the record, the look and the clock. Who includes
+ * this declares what is filled in:
+ *     vec4 center;        in view space; w: LOOK_* shape
+ *     vec4 right;         half of the billboard's edge in view space; w: half of a point's or line's
+ *                         width, px
+ *     vec4 up;            the other edge; of a line: all of the way to its end
+ *     billboard particle;
+ * SHAPES: of a scene that has more than billboards parallel to the picture; others do not pay for it,
+ * nor for SUN_SHADE, which objects of the backdrop throw.
  */
-// variant: SHAPES=0
-// variant: SHAPES=1
-// variant: SHAPES=1 SUN_SHADE=1
-#include "shared/draw_layout.h"
-
-#include "draw/record.glsl"
-
 layout(std140, binding = KILN_BIND_BACKDROP) uniform backdrop_block { kiln_draw_backdrop backdrop; };
 
-#include "draw/billboard.glsl"
 #include "draw/smoke_shadow.glsl"
 
 #ifdef SUN_SHADE
 layout(binding = KILN_UNIT_SUN_SHADE) uniform sampler2D sun_shade;
 #endif
-
-layout(location = 0) out vec4 center; /* in view space; w: LOOK_* shape */
-layout(location = 1) out vec4 right;  /* half of the billboard's edge in view space; w: half of a */
-                                      /* point's or line's width, px */
-layout(location = 2) out vec4 up;     /* the other edge; of a line: all of the way to its end */
-layout(location = 3) out billboard particle;
 
 /* The plane of a billboard: unit vectors in view space. */
 struct plane {
@@ -152,9 +144,8 @@ void make_plain(uint4 form, vec2 widths_px, float size_px, vec3 moving, float st
 
 #endif
 
-void main()
+void make_particle(uint entry)
 {
-    uint entry = entries[gl_VertexID];
     uint system = entry >> 24;
     kiln_particle record = records[entry & 0xffffffu];
     uint stream = particle_stream(looks[system].derived, record);
