@@ -59,8 +59,29 @@ void print_stats_text(const struct job_result *result)
            bytes_per_particle(stats));
     printf("  memory       %.1f MiB at the peak\n", (double)peak_memory_bytes() / 1048576);
     printf("  techniques   %s\n", stats->techniques);
+    for (uint32_t i = 0; i < stats->choice_count; i++) {
+        const struct kiln_technique_choice *choice = &stats->choices[i];
+        printf("  %-12s %s=%s: %s\n", i ? "" : "chosen", choice->stage, choice->name,
+               choice->why ? choice->why : "as asked for");
+    }
     printf("  scene        %s\n", result->info->hash);
     printf("  state        %s\n", state_text(state, stats->state));
+}
+
+static void print_choices_json(const struct kiln_render_stats *stats)
+{
+    printf(", \"chosen\": [");
+    for (uint32_t i = 0; i < stats->choice_count; i++) {
+        const struct kiln_technique_choice *choice = &stats->choices[i];
+        printf("%s{\"stage\": \"%s\", \"technique\": \"%s\", \"why\": ", i ? ", " : "",
+               choice->stage, choice->name);
+        if (choice->why)
+            kiln_write_json_string(stdout, choice->why);
+        else
+            printf("null");
+        printf("}");
+    }
+    printf("]");
 }
 
 static void print_text_member(const char *key, const char *value)
@@ -89,6 +110,7 @@ void print_result_json(const struct job_result *result, bool with_stats)
                ", \"particle_bytes\": %" PRIu64 ", \"peak_memory_bytes\": %" PRIu64,
                stats->alive, stats->particle_capacity, stats->particle_bytes, peak_memory_bytes());
         print_text_member("techniques", stats->techniques);
+        print_choices_json(stats);
         print_text_member("scene_hash", result->info->hash);
         print_text_member("state", state_text(state, stats->state));
     }

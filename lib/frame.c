@@ -13,6 +13,7 @@
 #include "stages.h"
 
 #include <inttypes.h>
+#include <string.h>
 
 struct job {
     struct kiln_device *device;
@@ -303,6 +304,8 @@ static bool begin(struct job *job, struct kiln_error *error)
         !check_limits(job, error))
         return false;
     kiln_techniques_describe(&job->techniques, job->stats.techniques, sizeof job->stats.techniques);
+    job->stats.choice_count = KILN_STAGE_COUNT;
+    memcpy(job->stats.choices, job->techniques.choices, sizeof job->techniques.choices);
     job->threads = kiln_threads_create(params->threads);
     if (!job->threads)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "can not start %u threads",

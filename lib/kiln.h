@@ -259,6 +259,13 @@ struct kiln_render_params {
 #define KILN_RENDER_DEFAULTS                                                                       \
     ((struct kiln_render_params){.png_bits = 8, .exr_bits = 16, .quality = 80})
 
+/* Which technique ran a stage, and why. */
+struct kiln_technique_choice {
+    const char *stage, *name; /* "sort", "cpu" */
+    const char *why;          /* the automatic choice fell on it; NULL: it was asked for */
+};
+enum { KILN_MAX_STAGES = 8 };
+
 /* What a job did, for reports. */
 struct kiln_render_stats {
     uint32_t frames;
@@ -270,7 +277,9 @@ struct kiln_render_stats {
     struct kiln_state_hash state;    /* after the last step */
     uint64_t particle_bytes;         /* simulation and draw buffers */
     uint64_t particle_capacity;
-    char techniques[256];            /* "simulate=cpu sort=cpu ..." */
+    char techniques[256];  /* "simulate=cpu sort=cpu ..." */
+    uint32_t choice_count; /* one a stage */
+    struct kiln_technique_choice choices[KILN_MAX_STAGES];
     uint32_t files;                  /* images, 1 for a video; 0: nothing was to be written */
     char first_file[KILN_PATH_SIZE]; /* what was written first */
 };

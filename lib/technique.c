@@ -1,4 +1,4 @@
-/* One table: stages, their techniques, what each is for. */
+/* Two tables: the techniques of each stage and what each is for, and which of them `auto` takes. */
 #include "technique.h"
 
 #include "base/error.h"
@@ -28,36 +28,69 @@ struct row {
 };
 
 static const struct row ROWS[] = {
-    {SIMULATE, "cpu", KILN_SIMULATE_CPU,
-     "host threads; the default unless the device is an exact GPU"},
-    {SIMULATE, "inplace", KILN_SIMULATE_INPLACE,
-     "compute, one buffer updated in place; the default on exact GPUs"},
+    {SIMULATE, "cpu", KILN_SIMULATE_CPU, "host threads"},
+    {SIMULATE, "inplace", KILN_SIMULATE_INPLACE, "compute, one buffer updated in place"},
     {SIMULATE, "pingpong", KILN_SIMULATE_PINGPONG,
      "compute, from one buffer to another; twice the memory"},
     {SIMULATE, "feedback", KILN_SIMULATE_FEEDBACK,
      "geometry shaders and transform feedback; twice the memory"},
-    {SORT, "cpu", KILN_SORT_CPU, "stable radix sort, host threads; the default"},
+    {SORT, "cpu", KILN_SORT_CPU, "stable radix sort, host threads"},
     {SORT, "radix", KILN_SORT_RADIX, "stable radix sort, compute"},
     {SORT, "bitonic", KILN_SORT_BITONIC, "bitonic merge sort, compute, padded to a power of two"},
     {SORT, SPREADABLE, KILN_SORT_ODDEVEN,
      "odd-even merge sort, compute; " SPREADABLE ":N spreads it over N frames"},
-    {RASTER, "cpu", KILN_RASTER_CPU,
-     "host threads, tiles and vectors; the default on software devices"},
+    {RASTER, "cpu", KILN_RASTER_CPU, "host threads, tiles and vectors"},
     {RASTER, "geometry", KILN_RASTER_GEOMETRY,
-     "points turned into billboards by a geometry shader; the default on GPUs"},
+     "points turned into billboards by a geometry shader"},
     {RASTER, "instanced", KILN_RASTER_INSTANCED,
      "a quad for each particle, without a geometry shader"},
-    {BLOOM, "cpu", KILN_BLOOM_CPU, "host threads, rows; the default on software devices"},
-    {BLOOM, "gl", KILN_BLOOM_GL, "fragment shaders; the default on GPUs"},
-    {COMPOSITE, "cpu", KILN_COMPOSITE_CPU, "host threads, rows; the default on software devices"},
-    {COMPOSITE, "gl", KILN_COMPOSITE_GL, "one fragment shader; the default on GPUs"},
+    {BLOOM, "cpu", KILN_BLOOM_CPU, "host threads, rows"},
+    {BLOOM, "gl", KILN_BLOOM_GL, "fragment shaders"},
+    {COMPOSITE, "cpu", KILN_COMPOSITE_CPU, "host threads, rows"},
+    {COMPOSITE, "gl", KILN_COMPOSITE_GL, "one fragment shader"},
 };
 
 enum { ROW_COUNT = sizeof ROWS / sizeof *ROWS };
 
-/* The choices as numbers, one a stage. */
+/* What a device can be, as far as `auto` cares. */
+enum device_class { SOFTWARE, GPU, INEXACT_GPU, CLASS_COUNT };
+
+static const char *const CLASS_NAMES[CLASS_COUNT] = {
+    [SOFTWARE] = "a software device",
+    [GPU] = "a GPU",
+    [INEXACT_GPU] = "a GPU that computes inexactly",
+};
+
+static enum device_class classify(const struct kiln_device_info *device)
+{
+    return device->software ? SOFTWARE : device->exact ? GPU : INEXACT_GPU;
+}
+
+/* `auto`, with its reasons: figures are of docs/measurements.md. */
+static const struct choice {
+    const char *name, *why;
+} AUTO_CHOICES[STAGE_COUNT][CLASS_COUNT] = {
+    [SIMULATE] = {[SOFTWARE] = {"cpu", "threads run the step faster than GL on the same cores"},
+                  [GPU] = {"inplace", "records stay where they are drawn; the least memory in GL"},
+                  [INEXACT_GPU] = {"cpu", "only exact arithmetic may move particles"}},
+    [SORT] = {[SOFTWARE] = {"cpu", "threads sort several times as fast as GL on the same cores"},
+              [GPU] = {"cpu", "the sorts in compute are not measured on a GPU yet"},
+              [INEXACT_GPU] = {"cpu", "only exact arithmetic may order particles"}},
+    [RASTER] = {[SOFTWARE] = {"cpu", "vectors on the host draw several times as fast as GL there"},
+                [GPU] = {"geometry", "the hardware blends"},
+                [INEXACT_GPU] = {"geometry", "the hardware blends"}},
+    [BLOOM] = {[SOFTWARE] = {"cpu", "several times as fast as GL on the same cores"},
+               [GPU] = {"gl", "the picture is there already"},
+               [INEXACT_GPU] = {"gl", "the picture is there already"}},
+    [COMPOSITE] = {[SOFTWARE] = {"cpu", "faster than GL on the same cores"},
+                   [GPU] = {"gl", "the picture is there already"},
+                   [INEXACT_GPU] = {"gl", "the picture is there already"}},
+};
+
+/* A row of each stage, and why `auto` takes it: NULL where it was asked for. */
 struct choices {
-    int value[STAGE_COUNT];
+    const struct row *rows[STAGE_COUNT];
+    const char *why[STAGE_COUNT];
     uint32_t sort_spread;
 };
 
@@ -68,6 +101,17 @@ static const struct row *find_row(enum stage stage, const char *name)
             return &ROWS[i];
     }
     return NULL;
+}
+
+static struct choices choose_automatically(const struct kiln_device_info *device)
+{
+    struct choices choices = {0};
+    for (int stage = 0; stage < STAGE_COUNT; stage++) {
+        const struct choice *choice = &AUTO_CHOICES[stage][classify(device)];
+        choices.rows[stage] = find_row((enum stage)stage, choice->name);
+        choices.why[stage] = choice->why;
+    }
+    return choices;
 }
 
 static bool unknown_name(const char *what, const char *found, const char *const *names,
@@ -128,7 +172,8 @@ static bool apply_flag(const char *flag, const struct choices *automatic, struct
     if (is_auto || row) {
         if (stage == SORT)
             choices->sort_spread = spread;
-        choices->value[stage] = is_auto ? automatic->value[stage] : row->value;
+        choices->rows[stage] = is_auto ? automatic->rows[stage] : row;
+        choices->why[stage] = is_auto ? automatic->why[stage] : NULL;
         return true;
     }
     const char *names[ROW_COUNT + 1];
@@ -147,35 +192,30 @@ bool kiln_techniques_choose(const struct kiln_device_info *device, const char *c
                             size_t flag_count, struct kiln_techniques *techniques,
                             struct kiln_error *error)
 {
-    bool exact_gpu = device->exact && !device->software;
-    const struct choices automatic = {
-        .value = {
-            [SIMULATE] = exact_gpu ? KILN_SIMULATE_INPLACE : KILN_SIMULATE_CPU,
-            [SORT] = KILN_SORT_CPU,
-            [RASTER] = device->software ? KILN_RASTER_CPU : KILN_RASTER_GEOMETRY,
-            [BLOOM] = device->software ? KILN_BLOOM_CPU : KILN_BLOOM_GL,
-            [COMPOSITE] = device->software ? KILN_COMPOSITE_CPU : KILN_COMPOSITE_GL,
-        }};
+    const struct choices automatic = choose_automatically(device);
     struct choices choices = automatic;
     for (size_t i = 0; i < flag_count; i++) {
         if (!apply_flag(flags[i], &automatic, &choices, error))
             return false;
     }
-    if (choices.value[SIMULATE] != KILN_SIMULATE_CPU && !device->exact)
+    if (choices.rows[SIMULATE]->value != KILN_SIMULATE_CPU && !device->exact)
         return kiln_error_set(error, KILN_NO_DEVICE,
                               "%s computes inexactly: it can not simulate; use simulate=cpu",
                               device->name);
-    if (choices.value[SORT] != KILN_SORT_CPU && !device->exact)
+    if (choices.rows[SORT]->value != KILN_SORT_CPU && !device->exact)
         return kiln_error_set(error, KILN_NO_DEVICE,
                               "%s computes inexactly: it can not sort; use sort=cpu", device->name);
     *techniques = (struct kiln_techniques){
-        .simulate = (enum kiln_simulate_technique)choices.value[SIMULATE],
-        .sort = (enum kiln_sort_technique)choices.value[SORT],
+        .simulate = (enum kiln_simulate_technique)choices.rows[SIMULATE]->value,
+        .sort = (enum kiln_sort_technique)choices.rows[SORT]->value,
         .sort_spread = choices.sort_spread,
-        .raster = (enum kiln_raster_technique)choices.value[RASTER],
-        .bloom = (enum kiln_bloom_technique)choices.value[BLOOM],
-        .composite = (enum kiln_composite_technique)choices.value[COMPOSITE],
+        .raster = (enum kiln_raster_technique)choices.rows[RASTER]->value,
+        .bloom = (enum kiln_bloom_technique)choices.rows[BLOOM]->value,
+        .composite = (enum kiln_composite_technique)choices.rows[COMPOSITE]->value,
     };
+    for (int stage = 0; stage < STAGE_COUNT; stage++)
+        techniques->choices[stage] = (struct kiln_technique_choice){
+            STAGE_NAMES[stage], choices.rows[stage]->name, choices.why[stage]};
     return true;
 }
 
@@ -208,21 +248,13 @@ bool kiln_techniques_combination(size_t index, struct kiln_technique_list *list)
 
 void kiln_techniques_describe(const struct kiln_techniques *techniques, char *out, size_t size)
 {
-    struct choices choices = {.value = {
-                                  [SIMULATE] = (int)techniques->simulate,
-                                  [SORT] = (int)techniques->sort,
-                                  [RASTER] = (int)techniques->raster,
-                                  [BLOOM] = (int)techniques->bloom,
-                                  [COMPOSITE] = (int)techniques->composite,
-                              }};
     size_t used = 0;
-    for (size_t i = 0; i < ROW_COUNT; i++) {
-        if (choices.value[ROWS[i].stage] != ROWS[i].value || used >= size)
-            continue;
-        int length = snprintf(out + used, size - used, "%s%s=%s", used ? " " : "",
-                              STAGE_NAMES[ROWS[i].stage], ROWS[i].name);
+    for (int stage = 0; stage < STAGE_COUNT && used < size; stage++) {
+        const struct kiln_technique_choice *choice = &techniques->choices[stage];
+        int length = snprintf(out + used, size - used, "%s%s=%s", used ? " " : "", choice->stage,
+                              choice->name);
         used += length > 0 ? (size_t)length : 0;
-        if (ROWS[i].stage == SORT && techniques->sort_spread > 0 && used < size)
+        if (stage == SORT && techniques->sort_spread > 0 && used < size)
             used += (size_t)snprintf(out + used, size - used, ":%u", techniques->sort_spread);
     }
 }
@@ -242,9 +274,23 @@ static void write_technique(void *user, const char *name, const char *help)
     fprintf(user, "  %-18s %s\n", name, help);
 }
 
+/* The table of `auto`: a paragraph a class of devices. */
+static void write_choices(FILE *out, enum device_class class)
+{
+    fprintf(out, "\n'" AUTO "' on %s:\n", CLASS_NAMES[class]);
+    for (int stage = 0; stage < STAGE_COUNT; stage++) {
+        const struct choice *choice = &AUTO_CHOICES[stage][class];
+        char name[64];
+        snprintf(name, sizeof name, "%s=%s", STAGE_NAMES[stage], choice->name);
+        fprintf(out, "  %-18s %s\n", name, choice->why);
+    }
+}
+
 bool kiln_write_techniques(FILE *out)
 {
-    write_technique(out, "STAGE=" AUTO, "the default of each stage");
+    write_technique(out, "STAGE=" AUTO, "the default of each stage, by the tables below");
     kiln_visit_techniques(write_technique, out);
+    for (int class = 0; class < CLASS_COUNT; class ++)
+        write_choices(out, (enum device_class) class);
     return !ferror(out);
 }

@@ -11,6 +11,7 @@
 #include "sort/sort.h"
 
 enum { KILN_STAGE_COUNT = 5, KILN_TECHNIQUE_SIZE = 32 };
+_Static_assert((int)KILN_STAGE_COUNT <= (int)KILN_MAX_STAGES, "statistics hold all choices");
 
 struct kiln_techniques {
     enum kiln_simulate_technique simulate;
@@ -19,6 +20,7 @@ struct kiln_techniques {
     enum kiln_raster_technique raster;
     enum kiln_bloom_technique bloom;
     enum kiln_composite_technique composite;
+    struct kiln_technique_choice choices[KILN_STAGE_COUNT]; /* the same for people */
 };
 
 /* Applies "stage=name" texts over the device's defaults, which "stage=auto" asks for; the last for

@@ -45,6 +45,26 @@ static void auto_is_the_default(void **state)
     assert_int_equal(techniques.simulate, KILN_SIMULATE_CPU);
 }
 
+static void every_choice_says_why(void **state)
+{
+    (void)state;
+    const struct kiln_device_info devices[] = {
+        {.software = true, .exact = true}, {.exact = true, .name = "GPU"}, {.name = "inexact"}};
+    for (size_t i = 0; i < sizeof devices / sizeof *devices; i++) {
+        const char *const flag = "sort=cpu";
+        struct kiln_techniques techniques;
+        struct kiln_error error = {0};
+        assert_true(kiln_techniques_choose(&devices[i], &flag, 1, &techniques, &error));
+        for (int stage = 0; stage < KILN_STAGE_COUNT; stage++) {
+            const struct kiln_technique_choice *choice = &techniques.choices[stage];
+            bool forced = strcmp(choice->stage, "sort") == 0;
+            assert_true(forced == (choice->why == NULL));
+            if (!forced)
+                assert_in_range(strlen(choice->why), 10, 70); /* a line of --stats */
+        }
+    }
+}
+
 static void flags_force_a_technique(void **state)
 {
     (void)state;
@@ -154,6 +174,7 @@ int main(void)
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(defaults_follow_the_device),
         cmocka_unit_test(auto_is_the_default),
+        cmocka_unit_test(every_choice_says_why),
         cmocka_unit_test(flags_force_a_technique),
         cmocka_unit_test(a_sort_can_be_spread_over_frames),
         cmocka_unit_test(inexact_devices_do_not_simulate_or_sort),

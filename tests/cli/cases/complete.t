@@ -20,21 +20,21 @@ $ kiln complete -- render --stats=
 1|word	--stats=text	
 1|word	--stats=json	
 $ kiln complete -- render --technique sort=cpu,
-1|word	sort=cpu,simulate=cpu	host threads; the default unless the device is an exact GPU
-1|word	sort=cpu,simulate=inplace	compute, one buffer updated in place; the default on exact GPUs
+1|word	sort=cpu,simulate=cpu	host threads
+1|word	sort=cpu,simulate=inplace	compute, one buffer updated in place
 1|word	sort=cpu,simulate=pingpong	compute, from one buffer to another; twice the memory
 1|word	sort=cpu,simulate=feedback	geometry shaders and transform feedback; twice the memory
-1|word	sort=cpu,sort=cpu	stable radix sort, host threads; the default
+1|word	sort=cpu,sort=cpu	stable radix sort, host threads
 1|word	sort=cpu,sort=radix	stable radix sort, compute
 1|word	sort=cpu,sort=bitonic	bitonic merge sort, compute, padded to a power of two
 1|word	sort=cpu,sort=oddeven	odd-even merge sort, compute; oddeven:N spreads it over N frames
-1|word	sort=cpu,raster=cpu	host threads, tiles and vectors; the default on software devices
-1|word	sort=cpu,raster=geometry	points turned into billboards by a geometry shader; the default on GPUs
+1|word	sort=cpu,raster=cpu	host threads, tiles and vectors
+1|word	sort=cpu,raster=geometry	points turned into billboards by a geometry shader
 1|word	sort=cpu,raster=instanced	a quad for each particle, without a geometry shader
-1|word	sort=cpu,bloom=cpu	host threads, rows; the default on software devices
-1|word	sort=cpu,bloom=gl	fragment shaders; the default on GPUs
-1|word	sort=cpu,composite=cpu	host threads, rows; the default on software devices
-1|word	sort=cpu,composite=gl	one fragment shader; the default on GPUs
+1|word	sort=cpu,bloom=cpu	host threads, rows
+1|word	sort=cpu,bloom=gl	fragment shaders
+1|word	sort=cpu,composite=cpu	host threads, rows
+1|word	sort=cpu,composite=gl	one fragment shader
 $ kiln complete -- compare --limit ss
 1|part	ssim=	structural similarity of luma (Wang 2004): 1 for equal pictures
 $ kiln complete -- render --device ''

@@ -114,11 +114,16 @@ $ kiln render scenes/tiny.yaml -o none --frames 0-3 --stats=text --progress none
 1|  particles    36 alive, 82 slots, 2952 bytes (36.0 a slot)
 1|  memory <MiB> at the peak
 1|  techniques   simulate=cpu sort=cpu raster=geometry bloom=cpu composite=cpu
+1|  chosen       simulate=cpu: as asked for
+1|               sort=cpu: as asked for
+1|               raster=geometry: as asked for
+1|               bloom=cpu: several times as fast as GL on the same cores
+1|               composite=cpu: faster than GL on the same cores
 1|  scene        <hash>
 1|  state        83c0efe7248147d7
 $ kiln render scenes/tiny.yaml -o none --frames 0-1 --stats=json --progress none | jq -r 'keys_unsorted | join(" ")'
 1|event index name software
-1|event scene output first_file frames total_s setup_s steps pass_ms alive particle_capacity particle_bytes peak_memory_bytes techniques scene_hash state
+1|event scene output first_file frames total_s setup_s steps pass_ms alive particle_capacity particle_bytes peak_memory_bytes techniques chosen scene_hash state
 $ kiln render scenes/tiny.yaml -o x_%d.png --frames 0,2 --progress ndjson | jq -c '[.event, .frame, .done, .total]'
 1|["device",null,null,null]
 1|["frame",0,1,2]

@@ -292,22 +292,43 @@ $ kiln help exit-codes
 The other topics.
 
 $ kiln help techniques
-1|  STAGE=auto         the default of each stage
-1|  simulate=cpu       host threads; the default unless the device is an exact GPU
-1|  simulate=inplace   compute, one buffer updated in place; the default on exact GPUs
+1|  STAGE=auto         the default of each stage, by the tables below
+1|  simulate=cpu       host threads
+1|  simulate=inplace   compute, one buffer updated in place
 1|  simulate=pingpong  compute, from one buffer to another; twice the memory
 1|  simulate=feedback  geometry shaders and transform feedback; twice the memory
-1|  sort=cpu           stable radix sort, host threads; the default
+1|  sort=cpu           stable radix sort, host threads
 1|  sort=radix         stable radix sort, compute
 1|  sort=bitonic       bitonic merge sort, compute, padded to a power of two
 1|  sort=oddeven       odd-even merge sort, compute; oddeven:N spreads it over N frames
-1|  raster=cpu         host threads, tiles and vectors; the default on software devices
-1|  raster=geometry    points turned into billboards by a geometry shader; the default on GPUs
+1|  raster=cpu         host threads, tiles and vectors
+1|  raster=geometry    points turned into billboards by a geometry shader
 1|  raster=instanced   a quad for each particle, without a geometry shader
-1|  bloom=cpu          host threads, rows; the default on software devices
-1|  bloom=gl           fragment shaders; the default on GPUs
-1|  composite=cpu      host threads, rows; the default on software devices
-1|  composite=gl       one fragment shader; the default on GPUs
+1|  bloom=cpu          host threads, rows
+1|  bloom=gl           fragment shaders
+1|  composite=cpu      host threads, rows
+1|  composite=gl       one fragment shader
+1|
+1|'auto' on a software device:
+1|  simulate=cpu       threads run the step faster than GL on the same cores
+1|  sort=cpu           threads sort several times as fast as GL on the same cores
+1|  raster=cpu         vectors on the host draw several times as fast as GL there
+1|  bloom=cpu          several times as fast as GL on the same cores
+1|  composite=cpu      faster than GL on the same cores
+1|
+1|'auto' on a GPU:
+1|  simulate=inplace   records stay where they are drawn; the least memory in GL
+1|  sort=cpu           the sorts in compute are not measured on a GPU yet
+1|  raster=geometry    the hardware blends
+1|  bloom=gl           the picture is there already
+1|  composite=gl       the picture is there already
+1|
+1|'auto' on a GPU that computes inexactly:
+1|  simulate=cpu       only exact arithmetic may move particles
+1|  sort=cpu           only exact arithmetic may order particles
+1|  raster=geometry    the hardware blends
+1|  bloom=gl           the picture is there already
+1|  composite=gl       the picture is there already
 $ kiln help outputs
 1|Output formats, by the suffix of the output:
 1|
