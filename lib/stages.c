@@ -91,24 +91,34 @@ static struct kiln_image *bloom_source(struct kiln_stages *s)
 }
 
 /* The backdrop draws the scene itself, or what spheres are then put before. */
-static bool init_scenery(struct kiln_stages *s, struct kiln_error *error)
+static bool init_scenery(struct kiln_stages *s, enum kiln_backdrop_technique technique,
+                         struct kiln_error *error)
 {
-    const struct kiln_spheres_targets targets = {
-        .backdrop_color = &s->backdrop_color,
-        .backdrop_depth = &s->backdrop_depth,
-        .color = &s->scene_color,
-        .depth = &s->scene_depth,
-        .bloom = &s->bloom_color,
-    };
     bool spheres = spheres_of(s->scene) != 0;
-    s->backdrop =
-        kiln_backdrop_create(s->device, s->scene, spheres ? &s->backdrop_color : &s->scene_color,
-                             spheres ? &s->backdrop_depth : &s->scene_depth, error);
-    if (s->backdrop)
-        kiln_lighting_use_meshes(s->lighting, kiln_backdrop_meshes(s->backdrop));
-    if (s->backdrop && spheres)
-        s->spheres = kiln_spheres_create(s->device, s->particles, &targets, s->scene, error);
-    return s->backdrop && (s->spheres || !spheres);
+    const struct kiln_backdrop_params behind = {
+        .technique = technique,
+        .threads = s->threads,
+        .color = spheres ? &s->backdrop_color : &s->scene_color,
+        .depth = spheres ? &s->backdrop_depth : &s->scene_depth,
+    };
+    s->backdrop = kiln_backdrop_create(s->device, s->scene, &behind, error);
+    if (!s->backdrop)
+        return false;
+    kiln_lighting_use_meshes(s->lighting, kiln_backdrop_meshes(s->backdrop));
+    if (!spheres)
+        return true;
+    const struct kiln_spheres_params before = {
+        .backdrop = s->backdrop,
+        .particles = s->particles,
+        .threads = s->threads,
+        .targets = {.backdrop_color = &s->backdrop_color,
+                    .backdrop_depth = &s->backdrop_depth,
+                    .color = &s->scene_color,
+                    .depth = &s->scene_depth,
+                    .bloom = &s->bloom_color},
+    };
+    s->spheres = kiln_spheres_create(s->device, s->scene, &before, error);
+    return s->spheres;
 }
 
 static bool init_stages(struct kiln_stages *s, const struct kiln_techniques *techniques,
@@ -128,7 +138,7 @@ static bool init_stages(struct kiln_stages *s, const struct kiln_techniques *tec
         return false;
     s->particles =
         kiln_particles_create(device, s->scene, &s->atlas, techniques->raster, s->threads, error);
-    if (!s->particles || !init_scenery(s, error))
+    if (!s->particles || !init_scenery(s, techniques->backdrop, error))
         return false;
     if (s->scene->camera.shutter_samples > 1) {
         s->shutter = kiln_shutter_create(device, s->scene->width, s->scene->height, error);

@@ -6,14 +6,12 @@
 
 #include <string.h>
 
-enum stage { SIMULATE, SORT, RASTER, BLOOM, COMPOSITE, STAGE_COUNT };
+enum stage { SIMULATE, SORT, BACKDROP, RASTER, BLOOM, COMPOSITE, STAGE_COUNT };
 _Static_assert((int)STAGE_COUNT == (int)KILN_STAGE_COUNT, "the header says how many");
 
-static const char *const STAGE_NAMES[STAGE_COUNT] = {[SIMULATE] = "simulate",
-                                                     [SORT] = "sort",
-                                                     [RASTER] = "raster",
-                                                     [BLOOM] = "bloom",
-                                                     [COMPOSITE] = "composite"};
+static const char *const STAGE_NAMES[STAGE_COUNT] = {
+    [SIMULATE] = "simulate", [SORT] = "sort",   [BACKDROP] = "backdrop",
+    [RASTER] = "raster",     [BLOOM] = "bloom", [COMPOSITE] = "composite"};
 
 #define AUTO "auto"
 
@@ -39,6 +37,8 @@ static const struct row ROWS[] = {
     {SORT, "bitonic", KILN_SORT_BITONIC, "bitonic merge sort, compute, padded to a power of two"},
     {SORT, SPREADABLE, KILN_SORT_ODDEVEN,
      "odd-even merge sort, compute; " SPREADABLE ":N spreads it over N frames"},
+    {BACKDROP, "cpu", KILN_BACKDROP_CPU, "host threads, rays in vectors"},
+    {BACKDROP, "gl", KILN_BACKDROP_GL, "fragment shaders"},
     {RASTER, "cpu", KILN_RASTER_CPU, "host threads, tiles and vectors"},
     {RASTER, "geometry", KILN_RASTER_GEOMETRY,
      "points turned into billboards by a geometry shader"},
@@ -76,6 +76,9 @@ static const struct choice {
     [SORT] = {[SOFTWARE] = {"cpu", "threads sort several times as fast as GL on the same cores"},
               [GPU] = {"cpu", "the sorts in compute are not measured on a GPU yet"},
               [INEXACT_GPU] = {"cpu", "only exact arithmetic may order particles"}},
+    [BACKDROP] = {[SOFTWARE] = {"cpu", "several times as fast as GL on the same cores"},
+                  [GPU] = {"gl", "the hardware casts the rays"},
+                  [INEXACT_GPU] = {"gl", "the hardware casts the rays"}},
     [RASTER] = {[SOFTWARE] = {"cpu", "vectors on the host draw several times as fast as GL there"},
                 [GPU] = {"geometry", "the hardware blends"},
                 [INEXACT_GPU] = {"geometry", "the hardware blends"}},
@@ -209,6 +212,7 @@ bool kiln_techniques_choose(const struct kiln_device_info *device, const char *c
         .simulate = (enum kiln_simulate_technique)choices.rows[SIMULATE]->value,
         .sort = (enum kiln_sort_technique)choices.rows[SORT]->value,
         .sort_spread = choices.sort_spread,
+        .backdrop = (enum kiln_backdrop_technique)choices.rows[BACKDROP]->value,
         .raster = (enum kiln_raster_technique)choices.rows[RASTER]->value,
         .bloom = (enum kiln_bloom_technique)choices.rows[BLOOM]->value,
         .composite = (enum kiln_composite_technique)choices.rows[COMPOSITE]->value,

@@ -3,6 +3,7 @@
 #ifndef KILN_TECHNIQUE_H
 #define KILN_TECHNIQUE_H
 
+#include "draw/backdrop.h"
 #include "draw/particles.h"
 #include "kiln.h"
 #include "post/bloom.h"
@@ -10,13 +11,14 @@
 #include "sim/simulate.h"
 #include "sort/sort.h"
 
-enum { KILN_STAGE_COUNT = 5, KILN_TECHNIQUE_SIZE = 32 };
+enum { KILN_STAGE_COUNT = 6, KILN_TECHNIQUE_SIZE = 32 };
 _Static_assert((int)KILN_STAGE_COUNT <= (int)KILN_MAX_STAGES, "statistics hold all choices");
 
 struct kiln_techniques {
     enum kiln_simulate_technique simulate;
     enum kiln_sort_technique sort;
     uint32_t sort_spread; /* frames over which `oddeven` divides its passes; 0: a frame has all */
+    enum kiln_backdrop_technique backdrop;
     enum kiln_raster_technique raster;
     enum kiln_bloom_technique bloom;
     enum kiln_composite_technique composite;
@@ -40,7 +42,7 @@ struct kiln_technique_list {
  * machine. Whether a device allows it is for kiln_techniques_choose to say. */
 bool kiln_techniques_combination(size_t index, struct kiln_technique_list *list);
 
-/* Writes "simulate=cpu sort=cpu raster=geometry bloom=gl composite=gl". */
+/* Writes "simulate=cpu sort=cpu backdrop=gl raster=geometry bloom=gl composite=gl". */
 void kiln_techniques_describe(const struct kiln_techniques *techniques, char *out, size_t size);
 
 #endif

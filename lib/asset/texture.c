@@ -1,41 +1,13 @@
-/* Pixels become linear floats a row at a time, so that no second picture lies in memory. */
+/* Pixels go to GL a row at a time. */
 #include "asset/texture.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #include "asset/image.h"
+#include "asset/linear.h"
 #include "base/error.h"
-
-static const float MOST = 65504.0f; /* of a half float */
-
-static float decode_srgb(float x)
-{
-    return x <= 0.04045f ? x / 12.92f : powf((x + 0.055f) / 1.055f, 2.4f);
-}
-
-static float decode(const struct kiln_asset_image *image, size_t at)
-{
-    if (image->type == KILN_IMAGE_F32)
-        return ((const float *)image->pixels)[at];
-    if (image->type == KILN_IMAGE_U16)
-        return (float)((const uint16_t *)image->pixels)[at] / 65535.0f;
-    return (float)((const uint8_t *)image->pixels)[at] / 255.0f;
-}
-
-/* One row as linear RGB. */
-static void read_row(const struct kiln_asset_image *image, uint32_t y, float *rgb)
-{
-    for (uint32_t x = 0; x < image->width; x++, rgb += 3) {
-        size_t at = ((size_t)y * image->width + x) * 4;
-        float alpha = image->premultiplied ? 1.0f : decode(image, at + 3);
-        for (size_t c = 0; c < 3; c++) {
-            float value = decode(image, at + c);
-            value = alpha * (image->srgb ? decode_srgb(value) : value);
-            rgb[c] = value > 0.0f ? fminf(value, MOST) : 0.0f; /* NaN, too, is dark */
-        }
-    }
-}
+#include "shared/exact.h"
 
 static bool upload(const struct kiln_asset_image *image, const char *path, struct kiln_error *error)
 {
@@ -44,7 +16,7 @@ static bool upload(const struct kiln_asset_image *image, const char *path, struc
         return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", path);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     for (uint32_t y = 0; y < image->height; y++) {
-        read_row(image, y, row);
+        kiln_linear_row(image, y, row);
         glTexSubImage2D(GL_TEXTURE_2D, 0, 0, (GLint)y, (GLsizei)image->width, 1, GL_RGB, GL_FLOAT,
                         row);
     }
@@ -99,15 +71,16 @@ struct sky_sums {
     double up_weight, horizon_weight;
 };
 
-static void add_row(struct sky_sums *sums, const float *rgb, uint32_t width, double elevation)
+static void add_row(struct sky_sums *sums, const float *rgb, uint32_t width, float elevation)
 {
-    const double low = -0.1, high = 0.2; /* rad, about 6 degrees below to 11 above */
+    const float low = -0.1f, high = 0.2f; /* rad, about 6 degrees below to 11 above */
     double mean[3] = {0};
     for (uint32_t x = 0; x < width; x++) {
         for (int c = 0; c < 3; c++)
             mean[c] += (double)rgb[3 * x + (uint32_t)c] / width;
     }
-    double area = cos(elevation), facing = fmax(sin(elevation), 0.0);
+    const struct exact_angle angle = exact_sincos(elevation);
+    double area = (double)angle.cosine, facing = fmax((double)angle.sine, 0.0);
     double near = elevation > low && elevation < high ? 1.0 : 0.0;
     for (int c = 0; c < 3; c++) {
         sums->up[c] += mean[c] * area * facing;
@@ -127,8 +100,8 @@ bool kiln_sky_light_measure(struct kiln_sky_light *light, const char *path,
     float *row = malloc((size_t)image->width * 3 * sizeof *row);
     struct sky_sums sums = {.up_weight = 0.0};
     for (uint32_t y = 0; row && y < image->height; y++) {
-        double elevation = acos(-1.0) * (0.5 - (y + 0.5) / image->height);
-        read_row(image, y, row);
+        float elevation = 3.14159265f * (0.5f - ((float)y + 0.5f) / (float)image->height);
+        kiln_linear_row(image, y, row);
         add_row(&sums, row, image->width, elevation);
     }
     for (int c = 0; c < 3; c++) {

@@ -10,14 +10,13 @@ static float4 mix4(float4 a, float4 b, float t)
                     a.w + (b.w - a.w) * t};
 }
 
-/* A row of a system's part of the table. */
-static float4 look_at(const float4 *rows, uint32_t row, float progress)
+float4 kiln_living_look(const struct kiln_living_system *system, uint32_t row, float progress)
 {
     float x = progress * (float)(KILN_LOOK_SAMPLES - 1);
     uint32_t i = (uint32_t)x;
     if (i > KILN_LOOK_SAMPLES - 2)
         i = KILN_LOOK_SAMPLES - 2;
-    const float4 *samples = rows + (size_t)row * KILN_LOOK_SAMPLES;
+    const float4 *samples = system->rows + (size_t)row * KILN_LOOK_SAMPLES;
     return mix4(samples[i], samples[i + 1], x - (float)i);
 }
 
@@ -45,8 +44,8 @@ bool kiln_living_at(const struct kiln_living_system *system, uint32_t slot,
     float age_s = particle_age(record, system->step, system->dt_s);
     float progress =
         particle_progress(age_s, particle_life_s(system->keys, system->derived, record));
-    float4 shape = look_at(system->rows, KILN_LOOK_SHAPE, progress);
-    float4 spread = look_at(system->rows, KILN_LOOK_SPREAD, progress);
+    float4 shape = kiln_living_look(system, KILN_LOOK_SHAPE, progress);
+    float4 spread = kiln_living_look(system, KILN_LOOK_SPREAD, progress);
     float scale = random_unit(particle_stream(system->derived, record), RANDOM_SCALE);
     *particle = (struct kiln_living){
         .position = particle_position(record),
@@ -59,7 +58,7 @@ bool kiln_living_at(const struct kiln_living_system *system, uint32_t slot,
 
 float3 kiln_living_glow(const struct kiln_living_system *system, float progress)
 {
-    float4 hot = look_at(system->rows, KILN_LOOK_HOT, progress);
-    float4 cool = look_at(system->rows, KILN_LOOK_COOL, progress);
+    float4 hot = kiln_living_look(system, KILN_LOOK_HOT, progress);
+    float4 cool = kiln_living_look(system, KILN_LOOK_COOL, progress);
     return (float3){0.5f * (hot.x + cool.x), 0.5f * (hot.y + cool.y), 0.5f * (hot.z + cool.z)};
 }

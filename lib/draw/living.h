@@ -42,6 +42,9 @@ struct kiln_living_system kiln_living_system(const struct kiln_living_moment *mo
 bool kiln_living_at(const struct kiln_living_system *system, uint32_t slot,
                     struct kiln_living *particle);
 
+/* A row of the system's look (KILN_LOOK_*) at a progress through life. */
+float4 kiln_living_look(const struct kiln_living_system *system, uint32_t row, float progress);
+
 /* The light that a particle emits, the mean of its hot and cool parts. */
 float3 kiln_living_glow(const struct kiln_living_system *system, float progress);
 

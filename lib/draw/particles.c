@@ -2,6 +2,7 @@
 #include "draw/particles.h"
 
 #include "base/error.h"
+#include "draw/draw_blocks.h"
 #include "draw/particles_cpu.h"
 #include "draw/particles_geometry.h"
 
@@ -9,6 +10,7 @@
 
 struct kiln_particles_stage {
     enum kiln_raster_technique technique;
+    struct kiln_draw_blocks blocks; /* of techniques in GL */
     struct kiln_geometry *geometry; /* of every device */
     struct kiln_tiles *tiles;       /* `cpu` */
 };
@@ -24,6 +26,7 @@ kiln_particles_create(struct kiln_device *device, const struct kiln_scene *scene
         return NULL;
     }
     stage->technique = technique;
+    kiln_draw_blocks_init(&stage->blocks, device);
     if (device)
         stage->geometry = kiln_geometry_create(device, scene, atlas, technique, error);
     if (technique == KILN_RASTER_CPU)
@@ -37,6 +40,7 @@ void kiln_particles_destroy(struct kiln_particles_stage **stage)
 {
     if (!*stage)
         return;
+    kiln_draw_blocks_finish(&(*stage)->blocks);
     kiln_geometry_destroy(&(*stage)->geometry);
     kiln_tiles_destroy(&(*stage)->tiles);
     free(*stage);
@@ -66,7 +70,8 @@ bool kiln_particles_run(struct kiln_particles_stage *stage, const struct kiln_pa
     switch (stage->technique) {
     case KILN_RASTER_GEOMETRY:
     case KILN_RASTER_INSTANCED:
-        return kiln_geometry_run(stage->geometry, draw, error);
+        return kiln_draw_blocks_bind(&stage->blocks, draw->view, draw->backdrop, error) &&
+               kiln_geometry_run(stage->geometry, draw, error);
     case KILN_RASTER_CPU:
         return kiln_tiles_run(stage->tiles, draw, error);
     }

@@ -46,7 +46,7 @@ struct kiln_particles_draw {
 bool kiln_particles_bind(struct kiln_particles_stage *stage, struct kiln_pool *pool,
                          struct kiln_buffer *entries, float time_s, struct kiln_error *error);
 
-/* Draws with what kiln_backdrop_draw drew and, but for `cpu`, left bound. */
+/* All but `cpu` need bound what kiln_lighting_run binds. */
 bool kiln_particles_run(struct kiln_particles_stage *stage, const struct kiln_particles_draw *draw,
                         struct kiln_error *error);
 

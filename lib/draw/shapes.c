@@ -1,6 +1,8 @@
 /* Scene values at a time into the block that shaders read. Pictures alone depend on it. */
 #include "draw/shapes.h"
 
+#include "shared/exact.h"
+
 #include <assert.h>
 #include <math.h>
 #include <stddef.h>
@@ -69,8 +71,9 @@ struct kiln_sun_frame kiln_sun_frame_at(const struct kiln_scene *scene, float ti
     float3 sun = normalized(kiln_scene_value3(scene, &backdrop->sun_direction, time_s));
     float3 aside = fabsf(sun.y) < 0.9f ? (float3){0.0f, 1.0f, 0.0f} : (float3){1.0f, 0.0f, 0.0f};
     float3 right = normalized(cross(aside, sun));
-    float radius = 0.5f * kiln_scene_value(scene, &backdrop->sun_size, time_s);
-    return (struct kiln_sun_frame){right, cross(sun, right), sun, tanf(radius)};
+    const struct exact_angle radius =
+        exact_sincos(0.5f * kiln_scene_value(scene, &backdrop->sun_size, time_s));
+    return (struct kiln_sun_frame){right, cross(sun, right), sun, radius.sine / radius.cosine};
 }
 
 /* A wave of height h and length l is pi h / l steep; the shorter ones are as steep as the longest.
@@ -90,8 +93,9 @@ static void fill_gloss(const struct kiln_scene *scene, float time_s,
 /* Rows of the rotation about x, then y, then z. */
 static void rotation_rows(float3 angles, float rows[3][3])
 {
-    float sx = sinf(angles.x), cx = cosf(angles.x), sy = sinf(angles.y), cy = cosf(angles.y);
-    float sz = sinf(angles.z), cz = cosf(angles.z);
+    const struct exact_angle x = exact_sincos(angles.x), y = exact_sincos(angles.y);
+    const struct exact_angle z = exact_sincos(angles.z);
+    float sx = x.sine, cx = x.cosine, sy = y.sine, cy = y.cosine, sz = z.sine, cz = z.cosine;
     const float r[3][3] = {{cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx},
                            {sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx},
                            {-sy, cy * sx, cy * cx}};

@@ -266,6 +266,8 @@ bool kiln_sphere_shadow_run(struct kiln_sphere_shadow *shadow,
     float scale = 1.0f / layout.size;
     const float3 right = shadow->sun.right, up = shadow->sun.up;
     bins->edge = layout.edge;
+    bins->bins = shadow->bins;
+    bins->list = shadow->entries;
     bins->world_to_bin[0] =
         (float4){right.x * scale, right.y * scale, right.z * scale, -layout.low_x * scale};
     bins->world_to_bin[1] =

@@ -13,6 +13,9 @@
 struct kiln_sphere_bins {
     uint32_t edge;          /* bins in each direction; 0: there is no sphere */
     float4 world_to_bin[2]; /* rows: a world position to bins */
+    const uint32_t *bins;   /* first entry and number of each bin, row by row; these two are valid
+                             * until the next run */
+    const float4 *list;     /* the entries: centre and radius of a sphere, m */
 };
 
 struct kiln_sphere_shadow;

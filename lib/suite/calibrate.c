@@ -87,7 +87,7 @@ static struct variant choose_variant(const struct calibrating *c, size_t index)
     return variant;
 }
 
-/* "threads=2 simulate=inplace sort=cpu raster=geometry device=llvmpipe" */
+/* "threads=2 simulate=inplace sort=cpu backdrop=cpu raster=geometry device=llvmpipe" */
 static void tell(const struct calibrating *c, const struct variant *variant)
 {
     struct kiln_text text = {0};

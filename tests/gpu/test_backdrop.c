@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "draw/backdrop.h"
-#include "support/device.h"
+#include "support/backdrops.h"
 
 enum { WIDTH = 96, HEIGHT = 54 };
 
@@ -52,7 +52,7 @@ static void fixture_start(struct fixture *f, void *device)
     struct kiln_error error = {0};
     kiln_image_init(&f->color, device, WIDTH, HEIGHT, GL_RGBA32F, "color");
     kiln_image_init(&f->depth, device, WIDTH, HEIGHT, GL_R32F, "depth");
-    f->stage = kiln_backdrop_create(device, f->scene, &f->color, &f->depth, &error);
+    f->stage = backdrop_create(device, f->scene, &f->color, &f->depth, &error);
     if (!f->stage)
         fail_msg("%s", error.message);
 }
@@ -197,5 +197,11 @@ int main(void)
         test_on_device(sky_floor_and_shadow_have_their_colors),
         test_on_device(only_changes_are_drawn_again),
     };
-    return cmocka_run_group_tests_name("backdrop", tests, test_device_open, test_device_close);
+    int failed = 0;
+    for (int i = 0; i < 2; i++) {
+        backdrop_technique = BACKDROPS[i];
+        failed +=
+            cmocka_run_group_tests_name("backdrop", tests, test_device_open, test_device_close);
+    }
+    return failed;
 }

@@ -14,7 +14,7 @@
 #include "asset/mesh.h"
 #include "asset/texture.h"
 #include "draw/backdrop.h"
-#include "support/device.h"
+#include "support/backdrops.h"
 #include "support/folders.h"
 
 enum { WIDTH = 128, HEIGHT = 72 };
@@ -226,7 +226,7 @@ static struct picture draw_below(void *device, const char *text, const char *ass
         fail_msg("%s", error.message);
     kiln_image_init(&p.color, device, WIDTH, HEIGHT, GL_RGBA32F, "color");
     kiln_image_init(&p.depth, device, WIDTH, HEIGHT, GL_R32F, "depth");
-    p.stage = kiln_backdrop_create(device, p.scene, &p.color, &p.depth, &error);
+    p.stage = backdrop_create(device, p.scene, &p.color, &p.depth, &error);
     struct kiln_view view = kiln_view_compute(p.scene, 0);
     static const struct kiln_lighting lighting; /* none */
     if (!p.stage || !kiln_backdrop_draw(p.stage, &view, &lighting, &error))
@@ -579,6 +579,11 @@ int main(void)
         test_on_device(skies_lie_where_they_should),
         test_on_device(floors_repeat_without_aliasing),
     };
-    return cmocka_run_group_tests_name("backdrop_shapes", tests, test_device_open,
-                                       test_device_close);
+    int failed = 0;
+    for (int i = 0; i < 2; i++) {
+        backdrop_technique = BACKDROPS[i];
+        failed += cmocka_run_group_tests_name("backdrop_shapes", tests, test_device_open,
+                                              test_device_close);
+    }
+    return failed;
 }

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "draw/backdrop.h"
-#include "support/device.h"
+#include "support/backdrops.h"
 
 enum { WIDTH = 96, HEIGHT = 54 };
 
@@ -48,7 +48,7 @@ static void start(struct picture *p, void *device, const char *text)
         fail_msg("%s", error.message);
     kiln_image_init(&p->color, device, WIDTH, HEIGHT, GL_RGBA32F, "color");
     kiln_image_init(&p->depth, device, WIDTH, HEIGHT, GL_R32F, "depth");
-    p->stage = kiln_backdrop_create(device, p->scene, &p->color, &p->depth, &error);
+    p->stage = backdrop_create(device, p->scene, &p->color, &p->depth, &error);
     if (!p->stage)
         fail_msg("%s", error.message);
     draw_at(p, 0);
@@ -210,5 +210,11 @@ int main(void)
         test_on_device(lights_are_mirrored_by_a_lobe),
         test_on_device(waves_move),
     };
-    return cmocka_run_group_tests_name("floor gloss", tests, test_device_open, test_device_close);
+    int failed = 0;
+    for (int i = 0; i < 2; i++) {
+        backdrop_technique = BACKDROPS[i];
+        failed +=
+            cmocka_run_group_tests_name("floor gloss", tests, test_device_open, test_device_close);
+    }
+    return failed;
 }

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "draw/backdrop.h"
-#include "support/device.h"
+#include "support/backdrops.h"
 #include "support/scenes.h"
 
 enum { WIDTH = 64, HEIGHT = 36, STEP = 30, SLOTS = 512 };
@@ -53,7 +53,7 @@ static void set_up(struct fixture *f, void *device)
     kiln_image_init(&f->color, device, WIDTH, HEIGHT, GL_RGBA32F, "color");
     kiln_image_init(&f->depth, device, WIDTH, HEIGHT, GL_R32F, "depth");
     f->lighting = kiln_lighting_create(device, f->scene, f->threads, &error);
-    f->backdrop = kiln_backdrop_create(device, f->scene, &f->color, &f->depth, &error);
+    f->backdrop = backdrop_create(device, f->scene, &f->color, &f->depth, &error);
     assert_true(f->lighting && f->backdrop);
     f->view = kiln_view_compute(f->scene, STEP);
 }
@@ -142,5 +142,11 @@ int main(void)
         test_on_device(smoke_shades_the_floor),
         test_on_device(fire_lights_the_floor),
     };
-    return cmocka_run_group_tests_name("lighting", tests, test_device_open, test_device_close);
+    int failed = 0;
+    for (int i = 0; i < 2; i++) {
+        backdrop_technique = BACKDROPS[i];
+        failed +=
+            cmocka_run_group_tests_name("lighting", tests, test_device_open, test_device_close);
+    }
+    return failed;
 }

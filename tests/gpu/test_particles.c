@@ -16,7 +16,7 @@
 #include "draw/particles.h"
 #include "gpu/framebuffer.h"
 #include "shared/derived.h"
-#include "support/device.h"
+#include "support/backdrops.h"
 
 enum { WIDTH = 480, HEIGHT = 360, PIXELS = WIDTH * HEIGHT, COUNT = 24, STEP = 40 };
 
@@ -135,7 +135,7 @@ static int set_up_with(void **state, const char *const *overrides, size_t count)
         {.sources = &sources[1], .count = 1, .columns = 4, .rows = 4, .motion = "auto"}};
     assert_true(kiln_atlas_init(&f->atlas, f->device, requests, 2, f->threads, &error));
     make_targets(f);
-    f->backdrop = kiln_backdrop_create(f->device, f->scene, &f->scene_color, &f->depth, &error);
+    f->backdrop = backdrop_create(f->device, f->scene, &f->scene_color, &f->depth, &error);
     f->particles =
         kiln_particles_create(f->device, f->scene, &f->atlas, technique, f->threads, &error);
     assert_true(f->backdrop && f->particles);

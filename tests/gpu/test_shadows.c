@@ -52,8 +52,12 @@ static void init(struct fixture *f, struct kiln_device *device, const char *text
     kiln_image_init(&f->color, device, WIDTH, HEIGHT, GL_RGBA32F, "scene");
     kiln_image_init(&f->depth, device, WIDTH, HEIGHT, GL_R32F, "scene depth");
     kiln_image_init(&f->bloom, device, WIDTH, HEIGHT, GL_RGBA32F, "sphere bloom");
-    const struct kiln_spheres_targets targets = {&d->backdrop_color, &d->backdrop_depth, &f->color,
-                                                 &f->depth, &f->bloom};
+    const struct kiln_spheres_params params = {
+        .backdrop = d->backdrop,
+        .particles = d->particles,
+        .threads = d->threads,
+        .targets = {&d->backdrop_color, &d->backdrop_depth, &f->color, &f->depth, &f->bloom},
+    };
     f->threads = kiln_threads_create(2);
     assert_non_null(f->threads);
     f->lighting = kiln_lighting_create(device, d->scene, f->threads, &error);
@@ -62,7 +66,7 @@ static void init(struct fixture *f, struct kiln_device *device, const char *text
     kiln_lighting_use_meshes(f->lighting, kiln_backdrop_meshes(d->backdrop));
     if (d->scene->systems[0].look.shape != KILN_SHAPE_SPHERE)
         return;
-    f->spheres = kiln_spheres_create(device, d->particles, &targets, d->scene, &error);
+    f->spheres = kiln_spheres_create(device, d->scene, &params, &error);
     if (!f->spheres)
         fail_msg("%s", error.message);
 }
@@ -318,5 +322,11 @@ int main(void)
         test_on_device(a_cylinder_is_round_from_above),
         test_on_device(the_backdrop_shades_smoke),
     };
-    return cmocka_run_group_tests_name("shadows", tests, test_device_open, test_device_close);
+    int failed = 0;
+    for (int i = 0; i < 2; i++) {
+        backdrop_technique = BACKDROPS[i];
+        failed +=
+            cmocka_run_group_tests_name("shadows", tests, test_device_open, test_device_close);
+    }
+    return failed;
 }

@@ -45,9 +45,13 @@ static void init(struct fixture *f, struct kiln_device *device, const char *cons
     kiln_image_init(&f->color, device, WIDTH, HEIGHT, GL_RGBA32F, "scene");
     kiln_image_init(&f->depth, device, WIDTH, HEIGHT, GL_R32F, "scene depth");
     kiln_image_init(&f->bloom, device, WIDTH, HEIGHT, GL_RGBA32F, "sphere bloom");
-    const struct kiln_spheres_targets targets = {&d->backdrop_color, &d->backdrop_depth, &f->color,
-                                                 &f->depth, &f->bloom};
-    f->stage = kiln_spheres_create(device, d->particles, &targets, d->scene, &error);
+    const struct kiln_spheres_params params = {
+        .backdrop = d->backdrop,
+        .particles = d->particles,
+        .threads = d->threads,
+        .targets = {&d->backdrop_color, &d->backdrop_depth, &f->color, &f->depth, &f->bloom},
+    };
+    f->stage = kiln_spheres_create(device, d->scene, &params, &error);
     if (!f->stage)
         fail_msg("%s", error.message);
 }
@@ -294,5 +298,11 @@ int main(void)
         test_on_device(hot_spheres_shine),
         test_on_device(no_sphere_fills_the_picture),
     };
-    return cmocka_run_group_tests(tests, test_device_open, test_device_close);
+    int failed = 0;
+    for (int i = 0; i < 2; i++) {
+        backdrop_technique = BACKDROPS[i];
+        failed +=
+            cmocka_run_group_tests_name("spheres", tests, test_device_open, test_device_close);
+    }
+    return failed;
 }

@@ -11,7 +11,7 @@
 #include "draw/particles.h"
 #include "gpu/framebuffer.h"
 #include "shared/derived.h"
-#include "support/device.h"
+#include "support/backdrops.h"
 
 enum { DRAWING_MOST = 32, DRAWING_CELL = 128 };
 
@@ -105,7 +105,7 @@ static inline void drawing_init(struct drawing *d, struct kiln_device *device, c
     drawing_make_atlas(d);
     drawing_make_targets(d);
     d->backdrop =
-        kiln_backdrop_create(device, d->scene, &d->backdrop_color, &d->backdrop_depth, &error);
+        backdrop_create(device, d->scene, &d->backdrop_color, &d->backdrop_depth, &error);
     d->particles =
         kiln_particles_create(device, d->scene, &d->atlas, drawing_technique, d->threads, &error);
     if (!d->backdrop || !d->particles)

@@ -25,11 +25,14 @@ static void defaults_follow_the_device(void **state)
     char text[256];
     struct kiln_error error = {0};
     assert_true(choose(true, true, NULL, text, &error));
-    assert_string_equal(text, "simulate=cpu sort=cpu raster=cpu bloom=cpu composite=cpu");
+    assert_string_equal(text,
+                        "simulate=cpu sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=cpu");
     assert_true(choose(false, true, NULL, text, &error));
-    assert_string_equal(text, "simulate=inplace sort=cpu raster=geometry bloom=gl composite=gl");
+    assert_string_equal(
+        text, "simulate=inplace sort=cpu backdrop=gl raster=geometry bloom=gl composite=gl");
     assert_true(choose(false, false, NULL, text, &error));
-    assert_string_equal(text, "simulate=cpu sort=cpu raster=geometry bloom=gl composite=gl");
+    assert_string_equal(text,
+                        "simulate=cpu sort=cpu backdrop=gl raster=geometry bloom=gl composite=gl");
 }
 
 static void auto_is_the_default(void **state)
@@ -71,23 +74,27 @@ static void flags_force_a_technique(void **state)
     char text[256];
     struct kiln_error error = {0};
     assert_true(choose(true, true, "simulate=inplace", text, &error));
-    assert_string_equal(text, "simulate=inplace sort=cpu raster=cpu bloom=cpu composite=cpu");
+    assert_string_equal(
+        text, "simulate=inplace sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=cpu");
     assert_true(choose(true, true, "raster=geometry", text, &error));
-    assert_string_equal(text, "simulate=cpu sort=cpu raster=geometry bloom=cpu composite=cpu");
+    assert_string_equal(
+        text, "simulate=cpu sort=cpu backdrop=cpu raster=geometry bloom=cpu composite=cpu");
 
     assert_true(choose(true, true, "sort=radix", text, &error));
-    assert_string_equal(text, "simulate=cpu sort=radix raster=cpu bloom=cpu composite=cpu");
-    assert_true(choose(false, true, "sort=bitonic", text, &error));
     assert_string_equal(text,
-                        "simulate=inplace sort=bitonic raster=geometry bloom=gl composite=gl");
+                        "simulate=cpu sort=radix backdrop=cpu raster=cpu bloom=cpu composite=cpu");
+    assert_true(choose(false, true, "sort=bitonic", text, &error));
+    assert_string_equal(
+        text, "simulate=inplace sort=bitonic backdrop=gl raster=geometry bloom=gl composite=gl");
 
     assert_false(choose(true, true, "simulate", text, &error));
     assert_int_equal(error.code, KILN_USAGE);
     assert_string_equal(error.message, "technique 'simulate': expected stage=name");
     assert_false(choose(true, true, "simulat=cpu", text, &error));
-    assert_string_equal(error.message,
-                        "technique: stage 'simulat' is not known (did you mean "
-                        "'simulate'?); there is: simulate, sort, raster, bloom, composite");
+    assert_string_equal(
+        error.message,
+        "technique: stage 'simulat' is not known (did you mean "
+        "'simulate'?); there is: simulate, sort, backdrop, raster, bloom, composite");
     assert_false(choose(true, true, "sort=gpu", text, &error));
     assert_int_equal(error.code, KILN_USAGE);
     assert_string_equal(error.message, "technique: sort 'gpu' is not known (did you mean 'cpu'?); "
@@ -100,9 +107,11 @@ static void a_sort_can_be_spread_over_frames(void **state)
     char text[256];
     struct kiln_error error = {0};
     assert_true(choose(true, true, "sort=oddeven:8", text, &error));
-    assert_string_equal(text, "simulate=cpu sort=oddeven:8 raster=cpu bloom=cpu composite=cpu");
+    assert_string_equal(
+        text, "simulate=cpu sort=oddeven:8 backdrop=cpu raster=cpu bloom=cpu composite=cpu");
     assert_true(choose(true, true, "sort=oddeven", text, &error));
-    assert_string_equal(text, "simulate=cpu sort=oddeven raster=cpu bloom=cpu composite=cpu");
+    assert_string_equal(
+        text, "simulate=cpu sort=oddeven backdrop=cpu raster=cpu bloom=cpu composite=cpu");
     const char *const bad[] = {"0", "65", "-1", "", "8x", "8:8"};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         char flag[32];
@@ -145,7 +154,7 @@ static void combinations_start_with_the_pinned_one(void **state)
     (void)state;
     struct kiln_device_info gpu = {.exact = true, .name = "Device"};
     struct kiln_technique_list list;
-    static char seen[512][256];
+    static char seen[1024][256];
     size_t count = 0;
     for (; kiln_techniques_combination(count, &list); count++) {
         const char *flags[KILN_STAGE_COUNT];
@@ -157,16 +166,25 @@ static void combinations_start_with_the_pinned_one(void **state)
         kiln_techniques_describe(&techniques, seen[count], sizeof seen[count]);
         for (size_t i = 0; i < count; i++)
             assert_string_not_equal(seen[i], seen[count]);
-        assert_true(count < 511);
+        assert_true(count < 1023);
     }
-    assert_true(count >= 192);
-    assert_string_equal(seen[0], "simulate=cpu sort=cpu raster=cpu bloom=cpu composite=cpu");
-    assert_string_equal(seen[1], "simulate=cpu sort=cpu raster=cpu bloom=cpu composite=gl");
-    assert_string_equal(seen[2], "simulate=cpu sort=cpu raster=cpu bloom=gl composite=cpu");
-    assert_string_equal(seen[4], "simulate=cpu sort=cpu raster=geometry bloom=cpu composite=cpu");
-    assert_string_equal(seen[8], "simulate=cpu sort=cpu raster=instanced bloom=cpu composite=cpu");
-    assert_string_equal(seen[12], "simulate=cpu sort=radix raster=cpu bloom=cpu composite=cpu");
-    assert_string_equal(seen[48], "simulate=inplace sort=cpu raster=cpu bloom=cpu composite=cpu");
+    assert_true(count >= 384);
+    assert_string_equal(seen[0],
+                        "simulate=cpu sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=cpu");
+    assert_string_equal(seen[1],
+                        "simulate=cpu sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=gl");
+    assert_string_equal(seen[2],
+                        "simulate=cpu sort=cpu backdrop=cpu raster=cpu bloom=gl composite=cpu");
+    assert_string_equal(
+        seen[4], "simulate=cpu sort=cpu backdrop=cpu raster=geometry bloom=cpu composite=cpu");
+    assert_string_equal(
+        seen[8], "simulate=cpu sort=cpu backdrop=cpu raster=instanced bloom=cpu composite=cpu");
+    assert_string_equal(seen[12],
+                        "simulate=cpu sort=cpu backdrop=gl raster=cpu bloom=cpu composite=cpu");
+    assert_string_equal(seen[24],
+                        "simulate=cpu sort=radix backdrop=cpu raster=cpu bloom=cpu composite=cpu");
+    assert_string_equal(
+        seen[96], "simulate=inplace sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=cpu");
 }
 
 int main(void)

@@ -90,7 +90,7 @@ $ kiln render scenes/tiny.yaml --frames 20 -o none --technique simulate=cup
 = 2
 $ kiln render scenes/tiny.yaml --frames 20 -o none --technique simulat=cpu
 1|device: <device>
-2|kiln: technique: stage 'simulat' is not known (did you mean 'simulate'?); there is: simulate, sort, raster, bloom, composite
+2|kiln: technique: stage 'simulat' is not known (did you mean 'simulate'?); there is: simulate, sort, backdrop, raster, bloom, composite
 = 2
 
 Statistics and progress for people and for programs.
@@ -113,7 +113,7 @@ $ kiln render scenes/tiny.yaml -o none --frames 0-3 --stats=text --progress none
 1|  steps        18
 1|  particles    36 alive, 82 slots, 2952 bytes (36.0 a slot)
 1|  memory <MiB> at the peak
-1|  techniques   simulate=cpu sort=cpu raster=geometry bloom=cpu composite=cpu
+1|  techniques   simulate=cpu sort=cpu backdrop=cpu raster=geometry bloom=cpu composite=cpu
 1|  chosen       simulate=cpu: as asked for
 1|               sort=cpu: as asked for
 1|               raster=geometry: as asked for

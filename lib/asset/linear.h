@@ -1,0 +1,11 @@
+/* The pixels of an image file as linear light. */
+#ifndef KILN_ASSET_LINEAR_H
+#define KILN_ASSET_LINEAR_H
+
+#include "asset/image.h"
+
+/* Row y as width RGB triples, 0 to 65504, the same on every machine; transparent parts are black.
+ */
+void kiln_linear_row(const struct kiln_asset_image *image, uint32_t y, float *rgb);
+
+#endif

@@ -1,0 +1,34 @@
+/* Meshes as camera and sun see them, on the host: which triangle each ray of the picture meets, and
+ * maps of what lies in the sun's light. */
+#ifndef KILN_DRAW_MESH_VIEW_H
+#define KILN_DRAW_MESH_VIEW_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "draw/shapes.h"
+
+enum {
+    KILN_HIT_LAYERS = 1 + KILN_EDGE_SAMPLES, /* the centres of pixels, and their samples */
+    KILN_SHADOW_LEVELS = 11,                 /* of half the edge each, down to 1 texel */
+    KILN_SHADOW_TEXELS = (4 * KILN_SHADOW_EDGE * KILN_SHADOW_EDGE - 1) / 3, /* of all of them */
+};
+
+/* A triangle along rays (u, v, -1) in view space: planes over u and v, as factors of u, v and 1. */
+struct kiln_mesh_triangle {
+    float nearness[3];  /* 1 / depth, 1/m */
+    float normal[3][3]; /* in the world, of any length, by axis */
+    float face[3];      /* in the world, towards the eye */
+    int32_t mesh;       /* in the scene's order */
+};
+
+struct kiln_mesh_view {
+    const struct kiln_mesh_triangle *triangles; /* of all meshes */
+    const int32_t *hits; /* by row, layer and column: 1 + the triangle that is nearest; 0: none */
+    size_t pitch;        /* columns */
+    /* Of each mesh, level by level: the part of a texel that the mesh is in, and its mean distance
+     * there times that; the distance is 0 nearest to the sun and 1 farthest. */
+    const float (*shadows[KILN_MAX_MESHES])[2];
+};
+
+#endif

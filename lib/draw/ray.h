@@ -1,0 +1,42 @@
+/* What rays of technique backdrop=cpu may meet in a frame, and what lights it. The code that
+ * follows them is for vectors of rays: ray_*.h, in backdrop_simd.c and spheres_simd.c. It says what
+ * shaders/draw says for GL, in arithmetic of our own.
+ */
+#ifndef KILN_DRAW_RAY_H
+#define KILN_DRAW_RAY_H
+
+#include "asset/pyramid.h"
+#include "draw/lighting.h"
+#include "draw/mesh_view.h"
+#include "draw/shapes.h"
+#include "draw/smoke_shadow.h"
+
+enum { KILN_WAVES = 8 };
+
+/* Of the floor's water. */
+struct kiln_wave {
+    float way_x, way_z; /* unit */
+    float number;       /* 2 pi / length, 1/m */
+    float phase;        /* at the origin, rad */
+    float bend;         /* how far it shifts those after it, m */
+};
+
+struct kiln_ray_frame {
+    const struct kiln_view *view;
+    const struct kiln_draw_backdrop *backdrop;
+    const struct kiln_draw_shapes *shapes;
+    const struct kiln_pyramid *floor_image, *sky_image; /* NULL: none */
+    const float *smoke_to_sun, *smoke_to_sky;           /* NULL: none */
+    struct kiln_sphere_bins spheres;
+    const struct kiln_mesh_view *meshes; /* NULL: none */
+    bool floor_gloss, soft_sun;
+    float3 sun_inverse; /* of the direction, by axis; large for 0 */
+    struct kiln_wave waves[KILN_WAVES];
+};
+
+/* The objects that rays may meet: a bit each. */
+struct kiln_ray_objects {
+    uint32_t boxes, spheres, cylinders;
+};
+
+#endif

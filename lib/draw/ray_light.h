@@ -1,0 +1,269 @@
+/* The light that surfaces send along vectors of rays, and the sky's: as shaders/draw/surface.glsl,
+ * round.glsl, mesh_trace.glsl and smoke_shadow.glsl have it. */
+#ifndef KILN_DRAW_RAY_LIGHT_H
+#define KILN_DRAW_RAY_LIGHT_H
+
+#include "draw/ray_picture.h"
+#include "draw/ray_sun.h"
+
+struct ray_color {
+    struct vf3 rgb;
+    vf alpha;
+};
+
+/* A surface point that asks for light. */
+struct ray_point {
+    struct vf3 at, normal;
+    vi wanted; /* lanes */
+};
+
+/* ---- smoke ----------------------------------------------------------------------------------- */
+
+/* A cell and its next one along an axis, and the way between; clamped to the centres of the outer
+ * cells. */
+struct ray_cell {
+    vi from, step;
+    vf part;
+};
+
+SIMD struct ray_cell find_cell(vf at, int32_t stride)
+{
+    vf cell = vf_clamp(at * (float)KILN_SMOKE_GRID - 0.5f, 0.0f, (float)(KILN_SMOKE_GRID - 1));
+    vi from = vi_of(cell);
+    vi step = (from + 1 < KILN_SMOKE_GRID) & stride;
+    return (struct ray_cell){from * stride, step, cell - vf_of(from)};
+}
+
+SIMD vf read_grid_row(const float *depth, vi from, const struct ray_cell *x)
+{
+    vf left = vf_gather(depth, from);
+    return left + (vf_gather(depth, from + x->step) - left) * x->part;
+}
+
+SIMD vf read_grid(const float *depth, vf x, vf y, vf z)
+{
+    const struct ray_cell cx = find_cell(x, 1), cy = find_cell(y, KILN_SMOKE_GRID);
+    const struct ray_cell cz = find_cell(z, KILN_SMOKE_GRID * KILN_SMOKE_GRID);
+    vi from = cx.from + cy.from + cz.from, next = from + cz.step;
+    vf near = read_grid_row(depth, from, &cx), far = read_grid_row(depth, next, &cx);
+    near += (read_grid_row(depth, from + cy.step, &cx) - near) * cy.part;
+    far += (read_grid_row(depth, next + cy.step, &cx) - far) * cy.part;
+    return near + (far - near) * cz.part;
+}
+
+/* The part of the light that gets through the smoke to a place. */
+SIMD vf smoke_lets_through(const float *depth, const float4 to_grid[3], const struct ray_point *p)
+{
+    vf one = vf_all(1.0f);
+    if (!depth)
+        return one;
+    vf x = vf3_map(to_grid[0], p->at), y = vf3_map(to_grid[1], p->at);
+    vf z = vf3_map(to_grid[2], p->at);
+    /* Beside the smoke, or between it and the light, there is none. */
+    vi inside = p->wanted & (x >= 0.0f) & (y >= 0.0f) & (x <= 1.0f) & (y <= 1.0f) & (z <= 1.0f);
+    if (!any(inside))
+        return one;
+    vf zero = vf_all(0.0f);
+    x = vf_select(inside, x, zero);
+    y = vf_select(inside, y, zero);
+    z = vf_select(inside, z, zero);
+    return vf_select(inside, vf_exp(-read_grid(depth, x, y, z)), one);
+}
+
+/* ---- sky on surfaces ------------------------------------------------------------------------- */
+
+/* How much a surface is turned towards something; it sees a little of what is behind it. */
+SIMD vf turned_to(vf along_normal, vf distance2)
+{
+    return clamp01(along_normal * vf_rsqrt(vf_max(distance2, vf_all(1e-9f))) + 0.4f);
+}
+
+/* What is left of the sky beside something that hides it. */
+SIMD vf shaded_sky(vf visible, vi hides, vf facing, vf fall)
+{
+    return visible * (1.0f - vf_where(hides, 0.7f * facing * fall));
+}
+
+SIMD vf boxes_leave_sky(const struct kiln_ray_frame *frame, const struct ray_point *p, vf visible)
+{
+    const struct kiln_draw_backdrop *b = frame->backdrop;
+    const struct vf3 turn = {vf_abs(p->normal.x), vf_abs(p->normal.y), vf_abs(p->normal.z)};
+    const vf zero = vf_all(0.0f);
+    for (uint32_t i = 0; i < b->counts.x; i++) {
+        const float4 half = b->box_half[i];
+        struct vf3 towards = vf3_towards(b->box_center[i], p->at);
+        vf along = vf3_dot(towards, p->normal);
+        /* Where it is wholly on the other side of the surface, it hides nothing. */
+        vi hides = p->wanted & (along > 1e-3f - vf3_dot_all(turn, half));
+        if (!any(hides))
+            continue;
+        struct vf3 beyond = {vf_max(vf_abs(towards.x) - half.x, zero),
+                             vf_max(vf_abs(towards.y) - half.y, zero),
+                             vf_max(vf_abs(towards.z) - half.z, zero)};
+        float size = fminf(fminf(half.x, half.y), half.z);
+        vf fall = size / (size + 2.0f * vf3_length(beyond));
+        visible =
+            shaded_sky(visible, hides, turned_to(along, vf3_dot(towards, towards)), fall * fall);
+    }
+    return visible;
+}
+
+SIMD vf spheres_leave_sky(const struct kiln_ray_frame *frame, const struct ray_point *p, vf visible)
+{
+    for (uint32_t i = 0; i < frame->shapes->counts.x; i++) {
+        const float4 sphere = frame->shapes->spheres[i];
+        struct vf3 towards = vf3_towards(sphere, p->at);
+        vf distance2 = vf_max(vf3_dot(towards, towards), vf_all(1e-9f));
+        vf fall = vf_min(sphere.w * sphere.w / distance2, vf_all(1.0f));
+        visible =
+            shaded_sky(visible, p->wanted, turned_to(vf3_dot(towards, p->normal), distance2), fall);
+    }
+    return visible;
+}
+
+SIMD vf cylinders_leave_sky(const struct kiln_ray_frame *frame, const struct ray_point *p,
+                            vf visible)
+{
+    const struct kiln_draw_shapes *shapes = frame->shapes;
+    const vf zero = vf_all(0.0f);
+    for (uint32_t i = 0; i < shapes->counts.y; i++) {
+        const float4 axis = shapes->cylinder_axis[i], cylinder = shapes->cylinders[i];
+        float halves = axis.w, radius = cylinder.w, size = fminf(halves, radius);
+        struct vf3 towards = vf3_towards(cylinder, p->at);
+        vf height = vf3_dot_all(towards, axis);
+        struct vf3 aside = vf3_along(towards, vf3_all(axis), -height);
+        vf above = vf_max(vf_abs(height) - halves, zero);
+        vf beside = vf_max(vf3_length(aside) - radius, zero);
+        vf along = vf3_dot(towards, p->normal), climb = vf3_dot_all(p->normal, axis);
+        vf slant = vf_sqrt(vf_max(1.0f - climb * climb, zero));
+        vi hides = p->wanted & (along > 1e-3f - (halves * vf_abs(climb) + radius * slant));
+        vf fall = size / (size + 2.0f * vf_sqrt(above * above + beside * beside));
+        visible =
+            shaded_sky(visible, hides, turned_to(along, vf3_dot(towards, towards)), fall * fall);
+    }
+    return visible;
+}
+
+/* By the ellipsoid in their bounds; inside of a hollow the middle is in front, and it gets darker.
+ */
+SIMD vf meshes_leave_sky(const struct kiln_ray_frame *frame, const struct ray_point *p, vf visible)
+{
+    for (uint32_t i = 0; i < frame->shapes->counts.z; i++) {
+        const struct kiln_draw_mesh *mesh = &frame->shapes->meshes[i];
+        const float4 half = mesh->half_size;
+        struct vf3 towards = vf3_towards(mesh->center, p->at);
+        struct vf3 parts = {towards.x * (1.0f / fmaxf(half.x, 1e-4f)),
+                            towards.y * (1.0f / fmaxf(half.y, 1e-4f)),
+                            towards.z * (1.0f / fmaxf(half.z, 1e-4f))};
+        vf away = vf_max(vf3_length(parts) - 1.0f, vf_all(0.0f));
+        vf fall = 1.0f / (1.0f + 2.0f * away);
+        vf facing = turned_to(vf3_dot(towards, p->normal), vf3_dot(towards, towards));
+        visible = shaded_sky(visible, p->wanted, facing, fall * fall);
+    }
+    return visible;
+}
+
+/* ---- what arrives at a surface --------------------------------------------------------------- */
+
+SIMD void add_light(const struct kiln_draw_light *light, const struct ray_point *p,
+                    struct vf3 *irradiance)
+{
+    struct vf3 towards = vf3_towards(light->position_radius2, p->at);
+    vf along = vf3_dot(p->normal, towards);
+    vi faces = p->wanted & (along > 0.0f);
+    if (!any(faces))
+        return;
+    vf d2 = vf3_dot(towards, towards);
+    vf part =
+        along * vf_rsqrt(vf_max(d2, vf_all(1e-9f))) * RAY_PI / (d2 + light->position_radius2.w);
+    part = vf_where(faces, part);
+    irradiance->x += light->color.x * part;
+    irradiance->y += light->color.y * part;
+    irradiance->z += light->color.z * part;
+}
+
+/* From the sky and the point lights. */
+SIMD struct vf3 soft_irradiance(const struct kiln_ray_frame *frame, const struct ray_point *p)
+{
+    const struct kiln_draw_backdrop *b = frame->backdrop;
+    vf sky = boxes_leave_sky(frame, p, vf_all(1.0f));
+    sky = spheres_leave_sky(frame, p, sky);
+    sky = cylinders_leave_sky(frame, p, sky);
+    sky = meshes_leave_sky(frame, p, sky);
+    sky *= smoke_lets_through(frame->smoke_to_sky, b->sky_to_grid, p);
+    struct vf3 ambient = vf3_mix(b->sky_horizon, b->sky_top, 0.5f + 0.5f * p->normal.y);
+    struct vf3 irradiance = vf3_scale(ambient, RAY_PI * sky);
+    for (uint32_t i = 0; i < b->counts.y; i++)
+        add_light(&b->lights[i], p, &irradiance);
+    return irradiance;
+}
+
+/* The lanes whose surface is turned to the sun, if there is one. */
+SIMD vi turned_to_sun(const struct kiln_ray_frame *frame, const struct ray_point *p)
+{
+    const float4 color = frame->backdrop->sun_color;
+    if (color.x + color.y + color.z <= 0.0f)
+        return vi_all(0);
+    return p->wanted & (vf3_dot_all(p->normal, frame->backdrop->sun_direction) > 0.0f);
+}
+
+/* ---- what goes to the eye -------------------------------------------------------------------- */
+
+SIMD struct vf3 sky_color(const struct kiln_ray_frame *frame, struct vf3 direction, vi wanted)
+{
+    const struct kiln_draw_backdrop *b = frame->backdrop;
+    const float4 frustum = frame->view->frustum;
+    if (frame->sky_image)
+        return sky_picture(frame, direction, 2.0f * frustum.y / frustum.w, wanted);
+    vf up = clamp01(vf3_normalize(direction).y);
+    return vf3_mix(b->sky_horizon, b->sky_top, 1.0f - vf_exp(-4.0f * up));
+}
+
+/* What the floor fades into far away. */
+SIMD struct vf3 horizon_color(const struct kiln_ray_frame *frame, struct vf3 direction, vi wanted)
+{
+    if (!frame->sky_image)
+        return vf3_all(frame->backdrop->sky_horizon);
+    direction.y = vf_all(0.0f);
+    return sky_picture(frame, direction, 0.1f, wanted);
+}
+
+/* Lambert: radiance = albedo / pi * irradiance. sunlight: the part of the sun that arrives. */
+SIMD struct ray_color radiance(const struct kiln_ray_frame *frame, const struct ray_hit *hit,
+                               struct vf3 direction, struct vf3 irradiance, vf sunlight)
+{
+    const struct kiln_draw_backdrop *b = frame->backdrop;
+    bool transparent = b->counts.z != 0;
+    vi surface = hit->surface >= 0.0f;
+    vf sun = vf_max(vf3_dot_all(hit->normal, b->sun_direction), vf_all(0.0f)) * sunlight;
+    irradiance = vf3_along(irradiance, vf3_all(b->sun_color), sun);
+    struct vf3 color = {hit->albedo.x * (1.0f / RAY_PI) * irradiance.x,
+                        hit->albedo.y * (1.0f / RAY_PI) * irradiance.y,
+                        hit->albedo.z * (1.0f / RAY_PI) * irradiance.z};
+    if (!transparent && b->floor_params.z > 0.0f) {
+        vf clear = vf_exp(-b->floor_params.z * hit->t * vf3_length(direction));
+        struct vf3 haze = horizon_color(frame, direction, surface);
+        color = vf3_along(haze, vf3_sub(color, haze), clear);
+    }
+    return (struct ray_color){color, vf_all(1.0f)};
+}
+
+/* The same, or the sky where the ray meets nothing. */
+SIMD struct ray_color radiance_or_sky(const struct kiln_ray_frame *frame, const struct ray_hit *hit,
+                                      struct vf3 direction, struct vf3 irradiance, vf sunlight)
+{
+    struct ray_color color = radiance(frame, hit, direction, irradiance, sunlight);
+    vi sky = hit->surface < 0.0f;
+    if (!any(sky))
+        return color;
+    struct vf3 behind = {{0}, {0}, {0}};
+    vf alpha = vf_all(0.0f);
+    if (frame->backdrop->counts.z == 0) {
+        behind = sky_color(frame, direction, sky);
+        alpha = vf_all(1.0f);
+    }
+    return (struct ray_color){vf3_select(sky, behind, color.rgb),
+                              vf_select(sky, alpha, color.alpha)};
+}
+
+#endif

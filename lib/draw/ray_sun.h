@@ -1,0 +1,327 @@
+/* The part of the sun that surfaces see past the backdrop's objects and past particles that are
+ * spheres: as shaders/draw/surface.glsl, sun_cover.glsl, round.glsl, mesh_trace.glsl and
+ * sphere_shadow.glsl have it. What hides nothing from a lane multiplies its light by exactly 1, so
+ * that it does not matter which lanes share a vector.
+ */
+#ifndef KILN_DRAW_RAY_SUN_H
+#define KILN_DRAW_RAY_SUN_H
+
+#include "draw/ray_shapes.h"
+
+/* Where light starts from, and which lanes ask. */
+struct ray_shade {
+    struct vf3 origin, normal;
+    vi wanted;
+};
+
+SIMD vf clamp01(vf x)
+{
+    return vf_clamp(x, 0.0f, 1.0f);
+}
+
+/* The part of a disc on the far side of a line, by the line's signed distance in radii. */
+SIMD vf disc_cover(vf distance)
+{
+    vf x = clamp01(0.5f + 0.5f * distance);
+    return x * x * (3.0f - 2.0f * x);
+}
+
+/* Between two parallel lines, the distances to which are positive inside. */
+SIMD vf strip_cover(vf one, vf other, vf radius)
+{
+    vf scale = 1.0f / vf_max(radius, vf_all(1e-5f));
+    return vf_max(disc_cover(one * scale) + disc_cover(other * scale) - 1.0f, vf_all(0.0f));
+}
+
+/* ---- boxes ----------------------------------------------------------------------------------- */
+
+/* The strip between the edges where two pairs of faces meet. */
+SIMD vf box_strip(vf in_a, vf in_b, vf out_a, vf out_b, float inverse_a, float inverse_b,
+                  float spread)
+{
+    float square_a = inverse_a * inverse_a, square_b = inverse_b * inverse_b;
+    float sum = 1.0f / (square_a + square_b), scale = sqrtf(sum);
+    vf one = (out_b - in_a) * scale, other = (out_a - in_b) * scale;
+    vf one_at = (in_a * square_b + out_b * square_a) * sum;
+    vf other_at = (in_b * square_a + out_a * square_b) * sum;
+    vf least = vf_all(1e-5f);
+    vf cover = disc_cover(one / vf_max(one_at * spread, least)) +
+               disc_cover(other / vf_max(other_at * spread, least)) - 1.0f;
+    return vf_max(cover, vf_all(0.0f));
+}
+
+SIMD vf box_cover(const struct ray_slabs *s, float3 inverse, float spread)
+{
+    vf xy = box_strip(s->in.x, s->in.y, s->out.x, s->out.y, inverse.x, inverse.y, spread);
+    vf yz = box_strip(s->in.y, s->in.z, s->out.y, s->out.z, inverse.y, inverse.z, spread);
+    vf xz = box_strip(s->in.x, s->in.z, s->out.x, s->out.z, inverse.x, inverse.z, spread);
+    return xy * yz * xz;
+}
+
+SIMD vf boxes_let_through(const struct kiln_ray_frame *frame, const struct ray_shade *shade)
+{
+    const struct kiln_draw_backdrop *b = frame->backdrop;
+    float3 inverse = frame->sun_inverse;
+    const struct vf3 inverses = {vf_all(inverse.x), vf_all(inverse.y), vf_all(inverse.z)};
+    vf visible = vf_all(1.0f);
+    for (uint32_t i = 0; i < b->counts.x; i++) {
+        struct ray_slabs s = cross_slabs(b->box_center[i], b->box_half[i], shade->origin, inverses);
+        vf out = vf_min(vf_min(s.out.x, s.out.y), s.out.z);
+        vi ahead = shade->wanted & (out > 0.0f);
+        if (!frame->soft_sun) {
+            vf in = vf_max(vf_max(s.in.x, s.in.y), s.in.z);
+            vi hidden = ahead & (in < out);
+            visible = vf_where(~hidden, visible);
+        } else if (any(ahead)) {
+            vf cover = box_cover(&s, inverse, frame->shapes->sun_right.w);
+            visible *= 1.0f - vf_where(ahead, cover);
+        }
+    }
+    return visible;
+}
+
+/* ---- spheres and cylinders ------------------------------------------------------------------- */
+
+SIMD vf sphere_cover(float4 sphere, struct vf3 origin, float4 sun, float spread)
+{
+    struct vf3 towards = vf3_towards(sphere, origin);
+    vf t = vf3_dot_all(towards, sun);
+    vf across = vf3_length(vf3_along(towards, vf3_all(sun), -t));
+    return vf_where(t >= 0.0f, strip_cover(sphere.w - across, sphere.w + across, t * spread));
+}
+
+/* Its outline is a band along `up`, with round ends; seen along its axis, it is round. */
+SIMD vf cylinder_cover(const struct kiln_ray_frame *frame, int i, struct vf3 origin)
+{
+    const float4 sun4 = frame->backdrop->sun_direction, axis4 = frame->shapes->cylinder_axis[i];
+    const float4 cylinder = frame->shapes->cylinders[i], aside4 = frame->shapes->sun_right;
+    const float3 sun = {sun4.x, sun4.y, sun4.z}, axis = {axis4.x, axis4.y, axis4.z};
+    float halves = axis4.w, radius = cylinder.w, spread = aside4.w;
+    float climb = float3_dot(axis, sun), slant = sqrtf(fmaxf(1.0f - climb * climb, 1e-6f));
+    float3 right = {aside4.x, aside4.y, aside4.z};
+    if (slant > 1e-3f)
+        right = float3_scale(float3_cross(axis, sun), 1.0f / slant);
+    float3 up = float3_cross(sun, right);
+    float tilt = float3_dot(axis, up) < 0.0f ? -1.0f : 1.0f;
+
+    struct vf3 towards = vf3_towards(cylinder, origin);
+    vf x = towards.x * right.x + towards.y * right.y + towards.z * right.z;
+    vf y = towards.x * up.x + towards.y * up.y + towards.z * up.z;
+    vf along = vf_clamp(-y * (1.0f / (slant * tilt)), -halves, halves);
+    vf t = vf_max(vf3_dot_all(towards, sun4) + along * climb, vf_all(0.0f));
+    vf inside = vf_sqrt(vf_max(radius * radius - x * x, vf_all(0.0f)));
+    vf end = halves * slant + fabsf(climb) * inside;
+    vf sides = strip_cover(radius - vf_abs(x), radius + vf_abs(x), t * spread);
+    vf ends = strip_cover(end - vf_abs(y), end + vf_abs(y), t * spread);
+    /* On its way to the sun, light that starts beside it or beyond an end may lead only away. */
+    vf height = -vf3_dot_all(towards, axis4);
+    struct vf3 aside = vf3_along(towards, vf3_all(axis4), height);
+    vi beyond = (vf_abs(height) >= halves) & (height * climb > 0.0f);
+    vi beside = (vf3_dot(aside, aside) >= radius * radius) & (vf3_dot_all(aside, sun4) < 0.0f);
+    return vf_where(~(beyond | beside), sides * ends);
+}
+
+/* A light without size is seen, or not. */
+SIMD vi is_free(struct ray_interval at)
+{
+    return vf_max(at.in, vf_all(0.0f)) >= at.out;
+}
+
+SIMD vf round_let_through(const struct kiln_ray_frame *frame, const struct ray_shade *shade)
+{
+    const struct kiln_draw_shapes *shapes = frame->shapes;
+    const float4 sun = frame->backdrop->sun_direction;
+    const struct ray ray = {shade->origin, vf3_all(sun)};
+    vf visible = vf_all(1.0f);
+    for (int i = 0; i < (int)shapes->counts.x; i++) {
+        if (frame->soft_sun)
+            visible *=
+                1.0f - sphere_cover(shapes->spheres[i], ray.origin, sun, shapes->sun_right.w);
+        else
+            visible = vf_where(is_free(cross_sphere(shapes->spheres[i], &ray)), visible);
+    }
+    for (int i = 0; i < (int)shapes->counts.y; i++) {
+        if (frame->soft_sun) {
+            visible *= 1.0f - cylinder_cover(frame, i, ray.origin);
+        } else {
+            struct ray_cylinder c =
+                cross_cylinder(shapes->cylinders[i], shapes->cylinder_axis[i], &ray);
+            visible = vf_where(is_free(c.interval), visible);
+        }
+    }
+    return visible;
+}
+
+/* ---- meshes ---------------------------------------------------------------------------------- */
+
+/* How much of a place in a map is covered, and the mean distance there times that. */
+struct ray_seen {
+    vf cover, distance;
+};
+
+/* Linear between four texels of a level; nothing is beside the map. */
+SIMD struct ray_seen read_shadow_level(const float (*map)[2], vf u, vf v, vi level)
+{
+    static const int32_t first[KILN_SHADOW_LEVELS] = {0,       1048576, 1310720, 1376256,
+                                                      1392640, 1396736, 1397760, 1398016,
+                                                      1398080, 1398096, 1398100};
+    vi edge = vi_all(KILN_SHADOW_EDGE) >> level;
+    vf size = vf_of(edge);
+    vf x = vf_min(vf_max(u * size - 0.5f, vf_all(-2.0f)), size + 1.0f);
+    vf y = vf_min(vf_max(v * size - 0.5f, vf_all(-2.0f)), size + 1.0f);
+    vf left = vf_floor(x), top = vf_floor(y), right = x - left, down = y - top;
+    vi start = vi_gather(first, level);
+    struct ray_seen seen = {{0}, {0}};
+    for (int i = 0; i < 4; i++) {
+        vi column = vi_of(left) + (i & 1), row = vi_of(top) + (i >> 1);
+        vi inside = (column >= 0) & (row >= 0) & (column < edge) & (row < edge);
+        vf weight = (i & 1 ? right : 1.0f - right) * (i >> 1 ? down : 1.0f - down);
+        weight = vf_where(inside, weight);
+        vi texel = vi_select(inside, 2 * (start + row * edge + column), vi_all(0));
+        seen.cover += weight * vf_gather(map[0], texel);
+        seen.distance += weight * vf_gather(map[0] + 1, texel);
+    }
+    return seen;
+}
+
+/* Between two levels, too. */
+SIMD struct ray_seen read_shadow(const float (*map)[2], vf u, vf v, vf level)
+{
+    level = vf_clamp(level, 0.0f, (float)(KILN_SHADOW_LEVELS - 1));
+    vf fine = vf_floor(level), part = level - fine;
+    struct ray_seen seen = read_shadow_level(map, u, v, vi_of(fine));
+    if (any(part > 0.0f)) {
+        vf coarse = vf_min(fine + 1.0f, vf_all((float)(KILN_SHADOW_LEVELS - 1)));
+        struct ray_seen more = read_shadow_level(map, u, v, vi_of(coarse));
+        seen.cover += (more.cover - seen.cover) * part;
+        seen.distance += (more.distance - seen.distance) * part;
+    }
+    return seen;
+}
+
+/* A place in the map of a mesh. */
+struct ray_shadow_place {
+    vf u, v, depth;
+    vf slope_u, slope_v; /* of the receiver's plane: what its depth is a step aside */
+};
+
+SIMD struct ray_shadow_place place_in_shadow(const struct kiln_ray_frame *frame, int i,
+                                             const struct ray_shade *shade)
+{
+    const struct kiln_draw_shapes *shapes = frame->shapes;
+    const float4 sun = frame->backdrop->sun_direction, center = shapes->meshes[i].center;
+    struct vf3 from = vf3_sub(shade->origin, vf3_all(center));
+    float scale = 0.5f / (center.w * (1.0f + KILN_SHADOW_MARGIN));
+    vf facing = 1.0f / vf_max(vf3_dot_all(shade->normal, sun), vf_all(0.05f));
+    return (struct ray_shadow_place){
+        .u = 0.5f + vf3_dot_all(from, shapes->sun_right) * scale,
+        .v = 0.5f + vf3_dot_all(from, shapes->sun_up) * scale,
+        .depth = 0.5f - vf3_dot_all(from, sun) * scale,
+        .slope_u = vf3_dot_all(shade->normal, shapes->sun_right) * facing,
+        .slope_v = vf3_dot_all(shade->normal, shapes->sun_up) * facing,
+    };
+}
+
+/* A first fetch looks for anything between that the others could find, over more than they reach;
+ * four bilinear ones half a step aside then make a tent, as nine would. */
+SIMD vf mesh_cover(const struct kiln_ray_frame *frame, int i, const struct ray_shade *shade)
+{
+    const float(*map)[2] = frame->meshes->shadows[i];
+    const float texel = 1.0f / (float)KILN_SHADOW_EDGE, spread = frame->shapes->sun_right.w;
+    const struct ray_shadow_place at = place_in_shadow(frame, i, shade);
+    vf slack = 1.5f * texel * (1.0f + 0.5f * (vf_abs(at.slope_u) + vf_abs(at.slope_v)));
+    vf widest = vf_max(spread * at.depth, vf_all(texel)); /* penumbra of what is nearest the sun */
+    vf reach = 4.0f * widest;
+    vi near = shade->wanted & (at.u > -reach) & (at.v > -reach) & (at.u < 1.0f + reach) &
+              (at.v < 1.0f + reach);
+    if (!any(near))
+        return vf_all(0.0f);
+
+    struct ray_seen seen = read_shadow(map, at.u, at.v, vf_log2(widest * (1.0f / texel)) + 1.0f);
+    near &= seen.cover > 0.0f;
+    if (!any(near))
+        return vf_all(0.0f);
+    vf middle = seen.distance / vf_max(seen.cover, vf_all(1e-4f));
+    /* How far the sun's disc spreads at the distance of what is between. */
+    vf gap = at.depth - vf_min(middle, at.depth);
+    vf width = vf_max(0.75f * spread * gap, vf_all(texel));
+    vf level = vf_log2(width * (1.0f / texel)), stride = 0.5f * width, cover = vf_all(0.0f);
+    vf ramp = 1.0f / (slack + stride);
+    for (int k = 0; k < 4; k++) {
+        vf aside_u = k & 1 ? stride : -stride, aside_v = k >> 1 ? stride : -stride;
+        seen = read_shadow(map, at.u + aside_u, at.v + aside_v, level);
+        middle = seen.distance / vf_max(seen.cover, vf_all(1e-4f));
+        vf before = at.depth + (at.slope_u * aside_u + at.slope_v * aside_v) - middle;
+        cover += 0.25f * seen.cover * clamp01(before * ramp - 0.5f);
+    }
+    return vf_where(near, cover);
+}
+
+/* ---- particles ------------------------------------------------------------------------------- */
+
+/* Two discs, within 3 % of their exact common part. */
+SIMD vf particle_cover(const struct kiln_ray_frame *frame, struct vf3 center, vf size,
+                       struct vf3 origin)
+{
+    const float4 sun = frame->backdrop->sun_direction;
+    struct vf3 towards = vf3_sub(center, origin);
+    vf t = vf3_dot_all(towards, sun);
+    vf across = vf3_length(vf3_along(towards, vf3_all(sun), -t));
+    vf radius = vf_max(t * frame->shapes->sun_right.w, vf_all(1e-5f));
+    vf smaller = vf_min(radius, size), ratio = smaller / vf_max(radius, size);
+    vf x = clamp01((radius + size - across) / (2.0f * smaller));
+    vf large_over_small = x * x * (3.0f - 2.0f * x), like_over_like = x * (0.55f + 0.45f * x);
+    vf part = large_over_small + (like_over_like - large_over_small) * ratio;
+    vf most = smaller / radius;
+    vf fade = clamp01(2.0f - 2.0f * radius / (size * KILN_SPHERE_FADE));
+    return vf_where(t > 0.0f, part * most * most * fade);
+}
+
+SIMD vf particles_let_through(const struct kiln_ray_frame *frame, const struct ray_shade *shade)
+{
+    const struct kiln_draw_shapes *shapes = frame->shapes;
+    const int32_t *bins = (const int32_t *)frame->spheres.bins;
+    const float *list = (const float *)frame->spheres.list;
+    const float edge = (float)shapes->counts.w;
+    vf visible = vf_all(1.0f);
+    vf x = vf3_map(shapes->world_to_bin[0], shade->origin);
+    vf y = vf3_map(shapes->world_to_bin[1], shade->origin);
+    vi inside = shade->wanted & (x >= 0.0f) & (y >= 0.0f) & (x < edge) & (y < edge);
+    if (!any(inside))
+        return visible;
+    vi bin = vi_of(vf_where(inside, y)) * (int32_t)shapes->counts.w + vi_of(vf_where(inside, x));
+    vi entry = vi_gather(bins, 2 * bin), count = inside & vi_gather(bins, 2 * bin + 1);
+    for (;;) {
+        vi more = count > 0;
+        if (!any(more))
+            return visible;
+        vi at = vi_select(more, 4 * entry, vi_all(0));
+        struct vf3 center = {vf_gather(list, at), vf_gather(list + 1, at), vf_gather(list + 2, at)};
+        vf cover = particle_cover(frame, center, vf_gather(list + 3, at), shade->origin);
+        visible *= 1.0f - vf_where(more, cover);
+        entry += 1;
+        count -= 1;
+    }
+}
+
+/* ---- all of them ----------------------------------------------------------------------------- */
+
+/* 0 for the lanes that do not ask. */
+SIMD vf sun_visibility(const struct kiln_ray_frame *frame, struct vf3 point, struct vf3 normal,
+                       vi wanted)
+{
+    if (!any(wanted))
+        return vf_all(0.0f);
+    const struct kiln_draw_shapes *shapes = frame->shapes;
+    const struct ray_shade shade = {vf3_along(point, normal, vf_all(1e-3f)), normal, wanted};
+    vf visible = boxes_let_through(frame, &shade);
+    if (shapes->counts.x + shapes->counts.y > 0)
+        visible *= round_let_through(frame, &shade);
+    for (int i = 0; i < (int)shapes->counts.z; i++)
+        visible *= 1.0f - mesh_cover(frame, i, &shade);
+    if (shapes->counts.w > 0)
+        visible *= particles_let_through(frame, &shade);
+    return vf_where(wanted, visible);
+}
+
+#endif

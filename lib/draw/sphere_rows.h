@@ -1,0 +1,46 @@
+/* Particles that are spheres into rows of the picture, for each width of vectors. */
+#ifndef KILN_DRAW_SPHERE_ROWS_H
+#define KILN_DRAW_SPHERE_ROWS_H
+
+#include "base/simd.h"
+#include "draw/ray.h"
+#include "draw/row_lists.h"
+
+enum {
+    KILN_SPHERE_ROWS = 8,
+    KILN_SPHERE_SAMPLES = 4,
+    KILN_SPHERE_PAD = 16, /* pixels that vectors may reach beyond the right edge */
+};
+
+struct kiln_drawn_sphere {
+    float center[3], radius; /* in view space, m */
+    float albedo[3], lit;    /* 1 lit .. 0 shows its colour as it is */
+    float glow[3], unused;   /* light that it emits */
+    float bloom[3];          /* weights of equation 3.2 */
+    struct kiln_row_range x; /* pixels that it may touch */
+};
+
+/* KILN_SPHERE_ROWS rows of the picture from row y. Samples are by row, sample and pixel, `pitch`
+ * floats apart; all pixels have room for KILN_SPHERE_PAD more at the end of a row. */
+struct kiln_sphere_strip {
+    const struct kiln_ray_frame *frame;
+    const struct kiln_drawn_sphere *spheres;
+    const struct kiln_row_range *rows; /* that they may touch */
+    const uint32_t *list;              /* those of the strip */
+    size_t count;
+    uint32_t width, y, y_to;
+    const float *scene_color, *scene_depth; /* of the picture */
+    float *color, *depth, *bloom;
+    float *samples;    /* depths, m */
+    int32_t *nearest;  /* the spheres there; -1: none */
+    uint32_t *entries; /* room for 2 a sample of a row */
+    size_t pitch;
+};
+
+struct kiln_sphere_rows {
+    void (*draw)(const struct kiln_sphere_strip *strip);
+};
+
+KILN_SIMD_DECLARE(const struct kiln_sphere_rows, kiln_sphere_rows);
+
+#endif
