@@ -34,8 +34,11 @@ static void run_far(struct kiln_bitonic *bitonic, uint32_t padded, uint32_t size
     }
 }
 
-static void sort_padded(void *context, uint32_t padded)
+static bool sort_padded(void *context, struct kiln_buffer *pairs, uint32_t padded,
+                        struct kiln_error *error)
 {
+    (void)pairs;
+    (void)error;
     struct kiln_bitonic *bitonic = context;
     kiln_network_dispatch(bitonic->device, bitonic->start_program, (uint32_t[]){padded}, 1, padded,
                           NETWORK_BLOCK);
@@ -44,6 +47,7 @@ static void sort_padded(void *context, uint32_t padded)
         kiln_network_dispatch(bitonic->device, bitonic->block_program, (uint32_t[]){padded, size},
                               2, padded, NETWORK_BLOCK);
     }
+    return true;
 }
 
 struct kiln_bitonic *kiln_bitonic_create(struct kiln_device *device, struct kiln_error *error)

@@ -20,8 +20,7 @@ bool kiln_network_programs(struct kiln_device *device, const struct kiln_network
 }
 
 bool kiln_network_init(struct kiln_network *network, struct kiln_device *device,
-                       void (*sort)(void *context, uint32_t padded), void *context,
-                       struct kiln_error *error)
+                       kiln_network_sort *sort, void *context, struct kiln_error *error)
 {
     *network = (struct kiln_network){.device = device, .sort = sort, .context = context};
     kiln_buffer_init(&network->pairs, device, 0, "sort pairs");
@@ -74,12 +73,14 @@ bool kiln_network_pairs(struct kiln_network *network, struct kiln_buffer *pairs,
     if (!sorted)
         return false;
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SORT_BIND_PAIRS, pair_buffer);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SORT_BIND_COUNTS, list_buffer);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SORT_BIND_ENTRIES, sorted);
     uint32_t padded = kiln_network_padded(count);
     kiln_network_dispatch(network->device, network->pad_program, (uint32_t[]){count, padded}, 2,
                           padded - count, SORT_GROUP_SIZE);
-    network->sort(network->context, padded);
+    if (!network->sort(network->context, pairs, padded, error))
+        return false;
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SORT_BIND_PAIRS, pairs->gl);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SORT_BIND_COUNTS, list_buffer);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SORT_BIND_ENTRIES, sorted);
     kiln_network_dispatch(network->device, network->take_program, (uint32_t[]){count, reverse}, 2,
                           count, SORT_GROUP_SIZE);
     return kiln_device_check(network->device, "sort: network", error);

@@ -5,20 +5,22 @@
 
 #include "sort/alive.h"
 
+/* Sorts the pairs, which are bound; padded: a power of two. It may swap the buffer's GL side. */
+typedef bool kiln_network_sort(void *context, struct kiln_buffer *pairs, uint32_t padded,
+                               struct kiln_error *error);
+
 struct kiln_network {
     struct kiln_device *device;
     struct kiln_alive alive;
     GLuint pad_program, take_program;
     struct kiln_buffer pairs, list;
-    /* Sorts the bound pairs, whose number is a power of two. */
-    void (*sort)(void *context, uint32_t padded);
+    kiln_network_sort *sort;
     void *context;
 };
 
 /* kiln_network_finish frees what there is, also when this fails. */
 bool kiln_network_init(struct kiln_network *network, struct kiln_device *device,
-                       void (*sort)(void *context, uint32_t padded), void *context,
-                       struct kiln_error *error);
+                       kiln_network_sort *sort, void *context, struct kiln_error *error);
 void kiln_network_finish(struct kiln_network *network);
 
 /* Like kiln_sort_run. */

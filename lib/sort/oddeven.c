@@ -39,9 +39,13 @@ void kiln_oddeven_run_passes(struct kiln_oddeven *oddeven, uint32_t padded, uint
                                       SORT_GROUP_SIZE);
 }
 
-static void sort_padded(void *context, uint32_t padded)
+static bool sort_padded(void *context, struct kiln_buffer *pairs, uint32_t padded,
+                        struct kiln_error *error)
 {
+    (void)pairs;
+    (void)error;
     kiln_oddeven_run_passes(context, padded, 0, kiln_oddeven_passes(padded));
+    return true;
 }
 
 struct kiln_oddeven *kiln_oddeven_create(struct kiln_device *device, struct kiln_error *error)

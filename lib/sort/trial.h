@@ -1,0 +1,45 @@
+/* Sorts of given keys that are timed, for benchmarks: the techniques of the stage, and the variants
+ * of bitonic sorting that UberFlow's table 1 compares. */
+#ifndef KILN_SORT_TRIAL_H
+#define KILN_SORT_TRIAL_H
+
+#include "base/thread.h"
+#include "gpu/device.h"
+
+enum kiln_sort_trial_kind {
+    KILN_TRIAL_CPU,
+    KILN_TRIAL_RADIX,
+    KILN_TRIAL_BITONIC,
+    KILN_TRIAL_ODDEVEN,
+    KILN_TRIAL_COMPUTED, /* bitonic_field.h: UberFlow's FP, */
+    KILN_TRIAL_PASSED,   /* GP/FP */
+    KILN_TRIAL_PACKED,   /* and GP/FP Packed */
+    KILN_TRIAL_COUNT
+};
+
+/* "cpu", "radix", "bitonic", "oddeven", "bitonic-computed", "bitonic-passed", "bitonic-packed" */
+const char *kiln_sort_trial_name(enum kiln_sort_trial_kind kind);
+
+struct kiln_sort_trial;
+
+/* For up to `most` keys. device may be NULL for `cpu`, threads, borrowed, for all others. NULL with
+ * an error: KILN_USAGE without a device that is needed, KILN_DEVICE_FAILED. */
+struct kiln_sort_trial *kiln_sort_trial_create(struct kiln_device *device,
+                                               struct kiln_threads *threads,
+                                               enum kiln_sort_trial_kind kind, uint32_t most,
+                                               struct kiln_error *error);
+void kiln_sort_trial_destroy(struct kiln_sort_trial **trial);
+
+/* From now on sorts only within sets of so many rows of a square of keys, a power of two; 0: all.
+ * Only of effect on the three variants of bitonic sorting. */
+void kiln_sort_trial_restrict(struct kiln_sort_trial *trial, uint32_t rows);
+
+/* Sorts ascending; *ms is how long it took from pairs that lie ready, of a key and its place, to
+ * the list of places, which lies where the technique runs. */
+bool kiln_sort_trial_run(struct kiln_sort_trial *trial, const uint32_t *keys, uint32_t count,
+                         double *ms, struct kiln_error *error);
+
+/* The places of the keys of the last run in their order; NULL with an error. */
+const uint32_t *kiln_sort_trial_places(struct kiln_sort_trial *trial, struct kiln_error *error);
+
+#endif

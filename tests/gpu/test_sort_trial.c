@@ -1,0 +1,128 @@
+/* lib/sort/trial.c: what is timed has sorted. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "sort/bitonic_field.h"
+#include "sort/trial.h"
+#include "support/simulation.h"
+#include "support/sort_keys.h"
+
+enum { MOST = 1 << 16 };
+
+/* Keys, and what must come of them: sets of `set` places are sorted by themselves. */
+struct task {
+    uint32_t keys[MOST];
+    kiln_sort_pair expected[MOST];
+};
+
+static void fill(struct task *task, enum pattern pattern, uint32_t count, uint32_t set)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        task->keys[i] = key_of(pattern, i, count);
+        task->expected[i] = (kiln_sort_pair)task->keys[i] << 32 | i;
+    }
+    for (uint32_t i = 0; i < count; i += set)
+        qsort(task->expected + i, set < count - i ? set : count - i, sizeof *task->expected,
+              by_pair);
+}
+
+static void expect_result(struct kiln_sort_trial *trial, const struct task *task, uint32_t count,
+                          const char *what)
+{
+    struct kiln_error error = {0};
+    double ms = -1;
+    if (!kiln_sort_trial_run(trial, task->keys, count, &ms, &error))
+        fail_msg("%s: %s", what, error.message);
+    assert_true(ms >= 0 && ms < 60e3);
+    const uint32_t *places = kiln_sort_trial_places(trial, &error);
+    assert_non_null(places);
+    for (uint32_t i = 0; i < count; i++)
+        if (places[i] != (uint32_t)task->expected[i])
+            fail_msg("%s: %u at %u of %u instead of %u", what, places[i], i, count,
+                     (uint32_t)task->expected[i]);
+}
+
+static void all_kinds_sort(void **state)
+{
+    static struct task task;
+    static const uint32_t counts[] = {0, 1, 2, 3, 4, 1000, 1 << 14, MOST - 1, MOST};
+    struct kiln_error error = {0};
+    struct kiln_threads *threads = kiln_threads_create(2);
+    for (int kind = 0; kind < KILN_TRIAL_COUNT; kind++) {
+        const char *name = kiln_sort_trial_name((enum kiln_sort_trial_kind)kind);
+        struct kiln_sort_trial *trial =
+            kiln_sort_trial_create(*state, threads, (enum kiln_sort_trial_kind)kind, MOST, &error);
+        if (!trial)
+            fail_msg("%s: %s", name, error.message);
+        for (size_t c = 0; c < sizeof counts / sizeof *counts; c++)
+            for (int pattern = 0; pattern < (counts[c] > 1000 ? 1 : PATTERNS); pattern++) {
+                fill(&task, (enum pattern)pattern, counts[c], MOST);
+                expect_result(trial, &task, counts[c], name);
+            }
+        kiln_sort_trial_destroy(&trial);
+        assert_null(trial);
+    }
+    kiln_threads_destroy(&threads);
+}
+
+/* Within each set of rows, and nothing leaves its set. */
+static void variants_sort_sets_of_rows(void **state)
+{
+    static struct task task;
+    static const uint32_t row_counts[] = {1, 2, 32, 128, 1024, 0, 1};
+    const uint32_t count = 1 << 14, width = kiln_bitonic_field_width(count);
+    assert_int_equal(width, 128);
+    struct kiln_error error = {0};
+    for (int kind = KILN_TRIAL_COMPUTED; kind <= KILN_TRIAL_PACKED; kind++) {
+        struct kiln_sort_trial *trial =
+            kiln_sort_trial_create(*state, NULL, (enum kiln_sort_trial_kind)kind, count, &error);
+        if (!trial)
+            fail_msg("%s", error.message);
+        for (size_t r = 0; r < sizeof row_counts / sizeof *row_counts; r++) {
+            const uint32_t rows = row_counts[r] ? row_counts[r] : count;
+            fill(&task, RANDOM, count, rows * width);
+            kiln_sort_trial_restrict(trial, row_counts[r]);
+            expect_result(trial, &task, count,
+                          kiln_sort_trial_name((enum kiln_sort_trial_kind)kind));
+        }
+        kiln_sort_trial_destroy(&trial);
+    }
+}
+
+static void fields_are_square_or_twice_as_wide(void **state)
+{
+    (void)state;
+    assert_int_equal(kiln_bitonic_field_width(1), 1);
+    assert_int_equal(kiln_bitonic_field_width(2), 2);
+    assert_int_equal(kiln_bitonic_field_width(1 << 17), 512);
+    assert_int_equal(kiln_bitonic_field_width(1 << 20), 1024);
+}
+
+static void a_device_is_needed(void **state)
+{
+    (void)state;
+    struct kiln_error error = {0};
+    for (int kind = KILN_TRIAL_RADIX; kind < KILN_TRIAL_COUNT; kind++) {
+        error = (struct kiln_error){0};
+        assert_null(kiln_sort_trial_create(NULL, NULL, (enum kiln_sort_trial_kind)kind, 1, &error));
+        assert_int_equal(error.code, KILN_USAGE);
+    }
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        test_on_device(all_kinds_sort),
+        test_on_device(variants_sort_sets_of_rows),
+        test_on_device(fields_are_square_or_twice_as_wide),
+        test_on_device(a_device_is_needed),
+    };
+    return cmocka_run_group_tests_name("sort trials", tests, simulation_device_open,
+                                       test_device_close);
+}
