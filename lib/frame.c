@@ -4,7 +4,7 @@
  * are stepped as well, so a frame is the same bytes in any chunk of the clip. The stages behind one
  * frame are in stages.c.
  */
-#include "kiln.h"
+#include "frame.h"
 
 #include "base/clock.h"
 #include "base/error.h"
@@ -13,9 +13,10 @@
 #include "stages.h"
 
 #include <inttypes.h>
+#include <stdlib.h>
 #include <string.h>
 
-struct job {
+struct kiln_job {
     struct kiln_device *device;
     const struct kiln_scene *scene;
     const struct kiln_render_params *params;
@@ -39,7 +40,7 @@ struct job {
 /* ---- the loop -------------------------------------------------------------------------------- */
 
 /* A callback may have used another device on this thread. */
-static bool return_from_caller(const struct job *job, struct kiln_error *error)
+static bool return_from_caller(const struct kiln_job *job, struct kiln_error *error)
 {
     return kiln_device_make_current(job->device, error);
 }
@@ -47,7 +48,7 @@ static bool return_from_caller(const struct job *job, struct kiln_error *error)
 /* False with KILN_INTERRUPTED when the caller wants no more. */
 static bool may_go_on(void *user, struct kiln_error *error)
 {
-    const struct job *job = user;
+    const struct kiln_job *job = user;
     if (!job->params->stop)
         return true;
     bool stop = job->params->stop(job->params->user);
@@ -57,7 +58,7 @@ static bool may_go_on(void *user, struct kiln_error *error)
                                    job->progress.done, job->total_frames);
 }
 
-static bool step_to(struct job *job, uint32_t step, struct kiln_error *error)
+static bool step_to(struct kiln_job *job, uint32_t step, struct kiln_error *error)
 {
     struct kiln_run *run = &job->run;
     kiln_timer_begin(job->stages.timer, KILN_PASS_simulate);
@@ -72,14 +73,14 @@ static bool step_to(struct job *job, uint32_t step, struct kiln_error *error)
     return ok;
 }
 
-static struct kiln_output_needs output_needs(const struct job *job)
+static struct kiln_output_needs output_needs(const struct kiln_job *job)
 {
     if (job->output)
         return kiln_output_needs(job->output);
     return (struct kiln_output_needs){.bits = 8};
 }
 
-static bool write_picture(struct job *job, uint32_t frame, struct kiln_error *error)
+static bool write_picture(struct kiln_job *job, uint32_t frame, struct kiln_error *error)
 {
     const struct kiln_scene *scene = job->scene;
     struct kiln_output_needs needs = output_needs(job);
@@ -105,7 +106,7 @@ static bool write_picture(struct job *job, uint32_t frame, struct kiln_error *er
     return kiln_output_write(job->output, picture, error);
 }
 
-static bool report_frame(struct job *job, uint32_t frame, struct kiln_error *error)
+static bool report_frame(struct kiln_job *job, uint32_t frame, struct kiln_error *error)
 {
     struct kiln_progress *p = &job->progress;
     p->frame = frame;
@@ -126,7 +127,7 @@ static bool report_frame(struct job *job, uint32_t frame, struct kiln_error *err
 }
 
 /* All moments of a frame while the shutter is open: one, unless the scene asks for more. */
-static bool draw_moments(struct job *job, uint32_t frame, struct kiln_error *error)
+static bool draw_moments(struct kiln_job *job, uint32_t frame, struct kiln_error *error)
 {
     for (uint32_t moment = 0; moment < job->scene->camera.shutter_samples; moment++) {
         uint32_t drawn = 0;
@@ -139,7 +140,7 @@ static bool draw_moments(struct job *job, uint32_t frame, struct kiln_error *err
     return true;
 }
 
-static bool render_frame(struct job *job, uint32_t frame, struct kiln_error *error)
+bool kiln_job_draw(struct kiln_job *job, uint32_t frame, struct kiln_error *error)
 {
     if (!may_go_on(job, error) || !step_to(job, kiln_scene_frame_step(job->scene, frame), error))
         return false;
@@ -164,7 +165,7 @@ static bool render_frame(struct job *job, uint32_t frame, struct kiln_error *err
 }
 
 /* Frames that are not drawn, where they matter to later ones for more than their steps. */
-static bool pass_over_frames(struct job *job, uint32_t first, uint32_t end,
+static bool pass_over_frames(struct kiln_job *job, uint32_t first, uint32_t end,
                              struct kiln_error *error)
 {
     if (!kiln_stages_keep_history(&job->stages))
@@ -179,7 +180,17 @@ static bool pass_over_frames(struct job *job, uint32_t first, uint32_t end,
     return true;
 }
 
-static bool render_frames(struct job *job, struct kiln_error *error)
+bool kiln_job_advance(struct kiln_job *job, uint32_t frame, struct kiln_error *error)
+{
+    return step_to(job, kiln_scene_frame_step(job->scene, frame), error);
+}
+
+const struct kiln_progress *kiln_job_progress(const struct kiln_job *job)
+{
+    return &job->progress;
+}
+
+static bool render_frames(struct kiln_job *job, struct kiln_error *error)
 {
     uint32_t next = 0;
     for (size_t i = 0; i < job->range_count; i++) {
@@ -188,7 +199,7 @@ static bool render_frames(struct job *job, struct kiln_error *error)
             return false;
         next = range.last + 1;
         for (uint32_t frame = range.first; frame <= range.last; frame++) {
-            if (!render_frame(job, frame, error))
+            if (!kiln_job_draw(job, frame, error))
                 return false;
         }
     }
@@ -197,7 +208,7 @@ static bool render_frames(struct job *job, struct kiln_error *error)
 
 /* ---- before and after ------------------------------------------------------------------------ */
 
-static bool choose_frames(struct job *job, struct kiln_error *error)
+static bool choose_frames(struct kiln_job *job, struct kiln_error *error)
 {
     job->ranges = job->params->ranges;
     job->range_count = job->params->range_count;
@@ -219,7 +230,7 @@ static bool choose_frames(struct job *job, struct kiln_error *error)
     return true;
 }
 
-static bool open_output(struct job *job, struct kiln_error *error)
+static bool open_output(struct kiln_job *job, struct kiln_error *error)
 {
     const struct kiln_render_params *params = job->params;
     const struct kiln_scene *scene = job->scene;
@@ -265,7 +276,7 @@ static bool open_output(struct job *job, struct kiln_error *error)
     return true;
 }
 
-static void init_pool(struct job *job)
+static void init_pool(struct kiln_job *job)
 {
     uint32_t capacities[KILN_MAX_SYSTEMS] = {0};
     for (uint32_t i = 0; i < job->scene->system_count; i++)
@@ -278,7 +289,7 @@ static void init_pool(struct job *job)
 
 /* What the device cannot draw. A software device advertises smaller storage blocks than it takes.
  */
-static bool check_limits(const struct job *job, struct kiln_error *error)
+static bool check_limits(const struct kiln_job *job, struct kiln_error *error)
 {
     const struct kiln_device_info *device = &job->device->info;
     const struct kiln_scene *scene = job->scene;
@@ -295,7 +306,7 @@ static bool check_limits(const struct job *job, struct kiln_error *error)
                           particles, device->name, most);
 }
 
-static bool begin(struct job *job, struct kiln_error *error)
+static bool begin(struct kiln_job *job, struct kiln_error *error)
 {
     const struct kiln_render_params *params = job->params;
     if (!choose_frames(job, error) || !kiln_device_make_current(job->device, error) ||
@@ -306,6 +317,7 @@ static bool begin(struct job *job, struct kiln_error *error)
     kiln_techniques_describe(&job->techniques, job->stats.techniques, sizeof job->stats.techniques);
     job->stats.choice_count = KILN_STAGE_COUNT;
     memcpy(job->stats.choices, job->techniques.choices, sizeof job->techniques.choices);
+    job->device->work_group_size = params->work_group_size;
     job->threads = kiln_threads_create(params->threads);
     if (!job->threads)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "can not start %u threads",
@@ -317,47 +329,75 @@ static bool begin(struct job *job, struct kiln_error *error)
                             output_needs(job), job->threads, &job->run.pool, error);
 }
 
-static bool finish(struct job *job, struct kiln_error *error)
+bool kiln_job_adopt(struct kiln_job *job, struct kiln_job *from, struct kiln_error *error)
 {
-    struct kiln_render_stats *stats = &job->stats;
-    if (!kiln_simulate_hash(job->stages.simulate, &job->run.pool, &stats->state, &stats->alive,
-                            error))
+    job->run.step = from->run.step;
+    return kiln_pool_copy(&job->run.pool, &from->run.pool, error);
+}
+
+bool kiln_job_finish(struct kiln_job *job, struct kiln_render_stats *stats,
+                     struct kiln_error *error)
+{
+    struct kiln_render_stats *s = &job->stats;
+    if (!kiln_simulate_hash(job->stages.simulate, &job->run.pool, &s->state, &s->alive, error))
         return false;
-    stats->frames = job->progress.done;
-    stats->steps = job->run.step;
+    s->frames = job->progress.done;
+    s->steps = job->run.step;
     if (job->output) {
-        stats->files = kiln_output_file_count(job->output);
-        kiln_output_path(job->output, job->ranges[0].first, stats->first_file,
-                         sizeof stats->first_file);
+        s->files = kiln_output_file_count(job->output);
+        kiln_output_path(job->output, job->ranges[0].first, s->first_file, sizeof s->first_file);
         if (!kiln_output_finish(job->output, error))
             return false;
     }
-    stats->total_s = kiln_clock_seconds() - job->started_s;
-    return !job->manifest || kiln_manifest_finish(job->manifest, stats, error);
+    s->total_s = kiln_clock_seconds() - job->started_s;
+    if (job->manifest && !kiln_manifest_finish(job->manifest, s, error))
+        return false;
+    *stats = *s;
+    return true;
 }
 
-static void end(struct job *job)
+void kiln_job_destroy(struct kiln_job **job)
 {
-    kiln_manifest_close(&job->manifest);
-    kiln_output_close(&job->output);
-    kiln_stages_finish(&job->stages);
-    kiln_pool_finish(&job->run.pool);
-    kiln_threads_destroy(&job->threads);
+    struct kiln_job *j = *job;
+    if (!j)
+        return;
+    kiln_manifest_close(&j->manifest);
+    kiln_output_close(&j->output);
+    kiln_stages_finish(&j->stages);
+    kiln_pool_finish(&j->run.pool);
+    kiln_threads_destroy(&j->threads);
+    free(j);
+    *job = NULL;
+}
+
+struct kiln_job *kiln_job_create(struct kiln_device *device, const struct kiln_scene *scene,
+                                 const struct kiln_render_params *params, struct kiln_error *error)
+{
+    struct kiln_job *job = calloc(1, sizeof *job);
+    if (!job) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a job");
+        return NULL;
+    }
+    job->device = device;
+    job->scene = scene;
+    job->params = params;
+    job->started_s = kiln_clock_seconds();
+    if (!begin(job, error))
+        kiln_job_destroy(&job);
+    else
+        job->stats.setup_s = kiln_clock_seconds() - job->started_s;
+    return job;
 }
 
 bool kiln_render(struct kiln_device *device, const struct kiln_scene *scene,
                  const struct kiln_render_params *params, struct kiln_render_stats *stats,
                  struct kiln_error *error)
 {
-    struct job job = {
-        .device = device, .scene = scene, .params = params, .started_s = kiln_clock_seconds()};
-    bool ok = begin(&job, error);
-    if (ok) {
-        job.stats.setup_s = kiln_clock_seconds() - job.started_s;
-        ok = render_frames(&job, error) && finish(&job, error);
-    }
-    end(&job);
+    struct kiln_render_stats done = {0};
+    struct kiln_job *job = kiln_job_create(device, scene, params, error);
+    bool ok = job && render_frames(job, error) && kiln_job_finish(job, &done, error);
+    kiln_job_destroy(&job);
     if (stats)
-        *stats = job.stats;
+        *stats = done;
     return ok;
 }

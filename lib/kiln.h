@@ -239,6 +239,8 @@ struct kiln_render_params {
     const char *const *techniques; /* "stage=name" */
     size_t technique_count;
     uint32_t threads; /* worker threads; 0 takes one a core */
+    uint32_t
+        work_group_size; /* of kernels that leave it open; 0: what suits each. No pixel changes */
     bool overwrite;
     bool state_hash;   /* compute it for each drawn frame; the manifest always has it */
     uint32_t png_bits; /* 8 or 16; of APNG and MKV, too */
@@ -741,4 +743,5 @@ bool kiln_write_shell_word(FILE *out, const char *word);
 #ifdef __cplusplus
 }
 #endif
+
 #endif

@@ -151,6 +151,8 @@ static void upload(struct kiln_lighting_stage *stage, const struct kiln_smoke_gr
     glBindTexture(GL_TEXTURE_3D, stage->textures[which]);
     glTexSubImage3D(GL_TEXTURE_3D, 0, 0, 0, 0, KILN_SMOKE_GRID, KILN_SMOKE_GRID, KILN_SMOKE_GRID,
                     GL_RED, GL_FLOAT, grid->depth);
+    stage->device->traffic.to_device +=
+        sizeof(float) * KILN_SMOKE_GRID * KILN_SMOKE_GRID * KILN_SMOKE_GRID;
 }
 
 /* Where there is no sun, every place lies beside its grid. */

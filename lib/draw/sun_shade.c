@@ -177,6 +177,7 @@ const float *kiln_sun_shade_run(struct kiln_sun_shade *shade,
         }
         glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, KILN_SUN_SHADE_ROW, (GLsizei)shade->rows, GL_RED,
                         GL_FLOAT, shade->visible);
+        shade->device->traffic.to_device += sizeof(float) * KILN_SUN_SHADE_ROW * shade->rows;
     }
     glActiveTexture(GL_TEXTURE0);
     if (!room) {

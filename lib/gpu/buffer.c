@@ -59,6 +59,7 @@ static bool fetch(struct kiln_buffer *buffer, struct kiln_error *error)
     glMemoryBarrier(GL_ALL_BARRIER_BITS);
     glBindBuffer(GL_COPY_WRITE_BUFFER, buffer->gl);
     glGetBufferSubData(GL_COPY_WRITE_BUFFER, 0, (GLsizeiptr)buffer->size, buffer->host);
+    buffer->device->traffic.to_host += buffer->size;
     return kiln_device_check(buffer->device, buffer->label, error);
 }
 
@@ -109,6 +110,7 @@ static bool send(struct kiln_buffer *buffer, struct kiln_error *error)
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glBindBuffer(GL_COPY_WRITE_BUFFER, buffer->gl);
     glBufferSubData(GL_COPY_WRITE_BUFFER, 0, (GLsizeiptr)buffer->size, buffer->host);
+    buffer->device->traffic.to_device += buffer->size;
     return kiln_device_check(buffer->device, buffer->label, error);
 }
 

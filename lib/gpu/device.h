@@ -6,10 +6,17 @@
 
 #include <epoxy/gl.h>
 
+/* Bytes that went from one side to the other. */
+struct kiln_traffic {
+    uint64_t to_device, to_host;
+};
+
 struct kiln_device {
     struct kiln_device_info info;
     struct kiln_log log;
-    void *display, *context; /* EGL */
+    struct kiln_traffic traffic; /* since it was opened: contents of buffers, images, textures */
+    uint32_t work_group_size;    /* for programs made from now on; 0: what suits each kernel */
+    void *display, *context;     /* EGL */
     bool debug;
     bool gl_failed;       /* the debug callback saw an error; sticky */
     char gl_message[512]; /* the first such error */

@@ -61,12 +61,19 @@ static GLenum pixel_format(const struct kiln_image *image)
     return image->channels == 1 ? GL_RED : GL_RGBA;
 }
 
+/* As floats, which is how both sides exchange them. */
+static uint64_t pixel_bytes(const struct kiln_image *image)
+{
+    return (uint64_t)image->width * image->height * image->channels * sizeof(float);
+}
+
 static bool fetch(struct kiln_image *image, struct kiln_error *error)
 {
     glMemoryBarrier(GL_ALL_BARRIER_BITS);
     const GLuint before = bind(image->gl);
     glGetTexImage(GL_TEXTURE_2D, 0, pixel_format(image), GL_FLOAT, image->host);
     glBindTexture(GL_TEXTURE_2D, before);
+    image->device->traffic.to_host += pixel_bytes(image);
     return kiln_device_check(image->device, image->label, error);
 }
 
@@ -120,6 +127,7 @@ static bool send(struct kiln_image *image, struct kiln_error *error)
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, (GLsizei)image->width, (GLsizei)image->height,
                     pixel_format(image), GL_FLOAT, image->host);
     glBindTexture(GL_TEXTURE_2D, before);
+    image->device->traffic.to_device += pixel_bytes(image);
     return kiln_device_check(image->device, image->label, error);
 }
 

@@ -2,6 +2,7 @@
 #include "particles/pool.h"
 
 #include <assert.h>
+#include <string.h>
 
 static_assert(sizeof(struct kiln_particle) == 32, "std430");
 
@@ -22,6 +23,18 @@ void kiln_pool_finish(struct kiln_pool *pool)
 {
     kiln_buffer_finish(&pool->records);
     *pool = (struct kiln_pool){.system_count = 0};
+}
+
+bool kiln_pool_copy(struct kiln_pool *to, struct kiln_pool *from, struct kiln_error *error)
+{
+    assert(to->slot_count == from->slot_count && to->system_count == from->system_count);
+    const void *source = kiln_buffer_host(&from->records, KILN_READ, error);
+    void *target = source ? kiln_buffer_host(&to->records, KILN_OVERWRITE, error) : NULL;
+    if (!target)
+        return false;
+    memcpy(target, source, from->records.size);
+    memcpy(to->systems, from->systems, sizeof to->systems);
+    return true;
 }
 
 uint32_t kiln_pool_used(const struct kiln_pool_system *system)

@@ -29,6 +29,9 @@ void kiln_pool_init(struct kiln_pool *pool, struct kiln_device *device, const ui
                     uint32_t system_count);
 void kiln_pool_finish(struct kiln_pool *pool);
 
+/* Gives a pool the particles of another one of the same capacities, by way of the host. */
+bool kiln_pool_copy(struct kiln_pool *to, struct kiln_pool *from, struct kiln_error *error);
+
 /* Slots of a system that were ever born into: the first so many; the rest is still zero. */
 uint32_t kiln_pool_used(const struct kiln_pool_system *system);
 

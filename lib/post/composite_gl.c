@@ -137,6 +137,8 @@ bool kiln_composite_gl_read_display(struct kiln_composite_gl *stage, void *pixel
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, (GLsizei)stage->scene->width, (GLsizei)stage->scene->height, GL_RGBA,
                  stage->bits == 16 ? GL_UNSIGNED_SHORT : GL_UNSIGNED_BYTE, pixels);
+    stage->device->traffic.to_host +=
+        (uint64_t)stage->scene->width * stage->scene->height * stage->bits / 2;
     return kiln_device_check(stage->device, "readback", error);
 }
 

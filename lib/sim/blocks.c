@@ -1,8 +1,10 @@
 /* The host uploads a few kilobytes a step and reads nothing back. */
 #include "sim/blocks.h"
 
+#include <stdio.h>
 #include <string.h>
 
+#include "base/error.h"
 #include "shared/trace.h"
 
 static size_t step_stride(void)
@@ -13,10 +15,20 @@ static size_t step_stride(void)
     return (sizeof(struct kiln_step_params) + unit - 1) / unit * unit;
 }
 
+static uint32_t group_size(const struct kiln_device *device)
+{
+    return device->work_group_size ? device->work_group_size : SIM_GROUP_SIZE;
+}
+
 bool kiln_sim_blocks_init(struct kiln_sim_blocks *blocks, struct kiln_device *device,
                           const struct kiln_scene *scene, struct kiln_error *error)
 {
-    *blocks = (struct kiln_sim_blocks){.device = device, .step_stride = step_stride()};
+    *blocks = (struct kiln_sim_blocks){
+        .device = device, .group_size = group_size(device), .step_stride = step_stride()};
+    if (blocks->group_size > (uint32_t)device->info.max_work_group_invocations)
+        return kiln_error_set(
+            error, KILN_USAGE, "a work group of %u invocations; %s takes up to %d",
+            blocks->group_size, device->info.name, device->info.max_work_group_invocations);
     kiln_buffer_init(&blocks->keys, device, KILN_MAX_VALUE_KEYS * sizeof(float4), "value keys");
     kiln_buffer_init(&blocks->steps, device, KILN_MAX_SYSTEMS * blocks->step_stride,
                      "step parameters");
@@ -101,12 +113,15 @@ bool kiln_sim_programs_init(struct kiln_sim_programs *programs, struct kiln_devi
                             struct kiln_program_params files, struct kiln_error *error)
 {
     *programs = (struct kiln_sim_programs){.alone = 0};
-    bool round = has_round_colliders(scene);
-    files.defines = round ? "#define COLLIDE_ROUND 1\n" : NULL;
+    char defines[128];
+    int length =
+        snprintf(defines, sizeof defines, "#define SIM_GROUP_SIZE %u\n%s", group_size(device),
+                 has_round_colliders(scene) ? "#define COLLIDE_ROUND 1\n" : "");
+    files.defines = defines;
     programs->alone = kiln_program_create(device, &files, error);
     if (!programs->alone || !has_families(params))
         return programs->alone != 0;
-    files.defines = round ? "#define FAMILY 1\n#define COLLIDE_ROUND 1\n" : "#define FAMILY 1\n";
+    snprintf(defines + length, sizeof defines - (size_t)length, "#define FAMILY 1\n");
     programs->family = kiln_program_create(device, &files, error);
     return programs->family != 0;
 }

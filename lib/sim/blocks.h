@@ -7,6 +7,7 @@
 
 struct kiln_sim_blocks {
     struct kiln_device *device;
+    uint32_t group_size;          /* invocations of a work group that steps slots */
     size_t step_stride;           /* bytes from one system's parameters to the next's */
     struct kiln_buffer keys;      /* float4 [KILN_MAX_VALUE_KEYS] */
     struct kiln_buffer steps;     /* struct kiln_step_params, step_stride apart */

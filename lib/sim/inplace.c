@@ -22,7 +22,7 @@ bool kiln_inplace_step(const struct kiln_sim_programs *programs,
         const struct kiln_step_params *step = &params->systems[i];
         kiln_sim_blocks_bind(blocks, params, i);
         glUseProgram(kiln_sim_programs_of(programs, step));
-        kiln_device_dispatch(blocks->device, step->used, SIM_GROUP_SIZE);
+        kiln_device_dispatch(blocks->device, step->used, blocks->group_size);
     }
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     return kiln_device_check(blocks->device, "simulate", error);

@@ -31,7 +31,7 @@ bool kiln_pingpong_step(struct kiln_pingpong *pingpong, const struct kiln_sim_bl
         const struct kiln_step_params *step = &params->systems[i];
         kiln_sim_blocks_bind(blocks, params, i);
         glUseProgram(kiln_sim_programs_of(&pingpong->programs, step));
-        kiln_device_dispatch(blocks->device, step->used, SIM_GROUP_SIZE);
+        kiln_device_dispatch(blocks->device, step->used, blocks->group_size);
     }
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     kiln_buffer_swap_gl(&pool->records, &pingpong->second);

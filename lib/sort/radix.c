@@ -11,7 +11,7 @@
 #include "shared/sort_layout.h"
 #include "sort/alive.h"
 
-enum { KEY_BITS = 32, PAIR_BYTES = 8 };
+enum { KEY_BITS = 32, PAIR_BYTES = 8, MAX_SHARED_BYTES = 32768 };
 
 /* How the work is cut, which changes no result. A counter for every digit and invocation must fit
  * in 32 KiB of shared memory. */
@@ -26,7 +26,7 @@ static const struct shape FOR_SOFTWARE = {8, 16, 256}, FOR_GPUS = {6, 64, 32};
 
 struct kiln_radix {
     struct kiln_device *device;
-    const struct shape *shape;
+    struct shape shape;
     struct kiln_alive alive;
     struct kiln_scan scan;
     GLuint count_program, scatter_program, last_program;
@@ -38,7 +38,7 @@ static GLuint create_program(struct kiln_radix *radix, const char *file, const c
                              struct kiln_error *error)
 {
     char defines[256];
-    const struct shape *shape = radix->shape;
+    const struct shape *shape = &radix->shape;
     snprintf(defines, sizeof defines,
              "#define RADIX_BITS %u\n#define RADIX_GROUP_SIZE %u\n#define RADIX_ITEMS %u\n%s",
              shape->bits, shape->group_size, shape->items, more);
@@ -59,6 +59,21 @@ static bool create_programs(struct kiln_radix *radix, struct kiln_error *error)
     return radix->last_program != 0;
 }
 
+/* For a work group of another size, the same tile is cut among more or fewer invocations, and its
+ * digits are as wide as their counters find room. */
+static struct shape choose_shape(const struct kiln_device *device)
+{
+    struct shape shape = device->info.software ? FOR_SOFTWARE : FOR_GPUS;
+    if (device->work_group_size == 0)
+        return shape;
+    uint32_t tile = shape.group_size * shape.items;
+    shape.group_size = device->work_group_size < tile ? device->work_group_size : tile;
+    shape.items = tile / shape.group_size;
+    while ((shape.group_size + 1) * sizeof(uint32_t) << shape.bits > MAX_SHARED_BYTES)
+        shape.bits--;
+    return shape;
+}
+
 struct kiln_radix *kiln_radix_create(struct kiln_device *device, struct kiln_error *error)
 {
     struct kiln_radix *radix = calloc(1, sizeof *radix);
@@ -67,7 +82,7 @@ struct kiln_radix *kiln_radix_create(struct kiln_device *device, struct kiln_err
         return NULL;
     }
     radix->device = device;
-    radix->shape = device->info.software ? &FOR_SOFTWARE : &FOR_GPUS;
+    radix->shape = choose_shape(device);
     kiln_buffer_init(&radix->pairs, device, 0, "sort pairs");
     kiln_buffer_init(&radix->other, device, 0, "other sort pairs");
     kiln_buffer_init(&radix->counts, device, 0, "counts of digits");
@@ -103,7 +118,7 @@ struct pass {
 
 static uint32_t tile_size(const struct kiln_radix *radix)
 {
-    return radix->shape->group_size * radix->shape->items;
+    return radix->shape.group_size * radix->shape.items;
 }
 
 static void dispatch(struct kiln_radix *radix, GLuint program, const struct pass *pass)
@@ -124,7 +139,7 @@ static bool run_pass(struct kiln_radix *radix, const struct pass *pass, bool las
                      struct kiln_error *error)
 {
     dispatch(radix, radix->count_program, pass);
-    if (!kiln_scan_run(&radix->scan, pass->counts, pass->tiles << radix->shape->bits, error))
+    if (!kiln_scan_run(&radix->scan, pass->counts, pass->tiles << radix->shape.bits, error))
         return false;
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, last ? SORT_BIND_ENTRIES : SORT_BIND_PAIRS_OUT,
                      pass->to);
@@ -141,14 +156,14 @@ bool kiln_radix_pairs(struct kiln_radix *radix, struct kiln_buffer *pairs, uint3
         .count = count, .tiles = (count - 1) / tile_size(radix) + 1, .reverse = reverse};
     kiln_buffer_reserve(&radix->other, pairs->size);
     kiln_buffer_reserve(&radix->counts,
-                        ((size_t)pass.tiles << radix->shape->bits) * sizeof(uint32_t));
+                        ((size_t)pass.tiles << radix->shape.bits) * sizeof(uint32_t));
     pass.from = kiln_buffer_gl(pairs, KILN_READ_WRITE, error);
     pass.to = pass.from ? kiln_buffer_gl(&radix->other, KILN_OVERWRITE, error) : 0;
     pass.counts = pass.to ? kiln_buffer_gl(&radix->counts, KILN_OVERWRITE, error) : 0;
     GLuint sorted = pass.counts ? kiln_buffer_gl(entries, KILN_READ_WRITE, error) : 0;
     if (!sorted)
         return false;
-    const uint32_t bits = radix->shape->bits;
+    const uint32_t bits = radix->shape.bits;
     for (pass.shift = 0; pass.shift < KEY_BITS; pass.shift += bits) {
         const bool last = pass.shift + bits >= KEY_BITS;
         const GLuint from = pass.from;

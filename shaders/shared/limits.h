@@ -35,8 +35,10 @@
 #define SIM_BIND_TRACES  2
 #define SIM_BIND_SECOND  3 /* records, of techniques with two buffers */
 
-/* Invocations of a work group. */
+/* Invocations of a work group; kernels may be compiled for another size. */
+#ifndef SIM_GROUP_SIZE
 #define SIM_GROUP_SIZE 64
+#endif
 
 /* Slots that one invocation of the hash adds up. */
 #define SIM_HASH_SLOTS 16

@@ -129,6 +129,26 @@ static void size_zero_is_allowed(void **state)
     kiln_buffer_finish(&buffer);
 }
 
+static void bytes_that_move_are_counted(void **state)
+{
+    struct kiln_device *device = *state;
+    struct kiln_error error = {0};
+    struct kiln_buffer buffer;
+    const struct kiln_traffic before = device->traffic;
+    kiln_buffer_init(&buffer, device, 1000, "counted");
+    assert_non_null(kiln_buffer_host(&buffer, KILN_OVERWRITE, &error));
+    assert_int_equal(device->traffic.to_device, before.to_device);
+    assert_true(kiln_buffer_gl(&buffer, KILN_READ, &error) != 0);
+    assert_true(kiln_buffer_gl(&buffer, KILN_READ_WRITE, &error) != 0);
+    assert_int_equal(device->traffic.to_device, before.to_device + 1000);
+    assert_int_equal(device->traffic.to_host, before.to_host);
+    assert_non_null(kiln_buffer_host(&buffer, KILN_READ, &error));
+    assert_non_null(kiln_buffer_host(&buffer, KILN_READ, &error));
+    assert_int_equal(device->traffic.to_device, before.to_device + 1000);
+    assert_int_equal(device->traffic.to_host, before.to_host + 1000);
+    kiln_buffer_finish(&buffer);
+}
+
 static void too_much_memory_is_an_error(void **state)
 {
     struct kiln_device *device = *state;
@@ -155,7 +175,7 @@ int main(void)
     static const struct CMUnitTest tests[] = {
         test_on_device(contents_start_as_zeros),     test_on_device(bytes_move_to_whoever_asks),
         test_on_device(nothing_moves_without_need),  test_on_device(size_zero_is_allowed),
-        test_on_device(too_much_memory_is_an_error),
+        test_on_device(bytes_that_move_are_counted), test_on_device(too_much_memory_is_an_error),
     };
     return cmocka_run_group_tests_name("buffer", tests, test_device_open, test_device_close);
 }

@@ -6,6 +6,7 @@
 
 #include <cmocka.h>
 
+#include "frame.h"
 #include "support/device.h"
 #include "support/pictures.h"
 #include "support/scenes.h"
@@ -249,6 +250,62 @@ static void a_spread_sort_follows_undrawn_frames(void **state)
     assert_memory_equal(part + 9 * ORBIT_BYTES, exact + 9 * ORBIT_BYTES, ORBIT_BYTES);
 }
 
+static struct kiln_job *make_job(struct kiln_device *device, const struct kiln_scene *scene,
+                                 struct kiln_render_params *params, const char *const *technique)
+{
+    struct kiln_error error = {0};
+    *params = KILN_RENDER_DEFAULTS;
+    params->techniques = technique;
+    params->technique_count = 1;
+    params->state_hash = true;
+    struct kiln_job *job = kiln_job_create(device, scene, params, &error);
+    if (!job)
+        fail_msg("%s", error.message);
+    return job;
+}
+
+/* A job goes on from the particles of another one, and neither disturbs the other. */
+static void jobs_go_on_from_each_other(void **state)
+{
+    static const char *const flags[] = {"simulate=cpu", "simulate=inplace", "simulate=pingpong",
+                                        "simulate=feedback"};
+    enum { JOBS = sizeof flags / sizeof *flags };
+    struct kiln_scene *scene = load_scene(SMOKE, NULL);
+    struct kiln_error error = {0};
+    struct kiln_render_params params[JOBS];
+    struct kiln_job *jobs[JOBS];
+    for (int i = 0; i < JOBS; i++) {
+        jobs[i] = make_job(*state, scene, &params[i], &flags[i]);
+        bool ok = i == 0 ? kiln_job_advance(jobs[0], 2, &error)
+                         : kiln_job_adopt(jobs[i], jobs[i - 1], &error);
+        if (!ok)
+            fail_msg("%s", error.message);
+    }
+    struct kiln_state_hash before = {{0}};
+    for (uint32_t frame = 2; frame < FRAMES; frame++) {
+        for (int i = 0; i < JOBS; i++) {
+            if (!kiln_job_draw(jobs[i], frame, &error))
+                fail_msg("%s", error.message);
+            const struct kiln_progress *progress = kiln_job_progress(jobs[i]);
+            assert_int_equal(progress->frame, frame);
+            assert_true(progress->alive > 0);
+            assert_memory_equal(&progress->state, &kiln_job_progress(jobs[0])->state,
+                                sizeof progress->state);
+        }
+        assert_memory_not_equal(&kiln_job_progress(jobs[0])->state, &before, sizeof before);
+        before = kiln_job_progress(jobs[0])->state;
+    }
+    struct kiln_render_stats whole, stats;
+    assert_true(kiln_render(*state, scene, &params[0], &whole, &error));
+    for (int i = 0; i < JOBS; i++) {
+        assert_true(kiln_job_finish(jobs[i], &stats, &error));
+        assert_memory_equal(&stats.state, &whole.state, sizeof whole.state);
+        assert_int_equal(stats.frames, 2);
+        kiln_job_destroy(&jobs[i]);
+    }
+    kiln_scene_destroy(&scene);
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
@@ -256,6 +313,7 @@ int main(void)
         test_on_device(limits_are_told),
         test_on_device(clips_stop_until_they_are_complete),
         test_on_device(a_spread_sort_follows_undrawn_frames),
+        test_on_device(jobs_go_on_from_each_other),
     };
     return cmocka_run_group_tests_name("frame", tests, test_device_open, test_device_close);
 }

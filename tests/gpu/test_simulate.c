@@ -184,6 +184,38 @@ static void a_run_can_change_its_technique(void **state)
     simulation_end(&run);
 }
 
+/* How the slots are cut among work groups changes no particle. */
+static void work_groups_may_have_any_size(void **state)
+{
+    struct kiln_device *device = *state;
+    static const uint32_t sizes[] = {1, 8, 96, 1024};
+    fixture_family(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT);
+    fixture_finish(&fixture, 60);
+    struct simulation cpu, run;
+    uint64_t alive = 0;
+    simulation_start(&cpu, &fixture.scene, NULL, 1);
+    simulation_run(&cpu, 60);
+    struct kiln_state_hash expected = simulation_hash(&cpu, &alive);
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        device->work_group_size = sizes[i];
+        enum kiln_simulate_technique technique =
+            i % 2 ? KILN_SIMULATE_PINGPONG : KILN_SIMULATE_INPLACE;
+        simulation_start_with(&run, &fixture.scene, device, technique, 1);
+        device->work_group_size = 0; /* what a run has begun with counts */
+        simulation_run(&run, 60);
+        struct kiln_state_hash hash = simulation_hash(&run, &alive);
+        assert_memory_equal(&hash, &expected, sizeof hash);
+        simulation_end(&run);
+    }
+    struct kiln_error error = {0};
+    device->work_group_size = (uint32_t)device->info.max_work_group_invocations + 1;
+    assert_null(
+        kiln_simulate_create(device, &fixture.scene, KILN_SIMULATE_INPLACE, cpu.threads, &error));
+    assert_int_equal(error.code, KILN_USAGE);
+    device->work_group_size = 0;
+    simulation_end(&cpu);
+}
+
 static void two_buffers_count_twice(void **state)
 {
     (void)state;
@@ -225,6 +257,7 @@ int main(void)
         test_on_device(no_systems_and_no_births),
         test_on_device(a_scene_from_a_file),
         test_on_device(a_run_can_change_its_technique),
+        test_on_device(work_groups_may_have_any_size),
         test_on_device(two_buffers_count_twice),
         test_on_device(an_exact_device_is_needed),
     };

@@ -328,6 +328,26 @@ static void all_techniques_list_alike(void **state)
     kiln_pool_finish(&pool);
 }
 
+/* However many invocations a tile is cut among. */
+static void radix_sorts_with_any_work_group(void **state)
+{
+    struct kiln_device *device = *state;
+    static const uint32_t sizes[] = {1, 8, 32, 256, 1024};
+    struct kiln_pool pool;
+    fill_pool(&pool, device);
+    const struct kiln_sort_params params = {
+        .eye = {1, 2, 8}, .forward = {0, 0, -1}, .systems = 0x7f, .order = KILN_SORT_BACK_TO_FRONT};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        struct contest contest;
+        device->work_group_size = sizes[i];
+        contest_init(&contest, device, pool.slot_count);
+        device->work_group_size = 0;
+        assert_true(expect_same_lists(&contest, &pool, &params) > 20000);
+        contest_finish(&contest);
+    }
+    kiln_pool_finish(&pool);
+}
+
 /* With views that no axis is parallel to, where each rounding counts; state on the device. */
 static void all_techniques_sort_a_scene_alike(void **state)
 {
@@ -538,6 +558,7 @@ int main(void)
         test_on_device(the_most_particles_are_sorted),
         test_on_device(lengths_are_padded_to_powers_of_two),
         test_on_device(all_techniques_list_alike),
+        test_on_device(radix_sorts_with_any_work_group),
         test_on_device(all_techniques_sort_a_scene_alike),
         test_on_device(a_spread_sort_converges),
         test_on_device(small_pools_are_spread),
