@@ -121,6 +121,18 @@ static bool init_scenery(struct kiln_stages *s, enum kiln_backdrop_technique tec
     return s->spheres;
 }
 
+static bool init_coarse(struct kiln_stages *s, const struct kiln_techniques *techniques,
+                        struct kiln_error *error)
+{
+    if (s->scene->post.resolution == KILN_RESOLUTION_FULL)
+        return true;
+    const struct kiln_coarse_params params = {.particles = s->particles,
+                                              .in_gl = techniques->composite == KILN_COMPOSITE_GL,
+                                              .format = target_format(s->device)};
+    s->coarse = kiln_coarse_create(s->device, s->scene, &params, s->threads, error);
+    return s->coarse != NULL;
+}
+
 static bool init_stages(struct kiln_stages *s, const struct kiln_techniques *techniques,
                         uint32_t bits, struct kiln_error *error)
 {
@@ -138,7 +150,8 @@ static bool init_stages(struct kiln_stages *s, const struct kiln_techniques *tec
         return false;
     s->particles =
         kiln_particles_create(device, s->scene, &s->atlas, techniques->raster, s->threads, error);
-    if (!s->particles || !init_scenery(s, techniques->backdrop, error))
+    if (!s->particles || !init_coarse(s, techniques, error) ||
+        !init_scenery(s, techniques->backdrop, error))
         return false;
     if (s->scene->camera.shutter_samples > 1) {
         s->shutter = kiln_shutter_create(device, s->scene->width, s->scene->height, error);
@@ -194,6 +207,7 @@ void kiln_stages_finish(struct kiln_stages *stages)
     kiln_bloom_destroy(&stages->bloom);
     kiln_shutter_destroy(&stages->shutter);
     kiln_spheres_destroy(&stages->spheres);
+    kiln_coarse_destroy(&stages->coarse);
     kiln_particles_destroy(&stages->particles);
     kiln_backdrop_destroy(&stages->backdrop);
     kiln_lighting_destroy(&stages->lighting);
@@ -284,7 +298,8 @@ static bool draw_particles(struct kiln_stages *s, struct kiln_pool *pool,
         .fire_covers = pass->fire_covers,
     };
     kiln_timer_begin(s->timer, KILN_PASS_particles);
-    bool ok = kiln_particles_run(s->particles, &draw, error);
+    bool ok = s->coarse ? kiln_coarse_run(s->coarse, &draw, error)
+                        : kiln_particles_run(s->particles, &draw, error);
     kiln_timer_end(s->timer);
     return ok;
 }
@@ -406,6 +421,13 @@ bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *pool, uint32
     uint32_t spheres = 0;
     if (s->spheres && !draw_spheres(s, pool, &view, &spheres, error))
         return false;
+    if (s->coarse) {
+        kiln_timer_begin(s->timer, KILN_PASS_particles);
+        ok = kiln_coarse_prepare(s->coarse, &s->scene_depth, error);
+        kiln_timer_end(s->timer);
+        if (!ok)
+            return false;
+    }
     bool separate = s->scene->post.compose == KILN_COMPOSE_SEPARATE;
     ok = separate ? draw_separate(s, pool, &view, drawn, error)
                   : draw_merged(s, pool, &view, drawn, error);

@@ -4,6 +4,7 @@
 
 #include "asset/atlas.h"
 #include "draw/backdrop.h"
+#include "draw/coarse.h"
 #include "draw/particles.h"
 #include "draw/spheres.h"
 #include "gpu/timer.h"
@@ -30,6 +31,7 @@ struct kiln_stages {
     struct kiln_lighting light; /* of the moment at hand */
     struct kiln_backdrop_stage *backdrop;
     struct kiln_particles_stage *particles;
+    struct kiln_coarse_stage *coarse;   /* NULL: particles have the frame's resolution */
     struct kiln_spheres_stage *spheres; /* NULL without any */
     struct kiln_shutter_stage *shutter; /* NULL: a frame is a single moment */
     struct kiln_bloom_stage *bloom;

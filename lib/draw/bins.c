@@ -72,6 +72,8 @@ static void measure_rows(void *context, size_t begin, size_t end, uint32_t worke
 void kiln_bins_measure(struct kiln_bins *bins, const float *depth, uint32_t width, uint32_t height,
                        struct kiln_threads *threads)
 {
+    bins->columns = (width + KILN_TILE_WIDTH - 1) / KILN_TILE_WIDTH;
+    bins->rows = (height + KILN_TILE_HEIGHT - 1) / KILN_TILE_HEIGHT;
     struct measure measure = {bins, depth, width, height};
     kiln_threads_for(threads, bins->rows, 1, measure_rows, &measure);
 }

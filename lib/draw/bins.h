@@ -24,7 +24,8 @@ bool kiln_bins_init(struct kiln_bins *bins, uint32_t width, uint32_t height,
                     struct kiln_error *error);
 void kiln_bins_finish(struct kiln_bins *bins);
 
-/* Takes in the depths of a scene: an image of the bins' size, rows from the top. */
+/* Takes in the depths of a scene: an image of at most the bins' size, rows from the top. Until the
+ * next call, the lists are for pictures of its size. */
 void kiln_bins_measure(struct kiln_bins *bins, const float *depth, uint32_t width, uint32_t height,
                        struct kiln_threads *threads);
 

@@ -138,6 +138,19 @@ static void turn_billboard(struct subject *p)
         float3_add_scaled(float3_scale(plane.right, up_x), plane.up, up_y), plane.normal};
 }
 
+/* In a picture smaller than the frame, a billboard has a least size, and what is less becomes as
+ * much fainter: else it would flicker. */
+static void widen(struct subject *p, float pixels_per_m, struct kiln_sprite *s)
+{
+    if (!(p->pass->view->clock.w < 1.0f) || p->look->form.x != 0)
+        return;
+    float least = 0.5f * KILN_COARSE_LEAST / pixels_per_m;
+    float area = p->half_size * p->half_length;
+    p->half_size = exact_max(p->half_size, least);
+    p->half_length = exact_max(p->half_length, least);
+    s->opacity *= area / (p->half_size * p->half_length);
+}
+
 /* ---- colour ------------------------------------------------------------------------------------
  */
 
@@ -365,6 +378,7 @@ static bool place_plain(const struct subject *p, float diameter_px, float scale,
 {
     const struct kiln_view *view = p->pass->view;
     bool is_line = p->look->form.x == LOOK_LINE;
+    scale *= view->clock.w;
     float width = is_line ? p->turn.w * scale : p->turn.z > 0.0f ? p->turn.z * scale : diameter_px;
     float thin = exact_min(width, 1.0f), half_width = 0.5f * exact_max(width, 1.0f);
     s->opacity *= is_line ? thin : thin * thin;
@@ -468,6 +482,7 @@ static bool make_sprite(const struct kiln_sprite_pass *pass, uint32_t entry, str
 
     uint4 texture = choose_texture(&p);
     float pixels_per_m = view->frustum.w / (2.0f * view->frustum.y * exact_max(p.depth, 1e-3f));
+    widen(&p, pixels_per_m, s);
     float diameter_px = 2.0f * p.half_size * pixels_per_m;
     s->shade = (uint8_t)choose_shade(&p, texture.z);
     if (p.look->flags.x == 0 || pass->fire_covers)

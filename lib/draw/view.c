@@ -37,7 +37,7 @@ struct kiln_view kiln_view_compute(const struct kiln_scene *scene, uint32_t step
     struct kiln_view view = {
         .eye = {position.x, position.y, position.z,
                 kiln_scene_value(scene, &camera->near_plane, time_s)},
-        .clock = {time_s, scene->dt_s, scene->dt_s * (float)scene->steps_per_frame, 0.0f},
+        .clock = {time_s, scene->dt_s, scene->dt_s * (float)scene->steps_per_frame, 1.0f},
         .clock_step = {step, scene->seed, 0, 0},
     };
     for (int row = 0; row < 3; row++)
@@ -46,6 +46,19 @@ struct kiln_view kiln_view_compute(const struct kiln_scene *scene, uint32_t step
     float width = (float)scene->width, height = (float)scene->height;
     view.frustum = (float4){tan_y * width / height, tan_y, width, height};
     return view;
+}
+
+struct kiln_view kiln_view_coarse(const struct kiln_view *view, uint32_t factor)
+{
+    struct kiln_view coarse = *view;
+    float part = (float)factor;
+    uint32_t width = ((uint32_t)view->frustum.z + factor - 1) / factor;
+    uint32_t height = ((uint32_t)view->frustum.w + factor - 1) / factor;
+    coarse.frustum = (float4){view->frustum.x * ((float)width * part / view->frustum.z),
+                              view->frustum.y * ((float)height * part / view->frustum.w),
+                              (float)width, (float)height};
+    coarse.clock.w = view->clock.w / part;
+    return coarse;
 }
 
 float3 kiln_view_forward(const struct kiln_view *view)

@@ -8,6 +8,10 @@
 /* The view of scene->camera after `step` steps. Camera values are read at that clip time. */
 struct kiln_view kiln_view_compute(const struct kiln_scene *scene, uint32_t step);
 
+/* The same view in a picture whose pixels are as large as factor x factor of the view's. Where its
+ * size is no multiple of them, the picture reaches beyond the view's by the same on both sides. */
+struct kiln_view kiln_view_coarse(const struct kiln_view *view, uint32_t factor);
+
 /* The view direction in world space, unit length. */
 float3 kiln_view_forward(const struct kiln_view *view);
 

@@ -10,6 +10,13 @@ static const char *const composes[] = {
     NULL,
 };
 
+static const char *const resolutions[] = {
+    [KILN_RESOLUTION_FULL] = "full",
+    [KILN_RESOLUTION_HALF] = "half",
+    [KILN_RESOLUTION_QUARTER] = "quarter",
+    NULL,
+};
+
 static const char *const bloom_kinds[] = {
     [KILN_BLOOM_NONE] = "none",
     [KILN_BLOOM_GAUSSIAN] = "gaussian",
@@ -30,6 +37,16 @@ static const char *const tonemaps[] = {
     NULL,
 };
 
+static const struct kiln_option particles[] = {
+    CHOICE("resolution", resolution, resolutions, "full",
+           "Size of the picture that particles are drawn into, in parts of the frame's width: the "
+           "smaller, the "
+           "faster and the softer. For large, soft sprites."),
+    BOOLEAN("mixed", mixed_resolution, "false",
+            "Full resolution where the depth of the scene has edges, half or quarter elsewhere."),
+    END,
+};
+
 static const struct kiln_option bloom[] = {
     CHOICE("kind", bloom, bloom_kinds, "gaussian",
            "How the glow is spread: gaussian by some 40 pixels, pyramid by parts of the picture."),
@@ -48,6 +65,7 @@ const struct kiln_option kiln_options_post[] = {
            "merged sorts fire and smoke together; separate draws fire over smoke; alpha is merged "
            "with "
            "fire that covers what is behind it."),
+    GROUP("particles", 0, particles, "How finely particles are drawn."),
     GROUP("bloom", 0, bloom, "The glow around bright things."),
     VALUE("exposure", exposure, KILN_STOPS, -20, 20, TIME, "0", "Doubles the light per stop."),
     CHOICE("tonemap", tonemap, tonemaps, "agx", "How light becomes a picture."),

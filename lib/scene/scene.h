@@ -278,6 +278,9 @@ enum kiln_compose {
     KILN_COMPOSE_ALPHA,    /* sorted together, and fire covers like smoke (Heinz 2019, 2.3.1) */
 };
 
+/* Of the pictures that particles are drawn into. */
+enum kiln_resolution { KILN_RESOLUTION_FULL, KILN_RESOLUTION_HALF, KILN_RESOLUTION_QUARTER };
+
 enum kiln_bloom_kind { KILN_BLOOM_NONE, KILN_BLOOM_GAUSSIAN, KILN_BLOOM_PYRAMID };
 
 /* What glows. */
@@ -290,6 +293,8 @@ enum kiln_tonemap { KILN_TONEMAP_NONE, KILN_TONEMAP_AGX, KILN_TONEMAP_ACES };
 
 struct kiln_post {
     enum kiln_compose compose;
+    enum kiln_resolution resolution; /* of particles */
+    bool mixed_resolution;           /* but full where the depth of the scene has edges */
     enum kiln_bloom_kind bloom;
     enum kiln_bloom_source bloom_source;
     struct kiln_value bloom_strength;

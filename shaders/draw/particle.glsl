@@ -109,6 +109,15 @@ vec3 point_up(float angle, float half_size, float stretch, vec2 moving, uint fac
     return up;
 }
 
+/* Makes the half edges of a billboard no less than a length; returns what it is then fainter by. */
+float widen(inout float half_width, inout float half_length, float least)
+{
+    float area = half_width * half_length;
+    half_width = max(half_width, least);
+    half_length = max(half_length, least);
+    return area / (half_width * half_length);
+}
+
 #if SHAPES
 
 /* The plane that a billboard turns in (Heinz 2019, 2.1.1). Where the direction that says what is up
@@ -179,6 +188,10 @@ void make_particle(uint entry)
     vec3 moving = world_to_view_vector(particle_velocity(record));
     vec2 moving_in_plane = vec2(dot(moving, facing.right), dot(moving, facing.up));
     vec3 upward = point_up(angle, half_size, shape.y, moving_in_plane, form.y);
+    float pixels_per_m = view.frustum.w / (2.0 * view.frustum.y * max(depth, 1e-3));
+    float opacity = shape.z;
+    if (view.clock.w < 1.0 && form.x == 0u)
+        opacity *= widen(half_size, upward.z, 0.5 * KILN_COARSE_LEAST / pixels_per_m);
     vec2 sideways = backwards ? vec2(-upward.y, upward.x) : vec2(upward.y, -upward.x); /* half are
                                                                                        * mirrored */
     plane turned = plane(facing.right * sideways.x + facing.up * sideways.y,
@@ -187,13 +200,12 @@ void make_particle(uint entry)
     up = vec4(turned.up * upward.z, 0.0);
 
     float near_fade = clamp((depth - view.eye.w) / max(hot.w, 1e-6), 0.0, 1.0);
-    particle.color = vec4(cover.rgb, shape.z * near_fade);
+    particle.color = vec4(cover.rgb, opacity * near_fade);
     particle.hot = vec4(hot.rgb, float(looks[system].flags.x));
     particle.cool = vec4(cool.rgb, shape.w);
     uint4 texture_cells = choose_texture(system, stream);
     particle.bloom = vec4(look_at(system, KILN_LOOK_BLOOM, life).rgb, uintBitsToFloat(texture_cells.w));
 
-    float pixels_per_m = view.frustum.w / (2.0 * view.frustum.y * max(depth, 1e-3));
     particle.cells = choose_cells(texture_cells, life * cool.w, looks[system].flags.y != 0u,
                                   stream, 2.0 * half_size * pixels_per_m);
     particle.depth = vec4(depth, float(texture_cells.z), float(looks[system].flags.z),
@@ -201,6 +213,6 @@ void make_particle(uint entry)
     light_particle(cover.w, entry & 0xffffffu, position, turned);
 #if SHAPES
     if (form.x != 0u)
-        make_plain(form, turn.zw * scale, 2.0 * half_size * pixels_per_m, moving, shape.y);
+        make_plain(form, turn.zw * scale * view.clock.w, 2.0 * half_size * pixels_per_m, moving, shape.y);
 #endif
 }

@@ -21,6 +21,9 @@
 /* Edge of an atlas's cells, px. */
 #define KILN_ATLAS_CELL 128
 
+/* Least edge of a billboard in a picture smaller than the frame, px: less would flicker. */
+#define KILN_COARSE_LEAST 1.5f
+
 /* Textures that the particles of a system may have. */
 #define KILN_MAX_TEXTURES 8
 
@@ -41,7 +44,7 @@ struct kiln_view {
     float4 world_to_view[3]; /* rows */
     float4 eye;              /* world position, m; w: near plane, m */
     float4 frustum;          /* tan of half the field, x and y; width, height of the image, px */
-    float4 clock;            /* clip time, s; step, s; frame, s; unused */
+    float4 clock;            /* clip time, s; step, s; frame, s; width in parts of the frame's */
     uint4 clock_step;        /* steps done; seed; unused; unused */
 };
 

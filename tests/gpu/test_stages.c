@@ -209,6 +209,7 @@ static void frames_do_not_depend_on_earlier_ones(void **state)
     expect_same_after_others(state, "post.compose=merged");
     expect_same_after_others(state, "post.compose=separate");
     expect_same_after_others(state, "post.bloom.kind=none");
+    expect_same_after_others(state, "post.particles={resolution: quarter, mixed: true}");
     expect_same_after_others(state, "systems.smoke.look={shape: sphere, size: 0.5 m, bloom: 1}");
 }
 

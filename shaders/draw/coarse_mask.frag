@@ -1,0 +1,15 @@
+/* The depth of the scene where particles are drawn finely, elsewhere 0: nothing is nearer. The depth
+ * buffer says the same to what comes before shading. */
+#include "draw/coarse.glsl"
+
+layout(binding = 0) uniform sampler2D depth;
+layout(binding = 1) uniform sampler2D edges; /* of coarse_edges.frag */
+
+layout(location = 0) out float out_depth;
+
+void main()
+{
+    bool fine = fine_part(edges, coarse_place(gl_FragCoord.xy)) > 0.0;
+    out_depth = fine ? texelFetch(depth, ivec2(gl_FragCoord.xy), 0).r : 0.0;
+    gl_FragDepth = fine ? 1.0 : 0.0;
+}
