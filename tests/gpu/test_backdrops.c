@@ -1,0 +1,374 @@
+/* The techniques of stage `backdrop` agree on every scene and on fixtures that have every feature;
+ * those in C give the same bytes for any number of threads and every width of vectors. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <glob.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/simd.h"
+#include "stages.h"
+#include "support/device.h"
+
+enum { WIDTH = 384, HEIGHT = 216, PIXELS = WIDTH * HEIGHT, COLORS = 4 * PIXELS };
+
+/* The scene behind the billboards: backdrop and spheres. */
+struct picture {
+    float color[COLORS], bloom[COLORS], depth[PIXELS];
+};
+
+/* ---- a moment of a scene --------------------------------------------------------------------- */
+
+struct moment {
+    struct kiln_device *device;
+    struct kiln_scene *scene;
+    struct kiln_pool pool;
+    uint32_t step;
+};
+
+static void step_to(struct moment *m, uint32_t step)
+{
+    struct kiln_error error = {0};
+    struct kiln_threads *threads = kiln_threads_create(2);
+    struct kiln_simulate *simulate =
+        kiln_simulate_create(m->device, m->scene, KILN_SIMULATE_CPU, threads, &error);
+    assert_non_null(simulate);
+    for (m->step = 0; m->step < step;) {
+        if (!kiln_simulate_step(simulate, &m->pool, ++m->step, &error))
+            fail_msg("%s", error.message);
+    }
+    kiln_simulate_destroy(&simulate);
+    kiln_threads_destroy(&threads);
+}
+
+static void open_moment(struct moment *m, struct kiln_device *device, struct kiln_scene *scene,
+                        uint32_t frame)
+{
+    *m = (struct moment){.device = device, .scene = scene};
+    uint32_t capacities[KILN_MAX_SYSTEMS] = {0};
+    for (uint32_t i = 0; i < scene->system_count; i++)
+        capacities[i] = scene->systems[i].capacity;
+    kiln_pool_init(&m->pool, device, capacities, scene->system_count);
+    step_to(m, kiln_scene_frame_step(scene, frame));
+}
+
+static void close_moment(struct moment *m)
+{
+    kiln_pool_finish(&m->pool);
+    kiln_scene_destroy(&m->scene);
+}
+
+static const char *const SMALL[] = {"output.size=[384, 216]", "post.bloom.kind=none"};
+
+static struct kiln_scene *load(const char *path)
+{
+    struct kiln_error error = {0};
+    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    params.overrides = SMALL;
+    params.override_count = 2;
+    struct kiln_scene *scene = kiln_scene_load(path, &params, &error);
+    if (!scene)
+        fail_msg("%s", error.message);
+    return scene;
+}
+
+static struct kiln_scene *parse(const char *text)
+{
+    struct kiln_error error = {0};
+    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    params.overrides = SMALL;
+    params.override_count = 2;
+    params.asset_root = KILN_SOURCE_DIR "/scenes";
+    struct kiln_scene *scene = kiln_scene_parse(text, strlen(text), "test", &params, &error);
+    if (!scene)
+        fail_msg("%s", error.message);
+    return scene;
+}
+
+static void take(struct kiln_image *image, float *pixels, size_t floats)
+{
+    struct kiln_error error = {0};
+    const float *from = kiln_image_host(image, KILN_READ, &error);
+    assert_non_null(from);
+    memcpy(pixels, from, floats * sizeof *pixels);
+}
+
+static struct picture *draw(struct moment *m, enum kiln_backdrop_technique technique,
+                            uint32_t threads)
+{
+    struct kiln_error error = {0};
+    struct kiln_threads *workers = kiln_threads_create(threads);
+    struct picture *picture = calloc(1, sizeof *picture);
+    struct kiln_stages stages;
+    const struct kiln_techniques techniques = {.simulate = KILN_SIMULATE_CPU,
+                                               .sort = KILN_SORT_CPU,
+                                               .backdrop = technique,
+                                               .raster = KILN_RASTER_CPU,
+                                               .composite = KILN_COMPOSITE_CPU};
+    const struct kiln_output_needs needs = {.bits = 8};
+    uint32_t drawn = 0;
+    assert_non_null(picture);
+    if (!kiln_stages_init(&stages, m->device, m->scene, &techniques, needs, workers, &m->pool,
+                          &error) ||
+        !kiln_stages_draw(&stages, &m->pool, m->step, 0, &drawn, &error))
+        fail_msg("%s", error.message);
+    take(&stages.scene_color, picture->color, COLORS);
+    take(&stages.scene_depth, picture->depth, PIXELS);
+    if (stages.spheres)
+        take(&stages.bloom_color, picture->bloom, COLORS);
+    kiln_stages_finish(&stages);
+    kiln_threads_destroy(&workers);
+    return picture;
+}
+
+/* ---- how alike they are ---------------------------------------------------------------------- */
+
+static float depth_at(const struct picture *picture, int x, int y)
+{
+    x = x < 0 ? 0 : x < WIDTH ? x : WIDTH - 1;
+    y = y < 0 ? 0 : y < HEIGHT ? y : HEIGHT - 1;
+    return picture->depth[y * WIDTH + x];
+}
+
+/* Along a flat surface, the inverse of the depth is linear from pixel to pixel. */
+static bool bends(const struct picture *picture, int x, int y)
+{
+    float here = depth_at(picture, x, y), most = 0;
+    for (int k = 0; k < 4; k++) {
+        int right = k < 3, down = k - 1;
+        float before = here / depth_at(picture, x - right, y - down);
+        float after = here / depth_at(picture, x + right, y + down);
+        most = fmaxf(most, fabsf(before + after - 2));
+    }
+    return most > 0.002f;
+}
+
+/* Silhouettes and creases: pixels which, or a neighbour of which, bend by more than two thousandths
+ * of their depth in one of the pictures, or are at different depths in the two. There, a sample may
+ * show either side. */
+static void find_edges(const struct picture *a, const struct picture *b,
+                       unsigned char edges[PIXELS])
+{
+    memset(edges, 0, PIXELS);
+    for (int p = 0; p < PIXELS; p++) {
+        int x = p % WIDTH, y = p / WIDTH;
+        if (!bends(a, x, y) && !bends(b, x, y) &&
+            fabsf(a->depth[p] - b->depth[p]) <= 0.002f * a->depth[p])
+            continue;
+        for (int k = 0; k < 9; k++) {
+            int u = x + k % 3 - 1, v = y + k / 3 - 1;
+            if (u >= 0 && v >= 0 && u < WIDTH && v < HEIGHT)
+                edges[v * WIDTH + u] = 1;
+        }
+    }
+}
+
+static int ascending(const void *a, const void *b)
+{
+    float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+/* Of values: the sum of all errors in parts of the sum of all values, and the relative error that
+ * one in a thousand exceeds; what is less than a hundredth of the mean counts as that. */
+struct difference {
+    double mean, most;
+};
+
+static struct difference compare(const float *a, const float *b, const unsigned char *skipped,
+                                 int channels, int used)
+{
+    double sum = 0, light = 1e-12;
+    int count = 0;
+    static float errors[COLORS];
+    for (int i = 0; i < PIXELS * channels; i++)
+        light += skipped[i / channels] || i % channels >= used ? 0 : fabs((double)a[i]);
+    double least = 0.01 * light / (PIXELS * used) + 1e-9;
+    for (int i = 0; i < PIXELS * channels; i++) {
+        if (skipped[i / channels] || i % channels >= used)
+            continue;
+        double error = fabs((double)a[i] - (double)b[i]);
+        sum += error;
+        errors[count++] = (float)(error / (fabs((double)a[i]) + least));
+    }
+    assert_true(count > 1000);
+    qsort(errors, (size_t)count, sizeof *errors, ascending);
+    return (struct difference){sum / light, (double)errors[count - 1 - count / 1000]};
+}
+
+/* The sky is where the other technique has it, but for silhouettes. */
+static void skip_sky(const struct picture *a, const struct picture *b,
+                     unsigned char skipped[PIXELS])
+{
+    for (int p = 0; p < PIXELS; p++) {
+        bool sky = a->depth[p] > 1e8f;
+        assert_true(skipped[p] || sky == (b->depth[p] > 1e8f));
+        skipped[p] |= sky;
+    }
+}
+
+static void check_agreement(struct moment *m, const char *name)
+{
+    struct picture *gl = draw(m, KILN_BACKDROP_GL, 2), *cpu = draw(m, KILN_BACKDROP_CPU, 2);
+    static unsigned char none[PIXELS], skipped[PIXELS];
+    const struct difference all = compare(gl->color, cpu->color, none, 4, 4);
+    find_edges(gl, cpu, skipped);
+    double edges = 0;
+    for (int p = 0; p < PIXELS; p++)
+        edges += skipped[p] / (double)PIXELS;
+    const struct difference color = compare(gl->color, cpu->color, skipped, 4, 3);
+    const struct difference bloom = compare(gl->bloom, cpu->bloom, skipped, 4, 3);
+    skip_sky(gl, cpu, skipped);
+    const struct difference depth = compare(gl->depth, cpu->depth, skipped, 1, 1);
+    print_message(
+        "%-20s light %.1e %.1e, with edges (%.0f %%) %.1e %.1e, bloom %.1e, depth %.1e %.1e\n",
+        name, color.mean, color.most, 100 * edges, all.mean, all.most, bloom.most, depth.mean,
+        depth.most);
+    assert_true(edges < 0.5);
+    assert_true(color.mean <= 1e-3 && color.most <= 1e-2 && all.mean <= 1e-3);
+    assert_true(bloom.most <= 1e-2 && depth.mean <= 1e-5 && depth.most <= 1e-4);
+    free(gl);
+    free(cpu);
+}
+
+/* ---- fixtures -------------------------------------------------------------------------------- */
+
+#define HEAD "kiln: 1\noutput: {fps: 30, frames: 60}\n"
+#define CAMERA                                                                                     \
+    "camera: {position: [0.6, 1.7, 4.5], target: [0, 0.6, 0], fov: 45 deg, roll: 4 deg}\n"
+#define SHAPES                                                                                     \
+    "  objects:\n"                                                                                 \
+    "    - box: {center: [-1.3, 0.4, 0.4], size: [0.5, 0.8, 0.5], color: [0.9, 0.3, 0.2]}\n"       \
+    "    - box: {center: [1.9, 0.3, 1.1], size: [0.3, 0.6, 0.9]}\n"                                \
+    "    - sphere: {center: [0.2, 0.7, 0.3], radius: 0.5 m, color: 0.8}\n"                         \
+    "    - cylinder: {center: [1.2, 0.5, -0.4], radius: 0.3 m, height: 1 m, color: 0.7}\n"         \
+    "    - cylinder: {center: [-0.6, 0.5, -0.8], axis: [1, 0.4, 0.2], radius: 0.2 m,\n"            \
+    "                 height: 1.4 m, color: 0.6}\n"
+#define MESHES                                                                                     \
+    "  objects:\n"                                                                                 \
+    "    - mesh: {file: meshes/pot.obj, position: [-0.6, 0.2, 0.5], scale: 1.5,\n"                 \
+    "             rotation: [20 deg, 40 deg, 0], color: [0.6, 0.4, 0.3]}\n"                        \
+    "    - mesh: {file: meshes/logs.obj, position: [0.4, 0, 0], color: 0.5}\n"                     \
+    "    - box: {center: [1.4, 0.4, 0], size: [0.4, 0.8, 0.4]}\n"
+#define LAMPS                                                                                      \
+    "  lights:\n"                                                                                  \
+    "    - point: {position: [-1, 1.5, 1.5], color: [3, 1.5, 0.5], radius: 0.3 m}\n"               \
+    "    - point: {position: [1.5, 0.4, 1], color: [0.2, 0.6, 2]}\n"
+#define SYSTEMS                                                                                    \
+    "systems:\n"                                                                                   \
+    "  balls:\n"                                                                                   \
+    "    emit: {rate: 60, life: 2 s, speed: 2, from: {cone: {origin: [0.5, 0.3, 0.5],\n"           \
+    "           direction: [0, 1, 0], angle: 50 deg}}}\n"                                          \
+    "    look: {shape: sphere, size: 0.2 m, scale: [0.2, 1], lit: 0.9, color: [0.7, 0.8, 0.3],\n"  \
+    "           temperature: {life: [1500, 800]}, intensity: 0.5, bloom: [1, 0.5, 0.2]}\n"         \
+    "  smoke:\n"                                                                                   \
+    "    emit: {rate: 60, life: 2 s, speed: 1, from: {sphere: {origin: [-0.8, 0.8, 0]}}}\n"        \
+    "    look: {size: 0.7 m, opacity: 0.5, color: 0.2, lit: 1}\n"                                  \
+    "  fire:\n"                                                                                    \
+    "    emit: {rate: 100, life: 1 s, speed: 1, from: {sphere: {origin: [0.8, 0.5, 1]}}}\n"        \
+    "    look: {blend: add, size: 0.4 m, temperature: 1800, light: 1, lights: 5}\n"
+
+static const struct fixture {
+    const char *name, *text;
+} FIXTURES[] = {
+    {"checkers, haze", HEAD CAMERA
+     "backdrop:\n  haze: 0.15\n  floor: {checker: 0.4 m, height: -0.2 m}\n" SHAPES LAMPS},
+    {"soft sun", HEAD CAMERA "backdrop:\n  sun: {direction: [-1, 1.2, 0.7], size: 8 deg}\n" SHAPES},
+    {"low sun, transparent", HEAD CAMERA
+     "backdrop:\n  transparent: true\n  sun: {direction: [1, 0.1, 0], color: 3}\n" SHAPES},
+    {"pictures", HEAD CAMERA
+     "backdrop:\n  floor: {image: textures/paving.jpg, tile: 0.9 m}\n"
+     "  sky: {image: textures/concrete.jpg, rotation: 50 deg, intensity: 1.5}\n" SHAPES},
+    {"water",
+     HEAD CAMERA "backdrop:\n  floor: {gloss: 1.2, wave_height: 4 cm, wave_length: 0.7 m}\n"
+                 "  sun: {size: 1 deg}\n" SHAPES LAMPS},
+    {"wet paving",
+     HEAD CAMERA "backdrop:\n  floor: {gloss: 2, roughness: 0.1, image: textures/paving.jpg}\n"
+                 "  sky: {image: textures/soil.jpg}\n" SHAPES LAMPS},
+    {"meshes", HEAD CAMERA "backdrop:\n" MESHES LAMPS},
+    {"meshes, soft sun",
+     HEAD CAMERA "backdrop:\n  sun: {direction: [-1, 1, 1.5], size: 12 deg}\n" MESHES},
+    {"close to a mesh",
+     HEAD "camera: {position: [0.1, 0.9, 0.5], target: [-0.6, 0.5, 0.5], fov: 90 deg}\n"
+          "backdrop:\n  haze: 0\n" MESHES},
+    {"inside of a box", HEAD
+     "camera: {position: [0.5, 0.3, 0.3], target: [0.4, 0.5, -1], fov: 80 deg}\n"
+     "backdrop:\n  floor: none\n  objects:\n    - box: {center: [0, 0, 0], size: [2, 2, 2]}\n"
+     "    - sphere: {center: [0.5, 0.3, 0.3], radius: 0.3 m}\n"
+     "    - cylinder: {center: [0.6, 0.4, -3], axis: [0.2, 0, 1], radius: 0.8 m, height: 3 m}\n"},
+    {"particles", HEAD CAMERA "backdrop:\n" SHAPES SYSTEMS},
+    {"particles, soft sun", HEAD CAMERA
+     "backdrop:\n  haze: 0.1\n  floor: {gloss: 1}\n  sun: {size: 6 deg}\n" MESHES SYSTEMS},
+};
+
+enum { FIXTURE_COUNT = sizeof FIXTURES / sizeof *FIXTURES };
+
+/* ---- tests ----------------------------------------------------------------------------------- */
+
+static void techniques_agree_on_every_scene(void **state)
+{
+    glob_t scenes;
+    assert_int_equal(glob(KILN_SOURCE_DIR "/scenes/*.yaml", 0, NULL, &scenes), 0);
+    assert_true(scenes.gl_pathc >= 10);
+    for (size_t i = 0; i < scenes.gl_pathc; i++) {
+        struct moment m;
+        struct kiln_scene *scene = load(scenes.gl_pathv[i]);
+        open_moment(&m, *state, scene, scene->frames / 2);
+        check_agreement(&m, strrchr(scenes.gl_pathv[i], '/') + 1);
+        close_moment(&m);
+    }
+    globfree(&scenes);
+}
+
+static void techniques_agree_on_every_feature(void **state)
+{
+    for (size_t i = 0; i < FIXTURE_COUNT; i++) {
+        struct moment m;
+        open_moment(&m, *state, parse(FIXTURES[i].text), 40);
+        check_agreement(&m, FIXTURES[i].name);
+        close_moment(&m);
+    }
+}
+
+static void check_bytes(struct moment *m, const struct picture *expected, const char *simd,
+                        uint32_t threads)
+{
+    if (simd)
+        setenv("KILN_SIMD", simd, 1);
+    struct picture *picture = draw(m, KILN_BACKDROP_CPU, threads);
+    assert_memory_equal(picture, expected, sizeof *picture);
+    free(picture);
+    unsetenv("KILN_SIMD");
+}
+
+static void every_width_and_thread_count_gives_the_same_bytes(void **state)
+{
+    for (size_t i = 0; i < FIXTURE_COUNT; i++) {
+        struct moment m;
+        open_moment(&m, *state, parse(FIXTURES[i].text), 40);
+        struct picture *expected = draw(&m, KILN_BACKDROP_CPU, 1);
+        for (uint32_t threads = 3; threads <= 5; threads += 2)
+            check_bytes(&m, expected, NULL, threads);
+        for (enum kiln_simd simd = 0; simd < KILN_SIMD_COUNT; simd++) {
+            if (kiln_simd_has(simd))
+                check_bytes(&m, expected, kiln_simd_name(simd), 2);
+        }
+        free(expected);
+        close_moment(&m);
+    }
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        test_on_device(every_width_and_thread_count_gives_the_same_bytes),
+        test_on_device(techniques_agree_on_every_feature),
+        test_on_device(techniques_agree_on_every_scene),
+    };
+    return cmocka_run_group_tests(tests, test_device_open, test_device_close);
+}
