@@ -234,6 +234,7 @@ struct particle_pass {
     const struct kiln_framebuffer *framebuffer;
     bool keep_bloom; /* clear the colour only */
     bool sum_alpha, fire_covers;
+    bool by_fragment;
 };
 
 /* Where blending does not ask for an order, none is made. */
@@ -296,6 +297,7 @@ static bool draw_particles(struct kiln_stages *s, struct kiln_pool *pool,
         .keep_bloom = pass->keep_bloom,
         .sum_alpha = pass->sum_alpha,
         .fire_covers = pass->fire_covers,
+        .by_fragment = pass->by_fragment,
     };
     kiln_timer_begin(s->timer, KILN_PASS_particles);
     bool ok = s->coarse ? kiln_coarse_run(s->coarse, &draw, error)
@@ -316,27 +318,32 @@ static bool draw_spheres(struct kiln_stages *s, struct kiln_pool *pool,
     return ok;
 }
 
-/* Fire and smoke in one sorted list: fire adds and covers nothing, smoke covers fire and its glow;
- * or fire covers, too (Heinz 2019, 2.3.1). The layers of an EXR are drawn apart. */
+/* Fire and smoke in one sorted list, or one in each pixel: fire adds and covers nothing, smoke
+ * covers fire and its glow; or fire covers, too (Heinz 2019, 2.3.1). The layers of an EXR are drawn
+ * apart. */
 static bool draw_merged(struct kiln_stages *s, struct kiln_pool *pool, const struct kiln_view *view,
                         uint32_t *drawn, struct kiln_error *error)
 {
     uint32_t fire = systems_with(s->scene, KILN_BLEND_ADD);
     uint32_t smoke = systems_with(s->scene, KILN_BLEND_ALPHA);
     bool fire_covers = s->scene->post.compose == KILN_COMPOSE_ALPHA;
+    bool by_fragment = s->scene->post.compose == KILN_COMPOSE_OIT && smoke != 0;
     struct particle_pass all = {.systems = fire | smoke,
                                 .by_depth = smoke != 0 || fire_covers,
                                 .framebuffer = &s->particle_framebuffer,
                                 .keep_bloom = s->spheres != NULL,
-                                .fire_covers = fire_covers};
+                                .fire_covers = fire_covers,
+                                .by_fragment = by_fragment};
     if (!draw_particles(s, pool, view, &all, drawn, error))
         return false;
     if (!s->smoke_framebuffer.gl)
         return true;
 
     uint32_t count = 0;
-    struct particle_pass smoke_layer = {
-        .systems = smoke, .by_depth = true, .framebuffer = &s->smoke_framebuffer};
+    struct particle_pass smoke_layer = {.systems = smoke,
+                                        .by_depth = true,
+                                        .framebuffer = &s->smoke_framebuffer,
+                                        .by_fragment = by_fragment};
     struct particle_pass fire_layer = {.systems = fire,
                                        .by_depth = fire_covers,
                                        .framebuffer = &s->fire_framebuffer,

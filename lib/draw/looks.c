@@ -102,7 +102,7 @@ static void sample_look(const struct sampler *s, const struct kiln_look *look,
     float3 bloom = at3(s, &look->bloom);
     row[KILN_LOOK_SHAPE] = (float4){at(s, &look->size), at(s, &look->stretch),
                                     at(s, &look->opacity) * fade(s, look), at(s, &look->soft)};
-    row[KILN_LOOK_BLOOM] = (float4){bloom.x, bloom.y, bloom.z, 0.0f};
+    row[KILN_LOOK_BLOOM] = (float4){bloom.x, bloom.y, bloom.z, at(s, &look->thickness)};
     row[KILN_LOOK_SPREAD] = (float4){at(s, &look->scale.min), at(s, &look->scale.max),
                                      mean_at(s, &look->spin.min), mean_at(s, &look->spin.max)};
     row[KILN_LOOK_TURN] = (float4){at(s, &look->rotation.min), at(s, &look->rotation.max),
@@ -152,7 +152,7 @@ bool kiln_looks_vary(const struct kiln_scene *scene)
             &look->size,        &look->stretch,   &look->cycles,  &look->opacity,
             &look->temperature, &look->intensity, &look->fade_in, &look->fade_out,
             &look->soft,        &look->near_fade, &look->lit,     &look->point_size,
-            &look->line_width};
+            &look->line_width,  &look->thickness};
         for (size_t k = 0; k < sizeof values / sizeof *values; k++) {
             if (varies(values[k]))
                 return true;

@@ -37,6 +37,8 @@ struct kiln_particles_draw {
     bool keep_bloom; /* of an earlier pass; colour is always cleared first */
     bool sum_alpha; /* false: premultiplied `over`, in which additive particles cover nothing; true:
                      * colours and alpha are summed (figure 3.1, fire) */
+    bool by_fragment; /* each pixel sorts what it shows on its own (lib/draw/fragments.h); without
+                       * sum_alpha and fire_covers */
     bool fire_covers; /* premultiplied `over` in which additive particles cover like others */
 };
 

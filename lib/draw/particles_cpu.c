@@ -4,8 +4,10 @@
 
 #include "base/error.h"
 #include "draw/bins.h"
+#include "draw/fragments.h"
 #include "draw/looks.h"
 
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,13 +23,28 @@ struct kiln_tiles {
     bool table_valid;
     struct kiln_sprite *sprites;
     uint32_t sprite_room;
-    struct kiln_tile *tiles; /* one a thread */
+    struct kiln_tile *tiles;           /* one a thread */
+    struct kiln_fragments **fragments; /* one a thread, of a scene whose pixels sort; else NULL */
     kiln_tile_draw *draw;
 };
 
 static bool out_of_memory(struct kiln_error *error)
 {
     return kiln_error_set(error, KILN_DEVICE_FAILED, "particles: out of memory");
+}
+
+static bool create_fragments(struct kiln_tiles *tiles)
+{
+    if (tiles->scene->post.compose != KILN_COMPOSE_OIT)
+        return true;
+    const uint32_t threads = kiln_threads_count(tiles->threads);
+    tiles->fragments = calloc(threads, sizeof(struct kiln_fragments *));
+    for (uint32_t i = 0; i < threads && tiles->fragments; i++) {
+        tiles->fragments[i] = kiln_fragments_create();
+        if (!tiles->fragments[i])
+            return false;
+    }
+    return tiles->fragments != NULL;
 }
 
 struct kiln_tiles *kiln_tiles_create(const struct kiln_scene *scene, const struct kiln_atlas *atlas,
@@ -50,7 +67,7 @@ struct kiln_tiles *kiln_tiles_create(const struct kiln_scene *scene, const struc
     tiles->table = calloc((size_t)KILN_LOOK_TEXELS, sizeof *tiles->table);
     tiles->tiles = aligned_alloc(64, kiln_threads_count(threads) * sizeof *tiles->tiles);
     tiles->cells = kiln_cells_create(atlas, error);
-    if (!tiles->table || !tiles->tiles || !tiles->cells ||
+    if (!tiles->table || !tiles->tiles || !tiles->cells || !create_fragments(tiles) ||
         !kiln_bins_init(&tiles->bins, scene->width, scene->height, error)) {
         out_of_memory(error);
         kiln_tiles_destroy(&tiles);
@@ -65,6 +82,9 @@ void kiln_tiles_destroy(struct kiln_tiles **tiles)
         return;
     kiln_cells_destroy(&t->cells);
     kiln_bins_finish(&t->bins);
+    for (uint32_t i = 0; t->fragments && i < kiln_threads_count(t->threads); i++)
+        kiln_fragments_destroy(&t->fragments[i]);
+    free((void *)t->fragments);
     free(t->table);
     free(t->sprites);
     free(t->tiles);
@@ -87,9 +107,8 @@ static void make_sprites(void *context, size_t begin, size_t end, uint32_t worke
     kiln_sprites_make(making->pass, making->entries + begin, end - begin, making->sprites + begin);
 }
 
-static bool make_room(struct kiln_tiles *tiles, uint32_t count, struct kiln_error *error)
+static bool make_room(struct kiln_tiles *tiles, uint32_t wanted, struct kiln_error *error)
 {
-    uint32_t wanted = count < SPRITES_AT_A_TIME ? count : SPRITES_AT_A_TIME;
     if (wanted <= tiles->sprite_room)
         return true;
     free(tiles->sprites);
@@ -106,7 +125,8 @@ struct drawing {
     const float *depth;
     uint32_t width, height;
     bool first, last; /* piece of the pass */
-    bool keep_bloom, sum;
+    bool keep_bloom, sum, by_fragment;
+    atomic_bool *failed; /* lists are out of memory */
 };
 
 static void load_row(const struct drawing *d, struct kiln_tile *tile, int y, size_t at)
@@ -144,9 +164,11 @@ static void store_row(const struct drawing *d, const struct kiln_tile *tile, int
     }
 }
 
-static void draw_tile(const struct drawing *d, size_t number, struct kiln_tile *tile)
+static void draw_tile(const struct drawing *d, size_t number, uint32_t worker)
 {
-    const struct kiln_bins *bins = &d->tiles->bins;
+    const struct kiln_tiles *tiles = d->tiles;
+    const struct kiln_bins *bins = &tiles->bins;
+    struct kiln_tile *tile = &tiles->tiles[worker];
     uint32_t x = (uint32_t)(number % bins->columns) * KILN_TILE_WIDTH;
     uint32_t y = (uint32_t)(number / bins->columns) * KILN_TILE_HEIGHT;
     uint32_t width = d->width - x, height = d->height - y;
@@ -159,8 +181,13 @@ static void draw_tile(const struct drawing *d, size_t number, struct kiln_tile *
     tile->glows = true;
     for (int row = 0; row < tile->height; row++)
         load_row(d, tile, row, (size_t)(y + (uint32_t)row) * d->width + x);
-    d->tiles->draw(tile, d->tiles->sprites, d->tiles->cells, bins->list + bins->first[number],
-                   bins->first[number + 1] - bins->first[number]);
+    const uint32_t *list = bins->list + bins->first[number];
+    size_t count = bins->first[number + 1] - bins->first[number];
+    if (!d->by_fragment)
+        tiles->draw(tile, tiles->sprites, tiles->cells, list, count);
+    else if (!kiln_fragments_draw(tiles->fragments[worker], tiles->draw, tile, tiles->sprites,
+                                  tiles->cells, list, count))
+        *d->failed = true;
     for (int row = 0; row < tile->height; row++)
         store_row(d, tile, row, (size_t)(y + (uint32_t)row) * d->width + x);
 }
@@ -169,7 +196,7 @@ static void draw_tiles(void *context, size_t begin, size_t end, uint32_t worker)
 {
     const struct drawing *d = context;
     for (size_t number = begin; number < end; number++)
-        draw_tile(d, number, &d->tiles->tiles[worker]);
+        draw_tile(d, number, worker);
 }
 
 /* ---- a pass ---------------------------------------------------------------------------------- */
@@ -185,7 +212,7 @@ static bool draw_piece(struct kiln_tiles *tiles, const struct kiln_sprite_pass *
         return false;
     size_t tile_count = (size_t)tiles->bins.columns * tiles->bins.rows;
     kiln_threads_for(tiles->threads, tile_count, 1, draw_tiles, drawing);
-    return true;
+    return !*drawing->failed || out_of_memory(error);
 }
 
 /* The pixels that a pass reads and writes. */
@@ -207,11 +234,18 @@ static bool open_images(const struct kiln_particles_draw *draw, struct drawing *
 bool kiln_tiles_run(struct kiln_tiles *tiles, const struct kiln_particles_draw *draw,
                     struct kiln_error *error)
 {
-    struct drawing drawing = {
-        .tiles = tiles, .keep_bloom = draw->keep_bloom, .sum = draw->sum_alpha};
+    /* Lists are of all particles at once. */
+    const uint32_t most = draw->by_fragment ? draw->count : SPRITES_AT_A_TIME;
+    atomic_bool failed = false;
+    struct drawing drawing = {.tiles = tiles,
+                              .keep_bloom = draw->keep_bloom,
+                              .sum = draw->sum_alpha,
+                              .by_fragment = draw->by_fragment,
+                              .failed = &failed};
     const struct kiln_particle *records = kiln_buffer_host(&draw->pool->records, KILN_READ, error);
     const uint32_t *entries = records ? kiln_buffer_host(draw->entries, KILN_READ, error) : NULL;
-    if (!entries || !open_images(draw, &drawing, error) || !make_room(tiles, draw->count, error))
+    if (!entries || !open_images(draw, &drawing, error) ||
+        !make_room(tiles, draw->count < most ? draw->count : most, error))
         return false;
     if (!tiles->table_valid || kiln_looks_vary(tiles->scene))
         kiln_looks_sample(tiles->scene, draw->view->clock.x, tiles->table);
@@ -232,7 +266,7 @@ bool kiln_tiles_run(struct kiln_tiles *tiles, const struct kiln_particles_draw *
     uint32_t done = 0;
     do { /* at least once, for the clear picture of no particles */
         uint32_t left = draw->count - done;
-        uint32_t count = left < SPRITES_AT_A_TIME ? left : SPRITES_AT_A_TIME;
+        uint32_t count = left < most ? left : most;
         drawing.first = done == 0;
         drawing.last = count == left;
         if (!draw_piece(tiles, &pass, entries + done, count, &drawing, error))

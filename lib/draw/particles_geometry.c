@@ -3,6 +3,7 @@
  * and the vertex shader fetches the rest (Heinz 2019, 3.2.2: one draw call, nothing stored but what
  * changes). */
 #include "draw/particles_geometry.h"
+#include "draw/fragments_gl.h"
 #include "draw/looks.h"
 #include "draw/sun_shade.h"
 
@@ -24,7 +25,8 @@ struct kiln_geometry {
     const struct kiln_scene *scene;
     const struct kiln_atlas *atlas;
     enum kiln_raster_technique technique;
-    GLuint program; /* 0: only binds what others draw */
+    GLuint program;                      /* 0: only binds what others draw */
+    struct kiln_fragments_gl *fragments; /* of a scene whose pixels sort */
     GLuint vertex_array;
     struct kiln_buffer looks, keys;
     GLuint look_table; /* texture, KILN_LOOK_SAMPLES wide */
@@ -98,9 +100,13 @@ static bool create_program(struct kiln_geometry *stage, struct kiln_error *error
         .fragment = "draw/particles.frag",
         .defines = defines};
     stage->program = kiln_program_create(stage->device, &program, error);
-    if (stage->program)
-        stage->additive_alpha = glGetUniformLocation(stage->program, "additive_alpha");
-    return stage->program != 0;
+    if (!stage->program)
+        return false;
+    stage->additive_alpha = glGetUniformLocation(stage->program, "additive_alpha");
+    if (stage->scene->post.compose != KILN_COMPOSE_OIT)
+        return true;
+    stage->fragments = kiln_fragments_gl_create(stage->device, &program, error);
+    return stage->fragments != NULL;
 }
 
 struct kiln_geometry *kiln_geometry_create(struct kiln_device *device,
@@ -141,6 +147,7 @@ void kiln_geometry_destroy(struct kiln_geometry **stage)
         return;
     if (s->program)
         glDeleteProgram(s->program);
+    kiln_fragments_gl_destroy(&s->fragments);
     glDeleteVertexArrays(1, &s->vertex_array);
     kiln_buffer_finish(&s->looks);
     kiln_buffer_finish(&s->keys);
@@ -173,6 +180,22 @@ bool kiln_geometry_bind(struct kiln_geometry *stage, struct kiln_pool *pool,
     return true;
 }
 
+/* A draw call of a technique. */
+struct submission {
+    const struct kiln_geometry *stage;
+    GLsizei count;
+};
+
+static void submit(void *context)
+{
+    const struct submission *s = context;
+    glBindVertexArray(s->stage->vertex_array);
+    if (s->stage->technique == KILN_RASTER_INSTANCED)
+        glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, s->count);
+    else
+        glDrawArrays(GL_POINTS, 0, s->count);
+}
+
 bool kiln_geometry_run(struct kiln_geometry *stage, const struct kiln_particles_draw *draw,
                        struct kiln_error *error)
 {
@@ -192,15 +215,14 @@ bool kiln_geometry_run(struct kiln_geometry *stage, const struct kiln_particles_
     bind_texture(2, GL_TEXTURE_2D, depth);
     bind_texture(3, GL_TEXTURE_2D_ARRAY, stage->atlas->motion);
 
+    struct submission submission = {stage, (GLsizei)draw->count};
+    if (draw->by_fragment)
+        return kiln_fragments_gl_run(stage->fragments, draw, submit, &submission, error);
     glUseProgram(stage->program);
     glUniform1f(stage->additive_alpha, draw->sum_alpha || draw->fire_covers ? 1.0f : 0.0f);
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, draw->sum_alpha ? GL_ONE : GL_ONE_MINUS_SRC_ALPHA);
-    glBindVertexArray(stage->vertex_array);
-    if (stage->technique == KILN_RASTER_INSTANCED)
-        glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, (GLsizei)draw->count);
-    else
-        glDrawArrays(GL_POINTS, 0, (GLsizei)draw->count);
+    submit(&submission);
     glDisable(GL_BLEND);
     return kiln_device_check(stage->device, "particles", error);
 }

@@ -193,6 +193,7 @@ static void shade(const struct subject *p, float3 position, struct kiln_sprite *
         }
     }
     float4 bloom = look_at(p, KILN_LOOK_BLOOM);
+    s->bulge = p->look->form.x == 0 ? p->half_size * bloom.w : 0.0f;
     s->bloom[0] = bloom.x;
     s->bloom[1] = bloom.y;
     s->bloom[2] = bloom.z;

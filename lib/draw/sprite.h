@@ -40,6 +40,7 @@ struct kiln_sprite {
     float depth;                    /* view-space, m, of one that is not deep */
     float soft, distance;           /* 1/m; m */
     float opacity;
+    float bulge; /* half the thickness in its middle, m */
     float base[3], slope[3];
     float light[4][3]; /* times the albedo: from everywhere, right, up, towards the viewer */
     float bloom[3];

@@ -108,6 +108,9 @@ const struct kiln_option kiln_options_look[] = {
           "Fades where it nears a surface, the faster the larger; 0 is hard."),
     CHOICE("soft_formula", soft_formula, soft_formulas, "clamped",
            "clamped to 0..1; or literal, as the thesis prints equation 3.3: without a bound."),
+    VALUE("thickness", thickness, KILN_PLAIN, 0, 10, BOTH, "1",
+          "Depth of a billboard in parts of its size, where post.compose is oit: 1 is as deep as "
+          "wide, like a puff; 0 is flat."),
     VALUE("near_fade", near_fade, KILN_METRES, 0, 1000, BOTH, "0.2 m",
           "Transparent when this near to the camera's near plane."),
     COLOR("bloom", bloom, 100, BOTH, "0", "Part of the colour that goes to the bloom."),

@@ -7,6 +7,7 @@ static const char *const composes[] = {
     [KILN_COMPOSE_MERGED] = "merged",
     [KILN_COMPOSE_SEPARATE] = "separate",
     [KILN_COMPOSE_ALPHA] = "alpha",
+    [KILN_COMPOSE_OIT] = "oit",
     NULL,
 };
 
@@ -63,8 +64,8 @@ static const struct kiln_option bloom[] = {
 const struct kiln_option kiln_options_post[] = {
     CHOICE("compose", compose, composes, "merged",
            "merged sorts fire and smoke together; separate draws fire over smoke; alpha is merged "
-           "with "
-           "fire that covers what is behind it."),
+           "with fire that covers what is behind it; oit is merged with each pixel sorted on its "
+           "own, by the depths of what is seen there (look.thickness)."),
     GROUP("particles", 0, particles, "How finely particles are drawn."),
     GROUP("bloom", 0, bloom, "The glow around bright things."),
     VALUE("exposure", exposure, KILN_STOPS, -20, 20, TIME, "0", "Doubles the light per stop."),

@@ -178,6 +178,7 @@ struct kiln_look {
     struct kiln_value fade_in, fade_out; /* parts of the life */
     struct kiln_value soft;              /* 1/m: equation 3.3; 0: hard */
     enum kiln_soft_formula soft_formula;
+    struct kiln_value thickness; /* of a billboard in parts of its size, for KILN_COMPOSE_OIT */
     struct kiln_value near_fade; /* m: transparent this near to the camera's near plane */
     struct kiln_value3 bloom;    /* weights of equation 3.2, per channel */
     struct kiln_value lit;       /* 0 unlit .. 1 lit by sun, sky and lights */
@@ -276,6 +277,7 @@ enum kiln_compose {
     KILN_COMPOSE_MERGED,   /* fire and smoke sorted together, premultiplied */
     KILN_COMPOSE_SEPARATE, /* smoke onto the scene, then fire over it (figure 3.1) */
     KILN_COMPOSE_ALPHA,    /* sorted together, and fire covers like smoke (Heinz 2019, 2.3.1) */
+    KILN_COMPOSE_OIT,      /* as merged, but sorted in each pixel, by what is nearest there */
 };
 
 /* Of the pictures that particles are drawn into. */

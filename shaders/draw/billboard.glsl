@@ -8,7 +8,7 @@ struct billboard {
     vec4 depth;   /* view depth, m; KILN_CELL_*; 1: literal soft formula; distance, m */
     vec4 bloom;   /* weights of equation 3.2; a: scale of the motion between the cells */
     vec4 light_0; /* light from everywhere, and how it changes along the billboard's axes (right, */
-    vec4 light_x; /* up, towards the viewer): spherical harmonics of degrees 0 and 1 */
-    vec4 light_y;
+    vec4 light_x; /* up, towards the viewer): spherical harmonics of degrees 0 and 1; of light_x, a: */
+    vec4 light_y; /* half the thickness in the middle, m; of light_y, a: place in the drawing order */
     vec4 light_z;
 };

@@ -204,13 +204,15 @@ void make_particle(uint entry)
     particle.hot = vec4(hot.rgb, float(looks[system].flags.x));
     particle.cool = vec4(cool.rgb, shape.w);
     uint4 texture_cells = choose_texture(system, stream);
-    particle.bloom = vec4(look_at(system, KILN_LOOK_BLOOM, life).rgb, uintBitsToFloat(texture_cells.w));
+    vec4 bloom = look_at(system, KILN_LOOK_BLOOM, life);
+    particle.bloom = vec4(bloom.rgb, uintBitsToFloat(texture_cells.w));
 
     particle.cells = choose_cells(texture_cells, life * cool.w, looks[system].flags.y != 0u,
                                   stream, 2.0 * half_size * pixels_per_m);
     particle.depth = vec4(depth, float(texture_cells.z), float(looks[system].flags.z),
                           length(center.xyz));
     light_particle(cover.w, entry & 0xffffffu, position, turned);
+    particle.light_x.a = half_size * bloom.a;
 #if SHAPES
     if (form.x != 0u)
         make_plain(form, turn.zw * scale * view.clock.w, 2.0 * half_size * pixels_per_m, moving, shape.y);

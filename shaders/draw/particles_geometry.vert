@@ -18,4 +18,5 @@ layout(location = 3) out billboard particle;
 void main()
 {
     make_particle(entries[gl_VertexID]);
+    particle.light_y.a = float(gl_VertexID);
 }

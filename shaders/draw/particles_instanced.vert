@@ -19,6 +19,7 @@ billboard particle;
 void main()
 {
     make_particle(entries[gl_InstanceID]);
+    particle.light_y.a = float(gl_InstanceID);
     if (is_seen(center, particle))
         put_corner(gl_VertexID, center, right, up, particle);
     else

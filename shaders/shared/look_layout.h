@@ -17,7 +17,7 @@
 #define KILN_LOOK_COVER  1 /* colour that covers, rgb; lit */
 #define KILN_LOOK_HOT    2 /* light emitted where a cell's heat is 1, rgb; near fade, m */
 #define KILN_LOOK_COOL   3 /* light emitted where it is 0, rgb; passes through the atlas */
-#define KILN_LOOK_BLOOM  4 /* weights, rgb; unused */
+#define KILN_LOOK_BLOOM  4 /* weights, rgb; thickness in parts of the size */
 #define KILN_LOOK_SPREAD 5 /* scale, least and most; mean spin so far, least and most, rad/s */
 #define KILN_LOOK_TURN   6 /* rotation, least and most, rad; point, line width, px */
 #define KILN_LOOK_AXIS   7 /* unit vector in the world; unused */

@@ -6,14 +6,10 @@
 #include <stdint.h>
 
 #include <cmocka.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "stages.h"
-#include "support/device.h"
+#include "support/frame.h"
 
-enum { WIDTH = 101, HEIGHT = 67, PIXELS = WIDTH * HEIGHT, BEAUTY = 0, DEPTH, FIRE, SMOKE, BLOOM };
+enum { WIDTH = 101, HEIGHT = 67, PIXELS = WIDTH * HEIGHT };
 
 /* Smoke and fire behind a post and before a wall, and a sphere that glows. */
 static const char SCENE[] =
@@ -43,88 +39,33 @@ static const char *const QUARTER = "post.particles.resolution=quarter";
 static const char *const MIXED = "post.particles.mixed=true";
 static const char *const SEPARATE = "post.compose=separate";
 
-struct setting {
-    const char *overrides[3];
-    size_t count;
-    struct kiln_techniques techniques;
-};
-
-static const struct kiln_techniques CPU = {
-    .raster = KILN_RASTER_CPU, .bloom = KILN_BLOOM_CPU, .composite = KILN_COMPOSITE_CPU};
-static const struct kiln_techniques GL = {
-    .raster = KILN_RASTER_GEOMETRY, .bloom = KILN_BLOOM_GL, .composite = KILN_COMPOSITE_GL};
-
 /* The host's particles, brought to the frame's size in GL. */
 static const struct kiln_techniques SPREAD_IN_GL = {
     .raster = KILN_RASTER_CPU, .bloom = KILN_BLOOM_CPU, .composite = KILN_COMPOSITE_GL};
 
-/* The layers of a frame. */
-static struct kiln_picture *draw(struct kiln_device *device, const struct setting *setting)
+static struct kiln_picture *draw(struct kiln_device *device, const struct frame_setting *setting)
 {
-    struct kiln_error error = {0};
-    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
-    params.overrides = setting->overrides;
-    params.override_count = setting->count;
-    struct kiln_scene *scene = kiln_scene_parse(SCENE, sizeof SCENE - 1, "test", &params, &error);
-    assert_string_equal(error.message, "");
-    struct kiln_threads *threads = kiln_threads_create(2);
-    struct kiln_run run = {0};
-    uint32_t capacities[KILN_MAX_SYSTEMS];
-    for (uint32_t i = 0; i < scene->system_count; i++)
-        capacities[i] = scene->systems[i].capacity;
-    kiln_pool_init(&run.pool, device, capacities, scene->system_count);
-    struct kiln_stages stages;
-    struct kiln_output_needs needs = {.bits = 8, .layers = true};
-    const char *names[KILN_MAX_LAYERS];
-    uint32_t channels[KILN_MAX_LAYERS], drawn = 0, count = kiln_stages_layers(names, channels);
-    if (!kiln_stages_init(&stages, device, scene, &setting->techniques, needs, threads, &run.pool,
-                          &error))
-        fail_msg("%s", error.message);
-    for (uint32_t step = 1; step <= 50; step++)
-        assert_true(kiln_simulate_step(stages.simulate, &run.pool, step, &error));
-    struct kiln_picture *picture =
-        kiln_picture_create(WIDTH, HEIGHT, 8, names, channels, count, &error);
-    assert_non_null(picture);
-    if (!kiln_stages_draw(&stages, &run.pool, 50, 0, &drawn, &error) ||
-        !kiln_stages_compose(&stages, 0, &error) || !kiln_stages_read(&stages, picture, &error))
-        fail_msg("%s", error.message);
-    kiln_stages_finish(&stages);
-    kiln_pool_finish(&run.pool);
-    kiln_threads_destroy(&threads);
-    kiln_scene_destroy(&scene);
-    return picture;
-}
-
-/* Sum of the differences of a layer in parts of the first one's sum. */
-static double difference(const struct kiln_picture *a, const struct kiln_picture *b, int layer)
-{
-    double sum = 1e-9, off = 0;
-    for (int i = 0; i < PIXELS * 4; i++) {
-        double one = (double)a->layers[layer].pixels[i], other = (double)b->layers[layer].pixels[i];
-        assert_true(isfinite(other));
-        sum += fabs(one);
-        off += fabs(one - other);
-    }
-    return off / sum;
+    return frame_draw(device, SCENE, 50, setting);
 }
 
 static void techniques_agree(void **state)
 {
-    const struct setting settings[] = {
-        {{HALF}, 1, CPU},           {{QUARTER}, 1, CPU},
-        {{HALF, MIXED}, 2, CPU},    {{QUARTER, MIXED}, 2, CPU},
-        {{HALF, SEPARATE}, 2, CPU}, {{QUARTER, MIXED, SEPARATE}, 3, CPU},
+    const struct frame_setting settings[] = {
+        {{HALF}, 1, FRAME_CPU, 0},           {{QUARTER}, 1, FRAME_CPU, 0},
+        {{HALF, MIXED}, 2, FRAME_CPU, 0},    {{QUARTER, MIXED}, 2, FRAME_CPU, 0},
+        {{HALF, SEPARATE}, 2, FRAME_CPU, 0}, {{QUARTER, MIXED, SEPARATE}, 3, FRAME_CPU, 0},
     };
     for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
-        struct setting spread = settings[i], all = settings[i];
+        struct frame_setting spread = settings[i], all = settings[i];
         spread.techniques = SPREAD_IN_GL;
-        all.techniques = GL;
+        all.techniques = FRAME_GL;
         struct kiln_picture *want = draw(*state, &settings[i]);
         struct kiln_picture *got[2] = {draw(*state, &spread), draw(*state, &all)};
-        for (int layer = BEAUTY; layer <= BLOOM; layer++) {
-            if (layer == DEPTH)
+        for (int layer = FRAME_BEAUTY; layer <= FRAME_BLOOM; layer++) {
+            if (layer == FRAME_DEPTH)
                 continue;
-            double off[2] = {difference(want, got[0], layer), difference(want, got[1], layer)};
+            double off[2] = {frame_difference(want, got[0], layer),
+                             frame_difference(want, got[1], layer)};
             print_message("%zu %d %.2g %.2g\n", i, layer, off[0], off[1]);
             assert_true(off[0] < 1e-5 && off[1] < 1e-2);
         }
@@ -137,29 +78,33 @@ static void techniques_agree(void **state)
 /* The smaller, the further away; finer at edges, nearer. */
 static void near_full_resolution(void **state)
 {
-    const struct setting settings[] = {
-        {{HALF}, 1, CPU}, {{QUARTER}, 1, CPU}, {{HALF, MIXED}, 2, CPU}, {{QUARTER, MIXED}, 2, CPU}};
+    const struct frame_setting settings[] = {{{HALF}, 1, FRAME_CPU, 0},
+                                             {{QUARTER}, 1, FRAME_CPU, 0},
+                                             {{HALF, MIXED}, 2, FRAME_CPU, 0},
+                                             {{QUARTER, MIXED}, 2, FRAME_CPU, 0}};
     static const double most[4][2] = {{0.02, 0.2}, {0.04, 0.4}, {0.01, 0.1}, {0.01, 0.1}};
     for (int compose = 0; compose < 2; compose++) {
-        struct setting full = {{SEPARATE}, compose ? 1 : 0, CPU};
+        struct frame_setting full = {{SEPARATE}, compose ? 1 : 0, FRAME_CPU, 0};
         struct kiln_picture *want = draw(*state, &full);
         double off[4][5];
         for (int i = 0; i < 4; i++) {
-            struct setting setting = settings[i];
+            struct frame_setting setting = settings[i];
             if (compose)
                 setting.overrides[setting.count++] = SEPARATE;
             struct kiln_picture *got = draw(*state, &setting);
-            for (int layer = BEAUTY; layer <= BLOOM; layer++)
-                off[i][layer] = layer == DEPTH ? 0 : difference(want, got, layer);
-            print_message("%d: beauty %.2g fire %.2g smoke %.2g bloom %.2g\n", i, off[i][BEAUTY],
-                          off[i][FIRE], off[i][SMOKE], off[i][BLOOM]);
-            assert_true(off[i][BEAUTY] > 1e-5 && off[i][BEAUTY] < most[i][0]);
-            assert_true(off[i][FIRE] < most[i][1] && off[i][SMOKE] < most[i][1]);
-            assert_true(off[i][BLOOM] > 1e-4 && off[i][BLOOM] < most[i][1]);
+            for (int layer = FRAME_BEAUTY; layer <= FRAME_BLOOM; layer++)
+                off[i][layer] = layer == FRAME_DEPTH ? 0 : frame_difference(want, got, layer);
+            print_message("%d: beauty %.2g fire %.2g smoke %.2g bloom %.2g\n", i,
+                          off[i][FRAME_BEAUTY], off[i][FRAME_FIRE], off[i][FRAME_SMOKE],
+                          off[i][FRAME_BLOOM]);
+            assert_true(off[i][FRAME_BEAUTY] > 1e-5 && off[i][FRAME_BEAUTY] < most[i][0]);
+            assert_true(off[i][FRAME_FIRE] < most[i][1] && off[i][FRAME_SMOKE] < most[i][1]);
+            assert_true(off[i][FRAME_BLOOM] > 1e-4 && off[i][FRAME_BLOOM] < most[i][1]);
             kiln_picture_destroy(&got);
         }
-        assert_true(off[1][SMOKE] > 1.3 * off[0][SMOKE]);
-        assert_true(off[2][SMOKE] < 0.9 * off[0][SMOKE] && off[3][SMOKE] < 0.9 * off[1][SMOKE]);
+        assert_true(off[1][FRAME_SMOKE] > 1.3 * off[0][FRAME_SMOKE]);
+        assert_true(off[2][FRAME_SMOKE] < 0.9 * off[0][FRAME_SMOKE] &&
+                    off[3][FRAME_SMOKE] < 0.9 * off[1][FRAME_SMOKE]);
         kiln_picture_destroy(&want);
     }
 }
@@ -168,16 +113,17 @@ static void near_full_resolution(void **state)
  * smoke is not gone. */
 static void nothing_bleeds(void **state)
 {
-    const struct setting full = {{NULL}, 0, CPU};
+    const struct frame_setting full = {{NULL}, 0, FRAME_CPU, 0};
     struct kiln_picture *want = draw(*state, &full);
     for (int i = 0; i < 4; i++) {
-        struct setting setting = {{i & 1 ? QUARTER : HALF, MIXED}, i & 2 ? 2 : 1, CPU};
+        struct frame_setting setting = {
+            {i & 1 ? QUARTER : HALF, MIXED}, i & 2 ? 2 : 1, FRAME_CPU, 0};
         struct kiln_picture *got = draw(*state, &setting);
         int posts = 0, beside = 0, lost = 0;
         for (int p = 0; p < PIXELS; p++) {
-            float before = want->layers[SMOKE].pixels[4 * p + 3];
-            float after = got->layers[SMOKE].pixels[4 * p + 3];
-            if (want->layers[DEPTH].pixels[p] < 2.95f && before == 0.0f) {
+            float before = want->layers[FRAME_SMOKE].pixels[4 * p + 3];
+            float after = got->layers[FRAME_SMOKE].pixels[4 * p + 3];
+            if (want->layers[FRAME_DEPTH].pixels[p] < 2.95f && before == 0.0f) {
                 posts++;
                 assert_true(after < 0.02f);
             } else if (before > 0.5f) {

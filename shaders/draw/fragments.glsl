@@ -1,0 +1,20 @@
+/* The lists of a band of rows (shared/fragment_layout.h). */
+#include "shared/fragment_layout.h"
+
+struct fragment {
+    vec4 color; /* premultiplied */
+    vec4 bloom; /* weights, rgb */
+};
+
+layout(std430, binding = KILN_BIND_FRAGMENT_COUNTS) buffer list_count_block { uint counts[]; };
+layout(std430, binding = KILN_BIND_FRAGMENT_PLACES) buffer list_place_block { uint places[]; };
+/* Bits of the depth; place in the drawing order, twice, and 1 more of a front half; its fragment. */
+layout(std430, binding = KILN_BIND_FRAGMENT_KEYS) buffer list_key_block { uvec4 list_keys[]; };
+layout(std430, binding = KILN_BIND_FRAGMENTS) buffer list_block { fragment fragments[]; };
+
+uniform uint row_length; /* pixels */
+
+uint pixel_number()
+{
+    return uint(gl_FragCoord.y) * row_length + uint(gl_FragCoord.x);
+}

@@ -1,0 +1,61 @@
+/* A fragment of a billboard, counted (FILL 0) or put on its pixel's list (FILL 1). */
+// variant: SHAPES=0 FILL=0
+// variant: SHAPES=1 FILL=0
+// variant: SHAPES=0 FILL=1
+// variant: SHAPES=1 FILL=1
+#include "shared/draw_layout.h"
+
+#include "draw/billboard.glsl"
+
+layout(early_fragment_tests) in;
+
+layout(binding = 2) uniform sampler2D scene_depth;
+
+layout(location = 0) in vec2 uv;
+layout(location = 1) flat in billboard quad;
+#if SHAPES
+layout(location = 11) in float view_depth; /* of points and lines: its reciprocal */
+#endif
+
+#include "draw/fragments.glsl"
+#include "draw/shade.glsl"
+
+#if FILL
+void put(uint place, float depth, uint half_, vec4 color)
+{
+    list_keys[place] = uvec4(floatBitsToUint(depth), uint(quad.light_y.a) * 2u + half_, place, 0u);
+    fragments[place].color = color;
+    fragments[place].bloom = vec4(quad.bloom.rgb, 0.0);
+}
+#endif
+
+void main()
+{
+    float depth = quad.depth.x, bulge = quad.light_x.a;
+#if SHAPES
+    depth = is_plain() ? 1.0 / view_depth : view_depth;
+    if (is_plain())
+        bulge = 0.0;
+#endif
+    float scene = texelFetch(scene_depth, ivec2(gl_FragCoord.xy), 0).r;
+    vec4 color, bloom;
+    shade(uv, depth, scene, color, bloom);
+    if (color == vec4(0.0))
+        return;
+    vec2 from_middle = uv * 2.0 - 1.0;
+    float half_depth = 0.5 * bulge * sqrt(max(1.0 - dot(from_middle, from_middle), 0.0));
+    uint pieces = half_depth > 0.0 ? 2u : 1u;
+#if FILL
+    uint place = atomicAdd(places[pixel_number()], pieces);
+    if (pieces == 1u) {
+        put(place, depth, 0u, color);
+        return;
+    }
+    float alpha = half_alpha(color.a);
+    color = vec4(color.rgb * half_color(alpha), alpha);
+    put(place, depth + half_depth, 0u, color);
+    put(place + 1u, max(depth - half_depth, 0.0), 1u, color);
+#else
+    atomicAdd(counts[pixel_number()], pieces);
+#endif
+}

@@ -1,0 +1,199 @@
+/* post.compose=oit: what is nearer in a pixel is seen there, whichever rasteriser draws, however
+ * many fragments there are. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "support/frame.h"
+
+enum { WIDTH = 96, HEIGHT = 64, STEPS = 20 };
+
+static const char *const OIT = "post.compose=oit";
+static const char *const MERGED = "post.compose=merged";
+
+/* Two stacks of cards of one middle, seen from above: the red one stands upright, so that its upper
+ * half is nearer than the green one, which is parallel to the picture, and its lower half farther. */
+static const char CARDS[] =
+    "kiln: 1\n"
+    "output: {size: [96, 64], fps: 60, frames: 60}\n"
+    "camera: {position: [0, 4, 3], target: [0, 1, 0]}\n"
+    "backdrop: {floor: none}\n"
+    "systems:\n"
+    "  red:\n"
+    "    emit: {rate: 0, bursts: {0 s: 20}, life: 9 s, speed: 0, from: {point: {origin: [0, 1, "
+    "0]}}}\n"
+    "    look: {atlas: 'builtin:puff', fade: {in: 0, out: 0}, size: 2 m, facing: axial, rotation: "
+    "0 deg, color: [1, 0, "
+    "0],\n"
+    "           opacity: 0.9, thickness: 0}\n"
+    "  green:\n"
+    "    emit: {rate: 0, bursts: {0 s: 20}, life: 9 s, speed: 0, from: {point: {origin: [0, 1, "
+    "0]}}}\n"
+    "    look: {atlas: 'builtin:puff', fade: {in: 0, out: 0}, size: 2 m, rotation: 0 deg, color: "
+    "[0, 1, 0],\n"
+    "           opacity: 0.9, thickness: 0}\n"
+    "post: {bloom: {kind: none}}\n";
+
+/* Red against green over some rows of the picture, -1 to 1. */
+static double redness(const struct kiln_picture *picture, int from, int to)
+{
+    double red = 0, green = 0;
+    for (int y = from; y < to; y++) {
+        for (int x = WIDTH / 2 - 6; x < WIDTH / 2 + 6; x++) {
+            const float *pixel = picture->layers[FRAME_SMOKE].pixels + 4 * (y * WIDTH + x);
+            red += (double)pixel[0];
+            green += (double)pixel[1];
+        }
+    }
+    assert_true(red + green > 1.0);
+    return (red - green) / (red + green);
+}
+
+static void crossing_cards_cross(void **state)
+{
+    static const struct kiln_techniques *const techniques[] = {&FRAME_CPU, &FRAME_GL};
+    for (int i = 0; i < 2; i++) {
+        const struct frame_setting oit = {{OIT}, 1, *techniques[i], 0};
+        const struct frame_setting merged = {{MERGED}, 1, *techniques[i], 0};
+        struct kiln_picture *cross = frame_draw(*state, CARDS, STEPS, &oit);
+        struct kiln_picture *flat = frame_draw(*state, CARDS, STEPS, &merged);
+        assert_true(redness(cross, 20, 29) > 0.2 && redness(cross, 35, 44) < -0.2);
+        assert_true(redness(flat, 20, 29) * redness(flat, 35, 44) > 0.04);
+        kiln_picture_destroy(&cross);
+        kiln_picture_destroy(&flat);
+    }
+}
+
+/* A flame in the middle of a puff. */
+static const char FLAME[] =
+    "kiln: 1\n"
+    "output: {size: [96, 64], fps: 60, frames: 60}\n"
+    "camera: {position: [0, 1, 4], target: [0, 1, 0]}\n"
+    "backdrop: {floor: none}\n"
+    "systems:\n"
+    "  puff:\n"
+    "    emit: {rate: 0, bursts: {0 s: 1}, life: 9 s, speed: 0, from: {point: {origin: [0, 1, "
+    "0]}}}\n"
+    "    look: {atlas: 'builtin:puff', fade: {in: 0, out: 0}, size: 2 m, color: 0, opacity: 0.9, "
+    "thickness: 1}\n"
+    "  flame:\n"
+    "    emit: {rate: 0, bursts: {0 s: 1}, life: 9 s, speed: 0,\n"
+    "           from: {point: {origin: [0, 1, 0.01]}}}\n"
+    "    look: {atlas: 'builtin:puff', fade: {in: 0, out: 0}, blend: add, size: 0.6 m, color: [4, "
+    "2, 1], bloom: 1,\n"
+    "           thickness: 0}\n"
+    "post: {bloom: {strength: 0}}\n";
+
+static double light_of(struct kiln_device *device, const struct frame_setting *setting, int layer)
+{
+    struct kiln_picture *picture = frame_draw(device, FLAME, STEPS, setting);
+    double sum = 0;
+    for (int i = 0; i < WIDTH * HEIGHT; i++)
+        sum += (double)picture->layers[layer].pixels[4 * i];
+    kiln_picture_destroy(&picture);
+    return sum;
+}
+
+/* Half of the puff covers what is in it: neither nothing, as when the flame is in front by a
+ * centimetre, nor all. Its glow is dimmed as well. */
+static void thickness_covers_half(void **state)
+{
+    static const char *const flat = "systems.puff.look.thickness=0";
+    static const char *const behind = "systems.flame.emit.from.point.origin=[0, 1, -2]";
+    static const char *const front = "systems.flame.emit.from.point.origin=[0, 1, 1.5]";
+    const struct frame_setting inside = {{OIT}, 1, FRAME_CPU, 0};
+    const struct frame_setting inside_flat = {{OIT, flat}, 2, FRAME_CPU, 0};
+    const struct frame_setting merged = {{MERGED}, 1, FRAME_CPU, 0};
+    double half = light_of(*state, &inside, FRAME_BLOOM);
+    double all = light_of(*state, &inside_flat, FRAME_BLOOM);
+    assert_true(half < 0.8 * all && half > 0.2 * all);
+    assert_true(fabs(light_of(*state, &merged, FRAME_BLOOM) / all - 1.0) < 1e-5);
+    /* Outside of it, the two halves are the whole. */
+    for (int i = 0; i < 2; i++) {
+        const struct frame_setting oit = {{OIT, i ? behind : front}, 2, FRAME_CPU, 0};
+        const struct frame_setting by_middle = {{MERGED, i ? behind : front}, 2, FRAME_CPU, 0};
+        struct kiln_picture *a = frame_draw(*state, FLAME, STEPS, &oit);
+        struct kiln_picture *b = frame_draw(*state, FLAME, STEPS, &by_middle);
+        for (int layer = 0; layer < FRAME_LAYERS; layer++)
+            assert_true(frame_difference(a, b, layer) < 1e-5);
+        kiln_picture_destroy(&a);
+        kiln_picture_destroy(&b);
+    }
+}
+
+/* So many puffs, flames, cards and lines at one place that lists are made of some rows at a time.
+ */
+static const char CROWD[] =
+    "kiln: 1\n"
+    "output: {size: [96, 64], fps: 60, frames: 60}\n"
+    "camera: {position: [0, 1.5, 2.4], target: [0, 1, 0]}\n"
+    "backdrop: {objects: [{box: {center: [0.4, 1, 0.2], size: [0.3, 3, 0.3]}}]}\n"
+    "systems:\n"
+    "  puffs:\n"
+    "    emit: {rate: 0, bursts: {0 s: 300}, life: 9 s, speed: [0, 2]}\n"
+    "    collide: none\n"
+    "    look: {atlas: 'builtin:puff', size: 3.5 m, opacity: 0.1, lit: 1, bloom: 0.1}\n"
+    "  cards:\n"
+    "    emit: {rate: 0, bursts: {0 s: 40}, life: 9 s, speed: [0, 2]}\n"
+    "    collide: none\n"
+    "    look: {atlas: 'builtin:puff', size: 1.5 m, opacity: 0.3, facing: axial, axis: [1, 1, 0]}\n"
+    "  flames:\n"
+    "    emit: {rate: 0, bursts: {0 s: 100}, life: 9 s, speed: [0, 2]}\n"
+    "    collide: none\n"
+    "    look: {atlas: 'builtin:puff', blend: add, size: 0.8 m, color: [0.1, 0.05, 0.02], bloom: "
+    "1}\n"
+    "  lines:\n"
+    "    emit: {rate: 0, bursts: {0 s: 40}, life: 9 s, speed: [1, 2]}\n"
+    "    collide: none\n"
+    "    look: {shape: line, stretch: 0.2 s, line: {width: 2 px}, color: [0.1, 0.4, 0.8]}\n";
+
+static void techniques_agree(void **state)
+{
+    static const char *const half = "post.particles={resolution: half, mixed: true}";
+    struct kiln_techniques instanced = FRAME_GL;
+    instanced.raster = KILN_RASTER_INSTANCED;
+    const struct frame_setting settings[] = {{{OIT}, 1, FRAME_CPU, 0},
+                                             {{OIT}, 1, FRAME_GL, 0},
+                                             {{OIT}, 1, instanced, 0},
+                                             {{OIT, half}, 2, FRAME_CPU, 0},
+                                             {{OIT, half}, 2, FRAME_GL, 0}};
+    struct kiln_picture *pictures[5];
+    for (int i = 0; i < 5; i++)
+        pictures[i] = frame_draw(*state, CROWD, STEPS, &settings[i]);
+    for (int layer = 0; layer < FRAME_LAYERS; layer++) {
+        const double off[4] = {frame_difference(pictures[0], pictures[1], layer),
+                               frame_difference(pictures[1], pictures[2], layer),
+                               frame_difference(pictures[3], pictures[4], layer),
+                               frame_difference(pictures[0], pictures[3], layer)};
+        print_message("%d: %.2g %.2g %.2g %.2g\n", layer, off[0], off[1], off[2], off[3]);
+        assert_true(off[0] < 5e-3 && off[1] < 1e-5 && off[2] < 5e-3 && off[3] < 0.1);
+    }
+    for (int i = 0; i < 5; i++)
+        kiln_picture_destroy(&pictures[i]);
+}
+
+static void any_number_of_threads_makes_the_same(void **state)
+{
+    const struct frame_setting one = {{OIT}, 1, FRAME_CPU, 1}, three = {{OIT}, 1, FRAME_CPU, 3};
+    struct kiln_picture *a = frame_draw(*state, CROWD, STEPS, &one);
+    struct kiln_picture *b = frame_draw(*state, CROWD, STEPS, &three);
+    for (int layer = 0; layer < FRAME_LAYERS; layer++)
+        assert_memory_equal(a->layers[layer].pixels, b->layers[layer].pixels,
+                            sizeof(float) * a->layers[layer].channels * WIDTH * HEIGHT);
+    kiln_picture_destroy(&a);
+    kiln_picture_destroy(&b);
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        test_on_device(crossing_cards_cross),
+        test_on_device(thickness_covers_half),
+        test_on_device(techniques_agree),
+        test_on_device(any_number_of_threads_makes_the_same),
+    };
+    return cmocka_run_group_tests_name("oit", tests, test_device_open, test_device_close);
+}
