@@ -13,8 +13,7 @@ struct kiln_coarse_stage {
     struct kiln_device *device;
     struct kiln_particles_stage *particles;
     struct kiln_coarse_images images;
-    struct kiln_buffer coarse_view, fine_view; /* for shaders */
-    struct kiln_coarse_cpu *cpu;               /* one of these two */
+    struct kiln_coarse_cpu *cpu; /* one of these two */
     struct kiln_coarse_gl *gl;
 };
 
@@ -60,8 +59,6 @@ struct kiln_coarse_stage *kiln_coarse_create(struct kiln_device *device,
     }
     stage->device = device;
     stage->particles = params->particles;
-    kiln_buffer_init(&stage->coarse_view, device, sizeof(struct kiln_view), "coarse view");
-    kiln_buffer_init(&stage->fine_view, device, sizeof(struct kiln_view), "fine view");
     bool ok = init_images(stage, scene, params->format, error);
     if (ok && params->in_gl)
         stage->gl = kiln_coarse_gl_create(device, &stage->images, error);
@@ -86,8 +83,6 @@ void kiln_coarse_destroy(struct kiln_coarse_stage **stage)
         &s->images.fine_depth, &s->images.fine_color, &s->images.fine_bloom};
     for (size_t i = 0; i < sizeof images / sizeof *images; i++)
         kiln_image_finish(images[i]);
-    kiln_buffer_finish(&s->coarse_view);
-    kiln_buffer_finish(&s->fine_view);
     free(s);
     *stage = NULL;
 }
@@ -99,18 +94,6 @@ bool kiln_coarse_prepare(struct kiln_coarse_stage *stage, struct kiln_image *dep
                      : kiln_coarse_cpu_measure(stage->cpu, depth, error);
 }
 
-/* Shaders read the view from where kiln_backdrop_draw has bound it. */
-static bool bind_view(struct kiln_coarse_stage *stage, struct kiln_buffer *buffer,
-                      const struct kiln_view *view, struct kiln_error *error)
-{
-    if (!stage->device)
-        return true;
-    GLuint gl = kiln_buffer_upload(buffer, view, error);
-    if (gl)
-        glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_VIEW, gl);
-    return gl != 0;
-}
-
 static bool draw_coarse(struct kiln_coarse_stage *stage, const struct kiln_particles_draw *draw,
                         struct kiln_error *error)
 {
@@ -120,8 +103,7 @@ static bool draw_coarse(struct kiln_coarse_stage *stage, const struct kiln_parti
     coarse.depth = &stage->images.depth;
     coarse.framebuffer = &stage->images.framebuffer;
     coarse.keep_bloom = false;
-    return bind_view(stage, &stage->coarse_view, &view, error) &&
-           kiln_particles_run(stage->particles, &coarse, error);
+    return kiln_particles_run(stage->particles, &coarse, error);
 }
 
 static bool draw_fine(struct kiln_coarse_stage *stage, const struct kiln_particles_draw *draw,
@@ -145,7 +127,6 @@ bool kiln_coarse_run(struct kiln_coarse_stage *stage, const struct kiln_particle
     const struct kiln_coarse_blend blend = {
         .target = draw->framebuffer, .keep_bloom = draw->keep_bloom, .sum_alpha = draw->sum_alpha};
     return draw_coarse(stage, draw, error) &&
-           bind_view(stage, &stage->fine_view, draw->view, error) &&
            (!stage->images.mixed || draw_fine(stage, draw, error)) &&
            (stage->gl ? kiln_coarse_gl_spread(stage->gl, &blend, draw->depth, error)
                       : kiln_coarse_cpu_spread(stage->cpu, &blend, draw->depth, error));
