@@ -7,6 +7,7 @@
 
 #include <cmocka.h>
 
+#include "base/simd.h"
 #include "support/frame.h"
 
 enum { WIDTH = 101, HEIGHT = 67, PIXELS = WIDTH * HEIGHT };
@@ -137,12 +138,34 @@ static void nothing_bleeds(void **state)
     kiln_picture_destroy(&want);
 }
 
+/* On the host, the same bytes for vectors of any width and any number of threads. */
+static void any_machine_makes_the_same(void **state)
+{
+    struct frame_setting setting = {{QUARTER, MIXED}, 2, FRAME_CPU, 1};
+    setenv("KILN_SIMD", kiln_simd_name(KILN_SIMD_PLAIN), 1);
+    struct kiln_picture *want = draw(*state, &setting);
+    for (enum kiln_simd simd = KILN_SIMD_PLAIN; simd < KILN_SIMD_COUNT; simd++) {
+        if (!kiln_simd_has(simd))
+            continue;
+        setenv("KILN_SIMD", kiln_simd_name(simd), 1);
+        setting.threads = 1 + (uint32_t)simd;
+        struct kiln_picture *got = draw(*state, &setting);
+        for (int layer = 0; layer < FRAME_LAYERS; layer++)
+            assert_memory_equal(want->layers[layer].pixels, got->layers[layer].pixels,
+                                sizeof(float) * want->layers[layer].channels * PIXELS);
+        kiln_picture_destroy(&got);
+    }
+    kiln_picture_destroy(&want);
+    unsetenv("KILN_SIMD");
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
         test_on_device(techniques_agree),
         test_on_device(near_full_resolution),
         test_on_device(nothing_bleeds),
+        test_on_device(any_machine_makes_the_same),
     };
     return cmocka_run_group_tests_name("coarse", tests, test_device_open, test_device_close);
 }
