@@ -283,8 +283,10 @@ static void init_pool(struct kiln_job *job)
         capacities[i] = job->scene->systems[i].capacity;
     kiln_pool_init(&job->run.pool, job->device, capacities, job->scene->system_count);
     job->stats.particle_capacity = job->run.pool.slot_count;
-    size_t slot_bytes = kiln_simulate_slot_bytes(job->techniques.simulate) + sizeof(uint32_t);
-    job->stats.particle_bytes = (uint64_t)job->run.pool.slot_count * slot_bytes;
+    const uint32_t slots = job->run.pool.slot_count;
+    job->stats.particle_bytes =
+        (uint64_t)slots * kiln_simulate_slot_bytes(job->techniques.simulate) +
+        kiln_sort_bytes(job->techniques.sort, job->techniques.sort_spread > 0, slots);
 }
 
 /* What the device cannot draw. A software device advertises smaller storage blocks than it takes.

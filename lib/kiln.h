@@ -277,7 +277,7 @@ struct kiln_render_stats {
     double pass_ms[KILN_PASS_COUNT]; /* sums over the job */
     uint64_t alive;                  /* at the last step */
     struct kiln_state_hash state;    /* after the last step */
-    uint64_t particle_bytes;         /* simulation and draw buffers */
+    uint64_t particle_bytes;         /* of records and of sorting them, on each side they are on */
     uint64_t particle_capacity;
     char techniques[256];  /* "simulate=cpu sort=cpu ..." */
     uint32_t choice_count; /* one a stage */

@@ -1,4 +1,4 @@
-/* The slots of every system, and walks over them. */
+/* The slots of every system. */
 #include "particles/pool.h"
 
 #include <assert.h>
@@ -41,24 +41,4 @@ uint32_t kiln_pool_used(const struct kiln_pool_system *system)
 {
     return system->next_serial < system->capacity ? (uint32_t)system->next_serial
                                                   : system->capacity;
-}
-
-uint32_t kiln_pool_alive(const struct kiln_pool *pool, const struct kiln_particle *records,
-                         uint32_t *entries)
-{
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < pool->system_count; i++) {
-        const struct kiln_pool_system *system = &pool->systems[i];
-        uint32_t used = kiln_pool_used(system);
-        if (used == 0)
-            continue;
-        /* from the oldest serial that may still have its slot: behind it, slots are in order */
-        uint32_t slot = (uint32_t)((system->next_serial - used) % system->capacity);
-        for (uint32_t k = 0; k < used; k++) {
-            entries[count] = KILN_ENTRY(i, system->base + slot);
-            count += particle_is_alive(records[system->base + slot]);
-            slot = slot + 1 == system->capacity ? 0 : slot + 1;
-        }
-    }
-    return count;
 }

@@ -35,14 +35,9 @@ bool kiln_pool_copy(struct kiln_pool *to, struct kiln_pool *from, struct kiln_er
 /* Slots of a system that were ever born into: the first so many; the rest is still zero. */
 uint32_t kiln_pool_used(const struct kiln_pool_system *system);
 
-/* A draw entry names a particle of any system in 32 bits. */
+/* A draw entry names a particle of any system in 32 bits; slot: of the whole record buffer. */
 #define KILN_ENTRY(system, slot) ((uint32_t)(system) << 24 | (slot))
 #define KILN_ENTRY_SYSTEM(entry) ((entry) >> 24)
 #define KILN_ENTRY_SLOT(entry)   ((entry)&0xffffffu)
-
-/* Writes the entries (slot: index into the whole record buffer) of all living particles in order of
- * (system, serial) and returns how many there are. entries has room for slot_count. */
-uint32_t kiln_pool_alive(const struct kiln_pool *pool, const struct kiln_particle *records,
-                         uint32_t *entries);
 
 #endif

@@ -1,30 +1,34 @@
-/* Least significant digit first, 11 bits a pass. Each thread owns one stretch of the pairs: it
- * counts the digits in it, and after a sum over (digit, stretch) knows where each of its pairs
- * goes, so the result is stable and the same for any number of threads. */
+/* Least significant digit first, in one pass or in three: then the last reads the pairs' own memory
+ * and can write the list where scratch was. Digits are as short as the span of the keys allows.
+ * Each thread owns one stretch of the pairs: it counts the digits in it, and after a sum over
+ * (digit, stretch) knows where each of its pairs goes, so the result is stable and the same for any
+ * number of threads. */
 #include "sort/pairs.h"
 
-#include <stdbool.h>
 #include <string.h>
 
 enum {
-    DIGIT_BITS = 11,
-    DIGITS = 1 << DIGIT_BITS,
+    MOST_DIGIT_BITS = 11,
+    MOST_DIGITS = 1 << MOST_DIGIT_BITS,
     PASSES = 3,
     LEAST_STRETCH = 8192, /* pairs; shorter ones are not worth a thread */
 };
 
 struct pass {
     const kiln_sort_pair *from;
-    kiln_sort_pair *to;
+    kiln_sort_pair *to; /* NULL: the last, which writes: */
+    uint32_t *list;
+    bool reverse;
     size_t count;
     uint32_t stretches;
-    unsigned shift;
-    uint32_t *places; /* DIGITS a stretch: first counts, then places in `to` */
+    uint32_t least; /* key */
+    unsigned shift, digit_bits;
+    uint32_t *places; /* a word a digit for each stretch: first counts, then places */
 };
 
 size_t kiln_sort_count_words(const struct kiln_threads *threads)
 {
-    return (size_t)kiln_threads_count(threads) * DIGITS;
+    return (size_t)kiln_threads_count(threads) * MOST_DIGITS;
 }
 
 static size_t stretch_begin(const struct pass *pass, size_t stretch)
@@ -34,73 +38,96 @@ static size_t stretch_begin(const struct pass *pass, size_t stretch)
 
 static uint32_t digit_of(const struct pass *pass, kiln_sort_pair pair)
 {
-    return (uint32_t)(pair >> pass->shift) & (DIGITS - 1);
+    uint32_t key = (uint32_t)(pair >> 32) - pass->least;
+    return key >> pass->shift & ((1u << pass->digit_bits) - 1);
 }
 
 static void count_digits(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
-    const struct pass *pass = context;
+    const struct pass pass = *(const struct pass *)context;
     for (size_t stretch = begin; stretch < end; stretch++) {
-        uint32_t *counts = pass->places + stretch * DIGITS;
-        memset(counts, 0, DIGITS * sizeof *counts);
-        size_t last = stretch_begin(pass, stretch + 1);
-        for (size_t i = stretch_begin(pass, stretch); i < last; i++)
-            counts[digit_of(pass, pass->from[i])]++;
+        uint32_t *counts = pass.places + (stretch << pass.digit_bits);
+        memset(counts, 0, sizeof *counts << pass.digit_bits);
+        size_t last = stretch_begin(&pass, stretch + 1);
+        for (size_t i = stretch_begin(&pass, stretch); i < last; i++)
+            counts[digit_of(&pass, pass.from[i])]++;
     }
 }
 
-/* Turns counts into places. False when all pairs have the same digit: nothing would move. */
-static bool sum_counts(const struct pass *pass)
+/* Turns counts into places. */
+static void sum_counts(const struct pass *pass)
 {
     uint32_t place = 0;
-    for (uint32_t digit = 0; digit < DIGITS; digit++) {
-        uint32_t before = place;
+    for (uint32_t digit = 0; digit < 1u << pass->digit_bits; digit++)
         for (uint32_t stretch = 0; stretch < pass->stretches; stretch++) {
-            uint32_t *at = &pass->places[(size_t)stretch * DIGITS + digit];
+            uint32_t *at = &pass->places[((size_t)stretch << pass->digit_bits) + digit];
             uint32_t count = *at;
             *at = place;
             place += count;
         }
-        if (place - before == pass->count)
-            return false;
-    }
-    return true;
 }
 
 static void move_pairs(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
-    const struct pass *pass = context;
+    const struct pass pass = *(const struct pass *)context;
     for (size_t stretch = begin; stretch < end; stretch++) {
-        uint32_t *places = pass->places + stretch * DIGITS;
-        size_t last = stretch_begin(pass, stretch + 1);
-        for (size_t i = stretch_begin(pass, stretch); i < last; i++)
-            pass->to[places[digit_of(pass, pass->from[i])]++] = pass->from[i];
+        uint32_t *places = pass.places + (stretch << pass.digit_bits);
+        size_t last = stretch_begin(&pass, stretch + 1);
+        for (size_t i = stretch_begin(&pass, stretch); i < last; i++)
+            pass.to[places[digit_of(&pass, pass.from[i])]++] = pass.from[i];
     }
 }
 
-kiln_sort_pair *kiln_sort_pairs(struct kiln_threads *threads, kiln_sort_pair *pairs,
-                                kiln_sort_pair *scratch, size_t count, uint32_t *counts)
+static void write_list(void *context, size_t begin, size_t end, uint32_t worker)
 {
-    size_t useful = count / LEAST_STRETCH + 1;
-    uint32_t most = kiln_threads_count(threads);
+    (void)worker;
+    const struct pass pass = *(const struct pass *)context;
+    for (size_t stretch = begin; stretch < end; stretch++) {
+        uint32_t *places = pass.places + (stretch << pass.digit_bits);
+        size_t last = stretch_begin(&pass, stretch + 1);
+        for (size_t i = stretch_begin(&pass, stretch); i < last; i++) {
+            size_t place = places[digit_of(&pass, pass.from[i])]++;
+            pass.list[pass.reverse ? pass.count - 1 - place : place] = (uint32_t)pass.from[i];
+        }
+    }
+}
+
+static void run_pass(struct kiln_threads *threads, struct pass *pass)
+{
+    kiln_threads_for(threads, pass->stretches, 1, count_digits, pass);
+    sum_counts(pass);
+    kiln_threads_for(threads, pass->stretches, 1, pass->to ? move_pairs : write_list, pass);
+}
+
+void kiln_sort_pairs(struct kiln_threads *threads, kiln_sort_pair *pairs, size_t count,
+                     struct kiln_sort_span span, bool reverse, uint32_t *list, uint32_t *counts)
+{
+    if (count == 0)
+        return;
+    unsigned bits = 0;
+    while (bits < 32 && (span.greatest - span.least) >> bits != 0)
+        bits++;
+    const size_t useful = count / LEAST_STRETCH + 1;
+    const uint32_t most = kiln_threads_count(threads);
     struct pass pass = {
+        .from = pairs,
+        .list = list,
+        .reverse = reverse,
         .count = count,
         .stretches = useful < most ? (uint32_t)useful : most,
+        .least = span.least,
+        .digit_bits = bits <= MOST_DIGIT_BITS ? bits : (bits + PASSES - 1) / PASSES,
+        .places = counts,
     };
-    pass.places = counts;
-    kiln_sort_pair *sorted = pairs, *other = scratch;
-    for (unsigned i = 0; i < PASSES && count > 1; i++) {
-        pass.from = sorted;
-        pass.to = other;
-        pass.shift = 32 + i * DIGIT_BITS;
-        kiln_threads_for(threads, pass.stretches, 1, count_digits, &pass);
-        if (!sum_counts(&pass))
-            continue;
-        kiln_threads_for(threads, pass.stretches, 1, move_pairs, &pass);
-        other = sorted;
-        sorted = pass.to;
+    kiln_sort_pair *scratch = (kiln_sort_pair *)(void *)list;
+    while (pass.shift + pass.digit_bits < bits) {
+        pass.to = pass.from == pairs ? scratch : pairs;
+        run_pass(threads, &pass);
+        pass.from = pass.to;
+        pass.shift += pass.digit_bits;
     }
-    return sorted;
+    pass.to = NULL;
+    run_pass(threads, &pass);
 }

@@ -1,6 +1,7 @@
 /* Least significant digit first. Each pass counts the digits of every tile of pairs, sums the
  * counts by (digit, tile), and moves each tile's pairs behind those that come before. No work group
- * waits for another, and no atomic decides an order. */
+ * waits for another, and no atomic decides an order. The number of passes is even: so the last one
+ * reads the other buffer, and its list takes the place of the pairs. */
 #include "sort/radix.h"
 
 #include <stdio.h>
@@ -21,7 +22,8 @@ struct shape {
     uint32_t items;      /* pairs of an invocation */
 };
 
-/* Software devices gain from few passes and long stretches, GPUs from many invocations. */
+/* An even number of digits makes a key. Software devices gain from few passes and long stretches,
+ * GPUs from many invocations. */
 static const struct shape FOR_SOFTWARE = {8, 16, 256}, FOR_GPUS = {6, 64, 32};
 
 struct kiln_radix {
@@ -30,8 +32,8 @@ struct kiln_radix {
     struct kiln_alive alive;
     struct kiln_scan scan;
     GLuint count_program, scatter_program, last_program;
-    struct kiln_buffer pairs, other; /* of the list; what passes write in turn */
-    struct kiln_buffer counts;       /* by digit, then by tile */
+    struct kiln_buffer other;  /* than the pairs that are sorted: passes write one and the other */
+    struct kiln_buffer counts; /* by digit, then by tile */
 };
 
 static GLuint create_program(struct kiln_radix *radix, const char *file, const char *more,
@@ -59,6 +61,12 @@ static bool create_programs(struct kiln_radix *radix, struct kiln_error *error)
     return radix->last_program != 0;
 }
 
+/* Do an even number of digits of so many bits make a key? */
+static bool is_even(uint32_t bits)
+{
+    return (KEY_BITS + bits - 1) / bits % 2 == 0;
+}
+
 /* For a work group of another size, the same tile is cut among more or fewer invocations, and its
  * digits are as wide as their counters find room. */
 static struct shape choose_shape(const struct kiln_device *device)
@@ -69,7 +77,8 @@ static struct shape choose_shape(const struct kiln_device *device)
     uint32_t tile = shape.group_size * shape.items;
     shape.group_size = device->work_group_size < tile ? device->work_group_size : tile;
     shape.items = tile / shape.group_size;
-    while ((shape.group_size + 1) * sizeof(uint32_t) << shape.bits > MAX_SHARED_BYTES)
+    while ((shape.group_size + 1) * sizeof(uint32_t) << shape.bits > MAX_SHARED_BYTES ||
+           !is_even(shape.bits))
         shape.bits--;
     return shape;
 }
@@ -83,7 +92,6 @@ struct kiln_radix *kiln_radix_create(struct kiln_device *device, struct kiln_err
     }
     radix->device = device;
     radix->shape = choose_shape(device);
-    kiln_buffer_init(&radix->pairs, device, 0, "sort pairs");
     kiln_buffer_init(&radix->other, device, 0, "other sort pairs");
     kiln_buffer_init(&radix->counts, device, 0, "counts of digits");
     if (!kiln_alive_init(&radix->alive, device, KILN_ALIVE_ENTRIES, error) ||
@@ -98,7 +106,6 @@ void kiln_radix_destroy(struct kiln_radix **radix)
         return;
     kiln_alive_finish(&(*radix)->alive);
     kiln_scan_finish(&(*radix)->scan);
-    kiln_buffer_finish(&(*radix)->pairs);
     kiln_buffer_finish(&(*radix)->other);
     kiln_buffer_finish(&(*radix)->counts);
     glDeleteProgram((*radix)->count_program);
@@ -148,7 +155,7 @@ static bool run_pass(struct kiln_radix *radix, const struct pass *pass, bool las
 }
 
 bool kiln_radix_pairs(struct kiln_radix *radix, struct kiln_buffer *pairs, uint32_t count,
-                      bool reverse, struct kiln_buffer *entries, struct kiln_error *error)
+                      bool reverse, struct kiln_error *error)
 {
     if (count == 0)
         return true;
@@ -160,16 +167,13 @@ bool kiln_radix_pairs(struct kiln_radix *radix, struct kiln_buffer *pairs, uint3
     pass.from = kiln_buffer_gl(pairs, KILN_READ_WRITE, error);
     pass.to = pass.from ? kiln_buffer_gl(&radix->other, KILN_OVERWRITE, error) : 0;
     pass.counts = pass.to ? kiln_buffer_gl(&radix->counts, KILN_OVERWRITE, error) : 0;
-    GLuint sorted = pass.counts ? kiln_buffer_gl(entries, KILN_READ_WRITE, error) : 0;
-    if (!sorted)
+    if (!pass.counts)
         return false;
     const uint32_t bits = radix->shape.bits;
     for (pass.shift = 0; pass.shift < KEY_BITS; pass.shift += bits) {
-        const bool last = pass.shift + bits >= KEY_BITS;
-        const GLuint from = pass.from;
-        pass.to = last ? sorted : pass.to;
-        if (!run_pass(radix, &pass, last, error))
+        if (!run_pass(radix, &pass, pass.shift + bits >= KEY_BITS, error))
             return false;
+        const GLuint from = pass.from;
         pass.from = pass.to;
         pass.to = from;
     }
@@ -182,8 +186,8 @@ bool kiln_radix_run(struct kiln_radix *radix, struct kiln_pool *pool,
 {
     if (params->order == KILN_SORT_BY_SERIAL)
         return kiln_alive_run(&radix->alive, pool, params, entries, NULL, count, error);
-    kiln_buffer_reserve(&radix->pairs, (size_t)pool->slot_count * PAIR_BYTES);
-    return kiln_alive_run(&radix->alive, pool, params, NULL, &radix->pairs, count, error) &&
-           kiln_radix_pairs(radix, &radix->pairs, *count, params->order == KILN_SORT_FRONT_TO_BACK,
-                            entries, error);
+    kiln_buffer_reserve(entries, (size_t)pool->slot_count * PAIR_BYTES);
+    return kiln_alive_run(&radix->alive, pool, params, NULL, entries, count, error) &&
+           kiln_radix_pairs(radix, entries, *count, params->order == KILN_SORT_FRONT_TO_BACK,
+                            error);
 }

@@ -15,10 +15,9 @@ bool kiln_radix_run(struct kiln_radix *radix, struct kiln_pool *pool,
                     const struct kiln_sort_params *params, struct kiln_buffer *entries,
                     uint32_t *count, struct kiln_error *error);
 
-/* Writes the second words of the first `count` pairs (key, any) of a buffer to entries, by
- * ascending key; those of equal keys keep their order. `reverse` writes that list from its end. The
- * pairs are lost. */
+/* Sorts the first `count` pairs (key, any) of a buffer by ascending key; those of equal keys keep
+ * their order. Their place takes the list of the second words, or that list in `reverse`. */
 bool kiln_radix_pairs(struct kiln_radix *radix, struct kiln_buffer *pairs, uint32_t count,
-                      bool reverse, struct kiln_buffer *entries, struct kiln_error *error);
+                      bool reverse, struct kiln_error *error);
 
 #endif

@@ -86,6 +86,24 @@ void kiln_sort_destroy(struct kiln_sort **sort)
     *sort = NULL;
 }
 
+uint64_t kiln_sort_bytes(enum kiln_sort_technique technique, bool spread, uint32_t slots)
+{
+    const uint64_t pair = 8, word = 4;
+    const uint64_t padded = kiln_network_padded(slots) * pair;
+    switch (technique) {
+    case KILN_SORT_CPU:
+    case KILN_SORT_RADIX:
+        return 2 * pair * slots; /* in one of the two the list ends */
+    case KILN_SORT_BITONIC:
+        break;
+    case KILN_SORT_ODDEVEN:
+        if (spread)
+            return padded + word * slots;
+        break;
+    }
+    return padded + 2 * word * slots; /* unsorted and sorted */
+}
+
 bool kiln_sort_keeps_history(const struct kiln_sort *sort)
 {
     return sort->keeps;

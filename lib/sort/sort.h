@@ -47,11 +47,16 @@ bool kiln_sort_keeps_history(const struct kiln_sort *sort);
 bool kiln_sort_follow(struct kiln_sort *sort, struct kiln_pool *pool,
                       const struct kiln_sort_params *params, struct kiln_error *error);
 
-/* Fills entries (room for the pool's slot_count) with the draw entries of the living particles of
+/* Fills entries (room for the pool's slot_count; a technique may make it twice as large, to sort in
+ * it) with the draw entries of the living particles of
  * the chosen systems in the order that is asked for, and counts them. Where the technique runs on
  * the device, so do records and entries; the count alone is read back. */
 bool kiln_sort_run(struct kiln_sort *sort, struct kiln_pool *pool,
                    const struct kiln_sort_params *params, struct kiln_buffer *entries,
                    uint32_t *count, struct kiln_error *error);
+
+/* Bytes that sorting so many slots takes in all, the list of entries included: the two or three
+ * buffers that grow with them. spread: of an order that is kept. */
+uint64_t kiln_sort_bytes(enum kiln_sort_technique technique, bool spread, uint32_t slots);
 
 #endif

@@ -15,7 +15,7 @@ struct kiln_sort_trial {
     enum kiln_sort_trial_kind kind;
     struct kiln_threads *threads;
     struct kiln_buffer pairs, list, sorted;
-    struct kiln_buffer scratch, counts; /* `cpu` */
+    struct kiln_buffer counts; /* `cpu` */
     struct kiln_radix *radix;
     struct kiln_bitonic *bitonic;
     struct kiln_oddeven *oddeven;
@@ -82,9 +82,8 @@ struct kiln_sort_trial *kiln_sort_trial_create(struct kiln_device *device,
     size_t padded = kiln_network_padded(most);
     kiln_buffer_init(&trial->pairs, where, padded * sizeof(kiln_sort_pair), "trial pairs");
     kiln_buffer_init(&trial->list, where, (size_t)most * sizeof(uint32_t), "trial list");
-    kiln_buffer_init(&trial->sorted, where, (size_t)most * sizeof(uint32_t), "trial result");
+    kiln_buffer_init(&trial->sorted, where, (size_t)most * sizeof(kiln_sort_pair), "trial result");
     size_t words = kind == KILN_TRIAL_CPU ? kiln_sort_count_words(threads) : 0;
-    kiln_buffer_init(&trial->scratch, NULL, words ? trial->pairs.size : 0, "trial scratch");
     kiln_buffer_init(&trial->counts, NULL, words * sizeof(uint32_t), "trial counts");
     if (!create_sort(trial, where, error))
         kiln_sort_trial_destroy(&trial);
@@ -100,7 +99,7 @@ void kiln_sort_trial_destroy(struct kiln_sort_trial **trial)
     kiln_bitonic_destroy(&t->bitonic);
     kiln_oddeven_destroy(&t->oddeven);
     kiln_bitonic_field_destroy(&t->field);
-    struct kiln_buffer *buffers[] = {&t->pairs, &t->list, &t->sorted, &t->scratch, &t->counts};
+    struct kiln_buffer *buffers[] = {&t->pairs, &t->list, &t->sorted, &t->counts};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
         kiln_buffer_finish(buffers[i]);
     free(t);
@@ -132,7 +131,6 @@ static bool prepare(struct kiln_sort_trial *t, const uint32_t *keys, uint32_t co
     }
     if (on_host)
         return kiln_buffer_host(&t->sorted, KILN_OVERWRITE, error) &&
-               kiln_buffer_host(&t->scratch, KILN_OVERWRITE, error) &&
                kiln_buffer_host(&t->counts, KILN_OVERWRITE, error);
     bool ready = kiln_buffer_gl(&t->pairs, KILN_READ_WRITE, error) &&
                  kiln_buffer_gl(&t->list, KILN_READ, error) &&
@@ -150,11 +148,8 @@ static struct kiln_network *network_of(struct kiln_sort_trial *t)
 
 static void sort_on_host(struct kiln_sort_trial *t, uint32_t count)
 {
-    const kiln_sort_pair *pairs =
-        kiln_sort_pairs(t->threads, t->pairs.host, t->scratch.host, count, t->counts.host);
-    uint32_t *sorted = t->sorted.host;
-    for (uint32_t i = 0; i < count; i++)
-        sorted[i] = (uint32_t)pairs[i];
+    kiln_sort_pairs(t->threads, t->pairs.host, count, (struct kiln_sort_span){0, UINT32_MAX}, false,
+                    t->sorted.host, t->counts.host);
 }
 
 bool kiln_sort_trial_run(struct kiln_sort_trial *trial, const uint32_t *keys, uint32_t count,
@@ -171,7 +166,7 @@ bool kiln_sort_trial_run(struct kiln_sort_trial *trial, const uint32_t *keys, ui
     if (t->kind == KILN_TRIAL_CPU)
         sort_on_host(t, count);
     else if (t->radix)
-        ok = kiln_radix_pairs(t->radix, &t->pairs, count, false, &t->sorted, error);
+        ok = kiln_radix_pairs(t->radix, &t->pairs, count, false, error);
     else
         ok =
             kiln_network_pairs(network_of(t), &t->pairs, &t->list, count, false, &t->sorted, error);
@@ -183,5 +178,5 @@ bool kiln_sort_trial_run(struct kiln_sort_trial *trial, const uint32_t *keys, ui
 
 const uint32_t *kiln_sort_trial_places(struct kiln_sort_trial *trial, struct kiln_error *error)
 {
-    return kiln_buffer_host(&trial->sorted, KILN_READ, error);
+    return kiln_buffer_host(trial->radix ? &trial->pairs : &trial->sorted, KILN_READ, error);
 }
