@@ -32,6 +32,8 @@ static const struct row ROWS[] = {
      "compute, from one buffer to another; twice the memory"},
     {SIMULATE, "feedback", KILN_SIMULATE_FEEDBACK,
      "geometry shaders and transform feedback; twice the memory"},
+    {SIMULATE, "texels", KILN_SIMULATE_TEXELS,
+     "fragment shaders, from textures to textures; three times the memory"},
     {SORT, "cpu", KILN_SORT_CPU, "stable radix sort, host threads"},
     {SORT, "radix", KILN_SORT_RADIX, "stable radix sort, compute"},
     {SORT, "bitonic", KILN_SORT_BITONIC, "bitonic merge sort, compute, padded to a power of two"},

@@ -10,6 +10,7 @@
 #include "gpu/buffer.h"
 #include "gpu/capture.h"
 #include "gpu/program.h"
+#include "gpu/words.h"
 #include "shared/probe.h"
 
 /* Edges of the number line; the first vectors are all pairs of them. */
@@ -44,9 +45,27 @@ struct probe {
     struct kiln_device *device;
     enum kiln_probe_stage stage;
     GLuint program;
-    struct kiln_capture capture; /* of the geometry stage */
+    struct kiln_capture capture;       /* of the geometry stage */
+    struct kiln_words inputs, outputs; /* of the fragment stage */
     struct kiln_buffer vectors, results;
 };
+
+enum { ROW = 64, MEMBERS = PROBE_WORDS / 4 };
+
+/* The texels of so many vectors, in whole rows. */
+static uint32_t whole_rows(uint32_t count)
+{
+    return (count + ROW - 1) / ROW * ROW;
+}
+
+/* Where the results have word number `word` of a vector: a member of all vectors is one texture. */
+static size_t place_of(const struct probe *probe, uint32_t vector, uint32_t word)
+{
+    size_t vectors = probe->vectors.size / sizeof(uint4);
+    if (probe->stage == KILN_PROBE_FRAGMENT)
+        return (word / 4 * vectors + vector) * 4 + word % 4;
+    return (size_t)vector * PROBE_WORDS + word;
+}
 
 static void run_compute(struct probe *probe, uint32_t count, GLuint vectors, GLuint results)
 {
@@ -68,6 +87,24 @@ static void run_geometry(struct probe *probe, uint32_t count, GLuint vectors, GL
     kiln_capture_end();
 }
 
+static void run_fragment(struct probe *probe, uint32_t count, GLuint vectors, GLuint results)
+{
+    const GLsizei rows = (GLsizei)(whole_rows(count) / ROW);
+    glBindBuffer(GL_PIXEL_UNPACK_BUFFER, vectors);
+    glBindTexture(GL_TEXTURE_2D, probe->inputs.textures[0]);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, ROW, rows, GL_RGBA_INTEGER, GL_UNSIGNED_INT, NULL);
+    glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+    kiln_words_bind_textures(&probe->inputs, 0);
+    kiln_words_draw(&probe->outputs, 0, (uint32_t)rows);
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, results);
+    for (uint32_t i = 0; i < MEMBERS; i++) {
+        glReadBuffer(GL_COLOR_ATTACHMENT0 + i);
+        glReadPixels(0, 0, ROW, rows, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
+                     (void *)(i * probe->vectors.size));
+    }
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+}
+
 static bool run_on_device(struct probe *probe, uint32_t first, uint32_t count,
                           struct kiln_error *error)
 {
@@ -83,27 +120,30 @@ static bool run_on_device(struct probe *probe, uint32_t first, uint32_t count,
     glUseProgram(probe->program);
     if (probe->stage == KILN_PROBE_GEOMETRY)
         run_geometry(probe, count, vector_buffer, result_buffer);
+    else if (probe->stage == KILN_PROBE_FRAGMENT)
+        run_fragment(probe, count, vector_buffer, result_buffer);
     else
         run_compute(probe, count, vector_buffer, result_buffer);
     return kiln_device_check(probe->device, "probe", error);
 }
 
 /* True when all results are C's; otherwise the reason is filled in. */
-static bool compare(const uint4 *vectors, const struct probe_result *results, uint32_t count,
-                    char reason[256])
+static bool compare(const struct probe *probe, const uint4 *vectors, const uint32_t *results,
+                    uint32_t count, char reason[256])
 {
     for (uint32_t i = 0; i < count; i++) {
         struct probe_result expected = probe_run(vectors[i]);
-        uint32_t right[PROBE_WORDS], found[PROBE_WORDS];
+        uint32_t right[PROBE_WORDS];
         memcpy(right, &expected, sizeof right);
-        memcpy(found, &results[i], sizeof found);
-        for (int word = 0; word < PROBE_WORDS; word++)
-            if (right[word] != found[word]) {
+        for (uint32_t word = 0; word < PROBE_WORDS; word++) {
+            const uint32_t found = results[place_of(probe, i, word)];
+            if (right[word] != found) {
                 snprintf(reason, 256, "%s of (%08x, %08x, %08x, %08x) is %08x instead of %08x",
                          word_names[word], vectors[i].x, vectors[i].y, vectors[i].z, vectors[i].w,
-                         found[word], right[word]);
+                         found, right[word]);
                 return false;
             }
+        }
     }
     return true;
 }
@@ -112,16 +152,23 @@ static bool run(struct probe *probe, uint32_t count, char reason[256], struct ki
 {
     enum { AT_ONCE = 1 << 16 };
     const uint32_t most = count < AT_ONCE ? count : AT_ONCE;
-    kiln_buffer_init(&probe->vectors, probe->device, most * sizeof(uint4), "probe vectors");
-    kiln_buffer_init(&probe->results, probe->device, most * sizeof(struct probe_result),
+    const size_t room = whole_rows(most);
+    kiln_buffer_init(&probe->vectors, probe->device, room * sizeof(uint4), "probe vectors");
+    kiln_buffer_init(&probe->results, probe->device, room * sizeof(struct probe_result),
                      "probe results");
+    if (probe->stage == KILN_PROBE_FRAGMENT &&
+        (!kiln_words_init(&probe->inputs, probe->device, 1, ROW, whole_rows(most) / ROW,
+                          "probe vectors", error) ||
+         !kiln_words_init(&probe->outputs, probe->device, MEMBERS, ROW, whole_rows(most) / ROW,
+                          "probe results", error)))
+        return false;
     for (uint32_t first = 0; first < count; first += most) {
         uint32_t now = count - first < most ? count - first : most;
         if (!run_on_device(probe, first, now, error))
             return false;
         const uint4 *vectors = kiln_buffer_host(&probe->vectors, KILN_READ, error);
-        const struct probe_result *results = kiln_buffer_host(&probe->results, KILN_READ, error);
-        if (!vectors || !results || !compare(vectors, results, now, reason))
+        const uint32_t *results = kiln_buffer_host(&probe->results, KILN_READ, error);
+        if (!vectors || !results || !compare(probe, vectors, results, now, reason))
             return false;
     }
     return true;
@@ -130,6 +177,9 @@ static bool run(struct probe *probe, uint32_t count, char reason[256], struct ki
 static bool init_probe(struct probe *probe, struct kiln_error *error)
 {
     struct kiln_program_params files = {.compute = "gpu/probe.comp"};
+    if (probe->stage == KILN_PROBE_FRAGMENT)
+        files = (struct kiln_program_params){.vertex = "draw/fullscreen.vert",
+                                             .fragment = "gpu/probe.frag"};
     if (probe->stage == KILN_PROBE_GEOMETRY) {
         static const char *const words[] = {"sums",        "orders",     "roots",      "curves",
                                             "unit_square", "cross_lerp", "noise_hash", "around"};
@@ -153,6 +203,8 @@ bool kiln_probe_vectors(struct kiln_device *device, enum kiln_probe_stage stage,
     kiln_buffer_finish(&probe.vectors);
     kiln_buffer_finish(&probe.results);
     kiln_capture_finish(&probe.capture);
+    kiln_words_finish(&probe.inputs);
+    kiln_words_finish(&probe.outputs);
     if (probe.program)
         glDeleteProgram(probe.program);
     return exact;

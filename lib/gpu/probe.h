@@ -5,8 +5,8 @@
 #include "gpu/device.h"
 
 /* A stage that simulates; for the geometry stage, vectors arrive as vertices and results leave by
- * transform feedback. */
-enum kiln_probe_stage { KILN_PROBE_COMPUTE, KILN_PROBE_GEOMETRY };
+ * transform feedback, for the fragment stage both are texels. */
+enum kiln_probe_stage { KILN_PROBE_COMPUTE, KILN_PROBE_GEOMETRY, KILN_PROBE_FRAGMENT };
 
 /* Runs edge and random vectors through the shared exact arithmetic in a stage and compares with C,
  * bit for bit. False: `reason` says which function differed first and how (it

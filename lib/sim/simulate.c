@@ -10,6 +10,7 @@
 #include "sim/hash.h"
 #include "sim/inplace.h"
 #include "sim/pingpong.h"
+#include "sim/texels.h"
 
 struct kiln_simulate {
     const struct kiln_scene *scene;
@@ -24,6 +25,7 @@ struct kiln_simulate {
     struct kiln_sim_programs inplace;
     struct kiln_pingpong pingpong;
     struct kiln_feedback feedback;
+    struct kiln_texels texels;
 };
 
 static bool init_on_device(struct kiln_simulate *s, struct kiln_device *device,
@@ -46,6 +48,8 @@ static bool init_on_device(struct kiln_simulate *s, struct kiln_device *device,
         return kiln_pingpong_init(&s->pingpong, device, s->scene, &s->params, error);
     case KILN_SIMULATE_FEEDBACK:
         return kiln_feedback_init(&s->feedback, device, s->scene, &s->params, error);
+    case KILN_SIMULATE_TEXELS:
+        return kiln_texels_init(&s->texels, device, s->scene, &s->params, error);
     }
     return false;
 }
@@ -77,6 +81,7 @@ void kiln_simulate_destroy(struct kiln_simulate **simulate)
     if (!s)
         return;
     if (s->blocks.device) { /* else GL was never used */
+        kiln_texels_finish(&s->texels);
         kiln_feedback_finish(&s->feedback);
         kiln_pingpong_finish(&s->pingpong);
         kiln_sim_programs_finish(&s->inplace);
@@ -106,6 +111,8 @@ bool kiln_simulate_step(struct kiln_simulate *simulate, struct kiln_pool *pool, 
         return kiln_pingpong_step(&s->pingpong, &s->blocks, &s->params, pool, error);
     case KILN_SIMULATE_FEEDBACK:
         return kiln_feedback_step(&s->feedback, &s->blocks, &s->params, pool, error);
+    case KILN_SIMULATE_TEXELS:
+        return kiln_texels_step(&s->texels, &s->blocks, &s->params, pool, step, error);
     }
     return false;
 }
@@ -120,6 +127,10 @@ bool kiln_simulate_hash(struct kiln_simulate *simulate, struct kiln_pool *pool,
 
 size_t kiln_simulate_slot_bytes(enum kiln_simulate_technique technique)
 {
-    bool two = technique == KILN_SIMULATE_PINGPONG || technique == KILN_SIMULATE_FEEDBACK;
-    return (two ? 2 : 1) * sizeof(struct kiln_particle);
+    size_t copies = 1;
+    if (technique == KILN_SIMULATE_PINGPONG || technique == KILN_SIMULATE_FEEDBACK)
+        copies = 2;
+    else if (technique == KILN_SIMULATE_TEXELS)
+        copies = 3;
+    return copies * sizeof(struct kiln_particle);
 }

@@ -11,6 +11,7 @@ enum kiln_simulate_technique {
     KILN_SIMULATE_INPLACE,
     KILN_SIMULATE_PINGPONG,
     KILN_SIMULATE_FEEDBACK,
+    KILN_SIMULATE_TEXELS,
 };
 
 struct kiln_simulate;
@@ -32,7 +33,8 @@ bool kiln_simulate_step(struct kiln_simulate *simulate, struct kiln_pool *pool, 
 bool kiln_simulate_hash(struct kiln_simulate *simulate, struct kiln_pool *pool,
                         struct kiln_state_hash *hash, uint64_t *alive, struct kiln_error *error);
 
-/* Bytes that a slot's records take: techniques with two buffers have two (Heinz 2019, 4.2). */
+/* Bytes that a slot's state takes: techniques with two buffers have it twice, the one with textures
+ * twice there and once as a record (Heinz 2019, 4.2). */
 size_t kiln_simulate_slot_bytes(enum kiln_simulate_technique technique);
 
 #endif

@@ -46,4 +46,7 @@
 /* Births that one emitter spawns; 8 words each, of 1024 that every geometry shader may write. */
 #define SIM_EMITTER_BIRTHS 32
 
+/* Slots in a row of the textures of technique `texels`. */
+#define SIM_TEXEL_ROW 2048
+
 #endif

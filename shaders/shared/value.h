@@ -39,14 +39,50 @@ struct kiln_range {
 #define VALUE_KEYS_PARAM const float4 *value_keys,
 #endif
 
-/* A key is (x, y, slope to the next key, integral from 0 to x); the host works out the last two,
- * once. */
-FN float value_at_key(VALUE_KEYS_PARAM S(kiln_value) v, float x)
+#ifndef VALUE_UNROLLED
+
+/* Index of the last key at or before x, or of the first. */
+FN uint value_find(VALUE_KEYS_PARAM S(kiln_value) v, float x)
 {
     uint last = v.first + v.count - 1u;
     uint k = v.first;
     while (k < last && value_keys[k + 1u].x <= x)
         k++;
+    return k;
+}
+
+#else /* GLSL for compilers that take very long over many loops */
+
+uint value_try(uint k, uint distance, uint last, float x)
+{
+    uint other = min(k + distance, last);
+    return value_keys[other].x <= x ? other : k;
+}
+
+uint value_find(kiln_value v, float x)
+{
+    uint last = v.first + v.count - 1u;
+    uint k = value_try(v.first, 512u, last, x); /* the distances reach KILN_MAX_VALUE_KEYS - 1 */
+    k = value_try(k, 256u, last, x);
+    k = value_try(k, 128u, last, x);
+    k = value_try(k, 64u, last, x);
+    k = value_try(k, 32u, last, x);
+    k = value_try(k, 16u, last, x);
+    k = value_try(k, 8u, last, x);
+    k = value_try(k, 4u, last, x);
+    k = value_try(k, 2u, last, x);
+    k = value_try(k, 1u, last, x);
+    return k;
+}
+
+#endif
+
+/* A key is (x, y, slope to the next key, integral from 0 to x); the host works out the last two,
+ * once. */
+FN float value_at_key(VALUE_KEYS_PARAM S(kiln_value) v, float x)
+{
+    uint last = v.first + v.count - 1u;
+    uint k = value_find(VALUE_KEYS v, x);
     EXACT float4 key = value_keys[k];
     if (x <= key.x || k == last)
         return key.y;
@@ -84,9 +120,7 @@ FN float value_sum_at(VALUE_KEYS_PARAM S(kiln_value) v, float x)
         return flat_sum;
     }
     uint last = v.first + v.count - 1u;
-    uint k = v.first;
-    while (k < last && value_keys[k + 1u].x <= x)
-        k++;
+    uint k = value_find(VALUE_KEYS v, x);
     EXACT float4 key = value_keys[k];
     EXACT float dx = x - key.x;
     EXACT float before = key.y * x;
@@ -113,9 +147,7 @@ FN float value_rate_at(VALUE_KEYS_PARAM S(kiln_value) v, float time_s)
     if (v.count == 0u || v.clock != KILN_CLOCK_TIME)
         return 0.0f;
     uint last = v.first + v.count - 1u;
-    uint k = v.first;
-    while (k < last && value_keys[k + 1u].x <= time_s)
-        k++;
+    uint k = value_find(VALUE_KEYS v, time_s);
     EXACT float4 key = value_keys[k];
     if (time_s < key.x || k == last)
         return 0.0f;

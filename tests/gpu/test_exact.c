@@ -28,11 +28,29 @@ static void geometry_agrees_with_c(void **state)
     vectors_agree_with_c(*state, KILN_PROBE_GEOMETRY);
 }
 
+static void fragments_agree_with_c(void **state)
+{
+    vectors_agree_with_c(*state, KILN_PROBE_FRAGMENT);
+}
+
+/* Texels come in whole rows. */
+static void any_number_of_vectors_is_probed(void **state)
+{
+    char reason[256];
+    struct kiln_error error = {0};
+    for (uint32_t count = 1; count < 200; count += 63)
+        for (int stage = KILN_PROBE_COMPUTE; stage <= KILN_PROBE_FRAGMENT; stage++)
+            if (!kiln_probe_vectors(*state, (enum kiln_probe_stage)stage, count, reason, &error))
+                fail_msg("%s%s", reason, error.message);
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
         test_on_device(compute_agrees_with_c),
         test_on_device(geometry_agrees_with_c),
+        test_on_device(fragments_agree_with_c),
+        test_on_device(any_number_of_vectors_is_probed),
     };
     return cmocka_run_group_tests_name("exact", tests, test_device_open, test_device_close);
 }

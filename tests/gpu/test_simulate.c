@@ -20,6 +20,7 @@ static const struct {
     {KILN_SIMULATE_INPLACE, "inplace"},
     {KILN_SIMULATE_PINGPONG, "pingpong"},
     {KILN_SIMULATE_FEEDBACK, "feedback"},
+    {KILN_SIMULATE_TEXELS, "texels"},
 };
 enum { ON_DEVICE_COUNT = sizeof ON_DEVICE / sizeof *ON_DEVICE };
 
@@ -167,9 +168,9 @@ static void a_run_can_change_its_technique(void **state)
 {
     struct simulation cpu, run;
     fixture_family(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT);
-    fixture_finish(&fixture, 160);
+    fixture_finish(&fixture, 200);
     simulation_start(&cpu, &fixture.scene, NULL, 1);
-    simulation_run(&cpu, 160);
+    simulation_run(&cpu, 200);
     simulation_start(&run, &fixture.scene, *state, 1);
     simulation_run(&run, 40);
     for (size_t i = 1; i < ON_DEVICE_COUNT; i++) {
@@ -177,7 +178,7 @@ static void a_run_can_change_its_technique(void **state)
         continue_with(&run, NULL, KILN_SIMULATE_CPU, 19);
         continue_with(&run, *state, ON_DEVICE[i].technique, 10);
     }
-    simulation_run(&run, 160 - run.step);
+    simulation_run(&run, 200 - run.step);
     assert_memory_equal(simulation_records(&cpu), simulation_records(&run),
                         cpu.pool.slot_count * sizeof(struct kiln_particle));
     simulation_end(&cpu);
@@ -223,6 +224,7 @@ static void two_buffers_count_twice(void **state)
     assert_int_equal(kiln_simulate_slot_bytes(KILN_SIMULATE_INPLACE), 32);
     assert_int_equal(kiln_simulate_slot_bytes(KILN_SIMULATE_PINGPONG), 64);
     assert_int_equal(kiln_simulate_slot_bytes(KILN_SIMULATE_FEEDBACK), 64);
+    assert_int_equal(kiln_simulate_slot_bytes(KILN_SIMULATE_TEXELS), 96);
 }
 
 static void an_exact_device_is_needed(void **state)

@@ -135,7 +135,8 @@ static void inexact_devices_do_not_simulate_or_sort(void **state)
 {
     (void)state;
     char text[256];
-    const char *const flags[] = {"simulate=inplace", "simulate=pingpong", "simulate=feedback"};
+    const char *const flags[] = {"simulate=inplace", "simulate=pingpong", "simulate=feedback",
+                                 "simulate=texels"};
     for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) {
         struct kiln_error error = {0};
         assert_false(choose(false, false, flags[i], text, &error));
@@ -168,7 +169,7 @@ static void combinations_start_with_the_pinned_one(void **state)
             assert_string_not_equal(seen[i], seen[count]);
         assert_true(count < 1023);
     }
-    assert_true(count >= 384);
+    assert_true(count >= 480);
     assert_string_equal(seen[0],
                         "simulate=cpu sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=cpu");
     assert_string_equal(seen[1],

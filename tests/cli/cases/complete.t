@@ -24,6 +24,7 @@ $ kiln complete -- render --technique sort=cpu,
 1|word	sort=cpu,simulate=inplace	compute, one buffer updated in place
 1|word	sort=cpu,simulate=pingpong	compute, from one buffer to another; twice the memory
 1|word	sort=cpu,simulate=feedback	geometry shaders and transform feedback; twice the memory
+1|word	sort=cpu,simulate=texels	fragment shaders, from textures to textures; three times the memory
 1|word	sort=cpu,sort=cpu	stable radix sort, host threads
 1|word	sort=cpu,sort=radix	stable radix sort, compute
 1|word	sort=cpu,sort=bitonic	bitonic merge sort, compute, padded to a power of two

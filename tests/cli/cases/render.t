@@ -62,18 +62,19 @@ $ for threads in 1 2 8; do
 > done | uniq | wc -l
 1|1
 $ cmp t1.png t2.png && cmp t1.png t8.png
-$ for technique in simulate=cpu simulate=inplace simulate=pingpong simulate=feedback; do
+$ for technique in simulate=cpu simulate=inplace simulate=pingpong simulate=feedback simulate=texels; do
 >     kiln render scenes/tiny.yaml --frames 20 -o none --technique $technique --stats | grep state
 > done | uniq | wc -l
 1|1
-Two buffers count twice.
-$ for technique in cpu inplace pingpong feedback; do
+Two buffers count twice, textures once more; sorting takes 16 bytes a slot.
+$ for technique in cpu inplace pingpong feedback texels; do
 >     kiln render scenes/tiny.yaml --frames 20 -o none --technique simulate=$technique --stats | grep slots
 > done
-1|  particles    52 alive, 82 slots, 2952 bytes (36.0 a slot)
-1|  particles    52 alive, 82 slots, 2952 bytes (36.0 a slot)
-1|  particles    52 alive, 82 slots, 5576 bytes (68.0 a slot)
-1|  particles    52 alive, 82 slots, 5576 bytes (68.0 a slot)
+1|  particles    52 alive, 82 slots, 3936 bytes (48.0 a slot)
+1|  particles    52 alive, 82 slots, 3936 bytes (48.0 a slot)
+1|  particles    52 alive, 82 slots, 6560 bytes (80.0 a slot)
+1|  particles    52 alive, 82 slots, 6560 bytes (80.0 a slot)
+1|  particles    52 alive, 82 slots, 9184 bytes (112.0 a slot)
 $ for sort in cpu radix bitonic; do
 >     kiln render scenes/tiny.yaml --frames 20 -o $sort.png --technique simulate=inplace,sort=$sort
 > done
@@ -86,7 +87,7 @@ $ for sort in cpu radix bitonic; do
 $ cmp cpu.png radix.png && cmp cpu.png bitonic.png
 $ kiln render scenes/tiny.yaml --frames 20 -o none --technique simulate=cup
 1|device: <device>
-2|kiln: technique: simulate 'cup' is not known (did you mean 'cpu'?); there is: cpu, inplace, pingpong, feedback, auto
+2|kiln: technique: simulate 'cup' is not known (did you mean 'cpu'?); there is: cpu, inplace, pingpong, feedback, texels, auto
 = 2
 $ kiln render scenes/tiny.yaml --frames 20 -o none --technique simulat=cpu
 1|device: <device>
@@ -111,7 +112,7 @@ $ kiln render scenes/tiny.yaml -o none --frames 0-3 --stats=text --progress none
 1|  set-up <ms>
 1|  total <ms>
 1|  steps        18
-1|  particles    36 alive, 82 slots, 2952 bytes (36.0 a slot)
+1|  particles    36 alive, 82 slots, 3936 bytes (48.0 a slot)
 1|  memory <MiB> at the peak
 1|  techniques   simulate=cpu sort=cpu backdrop=cpu raster=geometry bloom=cpu composite=cpu
 1|  chosen       simulate=cpu: as asked for
@@ -203,7 +204,7 @@ Nothing to see, and one frame.
 $ kiln render scenes/empty.yaml -o empty_%d.png --stats --progress none | grep -E 'empty|particles'
 1|empty_0.png and 1 more: 2 frames in <s> s
 1|  particles <ms>
-1|  particles    0 alive, 1 slots, 36 bytes (36.0 a slot)
+1|  particles    0 alive, 1 slots, 48 bytes (48.0 a slot)
 $ kiln render scenes/tiny.yaml -o one.png --set output.frames=1 --progress none
 1|device: <device>
 1|one.png: 1 frame in <s> s

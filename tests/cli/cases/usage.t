@@ -297,6 +297,7 @@ $ kiln help techniques
 1|  simulate=inplace   compute, one buffer updated in place
 1|  simulate=pingpong  compute, from one buffer to another; twice the memory
 1|  simulate=feedback  geometry shaders and transform feedback; twice the memory
+1|  simulate=texels    fragment shaders, from textures to textures; three times the memory
 1|  sort=cpu           stable radix sort, host threads
 1|  sort=radix         stable radix sort, compute
 1|  sort=bitonic       bitonic merge sort, compute, padded to a power of two

@@ -1,0 +1,64 @@
+/* Integer textures are neither filtered nor blended. */
+#include "gpu/words.h"
+
+#include "base/error.h"
+
+bool kiln_words_init(struct kiln_words *words, struct kiln_device *device, uint32_t count,
+                     uint32_t width, uint32_t height, const char *label, struct kiln_error *error)
+{
+    *words = (struct kiln_words){.count = count, .width = width, .height = height};
+    glGenVertexArrays(1, &words->vertex_array);
+    glGenTextures((GLsizei)count, words->textures);
+    glGenFramebuffers(1, &words->framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, words->framebuffer);
+    kiln_device_label(device, GL_FRAMEBUFFER, words->framebuffer, label);
+    GLenum targets[KILN_MAX_WORD_TEXTURES];
+    for (uint32_t i = 0; i < count; i++) {
+        targets[i] = GL_COLOR_ATTACHMENT0 + i;
+        glBindTexture(GL_TEXTURE_2D, words->textures[i]);
+        glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA32UI, (GLsizei)width, (GLsizei)height);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        glFramebufferTexture2D(GL_FRAMEBUFFER, targets[i], GL_TEXTURE_2D, words->textures[i], 0);
+        kiln_device_label(device, GL_TEXTURE, words->textures[i], label);
+    }
+    glBindTexture(GL_TEXTURE_2D, 0);
+    glDrawBuffers((GLsizei)count, targets);
+    if (!kiln_device_check(device, label, error))
+        return false;
+    GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+    if (status != GL_FRAMEBUFFER_COMPLETE)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: %s: incomplete (0x%04x)",
+                              device->info.name, label, status);
+    const GLuint zeros[4] = {0};
+    for (uint32_t i = 0; i < count; i++)
+        glClearBufferuiv(GL_COLOR, (GLint)i, zeros);
+    return kiln_device_check(device, label, error);
+}
+
+void kiln_words_finish(struct kiln_words *words)
+{
+    if (words->framebuffer) {
+        glDeleteFramebuffers(1, &words->framebuffer);
+        glDeleteTextures((GLsizei)words->count, words->textures);
+        glDeleteVertexArrays(1, &words->vertex_array);
+    }
+    *words = (struct kiln_words){.count = 0};
+}
+
+void kiln_words_bind_textures(const struct kiln_words *words, GLuint first)
+{
+    for (uint32_t i = 0; i < words->count; i++) {
+        glActiveTexture(GL_TEXTURE0 + first + i);
+        glBindTexture(GL_TEXTURE_2D, words->textures[i]);
+    }
+    glActiveTexture(GL_TEXTURE0);
+}
+
+void kiln_words_draw(const struct kiln_words *words, uint32_t first_row, uint32_t rows)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, words->framebuffer);
+    glViewport(0, (GLint)first_row, (GLsizei)words->width, (GLsizei)rows);
+    glBindVertexArray(words->vertex_array);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}

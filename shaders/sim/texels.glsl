@@ -1,0 +1,12 @@
+/* Where a slot of the pool lies in textures. */
+#ifndef KILN_SIM_TEXELS_GLSL
+#define KILN_SIM_TEXELS_GLSL
+
+#include "shared/limits.h"
+
+ivec2 texel_of(uint slot)
+{
+    return ivec2(slot % uint(SIM_TEXEL_ROW), slot / uint(SIM_TEXEL_ROW));
+}
+
+#endif
