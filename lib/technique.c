@@ -46,6 +46,7 @@ static const struct row ROWS[] = {
      "points turned into billboards by a geometry shader"},
     {RASTER, "instanced", KILN_RASTER_INSTANCED,
      "a quad for each particle, without a geometry shader"},
+    {RASTER, "tiled", KILN_RASTER_TILED, "compute: bins, and tiles drawn from front to back"},
     {BLOOM, "cpu", KILN_BLOOM_CPU, "host threads, rows"},
     {BLOOM, "gl", KILN_BLOOM_GL, "fragment shaders"},
     {COMPOSITE, "cpu", KILN_COMPOSITE_CPU, "host threads, rows"},

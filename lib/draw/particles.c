@@ -5,6 +5,7 @@
 #include "draw/draw_blocks.h"
 #include "draw/particles_cpu.h"
 #include "draw/particles_geometry.h"
+#include "draw/particles_tiled.h"
 
 #include <stdlib.h>
 
@@ -12,6 +13,7 @@ struct kiln_particles_stage {
     enum kiln_raster_technique technique;
     struct kiln_draw_blocks blocks; /* of techniques in GL */
     struct kiln_geometry *geometry; /* of every device */
+    struct kiln_tiled *tiled;       /* `tiled` */
     struct kiln_tiles *tiles;       /* `cpu` */
 };
 
@@ -29,9 +31,12 @@ kiln_particles_create(struct kiln_device *device, const struct kiln_scene *scene
     kiln_draw_blocks_init(&stage->blocks, device);
     if (device)
         stage->geometry = kiln_geometry_create(device, scene, atlas, technique, error);
+    if (technique == KILN_RASTER_TILED && stage->geometry)
+        stage->tiled = kiln_tiled_create(device, scene, stage->geometry, error);
     if (technique == KILN_RASTER_CPU)
         stage->tiles = kiln_tiles_create(scene, atlas, threads, error);
-    if ((device && !stage->geometry) || (technique == KILN_RASTER_CPU && !stage->tiles))
+    if ((device && !stage->geometry) || (technique == KILN_RASTER_TILED && !stage->tiled) ||
+        (technique == KILN_RASTER_CPU && !stage->tiles))
         kiln_particles_destroy(&stage);
     return stage;
 }
@@ -40,6 +45,7 @@ void kiln_particles_destroy(struct kiln_particles_stage **stage)
 {
     if (!*stage)
         return;
+    kiln_tiled_destroy(&(*stage)->tiled);
     kiln_draw_blocks_finish(&(*stage)->blocks);
     kiln_geometry_destroy(&(*stage)->geometry);
     kiln_tiles_destroy(&(*stage)->tiles);
@@ -52,6 +58,7 @@ bool kiln_particles_nearest_first(const struct kiln_particles_stage *stage)
     switch (stage->technique) {
     case KILN_RASTER_GEOMETRY:
     case KILN_RASTER_INSTANCED:
+    case KILN_RASTER_TILED: /* reads the list from its end */
     case KILN_RASTER_CPU:
         break;
     }
@@ -72,6 +79,11 @@ bool kiln_particles_run(struct kiln_particles_stage *stage, const struct kiln_pa
     case KILN_RASTER_INSTANCED:
         return kiln_draw_blocks_bind(&stage->blocks, draw->view, draw->backdrop, error) &&
                kiln_geometry_run(stage->geometry, draw, error);
+    case KILN_RASTER_TILED:
+        if (!kiln_draw_blocks_bind(&stage->blocks, draw->view, draw->backdrop, error))
+            return false;
+        return draw->by_fragment ? kiln_geometry_run(stage->geometry, draw, error)
+                                 : kiln_tiled_run(stage->tiled, draw, error);
     case KILN_RASTER_CPU:
         return kiln_tiles_run(stage->tiles, draw, error);
     }

@@ -10,7 +10,12 @@
 #include "gpu/framebuffer.h"
 #include "particles/pool.h"
 
-enum kiln_raster_technique { KILN_RASTER_GEOMETRY, KILN_RASTER_INSTANCED, KILN_RASTER_CPU };
+enum kiln_raster_technique {
+    KILN_RASTER_GEOMETRY,
+    KILN_RASTER_INSTANCED,
+    KILN_RASTER_TILED,
+    KILN_RASTER_CPU
+};
 
 struct kiln_particles_stage;
 

@@ -88,11 +88,16 @@ static bool needs_shapes(const struct kiln_scene *scene)
     return false;
 }
 
+void kiln_geometry_defines(const struct kiln_scene *scene, char *out, size_t size)
+{
+    snprintf(out, size, "#define SHAPES %d\n%s", needs_shapes(scene) ? 1 : 0,
+             kiln_sun_shade_exists(scene) ? "#define SUN_SHADE 1\n" : "");
+}
+
 static bool create_program(struct kiln_geometry *stage, struct kiln_error *error)
 {
     char defines[64];
-    snprintf(defines, sizeof defines, "#define SHAPES %d\n%s", needs_shapes(stage->scene) ? 1 : 0,
-             kiln_sun_shade_exists(stage->scene) ? "#define SUN_SHADE 1\n" : "");
+    kiln_geometry_defines(stage->scene, defines, sizeof defines);
     bool instanced = stage->technique == KILN_RASTER_INSTANCED;
     const struct kiln_program_params program = {
         .vertex = instanced ? "draw/particles_instanced.vert" : "draw/particles_geometry.vert",
@@ -128,7 +133,9 @@ struct kiln_geometry *kiln_geometry_create(struct kiln_device *device,
         kiln_geometry_destroy(&stage);
         return NULL;
     }
-    bool draws = technique == KILN_RASTER_GEOMETRY || technique == KILN_RASTER_INSTANCED;
+    /* `tiled` leaves lists of fragments to it. */
+    bool draws = technique == KILN_RASTER_GEOMETRY || technique == KILN_RASTER_INSTANCED ||
+                 (technique == KILN_RASTER_TILED && scene->post.compose == KILN_COMPOSE_OIT);
     if (draws && !create_program(stage, error)) {
         kiln_geometry_destroy(&stage);
         return NULL;
@@ -180,6 +187,18 @@ bool kiln_geometry_bind(struct kiln_geometry *stage, struct kiln_pool *pool,
     return true;
 }
 
+bool kiln_geometry_bind_draw(struct kiln_geometry *stage, const struct kiln_particles_draw *draw,
+                             struct kiln_error *error)
+{
+    GLuint depth = kiln_image_gl(draw->depth, KILN_READ, error);
+    if (!depth || !kiln_geometry_bind(stage, draw->pool, draw->entries, draw->view->clock.x, error))
+        return false;
+    bind_texture(1, GL_TEXTURE_2D_ARRAY, stage->atlas->texture);
+    bind_texture(2, GL_TEXTURE_2D, depth);
+    bind_texture(3, GL_TEXTURE_2D_ARRAY, stage->atlas->motion);
+    return true;
+}
+
 /* A draw call of a technique. */
 struct submission {
     const struct kiln_geometry *stage;
@@ -208,13 +227,8 @@ bool kiln_geometry_run(struct kiln_geometry *stage, const struct kiln_particles_
     if (draw->count == 0)
         return kiln_device_check(stage->device, "particles", error);
 
-    GLuint depth = kiln_image_gl(draw->depth, KILN_READ, error);
-    if (!depth || !kiln_geometry_bind(stage, draw->pool, draw->entries, draw->view->clock.x, error))
+    if (!kiln_geometry_bind_draw(stage, draw, error))
         return false;
-    bind_texture(1, GL_TEXTURE_2D_ARRAY, stage->atlas->texture);
-    bind_texture(2, GL_TEXTURE_2D, depth);
-    bind_texture(3, GL_TEXTURE_2D_ARRAY, stage->atlas->motion);
-
     struct submission submission = {stage, (GLsizei)draw->count};
     if (draw->by_fragment)
         return kiln_fragments_gl_run(stage->fragments, draw, submit, &submission, error);

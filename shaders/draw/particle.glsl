@@ -122,11 +122,11 @@ float widen(inout float half_width, inout float half_length, float least)
 
 /* The plane that a billboard turns in (Heinz 2019, 2.1.1). Where the direction that says what is up
  * points at the eye, the picture's right is the billboard's. */
-plane facing_plane(uint facing, vec3 axis)
+plane facing_plane(uint facing, vec3 axis, vec3 center)
 {
     bool to_eye = facing == LOOK_VIEWPOINT || facing == LOOK_AXIAL;
     bool in_picture = facing == LOOK_SCREEN || facing == LOOK_VELOCITY;
-    vec3 normal = to_eye ? -normalize(center.xyz) : vec3(0.0, 0.0, 1.0);
+    vec3 normal = to_eye ? -normalize(center) : vec3(0.0, 0.0, 1.0);
     vec3 upward = in_picture ? vec3(0.0, 1.0, 0.0) : world_to_view_vector(axis);
     vec3 sideways = cross(upward, normal);
     if (dot(sideways, sideways) < 1e-8)
@@ -183,7 +183,7 @@ void make_particle(uint entry)
 #if SHAPES
     vec3 world_up = vec3(0.0, 1.0, 0.0);
     vec3 axis = form.y == LOOK_AXIAL ? look_at(system, KILN_LOOK_AXIS, life).xyz : world_up;
-    facing = facing_plane(form.y, axis);
+    facing = facing_plane(form.y, axis, center.xyz);
 #endif
     vec3 moving = world_to_view_vector(particle_velocity(record));
     vec2 moving_in_plane = vec2(dot(moving, facing.right), dot(moving, facing.up));

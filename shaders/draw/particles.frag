@@ -21,10 +21,10 @@ layout(location = 1) out vec4 out_bloom;
 void main()
 {
 #if SHAPES
-    float depth = is_plain() ? 1.0 / view_depth : view_depth;
+    float depth = is_plain(quad) ? 1.0 / view_depth : view_depth;
 #else
     float depth = quad.depth.x;
 #endif
     float scene = texelFetch(scene_depth, ivec2(gl_FragCoord.xy), 0).r;
-    shade(uv, depth, scene, out_color, out_bloom);
+    shade(quad, uv, depth, scene, out_color, out_bloom);
 }

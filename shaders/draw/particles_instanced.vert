@@ -10,7 +10,7 @@
 
 #include "draw/billboard.glsl"
 
-vec4 center = vec4(0.0), right, up;
+vec4 center, right, up;
 billboard particle;
 
 #include "draw/corner.glsl"

@@ -33,13 +33,13 @@ void main()
 {
     float depth = quad.depth.x, bulge = quad.light_x.a;
 #if SHAPES
-    depth = is_plain() ? 1.0 / view_depth : view_depth;
-    if (is_plain())
+    depth = is_plain(quad) ? 1.0 / view_depth : view_depth;
+    if (is_plain(quad))
         bulge = 0.0;
 #endif
     float scene = texelFetch(scene_depth, ivec2(gl_FragCoord.xy), 0).r;
     vec4 color, bloom;
-    shade(uv, depth, scene, color, bloom);
+    shade(quad, uv, depth, scene, color, bloom);
     if (color == vec4(0.0))
         return;
     vec2 from_middle = uv * 2.0 - 1.0;

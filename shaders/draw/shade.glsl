@@ -1,7 +1,6 @@
 /* What a billboard shows at a place: two adjacent cells of the atlas mixed (Heinz 2019, 3.2.4,
  * equation 3.2), lit or shining, faded where it nears the scene (3.2.6, equation 3.3). The bloom
- * target gets the same, weighted (3.2.5). Colours leave premultiplied. Who includes this declares the
- * billboard `quad`.
+ * target gets the same, weighted (3.2.5). Colours leave premultiplied.
  */
 layout(binding = 1) uniform sampler2DArray atlas;
 layout(binding = 3) uniform sampler2DArray atlas_motion;
@@ -10,13 +9,13 @@ uniform float additive_alpha; /* 0: fire covers nothing (merged); 1: it does, or
 
 #if SHAPES
 
-bool is_plain()
+bool is_plain(billboard quad)
 {
     return uint(quad.depth.y) >= KILN_CELL_PLAIN;
 }
 
 /* The part of a pixel inside a disc or rectangle whose half edges are quad.cells.xy. */
-float coverage(vec2 uv)
+float coverage(billboard quad, vec2 uv)
 {
     if (uint(quad.depth.y) == KILN_CELL_DISC)
         return clamp(quad.cells.x + 0.5 - length(uv), 0.0, 1.0);
@@ -28,7 +27,7 @@ float coverage(vec2 uv)
 
 /* Equation 3.3, clamped to a fade; or as it is printed, with the particle's distance for its depth and
  * without a bound, so that far from the scene only the bound of alpha itself remains. */
-float soft_factor(float depth, float scene)
+float soft_factor(billboard quad, float depth, float scene)
 {
     float visible = step(depth, scene);
     float scale = quad.cool.a;
@@ -41,7 +40,7 @@ float soft_factor(float depth, float scene)
 
 /* Between two cells of the flipbook. What is here on its way from the one to the other is found in
  * both by following the motion back and forth, so that edges move instead of fading over. */
-vec4 cell_between(vec2 uv)
+vec4 cell_between(billboard quad, vec2 uv)
 {
     float part = quad.cells.z;
     vec2 way = textureLod(atlas_motion, vec3(uv, quad.cells.x), 0.0).xy * quad.bloom.a;
@@ -51,13 +50,13 @@ vec4 cell_between(vec2 uv)
 }
 
 /* At uv, where the billboard has a view depth and the scene another, m. */
-void shade(vec2 uv, float depth, float scene, out vec4 color, out vec4 bloom)
+void shade(billboard quad, vec2 uv, float depth, float scene, out vec4 color, out vec4 bloom)
 {
-    vec4 cell = cell_between(uv);
+    vec4 cell = cell_between(quad, uv);
     bool masks = uint(quad.depth.y) != KILN_CELL_COLOR;
 #if SHAPES
-    if (is_plain())
-        cell = vec4(0.5, 0.5, 1.0, coverage(uv));
+    if (is_plain(quad))
+        cell = vec4(0.5, 0.5, 1.0, coverage(quad, uv));
 #endif
     vec3 rgb;
     float alpha;
@@ -80,7 +79,7 @@ void shade(vec2 uv, float depth, float scene, out vec4 color, out vec4 bloom)
     else
         rgb = cell.rgb * (rgb + covering);
 
-    float fade = min(quad.color.a * soft_factor(depth, scene), 1.0 / max(alpha, 1e-6)); /* alpha up to 1 */
+    float fade = min(quad.color.a * soft_factor(quad, depth, scene), 1.0 / max(alpha, 1e-6)); /* alpha up to 1 */
     alpha *= fade;
     rgb *= fade;
     color = vec4(rgb, quad.hot.a > 0.0 ? additive_alpha * alpha : alpha);

@@ -314,6 +314,7 @@ int main(void)
     } techniques[] = {
         {KILN_RASTER_GEOMETRY, "geometry"},
         {KILN_RASTER_INSTANCED, "instanced"},
+        {KILN_RASTER_TILED, "tiled"},
         {KILN_RASTER_CPU, "cpu"},
     };
     int failed = 0;

@@ -15,7 +15,8 @@ static const char *const OIT = "post.compose=oit";
 static const char *const MERGED = "post.compose=merged";
 
 /* Two stacks of cards of one middle, seen from above: the red one stands upright, so that its upper
- * half is nearer than the green one, which is parallel to the picture, and its lower half farther. */
+ * half is nearer than the green one, which is parallel to the picture, and its lower half farther.
+ */
 static const char CARDS[] =
     "kiln: 1\n"
     "output: {size: [96, 64], fps: 60, frames: 60}\n"
@@ -154,24 +155,27 @@ static void techniques_agree(void **state)
 {
     static const char *const half = "post.particles={resolution: half, mixed: true}";
     struct kiln_techniques instanced = FRAME_GL;
+    struct kiln_techniques tiled = FRAME_GL;
     instanced.raster = KILN_RASTER_INSTANCED;
-    const struct frame_setting settings[] = {{{OIT}, 1, FRAME_CPU, 0},
-                                             {{OIT}, 1, FRAME_GL, 0},
-                                             {{OIT}, 1, instanced, 0},
-                                             {{OIT, half}, 2, FRAME_CPU, 0},
-                                             {{OIT, half}, 2, FRAME_GL, 0}};
-    struct kiln_picture *pictures[5];
-    for (int i = 0; i < 5; i++)
+    tiled.raster = KILN_RASTER_TILED;
+    const struct frame_setting settings[] = {
+        {{OIT}, 1, FRAME_CPU, 0},       {{OIT}, 1, FRAME_GL, 0},       {{OIT}, 1, instanced, 0},
+        {{OIT, half}, 2, FRAME_CPU, 0}, {{OIT, half}, 2, FRAME_GL, 0}, {{OIT}, 1, tiled, 0}};
+    struct kiln_picture *pictures[6];
+    for (int i = 0; i < 6; i++)
         pictures[i] = frame_draw(*state, CROWD, STEPS, &settings[i]);
     for (int layer = 0; layer < FRAME_LAYERS; layer++) {
-        const double off[4] = {frame_difference(pictures[0], pictures[1], layer),
+        const double off[5] = {frame_difference(pictures[0], pictures[1], layer),
                                frame_difference(pictures[1], pictures[2], layer),
                                frame_difference(pictures[3], pictures[4], layer),
-                               frame_difference(pictures[0], pictures[3], layer)};
-        print_message("%d: %.2g %.2g %.2g %.2g\n", layer, off[0], off[1], off[2], off[3]);
+                               frame_difference(pictures[0], pictures[3], layer),
+                               frame_difference(pictures[1], pictures[5], layer)};
+        print_message("%d: %.2g %.2g %.2g %.2g %.2g\n", layer, off[0], off[1], off[2], off[3],
+                      off[4]);
+        assert_true(off[4] < 1e-5);
         assert_true(off[0] < 5e-3 && off[1] < 1e-5 && off[2] < 5e-3 && off[3] < 0.1);
     }
-    for (int i = 0; i < 5; i++)
+    for (int i = 0; i < 6; i++)
         kiln_picture_destroy(&pictures[i]);
 }
 

@@ -509,6 +509,7 @@ int main(void)
     } techniques[] = {
         {KILN_RASTER_GEOMETRY, "geometry", "geometry, equation 3.3 as it is printed"},
         {KILN_RASTER_INSTANCED, "instanced", "instanced, equation 3.3 as it is printed"},
+        {KILN_RASTER_TILED, "tiled", "tiled, equation 3.3 as it is printed"},
         {KILN_RASTER_CPU, "cpu", "cpu, equation 3.3 as it is printed"},
     };
     int failed = 0;

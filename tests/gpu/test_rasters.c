@@ -15,7 +15,8 @@
 #include "support/device.h"
 
 /* What the others are compared with, and these. */
-static const char *const RASTERS[] = {"raster=geometry", "raster=instanced", "raster=cpu"};
+static const char *const RASTERS[] = {"raster=geometry", "raster=instanced", "raster=tiled",
+                                      "raster=cpu"};
 enum { RASTER_COUNT = sizeof RASTERS / sizeof *RASTERS };
 
 /* What a technique drew of the frame in the middle of the clip. */

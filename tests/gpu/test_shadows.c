@@ -88,7 +88,7 @@ static void draw(struct fixture *f, const vec *places, uint32_t count)
 {
     struct kiln_error error = {0};
     struct drawing *d = &f->drawing;
-    struct kiln_particle particles[DRAWING_MOST];
+    struct kiln_particle particles[32];
     for (uint32_t i = 0; i < count; i++) {
         const float3 at = {(float)places[i].x, (float)places[i].y, (float)places[i].z};
         particles[i] = drawing_particle(i, at, (float3){0.0f, 0.0f, 0.0f});

@@ -13,10 +13,11 @@
 #include "shared/derived.h"
 #include "support/backdrops.h"
 
-enum { DRAWING_MOST = 32, DRAWING_CELL = 128 };
+enum { DRAWING_CELL = 128 };
 
 /* What drawing_init takes for the particles. */
 static enum kiln_raster_technique drawing_technique = KILN_RASTER_GEOMETRY;
+static uint32_t drawing_most = 32; /* particles */
 
 struct drawing {
     struct kiln_device *device;
@@ -110,9 +111,8 @@ static inline void drawing_init(struct drawing *d, struct kiln_device *device, c
         kiln_particles_create(device, d->scene, &d->atlas, drawing_technique, d->threads, &error);
     if (!d->backdrop || !d->particles)
         fail_msg("%s", error.message);
-    static const uint32_t capacity = DRAWING_MOST;
-    kiln_pool_init(&d->pool, device, &capacity, 1);
-    kiln_buffer_init(&d->entries, device, DRAWING_MOST * sizeof(uint32_t), "entries");
+    kiln_pool_init(&d->pool, device, &drawing_most, 1);
+    kiln_buffer_init(&d->entries, device, drawing_most * sizeof(uint32_t), "entries");
 }
 
 static inline void drawing_finish(struct drawing *d)
@@ -149,10 +149,10 @@ static inline void drawing_place(struct drawing *d, const struct kiln_particle *
     struct kiln_error error = {0};
     struct kiln_particle *records = kiln_buffer_host(&d->pool.records, KILN_OVERWRITE, &error);
     uint32_t *entries = kiln_buffer_host(&d->entries, KILN_OVERWRITE, &error);
-    assert_true(records && entries && count <= DRAWING_MOST);
-    memset(records, 0, DRAWING_MOST * sizeof *records);
+    assert_true(records && entries && count <= drawing_most);
+    memset(records, 0, drawing_most * sizeof *records);
     memcpy(records, particles, count * sizeof *records);
-    for (uint32_t i = 0; i < DRAWING_MOST; i++)
+    for (uint32_t i = 0; i < drawing_most; i++)
         entries[i] = KILN_ENTRY(0, i);
     d->view = kiln_view_compute(d->scene, step);
     const struct kiln_lighting none = {0};

@@ -169,7 +169,7 @@ static void combinations_start_with_the_pinned_one(void **state)
             assert_string_not_equal(seen[i], seen[count]);
         assert_true(count < 1023);
     }
-    assert_true(count >= 480);
+    assert_true(count >= 640);
     assert_string_equal(seen[0],
                         "simulate=cpu sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=cpu");
     assert_string_equal(seen[1],
@@ -181,11 +181,13 @@ static void combinations_start_with_the_pinned_one(void **state)
     assert_string_equal(
         seen[8], "simulate=cpu sort=cpu backdrop=cpu raster=instanced bloom=cpu composite=cpu");
     assert_string_equal(seen[12],
+                        "simulate=cpu sort=cpu backdrop=cpu raster=tiled bloom=cpu composite=cpu");
+    assert_string_equal(seen[16],
                         "simulate=cpu sort=cpu backdrop=gl raster=cpu bloom=cpu composite=cpu");
-    assert_string_equal(seen[24],
+    assert_string_equal(seen[32],
                         "simulate=cpu sort=radix backdrop=cpu raster=cpu bloom=cpu composite=cpu");
     assert_string_equal(
-        seen[96], "simulate=inplace sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=cpu");
+        seen[128], "simulate=inplace sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=cpu");
 }
 
 int main(void)

@@ -29,9 +29,12 @@ $ kiln complete -- render --technique sort=cpu,
 1|word	sort=cpu,sort=radix	stable radix sort, compute
 1|word	sort=cpu,sort=bitonic	bitonic merge sort, compute, padded to a power of two
 1|word	sort=cpu,sort=oddeven	odd-even merge sort, compute; oddeven:N spreads it over N frames
+1|word	sort=cpu,backdrop=cpu	host threads, rays in vectors
+1|word	sort=cpu,backdrop=gl	fragment shaders
 1|word	sort=cpu,raster=cpu	host threads, tiles and vectors
 1|word	sort=cpu,raster=geometry	points turned into billboards by a geometry shader
 1|word	sort=cpu,raster=instanced	a quad for each particle, without a geometry shader
+1|word	sort=cpu,raster=tiled	compute: bins, and tiles drawn from front to back
 1|word	sort=cpu,bloom=cpu	host threads, rows
 1|word	sort=cpu,bloom=gl	fragment shaders
 1|word	sort=cpu,composite=cpu	host threads, rows

@@ -302,9 +302,12 @@ $ kiln help techniques
 1|  sort=radix         stable radix sort, compute
 1|  sort=bitonic       bitonic merge sort, compute, padded to a power of two
 1|  sort=oddeven       odd-even merge sort, compute; oddeven:N spreads it over N frames
+1|  backdrop=cpu       host threads, rays in vectors
+1|  backdrop=gl        fragment shaders
 1|  raster=cpu         host threads, tiles and vectors
 1|  raster=geometry    points turned into billboards by a geometry shader
 1|  raster=instanced   a quad for each particle, without a geometry shader
+1|  raster=tiled       compute: bins, and tiles drawn from front to back
 1|  bloom=cpu          host threads, rows
 1|  bloom=gl           fragment shaders
 1|  composite=cpu      host threads, rows
@@ -313,6 +316,7 @@ $ kiln help techniques
 1|'auto' on a software device:
 1|  simulate=cpu       threads run the step faster than GL on the same cores
 1|  sort=cpu           threads sort several times as fast as GL on the same cores
+1|  backdrop=cpu       several times as fast as GL on the same cores
 1|  raster=cpu         vectors on the host draw several times as fast as GL there
 1|  bloom=cpu          several times as fast as GL on the same cores
 1|  composite=cpu      faster than GL on the same cores
@@ -320,6 +324,7 @@ $ kiln help techniques
 1|'auto' on a GPU:
 1|  simulate=inplace   records stay where they are drawn; the least memory in GL
 1|  sort=cpu           the sorts in compute are not measured on a GPU yet
+1|  backdrop=gl        the hardware casts the rays
 1|  raster=geometry    the hardware blends
 1|  bloom=gl           the picture is there already
 1|  composite=gl       the picture is there already
@@ -327,6 +332,7 @@ $ kiln help techniques
 1|'auto' on a GPU that computes inexactly:
 1|  simulate=cpu       only exact arithmetic may move particles
 1|  sort=cpu           only exact arithmetic may order particles
+1|  backdrop=gl        the hardware casts the rays
 1|  raster=geometry    the hardware blends
 1|  bloom=gl           the picture is there already
 1|  composite=gl       the picture is there already

@@ -1,0 +1,33 @@
+/* How many sprites of a chunk each bin has. */
+#include "shared/tiled_layout.h"
+
+layout(local_size_x = TILED_GROUP_SIZE) in;
+
+layout(std430, binding = TILED_BIND_BIN_MASKS) readonly buffer bin_mask_block
+{
+    uint bin_masks[];
+};
+
+layout(std430, binding = TILED_BIND_COUNTS) writeonly buffer count_block
+{
+    uint counts[];
+};
+
+layout(location = 0) uniform uint words; /* of a bin's mask */
+
+shared uint total;
+
+void main()
+{
+    uint me = gl_LocalInvocationID.x, bin = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    if (me == 0u)
+        total = 0u;
+    barrier();
+    uint sum = 0u;
+    for (uint word = me; word < words; word += TILED_GROUP_SIZE)
+        sum += uint(bitCount(bin_masks[bin * words + word]));
+    atomicAdd(total, sum);
+    barrier();
+    if (me == 0u)
+        counts[bin] = total;
+}

@@ -1,0 +1,41 @@
+/* The sprites of each bin, in the order of the chunk. */
+#include "shared/tiled_layout.h"
+
+#define GROUP_SIZE TILED_GROUP_SIZE
+#include "shared/group_sum.glsl"
+
+layout(local_size_x = TILED_GROUP_SIZE) in;
+
+layout(std430, binding = TILED_BIND_BIN_MASKS) readonly buffer bin_mask_block
+{
+    uint bin_masks[];
+};
+
+layout(std430, binding = TILED_BIND_BINS) readonly buffer bin_block
+{
+    tiled_bin bins[];
+};
+
+layout(std430, binding = TILED_BIND_LISTS) writeonly buffer list_block
+{
+    uint lists[];
+};
+
+layout(location = 0) uniform uint words; /* of a bin's mask */
+
+void main()
+{
+    uint bin = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    uint end = bins[bin].first;
+    for (uint first = 0u; first < words; first += TILED_GROUP_SIZE) {
+        uint word = first + gl_LocalInvocationID.x;
+        uint bits = word < words ? bin_masks[bin * words + word] : 0u;
+        uint place = end + group_sum_before(uint(bitCount(bits)));
+        end += group_total();
+        while (bits != 0u) {
+            lists[place++] = word * 32u + uint(findLSB(bits));
+            bits &= bits - 1u;
+        }
+        barrier(); /* before the next sum */
+    }
+}

@@ -1,0 +1,27 @@
+/* The sum of all earlier invocations of a work group of GROUP_SIZE invocations in a row. */
+#ifndef KILN_SHARED_GROUP_SUM_GLSL
+#define KILN_SHARED_GROUP_SUM_GLSL
+
+shared uint group_sums[GROUP_SIZE];
+
+/* Doubling distances; every invocation must come here. group_total is right thereafter. */
+uint group_sum_before(uint value)
+{
+    uint me = gl_LocalInvocationID.x;
+    group_sums[me] = value;
+    barrier();
+    for (uint distance = 1u; distance < GROUP_SIZE; distance *= 2u) {
+        uint other = me >= distance ? group_sums[me - distance] : 0u;
+        barrier();
+        group_sums[me] += other;
+        barrier();
+    }
+    return group_sums[me] - value;
+}
+
+uint group_total()
+{
+    return group_sums[GROUP_SIZE - 1u];
+}
+
+#endif
