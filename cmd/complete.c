@@ -249,6 +249,34 @@ static void put_techniques(struct value *value)
     kiln_visit_techniques(put_technique, value);
 }
 
+/* The techniques of a stage follow each other. */
+static void put_stage(void *user, const char *name, const char *help)
+{
+    (void)help;
+    struct value *value = user;
+    char stage[32];
+    snprintf(stage, sizeof stage, "%.*s", (int)strcspn(name, "="), name);
+    if (strcmp(stage, value->offered) == 0)
+        return;
+    memcpy(value->offered, stage, sizeof stage);
+    offer(value, "word", stage, "");
+}
+
+static void put_stages(struct value *value)
+{
+    kiln_visit_techniques(put_stage, value);
+}
+
+static void put_suite(void *user, const struct kiln_bench_suite *suite)
+{
+    offer(user, "word", suite->name, suite->help);
+}
+
+static void put_suites(struct value *value)
+{
+    kiln_visit_benches(put_suite, value);
+}
+
 static void put_metric(void *user, const char *name, const char *help)
 {
     char text[KILN_METRIC_NAME_SIZE + 1];
@@ -305,6 +333,7 @@ static const struct {
     {"DEVICE", put_devices},       {"STAGE=NAME", put_techniques},
     {"METRIC=VALUE", put_metrics}, {"KEY=VALUE", put_set},
     {"KEY=VALUE,...", put_sweep},  {"KEY=VALUE;...", put_variant},
+    {"STAGE", put_stages},         {"SUITE", put_suites},
 };
 
 static void put_meaning(struct value *value, const char *placeholder, size_t length)

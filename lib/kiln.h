@@ -1,4 +1,4 @@
-/* kiln: a headless batch renderer for particle effects. The one public header.
+/* kiln: a headless batch renderer for particle effects. The one header that a program includes.
  *
  * A program loads a scene, opens a device and renders a job:
  *
@@ -743,5 +743,7 @@ bool kiln_write_shell_word(FILE *out, const char *word);
 #ifdef __cplusplus
 }
 #endif
+
+#include "kiln_bench.h"
 
 #endif

@@ -13,6 +13,10 @@ static const char *const STAGE_NAMES[STAGE_COUNT] = {
     [SIMULATE] = "simulate", [SORT] = "sort",   [BACKDROP] = "backdrop",
     [RASTER] = "raster",     [BLOOM] = "bloom", [COMPOSITE] = "composite"};
 
+static const enum kiln_pass STAGE_PASSES[STAGE_COUNT] = {
+    [SIMULATE] = KILN_PASS_simulate, [SORT] = KILN_PASS_sort,   [BACKDROP] = KILN_PASS_backdrop,
+    [RASTER] = KILN_PASS_particles,  [BLOOM] = KILN_PASS_bloom, [COMPOSITE] = KILN_PASS_composite};
+
 #define AUTO "auto"
 
 /* The one technique of sorting with a number behind it. */
@@ -251,6 +255,26 @@ bool kiln_techniques_combination(size_t index, struct kiln_technique_list *list)
         index /= count;
     }
     return index == 0;
+}
+
+const char *kiln_stage_name(size_t stage)
+{
+    return STAGE_NAMES[stage];
+}
+
+enum kiln_pass kiln_stage_pass(size_t stage)
+{
+    return STAGE_PASSES[stage];
+}
+
+size_t kiln_stage_techniques(size_t stage, const char *names[KILN_MAX_TECHNIQUES])
+{
+    size_t count = 0;
+    for (size_t i = 0; i < ROW_COUNT && count < KILN_MAX_TECHNIQUES; i++) {
+        if (ROWS[i].stage == (enum stage)stage)
+            names[count++] = ROWS[i].name;
+    }
+    return count;
 }
 
 void kiln_techniques_describe(const struct kiln_techniques *techniques, char *out, size_t size)

@@ -42,6 +42,13 @@ struct kiln_technique_list {
  * machine. Whether a device allows it is for kiln_techniques_choose to say. */
 bool kiln_techniques_combination(size_t index, struct kiln_technique_list *list);
 
+/* Stages below KILN_STAGE_COUNT, for who compares their techniques: "sort"; the pass that shows
+ * what a technique takes; and their techniques in the order of the table. */
+enum { KILN_MAX_TECHNIQUES = 16 };
+const char *kiln_stage_name(size_t stage);
+enum kiln_pass kiln_stage_pass(size_t stage);
+size_t kiln_stage_techniques(size_t stage, const char *names[KILN_MAX_TECHNIQUES]);
+
 /* Writes "simulate=cpu sort=cpu backdrop=gl raster=geometry bloom=gl composite=gl". */
 void kiln_techniques_describe(const struct kiln_techniques *techniques, char *out, size_t size);
 

@@ -8,6 +8,7 @@ struct kiln_embedded_file {
 };
 
 extern const struct kiln_embedded_file kiln_embedded_shaders[]; /* shaders/ */
+extern const struct kiln_embedded_file kiln_embedded_scenes[];  /* scenes/, what is measured */
 extern const struct kiln_embedded_file kiln_embedded_page[];    /* lib/report/page/ */
 
 /* The text of the file of that path, or NULL. */

@@ -68,6 +68,23 @@ static void every_choice_says_why(void **state)
     }
 }
 
+static void each_stage_has_a_pass_of_its_own(void **state)
+{
+    (void)state;
+    uint32_t passes = 0;
+    for (size_t stage = 0; stage < KILN_STAGE_COUNT; stage++) {
+        const char *names[KILN_MAX_TECHNIQUES];
+        size_t count = kiln_stage_techniques(stage, names);
+        assert_in_range(count, 2, KILN_MAX_TECHNIQUES - 1);
+        assert_string_equal(names[0], "cpu");
+        uint32_t pass = 1u << kiln_stage_pass(stage);
+        assert_true((passes & pass) == 0);
+        passes |= pass;
+    }
+    assert_string_equal(kiln_stage_name(0), "simulate");
+    assert_int_equal(kiln_stage_pass(0), KILN_PASS_simulate);
+}
+
 static void flags_force_a_technique(void **state)
 {
     (void)state;
@@ -196,6 +213,7 @@ int main(void)
         cmocka_unit_test(defaults_follow_the_device),
         cmocka_unit_test(auto_is_the_default),
         cmocka_unit_test(every_choice_says_why),
+        cmocka_unit_test(each_stage_has_a_pass_of_its_own),
         cmocka_unit_test(flags_force_a_technique),
         cmocka_unit_test(a_sort_can_be_spread_over_frames),
         cmocka_unit_test(inexact_devices_do_not_simulate_or_sort),

@@ -16,6 +16,7 @@ $ kiln help man | grep '^\.SH\|^\.SS'
 1|.SS kiln figure sheet [\fIOPTION...\fR] \fISCENE...\fR
 1|.SS kiln figure triptych [\fIOPTION...\fR] \fIREFERENCE TEST\fR
 1|.SS kiln figure strip [\fIOPTION...\fR] \fISCENE | CLIP\fR
+1|.SS kiln bench [\fIOPTION...\fR] \fI[SCENE | SUITE]...\fR
 1|.SS kiln check [\fIOPTION...\fR] \fISCENE...\fR
 1|.SS kiln devices [\fIOPTION...\fR]
 1|.SS kiln help [\fIOPTION...\fR] \fI[TOPIC]\fR
@@ -31,7 +32,7 @@ $ kiln help man | grep '^\.SH\|^\.SS'
 1|.SH EXAMPLES
 1|.SH SEE ALSO
 $ kiln help man | grep -c '^\.TP'
-1|178
+1|195
 $ kiln help man-scene | grep '^\.SH'
 1|.SH NAME
 1|.SH DESCRIPTION

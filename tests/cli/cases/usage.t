@@ -18,6 +18,7 @@ $ kiln
 2|  figure sheet     a sheet of pictures over sweeps of parameters
 2|  figure triptych  a reference, a result and their error map
 2|  figure strip     frames of a scene or a clip in a row
+2|  bench            measure techniques, scenes and suites
 2|  check            validate scenes and print them with every default
 2|  devices          list what can render on this machine, and what is missing
 2|  help             explain a command or a topic
@@ -57,6 +58,7 @@ $ kiln --help
 1|  figure sheet     a sheet of pictures over sweeps of parameters
 1|  figure triptych  a reference, a result and their error map
 1|  figure strip     frames of a scene or a clip in a row
+1|  bench            measure techniques, scenes and suites
 1|  check            validate scenes and print them with every default
 1|  devices          list what can render on this machine, and what is missing
 1|  help             explain a command or a topic

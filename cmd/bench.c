@@ -1,0 +1,267 @@
+/* kiln bench: how long techniques take here. */
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <unistd.h>
+
+#include "command.h"
+#include "overrides.h"
+#include "report.h"
+#include "signals.h"
+
+static const struct option options[] = {
+    {.name = "list", .kind = OPTION_FLAG, .help = "List the suites and how long each takes."},
+    {.name = "quick",
+     .kind = OPTION_FLAG,
+     .help = "Few and small comparisons, three turns each, to see that all of it runs. The numbers "
+             "say nothing."},
+    {.name = "output",
+     .letter = 'o',
+     .kind = OPTION_TEXT,
+     .placeholder = "FOLDER",
+     .help = "Also write bench.txt, .json, .csv and .md into a folder, and each curve as .dat, .gp "
+             "and, where gnuplot is installed, .svg. Older ones are replaced."},
+    {.name = "format",
+     .kind = OPTION_CHOICE,
+     .placeholder = "text|json|csv|markdown",
+     .help =
+         "What to print: a row a measurement, as text, JSON or CSV; or medians side by side, as "
+         "Markdown.",
+     .fallback = "text"},
+    {.name = "repetitions",
+     .letter = 'n',
+     .kind = OPTION_INTEGER,
+     .placeholder = "N",
+     .help = "Turns of a comparison: in each, every technique draws a frame.",
+     .fallback = "9",
+     .min = KILN_BENCH_MIN_REPETITIONS,
+     .max = KILN_BENCH_MAX_REPETITIONS},
+    {.name = "seconds",
+     .kind = OPTION_NUMBER,
+     .placeholder = "S",
+     .help = "A comparison that has taken so long ends before its last turn, but has three.",
+     .fallback = "4",
+     .max = 3600},
+    {.name = "stage",
+     .repeats = true,
+     .commas = true,
+     .kind = OPTION_TEXT,
+     .placeholder = "STAGE",
+     .help = "Of scenes: compare the techniques of this stage; more of them after commas.",
+     .fallback = "all"},
+    {.name = "frame",
+     .kind = OPTION_INTEGER,
+     .placeholder = "N",
+     .help = "Of scenes: the frame that warms up; those behind it are measured.",
+     .fallback = "the middle one",
+     .max = UINT32_MAX / 2},
+    {.name = "size",
+     .kind = OPTION_SIZE,
+     .placeholder = "WxH",
+     .help = "Of scenes: size of the picture in pixels, --set output.size=[W, H].",
+     .sets = "output.size"},
+    SET_OPTION,
+    ASSET_ROOT_OPTION,
+    {.name = "device",
+     .kind = OPTION_TEXT,
+     .placeholder = "DEVICE",
+     .help = "A number from 'kiln devices', a part of a device's name, or 'software'.",
+     .fallback = "the first GPU, or else the software device"},
+    {.name = "technique",
+     .repeats = true,
+     .commas = true,
+     .kind = OPTION_PAIRS,
+     .placeholder = "STAGE=NAME",
+     .help =
+         "How to run a stage where it is not compared; more of them after commas (see 'kiln help "
+         "techniques').",
+     .fallback = "what suits the device"},
+    {.name = "threads",
+     .kind = OPTION_INTEGER,
+     .placeholder = "N",
+     .help = "Threads that work beside the device; 0 takes one a core.",
+     .fallback = "0",
+     .max = 256},
+    {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Say nothing on the way."},
+    HELP_OPTION,
+};
+
+/* Lists that the parameters borrow. */
+struct lists {
+    struct overrides overrides;
+    struct value_list techniques, stages;
+    const char **suites, **scenes;
+};
+
+static void lists_free(struct lists *lists)
+{
+    overrides_free(&lists->overrides);
+    value_list_free(&lists->techniques);
+    value_list_free(&lists->stages);
+    free(lists->suites);
+    free(lists->scenes);
+}
+
+static bool lists_create(struct lists *lists, const struct arguments *arguments)
+{
+    *lists = (struct lists){0};
+    lists->suites = calloc(arguments->operand_count + 1, sizeof *lists->suites);
+    lists->scenes = calloc(arguments->operand_count + 1, sizeof *lists->scenes);
+    return lists->suites && lists->scenes && overrides_create(&lists->overrides, arguments) &&
+           value_list_create(&lists->techniques, arguments, "technique") &&
+           value_list_create(&lists->stages, arguments, "stage");
+}
+
+static bool is_scene(const char *operand)
+{
+    const char *dot = strrchr(operand, '.');
+    return dot && (strcasecmp(dot, ".yaml") == 0 || strcasecmp(dot, ".yml") == 0);
+}
+
+static void say(void *user, const char *line)
+{
+    const bool *quiet = user;
+    if (!*quiet)
+        fprintf(stderr, "%s\n", line);
+}
+
+static bool wants_stop(void *user)
+{
+    (void)user;
+    return signals_received() != 0;
+}
+
+static struct kiln_bench_params make_params(const struct arguments *arguments, struct lists *lists,
+                                            bool *quiet)
+{
+    struct kiln_bench_params params = KILN_BENCH_DEFAULTS;
+    for (size_t i = 0; i < arguments->operand_count; i++) {
+        const char *operand = arguments->operands[i];
+        if (is_scene(operand))
+            lists->scenes[params.scene_count++] = operand;
+        else
+            lists->suites[params.suite_count++] = operand;
+    }
+    params.suites = lists->suites;
+    params.scenes = lists->scenes;
+    params.scene = overrides_scene_params(&lists->overrides, arguments);
+    if (arguments_flag(arguments, "frame"))
+        params.frame = arguments_integer(arguments, "frame", 0);
+    params.stages = lists->stages.items;
+    params.stage_count = lists->stages.count;
+    params.device = arguments_text(arguments, "device", NULL);
+    params.techniques = lists->techniques.items;
+    params.technique_count = lists->techniques.count;
+    params.threads = arguments_integer(arguments, "threads", params.threads);
+    params.repetitions = arguments_integer(arguments, "repetitions", params.repetitions);
+    params.seconds = arguments_number(arguments, "seconds", params.seconds);
+    params.quick = arguments_flag(arguments, "quick");
+    const char *scratch = getenv("TMPDIR");
+    if (scratch && *scratch)
+        params.scratch = scratch;
+    *quiet = arguments_flag(arguments, "quiet");
+    params.progress = say;
+    params.stop = wants_stop;
+    params.user = quiet;
+    params.log = report_log();
+    return params;
+}
+
+/* What is for scenes alone, and of no use to suites. */
+static int check_options(const struct arguments *arguments, const struct kiln_bench_params *params)
+{
+    static const char *const names[] = {"stage", "frame", "size", "set", "asset-root"};
+    for (size_t i = 0; i < sizeof names / sizeof *names && params->scene_count == 0; i++) {
+        if (arguments_flag(arguments, names[i]))
+            return report(KILN_USAGE, "bench: --%s is for scenes, and none is given", names[i]);
+    }
+    return 0;
+}
+
+static int report_failure(const struct kiln_error *error)
+{
+    int number = signals_received();
+    if (error->code == KILN_INTERRUPTED && number) {
+        report(KILN_INTERRUPTED, "bench: stopped by SIG%s; nothing is written",
+               sigabbrev_np(number));
+        return 128 + number;
+    }
+    return error->code == KILN_USAGE ? report(KILN_USAGE, "bench: %s", error->message)
+                                     : report_error(error);
+}
+
+static int write_results(const struct kiln_bench *bench, const struct arguments *arguments)
+{
+    struct kiln_error error = {0};
+    enum kiln_bench_format format =
+        (enum kiln_bench_format)arguments_choice(arguments, "format", KILN_BENCH_TEXT);
+    if (!kiln_bench_write(bench, format, stdout, &error))
+        return KILN_IO; /* main says why */
+    const char *folder = arguments_text(arguments, "output", NULL);
+    char unplotted[KILN_MESSAGE_SIZE];
+    if (folder && !kiln_bench_save(bench, folder, unplotted, &error))
+        return report_error(&error);
+    if (folder && *unplotted)
+        report(KILN_OK, "bench: %s", unplotted);
+    return 0;
+}
+
+static void print_suite(void *user, const struct kiln_bench_suite *suite)
+{
+    double *minutes = user;
+    *minutes += suite->minutes;
+    printf("  %-10s %4.1f min  %s\n", suite->name, suite->minutes, suite->help);
+}
+
+static int list_suites(void)
+{
+    double minutes = 0;
+    kiln_visit_benches(print_suite, &minutes);
+    printf("  %-10s %4.1f min  on two cores without a GPU\n", "all", minutes);
+    return 0;
+}
+
+static int run(const struct arguments *arguments)
+{
+    if (arguments_flag(arguments, "list"))
+        return list_suites();
+    struct lists lists;
+    if (!lists_create(&lists, arguments)) {
+        lists_free(&lists);
+        return report_no_memory();
+    }
+    bool quiet;
+    const struct kiln_bench_params params = make_params(arguments, &lists, &quiet);
+    int code = check_options(arguments, &params);
+    if (code == 0) {
+        signals_install();
+        struct kiln_error error = {0};
+        struct kiln_bench *bench = kiln_bench_run(&params, &error);
+        code = bench ? write_results(bench, arguments) : report_failure(&error);
+        kiln_bench_destroy(&bench);
+    }
+    lists_free(&lists);
+    return code;
+}
+
+const struct command bench_command = {
+    .name = "bench",
+    .summary = "measure techniques, scenes and suites",
+    .operands = "[SCENE | SUITE]...",
+    .description =
+        "Measures how long frames and their stages take: of a scene (a file that ends in .yaml), "
+        "each technique of each stage; of a suite, what 'kiln bench --list' says. Without an "
+        "operand "
+        "all suites run. Techniques that are compared draw a frame each in turn, so that whatever "
+        "slows the machine down for a while slows all of them down; printed are medians, "
+        "quartiles, "
+        "and the ratios of neighbours.\n\n"
+        "Values that a paper published stand beside those that are measured. Tables go to standard "
+        "output, what is being measured to standard error. Nothing chosen by a time here changes a "
+        "picture.",
+    .options = options,
+    .option_count = sizeof options / sizeof *options,
+    .most_operands = SIZE_MAX,
+    .run = run,
+};

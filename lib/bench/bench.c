@@ -1,0 +1,153 @@
+/* The suites, and a run of some of them. */
+#include <string.h>
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "base/thread.h"
+#include "bench/suite.h"
+
+static const struct kiln_suite_row SUITES[] = {
+    {{"seed", "the first techniques against auto: whole frames with PNG, and stages", 2},
+     kiln_suite_seed},
+    {{"sizes", "frames of the four sizes of Heinz 2019, table 4.1, pass by pass", 0.5},
+     kiln_suite_sizes},
+    {{"figure4.4", "Heinz 2019, figure 4.4: techniques of simulation by particles", 1},
+     kiln_suite_figure_4_4},
+    {{"figure4.5", "Heinz 2019, figure 4.5: rendering fire and smoke, and the whole frame", 1.5},
+     kiln_suite_figure_4_5},
+    {{"figure4.6", "Heinz 2019, figure 4.6: techniques of sorting by particles", 1},
+     kiln_suite_figure_4_6},
+    {{"table1", "UberFlow, table 1: sorting 128^2 to 1024^2 particles", 1}, kiln_suite_table_1},
+    {{"table2", "UberFlow, table 2: experiments E1, E2, E3 and E5", 1.5}, kiln_suite_table_2},
+    {{"curves", "cost over 1,000 to 4,000,000 particles and 4 to 256 pixels", 1},
+     kiln_suite_curves},
+    {{"groups", "kernels by the size of their work groups (Heinz 2019, 2.2.5)", 0.5},
+     kiln_suite_groups},
+    {{"bytes", "memory and communication of techniques (Heinz 2019, 4.2)", 0.2}, kiln_suite_bytes},
+    {{"output", "end to end to PNG, EXR and mp4, against what the stages take", 1},
+     kiln_suite_output},
+};
+enum { SUITE_COUNT = sizeof SUITES / sizeof *SUITES };
+
+void kiln_visit_benches(void (*visit)(void *user, const struct kiln_bench_suite *suite), void *user)
+{
+    for (size_t i = 0; i < SUITE_COUNT; i++)
+        visit(user, &SUITES[i].info);
+}
+
+static const struct kiln_suite_row *find_suite(const char *name, struct kiln_error *error)
+{
+    const char *names[SUITE_COUNT];
+    for (size_t i = 0; i < SUITE_COUNT; i++) {
+        names[i] = SUITES[i].info.name;
+        if (strcmp(names[i], name) == 0)
+            return &SUITES[i];
+    }
+    const char *nearest = kiln_text_nearest(name, names, SUITE_COUNT);
+    kiln_error_set(error, KILN_USAGE, "'%s' is no scene file (*.yaml) and no suite%s%s%s", name,
+                   nearest ? " (did you mean '" : "", nearest ? nearest : "", nearest ? "'?)" : "");
+    return NULL;
+}
+
+static bool check_stage(const char *stage, struct kiln_error *error)
+{
+    const char *names[KILN_STAGE_COUNT];
+    for (size_t i = 0; i < KILN_STAGE_COUNT; i++) {
+        names[i] = kiln_stage_name(i);
+        if (strcmp(names[i], stage) == 0)
+            return true;
+    }
+    const char *nearest = kiln_text_nearest(stage, names, KILN_STAGE_COUNT);
+    return kiln_error_set(error, KILN_USAGE, "there is no stage '%s'%s%s%s", stage,
+                          nearest ? " (did you mean '" : "", nearest ? nearest : "",
+                          nearest ? "'?)" : "");
+}
+
+/* All that can be known before a device is opened. */
+static bool check(const struct kiln_bench_params *params, struct kiln_error *error)
+{
+    if (params->repetitions < KILN_BENCH_MIN_REPETITIONS ||
+        params->repetitions > KILN_BENCH_MAX_REPETITIONS)
+        return kiln_error_set(error, KILN_USAGE, "%u repetitions; there can be %d to %d",
+                              params->repetitions, KILN_BENCH_MIN_REPETITIONS,
+                              KILN_BENCH_MAX_REPETITIONS);
+    for (size_t i = 0; i < params->suite_count; i++) {
+        if (!find_suite(params->suites[i], error))
+            return false;
+    }
+    for (size_t i = 0; i < params->stage_count; i++) {
+        if (!check_stage(params->stages[i], error))
+            return false;
+    }
+    for (size_t i = 0; i < params->scene_count; i++) {
+        struct kiln_scene *scene = kiln_scene_load(params->scenes[i], &params->scene, error);
+        if (!scene)
+            return false;
+        kiln_scene_destroy(&scene);
+    }
+    return true;
+}
+
+static bool run_all(struct kiln_bench_run *run, struct kiln_error *error)
+{
+    const struct kiln_bench_params *params = run->params;
+    bool every = params->suite_count == 0 && params->scene_count == 0;
+    for (size_t i = 0; i < (every ? SUITE_COUNT : params->suite_count); i++) {
+        const struct kiln_suite_row *suite =
+            every ? &SUITES[i] : find_suite(params->suites[i], error);
+        if (!suite)
+            return false;
+        run->suite = suite->info.name;
+        if (!suite->run(run, error))
+            return false;
+    }
+    for (size_t i = 0; i < params->scene_count; i++) {
+        run->suite = params->scenes[i];
+        if (!kiln_bench_scene(run, params->scenes[i], error))
+            return false;
+    }
+    return true;
+}
+
+/* What is asked for must be possible; what a suite adds may turn out not to be. */
+static bool check_techniques(const struct kiln_bench_run *run, struct kiln_error *error)
+{
+    struct kiln_techniques unused;
+    return kiln_techniques_choose(kiln_device_info(run->device), run->params->techniques,
+                                  run->params->technique_count, &unused, error);
+}
+
+static uint32_t count_cores(void)
+{
+    struct kiln_threads *threads = kiln_threads_create(0);
+    uint32_t count = threads ? kiln_threads_count(threads) : 1;
+    kiln_threads_destroy(&threads);
+    return count;
+}
+
+struct kiln_bench *kiln_bench_run(const struct kiln_bench_params *params, struct kiln_error *error)
+{
+    if (!check(params, error))
+        return NULL;
+    struct kiln_device_params wanted = KILN_DEVICE_DEFAULTS;
+    wanted.wanted = params->device;
+    wanted.log = params->log;
+    struct kiln_bench_run run = {.params = params};
+    run.device = kiln_device_open(&wanted, error);
+    bool possible = run.device && check_techniques(&run, error);
+    run.bench = possible ? kiln_bench_create(error) : NULL;
+    bool ok = run.bench != NULL;
+    if (ok) {
+        double start_s = kiln_clock_seconds();
+        run.bench->device = *kiln_device_info(run.device);
+        run.bench->cores = count_cores();
+        run.bench->quick = params->quick;
+        run.bench->repetitions = params->quick ? KILN_BENCH_MIN_REPETITIONS : params->repetitions;
+        ok = run_all(&run, error);
+        run.bench->seconds = kiln_clock_seconds() - start_s;
+    }
+    kiln_device_close(&run.device);
+    if (!ok)
+        kiln_bench_destroy(&run.bench);
+    return run.bench;
+}

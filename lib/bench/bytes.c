@@ -1,0 +1,116 @@
+/* What techniques cost besides time (Heinz 2019, 4.2): memory, and bytes between host and device.
+ */
+#include <stdlib.h>
+
+#include "base/error.h"
+#include "bench/suite.h"
+
+/* Each simulates, sorts and draws in one way; the thesis compares the first three. */
+static const struct {
+    const char *techniques;
+    const char *published; /* its name in the thesis, or NULL */
+    double memory, upload; /* bytes a particle, from its MiB of 160,000 */
+} WAYS[] = {
+    {"simulate=cpu sort=cpu backdrop=gl raster=geometry composite=gl", "CPU (2019)", 43.9, 32},
+    {"simulate=feedback sort=bitonic backdrop=gl raster=geometry composite=gl",
+     "transform feedback (2019)", 94.4, 0},
+    {"simulate=pingpong sort=bitonic backdrop=gl raster=geometry composite=gl",
+     "compute, two buffers (2019)", 94.4, 0},
+    {"simulate=inplace sort=bitonic backdrop=gl raster=geometry composite=gl",
+     "compute, one buffer (2019)", 50.5, 0},
+    {"simulate=inplace sort=radix backdrop=gl raster=geometry composite=gl", NULL, 0, 0},
+    {"simulate=inplace sort=cpu backdrop=gl raster=geometry composite=gl", NULL, 0, 0},
+    {"simulate=cpu sort=cpu raster=cpu", NULL, 0, 0},
+};
+enum { WAY_COUNT = sizeof WAYS / sizeof *WAYS };
+
+static bool add_value(const struct kiln_bench_run *run, double particles, const char *measure,
+                      const char *technique, double value, struct kiln_error *error)
+{
+    const struct kiln_bench_row row = {.x = particles,
+                                       .measure = measure,
+                                       .technique = technique,
+                                       .spread = kiln_spread_of(&value, 1)};
+    return kiln_bench_add_row(run->bench, &row, error);
+}
+
+/* Of the lane's techniques: records, pairs and entries. */
+static bool add_memory(const struct kiln_bench_run *run, size_t way, double particles,
+                       const struct kiln_lane *lane, struct kiln_error *error)
+{
+    struct kiln_lane_flags flags;
+    const struct kiln_render_params params = kiln_lane_params(run, lane, &flags, NULL);
+    struct kiln_techniques techniques;
+    if (!kiln_techniques_choose(kiln_device_info(run->device), params.techniques,
+                                params.technique_count, &techniques, error))
+        return false;
+    double records = (double)kiln_simulate_slot_bytes(techniques.simulate);
+    double sorting = (double)kiln_sort_particle_bytes(techniques.sort) + sizeof(uint32_t);
+    return add_value(run, particles, "memory, records", WAYS[way].techniques, records, error) &&
+           add_value(run, particles, "memory, sorting", WAYS[way].techniques, sorting, error);
+}
+
+static bool add_published(const struct kiln_bench_run *run, size_t way, struct kiln_error *error)
+{
+    static const char source[] = "Heinz 2019, 4.2";
+    return !WAYS[way].published ||
+           (kiln_bench_publish(run, 160000, "memory, all", WAYS[way].published, WAYS[way].memory,
+                               source, error) &&
+            kiln_bench_publish(run, 160000, "to the device", WAYS[way].published, WAYS[way].upload,
+                               source, error));
+}
+
+static bool add_ways(const struct kiln_bench_run *run, const struct kiln_lane *lanes,
+                     const struct kiln_samples *samples, double particles, struct kiln_error *error)
+{
+    for (size_t i = 0; i < WAY_COUNT; i++) {
+        const struct kiln_samples *s = &samples[i];
+        if (s->problem) {
+            if (!kiln_bench_add_note(run->bench, error, "Not measured: %s: %s.", lanes[i].name,
+                                     s->problem))
+                return false;
+            continue;
+        }
+        double alive = s->alive ? (double)s->alive : 1.0;
+        if (!add_memory(run, i, particles, &lanes[i], error) ||
+            !add_value(run, particles, "to the device", lanes[i].name, s->to_device / alive,
+                       error) ||
+            !add_value(run, particles, "to the host", lanes[i].name, s->to_host / alive, error) ||
+            !add_published(run, i, error))
+            return false;
+    }
+    return true;
+}
+
+bool kiln_suite_bytes(const struct kiln_bench_run *run, struct kiln_error *error)
+{
+    const struct kiln_bench_part part = {
+        .name = "bytes",
+        .title = "Bytes of a particle: memory, and in a frame of one step between host and device",
+        .sweep = "particles",
+        .unit = "bytes",
+    };
+    if (!kiln_bench_begin(run, &part, error))
+        return false;
+    struct kiln_lane lanes[WAY_COUNT];
+    for (size_t i = 0; i < WAY_COUNT; i++)
+        lanes[i] = (struct kiln_lane){.name = WAYS[i].techniques, .techniques = WAYS[i].techniques};
+    double particles = run->params->quick ? 1600 : 160000;
+    struct kiln_settings settings = {.count = 0};
+    kiln_set_number(run, &settings, "systems.*.emit.rate", particles / 2);
+    kiln_set_unseen(run, &settings);
+    kiln_bench_say(run, "%.0f particles", particles);
+    struct kiln_scene *scene = kiln_bench_load_scene(run, "bench/cloud.yaml", &settings, error);
+    struct kiln_samples *samples = calloc(WAY_COUNT, sizeof *samples);
+    if (scene && !samples)
+        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
+    bool ok = scene && samples &&
+              kiln_contest_run(run, scene, 0, lanes, WAY_COUNT, samples, error) &&
+              add_ways(run, lanes, samples, particles, error);
+    free(samples);
+    kiln_scene_destroy(&scene);
+    return ok && kiln_bench_add_note(
+                     run->bench, error,
+                     "The picture is 64x36; its own bytes are among those that move. On a software "
+                     "device the bytes stay in the same memory, and are copied all the same.");
+}

@@ -1,0 +1,172 @@
+/* Curves: the data, a script for gnuplot, and gnuplot itself, which may not be there. */
+#include <errno.h>
+#include <spawn.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/text.h"
+#include "bench/result.h"
+
+static void put_point(const struct kiln_bench_row *row, FILE *out)
+{
+    const double values[] = {row->x, row->spread.median, row->spread.first_quartile,
+                             row->spread.third_quartile};
+    for (size_t i = 0; i < 4; i++) {
+        char number[32];
+        kiln_text_from_double(number, values[i]);
+        fprintf(out, "%s%s", i ? " " : "", number);
+    }
+    fputc('\n', out);
+}
+
+/* A block a curve, as gnuplot's `index` counts them. Logarithms take nothing but positive values.
+ */
+void kiln_bench_write_curves(const struct kiln_bench_part *part, FILE *out)
+{
+    fprintf(out, "# %s: %s, median, first and third quartile (%s)\n", part->name, part->sweep,
+            part->unit);
+    for (size_t curve = 0; curve < part->row_count; curve++) {
+        if (kiln_bench_curve_of(part, curve) != curve)
+            continue;
+        char name[160];
+        kiln_bench_curve_name(part, curve, name);
+        fprintf(out, "%s# %s\n", curve ? "\n\n" : "", name);
+        for (size_t i = curve; i < part->row_count; i++) {
+            const struct kiln_bench_row *row = &part->rows[i];
+            if (kiln_bench_curve_of(part, i) == curve && row->x > 0.0 &&
+                row->spread.first_quartile > 0.0)
+                put_point(row, out);
+        }
+    }
+}
+
+/* A text of gnuplot. */
+static void put_quoted(const char *text, FILE *out)
+{
+    fputc('\'', out);
+    for (; *text; text++) {
+        if (*text == '\'')
+            fputc('\'', out);
+        fputc(*text, out);
+    }
+    fputc('\'', out);
+}
+
+/* With room at both ends, which logarithms need where there is a single point. */
+static void put_range(const struct kiln_bench_part *part, FILE *out)
+{
+    double least = part->rows[0].x, most = least;
+    for (size_t i = 1; i < part->row_count; i++) {
+        least = part->rows[i].x < least ? part->rows[i].x : least;
+        most = part->rows[i].x > most ? part->rows[i].x : most;
+    }
+    char from[32], to[32];
+    kiln_text_from_double(from, least / 1.3);
+    kiln_text_from_double(to, most * 1.3);
+    fprintf(out, "set xrange [%s:%s]\n", from, to);
+}
+
+void kiln_bench_write_script(const struct kiln_bench_part *part, FILE *out)
+{
+    fprintf(out, "# gnuplot %s.gp >%s.svg\n", part->name, part->name);
+    fputs("set terminal svg size 900,520 noenhanced font 'sans,13' background '#ffffff'\n"
+          "set title ",
+          out);
+    put_quoted(part->title, out);
+    fputs("\nset logscale xy\nset grid\nset key outside right top\nset xlabel ", out);
+    put_quoted(part->sweep, out);
+    fputs("\nset ylabel ", out);
+    put_quoted(part->unit, out);
+    fputc('\n', out);
+    put_range(part, out);
+    fputs("plot", out);
+    size_t index = 0;
+    for (size_t i = 0; i < part->row_count; i++) {
+        if (kiln_bench_curve_of(part, i) != i)
+            continue;
+        char name[160];
+        kiln_bench_curve_name(part, i, name);
+        fprintf(out, "%s \\\n    '%s.dat' index %zu using 1:2:3:4 with yerrorlines title ",
+                index ? "," : "", part->name, index);
+        put_quoted(name, out);
+        index++;
+    }
+    fputc('\n', out);
+}
+
+/* ---- gnuplot --------------------------------------------------------------------------------- */
+
+extern char **environ;
+
+/* Starts it in the folder; what it prints goes into the pipe. 0 or an errno value. */
+static int start(const char *folder, const char *script, const int pipe_ends[2], pid_t *process)
+{
+    char name[] = "gnuplot", copy[KILN_PATH_SIZE];
+    snprintf(copy, sizeof copy, "%s", script);
+    char *arguments[] = {name, copy, NULL};
+    posix_spawn_file_actions_t actions;
+    int failure = posix_spawn_file_actions_init(&actions);
+    if (failure)
+        return failure;
+    posix_spawn_file_actions_addchdir_np(&actions, folder);
+    posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], STDOUT_FILENO);
+    posix_spawn_file_actions_addclose(&actions, pipe_ends[0]);
+    posix_spawn_file_actions_addclose(&actions, pipe_ends[1]);
+    failure = posix_spawnp(process, name, &actions, NULL, arguments, environ);
+    posix_spawn_file_actions_destroy(&actions);
+    return failure;
+}
+
+/* All that comes, or NULL. */
+static char *read_all(int file, size_t *size)
+{
+    size_t room = 1 << 16;
+    char *bytes = malloc(room);
+    *size = 0;
+    while (bytes) {
+        ssize_t got = read(file, bytes + *size, room - *size);
+        if (got == 0)
+            return bytes;
+        if (got < 0 && errno != EINTR)
+            break;
+        *size += got > 0 ? (size_t)got : 0;
+        if (*size < room)
+            continue;
+        char *more = realloc(bytes, room *= 2);
+        if (!more)
+            break;
+        bytes = more;
+    }
+    free(bytes);
+    return NULL;
+}
+
+char *kiln_bench_plot(const char *folder, const char *script, size_t *size,
+                      char problem[KILN_MESSAGE_SIZE])
+{
+    int ends[2];
+    if (pipe(ends) != 0) {
+        snprintf(problem, KILN_MESSAGE_SIZE, "no pipe for gnuplot");
+        return NULL;
+    }
+    pid_t process = 0;
+    int failure = start(folder, script, ends, &process);
+    close(ends[1]);
+    char *picture = failure ? NULL : read_all(ends[0], size);
+    close(ends[0]);
+    int status = 0;
+    while (!failure && waitpid(process, &status, 0) < 0 && errno == EINTR)
+        ;
+    if (failure)
+        snprintf(problem, KILN_MESSAGE_SIZE,
+                 "gnuplot is not there, so no *.svg is drawn: install gnuplot-nox, or take *.dat "
+                 "and *.gp elsewhere");
+    else if (!picture || status != 0 || *size == 0)
+        snprintf(problem, KILN_MESSAGE_SIZE, "gnuplot failed on %s/%s", folder, script);
+    else
+        return picture;
+    free(picture);
+    return NULL;
+}

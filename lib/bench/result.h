@@ -1,0 +1,80 @@
+/* What was measured: parts, which are tables and often curves, of rows. Texts lie in the arena. */
+#ifndef KILN_BENCH_RESULT_H
+#define KILN_BENCH_RESULT_H
+
+#include "base/arena.h"
+#include "bench/statistics.h"
+#include "kiln.h"
+
+struct kiln_bench_row {
+    double x;              /* what the part sweeps */
+    const char *measure;   /* "sort", "frame" */
+    const char *technique; /* "sort=bitonic", or what else sets the row apart */
+    struct kiln_spread spread;
+    struct kiln_spread faster; /* how many times as fast as the reference; count 0: not compared */
+    const char *source;        /* where it was published, instead of measured; or NULL */
+};
+
+struct kiln_bench_part {
+    const char *name;  /* "figure4.4": of the table and of its files */
+    const char *suite; /* or the scene */
+    const char *title;
+    const char *sweep;     /* what x is: "particles" */
+    const char *unit;      /* "ms" */
+    const char *reference; /* what `faster` compares with, or NULL */
+    bool plotted;
+    struct kiln_bench_row *rows;
+    size_t row_count, row_room;
+    const char **notes; /* lines that go with the table */
+    size_t note_count;
+};
+
+struct kiln_bench {
+    struct kiln_arena *arena;
+    struct kiln_device_info device;
+    char processor[128];
+    uint32_t cores;
+    uint32_t repetitions;
+    bool quick;
+    double seconds; /* that all of it took */
+    struct kiln_bench_part *parts;
+    size_t part_count;
+};
+
+struct kiln_bench *kiln_bench_create(struct kiln_error *error);
+
+/* Starts a part, a copy of what is given; rows and notes are none. NULL when memory is short. */
+struct kiln_bench_part *kiln_bench_add_part(struct kiln_bench *bench,
+                                            const struct kiln_bench_part *part,
+                                            struct kiln_error *error);
+
+/* Adds to the last part. */
+bool kiln_bench_add_row(struct kiln_bench *bench, const struct kiln_bench_row *row,
+                        struct kiln_error *error);
+bool kiln_bench_add_note(struct kiln_bench *bench, struct kiln_error *error, const char *format,
+                         ...) __attribute__((format(printf, 3, 4)));
+
+/* A number as tables print it: four digits that count, and no exponent. */
+void kiln_bench_number(char text[32], double value);
+
+/* The formats of kiln_bench_write, and the data and the script of a part's curves. */
+void kiln_bench_write_text(const struct kiln_bench *bench, FILE *out);
+void kiln_bench_write_json(const struct kiln_bench *bench, FILE *out);
+void kiln_bench_write_csv(const struct kiln_bench *bench, FILE *out);
+void kiln_bench_write_markdown(const struct kiln_bench *bench, FILE *out);
+void kiln_bench_write_curves(const struct kiln_bench_part *part, FILE *out);
+void kiln_bench_write_script(const struct kiln_bench_part *part, FILE *out);
+
+/* A curve is the rows of one measure and technique. Which one a row belongs to, by the number of
+ * its first row. */
+size_t kiln_bench_curve_of(const struct kiln_bench_part *part, size_t row);
+
+/* "sort, sort=cpu", without what all rows of the part have in common. */
+void kiln_bench_curve_name(const struct kiln_bench_part *part, size_t row, char name[160]);
+
+/* Draws the curves of a script in a folder by gnuplot. The picture, which the caller frees, or NULL
+ * with why not. */
+char *kiln_bench_plot(const char *folder, const char *script, size_t *size,
+                      char problem[KILN_MESSAGE_SIZE]);
+
+#endif

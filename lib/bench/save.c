@@ -1,0 +1,111 @@
+/* Files of a benchmark: made in memory, and put in place when they are whole. */
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "bench/result.h"
+#include "output/temporary.h"
+
+bool kiln_bench_write(const struct kiln_bench *bench, enum kiln_bench_format format, FILE *out,
+                      struct kiln_error *error)
+{
+    static void (*const writers[])(const struct kiln_bench *bench, FILE *out) = {
+        [KILN_BENCH_TEXT] = kiln_bench_write_text,
+        [KILN_BENCH_JSON] = kiln_bench_write_json,
+        [KILN_BENCH_CSV] = kiln_bench_write_csv,
+        [KILN_BENCH_MARKDOWN] = kiln_bench_write_markdown,
+    };
+    writers[format](bench, out);
+    return (fflush(out) == 0 && !ferror(out)) ||
+           kiln_error_set(error, KILN_IO, "the measurements cannot be written");
+}
+
+struct saving {
+    const struct kiln_bench *bench;
+    const char *folder;
+    struct kiln_error *error;
+};
+
+static bool put_file(const struct saving *saving, const char *name, const void *bytes, size_t size)
+{
+    char path[KILN_PATH_SIZE];
+    return kiln_path_join(path, saving->folder, name, saving->error) &&
+           kiln_temporary_write_file(path, bytes, size, saving->error);
+}
+
+/* Ends a stream into memory and writes what came into a file. */
+static bool put_stream(const struct saving *saving, const char *name, FILE *stream, char **bytes,
+                       const size_t *size)
+{
+    bool whole = stream && !ferror(stream);
+    whole = (!stream || fclose(stream) == 0) && whole;
+    if (!whole)
+        kiln_error_set(saving->error, KILN_DEVICE_FAILED, "out of memory for %s", name);
+    bool ok = whole && put_file(saving, name, *bytes, *size);
+    free(*bytes);
+    return ok;
+}
+
+static bool put_format(const struct saving *saving, enum kiln_bench_format format, const char *name)
+{
+    char *bytes = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&bytes, &size);
+    bool written = stream && kiln_bench_write(saving->bench, format, stream, saving->error);
+    return put_stream(saving, name, stream, &bytes, &size) && written;
+}
+
+static bool put_part(const struct saving *saving, const struct kiln_bench_part *part,
+                     const char *suffix, void (*write)(const struct kiln_bench_part *, FILE *))
+{
+    char *bytes = NULL, name[128];
+    size_t size = 0;
+    FILE *stream = open_memstream(&bytes, &size);
+    if (stream)
+        write(part, stream);
+    snprintf(name, sizeof name, "%s%s", part->name, suffix);
+    return put_stream(saving, name, stream, &bytes, &size);
+}
+
+/* An older picture would show other data. */
+static bool put_picture(const struct saving *saving, const struct kiln_bench_part *part,
+                        char problem[KILN_MESSAGE_SIZE])
+{
+    char script[128], name[128], path[KILN_PATH_SIZE];
+    snprintf(script, sizeof script, "%s.gp", part->name);
+    snprintf(name, sizeof name, "%s.svg", part->name);
+    size_t size = 0;
+    char *picture = *problem ? NULL : kiln_bench_plot(saving->folder, script, &size, problem);
+    if (!picture) {
+        if (!kiln_path_join(path, saving->folder, name, saving->error))
+            return false;
+        unlink(path);
+        return true;
+    }
+    bool ok = put_file(saving, name, picture, size);
+    free(picture);
+    return ok;
+}
+
+bool kiln_bench_save(const struct kiln_bench *bench, const char *folder,
+                     char unplotted[KILN_MESSAGE_SIZE], struct kiln_error *error)
+{
+    const struct saving saving = {bench, folder, error};
+    *unplotted = '\0';
+    if (!put_format(&saving, KILN_BENCH_TEXT, "bench.txt") ||
+        !put_format(&saving, KILN_BENCH_JSON, "bench.json") ||
+        !put_format(&saving, KILN_BENCH_CSV, "bench.csv") ||
+        !put_format(&saving, KILN_BENCH_MARKDOWN, "bench.md"))
+        return false;
+    for (size_t i = 0; i < bench->part_count; i++) {
+        const struct kiln_bench_part *part = &bench->parts[i];
+        if (part->plotted && part->row_count > 0 &&
+            !(put_part(&saving, part, ".dat", kiln_bench_write_curves) &&
+              put_part(&saving, part, ".gp", kiln_bench_write_script) &&
+              put_picture(&saving, part, unplotted)))
+            return false;
+    }
+    return true;
+}

@@ -1,0 +1,99 @@
+/* What suites are made of: a comparison is a scene with settings and the ways to render it; what
+ * comes out are rows of the part at hand. */
+#ifndef KILN_BENCH_SUITE_H
+#define KILN_BENCH_SUITE_H
+
+#include "bench/contest.h"
+
+/* A suite: a row of the table in suite.c. */
+struct kiln_suite_row {
+    struct kiln_bench_suite info;
+    bool (*run)(const struct kiln_bench_run *run, struct kiln_error *error);
+};
+
+bool kiln_suite_figure_4_4(const struct kiln_bench_run *run, struct kiln_error *error);
+bool kiln_suite_figure_4_5(const struct kiln_bench_run *run, struct kiln_error *error);
+bool kiln_suite_figure_4_6(const struct kiln_bench_run *run, struct kiln_error *error);
+bool kiln_suite_sizes(const struct kiln_bench_run *run, struct kiln_error *error);
+bool kiln_suite_table_1(const struct kiln_bench_run *run, struct kiln_error *error);
+bool kiln_suite_table_2(const struct kiln_bench_run *run, struct kiln_error *error);
+bool kiln_suite_seed(const struct kiln_bench_run *run, struct kiln_error *error);
+bool kiln_suite_curves(const struct kiln_bench_run *run, struct kiln_error *error);
+bool kiln_suite_groups(const struct kiln_bench_run *run, struct kiln_error *error);
+bool kiln_suite_bytes(const struct kiln_bench_run *run, struct kiln_error *error);
+bool kiln_suite_output(const struct kiln_bench_run *run, struct kiln_error *error);
+
+/* A scene of the caller, a technique at a time. */
+bool kiln_bench_scene(const struct kiln_bench_run *run, const char *path, struct kiln_error *error);
+
+/* Overrides of a scene. */
+enum { KILN_MAX_SETTINGS = 32 };
+struct kiln_settings {
+    const char *items[KILN_MAX_SETTINGS];
+    size_t count;
+};
+
+/* Add "key=value"; the text lives as long as the run. What finds no room, or no memory, is missing
+ * for kiln_bench_load_scene to see. */
+void kiln_set(const struct kiln_bench_run *run, struct kiln_settings *settings, const char *text);
+void kiln_set_number(const struct kiln_bench_run *run, struct kiln_settings *settings,
+                     const char *key, double value);
+
+/* The size of the picture, smaller in a quick run. */
+void kiln_set_picture(const struct kiln_bench_run *run, struct kiln_settings *settings,
+                      uint32_t width, uint32_t height);
+
+/* So small a picture, without lights, that a frame is little more than simulation and sort. */
+void kiln_set_unseen(const struct kiln_bench_run *run, struct kiln_settings *settings);
+
+/* One of the scenes in the library, "fire_beam.yaml". */
+struct kiln_scene *kiln_bench_load_scene(const struct kiln_bench_run *run, const char *name,
+                                         const struct kiln_settings *settings,
+                                         struct kiln_error *error);
+
+/* The techniques of a stage as lanes, that which `auto` takes first. names live as long as the run.
+ * 0 with an error. */
+size_t kiln_lanes_of_stage(const struct kiln_bench_run *run, const char *stage,
+                           struct kiln_lane lanes[KILN_MAX_LANES], struct kiln_error *error);
+
+/* Of the comparisons that rows are taken from. */
+#define KILN_MEASURE(pass) (1u << KILN_PASS_##pass)
+#define KILN_MEASURE_WHOLE (1u << KILN_MEASURE_FRAME)
+
+struct kiln_comparison {
+    const char *scene; /* as in kiln_bench_load_scene */
+    const struct kiln_settings *settings;
+    const struct kiln_lane *lanes; /* the first is what the others are compared with */
+    size_t lane_count;
+    uint32_t measures; /* of passes */
+    const char *as;    /* the measure's name in the table; NULL: that of the pass */
+    double x;
+    bool rates; /* frames a second, not milliseconds */
+};
+
+/* Runs it, and adds a row for each measure and lane. */
+bool kiln_compare_lanes(const struct kiln_bench_run *run, const struct kiln_comparison *comparison,
+                        struct kiln_error *error);
+
+/* The same of samples that are there; of what the first lane took, *samples[0]. */
+bool kiln_bench_add_samples(const struct kiln_bench_run *run,
+                            const struct kiln_comparison *comparison,
+                            const struct kiln_samples *samples, struct kiln_error *error);
+
+/* Starts a part of the suite at hand. */
+bool kiln_bench_begin(const struct kiln_bench_run *run, const struct kiln_bench_part *part,
+                      struct kiln_error *error);
+
+/* A published value, to stand beside the measured ones. */
+bool kiln_bench_publish(const struct kiln_bench_run *run, double x, const char *measure,
+                        const char *technique, double value, const char *source,
+                        struct kiln_error *error);
+
+/* Notes how each measure of a lane grows with x in the part at hand: "sort grows as x^1.02". */
+bool kiln_bench_note_growth(const struct kiln_bench_run *run, struct kiln_error *error);
+
+/* Tells the caller what comes next. */
+void kiln_bench_say(const struct kiln_bench_run *run, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+#endif

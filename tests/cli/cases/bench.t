@@ -1,0 +1,131 @@
+kiln bench: what is measured and in which form. No number of it is looked at.
+
+$ kiln bench --list | sed -E 's/ [0-9]+\.[0-9] min/ <time>/'
+1|  seed        <time>  the first techniques against auto: whole frames with PNG, and stages
+1|  sizes       <time>  frames of the four sizes of Heinz 2019, table 4.1, pass by pass
+1|  figure4.4   <time>  Heinz 2019, figure 4.4: techniques of simulation by particles
+1|  figure4.5   <time>  Heinz 2019, figure 4.5: rendering fire and smoke, and the whole frame
+1|  figure4.6   <time>  Heinz 2019, figure 4.6: techniques of sorting by particles
+1|  table1      <time>  UberFlow, table 1: sorting 128^2 to 1024^2 particles
+1|  table2      <time>  UberFlow, table 2: experiments E1, E2, E3 and E5
+1|  curves      <time>  cost over 1,000 to 4,000,000 particles and 4 to 256 pixels
+1|  groups      <time>  kernels by the size of their work groups (Heinz 2019, 2.2.5)
+1|  bytes       <time>  memory and communication of techniques (Heinz 2019, 4.2)
+1|  output      <time>  end to end to PNG, EXR and mp4, against what the stages take
+1|  all        <time>  on two cores without a GPU
+
+Of a scene: whole frames, then the techniques of each stage, that of `auto` first.
+
+$ kiln bench scenes/tiny.yaml --device software --quick --stage bloom,composite --format csv | cut -d, -f1-3,5-8
+1|suite,part,sweep,measure,technique,unit,turns
+1|scenes/tiny.yaml,scenes/tiny.yaml,particles,simulate,auto,ms,3
+1|scenes/tiny.yaml,scenes/tiny.yaml,particles,sort,auto,ms,3
+1|scenes/tiny.yaml,scenes/tiny.yaml,particles,lighting,auto,ms,3
+1|scenes/tiny.yaml,scenes/tiny.yaml,particles,backdrop,auto,ms,3
+1|scenes/tiny.yaml,scenes/tiny.yaml,particles,particles,auto,ms,3
+1|scenes/tiny.yaml,scenes/tiny.yaml,particles,bloom,auto,ms,3
+1|scenes/tiny.yaml,scenes/tiny.yaml,particles,composite,auto,ms,3
+1|scenes/tiny.yaml,scenes/tiny.yaml,particles,readback,auto,ms,3
+1|scenes/tiny.yaml,scenes/tiny.yaml,particles,output,auto,ms,3
+1|scenes/tiny.yaml,scenes/tiny.yaml,particles,frame,auto,ms,3
+1|scenes/tiny.yaml,"scenes/tiny.yaml, bloom",57,bloom,bloom=cpu,ms
+1|scenes/tiny.yaml,"scenes/tiny.yaml, bloom",57,bloom,bloom=gl,ms
+1|scenes/tiny.yaml,"scenes/tiny.yaml, bloom",57,frame,bloom=cpu,ms
+1|scenes/tiny.yaml,"scenes/tiny.yaml, bloom",57,frame,bloom=gl,ms
+1|scenes/tiny.yaml,"scenes/tiny.yaml, composite",57,composite,composite=cpu,ms
+1|scenes/tiny.yaml,"scenes/tiny.yaml, composite",57,composite,composite=gl,ms
+1|scenes/tiny.yaml,"scenes/tiny.yaml, composite",57,frame,composite=cpu,ms
+1|scenes/tiny.yaml,"scenes/tiny.yaml, composite",57,frame,composite=gl,ms
+2|scenes/tiny.yaml: whole frames from frame 12 on
+2|scenes/tiny.yaml: techniques of bloom
+2|scenes/tiny.yaml: techniques of composite
+$ kiln bench scenes/tiny.yaml --device software --quick --stage simulate --technique simulate=cpu --format json --quiet | jq -c '.device.software, .quick, .turns, [.parts[].name], .parts[0].notes, ([.parts[0].rows[] | .value.median >= .value.first_quartile and .value.first_quartile >= .value.least and .value.turns == 3] | all)'
+1|true
+1|true
+1|3
+1|["scenes/tiny.yaml"]
+1|["64 x 36 pixels, 2 steps a frame, from frame 12 on."]
+1|true
+$ kiln bench scenes/tiny.yaml --device software --quick --set output.size=[32,32] --frame 2 --stage bloom --quiet | sed -E 's/[0-9]+\.[0-9]+|[0-9]+ s$/N/g; s/ +/ /g' | grep -v '^kiln'
+1|
+1|scenes/tiny.yaml: scenes/tiny.yaml
+1| particles measure technique ms quartiles turns
+1| 46 simulate auto N N - N 3
+1| 46 sort auto N N - N 3
+1| 46 lighting auto N N - N 3
+1| 46 backdrop auto N N - N 3
+1| 46 particles auto N N - N 3
+1| 46 bloom auto N N - N 3
+1| 46 composite auto N N - N 3
+1| 46 readback auto N N - N 3
+1| 46 output auto N N - N 3
+1| 46 frame auto N N - N 3
+1| 32 x 32 pixels, 2 steps a frame, from frame 2 on.
+1|
+1|scenes/tiny.yaml, bloom: scenes/tiny.yaml, bloom
+1| particles measure technique ms quartiles turns times as fast as bloom=cpu
+1| 46 bloom bloom=cpu N N - N 3
+1| 46 bloom bloom=gl N N - N 3 N (N - N)
+1| 46 frame bloom=cpu N N - N 3
+1| 46 frame bloom=gl N N - N 3 N (N - N)
+
+Of a suite, with published values beside, files and curves.
+
+$ kiln bench table1 --quick --quiet -o out --device software --format json >table1.json; jq -r '.parts[] | .name, .unit, .reference, (.rows[] | select(.published) | "\(.x) \(.technique) \(.value.median) \(.published)")' table1.json
+1|table1
+1|fps
+1|sort=cpu
+1|128 FP (2004) 22 UberFlow 2004, ATI 9800 Pro
+1|128 GP/FP (2004) 40 UberFlow 2004, ATI 9800 Pro
+1|128 GP/FP Packed (2004) 148 UberFlow 2004, ATI 9800 Pro
+$ ls out | grep -v '\.svg$'
+1|bench.csv
+1|bench.json
+1|bench.md
+1|bench.txt
+1|table1.dat
+1|table1.gp
+$ cmp table1.json out/bench.json && head -n 1 out/bench.csv
+1|suite,part,sweep,x,measure,technique,unit,turns,median,first_quartile,third_quartile,least,most,reference,times_as_fast,times_as_fast_first_quartile,times_as_fast_third_quartile,published
+$ ! command -v gnuplot >/dev/null || xmllint --noout out/table1.svg
+$ for suite in figure4.4 groups bytes; do kiln bench $suite --quick --quiet --device software --format json | jq -c '.parts[] | .name, ([.rows[] | .value.median >= 0 and .value.turns >= 1] | all), (.rows | length > 1)'; done
+1|"figure4.4"
+1|true
+1|true
+1|"groups"
+1|true
+1|true
+1|"bytes"
+1|true
+1|true
+
+What cannot be.
+
+$ kiln bench tabel1
+2|kiln: bench: 'tabel1' is no scene file (*.yaml) and no suite (did you mean 'table1'?)
+= 2
+$ kiln bench no.yaml
+2|no.yaml: No such file or directory
+= 3
+$ kiln bench --stage sortt scenes/tiny.yaml
+2|kiln: bench: there is no stage 'sortt' (did you mean 'sort'?)
+= 2
+$ kiln bench --size 32x32 seed
+2|kiln: bench: --size is for scenes, and none is given
+= 2
+$ kiln bench --repetitions 2 seed
+2|kiln: bench: --repetitions: found '2', expected a whole number from 3 to 101
+= 2
+$ kiln bench --technique sort=quick scenes/tiny.yaml --quick 2>&1 | sed 's/; there is.*//'
+1|kiln: bench: technique: sort 'quick' is not known
+$ kiln bench bytes --quick --quiet --device software -o scenes/tiny.yaml >/dev/null
+2|kiln: scenes/tiny.yaml: not a folder, but scenes/tiny.yaml/bench.txt needs one here
+= 6
+
+A signal leaves nothing behind.
+
+$ mkdir scratch && (TMPDIR=$PWD/scratch exec env --default-signal timeout --preserve-status -s INT 2 kiln bench output --device software --quiet -o stopped)
+2|kiln: bench: stopped by SIGINT; nothing is written
+= 130
+$ ls scratch; ls stopped 2>&1 | sed 's/.*: No such/No such/'
+1|No such file or directory
