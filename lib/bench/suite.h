@@ -23,6 +23,8 @@ bool kiln_suite_groups(const struct kiln_bench_run *run, struct kiln_error *erro
 bool kiln_suite_bytes(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_output(const struct kiln_bench_run *run, struct kiln_error *error);
 
+#define KILN_UBERFLOW_SOURCE "UberFlow 2004, ATI 9800 Pro"
+
 /* A scene of the caller, a technique at a time. */
 bool kiln_bench_scene(const struct kiln_bench_run *run, const char *path, struct kiln_error *error);
 

@@ -37,6 +37,15 @@ static void put_head(const struct kiln_bench *bench, FILE *out)
             bench->quick ? ", a quick run: its numbers say nothing" : "", bench->seconds);
 }
 
+/* "2.00", or four digits behind the point where two would say nothing. */
+static void put_ratios_of(const struct kiln_spread *faster, const char *before, const char *between,
+                          const char *after, FILE *out)
+{
+    int digits = faster->median < 0.1 ? 4 : 2;
+    fprintf(out, "%.*f%s%.*f%s%.*f%s", digits, faster->median, before, digits,
+            faster->first_quartile, between, digits, faster->third_quartile, after);
+}
+
 /* ---- Text ------------------------------------------------------------------------------------ */
 
 static size_t width_of(const struct kiln_bench_part *part, bool technique)
@@ -67,9 +76,10 @@ static void put_row(const struct kiln_bench_row *row, int measure_width, int tec
     kiln_bench_number(first, row->spread.first_quartile);
     kiln_bench_number(third, row->spread.third_quartile);
     fprintf(out, "  %9s - %-9s  %5u", first, third, row->spread.count);
-    if (row->faster.count > 0)
-        fprintf(out, "  %.2f (%.2f - %.2f)", row->faster.median, row->faster.first_quartile,
-                row->faster.third_quartile);
+    if (row->faster.count > 0) {
+        fputs("  ", out);
+        put_ratios_of(&row->faster, " (", " - ", ")", out);
+    }
     fputc('\n', out);
 }
 
@@ -168,10 +178,10 @@ static void put_ratios(const struct kiln_bench_part *part, FILE *out)
     fputs("|---|---|---|---|---|\n", out);
     for (size_t i = 0; i < part->row_count; i++) {
         const struct kiln_bench_row *row = &part->rows[i];
-        if (row->faster.count > 0)
-            fprintf(out, "| %.0f | %s | %s | %.2f | %.2f to %.2f |\n", row->x, row->measure,
-                    row->technique, row->faster.median, row->faster.first_quartile,
-                    row->faster.third_quartile);
+        if (row->faster.count == 0)
+            continue;
+        fprintf(out, "| %.0f | %s | %s | ", row->x, row->measure, row->technique);
+        put_ratios_of(&row->faster, " | ", " to ", " |\n", out);
     }
 }
 

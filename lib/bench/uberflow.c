@@ -1,75 +1,15 @@
-/* Tables 1 and 2 of UberFlow (Kipfer, Segal and Westermann 2004), in today's terms: a texture of
- * n^2 particles is so many particles, and frames a second stay frames a second. */
+/* Table 2 of UberFlow (Kipfer, Segal and Westermann 2004), in today's terms: a texture of n^2
+ * particles is so many particles, and frames a second stay frames a second. */
 #include "bench/suite.h"
 
 static const char SCENE[] = "bench/cloud.yaml";
-static const char SOURCE[] = "UberFlow 2004, ATI 9800 Pro";
 
-/* n^2 particles in all, of which half are fire. */
+/* n^2 particles of each kind, of which one is left out. */
 static void set_field(const struct kiln_bench_run *run, struct kiln_settings *settings, double side)
 {
-    kiln_set_number(run, settings, "systems.*.emit.rate", side * side / 2.0);
+    kiln_set_number(run, settings, "systems.*.emit.rate", side * side);
     kiln_set_number(run, settings, "systems.*.look.size", 0.03);
 }
-
-/* ---- Table 1 --------------------------------------------------------------------------------- */
-
-static bool publish_sorts(const struct kiln_bench_run *run, size_t size, double side,
-                          struct kiln_error *error)
-{
-    static const struct {
-        const char *name;
-        double rates[4];
-    } rows[] = {
-        {"FP (2004)", {22, 3.5, 1, 0.2}},
-        {"GP/FP (2004)", {40, 10, 3, 0.4}},
-        {"GP/FP Packed (2004)", {148, 43, 10, 2}},
-    };
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        if (!kiln_bench_publish(run, side, "sort", rows[i].name, rows[i].rates[size], SOURCE,
-                                error))
-            return false;
-    }
-    return true;
-}
-
-bool kiln_suite_table_1(const struct kiln_bench_run *run, struct kiln_error *error)
-{
-    static const double sides[] = {128, 256, 512, 1024};
-    struct kiln_lane lanes[KILN_MAX_LANES];
-    size_t lane_count = kiln_lanes_of_stage(run, "sort", lanes, error);
-    if (lane_count == 0)
-        return false;
-    const struct kiln_bench_part part = {
-        .name = "table1",
-        .title = "UberFlow, table 1: sorting n x n particles, keys and list included",
-        .sweep = "n",
-        .unit = "fps",
-        .reference = lanes[0].name,
-        .plotted = true,
-    };
-    if (!kiln_bench_begin(run, &part, error))
-        return false;
-    size_t count = run->params->quick ? 1 : sizeof sides / sizeof *sides;
-    for (size_t i = 0; i < count; i++) {
-        struct kiln_settings settings = {.count = 0};
-        set_field(run, &settings, sides[i]);
-        kiln_set_unseen(run, &settings);
-        const struct kiln_comparison comparison = {.scene = SCENE,
-                                                   .settings = &settings,
-                                                   .lanes = lanes,
-                                                   .lane_count = lane_count,
-                                                   .measures = KILN_MEASURE(sort),
-                                                   .x = sides[i],
-                                                   .rates = true};
-        kiln_bench_say(run, "%.0f x %.0f particles", sides[i], sides[i]);
-        if (!kiln_compare_lanes(run, &comparison, error) || !publish_sorts(run, i, sides[i], error))
-            return false;
-    }
-    return true;
-}
-
-/* ---- Table 2 --------------------------------------------------------------------------------- */
 
 /* An experiment: what it is on the device, and what `auto` makes of it. Fire alone is summed and
  * needs no order; smoke alone is sorted. */
@@ -118,7 +58,7 @@ static bool run_experiment(const struct kiln_bench_run *run, const struct experi
         {.name = experiment->lane, .techniques = experiment->techniques},
         {.name = "auto", .techniques = ""}};
     struct kiln_settings settings = {.count = 0};
-    set_field(run, &settings, side * 1.41421356); /* of one kind, as many as of two */
+    set_field(run, &settings, side);
     kiln_set_picture(run, &settings, 1280, 720);
     kiln_set(run, &settings, "post.bloom.kind=none");
     kiln_set(run, &settings,
@@ -136,7 +76,7 @@ static bool run_experiment(const struct kiln_bench_run *run, const struct experi
     kiln_bench_say(run, "%s, %.0f x %.0f particles", experiment->name, side, side);
     return kiln_compare_lanes(run, &comparison, error) &&
            kiln_bench_publish(run, side, experiment->name, "2004", experiment->published[size],
-                              SOURCE, error);
+                              KILN_UBERFLOW_SOURCE, error);
 }
 
 bool kiln_suite_table_2(const struct kiln_bench_run *run, struct kiln_error *error)

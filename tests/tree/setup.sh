@@ -56,6 +56,13 @@ export ABSENT=libcmocka-dev
 run "the demo needs no tests" 0 "${unprivileged[@]}" "$machine/tools/setup" demo
 expect ""
 
+# Without what is optional, setup goes on and says what will be missing.
+export ABSENT=gnuplot-nox
+run "an optional one is missing, without root" 0 "${unprivileged[@]}" "$machine/tools/setup" test
+expect "gnuplot-nox is not there and not needed: *"
+run "the demo needs nothing optional" 0 "${unprivileged[@]}" "$machine/tools/setup" demo
+expect ""
+
 # The npm packages are fetched once.
 mkdir -p "$machine/tests/node_modules"
 echo '{}' >"$machine/tests/package-lock.json"

@@ -74,7 +74,7 @@ Of a suite, with published values beside, files and curves.
 $ kiln bench table1 --quick --quiet -o out --device software --format json >table1.json; jq -r '.parts[] | .name, .unit, .reference, (.rows[] | select(.published) | "\(.x) \(.technique) \(.value.median) \(.published)")' table1.json
 1|table1
 1|fps
-1|sort=cpu
+1|cpu
 1|128 FP (2004) 22 UberFlow 2004, ATI 9800 Pro
 1|128 GP/FP (2004) 40 UberFlow 2004, ATI 9800 Pro
 1|128 GP/FP Packed (2004) 148 UberFlow 2004, ATI 9800 Pro
