@@ -45,7 +45,9 @@ static bool add_memory(const struct kiln_bench_run *run, size_t way, double part
                                 params.technique_count, &techniques, error))
         return false;
     double records = (double)kiln_simulate_slot_bytes(techniques.simulate);
-    double sorting = (double)kiln_sort_particle_bytes(techniques.sort) + sizeof(uint32_t);
+    enum { SLOTS = 1 << 20 }; /* where no padding counts */
+    const uint64_t sorted = kiln_sort_bytes(techniques.sort, techniques.sort_spread > 0, SLOTS);
+    double sorting = (double)sorted / SLOTS;
     return add_value(run, particles, "memory, records", WAYS[way].techniques, records, error) &&
            add_value(run, particles, "memory, sorting", WAYS[way].techniques, sorting, error);
 }

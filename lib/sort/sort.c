@@ -115,20 +115,6 @@ bool kiln_sort_follow(struct kiln_sort *sort, struct kiln_pool *pool,
     return !sort->keeps || kiln_kept_sort(&sort->kept, pool, params->eye, params->forward, error);
 }
 
-size_t kiln_sort_particle_bytes(enum kiln_sort_technique technique)
-{
-    const size_t pair = 2 * sizeof(uint32_t);
-    switch (technique) {
-    case KILN_SORT_CPU:
-    case KILN_SORT_RADIX:
-        return 2 * pair;
-    case KILN_SORT_BITONIC:
-    case KILN_SORT_ODDEVEN:
-        return pair + sizeof(uint32_t); /* and the unsorted list */
-    }
-    return 0;
-}
-
 bool kiln_sort_run(struct kiln_sort *sort, struct kiln_pool *pool,
                    const struct kiln_sort_params *params, struct kiln_buffer *entries,
                    uint32_t *count, struct kiln_error *error)

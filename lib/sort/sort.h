@@ -47,10 +47,6 @@ bool kiln_sort_keeps_history(const struct kiln_sort *sort);
 bool kiln_sort_follow(struct kiln_sort *sort, struct kiln_pool *pool,
                       const struct kiln_sort_params *params, struct kiln_error *error);
 
-/* Bytes that a particle takes beside its entry while it is sorted by depth (Heinz 2019, 4.2); where
- * lists are padded to a power of two, those of a list that needs no padding. */
-size_t kiln_sort_particle_bytes(enum kiln_sort_technique technique);
-
 /* Fills entries (room for the pool's slot_count; a technique may make it twice as large, to sort in
  * it) with the draw entries of the living particles of
  * the chosen systems in the order that is asked for, and counts them. Where the technique runs on
