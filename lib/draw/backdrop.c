@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "draw/backdrop_cpu.h"
 #include "draw/backdrop_gl.h"
+#include "draw/lighting_gl.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -215,7 +216,8 @@ bool kiln_backdrop_draw(struct kiln_backdrop_stage *stage, const struct kiln_vie
     if (stage->cpu)
         stage->has_drawn = kiln_backdrop_cpu_draw(stage->cpu, &stage->drawn, lighting, kept, error);
     else
-        stage->has_drawn = kiln_backdrop_gl_draw(stage->gl, &stage->drawn, kept, error);
+        stage->has_drawn = kiln_lighting_bind(lighting, error) &&
+                           kiln_backdrop_gl_draw(stage->gl, &stage->drawn, kept, error);
     return stage->has_drawn;
 }
 

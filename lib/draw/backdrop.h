@@ -31,9 +31,8 @@ void kiln_backdrop_destroy(struct kiln_backdrop_stage **stage);
 /* The scene's meshes in its order; they live as long as the stage. */
 struct kiln_mesh *const *kiln_backdrop_meshes(const struct kiln_backdrop_stage *stage);
 
-/* Draws it, unless the picture of the last call still holds. `gl` needs bound what
- * kiln_lighting_run binds, and leaves bound what shaders read that light surfaces like it does
- * (shaders/draw/surface.glsl). */
+/* Draws it, unless the picture of the last call still holds. `gl` leaves bound what shaders read
+ * that light surfaces like it does (shaders/draw/surface.glsl). */
 bool kiln_backdrop_draw(struct kiln_backdrop_stage *stage, const struct kiln_view *view,
                         const struct kiln_lighting *lighting, struct kiln_error *error);
 

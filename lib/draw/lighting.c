@@ -4,32 +4,30 @@
 
 #include "base/error.h"
 #include "draw/firelight.h"
+#include "draw/lighting_gl.h"
 #include "draw/looks.h"
-#include "draw/smoke_shadow.h"
 #include "shared/exact.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { SUN, SKY, GRIDS };
-
-enum { CELLS = KILN_SMOKE_GRID * KILN_SMOKE_GRID * KILN_SMOKE_GRID };
+enum { GRIDS = 2, CELLS = KILN_SMOKE_GRID * KILN_SMOKE_GRID * KILN_SMOKE_GRID };
 
 struct kiln_lighting_stage {
-    struct kiln_device *device;
     const struct kiln_scene *scene;
     struct kiln_threads *threads;
+    uint64_t run;     /* runs done */
     bool fire, smoke; /* whether the scene has any */
     bool sun;         /* whether it shines ever */
     bool table_valid;
     float4 *table; /* looks */
     struct kiln_smoke puffs;
     struct kiln_smoke_shadow *shadow;
-    float *depths; /* of the grids */
-    GLuint textures[GRIDS];
+    float *depths;                      /* of the grids */
     struct kiln_sphere_shadow *spheres; /* NULL: there are none, here and below */
     struct kiln_sun_shade *shade;
+    struct kiln_lighting_gl *gl;
 };
 
 static bool any_light(const struct kiln_lighting_stage *stage)
@@ -37,34 +35,19 @@ static bool any_light(const struct kiln_lighting_stage *stage)
     return stage->fire || stage->smoke || stage->spheres || stage->shade;
 }
 
-static bool allocate(struct kiln_lighting_stage *stage)
+static bool allocate(struct kiln_lighting_stage *stage, struct kiln_device *device)
 {
-    if (any_light(stage))
-        stage->table = calloc((size_t)KILN_LOOK_TEXELS, sizeof *stage->table);
+    if (!any_light(stage))
+        return true;
+    stage->table = calloc((size_t)KILN_LOOK_TEXELS, sizeof *stage->table);
+    if (device)
+        stage->gl = kiln_lighting_gl_create(device);
     if (stage->smoke) {
         stage->shadow = kiln_smoke_shadow_create();
         stage->depths = malloc((size_t)GRIDS * CELLS * sizeof *stage->depths);
     }
-    return (stage->table || !any_light(stage)) &&
+    return stage->table && (stage->gl || !device) &&
            ((stage->shadow && stage->depths) || !stage->smoke);
-}
-
-static void make_textures(struct kiln_lighting_stage *stage)
-{
-    static const char *const labels[GRIDS] = {"smoke towards the sun", "smoke towards the sky"};
-    glGenTextures(GRIDS, stage->textures);
-    for (int i = 0; i < GRIDS; i++) {
-        glActiveTexture(GL_TEXTURE0 + KILN_UNIT_SMOKE_SUN + (GLenum)i);
-        glBindTexture(GL_TEXTURE_3D, stage->textures[i]);
-        glTexImage3D(GL_TEXTURE_3D, 0, GL_R32F, KILN_SMOKE_GRID, KILN_SMOKE_GRID, KILN_SMOKE_GRID,
-                     0, GL_RED, GL_FLOAT, NULL);
-        glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-        glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-        glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-        glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-        glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
-        kiln_device_label(stage->device, GL_TEXTURE, stage->textures[i], labels[i]);
-    }
 }
 
 static bool sun_exists(const struct kiln_scene *scene)
@@ -79,12 +62,12 @@ static bool create_shadows(struct kiln_lighting_stage *stage, struct kiln_error 
 {
     const struct kiln_scene *scene = stage->scene;
     if (kiln_shape_features(scene).spheres) {
-        stage->spheres = kiln_sphere_shadow_create(stage->device, scene, error);
+        stage->spheres = kiln_sphere_shadow_create(scene, error);
         if (!stage->spheres)
             return false;
     }
     if (kiln_sun_shade_exists(scene)) {
-        stage->shade = kiln_sun_shade_create(stage->device, scene, error);
+        stage->shade = kiln_sun_shade_create(scene, error);
         if (!stage->shade)
             return false;
     }
@@ -101,8 +84,7 @@ struct kiln_lighting_stage *kiln_lighting_create(struct kiln_device *device,
         kiln_error_set(error, KILN_DEVICE_FAILED, "lighting: out of memory");
         return NULL;
     }
-    *stage = (struct kiln_lighting_stage){.device = device,
-                                          .scene = scene,
+    *stage = (struct kiln_lighting_stage){.scene = scene,
                                           .threads = threads,
                                           .fire = kiln_firelight_exists(scene),
                                           .smoke = kiln_smoke_exists(scene),
@@ -111,13 +93,11 @@ struct kiln_lighting_stage *kiln_lighting_create(struct kiln_device *device,
         kiln_lighting_destroy(&stage);
         return NULL;
     }
-    if (!allocate(stage)) {
+    if (!allocate(stage, device)) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "lighting: out of memory");
         kiln_lighting_destroy(&stage);
         return NULL;
     }
-    if (stage->smoke)
-        make_textures(stage);
     return stage;
 }
 
@@ -125,7 +105,7 @@ void kiln_lighting_destroy(struct kiln_lighting_stage **stage)
 {
     if (!*stage)
         return;
-    glDeleteTextures(GRIDS, (*stage)->textures); /* 0 is ignored */
+    kiln_lighting_gl_destroy(&(*stage)->gl);
     kiln_sphere_shadow_destroy(&(*stage)->spheres);
     kiln_sun_shade_destroy(&(*stage)->shade);
     free((*stage)->table);
@@ -143,16 +123,6 @@ static float3 sun_direction(const struct kiln_scene *scene, float time_s)
     if (!(length > 0.0f))
         return (float3){0.0f, 1.0f, 0.0f};
     return (float3){v.x / length, v.y / length, v.z / length};
-}
-
-static void upload(struct kiln_lighting_stage *stage, const struct kiln_smoke_grid *grid, int which)
-{
-    glActiveTexture(GL_TEXTURE0 + KILN_UNIT_SMOKE_SUN + (GLenum)which);
-    glBindTexture(GL_TEXTURE_3D, stage->textures[which]);
-    glTexSubImage3D(GL_TEXTURE_3D, 0, 0, 0, 0, KILN_SMOKE_GRID, KILN_SMOKE_GRID, KILN_SMOKE_GRID,
-                    GL_RED, GL_FLOAT, grid->depth);
-    stage->device->traffic.to_device +=
-        sizeof(float) * KILN_SMOKE_GRID * KILN_SMOKE_GRID * KILN_SMOKE_GRID;
 }
 
 /* Where there is no sun, every place lies beside its grid. */
@@ -173,12 +143,10 @@ static bool shade(struct kiln_lighting_stage *stage, const struct kiln_living_mo
     for (int i = 0; i < 3; i++)
         lighting->sun_to_grid[i] = (float4){0.0f, 0.0f, 0.0f, -1.0f};
     lighting->sky_depth = grids[0].depth;
-    lighting->sun_depth = grids[1].depth;
-    upload(stage, &grids[0], SKY);
     memcpy(lighting->sky_to_grid, grids[0].world_to_grid, sizeof lighting->sky_to_grid);
     if (!stage->sun)
         return true;
-    upload(stage, &grids[1], SUN);
+    lighting->sun_depth = grids[1].depth;
     memcpy(lighting->sun_to_grid, grids[1].world_to_grid, sizeof lighting->sun_to_grid);
     return true;
 }
@@ -189,6 +157,7 @@ static bool cast_shadows(struct kiln_lighting_stage *stage, const struct kiln_li
     if (stage->spheres &&
         !kiln_sphere_shadow_run(stage->spheres, moment, &lighting->spheres, error))
         return false;
+    lighting->slot_count = moment->pool->slot_count;
     if (stage->shade)
         lighting->sunlit = kiln_sun_shade_run(stage->shade, moment, stage->threads, error);
     return !stage->shade || lighting->sunlit;
@@ -204,7 +173,7 @@ bool kiln_lighting_run(struct kiln_lighting_stage *stage, struct kiln_pool *pool
                        const struct kiln_view *view, struct kiln_lighting *lighting,
                        struct kiln_error *error)
 {
-    *lighting = (struct kiln_lighting){.smoke = false};
+    *lighting = (struct kiln_lighting){.run = ++stage->run, .gl = stage->gl};
     if (!any_light(stage))
         return true;
     const struct kiln_particle *records = kiln_buffer_host(&pool->records, KILN_READ, error);
@@ -218,9 +187,7 @@ bool kiln_lighting_run(struct kiln_lighting_stage *stage, struct kiln_pool *pool
         return false;
     if (stage->fire)
         lighting->fire_count = kiln_firelight_gather(&moment, stage->threads, lighting->fire);
-    if (stage->smoke && !shade(stage, &moment, lighting, error))
-        return false;
-    return kiln_device_check(stage->device, "lighting", error);
+    return !stage->smoke || shade(stage, &moment, lighting, error);
 }
 
 static float row_at(float4 row, float3 p)

@@ -4,6 +4,7 @@
  * changes). */
 #include "draw/particles_geometry.h"
 #include "draw/fragments_gl.h"
+#include "draw/lighting_gl.h"
 #include "draw/looks.h"
 #include "draw/sun_shade.h"
 
@@ -191,7 +192,8 @@ bool kiln_geometry_bind_draw(struct kiln_geometry *stage, const struct kiln_part
                              struct kiln_error *error)
 {
     GLuint depth = kiln_image_gl(draw->depth, KILN_READ, error);
-    if (!depth || !kiln_geometry_bind(stage, draw->pool, draw->entries, draw->view->clock.x, error))
+    if (!depth || !kiln_lighting_bind(draw->lighting, error) ||
+        !kiln_geometry_bind(stage, draw->pool, draw->entries, draw->view->clock.x, error))
         return false;
     bind_texture(1, GL_TEXTURE_2D_ARRAY, stage->atlas->texture);
     bind_texture(2, GL_TEXTURE_2D, depth);

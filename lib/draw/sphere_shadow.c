@@ -20,7 +20,6 @@ struct sphere {
 };
 
 struct kiln_sphere_shadow {
-    struct kiln_device *device;
     const struct kiln_scene *scene;
     struct kiln_sun_frame sun; /* of the frame at hand */
     float floor;               /* its height; infinite for none */
@@ -29,19 +28,10 @@ struct kiln_sphere_shadow {
     bool failed;                                            /* no memory for one */
     uint32_t bins[KILN_SPHERE_BINS * KILN_SPHERE_BINS * 2]; /* first entry and number of each */
     float4 *entries;
-    size_t entry_rows;   /* of memory and texture */
-    GLuint textures[2];  /* bins, entries */
-    size_t texture_rows; /* of the entries' texture */
+    size_t entry_rows; /* of memory */
 };
 
-static void set_nearest(void)
-{
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-}
-
-struct kiln_sphere_shadow *kiln_sphere_shadow_create(struct kiln_device *device,
-                                                     const struct kiln_scene *scene,
+struct kiln_sphere_shadow *kiln_sphere_shadow_create(const struct kiln_scene *scene,
                                                      struct kiln_error *error)
 {
     struct kiln_sphere_shadow *shadow = calloc(1, sizeof *shadow);
@@ -49,20 +39,7 @@ struct kiln_sphere_shadow *kiln_sphere_shadow_create(struct kiln_device *device,
         kiln_error_set(error, KILN_DEVICE_FAILED, "shadows of spheres: out of memory");
         return NULL;
     }
-    shadow->device = device;
     shadow->scene = scene;
-    glGenTextures(2, shadow->textures);
-    glActiveTexture(GL_TEXTURE0 + KILN_UNIT_SPHERE_BINS);
-    glBindTexture(GL_TEXTURE_2D, shadow->textures[0]);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RG32UI, KILN_SPHERE_BINS, KILN_SPHERE_BINS, 0, GL_RG_INTEGER,
-                 GL_UNSIGNED_INT, NULL);
-    set_nearest();
-    glActiveTexture(GL_TEXTURE0 + KILN_UNIT_SPHERE_LIST);
-    glBindTexture(GL_TEXTURE_2D, shadow->textures[1]);
-    set_nearest();
-    glActiveTexture(GL_TEXTURE0);
-    kiln_device_label(device, GL_TEXTURE, shadow->textures[0], "sphere bins");
-    kiln_device_label(device, GL_TEXTURE, shadow->textures[1], "sphere list");
     return shadow;
 }
 
@@ -71,7 +48,6 @@ void kiln_sphere_shadow_destroy(struct kiln_sphere_shadow **shadow)
     struct kiln_sphere_shadow *s = *shadow;
     if (!s)
         return;
-    glDeleteTextures(2, s->textures);
     free(s->spheres);
     free(s->entries);
     free(s);
@@ -217,24 +193,6 @@ static void fill_lists(struct kiln_sphere_shadow *shadow, const struct layout *l
     }
 }
 
-static void upload(struct kiln_sphere_shadow *shadow, uint32_t edge, size_t entries)
-{
-    glActiveTexture(GL_TEXTURE0 + KILN_UNIT_SPHERE_BINS);
-    glBindTexture(GL_TEXTURE_2D, shadow->textures[0]);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, (GLsizei)edge, (GLsizei)edge, GL_RG_INTEGER,
-                    GL_UNSIGNED_INT, shadow->bins);
-    glActiveTexture(GL_TEXTURE0 + KILN_UNIT_SPHERE_LIST);
-    glBindTexture(GL_TEXTURE_2D, shadow->textures[1]);
-    size_t rows = (entries + KILN_SPHERE_ROW - 1) / KILN_SPHERE_ROW;
-    if (shadow->texture_rows != shadow->entry_rows)
-        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, KILN_SPHERE_ROW, (GLsizei)shadow->entry_rows, 0,
-                     GL_RGBA, GL_FLOAT, NULL);
-    shadow->texture_rows = shadow->entry_rows;
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, KILN_SPHERE_ROW, (GLsizei)rows, GL_RGBA, GL_FLOAT,
-                    shadow->entries);
-    glActiveTexture(GL_TEXTURE0);
-}
-
 bool kiln_sphere_shadow_run(struct kiln_sphere_shadow *shadow,
                             const struct kiln_living_moment *moment, struct kiln_sphere_bins *bins,
                             struct kiln_error *error)
@@ -262,12 +220,13 @@ bool kiln_sphere_shadow_run(struct kiln_sphere_shadow *shadow,
     if (shadow->failed || !make_room(shadow, entries))
         return kiln_error_set(error, KILN_DEVICE_FAILED, "shadows of spheres: out of memory");
     fill_lists(shadow, &layout);
-    upload(shadow, layout.edge, entries);
     float scale = 1.0f / layout.size;
     const float3 right = shadow->sun.right, up = shadow->sun.up;
-    bins->edge = layout.edge;
-    bins->bins = shadow->bins;
-    bins->list = shadow->entries;
+    *bins = (struct kiln_sphere_bins){.edge = layout.edge,
+                                      .bins = shadow->bins,
+                                      .list = shadow->entries,
+                                      .entry_count = entries,
+                                      .rows = shadow->entry_rows};
     bins->world_to_bin[0] =
         (float4){right.x * scale, right.y * scale, right.z * scale, -layout.low_x * scale};
     bins->world_to_bin[1] =

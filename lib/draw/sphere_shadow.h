@@ -1,5 +1,5 @@
 /* The shadow of particles that are opaque spheres: lists of those that may lie between a place and
- * the sun, by bins across the sun's direction. Shaders take the exact cover of each from them
+ * the sun, by bins across the sun's direction. Who draws takes the exact cover of each from them
  * (shaders/draw/sphere_shadow.glsl), so that a shadow is as sharp as the sun is small.
  */
 #ifndef KILN_DRAW_SPHERE_SHADOW_H
@@ -7,27 +7,24 @@
 
 #include "draw/living.h"
 #include "draw/shapes.h"
-#include "gpu/device.h"
 
-/* Of one frame. */
+/* Of one frame; valid until the next run. */
 struct kiln_sphere_bins {
-    uint32_t edge;          /* bins in each direction; 0: there is no sphere */
-    float4 world_to_bin[2]; /* rows: a world position to bins */
-    const uint32_t *bins;   /* first entry and number of each bin, row by row; these two are valid
-                             * until the next run */
-    const float4 *list;     /* the entries: centre and radius of a sphere, m */
+    uint32_t edge;            /* bins in each direction; 0: there is no sphere */
+    float4 world_to_bin[2];   /* rows: a world position to bins */
+    const uint32_t *bins;     /* two numbers a bin, in rows of `edge`: first entry, entries */
+    const float4 *list;       /* world position and radius of a sphere, m */
+    size_t entry_count, rows; /* rows: of KILN_SPHERE_ROW entries that there is memory for */
 };
 
 struct kiln_sphere_shadow;
 
 /* NULL with an error. The scene must outlive it. */
-struct kiln_sphere_shadow *kiln_sphere_shadow_create(struct kiln_device *device,
-                                                     const struct kiln_scene *scene,
+struct kiln_sphere_shadow *kiln_sphere_shadow_create(const struct kiln_scene *scene,
                                                      struct kiln_error *error);
 void kiln_sphere_shadow_destroy(struct kiln_sphere_shadow **shadow);
 
-/* Lists the living spheres, whatever the order in which they will be drawn, and leaves the lists
- * bound to KILN_UNIT_SPHERE_BINS and KILN_UNIT_SPHERE_LIST. */
+/* Lists the living spheres, whatever the order in which they will be drawn. */
 bool kiln_sphere_shadow_run(struct kiln_sphere_shadow *shadow,
                             const struct kiln_living_moment *moment, struct kiln_sphere_bins *bins,
                             struct kiln_error *error);

@@ -10,7 +10,6 @@
 enum { GRAIN = 512 }; /* slots that a worker takes at a time */
 
 struct kiln_sun_shade {
-    struct kiln_device *device;
     const struct kiln_scene *scene;
     struct kiln_mesh *const *meshes;
     struct kiln_sun_mesh *maps; /* a mesh each */
@@ -18,9 +17,7 @@ struct kiln_sun_shade {
     struct kiln_draw_shapes shapes;
     uint32_t box_count;
     float3 box_center[KILN_MAX_OBJECTS], box_half[KILN_MAX_OBJECTS];
-    float *visible; /* rows of KILN_SUN_SHADE_ROW slots */
-    size_t rows;
-    GLuint texture;
+    float *visible; /* by slot, whole rows of KILN_SUN_SHADE_ROW */
 };
 
 static bool is_shaded(const struct kiln_scene *scene, uint32_t system)
@@ -39,8 +36,7 @@ bool kiln_sun_shade_exists(const struct kiln_scene *scene)
     return false;
 }
 
-struct kiln_sun_shade *kiln_sun_shade_create(struct kiln_device *device,
-                                             const struct kiln_scene *scene,
+struct kiln_sun_shade *kiln_sun_shade_create(const struct kiln_scene *scene,
                                              struct kiln_error *error)
 {
     size_t meshes = 0;
@@ -54,15 +50,7 @@ struct kiln_sun_shade *kiln_sun_shade_create(struct kiln_device *device,
         free(shade);
         return NULL;
     }
-    shade->device = device;
     shade->scene = scene;
-    glGenTextures(1, &shade->texture);
-    glActiveTexture(GL_TEXTURE0 + KILN_UNIT_SUN_SHADE);
-    glBindTexture(GL_TEXTURE_2D, shade->texture);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    glActiveTexture(GL_TEXTURE0);
-    kiln_device_label(device, GL_TEXTURE, shade->texture, "sun on particles");
     return shade;
 }
 
@@ -70,7 +58,6 @@ void kiln_sun_shade_destroy(struct kiln_sun_shade **shade)
 {
     if (!*shade)
         return;
-    glDeleteTextures(1, &(*shade)->texture);
     free((*shade)->maps);
     free((*shade)->visible);
     free(*shade);
@@ -146,43 +133,26 @@ static void look_from_slots(void *context, size_t begin, size_t end, uint32_t wo
     }
 }
 
-/* Room for all slots, whose number does not change. */
-static bool make_room(struct kiln_sun_shade *shade, uint32_t slots)
-{
-    if (shade->visible)
-        return true;
-    shade->rows = (slots + KILN_SUN_SHADE_ROW - 1) / KILN_SUN_SHADE_ROW;
-    shade->visible = calloc(shade->rows * KILN_SUN_SHADE_ROW, sizeof *shade->visible);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_R32F, KILN_SUN_SHADE_ROW, (GLsizei)shade->rows, 0, GL_RED,
-                 GL_FLOAT, NULL);
-    return shade->visible;
-}
-
 const float *kiln_sun_shade_run(struct kiln_sun_shade *shade,
                                 const struct kiln_living_moment *moment,
                                 struct kiln_threads *threads, struct kiln_error *error)
 {
-    glActiveTexture(GL_TEXTURE0 + KILN_UNIT_SUN_SHADE);
-    glBindTexture(GL_TEXTURE_2D, shade->texture);
-    bool room = make_room(shade, moment->pool->slot_count);
-    if (room) {
-        place_objects(shade, moment->view->clock.x);
-        for (uint32_t i = 0; i < shade->scene->system_count; i++) {
-            struct seen_system seen = {.shade = shade};
-            if (!is_shaded(shade->scene, i))
-                continue;
-            seen.system = kiln_living_system(moment, i);
-            seen.visible = shade->visible + moment->pool->systems[i].base;
-            kiln_threads_for(threads, seen.system.used, GRAIN, look_from_slots, &seen);
-        }
-        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, KILN_SUN_SHADE_ROW, (GLsizei)shade->rows, GL_RED,
-                        GL_FLOAT, shade->visible);
-        shade->device->traffic.to_device += sizeof(float) * KILN_SUN_SHADE_ROW * shade->rows;
+    if (!shade->visible) { /* the number of slots does not change */
+        size_t rows = (moment->pool->slot_count + KILN_SUN_SHADE_ROW - 1) / KILN_SUN_SHADE_ROW;
+        shade->visible = calloc(rows * KILN_SUN_SHADE_ROW, sizeof *shade->visible);
     }
-    glActiveTexture(GL_TEXTURE0);
-    if (!room) {
+    if (!shade->visible) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "shade of particles: out of memory");
         return NULL;
+    }
+    place_objects(shade, moment->view->clock.x);
+    for (uint32_t i = 0; i < shade->scene->system_count; i++) {
+        struct seen_system seen = {.shade = shade};
+        if (!is_shaded(shade->scene, i))
+            continue;
+        seen.system = kiln_living_system(moment, i);
+        seen.visible = shade->visible + moment->pool->systems[i].base;
+        kiln_threads_for(threads, seen.system.used, GRAIN, look_from_slots, &seen);
     }
     return shade->visible;
 }

@@ -7,7 +7,6 @@
 #include "base/thread.h"
 #include "draw/living.h"
 #include "draw/shapes.h"
-#include "gpu/device.h"
 
 struct kiln_sun_shade;
 
@@ -15,8 +14,7 @@ struct kiln_sun_shade;
 bool kiln_sun_shade_exists(const struct kiln_scene *scene);
 
 /* NULL with an error. The scene must outlive it. */
-struct kiln_sun_shade *kiln_sun_shade_create(struct kiln_device *device,
-                                             const struct kiln_scene *scene,
+struct kiln_sun_shade *kiln_sun_shade_create(const struct kiln_scene *scene,
                                              struct kiln_error *error);
 void kiln_sun_shade_destroy(struct kiln_sun_shade **shade);
 
@@ -24,8 +22,8 @@ void kiln_sun_shade_destroy(struct kiln_sun_shade **shade);
  * a scene with meshes. */
 void kiln_sun_shade_use_meshes(struct kiln_sun_shade *shade, struct kiln_mesh *const *meshes);
 
-/* Computes it for all lit particles. Returns 0 to 1 for each slot of the pool, valid until the next
- * run, and leaves the same bound to KILN_UNIT_SUN_SHADE; NULL with an error. */
+/* Computes it for all lit particles. Returns 0 to 1 for each slot of the pool, with room for whole
+ * rows of KILN_SUN_SHADE_ROW, valid until the next run; NULL with an error. */
 const float *kiln_sun_shade_run(struct kiln_sun_shade *shade,
                                 const struct kiln_living_moment *moment,
                                 struct kiln_threads *threads, struct kiln_error *error);
