@@ -236,7 +236,8 @@ static void put_tests(struct value *value)
 /* Only what is known without asking OpenGL, which takes its time. */
 static void put_devices(struct value *value)
 {
-    offer(value, "word", "software", "the first software device");
+    offer(value, "word", KILN_DEVICE_CPU, "this machine without OpenGL");
+    offer(value, "word", "software", "the first software device of OpenGL");
 }
 
 static void put_technique(void *user, const char *name, const char *help)

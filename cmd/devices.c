@@ -16,14 +16,24 @@ static const char *yes_or_no(bool value)
     return value ? "yes" : "no";
 }
 
+static const char *kind_of(const struct kiln_device_info *info)
+{
+    return !info->gl ? "no OpenGL" : info->software ? "software" : "gpu";
+}
+
 static void print_text(const struct kiln_device_info *info)
 {
     printf("%u: %s\n", info->index, info->name);
-    printf("    kind      %s\n", info->software ? "software" : "gpu");
+    printf("    kind      %s\n", kind_of(info));
     printf("    usable    %s\n", yes_or_no(info->usable));
     if (info->problem[0])
         printf("    problem   %s\n", info->problem);
     printf("    exact     %s\n", yes_or_no(info->exact));
+    if (!info->gl) {
+        printf("    vectors   %s\n", info->vectors);
+        printf("    threads   %u\n", info->threads);
+        return;
+    }
     printf("    vendor    %s\n", info->vendor);
     printf("    OpenGL    %s\n", info->gl_version);
     printf("    platform  %s\n", info->platform);
@@ -53,10 +63,16 @@ static void print_json(const struct kiln_device_info *info)
     print_json_text("vendor", info->vendor);
     print_json_text("gl_version", info->gl_version);
     print_json_text("platform", info->platform);
+    print_json_bool("gl", info->gl);
     print_json_bool("software", info->software);
     print_json_bool("usable", info->usable);
     print_json_text("problem", info->problem);
     print_json_bool("exact", info->exact);
+    if (!info->gl) {
+        print_json_text("vectors", info->vectors);
+        printf("\"threads\": %u}", info->threads);
+        return;
+    }
     printf("\"max_work_group_invocations\": %d, \"max_shared_memory_bytes\": %d, "
            "\"max_storage_block_bytes\": %" PRId64 ", \"max_texture_size\": %d, "
            "\"max_array_layers\": %d}",
@@ -100,7 +116,10 @@ const struct command devices_command = {
     .summary = "list what can render on this machine, and what is missing",
     .operands = "",
     .description =
-        "Lists every device that OpenGL offers without a display, with its limits. A device is "
+        "Lists this machine without OpenGL, called '" KILN_DEVICE_CPU
+        "', on which every stage runs "
+        "in threads and vectors, with the same pixels on every machine; then every device that "
+        "OpenGL offers without a display, with its limits. Such a device is "
         "usable with OpenGL 4.3 or later; it is exact when it passed the probe of the arithmetic "
         "that the simulation needs, and otherwise particles move on the CPU. A software device is "
         "a rasteriser on the CPU. Advice names what is missing and the package that brings it.",

@@ -73,8 +73,8 @@
         {.name = "device",                                                                         \
          .kind = OPTION_TEXT,                                                                      \
          .placeholder = "DEVICE",                                                                  \
-         .help = "A number from 'kiln devices', a part of a device's name, or 'software'.",        \
-         .fallback = "the first GPU, or else the software device"},                                \
+         .help = "A number from 'kiln devices', a part of a device's name, 'cpu' or 'software'.",  \
+         .fallback = "'cpu', or the first GPU or 'software' if a technique needs it"},             \
     {                                                                                              \
         .name = "technique", .repeats = true, .commas = true, .kind = OPTION_PAIRS,                \
         .placeholder = "STAGE=NAME",                                                               \

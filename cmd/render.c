@@ -48,8 +48,10 @@ static const struct option options[] = {
     {.name = "device",
      .kind = OPTION_TEXT,
      .placeholder = "DEVICE",
-     .help = "A number from 'kiln devices', a part of a device's name, or 'software'.",
-     .fallback = "the first GPU, or else the software device"},
+     .help =
+         "A number from 'kiln devices', a part of a device's name, 'cpu' for none of OpenGL, or "
+         "'software' for OpenGL on the CPU.",
+     .fallback = "the first GPU, or else 'cpu' if the techniques need no OpenGL"},
     {.name = "technique",
      .repeats = true,
      .commas = true,
@@ -229,6 +231,8 @@ static void print_device(const struct render *render, const struct kiln_device_i
         printf("{\"event\": \"device\", \"index\": %u, \"name\": ", info->index);
         kiln_write_json_string(stdout, info->name);
         printf(", \"software\": %s}\n", info->software ? "true" : "false");
+    } else if (!render->quiet && !info->gl) {
+        printf("device: %s (%s, no OpenGL)\n", info->name, info->vectors);
     } else if (!render->quiet) {
         printf("device: %s%s\n", info->name, info->software ? " (software)" : "");
     }
@@ -299,6 +303,7 @@ static int run_jobs(struct render *render)
     struct kiln_error error = {0};
     struct kiln_device_params params = KILN_DEVICE_DEFAULTS;
     params.wanted = render->device;
+    params.gl = kiln_techniques_need_gl(render->params.techniques, render->params.technique_count);
     params.log = report_log();
     if (render->watchdog)
         watchdog_arm(render->watchdog, render->frame_timeout_s, "opening the device");

@@ -33,9 +33,10 @@ static const struct option options[] = {
     {.name = "device",
      .kind = OPTION_TEXT,
      .placeholder = "DEVICE",
-     .help = "A number from 'kiln devices', a part of a device's name, or 'software', for tests "
-             "that name none.",
-     .fallback = "the first GPU, or else the software device"},
+     .help =
+         "A number from 'kiln devices', a part of a device's name, 'cpu' for none of OpenGL, or "
+         "'software' for OpenGL on the CPU; for tests that name none.",
+     .fallback = "'cpu', or else the first GPU or the software device if a technique needs it"},
     {.name = "technique",
      .repeats = true,
      .commas = true,

@@ -15,9 +15,9 @@ static const struct option options[] = {
      .repeats = true,
      .kind = OPTION_TEXT,
      .placeholder = "DEVICE",
-     .help = "Render on this device: a number from 'kiln devices', a part of its name, or "
+     .help = "Render on this device: a number from 'kiln devices', a part of its name, 'cpu' or "
              "'software'.",
-     .fallback = "the first GPU, or else the software device"},
+     .fallback = "'cpu', and the first GPU or the software device for techniques that need it"},
     {.name = "renders",
      .kind = OPTION_INTEGER,
      .placeholder = "N",

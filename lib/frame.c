@@ -281,7 +281,8 @@ static void init_pool(struct kiln_job *job)
     uint32_t capacities[KILN_MAX_SYSTEMS] = {0};
     for (uint32_t i = 0; i < job->scene->system_count; i++)
         capacities[i] = job->scene->systems[i].capacity;
-    kiln_pool_init(&job->run.pool, job->device, capacities, job->scene->system_count);
+    kiln_pool_init(&job->run.pool, kiln_device_gl(job->device), capacities,
+                   job->scene->system_count);
     job->stats.particle_capacity = job->run.pool.slot_count;
     const uint32_t slots = job->run.pool.slot_count;
     job->stats.particle_bytes =
@@ -327,7 +328,7 @@ static bool begin(struct kiln_job *job, struct kiln_error *error)
     if (!open_output(job, error))
         return false;
     init_pool(job);
-    return kiln_stages_init(&job->stages, job->device, job->scene, &job->techniques,
+    return kiln_stages_init(&job->stages, kiln_device_gl(job->device), job->scene, &job->techniques,
                             output_needs(job), job->threads, &job->run.pool, error);
 }
 

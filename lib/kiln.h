@@ -134,16 +134,23 @@ bool kiln_scene_visit_systems(const char *path, void (*visit)(void *user, const 
 
 struct kiln_device;
 
+/* The name of the device that is no GL device: threads and vectors of this machine, for techniques
+ * called `cpu`. Every machine has it, and all make the same pixels with it. */
+#define KILN_DEVICE_CPU "cpu"
+
 struct kiln_device_info {
     uint32_t index;
-    bool usable;    /* OpenGL 4.3 or later with all that kiln needs */
-    bool software;  /* a rasteriser on the CPU */
+    bool gl;        /* false: KILN_DEVICE_CPU */
+    bool usable;    /* OpenGL 4.3 or later with all that kiln needs, or no GL */
+    bool software;  /* draws on the CPU */
     bool exact;     /* passed the exactness probe: may simulate */
     char name[128]; /* GL renderer */
     char vendor[128];
     char gl_version[128];
-    char platform[32]; /* "device" or "surfaceless" */
+    char platform[32]; /* "device" or "surfaceless", or "host" without GL */
     char problem[256]; /* why it is not usable, and what mends it; empty when it is */
+    char vectors[16];  /* without GL: the widest ones, "avx2"; and the threads a job gets */
+    uint32_t threads;
     int32_t max_work_group_invocations;
     int32_t max_shared_memory_bytes;
     int64_t max_storage_block_bytes;
@@ -151,17 +158,21 @@ struct kiln_device_info {
     int32_t max_array_layers;
 };
 
-/* wanted: NULL takes the first GPU, or else the software device; "N" an index from the list,
- * "software" the first software device, anything else a part of a device's name. */
+/* wanted: NULL takes the first GPU, or else KILN_DEVICE_CPU; "N" an index from the list,
+ * KILN_DEVICE_CPU that one, for which nothing of GL is loaded; "software" the first GL device that
+ * draws on the CPU, anything else a part of a device's name. */
 struct kiln_device_params {
     const char *wanted;
+    bool gl;    /* with wanted NULL: a GL device, if need be the software one; for techniques that
+                 * kiln_techniques_need_gl says it of */
     bool debug; /* a GL debug context: errors are logged and fail the job */
     struct kiln_log log;
 };
 #define KILN_DEVICE_DEFAULTS ((struct kiln_device_params){.wanted = NULL})
 
-/* Fills up to capacity entries and returns how many devices there are; *advice (may be NULL)
- * gets what is missing on this machine and the package that mends it, "" if nothing is. */
+/* Fills up to capacity entries, KILN_DEVICE_CPU first, and returns how many devices there are;
+ * *advice (may be NULL) gets what is missing on this machine and the package that mends it, "" if
+ * nothing is. */
 size_t kiln_device_list(struct kiln_device_info *infos, size_t capacity, char advice[256]);
 
 struct kiln_device *kiln_device_open(const struct kiln_device_params *params,
@@ -299,6 +310,10 @@ void kiln_abandon_outputs(void);
 
 /* The techniques of each stage and what each is for, for people. */
 bool kiln_write_techniques(FILE *out);
+
+/* Whether any stage will need GL when a job is asked for these, "stage=name", and else takes those
+ * of KILN_DEVICE_CPU. What is no technique needs none. */
+bool kiln_techniques_need_gl(const char *const *techniques, size_t count);
 
 /* Visits each as "stage=name". */
 void kiln_visit_techniques(void (*visit)(void *user, const char *name, const char *help),

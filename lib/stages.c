@@ -9,7 +9,7 @@
  */
 static GLenum target_format(const struct kiln_device *device)
 {
-    return device->info.software ? GL_RGBA32F : GL_RGBA16F;
+    return !device || device->info.software ? GL_RGBA32F : GL_RGBA16F;
 }
 
 static uint32_t spheres_of(const struct kiln_scene *scene)
@@ -33,7 +33,14 @@ static uint32_t systems_with(const struct kiln_scene *scene, enum kiln_blend ble
     return mask & ~spheres_of(scene);
 }
 
-static bool init_targets(struct kiln_stages *s, bool layers, struct kiln_error *error)
+/* Whether particles leave a glow of their own: what the bright pass finds takes its place. */
+static bool needs_glow(const struct kiln_scene *scene, bool layers)
+{
+    bool blooms = scene->post.bloom != KILN_BLOOM_NONE;
+    return blooms ? scene->post.bloom_source != KILN_BLOOM_BRIGHT : layers;
+}
+
+static bool init_targets(struct kiln_stages *s, struct kiln_error *error)
 {
     uint32_t w = s->scene->width, h = s->scene->height;
     GLenum format = target_format(s->device);
@@ -43,25 +50,24 @@ static bool init_targets(struct kiln_stages *s, bool layers, struct kiln_error *
     kiln_image_init(&s->backdrop_depth, s->device, w, h, GL_R32F, "backdrop depth");
     kiln_image_init(&s->particle_color, s->device, w, h, format, "particles");
     kiln_image_init(&s->bloom_color, s->device, w, h, format, "bloom source");
+    size_t targets = s->glow ? 2 : 1;
     struct kiln_image *merged[] = {&s->particle_color, &s->bloom_color};
-    if (!kiln_framebuffer_init(&s->particle_framebuffer, s->device, merged, 2, error))
+    if (!kiln_framebuffer_init(&s->particle_framebuffer, s->device, merged, targets, error))
         return false;
 
     bool separate = s->scene->post.compose == KILN_COMPOSE_SEPARATE;
-    if (layers && !separate) {
-        kiln_image_init(&s->layer_bloom, s->device, w, h, format, "layer bloom");
+    if (s->layers && !separate) {
         kiln_image_init(&s->smoke_color, s->device, w, h, format, "smoke");
-        struct kiln_image *smoke[] = {&s->smoke_color, &s->layer_bloom};
-        if (!kiln_framebuffer_init(&s->smoke_framebuffer, s->device, smoke, 2, error))
+        struct kiln_image *smoke[] = {&s->smoke_color};
+        if (!kiln_framebuffer_init(&s->smoke_framebuffer, s->device, smoke, 1, error))
             return false;
     }
-    if (layers || separate) {
-        kiln_image_init(&s->fire_color, s->device, w, h, format, "fire");
-        struct kiln_image *fire[] = {&s->fire_color, separate ? &s->bloom_color : &s->layer_bloom};
-        if (!kiln_framebuffer_init(&s->fire_framebuffer, s->device, fire, 2, error))
-            return false;
-    }
-    return true;
+    if (!s->layers && !separate)
+        return true;
+    kiln_image_init(&s->fire_color, s->device, w, h, format, "fire");
+    struct kiln_image *fire[] = {&s->fire_color, &s->bloom_color};
+    return kiln_framebuffer_init(&s->fire_framebuffer, s->device, fire, separate ? targets : 1,
+                                 error);
 }
 
 static bool init_atlas(struct kiln_stages *s, struct kiln_error *error)
@@ -154,7 +160,13 @@ static bool init_stages(struct kiln_stages *s, const struct kiln_techniques *tec
         !init_scenery(s, techniques->backdrop, error))
         return false;
     if (s->scene->camera.shutter_samples > 1) {
-        s->shutter = kiln_shutter_create(device, s->scene->width, s->scene->height, error);
+        s->shutter =
+            kiln_shutter_create(device,
+                                &(struct kiln_shutter_params){.technique = techniques->composite,
+                                                              .threads = s->threads,
+                                                              .width = s->scene->width,
+                                                              .height = s->scene->height},
+                                error);
         if (!s->shutter)
             return false;
     }
@@ -185,13 +197,14 @@ bool kiln_stages_init(struct kiln_stages *stages, struct kiln_device *device,
 {
     *stages = (struct kiln_stages){.device = device, .scene = scene, .threads = threads};
     stages->layers = needs.layers;
+    stages->glow = needs_glow(scene, needs.layers);
     kiln_buffer_init(&stages->entries, device, pool->slot_count * sizeof(uint32_t), "entries");
     stages->timer = kiln_timer_create(device);
     if (!stages->timer) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "timers: out of memory");
         goto fail;
     }
-    if (!init_atlas(stages, error) || !init_targets(stages, needs.layers, error) ||
+    if (!init_atlas(stages, error) || !init_targets(stages, error) ||
         !init_stages(stages, techniques, needs.bits, error))
         goto fail;
     return true;
@@ -216,10 +229,10 @@ void kiln_stages_finish(struct kiln_stages *stages)
     kiln_framebuffer_finish(&stages->particle_framebuffer);
     kiln_framebuffer_finish(&stages->fire_framebuffer);
     kiln_framebuffer_finish(&stages->smoke_framebuffer);
-    struct kiln_image *images[] = {
-        &stages->backdrop_color, &stages->backdrop_depth, &stages->scene_color,
-        &stages->scene_depth,    &stages->particle_color, &stages->fire_color,
-        &stages->smoke_color,    &stages->bloom_color,    &stages->layer_bloom};
+    struct kiln_image *images[] = {&stages->backdrop_color, &stages->backdrop_depth,
+                                   &stages->scene_color,    &stages->scene_depth,
+                                   &stages->particle_color, &stages->fire_color,
+                                   &stages->smoke_color,    &stages->bloom_color};
     for (size_t i = 0; i < sizeof images / sizeof *images; i++)
         kiln_image_finish(images[i]);
     kiln_atlas_finish(&stages->atlas);
@@ -231,7 +244,7 @@ void kiln_stages_finish(struct kiln_stages *stages)
 struct particle_pass {
     uint32_t systems;
     bool by_depth;
-    const struct kiln_framebuffer *framebuffer;
+    struct kiln_framebuffer *framebuffer;
     bool keep_bloom; /* clear the colour only */
     bool sum_alpha, fire_covers;
     bool by_fragment;
@@ -336,7 +349,7 @@ static bool draw_merged(struct kiln_stages *s, struct kiln_pool *pool, const str
                                 .by_fragment = by_fragment};
     if (!draw_particles(s, pool, view, &all, drawn, error))
         return false;
-    if (!s->smoke_framebuffer.gl)
+    if (!s->layers)
         return true;
 
     uint32_t count = 0;
@@ -397,8 +410,8 @@ static bool add_moment(struct kiln_stages *s, uint32_t moment, struct kiln_error
     bool first = moment == 0;
     const struct kiln_composite_inputs inputs = moment_inputs(s);
     return kiln_shutter_add_composed(s->shutter, &inputs, weight, first, error) &&
-           kiln_shutter_add(s->shutter, KILN_SHUTTER_BLOOM, &s->bloom_color, weight, first,
-                            error) &&
+           (!s->glow || kiln_shutter_add(s->shutter, KILN_SHUTTER_BLOOM, &s->bloom_color, weight,
+                                         first, error)) &&
            (!s->layers || (kiln_shutter_add(s->shutter, KILN_SHUTTER_FIRE, &s->fire_color, weight,
                                             first, error) &&
                            kiln_shutter_add(s->shutter, KILN_SHUTTER_SMOKE, smoke_layer(s), weight,

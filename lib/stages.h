@@ -18,10 +18,11 @@
 #include "technique.h"
 
 struct kiln_stages {
-    struct kiln_device *device;
+    struct kiln_device *device; /* NULL: all on the host */
     const struct kiln_scene *scene;
     struct kiln_threads *threads;
     bool layers; /* of an EXR are asked for */
+    bool glow;   /* particles leave one */
     struct kiln_timer *timer;
     struct kiln_atlas atlas;
 
@@ -44,11 +45,10 @@ struct kiln_stages {
     struct kiln_image fire_color;     /* separate composition, and for layers */
     struct kiln_image smoke_color;    /* for layers of merged composition */
     struct kiln_image bloom_color;    /* what will be blurred */
-    struct kiln_image layer_bloom;    /* bloom of the layer passes: drawn, not used */
     struct kiln_framebuffer particle_framebuffer, fire_framebuffer, smoke_framebuffer;
 };
 
-/* Sets everything up for a scene. needs says what the output will ask for; threads is borrowed.
+/* Sets everything up for a scene. device NULL: without GL, all techniques `cpu`. needs says what the output will ask for; threads is borrowed.
  * On failure nothing is left. */
 bool kiln_stages_init(struct kiln_stages *stages, struct kiln_device *device,
                       const struct kiln_scene *scene, const struct kiln_techniques *techniques,

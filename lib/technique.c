@@ -198,6 +198,36 @@ static bool apply_flag(const char *flag, const struct choices *automatic, struct
     return unknown_name(what, equals + 1, names, count, error);
 }
 
+/* The first row that was chosen and runs in GL, which only those called `cpu` do not; or NULL. */
+static const struct row *find_gl(const struct choices *choices)
+{
+    for (int stage = 0; stage < STAGE_COUNT; stage++) {
+        if (strcmp(choices->rows[stage]->name, "cpu") != 0)
+            return choices->rows[stage];
+    }
+    return NULL;
+}
+
+static bool refuse_gl(const struct row *row, const char *device, struct kiln_error *error)
+{
+    const char *stage = STAGE_NAMES[row->stage];
+    return kiln_error_set(error, KILN_USAGE,
+                          "technique %s=%s needs OpenGL, which the device '%s' does not have: use "
+                          "%s=cpu, or another device ('kiln devices' lists them)",
+                          stage, row->name, device, stage);
+}
+
+bool kiln_techniques_need_gl(const char *const *techniques, size_t count)
+{
+    const struct kiln_device_info host = {.software = true, .exact = true};
+    const struct choices automatic = choose_automatically(&host);
+    struct choices choices = automatic;
+    struct kiln_error ignored = {0};
+    for (size_t i = 0; i < count; i++)
+        apply_flag(techniques[i], &automatic, &choices, &ignored);
+    return find_gl(&choices) != NULL;
+}
+
 bool kiln_techniques_choose(const struct kiln_device_info *device, const char *const *flags,
                             size_t flag_count, struct kiln_techniques *techniques,
                             struct kiln_error *error)
@@ -208,6 +238,8 @@ bool kiln_techniques_choose(const struct kiln_device_info *device, const char *c
         if (!apply_flag(flags[i], &automatic, &choices, error))
             return false;
     }
+    if (!device->gl && find_gl(&choices))
+        return refuse_gl(find_gl(&choices), device->name, error);
     if (choices.rows[SIMULATE]->value != KILN_SIMULATE_CPU && !device->exact)
         return kiln_error_set(error, KILN_NO_DEVICE,
                               "%s computes inexactly: it can not simulate; use simulate=cpu",
@@ -228,6 +260,15 @@ bool kiln_techniques_choose(const struct kiln_device_info *device, const char *c
         techniques->choices[stage] = (struct kiln_technique_choice){
             STAGE_NAMES[stage], choices.rows[stage]->name, choices.why[stage]};
     return true;
+}
+
+struct kiln_device_params kiln_techniques_device(const char *wanted, const char *const *flags,
+                                                 size_t flag_count)
+{
+    struct kiln_device_params params = KILN_DEVICE_DEFAULTS;
+    params.gl = kiln_techniques_need_gl(flags, flag_count);
+    params.wanted = wanted || params.gl ? wanted : KILN_DEVICE_CPU;
+    return params;
 }
 
 /* The rows of a stage in their order, with `cpu` before the others. */

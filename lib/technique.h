@@ -32,6 +32,11 @@ bool kiln_techniques_choose(const struct kiln_device_info *device, const char *c
                             size_t flag_count, struct kiln_techniques *techniques,
                             struct kiln_error *error);
 
+/* The device for pictures that shall be the same everywhere: what is wanted, or else
+ * KILN_DEVICE_CPU where these techniques let it, or else the default one with GL. */
+struct kiln_device_params kiln_techniques_device(const char *wanted, const char *const *flags,
+                                                 size_t flag_count);
+
 /* One technique for each stage that has several, as "stage=name". */
 struct kiln_technique_list {
     char flags[KILN_STAGE_COUNT][KILN_TECHNIQUE_SIZE];

@@ -194,11 +194,17 @@ static void upload_moves(struct kiln_atlas *atlas)
     set_filters(1, GL_LINEAR);
 }
 
-/* Without a device, the cells stay on the host. */
-static bool upload(struct kiln_atlas *atlas, struct kiln_device *device, struct kiln_error *error)
+bool kiln_atlas_send(struct kiln_atlas *atlas, struct kiln_error *error)
 {
-    if (!device)
+    if (atlas->texture)
         return true;
+    struct kiln_device *device = atlas->device;
+    if (!device)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "a host atlas is not in GL");
+    if ((int64_t)atlas->layers > device->info.max_array_layers)
+        return kiln_error_set(error, KILN_DEVICE_FAILED,
+                              "the atlases have %u cells together; %s takes %d", atlas->layers,
+                              device->info.name, device->info.max_array_layers);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     upload_cells(atlas);
     upload_moves(atlas);
@@ -296,19 +302,15 @@ bool kiln_atlas_init(struct kiln_atlas *atlas, struct kiln_device *device,
                      const struct kiln_atlas_request *requests, uint32_t count,
                      struct kiln_threads *threads, struct kiln_error *error)
 {
-    *atlas = (struct kiln_atlas){0};
+    *atlas = (struct kiln_atlas){.device = device};
     struct flipbooks all = {0};
     for (uint32_t i = 0; i < count; i++) {
         atlas->systems[i].count = requests[i].count;
         for (uint32_t k = 0; k < requests[i].count; k++)
             add_texture(&all, atlas, &requests[i], k, &atlas->systems[i].textures[k]);
     }
-    if (device && (int64_t)atlas->layers > device->info.max_array_layers)
-        return kiln_error_set(error, KILN_DEVICE_FAILED,
-                              "the atlases have %u cells together; %s takes %d", atlas->layers,
-                              device->info.name, device->info.max_array_layers);
     kiln_threads_for(threads, all.count, 1, make_films, &all);
-    bool ok = fill_layers(atlas, &all, threads, error) && upload(atlas, device, error);
+    bool ok = fill_layers(atlas, &all, threads, error);
     for (uint32_t i = 0; i < all.copy_count; i++)
         *all.copies[i] = *all.books[all.originals[i]].range;
     for (uint32_t i = 0; i < all.count; i++)

@@ -30,10 +30,11 @@ struct kiln_atlas_textures {
 };
 
 struct kiln_atlas {
-    uint8_t *texels; /* KILN_ATLAS_LAYER_BYTES a layer */
+    struct kiln_device *device; /* NULL: host only */
+    uint8_t *texels;            /* KILN_ATLAS_LAYER_BYTES a layer */
     int8_t *moves;  /* KILN_ATLAS_MOVES_BYTES a layer: pairs, where cells are on their way to the */
                     /* next, right and down; NULL when none moves */
-    GLuint texture; /* 2-D array, RGBA8, with mip levels; 0 without a device */
+    GLuint texture; /* 2-D array, RGBA8, with mip levels; 0 until it is sent */
     GLuint motion;  /* 2-D array of the same layers, RG8_SNORM; 1 x 1 x 1 when none moves */
     struct kiln_atlas_textures systems[KILN_MAX_SYSTEMS];
     uint32_t layers;
@@ -50,12 +51,16 @@ struct kiln_atlas_request {
     float motion_scale;     /* of a file: edges of the cell that a full value means */
 };
 
-/* Makes the textures for count systems; equal ones share layers. device NULL keeps them on the
- * host. A file that is neither image nor video or does not have the cells is KILN_INVALID_INPUT;
- * more layers than the device has, KILN_DEVICE_FAILED. */
+/* Makes the cells for count systems, on the host; equal ones share layers. A file that is neither
+ * image nor video or does not have the cells is KILN_INVALID_INPUT. */
 bool kiln_atlas_init(struct kiln_atlas *atlas, struct kiln_device *device,
                      const struct kiln_atlas_request *requests, uint32_t count,
                      struct kiln_threads *threads, struct kiln_error *error);
+
+/* Makes the two textures, unless they are there. Needs a device; more layers than that has are
+ * KILN_DEVICE_FAILED. */
+bool kiln_atlas_send(struct kiln_atlas *atlas, struct kiln_error *error);
+
 /* The texels of a level of a layer, rows from the top. */
 const uint8_t *kiln_atlas_level(const struct kiln_atlas *atlas, uint32_t layer, uint32_t level);
 

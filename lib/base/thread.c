@@ -31,7 +31,7 @@ struct kiln_threads {
     struct worker workers[];
 };
 
-static uint32_t default_count(void)
+uint32_t kiln_threads_available(void)
 {
     cpu_set_t set;
     CPU_ZERO(&set);
@@ -77,7 +77,7 @@ static void *worker_main(void *argument)
 struct kiln_threads *kiln_threads_create(uint32_t count)
 {
     if (count == 0)
-        count = default_count();
+        count = kiln_threads_available();
     if (count > MAX_THREADS)
         count = MAX_THREADS;
     struct kiln_threads *pool = calloc(1, sizeof *pool + count * sizeof(struct worker));

@@ -8,6 +8,9 @@
 
 struct kiln_threads;
 
+/* Processors that this process may run on, at most 256. */
+uint32_t kiln_threads_available(void);
+
 /* A pool of count workers, the caller counted as one; 0 takes one for each processor that this
  * process may run on, more than 256 is taken as 256. NULL when the system refuses. */
 struct kiln_threads *kiln_threads_create(uint32_t count);

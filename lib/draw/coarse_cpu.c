@@ -147,11 +147,12 @@ bool kiln_coarse_cpu_spread(struct kiln_coarse_cpu *coarse, const struct kiln_co
     rows.over = blend->sum_alpha ? 0.0f : 1.0f;
     if (!open_images(coarse->images, depth, &rows, error))
         return false;
+    const bool blooms = blend->target->count > 1;
     rows.color = kiln_image_host(blend->target->images[0], KILN_OVERWRITE, error);
-    if (rows.color)
+    if (rows.color && blooms)
         rows.bloom = kiln_image_host(blend->target->images[1],
                                      blend->keep_bloom ? KILN_READ_WRITE : KILN_OVERWRITE, error);
-    if (!rows.bloom)
+    if (!rows.color || (blooms && !rows.bloom))
         return false;
     kiln_threads_for(coarse->threads, coarse->images->height, ROWS_AT_A_TIME, coarse->loops->spread,
                      &rows);

@@ -46,8 +46,8 @@ static bool create_programs(struct kiln_coarse_gl *coarse, struct kiln_error *er
     return true;
 }
 
-static bool attach_mask(const struct kiln_coarse_gl *coarse,
-                        const struct kiln_framebuffer *framebuffer, struct kiln_error *error)
+static bool attach_mask(const struct kiln_coarse_gl *coarse, struct kiln_framebuffer *framebuffer,
+                        struct kiln_error *error)
 {
     if (!kiln_framebuffer_bind(framebuffer, error))
         return false;
@@ -113,7 +113,7 @@ void kiln_coarse_gl_destroy(struct kiln_coarse_gl **coarse)
 
 /* Draws with a program from images at texture units 0 and up. */
 static bool run_pass(struct kiln_coarse_gl *coarse, enum program program,
-                     const struct kiln_framebuffer *target, struct kiln_image *const *images,
+                     struct kiln_framebuffer *target, struct kiln_image *const *images,
                      GLuint count, struct kiln_error *error)
 {
     for (GLuint unit = 0; unit < count; unit++) {

@@ -26,8 +26,8 @@ struct kiln_coarse_images {
 
 /* What the particles of a pass become in the frame. */
 struct kiln_coarse_blend {
-    const struct kiln_framebuffer *target; /* colour and bloom, of the frame's size */
-    bool keep_bloom, sum_alpha;            /* as of struct kiln_particles_draw */
+    struct kiln_framebuffer *target; /* colour, and bloom if there is any; of the frame's size */
+    bool keep_bloom, sum_alpha;      /* as of struct kiln_particles_draw */
 };
 
 #endif

@@ -24,7 +24,7 @@ struct kiln_coarse_place {
 
 struct kiln_coarse_rows {
     const struct kiln_coarse_images *images;        /* what sizes there are */
-    const struct kiln_coarse_place *columns, *rows; /* of the frame */
+    const struct kiln_coarse_place *columns, *rows; /* of the frame; bloom NULL: none */
     const float *depth;                             /* of the frame, m */
     float *coarse_depth;
     uint8_t *bent;     /* 1 where a coarse pixel's depth is not that of a plane */
@@ -33,7 +33,7 @@ struct kiln_coarse_rows {
 
     const float *coarse_color, *coarse_bloom;
     const float *fine_color, *fine_bloom; /* NULL unless mixed */
-    float *color, *bloom;                 /* of the frame */
+    float *color, *bloom;                 /* of the frame; bloom NULL: none */
     bool keep_bloom;
     float over; /* 1: what covers hides an earlier pass's bloom; 0: it is added to */
     struct kiln_coarse_shown *mixed; /* a coarse row for each thread */

@@ -224,9 +224,11 @@ static inline void spread_row(const struct kiln_coarse_rows *s, uint32_t y,
             shown.color += (load(s->fine_color + 4 * at) - shown.color) * fine;
             shown.bloom += (load(s->fine_bloom + 4 * at) - shown.bloom) * fine;
         }
+        store(s->color + 4 * at, shown.color);
+        if (!s->bloom)
+            continue;
         if (s->keep_bloom)
             shown.bloom += load(s->bloom + 4 * at) * (1.0f - shown.color[3] * s->over);
-        store(s->color + 4 * at, shown.color);
         store(s->bloom + 4 * at, shown.bloom);
     }
 }

@@ -12,14 +12,17 @@
 struct kiln_particles_stage {
     enum kiln_raster_technique technique;
     struct kiln_draw_blocks blocks; /* of techniques in GL */
-    struct kiln_geometry *geometry; /* of every device */
+    struct kiln_device *device;
+    const struct kiln_scene *scene;
+    struct kiln_atlas *atlas;
+    struct kiln_geometry *geometry; /* of GL, also where spheres alone are drawn there */
     struct kiln_tiled *tiled;       /* `tiled` */
     struct kiln_tiles *tiles;       /* `cpu` */
 };
 
 struct kiln_particles_stage *
 kiln_particles_create(struct kiln_device *device, const struct kiln_scene *scene,
-                      const struct kiln_atlas *atlas, enum kiln_raster_technique technique,
+                      struct kiln_atlas *atlas, enum kiln_raster_technique technique,
                       struct kiln_threads *threads, struct kiln_error *error)
 {
     struct kiln_particles_stage *stage = calloc(1, sizeof *stage);
@@ -27,16 +30,16 @@ kiln_particles_create(struct kiln_device *device, const struct kiln_scene *scene
         kiln_error_set(error, KILN_DEVICE_FAILED, "particles: out of memory");
         return NULL;
     }
-    stage->technique = technique;
+    *stage = (struct kiln_particles_stage){
+        .technique = technique, .device = device, .scene = scene, .atlas = atlas};
     kiln_draw_blocks_init(&stage->blocks, device);
-    if (device)
+    if (technique == KILN_RASTER_CPU)
+        stage->tiles = kiln_tiles_create(scene, atlas, threads, error);
+    else if (kiln_atlas_send(atlas, error))
         stage->geometry = kiln_geometry_create(device, scene, atlas, technique, error);
     if (technique == KILN_RASTER_TILED && stage->geometry)
         stage->tiled = kiln_tiled_create(device, scene, stage->geometry, error);
-    if (technique == KILN_RASTER_CPU)
-        stage->tiles = kiln_tiles_create(scene, atlas, threads, error);
-    if ((device && !stage->geometry) || (technique == KILN_RASTER_TILED && !stage->tiled) ||
-        (technique == KILN_RASTER_CPU && !stage->tiles))
+    if ((!stage->geometry && !stage->tiles) || (technique == KILN_RASTER_TILED && !stage->tiled))
         kiln_particles_destroy(&stage);
     return stage;
 }
@@ -68,7 +71,10 @@ bool kiln_particles_nearest_first(const struct kiln_particles_stage *stage)
 bool kiln_particles_bind(struct kiln_particles_stage *stage, struct kiln_pool *pool,
                          struct kiln_buffer *entries, float time_s, struct kiln_error *error)
 {
-    return kiln_geometry_bind(stage->geometry, pool, entries, time_s, error);
+    if (!stage->geometry)
+        stage->geometry = kiln_geometry_create(stage->device, stage->scene, stage->atlas,
+                                               stage->technique, error);
+    return stage->geometry && kiln_geometry_bind(stage->geometry, pool, entries, time_s, error);
 }
 
 bool kiln_particles_run(struct kiln_particles_stage *stage, const struct kiln_particles_draw *draw,

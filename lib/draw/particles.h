@@ -22,7 +22,7 @@ struct kiln_particles_stage;
 /* scene, atlas and threads must outlive the stage; device may be NULL for `cpu`. */
 struct kiln_particles_stage *
 kiln_particles_create(struct kiln_device *device, const struct kiln_scene *scene,
-                      const struct kiln_atlas *atlas, enum kiln_raster_technique technique,
+                      struct kiln_atlas *atlas, enum kiln_raster_technique technique,
                       struct kiln_threads *threads, struct kiln_error *error);
 void kiln_particles_destroy(struct kiln_particles_stage **stage);
 
@@ -37,9 +37,9 @@ struct kiln_particles_draw {
     const struct kiln_view *view;
     const struct kiln_draw_backdrop *backdrop; /* what lights them */
     const struct kiln_lighting *lighting;
-    struct kiln_image *depth;                   /* of the scene */
-    const struct kiln_framebuffer *framebuffer; /* color, bloom: premultiplied */
-    bool keep_bloom; /* of an earlier pass; colour is always cleared first */
+    struct kiln_image *depth;             /* of the scene */
+    struct kiln_framebuffer *framebuffer; /* color, and bloom unless there is none: premultiplied */
+    bool keep_bloom;                      /* of an earlier pass; colour is always cleared first */
     bool sum_alpha; /* false: premultiplied `over`, in which additive particles cover nothing; true:
                      * colours and alpha are summed (figure 3.1, fire) */
     bool by_fragment; /* each pixel sorts what it shows on its own (lib/draw/fragments.h); without

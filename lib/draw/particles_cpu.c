@@ -121,7 +121,7 @@ static bool make_room(struct kiln_tiles *tiles, uint32_t wanted, struct kiln_err
 
 struct drawing {
     struct kiln_tiles *tiles;
-    float *color, *bloom; /* pixels of the targets */
+    float *color, *bloom; /* pixels of the targets; no bloom: NULL */
     const float *depth;
     uint32_t width, height;
     bool first, last; /* piece of the pass */
@@ -140,7 +140,7 @@ static void load_row(const struct drawing *d, struct kiln_tile *tile, int y, siz
         for (int c = 0; c < 4; c++)
             planes[KILN_TILE_RED + c][x] = d->color[4 * (at + x) + (size_t)c];
     }
-    for (size_t x = 0; x < count && (!d->first || d->keep_bloom); x++) {
+    for (size_t x = 0; x < count && d->bloom && (!d->first || d->keep_bloom); x++) {
         for (int c = 0; c < 3; c++)
             planes[KILN_TILE_GLOW_RED + c][x] = d->bloom[4 * (at + x) + (size_t)c];
     }
@@ -150,15 +150,16 @@ static void store_row(const struct drawing *d, const struct kiln_tile *tile, int
 {
     const float(*planes)[KILN_TILE_PITCH] = (const float(*)[KILN_TILE_PITCH])tile->pixels[y];
     for (size_t x = 0; x < (size_t)tile->width; x++) {
-        float *color = d->color + 4 * (at + x), *bloom = d->bloom + 4 * (at + x);
-        for (int c = 0; c < 3; c++) {
+        float *color = d->color + 4 * (at + x);
+        for (int c = 0; c < 4; c++)
             color[c] = planes[KILN_TILE_RED + c][x];
+    }
+    for (size_t x = 0; x < (size_t)tile->width && d->bloom; x++) {
+        float *bloom = d->bloom + 4 * (at + x);
+        for (int c = 0; c < 3; c++)
             bloom[c] = planes[KILN_TILE_GLOW_RED + c][x];
-        }
-        float alpha = planes[KILN_TILE_ALPHA][x];
-        color[3] = alpha;
         /* The glow's alpha goes the same way, from what an earlier pass has left. */
-        float before = d->keep_bloom ? bloom[3] : 0.0f;
+        float alpha = planes[KILN_TILE_ALPHA][x], before = d->keep_bloom ? bloom[3] : 0.0f;
         if (d->last)
             bloom[3] = alpha + before * (d->sum ? 1.0f : 1.0f - alpha);
     }
@@ -178,7 +179,7 @@ static void draw_tile(const struct drawing *d, size_t number, uint32_t worker)
     tile->height = height < KILN_TILE_HEIGHT ? (int)height : KILN_TILE_HEIGHT;
     tile->nearest = bins->depth[number].nearest;
     tile->over = d->sum ? 0.0f : 1.0f;
-    tile->glows = true;
+    tile->glows = d->bloom != NULL;
     for (int row = 0; row < tile->height; row++)
         load_row(d, tile, row, (size_t)(y + (uint32_t)row) * d->width + x);
     const uint32_t *list = bins->list + bins->first[number];
@@ -219,16 +220,16 @@ static bool draw_piece(struct kiln_tiles *tiles, const struct kiln_sprite_pass *
 static bool open_images(const struct kiln_particles_draw *draw, struct drawing *d,
                         struct kiln_error *error)
 {
-    struct kiln_image *color = draw->framebuffer->images[0], *bloom = draw->framebuffer->images[1];
-    d->depth = kiln_image_host(draw->depth, KILN_READ, error);
-    d->color = d->depth ? kiln_image_host(color, KILN_OVERWRITE, error) : NULL;
-    d->bloom =
-        d->color
-            ? kiln_image_host(bloom, draw->keep_bloom ? KILN_READ_WRITE : KILN_OVERWRITE, error)
-            : NULL;
+    struct kiln_image *color = draw->framebuffer->images[0];
+    bool glows = draw->framebuffer->count > 1;
     d->width = color->width;
     d->height = color->height;
-    return d->bloom != NULL;
+    d->depth = kiln_image_host(draw->depth, KILN_READ, error);
+    d->color = d->depth ? kiln_image_host(color, KILN_OVERWRITE, error) : NULL;
+    if (d->color && glows)
+        d->bloom = kiln_image_host(draw->framebuffer->images[1],
+                                   draw->keep_bloom ? KILN_READ_WRITE : KILN_OVERWRITE, error);
+    return d->color && (d->bloom || !glows);
 }
 
 bool kiln_tiles_run(struct kiln_tiles *tiles, const struct kiln_particles_draw *draw,

@@ -231,8 +231,8 @@ static bool check_runs(struct rendering *r)
 
 static bool open_device(struct rendering *r)
 {
-    struct kiln_device_params params = KILN_DEVICE_DEFAULTS;
-    params.wanted = r->params->device;
+    struct kiln_device_params params = kiln_techniques_device(
+        r->params->device, r->params->techniques, r->params->technique_count);
     params.log = r->params->log;
     r->device = kiln_device_open(&params, r->error);
     if (!r->device)

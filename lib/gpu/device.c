@@ -8,7 +8,9 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/simd.h"
 #include "base/text.h"
+#include "base/thread.h"
 #include "gpu/advice.h"
 #include "gpu/egl.h"
 #include "gpu/probe.h"
@@ -178,7 +180,7 @@ static void describe(struct kiln_device_info *info)
 static void open_source(struct kiln_device *device, const struct kiln_egl_source *source,
                         const struct kiln_device_params *params)
 {
-    *device = (struct kiln_device){.log = params->log, .debug = params->debug};
+    *device = (struct kiln_device){.log = params->log, .debug = params->debug, .info.gl = true};
     struct kiln_device_info *info = &device->info;
     snprintf(info->platform, sizeof info->platform, "%s", source->platform);
     info->software = source->software;
@@ -188,13 +190,37 @@ static void open_source(struct kiln_device *device, const struct kiln_egl_source
         snprintf(info->name, sizeof info->name, "%s", source->name);
 }
 
+/* This machine without GL. Not usable where the environment asks for vectors that it lacks; error
+ * then says so. Images and buffers may be as large as memory allows. */
+static struct kiln_device describe_host(const struct kiln_device_params *params,
+                                        struct kiln_error *error)
+{
+    struct kiln_device host = {.log = params->log};
+    struct kiln_device_info *info = &host.info;
+    info->software = info->exact = true;
+    info->max_storage_block_bytes = INT64_MAX;
+    info->max_texture_size = info->max_array_layers = INT32_MAX;
+    snprintf(info->name, sizeof info->name, KILN_DEVICE_CPU);
+    snprintf(info->vendor, sizeof info->vendor, "kiln");
+    snprintf(info->gl_version, sizeof info->gl_version, "none");
+    snprintf(info->platform, sizeof info->platform, "host");
+    info->threads = kiln_threads_available();
+    enum kiln_simd simd;
+    info->usable = kiln_simd_choose(&simd, error);
+    if (info->usable)
+        snprintf(info->vectors, sizeof info->vectors, "%s", kiln_simd_name(simd));
+    else
+        snprintf(info->problem, sizeof info->problem, "%.255s", error->message);
+    return host;
+}
+
 /* ---- Choosing ------------------------------------------------------------------------------ */
 
-/* The devices opened so far, numbered as listed. */
+/* The devices so far, numbered as listed: the one without GL, then those that were opened. */
 struct scan {
-    struct kiln_device devices[KILN_MAX_EGL_SOURCES];
+    struct kiln_device devices[1 + KILN_MAX_EGL_SOURCES];
     size_t count;
-    char problem[256]; /* why there are none */
+    char problem[256]; /* why there is none with GL */
 };
 
 static bool is_index(const char *wanted, uint64_t *index)
@@ -212,7 +238,9 @@ static bool scan_is_enough(const struct scan *scan, const char *wanted)
         return last->usable && !last->software;
     if (is_index(wanted, &index))
         return scan->count > index;
-    return strcmp(wanted, "software") == 0 && last->usable && last->software;
+    if (strcasecmp(wanted, KILN_DEVICE_CPU) == 0)
+        return true;
+    return strcmp(wanted, "software") == 0 && last->usable && last->gl && last->software;
 }
 
 /* Mesa's surfaceless platform reaches one of the devices again, or, when none of them works, says
@@ -230,14 +258,27 @@ static bool is_duplicate(const struct scan *scan, const struct kiln_device_info 
     return false;
 }
 
+/* Only GPUs are looked for: what is known to be none need not be opened. Mesa's surfaceless
+ * platform has a GPU only where devices cannot be listed. */
+static bool may_be_gpu(const struct kiln_egl_source *source, size_t source_count)
+{
+    return !source->software && (source->device || source_count == 1);
+}
+
 /* every: do not stop early. */
 static void scan_devices(struct scan *scan, const struct kiln_device_params *params, bool every)
 {
+    struct kiln_error error = {0};
+    scan->devices[0] = describe_host(params, &error);
+    scan->count = 1;
+    if (!every && scan_is_enough(scan, params->wanted))
+        return;
     struct kiln_egl_source sources[KILN_MAX_EGL_SOURCES];
     size_t source_count = kiln_egl_sources(sources, scan->problem);
-    scan->count = 0;
     for (size_t i = 0; i < source_count; i++) {
         struct kiln_device *device = &scan->devices[scan->count];
+        if (!every && !params->wanted && !params->gl && !may_be_gpu(&sources[i], source_count))
+            continue;
         open_source(device, &sources[i], params);
         if (is_duplicate(scan, &device->info)) {
             kiln_egl_close(device->display, device->context);
@@ -260,29 +301,22 @@ static void list_names(const struct scan *scan, struct kiln_text *text)
 {
     for (size_t i = 0; i < scan->count; i++)
         kiln_text_add(text, "%s%zu '%s'", i ? ", " : "", i, scan->devices[i].info.name);
-    if (scan->count == 0)
-        kiln_text_add(text, "none");
-}
-
-static const struct kiln_device *choose_default(const struct scan *scan)
-{
-    const struct kiln_device *software = NULL;
-    for (size_t i = 0; i < scan->count; i++) {
-        const struct kiln_device *device = &scan->devices[i];
-        if (device->info.usable && !device->info.software)
-            return device;
-        if (device->info.usable && !software)
-            software = device;
-    }
-    return software;
 }
 
 static const struct kiln_device *choose_software(const struct scan *scan)
 {
-    for (size_t i = 0; i < scan->count; i++)
+    for (size_t i = 1; i < scan->count; i++)
         if (scan->devices[i].info.usable && scan->devices[i].info.software)
             return &scan->devices[i];
     return NULL;
+}
+
+static const struct kiln_device *choose_default(const struct scan *scan, bool gl)
+{
+    for (size_t i = 1; i < scan->count; i++)
+        if (scan->devices[i].info.usable && !scan->devices[i].info.software)
+            return &scan->devices[i];
+    return gl ? choose_software(scan) : &scan->devices[0];
 }
 
 /* A whole name wins over names that contain it; several equal matches are ambiguous. */
@@ -304,35 +338,16 @@ static const struct kiln_device *choose_named(const struct scan *scan, const cha
     return matches == 1 ? found : NULL;
 }
 
-static const struct kiln_device *choose(const struct scan *scan, const char *wanted,
-                                        struct kiln_error *error)
+static const struct kiln_device *refuse_choice(const struct scan *scan, const char *wanted,
+                                               bool ambiguous, struct kiln_error *error)
 {
-    const struct kiln_device *device = NULL;
-    bool ambiguous = false;
-    uint64_t index;
-    if (!wanted)
-        device = choose_default(scan);
-    else if (is_index(wanted, &index))
-        device = index < scan->count ? &scan->devices[index] : NULL;
-    else if (strcmp(wanted, "software") == 0)
-        device = choose_software(scan);
-    else
-        device = choose_named(scan, wanted, &ambiguous);
-
-    if (device && device->info.usable)
-        return device;
-    if (device) {
-        kiln_error_set(error, KILN_NO_DEVICE, "device %u '%s' is not usable: %s",
-                       device->info.index, device->info.name, device->info.problem);
-        return NULL;
-    }
     struct kiln_text names = {0};
     list_names(scan, &names);
-    if (scan->count == 0)
-        kiln_error_set(error, KILN_NO_DEVICE, "no device: %s", scan->problem);
+    if (!wanted && scan->count == 1)
+        kiln_error_set(error, KILN_NO_DEVICE, "no device with OpenGL: %s", scan->problem);
     else if (!wanted)
-        kiln_error_set(error, KILN_NO_DEVICE, "no usable device among %s; the first: %s",
-                       names.data, scan->devices[0].info.problem);
+        kiln_error_set(error, KILN_NO_DEVICE, "no usable device with OpenGL; the first: %s",
+                       scan->devices[1].info.problem);
     else if (ambiguous)
         kiln_error_set(error, KILN_USAGE, "device '%s' means more than one; say its number: %s",
                        wanted, names.data);
@@ -346,12 +361,40 @@ static const struct kiln_device *choose(const struct scan *scan, const char *wan
     return NULL;
 }
 
+static const struct kiln_device *
+choose(const struct scan *scan, const struct kiln_device_params *params, struct kiln_error *error)
+{
+    const char *wanted = params->wanted;
+    const struct kiln_device *device = NULL;
+    bool ambiguous = false;
+    uint64_t index;
+    if (!wanted)
+        device = choose_default(scan, params->gl);
+    else if (is_index(wanted, &index))
+        device = index < scan->count ? &scan->devices[index] : NULL;
+    else if (strcmp(wanted, "software") == 0)
+        device = choose_software(scan);
+    else
+        device = choose_named(scan, wanted, &ambiguous);
+
+    if (!device)
+        return refuse_choice(scan, wanted, ambiguous, error);
+    if (device->info.usable)
+        return device;
+    if (!device->info.gl) /* the environment is wrong, not the machine */
+        kiln_error_set(error, KILN_USAGE, "%s", device->info.problem);
+    else
+        kiln_error_set(error, KILN_NO_DEVICE, "device %u '%s' is not usable: %s",
+                       device->info.index, device->info.name, device->info.problem);
+    return NULL;
+}
+
 /* A device that is not exact draws, but its particles are stepped by the CPU. */
 static void probe(struct kiln_device *device)
 {
     char reason[256] = "";
     struct kiln_error error = {0};
-    if (!device->info.usable || !kiln_device_make_current(device, &error))
+    if (!device->info.gl || !device->info.usable || !kiln_device_make_current(device, &error))
         return;
     device->info.exact = kiln_probe_exact(device, KILN_PROBE_COMPUTE, reason, &error);
     if (!device->info.exact)
@@ -365,7 +408,7 @@ size_t kiln_device_list(struct kiln_device_info *infos, size_t capacity, char ad
 {
     if (advice)
         snprintf(advice, 256, "no memory for the list of devices");
-    struct kiln_device_info all[KILN_MAX_EGL_SOURCES];
+    struct kiln_device_info all[1 + KILN_MAX_EGL_SOURCES];
     struct scan *scan = calloc(1, sizeof *scan);
     if (!scan)
         return 0;
@@ -379,7 +422,7 @@ size_t kiln_device_list(struct kiln_device_info *infos, size_t capacity, char ad
             infos[i] = all[i];
     }
     if (advice)
-        kiln_device_advise(all, count, scan->problem, advice);
+        kiln_device_advise(all + 1, count - 1, scan->problem, advice);
     scan_close(scan);
     kiln_egl_restore(&before);
     free(scan);
@@ -400,7 +443,7 @@ struct kiln_device *kiln_device_open(const struct kiln_device_params *params,
         goto fail;
     }
     scan_devices(scan, params, false);
-    const struct kiln_device *chosen = choose(scan, params->wanted, error);
+    const struct kiln_device *chosen = choose(scan, params, error);
     if (!chosen)
         goto fail;
     *device = *chosen;
@@ -411,7 +454,7 @@ struct kiln_device *kiln_device_open(const struct kiln_device_params *params,
         kiln_device_close(&device);
         return NULL;
     }
-    if (device->debug)
+    if (device->info.gl && device->debug)
         watch_errors(device);
     probe(device);
     return device;
@@ -438,9 +481,14 @@ const struct kiln_device_info *kiln_device_info(const struct kiln_device *device
     return &device->info;
 }
 
+struct kiln_device *kiln_device_gl(struct kiln_device *device)
+{
+    return device->info.gl ? device : NULL;
+}
+
 bool kiln_device_make_current(struct kiln_device *device, struct kiln_error *error)
 {
-    if (kiln_egl_make_current(device->display, device->context))
+    if (!device->info.gl || kiln_egl_make_current(device->display, device->context))
         return true;
     return kiln_error_set(error, KILN_DEVICE_FAILED, "the context of '%s' does not become current",
                           device->info.name);

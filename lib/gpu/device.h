@@ -1,4 +1,5 @@
-/* An OpenGL context without a display, and what kiln knows about its driver. */
+/* An OpenGL context without a display, and what kiln knows about its driver; or this machine
+ * without GL. */
 #ifndef KILN_GPU_DEVICE_H
 #define KILN_GPU_DEVICE_H
 
@@ -16,13 +17,17 @@ struct kiln_device {
     struct kiln_log log;
     struct kiln_traffic traffic; /* since it was opened: contents of buffers, images, textures */
     uint32_t work_group_size;    /* for programs made from now on; 0: what suits each kernel */
-    void *display, *context;     /* EGL */
+    void *display, *context;     /* EGL; NULL without GL */
     bool debug;
     bool gl_failed;       /* the debug callback saw an error; sticky */
     char gl_message[512]; /* the first such error */
 };
 
-/* Makes the device's context current on this thread. */
+/* The device, or NULL when it has no GL: what buffers, images, timers and stages take, for whom
+ * NULL is the host alone. */
+struct kiln_device *kiln_device_gl(struct kiln_device *device);
+
+/* Makes the device's context current on this thread; without GL there is nothing to do. */
 bool kiln_device_make_current(struct kiln_device *device, struct kiln_error *error);
 
 /* False, with the place and the GL error, if GL reported one since the last call; `where` is a word

@@ -8,13 +8,14 @@ enum { KILN_MAX_TARGETS = 4 };
 
 /* Images of one size that are drawn into together. Zero-initialised has none. */
 struct kiln_framebuffer {
-    GLuint gl;
+    struct kiln_device *device;
+    GLuint gl; /* made when it is bound first */
     struct kiln_image *images[KILN_MAX_TARGETS];
     size_t count;
 };
 
-/* Up to KILN_MAX_TARGETS images, in the order of the shader's outputs; they must outlive it. False
- * with an error; kiln_framebuffer_finish then frees what there is. */
+/* 1 to KILN_MAX_TARGETS images, in the order of the shader's outputs; they must outlive it. device
+ * NULL: its images are only drawn into on the host. False with an error. */
 bool kiln_framebuffer_init(struct kiln_framebuffer *framebuffer, struct kiln_device *device,
                            struct kiln_image *const *images, size_t count,
                            struct kiln_error *error);
@@ -22,7 +23,7 @@ void kiln_framebuffer_finish(struct kiln_framebuffer *framebuffer);
 
 /* Binds it with a viewport over all of it. What is drawn next is the images' contents: their host
  * sides become stale. */
-bool kiln_framebuffer_bind(const struct kiln_framebuffer *framebuffer, struct kiln_error *error);
+bool kiln_framebuffer_bind(struct kiln_framebuffer *framebuffer, struct kiln_error *error);
 
 /* Draws one triangle over the whole of the bound framebuffer with the bound program, whose vertex
  * shader is draw/fullscreen.vert. vertex_array: any, it has no attributes. */

@@ -47,7 +47,7 @@ static bool bind_image(GLuint unit, struct kiln_image *image, struct kiln_error 
     return true;
 }
 
-bool kiln_bloom_pass(const struct kiln_framebuffer *target, struct kiln_image *first,
+bool kiln_bloom_pass(struct kiln_framebuffer *target, struct kiln_image *first,
                      struct kiln_image *second, GLuint vertex_array, struct kiln_error *error)
 {
     if (!bind_image(0, first, error) || !bind_image(1, second, error) ||

@@ -15,7 +15,7 @@ bool kiln_bloom_target_init(struct kiln_bloom_target *target, struct kiln_device
 void kiln_bloom_target_finish(struct kiln_bloom_target *target);
 
 /* Draws into the target with the program in use and its textures 0 and 1; second may be NULL. */
-bool kiln_bloom_pass(const struct kiln_framebuffer *target, struct kiln_image *first,
+bool kiln_bloom_pass(struct kiln_framebuffer *target, struct kiln_image *first,
                      struct kiln_image *second, GLuint vertex_array, struct kiln_error *error);
 
 /* A full-screen program of a fragment shader. 0 with an error. */

@@ -16,9 +16,17 @@ enum kiln_shutter_sum {
 
 struct kiln_shutter_stage;
 
-/* For images of width x height. NULL with an error. */
-struct kiln_shutter_stage *kiln_shutter_create(struct kiln_device *device, uint32_t width,
-                                               uint32_t height, struct kiln_error *error);
+/* Where the sums are taken follows the composite. */
+struct kiln_shutter_params {
+    enum kiln_composite_technique technique;
+    struct kiln_threads *threads; /* of `cpu`; they must outlive the stage */
+    uint32_t width, height;       /* of the images */
+};
+
+/* device may be NULL for `cpu`. NULL with an error. */
+struct kiln_shutter_stage *kiln_shutter_create(struct kiln_device *device,
+                                               const struct kiln_shutter_params *params,
+                                               struct kiln_error *error);
 void kiln_shutter_destroy(struct kiln_shutter_stage **stage);
 
 /* Adds weight times the picture of a moment, composed (scene, particles and fire of the inputs), or

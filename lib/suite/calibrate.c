@@ -121,7 +121,8 @@ static bool render(struct calibrating *c, const struct variant *variant,
         .log = c->params->log,
     };
     bool ok = kiln_rendering_make(c->trial.arena, &params, rendering, error);
-    *refused = !ok && error->code == KILN_NO_DEVICE && !rendering->no_device;
+    bool lacks_gl = error->code == KILN_USAGE && rendering->device.usable && !rendering->device.gl;
+    *refused = !ok && ((error->code == KILN_NO_DEVICE && !rendering->no_device) || lacks_gl);
     return ok;
 }
 

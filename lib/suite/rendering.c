@@ -90,20 +90,6 @@ static bool name_frames(struct job *job)
            kiln_error_set(job->error, KILN_IO, "%s: the path is too long", job->params->folder);
 }
 
-static bool open_device(struct job *job)
-{
-    struct kiln_device_params params = KILN_DEVICE_DEFAULTS;
-    params.wanted = job->params->device;
-    params.log = job->params->log;
-    job->device = kiln_device_open(&params, job->error);
-    job->rendering->no_device = !job->device && job->error->code == KILN_NO_DEVICE;
-    if (!job->device)
-        return false;
-    job->rendering->device = *kiln_device_info(job->device);
-    kiln_device_name(job->rendering->device.name, job->rendering->device_name);
-    return true;
-}
-
 static void note_frame(void *user, const struct kiln_progress *progress)
 {
     struct job *job = user;
@@ -141,6 +127,24 @@ static const char **list_techniques(const struct job *job, size_t *count)
     for (size_t i = 0; i < job->params->technique_count; i++)
         list[(*count)++] = job->params->techniques[i];
     return list;
+}
+
+static bool open_device(struct job *job)
+{
+    size_t count = 0;
+    const char **techniques = list_techniques(job, &count);
+    if (!techniques)
+        return no_memory(job);
+    struct kiln_device_params params =
+        kiln_techniques_device(job->params->device, techniques, count);
+    params.log = job->params->log;
+    job->device = kiln_device_open(&params, job->error);
+    job->rendering->no_device = !job->device && job->error->code == KILN_NO_DEVICE;
+    if (!job->device)
+        return false;
+    job->rendering->device = *kiln_device_info(job->device);
+    kiln_device_name(job->rendering->device.name, job->rendering->device_name);
+    return true;
 }
 
 static bool render(struct job *job)

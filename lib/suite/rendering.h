@@ -11,7 +11,8 @@ size_t kiln_test_frames(const struct kiln_test *test, uint32_t scene_frames, uin
 
 struct kiln_rendering_params {
     const struct kiln_test *test;
-    const char *device;            /* wanted, as in kiln_device_params */
+    const char *device;            /* wanted, as in kiln_device_params; NULL: KILN_DEVICE_CPU, or */
+                                   /* the default one with GL, if a technique needs that */
     const char *const *techniques; /* "stage=name", over all others */
     size_t technique_count;
     uint32_t threads;

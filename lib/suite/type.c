@@ -76,7 +76,7 @@ static bool read_technique(struct kiln_reader *reader, const struct kiln_option 
 {
     if (!read_text(reader, option, node, field))
         return false;
-    static const struct kiln_device_info any_device = {.exact = true};
+    static const struct kiln_device_info any_device = {.gl = true, .exact = true};
     const char *text = text_at(field);
     struct kiln_techniques techniques;
     struct kiln_error error = {0};

@@ -33,7 +33,8 @@ static void list_describes_usable_devices(void **state)
         assert_int_equal(infos[i].index, i);
         assert_true(infos[i].name[0] != '\0');
         assert_true(infos[i].usable == (infos[i].problem[0] == '\0'));
-        if (!infos[i].usable)
+        assert_true(infos[i].gl == (i > 0));
+        if (!infos[i].usable || !infos[i].gl)
             continue;
         usable++;
         assert_true(infos[i].max_work_group_invocations >= 1024);
@@ -101,7 +102,16 @@ static void a_device_is_chosen_by_number_and_name(void **state)
     struct kiln_device *device = open_named(NULL, &error);
     assert_non_null(device);
     assert_true(kiln_device_info(device)->software == !has_gpu);
+    assert_true(kiln_device_info(device)->gl == has_gpu);
     kiln_device_close(&device);
+    kiln_device_close(&device);
+
+    /* With GL where it is asked for. */
+    struct kiln_device_params params = KILN_DEVICE_DEFAULTS;
+    params.gl = true;
+    device = kiln_device_open(&params, &error);
+    assert_non_null(device);
+    assert_true(kiln_device_info(device)->gl);
     kiln_device_close(&device);
     assert_true(kiln_device_make_current(*state, &error));
 }
@@ -269,7 +279,9 @@ static int list_and_open(void)
     char advice[256];
     struct kiln_error error = {0};
     size_t count = kiln_device_list(NULL, 0, advice);
-    struct kiln_device *device = kiln_device_open(&KILN_DEVICE_DEFAULTS, &error);
+    struct kiln_device_params params = KILN_DEVICE_DEFAULTS;
+    params.gl = true;
+    struct kiln_device *device = kiln_device_open(&params, &error);
     printf("%zu devices; %s; %s\n", count, advice, error.message);
     kiln_device_close(&device);
     return (int)error.code;

@@ -50,6 +50,7 @@ static void render_beside(void *user, const struct kiln_progress *progress)
     struct kiln_error error = {0};
     struct kiln_device_params params = KILN_DEVICE_DEFAULTS;
     params.wanted = getenv("KILN_TEST_DEVICE");
+    params.gl = true;
     struct kiln_device *own = caller->device ? NULL : kiln_device_open(&params, &error);
     struct kiln_scene *scene = load_scene(FIRE, NULL);
     struct kiln_render_params job = KILN_RENDER_DEFAULTS;

@@ -15,12 +15,13 @@ static inline void test_log(void *user, enum kiln_log_level level, const char *l
 }
 
 /* A group set-up of cmocka: *state becomes the device. KILN_TEST_DEVICE names another than the
- * default. Ends the program as skipped (77) when there is none. */
+ * first with GL. Ends the program as skipped (77) when there is none. */
 static inline int test_device_open(void **state)
 {
     struct kiln_error error = {0};
     struct kiln_device_params params = KILN_DEVICE_DEFAULTS;
     params.wanted = getenv("KILN_TEST_DEVICE");
+    params.gl = true;
     params.debug = true;
     params.log.write = test_log;
     struct kiln_device *device = kiln_device_open(&params, &error);

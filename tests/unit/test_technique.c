@@ -11,7 +11,8 @@
 static bool choose(bool software, bool exact, const char *flag, char text[256],
                    struct kiln_error *error)
 {
-    struct kiln_device_info device = {.software = software, .exact = exact, .name = "Device"};
+    struct kiln_device_info device = {
+        .gl = true, .software = software, .exact = exact, .name = "Device"};
     struct kiln_techniques techniques;
     if (!kiln_techniques_choose(&device, &flag, flag ? 1 : 0, &techniques, error))
         return false;
@@ -39,7 +40,7 @@ static void auto_is_the_default(void **state)
 {
     (void)state;
     const char *const flags[] = {"simulate=cpu", "simulate=auto"};
-    struct kiln_device_info gpu = {.exact = true, .name = "Device"};
+    struct kiln_device_info gpu = {.gl = true, .exact = true, .name = "Device"};
     struct kiln_techniques techniques;
     struct kiln_error error = {0};
     assert_true(kiln_techniques_choose(&gpu, flags, 2, &techniques, &error));
@@ -51,8 +52,9 @@ static void auto_is_the_default(void **state)
 static void every_choice_says_why(void **state)
 {
     (void)state;
-    const struct kiln_device_info devices[] = {
-        {.software = true, .exact = true}, {.exact = true, .name = "GPU"}, {.name = "inexact"}};
+    const struct kiln_device_info devices[] = {{.gl = true, .software = true, .exact = true},
+                                               {.gl = true, .exact = true, .name = "GPU"},
+                                               {.gl = true, .name = "inexact"}};
     for (size_t i = 0; i < sizeof devices / sizeof *devices; i++) {
         const char *const flag = "sort=cpu";
         struct kiln_techniques techniques;
@@ -83,6 +85,25 @@ static void each_stage_has_a_pass_of_its_own(void **state)
     }
     assert_string_equal(kiln_stage_name(0), "simulate");
     assert_int_equal(kiln_stage_pass(0), KILN_PASS_simulate);
+}
+
+/* The message names the technique, the device and what to do. */
+static void a_device_without_gl_takes_cpu_alone(void **state)
+{
+    (void)state;
+    const struct kiln_device_info host = {.software = true, .exact = true, .name = "cpu"};
+    static const char *const flags[] = {"simulate=inplace", "sort=radix", "raster=geometry",
+                                        "bloom=gl", "composite=gl"};
+    for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) {
+        struct kiln_techniques techniques;
+        struct kiln_error error = {0};
+        assert_true(kiln_techniques_need_gl(&flags[i], 1));
+        assert_false(kiln_techniques_choose(&host, &flags[i], 1, &techniques, &error));
+        assert_int_equal(error.code, KILN_USAGE);
+        assert_non_null(strstr(error.message, flags[i]));
+        assert_non_null(strstr(error.message, "'cpu'"));
+        assert_non_null(strstr(error.message, "=cpu, or another device"));
+    }
 }
 
 static void flags_force_a_technique(void **state)
@@ -142,7 +163,8 @@ static void a_sort_can_be_spread_over_frames(void **state)
 
     /* The last one for a stage counts, its number as well. */
     const char *const flags[] = {"sort=oddeven:8", "sort=auto"};
-    struct kiln_device_info device = {.software = true, .exact = true, .name = "Device"};
+    struct kiln_device_info device = {
+        .gl = true, .software = true, .exact = true, .name = "Device"};
     struct kiln_techniques techniques;
     assert_true(kiln_techniques_choose(&device, flags, 2, &techniques, &error));
     assert_int_equal(techniques.sort_spread, 0);
@@ -170,7 +192,7 @@ static void inexact_devices_do_not_simulate_or_sort(void **state)
 static void combinations_start_with_the_pinned_one(void **state)
 {
     (void)state;
-    struct kiln_device_info gpu = {.exact = true, .name = "Device"};
+    struct kiln_device_info gpu = {.gl = true, .exact = true, .name = "Device"};
     struct kiln_technique_list list;
     static char seen[1024][256];
     size_t count = 0;
@@ -214,6 +236,7 @@ int main(void)
         cmocka_unit_test(auto_is_the_default),
         cmocka_unit_test(every_choice_says_why),
         cmocka_unit_test(each_stage_has_a_pass_of_its_own),
+        cmocka_unit_test(a_device_without_gl_takes_cpu_alone),
         cmocka_unit_test(flags_force_a_technique),
         cmocka_unit_test(a_sort_can_be_spread_over_frames),
         cmocka_unit_test(inexact_devices_do_not_simulate_or_sort),

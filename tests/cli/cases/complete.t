@@ -42,7 +42,8 @@ $ kiln complete -- render --technique sort=cpu,
 $ kiln complete -- compare --limit ss
 1|part	ssim=	structural similarity of luma (Wang 2004): 1 for equal pictures
 $ kiln complete -- render --device ''
-1|word	software	the first software device
+1|word	cpu	this machine without OpenGL
+1|word	software	the first software device of OpenGL
 $ kiln complete -- render -o out/
 1|file:*		
 $ kiln complete -- render -oout/

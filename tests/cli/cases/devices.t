@@ -7,15 +7,30 @@ $ kiln devices | sed -E 's/^[0-9]+: .*/<number>: <name>/; s/^(    [A-Za-z]+ +).*
 1|    kind      <...>
 1|    limits    <...>
 1|    platform  <...>
+1|    threads   <...>
 1|    usable    <...>
+1|    vectors   <...>
 1|    vendor    <...>
 1|<number>: <name>
-$ kiln devices --json | jq -r '.devices[0] | to_entries[] | "\(.key) \(.value | type)"'
+$ kiln devices --json | jq -r '.devices[0, 1] | to_entries[] | "\(.key) \(.value | type)"'
 1|index number
 1|name string
 1|vendor string
 1|gl_version string
 1|platform string
+1|gl boolean
+1|software boolean
+1|usable boolean
+1|problem string
+1|exact boolean
+1|vectors string
+1|threads number
+1|index number
+1|name string
+1|vendor string
+1|gl_version string
+1|platform string
+1|gl boolean
 1|software boolean
 1|usable boolean
 1|problem string
@@ -39,22 +54,22 @@ $ kiln render scenes/tiny.yaml -o x.png --device 99
 2|kiln: there is no device '99'; there are: <devices>
 = 4
 $ export __EGL_VENDOR_LIBRARY_FILENAMES=/dev/null EGL_PLATFORM=none LIBGL_DRIVERS_PATH=/nowhere
-> kiln devices; echo "exit $?"
-> kiln devices --json; echo "exit $?"
+> kiln devices | grep -v "vectors\|threads"; echo "exit $?"
+> kiln devices --json | jq -c '.devices |= map(.name), .advice'; echo "exit $?"
 > kiln render scenes/tiny.yaml -o x.png; echo "exit $?"
 > kiln render scenes/tiny.yaml -o x.png --device software
+1|0: cpu
+1|    kind      no OpenGL
+1|    usable    yes
+1|    exact     yes
 1|advice: EGL has no driver that works without a display; install the package libegl-mesa0, or the GPU vendor's EGL
+1|exit 0
+1|{"devices":["cpu"],"advice":"EGL has no driver that works without a display; install the package libegl-mesa0, or the GPU vendor's EGL"}
+1|"EGL has no driver that works without a display; install the package libegl-mesa0, or the GPU vendor's EGL"
+1|exit 0
 1|exit 4
-1|{
-1|  "devices": [],
-1|  "advice": "EGL has no driver that works without a display; install the package libegl-mesa0, or the GPU vendor's EGL"
-1|}
-1|exit 4
-1|exit 4
-2|kiln: no usable device
-2|kiln: no usable device
-2|kiln: no device: EGL has no driver that works without a display; install the package libegl-mesa0, or the GPU vendor's EGL
-2|kiln: no device: EGL has no driver that works without a display; install the package libegl-mesa0, or the GPU vendor's EGL
+2|kiln: no device with OpenGL: EGL has no driver that works without a display; install the package libegl-mesa0, or the GPU vendor's EGL
+2|kiln: there is no device 'software'; there are: <devices>
 = 4
 $ ls
 1|scenes

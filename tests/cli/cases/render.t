@@ -48,8 +48,8 @@ $ kiln render scenes/tiny.yaml -q -o poor.mp4 --quality 0 && kiln render scenes/
 
 A device by its number and by a part of its name is the same device.
 
-$ number=$(kiln devices --json | jq '[.devices[] | select(.usable)][0].index')
-> name=$(kiln devices --json | jq -r '[.devices[] | select(.usable)][0].name')
+$ number=$(kiln devices --json | jq '[.devices[] | select(.gl and .usable)][0].index')
+> name=$(kiln devices --json | jq -r '[.devices[] | select(.gl and .usable)][0].name')
 > kiln render scenes/tiny.yaml -o none --frames 0 --device $number --progress none >number
 > kiln render scenes/tiny.yaml -o none --frames 0 --device "${name:1:6}" --progress none >name
 > head -qn 1 number name | uniq | wc -l

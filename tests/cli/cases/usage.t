@@ -145,8 +145,9 @@ $ kiln help render
 1|      --asset-root FOLDER     The folder that the scene's files must lie in.
 1|                              Default: the folder of the scene.
 1|      --device DEVICE         A number from 'kiln devices', a part of a device's
-1|                              name, or 'software'. Default: the first GPU, or
-1|                              else the software device.
+1|                              name, 'cpu' for none of OpenGL, or 'software' for
+1|                              OpenGL on the CPU. Default: the first GPU, or else
+1|                              'cpu' if the techniques need no OpenGL.
 1|      --technique STAGE=NAME  How to run a stage; more of them after commas (see
 1|                              'kiln help techniques'). Default: what suits the
 1|                              device.
@@ -263,11 +264,13 @@ $ kiln help check
 $ kiln help devices
 1|usage: kiln devices [OPTION...]
 1|
-1|Lists every device that OpenGL offers without a display, with its limits. A
-1|device is usable with OpenGL 4.3 or later; it is exact when it passed the probe
-1|of the arithmetic that the simulation needs, and otherwise particles move on the
-1|CPU. A software device is a rasteriser on the CPU. Advice names what is missing
-1|and the package that brings it.
+1|Lists this machine without OpenGL, called 'cpu', on which every stage runs in
+1|threads and vectors, with the same pixels on every machine; then every device
+1|that OpenGL offers without a display, with its limits. Such a device is usable
+1|with OpenGL 4.3 or later; it is exact when it passed the probe of the arithmetic
+1|that the simulation needs, and otherwise particles move on the CPU. A software
+1|device is a rasteriser on the CPU. Advice names what is missing and the package
+1|that brings it.
 1|
 1|      --json                  Print JSON instead of text.
 1|  -h, --help                  Print this help.
