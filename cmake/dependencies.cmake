@@ -2,7 +2,7 @@
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 set(kiln_linked_packages epoxy libpng zlib libfyaml libavcodec libavformat libavutil libswscale)
-pkg_check_modules(KILN_DEPS IMPORTED_TARGET cglm ${kiln_linked_packages})
+pkg_check_modules(KILN_DEPS IMPORTED_TARGET ${kiln_linked_packages})
 # Headers only: libepoxy loads EGL when it is first called, so that a machine without it gets an
 # error from kiln, not from the loader.
 pkg_check_modules(KILN_EGL egl)

@@ -5,6 +5,7 @@
 #include "asset/cells_in.h"
 
 #include "asset/image.h"
+#include "asset/linear.h"
 #include "asset/video_in.h"
 #include "base/error.h"
 
@@ -13,11 +14,6 @@
 #include <string.h>
 
 /* ---- pixels ---------------------------------------------------------------------------------- */
-
-static float decode_srgb(float x)
-{
-    return x <= 0.04045f ? x / 12.92f : powf((x + 0.055f) / 1.055f, 2.4f);
-}
 
 static void read_raw(const struct kiln_asset_image *image, size_t pixel, float rgba[4])
 {
@@ -37,7 +33,7 @@ static void read_light(const struct kiln_asset_image *image, size_t pixel, float
     read_raw(image, pixel, rgba);
     for (int c = 0; c < 3; c++) {
         if (image->srgb)
-            rgba[c] = decode_srgb(rgba[c]);
+            rgba[c] = kiln_decode_srgb(rgba[c]);
         if (!image->premultiplied)
             rgba[c] *= rgba[3];
     }

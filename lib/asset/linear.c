@@ -5,7 +5,7 @@
 
 static const float MOST = 65504.0f; /* of a half float */
 
-static float decode_srgb(float x)
+float kiln_decode_srgb(float x)
 {
     return x <= 0.04045f ? x / 12.92f : exact_pow((x + 0.055f) / 1.055f, 2.4f);
 }
@@ -26,7 +26,7 @@ void kiln_linear_row(const struct kiln_asset_image *image, uint32_t y, float *rg
         float alpha = image->premultiplied ? 1.0f : decode(image, at + 3);
         for (size_t c = 0; c < 3; c++) {
             float value = decode(image, at + c);
-            value = alpha * (image->srgb ? decode_srgb(value) : value);
+            value = alpha * (image->srgb ? kiln_decode_srgb(value) : value);
             rgb[c] = value > 0.0f ? fminf(value, MOST) : 0.0f; /* NaN, too, is dark */
         }
     }

@@ -2,6 +2,7 @@
 #include "draw/smoke.h"
 
 #include "base/error.h"
+#include "shared/exact.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -20,7 +21,8 @@ struct gatherer {
 static float extinction_of(const struct kiln_living *particle, float shadow)
 {
     float alpha = FILL * particle->opacity, radius = particle->radius;
-    float middle_depth = -logf(1.0f - (alpha < 0.98f ? alpha : 0.98f)) * shadow;
+    float passed = 1.0f - (alpha < 0.98f ? alpha : 0.98f);
+    float middle_depth = exact_log2(passed) * -0.693147181f * shadow;
     return middle_depth * 15.0f / 16.0f * radius * radius * (32.0f * 3.14159265f / 105.0f);
 }
 

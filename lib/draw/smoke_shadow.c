@@ -9,6 +9,7 @@
 #include "draw/smoke_shadow.h"
 
 #include "base/vector.h"
+#include "shared/exact.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -170,7 +171,7 @@ static bool place_grid(struct box *box, uint32_t parts)
     for (int i = 0; i < 3; i++)
         longest = fmaxf(longest, high[i] - low[i]);
     float least = longest / (EDGE - 4);
-    box->cell = exp2f(0.25f * ceilf(4.0f * log2f(fmaxf(least, 1e-4f))));
+    box->cell = exact_exp2(0.25f * ceilf(4.0f * exact_log2(fmaxf(least, 1e-4f))));
     float edge_m = box->cell * EDGE;
     for (int i = 0; i < 3; i++) {
         float margin = 0.5f * (edge_m - (high[i] - low[i]));
