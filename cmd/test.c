@@ -379,6 +379,8 @@ const struct command test_command = {
         "then by the hash of the picture's pixels on this device; then by how different it looks "
         "from the golden picture (see 'kiln compare'). A golden that is missing is a failure, and "
         "is never written without --update. 'kiln help tests' explains test files.\n\n"
+        "Unless a test, --device or a technique that needs OpenGL asks for another device, it is "
+        "'cpu', whose pixels are the same on every machine.\n\n"
         "Each test has a process of its own: a crash or a hang is the error of that test alone. "
         "What the process prints goes to log.txt in its results.\n\n"
         "Exit code 0: every test passed; 1: a picture or the state differs; 7: a golden is "

@@ -59,10 +59,12 @@ static bool explain_cause(const struct kiln_record *record, const struct kiln_pa
 /* Which part of what drew it is another one, or NULL. */
 static const char *other_maker(const struct kiln_record *record, const struct kiln_maker *maker)
 {
-    return strcmp(record->device, maker->device) != 0   ? record->device
-           : strcmp(record->driver, maker->driver) != 0 ? record->driver
-           : strcmp(record->cpu, maker->cpu) != 0       ? record->cpu
-                                                        : NULL;
+    if (strcmp(record->device, maker->device) != 0)
+        return record->device;
+    if (strcmp(record->driver, maker->driver) != 0)
+        return record->driver;
+    bool same_everywhere = strcmp(record->device, KILN_DEVICE_CPU) == 0;
+    return !same_everywhere && strcmp(record->cpu, maker->cpu) != 0 ? record->cpu : NULL;
 }
 
 /* The file, and what would be in its place now, with the losses of its format. */

@@ -1,0 +1,221 @@
+/* The device without GL: it renders where EGL cannot be loaded, loads nothing of GL, and its pixels
+ * are the same bytes for every width of vectors and any number of threads. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <glob.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/file.h"
+#include "base/hash.h"
+#include "base/simd.h"
+#include "kiln.h"
+
+static const char *const SMALL[] = {"output.size=[96, 54]"};
+
+static struct kiln_scene *load(const char *path)
+{
+    struct kiln_error error = {0};
+    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    params.overrides = SMALL;
+    params.override_count = 1;
+    struct kiln_scene *scene = kiln_scene_load(path, &params, &error);
+    if (!scene)
+        fail_msg("%s", error.message);
+    return scene;
+}
+
+/* Renders a frame into a file, if one is named; the techniques become `techniques`. */
+static void render(struct kiln_device *device, const struct kiln_scene *scene, const char *file,
+                   uint32_t threads, char techniques[256])
+{
+    struct kiln_error error = {0};
+    struct kiln_render_params params = KILN_RENDER_DEFAULTS;
+    const struct kiln_frame_range frame = {10, 10};
+    params.ranges = &frame;
+    params.range_count = 1;
+    params.output = file;
+    params.overwrite = true;
+    params.exr_bits = 32;
+    params.threads = threads;
+    struct kiln_render_stats stats;
+    if (!kiln_render(device, scene, &params, &stats, &error))
+        fail_msg("%s", error.message);
+    if (techniques)
+        memcpy(techniques, stats.techniques, sizeof stats.techniques);
+}
+
+static struct kiln_device *open_device(const char *wanted)
+{
+    struct kiln_error error = {0};
+    struct kiln_device_params params = KILN_DEVICE_DEFAULTS;
+    params.wanted = wanted;
+    struct kiln_device *device = kiln_device_open(&params, &error);
+    if (!device)
+        fail_msg("%s", error.message);
+    return device;
+}
+
+/* ---- libraries ------------------------------------------------------------------------------- */
+
+static bool is_loaded(const char *library)
+{
+    FILE *maps = fopen("/proc/self/maps", "r");
+    assert_non_null(maps);
+    char line[1024];
+    bool found = false;
+    while (fgets(line, sizeof line, maps))
+        found = found || strstr(line, library);
+    fclose(maps);
+    return found;
+}
+
+/* Before any other test, since libraries stay loaded. */
+static void nothing_of_gl_is_loaded(void **state)
+{
+    (void)state;
+    struct kiln_device *device = open_device(KILN_DEVICE_CPU);
+    const struct kiln_device_info *info = kiln_device_info(device);
+    assert_true(info->usable && info->exact && !info->gl);
+    assert_string_equal(info->name, KILN_DEVICE_CPU);
+    assert_int_equal(info->index, 0);
+    assert_true(info->threads > 0 && info->vectors[0]);
+    struct kiln_scene *scene = load(KILN_SOURCE_DIR "/scenes/torch.yaml");
+    char techniques[256];
+    render(device, scene, NULL, 2, techniques);
+    for (const char *at = techniques; (at = strchr(at, '=')); at++)
+        assert_int_equal(strncmp(at, "=cpu", 4), 0);
+    kiln_scene_destroy(&scene);
+    kiln_device_close(&device);
+
+    static const char *const libraries[] = {"libEGL",     "libGL",      "libOpenGL",
+                                            "libgallium", "swrast_dri", "libLLVM"};
+    assert_true(is_loaded("libepoxy")); /* the maps can be read */
+    for (size_t i = 0; i < sizeof libraries / sizeof *libraries; i++)
+        assert_false(is_loaded(libraries[i]));
+}
+
+/* What the next test runs: nothing is asked for, and nothing of GL works. */
+static int render_by_default(void)
+{
+    struct kiln_error error = {0};
+    struct kiln_device *device = kiln_device_open(&KILN_DEVICE_DEFAULTS, &error);
+    struct kiln_scene *scene =
+        kiln_scene_load(KILN_SOURCE_DIR "/scenes/torch.yaml", &KILN_SCENE_DEFAULTS, &error);
+    struct kiln_render_params params = KILN_RENDER_DEFAULTS;
+    const struct kiln_frame_range frame = {0, 0};
+    params.ranges = &frame;
+    params.range_count = 1;
+    bool ok = device && scene && !kiln_device_info(device)->gl &&
+              kiln_render(device, scene, &params, NULL, &error);
+    if (!ok)
+        fprintf(stderr, "%s\n", error.message);
+    kiln_scene_destroy(&scene);
+    kiln_device_close(&device);
+    return ok ? 0 : 1;
+}
+
+/* A file that is no library hides the one behind it. */
+static void it_is_the_default_where_egl_is_missing(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/kiln-libraries-XXXXXX", path[64];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/libEGL.so.1", folder);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fclose(file);
+    pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        setenv("LD_LIBRARY_PATH", folder, 1);
+        execl("/proc/self/exe", "test_host", "--render", (char *)NULL);
+        _exit(127);
+    }
+    int status = 0;
+    assert_true(waitpid(child, &status, 0) == child);
+    assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+    unlink(path);
+    rmdir(folder);
+}
+
+/* ---- bytes ----------------------------------------------------------------------------------- */
+
+/* The hashes of a frame as PNG and as EXR with all layers. */
+static void hash_frame(struct kiln_device *device, const struct kiln_scene *scene,
+                       const char *folder, uint32_t threads, char hashes[2][65])
+{
+    static const char *const names[2] = {"frame.png", "frame.exr"};
+    for (int i = 0; i < 2; i++) {
+        char path[KILN_PATH_SIZE];
+        snprintf(path, sizeof path, "%s/%s", folder, names[i]);
+        render(device, scene, path, threads, NULL);
+        assert_true(kiln_hash_sha256_file(path, hashes[i]));
+        unlink(path);
+    }
+}
+
+static void every_scene_is_the_same_bytes(void **state)
+{
+    (void)state;
+    static const uint32_t threads[KILN_SIMD_COUNT] = {1, 2, 5, 2};
+    char folder[] = "/tmp/kiln-host-XXXXXX";
+    assert_non_null(mkdtemp(folder));
+    glob_t scenes;
+    assert_int_equal(glob(KILN_SOURCE_DIR "/scenes/*.yaml", 0, NULL, &scenes), 0);
+    for (size_t i = 0; i < scenes.gl_pathc; i++) {
+        struct kiln_scene *scene = load(scenes.gl_pathv[i]);
+        char expected[2][65], found[2][65];
+        for (enum kiln_simd simd = 0; simd < KILN_SIMD_COUNT; simd++) {
+            if (!kiln_simd_has(simd))
+                continue;
+            setenv("KILN_SIMD", kiln_simd_name(simd), 1);
+            struct kiln_device *device = open_device(KILN_DEVICE_CPU);
+            hash_frame(device, scene, folder, threads[simd], simd ? found : expected);
+            for (int k = 0; simd && k < 2; k++) {
+                if (strcmp(found[k], expected[k]) != 0)
+                    fail_msg("%s: %s by %s and %u threads", scenes.gl_pathv[i],
+                             k ? "another EXR" : "another PNG", kiln_simd_name(simd),
+                             threads[simd]);
+            }
+            kiln_device_close(&device);
+        }
+        kiln_scene_destroy(&scene);
+    }
+    unsetenv("KILN_SIMD");
+    globfree(&scenes);
+    rmdir(folder);
+}
+
+static void wrong_vectors_are_a_usage_error(void **state)
+{
+    (void)state;
+    struct kiln_error error = {0};
+    struct kiln_device_params params = KILN_DEVICE_DEFAULTS;
+    params.wanted = KILN_DEVICE_CPU;
+    setenv("KILN_SIMD", "mmx", 1);
+    assert_null(kiln_device_open(&params, &error));
+    assert_int_equal(error.code, KILN_USAGE);
+    assert_non_null(strstr(error.message, "'mmx'"));
+    unsetenv("KILN_SIMD");
+}
+
+int main(int argc, char **argv)
+{
+    if (argc == 2 && strcmp(argv[1], "--render") == 0)
+        return render_by_default();
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nothing_of_gl_is_loaded),
+        cmocka_unit_test(it_is_the_default_where_egl_is_missing),
+        cmocka_unit_test(wrong_vectors_are_a_usage_error),
+        cmocka_unit_test(every_scene_is_the_same_bytes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
