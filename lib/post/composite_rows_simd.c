@@ -57,7 +57,8 @@ static inline void expose(struct block *block, float exposure)
 static inline void map_agx(struct block *block)
 {
     for (int i = 0; i < BLOCK; i++) {
-        float3 color = kiln_tonemap_agx(FLOAT3(block->red[i], block->green[i], block->blue[i]));
+        float3 color =
+            kiln_tonemap_agx_root(FLOAT3(block->red[i], block->green[i], block->blue[i]));
         block->red[i] = color.x;
         block->green[i] = color.y;
         block->blue[i] = color.z;
@@ -74,8 +75,13 @@ static inline void map_aces(struct block *block)
     }
 }
 
-static inline void encode_channel(float *channel)
+static inline void encode_channel(float *channel, bool is_root)
 {
+    if (is_root) {
+        for (int i = 0; i < BLOCK; i++)
+            channel[i] = kiln_encode_root(exact_min(channel[i], 1.0f));
+        return;
+    }
     for (int i = 0; i < BLOCK; i++)
         channel[i] = kiln_encode_srgb(exact_min(channel[i], 1.0f));
 }
@@ -116,9 +122,10 @@ static inline void encode_block(const struct kiln_composite_rows *p, struct bloc
         map_agx(block);
     else if (p->tonemap == KILN_TONEMAP_ACES)
         map_aces(block);
-    encode_channel(block->red);
-    encode_channel(block->green);
-    encode_channel(block->blue);
+    const bool is_root = p->tonemap == KILN_TONEMAP_AGX;
+    encode_channel(block->red, is_root);
+    encode_channel(block->green, is_root);
+    encode_channel(block->blue, is_root);
     straighten(block);
     if (p->dither)
         make_noise(block, first, row_hash);

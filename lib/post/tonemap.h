@@ -22,7 +22,9 @@ static inline float kiln_tonemap_agx_channel(float x)
            0.1191f * v - 0.00232f;
 }
 
-static inline float3 kiln_tonemap_agx(float3 color)
+/* The display's light to the power of 1 / 2.2, for kiln_encode_root: who takes the power only to
+ * encode it then pays for two logarithms and exponentials instead of one. */
+static inline float3 kiln_tonemap_agx_root(float3 color)
 {
     float3 v;
     v.x = kiln_tonemap_agx_channel(
@@ -35,9 +37,6 @@ static inline float3 kiln_tonemap_agx(float3 color)
     out.x = kiln_tonemap_row(1.19687900512017f, -0.0980208811401368f, -0.0990297440797205f, v);
     out.y = kiln_tonemap_row(-0.0528968517574562f, 1.15190312990417f, -0.0989611768448433f, v);
     out.z = kiln_tonemap_row(-0.0529716355144438f, -0.0980434501171241f, 1.15107367264116f, v);
-    out.x = exact_pow(out.x, 2.2f);
-    out.y = exact_pow(out.y, 2.2f);
-    out.z = exact_pow(out.z, 2.2f);
     return out;
 }
 
@@ -67,6 +66,14 @@ static inline float kiln_encode_srgb(float linear)
     float low = linear * 12.92f;
     float high = 1.055f * exact_pow(exact_max(linear, 0.0031308f), 1.0f / 2.4f) - 0.055f;
     return linear <= 0.0031308f ? low : high;
+}
+
+/* The same of root^2.2; both parts are powers of the root. */
+static inline float kiln_encode_root(float root)
+{
+    bool is_low = root <= 0.0727213f; /* 0.0031308^(1 / 2.2) */
+    float power = exact_pow(root, is_low ? 2.2f : 2.2f / 2.4f);
+    return is_low ? 12.92f * power : 1.055f * power - 0.055f;
 }
 
 #endif
