@@ -4,11 +4,15 @@
 
 #include "base/error.h"
 
+#include <limits.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { PHASE_LEVELS = KILN_CELL_PHASES * KILN_ATLAS_LEVELS };
+enum {
+    PHASE_LEVELS = KILN_CELL_PHASES * KILN_ATLAS_LEVELS,
+    MIXED_EDGE = KILN_ATLAS_CELL >> KILN_CELL_MIXED_LEVEL,
+};
 
 struct slot {
     atomic_bool wanted;
@@ -21,24 +25,42 @@ struct kiln_cells {
     struct slot *slots; /* by layer, phase and level */
     uint8_t **texels;   /* of each; NULL: not mixed yet */
     uint32_t slot_count;
-    uint32_t *missing; /* numbers of slots to be mixed */
-    uint8_t *moves;    /* MOVES_BYTES a layer; NULL: none moves */
+    uint32_t *missing;            /* numbers of slots to be mixed */
+    struct kiln_cell_hull *hulls; /* by layer and level */
+    uint8_t *moves;               /* of all layers; NULL: none moves */
 };
 
-enum { MOVES_PITCH = KILN_ATLAS_MOTION + 1, MOVES_BYTES = 4 * MOVES_PITCH * MOVES_PITCH };
-
-/* Copies the atlas's motion of a layer, with its last column and row twice. */
-static void spread_moves(const int8_t *from, uint8_t *to)
+/* Of a cell whose layer has such an edge. */
+static size_t cell_bytes(uint32_t edge)
 {
-    for (uint32_t y = 0; y < MOVES_PITCH; y++) {
-        for (uint32_t x = 0; x < MOVES_PITCH; x++, to += 4) {
-            uint32_t row = y < KILN_ATLAS_MOTION ? y : KILN_ATLAS_MOTION - 1;
-            uint32_t column = x < KILN_ATLAS_MOTION ? x : KILN_ATLAS_MOTION - 1;
-            const int8_t *pair = from + 2 * (size_t)(row * KILN_ATLAS_MOTION + column);
-            to[0] = (uint8_t)(128 + pair[0]);
-            to[1] = (uint8_t)(128 + pair[1]);
+    return (size_t)KILN_CELL_TEXEL * (edge + 1) * (edge + KILN_CELL_MARGIN);
+}
+
+/* Lays RGBA out for sampling. */
+static void spread(const uint8_t *from, uint32_t edge, uint8_t *to)
+{
+    for (uint32_t y = 0; y <= edge; y++) {
+        const uint8_t *row = from + 4 * (size_t)(y > 0 ? y - 1 : 0) * edge;
+        const uint8_t *below = from + 4 * (size_t)(y < edge ? y : edge - 1) * edge;
+        for (uint32_t x = 0; x < edge + KILN_CELL_MARGIN; x++, to += KILN_CELL_TEXEL) {
+            size_t column = x == 0 ? 0 : x <= edge ? x - 1 : edge - 1;
+            for (size_t c = 0; c < 4; c++) {
+                to[2 * c] = row[4 * column + c] ^ 0x80;
+                to[2 * c + 1] = below[4 * column + c] ^ 0x80;
+            }
         }
     }
+}
+
+/* The atlas's motion of a layer. */
+static void spread_moves(const int8_t *from, uint8_t *to)
+{
+    uint8_t texels[4 * KILN_ATLAS_MOTION * KILN_ATLAS_MOTION] = {0};
+    for (size_t i = 0; i < (size_t)KILN_ATLAS_MOTION * KILN_ATLAS_MOTION; i++) {
+        texels[4 * i] = (uint8_t)(128 + from[2 * i]);
+        texels[4 * i + 1] = (uint8_t)(128 + from[2 * i + 1]);
+    }
+    spread(texels, KILN_ATLAS_MOTION, to);
 }
 
 static bool make_moves(struct kiln_cells *cells)
@@ -46,16 +68,91 @@ static bool make_moves(struct kiln_cells *cells)
     const struct kiln_atlas *atlas = cells->atlas;
     if (!atlas->moves)
         return true;
-    cells->moves = calloc((size_t)atlas->layers + 1, MOVES_BYTES); /* none: not NULL */
+    size_t bytes = cell_bytes(KILN_ATLAS_MOTION);
+    cells->moves = calloc((size_t)atlas->layers + 1, bytes); /* none: not NULL */
     for (uint32_t i = 0; cells->moves && i < atlas->layers; i++)
-        spread_moves(atlas->moves + (size_t)i * KILN_ATLAS_MOVES_BYTES,
-                     cells->moves + (size_t)i * MOVES_BYTES);
+        spread_moves(atlas->moves + (size_t)i * KILN_ATLAS_MOVES_BYTES, cells->moves + i * bytes);
     return cells->moves != NULL;
 }
 
 const uint8_t *kiln_cells_moves(const struct kiln_cells *cells, uint32_t layer)
 {
-    return cells->moves ? cells->moves + (size_t)layer * MOVES_BYTES : NULL;
+    return cells->moves ? cells->moves + layer * cell_bytes(KILN_ATLAS_MOTION) : NULL;
+}
+
+/* ---- hulls ----------------------------------------------------------------------------------- */
+
+/* The least and greatest x, y, x + y and x - y of the texels that show anything. */
+struct extent {
+    int least[4], most[4];
+};
+
+static bool shows(const uint8_t *texel, uint32_t kind)
+{
+    return texel[3] > 0 || (kind == KILN_CELL_COLOR && (texel[0] || texel[1] || texel[2]));
+}
+
+static void extend(struct extent *extent, const uint8_t *texels, int edge, uint32_t kind)
+{
+    for (int y = 0; y < edge; y++) {
+        for (int x = 0; x < edge; x++, texels += 4) {
+            if (!shows(texels, kind))
+                continue;
+            const int at[4] = {x, y, x + y, x - y};
+            for (int i = 0; i < 4; i++) {
+                extent->least[i] = at[i] < extent->least[i] ? at[i] : extent->least[i];
+                extent->most[i] = at[i] > extent->most[i] ? at[i] : extent->most[i];
+            }
+        }
+    }
+}
+
+/* A texel shows up to one texel from its centre, one that is mixed up to one more; and as far as it
+ * moves. */
+static void make_hull(struct kiln_cells *cells, const struct kiln_atlas_range *range, uint32_t cell,
+                      uint32_t level)
+{
+    const struct kiln_atlas *atlas = cells->atlas;
+    uint32_t layer = range->first_layer + cell;
+    uint32_t next = range->first_layer + (cell + 1) % range->cells;
+    int edge = KILN_ATLAS_CELL >> level;
+    struct extent extent = {{INT_MAX, INT_MAX, INT_MAX, INT_MAX},
+                            {INT_MIN, INT_MIN, INT_MIN, INT_MIN}};
+    extend(&extent, kiln_atlas_level(atlas, layer, level), edge, range->kind);
+    extend(&extent, kiln_atlas_level(atlas, next, level), edge, range->kind);
+    struct kiln_cell_hull *hull = &cells->hulls[layer * KILN_ATLAS_LEVELS + level];
+    *hull = (struct kiln_cell_hull){{0}, {0}};
+    if (extent.least[0] > extent.most[0])
+        return;
+    static const float middle[4] = {0.5f, 0.5f, 1.0f, 0.0f};
+    float reach = 2.0f + range->motion * (float)edge;
+    for (int i = 0; i < 4; i++) {
+        float around = i < 2 ? reach : 2.0f * reach;
+        hull->from[i] = ((float)extent.least[i] + middle[i] - around) / (float)edge;
+        hull->to[i] = ((float)extent.most[i] + middle[i] + around) / (float)edge;
+    }
+    for (int i = 0; i < 2; i++) {
+        hull->from[i] = hull->from[i] > 0.0f ? hull->from[i] : 0.0f;
+        hull->to[i] = hull->to[i] < 1.0f ? hull->to[i] : 1.0f;
+    }
+}
+
+static void make_hulls(struct kiln_cells *cells)
+{
+    for (uint32_t i = 0; i < KILN_MAX_SYSTEMS; i++) {
+        const struct kiln_atlas_textures *textures = &cells->atlas->systems[i];
+        for (uint32_t t = 0; t < textures->count; t++) {
+            const struct kiln_atlas_range *range = &textures->textures[t];
+            for (uint32_t k = 0; k < range->cells * KILN_ATLAS_LEVELS; k++)
+                make_hull(cells, range, k / KILN_ATLAS_LEVELS, k % KILN_ATLAS_LEVELS);
+        }
+    }
+}
+
+const struct kiln_cell_hull *kiln_cells_hull(const struct kiln_cells *cells, uint32_t layer,
+                                             uint32_t level)
+{
+    return &cells->hulls[layer * KILN_ATLAS_LEVELS + level];
 }
 
 struct kiln_cells *kiln_cells_create(const struct kiln_atlas *atlas, struct kiln_error *error)
@@ -67,12 +164,15 @@ struct kiln_cells *kiln_cells_create(const struct kiln_atlas *atlas, struct kiln
         cells->slots = calloc(cells->slot_count, sizeof *cells->slots);
         cells->texels = calloc(cells->slot_count, sizeof *cells->texels);
         cells->missing = calloc(cells->slot_count, sizeof *cells->missing);
+        cells->hulls = calloc(cells->slot_count / KILN_CELL_PHASES, sizeof *cells->hulls);
     }
-    if (!cells || !cells->slots || !cells->texels || !cells->missing || !make_moves(cells)) {
+    if (!cells || !cells->slots || !cells->texels || !cells->missing || !cells->hulls ||
+        !make_moves(cells)) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "cells: out of memory");
         kiln_cells_destroy(&cells);
         return NULL;
     }
+    make_hulls(cells);
     return cells;
 }
 
@@ -86,6 +186,7 @@ void kiln_cells_destroy(struct kiln_cells **cells)
     free(c->slots);
     free(c->texels);
     free(c->missing);
+    free(c->hulls);
     free(c->moves);
     free(c);
     *cells = NULL;
@@ -103,11 +204,6 @@ uint32_t kiln_cells_want(struct kiln_cells *cells, const struct kiln_cell_name *
         slot->motion = name->motion;
     }
     return number;
-}
-
-uint32_t kiln_cells_pitch(uint32_t level)
-{
-    return ((uint32_t)KILN_ATLAS_CELL >> level) + 1;
 }
 
 const uint8_t *const *kiln_cells_texels(const struct kiln_cells *cells)
@@ -171,11 +267,12 @@ static void read_move(const int8_t *moves, float x, float y, float way[2])
 /* As cell_between() of shaders/draw/shade.glsl, at each texel. */
 static void mix(const struct kiln_cells *cells, uint32_t number)
 {
+    uint8_t texels[4 * MIXED_EDGE * MIXED_EDGE], *texel = texels;
     const struct slot *slot = &cells->slots[number];
     const struct kiln_atlas *atlas = cells->atlas;
     uint32_t layer = number / PHASE_LEVELS, level = number % KILN_ATLAS_LEVELS;
     uint32_t phase = number / KILN_ATLAS_LEVELS % KILN_CELL_PHASES;
-    uint32_t edge = (uint32_t)KILN_ATLAS_CELL >> level, pitch = kiln_cells_pitch(level);
+    uint32_t edge = (uint32_t)KILN_ATLAS_CELL >> level;
     const uint8_t *from = kiln_atlas_level(atlas, layer, level);
     const uint8_t *to = kiln_atlas_level(atlas, slot->next_layer, level);
     const int8_t *moves = atlas->moves && slot->motion > 0.0f
@@ -183,11 +280,9 @@ static void mix(const struct kiln_cells *cells, uint32_t number)
                               : NULL;
     const float part = (float)phase / (float)KILN_CELL_PHASES, left = 1.0f - part;
     const float scale = slot->motion / 127.0f;
-    uint8_t *texel = cells->texels[number];
-    for (uint32_t y = 0; y < pitch; y++) {
-        for (uint32_t x = 0; x < pitch; x++, texel += 4) {
-            float u = ((float)(x < edge ? x : edge - 1) + 0.5f) / (float)edge;
-            float v = ((float)(y < edge ? y : edge - 1) + 0.5f) / (float)edge;
+    for (uint32_t y = 0; y < edge; y++) {
+        for (uint32_t x = 0; x < edge; x++, texel += 4) {
+            float u = ((float)x + 0.5f) / (float)edge, v = ((float)y + 0.5f) / (float)edge;
             float way[2] = {0}, first[4], second[4];
             if (moves)
                 read_move(moves, u, v, way);
@@ -198,21 +293,15 @@ static void mix(const struct kiln_cells *cells, uint32_t number)
                 texel[c] = (uint8_t)(first[c] + (second[c] - first[c]) * part + 0.5f);
         }
     }
+    spread(texels, edge, cells->texels[number]);
 }
 
-/* A layer itself, with its last column and row twice. */
+/* A layer itself. */
 static void copy(const struct kiln_cells *cells, uint32_t number)
 {
     uint32_t layer = number / PHASE_LEVELS, level = number % KILN_ATLAS_LEVELS;
-    uint32_t edge = (uint32_t)KILN_ATLAS_CELL >> level, pitch = kiln_cells_pitch(level);
-    const uint8_t *from = kiln_atlas_level(cells->atlas, layer, level);
-    uint8_t *to = cells->texels[number];
-    for (uint32_t y = 0; y < pitch; y++) {
-        const uint8_t *row = from + 4 * (size_t)(y < edge ? y : edge - 1) * edge;
-        memcpy(to, row, 4 * (size_t)edge);
-        memcpy(to + 4 * (size_t)edge, row + 4 * (size_t)(edge - 1), 4);
-        to += 4 * (size_t)pitch;
-    }
+    spread(kiln_atlas_level(cells->atlas, layer, level), (uint32_t)KILN_ATLAS_CELL >> level,
+           cells->texels[number]);
 }
 
 static void mix_missing(void *context, size_t begin, size_t end, uint32_t worker)
@@ -234,8 +323,7 @@ bool kiln_cells_mix(struct kiln_cells *cells, struct kiln_threads *threads,
         if (cells->texels[i] ||
             !atomic_load_explicit(&cells->slots[i].wanted, memory_order_relaxed))
             continue;
-        size_t pitch = kiln_cells_pitch(i % KILN_ATLAS_LEVELS);
-        cells->texels[i] = malloc(pitch * pitch * 4);
+        cells->texels[i] = malloc(cell_bytes((uint32_t)KILN_ATLAS_CELL >> i % KILN_ATLAS_LEVELS));
         if (!cells->texels[i])
             return kiln_error_set(error, KILN_DEVICE_FAILED, "cells: out of memory");
         cells->missing[count++] = i;

@@ -10,10 +10,13 @@
 #include "base/thread.h"
 
 enum {
+    KILN_CELL_TEXEL = 8,  /* bytes: as draw/simd.h has them */
+    KILN_CELL_MARGIN = 2, /* columns more than the edge: the outer texels stand twice */
     KILN_CELL_PHASES = 16,
+    KILN_CELL_LARGE_STEP = 2,  /* phases of the largest that is mixed, so that they fit a cache */
     KILN_CELL_MIXED_LEVEL = 2, /* the largest that is mixed... */
-    KILN_CELL_MOVED_LEVEL = 3, /* ...and of what moves, which mixing blurs */
 };
+#define KILN_CELL_MIXED_MOVE 0.5f /* ...if nothing moves farther, texels: mixing blurs that */
 
 struct kiln_cells;
 
@@ -24,6 +27,12 @@ struct kiln_cell_name {
     float motion; /* of the texture: kiln_atlas_range */
 };
 
+/* Where a cell and the one after it show anything, and all between them: ranges of u, v, u + v and
+ * u - v, of the edge. Empty (from[0] >= to[0]) where they are clear all over. */
+struct kiln_cell_hull {
+    float from[4], to[4];
+};
+
 /* NULL with an error; the atlas must outlive it. */
 struct kiln_cells *kiln_cells_create(const struct kiln_atlas *atlas, struct kiln_error *error);
 void kiln_cells_destroy(struct kiln_cells **cells);
@@ -31,17 +40,21 @@ void kiln_cells_destroy(struct kiln_cells **cells);
 /* The number of a cell, which will be there after the next kiln_cells_mix. Any thread may ask. */
 uint32_t kiln_cells_want(struct kiln_cells *cells, const struct kiln_cell_name *name);
 
+/* Of a layer at a level of detail, and the next one of its texture. */
+const struct kiln_cell_hull *kiln_cells_hull(const struct kiln_cells *cells, uint32_t layer,
+                                             uint32_t level);
+
 /* Mixes what was wanted and is not there yet. */
 bool kiln_cells_mix(struct kiln_cells *cells, struct kiln_threads *threads,
                     struct kiln_error *error);
 
-/* Motion, by layer: RGBA as above with KILN_ATLAS_MOTION for an edge; right and down in red and
- * green, 128 for none, 127 more for a full move. NULL when nothing moves. */
+/* Motion, by layer: as below with KILN_ATLAS_MOTION for an edge; right and down in red and green,
+ * 128 for none, 127 more for a full move. NULL when nothing moves. */
 const uint8_t *kiln_cells_moves(const struct kiln_cells *cells, uint32_t layer);
 
-/* By number, the texels of the cells that are there: RGBA as in the atlas, kiln_cells_pitch(level)
- * a row, in which the last column and the last row stand twice. */
+/* By number, the cells that are there: edge + 1 rows of edge + KILN_CELL_MARGIN texels, in which
+ * the outer texels of the atlas's cell stand twice, so that a sample between two needs no clamping.
+ */
 const uint8_t *const *kiln_cells_texels(const struct kiln_cells *cells);
-uint32_t kiln_cells_pitch(uint32_t level);
 
 #endif

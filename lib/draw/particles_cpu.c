@@ -179,7 +179,6 @@ static void draw_tile(const struct drawing *d, size_t number, uint32_t worker)
     tile->height = height < KILN_TILE_HEIGHT ? (int)height : KILN_TILE_HEIGHT;
     tile->nearest = bins->depth[number].nearest;
     tile->over = d->sum ? 0.0f : 1.0f;
-    tile->glows = d->bloom != NULL;
     for (int row = 0; row < tile->height; row++)
         load_row(d, tile, row, (size_t)(y + (uint32_t)row) * d->width + x);
     const uint32_t *list = bins->list + bins->first[number];

@@ -35,8 +35,8 @@ SIMD struct ray_mesh_hit find_mesh(const struct kiln_mesh_view *meshes, vi trian
                                    const struct ray_place *at)
 {
     const struct kiln_mesh_triangle *all = meshes->triangles;
-    const int words = (int)(sizeof *all / sizeof(float));
-    vi index = vi_select(triangle >= 0, triangle * words, vi_all(0));
+    const int stride = (int)(sizeof *all / sizeof(float));
+    vi index = vi_select(triangle >= 0, triangle * stride, vi_all(0));
     struct ray_mesh_hit hit = {.triangle = triangle};
     hit.depth = 1.0f / read_plane(all->nearness, index, at);
     hit.normal =
@@ -63,8 +63,8 @@ SIMD void trace_meshes(const struct kiln_ray_frame *frame, const struct ray_plac
     if (!any(nearer))
         return;
     const float *colors = &frame->shapes->meshes[0].color.x;
-    const int words = (int)(sizeof frame->shapes->meshes[0] / sizeof(float));
-    vi index = found.mesh * words;
+    const int stride = (int)(sizeof frame->shapes->meshes[0] / sizeof(float));
+    vi index = found.mesh * stride;
     nearest->t = vf_select(nearer, found.depth, nearest->t);
     nearest->surface = vf_select(nearer, vf_of(found.mesh * 4 + RAY_MESHES), nearest->surface);
     nearest->normal = vf3_select(nearer, found.normal, nearest->normal);

@@ -15,10 +15,10 @@ typedef float ray_texel __attribute__((vector_size(16)));
 static inline ray_texel read_texel(const uint16_t half[4])
 {
     typedef uint16_t halves __attribute__((vector_size(8)));
-    typedef uint32_t words __attribute__((vector_size(16)));
+    typedef uint32_t widened __attribute__((vector_size(16)));
     halves bits;
     memcpy(&bits, half, sizeof bits);
-    return (ray_texel)(__builtin_convertvector(bits, words) << 13) * 0x1p112f;
+    return (ray_texel)(__builtin_convertvector(bits, widened) << 13) * 0x1p112f;
 }
 
 static inline float fraction(float x)

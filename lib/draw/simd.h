@@ -126,152 +126,319 @@ SIMD vf vf_clamp01(vf x)
     return vf_min(vf_max(x, vf_all(0.0f)), vf_all(1.0f));
 }
 
+/* The lanes of a vector are pixels side by side in units of 8, which differ in where they lie. */
+enum {
+    UNIT = 8,
+    UNITS = LANES > UNIT ? LANES / UNIT : 1,
+    UNIT_PARTS = UNIT > LANES ? UNIT / LANES : 1
+};
+
+/* 0 to 7 in each unit, or part of one. */
+SIMD vf vf_units_count(int part)
+{
+    static const float numbers[16] = {0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7};
+    return vf_load(numbers + part * LANES);
+}
+
+#if KILN_SIMD_LEVEL == 3
+
+/* One value a unit. */
+SIMD vf vf_units(const float *from)
+{
+    return (vf)_mm512_insertf32x8(_mm512_set1_ps(from[0]), _mm256_set1_ps(from[1]), 1);
+}
+
+/* From where each unit lies: offsets from `from`. */
+SIMD vf vf_load_units(const float *from, const int32_t *at)
+{
+    return (vf)_mm512_insertf32x8(_mm512_castps256_ps512(_mm256_loadu_ps(from + at[0])),
+                                  _mm256_loadu_ps(from + at[1]), 1);
+}
+
+SIMD void vf_store_units(float *to, const int32_t *at, vf x)
+{
+    _mm256_storeu_ps(to + at[0], _mm512_castps512_ps256((__m512)x));
+    _mm256_storeu_ps(to + at[1], _mm512_extractf32x8_ps((__m512)x, 1));
+}
+
+#else
+
+SIMD vf vf_units(const float *from)
+{
+    return vf_all(from[0]);
+}
+
+SIMD vf vf_load_units(const float *from, const int32_t *at)
+{
+    return vf_load(from + at[0]);
+}
+
+SIMD void vf_store_units(float *to, const int32_t *at, vf x)
+{
+    vf_store(to + at[0], x);
+}
+
+#endif
+
+/* ---- texels ----------------------------------------------------------------------------------
+ *
+ * A texel of 8 bytes is red, green, blue and alpha of two rows: red, red below, green... each less
+ * 128. A bilinear sample is the 16 bytes of two texels side by side, weighed by integers: downwards
+ * by two bytes, then across by two words, both pairs with a sum of 255.
+ *
+ * A place in a cell is two words without sign, u and v, in 1/256 texels.
+ */
+enum { PLACE_BITS = 8, PLACE_ONE = 1 << PLACE_BITS };
+
+/* Sums of weighed texels, before they are sorted by channel. */
+struct quads {
+    vi k[4];
+};
+
 /* Four channels. */
 struct vf4 {
     vf c[4];
 };
 
-/* What a fetched channel of 1 is. */
-#define FETCHED_ONE (127.0f * 255.0f)
+/* What makes a sampled channel: sum * SAMPLED_UNIT + SAMPLED_ZERO, where the parts of the samples
+ * in a sum are PART_ONE in all; the unit of a sample alone is that of part 1. */
+enum { PART_ONE = 128 };
+#define SAMPLED_UNIT (1.0f / (255.0f * 255.0f * 255.0f))
+#define SAMPLED_ZERO (128.0f / 255.0f)
 
-/* Bilinear samples of an RGBA8 cell. offset: in texels, of the upper left one of four; right,
- * down: the weights of the right and the lower ones, 0 to 127 and 0 to 32767. The arithmetic is
- * that of integers: sums of bytes times 7 bits, then a product rounded from 15 bits.
- */
+/* A way in the motion texture: its words are this where they are a full move. */
+#define WAY_ONE (255.0f * 255.0f * 127.0f / 256.0f)
+
+#if KILN_SIMD_LEVEL > 0
+
 #if KILN_SIMD_LEVEL == 3
-
-/* The texels of 8 pixels, left and right interleaved by channel. */
-SIMD __m512i fetch_pairs(const uint8_t *cell, __m256i offset)
+typedef __m512i words;
+#define WORDS(op) _mm512_##op
+SIMD words fetch_texels(const uint8_t *texels, const int32_t *at)
 {
-    const __m512i interleave = _mm512_set4_epi32(0x0f0b0e0a, 0x0d090c08, 0x07030602, 0x05010400);
-    return _mm512_shuffle_epi8(_mm512_i32gather_epi64(offset, cell, 4), interleave);
+    __m256i low = _mm256_inserti128_si256(
+        _mm256_castsi128_si256(_mm_loadu_si128((const __m128i_u *)(texels + at[0]))),
+        _mm_loadu_si128((const __m128i_u *)(texels + at[4])), 1);
+    __m256i high = _mm256_inserti128_si256(
+        _mm256_castsi128_si256(_mm_loadu_si128((const __m128i_u *)(texels + at[8]))),
+        _mm_loadu_si128((const __m128i_u *)(texels + at[12])), 1);
+    return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1);
 }
-
-/* 16-bit channels of 8 pixels. */
-SIMD __m512i fetch_half(const uint8_t *cell, uint32_t pitch, __m256i offset, __m256i right,
-                        __m256i down)
+/* The same in each 128 bits. */
+SIMD words pattern(int32_t a, int32_t b, int32_t c, int32_t d)
 {
-    const __m512i spread = _mm512_set4_epi32(0x09080908, 0x09080908, 0x01000100, 0x01000100);
-    __m512i across = _mm512_shuffle_epi8(_mm512_cvtepu32_epi64(right), spread);
-    __m512i along = _mm512_shuffle_epi8(_mm512_cvtepu32_epi64(down), spread);
-    __m512i top = _mm512_maddubs_epi16(fetch_pairs(cell, offset), across);
-    __m512i bottom = _mm512_maddubs_epi16(fetch_pairs(cell + 4 * (size_t)pitch, offset), across);
-    return _mm512_add_epi16(top, _mm512_mulhrs_epi16(_mm512_sub_epi16(bottom, top), along));
+    return _mm512_broadcast_i32x4(_mm_setr_epi32(a, b, c, d));
 }
-
-SIMD struct vf4 vf_fetch(const uint8_t *cell, uint32_t pitch, vi offset, vi right, vi down)
-{
-    const __m512i even =
-        _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
-    const __m512i odd =
-        _mm512_setr_epi32(1, 3, 5, 7, 9, 11, 13, 15, 17, 19, 21, 23, 25, 27, 29, 31);
-    const __m512i low = _mm512_set1_epi32(0xffff);
-    __m512i weights = (__m512i)(right * 255 + 127); /* bytes: of the left one, of the right one */
-    __m512i a = fetch_half(cell, pitch, _mm512_castsi512_si256((__m512i)offset),
-                           _mm512_castsi512_si256(weights), _mm512_castsi512_si256((__m512i)down));
-    __m512i b = fetch_half(cell, pitch, _mm512_extracti64x4_epi64((__m512i)offset, 1),
-                           _mm512_extracti64x4_epi64(weights, 1),
-                           _mm512_extracti64x4_epi64((__m512i)down, 1));
-    __m512i xy = _mm512_permutex2var_epi32(a, even, b), zw = _mm512_permutex2var_epi32(a, odd, b);
-    return (struct vf4){{(vf)_mm512_cvtepi32_ps(_mm512_and_si512(xy, low)),
-                         (vf)_mm512_cvtepi32_ps(_mm512_srli_epi32(xy, 16)),
-                         (vf)_mm512_cvtepi32_ps(_mm512_and_si512(zw, low)),
-                         (vf)_mm512_cvtepi32_ps(_mm512_srli_epi32(zw, 16))}};
-}
-
 #elif KILN_SIMD_LEVEL == 2
-
-SIMD __m256i fetch_pairs(const uint8_t *cell, __m128i offset)
+typedef __m256i words;
+#define WORDS(op) _mm256_##op
+SIMD words fetch_texels(const uint8_t *texels, const int32_t *at)
 {
-    const __m256i interleave = _mm256_setr_epi32(0x05010400, 0x07030602, 0x0d090c08, 0x0f0b0e0a,
-                                                 0x05010400, 0x07030602, 0x0d090c08, 0x0f0b0e0a);
-    return _mm256_shuffle_epi8(_mm256_i32gather_epi64((const long long *)cell, offset, 4),
-                               interleave);
+    return _mm256_inserti128_si256(
+        _mm256_castsi128_si256(_mm_loadu_si128((const __m128i_u *)(texels + at[0]))),
+        _mm_loadu_si128((const __m128i_u *)(texels + at[4])), 1);
+}
+SIMD words pattern(int32_t a, int32_t b, int32_t c, int32_t d)
+{
+    return _mm256_broadcastsi128_si256(_mm_setr_epi32(a, b, c, d));
+}
+#else
+typedef __m128i words;
+#define WORDS(op) _mm_##op
+SIMD words fetch_texels(const uint8_t *texels, const int32_t *at)
+{
+    return _mm_loadu_si128((const __m128i_u *)(texels + at[0]));
+}
+SIMD words pattern(int32_t a, int32_t b, int32_t c, int32_t d)
+{
+    return _mm_setr_epi32(a, b, c, d);
+}
+#endif
+
+/* Beyond 16 bits they become the least or greatest. */
+SIMD vi places_of(vf u, vf v)
+{
+    words both = WORDS(packus_epi32)((words) __builtin_convertvector(u, vi),
+                                     (words) __builtin_convertvector(v, vi));
+    return (vi)WORDS(shuffle_epi8)(both, pattern(0x09080100, 0x0b0a0302, 0x0d0c0504, 0x0f0e0706));
 }
 
-SIMD __m256i fetch_half(const uint8_t *cell, uint32_t pitch, __m128i offset, __m128i right,
-                        __m128i down)
+SIMD vi places_clamped(vi places, int32_t least, int32_t most)
 {
-    const __m256i spread = _mm256_setr_epi32(0x01000100, 0x01000100, 0x09080908, 0x09080908,
-                                             0x01000100, 0x01000100, 0x09080908, 0x09080908);
-    __m256i across = _mm256_shuffle_epi8(_mm256_cvtepu32_epi64(right), spread);
-    __m256i along = _mm256_shuffle_epi8(_mm256_cvtepu32_epi64(down), spread);
-    __m256i top = _mm256_maddubs_epi16(fetch_pairs(cell, offset), across);
-    __m256i bottom = _mm256_maddubs_epi16(fetch_pairs(cell + 4 * (size_t)pitch, offset), across);
-    return _mm256_add_epi16(top, _mm256_mulhrs_epi16(_mm256_sub_epi16(bottom, top), along));
+    words low = WORDS(set1_epi16)((short)least), high = WORDS(set1_epi16)((short)most);
+    return (vi)WORDS(min_epu16)(WORDS(max_epu16)((words)places, low), high);
 }
 
-SIMD struct vf4 vf_fetch(const uint8_t *cell, uint32_t pitch, vi offset, vi right, vi down)
+/* Masks of pixels with least <= u, v <= most. */
+SIMD vi places_between(vi places, int32_t least, int32_t most)
 {
-    const __m256i low = _mm256_set1_epi32(0xffff);
-    __m256i weights = (__m256i)(right * 255 + 127);
-    __m256i a = fetch_half(cell, pitch, _mm256_castsi256_si128((__m256i)offset),
-                           _mm256_castsi256_si128(weights), _mm256_castsi256_si128((__m256i)down));
-    __m256i b = fetch_half(cell, pitch, _mm256_extracti128_si256((__m256i)offset, 1),
-                           _mm256_extracti128_si256(weights, 1),
-                           _mm256_extracti128_si256((__m256i)down, 1));
-    /* Channels x, y of pixels 0 1 4 5 2 3 6 7, then put in order. */
-    __m256i xy = (__m256i)_mm256_shuffle_ps((__m256)a, (__m256)b, 0x88);
-    __m256i zw = (__m256i)_mm256_shuffle_ps((__m256)a, (__m256)b, 0xdd);
-    xy = _mm256_permute4x64_epi64(xy, 0xd8);
-    zw = _mm256_permute4x64_epi64(zw, 0xd8);
-    return (struct vf4){{(vf)_mm256_cvtepi32_ps(_mm256_and_si256(xy, low)),
-                         (vf)_mm256_cvtepi32_ps(_mm256_srli_epi32(xy, 16)),
-                         (vf)_mm256_cvtepi32_ps(_mm256_and_si256(zw, low)),
-                         (vf)_mm256_cvtepi32_ps(_mm256_srli_epi32(zw, 16))}};
+    words from_least = WORDS(sub_epi16)((words)places, WORDS(set1_epi16)((short)least));
+    words beyond = WORDS(subs_epu16)(from_least, WORDS(set1_epi16)((short)(most - least)));
+    return (vi)beyond == 0;
 }
 
-#elif KILN_SIMD_LEVEL == 1
-
-SIMD __m128i fetch_pairs(const uint8_t *cell, int32_t first, int32_t second)
+/* Along a part of the way, and clamped. part: places that a full way makes, at most 32767. */
+SIMD vi places_moved(vi places, vi way, int32_t part, int32_t least, int32_t most)
 {
-    const __m128i interleave = _mm_setr_epi32(0x05010400, 0x07030602, 0x0d090c08, 0x0f0b0e0a);
-    __m128i a = _mm_loadl_epi64((const __m128i *)(const void *)(cell + 4 * (ptrdiff_t)first));
-    __m128i b = _mm_loadl_epi64((const __m128i *)(const void *)(cell + 4 * (ptrdiff_t)second));
-    return _mm_shuffle_epi8(_mm_unpacklo_epi64(a, b), interleave);
+    const int32_t sign = (int32_t)0x80008000; /* words with signs saturate at both ends */
+    words low = WORDS(set1_epi16)((short)(least - 32768));
+    words high = WORDS(set1_epi16)((short)(most - 32768));
+    words moved = WORDS(mulhrs_epi16)((words)way, WORDS(set1_epi16)((short)part));
+    moved = WORDS(adds_epi16)((words)(places ^ sign), moved);
+    return (vi)WORDS(min_epi16)(WORDS(max_epi16)(moved, low), high) ^ sign;
 }
 
-SIMD __m128i fetch_half(const uint8_t *cell, uint32_t pitch, int32_t first, int32_t second,
-                        __m128i right, __m128i down)
+/* pitch: bytes. part: of PART_ONE; 1 for a sample alone. */
+SIMD struct quads sample_quads(const uint8_t *texels, int32_t pitch, vi places, int32_t part)
 {
-    const __m128i spread = _mm_setr_epi32(0x01000100, 0x01000100, 0x09080908, 0x09080908);
-    __m128i across = _mm_shuffle_epi8(_mm_cvtepu32_epi64(right), spread);
-    __m128i along = _mm_shuffle_epi8(_mm_cvtepu32_epi64(down), spread);
-    __m128i top = _mm_maddubs_epi16(fetch_pairs(cell, first, second), across);
-    __m128i bottom =
-        _mm_maddubs_epi16(fetch_pairs(cell + 4 * (size_t)pitch, first, second), across);
-    return _mm_add_epi16(top, _mm_mulhrs_epi16(_mm_sub_epi16(bottom, top), along));
+    const words twins = pattern(0x09080100, 0x0b0a0302, 0x0d0c0504, 0x0f0e0706);
+    vi offset = (vi)WORDS(madd_epi16)(WORDS(srli_epi16)((words)places, PLACE_BITS),
+                                      WORDS(set1_epi32)(pitch << 16 | 8));
+    _Alignas(64) int32_t offsets[LANES];
+    memcpy(offsets, &offset, sizeof offsets);
+    __asm__("" : "+m"(offsets)); /* through memory: to take a vector apart costs twice as much */
+    words rows =
+        WORDS(shuffle_epi8)((words)places, pattern(0x02020202, 0x06060606, 0x0a0a0a0a, 0x0e0e0e0e));
+    rows = (words)((vi)rows ^ 0x00ff00ff);
+    words columns =
+        WORDS(shuffle_epi8)((words)places, pattern((int32_t)0x80008000, (int32_t)0x80048004,
+                                                   (int32_t)0x80088008, (int32_t)0x800c800c));
+    columns = (words)((vi)columns ^ 0x000000ff);
+    if (part != 1)
+        columns = WORDS(mullo_epi16)(columns, WORDS(set1_epi16)((short)part));
+    struct quads quads;
+#define QUAD(n)                                                                                    \
+    do {                                                                                           \
+        const int32_t pair = 0x01000100 + (n)*0x04040404;                                          \
+        words weights = WORDS(shuffle_epi8)(rows, pattern(pair, pair, pair, pair));                \
+        words texel = WORDS(maddubs_epi16)(weights, fetch_texels(texels, offsets + (n)));          \
+        quads.k[n] = (vi)WORDS(madd_epi16)(WORDS(shuffle_epi8)(texel, twins),                      \
+                                           WORDS(shuffle_epi32)(columns, (n)*0x55));               \
+    } while (0)
+    QUAD(0);
+    QUAD(1);
+    QUAD(2);
+    QUAD(3);
+#undef QUAD
+    return quads;
 }
 
-SIMD struct vf4 vf_fetch(const uint8_t *cell, uint32_t pitch, vi offset, vi right, vi down)
+SIMD struct vf4 channels_of(struct quads q)
 {
-    const __m128i low = _mm_set1_epi32(0xffff);
-    __m128i weights = (__m128i)(right * 255 + 127);
-    __m128i a = fetch_half(cell, pitch, offset[0], offset[1], weights, (__m128i)down);
-    __m128i b = fetch_half(cell, pitch, offset[2], offset[3], _mm_srli_si128(weights, 8),
-                           _mm_srli_si128((__m128i)down, 8));
-    __m128i xy = (__m128i)_mm_shuffle_ps((__m128)a, (__m128)b, 0x88);
-    __m128i zw = (__m128i)_mm_shuffle_ps((__m128)a, (__m128)b, 0xdd);
-    return (struct vf4){
-        {(vf)_mm_cvtepi32_ps(_mm_and_si128(xy, low)), (vf)_mm_cvtepi32_ps(_mm_srli_epi32(xy, 16)),
-         (vf)_mm_cvtepi32_ps(_mm_and_si128(zw, low)), (vf)_mm_cvtepi32_ps(_mm_srli_epi32(zw, 16))}};
+    words rg01 = WORDS(unpacklo_epi32)((words)q.k[0], (words)q.k[1]);
+    words rg23 = WORDS(unpacklo_epi32)((words)q.k[2], (words)q.k[3]);
+    words ba01 = WORDS(unpackhi_epi32)((words)q.k[0], (words)q.k[1]);
+    words ba23 = WORDS(unpackhi_epi32)((words)q.k[2], (words)q.k[3]);
+    const vi c[4] = {(vi)WORDS(unpacklo_epi64)(rg01, rg23), (vi)WORDS(unpackhi_epi64)(rg01, rg23),
+                     (vi)WORDS(unpacklo_epi64)(ba01, ba23), (vi)WORDS(unpackhi_epi64)(ba01, ba23)};
+    struct vf4 result;
+    for (int i = 0; i < 4; i++)
+        result.c[i] = __builtin_convertvector(c[i], vf);
+    return result;
 }
 
+/* Red and green as a way. */
+SIMD vi ways_of(struct quads q)
+{
+    for (int i = 0; i < 4; i++)
+        q.k[i] >>= 8;
+    words a = WORDS(packs_epi32)((words)q.k[0], (words)q.k[1]);
+    words b = WORDS(packs_epi32)((words)q.k[2], (words)q.k[3]);
+    return (vi)WORDS(unpacklo_epi64)(WORDS(shuffle_epi32)(a, 0x88), WORDS(shuffle_epi32)(b, 0x88));
+}
+
+#undef WORDS
 #else
 
-SIMD struct vf4 vf_fetch(const uint8_t *cell, uint32_t pitch, vi offset, vi right, vi down)
+SIMD int32_t limited(int32_t x, int32_t least, int32_t most)
 {
-    struct vf4 fetched;
+    return x < least ? least : x > most ? most : x;
+}
+
+SIMD int32_t place(int32_t u, int32_t v)
+{
+    return (int32_t)((uint32_t)v << 16 | ((uint32_t)u & 0xffff));
+}
+
+SIMD int32_t u_of(int32_t place)
+{
+    return place & 0xffff;
+}
+
+SIMD int32_t v_of(int32_t place)
+{
+    return (int32_t)((uint32_t)place >> 16);
+}
+
+SIMD vi places_of(vf u, vf v)
+{
+    vi x = __builtin_convertvector(u, vi), y = __builtin_convertvector(v, vi);
+    for (int i = 0; i < LANES; i++)
+        x[i] = place(limited(x[i], 0, 65535), limited(y[i], 0, 65535));
+    return x;
+}
+
+SIMD vi places_clamped(vi places, int32_t least, int32_t most)
+{
+    for (int i = 0; i < LANES; i++)
+        places[i] =
+            place(limited(u_of(places[i]), least, most), limited(v_of(places[i]), least, most));
+    return places;
+}
+
+SIMD vi places_between(vi places, int32_t least, int32_t most)
+{
+    return places_clamped(places, least, most) == places;
+}
+
+SIMD vi places_moved(vi places, vi way, int32_t part, int32_t least, int32_t most)
+{
     for (int i = 0; i < LANES; i++) {
-        const uint8_t *top = cell + 4 * (ptrdiff_t)offset[i], *bottom = top + 4 * (size_t)pitch;
-        for (int c = 0; c < 4; c++) {
-            int32_t upper = top[c] * (127 - right[i]) + top[c + 4] * right[i];
-            int32_t lower = bottom[c] * (127 - right[i]) + bottom[c + 4] * right[i];
-            fetched.c[c][i] = (float)(upper + (((lower - upper) * down[i] + 0x4000) >> 15));
-        }
+        int32_t u = u_of(places[i]) + (((int16_t)u_of(way[i]) * part + 0x4000) >> 15);
+        int32_t v = v_of(places[i]) + (((int16_t)v_of(way[i]) * part + 0x4000) >> 15);
+        places[i] = place(limited(u, least, most), limited(v, least, most));
     }
-    return fetched;
+    return places;
+}
+
+SIMD struct quads sample_quads(const uint8_t *texels, int32_t pitch, vi places, int32_t part)
+{
+    struct quads quads; /* by channel */
+    for (int i = 0; i < LANES; i++) {
+        int32_t u = u_of(places[i]), v = v_of(places[i]);
+        const int8_t *t =
+            (const int8_t *)texels + (v >> PLACE_BITS) * pitch + (u >> PLACE_BITS) * 8;
+        int32_t bottom = v & 255, top = 255 - bottom;
+        int32_t right = (u & 255) * part, left = 255 * part - right;
+        for (int c = 0; c < 4; c++)
+            quads.k[c][i] = (t[2 * c] * top + t[2 * c + 1] * bottom) * left +
+                            (t[8 + 2 * c] * top + t[9 + 2 * c] * bottom) * right;
+    }
+    return quads;
+}
+
+SIMD struct vf4 channels_of(struct quads q)
+{
+    struct vf4 result;
+    for (int i = 0; i < 4; i++)
+        result.c[i] = __builtin_convertvector(q.k[i], vf);
+    return result;
+}
+
+SIMD vi ways_of(struct quads q)
+{
+    vi ways;
+    for (int i = 0; i < LANES; i++)
+        ways[i] = place(q.k[0][i] >> 8, q.k[1][i] >> 8);
+    return ways;
 }
 
 #endif
+
+SIMD struct quads quads_sum(struct quads a, struct quads b)
+{
+    for (int i = 0; i < 4; i++)
+        a.k[i] += b.k[i];
+    return a;
+}
 #endif

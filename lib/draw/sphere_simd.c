@@ -236,7 +236,7 @@ static void resolve_row(const struct kiln_sphere_strip *s, uint32_t row)
         if ((nearest[0] & nearest[s->pitch] & nearest[2 * s->pitch] & nearest[3 * s->pitch]) != -1)
             end = list_pixel(s, first, x, end, &s->depth[pixel + x]);
     }
-    const int32_t words = (int32_t)(sizeof *s->spheres / sizeof(float));
+    const int32_t stride = (int32_t)(sizeof *s->spheres / sizeof(float));
     uint32_t count = (uint32_t)(end - s->entries) / 2;
     for (uint32_t i = 0; i < count; i += LANES) {
         struct seen_spheres seen = {{0}, {0}, {0}};
@@ -244,7 +244,7 @@ static void resolve_row(const struct kiln_sphere_strip *s, uint32_t row)
         for (uint32_t lane = 0; lane < lanes; lane++) {
             const uint32_t *entry = s->entries + 2 * (i + lane);
             seen.column[lane] = (int32_t)entry[0];
-            seen.sphere[lane] = (int32_t)(entry[1] >> 2) * words;
+            seen.sphere[lane] = (int32_t)(entry[1] >> 2) * stride;
             seen.part[lane] = 0.25f * (float)((entry[1] & 3) + 1);
         }
         struct ray_color light;

@@ -192,6 +192,10 @@ static void shade(const struct subject *p, float3 position, struct kiln_sprite *
             break;
         }
     }
+    for (int c = 0; c < 3; c++) {
+        if (s->base[c] != 0.0f || s->slope[c] != 0.0f)
+            s->flags |= KILN_SPRITE_EMITS;
+    }
     float4 bloom = look_at(p, KILN_LOOK_BLOOM);
     s->bulge = p->look->form.x == 0 ? p->half_size * bloom.w : 0.0f;
     s->bloom[0] = bloom.x;
@@ -213,8 +217,9 @@ static uint32_t level_of(float diameter_px)
     return log2_floor(exact_max((float)KILN_ATLAS_CELL / exact_max(diameter_px, 1.0f), 1.0f));
 }
 
-/* Equation 3.2: the two adjacent cells and the way between them, by the progress through life. */
-static void choose_cells(const struct subject *p, uint4 texture, uint32_t level,
+/* Equation 3.2: the two adjacent cells and the way between them, by the progress through life.
+ * False where nothing can be seen of them. */
+static bool choose_cells(const struct subject *p, uint4 texture, uint32_t level,
                          struct kiln_sprite *s)
 {
     float position = p->progress * p->cool.w * ((float)texture.y - 1.0f);
@@ -222,24 +227,29 @@ static void choose_cells(const struct subject *p, uint4 texture, uint32_t level,
         position += random_unit(p->stream, RANDOM_CELL) * (float)texture.y;
     position = exact_clamp(position, 0.0f, 1e6f);
     struct kiln_cell_name name = {.level = level, .motion = BITS_FLOAT(texture.w)};
-    if (level >= (name.motion > 0.0f ? KILN_CELL_MOVED_LEVEL : KILN_CELL_MIXED_LEVEL)) {
-        uint32_t phase = (uint32_t)(position * (float)KILN_CELL_PHASES + 0.5f);
-        uint32_t cell = phase / KILN_CELL_PHASES % texture.y;
+    bool mixed = level >= KILN_CELL_MIXED_LEVEL && name.motion * s->edge_u <= KILN_CELL_MIXED_MOVE;
+    uint32_t step = level > KILN_CELL_MIXED_LEVEL ? 1 : KILN_CELL_LARGE_STEP;
+    uint32_t phase = step * (uint32_t)(position * (float)(KILN_CELL_PHASES / step) + 0.5f);
+    uint32_t number = mixed ? phase / KILN_CELL_PHASES : (uint32_t)position;
+    uint32_t cell = number % texture.y;
+    name.layer = texture.x + cell;
+    name.next_layer = texture.x + (cell + 1) % texture.y;
+    s->hull = *kiln_cells_hull(p->pass->cells, name.layer, level);
+    if (s->hull.from[0] >= s->hull.to[0])
+        return false;
+    if (mixed) {
         name.phase = phase % KILN_CELL_PHASES;
-        name.layer = texture.x + cell;
-        name.next_layer = texture.x + (cell + 1) % texture.y;
         s->cell = kiln_cells_want(p->pass->cells, &name);
         s->flags |= KILN_SPRITE_MIXED;
-        return;
+        return true;
     }
-    uint32_t cell = (uint32_t)position;
-    s->part = position - (float)cell;
-    cell %= texture.y;
+    s->part = position - (float)number;
     s->motion = name.motion * s->edge_u;
-    name.layer = s->moves = texture.x + cell;
+    s->moves = name.layer;
     s->cell = kiln_cells_want(p->pass->cells, &name);
-    name.layer = texture.x + (cell + 1) % texture.y;
+    name.layer = name.next_layer;
     s->next_cell = kiln_cells_want(p->pass->cells, &name);
+    return true;
 }
 
 static uint4 choose_texture(const struct subject *p)
@@ -277,6 +287,9 @@ struct point2 {
     float x, y;
 };
 
+/* One of more is too thin to be seen: its texels at a pixel would not be found in 32 bits. */
+#define MOST_TEXELS_A_PIXEL 4096.0f
+
 static struct point2 to_pixels(const struct kiln_view *view, float3 v)
 {
     float near = 0.5f / -v.z;
@@ -309,13 +322,26 @@ static bool place_flat(const struct subject *p, struct kiln_sprite *s)
     s->u_y = -up_x * half_edge;
     s->v_x = right_y * half_edge; /* v grows downwards */
     s->v_y = -right_x * half_edge;
-    s->pixels_a_u = reciprocal_or_0(s->u_x);
-    s->pixels_a_v = reciprocal_or_0(s->v_x);
+    if (!(exact_abs(s->u_x) + exact_abs(s->u_y) + exact_abs(s->v_x) + exact_abs(s->v_y) <
+          MOST_TEXELS_A_PIXEL))
+        return false;
     s->depth = p->depth;
-    float reach_x = exact_abs(right_x) + exact_abs(up_x);
-    float reach_y = exact_abs(right_y) + exact_abs(up_y);
-    const float low[2] = {middle.x - reach_x, middle.y - reach_y};
-    const float high[2] = {middle.x + reach_x, middle.y + reach_y};
+    const float changes[4] = {s->u_x, s->v_x, s->u_x + s->v_x, s->u_x - s->v_x};
+    struct kiln_cell_hull *hull = &s->hull;
+    /* The middle and the half edges of the part that shows. */
+    float u_from = hull->from[0], v_from = hull->from[1];
+    float width = hull->to[0] - u_from, height = hull->to[1] - v_from;
+    float across = u_from + hull->to[0] - 1.0f, along = 1.0f - (v_from + hull->to[1]);
+    float x = middle.x + right_x * across + up_x * along;
+    float y = middle.y + right_y * across + up_y * along;
+    for (int i = 0; i < 4; i++) {
+        s->pixels_a[i] = reciprocal_or_0(changes[i]);
+        hull->from[i] *= s->edge_u;
+        hull->to[i] *= s->edge_u;
+    }
+    float reach_x = exact_abs(right_x) * width + exact_abs(up_x) * height;
+    float reach_y = exact_abs(right_y) * width + exact_abs(up_y) * height;
+    const float low[2] = {x - reach_x, y - reach_y}, high[2] = {x + reach_x, y + reach_y};
     return limit_box(view, low, high, s);
 }
 
@@ -357,8 +383,10 @@ static bool place_deep(const struct subject *p, struct kiln_sprite *s)
 
     float low[2] = {view->frustum.z, view->frustum.w}, high[2] = {0.0f, 0.0f};
     for (int i = 0; i < 4; i++) {
-        float3 corner = float3_add_scaled(p->center, right, i & 1 ? 1.0f : -1.0f);
-        corner = float3_add_scaled(corner, up, i & 2 ? 1.0f : -1.0f);
+        float across = i & 1 ? s->hull.to[0] : s->hull.from[0];
+        float down = i & 2 ? s->hull.to[1] : s->hull.from[1];
+        float3 corner = float3_add_scaled(p->center, right, 2.0f * across - 1.0f);
+        corner = float3_add_scaled(corner, up, 1.0f - 2.0f * down);
         if (-corner.z < 1e-3f * p->depth) { /* reaches behind the eye: anywhere */
             static const float everywhere[2] = {-1e6f, -1e6f};
             return limit_box(view, everywhere, (const float[2]){1e6f, 1e6f}, s);
@@ -500,14 +528,13 @@ static bool make_sprite(const struct kiln_sprite_pass *pass, uint32_t entry, str
         uint32_t edge = (uint32_t)KILN_ATLAS_CELL >> level;
         uint32_t facing = p.look->form.y;
         s->edge_u = s->edge_v = (float)edge;
-        s->pitch = (uint16_t)(edge + 1);
-        seen = facing == LOOK_SCREEN || facing == LOOK_VELOCITY ? place_flat(&p, s)
-                                                                : place_deep(&p, s);
+        s->pitch = (uint16_t)(edge + KILN_CELL_MARGIN);
+        bool flat = facing == LOOK_SCREEN || facing == LOOK_VELOCITY;
+        seen =
+            choose_cells(&p, texture, level, s) && (flat ? place_flat(&p, s) : place_deep(&p, s));
     }
     if (!seen)
         return false;
-    if (s->shade != KILN_SHADE_PLAIN)
-        choose_cells(&p, texture, level, s);
     shade(&p, particle_position(p.record), s);
     return true;
 }

@@ -26,6 +26,7 @@ enum {
     KILN_SPRITE_DISC = 4,    /* plain: round */
     KILN_SPRITE_LITERAL = 8, /* soft formula as printed: Heinz 2019, equation 3.3 */
     KILN_SPRITE_MIXED = 16,  /* its cell is mixed beforehand */
+    KILN_SPRITE_EMITS = 32,  /* base and slope are not 0 */
 };
 
 struct kiln_sprite {
@@ -35,10 +36,11 @@ struct kiln_sprite {
     float x, y;                     /* where the planes below have their constants, px */
     float u, u_x, u_y, v, v_x, v_y; /* texels; plain: px from its middle */
     float q, q_x, q_y;              /* 1/m */
-    float pixels_a_u, pixels_a_v;   /* 1 / u_x and 1 / v_x; 0: do not divide */
-    float edge_u, edge_v;           /* texels; plain: half the size, px */
-    float depth;                    /* view-space, m, of one that is not deep */
-    float soft, distance;           /* 1/m; m */
+    struct kiln_cell_hull hull;     /* where it shows, texels */
+    float pixels_a[4];    /* 1 / (change of u, v, u + v, u - v with x); 0: do not divide */
+    float edge_u, edge_v; /* texels; plain: half the size, px */
+    float depth;          /* view-space, m, of one that is not deep */
+    float soft, distance; /* 1/m; m */
     float opacity;
     float bulge; /* half the thickness in its middle, m */
     float base[3], slope[3];

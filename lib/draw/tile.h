@@ -9,7 +9,9 @@
 enum {
     KILN_TILE_WIDTH = 64,
     KILN_TILE_HEIGHT = 16,
-    KILN_TILE_PITCH = KILN_TILE_WIDTH + 16, /* a vector may reach beyond the right edge */
+    KILN_TILE_PITCH = KILN_TILE_WIDTH + 8, /* a unit of 8 pixels may reach beyond the right edge */
+    /* Units in it, and room for those that are written and not kept. */
+    KILN_TILE_UNITS = KILN_TILE_HEIGHT * KILN_TILE_WIDTH / 8 + 8,
 };
 
 /* Colour, alpha and glow of what was drawn, premultiplied; the depth of the scene, m. */
@@ -26,11 +28,11 @@ enum kiln_tile_plane {
 };
 
 struct kiln_tile {
-    _Alignas(64) float pixels[KILN_TILE_HEIGHT][KILN_TILE_PLANES][KILN_TILE_PITCH];
+    /* The last row is of pixels that lie nowhere. */
+    _Alignas(64) float pixels[KILN_TILE_HEIGHT + 1][KILN_TILE_PLANES][KILN_TILE_PITCH];
     int x, y, width, height; /* in the picture, px */
     float nearest;           /* depth in it, m */
     float over;              /* 1: what covers hides what is behind; 0: alpha is summed up */
-    bool glows;              /* the glow is wanted */
 };
 
 /* Draws sprites in the order of the list into the tile; their cells have been mixed. */

@@ -7,207 +7,17 @@
 
 enum { TILE_AHEAD = 6 }; /* sprites that are fetched beforehand */
 
-/* The colour of a vector of pixels, not yet faded. */
-struct shaded {
-    vf red, green, blue, alpha;
-};
-
-struct place {
-    vf u, v;
-};
-
-/* The texels that a sprite shows. */
-struct source {
-    const uint8_t *cell, *next, *moves; /* moves is NULL where nothing does */
-};
-
-/* Bilinear, clamped to the centres of the outer texels. */
-SIMD struct vf4 sample(const uint8_t *texels, uint32_t pitch, struct place at)
-{
-    vf zero = vf_all(0.0f), last = vf_all((float)(pitch - 2));
-    vf u = vf_min(vf_max(at.u - 0.5f, zero), last), v = vf_min(vf_max(at.v - 0.5f, zero), last);
-    vi column = __builtin_convertvector(u, vi), row = __builtin_convertvector(v, vi);
-    vf right = (u - __builtin_convertvector(column, vf)) * 127.0f + 0.5f;
-    vf down = (v - __builtin_convertvector(row, vf)) * 32767.0f;
-    return vf_fetch(texels, pitch, row * (int32_t)pitch + column,
-                    __builtin_convertvector(right, vi), __builtin_convertvector(down, vi));
-}
-
-/* Between two cells, each of which is followed to where it is at that time. */
-SIMD struct vf4 sample_between(const struct kiln_sprite *s, const struct source *from,
-                               struct place at)
-{
-    struct place first = at, second = at;
-    if (from->moves) {
-        float scale = (float)KILN_ATLAS_MOTION / s->edge_u;
-        struct vf4 way =
-            sample(from->moves, KILN_ATLAS_MOTION + 1, (struct place){at.u * scale, at.v * scale});
-        vf x = (way.c[0] * (1.0f / 127.0f) - 128.0f) * (s->motion / 127.0f);
-        vf y = (way.c[1] * (1.0f / 127.0f) - 128.0f) * (s->motion / 127.0f);
-        first = (struct place){at.u - x * s->part, at.v - y * s->part};
-        second = (struct place){at.u + x * (1.0f - s->part), at.v + y * (1.0f - s->part)};
-    }
-    struct vf4 a = sample(from->cell, s->pitch, first), b = sample(from->next, s->pitch, second);
-    for (int c = 0; c < 4; c++)
-        a.c[c] += (b.c[c] - a.c[c]) * s->part;
-    return a;
-}
-
-SIMD struct vf4 sample_cell(const struct kiln_sprite *s, const struct source *from, struct place at,
-                            bool mixed)
-{
-    return mixed ? sample(from->cell, s->pitch, at) : sample_between(s, from, at);
-}
-
-SIMD struct shaded shade_glow(const struct kiln_sprite *s, struct vf4 cell)
-{
-    vf alpha = cell.c[3] * (1.0f / FETCHED_ONE), heat = cell.c[2] * (1.0f / FETCHED_ONE);
-    return (struct shaded){.red = (s->base[0] + s->slope[0] * heat) * alpha,
-                           .green = (s->base[1] + s->slope[1] * heat) * alpha,
-                           .blue = (s->base[2] + s->slope[2] * heat) * alpha,
-                           .alpha = alpha};
-}
-
-SIMD struct shaded shade_lit(const struct kiln_sprite *s, struct vf4 cell)
-{
-    vf alpha = cell.c[3] * (1.0f / FETCHED_ONE), heat = cell.c[2] * (1.0f / FETCHED_ONE);
-    vf x = cell.c[0] * (2.0f / FETCHED_ONE) - 1.0f, y = cell.c[1] * (2.0f / FETCHED_ONE) - 1.0f;
-    vf zero = vf_all(0.0f);
-    vf z = vf_sqrt(vf_max(1.0f - (x * x + y * y), zero));
-    vf rgb[3];
-    for (int c = 0; c < 3; c++) {
-        vf light = s->light[0][c] + s->light[1][c] * x + s->light[2][c] * y + s->light[3][c] * z;
-        rgb[c] = (s->base[c] + s->slope[c] * heat + vf_max(light, zero)) * alpha;
-    }
-    return (struct shaded){rgb[0], rgb[1], rgb[2], alpha};
-}
-
-/* Colour cells are stored under a square root. */
-SIMD struct shaded shade_color(const struct kiln_sprite *s, struct vf4 cell)
-{
-    for (int c = 0; c < 4; c++) {
-        cell.c[c] *= 1.0f / FETCHED_ONE;
-        cell.c[c] *= cell.c[c];
-    }
-    return (struct shaded){cell.c[0] * s->base[0], cell.c[1] * s->base[1], cell.c[2] * s->base[2],
-                           cell.c[3]};
-}
-
-/* The part of a pixel inside a disc or a rectangle. */
-SIMD struct shaded shade_plain(const struct kiln_sprite *s, struct place at)
-{
-    vf alpha;
-    if (s->flags & KILN_SPRITE_DISC)
-        alpha = vf_clamp01(s->edge_u + 0.5f - vf_sqrt(at.u * at.u + at.v * at.v));
-    else
-        alpha = vf_clamp01(s->edge_u + 0.5f - vf_abs(at.u)) *
-                vf_clamp01(s->edge_v + 0.5f - vf_abs(at.v));
-    return (struct shaded){s->base[0] * alpha, s->base[1] * alpha, s->base[2] * alpha, alpha};
-}
-
-SIMD struct shaded shade(const struct kiln_sprite *s, const struct source *from, struct place at,
-                         enum kiln_sprite_shade kind, bool mixed)
-{
-    switch (kind) {
-    case KILN_SHADE_LIT:
-        return shade_lit(s, sample_cell(s, from, at, mixed));
-    case KILN_SHADE_COLOR:
-        return shade_color(s, sample_cell(s, from, at, mixed));
-    case KILN_SHADE_PLAIN:
-        return shade_plain(s, at);
-    default:
-        return shade_glow(s, sample_cell(s, from, at, mixed));
-    }
-}
-
-/* What is left of a sprite before the scene: equation 3.3, clamped to a fade, or as printed. */
-SIMD vf fade(const struct kiln_sprite *s, vf scene, vf depth, vi inside)
-{
-    vf one = vf_all(1.0f);
-    vi visible = inside & (depth <= scene);
-    if (s->soft <= 0.0f)
-        return vf_where(visible, one);
-    if (s->flags & KILN_SPRITE_LITERAL)
-        return vf_where(visible, vf_abs(scene - s->distance) * s->soft);
-    return vf_where(inside, vf_clamp01((scene - depth) * s->soft));
-}
-
-SIMD void blend(float *to, vf color, vf passed)
-{
-    vf_store(to, color + vf_load(to) * passed);
-}
-
-SIMD void add(float *to, vf color)
-{
-    vf_store(to, color + vf_load(to));
-}
-
-struct row {
-    float u, v, q; /* the sprite's planes at the anchor's column */
-    float (*pixels)[KILN_TILE_PITCH];
-    const struct source *source;
-    bool whole; /* all of the tile lies so far behind the sprite that nothing fades it */
-};
-
-/* A vector of pixels from column x of the tile. */
-SIMD void draw_pixels(const struct kiln_tile *tile, const struct kiln_sprite *s,
-                      const struct row *row, int x, enum kiln_sprite_shade kind, bool deep,
-                      bool covers, bool mixed)
-{
-    vf from_anchor = vf_count() + ((float)(tile->x + x) + 0.5f - s->x);
-    struct place at = {row->u + s->u_x * from_anchor, row->v + s->v_x * from_anchor};
-    vf depth = vf_all(s->depth);
-    vi inside = ~(vi){0};
-    if (deep) {
-        vf q = row->q + s->q_x * from_anchor;
-        inside &= q > 0.0f;
-        depth = 1.0f / q;
-        if (kind != KILN_SHADE_PLAIN) {
-            at.u *= depth;
-            at.v *= depth;
-        }
-    }
-    if (kind != KILN_SHADE_PLAIN)
-        inside &= (at.u >= 0.0f) & (at.u < s->edge_u) & (at.v >= 0.0f) & (at.v < s->edge_v);
-
-    struct shaded c = shade(s, row->source, at, kind, mixed);
-    vf part;
-    if (row->whole)
-        part = vf_where(inside, vf_all(s->opacity));
-    else
-        part = fade(s, vf_load(row->pixels[KILN_TILE_DEPTH] + x), depth, inside) * s->opacity;
-    if (s->flags & KILN_SPRITE_LITERAL) /* has no bound of its own: alpha up to 1 */
-        part = vf_min(part, 1.0f / vf_max(c.alpha, vf_all(1e-6f)));
-    c.red *= part;
-    c.green *= part;
-    c.blue *= part;
-    float(*pixels)[KILN_TILE_PITCH] = row->pixels;
-    if (covers) {
-        c.alpha *= part;
-        vf passed = 1.0f - c.alpha * tile->over;
-        blend(pixels[KILN_TILE_RED] + x, c.red, passed);
-        blend(pixels[KILN_TILE_GREEN] + x, c.green, passed);
-        blend(pixels[KILN_TILE_BLUE] + x, c.blue, passed);
-        blend(pixels[KILN_TILE_ALPHA] + x, c.alpha, passed);
-        if (tile->glows) {
-            blend(pixels[KILN_TILE_GLOW_RED] + x, c.red * s->bloom[0], passed);
-            blend(pixels[KILN_TILE_GLOW_GREEN] + x, c.green * s->bloom[1], passed);
-            blend(pixels[KILN_TILE_GLOW_BLUE] + x, c.blue * s->bloom[2], passed);
-        }
-        return;
-    }
-    add(pixels[KILN_TILE_RED] + x, c.red);
-    add(pixels[KILN_TILE_GREEN] + x, c.green);
-    add(pixels[KILN_TILE_BLUE] + x, c.blue);
-    if (tile->glows) {
-        add(pixels[KILN_TILE_GLOW_RED] + x, c.red * s->bloom[0]);
-        add(pixels[KILN_TILE_GLOW_GREEN] + x, c.green * s->bloom[1]);
-        add(pixels[KILN_TILE_GLOW_BLUE] + x, c.blue * s->bloom[2]);
-    }
-}
-
-struct span {
-    int from, to;
+/* What all pixels of a sprite have in common. */
+struct brush {
+    const uint8_t *cell, *next, *moves; /* next: NULL if mixed; moves: NULL where nothing does */
+    int32_t pitch;                      /* of the cells, bytes */
+    int32_t edge;                       /* of the cells, places */
+    int32_t part;                       /* of the way to the next cell, of PART_ONE */
+    int32_t from, to;              /* places that a full move makes, of the cell and of the next */
+    int32_t move_shift, move_mask; /* of a place in the cells to one in the motion */
+    float sampled;                 /* the unit of sampled channels */
+    bool emits;                    /* base or slope are not 0 */
+    bool whole;                    /* all of the tile lies so far behind it that nothing fades */
 };
 
 static inline float least(float a, float b)
@@ -215,67 +25,329 @@ static inline float least(float a, float b)
     return a < b ? a : b;
 }
 
-static inline float most(float a, float b)
+/* The colour of a vector of pixels without its alpha, or with it if it comes from a cell. */
+struct shaded {
+    vf rgb[3], alpha;
+};
+
+/* Between two cells, each of which is followed to where it is at that time. Clamped to the centres
+ * of the outer texels. */
+SIMD struct quads sample_between(const struct brush *b, vi places)
 {
-    return a > b ? a : b;
+    int32_t half = PLACE_ONE / 2, most = b->edge + half;
+    vi from, to;
+    if (b->moves) {
+        vi at = places_clamped(places, half, most - 1) - (half << 16 | half);
+        at = ((at >> b->move_shift) & b->move_mask) + (half << 16 | half);
+        vi way = ways_of(sample_quads(
+            b->moves, KILN_CELL_TEXEL * (KILN_ATLAS_MOTION + KILN_CELL_MARGIN), at, 1));
+        from = places_moved(places, way, -b->from, half, most);
+        to = places_moved(places, way, b->to, half, most);
+    } else {
+        from = to = places_clamped(places, half, most);
+    }
+    return quads_sum(sample_quads(b->cell, b->pitch, from, PART_ONE - b->part),
+                     sample_quads(b->next, b->pitch, to, b->part));
 }
 
-/* The columns where 0 <= place + step * x < edge, a little more than exactly. */
-static inline void narrow(float place, float pixels_a_step, float edge, float offset,
-                          struct span *span)
+SIMD struct shaded shade_glow(const struct kiln_sprite *s, const struct brush *b, struct vf4 cell)
+{
+    vf heat = cell.c[2] * b->sampled + SAMPLED_ZERO;
+    struct shaded shaded = {.alpha = cell.c[3] * b->sampled + SAMPLED_ZERO};
+    for (int c = 0; c < 3; c++)
+        shaded.rgb[c] = s->base[c] + s->slope[c] * heat;
+    return shaded;
+}
+
+SIMD struct shaded shade_lit(const struct kiln_sprite *s, const struct brush *b, struct vf4 cell)
+{
+    struct shaded shaded = {.alpha = cell.c[3] * b->sampled + SAMPLED_ZERO};
+    float twice = 2.0f * b->sampled, zeros = 2.0f * SAMPLED_ZERO - 1.0f;
+    vf x = cell.c[0] * twice + zeros, y = cell.c[1] * twice + zeros;
+    vf zero = vf_all(0.0f);
+    vf z = vf_sqrt(vf_max(1.0f - (x * x + y * y), zero));
+    for (int c = 0; c < 3; c++) {
+        vf light =
+            (s->light[0][c] + s->light[1][c] * x) + (s->light[2][c] * y + s->light[3][c] * z);
+        shaded.rgb[c] = vf_max(light, zero);
+    }
+    if (b->emits) {
+        vf heat = cell.c[2] * b->sampled + SAMPLED_ZERO;
+        for (int c = 0; c < 3; c++)
+            shaded.rgb[c] += s->base[c] + s->slope[c] * heat;
+    }
+    return shaded;
+}
+
+/* Colour cells are stored under a square root. */
+SIMD struct shaded shade_color(const struct kiln_sprite *s, const struct brush *b, struct vf4 cell)
+{
+    for (int c = 0; c < 4; c++) {
+        cell.c[c] = cell.c[c] * b->sampled + SAMPLED_ZERO;
+        cell.c[c] *= cell.c[c];
+    }
+    return (struct shaded){{cell.c[0] * s->base[0], cell.c[1] * s->base[1], cell.c[2] * s->base[2]},
+                           cell.c[3]};
+}
+
+/* The part of a pixel inside a disc or a rectangle. */
+SIMD struct shaded shade_plain(const struct kiln_sprite *s, vf u, vf v)
+{
+    vf alpha;
+    if (s->flags & KILN_SPRITE_DISC)
+        alpha = vf_clamp01(s->edge_u + 0.5f - vf_sqrt(u * u + v * v));
+    else
+        alpha = vf_clamp01(s->edge_u + 0.5f - vf_abs(u)) * vf_clamp01(s->edge_v + 0.5f - vf_abs(v));
+    return (struct shaded){{vf_all(s->base[0]), vf_all(s->base[1]), vf_all(s->base[2])}, alpha};
+}
+
+/* What is left of a sprite before the scene: equation 3.3, clamped to a fade, or as printed. */
+SIMD vf fade(const struct kiln_sprite *s, vf scene, vf depth, vi inside)
+{
+    vi visible = inside & (depth <= scene);
+    if (s->soft <= 0.0f)
+        return vf_where(visible, vf_all(s->opacity));
+    if (s->flags & KILN_SPRITE_LITERAL)
+        return vf_where(visible, vf_abs(scene - s->distance) * s->soft * s->opacity);
+    return vf_where(inside, vf_clamp01((scene - depth) * s->soft) * s->opacity);
+}
+
+/* Blends into what lies at the offsets. over: 1 where what covers hides what is behind. */
+SIMD void blend(float (*planes)[KILN_TILE_PITCH], const int32_t *at, const float bloom[3],
+                const vf rgb[3], vf alpha, bool covers, float over)
+{
+    vf passed = 1.0f - alpha * over;
+    for (int c = 0; c < 3; c++) {
+        float *color = planes[KILN_TILE_RED + c], *glow = planes[KILN_TILE_GLOW_RED + c];
+        vf old = vf_load_units(color, at), old_glow = vf_load_units(glow, at);
+        vf_store_units(color, at, rgb[c] + (covers ? old * passed : old));
+        vf_store_units(glow, at, rgb[c] * bloom[c] + (covers ? old_glow * passed : old_glow));
+    }
+    if (covers) {
+        float *plane = planes[KILN_TILE_ALPHA];
+        vf_store_units(plane, at, alpha + vf_load_units(plane, at) * passed);
+    }
+}
+
+/* Units of pixels that a sprite touches, one after the other. */
+struct units {
+    int32_t at[KILN_TILE_UNITS];                                      /* in the tile's planes */
+    float u[KILN_TILE_UNITS], v[KILN_TILE_UNITS], q[KILN_TILE_UNITS]; /* at its first pixel */
+};
+
+/* The pixels of a unit, from its first. */
+struct lanes {
+    vf u, v, q;
+    int32_t first;
+};
+
+/* A vector of pixels, from unit i on. */
+SIMD void draw_pixels(struct kiln_tile *tile, const struct kiln_sprite *s,
+                      const struct units *units, int i, const struct lanes *lanes,
+                      const struct brush *b, enum kiln_sprite_shade kind, bool deep, bool covers,
+                      bool mixed)
+{
+    float(*planes)[KILN_TILE_PITCH] = tile->pixels[0];
+    bool textured = kind != KILN_SHADE_PLAIN;
+    vf u = vf_units(units->u + i) + lanes->u, v = vf_units(units->v + i) + lanes->v;
+    vf depth = vf_all(s->depth);
+    vi inside = ~(vi){0};
+    if (deep) {
+        vf q = vf_units(units->q + i) + lanes->q;
+        inside &= q > 0.0f;
+        depth = 1.0f / q;
+        if (textured) {
+            vf limit = vf_all((float)b->edge + 2.0f * PLACE_ONE);
+            u = vf_min(vf_max(u * depth + 0.5f * PLACE_ONE, vf_all(0.0f)), limit);
+            v = vf_min(vf_max(v * depth + 0.5f * PLACE_ONE, vf_all(0.0f)), limit);
+        }
+    }
+    struct shaded c;
+    if (textured) {
+        vi places = places_of(u, v);
+        inside &= places_between(places, PLACE_ONE / 2, b->edge + PLACE_ONE / 2 - 1);
+        struct vf4 cell = channels_of(mixed ? sample_quads(b->cell, b->pitch, places & inside, 1)
+                                            : sample_between(b, places));
+        c = kind == KILN_SHADE_LIT    ? shade_lit(s, b, cell)
+            : kind == KILN_SHADE_GLOW ? shade_glow(s, b, cell)
+                                      : shade_color(s, b, cell);
+    } else {
+        c = shade_plain(s, u, v);
+    }
+    int32_t at[UNITS];
+    for (int k = 0; k < UNITS; k++)
+        at[k] = units->at[i + k] + lanes->first;
+    vf left;
+    if (b->whole)
+        left = vf_where(inside, vf_all(s->opacity));
+    else
+        left = fade(s, vf_load_units(planes[KILN_TILE_DEPTH], at), depth, inside);
+    if (s->flags & KILN_SPRITE_LITERAL) /* has no bound of its own: alpha up to 1 */
+        left = vf_min(left, 1.0f / vf_max(c.alpha, vf_all(1e-6f)));
+    vf alpha = c.alpha * left;
+    for (int k = 0; k < 3; k++)
+        c.rgb[k] *= kind == KILN_SHADE_COLOR ? left : alpha;
+    blend(planes, at, s->bloom, c.rgb, alpha, covers, tile->over);
+}
+
+/* The columns of a row where least <= place + step * x < most, a little more than exactly. */
+SIMD void narrow(vf place, float pixels_a_step, float least, float most, float offset, vf *from,
+                 vf *to)
 {
     if (pixels_a_step == 0.0f)
         return;
-    float one = -place * pixels_a_step + offset, other = (edge - place) * pixels_a_step + offset;
-    float from = most(least(one, other), (float)span->from);
-    float to = least(most(one, other) + 2.0f, (float)span->to);
-    if (!(from < to)) {
-        span->to = span->from;
-        return;
-    }
-    span->from = (int)from;
-    span->to = (int)to;
+    vf one = offset + (least - place) * pixels_a_step;
+    vf other = offset + (most - place) * pixels_a_step;
+    *from = vf_max(vf_min(one, other), *from);
+    *to = vf_min(vf_max(one, other) + 2.0f, *to);
 }
 
-SIMD void draw_sprite(struct kiln_tile *tile, const struct kiln_sprite *s,
-                      const struct source *source, enum kiln_sprite_shade kind, bool deep,
+/* The rows of a tile that a sprite touches, each from a column on. */
+struct rows {
+    _Alignas(64) float u[KILN_TILE_HEIGHT], v[KILN_TILE_HEIGHT], q[KILN_TILE_HEIGHT];
+    int32_t from[KILN_TILE_HEIGHT], units[KILN_TILE_HEIGHT];
+};
+
+/* What part of a sprite lies in a tile, px. */
+struct box {
+    int x_from, x_to, y_from, y_to;
+};
+
+SIMD void find_rows(const struct kiln_tile *tile, const struct kiln_sprite *s,
+                    const struct box *box, bool narrows, struct rows *rows)
+{
+    float offset = s->x - 0.5f - (float)tile->x;
+    for (int i = 0; i < KILN_TILE_HEIGHT; i += LANES) {
+        vf y = vf_count() + ((float)(tile->y + i) + 0.5f - s->y);
+        vf u = s->u + s->u_y * y, v = s->v + s->v_y * y;
+        vf from = vf_all((float)box->x_from), to = vf_all((float)box->x_to);
+        if (narrows) {
+            const vf places[4] = {u, v, u + v, u - v};
+            for (int k = 0; k < 4; k++)
+                narrow(places[k], s->pixels_a[k], s->hull.from[k], s->hull.to[k], offset, &from,
+                       &to);
+        }
+        vi any = from < to;
+        vi first = __builtin_convertvector(vf_where(any, from), vi);
+        vi end = __builtin_convertvector(vf_where(any, to), vi);
+        vf x = __builtin_convertvector(first, vf) - offset;
+        vf_store(rows->u + i, u + s->u_x * x);
+        vf_store(rows->v + i, v + s->v_x * x);
+        vf_store(rows->q + i, (s->q + s->q_y * y) + s->q_x * x);
+        vi units = (end - first + (UNIT - 1)) >> 3;
+        memcpy(rows->from + i, &first, sizeof first);
+        memcpy(rows->units + i, &units, sizeof units);
+    }
+}
+
+typedef float four __attribute__((vector_size(16)));
+typedef int32_t four_ints __attribute__((vector_size(16)));
+
+/* As many as a row may have are written, those that it has are kept: nothing to be predicted. */
+SIMD int list_units(const struct rows *rows, const struct box *box, const float steps[3], bool deep,
+                    struct units *units)
+{
+    const four numbers = {0.0f, 8.0f, 16.0f, 24.0f};
+    const four_ints places = {0, 8, 16, 24};
+    int count = 0, most = (box->x_to - box->x_from + UNIT - 1) / UNIT;
+    for (int y = box->y_from; y < box->y_to; y++) {
+        int32_t at = rows->from[y] + y * KILN_TILE_PLANES * KILN_TILE_PITCH;
+        for (int k = 0; k < most; k += 4) {
+            four u = rows->u[y] + (numbers + (float)(8 * k)) * steps[0];
+            four v = rows->v[y] + (numbers + (float)(8 * k)) * steps[1];
+            four_ints to = at + 8 * k + places;
+            memcpy(units->at + count + k, &to, sizeof to);
+            memcpy(units->u + count + k, &u, sizeof u);
+            memcpy(units->v + count + k, &v, sizeof v);
+            if (deep) {
+                four q = rows->q[y] + (numbers + (float)(8 * k)) * steps[2];
+                memcpy(units->q + count + k, &q, sizeof q);
+            }
+        }
+        count += rows->units[y];
+    }
+    if (UNITS > 1) { /* an even number: one more that lies nowhere */
+        units->at[count] = KILN_TILE_HEIGHT * KILN_TILE_PLANES * KILN_TILE_PITCH;
+        units->u[count] = units->v[count] = -1e6f;
+        units->q[count] = 0.0f;
+    }
+    return count;
+}
+
+SIMD void make_brush(const struct kiln_tile *tile, const struct kiln_cells *cells,
+                     const struct kiln_sprite *s, enum kiln_sprite_shade kind, bool deep,
+                     bool mixed, struct brush *b)
+{
+    *b = (struct brush){.cell = NULL};
+    b->whole = !deep && !(s->flags & KILN_SPRITE_LITERAL) && tile->nearest >= s->depth &&
+               (tile->nearest - s->depth) * s->soft >= (s->soft > 0.0f ? 1.0f : 0.0f);
+    if (kind == KILN_SHADE_PLAIN)
+        return;
+    const uint8_t *const *texels = kiln_cells_texels(cells);
+    b->cell = texels[s->cell];
+    b->pitch = KILN_CELL_TEXEL * s->pitch;
+    b->edge = (s->pitch - KILN_CELL_MARGIN) * PLACE_ONE;
+    b->sampled = SAMPLED_UNIT;
+    b->emits = (s->flags & KILN_SPRITE_EMITS) != 0;
+    if (mixed)
+        return;
+    b->sampled = SAMPLED_UNIT / (float)PART_ONE;
+    b->next = texels[s->next_cell];
+    b->part = (int32_t)(s->part * (float)PART_ONE + 0.5f);
+    b->moves = s->motion > 0.0f ? kiln_cells_moves(cells, s->moves) : NULL;
+    float full = s->motion * (float)PLACE_ONE * (32768.0f / WAY_ONE);
+    b->from = (int32_t)least(full * s->part + 0.5f, 32767.0f);
+    b->to = (int32_t)least(full * (1.0f - s->part) + 0.5f, 32767.0f);
+    b->move_shift = 0;
+    for (int32_t edge = b->edge / PLACE_ONE; edge > KILN_ATLAS_MOTION; edge >>= 1)
+        b->move_shift++;
+    b->move_mask = (0xffff >> b->move_shift) | (int32_t)(0xffffu >> b->move_shift << 16);
+}
+
+SIMD void draw_sprite(struct kiln_tile *tile, const struct kiln_cells *cells,
+                      const struct kiln_sprite *s, enum kiln_sprite_shade kind, bool deep,
                       bool covers, bool mixed)
 {
-    const struct span columns = {
-        s->x_from > tile->x ? s->x_from - tile->x : 0,
-        s->x_to < tile->x + tile->width ? s->x_to - tile->x : tile->width,
+    struct box box = {
+        .x_from = s->x_from > tile->x ? s->x_from - tile->x : 0,
+        .x_to = s->x_to < tile->x + tile->width ? s->x_to - tile->x : tile->width,
+        .y_from = s->y_from > tile->y ? s->y_from - tile->y : 0,
+        .y_to = s->y_to < tile->y + tile->height ? s->y_to - tile->y : tile->height,
     };
-    int y = s->y_from > tile->y ? s->y_from - tile->y : 0;
-    int y_to = s->y_to < tile->y + tile->height ? s->y_to - tile->y : tile->height;
-    float offset = s->x - 0.5f - (float)tile->x;
-    struct row row = {.source = source,
-                      .whole =
-                          !deep && !(s->flags & KILN_SPRITE_LITERAL) && tile->nearest >= s->depth &&
-                          (tile->nearest - s->depth) * s->soft >= (s->soft > 0.0f ? 1.0f : 0.0f)};
-    for (; y < y_to; y++) {
-        float from_anchor = (float)(tile->y + y) + 0.5f - s->y;
-        row.u = s->u + s->u_y * from_anchor;
-        row.v = s->v + s->v_y * from_anchor;
-        row.q = s->q + s->q_y * from_anchor;
-        row.pixels = tile->pixels[y];
-        struct span span = columns;
-        if (!deep && kind != KILN_SHADE_PLAIN) {
-            narrow(row.u, s->pixels_a_u, s->edge_u, offset, &span);
-            narrow(row.v, s->pixels_a_v, s->edge_v, offset, &span);
-        }
-        for (int x = span.from; x < span.to; x += LANES)
-            draw_pixels(tile, s, &row, x, kind, deep, covers, mixed);
+    struct rows rows;
+    struct units units;
+    struct brush brush;
+    bool textured = kind != KILN_SHADE_PLAIN;
+    find_rows(tile, s, &box, !deep && textured, &rows);
+    float scale = textured ? (float)PLACE_ONE : 1.0f;
+    float margin = textured && !deep ? 0.5f * PLACE_ONE : 0.0f;
+    for (int i = 0; i < KILN_TILE_HEIGHT && textured; i += LANES) {
+        vf_store(rows.u + i, vf_load(rows.u + i) * scale + margin);
+        vf_store(rows.v + i, vf_load(rows.v + i) * scale + margin);
+    }
+    const float steps[3] = {s->u_x * scale, s->v_x * scale, s->q_x};
+    int count = list_units(&rows, &box, steps, deep, &units);
+    make_brush(tile, cells, s, kind, deep, mixed, &brush);
+    struct lanes lanes[UNIT_PARTS];
+    for (int part = 0; part < UNIT_PARTS; part++) {
+        vf lane = vf_units_count(part);
+        lanes[part] =
+            (struct lanes){lane * steps[0], lane * steps[1], lane * steps[2], part * LANES};
+    }
+    for (int i = 0; i < count; i += UNITS) {
+        for (int part = 0; part < UNIT_PARTS; part++)
+            draw_pixels(tile, s, &units, i, &lanes[part], &brush, kind, deep, covers, mixed);
     }
 }
 
-typedef void drawing(struct kiln_tile *tile, const struct kiln_sprite *s,
-                     const struct source *source);
+typedef void drawing(struct kiln_tile *tile, const struct kiln_cells *cells,
+                     const struct kiln_sprite *s);
 
 #define DRAW(name, kind, deep, covers, mixed)                                                      \
-    static void name(struct kiln_tile *tile, const struct kiln_sprite *s,                          \
-                     const struct source *source)                                                  \
+    static void name(struct kiln_tile *tile, const struct kiln_cells *cells,                       \
+                     const struct kiln_sprite *s)                                                  \
     {                                                                                              \
-        draw_sprite(tile, s, source, kind, deep, covers, mixed);                                   \
+        draw_sprite(tile, cells, s, kind, deep, covers, mixed);                                    \
     }
 #define DRAW_FORMS(name, kind, mixed)                                                              \
     DRAW(name##_flat_adds, kind, false, false, mixed)                                              \
@@ -297,17 +369,6 @@ DRAW_FORMS(mixed_color, KILN_SHADE_COLOR, true)
         name##_flat_adds, name##_deep_adds, name##_flat_covers, name##_deep_covers                 \
     }
 
-static struct source find_source(const struct kiln_cells *cells, const struct kiln_sprite *s)
-{
-    const uint8_t *const *texels = kiln_cells_texels(cells);
-    if (s->shade == KILN_SHADE_PLAIN)
-        return (struct source){NULL, NULL, NULL};
-    if (s->flags & KILN_SPRITE_MIXED)
-        return (struct source){texels[s->cell], NULL, NULL};
-    return (struct source){texels[s->cell], texels[s->next_cell],
-                           s->motion > 0.0f ? kiln_cells_moves(cells, s->moves) : NULL};
-}
-
 void TILE_DRAW(struct kiln_tile *tile, const struct kiln_sprite *sprites,
                const struct kiln_cells *cells, const uint32_t *list, size_t count)
 {
@@ -322,9 +383,8 @@ void TILE_DRAW(struct kiln_tile *tile, const struct kiln_sprite *sprites,
             for (size_t line = 0; line < sizeof *s; line += 64)
                 __builtin_prefetch(next + line);
         }
-        const struct source source = find_source(cells, s);
         bool mixed = (s->flags & KILN_SPRITE_MIXED) != 0;
         uint32_t form = s->flags & (KILN_SPRITE_DEEP | KILN_SPRITE_COVERS);
-        draw[mixed][s->shade][form](tile, s, &source);
+        draw[mixed][s->shade][form](tile, cells, s);
     }
 }
