@@ -79,6 +79,29 @@ void kiln_sim_blocks_bind(const struct kiln_sim_blocks *blocks,
                       (GLintptr)(system * blocks->step_stride), sizeof(struct kiln_step_params));
 }
 
+bool kiln_sim_check_stage(struct kiln_device *device, const struct kiln_sim_params *params,
+                          enum kiln_probe_stage stage, struct kiln_error *error)
+{
+    const bool fragment = stage == KILN_PROBE_FRAGMENT;
+    const char *name = fragment ? "fragment" : "geometry";
+    GLint blocks = 0;
+    glGetIntegerv(fragment ? GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS
+                           : GL_MAX_GEOMETRY_SHADER_STORAGE_BLOCKS,
+                  &blocks);
+    if (params->trace_count > 0 && blocks < 1)
+        return kiln_error_set(error, KILN_NO_DEVICE,
+                              "%s: no storage blocks in %s shaders, which a scene with children "
+                              "needs; use simulate=pingpong",
+                              device->info.name, name);
+    char reason[256];
+    struct kiln_error problem = {0};
+    if (kiln_probe_exact(device, stage, reason, &problem))
+        return true;
+    return kiln_error_set(error, KILN_NO_DEVICE,
+                          "%s computes inexactly in %s shaders (%s); use simulate=pingpong",
+                          device->info.name, name, reason[0] ? reason : problem.message);
+}
+
 GLuint kiln_sim_second(struct kiln_buffer *second, const struct kiln_pool *pool,
                        struct kiln_error *error)
 {

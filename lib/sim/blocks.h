@@ -2,6 +2,7 @@
 #ifndef KILN_SIM_BLOCKS_H
 #define KILN_SIM_BLOCKS_H
 
+#include "gpu/probe.h"
 #include "gpu/program.h"
 #include "sim/params.h"
 
@@ -27,6 +28,11 @@ bool kiln_sim_blocks_upload(struct kiln_sim_blocks *blocks, const struct kiln_si
 /* Binds what belongs to one system, uploaded before. A child's traces are waited for. */
 void kiln_sim_blocks_bind(const struct kiln_sim_blocks *blocks,
                           const struct kiln_sim_params *params, uint32_t system);
+
+/* May particles be moved in this stage, not compute? KILN_NO_DEVICE when the device is not exact
+ * there, or, in scenes with children, has no storage blocks there. */
+bool kiln_sim_check_stage(struct kiln_device *device, const struct kiln_sim_params *params,
+                          enum kiln_probe_stage stage, struct kiln_error *error);
 
 #define KILN_SIM_SECOND "particles, second" /* label of a second buffer */
 

@@ -4,35 +4,13 @@
  * its parent's trace, and a parent leaves one, in storage blocks as in compute. */
 #include "sim/feedback.h"
 
-#include "base/error.h"
-#include "gpu/probe.h"
-
-static bool is_capable(struct kiln_device *device, const struct kiln_sim_params *params,
-                       struct kiln_error *error)
-{
-    GLint blocks = 0;
-    glGetIntegerv(GL_MAX_GEOMETRY_SHADER_STORAGE_BLOCKS, &blocks);
-    if (params->trace_count > 0 && blocks < 1)
-        return kiln_error_set(error, KILN_NO_DEVICE,
-                              "%s: no storage blocks in geometry shaders, which a scene with "
-                              "children needs; use simulate=pingpong",
-                              device->info.name);
-    char reason[256];
-    struct kiln_error problem = {0};
-    if (kiln_probe_exact(device, KILN_PROBE_GEOMETRY, reason, &problem))
-        return true;
-    return kiln_error_set(error, KILN_NO_DEVICE,
-                          "%s computes inexactly in geometry shaders (%s); use simulate=pingpong",
-                          device->info.name, reason[0] ? reason : problem.message);
-}
-
 bool kiln_feedback_init(struct kiln_feedback *feedback, struct kiln_device *device,
                         const struct kiln_scene *scene, const struct kiln_sim_params *params,
                         struct kiln_error *error)
 {
     *feedback = (struct kiln_feedback){.place_program = 0};
     kiln_buffer_init(&feedback->stream, device, 0, KILN_SIM_SECOND);
-    if (!is_capable(device, params, error) ||
+    if (!kiln_sim_check_stage(device, params, KILN_PROBE_GEOMETRY, error) ||
         !kiln_capture_init(&feedback->capture, device, 2, error))
         return false;
     glGenTransformFeedbacks(1, &feedback->moved);

@@ -3,34 +3,12 @@
  * another technique's. */
 #include "sim/texels.h"
 
-#include "base/error.h"
-#include "gpu/probe.h"
-
-static bool is_capable(struct kiln_device *device, const struct kiln_sim_params *params,
-                       struct kiln_error *error)
-{
-    GLint blocks = 0;
-    glGetIntegerv(GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS, &blocks);
-    if (params->trace_count > 0 && blocks < 1)
-        return kiln_error_set(error, KILN_NO_DEVICE,
-                              "%s: no storage blocks in fragment shaders, which a scene with "
-                              "children needs; use simulate=pingpong",
-                              device->info.name);
-    char reason[256];
-    struct kiln_error problem = {0};
-    if (kiln_probe_exact(device, KILN_PROBE_FRAGMENT, reason, &problem))
-        return true;
-    return kiln_error_set(error, KILN_NO_DEVICE,
-                          "%s computes inexactly in fragment shaders (%s); use simulate=pingpong",
-                          device->info.name, reason[0] ? reason : problem.message);
-}
-
 bool kiln_texels_init(struct kiln_texels *texels, struct kiln_device *device,
                       const struct kiln_scene *scene, const struct kiln_sim_params *params,
                       struct kiln_error *error)
 {
     *texels = (struct kiln_texels){.step = 0};
-    if (!is_capable(device, params, error))
+    if (!kiln_sim_check_stage(device, params, KILN_PROBE_FRAGMENT, error))
         return false;
     struct kiln_program_params files = {.compute = "sim/texels_copy.comp"};
     texels->to_records = kiln_program_create(device, &files, error);

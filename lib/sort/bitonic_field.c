@@ -23,7 +23,7 @@ struct kiln_bitonic_field {
 uint32_t kiln_bitonic_field_width(uint32_t padded)
 {
     uint32_t width = 1;
-    while ((uint64_t)width * width < padded)
+    while (width < 1u << 16 && (uint64_t)width * width < padded)
         width *= 2;
     return width;
 }
