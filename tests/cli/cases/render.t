@@ -117,6 +117,7 @@ $ kiln render scenes/tiny.yaml -o none --frames 0-3 --stats=text --progress none
 1|  techniques   simulate=cpu sort=cpu backdrop=cpu raster=geometry bloom=cpu composite=cpu
 1|  chosen       simulate=cpu: as asked for
 1|               sort=cpu: as asked for
+1|               backdrop=cpu: several times as fast as GL on the same cores
 1|               raster=geometry: as asked for
 1|               bloom=cpu: several times as fast as GL on the same cores
 1|               composite=cpu: faster than GL on the same cores
