@@ -10,7 +10,6 @@
 #include <string.h>
 
 enum {
-    PHASE_LEVELS = KILN_CELL_PHASES * KILN_ATLAS_LEVELS,
     MIXED_EDGE = KILN_ATLAS_CELL >> KILN_CELL_MIXED_LEVEL,
 };
 
@@ -73,11 +72,6 @@ static bool make_moves(struct kiln_cells *cells)
     for (uint32_t i = 0; cells->moves && i < atlas->layers; i++)
         spread_moves(atlas->moves + (size_t)i * KILN_ATLAS_MOVES_BYTES, cells->moves + i * bytes);
     return cells->moves != NULL;
-}
-
-const uint8_t *kiln_cells_moves(const struct kiln_cells *cells, uint32_t layer)
-{
-    return cells->moves ? cells->moves + layer * cell_bytes(KILN_ATLAS_MOTION) : NULL;
 }
 
 /* ---- hulls ----------------------------------------------------------------------------------- */
@@ -149,18 +143,12 @@ static void make_hulls(struct kiln_cells *cells)
     }
 }
 
-const struct kiln_cell_hull *kiln_cells_hull(const struct kiln_cells *cells, uint32_t layer,
-                                             uint32_t level)
-{
-    return &cells->hulls[layer * KILN_ATLAS_LEVELS + level];
-}
-
 struct kiln_cells *kiln_cells_create(const struct kiln_atlas *atlas, struct kiln_error *error)
 {
     struct kiln_cells *cells = calloc(1, sizeof *cells);
     if (cells) {
         cells->atlas = atlas;
-        cells->slot_count = (atlas->layers ? atlas->layers : 1) * PHASE_LEVELS;
+        cells->slot_count = (atlas->layers ? atlas->layers : 1) * KILN_CELL_NUMBERS;
         cells->slots = calloc(cells->slot_count, sizeof *cells->slots);
         cells->texels = calloc(cells->slot_count, sizeof *cells->texels);
         cells->missing = calloc(cells->slot_count, sizeof *cells->missing);
@@ -206,9 +194,10 @@ uint32_t kiln_cells_want(struct kiln_cells *cells, const struct kiln_cell_name *
     return number;
 }
 
-const uint8_t *const *kiln_cells_texels(const struct kiln_cells *cells)
+struct kiln_cells_content kiln_cells_content(const struct kiln_cells *cells)
 {
-    return (const uint8_t *const *)cells->texels;
+    return (struct kiln_cells_content){(const uint8_t *const *)cells->texels, cells->hulls,
+                                       cells->moves, cell_bytes(KILN_ATLAS_MOTION)};
 }
 
 /* A grid of `channels` a texel, read between its texels and clamped at its edge. */
@@ -270,7 +259,7 @@ static void mix(const struct kiln_cells *cells, uint32_t number)
     uint8_t texels[4 * MIXED_EDGE * MIXED_EDGE], *texel = texels;
     const struct slot *slot = &cells->slots[number];
     const struct kiln_atlas *atlas = cells->atlas;
-    uint32_t layer = number / PHASE_LEVELS, level = number % KILN_ATLAS_LEVELS;
+    uint32_t layer = number / KILN_CELL_NUMBERS, level = number % KILN_ATLAS_LEVELS;
     uint32_t phase = number / KILN_ATLAS_LEVELS % KILN_CELL_PHASES;
     uint32_t edge = (uint32_t)KILN_ATLAS_CELL >> level;
     const uint8_t *from = kiln_atlas_level(atlas, layer, level);
@@ -299,7 +288,7 @@ static void mix(const struct kiln_cells *cells, uint32_t number)
 /* A layer itself. */
 static void copy(const struct kiln_cells *cells, uint32_t number)
 {
-    uint32_t layer = number / PHASE_LEVELS, level = number % KILN_ATLAS_LEVELS;
+    uint32_t layer = number / KILN_CELL_NUMBERS, level = number % KILN_ATLAS_LEVELS;
     spread(kiln_atlas_level(cells->atlas, layer, level), (uint32_t)KILN_ATLAS_CELL >> level,
            cells->texels[number]);
 }

@@ -13,6 +13,7 @@ enum {
     KILN_CELL_TEXEL = 8,  /* bytes: as draw/simd.h has them */
     KILN_CELL_MARGIN = 2, /* columns more than the edge: the outer texels stand twice */
     KILN_CELL_PHASES = 16,
+    KILN_CELL_NUMBERS = KILN_CELL_PHASES * KILN_ATLAS_LEVELS, /* cells of a layer */
     KILN_CELL_LARGE_STEP = 2,  /* phases of the largest that is mixed, so that they fit a cache */
     KILN_CELL_MIXED_LEVEL = 2, /* the largest that is mixed... */
 };
@@ -40,21 +41,35 @@ void kiln_cells_destroy(struct kiln_cells **cells);
 /* The number of a cell, which will be there after the next kiln_cells_mix. Any thread may ask. */
 uint32_t kiln_cells_want(struct kiln_cells *cells, const struct kiln_cell_name *name);
 
-/* Of a layer at a level of detail, and the next one of its texture. */
-const struct kiln_cell_hull *kiln_cells_hull(const struct kiln_cells *cells, uint32_t layer,
-                                             uint32_t level);
-
 /* Mixes what was wanted and is not there yet. */
 bool kiln_cells_mix(struct kiln_cells *cells, struct kiln_threads *threads,
                     struct kiln_error *error);
 
-/* Motion, by layer: as below with KILN_ATLAS_MOTION for an edge; right and down in red and green,
- * 128 for none, 127 more for a full move. NULL when nothing moves. */
-const uint8_t *kiln_cells_moves(const struct kiln_cells *cells, uint32_t layer);
+/* What sampling reads. Cells lie as edge + 1 rows of edge + KILN_CELL_MARGIN texels, in which the
+ * outer texels of the atlas's cell stand twice, so that a sample between two needs no clamping.
+ * Motion is such a cell with KILN_ATLAS_MOTION for an edge; right and down in red and green, 128
+ * for none, 127 more for a full move. */
+struct kiln_cells_content {
+    const uint8_t *const *texels; /* by number, of those that are there */
+    const struct kiln_cell_hull *hulls;
+    const uint8_t *moves; /* by layer, move_bytes each; NULL when nothing moves */
+    size_t move_bytes;
+};
 
-/* By number, the cells that are there: edge + 1 rows of edge + KILN_CELL_MARGIN texels, in which
- * the outer texels of the atlas's cell stand twice, so that a sample between two needs no clamping.
- */
-const uint8_t *const *kiln_cells_texels(const struct kiln_cells *cells);
+struct kiln_cells_content kiln_cells_content(const struct kiln_cells *cells);
+
+static inline const uint8_t *kiln_cells_moves(const struct kiln_cells_content *content,
+                                              uint32_t number)
+{
+    return content->moves ? content->moves + number / KILN_CELL_NUMBERS * content->move_bytes
+                          : NULL;
+}
+
+static inline const struct kiln_cell_hull *kiln_cells_hull(const struct kiln_cells_content *content,
+                                                           uint32_t number)
+{
+    return &content->hulls[number / KILN_CELL_NUMBERS * KILN_ATLAS_LEVELS +
+                           number % KILN_ATLAS_LEVELS];
+}
 
 #endif

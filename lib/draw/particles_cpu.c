@@ -10,8 +10,9 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
-enum { SPRITES_AT_A_TIME = 1 << 18, MAKE_AT_A_TIME = 512 };
+enum { SPRITES_AT_A_TIME = 1 << 18, MAKE_AT_A_TIME = 512, LARGE_PAGE = 1 << 21 };
 
 struct kiln_tiles {
     const struct kiln_scene *scene;
@@ -107,12 +108,24 @@ static void make_sprites(void *context, size_t begin, size_t end, uint32_t worke
     kiln_sprites_make(making->pass, making->entries + begin, end - begin, making->sprites + begin);
 }
 
+/* In large pages where the system has them: tiles read sprites from all over, and with small ones
+ * a quarter of the drawing was waiting for addresses. */
+static struct kiln_sprite *allocate_sprites(uint32_t count)
+{
+    size_t bytes = (size_t)count * sizeof(struct kiln_sprite);
+    bytes = (bytes + LARGE_PAGE - 1) / LARGE_PAGE * LARGE_PAGE;
+    struct kiln_sprite *sprites = aligned_alloc(LARGE_PAGE, bytes);
+    if (sprites)
+        (void)madvise(sprites, bytes, MADV_HUGEPAGE); /* only faster */
+    return sprites;
+}
+
 static bool make_room(struct kiln_tiles *tiles, uint32_t wanted, struct kiln_error *error)
 {
     if (wanted <= tiles->sprite_room)
         return true;
     free(tiles->sprites);
-    tiles->sprites = aligned_alloc(64, (size_t)wanted * sizeof *tiles->sprites);
+    tiles->sprites = allocate_sprites(wanted);
     tiles->sprite_room = tiles->sprites ? wanted : 0;
     return tiles->sprites || out_of_memory(error);
 }
@@ -259,6 +272,7 @@ bool kiln_tiles_run(struct kiln_tiles *tiles, const struct kiln_particles_draw *
         .backdrop = draw->backdrop,
         .lighting = draw->lighting,
         .cells = tiles->cells,
+        .content = kiln_cells_content(tiles->cells),
         .fire_covers = draw->sum_alpha || draw->fire_covers,
     };
     kiln_sprite_lights_fill(&pass.lights, draw->backdrop);

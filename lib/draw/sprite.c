@@ -6,6 +6,8 @@
 #include "base/vector.h"
 #include "shared/derived.h"
 
+enum { MAKE_AHEAD = 8 }; /* particles that are fetched beforehand */
+
 /* The plane of a billboard: unit vectors in view space. */
 struct plane {
     float3 right, up, normal;
@@ -26,6 +28,7 @@ struct subject {
     float half_size;
     struct plane plane; /* turned as the particle is */
     float half_length;  /* of the billboard along plane.up */
+    const struct kiln_cell_hull *hull;
 };
 
 static float4 look_at(const struct subject *p, uint32_t row)
@@ -219,8 +222,7 @@ static uint32_t level_of(float diameter_px)
 
 /* Equation 3.2: the two adjacent cells and the way between them, by the progress through life.
  * False where nothing can be seen of them. */
-static bool choose_cells(const struct subject *p, uint4 texture, uint32_t level,
-                         struct kiln_sprite *s)
+static bool choose_cells(struct subject *p, uint4 texture, uint32_t level, struct kiln_sprite *s)
 {
     float position = p->progress * p->cool.w * ((float)texture.y - 1.0f);
     if (p->look->flags.y != 0)
@@ -234,22 +236,19 @@ static bool choose_cells(const struct subject *p, uint4 texture, uint32_t level,
     uint32_t cell = number % texture.y;
     name.layer = texture.x + cell;
     name.next_layer = texture.x + (cell + 1) % texture.y;
-    s->hull = *kiln_cells_hull(p->pass->cells, name.layer, level);
-    if (s->hull.from[0] >= s->hull.to[0])
-        return false;
     if (mixed) {
         name.phase = phase % KILN_CELL_PHASES;
         s->cell = kiln_cells_want(p->pass->cells, &name);
         s->flags |= KILN_SPRITE_MIXED;
-        return true;
+    } else {
+        s->part = position - (float)number;
+        s->motion = name.motion * s->edge_u;
+        s->cell = kiln_cells_want(p->pass->cells, &name);
+        name.layer = name.next_layer;
+        s->next_cell = kiln_cells_want(p->pass->cells, &name);
     }
-    s->part = position - (float)number;
-    s->motion = name.motion * s->edge_u;
-    s->moves = name.layer;
-    s->cell = kiln_cells_want(p->pass->cells, &name);
-    name.layer = name.next_layer;
-    s->next_cell = kiln_cells_want(p->pass->cells, &name);
-    return true;
+    p->hull = kiln_cells_hull(&p->pass->content, s->cell);
+    return p->hull->from[0] < p->hull->to[0];
 }
 
 static uint4 choose_texture(const struct subject *p)
@@ -276,11 +275,6 @@ static bool limit_box(const struct kiln_view *view, const float low[2], const fl
     limit_range(low[0], high[0], view->frustum.z, &s->x_from, &s->x_to);
     limit_range(low[1], high[1], view->frustum.w, &s->y_from, &s->y_to);
     return s->x_from < s->x_to && s->y_from < s->y_to;
-}
-
-static float reciprocal_or_0(float x)
-{
-    return exact_abs(x) > 1e-6f ? 1.0f / x : 0.0f;
 }
 
 struct point2 {
@@ -326,19 +320,13 @@ static bool place_flat(const struct subject *p, struct kiln_sprite *s)
           MOST_TEXELS_A_PIXEL))
         return false;
     s->depth = p->depth;
-    const float changes[4] = {s->u_x, s->v_x, s->u_x + s->v_x, s->u_x - s->v_x};
-    struct kiln_cell_hull *hull = &s->hull;
+    const struct kiln_cell_hull *hull = p->hull;
     /* The middle and the half edges of the part that shows. */
     float u_from = hull->from[0], v_from = hull->from[1];
     float width = hull->to[0] - u_from, height = hull->to[1] - v_from;
     float across = u_from + hull->to[0] - 1.0f, along = 1.0f - (v_from + hull->to[1]);
     float x = middle.x + right_x * across + up_x * along;
     float y = middle.y + right_y * across + up_y * along;
-    for (int i = 0; i < 4; i++) {
-        s->pixels_a[i] = reciprocal_or_0(changes[i]);
-        hull->from[i] *= s->edge_u;
-        hull->to[i] *= s->edge_u;
-    }
     float reach_x = exact_abs(right_x) * width + exact_abs(up_x) * height;
     float reach_y = exact_abs(right_y) * width + exact_abs(up_y) * height;
     const float low[2] = {x - reach_x, y - reach_y}, high[2] = {x + reach_x, y + reach_y};
@@ -383,8 +371,8 @@ static bool place_deep(const struct subject *p, struct kiln_sprite *s)
 
     float low[2] = {view->frustum.z, view->frustum.w}, high[2] = {0.0f, 0.0f};
     for (int i = 0; i < 4; i++) {
-        float across = i & 1 ? s->hull.to[0] : s->hull.from[0];
-        float down = i & 2 ? s->hull.to[1] : s->hull.from[1];
+        float across = i & 1 ? p->hull->to[0] : p->hull->from[0];
+        float down = i & 2 ? p->hull->to[1] : p->hull->from[1];
         float3 corner = float3_add_scaled(p->center, right, 2.0f * across - 1.0f);
         corner = float3_add_scaled(corner, up, 1.0f - 2.0f * down);
         if (-corner.z < 1e-3f * p->depth) { /* reaches behind the eye: anywhere */
@@ -544,6 +532,8 @@ void kiln_sprites_make(const struct kiln_sprite_pass *pass, const uint32_t *entr
                        struct kiln_sprite *sprites)
 {
     for (size_t i = 0; i < count; i++) {
+        if (i + MAKE_AHEAD < count) /* neighbours in depth are far apart in memory */
+            __builtin_prefetch(&pass->records[KILN_ENTRY_SLOT(entries[i + MAKE_AHEAD])]);
         if (!make_sprite(pass, entries[i], &sprites[i]))
             sprites[i].x_from = sprites[i].x_to = 0;
     }

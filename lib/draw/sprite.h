@@ -30,17 +30,15 @@ enum {
 };
 
 struct kiln_sprite {
-    uint32_t cell, next_cell;       /* of the pass's cells: one if mixed, none of a plain one */
-    uint32_t moves;                 /* layer, between two cells */
+    _Alignas(64) uint32_t cell;     /* of the pass's cells; of a plain one, none */
+    uint32_t next_cell;             /* unless mixed */
     float part, motion;             /* of the way to the next cell; texels that a full move means */
     float x, y;                     /* where the planes below have their constants, px */
     float u, u_x, u_y, v, v_x, v_y; /* texels; plain: px from its middle */
     float q, q_x, q_y;              /* 1/m */
-    struct kiln_cell_hull hull;     /* where it shows, texels */
-    float pixels_a[4];    /* 1 / (change of u, v, u + v, u - v with x); 0: do not divide */
-    float edge_u, edge_v; /* texels; plain: half the size, px */
-    float depth;          /* view-space, m, of one that is not deep */
-    float soft, distance; /* 1/m; m */
+    float edge_u, edge_v;           /* texels; plain: half the size, px */
+    float depth;                    /* view-space, m, of one that is not deep */
+    float soft, distance;           /* 1/m; m */
     float opacity;
     float bulge; /* half the thickness in its middle, m */
     float base[3], slope[3];
@@ -72,6 +70,7 @@ struct kiln_sprite_pass {
     const struct kiln_lighting *lighting;
     struct kiln_sprite_lights lights; /* of kiln_sprite_lights_fill */
     struct kiln_cells *cells;
+    struct kiln_cells_content content; /* of the cells */
     bool fire_covers; /* additive particles cover, too, or have their alpha summed up */
 };
 

@@ -190,6 +190,27 @@ SIMD void draw_pixels(struct kiln_tile *tile, const struct kiln_sprite *s,
     blend(planes, at, s->bloom, c.rgb, alpha, covers, tile->over);
 }
 
+typedef float four __attribute__((vector_size(16)));
+typedef int32_t four_ints __attribute__((vector_size(16)));
+
+/* Of u, v, u + v and u - v. */
+struct limits {
+    four least, most;   /* texels */
+    four pixels_a_step; /* 1 / their change with x; 0: hardly any */
+};
+
+SIMD void find_limits(const struct kiln_sprite *s, const struct kiln_cell_hull *hull,
+                      struct limits *limits)
+{
+    const four steps = {s->u_x, s->v_x, s->u_x + s->v_x, s->u_x - s->v_x};
+    const four_ints change = (steps > 1e-6f) | (steps < -1e-6f);
+    limits->pixels_a_step = (four)((four_ints)(1.0f / steps) & change);
+    memcpy(&limits->least, hull->from, sizeof limits->least);
+    memcpy(&limits->most, hull->to, sizeof limits->most);
+    limits->least *= s->edge_u;
+    limits->most *= s->edge_u;
+}
+
 /* The columns of a row where least <= place + step * x < most, a little more than exactly. */
 SIMD void narrow(vf place, float pixels_a_step, float least, float most, float offset, vf *from,
                  vf *to)
@@ -213,19 +234,23 @@ struct box {
     int x_from, x_to, y_from, y_to;
 };
 
+/* hull: what to keep to, or NULL. */
 SIMD void find_rows(const struct kiln_tile *tile, const struct kiln_sprite *s,
-                    const struct box *box, bool narrows, struct rows *rows)
+                    const struct box *box, const struct kiln_cell_hull *hull, struct rows *rows)
 {
+    struct limits limits = {.least = {0}};
+    if (hull)
+        find_limits(s, hull, &limits);
     float offset = s->x - 0.5f - (float)tile->x;
     for (int i = 0; i < KILN_TILE_HEIGHT; i += LANES) {
         vf y = vf_count() + ((float)(tile->y + i) + 0.5f - s->y);
         vf u = s->u + s->u_y * y, v = s->v + s->v_y * y;
         vf from = vf_all((float)box->x_from), to = vf_all((float)box->x_to);
-        if (narrows) {
+        if (hull) {
             const vf places[4] = {u, v, u + v, u - v};
             for (int k = 0; k < 4; k++)
-                narrow(places[k], s->pixels_a[k], s->hull.from[k], s->hull.to[k], offset, &from,
-                       &to);
+                narrow(places[k], limits.pixels_a_step[k], limits.least[k], limits.most[k], offset,
+                       &from, &to);
         }
         vi any = from < to;
         vi first = __builtin_convertvector(vf_where(any, from), vi);
@@ -239,9 +264,6 @@ SIMD void find_rows(const struct kiln_tile *tile, const struct kiln_sprite *s,
         memcpy(rows->units + i, &units, sizeof units);
     }
 }
-
-typedef float four __attribute__((vector_size(16)));
-typedef int32_t four_ints __attribute__((vector_size(16)));
 
 /* As many as a row may have are written, those that it has are kept: nothing to be predicted. */
 SIMD int list_units(const struct rows *rows, const struct box *box, const float steps[3], bool deep,
@@ -274,7 +296,7 @@ SIMD int list_units(const struct rows *rows, const struct box *box, const float 
     return count;
 }
 
-SIMD void make_brush(const struct kiln_tile *tile, const struct kiln_cells *cells,
+SIMD void make_brush(const struct kiln_tile *tile, const struct kiln_cells_content *cells,
                      const struct kiln_sprite *s, enum kiln_sprite_shade kind, bool deep,
                      bool mixed, struct brush *b)
 {
@@ -283,8 +305,7 @@ SIMD void make_brush(const struct kiln_tile *tile, const struct kiln_cells *cell
                (tile->nearest - s->depth) * s->soft >= (s->soft > 0.0f ? 1.0f : 0.0f);
     if (kind == KILN_SHADE_PLAIN)
         return;
-    const uint8_t *const *texels = kiln_cells_texels(cells);
-    b->cell = texels[s->cell];
+    b->cell = cells->texels[s->cell];
     b->pitch = KILN_CELL_TEXEL * s->pitch;
     b->edge = (s->pitch - KILN_CELL_MARGIN) * PLACE_ONE;
     b->sampled = SAMPLED_UNIT;
@@ -292,9 +313,9 @@ SIMD void make_brush(const struct kiln_tile *tile, const struct kiln_cells *cell
     if (mixed)
         return;
     b->sampled = SAMPLED_UNIT / (float)PART_ONE;
-    b->next = texels[s->next_cell];
+    b->next = cells->texels[s->next_cell];
     b->part = (int32_t)(s->part * (float)PART_ONE + 0.5f);
-    b->moves = s->motion > 0.0f ? kiln_cells_moves(cells, s->moves) : NULL;
+    b->moves = s->motion > 0.0f ? kiln_cells_moves(cells, s->cell) : NULL;
     float full = s->motion * (float)PLACE_ONE * (32768.0f / WAY_ONE);
     b->from = (int32_t)least(full * s->part + 0.5f, 32767.0f);
     b->to = (int32_t)least(full * (1.0f - s->part) + 0.5f, 32767.0f);
@@ -304,7 +325,7 @@ SIMD void make_brush(const struct kiln_tile *tile, const struct kiln_cells *cell
     b->move_mask = (0xffff >> b->move_shift) | (int32_t)(0xffffu >> b->move_shift << 16);
 }
 
-SIMD void draw_sprite(struct kiln_tile *tile, const struct kiln_cells *cells,
+SIMD void draw_sprite(struct kiln_tile *tile, const struct kiln_cells_content *cells,
                       const struct kiln_sprite *s, enum kiln_sprite_shade kind, bool deep,
                       bool covers, bool mixed)
 {
@@ -318,7 +339,7 @@ SIMD void draw_sprite(struct kiln_tile *tile, const struct kiln_cells *cells,
     struct units units;
     struct brush brush;
     bool textured = kind != KILN_SHADE_PLAIN;
-    find_rows(tile, s, &box, !deep && textured, &rows);
+    find_rows(tile, s, &box, !deep && textured ? kiln_cells_hull(cells, s->cell) : NULL, &rows);
     float scale = textured ? (float)PLACE_ONE : 1.0f;
     float margin = textured && !deep ? 0.5f * PLACE_ONE : 0.0f;
     for (int i = 0; i < KILN_TILE_HEIGHT && textured; i += LANES) {
@@ -340,11 +361,11 @@ SIMD void draw_sprite(struct kiln_tile *tile, const struct kiln_cells *cells,
     }
 }
 
-typedef void drawing(struct kiln_tile *tile, const struct kiln_cells *cells,
+typedef void drawing(struct kiln_tile *tile, const struct kiln_cells_content *cells,
                      const struct kiln_sprite *s);
 
 #define DRAW(name, kind, deep, covers, mixed)                                                      \
-    static void name(struct kiln_tile *tile, const struct kiln_cells *cells,                       \
+    static void name(struct kiln_tile *tile, const struct kiln_cells_content *cells,               \
                      const struct kiln_sprite *s)                                                  \
     {                                                                                              \
         draw_sprite(tile, cells, s, kind, deep, covers, mixed);                                    \
@@ -376,6 +397,7 @@ void TILE_DRAW(struct kiln_tile *tile, const struct kiln_sprite *sprites,
         {ROW(glow), ROW(lit), ROW(color), ROW(plain)},
         {ROW(mixed_glow), ROW(mixed_lit), ROW(mixed_color), ROW(plain)},
     };
+    const struct kiln_cells_content content = kiln_cells_content(cells);
     for (size_t i = 0; i < count; i++) {
         const struct kiln_sprite *s = &sprites[list[i]];
         if (i + TILE_AHEAD < count) { /* neighbours in a list are far apart in memory */
@@ -385,6 +407,6 @@ void TILE_DRAW(struct kiln_tile *tile, const struct kiln_sprite *sprites,
         }
         bool mixed = (s->flags & KILN_SPRITE_MIXED) != 0;
         uint32_t form = s->flags & (KILN_SPRITE_DEEP | KILN_SPRITE_COVERS);
-        draw[mixed][s->shade][form](tile, cells, s);
+        draw[mixed][s->shade][form](tile, &content, s);
     }
 }
