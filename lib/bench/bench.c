@@ -131,6 +131,7 @@ struct kiln_bench *kiln_bench_run(const struct kiln_bench_params *params, struct
         return NULL;
     struct kiln_device_params wanted = KILN_DEVICE_DEFAULTS;
     wanted.wanted = params->device;
+    wanted.gl = true; /* what techniques are compared with runs there */
     wanted.log = params->log;
     struct kiln_bench_run run = {.params = params};
     run.device = kiln_device_open(&wanted, error);

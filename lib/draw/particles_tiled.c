@@ -276,15 +276,18 @@ static bool measure_depth(struct kiln_tiled *tiled, const struct run *run, struc
 
 static bool bind_images(const struct run *run, struct kiln_error *error)
 {
-    struct kiln_image *color = run->draw->framebuffer->images[0];
-    struct kiln_image *bloom = run->draw->framebuffer->images[1];
-    bool keeps = run->draw->keep_bloom;
-    GLuint to = kiln_image_gl(color, KILN_OVERWRITE, error);
-    GLuint glow = to ? kiln_image_gl(bloom, keeps ? KILN_READ_WRITE : KILN_OVERWRITE, error) : 0;
-    if (!glow)
+    const struct kiln_framebuffer *framebuffer = run->draw->framebuffer;
+    struct kiln_image *color = framebuffer->images[0];
+    const bool keeps = run->draw->keep_bloom, glows = framebuffer->count > 1;
+    GLuint to = kiln_image_gl(color, KILN_OVERWRITE, error), glow = 0;
+    if (to && glows)
+        glow =
+            kiln_image_gl(framebuffer->images[1], keeps ? KILN_READ_WRITE : KILN_OVERWRITE, error);
+    if (!to || (glows && !glow))
         return false;
     glBindImageTexture(TILED_IMAGE_COLOR, to, 0, GL_FALSE, 0, GL_WRITE_ONLY, color->gl_format);
-    glBindImageTexture(TILED_IMAGE_BLOOM, glow, 0, GL_FALSE, 0, GL_WRITE_ONLY, bloom->gl_format);
+    /* Where there is no image, nothing is stored. */
+    glBindImageTexture(TILED_IMAGE_BLOOM, glow, 0, GL_FALSE, 0, GL_WRITE_ONLY, color->gl_format);
     glActiveTexture(GL_TEXTURE0 + TILED_UNIT_BEFORE);
     glBindTexture(GL_TEXTURE_2D, keeps ? glow : 0);
     return true;

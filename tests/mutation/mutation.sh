@@ -36,12 +36,12 @@ done
 expected=1
 [[ $name == none ]] && expected=0
 for judgement in "" --ignore-hashes; do
-    # The compute technique, so that faults of the step can be made in its shader as well; the plain
-    # vectors, for which a file *_simd.c with a fault is compiled.
+    # Techniques in GL, so that faults of the step and of the backdrop can be made in shaders; the
+    # plain vectors, for which a file *_simd.c with a fault is compiled.
     status=0
     KILN_SIMD=plain KILN_SHADER_DIR=$work/shaders "$kiln" test "$work/fire_beam.test.yaml" \
         --golden "$source/golden" --results "$work/results" --device software \
-        --technique simulate=inplace --no-report $judgement || status=$?
+        --technique simulate=inplace,backdrop=gl --no-report $judgement || status=$?
     if ((status != expected)); then
         echo "$name: kiln test $judgement gave $status, not $expected" >&2
         exit 1

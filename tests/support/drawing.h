@@ -105,8 +105,7 @@ static inline void drawing_init(struct drawing *d, struct kiln_device *device, c
         fail_msg("%s", error.message);
     drawing_make_atlas(d);
     drawing_make_targets(d);
-    d->backdrop =
-        backdrop_create(device, d->scene, &d->backdrop_color, &d->backdrop_depth, &error);
+    d->backdrop = backdrop_create(device, d->scene, &d->backdrop_color, &d->backdrop_depth, &error);
     d->particles =
         kiln_particles_create(device, d->scene, &d->atlas, drawing_technique, d->threads, &error);
     if (!d->backdrop || !d->particles)

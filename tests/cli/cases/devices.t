@@ -56,7 +56,8 @@ $ kiln render scenes/tiny.yaml -o x.png --device 99
 $ export __EGL_VENDOR_LIBRARY_FILENAMES=/dev/null EGL_PLATFORM=none LIBGL_DRIVERS_PATH=/nowhere
 > kiln devices | grep -v "vectors\|threads"; echo "exit $?"
 > kiln devices --json | jq -c '.devices |= map(.name), .advice'; echo "exit $?"
-> kiln render scenes/tiny.yaml -o x.png; echo "exit $?"
+> kiln render scenes/tiny.yaml -q --frames 0 -o here.png; echo "exit $?"
+> kiln render scenes/tiny.yaml -o x.png --technique raster=geometry; echo "exit $?"
 > kiln render scenes/tiny.yaml -o x.png --device software
 1|0: cpu
 1|    kind      no OpenGL
@@ -67,17 +68,26 @@ $ export __EGL_VENDOR_LIBRARY_FILENAMES=/dev/null EGL_PLATFORM=none LIBGL_DRIVER
 1|{"devices":["cpu"],"advice":"EGL has no driver that works without a display; install the package libegl-mesa0, or the GPU vendor's EGL"}
 1|"EGL has no driver that works without a display; install the package libegl-mesa0, or the GPU vendor's EGL"
 1|exit 0
+1|exit 0
 1|exit 4
 2|kiln: no device with OpenGL: EGL has no driver that works without a display; install the package libegl-mesa0, or the GPU vendor's EGL
 2|kiln: there is no device 'software'; there are: <devices>
 = 4
 $ ls
+1|here.png
 1|scenes
+
+Without OpenGL, techniques that need it are refused.
+
+$ kiln render scenes/tiny.yaml -o x.png --device cpu --technique raster=geometry
+1|device: <device>
+2|kiln: technique raster=geometry needs OpenGL, which the device 'cpu' does not have: use raster=cpu, or another device ('kiln devices' lists them)
+= 2
 
 A software device is named in the first line of output.
 
 $ kiln render scenes/tiny.yaml -o none --frames 0 >output
 > name=$(sed -n '1s/^device: //p' output)
 > kiln devices --json | jq -e --arg name "${name% (software)}" --arg line "$name" \
->     '[.devices[] | select(.name == $name)][0].software == ($line | endswith(" (software)"))'
+>     '[.devices[] | select(.name == $name)][0] | (.gl and .software) == ($line | endswith(" (software)"))'
 1|true
