@@ -135,10 +135,11 @@ static void draw_band(const struct drawing *d, uint32_t band, float *nearness)
                        lists->first[band + 1] - lists->first[band]);
     for (uint32_t row = 0; row < KILN_MESH_ROWS; row++) {
         const float *from = nearness + row * canvas->pitch;
-        float(*to)[2] = d->shadow->texels + (size_t)(y + row) * EDGE;
+        uint32_t *to = d->shadow->texels + (size_t)(y + row) * EDGE;
         for (uint32_t x = 0; x < EDGE; x++) {
-            to[x][0] = from[x] > 0.0f ? 1.0f : 0.0f;
-            to[x][1] = from[x] > 0.0f ? 1.0f - from[x] : 0.0f;
+            float distance = exact_clamp(1.0f - from[x], 0.0f, 1.0f) * (float)KILN_SHADOW_ONE;
+            uint32_t seen = (uint32_t)(distance + 0.5f) << 16 | KILN_SHADOW_ONE;
+            to[x] = from[x] > 0.0f ? seen : 0;
         }
     }
 }
@@ -161,14 +162,18 @@ static void shrink_rows(void *context, size_t begin, size_t end, uint32_t worker
     (void)worker;
     const struct drawing *d = context;
     size_t edge = EDGE >> d->level;
-    const float(*from)[2] = (const float(*)[2])d->shadow->texels + first_of(d->level - 1);
-    float(*to)[2] = d->shadow->texels + first_of(d->level);
+    const uint32_t *from = d->shadow->texels + first_of(d->level - 1);
+    uint32_t *to = d->shadow->texels + first_of(d->level);
     for (size_t y = begin; y < end; y++) {
         for (size_t x = 0; x < edge; x++) {
-            const float(*four)[2] = from + 4 * y * edge + 2 * x;
-            for (int c = 0; c < 2; c++)
-                to[y * edge + x][c] = 0.25f * ((four[0][c] + four[1][c]) +
-                                               (four[2 * edge][c] + four[2 * edge + 1][c]));
+            const uint32_t *four = from + 4 * y * edge + 2 * x;
+            const uint32_t texels[4] = {four[0], four[1], four[2 * edge], four[2 * edge + 1]};
+            uint32_t cover = 2, distance = 2; /* rounded */
+            for (int i = 0; i < 4; i++) {
+                cover += texels[i] & 0xffffu;
+                distance += texels[i] >> 16;
+            }
+            to[y * edge + x] = distance / 4 << 16 | cover / 4;
         }
     }
 }

@@ -8,7 +8,7 @@
 #include "draw/mesh_view.h"
 
 struct kiln_mesh_shadow {
-    float (*texels)[2];           /* KILN_SHADOW_TEXELS */
+    uint32_t *texels;             /* KILN_SHADOW_TEXELS (mesh_view.h) */
     struct kiln_draw_mesh placed; /* what it shows, and under which sun */
     float4 right, up, sun;
     bool drawn;

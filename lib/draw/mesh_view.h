@@ -9,6 +9,7 @@
 #include "draw/shapes.h"
 
 enum {
+    KILN_SHADOW_ONE = 65535,
     KILN_HIT_LAYERS = 1 + KILN_EDGE_SAMPLES, /* the centres of pixels, and their samples */
     KILN_SHADOW_LEVELS = 11,                 /* of half the edge each, down to 1 texel */
     KILN_SHADOW_TEXELS = (4 * KILN_SHADOW_EDGE * KILN_SHADOW_EDGE - 1) / 3, /* of all of them */
@@ -26,9 +27,10 @@ struct kiln_mesh_view {
     const struct kiln_mesh_triangle *triangles; /* of all meshes */
     const int32_t *hits; /* by row, layer and column: 1 + the triangle that is nearest; 0: none */
     size_t pitch;        /* columns */
-    /* Of each mesh, level by level: the part of a texel that the mesh is in, and its mean distance
-     * there times that; the distance is 0 nearest to the sun and 1 farthest. */
-    const float (*shadows[KILN_MAX_MESHES])[2];
+    /* Of each mesh, level by level: the part of a texel that the mesh is in in the lower 16 bits,
+     * and its mean distance there times that in the upper ones, each in parts of KILN_SHADOW_ONE;
+     * the distance is 0 nearest to the sun and 1 farthest. */
+    const uint32_t *shadows[KILN_MAX_MESHES];
 };
 
 #endif

@@ -99,7 +99,7 @@ struct kiln_meshes_cpu *kiln_meshes_cpu_create(const struct kiln_scene *scene,
             kiln_meshes_cpu_destroy(&m);
             return NULL;
         }
-        m->view.shadows[i] = (const float(*)[2])m->shadows[i].texels;
+        m->view.shadows[i] = m->shadows[i].texels;
     }
     return m;
 }

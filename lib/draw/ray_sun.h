@@ -160,7 +160,7 @@ struct ray_seen {
 };
 
 /* Linear between four texels of a level; nothing is beside the map. */
-SIMD struct ray_seen read_shadow_level(const float (*map)[2], vf u, vf v, vi level)
+SIMD struct ray_seen read_shadow_level(const uint32_t *map, vf u, vf v, vi level)
 {
     static const int32_t first[KILN_SHADOW_LEVELS] = {0,       1048576, 1310720, 1376256,
                                                       1392640, 1396736, 1397760, 1398016,
@@ -177,15 +177,17 @@ SIMD struct ray_seen read_shadow_level(const float (*map)[2], vf u, vf v, vi lev
         vi inside = (column >= 0) & (row >= 0) & (column < edge) & (row < edge);
         vf weight = (i & 1 ? right : 1.0f - right) * (i >> 1 ? down : 1.0f - down);
         weight = vf_where(inside, weight);
-        vi texel = vi_select(inside, 2 * (start + row * edge + column), vi_all(0));
-        seen.cover += weight * vf_gather(map[0], texel);
-        seen.distance += weight * vf_gather(map[0] + 1, texel);
+        vi at = vi_select(inside, start + row * edge + column, vi_all(0));
+        vi texel = vi_gather((const int32_t *)map, at);
+        weight *= 1.0f / (float)KILN_SHADOW_ONE;
+        seen.cover += weight * vf_of(texel & 0xffff);
+        seen.distance += weight * vf_of(texel >> 16 & 0xffff);
     }
     return seen;
 }
 
 /* Between two levels, too. */
-SIMD struct ray_seen read_shadow(const float (*map)[2], vf u, vf v, vf level)
+SIMD struct ray_seen read_shadow(const uint32_t *map, vf u, vf v, vf level)
 {
     level = vf_clamp(level, 0.0f, (float)(KILN_SHADOW_LEVELS - 1));
     vf fine = vf_floor(level), part = level - fine;
@@ -226,7 +228,7 @@ SIMD struct ray_shadow_place place_in_shadow(const struct kiln_ray_frame *frame,
  * four bilinear ones half a step aside then make a tent, as nine would. */
 SIMD vf mesh_cover(const struct kiln_ray_frame *frame, int i, const struct ray_shade *shade)
 {
-    const float(*map)[2] = frame->meshes->shadows[i];
+    const uint32_t *map = frame->meshes->shadows[i];
     const float texel = 1.0f / (float)KILN_SHADOW_EDGE, spread = frame->shapes->sun_right.w;
     const struct ray_shadow_place at = place_in_shadow(frame, i, shade);
     vf slack = 1.5f * texel * (1.0f + 0.5f * (vf_abs(at.slope_u) + vf_abs(at.slope_v)));
