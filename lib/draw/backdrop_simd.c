@@ -40,9 +40,10 @@ SIMD struct eye_rays aim(const struct kiln_ray_frame *frame, vi column, vi row)
     return aim_at(frame, &place);
 }
 
+/* What rays meet first; floor: the t of the floor, whose albedo is left open. */
 SIMD struct ray_hit trace(const struct kiln_ray_frame *frame,
-                          const struct kiln_ray_objects *objects, const struct ray *ray,
-                          const struct ray_ground *ground, const struct ray_place *place)
+                          const struct kiln_ray_objects *objects, const struct ray *ray, vf floor,
+                          const struct ray_place *place)
 {
     struct ray_hit nearest = {.t = vf_all(RAY_FAR),
                               .surface = vf_all(-1.0f),
@@ -53,12 +54,11 @@ SIMD struct ray_hit trace(const struct kiln_ray_frame *frame,
     trace_cylinders(frame, objects->cylinders, ray, &nearest);
     if (frame->meshes && place->layer >= 0)
         trace_meshes(frame, place, &nearest);
-    vi floor = ground->t < nearest.t;
-    nearest.t = vf_select(floor, ground->t, nearest.t);
-    nearest.surface = vf_where(~floor, nearest.surface);
+    vi below = floor < nearest.t;
     const struct vf3 up = {vf_all(0.0f), vf_all(1.0f), vf_all(0.0f)};
-    nearest.normal = vf3_select(floor, up, nearest.normal);
-    nearest.albedo = vf3_select(floor, ground->albedo, nearest.albedo);
+    nearest.t = vf_select(below, floor, nearest.t);
+    nearest.surface = vf_where(~below, nearest.surface);
+    nearest.normal = vf3_select(below, up, nearest.normal);
     return nearest;
 }
 
@@ -72,9 +72,13 @@ struct sight {
 
 SIMD struct sight look_along(const struct kiln_ray_frame *frame,
                              const struct kiln_ray_objects *objects, const struct ray *ray,
-                             const struct ray_ground *ground, const struct ray_place *place)
+                             vf floor, const struct ray_place *place)
 {
-    struct sight seen = {.first = trace(frame, objects, ray, ground, place)};
+    struct sight seen = {.first = trace(frame, objects, ray, floor, place)};
+    vi below = seen.first.surface == 0.0f;
+    if (any(below))
+        seen.first.albedo =
+            vf3_select(below, floor_albedo(frame, ray, seen.first.t, below), seen.first.albedo);
     const struct ray_point point = {ray_at(ray, seen.first.t), seen.first.normal,
                                     seen.first.surface >= 0.0f};
     struct vf3 irradiance = {{0}, {0}, {0}};
@@ -107,9 +111,9 @@ SIMD void add_mirrored(const struct kiln_ray_frame *frame, const struct ray *ray
                                              first_bits(round.x), first_bits(round.y)};
     const struct ray_mirror m = floor_mirror(frame, ray);
     const struct ray onwards = {ray_at(ray, seen->first.t), m.onwards};
-    const struct ray_ground none = {vf_all(2.0f * RAY_FAR), {{0}, {0}, {0}}};
     const struct ray_place nowhere = {.layer = -1};
-    const struct sight next = look_along(frame, &objects, &onwards, &none, &nowhere);
+    const struct sight next =
+        look_along(frame, &objects, &onwards, vf_all(2.0f * RAY_FAR), &nowhere);
     struct vf3 more = vf3_along(m.lights, m.sun, seen->arrives);
     more = vf3_along(more, next.color.rgb, m.weight);
     seen->color.rgb = vf3_select(floor, vf3_add(seen->color.rgb, more), seen->color.rgb);
@@ -118,8 +122,8 @@ SIMD void add_mirrored(const struct kiln_ray_frame *frame, const struct ray *ray
 SIMD struct sight look(const struct kiln_ray_frame *frame, const struct kiln_ray_objects *objects,
                        const struct eye_rays *eye)
 {
-    const struct ray_ground ground = find_ground(frame, &eye->ray);
-    struct sight seen = look_along(frame, objects, &eye->ray, &ground, &eye->place);
+    struct sight seen =
+        look_along(frame, objects, &eye->ray, find_floor(frame, &eye->ray), &eye->place);
     if (frame->floor_gloss)
         add_mirrored(frame, &eye->ray, &seen);
     return seen;

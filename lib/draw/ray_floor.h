@@ -5,12 +5,6 @@
 
 #include "draw/ray_light.h"
 
-/* Where the rays meet the floor; t is beyond everything where they do not. */
-struct ray_ground {
-    vf t;
-    struct vf3 albedo;
-};
-
 /* The integral of a square wave of period 2. */
 SIMD vf square_integral(vf x)
 {
@@ -49,26 +43,31 @@ SIMD struct vf3 checkers(const struct kiln_ray_frame *frame, struct vf3 directio
     return vf3_scale(vf3_all(b->floor_color), shade);
 }
 
-SIMD struct ray_ground find_ground(const struct kiln_ray_frame *frame, const struct ray *ray)
+/* The t at which rays meet the floor; beyond everything where they do not. */
+SIMD vf find_floor(const struct kiln_ray_frame *frame, const struct ray *ray)
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;
-    struct ray_ground ground = {vf_all(2.0f * RAY_FAR), vf3_all(b->floor_color)};
+    vf nowhere = vf_all(2.0f * RAY_FAR);
     if (b->floor_params.x <= 0.0f)
-        return ground;
+        return nowhere;
     vf height = ray->origin.y - b->floor_color.w;
     vi falls = (ray->direction.y < -1e-6f) & (height > 0.0f);
-    if (!any(falls))
-        return ground;
-    vf t = height / -ray->direction.y;
-    ground.t = vf_select(falls, t, ground.t);
+    return vf_select(falls, height / -ray->direction.y, nowhere);
+}
+
+/* What the floor reflects where rays meet it. */
+SIMD struct vf3 floor_albedo(const struct kiln_ray_frame *frame, const struct ray *ray, vf t,
+                             vi wanted)
+{
+    const struct kiln_draw_backdrop *b = frame->backdrop;
     vf x = ray->origin.x + ray->direction.x * t, z = ray->origin.z + ray->direction.z * t;
     if (frame->floor_image) {
         const struct ray_patch patch = find_patch(frame, ray->direction, t, x, z);
-        ground.albedo = floor_picture(frame, &patch, falls);
-    } else if (b->floor_params.y > 0.0f) {
-        ground.albedo = checkers(frame, ray->direction, t, x, z);
+        return floor_picture(frame, &patch, wanted);
     }
-    return ground;
+    if (b->floor_params.y > 0.0f)
+        return checkers(frame, ray->direction, t, x, z);
+    return vf3_all(b->floor_color);
 }
 
 /* ---- gloss ----------------------------------------------------------------------------------- */
