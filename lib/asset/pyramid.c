@@ -111,7 +111,7 @@ struct kiln_pyramid *kiln_pyramid_load(const char *path, bool repeats_y, struct 
     if (pyramid) {
         pyramid->width = image->width;
         pyramid->height = image->height;
-        pyramid->texels = malloc(lay_out(pyramid) * sizeof *pyramid->texels);
+        pyramid->texels = calloc(lay_out(pyramid), sizeof *pyramid->texels);
     }
     if (!pyramid || !pyramid->texels || !fill_finest(pyramid, image)) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", path);

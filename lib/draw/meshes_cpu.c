@@ -54,16 +54,18 @@ static bool allocate(struct kiln_meshes_cpu *m, struct kiln_threads *threads)
     size_t widest = m->width > KILN_SHADOW_EDGE ? m->width : KILN_SHADOW_EDGE;
     size_t pitch = widest + KILN_MESH_PAD,
            bands = (m->height + KILN_MESH_ROWS - 1) / KILN_MESH_ROWS;
-    m->seen = malloc(vertices * sizeof *m->seen);
-    m->normals = malloc(vertices * sizeof *m->normals);
-    m->triangles = malloc(triangles * sizeof *m->triangles);
+    if (vertices == 0 || triangles == 0) /* no mesh is empty */
+        return false;
+    m->seen = calloc(vertices, sizeof *m->seen);
+    m->normals = calloc(vertices, sizeof *m->normals);
+    m->triangles = calloc(triangles, sizeof *m->triangles);
     m->hits = calloc(bands * KILN_MESH_ROWS * KILN_HIT_LAYERS * pitch, sizeof *m->hits);
     m->empty = malloc(bands * sizeof *m->empty);
     struct kiln_mesh_canvas *canvas = &m->canvas;
     canvas->threads = threads;
     canvas->pitch = pitch;
-    canvas->strip = KILN_MESH_ROWS * KILN_HIT_LAYERS * pitch;
-    canvas->triangles = malloc(triangles * sizeof *canvas->triangles);
+    canvas->strip = (size_t)KILN_MESH_ROWS * KILN_HIT_LAYERS * pitch;
+    canvas->triangles = calloc(triangles, sizeof *canvas->triangles);
     canvas->nearness =
         malloc(kiln_threads_count(threads) * canvas->strip * sizeof *canvas->nearness);
     if (m->empty)

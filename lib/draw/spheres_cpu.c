@@ -32,12 +32,12 @@ struct kiln_spheres_cpu {
 
 static size_t samples_of(const struct kiln_spheres_cpu *stage)
 {
-    return KILN_SPHERE_ROWS * KILN_SPHERE_SAMPLES * stage->pitch;
+    return (size_t)KILN_SPHERE_ROWS * KILN_SPHERE_SAMPLES * stage->pitch;
 }
 
 static size_t entries_of(const struct kiln_spheres_cpu *stage)
 {
-    return 2 * KILN_SPHERE_SAMPLES * stage->pitch;
+    return (size_t)2 * KILN_SPHERE_SAMPLES * stage->pitch;
 }
 
 static bool allocate(struct kiln_spheres_cpu *stage)
