@@ -256,7 +256,7 @@ static void read_move(const int8_t *moves, float x, float y, float way[2])
 /* As cell_between() of shaders/draw/shade.glsl, at each texel. */
 static void mix(const struct kiln_cells *cells, uint32_t number)
 {
-    uint8_t texels[4 * MIXED_EDGE * MIXED_EDGE], *texel = texels;
+    uint8_t texels[4 * MIXED_EDGE * MIXED_EDGE] = {0}, *texel = texels;
     const struct slot *slot = &cells->slots[number];
     const struct kiln_atlas *atlas = cells->atlas;
     uint32_t layer = number / KILN_CELL_NUMBERS, level = number % KILN_ATLAS_LEVELS;
