@@ -150,6 +150,18 @@ static bool measure(struct judging *j, struct kiln_trial_comparison *best)
     return true;
 }
 
+/* To four digits, or as many as tell it from the limit. */
+static void print_value(char out[32], double value, double limit)
+{
+    char other[32];
+    for (int digits = 4; digits <= 9; digits++) {
+        snprintf(out, 32, "%.*g", digits, value);
+        snprintf(other, sizeof other, "%.*g", digits, limit);
+        if (value == limit || strcmp(out, other) != 0)
+            return;
+    }
+}
+
 /* "flip.mean is 0.02, beyond 0.01; ...", or the metric nearest to its limit. */
 static const char *describe(struct judging *j, const struct kiln_trial_comparison *comparison,
                             bool beyond)
@@ -163,9 +175,11 @@ static const char *describe(struct judging *j, const struct kiln_trial_compariso
         const struct kiln_compare_column *column = &result->columns[i];
         if (!column->limited || (beyond && !j->frame->beyond[i]))
             continue;
-        int length = snprintf(text + used, sizeof text - used, "%s%s is %.4g, %s %.4g",
-                              used ? "; " : "", column->name, j->frame->values[i],
-                              beyond ? "beyond" : "the limit", column->limit);
+        char value[32];
+        print_value(value, j->frame->values[i], column->limit);
+        int length =
+            snprintf(text + used, sizeof text - used, "%s%s is %s, %s %.4g", used ? "; " : "",
+                     column->name, value, beyond ? "beyond" : "the limit", column->limit);
         used += length > 0 ? (size_t)length : 0;
     }
     return kiln_trial_text(j->trial, "%s", text);

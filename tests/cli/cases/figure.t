@@ -152,17 +152,17 @@ $ cd doc && kiln figure --check strip.svg.figure.json
 1|strip.svg: up to date
 $ kiln figure --check doc --quiet
 What another machine drew may look a little different; vectors cannot be looked at.
-$ sed -i.old 's/"cpu": "\([^"]\)/"cpu": "an older \1/; s/^"pixels": "......../"pixels": "01234567/' doc/*.json
-$ kiln figure --check doc | sed 's/an older [^\x27]*/an older CPU/'; echo ${PIPESTATUS[0]}
+$ sed -i.old 's/"device": "\([^"]\)/"device": "an older \1/; s/^"pixels": "......../"pixels": "01234567/' doc/*.json
+$ kiln figure --check doc | sed 's/an older [^\x27]*/an older device/'; echo ${PIPESTATUS[0]}
 1|doc/clip.png: stale: its layout or its lettering has changed
 1|doc/pair.pdf: stale: its layout or its lettering has changed
-1|doc/rates.png: up to date: drawn by 'an older CPU', within the limits: flip.mean 0.0000 of 0.01, flip.p99 0.0000 of 0.1, window.share 0.0000 of 0.1
-1|doc/strip.svg: up to date: drawn by 'an older CPU'; scene and simulation are the same, and pictures within vectors are not compared
+1|doc/rates.png: up to date: drawn by 'an older device', within the limits: flip.mean 0.0000 of 0.01, flip.p99 0.0000 of 0.1, window.share 0.0000 of 0.1
+1|doc/strip.svg: up to date: drawn by 'an older device'; scene and simulation are the same, and pictures within vectors are not compared
 1|1
 $ for f in doc/*.old; do mv $f ${f%.old}; done
 Not another picture, though, nor one of another size.
 $ kiln figure sheet scenes/tiny.yaml --plain --frames 8 -o far/far.png
-$ sed -i 's/"cpu": "/"cpu": "an older /; s/^"pixels": "......../"pixels": "01234567/' far/*.json
+$ sed -i 's/"device": "/"device": "an older /; s/^"pixels": "......../"pixels": "01234567/' far/*.json
 $ cp clip/f_0011.png far/far.png
 $ sed -i "s/^\"file\": \"[0-9a-f]*/\"file\": \"$(sha256sum <far/far.png | cut -d' ' -f1)/" far/*.json
 $ kiln figure --check far | grep -o 'stale: drawn by\|beyond the limits: flip.mean'
