@@ -367,6 +367,7 @@ void kiln_job_destroy(struct kiln_job **job)
     kiln_manifest_close(&j->manifest);
     kiln_output_close(&j->output);
     kiln_stages_finish(&j->stages);
+    j->device->work_group_size = 0;
     kiln_pool_finish(&j->run.pool);
     kiln_threads_destroy(&j->threads);
     free(j);

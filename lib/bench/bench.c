@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/simd.h"
 #include "base/thread.h"
 #include "bench/suite.h"
 
@@ -113,7 +114,9 @@ static bool run_all(struct kiln_bench_run *run, struct kiln_error *error)
 static bool check_techniques(const struct kiln_bench_run *run, struct kiln_error *error)
 {
     struct kiln_techniques unused;
-    return kiln_techniques_choose(kiln_device_info(run->device), run->params->techniques,
+    enum kiln_simd wanted;
+    return kiln_simd_choose(&wanted, error) &&
+           kiln_techniques_choose(kiln_device_info(run->device), run->params->techniques,
                                   run->params->technique_count, &unused, error);
 }
 

@@ -83,7 +83,7 @@ static const struct {
     {"sort=radix", KILN_MEASURE(sort)},
 };
 
-/* One technique: its own size first, then all others, in turn. */
+/* One technique by the size of its work groups, in turn. */
 static bool sweep_kernel(const struct kiln_bench_run *run, size_t kernel, double particles,
                          struct kiln_error *error)
 {

@@ -4,6 +4,7 @@
 #include "bench/contest.h"
 
 #include <dirent.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -70,12 +71,17 @@ static bool time_job(struct kiln_job *job, uint32_t frames, struct kiln_delivery
 
 static void remove_files(const struct delivery *d)
 {
-    DIR *folder = opendir(d->folder);
-    if (!folder)
-        return;
-    for (const struct dirent *entry; (entry = readdir(folder));)
-        unlinkat(dirfd(folder), entry->d_name, 0); /* refuses "." and ".." */
-    closedir(folder);
+    struct dirent **entries = NULL;
+    int count = scandir(d->folder, &entries, NULL, NULL);
+    int folder = count > 0 ? open(d->folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    for (int i = 0; i < count; i++) {
+        if (folder >= 0)
+            unlinkat(folder, entries[i]->d_name, 0); /* refuses "." and ".." */
+        free(entries[i]);
+    }
+    free(entries);
+    if (folder >= 0)
+        close(folder);
 }
 
 static bool warm_up(struct delivery *d, struct kiln_job *job, double *last_s,

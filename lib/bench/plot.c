@@ -98,8 +98,6 @@ void kiln_bench_write_script(const struct kiln_bench_part *part, FILE *out)
 
 /* ---- gnuplot --------------------------------------------------------------------------------- */
 
-extern char **environ;
-
 /* Starts it in the folder; what it prints goes into the pipe. 0 or an errno value. */
 static int start(const char *folder, const char *script, const int pipe_ends[2], pid_t *process)
 {

@@ -267,7 +267,7 @@ SIMD void store_tile(const struct kiln_backdrop_picture *p, const struct ray_col
     store_colors(channels, color, LANES);
     for (int i = 0; i < LANES; i++) {
         if (inside[i])
-            memcpy(p->color + 4 * (size_t)pixel[i], channels + 4 * i, 4 * sizeof *channels);
+            memcpy(p->color + 4 * (size_t)pixel[i], channels + 4 * (size_t)i, 4 * sizeof *channels);
     }
 }
 

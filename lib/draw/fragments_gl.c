@@ -96,6 +96,15 @@ static void use_program(const struct kiln_fragments_gl *f, enum program program,
     glUniform1ui(f->row_length[program], size->width);
 }
 
+/* The particles, into lists alone: a program without outputs leaves undefined what it could write.
+ */
+static void submit_to_lists(void (*submit)(void *context), void *context)
+{
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    submit(context);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
 static bool count(struct kiln_fragments_gl *f, const struct kiln_image *size,
                   void (*submit)(void *context), void *context, struct kiln_error *error)
 {
@@ -107,7 +116,7 @@ static bool count(struct kiln_fragments_gl *f, const struct kiln_image *size,
     glBindBuffer(GL_SHADER_STORAGE_BUFFER, f->counts.gl);
     glClearBufferData(GL_SHADER_STORAGE_BUFFER, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     use_program(f, COUNT, size);
-    submit(context);
+    submit_to_lists(submit, context);
     return kiln_device_check(f->device, "fragments: count", error);
 }
 
@@ -169,7 +178,7 @@ static bool draw_band(struct kiln_fragments_gl *f, const struct kiln_particles_d
     const struct kiln_image *size = draw->framebuffer->images[0];
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     use_program(f, FILL, size);
-    submit(context);
+    submit_to_lists(submit, context);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     use_program(f, RESOLVE, size);
     if (draw->keep_bloom) {

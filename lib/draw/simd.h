@@ -137,7 +137,7 @@ enum {
 SIMD vf vf_units_count(int part)
 {
     static const float numbers[16] = {0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7};
-    return vf_load(numbers + part * LANES);
+    return vf_load(numbers + (size_t)part * LANES);
 }
 
 #if KILN_SIMD_LEVEL == 3
@@ -406,11 +406,11 @@ SIMD struct quads sample_quads(const uint8_t *texels, int32_t pitch, vi places, 
     struct quads quads; /* by channel */
     for (int i = 0; i < LANES; i++) {
         int32_t u = u_of(places[i]), v = v_of(places[i]);
-        const int8_t *t =
-            (const int8_t *)texels + (v >> PLACE_BITS) * pitch + (u >> PLACE_BITS) * 8;
+        const int8_t *t = (const int8_t *)texels + (size_t)(v >> PLACE_BITS) * (size_t)pitch +
+                          (size_t)(u >> PLACE_BITS) * 8;
         int32_t bottom = v & 255, top = 255 - bottom;
         int32_t right = (u & 255) * part, left = 255 * part - right;
-        for (int c = 0; c < 4; c++)
+        for (size_t c = 0; c < 4; c++)
             quads.k[c][i] = (t[2 * c] * top + t[2 * c + 1] * bottom) * left +
                             (t[8 + 2 * c] * top + t[9 + 2 * c] * bottom) * right;
     }

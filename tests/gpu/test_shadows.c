@@ -95,9 +95,8 @@ static void draw(struct fixture *f, const vec *places, uint32_t count)
     }
     drawing_place(d, particles, count, STEP);
     d->pool.systems[0].next_serial = count;
-    struct kiln_lighting lighting;
-    if (!kiln_lighting_run(f->lighting, &d->pool, &d->view, &lighting, &error) ||
-        !kiln_backdrop_draw(d->backdrop, &d->view, &lighting, &error))
+    if (!kiln_lighting_run(f->lighting, &d->pool, &d->view, &d->lighting, &error) ||
+        !kiln_backdrop_draw(d->backdrop, &d->view, &d->lighting, &error))
         fail_msg("%s", error.message);
     if (!f->spheres)
         drawing_run(d, count, 100.0f);

@@ -15,40 +15,39 @@ enum { STEPS = 300 };
 
 static const struct {
     enum kiln_simulate_technique technique;
+    uint32_t threads;
     const char *name;
-} ON_DEVICE[] = {
-    {KILN_SIMULATE_INPLACE, "inplace"},
-    {KILN_SIMULATE_PINGPONG, "pingpong"},
-    {KILN_SIMULATE_FEEDBACK, "feedback"},
-    {KILN_SIMULATE_TEXELS, "texels"},
+} WAYS[] = {
+    {KILN_SIMULATE_INPLACE, 1, "inplace"},   {KILN_SIMULATE_PINGPONG, 1, "pingpong"},
+    {KILN_SIMULATE_FEEDBACK, 1, "feedback"}, {KILN_SIMULATE_TEXELS, 1, "texels"},
+    {KILN_SIMULATE_CPU, 1, "one thread"},    {KILN_SIMULATE_CPU, 8, "eight threads"},
 };
-enum { ON_DEVICE_COUNT = sizeof ON_DEVICE / sizeof *ON_DEVICE };
+enum { WAY_COUNT = sizeof WAYS / sizeof *WAYS, DEVICE_WAYS = WAY_COUNT - 2 };
 
 /* Steps the scene in all ways and compares after each step. */
-static void all_agree(struct kiln_device *device, const struct kiln_scene *scene, uint32_t threads,
-                      uint32_t steps)
+static void all_agree(struct kiln_device *device, const struct kiln_scene *scene, uint32_t steps)
 {
-    struct simulation cpu, others[ON_DEVICE_COUNT];
-    simulation_start(&cpu, scene, NULL, threads);
-    for (size_t i = 0; i < ON_DEVICE_COUNT; i++)
-        simulation_start_with(&others[i], scene, device, ON_DEVICE[i].technique, 1);
+    struct simulation cpu, others[WAY_COUNT];
+    simulation_start(&cpu, scene, NULL, 2);
+    for (size_t i = 0; i < WAY_COUNT; i++)
+        simulation_start_with(&others[i], scene, device, WAYS[i].technique, WAYS[i].threads);
     uint64_t most = 0;
     for (uint32_t step = 1; step <= steps; step++) {
         simulation_run(&cpu, 1);
         uint64_t cpu_alive, alive;
         struct kiln_state_hash a = simulation_hash(&cpu, &cpu_alive);
-        for (size_t i = 0; i < ON_DEVICE_COUNT; i++) {
+        for (size_t i = 0; i < WAY_COUNT; i++) {
             simulation_run(&others[i], 1);
             struct kiln_state_hash b = simulation_hash(&others[i], &alive);
             if (cpu_alive != alive || a.lane[0] != b.lane[0] || a.lane[1] != b.lane[1])
                 fail_msg("step %u: %08x%08x of %u on cpu, %08x%08x of %u with %s", step, a.lane[0],
                          a.lane[1], (unsigned)cpu_alive, b.lane[0], b.lane[1], (unsigned)alive,
-                         ON_DEVICE[i].name);
+                         WAYS[i].name);
         }
         most = cpu_alive > most ? cpu_alive : most;
     }
     assert_true(most > 1000);
-    for (size_t i = 0; i < ON_DEVICE_COUNT; i++) {
+    for (size_t i = 0; i < WAY_COUNT; i++) {
         assert_memory_equal(simulation_records(&cpu), simulation_records(&others[i]),
                             cpu.pool.slot_count * sizeof(struct kiln_particle));
         simulation_end(&others[i]);
@@ -56,38 +55,23 @@ static void all_agree(struct kiln_device *device, const struct kiln_scene *scene
     simulation_end(&cpu);
 }
 
-static void the_zoo_agrees(struct kiln_device *device, enum kiln_integration order,
-                           uint32_t threads)
+static void velocity_first(void **state)
 {
-    fixture_zoo(&fixture, order, STEPS);
-    all_agree(device, &fixture.scene, threads, STEPS);
-}
-
-static void one_thread(void **state)
-{
-    the_zoo_agrees(*state, KILN_INTEGRATE_SEMI_IMPLICIT, 1);
-}
-
-static void two_threads(void **state)
-{
-    the_zoo_agrees(*state, KILN_INTEGRATE_SEMI_IMPLICIT, 2);
-}
-
-static void eight_threads(void **state)
-{
-    the_zoo_agrees(*state, KILN_INTEGRATE_SEMI_IMPLICIT, 8);
+    fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, STEPS);
+    all_agree(*state, &fixture.scene, STEPS);
 }
 
 static void position_first(void **state)
 {
-    the_zoo_agrees(*state, KILN_INTEGRATE_POSITION_FIRST, 2);
+    fixture_zoo(&fixture, KILN_INTEGRATE_POSITION_FIRST, STEPS);
+    all_agree(*state, &fixture.scene, STEPS);
 }
 
 static void round_colliders(void **state)
 {
     fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, STEPS);
     fixture_add_round(&fixture);
-    all_agree(*state, &fixture.scene, 2, STEPS);
+    all_agree(*state, &fixture.scene, STEPS);
 }
 
 static void families_agree(void **state)
@@ -95,7 +79,7 @@ static void families_agree(void **state)
     for (int order = 0; order < 2; order++) {
         fixture_family(&fixture, (enum kiln_integration)order);
         fixture_finish(&fixture, 200);
-        all_agree(*state, &fixture.scene, 2, 200);
+        all_agree(*state, &fixture.scene, 200);
     }
 }
 
@@ -109,7 +93,7 @@ static void births_are_split_among_emitters(void **state)
     s->emit.bursts[2] = (struct kiln_burst){0.6, SIM_EMITTER_BIRTHS - 1};
     s->emit.burst_count = 3;
     fixture_finish(&fixture, 60);
-    all_agree(*state, &fixture.scene, 2, 60);
+    all_agree(*state, &fixture.scene, 60);
 }
 
 static void no_systems_and_no_births(void **state)
@@ -119,10 +103,10 @@ static void no_systems_and_no_births(void **state)
         if (systems)
             fixture_add_system(&fixture, "quiet", 0.0f);
         fixture_finish(&fixture, 10);
-        for (size_t i = 0; i < ON_DEVICE_COUNT; i++) {
+        for (size_t i = 0; i < DEVICE_WAYS; i++) {
             struct simulation run;
             uint64_t alive = 1;
-            simulation_start_with(&run, &fixture.scene, *state, ON_DEVICE[i].technique, 1);
+            simulation_start_with(&run, &fixture.scene, *state, WAYS[i].technique, WAYS[i].threads);
             simulation_run(&run, 10);
             struct kiln_state_hash hash = simulation_hash(&run, &alive);
             assert_int_equal(alive, 0);
@@ -144,7 +128,7 @@ static void a_scene_from_a_file(void **state)
         kiln_scene_load(KILN_SOURCE_DIR "/scenes/fire_beam.yaml", &params, &error);
     if (!scene)
         fail_msg("%s", error.message);
-    all_agree(*state, scene, 2, 120);
+    all_agree(*state, scene, 120);
     kiln_scene_destroy(&scene);
 }
 
@@ -173,10 +157,10 @@ static void a_run_can_change_its_technique(void **state)
     simulation_run(&cpu, 200);
     simulation_start(&run, &fixture.scene, *state, 1);
     simulation_run(&run, 40);
-    for (size_t i = 1; i < ON_DEVICE_COUNT; i++) {
-        continue_with(&run, *state, ON_DEVICE[i].technique, 21);
+    for (size_t i = 1; i < DEVICE_WAYS; i++) {
+        continue_with(&run, *state, WAYS[i].technique, 21);
         continue_with(&run, NULL, KILN_SIMULATE_CPU, 19);
-        continue_with(&run, *state, ON_DEVICE[i].technique, 10);
+        continue_with(&run, *state, WAYS[i].technique, 10);
     }
     simulation_run(&run, 200 - run.step);
     assert_memory_equal(simulation_records(&cpu), simulation_records(&run),
@@ -232,15 +216,13 @@ static void an_exact_device_is_needed(void **state)
     struct kiln_device *device = *state;
     fixture_init(&fixture);
     bool exact = device->info.exact;
-    for (size_t i = 0; i < ON_DEVICE_COUNT; i++) {
+    for (size_t i = 0; i < DEVICE_WAYS; i++) {
         struct kiln_error error = {0};
-        assert_null(
-            kiln_simulate_create(NULL, &fixture.scene, ON_DEVICE[i].technique, NULL, &error));
+        assert_null(kiln_simulate_create(NULL, &fixture.scene, WAYS[i].technique, NULL, &error));
         assert_int_equal(error.code, KILN_USAGE);
         error = (struct kiln_error){0};
         device->info.exact = false;
-        assert_null(
-            kiln_simulate_create(device, &fixture.scene, ON_DEVICE[i].technique, NULL, &error));
+        assert_null(kiln_simulate_create(device, &fixture.scene, WAYS[i].technique, NULL, &error));
         assert_int_equal(error.code, KILN_USAGE);
         device->info.exact = exact;
     }
@@ -249,9 +231,7 @@ static void an_exact_device_is_needed(void **state)
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
-        test_on_device(one_thread),
-        test_on_device(two_threads),
-        test_on_device(eight_threads),
+        test_on_device(velocity_first),
         test_on_device(position_first),
         test_on_device(round_colliders),
         test_on_device(families_agree),

@@ -33,6 +33,7 @@ struct drawing {
     struct kiln_pool pool;
     struct kiln_buffer entries;
     struct kiln_view view;
+    struct kiln_lighting lighting; /* of the particles: none, unless a test runs it */
 };
 
 /* A texture whose colour is where it is: red from left to right, green from top to bottom, blue 1.
@@ -166,13 +167,12 @@ static inline void drawing_run(struct drawing *d, uint32_t count, float depth_m)
     assert_non_null(depth);
     for (uint32_t i = 0; i < d->scene->width * d->scene->height; i++)
         depth[i] = depth_m;
-    const struct kiln_lighting none = {0};
     const struct kiln_particles_draw job = {.pool = &d->pool,
                                             .entries = &d->entries,
                                             .count = count,
                                             .view = &d->view,
                                             .backdrop = kiln_backdrop_block(d->backdrop),
-                                            .lighting = &none,
+                                            .lighting = &d->lighting,
                                             .depth = &d->depth,
                                             .framebuffer = &d->framebuffer};
     if (!kiln_particles_run(d->particles, &job, &error))

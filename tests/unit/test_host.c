@@ -148,12 +148,21 @@ static void it_is_the_default_where_egl_is_missing(void **state)
 
 /* ---- bytes ----------------------------------------------------------------------------------- */
 
-/* The hashes of a frame as PNG and as EXR with all layers. */
+/* Of some scenes the PNG as well: it follows from the EXR. Sanitizers are slow, and see enough in
+ * fewer scenes. */
+enum { PNG_STRIDE = 4 };
+#ifdef __SANITIZE_ADDRESS__
+enum { SCENE_STRIDE = 6 };
+#else
+enum { SCENE_STRIDE = 1 };
+#endif
+
+/* The hashes of a frame as EXR with all layers, and as PNG. */
 static void hash_frame(struct kiln_device *device, const struct kiln_scene *scene,
-                       const char *folder, uint32_t threads, char hashes[2][65])
+                       const char *folder, uint32_t threads, int count, char hashes[2][65])
 {
-    static const char *const names[2] = {"frame.png", "frame.exr"};
-    for (int i = 0; i < 2; i++) {
+    static const char *const names[2] = {"frame.exr", "frame.png"};
+    for (int i = 0; i < count; i++) {
         char path[KILN_PATH_SIZE];
         snprintf(path, sizeof path, "%s/%s", folder, names[i]);
         render(device, scene, path, threads, NULL);
@@ -170,19 +179,20 @@ static void every_scene_is_the_same_bytes(void **state)
     assert_non_null(mkdtemp(folder));
     glob_t scenes;
     assert_int_equal(glob(KILN_SOURCE_DIR "/scenes/*.yaml", 0, NULL, &scenes), 0);
-    for (size_t i = 0; i < scenes.gl_pathc; i++) {
+    for (size_t i = 0; i < scenes.gl_pathc; i += SCENE_STRIDE) {
         struct kiln_scene *scene = load(scenes.gl_pathv[i]);
+        int count = i % PNG_STRIDE == 0 ? 2 : 1;
         char expected[2][65], found[2][65];
         for (enum kiln_simd simd = 0; simd < KILN_SIMD_COUNT; simd++) {
             if (!kiln_simd_has(simd))
                 continue;
             setenv("KILN_SIMD", kiln_simd_name(simd), 1);
             struct kiln_device *device = open_device(KILN_DEVICE_CPU);
-            hash_frame(device, scene, folder, threads[simd], simd ? found : expected);
-            for (int k = 0; simd && k < 2; k++) {
+            hash_frame(device, scene, folder, threads[simd], count, simd ? found : expected);
+            for (int k = 0; simd && k < count; k++) {
                 if (strcmp(found[k], expected[k]) != 0)
                     fail_msg("%s: %s by %s and %u threads", scenes.gl_pathv[i],
-                             k ? "another EXR" : "another PNG", kiln_simd_name(simd),
+                             k ? "another PNG" : "another EXR", kiln_simd_name(simd),
                              threads[simd]);
             }
             kiln_device_close(&device);
