@@ -37,8 +37,9 @@ SIMD struct quads sample_between(const struct brush *b, vi places)
     int32_t half = PLACE_ONE / 2, most = b->edge + half;
     vi from, to;
     if (b->moves) {
-        vi at = places_clamped(places, half, most - 1) - (half << 16 | half);
-        at = ((at >> b->move_shift) & b->move_mask) + (half << 16 | half);
+        const uint32_t halves = (uint32_t)half << 16 | (uint32_t)half;
+        vi at = (vi)((vu)places_clamped(places, half, most - 1) - halves);
+        at = (vi)((vu)((at >> b->move_shift) & b->move_mask) + halves);
         vi way = ways_of(sample_quads(
             b->moves, KILN_CELL_TEXEL * (KILN_ATLAS_MOTION + KILN_CELL_MARGIN), at, 1));
         from = places_moved(places, way, -b->from, half, most);

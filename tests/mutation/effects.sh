@@ -9,7 +9,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 draw() {
-    "$kiln" render "$folder/$name.yaml" --frames 40 --device software --quiet --force \
+    "$kiln" render "$folder/$name.yaml" --frames 40 --device cpu --quiet --force \
         -o "$work/$1.png" "${@:2}"
 }
 
