@@ -32,6 +32,27 @@ static size_t size_count(const struct kiln_bench_run *run)
     return run->params->quick ? 1 : SIZE_COUNT;
 }
 
+/* The lanes with beams of all sizes that nothing draws. */
+static bool compare_unseen(const struct kiln_bench_run *run, const struct kiln_lane *lanes,
+                           size_t lane_count, uint32_t measures, struct kiln_error *error)
+{
+    for (size_t i = 0; i < size_count(run); i++) {
+        struct kiln_settings settings = {.count = 0};
+        set_beam(run, &settings, SIZES[i]);
+        kiln_set_unseen(run, &settings);
+        const struct kiln_comparison comparison = {.scene = SCENE,
+                                                   .settings = &settings,
+                                                   .lanes = lanes,
+                                                   .lane_count = lane_count,
+                                                   .measures = measures,
+                                                   .x = SIZES[i]};
+        kiln_bench_say(run, "%.0f particles", SIZES[i]);
+        if (!kiln_compare_lanes(run, &comparison, error))
+            return false;
+    }
+    return true;
+}
+
 /* ---- Figure 4.4 ------------------------------------------------------------------------------ */
 
 bool kiln_suite_figure_4_4(const struct kiln_bench_run *run, struct kiln_error *error)
@@ -48,22 +69,9 @@ bool kiln_suite_figure_4_4(const struct kiln_bench_run *run, struct kiln_error *
         .reference = lanes[0].name,
         .plotted = true,
     };
-    if (!kiln_bench_begin(run, &part, error))
+    if (!kiln_bench_begin(run, &part, error) ||
+        !compare_unseen(run, lanes, count, KILN_MEASURE(simulate), error))
         return false;
-    for (size_t i = 0; i < size_count(run); i++) {
-        struct kiln_settings settings = {.count = 0};
-        set_beam(run, &settings, SIZES[i]);
-        kiln_set_unseen(run, &settings);
-        const struct kiln_comparison comparison = {.scene = SCENE,
-                                                   .settings = &settings,
-                                                   .lanes = lanes,
-                                                   .lane_count = count,
-                                                   .measures = KILN_MEASURE(simulate),
-                                                   .x = SIZES[i]};
-        kiln_bench_say(run, "%.0f particles", SIZES[i]);
-        if (!kiln_compare_lanes(run, &comparison, error))
-            return false;
-    }
     return kiln_bench_add_note(
         run->bench, error,
         "Published (4.2, GTX 1070 and Ryzen 2600X): the CPU is the fastest below about 4,000 "
@@ -158,22 +166,9 @@ bool kiln_suite_figure_4_6(const struct kiln_bench_run *run, struct kiln_error *
         .reference = lanes[0].name,
         .plotted = true,
     };
-    if (!kiln_bench_begin(run, &part, error))
+    if (!kiln_bench_begin(run, &part, error) ||
+        !compare_unseen(run, lanes, count, KILN_MEASURE(sort), error))
         return false;
-    for (size_t i = 0; i < size_count(run); i++) {
-        struct kiln_settings settings = {.count = 0};
-        set_beam(run, &settings, SIZES[i]);
-        kiln_set_unseen(run, &settings);
-        const struct kiln_comparison comparison = {.scene = SCENE,
-                                                   .settings = &settings,
-                                                   .lanes = lanes,
-                                                   .lane_count = count,
-                                                   .measures = KILN_MEASURE(sort),
-                                                   .x = SIZES[i]};
-        kiln_bench_say(run, "%.0f particles", SIZES[i]);
-        if (!kiln_compare_lanes(run, &comparison, error))
-            return false;
-    }
     return kiln_bench_add_note(
         run->bench, error,
         "Published (4.2): sorting on the CPU is much more efficient than bitonic sort on the GPU, "
