@@ -53,7 +53,7 @@ SIMD void sample_pixels(const struct kiln_sphere_strip *s, const struct kiln_dra
     const struct approach middle =
         come_close(view_ray(s->frame, column, vf_all(line)), center, radius);
     vf t = surface_depth(&middle);
-    size_t at = row * SAMPLES * s->pitch + (size_t)x;
+    size_t at = (size_t)row * SAMPLES * s->pitch + (size_t)x;
     for (int k = 0; k < SAMPLES; k++, at += s->pitch) {
         struct vf3 ray = view_ray(s->frame, column + OFFSETS[k][0], vf_all(line + OFFSETS[k][1]));
         const struct approach aside = come_close(ray, center, radius);
@@ -83,14 +83,15 @@ static void sample_sphere(const struct kiln_sphere_strip *s, uint32_t number)
 static void clear_samples(const struct kiln_sphere_strip *s, uint32_t row)
 {
     const float *scene = s->scene_depth + (size_t)(s->y + row) * s->width;
-    float *samples = s->samples + row * SAMPLES * s->pitch;
+    float *samples = s->samples + (size_t)row * SAMPLES * s->pitch;
     for (int k = 0; k < SAMPLES; k++, samples += s->pitch) {
         for (uint32_t x = 0; x < s->width; x++)
             samples[x] = scene[x] + scene[x] * 1e-7f; /* at the same depth, it is */
         for (size_t x = s->width; x < s->pitch; x++)
             samples[x] = -1.0f;
     }
-    memset(s->nearest + row * SAMPLES * s->pitch, 0xff, SAMPLES * s->pitch * sizeof *s->nearest);
+    memset(s->nearest + (size_t)row * SAMPLES * s->pitch, 0xff,
+           SAMPLES * s->pitch * sizeof *s->nearest);
 }
 
 /* ---- light ----------------------------------------------------------------------------------- */
@@ -226,7 +227,7 @@ static void add_scene(const struct kiln_sphere_strip *s, uint32_t y)
 static void resolve_row(const struct kiln_sphere_strip *s, uint32_t row)
 {
     const uint32_t y = s->y + row;
-    const size_t first = row * SAMPLES * s->pitch, pixel = (size_t)y * s->width;
+    const size_t first = (size_t)row * SAMPLES * s->pitch, pixel = (size_t)y * s->width;
     memcpy(s->depth + pixel, s->scene_depth + pixel, s->width * sizeof *s->depth);
     memset(s->color + 4 * pixel, 0, 4 * s->width * sizeof *s->color);
     memset(s->bloom + 4 * pixel, 0, 4 * s->width * sizeof *s->bloom);
