@@ -227,21 +227,21 @@ static void add_scene(const struct kiln_sphere_strip *s, uint32_t y)
 static void resolve_row(const struct kiln_sphere_strip *s, uint32_t row)
 {
     const uint32_t y = s->y + row;
-    const size_t first = (size_t)row * SAMPLES * s->pitch, pixel = (size_t)y * s->width;
-    memcpy(s->depth + pixel, s->scene_depth + pixel, s->width * sizeof *s->depth);
-    memset(s->color + 4 * pixel, 0, 4 * s->width * sizeof *s->color);
-    memset(s->bloom + 4 * pixel, 0, 4 * s->width * sizeof *s->bloom);
+    const size_t width = s->width, first = (size_t)row * SAMPLES * s->pitch, pixel = y * width;
+    memcpy(s->depth + pixel, s->scene_depth + pixel, width * sizeof *s->depth);
+    memset(s->color + 4 * pixel, 0, 4 * width * sizeof *s->color);
+    memset(s->bloom + 4 * pixel, 0, 4 * width * sizeof *s->bloom);
     uint32_t *end = s->entries;
-    for (uint32_t x = 0; x < s->width; x++) {
+    for (uint32_t x = 0; x < width; x++) {
         const int32_t *nearest = s->nearest + first + x;
         if ((nearest[0] & nearest[s->pitch] & nearest[2 * s->pitch] & nearest[3 * s->pitch]) != -1)
             end = list_pixel(s, first, x, end, &s->depth[pixel + x]);
     }
     const int32_t stride = (int32_t)(sizeof *s->spheres / sizeof(float));
-    uint32_t count = (uint32_t)(end - s->entries) / 2;
-    for (uint32_t i = 0; i < count; i += LANES) {
+    const size_t count = (size_t)(end - s->entries) / 2;
+    for (size_t i = 0; i < count; i += LANES) {
         struct seen_spheres seen = {{0}, {0}, {0}};
-        uint32_t lanes = count - i < LANES ? count - i : LANES;
+        uint32_t lanes = count - i < LANES ? (uint32_t)(count - i) : LANES;
         for (uint32_t lane = 0; lane < lanes; lane++) {
             const uint32_t *entry = s->entries + 2 * (i + lane);
             seen.column[lane] = (int32_t)entry[0];

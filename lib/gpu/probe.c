@@ -100,7 +100,7 @@ static void run_fragment(struct probe *probe, uint32_t count, GLuint vectors, GL
     for (uint32_t i = 0; i < MEMBERS; i++) {
         glReadBuffer(GL_COLOR_ATTACHMENT0 + i);
         glReadPixels(0, 0, ROW, rows, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
-                     (void *)(i * probe->vectors.size));
+                     (void *)(i * probe->vectors.size)); /* NOLINT(performance-no-int-to-ptr) */
     }
     glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
 }

@@ -37,7 +37,8 @@ struct kiln_output {
     uint32_t in_flight; /* waiting or being encoded */
     bool ending;        /* no more pictures come */
     bool failed;
-    struct kiln_error error; /* of the first failure */
+    uint32_t failed_frame;   /* the first in the clip that failed, for any number of encoders */
+    struct kiln_error error; /* what it failed of */
 };
 
 /* ---- Checks before the first frame -------------------------------------------------------- */
@@ -158,14 +159,16 @@ static void *run_encoder(void *opaque)
     struct kiln_output *output = opaque;
     pthread_mutex_lock(&output->mutex);
     for (struct kiln_picture *picture = take(output); picture; picture = take(output)) {
-        bool skip = output->failed;
+        const uint32_t frame = picture->frame;
+        bool skip = output->failed && frame > output->failed_frame;
         struct kiln_error error = {0};
         pthread_mutex_unlock(&output->mutex);
         bool good = skip || encode(output, picture, &error);
         kiln_picture_destroy(&picture);
         pthread_mutex_lock(&output->mutex);
-        if (!good && !output->failed) {
+        if (!good && (!output->failed || frame < output->failed_frame)) {
             output->failed = true;
+            output->failed_frame = frame;
             output->error = error;
         }
         output->in_flight--;
@@ -341,6 +344,8 @@ bool kiln_output_write(struct kiln_output *output, struct kiln_picture *picture,
         pthread_cond_signal(&output->work);
         advance(output);
     } else {
+        while (output->in_flight > 0) /* one before it may fail yet */
+            pthread_cond_wait(&output->room, &output->mutex);
         *error = output->error;
     }
     pthread_mutex_unlock(&output->mutex);

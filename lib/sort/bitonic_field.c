@@ -20,12 +20,17 @@ struct kiln_bitonic_field {
     uint32_t table_count, table_sorted; /* what it was made for */
 };
 
+static uint32_t width_bits(uint32_t padded)
+{
+    uint32_t bits = 0;
+    while (bits < 16 && (uint64_t)1 << 2 * bits < padded)
+        bits++;
+    return bits;
+}
+
 uint32_t kiln_bitonic_field_width(uint32_t padded)
 {
-    uint32_t width = 1;
-    while (width < 1u << 16 && (uint64_t)width * width < padded)
-        width *= 2;
-    return width;
+    return 1u << width_bits(padded);
 }
 
 /* A pass: partners `distance` apart, in bunches of `size` that are ordered in one direction. */
@@ -46,7 +51,7 @@ static uint32_t *add_pass(uint32_t *words, struct pass pass, uint32_t count, uin
     const uint32_t width = kiln_bitonic_field_width(count);
     for (uint32_t x = 0; x < width; x++)
         *words++ = word_of(pass, x, sorted);
-    for (uint32_t y = 0; y < count / width; y++)
+    for (uint32_t y = 0; y < count >> width_bits(count); y++)
         *words++ = word_of(pass, y * width, sorted);
     return words;
 }

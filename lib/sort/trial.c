@@ -124,8 +124,8 @@ static bool prepare(struct kiln_sort_trial *t, const uint32_t *keys, uint32_t co
         if (on_host) {
             ((kiln_sort_pair *)words)[i] = (kiln_sort_pair)keys[i] << 32 | i;
         } else {
-            words[2 * i] = keys[i];
-            words[2 * i + 1] = i;
+            words[2 * (size_t)i] = keys[i];
+            words[2 * (size_t)i + 1] = i;
         }
         list[i] = i;
     }

@@ -16,11 +16,12 @@ enum { STEPS = 300 };
 static const struct {
     enum kiln_simulate_technique technique;
     uint32_t threads;
+    uint32_t steps; /* that it takes part in: GL in software takes long for texels */
     const char *name;
 } WAYS[] = {
-    {KILN_SIMULATE_INPLACE, 1, "inplace"},   {KILN_SIMULATE_PINGPONG, 1, "pingpong"},
-    {KILN_SIMULATE_FEEDBACK, 1, "feedback"}, {KILN_SIMULATE_TEXELS, 1, "texels"},
-    {KILN_SIMULATE_CPU, 1, "one thread"},    {KILN_SIMULATE_CPU, 8, "eight threads"},
+    {KILN_SIMULATE_INPLACE, 1, STEPS, "inplace"},   {KILN_SIMULATE_PINGPONG, 1, STEPS, "pingpong"},
+    {KILN_SIMULATE_FEEDBACK, 1, STEPS, "feedback"}, {KILN_SIMULATE_TEXELS, 1, 60, "texels"},
+    {KILN_SIMULATE_CPU, 1, STEPS, "one thread"},    {KILN_SIMULATE_CPU, 8, STEPS, "eight threads"},
 };
 enum { WAY_COUNT = sizeof WAYS / sizeof *WAYS, DEVICE_WAYS = WAY_COUNT - 2 };
 
@@ -37,6 +38,8 @@ static void all_agree(struct kiln_device *device, const struct kiln_scene *scene
         uint64_t cpu_alive, alive;
         struct kiln_state_hash a = simulation_hash(&cpu, &cpu_alive);
         for (size_t i = 0; i < WAY_COUNT; i++) {
+            if (step > WAYS[i].steps)
+                continue;
             simulation_run(&others[i], 1);
             struct kiln_state_hash b = simulation_hash(&others[i], &alive);
             if (cpu_alive != alive || a.lane[0] != b.lane[0] || a.lane[1] != b.lane[1])
@@ -48,8 +51,9 @@ static void all_agree(struct kiln_device *device, const struct kiln_scene *scene
     }
     assert_true(most > 1000);
     for (size_t i = 0; i < WAY_COUNT; i++) {
-        assert_memory_equal(simulation_records(&cpu), simulation_records(&others[i]),
-                            cpu.pool.slot_count * sizeof(struct kiln_particle));
+        if (steps <= WAYS[i].steps)
+            assert_memory_equal(simulation_records(&cpu), simulation_records(&others[i]),
+                                cpu.pool.slot_count * sizeof(struct kiln_particle));
         simulation_end(&others[i]);
     }
     simulation_end(&cpu);

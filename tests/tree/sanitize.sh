@@ -2,7 +2,9 @@
 # The tests that need no GL, under the address and undefined-behaviour sanitizers:
 # sanitize.sh SOURCE BUILD.
 set -euo pipefail
-cmake -S "$1" -B "$2" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DKILN_SANITIZE=ON >/dev/null
+# -O1 is compiled in half the time. Warnings there are of what a compiler cannot know then.
+cmake -S "$1" -B "$2" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo \
+    -DCMAKE_C_FLAGS_RELWITHDEBINFO='-O1 -g1' -DKILN_SANITIZE=ON -DKILN_WERROR=OFF >/dev/null
 cmake --build "$2" -j 2 --target host_tests
 # An absurd size must be refused by kiln, not by the sanitizer.
 export ASAN_OPTIONS=allocator_may_return_null=1

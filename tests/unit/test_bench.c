@@ -263,7 +263,8 @@ static void saving_does_without_gnuplot(void **state)
     struct kiln_bench *bench = make_bench();
     struct kiln_error error = {0};
     char unplotted[KILN_MESSAGE_SIZE];
-    char *path = strdup(getenv("PATH"));
+    const char *was = getenv("PATH");
+    char *path = strdup(was ? was : "");
     test_write_file("out/sorts.svg", "old");
     setenv("PATH", "/nowhere", 1);
     assert_true(kiln_bench_save(bench, "out", unplotted, &error));
