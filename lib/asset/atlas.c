@@ -4,6 +4,7 @@
  */
 #include "asset/atlas.h"
 
+#include "asset/atlas_code.h"
 #include "asset/builtin.h"
 #include "asset/cells_in.h"
 #include "base/error.h"
@@ -14,93 +15,56 @@
 /* One flipbook of all that are asked for, once each. */
 struct flipbook {
     struct kiln_cells_source source;
-    const char *builtin; /* its name, or NULL */
+    const char *name; /* of a built-in one, or NULL */
+    struct kiln_builtin builtin;
     const struct kiln_atlas_request *request;
     struct kiln_atlas_range *range;
-    struct kiln_film *film;
     bool failed; /* out of memory */
 };
+
+static const size_t CELL_FLOATS = (size_t)KILN_ATLAS_CELL * KILN_ATLAS_CELL * 4;
 
 static bool out_of_memory(struct kiln_error *error, const char *source)
 {
     return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory for its cells", source);
 }
 
-/* ---- levels of detail ------------------------------------------------------------------------ */
+/* ---- from files ------------------------------------------------------------------------------ */
 
-/* Halves a level in place of the next; normals and heat count as much as their density. */
-static void shrink(const float *from, uint32_t edge, uint32_t kind, float *to)
+static uint8_t *texels_of(const struct kiln_atlas *atlas, const struct flipbook *book, size_t cell)
 {
-    uint32_t half = edge / 2;
-    for (uint32_t y = 0; y < half; y++) {
-        for (uint32_t x = 0; x < half; x++, to += 4) {
-            float sum[4] = {0}, plain[3] = {0};
-            for (uint32_t i = 0; i < 4; i++) {
-                const float *p =
-                    from + ((2 * (size_t)y + i / 2) * edge + 2 * (size_t)x + i % 2) * 4;
-                float weight = kind == KILN_CELL_MASK ? p[3] : 1.0f;
-                for (int c = 0; c < 3; c++) {
-                    sum[c] += weight * p[c];
-                    plain[c] += 0.25f * p[c];
-                }
-                sum[3] += p[3];
-            }
-            float total = kind == KILN_CELL_MASK ? sum[3] : 4.0f;
-            for (int c = 0; c < 3; c++)
-                to[c] = total > 1e-6f ? sum[c] / total : plain[c];
-            to[3] = 0.25f * sum[3];
-        }
-    }
+    return atlas->texels + (book->range->first_layer + cell) * KILN_ATLAS_LAYER_BYTES;
 }
 
-static uint8_t to_byte(float x)
+struct storing {
+    const struct kiln_atlas *atlas;
+    const struct flipbook *book;
+    const struct kiln_atlas_code *code;
+    float *cells;
+};
+
+static void store_cells(void *context, size_t begin, size_t end, uint32_t worker)
 {
-    return (uint8_t)(fminf(fmaxf(x, 0.0f), 1.0f) * 255.0f + 0.5f);
+    (void)worker;
+    const struct storing *job = context;
+    for (size_t i = begin; i < end; i++)
+        job->code->store_cell(job->cells + i * CELL_FLOATS, KILN_ATLAS_CELL, job->book->range->kind,
+                              texels_of(job->atlas, job->book, i));
 }
 
-static void encode(const float *from, size_t pixels, uint32_t kind, uint8_t *to)
-{
-    for (size_t i = 0; i < pixels; i++, from += 4, to += 4) {
-        for (int c = 0; c < 4; c++) {
-            float x = from[c];
-            if (kind == KILN_CELL_COLOR)
-                x = sqrtf(fmaxf(x, 0.0f));
-            else if (c < 2)
-                x = 0.5f + 0.5f * x;
-            to[c] = to_byte(x);
-        }
-    }
-}
-
-/* Stores a cell's levels one after the other; `cell` is overwritten. */
-static void store_cell(float *cell, uint32_t kind, uint8_t *texels)
-{
-    for (uint32_t edge = KILN_ATLAS_CELL; edge > 0; edge /= 2) {
-        encode(cell, (size_t)edge * edge, kind, texels);
-        texels += 4 * (size_t)edge * edge;
-        if (edge > 1)
-            shrink(cell, edge, kind, cell);
-    }
-}
-
-static bool make_cells(struct kiln_atlas *atlas, const struct flipbook *book,
+static bool load_cells(struct kiln_atlas *atlas, const struct flipbook *book, enum kiln_simd simd,
                        struct kiln_threads *threads, struct kiln_error *error)
 {
-    const struct kiln_atlas_range *range = book->range;
-    const size_t cell_pixels = (size_t)KILN_ATLAS_CELL * KILN_ATLAS_CELL;
-    float *cells = calloc(range->cells, cell_pixels * 4 * sizeof(float));
-    bool ok = cells != NULL;
+    const uint32_t count = book->range->cells;
+    struct storing job = {atlas, book, KILN_SIMD_PICK(kiln_atlas, simd),
+                          calloc(count, CELL_FLOATS * sizeof(float))};
+    bool ok = job.cells != NULL;
     if (!ok)
         out_of_memory(error, book->source.path);
-    else if (book->builtin)
-        kiln_builtin_generate(book->builtin, range->cells, KILN_ATLAS_CELL, book->film, cells,
-                              threads);
-    else
-        ok = kiln_cells_load(&book->source, cells, threads, error);
-    for (uint32_t i = 0; ok && i < range->cells; i++)
-        store_cell(cells + i * cell_pixels * 4, range->kind,
-                   atlas->texels + (size_t)(range->first_layer + i) * KILN_ATLAS_LAYER_BYTES);
-    free(cells);
+    ok = ok && kiln_cells_load(&book->source, job.cells, threads, error);
+    if (ok)
+        kiln_threads_for(threads, count, 1, store_cells, &job);
+    free(job.cells);
     return ok;
 }
 
@@ -110,7 +74,7 @@ static bool make_cells(struct kiln_atlas *atlas, const struct flipbook *book,
 static bool moves(const struct flipbook *book)
 {
     const char *motion = book->request->motion;
-    return motion[0] == '/' || (book->film && strcmp(motion, "auto") == 0);
+    return motion[0] == '/' || (book->builtin.film && strcmp(motion, "auto") == 0);
 }
 
 /* Stores motion relative to its largest part, rows from the top and y down as textures have it. */
@@ -122,13 +86,28 @@ static void encode_motion(const float *motion, size_t pixels, float largest, int
     }
 }
 
+/* The motion of all cells of a flipbook, in edges of a cell that `scale` multiplies. */
+static void store_motion(struct kiln_atlas *atlas, const struct flipbook *book, const float *motion,
+                         float scale)
+{
+    const size_t pixels = (size_t)book->range->cells * KILN_ATLAS_MOTION * KILN_ATLAS_MOTION;
+    float largest = 0.0f;
+    for (size_t i = 0; i < pixels * 2; i++)
+        largest = fmaxf(largest, fabsf(motion[i]));
+    if (largest > 0.0f) {
+        encode_motion(motion, pixels, largest,
+                      atlas->moves + (size_t)book->range->first_layer * KILN_ATLAS_MOVES_BYTES);
+        book->range->motion = largest * scale;
+    }
+}
+
 static bool make_motion(struct kiln_atlas *atlas, const struct flipbook *book,
                         struct kiln_threads *threads, struct kiln_error *error)
 {
-    struct kiln_atlas_range *range = book->range;
-    const size_t pixels = (size_t)range->cells * KILN_ATLAS_MOTION * KILN_ATLAS_MOTION;
-    float *motion = malloc(pixels * 2 * sizeof *motion);
-    bool ok = motion != NULL;
+    const size_t texels = (size_t)KILN_ATLAS_MOTION * KILN_ATLAS_MOTION;
+    float *motion = malloc(book->range->cells * texels * 2 * sizeof *motion);
+    struct kiln_builtin_room *room = book->builtin.film ? kiln_builtin_room() : NULL;
+    bool ok = motion && (room || !book->builtin.film);
     float scale = 1.0f;
     if (!ok)
         out_of_memory(error, book->source.path);
@@ -139,16 +118,13 @@ static bool make_motion(struct kiln_atlas *atlas, const struct flipbook *book,
         ok = kiln_cells_load_motion(&source, motion, threads, error);
         scale = book->request->motion_scale;
     } else if (ok) {
-        kiln_builtin_motion(book->film, KILN_ATLAS_MOTION, motion);
+        for (uint32_t i = 0; i < book->range->cells; i++)
+            kiln_builtin_motion(&book->builtin, i, KILN_ATLAS_MOTION, room,
+                                motion + i * texels * 2);
     }
-    float largest = 0.0f;
-    for (size_t i = 0; ok && i < pixels * 2; i++)
-        largest = fmaxf(largest, fabsf(motion[i]));
-    if (ok && largest > 0.0f) {
-        encode_motion(motion, pixels, largest,
-                      atlas->moves + (size_t)range->first_layer * KILN_ATLAS_MOVES_BYTES);
-        range->motion = largest * scale;
-    }
+    if (ok)
+        store_motion(atlas, book, motion, scale);
+    free(room);
     free(motion);
     return ok;
 }
@@ -232,6 +208,7 @@ static bool same_flipbook(const struct flipbook *a, const struct flipbook *b)
 }
 
 struct flipbooks {
+    enum kiln_simd simd;
     struct flipbook books[KILN_MAX_SYSTEMS * KILN_MAX_TEXTURES];
     uint32_t count;
     struct kiln_atlas_range *copies[KILN_MAX_SYSTEMS * KILN_MAX_TEXTURES]; /* ranges like an */
@@ -246,7 +223,7 @@ static void add_texture(struct flipbooks *all, struct kiln_atlas *atlas,
 {
     struct flipbook book = {
         .source = {request->sources[texture], request->columns, request->rows, KILN_ATLAS_CELL},
-        .builtin = kiln_builtin_of(request->sources[texture]),
+        .name = kiln_builtin_of(request->sources[texture]),
         .request = request,
         .range = range,
     };
@@ -261,39 +238,95 @@ static void add_texture(struct flipbooks *all, struct kiln_atlas *atlas,
     *range = (struct kiln_atlas_range){
         .first_layer = atlas->layers,
         .cells = request->columns * request->rows,
-        .kind = book.builtin ? KILN_CELL_MASK : KILN_CELL_COLOR,
+        .kind = book.name ? KILN_CELL_MASK : KILN_CELL_COLOR,
     };
     atlas->layers += range->cells;
     all->books[all->count++] = book;
 }
 
-static void make_films(void *context, size_t begin, size_t end, uint32_t worker)
+static void open_builtins(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
     struct flipbooks *all = context;
     for (size_t i = begin; i < end; i++) {
         struct flipbook *book = &all->books[i];
-        if (book->builtin)
-            book->failed = !kiln_builtin_film(book->builtin, book->range->cells, &book->film);
+        if (book->name)
+            book->failed =
+                !kiln_builtin_open(&book->builtin, book->name, book->range->cells, all->simd);
     }
+}
+
+/* What a thread works with. */
+struct maker {
+    float *cell;
+    struct kiln_builtin_room *room;
+};
+
+struct making {
+    const struct kiln_atlas *atlas;
+    const struct flipbooks *all;
+    struct maker *makers; /* one a thread */
+};
+
+/* Layers of built-in flipbooks. */
+static void make_layers(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    const struct making *job = context;
+    const struct maker *maker = &job->makers[worker];
+    const struct kiln_atlas_code *code = KILN_SIMD_PICK(kiln_atlas, job->all->simd);
+    for (size_t layer = begin; layer < end; layer++) {
+        const struct flipbook *book = job->all->books;
+        while (layer >= (size_t)book->range->first_layer + book->range->cells)
+            book++;
+        if (!book->name)
+            continue;
+        uint32_t cell = (uint32_t)layer - book->range->first_layer;
+        kiln_builtin_cell(&book->builtin, cell, KILN_ATLAS_CELL, maker->room, maker->cell);
+        code->store_cell(maker->cell, KILN_ATLAS_CELL, book->range->kind,
+                         texels_of(job->atlas, book, cell));
+    }
+}
+
+static bool make_builtins(struct kiln_atlas *atlas, struct flipbooks *all,
+                          struct kiln_threads *threads, struct kiln_error *error)
+{
+    const uint32_t count = kiln_threads_count(threads);
+    struct making job = {atlas, all, calloc(count, sizeof(struct maker))};
+    bool ok = job.makers != NULL;
+    kiln_threads_for(threads, all->count, 1, open_builtins, all);
+    for (uint32_t i = 0; i < all->count; i++)
+        ok = ok && !all->books[i].failed;
+    for (uint32_t i = 0; ok && i < count; i++) {
+        job.makers[i] = (struct maker){malloc(CELL_FLOATS * sizeof(float)), kiln_builtin_room()};
+        ok = job.makers[i].cell && job.makers[i].room;
+    }
+    if (ok)
+        kiln_threads_for(threads, atlas->layers, 1, make_layers, &job);
+    for (uint32_t i = 0; job.makers && i < count; i++) {
+        free(job.makers[i].cell);
+        free(job.makers[i].room);
+    }
+    free(job.makers);
+    return ok || out_of_memory(error, "built-in atlases");
 }
 
 static bool fill_layers(struct kiln_atlas *atlas, struct flipbooks *all,
                         struct kiln_threads *threads, struct kiln_error *error)
 {
-    bool ok = true, any_moves = false;
+    atlas->texels = malloc((size_t)atlas->layers * KILN_ATLAS_LAYER_BYTES + 1); /* none: not NULL */
+    if (!atlas->texels)
+        return out_of_memory(error, "atlas");
+    bool ok = make_builtins(atlas, all, threads, error), any_moves = false;
     for (uint32_t i = 0; i < all->count; i++)
         any_moves |= moves(&all->books[i]);
-    atlas->texels = malloc((size_t)atlas->layers * KILN_ATLAS_LAYER_BYTES + 1); /* none: not NULL */
-    if (any_moves)
+    if (ok && any_moves) {
         atlas->moves = calloc(atlas->layers, KILN_ATLAS_MOVES_BYTES);
-    if (!atlas->texels || (any_moves && !atlas->moves))
-        return out_of_memory(error, "atlas");
+        ok = atlas->moves || out_of_memory(error, "atlas");
+    }
     for (uint32_t i = 0; ok && i < all->count; i++) {
         const struct flipbook *book = &all->books[i];
-        ok = book->failed ? out_of_memory(error, book->source.path)
-                          : make_cells(atlas, book, threads, error) &&
-                                (!moves(book) || make_motion(atlas, book, threads, error));
+        ok = (book->name || load_cells(atlas, book, all->simd, threads, error)) &&
+             (!moves(book) || make_motion(atlas, book, threads, error));
     }
     return ok;
 }
@@ -304,17 +337,18 @@ bool kiln_atlas_init(struct kiln_atlas *atlas, struct kiln_device *device,
 {
     *atlas = (struct kiln_atlas){.device = device};
     struct flipbooks all = {0};
+    if (!kiln_simd_choose(&all.simd, error))
+        return false;
     for (uint32_t i = 0; i < count; i++) {
         atlas->systems[i].count = requests[i].count;
         for (uint32_t k = 0; k < requests[i].count; k++)
             add_texture(&all, atlas, &requests[i], k, &atlas->systems[i].textures[k]);
     }
-    kiln_threads_for(threads, all.count, 1, make_films, &all);
     bool ok = fill_layers(atlas, &all, threads, error);
     for (uint32_t i = 0; i < all.copy_count; i++)
         *all.copies[i] = *all.books[all.originals[i]].range;
     for (uint32_t i = 0; i < all.count; i++)
-        free(all.books[i].film);
+        kiln_builtin_close(&all.books[i].builtin);
     if (!ok)
         kiln_atlas_finish(atlas);
     return ok;

@@ -1,28 +1,31 @@
 /* The procedural flipbooks: their names, and from texels to cells. */
 #include "asset/builtin.h"
 
-#include "asset/texel.h"
+#include "asset/texel_cell.h"
+#include "shared/random.h"
 
-#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-static const struct builtin *at_index(size_t index)
+static const struct builtin *at_index(size_t index, enum kiln_simd simd)
 {
-    for (const struct builtin *gas = kiln_builtin_gases; gas->name; gas++) {
+    const struct builtin *gas = KILN_SIMD_PICK(kiln_builtin_gases, simd)->builtins;
+    const struct builtin *solid = KILN_SIMD_PICK(kiln_builtin_solids, simd)->builtins;
+    for (; gas->name; gas++) {
         if (index-- == 0)
             return gas;
     }
-    for (const struct builtin *solid = kiln_builtin_solids; solid->name; solid++) {
+    for (; solid->name; solid++) {
         if (index-- == 0)
             return solid;
     }
     return NULL;
 }
 
-static const struct builtin *find(const char *name)
+static const struct builtin *find(const char *name, enum kiln_simd simd)
 {
     const struct builtin *builtin;
-    for (size_t i = 0; (builtin = at_index(i)); i++) {
+    for (size_t i = 0; (builtin = at_index(i, simd)); i++) {
         if (strcmp(builtin->name, name) == 0)
             return builtin;
     }
@@ -38,127 +41,74 @@ const char *kiln_builtin_of(const char *source)
 
 bool kiln_builtin_exists(const char *name)
 {
-    return find(name) != NULL;
+    return find(name, KILN_SIMD_PLAIN) != NULL;
 }
 
 const char *kiln_builtin_name(size_t index)
 {
-    const struct builtin *builtin = at_index(index);
+    const struct builtin *builtin = at_index(index, KILN_SIMD_PLAIN);
     return builtin ? builtin->name : NULL;
 }
 
-bool kiln_builtin_film(const char *name, uint32_t cell_count, struct kiln_film **film)
+bool kiln_builtin_open(struct kiln_builtin *builtin, const char *name, uint32_t cell_count,
+                       enum kiln_simd simd)
 {
-    const struct builtin *builtin = find(name);
-    *film = builtin && builtin->gas ? kiln_film_create(builtin->gas, cell_count) : NULL;
-    return *film || !builtin || !builtin->gas;
+    *builtin = (struct kiln_builtin){.name = name, .cell_count = cell_count, .simd = simd};
+    const struct builtin *found = find(name, simd);
+    if (found && found->gas)
+        builtin->film = kiln_film_create(found->gas, KILN_SIMD_PICK(kiln_fluid, simd), cell_count);
+    return found && (builtin->film || !found->gas);
 }
 
-struct generation {
-    const struct builtin *builtin;
-    const struct kiln_film *film; /* NULL: nothing flows */
-    uint32_t cell_count, edge;
-    float *cells;
-};
-
-/* A cell's time and gas. */
-static struct texel_site site_at(const struct generation *job, size_t cell, float u, float v)
+void kiln_builtin_close(struct kiln_builtin *builtin)
 {
-    uint32_t gaps = job->cell_count > 1 ? job->cell_count - 1 : 1;
-    struct texel_site site = {.u = u, .v = v, .time = (float)cell / (float)gaps};
-    if (job->film) {
-        const struct kiln_film_cell *gas = &job->film->cells[cell];
-        site.time = gas->time;
-        site.heat = kiln_fluid_sample(gas->heat, u, v);
-        float weight = kiln_fluid_sample(gas->weight, u, v);
-        site.place_x = kiln_fluid_sample(gas->place_x, u, v) / weight;
-        site.place_y = kiln_fluid_sample(gas->place_y, u, v) / weight;
-    }
-    return site;
+    free(builtin->film);
+    *builtin = (struct kiln_builtin){0};
 }
 
-/* First the height in the place of the normal's x; then its slope. */
-static void generate_cell(const struct generation *job, size_t cell)
+struct kiln_builtin_room *kiln_builtin_room(void)
 {
-    uint32_t edge = job->edge;
-    float *pixels = job->cells + cell * edge * edge * 4;
-    float texel_size = 2.0f / (float)edge;
+    return malloc(sizeof(struct kiln_builtin_room));
+}
+
+static struct texel_lobe lobe_at(uint32_t index)
+{
+    uint stream = random_stream(0x10be5u, index);
+    struct exact_angle angle = exact_sincos(EXACT_TWO_PI * random_unit(stream, 0));
+    float away = 0.50f * exact_sqrt(random_unit(stream, 1));
+    if (index == 0) /* the one in the middle */
+        return (struct texel_lobe){0.0f, 0.0f, 0.52f};
+    return (struct texel_lobe){away * angle.cosine, away * angle.sine,
+                               0.18f + 0.26f * random_unit(stream, 2) * random_unit(stream, 4)};
+}
+
+void kiln_builtin_cell(const struct kiln_builtin *builtin, uint32_t cell, uint32_t edge,
+                       struct kiln_builtin_room *room, float *pixels)
+{
+    const uint32_t gaps = builtin->cell_count > 1 ? builtin->cell_count - 1 : 1;
+    const struct kiln_film_cell *gas = builtin->film ? &builtin->film->cells[cell] : NULL;
     struct texel_lobe lobes[TEXEL_LOBES];
-    kiln_texel_lobes(lobes);
-    for (uint32_t y = 0; y < edge; y++) {
-        for (uint32_t x = 0; x < edge; x++) {
-            float u = ((float)x + 0.5f) * texel_size - 1.0f;
-            float v = 1.0f - ((float)y + 0.5f) * texel_size;
-            struct texel_site site = site_at(job, cell, u, v);
-            site.lobes = lobes;
-            struct texel texel = job->builtin->texel(&site);
-            float *pixel = pixels + ((size_t)y * edge + x) * 4;
-            pixel[0] = texel.height;
-            pixel[2] = texel.heat;
-            pixel[3] = texel.density;
-        }
-    }
+    for (uint32_t i = 0; i < TEXEL_LOBES; i++)
+        lobes[i] = lobe_at(i);
+    const struct texel_job job = {
+        .builtin = find(builtin->name, builtin->simd),
+        .gas = gas,
+        .lobes = lobes,
+        .time = gas ? gas->time : (float)cell / (float)gaps,
+        .edge = edge,
+    };
+    KILN_SIMD_PICK(kiln_texel, builtin->simd)->make_cell(&job, room, pixels);
 }
 
-/* Normals from the height in channel 0: y first, since it needs the heights of other rows. */
-static void tilt_cell(const struct generation *job, size_t cell)
+void kiln_builtin_motion(const struct kiln_builtin *builtin, uint32_t cell, uint32_t edge,
+                         struct kiln_builtin_room *room, float *motion)
 {
-    uint32_t edge = job->edge;
-    float *pixels = job->cells + cell * edge * edge * 4;
-    float scale = job->builtin->relief;
-#define HEIGHT(x, y) pixels[((size_t)(y)*edge + (x)) * 4]
-    for (uint32_t y = 0; y < edge; y++) {
-        for (uint32_t x = 0; x < edge; x++) {
-            uint32_t above = y > 0 ? y - 1 : y, below = y < edge - 1 ? y + 1 : y;
-            pixels[((size_t)y * edge + x) * 4 + 1] = scale * (HEIGHT(x, below) - HEIGHT(x, above));
-        }
-    }
-    for (uint32_t y = 0; y < edge; y++) {
-        float left = HEIGHT(0, y);
-        for (uint32_t x = 0; x < edge; x++) {
-            float *pixel = pixels + ((size_t)y * edge + x) * 4;
-            float right = HEIGHT(x < edge - 1 ? x + 1 : x, y);
-            float slope_x = scale * (left - right), slope_y = pixel[1];
-            left = pixel[0];
-            float shorten = 1.0f / sqrtf(1.0f + slope_x * slope_x + slope_y * slope_y);
-            pixel[0] = slope_x * shorten;
-            pixel[1] = slope_y * shorten;
-        }
-    }
-#undef HEIGHT
-}
-
-static void generate_cells(void *context, size_t begin, size_t end, uint32_t worker)
-{
-    (void)worker;
-    for (size_t cell = begin; cell < end; cell++) {
-        generate_cell(context, cell);
-        tilt_cell(context, cell);
-    }
-}
-
-void kiln_builtin_generate(const char *name, uint32_t cell_count, uint32_t edge,
-                           const struct kiln_film *film, float *cells, struct kiln_threads *threads)
-{
-    struct generation job = {.builtin = find(name),
-                             .film = film,
-                             .cell_count = cell_count,
-                             .edge = edge,
-                             .cells = cells};
-    if (job.builtin)
-        kiln_threads_for(threads, cell_count, 1, generate_cells, &job);
-}
-
-void kiln_builtin_motion(const struct kiln_film *film, uint32_t edge, float *motion)
-{
-    const float texel_size = 2.0f / (float)edge;
-    for (uint32_t cell = 0; cell < film->cell_count; cell++) {
-        const struct kiln_film_cell *gas = &film->cells[cell];
-        for (uint32_t i = 0; i < edge * edge; i++, motion += 2) {
-            float u = ((float)(i % edge) + 0.5f) * texel_size - 1.0f;
-            float v = 1.0f - ((float)(i / edge) + 0.5f) * texel_size;
-            motion[0] = 0.5f * kiln_fluid_sample(gas->motion_x, u, v);
-            motion[1] = 0.5f * kiln_fluid_sample(gas->motion_y, u, v);
-        }
+    const struct kiln_film_cell *gas = &builtin->film->cells[cell];
+    const struct kiln_fluid_code *fluid = KILN_SIMD_PICK(kiln_fluid, builtin->simd);
+    fluid->sample(gas->motion_x, edge, &room->fluid, room->x);
+    fluid->sample(gas->motion_y, edge, &room->fluid, room->y);
+    for (uint32_t i = 0; i < edge * edge; i++) {
+        motion[2 * (size_t)i] = 0.5f * room->x[i];
+        motion[2 * (size_t)i + 1] = 0.5f * room->y[i];
     }
 }

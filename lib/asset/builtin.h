@@ -3,7 +3,6 @@
 #define KILN_ASSET_BUILTIN_H
 
 #include "asset/film.h"
-#include "base/thread.h"
 
 /* The name in "builtin:NAME", or NULL when the source of an atlas is a file. */
 const char *kiln_builtin_of(const char *source);
@@ -14,19 +13,33 @@ bool kiln_builtin_exists(const char *name);
 /* All names, for messages: NULL past the last. */
 const char *kiln_builtin_name(size_t index);
 
-/* The gas of a flipbook, which the caller frees: *film stays NULL for one in which nothing flows.
- * False when memory is short. Threads may make films side by side: they are the slow part. */
-bool kiln_builtin_film(const char *name, uint32_t cell_count, struct kiln_film **film);
+/* A flipbook of cell_count cells. */
+struct kiln_builtin {
+    const char *name;
+    uint32_t cell_count;
+    enum kiln_simd simd;    /* that makes it; the bytes are the same */
+    struct kiln_film *film; /* its gas, NULL when nothing flows */
+};
 
-/* Fills cell_count cells of edge x edge RGBA floats: x and y of the surface normal (-1..1; up is
- * +y), heat (0..1) and density (0..1), rows from the top, +y of the billboard up. The first cell is
- * the particle's birth, the last its death. film: of this name and count. */
-void kiln_builtin_generate(const char *name, uint32_t cell_count, uint32_t edge,
-                           const struct kiln_film *film, float *cells,
-                           struct kiln_threads *threads);
+/* Makes its gas. False for an unknown name, and when memory is short. Threads may open flipbooks
+ * side by side. */
+bool kiln_builtin_open(struct kiln_builtin *builtin, const char *name, uint32_t cell_count,
+                       enum kiln_simd simd);
+void kiln_builtin_close(struct kiln_builtin *builtin);
 
-/* Fills as many cells of edge x edge pairs: the way from this cell to the next of what is there
- * halfway, in edges of the cell, x to the right and y up. */
-void kiln_builtin_motion(const struct kiln_film *film, uint32_t edge, float *motion);
+/* What a thread needs to make cells, the one after the other; NULL when memory is short, and freed
+ * with free(). */
+struct kiln_builtin_room *kiln_builtin_room(void);
+
+/* Fills edge x edge RGBA floats: x and y of the surface normal (-1..1; up is +y), heat (0..1) and
+ * density (0..1), rows from the top, +y of the billboard up. The first cell is the particle's
+ * birth, the last its death. edge: at most KILN_FLUID_FINEST. */
+void kiln_builtin_cell(const struct kiln_builtin *builtin, uint32_t cell, uint32_t edge,
+                       struct kiln_builtin_room *room, float *pixels);
+
+/* Fills edge x edge pairs: the way from this cell to the next of what is there halfway, in edges of
+ * the cell, x to the right and y up. Only for what flows. */
+void kiln_builtin_motion(const struct kiln_builtin *builtin, uint32_t cell, uint32_t edge,
+                         struct kiln_builtin_room *room, float *motion);
 
 #endif

@@ -78,8 +78,8 @@ static void add_motion(const struct kiln_fluid *fluid, float start, struct kiln_
     }
 }
 
-static void run(const struct kiln_film_gas *gas, struct kiln_fluid *fluid, struct moment *before,
-                struct kiln_film *film)
+static void run(const struct kiln_film_gas *gas, const struct kiln_fluid_code *code,
+                struct kiln_fluid *fluid, struct moment *before, struct kiln_film *film)
 {
     const float dt = 1.0f / STEPS;
     uint32_t next = 0;
@@ -87,15 +87,16 @@ static void run(const struct kiln_film_gas *gas, struct kiln_fluid *fluid, struc
         remember(fluid, before);
         if (gas->drive)
             gas->drive(fluid, (float)step * dt, dt);
-        kiln_fluid_step(fluid, dt);
+        code->step(fluid, dt);
         next = record(fluid, before, (float)step, film, next);
         add_motion(fluid, (float)step, film);
     }
 }
 
-struct kiln_film *kiln_film_create(const struct kiln_film_gas *gas, uint32_t cell_count)
+struct kiln_film *kiln_film_create(const struct kiln_film_gas *gas,
+                                   const struct kiln_fluid_code *code, uint32_t cell_count)
 {
-    struct kiln_fluid *fluid = malloc(sizeof *fluid);
+    struct kiln_fluid *fluid = aligned_alloc(alignof(struct kiln_fluid), sizeof *fluid);
     struct moment *before = malloc(sizeof *before);
     struct kiln_film *film = calloc(1, sizeof *film + cell_count * sizeof film->cells[0]);
     if (film && fluid && before) {
@@ -103,7 +104,7 @@ struct kiln_film *kiln_film_create(const struct kiln_film_gas *gas, uint32_t cel
         kiln_fluid_init(fluid);
         if (gas->start)
             gas->start(fluid);
-        run(gas, fluid, before, film);
+        run(gas, code, fluid, before, film);
     } else {
         free(film);
         film = NULL;

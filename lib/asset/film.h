@@ -32,6 +32,7 @@ struct kiln_film {
 
 /* Lets the gas flow and records cell_count (at least 1) cells, the first at birth and the last at
  * death. NULL when memory is short; freed with free(). Threads may make films side by side. */
-struct kiln_film *kiln_film_create(const struct kiln_film_gas *gas, uint32_t cell_count);
+struct kiln_film *kiln_film_create(const struct kiln_film_gas *gas,
+                                   const struct kiln_fluid_code *code, uint32_t cell_count);
 
 #endif

@@ -3,18 +3,28 @@
 #ifndef KILN_ASSET_FLUID_H
 #define KILN_ASSET_FLUID_H
 
+#include "base/simd.h"
+
+#include <stdalign.h>
 #include <stdint.h>
 
 enum {
     KILN_FLUID_EDGE = 64, /* samples a side */
     KILN_FLUID_SIZE = KILN_FLUID_EDGE * KILN_FLUID_EDGE,
+    KILN_FLUID_DIAGONALS = 2 * KILN_FLUID_EDGE - 1,
+    KILN_FLUID_MARGIN = 16,                                 /* floats before a diagonal */
+    KILN_FLUID_PITCH = KILN_FLUID_MARGIN + KILN_FLUID_EDGE, /* from one to the next */
+    KILN_FLUID_FINEST = 128,                                /* texels a side */
 };
 
 /* Samples lie at the middles of squares that tile [-1, 1]^2, rows from the bottom. A unit of length
  * is half the edge of a flipbook's cell, a unit of time what the caller's dt says. */
 struct kiln_fluid {
     float vorticity[KILN_FLUID_SIZE];
-    float stream[KILN_FLUID_SIZE]; /* whose curl the velocity is: it has no divergence */
+    /* The function whose curl the velocity is, so that it has no divergence, and the vorticity once
+     * more: rows are the diagonals on which x + y is the same, columns are x. */
+    alignas(64) float stream[KILN_FLUID_DIAGONALS + 2][KILN_FLUID_PITCH];
+    alignas(64) float turning[KILN_FLUID_DIAGONALS][KILN_FLUID_EDGE];
     float velocity_x[KILN_FLUID_SIZE], velocity_y[KILN_FLUID_SIZE];
     float heat[KILN_FLUID_SIZE];    /* rises by buoyancy */
     float place_x[KILN_FLUID_SIZE]; /* where the gas was at its start: detail that is a function */
@@ -24,7 +34,6 @@ struct kiln_fluid {
     float strain;                   /* likewise: growth of heights, and loss of widths */
     float rise;                     /* speed at which everything rises besides */
     float drag;                     /* part of the vorticity lost a unit of time */
-    float scratch[4][KILN_FLUID_SIZE];
 };
 
 /* The coordinate of a column or row. */
@@ -36,11 +45,21 @@ static inline float kiln_fluid_at(uint32_t index)
 /* At rest and cold, every place its own. */
 void kiln_fluid_init(struct kiln_fluid *fluid);
 
-/* One step: buoyancy turns, the velocity follows from the turning (walls at the sides, open below
- * and above), and everything moves with it. */
-void kiln_fluid_step(struct kiln_fluid *fluid, float dt);
+/* Room for sampling. */
+struct kiln_fluid_room {
+    float columns[KILN_FLUID_EDGE][3][KILN_FLUID_FINEST];
+};
 
-/* A field between its samples, held at the border; smooth (a quadratic B-spline). */
-float kiln_fluid_sample(const float field[KILN_FLUID_SIZE], float x, float y);
+struct kiln_fluid_code {
+    /* One step: buoyancy turns, the velocity follows from the turning (walls at the sides, open
+     * below and above), and everything moves with it. */
+    void (*step)(struct kiln_fluid *fluid, float dt);
+    /* A field between its samples, held at the border; smooth (a quadratic B-spline). Fills edge x
+     * edge values at the middles of texels, rows from the top; edge is at most KILN_FLUID_FINEST.
+     */
+    void (*sample)(const float field[KILN_FLUID_SIZE], uint32_t edge, struct kiln_fluid_room *room,
+                   float *out);
+};
+KILN_SIMD_DECLARE(const struct kiln_fluid_code, kiln_fluid);
 
 #endif

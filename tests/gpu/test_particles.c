@@ -113,6 +113,24 @@ static void make_targets(struct fixture *f)
 /* What is tested now. */
 static enum kiln_raster_technique technique;
 
+/* The cells of a system's flipbook once more, and their motion. */
+static void make_cells(struct fixture *f, int system, const char *name)
+{
+    const size_t floats = (size_t)KILN_ATLAS_CELL * KILN_ATLAS_CELL * 4;
+    const size_t moves = (size_t)KILN_ATLAS_MOTION * KILN_ATLAS_MOTION * 2;
+    struct kiln_builtin_room *room = kiln_builtin_room();
+    struct kiln_builtin builtin;
+    assert_non_null(room);
+    assert_true(kiln_builtin_open(&builtin, name, f->cell_count[system], KILN_SIMD_PLAIN));
+    for (uint32_t i = 0; i < f->cell_count[system]; i++) {
+        kiln_builtin_cell(&builtin, i, KILN_ATLAS_CELL, room, f->cells[system] + i * floats);
+        if (system == 1)
+            kiln_builtin_motion(&builtin, i, KILN_ATLAS_MOTION, room, f->motion + i * moves);
+    }
+    kiln_builtin_close(&builtin);
+    free(room);
+}
+
 static int set_up_with(void **state, const char *const *overrides, size_t count)
 {
     struct kiln_error error = {0};
@@ -151,14 +169,7 @@ static int set_up_with(void **state, const char *const *overrides, size_t count)
         size_t floats = (size_t)f->cell_count[i] * KILN_ATLAS_CELL * KILN_ATLAS_CELL * 4;
         f->cells[i] = calloc(floats, sizeof(float));
         assert_non_null(f->cells[i]);
-        const char *name = kiln_builtin_of(sources[i]);
-        struct kiln_film *film = NULL;
-        assert_true(kiln_builtin_film(name, f->cell_count[i], &film));
-        kiln_builtin_generate(name, f->cell_count[i], KILN_ATLAS_CELL, film, f->cells[i],
-                              f->threads);
-        if (i == 1)
-            kiln_builtin_motion(film, KILN_ATLAS_MOTION, f->motion);
-        free(film);
+        make_cells(f, i, kiln_builtin_of(sources[i]));
     }
     *state = f;
     return 0;

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "asset/atlas.h"
 #include "asset/blackbody.h"
 #include "asset/builtin.h"
 
@@ -61,20 +62,30 @@ struct book {
     float *cells, *motion;
 };
 
-static struct book make_book(const char *name, uint32_t count, uint32_t threads)
+static struct book make_book_at(const char *name, uint32_t count, enum kiln_simd simd)
 {
-    struct kiln_threads *pool = kiln_threads_create(threads);
     struct book book = {count, calloc(count, CELL_FLOATS * sizeof(float)),
                         calloc(count, EDGE * EDGE * 2 * sizeof(float))};
-    struct kiln_film *film = NULL;
-    assert_true(pool && book.cells && book.motion);
-    assert_true(kiln_builtin_film(name, count, &film));
-    kiln_builtin_generate(name, count, EDGE, film, book.cells, pool);
-    if (film)
-        kiln_builtin_motion(film, EDGE, book.motion);
-    free(film);
-    kiln_threads_destroy(&pool);
+    struct kiln_builtin_room *room = kiln_builtin_room();
+    struct kiln_builtin builtin;
+    assert_true(room && book.cells && book.motion);
+    assert_true(kiln_builtin_open(&builtin, name, count, simd));
+    for (uint32_t i = 0; i < count; i++) {
+        kiln_builtin_cell(&builtin, i, EDGE, room, book.cells + (size_t)i * CELL_FLOATS);
+        if (builtin.film)
+            kiln_builtin_motion(&builtin, i, EDGE, room, book.motion + (size_t)i * EDGE * EDGE * 2);
+    }
+    kiln_builtin_close(&builtin);
+    free(room);
     return book;
+}
+
+static struct book make_book(const char *name, uint32_t count)
+{
+    struct kiln_error error = {0};
+    enum kiln_simd simd;
+    assert_true(kiln_simd_choose(&simd, &error));
+    return make_book_at(name, count, simd);
 }
 
 static void free_book(struct book *book)
@@ -97,7 +108,7 @@ static void cells_are_sound(void **state)
 {
     (void)state;
     for (size_t n = 0; kiln_builtin_name(n); n++) {
-        struct book book = make_book(kiln_builtin_name(n), 16, 2);
+        struct book book = make_book(kiln_builtin_name(n), 16);
         float densest = 0.0f;
         for (size_t i = 0; i < (size_t)book.count * EDGE * EDGE; i++) {
             const float *p = book.cells + 4 * i;
@@ -116,7 +127,7 @@ static void cells_are_sound(void **state)
 static void fire_erodes_and_smoke_stays(void **state)
 {
     (void)state;
-    struct book fire = make_book("fire", 32, 2), smoke = make_book("smoke", 32, 2);
+    struct book fire = make_book("fire", 32), smoke = make_book("smoke", 32);
     assert_true(mean_density(&fire, 0) > 0.15f);
     assert_true(mean_density(&fire, 31) < 0.1f * mean_density(&fire, 0));
     for (uint32_t cell = 1; cell < 32; cell++) {
@@ -147,7 +158,7 @@ static void flames_climb(void **state)
     (void)state;
     static const char *const names[] = {"flame", "tongue"};
     for (size_t n = 0; n < 2; n++) {
-        struct book book = make_book(names[n], 16, 2);
+        struct book book = make_book(names[n], 16);
         assert_true(middle_height(&book, 3) < -0.4f);
         assert_true(middle_height(&book, 10) > middle_height(&book, 3) + 0.3f);
         assert_true(mean_density(&book, 8) > 4.0f * mean_density(&book, 15));
@@ -155,14 +166,78 @@ static void flames_climb(void **state)
     }
 }
 
-static void cells_do_not_depend_on_threads(void **state)
+static void cells_are_the_same_bytes_at_every_level(void **state)
 {
     (void)state;
-    struct book one = make_book("smoke", 8, 1), eight = make_book("smoke", 8, 8);
-    assert_memory_equal(one.cells, eight.cells, 8 * CELL_FLOATS * sizeof(float));
-    assert_memory_equal(one.motion, eight.motion, 8 * EDGE * EDGE * 2 * sizeof(float));
-    free_book(&one);
-    free_book(&eight);
+    for (size_t n = 0; kiln_builtin_name(n); n++) {
+        const char *name = kiln_builtin_name(n);
+        struct book plain = make_book_at(name, 3, KILN_SIMD_PLAIN);
+        for (enum kiln_simd simd = KILN_SIMD_PLAIN + 1; simd < KILN_SIMD_COUNT; simd++) {
+            if (!kiln_simd_has(simd))
+                continue;
+            struct book book = make_book_at(name, 3, simd);
+            assert_memory_equal(book.cells, plain.cells, 3 * CELL_FLOATS * sizeof(float));
+            assert_memory_equal(book.motion, plain.motion, 3 * EDGE * EDGE * 2 * sizeof(float));
+            free_book(&book);
+        }
+        free_book(&plain);
+    }
+}
+
+/* ---- whole atlases --------------------------------------------------------------------------- */
+
+static struct kiln_atlas make_atlas(uint32_t threads)
+{
+    static const char *const sources[] = {"builtin:puff", "builtin:spark", "builtin:tongue",
+                                          "builtin:puff"};
+    const struct kiln_atlas_request requests[] = {{sources, 2, 3, 2, "auto", 1.0f},
+                                                  {sources + 2, 2, 3, 2, "auto", 1.0f},
+                                                  {sources + 1, 1, 1, 1, "none", 1.0f}};
+    struct kiln_threads *pool = kiln_threads_create(threads);
+    struct kiln_error error = {0};
+    struct kiln_atlas atlas;
+    assert_true(pool && kiln_atlas_init(&atlas, NULL, requests, 3, pool, &error));
+    kiln_threads_destroy(&pool);
+    return atlas;
+}
+
+/* Each flipbook has its layers, whoever made them, and equal ones share them. */
+static void atlases_do_not_depend_on_threads(void **state)
+{
+    (void)state;
+    struct kiln_atlas one = make_atlas(1), many = make_atlas(8);
+    assert_int_equal(one.layers, 6 + 6 + 6 + 1);
+    assert_int_equal(one.systems[1].textures[1].first_layer, 0);
+    assert_int_equal(one.systems[1].textures[0].first_layer, 12);
+    assert_true(one.systems[0].textures[0].motion > 0.0f);
+    assert_true(one.systems[0].textures[1].motion == 0.0f);
+    assert_int_equal(many.layers, one.layers);
+    assert_memory_equal(many.texels, one.texels, (size_t)one.layers * KILN_ATLAS_LAYER_BYTES);
+    assert_memory_equal(many.moves, one.moves, (size_t)one.layers * KILN_ATLAS_MOVES_BYTES);
+    assert_memory_equal(many.systems, one.systems, sizeof one.systems);
+    kiln_atlas_finish(&one);
+    kiln_atlas_finish(&many);
+}
+
+/* Levels are means, of normals and heat by density, to within a step of their 8 bits. */
+static void levels_are_means(void **state)
+{
+    (void)state;
+    struct kiln_atlas atlas = make_atlas(2);
+    const uint8_t *whole = kiln_atlas_level(&atlas, 14, 0), *half = kiln_atlas_level(&atlas, 14, 1);
+    for (uint32_t i = 0; i < EDGE / 2 * EDGE / 2; i++) {
+        uint32_t x = 2 * (i % (EDGE / 2)), y = 2 * (i / (EDGE / 2)), sum = 0;
+        double heat = 0.0;
+        for (uint32_t k = 0; k < 4; k++) {
+            const uint8_t *p = whole + 4 * ((size_t)(y + k / 2) * EDGE + x + k % 2);
+            sum += p[3];
+            heat += (double)p[3] * p[2];
+        }
+        assert_true(fabs(half[4 * i + 3] - sum / 4.0) <= 1.0);
+        if (sum > 400) /* else what 8 bits lose is too much */
+            assert_true(fabs(half[4 * i + 2] - heat / sum) <= 2.0);
+    }
+    kiln_atlas_finish(&atlas);
 }
 
 /* ---- motion ---------------------------------------------------------------------------------- */
@@ -224,7 +299,7 @@ static void motion_makes_up_for_cells(void **state)
         double least_db;
     } gains[] = {{"flame", 6.0}, {"tongue", 6.0}, {"fire", 2.5}, {"puff", 3.0}};
     for (size_t i = 0; i < sizeof gains / sizeof *gains; i++) {
-        struct book film = make_book(gains[i].name, 64, 2), few = make_book(gains[i].name, 16, 2);
+        struct book film = make_book(gains[i].name, 64), few = make_book(gains[i].name, 16);
         double mixed = difference(&few, false, &film), moved = difference(&few, true, &film);
         double gain_db = 10.0 * log10(mixed / moved);
         print_message("%s: 16 cells are %.1f dB nearer to 64 with motion (%.1f to %.1f dB)\n",
@@ -239,7 +314,7 @@ static void motion_makes_up_for_cells(void **state)
 static void motion_points_the_right_way(void **state)
 {
     (void)state;
-    struct book flame = make_book("tongue", 16, 2), puff = make_book("puff", 16, 2);
+    struct book flame = make_book("tongue", 16), puff = make_book("puff", 16);
     float up = 0.0f, weights = 0.0f, outwards = 0.0f;
     for (uint32_t i = 0; i < EDGE * EDGE; i++) {
         float density = flame.cells[6 * CELL_FLOATS + 4 * i + 3];
@@ -273,7 +348,9 @@ int main(void)
         cmocka_unit_test(cells_are_sound),
         cmocka_unit_test(fire_erodes_and_smoke_stays),
         cmocka_unit_test(flames_climb),
-        cmocka_unit_test(cells_do_not_depend_on_threads),
+        cmocka_unit_test(cells_are_the_same_bytes_at_every_level),
+        cmocka_unit_test(atlases_do_not_depend_on_threads),
+        cmocka_unit_test(levels_are_means),
         cmocka_unit_test(motion_makes_up_for_cells),
         cmocka_unit_test(motion_points_the_right_way),
         cmocka_unit_test(names_are_known),
