@@ -204,7 +204,10 @@ static int write_results(const struct kiln_bench *bench, const struct arguments 
         return report_error(&error);
     if (folder && *unplotted)
         report(KILN_OK, "bench: %s", unplotted);
-    return 0;
+    if (kiln_bench_measured(bench) > 0)
+        return 0;
+    return report(KILN_NO_DEVICE, "bench: nothing could be measured on this device; the notes of "
+                                  "the tables say why");
 }
 
 static void print_suite(void *user, const struct kiln_bench_suite *suite)
@@ -237,7 +240,9 @@ static int run(const struct arguments *arguments)
     if (code == 0) {
         signals_install();
         struct kiln_error error = {0};
-        struct kiln_bench *bench = kiln_bench_run(&params, &error);
+        const char *folder = arguments_text(arguments, "output", NULL);
+        bool ready = !folder || kiln_bench_prepare(folder, &error);
+        struct kiln_bench *bench = ready ? kiln_bench_run(&params, &error) : NULL;
         code = bench ? write_results(bench, arguments) : report_failure(&error);
         kiln_bench_destroy(&bench);
     }

@@ -11,7 +11,7 @@ const struct exit_code exit_codes[] = {
     {"1", "a frame failed, or a picture differs"},
     {"2", "the command line makes no sense"},
     {"3", "a scene or another input file is wrong"},
-    {"4", "no usable device, or every test was skipped for want of one"},
+    {"4", "no usable device, or for want of one every test was skipped, or nothing measured"},
     {"5", "the device was lost, memory ran out, a frame or test took longer than its limit, or a "
           "test crashed"},
     {"6", "reading or writing failed"},

@@ -69,6 +69,15 @@ static int check_operands(const struct command *command, const struct arguments 
     return 0;
 }
 
+/* Before work begins; what only explains does without. */
+static int check_environment(const struct command *command)
+{
+    struct kiln_error error = {0};
+    if (command == &help_command || command == &complete_command || kiln_environment_check(&error))
+        return 0;
+    return report(error.code, "%s", error.message);
+}
+
 static int run_command(const struct command *command, int argc, char **argv)
 {
     struct arguments arguments;
@@ -78,6 +87,8 @@ static int run_command(const struct command *command, int argc, char **argv)
         help_print_command(command);
     } else if (code == 0) {
         code = check_operands(command, &arguments);
+        if (code == 0)
+            code = check_environment(command);
         if (code == 0)
             code = command->run(&arguments);
     }

@@ -170,6 +170,10 @@ struct kiln_device_params {
 };
 #define KILN_DEVICE_DEFAULTS ((struct kiln_device_params){.wanted = NULL})
 
+/* Whether the variables of the environment that the library reads make sense: KILN_USAGE, for a
+ * KILN_SIMD of vectors that the machine lacks. What needs them fails so, too, but later. */
+bool kiln_environment_check(struct kiln_error *error);
+
 /* Fills up to capacity entries, KILN_DEVICE_CPU first, and returns how many devices there are;
  * *advice (may be NULL) gets what is missing on this machine and the package that mends it, "" if
  * nothing is. */

@@ -54,12 +54,19 @@ struct kiln_bench;
 struct kiln_bench *kiln_bench_run(const struct kiln_bench_params *params, struct kiln_error *error);
 void kiln_bench_destroy(struct kiln_bench **bench);
 
+/* How many values were measured: 0 where nothing that was asked for runs on the device. */
+size_t kiln_bench_measured(const struct kiln_bench *bench);
+
 /* A row a measurement, for people, programs and sheets; or medians side by side, for documents. */
 enum kiln_bench_format { KILN_BENCH_TEXT, KILN_BENCH_JSON, KILN_BENCH_CSV, KILN_BENCH_MARKDOWN };
 
 /* Writes the tables. KILN_IO. */
 bool kiln_bench_write(const struct kiln_bench *bench, enum kiln_bench_format format, FILE *out,
                       struct kiln_error *error);
+
+/* Makes a folder for kiln_bench_save, and puts a file there and removes it, so that what took long
+ * to measure is not lost to a wrong name. KILN_IO. */
+bool kiln_bench_prepare(const char *folder, struct kiln_error *error);
 
 /* Writes bench.txt, .json, .csv and .md into a folder, which is made, and for each comparison that
  * has a curve NAME.dat, NAME.gp and, by gnuplot, NAME.svg. Each replaces an older one when it is

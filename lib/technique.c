@@ -318,16 +318,24 @@ size_t kiln_stage_techniques(size_t stage, const char *names[KILN_MAX_TECHNIQUES
     return count;
 }
 
+void kiln_technique_describe(const struct kiln_techniques *techniques, size_t stage, char *out,
+                             size_t size)
+{
+    const struct kiln_technique_choice *choice = &techniques->choices[stage];
+    if (stage == SORT && techniques->sort_spread > 0)
+        snprintf(out, size, "%s=%s:%u", choice->stage, choice->name, techniques->sort_spread);
+    else
+        snprintf(out, size, "%s=%s", choice->stage, choice->name);
+}
+
 void kiln_techniques_describe(const struct kiln_techniques *techniques, char *out, size_t size)
 {
     size_t used = 0;
-    for (int stage = 0; stage < STAGE_COUNT && used < size; stage++) {
-        const struct kiln_technique_choice *choice = &techniques->choices[stage];
-        int length = snprintf(out + used, size - used, "%s%s=%s", used ? " " : "", choice->stage,
-                              choice->name);
+    for (size_t stage = 0; stage < STAGE_COUNT && used < size; stage++) {
+        char name[KILN_TECHNIQUE_SIZE];
+        kiln_technique_describe(techniques, stage, name, sizeof name);
+        int length = snprintf(out + used, size - used, "%s%s", used ? " " : "", name);
         used += length > 0 ? (size_t)length : 0;
-        if (stage == SORT && techniques->sort_spread > 0 && used < size)
-            used += (size_t)snprintf(out + used, size - used, ":%u", techniques->sort_spread);
     }
 }
 

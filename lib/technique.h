@@ -54,6 +54,10 @@ const char *kiln_stage_name(size_t stage);
 enum kiln_pass kiln_stage_pass(size_t stage);
 size_t kiln_stage_techniques(size_t stage, const char *names[KILN_MAX_TECHNIQUES]);
 
+/* Writes the technique of a stage, "sort=oddeven:8". */
+void kiln_technique_describe(const struct kiln_techniques *techniques, size_t stage, char *out,
+                             size_t size);
+
 /* Writes "simulate=cpu sort=cpu backdrop=gl raster=geometry bloom=gl composite=gl". */
 void kiln_techniques_describe(const struct kiln_techniques *techniques, char *out, size_t size);
 

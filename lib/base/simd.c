@@ -56,3 +56,9 @@ bool kiln_simd_choose(enum kiln_simd *simd, struct kiln_error *error)
     kiln_text_free(&names);
     return found;
 }
+
+bool kiln_environment_check(struct kiln_error *error)
+{
+    enum kiln_simd simd;
+    return kiln_simd_choose(&simd, error);
+}

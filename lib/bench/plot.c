@@ -1,5 +1,6 @@
 /* Curves: the data, a script for gnuplot, and gnuplot itself, which may not be there. */
 #include <errno.h>
+#include <math.h>
 #include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,23 +22,49 @@ static void put_point(const struct kiln_bench_row *row, FILE *out)
     fputc('\n', out);
 }
 
-/* A block a curve, as gnuplot's `index` counts them. Logarithms take nothing but positive values.
- */
+/* Logarithms take nothing but positive values. */
+static bool is_point(const struct kiln_bench_row *row)
+{
+    return row->x > 0.0 && row->spread.first_quartile > 0.0;
+}
+
+/* Whether a curve begins at this row, and has points: without any, gnuplot would count no block. */
+static bool starts_curve(const struct kiln_bench_part *part, size_t row)
+{
+    if (kiln_bench_curve_of(part, row) != row)
+        return false;
+    for (size_t i = row; i < part->row_count; i++) {
+        if (is_point(&part->rows[i]) && kiln_bench_curve_of(part, i) == row)
+            return true;
+    }
+    return false;
+}
+
+bool kiln_bench_has_points(const struct kiln_bench_part *part)
+{
+    for (size_t i = 0; i < part->row_count; i++) {
+        if (is_point(&part->rows[i]))
+            return true;
+    }
+    return false;
+}
+
+/* A block a curve, as gnuplot's `index` counts them. */
 void kiln_bench_write_curves(const struct kiln_bench_part *part, FILE *out)
 {
     fprintf(out, "# %s: %s, median, first and third quartile (%s)\n", part->name, part->sweep,
             part->unit);
+    const char *gap = "";
     for (size_t curve = 0; curve < part->row_count; curve++) {
-        if (kiln_bench_curve_of(part, curve) != curve)
+        if (!starts_curve(part, curve))
             continue;
         char name[160];
         kiln_bench_curve_name(part, curve, name);
-        fprintf(out, "%s# %s\n", curve ? "\n\n" : "", name);
+        fprintf(out, "%s# %s\n", gap, name);
+        gap = "\n\n";
         for (size_t i = curve; i < part->row_count; i++) {
-            const struct kiln_bench_row *row = &part->rows[i];
-            if (kiln_bench_curve_of(part, i) == curve && row->x > 0.0 &&
-                row->spread.first_quartile > 0.0)
-                put_point(row, out);
+            if (kiln_bench_curve_of(part, i) == curve && is_point(&part->rows[i]))
+                put_point(&part->rows[i], out);
         }
     }
 }
@@ -57,8 +84,10 @@ static void put_quoted(const char *text, FILE *out)
 /* With room at both ends, which logarithms need where there is a single point. */
 static void put_range(const struct kiln_bench_part *part, FILE *out)
 {
-    double least = part->rows[0].x, most = least;
-    for (size_t i = 1; i < part->row_count; i++) {
+    double least = INFINITY, most = 0.0;
+    for (size_t i = 0; i < part->row_count; i++) {
+        if (!is_point(&part->rows[i]))
+            continue;
         least = part->rows[i].x < least ? part->rows[i].x : least;
         most = part->rows[i].x > most ? part->rows[i].x : most;
     }
@@ -84,7 +113,7 @@ void kiln_bench_write_script(const struct kiln_bench_part *part, FILE *out)
     fputs("plot", out);
     size_t index = 0;
     for (size_t i = 0; i < part->row_count; i++) {
-        if (kiln_bench_curve_of(part, i) != i)
+        if (!starts_curve(part, i))
             continue;
         char name[160];
         kiln_bench_curve_name(part, i, name);

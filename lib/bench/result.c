@@ -65,6 +65,16 @@ struct kiln_bench_part *kiln_bench_add_part(struct kiln_bench *bench,
     return added;
 }
 
+size_t kiln_bench_measured(const struct kiln_bench *bench)
+{
+    size_t count = 0;
+    for (size_t p = 0; p < bench->part_count; p++) {
+        for (size_t i = 0; i < bench->parts[p].row_count; i++)
+            count += bench->parts[p].rows[i].source == NULL;
+    }
+    return count;
+}
+
 static struct kiln_bench_part *last_part(struct kiln_bench *bench)
 {
     return &bench->parts[bench->part_count - 1];

@@ -69,6 +69,9 @@ void kiln_bench_write_script(const struct kiln_bench_part *part, FILE *out);
  * its first row. */
 size_t kiln_bench_curve_of(const struct kiln_bench_part *part, size_t row);
 
+/* Whether any curve of the part has a point that can be drawn. */
+bool kiln_bench_has_points(const struct kiln_bench_part *part);
+
 /* "sort, sort=cpu", without what all rows of the part have in common. */
 void kiln_bench_curve_name(const struct kiln_bench_part *part, size_t row, char name[160]);
 

@@ -89,6 +89,18 @@ static bool put_picture(const struct saving *saving, const struct kiln_bench_par
     return ok;
 }
 
+bool kiln_bench_prepare(const char *folder, struct kiln_error *error)
+{
+    struct kiln_temporary trial = {0};
+    char path[KILN_PATH_SIZE];
+    if (!kiln_path_join(path, folder, "bench.txt", error) ||
+        !kiln_make_parent_folders(path, error) || !kiln_target_check(path, true, error) ||
+        !kiln_temporary_open(&trial, path, error))
+        return false;
+    kiln_temporary_discard(&trial);
+    return true;
+}
+
 bool kiln_bench_save(const struct kiln_bench *bench, const char *folder,
                      char unplotted[KILN_MESSAGE_SIZE], struct kiln_error *error)
 {
@@ -101,7 +113,7 @@ bool kiln_bench_save(const struct kiln_bench *bench, const char *folder,
         return false;
     for (size_t i = 0; i < bench->part_count; i++) {
         const struct kiln_bench_part *part = &bench->parts[i];
-        if (part->plotted && part->row_count > 0 &&
+        if (part->plotted && kiln_bench_has_points(part) &&
             !(put_part(&saving, part, ".dat", kiln_bench_write_curves) &&
               put_part(&saving, part, ".gp", kiln_bench_write_script) &&
               put_picture(&saving, part, unplotted)))

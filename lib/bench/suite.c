@@ -96,7 +96,12 @@ size_t kiln_lanes_of_stage(const struct kiln_bench_run *run, const char *stage,
         for (int others = 0; others < 2; others++) {
             for (size_t i = 0; i < found && count < KILN_MAX_LANES; i++) {
                 bool chosen = strcmp(names[i], automatic.choices[s].name) == 0;
-                char *name = kiln_arena_format(run->bench->arena, "%s=%s", stage, names[i]);
+                char text[KILN_TECHNIQUE_SIZE];
+                if (chosen) /* by a flag, with what that says besides: "oddeven:8" */
+                    kiln_technique_describe(&automatic, s, text, sizeof text);
+                else
+                    snprintf(text, sizeof text, "%s=%s", stage, names[i]);
+                char *name = kiln_arena_text(run->bench->arena, text, strlen(text));
                 if (name && chosen != (others == 1))
                     lanes[count++] = (struct kiln_lane){.name = name, .techniques = name};
             }

@@ -230,7 +230,10 @@ static void curves_are_blocks_of_points(void **state)
 {
     (void)state;
     struct kiln_bench *bench = make_bench();
-    add_row(bench, 4000, "sort=slow", (double[]){0}, 1, NULL, NULL); /* has no logarithm */
+    add_row(bench, 4000, "sort=none", (double[]){0}, 1, NULL, NULL); /* has no logarithm, */
+    add_row(bench, 0, "sort=none", (double[]){1}, 1, NULL, NULL);    /* neither has this */
+    add_row(bench, 4000, "sort=slow", (double[]){0}, 1, NULL, NULL);
+    add_row(bench, 2000, "sort=last", (double[]){3}, 1, NULL, NULL);
     char *text = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
@@ -241,18 +244,36 @@ static void curves_are_blocks_of_points(void **state)
         text, "# sorts: particles, median, first and third quartile (ms)\n"
               "# sort=slow\n1000 4 3 5\n2000 4 3 5\n\n\n"
               "# sort=fast\n1000 2 1.5 2.5\n2000 2 1.5 2.5\n\n\n"
-              "# old, \"packed\"\n1000 148 148 148\n"
+              "# old, \"packed\"\n1000 148 148 148\n\n\n"
+              "# sort=last\n2000 3 3 3\n"
               "# gnuplot sorts.gp >sorts.svg\n"
               "set terminal svg size 900,520 noenhanced font 'sans,13' background '#ffffff'\n"
               "set title 'Sorts, it''s said'\n"
               "set logscale xy\nset grid\nset key outside right top\n"
               "set xlabel 'particles'\nset ylabel 'ms'\n"
-              "set xrange [769.2307692307692:5200]\n"
+              "set xrange [769.2307692307692:2600]\n"
               "plot \\\n"
               "    'sorts.dat' index 0 using 1:2:3:4 with yerrorlines title 'sort=slow', \\\n"
               "    'sorts.dat' index 1 using 1:2:3:4 with yerrorlines title 'sort=fast', \\\n"
-              "    'sorts.dat' index 2 using 1:2:3:4 with yerrorlines title 'old, \"packed\"'\n");
+              "    'sorts.dat' index 2 using 1:2:3:4 with yerrorlines title 'old, \"packed\"', \\\n"
+              "    'sorts.dat' index 3 using 1:2:3:4 with yerrorlines title 'sort=last'\n");
     free(text);
+    kiln_bench_destroy(&bench);
+}
+
+/* Published values alone are no measurement, and a part without points has no curves. */
+static void nothing_measured_is_known(void **state)
+{
+    (void)state;
+    struct kiln_bench *bench = make_bench();
+    assert_int_equal(kiln_bench_measured(bench), 4);
+    assert_true(kiln_bench_has_points(&bench->parts[0]));
+    struct kiln_bench_part *part = &bench->parts[0];
+    part->rows[0] = part->rows[part->row_count - 1];
+    part->row_count = 1;
+    assert_int_equal(kiln_bench_measured(bench), 0);
+    part->rows[0].x = 0.0;
+    assert_false(kiln_bench_has_points(part));
     kiln_bench_destroy(&bench);
 }
 
@@ -286,6 +307,10 @@ static void saving_says_where_it_cannot(void **state)
     struct kiln_error error = {0};
     char unplotted[KILN_MESSAGE_SIZE];
     test_write_file("file", "in the way");
+    assert_false(kiln_bench_prepare("file", &error));
+    assert_int_equal(error.code, KILN_IO);
+    assert_true(kiln_bench_prepare("new/folder", &error));
+    assert_int_equal(test_count_files("new/folder"), 0);
     assert_false(kiln_bench_save(bench, "file", unplotted, &error));
     assert_int_equal(error.code, KILN_IO);
     assert_non_null(strstr(error.message, "file"));
@@ -304,6 +329,7 @@ int main(void)
         cmocka_unit_test(csv_quotes_what_must_be),
         cmocka_unit_test(json_has_every_number),
         cmocka_unit_test(curves_are_blocks_of_points),
+        cmocka_unit_test(nothing_measured_is_known),
         cmocka_unit_test_setup_teardown(saving_does_without_gnuplot, test_enter_folder,
                                         test_leave_folder),
         cmocka_unit_test_setup_teardown(saving_says_where_it_cannot, test_enter_folder,

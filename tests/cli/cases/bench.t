@@ -118,14 +118,30 @@ $ kiln bench --repetitions 2 seed
 = 2
 $ kiln bench --technique sort=quick scenes/tiny.yaml --quick 2>&1 | sed 's/; there is.*//'
 1|kiln: bench: technique: sort 'quick' is not known
-$ kiln bench bytes --quick --quiet --device software -o scenes/tiny.yaml >/dev/null
+
+A folder that takes no files is found before anything is measured.
+
+$ kiln bench bytes --quick --device software -o scenes/tiny.yaml
 2|kiln: scenes/tiny.yaml: not a folder, but scenes/tiny.yaml/bench.txt needs one here
 = 6
+$ kiln bench bytes --quick --device software -o /proc/kiln 2>&1 | sed 's/: [A-Z].*/: <why>/'
+1|kiln: /proc/kiln: the folder cannot be made: <why>
 
-A signal leaves nothing behind.
+Where nothing can be measured, that is no success. What a flag says of a technique is kept.
+
+$ kiln bench groups --quick --quiet --device cpu >table; code=$?; grep -c '^  Not measured: ' table; exit $code
+1|1
+2|kiln: bench: nothing could be measured on this device; the notes of the tables say why
+= 4
+$ kiln bench figure4.6 --quick --quiet --device software --technique sort=oddeven:4 --format csv | cut -d, -f6 | grep oddeven | sort -u
+1|sort=oddeven:4
+
+A signal leaves nothing behind but the folder.
 
 $ mkdir scratch && (TMPDIR=$PWD/scratch exec env --default-signal timeout --preserve-status -s INT 2 kiln bench output --device software --quiet -o stopped)
 2|kiln: bench: stopped by SIGINT; nothing is written
 = 130
-$ ls scratch; ls stopped 2>&1 | sed 's/.*: No such/No such/'
-1|No such file or directory
+$ ls -A scratch stopped
+1|scratch:
+1|
+1|stopped:

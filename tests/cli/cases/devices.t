@@ -91,3 +91,26 @@ $ kiln render scenes/tiny.yaml -o none --frames 0 >output
 > kiln devices --json | jq -e --arg name "${name% (software)}" --arg line "$name" \
 >     '[.devices[] | select(.name == $name)][0] | (.gl and .software) == ($line | endswith(" (software)"))'
 1|true
+
+Vectors that the machine lacks are a wrong command line, whatever is asked; help is given all the same.
+
+$ export KILN_SIMD=mmx
+> for words in devices 'check scenes/tiny.yaml' 'render scenes/tiny.yaml -o x.png' 'test scenes' 'compare a b' \
+>     'figure list' 'bench bytes'; do kiln $words 2>&1 | sed 's/this machine has.*/<levels>/'; echo "${PIPESTATUS[0]}"; done
+> kiln devices --help | head -n 1; kiln help exit-codes | head -n 1
+1|kiln: KILN_SIMD is 'mmx'; <levels>
+1|2
+1|kiln: KILN_SIMD is 'mmx'; <levels>
+1|2
+1|kiln: KILN_SIMD is 'mmx'; <levels>
+1|2
+1|kiln: KILN_SIMD is 'mmx'; <levels>
+1|2
+1|kiln: KILN_SIMD is 'mmx'; <levels>
+1|2
+1|kiln: KILN_SIMD is 'mmx'; <levels>
+1|2
+1|kiln: KILN_SIMD is 'mmx'; <levels>
+1|2
+1|usage: kiln devices [OPTION...]
+1|    0  all went well

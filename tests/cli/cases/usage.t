@@ -285,7 +285,8 @@ $ kiln help exit-codes
 1|    1  a frame failed, or a picture differs
 1|    2  the command line makes no sense
 1|    3  a scene or another input file is wrong
-1|    4  no usable device, or every test was skipped for want of one
+1|    4  no usable device, or for want of one every test was skipped, or nothing
+1|       measured
 1|    5  the device was lost, memory ran out, a frame or test took longer than its
 1|       limit, or a test crashed
 1|    6  reading or writing failed
