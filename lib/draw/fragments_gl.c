@@ -5,33 +5,38 @@
 #include "base/error.h"
 #include "shared/fragment_layout.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 
 enum { FRAGMENTS_AT_A_TIME = 1 << 21, KEY_BYTES = 16, FRAGMENT_BYTES = 32 };
 
-enum program { COUNT, FILL, RESOLVE, PROGRAM_COUNT };
+/* What the shaders know of a pixel's list besides its length. */
+struct place {
+    uint32_t first, filled;
+};
+
+enum program { LISTS, RESOLVE, PROGRAM_COUNT };
+
+/* Pixels whose lists are there at a time. */
+struct part {
+    uint32_t x, y, width, height;
+};
 
 struct kiln_fragments_gl {
     struct kiln_device *device;
     GLuint programs[PROGRAM_COUNT];
-    GLint row_length[PROGRAM_COUNT];
+    GLint row_length[PROGRAM_COUNT], fills;
     GLuint vertex_array;
-    struct kiln_buffer counts, places; /* of each pixel; the places in its band of rows */
+    struct kiln_buffer counts, places; /* of each pixel; the places in its part */
     struct kiln_buffer keys, fragments;
-    uint32_t *ends; /* of the bands: rows */
-    uint32_t end_room;
+    struct part *parts;
+    size_t part_count, part_room;
 };
 
 static bool create_programs(struct kiln_fragments_gl *f,
                             const struct kiln_program_params *particles, struct kiln_error *error)
 {
     for (int i = 0; i < PROGRAM_COUNT; i++) {
-        char defines[128];
-        snprintf(defines, sizeof defines, "%s#define FILL %d\n",
-                 particles->defines ? particles->defines : "", i == FILL ? 1 : 0);
         struct kiln_program_params params = *particles;
-        params.defines = defines;
         params.fragment = "draw/particles_list.frag";
         if (i == RESOLVE)
             params = (struct kiln_program_params){.vertex = "draw/fullscreen.vert",
@@ -41,6 +46,7 @@ static bool create_programs(struct kiln_fragments_gl *f,
             return false;
         f->row_length[i] = glGetUniformLocation(f->programs[i], "row_length");
     }
+    f->fills = glGetUniformLocation(f->programs[LISTS], "fills");
     return true;
 }
 
@@ -76,7 +82,7 @@ void kiln_fragments_gl_destroy(struct kiln_fragments_gl **fragments)
     kiln_buffer_finish(&f->keys);
     kiln_buffer_finish(&f->fragments);
     glDeleteVertexArrays(1, &f->vertex_array);
-    free(f->ends);
+    free(f->parts);
     free(f);
     *fragments = NULL;
 }
@@ -96,10 +102,14 @@ static void use_program(const struct kiln_fragments_gl *f, enum program program,
     glUniform1ui(f->row_length[program], size->width);
 }
 
-/* The particles, into lists alone: a program without outputs leaves undefined what it could write.
- */
-static void submit_to_lists(void (*submit)(void *context), void *context)
+/* The particles, counted or put on lists: a program without outputs leaves undefined what it could
+ * write. */
+static void submit_to_lists(const struct kiln_fragments_gl *f, bool fills,
+                            const struct kiln_image *size, void (*submit)(void *context),
+                            void *context)
 {
+    use_program(f, LISTS, size);
+    glUniform1i(f->fills, fills);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     submit(context);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
@@ -109,76 +119,143 @@ static bool count(struct kiln_fragments_gl *f, const struct kiln_image *size,
                   void (*submit)(void *context), void *context, struct kiln_error *error)
 {
     const size_t pixels = (size_t)size->width * size->height;
+    const struct kiln_device_info *info = &f->device->info;
+    if (pixels * sizeof(struct place) > (uint64_t)info->max_storage_block_bytes)
+        return kiln_error_set(error, KILN_DEVICE_FAILED,
+                              "post.compose: oit of %u x %u pixels takes a storage block of %zu "
+                              "bytes; %s has %lld: use raster=cpu, or a smaller picture",
+                              size->width, size->height, pixels * sizeof(struct place), info->name,
+                              (long long)info->max_storage_block_bytes);
     kiln_buffer_reserve(&f->counts, pixels * sizeof(uint32_t));
-    kiln_buffer_reserve(&f->places, pixels * sizeof(uint32_t));
+    kiln_buffer_reserve(&f->places, pixels * sizeof(struct place));
     if (!bind_buffer(&f->counts, KILN_BIND_FRAGMENT_COUNTS, KILN_OVERWRITE, error))
         return false;
     glBindBuffer(GL_SHADER_STORAGE_BUFFER, f->counts.gl);
     glClearBufferData(GL_SHADER_STORAGE_BUFFER, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
-    use_program(f, COUNT, size);
-    submit_to_lists(submit, context);
+    submit_to_lists(f, false, size, submit, context);
     return kiln_device_check(f->device, "fragments: count", error);
 }
 
-static bool make_room(struct kiln_fragments_gl *f, uint32_t rows, struct kiln_error *error)
-{
-    if (rows <= f->end_room)
-        return true;
-    free(f->ends);
-    f->ends = malloc(rows * sizeof *f->ends);
-    f->end_room = f->ends ? rows : 0;
-    return f->ends ||
-           kiln_error_set(error, KILN_DEVICE_FAILED, "fragments: out of memory for %u rows", rows);
-}
+/* ---- parts of the picture -------------------------------------------------------------------- */
 
-static size_t row_total(const uint32_t *counts, uint32_t width)
+static bool add_part(struct kiln_fragments_gl *f, const struct part *part, struct kiln_error *error)
 {
-    size_t total = 0;
-    for (uint32_t x = 0; x < width; x++)
-        total += counts[x];
-    return total;
-}
-
-/* Divides the picture into bands of rows and gives each pixel its place in its band; returns how
- * many bands, and the most fragments of one. 0 with an error. */
-static uint32_t scan(struct kiln_fragments_gl *f, const struct kiln_image *size, size_t *most,
-                     struct kiln_error *error)
-{
-    const uint32_t *counts = kiln_buffer_host(&f->counts, KILN_READ, error);
-    uint32_t *places = counts ? kiln_buffer_host(&f->places, KILN_OVERWRITE, error) : NULL;
-    if (!places || !make_room(f, size->height, error))
-        return 0;
-    uint32_t bands = 0;
-    size_t place = 0;
-    *most = 1;
-    for (uint32_t y = 0; y < size->height; y++) {
-        const size_t first = (size_t)y * size->width;
-        const size_t total = row_total(counts + first, size->width);
-        if (place > 0 && place + total > FRAGMENTS_AT_A_TIME) {
-            f->ends[bands++] = y;
-            place = 0;
+    if (f->part_count == f->part_room) {
+        size_t room = f->part_room ? 2 * f->part_room : 64;
+        struct part *parts = realloc(f->parts, room * sizeof *parts);
+        if (!parts) {
+            kiln_error_set(error, KILN_DEVICE_FAILED, "fragments: out of memory for %zu parts",
+                           room);
+            return false;
         }
-        for (size_t i = first; i < first + size->width; i++) {
-            places[i] = (uint32_t)place;
-            place += counts[i];
-        }
-        *most = place > *most ? place : *most;
+        f->parts = parts;
+        f->part_room = room;
     }
-    f->ends[bands++] = size->height;
-    if (*most > UINT32_MAX) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "fragments: %zu in a row of pixels", *most);
-        return 0;
-    }
-    return bands;
+    f->parts[f->part_count++] = *part;
+    return true;
 }
 
-static bool draw_band(struct kiln_fragments_gl *f, const struct kiln_particles_draw *draw,
+/* Cuts a picture into parts whose lists fit together: whole rows, or pieces of one row. */
+struct cutting {
+    struct kiln_fragments_gl *f;
+    size_t width;
+    const uint32_t *counts;
+    struct place *places;
+    size_t limit;     /* fragments of a part */
+    size_t most;      /* of one so far */
+    struct part part; /* the one at hand; height 0: none */
+    size_t total;     /* of its fragments */
+};
+
+static bool end_part(struct cutting *c, struct kiln_error *error)
+{
+    bool ok = c->part.height == 0 || add_part(c->f, &c->part, error);
+    c->most = c->total > c->most ? c->total : c->most;
+    c->part.height = 0;
+    c->total = 0;
+    return ok;
+}
+
+static void give_places(struct cutting *c, uint32_t x, uint32_t y, uint32_t count)
+{
+    for (size_t i = y * c->width + x, end = i + count; i < end; i++) {
+        c->places[i] = (struct place){(uint32_t)c->total, 0};
+        c->total += c->counts[i];
+    }
+}
+
+/* A row whose lists are too long to be there together. */
+static bool cut_row(struct cutting *c, uint32_t y, struct kiln_error *error)
+{
+    for (uint32_t x = 0; x < c->width; x++) {
+        const size_t next = c->counts[y * c->width + x];
+        if (c->part.height > 0 && c->total + next > c->limit && !end_part(c, error))
+            return false;
+        if (c->part.height == 0)
+            c->part = (struct part){x, y, 0, 1};
+        give_places(c, x, y, 1);
+        c->part.width++;
+    }
+    return end_part(c, error);
+}
+
+static bool cut(struct cutting *c, uint32_t height, struct kiln_error *error)
+{
+    const uint32_t width = (uint32_t)c->width;
+    for (uint32_t y = 0; y < height; y++) {
+        size_t total = 0;
+        for (uint32_t x = 0; x < width; x++)
+            total += c->counts[y * c->width + x];
+        if (c->total + total > c->limit && !end_part(c, error))
+            return false;
+        if (total > c->limit) {
+            if (!cut_row(c, y, error))
+                return false;
+            continue;
+        }
+        if (c->part.height == 0)
+            c->part = (struct part){0, y, width, 0};
+        give_places(c, 0, y, width);
+        c->part.height++;
+    }
+    return end_part(c, error);
+}
+
+/* Makes the parts and gives each pixel its place in its own; returns the most fragments of one, or
+ * 0 with an error. */
+static size_t scan(struct kiln_fragments_gl *f, const struct kiln_image *size,
+                   struct kiln_error *error)
+{
+    const struct kiln_device_info *info = &f->device->info;
+    const uint64_t allowed = (uint64_t)info->max_storage_block_bytes / FRAGMENT_BYTES;
+    struct cutting c = {
+        .f = f,
+        .width = size->width,
+        .counts = kiln_buffer_host(&f->counts, KILN_READ, error),
+        .limit = allowed < FRAGMENTS_AT_A_TIME ? (size_t)allowed : FRAGMENTS_AT_A_TIME,
+        .most = 1,
+    };
+    c.places = c.counts ? kiln_buffer_host(&f->places, KILN_OVERWRITE, error) : NULL;
+    f->part_count = 0;
+    if (!c.places || !cut(&c, size->height, error))
+        return 0;
+    if (c.most <= allowed && c.most <= UINT32_MAX)
+        return c.most;
+    kiln_error_set(error, KILN_DEVICE_FAILED,
+                   "post.compose: oit: a pixel has %zu fragments; a storage block of %s takes "
+                   "%llu: use raster=cpu, or fewer particles in one place",
+                   c.most, info->name, (unsigned long long)allowed);
+    return 0;
+}
+
+/* ---- a pass ---------------------------------------------------------------------------------- */
+
+static bool draw_part(struct kiln_fragments_gl *f, const struct kiln_particles_draw *draw,
                       void (*submit)(void *context), void *context, struct kiln_error *error)
 {
     const struct kiln_image *size = draw->framebuffer->images[0];
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    use_program(f, FILL, size);
-    submit_to_lists(submit, context);
+    submit_to_lists(f, true, size, submit, context);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     use_program(f, RESOLVE, size);
     if (draw->keep_bloom) {
@@ -196,9 +273,8 @@ bool kiln_fragments_gl_run(struct kiln_fragments_gl *fragments,
 {
     struct kiln_fragments_gl *f = fragments;
     const struct kiln_image *size = draw->framebuffer->images[0];
-    size_t most = 0;
-    uint32_t bands = count(f, size, submit, context, error) ? scan(f, size, &most, error) : 0;
-    if (bands == 0)
+    size_t most = count(f, size, submit, context, error) ? scan(f, size, error) : 0;
+    if (most == 0)
         return false;
     kiln_buffer_reserve(&f->keys, most * KEY_BYTES);
     kiln_buffer_reserve(&f->fragments, most * FRAGMENT_BYTES);
@@ -209,9 +285,10 @@ bool kiln_fragments_gl_run(struct kiln_fragments_gl *fragments,
         return false;
     glEnable(GL_SCISSOR_TEST);
     bool ok = true;
-    for (uint32_t band = 0, y = 0; band < bands && ok; y = f->ends[band++]) {
-        glScissor(0, (GLint)y, (GLsizei)size->width, (GLsizei)(f->ends[band] - y));
-        ok = draw_band(f, draw, submit, context, error);
+    for (size_t i = 0; i < f->part_count && ok; i++) {
+        const struct part *part = &f->parts[i];
+        glScissor((GLint)part->x, (GLint)part->y, (GLsizei)part->width, (GLsizei)part->height);
+        ok = draw_part(f, draw, submit, context, error);
     }
     glDisable(GL_SCISSOR_TEST);
     return ok;

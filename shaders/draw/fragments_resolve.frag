@@ -30,7 +30,8 @@ void sort_list(uint first, uint count)
 
 void main()
 {
-    uint pixel = pixel_number(), count = counts[pixel], first = places[pixel] - count;
+    uint pixel = pixel_number(), first = places[pixel].first;
+    uint count = min(counts[pixel], places[pixel].filled);
     sort_list(first, count);
     vec4 color = vec4(0.0);
     vec3 glow = vec3(0.0);

@@ -1,8 +1,8 @@
-/* A fragment of a billboard, counted (FILL 0) or put on its pixel's list (FILL 1). */
-// variant: SHAPES=0 FILL=0
-// variant: SHAPES=1 FILL=0
-// variant: SHAPES=0 FILL=1
-// variant: SHAPES=1 FILL=1
+/* A fragment of a billboard, counted or put on its pixel's list. One program does both, so that what
+ * is kept is decided once: two may round differently.
+ */
+// variant: SHAPES=0
+// variant: SHAPES=1
 #include "shared/draw_layout.h"
 
 #include "draw/billboard.glsl"
@@ -20,14 +20,18 @@ layout(location = 11) in float view_depth; /* of points and lines: its reciproca
 #include "draw/fragments.glsl"
 #include "draw/shade.glsl"
 
-#if FILL
-void put(uint place, float depth, uint half_, vec4 color)
+uniform bool fills;
+
+/* number: on the list. None is longer than counted, lest it writes into the next one's place. */
+void put(uint number, float depth, uint half_, vec4 color)
 {
+    uint pixel = pixel_number(), place = places[pixel].first + number;
+    if (number >= counts[pixel])
+        return;
     list_keys[place] = uvec4(floatBitsToUint(depth), uint(quad.light_y.a) * 2u + half_, place, 0u);
     fragments[place].color = color;
     fragments[place].bloom = vec4(quad.bloom.rgb, 0.0);
 }
-#endif
 
 void main()
 {
@@ -45,17 +49,17 @@ void main()
     vec2 from_middle = uv * 2.0 - 1.0;
     float half_depth = 0.5 * bulge * sqrt(max(1.0 - dot(from_middle, from_middle), 0.0));
     uint pieces = half_depth > 0.0 ? 2u : 1u;
-#if FILL
-    uint place = atomicAdd(places[pixel_number()], pieces);
+    if (!fills) {
+        atomicAdd(counts[pixel_number()], pieces);
+        return;
+    }
+    uint number = atomicAdd(places[pixel_number()].filled, pieces);
     if (pieces == 1u) {
-        put(place, depth, 0u, color);
+        put(number, depth, 0u, color);
         return;
     }
     float alpha = half_alpha(color.a);
     color = vec4(color.rgb * half_color(alpha), alpha);
-    put(place, depth + half_depth, 0u, color);
-    put(place + 1u, max(depth - half_depth, 0.0), 1u, color);
-#else
-    atomicAdd(counts[pixel_number()], pieces);
-#endif
+    put(number, depth + half_depth, 0u, color);
+    put(number + 1u, max(depth - half_depth, 0.0), 1u, color);
 }

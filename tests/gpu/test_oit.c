@@ -7,6 +7,8 @@
 
 #include <cmocka.h>
 
+#include "base/text.h"
+#include "support/folders.h"
 #include "support/frame.h"
 
 enum { WIDTH = 96, HEIGHT = 64, STEPS = 20 };
@@ -179,14 +181,88 @@ static void techniques_agree(void **state)
         kiln_picture_destroy(&pictures[i]);
 }
 
+static void assert_same_layer(const struct kiln_picture *a, const struct kiln_picture *b, int layer,
+                              int from)
+{
+    const size_t channels = a->layers[layer].channels, row = WIDTH * channels;
+    for (size_t y = 0; y < HEIGHT; y++) {
+        const size_t at = y * row + (size_t)from * channels;
+        assert_memory_equal(a->layers[layer].pixels + at, b->layers[layer].pixels + at,
+                            (size_t)(WIDTH - from) * channels * sizeof(float));
+    }
+}
+
+static void assert_same_pixels(const struct kiln_picture *a, const struct kiln_picture *b)
+{
+    for (int layer = 0; layer < FRAME_LAYERS; layer++)
+        assert_same_layer(a, b, layer, 0);
+}
+
+/* A device whose storage blocks hold little gets the picture in parts of rows; with less than a
+ * pixel's list, or than the places of the picture's lists, a message says what to do. */
+static void small_storage_blocks_are_respected(void **state)
+{
+    static const char *const more = "systems.puffs.emit.bursts={0 s: 2000}";
+    struct kiln_device *device = *state;
+    const int64_t before = device->info.max_storage_block_bytes, least = WIDTH * HEIGHT * 8;
+    const struct frame_setting setting = {{OIT}, 1, FRAME_GL, 0},
+                               full = {{OIT, more}, 2, FRAME_GL, 0};
+    struct kiln_error places = {0}, lists = {0}, none = {0};
+    struct kiln_picture *whole = frame_draw(device, CROWD, STEPS, &setting);
+    device->info.max_storage_block_bytes = least;
+    struct kiln_picture *parts = frame_try(device, CROWD, STEPS, &setting, &none);
+    struct kiln_picture *too_many = frame_try(device, CROWD, STEPS, &full, &lists);
+    device->info.max_storage_block_bytes = least - 1;
+    struct kiln_picture *too_large = frame_try(device, CROWD, STEPS, &setting, &places);
+    device->info.max_storage_block_bytes = before;
+    assert_string_equal(none.message, "");
+    assert_same_pixels(whole, parts);
+    assert_true(!too_many && !too_large);
+    assert_int_equal(lists.code, KILN_DEVICE_FAILED);
+    assert_non_null(strstr(lists.message, "fragments"));
+    assert_non_null(strstr(lists.message, "use raster=cpu"));
+    assert_int_equal(places.code, KILN_DEVICE_FAILED);
+    assert_non_null(strstr(places.message, "96 x 64 pixels"));
+    kiln_picture_destroy(&whole);
+    kiln_picture_destroy(&parts);
+}
+
+/* A driver that counts less than it then puts on lists does not reach other pixels' lists: here
+ * nothing of the left half is counted. */
+static void lists_do_not_outgrow_their_counts(void **state)
+{
+    static const char counts[] = "if (!fills) {";
+    const struct frame_setting setting = {{OIT}, 1, FRAME_GL, 0};
+    struct kiln_picture *whole = frame_draw(*state, CROWD, STEPS, &setting);
+    char folder[32], path[128];
+    test_make_folder(folder);
+    char *text = test_read_file(KILN_SOURCE_DIR "/shaders/draw/particles_list.frag");
+    char *place = strstr(text, counts);
+    assert_non_null(place);
+    struct kiln_text changed = {0};
+    kiln_text_add(&changed, "%.*s%s if (gl_FragCoord.x < 48.0) return; %s", (int)(place - text),
+                  text, counts, place + strlen(counts));
+    snprintf(path, sizeof path, "%s/draw/particles_list.frag", folder);
+    test_write_file(path, changed.data);
+    setenv("KILN_SHADER_DIR", folder, 1);
+    struct kiln_picture *half = frame_draw(*state, CROWD, STEPS, &setting);
+    unsetenv("KILN_SHADER_DIR");
+    assert_same_layer(whole, half, FRAME_SMOKE, WIDTH / 2);
+    for (int y = 0; y < HEIGHT; y++)
+        assert_true(half->layers[FRAME_SMOKE].pixels[4 * (size_t)y * WIDTH + 3] == 0.0f);
+    kiln_picture_destroy(&whole);
+    kiln_picture_destroy(&half);
+    kiln_text_free(&changed);
+    free(text);
+    test_remove_folder(folder);
+}
+
 static void any_number_of_threads_makes_the_same(void **state)
 {
     const struct frame_setting one = {{OIT}, 1, FRAME_CPU, 1}, three = {{OIT}, 1, FRAME_CPU, 3};
     struct kiln_picture *a = frame_draw(*state, CROWD, STEPS, &one);
     struct kiln_picture *b = frame_draw(*state, CROWD, STEPS, &three);
-    for (int layer = 0; layer < FRAME_LAYERS; layer++)
-        assert_memory_equal(a->layers[layer].pixels, b->layers[layer].pixels,
-                            sizeof(float) * a->layers[layer].channels * WIDTH * HEIGHT);
+    assert_same_pixels(a, b);
     kiln_picture_destroy(&a);
     kiln_picture_destroy(&b);
 }
@@ -197,6 +273,8 @@ int main(void)
         test_on_device(crossing_cards_cross),
         test_on_device(thickness_covers_half),
         test_on_device(techniques_agree),
+        test_on_device(small_storage_blocks_are_respected),
+        test_on_device(lists_do_not_outgrow_their_counts),
         test_on_device(any_number_of_threads_makes_the_same),
     };
     return cmocka_run_group_tests_name("oit", tests, test_device_open, test_device_close);

@@ -24,11 +24,11 @@ static const struct kiln_techniques FRAME_CPU = {
 static const struct kiln_techniques FRAME_GL = {
     .raster = KILN_RASTER_GEOMETRY, .bloom = KILN_BLOOM_GL, .composite = KILN_COMPOSITE_GL};
 
-static inline void frame_stage(struct kiln_device *device, const struct kiln_scene *scene,
+static inline bool frame_stage(struct kiln_device *device, const struct kiln_scene *scene,
                                const struct frame_setting *setting, uint32_t steps,
-                               struct kiln_threads *threads, struct kiln_picture *picture)
+                               struct kiln_threads *threads, struct kiln_picture *picture,
+                               struct kiln_error *error)
 {
-    struct kiln_error error = {0};
     struct kiln_run run = {0};
     uint32_t capacities[KILN_MAX_SYSTEMS], drawn = 0;
     for (uint32_t i = 0; i < scene->system_count; i++)
@@ -37,20 +37,21 @@ static inline void frame_stage(struct kiln_device *device, const struct kiln_sce
     struct kiln_stages stages;
     const struct kiln_output_needs needs = {.bits = 8, .layers = true};
     if (!kiln_stages_init(&stages, device, scene, &setting->techniques, needs, threads, &run.pool,
-                          &error))
-        fail_msg("%s", error.message);
+                          error))
+        fail_msg("%s", error->message);
     for (uint32_t step = 1; step <= steps; step++)
-        assert_true(kiln_simulate_step(stages.simulate, &run.pool, step, &error));
-    if (!kiln_stages_draw(&stages, &run.pool, steps, 0, &drawn, &error) ||
-        !kiln_stages_compose(&stages, 0, &error) || !kiln_stages_read(&stages, picture, &error))
-        fail_msg("%s", error.message);
+        assert_true(kiln_simulate_step(stages.simulate, &run.pool, step, error));
+    bool drew = kiln_stages_draw(&stages, &run.pool, steps, 0, &drawn, error) &&
+                kiln_stages_compose(&stages, 0, error) && kiln_stages_read(&stages, picture, error);
     kiln_stages_finish(&stages);
     kiln_pool_finish(&run.pool);
+    return drew;
 }
 
-/* What a scene shows after so many steps. */
-static inline struct kiln_picture *frame_draw(struct kiln_device *device, const char *text,
-                                              uint32_t steps, const struct frame_setting *setting)
+/* What a scene shows after so many steps, or NULL with an error of drawing it. */
+static inline struct kiln_picture *frame_try(struct kiln_device *device, const char *text,
+                                             uint32_t steps, const struct frame_setting *setting,
+                                             struct kiln_error *result)
 {
     struct kiln_error error = {0};
     struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
@@ -64,9 +65,20 @@ static inline struct kiln_picture *frame_draw(struct kiln_device *device, const 
         kiln_picture_create(scene->width, scene->height, 8, names, channels, count, &error);
     assert_non_null(picture);
     struct kiln_threads *threads = kiln_threads_create(setting->threads ? setting->threads : 2);
-    frame_stage(device, scene, setting, steps, threads, picture);
+    if (!frame_stage(device, scene, setting, steps, threads, picture, result))
+        kiln_picture_destroy(&picture);
     kiln_threads_destroy(&threads);
     kiln_scene_destroy(&scene);
+    return picture;
+}
+
+static inline struct kiln_picture *frame_draw(struct kiln_device *device, const char *text,
+                                              uint32_t steps, const struct frame_setting *setting)
+{
+    struct kiln_error error = {0};
+    struct kiln_picture *picture = frame_try(device, text, steps, setting, &error);
+    if (!picture)
+        fail_msg("%s", error.message);
     return picture;
 }
 
