@@ -23,32 +23,23 @@ struct link {
 };
 
 struct kiln_fragments {
-    struct kiln_tile *scratch; /* shows one sprite, of some rows of the tile */
-    struct fragment *fragments;
+    struct kiln_tile *scratch;  /* shows one sprite, of some rows of the tile */
+    struct fragment *fragments; /* FRAGMENTS_AT_A_TIME of both */
     struct link *links;
-    size_t count, room;
+    size_t count;
+    uint64_t from, until;       /* keys that are gathered now: those before until */
     uint32_t ends[TILE_PIXELS]; /* of the pixels' lists in links */
 };
-
-static bool make_room(struct kiln_fragments *f, size_t room)
-{
-    struct fragment *fragments = realloc(f->fragments, room * sizeof *fragments);
-    if (fragments)
-        f->fragments = fragments;
-    struct link *links = realloc(f->links, room * sizeof *links);
-    if (links)
-        f->links = links;
-    if (fragments && links)
-        f->room = room;
-    return fragments && links;
-}
 
 struct kiln_fragments *kiln_fragments_create(void)
 {
     struct kiln_fragments *f = calloc(1, sizeof *f);
-    if (f)
-        f->scratch = aligned_alloc(64, sizeof *f->scratch);
-    if (f && (!f->scratch || !make_room(f, FRAGMENTS_AT_A_TIME)))
+    if (!f)
+        return NULL;
+    f->scratch = aligned_alloc(64, sizeof *f->scratch);
+    f->fragments = malloc(FRAGMENTS_AT_A_TIME * sizeof *f->fragments);
+    f->links = malloc(FRAGMENTS_AT_A_TIME * sizeof *f->links);
+    if (!f->scratch || !f->fragments || !f->links)
         kiln_fragments_destroy(&f);
     return f;
 }
@@ -132,9 +123,12 @@ static struct place find_place(const struct kiln_sprite *s, float x, float y)
 static void put(struct kiln_fragments *f, const struct fragment *fragment, float depth,
                 uint32_t place)
 {
+    const uint64_t key = (uint64_t)~FLOAT_BITS(exact_max(depth, 0.0f)) << 32 | place;
+    if (key < f->from || key >= f->until)
+        return;
     struct fragment *to = &f->fragments[f->count++];
     *to = *fragment;
-    to->key = (uint64_t)~FLOAT_BITS(exact_max(depth, 0.0f)) << 32 | place;
+    to->key = key;
 }
 
 static void put_pixel(struct kiln_fragments *f, const struct kiln_sprite *s, int x, int y,
@@ -164,13 +158,41 @@ static void put_pixel(struct kiln_fragments *f, const struct kiln_sprite *s, int
     put(f, &fragment, at.depth - at.half_depth, 2 * order + 1);
 }
 
-enum gathered { ALL, TOO_MANY, NO_MEMORY };
+static size_t count_before(const struct kiln_fragments *f, uint64_t key)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < f->count; i++)
+        count += f->fragments[i].key < key;
+    return count;
+}
 
-/* The fragments of rows of a tile. */
-static enum gathered gather(struct kiln_fragments *f, kiln_tile_draw *draw,
-                            const struct kiln_tile *tile, int y, int rows,
-                            const struct kiln_sprite *sprites, const struct kiln_cells *cells,
-                            const uint32_t *list, size_t count)
+/* Leaves the farther half, about, for this time. A row has a key no more often than pixels, so that
+ * there is a key in between. */
+static void keep_farther(struct kiln_fragments *f)
+{
+    uint64_t low = f->from, high = f->until;
+    size_t kept;
+    do {
+        f->until = low + (high - low) / 2;
+        kept = count_before(f, f->until);
+        if (kept < f->count / 4)
+            low = f->until;
+        else
+            high = f->until;
+    } while (kept < f->count / 4 || kept > f->count * 3 / 4);
+    kept = 0;
+    for (size_t i = 0; i < f->count; i++) {
+        if (f->fragments[i].key < f->until)
+            f->fragments[kept++] = f->fragments[i];
+    }
+    f->count = kept;
+}
+
+/* The fragments of rows of a tile, of one row those of which there is room for, the farthest that
+ * have not been blended. False for rows that have too many together. */
+static bool gather(struct kiln_fragments *f, kiln_tile_draw *draw, const struct kiln_tile *tile,
+                   int y, int rows, const struct kiln_sprite *sprites,
+                   const struct kiln_cells *cells, const uint32_t *list, size_t count)
 {
     begin_rows(f, tile, y, rows);
     for (size_t i = 0; i < count; i++) {
@@ -180,10 +202,10 @@ static enum gathered gather(struct kiln_fragments *f, kiln_tile_draw *draw,
             continue;
         size_t most =
             f->count + 2 * (size_t)(box.x_to - box.x_from) * (size_t)(box.y_to - box.y_from);
-        if (most > f->room && rows > 1)
-            return TOO_MANY;
-        if (most > f->room && !make_room(f, most + most / 2))
-            return NO_MEMORY;
+        if (most > FRAGMENTS_AT_A_TIME && rows > 1)
+            return false;
+        if (most > FRAGMENTS_AT_A_TIME)
+            keep_farther(f);
         draw(f->scratch, sprites, cells, &list[i], 1);
         for (int row = box.y_from; row < box.y_to; row++) {
             for (int x = box.x_from; x < box.x_to; x++)
@@ -191,7 +213,7 @@ static enum gathered gather(struct kiln_fragments *f, kiln_tile_draw *draw,
         }
         clear_box(f->scratch, &box);
     }
-    return ALL;
+    return true;
 }
 
 /* ---- blending -------------------------------------------------------------------------------- */
@@ -270,24 +292,22 @@ static void blend_rows(struct kiln_fragments *f, struct kiln_tile *tile, int y, 
     }
 }
 
-bool kiln_fragments_draw(struct kiln_fragments *fragments, kiln_tile_draw *draw,
+void kiln_fragments_draw(struct kiln_fragments *fragments, kiln_tile_draw *draw,
                          struct kiln_tile *tile, const struct kiln_sprite *sprites,
                          const struct kiln_cells *cells, const uint32_t *list, size_t count)
 {
+    struct kiln_fragments *f = fragments;
     int rows = tile->height;
+    f->from = 0;
     for (int y = 0; y < tile->height;) {
         rows = rows < tile->height - y ? rows : tile->height - y;
-        switch (gather(fragments, draw, tile, y, rows, sprites, cells, list, count)) {
-        case NO_MEMORY:
-            return false;
-        case TOO_MANY:
+        f->until = UINT64_MAX;
+        if (!gather(f, draw, tile, y, rows, sprites, cells, list, count)) {
             rows = (rows + 1) / 2;
-            break;
-        case ALL:
-            blend_rows(fragments, tile, y, rows, sprites);
-            y += rows;
-            break;
+            continue;
         }
+        blend_rows(f, tile, y, rows, sprites);
+        f->from = f->until < UINT64_MAX ? f->until : 0;
+        y += f->from ? 0 : rows;
     }
-    return true;
 }

@@ -7,12 +7,16 @@
 #include "draw/fragments.h"
 #include "draw/looks.h"
 
-#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
 
-enum { SPRITES_AT_A_TIME = 1 << 18, MAKE_AT_A_TIME = 512, LARGE_PAGE = 1 << 21 };
+enum {
+    SPRITES_AT_A_TIME = 1 << 18,
+    SPRITES_OF_A_TILE = 1 << 22, /* where pixels sort: in a tile alone, if they must */
+    MAKE_AT_A_TIME = 512,
+    LARGE_PAGE = 1 << 21
+};
 
 struct kiln_tiles {
     const struct kiln_scene *scene;
@@ -139,7 +143,7 @@ struct drawing {
     uint32_t width, height;
     bool first, last; /* piece of the pass */
     bool keep_bloom, sum, by_fragment;
-    atomic_bool *failed; /* lists are out of memory */
+    size_t first_tile;
 };
 
 static void load_row(const struct drawing *d, struct kiln_tile *tile, int y, size_t at)
@@ -198,9 +202,9 @@ static void draw_tile(const struct drawing *d, size_t number, uint32_t worker)
     size_t count = bins->first[number + 1] - bins->first[number];
     if (!d->by_fragment)
         tiles->draw(tile, tiles->sprites, tiles->cells, list, count);
-    else if (!kiln_fragments_draw(tiles->fragments[worker], tiles->draw, tile, tiles->sprites,
-                                  tiles->cells, list, count))
-        *d->failed = true;
+    else
+        kiln_fragments_draw(tiles->fragments[worker], tiles->draw, tile, tiles->sprites,
+                            tiles->cells, list, count);
     for (int row = 0; row < tile->height; row++)
         store_row(d, tile, row, (size_t)(y + (uint32_t)row) * d->width + x);
 }
@@ -209,7 +213,7 @@ static void draw_tiles(void *context, size_t begin, size_t end, uint32_t worker)
 {
     const struct drawing *d = context;
     for (size_t number = begin; number < end; number++)
-        draw_tile(d, number, worker);
+        draw_tile(d, d->first_tile + number, worker);
 }
 
 /* ---- a pass ---------------------------------------------------------------------------------- */
@@ -225,7 +229,117 @@ static bool draw_piece(struct kiln_tiles *tiles, const struct kiln_sprite_pass *
         return false;
     size_t tile_count = (size_t)tiles->bins.columns * tiles->bins.rows;
     kiln_threads_for(tiles->threads, tile_count, 1, draw_tiles, drawing);
-    return !*drawing->failed || out_of_memory(error);
+    return true;
+}
+
+/* ---- pixels that sort, of more sprites than are there at a time ------------------------------ */
+
+/* Lists are of all sprites that touch a tile, so they are made for some tiles at a time. */
+struct sorting {
+    struct kiln_tiles *tiles;
+    const struct kiln_sprite_pass *pass;
+    const uint32_t *entries;
+    uint32_t count;
+    size_t *totals; /* sprites of each tile */
+    bool *wanted;   /* of a piece */
+    struct kiln_sprite *kept;
+    uint32_t kept_count;
+};
+
+/* Makes a piece, in its lists of bins; returns how many sprites that are. 0 with an error. */
+static uint32_t make_piece(const struct sorting *s, uint32_t first, struct kiln_error *error)
+{
+    const uint32_t left = s->count - first;
+    const uint32_t count = left < SPRITES_AT_A_TIME ? left : SPRITES_AT_A_TIME;
+    struct making making = {s->pass, s->entries + first, s->tiles->sprites};
+    kiln_threads_for(s->tiles->threads, count, MAKE_AT_A_TIME, make_sprites, &making);
+    bool ok = kiln_bins_fill(&s->tiles->bins, s->tiles->sprites, count, s->tiles->threads, error);
+    return ok ? count : 0;
+}
+
+static bool count_tiles(const struct sorting *s, size_t tile_count, struct kiln_error *error)
+{
+    const uint32_t *first = s->tiles->bins.first;
+    for (uint32_t done = 0, count; done < s->count; done += count) {
+        count = make_piece(s, done, error);
+        if (count == 0)
+            return false;
+        for (size_t tile = 0; tile < tile_count; tile++)
+            s->totals[tile] += first[tile + 1] - first[tile];
+    }
+    for (size_t tile = 0; tile < tile_count; tile++) {
+        if (s->totals[tile] > SPRITES_OF_A_TILE)
+            return kiln_error_set(error, KILN_DEVICE_FAILED,
+                                  "post.compose: oit: %zu particles in one part of %d x %d pixels; "
+                                  "at most %d can be there: use post.compose=merged, or fewer",
+                                  s->totals[tile], KILN_TILE_WIDTH, KILN_TILE_HEIGHT,
+                                  SPRITES_OF_A_TILE);
+    }
+    return kiln_cells_mix(s->tiles->cells, s->tiles->threads, error);
+}
+
+/* Makes all sprites once more and keeps those of some tiles, in their order. */
+static bool keep_sprites(struct sorting *s, size_t first_tile, size_t end_tile,
+                         struct kiln_error *error)
+{
+    const struct kiln_bins *bins = &s->tiles->bins;
+    s->kept_count = 0;
+    for (uint32_t done = 0, count; done < s->count; done += count) {
+        count = make_piece(s, done, error);
+        if (count == 0)
+            return false;
+        memset(s->wanted, 0, count * sizeof *s->wanted);
+        for (size_t i = bins->first[first_tile]; i < bins->first[end_tile]; i++)
+            s->wanted[bins->list[i]] = true;
+        for (uint32_t i = 0; i < count; i++) {
+            if (s->wanted[i])
+                s->kept[s->kept_count++] = s->tiles->sprites[i];
+        }
+    }
+    return true;
+}
+
+static bool draw_some_tiles(struct sorting *s, struct drawing *drawing, size_t first_tile,
+                            size_t end_tile, struct kiln_error *error)
+{
+    struct kiln_tiles *tiles = s->tiles;
+    if (!keep_sprites(s, first_tile, end_tile, error))
+        return false;
+    struct kiln_sprite *piece = tiles->sprites;
+    tiles->sprites = s->kept;
+    bool ok = kiln_bins_fill(&tiles->bins, s->kept, s->kept_count, tiles->threads, error);
+    drawing->first_tile = first_tile;
+    if (ok)
+        kiln_threads_for(tiles->threads, end_tile - first_tile, 1, draw_tiles, drawing);
+    tiles->sprites = piece;
+    return ok;
+}
+
+static bool draw_sorting(struct sorting *s, struct drawing *drawing, struct kiln_error *error)
+{
+    const size_t tile_count = (size_t)s->tiles->bins.columns * s->tiles->bins.rows;
+    size_t most = SPRITES_AT_A_TIME;
+    s->totals = calloc(tile_count, sizeof *s->totals);
+    s->wanted = calloc(SPRITES_AT_A_TIME, sizeof *s->wanted);
+    bool ok = s->totals && s->wanted;
+    if (!ok)
+        out_of_memory(error);
+    ok = ok && count_tiles(s, tile_count, error);
+    for (size_t tile = 0; ok && tile < tile_count; tile++)
+        most = s->totals[tile] > most ? s->totals[tile] : most;
+    s->kept = ok ? allocate_sprites((uint32_t)most) : NULL;
+    if (ok && !s->kept)
+        ok = out_of_memory(error);
+    for (size_t first = 0, end; ok && first < tile_count; first = end) {
+        size_t total = s->totals[first];
+        for (end = first + 1; end < tile_count && total + s->totals[end] <= most; end++)
+            total += s->totals[end];
+        ok = draw_some_tiles(s, drawing, first, end, error);
+    }
+    free(s->kept);
+    free(s->wanted);
+    free(s->totals);
+    return ok;
 }
 
 /* The pixels that a pass reads and writes. */
@@ -247,14 +361,11 @@ static bool open_images(const struct kiln_particles_draw *draw, struct drawing *
 bool kiln_tiles_run(struct kiln_tiles *tiles, const struct kiln_particles_draw *draw,
                     struct kiln_error *error)
 {
-    /* Lists are of all particles at once. */
-    const uint32_t most = draw->by_fragment ? draw->count : SPRITES_AT_A_TIME;
-    atomic_bool failed = false;
+    const uint32_t most = SPRITES_AT_A_TIME;
     struct drawing drawing = {.tiles = tiles,
                               .keep_bloom = draw->keep_bloom,
                               .sum = draw->sum_alpha,
-                              .by_fragment = draw->by_fragment,
-                              .failed = &failed};
+                              .by_fragment = draw->by_fragment};
     const struct kiln_particle *records = kiln_buffer_host(&draw->pool->records, KILN_READ, error);
     const uint32_t *entries = records ? kiln_buffer_host(draw->entries, KILN_READ, error) : NULL;
     if (!entries || !open_images(draw, &drawing, error) ||
@@ -277,6 +388,12 @@ bool kiln_tiles_run(struct kiln_tiles *tiles, const struct kiln_particles_draw *
     };
     kiln_sprite_lights_fill(&pass.lights, draw->backdrop);
     kiln_bins_measure(&tiles->bins, drawing.depth, drawing.width, drawing.height, tiles->threads);
+    if (draw->by_fragment && draw->count > most) {
+        struct sorting sorting = {
+            .tiles = tiles, .pass = &pass, .entries = entries, .count = draw->count};
+        drawing.first = drawing.last = true;
+        return draw_sorting(&sorting, &drawing, error);
+    }
     uint32_t done = 0;
     do { /* at least once, for the clear picture of no particles */
         uint32_t left = draw->count - done;
