@@ -58,14 +58,9 @@ void kiln_particles_destroy(struct kiln_particles_stage **stage)
 
 bool kiln_particles_nearest_first(const struct kiln_particles_stage *stage)
 {
-    switch (stage->technique) {
-    case KILN_RASTER_GEOMETRY:
-    case KILN_RASTER_INSTANCED:
-    case KILN_RASTER_TILED: /* reads the list from its end */
-    case KILN_RASTER_CPU:
-        break;
-    }
-    return false;
+    /* Chunks of `tiled` begin with what may hide all others. It leaves lists of fragments to those
+     * who blend. */
+    return stage->technique == KILN_RASTER_TILED && stage->scene->post.compose != KILN_COMPOSE_OIT;
 }
 
 bool kiln_particles_bind(struct kiln_particles_stage *stage, struct kiln_pool *pool,

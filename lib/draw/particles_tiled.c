@@ -202,7 +202,7 @@ static bool make_sprites(struct kiln_tiled *tiled, const struct run *run, struct
     glClearBufferData(GL_COPY_WRITE_BUFFER, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
     glUseProgram(tiled->make_program);
     glUniform1ui(0, run->count);
-    glUniform1ui(1, run->draw->count - 1 - run->first);
+    glUniform1ui(1, run->first);
     glUniform1f(2, run->additive_alpha);
     glUniform1ui(3, run->columns);
     glUniform1ui(4, words);

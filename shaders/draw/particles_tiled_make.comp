@@ -25,7 +25,7 @@ layout(std430, binding = TILED_BIND_BIN_MASKS) buffer bin_mask_block
 };
 
 layout(location = 0) uniform uint count;
-layout(location = 1) uniform uint nearest; /* its place in the entries, which lead up to it */
+layout(location = 1) uniform uint first; /* the nearest one's place in the entries */
 layout(location = 2) uniform float additive_alpha;
 layout(location = 3) uniform uint bin_columns;
 layout(location = 4) uniform uint words; /* of a bin's mask */
@@ -191,7 +191,7 @@ void main()
              gl_LocalInvocationID.x;
     if (i >= count)
         return;
-    make_particle(entries[nearest - i]);
+    make_particle(entries[first + i]);
     uvec2 box = uvec2(0u);
     if (-center.z > view.eye.w && particle.color.a > 0.0) {
 #if SHAPES

@@ -142,27 +142,28 @@ static inline struct kiln_particle drawing_particle(uint32_t serial, float3 posi
                            1u << KILN_BIRTH_STEP_SHIFT | KILN_PARTICLE_ALIVE}};
 }
 
-/* Puts particles into the pool and the entries, in order, and the camera at a step. */
+/* Puts particles into the pool and the camera at a step. */
 static inline void drawing_place(struct drawing *d, const struct kiln_particle *particles,
                                  uint32_t count, uint32_t step)
 {
     struct kiln_error error = {0};
     struct kiln_particle *records = kiln_buffer_host(&d->pool.records, KILN_OVERWRITE, &error);
-    uint32_t *entries = kiln_buffer_host(&d->entries, KILN_OVERWRITE, &error);
-    assert_true(records && entries && count <= drawing_most);
+    assert_true(records && count <= drawing_most);
     memset(records, 0, drawing_most * sizeof *records);
     memcpy(records, particles, count * sizeof *records);
-    for (uint32_t i = 0; i < drawing_most; i++)
-        entries[i] = KILN_ENTRY(0, i);
     d->view = kiln_view_compute(d->scene, step);
     const struct kiln_lighting none = {0};
     assert_true(kiln_backdrop_draw(d->backdrop, &d->view, &none, &error));
 }
 
-/* Makes the scene a wall at a depth, and draws the particles before it. */
+/* Makes the scene a wall at a depth, and draws the particles before it, each over those before. */
 static inline void drawing_run(struct drawing *d, uint32_t count, float depth_m)
 {
     struct kiln_error error = {0};
+    uint32_t *entries = kiln_buffer_host(&d->entries, KILN_OVERWRITE, &error);
+    assert_non_null(entries);
+    for (uint32_t i = 0; i < count; i++)
+        entries[i] = KILN_ENTRY(0, kiln_particles_nearest_first(d->particles) ? count - 1 - i : i);
     float *depth = kiln_image_host(&d->depth, KILN_OVERWRITE, &error);
     assert_non_null(depth);
     for (uint32_t i = 0; i < d->scene->width * d->scene->height; i++)
