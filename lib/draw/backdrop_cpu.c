@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "draw/backdrop_rows.h"
 #include "draw/meshes_cpu.h"
+#include "draw/sun_cover.h"
 #include "shared/exact.h"
 
 #include <stdlib.h>
@@ -132,6 +133,7 @@ static struct kiln_ray_frame make_frame(const struct kiln_backdrop_cpu *cpu,
         .floor_gloss = features.floor_gloss && inputs->block.floor_params.x > 0.0f,
         .soft_sun = features.soft_sun,
         .sun_inverse = {inverse_of(sun.x), inverse_of(sun.y), inverse_of(sun.z)},
+        .edges_alike = kiln_box_edges_alike((float3){sun.x, sun.y, sun.z}),
     };
     if (frame.floor_gloss)
         fill_waves(&inputs->shapes, frame.waves);

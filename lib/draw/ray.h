@@ -31,6 +31,7 @@ struct kiln_ray_frame {
     const struct kiln_mesh_view *meshes; /* NULL: none */
     bool floor_gloss, soft_sun;
     float3 sun_inverse; /* of the direction, by axis; large for 0 */
+    float3 edges_alike; /* kiln_box_edges_alike */
     struct kiln_wave waves[KILN_WAVES];
 };
 

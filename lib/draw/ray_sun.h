@@ -35,27 +35,47 @@ SIMD vf strip_cover(vf one, vf other, vf radius)
 
 /* ---- boxes ----------------------------------------------------------------------------------- */
 
-/* The strip between the edges where two pairs of faces meet. */
+/* The strip between the edges where two pairs of faces meet; how far outside of it a ray is, m. */
 SIMD vf box_strip(vf in_a, vf in_b, vf out_a, vf out_b, float inverse_a, float inverse_b,
-                  float spread)
+                  float spread, vf *outside)
 {
     float square_a = inverse_a * inverse_a, square_b = inverse_b * inverse_b;
     float sum = 1.0f / (square_a + square_b), scale = sqrtf(sum);
     vf one = (out_b - in_a) * scale, other = (out_a - in_b) * scale;
     vf one_at = (in_a * square_b + out_b * square_a) * sum;
     vf other_at = (in_b * square_a + out_a * square_b) * sum;
+    *outside = vf_max(*outside, -vf_min(one, other));
     vf least = vf_all(1e-5f);
     vf cover = disc_cover(one / vf_max(one_at * spread, least)) +
                disc_cover(other / vf_max(other_at * spread, least)) - 1.0f;
     return vf_max(cover, vf_all(0.0f));
 }
 
-SIMD vf box_cover(const struct ray_slabs *s, float3 inverse, float spread)
+#define BOX_EDGE 1e-4f /* m: what rounding puts a ray aside, and less than surfaces are */
+
+/* Of two strips; edges that look alike count once. */
+SIMD vf both_strips(vf a, vf b, float alike)
 {
-    vf xy = box_strip(s->in.x, s->in.y, s->out.x, s->out.y, inverse.x, inverse.y, spread);
-    vf yz = box_strip(s->in.y, s->in.z, s->out.y, s->out.z, inverse.y, inverse.z, spread);
-    vf xz = box_strip(s->in.x, s->in.z, s->out.x, s->out.z, inverse.x, inverse.z, spread);
-    return xy * yz * xz;
+    return a * b + (vf_min(a, b) - a * b) * alike;
+}
+
+/* How much later a ray leaves a slab that passes `aside` of it, at most. */
+SIMD vf later(float inverse, vf aside)
+{
+    return aside * sqrtf(fmaxf(inverse * inverse - 1.0f, 0.0f));
+}
+
+SIMD vf box_cover(const struct ray_slabs *s, float3 inverse, float3 alike, float spread)
+{
+    vf outside = vf_all(0.0f);
+    vf xy = box_strip(s->in.x, s->in.y, s->out.x, s->out.y, inverse.x, inverse.y, spread, &outside);
+    vf yz = box_strip(s->in.y, s->in.z, s->out.y, s->out.z, inverse.y, inverse.z, spread, &outside);
+    vf xz = box_strip(s->in.x, s->in.z, s->out.x, s->out.z, inverse.x, inverse.z, spread, &outside);
+    vf cover = both_strips(both_strips(yz, xz, alike.z), xy, fmaxf(alike.x, alike.y));
+    vf aside = outside + BOX_EDGE;
+    vf out = vf_min(vf_min(s->out.x + later(inverse.x, aside), s->out.y + later(inverse.y, aside)),
+                    s->out.z + later(inverse.z, aside));
+    return vf_where(out > 0.0f, cover);
 }
 
 SIMD vf boxes_let_through(const struct kiln_ray_frame *frame, const struct ray_shade *shade)
@@ -66,15 +86,14 @@ SIMD vf boxes_let_through(const struct kiln_ray_frame *frame, const struct ray_s
     vf visible = vf_all(1.0f);
     for (uint32_t i = 0; i < b->counts.x; i++) {
         struct ray_slabs s = cross_slabs(b->box_center[i], b->box_half[i], shade->origin, inverses);
-        vf out = vf_min(vf_min(s.out.x, s.out.y), s.out.z);
-        vi ahead = shade->wanted & (out > 0.0f);
         if (!frame->soft_sun) {
+            vf out = vf_min(vf_min(s.out.x, s.out.y), s.out.z);
             vf in = vf_max(vf_max(s.in.x, s.in.y), s.in.z);
-            vi hidden = ahead & (in < out);
+            vi hidden = shade->wanted & (out > 0.0f) & (in < out);
             visible = vf_where(~hidden, visible);
-        } else if (any(ahead)) {
-            vf cover = box_cover(&s, inverse, frame->shapes->sun_right.w);
-            visible *= 1.0f - vf_where(ahead, cover);
+        } else {
+            vf cover = box_cover(&s, inverse, frame->edges_alike, frame->shapes->sun_right.w);
+            visible *= 1.0f - vf_where(shade->wanted, cover);
         }
     }
     return visible;

@@ -69,10 +69,12 @@ float box_sun_visibility(vec3 origin)
 {
     float visible = 1.0;
     vec3 inverse = safe_inverse(backdrop.sun_direction.xyz);
+    vec3 alike = edges_alike(backdrop.sun_direction.xyz);
     for (int i = 0; i < int(backdrop.counts.x); i++) {
         vec3 center = (backdrop.box_center[i].xyz - origin) * inverse;
         vec3 extent = backdrop.box_half[i].xyz * abs(inverse);
-        visible *= 1.0 - box_cover(center - extent, center + extent, inverse, shapes.sun_right.w);
+        visible *= 1.0 - box_cover(center - extent, center + extent, inverse, alike,
+                                   shapes.sun_right.w);
     }
     return visible;
 }

@@ -252,6 +252,59 @@ static void the_backdrop_shades_spheres(void **state)
     }
 }
 
+/* The part of the sun's disc of 6 degrees that a point sees past the box of below. */
+static double sun_seen_past_box(vec point)
+{
+    enum { RAYS = 400 };
+    const vec right = {0.8, 0.6, 0}, up = {0, 0, 1};
+    const double low[3] = {-0.5, 2, -0.7}, high[3] = {0.5, 2.6, 0.7};
+    int seen = 0;
+    for (int i = 0; i < RAYS; i++) {
+        double r = tan(3 * acos(-1.0) / 180) * sqrt((i + 0.5) / RAYS), turn = 2.39996323 * i;
+        vec ray = vec_unit(vec_add(vec_add(TOWARDS, right, r * cos(turn)), up, r * sin(turn)));
+        const double from[3] = {point.x, point.y, point.z}, way[3] = {ray.x, ray.y, ray.z};
+        double in = 0, out = 1e9;
+        for (int k = 0; k < 3; k++) {
+            double a = (low[k] - from[k]) / way[k], b = (high[k] - from[k]) / way[k];
+            in = fmax(in, fmin(a, b));
+            out = fmin(out, fmax(a, b));
+        }
+        seen += in >= out;
+    }
+    return (double)seen / RAYS;
+}
+
+/* Of a sun across one of the box's axes, on all sides: away from the corners of the shadow, where
+ * two covers are multiplied, penumbras are about as rays say. */
+static void the_penumbra_of_a_box_is_that_of_its_edges(void **state)
+{
+    static const char text[] =
+        HEAD "backdrop:\n"
+             "  haze: 0\n"
+             "  sky: {top: 0, horizon: 0}\n"
+             "  floor: {color: 1}\n"
+             "  sun: {direction: [-3, 4, 0], color: 3.14159265, size: 6 deg}\n"
+             "  objects: [{box: {center: [0, 2.3, 0], size: [1, 0.6, 1.4]}}]\n" SPHERES;
+    struct fixture f;
+    init(&f, *state, text, NULL);
+    draw(&f, NULL, 0);
+    /* Along its two sides, from x = 1.3 to 2.1, and its two ends. */
+    for (int i = 0; i < 44; i++) {
+        double across = (i % 11 - 5) * 0.03;
+        const vec sides[] = {{1.7, 0, 0.7 + across}, {1.7, 0, -0.7 - across}};
+        const vec ends[] = {{1 + across, 0, 0}, {2.45 - across, 0, 0}};
+        vec place = i < 22 ? sides[i / 11] : ends[i / 11 - 2];
+        vec at = drawing_project(&f.drawing, place);
+        place = floor_at(&f.drawing, (int)at.x, (int)at.y);
+        size_t pixel = (size_t)at.y * WIDTH + (size_t)at.x;
+        double found = (double)f.drawing.backdrop_color.host[4 * pixel] / 0.8;
+        if (fabs(found - sun_seen_past_box(place)) > 0.13)
+            fail_msg("at (%g, %g) %g of the sun is seen, not %g", place.x, place.z, found,
+                     sun_seen_past_box(place));
+    }
+    finish(&f);
+}
+
 /* A sun that is no point, along its axis: the floor around is light. */
 static void a_cylinder_is_round_from_above(void **state)
 {
@@ -320,6 +373,7 @@ int main(void)
         test_on_device(the_backdrop_shades_spheres),
         test_on_device(a_cylinder_is_round_from_above),
         test_on_device(the_backdrop_shades_smoke),
+        test_on_device(the_penumbra_of_a_box_is_that_of_its_edges),
     };
     int failed = 0;
     for (int i = 0; i < 2; i++) {

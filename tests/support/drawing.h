@@ -142,15 +142,18 @@ static inline struct kiln_particle drawing_particle(uint32_t serial, float3 posi
                            1u << KILN_BIRTH_STEP_SHIFT | KILN_PARTICLE_ALIVE}};
 }
 
-/* Puts particles into the pool and the camera at a step. */
+/* Puts particles into the pool and the entries, in order, and the camera at a step. */
 static inline void drawing_place(struct drawing *d, const struct kiln_particle *particles,
                                  uint32_t count, uint32_t step)
 {
     struct kiln_error error = {0};
     struct kiln_particle *records = kiln_buffer_host(&d->pool.records, KILN_OVERWRITE, &error);
-    assert_true(records && count <= drawing_most);
+    uint32_t *entries = kiln_buffer_host(&d->entries, KILN_OVERWRITE, &error);
+    assert_true(records && entries && count <= drawing_most);
     memset(records, 0, drawing_most * sizeof *records);
     memcpy(records, particles, count * sizeof *records);
+    for (uint32_t i = 0; i < drawing_most; i++)
+        entries[i] = KILN_ENTRY(0, i);
     d->view = kiln_view_compute(d->scene, step);
     const struct kiln_lighting none = {0};
     assert_true(kiln_backdrop_draw(d->backdrop, &d->view, &none, &error));
