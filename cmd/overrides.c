@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "signals.h"
+
 /* The override that a use stands for, in new memory; *is_one is false for other options. */
 static char *override_text(const struct option_use *use, bool *is_one)
 {
@@ -51,11 +53,18 @@ void overrides_free(struct overrides *overrides)
     *overrides = (struct overrides){0};
 }
 
+static bool wants_stop(void *user)
+{
+    (void)user;
+    return signals_received() != 0;
+}
+
 struct kiln_scene_params overrides_scene_params(const struct overrides *overrides,
                                                 const struct arguments *arguments)
 {
     const struct option_use *root = arguments_last(arguments, "asset-root");
     return (struct kiln_scene_params){.asset_root = root ? root->text : NULL,
                                       .overrides = (const char *const *)overrides->texts,
-                                      .override_count = overrides->count};
+                                      .override_count = overrides->count,
+                                      .stop = wants_stop};
 }

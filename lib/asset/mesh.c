@@ -101,21 +101,28 @@ static void run_child(const struct kiln_mesh_request *request, struct kiln_mesh_
 
 /* ---- the parent ------------------------------------------------------------------------------ */
 
-/* True when the child ended in time; else it is killed. */
-static bool await(pid_t child)
+enum outcome { ENDED, STOPPED, TOO_SLOW };
+
+/* Kills a child that does not end in time, or when nobody wants it any more. */
+static enum outcome await(pid_t child, const struct kiln_mesh_request *request)
 {
+    enum outcome outcome = TOO_SLOW;
     const struct timespec pause = {.tv_nsec = 500000};
     double start_s = kiln_clock_seconds();
     while (kiln_clock_seconds() - start_s < KILN_MAX_MESH_SECONDS) {
         pid_t ended = waitpid(child, NULL, WNOHANG);
         if (ended == child || (ended < 0 && errno != EINTR))
-            return true;
+            return ENDED;
+        if (request->stop && request->stop(request->user)) {
+            outcome = STOPPED;
+            break;
+        }
         nanosleep(&pause, NULL);
     }
     kill(child, SIGKILL);
     while (waitpid(child, NULL, 0) < 0 && errno == EINTR)
         continue;
-    return false;
+    return outcome;
 }
 
 static bool run(const struct kiln_mesh_request *request, struct kiln_mesh_result *result,
@@ -127,7 +134,11 @@ static bool run(const struct kiln_mesh_request *request, struct kiln_mesh_result
     if (child < 0)
         return kiln_error_set_errno(error, KILN_DEVICE_FAILED, errno,
                                     "%s: no process for the importer", request->name);
-    if (!await(child))
+    const enum outcome outcome = await(child, request);
+    if (outcome == STOPPED)
+        return kiln_error_set(error, KILN_INTERRUPTED, "%s: stopped while reading the mesh",
+                              request->name);
+    if (outcome == TOO_SLOW)
         return kiln_error_set(error, KILN_INVALID_INPUT,
                               "%s: the importer was not done with the mesh after %d s",
                               request->name, KILN_MAX_MESH_SECONDS);
@@ -298,9 +309,10 @@ struct kiln_mesh *kiln_mesh_parse(const void *bytes, size_t size, const char *na
     return find_extension(&request, error) ? import(&request, error) : NULL;
 }
 
-struct kiln_mesh *kiln_mesh_load(const char *path, const char *root, struct kiln_error *error)
+struct kiln_mesh *kiln_mesh_load(const char *path, const char *root, bool (*stop)(void *user),
+                                 void *user, struct kiln_error *error)
 {
-    struct kiln_mesh_request request = {.name = path, .root = root};
+    struct kiln_mesh_request request = {.name = path, .root = root, .stop = stop, .user = user};
     const char *slash = strrchr(path, '/');
     char *folder = slash ? strndup(path, (size_t)(slash - path)) : strdup(".");
     unsigned char *bytes =

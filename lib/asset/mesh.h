@@ -29,9 +29,11 @@ struct kiln_mesh {
 /* Reads a file whose name ends in .obj, .gltf or .glb; files that it names must lie below `root`,
  * an absolute folder. NULL: KILN_IO when it cannot be read or there is no importer,
  * KILN_INVALID_INPUT with what was found and what is allowed when it is no mesh, broken, cut short,
- * beyond the limits above or names files elsewhere, KILN_DEVICE_FAILED when memory is short. The
+ * beyond the limits above or names files elsewhere, KILN_DEVICE_FAILED when memory is short,
+ * KILN_INTERRUPTED when stop (or NULL), which is asked while the importer works, returned true. The
  * caller destroys it. */
-struct kiln_mesh *kiln_mesh_load(const char *path, const char *root, struct kiln_error *error);
+struct kiln_mesh *kiln_mesh_load(const char *path, const char *root, bool (*stop)(void *user),
+                                 void *user, struct kiln_error *error);
 
 /* The same from bytes in memory, which may name no other files; name stands for the file. */
 struct kiln_mesh *kiln_mesh_parse(const void *bytes, size_t size, const char *name,

@@ -9,8 +9,10 @@ struct kiln_mesh_request {
     const char *extension; /* ".obj", ".gltf" or ".glb" */
     const void *bytes;
     size_t size;
-    const char *folder; /* of the file, where the paths in it start; NULL: none are allowed */
-    const char *root;   /* absolute; they stay below it */
+    const char *folder;       /* of the file, where the paths in it start; NULL: none are allowed */
+    const char *root;         /* absolute; they stay below it */
+    bool (*stop)(void *user); /* may be NULL */
+    void *user;
 };
 
 /* Memory that is never touched costs nothing. The parent believes none of it unchecked. */

@@ -9,7 +9,8 @@ bool kiln_meshes_init(struct kiln_meshes *meshes, const struct kiln_scene *scene
         const struct kiln_object *object = &scene->backdrop.objects[i];
         if (object->kind != KILN_OBJECT_MESH)
             continue;
-        struct kiln_mesh *mesh = kiln_mesh_load(object->file, scene->asset_root, error);
+        struct kiln_mesh *mesh =
+            kiln_mesh_load(object->file, scene->asset_root, scene->stop, scene->user, error);
         if (!mesh)
             return false;
         meshes->loaded[meshes->count++] = mesh;

@@ -65,11 +65,11 @@ static bool climbs_out(const char *path)
     return false;
 }
 
-typedef bool check_file(const char *path, const char *root, struct kiln_error *error);
+typedef bool check_file(const char *path, const struct kiln_scene *scene, struct kiln_error *error);
 
-static bool check_cells(const char *path, const char *root, struct kiln_error *error)
+static bool check_cells(const char *path, const struct kiln_scene *scene, struct kiln_error *error)
 {
-    (void)root;
+    (void)scene;
     return kiln_cells_check(path, error);
 }
 
@@ -77,7 +77,7 @@ static bool check_contents(struct kiln_reader *reader, const struct kiln_node *n
                            check_file *check, const char *path, const char *name)
 {
     struct kiln_error error = {0};
-    if (check(path, reader->scene->asset_root, &error))
+    if (check(path, reader->scene, &error))
         return true;
     /* The scene's own name for it instead of the whole path. */
     size_t length = strlen(path);
@@ -85,7 +85,7 @@ static bool check_contents(struct kiln_reader *reader, const struct kiln_node *n
     if (strncmp(reason, path, length) == 0)
         reason += length + strspn(reason + length, ": ");
     kiln_reader_error(reader, node, "'%s': %s", name, reason);
-    if (error.code == KILN_DEVICE_FAILED)
+    if (error.code == KILN_DEVICE_FAILED || error.code == KILN_INTERRUPTED)
         reader->error->code = error.code;
     return false;
 }

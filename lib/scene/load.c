@@ -51,7 +51,8 @@ static bool add_backdrop_hashes(const struct kiln_scene *scene, struct kiln_text
         const struct kiln_object *object = &backdrop->objects[i];
         if (object->kind != KILN_OBJECT_MESH)
             continue;
-        struct kiln_mesh *mesh = kiln_mesh_load(object->file, scene->asset_root, error);
+        struct kiln_mesh *mesh =
+            kiln_mesh_load(object->file, scene->asset_root, scene->stop, scene->user, error);
         if (!mesh)
             return false;
         kiln_text_add(text, "%s\n", mesh->hash);
@@ -113,6 +114,8 @@ static struct kiln_scene *create(const char *text, size_t size, const char *name
             .arena = arena, .scratch = scratch, .error = error, .scene = scene};
         scene->arena = arena;
         scene->name = kept_name;
+        scene->stop = params->stop;
+        scene->user = params->user;
         scene->asset_root = kiln_asset_root(arena, params->asset_root, file, error);
         ok = scene->asset_root && build(reader, text, size, &origin, params);
     }

@@ -309,8 +309,10 @@ struct kiln_post {
 
 struct kiln_scene {
     struct kiln_arena *arena;
-    const char *name;       /* the file, as given */
-    const char *asset_root; /* absolute folder */
+    const char *name;         /* the file, as given */
+    const char *asset_root;   /* absolute folder */
+    bool (*stop)(void *user); /* of kiln_scene_params */
+    void *user;
 
     uint32_t format_version; /* 1 */
     uint32_t seed;

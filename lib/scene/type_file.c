@@ -14,7 +14,7 @@ static bool is_none(const struct kiln_node *node)
 
 static bool read_file(struct kiln_reader *reader, const struct kiln_option *option,
                       const struct kiln_node *node,
-                      bool (*check)(const char *, const char *, struct kiln_error *),
+                      bool (*check)(const char *, const struct kiln_scene *, struct kiln_error *),
                       const char **file)
 {
     double number;
@@ -46,9 +46,10 @@ static void schema_file(const struct kiln_option *option, struct kiln_text *out)
 
 /* ---- picture --------------------------------------------------------------------------------- */
 
-static bool check_picture(const char *path, const char *root, struct kiln_error *error)
+static bool check_picture(const char *path, const struct kiln_scene *scene,
+                          struct kiln_error *error)
 {
-    (void)root;
+    (void)scene;
     return kiln_asset_image_check(path, error);
 }
 
@@ -71,9 +72,10 @@ const struct kiln_option_type kiln_type_picture = {read_picture, print_file, des
 
 /* ---- mesh ------------------------------------------------------------------------------------ */
 
-static bool check_mesh(const char *path, const char *root, struct kiln_error *error)
+static bool check_mesh(const char *path, const struct kiln_scene *scene, struct kiln_error *error)
 {
-    struct kiln_mesh *mesh = kiln_mesh_load(path, root, error);
+    struct kiln_mesh *mesh =
+        kiln_mesh_load(path, scene->asset_root, scene->stop, scene->user, error);
     bool good = mesh != NULL;
     kiln_mesh_destroy(&mesh);
     return good;

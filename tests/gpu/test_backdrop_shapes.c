@@ -376,8 +376,8 @@ static void check_mesh(void *device, const char *text, double sun_radius, double
                        int step)
 {
     struct kiln_error error = {0};
-    struct kiln_mesh *mesh =
-        kiln_mesh_load(KILN_SOURCE_DIR "/scenes/meshes/pot.obj", KILN_SOURCE_DIR "/scenes", &error);
+    struct kiln_mesh *mesh = kiln_mesh_load(KILN_SOURCE_DIR "/scenes/meshes/pot.obj",
+                                            KILN_SOURCE_DIR "/scenes", NULL, NULL, &error);
     if (!mesh)
         fail_msg("%s", error.message);
     const struct shape shapes[] = {

@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "asset/mesh.h"
@@ -131,7 +132,7 @@ static void write_buffer(const char *path, float size)
 static struct kiln_mesh *load(const char *path, const char *root)
 {
     struct kiln_error error = {0};
-    struct kiln_mesh *mesh = kiln_mesh_load(path, root, &error);
+    struct kiln_mesh *mesh = kiln_mesh_load(path, root, NULL, NULL, &error);
     if (!mesh)
         fail_msg("%s", error.message);
     return mesh;
@@ -186,7 +187,7 @@ static void buffers_elsewhere_are_refused(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct kiln_error error = {0};
         write_gltf("files/t.gltf", cases[i].uri);
-        struct kiln_mesh *mesh = kiln_mesh_load("files/t.gltf", root, &error);
+        struct kiln_mesh *mesh = kiln_mesh_load("files/t.gltf", root, NULL, NULL, &error);
         if (mesh)
             fail_msg("%s was read", cases[i].uri);
         assert_int_equal(error.code, KILN_INVALID_INPUT);
@@ -242,13 +243,40 @@ static void cut_files_are_refused(void **state)
     free(glb);
 }
 
+static bool at_once(void *user)
+{
+    ++*(int *)user;
+    return true;
+}
+
+/* The importer is not waited for when nobody wants the mesh any more. */
+static void importing_can_be_stopped(void **state)
+{
+    (void)state;
+    struct kiln_error error = {0};
+    int asked = 0;
+    size_t triangles = KILN_MAX_MESH_TRIANGLES, length = strlen("f 1 2 3\n");
+    char *text = malloc(triangles * length + 64);
+    assert_non_null(text);
+    char *end = stpcpy(text, "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
+    for (size_t i = 0; i < triangles; i++)
+        end = stpcpy(end, "f 1 2 3\n");
+    test_write_file("slow.obj", text);
+    free(text);
+    assert_null(kiln_mesh_load("slow.obj", "/", at_once, &asked, &error));
+    assert_int_equal(error.code, KILN_INTERRUPTED);
+    assert_non_null(strstr(error.message, "slow.obj: stopped"));
+    assert_int_equal(asked, 1);
+    assert_true(waitpid(-1, NULL, WNOHANG) < 0); /* nobody is left */
+}
+
 static void large_files_are_refused(void **state)
 {
     (void)state;
     struct kiln_error error = {0};
     test_write_file("huge.obj", CUBE);
     assert_int_equal(truncate("huge.obj", KILN_MAX_MESH_BYTES + 1), 0);
-    assert_null(kiln_mesh_load("huge.obj", "/", &error));
+    assert_null(kiln_mesh_load("huge.obj", "/", NULL, NULL, &error));
     assert_int_equal(error.code, KILN_INVALID_INPUT);
     assert_non_null(strstr(error.message, "allowed are at most 67108864"));
 
@@ -269,9 +297,9 @@ static void files_must_be_files(void **state)
     (void)state;
     struct kiln_error error = {0};
     test_write_file("folder.obj/file", "");
-    assert_null(kiln_mesh_load("folder.obj", "/", &error));
+    assert_null(kiln_mesh_load("folder.obj", "/", NULL, NULL, &error));
     assert_int_equal(error.code, KILN_INVALID_INPUT);
-    assert_null(kiln_mesh_load("missing.obj", "/", &error));
+    assert_null(kiln_mesh_load("missing.obj", "/", NULL, NULL, &error));
     assert_int_equal(error.code, KILN_IO);
 }
 
@@ -286,6 +314,8 @@ int main(void)
                                         test_leave_folder),
         cmocka_unit_test(nonsense_is_refused),
         cmocka_unit_test(cut_files_are_refused),
+        cmocka_unit_test_setup_teardown(importing_can_be_stopped, test_enter_folder,
+                                        test_leave_folder),
         cmocka_unit_test_setup_teardown(large_files_are_refused, test_enter_folder,
                                         test_leave_folder),
         cmocka_unit_test_setup_teardown(files_must_be_files, test_enter_folder, test_leave_folder),
