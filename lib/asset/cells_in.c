@@ -156,6 +156,17 @@ static void resize_cells(void *context, size_t begin, size_t end, uint32_t worke
         resize_cell(job, cell, row, row + (size_t)job->cell_width * 4);
 }
 
+static bool check_division(const struct kiln_asset_image *image,
+                           const struct kiln_cells_source *source, struct kiln_error *error)
+{
+    if (image->width % source->columns == 0 && image->height % source->rows == 0)
+        return true;
+    kiln_error_set(error, KILN_INVALID_INPUT,
+                   "%s: %u x %u pixels do not divide into %u columns and %u rows", source->path,
+                   image->width, image->height, source->columns, source->rows);
+    return false;
+}
+
 /* Adds to cells, which are zero. */
 static bool resize_image(const struct kiln_asset_image *image,
                          const struct kiln_cells_source *source, bool motion, float *cells,
@@ -168,12 +179,8 @@ static bool resize_image(const struct kiln_asset_image *image,
                          .cell_height = image->height / source->rows,
                          .edge = source->edge,
                          .cells = cells};
-    if (job.cell_width * source->columns != image->width ||
-        job.cell_height * source->rows != image->height)
-        return kiln_error_set(error, KILN_INVALID_INPUT,
-                              "%s: %u x %u pixels do not divide into %u columns and %u rows",
-                              source->path, image->width, image->height, source->columns,
-                              source->rows);
+    if (!check_division(image, source, error))
+        return false;
     job.rows = calloc(kiln_threads_count(threads),
                       ((size_t)job.cell_width + job.edge) * 4 * sizeof(float));
     bool ok = job.rows && filter_init(&job.across, job.cell_width, job.edge) &&
@@ -249,6 +256,16 @@ bool kiln_cells_load_motion(const struct kiln_cells_source *source, float *motio
     for (size_t i = 0; ok && i < pixels; i++)
         memcpy(motion + 2 * i, cells + 4 * i, 2 * sizeof *motion);
     free(cells);
+    return ok;
+}
+
+bool kiln_cells_check_division(const struct kiln_cells_source *source, struct kiln_error *error)
+{
+    if (source->columns * source->rows == 1 || kiln_video_in_has_suffix(source->path))
+        return true;
+    struct kiln_asset_image *image = kiln_asset_image_load(source->path, error);
+    bool ok = image && check_division(image, source, error);
+    kiln_asset_image_destroy(&image);
     return ok;
 }
 

@@ -1,6 +1,8 @@
 /* Checks across options, and what follows from them: steps, capacities, bounds. */
 #include "scene/validate.h"
 
+#include "asset/cells_in.h"
+#include "scene/asset_path.h"
 #include "scene/family.h"
 
 #include <inttypes.h>
@@ -209,6 +211,42 @@ static bool check_shape(struct kiln_reader *reader, const struct kiln_node *root
     return true;
 }
 
+/* Of an image that is to be cut into a system's cells. */
+static bool check_division(struct kiln_reader *reader, const struct kiln_node *root,
+                           const struct kiln_system *system, const char *file)
+{
+    const struct kiln_look *look = &system->look;
+    const struct kiln_cells_source source = {.path = file, look->columns, look->rows, 1};
+    struct kiln_error error = {0};
+    if (file[0] != '/' || kiln_cells_check_division(&source, &error))
+        return true;
+    char path[128];
+    snprintf(path, sizeof path, "systems.%s.look.cells", system->name);
+    const size_t length = strlen(file);
+    const char *reason = error.message;
+    if (strncmp(reason, file, length) == 0)
+        reason += length + strspn(reason + length, ": ");
+    kiln_validate_fail(reader, root, path, "'%s': %s", kiln_asset_name(reader->scene, file),
+                       reason);
+    if (error.code == KILN_DEVICE_FAILED)
+        reader->error->code = error.code;
+    return false;
+}
+
+/* Other shapes show no texture. */
+static bool check_cells(struct kiln_reader *reader, const struct kiln_node *root,
+                        const struct kiln_system *system)
+{
+    const struct kiln_look *look = &system->look;
+    if (look->shape != KILN_SHAPE_BILLBOARD)
+        return true;
+    for (uint32_t i = 0; i < look->atlas_count; i++) {
+        if (!check_division(reader, root, system, look->atlas[i]))
+            return false;
+    }
+    return check_division(reader, root, system, look->motion);
+}
+
 static const char *shape_name(const struct kiln_emitter *emit)
 {
     static const char *const names[] = {
@@ -240,7 +278,7 @@ static bool check_systems(struct kiln_reader *reader, const struct kiln_node *ro
         if (system->look.motion[0] == '/' &&
             (system->look.atlas_count > 1 || system->look.atlas[0][0] != '/'))
             return kiln_validate_fail(reader, root, path, "a motion file goes with one atlas file");
-        if (!check_shape(reader, root, system))
+        if (!check_shape(reader, root, system) || !check_cells(reader, root, system))
             return false;
         if (!system->bounds.enabled)
             system->bounds = scene->bounds;

@@ -291,6 +291,9 @@ static void cells_must_divide_the_image(void **state)
     assert_int_equal(error.code, KILN_INVALID_INPUT);
     assert_non_null(
         strstr(error.message, "32 x 16 pixels do not divide into 2 columns and 3 rows"));
+    assert_false(kiln_cells_check_division(&source, &error));
+    assert_true(kiln_cells_check_division(
+        &(struct kiln_cells_source){.path = f->path, .columns = 2, .rows = 4}, &error));
     assert_true(kiln_cells_check(f->path, &error));
     assert_false(kiln_cells_check(f->folder, &error));
 }

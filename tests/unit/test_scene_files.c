@@ -116,7 +116,8 @@ static const unsigned char bitmap[] = {
 static void write_scene(const char *path, const char *atlas)
 {
     char text[256];
-    int length = snprintf(text, sizeof text, "kiln: 1\nsystems: {a: {look: {atlas: %s}}}\n", atlas);
+    int length = snprintf(text, sizeof text,
+                          "kiln: 1\nsystems: {a: {look: {atlas: %s, cells: [1, 1]}}}\n", atlas);
     write_file(path, text, (size_t)length);
 }
 

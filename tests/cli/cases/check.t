@@ -56,3 +56,10 @@ $ kiln check --hash nowhere.yaml scenes/tiny.yaml | sed -E 's/^[0-9a-f]{64}/<has
 $ kiln check -q scenes/tiny.yaml nowhere.yaml
 2|nowhere.yaml: No such file or directory
 = 3
+
+An atlas that does not divide into its cells, with the place that says how many.
+
+$ printf '%s\n' 'kiln: 1' 'systems:' '  smoke:' '    emit: {rate: 1, life: 1 s}' '    look: {atlas: puff.png, cells: [3, 2]}' >scenes/cells.yaml
+> kiln check scenes/cells.yaml
+2|scenes/cells.yaml:5:36: systems.smoke.look.cells: 'puff.png': 32 x 32 pixels do not divide into 3 columns and 2 rows
+= 3
