@@ -69,9 +69,10 @@ struct kiln_scene_params {
     const char *asset_root;
     const char *const *overrides;
     size_t override_count;
-    bool (*stop)(void *user); /* asked while a mesh is imported, now or when it is drawn, which may */
-                              /* take seconds; true ends with KILN_INTERRUPTED; NULL: never */
-    void *user;               /* for as long as the scene lives */
+    bool (*stop)(
+        void *user); /* asked while a mesh is imported, now or when it is drawn, which may */
+                     /* take seconds; true ends with KILN_INTERRUPTED; NULL: never */
+    void *user;      /* for as long as the scene lives */
 };
 #define KILN_SCENE_DEFAULTS ((struct kiln_scene_params){.asset_root = NULL})
 

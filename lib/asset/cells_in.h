@@ -23,8 +23,8 @@ bool kiln_cells_load(const struct kiln_cells_source *source, float *cells,
 bool kiln_cells_load_motion(const struct kiln_cells_source *source, float *motion,
                             struct kiln_threads *threads, struct kiln_error *error);
 
-/* Whether an image divides into the cells: decodes it, unless it is to be one cell, or a video, which
- * is no image. KILN_INVALID_INPUT with what does not. */
+/* Whether an image divides into the cells: decodes it, unless it is to be one cell, or a video,
+ * which is no image. KILN_INVALID_INPUT with what does not. */
 bool kiln_cells_check_division(const struct kiln_cells_source *source, struct kiln_error *error);
 
 /* Whether a file is one that kiln_cells_load could read, but for the number of its cells: decodes

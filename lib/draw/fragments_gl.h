@@ -16,8 +16,8 @@ void kiln_fragments_gl_destroy(struct kiln_fragments_gl **fragments);
 
 /* Draws what submit draws, with the program in use, into the framebuffer that is bound and cleared,
  * draw->framebuffer. Lists of so many rows or pixels of a row at a time that memory stays bounded,
- * unless one pixel alone needs more. KILN_DEVICE_FAILED, with what to do, where the device's storage
- * blocks are too small for that or for the picture. */
+ * unless one pixel alone needs more. KILN_DEVICE_FAILED, with what to do, where the device's
+ * storage blocks are too small for that or for the picture. */
 bool kiln_fragments_gl_run(struct kiln_fragments_gl *fragments,
                            const struct kiln_particles_draw *draw, void (*submit)(void *context),
                            void *context, struct kiln_error *error);
