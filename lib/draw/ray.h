@@ -31,7 +31,7 @@ struct kiln_ray_frame {
     const struct kiln_mesh_view *meshes; /* NULL: none */
     bool floor_gloss, soft_sun;
     float3 sun_inverse; /* of the direction, by axis; large for 0 */
-    float3 edges_alike; /* kiln_box_edges_alike */
+    float3 edges_alike; /* of boxes, towards the sun: x is of y and z, and so on */
     struct kiln_wave waves[KILN_WAVES];
 };
 

@@ -55,12 +55,6 @@ static float likeness(float a, float b)
     return square * square * square * square;
 }
 
-float3 kiln_box_edges_alike(float3 towards)
-{
-    return (float3){likeness(towards.y, towards.z), likeness(towards.x, towards.z),
-                    likeness(towards.x, towards.y)};
-}
-
 static float both(float a, float b, float alike)
 {
     return a * b + (fminf(a, b) - a * b) * alike;
@@ -70,8 +64,9 @@ static float both(float a, float b, float alike)
  * but a sun across an axis sees two of the strips end at the same edge. */
 static float common_cover(const float covers[3], float3 towards)
 {
-    const float3 alike = kiln_box_edges_alike(towards);
-    return both(both(covers[0], covers[1], alike.z), covers[2], fmaxf(alike.x, alike.y));
+    float yz = likeness(towards.y, towards.z), xz = likeness(towards.x, towards.z);
+    float first = both(covers[0], covers[1], likeness(towards.x, towards.y));
+    return both(first, covers[2], fmaxf(xz, yz));
 }
 
 /* Its outline is the common part of three strips (sun_cover.glsl). Beside it, the way behind is

@@ -11,10 +11,6 @@ struct kiln_ball {
     float radius; /* m */
 };
 
-/* How much the edges of a box along two of the axes look like one direction towards the sun, 0 to
- * 1: x is of y and z, and so on. */
-float3 kiln_box_edges_alike(float3 towards);
-
 /* 0 to 1. A shape hides the sun from what is behind it and, up to the ball's radius, inside of it.
  */
 float kiln_box_sun_cover(float3 center, float3 half_size, struct kiln_ball ball,
