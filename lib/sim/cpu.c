@@ -3,49 +3,13 @@
 
 #include <stdatomic.h>
 
-#include "base/vector.h"
 #include "shared/state_hash.h"
-#include "shared/step_family.h"
 
 enum { SLOTS_AT_A_TIME = 2048 };
 
-struct work {
-    struct kiln_sim sim;
-    struct kiln_particle *records; /* of the system */
-    struct kiln_trace *traces;     /* of all systems */
-};
-
-KILN_WIDE_VECTORS
-static void step_slots(void *context, size_t begin, size_t end, uint32_t worker)
-{
-    (void)worker;
-    const struct work *work = context;
-    for (size_t slot = begin; slot < end; slot++)
-        work->records[slot] = step_slot(&work->sim, (uint)slot, work->records[slot]);
-}
-
-/* Parents' slots have been stepped before their children's are. */
-KILN_WIDE_VECTORS
-static void step_family_slots(void *context, size_t begin, size_t end, uint32_t worker)
-{
-    (void)worker;
-    const struct work *work = context;
-    const struct kiln_sim *sim = &work->sim;
-    const struct kiln_family_params *family = &sim->step->family;
-    for (size_t slot = begin; slot < end; slot++) {
-        struct kiln_trace parent = trace_nothing();
-        if (family->born_of != BORN_OF_CLOCK)
-            parent = work->traces[family_parent_trace(sim, (uint)slot)];
-        struct step_result after = step_family_slot(sim, (uint)slot, work->records[slot], parent);
-        work->records[slot] = after.particle;
-        if (family->traced)
-            work->traces[family->traces + slot] = after.trace;
-    }
-}
-
-bool kiln_sim_cpu_step(struct kiln_threads *threads, const struct kiln_sim_params *params,
-                       const float4 *value_keys, struct kiln_pool *pool, struct kiln_buffer *traces,
-                       struct kiln_error *error)
+bool kiln_sim_cpu_step(const struct kiln_slots_step *loops, struct kiln_threads *threads,
+                       const struct kiln_sim_params *params, const float4 *value_keys,
+                       struct kiln_pool *pool, struct kiln_buffer *traces, struct kiln_error *error)
 {
     struct kiln_particle *records = kiln_buffer_host(&pool->records, KILN_READ_WRITE, error);
     struct kiln_trace *scratch =
@@ -54,13 +18,13 @@ bool kiln_sim_cpu_step(struct kiln_threads *threads, const struct kiln_sim_param
         return false;
     for (uint32_t k = 0; k < params->system_count; k++) {
         const struct kiln_step_params *step = &params->systems[params->order[k]];
-        struct work work = {
+        struct kiln_slots slots = {
             .sim = {.step = step, .colliders = &params->colliders, .value_keys = value_keys},
             .records = records + step->base,
             .traces = scratch,
         };
         kiln_threads_for(threads, step->used, SLOTS_AT_A_TIME,
-                         kiln_sim_is_family(step) ? step_family_slots : step_slots, &work);
+                         kiln_sim_is_family(step) ? loops->family : loops->alone, &slots);
     }
     return true;
 }

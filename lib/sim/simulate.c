@@ -18,6 +18,8 @@ struct kiln_simulate {
     struct kiln_threads *threads;
     struct kiln_sim_params params;
     struct kiln_buffer traces; /* of parents, within a step: no part of the state */
+    /* of `cpu`: */
+    const struct kiln_slots_step *loops;
     /* of all techniques in GL: */
     struct kiln_sim_blocks blocks;
     struct kiln_sim_hash hash;
@@ -54,6 +56,15 @@ static bool init_on_device(struct kiln_simulate *s, struct kiln_device *device,
     return false;
 }
 
+static bool choose_loops(struct kiln_simulate *s, struct kiln_error *error)
+{
+    enum kiln_simd simd;
+    if (!kiln_simd_choose(&simd, error))
+        return false;
+    s->loops = KILN_SIMD_PICK(kiln_slots_step, simd);
+    return true;
+}
+
 struct kiln_simulate *kiln_simulate_create(struct kiln_device *device,
                                            const struct kiln_scene *scene,
                                            enum kiln_simulate_technique technique,
@@ -70,7 +81,8 @@ struct kiln_simulate *kiln_simulate_create(struct kiln_device *device,
     kiln_sim_params_init(&simulate->params, scene);
     kiln_buffer_init(&simulate->traces, technique == KILN_SIMULATE_CPU ? NULL : device,
                      (size_t)simulate->params.trace_count * sizeof(struct kiln_trace), "traces");
-    if (technique != KILN_SIMULATE_CPU && !init_on_device(simulate, device, error))
+    if (technique == KILN_SIMULATE_CPU ? !choose_loops(simulate, error)
+                                       : !init_on_device(simulate, device, error))
         kiln_simulate_destroy(&simulate);
     return simulate;
 }
@@ -104,7 +116,8 @@ bool kiln_simulate_step(struct kiln_simulate *simulate, struct kiln_pool *pool, 
         return false;
     switch (s->technique) {
     case KILN_SIMULATE_CPU:
-        return kiln_sim_cpu_step(s->threads, &s->params, s->scene->keys, pool, &s->traces, error);
+        return kiln_sim_cpu_step(s->loops, s->threads, &s->params, s->scene->keys, pool, &s->traces,
+                                 error);
     case KILN_SIMULATE_INPLACE:
         return kiln_inplace_step(&s->inplace, &s->blocks, &s->params, pool, error);
     case KILN_SIMULATE_PINGPONG:

@@ -29,6 +29,14 @@ FN S(force_effect) forces_one(uint kind, S(force_input) force)
     return effect;
 }
 
+FN S(force_effect) forces_add(S(force_effect) sum, S(force_effect) effect)
+{
+    EXACT S(force_effect) y;
+    y.acceleration = float3_add(sum.acceleration, effect.acceleration);
+    y.pull = sum.pull + exact_max(effect.pull, 0.0f);
+    return y;
+}
+
 FN S(force_effect) forces_sum(SIM_PARAM float3 position, float life)
 {
     EXACT S(force_effect) sum;
@@ -46,8 +54,7 @@ FN S(force_effect) forces_sum(SIM_PARAM float3 position, float life)
         force.octaves = STEP(forces[i].octaves);
         force.seed = STEP(noise_seed);
         EXACT S(force_effect) effect = forces_one(STEP(forces[i].kind), force);
-        sum.acceleration = float3_add(sum.acceleration, effect.acceleration);
-        sum.pull = sum.pull + exact_max(effect.pull, 0.0f);
+        sum = forces_add(sum, effect);
     }
     return sum;
 }

@@ -38,8 +38,8 @@ FN S(noise_fade) noise_fade_at(float t)
 /* A gradient from 9 bits: each component one of -3.5, -2.5 .. 3.5. */
 FN float3 noise_gradient(uint bits)
 {
-    EXACT float3 g = FLOAT3(FLOAT(bits & 7u) - 3.5f, FLOAT((bits >> 3u) & 7u) - 3.5f,
-                            FLOAT((bits >> 6u) & 7u) - 3.5f);
+    EXACT float3 g = FLOAT3(FLOAT(INT(bits & 7u)) - 3.5f, FLOAT(INT((bits >> 3u) & 7u)) - 3.5f,
+                            FLOAT(INT((bits >> 6u) & 7u)) - 3.5f);
     return g;
 }
 
@@ -104,36 +104,68 @@ FN float3 noise_curl_of_corner(S(noise_cell) cell, uint corner)
     return noise_curl_corner(random_mix(lattice), r, weight, slope);
 }
 
+FN bool noise_reaches(float3 p)
+{
+    return (FLOAT_BITS(p.x) & EXACT_SIZE_BITS) <= NOISE_REACH_BITS &&
+           (FLOAT_BITS(p.y) & EXACT_SIZE_BITS) <= NOISE_REACH_BITS &&
+           (FLOAT_BITS(p.z) & EXACT_SIZE_BITS) <= NOISE_REACH_BITS;
+}
+
+/* Written out, so that in C a loop over particles becomes vectors of particles. */
+FN float3 noise_curl_of_corners(S(noise_cell) cell)
+{
+    EXACT float3 sum = FLOAT3(0.0f, 0.0f, 0.0f);
+    EXACT float3 part = noise_curl_of_corner(cell, 0u);
+    sum = float3_add(sum, part);
+    part = noise_curl_of_corner(cell, 1u);
+    sum = float3_add(sum, part);
+    part = noise_curl_of_corner(cell, 2u);
+    sum = float3_add(sum, part);
+    part = noise_curl_of_corner(cell, 3u);
+    sum = float3_add(sum, part);
+    part = noise_curl_of_corner(cell, 4u);
+    sum = float3_add(sum, part);
+    part = noise_curl_of_corner(cell, 5u);
+    sum = float3_add(sum, part);
+    part = noise_curl_of_corner(cell, 6u);
+    sum = float3_add(sum, part);
+    part = noise_curl_of_corner(cell, 7u);
+    sum = float3_add(sum, part);
+    return sum;
+}
+
 /* One octave with lattice points one unit apart, root of mean square speed about 1. */
 FN float3 noise_curl_octave(float3 p, uint seed)
 {
-    EXACT float3 sum = FLOAT3(0.0f, 0.0f, 0.0f);
-    if ((FLOAT_BITS(p.x) & EXACT_SIZE_BITS) > NOISE_REACH_BITS ||
-        (FLOAT_BITS(p.y) & EXACT_SIZE_BITS) > NOISE_REACH_BITS ||
-        (FLOAT_BITS(p.z) & EXACT_SIZE_BITS) > NOISE_REACH_BITS)
-        return sum;
-    EXACT S(noise_cell) cell = noise_cell_at(p, seed);
-    for (uint corner = 0u; corner < 8u; corner++) {
-        EXACT float3 part = noise_curl_of_corner(cell, corner);
-        sum = float3_add(sum, part);
-    }
-    EXACT float3 y = float3_scale(sum, NOISE_CURL_UNIT);
+    bool reached = noise_reaches(p);
+    EXACT float3 near = FLOAT3(reached ? p.x : 0.0f, reached ? p.y : 0.0f, reached ? p.z : 0.0f);
+    EXACT S(noise_cell) cell = noise_cell_at(near, seed);
+    EXACT float3 sum = noise_curl_of_corners(cell);
+    EXACT float3 scaled = float3_scale(sum, NOISE_CURL_UNIT);
+    EXACT float3 y =
+        FLOAT3(reached ? scaled.x : 0.0f, reached ? scaled.y : 0.0f, reached ? scaled.z : 0.0f);
     return y;
 }
 
-/* Up to 4 octaves, each of half the size and half the speed of the one before. */
+#define NOISE_OCTAVES 4u
+
+/* Adds an octave, 0 to NOISE_OCTAVES - 1: each of half the size and half the speed of the one
+ * before. */
+FN float3 noise_curl_add(float3 sum, float3 p, uint seed, uint octave)
+{
+    EXACT float frequency = FLOAT(1u << octave);
+    EXACT float speed = BITS_FLOAT((127u - octave) << 23u);
+    EXACT float3 q = float3_scale(p, frequency);
+    EXACT float3 part = noise_curl_octave(q, random_mix(seed + octave));
+    EXACT float3 y = float3_add_scaled(sum, part, speed);
+    return y;
+}
+
 FN float3 noise_curl(float3 p, uint seed, uint octaves)
 {
     EXACT float3 sum = FLOAT3(0.0f, 0.0f, 0.0f);
-    EXACT float frequency = 1.0f;
-    EXACT float speed = 1.0f;
-    for (uint octave = 0u; octave < octaves && octave < 4u; octave++) {
-        EXACT float3 q = float3_scale(p, frequency);
-        EXACT float3 part = noise_curl_octave(q, random_mix(seed + octave));
-        sum = float3_add_scaled(sum, part, speed);
-        frequency = frequency * 2.0f;
-        speed = speed * 0.5f;
-    }
+    for (uint octave = 0u; octave < octaves && octave < NOISE_OCTAVES; octave++)
+        sum = noise_curl_add(sum, p, seed, octave);
     return sum;
 }
 

@@ -1,0 +1,128 @@
+/* Particles in blocks, for loops that compilers make into vectors: the words of their records each
+ * in an array of its own, and what follows from them. For files *_simd.c; every function gives the
+ * bits of the one of shaders/shared that it names.
+ */
+#ifndef KILN_PARTICLES_LANES_H
+#define KILN_PARTICLES_LANES_H
+
+#include <stdalign.h>
+
+#include "shared/derived.h"
+
+enum {
+    KILN_LANES = 128,
+    KILN_RECORD_WORDS = sizeof(struct kiln_particle) / sizeof(uint32_t),
+    KILN_SHORT_CURVE = 12, /* keys; of longer ones, each lane finds its own */
+};
+
+/* A number of each lane. */
+typedef float kiln_floats[KILN_LANES];
+
+struct kiln_floats3 {
+    kiln_floats x, y, z;
+};
+
+struct kiln_lanes {
+    alignas(64) uint32_t words[KILN_RECORD_WORDS][KILN_LANES]; /* of the records */
+    kiln_floats age_s, life_s;
+    kiln_floats born_s, least, most; /* on the way to life_s */
+};
+
+static inline float3 kiln_get3(const struct kiln_floats3 *from, uint32_t i)
+{
+    return (float3){from->x[i], from->y[i], from->z[i]};
+}
+
+static inline void kiln_set3(struct kiln_floats3 *to, uint32_t i, float3 v)
+{
+    to->x[i] = v.x;
+    to->y[i] = v.y;
+    to->z[i] = v.z;
+}
+
+static inline struct kiln_particle kiln_lanes_record(const struct kiln_lanes *lanes, uint32_t i)
+{
+    const uint32_t(*words)[KILN_LANES] = lanes->words;
+    return (struct kiln_particle){
+        .position_serial = {words[0][i], words[1][i], words[2][i], words[3][i]},
+        .velocity_birth = {words[4][i], words[5][i], words[6][i], words[7][i]},
+    };
+}
+
+/* KILN_LANES records. */
+static inline void kiln_lanes_load(struct kiln_lanes *lanes, const struct kiln_particle *records)
+{
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        lanes->words[0][i] = records[i].position_serial.x;
+        lanes->words[1][i] = records[i].position_serial.y;
+        lanes->words[2][i] = records[i].position_serial.z;
+        lanes->words[3][i] = records[i].position_serial.w;
+        lanes->words[4][i] = records[i].velocity_birth.x;
+        lanes->words[5][i] = records[i].velocity_birth.y;
+        lanes->words[6][i] = records[i].velocity_birth.z;
+        lanes->words[7][i] = records[i].velocity_birth.w;
+    }
+}
+
+static inline void kiln_lanes_store(const struct kiln_lanes *lanes, struct kiln_particle *records)
+{
+    for (uint32_t i = 0; i < KILN_LANES; i++)
+        records[i] = kiln_lanes_record(lanes, i);
+}
+
+/* value_at_key, key by key. */
+static inline void kiln_lanes_follow(const float4 *keys, struct kiln_value v, const float *x,
+                                     float *y)
+{
+    if (v.count > KILN_SHORT_CURVE) {
+        for (uint32_t i = 0; i < KILN_LANES; i++)
+            y[i] = value_at_key(keys, v, x[i]);
+        return;
+    }
+    const uint32_t last = v.first + v.count - 1;
+    for (uint32_t i = 0; i < KILN_LANES; i++)
+        y[i] = keys[v.first].y;
+    for (uint32_t k = v.first; k <= last; k++) {
+        const float from = keys[k].x, at = keys[k].y, slope = keys[k].z;
+        const float flat_until = k == last ? INFINITY : from;
+        for (uint32_t i = 0; i < KILN_LANES; i++) {
+            float dx = x[i] - from;
+            float dy = dx * slope;
+            float sum = at + dy;
+            float here = x[i] > flat_until ? sum : at;
+            y[i] = x[i] >= from ? here : y[i];
+        }
+    }
+}
+
+/* value_at: over the clock whose readings are x, or the same for all at a time. */
+static inline void kiln_lanes_values(const float4 *keys, struct kiln_value v, uint32_t clock,
+                                     const float *x, float time_s, float *y)
+{
+    if (v.count != 0 && v.clock == clock) {
+        kiln_lanes_follow(keys, v, x, y);
+        return;
+    }
+    const float all = value_at(keys, v, time_s, 0.0f);
+    for (uint32_t i = 0; i < KILN_LANES; i++)
+        y[i] = all;
+}
+
+/* particle_life_s, and particle_age at the end of a step. */
+static inline void kiln_lanes_find_ages(struct kiln_lanes *lanes, const float4 *keys,
+                                        struct kiln_derived_params derived, uint32_t step)
+{
+    for (uint32_t i = 0; i < KILN_LANES; i++)
+        lanes->born_s[i] = particle_birth_time(derived, kiln_lanes_record(lanes, i));
+    const struct kiln_range *life = &derived.life;
+    kiln_lanes_values(keys, life->min, KILN_CLOCK_TIME, lanes->born_s, 0.0f, lanes->least);
+    kiln_lanes_values(keys, life->max, KILN_CLOCK_TIME, lanes->born_s, 0.0f, lanes->most);
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        struct kiln_particle p = kiln_lanes_record(lanes, i);
+        lanes->life_s[i] = random_between(particle_stream(derived, p), RANDOM_LIFE, lanes->least[i],
+                                          lanes->most[i]);
+        lanes->age_s[i] = particle_age(p, step, derived.dt_s);
+    }
+}
+
+#endif

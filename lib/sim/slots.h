@@ -1,0 +1,23 @@
+/* The loops of simulate=cpu over slots. */
+#ifndef KILN_SIM_SLOTS_H
+#define KILN_SIM_SLOTS_H
+
+#include "base/simd.h"
+#include "shared/step_family.h"
+
+struct kiln_slots {
+    struct kiln_sim sim;
+    struct kiln_particle *records; /* of the system */
+    struct kiln_trace *traces;     /* of all systems */
+};
+
+/* One step of slots begin to end of the kiln_slots that context points to, for kiln_threads_for. */
+typedef void kiln_slots_run(void *context, size_t begin, size_t end, uint32_t worker);
+
+struct kiln_slots_step {
+    kiln_slots_run *alone;  /* of systems without relations */
+    kiln_slots_run *family; /* of others; their parents' slots have been stepped before */
+};
+KILN_SIMD_DECLARE(const struct kiln_slots_step, kiln_slots_step);
+
+#endif

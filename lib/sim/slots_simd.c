@@ -1,0 +1,300 @@
+/* Steps blocks of slots: what most particles do in most steps (fly, and touch nothing) stage by
+ * stage for all of a block, in loops over arrays that compilers make into vectors. The stages are
+ * the functions of shaders/shared, so the bits are those of step_slot, which steps the others:
+ * births, and particles that may have met a collider.
+ */
+#include "sim/slots.h"
+
+#include "particles/lanes.h"
+
+struct block {
+    struct kiln_lanes lanes;
+    uint32_t alone[KILN_LANES];       /* 1: a case for step_slot */
+    uint32_t lost[KILN_LANES];        /* 1: where particles may not be */
+    kiln_floats life;                 /* progress at the start of the step */
+    struct kiln_floats3 acceleration; /* of the forces so far */
+    kiln_floats pull;
+    struct kiln_floats3 velocity, position; /* at the end */
+    struct kiln_floats3 vector, drift;      /* options of a force */
+    kiln_floats strength, pulling, scale;
+    struct kiln_floats3 place, curl;
+};
+
+static inline struct kiln_particle record_at(const struct block *b, uint32_t i)
+{
+    return kiln_lanes_record(&b->lanes, i);
+}
+
+static inline void find_values(const struct kiln_sim *sim, struct kiln_value v,
+                               const struct block *b, float *y)
+{
+    kiln_lanes_values(sim->value_keys, v, KILN_CLOCK_LIFE, b->life, sim->step->time_s, y);
+}
+
+static inline void find_values3(const struct kiln_sim *sim, struct kiln_value3 v,
+                                const struct block *b, struct kiln_floats3 *y)
+{
+    find_values(sim, v.x, b, y->x);
+    find_values(sim, v.y, b, y->y);
+    find_values(sim, v.z, b, y->z);
+}
+
+/* ---- stages ---------------------------------------------------------------------------------- */
+
+static inline void find_ages(const struct kiln_sim *sim, struct block *b)
+{
+    const float dt_s = sim->step->derived.dt_s;
+    kiln_lanes_find_ages(&b->lanes, sim->value_keys, sim->step->derived, sim->step->step);
+    for (uint32_t i = 0; i < KILN_LANES; i++)
+        b->life[i] = particle_progress(b->lanes.age_s[i] - dt_s, b->lanes.life_s[i]);
+}
+
+static inline struct force_input force_input_at(const struct block *b, uint32_t i, float time_s)
+{
+    return (struct force_input){
+        .position = particle_position(record_at(b, i)),
+        .time_s = time_s,
+        .vector = kiln_get3(&b->vector, i),
+        .strength = b->strength[i],
+        .drift = kiln_get3(&b->drift, i),
+        .pull = b->pulling[i],
+        .scale = b->scale[i],
+    };
+}
+
+static inline void add_effect(struct block *b, uint32_t i, struct force_effect effect)
+{
+    struct force_effect sum = {kiln_get3(&b->acceleration, i), b->pull[i]};
+    sum = forces_add(sum, effect);
+    kiln_set3(&b->acceleration, i, sum.acceleration);
+    b->pull[i] = sum.pull;
+}
+
+/* force_curl, an octave of all lanes after the other. */
+static inline void add_curl(const struct kiln_sim *sim, struct block *b, uint32_t octaves)
+{
+    const float time_s = sim->step->time_s;
+    const uint32_t seed = sim->step->noise_seed;
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        kiln_set3(&b->place, i, force_curl_place(force_input_at(b, i, time_s)));
+        kiln_set3(&b->curl, i, (float3){0.0f, 0.0f, 0.0f});
+    }
+    for (uint32_t octave = 0; octave < octaves && octave < NOISE_OCTAVES; octave++) {
+        for (uint32_t i = 0; i < KILN_LANES; i++)
+            kiln_set3(
+                &b->curl, i,
+                noise_curl_add(kiln_get3(&b->curl, i), kiln_get3(&b->place, i), seed, octave));
+    }
+    for (uint32_t i = 0; i < KILN_LANES; i++)
+        add_effect(b, i, force_curl_effect(force_input_at(b, i, time_s), kiln_get3(&b->curl, i)));
+}
+
+static inline void add_force(const struct kiln_sim *sim, struct block *b,
+                             const struct kiln_force_params *force)
+{
+    const float time_s = sim->step->time_s;
+    find_values3(sim, force->vector, b, &b->vector);
+    find_values(sim, force->strength, b, b->strength);
+    find_values3(sim, force->drift, b, &b->drift);
+    find_values(sim, force->pull, b, b->pulling);
+    find_values(sim, force->scale, b, b->scale);
+    switch (force->kind) {
+    case FORCE_GRAVITY:
+        for (uint32_t i = 0; i < KILN_LANES; i++)
+            add_effect(b, i, force_gravity(force_input_at(b, i, time_s)));
+        break;
+    case FORCE_DRAG:
+        for (uint32_t i = 0; i < KILN_LANES; i++)
+            add_effect(b, i, force_drag(force_input_at(b, i, time_s)));
+        break;
+    case FORCE_WIND:
+        for (uint32_t i = 0; i < KILN_LANES; i++)
+            add_effect(b, i, force_wind(force_input_at(b, i, time_s)));
+        break;
+    case FORCE_CURL:
+        add_curl(sim, b, force->octaves);
+        break;
+    default:
+        break;
+    }
+}
+
+static inline void limit_speed(const struct kiln_sim *sim, struct block *b)
+{
+    for (uint32_t k = 0; k < sim->step->force_count; k++) {
+        const struct kiln_force_params *force = &sim->step->forces[k];
+        if (force->kind != FORCE_LIMIT)
+            continue;
+        find_values(sim, force->strength, b, b->strength);
+        for (uint32_t i = 0; i < KILN_LANES; i++)
+            kiln_set3(&b->velocity, i, force_limit_one(kiln_get3(&b->velocity, i), b->strength[i]));
+    }
+}
+
+/* step_integrate, over the whole step. */
+static inline void fly(const struct kiln_sim *sim, struct block *b)
+{
+    const float time_s = sim->step->derived.dt_s;
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        kiln_set3(&b->acceleration, i, (float3){0.0f, 0.0f, 0.0f});
+        b->pull[i] = 0.0f;
+    }
+    for (uint32_t k = 0; k < sim->step->force_count; k++)
+        add_force(sim, b, &sim->step->forces[k]);
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        struct force_effect forces = {kiln_get3(&b->acceleration, i), b->pull[i]};
+        kiln_set3(&b->velocity, i,
+                  forces_apply(forces, particle_velocity(record_at(b, i)), time_s));
+    }
+    if (sim->step->limited)
+        limit_speed(sim, b);
+    const bool position_first = sim->step->integration == INTEGRATE_POSITION_FIRST;
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        struct kiln_particle p = record_at(b, i);
+        float3 before = particle_velocity(p), after = kiln_get3(&b->velocity, i);
+        float3 carrying = {position_first ? before.x : after.x, position_first ? before.y : after.y,
+                           position_first ? before.z : after.z};
+        kiln_set3(&b->position, i, float3_add_scaled(particle_position(p), carrying, time_s));
+    }
+}
+
+static inline void find_lost(const struct kiln_sim *sim, struct block *b)
+{
+    const struct kiln_step_params *step = sim->step;
+    for (uint32_t i = 0; i < KILN_LANES; i++)
+        b->lost[i] = 1u ^ ((uint32_t)step_is_sane(kiln_get3(&b->position, i)) &
+                           (uint32_t)step_is_sane(kiln_get3(&b->velocity, i)));
+    if (step->bounded) {
+        const float4 low = step->bounds_min, high = step->bounds_max;
+        for (uint32_t i = 0; i < KILN_LANES; i++)
+            b->lost[i] |= !step_is_between(kiln_get3(&b->position, i), low, high);
+    }
+    for (uint32_t k = 0; k < step->demitter_count; k++) {
+        const float4 low = step->demitter_min[k], high = step->demitter_max[k];
+        for (uint32_t i = 0; i < KILN_LANES; i++)
+            b->lost[i] |= step_is_between(kiln_get3(&b->position, i), low, high);
+    }
+}
+
+/* Along one axis: whether a way from a to b may be between two faces. What is on one side of a face
+ * at both ends never meets the collider (collide_face). */
+static inline uint32_t may_be_between(float a, float b, float low, float low_end, float high,
+                                      float high_end)
+{
+    uint32_t above = (a >= low) | (b >= low_end);
+    uint32_t below = (a <= high) | (b <= high_end);
+    return above & below;
+}
+
+static inline void find_touching(struct block *b, const struct kiln_collider *c)
+{
+    /* The bounds of a round shape are computed apart from its surface. */
+    const float gap = c->kind == COLLIDER_BOX ? 0.0f : 0.01f;
+    const float3 low = {c->min.x - gap, c->min.y - gap, c->min.z - gap};
+    const float3 high = {c->max.x + gap, c->max.y + gap, c->max.z + gap};
+    const float3 low_end = {c->min_end.x - gap, c->min_end.y - gap, c->min_end.z - gap};
+    const float3 high_end = {c->max_end.x + gap, c->max_end.y + gap, c->max_end.z + gap};
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        float3 from = particle_position(record_at(b, i)), to = kiln_get3(&b->position, i);
+        b->alone[i] |= may_be_between(from.x, to.x, low.x, low_end.x, high.x, high_end.x) &
+                       may_be_between(from.y, to.y, low.y, low_end.y, high.y, high_end.y) &
+                       may_be_between(from.z, to.z, low.z, low_end.z, high.z, high_end.z);
+    }
+}
+
+/* Marks what step_slot is for: living particles that may touch something, and births. */
+static inline void find_alone(const struct kiln_sim *sim, struct block *b, uint32_t first_slot)
+{
+    memset(b->alone, 0, sizeof b->alone);
+    if (sim->step->collide != COLLIDE_OFF) {
+        for (uint32_t k = 0; k < sim->colliders->count; k++)
+            find_touching(b, &sim->colliders->boxes[k]);
+    }
+    const uint32_t births = sim->step->birth_count;
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        uint32_t alive =
+            particle_is_alive(record_at(b, i)) & (b->lanes.age_s[i] < b->lanes.life_s[i]);
+        uint32_t born = step_birth_index(sim, first_slot + i) < births;
+        b->alone[i] = (b->alone[i] & alive) | born;
+    }
+}
+
+/* step_particle of what is not stepped alone. */
+static inline void move(struct block *b)
+{
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        struct kiln_particle p = record_at(b, i);
+        struct kiln_particle moved =
+            step_with_motion(p, kiln_get3(&b->position, i), kiln_get3(&b->velocity, i));
+        bool stays = !particle_is_alive(p) || b->alone[i] != 0;
+        bool dies = b->lanes.age_s[i] >= b->lanes.life_s[i] || b->lost[i] != 0;
+        uint32_t living = dies ? 0u : ~0u;
+        const uint4 *place = &moved.position_serial, *speed = &moved.velocity_birth;
+        b->lanes.words[0][i] = stays ? b->lanes.words[0][i] : place->x & living;
+        b->lanes.words[1][i] = stays ? b->lanes.words[1][i] : place->y & living;
+        b->lanes.words[2][i] = stays ? b->lanes.words[2][i] : place->z & living;
+        b->lanes.words[3][i] = stays ? b->lanes.words[3][i] : place->w & living;
+        b->lanes.words[4][i] = stays ? b->lanes.words[4][i] : speed->x & living;
+        b->lanes.words[5][i] = stays ? b->lanes.words[5][i] : speed->y & living;
+        b->lanes.words[6][i] = stays ? b->lanes.words[6][i] : speed->z & living;
+        b->lanes.words[7][i] = stays ? b->lanes.words[7][i] : speed->w & living;
+    }
+}
+
+/* ---- loops ----------------------------------------------------------------------------------- */
+
+/* `records` is that of first_slot, and those behind it. */
+__attribute__((flatten)) static void step_block(const struct kiln_sim *sim, uint32_t first_slot,
+                                                struct kiln_particle *records, struct block *b)
+{
+    kiln_lanes_load(&b->lanes, records);
+    find_ages(sim, b);
+    fly(sim, b);
+    find_lost(sim, b);
+    find_alone(sim, b, first_slot);
+    move(b);
+    kiln_lanes_store(&b->lanes, records);
+}
+
+static void step_alone(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct kiln_slots *slots = context;
+    const struct kiln_sim *sim = &slots->sim;
+    struct block block;
+    for (size_t first = begin; first < end; first += KILN_LANES) {
+        struct kiln_particle rest[KILN_LANES] = {0}, *records = slots->records + first;
+        const size_t count = end - first < KILN_LANES ? end - first : KILN_LANES;
+        if (count < KILN_LANES)
+            memcpy(rest, records, count * sizeof *records);
+        step_block(sim, (uint32_t)first, count < KILN_LANES ? rest : records, &block);
+        if (count < KILN_LANES)
+            memcpy(records, rest, count * sizeof *records);
+        for (size_t i = 0; i < count; i++) {
+            if (block.alone[i])
+                records[i] = step_slot(sim, (uint32_t)(first + i), records[i]);
+        }
+    }
+}
+
+static void step_family(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct kiln_slots *slots = context;
+    const struct kiln_sim *sim = &slots->sim;
+    const struct kiln_family_params *family = &sim->step->family;
+    for (size_t slot = begin; slot < end; slot++) {
+        struct kiln_trace parent = trace_nothing();
+        if (family->born_of != BORN_OF_CLOCK)
+            parent = slots->traces[family_parent_trace(sim, (uint)slot)];
+        struct step_result after = step_family_slot(sim, (uint)slot, slots->records[slot], parent);
+        slots->records[slot] = after.particle;
+        if (family->traced)
+            slots->traces[family->traces + slot] = after.trace;
+    }
+}
+
+const struct kiln_slots_step KILN_SIMD_NAME(kiln_slots_step) = {
+    .alone = step_alone,
+    .family = step_family,
+};

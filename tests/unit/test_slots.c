@@ -1,0 +1,122 @@
+/* lib/sim/slots_simd.c: stepping slots in blocks gives the bits of step_slot, at every width of
+ * vectors and for any stretch of slots. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <stdlib.h>
+
+#include "sim/params.h"
+#include "sim/slots.h"
+#include "support/simulation.h"
+
+static struct scene_fixture fixture; /* too large for a stack */
+
+enum { STEPS = 150, STRETCH = 300 /* no multiple of a block */ };
+
+/* What the zoo leaves out: a limited speed, and a curve of many keys. */
+static void add_limited(struct scene_fixture *f)
+{
+    float points[20][2];
+    for (int i = 0; i < 20; i++) {
+        points[i][0] = (float)i / 19.0f;
+        points[i][1] = 1.0f + (float)(i % 3);
+    }
+    struct kiln_system *s = fixture_add_system(f, "limited", 200.0f);
+    s->emit.speed = fixture_range(1.0f, 9.0f);
+    fixture_add_force(s, KILN_FORCE_LIMIT)->strength = fixture_keys(f, KILN_CLOCK_LIFE, 20, points);
+}
+
+static void step_in_blocks(const struct kiln_slots_step *loops, struct kiln_slots *slots)
+{
+    const uint32_t used = slots->sim.step->used;
+    for (uint32_t first = 0; first < used; first += STRETCH)
+        loops->alone(slots, first, used - first < STRETCH ? used : first + STRETCH, 0);
+}
+
+static void step_slots(struct kiln_slots *slots)
+{
+    for (uint32_t slot = 0; slot < slots->sim.step->used; slot++)
+        slots->records[slot] = step_slot(&slots->sim, slot, slots->records[slot]);
+}
+
+/* Steps all systems slot by slot, and each from the same state in blocks. Returns the living. */
+static uint32_t step_both(const struct kiln_slots_step *loops, const struct kiln_sim_params *params,
+                          struct kiln_particle *records, struct kiln_particle *copy)
+{
+    uint32_t alive = 0;
+    for (uint32_t k = 0; k < params->system_count; k++) {
+        const struct kiln_step_params *step = &params->systems[k];
+        struct kiln_slots slots = {
+            .sim = {step, &params->colliders, fixture.scene.keys},
+            .records = records + step->base,
+        };
+        const size_t bytes = step->used * sizeof *records;
+        memcpy(copy, slots.records, bytes);
+        step_slots(&slots);
+        slots.records = copy;
+        step_in_blocks(loops, &slots);
+        assert_memory_equal(copy, records + step->base, bytes);
+        for (uint32_t i = 0; i < step->used; i++)
+            alive += particle_is_alive(copy[i]);
+    }
+    return alive;
+}
+
+static void run_level(enum kiln_simd simd)
+{
+    struct kiln_error error = {0};
+    struct simulation run;
+    simulation_start(&run, &fixture.scene, NULL, 1);
+    struct kiln_sim_params *params = malloc(sizeof *params);
+    struct kiln_particle *copy = calloc(run.pool.slot_count, sizeof *copy);
+    struct kiln_particle *records = kiln_buffer_host(&run.pool.records, KILN_READ_WRITE, &error);
+    assert_true(params && copy && records);
+    kiln_sim_params_init(params, &fixture.scene);
+    uint32_t most = 0;
+    for (uint32_t step = 1; step <= STEPS; step++) {
+        assert_true(kiln_sim_params_step(params, &fixture.scene, &run.pool, step, &error));
+        uint32_t alive = step_both(KILN_SIMD_PICK(kiln_slots_step, simd), params, records, copy);
+        most = alive > most ? alive : most;
+    }
+    assert_true(most > 1000);
+    free(copy);
+    free(params);
+    simulation_end(&run);
+}
+
+static void run_levels(void)
+{
+    for (enum kiln_simd simd = 0; simd < KILN_SIMD_COUNT; simd++) {
+        if (kiln_simd_has(simd))
+            run_level(simd);
+    }
+}
+
+static void velocity_first(void **state)
+{
+    (void)state;
+    fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, STEPS);
+    add_limited(&fixture);
+    fixture_finish(&fixture, STEPS);
+    run_levels();
+}
+
+static void position_first_among_round_colliders(void **state)
+{
+    (void)state;
+    fixture_zoo(&fixture, KILN_INTEGRATE_POSITION_FIRST, STEPS);
+    fixture_add_round(&fixture);
+    run_levels();
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        cmocka_unit_test(velocity_first),
+        cmocka_unit_test(position_first_among_round_colliders),
+    };
+    return cmocka_run_group_tests_name("slots", tests, NULL, NULL);
+}
