@@ -7,76 +7,53 @@
  */
 #include "draw/firelight.h"
 
-#include <math.h>
+#include "draw/living_blocks.h"
 
 /* The part of a billboard's square that its cell fills with light. */
-static const double FILL = 0.25;
+static const float FILL = 0.25f;
 
 static const double PI = 3.14159265358979;
-
-/* Sums over the particles of one light. */
-struct gathering {
-    double color[3];    /* light sent, m^2 */
-    double energy;      /* of all channels: the weight of what follows */
-    double position[3]; /* m */
-    double square;      /* of the distance from the origin, m^2 */
-    double radius;      /* of a particle, m */
-};
 
 enum { MOST_STRETCHES = 16, LEAST_STRETCH = 2048 /* slots */ };
 
 struct gatherer {
+    const struct kiln_living_loops *loops;
     struct kiln_living_system system;
+    struct kiln_glow glow;
     uint32_t light_count;
     uint32_t stretches;
-    struct gathering lights[MOST_STRETCHES][KILN_MAX_FIRE_LIGHTS];
+    struct kiln_gathering lights[MOST_STRETCHES][KILN_MAX_FIRE_LIGHTS];
 };
 
-static void add_to_light(struct gathering *light, const struct kiln_living *particle,
-                         float3 emitted, double weight)
-{
-    double area = 4.0 * (double)particle->radius * (double)particle->radius;
-    double sent = weight * FILL * area * (double)particle->opacity;
-    const float glow[3] = {emitted.x, emitted.y, emitted.z};
-    const float position[3] = {particle->position.x, particle->position.y, particle->position.z};
-    double energy = 0.0;
-    for (int c = 0; c < 3; c++) {
-        light->color[c] += sent * (double)glow[c];
-        energy += sent * (double)glow[c];
-    }
-    light->energy += energy;
-    light->radius += energy * (double)particle->radius;
-    for (int c = 0; c < 3; c++) {
-        light->position[c] += energy * (double)position[c];
-        light->square += energy * (double)position[c] * (double)position[c];
-    }
-}
-
+/* Stretches are of whole blocks. */
 static void gather_stretches(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
     struct gatherer *gatherer = context;
-    const struct kiln_living_system *system = &gatherer->system;
+    const uint64_t blocks = (gatherer->system.used + KILN_LANES - 1) / KILN_LANES;
+    struct kiln_living_block block;
     for (size_t stretch = begin; stretch < end; stretch++) {
-        struct gathering *lights = gatherer->lights[stretch];
-        uint32_t slot = (uint32_t)((uint64_t)system->used * stretch / gatherer->stretches);
-        uint32_t last = (uint32_t)((uint64_t)system->used * (stretch + 1) / gatherer->stretches);
-        for (; slot < last; slot++) {
-            struct kiln_living particle;
-            if (!kiln_living_at(system, slot, &particle))
-                continue;
-            float3 emitted = kiln_living_glow(system, particle.progress);
-            double place = (double)particle.progress * (gatherer->light_count - 1);
-            uint32_t first = (uint32_t)place;
-            double part = place - first;
-            add_to_light(&lights[first], &particle, emitted, 1.0 - part);
-            if (part > 0.0)
-                add_to_light(&lights[first + 1], &particle, emitted, part);
+        uint64_t last = blocks * (stretch + 1) / gatherer->stretches;
+        for (uint64_t k = blocks * stretch / gatherer->stretches; k < last; k++) {
+            gatherer->loops->find(&gatherer->system, (uint32_t)k * KILN_LANES, &block);
+            gatherer->loops->gather_fire(&block, &gatherer->glow, FILL, gatherer->light_count,
+                                         gatherer->lights[stretch]);
         }
     }
 }
 
-static void add_gathering(struct gathering *sum, const struct gathering *other)
+static void sample_glow(struct gatherer *gatherer)
+{
+    for (uint32_t i = 0; i < KILN_LOOK_SAMPLES; i++) {
+        float3 glow =
+            kiln_living_glow(&gatherer->system, (float)i / (float)(KILN_LOOK_SAMPLES - 1));
+        gatherer->glow.red[i] = glow.x;
+        gatherer->glow.green[i] = glow.y;
+        gatherer->glow.blue[i] = glow.z;
+    }
+}
+
+static void add_gathering(struct kiln_gathering *sum, const struct kiln_gathering *other)
 {
     for (int c = 0; c < 3; c++) {
         sum->color[c] += other->color[c];
@@ -102,7 +79,7 @@ static void gather_system(struct gatherer *gatherer, struct kiln_threads *thread
 /* A patch of radiance L and area A lights a surface that faces it at distance d by L A / d^2; a
  * light of colour c (what arrives at 1 m, over pi) by pi c / d^2. The light's radius is how far its
  * particles are spread, so that a surface among them is not lit by a point. */
-static struct kiln_draw_light make_light(const struct gathering *light, float3 strength)
+static struct kiln_draw_light make_light(const struct kiln_gathering *light, float3 strength)
 {
     double mean[3], square = 0.0;
     for (int c = 0; c < 3; c++) {
@@ -130,8 +107,10 @@ uint32_t kiln_firelight_gather(const struct kiln_living_moment *moment,
         float3 strength = kiln_scene_value3(scene, &look->light, moment->view->clock.x);
         if (!scene->systems[i].enabled || !(strength.x + strength.y + strength.z > 0.0f))
             continue;
-        struct gatherer gatherer = {.system = kiln_living_system(moment, i),
+        struct gatherer gatherer = {.loops = moment->loops,
+                                    .system = kiln_living_system(moment, i),
                                     .light_count = look->light_count};
+        sample_glow(&gatherer);
         gather_system(&gatherer, threads);
         for (uint32_t k = 0; k < gatherer.light_count && count < KILN_MAX_FIRE_LIGHTS; k++) {
             if (gatherer.lights[0][k].energy > 0.0)

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "draw/firelight.h"
 #include "draw/lighting_gl.h"
+#include "draw/living_blocks.h"
 #include "draw/looks.h"
 #include "shared/exact.h"
 
@@ -22,6 +23,7 @@ struct kiln_lighting_stage {
     bool sun;         /* whether it shines ever */
     bool table_valid;
     float4 *table; /* looks */
+    const struct kiln_living_loops *loops;
     struct kiln_smoke puffs;
     struct kiln_smoke_shadow *shadow;
     float *depths;                      /* of the grids */
@@ -89,10 +91,12 @@ struct kiln_lighting_stage *kiln_lighting_create(struct kiln_device *device,
                                           .fire = kiln_firelight_exists(scene),
                                           .smoke = kiln_smoke_exists(scene),
                                           .sun = sun_exists(scene)};
-    if (!create_shadows(stage, error)) {
+    enum kiln_simd simd;
+    if (!kiln_simd_choose(&simd, error) || !create_shadows(stage, error)) {
         kiln_lighting_destroy(&stage);
         return NULL;
     }
+    stage->loops = KILN_SIMD_PICK(kiln_living_loops, simd);
     if (!allocate(stage, device)) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "lighting: out of memory");
         kiln_lighting_destroy(&stage);
@@ -182,7 +186,8 @@ bool kiln_lighting_run(struct kiln_lighting_stage *stage, struct kiln_pool *pool
     if (!stage->table_valid || kiln_looks_vary(stage->scene))
         kiln_looks_sample(stage->scene, view->clock.x, stage->table);
     stage->table_valid = true;
-    const struct kiln_living_moment moment = {stage->scene, pool, records, view, stage->table};
+    const struct kiln_living_moment moment = {stage->scene, pool,         records,
+                                              view,         stage->table, stage->loops};
     if (!cast_shadows(stage, &moment, lighting, error))
         return false;
     if (stage->fire)

@@ -7,13 +7,16 @@
 #include "scene/scene.h"
 #include "shared/draw_layout.h"
 
+struct kiln_living_loops;
+
 /* A pool at one moment. */
 struct kiln_living_moment {
     const struct kiln_scene *scene;
     const struct kiln_pool *pool;
     const struct kiln_particle *records; /* of the pool */
     const struct kiln_view *view;
-    const float4 *table; /* of kiln_looks_sample at the view's time */
+    const float4 *table;                   /* of kiln_looks_sample at the view's time */
+    const struct kiln_living_loops *loops; /* for this machine: living_blocks.h */
 };
 
 /* What the particles of one system follow from. */

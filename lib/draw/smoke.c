@@ -2,29 +2,38 @@
 #include "draw/smoke.h"
 
 #include "base/error.h"
-#include "shared/exact.h"
+#include "draw/living_blocks.h"
 
-#include <math.h>
+#include <assert.h>
 #include <stdlib.h>
 
 static const float FILL = 0.6f; /* of a cell of the atlas, in its middle */
 
 struct gatherer {
+    const struct kiln_living_loops *loops;
     struct kiln_living_system system;
     float shadow;
     struct kiln_puff *puffs; /* of the system */
     uint32_t *counts;
 };
 
-/* Extinction of e (1 - d^2)^2, d in radii, has the optical depth 16/15 e r through the middle of a
- * ball and, summed over it, e r^3 32 pi / 105. */
-static float extinction_of(const struct kiln_living *particle, float shadow)
+static uint32_t gather_block(const struct gatherer *gatherer, uint32_t first,
+                             struct kiln_puff *puffs)
 {
-    float alpha = FILL * particle->opacity, radius = particle->radius;
-    float passed = 1.0f - (alpha < 0.98f ? alpha : 0.98f);
-    float middle_depth = exact_log2(passed) * -0.693147181f * shadow;
-    return middle_depth * 15.0f / 16.0f * radius * radius * (32.0f * 3.14159265f / 105.0f);
+    struct kiln_living_block block;
+    float extinction[KILN_LANES];
+    gatherer->loops->find(&gatherer->system, first, &block);
+    gatherer->loops->find_extinction(&block, FILL, gatherer->shadow, extinction);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        if (block.radius[i] > 0.0f && block.opacity[i] > 0.0f)
+            puffs[count++] =
+                (struct kiln_puff){kiln_get3(&block.position, i), block.radius[i], extinction[i]};
+    }
+    return count;
 }
+
+static_assert(KILN_SMOKE_STRETCH % KILN_LANES == 0, "stretches are of whole blocks");
 
 static void gather_slots(void *context, size_t begin, size_t end, uint32_t worker)
 {
@@ -33,14 +42,8 @@ static void gather_slots(void *context, size_t begin, size_t end, uint32_t worke
     size_t stretch = begin / KILN_SMOKE_STRETCH;
     struct kiln_puff *puffs = gatherer->puffs + stretch * KILN_SMOKE_STRETCH;
     uint32_t count = 0;
-    for (size_t slot = begin; slot < end; slot++) {
-        struct kiln_living particle;
-        if (!kiln_living_at(&gatherer->system, (uint32_t)slot, &particle))
-            continue;
-        if (particle.radius > 0.0f && particle.opacity > 0.0f)
-            puffs[count++] = (struct kiln_puff){particle.position, particle.radius,
-                                                extinction_of(&particle, gatherer->shadow)};
-    }
+    for (size_t slot = begin; slot < end; slot += KILN_LANES)
+        count += gather_block(gatherer, (uint32_t)slot, puffs + count);
     gatherer->counts[stretch] = count;
 }
 
@@ -98,6 +101,7 @@ bool kiln_smoke_gather(struct kiln_smoke *smoke, const struct kiln_living_moment
         if (!(shadow > 0.0f))
             continue;
         struct gatherer gatherer = {
+            .loops = moment->loops,
             .system = kiln_living_system(moment, i),
             .shadow = shadow,
             .puffs = smoke->puffs + (size_t)smoke->stretch_count * KILN_SMOKE_STRETCH,

@@ -190,8 +190,8 @@ static void make_all(struct kiln_spheres_cpu *stage, const struct kiln_pool *poo
                             .pool = pool,
                             .view = kiln_backdrop_rays(stage->backdrop)->view,
                             .entries = entries};
-    const struct kiln_living_moment moment = {stage->scene, pool, records, making.view,
-                                              stage->table};
+    const struct kiln_living_moment moment = {stage->scene, pool,         records,
+                                              making.view,  stage->table, NULL};
     for (uint32_t i = 0; i < stage->scene->system_count; i++)
         making.systems[i] = kiln_living_system(&moment, i);
     kiln_threads_for(stage->threads, count, MAKE_AT_A_TIME, make_spheres, &making);

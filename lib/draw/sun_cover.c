@@ -1,10 +1,6 @@
 /* Outlines along the sun's direction, and how far along it a shape ends. */
 #include "draw/sun_cover.h"
 
-#include "shared/exact.h"
-
-#include <math.h>
-
 /* The part of a disc on the far side of a line, by the line's signed distance in radii. */
 static float disc_cover(float distance)
 {
@@ -16,11 +12,6 @@ static float disc_cover(float distance)
 static float strip_cover(float one, float other, float radius)
 {
     return fmaxf(disc_cover(one / radius) + disc_cover(other / radius) - 1.0f, 0.0f);
-}
-
-static float penumbra(float along, struct kiln_ball ball, const struct kiln_sun_frame *sun)
-{
-    return fmaxf(fmaxf(along, 0.0f) * sun->spread + ball.radius, 1e-5f);
 }
 
 /* By the way through and behind a shape until the sun is free. */
@@ -74,11 +65,8 @@ static float common_cover(const float covers[3], float3 towards)
 float kiln_box_sun_cover(float3 center, float3 half_size, struct kiln_ball ball,
                          const struct kiln_sun_frame *sun)
 {
-    float3 to = float3_sub(center, ball.center);
-    float ahead = float3_dot(to, sun->towards);
-    float3 across = float3_add_scaled(to, sun->towards, -ahead);
-    float size = sqrtf(float3_dot(half_size, half_size)), away = sqrtf(float3_dot(across, across));
-    if (ahead < -size || away > size + penumbra(ahead + size, ball, sun))
+    float size = sqrtf(float3_dot(half_size, half_size));
+    if (kiln_sun_misses(center, size, ball, sun))
         return 0.0f;
     struct slabs s = cross_slabs(center, half_size, ball.center, sun->towards);
     float covers[3], outside = 0.0f;
@@ -89,8 +77,8 @@ float kiln_box_sun_cover(float3 center, float3 half_size, struct kiln_ball ball,
         float one = (s.out[b] - s.in[a]) * scale, other = (s.out[a] - s.in[b]) * scale;
         float one_at = (s.in[a] * qb + s.out[b] * qa) / sum;
         float other_at = (s.in[b] * qa + s.out[a] * qb) / sum;
-        covers[i] = fmaxf(disc_cover(one / penumbra(one_at, ball, sun)) +
-                              disc_cover(other / penumbra(other_at, ball, sun)) - 1.0f,
+        covers[i] = fmaxf(disc_cover(one / kiln_sun_penumbra(one_at, ball, sun)) +
+                              disc_cover(other / kiln_sun_penumbra(other_at, ball, sun)) - 1.0f,
                           0.0f);
         outside = fmaxf(outside, -fminf(one, other));
     }
@@ -111,7 +99,7 @@ float kiln_sphere_sun_cover(float3 center, float radius, struct kiln_ball ball,
     float ahead = float3_dot(to, sun->towards);
     float3 across = float3_add_scaled(to, sun->towards, -ahead);
     float square = float3_dot(across, across), away = sqrtf(square);
-    float disc = penumbra(ahead, ball, sun);
+    float disc = kiln_sun_penumbra(ahead, ball, sun);
     float most = fminf(radius / disc, 1.0f);
     float cover = strip_cover(radius - away, radius + away, disc) * most;
     return cover * behind(ahead + sqrtf(fmaxf(radius * radius - square, 0.0f)), ball);
@@ -131,7 +119,7 @@ float kiln_cylinder_sun_cover(float3 center, float radius, float3 axis, float ha
     float x = float3_dot(to, right), y = float3_dot(to, up), ahead = float3_dot(to, sun->towards);
     float inside = sqrtf(fmaxf(radius * radius - x * x, 0.0f));
     float end = half_height * slant + fabsf(climb) * inside;
-    float disc = penumbra(ahead, ball, sun);
+    float disc = kiln_sun_penumbra(ahead, ball, sun);
     float cover = strip_cover(radius - fabsf(x), radius + fabsf(x), disc) *
                   strip_cover(end - fabsf(y), end + fabsf(y), disc);
     if (cover <= 0.0f)

@@ -3,11 +3,13 @@
 #include "draw/sun_shade.h"
 
 #include "base/error.h"
+#include "draw/living_blocks.h"
 #include "draw/sun_mesh.h"
 
 #include <stdlib.h>
+#include <string.h>
 
-enum { GRAIN = 512 }; /* slots that a worker takes at a time */
+enum { GRAIN = 8 * KILN_LANES }; /* slots that a worker takes at a time */
 
 struct kiln_sun_shade {
     const struct kiln_scene *scene;
@@ -97,16 +99,16 @@ static void place_objects(struct kiln_sun_shade *shade, float time_s)
 /* One whose particles are at hand. */
 struct seen_system {
     const struct kiln_sun_shade *shade;
+    const struct kiln_living_loops *loops;
     struct kiln_living_system system;
     float *visible; /* from its slots */
 };
 
 /* As with the backdrop's surfaces, what two objects let through is multiplied. */
-static float look_at_sun(const struct kiln_sun_shade *shade, const struct kiln_living *particle)
+static float look_at_sun(const struct kiln_sun_shade *shade, struct kiln_ball ball)
 {
     const struct kiln_draw_shapes *shapes = &shade->shapes;
     const struct kiln_sun_frame *sun = &shade->sun;
-    const struct kiln_ball ball = {particle->position, particle->radius};
     float visible = 1.0f;
     for (uint32_t i = 0; i < shade->box_count; i++)
         visible *= 1.0f - kiln_box_sun_cover(shade->box_center[i], shade->box_half[i], ball, sun);
@@ -122,15 +124,39 @@ static float look_at_sun(const struct kiln_sun_shade *shade, const struct kiln_l
     return visible;
 }
 
+/* Whether anything but boxes may hide the sun. */
+static bool has_others(const struct kiln_sun_shade *shade)
+{
+    const struct kiln_draw_shapes *shapes = &shade->shapes;
+    return shapes->counts.x > 0 || shapes->counts.y > 0 || shapes->counts.z > 0;
+}
+
+/* Most particles are far from the shade of any box. */
+static void look_from_block(const struct seen_system *seen, uint32_t first)
+{
+    const struct kiln_sun_shade *shade = seen->shade;
+    struct kiln_living_block block;
+    uint32_t shaded[KILN_LANES];
+    seen->loops->find(&seen->system, first, &block);
+    memcpy(shaded, block.alive, sizeof shaded);
+    if (!has_others(shade)) {
+        memset(shaded, 0, sizeof shaded);
+        for (uint32_t k = 0; k < shade->box_count; k++)
+            seen->loops->find_shaded(&block, shade->box_center[k], shade->box_half[k], &shade->sun,
+                                     shaded);
+    }
+    const uint32_t left = seen->system.used - first;
+    for (uint32_t i = 0; i < KILN_LANES && i < left; i++) {
+        const struct kiln_ball ball = {kiln_get3(&block.position, i), block.radius[i]};
+        seen->visible[first + i] = shaded[i] ? look_at_sun(shade, ball) : 1.0f;
+    }
+}
+
 static void look_from_slots(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
-    const struct seen_system *seen = context;
-    struct kiln_living particle;
-    for (size_t slot = begin; slot < end; slot++) {
-        if (kiln_living_at(&seen->system, (uint32_t)slot, &particle))
-            seen->visible[slot] = look_at_sun(seen->shade, &particle);
-    }
+    for (size_t slot = begin; slot < end; slot += KILN_LANES)
+        look_from_block(context, (uint32_t)slot);
 }
 
 const float *kiln_sun_shade_run(struct kiln_sun_shade *shade,
@@ -147,7 +173,7 @@ const float *kiln_sun_shade_run(struct kiln_sun_shade *shade,
     }
     place_objects(shade, moment->view->clock.x);
     for (uint32_t i = 0; i < shade->scene->system_count; i++) {
-        struct seen_system seen = {.shade = shade};
+        struct seen_system seen = {.shade = shade, .loops = moment->loops};
         if (!is_shaded(shade->scene, i))
             continue;
         seen.system = kiln_living_system(moment, i);

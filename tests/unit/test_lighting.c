@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "draw/firelight.h"
+#include "draw/living_blocks.h"
 #include "draw/looks.h"
 #include "draw/smoke_shadow.h"
 #include "draw/view.h"
@@ -74,7 +75,8 @@ static void assert_near(double found, double expected, double tolerance)
 
 static struct kiln_living_moment moment_of(const struct fixture *f)
 {
-    return (struct kiln_living_moment){f->scene, &f->pool, f->records, &f->view, table};
+    return (struct kiln_living_moment){f->scene, &f->pool, f->records,
+                                       &f->view, table,    &kiln_living_loops_plain};
 }
 
 static uint32_t gather_fire(const struct fixture *f, struct kiln_draw_light *lights)

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "draw/firelight.h"
+#include "draw/living_blocks.h"
 #include "draw/looks.h"
 #include "draw/smoke_shadow.h"
 #include "draw/view.h"
@@ -89,7 +90,8 @@ static void tear_down(struct fixture *f)
 static void light(const struct fixture *f, uint32_t thread_count, struct result *result)
 {
     struct kiln_error error = {0};
-    const struct kiln_living_moment moment = {f->scene, &f->pool, f->records, &f->view, f->table};
+    const struct kiln_living_moment moment = {f->scene, &f->pool, f->records,
+                                              &f->view, f->table, &kiln_living_loops_plain};
     struct kiln_threads *threads = kiln_threads_create(thread_count);
     struct kiln_smoke_shadow *shadow = kiln_smoke_shadow_create();
     struct kiln_smoke smoke = {0};
@@ -212,7 +214,8 @@ static void fill_by_the_book(const struct fixture *f, const float4 rows[3], stru
     book->cell =
         1 / (GRID *
              sqrt((double)(rows[0].x * rows[0].x + rows[0].y * rows[0].y + rows[0].z * rows[0].z)));
-    const struct kiln_living_moment moment = {f->scene, &f->pool, f->records, &f->view, f->table};
+    const struct kiln_living_moment moment = {f->scene, &f->pool, f->records,
+                                              &f->view, f->table, &kiln_living_loops_plain};
     for (uint32_t i = 0; i < 2; i++) {
         const struct kiln_living_system system = kiln_living_system(&moment, i);
         for (uint32_t slot = 0; slot < system.used; slot++) {
