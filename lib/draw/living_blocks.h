@@ -5,7 +5,7 @@
 
 #include "base/simd.h"
 #include "draw/living.h"
-#include "draw/sun_cover.h"
+#include "draw/sun_box.h"
 #include "particles/lanes.h"
 #include "shared/look_layout.h"
 
@@ -43,9 +43,9 @@ struct kiln_living_loops {
      * over its volume, m^2. */
     void (*find_extinction)(const struct kiln_living_block *block, float cover, float shadow,
                             float extinction[KILN_LANES]);
-    /* Sets a lane to 1 where kiln_box_sun_cover may be above 0. */
-    void (*find_shaded)(const struct kiln_living_block *block, float3 center, float3 half_size,
-                        const struct kiln_sun_frame *sun, uint32_t shaded[KILN_LANES]);
+    /* Multiplies by what boxes let through of the sun. */
+    void (*shade)(const struct kiln_living_block *block, const struct kiln_sun_box *boxes,
+                  uint32_t box_count, const struct kiln_sun_frame *sun, float visible[KILN_LANES]);
 };
 KILN_SIMD_DECLARE(const struct kiln_living_loops, kiln_living_loops);
 

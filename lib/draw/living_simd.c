@@ -187,15 +187,32 @@ __attribute__((flatten)) static void find_extinction(const struct kiln_living_bl
 
 /* ---- shade ----------------------------------------------------------------------------------- */
 
-__attribute__((flatten)) static void find_shaded(const struct kiln_living_block *b, float3 center,
-                                                 float3 half_size, const struct kiln_sun_frame *sun,
-                                                 uint32_t shaded[KILN_LANES])
+/* Most blocks are far from the shade of most boxes. */
+static inline bool any_near(const struct kiln_living_block *b, const struct kiln_sun_box *box,
+                            const struct kiln_sun_frame *sun)
 {
-    const struct kiln_sun_frame frame = *sun;
-    const float size = sqrtf(float3_dot(half_size, half_size));
+    uint32_t near = 0;
     for (uint32_t i = 0; i < KILN_LANES; i++) {
         const struct kiln_ball ball = {kiln_get3(&b->position, i), b->radius[i]};
-        shaded[i] |= b->alive[i] & !kiln_sun_misses(center, size, ball, &frame);
+        near |= b->alive[i] & !kiln_sun_misses(box->center, box->size, ball, sun);
+    }
+    return near != 0;
+}
+
+__attribute__((flatten)) static void shade(const struct kiln_living_block *b,
+                                           const struct kiln_sun_box *boxes, uint32_t box_count,
+                                           const struct kiln_sun_frame *sun,
+                                           float visible[KILN_LANES])
+{
+    const struct kiln_sun_frame frame = *sun;
+    for (uint32_t k = 0; k < box_count; k++) {
+        const struct kiln_sun_box box = boxes[k];
+        if (!any_near(b, &box, &frame))
+            continue;
+        for (uint32_t i = 0; i < KILN_LANES; i++) {
+            const struct kiln_ball ball = {kiln_get3(&b->position, i), b->radius[i]};
+            visible[i] *= 1.0f - kiln_sun_box_cover(&box, ball, &frame);
+        }
     }
 }
 
@@ -203,5 +220,5 @@ const struct kiln_living_loops KILN_SIMD_NAME(kiln_living_loops) = {
     .find = find,
     .gather_fire = gather_fire,
     .find_extinction = find_extinction,
-    .find_shaded = find_shaded,
+    .shade = shade,
 };

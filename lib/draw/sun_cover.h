@@ -37,8 +37,6 @@ static inline bool kiln_sun_misses(float3 center, float size, struct kiln_ball b
 
 /* 0 to 1. A shape hides the sun from what is behind it and, up to the ball's radius, inside of it.
  */
-float kiln_box_sun_cover(float3 center, float3 half_size, struct kiln_ball ball,
-                         const struct kiln_sun_frame *sun);
 float kiln_sphere_sun_cover(float3 center, float radius, struct kiln_ball ball,
                             const struct kiln_sun_frame *sun);
 float kiln_cylinder_sun_cover(float3 center, float radius, float3 axis, float half_height,

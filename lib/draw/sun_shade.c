@@ -18,7 +18,7 @@ struct kiln_sun_shade {
     struct kiln_sun_frame sun;  /* these are of the frame at hand */
     struct kiln_draw_shapes shapes;
     uint32_t box_count;
-    float3 box_center[KILN_MAX_OBJECTS], box_half[KILN_MAX_OBJECTS];
+    struct kiln_sun_box boxes[KILN_MAX_OBJECTS];
     float *visible; /* by slot, whole rows of KILN_SUN_SHADE_ROW */
 };
 
@@ -87,9 +87,9 @@ static void place_objects(struct kiln_sun_shade *shade, float time_s)
         if (object->kind != KILN_OBJECT_BOX)
             continue;
         float3 size = kiln_scene_value3(scene, &object->size, time_s);
-        uint32_t k = shade->box_count++;
-        shade->box_center[k] = kiln_scene_value3(scene, &object->center, time_s);
-        shade->box_half[k] = (float3){0.5f * size.x, 0.5f * size.y, 0.5f * size.z};
+        const float3 half = {0.5f * size.x, 0.5f * size.y, 0.5f * size.z};
+        shade->boxes[shade->box_count++] =
+            kiln_sun_box_at(kiln_scene_value3(scene, &object->center, time_s), half, &shade->sun);
     }
     for (uint32_t i = 0; i < shade->shapes.counts.z; i++)
         kiln_sun_mesh_update(&shade->maps[i], shade->meshes[i], &shade->shapes.meshes[i],
@@ -104,14 +104,12 @@ struct seen_system {
     float *visible; /* from its slots */
 };
 
-/* As with the backdrop's surfaces, what two objects let through is multiplied. */
-static float look_at_sun(const struct kiln_sun_shade *shade, struct kiln_ball ball)
+/* What is seen of it past all objects but boxes. */
+static float look_past_others(const struct kiln_sun_shade *shade, struct kiln_ball ball)
 {
     const struct kiln_draw_shapes *shapes = &shade->shapes;
     const struct kiln_sun_frame *sun = &shade->sun;
     float visible = 1.0f;
-    for (uint32_t i = 0; i < shade->box_count; i++)
-        visible *= 1.0f - kiln_box_sun_cover(shade->box_center[i], shade->box_half[i], ball, sun);
     for (uint32_t i = 0; i < shapes->counts.x; i++)
         visible *=
             1.0f - kiln_sphere_sun_cover(xyz(shapes->spheres[i]), shapes->spheres[i].w, ball, sun);
@@ -131,25 +129,25 @@ static bool has_others(const struct kiln_sun_shade *shade)
     return shapes->counts.x > 0 || shapes->counts.y > 0 || shapes->counts.z > 0;
 }
 
-/* Most particles are far from the shade of any box. */
+/* As with the backdrop's surfaces, what two objects let through is multiplied. */
 static void look_from_block(const struct seen_system *seen, uint32_t first)
 {
     const struct kiln_sun_shade *shade = seen->shade;
     struct kiln_living_block block;
-    uint32_t shaded[KILN_LANES];
+    alignas(64) float visible[KILN_LANES];
     seen->loops->find(&seen->system, first, &block);
-    memcpy(shaded, block.alive, sizeof shaded);
-    if (!has_others(shade)) {
-        memset(shaded, 0, sizeof shaded);
-        for (uint32_t k = 0; k < shade->box_count; k++)
-            seen->loops->find_shaded(&block, shade->box_center[k], shade->box_half[k], &shade->sun,
-                                     shaded);
+    for (uint32_t i = 0; i < KILN_LANES; i++)
+        visible[i] = 1.0f;
+    seen->loops->shade(&block, shade->boxes, shade->box_count, &shade->sun, visible);
+    if (has_others(shade)) {
+        for (uint32_t i = 0; i < KILN_LANES; i++) {
+            const struct kiln_ball ball = {kiln_get3(&block.position, i), block.radius[i]};
+            visible[i] *= block.alive[i] ? look_past_others(shade, ball) : 1.0f;
+        }
     }
     const uint32_t left = seen->system.used - first;
-    for (uint32_t i = 0; i < KILN_LANES && i < left; i++) {
-        const struct kiln_ball ball = {kiln_get3(&block.position, i), block.radius[i]};
-        seen->visible[first + i] = shaded[i] ? look_at_sun(shade, ball) : 1.0f;
-    }
+    memcpy(seen->visible + first, visible,
+           (left < KILN_LANES ? left : KILN_LANES) * sizeof *visible);
 }
 
 static void look_from_slots(void *context, size_t begin, size_t end, uint32_t worker)

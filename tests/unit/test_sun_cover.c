@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "draw/sun_box.h"
 #include "draw/sun_mesh.h"
 #include "shared/exact.h"
 
@@ -52,10 +53,16 @@ static bool hides(enum kind kind, float3 from, float3 direction)
     return false;
 }
 
+static float box_cover(struct kiln_ball ball, const struct kiln_sun_frame *sun)
+{
+    const struct kiln_sun_box box = kiln_sun_box_at(CENTER, HALF, sun);
+    return kiln_sun_box_cover(&box, ball, sun);
+}
+
 static float cover(enum kind kind, struct kiln_ball ball, const struct kiln_sun_frame *sun)
 {
     if (kind == BOX)
-        return kiln_box_sun_cover(CENTER, HALF, ball, sun);
+        return box_cover(ball, sun);
     if (kind == SPHERE)
         return kiln_sphere_sun_cover(CENTER, RADIUS, ball, sun);
     return kiln_cylinder_sun_cover(CENTER, RADIUS, axis(), HALF_HEIGHT, ball, sun);
@@ -181,7 +188,7 @@ static void a_mesh_shades_as_the_box_that_it_is(void **state)
             at = float3_add_scaled(at, sun.up, within(-1.5f, 1.5f));
             at = float3_add_scaled(at, sun.towards, i % 4 ? -2.0f : 2.0f);
             const struct kiln_ball ball = {at, within(0.05f, 0.4f)};
-            float expected = kiln_box_sun_cover(CENTER, HALF, ball, &sun);
+            float expected = box_cover(ball, &sun);
             float found = kiln_sun_mesh_cover(map, ball);
             sum += fabsf(found - expected);
             if (fabsf(found - expected) > 0.3f) /* at corners */
