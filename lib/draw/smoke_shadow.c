@@ -17,11 +17,12 @@
 
 enum {
     EDGE = KILN_SMOKE_GRID,
-    LEVELS = 5, /* 64, 32, 16, 8 and 4 cells */
+    LEVELS = 4, /* 64, 32, 16 and 8 cells */
     MOST_PARTS = 8,
     LEAST_PART = 2, /* stretches of puffs */
     BAND = 8,       /* rows of a slice that are summed along the light together */
     LANES = 8,      /* cells of a row that a ball reaches at most */
+    BALLS = 64,     /* at a time */
 };
 
 static const float MOST_CELLS = 2.5f;  /* of a ball's radius, in its grid */
@@ -183,79 +184,110 @@ static bool place_grid(struct box *box, uint32_t parts)
     return true;
 }
 
-/* The cells of one axis that a ball reaches. */
-struct reach {
-    int first, count;
-    float squares[LANES]; /* squared distances from its centre in radii, beyond its reach, too */
+/* Balls of smoke in the cells of their levels, some at a time: loops over them become vectors. */
+struct balls {
+    float at[3][BALLS]; /* the centre, in cells */
+    float radius[BALLS];
+    float inverse[BALLS]; /* of the radius */
+    float volume[BALLS];  /* of a cell, m^3 */
+    int level[BALLS];
+    int first[3][BALLS], count[3][BALLS]; /* the cells that the ball reaches, along each axis */
 };
 
-static inline struct reach reach_of(float center, float radius, int edge)
+static inline void place_balls(const struct box *box, const struct kiln_puff *puffs, int count,
+                               struct balls *balls)
 {
-    int first = (int)floorf(center - radius), last = (int)ceilf(center + radius) - 1;
-    first = first < 0 ? 0 : first;
-    last = last > edge - 1 ? edge - 1 : last;
-    int count = last - first + 1;
-    return (struct reach){.first = first, .count = count > LANES ? LANES : count};
+    const float cell = box->cell;
+    for (int i = 0; i < count; i++) {
+        int level = 0;
+        for (int k = 1; k < LEVELS; k++)
+            level += puffs[i].radius > MOST_CELLS * (cell * 0.5f * (float)(1 << k));
+        float size = cell * (float)(1 << level);
+        float radius = exact_max(puffs[i].radius / size, LEAST_CELLS);
+        balls->level[i] = level;
+        balls->radius[i] = radius;
+        balls->inverse[i] = 1.0f / radius;
+        balls->volume[i] = size * size * size;
+        for (int axis = 0; axis < 3; axis++)
+            balls->at[axis][i] =
+                (dot(box->axes[axis], puffs[i].position) - box->origin[axis]) / size;
+    }
 }
 
-static inline void measure(struct reach *reach, float center, float radius)
+/* Rows end with those of the grid, so that one may be read whole. */
+static inline void find_reaches(int count, struct balls *balls)
 {
-    for (int i = 0; i < LANES; i++) {
-        float away = ((float)(reach->first + i) + 0.5f - center) / radius;
-        reach->squares[i] = away * away;
+    for (int axis = 0; axis < 3; axis++) {
+        for (int i = 0; i < count; i++) {
+            int edge = EDGE >> balls->level[i];
+            float at = balls->at[axis][i], radius = balls->radius[i];
+            int first = (int)floorf(at - radius), last = (int)ceilf(at + radius) - 1;
+            first = first < 0 ? 0 : first;
+            last = last > edge - 1 ? edge - 1 : last;
+            int reached = last - first + 1;
+            balls->count[axis][i] = reached > LANES ? LANES : reached;
+            balls->first[axis][i] = axis == 0 && first > edge - LANES ? edge - LANES : first;
+        }
     }
 }
 
 /* Cells of a row at once. */
-typedef float cells4 __attribute__((vector_size(16)));
-typedef int32_t mask4 __attribute__((vector_size(16)));
+typedef float row8 __attribute__((vector_size(4 * LANES)));
+typedef int32_t mask8 __attribute__((vector_size(4 * LANES)));
 
-/* A ball in the cells of its level: (1 - d^2)^2, d in radii, in rows of a fixed width. */
+/* A ball's weights: (1 - d^2)^2, d in radii, in rows of a fixed width. */
 struct ball {
-    struct reach reach[3];
-    int quads; /* of a row: 1, or 2 if the ball is wider */
-    cells4 weights[LANES * LANES][2];
+    float squares[3][LANES]; /* of the distances of cells from its centre, beyond its reach, too */
+    row8 weights[LANES * LANES];
 };
 
-/* Returns the sum of the weights. */
-static inline float weigh(struct ball *ball)
+static inline void measure(const struct balls *balls, int i, struct ball *ball)
 {
-    cells4 sum = {0.0f, 0.0f, 0.0f, 0.0f}, squares[2];
-    memcpy(squares, ball->reach[0].squares, sizeof squares);
-    for (int z = 0; z < ball->reach[2].count; z++) {
-        for (int y = 0; y < ball->reach[1].count; y++) {
-            float room = 1.0f - (ball->reach[2].squares[z] + ball->reach[1].squares[y]);
-            for (int i = 0; i < ball->quads; i++) {
-                cells4 inside = room - squares[i];
-                inside = (cells4)((mask4)inside & (mask4)(inside > 0.0f));
-                sum += ball->weights[z * LANES + y][i] = inside * inside;
-            }
-        }
+    const row8 middles = {0.5f, 1.5f, 2.5f, 3.5f, 4.5f, 5.5f, 6.5f, 7.5f};
+    for (int axis = 0; axis < 3; axis++) {
+        row8 away =
+            (middles + ((float)balls->first[axis][i] - balls->at[axis][i])) * balls->inverse[i];
+        away *= away;
+        memcpy(ball->squares[axis], &away, sizeof away);
     }
-    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
-static inline void add_ball(float *cells, int edge, const struct ball *ball, float scale)
+/* Returns the sum of the weights. */
+static inline float weigh(const struct balls *balls, int i, struct ball *ball)
 {
-    for (int z = 0; z < ball->reach[2].count; z++) {
-        for (int y = 0; y < ball->reach[1].count; y++) {
-            int row = (ball->reach[2].first + z) * edge + ball->reach[1].first + y;
-            float *at = cells + (size_t)row * (size_t)edge + (size_t)ball->reach[0].first;
-            for (int i = 0; i < ball->quads; i++, at += 4) {
-                cells4 sum;
-                memcpy(&sum, at, sizeof sum);
-                sum += scale * ball->weights[z * LANES + y][i];
-                memcpy(at, &sum, sizeof sum);
-            }
+    row8 sum = {0.0f}, squares;
+    memcpy(&squares, ball->squares[0], sizeof squares);
+    for (int z = 0; z < balls->count[2][i]; z++) {
+        for (int y = 0; y < balls->count[1][i]; y++) {
+            row8 inside = 1.0f - (ball->squares[2][z] + ball->squares[1][y]) - squares;
+            inside = (row8)((mask8)inside & (mask8)(inside > 0.0f));
+            sum += ball->weights[z * LANES + y] = inside * inside;
+        }
+    }
+    return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
+}
+
+static inline void add_ball(float *cells, const struct balls *balls, int i, const struct ball *ball,
+                            float scale)
+{
+    const int edge = EDGE >> balls->level[i];
+    for (int z = 0; z < balls->count[2][i]; z++) {
+        int row = (balls->first[2][i] + z) * edge + balls->first[1][i];
+        float *at = cells + (size_t)row * (size_t)edge + (size_t)balls->first[0][i];
+        for (int y = 0; y < balls->count[1][i]; y++, at += edge) {
+            row8 sum;
+            memcpy(&sum, at, sizeof sum);
+            sum += scale * ball->weights[z * LANES + y];
+            memcpy(at, &sum, sizeof sum);
         }
     }
 }
 
 /* Clears the slices of a level that are about to be written for the first time. */
-static inline void touch(struct pyramid *part, int level, const struct reach *reach)
+static inline void touch(struct pyramid *part, int level, int first, int count)
 {
     size_t slice = (size_t)(EDGE >> level) * (size_t)(EDGE >> level);
-    for (int z = reach->first; z < reach->first + reach->count; z++) {
+    for (int z = first; z < first + count; z++) {
         if (!(part->touched[level] >> z & 1))
             memset(part->levels[level] + (size_t)z * slice, 0, slice * sizeof(float));
         part->touched[level] |= (uint64_t)1 << z;
@@ -264,33 +296,22 @@ static inline void touch(struct pyramid *part, int level, const struct reach *re
 
 /* The sum is what is kept, however few cells there are. */
 static inline void deposit(const struct box *box, struct pyramid *part,
-                           const struct kiln_puff *puff)
+                           const struct kiln_puff *puffs, int count)
 {
-    int level = 0;
-    float cell = box->cell;
-    while (level < LEVELS - 1 && puff->radius > MOST_CELLS * cell) {
-        level++;
-        cell *= 2.0f;
-    }
-    int edge = EDGE >> level;
-    float at[3], radius = fmaxf(puff->radius / cell, LEAST_CELLS);
-    for (int i = 0; i < 3; i++)
-        at[i] = (dot(box->axes[i], puff->position) - box->origin[i]) / cell;
+    struct balls balls;
     struct ball ball;
-    for (int i = 0; i < 3; i++)
-        ball.reach[i] = reach_of(at[i], radius, edge);
-    ball.quads = ball.reach[0].count > 4 ? 2 : 1;
-    int last_first = edge - 4 * ball.quads; /* rows of the ball end with those of the grid */
-    if (ball.reach[0].first > last_first)
-        ball.reach[0].first = last_first;
-    for (int i = 0; i < 3; i++)
-        measure(&ball.reach[i], at[i], radius);
-    float sum = weigh(&ball);
-    if (!(sum > 0.0f))
-        return;
-    touch(part, level, &ball.reach[2]);
-    float scale = puff->extinction / (sum * cell * cell * cell);
-    add_ball(part->levels[level], edge, &ball, scale);
+    place_balls(box, puffs, count, &balls);
+    find_reaches(count, &balls);
+    for (int i = 0; i < count; i++) {
+        measure(&balls, i, &ball);
+        float sum = weigh(&balls, i, &ball);
+        if (!(sum > 0.0f))
+            continue;
+        const int level = balls.level[i];
+        touch(part, level, balls.first[2][i], balls.count[2][i]);
+        add_ball(part->levels[level], &balls, i, &ball,
+                 puffs[i].extinction / (sum * balls.volume[i]));
+    }
 }
 
 KILN_WIDE_VECTORS
@@ -307,8 +328,9 @@ static void deposit_parts(void *context, size_t begin, size_t end, uint32_t work
         for (uint32_t stretch = first_stretch(shadow, index); stretch < last; stretch++) {
             const struct kiln_puff *puffs =
                 shadow->smoke->puffs + (size_t)stretch * KILN_SMOKE_STRETCH;
-            for (uint32_t i = 0; i < shadow->smoke->counts[stretch]; i++)
-                deposit(box, part, &puffs[i]);
+            const uint32_t count = shadow->smoke->counts[stretch];
+            for (uint32_t i = 0; i < count; i += BALLS)
+                deposit(box, part, puffs + i, (int)(count - i < BALLS ? count - i : BALLS));
         }
     }
 }

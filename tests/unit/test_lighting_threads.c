@@ -17,7 +17,7 @@
 #include "draw/view.h"
 #include "support/scenes.h"
 
-enum { GRID = KILN_SMOKE_GRID, CELLS = GRID * GRID * GRID, LEVELS = 5, MOST = 40000, STEP = 30 };
+enum { GRID = KILN_SMOKE_GRID, CELLS = GRID * GRID * GRID, LEVELS = 4, MOST = 40000, STEP = 30 };
 
 static const char SCENE[] =
     "kiln: 1\n"
