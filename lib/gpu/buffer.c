@@ -13,7 +13,7 @@ enum { HOST_ALIGNMENT = 64, LEAST_SIZE = 64 };
 void kiln_buffer_init(struct kiln_buffer *buffer, struct kiln_device *device, size_t size,
                       const char *label)
 {
-    *buffer = (struct kiln_buffer){.device = device, .label = label, .size = size};
+    *buffer = (struct kiln_buffer){.device = device, .label = label, .size = size, .content = size};
 }
 
 void kiln_buffer_finish(struct kiln_buffer *buffer)
@@ -72,9 +72,17 @@ void *kiln_buffer_host(struct kiln_buffer *buffer, enum kiln_access access,
         !fetch(buffer, error))
         return NULL;
     buffer->host_valid = true;
-    if (access != KILN_READ)
+    if (access != KILN_READ) {
         buffer->gl_valid = false;
+        buffer->content = buffer->size;
+    }
     return buffer->host;
+}
+
+void kiln_buffer_set_content(struct kiln_buffer *buffer, size_t bytes)
+{
+    assert(bytes <= buffer->size);
+    buffer->content = bytes;
 }
 
 static bool allocate_gl(struct kiln_buffer *buffer, struct kiln_error *error)
@@ -109,8 +117,8 @@ static bool send(struct kiln_buffer *buffer, struct kiln_error *error)
 {
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glBindBuffer(GL_COPY_WRITE_BUFFER, buffer->gl);
-    glBufferSubData(GL_COPY_WRITE_BUFFER, 0, (GLsizeiptr)buffer->size, buffer->host);
-    buffer->device->traffic.to_device += buffer->size;
+    glBufferSubData(GL_COPY_WRITE_BUFFER, 0, (GLsizeiptr)buffer->content, buffer->host);
+    buffer->device->traffic.to_device += buffer->content;
     return kiln_device_check(buffer->device, buffer->label, error);
 }
 

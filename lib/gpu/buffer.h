@@ -18,6 +18,7 @@ struct kiln_buffer {
     void *host; /* allocated at first use, 64-byte aligned */
     GLuint gl;  /* created at first use */
     bool host_valid, gl_valid;
+    size_t content; /* bytes that GL is sent: all, unless who wrote them on the host knows better */
 };
 
 /* Size 0 is allowed. Contents start as zeros. label must outlive the buffer. */
@@ -31,6 +32,10 @@ void kiln_buffer_reserve(struct kiln_buffer *buffer, size_t size);
 /* The bytes on the host, or NULL with an error (KILN_DEVICE_FAILED: memory). */
 void *kiln_buffer_host(struct kiln_buffer *buffer, enum kiln_access access,
                        struct kiln_error *error);
+
+/* Of what the host has just written, nobody will read more than the first so many bytes. Holds
+ * until the host asks to write again. */
+void kiln_buffer_set_content(struct kiln_buffer *buffer, size_t bytes);
 
 /* The GL buffer object, or 0 with an error. A shader that wrote it needs no barrier before
  * kiln_buffer_host, which issues it. */

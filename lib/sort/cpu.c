@@ -194,5 +194,6 @@ bool kiln_sort_cpu_run(struct kiln_sort_cpu *sort, struct kiln_pool *pool,
     if (sorts)
         kiln_sort_pairs(sort->threads, listing.pairs, *count, span_of(listing.blocks, block_count),
                         params->order == KILN_SORT_FRONT_TO_BACK, listing.entries, sort->counts);
+    kiln_buffer_set_content(entries, *count * sizeof *listing.entries);
     return true;
 }

@@ -146,6 +146,15 @@ static void bytes_that_move_are_counted(void **state)
     assert_non_null(kiln_buffer_host(&buffer, KILN_READ, &error));
     assert_int_equal(device->traffic.to_device, before.to_device + 1000);
     assert_int_equal(device->traffic.to_host, before.to_host + 1000);
+
+    /* Of what the host writes, GL is sent the part that counts, until it writes again. */
+    for (int turn = 0; turn < 2; turn++) {
+        assert_non_null(kiln_buffer_host(&buffer, KILN_READ_WRITE, &error));
+        if (turn == 0)
+            kiln_buffer_set_content(&buffer, 24);
+        assert_true(kiln_buffer_gl(&buffer, KILN_READ, &error) != 0);
+    }
+    assert_int_equal(device->traffic.to_device, before.to_device + 1000 + 24 + 1000);
     kiln_buffer_finish(&buffer);
 }
 
