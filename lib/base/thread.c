@@ -1,5 +1,6 @@
 /* A fixed pool: workers sleep on a condition until a loop is posted, then take pieces from an
- * atomic counter. */
+ * atomic counter. Who posts a loop works, too, and waits for nobody who has not begun when there
+ * are no pieces left: on busy machines a worker may wake up late. */
 #include "base/thread.h"
 
 #include <pthread.h>
@@ -20,8 +21,9 @@ struct kiln_threads {
     pthread_cond_t posted, finished;
     uint32_t count;   /* workers, the caller included */
     uint32_t started; /* threads to join */
-    uint32_t running; /* workers still inside the present loop */
+    uint32_t running; /* workers inside the present loop */
     uint64_t loop;    /* number of loops posted */
+    bool open;        /* whether the present loop may be entered */
     bool quit;
 
     void (*body)(void *, size_t, size_t, uint32_t);
@@ -59,11 +61,12 @@ static void *worker_main(void *argument)
     uint64_t seen = 0;
     pthread_mutex_lock(&pool->mutex);
     for (;;) {
-        while (pool->loop == seen && !pool->quit)
+        while ((!pool->open || pool->loop == seen) && !pool->quit)
             pthread_cond_wait(&pool->posted, &pool->mutex);
         if (pool->quit)
             break;
         seen = pool->loop;
+        pool->running++;
         pthread_mutex_unlock(&pool->mutex);
         take_pieces(pool, self->index);
         pthread_mutex_lock(&pool->mutex);
@@ -139,14 +142,15 @@ void kiln_threads_for(struct kiln_threads *threads, size_t count, size_t grain,
         return;
     }
     pthread_mutex_lock(&pool->mutex);
-    pool->running = pool->started;
     pool->loop++;
+    pool->open = true;
     pthread_cond_broadcast(&pool->posted);
     pthread_mutex_unlock(&pool->mutex);
 
     take_pieces(pool, 0);
 
     pthread_mutex_lock(&pool->mutex);
+    pool->open = false;
     while (pool->running > 0)
         pthread_cond_wait(&pool->finished, &pool->mutex);
     pthread_mutex_unlock(&pool->mutex);
