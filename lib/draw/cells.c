@@ -5,7 +5,6 @@
 #include "base/error.h"
 
 #include <limits.h>
-#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,15 +13,15 @@ enum {
 };
 
 struct slot {
-    atomic_bool wanted;
     uint32_t next_layer;
     float motion;
 };
 
 struct kiln_cells {
     const struct kiln_atlas *atlas;
-    struct slot *slots; /* by layer, phase and level */
-    uint8_t **texels;   /* of each; NULL: not mixed yet */
+    struct slot *slots;  /* by layer, phase and level */
+    atomic_bool *wanted; /* of each */
+    uint8_t **texels;    /* of each; NULL: not mixed yet */
     uint32_t slot_count;
     uint32_t *missing;            /* numbers of slots to be mixed */
     struct kiln_cell_hull *hulls; /* by layer and level */
@@ -150,12 +149,13 @@ struct kiln_cells *kiln_cells_create(const struct kiln_atlas *atlas, struct kiln
         cells->atlas = atlas;
         cells->slot_count = (atlas->layers ? atlas->layers : 1) * KILN_CELL_NUMBERS;
         cells->slots = calloc(cells->slot_count, sizeof *cells->slots);
+        cells->wanted = calloc(cells->slot_count, sizeof *cells->wanted);
         cells->texels = calloc(cells->slot_count, sizeof *cells->texels);
         cells->missing = calloc(cells->slot_count, sizeof *cells->missing);
         cells->hulls = calloc(cells->slot_count / KILN_CELL_PHASES, sizeof *cells->hulls);
     }
-    if (!cells || !cells->slots || !cells->texels || !cells->missing || !cells->hulls ||
-        !make_moves(cells)) {
+    if (!cells || !cells->slots || !cells->wanted || !cells->texels || !cells->missing ||
+        !cells->hulls || !make_moves(cells)) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "cells: out of memory");
         kiln_cells_destroy(&cells);
         return NULL;
@@ -172,6 +172,7 @@ void kiln_cells_destroy(struct kiln_cells **cells)
     for (uint32_t i = 0; c->texels && i < c->slot_count; i++)
         free(c->texels[i]);
     free(c->slots);
+    free(c->wanted);
     free(c->texels);
     free(c->missing);
     free(c->hulls);
@@ -184,20 +185,21 @@ uint32_t kiln_cells_want(struct kiln_cells *cells, const struct kiln_cell_name *
 {
     uint32_t number =
         (name->layer * KILN_CELL_PHASES + name->phase) * KILN_ATLAS_LEVELS + name->level;
-    struct slot *slot = &cells->slots[number];
+    atomic_bool *wanted = &cells->wanted[number];
     /* Whoever comes first writes; all would write the same. */
-    if (!atomic_load_explicit(&slot->wanted, memory_order_relaxed) &&
-        !atomic_exchange_explicit(&slot->wanted, true, memory_order_relaxed)) {
-        slot->next_layer = name->next_layer;
-        slot->motion = name->motion;
-    }
+    if (!atomic_load_explicit(wanted, memory_order_relaxed) &&
+        !atomic_exchange_explicit(wanted, true, memory_order_relaxed))
+        cells->slots[number] = (struct slot){name->next_layer, name->motion};
     return number;
 }
 
 struct kiln_cells_content kiln_cells_content(const struct kiln_cells *cells)
 {
-    return (struct kiln_cells_content){(const uint8_t *const *)cells->texels, cells->hulls,
-                                       cells->moves, cell_bytes(KILN_ATLAS_MOTION)};
+    return (struct kiln_cells_content){.texels = (const uint8_t *const *)cells->texels,
+                                       .wanted = cells->wanted,
+                                       .hulls = cells->hulls,
+                                       .moves = cells->moves,
+                                       .move_bytes = cell_bytes(KILN_ATLAS_MOTION)};
 }
 
 /* A grid of `channels` a texel, read between its texels and clamped at its edge. */
@@ -309,8 +311,7 @@ bool kiln_cells_mix(struct kiln_cells *cells, struct kiln_threads *threads,
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < cells->slot_count; i++) {
-        if (cells->texels[i] ||
-            !atomic_load_explicit(&cells->slots[i].wanted, memory_order_relaxed))
+        if (cells->texels[i] || !atomic_load_explicit(&cells->wanted[i], memory_order_relaxed))
             continue;
         cells->texels[i] = malloc(cell_bytes((uint32_t)KILN_ATLAS_CELL >> i % KILN_ATLAS_LEVELS));
         if (!cells->texels[i])

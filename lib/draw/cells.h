@@ -9,6 +9,8 @@
 #include "asset/atlas.h"
 #include "base/thread.h"
 
+#include <stdatomic.h>
+
 enum {
     KILN_CELL_TEXEL = 8,  /* bytes: as draw/simd.h has them */
     KILN_CELL_MARGIN = 2, /* columns more than the edge: the outer texels stand twice */
@@ -51,6 +53,7 @@ bool kiln_cells_mix(struct kiln_cells *cells, struct kiln_threads *threads,
  * for none, 127 more for a full move. */
 struct kiln_cells_content {
     const uint8_t *const *texels; /* by number, of those that are there */
+    const atomic_bool *wanted;    /* by number: kiln_cells_want need not be called again */
     const struct kiln_cell_hull *hulls;
     const uint8_t *moves; /* by layer, move_bytes each; NULL when nothing moves */
     size_t move_bytes;

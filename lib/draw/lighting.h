@@ -45,8 +45,4 @@ bool kiln_lighting_run(struct kiln_lighting_stage *stage, struct kiln_pool *pool
                        const struct kiln_view *view, struct kiln_lighting *lighting,
                        struct kiln_error *error);
 
-/* The part of the sun's and of the sky's light that gets through the smoke to a place. */
-float kiln_lighting_sun(const struct kiln_lighting *lighting, float3 position);
-float kiln_lighting_sky(const struct kiln_lighting *lighting, float3 position);
-
 #endif

@@ -30,6 +30,7 @@ struct kiln_tiles {
     uint32_t sprite_room;
     struct kiln_tile *tiles;           /* one a thread */
     struct kiln_fragments **fragments; /* one a thread, of a scene whose pixels sort; else NULL */
+    kiln_sprites_make *make;
     kiln_tile_draw *draw;
 };
 
@@ -67,6 +68,7 @@ struct kiln_tiles *kiln_tiles_create(const struct kiln_scene *scene, const struc
         kiln_tiles_destroy(&tiles);
         return NULL;
     }
+    tiles->make = KILN_SIMD_PICK(kiln_sprites_make, simd);
     tiles->draw = KILN_SIMD_PICK(kiln_tile_draw, simd);
     kiln_looks_fill(scene, atlas, tiles->looks);
     tiles->table = calloc((size_t)KILN_LOOK_TEXELS, sizeof *tiles->table);
@@ -100,6 +102,7 @@ void kiln_tiles_destroy(struct kiln_tiles **tiles)
 /* ---- sprites --------------------------------------------------------------------------------- */
 
 struct making {
+    kiln_sprites_make *make;
     const struct kiln_sprite_pass *pass;
     const uint32_t *entries;
     struct kiln_sprite *sprites;
@@ -109,7 +112,7 @@ static void make_sprites(void *context, size_t begin, size_t end, uint32_t worke
 {
     (void)worker;
     const struct making *making = context;
-    kiln_sprites_make(making->pass, making->entries + begin, end - begin, making->sprites + begin);
+    making->make(making->pass, making->entries + begin, end - begin, making->sprites + begin);
 }
 
 /* In large pages where the system has them: tiles read sprites from all over, and with small ones
@@ -222,7 +225,7 @@ static bool draw_piece(struct kiln_tiles *tiles, const struct kiln_sprite_pass *
                        const uint32_t *entries, uint32_t count, struct drawing *drawing,
                        struct kiln_error *error)
 {
-    struct making making = {pass, entries, tiles->sprites};
+    struct making making = {tiles->make, pass, entries, tiles->sprites};
     kiln_threads_for(tiles->threads, count, MAKE_AT_A_TIME, make_sprites, &making);
     if (!kiln_cells_mix(tiles->cells, tiles->threads, error) ||
         !kiln_bins_fill(&tiles->bins, tiles->sprites, count, tiles->threads, error))
@@ -386,7 +389,6 @@ bool kiln_tiles_run(struct kiln_tiles *tiles, const struct kiln_particles_draw *
         .content = kiln_cells_content(tiles->cells),
         .fire_covers = draw->sum_alpha || draw->fire_covers,
     };
-    kiln_sprite_lights_fill(&pass.lights, draw->backdrop);
     kiln_bins_measure(&tiles->bins, drawing.depth, drawing.width, drawing.height, tiles->threads);
     if (draw->by_fragment && draw->count > most) {
         struct sorting sorting = {

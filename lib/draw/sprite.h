@@ -5,6 +5,7 @@
 #ifndef KILN_DRAW_SPRITE_H
 #define KILN_DRAW_SPRITE_H
 
+#include "base/simd.h"
 #include "draw/cells.h"
 #include "draw/lighting.h"
 #include "draw/view.h"
@@ -49,16 +50,6 @@ struct kiln_sprite {
     uint8_t shade, flags;
 };
 
-enum { KILN_SPRITE_LIGHTS = KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS };
-
-/* Point lights, side by side for vectors; beyond count they are dark. */
-struct kiln_sprite_lights {
-    uint32_t count; /* rounded up to a multiple of 8 */
-    float x[KILN_SPRITE_LIGHTS], y[KILN_SPRITE_LIGHTS], z[KILN_SPRITE_LIGHTS]; /* m, in the world */
-    float radius2[KILN_SPRITE_LIGHTS];                                         /* m^2 */
-    float color[KILN_SPRITE_LIGHTS][3];                                        /* radiance at 1 m */
-};
-
 /* What all sprites of a pass have in common. */
 struct kiln_sprite_pass {
     const struct kiln_scene *scene;
@@ -68,18 +59,16 @@ struct kiln_sprite_pass {
     const struct kiln_view *view;
     const struct kiln_draw_backdrop *backdrop;
     const struct kiln_lighting *lighting;
-    struct kiln_sprite_lights lights; /* of kiln_sprite_lights_fill */
     struct kiln_cells *cells;
     struct kiln_cells_content content; /* of the cells */
     bool fire_covers; /* additive particles cover, too, or have their alpha summed up */
 };
 
-void kiln_sprite_lights_fill(struct kiln_sprite_lights *lights,
-                             const struct kiln_draw_backdrop *backdrop);
-
 /* Makes the sprites of draw entries and wants their cells. Those of which nothing can be seen touch
  * no pixels (x_from = x_to). */
-void kiln_sprites_make(const struct kiln_sprite_pass *pass, const uint32_t *entries, size_t count,
-                       struct kiln_sprite *sprites);
+typedef void kiln_sprites_make(const struct kiln_sprite_pass *pass, const uint32_t *entries,
+                               size_t count, struct kiln_sprite *sprites);
+
+KILN_SIMD_DECLARE(kiln_sprites_make, kiln_sprites_make);
 
 #endif

@@ -1,0 +1,282 @@
+/* lib/draw/sprite_simd.c: the sprites are the same bytes for every width of vectors, and whichever
+ * particles share a vector. lib/draw/particle_math.h: the same bits as shaders/shared. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "draw/looks.h"
+#include "draw/particle_math.h"
+#include "draw/sprite.h"
+#include "support/scenes.h"
+
+enum { COUNT = 1511, STEP = 90, GRID = KILN_SMOKE_GRID * KILN_SMOKE_GRID * KILN_SMOKE_GRID };
+
+static float random_within(float low, float high)
+{
+    return low + (high - low) * (float)(rand() % 10001) / 10000.0f;
+}
+
+/* Any bits: numbers of all sizes, and what is none. */
+static uint32_t random_bits32(void)
+{
+    return (uint32_t)rand() << 16 ^ (uint32_t)rand();
+}
+
+/* ---- mathematics ----------------------------------------------------------------------------- */
+
+static void vectors_divide_as_one_number(void **state)
+{
+    (void)state;
+    static const uint32_t odd[] = {0,          0x80000000u, 0x7f800000u,     0xff800000u,
+                                   0x7fc00000, 1,           EXACT_TINY_BITS, EXACT_VAST_BITS};
+    srand(1);
+    for (int i = 0; i < 20000; i++) {
+        uint32_t bits[LANES];
+        vf x;
+        for (int k = 0; k < LANES; k++)
+            bits[k] = i < 8 ? odd[(i + k) % 8] : random_bits32();
+        memcpy(&x, bits, sizeof x);
+        vf y = vf_rcp(x);
+        for (int k = 0; k < LANES; k++)
+            assert_true(FLOAT_BITS(y[k]) == FLOAT_BITS(exact_rcp(x[k])));
+    }
+}
+
+static void vectors_draw_the_same_random_numbers(void **state)
+{
+    (void)state;
+    srand(2);
+    for (int i = 0; i < 5000; i++) {
+        vu streams;
+        for (int k = 0; k < LANES; k++)
+            streams[k] = random_bits32();
+        uint32_t purpose = (uint32_t)i % 16;
+        float low = random_within(-2.0f, 2.0f), high = random_within(-2.0f, 2.0f);
+        vf unit = vu_unit(streams, purpose);
+        vf between = vf_lerp_within(vf_all(low), vf_all(high), unit);
+        for (int k = 0; k < LANES; k++) {
+            assert_true(unit[k] == random_unit(streams[k], purpose));
+            assert_true(between[k] == random_between(streams[k], purpose, low, high));
+        }
+    }
+}
+
+static void vectors_live_as_long(void **state)
+{
+    (void)state;
+    static const float4 keys[] = {{0.0f, 1.0f, 0.5f, 0.0f}, {2.0f, 2.0f, 0.0f, 3.0f}};
+    const struct kiln_derived_params params = {
+        .random_key = 77,
+        .warmup_steps = 30,
+        .dt_s = 1.0f / 60.0f,
+        .life = {.min = {.constant = 0.5f}, .max = {.count = 2, .clock = KILN_CLOCK_TIME}}};
+    struct kiln_particle records[LANES];
+    srand(3);
+    for (int i = 0; i < 500; i++) {
+        vi slots;
+        for (int k = 0; k < LANES; k++) {
+            for (uint32_t word = 0; word < 8; word++)
+                ((uint32_t *)&records[k])[word] = random_bits32();
+            records[k].velocity_birth.w = (1u + (uint32_t)rand() % 200) << KILN_BIRTH_STEP_SHIFT |
+                                          (uint32_t)rand() % (1u << KILN_BIRTH_STEP_SHIFT);
+            slots[k] = LANES - 1 - k;
+        }
+        const struct vf_particles p = read_records(records, slots);
+        vu stream = vu_mix(p.serial + params.random_key);
+        vf age = vf_age(p.birth, 250, params.dt_s);
+        vf life = vf_life(keys, &params, stream, p.birth), progress = vf_progress(age, life);
+        for (int k = 0; k < LANES; k++) {
+            const struct kiln_particle one = records[slots[k]];
+            float age_s = particle_age(one, 250, params.dt_s);
+            float life_s = particle_life_s(keys, params, one);
+            assert_true(FLOAT_BITS(p.position.y[k]) == one.position_serial.y);
+            assert_true(FLOAT_BITS(p.velocity.z[k]) == one.velocity_birth.z);
+            assert_true(stream[k] == particle_stream(params, one));
+            assert_true(age[k] == age_s && life[k] == life_s);
+            assert_true(progress[k] == particle_progress(age_s, life_s));
+        }
+    }
+}
+
+/* ---- sprites --------------------------------------------------------------------------------- */
+
+struct fixture {
+    struct kiln_scene *scene;
+    struct kiln_threads *threads;
+    struct kiln_atlas atlas;
+    struct kiln_cells *cells;
+    struct kiln_view view;
+    struct kiln_draw_backdrop backdrop;
+    struct kiln_lighting lighting;
+    struct kiln_draw_look looks[KILN_MAX_SYSTEMS];
+    float4 table[KILN_LOOK_TEXELS];
+    float depth[GRID], sunlit[COUNT];
+    struct kiln_particle records[COUNT];
+    uint32_t entries[COUNT];
+    struct kiln_sprite_pass pass;
+};
+
+/* Around where the camera looks, and some behind it. */
+static void place_particles(struct fixture *f)
+{
+    srand(7);
+    const float4 eye = f->view.eye;
+    const float3 forward = kiln_view_forward(&f->view);
+    for (uint32_t i = 0; i < COUNT; i++) {
+        float far = random_within(-1.0f, 12.0f);
+        f->records[i] = (struct kiln_particle){
+            {FLOAT_BITS(eye.x + far * forward.x + random_within(-3.0f, 3.0f)),
+             FLOAT_BITS(eye.y + far * forward.y + random_within(-2.0f, 2.0f)),
+             FLOAT_BITS(eye.z + far * forward.z + random_within(-3.0f, 3.0f)), i},
+            {FLOAT_BITS(random_within(-2.0f, 2.0f)), FLOAT_BITS(random_within(-2.0f, 2.0f)),
+             FLOAT_BITS(random_within(-2.0f, 2.0f)),
+             (1u + (uint32_t)rand() % f->view.clock_step.x) << KILN_BIRTH_STEP_SHIFT |
+                 KILN_PARTICLE_ALIVE}};
+        f->entries[i] = KILN_ENTRY((uint32_t)rand() % f->scene->system_count, i);
+        f->sunlit[i] = random_within(0.0f, 1.0f);
+    }
+    for (uint32_t i = 0; i < GRID; i++)
+        f->depth[i] = random_within(0.0f, 2.0f);
+}
+
+static void light_particles(struct fixture *f)
+{
+    static const float4 to_grid[3] = {
+        {0.1f, 0.0f, 0.0f, 0.4f}, {0.0f, 0.2f, 0.1f, 0.2f}, {0.0f, 0.0f, 0.1f, 0.5f}};
+    f->backdrop = (struct kiln_draw_backdrop){.sky_top = {0.2f, 0.3f, 0.5f, 0.0f},
+                                              .sky_horizon = {0.3f, 0.3f, 0.3f, 0.0f},
+                                              .sun_direction = {0.6f, 0.8f, 0.0f, 0.0f},
+                                              .sun_color = {3.0f, 2.8f, 2.5f, 0.0f},
+                                              .counts = {0, 5, 0, 0}};
+    for (int i = 0; i < 5; i++)
+        f->backdrop.lights[i] = (struct kiln_draw_light){{(float)i - 2.0f, 1.0f, 0.5f, 0.01f},
+                                                         {0.3f, 0.2f, 0.1f, 0.0f}};
+    f->lighting = (struct kiln_lighting){.smoke = true,
+                                         .sky_depth = f->depth,
+                                         .sun_depth = f->depth,
+                                         .sunlit = f->sunlit,
+                                         .slot_count = COUNT};
+    memcpy(f->lighting.sky_to_grid, to_grid, sizeof to_grid);
+    memcpy(f->lighting.sun_to_grid, to_grid, sizeof to_grid);
+}
+
+static struct fixture *open_scene(const char *path, bool coarse)
+{
+    struct kiln_error error = {0};
+    struct fixture *f = aligned_alloc(64, (sizeof *f + 63) / 64 * 64);
+    assert_non_null(f);
+    memset(f, 0, sizeof *f);
+    f->scene = kiln_scene_load(path, &KILN_SCENE_DEFAULTS, &error);
+    if (!f->scene) {
+        fail_msg("%s", error.message);
+        return f;
+    }
+    f->threads = kiln_threads_create(2);
+    struct kiln_atlas_request requests[KILN_MAX_SYSTEMS];
+    for (uint32_t i = 0; i < f->scene->system_count; i++) {
+        const struct kiln_look *look = &f->scene->systems[i].look;
+        requests[i] = (struct kiln_atlas_request){.sources = look->atlas,
+                                                  .count = look->atlas_count,
+                                                  .columns = 4,
+                                                  .rows = 2,
+                                                  .motion = look->motion};
+    }
+    if (!kiln_atlas_init(&f->atlas, NULL, requests, f->scene->system_count, f->threads, &error))
+        fail_msg("%s", error.message);
+    f->cells = kiln_cells_create(&f->atlas, &error);
+    assert_non_null(f->cells);
+    f->view = kiln_view_compute(f->scene, STEP);
+    if (coarse)
+        f->view = kiln_view_coarse(&f->view, 2);
+    kiln_looks_fill(f->scene, &f->atlas, f->looks);
+    kiln_looks_sample(f->scene, f->view.clock.x, f->table);
+    place_particles(f);
+    light_particles(f);
+    f->pass = (struct kiln_sprite_pass){.scene = f->scene,
+                                        .looks = f->looks,
+                                        .table = f->table,
+                                        .records = f->records,
+                                        .view = &f->view,
+                                        .backdrop = &f->backdrop,
+                                        .lighting = &f->lighting,
+                                        .cells = f->cells,
+                                        .content = kiln_cells_content(f->cells)};
+    return f;
+}
+
+static void close_scene(struct fixture *f)
+{
+    kiln_cells_destroy(&f->cells);
+    kiln_atlas_finish(&f->atlas);
+    kiln_threads_destroy(&f->threads);
+    kiln_scene_destroy(&f->scene);
+    free(f);
+}
+
+/* What of a sprite does not matter where nothing of it is seen. */
+static void assert_same(const struct kiln_sprite *a, const struct kiln_sprite *b, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        bool seen = a[i].x_from < a[i].x_to;
+        assert_true(seen == (b[i].x_from < b[i].x_to));
+        if (seen)
+            assert_memory_equal(&a[i], &b[i], sizeof *a);
+    }
+}
+
+static void compare_levels(struct fixture *f)
+{
+    const size_t bytes = COUNT * sizeof(struct kiln_sprite);
+    struct kiln_sprite *plain = aligned_alloc(64, bytes), *other = aligned_alloc(64, bytes);
+    assert_true(plain && other);
+    kiln_sprites_make_plain(&f->pass, f->entries, COUNT, plain);
+    size_t seen = 0;
+    for (size_t i = 0; i < COUNT; i++)
+        seen += plain[i].x_from < plain[i].x_to;
+    assert_true(seen > COUNT / 8 && seen < COUNT);
+    for (enum kiln_simd simd = 0; simd < KILN_SIMD_COUNT; simd++) {
+        if (!kiln_simd_has(simd)) {
+            print_message("no %s here\n", kiln_simd_name(simd));
+            continue;
+        }
+        kiln_sprites_make *make = KILN_SIMD_PICK(kiln_sprites_make, simd);
+        memset(other, 0xff, bytes);
+        make(&f->pass, f->entries, COUNT, other);
+        assert_same(plain, other, COUNT);
+        memset(other, 0xff, bytes);
+        for (size_t i = 0; i < COUNT; i += 1 + i % 23) /* other particles beside them */
+            make(&f->pass, f->entries + i, COUNT - i < 23 ? COUNT - i : 1 + i % 23, other + i);
+        assert_same(plain, other, COUNT);
+    }
+    free(plain);
+    free(other);
+}
+
+static void every_width_makes_the_same_sprites(void **state)
+{
+    (void)state;
+    static const char *const scenes[] = {"billboards", "fire_beam", "fireworks", "rain"};
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        char path[512];
+        snprintf(path, sizeof path, KILN_SOURCE_DIR "/scenes/%s.yaml", scenes[i]);
+        struct fixture *f = open_scene(path, i == 1);
+        compare_levels(f);
+        close_scene(f);
+    }
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        cmocka_unit_test(vectors_divide_as_one_number),
+        cmocka_unit_test(vectors_draw_the_same_random_numbers),
+        cmocka_unit_test(vectors_live_as_long),
+        cmocka_unit_test(every_width_makes_the_same_sprites),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
