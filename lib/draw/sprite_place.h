@@ -16,11 +16,11 @@ struct vf2 {
 static_assert(WORD_OF(x_from) == WORD_OF(y_from) && WORD_OF(x_to) == WORD_OF(y_to),
               "ranges of pixels are two to a word");
 
-/* Pixels from low to high, within 0 to size. */
+/* Pixels with their centres from low to high, within 0 to size. */
 SIMD void limit_range(vf low, vf high, float size, vi *from, vi *to)
 {
-    *from = vi_of(vf_clamp(low, 0.0f, size));
-    *to = vi_of(vf_clamp(high + 1.0f, 0.0f, size));
+    *from = vi_of(vf_clamp(low + 0.5f, 0.0f, size));
+    *to = vi_of(vf_clamp(high + 0.5f, 0.0f, size));
 }
 
 SIMD void limit_box(struct subjects *p, struct vf2 low, struct vf2 high)
