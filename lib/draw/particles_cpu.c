@@ -254,7 +254,7 @@ static uint32_t make_piece(const struct sorting *s, uint32_t first, struct kiln_
 {
     const uint32_t left = s->count - first;
     const uint32_t count = left < SPRITES_AT_A_TIME ? left : SPRITES_AT_A_TIME;
-    struct making making = {s->pass, s->entries + first, s->tiles->sprites};
+    struct making making = {s->tiles->make, s->pass, s->entries + first, s->tiles->sprites};
     kiln_threads_for(s->tiles->threads, count, MAKE_AT_A_TIME, make_sprites, &making);
     bool ok = kiln_bins_fill(&s->tiles->bins, s->tiles->sprites, count, s->tiles->threads, error);
     return ok ? count : 0;
