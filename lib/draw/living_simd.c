@@ -10,7 +10,7 @@
 
 /* kiln_living_look: a number of a look between two of its samples, four floats apart. */
 struct place {
-    int sample;
+    int sample, texel; /* texel: where it is in a row of the table */
     float part;
 };
 
@@ -19,12 +19,12 @@ static inline struct place place_at(float progress)
     float x = progress * (float)(KILN_LOOK_SAMPLES - 1);
     int sample = (int)x;
     sample = sample > KILN_LOOK_SAMPLES - 2 ? KILN_LOOK_SAMPLES - 2 : sample;
-    return (struct place){sample, x - (float)sample};
+    return (struct place){sample, 4 * sample, x - (float)sample};
 }
 
 static inline float look_at(const float *samples, struct place at)
 {
-    float a = samples[4 * at.sample], b = samples[4 * at.sample + 4];
+    float a = samples[at.texel], b = samples[at.texel + 4];
     return a + (b - a) * at.part;
 }
 
