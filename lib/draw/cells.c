@@ -28,26 +28,27 @@ struct kiln_cells {
     uint8_t *moves;               /* of all layers; NULL: none moves */
 };
 
-/* Of a cell whose layer has such an edge. */
-static size_t cell_bytes(uint32_t edge)
-{
-    return (size_t)KILN_CELL_TEXEL * (edge + 1) * (edge + KILN_CELL_MARGIN);
-}
-
-/* Lays RGBA out for sampling. */
-static void spread(const uint8_t *from, uint32_t edge, uint8_t *to)
+/* Lays some channels of RGBA out for sampling: as a row and, beside it, the one below. */
+static void spread(const uint8_t *from, uint32_t edge, uint32_t channel, uint32_t count,
+                   uint8_t *to)
 {
     for (uint32_t y = 0; y <= edge; y++) {
         const uint8_t *row = from + 4 * (size_t)(y > 0 ? y - 1 : 0) * edge;
         const uint8_t *below = from + 4 * (size_t)(y < edge ? y : edge - 1) * edge;
-        for (uint32_t x = 0; x < edge + KILN_CELL_MARGIN; x++, to += KILN_CELL_TEXEL) {
+        for (uint32_t x = 0; x < edge + KILN_CELL_MARGIN; x++) {
             size_t column = x == 0 ? 0 : x <= edge ? x - 1 : edge - 1;
-            for (size_t c = 0; c < 4; c++) {
-                to[2 * c] = row[4 * column + c] ^ 0x80;
-                to[2 * c + 1] = below[4 * column + c] ^ 0x80;
+            for (size_t c = channel; c < channel + count; c++) {
+                *to++ = row[4 * column + c] ^ 0x80;
+                *to++ = below[4 * column + c] ^ 0x80;
             }
         }
     }
+}
+
+static void spread_cell(const uint8_t *from, uint32_t edge, uint8_t *to)
+{
+    spread(from, edge, 0, 4, to);
+    spread(from, edge, 2, 2, to + KILN_CELL_TEXEL * kiln_cells_texels(edge));
 }
 
 /* The atlas's motion of a layer. */
@@ -58,7 +59,7 @@ static void spread_moves(const int8_t *from, uint8_t *to)
         texels[4 * i] = (uint8_t)(128 + from[2 * i]);
         texels[4 * i + 1] = (uint8_t)(128 + from[2 * i + 1]);
     }
-    spread(texels, KILN_ATLAS_MOTION, to);
+    spread(texels, KILN_ATLAS_MOTION, 0, 2, to);
 }
 
 static bool make_moves(struct kiln_cells *cells)
@@ -66,7 +67,7 @@ static bool make_moves(struct kiln_cells *cells)
     const struct kiln_atlas *atlas = cells->atlas;
     if (!atlas->moves)
         return true;
-    size_t bytes = cell_bytes(KILN_ATLAS_MOTION);
+    size_t bytes = KILN_CELL_PAIR * kiln_cells_texels(KILN_ATLAS_MOTION);
     cells->moves = calloc((size_t)atlas->layers + 1, bytes); /* none: not NULL */
     for (uint32_t i = 0; cells->moves && i < atlas->layers; i++)
         spread_moves(atlas->moves + (size_t)i * KILN_ATLAS_MOVES_BYTES, cells->moves + i * bytes);
@@ -199,7 +200,8 @@ struct kiln_cells_content kiln_cells_content(const struct kiln_cells *cells)
                                        .wanted = cells->wanted,
                                        .hulls = cells->hulls,
                                        .moves = cells->moves,
-                                       .move_bytes = cell_bytes(KILN_ATLAS_MOTION)};
+                                       .move_bytes =
+                                           KILN_CELL_PAIR * kiln_cells_texels(KILN_ATLAS_MOTION)};
 }
 
 /* A grid of `channels` a texel, read between its texels and clamped at its edge. */
@@ -284,15 +286,15 @@ static void mix(const struct kiln_cells *cells, uint32_t number)
                 texel[c] = (uint8_t)(first[c] + (second[c] - first[c]) * part + 0.5f);
         }
     }
-    spread(texels, edge, cells->texels[number]);
+    spread_cell(texels, edge, cells->texels[number]);
 }
 
 /* A layer itself. */
 static void copy(const struct kiln_cells *cells, uint32_t number)
 {
     uint32_t layer = number / KILN_CELL_NUMBERS, level = number % KILN_ATLAS_LEVELS;
-    spread(kiln_atlas_level(cells->atlas, layer, level), (uint32_t)KILN_ATLAS_CELL >> level,
-           cells->texels[number]);
+    spread_cell(kiln_atlas_level(cells->atlas, layer, level), (uint32_t)KILN_ATLAS_CELL >> level,
+                cells->texels[number]);
 }
 
 static void mix_missing(void *context, size_t begin, size_t end, uint32_t worker)
@@ -313,7 +315,8 @@ bool kiln_cells_mix(struct kiln_cells *cells, struct kiln_threads *threads,
     for (uint32_t i = 0; i < cells->slot_count; i++) {
         if (cells->texels[i] || !atomic_load_explicit(&cells->wanted[i], memory_order_relaxed))
             continue;
-        cells->texels[i] = malloc(cell_bytes((uint32_t)KILN_ATLAS_CELL >> i % KILN_ATLAS_LEVELS));
+        size_t texels = kiln_cells_texels((size_t)KILN_ATLAS_CELL >> i % KILN_ATLAS_LEVELS);
+        cells->texels[i] = malloc((KILN_CELL_TEXEL + KILN_CELL_PAIR) * texels);
         if (!cells->texels[i])
             return kiln_error_set(error, KILN_DEVICE_FAILED, "cells: out of memory");
         cells->missing[count++] = i;

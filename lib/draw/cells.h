@@ -13,6 +13,7 @@
 
 enum {
     KILN_CELL_TEXEL = 8,  /* bytes: as draw/simd.h has them */
+    KILN_CELL_PAIR = 4,   /* of two channels */
     KILN_CELL_MARGIN = 2, /* columns more than the edge: the outer texels stand twice */
     KILN_CELL_PHASES = 16,
     KILN_CELL_NUMBERS = KILN_CELL_PHASES * KILN_ATLAS_LEVELS, /* cells of a layer */
@@ -49,7 +50,8 @@ bool kiln_cells_mix(struct kiln_cells *cells, struct kiln_threads *threads,
 
 /* What sampling reads. Cells lie as edge + 1 rows of edge + KILN_CELL_MARGIN texels, in which the
  * outer texels of the atlas's cell stand twice, so that a sample between two needs no clamping.
- * Motion is such a cell with KILN_ATLAS_MOTION for an edge; right and down in red and green, 128
+ * After a cell comes another of its heat and alpha alone, blue and alpha, for sprites that need no
+ * more. Motion is a cell of two channels with KILN_ATLAS_MOTION for an edge; right and down, 128
  * for none, 127 more for a full move. */
 struct kiln_cells_content {
     const uint8_t *const *texels; /* by number, of those that are there */
@@ -60,6 +62,12 @@ struct kiln_cells_content {
 };
 
 struct kiln_cells_content kiln_cells_content(const struct kiln_cells *cells);
+
+/* Texels of a cell. */
+static inline size_t kiln_cells_texels(size_t edge)
+{
+    return (edge + 1) * (edge + KILN_CELL_MARGIN);
+}
 
 static inline const uint8_t *kiln_cells_moves(const struct kiln_cells_content *content,
                                               uint32_t number)

@@ -79,6 +79,7 @@ static void begin_rows(struct kiln_fragments *f, const struct kiln_tile *tile, i
     *scratch = *tile;
     scratch->y = tile->y + y;
     scratch->height = rows;
+    scratch->glow = KILN_TILE_GLOW_NONE;
     for (int row = 0; row < rows; row++) {
         memset(scratch->pixels[row], 0, KILN_TILE_DEPTH * sizeof *scratch->pixels[row]);
         memcpy(scratch->pixels[row][KILN_TILE_DEPTH], tile->pixels[y + row][KILN_TILE_DEPTH],

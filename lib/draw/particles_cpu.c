@@ -147,8 +147,11 @@ struct drawing {
     bool first, last; /* piece of the pass */
     bool keep_bloom, sum, by_fragment;
     size_t first_tile;
+    enum kiln_tile_glow glow;
+    float weights[3]; /* of what glows, if it is apart */
 };
 
+/* Pieces of a pass hand each other the planes as they are, but for the alpha of the glow. */
 static void load_row(const struct drawing *d, struct kiln_tile *tile, int y, size_t at)
 {
     float(*planes)[KILN_TILE_PITCH] = tile->pixels[y];
@@ -169,15 +172,18 @@ static void load_row(const struct drawing *d, struct kiln_tile *tile, int y, siz
 static void store_row(const struct drawing *d, const struct kiln_tile *tile, int y, size_t at)
 {
     const float(*planes)[KILN_TILE_PITCH] = (const float(*)[KILN_TILE_PITCH])tile->pixels[y];
+    bool joins = d->last && d->glow == KILN_TILE_GLOW_APART;
     for (size_t x = 0; x < (size_t)tile->width; x++) {
         float *color = d->color + 4 * (at + x);
         for (int c = 0; c < 4; c++)
             color[c] = planes[KILN_TILE_RED + c][x];
+        for (int c = 0; c < 3 && joins; c++)
+            color[c] += planes[KILN_TILE_GLOW_RED + c][x];
     }
     for (size_t x = 0; x < (size_t)tile->width && d->bloom; x++) {
         float *bloom = d->bloom + 4 * (at + x);
         for (int c = 0; c < 3; c++)
-            bloom[c] = planes[KILN_TILE_GLOW_RED + c][x];
+            bloom[c] = planes[KILN_TILE_GLOW_RED + c][x] * (joins ? d->weights[c] : 1.0f);
         /* The glow's alpha goes the same way, from what an earlier pass has left. */
         float alpha = planes[KILN_TILE_ALPHA][x], before = d->keep_bloom ? bloom[3] : 0.0f;
         if (d->last)
@@ -197,6 +203,7 @@ static void draw_tile(const struct drawing *d, size_t number, uint32_t worker)
     tile->y = (int)y;
     tile->width = width < KILN_TILE_WIDTH ? (int)width : KILN_TILE_WIDTH;
     tile->height = height < KILN_TILE_HEIGHT ? (int)height : KILN_TILE_HEIGHT;
+    tile->glow = d->glow;
     tile->nearest = bins->depth[number].nearest;
     tile->over = d->sum ? 0.0f : 1.0f;
     for (int row = 0; row < tile->height; row++)
@@ -345,6 +352,45 @@ static bool draw_sorting(struct sorting *s, struct drawing *drawing, struct kiln
     return ok;
 }
 
+/* The weights of a system's glow, if they are the same at any age. */
+static bool steady_bloom(const float4 *table, uint32_t system, float weights[3])
+{
+    const float4 *row =
+        table + ((size_t)system * KILN_LOOK_ROWS + KILN_LOOK_BLOOM) * KILN_LOOK_SAMPLES;
+    for (int i = 1; i < KILN_LOOK_SAMPLES; i++) {
+        if (row[i].x != row[0].x || row[i].y != row[0].y || row[i].z != row[0].z)
+            return false;
+    }
+    weights[0] = row[0].x;
+    weights[1] = row[0].y;
+    weights[2] = row[0].z;
+    return true;
+}
+
+/* What tiles do with the glow: nothing if there is none, and as little as possible where all that
+ * glows does so alike, which is what most scenes have. */
+static void choose_glow(const struct kiln_tiles *tiles, struct drawing *d)
+{
+    d->glow = KILN_TILE_GLOW_NONE;
+    if (!d->bloom)
+        return;
+    for (uint32_t i = 0; i < tiles->scene->system_count && !d->keep_bloom && !d->by_fragment; i++) {
+        float weights[3];
+        bool steady = steady_bloom(tiles->table, i, weights);
+        if (steady && weights[0] == 0.0f && weights[1] == 0.0f && weights[2] == 0.0f)
+            continue;
+        if (steady && d->glow == KILN_TILE_GLOW_NONE) {
+            d->glow = KILN_TILE_GLOW_APART;
+            memcpy(d->weights, weights, sizeof weights);
+        } else if (!steady || memcmp(d->weights, weights, sizeof weights) != 0) {
+            d->glow = KILN_TILE_GLOW_WEIGHED;
+            return;
+        }
+    }
+    if (d->keep_bloom || d->by_fragment)
+        d->glow = KILN_TILE_GLOW_WEIGHED;
+}
+
 /* The pixels that a pass reads and writes. */
 static bool open_images(const struct kiln_particles_draw *draw, struct drawing *d,
                         struct kiln_error *error)
@@ -377,6 +423,7 @@ bool kiln_tiles_run(struct kiln_tiles *tiles, const struct kiln_particles_draw *
     if (!tiles->table_valid || kiln_looks_vary(tiles->scene))
         kiln_looks_sample(tiles->scene, draw->view->clock.x, tiles->table);
     tiles->table_valid = true;
+    choose_glow(tiles, &drawing);
     struct kiln_sprite_pass pass = {
         .scene = tiles->scene,
         .looks = tiles->looks,

@@ -14,6 +14,14 @@ enum {
     KILN_TILE_UNITS = KILN_TILE_HEIGHT * KILN_TILE_WIDTH / 8 + 8,
 };
 
+/* What the planes of the glow hold. */
+enum kiln_tile_glow {
+    KILN_TILE_GLOW_NONE,    /* nothing */
+    KILN_TILE_GLOW_APART,   /* colour: all that glows does so by the same weights, and is drawn */
+                            /* here instead of into the planes of colour */
+    KILN_TILE_GLOW_WEIGHED, /* colour times the weights of each sprite */
+};
+
 /* Colour, alpha and glow of what was drawn, premultiplied; the depth of the scene, m. */
 enum kiln_tile_plane {
     KILN_TILE_RED,
@@ -31,8 +39,9 @@ struct kiln_tile {
     /* The last row is of pixels that lie nowhere. */
     _Alignas(64) float pixels[KILN_TILE_HEIGHT + 1][KILN_TILE_PLANES][KILN_TILE_PITCH];
     int x, y, width, height; /* in the picture, px */
-    float nearest;           /* depth in it, m */
-    float over;              /* 1: what covers hides what is behind; 0: alpha is summed up */
+    enum kiln_tile_glow glow;
+    float nearest; /* depth in it, m */
+    float over;    /* 1: what covers hides what is behind; 0: alpha is summed up */
 };
 
 /* Draws sprites in the order of the list into the tile; their cells have been mixed. */

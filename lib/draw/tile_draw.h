@@ -10,7 +10,7 @@ enum { TILE_AHEAD = 6 }; /* sprites that are fetched beforehand */
 /* What all pixels of a sprite have in common. */
 struct brush {
     const uint8_t *cell, *next, *moves; /* next: NULL if mixed; moves: NULL where nothing does */
-    int32_t pitch;                      /* of the cells, bytes */
+    int32_t pitch, texel;               /* of the cells, bytes */
     int32_t edge;                       /* of the cells, places */
     int32_t part;                       /* of the way to the next cell, of PART_ONE */
     int32_t from, to;              /* places that a full move makes, of the cell and of the next */
@@ -18,6 +18,9 @@ struct brush {
     float sampled;                 /* the unit of sampled channels */
     bool emits;                    /* base or slope are not 0 */
     bool whole;                    /* all of the tile lies so far behind it that nothing fades */
+    int32_t layer;                 /* the first of the planes that get its colour */
+    bool dims;                     /* the other layer, if it covers */
+    bool weighs;                   /* its colour for the glow's planes */
 };
 
 static inline float least(float a, float b)
@@ -29,27 +32,6 @@ static inline float least(float a, float b)
 struct shaded {
     vf rgb[3], alpha;
 };
-
-/* Between two cells, each of which is followed to where it is at that time. Clamped to the centres
- * of the outer texels. */
-SIMD struct quads sample_between(const struct brush *b, vi places)
-{
-    int32_t half = PLACE_ONE / 2, most = b->edge + half;
-    vi from, to;
-    if (b->moves) {
-        const uint32_t halves = (uint32_t)half << 16 | (uint32_t)half;
-        vi at = (vi)((vu)places_clamped(places, half, most - 1) - halves);
-        at = (vi)((vu)((at >> b->move_shift) & b->move_mask) + halves);
-        vi way = ways_of(sample_quads(
-            b->moves, KILN_CELL_TEXEL * (KILN_ATLAS_MOTION + KILN_CELL_MARGIN), at, 1));
-        from = places_moved(places, way, -b->from, half, most);
-        to = places_moved(places, way, b->to, half, most);
-    } else {
-        from = to = places_clamped(places, half, most);
-    }
-    return quads_sum(sample_quads(b->cell, b->pitch, from, PART_ONE - b->part),
-                     sample_quads(b->next, b->pitch, to, b->part));
-}
 
 SIMD struct shaded shade_glow(const struct kiln_sprite *s, const struct brush *b, struct vf4 cell)
 {
@@ -114,82 +96,190 @@ SIMD vf fade(const struct kiln_sprite *s, vf scene, vf depth, vi inside)
 }
 
 /* Blends into what lies at the offsets. over: 1 where what covers hides what is behind. */
-SIMD void blend(float (*planes)[KILN_TILE_PITCH], const int32_t *at, const float bloom[3],
-                const vf rgb[3], vf alpha, bool covers, float over)
+SIMD void blend(float (*planes)[KILN_TILE_PITCH], const int32_t *at, const struct brush *b,
+                const float bloom[3], const vf rgb[3], vf alpha, bool covers, float over)
 {
     vf passed = 1.0f - alpha * over;
     for (int c = 0; c < 3; c++) {
-        float *color = planes[KILN_TILE_RED + c], *glow = planes[KILN_TILE_GLOW_RED + c];
-        vf old = vf_load_units(color, at), old_glow = vf_load_units(glow, at);
+        float *color = planes[b->layer + c];
+        vf old = vf_load_units(color, at);
         vf_store_units(color, at, rgb[c] + (covers ? old * passed : old));
-        vf_store_units(glow, at, rgb[c] * bloom[c] + (covers ? old_glow * passed : old_glow));
     }
     if (covers) {
         float *plane = planes[KILN_TILE_ALPHA];
         vf_store_units(plane, at, alpha + vf_load_units(plane, at) * passed);
     }
+    if (b->weighs) {
+        for (int c = 0; c < 3; c++) {
+            float *glow = planes[KILN_TILE_GLOW_RED + c];
+            vf old = vf_load_units(glow, at);
+            vf_store_units(glow, at, rgb[c] * bloom[c] + (covers ? old * passed : old));
+        }
+    } else if (covers && b->dims) {
+        for (int c = 0; c < 3; c++) {
+            float *other = planes[(KILN_TILE_RED + KILN_TILE_GLOW_RED - b->layer) + c];
+            vf_store_units(other, at, vf_load_units(other, at) * passed);
+        }
+    }
 }
+
+/* ---- vectors of pixels ------------------------------------------------------------------------
+ */
+
+/* A vector of pixels, its units anywhere in the tile. */
+struct pixels {
+    vf u, v, q;
+    vi inside;         /* those that count */
+    int32_t at[UNITS]; /* in the planes */
+};
+
+enum { BATCH = 16 };
+
+/* Vectors of pixels on their way, one step after the other for all of them: each step alone takes
+ * little room in the processor, so that several are under way while texels come. Of a cell and, if
+ * not mixed, of the next one: places, and their texels. */
+struct batch {
+    _Alignas(64) int32_t texels[2][BATCH][LANES];
+    vi places[2][BATCH], inside[BATCH];
+    vf u[BATCH], v[BATCH], depth[BATCH]; /* of plain and of deep ones */
+    int32_t at[BATCH][UNITS];
+    int count;
+};
+
+/* What all steps know of a sprite. */
+struct drawn {
+    struct kiln_tile *tile;
+    const struct kiln_sprite *s;
+    struct brush brush;
+};
+
+SIMD void put_texels(struct batch *batch, int cell, int i, vi places, int32_t pitch, int32_t texel)
+{
+    vi texels = texel_offsets(places, pitch, texel);
+    batch->places[cell][i] = places;
+    memcpy(batch->texels[cell][i], &texels, sizeof texels);
+}
+
+SIMD void put_pixels(struct batch *batch, const struct drawn *d, struct pixels p,
+                     enum kiln_sprite_shade kind, bool deep, bool mixed)
+{
+    const struct brush *b = &d->brush;
+    int i = batch->count++;
+    bool textured = kind != KILN_SHADE_PLAIN;
+    vi inside = p.inside;
+    if (deep) {
+        inside &= p.q > 0.0f;
+        batch->depth[i] = 1.0f / p.q;
+        if (textured) {
+            vf limit = vf_all((float)b->edge + 2.0f * PLACE_ONE), depth = batch->depth[i];
+            p.u = vf_min(vf_max(p.u * depth + 0.5f * PLACE_ONE, vf_all(0.0f)), limit);
+            p.v = vf_min(vf_max(p.v * depth + 0.5f * PLACE_ONE, vf_all(0.0f)), limit);
+        }
+    }
+    if (textured) {
+        vi places = places_of(p.u, p.v);
+        inside &= places_between(places, PLACE_ONE / 2, b->edge + PLACE_ONE / 2 - 1);
+        if (mixed)
+            put_texels(batch, 0, i, places & inside, b->pitch, b->texel);
+        else
+            batch->places[0][i] = places;
+    } else {
+        batch->u[i] = p.u;
+        batch->v[i] = p.v;
+    }
+    batch->inside[i] = inside;
+    memcpy(batch->at[i], p.at, sizeof p.at);
+}
+
+/* Between two cells, each of which is followed to where it is at that time. Clamped to the centres
+ * of the outer texels. */
+SIMD void follow(struct batch *batch, const struct brush *b)
+{
+    const int32_t half = PLACE_ONE / 2, most = b->edge + half;
+    const uint32_t halves = (uint32_t)half << 16 | (uint32_t)half;
+    for (int i = 0; i < batch->count && b->moves; i++) {
+        vi at = (vi)((vu)places_clamped(batch->places[0][i], half, most - 1) - halves);
+        at = (vi)((vu)((at >> b->move_shift) & b->move_mask) + halves);
+        batch->places[1][i] = at;
+        vi texels = texel_offsets(at, KILN_CELL_PAIR * (KILN_ATLAS_MOTION + KILN_CELL_MARGIN),
+                                  KILN_CELL_PAIR);
+        memcpy(batch->texels[1][i], &texels, sizeof texels);
+    }
+    for (int i = 0; i < batch->count; i++) {
+        vi places = batch->places[0][i], next;
+        if (b->moves) {
+            vi way = ways_of(sample_pairs(b->moves, batch->texels[1][i], batch->places[1][i], 1));
+            next = places_moved(places, way, b->to, half, most);
+            places = places_moved(places, way, -b->from, half, most);
+        } else {
+            next = places = places_clamped(places, half, most);
+        }
+        put_texels(batch, 0, i, places, b->pitch, b->texel);
+        put_texels(batch, 1, i, next, b->pitch, b->texel);
+    }
+}
+
+/* Vector i of what a sprite shows. pair: only heat and alpha. */
+SIMD struct vf4 sample(const struct batch *batch, int i, const struct brush *b, bool pair,
+                       bool mixed)
+{
+    const int32_t part = mixed ? 1 : PART_ONE - b->part;
+    vi places = batch->places[0][i], next = batch->places[1][i];
+    const int32_t *texels = batch->texels[0][i], *next_texels = batch->texels[1][i];
+    if (pair) {
+        struct pairs pairs = sample_pairs(b->cell, texels, places, part);
+        return channels_of_pairs(
+            mixed ? pairs : pairs_sum(pairs, sample_pairs(b->next, next_texels, next, b->part)));
+    }
+    struct quads quads = sample_quads(b->cell, texels, places, part);
+    return channels_of(mixed ? quads
+                             : quads_sum(quads, sample_quads(b->next, next_texels, next, b->part)));
+}
+
+SIMD void draw_batch(struct batch *batch, const struct drawn *d, enum kiln_sprite_shade kind,
+                     bool deep, bool covers, bool mixed)
+{
+    float(*planes)[KILN_TILE_PITCH] = d->tile->pixels[0];
+    const struct kiln_sprite *s = d->s;
+    const struct brush *b = &d->brush;
+    bool textured = kind != KILN_SHADE_PLAIN;
+    __asm__("" : "+m"(*batch)); /* through memory: to take a vector apart costs twice as much */
+    if (textured && !mixed)
+        follow(batch, b);
+    for (int i = 0; i < batch->count; i++) {
+        struct shaded c;
+        if (textured) {
+            struct vf4 cell = sample(batch, i, b, kind == KILN_SHADE_GLOW, mixed);
+            c = kind == KILN_SHADE_LIT    ? shade_lit(s, b, cell)
+                : kind == KILN_SHADE_GLOW ? shade_glow(s, b, cell)
+                                          : shade_color(s, b, cell);
+        } else {
+            c = shade_plain(s, batch->u[i], batch->v[i]);
+        }
+        vf left, depth = deep ? batch->depth[i] : vf_all(s->depth);
+        const int32_t *at = batch->at[i];
+        if (b->whole)
+            left = vf_where(batch->inside[i], vf_all(s->opacity));
+        else
+            left = fade(s, vf_load_units(planes[KILN_TILE_DEPTH], at), depth, batch->inside[i]);
+        if (s->flags & KILN_SPRITE_LITERAL) /* has no bound of its own: alpha up to 1 */
+            left = vf_min(left, 1.0f / vf_max(c.alpha, vf_all(1e-6f)));
+        vf alpha = c.alpha * left;
+        for (int k = 0; k < 3; k++)
+            c.rgb[k] *= kind == KILN_SHADE_COLOR ? left : alpha;
+        blend(planes, at, b, s->bloom, c.rgb, alpha, covers, d->tile->over);
+    }
+    batch->count = 0;
+}
+
+/* ---- wide sprites: their rows, and the units in them ------------------------------------------
+ */
 
 /* Units of pixels that a sprite touches, one after the other. */
 struct units {
     int32_t at[KILN_TILE_UNITS];                                      /* in the tile's planes */
     float u[KILN_TILE_UNITS], v[KILN_TILE_UNITS], q[KILN_TILE_UNITS]; /* at its first pixel */
 };
-
-/* The pixels of a unit, from its first. */
-struct lanes {
-    vf u, v, q;
-    int32_t first;
-};
-
-/* A vector of pixels, from unit i on. */
-SIMD void draw_pixels(struct kiln_tile *tile, const struct kiln_sprite *s,
-                      const struct units *units, int i, const struct lanes *lanes,
-                      const struct brush *b, enum kiln_sprite_shade kind, bool deep, bool covers,
-                      bool mixed)
-{
-    float(*planes)[KILN_TILE_PITCH] = tile->pixels[0];
-    bool textured = kind != KILN_SHADE_PLAIN;
-    vf u = vf_units(units->u + i) + lanes->u, v = vf_units(units->v + i) + lanes->v;
-    vf depth = vf_all(s->depth);
-    vi inside = ~(vi){0};
-    if (deep) {
-        vf q = vf_units(units->q + i) + lanes->q;
-        inside &= q > 0.0f;
-        depth = 1.0f / q;
-        if (textured) {
-            vf limit = vf_all((float)b->edge + 2.0f * PLACE_ONE);
-            u = vf_min(vf_max(u * depth + 0.5f * PLACE_ONE, vf_all(0.0f)), limit);
-            v = vf_min(vf_max(v * depth + 0.5f * PLACE_ONE, vf_all(0.0f)), limit);
-        }
-    }
-    struct shaded c;
-    if (textured) {
-        vi places = places_of(u, v);
-        inside &= places_between(places, PLACE_ONE / 2, b->edge + PLACE_ONE / 2 - 1);
-        struct vf4 cell = channels_of(mixed ? sample_quads(b->cell, b->pitch, places & inside, 1)
-                                            : sample_between(b, places));
-        c = kind == KILN_SHADE_LIT    ? shade_lit(s, b, cell)
-            : kind == KILN_SHADE_GLOW ? shade_glow(s, b, cell)
-                                      : shade_color(s, b, cell);
-    } else {
-        c = shade_plain(s, u, v);
-    }
-    int32_t at[UNITS];
-    for (int k = 0; k < UNITS; k++)
-        at[k] = units->at[i + k] + lanes->first;
-    vf left;
-    if (b->whole)
-        left = vf_where(inside, vf_all(s->opacity));
-    else
-        left = fade(s, vf_load_units(planes[KILN_TILE_DEPTH], at), depth, inside);
-    if (s->flags & KILN_SPRITE_LITERAL) /* has no bound of its own: alpha up to 1 */
-        left = vf_min(left, 1.0f / vf_max(c.alpha, vf_all(1e-6f)));
-    vf alpha = c.alpha * left;
-    for (int k = 0; k < 3; k++)
-        c.rgb[k] *= kind == KILN_SHADE_COLOR ? left : alpha;
-    blend(planes, at, s->bloom, c.rgb, alpha, covers, tile->over);
-}
 
 typedef float four __attribute__((vector_size(16)));
 typedef int32_t four_ints __attribute__((vector_size(16)));
@@ -297,24 +387,109 @@ SIMD int list_units(const struct rows *rows, const struct box *box, const float 
     return count;
 }
 
+SIMD void draw_wide(const struct drawn *d, const struct kiln_cell_hull *hull, const struct box *box,
+                    struct batch *batch, enum kiln_sprite_shade kind, bool deep, bool covers,
+                    bool mixed)
+{
+    const struct kiln_sprite *s = d->s;
+    struct rows rows;
+    struct units units;
+    bool textured = kind != KILN_SHADE_PLAIN;
+    find_rows(d->tile, s, box, !deep && textured ? hull : NULL, &rows);
+    float scale = textured ? (float)PLACE_ONE : 1.0f;
+    float margin = textured && !deep ? 0.5f * PLACE_ONE : 0.0f;
+    for (int i = 0; i < KILN_TILE_HEIGHT && textured; i += LANES) {
+        vf_store(rows.u + i, vf_load(rows.u + i) * scale + margin);
+        vf_store(rows.v + i, vf_load(rows.v + i) * scale + margin);
+    }
+    const float steps[3] = {s->u_x * scale, s->v_x * scale, s->q_x};
+    int count = list_units(&rows, box, steps, deep, &units);
+    for (int begin = 0; begin < count; begin += BATCH / UNIT_PARTS * UNITS) {
+        int end =
+            count - begin < BATCH / UNIT_PARTS * UNITS ? count : begin + BATCH / UNIT_PARTS * UNITS;
+        for (int i = begin; i < end; i += UNITS) {
+            for (int part = 0; part < UNIT_PARTS; part++) {
+                vf lane = vf_units_count(part);
+                struct pixels p = {.u = vf_units(units.u + i) + lane * steps[0],
+                                   .v = vf_units(units.v + i) + lane * steps[1],
+                                   .inside = ~(vi){0}};
+                if (deep)
+                    p.q = vf_units(units.q + i) + lane * steps[2];
+                for (int k = 0; k < UNITS; k++)
+                    p.at[k] = units.at[i + k] + part * LANES;
+                put_pixels(batch, d, p, kind, deep, mixed);
+            }
+        }
+        draw_batch(batch, d, kind, deep, covers, mixed);
+    }
+}
+
+/* ---- sprites no wider than a unit: one a row ----------------------------------------------------
+ */
+
+SIMD void draw_narrow(const struct drawn *d, const struct box *box, struct batch *batch,
+                      enum kiln_sprite_shade kind, bool covers, bool mixed)
+{
+    const struct kiln_sprite *s = d->s;
+    const struct kiln_tile *tile = d->tile;
+    bool textured = kind != KILN_SHADE_PLAIN;
+    float scale = textured ? (float)PLACE_ONE : 1.0f, margin = textured ? 0.5f * PLACE_ONE : 0.0f;
+    vf u[UNIT_PARTS], v[UNIT_PARTS]; /* in the row of the anchor */
+    for (int part = 0; part < UNIT_PARTS; part++) {
+        vf x = vf_units_count(part) + ((float)(tile->x + box->x_from) + 0.5f) - s->x;
+        u[part] = (s->u + s->u_x * x) * scale + margin;
+        v[part] = (s->v + s->v_x * x) * scale + margin;
+    }
+    float u_row = s->u_y * scale, v_row = s->v_y * scale;
+    vf end = vf_all((float)(tile->y + box->y_to));
+    int32_t at = box->y_from * KILN_TILE_PLANES * KILN_TILE_PITCH + box->x_from;
+    for (int y = box->y_from; y < box->y_to; y += UNITS) {
+        vf row = vf_units_number() + ((float)(tile->y + y) + 0.5f), from_anchor = row - s->y;
+        for (int part = 0; part < UNIT_PARTS; part++) {
+            struct pixels p = {.u = u[part] + from_anchor * u_row,
+                               .v = v[part] + from_anchor * v_row,
+                               .inside = UNITS > 1 ? row < end : ~(vi){0}};
+            for (int k = 0; k < UNITS; k++)
+                p.at[k] = at + k * KILN_TILE_PLANES * KILN_TILE_PITCH + part * LANES;
+            put_pixels(batch, d, p, kind, false, mixed);
+        }
+        at += UNITS * KILN_TILE_PLANES * KILN_TILE_PITCH;
+        if (batch->count == BATCH)
+            draw_batch(batch, d, kind, false, covers, mixed);
+    }
+    draw_batch(batch, d, kind, false, covers, mixed);
+}
+
+/* ---- any sprite --------------------------------------------------------------------------------
+ */
+
 SIMD void make_brush(const struct kiln_tile *tile, const struct kiln_cells_content *cells,
                      const struct kiln_sprite *s, enum kiln_sprite_shade kind, bool deep,
                      bool mixed, struct brush *b)
 {
-    *b = (struct brush){.cell = NULL};
+    bool glows = s->bloom[0] != 0.0f || s->bloom[1] != 0.0f || s->bloom[2] != 0.0f;
+    bool apart = glows && tile->glow == KILN_TILE_GLOW_APART;
+    *b = (struct brush){
+        .layer = apart ? KILN_TILE_GLOW_RED : KILN_TILE_RED,
+        .dims = tile->glow != KILN_TILE_GLOW_NONE,
+        .weighs = glows && tile->glow == KILN_TILE_GLOW_WEIGHED,
+    };
     b->whole = !deep && !(s->flags & KILN_SPRITE_LITERAL) && tile->nearest >= s->depth &&
                (tile->nearest - s->depth) * s->soft >= (s->soft > 0.0f ? 1.0f : 0.0f);
     if (kind == KILN_SHADE_PLAIN)
         return;
-    b->cell = cells->texels[s->cell];
-    b->pitch = KILN_CELL_TEXEL * s->pitch;
+    bool pair = kind == KILN_SHADE_GLOW;
+    size_t offset = pair ? (size_t)KILN_CELL_TEXEL * (s->pitch - 1u) * s->pitch : 0;
+    b->cell = cells->texels[s->cell] + offset;
+    b->texel = pair ? KILN_CELL_PAIR : KILN_CELL_TEXEL;
+    b->pitch = b->texel * s->pitch;
     b->edge = (s->pitch - KILN_CELL_MARGIN) * PLACE_ONE;
     b->sampled = SAMPLED_UNIT;
     b->emits = (s->flags & KILN_SPRITE_EMITS) != 0;
     if (mixed)
         return;
     b->sampled = SAMPLED_UNIT / (float)PART_ONE;
-    b->next = cells->texels[s->next_cell];
+    b->next = cells->texels[s->next_cell] + offset;
     b->part = (int32_t)(s->part * (float)PART_ONE + 0.5f);
     b->moves = s->motion > 0.0f ? kiln_cells_moves(cells, s->cell) : NULL;
     float full = s->motion * (float)PLACE_ONE * (32768.0f / WAY_ONE);
@@ -336,30 +511,14 @@ SIMD void draw_sprite(struct kiln_tile *tile, const struct kiln_cells_content *c
         .y_from = s->y_from > tile->y ? s->y_from - tile->y : 0,
         .y_to = s->y_to < tile->y + tile->height ? s->y_to - tile->y : tile->height,
     };
-    struct rows rows;
-    struct units units;
-    struct brush brush;
-    bool textured = kind != KILN_SHADE_PLAIN;
-    find_rows(tile, s, &box, !deep && textured ? kiln_cells_hull(cells, s->cell) : NULL, &rows);
-    float scale = textured ? (float)PLACE_ONE : 1.0f;
-    float margin = textured && !deep ? 0.5f * PLACE_ONE : 0.0f;
-    for (int i = 0; i < KILN_TILE_HEIGHT && textured; i += LANES) {
-        vf_store(rows.u + i, vf_load(rows.u + i) * scale + margin);
-        vf_store(rows.v + i, vf_load(rows.v + i) * scale + margin);
-    }
-    const float steps[3] = {s->u_x * scale, s->v_x * scale, s->q_x};
-    int count = list_units(&rows, &box, steps, deep, &units);
-    make_brush(tile, cells, s, kind, deep, mixed, &brush);
-    struct lanes lanes[UNIT_PARTS];
-    for (int part = 0; part < UNIT_PARTS; part++) {
-        vf lane = vf_units_count(part);
-        lanes[part] =
-            (struct lanes){lane * steps[0], lane * steps[1], lane * steps[2], part * LANES};
-    }
-    for (int i = 0; i < count; i += UNITS) {
-        for (int part = 0; part < UNIT_PARTS; part++)
-            draw_pixels(tile, s, &units, i, &lanes[part], &brush, kind, deep, covers, mixed);
-    }
+    struct drawn drawn = {.tile = tile, .s = s};
+    make_brush(tile, cells, s, kind, deep, mixed, &drawn.brush);
+    struct batch batch;
+    batch.count = 0;
+    if (!deep && box.x_to - box.x_from <= UNIT)
+        draw_narrow(&drawn, &box, &batch, kind, covers, mixed);
+    else
+        draw_wide(&drawn, kiln_cells_hull(cells, s->cell), &box, &batch, kind, deep, covers, mixed);
 }
 
 typedef void drawing(struct kiln_tile *tile, const struct kiln_cells_content *cells,
