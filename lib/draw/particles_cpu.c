@@ -144,50 +144,44 @@ struct drawing {
     float *color, *bloom; /* pixels of the targets; no bloom: NULL */
     const float *depth;
     uint32_t width, height;
-    bool first, last; /* piece of the pass */
+    bool first; /* piece of the pass */
     bool keep_bloom, sum, by_fragment;
     size_t first_tile;
     enum kiln_tile_glow glow;
     float weights[3]; /* of what glows, if it is apart */
 };
 
-/* Pieces of a pass hand each other the planes as they are, but for the alpha of the glow. */
-static void load_row(const struct drawing *d, struct kiln_tile *tile, int y, size_t at)
+static void begin_row(const struct drawing *d, struct kiln_tile *tile, int y, size_t at)
 {
     float(*planes)[KILN_TILE_PITCH] = tile->pixels[y];
-    size_t count = (size_t)tile->width;
-    memcpy(planes[KILN_TILE_DEPTH], d->depth + at, count * sizeof(float));
-    if (d->first)
-        memset(planes, 0, KILN_TILE_DEPTH * sizeof *planes);
-    for (size_t x = 0; x < count && !d->first; x++) {
-        for (int c = 0; c < 4; c++)
-            planes[KILN_TILE_RED + c][x] = d->color[4 * (at + x) + (size_t)c];
-    }
-    for (size_t x = 0; x < count && d->bloom && (!d->first || d->keep_bloom); x++) {
-        for (int c = 0; c < 3; c++)
-            planes[KILN_TILE_GLOW_RED + c][x] = d->bloom[4 * (at + x) + (size_t)c];
-    }
+    memcpy(planes[KILN_TILE_DEPTH], d->depth + at, (size_t)tile->width * sizeof(float));
+    memset(planes, 0, KILN_TILE_DEPTH * sizeof *planes);
+    for (size_t x = 0; x < KILN_TILE_PITCH && tile->over; x++)
+        planes[KILN_TILE_LEFT][x] = 1.0f;
 }
 
+/* Puts a row over what pieces before have drawn, and an earlier pass into the glow. */
 static void store_row(const struct drawing *d, const struct kiln_tile *tile, int y, size_t at)
 {
     const float(*planes)[KILN_TILE_PITCH] = (const float(*)[KILN_TILE_PITCH])tile->pixels[y];
-    bool joins = d->last && d->glow == KILN_TILE_GLOW_APART;
+    const bool joins = d->glow == KILN_TILE_GLOW_APART, keeps = !d->first || d->keep_bloom;
     for (size_t x = 0; x < (size_t)tile->width; x++) {
+        const float left = planes[KILN_TILE_LEFT][x], alpha = tile->over ? 1.0f - left : left;
+        const float passed = d->sum ? 1.0f : tile->over ? left : 1.0f - alpha;
+        float drawn[4] = {planes[KILN_TILE_RED][x], planes[KILN_TILE_GREEN][x],
+                          planes[KILN_TILE_BLUE][x], alpha};
+        float glow[4] = {planes[KILN_TILE_GLOW_RED][x], planes[KILN_TILE_GLOW_GREEN][x],
+                         planes[KILN_TILE_GLOW_BLUE][x], alpha};
+        for (int c = 0; c < 3 && joins; c++) {
+            drawn[c] += glow[c];
+            glow[c] *= d->weights[c];
+        }
         float *color = d->color + 4 * (at + x);
         for (int c = 0; c < 4; c++)
-            color[c] = planes[KILN_TILE_RED + c][x];
-        for (int c = 0; c < 3 && joins; c++)
-            color[c] += planes[KILN_TILE_GLOW_RED + c][x];
-    }
-    for (size_t x = 0; x < (size_t)tile->width && d->bloom; x++) {
+            color[c] = d->first ? drawn[c] : drawn[c] + color[c] * passed;
         float *bloom = d->bloom + 4 * (at + x);
-        for (int c = 0; c < 3; c++)
-            bloom[c] = planes[KILN_TILE_GLOW_RED + c][x] * (joins ? d->weights[c] : 1.0f);
-        /* The glow's alpha goes the same way, from what an earlier pass has left. */
-        float alpha = planes[KILN_TILE_ALPHA][x], before = d->keep_bloom ? bloom[3] : 0.0f;
-        if (d->last)
-            bloom[3] = alpha + before * (d->sum ? 1.0f : 1.0f - alpha);
+        for (int c = 0; c < 4 && d->bloom; c++)
+            bloom[c] = keeps ? glow[c] + bloom[c] * passed : glow[c];
     }
 }
 
@@ -205,9 +199,9 @@ static void draw_tile(const struct drawing *d, size_t number, uint32_t worker)
     tile->height = height < KILN_TILE_HEIGHT ? (int)height : KILN_TILE_HEIGHT;
     tile->glow = d->glow;
     tile->nearest = bins->depth[number].nearest;
-    tile->over = d->sum ? 0.0f : 1.0f;
+    tile->over = !d->sum && !d->by_fragment; /* lists of fragments need each sprite's alpha */
     for (int row = 0; row < tile->height; row++)
-        load_row(d, tile, row, (size_t)(y + (uint32_t)row) * d->width + x);
+        begin_row(d, tile, row, (size_t)(y + (uint32_t)row) * d->width + x);
     const uint32_t *list = bins->list + bins->first[number];
     size_t count = bins->first[number + 1] - bins->first[number];
     if (!d->by_fragment)
@@ -445,10 +439,8 @@ bool kiln_tiles_run(struct kiln_tiles *tiles, const struct kiln_particles_draw *
     }
     uint32_t done = 0;
     do { /* at least once, for the clear picture of no particles */
-        uint32_t left = draw->count - done;
-        uint32_t count = left < most ? left : most;
+        uint32_t count = draw->count - done < most ? draw->count - done : most;
         drawing.first = done == 0;
-        drawing.last = count == left;
         if (!draw_piece(tiles, &pass, entries + done, count, &drawing, error))
             return false;
         done += count;

@@ -22,12 +22,13 @@ enum kiln_tile_glow {
     KILN_TILE_GLOW_WEIGHED, /* colour times the weights of each sprite */
 };
 
-/* Colour, alpha and glow of what was drawn, premultiplied; the depth of the scene, m. */
+/* Colour and glow of what was drawn, premultiplied; what is left of light from behind it, or its
+ * alpha, summed up; the depth of the scene, m. */
 enum kiln_tile_plane {
     KILN_TILE_RED,
     KILN_TILE_GREEN,
     KILN_TILE_BLUE,
-    KILN_TILE_ALPHA,
+    KILN_TILE_LEFT,
     KILN_TILE_GLOW_RED,
     KILN_TILE_GLOW_GREEN,
     KILN_TILE_GLOW_BLUE,
@@ -41,10 +42,11 @@ struct kiln_tile {
     int x, y, width, height; /* in the picture, px */
     enum kiln_tile_glow glow;
     float nearest; /* depth in it, m */
-    float over;    /* 1: what covers hides what is behind; 0: alpha is summed up */
+    bool over;     /* what covers hides what is behind it: else alpha is summed up */
 };
 
-/* Draws sprites in the order of the list into the tile; their cells have been mixed. */
+/* Draws sprites into the tile, whose list has the farthest first; their cells have been mixed. They
+ * are drawn from the nearest on, because so what covers changes no colour but its own. */
 typedef void kiln_tile_draw(struct kiln_tile *tile, const struct kiln_sprite *sprites,
                             const struct kiln_cells *cells, const uint32_t *list, size_t count);
 

@@ -19,7 +19,6 @@ struct brush {
     bool emits;                    /* base or slope are not 0 */
     bool whole;                    /* all of the tile lies so far behind it that nothing fades */
     int32_t layer;                 /* the first of the planes that get its colour */
-    bool dims;                     /* the other layer, if it covers */
     bool weighs;                   /* its colour for the glow's planes */
 };
 
@@ -95,31 +94,17 @@ SIMD vf fade(const struct kiln_sprite *s, vf scene, vf depth, vi inside)
     return vf_where(inside, vf_clamp01((scene - depth) * s->soft) * s->opacity);
 }
 
-/* Blends into what lies at the offsets. over: 1 where what covers hides what is behind. */
+/* Puts light behind what lies at the offsets. */
 SIMD void blend(float (*planes)[KILN_TILE_PITCH], const int32_t *at, const struct brush *b,
-                const float bloom[3], const vf rgb[3], vf alpha, bool covers, float over)
+                const float bloom[3], const vf rgb[3])
 {
-    vf passed = 1.0f - alpha * over;
     for (int c = 0; c < 3; c++) {
         float *color = planes[b->layer + c];
-        vf old = vf_load_units(color, at);
-        vf_store_units(color, at, rgb[c] + (covers ? old * passed : old));
+        vf_store_units(color, at, vf_load_units(color, at) + rgb[c]);
     }
-    if (covers) {
-        float *plane = planes[KILN_TILE_ALPHA];
-        vf_store_units(plane, at, alpha + vf_load_units(plane, at) * passed);
-    }
-    if (b->weighs) {
-        for (int c = 0; c < 3; c++) {
-            float *glow = planes[KILN_TILE_GLOW_RED + c];
-            vf old = vf_load_units(glow, at);
-            vf_store_units(glow, at, rgb[c] * bloom[c] + (covers ? old * passed : old));
-        }
-    } else if (covers && b->dims) {
-        for (int c = 0; c < 3; c++) {
-            float *other = planes[(KILN_TILE_RED + KILN_TILE_GLOW_RED - b->layer) + c];
-            vf_store_units(other, at, vf_load_units(other, at) * passed);
-        }
+    for (int c = 0; c < 3 && b->weighs; c++) {
+        float *glow = planes[KILN_TILE_GLOW_RED + c];
+        vf_store_units(glow, at, vf_load_units(glow, at) + rgb[c] * bloom[c]);
     }
 }
 
@@ -141,6 +126,7 @@ enum { BATCH = 16 };
 struct batch {
     _Alignas(64) int32_t texels[2][BATCH][LANES];
     vi places[2][BATCH], inside[BATCH];
+    struct vf4 cells[BATCH];
     vf u[BATCH], v[BATCH], depth[BATCH]; /* of plain and of deep ones */
     int32_t at[BATCH][UNITS];
     int count;
@@ -242,14 +228,16 @@ SIMD void draw_batch(struct batch *batch, const struct drawn *d, enum kiln_sprit
     float(*planes)[KILN_TILE_PITCH] = d->tile->pixels[0];
     const struct kiln_sprite *s = d->s;
     const struct brush *b = &d->brush;
-    bool textured = kind != KILN_SHADE_PLAIN;
+    const bool textured = kind != KILN_SHADE_PLAIN, over = d->tile->over;
     __asm__("" : "+m"(*batch)); /* through memory: to take a vector apart costs twice as much */
     if (textured && !mixed)
         follow(batch, b);
+    for (int i = 0; i < batch->count && textured; i++)
+        batch->cells[i] = sample(batch, i, b, kind == KILN_SHADE_GLOW, mixed);
     for (int i = 0; i < batch->count; i++) {
         struct shaded c;
         if (textured) {
-            struct vf4 cell = sample(batch, i, b, kind == KILN_SHADE_GLOW, mixed);
+            struct vf4 cell = batch->cells[i];
             c = kind == KILN_SHADE_LIT    ? shade_lit(s, b, cell)
                 : kind == KILN_SHADE_GLOW ? shade_glow(s, b, cell)
                                           : shade_color(s, b, cell);
@@ -264,10 +252,18 @@ SIMD void draw_batch(struct batch *batch, const struct drawn *d, enum kiln_sprit
             left = fade(s, vf_load_units(planes[KILN_TILE_DEPTH], at), depth, batch->inside[i]);
         if (s->flags & KILN_SPRITE_LITERAL) /* has no bound of its own: alpha up to 1 */
             left = vf_min(left, 1.0f / vf_max(c.alpha, vf_all(1e-6f)));
+        float *plane = planes[KILN_TILE_LEFT];
+        vf behind = vf_all(0.0f);
+        if (over || covers)
+            behind = vf_load_units(plane, at);
+        if (over)
+            left *= behind;
         vf alpha = c.alpha * left;
         for (int k = 0; k < 3; k++)
             c.rgb[k] *= kind == KILN_SHADE_COLOR ? left : alpha;
-        blend(planes, at, b, s->bloom, c.rgb, alpha, covers, d->tile->over);
+        blend(planes, at, b, s->bloom, c.rgb);
+        if (covers)
+            vf_store_units(plane, at, over ? behind - alpha : behind + alpha);
     }
     batch->count = 0;
 }
@@ -471,7 +467,6 @@ SIMD void make_brush(const struct kiln_tile *tile, const struct kiln_cells_conte
     bool apart = glows && tile->glow == KILN_TILE_GLOW_APART;
     *b = (struct brush){
         .layer = apart ? KILN_TILE_GLOW_RED : KILN_TILE_RED,
-        .dims = tile->glow != KILN_TILE_GLOW_NONE,
         .weighs = glows && tile->glow == KILN_TILE_GLOW_WEIGHED,
     };
     b->whole = !deep && !(s->flags & KILN_SPRITE_LITERAL) && tile->nearest >= s->depth &&
@@ -558,10 +553,10 @@ void TILE_DRAW(struct kiln_tile *tile, const struct kiln_sprite *sprites,
         {ROW(mixed_glow), ROW(mixed_lit), ROW(mixed_color), ROW(plain)},
     };
     const struct kiln_cells_content content = kiln_cells_content(cells);
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = count; i-- > 0;) {
         const struct kiln_sprite *s = &sprites[list[i]];
-        if (i + TILE_AHEAD < count) { /* neighbours in a list are far apart in memory */
-            const char *next = (const char *)&sprites[list[i + TILE_AHEAD]];
+        if (i >= TILE_AHEAD) { /* neighbours in a list are far apart in memory */
+            const char *next = (const char *)&sprites[list[i - TILE_AHEAD]];
             for (size_t line = 0; line < sizeof *s; line += 64)
                 __builtin_prefetch(next + line);
         }
