@@ -1,5 +1,5 @@
-/* What is mixed stays as bytes, like the atlas. Samples of samples are a little softer than those
- * of the shader, which follows the motion at each pixel. */
+/* What is mixed stays as bytes, like the atlas. The shader follows the motion at each pixel, here
+ * it is followed at each texel. */
 #include "draw/cells.h"
 
 #include "base/error.h"
@@ -237,14 +237,36 @@ static float between(float upper_left, float upper_right, float lower_left, floa
     return upper + (lower - upper) * part[1];
 }
 
+/* The weights of four texels about a place between the middle two: cubic convolution (Keys 1981)
+ * with a = -1/4, which comes closest to the shader's picture. */
+static void weigh_four(float part, float weights[4])
+{
+    float square = part * part, cube = square * part;
+    weights[0] = 0.5f * square - 0.25f * (part + cube);
+    weights[1] = 1.0f - 2.75f * square + 1.75f * cube;
+    weights[2] = 0.25f * part + 2.5f * square - 1.75f * cube;
+    weights[3] = 0.25f * (cube - square);
+}
+
+/* RGBA at a place. Straight lines between texels would blur it, for it becomes texels again. */
 static void read_texel(const uint8_t *texels, uint32_t edge, float x, float y, float rgba[4])
 {
-    struct bilinear at = place(x, y, edge);
-    const uint8_t *upper = texels + 4 * (size_t)at.from[1] * edge;
-    const uint8_t *lower = texels + 4 * (size_t)at.to[1] * edge;
+    const struct bilinear at = place(x, y, edge);
+    float across[4], down[4];
+    weigh_four(at.part[0], across);
+    weigh_four(at.part[1], down);
     for (uint32_t c = 0; c < 4; c++)
-        rgba[c] = between(upper[4 * at.from[0] + c], upper[4 * at.to[0] + c],
-                          lower[4 * at.from[0] + c], lower[4 * at.to[0] + c], at.part);
+        rgba[c] = 0.0f;
+    for (uint32_t i = 0; i < 16; i++) {
+        uint32_t column = at.from[0] + i % 4, row = at.from[1] + i / 4;
+        column = column > 0 ? column - 1 : 0;
+        row = row > 0 ? row - 1 : 0;
+        column = column < edge ? column : edge - 1;
+        row = row < edge ? row : edge - 1;
+        const uint8_t *texel = texels + 4 * ((size_t)row * edge + column);
+        for (uint32_t c = 0; c < 4; c++)
+            rgba[c] += texel[c] * (across[i % 4] * down[i / 4]);
+    }
 }
 
 static void read_move(const int8_t *moves, float x, float y, float way[2])
@@ -283,7 +305,8 @@ static void mix(const struct kiln_cells *cells, uint32_t number)
             read_texel(from, edge, u - part * x_way, v - part * y_way, first);
             read_texel(to, edge, u + left * x_way, v + left * y_way, second);
             for (int c = 0; c < 4; c++)
-                texel[c] = (uint8_t)(first[c] + (second[c] - first[c]) * part + 0.5f);
+                texel[c] =
+                    (uint8_t)(clamp(first[c] + (second[c] - first[c]) * part, 0.0f, 255.0f) + 0.5f);
         }
     }
     spread_cell(texels, edge, cells->texels[number]);
