@@ -160,28 +160,59 @@ static void begin_row(const struct drawing *d, struct kiln_tile *tile, int y, si
         planes[KILN_TILE_LEFT][x] = 1.0f;
 }
 
+typedef float four __attribute__((vector_size(16)));
+typedef float four_unaligned __attribute__((vector_size(16), aligned(4), may_alias));
+
+/* Channels of four pixels become four pixels. */
+static inline void transpose(four c[4])
+{
+    four low = __builtin_shufflevector(c[0], c[1], 0, 4, 1, 5);
+    four high = __builtin_shufflevector(c[0], c[1], 2, 6, 3, 7);
+    four low2 = __builtin_shufflevector(c[2], c[3], 0, 4, 1, 5);
+    four high2 = __builtin_shufflevector(c[2], c[3], 2, 6, 3, 7);
+    c[0] = __builtin_shufflevector(low, low2, 0, 1, 4, 5);
+    c[1] = __builtin_shufflevector(low, low2, 2, 3, 6, 7);
+    c[2] = __builtin_shufflevector(high, high2, 0, 1, 4, 5);
+    c[3] = __builtin_shufflevector(high, high2, 2, 3, 6, 7);
+}
+
+/* Puts four pixels over others, or in their place. */
+static inline void put_over(const four drawn[4], const float passed[4], bool keep, float *to,
+                            size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        four_unaligned *pixel = (four_unaligned *)(to + 4 * i);
+        *pixel = keep ? drawn[i] + *pixel * passed[i] : drawn[i];
+    }
+}
+
 /* Puts a row over what pieces before have drawn, and an earlier pass into the glow. */
 static void store_row(const struct drawing *d, const struct kiln_tile *tile, int y, size_t at)
 {
     const float(*planes)[KILN_TILE_PITCH] = (const float(*)[KILN_TILE_PITCH])tile->pixels[y];
-    const bool joins = d->glow == KILN_TILE_GLOW_APART, keeps = !d->first || d->keep_bloom;
-    for (size_t x = 0; x < (size_t)tile->width; x++) {
-        const float left = planes[KILN_TILE_LEFT][x], alpha = tile->over ? 1.0f - left : left;
-        const float passed = d->sum ? 1.0f : tile->over ? left : 1.0f - alpha;
-        float drawn[4] = {planes[KILN_TILE_RED][x], planes[KILN_TILE_GREEN][x],
-                          planes[KILN_TILE_BLUE][x], alpha};
-        float glow[4] = {planes[KILN_TILE_GLOW_RED][x], planes[KILN_TILE_GLOW_GREEN][x],
-                         planes[KILN_TILE_GLOW_BLUE][x], alpha};
-        for (int c = 0; c < 3 && joins; c++) {
-            drawn[c] += glow[c];
-            glow[c] *= d->weights[c];
+    for (size_t x = 0; x < (size_t)tile->width; x += 4) {
+        four color[4], glow[4];
+        float passed[4];
+        for (int c = 0; c < 3; c++) {
+            memcpy(&color[c], &planes[KILN_TILE_RED + c][x], sizeof color[c]);
+            memcpy(&glow[c], &planes[KILN_TILE_GLOW_RED + c][x], sizeof glow[c]);
+            if (d->glow == KILN_TILE_GLOW_APART) {
+                color[c] += glow[c];
+                glow[c] *= d->weights[c];
+            }
         }
-        float *color = d->color + 4 * (at + x);
-        for (int c = 0; c < 4; c++)
-            color[c] = d->first ? drawn[c] : drawn[c] + color[c] * passed;
-        float *bloom = d->bloom + 4 * (at + x);
-        for (int c = 0; c < 4 && d->bloom; c++)
-            bloom[c] = keeps ? glow[c] + bloom[c] * passed : glow[c];
+        four left, alpha;
+        memcpy(&left, &planes[KILN_TILE_LEFT][x], sizeof left);
+        alpha = tile->over ? 1.0f - left : left;
+        left = d->sum ? alpha - alpha + 1.0f : 1.0f - alpha;
+        memcpy(passed, &left, sizeof passed);
+        color[3] = glow[3] = alpha;
+        transpose(color);
+        transpose(glow);
+        size_t count = (size_t)tile->width - x < 4 ? (size_t)tile->width - x : 4;
+        put_over(color, passed, !d->first, d->color + 4 * (at + x), count);
+        if (d->bloom)
+            put_over(glow, passed, !d->first || d->keep_bloom, d->bloom + 4 * (at + x), count);
     }
 }
 
@@ -193,6 +224,10 @@ static void draw_tile(const struct drawing *d, size_t number, uint32_t worker)
     uint32_t x = (uint32_t)(number % bins->columns) * KILN_TILE_WIDTH;
     uint32_t y = (uint32_t)(number / bins->columns) * KILN_TILE_HEIGHT;
     uint32_t width = d->width - x, height = d->height - y;
+    const uint32_t *list = bins->list + bins->first[number];
+    size_t count = bins->first[number + 1] - bins->first[number];
+    if (count == 0 && !d->first)
+        return;
     tile->x = (int)x;
     tile->y = (int)y;
     tile->width = width < KILN_TILE_WIDTH ? (int)width : KILN_TILE_WIDTH;
@@ -202,8 +237,6 @@ static void draw_tile(const struct drawing *d, size_t number, uint32_t worker)
     tile->over = !d->sum && !d->by_fragment; /* lists of fragments need each sprite's alpha */
     for (int row = 0; row < tile->height; row++)
         begin_row(d, tile, row, (size_t)(y + (uint32_t)row) * d->width + x);
-    const uint32_t *list = bins->list + bins->first[number];
-    size_t count = bins->first[number + 1] - bins->first[number];
     if (!d->by_fragment)
         tiles->draw(tile, tiles->sprites, tiles->cells, list, count);
     else
