@@ -122,6 +122,21 @@ SIMD vf vf_sqrt(vf a)
 }
 #endif
 
+/* A bit for each lane of a mask. */
+SIMD uint32_t vi_bits(vi mask)
+{
+#if KILN_SIMD_LEVEL == 3
+    return _mm512_movepi32_mask((__m512i)mask);
+#elif KILN_SIMD_LEVEL == 2
+    return (uint32_t)_mm256_movemask_ps((__m256)mask);
+#elif KILN_SIMD_LEVEL == 1
+    return (uint32_t)_mm_movemask_ps((__m128)mask);
+#else
+    return ((uint32_t)mask[0] & 1) | ((uint32_t)mask[1] & 2) | ((uint32_t)mask[2] & 4) |
+           ((uint32_t)mask[3] & 8);
+#endif
+}
+
 SIMD vf vf_clamp01(vf x)
 {
     return vf_min(vf_max(x, vf_all(0.0f)), vf_all(1.0f));

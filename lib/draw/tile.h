@@ -41,8 +41,10 @@ struct kiln_tile {
     _Alignas(64) float pixels[KILN_TILE_HEIGHT + 1][KILN_TILE_PLANES][KILN_TILE_PITCH];
     int x, y, width, height; /* in the picture, px */
     enum kiln_tile_glow glow;
-    float nearest; /* depth in it, m */
-    bool over;     /* what covers hides what is behind it: else alpha is summed up */
+    float nearest;                   /* depth in it, m */
+    uint64_t seen[KILN_TILE_HEIGHT]; /* while drawing: pixels behind which more is seen... */
+    bool hides;                      /* ...unless that is all of them */
+    bool over; /* what covers hides what is behind it: else alpha is summed up */
 };
 
 /* Draws sprites into the tile, whose list has the farthest first; their cells have been mixed. They

@@ -5,7 +5,13 @@
 #include "draw/simd.h"
 #include "draw/tile.h"
 
-enum { TILE_AHEAD = 6 }; /* sprites that are fetched beforehand */
+enum {
+    TILE_AHEAD = 6,  /* sprites that are fetched beforehand */
+    LOOK_EVERY = 24, /* sprites that cover: then it is found out what is still seen behind */
+};
+
+/* Where less than this part of the light from behind is left, no more is drawn. */
+#define UNSEEN 0x1p-16f
 
 /* What all pixels of a sprite have in common. */
 struct brush {
@@ -375,12 +381,31 @@ SIMD int list_units(const struct rows *rows, const struct box *box, const float 
         }
         count += rows->units[y];
     }
-    if (UNITS > 1) { /* an even number: one more that lies nowhere */
-        units->at[count] = KILN_TILE_HEIGHT * KILN_TILE_PLANES * KILN_TILE_PITCH;
-        units->u[count] = units->v[count] = -1e6f;
-        units->q[count] = 0.0f;
-    }
     return count;
+}
+
+/* Leaves out units of which no pixel is seen. */
+SIMD int drop_hidden(const struct kiln_tile *tile, struct units *units, int count)
+{
+    int kept = 0;
+    for (int i = 0; i < count; i++) {
+        uint32_t at = (uint32_t)units->at[i], pixel = at % (KILN_TILE_PLANES * KILN_TILE_PITCH);
+        uint64_t row = tile->seen[at / (KILN_TILE_PLANES * KILN_TILE_PITCH)];
+        units->at[kept] = units->at[i];
+        units->u[kept] = units->u[i];
+        units->v[kept] = units->v[i];
+        units->q[kept] = units->q[i];
+        kept += (row >> pixel & 0xff) != 0;
+    }
+    return kept;
+}
+
+/* Makes the number even: one more that lies nowhere. */
+SIMD void add_nowhere(struct units *units, int count)
+{
+    units->at[count] = KILN_TILE_HEIGHT * KILN_TILE_PLANES * KILN_TILE_PITCH;
+    units->u[count] = units->v[count] = -1e6f;
+    units->q[count] = 0.0f;
 }
 
 SIMD void draw_wide(const struct drawn *d, const struct kiln_cell_hull *hull, const struct box *box,
@@ -400,6 +425,10 @@ SIMD void draw_wide(const struct drawn *d, const struct kiln_cell_hull *hull, co
     }
     const float steps[3] = {s->u_x * scale, s->v_x * scale, s->q_x};
     int count = list_units(&rows, box, steps, deep, &units);
+    if (d->tile->hides)
+        count = drop_hidden(d->tile, &units, count);
+    if (UNITS > 1)
+        add_nowhere(&units, count);
     for (int begin = 0; begin < count; begin += BATCH / UNIT_PARTS * UNITS) {
         int end =
             count - begin < BATCH / UNIT_PARTS * UNITS ? count : begin + BATCH / UNIT_PARTS * UNITS;
@@ -496,6 +525,33 @@ SIMD void make_brush(const struct kiln_tile *tile, const struct kiln_cells_conte
     b->move_mask = (0xffff >> b->move_shift) | (int32_t)(0xffffu >> b->move_shift << 16);
 }
 
+/* Whether no pixel of a box is seen. */
+SIMD bool box_hidden(const struct kiln_tile *tile, const struct box *box)
+{
+    uint64_t seen = 0;
+    for (int y = box->y_from; y < box->y_to; y++)
+        seen |= tile->seen[y];
+    seen &= ~(uint64_t)0 >> (KILN_TILE_WIDTH - (box->x_to - box->x_from)) << box->x_from;
+    return seen == 0;
+}
+
+/* Finds out what is still seen behind what was drawn; false when nothing is. */
+static bool look_behind(struct kiln_tile *tile)
+{
+    const uint64_t whole = ~(uint64_t)0 >> (KILN_TILE_WIDTH - tile->width);
+    uint64_t any = 0, every = whole;
+    for (int y = 0; y < tile->height; y++) {
+        uint64_t seen = 0;
+        for (int x = 0; x < KILN_TILE_WIDTH; x += LANES)
+            seen |= (uint64_t)vi_bits(vf_load(&tile->pixels[y][KILN_TILE_LEFT][x]) > UNSEEN) << x;
+        tile->seen[y] = seen & whole;
+        any |= tile->seen[y];
+        every &= tile->seen[y];
+    }
+    tile->hides = every != whole;
+    return any != 0;
+}
+
 SIMD void draw_sprite(struct kiln_tile *tile, const struct kiln_cells_content *cells,
                       const struct kiln_sprite *s, enum kiln_sprite_shade kind, bool deep,
                       bool covers, bool mixed)
@@ -506,6 +562,8 @@ SIMD void draw_sprite(struct kiln_tile *tile, const struct kiln_cells_content *c
         .y_from = s->y_from > tile->y ? s->y_from - tile->y : 0,
         .y_to = s->y_to < tile->y + tile->height ? s->y_to - tile->y : tile->height,
     };
+    if (tile->hides && (box.x_from >= box.x_to || box_hidden(tile, &box)))
+        return;
     struct drawn drawn = {.tile = tile, .s = s};
     make_brush(tile, cells, s, kind, deep, mixed, &drawn.brush);
     struct batch batch;
@@ -553,6 +611,8 @@ void TILE_DRAW(struct kiln_tile *tile, const struct kiln_sprite *sprites,
         {ROW(mixed_glow), ROW(mixed_lit), ROW(mixed_color), ROW(plain)},
     };
     const struct kiln_cells_content content = kiln_cells_content(cells);
+    tile->hides = false;
+    uint32_t covering = 0;
     for (size_t i = count; i-- > 0;) {
         const struct kiln_sprite *s = &sprites[list[i]];
         if (i >= TILE_AHEAD) { /* neighbours in a list are far apart in memory */
@@ -563,5 +623,11 @@ void TILE_DRAW(struct kiln_tile *tile, const struct kiln_sprite *sprites,
         bool mixed = (s->flags & KILN_SPRITE_MIXED) != 0;
         uint32_t form = s->flags & (KILN_SPRITE_DEEP | KILN_SPRITE_COVERS);
         draw[mixed][s->shade][form](tile, &content, s);
+        covering += (s->flags & KILN_SPRITE_COVERS) != 0;
+        if (covering == LOOK_EVERY && tile->over) {
+            covering = 0;
+            if (!look_behind(tile))
+                return;
+        }
     }
 }
