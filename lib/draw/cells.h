@@ -12,7 +12,7 @@
 #include <stdatomic.h>
 
 enum {
-    KILN_CELL_TEXEL = 8,  /* bytes: as draw/simd.h has them */
+    KILN_CELL_TEXEL = 8,  /* bytes: as draw/texels.h has them */
     KILN_CELL_PAIR = 4,   /* of two channels */
     KILN_CELL_MARGIN = 2, /* columns more than the edge: the outer texels stand twice */
     KILN_CELL_PHASES = 16,

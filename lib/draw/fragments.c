@@ -139,7 +139,7 @@ static void put_pixel(struct kiln_fragments *f, const struct kiln_sprite *s, int
     const float(*planes)[KILN_TILE_PITCH] = (const float(*)[KILN_TILE_PITCH])tile->pixels[y];
     struct fragment fragment = {
         .rgb = {planes[KILN_TILE_RED][x], planes[KILN_TILE_GREEN][x], planes[KILN_TILE_BLUE][x]},
-        .alpha = planes[KILN_TILE_LEFT][x],
+        .alpha = planes[KILN_TILE_ALPHA][x],
         .sprite = number,
         .pixel = (uint32_t)(y * KILN_TILE_WIDTH + x),
     };
@@ -256,7 +256,7 @@ static void sort_list(struct link *links, size_t count)
 static void blend_list(const struct kiln_fragments *f, const struct link *links, size_t count,
                        const struct kiln_sprite *sprites, float (*planes)[KILN_TILE_PITCH], int x)
 {
-    float color[4], glow[3]; /* the alpha, too, is a sum here */
+    float color[4], glow[3];
     for (int c = 0; c < 4; c++)
         color[c] = planes[KILN_TILE_RED + c][x];
     for (int c = 0; c < 3; c++)

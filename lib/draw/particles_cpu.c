@@ -156,8 +156,6 @@ static void begin_row(const struct drawing *d, struct kiln_tile *tile, int y, si
     float(*planes)[KILN_TILE_PITCH] = tile->pixels[y];
     memcpy(planes[KILN_TILE_DEPTH], d->depth + at, (size_t)tile->width * sizeof(float));
     memset(planes, 0, KILN_TILE_DEPTH * sizeof *planes);
-    for (size_t x = 0; x < KILN_TILE_PITCH && tile->over; x++)
-        planes[KILN_TILE_LEFT][x] = 1.0f;
 }
 
 typedef float four __attribute__((vector_size(16)));
@@ -201,10 +199,9 @@ static void store_row(const struct drawing *d, const struct kiln_tile *tile, int
                 glow[c] *= d->weights[c];
             }
         }
-        four left, alpha;
-        memcpy(&left, &planes[KILN_TILE_LEFT][x], sizeof left);
-        alpha = tile->over ? 1.0f - left : left;
-        left = d->sum ? alpha - alpha + 1.0f : 1.0f - alpha;
+        four alpha;
+        memcpy(&alpha, &planes[KILN_TILE_ALPHA][x], sizeof alpha);
+        const four left = 1.0f - (d->sum ? (four){0} : alpha);
         memcpy(passed, &left, sizeof passed);
         color[3] = glow[3] = alpha;
         transpose(color);

@@ -22,13 +22,12 @@ enum kiln_tile_glow {
     KILN_TILE_GLOW_WEIGHED, /* colour times the weights of each sprite */
 };
 
-/* Colour and glow of what was drawn, premultiplied; what is left of light from behind it, or its
- * alpha, summed up; the depth of the scene, m. */
+/* Colour, alpha and glow of what was drawn, premultiplied; the depth of the scene, m. */
 enum kiln_tile_plane {
     KILN_TILE_RED,
     KILN_TILE_GREEN,
     KILN_TILE_BLUE,
-    KILN_TILE_LEFT,
+    KILN_TILE_ALPHA,
     KILN_TILE_GLOW_RED,
     KILN_TILE_GLOW_GREEN,
     KILN_TILE_GLOW_BLUE,
