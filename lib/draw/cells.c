@@ -265,7 +265,7 @@ static void read_texel(const uint8_t *texels, uint32_t edge, float x, float y, f
         row = row < edge ? row : edge - 1;
         const uint8_t *texel = texels + 4 * ((size_t)row * edge + column);
         for (uint32_t c = 0; c < 4; c++)
-            rgba[c] += texel[c] * (across[i % 4] * down[i / 4]);
+            rgba[c] += (float)texel[c] * (across[i % 4] * down[i / 4]);
     }
 }
 

@@ -196,15 +196,15 @@ SIMD struct pairs sample_pairs(const uint8_t *texels, const int32_t *offsets, vi
     const words twins = pattern(0x05040100, 0x07060302, 0x0d0c0908, 0x0f0e0b0a);
     const struct weights w = weigh(places, part);
     struct pairs pairs;
-#define PAIR(n, twice)                                                                             \
+#define PAIR(n, from, twice)                                                                       \
     do {                                                                                           \
         words weights = WORDS(shuffle_epi32)(w.rows, twice);                                       \
-        words texel = WORDS(maddubs_epi16)(weights, fetch_pairs(texels, offsets + 2 * (n)));       \
+        words texel = WORDS(maddubs_epi16)(weights, fetch_pairs(texels, offsets + (from)));        \
         pairs.k[n] = (vi)WORDS(madd_epi16)(WORDS(shuffle_epi8)(texel, twins),                      \
                                            WORDS(shuffle_epi32)(w.columns, twice));                \
     } while (0)
-    PAIR(0, 0x50);
-    PAIR(1, 0xfa);
+    PAIR(0, 0, 0x50);
+    PAIR(1, 2, 0xfa);
 #undef PAIR
     return pairs;
 }

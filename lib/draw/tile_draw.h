@@ -228,48 +228,52 @@ SIMD struct vf4 sample(const struct batch *batch, int i, const struct brush *b, 
                              : quads_sum(quads, sample_quads(b->next, next_texels, next, b->part)));
 }
 
-SIMD void draw_batch(struct batch *batch, const struct drawn *d, enum kiln_sprite_shade kind,
-                     bool deep, bool covers, bool mixed)
+/* Vector i of a batch behind what was drawn. */
+SIMD void draw_vector(const struct batch *batch, int i, const struct drawn *d, struct shaded c,
+                      bool multiplied, bool deep, bool covers)
 {
     float(*planes)[KILN_TILE_PITCH] = d->tile->pixels[0];
     const struct kiln_sprite *s = d->s;
+    const bool over = d->tile->over;
+    const int32_t *at = batch->at[i];
+    vf left = vf_where(batch->inside[i], vf_all(s->opacity)), before = vf_all(0.0f);
+    if (!d->brush.whole) {
+        vf depth = deep ? batch->depth[i] : vf_all(s->depth);
+        left = fade(s, vf_load_units(planes[KILN_TILE_DEPTH], at), depth, batch->inside[i]);
+    }
+    if (s->flags & KILN_SPRITE_LITERAL) /* has no bound of its own: alpha up to 1 */
+        left = vf_min(left, 1.0f / vf_max(c.alpha, vf_all(1e-6f)));
+    if (over || covers)
+        before = vf_load_units(planes[KILN_TILE_ALPHA], at);
+    if (over)
+        left *= 1.0f - before;
+    vf alpha = c.alpha * left;
+    for (int k = 0; k < 3; k++)
+        c.rgb[k] *= multiplied ? left : alpha;
+    blend(planes, at, &d->brush, s->bloom, c.rgb);
+    if (covers) {
+        before += alpha;
+        vf_store_units(planes[KILN_TILE_ALPHA], at, over ? vf_min(before, vf_all(1.0f)) : before);
+    }
+}
+
+SIMD void draw_batch(struct batch *batch, const struct drawn *d, enum kiln_sprite_shade kind,
+                     bool deep, bool covers, bool mixed)
+{
+    const struct kiln_sprite *s = d->s;
     const struct brush *b = &d->brush;
-    const bool textured = kind != KILN_SHADE_PLAIN, over = d->tile->over;
+    const bool textured = kind != KILN_SHADE_PLAIN;
     __asm__("" : "+m"(*batch)); /* through memory: to take a vector apart costs twice as much */
     if (textured && !mixed)
         follow(batch, b);
     for (int i = 0; i < batch->count && textured; i++)
         batch->cells[i] = sample(batch, i, b, kind == KILN_SHADE_GLOW, mixed);
     for (int i = 0; i < batch->count; i++) {
-        struct shaded c;
-        if (textured) {
-            struct vf4 cell = batch->cells[i];
-            c = kind == KILN_SHADE_LIT    ? shade_lit(s, b, cell)
-                : kind == KILN_SHADE_GLOW ? shade_glow(s, b, cell)
-                                          : shade_color(s, b, cell);
-        } else {
-            c = shade_plain(s, batch->u[i], batch->v[i]);
-        }
-        vf left, depth = deep ? batch->depth[i] : vf_all(s->depth);
-        const int32_t *at = batch->at[i];
-        if (b->whole)
-            left = vf_where(batch->inside[i], vf_all(s->opacity));
-        else
-            left = fade(s, vf_load_units(planes[KILN_TILE_DEPTH], at), depth, batch->inside[i]);
-        if (s->flags & KILN_SPRITE_LITERAL) /* has no bound of its own: alpha up to 1 */
-            left = vf_min(left, 1.0f / vf_max(c.alpha, vf_all(1e-6f)));
-        float *plane = planes[KILN_TILE_ALPHA];
-        vf before = vf_all(0.0f);
-        if (over || covers)
-            before = vf_load_units(plane, at);
-        if (over)
-            left *= 1.0f - before;
-        vf alpha = c.alpha * left;
-        for (int k = 0; k < 3; k++)
-            c.rgb[k] *= kind == KILN_SHADE_COLOR ? left : alpha;
-        blend(planes, at, b, s->bloom, c.rgb);
-        if (covers)
-            vf_store_units(plane, at, over ? vf_min(before + alpha, vf_all(1.0f)) : before + alpha);
+        struct shaded c = kind == KILN_SHADE_LIT     ? shade_lit(s, b, batch->cells[i])
+                          : kind == KILN_SHADE_GLOW  ? shade_glow(s, b, batch->cells[i])
+                          : kind == KILN_SHADE_COLOR ? shade_color(s, b, batch->cells[i])
+                                                     : shade_plain(s, batch->u[i], batch->v[i]);
+        draw_vector(batch, i, d, c, kind == KILN_SHADE_COLOR, deep, covers);
     }
     batch->count = 0;
 }
@@ -335,14 +339,14 @@ SIMD void draw_narrow(const struct drawn *d, const struct box *box, struct batch
         v[part] = (s->v + s->v_x * x) * scale + margin;
     }
     float u_row = s->u_y * scale, v_row = s->v_y * scale;
-    vf end = vf_all((float)(tile->y + box->y_to));
+    const float end = (float)(tile->y + box->y_to);
     int32_t at = box->y_from * KILN_TILE_PLANES * KILN_TILE_PITCH + box->x_from;
     for (int y = box->y_from; y < box->y_to; y += UNITS) {
         vf row = vf_units_number() + ((float)(tile->y + y) + 0.5f), from_anchor = row - s->y;
         for (int part = 0; part < UNIT_PARTS; part++) {
             struct pixels p = {.u = u[part] + from_anchor * u_row,
                                .v = v[part] + from_anchor * v_row,
-                               .inside = UNITS > 1 ? row < end : ~(vi){0}};
+                               .inside = row < end};
             for (int k = 0; k < UNITS; k++)
                 p.at[k] = at + k * KILN_TILE_PLANES * KILN_TILE_PITCH + part * LANES;
             put_pixels(batch, d, p, kind, false, mixed);
