@@ -213,6 +213,18 @@ static void store_row(const struct drawing *d, const struct kiln_tile *tile, int
     }
 }
 
+/* A tile in which a piece has nothing. */
+static void leave_empty(const struct drawing *d, size_t at, uint32_t width, uint32_t height)
+{
+    const size_t bytes = 4 * sizeof(float) * (width < KILN_TILE_WIDTH ? width : KILN_TILE_WIDTH);
+    for (uint32_t row = 0; row < height && row < KILN_TILE_HEIGHT && d->first; row++) {
+        size_t place = 4 * (at + (size_t)row * d->width);
+        memset(d->color + place, 0, bytes);
+        if (d->bloom && !d->keep_bloom)
+            memset(d->bloom + place, 0, bytes);
+    }
+}
+
 static void draw_tile(const struct drawing *d, size_t number, uint32_t worker)
 {
     const struct kiln_tiles *tiles = d->tiles;
@@ -223,8 +235,10 @@ static void draw_tile(const struct drawing *d, size_t number, uint32_t worker)
     uint32_t width = d->width - x, height = d->height - y;
     const uint32_t *list = bins->list + bins->first[number];
     size_t count = bins->first[number + 1] - bins->first[number];
-    if (count == 0 && !d->first)
+    if (count == 0) {
+        leave_empty(d, (size_t)y * d->width + x, width, height);
         return;
+    }
     tile->x = (int)x;
     tile->y = (int)y;
     tile->width = width < KILN_TILE_WIDTH ? (int)width : KILN_TILE_WIDTH;
