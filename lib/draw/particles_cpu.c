@@ -478,7 +478,7 @@ bool kiln_tiles_run(struct kiln_tiles *tiles, const struct kiln_particles_draw *
     if (draw->by_fragment && draw->count > most) {
         struct sorting sorting = {
             .tiles = tiles, .pass = &pass, .entries = entries, .count = draw->count};
-        drawing.first = drawing.last = true;
+        drawing.first = true;
         return draw_sorting(&sorting, &drawing, error);
     }
     uint32_t done = 0;
