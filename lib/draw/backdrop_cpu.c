@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "draw/backdrop_rows.h"
 #include "draw/meshes_cpu.h"
+#include "draw/sun_box.h"
 #include "shared/exact.h"
 
 #include <math.h>
@@ -114,16 +115,6 @@ static void fill_waves(const struct kiln_draw_shapes *shapes, struct kiln_wave w
     }
 }
 
-/* How much the edges of a box along two of the axes look like one direction towards the sun, 0 to 1
- * (shaders/draw/sun_cover.glsl). */
-static float alike(float a, float b)
-{
-    float square = a * a * b * b / fmaxf((1.0f - a * a) * (1.0f - b * b), 1e-12f);
-    square = fminf(square, 1.0f);
-    square *= square;
-    return square * square;
-}
-
 static struct kiln_ray_frame make_frame(const struct kiln_backdrop_cpu *cpu,
                                         const struct kiln_backdrop_inputs *inputs,
                                         const struct kiln_lighting *lighting)
@@ -143,7 +134,8 @@ static struct kiln_ray_frame make_frame(const struct kiln_backdrop_cpu *cpu,
         .floor_gloss = features.floor_gloss && inputs->block.floor_params.x > 0.0f,
         .soft_sun = features.soft_sun,
         .sun_inverse = {inverse_of(sun.x), inverse_of(sun.y), inverse_of(sun.z)},
-        .edges_alike = {alike(sun.y, sun.z), alike(sun.x, sun.z), alike(sun.x, sun.y)},
+        .edges_alike = {kiln_sun_likeness(sun.y, sun.z), kiln_sun_likeness(sun.x, sun.z),
+                        kiln_sun_likeness(sun.x, sun.y)},
     };
     if (frame.floor_gloss)
         fill_waves(&inputs->shapes, frame.waves);
