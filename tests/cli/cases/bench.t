@@ -138,7 +138,7 @@ $ kiln bench figure4.6 --quick --quiet --device software --technique sort=oddeve
 
 A signal leaves nothing behind but the folder.
 
-$ mkdir scratch && (TMPDIR=$PWD/scratch exec env --default-signal timeout --preserve-status -s INT 2 kiln bench output --device software --quiet -o stopped)
+$ mkdir scratch && (TMPDIR=$PWD/scratch exec env --default-signal timeout --foreground --preserve-status -s INT 2 kiln bench output --device software --quiet -o stopped)
 2|kiln: bench: stopped by SIGINT; nothing is written
 = 130
 $ ls -A scratch stopped
