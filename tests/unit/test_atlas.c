@@ -195,8 +195,9 @@ static struct kiln_atlas make_atlas(uint32_t threads)
                                                   {sources + 1, 1, 1, 1, "none", 1.0f}};
     struct kiln_threads *pool = kiln_threads_create(threads);
     struct kiln_error error = {0};
-    struct kiln_atlas atlas;
-    assert_true(pool && kiln_atlas_init(&atlas, NULL, requests, 3, pool, &error));
+    struct kiln_atlas atlas = {0};
+    assert_non_null(pool);
+    assert_true(kiln_atlas_init(&atlas, NULL, requests, 3, pool, &error));
     kiln_threads_destroy(&pool);
     return atlas;
 }
