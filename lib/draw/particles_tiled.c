@@ -34,7 +34,7 @@ static const struct shape FOR_SOFTWARE = {8, 2, 1 << 16, 1 << 18},
  * but not smaller than the least. */
 enum { MOST_WORDS = 1 << 24, LEAST_CHUNK = 64 };
 
-enum { SPRITE_BYTES = TILED_SPRITE_ROWS * sizeof(float4) };
+enum { SPRITE_BYTES = TILED_SPRITE_ROWS * sizeof(float4), MOST_GROUP_SIZE = 1024 };
 
 /* Less than this of a channel may be left out. */
 static const float UNSEEN = 1.0f / 2048.0f;
@@ -42,7 +42,8 @@ static const float UNSEEN = 1.0f / 2048.0f;
 struct kiln_tiled {
     struct kiln_device *device;
     struct kiln_geometry *geometry;
-    const struct shape *shape;
+    struct shape shape;
+    uint32_t group_size; /* invocations of a work group that makes, counts or lists sprites */
     GLuint make_program, count_program, list_program, mark_program, depth_program, draw_program;
     GLint additive_alpha; /* of draw_program */
     GLuint sprite_texels; /* the buffer of sprites as a texture */
@@ -52,10 +53,11 @@ struct kiln_tiled {
 static GLuint create_program(struct kiln_tiled *tiled, const struct kiln_scene *scene,
                              const char *file, struct kiln_error *error)
 {
-    char defines[128], drawing[64];
+    char defines[160], drawing[64];
     kiln_geometry_defines(scene, drawing, sizeof drawing);
-    snprintf(defines, sizeof defines, "%s#define TILED_EDGE %u\n#define TILED_ROWS %u\n", drawing,
-             tiled->shape->edge, tiled->shape->rows);
+    snprintf(defines, sizeof defines,
+             "%s#define TILED_EDGE %u\n#define TILED_ROWS %u\n#define TILED_GROUP_SIZE %u\n",
+             drawing, tiled->shape.edge, tiled->shape.rows, tiled->group_size);
     const struct kiln_program_params params = {.compute = file, .defines = defines};
     return kiln_program_create(tiled->device, &params, error);
 }
@@ -83,6 +85,17 @@ static bool create_programs(struct kiln_tiled *tiled, const struct kiln_scene *s
     return true;
 }
 
+/* A tile stays as large for a work group of another size, so that the picture is the same: each of
+ * its invocations has more or fewer rows of the tile, but at least one. */
+static struct shape choose_shape(const struct kiln_device *device)
+{
+    struct shape shape = device->info.software ? FOR_SOFTWARE : FOR_GPUS;
+    uint32_t usual = shape.edge * shape.rows, most = shape.edge * shape.edge;
+    uint32_t size = kiln_device_group_size(device, usual, most);
+    shape.rows = size > shape.edge ? size / shape.edge : 1;
+    return shape;
+}
+
 struct kiln_tiled *kiln_tiled_create(struct kiln_device *device, const struct kiln_scene *scene,
                                      struct kiln_geometry *geometry, struct kiln_error *error)
 {
@@ -91,9 +104,12 @@ struct kiln_tiled *kiln_tiled_create(struct kiln_device *device, const struct ki
         kiln_error_set(error, KILN_DEVICE_FAILED, "particles: out of memory");
         return NULL;
     }
-    *tiled = (struct kiln_tiled){.device = device,
-                                 .geometry = geometry,
-                                 .shape = device->info.software ? &FOR_SOFTWARE : &FOR_GPUS};
+    *tiled = (struct kiln_tiled){
+        .device = device,
+        .geometry = geometry,
+        .shape = choose_shape(device),
+        .group_size = kiln_device_group_size(device, TILED_GROUP_SIZE, MOST_GROUP_SIZE),
+    };
     kiln_buffer_init(&tiled->boxes, device, 0, "boxes of sprites");
     kiln_buffer_init(&tiled->sprites, device, 0, "sprites");
     kiln_buffer_init(&tiled->bin_masks, device, 0, "masks of bins");
@@ -148,14 +164,14 @@ static void plan(const struct kiln_tiled *tiled, struct run *run)
     const struct kiln_image *color = run->draw->framebuffer->images[0];
     run->width = color->width;
     run->height = color->height;
-    run->tile_columns = divide_up(run->width, tiled->shape->edge);
-    run->tile_rows = divide_up(run->height, tiled->shape->edge);
+    run->tile_columns = divide_up(run->width, tiled->shape.edge);
+    run->tile_rows = divide_up(run->height, tiled->shape.edge);
     run->columns = divide_up(run->tile_columns, TILED_BIN_TILES);
     run->rows = divide_up(run->tile_rows, TILED_BIN_TILES);
     run->bins = run->columns * run->rows;
     GLint texels = 0;
     glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
-    run->chunk = tiled->shape->chunk;
+    run->chunk = tiled->shape.chunk;
     while (run->chunk > LEAST_CHUNK && (run->chunk / 32 > MOST_WORDS / run->bins ||
                                         run->chunk > (uint32_t)texels / TILED_SPRITE_ROWS))
         run->chunk /= 2;
@@ -206,7 +222,7 @@ static bool make_sprites(struct kiln_tiled *tiled, const struct run *run, struct
     glUniform1f(2, run->additive_alpha);
     glUniform1ui(3, run->columns);
     glUniform1ui(4, words);
-    kiln_device_dispatch(tiled->device, run->count, TILED_GROUP_SIZE);
+    kiln_device_dispatch(tiled->device, run->count, tiled->group_size);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     return true;
 }
@@ -323,7 +339,7 @@ static bool draw_chunk(struct kiln_tiled *tiled, struct run *run, struct kiln_er
         run->count = left < run->chunk ? left : run->chunk;
         if ((run->count > 0 && !make_sprites(tiled, run, error)) || !place_lists(tiled, run, error))
             return false;
-        if (run->entries <= tiled->shape->most_entries || run->count <= LEAST_CHUNK)
+        if (run->entries <= tiled->shape.most_entries || run->count <= LEAST_CHUNK)
             break;
         run->chunk = run->count / 64 * 32;
     }

@@ -129,6 +129,16 @@ void kiln_device_dispatch(struct kiln_device *device, uint32_t count, uint32_t g
     glDispatchCompute(x, y, 1);
 }
 
+uint32_t kiln_device_group_size(const struct kiln_device *device, uint32_t usual, uint32_t most)
+{
+    if (device->work_group_size == 0)
+        return usual;
+    uint32_t limit = (uint32_t)device->info.max_work_group_invocations, size = 1;
+    while (size < most && 2 * size <= limit && 2 * size <= device->work_group_size)
+        size *= 2;
+    return size;
+}
+
 /* ---- Opening ------------------------------------------------------------------------------- */
 
 static bool is_software(const char *renderer)

@@ -46,4 +46,8 @@ void kiln_device_label(struct kiln_device *device, GLenum kind, GLuint object, c
  * and must check it against the count. Dispatches nothing for count 0. */
 void kiln_device_dispatch(struct kiln_device *device, uint32_t count, uint32_t group_size);
 
+/* How many invocations a work group of a kernel has that takes any power of two up to `most`, and
+ * `usual` where none is asked for: the next lower one to what is, within what the device takes. */
+uint32_t kiln_device_group_size(const struct kiln_device *device, uint32_t usual, uint32_t most);
+
 #endif

@@ -14,6 +14,7 @@ enum { MAX_LEVELS = 3 };
 struct kiln_bitonic {
     struct kiln_device *device;
     struct kiln_network network;
+    uint32_t group_size, block; /* invocations of a work group; pairs in its shared memory */
     GLuint start_program, block_program;
     GLuint far_programs[MAX_LEVELS]; /* for 1, 2 and 3 passes at once */
 };
@@ -22,14 +23,14 @@ struct kiln_bitonic {
 static void run_far(struct kiln_bitonic *bitonic, uint32_t padded, uint32_t size)
 {
     uint32_t distance = size / 2;
-    while (distance >= NETWORK_BLOCK) {
+    while (distance >= bitonic->block) {
         uint32_t levels = 1;
-        while (levels < MAX_LEVELS && distance >> levels >= NETWORK_BLOCK)
+        while (levels < MAX_LEVELS && distance >> levels >= bitonic->block)
             levels++;
         uint32_t spacing = distance >> (levels - 1);
         kiln_network_dispatch(bitonic->device, bitonic->far_programs[levels - 1],
                               (uint32_t[]){padded, size, spacing}, 3, padded >> levels,
-                              SORT_GROUP_SIZE);
+                              bitonic->group_size);
         distance = spacing / 2;
     }
 }
@@ -41,11 +42,11 @@ static bool sort_padded(void *context, struct kiln_buffer *pairs, uint32_t padde
     (void)error;
     struct kiln_bitonic *bitonic = context;
     kiln_network_dispatch(bitonic->device, bitonic->start_program, (uint32_t[]){padded}, 1, padded,
-                          NETWORK_BLOCK);
-    for (uint32_t size = NETWORK_BLOCK * 2; size <= padded; size *= 2) {
+                          bitonic->block);
+    for (uint32_t size = bitonic->block * 2; size <= padded; size *= 2) {
         run_far(bitonic, padded, size);
         kiln_network_dispatch(bitonic->device, bitonic->block_program, (uint32_t[]){padded, size},
-                              2, padded, NETWORK_BLOCK);
+                              2, padded, bitonic->block);
     }
     return true;
 }
@@ -58,6 +59,8 @@ struct kiln_bitonic *kiln_bitonic_create(struct kiln_device *device, struct kiln
         return NULL;
     }
     bitonic->device = device;
+    bitonic->group_size = kiln_network_group_size(device);
+    bitonic->block = bitonic->group_size * NETWORK_ITEMS;
     const struct kiln_network_kernel kernels[] = {
         {"sort/bitonic_block.comp", "#define FROM_START 1\n", &bitonic->start_program},
         {"sort/bitonic_block.comp", NULL, &bitonic->block_program},

@@ -1,17 +1,27 @@
 /* Pairs hold places instead of entries, so that no two are equal: a network is not stable. */
 #include "sort/network.h"
 
+#include <stdio.h>
+
 #include "gpu/program.h"
 #include "shared/sort_layout.h"
 
-enum { PAIR_BYTES = 8 };
+enum { PAIR_BYTES = 8, MAX_SHARED_BYTES = 32768 };
+
+uint32_t kiln_network_group_size(const struct kiln_device *device)
+{
+    return kiln_device_group_size(device, NETWORK_GROUP_SIZE,
+                                  MAX_SHARED_BYTES / (NETWORK_ITEMS * PAIR_BYTES));
+}
 
 bool kiln_network_programs(struct kiln_device *device, const struct kiln_network_kernel *kernels,
                            size_t count, struct kiln_error *error)
 {
     for (size_t i = 0; i < count; i++) {
-        const struct kiln_program_params params = {.compute = kernels[i].file,
-                                                   .defines = kernels[i].defines};
+        char defines[128];
+        snprintf(defines, sizeof defines, "#define NETWORK_GROUP_SIZE %u\n%s",
+                 kiln_network_group_size(device), kernels[i].defines ? kernels[i].defines : "");
+        const struct kiln_program_params params = {.compute = kernels[i].file, .defines = defines};
         *kernels[i].program = kiln_program_create(device, &params, error);
         if (!*kernels[i].program)
             return false;

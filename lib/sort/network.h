@@ -37,6 +37,10 @@ bool kiln_network_pairs(struct kiln_network *network, struct kiln_buffer *pairs,
                         struct kiln_buffer *list, uint32_t count, bool reverse,
                         struct kiln_buffer *entries, struct kiln_error *error);
 
+/* Invocations of a work group in kernels that are made from now on, which sort NETWORK_ITEMS times
+ * as many pairs in shared memory. */
+uint32_t kiln_network_group_size(const struct kiln_device *device);
+
 /* A kernel of a network. */
 struct kiln_network_kernel {
     const char *file, *defines;

@@ -12,6 +12,7 @@
 struct kiln_oddeven {
     struct kiln_device *device;
     struct kiln_network network;
+    uint32_t group_size, block; /* invocations of a work group; pairs in its shared memory */
     GLuint block_program, far_program;
 };
 
@@ -26,17 +27,17 @@ uint32_t kiln_oddeven_passes(uint32_t padded)
 void kiln_oddeven_run_passes(struct kiln_oddeven *oddeven, uint32_t padded, uint32_t first,
                              uint32_t end)
 {
-    const uint32_t in_blocks = kiln_oddeven_passes(NETWORK_BLOCK);
+    const uint32_t in_blocks = kiln_oddeven_passes(oddeven->block);
     if (first < end && first < in_blocks)
         kiln_network_dispatch(oddeven->device, oddeven->block_program,
-                              (uint32_t[]){padded, first, end}, 3, padded, NETWORK_BLOCK);
+                              (uint32_t[]){padded, first, end}, 3, padded, oddeven->block);
     uint32_t pass = 0;
     for (uint32_t stage = 0; pass < end; stage++)
         for (uint32_t distance = 1u << stage; distance > 0 && pass < end; distance /= 2, pass++)
             if (pass >= first && pass >= in_blocks)
                 kiln_network_dispatch(oddeven->device, oddeven->far_program,
                                       (uint32_t[]){padded, stage, distance}, 3, padded / 2,
-                                      SORT_GROUP_SIZE);
+                                      oddeven->group_size);
 }
 
 static bool sort_padded(void *context, struct kiln_buffer *pairs, uint32_t padded,
@@ -56,6 +57,8 @@ struct kiln_oddeven *kiln_oddeven_create(struct kiln_device *device, struct kiln
         return NULL;
     }
     oddeven->device = device;
+    oddeven->group_size = kiln_network_group_size(device);
+    oddeven->block = oddeven->group_size * NETWORK_ITEMS;
     const struct kiln_network_kernel kernels[] = {
         {"sort/oddeven_block.comp", NULL, &oddeven->block_program},
         {"sort/oddeven_far.comp", NULL, &oddeven->far_program},

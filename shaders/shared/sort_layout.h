@@ -18,7 +18,12 @@
 #define SORT_ITEMS 8
 #define SORT_BLOCK (SORT_GROUP_SIZE * SORT_ITEMS)
 
-/* Sorting networks: a work group sorts a block of pairs in shared memory. */
-#define NETWORK_BLOCK (SORT_GROUP_SIZE * 8)
+/* Sorting networks: a work group sorts a block of pairs in shared memory, eight for each of its
+ * invocations, a power of two. */
+#ifndef NETWORK_GROUP_SIZE
+#define NETWORK_GROUP_SIZE SORT_GROUP_SIZE
+#endif
+#define NETWORK_ITEMS 8
+#define NETWORK_BLOCK (NETWORK_GROUP_SIZE * NETWORK_ITEMS)
 
 #endif

@@ -24,7 +24,9 @@
 #define TILED_UNIT_BEFORE  12
 
 /* Invocations of a work group, where nothing else is said. */
+#ifndef TILED_GROUP_SIZE
 #define TILED_GROUP_SIZE 256
+#endif
 
 /* Tiles along the edge of a bin, and in it. */
 #define TILED_BIN_TILES 8

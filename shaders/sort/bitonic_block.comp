@@ -3,9 +3,10 @@
  * passes; where fewer are left, it repeats some that are done, which changes nothing. */
 // variant: 
 // variant: FROM_START=1
+// variant: FROM_START=1 NETWORK_GROUP_SIZE=512
 #include "sort/bitonic.glsl"
 
-layout(local_size_x = SORT_GROUP_SIZE) in;
+layout(local_size_x = NETWORK_GROUP_SIZE) in;
 
 layout(location = 0) uniform uint count; /* a power of two */
 layout(location = 1) uniform uint size;  /* of a bunch: all of it orders the same way */
@@ -58,7 +59,7 @@ void sort_eight(uint first)
 void main()
 {
     uint first = group_index() * NETWORK_BLOCK;
-    for (uint i = gl_LocalInvocationID.x; i < NETWORK_BLOCK; i += SORT_GROUP_SIZE)
+    for (uint i = gl_LocalInvocationID.x; i < NETWORK_BLOCK; i += NETWORK_GROUP_SIZE)
         block[i] = first + i < count ? pairs[first + i] : uvec2(0xffffffffu);
     barrier();
 #ifdef FROM_START
@@ -68,7 +69,7 @@ void main()
 #else
     merge(first, size);
 #endif
-    for (uint i = gl_LocalInvocationID.x; i < NETWORK_BLOCK; i += SORT_GROUP_SIZE) {
+    for (uint i = gl_LocalInvocationID.x; i < NETWORK_BLOCK; i += NETWORK_GROUP_SIZE) {
         if (first + i < count)
             pairs[first + i] = block[i];
     }

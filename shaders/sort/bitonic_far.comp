@@ -2,9 +2,10 @@
 // variant: LEVELS=1
 // variant: LEVELS=2
 // variant: LEVELS=3
+// variant: LEVELS=3 NETWORK_GROUP_SIZE=8
 #include "sort/network.glsl"
 
-layout(local_size_x = SORT_GROUP_SIZE) in;
+layout(local_size_x = NETWORK_GROUP_SIZE) in;
 
 #define HELD (1u << LEVELS)
 
@@ -14,7 +15,7 @@ layout(location = 2) uniform uint spacing; /* the least distance of these passes
 
 void main()
 {
-    uint i = group_index() * SORT_GROUP_SIZE + gl_LocalInvocationID.x;
+    uint i = group_index() * NETWORK_GROUP_SIZE + gl_LocalInvocationID.x;
     if (i >= count / HELD)
         return;
     uint at = first_of(i, spacing, LEVELS);

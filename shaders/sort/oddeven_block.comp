@@ -1,7 +1,9 @@
 /* Passes of the odd-even merge sort that merge no more than a block, in shared memory. */
+// variant: 
+// variant: NETWORK_GROUP_SIZE=512
 #include "sort/oddeven.glsl"
 
-layout(local_size_x = SORT_GROUP_SIZE) in;
+layout(local_size_x = NETWORK_GROUP_SIZE) in;
 
 layout(location = 0) uniform uint count;      /* a power of two */
 layout(location = 1) uniform uint first_pass; /* by number */
@@ -11,7 +13,7 @@ shared uvec2 block[NETWORK_BLOCK];
 
 void compare(uint stage, uint distance)
 {
-    for (uint k = 0u; k < NETWORK_BLOCK / 2u; k += SORT_GROUP_SIZE) {
+    for (uint k = 0u; k < NETWORK_BLOCK / 2u; k += NETWORK_GROUP_SIZE) {
         uint low;
         if (comparison(k + gl_LocalInvocationID.x, stage, distance, low))
             order(block[low], block[low + distance], false);
@@ -22,7 +24,7 @@ void compare(uint stage, uint distance)
 void main()
 {
     uint first = group_index() * NETWORK_BLOCK;
-    for (uint i = gl_LocalInvocationID.x; i < NETWORK_BLOCK; i += SORT_GROUP_SIZE)
+    for (uint i = gl_LocalInvocationID.x; i < NETWORK_BLOCK; i += NETWORK_GROUP_SIZE)
         block[i] = first + i < count ? pairs[first + i] : uvec2(0xffffffffu);
     barrier();
     uint pass = 0u;
@@ -32,7 +34,7 @@ void main()
                 compare(stage, distance);
             pass++;
         }
-    for (uint i = gl_LocalInvocationID.x; i < NETWORK_BLOCK; i += SORT_GROUP_SIZE) {
+    for (uint i = gl_LocalInvocationID.x; i < NETWORK_BLOCK; i += NETWORK_GROUP_SIZE) {
         if (first + i < count)
             pairs[first + i] = block[i];
     }

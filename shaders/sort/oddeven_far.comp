@@ -1,7 +1,7 @@
 /* One pass of the odd-even merge sort. */
 #include "sort/oddeven.glsl"
 
-layout(local_size_x = SORT_GROUP_SIZE) in;
+layout(local_size_x = NETWORK_GROUP_SIZE) in;
 
 layout(location = 0) uniform uint count; /* a power of two */
 layout(location = 1) uniform uint stage;
@@ -9,7 +9,7 @@ layout(location = 2) uniform uint distance;
 
 void main()
 {
-    uint i = group_index() * SORT_GROUP_SIZE + gl_LocalInvocationID.x;
+    uint i = group_index() * NETWORK_GROUP_SIZE + gl_LocalInvocationID.x;
     uint low;
     if (i >= count / 2u || !comparison(i, stage, distance, low))
         return;

@@ -203,6 +203,42 @@ static void boxes_that_are_mostly_empty(void **state)
     assert_true(check(*state, &crowd) > 0.9);
 }
 
+/* Makes the technique with another size of its work groups, and as for another kind of device. */
+static float *render_in_groups(struct kiln_device *device, const struct crowd *crowd,
+                               size_t technique, uint32_t size, bool software)
+{
+    const bool is_software = device->info.software;
+    device->info.software = software;
+    device->work_group_size = size;
+    float *values = render(device, crowd, technique);
+    device->info.software = is_software;
+    device->work_group_size = 0;
+    return values;
+}
+
+/* How a tile is cut among the invocations of a work group changes no bit of it. */
+static void tiles_are_the_same_by_any_work_group(void **state)
+{
+    static const uint32_t sizes[] = {1, 16, 48, 64, 1024};
+    enum { TILED = 2 };
+    struct crowd crowd = {
+        .overrides = {"systems.a.look.size={life: [0.1 m, 6 m]}", "systems.a.look.opacity=0.3"},
+        .override_count = 2,
+        .wall_m = 11};
+    scatter(&crowd, 3000, (float3){6, 4, 0}, -2, 9.5f);
+    assert_int_equal(TECHNIQUES[TILED].technique, KILN_RASTER_TILED);
+    for (int software = 0; software < 2; software++) {
+        float *expected = render_in_groups(*state, &crowd, TILED, 0, software);
+        for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+            float *found = render_in_groups(*state, &crowd, TILED, sizes[i], software);
+            assert_memory_equal(expected, found, 2 * VALUES * sizeof *found);
+            free(found);
+        }
+        free(expected);
+    }
+    free(crowd.particles);
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
@@ -213,6 +249,7 @@ int main(void)
         test_on_device(opaque_ones_in_one_place),
         test_on_device(more_than_are_drawn_at_a_time),
         test_on_device(boxes_that_are_mostly_empty),
+        test_on_device(tiles_are_the_same_by_any_work_group),
     };
     return cmocka_run_group_tests_name("crowds", tests, test_device_open, test_device_close);
 }

@@ -209,6 +209,23 @@ static void gl_errors_are_found_once(void **state)
     device->log = log;
 }
 
+static void work_groups_are_powers_of_two_within_limits(void **state)
+{
+    struct kiln_device *device = *state;
+    const uint32_t limit = (uint32_t)device->info.max_work_group_invocations;
+    static const struct {
+        uint32_t asked, most, expected;
+    } cases[] = {{0, 512, 48}, {1, 512, 1}, {64, 512, 64}, {96, 512, 64}, {4096, 512, 512}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        device->work_group_size = cases[i].asked;
+        assert_int_equal(kiln_device_group_size(device, 48, cases[i].most), cases[i].expected);
+    }
+    device->work_group_size = UINT32_MAX;
+    uint32_t size = kiln_device_group_size(device, 48, 1u << 31);
+    assert_true(size <= limit && 2 * size > limit);
+    device->work_group_size = 0;
+}
+
 static void out_of_memory_is_named(void **state)
 {
     struct kiln_device *device = *state;
@@ -301,6 +318,7 @@ int main(int argc, char **argv)
         test_on_device(exactness_is_probed),
         test_on_device(two_devices_live_side_by_side),
         test_on_device(gl_errors_are_found_once),
+        test_on_device(work_groups_are_powers_of_two_within_limits),
         test_on_device(out_of_memory_is_named),
         test_on_device(missing_drivers_are_explained),
         test_on_device(missing_libraries_are_explained),
