@@ -22,7 +22,7 @@ static const struct kiln_suite_row SUITES[] = {
     {{"table2", "UberFlow, table 2: experiments E1, E2, E3 and E5", 1.5}, kiln_suite_table_2},
     {{"curves", "cost over 1,000 to 4,000,000 particles and 4 to 256 pixels", 1},
      kiln_suite_curves},
-    {{"groups", "kernels by the size of their work groups (Heinz 2019, 2.2.5)", 0.5},
+    {{"groups", "kernels by the size of their work groups (Heinz 2019, 2.2.5)", 1.5},
      kiln_suite_groups},
     {{"bytes", "memory and communication of techniques (Heinz 2019, 4.2)", 0.2}, kiln_suite_bytes},
     {{"output", "end to end to PNG, EXR and mp4, against what the stages take", 1},

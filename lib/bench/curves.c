@@ -73,38 +73,63 @@ bool kiln_suite_curves(const struct kiln_bench_run *run, struct kiln_error *erro
 
 /* ---- Work groups ----------------------------------------------------------------------------- */
 
-/* Techniques whose kernels take another size of the work group. */
-static const struct {
-    const char *technique;
-    uint32_t measures;
-} KERNELS[] = {
-    {"simulate=inplace", KILN_MEASURE(simulate)},
-    {"simulate=pingpong", KILN_MEASURE(simulate)},
-    {"sort=radix", KILN_MEASURE(sort)},
+/* Of a GPU, or of a software device. */
+struct sizes {
+    uint32_t least, most;
 };
 
+/* Techniques whose kernels take another size of the work group: powers of two. */
+static const struct kernel {
+    const char *technique;
+    uint32_t measures;
+    struct sizes gpu, software;
+    double particles;
+    double pixels; /* of a particle; 0: none is drawn */
+} KERNELS[] = {
+    {"simulate=inplace", KILN_MEASURE(simulate), {8, 1024}, {8, 1024}, 250000, 0},
+    {"simulate=pingpong", KILN_MEASURE(simulate), {8, 1024}, {8, 1024}, 250000, 0},
+    {"sort=radix", KILN_MEASURE(sort), {8, 1024}, {8, 1024}, 250000, 0},
+    {"sort=bitonic", KILN_MEASURE(sort), {8, 512}, {8, 512}, 250000, 0},
+    {"sort=oddeven", KILN_MEASURE(sort), {8, 512}, {8, 512}, 250000, 0},
+    {"raster=tiled", KILN_MEASURE(particles), {16, 256}, {8, 64}, 50000, 16},
+};
+
+/* Lanes of one technique, the smallest work groups first. */
+static size_t add_sizes(const struct kiln_bench_run *run, const struct kernel *kernel,
+                        struct kiln_lane lanes[KILN_MAX_LANES])
+{
+    const struct sizes sizes = run->device->info.software ? kernel->software : kernel->gpu;
+    const size_t most = run->params->quick ? 2 : KILN_MAX_LANES;
+    size_t count = 0;
+    for (uint32_t size = sizes.least; size <= sizes.most && count < most; size *= 2)
+        lanes[count++] = (struct kiln_lane){.name = kernel->technique,
+                                            .techniques = kernel->technique,
+                                            .work_group_size = size,
+                                            .x = size};
+    return count;
+}
+
 /* One technique by the size of its work groups, in turn. */
-static bool sweep_kernel(const struct kiln_bench_run *run, size_t kernel, double particles,
+static bool sweep_kernel(const struct kiln_bench_run *run, const struct kernel *kernel,
                          struct kiln_error *error)
 {
-    static const uint32_t sizes[] = {8, 16, 32, 64, 128, 256, 512, 1024};
-    enum { SIZES = sizeof sizes / sizeof *sizes };
-    struct kiln_lane lanes[SIZES];
-    size_t count = run->params->quick ? 2 : SIZES;
-    for (size_t i = 0; i < count; i++)
-        lanes[i] = (struct kiln_lane){.name = KERNELS[kernel].technique,
-                                      .techniques = KERNELS[kernel].technique,
-                                      .work_group_size = sizes[i],
-                                      .x = sizes[i]};
+    const double particles = run->params->quick ? 2500 : kernel->particles;
+    struct kiln_lane lanes[KILN_MAX_LANES];
+    size_t count = add_sizes(run, kernel, lanes);
     struct kiln_settings settings = {.count = 0};
     kiln_set_number(run, &settings, "systems.*.emit.rate", particles / 2);
-    kiln_set_unseen(run, &settings);
+    if (kernel->pixels > 0) {
+        kiln_set_number(run, &settings, "systems.*.look.size", kernel->pixels / PIXELS_PER_METRE);
+        kiln_set_picture(run, &settings, 1280, 720);
+    } else {
+        kiln_set_unseen(run, &settings);
+    }
     const struct kiln_comparison comparison = {.scene = SCENE,
                                                .settings = &settings,
                                                .lanes = lanes,
                                                .lane_count = count,
-                                               .measures = KERNELS[kernel].measures};
-    kiln_bench_say(run, "%s", KERNELS[kernel].technique);
+                                               .measures = kernel->measures};
+    kiln_bench_say(run, "%s", kernel->technique);
     return kiln_compare_lanes(run, &comparison, error);
 }
 
@@ -112,21 +137,34 @@ bool kiln_suite_groups(const struct kiln_bench_run *run, struct kiln_error *erro
 {
     const struct kiln_bench_part part = {
         .name = "groups",
-        .title = "Kernels over 250,000 particles by the invocations of a work group",
+        .title = "Kernels by the invocations of a work group",
         .sweep = "invocations",
         .unit = "ms",
-        .reference = "groups of 8",
+        .reference = "the smallest groups",
         .plotted = true,
     };
-    double particles = run->params->quick ? 2500 : 250000;
     if (!kiln_bench_begin(run, &part, error))
         return false;
-    for (size_t i = 0; i < (run->params->quick ? 1 : sizeof KERNELS / sizeof *KERNELS); i++) {
-        if (!sweep_kernel(run, i, particles, error))
+    for (size_t i = 0; i < sizeof KERNELS / sizeof *KERNELS; i++) {
+        if (!sweep_kernel(run, &KERNELS[i], error))
             return false;
     }
     return kiln_bench_add_note(
-        run->bench, error,
-        "kiln takes groups of 64 to simulate. The radix sort cuts the same tile among more "
-        "invocations, with fewer digits where their counters would not fit.");
+               run->bench, error,
+               "250,000 particles. kiln takes groups of 64 to simulate. The radix sort cuts the "
+               "same tile among more "
+               "invocations, with fewer digits where their counters would not fit.") &&
+           kiln_bench_add_note(
+               run->bench, error,
+               "Sorting networks take groups of 256. A group sorts eight times as many pairs in "
+               "shared memory, which more than 512 would not fit into; longer merges go through "
+               "the buffer.") &&
+           kiln_bench_add_note(
+               run->bench, error,
+               "raster=tiled, here of 50,000 sprites of 16 pixels, takes groups of %s. A tile is "
+               "as large "
+               "for any: a group of its edge draws it column by column, the largest has an "
+               "invocation for each pixel.",
+               run->device->info.software ? "16 for tiles of 8 x 8 pixels"
+                                          : "256 for tiles of 16 x 16 pixels");
 }
