@@ -12,14 +12,9 @@
 #include "draw/looks.h"
 #include "draw/particle_math.h"
 #include "draw/sprite.h"
-#include "support/scenes.h"
+#include "support/raster.h"
 
 enum { COUNT = 1511, STEP = 90, GRID = KILN_SMOKE_GRID * KILN_SMOKE_GRID * KILN_SMOKE_GRID };
-
-static float random_within(float low, float high)
-{
-    return low + (high - low) * (float)(rand() % 10001) / 10000.0f;
-}
 
 /* Any bits: numbers of all sizes, and what is none. */
 static uint32_t random_bits32(void)
@@ -56,7 +51,7 @@ static void vectors_draw_the_same_random_numbers(void **state)
         for (int k = 0; k < LANES; k++)
             streams[k] = random_bits32();
         uint32_t purpose = (uint32_t)i % 16;
-        float low = random_within(-2.0f, 2.0f), high = random_within(-2.0f, 2.0f);
+        float low = raster_random(-2.0f, 2.0f), high = raster_random(-2.0f, 2.0f);
         vf unit = vu_unit(streams, purpose);
         vf between = vf_lerp_within(vf_all(low), vf_all(high), unit);
         for (int k = 0; k < LANES; k++) {
@@ -106,12 +101,8 @@ static void vectors_live_as_long(void **state)
 /* ---- sprites --------------------------------------------------------------------------------- */
 
 struct fixture {
-    struct kiln_scene *scene;
-    struct kiln_threads *threads;
-    struct kiln_atlas atlas;
+    struct raster raster;
     struct kiln_cells *cells;
-    struct kiln_view view;
-    struct kiln_draw_backdrop backdrop;
     struct kiln_lighting lighting;
     struct kiln_draw_look looks[KILN_MAX_SYSTEMS];
     float4 table[KILN_LOOK_TEXELS];
@@ -125,37 +116,26 @@ struct fixture {
 static void place_particles(struct fixture *f)
 {
     srand(7);
-    const float4 eye = f->view.eye;
-    const float3 forward = kiln_view_forward(&f->view);
+    const struct kiln_view *view = &f->raster.view;
+    const float3 forward = kiln_view_forward(view);
     for (uint32_t i = 0; i < COUNT; i++) {
-        float far = random_within(-1.0f, 12.0f);
-        f->records[i] = (struct kiln_particle){
-            {FLOAT_BITS(eye.x + far * forward.x + random_within(-3.0f, 3.0f)),
-             FLOAT_BITS(eye.y + far * forward.y + random_within(-2.0f, 2.0f)),
-             FLOAT_BITS(eye.z + far * forward.z + random_within(-3.0f, 3.0f)), i},
-            {FLOAT_BITS(random_within(-2.0f, 2.0f)), FLOAT_BITS(random_within(-2.0f, 2.0f)),
-             FLOAT_BITS(random_within(-2.0f, 2.0f)),
-             (1u + (uint32_t)rand() % f->view.clock_step.x) << KILN_BIRTH_STEP_SHIFT |
-                 KILN_PARTICLE_ALIVE}};
-        f->entries[i] = KILN_ENTRY((uint32_t)rand() % f->scene->system_count, i);
-        f->sunlit[i] = random_within(0.0f, 1.0f);
+        float far = raster_random(-1.0f, 12.0f);
+        float x = view->eye.x + far * forward.x + raster_random(-3.0f, 3.0f);
+        float y = view->eye.y + far * forward.y + raster_random(-2.0f, 2.0f);
+        float z = view->eye.z + far * forward.z + raster_random(-3.0f, 3.0f);
+        f->records[i] = raster_random_particle(x, y, z, i, view->clock_step.x);
+        f->entries[i] = KILN_ENTRY((uint32_t)rand() % f->raster.scene->system_count, i);
+        f->sunlit[i] = raster_random(0.0f, 1.0f);
     }
     for (uint32_t i = 0; i < GRID; i++)
-        f->depth[i] = random_within(0.0f, 2.0f);
+        f->depth[i] = raster_random(0.0f, 2.0f);
 }
 
 static void light_particles(struct fixture *f)
 {
     static const float4 to_grid[3] = {
         {0.1f, 0.0f, 0.0f, 0.4f}, {0.0f, 0.2f, 0.1f, 0.2f}, {0.0f, 0.0f, 0.1f, 0.5f}};
-    f->backdrop = (struct kiln_draw_backdrop){.sky_top = {0.2f, 0.3f, 0.5f, 0.0f},
-                                              .sky_horizon = {0.3f, 0.3f, 0.3f, 0.0f},
-                                              .sun_direction = {0.6f, 0.8f, 0.0f, 0.0f},
-                                              .sun_color = {3.0f, 2.8f, 2.5f, 0.0f},
-                                              .counts = {0, 5, 0, 0}};
-    for (int i = 0; i < 5; i++)
-        f->backdrop.lights[i] = (struct kiln_draw_light){{(float)i - 2.0f, 1.0f, 0.5f, 0.01f},
-                                                         {0.3f, 0.2f, 0.1f, 0.0f}};
+    raster_add_lamps(&f->raster, 5);
     f->lighting = (struct kiln_lighting){.smoke = true,
                                          .sky_depth = f->depth,
                                          .sun_depth = f->depth,
@@ -171,38 +151,22 @@ static struct fixture *open_scene(const char *path, bool coarse)
     struct fixture *f = aligned_alloc(64, (sizeof *f + 63) / 64 * 64);
     assert_non_null(f);
     memset(f, 0, sizeof *f);
-    f->scene = kiln_scene_load(path, &KILN_SCENE_DEFAULTS, &error);
-    if (!f->scene) {
-        fail_msg("%s", error.message);
-        return f;
-    }
-    f->threads = kiln_threads_create(2);
-    struct kiln_atlas_request requests[KILN_MAX_SYSTEMS];
-    for (uint32_t i = 0; i < f->scene->system_count; i++) {
-        const struct kiln_look *look = &f->scene->systems[i].look;
-        requests[i] = (struct kiln_atlas_request){.sources = look->atlas,
-                                                  .count = look->atlas_count,
-                                                  .columns = 4,
-                                                  .rows = 2,
-                                                  .motion = look->motion};
-    }
-    if (!kiln_atlas_init(&f->atlas, NULL, requests, f->scene->system_count, f->threads, &error))
-        fail_msg("%s", error.message);
-    f->cells = kiln_cells_create(&f->atlas, &error);
+    struct raster *raster = &f->raster;
+    raster_open(raster, load_scene_file(path), 4, 2, STEP);
+    f->cells = kiln_cells_create(&raster->atlas, &error);
     assert_non_null(f->cells);
-    f->view = kiln_view_compute(f->scene, STEP);
     if (coarse)
-        f->view = kiln_view_coarse(&f->view, 2);
-    kiln_looks_fill(f->scene, &f->atlas, f->looks);
-    kiln_looks_sample(f->scene, f->view.clock.x, f->table);
+        raster->view = kiln_view_coarse(&raster->view, 2);
+    kiln_looks_fill(raster->scene, &raster->atlas, f->looks);
+    kiln_looks_sample(raster->scene, raster->view.clock.x, f->table);
     place_particles(f);
     light_particles(f);
-    f->pass = (struct kiln_sprite_pass){.scene = f->scene,
+    f->pass = (struct kiln_sprite_pass){.scene = raster->scene,
                                         .looks = f->looks,
                                         .table = f->table,
                                         .records = f->records,
-                                        .view = &f->view,
-                                        .backdrop = &f->backdrop,
+                                        .view = &raster->view,
+                                        .backdrop = &raster->light,
                                         .lighting = &f->lighting,
                                         .cells = f->cells,
                                         .content = kiln_cells_content(f->cells)};
@@ -212,9 +176,7 @@ static struct fixture *open_scene(const char *path, bool coarse)
 static void close_scene(struct fixture *f)
 {
     kiln_cells_destroy(&f->cells);
-    kiln_atlas_finish(&f->atlas);
-    kiln_threads_destroy(&f->threads);
-    kiln_scene_destroy(&f->scene);
+    raster_close(&f->raster);
     free(f);
 }
 
