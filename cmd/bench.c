@@ -221,7 +221,7 @@ static int list_suites(void)
 {
     double minutes = 0;
     kiln_visit_benches(print_suite, &minutes);
-    printf("  %-10s %4.1f min  on two cores without a GPU\n", "all", minutes);
+    printf("All together %.1f min, on two cores without a GPU.\n", minutes);
     return 0;
 }
 

@@ -9,7 +9,8 @@
 static const struct {
     const char *techniques;
     const char *published; /* its name in the thesis, or NULL */
-    double memory, upload; /* bytes a particle, from its MiB of 160,000 */
+    double memory;         /* bytes a particle, from the MiB of 160,000 */
+    double upload;         /* and from the floats of one */
 } WAYS[] = {
     {"simulate=cpu sort=cpu backdrop=gl raster=geometry composite=gl", "CPU (2019)", 43.9, 32},
     {"simulate=feedback sort=bitonic backdrop=gl raster=geometry composite=gl",

@@ -20,7 +20,7 @@ static bool measure_frames(struct subject *s, struct kiln_error *error)
 {
     static const struct kiln_lane automatic = {.name = "auto", .techniques = ""};
     const struct kiln_bench_part part = {
-        .name = s->path, .title = s->path, .sweep = "particles", .unit = "ms"};
+        .name = s->path, .title = "a frame, pass by pass", .sweep = "particles", .unit = "ms"};
     kiln_bench_say(s->run, "whole frames from frame %u on", s->frame);
     if (!kiln_bench_begin(s->run, &part, error) ||
         !kiln_contest_run(s->run, s->scene, s->frame, &automatic, 1, s->samples, error))
@@ -60,14 +60,15 @@ static bool measure_stage(struct subject *s, size_t stage, struct kiln_error *er
     size_t count = kiln_lanes_of_stage(s->run, kiln_stage_name(stage), lanes, error);
     if (count == 0)
         return false;
-    const char *name =
-        kiln_arena_format(s->run->bench->arena, "%s, %s", s->path, kiln_stage_name(stage));
-    if (!name) {
+    struct kiln_arena *arena = s->run->bench->arena;
+    const char *name = kiln_arena_format(arena, "%s, %s", s->path, kiln_stage_name(stage));
+    const char *title = kiln_arena_format(arena, "techniques of %s", kiln_stage_name(stage));
+    if (!name || !title) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
         return false;
     }
     const struct kiln_bench_part part = {.name = name,
-                                         .title = name,
+                                         .title = title,
                                          .sweep = "particles",
                                          .unit = "ms",
                                          .reference = lanes[0].name};

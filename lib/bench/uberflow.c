@@ -105,5 +105,5 @@ bool kiln_suite_table_2(const struct kiln_bench_run *run, struct kiln_error *err
                "collisions between particles, comes with these (published: 133, 31 and 7).") &&
            kiln_bench_add_note(run->bench, error,
                                "Sprites are of 4 pixels with texture, soft and tone-mapped; those "
-                               "of 2004 were points of one colour.");
+                               "of 2004 were points, each of its one colour.");
 }

@@ -12,7 +12,7 @@ $ kiln bench --list | sed -E 's/ [0-9]+\.[0-9] min/ <time>/'
 1|  groups      <time>  kernels by the size of their work groups (Heinz 2019, 2.2.5)
 1|  bytes       <time>  memory and communication of techniques (Heinz 2019, 4.2)
 1|  output      <time>  end to end to PNG, EXR and mp4, against what the stages take
-1|  all        <time>  on two cores without a GPU
+1|All together <time>, on two cores without a GPU.
 
 Of a scene: whole frames, then the techniques of each stage, that of `auto` first.
 
@@ -48,7 +48,7 @@ $ kiln bench scenes/tiny.yaml --device software --quick --stage simulate --techn
 1|true
 $ kiln bench scenes/tiny.yaml --device software --quick --set output.size=[32,32] --frame 2 --stage bloom --quiet | sed -E 's/[0-9]+\.[0-9]+|[0-9]+ s$/N/g; s/ +/ /g' | grep -v '^kiln'
 1|
-1|scenes/tiny.yaml: scenes/tiny.yaml
+1|scenes/tiny.yaml: a frame, pass by pass
 1| particles measure technique ms quartiles turns
 1| 46 simulate auto N N - N 3
 1| 46 sort auto N N - N 3
@@ -62,7 +62,7 @@ $ kiln bench scenes/tiny.yaml --device software --quick --set output.size=[32,32
 1| 46 frame auto N N - N 3
 1| 32 x 32 pixels, 2 steps a frame, from frame 2 on.
 1|
-1|scenes/tiny.yaml, bloom: scenes/tiny.yaml, bloom
+1|scenes/tiny.yaml, bloom: techniques of bloom
 1| particles measure technique ms quartiles turns times as fast as bloom=cpu
 1| 46 bloom bloom=cpu N N - N 3
 1| 46 bloom bloom=gl N N - N 3 N (N - N)
