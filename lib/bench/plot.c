@@ -97,19 +97,43 @@ static void put_range(const struct kiln_bench_part *part, FILE *out)
     fprintf(out, "set xrange [%s:%s]\n", from, to);
 }
 
+/* Labels where there are points: what is swept are no powers of ten. */
+static void put_ticks(const struct kiln_bench_part *part, FILE *out)
+{
+    const char *between = "set xtics (";
+    for (size_t i = 0; i < part->row_count; i++) {
+        bool is_new = is_point(&part->rows[i]);
+        for (size_t k = 0; k < i && is_new; k++)
+            is_new = !is_point(&part->rows[k]) || part->rows[k].x < part->rows[i].x ||
+                     part->rows[k].x > part->rows[i].x;
+        if (!is_new)
+            continue;
+        char x[32];
+        kiln_text_from_double(x, part->rows[i].x);
+        fprintf(out, "%s%s", between, x);
+        between = ", ";
+    }
+    fputs(")\n", out);
+}
+
 void kiln_bench_write_script(const struct kiln_bench_part *part, FILE *out)
 {
     fprintf(out, "# gnuplot %s.gp >%s.svg\n", part->name, part->name);
-    fputs("set terminal svg size 900,520 noenhanced font 'sans,13' background '#ffffff'\n"
-          "set title ",
-          out);
+    int curves = 0;
+    for (size_t i = 0; i < part->row_count; i++)
+        curves += starts_curve(part, i);
+    fprintf(out,
+            "set terminal svg size 900,%d noenhanced font 'sans,13' background '#ffffff'\n"
+            "set title ",
+            460 + 20 * curves); /* with room for their names in one column */
     put_quoted(part->title, out);
-    fputs("\nset logscale xy\nset grid\nset key outside right top\nset xlabel ", out);
+    fputs("\nset logscale xy\nset grid\nset key below Left reverse height 1\nset xlabel ", out);
     put_quoted(part->sweep, out);
     fputs("\nset ylabel ", out);
     put_quoted(part->unit, out);
     fputc('\n', out);
     put_range(part, out);
+    put_ticks(part, out);
     fputs("plot", out);
     size_t index = 0;
     for (size_t i = 0; i < part->row_count; i++) {
