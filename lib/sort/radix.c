@@ -75,7 +75,7 @@ static struct shape choose_shape(const struct kiln_device *device)
     if (device->work_group_size == 0)
         return shape;
     uint32_t tile = shape.group_size * shape.items;
-    shape.group_size = device->work_group_size < tile ? device->work_group_size : tile;
+    shape.group_size = kiln_device_group_size(device, shape.group_size, tile);
     shape.items = tile / shape.group_size;
     while ((shape.group_size + 1) * sizeof(uint32_t) << shape.bits > MAX_SHARED_BYTES ||
            !is_even(shape.bits))

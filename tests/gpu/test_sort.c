@@ -328,12 +328,12 @@ static void all_techniques_list_alike(void **state)
     kiln_pool_finish(&pool);
 }
 
-/* However many invocations a tile is cut among, or sort a block; 96 is no power of two, and 1024
- * would need more shared memory than every device has. */
+/* However many invocations a tile is cut among, or sort a block; 96 is no power of two, 1024
+ * would need more shared memory than every device has, and the last is beyond any limit. */
 static void every_work_group_sorts_alike(void **state)
 {
     struct kiln_device *device = *state;
-    static const uint32_t sizes[] = {1, 8, 32, 96, 256, 1024};
+    static const uint32_t sizes[] = {1, 8, 32, 96, 256, 1024, 1u << 20};
     struct kiln_pool pool;
     fill_pool(&pool, device);
     const struct kiln_sort_params params = {
