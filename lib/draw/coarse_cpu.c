@@ -17,6 +17,7 @@ struct kiln_coarse_cpu {
     struct kiln_coarse_place *columns, *rows; /* of the frame */
     uint8_t *bent;                            /* as in struct kiln_coarse_rows */
     struct kiln_coarse_shown *mixed;
+    struct kiln_coarse_columns *known;
 };
 
 static int32_t limit(int32_t index, uint32_t count)
@@ -52,6 +53,23 @@ static bool find_places(struct kiln_coarse_cpu *coarse)
     return true;
 }
 
+static bool make_scratch(struct kiln_coarse_cpu *coarse)
+{
+    const struct kiln_coarse_images *images = coarse->images;
+    const size_t width = images->depth.width, threads = kiln_threads_count(coarse->threads);
+    coarse->bent = calloc(width * images->depth.height, sizeof *coarse->bent);
+    coarse->mixed = aligned_alloc(16, width * threads * sizeof *coarse->mixed);
+    coarse->known = calloc(threads, sizeof *coarse->known);
+    bool ok = coarse->bent && coarse->mixed && coarse->known;
+    for (size_t i = 0; ok && i < threads; i++) {
+        struct kiln_coarse_columns *known = &coarse->known[i];
+        known->farthest = malloc(images->width * sizeof *known->farthest);
+        known->bent = malloc(images->width * sizeof *known->bent);
+        ok = known->farthest && known->bent;
+    }
+    return ok;
+}
+
 struct kiln_coarse_cpu *kiln_coarse_cpu_create(struct kiln_coarse_images *images,
                                                struct kiln_threads *threads,
                                                struct kiln_error *error)
@@ -60,15 +78,10 @@ struct kiln_coarse_cpu *kiln_coarse_cpu_create(struct kiln_coarse_images *images
     if (!kiln_simd_choose(&simd, error))
         return NULL;
     struct kiln_coarse_cpu *coarse = calloc(1, sizeof *coarse);
-    const size_t width = images->depth.width, pixels = width * images->depth.height;
-    if (coarse) {
+    if (coarse)
         *coarse = (struct kiln_coarse_cpu){
             .images = images, .threads = threads, .loops = KILN_SIMD_PICK(kiln_coarse_loops, simd)};
-        coarse->bent = calloc(pixels, sizeof *coarse->bent);
-        coarse->mixed =
-            aligned_alloc(16, width * kiln_threads_count(threads) * sizeof *coarse->mixed);
-    }
-    if (!coarse || !coarse->bent || !coarse->mixed || !find_places(coarse)) {
+    if (!coarse || !make_scratch(coarse) || !find_places(coarse)) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "coarse particles: out of memory");
         kiln_coarse_cpu_destroy(&coarse);
     }
@@ -84,6 +97,11 @@ void kiln_coarse_cpu_destroy(struct kiln_coarse_cpu **coarse)
     free(c->rows);
     free(c->bent);
     free(c->mixed);
+    for (size_t i = 0; c->known && i < kiln_threads_count(c->threads); i++) {
+        free(c->known[i].farthest);
+        free(c->known[i].bent);
+    }
+    free(c->known);
     free(c);
     *coarse = NULL;
 }
@@ -94,7 +112,8 @@ static struct kiln_coarse_rows begin(const struct kiln_coarse_cpu *coarse)
                                      .columns = coarse->columns,
                                      .rows = coarse->rows,
                                      .bent = coarse->bent,
-                                     .mixed = coarse->mixed};
+                                     .mixed = coarse->mixed,
+                                     .known = coarse->known};
 }
 
 bool kiln_coarse_cpu_measure(struct kiln_coarse_cpu *coarse, struct kiln_image *depth,

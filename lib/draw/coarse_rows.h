@@ -22,6 +22,12 @@ struct kiln_coarse_place {
     float at;         /* its place; whole numbers are the middles of coarse pixels */
 };
 
+/* What is known of a coarse row, by columns of the frame. */
+struct kiln_coarse_columns {
+    float *farthest; /* m */
+    uint32_t *bent;
+};
+
 struct kiln_coarse_rows {
     const struct kiln_coarse_images *images;        /* what sizes there are */
     const struct kiln_coarse_place *columns, *rows; /* of the frame; bloom NULL: none */
@@ -36,7 +42,8 @@ struct kiln_coarse_rows {
     float *color, *bloom;                 /* of the frame; bloom NULL: none */
     bool keep_bloom;
     float over; /* 1: what covers hides an earlier pass's bloom; 0: it is added to */
-    struct kiln_coarse_shown *mixed; /* a coarse row for each thread */
+    struct kiln_coarse_shown *mixed;   /* a coarse row for each thread */
+    struct kiln_coarse_columns *known; /* of each thread */
 };
 
 /* Rows begin to end of the kiln_coarse_rows that context points to, for kiln_threads_for. */
