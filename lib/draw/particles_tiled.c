@@ -44,6 +44,7 @@ struct kiln_tiled {
     struct kiln_geometry *geometry;
     struct shape shape;
     uint32_t group_size; /* invocations of a work group that makes, counts or lists sprites */
+    uint32_t most_words; /* of a mask that one dispatch draws, a multiple of TILED_ROUND_WORDS */
     GLuint make_program, count_program, list_program, mark_program, depth_program, draw_program;
     GLint additive_alpha; /* of draw_program */
     GLuint sprite_texels; /* the buffer of sprites as a texture */
@@ -96,6 +97,44 @@ static struct shape choose_shape(const struct kiln_device *device)
     return shape;
 }
 
+/* ---- what software may loop ------------------------------------------------------------------ */
+
+/* How often the loops of an invocation run that lists sprites of a chunk (those of other kernels
+ * but the one below run less): for each of its words, the sum over its group and the word's bits.
+ */
+static uint32_t listing_iterations(uint32_t chunk, uint32_t group_size)
+{
+    enum { SUM = 12, BITS = 33 }; /* doublings of up to 1024, bits of a word; each and one more */
+    return (chunk / 32 / group_size + 1) * (1 + SUM + BITS) + 1;
+}
+
+/* The same of one that draws a round of a tile's mask, whether or not the driver unrolls the loop
+ * over pixels: what could be left of each pixel; for its share of the words, those before each and
+ * its bits; all sprites, and each one's pixels. */
+static uint32_t round_iterations(const struct shape *shape)
+{
+    uint32_t pixels = shape->edge / shape->rows, group_size = shape->edge * shape->rows;
+    uint32_t shares = TILED_ROUND_WORDS / group_size + 1, bits = 33;
+    return 1 + pixels + 1 + shares * (2 + TILED_ROUND_WORDS + bits) + 2 +
+           TILED_ROUND_WORDS * 32 * (1 + pixels + 1) + 1;
+}
+
+static void limit_loops(struct kiln_tiled *tiled)
+{
+    struct shape *shape = &tiled->shape;
+    tiled->most_words = UINT32_MAX / TILED_ROUND_WORDS * TILED_ROUND_WORDS;
+    if (!tiled->device->info.software)
+        return;
+    while (listing_iterations(shape->chunk, tiled->group_size) > KILN_SOFTWARE_ITERATIONS)
+        shape->chunk /= 2;
+    uint32_t ends = 2 * (shape->edge / shape->rows + 1) + 1; /* opening and closing pixels */
+    uint32_t rounds = (KILN_SOFTWARE_ITERATIONS - ends) / round_iterations(shape);
+    assert(rounds > 0 && shape->chunk >= LEAST_CHUNK);
+    tiled->most_words = rounds * TILED_ROUND_WORDS;
+}
+
+/* ---- the stage ------------------------------------------------------------------------------- */
+
 struct kiln_tiled *kiln_tiled_create(struct kiln_device *device, const struct kiln_scene *scene,
                                      struct kiln_geometry *geometry, struct kiln_error *error)
 {
@@ -110,6 +149,7 @@ struct kiln_tiled *kiln_tiled_create(struct kiln_device *device, const struct ki
         .shape = choose_shape(device),
         .group_size = kiln_device_group_size(device, TILED_GROUP_SIZE, MOST_GROUP_SIZE),
     };
+    limit_loops(tiled);
     kiln_buffer_init(&tiled->boxes, device, 0, "boxes of sprites");
     kiln_buffer_init(&tiled->sprites, device, 0, "sprites");
     kiln_buffer_init(&tiled->bin_masks, device, 0, "masks of bins");
@@ -151,6 +191,7 @@ struct run {
     uint32_t columns, rows, bins; /* of bins */
     uint32_t first, count, chunk; /* of this time, from the nearest; the most at a time */
     uint32_t entries;             /* of all lists of this time, a multiple of TILED_PIECE */
+    uint32_t longest;             /* sprites of one list */
     float additive_alpha;
 };
 
@@ -243,11 +284,12 @@ static bool place_lists(struct kiln_tiled *tiled, struct run *run, struct kiln_e
     const uint32_t *counts = kiln_buffer_host(&tiled->counts, KILN_READ, error);
     if (!counts)
         return false;
-    run->entries = 0;
+    run->entries = run->longest = 0;
     for (uint32_t i = 0; i < run->bins; i++) {
         uint32_t count = run->count > 0 ? counts[i] : 0;
         bins[i] = (struct tiled_bin){.first = run->entries, .count = count};
         run->entries += divide_up(count, TILED_PIECE) * TILED_PIECE;
+        run->longest = count > run->longest ? count : run->longest;
     }
     return true;
 }
@@ -309,11 +351,25 @@ static bool bind_images(const struct run *run, struct kiln_error *error)
     return true;
 }
 
+/* Draws the lists, as much of their masks at a time as the driver has patience for. */
+static void draw_spans(const struct kiln_tiled *tiled, const struct run *run, bool first, bool last)
+{
+    uint32_t words = divide_up(run->longest, 32), from = 0;
+    do {
+        uint32_t until = words - from > tiled->most_words ? from + tiled->most_words : words;
+        glUniform2i(2, first && from == 0, last && until == words);
+        glUniform2ui(6, from, until);
+        dispatch(run->tile_columns, run->tile_rows);
+        from = until;
+    } while (from < words);
+}
+
 static bool draw_tiles(struct kiln_tiled *tiled, const struct run *run, struct kiln_error *error)
 {
     uint32_t all = run->draw->count;
-    bool last = run->first + run->count == all;
-    size_t pixels = run->first == 0 && last ? 0 : (size_t)run->width * run->height;
+    bool first = run->first == 0, last = run->first + run->count == all;
+    bool whole = first && last && divide_up(run->longest, 32) <= tiled->most_words;
+    size_t pixels = whole ? 0 : (size_t)run->width * run->height;
     if (!kiln_buffer_gl(&tiled->sprites, KILN_READ, error) ||
         !bind_output(TILED_BIND_CARRY, &tiled->carry, pixels * TILED_CARRY_BYTES, error))
         return false;
@@ -324,11 +380,10 @@ static bool draw_tiles(struct kiln_tiled *tiled, const struct run *run, struct k
     glUseProgram(tiled->draw_program);
     glUniform1f(tiled->additive_alpha, run->additive_alpha);
     glUniform1ui(1, run->columns);
-    glUniform2i(2, run->first == 0, last);
     glUniform1i(3, run->draw->keep_bloom);
     glUniform1f(4, run->draw->sum_alpha ? 0.0f : 1.0f);
     glUniform1f(5, all > 0 ? UNSEEN * ((float)run->count / (float)all) : UNSEEN);
-    dispatch(run->tile_columns, run->tile_rows);
+    draw_spans(tiled, run, first, last);
     return true;
 }
 

@@ -7,6 +7,11 @@
 
 #include <epoxy/gl.h>
 
+/* llvmpipe lets the loops of an invocation run so many times, all together, each once more than its
+ * body; then, silently, every loop ends (LP_MAX_TGSI_LOOP_ITERATIONS, which nothing but its source
+ * tells). Kernels for any input stay below on software. */
+enum { KILN_SOFTWARE_ITERATIONS = 65535 };
+
 /* Bytes that went from one side to the other. */
 struct kiln_traffic {
     uint64_t to_device, to_host;

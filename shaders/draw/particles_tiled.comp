@@ -39,14 +39,15 @@ layout(binding = TILED_IMAGE_COLOR) writeonly uniform image2D color_image;
 layout(binding = TILED_IMAGE_BLOOM) writeonly uniform image2D bloom_image;
 
 layout(location = 1) uniform uint bin_columns;
-layout(location = 2) uniform bvec2 ends;   /* this is the first chunk; the last */
+layout(location = 2) uniform bvec2 ends;   /* pixels start here; they are done hereafter */
 layout(location = 3) uniform bool keeps;   /* the glow of an earlier pass */
 layout(location = 4) uniform float over;   /* 1: what covers hides what is behind; 0: it is summed */
 layout(location = 5) uniform float unseen; /* what may be left out of the chunk */
+layout(location = 6) uniform uvec2 span;   /* words of masks that are drawn now, from a whole round on */
 
 #include "draw/shade.glsl"
 
-const uint WORDS = 32u; /* of a mask, at a time */
+const uint WORDS = uint(TILED_ROUND_WORDS);
 shared uint touching[WORDS];
 shared uint hits[WORDS * 32u]; /* the sprites that touch the tile, in order */
 shared uint hit_count, left_bits;
@@ -199,7 +200,7 @@ void main()
     uvec2 home = gl_WorkGroupID.xy / uint(TILED_BIN_TILES);
     uvec2 tile = gl_WorkGroupID.xy % uint(TILED_BIN_TILES);
     tiled_bin bin = bins[home.y * bin_columns + home.x];
-    for (uint word = 0u; word * 32u < bin.count; word += WORDS) {
+    for (uint word = span.x; word < span.y && word * 32u < bin.count; word += WORDS) {
         if (most_left(bin, before, bin.count - word * 32u) < unseen)
             break;
         uint count = list_hits(bin, tile.y * uint(TILED_BIN_TILES) + tile.x, word);

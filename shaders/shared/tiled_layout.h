@@ -35,6 +35,9 @@
 /* Sprites of a list that one work group marks in the tiles; no bin shares a piece with another. */
 #define TILED_PIECE 64
 
+/* Words of a tile's mask, of 32 sprites each, that its work group takes at a time. */
+#define TILED_ROUND_WORDS 32
+
 /* A square of 8 x 8 tiles: its list, and what that could add to a pixel. */
 struct tiled_bin {
     uint first, count; /* in the lists */
