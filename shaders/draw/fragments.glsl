@@ -17,9 +17,13 @@ layout(std430, binding = KILN_BIND_FRAGMENT_PLACES) buffer list_place_block { li
 layout(std430, binding = KILN_BIND_FRAGMENT_KEYS) buffer list_key_block { uvec4 list_keys[]; };
 layout(std430, binding = KILN_BIND_FRAGMENTS) buffer list_block { fragment fragments[]; };
 
-uniform uint row_length; /* pixels */
-
-uint pixel_number()
+/* What is there of a pixel's list. */
+uint list_length(uint pixel)
 {
-    return uint(gl_FragCoord.y) * row_length + uint(gl_FragCoord.x);
+    return min(counts[pixel], places[pixel].filled);
+}
+
+bool is_behind(uvec4 a, uvec4 b)
+{
+    return a.x != b.x ? a.x > b.x : a.y < b.y;
 }

@@ -18,6 +18,7 @@ layout(location = 11) in float view_depth; /* of points and lines: its reciproca
 #endif
 
 #include "draw/fragments.glsl"
+#include "draw/fragments_pixel.glsl"
 #include "draw/shade.glsl"
 
 uniform bool fills;

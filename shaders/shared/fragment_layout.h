@@ -12,6 +12,13 @@
 #define KILN_BIND_FRAGMENT_PLACES 3
 #define KILN_BIND_FRAGMENT_KEYS   4
 #define KILN_BIND_FRAGMENTS       5
+#define KILN_BIND_FRAGMENT_MERGED 6 /* keys, by a pass of the sort */
+#define KILN_BIND_FRAGMENT_BLOCKS 7 /* of long lists: the pixel; its fragments before the block */
+
+/* A list no longer than this is sorted by its pixel's invocation, which needs no more than 0.7 n^2
+ * + 10 n iterations; longer ones by an invocation a fragment, in blocks. */
+#define KILN_FRAGMENT_SHORT 256
+#define KILN_FRAGMENT_BLOCK 64
 
 /* A round billboard is two sheets of half its density, one before the plane of its middle and one
  * behind it, each by half of its depth there: what flies through it is covered by the one only. */

@@ -181,6 +181,47 @@ static void techniques_agree(void **state)
         kiln_picture_destroy(&pictures[i]);
 }
 
+/* So many in one place that no invocation could sort a pixel's list, nor, of the longest, blend it:
+ * llvmpipe stops loops of one that is too long. */
+static const char PILE[] =
+    "kiln: 1\n"
+    "output: {size: [96, 64], fps: 60, frames: 60}\n"
+    "camera: {position: [0, 1, 4], target: [0, 1, 0]}\n"
+    "backdrop: {floor: none}\n"
+    "systems:\n"
+    "  puffs:\n"
+    "    emit: {rate: 0, bursts: {0 s: 3000}, life: 9 s, speed: [0, 0.3],\n"
+    "           from: {point: {origin: [0, 1, 0]}}}\n"
+    "    look: {atlas: 'builtin:puff', size: 0.4 m, opacity: 0.002, fade: {in: 0, out: 0}}\n"
+    "  flames:\n"
+    "    emit: {rate: 0, bursts: {0 s: 700}, life: 9 s, speed: [0, 0.3],\n"
+    "           from: {point: {origin: [0, 1, 0]}}}\n"
+    "    look: {atlas: 'builtin:puff', blend: add, size: 0.5 m, color: [0.1, 0.05, 0.02],\n"
+    "           opacity: 0.02, fade: {in: 0, out: 0}, thickness: 0}\n";
+
+static void lists_of_any_length_are_sorted(void **state)
+{
+    static const char *const counts[] = {"systems.puffs.emit.bursts={0 s: 300}",
+                                         "systems.puffs.emit.bursts={0 s: 3000}",
+                                         "systems.puffs.emit.bursts={0 s: 40000}"};
+    static const char *const faint[] = {"systems.puffs.look.opacity=0.02",
+                                        "systems.puffs.look.opacity=0.002",
+                                        "systems.puffs.look.opacity=0.0002"};
+    for (int i = 0; i < 3; i++) {
+        const struct frame_setting cpu = {{OIT, counts[i], faint[i]}, 3, FRAME_CPU, 0};
+        const struct frame_setting gl = {{OIT, counts[i], faint[i]}, 3, FRAME_GL, 0};
+        struct kiln_picture *expected = frame_draw(*state, PILE, STEPS, &cpu);
+        struct kiln_picture *found = frame_draw(*state, PILE, STEPS, &gl);
+        for (int layer = FRAME_FIRE; layer < FRAME_LAYERS; layer++) {
+            double off = frame_difference(expected, found, layer);
+            print_message("%s, layer %d: %.2g\n", counts[i], layer, off);
+            assert_true(off < 5e-3);
+        }
+        kiln_picture_destroy(&expected);
+        kiln_picture_destroy(&found);
+    }
+}
+
 static void assert_same_layer(const struct kiln_picture *a, const struct kiln_picture *b, int layer,
                               int from)
 {
@@ -273,6 +314,7 @@ int main(void)
         test_on_device(crossing_cards_cross),
         test_on_device(thickness_covers_half),
         test_on_device(techniques_agree),
+        test_on_device(lists_of_any_length_are_sorted),
         test_on_device(small_storage_blocks_are_respected),
         test_on_device(lists_do_not_outgrow_their_counts),
         test_on_device(any_number_of_threads_makes_the_same),
