@@ -113,12 +113,7 @@ static bool draw_fine(struct kiln_coarse_stage *stage, const struct kiln_particl
     fine.depth = &stage->images.fine_depth;
     fine.framebuffer = &stage->images.fine_framebuffer;
     fine.keep_bloom = false;
-    if (stage->gl)
-        kiln_coarse_gl_begin_fine();
-    bool ok = kiln_particles_run(stage->particles, &fine, error);
-    if (stage->gl)
-        kiln_coarse_gl_end_fine();
-    return ok;
+    return kiln_particles_run(stage->particles, &fine, error);
 }
 
 bool kiln_coarse_run(struct kiln_coarse_stage *stage, const struct kiln_particles_draw *draw,

@@ -23,7 +23,6 @@ struct kiln_coarse_gl {
     GLuint vertex_array;
     struct kiln_image bent; /* 1 where a coarse pixel's depth is not that of a plane; else 0 */
     struct kiln_framebuffer depth_target, edges_target, mask_target;
-    GLuint mask_depth; /* a buffer that mask_target and images->fine_framebuffer share */
 };
 
 static bool create_programs(struct kiln_coarse_gl *coarse, struct kiln_error *error)
@@ -46,16 +45,6 @@ static bool create_programs(struct kiln_coarse_gl *coarse, struct kiln_error *er
     return true;
 }
 
-static bool attach_mask(const struct kiln_coarse_gl *coarse, struct kiln_framebuffer *framebuffer,
-                        struct kiln_error *error)
-{
-    if (!kiln_framebuffer_bind(framebuffer, error))
-        return false;
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER,
-                              coarse->mask_depth);
-    return kiln_device_check(coarse->device, "mask of coarse particles", error);
-}
-
 static bool create_targets(struct kiln_coarse_gl *coarse, struct kiln_error *error)
 {
     struct kiln_coarse_images *images = coarse->images;
@@ -68,14 +57,7 @@ static bool create_targets(struct kiln_coarse_gl *coarse, struct kiln_error *err
     if (!images->mixed)
         return true;
     struct kiln_image *mask[] = {&images->fine_depth};
-    if (!kiln_framebuffer_init(&coarse->mask_target, coarse->device, mask, 1, error))
-        return false;
-    glGenRenderbuffers(1, &coarse->mask_depth);
-    glBindRenderbuffer(GL_RENDERBUFFER, coarse->mask_depth);
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, (GLsizei)images->width,
-                          (GLsizei)images->height);
-    return attach_mask(coarse, &coarse->mask_target, error) &&
-           attach_mask(coarse, &images->fine_framebuffer, error);
+    return kiln_framebuffer_init(&coarse->mask_target, coarse->device, mask, 1, error);
 }
 
 struct kiln_coarse_gl *kiln_coarse_gl_create(struct kiln_device *device,
@@ -105,7 +87,6 @@ void kiln_coarse_gl_destroy(struct kiln_coarse_gl **coarse)
     kiln_framebuffer_finish(&c->edges_target);
     kiln_framebuffer_finish(&c->mask_target);
     kiln_image_finish(&c->bent);
-    glDeleteRenderbuffers(1, &c->mask_depth);
     glDeleteVertexArrays(1, &c->vertex_array);
     free(c);
     *coarse = NULL;
@@ -136,29 +117,9 @@ bool kiln_coarse_gl_measure(struct kiln_coarse_gl *coarse, struct kiln_image *de
     struct kiln_coarse_images *images = coarse->images;
     struct kiln_image *bent[] = {&coarse->bent}, *mask[] = {depth, &images->edges};
     glDisable(GL_BLEND);
-    if (!run_pass(coarse, DEPTH, &coarse->depth_target, &depth, 1, error) ||
-        !run_pass(coarse, EDGES, &coarse->edges_target, bent, 1, error))
-        return false;
-    if (!images->mixed)
-        return true;
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_ALWAYS);
-    bool ok = run_pass(coarse, MASK, &coarse->mask_target, mask, 2, error);
-    glDepthFunc(GL_LESS);
-    glDisable(GL_DEPTH_TEST);
-    return ok;
-}
-
-void kiln_coarse_gl_begin_fine(void)
-{
-    glEnable(GL_DEPTH_TEST); /* billboards lie between 0 and 1 */
-    glDepthMask(GL_FALSE);
-}
-
-void kiln_coarse_gl_end_fine(void)
-{
-    glDepthMask(GL_TRUE);
-    glDisable(GL_DEPTH_TEST);
+    return run_pass(coarse, DEPTH, &coarse->depth_target, &depth, 1, error) &&
+           run_pass(coarse, EDGES, &coarse->edges_target, bent, 1, error) &&
+           (!images->mixed || run_pass(coarse, MASK, &coarse->mask_target, mask, 2, error));
 }
 
 bool kiln_coarse_gl_spread(struct kiln_coarse_gl *coarse, const struct kiln_coarse_blend *blend,

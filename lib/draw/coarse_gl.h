@@ -17,9 +17,4 @@ bool kiln_coarse_gl_measure(struct kiln_coarse_gl *coarse, struct kiln_image *de
 bool kiln_coarse_gl_spread(struct kiln_coarse_gl *coarse, const struct kiln_coarse_blend *blend,
                            struct kiln_image *depth, struct kiln_error *error);
 
-/* Near edges, what is drawn next into fine_framebuffer is shaded; elsewhere it need not be. Until
- * kiln_coarse_gl_end_fine. */
-void kiln_coarse_gl_begin_fine(void);
-void kiln_coarse_gl_end_fine(void);
-
 #endif

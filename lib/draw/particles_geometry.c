@@ -6,6 +6,7 @@
 #include "draw/fragments_gl.h"
 #include "draw/lighting_gl.h"
 #include "draw/looks.h"
+#include "draw/occlusion.h"
 #include "draw/sun_shade.h"
 
 #include "base/error.h"
@@ -28,6 +29,7 @@ struct kiln_geometry {
     enum kiln_raster_technique technique;
     GLuint program;                      /* 0: only binds what others draw */
     struct kiln_fragments_gl *fragments; /* of a scene whose pixels sort */
+    struct kiln_occlusion *occlusion;
     GLuint vertex_array;
     struct kiln_buffer looks, keys;
     GLuint look_table; /* texture, KILN_LOOK_SAMPLES wide */
@@ -109,6 +111,9 @@ static bool create_program(struct kiln_geometry *stage, struct kiln_error *error
     if (!stage->program)
         return false;
     stage->additive_alpha = glGetUniformLocation(stage->program, "additive_alpha");
+    stage->occlusion = kiln_occlusion_create(stage->device, error);
+    if (!stage->occlusion)
+        return false;
     if (stage->scene->post.compose != KILN_COMPOSE_OIT)
         return true;
     stage->fragments = kiln_fragments_gl_create(stage->device, &program, error);
@@ -156,6 +161,7 @@ void kiln_geometry_destroy(struct kiln_geometry **stage)
     if (s->program)
         glDeleteProgram(s->program);
     kiln_fragments_gl_destroy(&s->fragments);
+    kiln_occlusion_destroy(&s->occlusion);
     glDeleteVertexArrays(1, &s->vertex_array);
     kiln_buffer_finish(&s->looks);
     kiln_buffer_finish(&s->keys);
@@ -217,6 +223,22 @@ static void submit(void *context)
         glDrawArrays(GL_POINTS, 0, s->count);
 }
 
+/* Draws what is not hidden into the bound framebuffer. */
+static bool draw_visible(struct kiln_geometry *stage, const struct kiln_particles_draw *draw,
+                         struct kiln_error *error)
+{
+    struct submission submission = {stage, (GLsizei)draw->count};
+    if (draw->by_fragment)
+        return kiln_fragments_gl_run(stage->fragments, draw, submit, &submission, error);
+    glUseProgram(stage->program);
+    glUniform1f(stage->additive_alpha, draw->sum_alpha || draw->fire_covers ? 1.0f : 0.0f);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, draw->sum_alpha ? GL_ONE : GL_ONE_MINUS_SRC_ALPHA);
+    submit(&submission);
+    glDisable(GL_BLEND);
+    return kiln_device_check(stage->device, "particles", error);
+}
+
 bool kiln_geometry_run(struct kiln_geometry *stage, const struct kiln_particles_draw *draw,
                        struct kiln_error *error)
 {
@@ -229,16 +251,10 @@ bool kiln_geometry_run(struct kiln_geometry *stage, const struct kiln_particles_
     if (draw->count == 0)
         return kiln_device_check(stage->device, "particles", error);
 
-    if (!kiln_geometry_bind_draw(stage, draw, error))
+    if (!kiln_geometry_bind_draw(stage, draw, error) ||
+        !kiln_occlusion_begin(stage->occlusion, draw, error))
         return false;
-    struct submission submission = {stage, (GLsizei)draw->count};
-    if (draw->by_fragment)
-        return kiln_fragments_gl_run(stage->fragments, draw, submit, &submission, error);
-    glUseProgram(stage->program);
-    glUniform1f(stage->additive_alpha, draw->sum_alpha || draw->fire_covers ? 1.0f : 0.0f);
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_ONE, draw->sum_alpha ? GL_ONE : GL_ONE_MINUS_SRC_ALPHA);
-    submit(&submission);
-    glDisable(GL_BLEND);
-    return kiln_device_check(stage->device, "particles", error);
+    bool ok = draw_visible(stage, draw, error);
+    kiln_occlusion_end(stage->occlusion);
+    return ok;
 }

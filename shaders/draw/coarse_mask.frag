@@ -1,5 +1,4 @@
-/* The depth of the scene where particles are drawn finely, elsewhere 0: nothing is nearer. The depth
- * buffer says the same to what comes before shading. */
+/* The depth of the scene where particles are drawn finely, elsewhere 0: nothing is nearer. */
 #include "draw/coarse.glsl"
 
 layout(binding = 0) uniform sampler2D depth;
@@ -11,5 +10,4 @@ void main()
 {
     bool fine = fine_part(edges, coarse_place(gl_FragCoord.xy)) > 0.0;
     out_depth = fine ? texelFetch(depth, ivec2(gl_FragCoord.xy), 0).r : 0.0;
-    gl_FragDepth = fine ? 1.0 : 0.0;
 }

@@ -2,6 +2,8 @@
  * projected (Heinz 2019, 3.2.3, equation 3.1). Points and lines are quads of the picture, measured in
  * pixels. The view block must be declared.
  */
+#include "draw/occlusion.glsl"
+
 layout(location = 0) out vec2 uv;
 layout(location = 1) flat out billboard quad;
 #if SHAPES
@@ -35,7 +37,7 @@ void put_plain_corner(vec2 corner, vec3 head, vec3 way_m, float half_width_px)
     vec2 extent = vec2(0.5 * way_px, 0.0) + half_width_px;
     uv = (extent + 0.5) * corner;
     vec2 pixel = 0.5 * (from + to) + along * uv.x + vec2(-along.y, along.x) * uv.y;
-    gl_Position = vec4(pixel / (0.5 * view.frustum.zw), 0.0, 1.0);
+    gl_Position = vec4(pixel / (0.5 * view.frustum.zw), occlusion_place(-max(tail.z, head.z)), 1.0);
     view_depth = 1.0 / -(corner.x < 0.0 ? tail.z : head.z); /* what changes evenly in the picture */
     quad.cells.xy = extent;
 }
@@ -54,8 +56,10 @@ void put_corner(int i, vec4 center, vec4 right, vec4 up, billboard particle)
     }
 #endif
     vec3 v = center.xyz + (right.xyz * corner.x + up.xyz * corner.y);
-    /* Only x, y and w matter: depth is compared in the fragment shader, as for soft particles. */
-    gl_Position = vec4(v.x / view.frustum.x, -v.y / view.frustum.y, 0.0, -v.z);
+    /* Of all of it that of the nearest corner: the fragment shader compares exact depths. */
+    float nearest = -(center.z + abs(right.z) + abs(up.z));
+    gl_Position = vec4(v.x / view.frustum.x, -v.y / view.frustum.y,
+                       occlusion_place(nearest) * -v.z, -v.z);
     uv = vec2(0.5 + 0.5 * corner.x, 0.5 - 0.5 * corner.y);
 #if SHAPES
     view_depth = -v.z;
