@@ -61,8 +61,8 @@ static bool add_backdrop_hashes(const struct kiln_scene *scene, struct kiln_text
     return true;
 }
 
-/* Of the printed scene and of what its textures and meshes contain, so that a changed picture is
- * another scene. */
+/* Of the printed scene and of what its textures, meshes and grids contain, so that a changed file
+ * is another scene. */
 static bool take_hash(struct kiln_scene *scene, struct kiln_error *error)
 {
     struct kiln_text text;
@@ -72,6 +72,9 @@ static bool take_hash(struct kiln_scene *scene, struct kiln_error *error)
         for (uint32_t k = 0; read && k < look->atlas_count; k++)
             read = add_file_hash(&text, look->atlas[k], error);
         read = read && add_file_hash(&text, look->motion, error);
+        for (uint32_t k = 0; read && k < scene->systems[i].force_count; k++)
+            if (scene->systems[i].forces[k].kind == KILN_FORCE_FIELD)
+                read = add_file_hash(&text, scene->systems[i].forces[k].file, error);
     }
     read = read && (!ok || add_backdrop_hashes(scene, &text, error));
     ok = ok && !text.failed && kiln_hash_sha256(text.data, text.length, scene->hash);

@@ -35,6 +35,16 @@ static const struct kiln_option curl[] = {
     END,
 };
 
+static const struct kiln_option field[] = {
+    {ROW("file", grid, AT(file), NULL,
+         "Velocities of the air at points of a lattice; between them it moves as they say, beyond "
+         "them as at the edge.")},
+    VALUE("strength", strength, KILN_PLAIN, -1000, 1000, BOTH, "1", "Factor on the velocities."),
+    VALUE("pull", pull, KILN_PER_SECOND, 0, 1000, BOTH, "1",
+          "How fast particles take up the velocity of the air."),
+    END,
+};
+
 static const struct kiln_option limit[] = {
     VALUE("speed", strength, KILN_SPEED, 0, 10000, BOTH, "10 m/s",
           "What is above it is taken off the speed, in every step."),
@@ -73,5 +83,10 @@ const struct kiln_option_kind kiln_force_kinds[] = {
      .value = KILN_FORCE_CURL,
      .members = curl,
      .help = "Another way to write the force curl."},
+    {.name = "wind",
+     .variant = "grid",
+     .value = KILN_FORCE_FIELD,
+     .members = field,
+     .help = "Air that moves as a file says (UberFlow 2004, 4.2)."},
     {.name = NULL},
 };

@@ -85,6 +85,7 @@ enum kiln_force_kind {
     KILN_FORCE_CURL,    /* curl noise: strength m/s of air velocity, scale m, speed m/s of drift,
                          * pull 1/s towards the air, octaves */
     KILN_FORCE_LIMIT,   /* strength: m/s, the most that is left of the speed */
+    KILN_FORCE_FIELD,   /* file: air velocities, m/s; strength: factor on them; pull 1/s towards */
 };
 
 struct kiln_force {
@@ -95,6 +96,7 @@ struct kiln_force {
     struct kiln_value scale;  /* m */
     struct kiln_value3 drift; /* m/s: the noise field moves with it */
     uint32_t octaves;         /* 1..4 */
+    const char *file;         /* field: an absolute path (asset/grid_in.h) */
 };
 
 enum kiln_integration {

@@ -1,6 +1,7 @@
-/* Files that a scene names: picture, mesh. */
+/* Files that a scene names: picture, mesh, grid. */
 #include <string.h>
 
+#include "asset/grid_in.h"
 #include "asset/image.h"
 #include "asset/mesh.h"
 #include "scene/asset_path.h"
@@ -95,3 +96,28 @@ static void describe_mesh(const struct kiln_option *option, struct kiln_text *ou
 }
 
 const struct kiln_option_type kiln_type_mesh = {read_mesh, print_file, describe_mesh, schema_file};
+
+/* ---- grid ------------------------------------------------------------------------------------ */
+
+static bool check_grid(const char *path, const struct kiln_scene *scene, struct kiln_error *error)
+{
+    (void)scene;
+    struct kiln_grid_file *grid = kiln_grid_load(path, error);
+    bool good = grid != NULL;
+    kiln_grid_destroy(&grid);
+    return good;
+}
+
+static bool read_grid(struct kiln_reader *reader, const struct kiln_option *option,
+                      const struct kiln_node *node, void *field)
+{
+    return read_file(reader, option, node, check_grid, field);
+}
+
+static void describe_grid(const struct kiln_option *option, struct kiln_text *out)
+{
+    (void)option;
+    kiln_text_add(out, "the path of a kiln-grid file, from the scene's folder and inside it");
+}
+
+const struct kiln_option_type kiln_type_grid = {read_grid, print_file, describe_grid, schema_file};

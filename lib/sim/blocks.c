@@ -32,7 +32,8 @@ bool kiln_sim_blocks_init(struct kiln_sim_blocks *blocks, struct kiln_device *de
     kiln_buffer_init(&blocks->keys, device, KILN_MAX_VALUE_KEYS * sizeof(float4), "value keys");
     kiln_buffer_init(&blocks->steps, device, KILN_MAX_SYSTEMS * blocks->step_stride,
                      "step parameters");
-    kiln_buffer_init(&blocks->colliders, device, sizeof(struct kiln_colliders), "colliders");
+    kiln_buffer_init(&blocks->surroundings, device, sizeof(struct kiln_surroundings),
+                     "surroundings");
     float4 *keys = kiln_buffer_host(&blocks->keys, KILN_READ_WRITE, error);
     if (!keys)
         return false;
@@ -45,7 +46,7 @@ void kiln_sim_blocks_finish(struct kiln_sim_blocks *blocks)
 {
     kiln_buffer_finish(&blocks->keys);
     kiln_buffer_finish(&blocks->steps);
-    kiln_buffer_finish(&blocks->colliders);
+    kiln_buffer_finish(&blocks->surroundings);
     *blocks = (struct kiln_sim_blocks){.device = NULL};
 }
 
@@ -58,11 +59,17 @@ bool kiln_sim_blocks_upload(struct kiln_sim_blocks *blocks, const struct kiln_si
     for (uint32_t i = 0; i < params->system_count; i++)
         memcpy(steps + i * blocks->step_stride, &params->systems[i], sizeof params->systems[i]);
     GLuint key_buffer = kiln_buffer_gl(&blocks->keys, KILN_READ, error);
-    GLuint collider_buffer = kiln_buffer_upload(&blocks->colliders, &params->colliders, error);
-    if (!key_buffer || !collider_buffer || !kiln_buffer_gl(&blocks->steps, KILN_READ, error))
+    GLuint surroundings = kiln_buffer_upload(&blocks->surroundings, &params->surroundings, error);
+    if (!key_buffer || !surroundings || !kiln_buffer_gl(&blocks->steps, KILN_READ, error))
         return false;
     glBindBufferBase(GL_UNIFORM_BUFFER, SIM_BIND_KEYS, key_buffer);
-    glBindBufferBase(GL_UNIFORM_BUFFER, SIM_BIND_COLLIDERS, collider_buffer);
+    glBindBufferBase(GL_UNIFORM_BUFFER, SIM_BIND_SURROUNDINGS, surroundings);
+    if (params->grids->count > 0) {
+        GLuint words = kiln_buffer_gl(&params->grids->words, KILN_READ, error);
+        if (!words)
+            return false;
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SIM_BIND_GRIDS, words);
+    }
     if (params->trace_count == 0)
         return true;
     GLuint scratch = kiln_buffer_gl(traces, KILN_READ_WRITE, error);
@@ -88,11 +95,12 @@ bool kiln_sim_check_stage(struct kiln_device *device, const struct kiln_sim_para
     glGetIntegerv(fragment ? GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS
                            : GL_MAX_GEOMETRY_SHADER_STORAGE_BLOCKS,
                   &blocks);
-    if (params->trace_count > 0 && blocks < 1)
+    const GLint needed = (params->trace_count > 0) + (params->grids->count > 0);
+    if (blocks < needed)
         return kiln_error_set(error, KILN_NO_DEVICE,
-                              "%s: no storage blocks in %s shaders, which a scene with children "
-                              "needs; use simulate=pingpong",
-                              device->info.name, name);
+                              "%s: %d storage blocks in %s shaders; this scene, with children or "
+                              "grids, needs %d; use simulate=pingpong",
+                              device->info.name, blocks, name, needed);
     char reason[256];
     struct kiln_error problem = {0};
     if (kiln_probe_exact(device, stage, reason, &problem))
@@ -137,9 +145,11 @@ bool kiln_sim_programs_init(struct kiln_sim_programs *programs, struct kiln_devi
 {
     *programs = (struct kiln_sim_programs){.alone = 0};
     char defines[128];
+    const bool grids = params->grids->count > 0;
     int length =
-        snprintf(defines, sizeof defines, "#define SIM_GROUP_SIZE %u\n%s", group_size(device),
-                 has_round_colliders(scene) ? "#define COLLIDE_ROUND 1\n" : "");
+        snprintf(defines, sizeof defines, "#define SIM_GROUP_SIZE %u\n%s%s", group_size(device),
+                 grids || has_round_colliders(scene) ? "#define COLLIDE_ROUND 1\n" : "",
+                 grids ? "#define GRIDS 1\n" : "");
     files.defines = defines;
     programs->alone = kiln_program_create(device, &files, error);
     if (!programs->alone || !has_families(params))

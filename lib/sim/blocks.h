@@ -8,11 +8,11 @@
 
 struct kiln_sim_blocks {
     struct kiln_device *device;
-    uint32_t group_size;          /* invocations of a work group that steps slots */
-    size_t step_stride;           /* bytes from one system's parameters to the next's */
-    struct kiln_buffer keys;      /* float4 [KILN_MAX_VALUE_KEYS] */
-    struct kiln_buffer steps;     /* struct kiln_step_params, step_stride apart */
-    struct kiln_buffer colliders; /* struct kiln_colliders */
+    uint32_t group_size;             /* invocations of a work group that steps slots */
+    size_t step_stride;              /* bytes from one system's parameters to the next's */
+    struct kiln_buffer keys;         /* float4 [KILN_MAX_VALUE_KEYS] */
+    struct kiln_buffer steps;        /* struct kiln_step_params, step_stride apart */
+    struct kiln_buffer surroundings; /* struct kiln_surroundings */
 };
 
 /* After a failure, too, kiln_sim_blocks_finish frees what there is. */
@@ -20,8 +20,8 @@ bool kiln_sim_blocks_init(struct kiln_sim_blocks *blocks, struct kiln_device *de
                           const struct kiln_scene *scene, struct kiln_error *error);
 void kiln_sim_blocks_finish(struct kiln_sim_blocks *blocks);
 
-/* Uploads a step's parameters and binds those of all systems; with parents among them, also their
- * traces: struct kiln_trace [params->trace_count], scratch. */
+/* Uploads a step's parameters and binds those of all systems, and the grids; with parents among
+ * them, also their traces: struct kiln_trace [params->trace_count], scratch. */
 bool kiln_sim_blocks_upload(struct kiln_sim_blocks *blocks, const struct kiln_sim_params *params,
                             struct kiln_buffer *traces, struct kiln_error *error);
 
@@ -30,7 +30,7 @@ void kiln_sim_blocks_bind(const struct kiln_sim_blocks *blocks,
                           const struct kiln_sim_params *params, uint32_t system);
 
 /* May particles be moved in this stage, not compute? KILN_NO_DEVICE when the device is not exact
- * there, or, in scenes with children, has no storage blocks there. */
+ * there, or has too few storage blocks there for scenes with children or grids. */
 bool kiln_sim_check_stage(struct kiln_device *device, const struct kiln_sim_params *params,
                           enum kiln_probe_stage stage, struct kiln_error *error);
 
@@ -46,8 +46,8 @@ struct kiln_sim_programs {
     GLuint alone, family; /* family: 0 while no system needs it */
 };
 
-/* files: of a kernel that knows the variants COLLIDE_ROUND and FAMILY; its defines are not looked
- * at. After a failure, too, kiln_sim_programs_finish frees what there is. */
+/* files: of a kernel that knows the variants COLLIDE_ROUND, GRIDS (with it) and FAMILY; its defines
+ * are not looked at. After a failure, too, kiln_sim_programs_finish frees what there is. */
 bool kiln_sim_programs_init(struct kiln_sim_programs *programs, struct kiln_device *device,
                             const struct kiln_scene *scene, const struct kiln_sim_params *params,
                             struct kiln_program_params files, struct kiln_error *error);

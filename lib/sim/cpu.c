@@ -14,12 +14,17 @@ bool kiln_sim_cpu_step(const struct kiln_slots_step *loops, struct kiln_threads 
     struct kiln_particle *records = kiln_buffer_host(&pool->records, KILN_READ_WRITE, error);
     struct kiln_trace *scratch =
         params->trace_count ? kiln_buffer_host(traces, KILN_READ_WRITE, error) : NULL;
-    if (!records || (params->trace_count && !scratch))
+    const float4 *words =
+        params->grids->count ? kiln_buffer_host(&params->grids->words, KILN_READ, error) : NULL;
+    if (!records || (params->trace_count && !scratch) || (params->grids->count && !words))
         return false;
     for (uint32_t k = 0; k < params->system_count; k++) {
         const struct kiln_step_params *step = &params->systems[params->order[k]];
         struct kiln_slots slots = {
-            .sim = {.step = step, .colliders = &params->colliders, .value_keys = value_keys},
+            .sim = {.step = step,
+                    .surroundings = &params->surroundings,
+                    .value_keys = value_keys,
+                    .grid_words = words},
             .records = records + step->base,
             .traces = scratch,
         };

@@ -22,7 +22,9 @@ static_assert(offsetof(struct kiln_step_params, forces) == 1712, "std140");
 static_assert(offsetof(struct kiln_step_params, family) == 4272, "std140");
 static_assert(sizeof(struct kiln_step_params) == 4320, "std140");
 static_assert(sizeof(struct kiln_trace) == 112, "std430");
-static_assert(offsetof(struct kiln_colliders, boxes) == 16, "std140");
+static_assert(offsetof(struct kiln_surroundings, colliders) == 16, "std140");
+static_assert(offsetof(struct kiln_surroundings, grids) == 4240, "std140");
+static_assert(sizeof(struct kiln_grid) == 48, "std140");
 static_assert(sizeof(struct kiln_collider) == 128, "std140");
 
 static_assert(KILN_MAX_BIRTH_GROUPS == KILN_MAX_BURSTS + 1, "the rate and each burst");
@@ -34,7 +36,7 @@ static_assert(EMIT_POINT == (uint)KILN_EMITTER_POINT && EMIT_SPHERE == (uint)KIL
               "the shaders' names of enum kiln_emitter_shape");
 static_assert(FORCE_GRAVITY == (uint)KILN_FORCE_GRAVITY && FORCE_DRAG == (uint)KILN_FORCE_DRAG &&
                   FORCE_WIND == (uint)KILN_FORCE_WIND && FORCE_CURL == (uint)KILN_FORCE_CURL &&
-                  FORCE_LIMIT == (uint)KILN_FORCE_LIMIT,
+                  FORCE_LIMIT == (uint)KILN_FORCE_LIMIT && FORCE_FIELD == (uint)KILN_FORCE_FIELD,
               "the shaders' names of enum kiln_force_kind");
 static_assert(INTEGRATE_SEMI_IMPLICIT == (uint)KILN_INTEGRATE_SEMI_IMPLICIT &&
                   INTEGRATE_POSITION_FIRST == (uint)KILN_INTEGRATE_POSITION_FIRST,
@@ -140,8 +142,12 @@ bool kiln_sim_is_family(const struct kiln_step_params *params)
     return family->born_of != BORN_OF_CLOCK || family->traced != 0 || family->dies != 0;
 }
 
-void kiln_sim_params_init(struct kiln_sim_params *params, const struct kiln_scene *scene)
+void kiln_sim_params_init(struct kiln_sim_params *params, const struct kiln_scene *scene,
+                          struct kiln_sim_grids *grids)
 {
+    params->grids = grids;
+    for (uint32_t i = 0; i < grids->count; i++)
+        params->surroundings.grids[i] = grids->table[i];
     params->system_count = scene->system_count;
     for (uint32_t i = 0; i < scene->system_count; i++)
         fill_system(&params->systems[i], scene, i);
@@ -165,11 +171,13 @@ static struct kiln_value3 at_time3(const struct kiln_scene *scene, struct kiln_v
 }
 
 static struct kiln_force_params force_at_time(const struct kiln_scene *scene,
+                                              const struct kiln_sim_grids *grids,
                                               const struct kiln_force *force, float time_s)
 {
     return (struct kiln_force_params){
         .kind = (uint)force->kind,
         .octaves = force->octaves,
+        .grid = force->kind == KILN_FORCE_FIELD ? kiln_sim_grids_find(grids, force->file) : 0,
         .vector = at_time3(scene, force->vector, time_s),
         .drift = at_time3(scene, force->drift, time_s),
         .strength = at_time(scene, force->strength, time_s),
@@ -261,22 +269,22 @@ static struct kiln_collider floor_collider(float before_m, float after_m)
     };
 }
 
-static void fill_colliders(struct kiln_colliders *colliders, const struct kiln_scene *scene,
+static void fill_colliders(struct kiln_surroundings *around, const struct kiln_scene *scene,
                            float start_s, float end_s)
 {
     const struct kiln_backdrop *backdrop = &scene->backdrop;
-    colliders->count = 0;
-    colliders->steps_per_s = (float)((double)scene->rate.num / scene->rate.den);
+    around->collider_count = 0;
+    around->steps_per_s = (float)((double)scene->rate.num / scene->rate.den);
     for (uint32_t i = 0; i < backdrop->object_count; i++) {
         const struct kiln_object *object = &backdrop->objects[i];
         if (!object->collide)
             continue;
-        colliders->boxes[colliders->count++] = object->kind == KILN_OBJECT_BOX
-                                                   ? box_collider(scene, object, start_s, end_s)
-                                                   : round_collider(scene, object, start_s, end_s);
+        around->colliders[around->collider_count++] =
+            object->kind == KILN_OBJECT_BOX ? box_collider(scene, object, start_s, end_s)
+                                            : round_collider(scene, object, start_s, end_s);
     }
     if (backdrop->floor_collide)
-        colliders->boxes[colliders->count++] =
+        around->colliders[around->collider_count++] =
             floor_collider(kiln_scene_value(scene, &backdrop->floor_height, start_s),
                            kiln_scene_value(scene, &backdrop->floor_height, end_s));
 }
@@ -356,8 +364,8 @@ bool kiln_sim_params_step(struct kiln_sim_params *params, const struct kiln_scen
         p->randomness = at_time(scene, system->collide.randomness, start_s);
         p->slowdown = at_time(scene, system->collide.slowdown, start_s);
         for (uint32_t k = 0; k < system->force_count; k++)
-            p->forces[k] = force_at_time(scene, &system->forces[k], start_s);
+            p->forces[k] = force_at_time(scene, params->grids, &system->forces[k], start_s);
     }
-    fill_colliders(&params->colliders, scene, start_s, end_s);
+    fill_colliders(&params->surroundings, scene, start_s, end_s);
     return true;
 }

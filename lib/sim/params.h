@@ -6,12 +6,13 @@
 
 #include "particles/pool.h"
 #include "scene/family.h"
-#include "shared/layout.h"
+#include "sim/grids.h"
 
 struct kiln_sim_params {
     uint32_t system_count;
     struct kiln_step_params systems[KILN_MAX_SYSTEMS];
-    struct kiln_colliders colliders;
+    struct kiln_surroundings surroundings;
+    struct kiln_sim_grids *grids;     /* of the scene */
     uint32_t order[KILN_MAX_SYSTEMS]; /* of the systems in a step: parents before their children */
     uint32_t trace_count;             /* of the systems with children: one a slot */
 };
@@ -19,8 +20,9 @@ struct kiln_sim_params {
 /* Does the system need the kernel for families (shared/step_family.h)? */
 bool kiln_sim_is_family(const struct kiln_step_params *params);
 
-/* Fills in all that does not change during a run. */
-void kiln_sim_params_init(struct kiln_sim_params *params, const struct kiln_scene *scene);
+/* Fills in all that does not change during a run. The grids must outlive the parameters. */
+void kiln_sim_params_init(struct kiln_sim_params *params, const struct kiln_scene *scene,
+                          struct kiln_sim_grids *grids);
 
 /* Counts the births of the step into the pool and fills in the rest: values over time become
  * constants, all but the emitter's, which each birth takes at its own time. False with

@@ -17,6 +17,7 @@ struct kiln_simulate {
     enum kiln_simulate_technique technique;
     struct kiln_threads *threads;
     struct kiln_sim_params params;
+    struct kiln_sim_grids grids;
     struct kiln_buffer traces; /* of parents, within a step: no part of the state */
     /* of `cpu`: */
     const struct kiln_slots_step *loops;
@@ -78,11 +79,14 @@ struct kiln_simulate *kiln_simulate_create(struct kiln_device *device,
     simulate->scene = scene;
     simulate->technique = technique;
     simulate->threads = threads;
-    kiln_sim_params_init(&simulate->params, scene);
-    kiln_buffer_init(&simulate->traces, technique == KILN_SIMULATE_CPU ? NULL : device,
+    struct kiln_device *place = technique == KILN_SIMULATE_CPU ? NULL : device;
+    bool ok = kiln_sim_grids_init(&simulate->grids, place, scene, error);
+    kiln_sim_params_init(&simulate->params, scene, &simulate->grids);
+    kiln_buffer_init(&simulate->traces, place,
                      (size_t)simulate->params.trace_count * sizeof(struct kiln_trace), "traces");
-    if (technique == KILN_SIMULATE_CPU ? !choose_loops(simulate, error)
-                                       : !init_on_device(simulate, device, error))
+    ok = ok && (technique == KILN_SIMULATE_CPU ? choose_loops(simulate, error)
+                                               : init_on_device(simulate, device, error));
+    if (!ok)
         kiln_simulate_destroy(&simulate);
     return simulate;
 }
@@ -101,6 +105,7 @@ void kiln_simulate_destroy(struct kiln_simulate **simulate)
         kiln_sim_blocks_finish(&s->blocks);
     }
     kiln_buffer_finish(&s->traces);
+    kiln_sim_grids_finish(&s->grids);
     free(s);
     *simulate = NULL;
 }

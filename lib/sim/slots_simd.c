@@ -86,7 +86,7 @@ static inline void add_curl(const struct kiln_sim *sim, struct block *b, uint32_
                 noise_curl_add(kiln_get3(&b->curl, i), kiln_get3(&b->place, i), seed, octave));
     }
     for (uint32_t i = 0; i < KILN_LANES; i++)
-        add_effect(b, i, force_curl_effect(force_input_at(b, i, time_s), kiln_get3(&b->curl, i)));
+        add_effect(b, i, force_air(force_input_at(b, i, time_s), kiln_get3(&b->curl, i)));
 }
 
 static inline void add_force(const struct kiln_sim *sim, struct block *b,
@@ -113,6 +113,13 @@ static inline void add_force(const struct kiln_sim *sim, struct block *b,
         break;
     case FORCE_CURL:
         add_curl(sim, b, force->octaves);
+        break;
+    case FORCE_FIELD:
+        for (uint32_t i = 0; i < KILN_LANES; i++) {
+            struct force_input input = force_input_at(b, i, time_s);
+            input.grid = force->grid;
+            add_effect(b, i, force_field(sim, input));
+        }
         break;
     default:
         break;
@@ -207,8 +214,8 @@ static inline void find_alone(const struct kiln_sim *sim, struct block *b, uint3
 {
     memset(b->alone, 0, sizeof b->alone);
     if (sim->step->collide != COLLIDE_OFF) {
-        for (uint32_t k = 0; k < sim->colliders->count; k++)
-            find_touching(b, &sim->colliders->boxes[k]);
+        for (uint32_t k = 0; k < sim->surroundings->collider_count; k++)
+            find_touching(b, &sim->surroundings->colliders[k]);
     }
     const uint32_t births = sim->step->birth_count;
     for (uint32_t i = 0; i < KILN_LANES; i++) {

@@ -113,7 +113,7 @@ FN S(collide_state) collide_round_impact(SIM_PARAM S(collide_state) s, S(kiln_co
     EXACT float gap = collide_round_gap(shape);
     EXACT float3 normal = collide_round_normal(c.kind, shape, face, s.position);
     after.position = collide_round_put(c.kind, shape, face, s.position, gap);
-    EXACT float3 ground = collide_round_velocity(c, face, normal, COLLIDERS(steps_per_s));
+    EXACT float3 ground = collide_round_velocity(c, face, normal, AROUND(steps_per_s));
     EXACT float3 relative = float3_sub(s.velocity, ground);
     EXACT float3 bounced = collide_bounce_off(answer, relative, normal, false);
     after.velocity = float3_add(ground, bounced);
@@ -131,7 +131,7 @@ FN S(collide_state) collide_impact(SIM_PARAM S(collide_state) s, S(kiln_collider
     }
     EXACT S(collide_box) box = collide_box_at(c, s.since);
     after.position = collide_put_beside(box, face, s.position);
-    EXACT float3 ground = collide_box_velocity(c, face, COLLIDERS(steps_per_s));
+    EXACT float3 ground = collide_box_velocity(c, face, AROUND(steps_per_s));
     EXACT float3 relative = float3_sub(s.velocity, ground);
     EXACT float3 bounced = collide_bounce(answer, relative, face, false);
     after.velocity = float3_add(ground, bounced);
@@ -257,8 +257,8 @@ FN S(collide_hit) collide_first(SIM_PARAM S(collide_state) s, float3 end, float 
     hit.part = -1.0f;
     hit.box = 0u;
     hit.face = 0u;
-    for (uint i = 0u; i < COLLIDERS(count); i++) {
-        EXACT S(kiln_collider) c = COLLIDERS(boxes[i]);
+    for (uint i = 0u; i < AROUND(collider_count); i++) {
+        EXACT S(kiln_collider) c = AROUND(colliders[i]);
         EXACT S(collide_span) span = collide_through(c, s.since, until, s.position, end);
         bool inside = !span.misses && !span.outside;
         bool enters = !span.misses && span.outside && span.enter < span.leave;
@@ -276,11 +276,11 @@ FN S(collide_hit) collide_first(SIM_PARAM S(collide_state) s, float3 end, float 
 FN float3 collide_rise(SIM_PARAM float3 position, float until)
 {
     EXACT float3 p = position;
-    for (uint pass = 0u; pass < COLLIDERS(count); pass++) {
+    for (uint pass = 0u; pass < AROUND(collider_count); pass++) {
         bool free = true;
-        for (uint i = 0u; i < COLLIDERS(count); i++) {
-            if (collide_is_inside(COLLIDERS(boxes[i]), until, p)) {
-                EXACT S(collide_box) box = collide_box_at(COLLIDERS(boxes[i]), until);
+        for (uint i = 0u; i < AROUND(collider_count); i++) {
+            if (collide_is_inside(AROUND(colliders[i]), until, p)) {
+                EXACT S(collide_box) box = collide_box_at(AROUND(colliders[i]), until);
                 p = collide_put_beside(box, 3u, p);
                 free = false;
             }
@@ -320,10 +320,10 @@ FN S(collide_way)
         EXACT float left = until - now.since;
         now.since = now.since + left * hit.part;
         draw.purpose = collide_purpose(SIM bounce);
-        now = collide_impact(SIM now, COLLIDERS(boxes[hit.box]), hit.face, draw);
+        now = collide_impact(SIM now, AROUND(colliders[hit.box]), hit.face, draw);
         if (bounce == 0u)
             way.first =
-                collide_touched(now, collide_face_met(COLLIDERS(boxes[hit.box]), now, hit.face));
+                collide_touched(now, collide_face_met(AROUND(colliders[hit.box]), now, hit.face));
         EXACT float rest_s = (until - now.since) * dt_s;
         target = float3_add_scaled(now.position, now.velocity, rest_s);
     }
@@ -343,8 +343,8 @@ FN S(collide_way)
     now.since = until;
     EXACT S(collide_answer) draw = answer;
     uint impacts = 0u;
-    for (uint i = 0u; i < COLLIDERS(count); i++) {
-        EXACT S(kiln_collider) c = COLLIDERS(boxes[i]);
+    for (uint i = 0u; i < AROUND(collider_count); i++) {
+        EXACT S(kiln_collider) c = AROUND(colliders[i]);
         EXACT S(collide_box) box = collide_box_at(c, until);
         bool inside = collide_is_inside(c, until, now.position);
         if (inside && COLLIDE_IS_ROUND(c)) {

@@ -5,6 +5,7 @@
 #ifndef KILN_SHARED_FORCE_H
 #define KILN_SHARED_FORCE_H
 
+#include "shared/exact.h"
 #include "shared/layout.h"
 
 struct force_effect {
@@ -22,7 +23,18 @@ struct force_input {
     float pull;
     float scale;
     uint octaves;
+    uint grid;
     uint seed;
 };
+
+/* A pull towards air of a velocity, times the force's strength. */
+FN S(force_effect) force_air(S(force_input) f, float3 air)
+{
+    EXACT float acceleration = f.strength * f.pull;
+    EXACT S(force_effect) effect;
+    effect.acceleration = float3_scale(air, acceleration);
+    effect.pull = f.pull;
+    return effect;
+}
 
 #endif

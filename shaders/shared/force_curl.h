@@ -15,20 +15,11 @@ FN float3 force_curl_place(S(force_input) f)
     return place;
 }
 
-FN S(force_effect) force_curl_effect(S(force_input) f, float3 curl)
-{
-    EXACT float acceleration = f.strength * f.pull;
-    EXACT S(force_effect) effect;
-    effect.acceleration = float3_scale(curl, acceleration);
-    effect.pull = f.pull;
-    return effect;
-}
-
 FN S(force_effect) force_curl(S(force_input) f)
 {
     EXACT float3 place = force_curl_place(f);
     EXACT float3 curl = noise_curl(place, f.seed, f.octaves);
-    EXACT S(force_effect) effect = force_curl_effect(f, curl);
+    EXACT S(force_effect) effect = force_air(f, curl);
     return effect;
 }
 

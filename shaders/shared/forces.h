@@ -1,5 +1,6 @@
 /* The forces of a system, added up and integrated. A new force is a file force_name.h with one
- * function, and a row here; a limit adds nothing up and has none.
+ * function, and a row here; a limit adds nothing up and has none. Forces that look up grids have
+ * rows of their own, which shaders of scenes without grids are spared.
  */
 #ifndef KILN_SHARED_FORCES_H
 #define KILN_SHARED_FORCES_H
@@ -16,7 +17,14 @@
     ROW(FORCE_WIND, force_wind)                                                                    \
     ROW(FORCE_CURL, force_curl)
 
-FN S(force_effect) forces_one(uint kind, S(force_input) force)
+#if defined(GL_core_profile) && !defined(GRIDS)
+#define FORCES_OF_GRIDS(ROW)
+#else
+#include "shared/force_field.h"
+#define FORCES_OF_GRIDS(ROW) ROW(FORCE_FIELD, force_field)
+#endif
+
+FN S(force_effect) forces_one(SIM_PARAM uint kind, S(force_input) force)
 {
     EXACT S(force_effect) effect;
     effect.acceleration = FLOAT3(0.0f, 0.0f, 0.0f);
@@ -25,6 +33,11 @@ FN S(force_effect) forces_one(uint kind, S(force_input) force)
     if (kind == id)                                                                                \
         effect = function(force);
     FORCES(FORCES_ROW)
+#undef FORCES_ROW
+#define FORCES_ROW(id, function)                                                                   \
+    if (kind == id)                                                                                \
+        effect = function(SIM force);
+    FORCES_OF_GRIDS(FORCES_ROW)
 #undef FORCES_ROW
     return effect;
 }
@@ -52,8 +65,9 @@ FN S(force_effect) forces_sum(SIM_PARAM float3 position, float life)
         force.pull = value_at(SIM_KEYS STEP(forces[i].pull), force.time_s, life);
         force.scale = value_at(SIM_KEYS STEP(forces[i].scale), force.time_s, life);
         force.octaves = STEP(forces[i].octaves);
+        force.grid = STEP(forces[i].grid);
         force.seed = STEP(noise_seed);
-        EXACT S(force_effect) effect = forces_one(STEP(forces[i].kind), force);
+        EXACT S(force_effect) effect = forces_one(SIM STEP(forces[i].kind), force);
         sum = forces_add(sum, effect);
     }
     return sum;

@@ -2,7 +2,7 @@
  * a word, or a structure that starts at a multiple of 16 bytes and is one long.
  *
  * The kernels read these as globals in GLSL and through pointers in C: SIM_PARAM and SIM pass them
- * on, SIM_KEYS is their VALUE_KEYS, STEP(x) and COLLIDERS(x) name a member.
+ * on, SIM_KEYS is their VALUE_KEYS, STEP(x) and AROUND(x) name a member.
  */
 #ifndef KILN_SHARED_LAYOUT_H
 #define KILN_SHARED_LAYOUT_H
@@ -54,11 +54,13 @@ struct kiln_emit_params {
 #define FORCE_WIND    2u
 #define FORCE_CURL    3u
 #define FORCE_LIMIT   4u
+#define FORCE_FIELD   5u
 
 struct kiln_force_params {
     uint kind;
     uint octaves;
-    uint unused0, unused1;
+    uint grid; /* number, of a field */
+    uint unused;
     S(kiln_value3) vector;
     S(kiln_value3) drift;
     S(kiln_value) strength;
@@ -142,11 +144,20 @@ struct kiln_collider {
     uint unused0, unused1;
 };
 
-struct kiln_colliders {
-    uint count;
+/* Samples on a lattice in space; GRID_WORD(i) is the i-th of all grids: see grid.h. */
+struct kiln_grid {
+    float4 origin;    /* m: where the first sample lies */
+    float4 per_metre; /* samples, along each axis */
+    uint4 size;       /* samples along each axis, at least 2; w: the word of the first */
+};
+
+/* What all systems of a scene move among. */
+struct kiln_surroundings {
+    uint collider_count;
     float steps_per_s;
     uint unused0, unused1;
-    S(kiln_collider) boxes[KILN_MAX_COLLIDERS];
+    S(kiln_collider) colliders[KILN_MAX_COLLIDERS];
+    S(kiln_grid) grids[KILN_MAX_GRIDS];
 };
 
 #ifdef GL_core_profile
@@ -154,18 +165,21 @@ struct kiln_colliders {
 #define SIM_PARAM
 #define SIM_KEYS
 #define STEP(x)      step_params.x
-#define COLLIDERS(x) colliders.x
+#define AROUND(x)    surroundings.x
+#define GRID_WORD(i) grid_words[i]
 #else
 struct kiln_sim {
     const struct kiln_step_params *step;
-    const struct kiln_colliders *colliders;
+    const struct kiln_surroundings *surroundings;
     const float4 *value_keys;
+    const float4 *grid_words;
 };
 #define SIM          sim,
 #define SIM_PARAM    const struct kiln_sim *sim,
 #define SIM_KEYS     sim->value_keys,
 #define STEP(x)      sim->step->x
-#define COLLIDERS(x) sim->colliders->x
+#define AROUND(x)    sim->surroundings->x
+#define GRID_WORD(i) sim->grid_words[i]
 #endif
 
 #endif

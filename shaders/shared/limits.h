@@ -24,16 +24,19 @@
 /* Objects and the floor. */
 #define KILN_MAX_COLLIDERS 33
 
+#define KILN_MAX_GRIDS 8 /* a scene */
+
 /* Uniform blocks of a step. */
-#define SIM_BIND_KEYS      0
-#define SIM_BIND_STEP      1
-#define SIM_BIND_COLLIDERS 2
+#define SIM_BIND_KEYS         0
+#define SIM_BIND_STEP         1
+#define SIM_BIND_SURROUNDINGS 2
 
 /* Storage blocks. */
 #define SIM_BIND_RECORDS 0
 #define SIM_BIND_SUMS    1
 #define SIM_BIND_TRACES  2
 #define SIM_BIND_SECOND  3 /* records, of techniques with two buffers */
+#define SIM_BIND_GRIDS   4
 
 /* Invocations of a work group; kernels may be compiled for another size. */
 #ifndef SIM_GROUP_SIZE

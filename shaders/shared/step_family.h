@@ -25,7 +25,7 @@ FN S(step_result) step_result_dead(void)
 FN float step_end_of_life(SIM_PARAM S(kiln_particle) p, float age_s, float life_s)
 {
     EXACT float over_s = age_s - life_s;
-    EXACT float over = over_s * COLLIDERS(steps_per_s);
+    EXACT float over = over_s * AROUND(steps_per_s);
     EXACT float until = 1.0f - over;
     bool born = particle_birth_step(p) == STEP(step);
     EXACT float born_at = particle_birth_fraction(p) * 64.0f;

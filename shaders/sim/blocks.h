@@ -17,9 +17,16 @@ layout(std140, binding = SIM_BIND_STEP) uniform step_block
     kiln_step_params step_params;
 };
 
-layout(std140, binding = SIM_BIND_COLLIDERS) uniform collider_block
+layout(std140, binding = SIM_BIND_SURROUNDINGS) uniform surroundings_block
 {
-    kiln_colliders colliders;
+    kiln_surroundings surroundings;
 };
+
+#ifdef GRIDS
+layout(std430, binding = SIM_BIND_GRIDS) readonly buffer grid_block
+{
+    float4 grid_words[];
+};
+#endif
 
 #endif

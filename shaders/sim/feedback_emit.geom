@@ -5,6 +5,8 @@
 // variant: COLLIDE_ROUND=1
 // variant: FAMILY=1
 // variant: FAMILY=1 COLLIDE_ROUND=1
+// variant: GRIDS=1 COLLIDE_ROUND=1
+// variant: GRIDS=1 FAMILY=1 COLLIDE_ROUND=1
 #include "shared/limits.h"
 
 layout(points) in;

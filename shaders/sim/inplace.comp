@@ -5,6 +5,8 @@
 // variant: COLLIDE_ROUND=1
 // variant: FAMILY=1
 // variant: FAMILY=1 COLLIDE_ROUND=1
+// variant: GRIDS=1 COLLIDE_ROUND=1
+// variant: GRIDS=1 FAMILY=1 COLLIDE_ROUND=1
 #include "sim/slot.glsl"
 
 layout(local_size_x = SIM_GROUP_SIZE) in;

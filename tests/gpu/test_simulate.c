@@ -78,6 +78,19 @@ static void round_colliders(void **state)
     all_agree(*state, &fixture.scene, STEPS);
 }
 
+static void fields_agree(void **state)
+{
+    fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, 120);
+    for (uint32_t i = 0; i < fixture.scene.system_count; i += 2)
+        fixture_add_field(&fixture.scene.systems[i])->strength =
+            fixture_ramp(&fixture, KILN_CLOCK_LIFE, 0.0f, 0.5f, 1.0f, 2.0f);
+    all_agree(*state, &fixture.scene, 120);
+    fixture_family(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT);
+    fixture_add_field(&fixture.scene.systems[0]);
+    fixture_finish(&fixture, 60);
+    all_agree(*state, &fixture.scene, 60);
+}
+
 static void families_agree(void **state)
 {
     for (int order = 0; order < 2; order++) {
@@ -238,6 +251,7 @@ int main(void)
         test_on_device(velocity_first),
         test_on_device(position_first),
         test_on_device(round_colliders),
+        test_on_device(fields_agree),
         test_on_device(families_agree),
         test_on_device(births_are_split_among_emitters),
         test_on_device(no_systems_and_no_births),

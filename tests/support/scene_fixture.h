@@ -207,6 +207,17 @@ static inline void fixture_add_round(struct scene_fixture *f)
     cylinder->height = fixture_ramp(f, time, 0.0f, 0.2f, 2.0f, 1.4f);
 }
 
+/* The wind of a file for the first system, beside what there is: velocity (-2 z, 0.5 + 0.3 y, 2 x),
+ * at x from -1.5 to 1.5, y from -0.5 to 1.9 and z from -1.5 to 1.5. */
+static inline struct kiln_force *fixture_add_field(struct kiln_system *system)
+{
+    struct kiln_force *field = fixture_add_force(system, KILN_FORCE_FIELD);
+    field->file = KILN_SOURCE_DIR "/tests/support/whirl.grid";
+    field->strength = fixture_constant(1.0f);
+    field->pull = fixture_constant(2.0f);
+    return field;
+}
+
 static inline void fixture_zoo_point(struct scene_fixture *f)
 {
     struct kiln_system *s = fixture_add_system(f, "point", 300.0f);

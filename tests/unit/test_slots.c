@@ -44,13 +44,17 @@ static void step_slots(struct kiln_slots *slots)
 
 /* Steps all systems slot by slot, and each from the same state in blocks. Returns the living. */
 static uint32_t step_both(const struct kiln_slots_step *loops, const struct kiln_sim_params *params,
-                          struct kiln_particle *records, struct kiln_particle *copy)
+                          const float4 *words, struct kiln_particle *records,
+                          struct kiln_particle *copy)
 {
     uint32_t alive = 0;
     for (uint32_t k = 0; k < params->system_count; k++) {
         const struct kiln_step_params *step = &params->systems[k];
         struct kiln_slots slots = {
-            .sim = {step, &params->colliders, fixture.scene.keys},
+            .sim = {.step = step,
+                    .surroundings = &params->surroundings,
+                    .value_keys = fixture.scene.keys,
+                    .grid_words = words},
             .records = records + step->base,
         };
         const size_t bytes = step->used * sizeof *records;
@@ -74,14 +78,19 @@ static void run_level(enum kiln_simd simd)
     struct kiln_particle *copy = calloc(run.pool.slot_count, sizeof *copy);
     struct kiln_particle *records = kiln_buffer_host(&run.pool.records, KILN_READ_WRITE, &error);
     assert_true(params && copy && records);
-    kiln_sim_params_init(params, &fixture.scene);
+    struct kiln_sim_grids grids;
+    assert_true(kiln_sim_grids_init(&grids, NULL, &fixture.scene, &error));
+    const float4 *words = kiln_buffer_host(&grids.words, KILN_READ, &error);
+    kiln_sim_params_init(params, &fixture.scene, &grids);
     uint32_t most = 0;
     for (uint32_t step = 1; step <= STEPS; step++) {
         assert_true(kiln_sim_params_step(params, &fixture.scene, &run.pool, step, &error));
-        uint32_t alive = step_both(KILN_SIMD_PICK(kiln_slots_step, simd), params, records, copy);
+        uint32_t alive =
+            step_both(KILN_SIMD_PICK(kiln_slots_step, simd), params, words, records, copy);
         most = alive > most ? alive : most;
     }
     assert_true(most > 1000);
+    kiln_sim_grids_finish(&grids);
     free(copy);
     free(params);
     simulation_end(&run);
@@ -109,6 +118,7 @@ static void position_first_among_round_colliders(void **state)
     (void)state;
     fixture_zoo(&fixture, KILN_INTEGRATE_POSITION_FIRST, STEPS);
     fixture_add_round(&fixture);
+    fixture_add_field(&fixture.scene.systems[0]);
     run_levels();
 }
 

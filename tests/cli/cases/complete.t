@@ -83,9 +83,11 @@ $ kiln complete -- check --set 'systems.*.forces.'
 1|part	systems.*.forces.0.	the first entry
 $ kiln complete -- check --set 'systems.*.forces.0.wind.f'
 1|part	systems.*.forces.0.wind.field=	Which of these it is.
+1|part	systems.*.forces.0.wind.file=	Velocities of the air at points of a lattice; between them it moves as they say, beyond them as at the edge.
 $ kiln complete -- check --set 'systems.*.forces.0.wind.field='
 1|word	systems.*.forces.0.wind.field=uniform	
 1|word	systems.*.forces.0.wind.field=curl	
+1|word	systems.*.forces.0.wind.field=grid	
 $ kiln complete -- check --set post.tonemap=a
 1|word	post.tonemap=agx	
 1|word	post.tonemap=aces	

@@ -1,0 +1,25 @@
+/* The grids that a scene's forces look up: in one buffer, and a table of where each lies. */
+#ifndef KILN_SIM_GRIDS_H
+#define KILN_SIM_GRIDS_H
+
+#include "gpu/buffer.h"
+#include "scene/scene.h"
+#include "shared/layout.h"
+
+struct kiln_sim_grids {
+    uint32_t count;
+    const char *files[KILN_MAX_GRIDS]; /* the scene's: what each shows */
+    struct kiln_grid table[KILN_MAX_GRIDS];
+    struct kiln_buffer words; /* float4 */
+};
+
+/* Loads what the scene names, each file once. device NULL: for the host. KILN_INVALID_INPUT and the
+ * rest as kiln_grid_load; after a failure, too, kiln_sim_grids_finish frees what there is. */
+bool kiln_sim_grids_init(struct kiln_sim_grids *grids, struct kiln_device *device,
+                         const struct kiln_scene *scene, struct kiln_error *error);
+void kiln_sim_grids_finish(struct kiln_sim_grids *grids);
+
+/* The number of the grid of a file that the scene names. */
+uint32_t kiln_sim_grids_find(const struct kiln_sim_grids *grids, const char *file);
+
+#endif
