@@ -3,14 +3,24 @@
 
 #define AT(field) offsetof(struct kiln_object, field)
 
+/* Factors on a system's. */
+#define COLLIDING                                                                                  \
+    BOOLEAN("collide", collide, "true", "Particles of systems that collide bounce off it."),       \
+        VALUE("restitution", restitution, KILN_FRACTION, 0, 1, TIME, "1",                          \
+              "Factor on the restitution of what bounces off it."),                                \
+        VALUE("friction", friction, KILN_PLAIN, 0, 100, TIME, "1",                                 \
+              "Factor on the friction of what touches it.")
+
 #define REFLECTANCE                                                                                \
     COLOR("color", color, 1, TIME, "[0.35, 0.34, 0.33]", "Part of the light that it reflects.")
 
 static const struct kiln_option box[] = {
     VECTOR("center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]", "Centre."),
     VECTOR("size", size, KILN_METRES, 0.001, FAR, TIME, "[1, 1, 1]", "Full edges."),
+    VECTOR("rotation", rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME, "[0, 0, 0]",
+           "About x, then about y, then about z; in a step it turns the shorter way."),
     REFLECTANCE,
-    BOOLEAN("collide", collide, "true", "Particles of systems that collide bounce off it."),
+    COLLIDING,
     END,
 };
 
@@ -18,18 +28,41 @@ static const struct kiln_option sphere[] = {
     VECTOR("center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]", "Centre."),
     VALUE("radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.5 m", "From centre to surface."),
     REFLECTANCE,
-    BOOLEAN("collide", collide, "true", "Particles of systems that collide bounce off it."),
+    COLLIDING,
     END,
 };
 
 static const struct kiln_option cylinder[] = {
     VECTOR("center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]", "Centre."),
     VECTOR("axis", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
-           "Along it; of any length but 0. May vary only while it does not collide."),
+           "Along it; of any length but 0."),
     VALUE("radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.5 m", "Of its round side."),
     VALUE("height", height, KILN_METRES, 0.001, FAR, TIME, "1 m", "Along the axis, end to end."),
     REFLECTANCE,
-    BOOLEAN("collide", collide, "true", "Particles of systems that collide bounce off it."),
+    COLLIDING,
+    END,
+};
+
+static const struct kiln_option capsule[] = {
+    VECTOR("center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 1, 0]", "Centre."),
+    VECTOR("axis", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
+           "Along it; of any length but 0."),
+    VALUE("radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.5 m", "Of its side and ends."),
+    VALUE("height", height, KILN_METRES, 0.001, FAR, TIME, "1 m",
+          "Along the axis, between the centres of its round ends."),
+    REFLECTANCE,
+    COLLIDING,
+    END,
+};
+
+static const struct kiln_option plane[] = {
+    VECTOR("center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",
+           "A place on it, about which it turns."),
+    VECTOR("normal", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
+           "Away from it; of any length but 0."),
+    REFLECTANCE,
+    BOOLEAN("visible", visible, "true", "False: particles alone meet it."),
+    COLLIDING,
     END,
 };
 
@@ -47,12 +80,21 @@ static const struct kiln_option mesh[] = {
 };
 
 static const struct kiln_option_kind object_kinds[] = {
-    {.name = "box", .value = KILN_OBJECT_BOX, .members = box, .help = "A box along the axes."},
+    {.name = "box", .value = KILN_OBJECT_BOX, .members = box, .help = "A box."},
     {.name = "sphere", .value = KILN_OBJECT_SPHERE, .members = sphere, .help = "A sphere."},
     {.name = "cylinder",
      .value = KILN_OBJECT_CYLINDER,
      .members = cylinder,
      .help = "A cylinder with flat ends, along any axis."},
+    {.name = "capsule",
+     .value = KILN_OBJECT_CAPSULE,
+     .members = capsule,
+     .help = "A cylinder with round ends, along any axis."},
+    {.name = "plane",
+     .value = KILN_OBJECT_PLANE,
+     .members = plane,
+     .help =
+         "A plane without end, and all that is behind it: where the sun is there, none shines."},
     {.name = "mesh",
      .value = KILN_OBJECT_MESH,
      .members = mesh,
@@ -117,6 +159,10 @@ static const struct kiln_option floor_rows[] = {
     VALUE("wave_length", floor_wave_length, KILN_METRES, 0.001, 10000, TIME, "1 m",
           "Of the longest waves; smaller ones ride on them."),
     BOOLEAN("collide", floor_collide, "true", "Particles of systems that collide bounce off it."),
+    VALUE("restitution", floor_restitution, KILN_FRACTION, 0, 1, TIME, "1",
+          "Factor on the restitution of what bounces off it."),
+    VALUE("friction", floor_friction, KILN_PLAIN, 0, 100, TIME, "1",
+          "Factor on the friction of what touches it."),
     END,
 };
 

@@ -152,7 +152,11 @@ static const struct kiln_option collide_options[] = {
     VALUE("randomness", randomness, KILN_FRACTION, 0, 1, BOTH, "0",
           "0 reflects like a mirror, 1 into any direction away from the surface."),
     VALUE("slowdown", slowdown, KILN_FRACTION, 0, 1, BOTH, "0.5",
-          "Factor on the speed at each impact."),
+          "Factor on the speed at each impact, after all else."),
+    VALUE("restitution", restitution, KILN_FRACTION, 0, 1, BOTH, "1",
+          "Part of the speed towards a surface that goes back; randomness turns what comes of it."),
+    VALUE("friction", friction, KILN_PLAIN, 0, 100, BOTH, "0",
+          "Coulomb's: part of what a surface gives along its normal that is lost along it."),
     BOOLEAN("dies", dies, "false", "A particle ends at its first impact, like rain."),
     END,
 };

@@ -39,6 +39,19 @@ float3 kiln_scene_value3(const struct kiln_scene *scene, const struct kiln_value
                   kiln_scene_value(scene, &value->z, time_s));
 }
 
+bool kiln_value3_is_constant(const struct kiln_value3 *value)
+{
+    return value->x.count == 0 && value->y.count == 0 && value->z.count == 0;
+}
+
+bool kiln_object_is_turned_box(const struct kiln_object *object)
+{
+    const struct kiln_value3 *r = &object->rotation;
+    return object->kind == KILN_OBJECT_BOX &&
+           (!kiln_value3_is_constant(r) || r->x.constant != 0.0f || r->y.constant != 0.0f ||
+            r->z.constant != 0.0f);
+}
+
 float kiln_scene_value_max(const struct kiln_scene *scene, const struct kiln_value *value)
 {
     if (value->count == 0)

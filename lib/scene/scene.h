@@ -115,8 +115,10 @@ struct kiln_collide {
     bool enabled;
     bool dies; /* of its first impact */
     enum kiln_collide_mode mode;
-    struct kiln_value randomness; /* 0 mirror .. 1 any direction of the hemisphere */
-    struct kiln_value slowdown;   /* factor on the speed, 0..1 */
+    struct kiln_value randomness;  /* 0 mirror .. 1 any direction of the hemisphere */
+    struct kiln_value slowdown;    /* factor on the speed, 0..1 */
+    struct kiln_value restitution; /* 0..1: of the speed along the normal */
+    struct kiln_value friction;    /* Coulomb's */
 };
 
 /* ---- look ------------------------------------------------------------------------------------ */
@@ -214,10 +216,12 @@ struct kiln_system {
 /* ---- the rest -------------------------------------------------------------------------------- */
 
 enum kiln_object_kind {
-    KILN_OBJECT_BOX, /* along the axes */
+    KILN_OBJECT_BOX, /* along the axes, unless it has a rotation */
     KILN_OBJECT_SPHERE,
     KILN_OBJECT_CYLINDER, /* with flat ends */
     KILN_OBJECT_MESH,
+    KILN_OBJECT_CAPSULE, /* with round ends */
+    KILN_OBJECT_PLANE,   /* all that is below it */
 };
 
 /* Values have the clock constant or time. */
@@ -226,13 +230,16 @@ struct kiln_object {
     struct kiln_value3 center;   /* m; of a mesh, where the origin of its file lies */
     struct kiln_value3 color;    /* albedo */
     struct kiln_value3 size;     /* m: box, full edges */
-    struct kiln_value radius;    /* m: sphere, cylinder */
-    struct kiln_value height;    /* m: cylinder, along its axis */
-    struct kiln_value3 axis;     /* cylinder: not zero, of any length; constant if it collides */
+    struct kiln_value radius;    /* m: sphere, cylinder, capsule */
+    struct kiln_value height;    /* m: cylinder, capsule without its ends, along the axis */
+    struct kiln_value3 axis;     /* cylinder, capsule, normal of a plane: not zero, of any length */
     const char *file;            /* mesh: an absolute path */
-    struct kiln_value3 rotation; /* rad: mesh, about x, then y, then z */
+    struct kiln_value3 rotation; /* rad: box, mesh: about x, then y, then z */
     struct kiln_value scale;     /* mesh: metres for a unit of the file */
     bool collide;
+    bool visible;                  /* plane: drawn */
+    struct kiln_value restitution; /* factors on those of the particles that bounce off it */
+    struct kiln_value friction;
 };
 
 struct kiln_light {
@@ -249,11 +256,12 @@ struct kiln_backdrop {
     struct kiln_value sky_intensity; /* factor on the image */
     bool floor_enabled, floor_collide;
     struct kiln_value3 floor_color;
-    struct kiln_value floor_height;  /* m; constant while it collides */
-    struct kiln_value floor_checker; /* m: edge of the squares; 0: plain */
-    const char *floor_image;         /* repeated, an absolute path; NULL: the colour */
-    struct kiln_value floor_tile;    /* m: width of the image */
-    struct kiln_value floor_gloss;   /* factor on what it mirrors; 0: matt */
+    struct kiln_value floor_height;                      /* m; constant while it collides */
+    struct kiln_value floor_restitution, floor_friction; /* as an object's */
+    struct kiln_value floor_checker;                     /* m: edge of the squares; 0: plain */
+    const char *floor_image;       /* repeated, an absolute path; NULL: the colour */
+    struct kiln_value floor_tile;  /* m: width of the image */
+    struct kiln_value floor_gloss; /* factor on what it mirrors; 0: matt */
     struct kiln_value floor_roughness;
     struct kiln_value floor_wave_height, floor_wave_length; /* m */
     struct kiln_value3 sun_direction;                       /* towards the sun */
@@ -357,6 +365,11 @@ float kiln_scene_value(const struct kiln_scene *scene, const struct kiln_value *
                        float time_s);
 float3 kiln_scene_value3(const struct kiln_scene *scene, const struct kiln_value3 *value,
                          float time_s);
+
+bool kiln_value3_is_constant(const struct kiln_value3 *value);
+
+/* Whether an object is a box that does not lie along the axes, or not always. */
+bool kiln_object_is_turned_box(const struct kiln_object *object);
 
 /* The largest that the value ever is: it is attained at a key. */
 float kiln_scene_value_max(const struct kiln_scene *scene, const struct kiln_value *value);

@@ -288,9 +288,14 @@ static bool check_systems(struct kiln_reader *reader, const struct kiln_node *ro
 
 /* ---- the rest ------------------------------------------------------------------------------- */
 
-static bool is_constant(const struct kiln_value3 *value)
+/* The key of an object's direction; NULL: it has none. */
+static const char *name_of_axis(const struct kiln_object *object)
 {
-    return value->x.count == 0 && value->y.count == 0 && value->z.count == 0;
+    if (object->kind == KILN_OBJECT_CYLINDER)
+        return "cylinder.axis";
+    if (object->kind == KILN_OBJECT_CAPSULE)
+        return "capsule.axis";
+    return object->kind == KILN_OBJECT_PLANE ? "plane.normal" : NULL;
 }
 
 static bool check_objects(struct kiln_reader *reader, const struct kiln_node *root)
@@ -300,15 +305,11 @@ static bool check_objects(struct kiln_reader *reader, const struct kiln_node *ro
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
         const struct kiln_object *object = &scene->backdrop.objects[i];
         const struct kiln_value3 *axis = &object->axis;
-        bool cylinder = object->kind == KILN_OBJECT_CYLINDER;
+        const char *name = name_of_axis(object);
         char path[64];
-        snprintf(path, sizeof path, "backdrop.objects.%u.cylinder.axis", i);
-        if (cylinder && !at_all_keys(scene, &axis, 1, is_not_zero))
+        snprintf(path, sizeof path, "backdrop.objects.%u.%s", i, name ? name : "");
+        if (name && !at_all_keys(scene, &axis, 1, is_not_zero))
             return kiln_validate_fail(reader, root, path, "must not be [0, 0, 0]");
-        if (cylinder && object->collide && !is_constant(axis))
-            return kiln_validate_fail(
-                reader, root, path,
-                "cannot vary while the cylinder collides; set its collide to false");
         if (object->kind != KILN_OBJECT_MESH)
             continue;
         snprintf(path, sizeof path, "backdrop.objects.%u.mesh.collide", i);

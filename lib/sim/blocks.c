@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "shared/trace.h"
+#include "sim/turned.h"
 
 static size_t step_stride(void)
 {
@@ -139,17 +140,36 @@ static bool has_round_colliders(const struct kiln_scene *scene)
     return any;
 }
 
+static bool has_turned_colliders(const struct kiln_scene *scene)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        const struct kiln_object *object = &scene->backdrop.objects[i];
+        any = any || (object->collide && kiln_turned_is(object));
+    }
+    return any;
+}
+
+static bool has_rubbing(const struct kiln_sim_params *params)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < params->system_count; i++)
+        any = any || params->systems[i].rubs;
+    return any;
+}
+
 bool kiln_sim_programs_init(struct kiln_sim_programs *programs, struct kiln_device *device,
                             const struct kiln_scene *scene, const struct kiln_sim_params *params,
                             struct kiln_program_params files, struct kiln_error *error)
 {
     *programs = (struct kiln_sim_programs){.alone = 0};
-    char defines[128];
-    const bool grids = params->grids->count > 0;
-    int length =
-        snprintf(defines, sizeof defines, "#define SIM_GROUP_SIZE %u\n%s%s", group_size(device),
-                 grids || has_round_colliders(scene) ? "#define COLLIDE_ROUND 1\n" : "",
-                 grids ? "#define GRIDS 1\n" : "");
+    char defines[256];
+    const bool grids = params->grids->count > 0, turned = has_turned_colliders(scene);
+    int length = snprintf(
+        defines, sizeof defines, "#define SIM_GROUP_SIZE %u\n%s%s%s%s", group_size(device),
+        grids || turned || has_round_colliders(scene) ? "#define COLLIDE_ROUND 1\n" : "",
+        turned ? "#define COLLIDE_TURNED 1\n" : "",
+        has_rubbing(params) ? "#define COLLIDE_RUB 1\n" : "", grids ? "#define GRIDS 1\n" : "");
     files.defines = defines;
     programs->alone = kiln_program_create(device, &files, error);
     if (!programs->alone || !has_families(params))

@@ -8,6 +8,7 @@
 #include "shared/exact.h"
 #include "shared/random.h"
 #include "shared/trace.h"
+#include "sim/turned.h"
 
 static_assert(sizeof(struct kiln_value) == 16, "std140");
 static_assert(sizeof(struct kiln_derived_params) == 48, "std140");
@@ -16,16 +17,16 @@ static_assert(sizeof(struct kiln_force_params) == 160, "std140");
 static_assert(sizeof(struct kiln_birth_group) == 16, "std140");
 static_assert(offsetof(struct kiln_step_params, step) == 288, "std140");
 static_assert(offsetof(struct kiln_step_params, randomness) == 352, "std140");
-static_assert(offsetof(struct kiln_step_params, bounds_min) == 384, "std140");
-static_assert(offsetof(struct kiln_step_params, groups) == 672, "std140");
-static_assert(offsetof(struct kiln_step_params, forces) == 1712, "std140");
-static_assert(offsetof(struct kiln_step_params, family) == 4272, "std140");
-static_assert(sizeof(struct kiln_step_params) == 4320, "std140");
+static_assert(offsetof(struct kiln_step_params, bounds_min) == 432, "std140");
+static_assert(offsetof(struct kiln_step_params, groups) == 720, "std140");
+static_assert(offsetof(struct kiln_step_params, forces) == 1760, "std140");
+static_assert(offsetof(struct kiln_step_params, family) == 4320, "std140");
+static_assert(sizeof(struct kiln_step_params) == 4368, "std140");
 static_assert(sizeof(struct kiln_trace) == 112, "std430");
 static_assert(offsetof(struct kiln_surroundings, colliders) == 16, "std140");
-static_assert(offsetof(struct kiln_surroundings, grids) == 4240, "std140");
+static_assert(offsetof(struct kiln_surroundings, grids) == 6352, "std140");
 static_assert(sizeof(struct kiln_grid) == 48, "std140");
-static_assert(sizeof(struct kiln_collider) == 128, "std140");
+static_assert(sizeof(struct kiln_collider) == 192, "std140");
 
 static_assert(KILN_MAX_BIRTH_GROUPS == KILN_MAX_BURSTS + 1, "the rate and each burst");
 static_assert(KILN_MAX_COLLIDERS == KILN_MAX_OBJECTS + 1, "each object and the floor");
@@ -50,9 +51,6 @@ static_assert(ALIGN_WORLD == (uint)KILN_ALIGN_WORLD &&
                   ALIGN_VELOCITY == (uint)KILN_ALIGN_VELOCITY &&
                   ALIGN_NORMAL == (uint)KILN_ALIGN_NORMAL,
               "the shaders' names of enum kiln_align");
-
-/* The floor is a box as wide and deep as the world: farther out, particles are lost. */
-#define WORLD 2097152.0f
 
 /* The key of the noise that all systems share: of no system. */
 enum { NOISE_SYSTEM = KILN_MAX_SYSTEMS };
@@ -85,6 +83,23 @@ static uint collide_kind(const struct kiln_collide *collide)
     return collide->mode == KILN_COLLIDE_CLAMP ? COLLIDE_CLAMP : COLLIDE_SWEPT;
 }
 
+static bool is_one(const struct kiln_value *value)
+{
+    return value->count == 0 && value->constant == 1.0f;
+}
+
+/* Whether impacts do more than mirror. */
+static bool rubs(const struct kiln_scene *scene, const struct kiln_collide *collide)
+{
+    const struct kiln_backdrop *backdrop = &scene->backdrop;
+    const struct kiln_value *friction = &collide->friction;
+    bool any = !is_one(&collide->restitution) || friction->count > 0 || friction->constant != 0.0f;
+    any = any || (backdrop->floor_collide && !is_one(&backdrop->floor_restitution));
+    for (uint32_t i = 0; i < backdrop->object_count; i++)
+        any = any || (backdrop->objects[i].collide && !is_one(&backdrop->objects[i].restitution));
+    return collide->enabled && any;
+}
+
 static void fill_system(struct kiln_step_params *params, const struct kiln_scene *scene,
                         uint32_t index)
 {
@@ -99,6 +114,7 @@ static void fill_system(struct kiln_step_params *params, const struct kiln_scene
         .noise_seed = random_key(scene->seed, NOISE_SYSTEM),
         .bounds_min = to_float4(system->bounds.min),
         .bounds_max = to_float4(system->bounds.max),
+        .rubs = rubs(scene, &system->collide),
     };
     fill_emitter(&params->emit, &system->emit);
     for (uint32_t i = 0; i < system->force_count; i++)
@@ -259,14 +275,31 @@ static struct kiln_collider box_collider(const struct kiln_scene *scene,
     return box;
 }
 
+/* The floor is a box as wide and deep as the world. */
 static struct kiln_collider floor_collider(float before_m, float after_m)
 {
     return (struct kiln_collider){
-        .min = FLOAT4(-WORLD, -WORLD, -WORLD, 0.0f),
-        .max = FLOAT4(WORLD, exact_canon(before_m), WORLD, 0.0f),
-        .min_end = FLOAT4(-WORLD, -WORLD, -WORLD, 0.0f),
-        .max_end = FLOAT4(WORLD, exact_canon(after_m), WORLD, 0.0f),
+        .min = FLOAT4(-KILN_WORLD, -KILN_WORLD, -KILN_WORLD, 0.0f),
+        .max = FLOAT4(KILN_WORLD, exact_canon(before_m), KILN_WORLD, 0.0f),
+        .min_end = FLOAT4(-KILN_WORLD, -KILN_WORLD, -KILN_WORLD, 0.0f),
+        .max_end = FLOAT4(KILN_WORLD, exact_canon(after_m), KILN_WORLD, 0.0f),
     };
+}
+
+static struct kiln_collider object_collider(const struct kiln_scene *scene,
+                                            const struct kiln_object *object, float start_s,
+                                            float end_s)
+{
+    struct kiln_collider c;
+    if (kiln_turned_is(object))
+        c = kiln_turned_collider(scene, object, start_s, end_s);
+    else if (object->kind == KILN_OBJECT_BOX)
+        c = box_collider(scene, object, start_s, end_s);
+    else
+        c = round_collider(scene, object, start_s, end_s);
+    c.restitution = kiln_scene_value(scene, &object->restitution, start_s);
+    c.friction = kiln_scene_value(scene, &object->friction, start_s);
+    return c;
 }
 
 static void fill_colliders(struct kiln_surroundings *around, const struct kiln_scene *scene,
@@ -280,13 +313,15 @@ static void fill_colliders(struct kiln_surroundings *around, const struct kiln_s
         if (!object->collide)
             continue;
         around->colliders[around->collider_count++] =
-            object->kind == KILN_OBJECT_BOX ? box_collider(scene, object, start_s, end_s)
-                                            : round_collider(scene, object, start_s, end_s);
+            object_collider(scene, object, start_s, end_s);
     }
-    if (backdrop->floor_collide)
-        around->colliders[around->collider_count++] =
-            floor_collider(kiln_scene_value(scene, &backdrop->floor_height, start_s),
-                           kiln_scene_value(scene, &backdrop->floor_height, end_s));
+    if (backdrop->floor_collide) {
+        struct kiln_collider *c = &around->colliders[around->collider_count++];
+        *c = floor_collider(kiln_scene_value(scene, &backdrop->floor_height, start_s),
+                            kiln_scene_value(scene, &backdrop->floor_height, end_s));
+        c->restitution = kiln_scene_value(scene, &backdrop->floor_restitution, start_s);
+        c->friction = kiln_scene_value(scene, &backdrop->floor_friction, start_s);
+    }
 }
 
 /* Children have their serials from their parents': there is nothing to count. */
@@ -363,6 +398,8 @@ bool kiln_sim_params_step(struct kiln_sim_params *params, const struct kiln_scen
         p->used = kiln_pool_used(&pool->systems[i]);
         p->randomness = at_time(scene, system->collide.randomness, start_s);
         p->slowdown = at_time(scene, system->collide.slowdown, start_s);
+        p->restitution = at_time(scene, system->collide.restitution, start_s);
+        p->friction = at_time(scene, system->collide.friction, start_s);
         for (uint32_t k = 0; k < system->force_count; k++)
             p->forces[k] = force_at_time(scene, params->grids, &system->forces[k], start_s);
     }

@@ -193,8 +193,31 @@ static inline uint32_t may_be_between(float a, float b, float low, float low_end
     return above & below;
 }
 
+/* A half space has no bounds. What turns with it may be anywhere; else a way touches it only if an
+ * end does, up to the rounding of places far from its centre. */
+static inline void find_touching_plane(struct block *b, const struct kiln_collider *c)
+{
+    const float3 start = {c->center.x, c->center.y, c->center.z};
+    const float3 end = {c->center_end.x, c->center_end.y, c->center_end.z};
+    const float3 normal = {c->axis.x, c->axis.y, c->axis.z};
+    const bool turns = c->spin.w != 0.0f;
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        float3 from = float3_sub(particle_position(record_at(b, i)), start);
+        float3 to = float3_sub(kiln_get3(&b->position, i), end);
+        float far_from = exact_abs(from.x) + exact_abs(from.y) + exact_abs(from.z);
+        float far_to = exact_abs(to.x) + exact_abs(to.y) + exact_abs(to.z);
+        bool above_from = float3_dot(from, normal) > 0.01f + 1e-5f * far_from;
+        bool above_to = float3_dot(to, normal) > 0.01f + 1e-5f * far_to;
+        b->alone[i] |= (uint32_t)turns | (uint32_t) !(above_from & above_to);
+    }
+}
+
 static inline void find_touching(struct block *b, const struct kiln_collider *c)
 {
+    if (c->kind == COLLIDER_PLANE) {
+        find_touching_plane(b, c);
+        return;
+    }
     /* The bounds of a round shape are computed apart from its surface. */
     const float gap = c->kind == COLLIDER_BOX ? 0.0f : 0.01f;
     const float3 low = {c->min.x - gap, c->min.y - gap, c->min.z - gap};

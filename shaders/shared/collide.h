@@ -1,5 +1,6 @@
 /* Collision with axis-aligned boxes and the floor (Heinz 2019, 3.5), which is one more box, high at
- * its top and without end in all other directions; and with round shapes (shared/collide_round.h).
+ * its top and without end in all other directions; with round shapes (shared/collide_round.h); and
+ * with what may turn (shared/collide_turned.h).
  *
  * Swept: the path of the step is a segment, and each of a box's six faces moves evenly during the
  * step, so the distance to it changes evenly along the path; the particle is inside while all six
@@ -10,7 +11,7 @@
 #ifndef KILN_SHARED_COLLIDE_H
 #define KILN_SHARED_COLLIDE_H
 
-#include "shared/collide_round.h"
+#include "shared/collide_turned.h"
 #include "shared/random.h"
 
 /* Shaders of scenes without round colliders are spared their code. */
@@ -20,7 +21,20 @@
 #define COLLIDE_IS_ROUND(collider) ((collider).kind != COLLIDER_BOX)
 #endif
 
-/* Impacts in one step; after the last, a particle rests for the remainder of the step. */
+/* The same for shapes in frames of their own, and for restitution and friction. */
+#if defined(GL_core_profile) && !defined(COLLIDE_TURNED)
+#define COLLIDE_IS_TURNED(collider) false
+#else
+#define COLLIDE_IS_TURNED(collider) ((collider).kind >= COLLIDER_TURNED_BOX)
+#endif
+#if defined(GL_core_profile) && !defined(COLLIDE_RUB)
+#define COLLIDE_RUBS(answer) false
+#else
+#define COLLIDE_RUBS(answer) ((answer).rubs)
+#endif
+
+/* Impacts in one step; after the last, a particle rests for the remainder of the step: on what may
+ * turn, which else could pass over it; or in space. */
 #define COLLIDE_BOUNCES 4u
 
 /* Metres a second of a box; across a face, that of the face. */
@@ -43,7 +57,40 @@ struct collide_answer {
     float slowdown;   /* factor on the speed */
     uint stream;      /* the particle's */
     uint purpose;     /* of two numbers for this impact */
+    bool rubs;        /* whether the rest matters */
+    float restitution;
+    float friction;
 };
+
+/* On a collider with factors of its own. */
+FN S(collide_answer) collide_answer_of(S(collide_answer) answer, S(kiln_collider) c)
+{
+    EXACT S(collide_answer) y = answer;
+    if (COLLIDE_RUBS(answer)) {
+        y.restitution = answer.restitution * c.restitution;
+        y.friction = answer.friction * c.friction;
+    }
+    return y;
+}
+
+/* What restitution leaves of a mirrored velocity along the normal, and Coulomb's friction of the
+ * rest: it takes as much as its factor on what the surface gives along the normal, but turns
+ * nothing around. */
+FN_APART float3 collide_rubbed(float restitution, float friction, float3 mirrored, float3 normal,
+                               float outwards)
+{
+    EXACT float inwards = -outwards;
+    EXACT float3 aside = float3_add_scaled(mirrored, normal, inwards);
+    EXACT float speed = float3_length(aside);
+    EXACT float given = outwards * (1.0f + restitution);
+    EXACT float slower = speed - friction * given;
+    EXACT float quotient = exact_div(slower, speed);
+    EXACT float kept = exact_clamp(quotient, 0.0f, 1.0f);
+    EXACT float returned = outwards * restitution;
+    EXACT float3 along = float3_scale(normal, returned);
+    EXACT float3 y = float3_add_scaled(along, aside, kept);
+    return y;
+}
 
 /* The velocity (relative to the box) after an impact: a linear combination of the mirrored and a
  * random direction, with the slowed speed. The random direction is of the hemisphere about the
@@ -58,9 +105,14 @@ FN float3 collide_bounce(S(collide_answer) answer, float3 velocity, uint face, b
         return velocity;
     EXACT float3 mirrored = collide_with_component(velocity, axis, -across);
     EXACT float square = float3_dot(velocity, velocity);
-    EXACT float speed = exact_sqrt(square);
     EXACT float3 zero = FLOAT3(0.0f, 0.0f, 0.0f);
     EXACT float3 normal = collide_with_component(zero, axis, out_sign);
+    if (COLLIDE_RUBS(answer)) {
+        EXACT float returned = -outwards;
+        mirrored = collide_rubbed(answer.restitution, answer.friction, mirrored, normal, returned);
+        square = float3_dot(mirrored, mirrored);
+    }
+    EXACT float speed = exact_sqrt(square);
     EXACT float3 straight = float3_normalize(mirrored, normal);
     EXACT float3 pole = normal;
     if (literal)
@@ -84,6 +136,11 @@ FN float3 collide_bounce_off(S(collide_answer) answer, float3 velocity, float3 n
     EXACT float twice = -2.0f * outwards;
     EXACT float3 mirrored = float3_add_scaled(velocity, normal, twice);
     EXACT float square = float3_dot(velocity, velocity);
+    if (COLLIDE_RUBS(answer)) {
+        EXACT float returned = -outwards;
+        mirrored = collide_rubbed(answer.restitution, answer.friction, mirrored, normal, returned);
+        square = float3_dot(mirrored, mirrored);
+    }
     EXACT float speed = exact_sqrt(square);
     EXACT float3 straight = float3_normalize(mirrored, normal);
     EXACT float3 pole = normal;
@@ -120,11 +177,30 @@ FN S(collide_state) collide_round_impact(SIM_PARAM S(collide_state) s, S(kiln_co
     return after;
 }
 
-/* The state after an impact on a face of a collider. */
-FN S(collide_state) collide_impact(SIM_PARAM S(collide_state) s, S(kiln_collider) c, uint face,
-                                   S(collide_answer) answer)
+FN S(collide_state) collide_turned_impact(SIM_PARAM S(collide_state) s, uint number, uint face,
+                                          S(collide_answer) answer)
 {
     EXACT S(collide_state) after = s;
+    EXACT S(collide_contact) contact =
+        collide_turned_contact(SIM number, s.since, face, s.position, AROUND(steps_per_s), 1.0f);
+    after.position = contact.position;
+    EXACT float3 relative = float3_sub(s.velocity, contact.velocity);
+    EXACT float3 bounced = collide_bounce_off(answer, relative, contact.normal, false);
+    after.velocity = float3_add(contact.velocity, bounced);
+    return after;
+}
+
+/* The state after an impact on a face of a collider. */
+FN S(collide_state)
+    collide_impact(SIM_PARAM S(collide_state) s, uint number, uint face, S(collide_answer) of_all)
+{
+    EXACT S(collide_state) after = s;
+    EXACT S(kiln_collider) c = AROUND(colliders[number]);
+    EXACT S(collide_answer) answer = collide_answer_of(of_all, c);
+    if (COLLIDE_IS_TURNED(c)) {
+        after = collide_turned_impact(SIM s, number, face, answer);
+        return after;
+    }
     if (COLLIDE_IS_ROUND(c)) {
         after = collide_round_impact(SIM s, c, face, answer);
         return after;
@@ -183,10 +259,13 @@ struct collide_hit {
 
 /* The way of a segment through a collider, between two parts of the step. */
 FN S(collide_span)
-    collide_through(S(kiln_collider) c, float since, float until, float3 from, float3 end)
+    collide_through(SIM_PARAM uint number, float since, float until, float3 from, float3 end)
 {
+    EXACT S(kiln_collider) c = AROUND(colliders[number]);
     EXACT S(collide_span) span;
-    if (COLLIDE_IS_ROUND(c)) {
+    if (COLLIDE_IS_TURNED(c)) {
+        span = collide_turned_through(SIM number, since, until, from, end);
+    } else if (COLLIDE_IS_ROUND(c)) {
         EXACT S(collide_round) round_at_start = collide_round_at(c, since);
         EXACT S(collide_round) round_at_end = collide_round_at(c, until);
         span = collide_round_segment(c.kind, round_at_start, round_at_end, from, end);
@@ -199,10 +278,13 @@ FN S(collide_span)
 }
 
 /* The face that a point inside is nearest to when the part `since` of the step has passed. */
-FN uint collide_nearest(S(kiln_collider) c, float since, float3 p)
+FN uint collide_nearest(SIM_PARAM uint number, float since, float3 p)
 {
+    EXACT S(kiln_collider) c = AROUND(colliders[number]);
     uint face;
-    if (COLLIDE_IS_ROUND(c)) {
+    if (COLLIDE_IS_TURNED(c)) {
+        face = collide_turned_nearest(SIM number, since, p);
+    } else if (COLLIDE_IS_ROUND(c)) {
         EXACT S(collide_round) shape = collide_round_at(c, since);
         face = collide_round_nearest(c.kind, shape, p);
     } else {
@@ -213,10 +295,13 @@ FN uint collide_nearest(S(kiln_collider) c, float since, float3 p)
 }
 
 /* Is a point inside when the part `until` of the step has passed? */
-FN bool collide_is_inside(S(kiln_collider) c, float until, float3 p)
+FN bool collide_is_inside(SIM_PARAM uint number, float until, float3 p)
 {
+    EXACT S(kiln_collider) c = AROUND(colliders[number]);
     bool inside;
-    if (COLLIDE_IS_ROUND(c)) {
+    if (COLLIDE_IS_TURNED(c)) {
+        inside = collide_turned_inside(SIM number, until, p);
+    } else if (COLLIDE_IS_ROUND(c)) {
         EXACT S(collide_round) shape = collide_round_at(c, until);
         inside = collide_round_inside(c.kind, shape, p);
     } else {
@@ -227,10 +312,15 @@ FN bool collide_is_inside(S(kiln_collider) c, float until, float3 p)
 }
 
 /* The face of an impact, for whoever asks for its normal later (collide_normal_of). */
-FN uint collide_face_met(S(kiln_collider) c, S(collide_state) s, uint face)
+FN uint collide_face_met(SIM_PARAM uint number, S(collide_state) s, uint face)
 {
+    EXACT S(kiln_collider) c = AROUND(colliders[number]);
     uint met = face;
-    if (COLLIDE_IS_ROUND(c)) {
+    if (COLLIDE_IS_TURNED(c)) {
+        EXACT S(collide_contact) contact =
+            collide_turned_contact(SIM number, s.since, face, s.position, 1.0f, 1.0f);
+        met = collide_pack_normal(contact.normal);
+    } else if (COLLIDE_IS_ROUND(c)) {
         EXACT S(collide_round) shape = collide_round_at(c, s.since);
         EXACT float3 normal = collide_round_normal(c.kind, shape, face, s.position);
         met = collide_pack_normal(normal);
@@ -258,30 +348,33 @@ FN S(collide_hit) collide_first(SIM_PARAM S(collide_state) s, float3 end, float 
     hit.box = 0u;
     hit.face = 0u;
     for (uint i = 0u; i < AROUND(collider_count); i++) {
-        EXACT S(kiln_collider) c = AROUND(colliders[i]);
-        EXACT S(collide_span) span = collide_through(c, s.since, until, s.position, end);
+        EXACT S(collide_span) span = collide_through(SIM i, s.since, until, s.position, end);
         bool inside = !span.misses && !span.outside;
         bool enters = !span.misses && span.outside && span.enter < span.leave;
         if ((inside || enters) && (hit.part < 0.0f || span.enter < hit.part)) {
             hit.part = span.enter;
             hit.box = i;
-            hit.face = inside ? collide_nearest(c, s.since, s.position) : span.face;
+            hit.face = inside ? collide_nearest(SIM i, s.since, s.position) : span.face;
         }
     }
     return hit;
 }
 
 /* The last resort, when the bounces of a step are used up between boxes that close in: up, until no
- * box is around. Each pass leaves at least one box below. */
+ * box is around. Each pass leaves at least one box below. What may turn is left by its surface. */
 FN float3 collide_rise(SIM_PARAM float3 position, float until)
 {
     EXACT float3 p = position;
     for (uint pass = 0u; pass < AROUND(collider_count); pass++) {
         bool free = true;
         for (uint i = 0u; i < AROUND(collider_count); i++) {
-            if (collide_is_inside(AROUND(colliders[i]), until, p)) {
+            if (collide_is_inside(SIM i, until, p)) {
                 EXACT S(collide_box) box = collide_box_at(AROUND(colliders[i]), until);
-                p = collide_put_beside(box, 3u, p);
+                if (COLLIDE_IS_TURNED(AROUND(colliders[i])) &&
+                    (pass < 2u || AROUND(colliders[i].kind) == COLLIDER_PLANE))
+                    p = collide_turned_rise(SIM i, until, p);
+                else
+                    p = collide_put_beside(box, 3u, p);
                 free = false;
             }
         }
@@ -308,6 +401,7 @@ FN S(collide_way)
     EXACT float3 target = end;
     EXACT float dt_s = STEP(derived.dt_s);
     EXACT S(collide_answer) draw = answer;
+    uint last = 0u;
     for (uint bounce = 0u; bounce < COLLIDE_BOUNCES; bounce++) {
         EXACT S(collide_hit) hit = collide_first(SIM now, target, until);
         if (hit.part < 0.0f) {
@@ -320,13 +414,15 @@ FN S(collide_way)
         EXACT float left = until - now.since;
         now.since = now.since + left * hit.part;
         draw.purpose = collide_purpose(SIM bounce);
-        now = collide_impact(SIM now, AROUND(colliders[hit.box]), hit.face, draw);
+        now = collide_impact(SIM now, hit.box, hit.face, draw);
         if (bounce == 0u)
-            way.first =
-                collide_touched(now, collide_face_met(AROUND(colliders[hit.box]), now, hit.face));
+            way.first = collide_touched(now, collide_face_met(SIM hit.box, now, hit.face));
         EXACT float rest_s = (until - now.since) * dt_s;
         target = float3_add_scaled(now.position, now.velocity, rest_s);
+        last = hit.box;
     }
+    if (COLLIDE_IS_TURNED(AROUND(colliders[last])))
+        now.position = collide_turned_carry(SIM last, now.since, until, now.position);
     now.position = collide_rise(SIM now.position, until);
     way.end = now;
     return way;
@@ -346,8 +442,19 @@ FN S(collide_way)
     for (uint i = 0u; i < AROUND(collider_count); i++) {
         EXACT S(kiln_collider) c = AROUND(colliders[i]);
         EXACT S(collide_box) box = collide_box_at(c, until);
-        bool inside = collide_is_inside(c, until, now.position);
-        if (inside && COLLIDE_IS_ROUND(c)) {
+        bool inside = collide_is_inside(SIM i, until, now.position);
+        draw = collide_answer_of(answer, c);
+        if (inside && COLLIDE_IS_TURNED(c)) {
+            uint nearest = collide_turned_nearest(SIM i, until, now.position);
+            EXACT S(collide_contact) contact =
+                collide_turned_contact(SIM i, until, nearest, now.position, 1.0f, 0.0f);
+            now.position = contact.position;
+            draw.purpose = collide_purpose(SIM impacts & 7u);
+            impacts++;
+            now.velocity = collide_bounce_off(draw, now.velocity, contact.normal, true);
+            if (impacts == 1u)
+                way.first = collide_touched(now, collide_pack_normal(contact.normal));
+        } else if (inside && COLLIDE_IS_ROUND(c)) {
             EXACT S(collide_round) shape = collide_round_at(c, until);
             uint side = collide_round_nearest(c.kind, shape, now.position);
             EXACT float3 normal = collide_round_normal(c.kind, shape, side, now.position);

@@ -120,6 +120,10 @@ struct kiln_step_params {
     uint limited; /* 1: a force limits the speed */
     S(kiln_value) randomness;
     S(kiln_value) slowdown;
+    S(kiln_value) restitution;
+    S(kiln_value) friction;
+    uint rubs; /* 1: restitution and friction matter, its own or those of objects */
+    uint unused0, unused1, unused2;
     float4 bounds_min, bounds_max;
     float4 demitter_min[KILN_MAX_DEMITTERS];
     float4 demitter_max[KILN_MAX_DEMITTERS];
@@ -131,17 +135,26 @@ struct kiln_step_params {
 #define COLLIDER_BOX      0u
 #define COLLIDER_SPHERE   1u
 #define COLLIDER_CYLINDER 2u
+/* In a frame of their own, which may turn (collide_turned.h): */
+#define COLLIDER_TURNED_BOX      3u
+#define COLLIDER_TURNED_CYLINDER 4u
+#define COLLIDER_CAPSULE         5u
+#define COLLIDER_PLANE           6u
 
-/* A collider at the start and at the end of the step; it moves evenly in between. A box has min and
- * max alone; those of a round shape bound it. */
+/* A collider at the start and at the end of the step; it moves and turns evenly in between. A box
+ * along the axes has min and max alone; those of all others bound it. */
 struct kiln_collider {
     float4 min, max;
     float4 min_end, max_end;
-    float4 center, center_end; /* round: w: radius */
-    float4 axis;               /* cylinder: unit; w: half height at the start */
+    float4 center, center_end; /* all but boxes along the axes: w: radius */
+    float4 axis; /* cylinder: unit; w: half height at the start; plane: its normal then */
     uint kind;
     float half_height_end;
-    uint unused0, unused1;
+    float restitution, friction; /* factors on a system's */
+    /* What follows is of those in a frame of their own. */
+    float4 extent, extent_end; /* m: half of the edges, or of the height in y */
+    float4 pose;               /* from the frame to the world at the start: a unit quaternion */
+    float4 spin;               /* unit; w: the angle by which the step turns it, rad */
 };
 
 /* Samples on a lattice in space; GRID_WORD(i) is the i-th of all grids: see grid.h. */

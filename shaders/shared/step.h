@@ -93,6 +93,13 @@ FN S(collide_way)
     answer.slowdown = value_at(SIM_KEYS STEP(slowdown), STEP(time_s), life);
     answer.stream = stream;
     answer.purpose = 0u;
+    answer.rubs = STEP(rubs) != 0u;
+    answer.restitution = 1.0f;
+    answer.friction = 0.0f;
+    if (COLLIDE_RUBS(answer)) {
+        answer.restitution = value_at(SIM_KEYS STEP(restitution), STEP(time_s), life);
+        answer.friction = value_at(SIM_KEYS STEP(friction), STEP(time_s), life);
+    }
     if (STEP(collide) == COLLIDE_CLAMP)
         return collide_clamp(SIM s, end, until, answer);
     return collide_swept(SIM s, end, until, answer);

@@ -7,6 +7,9 @@
 // variant: FAMILY=1 COLLIDE_ROUND=1
 // variant: GRIDS=1 COLLIDE_ROUND=1
 // variant: GRIDS=1 FAMILY=1 COLLIDE_ROUND=1
+// variant: COLLIDE_RUB=1
+// variant: COLLIDE_ROUND=1 COLLIDE_TURNED=1
+// variant: GRIDS=1 FAMILY=1 COLLIDE_ROUND=1 COLLIDE_TURNED=1 COLLIDE_RUB=1
 #include "sim/slot.glsl"
 
 layout(local_size_x = SIM_GROUP_SIZE) in;

@@ -78,6 +78,14 @@ static void round_colliders(void **state)
     all_agree(*state, &fixture.scene, STEPS);
 }
 
+/* Few steps: compilers of software GL take seconds for each technique. */
+static void turned_colliders(void **state)
+{
+    fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, 60);
+    fixture_add_turned(&fixture);
+    all_agree(*state, &fixture.scene, 60);
+}
+
 static void fields_agree(void **state)
 {
     fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, 120);
@@ -251,6 +259,7 @@ int main(void)
         test_on_device(velocity_first),
         test_on_device(position_first),
         test_on_device(round_colliders),
+        test_on_device(turned_colliders),
         test_on_device(fields_agree),
         test_on_device(families_agree),
         test_on_device(births_are_split_among_emitters),

@@ -25,6 +25,8 @@ static inline void fixture_init(struct scene_fixture *f)
     f->scene.steps_per_frame = 1;
     f->scene.dt_s = 1.0f / 60.0f;
     f->scene.keys = f->keys;
+    f->scene.backdrop.floor_restitution = f->scene.backdrop.floor_friction =
+        (struct kiln_value){.constant = 1.0f};
 }
 
 static inline struct kiln_value fixture_constant(float x)
@@ -78,7 +80,7 @@ static inline struct kiln_system *fixture_add_system(struct scene_fixture *f, co
     system->emit.life = fixture_range(1.0f, 2.0f);
     system->emit.speed = fixture_range(1.0f, 2.0f);
     system->emit.direction = fixture_constant3(0.0f, 1.0f, 0.0f);
-    system->collide.slowdown = fixture_constant(1.0f);
+    system->collide.slowdown = system->collide.restitution = fixture_constant(1.0f);
     return system;
 }
 
@@ -99,6 +101,7 @@ static inline struct kiln_object *fixture_add_box(struct scene_fixture *f, float
     box->center = fixture_constant3(x, y, z);
     box->size = fixture_constant3(width, height, depth);
     box->collide = true;
+    box->restitution = box->friction = fixture_constant(1.0f);
     return box;
 }
 
@@ -120,6 +123,25 @@ static inline struct kiln_object *fixture_add_cylinder(struct scene_fixture *f, 
     cylinder->height = fixture_constant(height);
     cylinder->axis = fixture_constant3(0.0f, 1.0f, 0.0f);
     return cylinder;
+}
+
+/* Upright, as cylinders. */
+static inline struct kiln_object *fixture_add_capsule(struct scene_fixture *f, float x, float y,
+                                                      float z, float radius, float height)
+{
+    struct kiln_object *capsule = fixture_add_cylinder(f, x, y, z, radius, height);
+    capsule->kind = KILN_OBJECT_CAPSULE;
+    return capsule;
+}
+
+/* Its normal is up. */
+static inline struct kiln_object *fixture_add_plane(struct scene_fixture *f, float x, float y,
+                                                    float z)
+{
+    struct kiln_object *plane = fixture_add_box(f, x, y, z, 0.0f, 0.0f, 0.0f);
+    plane->kind = KILN_OBJECT_PLANE;
+    plane->axis = fixture_constant3(0.0f, 1.0f, 0.0f);
+    return plane;
 }
 
 struct fixture_rate {
@@ -205,6 +227,35 @@ static inline void fixture_add_round(struct scene_fixture *f)
     cylinder->axis = fixture_constant3(1.0f, 0.5f, -0.3f);
     cylinder->radius = fixture_ramp(f, time, 0.5f, 0.1f, 3.0f, 0.5f);
     cylinder->height = fixture_ramp(f, time, 0.0f, 0.2f, 2.0f, 1.4f);
+}
+
+/* What turns, beside what there is, and surfaces that rub. */
+static inline void fixture_add_turned(struct scene_fixture *f)
+{
+    const uint32_t time = KILN_CLOCK_TIME;
+    struct kiln_object *box = fixture_add_box(f, 0.6f, 0.9f, 0.0f, 0.9f, 0.1f, 0.8f);
+    box->rotation.y = fixture_ramp(f, time, 0.0f, 0.0f, 4.0f, 30.0f);
+    box->rotation.z = fixture_ramp(f, time, 1.0f, 0.2f, 3.0f, -2.0f);
+    box->center.y = fixture_ramp(f, time, 0.0f, 0.4f, 4.0f, 1.4f);
+    box->restitution = fixture_ramp(f, time, 0.0f, 1.0f, 3.0f, 0.2f);
+    struct kiln_object *still = fixture_add_box(f, -0.6f, 0.2f, 0.3f, 0.5f, 0.4f, 0.3f);
+    still->rotation = fixture_constant3(0.3f, 1.0f, -0.4f);
+    struct kiln_object *capsule = fixture_add_capsule(f, -0.4f, 1.8f, 0.0f, 0.2f, 0.8f);
+    capsule->axis.x = fixture_ramp(f, time, 0.0f, -1.0f, 3.0f, 2.0f);
+    capsule->center.z = fixture_ramp(f, time, 0.0f, -0.5f, 4.0f, 0.5f);
+    capsule->radius = fixture_ramp(f, time, 1.0f, 0.1f, 3.0f, 0.3f);
+    struct kiln_object *rod = fixture_add_cylinder(f, 1.2f, 1.6f, 0.0f, 0.15f, 1.0f);
+    rod->axis.z = fixture_ramp(f, time, 0.0f, 1.0f, 2.0f, -1.0f);
+    struct kiln_object *plane = fixture_add_plane(f, -1.2f, 0.0f, 0.0f);
+    plane->axis = fixture_constant3(1.0f, 0.3f, 0.1f);
+    plane->center.x = fixture_ramp(f, time, 0.0f, -1.8f, 2.0f, -1.2f);
+    struct kiln_object *turning = fixture_add_plane(f, 0.0f, -0.3f, -1.0f);
+    turning->axis.x = fixture_ramp(f, time, 0.0f, -0.2f, 2.0f, 0.2f);
+    for (uint32_t i = 0; i < f->scene.system_count; i += 2) {
+        struct kiln_collide *collide = &f->scene.systems[i].collide;
+        collide->restitution = fixture_ramp(f, KILN_CLOCK_LIFE, 0.0f, 1.0f, 1.0f, 0.3f);
+        collide->friction = fixture_constant(0.3f);
+    }
 }
 
 /* The wind of a file for the first system, beside what there is: velocity (-2 z, 0.5 + 0.3 y, 2 x),

@@ -8,68 +8,7 @@
 #include <math.h>
 
 #include "shared/collide.h"
-#include "support/simulation.h"
-
-static struct scene_fixture fixture; /* too large for a stack */
-
-static void assert_near(double found, double expected, double allowed)
-{
-    if (!(fabs(found - expected) <= allowed))
-        fail_msg("%.9g instead of %.9g, allowed %g off", found, expected, allowed);
-}
-
-/* One particle that starts at time 0 with a velocity, and its state some steps later. */
-static struct kiln_system *one_particle(float3 from, float3 velocity)
-{
-    fixture_init(&fixture);
-    struct kiln_system *system = fixture_add_system(&fixture, "one", 0.0f);
-    system->emit.bursts[0] = (struct kiln_burst){0.0, 1};
-    system->emit.burst_count = 1;
-    system->emit.life = fixture_range(10.0f, 10.0f);
-    float speed = float3_length(velocity);
-    system->emit.speed = fixture_range(speed, speed);
-    system->emit.origin = fixture_constant3(from.x, from.y, from.z);
-    system->emit.direction = fixture_constant3(velocity.x, velocity.y, velocity.z);
-    system->collide.enabled = true;
-    return system;
-}
-
-static struct kiln_particle after(uint32_t steps)
-{
-    fixture_finish(&fixture, steps);
-    struct simulation run;
-    simulation_start(&run, &fixture.scene, NULL, 1);
-    simulation_run(&run, steps);
-    struct kiln_particle p = simulation_records(&run)[0];
-    assert_true(particle_is_alive(p));
-    simulation_end(&run);
-    return p;
-}
-
-/* The particle after half a second, when it met a surface with this normal at a time. */
-static void expect_mirror(const double from[3], const double v[3], const double normal[3],
-                          double time_s)
-{
-    struct kiln_particle p = after(30);
-    float3 x = particle_position(p), u = particle_velocity(p);
-    const double found_x[3] = {(double)x.x, (double)x.y, (double)x.z};
-    const double found_v[3] = {(double)u.x, (double)u.y, (double)u.z};
-    double across = v[0] * normal[0] + v[1] * normal[1] + v[2] * normal[2];
-    for (int i = 0; i < 3; i++) {
-        double mirrored = 0.5 * (v[i] - 2 * across * normal[i]);
-        assert_near(found_v[i], mirrored, 2e-4);
-        assert_near(found_x[i], from[i] + v[i] * time_s + mirrored * (0.5 - time_s), 5e-4);
-    }
-}
-
-static struct kiln_system *shoot(const double from[3], const double v[3])
-{
-    struct kiln_system *system =
-        one_particle(FLOAT3((float)from[0], (float)from[1], (float)from[2]),
-                     FLOAT3((float)v[0], (float)v[1], (float)v[2]));
-    system->collide.slowdown = fixture_constant(0.5f);
-    return system;
-}
+#include "support/thrown.h"
 
 /* Beside the middle of a unit sphere: the exact point, normal and time of a chord's start. */
 static void a_sphere_mirrors_where_it_is_hit(void **state)

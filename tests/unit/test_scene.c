@@ -84,9 +84,14 @@ static void every_key_of_the_backdrop_arrives(void **state)
     assert_true(backdrop->sky_top.z.constant == 0.01f);
     assert_true(backdrop->floor_checker.constant == 0.25f);
     assert_true(backdrop->haze.constant == 0.5f);
-    assert_int_equal(backdrop->object_count, 2);
+    assert_int_equal(backdrop->object_count, 5);
     assert_true(backdrop->objects[0].size.z.constant == 0.5f && !backdrop->objects[0].collide);
     assert_true(backdrop->objects[1].size.z.constant == 1 && backdrop->objects[1].collide);
+    assert_true(backdrop->objects[2].rotation.y.count == 2 &&
+                backdrop->objects[2].restitution.constant == 0.5f);
+    assert_true(backdrop->objects[3].axis.y.count == 2 &&
+                backdrop->objects[3].friction.constant == 1);
+    assert_true(!backdrop->objects[4].visible && backdrop->objects[4].axis.x.constant == 0.1f);
     assert_int_equal(backdrop->light_count, 1);
     assert_true(backdrop->lights[0].radius.constant == 0.05f);
 
@@ -119,6 +124,8 @@ static void every_key_of_a_system_arrives(void **state)
     assert_int_equal(point->forces[7].pull.clock, KILN_CLOCK_LIFE);
     assert_int_equal(point->collide.mode, KILN_COLLIDE_CLAMP);
     assert_true(point->collide.slowdown.constant == 0.9f);
+    assert_int_equal(point->collide.restitution.clock, KILN_CLOCK_LIFE);
+    assert_int_equal(point->collide.friction.count, 2);
     assert_int_equal(point->demitter_count, 2);
     assert_true(point->demitters[1].enabled && point->demitters[1].max[0] == 3);
     assert_true(point->bounds.enabled && point->bounds.max[0] == 5);

@@ -16,9 +16,14 @@ static const struct {
      "backdrop: {objects: [{box: {}}, {cylinder: {axis: [0, 0, 0]}}]}\n",
      ":2:21: backdrop.objects.1.cylinder.axis: must not be [0, 0, 0]"},
     {"kiln: 1\n"
-     "backdrop: {objects: [{cylinder: {axis: {keys: {0 s: [0, 1, 0], 1 s: [1, 0, 0]}}}}]}\n",
-     ":2:21: backdrop.objects.0.cylinder.axis: cannot vary while the cylinder collides; set its "
-     "collide to false"},
+     "backdrop: {objects: [{capsule: {axis: {keys: {0 s: [0, 1, 0], 1 s: [0, 0, 0]}}}}]}\n",
+     ":2:21: backdrop.objects.0.capsule.axis: must not be [0, 0, 0]"},
+    {"kiln: 1\n"
+     "backdrop: {objects: [{plane: {normal: [0, 0, 0]}}]}\n",
+     ":2:21: backdrop.objects.0.plane.normal: must not be [0, 0, 0]"},
+    {"kiln: 1\n"
+     "backdrop: {objects: [{box: {friction: -1}}]}\n",
+     ":2:39: backdrop.objects.0.box.friction: -1 is out of range; allowed is from 0 to 100"},
     {"kiln: 1\n"
      "backdrop: {objects: [{mesh: {}}]}\n",
      ":2:29: backdrop.objects.0.mesh.file: missing; it must be given"},

@@ -122,11 +122,20 @@ static void position_first_among_round_colliders(void **state)
     run_levels();
 }
 
+static void position_first_among_turning_colliders(void **state)
+{
+    (void)state;
+    fixture_zoo(&fixture, KILN_INTEGRATE_POSITION_FIRST, STEPS);
+    fixture_add_turned(&fixture);
+    run_levels();
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(velocity_first),
         cmocka_unit_test(position_first_among_round_colliders),
+        cmocka_unit_test(position_first_among_turning_colliders),
     };
     return cmocka_run_group_tests_name("slots", tests, NULL, NULL);
 }

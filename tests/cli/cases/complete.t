@@ -76,7 +76,9 @@ $ kiln complete -- check broken.yaml --set systems.blaze.emit.ra
 $ kiln complete -- check --set 'systems.*.collide.'
 1|part	systems.*.collide.mode=	swept finds the point of impact; clamp moves a particle inside to the nearest face.
 1|part	systems.*.collide.randomness=	0 reflects like a mirror, 1 into any direction away from the surface.
-1|part	systems.*.collide.slowdown=	Factor on the speed at each impact.
+1|part	systems.*.collide.slowdown=	Factor on the speed at each impact, after all else.
+1|part	systems.*.collide.restitution=	Part of the speed towards a surface that goes back; randomness turns what comes of it.
+1|part	systems.*.collide.friction=	Coulomb's: part of what a surface gives along its normal that is lost along it.
 1|part	systems.*.collide.dies=	A particle ends at its first impact, like rain.
 $ kiln complete -- check --set 'systems.*.forces.'
 1|part	systems.*.forces.*.	every entry
