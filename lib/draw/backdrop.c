@@ -7,6 +7,7 @@
 #include "draw/backdrop_cpu.h"
 #include "draw/backdrop_gl.h"
 #include "draw/lighting_gl.h"
+#include "draw/sun_cover.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -40,7 +41,7 @@ static void fill_boxes(const struct kiln_scene *scene, float time_s,
 {
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
         const struct kiln_object *box = &scene->backdrop.objects[i];
-        if (box->kind != KILN_OBJECT_BOX)
+        if (box->kind != KILN_OBJECT_BOX || kiln_object_is_turned_box(box))
             continue;
         uint k = block->counts.x++;
         float3 size = kiln_scene_value3(scene, &box->size, time_s);
@@ -107,6 +108,21 @@ static void fill_maps(const struct kiln_scene *scene, const struct pictures *pic
                      (float)pictures->sky.width / full_turn, 0.0f};
 }
 
+/* The sun's light, where no half space is between: one without end leaves all in its shade. */
+static float3 sun_color(const struct kiln_scene *scene, float time_s)
+{
+    const struct kiln_sun_frame sun = kiln_sun_frame_at(scene, time_s);
+    float3 color = kiln_scene_value3(scene, &scene->backdrop.sun_color, time_s);
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        const struct kiln_object *plane = &scene->backdrop.objects[i];
+        if (plane->kind != KILN_OBJECT_PLANE || !plane->visible)
+            continue;
+        float3 normal = normalized(kiln_scene_value3(scene, &plane->axis, time_s));
+        color = float3_scale(color, 1.0f - kiln_plane_sun_cover(normal, &sun));
+    }
+    return color;
+}
+
 static struct kiln_draw_backdrop make_block(const struct kiln_scene *scene, float time_s)
 {
     const struct kiln_backdrop *b = &scene->backdrop;
@@ -120,7 +136,7 @@ static struct kiln_draw_backdrop make_block(const struct kiln_scene *scene, floa
                          kiln_scene_value(scene, &b->haze, time_s), 0.0f},
         .sun_direction =
             with_w(normalized(kiln_scene_value3(scene, &b->sun_direction, time_s)), 0.0f),
-        .sun_color = with_w(kiln_scene_value3(scene, &b->sun_color, time_s), 0.0f),
+        .sun_color = with_w(sun_color(scene, time_s), 0.0f),
         .counts = {0, b->light_count, b->transparent ? 1u : 0u, 0},
     };
     fill_boxes(scene, time_s, &block);

@@ -115,6 +115,22 @@ static void fill_waves(const struct kiln_draw_shapes *shapes, struct kiln_wave w
     }
 }
 
+static void fill_turned_suns(float4 sun, const struct kiln_draw_shapes *shapes,
+                             struct kiln_turned_sun suns[KILN_MAX_OBJECTS])
+{
+    for (uint32_t i = 0; i < shapes->more.y; i++) {
+        const float4 *rows = shapes->turned[i].rows;
+        float way[3];
+        for (int k = 0; k < 3; k++)
+            way[k] = rows[k].x * sun.x + rows[k].y * sun.y + rows[k].z * sun.z;
+        suns[i] = (struct kiln_turned_sun){
+            .inverse = {inverse_of(way[0]), inverse_of(way[1]), inverse_of(way[2])},
+            .edges_alike = {kiln_sun_likeness(way[1], way[2]), kiln_sun_likeness(way[0], way[2]),
+                            kiln_sun_likeness(way[0], way[1])},
+        };
+    }
+}
+
 static struct kiln_ray_frame make_frame(const struct kiln_backdrop_cpu *cpu,
                                         const struct kiln_backdrop_inputs *inputs,
                                         const struct kiln_lighting *lighting)
@@ -139,6 +155,7 @@ static struct kiln_ray_frame make_frame(const struct kiln_backdrop_cpu *cpu,
     };
     if (frame.floor_gloss)
         fill_waves(&inputs->shapes, frame.waves);
+    fill_turned_suns(sun, &inputs->shapes, frame.turned);
     return frame;
 }
 
@@ -193,6 +210,31 @@ static float reach_along(float axis, float half_height, float radius)
            1e-4f * radius;
 }
 
+static void find_more_boxes(struct kiln_backdrop_picture *picture)
+{
+    const struct kiln_view *view = picture->frame->view;
+    const struct kiln_draw_shapes *shapes = picture->frame->shapes;
+    for (uint32_t i = 0; i < shapes->more.x; i++) {
+        const float4 capsule = shapes->capsules[i], axis = shapes->capsule_axis[i];
+        const float radius = 1.0001f * capsule.w;
+        const float3 half = {radius + axis.w * exact_abs(axis.x),
+                             radius + axis.w * exact_abs(axis.y),
+                             radius + axis.w * exact_abs(axis.z)};
+        picture->capsules[i] = cover_box(view, capsule, half);
+    }
+    for (uint32_t i = 0; i < shapes->more.y; i++) {
+        const float4 *rows = shapes->turned[i].rows, half_size = shapes->turned[i].half_size;
+        const float halves[3] = {half_size.x, half_size.y, half_size.z};
+        float3 half = {0.0f, 0.0f, 0.0f};
+        for (int k = 0; k < 3; k++) {
+            half.x += exact_abs(rows[k].x) * halves[k];
+            half.y += exact_abs(rows[k].y) * halves[k];
+            half.z += exact_abs(rows[k].z) * halves[k];
+        }
+        picture->turned[i] = cover_box(view, shapes->turned[i].center, half);
+    }
+}
+
 static void find_boxes(struct kiln_backdrop_picture *picture)
 {
     const struct kiln_ray_frame *frame = picture->frame;
@@ -215,6 +257,7 @@ static void find_boxes(struct kiln_backdrop_picture *picture)
                              reach_along(axis.z, axis.w, cylinder.w)};
         picture->cylinders[i] = cover_box(frame->view, cylinder, half);
     }
+    find_more_boxes(picture);
 }
 
 /* ---- the picture ----------------------------------------------------------------------------- */

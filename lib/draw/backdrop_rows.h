@@ -17,7 +17,7 @@ struct kiln_backdrop_picture {
     float *depth;    /* m */
     float *surfaces; /* of each pixel's centre: a number that changes at every edge */
     struct kiln_pixel_box boxes[KILN_MAX_OBJECTS], spheres[KILN_MAX_OBJECTS],
-        cylinders[KILN_MAX_OBJECTS];
+        cylinders[KILN_MAX_OBJECTS], capsules[KILN_MAX_OBJECTS], turned[KILN_MAX_OBJECTS];
 };
 
 /* Each draws KILN_EDGE_TILE rows from row y. */

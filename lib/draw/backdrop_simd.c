@@ -52,6 +52,9 @@ SIMD struct ray_hit trace(const struct kiln_ray_frame *frame,
     trace_boxes(frame, objects->boxes, ray, &nearest);
     trace_spheres(frame, objects->spheres, ray, &nearest);
     trace_cylinders(frame, objects->cylinders, ray, &nearest);
+    trace_capsules(frame, objects->capsules, ray, &nearest);
+    trace_turned(frame, objects->turned, ray, &nearest);
+    trace_planes(frame, objects->planes, ray, &nearest);
     if (frame->meshes && place->layer >= 0)
         trace_meshes(frame, place, &nearest);
     vi below = floor < nearest.t;
@@ -106,9 +109,13 @@ SIMD void add_mirrored(const struct kiln_ray_frame *frame, const struct ray *ray
     vi floor = seen->first.surface == 0.0f;
     if (!any(floor))
         return;
-    const uint4 round = frame->shapes->counts;
+    const uint4 round = frame->shapes->counts, others = frame->shapes->more;
     const struct kiln_ray_objects objects = {first_bits(frame->backdrop->counts.x),
-                                             first_bits(round.x), first_bits(round.y)};
+                                             first_bits(round.x),
+                                             first_bits(round.y),
+                                             first_bits(others.x),
+                                             first_bits(others.y),
+                                             first_bits(others.z)};
     const struct ray_mirror m = floor_mirror(frame, ray);
     const struct ray onwards = {ray_at(ray, seen->first.t), m.onwards};
     const struct ray_place nowhere = {.layer = -1};
@@ -152,7 +159,10 @@ static struct kiln_ray_objects find_objects(const struct kiln_backdrop_picture *
     return (struct kiln_ray_objects){
         seen_in(p->boxes, frame->backdrop->counts.x, left, top, columns),
         seen_in(p->spheres, frame->shapes->counts.x, left, top, columns),
-        seen_in(p->cylinders, frame->shapes->counts.y, left, top, columns)};
+        seen_in(p->cylinders, frame->shapes->counts.y, left, top, columns),
+        seen_in(p->capsules, frame->shapes->more.x, left, top, columns),
+        seen_in(p->turned, frame->shapes->more.y, left, top, columns),
+        first_bits(frame->shapes->more.z)};
 }
 
 SIMD void store_colors(float *to, const struct ray_color *color, uint32_t count)

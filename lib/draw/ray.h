@@ -21,6 +21,11 @@ struct kiln_wave {
     float bend;         /* how far it shifts those after it, m */
 };
 
+/* The sun in the frame of a turned box, as sun_inverse and edges_alike have it in the world's. */
+struct kiln_turned_sun {
+    float3 inverse, edges_alike;
+};
+
 struct kiln_ray_frame {
     const struct kiln_view *view;
     const struct kiln_draw_backdrop *backdrop;
@@ -33,11 +38,12 @@ struct kiln_ray_frame {
     float3 sun_inverse; /* of the direction, by axis; large for 0 */
     float3 edges_alike; /* of boxes, towards the sun: x is of y and z, and so on */
     struct kiln_wave waves[KILN_WAVES];
+    struct kiln_turned_sun turned[KILN_MAX_OBJECTS];
 };
 
 /* The objects that rays may meet: a bit each. */
 struct kiln_ray_objects {
-    uint32_t boxes, spheres, cylinders;
+    uint32_t boxes, spheres, cylinders, capsules, turned, planes;
 };
 
 #endif

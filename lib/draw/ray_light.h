@@ -86,6 +86,46 @@ SIMD vf cylinders_leave_sky(const struct kiln_ray_frame *frame, const struct ray
     return visible;
 }
 
+/* By the nearest of the balls that a capsule is made of. */
+SIMD vf capsules_leave_sky(const struct kiln_ray_frame *frame, const struct ray_point *p,
+                           vf visible)
+{
+    const struct kiln_draw_shapes *shapes = frame->shapes;
+    for (uint32_t i = 0; i < shapes->more.x; i++) {
+        const float4 axis = shapes->capsule_axis[i], capsule = shapes->capsules[i];
+        struct vf3 towards = vf3_towards(capsule, p->at);
+        vf along = vf_clamp(-vf3_dot_all(towards, axis), -axis.w, axis.w);
+        towards = vf3_along(towards, vf3_all(axis), along);
+        vf distance2 = vf_max(vf3_dot(towards, towards), vf_all(1e-9f));
+        vf fall = vf_min(capsule.w * capsule.w / distance2, vf_all(1.0f));
+        visible =
+            shaded_sky(visible, p->wanted, turned_to(vf3_dot(towards, p->normal), distance2), fall);
+    }
+    return visible;
+}
+
+SIMD vf turned_leave_sky(const struct kiln_ray_frame *frame, const struct ray_point *p, vf visible)
+{
+    const vf zero = vf_all(0.0f);
+    for (uint32_t i = 0; i < frame->shapes->more.y; i++) {
+        const struct kiln_draw_turned_box *box = &frame->shapes->turned[i];
+        const float4 half = box->half_size;
+        struct vf3 towards = into_box(box, vf3_towards(box->center, p->at));
+        struct vf3 normal = into_box(box, p->normal);
+        const struct vf3 turn = {vf_abs(normal.x), vf_abs(normal.y), vf_abs(normal.z)};
+        vf along = vf3_dot(towards, normal);
+        vi hides = p->wanted & (along > 1e-3f - vf3_dot_all(turn, half));
+        struct vf3 beyond = {vf_max(vf_abs(towards.x) - half.x, zero),
+                             vf_max(vf_abs(towards.y) - half.y, zero),
+                             vf_max(vf_abs(towards.z) - half.z, zero)};
+        float size = fminf(fminf(half.x, half.y), half.z);
+        vf fall = size / (size + 2.0f * vf3_length(beyond));
+        visible =
+            shaded_sky(visible, hides, turned_to(along, vf3_dot(towards, towards)), fall * fall);
+    }
+    return visible;
+}
+
 /* By the ellipsoid in their bounds; inside of a hollow the middle is in front, and it gets darker.
  */
 SIMD vf meshes_leave_sky(const struct kiln_ray_frame *frame, const struct ray_point *p, vf visible)
@@ -131,6 +171,8 @@ SIMD struct vf3 soft_irradiance(const struct kiln_ray_frame *frame, const struct
     vf sky = boxes_leave_sky(frame, p, vf_all(1.0f));
     sky = spheres_leave_sky(frame, p, sky);
     sky = cylinders_leave_sky(frame, p, sky);
+    sky = capsules_leave_sky(frame, p, sky);
+    sky = turned_leave_sky(frame, p, sky);
     sky = meshes_leave_sky(frame, p, sky);
     sky *= smoke_lets_through(frame->smoke_to_sky, b->sky_to_grid, p);
     struct vf3 ambient = vf3_mix(b->sky_horizon, b->sky_top, 0.5f + 0.5f * p->normal.y);

@@ -9,7 +9,14 @@
 #define RAY_FAR 1e9f
 
 /* The sky's surface is -1, the floor's 0; a face of a box has a number of its own, below 1000. */
-enum { RAY_SPHERES = 1000, RAY_CYLINDERS = 1100, RAY_MESHES = 1200 };
+enum {
+    RAY_SPHERES = 1000,
+    RAY_CYLINDERS = 1100,
+    RAY_TURNED = 1200, /* as boxes */
+    RAY_CAPSULES = 2200,
+    RAY_PLANES = 2250,
+    RAY_MESHES = 2300, /* nothing is above these */
+};
 
 struct ray {
     struct vf3 origin, direction;

@@ -6,7 +6,7 @@
 #ifndef KILN_DRAW_RAY_SUN_H
 #define KILN_DRAW_RAY_SUN_H
 
-#include "draw/ray_shapes.h"
+#include "draw/ray_turned.h"
 
 /* Where light starts from, and which lanes ask. */
 struct ray_shade {
@@ -101,12 +101,17 @@ SIMD vf boxes_let_through(const struct kiln_ray_frame *frame, const struct ray_s
 
 /* ---- spheres and cylinders ------------------------------------------------------------------- */
 
-SIMD vf sphere_cover(float4 sphere, struct vf3 origin, float4 sun, float spread)
+/* Of a ball whose centre is so far away. */
+SIMD vf ball_cover(struct vf3 towards, float radius, float4 sun, float spread)
 {
-    struct vf3 towards = vf3_towards(sphere, origin);
     vf t = vf3_dot_all(towards, sun);
     vf across = vf3_length(vf3_along(towards, vf3_all(sun), -t));
-    return vf_where(t >= 0.0f, strip_cover(sphere.w - across, sphere.w + across, t * spread));
+    return vf_where(t >= 0.0f, strip_cover(radius - across, radius + across, t * spread));
+}
+
+SIMD vf sphere_cover(float4 sphere, struct vf3 origin, float4 sun, float spread)
+{
+    return ball_cover(vf3_towards(sphere, origin), sphere.w, sun, spread);
 }
 
 /* Its outline is a band along `up`, with round ends; seen along its axis, it is round. */
@@ -167,6 +172,49 @@ SIMD vf round_let_through(const struct kiln_ray_frame *frame, const struct ray_s
                 cross_cylinder(shapes->cylinders[i], shapes->cylinder_axis[i], &ray);
             visible = vf_where(is_free(c.interval), visible);
         }
+    }
+    return visible;
+}
+
+/* ---- capsules and turned boxes --------------------------------------------------------------- */
+
+/* Of the balls that a capsule is made of, the one that the ray passes most closely. */
+SIMD vf capsule_cover(const struct kiln_ray_frame *frame, int i, struct vf3 origin)
+{
+    const float4 sun = frame->backdrop->sun_direction, axis = frame->shapes->capsule_axis[i];
+    const float4 capsule = frame->shapes->capsules[i];
+    const float climb = axis.x * sun.x + axis.y * sun.y + axis.z * sun.z;
+    const float4 flat = {axis.x - sun.x * climb, axis.y - sun.y * climb, axis.z - sun.z * climb,
+                         0.0f};
+    const float square = flat.x * flat.x + flat.y * flat.y + flat.z * flat.z;
+    struct vf3 towards = vf3_towards(capsule, origin);
+    vf along = vf3_dot_all(towards, flat) * (-1.0f / fmaxf(square, 1e-6f));
+    towards = vf3_along(towards, vf3_all(axis), vf_clamp(along, -axis.w, axis.w));
+    return ball_cover(towards, capsule.w, sun, frame->shapes->sun_right.w);
+}
+
+SIMD vf turned_let_through(const struct kiln_ray_frame *frame, const struct ray_shade *shade)
+{
+    const struct kiln_draw_shapes *shapes = frame->shapes;
+    const struct ray ray = {shade->origin, vf3_all(frame->backdrop->sun_direction)};
+    vf visible = vf_all(1.0f);
+    for (int i = 0; i < (int)shapes->more.x; i++) {
+        if (frame->soft_sun)
+            visible *= 1.0f - capsule_cover(frame, i, ray.origin);
+        else
+            visible =
+                vf_where(is_free(cross_capsule(shapes->capsules[i], shapes->capsule_axis[i], &ray)),
+                         visible);
+    }
+    for (int i = 0; i < (int)shapes->more.y; i++) {
+        const struct kiln_turned_sun *sun = &frame->turned[i];
+        const struct vf3 inverse = {vf_all(sun->inverse.x), vf_all(sun->inverse.y),
+                                    vf_all(sun->inverse.z)};
+        struct ray_slabs s = cross_turned(&shapes->turned[i], ray.origin, inverse);
+        if (frame->soft_sun)
+            visible *= 1.0f - box_cover(&s, sun->inverse, sun->edges_alike, shapes->sun_right.w);
+        else
+            visible = vf_where(is_free(slabs_interval(&s)), visible);
     }
     return visible;
 }
@@ -338,6 +386,8 @@ SIMD vf sun_visibility(const struct kiln_ray_frame *frame, struct vf3 point, str
     vf visible = boxes_let_through(frame, &shade);
     if (shapes->counts.x + shapes->counts.y > 0)
         visible *= round_let_through(frame, &shade);
+    if (shapes->more.x + shapes->more.y > 0)
+        visible *= turned_let_through(frame, &shade);
     for (int i = 0; i < (int)shapes->counts.z; i++)
         visible *= 1.0f - mesh_cover(frame, i, &shade);
     if (shapes->counts.w > 0)

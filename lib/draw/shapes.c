@@ -9,9 +9,11 @@
 #include <stdio.h>
 
 static_assert(sizeof(struct kiln_draw_mesh) == 96, "std140");
-static_assert(offsetof(struct kiln_draw_shapes, spheres) == 128, "std140");
-static_assert(offsetof(struct kiln_draw_shapes, meshes) == 128 + 80 * KILN_MAX_OBJECTS, "std140");
-static_assert(sizeof(struct kiln_draw_shapes) == 128 + 80 * KILN_MAX_OBJECTS + 96 * KILN_MAX_MESHES,
+static_assert(sizeof(struct kiln_draw_turned_box) == 96, "std140");
+static_assert(offsetof(struct kiln_draw_shapes, spheres) == 144, "std140");
+static_assert(offsetof(struct kiln_draw_shapes, meshes) == 144 + 80 * KILN_MAX_OBJECTS, "std140");
+static_assert(sizeof(struct kiln_draw_shapes) ==
+                  144 + (80 + 80 + 96) * KILN_MAX_OBJECTS + 96 * KILN_MAX_MESHES,
               "std140, and no padding, which the backdrop would compare");
 
 struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
@@ -24,7 +26,10 @@ struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
         .soft_sun = kiln_scene_value_max(scene, &backdrop->sun_size) > 0.0f,
     };
     for (uint32_t i = 0; i < backdrop->object_count; i++) {
-        enum kiln_object_kind kind = backdrop->objects[i].kind;
+        const struct kiln_object *object = &backdrop->objects[i];
+        enum kiln_object_kind kind = object->kind;
+        features.turned |= kind == KILN_OBJECT_CAPSULE || kiln_object_is_turned_box(object) ||
+                           (kind == KILN_OBJECT_PLANE && object->visible);
         features.round |= kind == KILN_OBJECT_SPHERE || kind == KILN_OBJECT_CYLINDER;
         features.meshes |= kind == KILN_OBJECT_MESH;
     }
@@ -37,8 +42,9 @@ struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
 void kiln_shape_defines(const struct kiln_shape_features *features, int samples,
                         char out[KILN_SHAPE_DEFINES])
 {
-    snprintf(out, KILN_SHAPE_DEFINES, "#define SAMPLES %d\n%s%s%s%s%s%s%s", samples,
+    snprintf(out, KILN_SHAPE_DEFINES, "#define SAMPLES %d\n%s%s%s%s%s%s%s%s", samples,
              features->round ? "#define ROUND 1\n" : "",
+             features->turned ? "#define TURNED 1\n" : "",
              features->meshes ? "#define MESHES 1\n" : "",
              features->spheres ? "#define SPHERES 1\n" : "",
              features->floor_image ? "#define FLOOR_IMAGE 1\n" : "",
@@ -128,6 +134,42 @@ static void fill_mesh(const struct kiln_scene *scene, const struct kiln_object *
     out->half_size = (float4){half_size[0], half_size[1], half_size[2], 0.0f};
 }
 
+static void fill_turned_box(const struct kiln_scene *scene, const struct kiln_object *object,
+                            float time_s, struct kiln_draw_turned_box *out)
+{
+    float rows[3][3];
+    rotation_rows(kiln_scene_value3(scene, &object->rotation, time_s), rows);
+    for (int i = 0; i < 3; i++)
+        out->rows[i] = (float4){rows[0][i], rows[1][i], rows[2][i], 0.0f};
+    float3 size = kiln_scene_value3(scene, &object->size, time_s);
+    out->center = with_w(kiln_scene_value3(scene, &object->center, time_s), 0.0f);
+    out->half_size = (float4){0.5f * size.x, 0.5f * size.y, 0.5f * size.z, 0.0f};
+    out->color = with_w(kiln_scene_value3(scene, &object->color, time_s), 0.0f);
+}
+
+/* Capsules, planes and boxes of any direction. */
+static void fill_more(const struct kiln_scene *scene, const struct kiln_object *object,
+                      float time_s, struct kiln_draw_shapes *shapes)
+{
+    float3 center = kiln_scene_value3(scene, &object->center, time_s);
+    float4 color = with_w(kiln_scene_value3(scene, &object->color, time_s), 0.0f);
+    if (object->kind == KILN_OBJECT_CAPSULE) {
+        uint k = shapes->more.x++;
+        float3 axis = normalized(kiln_scene_value3(scene, &object->axis, time_s));
+        shapes->capsules[k] = with_w(center, kiln_scene_value(scene, &object->radius, time_s));
+        shapes->capsule_axis[k] =
+            with_w(axis, 0.5f * kiln_scene_value(scene, &object->height, time_s));
+        shapes->capsule_color[k] = color;
+    } else if (kiln_object_is_turned_box(object)) {
+        fill_turned_box(scene, object, time_s, &shapes->turned[shapes->more.y++]);
+    } else if (object->kind == KILN_OBJECT_PLANE && object->visible) {
+        uint k = shapes->more.z++;
+        float3 normal = normalized(kiln_scene_value3(scene, &object->axis, time_s));
+        shapes->planes[k] = with_w(normal, float3_dot(normal, center));
+        shapes->plane_color[k] = color;
+    }
+}
+
 void kiln_shapes_fill(const struct kiln_scene *scene, struct kiln_mesh *const *meshes, float time_s,
                       struct kiln_draw_shapes *shapes)
 {
@@ -156,6 +198,8 @@ void kiln_shapes_fill(const struct kiln_scene *scene, struct kiln_mesh *const *m
         } else if (object->kind == KILN_OBJECT_MESH) {
             uint k = shapes->counts.z++;
             fill_mesh(scene, object, meshes[k], time_s, &shapes->meshes[k]);
+        } else {
+            fill_more(scene, object, time_s, shapes);
         }
     }
 }

@@ -1,4 +1,4 @@
-/* The block of the backdrop's spheres, cylinders, meshes and pictures. */
+/* The block of the backdrop's pictures and of its objects but boxes along the axes. */
 #ifndef KILN_DRAW_SHAPES_H
 #define KILN_DRAW_SHAPES_H
 
@@ -11,7 +11,7 @@ enum { KILN_SHAPE_DEFINES = 192 };
 /* What a scene needs of the shaders; sets of these choose a variant. spheres are particles that
  * throw shadows. */
 struct kiln_shape_features {
-    bool round, meshes, spheres, floor_image, floor_gloss, sky_image, soft_sun;
+    bool round, turned, meshes, spheres, floor_image, floor_gloss, sky_image, soft_sun;
 };
 struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene);
 
@@ -28,7 +28,7 @@ struct kiln_sun_frame {
 };
 struct kiln_sun_frame kiln_sun_frame_at(const struct kiln_scene *scene, float time_s);
 
-/* Spheres, cylinders, meshes and the sun's frame at a clip time; meshes are in the scene's order.
+/* All of these objects and the sun's frame at a clip time; meshes are in the scene's order.
  * The pictures' maps and the bins of particles are left 0. */
 void kiln_shapes_fill(const struct kiln_scene *scene, struct kiln_mesh *const *meshes, float time_s,
                       struct kiln_draw_shapes *shapes);

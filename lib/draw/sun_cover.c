@@ -1,4 +1,4 @@
-/* What spheres and cylinders hide; boxes are in sun_box.h. */
+/* What all but boxes hide; these are in sun_box.h. */
 #include "draw/sun_box.h"
 
 /* Between two parallel lines, the distances to which are positive inside. */
@@ -47,4 +47,20 @@ float kiln_cylinder_sun_cover(float3 center, float radius, float3 axis, float ha
     float cap = ((climb < 0.0f ? -half_height : half_height) - height) /
                 (climb < 0.0f ? exact_min(climb, -1e-6f) : exact_max(climb, 1e-6f));
     return cover * kiln_sun_behind(exact_min(side, cap), ball);
+}
+
+/* That of the ball, among those it is made of, which the light passes most closely. */
+float kiln_capsule_sun_cover(float3 center, float radius, float3 axis, float half_height,
+                             struct kiln_ball ball, const struct kiln_sun_frame *sun)
+{
+    float3 to = float3_sub(center, ball.center);
+    float3 flat = float3_add_scaled(axis, sun->towards, -float3_dot(axis, sun->towards));
+    float along = -float3_dot(to, flat) / exact_max(float3_dot(flat, flat), 1e-6f);
+    float3 nearest = float3_add_scaled(center, axis, exact_clamp(along, -half_height, half_height));
+    return kiln_sphere_sun_cover(nearest, radius, ball, sun);
+}
+
+float kiln_plane_sun_cover(float3 normal, const struct kiln_sun_frame *sun)
+{
+    return kiln_disc_cover(-float3_dot(normal, sun->towards) / exact_max(sun->spread, 1e-5f));
 }

@@ -41,5 +41,10 @@ float kiln_sphere_sun_cover(float3 center, float radius, struct kiln_ball ball,
                             const struct kiln_sun_frame *sun);
 float kiln_cylinder_sun_cover(float3 center, float radius, float3 axis, float half_height,
                               struct kiln_ball ball, const struct kiln_sun_frame *sun);
+float kiln_capsule_sun_cover(float3 center, float radius, float3 axis, float half_height,
+                             struct kiln_ball ball, const struct kiln_sun_frame *sun);
+
+/* Of the half space below a plane, from anywhere above: 0 to 1. */
+float kiln_plane_sun_cover(float3 normal, const struct kiln_sun_frame *sun);
 
 #endif

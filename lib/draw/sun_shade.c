@@ -11,6 +11,12 @@
 
 enum { GRAIN = 8 * KILN_LANES }; /* slots that a worker takes at a time */
 
+/* A box of any direction, in its own frame. */
+struct turned_box {
+    struct kiln_sun_box box; /* about the origin */
+    struct kiln_sun_frame sun;
+};
+
 struct kiln_sun_shade {
     const struct kiln_scene *scene;
     struct kiln_mesh *const *meshes;
@@ -19,7 +25,8 @@ struct kiln_sun_shade {
     struct kiln_draw_shapes shapes;
     uint32_t box_count;
     struct kiln_sun_box boxes[KILN_MAX_OBJECTS];
-    float *visible; /* by slot, whole rows of KILN_SUN_SHADE_ROW */
+    struct turned_box turned[KILN_MAX_OBJECTS]; /* as many as shapes has */
+    float *visible;                             /* by slot, whole rows of KILN_SUN_SHADE_ROW */
 };
 
 static bool is_shaded(const struct kiln_scene *scene, uint32_t system)
@@ -76,6 +83,21 @@ static float3 xyz(float4 v)
     return (float3){v.x, v.y, v.z};
 }
 
+static float3 into_box(const struct kiln_draw_turned_box *box, float3 v)
+{
+    return (float3){float3_dot(v, xyz(box->rows[0])), float3_dot(v, xyz(box->rows[1])),
+                    float3_dot(v, xyz(box->rows[2]))};
+}
+
+static struct turned_box turned_box_at(const struct kiln_draw_turned_box *box,
+                                       const struct kiln_sun_frame *sun)
+{
+    const struct kiln_sun_frame there = {into_box(box, sun->right), into_box(box, sun->up),
+                                         into_box(box, sun->towards), sun->spread};
+    const float3 middle = {0.0f, 0.0f, 0.0f};
+    return (struct turned_box){kiln_sun_box_at(middle, xyz(box->half_size), &there), there};
+}
+
 static void place_objects(struct kiln_sun_shade *shade, float time_s)
 {
     const struct kiln_scene *scene = shade->scene;
@@ -84,13 +106,15 @@ static void place_objects(struct kiln_sun_shade *shade, float time_s)
     shade->box_count = 0;
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
         const struct kiln_object *object = &scene->backdrop.objects[i];
-        if (object->kind != KILN_OBJECT_BOX)
+        if (object->kind != KILN_OBJECT_BOX || kiln_object_is_turned_box(object))
             continue;
         float3 size = kiln_scene_value3(scene, &object->size, time_s);
         const float3 half = {0.5f * size.x, 0.5f * size.y, 0.5f * size.z};
         shade->boxes[shade->box_count++] =
             kiln_sun_box_at(kiln_scene_value3(scene, &object->center, time_s), half, &shade->sun);
     }
+    for (uint32_t i = 0; i < shade->shapes.more.y; i++)
+        shade->turned[i] = turned_box_at(&shade->shapes.turned[i], &shade->sun);
     for (uint32_t i = 0; i < shade->shapes.counts.z; i++)
         kiln_sun_mesh_update(&shade->maps[i], shade->meshes[i], &shade->shapes.meshes[i],
                              &shade->sun);
@@ -104,7 +128,25 @@ struct seen_system {
     float *visible; /* from its slots */
 };
 
-/* What is seen of it past all objects but boxes. */
+static float look_past_turned(const struct kiln_sun_shade *shade, struct kiln_ball ball)
+{
+    const struct kiln_draw_shapes *shapes = &shade->shapes;
+    float visible = 1.0f;
+    for (uint32_t i = 0; i < shapes->more.x; i++)
+        visible *= 1.0f - kiln_capsule_sun_cover(xyz(shapes->capsules[i]), shapes->capsules[i].w,
+                                                 xyz(shapes->capsule_axis[i]),
+                                                 shapes->capsule_axis[i].w, ball, &shade->sun);
+    for (uint32_t i = 0; i < shapes->more.y; i++) {
+        const struct turned_box *turned = &shade->turned[i];
+        const struct kiln_draw_turned_box *box = &shapes->turned[i];
+        const struct kiln_ball there = {into_box(box, float3_sub(ball.center, xyz(box->center))),
+                                        ball.radius};
+        visible *= 1.0f - kiln_sun_box_cover(&turned->box, there, &turned->sun);
+    }
+    return visible;
+}
+
+/* What is seen of it past all objects but boxes along the axes. */
 static float look_past_others(const struct kiln_sun_shade *shade, struct kiln_ball ball)
 {
     const struct kiln_draw_shapes *shapes = &shade->shapes;
@@ -119,14 +161,15 @@ static float look_past_others(const struct kiln_sun_shade *shade, struct kiln_ba
                                                   shapes->cylinder_axis[i].w, ball, sun);
     for (uint32_t i = 0; i < shapes->counts.z; i++)
         visible *= 1.0f - kiln_sun_mesh_cover(&shade->maps[i], ball);
-    return visible;
+    return visible * look_past_turned(shade, ball);
 }
 
-/* Whether anything but boxes may hide the sun. */
+/* Whether anything but those may hide the sun. */
 static bool has_others(const struct kiln_sun_shade *shade)
 {
     const struct kiln_draw_shapes *shapes = &shade->shapes;
-    return shapes->counts.x > 0 || shapes->counts.y > 0 || shapes->counts.z > 0;
+    const uint4 counts = shapes->counts, more = shapes->more;
+    return counts.x > 0 || counts.y > 0 || counts.z > 0 || more.x > 0 || more.y > 0;
 }
 
 /* As with the backdrop's surfaces, what two objects let through is multiplied. */

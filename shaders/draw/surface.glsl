@@ -9,7 +9,10 @@ const float PI = 3.14159265;
 /* The sky's surface is -1, the floor's 0; a face of a box has a number of its own, below 1000. */
 const int SURFACE_SPHERES = 1000;
 const int SURFACE_CYLINDERS = 1100; /* side and ends */
-const int SURFACE_MESHES = 1200;    /* 4 of each */
+const int SURFACE_TURNED = 1200;    /* as boxes */
+const int SURFACE_CAPSULES = 2200;
+const int SURFACE_PLANES = 2250;
+const int SURFACE_MESHES = 2300; /* 4 of each; nothing is above these */
 struct hit {
     float t;
     int surface;
@@ -51,6 +54,9 @@ vec2 box_interval(int i, vec3 origin, vec3 inverse)
 #endif
 #ifdef ROUND
 #include "draw/round.glsl"
+#endif
+#ifdef TURNED
+#include "draw/turned.glsl"
 #endif
 #ifdef MESHES
 #include "draw/mesh_trace.glsl"
@@ -101,6 +107,9 @@ float sun_visibility(vec3 point, vec3 normal)
 #ifdef ROUND
     visible *= round_sun_visibility(origin);
 #endif
+#ifdef TURNED
+    visible *= turned_sun_visibility(origin);
+#endif
 #ifdef MESHES
     visible *= mesh_sun_visibility(origin, normal);
 #endif
@@ -129,6 +138,9 @@ float sky_visibility(vec3 point, vec3 normal)
     }
 #ifdef ROUND
     visible *= round_sky_visibility(point, normal);
+#endif
+#ifdef TURNED
+    visible *= turned_sky_visibility(point, normal);
 #endif
 #ifdef MESHES
     visible *= mesh_sky_visibility(point, normal);

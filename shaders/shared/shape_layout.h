@@ -41,8 +41,17 @@ struct kiln_draw_mesh {
     float4 half_size; /* m */
 };
 
+/* A box that does not lie along the axes. */
+struct kiln_draw_turned_box {
+    float4 center;
+    float4 rows[3]; /* the world's directions in its frame */
+    float4 half_size;
+    float4 color;
+};
+
 struct kiln_draw_shapes {
     uint4 counts;           /* spheres, cylinders, meshes; bins of particles along an edge, or 0 */
+    uint4 more;             /* capsules, turned boxes, planes; unused */
     float4 sun_right;       /* unit, across the sun's direction; w: tangent of the sun's radius */
     float4 sun_up;          /* the same */
     float4 world_to_bin[2]; /* rows: world positions to bins of particles */
@@ -55,6 +64,12 @@ struct kiln_draw_shapes {
     float4 cylinder_axis[KILN_MAX_OBJECTS]; /* unit; w: half of the height */
     float4 cylinder_color[KILN_MAX_OBJECTS];
     S(kiln_draw_mesh) meshes[KILN_MAX_MESHES];
+    float4 capsules[KILN_MAX_OBJECTS];     /* centre; w: radius */
+    float4 capsule_axis[KILN_MAX_OBJECTS]; /* unit; w: half of the height without the ends */
+    float4 capsule_color[KILN_MAX_OBJECTS];
+    float4 planes[KILN_MAX_OBJECTS]; /* normal, unit; w: along it, from the origin */
+    float4 plane_color[KILN_MAX_OBJECTS];
+    S(kiln_draw_turned_box) turned[KILN_MAX_OBJECTS];
 };
 
 #endif

@@ -249,6 +249,15 @@ static void check_agreement(struct moment *m, const char *name)
     "    - cylinder: {center: [1.2, 0.5, -0.4], radius: 0.3 m, height: 1 m, color: 0.7}\n"         \
     "    - cylinder: {center: [-0.6, 0.5, -0.8], axis: [1, 0.4, 0.2], radius: 0.2 m,\n"            \
     "                 height: 1.4 m, color: 0.6}\n"
+#define TURNED                                                                                     \
+    "  objects:\n"                                                                                 \
+    "    - box: {center: [-1.2, 0.6, 0.3], size: [0.5, 0.8, 0.4], color: [0.9, 0.3, 0.2],\n"       \
+    "            rotation: [20 deg, 50 deg, -35 deg]}\n"                                           \
+    "    - box: {center: [1.5, 0.4, 0.4], size: [0.9, 0.1, 0.5], rotation: [0, 0, 25 deg]}\n"      \
+    "    - capsule: {center: [0.3, 0.6, 0.2], axis: [0.4, 2, 0.3], radius: 0.25 m, height: 0.6 "   \
+    "m}\n"                                                                                         \
+    "    - capsule: {center: [-0.4, 0.3, -0.9], axis: [1, 0, 0.2], radius: 0.2 m, color: 0.6}\n"   \
+    "    - plane: {center: [0, 0, -3], normal: [0.2, 1, 2], color: [0.3, 0.5, 0.2]}\n"
 #define MESHES                                                                                     \
     "  objects:\n"                                                                                 \
     "    - mesh: {file: meshes/pot.obj, position: [-0.6, 0.2, 0.5], scale: 1.5,\n"                 \
@@ -290,6 +299,10 @@ static const struct fixture {
     {"wet paving",
      HEAD CAMERA "backdrop:\n  floor: {gloss: 2, roughness: 0.1, image: textures/paving.jpg}\n"
                  "  sky: {image: textures/soil.jpg}\n" SHAPES LAMPS},
+    {"turned", HEAD CAMERA "backdrop:\n  floor: {checker: 0.4 m}\n" TURNED LAMPS},
+    {"turned, soft sun, particles", HEAD CAMERA
+     "backdrop:\n  floor: {gloss: 1}\n  sun: {direction: [-1, 1.2, 0.7], size: 8 deg}\n" TURNED
+         SYSTEMS},
     {"meshes", HEAD CAMERA "backdrop:\n" MESHES LAMPS},
     {"meshes, soft sun",
      HEAD CAMERA "backdrop:\n  sun: {direction: [-1, 1, 1.5], size: 12 deg}\n" MESHES},

@@ -16,7 +16,7 @@
 
 enum { RAYS = 400, BALLS = 300 };
 
-enum kind { BOX, SPHERE, CYLINDER };
+enum kind { BOX, SPHERE, CYLINDER, CAPSULE };
 
 static const float3 CENTER = {0.3f, 1.0f, -0.2f}, HALF = {0.8f, 0.4f, 0.6f};
 static const float RADIUS = 0.7f, HALF_HEIGHT = 0.9f;
@@ -47,7 +47,10 @@ static bool hides(enum kind kind, float3 from, float3 direction)
         bool in_sphere = float3_dot(at, at) < RADIUS * RADIUS;
         bool in_cylinder =
             fabsf(height) < HALF_HEIGHT && float3_dot(aside, aside) < RADIUS * RADIUS;
-        if (kind == BOX ? in_box : kind == SPHERE ? in_sphere : in_cylinder)
+        float beyond = height - fmaxf(fminf(height, HALF_HEIGHT), -HALF_HEIGHT);
+        bool in_capsule = float3_dot(aside, aside) + beyond * beyond < RADIUS * RADIUS;
+        const bool inside[] = {in_box, in_sphere, in_cylinder, in_capsule};
+        if (inside[kind])
             return true;
     }
     return false;
@@ -65,6 +68,8 @@ static float cover(enum kind kind, struct kiln_ball ball, const struct kiln_sun_
         return box_cover(ball, sun);
     if (kind == SPHERE)
         return kiln_sphere_sun_cover(CENTER, RADIUS, ball, sun);
+    if (kind == CAPSULE)
+        return kiln_capsule_sun_cover(CENTER, RADIUS, axis(), HALF_HEIGHT, ball, sun);
     return kiln_cylinder_sun_cover(CENTER, RADIUS, axis(), HALF_HEIGHT, ball, sun);
 }
 
@@ -113,14 +118,14 @@ static void check(enum kind kind, float radius, float spread, float tolerance)
 static void points_see_a_part_of_the_sun(void **state)
 {
     (void)state;
-    for (enum kind kind = BOX; kind <= CYLINDER; kind++)
+    for (enum kind kind = BOX; kind <= CAPSULE; kind++)
         check(kind, 0.0f, 0.1f, 0.16f);
 }
 
 static void balls_are_shaded_in_part(void **state)
 {
     (void)state;
-    for (enum kind kind = BOX; kind <= CYLINDER; kind++)
+    for (enum kind kind = BOX; kind <= CAPSULE; kind++)
         check(kind, 0.3f, 0.0f, 0.16f);
 }
 
@@ -145,7 +150,7 @@ static void shade_ends_softly(void **state)
 {
     (void)state;
     const struct kiln_sun_frame sun = sun_at((float3){-0.5f, 0.8f, 0.4f}, 0.01f);
-    for (enum kind kind = BOX; kind <= CYLINDER; kind++) {
+    for (enum kind kind = BOX; kind <= CAPSULE; kind++) {
         float before = 1.0f;
         for (int i = 0; i <= 300; i++) {
             float3 at = float3_add_scaled(CENTER, sun.towards, -1.5f + 0.01f * (float)i);
@@ -156,6 +161,17 @@ static void shade_ends_softly(void **state)
         }
         assert_true(before < 1e-3f);
     }
+}
+
+/* A sun that sets behind a plane: by halves when its middle is at the horizon. */
+static void a_plane_hides_all_or_nothing(void **state)
+{
+    (void)state;
+    const struct kiln_sun_frame sun = sun_at((float3){0.0f, 1.0f, 0.0f}, 0.1f);
+    assert_true(kiln_plane_sun_cover((float3){0.0f, 1.0f, 0.0f}, &sun) == 0.0f);
+    assert_true(kiln_plane_sun_cover((float3){0.98f, 0.2f, 0.0f}, &sun) == 0.0f);
+    assert_true(fabsf(kiln_plane_sun_cover((float3){1.0f, 0.0f, 0.0f}, &sun) - 0.5f) < 1e-6f);
+    assert_true(kiln_plane_sun_cover((float3){0.98f, -0.2f, 0.0f}, &sun) == 1.0f);
 }
 
 /* A box, as a mesh turned by a quarter about y. */
@@ -208,6 +224,7 @@ int main(void)
         cmocka_unit_test(balls_are_shaded_in_part),
         cmocka_unit_test(a_cylinder_is_round_from_above),
         cmocka_unit_test(shade_ends_softly),
+        cmocka_unit_test(a_plane_hides_all_or_nothing),
         cmocka_unit_test(a_mesh_shades_as_the_box_that_it_is),
     };
     return cmocka_run_group_tests_name("sun_cover", tests, NULL, NULL);
