@@ -31,7 +31,7 @@ struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
         features.turned |= kind == KILN_OBJECT_CAPSULE || kiln_object_is_turned_box(object) ||
                            (kind == KILN_OBJECT_PLANE && object->visible);
         features.round |= kind == KILN_OBJECT_SPHERE || kind == KILN_OBJECT_CYLINDER;
-        features.meshes |= kind == KILN_OBJECT_MESH;
+        features.meshes |= kiln_object_is_mesh(&backdrop->objects[i]);
     }
     for (uint32_t i = 0; i < scene->system_count; i++)
         features.spheres |=
@@ -96,27 +96,28 @@ static void fill_gloss(const struct kiln_scene *scene, float time_s,
     shapes->floor_map.w = height > 0.0f ? time_s : 0.0f;
 }
 
-/* Rows of the rotation about x, then y, then z. */
-static void rotation_rows(float3 angles, float rows[3][3])
+/* Where a mesh's origin lies; a terrain's is its first point. */
+static float3 mesh_origin(const struct kiln_scene *scene, const struct kiln_object *object,
+                          float time_s)
 {
-    const struct exact_angle x = exact_sincos(angles.x), y = exact_sincos(angles.y);
-    const struct exact_angle z = exact_sincos(angles.z);
-    float sx = x.sine, cx = x.cosine, sy = y.sine, cy = y.cosine, sz = z.sine, cz = z.cosine;
-    const float r[3][3] = {{cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx},
-                           {sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx},
-                           {-sy, cy * sx, cy * cx}};
-    for (int i = 0; i < 9; i++)
-        rows[i / 3][i % 3] = r[i / 3][i % 3];
+    float3 at = kiln_scene_value3(scene, &object->center, time_s);
+    if (object->kind == KILN_OBJECT_TERRAIN) {
+        at.x -= 0.5f * object->size.x.constant;
+        at.z -= 0.5f * object->size.z.constant;
+    }
+    return at;
 }
 
 static void fill_mesh(const struct kiln_scene *scene, const struct kiln_object *object,
                       const struct kiln_mesh *mesh, float time_s, struct kiln_draw_mesh *out)
 {
-    float3 at = kiln_scene_value3(scene, &object->center, time_s);
+    float3 at = mesh_origin(scene, object, time_s);
     const float position[3] = {at.x, at.y, at.z};
-    float scale = kiln_scene_value(scene, &object->scale, time_s);
+    float scale = object->kind == KILN_OBJECT_TERRAIN
+                      ? 1.0f
+                      : kiln_scene_value(scene, &object->scale, time_s);
     float rows[3][3], center[3], half_size[3], radius2 = 0.0f;
-    rotation_rows(kiln_scene_value3(scene, &object->rotation, time_s), rows);
+    kiln_scene_rotation(kiln_scene_value3(scene, &object->rotation, time_s), rows);
     for (int i = 0; i < 3; i++) {
         center[i] = position[i];
         half_size[i] = 0.0f;
@@ -138,7 +139,7 @@ static void fill_turned_box(const struct kiln_scene *scene, const struct kiln_ob
                             float time_s, struct kiln_draw_turned_box *out)
 {
     float rows[3][3];
-    rotation_rows(kiln_scene_value3(scene, &object->rotation, time_s), rows);
+    kiln_scene_rotation(kiln_scene_value3(scene, &object->rotation, time_s), rows);
     for (int i = 0; i < 3; i++)
         out->rows[i] = (float4){rows[0][i], rows[1][i], rows[2][i], 0.0f};
     float3 size = kiln_scene_value3(scene, &object->size, time_s);
@@ -195,7 +196,7 @@ void kiln_shapes_fill(const struct kiln_scene *scene, struct kiln_mesh *const *m
             shapes->cylinder_axis[k] =
                 with_w(axis, 0.5f * kiln_scene_value(scene, &object->height, time_s));
             shapes->cylinder_color[k] = color;
-        } else if (object->kind == KILN_OBJECT_MESH) {
+        } else if (kiln_object_is_mesh(object)) {
             uint k = shapes->counts.z++;
             fill_mesh(scene, object, meshes[k], time_s, &shapes->meshes[k]);
         } else {

@@ -50,7 +50,7 @@ struct kiln_sun_shade *kiln_sun_shade_create(const struct kiln_scene *scene,
 {
     size_t meshes = 0;
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++)
-        meshes += scene->backdrop.objects[i].kind == KILN_OBJECT_MESH;
+        meshes += kiln_object_is_mesh(&scene->backdrop.objects[i]);
     struct kiln_sun_shade *shade = calloc(1, sizeof *shade);
     if (shade)
         shade->maps = calloc(meshes ? meshes : 1, sizeof *shade->maps);

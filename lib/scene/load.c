@@ -49,6 +49,9 @@ static bool add_backdrop_hashes(const struct kiln_scene *scene, struct kiln_text
         return false;
     for (uint32_t i = 0; i < backdrop->object_count; i++) {
         const struct kiln_object *object = &backdrop->objects[i];
+        if (object->kind == KILN_OBJECT_TERRAIN && object->file &&
+            !add_file_hash(text, object->file, error))
+            return false;
         if (object->kind != KILN_OBJECT_MESH)
             continue;
         struct kiln_mesh *mesh =

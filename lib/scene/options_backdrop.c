@@ -1,15 +1,18 @@
 /* Sky, floor, sun, objects and lights. */
+#include "asset/field.h"
 #include "scene/option_rows.h"
 
 #define AT(field) offsetof(struct kiln_object, field)
 
 /* Factors on a system's. */
-#define COLLIDING                                                                                  \
-    BOOLEAN("collide", collide, "true", "Particles of systems that collide bounce off it."),       \
-        VALUE("restitution", restitution, KILN_FRACTION, 0, 1, TIME, "1",                          \
-              "Factor on the restitution of what bounces off it."),                                \
+#define RUBBING                                                                                    \
+    VALUE("restitution", restitution, KILN_FRACTION, 0, 1, TIME, "1",                              \
+          "Factor on the restitution of what bounces off it."),                                    \
         VALUE("friction", friction, KILN_PLAIN, 0, 100, TIME, "1",                                 \
               "Factor on the friction of what touches it.")
+
+#define COLLIDING                                                                                  \
+    BOOLEAN("collide", collide, "true", "Particles of systems that collide bounce off it."), RUBBING
 
 #define REFLECTANCE                                                                                \
     COLOR("color", color, 1, TIME, "[0.35, 0.34, 0.33]", "Part of the light that it reflects.")
@@ -75,7 +78,36 @@ static const struct kiln_option mesh[] = {
            "About x, then about y, then about z."),
     VALUE("scale", scale, KILN_PLAIN, 0.000001, FAR, TIME, "1", "Metres for a unit of the file."),
     REFLECTANCE,
-    BOOLEAN("collide", collide, "false", "Must be false: particles do not bounce off meshes yet."),
+    BOOLEAN("collide", collide, "false",
+            "Particles of systems that collide bounce off it; it must be closed."),
+    RUBBING,
+    INTEGER("cells", cells, KILN_MIN_FIELD_CELLS, KILN_MAX_FIELD_CELLS, "48",
+            "Along its longest edge, of the lattice of distances that particles collide with "
+            "(UberFlow 2004, 4.6); what is thinner than a cell they may miss."),
+    END,
+};
+
+static const struct kiln_option terrain[] = {
+    {ROW("image", picture, AT(file), "none",
+         "Heights by how bright a picture is, its top towards -z; none: hills out of noise.")},
+    VECTOR("position", center, KILN_METRES, -FAR, FAR, 0, "[0, 0, 0]",
+           "The middle, and where black or the deepest valley lies."),
+    VECTOR("size", size, KILN_METRES, 0.001, FAR, 0, "[20, 2, 20]",
+           "Width, height from black to white or from valley to peak, and depth."),
+    {ROW("samples", pair, AT(samples), "[129, 129]",
+         "Points along x and z, of which every four carry two triangles."),
+     LIMITS(KILN_PLAIN, 2, KILN_MAX_TERRAIN_EDGE)},
+    VALUE("hills", hills, KILN_METRES, 0.001, FAR, 0, "8 m", "Size of the largest hills."),
+    INTEGER("octaves", octaves, 1, KILN_MAX_TERRAIN_OCTAVES, "6", "Layers of ever smaller hills."),
+    VALUE("roughness", roughness, KILN_PLAIN, 0, 1, 0, "0.45",
+          "Height of a layer, in parts of the one before."),
+    VALUE("ridges", ridges, KILN_PLAIN, 0, 1, 0, "0", "From round hills to crests above valleys."),
+    INTEGER("seed", seed, 0, 1000000, "1", "Another landscape."),
+    REFLECTANCE,
+    BOOLEAN("collide", collide, "true",
+            "Particles of systems that collide bounce off it, and off the sides of all that is "
+            "below."),
+    RUBBING,
     END,
 };
 
@@ -98,7 +130,11 @@ static const struct kiln_option_kind object_kinds[] = {
     {.name = "mesh",
      .value = KILN_OBJECT_MESH,
      .members = mesh,
-     .help = "A mesh from a file; a scene has at most 8."},
+     .help = "A mesh from a file; a scene has at most 8, terrain among them."},
+    {.name = "terrain",
+     .value = KILN_OBJECT_TERRAIN,
+     .members = terrain,
+     .help = "A landscape, from a picture or of noise (UberFlow 2004, 4.6)."},
     {.name = NULL},
 };
 

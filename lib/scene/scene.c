@@ -64,6 +64,39 @@ float kiln_scene_value_max(const struct kiln_scene *scene, const struct kiln_val
     return most;
 }
 
+void kiln_scene_rotation(float3 angles, float rows[3][3])
+{
+    const struct exact_angle x = exact_sincos(angles.x), y = exact_sincos(angles.y);
+    const struct exact_angle z = exact_sincos(angles.z);
+    float sx = x.sine, cx = x.cosine, sy = y.sine, cy = y.cosine, sz = z.sine, cz = z.cosine;
+    const float r[3][3] = {{cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx},
+                           {sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx},
+                           {-sy, cy * sx, cy * cx}};
+    for (int i = 0; i < 9; i++)
+        rows[i / 3][i % 3] = r[i / 3][i % 3];
+}
+
+bool kiln_object_is_mesh(const struct kiln_object *object)
+{
+    return object->kind == KILN_OBJECT_MESH || object->kind == KILN_OBJECT_TERRAIN;
+}
+
+struct kiln_terrain_params kiln_scene_terrain(const struct kiln_object *terrain)
+{
+    const struct kiln_value3 *at = &terrain->center, *size = &terrain->size;
+    return (struct kiln_terrain_params){
+        .image = terrain->file,
+        .samples = {terrain->samples[0], terrain->samples[1]},
+        .position = {at->x.constant, at->y.constant, at->z.constant},
+        .size = {size->x.constant, size->y.constant, size->z.constant},
+        .hills = terrain->hills.constant,
+        .roughness = terrain->roughness.constant,
+        .ridges = terrain->ridges.constant,
+        .octaves = terrain->octaves,
+        .seed = terrain->seed,
+    };
+}
+
 struct kiln_scene_info kiln_scene_info(const struct kiln_scene *scene)
 {
     struct kiln_scene_info info = {

@@ -7,6 +7,7 @@
 #ifndef KILN_SCENE_SCENE_H
 #define KILN_SCENE_SCENE_H
 
+#include "asset/terrain.h"
 #include "base/arena.h"
 #include "kiln.h"
 #include "particles/births.h"
@@ -222,20 +223,26 @@ enum kiln_object_kind {
     KILN_OBJECT_MESH,
     KILN_OBJECT_CAPSULE, /* with round ends */
     KILN_OBJECT_PLANE,   /* all that is below it */
+    KILN_OBJECT_TERRAIN, /* drawn as a mesh */
 };
 
 /* Values have the clock constant or time. */
 struct kiln_object {
     enum kiln_object_kind kind;
-    struct kiln_value3 center;   /* m; of a mesh, where the origin of its file lies */
+    struct kiln_value3 center;   /* m; of a mesh, where the origin of its file lies; of terrain, the
+                                  * middle and the lowest height: constant */
     struct kiln_value3 color;    /* albedo */
-    struct kiln_value3 size;     /* m: box, full edges */
+    struct kiln_value3 size;     /* m: box, full edges; terrain, constant */
     struct kiln_value radius;    /* m: sphere, cylinder, capsule */
     struct kiln_value height;    /* m: cylinder, capsule without its ends, along the axis */
     struct kiln_value3 axis;     /* cylinder, capsule, normal of a plane: not zero, of any length */
-    const char *file;            /* mesh: an absolute path */
+    const char *file;            /* mesh: an absolute path; terrain: that of an image, or NULL */
     struct kiln_value3 rotation; /* rad: box, mesh: about x, then y, then z */
     struct kiln_value scale;     /* mesh: metres for a unit of the file */
+    uint32_t samples[2];         /* terrain (asset/terrain.h), and what follows; constant */
+    struct kiln_value hills, roughness, ridges;
+    uint32_t octaves, seed;
+    uint32_t cells; /* mesh: of its distance field (asset/field.h) */
     bool collide;
     bool visible;                  /* plane: drawn */
     struct kiln_value restitution; /* factors on those of the particles that bounce off it */
@@ -373,6 +380,15 @@ bool kiln_object_is_turned_box(const struct kiln_object *object);
 
 /* The largest that the value ever is: it is attained at a key. */
 float kiln_scene_value_max(const struct kiln_scene *scene, const struct kiln_value *value);
+
+/* Rows of the rotation about x, then y, then z, by angles in radians. */
+void kiln_scene_rotation(float3 angles, float rows[3][3]);
+
+/* Is the object drawn as a mesh? */
+bool kiln_object_is_mesh(const struct kiln_object *object);
+
+/* What a terrain is made from; the image's path stays the scene's. */
+struct kiln_terrain_params kiln_scene_terrain(const struct kiln_object *terrain);
 
 /* What is needed to recompute a particle of a system from its record (shared/derived.h). */
 struct kiln_derived_params kiln_scene_derived(const struct kiln_scene *scene, uint32_t system);

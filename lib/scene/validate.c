@@ -2,6 +2,7 @@
 #include "scene/validate.h"
 
 #include "asset/cells_in.h"
+#include "asset/closed.h"
 #include "scene/asset_path.h"
 #include "scene/family.h"
 
@@ -298,6 +299,24 @@ static const char *name_of_axis(const struct kiln_object *object)
     return object->kind == KILN_OBJECT_PLANE ? "plane.normal" : NULL;
 }
 
+/* Of a mesh that particles are to bounce off. */
+static bool check_closed(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
+                         const char *file)
+{
+    const struct kiln_scene *scene = reader->scene;
+    struct kiln_error error = {0};
+    struct kiln_mesh *mesh =
+        kiln_mesh_load(file, scene->asset_root, scene->stop, scene->user, &error);
+    const bool closed = mesh && kiln_mesh_check_closed(mesh, kiln_asset_name(scene, file), &error);
+    kiln_mesh_destroy(&mesh);
+    if (closed)
+        return true;
+    kiln_validate_fail(reader, root, path, "%s", error.message);
+    if (error.code != KILN_INVALID_INPUT)
+        reader->error->code = error.code;
+    return false;
+}
+
 static bool check_objects(struct kiln_reader *reader, const struct kiln_node *root)
 {
     const struct kiln_scene *scene = reader->scene;
@@ -310,12 +329,12 @@ static bool check_objects(struct kiln_reader *reader, const struct kiln_node *ro
         snprintf(path, sizeof path, "backdrop.objects.%u.%s", i, name ? name : "");
         if (name && !at_all_keys(scene, &axis, 1, is_not_zero))
             return kiln_validate_fail(reader, root, path, "must not be [0, 0, 0]");
-        if (object->kind != KILN_OBJECT_MESH)
+        if (!kiln_object_is_mesh(object))
             continue;
         snprintf(path, sizeof path, "backdrop.objects.%u.mesh.collide", i);
-        if (object->collide)
-            return kiln_validate_fail(reader, root, path,
-                                      "meshes do not collide yet; it must be false");
+        if (object->collide && object->kind == KILN_OBJECT_MESH &&
+            !check_closed(reader, root, path, object->file))
+            return false;
         if (++meshes > KILN_MAX_MESHES)
             return kiln_validate_fail(reader, root, "backdrop.objects", "more than %d meshes",
                                       KILN_MAX_MESHES);

@@ -135,7 +135,8 @@ static bool has_round_colliders(const struct kiln_scene *scene)
     bool any = false;
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
         const struct kiln_object *object = &scene->backdrop.objects[i];
-        any = any || (object->collide && object->kind != KILN_OBJECT_BOX);
+        any = any || (object->collide &&
+                      (object->kind == KILN_OBJECT_SPHERE || object->kind == KILN_OBJECT_CYLINDER));
     }
     return any;
 }
@@ -158,23 +159,45 @@ static bool has_rubbing(const struct kiln_sim_params *params)
     return any;
 }
 
+static bool has_field_colliders(const struct kiln_scene *scene)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++)
+        any = any || kiln_sim_grids_needs(&scene->backdrop.objects[i]);
+    return any;
+}
+
+/* What a scene needs of the kernels. */
+struct defines {
+    char text[512];
+};
+
+static void add_define(struct defines *defines, const char *name, bool wanted)
+{
+    const size_t length = strlen(defines->text);
+    if (wanted)
+        snprintf(defines->text + length, sizeof defines->text - length, "#define %s 1\n", name);
+}
+
 bool kiln_sim_programs_init(struct kiln_sim_programs *programs, struct kiln_device *device,
                             const struct kiln_scene *scene, const struct kiln_sim_params *params,
                             struct kiln_program_params files, struct kiln_error *error)
 {
     *programs = (struct kiln_sim_programs){.alone = 0};
-    char defines[256];
+    struct defines defines;
     const bool grids = params->grids->count > 0, turned = has_turned_colliders(scene);
-    int length = snprintf(
-        defines, sizeof defines, "#define SIM_GROUP_SIZE %u\n%s%s%s%s", group_size(device),
-        grids || turned || has_round_colliders(scene) ? "#define COLLIDE_ROUND 1\n" : "",
-        turned ? "#define COLLIDE_TURNED 1\n" : "",
-        has_rubbing(params) ? "#define COLLIDE_RUB 1\n" : "", grids ? "#define GRIDS 1\n" : "");
-    files.defines = defines;
+    const bool fields = has_field_colliders(scene);
+    snprintf(defines.text, sizeof defines.text, "#define SIM_GROUP_SIZE %u\n", group_size(device));
+    add_define(&defines, "COLLIDE_ROUND", grids || turned || has_round_colliders(scene));
+    add_define(&defines, "COLLIDE_TURNED", turned);
+    add_define(&defines, "COLLIDE_RUB", has_rubbing(params));
+    add_define(&defines, "GRIDS", grids);
+    add_define(&defines, "COLLIDE_FIELD", fields);
+    files.defines = defines.text;
     programs->alone = kiln_program_create(device, &files, error);
     if (!programs->alone || !has_families(params))
         return programs->alone != 0;
-    snprintf(defines + length, sizeof defines - (size_t)length, "#define FAMILY 1\n");
+    add_define(&defines, "FAMILY", true);
     programs->family = kiln_program_create(device, &files, error);
     return programs->family != 0;
 }

@@ -2,16 +2,29 @@
 
 #include <string.h>
 
+#include "asset/field.h"
 #include "asset/grid_in.h"
 #include "base/error.h"
 #include "shared/exact.h"
 
+/* What the grids are made of, in their order: wind, then objects, of each one of the two. */
+struct sources {
+    struct kiln_grid_file *winds[KILN_MAX_WINDS];
+    struct kiln_terrain *terrains[KILN_MAX_MESHES];
+    struct kiln_field *fields[KILN_MAX_MESHES];
+};
+
 uint32_t kiln_sim_grids_find(const struct kiln_sim_grids *grids, const char *file)
 {
     uint32_t i = 0;
-    while (i < grids->count && strcmp(grids->files[i], file) != 0)
+    while (i < grids->wind_count && strcmp(grids->files[i], file) != 0)
         i++;
     return i;
+}
+
+bool kiln_sim_grids_needs(const struct kiln_object *object)
+{
+    return object->collide && kiln_object_is_mesh(object);
 }
 
 static bool list_files(struct kiln_sim_grids *grids, const struct kiln_scene *scene,
@@ -22,15 +35,16 @@ static bool list_files(struct kiln_sim_grids *grids, const struct kiln_scene *sc
         for (uint32_t k = 0; k < system->force_count; k++) {
             const char *file = system->forces[k].file;
             if (system->forces[k].kind != KILN_FORCE_FIELD ||
-                kiln_sim_grids_find(grids, file) < grids->count)
+                kiln_sim_grids_find(grids, file) < grids->wind_count)
                 continue;
-            if (grids->count == KILN_MAX_GRIDS)
+            if (grids->wind_count == KILN_MAX_WINDS)
                 return kiln_error_set(error, KILN_INVALID_INPUT,
                                       "%s: systems.%s.forces.%u: more than %d files of wind",
-                                      scene->name, system->name, k, KILN_MAX_GRIDS);
-            grids->files[grids->count++] = file;
+                                      scene->name, system->name, k, KILN_MAX_WINDS);
+            grids->files[grids->wind_count++] = file;
         }
     }
+    grids->count = grids->wind_count;
     return true;
 }
 
@@ -39,7 +53,69 @@ static float4 canon4(const float v[3])
     return FLOAT4(exact_canon(v[0]), exact_canon(v[1]), exact_canon(v[2]), 0.0f);
 }
 
-static struct kiln_grid place_grid(const struct kiln_grid_file *file, size_t first)
+/* ---- loading --------------------------------------------------------------------------------- */
+
+static struct kiln_field *load_field(const struct kiln_scene *scene,
+                                     const struct kiln_object *object, struct kiln_error *error)
+{
+    struct kiln_mesh *mesh =
+        kiln_mesh_load(object->file, scene->asset_root, scene->stop, scene->user, error);
+    if (!mesh)
+        return NULL;
+    char cache[KILN_PATH_SIZE];
+    const bool cached = kiln_field_cache(cache);
+    struct kiln_field *field =
+        kiln_field_create(mesh, object->file, object->cells, cached ? cache : NULL, error);
+    kiln_mesh_destroy(&mesh);
+    return field;
+}
+
+static bool load_object(const struct kiln_scene *scene, const struct kiln_object *object,
+                        struct kiln_terrain **terrain, struct kiln_field **field,
+                        struct kiln_error *error)
+{
+    if (object->kind == KILN_OBJECT_MESH) {
+        *field = load_field(scene, object, error);
+        return *field != NULL;
+    }
+    const struct kiln_terrain_params params = kiln_scene_terrain(object);
+    *terrain = kiln_terrain_create(&params, error);
+    return *terrain != NULL;
+}
+
+static bool load(struct kiln_sim_grids *grids, const struct kiln_scene *scene,
+                 struct sources *sources, struct kiln_error *error)
+{
+    for (uint32_t i = 0; i < grids->wind_count; i++) {
+        sources->winds[i] = kiln_grid_load(grids->files[i], error);
+        if (!sources->winds[i])
+            return false;
+    }
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        if (!kiln_sim_grids_needs(&scene->backdrop.objects[i]))
+            continue;
+        const uint32_t k = grids->count - grids->wind_count;
+        if (!load_object(scene, &scene->backdrop.objects[i], &sources->terrains[k],
+                         &sources->fields[k], error))
+            return false;
+        grids->of_object[i] = grids->count++;
+    }
+    return true;
+}
+
+static void free_sources(struct sources *sources)
+{
+    for (uint32_t i = 0; i < KILN_MAX_WINDS; i++)
+        kiln_grid_destroy(&sources->winds[i]);
+    for (uint32_t i = 0; i < KILN_MAX_MESHES; i++) {
+        kiln_terrain_destroy(&sources->terrains[i]);
+        kiln_field_destroy(&sources->fields[i]);
+    }
+}
+
+/* ---- placing --------------------------------------------------------------------------------- */
+
+static struct kiln_grid place_wind(const struct kiln_grid_file *file, size_t first)
 {
     const float per_metre[3] = {1.0f / file->spacing[0], 1.0f / file->spacing[1],
                                 1.0f / file->spacing[2]};
@@ -48,32 +124,93 @@ static struct kiln_grid place_grid(const struct kiln_grid_file *file, size_t fir
                               .size = {file->size[0], file->size[1], file->size[2], (uint)first}};
 }
 
-static size_t count_words(const struct kiln_grid_file *file)
+static struct kiln_grid place_terrain(const struct kiln_terrain *terrain, size_t first)
 {
-    return (size_t)file->size[0] * file->size[1] * file->size[2];
+    const float per_metre[3] = {1.0f / terrain->spacing[0], 1.0f, 1.0f / terrain->spacing[1]};
+    return (struct kiln_grid){.origin = canon4(terrain->origin),
+                              .per_metre = canon4(per_metre),
+                              .size = {terrain->samples[0], 1, terrain->samples[1], (uint)first}};
 }
 
-/* One after the other into the buffer. */
-static bool fill(struct kiln_sim_grids *grids, struct kiln_device *device,
-                 struct kiln_grid_file *const *files, struct kiln_error *error)
+static struct kiln_grid place_field(const struct kiln_field *field, size_t first)
+{
+    const float per_unit = 1.0f / field->spacing;
+    const float per_units[3] = {per_unit, per_unit, per_unit};
+    return (struct kiln_grid){
+        .origin = canon4(field->origin),
+        .per_metre = canon4(per_units),
+        .size = {field->size[0], field->size[1], field->size[2], (uint)first}};
+}
+
+static size_t count_words(const struct kiln_grid *grid)
+{
+    return (size_t)grid->size.x * grid->size.y * grid->size.z;
+}
+
+/* One after the other. Returns the words of all. */
+static size_t place(struct kiln_sim_grids *grids, const struct sources *sources)
 {
     size_t total = 0;
     for (uint32_t i = 0; i < grids->count; i++) {
-        grids->table[i] = place_grid(files[i], total);
-        total += count_words(files[i]);
+        const uint32_t k = i - grids->wind_count;
+        if (i < grids->wind_count) {
+            grids->table[i] = place_wind(sources->winds[i], total);
+        } else if (sources->terrains[k]) {
+            grids->table[i] = place_terrain(sources->terrains[k], total);
+            grids->top[i] = sources->terrains[k]->top;
+        } else {
+            grids->table[i] = place_field(sources->fields[k], total);
+        }
+        total += count_words(&grids->table[i]);
     }
+    return total;
+}
+
+static void copy_terrain(float4 *words, const struct kiln_terrain *terrain, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        const struct kiln_terrain_point *point = &terrain->points[i];
+        words[i] = FLOAT4(point->slope_x, point->height, point->slope_z, point->ceiling);
+    }
+}
+
+static void copy_wind(float4 *words, const struct kiln_grid_file *wind, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        words[i] = canon4(wind->samples[i]);
+}
+
+static void copy_words(float4 *words, const struct sources *sources, uint32_t wind_count,
+                       uint32_t i, size_t count)
+{
+    const struct kiln_grid_file *wind = i < wind_count ? sources->winds[i] : NULL;
+    const struct kiln_terrain *terrain = wind ? NULL : sources->terrains[i - wind_count];
+    const struct kiln_field *field = wind ? NULL : sources->fields[i - wind_count];
+    if (wind)
+        copy_wind(words, wind, count);
+    else if (terrain)
+        copy_terrain(words, terrain, count);
+    else if (field)
+        memcpy(words, field->samples, count * sizeof *words);
+}
+
+static bool fill(struct kiln_sim_grids *grids, struct kiln_device *device,
+                 const struct sources *sources, struct kiln_error *error)
+{
+    const size_t total = place(grids, sources);
     if (total > KILN_MAX_GRID_SAMPLES)
         return kiln_error_set(error, KILN_INVALID_INPUT,
-                              "%zu samples in all files of wind; a scene has at most %d", total,
-                              KILN_MAX_GRID_SAMPLES);
+                              "%zu samples in all files of wind and what particles collide with; a "
+                              "scene has at most %d",
+                              total, KILN_MAX_GRID_SAMPLES);
     kiln_buffer_init(&grids->words, device, total * sizeof(float4), "grids");
     float4 *words = kiln_buffer_host(&grids->words, KILN_OVERWRITE, error);
     if (!words)
         return false;
     for (uint32_t i = 0; i < grids->count; i++) {
-        const size_t count = count_words(files[i]);
-        for (size_t k = 0; k < count; k++)
-            *words++ = canon4(files[i]->samples[k]);
+        const size_t count = count_words(&grids->table[i]);
+        copy_words(words, sources, grids->wind_count, i, count);
+        words += count;
     }
     return true;
 }
@@ -85,13 +222,10 @@ bool kiln_sim_grids_init(struct kiln_sim_grids *grids, struct kiln_device *devic
     kiln_buffer_init(&grids->words, device, 0, "grids");
     if (!list_files(grids, scene, error))
         return false;
-    struct kiln_grid_file *files[KILN_MAX_GRIDS] = {NULL};
-    bool ok = true;
-    for (uint32_t i = 0; ok && i < grids->count; i++)
-        ok = (files[i] = kiln_grid_load(grids->files[i], error)) != NULL;
-    ok = ok && (grids->count == 0 || fill(grids, device, files, error));
-    for (uint32_t i = 0; i < KILN_MAX_GRIDS; i++)
-        kiln_grid_destroy(&files[i]);
+    struct sources sources = {.winds = {NULL}};
+    const bool ok = load(grids, scene, &sources, error) &&
+                    (grids->count == 0 || fill(grids, device, &sources, error));
+    free_sources(&sources);
     return ok;
 }
 

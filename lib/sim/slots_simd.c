@@ -10,6 +10,7 @@
 struct block {
     struct kiln_lanes lanes;
     uint32_t alone[KILN_LANES];       /* 1: a case for step_slot */
+    uint32_t touching[KILN_LANES];    /* 1: may touch the collider at hand */
     uint32_t lost[KILN_LANES];        /* 1: where particles may not be */
     kiln_floats life;                 /* progress at the start of the step */
     struct kiln_floats3 acceleration; /* of the forces so far */
@@ -226,9 +227,47 @@ static inline void find_touching(struct block *b, const struct kiln_collider *c)
     const float3 high_end = {c->max_end.x + gap, c->max_end.y + gap, c->max_end.z + gap};
     for (uint32_t i = 0; i < KILN_LANES; i++) {
         float3 from = particle_position(record_at(b, i)), to = kiln_get3(&b->position, i);
-        b->alone[i] |= may_be_between(from.x, to.x, low.x, low_end.x, high.x, high_end.x) &
-                       may_be_between(from.y, to.y, low.y, low_end.y, high.y, high_end.y) &
-                       may_be_between(from.z, to.z, low.z, low_end.z, high.z, high_end.z);
+        b->touching[i] = may_be_between(from.x, to.x, low.x, low_end.x, high.x, high_end.x) &
+                         may_be_between(from.y, to.y, low.y, low_end.y, high.y, high_end.y) &
+                         may_be_between(from.z, to.z, low.z, low_end.z, high.z, high_end.z);
+    }
+}
+
+/* What is well above ground does not touch it. */
+static inline void find_touching_ground(const struct kiln_sim *sim, struct block *b,
+                                        const struct kiln_collider *c)
+{
+    const struct kiln_grid grid = sim->surroundings->grids[c->grid];
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        float3 from = particle_position(record_at(b, i)), to = kiln_get3(&b->position, i);
+        b->touching[i] &= 1u ^ (uint32_t)terrain_is_clear(sim, grid, from, to);
+    }
+}
+
+/* What is well away from a mesh does not touch it. */
+static inline void find_touching_mesh(const struct kiln_sim *sim, struct block *b,
+                                      const struct kiln_collider *c)
+{
+    const struct kiln_grid grid = sim->surroundings->grids[c->grid];
+    const struct kiln_pose pose = sim->surroundings->poses[c->mesh];
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        float3 from = sdf_local(pose, 0.0f, particle_position(record_at(b, i)));
+        float3 to = sdf_local(pose, 1.0f, kiln_get3(&b->position, i));
+        b->touching[i] &= 1u ^ (uint32_t)sdf_is_clear(sim, grid, from, to);
+    }
+}
+
+static inline void find_touching_any(const struct kiln_sim *sim, struct block *b)
+{
+    for (uint32_t k = 0; k < sim->surroundings->collider_count; k++) {
+        const struct kiln_collider *c = &sim->surroundings->colliders[k];
+        find_touching(b, c);
+        if (c->kind == COLLIDER_TERRAIN)
+            find_touching_ground(sim, b, c);
+        else if (c->kind == COLLIDER_SDF)
+            find_touching_mesh(sim, b, c);
+        for (uint32_t i = 0; i < KILN_LANES; i++)
+            b->alone[i] |= b->touching[i];
     }
 }
 
@@ -236,10 +275,8 @@ static inline void find_touching(struct block *b, const struct kiln_collider *c)
 static inline void find_alone(const struct kiln_sim *sim, struct block *b, uint32_t first_slot)
 {
     memset(b->alone, 0, sizeof b->alone);
-    if (sim->step->collide != COLLIDE_OFF) {
-        for (uint32_t k = 0; k < sim->surroundings->collider_count; k++)
-            find_touching(b, &sim->surroundings->colliders[k]);
-    }
+    if (sim->step->collide != COLLIDE_OFF)
+        find_touching_any(sim, b);
     const uint32_t births = sim->step->birth_count;
     for (uint32_t i = 0; i < KILN_LANES; i++) {
         uint32_t alive =

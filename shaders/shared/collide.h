@@ -1,6 +1,6 @@
 /* Collision with axis-aligned boxes and the floor (Heinz 2019, 3.5), which is one more box, high at
- * its top and without end in all other directions; with round shapes (shared/collide_round.h); and
- * with what may turn (shared/collide_turned.h).
+ * its top and without end in all other directions; with round shapes (shared/collide_round.h); with
+ * what may turn (shared/collide_turned.h); and with surfaces out of grids (shared/collide_field.h).
  *
  * Swept: the path of the step is a segment, and each of a box's six faces moves evenly during the
  * step, so the distance to it changes evenly along the path; the particle is inside while all six
@@ -25,12 +25,23 @@
 #if defined(GL_core_profile) && !defined(COLLIDE_TURNED)
 #define COLLIDE_IS_TURNED(collider) false
 #else
-#define COLLIDE_IS_TURNED(collider) ((collider).kind >= COLLIDER_TURNED_BOX)
+#define COLLIDE_IS_TURNED(collider)                                                                \
+    ((collider).kind >= COLLIDER_TURNED_BOX && (collider).kind < COLLIDER_TERRAIN)
 #endif
 #if defined(GL_core_profile) && !defined(COLLIDE_RUB)
 #define COLLIDE_RUBS(answer) false
 #else
 #define COLLIDE_RUBS(answer) ((answer).rubs)
+#endif
+
+/* Likewise those of scenes without colliders out of grids; this is asked first. */
+#if defined(GL_core_profile) && !defined(COLLIDE_FIELD)
+#define COLLIDE_HAS_FIELDS         0
+#define COLLIDE_IS_FIELD(collider) false
+#else
+#define COLLIDE_HAS_FIELDS         1
+#define COLLIDE_IS_FIELD(collider) ((collider).kind >= COLLIDER_TERRAIN)
+#include "shared/collide_field.h"
 #endif
 
 /* Impacts in one step; after the last, a particle rests for the remainder of the step: on what may
@@ -190,6 +201,35 @@ FN S(collide_state) collide_turned_impact(SIM_PARAM S(collide_state) s, uint num
     return after;
 }
 
+#if COLLIDE_HAS_FIELDS
+
+FN S(collide_state) collide_field_impact(SIM_PARAM S(collide_state) s, S(kiln_collider) c,
+                                         uint face, S(collide_answer) answer)
+{
+    EXACT S(collide_state) after = s;
+    EXACT S(collide_ground) ground = collide_field_ground(SIM c, face, s.since, s.position);
+    EXACT float3 relative = float3_sub(s.velocity, ground.velocity);
+    EXACT float3 bounced = collide_bounce_off(answer, relative, ground.normal, false);
+    bounced = collide_clear_of(bounced, ground.facet);
+    after.velocity = float3_add(ground.velocity, bounced);
+    after.position = ground.position;
+    return after;
+}
+
+/* As collide_clamp has it. */
+FN S(collide_state)
+    collide_field_clamp(SIM_PARAM S(collide_state) s, S(kiln_collider) c, S(collide_answer) answer)
+{
+    EXACT S(collide_state) after = s;
+    EXACT S(collide_ground) ground =
+        collide_field_ground(SIM c, COLLIDE_SURFACE, s.since, s.position);
+    after.position = ground.position;
+    after.velocity = collide_bounce_off(answer, s.velocity, ground.normal, true);
+    return after;
+}
+
+#endif
+
 /* The state after an impact on a face of a collider. */
 FN S(collide_state)
     collide_impact(SIM_PARAM S(collide_state) s, uint number, uint face, S(collide_answer) of_all)
@@ -197,6 +237,12 @@ FN S(collide_state)
     EXACT S(collide_state) after = s;
     EXACT S(kiln_collider) c = AROUND(colliders[number]);
     EXACT S(collide_answer) answer = collide_answer_of(of_all, c);
+#if COLLIDE_HAS_FIELDS
+    if (COLLIDE_IS_FIELD(c)) {
+        after = collide_field_impact(SIM s, c, face, answer);
+        return after;
+    }
+#endif
     if (COLLIDE_IS_TURNED(c)) {
         after = collide_turned_impact(SIM s, number, face, answer);
         return after;
@@ -263,6 +309,12 @@ FN S(collide_span)
 {
     EXACT S(kiln_collider) c = AROUND(colliders[number]);
     EXACT S(collide_span) span;
+#if COLLIDE_HAS_FIELDS
+    if (COLLIDE_IS_FIELD(c)) {
+        span = collide_field_segment(SIM c, since, until, from, end);
+        return span;
+    }
+#endif
     if (COLLIDE_IS_TURNED(c)) {
         span = collide_turned_through(SIM number, since, until, from, end);
     } else if (COLLIDE_IS_ROUND(c)) {
@@ -282,6 +334,10 @@ FN uint collide_nearest(SIM_PARAM uint number, float since, float3 p)
 {
     EXACT S(kiln_collider) c = AROUND(colliders[number]);
     uint face;
+#if COLLIDE_HAS_FIELDS
+    if (COLLIDE_IS_FIELD(c))
+        return COLLIDE_SURFACE;
+#endif
     if (COLLIDE_IS_TURNED(c)) {
         face = collide_turned_nearest(SIM number, since, p);
     } else if (COLLIDE_IS_ROUND(c)) {
@@ -299,6 +355,12 @@ FN bool collide_is_inside(SIM_PARAM uint number, float until, float3 p)
 {
     EXACT S(kiln_collider) c = AROUND(colliders[number]);
     bool inside;
+#if COLLIDE_HAS_FIELDS
+    if (COLLIDE_IS_FIELD(c)) {
+        inside = collide_field_inside(SIM c, until, p);
+        return inside;
+    }
+#endif
     if (COLLIDE_IS_TURNED(c)) {
         inside = collide_turned_inside(SIM number, until, p);
     } else if (COLLIDE_IS_ROUND(c)) {
@@ -316,6 +378,12 @@ FN uint collide_face_met(SIM_PARAM uint number, S(collide_state) s, uint face)
 {
     EXACT S(kiln_collider) c = AROUND(colliders[number]);
     uint met = face;
+#if COLLIDE_HAS_FIELDS
+    if (COLLIDE_IS_FIELD(c)) {
+        EXACT S(collide_ground) ground = collide_field_ground(SIM c, face, s.since, s.position);
+        return collide_pack_normal(ground.normal);
+    }
+#endif
     if (COLLIDE_IS_TURNED(c)) {
         EXACT S(collide_contact) contact =
             collide_turned_contact(SIM number, s.since, face, s.position, 1.0f, 1.0f);
@@ -370,6 +438,9 @@ FN float3 collide_rise(SIM_PARAM float3 position, float until)
         for (uint i = 0u; i < AROUND(collider_count); i++) {
             if (collide_is_inside(SIM i, until, p)) {
                 EXACT S(collide_box) box = collide_box_at(AROUND(colliders[i]), until);
+#if COLLIDE_HAS_FIELDS
+                box = collide_field_below(SIM AROUND(colliders[i]), box, p);
+#endif
                 if (COLLIDE_IS_TURNED(AROUND(colliders[i])) &&
                     (pass < 2u || AROUND(colliders[i].kind) == COLLIDER_PLANE))
                     p = collide_turned_rise(SIM i, until, p);
@@ -444,7 +515,15 @@ FN S(collide_way)
         EXACT S(collide_box) box = collide_box_at(c, until);
         bool inside = collide_is_inside(SIM i, until, now.position);
         draw = collide_answer_of(answer, c);
-        if (inside && COLLIDE_IS_TURNED(c)) {
+        if (inside && COLLIDE_IS_FIELD(c)) {
+#if COLLIDE_HAS_FIELDS
+            draw.purpose = collide_purpose(SIM impacts & 7u);
+            impacts++;
+            now = collide_field_clamp(SIM now, c, draw);
+            if (impacts == 1u)
+                way.first = collide_touched(now, collide_face_met(SIM i, now, COLLIDE_SURFACE));
+#endif
+        } else if (inside && COLLIDE_IS_TURNED(c)) {
             uint nearest = collide_turned_nearest(SIM i, until, now.position);
             EXACT S(collide_contact) contact =
                 collide_turned_contact(SIM i, until, nearest, now.position, 1.0f, 0.0f);

@@ -141,6 +141,9 @@ struct kiln_step_params {
 #define COLLIDER_CAPSULE         5u
 #define COLLIDER_PLANE           6u
 
+#define COLLIDER_TERRAIN 16u /* from here on, kinds that look up grids */
+#define COLLIDER_SDF     17u
+
 /* A collider at the start and at the end of the step; it moves and turns evenly in between. A box
  * along the axes has min and max alone; those of all others bound it. */
 struct kiln_collider {
@@ -155,6 +158,18 @@ struct kiln_collider {
     float4 extent, extent_end; /* m: half of the edges, or of the height in y */
     float4 pose;               /* from the frame to the world at the start: a unit quaternion */
     float4 spin;               /* unit; w: the angle by which the step turns it, rad */
+    uint grid;                 /* of terrain or of a mesh: its number */
+    uint mesh;                 /* likewise, of its pose */
+    uint unused0, unused1;
+};
+
+/* Where a mesh is at the start and at the end of the step: rows from the world to its frame. */
+struct kiln_pose {
+    float4 to_local[3];
+    float4 to_local_end[3];
+    float4 metres;             /* for a unit of its frame: at the start, at the end */
+    float4 center, center_end; /* m: its origin */
+    float4 turn;               /* rad/s, about its axis */
 };
 
 /* Samples on a lattice in space; GRID_WORD(i) is the i-th of all grids: see grid.h. */
@@ -171,6 +186,7 @@ struct kiln_surroundings {
     uint unused0, unused1;
     S(kiln_collider) colliders[KILN_MAX_COLLIDERS];
     S(kiln_grid) grids[KILN_MAX_GRIDS];
+    S(kiln_pose) poses[KILN_MAX_MESHES];
 };
 
 #ifdef GL_core_profile

@@ -9,7 +9,7 @@
 #define KILN_MAX_DEMITTERS 8  /* a system */
 #define KILN_MAX_BURSTS    64 /* a system */
 #define KILN_MAX_OBJECTS   32 /* a scene */
-#define KILN_MAX_MESHES    8  /* a scene; they count as objects, too */
+#define KILN_MAX_MESHES    8  /* a scene, terrain among them; they count as objects, too */
 #define KILN_MAX_LIGHTS    16 /* a scene */
 
 /* Systems from a first parent to its last descendants. */
@@ -24,7 +24,8 @@
 /* Objects and the floor. */
 #define KILN_MAX_COLLIDERS 33
 
-#define KILN_MAX_GRIDS 8 /* a scene */
+#define KILN_MAX_WINDS 8                                  /* a scene: files of wind */
+#define KILN_MAX_GRIDS (KILN_MAX_WINDS + KILN_MAX_MESHES) /* those, and what collides */
 
 /* Uniform blocks of a step. */
 #define SIM_BIND_KEYS         0

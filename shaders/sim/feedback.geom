@@ -10,6 +10,8 @@
 // variant: COLLIDE_RUB=1
 // variant: COLLIDE_ROUND=1 COLLIDE_TURNED=1
 // variant: GRIDS=1 FAMILY=1 COLLIDE_ROUND=1 COLLIDE_TURNED=1 COLLIDE_RUB=1
+// variant: COLLIDE_FIELD=1 GRIDS=1 COLLIDE_ROUND=1
+// variant: COLLIDE_FIELD=1 GRIDS=1 FAMILY=1 COLLIDE_ROUND=1
 layout(points) in;
 layout(points, max_vertices = 1) out;
 

@@ -99,6 +99,19 @@ static void fields_agree(void **state)
     all_agree(*state, &fixture.scene, 60);
 }
 
+static void colliders_out_of_grids_agree(void **state)
+{
+    fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, 90);
+    fixture_add_terrain(&fixture, -0.4f, 3.0f, 0.9f, 40);
+    fixture_add_moving_mesh(&fixture);
+    all_agree(*state, &fixture.scene, 90);
+    fixture_family(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT);
+    fixture_add_terrain(&fixture, -0.4f, 3.0f, 0.9f, 40);
+    fixture_add_moving_mesh(&fixture);
+    fixture_finish(&fixture, 40);
+    all_agree(*state, &fixture.scene, 40);
+}
+
 static void families_agree(void **state)
 {
     for (int order = 0; order < 2; order++) {
@@ -261,6 +274,7 @@ int main(void)
         test_on_device(round_colliders),
         test_on_device(turned_colliders),
         test_on_device(fields_agree),
+        test_on_device(colliders_out_of_grids_agree),
         test_on_device(families_agree),
         test_on_device(births_are_split_among_emitters),
         test_on_device(no_systems_and_no_births),

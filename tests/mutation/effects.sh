@@ -7,6 +7,7 @@ set -euo pipefail
 kiln=$1 folder=$2 name=$3
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+export XDG_CACHE_HOME=$work/cache
 
 draw() {
     "$kiln" render "$folder/$name.yaml" --frames 40 --device cpu --quiet --force \

@@ -144,6 +144,46 @@ static inline struct kiln_object *fixture_add_plane(struct scene_fixture *f, flo
     return plane;
 }
 
+/* Noise around the origin, of hills half a metre wide. */
+static inline struct kiln_object *fixture_add_terrain(struct scene_fixture *f, float y, float width,
+                                                      float height, uint32_t samples)
+{
+    struct kiln_object *terrain = fixture_add_box(f, 0.0f, y, 0.0f, width, height, width);
+    terrain->kind = KILN_OBJECT_TERRAIN;
+    terrain->samples[0] = samples;
+    terrain->samples[1] = samples / 2 + 2;
+    terrain->hills = fixture_constant(0.5f);
+    terrain->roughness = fixture_constant(0.5f);
+    terrain->octaves = 3;
+    terrain->seed = 5;
+    return terrain;
+}
+
+/* A mesh that particles bounce off: an OBJ file, as large as it says. */
+static inline struct kiln_object *fixture_add_mesh(struct scene_fixture *f, const char *file,
+                                                   float x, float y, float z)
+{
+    struct kiln_object *mesh = fixture_add_box(f, x, y, z, 0.0f, 0.0f, 0.0f);
+    f->scene.asset_root = "/";
+    mesh->kind = KILN_OBJECT_MESH;
+    mesh->file = file;
+    mesh->scale = fixture_constant(1.0f);
+    mesh->cells = 20;
+    return mesh;
+}
+
+/* One that moves, turns and grows. */
+static inline void fixture_add_moving_mesh(struct scene_fixture *f)
+{
+    const uint32_t time = KILN_CLOCK_TIME;
+    struct kiln_object *mesh =
+        fixture_add_mesh(f, KILN_SOURCE_DIR "/tests/mutation/tetrahedron.obj", 0.2f, 0.3f, -0.2f);
+    mesh->center.x = fixture_ramp(f, time, 0.0f, 0.2f, 3.0f, 0.9f);
+    mesh->rotation.x = fixture_constant(-0.7f);
+    mesh->rotation.y = fixture_ramp(f, time, 0.0f, 0.0f, 4.0f, 30.0f);
+    mesh->scale = fixture_ramp(f, time, 0.0f, 0.8f, 2.0f, 1.3f);
+}
+
 struct fixture_rate {
     const struct kiln_scene *scene;
     const struct kiln_value *rate;

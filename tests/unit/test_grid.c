@@ -151,12 +151,12 @@ static void a_pull_takes_its_time(void **state)
 static void too_many_grids_are_refused(void **state)
 {
     (void)state;
-    static char names[KILN_MAX_GRIDS + 1][32];
+    static char names[KILN_MAX_WINDS + 1][32];
     struct kiln_error error = {0};
     struct kiln_sim_grids grids;
     fixture_init(&fixture);
     struct kiln_system *system = fixture_add_system(&fixture, "many", 1.0f);
-    for (int i = 0; i <= KILN_MAX_GRIDS; i++) {
+    for (int i = 0; i <= KILN_MAX_WINDS; i++) {
         snprintf(names[i], sizeof names[i], "/nowhere/%d.grid", i);
         fixture_add_field(system)->file = names[i];
     }

@@ -36,6 +36,18 @@ static const struct {
      ":2:36: backdrop.objects.0.mesh.file: '../pot.obj' is outside the asset root; a path starts "
      "at the scene's folder and stays below it"},
     {"kiln: 1\n"
+     "backdrop: {objects: [{terrain: {samples: [1, 9]}}]}\n",
+     ":2:43: backdrop.objects.0.terrain.samples: 1 is out of range; allowed is from 2 to "
+     "513"},
+    {"kiln: 1\n"
+     "backdrop: {objects: [{terrain: {image: none.png}}]}\n",
+     ":2:40: backdrop.objects.0.terrain.image: cannot open 'none.png': No such file or directory"},
+    {"kiln: 1\n"
+     "backdrop: {objects: [{terrain: {}}, {terrain: {}}, {terrain: {}}, {terrain: {}}, {terrain: "
+     "{}}, "
+     "{terrain: {}}, {terrain: {}}, {terrain: {}}, {terrain: {}}]}\n",
+     ":2:21: backdrop.objects: more than 8 meshes"},
+    {"kiln: 1\n"
      "backdrop: {sky: {image: /etc/passwd}}\n",
      ":2:25: backdrop.sky.image: '/etc/passwd' is outside the asset root; a path starts at the "
      "scene's folder and stays below it"},

@@ -238,6 +238,44 @@ static struct kiln_scene *load_with_mesh(const char *mesh)
     return scene;
 }
 
+static void what_collides_must_be_closed(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "kiln: 1\nbackdrop: {objects: [{mesh: {file: textures/open.obj, collide: true}}]}\n";
+    const char *triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    struct kiln_error error = {0};
+    const struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    write_file("scenes/open.yaml", text, sizeof text - 1);
+    write_file("scenes/textures/open.obj", triangle, strlen(triangle));
+    assert_null(kiln_scene_load("scenes/open.yaml", &params, &error));
+    assert_int_equal(error.code, KILN_INVALID_INPUT);
+    assert_string_equal(error.message,
+                        "scenes/open.yaml:2:21: backdrop.objects.0.mesh.collide: "
+                        "textures/open.obj: the mesh is not closed, so that nothing is inside of "
+                        "it: 1 triangle is at the edge from 0 0 0 to 0 1 0, where there must be "
+                        "two");
+}
+
+/* What a terrain's picture contains belongs to the hash, too. */
+static void terrain_is_hashed(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "kiln: 1\nbackdrop: {objects: [{terrain: {image: textures/h.bmp, samples: [2, 2]}}]}\n";
+    uint8_t pixel[58] = {
+        'B', 'M', 58, [10] = 54, [14] = 40, [18] = 1, [22] = 1, [26] = 1, [28] = 24};
+    write_file("scenes/h.yaml", text, sizeof text - 1);
+    write_file("scenes/textures/h.bmp", pixel, sizeof pixel);
+    struct kiln_scene *black = load_scene_file("scenes/h.yaml");
+    pixel[54] = 255;
+    write_file("scenes/textures/h.bmp", pixel, sizeof pixel);
+    struct kiln_scene *blue = load_scene_file("scenes/h.yaml");
+    assert_string_not_equal(black->hash, blue->hash);
+    kiln_scene_destroy(&black);
+    kiln_scene_destroy(&blue);
+}
+
 /* A broken mesh is an error at its place; what a good one contains belongs to the hash. */
 static void meshes_are_checked_and_hashed(void **state)
 {
@@ -267,9 +305,10 @@ static void meshes_are_checked_and_hashed(void **state)
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
-        IN_FOLDER(files_that_are_no_scenes),    IN_FOLDER(huge_files_are_refused_early),
-        IN_FOLDER(assets_stay_below_the_scene), IN_FOLDER(assets_must_be_pictures),
-        IN_FOLDER(asset_root_may_be_given),     IN_FOLDER(meshes_are_checked_and_hashed),
+        IN_FOLDER(files_that_are_no_scenes),     IN_FOLDER(huge_files_are_refused_early),
+        IN_FOLDER(assets_stay_below_the_scene),  IN_FOLDER(assets_must_be_pictures),
+        IN_FOLDER(asset_root_may_be_given),      IN_FOLDER(meshes_are_checked_and_hashed),
+        IN_FOLDER(what_collides_must_be_closed), IN_FOLDER(terrain_is_hashed),
     };
     return cmocka_run_group_tests_name("scene_files", tests, NULL, NULL);
 }

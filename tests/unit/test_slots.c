@@ -130,12 +130,30 @@ static void position_first_among_turning_colliders(void **state)
     run_levels();
 }
 
+static void above_terrain(void **state)
+{
+    (void)state;
+    fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, STEPS);
+    fixture_add_terrain(&fixture, -0.4f, 3.0f, 0.9f, 40);
+    run_levels();
+}
+
+static void around_a_moving_mesh(void **state)
+{
+    (void)state;
+    fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, STEPS);
+    fixture_add_moving_mesh(&fixture);
+    run_levels();
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(velocity_first),
         cmocka_unit_test(position_first_among_round_colliders),
         cmocka_unit_test(position_first_among_turning_colliders),
+        cmocka_unit_test(above_terrain),
+        cmocka_unit_test(around_a_moving_mesh),
     };
     return cmocka_run_group_tests_name("slots", tests, NULL, NULL);
 }

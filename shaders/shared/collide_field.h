@@ -1,0 +1,62 @@
+/* Colliders that look up grids, for shared/collide.h: terrain and the distance fields of meshes. */
+#ifndef KILN_SHARED_COLLIDE_FIELD_H
+#define KILN_SHARED_COLLIDE_FIELD_H
+
+#include "shared/collide_sdf.h"
+
+/* The way of a segment between two parts of the step, as collide_through has it. */
+FN S(collide_span) collide_field_segment(SIM_PARAM S(kiln_collider) c, float since, float until,
+                                         float3 a, float3 b)
+{
+    EXACT S(collide_span) span;
+    if (c.kind == COLLIDER_TERRAIN)
+        span = terrain_segment(SIM c, a, b);
+    else
+        span = sdf_segment(SIM c, since, until, a, b);
+    return span;
+}
+
+FN bool collide_field_inside(SIM_PARAM S(kiln_collider) c, float until, float3 p)
+{
+    bool inside;
+    if (c.kind == COLLIDER_TERRAIN)
+        inside = terrain_is_inside(SIM c, p);
+    else
+        inside = sdf_is_inside(SIM c, until, p);
+    return inside;
+}
+
+FN S(collide_ground)
+    collide_field_ground(SIM_PARAM S(kiln_collider) c, uint face, float since, float3 p)
+{
+    EXACT S(collide_ground) ground;
+    if (c.kind != COLLIDER_TERRAIN)
+        ground = sdf_ground(SIM c, since, p);
+    else if (face == COLLIDE_SURFACE)
+        ground = terrain_ground(SIM c, p);
+    else
+        ground = terrain_wall(c, face, p);
+    return ground;
+}
+
+/* What collide_rise goes up to the top of: of terrain, the ground at a point. */
+FN S(collide_box) collide_field_below(SIM_PARAM S(kiln_collider) c, S(collide_box) box, float3 p)
+{
+    EXACT S(collide_box) below = box;
+    if (c.kind == COLLIDER_TERRAIN) {
+        EXACT S(collide_ground) ground = terrain_ground(SIM c, p);
+        below.max.y = ground.position.y;
+    }
+    return below;
+}
+
+/* A velocity relative to a surface, less what goes against it. */
+FN float3 collide_clear_of(float3 velocity, float3 facet)
+{
+    EXACT float outwards = float3_dot(velocity, facet);
+    EXACT float against = outwards < 0.0f ? -outwards : 0.0f;
+    EXACT float3 y = float3_add_scaled(velocity, facet, against);
+    return y;
+}
+
+#endif

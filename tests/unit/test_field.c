@@ -1,0 +1,476 @@
+/* Distance fields of meshes: what they say, the cache that keeps them, and particles that meet
+ * them.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+
+#include "asset/field.h"
+#include "shared/random.h"
+#include "support/folders.h"
+#include "support/simulation.h"
+
+static struct scene_fixture fixture; /* too large for a stack */
+
+static void assert_near(double found, double expected, double allowed)
+{
+    if (!(fabs(found - expected) <= allowed))
+        fail_msg("%.9g instead of %.9g, allowed %g off", found, expected, allowed);
+}
+
+/* ---- meshes ---------------------------------------------------------------------------------- */
+
+struct body {
+    FILE *out;
+    int count; /* of vertices so far */
+};
+
+static void add_box(struct body *body, double x, double y, double z, double w, double h, double d)
+{
+    static const int faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                    {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+    for (int i = 0; i < 8; i++)
+        fprintf(body->out, "v %g %g %g\n", x + (i & 1 ? w : -w) / 2, y + (i & 2 ? h : -h) / 2,
+                z + (i & 4 ? d : -d) / 2);
+    for (int i = 0; i < 6; i++)
+        fprintf(body->out, "f %d %d %d %d\n", body->count + 1 + faces[i][0],
+                body->count + 1 + faces[i][1], body->count + 1 + faces[i][2],
+                body->count + 1 + faces[i][3]);
+    body->count += 8;
+}
+
+enum { RINGS = 40 };
+
+/* A ball of radius 1 out of RINGS rings of twice as many points. */
+static void add_ball(struct body *body)
+{
+    const int around = 2 * RINGS;
+    const double pi = 3.14159265358979;
+    for (int i = 1; i < RINGS; i++)
+        for (int k = 0; k < around; k++)
+            fprintf(body->out, "v %.9g %.9g %.9g\n", sin(pi * i / RINGS) * cos(2 * pi * k / around),
+                    cos(pi * i / RINGS), sin(pi * i / RINGS) * sin(2 * pi * k / around));
+    fprintf(body->out, "v 0 1 0\nv 0 -1 0\n");
+    const int top = around * (RINGS - 1) + 1;
+    for (int k = 0; k < around; k++) {
+        const int a = k + 1, b = (k + 1) % around + 1, last = around * (RINGS - 2);
+        fprintf(body->out, "f %d %d %d\nf %d %d %d\n", top, b, a, top + 1, last + a, last + b);
+        for (int i = 0; i + 2 < RINGS; i++)
+            fprintf(body->out, "f %d %d %d %d\n", i * around + a, i * around + b,
+                    (i + 1) * around + b, (i + 1) * around + a);
+    }
+}
+
+static struct body begin(const char *path)
+{
+    struct body body = {.out = fopen(path, "w")};
+    assert_non_null(body.out);
+    return body;
+}
+
+static struct kiln_mesh *load(const char *path)
+{
+    struct kiln_error error = {0};
+    struct kiln_mesh *mesh = kiln_mesh_load(path, "/", NULL, NULL, &error);
+    if (!mesh)
+        fail_msg("%s", error.message);
+    return mesh;
+}
+
+static struct kiln_mesh *load_ball(void)
+{
+    struct body body = begin("ball.obj");
+    add_ball(&body);
+    fclose(body.out);
+    return load("ball.obj");
+}
+
+static struct kiln_field *create(const struct kiln_mesh *mesh, uint32_t cells, const char *cache)
+{
+    struct kiln_error error = {0};
+    struct kiln_field *field = kiln_field_create(mesh, "m.obj", cells, cache, &error);
+    if (!field)
+        fail_msg("%s", error.message);
+    return field;
+}
+
+static void place_of(const struct kiln_field *field, size_t i, double p[3])
+{
+    const size_t row = field->size[0], layer = row * field->size[1];
+    const size_t at[3] = {i % row, i / row % field->size[1], i / layer};
+    for (int c = 0; c < 3; c++)
+        p[c] = (double)field->origin[c] + (double)at[c] * (double)field->spacing;
+}
+
+static size_t count_of(const struct kiln_field *field)
+{
+    return (size_t)field->size[0] * field->size[1] * field->size[2];
+}
+
+/* ---- fields ---------------------------------------------------------------------------------- */
+
+static void of_a_ball_it_is_the_way_to_its_surface(void **state)
+{
+    (void)state;
+    struct kiln_mesh *mesh = load_ball();
+    struct kiln_field *field = create(mesh, 24, NULL);
+    assert_int_equal(field->size[0], 24 + 1 + 4);
+    const double dent = 1.5 * (1 - cos(3.14159 / 2 / RINGS)) * 2;
+    for (size_t i = 0; i < count_of(field); i++) {
+        double p[3];
+        place_of(field, i, p);
+        const double r = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+        const float *s = field->samples[i];
+        assert_true((double)s[3] >= r - 1 - 1e-5 && (double)s[3] <= r - 1 + dent);
+        if (r > 0.5 && r < 1.12)
+            for (int c = 0; c < 3; c++)
+                assert_near((double)s[c], p[c] / r, 0.03);
+    }
+    kiln_field_destroy(&field);
+    assert_null(field);
+    kiln_mesh_destroy(&mesh);
+}
+
+/* Two boxes through one another, in one file: what is in both is inside, too. */
+static void overlapping_parts_are_one_body(void **state)
+{
+    (void)state;
+    struct body body = begin("two.obj");
+    add_box(&body, 0, 0, 0, 2, 1, 1);
+    add_box(&body, 0.25, 0, 0, 0.5, 2, 0.5);
+    fclose(body.out);
+    struct kiln_mesh *mesh = load("two.obj");
+    struct kiln_field *field = create(mesh, 31, NULL);
+    uint32_t both = 0;
+    for (size_t i = 0; i < count_of(field); i++) {
+        double p[3];
+        place_of(field, i, p);
+        const double wide = fmax(fabs(p[0]) - 1, fmax(fabs(p[1]) - 0.5, fabs(p[2]) - 0.5));
+        const double tall = fmax(fabs(p[0] - 0.25) - 0.25, fmax(fabs(p[1]) - 1, fabs(p[2]) - 0.25));
+        if (fabs(wide) > 1e-6 && fabs(tall) > 1e-6)
+            assert_true((field->samples[i][3] < 0.0f) == (wide < 0 || tall < 0));
+        both += wide < 0 && tall < 0;
+    }
+    assert_true(both > 50);
+    kiln_field_destroy(&field);
+    kiln_mesh_destroy(&mesh);
+}
+
+static void expect_refusal(const char *obj, const char *message)
+{
+    struct kiln_error error = {0};
+    test_write_file("bad.obj", obj);
+    struct kiln_mesh *mesh = load("bad.obj");
+    assert_null(kiln_field_create(mesh, "bad.obj", 8, NULL, &error));
+    assert_int_equal(error.code, KILN_INVALID_INPUT);
+    if (!strstr(error.message, message))
+        fail_msg("'%s' is not in '%s'", message, error.message);
+    kiln_mesh_destroy(&mesh);
+}
+
+#define CORNERS "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+
+static void what_has_no_inside_is_refused(void **state)
+{
+    (void)state;
+    expect_refusal(CORNERS "f 1 3 2\nf 1 2 4\nf 1 4 3\n",
+                   "bad.obj: the mesh is not closed, so that nothing is inside of it: 1 triangle "
+                   "is at the edge from ");
+    expect_refusal(CORNERS "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 4 3\n",
+                   "2 triangles are at the edge from ");
+    expect_refusal(CORNERS "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 4 3\n",
+                   ", and do not face the same side");
+    expect_refusal(
+        "v 0 0 0\nv 1 0 0\nv 0.3 0.001 1\nv 0.3 0.0009 1.02\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf "
+        "2 3 4\n",
+        "bad.obj: the mesh is thinner than one of 8 cells everywhere");
+}
+
+/* ---- cache ----------------------------------------------------------------------------------- */
+
+static size_t count_files(const char *folder, char path[KILN_PATH_SIZE])
+{
+    size_t count = 0;
+    DIR *all = opendir(folder);
+    assert_non_null(all);
+    for (struct dirent *entry = readdir(all); entry; entry = readdir(all)) {
+        if (entry->d_name[0] == '.')
+            continue;
+        snprintf(path, KILN_PATH_SIZE, "%s/%.200s", folder, entry->d_name);
+        count++;
+    }
+    closedir(all);
+    return count;
+}
+
+static void assert_same(const struct kiln_field *a, const struct kiln_field *b)
+{
+    assert_memory_equal(a->size, b->size, sizeof a->size);
+    assert_memory_equal(a->origin, b->origin, sizeof a->origin);
+    assert_memory_equal(a->samples, b->samples, count_of(a) * sizeof *a->samples);
+}
+
+static void spoil(const char *path, long at, char byte)
+{
+    FILE *file = fopen(path, "r+b");
+    assert_non_null(file);
+    assert_int_equal(fseek(file, at, at < 0 ? SEEK_END : SEEK_SET), 0);
+    assert_int_equal(fputc(byte, file), byte);
+    fclose(file);
+}
+
+/* Of what is cached and what is spoiled there, the field is the same, and the file is mended. */
+static void the_cache_changes_nothing(void **state)
+{
+    (void)state;
+    char path[KILN_PATH_SIZE];
+    struct kiln_mesh *mesh = load_ball();
+    struct kiln_field *fresh = create(mesh, 9, NULL);
+    struct kiln_field *written = create(mesh, 9, "cache/a/b");
+    assert_int_equal(count_files("cache/a/b", path), 1);
+    struct stat before, after;
+    assert_int_equal(stat(path, &before), 0);
+    struct kiln_field *read = create(mesh, 9, "cache/a/b");
+    assert_int_equal(stat(path, &after), 0);
+    assert_true(before.st_ino == after.st_ino); /* it was not written again */
+    assert_same(fresh, written);
+    assert_same(fresh, read);
+    for (int i = 0; i < 4; i++) {
+        if (i < 3)
+            spoil(path, (long[]){0, 100, -5}[i], '!');
+        else
+            assert_int_equal(truncate(path, before.st_size - 1), 0);
+        struct kiln_field *mended = create(mesh, 9, "cache/a/b");
+        assert_same(fresh, mended);
+        kiln_field_destroy(&mended);
+        assert_int_equal(count_files("cache/a/b", path), 1);
+        mended = create(mesh, 9, "cache/a/b");
+        assert_same(fresh, mended);
+        kiln_field_destroy(&mended);
+    }
+    struct kiln_field *other = create(mesh, 10, "cache/a/b");
+    assert_int_equal(count_files("cache/a/b", path), 2);
+    kiln_field_destroy(&other);
+    kiln_field_destroy(&read);
+    kiln_field_destroy(&written);
+    read = create(mesh, 9, "ball.obj/nowhere"); /* no folder can be there */
+    assert_same(fresh, read);
+    kiln_field_destroy(&read);
+    kiln_field_destroy(&fresh);
+    kiln_mesh_destroy(&mesh);
+}
+
+static void the_environment_says_where_it_is(void **state)
+{
+    (void)state;
+    char folder[KILN_PATH_SIZE];
+    setenv("XDG_CACHE_HOME", "/x/cache", 1);
+    setenv("HOME", "/home/me", 1);
+    assert_true(kiln_field_cache(folder));
+    assert_string_equal(folder, "/x/cache/kiln");
+    setenv("XDG_CACHE_HOME", "relative", 1);
+    assert_true(kiln_field_cache(folder));
+    assert_string_equal(folder, "/home/me/.cache/kiln");
+    unsetenv("HOME");
+    assert_false(kiln_field_cache(folder));
+    assert_non_null(getcwd(folder, sizeof folder)); /* for the following tests */
+    setenv("XDG_CACHE_HOME", folder, 1);
+}
+
+/* ---- particles ------------------------------------------------------------------------------- */
+
+static struct kiln_system *shoot(const double from[3], const double v[3])
+{
+    fixture_init(&fixture);
+    struct kiln_system *system = fixture_add_system(&fixture, "one", 0.0f);
+    system->emit.bursts[0] = (struct kiln_burst){0.0, 1};
+    system->emit.burst_count = 1;
+    system->emit.life = fixture_range(10.0f, 10.0f);
+    const float speed = (float)sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    system->emit.speed = fixture_range(speed, speed);
+    system->emit.origin = fixture_constant3((float)from[0], (float)from[1], (float)from[2]);
+    system->emit.direction = fixture_constant3((float)v[0], (float)v[1], (float)v[2]);
+    system->collide.enabled = true;
+    return system;
+}
+
+static struct kiln_object *add_ball_object(float x, float y, float z)
+{
+    struct kiln_mesh *mesh = load_ball();
+    kiln_mesh_destroy(&mesh);
+    struct kiln_object *ball = fixture_add_mesh(&fixture, "ball.obj", x, y, z);
+    ball->cells = 40;
+    return ball;
+}
+
+static struct kiln_particle after(uint32_t steps)
+{
+    fixture_finish(&fixture, steps);
+    struct simulation run;
+    simulation_start(&run, &fixture.scene, NULL, 1);
+    simulation_run(&run, steps);
+    struct kiln_particle p = simulation_records(&run)[0];
+    assert_true(particle_is_alive(p));
+    simulation_end(&run);
+    return p;
+}
+
+/* Against a ball of radius 2 at (1, 2, 3), turned somehow: the exact point, normal and time. */
+static void a_ball_mirrors_where_it_is_hit(void **state)
+{
+    (void)state;
+    static const double asides[] = {0, 0.3, -0.6, 0.8}, speeds[] = {8, 80, 800};
+    for (int i = 0; i < 12; i++) {
+        const double y = asides[i % 4], x = sqrt(1 - y * y), speed = speeds[i / 4];
+        const double normal[3] = {x, y, 0}, v[3] = {-speed, 0, 0}, time_s = 0.4;
+        const double from[3] = {1 + 2 * x + speed * time_s, 2 + 2 * y, 3};
+        shoot(from, v)->collide.slowdown = fixture_constant(0.5f);
+        struct kiln_object *ball = add_ball_object(1, 2, 3);
+        ball->scale = fixture_constant(2.0f);
+        ball->rotation = fixture_constant3(0.5f, -1.0f, 2.0f);
+        struct kiln_particle p = after(30);
+        const float3 at = particle_position(p), u = particle_velocity(p);
+        const double found_x[3] = {(double)at.x, (double)at.y, (double)at.z};
+        const double found_v[3] = {(double)u.x, (double)u.y, (double)u.z};
+        for (int c = 0; c < 3; c++) {
+            const double mirrored = 0.5 * (v[c] + 2 * speed * x * normal[c]);
+            assert_near(found_v[c], mirrored, 0.02 * speed);
+            assert_near(found_x[c], from[c] + v[c] * time_s + mirrored * 0.1, 0.01 + 0.002 * speed);
+        }
+    }
+}
+
+/* What comes at 10 m/s, or grows by that, throws a resting particle at twice that speed; what turns
+ * at w throws by its speed there. */
+static void moving_surfaces_push(void **state)
+{
+    (void)state;
+    const uint32_t time = KILN_CLOCK_TIME;
+    const double from[3] = {2, 0, 0}, still[3] = {0.0001, 0, 0};
+    shoot(from, still);
+    add_ball_object(0, 0, 0)->center.x = fixture_ramp(&fixture, time, 0, 0, 1, 10);
+    assert_near((double)particle_velocity(after(30)).x, 20, 0.05);
+
+    shoot(from, still);
+    add_ball_object(0, 0, 0)->scale = fixture_ramp(&fixture, time, 0, 1, 1, 11);
+    assert_near((double)particle_velocity(after(30)).x, 20, 0.2);
+
+    struct body body = begin("bar.obj");
+    add_box(&body, 0, 0, 0, 4, 0.5, 0.5);
+    fclose(body.out);
+    shoot(from, still);
+    fixture.scene.systems[0].emit.origin = fixture_constant3(1.5f, 1, 0);
+    struct kiln_object *bar = fixture_add_mesh(&fixture, "bar.obj", 0, 0, 0);
+    bar->cells = 32;
+    bar->rotation.z = fixture_ramp(&fixture, time, 0, 0, 1, 5);
+    const float3 u = particle_velocity(after(20));
+    /* Its face, which turns at 5 rad/s, gets to (1.5, 1): distance along it is the root of 3.25
+     * less a sixteenth. */
+    const double along = sqrt(3.25 - 1.0 / 16);
+    assert_near((double)float3_length(u), 2 * 5 * along, 0.25);
+}
+
+static void a_crowd_around(uint32_t count, float speed, float gravity)
+{
+    fixture_init(&fixture);
+    struct kiln_system *system = fixture_add_system(&fixture, "crowd", 0.0f);
+    system->emit.bursts[0] = (struct kiln_burst){0.0, count};
+    system->emit.burst_count = 1;
+    system->emit.life = fixture_range(10.0f, 10.0f);
+    system->emit.shape = KILN_EMITTER_BOX;
+    system->emit.origin = fixture_constant3(0.0f, 3.0f, 0.0f);
+    system->emit.size = fixture_constant3(3.0f, 0.1f, 3.0f);
+    system->emit.direction = fixture_constant3(0.0f, -1.0f, 0.0f);
+    system->emit.angle = fixture_constant(0.7f);
+    system->emit.speed = fixture_range(0.1f * speed, speed);
+    system->collide.enabled = true;
+    system->collide.randomness = fixture_constant(0.3f);
+    system->collide.slowdown = fixture_constant(0.8f);
+    fixture_add_force(system, KILN_FORCE_GRAVITY)->vector = fixture_constant3(0.0f, -gravity, 0.0f);
+    fixture_finish(&fixture, 60);
+}
+
+/* Through a plate two cells thick, at up to 600 m/s. */
+static void nothing_tunnels(void **state)
+{
+    (void)state;
+    struct body body = begin("plate.obj");
+    add_box(&body, 0, 0, 0, 8, 0.4, 8);
+    fclose(body.out);
+    for (int fast = 0; fast < 2; fast++) {
+        a_crowd_around(1000, fast ? 600.0f : 20.0f, 9.81f);
+        fixture_add_mesh(&fixture, "plate.obj", 0, 0, 0)->cells = 40;
+        struct simulation run;
+        simulation_start(&run, &fixture.scene, NULL, 1);
+        for (int step = 0; step < 40; step++) {
+            simulation_run(&run, 1);
+            const struct kiln_particle *records = simulation_records(&run);
+            for (uint32_t i = 0; i < run.pool.slot_count; i++) {
+                const float3 p = particle_position(records[i]);
+                if (exact_abs(p.x) < 3.9f && exact_abs(p.z) < 3.9f && p.y < 0.2f)
+                    fail_msg("step %d: %g %g %g", step, (double)p.x, (double)p.y, (double)p.z);
+            }
+        }
+        simulation_end(&run);
+    }
+}
+
+static void without_gravity_no_impact_makes_faster(void **state)
+{
+    (void)state;
+    a_crowd_around(1000, 60.0f, 0.0f);
+    add_ball_object(0, 0, 0);
+    struct simulation run;
+    simulation_start(&run, &fixture.scene, NULL, 1);
+    simulation_run(&run, 1);
+    static float speeds[1000];
+    uint32_t impacts = 0;
+    for (int step = 0; step < 20; step++) {
+        const struct kiln_particle *records = simulation_records(&run);
+        assert_true(run.pool.slot_count <= 1000);
+        for (uint32_t i = 0; i < run.pool.slot_count; i++) {
+            const float speed = float3_length(particle_velocity(records[i]));
+            assert_true(step == 0 || speed <= speeds[i] * 1.000001f);
+            impacts += step > 0 && speed < 0.9f * speeds[i];
+            speeds[i] = speed;
+            const float3 p = particle_position(records[i]);
+            assert_true(float3_length(p) > 0.995f);
+        }
+        simulation_run(&run, 1);
+    }
+    assert_true(impacts > 100);
+    simulation_end(&run);
+}
+
+/* Born inside: out by the nearest way. */
+static void what_is_born_inside_comes_out(void **state)
+{
+    (void)state;
+    const double from[3] = {0.5, 0, 0}, still[3] = {0, 0.0001, 0};
+    shoot(from, still);
+    add_ball_object(0, 0, 0);
+    const float3 p = particle_position(after(1));
+    assert_near((double)p.x, 1, 5e-3);
+    assert_near((double)p.y, 0, 5e-3);
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        cmocka_unit_test(of_a_ball_it_is_the_way_to_its_surface),
+        cmocka_unit_test(overlapping_parts_are_one_body),
+        cmocka_unit_test(what_has_no_inside_is_refused),
+        cmocka_unit_test(the_cache_changes_nothing),
+        cmocka_unit_test(the_environment_says_where_it_is),
+        cmocka_unit_test(a_ball_mirrors_where_it_is_hit),
+        cmocka_unit_test(moving_surfaces_push),
+        cmocka_unit_test(nothing_tunnels),
+        cmocka_unit_test(without_gravity_no_impact_makes_faster),
+        cmocka_unit_test(what_is_born_inside_comes_out),
+    };
+    return cmocka_run_group_tests_name("field", tests, test_enter_folder, test_leave_folder);
+}
