@@ -26,39 +26,47 @@ SIMD vf shaded_sky(vf visible, vi hides, vf facing, vf fall)
     return visible * (1.0f - vf_where(hides, 0.7f * facing * fall));
 }
 
+/* Beside a box, in whose frame the vectors are. */
+SIMD vf box_leaves_sky(float4 half, struct vf3 towards, struct vf3 normal, vi wanted, vf visible)
+{
+    const vf zero = vf_all(0.0f);
+    const struct vf3 turn = {vf_abs(normal.x), vf_abs(normal.y), vf_abs(normal.z)};
+    vf along = vf3_dot(towards, normal);
+    /* Where it is wholly on the other side of the surface, it hides nothing. */
+    vi hides = wanted & (along > 1e-3f - vf3_dot_all(turn, half));
+    if (!any(hides))
+        return visible;
+    struct vf3 beyond = {vf_max(vf_abs(towards.x) - half.x, zero),
+                         vf_max(vf_abs(towards.y) - half.y, zero),
+                         vf_max(vf_abs(towards.z) - half.z, zero)};
+    float size = fminf(fminf(half.x, half.y), half.z);
+    vf fall = size / (size + 2.0f * vf3_length(beyond));
+    return shaded_sky(visible, hides, turned_to(along, vf3_dot(towards, towards)), fall * fall);
+}
+
 SIMD vf boxes_leave_sky(const struct kiln_ray_frame *frame, const struct ray_point *p, vf visible)
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;
-    const struct vf3 turn = {vf_abs(p->normal.x), vf_abs(p->normal.y), vf_abs(p->normal.z)};
-    const vf zero = vf_all(0.0f);
     for (uint32_t i = 0; i < b->counts.x; i++) {
-        const float4 half = b->box_half[i];
         struct vf3 towards = vf3_towards(b->box_center[i], p->at);
-        vf along = vf3_dot(towards, p->normal);
-        /* Where it is wholly on the other side of the surface, it hides nothing. */
-        vi hides = p->wanted & (along > 1e-3f - vf3_dot_all(turn, half));
-        if (!any(hides))
-            continue;
-        struct vf3 beyond = {vf_max(vf_abs(towards.x) - half.x, zero),
-                             vf_max(vf_abs(towards.y) - half.y, zero),
-                             vf_max(vf_abs(towards.z) - half.z, zero)};
-        float size = fminf(fminf(half.x, half.y), half.z);
-        vf fall = size / (size + 2.0f * vf3_length(beyond));
-        visible =
-            shaded_sky(visible, hides, turned_to(along, vf3_dot(towards, towards)), fall * fall);
+        visible = box_leaves_sky(b->box_half[i], towards, p->normal, p->wanted, visible);
     }
     return visible;
+}
+
+/* Beside a ball, by the way to its centre. */
+SIMD vf ball_leaves_sky(struct vf3 towards, float radius, const struct ray_point *p, vf visible)
+{
+    vf distance2 = vf_max(vf3_dot(towards, towards), vf_all(1e-9f));
+    vf fall = vf_min(radius * radius / distance2, vf_all(1.0f));
+    return shaded_sky(visible, p->wanted, turned_to(vf3_dot(towards, p->normal), distance2), fall);
 }
 
 SIMD vf spheres_leave_sky(const struct kiln_ray_frame *frame, const struct ray_point *p, vf visible)
 {
     for (uint32_t i = 0; i < frame->shapes->counts.x; i++) {
         const float4 sphere = frame->shapes->spheres[i];
-        struct vf3 towards = vf3_towards(sphere, p->at);
-        vf distance2 = vf_max(vf3_dot(towards, towards), vf_all(1e-9f));
-        vf fall = vf_min(sphere.w * sphere.w / distance2, vf_all(1.0f));
-        visible =
-            shaded_sky(visible, p->wanted, turned_to(vf3_dot(towards, p->normal), distance2), fall);
+        visible = ball_leaves_sky(vf3_towards(sphere, p->at), sphere.w, p, visible);
     }
     return visible;
 }
@@ -96,32 +104,18 @@ SIMD vf capsules_leave_sky(const struct kiln_ray_frame *frame, const struct ray_
         struct vf3 towards = vf3_towards(capsule, p->at);
         vf along = vf_clamp(-vf3_dot_all(towards, axis), -axis.w, axis.w);
         towards = vf3_along(towards, vf3_all(axis), along);
-        vf distance2 = vf_max(vf3_dot(towards, towards), vf_all(1e-9f));
-        vf fall = vf_min(capsule.w * capsule.w / distance2, vf_all(1.0f));
-        visible =
-            shaded_sky(visible, p->wanted, turned_to(vf3_dot(towards, p->normal), distance2), fall);
+        visible = ball_leaves_sky(towards, capsule.w, p, visible);
     }
     return visible;
 }
 
 SIMD vf turned_leave_sky(const struct kiln_ray_frame *frame, const struct ray_point *p, vf visible)
 {
-    const vf zero = vf_all(0.0f);
     for (uint32_t i = 0; i < frame->shapes->more.y; i++) {
         const struct kiln_draw_turned_box *box = &frame->shapes->turned[i];
-        const float4 half = box->half_size;
         struct vf3 towards = into_box(box, vf3_towards(box->center, p->at));
         struct vf3 normal = into_box(box, p->normal);
-        const struct vf3 turn = {vf_abs(normal.x), vf_abs(normal.y), vf_abs(normal.z)};
-        vf along = vf3_dot(towards, normal);
-        vi hides = p->wanted & (along > 1e-3f - vf3_dot_all(turn, half));
-        struct vf3 beyond = {vf_max(vf_abs(towards.x) - half.x, zero),
-                             vf_max(vf_abs(towards.y) - half.y, zero),
-                             vf_max(vf_abs(towards.z) - half.z, zero)};
-        float size = fminf(fminf(half.x, half.y), half.z);
-        vf fall = size / (size + 2.0f * vf3_length(beyond));
-        visible =
-            shaded_sky(visible, hides, turned_to(along, vf3_dot(towards, towards)), fall * fall);
+        visible = box_leaves_sky(box->half_size, towards, normal, p->wanted, visible);
     }
     return visible;
 }

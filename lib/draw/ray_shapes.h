@@ -84,6 +84,15 @@ SIMD struct ray_interval slabs_interval(const struct ray_slabs *s)
                                  vf_min(vf_min(s->out.x, s->out.y), s->out.z)};
 }
 
+/* Of the face of the slab which is entered last. */
+SIMD struct vf3 slabs_normal(const struct ray_slabs *s, struct vf3 inverse)
+{
+    vi x = (s->in.x >= s->in.y) & (s->in.x >= s->in.z);
+    vi y = ~x & (s->in.y >= s->in.z), z = ~x & ~y;
+    return (struct vf3){vf_where(x, -signed_one(inverse.x)), vf_where(y, -signed_one(inverse.y)),
+                        vf_where(z, -signed_one(inverse.z))};
+}
+
 SIMD void trace_boxes(const struct kiln_ray_frame *frame, uint32_t boxes, const struct ray *ray,
                       struct ray_hit *nearest)
 {
@@ -96,12 +105,7 @@ SIMD void trace_boxes(const struct kiln_ray_frame *frame, uint32_t boxes, const 
         vi nearer = (at.in <= at.out) & (at.in > 0.0f) & (at.in < nearest->t);
         if (!any(nearer))
             continue;
-        /* The face is that of the slab which is entered last. */
-        vi x = (s.in.x >= s.in.y) & (s.in.x >= s.in.z);
-        vi y = ~x & (s.in.y >= s.in.z), z = ~x & ~y;
-        struct vf3 normal = {vf_where(x, -signed_one(inverse.x)),
-                             vf_where(y, -signed_one(inverse.y)),
-                             vf_where(z, -signed_one(inverse.z))};
+        struct vf3 normal = slabs_normal(&s, inverse);
         vf face = normal.x + 3.0f * normal.y + 9.0f * normal.z;
         keep_nearer(nearest, nearer, at.in, face + (float)(14 + 27 * i), normal, b->box_color[i]);
     }

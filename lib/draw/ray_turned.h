@@ -91,11 +91,7 @@ SIMD void trace_turned(const struct kiln_ray_frame *frame, uint32_t boxes, const
         vi nearer = (at.in <= at.out) & (at.in > 0.0f) & (at.in < nearest->t);
         if (!any(nearer))
             continue;
-        vi x = (s.in.x >= s.in.y) & (s.in.x >= s.in.z);
-        vi y = ~x & (s.in.y >= s.in.z), z = ~x & ~y;
-        struct vf3 normal = {vf_where(x, -signed_one(inverse.x)),
-                             vf_where(y, -signed_one(inverse.y)),
-                             vf_where(z, -signed_one(inverse.z))};
+        struct vf3 normal = slabs_normal(&s, inverse);
         vf face = normal.x + 3.0f * normal.y + 9.0f * normal.z;
         keep_nearer(nearest, nearer, at.in, face + (float)(RAY_TURNED + 14 + 27 * i),
                     out_of_box(box, normal), box->color);

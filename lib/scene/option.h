@@ -101,6 +101,7 @@ extern const struct kiln_option kiln_options_look[];
 extern const struct kiln_option kiln_options_backdrop[];
 extern const struct kiln_option kiln_options_post[];
 extern const struct kiln_option_kind kiln_force_kinds[];
+extern const struct kiln_option_kind kiln_interaction_kinds[];
 
 /* The row of a name in a table, or NULL. */
 const struct kiln_option *kiln_option_find(const struct kiln_option *table, const char *name);

@@ -12,6 +12,10 @@
         VALUE("angle", angle, KILN_ANGLE, 0, KILN_DEG(180), TIME, spread,                          \
               "Largest angle between a particle's direction and the middle one.")
 
+#define TURN                                                                                       \
+    VALUE("turn", turn, KILN_ANGULAR_SPEED, KILN_DEG(-36000), KILN_DEG(36000), TIME, "0 deg/s",    \
+          "The shape turns about its direction; particles get the velocity of their place.")
+
 static const struct kiln_option point[] = {
     PLACE("0 deg"),
     END,
@@ -22,6 +26,7 @@ static const struct kiln_option sphere[] = {
     VALUE("radius", radius, KILN_METRES, 0, FAR, TIME, "0.1 m", "Radius."),
     BOOLEAN("outward", outward, "false", "Directions point away from the origin instead."),
     BOOLEAN("surface", surface, "false", "Births on the surface alone."),
+    TURN,
     END,
 };
 
@@ -29,6 +34,7 @@ static const struct kiln_option box[] = {
     PLACE("0 deg"),
     VECTOR("size", size, KILN_METRES, 0, FAR, TIME, "[1, 1, 1]", "Full edges."),
     BOOLEAN("surface", surface, "false", "Births on the six faces alone."),
+    TURN,
     END,
 };
 
@@ -36,6 +42,7 @@ static const struct kiln_option disc[] = {
     PLACE("0 deg"),
     VALUE("radius", radius, KILN_METRES, 0, FAR, TIME, "0.5 m", "Radius; faces the direction."),
     BOOLEAN("surface", surface, "false", "Births on the rim alone."),
+    TURN,
     END,
 };
 
@@ -172,6 +179,12 @@ static const struct kiln_option force = {.name = "force",
                                          .kinds = kiln_force_kinds,
                                          .kind_offset = offsetof(struct kiln_force, kind)};
 
+static const struct kiln_option interaction = {.name = "interaction",
+                                               .type = &kiln_type_kind,
+                                               .kinds = kiln_interaction_kinds,
+                                               .kind_offset =
+                                                   offsetof(struct kiln_interaction, kind)};
+
 const struct kiln_option kiln_options_system[] = {
     BOOLEAN("enabled", enabled, "true", "A system that is not has no particles."),
     GROUP("emit", AT(emit), emit_options, "How particles are born."),
@@ -180,6 +193,9 @@ const struct kiln_option kiln_options_system[] = {
      .max_count = KILN_MAX_FORCES},
     {ROW("collide", switch, AT(collide), "none", "How they bounce off the boxes and the floor."),
      .members = collide_options, .count_offset = AT(collide.enabled)},
+    {ROW("interact", list, AT(interactions), "[]", "What they do to each other."),
+     .item = &interaction, .item_size = sizeof(struct kiln_interaction),
+     .count_offset = AT(interaction_count), .max_count = KILN_MAX_INTERACTIONS},
     {ROW("demitters", list, AT(demitters), "[]", "Boxes in which particles die."),
      .item = &demitter, .item_size = sizeof(struct kiln_bounds), .count_offset = AT(demitter_count),
      .max_count = KILN_MAX_DEMITTERS},

@@ -132,6 +132,17 @@ struct kiln_derived_params kiln_scene_derived(const struct kiln_scene *scene, ui
                                         .life = scene->systems[system].emit.life};
 }
 
+const struct kiln_interaction *kiln_scene_interaction(const struct kiln_scene *scene,
+                                                      uint32_t system,
+                                                      enum kiln_interaction_kind kind)
+{
+    const struct kiln_system *s = &scene->systems[system];
+    for (uint32_t i = 0; i < s->interaction_count; i++)
+        if (s->interactions[i].kind == kind)
+            return &s->interactions[i];
+    return NULL;
+}
+
 static float rate_at(const void *context, float time_s)
 {
     const struct kiln_scene_births *births = context;

@@ -74,6 +74,7 @@ struct kiln_emitter {
     bool surface;                 /* sphere, box, disc: births on the surface or rim alone */
     struct kiln_value radius;     /* m: sphere, disc, base of the cone */
     struct kiln_value3 size;      /* m: box, full edges */
+    struct kiln_value turn;       /* rad/s: of the shape about its direction */
     struct kiln_value inherit;    /* part of the emitter's (or parent's) velocity that it gets */
 };
 
@@ -120,6 +121,32 @@ struct kiln_collide {
     struct kiln_value slowdown;    /* factor on the speed, 0..1 */
     struct kiln_value restitution; /* 0..1: of the speed along the normal */
     struct kiln_value friction;    /* Coulomb's */
+};
+
+/* ---- interact: UberFlow 2004, 4.3 to 4.5, Drone 2007, 7.4; of each kind at most one a system
+ * --------------------
+ */
+
+enum kiln_interaction_kind {
+    KILN_INTERACT_COLLIDE, /* with others of the system: shared/interact_collide.h */
+    KILN_INTERACT_GRAVITY, /* of each on all others: shared/interact_gravity.h */
+};
+
+enum kiln_contact_mode {
+    KILN_CONTACT_EXACT,     /* no pair is missed */
+    KILN_CONTACT_STAGGERED, /* the paper's: shared/interact_staggered.h */
+};
+
+struct kiln_interaction {
+    enum kiln_interaction_kind kind;
+    enum kiln_contact_mode mode;   /* collide */
+    bool as_drawn;                 /* collide: half of look.size times look.scale is the radius */
+    struct kiln_value radius;      /* m: collide, of who is not */
+    struct kiln_value restitution; /* collide: 0 no bounce .. 1 all energy is kept */
+    struct kiln_value apart;       /* collide: 0..1: part of an overlap that a round takes away */
+    uint32_t rounds;               /* collide: of pairs in a step */
+    struct kiln_value strength;    /* gravity: acceleration at 1 m, m/s^2; below 0 it repels */
+    struct kiln_value softening;   /* m: gravity of nearer ones grows no more; above 0 */
 };
 
 /* ---- look ------------------------------------------------------------------------------------ */
@@ -206,6 +233,8 @@ struct kiln_system {
     struct kiln_force forces[KILN_MAX_FORCES];
     uint32_t force_count;
     struct kiln_collide collide;
+    struct kiln_interaction interactions[KILN_MAX_INTERACTIONS];
+    uint32_t interaction_count;
     struct kiln_bounds demitters[KILN_MAX_DEMITTERS]; /* a particle inside dies (2.1.2) */
     uint32_t demitter_count;
     struct kiln_bounds bounds; /* a particle outside dies (2.1.2) */
@@ -389,6 +418,10 @@ bool kiln_object_is_mesh(const struct kiln_object *object);
 
 /* What a terrain is made from; the image's path stays the scene's. */
 struct kiln_terrain_params kiln_scene_terrain(const struct kiln_object *terrain);
+/* The system's interaction of a kind, or NULL. */
+const struct kiln_interaction *kiln_scene_interaction(const struct kiln_scene *scene,
+                                                      uint32_t system,
+                                                      enum kiln_interaction_kind kind);
 
 /* What is needed to recompute a particle of a system from its record (shared/derived.h). */
 struct kiln_derived_params kiln_scene_derived(const struct kiln_scene *scene, uint32_t system);

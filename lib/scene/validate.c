@@ -258,6 +258,29 @@ static const char *shape_name(const struct kiln_emitter *emit)
     return names[emit->shape];
 }
 
+/* Two of a kind would each gather from the state before the other. */
+static bool check_interactions(struct kiln_reader *reader, const struct kiln_node *root,
+                               const struct kiln_system *system)
+{
+    char path[128];
+    for (uint32_t i = 0; i < system->interaction_count; i++) {
+        const struct kiln_interaction *interaction = &system->interactions[i];
+        snprintf(path, sizeof path, "systems.%s.interact", system->name);
+        for (uint32_t k = 0; k < i; k++) {
+            if (system->interactions[k].kind == interaction->kind)
+                return kiln_validate_fail(reader, root, path,
+                                          "entries %u and %u are of one kind; at most one of each",
+                                          k, i);
+        }
+        if (interaction->kind == KILN_INTERACT_COLLIDE && !interaction->as_drawn &&
+            kiln_scene_value_max(reader->scene, &interaction->radius) <= 0.0f)
+            return kiln_validate_fail(reader, root, path,
+                                      "the radius of entry %u is 0 all along: nothing can collide",
+                                      i);
+    }
+    return true;
+}
+
 static bool check_systems(struct kiln_reader *reader, const struct kiln_node *root)
 {
     struct kiln_scene *scene = reader->scene;
@@ -279,7 +302,8 @@ static bool check_systems(struct kiln_reader *reader, const struct kiln_node *ro
         if (system->look.motion[0] == '/' &&
             (system->look.atlas_count > 1 || system->look.atlas[0][0] != '/'))
             return kiln_validate_fail(reader, root, path, "a motion file goes with one atlas file");
-        if (!check_shape(reader, root, system) || !check_cells(reader, root, system))
+        if (!check_shape(reader, root, system) || !check_cells(reader, root, system) ||
+            !check_interactions(reader, root, system))
             return false;
         if (!system->bounds.enabled)
             system->bounds = scene->bounds;

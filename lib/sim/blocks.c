@@ -52,7 +52,8 @@ void kiln_sim_blocks_finish(struct kiln_sim_blocks *blocks)
 }
 
 bool kiln_sim_blocks_upload(struct kiln_sim_blocks *blocks, const struct kiln_sim_params *params,
-                            struct kiln_buffer *traces, struct kiln_error *error)
+                            struct kiln_buffer *traces, struct kiln_buffer *pushes,
+                            struct kiln_error *error)
 {
     unsigned char *steps = kiln_buffer_host(&blocks->steps, KILN_READ_WRITE, error);
     if (!steps)
@@ -70,6 +71,12 @@ bool kiln_sim_blocks_upload(struct kiln_sim_blocks *blocks, const struct kiln_si
         if (!words)
             return false;
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SIM_BIND_GRIDS, words);
+    }
+    if (params->push_count > 0) {
+        GLuint words = kiln_buffer_gl(pushes, KILN_READ, error);
+        if (!words)
+            return false;
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SIM_BIND_PUSHES, words);
     }
     if (params->trace_count == 0)
         return true;
@@ -96,11 +103,12 @@ bool kiln_sim_check_stage(struct kiln_device *device, const struct kiln_sim_para
     glGetIntegerv(fragment ? GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS
                            : GL_MAX_GEOMETRY_SHADER_STORAGE_BLOCKS,
                   &blocks);
-    const GLint needed = (params->trace_count > 0) + (params->grids->count > 0);
+    const GLint needed =
+        (params->trace_count > 0) + (params->grids->count > 0) + (params->push_count > 0);
     if (blocks < needed)
         return kiln_error_set(error, KILN_NO_DEVICE,
-                              "%s: %d storage blocks in %s shaders; this scene, with children or "
-                              "grids, needs %d; use simulate=pingpong",
+                              "%s: %d storage blocks in %s shaders; this scene, with children, "
+                              "grids or interaction, needs %d; use simulate=pingpong",
                               device->info.name, blocks, name, needed);
     char reason[256];
     struct kiln_error problem = {0};
@@ -186,13 +194,14 @@ bool kiln_sim_programs_init(struct kiln_sim_programs *programs, struct kiln_devi
     *programs = (struct kiln_sim_programs){.alone = 0};
     struct defines defines;
     const bool grids = params->grids->count > 0, turned = has_turned_colliders(scene);
-    const bool fields = has_field_colliders(scene);
+    const bool fields = has_field_colliders(scene), pushes = params->push_count > 0;
     snprintf(defines.text, sizeof defines.text, "#define SIM_GROUP_SIZE %u\n", group_size(device));
-    add_define(&defines, "COLLIDE_ROUND", grids || turned || has_round_colliders(scene));
+    add_define(&defines, "COLLIDE_ROUND", grids || turned || pushes || has_round_colliders(scene));
     add_define(&defines, "COLLIDE_TURNED", turned);
     add_define(&defines, "COLLIDE_RUB", has_rubbing(params));
     add_define(&defines, "GRIDS", grids);
     add_define(&defines, "COLLIDE_FIELD", fields);
+    add_define(&defines, "PUSHES", pushes);
     files.defines = defines.text;
     programs->alone = kiln_program_create(device, &files, error);
     if (!programs->alone || !has_families(params))

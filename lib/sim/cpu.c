@@ -9,14 +9,17 @@ enum { SLOTS_AT_A_TIME = 2048 };
 
 bool kiln_sim_cpu_step(const struct kiln_slots_step *loops, struct kiln_threads *threads,
                        const struct kiln_sim_params *params, const float4 *value_keys,
-                       struct kiln_pool *pool, struct kiln_buffer *traces, struct kiln_error *error)
+                       struct kiln_pool *pool, struct kiln_buffer *traces,
+                       struct kiln_buffer *pushes, struct kiln_error *error)
 {
     struct kiln_particle *records = kiln_buffer_host(&pool->records, KILN_READ_WRITE, error);
     struct kiln_trace *scratch =
         params->trace_count ? kiln_buffer_host(traces, KILN_READ_WRITE, error) : NULL;
     const float4 *words =
         params->grids->count ? kiln_buffer_host(&params->grids->words, KILN_READ, error) : NULL;
-    if (!records || (params->trace_count && !scratch) || (params->grids->count && !words))
+    const float4 *pushed = params->push_count ? kiln_buffer_host(pushes, KILN_READ, error) : NULL;
+    if (!records || (params->trace_count && !scratch) || (params->grids->count && !words) ||
+        (params->push_count && !pushed))
         return false;
     for (uint32_t k = 0; k < params->system_count; k++) {
         const struct kiln_step_params *step = &params->systems[params->order[k]];
@@ -24,7 +27,8 @@ bool kiln_sim_cpu_step(const struct kiln_slots_step *loops, struct kiln_threads 
             .sim = {.step = step,
                     .surroundings = &params->surroundings,
                     .value_keys = value_keys,
-                    .grid_words = words},
+                    .grid_words = words,
+                    .push_words = pushed},
             .records = records + step->base,
             .traces = scratch,
         };

@@ -7,11 +7,12 @@
 #include "sim/params.h"
 #include "sim/slots.h"
 
-/* traces: struct kiln_trace [params->trace_count], scratch. loops: for this machine. */
+/* traces: struct kiln_trace [params->trace_count], scratch. pushes: gathered. loops: for this
+ * machine. */
 bool kiln_sim_cpu_step(const struct kiln_slots_step *loops, struct kiln_threads *threads,
                        const struct kiln_sim_params *params, const float4 *value_keys,
                        struct kiln_pool *pool, struct kiln_buffer *traces,
-                       struct kiln_error *error);
+                       struct kiln_buffer *pushes, struct kiln_error *error);
 
 /* The sums over the host's records, in threads. */
 bool kiln_sim_cpu_hash(struct kiln_threads *threads, struct kiln_pool *pool,

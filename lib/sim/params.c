@@ -13,16 +13,17 @@
 
 static_assert(sizeof(struct kiln_value) == 16, "std140");
 static_assert(sizeof(struct kiln_derived_params) == 48, "std140");
-static_assert(sizeof(struct kiln_emit_params) == 240, "std140");
+static_assert(sizeof(struct kiln_emit_params) == 256, "std140");
 static_assert(sizeof(struct kiln_force_params) == 160, "std140");
 static_assert(sizeof(struct kiln_birth_group) == 16, "std140");
-static_assert(offsetof(struct kiln_step_params, step) == 288, "std140");
-static_assert(offsetof(struct kiln_step_params, randomness) == 352, "std140");
-static_assert(offsetof(struct kiln_step_params, bounds_min) == 432, "std140");
-static_assert(offsetof(struct kiln_step_params, groups) == 720, "std140");
-static_assert(offsetof(struct kiln_step_params, forces) == 1760, "std140");
-static_assert(offsetof(struct kiln_step_params, family) == 4320, "std140");
-static_assert(sizeof(struct kiln_step_params) == 4368, "std140");
+static_assert(offsetof(struct kiln_step_params, step) == 304, "std140");
+static_assert(offsetof(struct kiln_step_params, randomness) == 368, "std140");
+static_assert(offsetof(struct kiln_step_params, bounds_min) == 448, "std140");
+static_assert(offsetof(struct kiln_step_params, groups) == 736, "std140");
+static_assert(offsetof(struct kiln_step_params, forces) == 1776, "std140");
+static_assert(offsetof(struct kiln_step_params, family) == 4336, "std140");
+static_assert(offsetof(struct kiln_step_params, pushed) == 436, "std140");
+static_assert(sizeof(struct kiln_step_params) == 4384, "std140");
 static_assert(sizeof(struct kiln_trace) == 112, "std430");
 static_assert(offsetof(struct kiln_surroundings, colliders) == 16, "std140");
 static_assert(offsetof(struct kiln_surroundings, grids) == 6880, "std140");
@@ -75,6 +76,7 @@ static void fill_emitter(struct kiln_emit_params *params, const struct kiln_emit
         .angle = emit->angle,
         .radius = emit->radius,
         .inherit = emit->inherit,
+        .turn = emit->turn,
     };
 }
 
@@ -154,6 +156,18 @@ static void fill_families(struct kiln_sim_params *params, const struct kiln_scen
     }
 }
 
+static void fill_pushes(struct kiln_sim_params *params, const struct kiln_scene *scene)
+{
+    params->push_count = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        if (scene->systems[i].interaction_count == 0)
+            continue;
+        params->systems[i].pushed = 1;
+        params->systems[i].first_push = params->push_count;
+        params->push_count += scene->systems[i].capacity;
+    }
+}
+
 bool kiln_sim_is_family(const struct kiln_step_params *params)
 {
     const struct kiln_family_params *family = &params->family;
@@ -170,6 +184,7 @@ void kiln_sim_params_init(struct kiln_sim_params *params, const struct kiln_scen
     for (uint32_t i = 0; i < scene->system_count; i++)
         fill_system(&params->systems[i], scene, i);
     fill_families(params, scene);
+    fill_pushes(params, scene);
 }
 
 /* The value with its course over time taken at time_s; a curve over life stays one. */
@@ -294,7 +309,7 @@ static struct kiln_collider terrain_collider(const struct kiln_sim_grids *grids,
     const struct kiln_grid *grid = &grids->table[number];
     const float width = (float)(grid->size.x - 1), depth = (float)(grid->size.z - 1);
     struct kiln_collider terrain = {
-        .min = FLOAT4(grid->origin.x, -WORLD, grid->origin.z, 0.0f),
+        .min = FLOAT4(grid->origin.x, -KILN_WORLD, grid->origin.z, 0.0f),
         .max = FLOAT4(exact_canon(grid->origin.x + width / grid->per_metre.x),
                       exact_canon(grids->top[number] + 0.01f),
                       exact_canon(grid->origin.z + depth / grid->per_metre.z), 0.0f),

@@ -15,6 +15,7 @@ struct kiln_sim_params {
     struct kiln_sim_grids *grids;     /* of the scene */
     uint32_t order[KILN_MAX_SYSTEMS]; /* of the systems in a step: parents before their children */
     uint32_t trace_count;             /* of the systems with children: one a slot */
+    uint32_t push_count;              /* of the systems that interact: one a slot */
 };
 
 /* Does the system need the kernel for families (shared/step_family.h)? */

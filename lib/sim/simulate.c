@@ -9,6 +9,7 @@
 #include "sim/feedback.h"
 #include "sim/hash.h"
 #include "sim/inplace.h"
+#include "sim/interact.h"
 #include "sim/pingpong.h"
 #include "sim/texels.h"
 
@@ -19,6 +20,7 @@ struct kiln_simulate {
     struct kiln_sim_params params;
     struct kiln_sim_grids grids;
     struct kiln_buffer traces; /* of parents, within a step: no part of the state */
+    struct kiln_interact interact;
     /* of `cpu`: */
     const struct kiln_slots_step *loops;
     /* of all techniques in GL: */
@@ -84,6 +86,8 @@ struct kiln_simulate *kiln_simulate_create(struct kiln_device *device,
     kiln_sim_params_init(&simulate->params, scene, &simulate->grids);
     kiln_buffer_init(&simulate->traces, place,
                      (size_t)simulate->params.trace_count * sizeof(struct kiln_trace), "traces");
+    ok = ok &&
+         kiln_interact_init(&simulate->interact, place, scene, &simulate->params, threads, error);
     ok = ok && (technique == KILN_SIMULATE_CPU ? choose_loops(simulate, error)
                                                : init_on_device(simulate, device, error));
     if (!ok)
@@ -104,6 +108,7 @@ void kiln_simulate_destroy(struct kiln_simulate **simulate)
         kiln_sim_hash_finish(&s->hash);
         kiln_sim_blocks_finish(&s->blocks);
     }
+    kiln_interact_finish(&s->interact);
     kiln_buffer_finish(&s->traces);
     kiln_sim_grids_finish(&s->grids);
     free(s);
@@ -116,13 +121,16 @@ bool kiln_simulate_step(struct kiln_simulate *simulate, struct kiln_pool *pool, 
     struct kiln_simulate *s = simulate;
     if (!kiln_sim_params_step(&s->params, s->scene, pool, step, error))
         return false;
-    if (s->technique != KILN_SIMULATE_CPU &&
-        !kiln_sim_blocks_upload(&s->blocks, &s->params, &s->traces, error))
+    const bool host = s->technique == KILN_SIMULATE_CPU;
+    struct kiln_buffer *pushes = &s->interact.pushes;
+    if (!kiln_interact_gather(&s->interact, &s->params, pool, host ? NULL : &s->blocks.keys, error))
+        return false;
+    if (!host && !kiln_sim_blocks_upload(&s->blocks, &s->params, &s->traces, pushes, error))
         return false;
     switch (s->technique) {
     case KILN_SIMULATE_CPU:
         return kiln_sim_cpu_step(s->loops, s->threads, &s->params, s->scene->keys, pool, &s->traces,
-                                 error);
+                                 pushes, error);
     case KILN_SIMULATE_INPLACE:
         return kiln_inplace_step(&s->inplace, &s->blocks, &s->params, pool, error);
     case KILN_SIMULATE_PINGPONG:

@@ -13,6 +13,8 @@ struct block {
     uint32_t touching[KILN_LANES];    /* 1: may touch the collider at hand */
     uint32_t lost[KILN_LANES];        /* 1: where particles may not be */
     kiln_floats life;                 /* progress at the start of the step */
+    struct kiln_floats3 start;        /* velocity at the start, pushes included */
+    kiln_floats radius;               /* of those that are pushed */
     struct kiln_floats3 acceleration; /* of the forces so far */
     kiln_floats pull;
     struct kiln_floats3 velocity, position; /* at the end */
@@ -139,6 +141,36 @@ static inline void limit_speed(const struct kiln_sim *sim, struct block *b)
     }
 }
 
+/* Slots from first_slot on, as far as there are any. */
+static inline uint32_t slots_left(const struct kiln_sim *sim, uint32_t first_slot)
+{
+    const uint32_t left = sim->step->used - first_slot;
+    return left < KILN_LANES ? left : KILN_LANES;
+}
+
+static inline void start_moving(const struct kiln_sim *sim, struct block *b, uint32_t first_slot)
+{
+    for (uint32_t i = 0; i < KILN_LANES; i++)
+        kiln_set3(&b->start, i, particle_velocity(record_at(b, i)));
+    if (!sim->step->pushed)
+        return;
+    memset(b->radius, 0, sizeof b->radius);
+    for (uint32_t i = 0; i < slots_left(sim, first_slot); i++) {
+        const struct step_push push = push_of(sim, first_slot + i);
+        kiln_set3(&b->start, i, push_faster(push, kiln_get3(&b->start, i)));
+        b->radius[i] = push.radius;
+    }
+}
+
+static inline void push_on(const struct kiln_sim *sim, struct block *b, uint32_t first_slot)
+{
+    if (!sim->step->pushed)
+        return;
+    for (uint32_t i = 0; i < slots_left(sim, first_slot); i++)
+        kiln_set3(&b->position, i,
+                  push_farther(push_of(sim, first_slot + i), kiln_get3(&b->position, i)));
+}
+
 /* step_integrate, over the whole step. */
 static inline void fly(const struct kiln_sim *sim, struct block *b)
 {
@@ -151,15 +183,14 @@ static inline void fly(const struct kiln_sim *sim, struct block *b)
         add_force(sim, b, &sim->step->forces[k]);
     for (uint32_t i = 0; i < KILN_LANES; i++) {
         struct force_effect forces = {kiln_get3(&b->acceleration, i), b->pull[i]};
-        kiln_set3(&b->velocity, i,
-                  forces_apply(forces, particle_velocity(record_at(b, i)), time_s));
+        kiln_set3(&b->velocity, i, forces_apply(forces, kiln_get3(&b->start, i), time_s));
     }
     if (sim->step->limited)
         limit_speed(sim, b);
     const bool position_first = sim->step->integration == INTEGRATE_POSITION_FIRST;
     for (uint32_t i = 0; i < KILN_LANES; i++) {
         struct kiln_particle p = record_at(b, i);
-        float3 before = particle_velocity(p), after = kiln_get3(&b->velocity, i);
+        float3 before = kiln_get3(&b->start, i), after = kiln_get3(&b->velocity, i);
         float3 carrying = {position_first ? before.x : after.x, position_first ? before.y : after.y,
                            position_first ? before.z : after.z};
         kiln_set3(&b->position, i, float3_add_scaled(particle_position(p), carrying, time_s));
@@ -196,7 +227,7 @@ static inline uint32_t may_be_between(float a, float b, float low, float low_end
 
 /* A half space has no bounds. What turns with it may be anywhere; else a way touches it only if an
  * end does, up to the rounding of places far from its centre. */
-static inline void find_touching_plane(struct block *b, const struct kiln_collider *c)
+static inline void find_touching_plane(struct block *b, const struct kiln_collider *c, bool pushed)
 {
     const float3 start = {c->center.x, c->center.y, c->center.z};
     const float3 end = {c->center_end.x, c->center_end.y, c->center_end.z};
@@ -207,29 +238,32 @@ static inline void find_touching_plane(struct block *b, const struct kiln_collid
         float3 to = float3_sub(kiln_get3(&b->position, i), end);
         float far_from = exact_abs(from.x) + exact_abs(from.y) + exact_abs(from.z);
         float far_to = exact_abs(to.x) + exact_abs(to.y) + exact_abs(to.z);
-        bool above_from = float3_dot(from, normal) > 0.01f + 1e-5f * far_from;
-        bool above_to = float3_dot(to, normal) > 0.01f + 1e-5f * far_to;
-        b->alone[i] |= (uint32_t)turns | (uint32_t) !(above_from & above_to);
+        const float away = 0.01f + (pushed ? b->radius[i] : 0.0f);
+        bool above_from = float3_dot(from, normal) > away + 1e-5f * far_from;
+        bool above_to = float3_dot(to, normal) > away + 1e-5f * far_to;
+        b->touching[i] = (uint32_t)turns | (uint32_t) !(above_from & above_to);
     }
 }
 
-static inline void find_touching(struct block *b, const struct kiln_collider *c)
+/* `pushed`: by as much as their radii, lanes come less near; collide_around has the same sums. */
+static inline void find_touching(struct block *b, const struct kiln_collider *c, bool pushed)
 {
     if (c->kind == COLLIDER_PLANE) {
-        find_touching_plane(b, c);
+        find_touching_plane(b, c, pushed);
         return;
     }
     /* The bounds of a round shape are computed apart from its surface. */
     const float gap = c->kind == COLLIDER_BOX ? 0.0f : 0.01f;
-    const float3 low = {c->min.x - gap, c->min.y - gap, c->min.z - gap};
-    const float3 high = {c->max.x + gap, c->max.y + gap, c->max.z + gap};
-    const float3 low_end = {c->min_end.x - gap, c->min_end.y - gap, c->min_end.z - gap};
-    const float3 high_end = {c->max_end.x + gap, c->max_end.y + gap, c->max_end.z + gap};
     for (uint32_t i = 0; i < KILN_LANES; i++) {
+        const float r = pushed ? b->radius[i] : 0.0f;
         float3 from = particle_position(record_at(b, i)), to = kiln_get3(&b->position, i);
-        b->touching[i] = may_be_between(from.x, to.x, low.x, low_end.x, high.x, high_end.x) &
-                         may_be_between(from.y, to.y, low.y, low_end.y, high.y, high_end.y) &
-                         may_be_between(from.z, to.z, low.z, low_end.z, high.z, high_end.z);
+        b->touching[i] =
+            may_be_between(from.x, to.x, (c->min.x - r) - gap, (c->min_end.x - r) - gap,
+                           (c->max.x + r) + gap, (c->max_end.x + r) + gap) &
+            may_be_between(from.y, to.y, (c->min.y - r) - gap, (c->min_end.y - r) - gap,
+                           (c->max.y + r) + gap, (c->max_end.y + r) + gap) &
+            may_be_between(from.z, to.z, (c->min.z - r) - gap, (c->min_end.z - r) - gap,
+                           (c->max.z + r) + gap, (c->max_end.z + r) + gap);
     }
 }
 
@@ -259,9 +293,13 @@ static inline void find_touching_mesh(const struct kiln_sim *sim, struct block *
 
 static inline void find_touching_any(const struct kiln_sim *sim, struct block *b)
 {
+    const bool pushed = sim->step->pushed != 0;
     for (uint32_t k = 0; k < sim->surroundings->collider_count; k++) {
         const struct kiln_collider *c = &sim->surroundings->colliders[k];
-        find_touching(b, c);
+        if (pushed)
+            find_touching(b, c, true);
+        else
+            find_touching(b, c, false);
         if (c->kind == COLLIDER_TERRAIN)
             find_touching_ground(sim, b, c);
         else if (c->kind == COLLIDER_SDF)
@@ -316,7 +354,9 @@ __attribute__((flatten)) static void step_block(const struct kiln_sim *sim, uint
 {
     kiln_lanes_load(&b->lanes, records);
     find_ages(sim, b);
+    start_moving(sim, b, first_slot);
     fly(sim, b);
+    push_on(sim, b, first_slot);
     find_lost(sim, b);
     find_alone(sim, b, first_slot);
     move(b);

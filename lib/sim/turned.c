@@ -19,6 +19,7 @@ bool kiln_turned_is(const struct kiln_object *object)
         return true;
     case KILN_OBJECT_SPHERE:
     case KILN_OBJECT_MESH:
+    case KILN_OBJECT_TERRAIN:
         break;
     }
     return false;

@@ -1,48 +1,8 @@
 /* Spheres and capped cylinders, cast like the boxes of backdrop.frag. */
 
-/* Entry and exit of a ray through sphere i; the discriminant from the vector across the ray, which
- * keeps its digits far away. */
 vec2 sphere_interval(int i, vec3 origin, vec3 direction)
 {
-    vec3 from = origin - shapes.spheres[i].xyz;
-    float radius = shapes.spheres[i].w;
-    float a = dot(direction, direction);
-    float middle = -dot(from, direction) / a;
-    vec3 across = from + direction * middle;
-    float inside = (radius * radius - dot(across, across)) / a;
-    float extent = sqrt(max(inside, 0.0));
-    return inside > 0.0 ? vec2(middle - extent, middle + extent) : vec2(1.0, -1.0);
-}
-
-struct cylinder_hit {
-    vec2 interval;
-    bool on_end; /* enters through a flat end */
-};
-
-cylinder_hit cross_cylinder(int i, vec3 origin, vec3 direction)
-{
-    vec3 axis = shapes.cylinder_axis[i].xyz;
-    float radius = shapes.cylinders[i].w;
-    vec3 from = origin - shapes.cylinders[i].xyz;
-    float height = dot(from, axis);
-    float climb = dot(direction, axis);
-    vec3 flat_from = from - axis * height;
-    vec3 flat_direction = direction - axis * climb;
-
-    float a = max(dot(flat_direction, flat_direction), 1e-12);
-    float middle = -dot(flat_from, flat_direction) / a;
-    vec3 across = flat_from + flat_direction * middle;
-    float inside = (radius * radius - dot(across, across)) / a;
-    float extent = sqrt(max(inside, 0.0));
-
-    float inverse = (climb < 0.0 ? -1.0 : 1.0) / max(abs(climb), 1e-8);
-    float slab_middle = -height * inverse;
-    float slab_extent = shapes.cylinder_axis[i].w * abs(inverse);
-
-    vec2 side = inside > 0.0 ? vec2(middle - extent, middle + extent) : vec2(1.0, -1.0);
-    vec2 slab = vec2(slab_middle - slab_extent, slab_middle + slab_extent);
-    return cylinder_hit(vec2(max(side.x, slab.x), inside > 0.0 ? min(side.y, slab.y) : -1e9),
-                        slab.x > side.x);
+    return ball_interval(shapes.spheres[i].xyz, shapes.spheres[i].w, origin, direction);
 }
 
 /* Replaces `nearest` by what the ray hits before it. */
@@ -68,7 +28,8 @@ void trace_cylinders(vec3 origin, vec3 direction, inout hit nearest)
     int found = -1;
     bool on_end = false;
     for (int i = 0; i < int(shapes.counts.y); i++) {
-        cylinder_hit crossing = cross_cylinder(i, origin, direction);
+        cylinder_hit crossing =
+            cross_cylinder(shapes.cylinders[i], shapes.cylinder_axis[i], origin, direction);
         vec2 interval = crossing.interval;
         if (interval.x <= interval.y && interval.x > 0.0 && interval.x < nearest.t) {
             nearest.t = interval.x;
@@ -93,10 +54,7 @@ float round_sky_visibility(vec3 point, vec3 normal)
     float visible = 1.0;
     for (int i = 0; i < int(shapes.counts.x); i++) {
         vec3 towards = shapes.spheres[i].xyz - point;
-        float radius = shapes.spheres[i].w;
-        float d2 = dot(towards, towards);
-        float facing = clamp(dot(towards, normal) * inversesqrt(d2) + 0.4, 0.0, 1.0);
-        visible *= 1.0 - 0.7 * facing * min(radius * radius / d2, 1.0);
+        visible *= ball_sky_visibility(towards, shapes.spheres[i].w, normal);
     }
     for (int i = 0; i < int(shapes.counts.y); i++) {
         vec3 axis = shapes.cylinder_axis[i].xyz;
@@ -167,7 +125,8 @@ float round_sun_visibility(vec3 origin)
             return 0.0;
     }
     for (int i = 0; i < int(shapes.counts.y); i++) {
-        vec2 interval = cross_cylinder(i, origin, sun).interval;
+        vec2 interval =
+            cross_cylinder(shapes.cylinders[i], shapes.cylinder_axis[i], origin, sun).interval;
         if (max(interval.x, 0.0) < interval.y)
             return 0.0;
     }

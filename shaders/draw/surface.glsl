@@ -49,8 +49,23 @@ vec2 box_interval(int i, vec3 origin, vec3 inverse)
     return vec2(max(max(near.x, near.y), near.z), min(min(far.x, far.y), far.z));
 }
 
+/* What is left of the sky beside a box, in whose frame the vectors are: falls off with the distance
+ * in units of the box. Not a solid angle, but it anchors a box to the floor. */
+float box_sky_visibility(vec3 towards, vec3 halves, vec3 normal)
+{
+    float away = length(max(abs(towards) - halves, vec3(0.0)));
+    float facing = clamp(dot(towards, normal) * inversesqrt(dot(towards, towards)) + 0.4, 0.0, 1.0);
+    float size = min(min(halves.x, halves.y), halves.z);
+    bool outside = dot(towards, normal) > -dot(halves, abs(normal)) + 1e-3;
+    float fall = 1.0 / (1.0 + 2.0 * away / size);
+    return outside ? 1.0 - 0.7 * facing * fall * fall : 1.0;
+}
+
 #ifdef SOFT_SUN
 #include "draw/sun_cover.glsl"
+#endif
+#if defined(ROUND) || defined(TURNED)
+#include "draw/round_interval.glsl"
 #endif
 #ifdef ROUND
 #include "draw/round.glsl"
@@ -119,22 +134,12 @@ float sun_visibility(vec3 point, vec3 normal)
     return visible;
 }
 
-/* How much of the sky the boxes near a point hide: falls off with the distance in units of the box.
- * Not a solid angle, but it anchors a box to the floor. */
 float sky_visibility(vec3 point, vec3 normal)
 {
     float visible = 1.0;
     for (int i = 0; i < int(backdrop.counts.x); i++) {
         vec3 towards = backdrop.box_center[i].xyz - point;
-        vec3 halves = backdrop.box_half[i].xyz;
-        float away = length(max(abs(towards) - halves, vec3(0.0)));
-        float facing = clamp(dot(towards, normal) * inversesqrt(dot(towards, towards)) + 0.4, 0.0, 1.0);
-        float size = min(min(halves.x, halves.y), halves.z);
-        bool outside = dot(towards, normal) > -dot(halves, abs(normal)) + 1e-3;
-        if (outside) {
-            float fall = 1.0 / (1.0 + 2.0 * away / size);
-            visible *= 1.0 - 0.7 * facing * fall * fall;
-        }
+        visible *= box_sky_visibility(towards, backdrop.box_half[i].xyz, normal);
     }
 #ifdef ROUND
     visible *= round_sky_visibility(point, normal);

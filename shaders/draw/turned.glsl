@@ -3,37 +3,6 @@
 
 /* ---- capsules: two balls and a barrel between them ---- */
 
-vec2 ball_interval(vec3 center, float radius, vec3 origin, vec3 direction)
-{
-    vec3 from = origin - center;
-    float a = dot(direction, direction);
-    float middle = -dot(from, direction) / a;
-    vec3 across = from + direction * middle;
-    float inside = (radius * radius - dot(across, across)) / a;
-    float extent = sqrt(max(inside, 0.0));
-    return inside > 0.0 ? vec2(middle - extent, middle + extent) : vec2(1.0, -1.0);
-}
-
-vec2 barrel_interval(int i, vec3 origin, vec3 direction)
-{
-    vec3 axis = shapes.capsule_axis[i].xyz;
-    float radius = shapes.capsules[i].w;
-    vec3 from = origin - shapes.capsules[i].xyz;
-    float height = dot(from, axis), climb = dot(direction, axis);
-    vec3 flat_from = from - axis * height, flat_direction = direction - axis * climb;
-    float a = max(dot(flat_direction, flat_direction), 1e-12);
-    float middle = -dot(flat_from, flat_direction) / a;
-    vec3 across = flat_from + flat_direction * middle;
-    float inside = (radius * radius - dot(across, across)) / a;
-    float extent = sqrt(max(inside, 0.0));
-    float inverse = (climb < 0.0 ? -1.0 : 1.0) / max(abs(climb), 1e-8);
-    float slab_middle = -height * inverse;
-    float slab_extent = shapes.capsule_axis[i].w * abs(inverse);
-    vec2 both = vec2(max(middle - extent, slab_middle - slab_extent),
-                     min(middle + extent, slab_middle + slab_extent));
-    return inside > 0.0 ? both : vec2(1.0, -1.0);
-}
-
 vec2 either_interval(vec2 a, vec2 b)
 {
     if (a.x > a.y)
@@ -48,7 +17,9 @@ vec2 capsule_interval(int i, vec3 origin, vec3 direction)
     float radius = shapes.capsules[i].w;
     vec2 balls = either_interval(ball_interval(center - end, radius, origin, direction),
                                  ball_interval(center + end, radius, origin, direction));
-    return either_interval(barrel_interval(i, origin, direction), balls);
+    cylinder_hit barrel =
+        cross_cylinder(shapes.capsules[i], shapes.capsule_axis[i], origin, direction);
+    return either_interval(barrel.interval, balls);
 }
 
 void trace_capsules(vec3 origin, vec3 direction, inout hit nearest)
@@ -140,25 +111,15 @@ float turned_sky_visibility(vec3 point, vec3 normal)
     float visible = 1.0;
     for (int i = 0; i < int(shapes.more.x); i++) {
         vec3 axis = shapes.capsule_axis[i].xyz;
-        float halves = shapes.capsule_axis[i].w, radius = shapes.capsules[i].w;
+        float halves = shapes.capsule_axis[i].w;
         vec3 towards = shapes.capsules[i].xyz - point;
         towards += axis * clamp(-dot(towards, axis), -halves, halves);
-        float d2 = max(dot(towards, towards), 1e-9);
-        float facing = clamp(dot(towards, normal) * inversesqrt(d2) + 0.4, 0.0, 1.0);
-        visible *= 1.0 - 0.7 * facing * min(radius * radius / d2, 1.0);
+        visible *= ball_sky_visibility(towards, shapes.capsules[i].w, normal);
     }
     for (int i = 0; i < int(shapes.more.y); i++) {
         vec3 towards = into_box(i, shapes.turned[i].center.xyz - point);
-        vec3 turned = into_box(i, normal);
-        vec3 halves = shapes.turned[i].half_size.xyz;
-        float away = length(max(abs(towards) - halves, vec3(0.0)));
-        float d2 = max(dot(towards, towards), 1e-9), along = dot(towards, turned);
-        float facing = clamp(along * inversesqrt(d2) + 0.4, 0.0, 1.0);
-        float size = min(min(halves.x, halves.y), halves.z);
-        if (along > -dot(halves, abs(turned)) + 1e-3) {
-            float fall = 1.0 / (1.0 + 2.0 * away / size);
-            visible *= 1.0 - 0.7 * facing * fall * fall;
-        }
+        visible *=
+            box_sky_visibility(towards, shapes.turned[i].half_size.xyz, into_box(i, normal));
     }
     return visible;
 }

@@ -71,6 +71,7 @@ struct collide_answer {
     bool rubs;        /* whether the rest matters */
     float restitution;
     float friction;
+    float radius; /* m: how near its centre comes */
 };
 
 /* On a collider with factors of its own. */
@@ -139,7 +140,8 @@ FN float3 collide_bounce(S(collide_answer) answer, float3 velocity, uint face, b
 }
 
 /* The same for a surface of any direction. */
-FN float3 collide_bounce_off(S(collide_answer) answer, float3 velocity, float3 normal, bool literal)
+FN_CLOSE float3 collide_bounce_off(S(collide_answer) answer, float3 velocity, float3 normal,
+                                   bool literal)
 {
     EXACT float outwards = float3_dot(velocity, normal);
     if (outwards >= 0.0f)
@@ -192,8 +194,8 @@ FN S(collide_state) collide_turned_impact(SIM_PARAM S(collide_state) s, uint num
                                           S(collide_answer) answer)
 {
     EXACT S(collide_state) after = s;
-    EXACT S(collide_contact) contact =
-        collide_turned_contact(SIM number, s.since, face, s.position, AROUND(steps_per_s), 1.0f);
+    EXACT S(collide_contact) contact = collide_turned_contact(
+        SIM number, answer.radius, s.since, face, s.position, AROUND(steps_per_s), 1.0f);
     after.position = contact.position;
     EXACT float3 relative = float3_sub(s.velocity, contact.velocity);
     EXACT float3 bounced = collide_bounce_off(answer, relative, contact.normal, false);
@@ -235,7 +237,7 @@ FN S(collide_state)
     collide_impact(SIM_PARAM S(collide_state) s, uint number, uint face, S(collide_answer) of_all)
 {
     EXACT S(collide_state) after = s;
-    EXACT S(kiln_collider) c = AROUND(colliders[number]);
+    EXACT S(kiln_collider) c = collide_around(SIM number, of_all.radius);
     EXACT S(collide_answer) answer = collide_answer_of(of_all, c);
 #if COLLIDE_HAS_FIELDS
     if (COLLIDE_IS_FIELD(c)) {
@@ -304,10 +306,10 @@ struct collide_hit {
 };
 
 /* The way of a segment through a collider, between two parts of the step. */
-FN S(collide_span)
-    collide_through(SIM_PARAM uint number, float since, float until, float3 from, float3 end)
+FN S(collide_span) collide_through(SIM_PARAM uint number, float radius, float since, float until,
+                                   float3 from, float3 end)
 {
-    EXACT S(kiln_collider) c = AROUND(colliders[number]);
+    EXACT S(kiln_collider) c = collide_around(SIM number, radius);
     EXACT S(collide_span) span;
 #if COLLIDE_HAS_FIELDS
     if (COLLIDE_IS_FIELD(c)) {
@@ -316,7 +318,7 @@ FN S(collide_span)
     }
 #endif
     if (COLLIDE_IS_TURNED(c)) {
-        span = collide_turned_through(SIM number, since, until, from, end);
+        span = collide_turned_through(SIM number, radius, since, until, from, end);
     } else if (COLLIDE_IS_ROUND(c)) {
         EXACT S(collide_round) round_at_start = collide_round_at(c, since);
         EXACT S(collide_round) round_at_end = collide_round_at(c, until);
@@ -330,16 +332,16 @@ FN S(collide_span)
 }
 
 /* The face that a point inside is nearest to when the part `since` of the step has passed. */
-FN uint collide_nearest(SIM_PARAM uint number, float since, float3 p)
+FN uint collide_nearest(SIM_PARAM uint number, float radius, float since, float3 p)
 {
-    EXACT S(kiln_collider) c = AROUND(colliders[number]);
+    EXACT S(kiln_collider) c = collide_around(SIM number, radius);
     uint face;
 #if COLLIDE_HAS_FIELDS
     if (COLLIDE_IS_FIELD(c))
         return COLLIDE_SURFACE;
 #endif
     if (COLLIDE_IS_TURNED(c)) {
-        face = collide_turned_nearest(SIM number, since, p);
+        face = collide_turned_nearest(SIM number, radius, since, p);
     } else if (COLLIDE_IS_ROUND(c)) {
         EXACT S(collide_round) shape = collide_round_at(c, since);
         face = collide_round_nearest(c.kind, shape, p);
@@ -351,9 +353,9 @@ FN uint collide_nearest(SIM_PARAM uint number, float since, float3 p)
 }
 
 /* Is a point inside when the part `until` of the step has passed? */
-FN bool collide_is_inside(SIM_PARAM uint number, float until, float3 p)
+FN bool collide_is_inside(SIM_PARAM uint number, float radius, float until, float3 p)
 {
-    EXACT S(kiln_collider) c = AROUND(colliders[number]);
+    EXACT S(kiln_collider) c = collide_around(SIM number, radius);
     bool inside;
 #if COLLIDE_HAS_FIELDS
     if (COLLIDE_IS_FIELD(c)) {
@@ -362,7 +364,7 @@ FN bool collide_is_inside(SIM_PARAM uint number, float until, float3 p)
     }
 #endif
     if (COLLIDE_IS_TURNED(c)) {
-        inside = collide_turned_inside(SIM number, until, p);
+        inside = collide_turned_inside(SIM number, radius, until, p);
     } else if (COLLIDE_IS_ROUND(c)) {
         EXACT S(collide_round) shape = collide_round_at(c, until);
         inside = collide_round_inside(c.kind, shape, p);
@@ -374,9 +376,9 @@ FN bool collide_is_inside(SIM_PARAM uint number, float until, float3 p)
 }
 
 /* The face of an impact, for whoever asks for its normal later (collide_normal_of). */
-FN uint collide_face_met(SIM_PARAM uint number, S(collide_state) s, uint face)
+FN uint collide_face_met(SIM_PARAM uint number, float radius, S(collide_state) s, uint face)
 {
-    EXACT S(kiln_collider) c = AROUND(colliders[number]);
+    EXACT S(kiln_collider) c = collide_around(SIM number, radius);
     uint met = face;
 #if COLLIDE_HAS_FIELDS
     if (COLLIDE_IS_FIELD(c)) {
@@ -386,7 +388,7 @@ FN uint collide_face_met(SIM_PARAM uint number, S(collide_state) s, uint face)
 #endif
     if (COLLIDE_IS_TURNED(c)) {
         EXACT S(collide_contact) contact =
-            collide_turned_contact(SIM number, s.since, face, s.position, 1.0f, 1.0f);
+            collide_turned_contact(SIM number, radius, s.since, face, s.position, 1.0f, 1.0f);
         met = collide_pack_normal(contact.normal);
     } else if (COLLIDE_IS_ROUND(c)) {
         EXACT S(collide_round) shape = collide_round_at(c, s.since);
@@ -409,20 +411,21 @@ FN float3 collide_normal_of(uint face)
 
 /* The first impact on the way from s to `end` when the part `until` of the step has passed. A start
  * inside a box (born there) is an impact at once on its nearest face. */
-FN S(collide_hit) collide_first(SIM_PARAM S(collide_state) s, float3 end, float until)
+FN S(collide_hit) collide_first(SIM_PARAM S(collide_state) s, float3 end, float until, float radius)
 {
     EXACT S(collide_hit) hit;
     hit.part = -1.0f;
     hit.box = 0u;
     hit.face = 0u;
     for (uint i = 0u; i < AROUND(collider_count); i++) {
-        EXACT S(collide_span) span = collide_through(SIM i, s.since, until, s.position, end);
+        EXACT S(collide_span) span =
+            collide_through(SIM i, radius, s.since, until, s.position, end);
         bool inside = !span.misses && !span.outside;
         bool enters = !span.misses && span.outside && span.enter < span.leave;
         if ((inside || enters) && (hit.part < 0.0f || span.enter < hit.part)) {
             hit.part = span.enter;
             hit.box = i;
-            hit.face = inside ? collide_nearest(SIM i, s.since, s.position) : span.face;
+            hit.face = inside ? collide_nearest(SIM i, radius, s.since, s.position) : span.face;
         }
     }
     return hit;
@@ -430,20 +433,21 @@ FN S(collide_hit) collide_first(SIM_PARAM S(collide_state) s, float3 end, float 
 
 /* The last resort, when the bounces of a step are used up between boxes that close in: up, until no
  * box is around. Each pass leaves at least one box below. What may turn is left by its surface. */
-FN float3 collide_rise(SIM_PARAM float3 position, float until)
+FN float3 collide_rise(SIM_PARAM float3 position, float until, float radius)
 {
     EXACT float3 p = position;
     for (uint pass = 0u; pass < AROUND(collider_count); pass++) {
         bool free = true;
         for (uint i = 0u; i < AROUND(collider_count); i++) {
-            if (collide_is_inside(SIM i, until, p)) {
-                EXACT S(collide_box) box = collide_box_at(AROUND(colliders[i]), until);
+            if (collide_is_inside(SIM i, radius, until, p)) {
+                EXACT S(kiln_collider) c = collide_around(SIM i, radius);
+                EXACT S(collide_box) box = collide_box_at(c, until);
 #if COLLIDE_HAS_FIELDS
                 box = collide_field_below(SIM AROUND(colliders[i]), box, p);
 #endif
                 if (COLLIDE_IS_TURNED(AROUND(colliders[i])) &&
                     (pass < 2u || AROUND(colliders[i].kind) == COLLIDER_PLANE))
-                    p = collide_turned_rise(SIM i, until, p);
+                    p = collide_turned_rise(SIM i, radius, until, p);
                 else
                     p = collide_put_beside(box, 3u, p);
                 free = false;
@@ -474,7 +478,7 @@ FN S(collide_way)
     EXACT S(collide_answer) draw = answer;
     uint last = 0u;
     for (uint bounce = 0u; bounce < COLLIDE_BOUNCES; bounce++) {
-        EXACT S(collide_hit) hit = collide_first(SIM now, target, until);
+        EXACT S(collide_hit) hit = collide_first(SIM now, target, until, answer.radius);
         if (hit.part < 0.0f) {
             now.position = target;
             way.end = now;
@@ -487,14 +491,15 @@ FN S(collide_way)
         draw.purpose = collide_purpose(SIM bounce);
         now = collide_impact(SIM now, hit.box, hit.face, draw);
         if (bounce == 0u)
-            way.first = collide_touched(now, collide_face_met(SIM hit.box, now, hit.face));
+            way.first =
+                collide_touched(now, collide_face_met(SIM hit.box, answer.radius, now, hit.face));
         EXACT float rest_s = (until - now.since) * dt_s;
         target = float3_add_scaled(now.position, now.velocity, rest_s);
         last = hit.box;
     }
     if (COLLIDE_IS_TURNED(AROUND(colliders[last])))
         now.position = collide_turned_carry(SIM last, now.since, until, now.position);
-    now.position = collide_rise(SIM now.position, until);
+    now.position = collide_rise(SIM now.position, until, answer.radius);
     way.end = now;
     return way;
 }
@@ -511,9 +516,9 @@ FN S(collide_way)
     EXACT S(collide_answer) draw = answer;
     uint impacts = 0u;
     for (uint i = 0u; i < AROUND(collider_count); i++) {
-        EXACT S(kiln_collider) c = AROUND(colliders[i]);
+        EXACT S(kiln_collider) c = collide_around(SIM i, answer.radius);
         EXACT S(collide_box) box = collide_box_at(c, until);
-        bool inside = collide_is_inside(SIM i, until, now.position);
+        bool inside = collide_is_inside(SIM i, answer.radius, until, now.position);
         draw = collide_answer_of(answer, c);
         if (inside && COLLIDE_IS_FIELD(c)) {
 #if COLLIDE_HAS_FIELDS
@@ -521,12 +526,13 @@ FN S(collide_way)
             impacts++;
             now = collide_field_clamp(SIM now, c, draw);
             if (impacts == 1u)
-                way.first = collide_touched(now, collide_face_met(SIM i, now, COLLIDE_SURFACE));
+                way.first = collide_touched(
+                    now, collide_face_met(SIM i, answer.radius, now, COLLIDE_SURFACE));
 #endif
         } else if (inside && COLLIDE_IS_TURNED(c)) {
-            uint nearest = collide_turned_nearest(SIM i, until, now.position);
-            EXACT S(collide_contact) contact =
-                collide_turned_contact(SIM i, until, nearest, now.position, 1.0f, 0.0f);
+            uint nearest = collide_turned_nearest(SIM i, answer.radius, until, now.position);
+            EXACT S(collide_contact) contact = collide_turned_contact(
+                SIM i, answer.radius, until, nearest, now.position, 1.0f, 0.0f);
             now.position = contact.position;
             draw.purpose = collide_purpose(SIM impacts & 7u);
             impacts++;

@@ -5,6 +5,16 @@
 #include "shared/exact.h"
 #include "shared/layout.h"
 
+/* In place of FN: what most impacts take becomes part of its callers in C, and what few need is
+ * kept out of the way of the rest. */
+#ifdef GL_core_profile
+#define FN_CLOSE
+#define FN_APART
+#else
+#define FN_CLOSE static inline __attribute__((always_inline))
+#define FN_APART static __attribute__((noinline, unused))
+#endif
+
 /* Faces: 0 and 1 of x, the lower and the upper, 2 and 3 of y, 4 and 5 of z. */
 #define COLLIDE_FACES 6u
 
@@ -62,7 +72,7 @@ struct collide_span {
 };
 
 /* One face more: d0 and d1 are the distances to it, positive inside, at the segment's ends. */
-FN S(collide_span) collide_face(S(collide_span) before, uint face, float d0, float d1)
+FN_CLOSE S(collide_span) collide_face(S(collide_span) before, uint face, float d0, float d1)
 {
     EXACT S(collide_span) span = before;
     bool in0 = d0 > 0.0f;

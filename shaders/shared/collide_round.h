@@ -75,7 +75,8 @@ FN bool collide_round_inside(uint kind, S(collide_round) shape, float3 p)
 }
 
 /* The round side as one more face: from a with radius r0 to b with radius r1. */
-FN S(collide_span) collide_side(S(collide_span) before, float3 a, float3 b, float r0, float r1)
+FN_CLOSE S(collide_span)
+    collide_side(S(collide_span) before, float3 a, float3 b, float r0, float r1)
 {
     EXACT S(collide_span) span = before;
     EXACT float3 way = float3_sub(b, a);
@@ -158,7 +159,7 @@ FN uint collide_round_nearest(uint kind, S(collide_round) shape, float3 p)
 
 /* Outwards, at a point near the surface. A point on the axis has no side: up, or across the axis.
  */
-FN float3 collide_round_normal(uint kind, S(collide_round) shape, uint face, float3 p)
+FN_CLOSE float3 collide_round_normal(uint kind, S(collide_round) shape, uint face, float3 p)
 {
     EXACT float3 back = float3_scale(shape.axis, -1.0f);
     if (face == COLLIDE_LOWER)

@@ -10,14 +10,8 @@
 #ifndef KILN_SHARED_COLLIDE_TURNED_H
 #define KILN_SHARED_COLLIDE_TURNED_H
 
+#include "shared/collide_around.h"
 #include "shared/collide_round.h"
-
-/* Before functions that few particles need: C keeps them out of the way of the rest. */
-#ifdef GL_core_profile
-#define FN_APART
-#else
-#define FN_APART static __attribute__((noinline, unused))
-#endif
 
 #define COLLIDE_PIECES_PER_RAD 32.0f
 #define COLLIDE_MOST_PIECES    32.0f
@@ -111,7 +105,7 @@ FN float3 collide_frame_across(uint kind, S(collide_frame) frame, float3 q)
 FN bool collide_frame_inside(uint kind, S(collide_frame) frame, float3 q)
 {
     if (kind == COLLIDER_PLANE)
-        return q.y < 0.0f;
+        return q.y < frame.extent.y;
     if (kind == COLLIDER_TURNED_BOX) {
         EXACT S(collide_box) box = collide_frame_box(frame);
         bool within = collide_inside(box, q);
@@ -196,8 +190,8 @@ FN S(collide_span) collide_frame_segment(uint kind, S(collide_frame) start, S(co
         EXACT S(collide_box) after = collide_frame_box(end);
         span = collide_segment(before, after, a, b);
     } else if (kind == COLLIDER_PLANE) {
-        EXACT float depth0 = -a.y;
-        EXACT float depth1 = -b.y;
+        EXACT float depth0 = start.extent.y - a.y;
+        EXACT float depth1 = end.extent.y - b.y;
         span = collide_face(span, COLLIDE_UPPER, depth0, depth1);
     } else {
         span = collide_barrel(start, end, a, b);
@@ -273,7 +267,7 @@ FN float3 collide_frame_put(uint kind, S(collide_frame) frame, uint face, float3
     return y;
 }
 
-/* ---- in the world: colliders by their number ------------------------------------------------- */
+/* ---- in the world: colliders by their number, and by how much they are larger (m) ------------ */
 
 /* May the way between two parts of the step touch the collider? Not where one face of its bounds
  * has it outside at both ends, so that all but the nearest are spared the rest. */
@@ -291,10 +285,10 @@ FN bool collide_is_near(S(kiln_collider) c, float since, float until, float3 a, 
 }
 
 /* As collide_through. */
-FN_APART S(collide_span)
-    collide_turned_through(SIM_PARAM uint number, float since, float until, float3 from, float3 end)
+FN_APART S(collide_span) collide_turned_through(SIM_PARAM uint number, float larger, float since,
+                                                float until, float3 from, float3 end)
 {
-    EXACT S(kiln_collider) c = AROUND(colliders[number]);
+    EXACT S(kiln_collider) c = collide_around(SIM number, larger);
     EXACT S(collide_span) span = collide_span_start();
     span.misses = true;
     if (!collide_is_near(c, since, until, from, end))
@@ -338,18 +332,18 @@ FN_APART S(collide_span)
     return span;
 }
 
-FN_APART uint collide_turned_nearest(SIM_PARAM uint number, float since, float3 p)
+FN_APART uint collide_turned_nearest(SIM_PARAM uint number, float larger, float since, float3 p)
 {
-    EXACT S(kiln_collider) c = AROUND(colliders[number]);
+    EXACT S(kiln_collider) c = collide_around(SIM number, larger);
     EXACT S(collide_frame) frame = collide_frame_at(c, since);
     EXACT float3 q = collide_to_frame(frame, p);
     uint face = collide_frame_nearest(c.kind, frame, q);
     return face;
 }
 
-FN_APART bool collide_turned_inside(SIM_PARAM uint number, float until, float3 p)
+FN_APART bool collide_turned_inside(SIM_PARAM uint number, float larger, float until, float3 p)
 {
-    EXACT S(kiln_collider) c = AROUND(colliders[number]);
+    EXACT S(kiln_collider) c = collide_around(SIM number, larger);
     EXACT S(collide_frame) frame = collide_frame_at(c, until);
     EXACT float3 q = collide_to_frame(frame, p);
     bool inside = collide_frame_inside(c.kind, frame, q);
@@ -387,10 +381,11 @@ FN float collide_turned_growth(S(kiln_collider) c, uint face)
 }
 
 /* Where a particle at p meets a face; `spacing`: 1, or 0 for a place on the face itself. */
-FN_APART S(collide_contact) collide_turned_contact(SIM_PARAM uint number, float since, uint face,
-                                                   float3 p, float steps_per_s, float spacing)
+FN_APART S(collide_contact)
+    collide_turned_contact(SIM_PARAM uint number, float larger, float since, uint face, float3 p,
+                           float steps_per_s, float spacing)
 {
-    EXACT S(kiln_collider) c = AROUND(colliders[number]);
+    EXACT S(kiln_collider) c = collide_around(SIM number, larger);
     EXACT S(collide_contact) contact;
     EXACT S(collide_frame) frame = collide_frame_at(c, since);
     EXACT float3 q = collide_to_frame(frame, p);
@@ -422,11 +417,11 @@ FN_APART S(collide_contact) collide_turned_contact(SIM_PARAM uint number, float 
 }
 
 /* Out of the collider by the nearest part of its surface, since a half space has no upper end. */
-FN_APART float3 collide_turned_rise(SIM_PARAM uint number, float until, float3 p)
+FN_APART float3 collide_turned_rise(SIM_PARAM uint number, float larger, float until, float3 p)
 {
-    uint face = collide_turned_nearest(SIM number, until, p);
+    uint face = collide_turned_nearest(SIM number, larger, until, p);
     EXACT S(collide_contact) contact =
-        collide_turned_contact(SIM number, until, face, p, 1.0f, 1.0f);
+        collide_turned_contact(SIM number, larger, until, face, p, 1.0f, 1.0f);
     EXACT float3 y = contact.position;
     return y;
 }

@@ -20,6 +20,7 @@ FN uint emit_birth_fraction(SIM_PARAM uint index)
 }
 
 struct emit_place {
+    float3 axis;      /* the shape's direction, unit length */
     float3 offset;    /* from the origin, m */
     float3 direction; /* of flight, unit length */
 };
@@ -69,6 +70,7 @@ FN S(emit_place) emit_place_at(SIM_PARAM uint stream, float time_s)
     EXACT S(exact_angle) rim = exact_sincos(angle);
     EXACT float radius = value_at(SIM_KEYS STEP(emit.radius), time_s, 0.0f);
     EXACT S(emit_place) place;
+    place.axis = axis;
     place.direction = random_direction(stream, RANDOM_DIRECTION, axis, rim.cosine);
     place.offset = FLOAT3(0.0f, 0.0f, 0.0f);
     uint shape = STEP(emit.shape);
@@ -106,7 +108,10 @@ FN S(emit_state) emit_at_rest(SIM_PARAM uint stream, float time_s)
     EXACT float3 origin = value3_at(SIM_KEYS STEP(emit.origin), time_s, 0.0f);
     EXACT S(emit_state) born;
     born.position = float3_add(origin, place.offset);
-    born.velocity = float3_scale(place.direction, speed);
+    EXACT float turn = value_at(SIM_KEYS STEP(emit.turn), time_s, 0.0f);
+    EXACT float3 around = float3_cross(place.axis, place.offset);
+    EXACT float3 thrown = float3_scale(place.direction, speed);
+    born.velocity = float3_add_scaled(thrown, around, turn);
     return born;
 }
 

@@ -47,6 +47,7 @@ struct kiln_emit_params {
     S(kiln_value) angle;
     S(kiln_value) radius;
     S(kiln_value) inherit;
+    S(kiln_value) turn;
 };
 
 #define FORCE_GRAVITY 0u
@@ -122,8 +123,10 @@ struct kiln_step_params {
     S(kiln_value) slowdown;
     S(kiln_value) restitution;
     S(kiln_value) friction;
-    uint rubs; /* 1: restitution and friction matter, its own or those of objects */
-    uint unused0, unused1, unused2;
+    uint rubs;       /* 1: restitution and friction matter, its own or those of objects */
+    uint pushed;     /* 1: its particles interact, and have pushes */
+    uint first_push; /* of its first slot: see push.h */
+    uint unused;
     float4 bounds_min, bounds_max;
     float4 demitter_min[KILN_MAX_DEMITTERS];
     float4 demitter_max[KILN_MAX_DEMITTERS];
@@ -196,12 +199,14 @@ struct kiln_surroundings {
 #define STEP(x)      step_params.x
 #define AROUND(x)    surroundings.x
 #define GRID_WORD(i) grid_words[i]
+#define PUSH_WORD(i) push_words[i]
 #else
 struct kiln_sim {
     const struct kiln_step_params *step;
     const struct kiln_surroundings *surroundings;
     const float4 *value_keys;
     const float4 *grid_words;
+    const float4 *push_words; /* NULL where no system interacts */
 };
 #define SIM          sim,
 #define SIM_PARAM    const struct kiln_sim *sim,
@@ -209,6 +214,7 @@ struct kiln_sim {
 #define STEP(x)      sim->step->x
 #define AROUND(x)    sim->surroundings->x
 #define GRID_WORD(i) sim->grid_words[i]
+#define PUSH_WORD(i) sim->push_words[i]
 #endif
 
 #endif

@@ -27,6 +27,9 @@
 #define KILN_MAX_WINDS 8                                  /* a scene: files of wind */
 #define KILN_MAX_GRIDS (KILN_MAX_WINDS + KILN_MAX_MESHES) /* those, and what collides */
 
+/* Ways in which the particles of a system interact, of each kind one. */
+#define KILN_MAX_INTERACTIONS 4
+
 /* Uniform blocks of a step. */
 #define SIM_BIND_KEYS         0
 #define SIM_BIND_STEP         1
@@ -38,6 +41,19 @@
 #define SIM_BIND_TRACES  2
 #define SIM_BIND_SECOND  3 /* records, of techniques with two buffers */
 #define SIM_BIND_GRIDS   4
+#define SIM_BIND_PUSHES  5
+
+/* Of the kernels that gather pushes; SIM_BIND_KEYS, _RECORDS and _PUSHES serve them, too. */
+#define INTERACT_BIND_PARAMS   3 /* uniform block */
+#define INTERACT_BIND_BODIES   1
+#define INTERACT_BIND_SECOND   2 /* bodies after a round */
+#define INTERACT_BIND_CELLS    3
+#define INTERACT_BIND_PARTNERS 4
+#define INTERACT_BIND_ENTRIES  6 /* of the two grids: what is sorted */
+#define INTERACT_BIND_ORDER    7 /* of the second grid */
+
+/* Invocations of the work group that adds up all cells. */
+#define INTERACT_SCAN_GROUP 256
 
 /* Invocations of a work group; kernels may be compiled for another size. */
 #ifndef SIM_GROUP_SIZE

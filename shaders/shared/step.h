@@ -8,6 +8,7 @@
 #include "shared/emit.h"
 #include "shared/family.h"
 #include "shared/forces.h"
+#include "shared/push.h"
 
 /* Farther out, or faster, or not a number: the particle is lost. 2^20 m, m/s. */
 #define STEP_ABSURD_BITS 0x49800000u
@@ -85,8 +86,8 @@ FN S(collide_state) step_integrate(SIM_PARAM S(collide_state) s, float until, fl
     return moved;
 }
 
-FN S(collide_way)
-    step_collide(SIM_PARAM S(collide_state) s, float3 end, float until, float life, uint stream)
+FN S(collide_way) step_collide(SIM_PARAM S(collide_state) s, float3 end, float until, float life,
+                               uint stream, float radius)
 {
     EXACT S(collide_answer) answer;
     answer.randomness = value_at(SIM_KEYS STEP(randomness), STEP(time_s), life);
@@ -100,6 +101,7 @@ FN S(collide_way)
         answer.restitution = value_at(SIM_KEYS STEP(restitution), STEP(time_s), life);
         answer.friction = value_at(SIM_KEYS STEP(friction), STEP(time_s), life);
     }
+    answer.radius = radius;
     if (STEP(collide) == COLLIDE_CLAMP)
         return collide_clamp(SIM s, end, until, answer);
     return collide_swept(SIM s, end, until, answer);
@@ -113,7 +115,8 @@ struct step_way {
     bool lost;              /* where particles may not be */
 };
 
-FN S(step_way) step_move(SIM_PARAM S(kiln_particle) p, float age_s, float life_s, float until)
+FN S(step_way) step_move(SIM_PARAM S(kiln_particle) p, S(step_push) push, float age_s, float life_s,
+                         float until)
 {
     bool born = particle_birth_step(p) == STEP(step);
     EXACT float age_before_s = age_s - STEP(derived.dt_s);
@@ -121,9 +124,11 @@ FN S(step_way) step_move(SIM_PARAM S(kiln_particle) p, float age_s, float life_s
 
     EXACT S(step_way) way;
     way.start.position = particle_position(p);
-    way.start.velocity = particle_velocity(p);
+    EXACT float3 velocity = particle_velocity(p);
+    way.start.velocity = push_faster(push, velocity);
     way.start.since = born ? particle_birth_fraction(p) : 0.0f;
     way.end = step_integrate(SIM way.start, until, life);
+    way.end.position = push_farther(push, way.end.position);
     way.first = collide_no_touch();
     way.lost = true;
     if (!step_is_sane(way.end.position) || !step_is_sane(way.end.velocity))
@@ -133,7 +138,7 @@ FN S(step_way) step_move(SIM_PARAM S(kiln_particle) p, float age_s, float life_s
         start.velocity = way.end.velocity;
         uint stream = particle_stream(STEP(derived), p);
         EXACT S(collide_way) bounced =
-            step_collide(SIM start, way.end.position, until, life, stream);
+            step_collide(SIM start, way.end.position, until, life, stream, push.radius);
         way.end = bounced.end;
         way.first = bounced.first;
         if (!step_is_sane(way.end.position) || !step_is_sane(way.end.velocity))
@@ -144,13 +149,13 @@ FN S(step_way) step_move(SIM_PARAM S(kiln_particle) p, float age_s, float life_s
 }
 
 /* A particle, new ones included, at the end of this step: moved, or dead. */
-FN S(kiln_particle) step_particle(SIM_PARAM S(kiln_particle) p)
+FN S(kiln_particle) step_particle(SIM_PARAM S(kiln_particle) p, S(step_push) push)
 {
     EXACT float life_s = particle_life_s(SIM_KEYS STEP(derived), p);
     EXACT float age_s = particle_age(p, STEP(step), STEP(derived.dt_s));
     if (age_s >= life_s)
         return step_dead();
-    EXACT S(step_way) way = step_move(SIM p, age_s, life_s, 1.0f);
+    EXACT S(step_way) way = step_move(SIM p, push, age_s, life_s, 1.0f);
     if (way.lost)
         return step_dead();
     return step_with_motion(p, way.end.position, way.end.velocity);
@@ -172,7 +177,8 @@ FN S(kiln_particle) step_slot(SIM_PARAM uint slot, S(kiln_particle) old)
         p = step_birth(SIM index);
     if (!particle_is_alive(p))
         return p;
-    return step_particle(SIM p);
+    EXACT S(step_push) push = push_of(SIM slot);
+    return step_particle(SIM p, push);
 }
 
 #endif

@@ -60,7 +60,7 @@ FN S(kiln_trace) step_trace(SIM_PARAM S(kiln_particle) p, S(step_way) way, uint 
 }
 
 /* Like step_particle. */
-FN S(step_result) step_family_particle(SIM_PARAM S(kiln_particle) p)
+FN S(step_result) step_family_particle(SIM_PARAM S(kiln_particle) p, S(step_push) push)
 {
     EXACT S(step_result) r = step_result_dead();
     EXACT float life_s = particle_life_s(SIM_KEYS STEP(derived), p);
@@ -72,7 +72,7 @@ FN S(step_result) step_family_particle(SIM_PARAM S(kiln_particle) p)
     EXACT float until = 1.0f;
     if (ends)
         until = step_end_of_life(SIM p, age_s, life_s);
-    EXACT S(step_way) way = step_move(SIM p, age_s, life_s, until);
+    EXACT S(step_way) way = step_move(SIM p, push, age_s, life_s, until);
     if (way.lost)
         return r;
     way.end.since = until;
@@ -139,8 +139,10 @@ FN S(step_result) step_family_slot(SIM_PARAM uint slot, S(kiln_particle) old, S(
             p = step_birth(SIM index);
     }
     EXACT S(step_result) r = step_result_dead();
-    if (particle_is_alive(p))
-        r = step_family_particle(SIM p);
+    if (particle_is_alive(p)) {
+        EXACT S(step_push) push = push_of(SIM slot);
+        r = step_family_particle(SIM p, push);
+    }
     return r;
 }
 

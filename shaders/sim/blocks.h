@@ -29,4 +29,11 @@ layout(std430, binding = SIM_BIND_GRIDS) readonly buffer grid_block
 };
 #endif
 
+#ifdef PUSHES
+layout(std430, binding = SIM_BIND_PUSHES) readonly buffer push_block
+{
+    float4 push_words[];
+};
+#endif
+
 #endif

@@ -12,6 +12,8 @@
 // variant: GRIDS=1 FAMILY=1 COLLIDE_ROUND=1 COLLIDE_TURNED=1 COLLIDE_RUB=1
 // variant: COLLIDE_FIELD=1 GRIDS=1 COLLIDE_ROUND=1
 // variant: COLLIDE_FIELD=1 GRIDS=1 FAMILY=1 COLLIDE_ROUND=1
+// variant: PUSHES=1 COLLIDE_ROUND=1
+// variant: PUSHES=1 GRIDS=1 FAMILY=1 COLLIDE_ROUND=1
 layout(points) in;
 layout(points, max_vertices = 1) out;
 
@@ -29,7 +31,7 @@ void main()
     p = slot_after(slot, p);
 #else /* without the code of births, which would cost every particle */
     if (particle_is_alive(p))
-        p = step_particle(p);
+        p = step_particle(p, push_of(slot));
 #endif
     if (particle_is_alive(p))
         write_particle(p);

@@ -309,6 +309,30 @@ static inline struct kiln_force *fixture_add_field(struct kiln_system *system)
     return field;
 }
 
+/* Balls of a system bounce off each other. */
+static inline struct kiln_interaction *fixture_add_collisions(struct kiln_system *system,
+                                                              float radius)
+{
+    struct kiln_interaction *collide = &system->interactions[system->interaction_count++];
+    collide->kind = KILN_INTERACT_COLLIDE;
+    collide->radius = fixture_constant(radius);
+    collide->restitution = fixture_constant(0.8f);
+    collide->apart = fixture_constant(0.5f);
+    collide->rounds = 3;
+    return collide;
+}
+
+/* Particles of a system attract each other. */
+static inline struct kiln_interaction *fixture_add_gravity(struct kiln_system *system,
+                                                           float strength)
+{
+    struct kiln_interaction *gravity = &system->interactions[system->interaction_count++];
+    gravity->kind = KILN_INTERACT_GRAVITY;
+    gravity->strength = fixture_constant(strength);
+    gravity->softening = fixture_constant(0.05f);
+    return gravity;
+}
+
 static inline void fixture_zoo_point(struct scene_fixture *f)
 {
     struct kiln_system *s = fixture_add_system(f, "point", 300.0f);

@@ -160,7 +160,8 @@ static void paths_meet_what_they_should(void **state)
         float3 to = float3_scale(random_in_ball(stream, 40u, false), 2.0f);
         const struct kiln_surroundings around = {.collider_count = 1, .colliders = {c}};
         const struct kiln_sim sim = {.surroundings = &around};
-        const struct collide_span span = collide_turned_through(&sim, 0, 0.0f, 1.0f, from, to);
+        const struct collide_span span =
+            collide_turned_through(&sim, 0, 0.0f, 0.0f, 1.0f, from, to);
         double nearest = 1e9, first = 2;
         for (int k = 0; k <= 1000; k++) {
             struct vec at = along(vec_of(from), sub(vec_of(to), vec_of(from)), k / 1000.0);

@@ -10,7 +10,7 @@
 
 #include "sim/params.h"
 #include "sim/slots.h"
-#include "support/simulation.h"
+#include "support/balls.h"
 
 static struct scene_fixture fixture; /* too large for a stack */
 
@@ -44,7 +44,7 @@ static void step_slots(struct kiln_slots *slots)
 
 /* Steps all systems slot by slot, and each from the same state in blocks. Returns the living. */
 static uint32_t step_both(const struct kiln_slots_step *loops, const struct kiln_sim_params *params,
-                          const float4 *words, struct kiln_particle *records,
+                          const float4 *words, const float4 *pushes, struct kiln_particle *records,
                           struct kiln_particle *copy)
 {
     uint32_t alive = 0;
@@ -54,7 +54,8 @@ static uint32_t step_both(const struct kiln_slots_step *loops, const struct kiln
             .sim = {.step = step,
                     .surroundings = &params->surroundings,
                     .value_keys = fixture.scene.keys,
-                    .grid_words = words},
+                    .grid_words = words,
+                    .push_words = pushes},
             .records = records + step->base,
         };
         const size_t bytes = step->used * sizeof *records;
@@ -67,6 +68,21 @@ static uint32_t step_both(const struct kiln_slots_step *loops, const struct kiln
             alive += particle_is_alive(copy[i]);
     }
     return alive;
+}
+
+/* Whatever others might do to a particle; some do nothing. */
+static float4 *make_pushes(uint32_t slots)
+{
+    float4 *words = aligned_alloc(16, ((size_t)slots * 2 + 1) * sizeof *words);
+    assert_non_null(words);
+    uint32_t seed = 3;
+    for (size_t i = 0; i < (size_t)slots * 2; i++) {
+        const float reach = i % 6 < 2 ? 0.0f : i % 2 ? 0.02f : 0.5f;
+        const float x = balls_random(&seed), y = balls_random(&seed), z = balls_random(&seed);
+        const float radius = i % 2 ? 0.0f : 0.1f * (1.0f + balls_random(&seed));
+        words[i] = FLOAT4(reach * x, reach * y, reach * z, radius);
+    }
+    return words;
 }
 
 static void run_level(enum kiln_simd simd)
@@ -82,15 +98,17 @@ static void run_level(enum kiln_simd simd)
     assert_true(kiln_sim_grids_init(&grids, NULL, &fixture.scene, &error));
     const float4 *words = kiln_buffer_host(&grids.words, KILN_READ, &error);
     kiln_sim_params_init(params, &fixture.scene, &grids);
+    float4 *pushes = make_pushes(params->push_count);
     uint32_t most = 0;
     for (uint32_t step = 1; step <= STEPS; step++) {
         assert_true(kiln_sim_params_step(params, &fixture.scene, &run.pool, step, &error));
         uint32_t alive =
-            step_both(KILN_SIMD_PICK(kiln_slots_step, simd), params, words, records, copy);
+            step_both(KILN_SIMD_PICK(kiln_slots_step, simd), params, words, pushes, records, copy);
         most = alive > most ? alive : most;
     }
     assert_true(most > 1000);
     kiln_sim_grids_finish(&grids);
+    free(pushes);
     free(copy);
     free(params);
     simulation_end(&run);
@@ -146,6 +164,15 @@ static void around_a_moving_mesh(void **state)
     run_levels();
 }
 
+static void pushed_among_colliders(void **state)
+{
+    (void)state;
+    fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, STEPS);
+    for (uint32_t i = 0; i < fixture.scene.system_count; i += 2)
+        fixture_add_collisions(&fixture.scene.systems[i], 0.1f);
+    run_levels();
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
@@ -154,6 +181,7 @@ int main(void)
         cmocka_unit_test(position_first_among_turning_colliders),
         cmocka_unit_test(above_terrain),
         cmocka_unit_test(around_a_moving_mesh),
+        cmocka_unit_test(pushed_among_colliders),
     };
     return cmocka_run_group_tests_name("slots", tests, NULL, NULL);
 }

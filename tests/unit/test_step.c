@@ -200,6 +200,33 @@ static void moving_emitters_trail_and_throw(void **state)
     simulation_end(&run);
 }
 
+/* All parts of a disc that turns have the velocity of their place. */
+static void turning_emitters_throw_sideways(void **state)
+{
+    (void)state;
+    fixture_init(&fixture);
+    struct kiln_system *system = fixture_add_system(&fixture, "disc", 0.0f);
+    system->emit.bursts[0] = (struct kiln_burst){0.0, 100};
+    system->emit.burst_count = 1;
+    system->emit.speed = fixture_range(0.0f, 0.0f);
+    system->emit.shape = KILN_EMITTER_DISC;
+    system->emit.radius = fixture_constant(2.0f);
+    system->emit.origin = fixture_constant3(5.0f, 1.0f, 0.0f);
+    system->emit.turn = fixture_constant(3.0f);
+    struct simulation run;
+    run_fixture(&run, 1);
+    for (uint32_t serial = 0; serial < 100; serial++) {
+        struct kiln_particle p = simulation_records(&run)[serial];
+        const double vx = (double)particle_velocity(p).x, vz = (double)particle_velocity(p).z;
+        const double x = (double)particle_position(p).x - 5.0 - vx / 60.0;
+        const double z = (double)particle_position(p).z - vz / 60.0;
+        assert_near(vx, 3.0 * z, 1e-5); /* about y, right-handed */
+        assert_near(vz, -3.0 * x, 1e-5);
+        assert_near((double)particle_velocity(p).y, 0.0, 0.0);
+    }
+    simulation_end(&run);
+}
+
 /* Each lives for its own time, drawn again here, and is gone at the end of the step that passes it;
  * after some rounds of the slots every living serial lies where it should. */
 static void lives_end_on_time_and_slots_are_reborn(void **state)
@@ -464,6 +491,7 @@ int main(void)
         cmocka_unit_test(curl_noise_carries_at_its_speed),
         cmocka_unit_test(births_are_spread_inside_the_step),
         cmocka_unit_test(moving_emitters_trail_and_throw),
+        cmocka_unit_test(turning_emitters_throw_sideways),
         cmocka_unit_test(lives_end_on_time_and_slots_are_reborn),
         cmocka_unit_test(demitters_bounds_and_absurdity_kill),
         cmocka_unit_test(emitters_keep_to_their_shapes),

@@ -1,0 +1,27 @@
+/* Gravity on the host: the loop over all pairs. */
+#ifndef KILN_SIM_GRAVITY_H
+#define KILN_SIM_GRAVITY_H
+
+#include "base/simd.h"
+#include "shared/interact_gravity.h"
+
+/* Sources that are taken from memory at a time, in multiples of which there is room. */
+enum { KILN_GRAVITY_BLOCK = 32 };
+
+struct kiln_gravity {
+    const float4 *sources; /* gravity_source of each slot, zeros up to a multiple of a block */
+    size_t count;
+    float softening_square; /* m^2 */
+    float3 *accelerations;  /* of each slot, and up to a multiple of a block */
+};
+
+/* Fills in the accelerations of slots begin to end, of the kiln_gravity that context points to, for
+ * kiln_threads_for; begin is a multiple of a block. */
+typedef void kiln_gravity_run(void *context, size_t begin, size_t end, uint32_t worker);
+
+struct kiln_gravity_loops {
+    kiln_gravity_run *pull;
+};
+KILN_SIMD_DECLARE(const struct kiln_gravity_loops, kiln_gravity_loops);
+
+#endif

@@ -1,0 +1,172 @@
+#include "sim/interact.h"
+
+#include <assert.h>
+#include <stddef.h>
+
+static_assert(sizeof(struct kiln_interact_params) == 176, "std140");
+static_assert(offsetof(struct kiln_interact_params, radius) == 96, "std140");
+static_assert(sizeof(struct kiln_body) == 32, "std430");
+
+/* So much wider than two radii are the cells: positions up to 2^18 cells out are rounded by less
+ * when their cell is found. */
+static const float CELL_SLACK = 1.0f + 1.0f / 64.0f;
+
+/* Of struct kiln_interact_entry on the host, which sorts to and fro, and of a uvec4 in GL. */
+enum { ENTRY_BYTES = 16 };
+
+/* Of the table: so sparse that few of them hold particles of other places; but no more than 64 MiB.
+ */
+enum { CELLS_A_PARTICLE = 2, MAX_CELLS = 1 << 24 };
+
+uint32_t kiln_interact_entries(uint32_t count)
+{
+    uint32_t entries = 64;
+    while (entries < count)
+        entries *= 2;
+    return entries;
+}
+
+static uint32_t count_cells(uint32_t particles)
+{
+    return kiln_interact_entries(
+        particles < MAX_CELLS / CELLS_A_PARTICLE ? particles * CELLS_A_PARTICLE : MAX_CELLS);
+}
+
+/* The largest that particles of the system ever have, m; more than 0. */
+static float largest_radius(const struct kiln_scene *scene, uint32_t system)
+{
+    const struct kiln_interaction *collide =
+        kiln_scene_interaction(scene, system, KILN_INTERACT_COLLIDE);
+    const struct kiln_look *look = &scene->systems[system].look;
+    float largest = kiln_scene_value_max(scene, &collide->radius);
+    if (collide->as_drawn) {
+        const float low = kiln_scene_value_max(scene, &look->scale.min);
+        const float high = kiln_scene_value_max(scene, &look->scale.max);
+        largest = 0.5f * kiln_scene_value_max(scene, &look->size) * (low > high ? low : high);
+    }
+    return largest > 1e-4f ? largest : 1e-4f;
+}
+
+static void add_collisions(struct kiln_interact_work *work, const struct kiln_scene *scene,
+                           uint32_t system)
+{
+    const struct kiln_interaction *collide =
+        kiln_scene_interaction(scene, system, KILN_INTERACT_COLLIDE);
+    if (!collide)
+        return;
+    const struct kiln_look *look = &scene->systems[system].look;
+    struct kiln_interact_params *params = &work->params;
+    work->collides = true;
+    work->mode = collide->mode;
+    work->rounds = collide->rounds;
+    params->cell_mask = count_cells(scene->systems[system].capacity) - 1;
+    params->cells_per_metre = 1.0f / (2.0f * largest_radius(scene, system) * CELL_SLACK);
+    params->as_drawn = collide->as_drawn;
+    params->restitution = kiln_scene_value(scene, &collide->restitution, params->time_s);
+    params->apart = kiln_scene_value(scene, &collide->apart, params->time_s);
+    params->radius = collide->radius;
+    params->size = look->size;
+    params->scale = look->scale;
+}
+
+static void add_gravity(struct kiln_interact_work *work, const struct kiln_scene *scene,
+                        uint32_t system)
+{
+    const struct kiln_interaction *gravity =
+        kiln_scene_interaction(scene, system, KILN_INTERACT_GRAVITY);
+    if (!gravity)
+        return;
+    const float softening_m = kiln_scene_value(scene, &gravity->softening, work->params.time_s);
+    work->pulls = true;
+    work->params.adds = work->collides;
+    work->params.softening_square = softening_m * softening_m;
+    work->params.strength = gravity->strength;
+}
+
+static struct kiln_interact_work work_of(const struct kiln_scene *scene,
+                                         const struct kiln_sim_params *params, uint32_t system)
+{
+    const struct kiln_step_params *step = &params->systems[system];
+    struct kiln_interact_work work = {.params = {.derived = step->derived,
+                                                 .base = step->base,
+                                                 .used = step->used,
+                                                 .first_push = step->first_push,
+                                                 .step = step->step - 1,
+                                                 .time_s = step->time_s}};
+    add_collisions(&work, scene, system);
+    add_gravity(&work, scene, system);
+    return work;
+}
+
+static bool choose_loops(struct kiln_interact *interact, struct kiln_error *error)
+{
+    enum kiln_simd simd;
+    if (!kiln_simd_choose(&simd, error))
+        return false;
+    interact->gravity = KILN_SIMD_PICK(kiln_gravity_loops, simd);
+    return true;
+}
+
+bool kiln_interact_init(struct kiln_interact *interact, struct kiln_device *device,
+                        const struct kiln_scene *scene, const struct kiln_sim_params *params,
+                        struct kiln_threads *threads, struct kiln_error *error)
+{
+    *interact = (struct kiln_interact){.scene = scene, .device = device, .threads = threads};
+    uint32_t largest = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        if (params->systems[i].pushed && scene->systems[i].capacity > largest)
+            largest = scene->systems[i].capacity;
+    }
+    const size_t bodies = largest * sizeof(struct kiln_body);
+    const size_t cells = largest ? count_cells(largest) : 0;
+    const size_t entries = largest ? kiln_interact_entries(largest) : 0;
+    kiln_buffer_init(&interact->pushes, device, (size_t)params->push_count * 2 * sizeof(float4),
+                     "pushes");
+    kiln_buffer_init(&interact->bodies, device, bodies, "bodies");
+    kiln_buffer_init(&interact->second, device, bodies, "bodies, second");
+    kiln_buffer_init(&interact->cells, device, cells * sizeof(uint32_t), "cells of bodies");
+    kiln_buffer_init(&interact->partners, device, largest * sizeof(uint32_t), "partners");
+    kiln_buffer_init(&interact->entries, device, 2 * entries * ENTRY_BYTES, "bodies in grids");
+    kiln_buffer_init(&interact->order, device, (size_t)largest * 2 * sizeof(uint32_t),
+                     "order of a grid");
+    kiln_buffer_init(&interact->accelerations, NULL,
+                     ((size_t)largest + KILN_GRAVITY_BLOCK) * sizeof(float3), "accelerations");
+    kiln_buffer_init(&interact->block, device, sizeof(struct kiln_interact_params),
+                     "interaction parameters");
+    if (!device)
+        return choose_loops(interact, error);
+    return largest == 0 || kiln_interact_gl_init(interact, error);
+}
+
+void kiln_interact_finish(struct kiln_interact *interact)
+{
+    kiln_buffer_finish(&interact->pushes);
+    kiln_buffer_finish(&interact->bodies);
+    kiln_buffer_finish(&interact->second);
+    kiln_buffer_finish(&interact->cells);
+    kiln_buffer_finish(&interact->partners);
+    kiln_buffer_finish(&interact->entries);
+    kiln_buffer_finish(&interact->order);
+    kiln_buffer_finish(&interact->accelerations);
+    kiln_buffer_finish(&interact->block);
+    for (size_t i = 0; i < KILN_INTERACT_KERNELS; i++) {
+        if (interact->programs[i])
+            glDeleteProgram(interact->programs[i]);
+    }
+    *interact = (struct kiln_interact){.device = NULL};
+}
+
+bool kiln_interact_gather(struct kiln_interact *interact, const struct kiln_sim_params *params,
+                          struct kiln_pool *pool, struct kiln_buffer *keys,
+                          struct kiln_error *error)
+{
+    bool ok = true;
+    for (uint32_t i = 0; ok && i < params->system_count; i++) {
+        if (!params->systems[i].pushed || params->systems[i].used == 0)
+            continue;
+        const struct kiln_interact_work work = work_of(interact->scene, params, i);
+        ok = interact->device ? kiln_interact_gl(interact, &work, pool, keys, error)
+                              : kiln_interact_cpu(interact, &work, pool, error);
+    }
+    return ok;
+}

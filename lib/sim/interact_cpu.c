@@ -1,0 +1,238 @@
+/* Pushes on the host. Bodies are sorted into cells by counting, in the order of their slots; each
+ * thread answers for a stretch of them. Nobody but the round that is computed is written, so how
+ * bodies are shared out among threads cannot matter. */
+#include <assert.h>
+#include <stdatomic.h>
+#include <string.h>
+
+#include "shared/interact_gravity.h"
+#include "shared/interact_staggered.h"
+#include "sim/interact.h"
+#include "sim/interact_sort.h"
+
+enum { BODIES_AT_A_TIME = 512 };
+
+static_assert(sizeof(struct kiln_interact_entry) == 16, "as in GL");
+
+struct crowd {
+    struct kiln_crowd view;
+    const struct kiln_particle *records; /* of the system */
+    struct kiln_body *bodies, *after;
+    uint32_t *cell_ends, *partners;
+    struct kiln_interact_entry *entries;
+    uint32_t *order;
+    float4 *pushes; /* of the system */
+    uint32_t count; /* of bodies */
+    bool staggered;
+    bool later;      /* not the first round */
+    atomic_uint met; /* bodies that have a partner */
+};
+
+/* Counts, makes of the counts where each cell begins, and moves these on to where it ends. */
+static void sort_into_cells(struct crowd *crowd)
+{
+    const struct kiln_interact_params *params = crowd->view.params;
+    const uint32_t cells = params->cell_mask + 1;
+    memset(crowd->cell_ends, 0, cells * sizeof *crowd->cell_ends);
+    for (uint32_t slot = 0; slot < params->used; slot++) {
+        const struct kiln_particle p = crowd->records[slot];
+        if (particle_is_alive(p))
+            crowd->cell_ends[cell_of(&crowd->view, particle_position(p))]++;
+    }
+    for (uint32_t cell = 0; cell < cells; cell++) {
+        const uint32_t bodies = crowd->cell_ends[cell];
+        crowd->cell_ends[cell] = crowd->count;
+        crowd->count += bodies;
+    }
+    for (uint32_t slot = 0; slot < params->used; slot++) {
+        const struct kiln_particle p = crowd->records[slot];
+        if (particle_is_alive(p))
+            crowd->bodies[crowd->cell_ends[cell_of(&crowd->view, particle_position(p))]++] =
+                body_of(&crowd->view, p, slot);
+    }
+}
+
+static struct kiln_interact_entry entry_of(const struct crowd *crowd, float3 position, float aside,
+                                           uint32_t what)
+{
+    const struct stagger_key key = stagger_key_of(&crowd->view, position, aside);
+    return (struct kiln_interact_entry){.cell = (uint64_t)key.high << 32 | key.low, .what = what};
+}
+
+/* By both grids of the paper. */
+static void sort_into_grids(struct crowd *crowd)
+{
+    const struct kiln_interact_params *params = crowd->view.params;
+    for (uint32_t slot = 0; slot < params->used; slot++) {
+        const struct kiln_particle p = crowd->records[slot];
+        if (particle_is_alive(p))
+            crowd->entries[crowd->count++] = entry_of(crowd, particle_position(p), 0.0f, slot);
+    }
+    const uint32_t count = crowd->count;
+    struct kiln_interact_entry *scratch = crowd->entries + count;
+    kiln_interact_sort(crowd->entries, scratch, count);
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t slot = crowd->entries[i].what;
+        crowd->bodies[i] = body_of(&crowd->view, crowd->records[slot], slot);
+        crowd->entries[i] = entry_of(crowd, body_position(crowd->bodies[i]), 0.5f, i);
+    }
+    kiln_interact_sort(crowd->entries, scratch, count);
+    for (uint32_t i = 0; i < count; i++) {
+        crowd->order[i] = crowd->entries[i].what;
+        crowd->order[params->used + crowd->entries[i].what] = i;
+    }
+}
+
+static void find(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    struct crowd *crowd = context;
+    uint32_t met = 0;
+    for (size_t i = begin; i < end; i++) {
+        if (crowd->later && crowd->partners[i] == INTERACT_NOBODY)
+            continue;
+        const uint32_t partner = crowd->staggered
+                                     ? stagger_find(&crowd->view, (uint32_t)i, crowd->count)
+                                     : contact_find(&crowd->view, (uint32_t)i);
+        crowd->partners[i] = crowd->later ? contact_later(partner) : partner;
+        met += partner != INTERACT_NOBODY;
+    }
+    atomic_fetch_add(&crowd->met, met);
+}
+
+static void answer(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    struct crowd *crowd = context;
+    for (size_t i = begin; i < end; i++)
+        crowd->after[i] = contact_after(&crowd->view, (uint32_t)i);
+}
+
+static void swap_bodies(struct crowd *crowd)
+{
+    struct kiln_body *before = crowd->bodies;
+    crowd->bodies = crowd->after;
+    crowd->after = before;
+    crowd->view.bodies = crowd->bodies;
+}
+
+static void push(const struct crowd *crowd)
+{
+    memset(crowd->pushes, 0, (size_t)crowd->view.params->used * 2 * sizeof *crowd->pushes);
+    for (uint32_t i = 0; i < crowd->count; i++) {
+        const uint32_t slot = crowd->bodies[i].velocity_slot.w;
+        const struct body_push words = body_push_of(crowd->bodies[i], crowd->records[slot]);
+        crowd->pushes[(size_t)slot * 2] = words.velocity;
+        crowd->pushes[(size_t)slot * 2 + 1] = words.position;
+    }
+}
+
+static bool begin(struct crowd *crowd, struct kiln_interact *interact,
+                  const struct kiln_interact_work *work, struct kiln_pool *pool,
+                  struct kiln_error *error)
+{
+    const struct kiln_interact_params *params = &work->params;
+    const struct kiln_particle *records = kiln_buffer_host(&pool->records, KILN_READ, error);
+    float4 *pushes = kiln_buffer_host(&interact->pushes, KILN_READ_WRITE, error);
+    *crowd = (struct crowd){
+        .bodies = kiln_buffer_host(&interact->bodies, KILN_READ_WRITE, error),
+        .after = kiln_buffer_host(&interact->second, KILN_READ_WRITE, error),
+        .cell_ends = kiln_buffer_host(&interact->cells, KILN_READ_WRITE, error),
+        .partners = kiln_buffer_host(&interact->partners, KILN_READ_WRITE, error),
+        .staggered = work->mode == KILN_CONTACT_STAGGERED,
+    };
+    if (!records || !pushes || !crowd->bodies || !crowd->after || !crowd->cell_ends ||
+        !crowd->partners)
+        return false;
+    if (crowd->staggered) {
+        crowd->entries = kiln_buffer_host(&interact->entries, KILN_READ_WRITE, error);
+        crowd->order = kiln_buffer_host(&interact->order, KILN_READ_WRITE, error);
+        if (!crowd->entries || !crowd->order)
+            return false;
+    }
+    crowd->records = records + params->base;
+    crowd->pushes = pushes + (size_t)params->first_push * 2;
+    crowd->view = (struct kiln_crowd){.params = params,
+                                      .value_keys = interact->scene->keys,
+                                      .bodies = crowd->bodies,
+                                      .cell_ends = crowd->cell_ends,
+                                      .partners = crowd->partners,
+                                      .order = crowd->order};
+    return true;
+}
+
+static bool collide(struct kiln_interact *interact, const struct kiln_interact_work *work,
+                    struct kiln_pool *pool, struct kiln_error *error)
+{
+    struct crowd crowd;
+    if (!begin(&crowd, interact, work, pool, error))
+        return false;
+    if (crowd.staggered)
+        sort_into_grids(&crowd);
+    else
+        sort_into_cells(&crowd);
+    for (uint32_t round = 0; round < work->rounds; round++) {
+        atomic_store(&crowd.met, 0);
+        crowd.later = round > 0;
+        kiln_threads_for(interact->threads, crowd.count, BODIES_AT_A_TIME, find, &crowd);
+        if (atomic_load(&crowd.met) == 0) /* no round will change anything */
+            break;
+        kiln_threads_for(interact->threads, crowd.count, BODIES_AT_A_TIME, answer, &crowd);
+        swap_bodies(&crowd);
+    }
+    push(&crowd);
+    return true;
+}
+
+/* ---- gravity -------------------------------------------------------------------------------- */
+
+enum { TARGETS_AT_A_TIME = 4 * KILN_GRAVITY_BLOCK };
+
+/* There is room for a power of two of them, at least 64. */
+static void fill_sources(const struct kiln_crowd *view, const struct kiln_particle *records,
+                         float4 *sources)
+{
+    const uint32_t used = view->params->used;
+    for (uint32_t slot = 0; slot < used; slot++)
+        sources[slot] = particle_is_alive(records[slot]) ? gravity_source(view, records[slot])
+                                                         : gravity_no_source();
+    for (uint32_t slot = used; slot % KILN_GRAVITY_BLOCK != 0; slot++)
+        sources[slot] = gravity_no_source();
+}
+
+static bool pull(struct kiln_interact *interact, const struct kiln_interact_work *work,
+                 struct kiln_pool *pool, struct kiln_error *error)
+{
+    const struct kiln_interact_params *params = &work->params;
+    const struct kiln_crowd view = {.params = params, .value_keys = interact->scene->keys};
+    const struct kiln_particle *records = kiln_buffer_host(&pool->records, KILN_READ, error);
+    float4 *pushes = kiln_buffer_host(&interact->pushes, KILN_READ_WRITE, error);
+    float4 *sources = kiln_buffer_host(&interact->entries, KILN_READ_WRITE, error);
+    float3 *accelerations = kiln_buffer_host(&interact->accelerations, KILN_READ_WRITE, error);
+    if (!records || !pushes || !sources || !accelerations)
+        return false;
+    records += params->base;
+    pushes += (size_t)params->first_push * 2;
+    fill_sources(&view, records, sources);
+    struct kiln_gravity gravity = {.sources = sources,
+                                   .count = params->used,
+                                   .softening_square = params->softening_square,
+                                   .accelerations = accelerations};
+    kiln_threads_for(interact->threads, params->used, TARGETS_AT_A_TIME, interact->gravity->pull,
+                     &gravity);
+    if (!params->adds)
+        memset(pushes, 0, (size_t)params->used * 2 * sizeof *pushes);
+    for (size_t slot = 0; slot < params->used; slot++) {
+        float4 *push = &pushes[slot * 2];
+        if (particle_is_alive(records[slot]))
+            *push = gravity_push(*push, accelerations[slot], params->derived.dt_s);
+    }
+    return true;
+}
+
+bool kiln_interact_cpu(struct kiln_interact *interact, const struct kiln_interact_work *work,
+                       struct kiln_pool *pool, struct kiln_error *error)
+{
+    return (!work->collides || collide(interact, work, pool, error)) &&
+           (!work->pulls || pull(interact, work, pool, error));
+}

@@ -1,0 +1,191 @@
+/* Pushes in compute: the kernels of shaders/sim/interact_*.comp, one after the other. */
+#include <stdio.h>
+
+#include "gpu/program.h"
+#include "shared/limits.h"
+#include "sim/interact.h"
+
+/* What a kernel is for. */
+enum { EXACT_MODE = 1, STAGGERED_MODE = 2, GRAVITY = 4 };
+
+static const struct {
+    const char *file, *defines;
+    int used_for;
+} KERNELS[KILN_INTERACT_KERNELS] = {
+    [KILN_INTERACT_COUNT] = {"sim/interact_count.comp", "", EXACT_MODE},
+    [KILN_INTERACT_SCAN] = {"sim/interact_scan.comp", "", EXACT_MODE},
+    [KILN_INTERACT_PLACE] = {"sim/interact_place.comp", "", EXACT_MODE},
+    [KILN_INTERACT_FIND] = {"sim/interact_find.comp", "", EXACT_MODE},
+    [KILN_INTERACT_COUNT_STAGGERED] = {"sim/interact_count.comp", "#define STAGGERED 1\n",
+                                       STAGGERED_MODE},
+    [KILN_INTERACT_BITONIC] = {"sim/interact_bitonic.comp", "", STAGGERED_MODE},
+    [KILN_INTERACT_ORDER] = {"sim/interact_order.comp", "", STAGGERED_MODE},
+    [KILN_INTERACT_ORDER_SECOND] = {"sim/interact_order.comp", "#define SECOND 1\n",
+                                    STAGGERED_MODE},
+    [KILN_INTERACT_FIND_STAGGERED] = {"sim/interact_find.comp", "#define STAGGERED 1\n",
+                                      STAGGERED_MODE},
+    [KILN_INTERACT_ANSWER] = {"sim/interact_answer.comp", "", EXACT_MODE | STAGGERED_MODE},
+    [KILN_INTERACT_PUSH] = {"sim/interact_push.comp", "", EXACT_MODE | STAGGERED_MODE},
+    [KILN_INTERACT_SOURCES] = {"sim/interact_sources.comp", "", GRAVITY},
+    [KILN_INTERACT_GRAVITY_TILES] = {"sim/interact_gravity.comp", "", GRAVITY},
+};
+
+static int uses(const struct kiln_scene *scene)
+{
+    int all = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_interaction *collide =
+            kiln_scene_interaction(scene, i, KILN_INTERACT_COLLIDE);
+        if (collide)
+            all |= collide->mode == KILN_CONTACT_EXACT ? EXACT_MODE : STAGGERED_MODE;
+        if (kiln_scene_interaction(scene, i, KILN_INTERACT_GRAVITY))
+            all |= GRAVITY;
+    }
+    return all;
+}
+
+bool kiln_interact_gl_init(struct kiln_interact *interact, struct kiln_error *error)
+{
+    struct kiln_device *device = interact->device;
+    const int used = uses(interact->scene);
+    interact->group_size = device->work_group_size ? device->work_group_size : SIM_GROUP_SIZE;
+    for (int i = 0; i < KILN_INTERACT_KERNELS; i++) {
+        if ((used & KERNELS[i].used_for) == 0)
+            continue;
+        char defines[96];
+        snprintf(defines, sizeof defines, "#define SIM_GROUP_SIZE %u\n%s", interact->group_size,
+                 KERNELS[i].defines);
+        interact->programs[i] = kiln_program_create(
+            device, &(struct kiln_program_params){.compute = KERNELS[i].file, .defines = defines},
+            error);
+        if (!interact->programs[i])
+            return false;
+    }
+    return true;
+}
+
+/* For so many slots, bodies or pairs. */
+static void run(const struct kiln_interact *interact, enum kiln_interact_kernel kernel,
+                uint32_t count)
+{
+    glUseProgram(interact->programs[kernel]);
+    kiln_device_dispatch(interact->device, count, interact->group_size);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+static bool bind(GLuint at, struct kiln_buffer *buffer, enum kiln_access access,
+                 struct kiln_error *error)
+{
+    const GLuint gl = kiln_buffer_gl(buffer, access, error);
+    if (gl)
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, at, gl);
+    return gl != 0;
+}
+
+static bool bind_all(struct kiln_interact *interact, const struct kiln_interact_work *work,
+                     struct kiln_pool *pool, struct kiln_buffer *keys, struct kiln_error *error)
+{
+    const GLuint values = kiln_buffer_gl(keys, KILN_READ, error);
+    const GLuint block = kiln_buffer_upload(&interact->block, &work->params, error);
+    if (!values || !block)
+        return false;
+    glBindBufferBase(GL_UNIFORM_BUFFER, SIM_BIND_KEYS, values);
+    glBindBufferBase(GL_UNIFORM_BUFFER, INTERACT_BIND_PARAMS, block);
+    const enum kiln_access change = KILN_READ_WRITE;
+    return bind(SIM_BIND_RECORDS, &pool->records, KILN_READ, error) &&
+           bind(SIM_BIND_PUSHES, &interact->pushes, change, error) &&
+           (!work->collides || (bind(INTERACT_BIND_CELLS, &interact->cells, change, error) &&
+                                bind(INTERACT_BIND_PARTNERS, &interact->partners, change, error) &&
+                                bind(INTERACT_BIND_BODIES, &interact->bodies, change, error) &&
+                                bind(INTERACT_BIND_SECOND, &interact->second, change, error))) &&
+           ((work->mode == KILN_CONTACT_EXACT && !work->pulls) ||
+            (bind(INTERACT_BIND_ENTRIES, &interact->entries, change, error) &&
+             bind(INTERACT_BIND_ORDER, &interact->order, change, error)));
+}
+
+static void empty_cells(const struct kiln_interact *interact, uint32_t cells)
+{
+    const GLuint zero = 0;
+    glBindBuffer(GL_COPY_WRITE_BUFFER, interact->cells.gl);
+    glClearBufferSubData(GL_COPY_WRITE_BUFFER, GL_R32UI, 0,
+                         (GLsizeiptr)cells * (GLsizeiptr)sizeof zero, GL_RED_INTEGER,
+                         GL_UNSIGNED_INT, &zero);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+static void sort_into_cells(const struct kiln_interact *interact,
+                            const struct kiln_interact_params *params)
+{
+    run(interact, KILN_INTERACT_COUNT, params->used);
+    glUseProgram(interact->programs[KILN_INTERACT_SCAN]);
+    glUniform1ui(0, params->cell_mask + 1);
+    glDispatchCompute(1, 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    run(interact, KILN_INTERACT_PLACE, params->used);
+}
+
+/* A power of two of entries. */
+static void sort_entries(const struct kiln_interact *interact, uint32_t count)
+{
+    glUseProgram(interact->programs[KILN_INTERACT_BITONIC]);
+    glUniform1ui(0, count);
+    for (uint32_t length = 2; length <= count; length *= 2) {
+        for (uint32_t distance = length / 2; distance > 0; distance /= 2) {
+            glUniform1ui(1, length);
+            glUniform1ui(2, distance);
+            kiln_device_dispatch(interact->device, count / 2, interact->group_size);
+            glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+        }
+    }
+}
+
+static void sort_into_grids(const struct kiln_interact *interact,
+                            const struct kiln_interact_params *params)
+{
+    const uint32_t entries = kiln_interact_entries(params->used);
+    run(interact, KILN_INTERACT_COUNT_STAGGERED, entries);
+    sort_entries(interact, entries);
+    run(interact, KILN_INTERACT_ORDER, params->used);
+    sort_entries(interact, entries);
+    run(interact, KILN_INTERACT_ORDER_SECOND, params->used);
+}
+
+static void collide(const struct kiln_interact *interact, const struct kiln_interact_work *work)
+{
+    const struct kiln_interact_params *params = &work->params;
+    const bool exact = work->mode == KILN_CONTACT_EXACT;
+    empty_cells(interact, params->cell_mask + 1);
+    if (exact)
+        sort_into_cells(interact, params);
+    else
+        sort_into_grids(interact, params);
+    GLuint bodies = interact->bodies.gl, second = interact->second.gl;
+    for (uint32_t round = 0; round < work->rounds; round++) {
+        const enum kiln_interact_kernel find =
+            exact ? KILN_INTERACT_FIND : KILN_INTERACT_FIND_STAGGERED;
+        glUseProgram(interact->programs[find]);
+        glUniform1ui(0, round > 0);
+        run(interact, find, params->used);
+        run(interact, KILN_INTERACT_ANSWER, params->used);
+        const GLuint before = bodies;
+        bodies = second;
+        second = before;
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, INTERACT_BIND_BODIES, bodies);
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, INTERACT_BIND_SECOND, second);
+    }
+    run(interact, KILN_INTERACT_PUSH, params->used);
+}
+
+bool kiln_interact_gl(struct kiln_interact *interact, const struct kiln_interact_work *work,
+                      struct kiln_pool *pool, struct kiln_buffer *keys, struct kiln_error *error)
+{
+    if (!bind_all(interact, work, pool, keys, error))
+        return false;
+    if (work->collides)
+        collide(interact, work);
+    if (work->pulls) {
+        run(interact, KILN_INTERACT_SOURCES, work->params.used);
+        run(interact, KILN_INTERACT_GRAVITY_TILES, work->params.used);
+    }
+    return kiln_device_check(interact->device, "interact", error);
+}

@@ -1,0 +1,227 @@
+/* Elastic collision of spheres (UberFlow 2004, 4.4 and 4.5).
+ *
+ * As in the paper, each particle looks for its closest partner among those that it touches; both
+ * are backed up in time to their first contact, exchange momentum there, and fly on for the time
+ * that they went back. The paper lets each particle answer for itself, so that of three that touch,
+ * one may take an impulse that nobody gave. Here a pair collides only if each is the other's
+ * closest, and both compute the same pair: momentum is kept whatever happens. Who is left over
+ * collides in the next round of the same step, or in the next step, where it is still found, since
+ * it overlaps; who touches nobody at the start of a step has no part in its rounds. Pairs are
+ * ordered without ties, so that in every round at least the closest of all collides.
+ */
+#ifndef KILN_SHARED_INTERACT_COLLIDE_H
+#define KILN_SHARED_INTERACT_COLLIDE_H
+
+#include "shared/interact_body.h"
+
+/* Two bodies, as the first one sees the second. */
+struct contact {
+    float3 apart;   /* from the first to the second, m */
+    float3 parting; /* the second's velocity less the first's */
+    float square;   /* of the distance */
+    float reach;    /* sum of the radii */
+    float opening;  /* apart times parting: below 0 they approach */
+};
+
+FN S(contact) contact_of(S(kiln_body) a, S(kiln_body) b)
+{
+    EXACT float3 from = body_position(a);
+    EXACT float3 to = body_position(b);
+    EXACT float3 slow = body_velocity(a);
+    EXACT float3 fast = body_velocity(b);
+    EXACT float3 apart = float3_sub(to, from);
+    EXACT float3 parting = float3_sub(fast, slow);
+    EXACT S(contact) c;
+    c.apart = float3_canon(apart);
+    c.parting = float3_canon(parting);
+    EXACT float square = float3_dot(c.apart, c.apart);
+    EXACT float opening = float3_dot(c.apart, c.parting);
+    c.square = exact_canon(square);
+    c.opening = exact_canon(opening);
+    c.reach = body_radius(a) + body_radius(b);
+    return c;
+}
+
+/* Whether they touch, which few do: that alone. */
+FN bool contact_is_near(S(kiln_body) a, S(kiln_body) b)
+{
+    EXACT float3 from = body_position(a);
+    EXACT float3 to = body_position(b);
+    EXACT float3 apart = float3_sub(to, from);
+    EXACT float3 c = float3_canon(apart);
+    EXACT float sum = float3_dot(c, c);
+    EXACT float square = exact_canon(sum);
+    EXACT float reach = body_radius(a) + body_radius(b);
+    EXACT float reach_square = reach * reach;
+    return body_radius(a) > 0.0f && body_radius(b) > 0.0f && square < reach_square;
+}
+
+/* The lower, the sooner a pair is dealt with: those that approach before those that only overlap,
+ * among them the closest. */
+FN uint contact_rank(S(contact) c)
+{
+    EXACT float square = c.reach * c.reach;
+    EXACT float nearness = exact_div(c.square, square);
+    uint later = c.opening < 0.0f ? 0u : EXACT_SIGN_BIT;
+    return FLOAT_BITS(nearness) | later;
+}
+
+/* The best partner so far. */
+struct contact_choice {
+    uint rank;
+    uint low, high; /* slots of the pair: of equal ranks, the lower come first */
+    uint partner;   /* a body */
+};
+
+FN S(contact_choice) contact_no_choice(void)
+{
+    S(contact_choice) choice;
+    choice.rank = INTERACT_NOBODY;
+    choice.low = INTERACT_NOBODY;
+    choice.high = INTERACT_NOBODY;
+    choice.partner = INTERACT_NOBODY;
+    return choice;
+}
+
+FN S(contact_choice) contact_choose(S(contact_choice) best, S(kiln_body) a, S(kiln_body) b, uint at)
+{
+    uint mine = a.velocity_slot.w;
+    uint other = b.velocity_slot.w;
+    if (mine == other || !contact_is_near(a, b))
+        return best;
+    EXACT S(contact) c = contact_of(a, b);
+    S(contact_choice) choice;
+    choice.rank = contact_rank(c);
+    choice.low = mine < other ? mine : other;
+    choice.high = mine < other ? other : mine;
+    choice.partner = at;
+    bool better = choice.rank < best.rank ||
+                  (choice.rank == best.rank &&
+                   (choice.low < best.low || (choice.low == best.low && choice.high < best.high)));
+    if (better)
+        return choice;
+    return best;
+}
+
+FN S(contact_choice)
+    contact_choose_among(CROWD_PARAM S(contact_choice) best, S(kiln_body) a, uint begin, uint end)
+{
+    S(contact_choice) choice = best;
+    for (uint k = begin; k < end; k++)
+        choice = contact_choose(choice, a, BODY(k), k);
+    return choice;
+}
+
+/* The closest of all that a body touches: in the 27 cells around it, nine rows of three that are
+ * neighbours in the table, or at its two ends. A cell of the table may hold several of space, which
+ * only costs time. */
+FN uint contact_find(CROWD_PARAM uint self)
+{
+    S(kiln_body) a = BODY(self);
+    EXACT float3 p = body_position(a);
+    int x = cell_along(p.x, INTERACT(cells_per_metre));
+    int y = cell_along(p.y, INTERACT(cells_per_metre));
+    int z = cell_along(p.z, INTERACT(cells_per_metre));
+    S(contact_choice) best = contact_no_choice();
+    for (int row = 0; row < 9; row++) {
+        uint start = cell_row(y + row % 3 - 1, z + row / 3 - 1);
+        uint first = cell_in_row(CROWD start, x - 1);
+        uint last = cell_in_row(CROWD start, x + 1);
+        uint begin = cell_begin(CROWD first);
+        uint end = CELL_END(last);
+        if (last < first) {
+            best = contact_choose_among(CROWD best, a, 0u, end);
+            end = CELL_END(INTERACT(cell_mask));
+        }
+        best = contact_choose_among(CROWD best, a, begin, end);
+    }
+    return best.partner;
+}
+
+/* What a search says after the first round. */
+FN uint contact_later(uint partner)
+{
+    return partner == INTERACT_NOBODY ? INTERACT_NOBODY_NOW : partner;
+}
+
+/* ---- response ------------------------------------------------------------------------------- */
+
+/* The part of a change that the first of two bodies gets: the mass of the second in that of both,
+ * as of balls of one material. */
+FN float contact_share(S(kiln_body) a, S(kiln_body) b)
+{
+    EXACT float mine = body_radius(a);
+    EXACT float other = body_radius(b);
+    EXACT float mass = (mine * mine) * mine;
+    EXACT float other_mass = (other * other) * other;
+    EXACT float both = mass + other_mass;
+    EXACT float y = mass == other_mass ? 0.5f : exact_div(other_mass, both);
+    return y;
+}
+
+/* Seconds since two that approach began to touch, at most those of a step: |apart - parting t| =
+ * reach, whose roots are of opposite signs, since they overlap now. */
+FN float contact_since(S(contact) c, float dt_s)
+{
+    EXACT float speed_square = float3_dot(c.parting, c.parting);
+    EXACT float inside = c.reach * c.reach - c.square;
+    EXACT float under = c.opening * c.opening + speed_square * inside;
+    EXACT float below = exact_sqrt(under) - c.opening;
+    EXACT float t = exact_div(inside, below);
+    EXACT float y = exact_clamp(t, 0.0f, dt_s);
+    return y;
+}
+
+/* Along which two bodies in one place part: each sees the other's opposite. */
+FN float3 contact_any_normal(S(kiln_body) a, S(kiln_body) b)
+{
+    EXACT float side = a.velocity_slot.w < b.velocity_slot.w ? 1.0f : -1.0f;
+    EXACT float3 y = FLOAT3(0.0f, side, 0.0f);
+    return y;
+}
+
+/* The first of two that touch after their collision. `restitution` 1 keeps all energy; of an
+ * overlap that is left, the part `apart` is taken away. */
+FN S(kiln_body)
+    contact_answer(S(kiln_body) a, S(kiln_body) b, float restitution, float apart, float dt_s)
+{
+    EXACT S(contact) c = contact_of(a, b);
+    EXACT float share = contact_share(a, b);
+    EXACT float3 otherwise = contact_any_normal(a, b);
+    bool approach = c.opening < 0.0f;
+    EXACT float since_s = approach ? contact_since(c, dt_s) : 0.0f;
+    EXACT float3 at_contact = float3_add_scaled(c.apart, c.parting, -since_s);
+    EXACT float3 normal = float3_normalize(at_contact, otherwise);
+    EXACT float away = float3_dot(c.parting, normal);
+    EXACT float towards = approach && away < 0.0f ? -away : 0.0f;
+    EXACT float bounce = towards + towards * restitution;
+    EXACT float change = -(bounce * share);
+    EXACT float3 position = body_position(a);
+    EXACT float3 velocity = body_velocity(a);
+    EXACT float3 faster = float3_add_scaled(velocity, normal, change);
+    EXACT float moved = change * since_s;
+    EXACT float distance = float3_length(at_contact) + (towards * restitution) * since_s;
+    EXACT float overlap = c.reach - distance;
+    EXACT float rest = overlap > 0.0f ? overlap : 0.0f;
+    EXACT float freed = (rest * apart) * share;
+    EXACT float shift = moved - freed;
+    EXACT float3 farther = float3_add_scaled(position, normal, shift);
+    return body_with_motion(a, farther, faster);
+}
+
+/* A body after a round: changed if it and its partner are each other's. */
+FN S(kiln_body) contact_after(CROWD_PARAM uint self)
+{
+    S(kiln_body) a = BODY(self);
+    uint partner = PARTNER(self);
+    if (partner >= INTERACT_NOBODY_NOW)
+        return a;
+    if (PARTNER(partner) != self)
+        return a;
+    S(kiln_body)
+    after = contact_answer(a, BODY(partner), INTERACT(restitution), INTERACT(apart),
+                           INTERACT(derived.dt_s));
+    return after;
+}
+
+#endif

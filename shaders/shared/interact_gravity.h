@@ -1,0 +1,63 @@
+/* Gravity among all particles of a system (Drone 2007, 7.4.3): every pair, softened near by
+ * (Plummer).
+ *
+ * The sources of a sum are added one by one in the order of their slots, so that it is the same
+ * bits however they are cut into tiles; empty slots pull with strength 0. lib/sim/gravity_simd.c
+ * does the same in vectors.
+ */
+#ifndef KILN_SHARED_INTERACT_GRAVITY_H
+#define KILN_SHARED_INTERACT_GRAVITY_H
+
+#include "shared/interact_body.h"
+
+/* Position, m, and strength: acceleration at 1 m, in m/s^2. */
+FN float4 gravity_source(CROWD_PARAM S(kiln_particle) p)
+{
+    EXACT float3 position = particle_position(p);
+    EXACT float life = body_progress(CROWD p);
+    EXACT float strength = value_at(CROWD_KEYS INTERACT(strength), INTERACT(time_s), life);
+    EXACT float pull = exact_canon(strength);
+    EXACT float4 y = FLOAT4(position.x, position.y, position.z, pull);
+    return y;
+}
+
+FN float4 gravity_no_source(void)
+{
+    EXACT float4 y = FLOAT4(0.0f, 0.0f, 0.0f, 0.0f);
+    return y;
+}
+
+/* 1 / sqrt(x) within 8e-7 of its size for 2^-30 <= x <= 2^60: a step less than exact_rsqrt, from a
+ * better guess, since all of gravity is these (constants: J. Kadlec 2010). */
+FN float gravity_rsqrt(float x)
+{
+    EXACT float guess = BITS_FLOAT(0x5f1ffff9u - (FLOAT_BITS(x) >> 1u));
+    EXACT float square = (x * guess) * guess;
+    EXACT float better = guess * (0.703952253f * (2.38924456f - square));
+    EXACT float halved = 0.5f * x;
+    EXACT float rest = 1.5f - (halved * better) * better;
+    EXACT float y = better * rest;
+    return y;
+}
+
+/* The acceleration at a place by one source more. */
+FN float3 gravity_add(float3 sum, float3 at, float4 source, float softening_square)
+{
+    EXACT float3 to = FLOAT3(source.x - at.x, source.y - at.y, source.z - at.z);
+    EXACT float square = ((to.x * to.x + to.y * to.y) + to.z * to.z) + softening_square;
+    EXACT float inverse = gravity_rsqrt(square);
+    EXACT float pull = ((inverse * inverse) * inverse) * source.w;
+    EXACT float3 y = FLOAT3(sum.x + to.x * pull, sum.y + to.y * pull, sum.z + to.z * pull);
+    return y;
+}
+
+/* A push's velocity, with what an acceleration adds to it in a step. */
+FN float4 gravity_push(float4 velocity, float3 acceleration, float dt_s)
+{
+    EXACT float3 change = float3_scale(acceleration, dt_s);
+    EXACT float3 c = float3_canon(change);
+    EXACT float4 y = FLOAT4(velocity.x + c.x, velocity.y + c.y, velocity.z + c.z, velocity.w);
+    return y;
+}
+
+#endif

@@ -1,0 +1,72 @@
+/* What the gathering of pushes is told of one system, laid out alike in C and in a std140 block,
+ * and what it keeps meanwhile: bodies, the living particles of the system in order of their cells.
+ *
+ * The kernels read these as globals in GLSL and through pointers in C: CROWD_PARAM and CROWD pass
+ * them on, CROWD_KEYS is their VALUE_KEYS, INTERACT(x), BODY(i), CELL_END(cell), PARTNER(i) and
+ * ORDER(i) name them.
+ */
+#ifndef KILN_SHARED_INTERACT_LAYOUT_H
+#define KILN_SHARED_INTERACT_LAYOUT_H
+
+#include "shared/layout.h"
+#include "shared/particle.h"
+
+/* No partner: because it touches nobody at the start of the step, and is left alone in it; or in
+ * this round. */
+#define INTERACT_NOBODY     0xffffffffu
+#define INTERACT_NOBODY_NOW 0xfffffffeu
+
+struct kiln_interact_params {
+    S(kiln_derived_params) derived;
+    uint base;       /* the system's first slot in the record buffer */
+    uint used;       /* slots that may hold a particle */
+    uint first_push; /* its first slot in the buffer of pushes */
+    uint step;       /* that the state is after */
+    uint cell_mask;  /* cells of the table, a power of two, less 1 */
+    uint as_drawn;   /* 1: radii are those of the look */
+    float time_s;    /* clip time of the state */
+    float cells_per_metre;
+    float restitution;
+    float apart;            /* part of an overlap that is taken away in a round */
+    float softening_square; /* m^2 */
+    uint adds;              /* 1: gravity adds to pushes that are there */
+    S(kiln_value) radius;   /* m */
+    S(kiln_value) size;     /* m: of the look, twice the radius */
+    S(kiln_range) scale;    /* factor on it, drawn per particle */
+    S(kiln_value) strength; /* of gravity: m/s^2 at 1 m */
+};
+
+struct kiln_body {
+    uint4 position_radius; /* float bits, metres */
+    uint4 velocity_slot;   /* float bits, metres a second; slot of the system */
+};
+
+#ifdef GL_core_profile
+#define CROWD
+#define CROWD_PARAM
+#define CROWD_KEYS
+#define INTERACT(x)    interact_params.x
+#define BODY(i)        bodies[i]
+#define CELL_END(cell) cell_ends[cell]
+#define PARTNER(i)     partners[i]
+#define ORDER(i)       body_order[i]
+#else
+struct kiln_crowd {
+    const struct kiln_interact_params *params;
+    const float4 *value_keys;
+    const struct kiln_body *bodies;
+    const uint *cell_ends; /* of each cell, the body behind its last */
+    const uint *partners;
+    const uint *order; /* of the second grid: see stagger_find */
+};
+#define CROWD          crowd,
+#define CROWD_PARAM    const struct kiln_crowd *crowd,
+#define CROWD_KEYS     crowd->value_keys,
+#define INTERACT(x)    crowd->params->x
+#define BODY(i)        crowd->bodies[i]
+#define CELL_END(cell) crowd->cell_ends[cell]
+#define PARTNER(i)     crowd->partners[i]
+#define ORDER(i)       crowd->order[i]
+#endif
+
+#endif

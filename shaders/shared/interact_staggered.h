@@ -1,0 +1,65 @@
+/* The paper's way to find partners: two staggered grids (UberFlow 2004, 4.3 and 4.4, figure 3).
+ *
+ * Bodies are sorted by their cells in a grid, in ascending order of x, y, z, and once more by those
+ * of a grid half a cell aside along all axes; in both orders, each looks at the 8 before it and the
+ * 8 behind it (as in its experiment E4) and takes the closest. Who is farther off in both orders is
+ * missed: across faces of cells other than along z, or where cells are crowded.
+ */
+#ifndef KILN_SHARED_INTERACT_STAGGERED_H
+#define KILN_SHARED_INTERACT_STAGGERED_H
+
+#include "shared/interact_collide.h"
+
+#define STAGGER_WINDOW 8u
+
+/* Cells along an axis; who is farther out is at the edge. */
+#define STAGGER_CELLS 2097152
+
+/* Of a cell, in 63 bits; all bits for nobody. */
+struct stagger_key {
+    uint high, low;
+};
+
+FN uint stagger_along(CROWD_PARAM float metres, float aside)
+{
+    EXACT float at = metres * INTERACT(cells_per_metre) + aside;
+    EXACT float held = exact_clamp(at, -1048576.0f, 1048575.0f);
+    return UINT(INT(FLOOR(held)) + STAGGER_CELLS / 2);
+}
+
+/* aside: in cells, of the grid. */
+FN S(stagger_key) stagger_key_of(CROWD_PARAM float3 p, float aside)
+{
+    uint x = stagger_along(CROWD p.x, aside);
+    uint y = stagger_along(CROWD p.y, aside);
+    uint z = stagger_along(CROWD p.z, aside);
+    S(stagger_key) key;
+    key.high = (x << 10u) | (y >> 11u);
+    key.low = (y << 21u) | z;
+    return key;
+}
+
+/* Bodies lie in the order of the first grid. ORDER has the body at each place of the second, and
+ * behind these, from `used` on, the place of each body. */
+FN uint stagger_find(CROWD_PARAM uint self, uint count)
+{
+    S(kiln_body) a = BODY(self);
+    uint places = INTERACT(used);
+    uint place = ORDER(places + self);
+    S(contact_choice) best = contact_no_choice();
+    for (uint step = 1u; step <= STAGGER_WINDOW; step++) {
+        uint before = self >= step ? self - step : self;
+        uint behind = self + step < count ? self + step : self;
+        uint place_before = place >= step ? place - step : place;
+        uint place_behind = place + step < count ? place + step : place;
+        uint other_before = ORDER(place_before);
+        uint other_behind = ORDER(place_behind);
+        best = contact_choose(best, a, BODY(before), before);
+        best = contact_choose(best, a, BODY(behind), behind);
+        best = contact_choose(best, a, BODY(other_before), other_before);
+        best = contact_choose(best, a, BODY(other_behind), other_behind);
+    }
+    return best.partner;
+}
+
+#endif

@@ -1,0 +1,36 @@
+/* One pass of a bitonic merge sort over all entries, by cell and then by what is there, so that no
+ * two are equal (UberFlow 2004, 4.3.2). */
+#include "shared/limits.h"
+
+layout(local_size_x = SIM_GROUP_SIZE) in;
+
+layout(std430, binding = INTERACT_BIND_ENTRIES) buffer entry_block
+{
+    uvec4 entries[];
+};
+
+layout(location = 0) uniform uint count;    /* a power of two */
+layout(location = 1) uniform uint run;      /* of which every other one descends */
+layout(location = 2) uniform uint distance; /* of what is compared */
+
+bool is_before(uvec4 a, uvec4 b)
+{
+    return a.x < b.x || (a.x == b.x && (a.y < b.y || (a.y == b.y && a.z < b.z)));
+}
+
+void main()
+{
+    uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    uint pair = group * SIM_GROUP_SIZE + gl_LocalInvocationID.x;
+    uint low = (pair & ~(distance - 1u)) * 2u + (pair & (distance - 1u));
+    uint high = low + distance;
+    if (high >= count)
+        return;
+    uvec4 a = entries[low];
+    uvec4 b = entries[high];
+    bool descends = (low & run) != 0u;
+    if (is_before(b, a) != descends) {
+        entries[low] = b;
+        entries[high] = a;
+    }
+}

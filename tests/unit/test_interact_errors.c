@@ -1,0 +1,45 @@
+/* What is said of scenes whose particles cannot interact as they are told. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "support/bad_scenes.h"
+
+static const struct bad interactions[] = {
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a:\n"
+     "    interact: [collide: 1 cm, collide: {radius: 2 cm}]\n",
+     ":4:15: systems.a.interact: entries 0 and 1 are of one kind; at most one of each"},
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a:\n"
+     "    interact: [collide: 0 m]\n",
+     ":4:15: systems.a.interact: the radius of entry 0 is 0 all along: nothing can collide"},
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a:\n"
+     "    interact: [collide: {rounds: 0}]\n",
+     ":4:34: systems.a.interact.0.collide.rounds: 0 is out of range; allowed is from 1 to 64"},
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a:\n"
+     "    interact: [collide: {mode: staged}]\n",
+     ":4:32: systems.a.interact.0.collide.mode: expected exact or staggered, found 'staged'"},
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a:\n"
+     "    interact: [{collide: {radius: -1 cm}}]\n",
+     ":4:35: systems.a.interact.0.collide.radius: -1 cm is out of range; allowed is from 0 m to "
+     "1000 m"},
+};
+BAD_TEST(interactions)
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {cmocka_unit_test(bad_interactions)};
+    return cmocka_run_group_tests_name("interact_errors", tests, NULL, NULL);
+}
