@@ -20,6 +20,7 @@ bool kiln_suite_table_2(const struct kiln_bench_run *run, struct kiln_error *err
 bool kiln_suite_seed(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_curves(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_groups(const struct kiln_bench_run *run, struct kiln_error *error);
+bool kiln_suite_forces(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_bytes(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_output(const struct kiln_bench_run *run, struct kiln_error *error);
 

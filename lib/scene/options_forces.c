@@ -12,14 +12,28 @@ static const struct kiln_option gravity[] = {
 static const struct kiln_option drag[] = {
     VALUE("strength", strength, KILN_PER_SECOND, 0, 1000, BOTH, "0.5",
           "Part of the velocity that is lost a second, for small values."),
+    VALUE("quadratic", pull, KILN_PER_METRE, 0, 1000, BOTH, "0",
+          "The same by the speed: what air does to all but the smallest and slowest."),
     END,
 };
+
+static const char *const modes[] = {
+    [KILN_WIND_PULL] = "pull",
+    [KILN_WIND_ADD] = "add",
+    NULL,
+};
+
+#define MODE                                                                                       \
+    CHOICE("mode", mode, modes, "pull",                                                            \
+           "pull: towards the velocity of the air; add: it is added in each step, whatever "       \
+           "pull says (UberFlow 2004, 4.2, equation 1), so that more steps accelerate more.")
 
 static const struct kiln_option wind[] = {
     VECTOR("velocity", vector, KILN_SPEED, -10000, 10000, BOTH, "[1, 0, 0]",
            "Velocity of the air."),
     VALUE("pull", strength, KILN_PER_SECOND, 0, 1000, BOTH, "1",
           "How fast particles take up the velocity of the air."),
+    MODE,
     END,
 };
 
@@ -32,6 +46,7 @@ static const struct kiln_option curl[] = {
     VALUE("pull", pull, KILN_PER_SECOND, 0, 1000, BOTH, "1",
           "How fast particles take up the velocity of the air."),
     INTEGER("octaves", octaves, 1, 4, "1", "Layers of ever smaller eddies."),
+    MODE,
     END,
 };
 
@@ -42,6 +57,55 @@ static const struct kiln_option field[] = {
     VALUE("strength", strength, KILN_PLAIN, -1000, 1000, BOTH, "1", "Factor on the velocities."),
     VALUE("pull", pull, KILN_PER_SECOND, 0, 1000, BOTH, "1",
           "How fast particles take up the velocity of the air."),
+    MODE,
+    END,
+};
+
+static const char *const falloffs[] = {
+    [KILN_FALLOFF_INVERSE_SQUARE] = "inverse_square",
+    [KILN_FALLOFF_INVERSE] = "inverse",
+    [KILN_FALLOFF_CONSTANT] = "constant",
+    [KILN_FALLOFF_LINEAR] = "linear",
+    NULL,
+};
+
+static const struct kiln_option attract[] = {
+    VECTOR("position", vector, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",
+           "Where they are drawn to."),
+    VALUE("strength", strength, KILN_ACCELERATION, -100000, 100000, BOTH, "1 m/s^2",
+          "Acceleration at a distance of 1 m; away from there where it is negative."),
+    CHOICE("falloff", falloff, falloffs, "inverse_square",
+           "By the distance: inverse_square like gravity, inverse, constant, or linear like a "
+           "spring."),
+    VALUE("radius", scale, KILN_METRES, 0.001, FAR, TIME, "0.1 m",
+          "Within it the acceleration goes down to nothing at the position itself; linear is as it "
+          "is."),
+    END,
+};
+
+static const char *const profiles[] = {
+    [KILN_VORTEX_RANKINE] = "rankine",
+    [KILN_VORTEX_LAMB_OSEEN] = "lamb_oseen",
+    NULL,
+};
+
+static const struct kiln_option vortex[] = {
+    VECTOR("position", vector, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]", "A point of the axis."),
+    VECTOR("axis", drift, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
+           "Direction of the axis, of any length; seen against it, the air turns anticlockwise."),
+    VALUE("speed", strength, KILN_SPEED, -10000, 10000, BOTH, "1 m/s",
+          "Of the air around the axis, at the edge of the core, where it is fastest."),
+    VALUE("radius", scale, KILN_METRES, 0.001, FAR, TIME, "0.5 m", "Of the core."),
+    CHOICE("profile", profile, profiles, "rankine",
+           "rankine: the core turns like a solid body, the rest is slower with the distance; "
+           "lamb_oseen: smooth between the two."),
+    VALUE("inward", inward, KILN_SPEED, -10000, 10000, TIME, "0 m/s",
+          "Of the air towards the axis, at the edge of the core; by the distance like speed."),
+    VALUE("lift", lift, KILN_SPEED, -10000, 10000, TIME, "0 m/s",
+          "Of the air along the axis, on it; half of that at the edge of the core."),
+    VALUE("pull", pull, KILN_PER_SECOND, 0, 1000, BOTH, "1",
+          "How fast particles take up the velocity of the air."),
+    MODE,
     END,
 };
 
@@ -67,6 +131,16 @@ const struct kiln_option_kind kiln_force_kinds[] = {
      .members = curl,
      .shortcut = "strength",
      .help = "Turbulent air: noise without sources, in which smoke swirls."},
+    {.name = "attract",
+     .value = KILN_FORCE_ATTRACT,
+     .members = attract,
+     .shortcut = "strength",
+     .help = "A point that particles seek, or flee (Drone 2007, 7.5.1)."},
+    {.name = "vortex",
+     .value = KILN_FORCE_VORTEX,
+     .members = vortex,
+     .shortcut = "speed",
+     .help = "Air that turns around an axis: a whirlwind, or water at a drain."},
     {.name = "limit",
      .value = KILN_FORCE_LIMIT,
      .members = limit,
@@ -83,6 +157,11 @@ const struct kiln_option_kind kiln_force_kinds[] = {
      .value = KILN_FORCE_CURL,
      .members = curl,
      .help = "Another way to write the force curl."},
+    {.name = "wind",
+     .variant = "vortex",
+     .value = KILN_FORCE_VORTEX,
+     .members = vortex,
+     .help = "Another way to write the force vortex."},
     {.name = "wind",
      .variant = "grid",
      .value = KILN_FORCE_FIELD,

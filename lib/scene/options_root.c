@@ -42,6 +42,8 @@ static const struct kiln_option output[] = {
 static const char *const integrations[] = {
     [KILN_INTEGRATE_SEMI_IMPLICIT] = "semi_implicit",
     [KILN_INTEGRATE_POSITION_FIRST] = "position_first",
+    [KILN_INTEGRATE_TRAPEZOID] = "trapezoid",
+    [KILN_INTEGRATE_RK4] = "rk4",
     NULL,
 };
 
@@ -54,8 +56,11 @@ static const struct kiln_option simulation[] = {
     {ROW("warmup", number, AT(warmup_s), "0 s",
          "Simulated before the first frame, in whole steps; clip time is negative there."),
      LIMITS(KILN_SECONDS, 0, 100000)},
-    CHOICE("integration", integration, integrations, "semi_implicit",
-           "Order of a step: semi_implicit moves by the new velocity, position_first by the old."),
+    CHOICE(
+        "integration", integration, integrations, "semi_implicit",
+        "How a step moves: semi_implicit by the new velocity, position_first by the old, trapezoid "
+        "by the mean of both (error by the square of the step), rk4 by four looks at the forces "
+        "(by its fourth power)."),
     BOUNDS("bounds", bounds, "none", "Where particles may be, for systems without their own."),
     END,
 };

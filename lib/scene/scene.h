@@ -82,28 +82,58 @@ struct kiln_emitter {
 
 enum kiln_force_kind {
     KILN_FORCE_GRAVITY, /* vector: acceleration, m/s^2 */
-    KILN_FORCE_DRAG,    /* strength: 1/s, towards rest */
+    KILN_FORCE_DRAG,    /* strength: 1/s, towards rest; pull: 1/m, the same by the speed */
     KILN_FORCE_WIND,    /* vector: air velocity, m/s; strength: 1/s, pull towards it */
     KILN_FORCE_CURL,    /* curl noise: strength m/s of air velocity, scale m, speed m/s of drift,
                          * pull 1/s towards the air, octaves */
     KILN_FORCE_LIMIT,   /* strength: m/s, the most that is left of the speed */
     KILN_FORCE_FIELD,   /* file: air velocities, m/s; strength: factor on them; pull 1/s towards */
+    KILN_FORCE_ATTRACT, /* vector: a point, m; strength: m/s^2 at 1 m from it, negative to flee;
+                         * scale: m, radius within which it is softened; falloff */
+    KILN_FORCE_VORTEX,  /* vector: a point of the axis, m; drift: its direction; strength: m/s at
+                         * the core's edge; scale: m, radius of the core; inward, lift: m/s; pull
+                         * 1/s towards the air; profile */
+};
+
+enum kiln_falloff {
+    KILN_FALLOFF_INVERSE_SQUARE,
+    KILN_FALLOFF_INVERSE,
+    KILN_FALLOFF_CONSTANT,
+    KILN_FALLOFF_LINEAR,
+};
+
+enum kiln_vortex_profile {
+    KILN_VORTEX_RANKINE,
+    KILN_VORTEX_LAMB_OSEEN,
+};
+
+/* What moving air does to particles. */
+enum kiln_wind_mode {
+    KILN_WIND_PULL, /* (air - velocity) * pull, as an acceleration */
+    KILN_WIND_ADD,  /* its velocity is added in each step (UberFlow 2004, 4.2); no pull */
 };
 
 struct kiln_force {
     enum kiln_force_kind kind;
     struct kiln_value3 vector;
     struct kiln_value strength;
-    struct kiln_value pull;   /* 1/s */
+    struct kiln_value pull;   /* 1/s; drag: 1/m */
     struct kiln_value scale;  /* m */
     struct kiln_value3 drift; /* m/s: the noise field moves with it */
+    struct kiln_value inward; /* m/s; it and lift vary over time alone */
+    struct kiln_value lift;   /* m/s */
     uint32_t octaves;         /* 1..4 */
+    enum kiln_falloff falloff;
+    enum kiln_vortex_profile profile;
+    enum kiln_wind_mode mode; /* of air */
     const char *file;         /* field: an absolute path (asset/grid_in.h) */
 };
 
 enum kiln_integration {
     KILN_INTEGRATE_SEMI_IMPLICIT,  /* velocity, then position */
     KILN_INTEGRATE_POSITION_FIRST, /* the thesis's order: position, then velocity (3.3.2) */
+    KILN_INTEGRATE_TRAPEZOID,      /* second order: UberFlow 2004, 4.2 (shared/stages.h) */
+    KILN_INTEGRATE_RK4,            /* fourth order */
 };
 
 /* ---- collide: Heinz 2019, 3.5 ---------------------------------------------------------------- */

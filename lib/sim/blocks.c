@@ -195,13 +195,16 @@ bool kiln_sim_programs_init(struct kiln_sim_programs *programs, struct kiln_devi
     struct defines defines;
     const bool grids = params->grids->count > 0, turned = has_turned_colliders(scene);
     const bool fields = has_field_colliders(scene), pushes = params->push_count > 0;
+    const bool forces = kiln_sim_needs_all_forces(scene);
+    const bool round = has_round_colliders(scene);
     snprintf(defines.text, sizeof defines.text, "#define SIM_GROUP_SIZE %u\n", group_size(device));
-    add_define(&defines, "COLLIDE_ROUND", grids || turned || pushes || has_round_colliders(scene));
+    add_define(&defines, "COLLIDE_ROUND", grids || turned || pushes || forces || round);
     add_define(&defines, "COLLIDE_TURNED", turned);
     add_define(&defines, "COLLIDE_RUB", has_rubbing(params));
     add_define(&defines, "GRIDS", grids);
     add_define(&defines, "COLLIDE_FIELD", fields);
     add_define(&defines, "PUSHES", pushes);
+    add_define(&defines, "FORCES_ALL", forces);
     files.defines = defines.text;
     programs->alone = kiln_program_create(device, &files, error);
     if (!programs->alone || !has_families(params))

@@ -14,16 +14,18 @@
 static_assert(sizeof(struct kiln_value) == 16, "std140");
 static_assert(sizeof(struct kiln_derived_params) == 48, "std140");
 static_assert(sizeof(struct kiln_emit_params) == 256, "std140");
-static_assert(sizeof(struct kiln_force_params) == 160, "std140");
+static_assert(sizeof(struct kiln_force_params) == 176, "std140");
 static_assert(sizeof(struct kiln_birth_group) == 16, "std140");
 static_assert(offsetof(struct kiln_step_params, step) == 304, "std140");
 static_assert(offsetof(struct kiln_step_params, randomness) == 368, "std140");
+static_assert(offsetof(struct kiln_step_params, pushed) == 436, "std140");
 static_assert(offsetof(struct kiln_step_params, bounds_min) == 448, "std140");
 static_assert(offsetof(struct kiln_step_params, groups) == 736, "std140");
 static_assert(offsetof(struct kiln_step_params, forces) == 1776, "std140");
-static_assert(offsetof(struct kiln_step_params, family) == 4336, "std140");
-static_assert(offsetof(struct kiln_step_params, pushed) == 436, "std140");
-static_assert(sizeof(struct kiln_step_params) == 4384, "std140");
+static_assert(offsetof(struct kiln_step_params, family) == 4592, "std140");
+static_assert(sizeof(struct kiln_step_params) == 4640, "std140");
+static_assert(sizeof(struct kiln_step_params) <= 16384, "what every GL allows a uniform block");
+static_assert(sizeof(struct kiln_surroundings) <= 16384, "what every GL allows a uniform block");
 static_assert(sizeof(struct kiln_trace) == 112, "std430");
 static_assert(offsetof(struct kiln_surroundings, colliders) == 16, "std140");
 static_assert(offsetof(struct kiln_surroundings, grids) == 6880, "std140");
@@ -40,11 +42,23 @@ static_assert(EMIT_POINT == (uint)KILN_EMITTER_POINT && EMIT_SPHERE == (uint)KIL
               "the shaders' names of enum kiln_emitter_shape");
 static_assert(FORCE_GRAVITY == (uint)KILN_FORCE_GRAVITY && FORCE_DRAG == (uint)KILN_FORCE_DRAG &&
                   FORCE_WIND == (uint)KILN_FORCE_WIND && FORCE_CURL == (uint)KILN_FORCE_CURL &&
-                  FORCE_LIMIT == (uint)KILN_FORCE_LIMIT && FORCE_FIELD == (uint)KILN_FORCE_FIELD,
+                  FORCE_LIMIT == (uint)KILN_FORCE_LIMIT && FORCE_FIELD == (uint)KILN_FORCE_FIELD &&
+                  FORCE_ATTRACT == (uint)KILN_FORCE_ATTRACT &&
+                  FORCE_VORTEX == (uint)KILN_FORCE_VORTEX,
               "the shaders' names of enum kiln_force_kind");
 static_assert(INTEGRATE_SEMI_IMPLICIT == (uint)KILN_INTEGRATE_SEMI_IMPLICIT &&
-                  INTEGRATE_POSITION_FIRST == (uint)KILN_INTEGRATE_POSITION_FIRST,
+                  INTEGRATE_POSITION_FIRST == (uint)KILN_INTEGRATE_POSITION_FIRST &&
+                  INTEGRATE_TRAPEZOID == (uint)KILN_INTEGRATE_TRAPEZOID &&
+                  INTEGRATE_RK4 == (uint)KILN_INTEGRATE_RK4,
               "the shaders' names of enum kiln_integration");
+static_assert(FALLOFF_INVERSE_SQUARE == (uint)KILN_FALLOFF_INVERSE_SQUARE &&
+                  FALLOFF_INVERSE == (uint)KILN_FALLOFF_INVERSE &&
+                  FALLOFF_CONSTANT == (uint)KILN_FALLOFF_CONSTANT &&
+                  FALLOFF_LINEAR == (uint)KILN_FALLOFF_LINEAR,
+              "the shaders' names of enum kiln_falloff");
+static_assert(VORTEX_RANKINE == (uint)KILN_VORTEX_RANKINE &&
+                  VORTEX_LAMB_OSEEN == (uint)KILN_VORTEX_LAMB_OSEEN,
+              "the shaders' names of enum kiln_vortex_profile");
 
 static_assert(BORN_OF_DEATH == 1 + (uint)KILN_EVENT_DEATH &&
                   BORN_OF_BOUNCE == 1 + (uint)KILN_EVENT_BOUNCE &&
@@ -104,6 +118,28 @@ static bool rubs(const struct kiln_scene *scene, const struct kiln_collide *coll
     return collide->enabled && any;
 }
 
+static uint what_force_does(const struct kiln_force *force)
+{
+    if (force->kind == KILN_FORCE_LIMIT)
+        return FORCES_LIMIT;
+    const bool none = force->pull.count == 0 && force->pull.constant == 0.0f;
+    return force->kind == KILN_FORCE_DRAG && !none ? FORCES_SLOW : 0;
+}
+
+bool kiln_sim_needs_all_forces(const struct kiln_scene *scene)
+{
+    bool any = scene->integration >= KILN_INTEGRATE_TRAPEZOID;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_system *system = &scene->systems[i];
+        for (uint32_t k = 0; k < system->force_count; k++) {
+            const struct kiln_force *force = &system->forces[k];
+            any = any || force->kind == KILN_FORCE_ATTRACT || force->kind == KILN_FORCE_VORTEX ||
+                  what_force_does(force) == FORCES_SLOW;
+        }
+    }
+    return any;
+}
+
 static void fill_system(struct kiln_step_params *params, const struct kiln_scene *scene,
                         uint32_t index)
 {
@@ -122,7 +158,7 @@ static void fill_system(struct kiln_step_params *params, const struct kiln_scene
     };
     fill_emitter(&params->emit, &system->emit);
     for (uint32_t i = 0; i < system->force_count; i++)
-        params->limited |= system->forces[i].kind == KILN_FORCE_LIMIT;
+        params->forces_do |= what_force_does(&system->forces[i]);
     for (uint32_t i = 0; i < system->demitter_count; i++) {
         params->demitter_min[i] = to_float4(system->demitters[i].min);
         params->demitter_max[i] = to_float4(system->demitters[i].max);
@@ -207,16 +243,26 @@ static struct kiln_force_params force_at_time(const struct kiln_scene *scene,
                                               const struct kiln_sim_grids *grids,
                                               const struct kiln_force *force, float time_s)
 {
-    return (struct kiln_force_params){
+    const bool attracts = force->kind == KILN_FORCE_ATTRACT;
+    struct kiln_force_params params = {
         .kind = (uint)force->kind,
         .octaves = force->octaves,
+        .profile = attracts ? (uint)force->falloff : (uint)force->profile,
         .grid = force->kind == KILN_FORCE_FIELD ? kiln_sim_grids_find(grids, force->file) : 0,
         .vector = at_time3(scene, force->vector, time_s),
         .drift = at_time3(scene, force->drift, time_s),
         .strength = at_time(scene, force->strength, time_s),
         .pull = at_time(scene, force->pull, time_s),
         .scale = at_time(scene, force->scale, time_s),
+        .inward = kiln_scene_value(scene, &force->inward, time_s),
+        .lift = kiln_scene_value(scene, &force->lift, time_s),
     };
+    if (force->mode == KILN_WIND_ADD) {
+        params.added = (float)((double)scene->rate.num / scene->rate.den);
+        *(force->kind == KILN_FORCE_WIND ? &params.strength : &params.pull) =
+            (struct kiln_value){.constant = 0.0f};
+    }
+    return params;
 }
 
 /* A box's lower and upper corner. */
@@ -519,6 +565,8 @@ bool kiln_sim_params_step(struct kiln_sim_params *params, const struct kiln_scen
                               scene->name, step, KILN_MAX_STEPS);
     float start_s = kiln_scene_time(scene, step - 1);
     float end_s = kiln_scene_time(scene, step);
+    const bool staged = scene->integration >= KILN_INTEGRATE_TRAPEZOID;
+    float forces_s = staged ? 0.5f * (start_s + end_s) : start_s;
     for (uint32_t n = 0; n < params->system_count; n++) {
         uint32_t i = params->order[n];
         const struct kiln_system *system = &scene->systems[i];
@@ -536,7 +584,7 @@ bool kiln_sim_params_step(struct kiln_sim_params *params, const struct kiln_scen
         p->restitution = at_time(scene, system->collide.restitution, start_s);
         p->friction = at_time(scene, system->collide.friction, start_s);
         for (uint32_t k = 0; k < system->force_count; k++)
-            p->forces[k] = force_at_time(scene, params->grids, &system->forces[k], start_s);
+            p->forces[k] = force_at_time(scene, params->grids, &system->forces[k], forces_s);
     }
     fill_colliders(&params->surroundings, scene, params->grids, start_s, end_s);
     return true;

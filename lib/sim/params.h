@@ -21,6 +21,9 @@ struct kiln_sim_params {
 /* Does the system need the kernel for families (shared/step_family.h)? */
 bool kiln_sim_is_family(const struct kiln_step_params *params);
 
+/* Does any system need the kernels that know all forces and integrators (shared/force.h)? */
+bool kiln_sim_needs_all_forces(const struct kiln_scene *scene);
+
 /* Fills in all that does not change during a run. The grids must outlive the parameters. */
 void kiln_sim_params_init(struct kiln_sim_params *params, const struct kiln_scene *scene,
                           struct kiln_sim_grids *grids);

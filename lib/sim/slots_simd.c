@@ -7,6 +7,12 @@
 
 #include "particles/lanes.h"
 
+/* struct stages of each lane. */
+struct stages_lanes {
+    struct kiln_floats3 position, velocity, at, moving, acceleration, first, early, changed, flown;
+    kiln_floats pull, quadratic, fastest, trust;
+};
+
 struct block {
     struct kiln_lanes lanes;
     uint32_t alone[KILN_LANES];       /* 1: a case for step_slot */
@@ -15,12 +21,14 @@ struct block {
     kiln_floats life;                 /* progress at the start of the step */
     struct kiln_floats3 start;        /* velocity at the start, pushes included */
     kiln_floats radius;               /* of those that are pushed */
+    struct kiln_floats3 at;           /* where the forces are looked up */
     struct kiln_floats3 acceleration; /* of the forces so far */
-    kiln_floats pull;
+    kiln_floats pull, quadratic;
     struct kiln_floats3 velocity, position; /* at the end */
     struct kiln_floats3 vector, drift;      /* options of a force */
     kiln_floats strength, pulling, scale;
     struct kiln_floats3 place, curl;
+    struct stages_lanes stages;
 };
 
 static inline struct kiln_particle record_at(const struct block *b, uint32_t i)
@@ -52,34 +60,46 @@ static inline void find_ages(const struct kiln_sim *sim, struct block *b)
         b->life[i] = particle_progress(b->lanes.age_s[i] - dt_s, b->lanes.life_s[i]);
 }
 
-static inline struct force_input force_input_at(const struct block *b, uint32_t i, float time_s)
+static inline struct force_input force_input_at(const struct block *b, uint32_t i,
+                                                const struct kiln_force_params *force, float time_s)
 {
     return (struct force_input){
-        .position = particle_position(record_at(b, i)),
+        .position = kiln_get3(&b->at, i),
         .time_s = time_s,
         .vector = kiln_get3(&b->vector, i),
         .strength = b->strength[i],
         .drift = kiln_get3(&b->drift, i),
         .pull = b->pulling[i],
         .scale = b->scale[i],
+        .inward = force->inward,
+        .lift = force->lift,
+        .added = force->added,
+        .grid = force->grid,
+        .profile = force->profile,
     };
+}
+
+static inline struct force_effect effect_at(const struct block *b, uint32_t i)
+{
+    return (struct force_effect){kiln_get3(&b->acceleration, i), b->pull[i], b->quadratic[i]};
 }
 
 static inline void add_effect(struct block *b, uint32_t i, struct force_effect effect)
 {
-    struct force_effect sum = {kiln_get3(&b->acceleration, i), b->pull[i]};
-    sum = forces_add(sum, effect);
+    struct force_effect sum = forces_add(effect_at(b, i), effect);
     kiln_set3(&b->acceleration, i, sum.acceleration);
     b->pull[i] = sum.pull;
+    b->quadratic[i] = sum.quadratic;
 }
 
 /* force_curl, an octave of all lanes after the other. */
-static inline void add_curl(const struct kiln_sim *sim, struct block *b, uint32_t octaves)
+static inline void add_curl(const struct kiln_sim *sim, struct block *b,
+                            const struct kiln_force_params *force)
 {
-    const float time_s = sim->step->time_s;
-    const uint32_t seed = sim->step->noise_seed;
+    const float time_s = forces_time_s(sim, sim->step->time_s);
+    const uint32_t seed = sim->step->noise_seed, octaves = force->octaves;
     for (uint32_t i = 0; i < KILN_LANES; i++) {
-        kiln_set3(&b->place, i, force_curl_place(force_input_at(b, i, time_s)));
+        kiln_set3(&b->place, i, force_curl_place(force_input_at(b, i, force, time_s)));
         kiln_set3(&b->curl, i, (float3){0.0f, 0.0f, 0.0f});
     }
     for (uint32_t octave = 0; octave < octaves && octave < NOISE_OCTAVES; octave++) {
@@ -89,13 +109,18 @@ static inline void add_curl(const struct kiln_sim *sim, struct block *b, uint32_
                 noise_curl_add(kiln_get3(&b->curl, i), kiln_get3(&b->place, i), seed, octave));
     }
     for (uint32_t i = 0; i < KILN_LANES; i++)
-        add_effect(b, i, force_air(force_input_at(b, i, time_s), kiln_get3(&b->curl, i)));
+        add_effect(b, i, force_air(force_input_at(b, i, force, time_s), kiln_get3(&b->curl, i)));
 }
+
+/* Of each lane i. */
+#define ADD_EFFECT(effect)                                                                         \
+    for (uint32_t i = 0; i < KILN_LANES; i++)                                                      \
+    add_effect(b, i, effect)
 
 static inline void add_force(const struct kiln_sim *sim, struct block *b,
                              const struct kiln_force_params *force)
 {
-    const float time_s = sim->step->time_s;
+    const float time_s = forces_time_s(sim, sim->step->time_s);
     find_values3(sim, force->vector, b, &b->vector);
     find_values(sim, force->strength, b, b->strength);
     find_values3(sim, force->drift, b, &b->drift);
@@ -103,33 +128,44 @@ static inline void add_force(const struct kiln_sim *sim, struct block *b,
     find_values(sim, force->scale, b, b->scale);
     switch (force->kind) {
     case FORCE_GRAVITY:
-        for (uint32_t i = 0; i < KILN_LANES; i++)
-            add_effect(b, i, force_gravity(force_input_at(b, i, time_s)));
+        ADD_EFFECT(force_gravity(force_input_at(b, i, force, time_s)));
         break;
     case FORCE_DRAG:
-        for (uint32_t i = 0; i < KILN_LANES; i++)
-            add_effect(b, i, force_drag(force_input_at(b, i, time_s)));
+        ADD_EFFECT(force_drag(force_input_at(b, i, force, time_s)));
         break;
     case FORCE_WIND:
-        for (uint32_t i = 0; i < KILN_LANES; i++)
-            add_effect(b, i, force_wind(force_input_at(b, i, time_s)));
+        ADD_EFFECT(force_wind(force_input_at(b, i, force, time_s)));
         break;
     case FORCE_CURL:
-        add_curl(sim, b, force->octaves);
+        add_curl(sim, b, force);
         break;
     case FORCE_FIELD:
-        for (uint32_t i = 0; i < KILN_LANES; i++) {
-            struct force_input input = force_input_at(b, i, time_s);
-            input.grid = force->grid;
-            add_effect(b, i, force_field(sim, input));
-        }
+        ADD_EFFECT(force_field(sim, force_input_at(b, i, force, time_s)));
+        break;
+    case FORCE_ATTRACT:
+        ADD_EFFECT(force_attract(force_input_at(b, i, force, time_s)));
+        break;
+    case FORCE_VORTEX:
+        ADD_EFFECT(force_vortex(force_input_at(b, i, force, time_s)));
         break;
     default:
         break;
     }
 }
 
-static inline void limit_speed(const struct kiln_sim *sim, struct block *b)
+static inline void add_forces(const struct kiln_sim *sim, struct block *b)
+{
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        kiln_set3(&b->acceleration, i, (float3){0.0f, 0.0f, 0.0f});
+        b->pull[i] = 0.0f;
+        b->quadratic[i] = 0.0f;
+    }
+    for (uint32_t k = 0; k < sim->step->force_count; k++)
+        add_force(sim, b, &sim->step->forces[k]);
+}
+
+static inline void limit_speed(const struct kiln_sim *sim, struct block *b,
+                               struct kiln_floats3 *velocity)
 {
     for (uint32_t k = 0; k < sim->step->force_count; k++) {
         const struct kiln_force_params *force = &sim->step->forces[k];
@@ -137,7 +173,7 @@ static inline void limit_speed(const struct kiln_sim *sim, struct block *b)
             continue;
         find_values(sim, force->strength, b, b->strength);
         for (uint32_t i = 0; i < KILN_LANES; i++)
-            kiln_set3(&b->velocity, i, force_limit_one(kiln_get3(&b->velocity, i), b->strength[i]));
+            kiln_set3(velocity, i, force_limit_one(kiln_get3(velocity, i), b->strength[i]));
     }
 }
 
@@ -175,18 +211,19 @@ static inline void push_on(const struct kiln_sim *sim, struct block *b, uint32_t
 static inline void fly(const struct kiln_sim *sim, struct block *b)
 {
     const float time_s = sim->step->derived.dt_s;
-    for (uint32_t i = 0; i < KILN_LANES; i++) {
-        kiln_set3(&b->acceleration, i, (float3){0.0f, 0.0f, 0.0f});
-        b->pull[i] = 0.0f;
+    for (uint32_t i = 0; i < KILN_LANES; i++)
+        kiln_set3(&b->at, i, particle_position(record_at(b, i)));
+    add_forces(sim, b);
+    for (uint32_t i = 0; i < KILN_LANES; i++)
+        kiln_set3(&b->velocity, i, forces_apply(effect_at(b, i), kiln_get3(&b->start, i), time_s));
+    if (sim->step->forces_do & FORCES_SLOW) {
+        for (uint32_t i = 0; i < KILN_LANES; i++)
+            kiln_set3(&b->velocity, i,
+                      forces_slow(kiln_get3(&b->velocity, i), b->quadratic[i],
+                                  forces_acting_s(b->pull[i], time_s)));
     }
-    for (uint32_t k = 0; k < sim->step->force_count; k++)
-        add_force(sim, b, &sim->step->forces[k]);
-    for (uint32_t i = 0; i < KILN_LANES; i++) {
-        struct force_effect forces = {kiln_get3(&b->acceleration, i), b->pull[i]};
-        kiln_set3(&b->velocity, i, forces_apply(forces, kiln_get3(&b->start, i), time_s));
-    }
-    if (sim->step->limited)
-        limit_speed(sim, b);
+    if (sim->step->forces_do & FORCES_LIMIT)
+        limit_speed(sim, b, &b->velocity);
     const bool position_first = sim->step->integration == INTEGRATE_POSITION_FIRST;
     for (uint32_t i = 0; i < KILN_LANES; i++) {
         struct kiln_particle p = record_at(b, i);
@@ -195,6 +232,85 @@ static inline void fly(const struct kiln_sim *sim, struct block *b)
                            position_first ? before.z : after.z};
         kiln_set3(&b->position, i, float3_add_scaled(particle_position(p), carrying, time_s));
     }
+}
+
+static inline struct stages stages_get(const struct stages_lanes *s, uint32_t i)
+{
+    return (struct stages){
+        .position = kiln_get3(&s->position, i),
+        .velocity = kiln_get3(&s->velocity, i),
+        .at = kiln_get3(&s->at, i),
+        .moving = kiln_get3(&s->moving, i),
+        .acceleration = kiln_get3(&s->acceleration, i),
+        .first = kiln_get3(&s->first, i),
+        .early = kiln_get3(&s->early, i),
+        .changed = kiln_get3(&s->changed, i),
+        .flown = kiln_get3(&s->flown, i),
+        .pull = s->pull[i],
+        .quadratic = s->quadratic[i],
+        .fastest = s->fastest[i],
+        .trust = s->trust[i],
+    };
+}
+
+static inline void stages_set(struct stages_lanes *to, uint32_t i, struct stages s)
+{
+    kiln_set3(&to->position, i, s.position);
+    kiln_set3(&to->velocity, i, s.velocity);
+    kiln_set3(&to->at, i, s.at);
+    kiln_set3(&to->moving, i, s.moving);
+    kiln_set3(&to->acceleration, i, s.acceleration);
+    kiln_set3(&to->first, i, s.first);
+    kiln_set3(&to->early, i, s.early);
+    kiln_set3(&to->changed, i, s.changed);
+    kiln_set3(&to->flown, i, s.flown);
+    to->pull[i] = s.pull;
+    to->quadratic[i] = s.quadratic;
+    to->fastest[i] = s.fastest;
+    to->trust[i] = s.trust;
+}
+
+/* A stage of all lanes; in each loop it is known which. */
+#define TAKE_STAGE(stage, count)                                                                   \
+    for (uint32_t i = 0; i < KILN_LANES; i++)                                                      \
+    stages_set(s, i, stages_take(stages_get(s, i), effect_at(b, i), stage, count, time_s))
+
+static inline void take_stage(struct block *b, uint32_t stage, uint32_t count, float time_s)
+{
+    struct stages_lanes *s = &b->stages;
+    if (count == 2 && stage == 0) {
+        TAKE_STAGE(0, 2);
+    } else if (count == 2) {
+        TAKE_STAGE(1, 2);
+    } else if (stage == 0) {
+        TAKE_STAGE(0, 4);
+    } else if (stage == 1) {
+        TAKE_STAGE(1, 4);
+    } else if (stage == 2) {
+        TAKE_STAGE(2, 4);
+    } else {
+        TAKE_STAGE(3, 4);
+    }
+}
+
+/* step_integrate_stages, over the whole step. */
+static inline void fly_in_stages(const struct kiln_sim *sim, struct block *b)
+{
+    const float time_s = sim->step->derived.dt_s;
+    const uint32_t integration = sim->step->integration, count = stages_count(integration);
+    struct stages_lanes *s = &b->stages;
+    for (uint32_t i = 0; i < KILN_LANES; i++)
+        stages_set(s, i, stages_start(particle_position(record_at(b, i)), kiln_get3(&b->start, i)));
+    for (uint32_t stage = 0; stage < count; stage++) {
+        b->at = s->at;
+        add_forces(sim, b);
+        take_stage(b, stage, count, time_s);
+        if (sim->step->forces_do & FORCES_LIMIT)
+            limit_speed(sim, b, &s->moving);
+    }
+    for (uint32_t i = 0; i < KILN_LANES; i++)
+        kiln_set3(&b->position, i, stages_arrive(stages_get(s, i), integration, time_s));
+    b->velocity = s->moving;
 }
 
 static inline void find_lost(const struct kiln_sim *sim, struct block *b)
@@ -355,7 +471,10 @@ __attribute__((flatten)) static void step_block(const struct kiln_sim *sim, uint
     kiln_lanes_load(&b->lanes, records);
     find_ages(sim, b);
     start_moving(sim, b, first_slot);
-    fly(sim, b);
+    if (sim->step->integration >= INTEGRATE_TRAPEZOID)
+        fly_in_stages(sim, b);
+    else
+        fly(sim, b);
     push_on(sim, b, first_slot);
     find_lost(sim, b);
     find_alone(sim, b, first_slot);

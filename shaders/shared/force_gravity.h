@@ -6,9 +6,8 @@
 
 FN S(force_effect) force_gravity(S(force_input) f)
 {
-    EXACT S(force_effect) effect;
+    EXACT S(force_effect) effect = force_none();
     effect.acceleration = f.vector;
-    effect.pull = 0.0f;
     return effect;
 }
 

@@ -1,4 +1,4 @@
-/* Uniform wind: a pull towards the velocity of the air. */
+/* Uniform wind: what air of one velocity does (force_air); `strength` is the pull. */
 #ifndef KILN_SHARED_FORCE_WIND_H
 #define KILN_SHARED_FORCE_WIND_H
 
@@ -7,8 +7,9 @@
 
 FN S(force_effect) force_wind(S(force_input) f)
 {
-    EXACT S(force_effect) effect;
-    effect.acceleration = float3_scale(f.vector, f.strength);
+    EXACT float per_s = f.strength + f.added;
+    EXACT S(force_effect) effect = force_none();
+    effect.acceleration = float3_scale(f.vector, per_s);
     effect.pull = f.strength;
     return effect;
 }

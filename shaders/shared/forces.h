@@ -24,15 +24,24 @@
 #define FORCES_OF_GRIDS(ROW) ROW(FORCE_FIELD, force_field)
 #endif
 
+#ifdef FORCES_ALL
+#include "shared/force_attract.h"
+#include "shared/force_vortex.h"
+#define FORCES_MORE(ROW)                                                                           \
+    ROW(FORCE_ATTRACT, force_attract)                                                              \
+    ROW(FORCE_VORTEX, force_vortex)
+#else
+#define FORCES_MORE(ROW)
+#endif
+
 FN S(force_effect) forces_one(SIM_PARAM uint kind, S(force_input) force)
 {
-    EXACT S(force_effect) effect;
-    effect.acceleration = FLOAT3(0.0f, 0.0f, 0.0f);
-    effect.pull = 0.0f;
+    EXACT S(force_effect) effect = force_none();
 #define FORCES_ROW(id, function)                                                                   \
     if (kind == id)                                                                                \
         effect = function(force);
     FORCES(FORCES_ROW)
+    FORCES_MORE(FORCES_ROW)
 #undef FORCES_ROW
 #define FORCES_ROW(id, function)                                                                   \
     if (kind == id)                                                                                \
@@ -47,23 +56,39 @@ FN S(force_effect) forces_add(S(force_effect) sum, S(force_effect) effect)
     EXACT S(force_effect) y;
     y.acceleration = float3_add(sum.acceleration, effect.acceleration);
     y.pull = sum.pull + exact_max(effect.pull, 0.0f);
+    y.quadratic = sum.quadratic + exact_max(effect.quadratic, 0.0f);
     return y;
+}
+
+/* When the forces of a step that starts at `time_s` are looked up: by integrators that do so at
+ * several places, halfway through it, where the host takes what is keyed over time. */
+FN float forces_time_s(SIM_PARAM float time_s)
+{
+#ifdef FORCES_ALL
+    if (STEP(integration) >= INTEGRATE_TRAPEZOID) {
+        EXACT float halfway_s = time_s + 0.5f * STEP(derived.dt_s);
+        return halfway_s;
+    }
+#endif
+    return time_s;
 }
 
 FN S(force_effect) forces_sum(SIM_PARAM float3 position, float life)
 {
-    EXACT S(force_effect) sum;
-    sum.acceleration = FLOAT3(0.0f, 0.0f, 0.0f);
-    sum.pull = 0.0f;
+    EXACT S(force_effect) sum = force_none();
     EXACT S(force_input) force;
     force.position = position;
-    force.time_s = STEP(time_s);
+    force.time_s = forces_time_s(SIM STEP(time_s));
     for (uint i = 0u; i < STEP(force_count); i++) {
         force.vector = value3_at(SIM_KEYS STEP(forces[i].vector), force.time_s, life);
         force.strength = value_at(SIM_KEYS STEP(forces[i].strength), force.time_s, life);
         force.drift = value3_at(SIM_KEYS STEP(forces[i].drift), force.time_s, life);
         force.pull = value_at(SIM_KEYS STEP(forces[i].pull), force.time_s, life);
         force.scale = value_at(SIM_KEYS STEP(forces[i].scale), force.time_s, life);
+        force.inward = STEP(forces[i].inward);
+        force.lift = STEP(forces[i].lift);
+        force.added = STEP(forces[i].added);
+        force.profile = STEP(forces[i].profile);
         force.octaves = STEP(forces[i].octaves);
         force.grid = STEP(forces[i].grid);
         force.seed = STEP(noise_seed);
@@ -73,33 +98,44 @@ FN S(force_effect) forces_sum(SIM_PARAM float3 position, float life)
     return sum;
 }
 
-/* (1 - e^-z) / z for z >= 0 within 4e-7: by how much less than its time a pull of strength z acts.
- */
-FN float forces_damping(float z)
+/* The part of a time for which forces act that are up against a pull. */
+FN float forces_acting_s(float pull, float time_s)
 {
-    if (z < 0.25f) {
-        EXACT float end = 0.00833333333f - z * (0.00138888889f - z * 0.000198412698f);
-        EXACT float tail = 0.166666667f - z * (0.0416666667f - z * end);
-        EXACT float series = 1.0f - z * (0.5f - z * tail);
-        return series;
-    }
-    EXACT float minus_z = -z;
-    EXACT float decay = exact_exp(minus_z);
-    EXACT float done = 1.0f - decay;
-    EXACT float damping = exact_div(done, z);
-    return damping;
+    EXACT float z = pull * time_s;
+    EXACT float acting_s = time_s * forces_damping(z);
+    return acting_s;
 }
 
 /* The velocity after `time_s`: the exact solution of dv/dt = acceleration - pull * v for constant
  * forces, v + (acceleration - pull * v) * (1 - e^(-pull * time)) / pull. It cannot overshoot. */
 FN float3 forces_apply(S(force_effect) sum, float3 velocity, float time_s)
 {
-    EXACT float z = sum.pull * time_s;
-    EXACT float acting_s = time_s * forces_damping(z);
+    EXACT float acting_s = forces_acting_s(sum.pull, time_s);
     EXACT float slowing = -sum.pull;
     EXACT float3 change = float3_add_scaled(sum.acceleration, velocity, slowing);
     EXACT float3 y = float3_add_scaled(velocity, change, acting_s);
     return y;
 }
+
+#ifdef FORCES_ALL
+
+/* A velocity of which drag by the square of the speed takes its part over `acting_s`: the solution
+ * v of v + acting_s * quadratic * |v| * v = velocity. After forces_apply with the same acting time
+ * its rest is exactly where drag balances the other forces; faster or slower, it nears that without
+ * passing it, however strong the drag. */
+FN float3 forces_slow(float3 velocity, float quadratic, float acting_s)
+{
+    EXACT float speed = float3_length(velocity);
+    EXACT float drag = quadratic * acting_s * speed;
+    EXACT float grown = 1.0f + 4.0f * drag;
+    EXACT float below = 1.0f + exact_sqrt(grown);
+    EXACT float slower = exact_div(2.0f, below);
+    slower = exact_min(slower, 1.0f);
+    EXACT float factor = drag > 0.0f ? slower : 1.0f;
+    EXACT float3 y = float3_scale(velocity, factor);
+    return y;
+}
+
+#endif
 
 #endif

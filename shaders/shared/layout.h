@@ -56,21 +56,42 @@ struct kiln_emit_params {
 #define FORCE_CURL    3u
 #define FORCE_LIMIT   4u
 #define FORCE_FIELD   5u
+#define FORCE_ATTRACT 6u
+#define FORCE_VORTEX  7u
+
+/* How an attraction falls off with the distance. */
+#define FALLOFF_INVERSE_SQUARE 0u
+#define FALLOFF_INVERSE        1u
+#define FALLOFF_CONSTANT       2u
+#define FALLOFF_LINEAR         3u
+
+/* How fast the air of a vortex turns, by the distance from its axis. */
+#define VORTEX_RANKINE    0u
+#define VORTEX_LAMB_OSEEN 1u
 
 struct kiln_force_params {
     uint kind;
     uint octaves;
-    uint grid; /* number, of a field */
-    uint unused;
+    uint grid;    /* number, of a field */
+    uint profile; /* FALLOFF_* or VORTEX_* */
     S(kiln_value3) vector;
     S(kiln_value3) drift;
     S(kiln_value) strength;
     S(kiln_value) pull;
     S(kiln_value) scale;
+    float inward, lift; /* m/s */
+    float added; /* 1/s: steps a second where the air's velocity is added in each step, else 0 */
+    uint unused;
 };
 
 #define INTEGRATE_SEMI_IMPLICIT  0u
 #define INTEGRATE_POSITION_FIRST 1u
+#define INTEGRATE_TRAPEZOID      2u /* this and what follows: shared/stages.h */
+#define INTEGRATE_RK4            3u
+
+/* What some force of a system does. */
+#define FORCES_LIMIT 1u /* the speed */
+#define FORCES_SLOW  2u /* by the square of the speed */
 
 #define COLLIDE_OFF   0u
 #define COLLIDE_SWEPT 1u
@@ -117,8 +138,8 @@ struct kiln_step_params {
     uint demitter_count;
     uint bounded;
     uint noise_seed;
-    float time_s; /* clip time at the start of the step */
-    uint limited; /* 1: a force limits the speed */
+    float time_s;   /* clip time at the start of the step */
+    uint forces_do; /* bits FORCES_* */
     S(kiln_value) randomness;
     S(kiln_value) slowdown;
     S(kiln_value) restitution;

@@ -9,6 +9,9 @@
 #include "shared/family.h"
 #include "shared/forces.h"
 #include "shared/push.h"
+#ifdef FORCES_ALL
+#include "shared/stages.h"
+#endif
 
 /* Farther out, or faster, or not a number: the particle is lost. 2^20 m, m/s. */
 #define STEP_ABSURD_BITS 0x49800000u
@@ -69,14 +72,16 @@ FN S(kiln_particle) step_birth(SIM_PARAM uint index)
     return step_with_motion(p, born.position, born.velocity);
 }
 
-/* Motion from the part `since` of the step to the part `until`, without collision. */
-FN S(collide_state) step_integrate(SIM_PARAM S(collide_state) s, float until, float life)
+#ifdef FORCES_PLAIN
+
+/* step_integrate for forces that one look is enough for, and no drag by the square of the speed. */
+FN S(collide_state) step_integrate_plain(SIM_PARAM S(collide_state) s, float until, float life)
 {
     EXACT float time_s = (until - s.since) * STEP(derived.dt_s);
     EXACT S(force_effect) forces = forces_sum(SIM s.position, life);
     EXACT S(collide_state) moved;
     moved.velocity = forces_apply(forces, s.velocity, time_s);
-    if (STEP(limited) != 0u)
+    if ((STEP(forces_do) & FORCES_LIMIT) != 0u)
         moved.velocity = force_limit_all(SIM moved.velocity, life);
     EXACT float3 carrying = moved.velocity;
     if (STEP(integration) == INTEGRATE_POSITION_FIRST)
@@ -84,6 +89,44 @@ FN S(collide_state) step_integrate(SIM_PARAM S(collide_state) s, float until, fl
     moved.position = float3_add_scaled(s.position, carrying, time_s);
     moved.since = until;
     return moved;
+}
+
+#endif
+#ifdef FORCES_ALL
+
+/* step_integrate for all of them. */
+FN S(collide_state) step_integrate_stages(SIM_PARAM S(collide_state) start, float until, float life)
+{
+    EXACT float time_s = (until - start.since) * STEP(derived.dt_s);
+    uint count = stages_count(STEP(integration));
+    EXACT S(stages) s = stages_start(start.position, start.velocity);
+    for (uint stage = 0u; stage < count; stage++) {
+        EXACT S(force_effect) forces = forces_sum(SIM s.at, life);
+        s = stages_take(s, forces, stage, count, time_s);
+        if ((STEP(forces_do) & FORCES_LIMIT) != 0u)
+            s.moving = force_limit_all(SIM s.moving, life);
+    }
+    EXACT S(collide_state) moved;
+    moved.position = stages_arrive(s, STEP(integration), time_s);
+    moved.velocity = s.moving;
+    moved.since = until;
+    return moved;
+}
+
+#endif
+
+/* Motion from the part `since` of the step to the part `until`, without collision. */
+FN S(collide_state) step_integrate(SIM_PARAM S(collide_state) s, float until, float life)
+{
+#if defined(FORCES_ALL) && defined(FORCES_PLAIN)
+    if (STEP(integration) < INTEGRATE_TRAPEZOID && (STEP(forces_do) & FORCES_SLOW) == 0u)
+        return step_integrate_plain(SIM s, until, life);
+    return step_integrate_stages(SIM s, until, life);
+#elif defined(FORCES_ALL)
+    return step_integrate_stages(SIM s, until, life);
+#else
+    return step_integrate_plain(SIM s, until, life);
+#endif
 }
 
 FN S(collide_way) step_collide(SIM_PARAM S(collide_state) s, float3 end, float until, float life,

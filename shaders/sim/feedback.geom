@@ -14,6 +14,10 @@
 // variant: COLLIDE_FIELD=1 GRIDS=1 FAMILY=1 COLLIDE_ROUND=1
 // variant: PUSHES=1 COLLIDE_ROUND=1
 // variant: PUSHES=1 GRIDS=1 FAMILY=1 COLLIDE_ROUND=1
+// variant: FORCES_ALL=1 COLLIDE_ROUND=1
+// variant: FORCES_ALL=1 FAMILY=1 COLLIDE_ROUND=1
+// variant: FORCES_ALL=1 GRIDS=1 COLLIDE_ROUND=1
+// variant: FORCES_ALL=1 GRIDS=1 FAMILY=1 COLLIDE_ROUND=1
 layout(points) in;
 layout(points, max_vertices = 1) out;
 

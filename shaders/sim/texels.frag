@@ -13,6 +13,10 @@
 // variant: COLLIDE_FIELD=1 GRIDS=1 FAMILY=1 COLLIDE_ROUND=1
 // variant: PUSHES=1 COLLIDE_ROUND=1
 // variant: PUSHES=1 GRIDS=1 FAMILY=1 COLLIDE_ROUND=1
+// variant: FORCES_ALL=1 COLLIDE_ROUND=1
+// variant: FORCES_ALL=1 FAMILY=1 COLLIDE_ROUND=1
+// variant: FORCES_ALL=1 GRIDS=1 COLLIDE_ROUND=1
+// variant: FORCES_ALL=1 GRIDS=1 FAMILY=1 COLLIDE_ROUND=1
 
 /* llvmpipe's compiler needs minutes for as many loops as there are values in a fragment shader. */
 #define VALUE_UNROLLED 1

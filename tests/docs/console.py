@@ -15,8 +15,12 @@ import subprocess
 import sys
 import tempfile
 
+TREE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+
 
 def run(command, folder, environment):
+    if command.startswith("tools/"):
+        command = os.path.join(TREE, command)
     done = subprocess.run(["bash", "-c", command], cwd=folder, env=environment, text=True,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=120)
     lines = [re.sub(r"\b[0-9.]+ s\b", "N s", line) for line in done.stdout.splitlines()]

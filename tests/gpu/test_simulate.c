@@ -153,12 +153,27 @@ static void crowds_agree(void **state)
     all_agree(*state, &fixture.scene, 40);
 }
 
+/* All forces and all integrators. */
+static void whirls_agree(void **state)
+{
+    for (int order = 0; order < 4; order++) {
+        fixture_zoo(&fixture, (enum kiln_integration)order, 0);
+        fixture_add_whirls(&fixture);
+        fixture_add_field(&fixture.scene.systems[0])->mode = KILN_WIND_ADD;
+        fixture_finish(&fixture, 60);
+        all_agree(*state, &fixture.scene, 60);
+    }
+}
+
 static void families_agree(void **state)
 {
-    for (int order = 0; order < 2; order++) {
-        fixture_family(&fixture, (enum kiln_integration)order);
-        fixture_finish(&fixture, 200);
-        all_agree(*state, &fixture.scene, 200);
+    static const enum kiln_integration orders[] = {
+        KILN_INTEGRATE_SEMI_IMPLICIT, KILN_INTEGRATE_POSITION_FIRST, KILN_INTEGRATE_RK4};
+    for (int i = 0; i < 3; i++) {
+        const uint32_t steps = i < 2 ? 200 : 60;
+        fixture_family(&fixture, orders[i]);
+        fixture_finish(&fixture, steps);
+        all_agree(*state, &fixture.scene, steps);
     }
 }
 
@@ -317,6 +332,7 @@ int main(void)
         test_on_device(fields_agree),
         test_on_device(colliders_out_of_grids_agree),
         test_on_device(crowds_agree),
+        test_on_device(whirls_agree),
         test_on_device(families_agree),
         test_on_device(births_are_split_among_emitters),
         test_on_device(no_systems_and_no_births),

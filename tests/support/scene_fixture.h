@@ -470,6 +470,55 @@ static inline void fixture_zoo(struct scene_fixture *f, enum kiln_integration in
     fixture_finish(f, steps);
 }
 
+/* A point that is sought and one that is fled, both by turns softened, in drag by the square of the
+ * speed; and a vortex of each profile, one of which adds its velocity. For the zoo's own systems
+ * and two more; fixture_finish comes after it. */
+static inline void fixture_add_whirls(struct scene_fixture *f)
+{
+    struct kiln_system *seeking = fixture_add_system(f, "seeking", 200.0f);
+    seeking->emit.speed = fixture_range(0.0f, 12.0f);
+    seeking->emit.angle = fixture_constant(3.0f);
+    for (int i = 0; i < 4; i++) {
+        struct kiln_force *force = fixture_add_force(seeking, KILN_FORCE_ATTRACT);
+        force->vector = fixture_constant3(1.0f - (float)i, 1.0f, 0.3f);
+        force->vector.x = fixture_ramp(f, KILN_CLOCK_TIME, 0.0f, -1.0f, 3.0f, 1.0f);
+        force->strength = fixture_ramp(f, KILN_CLOCK_LIFE, 0.0f, 4.0f, 1.0f, -3.0f);
+        force->scale = fixture_constant(0.001f + 0.1f * (float)i);
+        force->falloff = (enum kiln_falloff)i;
+    }
+    struct kiln_force *drag = fixture_add_force(seeking, KILN_FORCE_DRAG);
+    drag->strength = fixture_constant(0.2f);
+    drag->pull = fixture_ramp(f, KILN_CLOCK_LIFE, 0.0f, 0.0f, 1.0f, 900.0f);
+    fixture_add_force(seeking, KILN_FORCE_LIMIT)->strength = fixture_constant(8.0f);
+    seeking->collide.enabled = true;
+
+    struct kiln_system *whirling = fixture_add_system(f, "whirling", 200.0f);
+    whirling->emit.shape = KILN_EMITTER_BOX;
+    whirling->emit.size = fixture_constant3(2.0f, 1.0f, 2.0f);
+    for (int i = 0; i < 2; i++) {
+        struct kiln_force *force = fixture_add_force(whirling, KILN_FORCE_VORTEX);
+        force->vector = fixture_constant3(0.1f, 0.0f, -0.2f * (float)i);
+        force->drift = fixture_constant3(0.1f, 1.0f, 0.2f * (float)i);
+        force->strength = fixture_ramp(f, KILN_CLOCK_LIFE, 0.0f, 3.0f, 1.0f, 5.0f);
+        force->scale = fixture_constant(0.4f);
+        force->inward = fixture_ramp(f, KILN_CLOCK_TIME, 0.0f, 0.0f, 0.5f, 1.0f);
+        force->lift = fixture_constant(0.7f);
+        force->pull = fixture_ramp(f, KILN_CLOCK_LIFE, 0.0f, 1.0f, 1.0f, 300.0f);
+        force->profile = (enum kiln_vortex_profile)i;
+    }
+    struct kiln_force *added = fixture_add_force(whirling, KILN_FORCE_VORTEX);
+    *added = whirling->forces[0];
+    added->strength = fixture_constant(0.01f);
+    added->mode = KILN_WIND_ADD;
+    struct kiln_force *curl = fixture_add_force(whirling, KILN_FORCE_CURL);
+    curl->strength = fixture_constant(0.02f);
+    curl->drift = fixture_constant3(0.3f, 0.0f, -0.2f);
+    curl->mode = KILN_WIND_ADD;
+    struct kiln_force *wind = fixture_add_force(whirling, KILN_FORCE_WIND);
+    wind->vector = fixture_constant3(0.01f, 0.0f, 0.0f);
+    wind->mode = KILN_WIND_ADD;
+}
+
 /* ---- one scene with every way to be born of another particle -------------------------------- */
 
 enum { FAMILY_EMBER, FAMILY_GLOW, FAMILY_STAR, FAMILY_ROCKET, FAMILY_SPARK, FAMILY_RAIN };

@@ -2,6 +2,7 @@
 #ifndef TESTS_SUPPORT_SIMULATION_H
 #define TESTS_SUPPORT_SIMULATION_H
 
+#include "shared/random.h"
 #include "sim/simulate.h"
 #include "support/device.h"
 #include "support/scene_fixture.h"
@@ -53,6 +54,20 @@ static inline struct kiln_state_hash simulation_hash(struct simulation *run, uin
     if (!kiln_simulate_hash(run->simulate, &run->pool, &hash, alive, &error))
         fail_msg("%s", error.message);
     return hash;
+}
+
+/* Runs so many steps and mixes the hashes of all their states. */
+static inline struct kiln_state_hash simulation_run_hashed(struct simulation *run, uint32_t steps)
+{
+    struct kiln_state_hash all = {{0, 0}};
+    for (uint32_t step = 0; step < steps; step++) {
+        simulation_run(run, 1);
+        uint64_t alive;
+        struct kiln_state_hash hash = simulation_hash(run, &alive);
+        all.lane[0] = random_mix(all.lane[0] + hash.lane[0]);
+        all.lane[1] = random_mix(all.lane[1] + hash.lane[1]);
+    }
+    return all;
 }
 
 static inline const struct kiln_particle *simulation_records(struct simulation *run)

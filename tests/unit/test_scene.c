@@ -113,8 +113,10 @@ static void every_key_of_a_system_arrives(void **state)
     assert_true(point->emit.bursts[2].time_s == 0.5 && point->emit.bursts[1].count == 100);
     assert_true(point->emit.angle.constant == 1 && point->emit.inherit.constant == 0.5f);
     static const enum kiln_force_kind kinds[] = {
-        KILN_FORCE_GRAVITY, KILN_FORCE_GRAVITY, KILN_FORCE_DRAG, KILN_FORCE_DRAG, KILN_FORCE_DRAG,
-        KILN_FORCE_WIND,    KILN_FORCE_WIND,    KILN_FORCE_CURL, KILN_FORCE_CURL, KILN_FORCE_CURL};
+        KILN_FORCE_GRAVITY, KILN_FORCE_GRAVITY, KILN_FORCE_DRAG, KILN_FORCE_DRAG,
+        KILN_FORCE_DRAG,    KILN_FORCE_WIND,    KILN_FORCE_WIND, KILN_FORCE_CURL,
+        KILN_FORCE_CURL,    KILN_FORCE_CURL,    KILN_FORCE_DRAG, KILN_FORCE_ATTRACT,
+        KILN_FORCE_VORTEX,  KILN_FORCE_VORTEX};
     assert_int_equal(point->force_count, sizeof kinds / sizeof *kinds);
     for (uint32_t i = 0; i < point->force_count; i++)
         assert_int_equal(point->forces[i].kind, kinds[i]);
@@ -122,6 +124,14 @@ static void every_key_of_a_system_arrives(void **state)
     assert_true(point->forces[6].strength.constant == 2);
     assert_true(point->forces[7].scale.constant == 0.1f && point->forces[7].octaves == 4);
     assert_int_equal(point->forces[7].pull.clock, KILN_CLOCK_LIFE);
+    assert_int_equal(point->forces[9].mode, KILN_WIND_ADD);
+    assert_true(point->forces[10].pull.constant == 2);
+    assert_true(point->forces[11].vector.x.count == 2 && point->forces[11].strength.constant == -3);
+    assert_int_equal(point->forces[11].falloff, KILN_FALLOFF_LINEAR);
+    assert_int_equal(point->forces[12].profile, KILN_VORTEX_LAMB_OSEEN);
+    assert_true(point->forces[12].drift.z.constant == 1 && point->forces[12].scale.constant == 3);
+    assert_true(point->forces[12].inward.constant == 1 && point->forces[12].lift.count == 2);
+    assert_true(point->forces[13].strength.constant == 5);
     assert_int_equal(point->collide.mode, KILN_COLLIDE_CLAMP);
     assert_true(point->collide.slowdown.constant == 0.9f);
     assert_int_equal(point->collide.restitution.clock, KILN_CLOCK_LIFE);

@@ -129,9 +129,8 @@ static const struct bad types[] = {
      ":2:10: systems: expected a mapping of up to 16 names to mappings of keys, found a list"},
     {"kiln: 1\n"
      "systems: {a: {forces: {drag: 1}}}\n",
-     ":2:23: systems.a.forces: expected a list of up to 16: {gravity, drag, curl, limit or wind: "
-     "{...}}, "
-     "found a mapping"},
+     ":2:23: systems.a.forces: expected a list of up to 16: {gravity, drag, curl, attract, vortex, "
+     "limit or wind: {...}}, found a mapping"},
     {"kiln: 1\n"
      "systems: {a: {collide: true}}\n",
      ":2:24: systems.a.collide: expected a mapping of keys, or none, found 'true'"},
@@ -334,12 +333,12 @@ static const struct bad kinds[] = {
      ":2:25: systems.a.forces.0.gravty: unknown kind (did you mean 'gravity'?)"},
     {"kiln: 1\n"
      "systems: {a: {forces: [gravity]}}\n",
-     ":2:24: systems.a.forces.0: expected {gravity, drag, curl, limit or wind: {...}}, found "
-     "'gravity'"},
+     ":2:24: systems.a.forces.0: expected {gravity, drag, curl, attract, vortex, limit or wind: "
+     "{...}}, found 'gravity'"},
     {"kiln: 1\n"
      "systems: {a: {forces: [{}]}}\n",
-     ":2:24: systems.a.forces.0: expected {gravity, drag, curl, limit or wind: {...}}, found a "
-     "mapping"},
+     ":2:24: systems.a.forces.0: expected {gravity, drag, curl, attract, vortex, limit or wind: "
+     "{...}}, found a mapping"},
     {"kiln: 1\n"
      "systems: {a: {forces: [{gravity: [0, 1, 0], drag: 1}]}}\n",
      ":2:45: systems.a.forces.0: expected one kind, found 'gravity' and 'drag'"},
@@ -351,7 +350,7 @@ static const struct bad kinds[] = {
      ":2:39: systems.a.forces.0.wind.field: expected a word, found a list"},
     {"kiln: 1\n"
      "systems: {a: {forces: [{wind: {octaves: 2}}]}}\n",
-     ":2:32: systems.a.forces.0.wind.octaves: unknown key (there are: velocity, pull)"},
+     ":2:32: systems.a.forces.0.wind.octaves: unknown key (there are: velocity, pull, mode)"},
     {"kiln: 1\n"
      "systems: {a: {emit: {from: {}}}}\n",
      ":2:28: systems.a.emit.from: expected {point, sphere, box, disc or cone: {...}}, found a "

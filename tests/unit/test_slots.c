@@ -173,6 +173,20 @@ static void pushed_among_colliders(void **state)
     run_levels();
 }
 
+/* Each integrator, with all forces. */
+static void whirls(void **state)
+{
+    (void)state;
+    for (int order = 0; order < 4; order++) {
+        fixture_zoo(&fixture, (enum kiln_integration)order, 0);
+        fixture_add_whirls(&fixture);
+        add_limited(&fixture);
+        fixture_add_field(&fixture.scene.systems[0])->mode = KILN_WIND_ADD;
+        fixture_finish(&fixture, STEPS);
+        run_levels();
+    }
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
@@ -182,6 +196,7 @@ int main(void)
         cmocka_unit_test(above_terrain),
         cmocka_unit_test(around_a_moving_mesh),
         cmocka_unit_test(pushed_among_colliders),
+        cmocka_unit_test(whirls),
     };
     return cmocka_run_group_tests_name("slots", tests, NULL, NULL);
 }

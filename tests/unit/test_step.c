@@ -465,14 +465,7 @@ static void the_states_are_what_they_always_were(void **state)
             fixture_zoo(&fixture, (enum kiln_integration)order, 300);
             struct simulation run;
             simulation_start(&run, &fixture.scene, NULL, threads[t]);
-            struct kiln_state_hash all = {{0, 0}};
-            for (int step = 0; step < 300; step++) {
-                simulation_run(&run, 1);
-                uint64_t alive;
-                struct kiln_state_hash hash = simulation_hash(&run, &alive);
-                all.lane[0] = random_mix(all.lane[0] + hash.lane[0]);
-                all.lane[1] = random_mix(all.lane[1] + hash.lane[1]);
-            }
+            struct kiln_state_hash all = simulation_run_hashed(&run, 300);
             if (all.lane[0] != golden[order].lane[0] || all.lane[1] != golden[order].lane[1])
                 fail_msg("{{0x%08xu, 0x%08xu}} with order %d and %u threads", all.lane[0],
                          all.lane[1], order, threads[t]);

@@ -89,6 +89,7 @@ $ kiln complete -- check --set 'systems.*.forces.0.wind.f'
 $ kiln complete -- check --set 'systems.*.forces.0.wind.field='
 1|word	systems.*.forces.0.wind.field=uniform	
 1|word	systems.*.forces.0.wind.field=curl	
+1|word	systems.*.forces.0.wind.field=vortex	
 1|word	systems.*.forces.0.wind.field=grid	
 $ kiln complete -- check --set post.tonemap=a
 1|word	post.tonemap=agx	

@@ -1,0 +1,27 @@
+/* A point that particles seek, or flee where the strength is negative (Drone 2007, 7.5.1). The
+ * strength is what acts at a distance of 1 m; within the radius `scale` it is softened, so that
+ * nothing is thrown out by what is closer than a step.
+ */
+#ifndef KILN_SHARED_FORCE_ATTRACT_H
+#define KILN_SHARED_FORCE_ATTRACT_H
+
+#include "shared/force.h"
+
+/* An acceleration of strength * d * (d^2 + radius^2)^(-n/2): n is 3, 2, 1 or 0 by the falloff. */
+FN S(force_effect) force_attract(S(force_input) f)
+{
+    EXACT float3 way = float3_sub(f.vector, f.position);
+    EXACT float square = float3_dot(way, way) + f.scale * f.scale;
+    EXACT float per_metre = exact_rsqrt(square);
+    EXACT float per_square = per_metre * per_metre;
+    EXACT float factor = per_square * per_metre;
+    factor = f.profile == FALLOFF_INVERSE ? per_square : factor;
+    factor = f.profile == FALLOFF_CONSTANT ? per_metre : factor;
+    factor = f.profile == FALLOFF_LINEAR ? 1.0f : factor;
+    factor = factor * f.strength;
+    EXACT S(force_effect) effect = force_none();
+    effect.acceleration = float3_scale(way, factor);
+    return effect;
+}
+
+#endif

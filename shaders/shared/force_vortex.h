@@ -1,0 +1,51 @@
+/* A vortex: air that turns around an axis, rises along it and is drawn to it. `vector` is a point
+ * of the axis, `drift` its direction, `scale` the radius of the core, where the air is fastest and
+ * has the speed `strength`.
+ */
+#ifndef KILN_SHARED_FORCE_VORTEX_H
+#define KILN_SHARED_FORCE_VORTEX_H
+
+#include "shared/force.h"
+
+/* Where the speed of Lamb and Oseen's vortex, (1 - e^(-a s^2)) / s, is greatest is s = 1 for this
+ * a: e^a = 1 + 2 a. */
+#define VORTEX_OSEEN 1.25643121f
+
+/* The speed a metre from the axis, in parts of that at the core's edge over its radius, by the
+ * square of the distance over that of the radius. Rankine's core turns like a solid body, and the
+ * rest has one angular momentum; Lamb and Oseen's has no edge. */
+FN float force_vortex_turn(float square, uint profile)
+{
+    EXACT float beyond = exact_rcp(square);
+    EXACT float rankine = square <= 1.0f ? 1.0f : beyond;
+    EXACT float spread = square * VORTEX_OSEEN;
+    EXACT float oseen = (VORTEX_OSEEN + 0.5f) * forces_damping(spread);
+    EXACT float turn = profile == VORTEX_LAMB_OSEEN ? oseen : rankine;
+    return turn;
+}
+
+/* The air is drawn inwards by the same law as it turns; it rises fastest on the axis, half as fast
+ * at the core's edge. */
+FN S(force_effect) force_vortex(S(force_input) f)
+{
+    EXACT float3 axis = float3_normalize(f.drift, FLOAT3(0.0f, 1.0f, 0.0f));
+    EXACT float3 from = float3_sub(f.position, f.vector);
+    EXACT float along = -float3_dot(from, axis);
+    EXACT float3 apart = float3_add_scaled(from, axis, along);
+    EXACT float per_core = exact_rcp(f.scale);
+    EXACT float square = float3_dot(apart, apart) * per_core * per_core;
+    EXACT float turn = per_core * force_vortex_turn(square, f.profile);
+    EXACT float swirl = f.strength * turn;
+    EXACT float inward = -f.inward * turn;
+    EXACT float widened = 1.0f + square;
+    EXACT float rise = exact_div(f.lift, widened);
+    EXACT float3 around = float3_cross(axis, apart);
+    EXACT float3 air = float3_scale(around, swirl);
+    air = float3_add_scaled(air, apart, inward);
+    air = float3_add_scaled(air, axis, rise);
+    f.strength = 1.0f;
+    EXACT S(force_effect) effect = force_air(f, air);
+    return effect;
+}
+
+#endif
