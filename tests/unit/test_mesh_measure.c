@@ -1,0 +1,63 @@
+/* lib/asset/mesh_measure.c against bodies whose mean shadow is known. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <string.h>
+
+#include "asset/mesh_measure.h"
+
+static struct kiln_mesh_measure measure(const char *text)
+{
+    struct kiln_error error = {0};
+    struct kiln_mesh *mesh = kiln_mesh_parse(text, strlen(text), "test.obj", &error);
+    if (!mesh)
+        fail_msg("%s", error.message);
+    const struct kiln_mesh_measure m = kiln_mesh_measure(mesh);
+    kiln_mesh_destroy(&mesh);
+    return m;
+}
+
+static bool is_near(float a, double b)
+{
+    return fabs((double)a - b) < 1e-5 * (1 + fabs(b));
+}
+
+/* A box of 2 x 1 x 1 in one corner of space: a quarter of its surface. */
+static void a_box(void **state)
+{
+    (void)state;
+    const struct kiln_mesh_measure m =
+        measure("v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nv 0 0 1\nv 2 0 1\nv 2 1 1\nv 0 1 1\n"
+                "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
+    assert_true(is_near(m.middle[0], 1) && is_near(m.middle[1], 0.5) && is_near(m.middle[2], 0.5));
+    assert_true(is_near(m.edge, 2) && is_near(m.reach, sqrt(1.5)));
+    assert_true(is_near(m.shade, sqrt(10 / (4 * 3.14159265358979))));
+}
+
+/* Of a sheet, seen from both sides, half of it; and the same with a triangle for each side. */
+static void a_sheet(void **state)
+{
+    (void)state;
+    static const char *const sheets[] = {
+        "v 0 0 0\nv 3 0 0\nv 0 0 1\nf 1 2 3\n",
+        "v 0 0 0\nv 3 0 0\nv 0 0 1\nv 0 0 0\nv 3 0 0\nv 0 0 1\nf 1 2 3\nf 6 5 4\n"};
+    for (size_t i = 0; i < 2; i++) {
+        const struct kiln_mesh_measure m = measure(sheets[i]);
+        assert_true(is_near(m.edge, 3) && is_near(m.reach, sqrt(2.5)));
+        assert_true(is_near(m.shade, sqrt(0.75 / 3.14159265358979)));
+    }
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_box),
+        cmocka_unit_test(a_sheet),
+    };
+    return cmocka_run_group_tests_name("mesh_measure", tests, NULL, NULL);
+}
