@@ -16,7 +16,7 @@ static uint32_t spheres_of(const struct kiln_scene *scene)
 {
     uint32_t mask = 0;
     for (uint32_t i = 0; i < scene->system_count; i++) {
-        if (scene->systems[i].enabled && scene->systems[i].look.shape == KILN_SHAPE_SPHERE)
+        if (scene->systems[i].enabled && kiln_look_is_opaque(&scene->systems[i].look))
             mask |= 1u << i;
     }
     return mask;

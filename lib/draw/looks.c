@@ -11,7 +11,9 @@
 /* A cell's cool parts are at this share of the hot parts' temperature. */
 static const float COOL_SHARE = 0.72f;
 
-static_assert(LOOK_POINT == KILN_SHAPE_POINT && LOOK_LINE == KILN_SHAPE_LINE, "shapes");
+static_assert(LOOK_POINT == KILN_SHAPE_POINT && LOOK_LINE == KILN_SHAPE_LINE &&
+                  LOOK_MESH == KILN_SHAPE_MESH,
+              "shapes");
 static_assert(LOOK_SCREEN == KILN_FACING_SCREEN && LOOK_VIEWPOINT == KILN_FACING_VIEWPOINT &&
                   LOOK_AXIAL == KILN_FACING_AXIAL && LOOK_VELOCITY == KILN_FACING_VELOCITY,
               "facings");

@@ -85,7 +85,7 @@ static bool needs_shapes(const struct kiln_scene *scene)
         const struct kiln_look *look = &scene->systems[i].look;
         bool plane = look->facing == KILN_FACING_SCREEN || look->facing == KILN_FACING_VELOCITY;
         bool billboard = look->shape == KILN_SHAPE_BILLBOARD;
-        if (scene->systems[i].enabled && look->shape != KILN_SHAPE_SPHERE && !(billboard && plane))
+        if (scene->systems[i].enabled && !kiln_look_is_opaque(look) && !(billboard && plane))
             return true;
     }
     return false;

@@ -35,7 +35,7 @@ struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
     }
     for (uint32_t i = 0; i < scene->system_count; i++)
         features.spheres |=
-            scene->systems[i].enabled && scene->systems[i].look.shape == KILN_SHAPE_SPHERE;
+            scene->systems[i].enabled && kiln_look_is_opaque(&scene->systems[i].look);
     return features;
 }
 

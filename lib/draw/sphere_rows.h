@@ -1,4 +1,4 @@
-/* Particles that are spheres into rows of the picture, for each width of vectors. */
+/* Particles that are spheres or meshes into rows of the picture, for each width of vectors. */
 #ifndef KILN_DRAW_SPHERE_ROWS_H
 #define KILN_DRAW_SPHERE_ROWS_H
 
@@ -20,20 +20,32 @@ struct kiln_drawn_sphere {
     struct kiln_row_range x; /* pixels that it may touch */
 };
 
+struct kiln_drawn_instance {
+    float to_view[3][4]; /* rows: from the mesh to view space, m */
+    float albedo[3], lit;
+    float glow[3], shade; /* shade: radius of the sphere that throws its shadow, m */
+    float bloom[3];
+    uint32_t first, triangles; /* corner; 0: it is no mesh, or not to be drawn */
+    struct kiln_row_range x;
+};
+
 /* KILN_SPHERE_ROWS rows of the picture from row y. Samples are by row, sample and pixel, `pitch`
  * floats apart; all pixels have room for KILN_SPHERE_PAD more at the end of a row. */
 struct kiln_sphere_strip {
     const struct kiln_ray_frame *frame;
     const struct kiln_drawn_sphere *spheres;
-    const struct kiln_row_range *rows; /* that they may touch */
-    const uint32_t *list;              /* those of the strip */
+    const struct kiln_drawn_instance *instances; /* by the same numbers; NULL: none is a mesh */
+    const float4 (*corners)[2];                  /* of the meshes */
+    const struct kiln_row_range *rows;           /* that they may touch */
+    const uint32_t *list;                        /* those of the strip */
     size_t count;
     uint32_t width, y, y_to;
     const float *scene_color, *scene_depth; /* of the picture */
     float *color, *depth, *bloom;
-    float *samples;    /* depths, m */
-    int32_t *nearest;  /* the spheres there; -1: none */
-    uint32_t *entries; /* room for 2 a sample of a row */
+    float *samples;     /* depths, m */
+    int32_t *nearest;   /* the particles there; -1: none */
+    int32_t *triangles; /* of those that are meshes */
+    uint32_t *entries;  /* room for 3 a sample of a row */
     size_t pitch;
 };
 

@@ -64,9 +64,11 @@ static float reach_of(const struct kiln_sphere_shadow *shadow, float3 center, fl
     return radius + (spread > 0.0f ? widest : 0.0f);
 }
 
-static void collect(struct kiln_sphere_shadow *shadow, const struct kiln_living *particle)
+/* radius: of a sphere with such a shadow, in radii of the particle. */
+static void collect(struct kiln_sphere_shadow *shadow, const struct kiln_living *particle,
+                    float radius)
 {
-    float radius = particle->radius * particle->opacity; /* it grows by it (spheres.vert) */
+    radius *= particle->radius * particle->opacity; /* it grows by it (spheres.vert) */
     if (!(radius > 0.0f) || shadow->failed)
         return;
     if (shadow->count == shadow->room) {
@@ -92,10 +94,12 @@ static void collect_system(struct kiln_sphere_shadow *shadow,
                            const struct kiln_living_moment *moment, uint32_t index)
 {
     const struct kiln_living_system system = kiln_living_system(moment, index);
+    const struct kiln_look *look = &shadow->scene->systems[index].look;
+    float radius = look->shape == KILN_SHAPE_MESH ? 2.0f * look->mesh.shade : 1.0f;
     for (uint32_t slot = 0; slot < system.used; slot++) {
         struct kiln_living particle;
         if (kiln_living_at(&system, slot, &particle))
-            collect(shadow, &particle);
+            collect(shadow, &particle, radius);
     }
 }
 
@@ -206,7 +210,7 @@ bool kiln_sphere_shadow_run(struct kiln_sphere_shadow *shadow,
             : INFINITY;
     shadow->count = 0;
     for (uint32_t i = 0; i < scene->system_count; i++) {
-        if (scene->systems[i].enabled && scene->systems[i].look.shape == KILN_SHAPE_SPHERE)
+        if (scene->systems[i].enabled && kiln_look_is_opaque(&scene->systems[i].look))
             collect_system(shadow, moment, i);
     }
     if (shadow->count == 0 && !shadow->failed)

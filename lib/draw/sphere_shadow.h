@@ -1,5 +1,6 @@
-/* The shadow of particles that are opaque spheres: lists of those that may lie between a place and
- * the sun, by bins across the sun's direction. Who draws takes the exact cover of each from them
+/* The shadow of particles that are opaque, spheres and meshes, for which spheres stand whose shadow
+ * is as large on average: lists of those that may lie between a place and the sun, by bins across
+ * the sun's direction. Who draws takes the exact cover of each from them
  * (shaders/draw/sphere_shadow.glsl), so that a shadow is as sharp as the sun is small.
  */
 #ifndef KILN_DRAW_SPHERE_SHADOW_H

@@ -1,26 +1,13 @@
-/* What shaders/draw/spheres.frag and spheres_resolve.frag do in GL: which sphere each of a pixel's
- * samples shows, then the light of each sphere of a pixel, once, by a ray through the middle.
+/* What shaders/draw/spheres.frag, instances.frag and spheres_resolve.frag do in GL: which sphere or
+ * triangle each of a pixel's samples shows, then the light of each one of a pixel, once, by a ray
+ * through the middle.
  */
-#include "draw/sphere_rows.h"
-
-#include "draw/ray_light.h"
+#include "draw/instance_cast.h"
 
 enum { SAMPLES = KILN_SPHERE_SAMPLES };
 
-/* A rotated grid: no two samples share a row or a column. */
-static const float OFFSETS[SAMPLES][2] = {
-    {-0.125f, -0.375f}, {0.375f, -0.125f}, {-0.375f, 0.125f}, {0.125f, 0.375f}};
-
 /* Farther than any scene. */
 #define NOTHING 2e9f
-
-/* The ray through a place in the picture, with z of -1: its t is depth. */
-SIMD struct vf3 view_ray(const struct kiln_ray_frame *frame, vf x, vf y)
-{
-    const float4 frustum = frame->view->frustum;
-    return (struct vf3){(x * (2.0f / frustum.z) - 1.0f) * frustum.x,
-                        (1.0f - y * (2.0f / frustum.w)) * frustum.y, vf_all(-1.0f)};
-}
 
 /* The t at which a ray passes the centre most closely, and the square of the radius less that of
  * the distance there: negative for a miss. */
@@ -55,7 +42,8 @@ SIMD void sample_pixels(const struct kiln_sphere_strip *s, const struct kiln_dra
     vf t = surface_depth(&middle);
     size_t at = (size_t)row * SAMPLES * s->pitch + (size_t)x;
     for (int k = 0; k < SAMPLES; k++, at += s->pitch) {
-        struct vf3 ray = view_ray(s->frame, column + OFFSETS[k][0], vf_all(line + OFFSETS[k][1]));
+        struct vf3 ray =
+            view_ray(s->frame, column + SAMPLE_OFFSETS[k][0], vf_all(line + SAMPLE_OFFSETS[k][1]));
         const struct approach aside = come_close(ray, center, radius);
         vf before = vf_load(s->samples + at);
         vi nearer = (aside.inside >= 0.0f) & (t < before);
@@ -96,60 +84,33 @@ static void clear_samples(const struct kiln_sphere_strip *s, uint32_t row)
 
 /* ---- light ----------------------------------------------------------------------------------- */
 
-/* Spheres of pixels of a row. */
-struct seen_spheres {
-    vi column, sphere; /* number times the words of a record */
-    vf part;           /* of the pixel */
-};
-
-SIMD struct vf3 gather3(const float *from, vi index)
-{
-    return (struct vf3){vf_gather(from, index), vf_gather(from + 1, index),
-                        vf_gather(from + 2, index)};
-}
-
-SIMD struct vf3 view_to_world(const struct kiln_ray_frame *frame, struct vf3 v)
-{
-    const float4 *rows = frame->view->world_to_view;
-    return (struct vf3){rows[0].x * v.x + rows[1].x * v.y + rows[2].x * v.z,
-                        rows[0].y * v.x + rows[1].y * v.y + rows[2].y * v.z,
-                        rows[0].z * v.x + rows[1].z * v.y + rows[2].z * v.z};
-}
-
-static void light_spheres(const struct kiln_sphere_strip *s, const struct seen_spheres *seen,
+static void light_spheres(const struct kiln_sphere_strip *s, const struct seen_things *seen,
                           uint32_t y, struct ray_color *color)
 {
     const struct kiln_ray_frame *frame = s->frame;
     const struct kiln_drawn_sphere *all = s->spheres;
     struct vf3 ray = view_ray(frame, vf_of(seen->column) + 0.5f, vf_all((float)y + 0.5f));
-    struct vf3 center = gather3(all->center, seen->sphere);
-    const struct approach close = come_close(ray, center, vf_gather(&all->radius, seen->sphere));
+    struct vf3 center = gather3(all->center, seen->thing);
+    const struct approach close = come_close(ray, center, vf_gather(&all->radius, seen->thing));
     vf t = surface_depth(&close);
-    struct vf3 direction = view_to_world(frame, ray);
     struct vf3 out = vf3_normalize(vf3_sub(vf3_scale(ray, t), center));
-    const struct ray_hit hit = {.t = t,
-                                .surface = vf_all(0.0f),
-                                .normal = view_to_world(frame, out),
-                                .albedo = gather3(all->albedo, seen->sphere)};
-    const struct ray_point point = {vf3_along(vf3_all(frame->view->eye), direction, t), hit.normal,
-                                    seen->part > 0.0f};
-    vf sunlit = sun_visibility(frame, point.at, point.normal, turned_to_sun(frame, &point));
-    const struct ray_point sunny = {point.at, point.normal, sunlit > 0.0f};
-    sunlit *= smoke_lets_through(frame->smoke_to_sun, frame->backdrop->sun_to_grid, &sunny);
-    const struct ray_color lit =
-        radiance(frame, &hit, direction, soft_irradiance(frame, &point), sunlit);
-    vf part = vf_gather(&all->lit, seen->sphere);
-    struct vf3 shown = vf3_along(hit.albedo, vf3_sub(lit.rgb, hit.albedo), part);
-    color->rgb = vf3_add(gather3(all->glow, seen->sphere), shown);
-    color->alpha = seen->part;
+    struct seen_place place = {.depth = t,
+                               .lit = vf_gather(&all->lit, seen->thing),
+                               .albedo = gather3(all->albedo, seen->thing),
+                               .glow = gather3(all->glow, seen->thing)};
+    place.direction = view_to_world(frame, ray);
+    place.normal = view_to_world(frame, out);
+    place.at = vf3_along(vf3_all(frame->view->eye), place.direction, t);
+    place.sun_from = place.at;
+    light_place(frame, &place, seen, color);
 }
 
-/* Adds the light of spheres to their pixels, in their order. */
-SIMD void add_spheres(const struct kiln_sphere_strip *s, const struct seen_spheres *seen,
-                      uint32_t count, uint32_t y, const struct ray_color *light)
+/* Adds the light of things to their pixels, in their order. bloom: weights of the first thing. */
+SIMD void add_things(const struct kiln_sphere_strip *s, const struct seen_things *seen,
+                     uint32_t count, uint32_t y, const float *bloom, const struct ray_color *light)
 {
     for (uint32_t i = 0; i < count; i++) {
-        const float *weights = ((const float *)s->spheres->bloom) + seen->sphere[i];
+        const float *weights = bloom + seen->thing[i];
         size_t at = 4 * ((size_t)y * s->width + (size_t)seen->column[i]);
         float part = seen->part[i];
         const float rgb[3] = {light->rgb.x[i], light->rgb.y[i], light->rgb.z[i]};
@@ -182,16 +143,35 @@ static inline float second_of(const float t[SAMPLES])
     return lesser(greater(near_a, near_b), lesser(far_a, far_b));
 }
 
-/* Lists the spheres of a pixel and the quarters of it that they cover: the pixel, then the sphere
- * times 4 and the number of quarters less 1. Returns the entries' end. */
-static uint32_t *list_pixel(const struct kiln_sphere_strip *s, size_t first, uint32_t x,
-                            uint32_t *entries, float *depth)
+/* Things of the pixels of a row and the quarters of them that they cover, three words each: the
+ * pixel; the thing times 4 and the quarters less 1; the triangle. Spheres come from the front of
+ * the room, triangles from its back. */
+struct row_entries {
+    uint32_t *spheres, *triangles; /* where the next sphere goes; the last triangle */
+};
+
+static void list_thing(const struct kiln_sphere_strip *s, struct row_entries *entries,
+                       const uint32_t entry[3])
 {
-    int32_t numbers[SAMPLES];
+    uint32_t **to = is_instance(s, entry[1] >> 2) ? &entries->triangles : &entries->spheres;
+    if (to == &entries->triangles)
+        *to -= 3;
+    memcpy(*to, entry, 3 * sizeof *entry);
+    if (to == &entries->spheres)
+        *to += 3;
+}
+
+static void list_pixel(const struct kiln_sphere_strip *s, size_t first, uint32_t x,
+                       struct row_entries *entries, float *depth)
+{
+    int32_t numbers[SAMPLES], triangles[SAMPLES] = {0};
     float t[SAMPLES];
     for (size_t k = 0; k < SAMPLES; k++) {
-        numbers[k] = s->nearest[first + k * s->pitch + x];
-        t[k] = numbers[k] < 0 ? NOTHING : s->samples[first + k * s->pitch + x];
+        size_t at = first + k * s->pitch + x;
+        numbers[k] = s->nearest[at];
+        t[k] = numbers[k] < 0 ? NOTHING : s->samples[at];
+        if (numbers[k] >= 0 && is_instance(s, (uint32_t)numbers[k]))
+            triangles[k] = s->triangles[at];
     }
     float second = second_of(t);
     if (second < NOTHING)
@@ -199,17 +179,16 @@ static uint32_t *list_pixel(const struct kiln_sphere_strip *s, size_t first, uin
     for (int k = 0; k < SAMPLES; k++) {
         uint32_t quarters = 0;
         for (int other = k; numbers[k] >= 0 && other < SAMPLES; other++) {
-            bool same = numbers[other] == numbers[k];
+            bool same = numbers[other] == numbers[k] && triangles[other] == triangles[k];
             quarters += same;
             if (same && other > k)
                 numbers[other] = -1;
         }
-        if (quarters > 0) {
-            *entries++ = x;
-            *entries++ = (uint32_t)numbers[k] << 2 | (quarters - 1);
-        }
+        if (quarters > 0)
+            list_thing(s, entries,
+                       (const uint32_t[3]){x, (uint32_t)numbers[k] << 2 | (quarters - 1),
+                                           (uint32_t)triangles[k]});
     }
-    return entries;
 }
 
 /* Puts the scene behind what the spheres' samples have become. */
@@ -224,6 +203,26 @@ static void add_scene(const struct kiln_sphere_strip *s, uint32_t y)
     }
 }
 
+/* The things of some entries; size: of a record. */
+static void see_things(const struct kiln_sphere_strip *s, const uint32_t *entries, uint32_t lanes,
+                       size_t size, struct seen_things *seen)
+{
+    const int32_t stride = (int32_t)(size / sizeof(float));
+    *seen = (struct seen_things){{0}, {0}, {0}, {0}};
+    for (uint32_t lane = 0; lane < lanes; lane++, entries += 3) {
+        uint32_t number = entries[1] >> 2;
+        seen->column[lane] = (int32_t)entries[0];
+        seen->thing[lane] = (int32_t)number * stride;
+        seen->part[lane] = 0.25f * (float)((entries[1] & 3) + 1);
+        if (is_instance(s, number))
+            seen->corner[lane] = corner_of(s, number, entries[2]);
+    }
+    for (uint32_t lane = lanes; lane < LANES; lane++) { /* no part of one that is there */
+        seen->thing[lane] = seen->thing[0];
+        seen->corner[lane] = seen->corner[0];
+    }
+}
+
 static void resolve_row(const struct kiln_sphere_strip *s, uint32_t row)
 {
     const uint32_t y = s->y + row;
@@ -231,26 +230,30 @@ static void resolve_row(const struct kiln_sphere_strip *s, uint32_t row)
     memcpy(s->depth + pixel, s->scene_depth + pixel, width * sizeof *s->depth);
     memset(s->color + 4 * pixel, 0, 4 * width * sizeof *s->color);
     memset(s->bloom + 4 * pixel, 0, 4 * width * sizeof *s->bloom);
-    uint32_t *end = s->entries;
+    uint32_t *const room_end = s->entries + (size_t)3 * SAMPLES * s->pitch;
+    struct row_entries entries = {s->entries, room_end};
     for (uint32_t x = 0; x < width; x++) {
         const int32_t *nearest = s->nearest + first + x;
         if ((nearest[0] & nearest[s->pitch] & nearest[2 * s->pitch] & nearest[3 * s->pitch]) != -1)
-            end = list_pixel(s, first, x, end, &s->depth[pixel + x]);
+            list_pixel(s, first, x, &entries, &s->depth[pixel + x]);
     }
-    const int32_t stride = (int32_t)(sizeof *s->spheres / sizeof(float));
-    const size_t count = (size_t)(end - s->entries) / 2;
-    for (size_t i = 0; i < count; i += LANES) {
-        struct seen_spheres seen = {{0}, {0}, {0}};
-        uint32_t lanes = count - i < LANES ? (uint32_t)(count - i) : LANES;
-        for (uint32_t lane = 0; lane < lanes; lane++) {
-            const uint32_t *entry = s->entries + 2 * (i + lane);
-            seen.column[lane] = (int32_t)entry[0];
-            seen.sphere[lane] = (int32_t)(entry[1] >> 2) * stride;
-            seen.part[lane] = 0.25f * (float)((entry[1] & 3) + 1);
-        }
+    const size_t spheres = (size_t)(entries.spheres - s->entries) / 3;
+    for (size_t i = 0; i < spheres; i += LANES) {
+        struct seen_things seen;
         struct ray_color light;
+        uint32_t lanes = spheres - i < LANES ? (uint32_t)(spheres - i) : LANES;
+        see_things(s, s->entries + 3 * i, lanes, sizeof *s->spheres, &seen);
         light_spheres(s, &seen, y, &light);
-        add_spheres(s, &seen, lanes, y, &light);
+        add_things(s, &seen, lanes, y, s->spheres->bloom, &light);
+    }
+    const size_t triangles = (size_t)(room_end - entries.triangles) / 3;
+    for (size_t i = 0; i < triangles; i += LANES) {
+        struct seen_things seen;
+        struct ray_color light;
+        uint32_t lanes = triangles - i < LANES ? (uint32_t)(triangles - i) : LANES;
+        see_things(s, entries.triangles + 3 * i, lanes, sizeof *s->instances, &seen);
+        light_triangles(s, &seen, y, &light);
+        add_things(s, &seen, lanes, y, s->instances->bloom, &light);
     }
     add_scene(s, y);
 }
@@ -259,8 +262,12 @@ static void draw_strip(const struct kiln_sphere_strip *strip)
 {
     for (uint32_t row = 0; strip->y + row < strip->y_to; row++)
         clear_samples(strip, row);
-    for (size_t i = 0; i < strip->count; i++)
-        sample_sphere(strip, strip->list[i]);
+    for (size_t i = 0; i < strip->count; i++) {
+        if (is_instance(strip, strip->list[i]))
+            sample_instance(strip, strip->list[i]);
+        else
+            sample_sphere(strip, strip->list[i]);
+    }
     for (uint32_t row = 0; strip->y + row < strip->y_to; row++)
         resolve_row(strip, row);
 }

@@ -1,16 +1,22 @@
-/* Each particle becomes a sphere before the eye, each band of rows draws those that touch it. Which
- * of them a sample shows is found before any light is computed. */
+/* Each particle becomes a sphere or a mesh before the eye, each band of rows draws those that touch
+ * it. Which of them a sample shows is found before any light is computed. */
 #include "draw/spheres_cpu.h"
 
 #include "base/error.h"
+#include "draw/instances.h"
 #include "draw/living.h"
 #include "draw/looks.h"
 #include "draw/sphere_rows.h"
-#include "shared/exact.h"
+#include "shared/derived.h"
+#include "shared/instance.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 enum { MAKE_AT_A_TIME = 512 };
+
+static_assert(ORIENT_VELOCITY == KILN_ORIENT_VELOCITY && ORIENT_SPIN == KILN_ORIENT_SPIN,
+              "ways to lie in the world");
 
 struct kiln_spheres_cpu {
     const struct kiln_scene *scene;
@@ -20,14 +26,16 @@ struct kiln_spheres_cpu {
     const struct kiln_sphere_rows *rows;
     float4 *table; /* looks */
     bool table_valid;
+    struct kiln_instances meshes;
     struct kiln_drawn_sphere *spheres;
-    struct kiln_row_range *ranges; /* their rows */
+    struct kiln_drawn_instance *instances; /* NULL where there are no meshes */
+    struct kiln_row_range *ranges;         /* their rows */
     uint32_t room;
     struct kiln_row_lists lists;
     size_t pitch; /* of a row of samples */
     float *samples;
-    int32_t *nearest;
-    uint32_t *entries; /* these three: for each thread */
+    int32_t *nearest, *triangles;
+    uint32_t *entries; /* these four: for each thread */
 };
 
 static size_t samples_of(const struct kiln_spheres_cpu *stage)
@@ -37,7 +45,7 @@ static size_t samples_of(const struct kiln_spheres_cpu *stage)
 
 static size_t entries_of(const struct kiln_spheres_cpu *stage)
 {
-    return (size_t)2 * KILN_SPHERE_SAMPLES * stage->pitch;
+    return (size_t)3 * KILN_SPHERE_SAMPLES * stage->pitch;
 }
 
 static bool allocate(struct kiln_spheres_cpu *stage)
@@ -48,7 +56,11 @@ static bool allocate(struct kiln_spheres_cpu *stage)
     stage->samples = malloc(threads * samples_of(stage) * sizeof *stage->samples);
     stage->nearest = malloc(threads * samples_of(stage) * sizeof *stage->nearest);
     stage->entries = malloc(threads * entries_of(stage) * sizeof *stage->entries);
-    return stage->table && stage->samples && stage->nearest && stage->entries;
+    bool meshes = stage->meshes.corners != NULL;
+    if (meshes)
+        stage->triangles = malloc(threads * samples_of(stage) * sizeof *stage->triangles);
+    return stage->table && stage->samples && stage->nearest && stage->entries &&
+           (stage->triangles || !meshes);
 }
 
 struct kiln_spheres_cpu *kiln_spheres_cpu_create(const struct kiln_scene *scene,
@@ -65,6 +77,10 @@ struct kiln_spheres_cpu *kiln_spheres_cpu_create(const struct kiln_scene *scene,
                                            .threads = params->threads,
                                            .targets = params->targets,
                                            .rows = KILN_SIMD_PICK(kiln_sphere_rows, simd)};
+    if (stage && !kiln_instances_init(&stage->meshes, scene, error)) {
+        kiln_spheres_cpu_destroy(&stage);
+        return NULL;
+    }
     if (!stage || !allocate(stage)) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "spheres: out of memory");
         kiln_spheres_cpu_destroy(&stage);
@@ -77,8 +93,11 @@ void kiln_spheres_cpu_destroy(struct kiln_spheres_cpu **stage)
     if (!*stage)
         return;
     kiln_row_lists_finish(&(*stage)->lists);
+    kiln_instances_finish(&(*stage)->meshes);
     free((*stage)->table);
     free((*stage)->spheres);
+    free((*stage)->instances);
+    free((*stage)->triangles);
     free((*stage)->ranges);
     free((*stage)->samples);
     free((*stage)->nearest);
@@ -111,6 +130,36 @@ static struct kiln_row_range between_tangents(float aside, float depth, float ra
                                    (int16_t)exact_clamp(high, 0.0f, size)};
 }
 
+/* The columns and rows that a ball may touch; of one that reaches the near plane, all of them. */
+static void bound_ball(const struct kiln_view *view, const float center[3], float radius,
+                       struct kiln_row_range *x, struct kiln_row_range *y)
+{
+    const float4 frustum = view->frustum;
+    float depth = -center[2];
+    if (depth - radius <= view->eye.w) {
+        *x = (struct kiln_row_range){0, (int16_t)frustum.z};
+        *y = (struct kiln_row_range){0, (int16_t)frustum.w};
+        return;
+    }
+    *x = between_tangents(center[0], depth, radius, 0.5f * frustum.z / frustum.x, frustum.z);
+    *y = between_tangents(-center[1], depth, radius, 0.5f * frustum.w / frustum.y, frustum.w);
+}
+
+static void find_center(const struct kiln_view *view, float3 at, float center[3])
+{
+    for (int i = 0; i < 3; i++) {
+        const float4 row = view->world_to_view[i];
+        center[i] = row.x * at.x + row.y * at.y + row.z * at.z + row.w;
+    }
+}
+
+/* No smaller than a pixel, or it would twinkle between the samples. */
+static float least_radius(const struct kiln_view *view, float depth)
+{
+    float pixel_m = 2.0f * view->frustum.y * exact_max(depth, 1e-3f) / view->frustum.w;
+    return 0.5f * pixel_m;
+}
+
 static void set3(float to[3], float4 from)
 {
     to[0] = from.x;
@@ -125,16 +174,9 @@ static void make_sphere(const struct making *m, const struct kiln_living_system 
                         struct kiln_row_range *rows)
 {
     const struct kiln_view *view = m->view;
-    const float4 frustum = view->frustum;
-    for (int i = 0; i < 3; i++) {
-        const float4 row = view->world_to_view[i];
-        s->center[i] = row.x * particle->position.x + row.y * particle->position.y +
-                       row.z * particle->position.z + row.w;
-    }
+    find_center(view, particle->position, s->center);
     float radius = particle->radius * particle->opacity, depth = -s->center[2];
-    /* No smaller than a pixel, or it would twinkle between the samples. */
-    float pixel_m = 2.0f * frustum.y * exact_max(depth, 1e-3f) / frustum.w;
-    s->radius = exact_max(radius, 0.5f * pixel_m);
+    s->radius = exact_max(radius, least_radius(view, depth));
     if (!(radius > 0.0f) || depth - s->radius <= view->eye.w)
         return;
     float4 cover = kiln_living_look(system, KILN_LOOK_COVER, particle->progress);
@@ -142,10 +184,56 @@ static void make_sphere(const struct making *m, const struct kiln_living_system 
     s->lit = cover.w;
     set3(s->glow, kiln_living_look(system, KILN_LOOK_HOT, particle->progress));
     set3(s->bloom, kiln_living_look(system, KILN_LOOK_BLOOM, particle->progress));
-    s->x =
-        between_tangents(s->center[0], depth, s->radius, 0.5f * frustum.z / frustum.x, frustum.z);
-    *rows =
-        between_tangents(-s->center[1], depth, s->radius, 0.5f * frustum.w / frustum.y, frustum.w);
+    bound_ball(view, s->center, s->radius, &s->x, rows);
+}
+
+/* The mesh's axes in view space, each as long as a unit of it is in metres. */
+static void place_axes(const struct kiln_view *view, const struct instance_axes *axes, float scale,
+                       struct kiln_drawn_instance *d)
+{
+    const float3 columns[3] = {axes->x, axes->y, axes->z};
+    for (int i = 0; i < 3; i++) {
+        const float4 row = view->world_to_view[i];
+        for (int c = 0; c < 3; c++)
+            d->to_view[i][c] =
+                scale * (row.x * columns[c].x + row.y * columns[c].y + row.z * columns[c].z);
+    }
+}
+
+/* It grows and shrinks by its opacity, too. */
+static void make_instance(const struct making *m, uint32_t number, uint32_t slot,
+                          const struct kiln_living *particle, struct kiln_drawn_instance *d,
+                          struct kiln_row_range *rows)
+{
+    const struct kiln_living_system *system = &m->systems[number];
+    const struct kiln_instance_mesh *mesh = &m->stage->meshes.meshes[number];
+    const struct kiln_look *look = &m->stage->scene->systems[number].look;
+    const struct kiln_view *view = m->view;
+    float center[3], size = 2.0f * particle->radius * particle->opacity;
+    find_center(view, particle->position, center);
+    float depth = -center[2], reach = exact_max(size * mesh->reach, least_radius(view, depth));
+    if (!(size > 0.0f) || depth + reach <= view->eye.w)
+        return;
+    const struct kiln_particle record = system->records[slot];
+    uint32_t stream = particle_stream(system->derived, record);
+    float angle =
+        instance_angle(stream, kiln_living_look(system, KILN_LOOK_TURN, particle->progress),
+                       kiln_living_look(system, KILN_LOOK_SPREAD, particle->progress),
+                       particle_age(record, system->step, system->dt_s));
+    const struct instance_axes axes =
+        instance_axes_of(look->mesh.orient, particle_velocity(record), angle, stream);
+    place_axes(view, &axes, reach / mesh->reach, d);
+    for (int i = 0; i < 3; i++)
+        d->to_view[i][3] = center[i];
+    float4 cover = kiln_living_look(system, KILN_LOOK_COVER, particle->progress);
+    set3(d->albedo, cover);
+    d->lit = cover.w;
+    d->shade = size * look->mesh.shade;
+    set3(d->glow, kiln_living_look(system, KILN_LOOK_HOT, particle->progress));
+    set3(d->bloom, kiln_living_look(system, KILN_LOOK_BLOOM, particle->progress));
+    d->first = mesh->first;
+    d->triangles = mesh->triangles;
+    bound_ball(view, center, reach, &d->x, rows);
 }
 
 static void make_spheres(void *context, size_t begin, size_t end, uint32_t worker)
@@ -158,7 +246,15 @@ static void make_spheres(void *context, size_t begin, size_t end, uint32_t worke
         struct kiln_living particle;
         m->stage->ranges[i] = (struct kiln_row_range){0, 0};
         m->stage->spheres[i] = (struct kiln_drawn_sphere){.radius = 0.0f};
-        if (kiln_living_at(system, slot - m->pool->systems[number].base, &particle))
+        struct kiln_drawn_instance *instance = m->stage->instances ? &m->stage->instances[i] : NULL;
+        if (instance)
+            *instance = (struct kiln_drawn_instance){.triangles = 0};
+        slot -= m->pool->systems[number].base;
+        if (!kiln_living_at(system, slot, &particle))
+            continue;
+        if (instance && m->stage->meshes.meshes[number].triangles > 0)
+            make_instance(m, number, slot, &particle, instance, &m->stage->ranges[i]);
+        else
             make_sphere(m, system, &particle, &m->stage->spheres[i], &m->stage->ranges[i]);
     }
 }
@@ -169,10 +265,13 @@ static bool make_room(struct kiln_spheres_cpu *stage, uint32_t count, struct kil
         return true;
     free(stage->spheres);
     free(stage->ranges);
+    free(stage->instances);
     stage->room = count + count / 4 + 64;
     stage->spheres = malloc(stage->room * sizeof *stage->spheres);
     stage->ranges = malloc(stage->room * sizeof *stage->ranges);
-    if (stage->spheres && stage->ranges)
+    bool meshes = stage->meshes.corners != NULL;
+    stage->instances = meshes ? malloc(stage->room * sizeof *stage->instances) : NULL;
+    if (stage->spheres && stage->ranges && (stage->instances || !meshes))
         return true;
     free(stage->spheres);
     stage->spheres = NULL;
@@ -219,6 +318,8 @@ static void draw_bands(void *context, size_t begin, size_t end, uint32_t worker)
         strip.samples = stage->samples + worker * samples_of(stage);
         strip.nearest = stage->nearest + worker * samples_of(stage);
         strip.entries = stage->entries + worker * entries_of(stage);
+        if (stage->triangles)
+            strip.triangles = stage->triangles + worker * samples_of(stage);
         stage->rows->draw(&strip);
     }
 }
@@ -250,6 +351,8 @@ bool kiln_spheres_cpu_draw(struct kiln_spheres_cpu *stage, struct kiln_pool *poo
     struct drawing drawing = {stage,
                               {.frame = kiln_backdrop_rays(stage->backdrop),
                                .spheres = stage->spheres,
+                               .instances = stage->instances,
+                               .corners = (const float4(*)[2])stage->meshes.corners,
                                .rows = stage->ranges,
                                .width = stage->scene->width,
                                .pitch = stage->pitch}};

@@ -5,6 +5,7 @@
 #include "draw/spheres_gl.h"
 
 #include "base/error.h"
+#include "draw/instances_gl.h"
 #include "draw/shapes.h"
 #include "gpu/program.h"
 
@@ -16,9 +17,10 @@ struct kiln_spheres_gl {
     struct kiln_device *device;
     struct kiln_particles_stage *particles;
     struct kiln_spheres_targets targets;
-    GLuint cast, resolve; /* programs */
-    GLuint samples[3];    /* multisampled textures: colour, bloom, depth */
-    GLuint framebuffer;   /* of these */
+    GLuint cast, resolve;             /* programs */
+    struct kiln_instances_gl *meshes; /* NULL: there are none */
+    GLuint samples[3];                /* multisampled textures: colour, bloom, depth */
+    GLuint framebuffer;               /* of these */
     struct kiln_framebuffer scene;
     GLuint vertex_array;
 };
@@ -88,8 +90,12 @@ struct kiln_spheres_gl *kiln_spheres_gl_create(struct kiln_device *device,
         .device = device, .particles = params->particles, .targets = *targets};
     struct kiln_image *written[] = {targets->color, targets->depth, targets->bloom};
     glGenVertexArrays(1, &stage->vertex_array);
-    if (!create_programs(stage, scene, error) || !create_samples(stage, error) ||
-        !kiln_framebuffer_init(&stage->scene, device, written, 3, error))
+    bool ok = create_programs(stage, scene, error) && create_samples(stage, error);
+    if (ok && kiln_instances_gl_exist(scene)) {
+        stage->meshes = kiln_instances_gl_create(device, scene, error);
+        ok = stage->meshes != NULL;
+    }
+    if (!ok || !kiln_framebuffer_init(&stage->scene, device, written, 3, error))
         kiln_spheres_gl_destroy(&stage);
     return stage;
 }
@@ -99,6 +105,7 @@ void kiln_spheres_gl_destroy(struct kiln_spheres_gl **stage)
     struct kiln_spheres_gl *s = *stage;
     if (!s)
         return;
+    kiln_instances_gl_destroy(&s->meshes);
     glDeleteProgram(s->cast); /* 0 is ignored */
     glDeleteProgram(s->resolve);
     glDeleteFramebuffers(1, &s->framebuffer);
@@ -115,7 +122,7 @@ static void bind_texture(GLuint unit, GLenum target, GLuint texture)
     glBindTexture(target, texture);
 }
 
-static void cast(struct kiln_spheres_gl *stage, uint32_t count)
+static bool cast(struct kiln_spheres_gl *stage, uint32_t count, struct kiln_error *error)
 {
     const struct kiln_image *size = stage->targets.color;
     static const GLfloat transparent[4] = {0}, farthest = 0.0f;
@@ -129,8 +136,10 @@ static void cast(struct kiln_spheres_gl *stage, uint32_t count)
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);
     glDrawArrays(GL_POINTS, 0, (GLsizei)count);
+    bool ok = !stage->meshes || kiln_instances_gl_draw(stage->meshes, count, error);
     glDepthFunc(GL_LESS);
     glDisable(GL_DEPTH_TEST);
+    return ok;
 }
 
 bool kiln_spheres_gl_draw(struct kiln_spheres_gl *stage, struct kiln_pool *pool,
@@ -142,7 +151,8 @@ bool kiln_spheres_gl_draw(struct kiln_spheres_gl *stage, struct kiln_pool *pool,
     if (!color || !kiln_particles_bind(stage->particles, pool, entries, time_s, error))
         return false;
     bind_texture(2, GL_TEXTURE_2D, depth);
-    cast(stage, count);
+    if (!cast(stage, count, error))
+        return false;
 
     if (!kiln_framebuffer_bind(&stage->scene, error))
         return false;

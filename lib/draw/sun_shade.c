@@ -32,7 +32,7 @@ struct kiln_sun_shade {
 static bool is_shaded(const struct kiln_scene *scene, uint32_t system)
 {
     const struct kiln_system *s = &scene->systems[system];
-    return s->enabled && s->look.shape != KILN_SHAPE_SPHERE &&
+    return s->enabled && !kiln_look_is_opaque(&s->look) &&
            kiln_scene_value_max(scene, &s->look.lit) > 0.0f;
 }
 

@@ -75,6 +75,8 @@ static bool take_hash(struct kiln_scene *scene, struct kiln_error *error)
         for (uint32_t k = 0; read && k < look->atlas_count; k++)
             read = add_file_hash(&text, look->atlas[k], error);
         read = read && add_file_hash(&text, look->motion, error);
+        if (look->shape == KILN_SHAPE_MESH)
+            kiln_text_add(&text, "%s\n", look->mesh.hash);
         for (uint32_t k = 0; read && k < scene->systems[i].force_count; k++)
             if (scene->systems[i].forces[k].kind == KILN_FORCE_FIELD)
                 read = add_file_hash(&text, scene->systems[i].forces[k].file, error);

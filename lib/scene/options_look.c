@@ -12,11 +12,8 @@ static const char *const blends[] = {
 };
 
 static const char *const shapes[] = {
-    [KILN_SHAPE_BILLBOARD] = "billboard",
-    [KILN_SHAPE_POINT] = "point",
-    [KILN_SHAPE_LINE] = "line",
-    [KILN_SHAPE_SPHERE] = "sphere",
-    NULL,
+    [KILN_SHAPE_BILLBOARD] = "billboard", [KILN_SHAPE_POINT] = "point", [KILN_SHAPE_LINE] = "line",
+    [KILN_SHAPE_SPHERE] = "sphere",       [KILN_SHAPE_MESH] = "mesh",   NULL,
 };
 
 static const char *const facings[] = {
@@ -43,6 +40,24 @@ static const struct kiln_option line[] = {
     CHOICE("to", line_to, line_ends, "velocity",
            "velocity: back along it by the speed times stretch; previous: to where the particle "
            "was a frame ago."),
+    END,
+};
+
+static const char *const orients[] = {
+    [KILN_ORIENT_VELOCITY] = "velocity",
+    [KILN_ORIENT_SPIN] = "spin",
+    [KILN_ORIENT_UPRIGHT] = "upright",
+    NULL,
+};
+
+static const struct kiln_option mesh[] = {
+    {ROW("file", mesh, AT(mesh.file), "none",
+         "Triangles in an OBJ, glTF or GLB file, z ahead and y up; its materials are left out. The "
+         "longest edge of the box around it becomes the size.")},
+    CHOICE("orient", mesh.orient, orients, "velocity",
+           "velocity: ahead is where the particle goes, without a roll; spin: rotation and spin "
+           "turn it about an axis drawn for each particle; upright: they turn it about the world's "
+           "up."),
     END,
 };
 
@@ -80,8 +95,8 @@ const struct kiln_option kiln_options_look[] = {
     RANGE("scale", scale, KILN_PLAIN, 0, 1000, TIME, "1",
           "Factor on size, drawn for each particle."),
     CHOICE("shape", shape, shapes, "billboard",
-           "billboard: the texture on a quad; point, line: plain, without a texture; sphere: "
-           "opaque, lit like the backdrop, scaled by opacity and fade."),
+           "billboard: the texture on a quad; point, line: plain, without a texture; sphere, "
+           "mesh: opaque, lit like the backdrop, scaled by opacity and fade."),
     CHOICE("facing", facing, facings, "screen",
            "A billboard is parallel to the picture and upright in it (screen), in the world "
            "(viewplane) or along its velocity; or turned to the eye, upright in the world "
@@ -90,6 +105,7 @@ const struct kiln_option kiln_options_look[] = {
            "What axial billboards turn about; of any length but 0."),
     GROUP("point", 0, point, "How points look."),
     GROUP("line", 0, line, "How lines look."),
+    GROUP("mesh", 0, mesh, "How meshes look, which are instances of one from a file."),
     VALUE("stretch", stretch, KILN_SECONDS, 0, 10, BOTH, "0 s",
           "Longer along the velocity by the speed times this; 0 keeps a billboard square."),
     RANGE("rotation", rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), BOTH,

@@ -21,6 +21,13 @@ enum {
     KILN_MAX_PARTICLES = 1 << 24, /* slots of all systems: what a draw entry can address */
 };
 
+/* Of particles that are meshes. */
+enum {
+    KILN_MAX_INSTANCES = 1 << 20,          /* slots */
+    KILN_MAX_PARTICLE_TRIANGLES = 1 << 16, /* of one particle */
+    KILN_MAX_INSTANCE_TRIANGLES = 1 << 26, /* of all slots */
+};
+
 struct kiln_rational {
     uint32_t num, den;
 };
@@ -191,6 +198,24 @@ enum kiln_shape {
     KILN_SHAPE_POINT,  /* a disc or a square without a texture */
     KILN_SHAPE_LINE,   /* from the particle back along its way */
     KILN_SHAPE_SPHERE, /* opaque, lit like the backdrop */
+    KILN_SHAPE_MESH,   /* the same, out of a file */
+};
+
+/* How a mesh lies in the world. Its own z axis is ahead and y is up. */
+enum kiln_orient {
+    KILN_ORIENT_VELOCITY, /* ahead is where the particle goes, up as near to the world's as can be
+                           */
+    KILN_ORIENT_SPIN,     /* turned about an axis drawn for each particle */
+    KILN_ORIENT_UPRIGHT,  /* turned about the world's up */
+};
+
+/* Instances of a mesh. What follows from the file is there where shape is mesh. */
+struct kiln_look_mesh {
+    const char *file; /* an absolute path; NULL: none */
+    enum kiln_orient orient;
+    uint32_t triangles; /* follows: of the file */
+    float shade;        /* follows: radius of a sphere with its mean shadow, in sizes */
+    char hash[65];      /* follows: of what the file contains */
 };
 
 /* How a billboard stands to the camera (Heinz 2019, 2.1.1). */
@@ -228,6 +253,7 @@ struct kiln_look {
     bool point_round;             /* a disc; else a square */
     struct kiln_value line_width; /* px */
     enum kiln_line_to line_to;
+    struct kiln_look_mesh mesh;
     struct kiln_value stretch;     /* s: longer along the velocity by speed * stretch; 0: square */
     struct kiln_range rotation;    /* rad at birth */
     struct kiln_range spin;        /* rad/s; the sign is drawn per particle */
@@ -248,6 +274,12 @@ struct kiln_look {
     struct kiln_value3 light;    /* factor on the light that they shed on other things; 0: none */
     uint32_t light_count;        /* by so many lights */
 };
+
+/* Whether particles are part of the scene that others are drawn before or behind. */
+static inline bool kiln_look_is_opaque(const struct kiln_look *look)
+{
+    return look->shape == KILN_SHAPE_SPHERE || look->shape == KILN_SHAPE_MESH;
+}
 
 /* ---- systems --------------------------------------------------------------------------------- */
 

@@ -82,17 +82,20 @@ static bool check_mesh(const char *path, const struct kiln_scene *scene, struct 
     return good;
 }
 
+/* "none" is a default that some rows have. */
 static bool read_mesh(struct kiln_reader *reader, const struct kiln_option *option,
                       const struct kiln_node *node, void *field)
 {
-    return read_file(reader, option, node, check_mesh, field);
+    const char **file = field;
+    *file = NULL;
+    return (option->fallback && is_none(node)) || read_file(reader, option, node, check_mesh, file);
 }
 
 static void describe_mesh(const struct kiln_option *option, struct kiln_text *out)
 {
-    (void)option;
-    kiln_text_add(out, "the path of an OBJ, glTF or GLB file, from the scene's folder and inside "
-                       "it");
+    kiln_text_add(out,
+                  "the path of an OBJ, glTF or GLB file, from the scene's folder and inside it%s",
+                  option->fallback ? ", or none" : "");
 }
 
 const struct kiln_option_type kiln_type_mesh = {read_mesh, print_file, describe_mesh, schema_file};

@@ -5,6 +5,7 @@
 #include "asset/closed.h"
 #include "scene/asset_path.h"
 #include "scene/family.h"
+#include "scene/particle_mesh.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -206,9 +207,10 @@ static bool check_shape(struct kiln_reader *reader, const struct kiln_node *root
     if (!at_all_keys(reader->scene, &axis, 1, is_not_zero))
         return kiln_validate_fail(reader, root, path, "must not be [0, 0, 0]");
     snprintf(path, sizeof path, "systems.%s.look.blend", system->name);
-    if (look->shape == KILN_SHAPE_SPHERE && look->blend != KILN_BLEND_ALPHA)
+    if (kiln_look_is_opaque(look) && look->blend != KILN_BLEND_ALPHA)
         return kiln_validate_fail(reader, root, path,
-                                  "must be alpha for spheres, which cover what is behind");
+                                  "must be alpha for %s, which cover what is behind",
+                                  look->shape == KILN_SHAPE_MESH ? "meshes" : "spheres");
     return true;
 }
 
@@ -303,7 +305,8 @@ static bool check_systems(struct kiln_reader *reader, const struct kiln_node *ro
             (system->look.atlas_count > 1 || system->look.atlas[0][0] != '/'))
             return kiln_validate_fail(reader, root, path, "a motion file goes with one atlas file");
         if (!check_shape(reader, root, system) || !check_cells(reader, root, system) ||
-            !check_interactions(reader, root, system))
+            !check_interactions(reader, root, system) ||
+            !kiln_particle_mesh_settle(reader, root, system))
             return false;
         if (!system->bounds.enabled)
             system->bounds = scene->bounds;
@@ -393,5 +396,6 @@ bool kiln_validate(struct kiln_reader *reader, const struct kiln_node *root)
 {
     return settle_clock(reader, root) && check_camera(reader, root) &&
            check_backdrop(reader, root) && check_systems(reader, root) &&
-           kiln_family_settle(reader, root) && settle_capacity(reader, root);
+           kiln_family_settle(reader, root) && settle_capacity(reader, root) &&
+           kiln_particle_mesh_count(reader, root);
 }

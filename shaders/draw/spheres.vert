@@ -22,7 +22,7 @@ void main()
 
     center.xyz = world_to_view_point(particle_position(record));
     float scale = mix(spread.x, spread.y, random_unit(stream, RANDOM_SCALE));
-    float radius = 0.5 * shape.x * scale * shape.z;
+    float radius = looks[system].form.x == LOOK_MESH ? 0.0 : 0.5 * shape.x * scale * shape.z;
     /* No smaller than a pixel, or it would twinkle between the samples. */
     float pixel_m = 2.0 * view.frustum.y * max(-center.z, 1e-3) / view.frustum.w;
     center.w = radius > 0.0 ? max(radius, 0.5 * pixel_m) : 0.0;

@@ -26,6 +26,7 @@
 /* enum kiln_shape and enum kiln_facing of the scene. */
 #define LOOK_POINT     1u
 #define LOOK_LINE      2u
+#define LOOK_MESH      4u
 #define LOOK_SCREEN    0u
 #define LOOK_VIEWPOINT 2u
 #define LOOK_AXIAL     3u

@@ -18,6 +18,8 @@ enum { DRAWING_CELL = 128 };
 /* What drawing_init takes for the particles. */
 static enum kiln_raster_technique drawing_technique = KILN_RASTER_GEOMETRY;
 static uint32_t drawing_most = 32; /* particles */
+static uint32_t drawing_threads = 2;
+static const char *drawing_asset_root; /* NULL: the working directory */
 
 struct drawing {
     struct kiln_device *device;
@@ -97,8 +99,9 @@ static inline void drawing_init(struct drawing *d, struct kiln_device *device, c
                                 const char *const *overrides, size_t override_count)
 {
     struct kiln_error error = {0};
-    *d = (struct drawing){.device = device, .threads = kiln_threads_create(2)};
+    *d = (struct drawing){.device = device, .threads = kiln_threads_create(drawing_threads)};
     struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    params.asset_root = drawing_asset_root;
     params.overrides = overrides;
     params.override_count = override_count;
     d->scene = kiln_scene_parse(text, strlen(text), "test", &params, &error);

@@ -247,7 +247,7 @@ static const struct bad units[] = {
      ":2:18: output.frames: 's' does not fit; this number has no unit"},
     {"kiln: 1\n"
      "systems: {a: {look: {shape: ball}}}\n",
-     ":2:29: systems.a.look.shape: expected billboard, point, line or sphere, found 'ball'"},
+     ":2:29: systems.a.look.shape: expected billboard, point, line, sphere or mesh, found 'ball'"},
     {"kiln: 1\n"
      "systems: {a: {look: {facing: eye}}}\n",
      ":2:30: systems.a.look.facing: expected screen, viewplane, viewpoint, axial or velocity, "
@@ -380,6 +380,9 @@ static const struct bad agreement[] = {
     {"kiln: 1\n"
      "systems: {a: {look: {shape: sphere, blend: add}}}\n",
      ":2:44: systems.a.look.blend: must be alpha for spheres, which cover what is behind"},
+    {"kiln: 1\n"
+     "systems: {a: {look: {shape: mesh}}}\n",
+     ":2:21: systems.a.look.mesh.file: must name a file where shape is mesh"},
     {"kiln: 1\n"
      "simulation: {rate: 50}\n",
      ":2:20: simulation.rate: must be a whole multiple of output.fps; the nearest are 30 and 60"},

@@ -63,3 +63,36 @@ $ printf '%s\n' 'kiln: 1' 'systems:' '  smoke:' '    emit: {rate: 1, life: 1 s}'
 > kiln check scenes/cells.yaml
 2|scenes/cells.yaml:5:36: systems.smoke.look.cells: 'puff.png': 32 x 32 pixels do not divide into 3 columns and 2 rows
 = 3
+
+Particles that are meshes: there must be a file, and no more of them than memory and time allow.
+
+$ printf '%s\n' 'kiln: 1' 'systems:' '  leaves:' '    emit: {rate: 1, life: 1 s}' '    look: {shape: mesh}' >scenes/leaves.yaml
+> printf '%s\n' 'v 0 0 0' 'v 1 0 0' 'v 0 1 0' 'f 1 2 3' >scenes/leaf.obj
+> kiln check -q scenes/leaves.yaml
+2|scenes/leaves.yaml:5:11: systems.leaves.look.mesh.file: must name a file where shape is mesh
+= 3
+$ kiln check -q scenes/leaves.yaml --set systems.leaves.look.mesh.file=none
+2|--set systems.leaves.look.mesh.file: must name a file where shape is mesh
+= 3
+$ kiln check -q scenes/leaves.yaml --set systems.leaves.look.mesh.file=leaf.obj
+$ kiln check -q scenes/leaves.yaml --set systems.leaves.look.mesh.file=leaf.obj --set systems.leaves.look.blend=add
+2|--set systems.leaves.look.blend: must be alpha for meshes, which cover what is behind
+= 3
+$ kiln check -q scenes/leaves.yaml --set systems.leaves.look.mesh.file=leaf.obj --set systems.leaves.emit.rate=2000000
+2|scenes/leaves.yaml:4:11: systems.leaves.emit: up to 2066667 particles at once are meshes; a scene may have 1048576: lower rate, bursts or life
+= 3
+$ printf 'v %d 0 0\nv 0 1 0\nv 0 0 1\n' {1..400} >scenes/bush.obj; for i in {1..400}; do echo "f 1 $((3*i-1)) $((3*i))"; done >>scenes/bush.obj
+> kiln check -q scenes/leaves.yaml --set systems.leaves.look.mesh.file=bush.obj --set systems.leaves.emit.rate=500000
+2|scenes/leaves.yaml:4:11: systems.leaves.emit: up to 206666800 triangles of particles at once; a scene may have 67108864: lower rate, bursts or life, or take a mesh of fewer than 400
+= 3
+$ printf '%s\n' 'v 1 1 1' 'v 1 1 1' 'v 1 1 1' 'f 1 2 3' >scenes/dot.obj
+> kiln check -q scenes/leaves.yaml --set systems.leaves.look.mesh.file=dot.obj
+2|--set systems.leaves.look.mesh.file: 'dot.obj': the mesh has no triangle with an area
+= 3
+
+What the file contains is part of the scene.
+
+$ first=$(kiln check --hash scenes/leaves.yaml --set systems.leaves.look.mesh.file=leaf.obj)
+> sed -i 's/v 0 1 0/v 0 2 0/' scenes/leaf.obj
+> [ "$first" != "$(kiln check --hash scenes/leaves.yaml --set systems.leaves.look.mesh.file=leaf.obj)" ] && echo another
+1|another

@@ -1,0 +1,27 @@
+/* The meshes that particles look like, ready to be drawn. */
+#ifndef KILN_DRAW_INSTANCES_H
+#define KILN_DRAW_INSTANCES_H
+
+#include "scene/scene.h"
+
+/* Of one system. */
+struct kiln_instance_mesh {
+    uint32_t first;     /* corner */
+    uint32_t triangles; /* 0: its particles are no meshes */
+    float reach;        /* from the middle to the farthest corner */
+};
+
+/* The longest edge of the box around each mesh is 1 long, and its middle lies in the origin. */
+struct kiln_instances {
+    struct kiln_instance_mesh meshes[KILN_MAX_SYSTEMS];
+    float4 (*corners)[2]; /* of all, three a triangle: position; normal. NULL: there are none */
+    uint32_t corner_count;
+};
+
+/* Loads those of the scene's systems; KILN_INVALID_INPUT and the rest as kiln_mesh_load.
+ * kiln_instances_finish then frees what there is. */
+bool kiln_instances_init(struct kiln_instances *instances, const struct kiln_scene *scene,
+                         struct kiln_error *error);
+void kiln_instances_finish(struct kiln_instances *instances);
+
+#endif

@@ -1,0 +1,79 @@
+/* A mesh is read once for all that loading a scene wants of it. */
+#include "scene/particle_mesh.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "asset/mesh_measure.h"
+#include "scene/asset_path.h"
+
+static bool refuse(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
+                   const struct kiln_look *look, const struct kiln_error *error)
+{
+    const size_t length = strlen(look->mesh.file);
+    const char *reason = error->message;
+    if (strncmp(reason, look->mesh.file, length) == 0)
+        reason += length + strspn(reason + length, ": ");
+    kiln_validate_fail(reader, root, path, "'%s': %s",
+                       kiln_asset_name(reader->scene, look->mesh.file), reason);
+    if (error->code == KILN_DEVICE_FAILED || error->code == KILN_INTERRUPTED)
+        reader->error->code = error->code;
+    return false;
+}
+
+bool kiln_particle_mesh_settle(struct kiln_reader *reader, const struct kiln_node *root,
+                               struct kiln_system *system)
+{
+    struct kiln_scene *scene = reader->scene;
+    struct kiln_look *look = &system->look;
+    if (look->shape != KILN_SHAPE_MESH)
+        return true;
+    char path[128];
+    snprintf(path, sizeof path, "systems.%s.look.mesh.file", system->name);
+    if (!look->mesh.file)
+        return kiln_validate_fail(reader, root, path, "must name a file where shape is mesh");
+    struct kiln_error error = {0};
+    struct kiln_mesh *mesh =
+        kiln_mesh_load(look->mesh.file, scene->asset_root, scene->stop, scene->user, &error);
+    if (!mesh)
+        return refuse(reader, root, path, look, &error);
+    const struct kiln_mesh_measure measure = kiln_mesh_measure(mesh);
+    look->mesh.triangles = mesh->triangle_count;
+    look->mesh.shade = measure.shade / measure.edge;
+    memcpy(look->mesh.hash, mesh->hash, sizeof look->mesh.hash);
+    kiln_mesh_destroy(&mesh);
+    if (look->mesh.triangles > KILN_MAX_PARTICLE_TRIANGLES)
+        return kiln_validate_fail(reader, root, path,
+                                  "%u triangles; the mesh of a particle has at most %d",
+                                  look->mesh.triangles, KILN_MAX_PARTICLE_TRIANGLES);
+    return true;
+}
+
+bool kiln_particle_mesh_count(struct kiln_reader *reader, const struct kiln_node *root)
+{
+    const struct kiln_scene *scene = reader->scene;
+    uint64_t meshes = 0, triangles = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_system *system = &scene->systems[i];
+        if (!system->enabled || system->look.shape != KILN_SHAPE_MESH)
+            continue;
+        meshes += system->capacity;
+        triangles += (uint64_t)system->capacity * system->look.mesh.triangles;
+        char path[128];
+        snprintf(path, sizeof path, "systems.%s.emit", system->name);
+        if (meshes > KILN_MAX_INSTANCES)
+            return kiln_validate_fail(reader, root, path,
+                                      "up to %" PRIu64 " particles at once are meshes; a scene may "
+                                      "have %d: lower rate, bursts or life",
+                                      meshes, KILN_MAX_INSTANCES);
+        if (triangles > KILN_MAX_INSTANCE_TRIANGLES)
+            return kiln_validate_fail(reader, root, path,
+                                      "up to %" PRIu64 " triangles of particles at once; a scene "
+                                      "may have %d: lower rate, bursts or life, or take a mesh of "
+                                      "fewer than %u",
+                                      triangles, KILN_MAX_INSTANCE_TRIANGLES,
+                                      system->look.mesh.triangles);
+    }
+    return true;
+}

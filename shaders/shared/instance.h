@@ -1,0 +1,78 @@
+/* How a particle that is a mesh lies in the world (Drone 2007, 7.4.4). The mesh's own z axis is
+ * ahead and y is up. Pictures alone depend on it.
+ */
+#ifndef KILN_SHARED_INSTANCE_H
+#define KILN_SHARED_INSTANCE_H
+
+#include "shared/random.h"
+
+/* enum kiln_orient of the scene. */
+#define ORIENT_VELOCITY 0u
+#define ORIENT_SPIN     1u
+
+/* Where the mesh's axes point: unit vectors, right-handed. */
+struct instance_axes {
+    float3 x, y, z;
+};
+
+/* How far it has turned, rad, of the rotations and of the mean spins so far (KILN_LOOK_TURN and
+ * KILN_LOOK_SPREAD of the look). */
+FN float instance_angle(uint stream, float4 turn, float4 spread, float age_s)
+{
+    EXACT float angle = random_between(stream, RANDOM_ROTATION, turn.x, turn.y);
+    EXACT float spin = random_between(stream, RANDOM_SPIN, spread.z, spread.w);
+    EXACT float side = random_unit(stream, RANDOM_SPIN + 1u);
+    EXACT float turned = spin * age_s;
+    angle = side < 0.5f ? angle - turned : angle + turned;
+    return angle;
+}
+
+/* Ahead is along the velocity; the right is level, so that it does not roll. */
+FN S(instance_axes) instance_along(float3 velocity)
+{
+    EXACT float3 ahead = FLOAT3(0.0f, 0.0f, 1.0f);
+    EXACT float3 up = FLOAT3(0.0f, 1.0f, 0.0f);
+    EXACT float3 right = FLOAT3(1.0f, 0.0f, 0.0f);
+    EXACT S(instance_axes) axes;
+    axes.z = float3_normalize(velocity, ahead);
+    EXACT float3 level = float3_cross(up, axes.z);
+    axes.x = float3_normalize(level, right);
+    axes.y = float3_cross(axes.z, axes.x);
+    return axes;
+}
+
+/* A vector turned about a unit vector. */
+FN float3 instance_turn(float3 v, float3 axis, float cosine, float sine)
+{
+    EXACT float along = float3_dot(v, axis) * (1.0f - cosine);
+    EXACT float3 aside = float3_cross(axis, v);
+    EXACT float3 y = float3_scale(v, cosine);
+    y = float3_add_scaled(y, aside, sine);
+    y = float3_add_scaled(y, axis, along);
+    return y;
+}
+
+FN S(instance_axes) instance_about(float3 axis, float angle)
+{
+    EXACT S(exact_angle) turn = exact_sincos(angle);
+    EXACT float3 right = FLOAT3(1.0f, 0.0f, 0.0f);
+    EXACT float3 up = FLOAT3(0.0f, 1.0f, 0.0f);
+    EXACT float3 ahead = FLOAT3(0.0f, 0.0f, 1.0f);
+    EXACT S(instance_axes) axes;
+    axes.x = instance_turn(right, axis, turn.cosine, turn.sine);
+    axes.y = instance_turn(up, axis, turn.cosine, turn.sine);
+    axes.z = instance_turn(ahead, axis, turn.cosine, turn.sine);
+    return axes;
+}
+
+FN S(instance_axes) instance_axes_of(uint orient, float3 velocity, float angle, uint stream)
+{
+    EXACT float3 axis = FLOAT3(0.0f, 1.0f, 0.0f);
+    if (orient == ORIENT_VELOCITY)
+        return instance_along(velocity);
+    if (orient == ORIENT_SPIN)
+        axis = random_direction(stream, RANDOM_AXIS, axis, -1.0f);
+    return instance_about(axis, angle);
+}
+
+#endif
