@@ -7,6 +7,7 @@
 #include <cmocka.h>
 #include <stdlib.h>
 
+#include "support/family_fixture.h"
 #include "support/simulation.h"
 
 static struct scene_fixture fixture; /* too large for a stack */

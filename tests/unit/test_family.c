@@ -9,6 +9,7 @@
 #include <math.h>
 
 #include "shared/random.h"
+#include "support/family_fixture.h"
 #include "support/simulation.h"
 
 static struct scene_fixture fixture, roomy; /* too large for a stack */

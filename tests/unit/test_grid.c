@@ -26,7 +26,8 @@ static struct kiln_grid_file *parse(const char *header, size_t bytes, float firs
     unsigned char file[1024] = {0};
     const size_t length = strlen(header);
     assert_true(length + bytes <= sizeof file);
-    memcpy(file, header, length);
+    for (size_t i = 0; i < length; i++)
+        file[i] = (unsigned char)header[i];
     for (uint32_t i = 0; i < bytes / 4; i++) {
         float value = i == 0 ? first : 1.0f + (float)i;
         memcpy(file + length + 4 * (size_t)i, &value, sizeof value);
