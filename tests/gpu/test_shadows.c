@@ -31,6 +31,14 @@ enum { WIDTH = 160, HEIGHT = 90, STEP = 30 };
     "    emit: {life: 1 s}\n"                                                                      \
     "    look: {shape: sphere, size: 0.6 m, color: 1, lit: 1, fade: {in: 0, out: 0}}\n"
 
+/* Its surface is 2.366025 in squares of its edge, so a sphere of RADIUS has as large a shadow. */
+#define TETRAHEDRA                                                                                 \
+    "systems:\n"                                                                                   \
+    "  a:\n"                                                                                       \
+    "    emit: {life: 1 s}\n"                                                                      \
+    "    look: {shape: mesh, mesh: {file: tetrahedron.obj}, size: 0.691376 m, color: 1, lit: 1,\n" \
+    "           fade: {in: 0, out: 0}}\n"
+
 static const double RADIUS = 0.3;
 static const vec TOWARDS = {-0.6, 0.8, 0};
 
@@ -64,7 +72,7 @@ static void init(struct fixture *f, struct kiln_device *device, const char *text
     if (!f->lighting)
         fail_msg("%s", error.message);
     kiln_lighting_use_meshes(f->lighting, kiln_backdrop_meshes(d->backdrop));
-    if (d->scene->systems[0].look.shape != KILN_SHAPE_SPHERE)
+    if (!kiln_look_is_opaque(&d->scene->systems[0].look))
         return;
     f->spheres = kiln_spheres_create(device, d->scene, &params, &error);
     if (!f->spheres)
@@ -187,6 +195,19 @@ static void the_shadow_of_a_sphere_lies_where_geometry_says(void **state)
     }
     assert_true(penumbra[1] > penumbra[0] && penumbra[2] > 2 * penumbra[1]);
     assert_true(penumbra[3] > penumbra[2]);
+}
+
+/* A mesh throws the shadow of a sphere, as large as its own is on average over all directions. */
+static void the_shadow_of_a_mesh_is_that_of_a_sphere(void **state)
+{
+    const vec place = {0, 2, 0};
+    struct fixture f;
+    drawing_asset_root = KILN_SOURCE_DIR "/tests/mutation";
+    init(&f, *state, HEAD "backdrop:\n" SUN TETRAHEDRA, NULL);
+    draw(&f, &place, 1);
+    check_floor(&f, &place, 1, 0, 0.06);
+    finish(&f);
+    drawing_asset_root = NULL;
 }
 
 /* So many that bins have several, whatever their order; where two overlap, their covers are
@@ -368,6 +389,7 @@ int main(void)
         return 1;
     static const struct CMUnitTest tests[] = {
         test_on_device(the_shadow_of_a_sphere_lies_where_geometry_says),
+        test_on_device(the_shadow_of_a_mesh_is_that_of_a_sphere),
         test_on_device(spheres_of_a_cloud_all_throw_shadows),
         test_on_device(spheres_shade_each_other),
         test_on_device(the_backdrop_shades_spheres),

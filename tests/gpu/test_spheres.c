@@ -7,10 +7,9 @@
 
 #include <cmocka.h>
 
-#include "draw/spheres.h"
-#include "support/drawing.h"
+#include "support/opaque.h"
 
-enum { WIDTH = 320, HEIGHT = 240, PIXELS = WIDTH * HEIGHT, STEP = 30, COUNT = 24 };
+enum { STEP = 30, COUNT = 24 };
 
 /* A box hides some, and the floor cuts others. */
 static const char SCENE[] =
@@ -30,51 +29,10 @@ static const char SCENE[] =
 
 static const double ALBEDO[3] = {0.8, 0.4, 0.2};
 
-struct fixture {
-    struct drawing drawing;
-    struct kiln_image depth, color, bloom;
-    struct kiln_spheres_stage *stage;
-};
-
 static void init(struct fixture *f, struct kiln_device *device, const char *const *overrides,
                  size_t count)
 {
-    struct kiln_error error = {0};
-    struct drawing *d = &f->drawing;
-    drawing_init(d, device, SCENE, overrides, count);
-    kiln_image_init(&f->color, device, WIDTH, HEIGHT, GL_RGBA32F, "scene");
-    kiln_image_init(&f->depth, device, WIDTH, HEIGHT, GL_R32F, "scene depth");
-    kiln_image_init(&f->bloom, device, WIDTH, HEIGHT, GL_RGBA32F, "sphere bloom");
-    const struct kiln_spheres_params params = {
-        .backdrop = d->backdrop,
-        .particles = d->particles,
-        .threads = d->threads,
-        .targets = {&d->backdrop_color, &d->backdrop_depth, &f->color, &f->depth, &f->bloom},
-    };
-    f->stage = kiln_spheres_create(device, d->scene, &params, &error);
-    if (!f->stage)
-        fail_msg("%s", error.message);
-}
-
-static void finish(struct fixture *f)
-{
-    kiln_spheres_destroy(&f->stage);
-    kiln_image_finish(&f->color);
-    kiln_image_finish(&f->depth);
-    kiln_image_finish(&f->bloom);
-    drawing_finish(&f->drawing);
-}
-
-static void draw(struct fixture *f, uint32_t count)
-{
-    struct kiln_error error = {0};
-    struct drawing *d = &f->drawing;
-    if (!kiln_spheres_draw(f->stage, &d->pool, &d->entries, count, d->view.clock.x, &error))
-        fail_msg("%s", error.message);
-    struct kiln_image *images[] = {&f->color, &f->depth, &f->bloom, &d->backdrop_color,
-                                   &d->backdrop_depth};
-    for (size_t i = 0; i < sizeof images / sizeof *images; i++)
-        assert_non_null(kiln_image_host(images[i], KILN_READ, &error));
+    opaque_init(f, device, SCENE, overrides, count);
 }
 
 static float within(float low, float high)
