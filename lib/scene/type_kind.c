@@ -149,6 +149,15 @@ static const struct kiln_option_kind *kind_of(const struct kiln_option *option, 
     return kind;
 }
 
+/* Whether a kind without `field` would be another one of that name. */
+static bool needs_field(const struct kiln_option *option, const struct kiln_option_kind *kind)
+{
+    const struct kiln_option_kind *first = option->kinds;
+    while (strcmp(first->name, kind->name) != 0)
+        first++;
+    return first != kind;
+}
+
 static void print_kind(struct kiln_printer *printer, const struct kiln_option *option,
                        const void *field)
 {
@@ -164,6 +173,10 @@ static void print_kind(struct kiln_printer *printer, const struct kiln_option *o
         kiln_text_add(&printer->text, "\n");
     }
     printer->indent += 2;
+    if (needs_field(option, kind)) {
+        kiln_print_key(printer, "field");
+        kiln_text_add(&printer->text, " %s\n", kind->variant);
+    }
     kiln_print_members(printer, kind->members, field);
     printer->indent = before;
 }

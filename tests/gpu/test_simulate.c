@@ -26,7 +26,8 @@ static const struct {
 };
 enum { WAY_COUNT = sizeof WAYS / sizeof *WAYS, DEVICE_WAYS = WAY_COUNT - 2 };
 
-/* Steps the scene in the first of these ways and compares after each step. */
+/* Steps the scene in the first of these ways and compares after each step. GL in software takes
+ * long to compile the larger variants, of which not every one is tried with each technique. */
 static void some_agree(struct kiln_device *device, const struct kiln_scene *scene, uint32_t steps,
                        size_t ways)
 {
@@ -103,7 +104,7 @@ static void fields_agree(void **state)
     fixture_family(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT);
     fixture_add_field(&fixture.scene.systems[0]);
     fixture_finish(&fixture, 60);
-    all_agree(*state, &fixture.scene, 60);
+    some_agree(*state, &fixture.scene, 60, 1);
 }
 
 static void colliders_out_of_grids_agree(void **state)
@@ -116,7 +117,7 @@ static void colliders_out_of_grids_agree(void **state)
     fixture_add_terrain(&fixture, -0.4f, 3.0f, 0.9f, 40);
     fixture_add_moving_mesh(&fixture);
     fixture_finish(&fixture, 40);
-    some_agree(*state, &fixture.scene, 40, 1); /* GL in software takes long to compile these */
+    some_agree(*state, &fixture.scene, 40, 1);
 }
 
 /* A crowd of its own, in which all kinds of interaction and all clocks of their values are used. */
@@ -162,7 +163,7 @@ static void whirls_agree(void **state)
         fixture_add_whirls(&fixture);
         fixture_add_field(&fixture.scene.systems[0])->mode = KILN_WIND_ADD;
         fixture_finish(&fixture, 60);
-        all_agree(*state, &fixture.scene, 60);
+        some_agree(*state, &fixture.scene, 60, order == KILN_INTEGRATE_RK4 ? WAY_COUNT : 1);
     }
 }
 
@@ -174,7 +175,7 @@ static void families_agree(void **state)
         const uint32_t steps = i < 2 ? 200 : 60;
         fixture_family(&fixture, orders[i]);
         fixture_finish(&fixture, steps);
-        all_agree(*state, &fixture.scene, steps);
+        some_agree(*state, &fixture.scene, steps, i < 2 ? WAY_COUNT : 1);
     }
 }
 

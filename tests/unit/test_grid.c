@@ -149,6 +149,30 @@ static void a_pull_takes_its_time(void **state)
     assert_velocity(blown(FLOAT3(1.0f, 0.0f, 0.5f), 3.0f, 1), -1.0 * part, 0.5 * part, 2.0 * part);
 }
 
+/* It says which of the kinds of wind it is. */
+static void a_printed_scene_loads_again(void **state)
+{
+    (void)state;
+    static const char text[] = "kiln: 1\nsystems: {a: {forces: [wind: {field: grid, file: "
+                               "whirl.grid}, wind: {velocity: [2, 0, 0]}, wind: {field: curl}]}}\n";
+    struct kiln_error error = {0};
+    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    params.asset_root = KILN_SOURCE_DIR "/tests/support";
+    char *printed = NULL;
+    size_t length = 0;
+    FILE *file = open_memstream(&printed, &length);
+    struct kiln_scene *scene = kiln_scene_parse(text, sizeof text - 1, "a.yaml", &params, &error);
+    assert_string_equal(error.message, "");
+    assert_true(file && kiln_scene_print(scene, file) && fclose(file) == 0);
+    struct kiln_scene *again = kiln_scene_parse(printed, length, "b.yaml", &params, &error);
+    assert_string_equal(error.message, "");
+    assert_int_equal(again->systems[0].forces[0].kind, KILN_FORCE_FIELD);
+    assert_string_equal(again->hash, scene->hash);
+    kiln_scene_destroy(&again);
+    kiln_scene_destroy(&scene);
+    free(printed);
+}
+
 static void too_many_grids_are_refused(void **state)
 {
     (void)state;
@@ -178,6 +202,7 @@ int main(void)
         cmocka_unit_test(between_samples_the_field_is_linear),
         cmocka_unit_test(beyond_the_edges_it_is_that_of_the_edges),
         cmocka_unit_test(a_pull_takes_its_time),
+        cmocka_unit_test(a_printed_scene_loads_again),
         cmocka_unit_test(too_many_grids_are_refused),
     };
     return cmocka_run_group_tests_name("grid", tests, NULL, NULL);
