@@ -7,7 +7,7 @@ $ kiln bench --list | sed -E 's/ [0-9]+\.[0-9] min/ <time>/'
 1|  figure4.5   <time>  Heinz 2019, figure 4.5: rendering fire and smoke, and the whole frame
 1|  figure4.6   <time>  Heinz 2019, figure 4.6: techniques of sorting by particles
 1|  table1      <time>  UberFlow, table 1: sorting 128^2 to 1024^2 particles
-1|  table2      <time>  UberFlow, table 2: experiments E1, E2, E3 and E5
+1|  table2      <time>  UberFlow, table 2: experiments E1 to E5
 1|  curves      <time>  cost over 1,000 to 4,000,000 particles and 4 to 256 pixels
 1|  groups      <time>  kernels by the size of their work groups (Heinz 2019, 2.2.5)
 1|  forces      <time>  simulation by its force and integrator
