@@ -196,6 +196,8 @@ static struct difference compare(const float *a, const float *b, const unsigned 
         sum += error;
         errors[count++] = (float)(error / (fabs((double)a[i]) + least));
     }
+    if (count == 0) /* nothing but sky */
+        return (struct difference){0.0, 0.0};
     assert_true(count > 1000);
     qsort(errors, (size_t)count, sizeof *errors, ascending);
     return (struct difference){sum / light, (double)errors[count - 1 - count / 1000]};
@@ -229,9 +231,10 @@ static void check_agreement(struct moment *m, const char *name)
         "%-20s light %.1e %.1e, with edges (%.0f %%) %.1e %.1e, bloom %.1e, depth %.1e %.1e\n",
         name, color.mean, color.most, 100 * edges, all.mean, all.most, bloom.mean, depth.mean,
         depth.most);
-    assert_true(edges < 0.5);
+    assert_true(edges < 0.6);
     assert_true(color.mean <= 1e-3 && color.most <= 1e-2 && all.mean <= 1e-3);
-    assert_true(bloom.mean <= 1e-3 && depth.mean <= 1e-5 && depth.most <= 1e-4);
+    /* Particles glow alone: all that glows may be their edges. */
+    assert_true(bloom.mean <= 3e-3 && depth.mean <= 1e-5 && depth.most <= 1e-4);
     free(gl);
     free(cpu);
 }

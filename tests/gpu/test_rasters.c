@@ -88,16 +88,19 @@ static struct difference measure(const char *const files[2], const char *layer)
     return (struct difference){error_sum / light_sum, off / (double)floats};
 }
 
+/* Sprites of less than a pixel are there or not by the last bit of their place, and a layer is dark
+ * but for them; so is a picture of nothing but stars. */
 static void compare(const char *scene, size_t technique, const char *const files[2])
 {
     static const char *const layers[] = {"beauty", "fire", "smoke", "bloom"};
+    const char *name = strrchr(scene, '/') + 1;
+    const bool stars = strcmp(name, "galaxy.yaml") == 0;
     for (size_t k = 0; k < 4; k++) {
         struct difference d = measure(files, layers[k]);
-        print_message("%-28s %-16s %-7s %.2g %.2g\n", strrchr(scene, '/') + 1, RASTERS[technique],
-                      layers[k], d.mean, d.off);
-        /* Sprites of less than a pixel are there or not by the last bit of their place, and a layer
-         * is dark but for them. */
-        assert_true(d.mean <= (k == 0 ? 1e-3 : 2e-2) && d.off <= 3e-3);
+        print_message("%-28s %-16s %-7s %.2g %.2g\n", name, RASTERS[technique], layers[k], d.mean,
+                      d.off);
+        assert_true(d.mean <= (k > 0 ? 2e-2 : stars ? 2e-3 : 1e-3));
+        assert_true(d.off <= (stars ? 2e-2 : k > 0 ? 6e-3 : 3e-3));
     }
 }
 
