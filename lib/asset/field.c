@@ -154,17 +154,14 @@ static void find_growth(struct kiln_field *field)
 }
 
 static bool make(struct kiln_field *field, const struct kiln_mesh *mesh, const char *name,
-                 uint32_t cells, struct kiln_error *error)
+                 uint32_t cells, struct kiln_threads *threads, struct kiln_error *error)
 {
-    struct kiln_threads *threads = kiln_threads_create(0);
     struct kiln_nearest *nearest = kiln_nearest_create(mesh);
     struct making making = {.field = field,
                             .mesh = mesh,
                             .nearest = nearest,
                             .turns_size = (size_t)(field->size[0] + 1) * field->size[1]};
-    if (threads)
-        making.turns =
-            malloc(making.turns_size * kiln_threads_count(threads) * sizeof *making.turns);
+    making.turns = malloc(making.turns_size * kiln_threads_count(threads) * sizeof *making.turns);
     const bool ok = nearest && making.turns;
     if (ok) {
         kiln_threads_for(threads, field->size[2], 1, make_layers, &making);
@@ -173,7 +170,6 @@ static bool make(struct kiln_field *field, const struct kiln_mesh *mesh, const c
         kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", name);
     }
     kiln_nearest_destroy(&nearest);
-    kiln_threads_destroy(&threads);
     free(making.turns);
     if (ok && !atomic_load(&making.inside))
         return kiln_error_set(error, KILN_INVALID_INPUT,
@@ -240,7 +236,8 @@ static bool place(struct kiln_field *field, const struct kiln_mesh *mesh, uint32
 }
 
 struct kiln_field *kiln_field_create(const struct kiln_mesh *mesh, const char *name, uint32_t cells,
-                                     const char *cache, struct kiln_error *error)
+                                     const char *cache, struct kiln_threads *threads,
+                                     struct kiln_error *error)
 {
     if (!kiln_mesh_check_closed(mesh, name, error))
         return NULL;
@@ -251,7 +248,7 @@ struct kiln_field *kiln_field_create(const struct kiln_mesh *mesh, const char *n
     if (!ok)
         kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", name);
     if (ok && !(cached && kiln_field_read(path, field))) {
-        ok = make(field, mesh, name, cells, error);
+        ok = make(field, mesh, name, cells, threads, error);
         if (ok && cached)
             kiln_field_write(path, field);
     }

@@ -5,6 +5,7 @@
 #define KILN_ASSET_FIELD_H
 
 #include "asset/mesh.h"
+#include "base/thread.h"
 
 enum {
     KILN_MIN_FIELD_CELLS = 8, /* along the longest edge of the mesh's box */
@@ -18,13 +19,14 @@ struct kiln_field {
     float (*samples)[4]; /* how the distance grows along x, y and z; distance; by z, y, x */
 };
 
-/* From the cache in the folder, if that is not NULL, or made by all processors, and then left there
+/* From the cache in the folder, if that is not NULL, or made on the threads, and then left there
  * if that is possible; both give the same bytes, on every machine. A file in the cache that is not
  * as it was written counts for nothing. name stands for the mesh in messages. NULL:
  * KILN_INVALID_INPUT when the mesh is not closed or so thin that no sample is inside,
  * KILN_DEVICE_FAILED when memory is short. The caller destroys it. */
 struct kiln_field *kiln_field_create(const struct kiln_mesh *mesh, const char *name, uint32_t cells,
-                                     const char *cache, struct kiln_error *error);
+                                     const char *cache, struct kiln_threads *threads,
+                                     struct kiln_error *error);
 void kiln_field_destroy(struct kiln_field **field);
 
 /* Where caches are, by the environment: $XDG_CACHE_HOME/kiln, or $HOME/.cache/kiln. False: nowhere.

@@ -56,7 +56,8 @@ static float4 canon4(const float v[3])
 /* ---- loading --------------------------------------------------------------------------------- */
 
 static struct kiln_field *load_field(const struct kiln_scene *scene,
-                                     const struct kiln_object *object, struct kiln_error *error)
+                                     const struct kiln_object *object, struct kiln_threads *threads,
+                                     struct kiln_error *error)
 {
     struct kiln_mesh *mesh =
         kiln_mesh_load(object->file, scene->asset_root, scene->stop, scene->user, error);
@@ -65,17 +66,17 @@ static struct kiln_field *load_field(const struct kiln_scene *scene,
     char cache[KILN_PATH_SIZE];
     const bool cached = kiln_field_cache(cache);
     struct kiln_field *field =
-        kiln_field_create(mesh, object->file, object->cells, cached ? cache : NULL, error);
+        kiln_field_create(mesh, object->file, object->cells, cached ? cache : NULL, threads, error);
     kiln_mesh_destroy(&mesh);
     return field;
 }
 
 static bool load_object(const struct kiln_scene *scene, const struct kiln_object *object,
                         struct kiln_terrain **terrain, struct kiln_field **field,
-                        struct kiln_error *error)
+                        struct kiln_threads *threads, struct kiln_error *error)
 {
     if (object->kind == KILN_OBJECT_MESH) {
-        *field = load_field(scene, object, error);
+        *field = load_field(scene, object, threads, error);
         return *field != NULL;
     }
     const struct kiln_terrain_params params = kiln_scene_terrain(object);
@@ -84,7 +85,7 @@ static bool load_object(const struct kiln_scene *scene, const struct kiln_object
 }
 
 static bool load(struct kiln_sim_grids *grids, const struct kiln_scene *scene,
-                 struct sources *sources, struct kiln_error *error)
+                 struct sources *sources, struct kiln_threads *threads, struct kiln_error *error)
 {
     for (uint32_t i = 0; i < grids->wind_count; i++) {
         sources->winds[i] = kiln_grid_load(grids->files[i], error);
@@ -96,7 +97,7 @@ static bool load(struct kiln_sim_grids *grids, const struct kiln_scene *scene,
             continue;
         const uint32_t k = grids->count - grids->wind_count;
         if (!load_object(scene, &scene->backdrop.objects[i], &sources->terrains[k],
-                         &sources->fields[k], error))
+                         &sources->fields[k], threads, error))
             return false;
         grids->of_object[i] = grids->count++;
     }
@@ -216,14 +217,15 @@ static bool fill(struct kiln_sim_grids *grids, struct kiln_device *device,
 }
 
 bool kiln_sim_grids_init(struct kiln_sim_grids *grids, struct kiln_device *device,
-                         const struct kiln_scene *scene, struct kiln_error *error)
+                         const struct kiln_scene *scene, struct kiln_threads *threads,
+                         struct kiln_error *error)
 {
     *grids = (struct kiln_sim_grids){.count = 0};
     kiln_buffer_init(&grids->words, device, 0, "grids");
     if (!list_files(grids, scene, error))
         return false;
     struct sources sources = {.winds = {NULL}};
-    const bool ok = load(grids, scene, &sources, error) &&
+    const bool ok = load(grids, scene, &sources, threads, error) &&
                     (grids->count == 0 || fill(grids, device, &sources, error));
     free_sources(&sources);
     return ok;

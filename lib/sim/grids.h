@@ -3,6 +3,7 @@
 #ifndef KILN_SIM_GRIDS_H
 #define KILN_SIM_GRIDS_H
 
+#include "base/thread.h"
 #include "gpu/buffer.h"
 #include "scene/scene.h"
 #include "shared/layout.h"
@@ -17,11 +18,12 @@ struct kiln_sim_grids {
     struct kiln_buffer words; /* float4 */
 };
 
-/* Loads what the scene names, each file once, and makes its terrain and distance fields. device
- * NULL: for the host. KILN_INVALID_INPUT and the rest as those who load and make them; after a
- * failure, too, kiln_sim_grids_finish frees what there is. */
+/* Loads what the scene names, each file once, and makes its terrain and distance fields, on the
+ * threads. device NULL: for the host. KILN_INVALID_INPUT and the rest as those who load and make
+ * them; after a failure, too, kiln_sim_grids_finish frees what there is. */
 bool kiln_sim_grids_init(struct kiln_sim_grids *grids, struct kiln_device *device,
-                         const struct kiln_scene *scene, struct kiln_error *error);
+                         const struct kiln_scene *scene, struct kiln_threads *threads,
+                         struct kiln_error *error);
 void kiln_sim_grids_finish(struct kiln_sim_grids *grids);
 
 /* Does the object need a grid? */

@@ -82,7 +82,7 @@ struct kiln_simulate *kiln_simulate_create(struct kiln_device *device,
     simulate->technique = technique;
     simulate->threads = threads;
     struct kiln_device *place = technique == KILN_SIMULATE_CPU ? NULL : device;
-    bool ok = kiln_sim_grids_init(&simulate->grids, place, scene, error);
+    bool ok = kiln_sim_grids_init(&simulate->grids, place, scene, threads, error);
     kiln_sim_params_init(&simulate->params, scene, &simulate->grids);
     kiln_buffer_init(&simulate->traces, place,
                      (size_t)simulate->params.trace_count * sizeof(struct kiln_trace), "traces");

@@ -92,9 +92,11 @@ static struct kiln_mesh *load_ball(void)
 static struct kiln_field *create(const struct kiln_mesh *mesh, uint32_t cells, const char *cache)
 {
     struct kiln_error error = {0};
-    struct kiln_field *field = kiln_field_create(mesh, "m.obj", cells, cache, &error);
+    struct kiln_threads *threads = kiln_threads_create(1 + cells % 3);
+    struct kiln_field *field = kiln_field_create(mesh, "m.obj", cells, cache, threads, &error);
     if (!field)
         fail_msg("%s", error.message);
+    kiln_threads_destroy(&threads);
     return field;
 }
 
@@ -165,7 +167,9 @@ static void expect_refusal(const char *obj, const char *message)
     struct kiln_error error = {0};
     test_write_file("bad.obj", obj);
     struct kiln_mesh *mesh = load("bad.obj");
-    assert_null(kiln_field_create(mesh, "bad.obj", 8, NULL, &error));
+    struct kiln_threads *threads = kiln_threads_create(1);
+    assert_null(kiln_field_create(mesh, "bad.obj", 8, NULL, threads, &error));
+    kiln_threads_destroy(&threads);
     assert_int_equal(error.code, KILN_INVALID_INPUT);
     if (!strstr(error.message, message))
         fail_msg("'%s' is not in '%s'", message, error.message);

@@ -185,11 +185,11 @@ static void too_many_grids_are_refused(void **state)
         snprintf(names[i], sizeof names[i], "/nowhere/%d.grid", i);
         fixture_add_field(system)->file = names[i];
     }
-    assert_false(kiln_sim_grids_init(&grids, NULL, &fixture.scene, &error));
+    assert_false(kiln_sim_grids_init(&grids, NULL, &fixture.scene, NULL, &error));
     assert_string_equal(error.message, "fixture: systems.many.forces.8: more than 8 files of wind");
     kiln_sim_grids_finish(&grids);
     system->force_count--;
-    assert_false(kiln_sim_grids_init(&grids, NULL, &fixture.scene, &error));
+    assert_false(kiln_sim_grids_init(&grids, NULL, &fixture.scene, NULL, &error));
     assert_int_equal(error.code, KILN_IO);
     kiln_sim_grids_finish(&grids);
 }

@@ -319,7 +319,7 @@ static struct found search(struct simulation *run)
     struct kiln_sim_params *params = malloc(sizeof *params);
     struct kiln_interact interact;
     assert_non_null(params);
-    assert_true(kiln_sim_grids_init(&grids, NULL, &fixture.scene, &error));
+    assert_true(kiln_sim_grids_init(&grids, NULL, &fixture.scene, run->threads, &error));
     kiln_sim_params_init(params, &fixture.scene, &grids);
     assert_true(
         kiln_sim_params_step(params, &fixture.scene, &run->pool, BALLS_FIRST_STEP + 1, &error));

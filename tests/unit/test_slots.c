@@ -95,7 +95,7 @@ static void run_level(enum kiln_simd simd)
     struct kiln_particle *records = kiln_buffer_host(&run.pool.records, KILN_READ_WRITE, &error);
     assert_true(params && copy && records);
     struct kiln_sim_grids grids;
-    assert_true(kiln_sim_grids_init(&grids, NULL, &fixture.scene, &error));
+    assert_true(kiln_sim_grids_init(&grids, NULL, &fixture.scene, run.threads, &error));
     const float4 *words = kiln_buffer_host(&grids.words, KILN_READ, &error);
     kiln_sim_params_init(params, &fixture.scene, &grids);
     float4 *pushes = make_pushes(params->push_count);

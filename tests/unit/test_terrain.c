@@ -387,7 +387,7 @@ static void paths_end_where_the_ground_is(void **state)
     struct kiln_sim_grids grids;
     rain_on_spikes(&params, 20.0f, false);
     struct kiln_terrain *ground = create(&params);
-    assert_true(kiln_sim_grids_init(&grids, NULL, &fixture.scene, &error));
+    assert_true(kiln_sim_grids_init(&grids, NULL, &fixture.scene, NULL, &error));
     const float4 *words = kiln_buffer_host(&grids.words, KILN_READ, &error);
     assert_non_null(words);
     struct kiln_surroundings around = {.collider_count = 1};
