@@ -34,6 +34,43 @@ static const struct kiln_option gravity[] = {
     END,
 };
 
+static const struct kiln_option flock_global[] = {
+    VALUE("cohesion", flock.all_cohesion, KILN_ACCELERATION, 0, 1e6, TIME, "0",
+          "For each metre, towards the average position."),
+    VALUE("alignment", flock.all_alignment, KILN_PER_SECOND, 0, 1000, TIME, "0",
+          "Towards the average velocity."),
+    END,
+};
+
+static const struct kiln_option flock[] = {
+    VALUE("radius", flock.radius, KILN_METRES, 0.001, 1000, TIME, "1 m",
+          "Of what each sees around itself; the work grows with how many that are."),
+    VALUE("view", flock.view, KILN_ANGLE, 0, KILN_DEG(360), TIME, "360 deg",
+          "Angle of what it sees, about where it flies."),
+    VALUE("space", flock.space, KILN_METRES, 0.001, 1000, TIME, "0.4 m",
+          "That it keeps free about itself; at most the radius counts."),
+    VALUE("separation", flock.separation, KILN_ACCELERATION, 0, 1e6, TIME, "4 m/s^2",
+          "Away from each that is in that space: so strong at no distance, nothing at its edge."),
+    VALUE(
+        "avoidance", flock.avoidance, KILN_ACCELERATION, 0, 1e6, TIME, "0",
+        "Out of the way of each that will come into that space: so strong for what is going to be "
+        "met head-on and at once."),
+    VALUE("horizon", flock.horizon, KILN_SECONDS, 0.001, 1000, TIME, "0.5 s",
+          "How soon that is for avoidance to count."),
+    VALUE("cohesion", flock.cohesion, KILN_ACCELERATION, 0, 1e6, TIME, "1 m/s^2",
+          "For each metre, towards the average position of those that it sees."),
+    VALUE("alignment", flock.alignment, KILN_PER_SECOND, 0, 1000, TIME, "1",
+          "Towards their average velocity; differences up to twice the top speed count."),
+    GROUP("global", 0, flock_global,
+          "The same with all of the system, wherever they are, as the paper does."),
+    VALUE("acceleration", flock.acceleration, KILN_ACCELERATION, 0, 1e6, TIME, "20 m/s^2",
+          "The most by which all of this together steers."),
+    VALUE("slowest", flock.slowest, KILN_SPEED, 0, 100000, TIME, "0 m/s", "They fly no slower."),
+    VALUE("fastest", flock.fastest, KILN_SPEED, 0.001, 100000, TIME, "10 m/s",
+          "They fly no faster, but for what forces add."),
+    END,
+};
+
 const struct kiln_option_kind kiln_interaction_kinds[] = {
     {.name = "collide",
      .value = KILN_INTERACT_COLLIDE,
@@ -50,5 +87,13 @@ const struct kiln_option_kind kiln_interaction_kinds[] = {
      .help =
          "Each attracts all others (Drone 2007, 7.4.3); the work grows with the square of their "
          "number."},
+    {.name = "flock",
+     .value = KILN_INTERACT_FLOCK,
+     .members = flock,
+     .shortcut = "radius",
+     .help =
+         "They fly like birds (Drone 2007, 7.4.4): apart, out of each other's way, together, and "
+         "the same way. Forces do the rest: attract is a goal, or a danger where it is "
+         "negative."},
     {.name = NULL},
 };

@@ -21,6 +21,8 @@ enum {
     KILN_MAX_PARTICLES = 1 << 24, /* slots of all systems: what a draw entry can address */
 };
 
+enum { KILN_MAX_FLOCK = 1 << 20 }; /* slots of a system that flocks */
+
 /* Of particles that are meshes. */
 enum {
     KILN_MAX_INSTANCES = 1 << 20,          /* slots */
@@ -167,11 +169,27 @@ struct kiln_collide {
 enum kiln_interaction_kind {
     KILN_INTERACT_COLLIDE, /* with others of the system: shared/interact_collide.h */
     KILN_INTERACT_GRAVITY, /* of each on all others: shared/interact_gravity.h */
+    KILN_INTERACT_FLOCK,   /* like birds: shared/interact_flock.h */
 };
 
 enum kiln_contact_mode {
     KILN_CONTACT_EXACT,     /* no pair is missed */
     KILN_CONTACT_STAGGERED, /* the paper's: shared/interact_staggered.h */
+};
+
+/* How the particles of a flock steer; clock constant or time. */
+struct kiln_flock {
+    struct kiln_value radius;     /* m: of what one sees; above 0 */
+    struct kiln_value view;       /* rad: 0..2 pi, about where it flies */
+    struct kiln_value space;      /* m: that each keeps free about itself; above 0 */
+    struct kiln_value separation; /* m/s^2: away from who is closer than that */
+    struct kiln_value avoidance;  /* m/s^2: out of the way of who is going to be */
+    struct kiln_value horizon;    /* s: within so long; above 0 */
+    struct kiln_value cohesion;   /* m/s^2 for each metre to the middle of those it sees */
+    struct kiln_value alignment;  /* 1/s: towards their mean velocity */
+    struct kiln_value all_cohesion, all_alignment; /* the same with the whole system */
+    struct kiln_value acceleration;                /* m/s^2: the most of all this together */
+    struct kiln_value slowest, fastest;            /* m/s: it flies no slower, no faster */
 };
 
 struct kiln_interaction {
@@ -184,6 +202,7 @@ struct kiln_interaction {
     uint32_t rounds;               /* collide: of pairs in a step */
     struct kiln_value strength;    /* gravity: acceleration at 1 m, m/s^2; below 0 it repels */
     struct kiln_value softening;   /* m: gravity of nearer ones grows no more; above 0 */
+    struct kiln_flock flock;
 };
 
 /* ---- look ------------------------------------------------------------------------------------ */

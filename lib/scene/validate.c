@@ -159,6 +159,11 @@ static bool settle_capacity(struct kiln_reader *reader, const struct kiln_node *
                                       "%" PRIu64 " births in the run; at most %" PRIu32
                                       " can be told apart",
                                       bound.total, UINT32_MAX);
+        if (slots > KILN_MAX_FLOCK && kiln_scene_interaction(scene, order[i], KILN_INTERACT_FLOCK))
+            return kiln_validate_fail(reader, root, path,
+                                      "up to %" PRIu64 " particles at once in a flock; at most %d: "
+                                      "lower %s",
+                                      slots, KILN_MAX_FLOCK, advice);
         system->capacity = (uint32_t)slots;
         total += slots;
     }
@@ -260,6 +265,19 @@ static const char *shape_name(const struct kiln_emitter *emit)
     return names[emit->shape];
 }
 
+static bool check_flock(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
+                        const struct kiln_flock *flock)
+{
+    const float slowest = kiln_scene_value_max(reader->scene, &flock->slowest);
+    const float fastest = kiln_scene_value_max(reader->scene, &flock->fastest);
+    if (slowest > fastest)
+        return kiln_validate_fail(reader, root, path,
+                                  "the slowest of a flock, %g m/s, is faster than its fastest, "
+                                  "%g m/s",
+                                  (double)slowest, (double)fastest);
+    return true;
+}
+
 /* Two of a kind would each gather from the state before the other. */
 static bool check_interactions(struct kiln_reader *reader, const struct kiln_node *root,
                                const struct kiln_system *system)
@@ -279,6 +297,9 @@ static bool check_interactions(struct kiln_reader *reader, const struct kiln_nod
             return kiln_validate_fail(reader, root, path,
                                       "the radius of entry %u is 0 all along: nothing can collide",
                                       i);
+        if (interaction->kind == KILN_INTERACT_FLOCK &&
+            !check_flock(reader, root, path, &interaction->flock))
+            return false;
     }
     return true;
 }

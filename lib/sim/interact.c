@@ -3,8 +3,10 @@
 #include <assert.h>
 #include <stddef.h>
 
-static_assert(sizeof(struct kiln_interact_params) == 176, "std140");
+static_assert(sizeof(struct kiln_interact_params) == 256, "std140");
 static_assert(offsetof(struct kiln_interact_params, radius) == 96, "std140");
+static_assert(offsetof(struct kiln_interact_params, flock) == 176, "std140");
+static_assert(sizeof(struct kiln_flock_params) == 80, "std140");
 static_assert(sizeof(struct kiln_body) == 32, "std430");
 
 /* So much wider than two radii are the cells: positions up to 2^18 cells out are rounded by less
@@ -83,8 +85,64 @@ static void add_gravity(struct kiln_interact_work *work, const struct kiln_scene
     work->params.strength = gravity->strength;
 }
 
+/* The square of the cosine of half an angle, with its sign; all around whatever rounds. */
+static float view_of(float angle)
+{
+    const float cosine = exact_sincos(0.5f * angle).cosine;
+    return angle > 6.28318f ? -2.0f : cosine * exact_abs(cosine);
+}
+
+static struct kiln_flock_params flock_at(const struct kiln_scene *scene,
+                                         const struct kiln_flock *flock, float time_s)
+{
+    const float radius = kiln_scene_value(scene, &flock->radius, time_s);
+    const float horizon_s = kiln_scene_value(scene, &flock->horizon, time_s);
+    const float slowest = kiln_scene_value(scene, &flock->slowest, time_s);
+    const float fastest = kiln_scene_value(scene, &flock->fastest, time_s);
+    struct kiln_flock_params params = {
+        .radius = radius,
+        .radius_square = radius * radius,
+        .per_radius = 1.0f / radius,
+        .per_space = 1.0f / kiln_scene_value(scene, &flock->space, time_s),
+        .speed = 2.0f * fastest,
+        .per_speed = 0.5f / fastest,
+        .horizon_s = horizon_s,
+        .per_horizon = 1.0f / horizon_s,
+        .view = view_of(kiln_scene_value(scene, &flock->view, time_s)),
+        .separation = kiln_scene_value(scene, &flock->separation, time_s),
+        .avoidance = kiln_scene_value(scene, &flock->avoidance, time_s),
+        .cohesion = kiln_scene_value(scene, &flock->cohesion, time_s),
+        .all_cohesion = kiln_scene_value(scene, &flock->all_cohesion, time_s),
+        .alignment = kiln_scene_value(scene, &flock->alignment, time_s),
+        .all_alignment = kiln_scene_value(scene, &flock->all_alignment, time_s),
+        .strongest = kiln_scene_value(scene, &flock->acceleration, time_s),
+        .slowest = slowest < fastest ? slowest : fastest,
+        .fastest = fastest,
+    };
+    params.looks = params.separation > 0.0f || params.avoidance > 0.0f || params.cohesion > 0.0f ||
+                   params.alignment > 0.0f;
+    return params;
+}
+
+static void add_flock(struct kiln_interact_work *work, const struct kiln_scene *scene,
+                      uint32_t system)
+{
+    const struct kiln_interaction *flock =
+        kiln_scene_interaction(scene, system, KILN_INTERACT_FLOCK);
+    if (!flock)
+        return;
+    struct kiln_interact_params *params = &work->params;
+    work->flocks = true;
+    params->adds = scene->systems[system].interaction_count > 1;
+    params->flock = flock_at(scene, &flock->flock, params->time_s);
+    params->cell_mask = count_cells(scene->systems[system].capacity) - 1;
+    params->cells_per_metre = 1.0f / (params->flock.radius * CELL_SLACK);
+}
+
+/* Cells of a flock are not those of collisions: it is a work of its own, after the others. */
 static struct kiln_interact_work work_of(const struct kiln_scene *scene,
-                                         const struct kiln_sim_params *params, uint32_t system)
+                                         const struct kiln_sim_params *params, uint32_t system,
+                                         bool flock)
 {
     const struct kiln_step_params *step = &params->systems[system];
     struct kiln_interact_work work = {.params = {.derived = step->derived,
@@ -93,8 +151,12 @@ static struct kiln_interact_work work_of(const struct kiln_scene *scene,
                                                  .first_push = step->first_push,
                                                  .step = step->step - 1,
                                                  .time_s = step->time_s}};
-    add_collisions(&work, scene, system);
-    add_gravity(&work, scene, system);
+    if (flock) {
+        add_flock(&work, scene, system);
+    } else {
+        add_collisions(&work, scene, system);
+        add_gravity(&work, scene, system);
+    }
     return work;
 }
 
@@ -164,9 +226,11 @@ bool kiln_interact_gather(struct kiln_interact *interact, const struct kiln_sim_
     for (uint32_t i = 0; ok && i < params->system_count; i++) {
         if (!params->systems[i].pushed || params->systems[i].used == 0)
             continue;
-        const struct kiln_interact_work work = work_of(interact->scene, params, i);
-        ok = interact->device ? kiln_interact_gl(interact, &work, pool, keys, error)
-                              : kiln_interact_cpu(interact, &work, pool, error);
+        for (int flock = 0; ok && flock < 2; flock++) {
+            const struct kiln_interact_work work = work_of(interact->scene, params, i, flock);
+            ok = interact->device ? kiln_interact_gl(interact, &work, pool, keys, error)
+                                  : kiln_interact_cpu(interact, &work, pool, error);
+        }
     }
     return ok;
 }

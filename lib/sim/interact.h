@@ -24,13 +24,16 @@ enum kiln_interact_kernel {
     KILN_INTERACT_PUSH,
     KILN_INTERACT_SOURCES,
     KILN_INTERACT_GRAVITY_TILES,
+    KILN_INTERACT_COUNT_FLOCK,
+    KILN_INTERACT_FLOCK_MEANS,
+    KILN_INTERACT_FLOCK_STEER,
     KILN_INTERACT_KERNELS
 };
 
 /* What is gathered for a system in a step. */
 struct kiln_interact_work {
     struct kiln_interact_params params;
-    bool collides, pulls;
+    bool collides, pulls, flocks;
     enum kiln_contact_mode mode;
     uint32_t rounds;
 };
@@ -74,6 +77,15 @@ uint32_t kiln_interact_entries(uint32_t count);
 
 bool kiln_interact_cpu(struct kiln_interact *interact, const struct kiln_interact_work *work,
                        struct kiln_pool *pool, struct kiln_error *error);
+
+/* Sorts the living of a system into the cells of its table; of each, cell_ends then says where its
+ * bodies end. Returns how many there are. */
+uint32_t kiln_interact_sort_into_cells(const struct kiln_crowd *view,
+                                       const struct kiln_particle *records,
+                                       struct kiln_body *bodies, uint32_t *cell_ends);
+
+bool kiln_interact_flock_cpu(struct kiln_interact *interact, const struct kiln_interact_work *work,
+                             struct kiln_pool *pool, struct kiln_error *error);
 
 bool kiln_interact_gl_init(struct kiln_interact *interact, struct kiln_error *error);
 bool kiln_interact_gl(struct kiln_interact *interact, const struct kiln_interact_work *work,

@@ -29,27 +29,28 @@ struct crowd {
 };
 
 /* Counts, makes of the counts where each cell begins, and moves these on to where it ends. */
-static void sort_into_cells(struct crowd *crowd)
+uint32_t kiln_interact_sort_into_cells(const struct kiln_crowd *view,
+                                       const struct kiln_particle *records,
+                                       struct kiln_body *bodies, uint32_t *cell_ends)
 {
-    const struct kiln_interact_params *params = crowd->view.params;
-    const uint32_t cells = params->cell_mask + 1;
-    memset(crowd->cell_ends, 0, cells * sizeof *crowd->cell_ends);
-    for (uint32_t slot = 0; slot < params->used; slot++) {
-        const struct kiln_particle p = crowd->records[slot];
-        if (particle_is_alive(p))
-            crowd->cell_ends[cell_of(&crowd->view, particle_position(p))]++;
+    const uint32_t cells = view->params->cell_mask + 1, used = view->params->used;
+    uint32_t count = 0;
+    memset(cell_ends, 0, cells * sizeof *cell_ends);
+    for (uint32_t slot = 0; slot < used; slot++) {
+        if (particle_is_alive(records[slot]))
+            cell_ends[cell_of(view, particle_position(records[slot]))]++;
     }
     for (uint32_t cell = 0; cell < cells; cell++) {
-        const uint32_t bodies = crowd->cell_ends[cell];
-        crowd->cell_ends[cell] = crowd->count;
-        crowd->count += bodies;
+        const uint32_t in_cell = cell_ends[cell];
+        cell_ends[cell] = count;
+        count += in_cell;
     }
-    for (uint32_t slot = 0; slot < params->used; slot++) {
-        const struct kiln_particle p = crowd->records[slot];
+    for (uint32_t slot = 0; slot < used; slot++) {
+        const struct kiln_particle p = records[slot];
         if (particle_is_alive(p))
-            crowd->bodies[crowd->cell_ends[cell_of(&crowd->view, particle_position(p))]++] =
-                body_of(&crowd->view, p, slot);
+            bodies[cell_ends[cell_of(view, particle_position(p))]++] = body_of(view, p, slot);
     }
+    return count;
 }
 
 static struct kiln_interact_entry entry_of(const struct crowd *crowd, float3 position, float aside,
@@ -170,7 +171,8 @@ static bool collide(struct kiln_interact *interact, const struct kiln_interact_w
     if (crowd.staggered)
         sort_into_grids(&crowd);
     else
-        sort_into_cells(&crowd);
+        crowd.count = kiln_interact_sort_into_cells(&crowd.view, crowd.records, crowd.bodies,
+                                                    crowd.cell_ends);
     for (uint32_t round = 0; round < work->rounds; round++) {
         atomic_store(&crowd.met, 0);
         crowd.later = round > 0;
@@ -234,5 +236,6 @@ bool kiln_interact_cpu(struct kiln_interact *interact, const struct kiln_interac
                        struct kiln_pool *pool, struct kiln_error *error)
 {
     return (!work->collides || collide(interact, work, pool, error)) &&
-           (!work->pulls || pull(interact, work, pool, error));
+           (!work->pulls || pull(interact, work, pool, error)) &&
+           (!work->flocks || kiln_interact_flock_cpu(interact, work, pool, error));
 }

@@ -6,15 +6,15 @@
 #include "sim/interact.h"
 
 /* What a kernel is for. */
-enum { EXACT_MODE = 1, STAGGERED_MODE = 2, GRAVITY = 4 };
+enum { EXACT_MODE = 1, STAGGERED_MODE = 2, GRAVITY = 4, FLOCK = 8 };
 
 static const struct {
     const char *file, *defines;
     int used_for;
 } KERNELS[KILN_INTERACT_KERNELS] = {
     [KILN_INTERACT_COUNT] = {"sim/interact_count.comp", "", EXACT_MODE},
-    [KILN_INTERACT_SCAN] = {"sim/interact_scan.comp", "", EXACT_MODE},
-    [KILN_INTERACT_PLACE] = {"sim/interact_place.comp", "", EXACT_MODE},
+    [KILN_INTERACT_SCAN] = {"sim/interact_scan.comp", "", EXACT_MODE | FLOCK},
+    [KILN_INTERACT_PLACE] = {"sim/interact_place.comp", "", EXACT_MODE | FLOCK},
     [KILN_INTERACT_FIND] = {"sim/interact_find.comp", "", EXACT_MODE},
     [KILN_INTERACT_COUNT_STAGGERED] = {"sim/interact_count.comp", "#define STAGGERED 1\n",
                                        STAGGERED_MODE},
@@ -28,6 +28,9 @@ static const struct {
     [KILN_INTERACT_PUSH] = {"sim/interact_push.comp", "", EXACT_MODE | STAGGERED_MODE},
     [KILN_INTERACT_SOURCES] = {"sim/interact_sources.comp", "", GRAVITY},
     [KILN_INTERACT_GRAVITY_TILES] = {"sim/interact_gravity.comp", "", GRAVITY},
+    [KILN_INTERACT_COUNT_FLOCK] = {"sim/interact_count.comp", "#define FLOCK 1\n", FLOCK},
+    [KILN_INTERACT_FLOCK_MEANS] = {"sim/interact_flock_means.comp", "", FLOCK},
+    [KILN_INTERACT_FLOCK_STEER] = {"sim/interact_flock.comp", "", FLOCK},
 };
 
 static int uses(const struct kiln_scene *scene)
@@ -40,6 +43,8 @@ static int uses(const struct kiln_scene *scene)
             all |= collide->mode == KILN_CONTACT_EXACT ? EXACT_MODE : STAGGERED_MODE;
         if (kiln_scene_interaction(scene, i, KILN_INTERACT_GRAVITY))
             all |= GRAVITY;
+        if (kiln_scene_interaction(scene, i, KILN_INTERACT_FLOCK))
+            all |= FLOCK;
     }
     return all;
 }
@@ -92,13 +97,14 @@ static bool bind_all(struct kiln_interact *interact, const struct kiln_interact_
     glBindBufferBase(GL_UNIFORM_BUFFER, SIM_BIND_KEYS, values);
     glBindBufferBase(GL_UNIFORM_BUFFER, INTERACT_BIND_PARAMS, block);
     const enum kiln_access change = KILN_READ_WRITE;
+    const bool sorts = work->collides || work->flocks;
     return bind(SIM_BIND_RECORDS, &pool->records, KILN_READ, error) &&
            bind(SIM_BIND_PUSHES, &interact->pushes, change, error) &&
-           (!work->collides || (bind(INTERACT_BIND_CELLS, &interact->cells, change, error) &&
-                                bind(INTERACT_BIND_PARTNERS, &interact->partners, change, error) &&
-                                bind(INTERACT_BIND_BODIES, &interact->bodies, change, error) &&
-                                bind(INTERACT_BIND_SECOND, &interact->second, change, error))) &&
-           ((work->mode == KILN_CONTACT_EXACT && !work->pulls) ||
+           (!sorts || (bind(INTERACT_BIND_CELLS, &interact->cells, change, error) &&
+                       bind(INTERACT_BIND_PARTNERS, &interact->partners, change, error) &&
+                       bind(INTERACT_BIND_BODIES, &interact->bodies, change, error) &&
+                       bind(INTERACT_BIND_SECOND, &interact->second, change, error))) &&
+           ((work->mode == KILN_CONTACT_EXACT && !work->pulls && !work->flocks) ||
             (bind(INTERACT_BIND_ENTRIES, &interact->entries, change, error) &&
              bind(INTERACT_BIND_ORDER, &interact->order, change, error)));
 }
@@ -114,9 +120,11 @@ static void empty_cells(const struct kiln_interact *interact, uint32_t cells)
 }
 
 static void sort_into_cells(const struct kiln_interact *interact,
-                            const struct kiln_interact_params *params)
+                            const struct kiln_interact_params *params,
+                            enum kiln_interact_kernel count)
 {
-    run(interact, KILN_INTERACT_COUNT, params->used);
+    empty_cells(interact, params->cell_mask + 1);
+    run(interact, count, params->used);
     glUseProgram(interact->programs[KILN_INTERACT_SCAN]);
     glUniform1ui(0, params->cell_mask + 1);
     glDispatchCompute(1, 1, 1);
@@ -143,6 +151,7 @@ static void sort_into_grids(const struct kiln_interact *interact,
                             const struct kiln_interact_params *params)
 {
     const uint32_t entries = kiln_interact_entries(params->used);
+    empty_cells(interact, params->cell_mask + 1);
     run(interact, KILN_INTERACT_COUNT_STAGGERED, entries);
     sort_entries(interact, entries);
     run(interact, KILN_INTERACT_ORDER, params->used);
@@ -154,9 +163,8 @@ static void collide(const struct kiln_interact *interact, const struct kiln_inte
 {
     const struct kiln_interact_params *params = &work->params;
     const bool exact = work->mode == KILN_CONTACT_EXACT;
-    empty_cells(interact, params->cell_mask + 1);
     if (exact)
-        sort_into_cells(interact, params);
+        sort_into_cells(interact, params, KILN_INTERACT_COUNT);
     else
         sort_into_grids(interact, params);
     GLuint bodies = interact->bodies.gl, second = interact->second.gl;
@@ -176,9 +184,18 @@ static void collide(const struct kiln_interact *interact, const struct kiln_inte
     run(interact, KILN_INTERACT_PUSH, params->used);
 }
 
+static void flock(const struct kiln_interact *interact, const struct kiln_interact_params *params)
+{
+    sort_into_cells(interact, params, KILN_INTERACT_COUNT_FLOCK);
+    run(interact, KILN_INTERACT_FLOCK_MEANS, 1);
+    run(interact, KILN_INTERACT_FLOCK_STEER, params->used);
+}
+
 bool kiln_interact_gl(struct kiln_interact *interact, const struct kiln_interact_work *work,
                       struct kiln_pool *pool, struct kiln_buffer *keys, struct kiln_error *error)
 {
+    if (!work->collides && !work->pulls && !work->flocks)
+        return true;
     if (!bind_all(interact, work, pool, keys, error))
         return false;
     if (work->collides)
@@ -187,5 +204,7 @@ bool kiln_interact_gl(struct kiln_interact *interact, const struct kiln_interact
         run(interact, KILN_INTERACT_SOURCES, work->params.used);
         run(interact, KILN_INTERACT_GRAVITY_TILES, work->params.used);
     }
+    if (work->flocks)
+        flock(interact, &work->params);
     return kiln_device_check(interact->device, "interact", error);
 }

@@ -16,6 +16,24 @@
 #define INTERACT_NOBODY     0xffffffffu
 #define INTERACT_NOBODY_NOW 0xfffffffeu
 
+/* Of a flock, at the time of the step. */
+struct kiln_flock_params {
+    float radius, radius_square; /* m, m^2: who is nearer may be seen */
+    float per_radius;            /* 1/m */
+    float per_space;             /* 1/m: nearer ones are too close */
+    float speed, per_speed;      /* m/s, s/m: differences that count in full */
+    float horizon_s, per_horizon;
+    float view;                     /* see flock_sees */
+    float separation;               /* m/s^2 */
+    float avoidance;                /* m/s^2 */
+    float cohesion, all_cohesion;   /* 1/s^2 */
+    float alignment, all_alignment; /* 1/s */
+    float strongest;                /* m/s^2: of all that */
+    float slowest, fastest;         /* m/s */
+    uint looks;                     /* 1: at those around */
+    uint unused;
+};
+
 struct kiln_interact_params {
     S(kiln_derived_params) derived;
     uint base;       /* the system's first slot in the record buffer */
@@ -29,11 +47,12 @@ struct kiln_interact_params {
     float restitution;
     float apart;            /* part of an overlap that is taken away in a round */
     float softening_square; /* m^2 */
-    uint adds;              /* 1: gravity adds to pushes that are there */
+    uint adds;              /* 1: gravity, or a flock, adds to pushes that are there */
     S(kiln_value) radius;   /* m */
     S(kiln_value) size;     /* m: of the look, twice the radius */
     S(kiln_range) scale;    /* factor on it, drawn per particle */
     S(kiln_value) strength; /* of gravity: m/s^2 at 1 m */
+    S(kiln_flock_params) flock;
 };
 
 struct kiln_body {

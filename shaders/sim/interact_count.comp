@@ -1,7 +1,8 @@
 /* First of the kernels that gather pushes: how many bodies each cell has; with STAGGERED, how many
- * there are, and their cells in the first grid. A sum of integers is the same in any order. */
+ * there are, and their cells in the first grid; with FLOCK, others may have pushed before. A sum of integers is the same in any order. */
 // variant: 
 // variant: STAGGERED=1
+// variant: FLOCK=1
 #include "sim/interact.glsl"
 
 #include "shared/interact_staggered.h"
@@ -18,8 +19,13 @@ void main()
     if (slot >= interact_params.used)
         return;
     uint at = (interact_params.first_push + slot) * 2u;
-    push_words[at] = float4(0.0f);
-    push_words[at + 1u] = float4(0.0f);
+#ifdef FLOCK
+    if (interact_params.adds == 0u)
+#endif
+    {
+        push_words[at] = float4(0.0f);
+        push_words[at + 1u] = float4(0.0f);
+    }
     kiln_particle p = records[interact_params.base + slot];
     if (!particle_is_alive(p))
         return;

@@ -141,6 +141,9 @@ static void add_crowd(const char *name, float x, enum kiln_contact_mode mode)
     collide->restitution = fixture_ramp(&fixture, KILN_CLOCK_TIME, 0.0f, 0.0f, 2.0f, 1.0f);
     fixture_add_gravity(s, 0.0f)->strength =
         fixture_ramp(&fixture, KILN_CLOCK_LIFE, 0.0f, -0.02f, 1.0f, 0.05f);
+    if (mode == KILN_CONTACT_EXACT)
+        fixture_add_flock(s, 0.3f)->radius =
+            fixture_ramp(&fixture, KILN_CLOCK_TIME, 0.0f, 0.1f, 2.0f, 0.4f);
 }
 
 static void crowds_agree(void **state)
@@ -151,6 +154,7 @@ static void crowds_agree(void **state)
     add_crowd("drawn", -1.0f, KILN_CONTACT_EXACT);
     add_crowd("staggered", 1.0f, KILN_CONTACT_STAGGERED);
     fixture_add_gravity(fixture_add_system(&fixture, "stars", 200.0f), 0.02f);
+    fixture_add_flock(fixture_add_system(&fixture, "birds", 300.0f), 0.25f);
     fixture_finish(&fixture, 40);
     all_agree(*state, &fixture.scene, 40);
 }

@@ -333,6 +333,29 @@ static inline struct kiln_interaction *fixture_add_gravity(struct kiln_system *s
     return gravity;
 }
 
+/* Particles of a system fly like birds. */
+static inline struct kiln_flock *fixture_add_flock(struct kiln_system *system, float radius)
+{
+    struct kiln_interaction *flock = &system->interactions[system->interaction_count++];
+    flock->kind = KILN_INTERACT_FLOCK;
+    flock->flock = (struct kiln_flock){
+        .radius = fixture_constant(radius),
+        .view = fixture_constant(5.0f),
+        .space = fixture_constant(0.4f * radius),
+        .separation = fixture_constant(4.0f),
+        .avoidance = fixture_constant(3.0f),
+        .horizon = fixture_constant(0.5f),
+        .cohesion = fixture_constant(2.0f),
+        .alignment = fixture_constant(1.5f),
+        .all_cohesion = fixture_constant(0.1f),
+        .all_alignment = fixture_constant(0.2f),
+        .acceleration = fixture_constant(20.0f),
+        .slowest = fixture_constant(0.5f),
+        .fastest = fixture_constant(6.0f),
+    };
+    return &flock->flock;
+}
+
 static inline void fixture_zoo_point(struct scene_fixture *f)
 {
     struct kiln_system *s = fixture_add_system(f, "point", 300.0f);

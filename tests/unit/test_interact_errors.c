@@ -35,6 +35,24 @@ static const struct bad interactions[] = {
      "    interact: [{collide: {radius: -1 cm}}]\n",
      ":4:35: systems.a.interact.0.collide.radius: -1 cm is out of range; allowed is from 0 m to "
      "1000 m"},
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a:\n"
+     "    interact: [{flock: {slowest: 2, fastest: 1}}]\n",
+     ":4:15: systems.a.interact: the slowest of a flock, 2 m/s, is faster than its fastest, 1 m/s"},
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a:\n"
+     "    interact: [flock: 0 m]\n",
+     ":4:23: systems.a.interact.0.flock.radius: 0 m is out of range; allowed is from 0.001 m to "
+     "1000 m"},
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a:\n"
+     "    emit: {rate: 600000, life: 2 s}\n"
+     "    interact: [flock: 1 m]\n",
+     ":4:11: systems.a.emit: up to 1220000 particles at once in a flock; at most 1048576: lower "
+     "rate, bursts or life"},
 };
 BAD_TEST(interactions)
 

@@ -1,0 +1,401 @@
+/* Flocking (Drone 2007, 7.4.4; Reynolds 1987 and 1999): separation, avoidance of collisions,
+ * cohesion and alignment, with those near by and with the averages of all.
+ *
+ * What neighbours add up to is a sum of integers, so that nobody asks in which order they come:
+ * each adds parts of 1/65536, of the radius, of twice the top speed, or of a direction. The
+ * averages of all, which the paper takes from the last level of mip-maps, are sums of integers of
+ * 64 bits.
+ */
+#ifndef KILN_SHARED_INTERACT_FLOCK_H
+#define KILN_SHARED_INTERACT_FLOCK_H
+
+#include "shared/interact_body.h"
+
+/* So many around one are looked at: rows of cells with more are left out, so that sums stay within
+ * 31 bits, and loops within what every driver runs. */
+#define FLOCK_MOST 16384u
+
+/* ---- sums of integers ----------------------------------------------------------------------- */
+
+struct flock_parts {
+    int x, y, z;
+};
+
+/* Of all that a particle sees. */
+struct flock_sums {
+    int count;
+    S(flock_parts) apart;   /* of the radius: to where they are */
+    S(flock_parts) parting; /* of twice the top speed: their velocities less its own */
+    S(flock_parts) away;    /* directions, by how close they are */
+    S(flock_parts) aside;   /* directions, by how close they are going to pass */
+};
+
+FN S(flock_parts) flock_no_parts(void)
+{
+    S(flock_parts) parts;
+    parts.x = 0;
+    parts.y = 0;
+    parts.z = 0;
+    return parts;
+}
+
+FN S(flock_sums) flock_no_sums(void)
+{
+    S(flock_sums) sums;
+    sums.count = 0;
+    sums.apart = flock_no_parts();
+    sums.parting = flock_no_parts();
+    sums.away = flock_no_parts();
+    sums.aside = flock_no_parts();
+    return sums;
+}
+
+FN int flock_part(float part)
+{
+    EXACT float held = exact_clamp(part, -1.0f, 1.0f);
+    EXACT float at = held * 65536.0f + 0.5f;
+    return INT(FLOOR(at));
+}
+
+FN S(flock_parts) flock_parts_add(S(flock_parts) sum, float3 v, float unit)
+{
+    EXACT float3 part = float3_scale(v, unit);
+    S(flock_parts) y;
+    y.x = sum.x + flock_part(part.x);
+    y.y = sum.y + flock_part(part.y);
+    y.z = sum.z + flock_part(part.z);
+    return y;
+}
+
+/* A sum as a float, rounded alike by all: not every integer is one. */
+FN float flock_float(int sum)
+{
+    EXACT float high = FLOAT(sum >> 12) * 4096.0f;
+    EXACT float low = FLOAT(sum & 4095);
+    EXACT float y = high + low;
+    return y;
+}
+
+/* A sum times its unit, in 65536ths. */
+FN float3 flock_total(S(flock_parts) sum, float unit)
+{
+    EXACT float part = unit * 1.52587890625e-5f;
+    EXACT float3 all = FLOAT3(flock_float(sum.x), flock_float(sum.y), flock_float(sum.z));
+    EXACT float3 y = float3_scale(all, part);
+    return y;
+}
+
+/* ---- averages of all ------------------------------------------------------------------------ */
+
+/* A signed integer of 64 bits. */
+struct flock_wide {
+    uint low, high;
+};
+
+/* In 2^-22; held to 2^20. */
+FN S(flock_wide) flock_wide_of(float x)
+{
+    EXACT float held = exact_clamp(x, -1048576.0f, 1048576.0f);
+    EXACT float whole = FLOOR(held);
+    EXACT float rest = (held - whole) * 4194304.0f;
+    EXACT float part = exact_min(rest, 4194303.0f); /* what is just below 0 rounds up to 1 */
+    int units = INT(whole);
+    S(flock_wide) y;
+    y.low = (UINT(units) << 22u) | UINT(INT(FLOOR(part)));
+    y.high = UINT(units >> 10);
+    return y;
+}
+
+FN S(flock_wide) flock_wide_add(S(flock_wide) a, S(flock_wide) b)
+{
+    S(flock_wide) y;
+    y.low = a.low + b.low;
+    y.high = a.high + b.high + (y.low < a.low ? 1u : 0u);
+    return y;
+}
+
+/* The mean of `count` numbers with this sum, within 2^-21 of its size. */
+FN float flock_wide_mean(S(flock_wide) sum, uint count)
+{
+    bool negative = (sum.high & EXACT_SIGN_BIT) != 0u;
+    uint low = negative ? ~sum.low + 1u : sum.low;
+    uint high = negative ? ~sum.high + (low == 0u ? 1u : 0u) : sum.high;
+    EXACT float size = FLOAT(INT(high >> 16u));
+    size = size * 65536.0f + FLOAT(INT(high & 0xffffu));
+    size = size * 65536.0f + FLOAT(INT(low >> 16u));
+    size = size * 65536.0f + FLOAT(INT(low & 0xffffu));
+    EXACT float unit = size * 2.384185791015625e-7f;
+    EXACT float of_all = FLOAT(INT(count));
+    EXACT float mean = exact_div(unit, of_all);
+    EXACT float y = negative ? -mean : mean;
+    return y;
+}
+
+/* Sums over all particles of a system. */
+struct flock_all {
+    S(flock_wide) x, y, z;          /* of positions */
+    S(flock_wide) to_x, to_y, to_z; /* of velocities */
+};
+
+FN S(flock_wide) flock_wide_zero(void)
+{
+    S(flock_wide) y;
+    y.low = 0u;
+    y.high = 0u;
+    return y;
+}
+
+FN S(flock_all) flock_nobody(void)
+{
+    S(flock_all) all;
+    all.x = flock_wide_zero();
+    all.y = flock_wide_zero();
+    all.z = flock_wide_zero();
+    all.to_x = flock_wide_zero();
+    all.to_y = flock_wide_zero();
+    all.to_z = flock_wide_zero();
+    return all;
+}
+
+FN S(flock_all) flock_all_add(S(flock_all) a, S(flock_all) b)
+{
+    S(flock_all) y;
+    y.x = flock_wide_add(a.x, b.x);
+    y.y = flock_wide_add(a.y, b.y);
+    y.z = flock_wide_add(a.z, b.z);
+    y.to_x = flock_wide_add(a.to_x, b.to_x);
+    y.to_y = flock_wide_add(a.to_y, b.to_y);
+    y.to_z = flock_wide_add(a.to_z, b.to_z);
+    return y;
+}
+
+FN S(flock_all) flock_all_of(S(kiln_body) b)
+{
+    EXACT float3 position = body_position(b);
+    EXACT float3 velocity = body_velocity(b);
+    S(flock_all) y;
+    y.x = flock_wide_of(position.x);
+    y.y = flock_wide_of(position.y);
+    y.z = flock_wide_of(position.z);
+    y.to_x = flock_wide_of(velocity.x);
+    y.to_y = flock_wide_of(velocity.y);
+    y.to_z = flock_wide_of(velocity.z);
+    return y;
+}
+
+struct flock_means {
+    float3 position, velocity;
+};
+
+/* Of at least one. */
+FN S(flock_means) flock_means_of(S(flock_all) all, uint count)
+{
+    EXACT S(flock_means) means;
+    means.position = FLOAT3(flock_wide_mean(all.x, count), flock_wide_mean(all.y, count),
+                            flock_wide_mean(all.z, count));
+    means.velocity = FLOAT3(flock_wide_mean(all.to_x, count), flock_wide_mean(all.to_y, count),
+                            flock_wide_mean(all.to_z, count));
+    return means;
+}
+
+/* ---- neighbours ----------------------------------------------------------------------------- */
+
+/* Whether who flies like this sees what is there. `view` is the square of the cosine of half the
+ * angle, with the cosine's sign, and below -1 for all around. */
+FN bool flock_sees(float3 velocity, float3 apart, float square, float view)
+{
+    EXACT float along = float3_dot(velocity, apart);
+    EXACT float ahead = exact_canon(along);
+    EXACT float speed_square = float3_dot(velocity, velocity);
+    EXACT float whole = (speed_square * square) * exact_abs(view);
+    EXACT float limit = exact_canon(whole);
+    EXACT float ahead_square = ahead * ahead;
+    EXACT float part = exact_canon(ahead_square);
+    if (view >= 0.0f)
+        return ahead >= 0.0f && part >= limit;
+    return ahead >= 0.0f || part <= limit;
+}
+
+/* How near to a distance: 1 at none, 0 from there on. */
+FN float flock_closeness(float square, float per_metre)
+{
+    EXACT float part = exact_sqrt(square) * per_metre;
+    EXACT float left = 1.0f - part;
+    EXACT float y = exact_max(left, 0.0f);
+    return y;
+}
+
+/* Where to from a place, of those in one place to opposite sides. */
+FN float3 flock_away(float3 from, uint mine, uint other)
+{
+    EXACT float side = mine < other ? 1.0f : -1.0f;
+    EXACT float3 up = FLOAT3(0.0f, side, 0.0f);
+    EXACT float3 back = FLOAT3(-from.x, -from.y, -from.z);
+    EXACT float3 y = float3_normalize(back, up);
+    return y;
+}
+
+/* Seconds until two are closest, if that is ahead of them and within the horizon; else 0. */
+FN float flock_meet_s(float3 apart, float3 parting, float horizon_s)
+{
+    EXACT float speed_square = float3_dot(parting, parting);
+    EXACT float opening = float3_dot(apart, parting);
+    EXACT float closing = -opening;
+    EXACT float t = exact_div(closing, speed_square);
+    EXACT float y = t > 0.0f && t < horizon_s ? t : 0.0f;
+    return y;
+}
+
+/* Sums, with one more that is seen. */
+FN S(flock_sums) flock_add_seen(CROWD_PARAM S(flock_sums) sums, S(kiln_body) a, S(kiln_body) b,
+                                float3 apart, float square)
+{
+    uint mine = a.velocity_slot.w;
+    uint other = b.velocity_slot.w;
+    EXACT float3 velocity = body_velocity(a);
+    EXACT float3 its_velocity = body_velocity(b);
+    EXACT float3 faster = float3_sub(its_velocity, velocity);
+    EXACT float3 parting = float3_canon(faster);
+    EXACT float closeness = flock_closeness(square, INTERACT(flock.per_space));
+    EXACT float3 away = flock_away(apart, mine, other);
+
+    EXACT float meet_s = flock_meet_s(apart, parting, INTERACT(flock.horizon_s));
+    EXACT float sooner = 1.0f - meet_s * INTERACT(flock.per_horizon);
+    EXACT float3 passing = float3_add_scaled(apart, parting, meet_s);
+    EXACT float3 nearest = float3_canon(passing);
+    EXACT float passing_square = float3_dot(nearest, nearest);
+    EXACT float threat = flock_closeness(passing_square, INTERACT(flock.per_space)) * sooner;
+    EXACT float3 aside = flock_away(nearest, mine, other);
+
+    S(flock_sums) y;
+    y.count = sums.count + 1;
+    y.apart = flock_parts_add(sums.apart, apart, INTERACT(flock.per_radius));
+    y.parting = flock_parts_add(sums.parting, parting, INTERACT(flock.per_speed));
+    y.away = flock_parts_add(sums.away, away, closeness);
+    y.aside = sums.aside;
+    if (meet_s > 0.0f)
+        y.aside = flock_parts_add(sums.aside, aside, threat);
+    return y;
+}
+
+/* Sums, with one more that is there: in the row of cells y, z, since a place in the table may be
+ * part of several rows around. */
+FN S(flock_sums)
+    flock_add(CROWD_PARAM S(flock_sums) sums, S(kiln_body) a, S(kiln_body) b, int y, int z)
+{
+    EXACT float3 from = body_position(a);
+    EXACT float3 to = body_position(b);
+    EXACT float3 way = float3_sub(to, from);
+    EXACT float3 apart = float3_canon(way);
+    EXACT float sum = float3_dot(apart, apart);
+    EXACT float square = exact_canon(sum);
+    if (square >= INTERACT(flock.radius_square) || a.velocity_slot.w == b.velocity_slot.w)
+        return sums;
+    if (cell_along(to.y, INTERACT(cells_per_metre)) != y ||
+        cell_along(to.z, INTERACT(cells_per_metre)) != z)
+        return sums;
+    EXACT float3 velocity = body_velocity(a);
+    if (!flock_sees(velocity, apart, square, INTERACT(flock.view)))
+        return sums;
+    S(flock_sums) more = flock_add_seen(CROWD sums, a, b, apart, square);
+    return more;
+}
+
+FN S(flock_sums) flock_add_among(CROWD_PARAM S(flock_sums) sums, S(kiln_body) a, uint begin,
+                                 uint end, int y, int z)
+{
+    S(flock_sums) more = sums;
+    for (uint k = begin; k < end; k++)
+        more = flock_add(CROWD more, a, BODY(k), y, z);
+    return more;
+}
+
+/* All that a body sees, in the 27 cells around it; its own row of them first. */
+FN S(flock_sums) flock_look(CROWD_PARAM uint self)
+{
+    S(kiln_body) a = BODY(self);
+    EXACT float3 p = body_position(a);
+    int x = cell_along(p.x, INTERACT(cells_per_metre));
+    int y = cell_along(p.y, INTERACT(cells_per_metre));
+    int z = cell_along(p.z, INTERACT(cells_per_metre));
+    uint left = FLOCK_MOST;
+    S(flock_sums) sums = flock_no_sums();
+    for (int step = 4; step < 13; step++) {
+        int row_y = y + step % 3 - 1;
+        int row_z = z + step / 3 % 3 - 1;
+        uint start = cell_row(row_y, row_z);
+        uint first = cell_in_row(CROWD start, x - 1);
+        uint last = cell_in_row(CROWD start, x + 1);
+        uint begin = cell_begin(CROWD first);
+        uint end = CELL_END(last);
+        uint end_of_all = last < first ? CELL_END(INTERACT(cell_mask)) : end;
+        uint behind = last < first ? end : 0u; /* of a row that goes on at the table's start */
+        uint count = (end_of_all - begin) + behind;
+        if (count > left)
+            continue;
+        left -= count;
+        sums = flock_add_among(CROWD sums, a, 0u, behind, row_y, row_z);
+        sums = flock_add_among(CROWD sums, a, begin, end_of_all, row_y, row_z);
+    }
+    return sums;
+}
+
+/* ---- steering ------------------------------------------------------------------------------- */
+
+/* A vector, no shorter and no longer; ahead is z for none. */
+FN float3 flock_within(float3 v, float shortest, float longest)
+{
+    EXACT float3 along_z = FLOAT3(0.0f, 0.0f, 1.0f);
+    EXACT float length = float3_length(v);
+    EXACT float held = exact_clamp(length, shortest, longest);
+    if (held == length)
+        return v;
+    EXACT float3 direction = float3_normalize(v, along_z);
+    EXACT float3 y = float3_scale(direction, held);
+    return y;
+}
+
+/* Towards the middle of a group and its velocity. */
+FN float3 flock_join(float3 apart, float3 parting, float cohesion, float alignment)
+{
+    EXACT float3 to = float3_scale(apart, cohesion);
+    EXACT float3 y = float3_add_scaled(to, parting, alignment);
+    return y;
+}
+
+FN float3 flock_acceleration(CROWD_PARAM S(kiln_body) a, S(flock_sums) sums, S(flock_means) means)
+{
+    EXACT float3 position = body_position(a);
+    EXACT float3 velocity = body_velocity(a);
+    EXACT float3 to_all = float3_sub(means.position, position);
+    EXACT float3 with_all = float3_sub(means.velocity, velocity);
+    EXACT float3 wish =
+        flock_join(to_all, with_all, INTERACT(flock.all_cohesion), INTERACT(flock.all_alignment));
+    EXACT float count = FLOAT(sums.count);
+    EXACT float share = exact_rcp(count); /* 0 of nobody */
+    EXACT float3 apart = flock_total(sums.apart, INTERACT(flock.radius) * share);
+    EXACT float3 parting = flock_total(sums.parting, INTERACT(flock.speed) * share);
+    EXACT float3 near =
+        flock_join(apart, parting, INTERACT(flock.cohesion), INTERACT(flock.alignment));
+    EXACT float3 away = flock_total(sums.away, INTERACT(flock.separation));
+    EXACT float3 aside = flock_total(sums.aside, INTERACT(flock.avoidance));
+    wish = float3_add(wish, near);
+    wish = float3_add(wish, away);
+    wish = float3_add(wish, aside);
+    EXACT float3 y = flock_within(wish, 0.0f, INTERACT(flock.strongest));
+    return y;
+}
+
+/* A push's velocity, with what flocking adds to it in a step. */
+FN float4 flock_push(CROWD_PARAM float4 push, S(kiln_body) a, float3 acceleration)
+{
+    EXACT float3 velocity = body_velocity(a);
+    EXACT float3 steered = float3_add_scaled(velocity, acceleration, INTERACT(derived.dt_s));
+    EXACT float3 after = flock_within(steered, INTERACT(flock.slowest), INTERACT(flock.fastest));
+    EXACT float3 change = float3_sub(after, velocity);
+    EXACT float3 c = float3_canon(change);
+    EXACT float4 y = FLOAT4(push.x + c.x, push.y + c.y, push.z + c.z, push.w);
+    return y;
+}
+
+#endif
