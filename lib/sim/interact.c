@@ -3,6 +3,8 @@
 #include <assert.h>
 #include <stddef.h>
 
+#include "sim/interact_sort.h"
+
 static_assert(sizeof(struct kiln_interact_params) == 256, "std140");
 static_assert(offsetof(struct kiln_interact_params, radius) == 96, "std140");
 static_assert(offsetof(struct kiln_interact_params, flock) == 176, "std140");
@@ -191,6 +193,8 @@ bool kiln_interact_init(struct kiln_interact *interact, struct kiln_device *devi
     kiln_buffer_init(&interact->entries, device, 2 * entries * ENTRY_BYTES, "bodies in grids");
     kiln_buffer_init(&interact->order, device, (size_t)largest * 2 * sizeof(uint32_t),
                      "order of a grid");
+    kiln_buffer_init(&interact->counts, NULL,
+                     KILN_SORT_STRETCHES * KILN_SORT_DIGITS * sizeof(uint32_t), "counts of digits");
     kiln_buffer_init(&interact->accelerations, NULL,
                      ((size_t)largest + KILN_GRAVITY_BLOCK) * sizeof(float3), "accelerations");
     kiln_buffer_init(&interact->block, device, sizeof(struct kiln_interact_params),
@@ -209,6 +213,7 @@ void kiln_interact_finish(struct kiln_interact *interact)
     kiln_buffer_finish(&interact->partners);
     kiln_buffer_finish(&interact->entries);
     kiln_buffer_finish(&interact->order);
+    kiln_buffer_finish(&interact->counts);
     kiln_buffer_finish(&interact->accelerations);
     kiln_buffer_finish(&interact->block);
     for (size_t i = 0; i < KILN_INTERACT_KERNELS; i++) {

@@ -48,7 +48,8 @@ struct kiln_interact {
     struct kiln_buffer cells;                 /* uint32_t, some a particle */
     struct kiln_buffer partners;              /* uint32_t, one a body */
     struct kiln_buffer entries;               /* staggered: what is sorted; gravity: sources */
-    struct kiln_buffer order;                 /* staggered: uint32_t, two a body */
+    struct kiln_buffer order;                 /* uint32_t, two a body */
+    struct kiln_buffer counts;                /* staggered, on the host: of a sort */
     struct kiln_buffer accelerations;         /* gravity on the host: float3, one a slot */
     const struct kiln_gravity_loops *gravity; /* on the host */
     /* in GL: */
@@ -77,12 +78,6 @@ uint32_t kiln_interact_entries(uint32_t count);
 
 bool kiln_interact_cpu(struct kiln_interact *interact, const struct kiln_interact_work *work,
                        struct kiln_pool *pool, struct kiln_error *error);
-
-/* Sorts the living of a system into the cells of its table; of each, cell_ends then says where its
- * bodies end. Returns how many there are. */
-uint32_t kiln_interact_sort_into_cells(const struct kiln_crowd *view,
-                                       const struct kiln_particle *records,
-                                       struct kiln_body *bodies, uint32_t *cell_ends);
 
 bool kiln_interact_flock_cpu(struct kiln_interact *interact, const struct kiln_interact_work *work,
                              struct kiln_pool *pool, struct kiln_error *error);

@@ -1,93 +1,17 @@
-/* Pushes on the host. Bodies are sorted into cells by counting, in the order of their slots; each
- * thread answers for a stretch of them. Nobody but the round that is computed is written, so how
- * bodies are shared out among threads cannot matter. */
-#include <assert.h>
-#include <stdatomic.h>
+/* Pushes on the host: each thread answers for some of the bodies. Nobody but the round that is
+ * computed is written, so how they are shared out among threads cannot matter. */
 #include <string.h>
 
 #include "shared/interact_gravity.h"
 #include "shared/interact_staggered.h"
-#include "sim/interact.h"
-#include "sim/interact_sort.h"
+#include "sim/interact_crowd.h"
 
 enum { BODIES_AT_A_TIME = 512 };
-
-static_assert(sizeof(struct kiln_interact_entry) == 16, "as in GL");
-
-struct crowd {
-    struct kiln_crowd view;
-    const struct kiln_particle *records; /* of the system */
-    struct kiln_body *bodies, *after;
-    uint32_t *cell_ends, *partners;
-    struct kiln_interact_entry *entries;
-    uint32_t *order;
-    float4 *pushes; /* of the system */
-    uint32_t count; /* of bodies */
-    bool staggered;
-    bool later;      /* not the first round */
-    atomic_uint met; /* bodies that have a partner */
-};
-
-/* Counts, makes of the counts where each cell begins, and moves these on to where it ends. */
-uint32_t kiln_interact_sort_into_cells(const struct kiln_crowd *view,
-                                       const struct kiln_particle *records,
-                                       struct kiln_body *bodies, uint32_t *cell_ends)
-{
-    const uint32_t cells = view->params->cell_mask + 1, used = view->params->used;
-    uint32_t count = 0;
-    memset(cell_ends, 0, cells * sizeof *cell_ends);
-    for (uint32_t slot = 0; slot < used; slot++) {
-        if (particle_is_alive(records[slot]))
-            cell_ends[cell_of(view, particle_position(records[slot]))]++;
-    }
-    for (uint32_t cell = 0; cell < cells; cell++) {
-        const uint32_t in_cell = cell_ends[cell];
-        cell_ends[cell] = count;
-        count += in_cell;
-    }
-    for (uint32_t slot = 0; slot < used; slot++) {
-        const struct kiln_particle p = records[slot];
-        if (particle_is_alive(p))
-            bodies[cell_ends[cell_of(view, particle_position(p))]++] = body_of(view, p, slot);
-    }
-    return count;
-}
-
-static struct kiln_interact_entry entry_of(const struct crowd *crowd, float3 position, float aside,
-                                           uint32_t what)
-{
-    const struct stagger_key key = stagger_key_of(&crowd->view, position, aside);
-    return (struct kiln_interact_entry){.cell = (uint64_t)key.high << 32 | key.low, .what = what};
-}
-
-/* By both grids of the paper. */
-static void sort_into_grids(struct crowd *crowd)
-{
-    const struct kiln_interact_params *params = crowd->view.params;
-    for (uint32_t slot = 0; slot < params->used; slot++) {
-        const struct kiln_particle p = crowd->records[slot];
-        if (particle_is_alive(p))
-            crowd->entries[crowd->count++] = entry_of(crowd, particle_position(p), 0.0f, slot);
-    }
-    const uint32_t count = crowd->count;
-    struct kiln_interact_entry *scratch = crowd->entries + count;
-    kiln_interact_sort(crowd->entries, scratch, count);
-    for (uint32_t i = 0; i < count; i++) {
-        const uint32_t slot = crowd->entries[i].what;
-        crowd->bodies[i] = body_of(&crowd->view, crowd->records[slot], slot);
-        crowd->entries[i] = entry_of(crowd, body_position(crowd->bodies[i]), 0.5f, i);
-    }
-    kiln_interact_sort(crowd->entries, scratch, count);
-    for (uint32_t i = 0; i < count; i++) {
-        crowd->order[i] = crowd->entries[i].what;
-        crowd->order[params->used + crowd->entries[i].what] = i;
-    }
-}
 
 static void find(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
-    struct crowd *crowd = context;
+    struct kiln_interact_crowd *crowd = context;
     uint32_t met = 0;
     for (size_t i = begin; i < end; i++) {
         if (crowd->later && crowd->partners[i] == INTERACT_NOBODY)
@@ -104,12 +28,12 @@ static void find(void *context, size_t begin, size_t end, uint32_t worker)
 static void answer(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
-    struct crowd *crowd = context;
+    struct kiln_interact_crowd *crowd = context;
     for (size_t i = begin; i < end; i++)
         crowd->after[i] = contact_after(&crowd->view, (uint32_t)i);
 }
 
-static void swap_bodies(struct crowd *crowd)
+static void swap_bodies(struct kiln_interact_crowd *crowd)
 {
     struct kiln_body *before = crowd->bodies;
     crowd->bodies = crowd->after;
@@ -117,10 +41,11 @@ static void swap_bodies(struct crowd *crowd)
     crowd->view.bodies = crowd->bodies;
 }
 
-static void push(const struct crowd *crowd)
+static void push(void *context, size_t begin, size_t end, uint32_t worker)
 {
-    memset(crowd->pushes, 0, (size_t)crowd->view.params->used * 2 * sizeof *crowd->pushes);
-    for (uint32_t i = 0; i < crowd->count; i++) {
+    (void)worker;
+    struct kiln_interact_crowd *crowd = context;
+    for (size_t i = begin; i < end; i++) {
         const uint32_t slot = crowd->bodies[i].velocity_slot.w;
         const struct body_push words = body_push_of(crowd->bodies[i], crowd->records[slot]);
         crowd->pushes[(size_t)slot * 2] = words.velocity;
@@ -128,27 +53,29 @@ static void push(const struct crowd *crowd)
     }
 }
 
-static bool begin(struct crowd *crowd, struct kiln_interact *interact,
+static bool begin(struct kiln_interact_crowd *crowd, struct kiln_interact *interact,
                   const struct kiln_interact_work *work, struct kiln_pool *pool,
                   struct kiln_error *error)
 {
     const struct kiln_interact_params *params = &work->params;
     const struct kiln_particle *records = kiln_buffer_host(&pool->records, KILN_READ, error);
     float4 *pushes = kiln_buffer_host(&interact->pushes, KILN_READ_WRITE, error);
-    *crowd = (struct crowd){
+    *crowd = (struct kiln_interact_crowd){
+        .threads = interact->threads,
         .bodies = kiln_buffer_host(&interact->bodies, KILN_READ_WRITE, error),
         .after = kiln_buffer_host(&interact->second, KILN_READ_WRITE, error),
         .cell_ends = kiln_buffer_host(&interact->cells, KILN_READ_WRITE, error),
         .partners = kiln_buffer_host(&interact->partners, KILN_READ_WRITE, error),
+        .order = kiln_buffer_host(&interact->order, KILN_READ_WRITE, error),
         .staggered = work->mode == KILN_CONTACT_STAGGERED,
     };
     if (!records || !pushes || !crowd->bodies || !crowd->after || !crowd->cell_ends ||
-        !crowd->partners)
+        !crowd->partners || !crowd->order)
         return false;
     if (crowd->staggered) {
         crowd->entries = kiln_buffer_host(&interact->entries, KILN_READ_WRITE, error);
-        crowd->order = kiln_buffer_host(&interact->order, KILN_READ_WRITE, error);
-        if (!crowd->entries || !crowd->order)
+        crowd->counts = kiln_buffer_host(&interact->counts, KILN_READ_WRITE, error);
+        if (!crowd->entries || !crowd->counts)
             return false;
     }
     crowd->records = records + params->base;
@@ -165,14 +92,14 @@ static bool begin(struct crowd *crowd, struct kiln_interact *interact,
 static bool collide(struct kiln_interact *interact, const struct kiln_interact_work *work,
                     struct kiln_pool *pool, struct kiln_error *error)
 {
-    struct crowd crowd;
+    struct kiln_interact_crowd crowd;
     if (!begin(&crowd, interact, work, pool, error))
         return false;
+    memset(crowd.pushes, 0, (size_t)work->params.used * 2 * sizeof *crowd.pushes);
     if (crowd.staggered)
-        sort_into_grids(&crowd);
+        kiln_interact_into_grids(&crowd);
     else
-        crowd.count = kiln_interact_sort_into_cells(&crowd.view, crowd.records, crowd.bodies,
-                                                    crowd.cell_ends);
+        kiln_interact_into_cells(&crowd);
     for (uint32_t round = 0; round < work->rounds; round++) {
         atomic_store(&crowd.met, 0);
         crowd.later = round > 0;
@@ -182,7 +109,7 @@ static bool collide(struct kiln_interact *interact, const struct kiln_interact_w
         kiln_threads_for(interact->threads, crowd.count, BODIES_AT_A_TIME, answer, &crowd);
         swap_bodies(&crowd);
     }
-    push(&crowd);
+    kiln_threads_for(interact->threads, crowd.count, BODIES_AT_A_TIME, push, &crowd);
     return true;
 }
 

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "shared/interact_flock.h"
-#include "sim/interact.h"
+#include "sim/interact_crowd.h"
 
 enum { BIRDS_AT_A_TIME = 128 };
 
@@ -43,7 +43,8 @@ bool kiln_interact_flock_cpu(struct kiln_interact *interact, const struct kiln_i
     float4 *pushes = kiln_buffer_host(&interact->pushes, KILN_READ_WRITE, error);
     struct kiln_body *bodies = kiln_buffer_host(&interact->bodies, KILN_READ_WRITE, error);
     uint32_t *cell_ends = kiln_buffer_host(&interact->cells, KILN_READ_WRITE, error);
-    if (!records || !pushes || !bodies || !cell_ends)
+    uint32_t *order = kiln_buffer_host(&interact->order, KILN_READ_WRITE, error);
+    if (!records || !pushes || !bodies || !cell_ends || !order)
         return false;
     struct flock flock = {.view = {.params = params,
                                    .value_keys = interact->scene->keys,
@@ -52,9 +53,14 @@ bool kiln_interact_flock_cpu(struct kiln_interact *interact, const struct kiln_i
                           .pushes = pushes + (size_t)params->first_push * 2};
     if (!params->adds)
         memset(flock.pushes, 0, (size_t)params->used * 2 * sizeof *flock.pushes);
-    const uint32_t count =
-        kiln_interact_sort_into_cells(&flock.view, records + params->base, bodies, cell_ends);
-    flock.means = means_of(bodies, count);
-    kiln_threads_for(interact->threads, count, BIRDS_AT_A_TIME, steer, &flock);
+    struct kiln_interact_crowd crowd = {.view = flock.view,
+                                        .threads = interact->threads,
+                                        .records = records + params->base,
+                                        .bodies = bodies,
+                                        .cell_ends = cell_ends,
+                                        .order = order};
+    kiln_interact_into_cells(&crowd);
+    flock.means = means_of(bodies, crowd.count);
+    kiln_threads_for(interact->threads, crowd.count, BIRDS_AT_A_TIME, steer, &flock);
     return true;
 }

@@ -2,8 +2,7 @@
 #ifndef KILN_SIM_INTERACT_SORT_H
 #define KILN_SIM_INTERACT_SORT_H
 
-#include <stddef.h>
-#include <stdint.h>
+#include "base/thread.h"
 
 struct kiln_interact_entry {
     uint64_t cell;
@@ -11,8 +10,27 @@ struct kiln_interact_entry {
     uint32_t unused;
 };
 
-/* Sorts by cells; what is in one keeps its order. scratch: as many. */
-void kiln_interact_sort(struct kiln_interact_entry *entries, struct kiln_interact_entry *scratch,
-                        size_t count);
+enum {
+    /* Into so many stretches loops are cut at most; each has counts of its own. */
+    KILN_SORT_STRETCHES = 16,
+    KILN_SORT_DIGITS = 2048,
+};
+
+struct kiln_interact_sorting {
+    struct kiln_threads *threads;
+    struct kiln_interact_entry *entries, *scratch; /* count each */
+    size_t count;
+    uint32_t bits;    /* of a cell, of which the rest is 0 */
+    uint32_t *counts; /* scratch: KILN_SORT_STRETCHES * KILN_SORT_DIGITS */
+};
+
+/* Sorts the entries by cells; what is in one keeps its order. */
+void kiln_interact_sort(const struct kiln_interact_sorting *sorting);
+
+/* Where stretch number `stretch` of so many begins in [0, count). */
+size_t kiln_sort_stretch(size_t count, uint32_t stretch, uint32_t stretches);
+
+/* As many as threads have work for. */
+uint32_t kiln_sort_stretches(const struct kiln_threads *threads);
 
 #endif

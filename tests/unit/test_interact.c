@@ -395,6 +395,33 @@ static void staggered_collisions_keep_momentum_and_energy(void **state)
     simulation_end(&run);
 }
 
+/* Some are as far away as anything may be, all around: their cells' numbers are at the limits. */
+static void any_number_of_threads_finds_the_same(void **state)
+{
+    (void)state;
+    static const uint32_t threads[] = {1, 2, 7, 40};
+    struct kiln_state_hash hashes[2][4];
+    for (size_t i = 0; i < 8; i++) {
+        struct simulation run;
+        const enum kiln_contact_mode mode = i < 4 ? KILN_CONTACT_STAGGERED : KILN_CONTACT_EXACT;
+        balls_init(&fixture, MANY, 0.05f)->mode = mode;
+        simulation_start(&run, &fixture.scene, NULL, threads[i % 4]);
+        place_crowd(&run);
+        for (uint32_t far = 0; far < 60; far++) {
+            const float at = far % 2 ? 1e6f : -1e6f, aside = 0.03f * (float)(far / 6);
+            const uint32_t axis = far / 2 % 3;
+            balls_place(
+                &run, far * 16,
+                FLOAT3(axis == 0 ? at : aside, axis == 1 ? at : 0.0f, axis == 2 ? at : 0.0f),
+                FLOAT3(0.0f, 0.0f, 0.0f));
+        }
+        hashes[i / 4][i % 4] = simulation_run_hashed(&run, 10);
+        simulation_end(&run);
+    }
+    for (size_t i = 0; i < 8; i++)
+        assert_memory_equal(&hashes[i / 4][i % 4], &hashes[i / 4][0], sizeof hashes[0][0]);
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
@@ -411,6 +438,7 @@ int main(void)
         cmocka_unit_test(no_pair_is_missed),
         cmocka_unit_test(staggered_grids_miss_some),
         cmocka_unit_test(staggered_collisions_keep_momentum_and_energy),
+        cmocka_unit_test(any_number_of_threads_finds_the_same),
     };
     return cmocka_run_group_tests_name("interact", tests, NULL, NULL);
 }
