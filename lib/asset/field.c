@@ -10,6 +10,7 @@
 
 #include "asset/closed.h"
 #include "asset/field_file.h"
+#include "asset/grid_in.h"
 #include "asset/nearest.h"
 #include "base/error.h"
 #include "base/hash.h"
@@ -18,7 +19,7 @@
 
 enum {
     VERSION = 1, /* of the algorithm: part of a cached field's name */
-    MARGIN = 2,  /* cells around the box */
+    MARGIN = 2,  /* cells around the box, beside the reach */
 };
 
 static size_t sample_count(const struct kiln_field *field)
@@ -193,12 +194,13 @@ bool kiln_field_cache(char folder[KILN_PATH_SIZE])
     return length > 0 && length < KILN_PATH_SIZE - 80; /* room for a file's name */
 }
 
-/* The file for this mesh and number of cells: by the places and the triangles. */
+/* The file for this mesh, number of cells and margin: by the places and the triangles. */
 static bool find_file(char path[KILN_PATH_SIZE], const char *cache, const struct kiln_mesh *mesh,
-                      uint32_t cells)
+                      uint32_t cells, const struct kiln_field *field)
 {
     const size_t triangles = mesh->triangle_count * sizeof *mesh->triangles;
-    const uint32_t head[4] = {VERSION, cells, mesh->vertex_count, mesh->triangle_count};
+    const uint32_t head[5] = {VERSION, cells, field->size[0], mesh->vertex_count,
+                              mesh->triangle_count};
     const size_t place_bytes = 3 * sizeof(float);
     const size_t size = sizeof head + triangles + mesh->vertex_count * place_bytes;
     unsigned char *bytes = malloc(size), *end = bytes;
@@ -219,34 +221,64 @@ static bool find_file(char path[KILN_PATH_SIZE], const char *cache, const struct
 
 /* ---- all of it ------------------------------------------------------------------------------- */
 
-static bool place(struct kiln_field *field, const struct kiln_mesh *mesh, uint32_t cells)
+/* Cells around the box. */
+static uint32_t find_margin(float spacing, uint32_t cells, float reach, const char *name,
+                            struct kiln_error *error)
+{
+    const float along = reach / spacing;
+    if (!(along <= (float)KILN_MAX_FIELD_CELLS)) {
+        kiln_error_set(error, KILN_INVALID_INPUT,
+                       "%s: balls with a radius of %.3g units of the file reach %.0f of %u cells "
+                       "around the mesh; at most %d cells are allowed",
+                       name, (double)reach, (double)along, cells, KILN_MAX_FIELD_CELLS);
+        return 0;
+    }
+    const uint32_t whole = (uint32_t)along;
+    return MARGIN + whole + ((float)whole < along ? 1 : 0);
+}
+
+static bool place(struct kiln_field *field, const struct kiln_mesh *mesh, const char *name,
+                  uint32_t cells, float reach, struct kiln_error *error)
 {
     float longest = 1e-6f;
     for (int c = 0; c < 3; c++)
         longest = exact_max(longest, mesh->max[c] - mesh->min[c]);
     field->spacing = longest / (float)cells;
+    const uint32_t margin = find_margin(field->spacing, cells, reach, name, error);
+    if (margin == 0)
+        return false;
     for (int c = 0; c < 3; c++) {
         const float along = (mesh->max[c] - mesh->min[c]) / field->spacing;
         const uint32_t whole = (uint32_t)along;
-        field->size[c] = whole + ((float)whole < along ? 1 : 0) + 1 + 2 * MARGIN;
-        field->origin[c] = exact_canon(mesh->min[c] - (float)MARGIN * field->spacing);
+        field->size[c] = whole + ((float)whole < along ? 1 : 0) + 1 + 2 * margin;
+        field->origin[c] = exact_canon(mesh->min[c] - (float)margin * field->spacing);
     }
+    if (sample_count(field) > KILN_MAX_GRID_SAMPLES)
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "%s: %zu samples in and around the mesh, out of %u cells and balls "
+                              "with a radius of %.3g units of the file; at most %d are allowed",
+                              name, sample_count(field), cells, (double)reach,
+                              KILN_MAX_GRID_SAMPLES);
     field->samples = malloc(sample_count(field) * sizeof *field->samples);
+    if (!field->samples)
+        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", name);
     return field->samples != NULL;
 }
 
 struct kiln_field *kiln_field_create(const struct kiln_mesh *mesh, const char *name, uint32_t cells,
-                                     const char *cache, struct kiln_threads *threads,
+                                     float reach, const char *cache, struct kiln_threads *threads,
                                      struct kiln_error *error)
 {
     if (!kiln_mesh_check_closed(mesh, name, error))
         return NULL;
     struct kiln_field *field = calloc(1, sizeof *field);
     char path[KILN_PATH_SIZE];
-    const bool cached = cache && find_file(path, cache, mesh, cells);
-    bool ok = field && place(field, mesh, cells);
-    if (!ok)
+    if (!field) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", name);
+        return NULL;
+    }
+    bool ok = place(field, mesh, name, cells, reach, error);
+    const bool cached = ok && cache && find_file(path, cache, mesh, cells, field);
     if (ok && !(cached && kiln_field_read(path, field))) {
         ok = make(field, mesh, name, cells, threads, error);
         if (ok && cached)

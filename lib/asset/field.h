@@ -13,7 +13,8 @@ enum {
 };
 
 struct kiln_field {
-    uint32_t size[3];    /* samples along x, y and z: two cells more than the box on every side */
+    uint32_t size[3];    /* samples along x, y and z: two cells more than the box on every side, and
+                            as many as what it is looked up with reaches */
     float origin[3];     /* of the first, in units of the file */
     float spacing;       /* edge of a cell, likewise */
     float (*samples)[4]; /* how the distance grows along x, y and z; distance; by z, y, x */
@@ -21,11 +22,12 @@ struct kiln_field {
 
 /* From the cache in the folder, if that is not NULL, or made on the threads, and then left there
  * if that is possible; both give the same bytes, on every machine. A file in the cache that is not
- * as it was written counts for nothing. name stands for the mesh in messages. NULL:
- * KILN_INVALID_INPUT when the mesh is not closed or so thin that no sample is inside,
+ * as it was written counts for nothing. name stands for the mesh in messages. reach: how far around
+ * the mesh the field is asked for, in units of the file. NULL: KILN_INVALID_INPUT when the mesh is
+ * not closed, or so thin that no sample is inside, or when there would be too many samples,
  * KILN_DEVICE_FAILED when memory is short. The caller destroys it. */
 struct kiln_field *kiln_field_create(const struct kiln_mesh *mesh, const char *name, uint32_t cells,
-                                     const char *cache, struct kiln_threads *threads,
+                                     float reach, const char *cache, struct kiln_threads *threads,
                                      struct kiln_error *error);
 void kiln_field_destroy(struct kiln_field **field);
 

@@ -64,6 +64,18 @@ float kiln_scene_value_max(const struct kiln_scene *scene, const struct kiln_val
     return most;
 }
 
+float kiln_scene_value_min(const struct kiln_scene *scene, const struct kiln_value *value)
+{
+    if (value->count == 0)
+        return value->constant;
+    float least = scene->keys[value->first].y;
+    for (uint32_t i = 1; i < value->count; i++) {
+        float y = scene->keys[value->first + i].y;
+        least = y < least ? y : least;
+    }
+    return least;
+}
+
 void kiln_scene_rotation(float3 angles, float rows[3][3])
 {
     const struct exact_angle x = exact_sincos(angles.x), y = exact_sincos(angles.y);

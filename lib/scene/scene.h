@@ -488,8 +488,9 @@ bool kiln_value3_is_constant(const struct kiln_value3 *value);
 /* Whether an object is a box that does not lie along the axes, or not always. */
 bool kiln_object_is_turned_box(const struct kiln_object *object);
 
-/* The largest that the value ever is: it is attained at a key. */
+/* The largest that the value ever is, and the smallest: they are attained at keys. */
 float kiln_scene_value_max(const struct kiln_scene *scene, const struct kiln_value *value);
+float kiln_scene_value_min(const struct kiln_scene *scene, const struct kiln_value *value);
 
 /* Rows of the rotation about x, then y, then z, by angles in radians. */
 void kiln_scene_rotation(float3 angles, float rows[3][3]);

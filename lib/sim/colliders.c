@@ -107,6 +107,7 @@ static struct kiln_collider terrain_collider(const struct kiln_sim_grids *grids,
                       exact_canon(grid->origin.z + depth / grid->per_metre.z), 0.0f),
         .kind = COLLIDER_TERRAIN,
         .grid = number,
+        .steepest = grids->steepest[number],
     };
     terrain.min_end = terrain.min;
     terrain.max_end = terrain.max;

@@ -6,6 +6,7 @@
 #include "asset/grid_in.h"
 #include "base/error.h"
 #include "shared/exact.h"
+#include "sim/interact.h"
 
 /* What the grids are made of, in their order: wind, then objects, of each one of the two. */
 struct sources {
@@ -55,6 +56,19 @@ static float4 canon4(const float v[3])
 
 /* ---- loading --------------------------------------------------------------------------------- */
 
+/* How far from a mesh there may be the centre of a ball that touches it, in units of the file. */
+static float find_reach(const struct kiln_scene *scene, const struct kiln_object *mesh)
+{
+    float largest = 0.0f;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const float radius = kiln_interact_radius(scene, i);
+        if (scene->systems[i].collide.enabled && radius > largest)
+            largest = radius;
+    }
+    const float smallest = kiln_scene_value_min(scene, &mesh->scale);
+    return largest > 0.0f ? largest / (smallest > 1e-6f ? smallest : 1e-6f) : 0.0f;
+}
+
 static struct kiln_field *load_field(const struct kiln_scene *scene,
                                      const struct kiln_object *object, struct kiln_threads *threads,
                                      struct kiln_error *error)
@@ -66,7 +80,8 @@ static struct kiln_field *load_field(const struct kiln_scene *scene,
     char cache[KILN_PATH_SIZE];
     const bool cached = kiln_field_cache(cache);
     struct kiln_field *field =
-        kiln_field_create(mesh, object->file, object->cells, cached ? cache : NULL, threads, error);
+        kiln_field_create(mesh, object->file, object->cells, find_reach(scene, object),
+                          cached ? cache : NULL, threads, error);
     kiln_mesh_destroy(&mesh);
     return field;
 }
@@ -148,6 +163,17 @@ static size_t count_words(const struct kiln_grid *grid)
     return (size_t)grid->size.x * grid->size.y * grid->size.z;
 }
 
+static float find_steepest(const struct kiln_terrain *terrain)
+{
+    const size_t count = (size_t)terrain->samples[0] * terrain->samples[1];
+    float most = 0.0f;
+    for (size_t i = 0; i < count; i++) {
+        const struct kiln_terrain_point *p = &terrain->points[i];
+        most = exact_max(most, p->slope_x * p->slope_x + p->slope_z * p->slope_z);
+    }
+    return 1.0001f * exact_sqrt(1.0f + most); /* no rounding is above it */
+}
+
 /* One after the other. Returns the words of all. */
 static size_t place(struct kiln_sim_grids *grids, const struct sources *sources)
 {
@@ -159,6 +185,7 @@ static size_t place(struct kiln_sim_grids *grids, const struct sources *sources)
         } else if (sources->terrains[k]) {
             grids->table[i] = place_terrain(sources->terrains[k], total);
             grids->top[i] = sources->terrains[k]->top;
+            grids->steepest[i] = find_steepest(sources->terrains[k]);
         } else {
             grids->table[i] = place_field(sources->fields[k], total);
         }

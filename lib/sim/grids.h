@@ -14,6 +14,7 @@ struct kiln_sim_grids {
     const char *files[KILN_MAX_WINDS];    /* the scene's: what each shows */
     uint32_t of_object[KILN_MAX_OBJECTS]; /* number of an object's grid; else of no account */
     float top[KILN_MAX_GRIDS];            /* m: terrain's highest point */
+    float steepest[KILN_MAX_GRIDS];       /* terrain's: see struct kiln_collider */
     struct kiln_grid table[KILN_MAX_GRIDS];
     struct kiln_buffer words; /* float4 */
 };

@@ -36,11 +36,12 @@ static uint32_t count_cells(uint32_t particles)
         particles < MAX_CELLS / CELLS_A_PARTICLE ? particles * CELLS_A_PARTICLE : MAX_CELLS);
 }
 
-/* The largest that particles of the system ever have, m; more than 0. */
-static float largest_radius(const struct kiln_scene *scene, uint32_t system)
+float kiln_interact_radius(const struct kiln_scene *scene, uint32_t system)
 {
     const struct kiln_interaction *collide =
         kiln_scene_interaction(scene, system, KILN_INTERACT_COLLIDE);
+    if (!collide)
+        return 0.0f;
     const struct kiln_look *look = &scene->systems[system].look;
     float largest = kiln_scene_value_max(scene, &collide->radius);
     if (collide->as_drawn) {
@@ -64,7 +65,7 @@ static void add_collisions(struct kiln_interact_work *work, const struct kiln_sc
     work->mode = collide->mode;
     work->rounds = collide->rounds;
     params->cell_mask = count_cells(scene->systems[system].capacity) - 1;
-    params->cells_per_metre = 1.0f / (2.0f * largest_radius(scene, system) * CELL_SLACK);
+    params->cells_per_metre = 1.0f / (2.0f * kiln_interact_radius(scene, system) * CELL_SLACK);
     params->as_drawn = collide->as_drawn;
     params->restitution = kiln_scene_value(scene, &collide->restitution, params->time_s);
     params->apart = kiln_scene_value(scene, &collide->apart, params->time_s);

@@ -65,6 +65,10 @@ bool kiln_interact_init(struct kiln_interact *interact, struct kiln_device *devi
                         struct kiln_threads *threads, struct kiln_error *error);
 void kiln_interact_finish(struct kiln_interact *interact);
 
+/* The largest that particles of a system ever have as balls, m; 0: they do not collide with each
+ * other. */
+float kiln_interact_radius(const struct kiln_scene *scene, uint32_t system);
+
 /* Gathers the pushes of a step whose parameters are these, from the state before it. keys: the
  * scene's values, in GL; NULL on the host. */
 bool kiln_interact_gather(struct kiln_interact *interact, const struct kiln_sim_params *params,

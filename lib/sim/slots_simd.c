@@ -370,8 +370,9 @@ static inline void find_touching(struct block *b, const struct kiln_collider *c,
     }
     /* The bounds of a round shape are computed apart from its surface. */
     const float gap = c->kind == COLLIDER_BOX ? 0.0f : 0.01f;
+    const float reach = c->kind == COLLIDER_TERRAIN ? c->steepest : 1.0f;
     for (uint32_t i = 0; i < KILN_LANES; i++) {
-        const float r = pushed ? b->radius[i] : 0.0f;
+        const float r = pushed ? b->radius[i] * reach : 0.0f;
         float3 from = particle_position(record_at(b, i)), to = kiln_get3(&b->position, i);
         b->touching[i] =
             may_be_between(from.x, to.x, (c->min.x - r) - gap, (c->min_end.x - r) - gap,
@@ -390,7 +391,8 @@ static inline void find_touching_ground(const struct kiln_sim *sim, struct block
     const struct kiln_grid grid = sim->surroundings->grids[c->grid];
     for (uint32_t i = 0; i < KILN_LANES; i++) {
         float3 from = particle_position(record_at(b, i)), to = kiln_get3(&b->position, i);
-        b->touching[i] &= 1u ^ (uint32_t)terrain_is_clear(sim, grid, from, to);
+        const float raised = sim->step->pushed ? b->radius[i] * c->steepest : 0.0f;
+        b->touching[i] &= 1u ^ (uint32_t)terrain_is_clear(sim, grid, from, to, raised);
     }
 }
 
@@ -403,7 +405,11 @@ static inline void find_touching_mesh(const struct kiln_sim *sim, struct block *
     for (uint32_t i = 0; i < KILN_LANES; i++) {
         float3 from = sdf_local(pose, 0.0f, particle_position(record_at(b, i)));
         float3 to = sdf_local(pose, 1.0f, kiln_get3(&b->position, i));
-        b->touching[i] &= 1u ^ (uint32_t)sdf_is_clear(sim, grid, from, to);
+        float larger = 0.0f;
+        if (sim->step->pushed)
+            larger = exact_max(sdf_radius(pose, 0.0f, b->radius[i]),
+                               sdf_radius(pose, 1.0f, b->radius[i]));
+        b->touching[i] &= 1u ^ (uint32_t)sdf_is_clear(sim, grid, from, to, larger);
     }
 }
 

@@ -443,7 +443,7 @@ FN float3 collide_rise(SIM_PARAM float3 position, float until, float radius)
                 EXACT S(kiln_collider) c = collide_around(SIM i, radius);
                 EXACT S(collide_box) box = collide_box_at(c, until);
 #if COLLIDE_HAS_FIELDS
-                box = collide_field_below(SIM AROUND(colliders[i]), box, p);
+                box = collide_field_below(SIM c, box, p);
 #endif
                 if (COLLIDE_IS_TURNED(AROUND(colliders[i])) &&
                     (pass < 2u || AROUND(colliders[i].kind) == COLLIDER_PLANE))

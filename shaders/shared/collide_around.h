@@ -11,14 +11,31 @@ FN float4 collide_shifted(float4 v, float by)
     return y;
 }
 
+/* The same of one that looks up a grid: its bounds, and the radius for whoever looks up. The walls
+ * of terrain are met with the centre. */
+FN S(kiln_collider) collide_field_around(S(kiln_collider) collider, float radius)
+{
+    EXACT S(kiln_collider) c = collider;
+    EXACT float raised = radius * c.steepest;
+    if (c.kind == COLLIDER_TERRAIN) {
+        c.max.y = c.max.y + raised;
+        c.max_end.y = c.max_end.y + raised;
+        c.center.w = radius;
+    } else if (c.kind == COLLIDER_SDF) { /* its grid is as much wider */
+        c.center.w = radius;
+    }
+    return c;
+}
+
 /* A collider as a ball of a radius meets it with its centre: as much larger as the ball is. Edges
- * and corners stay sharp. What looks up a grid stays as it is: balls meet it with their centres.
- * Shaders of scenes without interaction are spared this. */
+ * and corners stay sharp. Shaders of scenes without interaction are spared this. */
 FN S(kiln_collider) collide_around(SIM_PARAM uint number, float radius)
 {
     EXACT S(kiln_collider) c = AROUND(colliders[number]);
 #if !defined(GL_core_profile) || defined(PUSHES)
-    if (radius > 0.0f && c.kind < COLLIDER_TERRAIN) {
+    if (radius > 0.0f && c.kind >= COLLIDER_TERRAIN) {
+        c = collide_field_around(c, radius);
+    } else if (radius > 0.0f) {
         EXACT float lower = -radius;
         c.min = collide_shifted(c.min, lower);
         c.min_end = collide_shifted(c.min_end, lower);

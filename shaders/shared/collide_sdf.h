@@ -4,7 +4,8 @@
  * A word of its grid is (direction of growth, distance), below 0 inside. The mesh moves rigidly: a
  * point's place in its frame is found at the start and at the end of the step and goes evenly
  * between them, so that a path is a segment there, too. It is followed in strides that are no
- * longer than the way to the surface, and where that is near, a quarter of a cell.
+ * longer than the way to the surface, and where that is near, a quarter of a cell. A ball's centre
+ * meets a surface that is farther out by its radius.
  */
 #ifndef KILN_SHARED_COLLIDE_SDF_H
 #define KILN_SHARED_COLLIDE_SDF_H
@@ -137,9 +138,25 @@ FN S(collide_span) sdf_box_segment(S(kiln_grid) g, float3 a, float3 b)
     return span;
 }
 
+/* A ball's radius in the frame of the mesh, at the two ends of a segment. */
+struct sdf_reach {
+    float start, end;
+};
+
+FN float sdf_radius(S(kiln_pose) pose, float since, float radius)
+{
+    EXACT float y = 0.0f;
+    if (radius > 0.0f) {
+        EXACT float metres = collide_moving(pose.metres.x, pose.metres.y, since);
+        y = exact_div(radius, metres);
+    }
+    return y;
+}
+
 /* Along a segment in the frame of the mesh, from a part of it to another: the part at which it
  * first gets inside, or 2. */
-FN float sdf_march(SIM_PARAM S(kiln_grid) g, float3 a, float3 b, float from, float to)
+FN float sdf_march(SIM_PARAM S(kiln_grid) g, float3 a, float3 b, S(sdf_reach) reach, float from,
+                   float to)
 {
     EXACT float3 way = float3_sub(b, a);
     EXACT float way_length = float3_length(way);
@@ -152,7 +169,7 @@ FN float sdf_march(SIM_PARAM S(kiln_grid) g, float3 a, float3 b, float from, flo
     uint most = 4u * (g.size.x + g.size.y + g.size.z);
     for (uint i = 0u; i < most; i++) {
         EXACT float3 q = float3_add_scaled(a, way, at);
-        EXACT float distance = sdf_distance_at(SIM g, q);
+        EXACT float distance = sdf_distance_at(SIM g, q) - sdf_mix(reach.start, reach.end, at);
         if (distance <= 0.0f) {
             EXACT float fall = distance_before - distance;
             EXACT float quotient = exact_div(distance_before, fall);
@@ -174,14 +191,16 @@ FN float sdf_march(SIM_PARAM S(kiln_grid) g, float3 a, float3 b, float from, flo
 
 /* May no path from a to b, in the frame of the mesh, touch it? The distance at the first sample of
  * a's cell differs from that at a by less than the diagonal of the cell; around the grid's edges
- * there is no mesh for two cells. */
-FN bool sdf_is_clear(SIM_PARAM S(kiln_grid) g, float3 a, float3 b)
+ * there is no mesh for two cells, and as far as the largest ball reaches. larger: that of a ball.
+ */
+FN bool sdf_is_clear(SIM_PARAM S(kiln_grid) g, float3 a, float3 b, float larger)
 {
     EXACT S(grid_place) place = grid_find(g, a);
     EXACT float3 way = float3_sub(b, a);
     EXACT float way_length = float3_length(way);
     EXACT float cells = way_length * g.per_metre.x;
     EXACT float distance = sdf_word(SIM grid_index(g, place.x.first, place.y.first, place.z.first));
+    distance = distance - larger;
     EXACT float reach = distance * g.per_metre.x - 1.75f;
     bool inside = place.x.inside && place.y.inside && place.z.inside;
     reach = inside ? reach : 1.9f;
@@ -202,12 +221,16 @@ FN S(collide_span)
     EXACT float3 from = sdf_local(pose, since, a);
     EXACT float3 end = sdf_local(pose, until, b);
     span = sdf_box_segment(g, from, end);
-    if (span.misses || span.enter > span.leave || sdf_is_clear(SIM g, from, end)) {
+    EXACT S(sdf_reach) reach;
+    reach.start = sdf_radius(pose, since, c.center.w);
+    reach.end = sdf_radius(pose, until, c.center.w);
+    EXACT float larger = exact_max(reach.start, reach.end);
+    if (span.misses || span.enter > span.leave || sdf_is_clear(SIM g, from, end, larger)) {
         span.misses = true;
         return span;
     }
     EXACT float to = exact_min(span.leave, 1.0f);
-    EXACT float hit = sdf_march(SIM g, from, end, span.enter, to);
+    EXACT float hit = sdf_march(SIM g, from, end, reach, span.enter, to);
     span.misses = hit > 1.0f;
     span.outside = span.outside || hit > span.enter;
     span.enter = hit;
@@ -222,7 +245,8 @@ FN bool sdf_is_inside(SIM_PARAM S(kiln_collider) c, float until, float3 p)
     EXACT S(kiln_grid) g = AROUND(grids[c.grid]);
     EXACT float3 q = sdf_local(AROUND(poses[c.mesh]), until, p);
     EXACT S(collide_span) span = sdf_box_segment(g, q, q);
-    EXACT float distance = sdf_distance_at(SIM g, q);
+    EXACT float distance =
+        sdf_distance_at(SIM g, q) - sdf_radius(AROUND(poses[c.mesh]), until, c.center.w);
     return collide_inside(bounds, p) && !span.misses && distance <= 0.0f;
 }
 
@@ -262,17 +286,18 @@ FN S(collide_ground) sdf_ground(SIM_PARAM S(kiln_collider) c, float since, float
     ground.normal = float3_normalize(slope, up);
     EXACT float reach = exact_abs(p.x) + exact_abs(p.y) + exact_abs(p.z);
     EXACT float gap = 6.103515625e-5f + reach * 9.5367431640625e-7f;
-    EXACT float away = gap - word.w * metres;
+    EXACT float away = (gap + c.center.w) - word.w * metres;
     EXACT float3 foot = float3_add_scaled(p, ground.normal, away);
     q = sdf_local(pose, since, foot);
     EXACT S(sdf_cell) cell = sdf_cell_at(SIM g, q);
-    EXACT float missing = gap - sdf_distance(cell) * metres;
+    EXACT float missing = (gap + c.center.w) - sdf_distance(cell) * metres;
     missing = exact_max(missing, 0.0f);
     ground.position = float3_add_scaled(foot, ground.normal, missing);
     growth = sdf_slope(cell);
     slope = sdf_slope_to_world(pose, since, growth);
     ground.facet = float3_normalize(slope, ground.normal);
-    ground.velocity = sdf_velocity(pose, since, p, AROUND(steps_per_s));
+    EXACT float3 skin = float3_add_scaled(p, ground.normal, -c.center.w);
+    ground.velocity = sdf_velocity(pose, since, skin, AROUND(steps_per_s));
     return ground;
 }
 

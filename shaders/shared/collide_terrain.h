@@ -5,6 +5,9 @@
  * ground changes evenly along a path, so that the paper's p0 + d0 / (d0 + d1) * (p1 - p0) is the
  * very point of impact. A path is followed from cell to cell; nothing is too fast or too thin. What
  * lies below is solid without end, and so are the sides.
+ *
+ * For a ball, each point is higher by what the ball's centre is above a slope as steep as there, so
+ * that what its centre meets is a lattice again; in dents narrower than the ball it goes too deep.
  */
 #ifndef KILN_SHARED_COLLIDE_TERRAIN_H
 #define KILN_SHARED_COLLIDE_TERRAIN_H
@@ -24,25 +27,38 @@ struct collide_ground {
     float3 velocity; /* m/s, of the surface */
 };
 
+/* A point's height, for the centre of a ball. */
+FN float terrain_point(float4 word, float radius)
+{
+#if !defined(GL_core_profile) || defined(PUSHES)
+    if (radius > 0.0f) {
+        EXACT float square = word.x * word.x + word.z * word.z;
+        EXACT float y = word.y + radius * exact_sqrt(1.0f + square);
+        return y;
+    }
+#endif
+    return word.y;
+}
+
 struct terrain_cell {
     uint first; /* word */
     uint row;   /* words from one row to the next */
     float h00, h10, h01, h11;
 };
 
-FN S(terrain_cell) terrain_cell_at(SIM_PARAM S(kiln_grid) g, uint x, uint z)
+FN S(terrain_cell) terrain_cell_at(SIM_PARAM S(kiln_grid) g, uint x, uint z, float radius)
 {
     EXACT S(terrain_cell) cell;
     cell.first = grid_index(g, x, 0u, z);
     cell.row = g.size.x;
     EXACT float4 word = GRID_WORD(cell.first);
-    cell.h00 = word.y;
+    cell.h00 = terrain_point(word, radius);
     word = GRID_WORD(cell.first + 1u);
-    cell.h10 = word.y;
+    cell.h10 = terrain_point(word, radius);
     word = GRID_WORD(cell.first + cell.row);
-    cell.h01 = word.y;
+    cell.h01 = terrain_point(word, radius);
     word = GRID_WORD(cell.first + cell.row + 1u);
-    cell.h11 = word.y;
+    cell.h11 = terrain_point(word, radius);
     return cell;
 }
 
@@ -57,9 +73,9 @@ FN float terrain_height(S(terrain_cell) cell, float u, float v)
     return y;
 }
 
-/* May no path from a to b touch the ground? So it is when both lie above the ceiling of a's cell
- * and at most a cell apart. */
-FN bool terrain_is_clear(SIM_PARAM S(kiln_grid) g, float3 a, float3 b)
+/* May no path from a to b touch the ground? So it is when both lie above the ceiling of a's cell,
+ * raised for a ball, and at most a cell apart. */
+FN bool terrain_is_clear(SIM_PARAM S(kiln_grid) g, float3 a, float3 b, float raised)
 {
     EXACT S(grid_axis) x = grid_along(a.x, g.origin.x, g.per_metre.x, g.size.x);
     EXACT S(grid_axis) z = grid_along(a.z, g.origin.z, g.per_metre.z, g.size.z);
@@ -67,7 +83,8 @@ FN bool terrain_is_clear(SIM_PARAM S(kiln_grid) g, float3 a, float3 b)
     EXACT float way_z = (b.z - a.z) * g.per_metre.z;
     EXACT float4 word = GRID_WORD(grid_index(g, x.first, 0u, z.first));
     bool near = way_x <= 1.0f && way_x >= -1.0f && way_z <= 1.0f && way_z >= -1.0f;
-    return x.inside && z.inside && near && a.y > word.w && b.y > word.w;
+    EXACT float ceiling = word.w + raised;
+    return x.inside && z.inside && near && a.y > ceiling && b.y > ceiling;
 }
 
 /* A path over the lattice: place and change along x and z in cells, and height in metres. */
@@ -159,7 +176,8 @@ FN float terrain_leaves(float start, float way, float cell)
 
 /* From cell to cell, from the part `from` of the path to the part `to`: that of the first impact,
  * or 2. */
-FN float terrain_march(SIM_PARAM S(kiln_grid) g, S(terrain_path) path, float from, float to)
+FN float terrain_march(SIM_PARAM S(kiln_grid) g, S(terrain_path) path, float from, float to,
+                       float radius)
 {
     EXACT float last_x = FLOAT(g.size.x) - 2.0f;
     EXACT float last_z = FLOAT(g.size.z) - 2.0f;
@@ -177,7 +195,7 @@ FN float terrain_march(SIM_PARAM S(kiln_grid) g, S(terrain_path) path, float fro
         EXACT float leaves = exact_min(leaves_x, leaves_z);
         EXACT float next = exact_min(leaves, to);
         next = exact_max(next, at);
-        EXACT S(terrain_cell) cell = terrain_cell_at(SIM g, UINT(x), UINT(z));
+        EXACT S(terrain_cell) cell = terrain_cell_at(SIM g, UINT(x), UINT(z), radius);
         EXACT float hit = terrain_impact_in(path, cell, x, z, at, next);
         if (hit <= 1.0f)
             return hit;
@@ -201,7 +219,7 @@ FN bool terrain_is_inside(SIM_PARAM S(kiln_collider) c, float3 p)
     EXACT S(kiln_grid) g = AROUND(grids[c.grid]);
     EXACT S(grid_axis) x = grid_along(p.x, g.origin.x, g.per_metre.x, g.size.x);
     EXACT S(grid_axis) z = grid_along(p.z, g.origin.z, g.per_metre.z, g.size.z);
-    EXACT S(terrain_cell) cell = terrain_cell_at(SIM g, x.first, z.first);
+    EXACT S(terrain_cell) cell = terrain_cell_at(SIM g, x.first, z.first, c.center.w);
     EXACT float ground = terrain_height(cell, x.part, z.part);
     return p.x > c.min.x && p.x < c.max.x && p.z > c.min.z && p.z < c.max.z && p.y <= ground;
 }
@@ -221,13 +239,14 @@ FN S(collide_span) terrain_segment(SIM_PARAM S(kiln_collider) c, float3 a, float
     span = collide_face(span, 5u, c.max.z - a.z, c.max.z - b.z);
     span = collide_face(span, COLLIDE_SURFACE, c.max.y - a.y, c.max.y - b.y);
     EXACT S(kiln_grid) g = AROUND(grids[c.grid]);
-    if (span.misses || span.enter > span.leave || terrain_is_clear(SIM g, a, b)) {
+    EXACT float raised = c.center.w * c.steepest;
+    if (span.misses || span.enter > span.leave || terrain_is_clear(SIM g, a, b, raised)) {
         span.misses = true;
         return span;
     }
     EXACT S(terrain_path) path = terrain_path_of(g, a, b);
     EXACT float to = exact_min(span.leave, 1.0f);
-    EXACT float hit = terrain_march(SIM g, path, span.enter, to);
+    EXACT float hit = terrain_march(SIM g, path, span.enter, to, c.center.w);
     span.misses = hit > 1.0f;
     bool at_once = hit <= span.enter;
     span.face = at_once ? span.face : COLLIDE_SURFACE;
@@ -243,7 +262,7 @@ FN S(collide_ground) terrain_ground(SIM_PARAM S(kiln_collider) c, float3 p)
     EXACT S(kiln_grid) g = AROUND(grids[c.grid]);
     EXACT S(grid_axis) x = grid_along(p.x, g.origin.x, g.per_metre.x, g.size.x);
     EXACT S(grid_axis) z = grid_along(p.z, g.origin.z, g.per_metre.z, g.size.z);
-    EXACT S(terrain_cell) cell = terrain_cell_at(SIM g, x.first, z.first);
+    EXACT S(terrain_cell) cell = terrain_cell_at(SIM g, x.first, z.first, c.center.w);
     EXACT float height = terrain_height(cell, x.part, z.part);
     bool lower = x.part >= z.part;
     EXACT float4 w00 = GRID_WORD(cell.first);

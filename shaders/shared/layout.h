@@ -173,7 +173,8 @@ struct kiln_step_params {
 struct kiln_collider {
     float4 min, max;
     float4 min_end, max_end;
-    float4 center, center_end; /* all but boxes along the axes: w: radius */
+    float4 center, center_end; /* all but boxes along the axes: w: radius; what looks up grids has
+                                  but that of the ball that meets it (collide_around) */
     float4 axis; /* cylinder: unit; w: half height at the start; plane: its normal then */
     uint kind;
     float half_height_end;
@@ -184,7 +185,8 @@ struct kiln_collider {
     float4 spin;               /* unit; w: the angle by which the step turns it, rad */
     uint grid;                 /* of terrain or of a mesh: its number */
     uint mesh;                 /* likewise, of its pose */
-    uint unused0, unused1;
+    float steepest;            /* of terrain: m of height for one across its steepest slope */
+    uint unused;
 };
 
 /* Where a mesh is at the start and at the end of the step: rows from the world to its frame. */

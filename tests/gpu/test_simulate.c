@@ -116,6 +116,7 @@ static void colliders_out_of_grids_agree(void **state)
     fixture_family(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT);
     fixture_add_terrain(&fixture, -0.4f, 3.0f, 0.9f, 40);
     fixture_add_moving_mesh(&fixture);
+    fixture_add_collisions(&fixture.scene.systems[0], 0.1f);
     fixture_finish(&fixture, 40);
     some_agree(*state, &fixture.scene, 40, 1);
 }

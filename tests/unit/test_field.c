@@ -93,7 +93,8 @@ static struct kiln_field *create(const struct kiln_mesh *mesh, uint32_t cells, c
 {
     struct kiln_error error = {0};
     struct kiln_threads *threads = kiln_threads_create(1 + cells % 3);
-    struct kiln_field *field = kiln_field_create(mesh, "m.obj", cells, cache, threads, &error);
+    struct kiln_field *field =
+        kiln_field_create(mesh, "m.obj", cells, 0.0f, cache, threads, &error);
     if (!field)
         fail_msg("%s", error.message);
     kiln_threads_destroy(&threads);
@@ -168,7 +169,7 @@ static void expect_refusal(const char *obj, const char *message)
     test_write_file("bad.obj", obj);
     struct kiln_mesh *mesh = load("bad.obj");
     struct kiln_threads *threads = kiln_threads_create(1);
-    assert_null(kiln_field_create(mesh, "bad.obj", 8, NULL, threads, &error));
+    assert_null(kiln_field_create(mesh, "bad.obj", 8, 0.0f, NULL, threads, &error));
     kiln_threads_destroy(&threads);
     assert_int_equal(error.code, KILN_INVALID_INPUT);
     if (!strstr(error.message, message))
@@ -323,16 +324,21 @@ static struct kiln_particle after(uint32_t steps)
     return p;
 }
 
-/* Against a ball of radius 2 at (1, 2, 3), turned somehow: the exact point, normal and time. */
+/* Against a ball of radius 2 at (1, 2, 3), turned somehow: the exact point, normal and time; by
+ * points, and by balls, one of them larger than what is around the mesh in any case. */
 static void a_ball_mirrors_where_it_is_hit(void **state)
 {
     (void)state;
     static const double asides[] = {0, 0.3, -0.6, 0.8}, speeds[] = {8, 80, 800};
-    for (int i = 0; i < 12; i++) {
-        const double y = asides[i % 4], x = sqrt(1 - y * y), speed = speeds[i / 4];
+    for (int i = 0; i < 36; i++) {
+        const double radius = i / 12 * 0.7, far = 2 + radius;
+        const double y = asides[i % 4], x = sqrt(1 - y * y), speed = speeds[i / 4 % 3];
         const double normal[3] = {x, y, 0}, v[3] = {-speed, 0, 0}, time_s = 0.4;
-        const double from[3] = {1 + 2 * x + speed * time_s, 2 + 2 * y, 3};
-        shoot(from, v)->collide.slowdown = fixture_constant(0.5f);
+        const double from[3] = {1 + far * x + speed * time_s, 2 + far * y, 3};
+        struct kiln_system *system = shoot(from, v);
+        system->collide.slowdown = fixture_constant(0.5f);
+        if (radius > 0)
+            fixture_add_collisions(system, (float)radius);
         struct kiln_object *ball = add_ball_object(1, 2, 3);
         ball->scale = fixture_constant(2.0f);
         ball->rotation = fixture_constant3(0.5f, -1.0f, 2.0f);
@@ -423,6 +429,44 @@ static void nothing_tunnels(void **state)
     }
 }
 
+/* What turns carries a ball's skin along, where it touches. */
+static void a_ball_is_thrown_by_what_its_skin_meets(void **state)
+{
+    (void)state;
+    const double from[3] = {0, 1.5, 0}, still[3] = {0, -0.0001, 0};
+    struct body body = begin("bar.obj");
+    add_box(&body, 0, 0, 0, 4, 0.5, 0.5);
+    fclose(body.out);
+    fixture_add_collisions(shoot(from, still), 0.5f);
+    fixture.scene.systems[0].collide.slowdown = fixture_constant(1.0f);
+    struct kiln_object *bar = fixture_add_mesh(&fixture, "bar.obj", 0, 0, 0);
+    bar->cells = 32;
+    bar->center.y = fixture_ramp(&fixture, KILN_CLOCK_TIME, 0, 0, 1, 6);
+    const float3 u = particle_velocity(after(20));
+    assert_near((double)u.y, 12, 0.05);
+    assert_near((double)u.x, 0, 0.05);
+}
+
+/* Larger than the field may be. */
+static void balls_too_large_for_a_mesh_are_refused(void **state)
+{
+    (void)state;
+    struct kiln_error error = {0};
+    struct kiln_threads *threads = kiln_threads_create(1);
+    struct kiln_mesh *mesh = load_ball();
+    struct kiln_field *field = kiln_field_create(mesh, "m.obj", 16, 1.0f, NULL, threads, &error);
+    assert_non_null(field);
+    assert_int_equal(field->size[0], 16 + 1 + 2 * (2 + 8));
+    kiln_field_destroy(&field);
+    assert_null(kiln_field_create(mesh, "m.obj", 16, 100.0f, NULL, threads, &error));
+    assert_int_equal(error.code, KILN_INVALID_INPUT);
+    assert_non_null(strstr(error.message, "m.obj: balls with a radius of 100"));
+    assert_null(kiln_field_create(mesh, "m.obj", 100, 1.5f, NULL, threads, &error));
+    assert_non_null(strstr(error.message, "samples"));
+    kiln_mesh_destroy(&mesh);
+    kiln_threads_destroy(&threads);
+}
+
 static void without_gravity_no_impact_makes_faster(void **state)
 {
     (void)state;
@@ -473,6 +517,8 @@ int main(void)
         cmocka_unit_test(a_ball_mirrors_where_it_is_hit),
         cmocka_unit_test(moving_surfaces_push),
         cmocka_unit_test(nothing_tunnels),
+        cmocka_unit_test(a_ball_is_thrown_by_what_its_skin_meets),
+        cmocka_unit_test(balls_too_large_for_a_mesh_are_refused),
         cmocka_unit_test(without_gravity_no_impact_makes_faster),
         cmocka_unit_test(what_is_born_inside_comes_out),
     };

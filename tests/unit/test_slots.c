@@ -171,6 +171,9 @@ static void pushed_among_colliders(void **state)
     for (uint32_t i = 0; i < fixture.scene.system_count; i += 2)
         fixture_add_collisions(&fixture.scene.systems[i], 0.1f);
     run_levels();
+    fixture_add_terrain(&fixture, -0.4f, 3.0f, 0.9f, 40);
+    fixture_add_moving_mesh(&fixture);
+    run_levels();
 }
 
 /* Each integrator, with all forces. */

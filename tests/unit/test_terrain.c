@@ -211,7 +211,8 @@ static struct kiln_object *add_slope(void)
     return slope;
 }
 
-/* The plane y = x / 2 - 0.5, from x = -3 to 5 and z = -1 to 7: the closed form of a mirror. */
+/* The plane y = x / 2 - 0.5, from x = -3 to 5 and z = -1 to 7: the closed form of a mirror, for
+ * points and for balls. */
 static void a_plane_mirrors(void **state)
 {
     (void)state;
@@ -220,12 +221,18 @@ static void a_plane_mirrors(void **state)
     for (int i = 0; i < 24; i++) {
         const double speed = speeds[i % 4], angle = 0.26 * i;
         double way[3] = {0.6 * cos(angle) * speed, -speed, 0.6 * sin(angle) * speed};
-        const double reach = 1.5 / speed; /* the start is so far back that it takes so long */
-        double from[3] = {1 - way[0] * reach, 0 - way[1] * reach, 3 - way[2] * reach};
+        const double radius = i % 8 < 4 ? 0 : 0.4;
+        /* The start is so far back that it takes so long. Balls have no radius while the step of
+         * their birth lasts. */
+        const double reach = radius > 0 ? fmax(1.5 / speed, 0.05) : 1.5 / speed;
+        double from[3] = {1 + radius * normal[0] - way[0] * reach,
+                          radius * normal[1] - way[1] * reach, 3 - way[2] * reach};
         struct kiln_system *system =
             one_particle(FLOAT3((float)from[0], (float)from[1], (float)from[2]),
                          FLOAT3((float)way[0], (float)way[1], (float)way[2]));
         system->collide.slowdown = fixture_constant(0.5f);
+        if (radius > 0)
+            fixture_add_collisions(system, (float)radius);
         add_slope();
         struct kiln_particle p = after((uint32_t)ceil(reach * 60) + 6);
         const double end_s = (ceil(reach * 60) + 6) / 60;
