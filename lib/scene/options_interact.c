@@ -78,7 +78,8 @@ const struct kiln_option_kind kiln_interaction_kinds[] = {
      .shortcut = "radius",
      .help =
          "They bounce off each other like balls (UberFlow 2004, 4.4 and 4.5), and meet surfaces "
-         "with their radius; how fast they may be without passing through each other is a matter "
+         "with their radius, from the step after their birth on; how fast they may be without "
+         "passing through each other is a matter "
          "of simulation.rate."},
     {.name = "gravity",
      .value = KILN_INTERACT_GRAVITY,

@@ -195,7 +195,8 @@ bool kiln_interact_init(struct kiln_interact *interact, struct kiln_device *devi
     kiln_buffer_init(&interact->order, device, (size_t)largest * 2 * sizeof(uint32_t),
                      "order of a grid");
     kiln_buffer_init(&interact->counts, NULL,
-                     KILN_SORT_STRETCHES * KILN_SORT_DIGITS * sizeof(uint32_t), "counts of digits");
+                     (size_t)KILN_SORT_STRETCHES * KILN_SORT_DIGITS * sizeof(uint32_t),
+                     "counts of digits");
     kiln_buffer_init(&interact->accelerations, NULL,
                      ((size_t)largest + KILN_GRAVITY_BLOCK) * sizeof(float3), "accelerations");
     kiln_buffer_init(&interact->block, device, sizeof(struct kiln_interact_params),
