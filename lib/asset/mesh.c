@@ -220,24 +220,34 @@ static struct kiln_mesh *copy(const struct kiln_mesh_result *result)
     return mesh;
 }
 
-static struct kiln_mesh *import(const struct kiln_mesh_request *request, struct kiln_error *error)
+/* What a file becomes: one of these. */
+struct imported {
+    struct kiln_mesh *mesh;
+    struct kiln_skin *skin; /* of a moving one */
+};
+
+static struct imported import(const struct kiln_mesh_request *request, struct kiln_error *error)
 {
+    struct imported imported = {NULL, NULL};
     struct kiln_mesh_result *result = mmap(NULL, sizeof *result, PROT_READ | PROT_WRITE,
                                            MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (result == MAP_FAILED) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory while reading the mesh",
                        request->name);
-        return NULL;
+        return imported;
     }
-    struct kiln_mesh *mesh = NULL;
     if (run(request, result, error) && check(request, result, error)) {
-        mesh = copy(result);
+        struct kiln_mesh *mesh = copy(result);
         if (!mesh)
             kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory while reading the mesh",
                            request->name);
+        else if (request->moving)
+            imported.skin = kiln_skin_take(request, result, mesh, error);
+        else
+            imported.mesh = mesh;
     }
     munmap(result, sizeof *result);
-    return mesh;
+    return imported;
 }
 
 /* An OBJ has a line for each vertex and each polygon: too many are found before they take time. */
@@ -296,37 +306,66 @@ static bool find_extension(struct kiln_mesh_request *request, struct kiln_error 
                           request->name, request->extension + 1);
 }
 
+static struct imported parse(struct kiln_mesh_request *request, struct kiln_error *error)
+{
+    const struct imported nothing = {NULL, NULL};
+    if (request->size > KILN_MAX_MESH_BYTES) {
+        kiln_error_set(error, KILN_INVALID_INPUT,
+                       "%s: the mesh file has %zu bytes; allowed are at most %d", request->name,
+                       request->size, KILN_MAX_MESH_BYTES);
+        return nothing;
+    }
+    return find_extension(request, error) ? import(request, error) : nothing;
+}
+
+static struct imported load(struct kiln_mesh_request *request, struct kiln_error *error)
+{
+    struct imported imported = {NULL, NULL};
+    const char *path = request->name;
+    const char *slash = strrchr(path, '/');
+    char *folder = slash ? strndup(path, (size_t)(slash - path)) : strdup(".");
+    unsigned char *bytes =
+        kiln_file_read(path, "mesh", ALLOWED, KILN_MAX_MESH_BYTES, &request->size, error);
+    request->folder = folder;
+    request->bytes = bytes;
+    if (!folder)
+        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory while reading", path);
+    else if (bytes && find_extension(request, error))
+        imported = import(request, error);
+    free(bytes);
+    free(folder);
+    return imported;
+}
+
 struct kiln_mesh *kiln_mesh_parse(const void *bytes, size_t size, const char *name,
                                   struct kiln_error *error)
 {
     struct kiln_mesh_request request = {.name = name, .bytes = bytes, .size = size};
-    if (size > KILN_MAX_MESH_BYTES) {
-        kiln_error_set(error, KILN_INVALID_INPUT,
-                       "%s: the mesh file has %zu bytes; allowed are at most %d", name, size,
-                       KILN_MAX_MESH_BYTES);
-        return NULL;
-    }
-    return find_extension(&request, error) ? import(&request, error) : NULL;
+    return parse(&request, error).mesh;
 }
 
 struct kiln_mesh *kiln_mesh_load(const char *path, const char *root, bool (*stop)(void *user),
                                  void *user, struct kiln_error *error)
 {
     struct kiln_mesh_request request = {.name = path, .root = root, .stop = stop, .user = user};
-    const char *slash = strrchr(path, '/');
-    char *folder = slash ? strndup(path, (size_t)(slash - path)) : strdup(".");
-    unsigned char *bytes =
-        kiln_file_read(path, "mesh", ALLOWED, KILN_MAX_MESH_BYTES, &request.size, error);
-    struct kiln_mesh *mesh = NULL;
-    request.folder = folder;
-    request.bytes = bytes;
-    if (!folder)
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory while reading", path);
-    else if (bytes && find_extension(&request, error))
-        mesh = import(&request, error);
-    free(bytes);
-    free(folder);
-    return mesh;
+    return load(&request, error).mesh;
+}
+
+struct kiln_skin *kiln_skin_parse(const void *bytes, size_t size, const char *name,
+                                  struct kiln_error *error)
+{
+    struct kiln_mesh_request request = {.name = name, .moving = true, .bytes = bytes, .size = size};
+    return parse(&request, error).skin;
+}
+
+struct kiln_skin *kiln_skin_load(const char *path, const char *root, bool (*stop)(void *user),
+                                 void *user, struct kiln_error *error)
+{
+    struct kiln_mesh_request request = {
+        .name = path, .moving = true, .root = root, .stop = stop, .user = user};
+    struct imported imported = load(&request, error);
+    kiln_mesh_destroy(&imported.mesh); /* a skin has its own */
+    return imported.skin;
 }
 
 void kiln_mesh_destroy(struct kiln_mesh **mesh)

@@ -259,8 +259,8 @@ static void put_vertex(const struct aiMesh *mesh, unsigned i, float out[6])
     memcpy(out, vertex, sizeof vertex);
 }
 
-static bool put_mesh(const struct kiln_mesh_request *request, const struct aiMesh *mesh,
-                     struct kiln_mesh_result *result)
+bool kiln_mesh_import_part(const struct kiln_mesh_request *request, const struct aiMesh *mesh,
+                           struct kiln_mesh_result *result)
 {
     uint32_t first = result->vertex_count;
     if (mesh->mNumVertices > KILN_MAX_MESH_VERTICES - first)
@@ -284,8 +284,10 @@ static bool put_mesh(const struct kiln_mesh_request *request, const struct aiMes
 static bool put_scene(const struct kiln_mesh_request *request, const struct aiScene *scene,
                       struct kiln_mesh_result *result)
 {
-    for (unsigned i = 0; i < scene->mNumMeshes; i++) {
-        if (!put_mesh(request, scene->mMeshes[i], result))
+    if (request->moving && !kiln_skin_import(request, scene, result))
+        return false;
+    for (unsigned i = 0; !request->moving && i < scene->mNumMeshes; i++) {
+        if (!kiln_mesh_import_part(request, scene->mMeshes[i], result))
             return false;
     }
     const char *lacks = result->triangle_count == 0 ? "no triangles"
@@ -295,15 +297,16 @@ static bool put_scene(const struct kiln_mesh_request *request, const struct aiSc
                                     request->name, lacks);
 }
 
-static struct aiPropertyStore *make_properties(const struct assimp *assimp)
+static struct aiPropertyStore *make_properties(const struct assimp *assimp, bool moving)
 {
     struct aiPropertyStore *properties = assimp->create_properties();
     if (properties) {
+        const int still = moving ? 0 : (int)aiComponent_BONEWEIGHTS | (int)aiComponent_ANIMATIONS;
         assimp->set_integer(properties, AI_CONFIG_PP_RVC_FLAGS,
-                            aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
-                                aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS |
-                                aiComponent_ANIMATIONS | aiComponent_TEXTURES | aiComponent_LIGHTS |
-                                aiComponent_CAMERAS);
+                            still | (int)aiComponent_TANGENTS_AND_BITANGENTS |
+                                (int)aiComponent_COLORS | (int)aiComponent_TEXCOORDS |
+                                (int)aiComponent_TEXTURES | (int)aiComponent_LIGHTS |
+                                (int)aiComponent_CAMERAS);
         assimp->set_integer(properties, AI_CONFIG_PP_SBP_REMOVE,
                             aiPrimitiveType_POINT | aiPrimitiveType_LINE);
         assimp->set_float(properties, AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, CREASE_DEG);
@@ -321,17 +324,19 @@ void kiln_mesh_import(const struct kiln_mesh_request *request, struct kiln_mesh_
         .OpenProc = on_open, .CloseProc = on_close, .UserData = (aiUserData)&files};
     if (!load_library(&assimp, &result->error, request->name))
         return;
-    struct aiPropertyStore *properties = make_properties(&assimp);
+    struct aiPropertyStore *properties = make_properties(&assimp, request->moving);
     if (!properties || !note_contents(&files, request->bytes, request->size)) {
         kiln_error_set(&result->error, KILN_DEVICE_FAILED,
                        "%s: out of memory while reading the mesh", request->name);
         return;
     }
     const unsigned flags = aiProcess_ValidateDataStructure | aiProcess_RemoveComponent |
-                           aiProcess_Triangulate | aiProcess_SortByPType |
-                           aiProcess_PreTransformVertices | aiProcess_GenSmoothNormals |
+                           aiProcess_Triangulate | aiProcess_SortByPType;
+    /* In one piece; what moves stays as it is, since its pieces do not move alike. */
+    const unsigned still = aiProcess_PreTransformVertices | aiProcess_GenSmoothNormals |
                            aiProcess_JoinIdenticalVertices;
-    const struct aiScene *scene = assimp.import(main_name, flags, &io, properties);
+    const struct aiScene *scene =
+        assimp.import(main_name, request->moving ? flags : flags | still, &io, properties);
     /* A file that may not be opened is no reason for assimp to give up: it looks for others. */
     if (files.refusal.code != KILN_OK)
         result->error = files.refusal;

@@ -3,10 +3,12 @@
 #define KILN_ASSET_MESH_IMPORT_H
 
 #include "asset/mesh.h"
+#include "asset/skin_import.h"
 
 struct kiln_mesh_request {
     const char *name;      /* for messages */
     const char *extension; /* ".obj", ".gltf" or ".glb" */
+    bool moving;           /* nodes, bones and clips are wanted, and vertices before these */
     const void *bytes;
     size_t size;
     const char *folder;       /* of the file, where the paths in it start; NULL: none are allowed */
@@ -24,9 +26,27 @@ struct kiln_mesh_result {
     char hash[65];
     float vertices[KILN_MAX_MESH_VERTICES][6];
     uint32_t triangles[KILN_MAX_MESH_TRIANGLES][3];
+    struct kiln_skin_result skin; /* of a moving one */
 };
 
 /* Imports on this process, whatever that takes. */
 void kiln_mesh_import(const struct kiln_mesh_request *request, struct kiln_mesh_result *result);
+
+struct aiMesh;
+struct aiScene;
+
+/* Appends the vertices and triangles of one of assimp's meshes. */
+bool kiln_mesh_import_part(const struct kiln_mesh_request *request, const struct aiMesh *mesh,
+                           struct kiln_mesh_result *result);
+
+/* The same for all of a scene that moves, with what moves it. */
+bool kiln_skin_import(const struct kiln_mesh_request *request, const struct aiScene *scene,
+                      struct kiln_mesh_result *result);
+
+/* The parent's side: checks what came and makes a skin of it, which takes the mesh, whatever
+ * comes of it. */
+struct kiln_skin *kiln_skin_take(const struct kiln_mesh_request *request,
+                                 const struct kiln_mesh_result *result, struct kiln_mesh *mesh,
+                                 struct kiln_error *error);
 
 #endif

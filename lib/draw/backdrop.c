@@ -190,9 +190,9 @@ void kiln_backdrop_destroy(struct kiln_backdrop_stage **stage)
     *stage = NULL;
 }
 
-struct kiln_mesh *const *kiln_backdrop_meshes(const struct kiln_backdrop_stage *stage)
+struct kiln_meshes *kiln_backdrop_meshes(struct kiln_backdrop_stage *stage)
 {
-    return stage->meshes.loaded;
+    return &stage->meshes;
 }
 
 static struct pictures pictures_of(const struct kiln_backdrop_stage *stage)
@@ -205,13 +205,14 @@ static struct pictures pictures_of(const struct kiln_backdrop_stage *stage)
     return pictures;
 }
 
-static struct kiln_backdrop_inputs make_inputs(const struct kiln_backdrop_stage *stage,
+static struct kiln_backdrop_inputs make_inputs(struct kiln_backdrop_stage *stage,
                                                const struct kiln_view *view,
                                                const struct kiln_lighting *lighting)
 {
     float time_s = view->clock.x;
     const struct pictures pictures = pictures_of(stage);
     struct kiln_backdrop_inputs now = {.view = *view, .block = make_block(stage->scene, time_s)};
+    kiln_meshes_pose(&stage->meshes, time_s);
     kiln_shapes_fill(stage->scene, stage->meshes.loaded, time_s, &now.shapes);
     fill_maps(stage->scene, &pictures, time_s, &now.shapes);
     if (pictures.sky.width)

@@ -28,8 +28,8 @@ struct kiln_backdrop_stage *kiln_backdrop_create(struct kiln_device *device,
                                                  struct kiln_error *error);
 void kiln_backdrop_destroy(struct kiln_backdrop_stage **stage);
 
-/* The scene's meshes in its order; they live as long as the stage. */
-struct kiln_mesh *const *kiln_backdrop_meshes(const struct kiln_backdrop_stage *stage);
+/* The scene's meshes; they live as long as the stage, which poses them when it draws. */
+struct kiln_meshes *kiln_backdrop_meshes(struct kiln_backdrop_stage *stage);
 
 /* Draws it, unless the picture of the last call still holds. `gl` leaves bound what shaders read
  * that light surfaces like it does (shaders/draw/surface.glsl). */

@@ -167,7 +167,7 @@ static bool cast_shadows(struct kiln_lighting_stage *stage, const struct kiln_li
     return !stage->shade || lighting->sunlit;
 }
 
-void kiln_lighting_use_meshes(struct kiln_lighting_stage *stage, struct kiln_mesh *const *meshes)
+void kiln_lighting_use_meshes(struct kiln_lighting_stage *stage, struct kiln_meshes *meshes)
 {
     if (stage->shade)
         kiln_sun_shade_use_meshes(stage->shade, meshes);

@@ -36,9 +36,9 @@ struct kiln_lighting_stage *kiln_lighting_create(struct kiln_device *device,
                                                  struct kiln_error *error);
 void kiln_lighting_destroy(struct kiln_lighting_stage **stage);
 
-/* The scene's meshes (kiln_backdrop_meshes), which must outlive the use of the stage: before its
- * first run. */
-void kiln_lighting_use_meshes(struct kiln_lighting_stage *stage, struct kiln_mesh *const *meshes);
+/* The scene's meshes (kiln_backdrop_meshes), which it poses and which must outlive its use: before
+ * its first run. */
+void kiln_lighting_use_meshes(struct kiln_lighting_stage *stage, struct kiln_meshes *meshes);
 
 /* The light of the pool's particles at a view. */
 bool kiln_lighting_run(struct kiln_lighting_stage *stage, struct kiln_pool *pool,

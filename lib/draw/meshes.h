@@ -1,20 +1,27 @@
-/* The backdrop's meshes, as they are in their files, and its terrain. */
+/* The backdrop's meshes, in the space of their files, and its terrain. */
 #ifndef KILN_DRAW_MESHES_H
 #define KILN_DRAW_MESHES_H
 
-#include "asset/mesh.h"
+#include "asset/skin.h"
 #include "scene/scene.h"
 
 /* In the scene's order. */
 struct kiln_meshes {
     uint32_t count;
     struct kiln_mesh *loaded[KILN_MAX_MESHES];
+    struct kiln_skin *skins[KILN_MAX_MESHES]; /* of those that move, and how: others have NULL */
+    const struct kiln_animation *animations[KILN_MAX_MESHES];
+    float
+        posed_s[KILN_MAX_MESHES]; /* where in its clip each of those is loaded; below 0: nowhere */
 };
 
 /* KILN_INVALID_INPUT and the rest as kiln_mesh_load and kiln_terrain_create; kiln_meshes_finish
  * then frees what there is. */
 bool kiln_meshes_init(struct kiln_meshes *meshes, const struct kiln_scene *scene,
                       struct kiln_error *error);
+
+/* Moves the vertices of those that move, and their bounds, to where they are at a clip time. */
+void kiln_meshes_pose(struct kiln_meshes *meshes, float time_s);
 void kiln_meshes_finish(struct kiln_meshes *meshes);
 
 #endif

@@ -15,10 +15,12 @@ enum { HIT_LAYERS = 1 + KILN_EDGE_SAMPLES };
 struct drawn_mesh {
     GLuint vertex_array, vertices, triangles;
     GLsizei indices;
+    float posed_s; /* as of struct kiln_meshes */
 };
 
 struct kiln_meshes_gl {
     struct kiln_device *device;
+    const struct kiln_meshes *meshes;
     uint32_t width, height, count;
     struct drawn_mesh drawn[KILN_MAX_MESHES];
     GLuint hit_program, shadow_program;
@@ -133,14 +135,17 @@ struct kiln_meshes_gl *kiln_meshes_gl_create(struct kiln_device *device,
         return NULL;
     }
     m->device = device;
+    m->meshes = meshes;
     m->width = scene->width;
     m->height = scene->height;
     m->count = meshes->count;
     if (m->count == 0)
         return m;
     bool ok = create_programs(m, error);
-    for (uint32_t i = 0; ok && i < m->count; i++)
+    for (uint32_t i = 0; ok && i < m->count; i++) {
         upload(device, meshes->loaded[i], &m->drawn[i]);
+        m->drawn[i].posed_s = meshes->posed_s[i];
+    }
     if (ok)
         create_targets(m);
     ok = kiln_device_check(device, "meshes", error) && ok;
@@ -240,11 +245,26 @@ void kiln_meshes_gl_bind_shadows(const struct kiln_meshes_gl *meshes)
     glActiveTexture(GL_TEXTURE0);
 }
 
+/* Vertices that are elsewhere than when they were last uploaded. */
+static void upload_poses(struct kiln_meshes_gl *m)
+{
+    for (uint32_t i = 0; i < m->count; i++) {
+        const struct kiln_mesh *mesh = m->meshes->loaded[i];
+        if (m->drawn[i].posed_s == m->meshes->posed_s[i])
+            continue;
+        m->drawn[i].posed_s = m->meshes->posed_s[i];
+        glBindBuffer(GL_ARRAY_BUFFER, m->drawn[i].vertices);
+        glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(mesh->vertex_count * sizeof *mesh->vertices),
+                     mesh->vertices, GL_DYNAMIC_DRAW);
+    }
+}
+
 bool kiln_meshes_gl_draw(struct kiln_meshes_gl *meshes, const struct kiln_draw_shapes *shapes,
                          struct kiln_error *error)
 {
     if (meshes->count == 0)
         return true;
+    upload_poses(meshes);
     glBindFramebuffer(GL_FRAMEBUFFER, meshes->framebuffer);
     glDisable(GL_BLEND);
     glEnable(GL_DEPTH_TEST);

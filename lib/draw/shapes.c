@@ -132,7 +132,9 @@ static void fill_mesh(const struct kiln_scene *scene, const struct kiln_object *
     }
     out->color = with_w(kiln_scene_value3(scene, &object->color, time_s), 0.0f);
     out->center = (float4){center[0], center[1], center[2], fmaxf(sqrtf(radius2), 1e-6f)};
-    out->half_size = (float4){half_size[0], half_size[1], half_size[2], 0.0f};
+    const float clip_s =
+        object->animation.enabled ? kiln_scene_animation_s(&object->animation, time_s) : 0.0f;
+    out->half_size = (float4){half_size[0], half_size[1], half_size[2], clip_s};
 }
 
 static void fill_turned_box(const struct kiln_scene *scene, const struct kiln_object *object,

@@ -19,7 +19,7 @@ struct turned_box {
 
 struct kiln_sun_shade {
     const struct kiln_scene *scene;
-    struct kiln_mesh *const *meshes;
+    struct kiln_meshes *meshes;
     struct kiln_sun_mesh *maps; /* a mesh each */
     struct kiln_sun_frame sun;  /* these are of the frame at hand */
     struct kiln_draw_shapes shapes;
@@ -73,7 +73,7 @@ void kiln_sun_shade_destroy(struct kiln_sun_shade **shade)
     *shade = NULL;
 }
 
-void kiln_sun_shade_use_meshes(struct kiln_sun_shade *shade, struct kiln_mesh *const *meshes)
+void kiln_sun_shade_use_meshes(struct kiln_sun_shade *shade, struct kiln_meshes *meshes)
 {
     shade->meshes = meshes;
 }
@@ -102,7 +102,10 @@ static void place_objects(struct kiln_sun_shade *shade, float time_s)
 {
     const struct kiln_scene *scene = shade->scene;
     shade->sun = kiln_sun_frame_at(scene, time_s);
-    kiln_shapes_fill(scene, shade->meshes, time_s, &shade->shapes);
+    struct kiln_meshes none = {.count = 0}, *used = shade->meshes ? shade->meshes : &none;
+    struct kiln_mesh *const *meshes = used->loaded;
+    kiln_meshes_pose(used, time_s);
+    kiln_shapes_fill(scene, meshes, time_s, &shade->shapes);
     shade->box_count = 0;
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
         const struct kiln_object *object = &scene->backdrop.objects[i];
@@ -116,8 +119,7 @@ static void place_objects(struct kiln_sun_shade *shade, float time_s)
     for (uint32_t i = 0; i < shade->shapes.more.y; i++)
         shade->turned[i] = turned_box_at(&shade->shapes.turned[i], &shade->sun);
     for (uint32_t i = 0; i < shade->shapes.counts.z; i++)
-        kiln_sun_mesh_update(&shade->maps[i], shade->meshes[i], &shade->shapes.meshes[i],
-                             &shade->sun);
+        kiln_sun_mesh_update(&shade->maps[i], meshes[i], &shade->shapes.meshes[i], &shade->sun);
 }
 
 /* One whose particles are at hand. */

@@ -6,6 +6,7 @@
 
 #include "base/thread.h"
 #include "draw/living.h"
+#include "draw/meshes.h"
 #include "draw/shapes.h"
 
 struct kiln_sun_shade;
@@ -18,9 +19,9 @@ struct kiln_sun_shade *kiln_sun_shade_create(const struct kiln_scene *scene,
                                              struct kiln_error *error);
 void kiln_sun_shade_destroy(struct kiln_sun_shade **shade);
 
-/* The scene's meshes in its order, which must outlive the use of the shade; before the first run of
- * a scene with meshes. */
-void kiln_sun_shade_use_meshes(struct kiln_sun_shade *shade, struct kiln_mesh *const *meshes);
+/* The scene's meshes, which it poses and which must outlive its use; before the first run of a
+ * scene with meshes. */
+void kiln_sun_shade_use_meshes(struct kiln_sun_shade *shade, struct kiln_meshes *meshes);
 
 /* Computes it for all lit particles. Returns 0 to 1 for each slot of the pool, with room for whole
  * rows of KILN_SUN_SHADE_ROW, valid until the next run; NULL with an error. */

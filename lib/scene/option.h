@@ -44,6 +44,7 @@ extern const struct kiln_option_type kiln_type_motion;   /* a word of `choices` 
 extern const struct kiln_option_type kiln_type_name;     /* of a system; const char * */
 extern const struct kiln_option_type kiln_type_picture;  /* an image's path or none; const char * */
 extern const struct kiln_option_type kiln_type_mesh;     /* a mesh's path; const char * */
+extern const struct kiln_option_type kiln_type_clip;     /* a name or number; const char * */
 extern const struct kiln_option_type kiln_type_grid;     /* a wind's path; const char * */
 extern const struct kiln_option_type kiln_type_bounds;   /* {min, max} or none; kiln_bounds */
 extern const struct kiln_option_type kiln_type_bursts;   /* {1 s: 100}; kiln_burst[], count */

@@ -69,6 +69,16 @@ static const struct kiln_option plane[] = {
     END,
 };
 
+static const struct kiln_option animation[] = {
+    {ROW("clip", clip, AT(animation.clip), "0", "Its name in the file, or its number from 0.")},
+    VALUE("start", animation.start, KILN_SECONDS, -FAR, FAR, 0, "0 s",
+          "Where in it the mesh is at clip time 0."),
+    VALUE("speed", animation.speed, KILN_PLAIN, -1000, 1000, 0, "1",
+          "Factor on how fast it plays; below 0 backwards."),
+    BOOLEAN("loop", animation.loop, "true", "From its end it goes on at its start; else it stays."),
+    END,
+};
+
 static const struct kiln_option mesh[] = {
     {ROW("file", mesh, AT(file), NULL,
          "Triangles in an OBJ, glTF or GLB file, in metres and y up; its materials are left out.")},
@@ -77,6 +87,9 @@ static const struct kiln_option mesh[] = {
     VECTOR("rotation", rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME, "[0, 0, 0]",
            "About x, then about y, then about z."),
     VALUE("scale", scale, KILN_PLAIN, 0.000001, FAR, TIME, "1", "Metres for a unit of the file."),
+    {ROW("animation", switch, 0, "none",
+         "An animation of the glTF or GLB file: nodes, and bones that vertices follow."),
+     .members = animation, .count_offset = AT(animation.enabled)},
     REFLECTANCE,
     BOOLEAN("collide", collide, "false",
             "Particles of systems that collide bounce off it; it must be closed."),

@@ -8,15 +8,15 @@
 #include "asset/mesh_measure.h"
 #include "scene/asset_path.h"
 
-static bool refuse(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
-                   const struct kiln_look *look, const struct kiln_error *error)
+bool kiln_mesh_file_fail(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
+                         const char *file, const struct kiln_error *error)
 {
-    const size_t length = strlen(look->mesh.file);
+    const size_t length = strlen(file);
     const char *reason = error->message;
-    if (strncmp(reason, look->mesh.file, length) == 0)
+    if (strncmp(reason, file, length) == 0)
         reason += length + strspn(reason + length, ": ");
-    kiln_validate_fail(reader, root, path, "'%s': %s",
-                       kiln_asset_name(reader->scene, look->mesh.file), reason);
+    kiln_validate_fail(reader, root, path, "'%s': %s", kiln_asset_name(reader->scene, file),
+                       reason);
     if (error->code == KILN_DEVICE_FAILED || error->code == KILN_INTERRUPTED)
         reader->error->code = error->code;
     return false;
@@ -37,7 +37,7 @@ bool kiln_particle_mesh_settle(struct kiln_reader *reader, const struct kiln_nod
     struct kiln_mesh *mesh =
         kiln_mesh_load(look->mesh.file, scene->asset_root, scene->stop, scene->user, &error);
     if (!mesh)
-        return refuse(reader, root, path, look, &error);
+        return kiln_mesh_file_fail(reader, root, path, look->mesh.file, &error);
     const struct kiln_mesh_measure measure = kiln_mesh_measure(mesh);
     look->mesh.triangles = mesh->triangle_count;
     look->mesh.shade = measure.shade / measure.edge;

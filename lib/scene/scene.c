@@ -2,8 +2,10 @@
 #include "scene/scene.h"
 #include "scene/unit.h"
 
+#include "shared/exact.h"
 #include "shared/random.h"
 
+#include <math.h>
 #include <string.h>
 
 float kiln_scene_time(const struct kiln_scene *scene, uint32_t step)
@@ -91,6 +93,16 @@ void kiln_scene_rotation(float3 angles, float rows[3][3])
 bool kiln_object_is_mesh(const struct kiln_object *object)
 {
     return object->kind == KILN_OBJECT_MESH || object->kind == KILN_OBJECT_TERRAIN;
+}
+
+float kiln_scene_animation_s(const struct kiln_animation *animation, float time_s)
+{
+    const float seconds = animation->start.constant + animation->speed.constant * time_s;
+    const float length = animation->length;
+    if (!animation->loop || !(length > 0.0f))
+        return exact_clamp(seconds, 0.0f, length);
+    const float rounds = floorf(seconds / length);
+    return exact_clamp(seconds - rounds * length, 0.0f, length);
 }
 
 struct kiln_terrain_params kiln_scene_terrain(const struct kiln_object *terrain)

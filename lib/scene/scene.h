@@ -336,6 +336,16 @@ enum kiln_object_kind {
     KILN_OBJECT_TERRAIN, /* drawn as a mesh */
 };
 
+/* A mesh that moves in its own space as a clip of its file says (asset/skin.h). */
+struct kiln_animation {
+    bool enabled;
+    const char *clip;               /* its name or number, as written */
+    struct kiln_value start, speed; /* s; factor: constant */
+    bool loop;
+    uint32_t number; /* follows: of the clip */
+    float length;    /* follows: s */
+};
+
 /* Values have the clock constant or time. */
 struct kiln_object {
     enum kiln_object_kind kind;
@@ -349,7 +359,8 @@ struct kiln_object {
     const char *file;            /* mesh: an absolute path; terrain: that of an image, or NULL */
     struct kiln_value3 rotation; /* rad: box, mesh: about x, then y, then z */
     struct kiln_value scale;     /* mesh: metres for a unit of the file */
-    uint32_t samples[2];         /* terrain (asset/terrain.h), and what follows; constant */
+    struct kiln_animation animation; /* mesh */
+    uint32_t samples[2];             /* terrain (asset/terrain.h), and what follows; constant */
     struct kiln_value hills, roughness, ridges;
     uint32_t octaves, seed;
     uint32_t cells; /* mesh: of its distance field (asset/field.h) */
@@ -497,6 +508,9 @@ void kiln_scene_rotation(float3 angles, float rows[3][3]);
 
 /* Is the object drawn as a mesh? */
 bool kiln_object_is_mesh(const struct kiln_object *object);
+
+/* How far into its clip a mesh that moves is at a clip time, s: what kiln_skin_pose takes. */
+float kiln_scene_animation_s(const struct kiln_animation *animation, float time_s);
 
 /* What a terrain is made from; the image's path stays the scene's. */
 struct kiln_terrain_params kiln_scene_terrain(const struct kiln_object *terrain);

@@ -44,16 +44,20 @@ const struct kiln_option_type kiln_type_pair = {read_pair, print_pair, describe_
 /* ---- name: which systems there are is known when all are read ----------------------------------
  */
 
-static bool read_name(struct kiln_reader *reader, const struct kiln_option *option,
-                      const struct kiln_node *node, void *field)
+static bool keep_text(struct kiln_reader *reader, const struct kiln_node *node, void *field)
 {
-    if (!kiln_reader_is_text(node))
-        return kiln_reader_mismatch(reader, option, node);
     const char *copy = kiln_arena_text(reader->arena, node->text, strlen(node->text));
     if (!copy)
         return kiln_reader_out_of_memory(reader);
     memcpy(field, &copy, sizeof copy);
     return true;
+}
+
+static bool read_name(struct kiln_reader *reader, const struct kiln_option *option,
+                      const struct kiln_node *node, void *field)
+{
+    return kiln_reader_is_text(node) ? keep_text(reader, node, field)
+                                     : kiln_reader_mismatch(reader, option, node);
 }
 
 static void print_name(struct kiln_printer *printer, const struct kiln_option *option,
@@ -78,6 +82,31 @@ static void schema_name(const struct kiln_option *option, struct kiln_text *out)
 }
 
 const struct kiln_option_type kiln_type_name = {read_name, print_name, describe_name, schema_name};
+
+/* ---- clip: which ones there are, its file knows ------------------------------------------------
+ */
+
+static bool read_clip(struct kiln_reader *reader, const struct kiln_option *option,
+                      const struct kiln_node *node, void *field)
+{
+    return node->kind == KILN_NODE_SCALAR && *node->text
+               ? keep_text(reader, node, field)
+               : kiln_reader_mismatch(reader, option, node);
+}
+
+static void describe_clip(const struct kiln_option *option, struct kiln_text *out)
+{
+    (void)option;
+    kiln_text_add(out, "the name of an animation in the file, or its number from 0");
+}
+
+static void schema_clip(const struct kiln_option *option, struct kiln_text *out)
+{
+    (void)option;
+    kiln_text_add(out, "{\"type\": [\"string\", \"integer\"]}");
+}
+
+const struct kiln_option_type kiln_type_clip = {read_clip, print_name, describe_clip, schema_clip};
 
 /* ---- bounds --------------------------------------------------------------------------------- */
 

@@ -5,6 +5,7 @@
 #include "asset/closed.h"
 #include "scene/asset_path.h"
 #include "scene/family.h"
+#include "scene/mesh_animation.h"
 #include "scene/particle_mesh.h"
 
 #include <inttypes.h>
@@ -379,7 +380,11 @@ static bool check_objects(struct kiln_reader *reader, const struct kiln_node *ro
             return kiln_validate_fail(reader, root, path, "must not be [0, 0, 0]");
         if (!kiln_object_is_mesh(object))
             continue;
+        if (!kiln_mesh_animation_settle(reader, root, i))
+            return false;
         snprintf(path, sizeof path, "backdrop.objects.%u.mesh.collide", i);
+        if (object->collide && object->animation.enabled)
+            return kiln_validate_fail(reader, root, path, "not of a mesh with an animation");
         if (object->collide && object->kind == KILN_OBJECT_MESH &&
             !check_closed(reader, root, path, object->file))
             return false;

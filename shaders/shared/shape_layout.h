@@ -37,8 +37,9 @@
 struct kiln_draw_mesh {
     float4 to_world[3]; /* rows */
     float4 color;
-    float4 center;    /* of its bounds in the world, m; w: radius of the sphere around them */
-    float4 half_size; /* m */
+    float4 center; /* of its bounds in the world, m; w: radius of the sphere around them */
+    float4
+        half_size; /* m; w: seconds into its animation, by which pictures and maps of it differ */
 };
 
 /* A box that does not lie along the axes. */

@@ -1,12 +1,14 @@
 /* Fuzzes the mesh loader: any bytes are a mesh within the limits or an error, never a crash; of
- * this process, that is: the importer has one of its own. */
+ * this process, that is: the importer has one of its own. What moves is within them at any moment.
+ */
 #include "fuzz.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
-#include "asset/mesh.h"
+#include "asset/skin.h"
 
 static void require(bool condition, const char *what)
 {
@@ -31,6 +33,19 @@ static void check_mesh(const struct kiln_mesh *mesh)
     }
 }
 
+static void check_skin(const struct kiln_skin *skin)
+{
+    struct kiln_mesh *mesh = kiln_skin_copy_mesh(skin);
+    require(mesh != NULL, "no memory");
+    const float length = kiln_skin_clip_length(skin, 0);
+    for (int i = 0; i < 4; i++) {
+        check_mesh(mesh);
+        kiln_skin_pose_mesh(skin, 0, length * (float)i / 3.0f, mesh);
+    }
+    check_mesh(mesh);
+    kiln_mesh_destroy(&mesh);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     struct kiln_error error = {0};
@@ -43,5 +58,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     else
         require(error.code != KILN_OK && *error.message, "an error without a message");
     kiln_mesh_destroy(&mesh);
+    struct kiln_skin *skin =
+        strcmp(name, "fuzz.obj") == 0 ? NULL : kiln_skin_parse(data, size, name, &error);
+    if (skin)
+        check_skin(skin);
+    kiln_skin_destroy(&skin);
     return 0;
 }

@@ -29,6 +29,7 @@ struct moment {
     struct kiln_scene *scene;
     struct kiln_pool pool;
     uint32_t step;
+    uint32_t before; /* a step that is drawn beforehand; 0: none */
 };
 
 static void step_to(struct moment *m, uint32_t step)
@@ -115,6 +116,7 @@ static struct picture *draw(struct moment *m, enum kiln_backdrop_technique techn
     assert_non_null(picture);
     if (!kiln_stages_init(&stages, m->device, m->scene, &techniques, needs, workers, &m->pool,
                           &error) ||
+        (m->before && !kiln_stages_draw(&stages, &m->pool, m->before, 0, &drawn, &error)) ||
         !kiln_stages_draw(&stages, &m->pool, m->step, 0, &drawn, &error))
         fail_msg("%s", error.message);
     take(&stages.scene_color, picture->color, COLORS);
@@ -267,6 +269,10 @@ static void check_agreement(struct moment *m, const char *name)
     "             rotation: [20 deg, 40 deg, 0], color: [0.6, 0.4, 0.3]}\n"                        \
     "    - mesh: {file: meshes/logs.obj, position: [0.4, 0, 0], color: 0.5}\n"                     \
     "    - box: {center: [1.4, 0.4, 0], size: [0.4, 0.8, 0.4]}\n"
+#define MOVING                                                                                     \
+    "  objects:\n"                                                                                 \
+    "    - mesh: {file: meshes/walker.gltf, rotation: [0, 30 deg, 0], animation: {}}\n"            \
+    "    - box: {center: [0.9, 0.4, 0], size: [0.4, 0.8, 0.4]}\n"
 #define LAMPS                                                                                      \
     "  lights:\n"                                                                                  \
     "    - point: {position: [-1, 1.5, 1.5], color: [3, 1.5, 0.5], radius: 0.3 m}\n"               \
@@ -309,6 +315,8 @@ static const struct fixture {
     {"meshes", HEAD CAMERA "backdrop:\n" MESHES LAMPS},
     {"meshes, soft sun",
      HEAD CAMERA "backdrop:\n  sun: {direction: [-1, 1, 1.5], size: 12 deg}\n" MESHES},
+    {"a mesh that moves",
+     HEAD CAMERA "backdrop:\n  sun: {direction: [-1, 1, 1.5], size: 2 deg}\n" MOVING LAMPS},
     {"close to a mesh",
      HEAD "camera: {position: [0.1, 0.9, 0.5], target: [-0.6, 0.5, 0.5], fov: 90 deg}\n"
           "backdrop:\n  haze: 0\n" MESHES},
@@ -351,6 +359,28 @@ static void techniques_agree_on_every_feature(void **state)
     }
 }
 
+/* What was drawn before leaves nothing behind. */
+static void what_moves_is_drawn_anew(void **state)
+{
+    struct moment m;
+    open_moment(&m, *state, parse(HEAD CAMERA "backdrop:\n" MOVING), 40);
+    for (int i = 0; i < 2; i++) {
+        const enum kiln_backdrop_technique technique = i ? KILN_BACKDROP_GL : KILN_BACKDROP_CPU;
+        struct picture *pictures[4];
+        for (int k = 0; k < 4; k++) {
+            m.step = k < 2 ? 40 : 60;
+            m.before = k % 2 ? 100 - m.step : 0;
+            pictures[k] = draw(&m, technique, 2);
+        }
+        assert_memory_equal(pictures[0], pictures[1], sizeof *pictures[0]);
+        assert_memory_equal(pictures[2], pictures[3], sizeof *pictures[0]);
+        assert_true(memcmp(pictures[0]->color, pictures[2]->color, sizeof pictures[0]->color) != 0);
+        for (int k = 0; k < 4; k++)
+            free(pictures[k]);
+    }
+    close_moment(&m);
+}
+
 static void check_bytes(struct moment *m, const struct picture *expected, const char *simd,
                         uint32_t threads)
 {
@@ -383,6 +413,7 @@ int main(void)
 {
     static const struct CMUnitTest tests[] = {
         test_on_device(every_width_and_thread_count_gives_the_same_bytes),
+        test_on_device(what_moves_is_drawn_anew),
         test_on_device(techniques_agree_on_every_feature),
         test_on_device(techniques_agree_on_every_scene),
     };

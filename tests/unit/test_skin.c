@@ -1,0 +1,572 @@
+/* lib/asset/skin: meshes that follow bones, and what is refused. A chain of bones a metre long each
+ * stands along y, in a file of our own; what is expected is computed in double. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "asset/closed.h"
+#include "asset/skin.h"
+#include "scene/scene.h"
+
+enum { JOINTS = 3, KEYS = 4, VERTICES = 12, TRIANGLES = 4 };
+
+struct rig {
+    float positions[VERTICES][3];
+    float weights[VERTICES][4];
+    float inverse[JOINTS][16]; /* bind matrices, by columns */
+    float times[KEYS];
+    float turns[JOINTS][KEYS][4];
+    float moves[KEYS][3]; /* of the first joint */
+    uint16_t triangles[TRIANGLES][3];
+    uint8_t joints[VERTICES][4];
+};
+
+static const char JSON[] =
+    "{\"asset\": {\"version\": \"2.0\"}, \"scene\": 0, \"scenes\": [{\"nodes\": [0, 4]}],"
+    " \"nodes\": [{\"name\": \"hips\", \"children\": [1]},"
+    " {\"name\": \"%s\", \"children\": [2], \"translation\": [0, 1, 0], \"scale\": [1, 1, 1]},"
+    " {\"name\": \"head\", \"translation\": [0, 1, 0]},"
+    " {\"name\": \"unused\"}, {\"name\": \"body\", \"mesh\": 0%s}],"
+    " \"skins\": [{\"joints\": [0, 1, 2], \"inverseBindMatrices\": 2}],"
+    " \"meshes\": [{\"primitives\": [{\"attributes\": {\"POSITION\": 0%s}, \"indices\": 8}]}],"
+    " %s"
+    " \"accessors\": ["
+    "{\"bufferView\": 0, \"componentType\": 5126, \"count\": 12, \"type\": \"VEC3\","
+    " \"min\": [-9, -9, -9], \"max\": [9, 9, 9]},"
+    "{\"bufferView\": 1, \"componentType\": 5126, \"count\": 12, \"type\": \"VEC4\"},"
+    "{\"bufferView\": 2, \"componentType\": 5126, \"count\": 3, \"type\": \"MAT4\"},"
+    "{\"bufferView\": 3, \"componentType\": 5126, \"count\": 4, \"type\": \"SCALAR\","
+    " \"min\": [0], \"max\": [2]},"
+    "{\"bufferView\": 4, \"componentType\": 5126, \"count\": 4, \"type\": \"VEC4\"},"
+    "{\"bufferView\": 4, \"byteOffset\": 64, \"componentType\": 5126, \"count\": 4,"
+    " \"type\": \"VEC4\"},"
+    "{\"bufferView\": 4, \"byteOffset\": 128, \"componentType\": 5126, \"count\": 4,"
+    " \"type\": \"VEC4\"},"
+    "{\"bufferView\": 5, \"componentType\": 5126, \"count\": 4, \"type\": \"VEC3\"},"
+    "{\"bufferView\": 6, \"componentType\": 5123, \"count\": 12, \"type\": \"SCALAR\"},"
+    "{\"bufferView\": 7, \"componentType\": 5121, \"count\": 12, \"type\": \"VEC4\"}],"
+    " \"bufferViews\": [%s],"
+    " \"buffers\": [{\"byteLength\": %zu, \"uri\": \"data:application/octet-stream;base64,%s\"}]}";
+
+/* How the file differs from a sound one. */
+struct variant {
+    const char *second; /* name of the second joint */
+    const char *skin, *attributes;
+    const char *animations; /* with one %s: the interpolation */
+    const char *interpolation;
+};
+
+#define CHANNELS(node)                                                                             \
+    "\"channels\": [{\"sampler\": 0, \"target\": {\"node\": 0, \"path\": \"rotation\"}},"          \
+    " {\"sampler\": 1, \"target\": {\"node\": " node ", \"path\": \"rotation\"}},"                 \
+    " {\"sampler\": 2, \"target\": {\"node\": 2, \"path\": \"rotation\"}},"                        \
+    " {\"sampler\": 3, \"target\": {\"node\": 0, \"path\": \"translation\"}}],"                    \
+    " \"samplers\": [{\"input\": 3, \"output\": 4}, {\"input\": 3, \"output\": 5},"                \
+    " {\"input\": 3, \"interpolation\" : \"%s\", \"output\": 6}, {\"input\": 3, \"output\": 7}]"
+
+#define SKIN       ", \"skin\": 0"
+#define ATTRIBUTES ", \"WEIGHTS_0\": 1, \"JOINTS_0\": 9"
+#define WAVE       "\"animations\": [{\"name\": \"wave\", " CHANNELS("1") "}],"
+
+static const struct variant SOUND = {"chest", SKIN, ATTRIBUTES, WAVE, "LINEAR"};
+
+static void to_base64(const void *data, size_t size, char *out)
+{
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const unsigned char *b = data; /* of a multiple of three bytes, padded with zeros */
+    for (size_t i = 0; i < size; i += 3) {
+        uint32_t bits = (uint32_t)b[i] << 16 | (uint32_t)b[i + 1] << 8 | b[i + 2];
+        for (int k = 0; k < 4; k++)
+            *out++ = digits[bits >> (18 - 6 * k) & 63];
+    }
+    *out = '\0';
+}
+
+static const char *to_gltf(const struct rig *rig, const struct variant *variant)
+{
+    static char text[16384];
+    char base64[8192], animations[2048], views[1024] = "";
+    unsigned char bytes[sizeof *rig / 3 * 3 + 3] = {0};
+    static const size_t offsets[] = {offsetof(struct rig, positions),
+                                     offsetof(struct rig, weights),
+                                     offsetof(struct rig, inverse),
+                                     offsetof(struct rig, times),
+                                     offsetof(struct rig, turns),
+                                     offsetof(struct rig, moves),
+                                     offsetof(struct rig, triangles),
+                                     offsetof(struct rig, joints),
+                                     sizeof(struct rig)};
+    size_t length = 0;
+    for (int i = 0; i < 8; i++)
+        length += (size_t)snprintf(views + length, sizeof views - length,
+                                   "%s{\"buffer\": 0, \"byteOffset\": %zu, \"byteLength\": %zu}",
+                                   i ? ", " : "", offsets[i], offsets[i + 1] - offsets[i]);
+    memcpy(bytes, rig, sizeof *rig);
+    to_base64(bytes, sizeof bytes, base64);
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wformat-nonliteral"
+    snprintf(animations, sizeof animations, variant->animations, variant->interpolation);
+#pragma GCC diagnostic pop
+    snprintf(text, sizeof text, JSON, variant->second, variant->skin, variant->attributes,
+             animations, views, sizeof bytes, base64);
+    return text;
+}
+
+static struct kiln_skin *parse(const struct rig *rig, const struct variant *variant)
+{
+    struct kiln_error error = {0};
+    const char *text = to_gltf(rig, variant);
+    struct kiln_skin *skin = kiln_skin_parse(text, strlen(text), "rig.gltf", &error);
+    if (!skin)
+        fail_msg("%s", error.message);
+    return skin;
+}
+
+static void refuse(const struct rig *rig, const struct variant *variant, const char *reason)
+{
+    struct kiln_error error = {0};
+    const char *text = to_gltf(rig, variant);
+    assert_null(kiln_skin_parse(text, strlen(text), "rig.gltf", &error));
+    assert_int_equal(error.code, KILN_INVALID_INPUT);
+    if (!strstr(error.message, reason) || strncmp(error.message, "rig.gltf: ", 10) != 0)
+        fail_msg("'%s' instead of 'rig.gltf: ...%s...'", error.message, reason);
+}
+
+/* Turned by an angle about an axis of length 1. */
+static void set_turn(float out[4], const double axis[3], double angle)
+{
+    for (int c = 0; c < 3; c++)
+        out[c] = (float)(axis[c] * sin(0.5 * angle));
+    out[3] = (float)cos(0.5 * angle);
+}
+
+static double chance(uint32_t *state)
+{
+    *state = *state * 1664525u + 1013904223u;
+    return (*state >> 8) / 16777216.0;
+}
+
+/* Nothing turns or moves; all vertices follow the first bone. */
+static struct rig still_rig(void)
+{
+    struct rig rig = {.times = {0.0f, 0.5f, 1.25f, 2.0f}};
+    uint32_t state = 5;
+    for (int i = 0; i < VERTICES; i++) {
+        for (int c = 0; c < 3; c++)
+            rig.positions[i][c] = (float)(chance(&state) * 3.0 - (c == 1 ? 0.0 : 1.5));
+        rig.weights[i][0] = 1.0f;
+        rig.triangles[i / 3][i % 3] = (uint16_t)i;
+    }
+    for (int j = 0; j < JOINTS; j++) {
+        for (int c = 0; c < 4; c++)
+            rig.inverse[j][5 * c] = 1.0f;
+        rig.inverse[j][13] = (float)-j;
+        for (int k = 0; k < KEYS; k++)
+            rig.turns[j][k][3] = 1.0f;
+    }
+    return rig;
+}
+
+/* All of it moves; the last key is the first. */
+static struct rig waving_rig(void)
+{
+    struct rig rig = still_rig();
+    uint32_t state = 11;
+    for (int i = 0; i < VERTICES; i++) {
+        double parts[JOINTS] = {chance(&state), chance(&state), chance(&state)};
+        double sum = parts[0] + parts[1] + parts[2];
+        for (int j = 0; j < JOINTS; j++) {
+            rig.weights[i][j] = (float)(parts[j] / sum);
+            rig.joints[i][j] = (uint8_t)j;
+        }
+    }
+    for (int k = 0; k < KEYS - 1; k++) {
+        for (int j = 0; j < JOINTS; j++) {
+            double a = 6.28 * chance(&state), b = 6.28 * chance(&state);
+            const double axis[3] = {cos(a) * cos(b), sin(a) * cos(b), sin(b)};
+            set_turn(rig.turns[j][k], axis, 3.0 * chance(&state));
+        }
+        for (int c = 0; c < 3; c++)
+            rig.moves[k][c] = (float)chance(&state);
+    }
+    for (int j = 0; j < JOINTS; j++)
+        memcpy(rig.turns[j][KEYS - 1], rig.turns[j][0], sizeof rig.turns[j][0]);
+    memcpy(rig.moves[KEYS - 1], rig.moves[0], sizeof rig.moves[0]);
+    return rig;
+}
+
+/* ---- the reference --------------------------------------------------------------------------- */
+
+static void slerp(const float a[4], const float b[4], double t, double out[4])
+{
+    double cosine = 0.0, length = 0.0;
+    for (int c = 0; c < 4; c++)
+        cosine += (double)a[c] * (double)b[c];
+    const double sign = cosine < 0.0 ? -1.0 : 1.0;
+    const double angle = acos(fmin(sign * cosine, 1.0));
+    for (int c = 0; c < 4; c++) {
+        out[c] =
+            angle < 1e-9
+                ? (double)a[c]
+                : (sin((1.0 - t) * angle) * (double)a[c] + sign * sin(t * angle) * (double)b[c]) /
+                      sin(angle);
+        length += out[c] * out[c];
+    }
+    for (int c = 0; c < 4; c++)
+        out[c] /= sqrt(length);
+}
+
+static void turn(const double q[4], const double v[3], double out[3])
+{
+    double t[3];
+    for (int c = 0; c < 3; c++) {
+        int d = (c + 1) % 3, e = (c + 2) % 3;
+        t[c] = 2.0 * (q[d] * v[e] - q[e] * v[d]);
+    }
+    for (int c = 0; c < 3; c++) {
+        int d = (c + 1) % 3, e = (c + 2) % 3;
+        out[c] = v[c] + q[3] * t[c] + q[d] * t[e] - q[e] * t[d];
+    }
+}
+
+/* Where a vertex would be if it followed one joint alone: out through the chain. */
+static void follow(const struct rig *rig, int joint, int key, double t, const double at[3],
+                   double out[3])
+{
+    memcpy(out, at, 3 * sizeof *out);
+    out[1] -= joint;
+    for (int j = joint; j >= 0; j--) {
+        double q[4], turned[3];
+        slerp(rig->turns[j][key], rig->turns[j][key + 1], t, q);
+        turn(q, out, turned);
+        for (int c = 0; c < 3; c++)
+            out[c] = turned[c] + (j > 0 ? (c == 1 ? 1.0 : 0.0)
+                                        : (1.0 - t) * (double)rig->moves[key][c] +
+                                              t * (double)rig->moves[key + 1][c]);
+    }
+}
+
+static void expect_pose(const struct rig *rig, const struct kiln_skin *skin, double seconds)
+{
+    float vertices[VERTICES][6];
+    int key = 0;
+    while (key < KEYS - 2 && (double)rig->times[key + 1] <= seconds)
+        key++;
+    const double t = (seconds - (double)rig->times[key]) /
+                     ((double)rig->times[key + 1] - (double)rig->times[key]);
+    kiln_skin_pose(skin, 0, (float)seconds, vertices);
+    for (int i = 0; i < VERTICES; i++) {
+        const float *p = rig->positions[i];
+        const double at[3] = {(double)p[0], (double)p[1], (double)p[2]};
+        double sum[3] = {0};
+        for (int j = 0; j < JOINTS; j++) {
+            double there[3];
+            follow(rig, rig->joints[i][j], key, t, at, there);
+            for (int c = 0; c < 3; c++)
+                sum[c] += (double)rig->weights[i][j] * there[c];
+        }
+        for (int c = 0; c < 3; c++) {
+            if (!(fabs((double)vertices[i][c] - sum[c]) < 4e-6))
+                fail_msg("vertex %d at %g s: %.9g instead of %.9g", i, seconds,
+                         (double)vertices[i][c], sum[c]);
+        }
+    }
+}
+
+static void poses_are_those_of_the_reference(void **state)
+{
+    (void)state;
+    const struct rig rig = waving_rig();
+    struct kiln_skin *skin = parse(&rig, &SOUND);
+    assert_true(kiln_skin_clip_length(skin, 0) == 2.0f);
+    for (int i = 0; i <= 64; i++)
+        expect_pose(&rig, skin, i / 32.0);
+    kiln_skin_destroy(&skin);
+    assert_null(skin);
+}
+
+/* The upper bone of two swings through a right angle and back to where it was. */
+static void two_bones_in_closed_form(void **state)
+{
+    (void)state;
+    const double quarter = acos(0.0), axis[3] = {0.0, 0.0, 1.0};
+    struct rig rig = still_rig();
+    const float tip[3] = {0.0f, 2.0f, 0.0f}, elbow[3] = {0.0f, 1.5f, 0.0f};
+    memcpy(rig.positions[0], tip, sizeof tip);
+    memcpy(rig.positions[1], elbow, sizeof elbow);
+    rig.joints[0][0] = 1;
+    rig.joints[1][1] = 1;
+    rig.weights[1][0] = rig.weights[1][1] = 0.5f;
+    for (int k = 1; k < KEYS; k++)
+        set_turn(rig.turns[1][k], axis, quarter);
+    struct kiln_skin *skin = parse(&rig, &SOUND);
+    for (int i = 0; i <= 40; i++) {
+        float vertices[VERTICES][6];
+        const double seconds = i / 40.0, angle = fmin(seconds / 0.5, 1.0) * quarter;
+        kiln_skin_pose(skin, 0, (float)seconds, vertices);
+        assert_true(fabs((double)vertices[0][0] + sin(angle)) < 1e-6);
+        assert_true(fabs((double)vertices[0][1] - (1.0 + cos(angle))) < 1e-6);
+        assert_true(fabs((double)vertices[1][0] + 0.25 * sin(angle)) < 1e-6);
+        assert_true(fabs((double)vertices[1][1] - (1.25 + 0.25 * cos(angle))) < 1e-6);
+        assert_true(memcmp(vertices[2], rig.positions[2], sizeof rig.positions[2]) == 0);
+    }
+    kiln_skin_destroy(&skin);
+}
+
+/* A triangle's own normal stays across it, and of length 1. */
+static void normals_turn_along(void **state)
+{
+    (void)state;
+    struct rig rig = waving_rig();
+    for (int i = 0; i < VERTICES; i++) { /* triangles move as a whole */
+        memset(rig.weights[i], 0, sizeof rig.weights[i]);
+        rig.weights[i][i / 3 % JOINTS] = 1.0f;
+    }
+    struct kiln_skin *skin = parse(&rig, &SOUND);
+    struct kiln_mesh *mesh = kiln_skin_copy_mesh(skin);
+    assert_non_null(mesh);
+    for (int i = 0; i < 20; i++) {
+        kiln_skin_pose_mesh(skin, 0, (float)i * 0.1f, mesh);
+        for (uint32_t t = 0; t < TRIANGLES; t++) {
+            const float *a = mesh->vertices[mesh->triangles[t][0]];
+            const float *b = mesh->vertices[mesh->triangles[t][1]];
+            float along = 0.0f, square = 0.0f;
+            for (int c = 0; c < 3; c++) {
+                along += (b[c] - a[c]) * a[3 + c];
+                square += a[3 + c] * a[3 + c];
+                assert_true(mesh->min[c] <= a[c] && a[c] <= mesh->max[c]);
+            }
+            assert_true(fabsf(along) < 2e-6f && fabsf(square - 1.0f) < 1e-6f);
+        }
+    }
+    kiln_mesh_destroy(&mesh);
+    kiln_skin_destroy(&skin);
+}
+
+/* From the end of a clip whose last key is its first, it goes on; elsewhere it holds still. */
+static void loops_join(void **state)
+{
+    (void)state;
+    const struct rig rig = waving_rig();
+    struct kiln_skin *skin = parse(&rig, &SOUND);
+    float start[VERTICES][6], end[VERTICES][6];
+    kiln_skin_pose(skin, 0, 0.0f, start);
+    kiln_skin_pose(skin, 0, 2.0f, end);
+    assert_memory_equal(start, end, sizeof start);
+    kiln_skin_pose(skin, 0, -1.0f, end);
+    assert_memory_equal(start, end, sizeof start);
+    kiln_skin_pose(skin, 0, 1e6f, end);
+    assert_memory_equal(start, end, sizeof start);
+    kiln_skin_destroy(&skin);
+
+    struct kiln_animation animation = {
+        .start = {.constant = 0.5f}, .speed = {.constant = 2.0f}, .loop = true, .length = 2.0f};
+    assert_true(kiln_scene_animation_s(&animation, 0.0f) == 0.5f);
+    assert_true(kiln_scene_animation_s(&animation, 0.75f) == 0.0f);
+    assert_true(kiln_scene_animation_s(&animation, 100.0f) == 0.5f);
+    assert_true(kiln_scene_animation_s(&animation, -0.5f) == 1.5f);
+    animation.loop = false;
+    assert_true(kiln_scene_animation_s(&animation, 0.75f) == 2.0f);
+    assert_true(kiln_scene_animation_s(&animation, -0.5f) == 0.0f);
+    animation.length = 0.0f;
+    animation.loop = true;
+    assert_true(kiln_scene_animation_s(&animation, 3.0f) == 0.0f);
+}
+
+/* The same on every machine: a sum over the bits of poses, of which one is as good as another. */
+static void bits_are_known(void **state)
+{
+    (void)state;
+    const struct rig rig = waving_rig();
+    struct kiln_skin *skin = parse(&rig, &SOUND);
+    uint32_t sum = 2166136261u;
+    for (int i = 0; i < 50; i++) {
+        float vertices[VERTICES][6];
+        kiln_skin_pose(skin, 0, (float)i / 32.0f, vertices);
+        const unsigned char *bytes = (const unsigned char *)vertices;
+        for (size_t k = 0; k < sizeof vertices; k++)
+            sum = (sum ^ bytes[k]) * 16777619u;
+    }
+    kiln_skin_destroy(&skin);
+    assert_int_equal(sum, 0x5cc4285fu);
+}
+
+/* Without bones, a mesh goes where its node does. */
+static void parts_follow_their_nodes(void **state)
+{
+    (void)state;
+    struct rig rig = still_rig();
+    for (int k = 0; k < KEYS; k++)
+        rig.moves[k][0] = 2.0f * rig.times[k];
+    struct variant variant = SOUND;
+    variant.skin = "";
+    variant.attributes = "";
+    variant.animations =
+        "\"animations\": [{\"name\": \"go\", \"channels\": [{\"sampler\": 0, \"target\": "
+        "{\"node\": 4, \"path\": \"translation\"}}], \"samplers\": [{\"input\": 3, \"output\": "
+        "7, \"interpolation\": \"%s\"}]}],";
+    struct kiln_skin *skin = parse(&rig, &variant);
+    float vertices[VERTICES][6];
+    kiln_skin_pose(skin, 0, 0.75f, vertices);
+    for (int i = 0; i < VERTICES; i++) {
+        assert_true(fabsf(vertices[i][0] - rig.positions[i][0] - 1.5f) < 1e-6f);
+        assert_true(vertices[i][1] == rig.positions[i][1]);
+    }
+    kiln_skin_destroy(&skin);
+}
+
+static void clips_are_found(void **state)
+{
+    (void)state;
+    const struct rig rig = still_rig();
+    struct variant variant = SOUND;
+    variant.animations = "\"animations\": [{\"name\": \"wave\", " CHANNELS(
+        "1") "}, {\"name\": \"0\", "
+             "\"channels\": [{\"sampler\": 0, \"target\": {\"node\": 0, \"path\": \"rotation\"}}], "
+             "\"samplers\": [{\"input\": 3, \"output\": 4}]}],";
+    struct kiln_skin *skin = parse(&rig, &variant);
+    struct kiln_error error = {0};
+    uint32_t number = 9;
+    assert_true(kiln_skin_find_clip(skin, "wave", "f", &number, &error) && number == 0);
+    assert_true(kiln_skin_find_clip(skin, "1", "f", &number, &error) && number == 1);
+    assert_true(kiln_skin_find_clip(skin, "0", "f", &number, &error) && number == 1);
+    assert_false(kiln_skin_find_clip(skin, "2", "f", &number, &error));
+    assert_false(kiln_skin_find_clip(skin, "walk", "f", &number, &error));
+    assert_int_equal(error.code, KILN_INVALID_INPUT);
+    assert_string_equal(
+        error.message, "f: no animation is called 'walk'; there are 'wave', '0', by number 0 to 1");
+    kiln_skin_destroy(&skin);
+}
+
+static void what_is_unsound_is_refused(void **state)
+{
+    (void)state;
+    struct rig rig = waving_rig();
+    struct variant variant = SOUND;
+    variant.interpolation = "CUBICSPLINE";
+    refuse(&rig, &variant, "interpolation is 'CUBICSPLINE'; allowed is LINEAR");
+    variant.interpolation = "STEP";
+    refuse(&rig, &variant, "interpolation is 'STEP'");
+    variant = SOUND;
+    variant.animations = "%.0s";
+    refuse(&rig, &variant, "the file has no animation");
+    variant = SOUND;
+    variant.second = "body";
+    refuse(&rig, &variant, "several nodes are called 'body', which moves; allowed is one");
+
+    rig.weights[7][1] += 0.25f;
+    refuse(&rig, &SOUND, "the weights of vertex 7 sum to 1.25; allowed are");
+    rig = waving_rig();
+    memset(rig.weights[3], 0, sizeof rig.weights[3]);
+    refuse(&rig, &SOUND, "the weights of vertex 3 sum to 0;");
+    rig = waving_rig();
+    rig.times[2] = 0.25f;
+    refuse(&rig, &SOUND, "a key lies at 0.25 s; allowed are");
+    rig = waving_rig();
+    rig.moves[1][0] = INFINITY;
+    refuse(&rig, &SOUND, "the key at 0.5 s has the value inf");
+    rig = waving_rig();
+    memset(rig.turns[2][1], 0, sizeof rig.turns[2][1]);
+    refuse(&rig, &SOUND, "the key at 0.5 s has the value 0 0 0 0");
+    rig = waving_rig();
+    rig.inverse[1][3] = 0.5f;
+    refuse(&rig, &SOUND, "a matrix has the last row 0.5 0 0 1; allowed is 0 0 0 1");
+
+    static const char obj[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    struct kiln_error error = {0};
+    assert_null(kiln_skin_parse(obj, sizeof obj - 1, "flat.obj", &error));
+    assert_string_equal(error.message, "flat.obj: the file has no animation");
+}
+
+/* ---- scenes ---------------------------------------------------------------------------------- */
+
+static void expect_error(const char *mesh, const char *message)
+{
+    char text[512];
+    struct kiln_error error = {0};
+    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    params.asset_root = KILN_SOURCE_DIR "/tests/mutation";
+    snprintf(text, sizeof text, "kiln: 1\nbackdrop:\n  objects:\n  - mesh: {%s}\n", mesh);
+    struct kiln_scene *scene = kiln_scene_parse(text, strlen(text), "s", &params, &error);
+    assert_null(scene);
+    assert_int_equal(error.code, KILN_INVALID_INPUT);
+    assert_string_equal(error.message, message);
+}
+
+static void scenes_say_what_is_wrong(void **state)
+{
+    (void)state;
+    expect_error("file: moving.gltf, animation: {clip: run}",
+                 "s:4:3: backdrop.objects.0.mesh.animation.clip: 'moving.gltf': no animation is "
+                 "called 'run'; there are 'turn', 'go', by number 0 to 1");
+    expect_error("file: tetrahedron.obj, animation: {}",
+                 "s:4:3: backdrop.objects.0.mesh.file: 'tetrahedron.obj': the file has no "
+                 "animation");
+    expect_error("file: moving.gltf, animation: {}, collide: true",
+                 "s:4:3: backdrop.objects.0.mesh.collide: not of a mesh with an animation");
+    expect_error(
+        "file: moving.gltf, animation: {clip: []}",
+        "s:4:49: backdrop.objects.0.mesh.animation.clip: expected the name of an animation "
+        "in the file, or its number from 0, found a list");
+}
+
+/* The figure of tools/walker: what touches the ground stays, for one who goes at its speed. */
+static void feet_that_stand_do_not_slide(void **state)
+{
+    (void)state;
+    const float speed = 1.1f, dt = 0.01f;
+    struct kiln_error error = {0};
+    struct kiln_skin *skin = kiln_skin_load(KILN_SOURCE_DIR "/scenes/meshes/walker.gltf",
+                                            KILN_SOURCE_DIR "/scenes", NULL, NULL, &error);
+    if (!skin)
+        fail_msg("%s", error.message);
+    struct kiln_mesh *now = kiln_skin_copy_mesh(skin), *then = kiln_skin_copy_mesh(skin);
+    assert_non_null(now);
+    assert_non_null(then);
+    assert_true(kiln_mesh_check_closed(now, "walker", &error));
+    const float length = kiln_skin_clip_length(skin, 0);
+    for (float seconds = 0.0f; seconds + dt < length; seconds += 0.05f) {
+        uint32_t standing = 0;
+        double slip = 0.0;
+        kiln_skin_pose_mesh(skin, 0, seconds, now);
+        kiln_skin_pose_mesh(skin, 0, seconds + dt, then);
+        assert_true(now->min[1] > -0.002f && now->min[1] < 0.006f && now->max[1] < 1.78f);
+        for (uint32_t i = 0; i < now->vertex_count; i++) {
+            const float *a = now->vertices[i], *b = then->vertices[i];
+            if (a[1] > now->min[1] + 0.004f)
+                continue;
+            standing++;
+            slip += fabs((double)(b[2] - a[2]) / (double)dt + (double)speed);
+        }
+        if (standing == 0 || slip / standing > 0.08)
+            fail_msg("at %g s, %u vertices on the ground at %g m slide by %g m/s", (double)seconds,
+                     standing, (double)now->min[1], slip / standing);
+    }
+    kiln_mesh_destroy(&now);
+    kiln_mesh_destroy(&then);
+    kiln_skin_destroy(&skin);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(poses_are_those_of_the_reference),
+        cmocka_unit_test(two_bones_in_closed_form),
+        cmocka_unit_test(normals_turn_along),
+        cmocka_unit_test(loops_join),
+        cmocka_unit_test(bits_are_known),
+        cmocka_unit_test(parts_follow_their_nodes),
+        cmocka_unit_test(clips_are_found),
+        cmocka_unit_test(what_is_unsound_is_refused),
+        cmocka_unit_test(scenes_say_what_is_wrong),
+        cmocka_unit_test(feet_that_stand_do_not_slide),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
