@@ -79,6 +79,9 @@ static const struct kiln_option animation[] = {
     END,
 };
 
+static const char *const colliders[] = {"field", "volume", NULL};
+static const char *const sides[] = {"one", "two", NULL};
+
 static const struct kiln_option mesh[] = {
     {ROW("file", mesh, AT(file), NULL,
          "Triangles in an OBJ, glTF or GLB file, in metres and y up; its materials are left out.")},
@@ -91,12 +94,21 @@ static const struct kiln_option mesh[] = {
          "An animation of the glTF or GLB file: nodes, and bones that vertices follow."),
      .members = animation, .count_offset = AT(animation.enabled)},
     REFLECTANCE,
-    BOOLEAN("collide", collide, "false",
-            "Particles of systems that collide bounce off it; it must be closed."),
+    BOOLEAN("collide", collide, "false", "Particles of systems that collide bounce off it."),
     RUBBING,
+    CHOICE("collider", collider, colliders, "field",
+           "What they collide with: field, a lattice of distances, made once, of a mesh that is "
+           "closed (UberFlow 2004, 4.6); volume, cells that in each step take up planes of any "
+           "mesh, and how these move (Drone 2007, 7.5.2)."),
     INTEGER("cells", cells, KILN_MIN_FIELD_CELLS, KILN_MAX_FIELD_CELLS, "48",
-            "Along its longest edge, of the lattice of distances that particles collide with "
-            "(UberFlow 2004, 4.6); what is thinner than a cell they may miss."),
+            "Of that lattice, along the mesh's longest edge; what is thinner than a cell particles "
+            "may miss."),
+    VECTOR("heading", heading, KILN_PLAIN, -FAR, FAR, TIME, "[0, -1, 0]",
+           "Of a volume, where most particles go; a cell keeps the plane that they meet first, of "
+           "those that face them (Drone 2007, 7.5.2.3). Of any length but 0."),
+    CHOICE("sides", sides, sides, "one",
+           "Of a volume's planes: one, what is behind is put in front, for closed meshes; two, "
+           "they are met from both sides, for sheets."),
     END,
 };
 

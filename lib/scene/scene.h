@@ -346,6 +346,17 @@ struct kiln_animation {
     float length;    /* follows: s */
 };
 
+/* How particles meet a mesh. */
+enum kiln_collider_kind {
+    KILN_COLLIDER_FIELD,  /* by its signed distance field: it is closed and moves rigidly */
+    KILN_COLLIDER_VOLUME, /* by planes in a lattice of cells, in each step anew */
+};
+
+enum kiln_sides {
+    KILN_SIDES_ONE, /* what is behind a plane of a volume is in the mesh */
+    KILN_SIDES_TWO,
+};
+
 /* Values have the clock constant or time. */
 struct kiln_object {
     enum kiln_object_kind kind;
@@ -363,7 +374,10 @@ struct kiln_object {
     uint32_t samples[2];             /* terrain (asset/terrain.h), and what follows; constant */
     struct kiln_value hills, roughness, ridges;
     uint32_t octaves, seed;
-    uint32_t cells; /* mesh: of its distance field (asset/field.h) */
+    uint32_t cells;                   /* mesh: of what it collides by, along its longest edge */
+    enum kiln_collider_kind collider; /* mesh, and what follows */
+    struct kiln_value3 heading;       /* volume: where most particles go; not zero, of any length */
+    enum kiln_sides sides;            /* likewise, of its planes */
     bool collide;
     bool visible;                  /* plane: drawn */
     struct kiln_value restitution; /* factors on those of the particles that bounce off it */

@@ -382,10 +382,15 @@ static bool check_objects(struct kiln_reader *reader, const struct kiln_node *ro
             continue;
         if (!kiln_mesh_animation_settle(reader, root, i))
             return false;
+        const struct kiln_value3 *heading = &object->heading;
+        snprintf(path, sizeof path, "backdrop.objects.%u.mesh.heading", i);
+        if (object->kind == KILN_OBJECT_MESH && !at_all_keys(scene, &heading, 1, is_not_zero))
+            return kiln_validate_fail(reader, root, path, "must not be [0, 0, 0]");
         snprintf(path, sizeof path, "backdrop.objects.%u.mesh.collide", i);
         if (object->collide && object->animation.enabled)
             return kiln_validate_fail(reader, root, path, "not of a mesh with an animation");
         if (object->collide && object->kind == KILN_OBJECT_MESH &&
+            object->collider == KILN_COLLIDER_FIELD &&
             !check_closed(reader, root, path, object->file))
             return false;
         if (++meshes > KILN_MAX_MESHES)

@@ -72,6 +72,12 @@ bool kiln_sim_blocks_upload(struct kiln_sim_blocks *blocks, const struct kiln_si
             return false;
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SIM_BIND_GRIDS, words);
     }
+    if (params->grids->volumes.count > 0) {
+        GLuint words = kiln_buffer_gl(&params->grids->volumes.words, KILN_READ, error);
+        if (!words)
+            return false;
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SIM_BIND_VOLUMES, words);
+    }
     if (params->push_count > 0) {
         GLuint words = kiln_buffer_gl(pushes, KILN_READ, error);
         if (!words)
@@ -103,8 +109,8 @@ bool kiln_sim_check_stage(struct kiln_device *device, const struct kiln_sim_para
     glGetIntegerv(fragment ? GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS
                            : GL_MAX_GEOMETRY_SHADER_STORAGE_BLOCKS,
                   &blocks);
-    const GLint needed =
-        (params->trace_count > 0) + (params->grids->count > 0) + (params->push_count > 0);
+    const GLint needed = (params->trace_count > 0) + (params->grids->count > 0) +
+                         (params->grids->volumes.count > 0) + (params->push_count > 0);
     if (blocks < needed)
         return kiln_error_set(error, KILN_NO_DEVICE,
                               "%s: %d storage blocks in %s shaders; this scene, with children, "
@@ -196,13 +202,14 @@ bool kiln_sim_programs_init(struct kiln_sim_programs *programs, struct kiln_devi
     const bool grids = params->grids->count > 0, turned = has_turned_colliders(scene);
     const bool fields = has_field_colliders(scene), pushes = params->push_count > 0;
     const bool forces = kiln_sim_needs_all_forces(scene);
-    const bool round = has_round_colliders(scene);
+    const bool round = has_round_colliders(scene), volumes = params->grids->volumes.count > 0;
     snprintf(defines.text, sizeof defines.text, "#define SIM_GROUP_SIZE %u\n", group_size(device));
-    add_define(&defines, "COLLIDE_ROUND", grids || turned || pushes || forces || round);
+    add_define(&defines, "COLLIDE_ROUND", grids || volumes || turned || pushes || forces || round);
     add_define(&defines, "COLLIDE_TURNED", turned);
     add_define(&defines, "COLLIDE_RUB", has_rubbing(params));
     add_define(&defines, "GRIDS", grids);
     add_define(&defines, "COLLIDE_FIELD", fields);
+    add_define(&defines, "COLLIDE_VOLUME", volumes);
     add_define(&defines, "PUSHES", pushes);
     add_define(&defines, "FORCES_ALL", forces);
     files.defines = defines.text;

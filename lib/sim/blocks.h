@@ -49,8 +49,8 @@ struct kiln_sim_programs {
 };
 
 /* files: of a kernel that knows the variants COLLIDE_ROUND, COLLIDE_TURNED, GRIDS, PUSHES and
- * FORCES_ALL (with it), COLLIDE_FIELD (with GRIDS), COLLIDE_RUB and FAMILY; its defines are not
- * looked at. After a failure, too, kiln_sim_programs_finish frees what there is. */
+ * FORCES_ALL (with it), COLLIDE_FIELD (with GRIDS), COLLIDE_VOLUME, COLLIDE_RUB and FAMILY; its
+ * defines are not looked at. After a failure, too, kiln_sim_programs_finish frees what there is. */
 bool kiln_sim_programs_init(struct kiln_sim_programs *programs, struct kiln_device *device,
                             const struct kiln_scene *scene, const struct kiln_sim_params *params,
                             struct kiln_program_params files, struct kiln_error *error);

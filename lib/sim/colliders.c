@@ -220,6 +220,8 @@ static struct kiln_collider object_collider(struct kiln_surroundings *around,
         c = box_collider(scene, object, start_s, end_s);
     else if (object->kind == KILN_OBJECT_TERRAIN)
         c = terrain_collider(grids, grids->of_object[index]);
+    else if (kiln_volumes_needs(object))
+        c = kiln_volumes_collider(&grids->volumes, index, &around->grids[KILN_MAX_WINDS]);
     else if (object->kind == KILN_OBJECT_MESH)
         c = mesh_collider(scene, grids, index, start_s, end_s, around->steps_per_s,
                           &around->poses[grids->of_object[index] - grids->wind_count]);

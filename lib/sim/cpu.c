@@ -17,9 +17,12 @@ bool kiln_sim_cpu_step(const struct kiln_slots_step *loops, struct kiln_threads 
         params->trace_count ? kiln_buffer_host(traces, KILN_READ_WRITE, error) : NULL;
     const float4 *words =
         params->grids->count ? kiln_buffer_host(&params->grids->words, KILN_READ, error) : NULL;
+    const float4 *planes = params->grids->volumes.count
+                               ? kiln_buffer_host(&params->grids->volumes.words, KILN_READ, error)
+                               : NULL;
     const float4 *pushed = params->push_count ? kiln_buffer_host(pushes, KILN_READ, error) : NULL;
     if (!records || (params->trace_count && !scratch) || (params->grids->count && !words) ||
-        (params->push_count && !pushed))
+        (params->grids->volumes.count && !planes) || (params->push_count && !pushed))
         return false;
     for (uint32_t k = 0; k < params->system_count; k++) {
         const struct kiln_step_params *step = &params->systems[params->order[k]];
@@ -28,7 +31,8 @@ bool kiln_sim_cpu_step(const struct kiln_slots_step *loops, struct kiln_threads 
                     .surroundings = &params->surroundings,
                     .value_keys = value_keys,
                     .grid_words = words,
-                    .push_words = pushed},
+                    .push_words = pushed,
+                    .volume_words = planes},
             .records = records + step->base,
             .traces = scratch,
         };

@@ -25,7 +25,7 @@ uint32_t kiln_sim_grids_find(const struct kiln_sim_grids *grids, const char *fil
 
 bool kiln_sim_grids_needs(const struct kiln_object *object)
 {
-    return object->collide && kiln_object_is_mesh(object);
+    return object->collide && kiln_object_is_mesh(object) && !kiln_volumes_needs(object);
 }
 
 static bool list_files(struct kiln_sim_grids *grids, const struct kiln_scene *scene,
@@ -253,7 +253,8 @@ bool kiln_sim_grids_init(struct kiln_sim_grids *grids, struct kiln_device *devic
         return false;
     struct sources sources = {.winds = {NULL}};
     const bool ok = load(grids, scene, &sources, threads, error) &&
-                    (grids->count == 0 || fill(grids, device, &sources, error));
+                    (grids->count == 0 || fill(grids, device, &sources, error)) &&
+                    kiln_volumes_init(&grids->volumes, device, scene, error);
     free_sources(&sources);
     return ok;
 }
@@ -261,5 +262,6 @@ bool kiln_sim_grids_init(struct kiln_sim_grids *grids, struct kiln_device *devic
 void kiln_sim_grids_finish(struct kiln_sim_grids *grids)
 {
     kiln_buffer_finish(&grids->words);
+    kiln_volumes_finish(&grids->volumes);
     *grids = (struct kiln_sim_grids){.count = 0};
 }

@@ -6,7 +6,7 @@
 #include "base/thread.h"
 #include "gpu/buffer.h"
 #include "scene/scene.h"
-#include "shared/layout.h"
+#include "sim/volumes.h"
 
 struct kiln_sim_grids {
     uint32_t count; /* files of wind first, then the objects that collide */
@@ -17,6 +17,7 @@ struct kiln_sim_grids {
     float steepest[KILN_MAX_GRIDS];       /* terrain's: see struct kiln_collider */
     struct kiln_grid table[KILN_MAX_GRIDS];
     struct kiln_buffer words; /* float4 */
+    struct kiln_volumes volumes;
 };
 
 /* Loads what the scene names, each file once, and makes its terrain and distance fields, on the
@@ -27,7 +28,7 @@ bool kiln_sim_grids_init(struct kiln_sim_grids *grids, struct kiln_device *devic
                          struct kiln_error *error);
 void kiln_sim_grids_finish(struct kiln_sim_grids *grids);
 
-/* Does the object need a grid? */
+/* Does the object need a grid of those that stay as they are? */
 bool kiln_sim_grids_needs(const struct kiln_object *object);
 
 /* The number of the grid of a file of wind that the scene names. */

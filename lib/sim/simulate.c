@@ -119,7 +119,8 @@ bool kiln_simulate_step(struct kiln_simulate *simulate, struct kiln_pool *pool, 
                         struct kiln_error *error)
 {
     struct kiln_simulate *s = simulate;
-    if (!kiln_sim_params_step(&s->params, s->scene, pool, step, error))
+    if (!kiln_volumes_step(&s->grids.volumes, s->scene, step, s->threads, error) ||
+        !kiln_sim_params_step(&s->params, s->scene, pool, step, error))
         return false;
     const bool host = s->technique == KILN_SIMULATE_CPU;
     struct kiln_buffer *pushes = &s->interact.pushes;

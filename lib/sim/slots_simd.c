@@ -413,6 +413,17 @@ static inline void find_touching_mesh(const struct kiln_sim *sim, struct block *
     }
 }
 
+/* What no plane is near to touches none. */
+static inline void find_touching_volume(const struct kiln_sim *sim, struct block *b,
+                                        const struct kiln_collider *c)
+{
+    const struct kiln_grid grid = sim->surroundings->grids[c->grid];
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        float3 from = particle_position(record_at(b, i)), to = kiln_get3(&b->position, i);
+        b->touching[i] &= 1u ^ (uint32_t)volume_is_clear(sim, grid, from, to);
+    }
+}
+
 static inline void find_touching_any(const struct kiln_sim *sim, struct block *b)
 {
     const bool pushed = sim->step->pushed != 0;
@@ -426,6 +437,8 @@ static inline void find_touching_any(const struct kiln_sim *sim, struct block *b
             find_touching_ground(sim, b, c);
         else if (c->kind == COLLIDER_SDF)
             find_touching_mesh(sim, b, c);
+        else if (c->kind == COLLIDER_VOLUME)
+            find_touching_volume(sim, b, c);
         for (uint32_t i = 0; i < KILN_LANES; i++)
             b->alone[i] |= b->touching[i];
     }

@@ -35,8 +35,9 @@
 #endif
 
 /* Likewise those of scenes without colliders out of grids; this is asked first. */
-#if defined(GL_core_profile) && !defined(COLLIDE_FIELD)
+#if defined(GL_core_profile) && !defined(COLLIDE_FIELD) && !defined(COLLIDE_VOLUME)
 #define COLLIDE_HAS_FIELDS         0
+#define COLLIDE_HAS_VOLUMES        0
 #define COLLIDE_IS_FIELD(collider) false
 #else
 #define COLLIDE_HAS_FIELDS         1
@@ -477,6 +478,7 @@ FN S(collide_way)
     EXACT float dt_s = STEP(derived.dt_s);
     EXACT S(collide_answer) draw = answer;
     uint last = 0u;
+    uint last_face = 0u;
     for (uint bounce = 0u; bounce < COLLIDE_BOUNCES; bounce++) {
         EXACT S(collide_hit) hit = collide_first(SIM now, target, until, answer.radius);
         if (hit.part < 0.0f) {
@@ -496,7 +498,12 @@ FN S(collide_way)
         EXACT float rest_s = (until - now.since) * dt_s;
         target = float3_add_scaled(now.position, now.velocity, rest_s);
         last = hit.box;
+        last_face = hit.face;
     }
+#if COLLIDE_HAS_VOLUMES
+    if (AROUND(colliders[last].kind) == COLLIDER_VOLUME)
+        now.position = volume_carry(SIM AROUND(colliders[last]), last_face, until, now.position);
+#endif
     if (COLLIDE_IS_TURNED(AROUND(colliders[last])))
         now.position = collide_turned_carry(SIM last, now.since, until, now.position);
     now.position = collide_rise(SIM now.position, until, answer.radius);

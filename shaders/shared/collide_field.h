@@ -1,28 +1,57 @@
-/* Colliders that look up grids, for shared/collide.h: terrain and the distance fields of meshes. */
+/* Colliders that look up lattices, for shared/collide.h: terrain, the distance fields of meshes,
+ * and volumes of their planes. */
 #ifndef KILN_SHARED_COLLIDE_FIELD_H
 #define KILN_SHARED_COLLIDE_FIELD_H
 
+/* Shaders have the code of those alone that their scene has. */
+#if defined(GL_core_profile) && !defined(COLLIDE_FIELD)
+#define COLLIDE_HAS_GRIDS 0
+#else
+#define COLLIDE_HAS_GRIDS 1
 #include "shared/collide_sdf.h"
+#endif
+#if defined(GL_core_profile) && !defined(COLLIDE_VOLUME)
+#define COLLIDE_HAS_VOLUMES 0
+#else
+#define COLLIDE_HAS_VOLUMES 1
+#include "shared/collide_volume.h"
+#endif
 
 /* The way of a segment between two parts of the step, as collide_through has it. */
 FN S(collide_span) collide_field_segment(SIM_PARAM S(kiln_collider) c, float since, float until,
                                          float3 a, float3 b)
 {
     EXACT S(collide_span) span;
+#if COLLIDE_HAS_VOLUMES
+    if (c.kind == COLLIDER_VOLUME) {
+        span = volume_segment(SIM c, since, until, a, b);
+        return span;
+    }
+#endif
+#if COLLIDE_HAS_GRIDS
     if (c.kind == COLLIDER_TERRAIN)
         span = terrain_segment(SIM c, a, b);
     else
         span = sdf_segment(SIM c, since, until, a, b);
+#endif
     return span;
 }
 
 FN bool collide_field_inside(SIM_PARAM S(kiln_collider) c, float until, float3 p)
 {
-    bool inside;
+    bool inside = false;
+#if COLLIDE_HAS_VOLUMES
+    if (c.kind == COLLIDER_VOLUME) {
+        inside = volume_is_inside(SIM c, until, p);
+        return inside;
+    }
+#endif
+#if COLLIDE_HAS_GRIDS
     if (c.kind == COLLIDER_TERRAIN)
         inside = terrain_is_inside(SIM c, p);
     else
         inside = sdf_is_inside(SIM c, until, p);
+#endif
     return inside;
 }
 
@@ -30,23 +59,38 @@ FN S(collide_ground)
     collide_field_ground(SIM_PARAM S(kiln_collider) c, uint face, float since, float3 p)
 {
     EXACT S(collide_ground) ground;
+#if COLLIDE_HAS_VOLUMES
+    if (c.kind == COLLIDER_VOLUME) {
+        ground = volume_ground(SIM c, face, since, p);
+        return ground;
+    }
+#endif
+#if COLLIDE_HAS_GRIDS
     if (c.kind != COLLIDER_TERRAIN)
         ground = sdf_ground(SIM c, since, p);
     else if (face == COLLIDE_SURFACE)
         ground = terrain_ground(SIM c, p);
     else
         ground = terrain_wall(c, face, p);
+#endif
     return ground;
 }
 
-/* What collide_rise goes up to the top of: of terrain, the ground at a point. */
+/* What collide_rise goes up to the top of: of terrain, the ground at a point; of a volume, nothing,
+ * because what is behind a plane is put in front of it in the next step. */
 FN S(collide_box) collide_field_below(SIM_PARAM S(kiln_collider) c, S(collide_box) box, float3 p)
 {
     EXACT S(collide_box) below = box;
+#if COLLIDE_HAS_VOLUMES
+    if (c.kind == COLLIDER_VOLUME)
+        below.max.y = p.y;
+#endif
+#if COLLIDE_HAS_GRIDS
     if (c.kind == COLLIDER_TERRAIN) {
         EXACT S(collide_ground) ground = terrain_ground(SIM c, p);
         below.max.y = ground.position.y;
     }
+#endif
     return below;
 }
 

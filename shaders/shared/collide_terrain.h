@@ -12,20 +12,8 @@
 #ifndef KILN_SHARED_COLLIDE_TERRAIN_H
 #define KILN_SHARED_COLLIDE_TERRAIN_H
 
-#include "shared/collide_box.h"
+#include "shared/collide_ground.h"
 #include "shared/grid.h"
-
-/* The face of a surface out of a grid, after those of other shapes; terrain's walls are 0, 1, 4
- * and 5, as a box's. */
-#define COLLIDE_SURFACE 32u
-
-/* Where a particle touches a collider that looks up grids. */
-struct collide_ground {
-    float3 position; /* just outside of the surface */
-    float3 normal;   /* interpolated */
-    float3 facet;    /* that of the surface itself: nothing goes against it */
-    float3 velocity; /* m/s, of the surface */
-};
 
 /* A point's height, for the centre of a ball. */
 FN float terrain_point(float4 word, float radius)
@@ -164,16 +152,6 @@ FN float terrain_impact_in(S(terrain_path) path, S(terrain_cell) cell, float x, 
     return y;
 }
 
-/* The part of a path at which it leaves a cell along an axis; 2: it never does. */
-FN float terrain_leaves(float start, float way, float cell)
-{
-    EXACT float side = way > 0.0f ? cell + 1.0f : cell;
-    EXACT float distance = side - start;
-    EXACT float part = exact_div(distance, way);
-    EXACT float y = way == 0.0f ? 2.0f : part;
-    return y;
-}
-
 /* From cell to cell, from the part `from` of the path to the part `to`: that of the first impact,
  * or 2. */
 FN float terrain_march(SIM_PARAM S(kiln_grid) g, S(terrain_path) path, float from, float to,
@@ -190,8 +168,8 @@ FN float terrain_march(SIM_PARAM S(kiln_grid) g, S(terrain_path) path, float fro
     EXACT float at = from;
     uint most = g.size.x + g.size.z;
     for (uint i = 0u; i < most; i++) {
-        EXACT float leaves_x = terrain_leaves(path.x, path.way_x, x);
-        EXACT float leaves_z = terrain_leaves(path.z, path.way_z, z);
+        EXACT float leaves_x = collide_leaves(path.x, path.way_x, x);
+        EXACT float leaves_z = collide_leaves(path.z, path.way_z, z);
         EXACT float leaves = exact_min(leaves_x, leaves_z);
         EXACT float next = exact_min(leaves, to);
         next = exact_max(next, at);

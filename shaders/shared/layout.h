@@ -167,6 +167,8 @@ struct kiln_step_params {
 
 #define COLLIDER_TERRAIN 16u /* from here on, kinds that look up grids */
 #define COLLIDER_SDF     17u
+#define COLLIDER_VOLUME  18u
+#define VOLUME_TWO_SIDED 0x80000000u
 
 /* A collider at the start and at the end of the step; it moves and turns evenly in between. A box
  * along the axes has min and max alone; those of all others bound it. */
@@ -186,7 +188,7 @@ struct kiln_collider {
     uint grid;                 /* of terrain or of a mesh: its number */
     uint mesh;                 /* likewise, of its pose */
     float steepest;            /* of terrain: m of height for one across its steepest slope */
-    uint unused;
+    uint planes;               /* of a volume: the word of its first, and VOLUME_TWO_SIDED */
 };
 
 /* Where a mesh is at the start and at the end of the step: rows from the world to its frame. */
@@ -198,7 +200,8 @@ struct kiln_pose {
     float4 turn;               /* rad/s, about its axis */
 };
 
-/* Samples on a lattice in space; GRID_WORD(i) is the i-th of all grids: see grid.h. */
+/* Samples on a lattice in space; GRID_WORD(i) is the i-th of all grids: see grid.h. Of a volume,
+ * the lattice's cells, of which a VOLUME_WORD has four: see collide_volume.h. */
 struct kiln_grid {
     float4 origin;    /* m: where the first sample lies */
     float4 per_metre; /* samples, along each axis */
@@ -219,10 +222,11 @@ struct kiln_surroundings {
 #define SIM
 #define SIM_PARAM
 #define SIM_KEYS
-#define STEP(x)      step_params.x
-#define AROUND(x)    surroundings.x
-#define GRID_WORD(i) grid_words[i]
-#define PUSH_WORD(i) push_words[i]
+#define STEP(x)        step_params.x
+#define AROUND(x)      surroundings.x
+#define GRID_WORD(i)   grid_words[i]
+#define PUSH_WORD(i)   push_words[i]
+#define VOLUME_WORD(i) volume_words[i]
 #else
 struct kiln_sim {
     const struct kiln_step_params *step;
@@ -230,14 +234,16 @@ struct kiln_sim {
     const float4 *value_keys;
     const float4 *grid_words;
     const float4 *push_words; /* NULL where no system interacts */
+    const float4 *volume_words;
 };
-#define SIM          sim,
-#define SIM_PARAM    const struct kiln_sim *sim,
-#define SIM_KEYS     sim->value_keys,
-#define STEP(x)      sim->step->x
-#define AROUND(x)    sim->surroundings->x
-#define GRID_WORD(i) sim->grid_words[i]
-#define PUSH_WORD(i) sim->push_words[i]
+#define SIM            sim,
+#define SIM_PARAM      const struct kiln_sim *sim,
+#define SIM_KEYS       sim->value_keys,
+#define STEP(x)        sim->step->x
+#define AROUND(x)      sim->surroundings->x
+#define GRID_WORD(i)   sim->grid_words[i]
+#define PUSH_WORD(i)   sim->push_words[i]
+#define VOLUME_WORD(i) sim->volume_words[i]
 #endif
 
 #endif

@@ -42,6 +42,7 @@
 #define SIM_BIND_SECOND  3 /* records, of techniques with two buffers */
 #define SIM_BIND_GRIDS   4
 #define SIM_BIND_PUSHES  5
+#define SIM_BIND_VOLUMES 7
 
 /* Of the kernels that gather pushes; SIM_BIND_KEYS, _RECORDS and _PUSHES serve them, too. */
 #define INTERACT_BIND_PARAMS   3 /* uniform block */

@@ -29,6 +29,13 @@ layout(std430, binding = SIM_BIND_GRIDS) readonly buffer grid_block
 };
 #endif
 
+#ifdef COLLIDE_VOLUME
+layout(std430, binding = SIM_BIND_VOLUMES) readonly buffer volume_block
+{
+    float4 volume_words[];
+};
+#endif
+
 #ifdef PUSHES
 layout(std430, binding = SIM_BIND_PUSHES) readonly buffer push_block
 {

@@ -121,6 +121,13 @@ static void colliders_out_of_grids_agree(void **state)
     some_agree(*state, &fixture.scene, 40, 1);
 }
 
+static void volumes_agree(void **state)
+{
+    fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, 60);
+    fixture_add_moving_volumes(&fixture);
+    some_agree(*state, &fixture.scene, 60, 1);
+}
+
 /* A crowd of its own, in which all kinds of interaction and all clocks of their values are used. */
 static void add_crowd(const char *name, float x, enum kiln_contact_mode mode)
 {
@@ -338,6 +345,7 @@ int main(void)
         test_on_device(turned_colliders),
         test_on_device(fields_agree),
         test_on_device(colliders_out_of_grids_agree),
+        test_on_device(volumes_agree),
         test_on_device(crowds_agree),
         test_on_device(whirls_agree),
         test_on_device(families_agree),

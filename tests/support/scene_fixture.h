@@ -184,6 +184,20 @@ static inline void fixture_add_moving_mesh(struct scene_fixture *f)
     mesh->scale = fixture_ramp(f, time, 0.0f, 0.8f, 2.0f, 1.3f);
 }
 
+/* Such a mesh as a volume of planes, and one that has two sides. */
+static inline void fixture_add_moving_volumes(struct scene_fixture *f)
+{
+    for (int i = 0; i < 2; i++) {
+        fixture_add_moving_mesh(f);
+        struct kiln_object *mesh = &f->scene.backdrop.objects[f->scene.backdrop.object_count - 1];
+        mesh->collider = KILN_COLLIDER_VOLUME;
+        mesh->heading = fixture_constant3(0.2f, -1.0f, 0.0f);
+        mesh->sides = i ? KILN_SIDES_TWO : KILN_SIDES_ONE;
+        mesh->center.z = fixture_constant(i ? 0.6f : -0.2f);
+        mesh->restitution = fixture_constant(i ? 0.5f : 1.0f);
+    }
+}
+
 struct fixture_rate {
     const struct kiln_scene *scene;
     const struct kiln_value *rate;

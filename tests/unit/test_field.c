@@ -7,70 +7,15 @@
 #include <stdint.h>
 
 #include <cmocka.h>
-#include <math.h>
 
 #include "asset/field.h"
 #include "shared/random.h"
 #include "support/folders.h"
-#include "support/simulation.h"
+#include "support/throws.h"
 
 static struct scene_fixture fixture; /* too large for a stack */
 
-static void assert_near(double found, double expected, double allowed)
-{
-    if (!(fabs(found - expected) <= allowed))
-        fail_msg("%.9g instead of %.9g, allowed %g off", found, expected, allowed);
-}
-
 /* ---- meshes ---------------------------------------------------------------------------------- */
-
-struct body {
-    FILE *out;
-    int count; /* of vertices so far */
-};
-
-static void add_box(struct body *body, double x, double y, double z, double w, double h, double d)
-{
-    static const int faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
-                                    {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
-    for (int i = 0; i < 8; i++)
-        fprintf(body->out, "v %g %g %g\n", x + (i & 1 ? w : -w) / 2, y + (i & 2 ? h : -h) / 2,
-                z + (i & 4 ? d : -d) / 2);
-    for (int i = 0; i < 6; i++)
-        fprintf(body->out, "f %d %d %d %d\n", body->count + 1 + faces[i][0],
-                body->count + 1 + faces[i][1], body->count + 1 + faces[i][2],
-                body->count + 1 + faces[i][3]);
-    body->count += 8;
-}
-
-enum { RINGS = 40 };
-
-/* A ball of radius 1 out of RINGS rings of twice as many points. */
-static void add_ball(struct body *body)
-{
-    const int around = 2 * RINGS;
-    const double pi = 3.14159265358979;
-    for (int i = 1; i < RINGS; i++)
-        for (int k = 0; k < around; k++)
-            fprintf(body->out, "v %.9g %.9g %.9g\n", sin(pi * i / RINGS) * cos(2 * pi * k / around),
-                    cos(pi * i / RINGS), sin(pi * i / RINGS) * sin(2 * pi * k / around));
-    fprintf(body->out, "v 0 1 0\nv 0 -1 0\n");
-    const int top = around * (RINGS - 1) + 1;
-    for (int k = 0; k < around; k++) {
-        const int a = k + 1, b = (k + 1) % around + 1, last = around * (RINGS - 2);
-        fprintf(body->out, "f %d %d %d\nf %d %d %d\n", top, b, a, top + 1, last + a, last + b);
-        for (int i = 0; i + 2 < RINGS; i++)
-            fprintf(body->out, "f %d %d %d %d\n", i * around + a, i * around + b,
-                    (i + 1) * around + b, (i + 1) * around + a);
-    }
-}
-
-static struct body begin(const char *path)
-{
-    struct body body = {.out = fopen(path, "w")};
-    assert_non_null(body.out);
-    return body;
-}
 
 static struct kiln_mesh *load(const char *path)
 {
@@ -288,21 +233,6 @@ static void the_environment_says_where_it_is(void **state)
 
 /* ---- particles ------------------------------------------------------------------------------- */
 
-static struct kiln_system *shoot(const double from[3], const double v[3])
-{
-    fixture_init(&fixture);
-    struct kiln_system *system = fixture_add_system(&fixture, "one", 0.0f);
-    system->emit.bursts[0] = (struct kiln_burst){0.0, 1};
-    system->emit.burst_count = 1;
-    system->emit.life = fixture_range(10.0f, 10.0f);
-    const float speed = (float)sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    system->emit.speed = fixture_range(speed, speed);
-    system->emit.origin = fixture_constant3((float)from[0], (float)from[1], (float)from[2]);
-    system->emit.direction = fixture_constant3((float)v[0], (float)v[1], (float)v[2]);
-    system->collide.enabled = true;
-    return system;
-}
-
 static struct kiln_object *add_ball_object(float x, float y, float z)
 {
     struct kiln_mesh *mesh = load_ball();
@@ -310,18 +240,6 @@ static struct kiln_object *add_ball_object(float x, float y, float z)
     struct kiln_object *ball = fixture_add_mesh(&fixture, "ball.obj", x, y, z);
     ball->cells = 40;
     return ball;
-}
-
-static struct kiln_particle after(uint32_t steps)
-{
-    fixture_finish(&fixture, steps);
-    struct simulation run;
-    simulation_start(&run, &fixture.scene, NULL, 1);
-    simulation_run(&run, steps);
-    struct kiln_particle p = simulation_records(&run)[0];
-    assert_true(particle_is_alive(p));
-    simulation_end(&run);
-    return p;
 }
 
 /* Against a ball of radius 2 at (1, 2, 3), turned somehow: the exact point, normal and time; by
@@ -335,14 +253,14 @@ static void a_ball_mirrors_where_it_is_hit(void **state)
         const double y = asides[i % 4], x = sqrt(1 - y * y), speed = speeds[i / 4 % 3];
         const double normal[3] = {x, y, 0}, v[3] = {-speed, 0, 0}, time_s = 0.4;
         const double from[3] = {1 + far * x + speed * time_s, 2 + far * y, 3};
-        struct kiln_system *system = shoot(from, v);
+        struct kiln_system *system = shoot(&fixture, from, v);
         system->collide.slowdown = fixture_constant(0.5f);
         if (radius > 0)
             fixture_add_collisions(system, (float)radius);
         struct kiln_object *ball = add_ball_object(1, 2, 3);
         ball->scale = fixture_constant(2.0f);
         ball->rotation = fixture_constant3(0.5f, -1.0f, 2.0f);
-        struct kiln_particle p = after(30);
+        struct kiln_particle p = after(&fixture, 30);
         const float3 at = particle_position(p), u = particle_velocity(p);
         const double found_x[3] = {(double)at.x, (double)at.y, (double)at.z};
         const double found_v[3] = {(double)u.x, (double)u.y, (double)u.z};
@@ -361,47 +279,27 @@ static void moving_surfaces_push(void **state)
     (void)state;
     const uint32_t time = KILN_CLOCK_TIME;
     const double from[3] = {2, 0, 0}, still[3] = {0.0001, 0, 0};
-    shoot(from, still);
+    shoot(&fixture, from, still);
     add_ball_object(0, 0, 0)->center.x = fixture_ramp(&fixture, time, 0, 0, 1, 10);
-    assert_near((double)particle_velocity(after(30)).x, 20, 0.05);
+    assert_near((double)particle_velocity(after(&fixture, 30)).x, 20, 0.05);
 
-    shoot(from, still);
+    shoot(&fixture, from, still);
     add_ball_object(0, 0, 0)->scale = fixture_ramp(&fixture, time, 0, 1, 1, 11);
-    assert_near((double)particle_velocity(after(30)).x, 20, 0.2);
+    assert_near((double)particle_velocity(after(&fixture, 30)).x, 20, 0.2);
 
     struct body body = begin("bar.obj");
     add_box(&body, 0, 0, 0, 4, 0.5, 0.5);
     fclose(body.out);
-    shoot(from, still);
+    shoot(&fixture, from, still);
     fixture.scene.systems[0].emit.origin = fixture_constant3(1.5f, 1, 0);
     struct kiln_object *bar = fixture_add_mesh(&fixture, "bar.obj", 0, 0, 0);
     bar->cells = 32;
     bar->rotation.z = fixture_ramp(&fixture, time, 0, 0, 1, 5);
-    const float3 u = particle_velocity(after(20));
+    const float3 u = particle_velocity(after(&fixture, 20));
     /* Its face, which turns at 5 rad/s, gets to (1.5, 1): distance along it is the root of 3.25
      * less a sixteenth. */
     const double along = sqrt(3.25 - 1.0 / 16);
     assert_near((double)float3_length(u), 2 * 5 * along, 0.25);
-}
-
-static void a_crowd_around(uint32_t count, float speed, float gravity)
-{
-    fixture_init(&fixture);
-    struct kiln_system *system = fixture_add_system(&fixture, "crowd", 0.0f);
-    system->emit.bursts[0] = (struct kiln_burst){0.0, count};
-    system->emit.burst_count = 1;
-    system->emit.life = fixture_range(10.0f, 10.0f);
-    system->emit.shape = KILN_EMITTER_BOX;
-    system->emit.origin = fixture_constant3(0.0f, 3.0f, 0.0f);
-    system->emit.size = fixture_constant3(3.0f, 0.1f, 3.0f);
-    system->emit.direction = fixture_constant3(0.0f, -1.0f, 0.0f);
-    system->emit.angle = fixture_constant(0.7f);
-    system->emit.speed = fixture_range(0.1f * speed, speed);
-    system->collide.enabled = true;
-    system->collide.randomness = fixture_constant(0.3f);
-    system->collide.slowdown = fixture_constant(0.8f);
-    fixture_add_force(system, KILN_FORCE_GRAVITY)->vector = fixture_constant3(0.0f, -gravity, 0.0f);
-    fixture_finish(&fixture, 60);
 }
 
 /* Through a plate two cells thick, at up to 600 m/s. */
@@ -412,7 +310,7 @@ static void nothing_tunnels(void **state)
     add_box(&body, 0, 0, 0, 8, 0.4, 8);
     fclose(body.out);
     for (int fast = 0; fast < 2; fast++) {
-        a_crowd_around(1000, fast ? 600.0f : 20.0f, 9.81f);
+        a_crowd_around(&fixture, 1000, fast ? 600.0f : 20.0f, 9.81f);
         fixture_add_mesh(&fixture, "plate.obj", 0, 0, 0)->cells = 40;
         struct simulation run;
         simulation_start(&run, &fixture.scene, NULL, 1);
@@ -437,12 +335,12 @@ static void a_ball_is_thrown_by_what_its_skin_meets(void **state)
     struct body body = begin("bar.obj");
     add_box(&body, 0, 0, 0, 4, 0.5, 0.5);
     fclose(body.out);
-    fixture_add_collisions(shoot(from, still), 0.5f);
+    fixture_add_collisions(shoot(&fixture, from, still), 0.5f);
     fixture.scene.systems[0].collide.slowdown = fixture_constant(1.0f);
     struct kiln_object *bar = fixture_add_mesh(&fixture, "bar.obj", 0, 0, 0);
     bar->cells = 32;
     bar->center.y = fixture_ramp(&fixture, KILN_CLOCK_TIME, 0, 0, 1, 6);
-    const float3 u = particle_velocity(after(20));
+    const float3 u = particle_velocity(after(&fixture, 20));
     assert_near((double)u.y, 12, 0.05);
     assert_near((double)u.x, 0, 0.05);
 }
@@ -470,7 +368,7 @@ static void balls_too_large_for_a_mesh_are_refused(void **state)
 static void without_gravity_no_impact_makes_faster(void **state)
 {
     (void)state;
-    a_crowd_around(1000, 60.0f, 0.0f);
+    a_crowd_around(&fixture, 1000, 60.0f, 0.0f);
     add_ball_object(0, 0, 0);
     struct simulation run;
     simulation_start(&run, &fixture.scene, NULL, 1);
@@ -499,9 +397,9 @@ static void what_is_born_inside_comes_out(void **state)
 {
     (void)state;
     const double from[3] = {0.5, 0, 0}, still[3] = {0, 0.0001, 0};
-    shoot(from, still);
+    shoot(&fixture, from, still);
     add_ball_object(0, 0, 0);
-    const float3 p = particle_position(after(1));
+    const float3 p = particle_position(after(&fixture, 1));
     assert_near((double)p.x, 1, 5e-3);
     assert_near((double)p.y, 0, 5e-3);
 }

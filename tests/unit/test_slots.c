@@ -44,8 +44,8 @@ static void step_slots(struct kiln_slots *slots)
 
 /* Steps all systems slot by slot, and each from the same state in blocks. Returns the living. */
 static uint32_t step_both(const struct kiln_slots_step *loops, const struct kiln_sim_params *params,
-                          const float4 *words, const float4 *pushes, struct kiln_particle *records,
-                          struct kiln_particle *copy)
+                          const float4 *words, const float4 *pushes, const float4 *planes,
+                          struct kiln_particle *records, struct kiln_particle *copy)
 {
     uint32_t alive = 0;
     for (uint32_t k = 0; k < params->system_count; k++) {
@@ -55,7 +55,8 @@ static uint32_t step_both(const struct kiln_slots_step *loops, const struct kiln
                     .surroundings = &params->surroundings,
                     .value_keys = fixture.scene.keys,
                     .grid_words = words,
-                    .push_words = pushes},
+                    .push_words = pushes,
+                    .volume_words = planes},
             .records = records + step->base,
         };
         const size_t bytes = step->used * sizeof *records;
@@ -101,9 +102,11 @@ static void run_level(enum kiln_simd simd)
     float4 *pushes = make_pushes(params->push_count);
     uint32_t most = 0;
     for (uint32_t step = 1; step <= STEPS; step++) {
+        assert_true(kiln_volumes_step(&grids.volumes, &fixture.scene, step, run.threads, &error));
+        const float4 *planes = kiln_buffer_host(&grids.volumes.words, KILN_READ, &error);
         assert_true(kiln_sim_params_step(params, &fixture.scene, &run.pool, step, &error));
-        uint32_t alive =
-            step_both(KILN_SIMD_PICK(kiln_slots_step, simd), params, words, pushes, records, copy);
+        uint32_t alive = step_both(KILN_SIMD_PICK(kiln_slots_step, simd), params, words, pushes,
+                                   planes, records, copy);
         most = alive > most ? alive : most;
     }
     assert_true(most > 1000);
@@ -164,6 +167,14 @@ static void around_a_moving_mesh(void **state)
     run_levels();
 }
 
+static void around_moving_volumes(void **state)
+{
+    (void)state;
+    fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, STEPS);
+    fixture_add_moving_volumes(&fixture);
+    run_levels();
+}
+
 static void pushed_among_colliders(void **state)
 {
     (void)state;
@@ -198,6 +209,7 @@ int main(void)
         cmocka_unit_test(position_first_among_turning_colliders),
         cmocka_unit_test(above_terrain),
         cmocka_unit_test(around_a_moving_mesh),
+        cmocka_unit_test(around_moving_volumes),
         cmocka_unit_test(pushed_among_colliders),
         cmocka_unit_test(whirls),
     };

@@ -1,0 +1,271 @@
+/* Vertices are placed on the host, at the start and at the end of a step; the rest is voxels.c's.
+ */
+#include "sim/volumes.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "asset/mesh.h"
+#include "base/error.h"
+#include "shared/exact.h"
+#include "sim/voxels.h"
+
+struct kiln_volume {
+    uint32_t object;
+    struct kiln_mesh *mesh;
+    float (*before)[3], (*after)[3]; /* m: its vertices */
+    float before_s, after_s;         /* when they are there */
+    bool placed, made;
+    struct kiln_voxels voxels;
+    bool two_sided;
+    size_t first; /* word of its marks; planes follow */
+};
+
+bool kiln_volumes_needs(const struct kiln_object *object)
+{
+    return object->collide && object->kind == KILN_OBJECT_MESH &&
+           object->collider == KILN_COLLIDER_VOLUME;
+}
+
+/* ---- memory ---------------------------------------------------------------------------------- */
+
+static struct kiln_volume *load(const struct kiln_scene *scene, uint32_t index,
+                                struct kiln_error *error)
+{
+    const struct kiln_object *object = &scene->backdrop.objects[index];
+    struct kiln_volume *volume = calloc(1, sizeof *volume);
+    if (!volume) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "volume: no memory");
+        return NULL;
+    }
+    volume->object = index;
+    volume->two_sided = object->sides == KILN_SIDES_TWO;
+    volume->mesh = kiln_mesh_load(object->file, scene->asset_root, scene->stop, scene->user, error);
+    if (!volume->mesh)
+        return volume; /* its owner frees it */
+    const size_t count = volume->mesh->vertex_count;
+    volume->before = calloc(count, sizeof *volume->before);
+    volume->after = calloc(count, sizeof *volume->after);
+    if (!volume->before || !volume->after) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for %zu vertices", object->file,
+                       count);
+        kiln_mesh_destroy(&volume->mesh);
+    }
+    return volume;
+}
+
+bool kiln_volumes_init(struct kiln_volumes *volumes, struct kiln_device *device,
+                       const struct kiln_scene *scene, struct kiln_error *error)
+{
+    *volumes = (struct kiln_volumes){.count = 0};
+    kiln_buffer_init(&volumes->words, device, 0, "volumes");
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        if (!kiln_volumes_needs(&scene->backdrop.objects[i]))
+            continue;
+        struct kiln_volume *volume = load(scene, i, error);
+        if (!volume)
+            return false;
+        volumes->of_object[i] = volumes->count;
+        volumes->items[volumes->count++] = volume;
+        if (!volume->mesh)
+            return false;
+    }
+    return true;
+}
+
+void kiln_volumes_finish(struct kiln_volumes *volumes)
+{
+    for (uint32_t i = 0; i < volumes->count; i++) {
+        struct kiln_volume *volume = volumes->items[i];
+        kiln_voxels_finish(&volume->voxels);
+        kiln_mesh_destroy(&volume->mesh);
+        free(volume->before);
+        free(volume->after);
+        free(volume);
+    }
+    kiln_buffer_finish(&volumes->words);
+    *volumes = (struct kiln_volumes){.count = 0};
+}
+
+/* ---- a step ---------------------------------------------------------------------------------- */
+
+/* Where the vertices are at a time, in the world. */
+static void place_vertices(const struct kiln_scene *scene, const struct kiln_volume *volume,
+                           float time_s, float (*to)[3])
+{
+    const struct kiln_object *object = &scene->backdrop.objects[volume->object];
+    const float3 center = kiln_scene_value3(scene, &object->center, time_s);
+    const float at[3] = {center.x, center.y, center.z};
+    const float scale = kiln_scene_value(scene, &object->scale, time_s);
+    float rows[3][3];
+    kiln_scene_rotation(kiln_scene_value3(scene, &object->rotation, time_s), rows);
+    for (uint32_t i = 0; i < volume->mesh->vertex_count; i++) {
+        const float *v = volume->mesh->vertices[i];
+        for (int c = 0; c < 3; c++)
+            to[i][c] = at[c] + scale * (rows[c][0] * v[0] + rows[c][1] * v[1] + rows[c][2] * v[2]);
+    }
+}
+
+static void place(const struct kiln_scene *scene, struct kiln_volume *volume, float start_s,
+                  float end_s)
+{
+    if (volume->placed && volume->after_s == start_s) {
+        float(*swap)[3] = volume->before;
+        volume->before = volume->after;
+        volume->after = swap;
+    } else {
+        place_vertices(scene, volume, start_s, volume->before);
+    }
+    place_vertices(scene, volume, end_s, volume->after);
+    volume->before_s = start_s;
+    volume->after_s = end_s;
+    volume->placed = true;
+}
+
+/* m: an edge of a cell. */
+static float spacing_of(const struct kiln_scene *scene, const struct kiln_volume *volume)
+{
+    const struct kiln_object *object = &scene->backdrop.objects[volume->object];
+    float longest = 0.0f;
+    for (int c = 0; c < 3; c++)
+        longest = exact_max(longest, volume->mesh->max[c] - volume->mesh->min[c]);
+    const float scale = kiln_scene_value(scene, &object->scale, volume->after_s);
+    return exact_max(longest * scale / (float)object->cells, 1e-4f);
+}
+
+/* Voxels of a mesh that has stood still for two steps are those of the last. */
+static bool make(const struct kiln_scene *scene, struct kiln_volume *volume, bool still,
+                 struct kiln_threads *threads, bool *changed, struct kiln_error *error)
+{
+    const struct kiln_object *object = &scene->backdrop.objects[volume->object];
+    const struct kiln_mesh *mesh = volume->mesh;
+    const size_t bytes = mesh->vertex_count * sizeof *volume->before;
+    if (volume->made && still && object->heading.x.count + object->heading.y.count == 0 &&
+        object->heading.z.count == 0 && memcmp(volume->before, volume->after, bytes) == 0)
+        return true;
+    *changed = true;
+    const float3 heading = kiln_scene_value3(scene, &object->heading, volume->before_s);
+    const struct kiln_voxels_input input = {
+        .before = (const float(*)[3])volume->before,
+        .after = (const float(*)[3])volume->after,
+        .vertex_count = mesh->vertex_count,
+        .triangles = (const uint32_t(*)[3])mesh->triangles,
+        .triangle_count = mesh->triangle_count,
+        .spacing = spacing_of(scene, volume),
+        .heading = float3_normalize(heading, FLOAT3(0.0f, -1.0f, 0.0f)),
+        .two_sided = volume->two_sided,
+    };
+    volume->made = kiln_voxels_build(&volume->voxels, &input, threads, error);
+    return volume->made;
+}
+
+static size_t mark_words(const struct kiln_voxels *v)
+{
+    return ((size_t)v->size[0] * v->size[1] * v->size[2] + 3) / 4;
+}
+
+static void copy_words(float4 *words, const struct kiln_voxels *v)
+{
+    const size_t cells = (size_t)v->size[0] * v->size[1] * v->size[2];
+    words[mark_words(v) - 1] = FLOAT4(0.0f, 0.0f, 0.0f, 0.0f);
+    memcpy(words, v->marks, cells * sizeof *v->marks);
+    words += mark_words(v);
+    for (size_t i = 0; i < v->plane_count; i++) {
+        const struct kiln_voxel *p = &v->planes[i];
+        words[3 * i] = FLOAT4(p->start.x, p->start.y, p->start.z, p->normal.x);
+        words[3 * i + 1] = FLOAT4(p->end.x, p->end.y, p->end.z, p->normal.y);
+        words[3 * i + 2] = FLOAT4(p->normal_end.x, p->normal_end.y, p->normal_end.z, p->normal.z);
+    }
+}
+
+static bool fill(struct kiln_volumes *volumes, struct kiln_error *error)
+{
+    size_t total = 0;
+    for (uint32_t i = 0; i < volumes->count; i++) {
+        struct kiln_volume *volume = volumes->items[i];
+        volume->first = total;
+        total += mark_words(&volume->voxels) + 3 * (size_t)volume->voxels.plane_count;
+    }
+    if (volumes->words.size < total * sizeof(float4))
+        kiln_buffer_reserve(&volumes->words, (total + total / 2) * sizeof(float4));
+    float4 *words = kiln_buffer_host(&volumes->words, KILN_OVERWRITE, error);
+    if (!words)
+        return false;
+    for (uint32_t i = 0; i < volumes->count; i++)
+        copy_words(words + volumes->items[i]->first, &volumes->items[i]->voxels);
+    kiln_buffer_set_content(&volumes->words, total * sizeof(float4));
+    return true;
+}
+
+bool kiln_volumes_step(struct kiln_volumes *volumes, const struct kiln_scene *scene, uint32_t step,
+                       struct kiln_threads *threads, struct kiln_error *error)
+{
+    if (volumes->count == 0 || step == 0)
+        return true; /* the step itself refuses what is no step */
+    const float start_s = kiln_scene_time(scene, step - 1), end_s = kiln_scene_time(scene, step);
+    bool changed = false;
+    for (uint32_t i = 0; i < volumes->count; i++) {
+        struct kiln_volume *volume = volumes->items[i];
+        const size_t bytes = volume->mesh->vertex_count * sizeof *volume->before;
+        const bool still = volume->made && memcmp(volume->before, volume->after, bytes) == 0;
+        place(scene, volume, start_s, end_s);
+        if (!make(scene, volume, still, threads, &changed, error))
+            return false;
+    }
+    return !changed || fill(volumes, error);
+}
+
+/* ---- what the step is told ------------------------------------------------------------------- */
+
+/* The box around the vertices at a time, and a cell more. */
+static void bound(const struct kiln_volume *volume, float (*vertices)[3], float4 *min, float4 *max)
+{
+    float low[3], high[3];
+    for (int c = 0; c < 3; c++) {
+        low[c] = high[c] = vertices[0][c];
+        for (uint32_t i = 1; i < volume->mesh->vertex_count; i++) {
+            low[c] = exact_min(low[c], vertices[i][c]);
+            high[c] = exact_max(high[c], vertices[i][c]);
+        }
+        low[c] = exact_canon(low[c] - volume->voxels.spacing);
+        high[c] = exact_canon(high[c] + volume->voxels.spacing);
+    }
+    *min = FLOAT4(low[0], low[1], low[2], 0.0f);
+    *max = FLOAT4(high[0], high[1], high[2], 0.0f);
+}
+
+struct kiln_collider kiln_volumes_collider(const struct kiln_volumes *volumes, uint32_t object,
+                                           struct kiln_grid table[KILN_MAX_MESHES])
+{
+    const uint32_t number = volumes->of_object[object];
+    const struct kiln_volume *volume = volumes->items[number];
+    const struct kiln_voxels *v = &volume->voxels;
+    /* From the end of the table, where those of other meshes do not get to. */
+    const uint32_t place = KILN_MAX_MESHES - 1 - number;
+    table[place] = (struct kiln_grid){
+        .origin = FLOAT4(v->origin[0], v->origin[1], v->origin[2], 0.0f),
+        .per_metre = FLOAT4(v->per_metre, v->per_metre, v->per_metre, 0.0f),
+        .size = {v->size[0], v->size[1], v->size[2], (uint)volume->first},
+    };
+    struct kiln_collider c = {
+        .kind = COLLIDER_VOLUME,
+        .grid = KILN_MAX_WINDS + place,
+        .planes =
+            (uint)(volume->first + mark_words(v)) | (volume->two_sided ? VOLUME_TWO_SIDED : 0),
+    };
+    bound(volume, volume->before, &c.min, &c.max);
+    bound(volume, volume->after, &c.min_end, &c.max_end);
+    return c;
+}
+
+uint32_t kiln_volumes_planes(const struct kiln_volumes *volumes, uint32_t *cells)
+{
+    uint32_t planes = 0;
+    *cells = 0;
+    for (uint32_t i = 0; i < volumes->count; i++) {
+        const struct kiln_voxels *v = &volumes->items[i]->voxels;
+        planes += v->plane_count;
+        *cells += v->size[0] * v->size[1] * v->size[2];
+    }
+    return planes;
+}

@@ -1,0 +1,41 @@
+/* Render-to-volume (Drone 2007, 7.5.2): the meshes that particles meet as planes in the cells of a
+ * lattice, which are found anew in each step. */
+#ifndef KILN_SIM_VOLUMES_H
+#define KILN_SIM_VOLUMES_H
+
+#include "base/thread.h"
+#include "gpu/buffer.h"
+#include "scene/scene.h"
+#include "shared/layout.h"
+
+struct kiln_volume;
+
+struct kiln_volumes {
+    uint32_t count;
+    struct kiln_volume *items[KILN_MAX_MESHES];
+    uint32_t of_object[KILN_MAX_OBJECTS]; /* number of an object's; else of no account */
+    struct kiln_buffer words;             /* float4: what shared/collide_volume.h looks up */
+};
+
+/* Does the object need a volume? */
+bool kiln_volumes_needs(const struct kiln_object *object);
+
+/* Loads the meshes. device NULL: for the host. Errors as kiln_mesh_load; after a failure, too,
+ * kiln_volumes_finish frees what there is. */
+bool kiln_volumes_init(struct kiln_volumes *volumes, struct kiln_device *device,
+                       const struct kiln_scene *scene, struct kiln_error *error);
+void kiln_volumes_finish(struct kiln_volumes *volumes);
+
+/* Makes those of a step, for any number of threads the same; what stands still stays.
+ * KILN_DEVICE_FAILED when memory is short. */
+bool kiln_volumes_step(struct kiln_volumes *volumes, const struct kiln_scene *scene, uint32_t step,
+                       struct kiln_threads *threads, struct kiln_error *error);
+
+/* What an object is in that step; its lattice goes into the table of grids of meshes. */
+struct kiln_collider kiln_volumes_collider(const struct kiln_volumes *volumes, uint32_t object,
+                                           struct kiln_grid table[KILN_MAX_MESHES]);
+
+/* How many cells of all have planes in that step, and how many there are. */
+uint32_t kiln_volumes_planes(const struct kiln_volumes *volumes, uint32_t *cells);
+
+#endif

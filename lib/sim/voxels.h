@@ -1,0 +1,57 @@
+/* Triangles put into a lattice of cells (Drone 2007, 7.5.2.1 and 7.5.2.3): each cell that some
+ * touch on their way through a step keeps one of them, its plane and how it moves. */
+#ifndef KILN_SIM_VOXELS_H
+#define KILN_SIM_VOXELS_H
+
+#include "base/thread.h"
+#include "kiln.h"
+#include "shared/layout.h"
+
+enum {
+    KILN_MAX_VOXEL_EDGE = 256,     /* cells along an axis */
+    KILN_MAX_VOXEL_CELLS = 1 << 22 /* in all */
+};
+
+/* Triangles at the start and at the end of a step; vertices go straight from one to the other. */
+struct kiln_voxels_input {
+    const float (*before)[3], (*after)[3]; /* m, finite and within 1e6 */
+    uint32_t vertex_count;
+    const uint32_t (*triangles)[3];
+    uint32_t triangle_count;
+    float spacing;  /* m: edge of a cell, above 0; doubled until the limits above hold */
+    float3 heading; /* unit: where most particles go */
+    bool two_sided; /* which side of a triangle is its front does not matter */
+};
+
+/* A plane in a cell: a place on it, at the start and at the end, and its unit normals then. */
+struct kiln_voxel {
+    float3 start, end;
+    float3 normal, normal_end;
+    uint32_t triangle;
+};
+
+struct kiln_voxels {
+    float origin[3];  /* m: the lowest corner; a cell at least is around the triangles */
+    float spacing;    /* m */
+    float per_metre;  /* cells */
+    uint32_t size[3]; /* cells */
+    /* By z, y, x. Above 0: 1 + the number of the cell's plane. Else it has none, and nor has any
+     * within as many cells as this is below 0, diagonals counted as sides; 7 are the most. */
+    float *marks;
+    struct kiln_voxel *planes; /* in the order of their cells */
+    uint32_t plane_count;
+    struct kiln_voxels_scratch *scratch;
+};
+
+/* From zeros. False: KILN_DEVICE_FAILED, memory is short; kiln_voxels_finish frees what there is.
+ *
+ * In a cell, triangles that face against the heading come before those that are seen edge-on, and
+ * these before those that face along it; then whose plane the heading meets first, on the line
+ * through the middle of the cell; then the lower number. That is decided by integers, for corners
+ * rounded to 1/1024 of a cell, so that it is the same everywhere. A cell is touched if a triangle
+ * that stands still comes within 1/512 of it, and never left out if one that moves does. */
+bool kiln_voxels_build(struct kiln_voxels *voxels, const struct kiln_voxels_input *input,
+                       struct kiln_threads *threads, struct kiln_error *error);
+void kiln_voxels_finish(struct kiln_voxels *voxels);
+
+#endif

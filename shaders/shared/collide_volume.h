@@ -1,0 +1,323 @@
+/* Collision with a volume of planes (Drone 2007, 7.5.2.2); shared/collide.h says when.
+ *
+ * The host puts a mesh into a lattice of cells in each step, as it is at both ends of it: a cell
+ * that some triangle touches in between has a plane that moves with that triangle. A path is
+ * followed from cell to cell, and tested against the plane of each over its part in the cell, so
+ * that nothing is too fast. Of a closed mesh, planes have a front alone: what gets into a cell
+ * behind its plane has come in past a plane that was not kept, and is put in front at once. Of an
+ * open one they have two sides, and a path stays on its side while it goes through cells with
+ * planes.
+ */
+#ifndef KILN_SHARED_COLLIDE_VOLUME_H
+#define KILN_SHARED_COLLIDE_VOLUME_H
+
+#include "shared/collide_ground.h"
+
+/* A face is a plane's number, and whether it was met from behind. */
+#define VOLUME_FIRST_FACE 64u
+
+/* Cells: what is farther behind a plane of its cell is behind what it is a plane of. */
+#define VOLUME_DEPTH 1.75f
+
+/* A plane at both ends of the step: a place on it, and its unit normal. */
+struct volume_plane {
+    float3 start, end;
+    float3 normal, normal_end;
+};
+
+FN S(volume_plane) volume_plane_at(SIM_PARAM S(kiln_collider) c, uint number)
+{
+    uint at = (c.planes & ~VOLUME_TWO_SIDED) + 3u * number;
+    EXACT float4 first = VOLUME_WORD(at);
+    EXACT float4 second = VOLUME_WORD(at + 1u);
+    EXACT float4 third = VOLUME_WORD(at + 2u);
+    EXACT S(volume_plane) plane;
+    plane.start = FLOAT3(first.x, first.y, first.z);
+    plane.end = FLOAT3(second.x, second.y, second.z);
+    plane.normal = FLOAT3(first.w, second.w, third.w);
+    plane.normal_end = FLOAT3(third.x, third.y, third.z);
+    return plane;
+}
+
+/* What is known of a cell, by its place in the lattice: see sim/voxels.h. */
+FN float volume_mark(SIM_PARAM S(kiln_grid) g, uint x, uint y, uint z)
+{
+    uint cell = (z * g.size.y + y) * g.size.x + x;
+    EXACT float4 four = VOLUME_WORD(g.size.w + (cell >> 2u));
+    uint part = cell & 3u;
+    EXACT float lower = part == 0u ? four.x : four.y;
+    EXACT float upper = part == 2u ? four.z : four.w;
+    EXACT float mark = part < 2u ? lower : upper;
+    return mark;
+}
+
+FN float3 volume_moving(float3 a, float3 b, float since)
+{
+    EXACT float3 y = FLOAT3(collide_moving(a.x, b.x, since), collide_moving(a.y, b.y, since),
+                            collide_moving(a.z, b.z, since));
+    return y;
+}
+
+/* How far in front of a plane a point is when the part `since` of the step has passed. */
+FN float volume_height(S(volume_plane) plane, float since, float3 p)
+{
+    EXACT float3 normal = volume_moving(plane.normal, plane.normal_end, since);
+    EXACT float3 foot = volume_moving(plane.start, plane.end, since);
+    EXACT float3 from = float3_sub(p, foot);
+    EXACT float y = float3_dot(normal, from);
+    return y;
+}
+
+/* A point in cells. */
+FN float3 volume_cells(S(kiln_grid) g, float3 p)
+{
+    EXACT float3 y = FLOAT3((p.x - g.origin.x) * g.per_metre.x, (p.y - g.origin.y) * g.per_metre.y,
+                            (p.z - g.origin.z) * g.per_metre.z);
+    return y;
+}
+
+/* The nearest cell along an axis. */
+FN float volume_cell(float at, uint size)
+{
+    EXACT float last = FLOAT(size) - 1.0f;
+    EXACT float whole = FLOOR(at);
+    EXACT float y = exact_clamp(whole, 0.0f, last);
+    return y;
+}
+
+/* A path, and its parts of the step. */
+struct volume_path {
+    float3 from, way;     /* m */
+    float3 start, across; /* the same in cells */
+    float since, until;
+};
+
+FN S(volume_path) volume_path_of(S(kiln_grid) g, float since, float until, float3 a, float3 b)
+{
+    EXACT S(volume_path) path;
+    path.from = a;
+    path.way = float3_sub(b, a);
+    path.start = volume_cells(g, a);
+    EXACT float3 end = volume_cells(g, b);
+    EXACT float3 across = float3_sub(end, path.start);
+    path.across = float3_canon(across);
+    path.since = since;
+    path.until = until;
+    return path;
+}
+
+/* A path at a part of it, in front of a plane. */
+FN float volume_height_on(S(volume_path) path, S(volume_plane) plane, float part)
+{
+    EXACT float3 p = float3_add_scaled(path.from, path.way, part);
+    EXACT float since = path.since + (path.until - path.since) * part;
+    EXACT float y = volume_height(plane, since, p);
+    return y;
+}
+
+struct volume_hit {
+    float part; /* of the path; 2: none */
+    uint face;
+    int side; /* on which the path is: 1 in front, -1 behind, 0 not known */
+};
+
+/* Between two parts of a path, which lie in a cell with a plane of that number. */
+FN S(volume_hit) volume_hit_in(SIM_PARAM S(kiln_collider) c, S(volume_path) path, int side,
+                               uint number, float deep, float from, float to)
+{
+    EXACT S(volume_plane) plane = volume_plane_at(SIM c, number);
+    EXACT float before = volume_height_on(path, plane, from);
+    EXACT float after = volume_height_on(path, plane, to);
+    int now = before < 0.0f ? -1 : 1;
+    now = side == 0 ? now : side;
+    before = now < 0 ? -before : before;
+    after = now < 0 ? -after : after;
+    EXACT float fall = before - after;
+    EXACT float quotient = exact_div(before, fall);
+    EXACT float part = exact_clamp(quotient, 0.0f, 1.0f);
+    EXACT float crossing = from + (to - from) * part;
+    bool at_once = before <= 0.0f && before > -deep;
+    bool crosses = before > 0.0f && after <= 0.0f;
+    S(volume_hit) hit;
+    hit.part = crosses ? crossing : 2.0f;
+    hit.part = at_once ? from : hit.part;
+    hit.face = VOLUME_FIRST_FACE + 2u * number + (now < 0 ? 1u : 0u);
+    hit.side = now;
+    return hit;
+}
+
+FN S(volume_hit) volume_march(SIM_PARAM S(kiln_collider) c, S(kiln_grid) g, S(volume_path) path,
+                              float from, float to)
+{
+    EXACT float3 first = float3_add_scaled(path.start, path.across, from);
+    EXACT float x = volume_cell(first.x, g.size.x);
+    EXACT float y = volume_cell(first.y, g.size.y);
+    EXACT float z = volume_cell(first.z, g.size.z);
+    EXACT float deep = VOLUME_DEPTH * exact_rcp(g.per_metre.x);
+    EXACT float at = from;
+    EXACT float longest = exact_max(exact_abs(path.across.x),
+                                    exact_max(exact_abs(path.across.y), exact_abs(path.across.z)));
+    EXACT float per_cell = exact_rcp(longest);
+    int unknown = (c.planes & VOLUME_TWO_SIDED) != 0u ? 0 : 1;
+    int side = unknown;
+    S(volume_hit) hit;
+    hit.part = 2.0f;
+    hit.face = VOLUME_FIRST_FACE;
+    hit.side = 0;
+    uint most = g.size.x + g.size.y + g.size.z;
+    for (uint i = 0u; i < most; i++) {
+        EXACT float leaves_x = collide_leaves(path.start.x, path.across.x, x);
+        EXACT float leaves_y = collide_leaves(path.start.y, path.across.y, y);
+        EXACT float leaves_z = collide_leaves(path.start.z, path.across.z, z);
+        EXACT float leaves = exact_min(leaves_x, exact_min(leaves_y, leaves_z));
+        EXACT float next = exact_min(leaves, to);
+        next = exact_max(next, at);
+        EXACT float mark = volume_mark(SIM g, UINT(x), UINT(y), UINT(z));
+        if (mark > 0.0f) {
+            hit = volume_hit_in(SIM c, path, side, UINT(mark) - 1u, deep, at, next);
+            if (hit.part <= 1.0f)
+                return hit;
+            side = hit.side;
+        } else {
+            side = unknown;
+        }
+        hit.part = 2.0f;
+        /* Where no plane is near, several cells at a time. */
+        EXACT float stride = at + (-1.0f - mark) * per_cell;
+        bool strides = mark < -1.5f && per_cell > 0.0f && stride > next;
+        if (strides ? stride >= to : leaves >= to)
+            return hit;
+        if (strides) {
+            EXACT float3 there = float3_add_scaled(path.start, path.across, stride);
+            x = volume_cell(there.x, g.size.x);
+            y = volume_cell(there.y, g.size.y);
+            z = volume_cell(there.z, g.size.z);
+            at = stride;
+        } else {
+            bool along_x = leaves_x <= leaves_y && leaves_x <= leaves_z;
+            bool along_y = !along_x && leaves_y <= leaves_z;
+            EXACT float step_x = path.across.x > 0.0f ? 1.0f : -1.0f;
+            EXACT float step_y = path.across.y > 0.0f ? 1.0f : -1.0f;
+            EXACT float step_z = path.across.z > 0.0f ? 1.0f : -1.0f;
+            x = along_x ? x + step_x : x;
+            y = along_y ? y + step_y : y;
+            z = along_x || along_y ? z : z + step_z;
+            at = next;
+        }
+        EXACT float held_x = volume_cell(x, g.size.x);
+        EXACT float held_y = volume_cell(y, g.size.y);
+        EXACT float held_z = volume_cell(z, g.size.z);
+        if (held_x != x || held_y != y || held_z != z)
+            return hit;
+    }
+    return hit;
+}
+
+/* May no path from a to b touch a plane? */
+FN bool volume_is_clear(SIM_PARAM S(kiln_grid) g, float3 a, float3 b)
+{
+    EXACT float3 from = volume_cells(g, a);
+    EXACT float3 to = volume_cells(g, b);
+    EXACT float x = volume_cell(from.x, g.size.x);
+    EXACT float y = volume_cell(from.y, g.size.y);
+    EXACT float z = volume_cell(from.z, g.size.z);
+    EXACT float mark = volume_mark(SIM g, UINT(x), UINT(y), UINT(z));
+    EXACT float far_x = exact_max(exact_abs(from.x - x), exact_abs(to.x - x));
+    EXACT float far_y = exact_max(exact_abs(from.y - y), exact_abs(to.y - y));
+    EXACT float far_z = exact_max(exact_abs(from.z - z), exact_abs(to.z - z));
+    EXACT float far = exact_max(far_x, exact_max(far_y, far_z));
+    return far <= -mark;
+}
+
+/* The way of a segment between two parts of the step, as collide_segment has it. */
+FN S(collide_span)
+    volume_segment(SIM_PARAM S(kiln_collider) c, float since, float until, float3 a, float3 b)
+{
+    EXACT S(collide_box) at_start = collide_box_at(c, since);
+    EXACT S(collide_box) at_end = collide_box_at(c, until);
+    EXACT S(collide_span) span = collide_segment(at_start, at_end, a, b);
+    EXACT S(kiln_grid) g = AROUND(grids[c.grid]);
+    if (span.misses || span.enter > span.leave || volume_is_clear(SIM g, a, b)) {
+        span.misses = true;
+        return span;
+    }
+    EXACT S(volume_path) path = volume_path_of(g, since, until, a, b);
+    EXACT float to = exact_min(span.leave, 1.0f);
+    EXACT S(volume_hit) hit = volume_march(SIM c, g, path, span.enter, to);
+    span.misses = hit.part > 1.0f;
+    span.outside = true;
+    span.enter = hit.part;
+    span.leave = 2.0f;
+    span.face = hit.face;
+    return span;
+}
+
+/* The plane of the cell around a point that is in the box of the collider; 0: none, else 1 + its
+ * number. */
+FN uint volume_find(SIM_PARAM S(kiln_collider) c, float3 p)
+{
+    EXACT S(kiln_grid) g = AROUND(grids[c.grid]);
+    EXACT float3 q = volume_cells(g, p);
+    EXACT float x = volume_cell(q.x, g.size.x);
+    EXACT float y = volume_cell(q.y, g.size.y);
+    EXACT float z = volume_cell(q.z, g.size.z);
+    EXACT float mark = volume_mark(SIM g, UINT(x), UINT(y), UINT(z));
+    return mark > 0.0f ? UINT(mark) : 0u;
+}
+
+/* Behind the plane of its cell? That is all that can be known without the way of a particle. */
+FN bool volume_is_inside(SIM_PARAM S(kiln_collider) c, float until, float3 p)
+{
+    EXACT S(collide_box) bounds = collide_box_at(c, until);
+    uint found = volume_find(SIM c, p);
+    if (found == 0u || !collide_inside(bounds, p))
+        return false;
+    EXACT S(volume_plane) plane = volume_plane_at(SIM c, found - 1u);
+    EXACT float height = volume_height(plane, until, p);
+    EXACT float deep = VOLUME_DEPTH * exact_rcp(AROUND(grids[c.grid]).per_metre.x);
+    return height <= 0.0f && height > -deep;
+}
+
+/* At a point of the plane that a face names, or near it. */
+FN S(collide_ground) volume_ground(SIM_PARAM S(kiln_collider) c, uint face, float since, float3 p)
+{
+    uint number = (face - VOLUME_FIRST_FACE) >> 1u;
+    bool behind = (face & 1u) != 0u;
+    if (face < VOLUME_FIRST_FACE) {
+        uint found = volume_find(SIM c, p);
+        number = found > 0u ? found - 1u : 0u;
+        behind = false;
+    }
+    EXACT S(volume_plane) plane = volume_plane_at(SIM c, number);
+    EXACT float3 up = FLOAT3(0.0f, 1.0f, 0.0f);
+    EXACT float3 front = volume_moving(plane.normal, plane.normal_end, since);
+    EXACT float3 back = FLOAT3(-front.x, -front.y, -front.z);
+    EXACT float3 facing = behind ? back : front;
+    EXACT float3 foot = volume_moving(plane.start, plane.end, since);
+    EXACT float reach = exact_abs(p.x) + exact_abs(p.y) + exact_abs(p.z);
+    EXACT float gap = 6.103515625e-5f + reach * 9.5367431640625e-7f;
+    EXACT float3 motion = float3_sub(plane.end, plane.start);
+    EXACT S(collide_ground) ground;
+    ground.normal = float3_normalize(facing, up);
+    ground.facet = ground.normal;
+    EXACT float3 from = float3_sub(p, foot);
+    EXACT float height = float3_dot(ground.normal, from);
+    EXACT float away = gap - height;
+    ground.position = float3_add_scaled(p, ground.normal, away);
+    ground.velocity = float3_scale(motion, AROUND(steps_per_s));
+    return ground;
+}
+
+/* Where a particle is at the end of the step that rests before a plane in between: in front. */
+FN float3 volume_carry(SIM_PARAM S(kiln_collider) c, uint face, float until, float3 p)
+{
+    EXACT S(collide_ground) ground = volume_ground(SIM c, face, until, p);
+    EXACT float3 ahead = float3_sub(ground.position, p);
+    EXACT float missing = float3_dot(ahead, ground.normal);
+    EXACT float3 y = p;
+    if (missing > 0.0f)
+        y = ground.position;
+    return y;
+}
+
+#endif

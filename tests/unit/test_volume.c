@@ -1,0 +1,350 @@
+/* Particles that meet volumes of planes (Drone 2007, 7.5.2): closed forms, what moves and pushes,
+ * sheets, and that nothing gets through.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "sim/volumes.h"
+#include "support/folders.h"
+#include "support/throws.h"
+
+static struct scene_fixture fixture; /* too large for a stack */
+
+static struct kiln_object *add_volume(const char *file, float x, float y, float z, uint32_t cells)
+{
+    struct kiln_object *object = fixture_add_mesh(&fixture, file, x, y, z);
+    object->collider = KILN_COLLIDER_VOLUME;
+    object->heading = fixture_constant3(0.0f, -1.0f, 0.0f);
+    object->cells = cells;
+    return object;
+}
+
+static void write_meshes(void)
+{
+    struct body body = begin("cube.obj");
+    add_box(&body, 0, 0, 0, 1, 1, 1);
+    fclose(body.out);
+    body = begin("ball.obj");
+    add_ball(&body);
+    fclose(body.out);
+    body = begin("plate.obj");
+    add_box(&body, 0, 0, 0, 8, 0.4, 8);
+    fclose(body.out);
+    body = begin("bar.obj");
+    add_box(&body, 0, 0, 0, 4, 0.5, 0.5);
+    fclose(body.out);
+    test_write_file("sheet.obj", "v -2 0 2\nv 2 0 2\nv 2 0 -2\nv -2 0 -2\nf 1 2 3 4\n");
+}
+
+/* Away from its edges the planes of a cube are exact: place, time and velocity. */
+static void a_cube_mirrors_where_it_is_hit(void **state)
+{
+    (void)state;
+    static const double speeds[] = {3, 30, 300}, turns[] = {0, 0.4};
+    for (int i = 0; i < 6; i++) {
+        const double speed = speeds[i % 3], turn = turns[i / 3], time_s = 0.4;
+        /* Onto the middle of a side of 2 m, from above, a bit aslant. */
+        const double n[3] = {-sin(turn), cos(turn), 0}, hit[3] = {1 + n[0], 2 + n[1], 3};
+        const double v[3] = {0.2 * speed, -speed, 0.1 * speed};
+        const double from[3] = {hit[0] - v[0] * time_s, hit[1] - v[1] * time_s,
+                                hit[2] - v[2] * time_s};
+        struct kiln_collide *collide = &shoot(&fixture, from, v)->collide;
+        collide->restitution = fixture_constant(0.5f);
+        collide->friction = fixture_constant(0.1f);
+        struct kiln_object *cube = add_volume("cube.obj", 1, 2, 3, 20);
+        cube->scale = fixture_constant(2.0f);
+        cube->rotation.z = fixture_constant((float)turn);
+        const struct kiln_particle p = after(&fixture, 30);
+        const float3 at = particle_position(p), u = particle_velocity(p);
+        const double found_x[3] = {(double)at.x, (double)at.y, (double)at.z};
+        const double found_v[3] = {(double)u.x, (double)u.y, (double)u.z};
+        double across = 0, aside[3], along = 0;
+        for (int c = 0; c < 3; c++)
+            across += v[c] * n[c];
+        for (int c = 0; c < 3; c++) {
+            aside[c] = v[c] - across * n[c];
+            along += aside[c] * aside[c];
+        }
+        const double kept = 1 + 0.1 * across * 1.5 / sqrt(along);
+        for (int c = 0; c < 3; c++) {
+            const double bounced = kept * aside[c] - 0.5 * across * n[c];
+            assert_near(found_v[c], bounced, 1e-4 * speed);
+            assert_near(found_x[c], hit[c] + bounced * 0.1, 2e-4 + 1e-5 * speed);
+        }
+    }
+}
+
+/* Planes of a round mesh go on beyond their triangles to the ends of their cells, so that place and
+ * normal are off by a cell: 0.1 m of 2 m. */
+static void a_ball_mirrors_within_a_cell(void **state)
+{
+    (void)state;
+    static const double asides[] = {0, 0.3, -0.6, 0.8}, speeds[] = {8, 80, 800};
+    const double cell = 0.1;
+    for (int i = 0; i < 12; i++) {
+        const double y = asides[i % 4], x = sqrt(1 - y * y), speed = speeds[i / 4];
+        const double normal[3] = {x, y, 0}, v[3] = {-speed, 0, 0}, time_s = 0.4;
+        const double from[3] = {1 + 2 * x + speed * time_s, 2 + 2 * y, 3};
+        shoot(&fixture, from, v);
+        struct kiln_object *ball = add_volume("ball.obj", 1, 2, 3, 40);
+        ball->scale = fixture_constant(2.0f);
+        ball->heading = fixture_constant3(-1.0f, 0.0f, 0.0f);
+        ball->rotation = fixture_constant3(0.5f, -1.0f, 2.0f);
+        const struct kiln_particle p = after(&fixture, 30);
+        const float3 at = particle_position(p), u = particle_velocity(p);
+        const double found_x[3] = {(double)at.x, (double)at.y, (double)at.z};
+        const double found_v[3] = {(double)u.x, (double)u.y, (double)u.z};
+        for (int c = 0; c < 3; c++) {
+            const double mirrored = v[c] + 2 * speed * x * normal[c];
+            assert_near(found_v[c], mirrored, 4 * cell / 2 * speed);
+            assert_near(found_x[c], from[c] + v[c] * time_s + found_v[c] * 0.1,
+                        cell + 2e-5 * speed);
+        }
+    }
+}
+
+/* What comes at 10 m/s, or grows by that, throws a resting particle at twice that speed; what turns
+ * at w throws by its speed there. A step is as long as three cells and more. */
+static void moving_surfaces_push(void **state)
+{
+    (void)state;
+    const uint32_t time = KILN_CLOCK_TIME;
+    const double from[3] = {2, 0.1, 0}, still[3] = {0.0001, 0, 0};
+    shoot(&fixture, from, still);
+    add_volume("cube.obj", 0, 0, 0, 20)->center.x = fixture_ramp(&fixture, time, 0, 0, 1, 10);
+    assert_near((double)particle_velocity(after(&fixture, 30)).x, 20, 0.02);
+
+    shoot(&fixture, from, still);
+    add_volume("cube.obj", 0, 0, 0, 20)->scale = fixture_ramp(&fixture, time, 0, 1, 1, 21);
+    assert_near((double)particle_velocity(after(&fixture, 30)).x, 20, 0.1);
+
+    shoot(&fixture, from, still);
+    fixture.scene.systems[0].emit.origin = fixture_constant3(1.5f, 1, 0);
+    struct kiln_object *bar = add_volume("bar.obj", 0, 0, 0, 40);
+    bar->rotation.z = fixture_ramp(&fixture, time, 0, 0, 1, 5);
+    const float3 u = particle_velocity(after(&fixture, 20));
+    /* Its face, which turns at 5 rad/s, gets to (1.5, 1): distance along it is the root of 3.25
+     * less a sixteenth. A velocity is that at the middle of a cell of 0.1 m. */
+    const double along = sqrt(3.25 - 1.0 / 16);
+    assert_near((double)float3_length(u), 2 * 5 * along, 2 * 5 * 0.1);
+}
+
+/* A sheet at 60 m/s, which goes through 10 cells in a step and 10 m in all, takes all particles
+ * with it that are in front of it and no other. */
+static void a_sheet_sweeps_all_before_it(void **state)
+{
+    (void)state;
+    a_crowd_around(&fixture, 500, 0.01f, 0.0f);
+    fixture.scene.systems[0].collide.slowdown = fixture_constant(1.0f);
+    struct kiln_object *sheet = add_volume("sheet.obj", 0, 2.95f, 0, 40);
+    sheet->sides = KILN_SIDES_TWO;
+    sheet->center.y = fixture_ramp(&fixture, KILN_CLOCK_TIME, 0.1f, 2.999f, 0.3f, 15);
+    struct simulation run;
+    simulation_start(&run, &fixture.scene, NULL, 1);
+    simulation_run(&run, 5);
+    static float heights[500];
+    for (uint32_t i = 0; i < 500; i++)
+        heights[i] = particle_position(simulation_records(&run)[i]).y;
+    simulation_run(&run, 13);
+    uint32_t swept = 0;
+    for (uint32_t i = 0; i < 500; i++) {
+        const float3 p = particle_position(simulation_records(&run)[i]);
+        if (heights[i] > 3.0f) {
+            assert_true(p.y > 14.9f);
+            swept++;
+        } else if (heights[i] < 2.998f) {
+            assert_true(p.y < 3.01f);
+        }
+    }
+    assert_true(swept > 100 && swept < 400);
+    simulation_end(&run);
+}
+
+/* Steps a crowd; p and its speed of each at the end of each step, for `check`. */
+static uint32_t watch(int steps, bool (*check)(float3 p))
+{
+    struct simulation run;
+    static float speeds[1000];
+    uint32_t impacts = 0;
+    simulation_start(&run, &fixture.scene, NULL, 1);
+    const bool drops = fixture.scene.systems[0].forces[0].vector.y.constant != 0.0f;
+    for (int step = 0; step < steps; step++) {
+        simulation_run(&run, 1);
+        const struct kiln_particle *records = simulation_records(&run);
+        assert_true(run.pool.slot_count <= 1000);
+        for (uint32_t i = 0; i < run.pool.slot_count; i++) {
+            const float3 p = particle_position(records[i]);
+            const float speed = float3_length(particle_velocity(records[i]));
+            if (!check(p))
+                fail_msg("step %d: %g %g %g", step, (double)p.x, (double)p.y, (double)p.z);
+            assert_true(step == 0 || drops || speed <= speeds[i] * 1.000001f);
+            impacts += step > 0 && speed < 0.9f * speeds[i];
+            speeds[i] = speed;
+        }
+    }
+    simulation_end(&run);
+    return impacts;
+}
+
+static bool above_the_plate(float3 p)
+{
+    return exact_abs(p.x) > 3.9f || exact_abs(p.z) > 3.9f || p.y > 0.2f;
+}
+
+static bool around_the_ball(float3 p)
+{
+    return float3_length(p) > 0.99f;
+}
+
+static bool around_the_cube(float3 p)
+{
+    return float3_length(p) > 0.499f;
+}
+
+/* At up to 20 and up to 600 m/s: a plate of two cells, a ball, and a cube that turns and that
+ * moves. Of what is convex, nothing gets behind a plane. */
+static void nothing_tunnels(void **state)
+{
+    (void)state;
+    for (int fast = 0; fast < 2; fast++) {
+        const float speed = fast ? 600.0f : 20.0f;
+        a_crowd_around(&fixture, 1000, speed, 9.81f);
+        add_volume("plate.obj", 0, 0, 0, 40);
+        assert_true(watch(40, above_the_plate) > 200);
+
+        a_crowd_around(&fixture, 1000, speed, 9.81f);
+        fixture.scene.systems[0].emit.angle = fixture_constant(0.4f);
+        add_volume("ball.obj", 0, 0, 0, 20);
+        assert_true(watch(40, around_the_ball) > 40);
+
+        a_crowd_around(&fixture, 1000, speed, 9.81f);
+        fixture.scene.systems[0].emit.angle = fixture_constant(0.4f);
+        struct kiln_object *cube = add_volume("cube.obj", 0, 0, 0, 12);
+        cube->heading = fixture_constant3(1.0f, 0.3f, 0.0f); /* as few go */
+        cube->rotation.x = fixture_ramp(&fixture, KILN_CLOCK_TIME, 0, 0, 1, fast ? 30 : 3);
+        cube->rotation.y = fixture_ramp(&fixture, KILN_CLOCK_TIME, 0, 0, 1, 7);
+        assert_true(watch(40, around_the_cube) > 10);
+    }
+}
+
+static void without_gravity_no_impact_makes_faster(void **state)
+{
+    (void)state;
+    a_crowd_around(&fixture, 1000, 60.0f, 0.0f);
+    add_volume("ball.obj", 0, 0, 0, 40);
+    assert_true(watch(20, around_the_ball) > 100);
+}
+
+/* A sheet has two sides where it is told so; else what comes from behind is put in front. */
+static void sheets_have_one_side_or_two(void **state)
+{
+    (void)state;
+    const double below[3] = {0.1, -1, 0.2}, up[3] = {0.3, 6, 0};
+    const double above[3] = {0.1, 1, 0.2}, down[3] = {0.3, -6, 0};
+    for (int two = 0; two < 2; two++) {
+        shoot(&fixture, above, down);
+        add_volume("sheet.obj", 0, 0, 0, 20)->sides = two ? KILN_SIDES_TWO : KILN_SIDES_ONE;
+        assert_near((double)particle_velocity(after(&fixture, 20)).y, 6, 1e-4);
+        shoot(&fixture, below, up);
+        add_volume("sheet.obj", 0, 0, 0, 20)->sides = two ? KILN_SIDES_TWO : KILN_SIDES_ONE;
+        const struct kiln_particle p = after(&fixture, 20);
+        assert_near((double)particle_velocity(p).y, two ? -6 : 6, 1e-4);
+        assert_true((particle_position(p).y < 0.0f) == (two != 0));
+    }
+}
+
+/* In corners more than one plane is behind: whoever is put from one to the other stays near. */
+static void clamping_puts_in_front(void **state)
+{
+    (void)state;
+    const double from[3] = {0.3, 1.2, -0.2}, down[3] = {0, -3, 0};
+    shoot(&fixture, from, down)->collide.mode = KILN_COLLIDE_CLAMP;
+    add_volume("cube.obj", 0, 0, 0, 10);
+    const struct kiln_particle p = after(&fixture, 30);
+    assert_near((double)particle_velocity(p).y, 3, 1e-4);
+    assert_true(particle_position(p).y > 0.5f);
+}
+
+/* Threads voxelise and step: the same state. */
+static void threads_are_of_no_account(void **state)
+{
+    (void)state;
+    struct kiln_state_hash first = {{0, 0}};
+    for (uint32_t threads = 1; threads <= 4; threads++) {
+        a_crowd_around(&fixture, 1000, 20.0f, 9.81f);
+        struct kiln_object *ball = add_volume("ball.obj", 0, 0, 0, 30);
+        ball->rotation.x = fixture_ramp(&fixture, KILN_CLOCK_TIME, 0, 0, 1, 7);
+        add_volume("sheet.obj", 0, -2, 0, 20)->rotation.x = fixture_constant(0.3f);
+        struct simulation run;
+        simulation_start(&run, &fixture.scene, NULL, threads);
+        const struct kiln_state_hash hash = simulation_run_hashed(&run, 30);
+        if (threads == 1)
+            first = hash;
+        assert_memory_equal(&hash, &first, sizeof hash);
+        simulation_end(&run);
+    }
+}
+
+/* A volume is the same whether the run has come that far or begins there. */
+static void volumes_follow_from_the_step_alone(void **state)
+{
+    (void)state;
+    a_crowd_around(&fixture, 10, 1.0f, 0.0f);
+    struct kiln_object *ball = add_volume("ball.obj", 0, 0, 0, 20);
+    ball->center.x = fixture_ramp(&fixture, KILN_CLOCK_TIME, 0.2f, 0, 0.4f, 1);
+    struct kiln_error error = {0};
+    struct kiln_threads *threads = kiln_threads_create(2);
+    struct kiln_volumes going = {.count = 0}, fresh;
+    assert_true(kiln_volumes_init(&going, NULL, &fixture.scene, &error));
+    for (uint32_t step = 1; step <= 32; step++) {
+        assert_true(kiln_volumes_step(&going, &fixture.scene, step, threads, &error));
+        if (step % 8 != 0)
+            continue;
+        assert_true(kiln_volumes_init(&fresh, NULL, &fixture.scene, &error));
+        assert_true(kiln_volumes_step(&fresh, &fixture.scene, step, threads, &error));
+        struct kiln_grid a[KILN_MAX_MESHES], b[KILN_MAX_MESHES];
+        const struct kiln_collider one = kiln_volumes_collider(&going, 0, a);
+        const struct kiln_collider two = kiln_volumes_collider(&fresh, 0, b);
+        assert_memory_equal(&one, &two, sizeof one);
+        assert_memory_equal(&a[KILN_MAX_MESHES - 1], &b[KILN_MAX_MESHES - 1], sizeof a[0]);
+        uint32_t cells, cells_of_fresh;
+        const uint32_t planes = kiln_volumes_planes(&going, &cells);
+        assert_int_equal(planes, kiln_volumes_planes(&fresh, &cells_of_fresh));
+        assert_int_equal(cells, cells_of_fresh);
+        assert_true(planes > 1000 && planes < cells);
+        const float4 *words = kiln_buffer_host(&going.words, KILN_READ, &error);
+        const float4 *others = kiln_buffer_host(&fresh.words, KILN_READ, &error);
+        assert_memory_equal(words, others, ((cells + 3) / 4 + 3 * planes) * sizeof *words);
+        kiln_volumes_finish(&fresh);
+    }
+    kiln_volumes_finish(&going);
+    kiln_threads_destroy(&threads);
+}
+
+static int set_up(void **state)
+{
+    const int result = test_enter_folder(state);
+    write_meshes();
+    return result;
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_cube_mirrors_where_it_is_hit),
+        cmocka_unit_test(a_ball_mirrors_within_a_cell),
+        cmocka_unit_test(moving_surfaces_push),
+        cmocka_unit_test(a_sheet_sweeps_all_before_it),
+        cmocka_unit_test(nothing_tunnels),
+        cmocka_unit_test(without_gravity_no_impact_makes_faster),
+        cmocka_unit_test(sheets_have_one_side_or_two),
+        cmocka_unit_test(clamping_puts_in_front),
+        cmocka_unit_test(threads_are_of_no_account),
+        cmocka_unit_test(volumes_follow_from_the_step_alone),
+    };
+    return cmocka_run_group_tests_name("volume", tests, set_up, test_leave_folder);
+}
