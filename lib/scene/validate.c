@@ -387,8 +387,11 @@ static bool check_objects(struct kiln_reader *reader, const struct kiln_node *ro
         if (object->kind == KILN_OBJECT_MESH && !at_all_keys(scene, &heading, 1, is_not_zero))
             return kiln_validate_fail(reader, root, path, "must not be [0, 0, 0]");
         snprintf(path, sizeof path, "backdrop.objects.%u.mesh.collide", i);
-        if (object->collide && object->animation.enabled)
-            return kiln_validate_fail(reader, root, path, "not of a mesh with an animation");
+        if (object->collide && object->animation.enabled &&
+            object->collider != KILN_COLLIDER_VOLUME)
+            return kiln_validate_fail(reader, root, path,
+                                      "a mesh with an animation collides as a volume alone: set "
+                                      "its collider to volume");
         if (object->collide && object->kind == KILN_OBJECT_MESH &&
             object->collider == KILN_COLLIDER_FIELD &&
             !check_closed(reader, root, path, object->file))

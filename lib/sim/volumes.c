@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "asset/mesh.h"
+#include "asset/skin.h"
 #include "base/error.h"
 #include "shared/exact.h"
 #include "sim/voxels.h"
@@ -13,6 +13,7 @@
 struct kiln_volume {
     uint32_t object;
     struct kiln_mesh *mesh;
+    struct kiln_skin *skin; /* of one with an animation, and its mesh is posed: else NULL */
     float (*before)[3], (*after)[3]; /* m: its vertices */
     float before_s, after_s;         /* when they are there */
     bool placed, made;
@@ -29,6 +30,23 @@ bool kiln_volumes_needs(const struct kiln_object *object)
 
 /* ---- memory ---------------------------------------------------------------------------------- */
 
+static bool load_mesh(struct kiln_volume *volume, const struct kiln_scene *scene,
+                      const struct kiln_object *object, struct kiln_error *error)
+{
+    if (!object->animation.enabled) {
+        volume->mesh =
+            kiln_mesh_load(object->file, scene->asset_root, scene->stop, scene->user, error);
+        return volume->mesh != NULL;
+    }
+    volume->skin = kiln_skin_load(object->file, scene->asset_root, scene->stop, scene->user, error);
+    if (!volume->skin)
+        return false;
+    volume->mesh = kiln_skin_copy_mesh(volume->skin);
+    if (!volume->mesh)
+        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for its poses", object->file);
+    return volume->mesh != NULL;
+}
+
 static struct kiln_volume *load(const struct kiln_scene *scene, uint32_t index,
                                 struct kiln_error *error)
 {
@@ -40,8 +58,7 @@ static struct kiln_volume *load(const struct kiln_scene *scene, uint32_t index,
     }
     volume->object = index;
     volume->two_sided = object->sides == KILN_SIDES_TWO;
-    volume->mesh = kiln_mesh_load(object->file, scene->asset_root, scene->stop, scene->user, error);
-    if (!volume->mesh)
+    if (!load_mesh(volume, scene, object, error))
         return volume; /* its owner frees it */
     const size_t count = volume->mesh->vertex_count;
     volume->before = calloc(count, sizeof *volume->before);
@@ -79,6 +96,7 @@ void kiln_volumes_finish(struct kiln_volumes *volumes)
         struct kiln_volume *volume = volumes->items[i];
         kiln_voxels_finish(&volume->voxels);
         kiln_mesh_destroy(&volume->mesh);
+        kiln_skin_destroy(&volume->skin);
         free(volume->before);
         free(volume->after);
         free(volume);
@@ -99,6 +117,9 @@ static void place_vertices(const struct kiln_scene *scene, const struct kiln_vol
     const float scale = kiln_scene_value(scene, &object->scale, time_s);
     float rows[3][3];
     kiln_scene_rotation(kiln_scene_value3(scene, &object->rotation, time_s), rows);
+    if (volume->skin)
+        kiln_skin_pose(volume->skin, object->animation.number,
+                       kiln_scene_animation_s(&object->animation, time_s), volume->mesh->vertices);
     for (uint32_t i = 0; i < volume->mesh->vertex_count; i++) {
         const float *v = volume->mesh->vertices[i];
         for (int c = 0; c < 3; c++)
@@ -122,13 +143,14 @@ static void place(const struct kiln_scene *scene, struct kiln_volume *volume, fl
     volume->placed = true;
 }
 
-/* m: an edge of a cell. */
+/* m: an edge of a cell; of what moves, by how it stands while no clip plays. */
 static float spacing_of(const struct kiln_scene *scene, const struct kiln_volume *volume)
 {
     const struct kiln_object *object = &scene->backdrop.objects[volume->object];
+    const struct kiln_mesh *mesh = volume->skin ? kiln_skin_mesh(volume->skin) : volume->mesh;
     float longest = 0.0f;
     for (int c = 0; c < 3; c++)
-        longest = exact_max(longest, volume->mesh->max[c] - volume->mesh->min[c]);
+        longest = exact_max(longest, mesh->max[c] - mesh->min[c]);
     const float scale = kiln_scene_value(scene, &object->scale, volume->after_s);
     return exact_max(longest * scale / (float)object->cells, 1e-4f);
 }

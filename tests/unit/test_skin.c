@@ -510,7 +510,8 @@ static void scenes_say_what_is_wrong(void **state)
                  "s:4:3: backdrop.objects.0.mesh.file: 'tetrahedron.obj': the file has no "
                  "animation");
     expect_error("file: moving.gltf, animation: {}, collide: true",
-                 "s:4:3: backdrop.objects.0.mesh.collide: not of a mesh with an animation");
+                 "s:4:3: backdrop.objects.0.mesh.collide: a mesh with an animation collides as a "
+                 "volume alone: set its collider to volume");
     expect_error(
         "file: moving.gltf, animation: {clip: []}",
         "s:4:49: backdrop.objects.0.mesh.animation.clip: expected the name of an animation "
