@@ -133,6 +133,28 @@ static void moving_surfaces_push(void **state)
     assert_near((double)float3_length(u), 2 * 5 * along, 2 * 5 * 0.1);
 }
 
+/* A clip of the file takes the face x + y + z = 1 of a tetrahedron towards a resting particle, at
+ * (0.4, 0.2, 0) m/s, or twice that. */
+static void what_a_clip_moves_pushes(void **state)
+{
+    (void)state;
+    const double from[3] = {0.36, 0.36, 0.36}, still[3] = {0.0001, 0, 0};
+    for (int speed = 1; speed <= 2; speed++) {
+        shoot(&fixture, from, still);
+        struct kiln_object *mesh =
+            add_volume(KILN_SOURCE_DIR "/tests/mutation/moving.gltf", 0, 0, 0, 20);
+        mesh->animation = (struct kiln_animation){.enabled = true,
+                                                  .clip = "go",
+                                                  .speed = fixture_constant((float)speed),
+                                                  .number = 1,
+                                                  .length = 1.0f};
+        const float3 u = particle_velocity(after(&fixture, 14));
+        assert_near((double)u.x, 0.4 * speed, 0.002);
+        assert_near((double)u.y, 0.4 * speed, 0.002);
+        assert_near((double)u.z, 0.4 * speed, 0.002);
+    }
+}
+
 /* A sheet at 60 m/s, which goes through 10 cells in a step and 10 m in all, takes all particles
  * with it that are in front of it and no other. */
 static void a_sheet_sweeps_all_before_it(void **state)
@@ -338,6 +360,7 @@ int main(void)
         cmocka_unit_test(a_cube_mirrors_where_it_is_hit),
         cmocka_unit_test(a_ball_mirrors_within_a_cell),
         cmocka_unit_test(moving_surfaces_push),
+        cmocka_unit_test(what_a_clip_moves_pushes),
         cmocka_unit_test(a_sheet_sweeps_all_before_it),
         cmocka_unit_test(nothing_tunnels),
         cmocka_unit_test(without_gravity_no_impact_makes_faster),
