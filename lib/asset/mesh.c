@@ -193,6 +193,18 @@ static bool check(const struct kiln_mesh_request *request, const struct kiln_mes
     return true;
 }
 
+void kiln_mesh_bound(struct kiln_mesh *mesh)
+{
+    for (int c = 0; c < 3; c++)
+        mesh->min[c] = mesh->max[c] = mesh->vertices[0][c];
+    for (uint32_t i = 1; i < mesh->vertex_count; i++) {
+        for (int c = 0; c < 3; c++) {
+            mesh->min[c] = fminf(mesh->min[c], mesh->vertices[i][c]);
+            mesh->max[c] = fmaxf(mesh->max[c], mesh->vertices[i][c]);
+        }
+    }
+}
+
 static struct kiln_mesh *copy(const struct kiln_mesh_result *result)
 {
     struct kiln_mesh *mesh = calloc(1, sizeof *mesh);
@@ -209,14 +221,7 @@ static struct kiln_mesh *copy(const struct kiln_mesh_result *result)
     memcpy(mesh->vertices, result->vertices, mesh->vertex_count * sizeof *mesh->vertices);
     memcpy(mesh->triangles, result->triangles, mesh->triangle_count * sizeof *mesh->triangles);
     memcpy(mesh->hash, result->hash, sizeof mesh->hash);
-    for (int c = 0; c < 3; c++)
-        mesh->min[c] = mesh->max[c] = mesh->vertices[0][c];
-    for (uint32_t i = 1; i < mesh->vertex_count; i++) {
-        for (int c = 0; c < 3; c++) {
-            mesh->min[c] = fminf(mesh->min[c], mesh->vertices[i][c]);
-            mesh->max[c] = fmaxf(mesh->max[c], mesh->vertices[i][c]);
-        }
-    }
+    kiln_mesh_bound(mesh);
     return mesh;
 }
 

@@ -43,6 +43,9 @@ bool kiln_mesh_import_part(const struct kiln_mesh_request *request, const struct
 bool kiln_skin_import(const struct kiln_mesh_request *request, const struct aiScene *scene,
                       struct kiln_mesh_result *result);
 
+/* min and max, of the positions that the vertices have. */
+void kiln_mesh_bound(struct kiln_mesh *mesh);
+
 /* The parent's side: checks what came and makes a skin of it, which takes the mesh, whatever
  * comes of it. */
 struct kiln_skin *kiln_skin_take(const struct kiln_mesh_request *request,

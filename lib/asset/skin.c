@@ -183,18 +183,6 @@ static void pose(const struct kiln_skin *skin, const struct kiln_skin_clip *clip
     }
 }
 
-static void measure(struct kiln_mesh *mesh)
-{
-    for (int c = 0; c < 3; c++)
-        mesh->min[c] = mesh->max[c] = mesh->vertices[0][c];
-    for (uint32_t i = 1; i < mesh->vertex_count; i++) {
-        for (int c = 0; c < 3; c++) {
-            mesh->min[c] = fminf(mesh->min[c], mesh->vertices[i][c]);
-            mesh->max[c] = fmaxf(mesh->max[c], mesh->vertices[i][c]);
-        }
-    }
-}
-
 void kiln_skin_pose(const struct kiln_skin *skin, uint32_t clip, float seconds,
                     float (*vertices)[6])
 {
@@ -205,7 +193,7 @@ void kiln_skin_pose_mesh(const struct kiln_skin *skin, uint32_t clip, float seco
                          struct kiln_mesh *mesh)
 {
     kiln_skin_pose(skin, clip, seconds, mesh->vertices);
-    measure(mesh);
+    kiln_mesh_bound(mesh);
 }
 
 /* ---- what came ------------------------------------------------------------------------------- */
@@ -405,7 +393,7 @@ static struct kiln_skin *copy(const struct kiln_skin_result *r, struct kiln_mesh
         add_normals(skin);
     normalize(skin);
     pose(skin, NULL, 0.0f, mesh->vertices);
-    measure(mesh);
+    kiln_mesh_bound(mesh);
     return skin;
 }
 
