@@ -25,6 +25,8 @@ static const struct kiln_suite_row SUITES[] = {
     {{"groups", "kernels by the size of their work groups (Heinz 2019, 2.2.5)", 1.5},
      kiln_suite_groups},
     {{"forces", "simulation by its force and integrator", 0.3}, kiln_suite_forces},
+    {{"colliders", "simulation by what particles bounce off, and how volumes are built", 0.5},
+     kiln_suite_colliders},
     {{"bytes", "memory and communication of techniques (Heinz 2019, 4.2)", 0.2}, kiln_suite_bytes},
     {{"output", "end to end to PNG, EXR and mp4, against what the stages take", 1},
      kiln_suite_output},

@@ -78,6 +78,7 @@ struct kiln_scene *kiln_bench_load_scene(const struct kiln_bench_run *run, const
     struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
     params.overrides = all.items;
     params.override_count = all.count;
+    params.asset_root = settings->asset_root;
     return kiln_scene_parse(text, strlen(text), name, &params, error);
 }
 

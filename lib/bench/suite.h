@@ -21,6 +21,7 @@ bool kiln_suite_seed(const struct kiln_bench_run *run, struct kiln_error *error)
 bool kiln_suite_curves(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_groups(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_forces(const struct kiln_bench_run *run, struct kiln_error *error);
+bool kiln_suite_colliders(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_bytes(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_output(const struct kiln_bench_run *run, struct kiln_error *error);
 
@@ -34,6 +35,7 @@ enum { KILN_MAX_SETTINGS = 32 };
 struct kiln_settings {
     const char *items[KILN_MAX_SETTINGS];
     size_t count;
+    const char *asset_root; /* where files lie that they name, an absolute path; NULL: none */
 };
 
 /* Add "key=value"; the text lives as long as the run. What finds no room, or no memory, is missing
