@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "asset/skin.h"
 #include "sim/volumes.h"
 #include "support/folders.h"
 #include "support/throws.h"
@@ -347,6 +348,75 @@ static void volumes_follow_from_the_step_alone(void **state)
     kiln_threads_destroy(&threads);
 }
 
+/* ---- a figure that walks --------------------------------------------------------------------- */
+
+/* How often a mesh winds around a point (van Oosterom and Strackee 1983): 1 inside, 0 outside. */
+static double winding(const struct kiln_mesh *mesh, const double at[3])
+{
+    double sum = 0;
+    for (uint32_t i = 0; i < mesh->triangle_count; i++) {
+        double v[3][3], length[3];
+        for (int k = 0; k < 3; k++) {
+            const float *p = mesh->vertices[mesh->triangles[i][k]];
+            for (int c = 0; c < 3; c++)
+                v[k][c] = (double)p[c] - at[c];
+            length[k] = sqrt(v[k][0] * v[k][0] + v[k][1] * v[k][1] + v[k][2] * v[k][2]);
+        }
+        double volume = 0, dots[3];
+        for (int c = 0; c < 3; c++) {
+            const int u = (c + 1) % 3, w = (c + 2) % 3;
+            volume += v[0][c] * (v[1][u] * v[2][w] - v[1][w] * v[2][u]);
+            const double *a = v[u], *b = v[w];
+            dots[c] = (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) * length[c];
+        }
+        sum += 2 * atan2(volume, length[0] * length[1] * length[2] + dots[0] + dots[1] + dots[2]);
+    }
+    return sum / (4 * 3.14159265358979);
+}
+
+/* It walks into a crowd that stands in the air, at 1.1 m/s: whoever is met is pushed, and hardly
+ * anybody is in the body then. */
+static void a_figure_pushes_whom_it_walks_into(void **state)
+{
+    (void)state;
+    static const char FILE_NAME[] = KILN_SOURCE_DIR "/scenes/meshes/walker.gltf";
+    struct kiln_error error = {0};
+    struct kiln_skin *skin = kiln_skin_load(FILE_NAME, "/", NULL, NULL, &error);
+    if (!skin)
+        fail_msg("%s", error.message);
+    a_crowd_around(&fixture, 600, 0.0001f, 0.0f);
+    struct kiln_emitter *emit = &fixture.scene.systems[0].emit;
+    emit->origin = fixture_constant3(0.0f, 0.95f, 0.9f);
+    emit->size = fixture_constant3(0.7f, 1.6f, 0.6f);
+    fixture.scene.systems[0].collide.randomness = fixture_constant(0.0f);
+    struct kiln_object *walker = add_volume(FILE_NAME, 0, 0, 0, 40);
+    walker->heading = fixture_constant3(0.0f, 0.0f, -1.0f);
+    walker->center.z = fixture_ramp(&fixture, KILN_CLOCK_TIME, 0, 0, 2, 2.2f);
+    walker->animation = (struct kiln_animation){.enabled = true,
+                                                .speed = fixture_constant(1.0f),
+                                                .loop = true,
+                                                .length = kiln_skin_clip_length(skin, 0)};
+    struct simulation run;
+    simulation_start(&run, &fixture.scene, NULL, 2);
+    simulation_run(&run, 50);
+    const float time_s = kiln_scene_time(&fixture.scene, 50);
+    struct kiln_mesh *mesh = kiln_skin_copy_mesh(skin);
+    assert_non_null(mesh);
+    kiln_skin_pose_mesh(skin, 0, kiln_scene_animation_s(&walker->animation, time_s), mesh);
+    uint32_t pushed = 0, inside = 0;
+    for (uint32_t i = 0; i < 600; i++) {
+        const struct kiln_particle p = simulation_records(&run)[i];
+        const float3 x = particle_position(p);
+        const double at[3] = {(double)x.x, (double)x.y, (double)x.z - 1.1 * (double)time_s};
+        pushed += float3_length(particle_velocity(p)) > 0.5f;
+        inside += winding(mesh, at) > 0.5;
+    }
+    assert_true(pushed > 100 && inside <= pushed / 100);
+    simulation_end(&run);
+    kiln_mesh_destroy(&mesh);
+    kiln_skin_destroy(&skin);
+}
+
 static int set_up(void **state)
 {
     const int result = test_enter_folder(state);
@@ -368,6 +438,7 @@ int main(void)
         cmocka_unit_test(clamping_puts_in_front),
         cmocka_unit_test(threads_are_of_no_account),
         cmocka_unit_test(volumes_follow_from_the_step_alone),
+        cmocka_unit_test(a_figure_pushes_whom_it_walks_into),
     };
     return cmocka_run_group_tests_name("volume", tests, set_up, test_leave_folder);
 }
