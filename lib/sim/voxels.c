@@ -339,20 +339,44 @@ static struct rank find_rank(const struct sweep *t, const struct work *work)
     return rank;
 }
 
+/* Does the line along the heading through the middle of a cell meet the triangle in the cell, so
+ * many units on? It does so inside of the triangle if it is on one side of all of its edges. */
+static bool meets_line(const struct sweep *t, const int32_t heading[3], const int64_t middle[3],
+                       int64_t depth)
+{
+    bool left = true, right = true, within = true;
+    for (int k = 0; k < 3; k++) {
+        const int32_t *a = t->corners[k], *b = t->corners[(k + 1) % 3];
+        int64_t side = 0;
+        for (int c = 0; c < 3; c++) {
+            const int u = (c + 1) % 3, w = (c + 2) % 3;
+            const int64_t across =
+                (int64_t)(b[u] - a[u]) * heading[w] - (int64_t)(b[w] - a[w]) * heading[u];
+            side += across * (middle[c] - a[c]);
+        }
+        left = left && side >= 0;
+        right = right && side <= 0;
+    }
+    for (int c = 0; c < 3; c++)
+        within = within && llabs(depth * heading[c] / UNITS) <= UNITS / 2 + MARGIN;
+    return (left || right) && within;
+}
+
 /* How far along the heading its plane is from the middle of a cell, in units. */
-static uint32_t order_in(const struct sweep *t, const struct rank *rank, int32_t x, int32_t y,
-                         int32_t z)
+static uint32_t order_in(const struct sweep *t, const struct rank *rank, const int32_t heading[3],
+                         int32_t x, int32_t y, int32_t z)
 {
     const int64_t *n = t->normal, most = (1 << (RANK_BITS - 1)) - 1;
+    const int64_t middle[3] = {(int64_t)x * UNITS + UNITS / 2, (int64_t)y * UNITS + UNITS / 2,
+                               (int64_t)z * UNITS + UNITS / 2};
     int64_t depth = 0;
+    bool met = false;
     if (rank->facing != 0) {
-        const int64_t middle = n[0] * ((int64_t)x * UNITS + UNITS / 2) +
-                               n[1] * ((int64_t)y * UNITS + UNITS / 2) +
-                               n[2] * ((int64_t)z * UNITS + UNITS / 2);
-        depth = (rank->at - middle) / rank->facing;
+        depth = (rank->at - n[0] * middle[0] - n[1] * middle[1] - n[2] * middle[2]) / rank->facing;
         depth = depth > most ? most : depth < -most ? -most : depth;
+        met = meets_line(t, heading, middle, depth);
     }
-    return (rank->before << RANK_BITS) + (uint32_t)(depth + most);
+    return ((2 * rank->before + (met ? 0 : 1)) << RANK_BITS) + (uint32_t)(depth + most);
 }
 
 static void claim_cells(const struct work *work, const struct sweep *t, uint32_t triangle,
@@ -368,7 +392,7 @@ static void claim_cells(const struct work *work, const struct sweep *t, uint32_t
             struct claim *row =
                 v->scratch->claims + ((size_t)z * v->size[1] + (size_t)y) * v->size[0];
             for (int32_t x = first; x <= last; x++) {
-                const uint32_t order = order_in(t, &rank, x, y, z);
+                const uint32_t order = order_in(t, &rank, work->heading, x, y, z);
                 /* Triangles come in the order of their numbers: the first stays. */
                 if (row[x].triangle == NOBODY || order < row[x].order)
                     row[x] = (struct claim){order, triangle};

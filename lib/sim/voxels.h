@@ -46,10 +46,11 @@ struct kiln_voxels {
 /* From zeros. False: KILN_DEVICE_FAILED, memory is short; kiln_voxels_finish frees what there is.
  *
  * In a cell, triangles that face against the heading come before those that are seen edge-on, and
- * these before those that face along it; then whose plane the heading meets first, on the line
- * through the middle of the cell; then the lower number. That is decided by integers, for corners
- * rounded to 1/1024 of a cell, so that it is the same everywhere. A cell is touched if a triangle
- * that stands still comes within 1/512 of it, and never left out if one that moves does. */
+ * these before those that face along it; then those that the line along the heading through the
+ * middle of the cell meets there; then whose plane it meets first; then the lower number. That is
+ * decided by integers, for corners rounded to 1/1024 of a cell, so that it is the same everywhere.
+ * A cell is touched if a triangle that stands still comes within 1/512 of it, and never left out if
+ * one that moves does. */
 bool kiln_voxels_build(struct kiln_voxels *voxels, const struct kiln_voxels_input *input,
                        struct kiln_threads *threads, struct kiln_error *error);
 void kiln_voxels_finish(struct kiln_voxels *voxels);
