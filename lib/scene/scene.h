@@ -199,6 +199,7 @@ struct kiln_interaction {
     struct kiln_value radius;      /* m: collide, of who is not */
     struct kiln_value restitution; /* collide: 0 no bounce .. 1 all energy is kept */
     struct kiln_value apart;       /* collide: 0..1: part of an overlap that a round takes away */
+    struct kiln_value fastest;     /* collide: m/s: approach that is foreseen */
     uint32_t rounds;               /* collide: of pairs in a step */
     struct kiln_value strength;    /* gravity: acceleration at 1 m, m/s^2; below 0 it repels */
     struct kiln_value softening;   /* m: gravity of nearer ones grows no more; above 0 */

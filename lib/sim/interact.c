@@ -5,7 +5,7 @@
 
 #include "sim/interact_sort.h"
 
-static_assert(sizeof(struct kiln_interact_params) == 256, "std140");
+static_assert(sizeof(struct kiln_interact_params) == 272, "std140");
 static_assert(offsetof(struct kiln_interact_params, radius) == 96, "std140");
 static_assert(offsetof(struct kiln_interact_params, flock) == 176, "std140");
 static_assert(sizeof(struct kiln_flock_params) == 80, "std140");
@@ -65,7 +65,12 @@ static void add_collisions(struct kiln_interact_work *work, const struct kiln_sc
     work->mode = collide->mode;
     work->rounds = collide->rounds;
     params->cell_mask = count_cells(scene->systems[system].capacity) - 1;
-    params->cells_per_metre = 1.0f / (2.0f * kiln_interact_radius(scene, system) * CELL_SLACK);
+    const float fastest = kiln_scene_value(scene, &collide->fastest, params->time_s);
+    const float reach_m =
+        2.0f * kiln_interact_radius(scene, system) + fastest * params->derived.dt_s;
+    params->cells_per_metre = 1.0f / (reach_m * CELL_SLACK);
+    params->ahead_s = fastest > 0.0f ? params->derived.dt_s : 0.0f;
+    params->fastest_square = fastest * fastest;
     params->as_drawn = collide->as_drawn;
     params->restitution = kiln_scene_value(scene, &collide->restitution, params->time_s);
     params->apart = kiln_scene_value(scene, &collide->apart, params->time_s);

@@ -25,11 +25,18 @@ FN float3 body_velocity(S(kiln_body) b)
     return v;
 }
 
-/* 0 for what touches nothing. */
+/* 0 for what touches nothing, below 0 for what takes no more part in the step. */
 FN float body_radius(S(kiln_body) b)
 {
     EXACT float y = BITS_FLOAT(b.position_radius.w);
     return y;
+}
+
+FN S(kiln_body) body_done(S(kiln_body) b)
+{
+    S(kiln_body) done = b;
+    done.position_radius.w |= EXACT_SIGN_BIT;
+    return done;
 }
 
 FN S(kiln_body) body_with_motion(S(kiln_body) b, float3 position, float3 velocity)
@@ -104,7 +111,7 @@ FN S(body_push) body_push_of(S(kiln_body) b, S(kiln_particle) p)
     EXACT S(body_push) push;
     push.velocity = body_difference(velocity, velocity_before);
     push.position = body_difference(position, position_before);
-    push.velocity.w = body_radius(b);
+    push.velocity.w = exact_abs(body_radius(b));
     return push;
 }
 

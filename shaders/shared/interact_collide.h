@@ -8,6 +8,10 @@
  * collides in the next round of the same step, or in the next step, where it is still found, since
  * it overlaps; who touches nobody at the start of a step has no part in its rounds. Pairs are
  * ordered without ties, so that in every round at least the closest of all collides.
+ *
+ * Where the scene asks for it (`fastest`), a pair that does not touch yet, but will within the
+ * step, collides ahead of time: it flies on as if it came from where its new way leads back to.
+ * There it may be anywhere, so it has no part in further rounds.
  */
 #ifndef KILN_SHARED_INTERACT_COLLIDE_H
 #define KILN_SHARED_INTERACT_COLLIDE_H
@@ -56,12 +60,50 @@ FN bool contact_is_near(S(kiln_body) a, S(kiln_body) b)
     return body_radius(a) > 0.0f && body_radius(b) > 0.0f && square < reach_square;
 }
 
+/* Seconds since two that approach began to touch, or, below 0, until they will: |apart - parting t|
+ * = reach. The root wanted is the earlier one; ones that never touch have none. */
+FN float contact_root(S(contact) c)
+{
+    EXACT float speed_square = float3_dot(c.parting, c.parting);
+    EXACT float inside = c.reach * c.reach - c.square;
+    EXACT float under = c.opening * c.opening + speed_square * inside;
+    EXACT float below = exact_sqrt(under) - c.opening;
+    EXACT float y = exact_div(inside, below);
+    return y;
+}
+
+/* Will two that do not touch meet within the step? */
+FN bool contact_comes(CROWD_PARAM S(contact) c)
+{
+    EXACT float speed_square = float3_dot(c.parting, c.parting);
+    EXACT float inside = c.reach * c.reach - c.square;
+    EXACT float under = c.opening * c.opening + speed_square * inside;
+    EXACT float since = contact_root(c);
+    EXACT float soonest = -INTERACT(ahead_s);
+    return c.opening < 0.0f && speed_square <= INTERACT(fastest_square) && under > 0.0f &&
+           since >= soonest;
+}
+
+/* The same, of bodies; few are, and those that fly side by side are not even asked. */
+FN bool contact_is_ahead(CROWD_PARAM S(kiln_body) a, S(kiln_body) b)
+{
+    if (!(INTERACT(ahead_s) > 0.0f) || !(body_radius(a) > 0.0f) || !(body_radius(b) > 0.0f))
+        return false;
+    EXACT S(contact) c = contact_of(a, b);
+    bool comes = contact_comes(CROWD c);
+    return comes;
+}
+
 /* The lower, the sooner a pair is dealt with: those that approach before those that only overlap,
- * among them the closest. */
-FN uint contact_rank(S(contact) c)
+ * among them the closest, and then those that come. */
+FN uint contact_rank(S(contact) c, float ahead_s)
 {
     EXACT float square = c.reach * c.reach;
     EXACT float nearness = exact_div(c.square, square);
+    if (c.square >= square) {
+        EXACT float wait = exact_div(-contact_root(c), ahead_s);
+        nearness = 1.0f + wait;
+    }
     uint later = c.opening < 0.0f ? 0u : EXACT_SIGN_BIT;
     return FLOAT_BITS(nearness) | later;
 }
@@ -83,15 +125,16 @@ FN S(contact_choice) contact_no_choice(void)
     return choice;
 }
 
-FN S(contact_choice) contact_choose(S(contact_choice) best, S(kiln_body) a, S(kiln_body) b, uint at)
+FN S(contact_choice)
+    contact_choose(CROWD_PARAM S(contact_choice) best, S(kiln_body) a, S(kiln_body) b, uint at)
 {
     uint mine = a.velocity_slot.w;
     uint other = b.velocity_slot.w;
-    if (mine == other || !contact_is_near(a, b))
+    if (mine == other || (!contact_is_near(a, b) && !contact_is_ahead(CROWD a, b)))
         return best;
     EXACT S(contact) c = contact_of(a, b);
     S(contact_choice) choice;
-    choice.rank = contact_rank(c);
+    choice.rank = contact_rank(c, INTERACT(ahead_s));
     choice.low = mine < other ? mine : other;
     choice.high = mine < other ? other : mine;
     choice.partner = at;
@@ -108,7 +151,7 @@ FN S(contact_choice)
 {
     S(contact_choice) choice = best;
     for (uint k = begin; k < end; k++)
-        choice = contact_choose(choice, a, BODY(k), k);
+        choice = contact_choose(CROWD choice, a, BODY(k), k);
     return choice;
 }
 
@@ -159,16 +202,12 @@ FN float contact_share(S(kiln_body) a, S(kiln_body) b)
     return y;
 }
 
-/* Seconds since two that approach began to touch, at most those of a step: |apart - parting t| =
- * reach, whose roots are of opposite signs, since they overlap now. */
+/* At most those of a step. */
 FN float contact_since(S(contact) c, float dt_s)
 {
-    EXACT float speed_square = float3_dot(c.parting, c.parting);
-    EXACT float inside = c.reach * c.reach - c.square;
-    EXACT float under = c.opening * c.opening + speed_square * inside;
-    EXACT float below = exact_sqrt(under) - c.opening;
-    EXACT float t = exact_div(inside, below);
-    EXACT float y = exact_clamp(t, 0.0f, dt_s);
+    EXACT float t = contact_root(c);
+    EXACT float soonest = c.square < c.reach * c.reach ? 0.0f : -dt_s;
+    EXACT float y = exact_clamp(t, soonest, dt_s);
     return y;
 }
 
@@ -202,11 +241,14 @@ FN S(kiln_body)
     EXACT float moved = change * since_s;
     EXACT float distance = float3_length(at_contact) + (towards * restitution) * since_s;
     EXACT float overlap = c.reach - distance;
-    EXACT float rest = overlap > 0.0f ? overlap : 0.0f;
+    EXACT float rest = overlap > 0.0f && since_s >= 0.0f ? overlap : 0.0f;
     EXACT float freed = (rest * apart) * share;
     EXACT float shift = moved - freed;
     EXACT float3 farther = float3_add_scaled(position, normal, shift);
-    return body_with_motion(a, farther, faster);
+    S(kiln_body) after = body_with_motion(a, farther, faster);
+    if (since_s < 0.0f)
+        return body_done(after);
+    return after;
 }
 
 /* A body after a round: changed if it and its partner are each other's. */

@@ -53,6 +53,9 @@ struct kiln_interact_params {
     S(kiln_range) scale;    /* factor on it, drawn per particle */
     S(kiln_value) strength; /* of gravity: m/s^2 at 1 m */
     S(kiln_flock_params) flock;
+    float ahead_s;        /* so far ahead collisions are looked for */
+    float fastest_square; /* m^2/s^2: of those who approach each other by so much at most */
+    uint unused0, unused1;
 };
 
 struct kiln_body {

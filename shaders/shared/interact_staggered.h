@@ -54,10 +54,10 @@ FN uint stagger_find(CROWD_PARAM uint self, uint count)
         uint place_behind = place + step < count ? place + step : place;
         uint other_before = ORDER(place_before);
         uint other_behind = ORDER(place_behind);
-        best = contact_choose(best, a, BODY(before), before);
-        best = contact_choose(best, a, BODY(behind), behind);
-        best = contact_choose(best, a, BODY(other_before), other_before);
-        best = contact_choose(best, a, BODY(other_behind), other_behind);
+        best = contact_choose(CROWD best, a, BODY(before), before);
+        best = contact_choose(CROWD best, a, BODY(behind), behind);
+        best = contact_choose(CROWD best, a, BODY(other_before), other_before);
+        best = contact_choose(CROWD best, a, BODY(other_behind), other_behind);
     }
     return best.partner;
 }

@@ -147,6 +147,7 @@ static void add_crowd(const char *name, float x, enum kiln_contact_mode mode)
     collide->as_drawn = mode == KILN_CONTACT_EXACT;
     collide->radius = fixture_ramp(&fixture, KILN_CLOCK_LIFE, 0.0f, 0.01f, 1.0f, 0.2f);
     collide->restitution = fixture_ramp(&fixture, KILN_CLOCK_TIME, 0.0f, 0.0f, 2.0f, 1.0f);
+    collide->fastest = fixture_ramp(&fixture, KILN_CLOCK_TIME, 0.0f, 0.0f, 0.5f, 4.0f);
     fixture_add_gravity(s, 0.0f)->strength =
         fixture_ramp(&fixture, KILN_CLOCK_LIFE, 0.0f, -0.02f, 1.0f, 0.05f);
     if (mode == KILN_CONTACT_EXACT)

@@ -294,18 +294,19 @@ struct found {
 };
 
 /* Compares each body's partner with the closest of all. */
-static struct found compare_with_all(const struct kiln_body *bodies, const uint32_t *partners,
-                                     uint32_t count)
+static struct found compare_with_all(const struct kiln_crowd *view, const struct kiln_body *bodies,
+                                     const uint32_t *partners, uint32_t count)
 {
     struct found found = {0};
     for (uint32_t i = 0; i < count; i++) {
         struct contact_choice best = contact_no_choice();
         for (uint32_t k = 0; k < count; k++)
-            best = contact_choose(best, bodies[i], bodies[k], k);
+            best = contact_choose(view, best, bodies[i], bodies[k], k);
         found.collisions += best.partner != INTERACT_NOBODY;
         found.missed += partners[i] != best.partner;
         if (partners[i] != INTERACT_NOBODY) {
-            assert_true(contact_is_near(bodies[i], bodies[partners[i]]));
+            assert_true(contact_is_near(bodies[i], bodies[partners[i]]) ||
+                        contact_is_ahead(view, bodies[i], bodies[partners[i]]));
         }
     }
     return found;
@@ -327,7 +328,11 @@ static struct found search(struct simulation *run)
     assert_true(kiln_interact_gather(&interact, params, &run->pool, NULL, &error));
     const struct kiln_body *bodies = kiln_buffer_host(&interact.bodies, KILN_READ, &error);
     const uint32_t *partners = kiln_buffer_host(&interact.partners, KILN_READ, &error);
-    const struct found found = compare_with_all(bodies, partners, MANY);
+    const float fastest = fixture.scene.systems[0].interactions[0].fastest.constant;
+    const struct kiln_interact_params told = {.ahead_s = fastest > 0.0f ? fixture.scene.dt_s : 0.0f,
+                                              .fastest_square = fastest * fastest};
+    const struct kiln_crowd view = {.params = &told};
+    const struct found found = compare_with_all(&view, bodies, partners, MANY);
     kiln_interact_finish(&interact);
     kiln_sim_grids_finish(&grids);
     free(params);
@@ -362,7 +367,71 @@ static void no_pair_is_missed(void **state)
         const struct found found = search_around(places[i][0], places[i][1], KILN_CONTACT_EXACT);
         assert_true(found.collisions > 100);
         assert_int_equal(found.missed, 0);
+        fixture.scene.systems[0].interactions[0].fastest = fixture_constant(8.0f);
+        const struct found foreseen = search_around(places[i][0], places[i][1], KILN_CONTACT_EXACT);
+        assert_true(foreseen.collisions >= found.collisions + (i == 0));
+        assert_int_equal(foreseen.missed, 0);
     }
+}
+
+/* ---- ahead of time -------------------------------------------------------------------------- */
+
+/* In a step each flies ten times its radius. */
+static void fast_balls_do_not_pass_through_each_other(void **state)
+{
+    (void)state;
+    struct simulation run;
+    const double radius = 0.1, aside = 0.12, speed = 60, start_m = 3.513;
+    for (int half = 0; half < 2; half++) {
+        balls_init(&fixture, 2, (float)radius)->fastest = fixture_constant(120.0f);
+        fixture.scene.systems[0].interactions[0].restitution = fixture_constant(half ? 0.5f : 1.0f);
+        start(&run);
+        balls_place(&run, 0, FLOAT3((float)-start_m, 0.0f, 0.0f), FLOAT3((float)speed, 0.0f, 0.0f));
+        balls_place(&run, 1, FLOAT3((float)start_m, (float)aside, 0.0f),
+                    FLOAT3((float)-speed, 0.0f, 0.0f));
+        simulation_run(&run, 6);
+        const double ahead = sqrt(4 * radius * radius - aside * aside);
+        const double met_s = (2 * start_m - ahead) / (2 * speed), left_s = 0.1 - met_s;
+        const double nx = ahead / (2 * radius), ny = aside / (2 * radius);
+        const double change = (half ? 1.5 : 2.0) * speed * nx;
+        const double vx = speed - change * nx, vy = -change * ny;
+        const double x = -start_m + met_s * speed + vx * left_s, y = vy * left_s;
+        is_about(velocity_of(&run, 0), vx, vy, 0, 2e-4);
+        is_about(velocity_of(&run, 1), -vx, -vy, 0, 2e-4);
+        is_about(position_of(&run, 0), x, y, 0, 2e-4);
+        is_about(position_of(&run, 1), -x, aside - y, 0, 2e-4);
+        simulation_end(&run);
+    }
+}
+
+/* Balls in a line, each of which flies over up to two of its widths in a step: how many neighbours
+ * have changed places. */
+static uint32_t count_jumps(float fastest)
+{
+    struct simulation run;
+    enum { LINE = 40 };
+    uint32_t seed = 3;
+    balls_init(&fixture, LINE, 0.05f)->fastest = fixture_constant(fastest);
+    start(&run);
+    for (uint32_t i = 0; i < LINE; i++)
+        balls_place(&run, i, FLOAT3(0.5f * (float)i, 0.0f, 0.0f),
+                    FLOAT3(12.0f * balls_random(&seed), 0.0f, 0.0f));
+    const struct balls_sums before = balls_sum(&run, LINE, NULL);
+    simulation_run(&run, 30);
+    uint32_t jumps = 0;
+    for (uint32_t i = 0; i + 1 < LINE; i++)
+        jumps += position_of(&run, i).x > position_of(&run, i + 1).x;
+    are_kept(before, balls_sum(&run, LINE, NULL));
+    simulation_end(&run);
+    return jumps;
+}
+
+static void fewer_of_a_fast_crowd_pass_through_each_other(void **state)
+{
+    (void)state;
+    const uint32_t without = count_jumps(0.0f), foreseen = count_jumps(24.0f);
+    print_message("of 39 neighbours %u changed places, foreseen %u\n", without, foreseen);
+    assert_true(without >= 8 && foreseen * 2 <= without);
 }
 
 /* The paper's grids find most. */
@@ -436,6 +505,8 @@ int main(void)
         cmocka_unit_test(a_box_full_of_balls_keeps_its_energy),
         cmocka_unit_test(balls_meet_surfaces_with_their_radius),
         cmocka_unit_test(no_pair_is_missed),
+        cmocka_unit_test(fast_balls_do_not_pass_through_each_other),
+        cmocka_unit_test(fewer_of_a_fast_crowd_pass_through_each_other),
         cmocka_unit_test(staggered_grids_miss_some),
         cmocka_unit_test(staggered_collisions_keep_momentum_and_energy),
         cmocka_unit_test(any_number_of_threads_finds_the_same),
