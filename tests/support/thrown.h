@@ -42,14 +42,25 @@ static inline struct kiln_particle after(uint32_t steps)
     return p;
 }
 
+static inline struct kiln_system *throw_one(const double from[3], const double v[3])
+{
+    return one_particle(FLOAT3((float)from[0], (float)from[1], (float)from[2]),
+                        FLOAT3((float)v[0], (float)v[1], (float)v[2]));
+}
+
 /* At half speed after an impact. */
 static inline struct kiln_system *shoot(const double from[3], const double v[3])
 {
-    struct kiln_system *system =
-        one_particle(FLOAT3((float)from[0], (float)from[1], (float)from[2]),
-                     FLOAT3((float)v[0], (float)v[1], (float)v[2]));
+    struct kiln_system *system = throw_one(from, v);
     system->collide.slowdown = fixture_constant(0.5f);
     return system;
+}
+
+/* Next to nothing is its speed. */
+static inline struct kiln_system *rest_at(const double from[3])
+{
+    return one_particle(FLOAT3((float)from[0], (float)from[1], (float)from[2]),
+                        FLOAT3(0, 0.0001f, 0));
 }
 
 /* The particle after half a second, when it met a surface with this normal at a time. */
@@ -66,6 +77,27 @@ static inline void expect_mirror(const double from[3], const double v[3], const 
         assert_near(found_v[i], mirrored, 2e-4);
         assert_near(found_x[i], from[i] + v[i] * time_s + mirrored * (0.5 - time_s), 5e-4);
     }
+}
+
+/* Falls and flies from above the origin in all directions down. */
+static inline void a_crowd_around(uint32_t count, float speed, float gravity)
+{
+    fixture_init(&fixture);
+    struct kiln_system *system = fixture_add_system(&fixture, "crowd", 0.0f);
+    system->emit.bursts[0] = (struct kiln_burst){0.0, count};
+    system->emit.burst_count = 1;
+    system->emit.life = fixture_range(10.0f, 10.0f);
+    system->emit.shape = KILN_EMITTER_BOX;
+    system->emit.origin = fixture_constant3(0.0f, 3.0f, 0.0f);
+    system->emit.size = fixture_constant3(3.0f, 0.1f, 3.0f);
+    system->emit.direction = fixture_constant3(0.0f, -1.0f, 0.0f);
+    system->emit.angle = fixture_constant(0.7f);
+    system->emit.speed = fixture_range(0.1f * speed, speed);
+    system->collide.enabled = true;
+    system->collide.randomness = fixture_constant(0.3f);
+    system->collide.slowdown = fixture_constant(0.8f);
+    fixture_add_force(system, KILN_FORCE_GRAVITY)->vector = fixture_constant3(0.0f, -gravity, 0.0f);
+    fixture_finish(&fixture, 60);
 }
 
 #endif

@@ -10,29 +10,9 @@
 
 #include "asset/field.h"
 #include "shared/random.h"
+#include "support/bodies.h"
 #include "support/folders.h"
-#include "support/throws.h"
-
-static struct scene_fixture fixture; /* too large for a stack */
-
-/* ---- meshes ---------------------------------------------------------------------------------- */
-
-static struct kiln_mesh *load(const char *path)
-{
-    struct kiln_error error = {0};
-    struct kiln_mesh *mesh = kiln_mesh_load(path, "/", NULL, NULL, &error);
-    if (!mesh)
-        fail_msg("%s", error.message);
-    return mesh;
-}
-
-static struct kiln_mesh *load_ball(void)
-{
-    struct body body = begin("ball.obj");
-    add_ball(&body);
-    fclose(body.out);
-    return load("ball.obj");
-}
+#include "support/thrown.h"
 
 static struct kiln_field *create(const struct kiln_mesh *mesh, uint32_t cells, const char *cache)
 {
@@ -64,7 +44,7 @@ static size_t count_of(const struct kiln_field *field)
 static void of_a_ball_it_is_the_way_to_its_surface(void **state)
 {
     (void)state;
-    struct kiln_mesh *mesh = load_ball();
+    struct kiln_mesh *mesh = body_load_ball();
     struct kiln_field *field = create(mesh, 24, NULL);
     assert_int_equal(field->size[0], 24 + 1 + 4);
     const double dent = 1.5 * (1 - cos(3.14159 / 2 / RINGS)) * 2;
@@ -91,7 +71,7 @@ static void overlapping_parts_are_one_body(void **state)
     add_box(&body, 0, 0, 0, 2, 1, 1);
     add_box(&body, 0.25, 0, 0, 0.5, 2, 0.5);
     fclose(body.out);
-    struct kiln_mesh *mesh = load("two.obj");
+    struct kiln_mesh *mesh = body_load("two.obj");
     struct kiln_field *field = create(mesh, 31, NULL);
     uint32_t both = 0;
     for (size_t i = 0; i < count_of(field); i++) {
@@ -112,7 +92,7 @@ static void expect_refusal(const char *obj, const char *message)
 {
     struct kiln_error error = {0};
     test_write_file("bad.obj", obj);
-    struct kiln_mesh *mesh = load("bad.obj");
+    struct kiln_mesh *mesh = body_load("bad.obj");
     struct kiln_threads *threads = kiln_threads_create(1);
     assert_null(kiln_field_create(mesh, "bad.obj", 8, 0.0f, NULL, threads, &error));
     kiln_threads_destroy(&threads);
@@ -178,7 +158,7 @@ static void the_cache_changes_nothing(void **state)
 {
     (void)state;
     char path[KILN_PATH_SIZE];
-    struct kiln_mesh *mesh = load_ball();
+    struct kiln_mesh *mesh = body_load_ball();
     struct kiln_field *fresh = create(mesh, 9, NULL);
     struct kiln_field *written = create(mesh, 9, "cache/a/b");
     assert_int_equal(count_files("cache/a/b", path), 1);
@@ -235,7 +215,7 @@ static void the_environment_says_where_it_is(void **state)
 
 static struct kiln_object *add_ball_object(float x, float y, float z)
 {
-    struct kiln_mesh *mesh = load_ball();
+    struct kiln_mesh *mesh = body_load_ball();
     kiln_mesh_destroy(&mesh);
     struct kiln_object *ball = fixture_add_mesh(&fixture, "ball.obj", x, y, z);
     ball->cells = 40;
@@ -253,14 +233,14 @@ static void a_ball_mirrors_where_it_is_hit(void **state)
         const double y = asides[i % 4], x = sqrt(1 - y * y), speed = speeds[i / 4 % 3];
         const double normal[3] = {x, y, 0}, v[3] = {-speed, 0, 0}, time_s = 0.4;
         const double from[3] = {1 + far * x + speed * time_s, 2 + far * y, 3};
-        struct kiln_system *system = shoot(&fixture, from, v);
+        struct kiln_system *system = throw_one(from, v);
         system->collide.slowdown = fixture_constant(0.5f);
         if (radius > 0)
             fixture_add_collisions(system, (float)radius);
         struct kiln_object *ball = add_ball_object(1, 2, 3);
         ball->scale = fixture_constant(2.0f);
         ball->rotation = fixture_constant3(0.5f, -1.0f, 2.0f);
-        struct kiln_particle p = after(&fixture, 30);
+        struct kiln_particle p = after(30);
         const float3 at = particle_position(p), u = particle_velocity(p);
         const double found_x[3] = {(double)at.x, (double)at.y, (double)at.z};
         const double found_v[3] = {(double)u.x, (double)u.y, (double)u.z};
@@ -279,23 +259,23 @@ static void moving_surfaces_push(void **state)
     (void)state;
     const uint32_t time = KILN_CLOCK_TIME;
     const double from[3] = {2, 0, 0}, still[3] = {0.0001, 0, 0};
-    shoot(&fixture, from, still);
+    throw_one(from, still);
     add_ball_object(0, 0, 0)->center.x = fixture_ramp(&fixture, time, 0, 0, 1, 10);
-    assert_near((double)particle_velocity(after(&fixture, 30)).x, 20, 0.05);
+    assert_near((double)particle_velocity(after(30)).x, 20, 0.05);
 
-    shoot(&fixture, from, still);
+    throw_one(from, still);
     add_ball_object(0, 0, 0)->scale = fixture_ramp(&fixture, time, 0, 1, 1, 11);
-    assert_near((double)particle_velocity(after(&fixture, 30)).x, 20, 0.2);
+    assert_near((double)particle_velocity(after(30)).x, 20, 0.2);
 
     struct body body = begin("bar.obj");
     add_box(&body, 0, 0, 0, 4, 0.5, 0.5);
     fclose(body.out);
-    shoot(&fixture, from, still);
+    throw_one(from, still);
     fixture.scene.systems[0].emit.origin = fixture_constant3(1.5f, 1, 0);
     struct kiln_object *bar = fixture_add_mesh(&fixture, "bar.obj", 0, 0, 0);
     bar->cells = 32;
     bar->rotation.z = fixture_ramp(&fixture, time, 0, 0, 1, 5);
-    const float3 u = particle_velocity(after(&fixture, 20));
+    const float3 u = particle_velocity(after(20));
     /* Its face, which turns at 5 rad/s, gets to (1.5, 1): distance along it is the root of 3.25
      * less a sixteenth. */
     const double along = sqrt(3.25 - 1.0 / 16);
@@ -310,7 +290,7 @@ static void nothing_tunnels(void **state)
     add_box(&body, 0, 0, 0, 8, 0.4, 8);
     fclose(body.out);
     for (int fast = 0; fast < 2; fast++) {
-        a_crowd_around(&fixture, 1000, fast ? 600.0f : 20.0f, 9.81f);
+        a_crowd_around(1000, fast ? 600.0f : 20.0f, 9.81f);
         fixture_add_mesh(&fixture, "plate.obj", 0, 0, 0)->cells = 40;
         struct simulation run;
         simulation_start(&run, &fixture.scene, NULL, 1);
@@ -335,12 +315,12 @@ static void a_ball_is_thrown_by_what_its_skin_meets(void **state)
     struct body body = begin("bar.obj");
     add_box(&body, 0, 0, 0, 4, 0.5, 0.5);
     fclose(body.out);
-    fixture_add_collisions(shoot(&fixture, from, still), 0.5f);
+    fixture_add_collisions(throw_one(from, still), 0.5f);
     fixture.scene.systems[0].collide.slowdown = fixture_constant(1.0f);
     struct kiln_object *bar = fixture_add_mesh(&fixture, "bar.obj", 0, 0, 0);
     bar->cells = 32;
     bar->center.y = fixture_ramp(&fixture, KILN_CLOCK_TIME, 0, 0, 1, 6);
-    const float3 u = particle_velocity(after(&fixture, 20));
+    const float3 u = particle_velocity(after(20));
     assert_near((double)u.y, 12, 0.05);
     assert_near((double)u.x, 0, 0.05);
 }
@@ -351,7 +331,7 @@ static void balls_too_large_for_a_mesh_are_refused(void **state)
     (void)state;
     struct kiln_error error = {0};
     struct kiln_threads *threads = kiln_threads_create(1);
-    struct kiln_mesh *mesh = load_ball();
+    struct kiln_mesh *mesh = body_load_ball();
     struct kiln_field *field = kiln_field_create(mesh, "m.obj", 16, 1.0f, NULL, threads, &error);
     assert_non_null(field);
     assert_int_equal(field->size[0], 16 + 1 + 2 * (2 + 8));
@@ -368,7 +348,7 @@ static void balls_too_large_for_a_mesh_are_refused(void **state)
 static void without_gravity_no_impact_makes_faster(void **state)
 {
     (void)state;
-    a_crowd_around(&fixture, 1000, 60.0f, 0.0f);
+    a_crowd_around(1000, 60.0f, 0.0f);
     add_ball_object(0, 0, 0);
     struct simulation run;
     simulation_start(&run, &fixture.scene, NULL, 1);
@@ -397,9 +377,9 @@ static void what_is_born_inside_comes_out(void **state)
 {
     (void)state;
     const double from[3] = {0.5, 0, 0}, still[3] = {0, 0.0001, 0};
-    shoot(&fixture, from, still);
+    throw_one(from, still);
     add_ball_object(0, 0, 0);
-    const float3 p = particle_position(after(&fixture, 1));
+    const float3 p = particle_position(after(1));
     assert_near((double)p.x, 1, 5e-3);
     assert_near((double)p.y, 0, 5e-3);
 }

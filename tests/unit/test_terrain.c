@@ -12,15 +12,7 @@
 #include "shared/collide.h"
 #include "sim/params.h"
 #include "support/folders.h"
-#include "support/simulation.h"
-
-static struct scene_fixture fixture; /* too large for a stack */
-
-static void assert_near(double found, double expected, double allowed)
-{
-    if (!(fabs(found - expected) <= allowed))
-        fail_msg("%.9g instead of %.9g, allowed %g off", found, expected, allowed);
-}
+#include "support/thrown.h"
 
 /* A BMP of grey pixels, row by row from the top. */
 static void write_picture(const char *path, int width, int height, const uint8_t *grey)
@@ -174,33 +166,6 @@ static void the_mesh_is_the_ground_and_its_walls(void **state)
 }
 
 /* ---- particles ------------------------------------------------------------------------------- */
-
-static struct kiln_system *one_particle(float3 from, float3 velocity)
-{
-    fixture_init(&fixture);
-    struct kiln_system *system = fixture_add_system(&fixture, "one", 0.0f);
-    system->emit.bursts[0] = (struct kiln_burst){0.0, 1};
-    system->emit.burst_count = 1;
-    system->emit.life = fixture_range(10.0f, 10.0f);
-    float speed = float3_length(velocity);
-    system->emit.speed = fixture_range(speed, speed);
-    system->emit.origin = fixture_constant3(from.x, from.y, from.z);
-    system->emit.direction = fixture_constant3(velocity.x, velocity.y, velocity.z);
-    system->collide.enabled = true;
-    return system;
-}
-
-static struct kiln_particle after(uint32_t steps)
-{
-    fixture_finish(&fixture, steps);
-    struct simulation run;
-    simulation_start(&run, &fixture.scene, NULL, 1);
-    simulation_run(&run, steps);
-    struct kiln_particle p = simulation_records(&run)[0];
-    assert_true(particle_is_alive(p));
-    simulation_end(&run);
-    return p;
-}
 
 static struct kiln_object *add_slope(void)
 {
