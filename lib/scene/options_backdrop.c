@@ -1,4 +1,5 @@
 /* Sky, floor, sun, objects and lights. */
+#include "asset/depth_maps.h"
 #include "asset/field.h"
 #include "scene/option_rows.h"
 
@@ -79,8 +80,22 @@ static const struct kiln_option animation[] = {
     END,
 };
 
-static const char *const colliders[] = {"field", "volume", NULL};
+static const char *const colliders[] = {"field", "volume", "depth_maps", NULL};
 static const char *const sides[] = {"one", "two", NULL};
+
+static const struct kiln_option direction = {
+    ROW("direction", vector, 0, NULL, "From which the mesh is seen, and from its opposite."),
+    LIMITS(KILN_PLAIN, -FAR, FAR)};
+
+static const struct kiln_option depth_maps[] = {
+    {ROW("directions", list, AT(depth_directions), "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]",
+         "In the frame of the mesh, of any length but 0; each gives a front and a back."),
+     .item = &direction, .item_size = sizeof(struct kiln_value3),
+     .count_offset = AT(depth_direction_count), .max_count = KILN_MAX_DEPTH_DIRECTIONS},
+    INTEGER("resolution", depth_resolution, KILN_MIN_DEPTH_RESOLUTION, KILN_MAX_DEPTH_RESOLUTION,
+            "128", "Samples along each edge of a map."),
+    END,
+};
 
 static const struct kiln_option mesh[] = {
     {ROW("file", mesh, AT(file), NULL,
@@ -96,10 +111,12 @@ static const struct kiln_option mesh[] = {
     REFLECTANCE,
     BOOLEAN("collide", collide, "false", "Particles of systems that collide bounce off it."),
     RUBBING,
-    CHOICE("collider", collider, colliders, "field",
-           "What they collide with: field, a lattice of distances, made once, of a mesh that is "
-           "closed (UberFlow 2004, 4.6); volume, cells that in each step take up planes of any "
-           "mesh, and how these move (Drone 2007, 7.5.2)."),
+    CHOICE(
+        "collider", collider, colliders, "field",
+        "What they collide with: field, a lattice of distances, made once, of a mesh that is "
+        "closed (UberFlow 2004, 4.6); volume, cells that in each step take up planes of any "
+        "mesh, and how these move (Drone 2007, 7.5.2); depth_maps, its fronts and backs from some "
+        "directions, which fill hollows that none of them looks into (Heinz 2019, 2.5.1)."),
     INTEGER("cells", cells, KILN_MIN_FIELD_CELLS, KILN_MAX_FIELD_CELLS, "48",
             "Of that lattice, along the mesh's longest edge; what is thinner than a cell particles "
             "may miss."),
@@ -109,6 +126,8 @@ static const struct kiln_option mesh[] = {
     CHOICE("sides", sides, sides, "one",
            "Of a volume's planes: one, what is behind is put in front, for closed meshes; two, "
            "they are met from both sides, for sheets."),
+    GROUP("depth_maps", 0, depth_maps,
+          "Of collider depth_maps; nothing is too thin for them, and the mesh need not be closed."),
     END,
 };
 

@@ -349,8 +349,9 @@ struct kiln_animation {
 
 /* How particles meet a mesh. */
 enum kiln_collider_kind {
-    KILN_COLLIDER_FIELD,  /* by its signed distance field: it is closed and moves rigidly */
-    KILN_COLLIDER_VOLUME, /* by planes in a lattice of cells, in each step anew */
+    KILN_COLLIDER_FIELD,      /* by its signed distance field: it is closed and moves rigidly */
+    KILN_COLLIDER_VOLUME,     /* by planes in a lattice of cells, in each step anew */
+    KILN_COLLIDER_DEPTH_MAPS, /* by all between its fronts and backs from some directions */
 };
 
 enum kiln_sides {
@@ -379,6 +380,8 @@ struct kiln_object {
     enum kiln_collider_kind collider; /* mesh, and what follows */
     struct kiln_value3 heading;       /* volume: where most particles go; not zero, of any length */
     enum kiln_sides sides;            /* likewise, of its planes */
+    struct kiln_value3 depth_directions[KILN_MAX_DEPTH_DIRECTIONS]; /* of its depth maps */
+    uint32_t depth_direction_count, depth_resolution;               /* (asset/depth_maps.h) */
     bool collide;
     bool visible;                  /* plane: drawn */
     struct kiln_value restitution; /* factors on those of the particles that bounce off it */

@@ -348,7 +348,7 @@ static const char *name_of_axis(const struct kiln_object *object)
     return object->kind == KILN_OBJECT_PLANE ? "plane.normal" : NULL;
 }
 
-/* Of a mesh that particles are to bounce off. */
+/* Of a mesh whose distance field is wanted. */
 static bool check_closed(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
                          const char *file)
 {
@@ -364,6 +364,25 @@ static bool check_closed(struct kiln_reader *reader, const struct kiln_node *roo
     if (error.code != KILN_INVALID_INPUT)
         reader->error->code = error.code;
     return false;
+}
+
+static bool check_solid(struct kiln_reader *reader, const struct kiln_node *root, uint32_t index)
+{
+    const struct kiln_scene *scene = reader->scene;
+    const struct kiln_object *mesh = &scene->backdrop.objects[index];
+    char path[80];
+    snprintf(path, sizeof path, "backdrop.objects.%u.mesh.depth_maps.directions", index);
+    if (mesh->depth_direction_count == 0)
+        return kiln_validate_fail(reader, root, path, "must name at least one direction");
+    for (uint32_t i = 0; i < mesh->depth_direction_count; i++) {
+        const struct kiln_value3 *direction = &mesh->depth_directions[i];
+        snprintf(path, sizeof path, "backdrop.objects.%u.mesh.depth_maps.directions.%u", index, i);
+        if (!at_all_keys(scene, &direction, 1, is_not_zero))
+            return kiln_validate_fail(reader, root, path, "must not be [0, 0, 0]");
+    }
+    snprintf(path, sizeof path, "backdrop.objects.%u.mesh.collide", index);
+    return !mesh->collide || mesh->collider != KILN_COLLIDER_FIELD ||
+           check_closed(reader, root, path, mesh->file);
 }
 
 static bool check_objects(struct kiln_reader *reader, const struct kiln_node *root)
@@ -392,9 +411,7 @@ static bool check_objects(struct kiln_reader *reader, const struct kiln_node *ro
             return kiln_validate_fail(reader, root, path,
                                       "a mesh with an animation collides as a volume alone: set "
                                       "its collider to volume");
-        if (object->collide && object->kind == KILN_OBJECT_MESH &&
-            object->collider == KILN_COLLIDER_FIELD &&
-            !check_closed(reader, root, path, object->file))
+        if (object->kind == KILN_OBJECT_MESH && !check_solid(reader, root, i))
             return false;
         if (++meshes > KILN_MAX_MESHES)
             return kiln_validate_fail(reader, root, "backdrop.objects", "more than %d meshes",

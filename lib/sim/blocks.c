@@ -181,6 +181,17 @@ static bool has_field_colliders(const struct kiln_scene *scene)
     return any;
 }
 
+static bool has_depth_maps(const struct kiln_scene *scene)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        const struct kiln_object *object = &scene->backdrop.objects[i];
+        any = any || (object->collide && object->kind == KILN_OBJECT_MESH &&
+                      object->collider == KILN_COLLIDER_DEPTH_MAPS);
+    }
+    return any;
+}
+
 /* What a scene needs of the kernels. */
 struct defines {
     char text[512];
@@ -210,6 +221,7 @@ bool kiln_sim_programs_init(struct kiln_sim_programs *programs, struct kiln_devi
     add_define(&defines, "GRIDS", grids);
     add_define(&defines, "COLLIDE_FIELD", fields);
     add_define(&defines, "COLLIDE_VOLUME", volumes);
+    add_define(&defines, "COLLIDE_DEPTH", has_depth_maps(scene));
     add_define(&defines, "PUSHES", pushes);
     add_define(&defines, "FORCES_ALL", forces);
     files.defines = defines.text;

@@ -160,21 +160,34 @@ static void invert(const struct pose *pose, float4 to_local[3])
     }
 }
 
-/* The box in the world around the grid's, larger by a factor. */
-static void bound(const struct pose *pose, const struct kiln_grid *grid, float factor, float4 *min,
+/* A grid's box, in the frame of its mesh. */
+struct extent {
+    float half[3], middle[3];
+};
+
+static struct extent extent_of(const struct kiln_grid *grid, bool depths)
+{
+    const float low[3] = {grid->origin.x, grid->origin.y, grid->origin.z};
+    const float high[3] = {grid->per_metre.x, grid->per_metre.y, grid->per_metre.z};
+    const uint size[3] = {grid->size.x, grid->size.y, grid->size.z};
+    struct extent extent;
+    for (int i = 0; i < 3; i++) {
+        extent.half[i] = depths ? 0.5f * (high[i] - low[i]) : 0.5f * (float)(size[i] - 1) / high[i];
+        extent.middle[i] = low[i] + extent.half[i];
+    }
+    return extent;
+}
+
+/* The box in the world around that one, larger by a factor. */
+static void bound(const struct pose *pose, const struct extent *extent, float factor, float4 *min,
                   float4 *max)
 {
-    const float half[3] = {0.5f * (float)(grid->size.x - 1) / grid->per_metre.x,
-                           0.5f * (float)(grid->size.y - 1) / grid->per_metre.y,
-                           0.5f * (float)(grid->size.z - 1) / grid->per_metre.z};
-    const float middle[3] = {grid->origin.x + half[0], grid->origin.y + half[1],
-                             grid->origin.z + half[2]};
     float low[3], high[3];
     for (int i = 0; i < 3; i++) {
         float center = pose->position[i], reach = 0.0f;
         for (int c = 0; c < 3; c++) {
-            center += pose->scale * pose->rows[i][c] * middle[c];
-            reach += pose->scale * exact_abs(pose->rows[i][c]) * half[c];
+            center += pose->scale * pose->rows[i][c] * extent->middle[c];
+            reach += pose->scale * exact_abs(pose->rows[i][c]) * extent->half[c];
         }
         low[i] = center - factor * reach;
         high[i] = center + factor * reach;
@@ -194,10 +207,13 @@ static struct kiln_collider mesh_collider(const struct kiln_scene *scene,
     const uint32_t number = grids->of_object[index];
     const struct pose start = pose_at(scene, mesh, start_s), end = pose_at(scene, mesh, end_s);
     struct kiln_collider field = {
-        .kind = COLLIDER_SDF, .grid = number, .mesh = number - grids->wind_count};
+        .kind = mesh->collider == KILN_COLLIDER_DEPTH_MAPS ? COLLIDER_DEPTH : COLLIDER_SDF,
+        .grid = number,
+        .mesh = number - grids->wind_count};
+    const struct extent extent = extent_of(&grids->table[number], field.kind == COLLIDER_DEPTH);
     const float factor = memcmp(start.rows, end.rows, sizeof start.rows) != 0 ? 1.5f : 1.0f;
-    bound(&start, &grids->table[number], factor, &field.min, &field.max);
-    bound(&end, &grids->table[number], factor, &field.min_end, &field.max_end);
+    bound(&start, &extent, factor, &field.min, &field.max);
+    bound(&end, &extent, factor, &field.min_end, &field.max_end);
     invert(&start, out->to_local);
     invert(&end, out->to_local_end);
     out->metres = FLOAT4(start.scale, end.scale, 0.0f, 0.0f);

@@ -2,17 +2,19 @@
 
 #include <string.h>
 
+#include "asset/depth_maps.h"
 #include "asset/field.h"
 #include "asset/grid_in.h"
 #include "base/error.h"
 #include "shared/exact.h"
 #include "sim/interact.h"
 
-/* What the grids are made of, in their order: wind, then objects, of each one of the two. */
+/* What the grids are made of, in their order: wind, then objects, of each one of the three. */
 struct sources {
     struct kiln_grid_file *winds[KILN_MAX_WINDS];
     struct kiln_terrain *terrains[KILN_MAX_MESHES];
     struct kiln_field *fields[KILN_MAX_MESHES];
+    struct kiln_depth_maps *depths[KILN_MAX_MESHES];
 };
 
 uint32_t kiln_sim_grids_find(const struct kiln_sim_grids *grids, const char *file)
@@ -69,34 +71,49 @@ static float find_reach(const struct kiln_scene *scene, const struct kiln_object
     return largest > 0.0f ? largest / (smallest > 1e-6f ? smallest : 1e-6f) : 0.0f;
 }
 
-static struct kiln_field *load_field(const struct kiln_scene *scene,
-                                     const struct kiln_object *object, struct kiln_threads *threads,
-                                     struct kiln_error *error)
+static struct kiln_depth_maps *make_depths(const struct kiln_mesh *mesh,
+                                           const struct kiln_object *object,
+                                           struct kiln_threads *threads, struct kiln_error *error)
+{
+    float directions[KILN_MAX_DEPTH_DIRECTIONS][3];
+    for (uint32_t i = 0; i < object->depth_direction_count; i++) {
+        directions[i][0] = object->depth_directions[i].x.constant;
+        directions[i][1] = object->depth_directions[i].y.constant;
+        directions[i][2] = object->depth_directions[i].z.constant;
+    }
+    return kiln_depth_maps_create(mesh, object->file, directions, object->depth_direction_count,
+                                  object->depth_resolution, threads, error);
+}
+
+static bool load_mesh(struct sources *sources, uint32_t number, const struct kiln_scene *scene,
+                      const struct kiln_object *object, struct kiln_threads *threads,
+                      struct kiln_error *error)
 {
     struct kiln_mesh *mesh =
         kiln_mesh_load(object->file, scene->asset_root, scene->stop, scene->user, error);
     if (!mesh)
-        return NULL;
+        return false;
     char cache[KILN_PATH_SIZE];
     const bool cached = kiln_field_cache(cache);
-    struct kiln_field *field =
-        kiln_field_create(mesh, object->file, object->cells, find_reach(scene, object),
-                          cached ? cache : NULL, threads, error);
+    if (object->collider == KILN_COLLIDER_DEPTH_MAPS)
+        sources->depths[number] = make_depths(mesh, object, threads, error);
+    else
+        sources->fields[number] =
+            kiln_field_create(mesh, object->file, object->cells, find_reach(scene, object),
+                              cached ? cache : NULL, threads, error);
     kiln_mesh_destroy(&mesh);
-    return field;
+    return sources->depths[number] || sources->fields[number];
 }
 
-static bool load_object(const struct kiln_scene *scene, const struct kiln_object *object,
-                        struct kiln_terrain **terrain, struct kiln_field **field,
-                        struct kiln_threads *threads, struct kiln_error *error)
+static bool load_object(struct sources *sources, uint32_t number, const struct kiln_scene *scene,
+                        const struct kiln_object *object, struct kiln_threads *threads,
+                        struct kiln_error *error)
 {
-    if (object->kind == KILN_OBJECT_MESH) {
-        *field = load_field(scene, object, threads, error);
-        return *field != NULL;
-    }
+    if (object->kind == KILN_OBJECT_MESH)
+        return load_mesh(sources, number, scene, object, threads, error);
     const struct kiln_terrain_params params = kiln_scene_terrain(object);
-    *terrain = kiln_terrain_create(&params, error);
-    return *terrain != NULL;
+    sources->terrains[number] = kiln_terrain_create(&params, error);
+    return sources->terrains[number] != NULL;
 }
 
 static bool load(struct kiln_sim_grids *grids, const struct kiln_scene *scene,
@@ -111,8 +128,7 @@ static bool load(struct kiln_sim_grids *grids, const struct kiln_scene *scene,
         if (!kiln_sim_grids_needs(&scene->backdrop.objects[i]))
             continue;
         const uint32_t k = grids->count - grids->wind_count;
-        if (!load_object(scene, &scene->backdrop.objects[i], &sources->terrains[k],
-                         &sources->fields[k], threads, error))
+        if (!load_object(sources, k, scene, &scene->backdrop.objects[i], threads, error))
             return false;
         grids->of_object[i] = grids->count++;
     }
@@ -126,6 +142,7 @@ static void free_sources(struct sources *sources)
     for (uint32_t i = 0; i < KILN_MAX_MESHES; i++) {
         kiln_terrain_destroy(&sources->terrains[i]);
         kiln_field_destroy(&sources->fields[i]);
+        kiln_depth_maps_destroy(&sources->depths[i]);
     }
 }
 
@@ -158,9 +175,23 @@ static struct kiln_grid place_field(const struct kiln_field *field, size_t first
         .size = {field->size[0], field->size[1], field->size[2], (uint)first}};
 }
 
-static size_t count_words(const struct kiln_grid *grid)
+static struct kiln_grid place_depths(const struct kiln_depth_maps *maps, size_t first)
 {
-    return (size_t)grid->size.x * grid->size.y * grid->size.z;
+    return (struct kiln_grid){
+        .origin = canon4(maps->min),
+        .per_metre = canon4(maps->max),
+        .size = {maps->resolution, maps->resolution, maps->count, (uint)first}};
+}
+
+static const struct kiln_depth_maps *depths_of(const struct sources *sources, uint32_t wind_count,
+                                               uint32_t i)
+{
+    return i < wind_count ? NULL : sources->depths[i - wind_count];
+}
+
+static size_t count_words(const struct kiln_grid *grid, const struct kiln_depth_maps *maps)
+{
+    return maps ? maps->word_count : (size_t)grid->size.x * grid->size.y * grid->size.z;
 }
 
 static float find_steepest(const struct kiln_terrain *terrain)
@@ -186,10 +217,12 @@ static size_t place(struct kiln_sim_grids *grids, const struct sources *sources)
             grids->table[i] = place_terrain(sources->terrains[k], total);
             grids->top[i] = sources->terrains[k]->top;
             grids->steepest[i] = find_steepest(sources->terrains[k]);
+        } else if (sources->depths[k]) {
+            grids->table[i] = place_depths(sources->depths[k], total);
         } else {
             grids->table[i] = place_field(sources->fields[k], total);
         }
-        total += count_words(&grids->table[i]);
+        total += count_words(&grids->table[i], depths_of(sources, grids->wind_count, i));
     }
     return total;
 }
@@ -214,12 +247,15 @@ static void copy_words(float4 *words, const struct sources *sources, uint32_t wi
     const struct kiln_grid_file *wind = i < wind_count ? sources->winds[i] : NULL;
     const struct kiln_terrain *terrain = wind ? NULL : sources->terrains[i - wind_count];
     const struct kiln_field *field = wind ? NULL : sources->fields[i - wind_count];
+    const struct kiln_depth_maps *maps = depths_of(sources, wind_count, i);
     if (wind)
         copy_wind(words, wind, count);
     else if (terrain)
         copy_terrain(words, terrain, count);
     else if (field)
         memcpy(words, field->samples, count * sizeof *words);
+    else if (maps)
+        memcpy(words, maps->words, count * sizeof *words);
 }
 
 static bool fill(struct kiln_sim_grids *grids, struct kiln_device *device,
@@ -236,7 +272,8 @@ static bool fill(struct kiln_sim_grids *grids, struct kiln_device *device,
     if (!words)
         return false;
     for (uint32_t i = 0; i < grids->count; i++) {
-        const size_t count = count_words(&grids->table[i]);
+        const size_t count =
+            count_words(&grids->table[i], depths_of(sources, grids->wind_count, i));
         copy_words(words, sources, grids->wind_count, i, count);
         words += count;
     }

@@ -20,9 +20,9 @@ struct kiln_sim_grids {
     struct kiln_volumes volumes;
 };
 
-/* Loads what the scene names, each file once, and makes its terrain and distance fields, on the
- * threads. device NULL: for the host. KILN_INVALID_INPUT and the rest as those who load and make
- * them; after a failure, too, kiln_sim_grids_finish frees what there is. */
+/* Loads what the scene names, each file once, and makes its terrain, distance fields and depth
+ * maps, on the threads. device NULL: for the host. KILN_INVALID_INPUT and the rest as those who
+ * load and make them; after a failure, too, kiln_sim_grids_finish frees what there is. */
 bool kiln_sim_grids_init(struct kiln_sim_grids *grids, struct kiln_device *device,
                          const struct kiln_scene *scene, struct kiln_threads *threads,
                          struct kiln_error *error);

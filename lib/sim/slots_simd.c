@@ -424,6 +424,19 @@ static inline void find_touching_volume(const struct kiln_sim *sim, struct block
     }
 }
 
+/* What stays on one side of its depth maps does not touch it. */
+static inline void find_touching_depths(const struct kiln_sim *sim, struct block *b,
+                                        const struct kiln_collider *c)
+{
+    const struct kiln_grid grid = sim->surroundings->grids[c->grid];
+    const struct kiln_pose pose = sim->surroundings->poses[c->mesh];
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        float3 from = sdf_local(pose, 0.0f, particle_position(record_at(b, i)));
+        float3 to = sdf_local(pose, 1.0f, kiln_get3(&b->position, i));
+        b->touching[i] &= 1u ^ (uint32_t)depth_is_clear(grid, from, to);
+    }
+}
+
 static inline void find_touching_any(const struct kiln_sim *sim, struct block *b)
 {
     const bool pushed = sim->step->pushed != 0;
@@ -439,6 +452,8 @@ static inline void find_touching_any(const struct kiln_sim *sim, struct block *b
             find_touching_mesh(sim, b, c);
         else if (c->kind == COLLIDER_VOLUME)
             find_touching_volume(sim, b, c);
+        else if (c->kind == COLLIDER_DEPTH)
+            find_touching_depths(sim, b, c);
         for (uint32_t i = 0; i < KILN_LANES; i++)
             b->alone[i] |= b->touching[i];
     }

@@ -12,7 +12,7 @@ FN float4 collide_shifted(float4 v, float by)
 }
 
 /* The same of one that looks up a grid: its bounds, and the radius for whoever looks up. The walls
- * of terrain are met with the centre. */
+ * of terrain and depth maps are met with the centre. */
 FN S(kiln_collider) collide_field_around(S(kiln_collider) collider, float radius)
 {
     EXACT S(kiln_collider) c = collider;

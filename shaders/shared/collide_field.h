@@ -1,5 +1,5 @@
-/* Colliders that look up lattices, for shared/collide.h: terrain, the distance fields of meshes,
- * and volumes of their planes. */
+/* Colliders that look up lattices, for shared/collide.h: terrain, and meshes by their distance
+ * fields, depth maps, or volumes of their planes. */
 #ifndef KILN_SHARED_COLLIDE_FIELD_H
 #define KILN_SHARED_COLLIDE_FIELD_H
 
@@ -17,6 +17,14 @@
 #include "shared/collide_volume.h"
 #endif
 
+/* Shaders of scenes without depth maps are spared their code. */
+#if defined(GL_core_profile) && !defined(COLLIDE_DEPTH)
+#define COLLIDE_HAS_DEPTH 0
+#else
+#define COLLIDE_HAS_DEPTH 1
+#include "shared/collide_depth.h"
+#endif
+
 /* The way of a segment between two parts of the step, as collide_through has it. */
 FN S(collide_span) collide_field_segment(SIM_PARAM S(kiln_collider) c, float since, float until,
                                          float3 a, float3 b)
@@ -25,6 +33,12 @@ FN S(collide_span) collide_field_segment(SIM_PARAM S(kiln_collider) c, float sin
 #if COLLIDE_HAS_VOLUMES
     if (c.kind == COLLIDER_VOLUME) {
         span = volume_segment(SIM c, since, until, a, b);
+        return span;
+    }
+#endif
+#if COLLIDE_HAS_DEPTH
+    if (c.kind == COLLIDER_DEPTH) {
+        span = depth_segment(SIM c, since, until, a, b);
         return span;
     }
 #endif
@@ -46,6 +60,12 @@ FN bool collide_field_inside(SIM_PARAM S(kiln_collider) c, float until, float3 p
         return inside;
     }
 #endif
+#if COLLIDE_HAS_DEPTH
+    if (c.kind == COLLIDER_DEPTH) {
+        inside = depth_is_inside(SIM c, until, p);
+        return inside;
+    }
+#endif
 #if COLLIDE_HAS_GRIDS
     if (c.kind == COLLIDER_TERRAIN)
         inside = terrain_is_inside(SIM c, p);
@@ -62,6 +82,12 @@ FN S(collide_ground)
 #if COLLIDE_HAS_VOLUMES
     if (c.kind == COLLIDER_VOLUME) {
         ground = volume_ground(SIM c, face, since, p);
+        return ground;
+    }
+#endif
+#if COLLIDE_HAS_DEPTH
+    if (c.kind == COLLIDER_DEPTH) {
+        ground = depth_ground(SIM c, since, p);
         return ground;
     }
 #endif

@@ -169,6 +169,7 @@ struct kiln_step_params {
 #define COLLIDER_SDF     17u
 #define COLLIDER_VOLUME  18u
 #define VOLUME_TWO_SIDED 0x80000000u
+#define COLLIDER_DEPTH   19u
 
 /* A collider at the start and at the end of the step; it moves and turns evenly in between. A box
  * along the axes has min and max alone; those of all others bound it. */
@@ -201,7 +202,9 @@ struct kiln_pose {
 };
 
 /* Samples on a lattice in space; GRID_WORD(i) is the i-th of all grids: see grid.h. Of a volume,
- * the lattice's cells, of which a VOLUME_WORD has four: see collide_volume.h. */
+ * the lattice's cells, of which a VOLUME_WORD has four: see collide_volume.h. Of depth maps
+ * (collide_depth.h), two corners of the box around all in place of origin and per_metre, and as
+ * size columns, rows, maps and the first word. */
 struct kiln_grid {
     float4 origin;    /* m: where the first sample lies */
     float4 per_metre; /* samples, along each axis */

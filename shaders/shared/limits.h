@@ -5,12 +5,13 @@
 /* The largest key table of a scene: 16 KiB, the least that every GL allows a uniform block. */
 #define KILN_MAX_VALUE_KEYS 1024
 
-#define KILN_MAX_FORCES    16 /* a system */
-#define KILN_MAX_DEMITTERS 8  /* a system */
-#define KILN_MAX_BURSTS    64 /* a system */
-#define KILN_MAX_OBJECTS   32 /* a scene */
-#define KILN_MAX_MESHES    8  /* a scene, terrain among them; they count as objects, too */
-#define KILN_MAX_LIGHTS    16 /* a scene */
+#define KILN_MAX_FORCES           16 /* a system */
+#define KILN_MAX_DEMITTERS        8  /* a system */
+#define KILN_MAX_BURSTS           64 /* a system */
+#define KILN_MAX_OBJECTS          32 /* a scene */
+#define KILN_MAX_MESHES           8  /* a scene, terrain among them; they count as objects, too */
+#define KILN_MAX_LIGHTS           16 /* a scene */
+#define KILN_MAX_DEPTH_DIRECTIONS 6  /* of a mesh: each a front and a back */
 
 /* Systems from a first parent to its last descendants. */
 #define KILN_MAX_GENERATIONS 4

@@ -128,6 +128,15 @@ static void volumes_agree(void **state)
     some_agree(*state, &fixture.scene, 60, 1);
 }
 
+static void depth_maps_agree(void **state)
+{
+    fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, 60);
+    struct kiln_object *mesh = fixture_add_moving_mesh(&fixture);
+    fixture_map_depths(mesh, 64);
+    mesh->depth_directions[1] = fixture_constant3(0.3f, -1.0f, 0.2f);
+    some_agree(*state, &fixture.scene, 60, 1);
+}
+
 /* A crowd of its own, in which all kinds of interaction and all clocks of their values are used. */
 static void add_crowd(const char *name, float x, enum kiln_contact_mode mode)
 {
@@ -347,6 +356,7 @@ int main(void)
         test_on_device(fields_agree),
         test_on_device(colliders_out_of_grids_agree),
         test_on_device(volumes_agree),
+        test_on_device(depth_maps_agree),
         test_on_device(crowds_agree),
         test_on_device(whirls_agree),
         test_on_device(families_agree),

@@ -172,8 +172,19 @@ static inline struct kiln_object *fixture_add_mesh(struct scene_fixture *f, cons
     return mesh;
 }
 
+/* A mesh by its depth maps along x, y and z. */
+static inline void fixture_map_depths(struct kiln_object *mesh, uint32_t resolution)
+{
+    mesh->collider = KILN_COLLIDER_DEPTH_MAPS;
+    mesh->depth_resolution = resolution;
+    mesh->depth_direction_count = 3;
+    mesh->depth_directions[0] = fixture_constant3(1.0f, 0.0f, 0.0f);
+    mesh->depth_directions[1] = fixture_constant3(0.0f, 1.0f, 0.0f);
+    mesh->depth_directions[2] = fixture_constant3(0.0f, 0.0f, 1.0f);
+}
+
 /* One that moves, turns and grows. */
-static inline void fixture_add_moving_mesh(struct scene_fixture *f)
+static inline struct kiln_object *fixture_add_moving_mesh(struct scene_fixture *f)
 {
     const uint32_t time = KILN_CLOCK_TIME;
     struct kiln_object *mesh =
@@ -182,6 +193,7 @@ static inline void fixture_add_moving_mesh(struct scene_fixture *f)
     mesh->rotation.x = fixture_constant(-0.7f);
     mesh->rotation.y = fixture_ramp(f, time, 0.0f, 0.0f, 4.0f, 30.0f);
     mesh->scale = fixture_ramp(f, time, 0.0f, 0.8f, 2.0f, 1.3f);
+    return mesh;
 }
 
 /* Such a mesh as a volume of planes, and one that has two sides. */

@@ -257,6 +257,37 @@ static void what_collides_must_be_closed(void **state)
                         "two");
 }
 
+static void depth_maps_need_directions_and_no_inside(void **state)
+{
+    (void)state;
+    static const char *const cases[][2] = {
+        {"{}", NULL},
+        {"{directions: [[1, 2, 3]], resolution: 64}", NULL},
+        {"{directions: []}", "must name at least one direction"},
+        {"{directions: [[1, 0, 0], [0, 0, 0]]}", "directions.1: must not be [0, 0, 0]"},
+        {"{directions: [[1, 0, 0], [0, {keys: {0 s: 1}}, 0]]}", "cannot vary"},
+    };
+    const struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    const char *triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    write_file("scenes/textures/open.obj", triangle, strlen(triangle));
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[300];
+        struct kiln_error error = {0};
+        const int size = snprintf(text, sizeof text,
+                                  "kiln: 1\nbackdrop: {objects: [{mesh: {file: textures/open.obj, "
+                                  "collide: true, collider: depth_maps, depth_maps: %s}}]}\n",
+                                  cases[i][0]);
+        write_file("scenes/depths.yaml", text, (size_t)size);
+        struct kiln_scene *scene = kiln_scene_load("scenes/depths.yaml", &params, &error);
+        assert_int_equal(scene != NULL, cases[i][1] == NULL);
+        if (!scene && !strstr(error.message, cases[i][1]))
+            fail_msg("'%s' is not in '%s'", cases[i][1], error.message);
+        if (scene)
+            assert_int_equal(scene->backdrop.objects[0].depth_direction_count, i == 0 ? 3 : 1);
+        kiln_scene_destroy(&scene);
+    }
+}
+
 /* What a terrain's picture contains belongs to the hash, too. */
 static void terrain_is_hashed(void **state)
 {
@@ -305,10 +336,15 @@ static void meshes_are_checked_and_hashed(void **state)
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
-        IN_FOLDER(files_that_are_no_scenes),     IN_FOLDER(huge_files_are_refused_early),
-        IN_FOLDER(assets_stay_below_the_scene),  IN_FOLDER(assets_must_be_pictures),
-        IN_FOLDER(asset_root_may_be_given),      IN_FOLDER(meshes_are_checked_and_hashed),
-        IN_FOLDER(what_collides_must_be_closed), IN_FOLDER(terrain_is_hashed),
+        IN_FOLDER(files_that_are_no_scenes),
+        IN_FOLDER(huge_files_are_refused_early),
+        IN_FOLDER(assets_stay_below_the_scene),
+        IN_FOLDER(assets_must_be_pictures),
+        IN_FOLDER(asset_root_may_be_given),
+        IN_FOLDER(meshes_are_checked_and_hashed),
+        IN_FOLDER(what_collides_must_be_closed),
+        IN_FOLDER(depth_maps_need_directions_and_no_inside),
+        IN_FOLDER(terrain_is_hashed),
     };
     return cmocka_run_group_tests_name("scene_files", tests, NULL, NULL);
 }

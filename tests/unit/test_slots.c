@@ -175,6 +175,14 @@ static void around_moving_volumes(void **state)
     run_levels();
 }
 
+static void around_a_moving_mesh_by_its_depths(void **state)
+{
+    (void)state;
+    fixture_zoo(&fixture, KILN_INTEGRATE_POSITION_FIRST, STEPS);
+    fixture_map_depths(fixture_add_moving_mesh(&fixture), 48);
+    run_levels();
+}
+
 static void pushed_among_colliders(void **state)
 {
     (void)state;
@@ -210,6 +218,7 @@ int main(void)
         cmocka_unit_test(above_terrain),
         cmocka_unit_test(around_a_moving_mesh),
         cmocka_unit_test(around_moving_volumes),
+        cmocka_unit_test(around_a_moving_mesh_by_its_depths),
         cmocka_unit_test(pushed_among_colliders),
         cmocka_unit_test(whirls),
     };
