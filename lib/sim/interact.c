@@ -174,6 +174,7 @@ static bool choose_loops(struct kiln_interact *interact, struct kiln_error *erro
     if (!kiln_simd_choose(&simd, error))
         return false;
     interact->gravity = KILN_SIMD_PICK(kiln_gravity_loops, simd);
+    interact->flock = KILN_SIMD_PICK(kiln_flock_loops, simd);
     return true;
 }
 

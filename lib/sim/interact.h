@@ -6,6 +6,7 @@
 
 #include "base/thread.h"
 #include "shared/interact_layout.h"
+#include "sim/flock.h"
 #include "sim/gravity.h"
 #include "sim/params.h"
 
@@ -52,6 +53,7 @@ struct kiln_interact {
     struct kiln_buffer counts;                /* staggered, on the host: of a sort */
     struct kiln_buffer accelerations;         /* gravity on the host: float3, one a slot */
     const struct kiln_gravity_loops *gravity; /* on the host */
+    const struct kiln_flock_loops *flock;
     /* in GL: */
     struct kiln_buffer block;               /* struct kiln_interact_params */
     GLuint programs[KILN_INTERACT_KERNELS]; /* 0: not used by the scene */

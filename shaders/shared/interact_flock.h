@@ -17,22 +17,22 @@
 
 /* ---- sums of integers ----------------------------------------------------------------------- */
 
-struct flock_parts {
+struct flock_triple {
     int x, y, z;
 };
 
 /* Of all that a particle sees. */
 struct flock_sums {
     int count;
-    S(flock_parts) apart;   /* of the radius: to where they are */
-    S(flock_parts) parting; /* of twice the top speed: their velocities less its own */
-    S(flock_parts) away;    /* directions, by how close they are */
-    S(flock_parts) aside;   /* directions, by how close they are going to pass */
+    S(flock_triple) apart;   /* of the radius: to where they are */
+    S(flock_triple) parting; /* of twice the top speed: their velocities less its own */
+    S(flock_triple) away;    /* directions, by how close they are */
+    S(flock_triple) aside;   /* directions, by how close they are going to pass */
 };
 
-FN S(flock_parts) flock_no_parts(void)
+FN S(flock_triple) flock_no_triple(void)
 {
-    S(flock_parts) parts;
+    S(flock_triple) parts;
     parts.x = 0;
     parts.y = 0;
     parts.z = 0;
@@ -43,10 +43,10 @@ FN S(flock_sums) flock_no_sums(void)
 {
     S(flock_sums) sums;
     sums.count = 0;
-    sums.apart = flock_no_parts();
-    sums.parting = flock_no_parts();
-    sums.away = flock_no_parts();
-    sums.aside = flock_no_parts();
+    sums.apart = flock_no_triple();
+    sums.parting = flock_no_triple();
+    sums.away = flock_no_triple();
+    sums.aside = flock_no_triple();
     return sums;
 }
 
@@ -57,13 +57,33 @@ FN int flock_part(float part)
     return INT(FLOOR(at));
 }
 
-FN S(flock_parts) flock_parts_add(S(flock_parts) sum, float3 v, float unit)
+FN S(flock_triple) flock_triple_of(float3 v, float unit)
 {
     EXACT float3 part = float3_scale(v, unit);
-    S(flock_parts) y;
-    y.x = sum.x + flock_part(part.x);
-    y.y = sum.y + flock_part(part.y);
-    y.z = sum.z + flock_part(part.z);
+    S(flock_triple) y;
+    y.x = flock_part(part.x);
+    y.y = flock_part(part.y);
+    y.z = flock_part(part.z);
+    return y;
+}
+
+FN S(flock_triple) flock_triple_add(S(flock_triple) a, S(flock_triple) b)
+{
+    S(flock_triple) y;
+    y.x = a.x + b.x;
+    y.y = a.y + b.y;
+    y.z = a.z + b.z;
+    return y;
+}
+
+FN S(flock_sums) flock_sums_add(S(flock_sums) a, S(flock_sums) b)
+{
+    S(flock_sums) y;
+    y.count = a.count + b.count;
+    y.apart = flock_triple_add(a.apart, b.apart);
+    y.parting = flock_triple_add(a.parting, b.parting);
+    y.away = flock_triple_add(a.away, b.away);
+    y.aside = flock_triple_add(a.aside, b.aside);
     return y;
 }
 
@@ -77,7 +97,7 @@ FN float flock_float(int sum)
 }
 
 /* A sum times its unit, in 65536ths. */
-FN float3 flock_total(S(flock_parts) sum, float unit)
+FN float3 flock_total(S(flock_triple) sum, float unit)
 {
     EXACT float part = unit * 1.52587890625e-5f;
     EXACT float3 all = FLOAT3(flock_float(sum.x), flock_float(sum.y), flock_float(sum.z));
@@ -246,58 +266,70 @@ FN float flock_meet_s(float3 apart, float3 parting, float horizon_s)
     return y;
 }
 
-/* Sums, with one more that is seen. */
-FN S(flock_sums) flock_add_seen(CROWD_PARAM S(flock_sums) sums, S(kiln_body) a, S(kiln_body) b,
-                                float3 apart, float square)
+/* One that is seen, as another sees it. */
+struct flock_seen {
+    float3 apart;     /* from that one to it, m */
+    float3 parting;   /* its velocity less that one's */
+    float square;     /* of the distance */
+    uint mine, other; /* slots of that one and of it */
+};
+
+/* What it adds to the sums. */
+FN S(flock_sums) flock_parts_of(CROWD_PARAM S(flock_seen) seen)
 {
-    uint mine = a.velocity_slot.w;
-    uint other = b.velocity_slot.w;
-    EXACT float3 velocity = body_velocity(a);
-    EXACT float3 its_velocity = body_velocity(b);
-    EXACT float3 faster = float3_sub(its_velocity, velocity);
-    EXACT float3 parting = float3_canon(faster);
-    EXACT float closeness = flock_closeness(square, INTERACT(flock.per_space));
-    EXACT float3 away = flock_away(apart, mine, other);
-
-    EXACT float meet_s = flock_meet_s(apart, parting, INTERACT(flock.horizon_s));
+    EXACT float closeness = flock_closeness(seen.square, INTERACT(flock.per_space));
+    EXACT float3 away = flock_away(seen.apart, seen.mine, seen.other);
+    EXACT float meet_s = flock_meet_s(seen.apart, seen.parting, INTERACT(flock.horizon_s));
     EXACT float sooner = 1.0f - meet_s * INTERACT(flock.per_horizon);
-    EXACT float3 passing = float3_add_scaled(apart, parting, meet_s);
+    EXACT float3 passing = float3_add_scaled(seen.apart, seen.parting, meet_s);
     EXACT float3 nearest = float3_canon(passing);
-    EXACT float passing_square = float3_dot(nearest, nearest);
-    EXACT float threat = flock_closeness(passing_square, INTERACT(flock.per_space)) * sooner;
-    EXACT float3 aside = flock_away(nearest, mine, other);
-
+    EXACT float sum = float3_dot(nearest, nearest);
+    EXACT float nearest_square = exact_canon(sum);
+    EXACT float threat = flock_closeness(nearest_square, INTERACT(flock.per_space)) * sooner;
+    EXACT float weight = meet_s > 0.0f ? threat : 0.0f;
+    EXACT float3 aside = flock_away(nearest, seen.mine, seen.other);
     S(flock_sums) y;
-    y.count = sums.count + 1;
-    y.apart = flock_parts_add(sums.apart, apart, INTERACT(flock.per_radius));
-    y.parting = flock_parts_add(sums.parting, parting, INTERACT(flock.per_speed));
-    y.away = flock_parts_add(sums.away, away, closeness);
-    y.aside = sums.aside;
-    if (meet_s > 0.0f)
-        y.aside = flock_parts_add(sums.aside, aside, threat);
+    y.count = 1;
+    y.apart = flock_triple_of(seen.apart, INTERACT(flock.per_radius));
+    y.parting = flock_triple_of(seen.parting, INTERACT(flock.per_speed));
+    y.away = flock_triple_of(away, closeness);
+    y.aside = flock_triple_of(aside, weight);
     return y;
 }
 
-/* Sums, with one more that is there: in the row of cells y, z, since a place in the table may be
- * part of several rows around. */
+/* Whether a bird sees one that is so far off: at `to`, in the row of cells y, z, since a place in
+ * the table may be part of several rows around. */
+FN bool flock_is_seen(CROWD_PARAM float3 velocity, float3 apart, float square, float3 to, int y,
+                      int z)
+{
+    return square < INTERACT(flock.radius_square) &&
+           cell_along(to.y, INTERACT(cells_per_metre)) == y &&
+           cell_along(to.z, INTERACT(cells_per_metre)) == z &&
+           flock_sees(velocity, apart, square, INTERACT(flock.view));
+}
+
+/* Sums, with one more that is there. */
 FN S(flock_sums)
     flock_add(CROWD_PARAM S(flock_sums) sums, S(kiln_body) a, S(kiln_body) b, int y, int z)
 {
     EXACT float3 from = body_position(a);
     EXACT float3 to = body_position(b);
-    EXACT float3 way = float3_sub(to, from);
-    EXACT float3 apart = float3_canon(way);
-    EXACT float sum = float3_dot(apart, apart);
-    EXACT float square = exact_canon(sum);
-    if (square >= INTERACT(flock.radius_square) || a.velocity_slot.w == b.velocity_slot.w)
-        return sums;
-    if (cell_along(to.y, INTERACT(cells_per_metre)) != y ||
-        cell_along(to.z, INTERACT(cells_per_metre)) != z)
-        return sums;
     EXACT float3 velocity = body_velocity(a);
-    if (!flock_sees(velocity, apart, square, INTERACT(flock.view)))
+    EXACT float3 its_velocity = body_velocity(b);
+    EXACT float3 way = float3_sub(to, from);
+    EXACT float3 faster = float3_sub(its_velocity, velocity);
+    EXACT S(flock_seen) seen;
+    seen.apart = float3_canon(way);
+    seen.parting = float3_canon(faster);
+    EXACT float sum = float3_dot(seen.apart, seen.apart);
+    seen.square = exact_canon(sum);
+    seen.mine = a.velocity_slot.w;
+    seen.other = b.velocity_slot.w;
+    if (seen.mine == seen.other ||
+        !flock_is_seen(CROWD velocity, seen.apart, seen.square, to, y, z))
         return sums;
-    S(flock_sums) more = flock_add_seen(CROWD sums, a, b, apart, square);
+    S(flock_sums) parts = flock_parts_of(CROWD seen);
+    S(flock_sums) more = flock_sums_add(sums, parts);
     return more;
 }
 
@@ -310,7 +342,39 @@ FN S(flock_sums) flock_add_among(CROWD_PARAM S(flock_sums) sums, S(kiln_body) a,
     return more;
 }
 
-/* All that a body sees, in the 27 cells around it; its own row of them first. */
+/* A row of three cells around a bird: bodies from begin to end, and those before behind. */
+struct flock_row {
+    int y, z;
+    uint begin, end;
+    uint behind; /* of a row that goes on at the table's start */
+};
+
+/* Number 4 is the middle one. */
+FN S(flock_row) flock_row_at(CROWD_PARAM int x, int y, int z, int number)
+{
+    S(flock_row) row;
+    row.y = y + number % 3 - 1;
+    row.z = z + number / 3 - 1;
+    uint start = cell_row(row.y, row.z);
+    uint first = cell_in_row(CROWD start, x - 1);
+    uint last = cell_in_row(CROWD start, x + 1);
+    row.begin = cell_begin(CROWD first);
+    row.end = CELL_END(last);
+    row.behind = 0u;
+    if (last < first) {
+        row.behind = row.end;
+        row.end = CELL_END(INTERACT(cell_mask));
+    }
+    return row;
+}
+
+FN uint flock_row_size(S(flock_row) row)
+{
+    return (row.end - row.begin) + row.behind;
+}
+
+/* All that a body sees, in the 27 cells around it; its own row of them first.
+ * lib/sim/flock_simd.c does the same in vectors. */
 FN S(flock_sums) flock_look(CROWD_PARAM uint self)
 {
     S(kiln_body) a = BODY(self);
@@ -320,22 +384,13 @@ FN S(flock_sums) flock_look(CROWD_PARAM uint self)
     int z = cell_along(p.z, INTERACT(cells_per_metre));
     uint left = FLOCK_MOST;
     S(flock_sums) sums = flock_no_sums();
-    for (int step = 4; step < 13; step++) {
-        int row_y = y + step % 3 - 1;
-        int row_z = z + step / 3 % 3 - 1;
-        uint start = cell_row(row_y, row_z);
-        uint first = cell_in_row(CROWD start, x - 1);
-        uint last = cell_in_row(CROWD start, x + 1);
-        uint begin = cell_begin(CROWD first);
-        uint end = CELL_END(last);
-        uint end_of_all = last < first ? CELL_END(INTERACT(cell_mask)) : end;
-        uint behind = last < first ? end : 0u; /* of a row that goes on at the table's start */
-        uint count = (end_of_all - begin) + behind;
-        if (count > left)
+    for (int number = 4; number < 13; number++) {
+        S(flock_row) row = flock_row_at(CROWD x, y, z, number % 9);
+        if (flock_row_size(row) > left)
             continue;
-        left -= count;
-        sums = flock_add_among(CROWD sums, a, 0u, behind, row_y, row_z);
-        sums = flock_add_among(CROWD sums, a, begin, end_of_all, row_y, row_z);
+        left -= flock_row_size(row);
+        sums = flock_add_among(CROWD sums, a, 0u, row.behind, row.y, row.z);
+        sums = flock_add_among(CROWD sums, a, row.begin, row.end, row.y, row.z);
     }
     return sums;
 }

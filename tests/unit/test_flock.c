@@ -7,6 +7,7 @@
 #include <cmocka.h>
 #include <stdlib.h>
 
+#include "base/simd.h"
 #include "shared/interact_flock.h"
 #include "support/balls.h"
 
@@ -210,6 +211,30 @@ static void far_from_the_origin_and_in_cells_that_share_places(void **state)
     }
 }
 
+/* Every bird of clouds that are sparse and dense, by each width. */
+static void all_widths_see_the_same(void **state)
+{
+    (void)state;
+    static struct kiln_particle expected[BIRDS];
+    for (int dense = 0; dense < 2; dense++) {
+        for (enum kiln_simd simd = 0; simd < KILN_SIMD_COUNT; simd++) {
+            if (!kiln_simd_has(simd))
+                continue;
+            struct simulation run;
+            init_birds(BIRDS);
+            assert_int_equal(setenv("KILN_SIMD", kiln_simd_name(simd), 1), 0);
+            simulation_start(&run, &fixture.scene, NULL, 2);
+            unsetenv("KILN_SIMD");
+            place_cloud(&run, BIRDS, dense ? 0.3f : 1.0f, FLOAT3(0.3f, 0.0f, 0.1f));
+            simulation_run(&run, 4);
+            if (simd == 0)
+                memcpy(expected, simulation_records(&run), sizeof expected);
+            assert_memory_equal(simulation_records(&run), expected, sizeof expected);
+            simulation_end(&run);
+        }
+    }
+}
+
 /* ---- averages ------------------------------------------------------------------------------- */
 
 static double wide_number(struct flock_wide w)
@@ -360,6 +385,7 @@ int main(void)
         cmocka_unit_test(birds_steer_as_in_double),
         cmocka_unit_test(birds_see_what_their_angle_of_view_holds),
         cmocka_unit_test(far_from_the_origin_and_in_cells_that_share_places),
+        cmocka_unit_test(all_widths_see_the_same),
         cmocka_unit_test(averages_are_those_in_double),
         cmocka_unit_test(sums_hold_the_largest_flock),
         cmocka_unit_test(they_come_to_fly_the_same_way_and_keep_apart),
