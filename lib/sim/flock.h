@@ -5,8 +5,10 @@
 #include "base/simd.h"
 #include "shared/interact_flock.h"
 
-/* Floats of each body. */
-enum { KILN_FLOCK_ROWS = 6 };
+enum {
+    KILN_FLOCK_ROWS = 6, /* floats of each body */
+    KILN_FLOCK_ROOM = 64 /* bytes that may be read behind them */
+};
 
 /* What a flock looks at. */
 struct kiln_flock_birds {

@@ -94,22 +94,34 @@ static inline void gather(struct look *look, const struct block *block, uint32_t
         add_seen(look);
 }
 
-/* Bodies from begin on, at most BLOCK. */
-static inline void try_block(struct look *look, uint32_t begin, uint32_t count, int y, int z)
+/* Of all lanes from i on; behind the last body, there is room for them. */
+static inline void try_lanes(const struct look *look, struct block *block, uint32_t begin,
+                             uint32_t first, int y, int z)
 {
     const struct kiln_crowd *view = &look->birds->view;
     const float *const *rows = look->birds->rows;
-    struct block block;
-    for (uint32_t i = 0; i < count; i++) {
-        const float3 to = {rows[0][begin + i], rows[1][begin + i], rows[2][begin + i]};
-        const float3 way = float3_canon(float3_sub(to, look->from));
+    const float *const to_x = rows[0] + begin, *const to_y = rows[1] + begin;
+    const float *const to_z = rows[2] + begin;
+    const float3 from = look->from, velocity = look->velocity;
+    for (uint32_t lane = 0; lane < LANES; lane++) {
+        const uint32_t i = first + lane;
+        const float3 to = {to_x[i], to_y[i], to_z[i]};
+        const float3 way = float3_canon(float3_sub(to, from));
         const float square = exact_canon(float3_dot(way, way));
-        block.apart[0][i] = way.x;
-        block.apart[1][i] = way.y;
-        block.apart[2][i] = way.z;
-        block.square[i] = square;
-        block.is_seen[i] = flock_is_seen(view, look->velocity, way, square, to, y, z);
+        block->apart[0][i] = way.x;
+        block->apart[1][i] = way.y;
+        block->apart[2][i] = way.z;
+        block->square[i] = square;
+        block->is_seen[i] = flock_is_seen(view, velocity, way, square, to, y, z);
     }
+}
+
+/* Bodies from begin on, at most BLOCK. */
+static inline void try_block(struct look *look, uint32_t begin, uint32_t count, int y, int z)
+{
+    struct block block;
+    for (uint32_t first = 0; first < count; first += LANES)
+        try_lanes(look, &block, begin, first, y, z);
     if (look->self >= begin && look->self - begin < count)
         block.is_seen[look->self - begin] = 0;
     for (uint32_t i = 0; i < count; i++) {

@@ -194,7 +194,7 @@ bool kiln_interact_init(struct kiln_interact *interact, struct kiln_device *devi
     kiln_buffer_init(&interact->pushes, device, (size_t)params->push_count * 2 * sizeof(float4),
                      "pushes");
     kiln_buffer_init(&interact->bodies, device, bodies, "bodies");
-    kiln_buffer_init(&interact->second, device, bodies, "bodies, second");
+    kiln_buffer_init(&interact->second, device, bodies + KILN_FLOCK_ROOM, "bodies, second");
     kiln_buffer_init(&interact->cells, device, cells * sizeof(uint32_t), "cells of bodies");
     kiln_buffer_init(&interact->partners, device, largest * sizeof(uint32_t), "partners");
     kiln_buffer_init(&interact->entries, device, 2 * entries * ENTRY_BYTES, "bodies in grids");

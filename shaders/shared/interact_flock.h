@@ -231,9 +231,10 @@ FN bool flock_sees(float3 velocity, float3 apart, float square, float view)
     EXACT float limit = exact_canon(whole);
     EXACT float ahead_square = ahead * ahead;
     EXACT float part = exact_canon(ahead_square);
-    if (view >= 0.0f)
-        return ahead >= 0.0f && part >= limit;
-    return ahead >= 0.0f || part <= limit;
+    uint in_front = ahead >= 0.0f ? 1u : 0u;
+    uint narrow = part >= limit ? in_front : 0u;
+    uint wide = part <= limit ? 1u : in_front;
+    return (view >= 0.0f ? narrow : wide) != 0u;
 }
 
 /* How near to a distance: 1 at none, 0 from there on. */
@@ -302,10 +303,13 @@ FN S(flock_sums) flock_parts_of(CROWD_PARAM S(flock_seen) seen)
 FN bool flock_is_seen(CROWD_PARAM float3 velocity, float3 apart, float square, float3 to, int y,
                       int z)
 {
-    return square < INTERACT(flock.radius_square) &&
-           cell_along(to.y, INTERACT(cells_per_metre)) == y &&
-           cell_along(to.z, INTERACT(cells_per_metre)) == z &&
-           flock_sees(velocity, apart, square, INTERACT(flock.view));
+    int its_y = cell_along(to.y, INTERACT(cells_per_metre));
+    int its_z = cell_along(to.z, INTERACT(cells_per_metre));
+    uint seen = flock_sees(velocity, apart, square, INTERACT(flock.view)) ? 1u : 0u;
+    seen = square < INTERACT(flock.radius_square) ? seen : 0u;
+    seen = its_y == y ? seen : 0u;
+    seen = its_z == z ? seen : 0u;
+    return seen != 0u;
 }
 
 /* Sums, with one more that is there. */
