@@ -205,7 +205,7 @@ void kiln_mesh_bound(struct kiln_mesh *mesh)
     }
 }
 
-static struct kiln_mesh *copy(const struct kiln_mesh_result *result)
+static struct kiln_mesh *copy(const struct kiln_mesh_result *result, bool uvs)
 {
     struct kiln_mesh *mesh = calloc(1, sizeof *mesh);
     if (!mesh)
@@ -214,10 +214,14 @@ static struct kiln_mesh *copy(const struct kiln_mesh_result *result)
     mesh->triangle_count = result->triangle_count;
     mesh->vertices = malloc(mesh->vertex_count * sizeof *mesh->vertices);
     mesh->triangles = malloc(mesh->triangle_count * sizeof *mesh->triangles);
-    if (!mesh->vertices || !mesh->triangles) {
+    if (uvs)
+        mesh->uvs = malloc(mesh->vertex_count * sizeof *mesh->uvs);
+    if (!mesh->vertices || !mesh->triangles || (uvs && !mesh->uvs)) {
         kiln_mesh_destroy(&mesh);
         return NULL;
     }
+    if (uvs)
+        memcpy(mesh->uvs, result->uvs, mesh->vertex_count * sizeof *mesh->uvs);
     memcpy(mesh->vertices, result->vertices, mesh->vertex_count * sizeof *mesh->vertices);
     memcpy(mesh->triangles, result->triangles, mesh->triangle_count * sizeof *mesh->triangles);
     memcpy(mesh->hash, result->hash, sizeof mesh->hash);
@@ -242,7 +246,7 @@ static struct imported import(const struct kiln_mesh_request *request, struct ki
         return imported;
     }
     if (run(request, result, error) && check(request, result, error)) {
-        struct kiln_mesh *mesh = copy(result);
+        struct kiln_mesh *mesh = copy(result, request->uvs);
         if (!mesh)
             kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory while reading the mesh",
                            request->name);
@@ -356,6 +360,15 @@ struct kiln_mesh *kiln_mesh_load(const char *path, const char *root, bool (*stop
     return load(&request, error).mesh;
 }
 
+struct kiln_mesh *kiln_mesh_load_unwrapped(const char *path, const char *root,
+                                           bool (*stop)(void *user), void *user,
+                                           struct kiln_error *error)
+{
+    struct kiln_mesh_request request = {
+        .name = path, .uvs = true, .root = root, .stop = stop, .user = user};
+    return load(&request, error).mesh;
+}
+
 struct kiln_skin *kiln_skin_parse(const void *bytes, size_t size, const char *name,
                                   struct kiln_error *error)
 {
@@ -379,6 +392,7 @@ void kiln_mesh_destroy(struct kiln_mesh **mesh)
         return;
     free((*mesh)->vertices);
     free((*mesh)->triangles);
+    free((*mesh)->uvs);
     free(*mesh);
     *mesh = NULL;
 }

@@ -22,6 +22,8 @@ struct kiln_mesh {
     uint32_t vertex_count, triangle_count; /* at least 1 triangle */
     float (*vertices)[6];                  /* position, within 1e6; unit normal */
     uint32_t (*triangles)[3];              /* below vertex_count */
+    float (*uvs)[2];                       /* of an unwrapped one: places of the vertices in a
+                                            * texture; else NULL */
     float min[3], max[3];                  /* of the positions */
     char hash[65];                         /* SHA-256 of what was read, in hex */
 };
@@ -35,7 +37,14 @@ struct kiln_mesh {
 struct kiln_mesh *kiln_mesh_load(const char *path, const char *root, bool (*stop)(void *user),
                                  void *user, struct kiln_error *error);
 
-/* The same from bytes in memory, which may name no other files; name stands for the file. */
+/* The same with the first set of texture coordinates of every vertex; KILN_INVALID_INPUT where
+ * there are none. Vertices that differ by them alone are several, so it may have more of them. */
+struct kiln_mesh *kiln_mesh_load_unwrapped(const char *path, const char *root,
+                                           bool (*stop)(void *user), void *user,
+                                           struct kiln_error *error);
+
+/* As kiln_mesh_load, from bytes in memory, which may name no other files; name stands for the file.
+ */
 struct kiln_mesh *kiln_mesh_parse(const void *bytes, size_t size, const char *name,
                                   struct kiln_error *error);
 void kiln_mesh_destroy(struct kiln_mesh **mesh);

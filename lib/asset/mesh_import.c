@@ -265,8 +265,19 @@ bool kiln_mesh_import_part(const struct kiln_mesh_request *request, const struct
     uint32_t first = result->vertex_count;
     if (mesh->mNumVertices > KILN_MAX_MESH_VERTICES - first)
         return refuse_size(request, &result->error);
-    for (unsigned i = 0; i < mesh->mNumVertices; i++)
+    const struct aiVector3D *uvs = mesh->mTextureCoords[0];
+    if (request->uvs && !uvs)
+        return kiln_error_set(&result->error, KILN_INVALID_INPUT,
+                              "%s: the mesh, or a part of it, has no texture coordinates, by which "
+                              "paint would find its places",
+                              request->name);
+    for (unsigned i = 0; i < mesh->mNumVertices; i++) {
         put_vertex(mesh, i, result->vertices[first + i]);
+        if (request->uvs) {
+            result->uvs[first + i][0] = uvs[i].x;
+            result->uvs[first + i][1] = uvs[i].y;
+        }
+    }
     result->vertex_count += mesh->mNumVertices;
     for (unsigned i = 0; i < mesh->mNumFaces; i++) {
         const struct aiFace *face = &mesh->mFaces[i];
@@ -297,16 +308,18 @@ static bool put_scene(const struct kiln_mesh_request *request, const struct aiSc
                                     request->name, lacks);
 }
 
-static struct aiPropertyStore *make_properties(const struct assimp *assimp, bool moving)
+static struct aiPropertyStore *make_properties(const struct assimp *assimp,
+                                               const struct kiln_mesh_request *request)
 {
     struct aiPropertyStore *properties = assimp->create_properties();
     if (properties) {
-        const int still = moving ? 0 : (int)aiComponent_BONEWEIGHTS | (int)aiComponent_ANIMATIONS;
+        const int still =
+            request->moving ? 0 : (int)aiComponent_BONEWEIGHTS | (int)aiComponent_ANIMATIONS;
+        const int plain = request->uvs ? 0 : (int)aiComponent_TEXCOORDS;
         assimp->set_integer(properties, AI_CONFIG_PP_RVC_FLAGS,
-                            still | (int)aiComponent_TANGENTS_AND_BITANGENTS |
-                                (int)aiComponent_COLORS | (int)aiComponent_TEXCOORDS |
-                                (int)aiComponent_TEXTURES | (int)aiComponent_LIGHTS |
-                                (int)aiComponent_CAMERAS);
+                            still | plain | (int)aiComponent_TANGENTS_AND_BITANGENTS |
+                                (int)aiComponent_COLORS | (int)aiComponent_TEXTURES |
+                                (int)aiComponent_LIGHTS | (int)aiComponent_CAMERAS);
         assimp->set_integer(properties, AI_CONFIG_PP_SBP_REMOVE,
                             aiPrimitiveType_POINT | aiPrimitiveType_LINE);
         assimp->set_float(properties, AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, CREASE_DEG);
@@ -324,7 +337,7 @@ void kiln_mesh_import(const struct kiln_mesh_request *request, struct kiln_mesh_
         .OpenProc = on_open, .CloseProc = on_close, .UserData = (aiUserData)&files};
     if (!load_library(&assimp, &result->error, request->name))
         return;
-    struct aiPropertyStore *properties = make_properties(&assimp, request->moving);
+    struct aiPropertyStore *properties = make_properties(&assimp, request);
     if (!properties || !note_contents(&files, request->bytes, request->size)) {
         kiln_error_set(&result->error, KILN_DEVICE_FAILED,
                        "%s: out of memory while reading the mesh", request->name);

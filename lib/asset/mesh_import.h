@@ -7,6 +7,7 @@
 
 struct kiln_mesh_request {
     const char *name;      /* for messages */
+    bool uvs;              /* wanted */
     const char *extension; /* ".obj", ".gltf" or ".glb" */
     bool moving;           /* nodes, bones and clips are wanted, and vertices before these */
     const void *bytes;
@@ -26,7 +27,8 @@ struct kiln_mesh_result {
     char hash[65];
     float vertices[KILN_MAX_MESH_VERTICES][6];
     uint32_t triangles[KILN_MAX_MESH_TRIANGLES][3];
-    struct kiln_skin_result skin; /* of a moving one */
+    struct kiln_skin_result skin;         /* of a moving one */
+    float uvs[KILN_MAX_MESH_VERTICES][2]; /* if wanted */
 };
 
 /* Imports on this process, whatever that takes. */

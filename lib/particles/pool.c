@@ -22,6 +22,8 @@ void kiln_pool_init(struct kiln_pool *pool, struct kiln_device *device, const ui
 void kiln_pool_finish(struct kiln_pool *pool)
 {
     kiln_buffer_finish(&pool->records);
+    for (uint32_t i = 0; i < pool->canvas_count; i++)
+        kiln_canvas_finish(&pool->canvases[i]);
     *pool = (struct kiln_pool){.system_count = 0};
 }
 
@@ -34,6 +36,11 @@ bool kiln_pool_copy(struct kiln_pool *to, struct kiln_pool *from, struct kiln_er
         return false;
     memcpy(target, source, from->records.size);
     memcpy(to->systems, from->systems, sizeof to->systems);
+    for (uint32_t i = 0; i < from->canvas_count; i++) {
+        if (!kiln_canvas_copy(&to->canvases[i], &from->canvases[i], error))
+            return false;
+        to->canvas_count = i < to->canvas_count ? to->canvas_count : i + 1;
+    }
     return true;
 }
 

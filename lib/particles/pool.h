@@ -9,6 +9,8 @@
 #define KILN_PARTICLES_POOL_H
 
 #include "gpu/buffer.h"
+#include "particles/canvas.h"
+#include "shared/limits.h"
 #include "shared/particle.h"
 
 struct kiln_pool_system {
@@ -22,6 +24,11 @@ struct kiln_pool {
     uint32_t system_count;
     uint32_t slot_count;        /* of all systems */
     struct kiln_buffer records; /* struct kiln_particle [slot_count] */
+
+    /* What they painted, in the order of the scene's meshes that take paint: none before the first
+     * step. */
+    struct kiln_canvas canvases[KILN_MAX_MESHES];
+    uint32_t canvas_count;
 };
 
 /* capacities[i] slots for system i; device NULL keeps the records on the host. */
@@ -29,7 +36,8 @@ void kiln_pool_init(struct kiln_pool *pool, struct kiln_device *device, const ui
                     uint32_t system_count);
 void kiln_pool_finish(struct kiln_pool *pool);
 
-/* Gives a pool the particles of another one of the same capacities, by way of the host. */
+/* Gives a pool the particles of another one of the same capacities, by way of the host, and what
+ * they painted. */
 bool kiln_pool_copy(struct kiln_pool *to, struct kiln_pool *from, struct kiln_error *error);
 
 /* Slots of a system that were ever born into: the first so many; the rest is still zero. */

@@ -1,4 +1,5 @@
 /* Sky, floor, sun, objects and lights. */
+#include "asset/chart.h"
 #include "asset/depth_maps.h"
 #include "asset/field.h"
 #include "scene/option_rows.h"
@@ -97,6 +98,25 @@ static const struct kiln_option depth_maps[] = {
     END,
 };
 
+static const char *const gathers[] = {
+    [KILN_GATHER_NEAR] = "near",
+    [KILN_GATHER_ALL] = "all",
+    NULL,
+};
+
+static const struct kiln_option paint[] = {
+    INTEGER("size", paint.size, KILN_MIN_CHART, KILN_MAX_CHART, "512",
+            "Texels along an edge of its texture; a power of two."),
+    CHOICE(
+        "gather", paint.gather, gathers, "near",
+        "near brings splats to the texels that they may reach; all has each texel look at all of "
+        "them, as the paper does. They paint the same."),
+    INTEGER("per_step", paint.per_step, 0, KILN_MAX_PARTICLES, "0",
+            "Particles whose turn it is to paint in a step, one after the other; what several of "
+            "a particle's splats would be is then the last. 0: all."),
+    END,
+};
+
 static const struct kiln_option mesh[] = {
     {ROW("file", mesh, AT(file), NULL,
          "Triangles in an OBJ, glTF or GLB file, in metres and y up; its materials are left out.")},
@@ -128,6 +148,10 @@ static const struct kiln_option mesh[] = {
            "they are met from both sides, for sheets."),
     GROUP("depth_maps", 0, depth_maps,
           "Of collider depth_maps; nothing is too thin for them, and the mesh need not be closed."),
+    {ROW("paint", switch, 0, "none",
+         "It takes paint of the systems that have some (Drone 2007, 7.6.1). The file has texture "
+         "coordinates, from 0 to 1, by which no two triangles overlap."),
+     .members = paint, .count_offset = AT(paint.enabled)},
     END,
 };
 

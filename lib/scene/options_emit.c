@@ -169,6 +169,27 @@ static const struct kiln_option collide_options[] = {
 };
 
 #undef AT
+#define AT(field) offsetof(struct kiln_painting, field)
+
+static const char *const paint_times[] = {
+    [KILN_PAINT_IMPACT] = "impact",
+    [KILN_PAINT_NEAR] = "near",
+    NULL,
+};
+
+static const struct kiln_option paint_options[] = {
+    CHOICE("when", when, paint_times, "impact",
+           "impact: where it bounces or ends, in each step; near: all that is within its radius at "
+           "the end of each step."),
+    RANGE("radius", radius, KILN_METRES, 0.0001, 1000, TIME, "3 cm",
+          "Of what a particle leaves, drawn once for each."),
+    VALUE("opacity", opacity, KILN_FRACTION, 0, 1, BOTH, "1", "In the middle."),
+    VALUE("soft", soft, KILN_FRACTION, 0, 1, BOTH, "0.3",
+          "Outer part of the radius over which it fades."),
+    END,
+};
+
+#undef AT
 #define AT(field) offsetof(struct kiln_system, field)
 
 static const struct kiln_option demitter = {
@@ -196,6 +217,9 @@ const struct kiln_option kiln_options_system[] = {
     {ROW("interact", list, AT(interactions), "[]", "What they do to each other."),
      .item = &interaction, .item_size = sizeof(struct kiln_interaction),
      .count_offset = AT(interaction_count), .max_count = KILN_MAX_INTERACTIONS},
+    {ROW("paint", switch, AT(paint), "none",
+         "They leave their look's colour on meshes that take paint (Drone 2007, 7.6.1)."),
+     .members = paint_options, .count_offset = AT(paint.enabled)},
     {ROW("demitters", list, AT(demitters), "[]", "Boxes in which particles die."),
      .item = &demitter, .item_size = sizeof(struct kiln_bounds), .count_offset = AT(demitter_count),
      .max_count = KILN_MAX_DEMITTERS},

@@ -105,6 +105,19 @@ float kiln_scene_animation_s(const struct kiln_animation *animation, float time_
     return exact_clamp(seconds - rounds * length, 0.0f, length);
 }
 
+bool kiln_object_takes_paint(const struct kiln_object *object)
+{
+    return object->kind == KILN_OBJECT_MESH && object->paint.enabled;
+}
+
+bool kiln_scene_paints(const struct kiln_scene *scene, uint32_t system)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++)
+        any = any || kiln_object_takes_paint(&scene->backdrop.objects[i]);
+    return any && scene->systems[system].enabled && scene->systems[system].paint.enabled;
+}
+
 struct kiln_terrain_params kiln_scene_terrain(const struct kiln_object *terrain)
 {
     const struct kiln_value3 *at = &terrain->center, *size = &terrain->size;

@@ -162,6 +162,23 @@ struct kiln_collide {
     struct kiln_value friction;    /* Coulomb's */
 };
 
+/* ---- paint: Drone 2007, 7.6.1 ------------------------------------------------------------------
+ */
+
+enum kiln_paint_when {
+    KILN_PAINT_IMPACT, /* where it meets a surface, at its first impact of a step */
+    KILN_PAINT_NEAR,   /* the paper's: where it is at the end of a step */
+};
+
+/* What a particle leaves on meshes that take paint: look.color. */
+struct kiln_painting {
+    bool enabled;
+    enum kiln_paint_when when;
+    struct kiln_range radius;  /* m */
+    struct kiln_value opacity; /* 0..1: in the middle */
+    struct kiln_value soft;    /* 0..1: outer part of the radius over which it fades */
+};
+
 /* ---- interact: UberFlow 2004, 4.3 to 4.5, Drone 2007, 7.4; of each kind at most one a system
  * --------------------
  */
@@ -317,6 +334,7 @@ struct kiln_system {
     struct kiln_collide collide;
     struct kiln_interaction interactions[KILN_MAX_INTERACTIONS];
     uint32_t interaction_count;
+    struct kiln_painting paint;
     struct kiln_bounds demitters[KILN_MAX_DEMITTERS]; /* a particle inside dies (2.1.2) */
     uint32_t demitter_count;
     struct kiln_bounds bounds; /* a particle outside dies (2.1.2) */
@@ -359,6 +377,19 @@ enum kiln_sides {
     KILN_SIDES_TWO,
 };
 
+enum kiln_gather {
+    KILN_GATHER_NEAR, /* splats go to the texels that they may reach */
+    KILN_GATHER_ALL,  /* each texel looks at all of them, as in the paper */
+};
+
+/* Of a mesh that takes paint (Drone 2007, 7.6.1). */
+struct kiln_object_paint {
+    bool enabled;
+    uint32_t size; /* texels along an edge, a power of two */
+    enum kiln_gather gather;
+    uint32_t per_step; /* particles that are painted in a step, in turn; 0: all */
+};
+
 /* Values have the clock constant or time. */
 struct kiln_object {
     enum kiln_object_kind kind;
@@ -382,6 +413,7 @@ struct kiln_object {
     enum kiln_sides sides;            /* likewise, of its planes */
     struct kiln_value3 depth_directions[KILN_MAX_DEPTH_DIRECTIONS]; /* of its depth maps */
     uint32_t depth_direction_count, depth_resolution;               /* (asset/depth_maps.h) */
+    struct kiln_object_paint paint;                                 /* mesh */
     bool collide;
     bool visible;                  /* plane: drawn */
     struct kiln_value restitution; /* factors on those of the particles that bounce off it */
@@ -529,6 +561,9 @@ bool kiln_object_is_mesh(const struct kiln_object *object);
 
 /* How far into its clip a mesh that moves is at a clip time, s: what kiln_skin_pose takes. */
 float kiln_scene_animation_s(const struct kiln_animation *animation, float time_s);
+/* Whether particles of a system paint any mesh, and whether an object takes paint. */
+bool kiln_scene_paints(const struct kiln_scene *scene, uint32_t system);
+bool kiln_object_takes_paint(const struct kiln_object *object);
 
 /* What a terrain is made from; the image's path stays the scene's. */
 struct kiln_terrain_params kiln_scene_terrain(const struct kiln_object *terrain);

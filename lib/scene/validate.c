@@ -2,6 +2,7 @@
 #include "scene/validate.h"
 
 #include "asset/cells_in.h"
+#include "asset/chart.h"
 #include "asset/closed.h"
 #include "scene/asset_path.h"
 #include "scene/family.h"
@@ -326,6 +327,12 @@ static bool check_systems(struct kiln_reader *reader, const struct kiln_node *ro
         if (system->look.motion[0] == '/' &&
             (system->look.atlas_count > 1 || system->look.atlas[0][0] != '/'))
             return kiln_validate_fail(reader, root, path, "a motion file goes with one atlas file");
+        snprintf(path, sizeof path, "systems.%s.paint.when", system->name);
+        if (system->paint.enabled && system->paint.when == KILN_PAINT_IMPACT &&
+            !system->collide.enabled)
+            return kiln_validate_fail(reader, root, path,
+                                      "impact needs systems.%s.collide, or there are none",
+                                      system->name);
         if (!check_shape(reader, root, system) || !check_cells(reader, root, system) ||
             !check_interactions(reader, root, system) ||
             !kiln_particle_mesh_settle(reader, root, system))
@@ -385,6 +392,33 @@ static bool check_solid(struct kiln_reader *reader, const struct kiln_node *root
            check_closed(reader, root, path, mesh->file);
 }
 
+/* Of a mesh that is to take paint. */
+static bool check_paint(struct kiln_reader *reader, const struct kiln_node *root, uint32_t index)
+{
+    const struct kiln_scene *scene = reader->scene;
+    const struct kiln_object *object = &scene->backdrop.objects[index];
+    const uint32_t size = object->paint.size;
+    char path[64];
+    snprintf(path, sizeof path, "backdrop.objects.%u.mesh.paint.size", index);
+    if ((size & (size - 1)) != 0)
+        return kiln_validate_fail(reader, root, path, "%u is no power of two", size);
+    struct kiln_error error = {0};
+    struct kiln_mesh *mesh =
+        kiln_mesh_load_unwrapped(object->file, scene->asset_root, scene->stop, scene->user, &error);
+    struct kiln_chart *chart =
+        mesh ? kiln_chart_create(mesh, size, kiln_asset_name(scene, object->file), &error) : NULL;
+    const bool good = chart != NULL;
+    kiln_chart_destroy(&chart);
+    kiln_mesh_destroy(&mesh);
+    if (good)
+        return true;
+    snprintf(path, sizeof path, "backdrop.objects.%u.mesh.paint", index);
+    kiln_validate_fail(reader, root, path, "%s", error.message);
+    if (error.code != KILN_INVALID_INPUT)
+        reader->error->code = error.code;
+    return false;
+}
+
 static bool check_objects(struct kiln_reader *reader, const struct kiln_node *root)
 {
     const struct kiln_scene *scene = reader->scene;
@@ -412,6 +446,8 @@ static bool check_objects(struct kiln_reader *reader, const struct kiln_node *ro
                                       "a mesh with an animation collides as a volume alone: set "
                                       "its collider to volume");
         if (object->kind == KILN_OBJECT_MESH && !check_solid(reader, root, i))
+            return false;
+        if (kiln_object_takes_paint(object) && !check_paint(reader, root, i))
             return false;
         if (++meshes > KILN_MAX_MESHES)
             return kiln_validate_fail(reader, root, "backdrop.objects", "more than %d meshes",

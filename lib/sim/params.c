@@ -184,7 +184,7 @@ static void fill_families(struct kiln_sim_params *params, const struct kiln_scen
             family->rate = parent->rate;
             family->parent_traces = params->systems[parent->system].family.traces;
         }
-        if (kiln_family_has_children(scene, index)) {
+        if (kiln_family_has_children(scene, index) || kiln_scene_paints(scene, index)) {
             family->traced = 1;
             family->traces = params->trace_count;
             params->trace_count += system->capacity;

@@ -14,7 +14,7 @@ struct kiln_sim_params {
     struct kiln_surroundings surroundings;
     struct kiln_sim_grids *grids;     /* of the scene */
     uint32_t order[KILN_MAX_SYSTEMS]; /* of the systems in a step: parents before their children */
-    uint32_t trace_count;             /* of the systems with children: one a slot */
+    uint32_t trace_count;             /* of the systems with children or paint: one a slot */
     uint32_t push_count;              /* of the systems that interact: one a slot */
 };
 

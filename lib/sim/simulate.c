@@ -10,6 +10,7 @@
 #include "sim/hash.h"
 #include "sim/inplace.h"
 #include "sim/interact.h"
+#include "sim/paint.h"
 #include "sim/pingpong.h"
 #include "sim/texels.h"
 
@@ -21,6 +22,7 @@ struct kiln_simulate {
     struct kiln_sim_grids grids;
     struct kiln_buffer traces; /* of parents, within a step: no part of the state */
     struct kiln_interact interact;
+    struct kiln_paint paint;
     /* of `cpu`: */
     const struct kiln_slots_step *loops;
     /* of all techniques in GL: */
@@ -87,7 +89,8 @@ struct kiln_simulate *kiln_simulate_create(struct kiln_device *device,
     kiln_buffer_init(&simulate->traces, place,
                      (size_t)simulate->params.trace_count * sizeof(struct kiln_trace), "traces");
     ok = ok &&
-         kiln_interact_init(&simulate->interact, place, scene, &simulate->params, threads, error);
+         kiln_interact_init(&simulate->interact, place, scene, &simulate->params, threads, error) &&
+         kiln_paint_init(&simulate->paint, scene, threads, error);
     ok = ok && (technique == KILN_SIMULATE_CPU ? choose_loops(simulate, error)
                                                : init_on_device(simulate, device, error));
     if (!ok)
@@ -108,6 +111,7 @@ void kiln_simulate_destroy(struct kiln_simulate **simulate)
         kiln_sim_hash_finish(&s->hash);
         kiln_sim_blocks_finish(&s->blocks);
     }
+    kiln_paint_finish(&s->paint);
     kiln_interact_finish(&s->interact);
     kiln_buffer_finish(&s->traces);
     kiln_sim_grids_finish(&s->grids);
@@ -115,10 +119,9 @@ void kiln_simulate_destroy(struct kiln_simulate **simulate)
     *simulate = NULL;
 }
 
-bool kiln_simulate_step(struct kiln_simulate *simulate, struct kiln_pool *pool, uint32_t step,
-                        struct kiln_error *error)
+static bool move_particles(struct kiln_simulate *s, struct kiln_pool *pool, uint32_t step,
+                           struct kiln_error *error)
 {
-    struct kiln_simulate *s = simulate;
     if (!kiln_volumes_step(&s->grids.volumes, s->scene, step, s->threads, error) ||
         !kiln_sim_params_step(&s->params, s->scene, pool, step, error))
         return false;
@@ -144,12 +147,22 @@ bool kiln_simulate_step(struct kiln_simulate *simulate, struct kiln_pool *pool, 
     return false;
 }
 
+bool kiln_simulate_step(struct kiln_simulate *simulate, struct kiln_pool *pool, uint32_t step,
+                        struct kiln_error *error)
+{
+    return move_particles(simulate, pool, step, error) &&
+           kiln_paint_step(&simulate->paint, &simulate->params, pool, &simulate->traces, error);
+}
+
 bool kiln_simulate_hash(struct kiln_simulate *simulate, struct kiln_pool *pool,
                         struct kiln_state_hash *hash, uint64_t *alive, struct kiln_error *error)
 {
-    if (simulate->technique == KILN_SIMULATE_CPU)
-        return kiln_sim_cpu_hash(simulate->threads, pool, hash, alive, error);
-    return kiln_sim_hash_run(&simulate->hash, pool, hash, alive, error);
+    const bool host = simulate->technique == KILN_SIMULATE_CPU;
+    const bool ok = host ? kiln_sim_cpu_hash(simulate->threads, pool, hash, alive, error)
+                         : kiln_sim_hash_run(&simulate->hash, pool, hash, alive, error);
+    if (ok)
+        kiln_paint_hash(pool, hash);
+    return ok;
 }
 
 size_t kiln_simulate_slot_bytes(enum kiln_simulate_technique technique)

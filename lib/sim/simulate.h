@@ -29,7 +29,8 @@ void kiln_simulate_destroy(struct kiln_simulate **simulate);
 bool kiln_simulate_step(struct kiln_simulate *simulate, struct kiln_pool *pool, uint32_t step,
                         struct kiln_error *error);
 
-/* The state hash, and the number of living particles, reduced where the state lives. */
+/* The state hash, of what is painted as well, and the number of living particles, reduced where the
+ * state lives. */
 bool kiln_simulate_hash(struct kiln_simulate *simulate, struct kiln_pool *pool,
                         struct kiln_state_hash *hash, uint64_t *alive, struct kiln_error *error);
 

@@ -114,7 +114,7 @@ struct kiln_family_params {
     uint align;
     uint slots;         /* reserved for the children of one parent */
     uint parent_traces; /* the first trace of the parent system */
-    uint traced;        /* 1: has children, so it leaves traces */
+    uint traced;        /* 1: has children or paint, so it leaves traces */
     uint traces;        /* its first trace */
     uint dies;          /* 1: of its first impact */
     uint unused;

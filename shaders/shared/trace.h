@@ -1,6 +1,6 @@
-/* What a particle of a system with children did in the step at hand: enough to find where it was,
- * and how fast, at any time of the step. Written when the parent is stepped and read when its
- * children are, in the same step, so that it is no part of the state.
+/* What a particle of a system with children or paint did in the step at hand: enough to find where
+ * it was, and how fast, at any time of the step. Written when the parent is stepped and read when
+ * its children are, or paint is, in the same step, so that it is no part of the state.
  */
 #ifndef KILN_SHARED_TRACE_H
 #define KILN_SHARED_TRACE_H

@@ -1,0 +1,79 @@
+/* Texels and waiting splats are memory of the host: whoever paints is there. */
+#include "particles/canvas.h"
+
+#include <assert.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "shared/state_hash.h"
+
+static_assert(sizeof(struct kiln_splat) == 48, "hashed by its words, of which none is padding");
+
+enum { SPLAT_WORDS = 12 };
+
+bool kiln_canvas_init(struct kiln_canvas *canvas, uint32_t edge, uint32_t slot_count,
+                      struct kiln_error *error)
+{
+    *canvas = (struct kiln_canvas){.edge = edge, .slot_count = slot_count};
+    canvas->texels = calloc((size_t)edge * edge, sizeof *canvas->texels);
+    if (slot_count > 0)
+        canvas->waiting = calloc(slot_count, sizeof *canvas->waiting);
+    if (canvas->texels && (canvas->waiting || slot_count == 0))
+        return true;
+    kiln_error_set(error, KILN_DEVICE_FAILED, "paint: out of memory for %u x %u texels", edge,
+                   edge);
+    return false;
+}
+
+void kiln_canvas_finish(struct kiln_canvas *canvas)
+{
+    free(canvas->texels);
+    free(canvas->waiting);
+    *canvas = (struct kiln_canvas){.edge = 0};
+}
+
+bool kiln_canvas_copy(struct kiln_canvas *to, const struct kiln_canvas *from,
+                      struct kiln_error *error)
+{
+    if (to->edge != from->edge || to->slot_count != from->slot_count) {
+        kiln_canvas_finish(to);
+        if (!kiln_canvas_init(to, from->edge, from->slot_count, error))
+            return false;
+    }
+    memcpy(to->texels, from->texels, (size_t)to->edge * to->edge * sizeof *to->texels);
+    if (to->waiting)
+        memcpy(to->waiting, from->waiting, to->slot_count * sizeof *to->waiting);
+    to->next = from->next;
+    to->changes++; /* who has drawn either of them must not take this one for it */
+    to->changes = to->changes > from->changes ? to->changes : from->changes + 1;
+    return true;
+}
+
+/* Adds the hash of some words. */
+static void add(uint32_t kind, uint32_t index, const float *words, uint32_t count,
+                struct kiln_state_hash *hash)
+{
+    struct state_hash_lanes lanes = {kind + 0x7061696eu, kind + 0x74696e67u};
+    lanes = state_hash_word(lanes, index);
+    for (uint32_t i = 0; i < count; i++)
+        lanes = state_hash_word(lanes, FLOAT_BITS(words[i]));
+    hash->lane[0] += lanes.a;
+    hash->lane[1] += lanes.b;
+}
+
+void kiln_canvas_hash(const struct kiln_canvas *canvas, uint32_t number,
+                      struct kiln_state_hash *hash)
+{
+    const uint32_t texels = canvas->edge * canvas->edge;
+    for (uint32_t i = 0; i < texels; i++) {
+        if (canvas->texels[i][3] > 0.0f)
+            add(2 * number, i, canvas->texels[i], 4, hash);
+    }
+    for (uint32_t i = 0; i < canvas->slot_count; i++) {
+        float words[SPLAT_WORDS];
+        memcpy(words, &canvas->waiting[i], sizeof words);
+        if (canvas->waiting[i].opacity > 0.0f)
+            add(2 * number + 1, i, words, SPLAT_WORDS, hash);
+    }
+}
