@@ -98,7 +98,7 @@ static struct kiln_image *bloom_source(struct kiln_stages *s)
 
 /* The backdrop draws the scene itself, or what spheres are then put before. */
 static bool init_scenery(struct kiln_stages *s, enum kiln_backdrop_technique technique,
-                         struct kiln_error *error)
+                         const struct kiln_pool *pool, struct kiln_error *error)
 {
     bool spheres = spheres_of(s->scene) != 0;
     const struct kiln_backdrop_params behind = {
@@ -106,6 +106,7 @@ static bool init_scenery(struct kiln_stages *s, enum kiln_backdrop_technique tec
         .threads = s->threads,
         .color = spheres ? &s->backdrop_color : &s->scene_color,
         .depth = spheres ? &s->backdrop_depth : &s->scene_depth,
+        .pool = pool,
     };
     s->backdrop = kiln_backdrop_create(s->device, s->scene, &behind, error);
     if (!s->backdrop)
@@ -140,7 +141,7 @@ static bool init_coarse(struct kiln_stages *s, const struct kiln_techniques *tec
 }
 
 static bool init_stages(struct kiln_stages *s, const struct kiln_techniques *techniques,
-                        uint32_t bits, struct kiln_error *error)
+                        uint32_t bits, const struct kiln_pool *pool, struct kiln_error *error)
 {
     struct kiln_device *device = s->device;
     s->simulate = kiln_simulate_create(device, s->scene, techniques->simulate, s->threads, error);
@@ -157,7 +158,7 @@ static bool init_stages(struct kiln_stages *s, const struct kiln_techniques *tec
     s->particles =
         kiln_particles_create(device, s->scene, &s->atlas, techniques->raster, s->threads, error);
     if (!s->particles || !init_coarse(s, techniques, error) ||
-        !init_scenery(s, techniques->backdrop, error))
+        !init_scenery(s, techniques->backdrop, pool, error))
         return false;
     if (s->scene->camera.shutter_samples > 1) {
         s->shutter =
@@ -205,7 +206,7 @@ bool kiln_stages_init(struct kiln_stages *stages, struct kiln_device *device,
         goto fail;
     }
     if (!init_atlas(stages, error) || !init_targets(stages, error) ||
-        !init_stages(stages, techniques, needs.bits, error))
+        !init_stages(stages, techniques, needs.bits, pool, error))
         goto fail;
     return true;
 

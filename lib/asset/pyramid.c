@@ -102,18 +102,41 @@ static void shrink(struct kiln_pyramid *p, uint32_t level, bool repeats_y)
     }
 }
 
+struct kiln_pyramid *kiln_pyramid_create(uint32_t width, uint32_t height)
+{
+    struct kiln_pyramid *pyramid = calloc(1, sizeof *pyramid);
+    if (!pyramid)
+        return NULL;
+    pyramid->width = width;
+    pyramid->height = height;
+    pyramid->texels = calloc(lay_out(pyramid), sizeof *pyramid->texels);
+    if (!pyramid->texels)
+        kiln_pyramid_destroy(&pyramid);
+    return pyramid;
+}
+
+size_t kiln_pyramid_texels(const struct kiln_pyramid *pyramid)
+{
+    const uint32_t last = pyramid->levels - 1;
+    return pyramid->first[last] + (size_t)pyramid->widths[last] * pyramid->heights[last];
+}
+
+void kiln_pyramid_set(struct kiln_pyramid *pyramid, const float (*texels)[4])
+{
+    const size_t count = kiln_pyramid_texels(pyramid);
+    for (size_t i = 0; i < count; i++) {
+        for (int c = 0; c < 4; c++)
+            pyramid->texels[i][c] = to_half(texels[i][c]);
+    }
+}
+
 struct kiln_pyramid *kiln_pyramid_load(const char *path, bool repeats_y, struct kiln_error *error)
 {
     struct kiln_asset_image *image = kiln_asset_image_load(path, error);
     if (!image)
         return NULL;
-    struct kiln_pyramid *pyramid = calloc(1, sizeof *pyramid);
-    if (pyramid) {
-        pyramid->width = image->width;
-        pyramid->height = image->height;
-        pyramid->texels = calloc(lay_out(pyramid), sizeof *pyramid->texels);
-    }
-    if (!pyramid || !pyramid->texels || !fill_finest(pyramid, image)) {
+    struct kiln_pyramid *pyramid = kiln_pyramid_create(image->width, image->height);
+    if (!pyramid || !fill_finest(pyramid, image)) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", path);
         kiln_pyramid_destroy(&pyramid);
     }

@@ -16,6 +16,7 @@
 struct kiln_backdrop_stage {
     const struct kiln_scene *scene;
     struct kiln_meshes meshes;
+    const struct kiln_pool *pool;
     struct kiln_backdrop_gl *gl; /* one of these two */
     struct kiln_backdrop_cpu *cpu;
     struct kiln_sky_light sky_light; /* of the image */
@@ -148,7 +149,7 @@ static struct kiln_draw_backdrop make_block(const struct kiln_scene *scene, floa
  * not compared. */
 static bool same_picture(const struct kiln_backdrop_inputs *a, const struct kiln_backdrop_inputs *b)
 {
-    return a->block.counts.w == 0 && a->shapes.counts.w == 0 &&
+    return a->block.counts.w == 0 && a->shapes.counts.w == 0 && a->paint == b->paint &&
            memcmp(&a->block, &b->block, sizeof a->block) == 0 &&
            memcmp(&a->shapes, &b->shapes, sizeof a->shapes) == 0 &&
            memcmp(a->view.world_to_view, b->view.world_to_view, sizeof a->view.world_to_view) ==
@@ -167,6 +168,7 @@ struct kiln_backdrop_stage *kiln_backdrop_create(struct kiln_device *device,
         return NULL;
     }
     stage->scene = scene;
+    stage->pool = params->pool;
     const char *sky_image = scene->backdrop.sky_image;
     bool ok = kiln_meshes_init(&stage->meshes, scene, error) &&
               (!sky_image || kiln_sky_light_measure(&stage->sky_light, sky_image, error));
@@ -217,6 +219,8 @@ static struct kiln_backdrop_inputs make_inputs(struct kiln_backdrop_stage *stage
     fill_maps(stage->scene, &pictures, time_s, &now.shapes);
     if (pictures.sky.width)
         light_by_image(stage, now.shapes.sky_map.y, &now.block);
+    if (stage->meshes.painted)
+        now.paint = kiln_painted_all_changes(stage->meshes.painted);
     add_lighting(&now.block, lighting);
     now.shapes.counts.w = lighting->spheres.edge;
     memcpy(now.shapes.world_to_bin, lighting->spheres.world_to_bin, sizeof now.shapes.world_to_bin);
@@ -226,6 +230,8 @@ static struct kiln_backdrop_inputs make_inputs(struct kiln_backdrop_stage *stage
 bool kiln_backdrop_draw(struct kiln_backdrop_stage *stage, const struct kiln_view *view,
                         const struct kiln_lighting *lighting, struct kiln_error *error)
 {
+    if (stage->meshes.painted && stage->pool)
+        kiln_painted_update(stage->meshes.painted, stage->pool);
     const struct kiln_backdrop_inputs now = make_inputs(stage, view, lighting);
     bool kept = stage->has_drawn && same_picture(&now, &stage->drawn);
     stage->drawn = now;

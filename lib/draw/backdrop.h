@@ -8,6 +8,7 @@
 #include "draw/lighting.h"
 #include "draw/view.h"
 #include "gpu/image.h"
+#include "particles/pool.h"
 
 enum kiln_backdrop_technique { KILN_BACKDROP_CPU, KILN_BACKDROP_GL };
 
@@ -16,6 +17,7 @@ struct kiln_backdrop_params {
     struct kiln_threads *threads; /* of `cpu` */
     /* Targets of scene size: RGBA; view-space metres, 1e9 for sky. */
     struct kiln_image *color, *depth;
+    const struct kiln_pool *pool; /* whose paint is on meshes; NULL: there is none */
 };
 
 struct kiln_backdrop_stage;

@@ -10,6 +10,7 @@ struct kiln_backdrop_inputs {
     struct kiln_view view;
     struct kiln_draw_backdrop block;
     struct kiln_draw_shapes shapes;
+    uint64_t paint; /* changes of it */
 };
 
 struct kiln_picture_size {

@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "asset/pyramid.h"
 #include "draw/shapes.h"
 
 enum {
@@ -23,10 +24,17 @@ struct kiln_mesh_triangle {
     int32_t mesh;       /* in the scene's order */
 };
 
+/* Where a triangle's places are in the texture of paint, times nearness: planes over u and v. */
+struct kiln_mesh_uvs {
+    float u[3], v[3];
+};
+
 struct kiln_mesh_view {
     const struct kiln_mesh_triangle *triangles; /* of all meshes */
     const int32_t *hits; /* by row, layer and column: 1 + the triangle that is nearest; 0: none */
     size_t pitch;        /* columns */
+    const struct kiln_mesh_uvs *uvs; /* of all triangles; NULL: no mesh takes paint */
+    const struct kiln_pyramid *paint[KILN_MAX_MESHES]; /* NULL: takes none */
     /* Of each mesh, level by level: the part of a texel that the mesh is in in the lower 16 bits,
      * and its mean distance there times that in the upper ones, each in parts of KILN_SHADOW_ONE;
      * the distance is 0 nearest to the sun and 1 farthest. */

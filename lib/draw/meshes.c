@@ -36,13 +36,15 @@ static struct kiln_mesh *make_mesh(struct kiln_meshes *meshes, const struct kiln
         return make_terrain(object, error);
     if (object->animation.enabled)
         return make_moving(meshes, scene, object, error);
-    return kiln_mesh_load(object->file, scene->asset_root, scene->stop, scene->user, error);
+    return (kiln_object_takes_paint(object) ? kiln_mesh_load_unwrapped : kiln_mesh_load)(
+        object->file, scene->asset_root, scene->stop, scene->user, error);
 }
 
 bool kiln_meshes_init(struct kiln_meshes *meshes, const struct kiln_scene *scene,
                       struct kiln_error *error)
 {
     *meshes = (struct kiln_meshes){.count = 0};
+    bool painted = false;
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
         const struct kiln_object *object = &scene->backdrop.objects[i];
         if (!kiln_object_is_mesh(object))
@@ -51,8 +53,11 @@ bool kiln_meshes_init(struct kiln_meshes *meshes, const struct kiln_scene *scene
         if (!mesh)
             return false;
         meshes->loaded[meshes->count++] = mesh;
+        painted = painted || kiln_object_takes_paint(object);
     }
-    return true;
+    if (painted)
+        meshes->painted = kiln_painted_create(scene, meshes->loaded, error);
+    return !painted || meshes->painted;
 }
 
 void kiln_meshes_pose(struct kiln_meshes *meshes, float time_s)
@@ -75,5 +80,8 @@ void kiln_meshes_finish(struct kiln_meshes *meshes)
         kiln_mesh_destroy(&meshes->loaded[i]);
         kiln_skin_destroy(&meshes->skins[i]);
     }
+=======
+    kiln_painted_destroy(&meshes->painted);
+>>>>>>> b220b90 (draw: paint on meshes, in both backdrops; scenes: a paint fountain)
     meshes->count = 0;
 }

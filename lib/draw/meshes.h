@@ -3,7 +3,7 @@
 #define KILN_DRAW_MESHES_H
 
 #include "asset/skin.h"
-#include "scene/scene.h"
+#include "draw/painted.h"
 
 /* In the scene's order. */
 struct kiln_meshes {
@@ -13,6 +13,7 @@ struct kiln_meshes {
     const struct kiln_animation *animations[KILN_MAX_MESHES];
     float
         posed_s[KILN_MAX_MESHES]; /* where in its clip each of those is loaded; below 0: nowhere */
+    struct kiln_painted *painted; /* NULL: none takes paint */
 };
 
 /* KILN_INVALID_INPUT and the rest as kiln_mesh_load and kiln_terrain_create; kiln_meshes_finish

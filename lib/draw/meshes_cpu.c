@@ -23,6 +23,7 @@ struct kiln_meshes_cpu {
     uint32_t width, height;
     float3 *seen, *normals;               /* of all vertices: in view space, in the world */
     struct kiln_mesh_triangle *triangles; /* of all meshes */
+    struct kiln_mesh_uvs *uvs;            /* the same; NULL: none takes paint */
     int32_t *hits;
     bool *empty; /* bands in whose hits there is nothing */
     struct kiln_mesh_canvas canvas;
@@ -59,6 +60,8 @@ static bool allocate(struct kiln_meshes_cpu *m, struct kiln_threads *threads)
     m->seen = calloc(vertices, sizeof *m->seen);
     m->normals = calloc(vertices, sizeof *m->normals);
     m->triangles = calloc(triangles, sizeof *m->triangles);
+    if (m->meshes->painted)
+        m->uvs = calloc(triangles, sizeof *m->uvs);
     m->hits = calloc(bands * KILN_MESH_ROWS * KILN_HIT_LAYERS * pitch, sizeof *m->hits);
     m->empty = malloc(bands * sizeof *m->empty);
     struct kiln_mesh_canvas *canvas = &m->canvas;
@@ -70,8 +73,8 @@ static bool allocate(struct kiln_meshes_cpu *m, struct kiln_threads *threads)
         malloc(kiln_threads_count(threads) * canvas->strip * sizeof *canvas->nearness);
     if (m->empty)
         memset(m->empty, 1, bands * sizeof *m->empty);
-    return m->seen && m->normals && m->triangles && m->hits && m->empty && canvas->triangles &&
-           canvas->nearness;
+    return m->seen && m->normals && m->triangles && (m->uvs || !m->meshes->painted) && m->hits &&
+           m->empty && canvas->triangles && canvas->nearness;
 }
 
 struct kiln_meshes_cpu *kiln_meshes_cpu_create(const struct kiln_scene *scene,
@@ -95,13 +98,15 @@ struct kiln_meshes_cpu *kiln_meshes_cpu_create(const struct kiln_scene *scene,
         return NULL;
     }
     m->view = (struct kiln_mesh_view){
-        .triangles = m->triangles, .hits = m->hits, .pitch = m->canvas.pitch};
+        .triangles = m->triangles, .uvs = m->uvs, .hits = m->hits, .pitch = m->canvas.pitch};
     for (uint32_t i = 0; i < meshes->count; i++) {
         if (!kiln_mesh_shadow_init(&m->shadows[i], error)) {
             kiln_meshes_cpu_destroy(&m);
             return NULL;
         }
         m->view.shadows[i] = m->shadows[i].texels;
+        if (meshes->painted)
+            m->view.paint[i] = kiln_painted_picture(meshes->painted, i);
     }
     return m;
 }
@@ -116,6 +121,7 @@ void kiln_meshes_cpu_destroy(struct kiln_meshes_cpu **meshes)
     free(m->seen);
     free(m->normals);
     free(m->triangles);
+    free(m->uvs);
     free(m->hits);
     free(m->empty);
     free(m->canvas.triangles);
@@ -141,6 +147,7 @@ struct placing {
     int32_t number;
     float3 *seen, *normals; /* of the mesh, as below */
     struct kiln_mesh_triangle *triangles;
+    struct kiln_mesh_uvs *uvs; /* NULL: takes no paint */
     struct kiln_flat_triangle *flat;
 };
 
@@ -217,6 +224,20 @@ static void find_bounds(const struct kiln_view *view, const float3 p[3],
     flat->y = pixels_between(any ? 0.0f : low[1], any ? height : high[1], height);
 }
 
+static void place_uvs(const struct placing *p, size_t i, float volume)
+{
+    struct kiln_mesh_uvs *uvs = &p->uvs[i];
+    *uvs = (struct kiln_mesh_uvs){{0}, {0}};
+    for (int k = 0; k < 3; k++) {
+        const float *uv = p->mesh->uvs[p->mesh->triangles[i][k]];
+        for (int c = 0; c < 3; c++) {
+            const float part = p->flat[i].edges[k][c] / volume;
+            uvs->u[c] += part * uv[0];
+            uvs->v[c] += part * uv[1];
+        }
+    }
+}
+
 static void place_triangle(const struct placing *p, size_t i)
 {
     const uint32_t *corners = p->mesh->triangles[i];
@@ -243,6 +264,8 @@ static void place_triangle(const struct placing *p, size_t i)
             t->normal[2][c] += part * normal.z;
         }
     }
+    if (p->uvs)
+        place_uvs(p, i, exact_abs(volume));
     memcpy(flat->nearness, t->nearness, sizeof flat->nearness);
     const float4 *rows = p->view->world_to_view;
     t->face[0] = -sign * (rows[0].x * face.x + rows[1].x * face.y + rows[2].x * face.z);
@@ -274,6 +297,7 @@ static void place_meshes(struct kiln_meshes_cpu *m, const struct kiln_view *view
             .seen = m->seen + vertex,
             .normals = m->normals + vertex,
             .triangles = m->triangles + triangle,
+            .uvs = mesh->uvs ? m->uvs + triangle : NULL,
             .flat = m->canvas.triangles + triangle,
         };
         struct kiln_threads *threads = m->canvas.threads;

@@ -13,7 +13,7 @@
 enum { HIT_LAYERS = 1 + KILN_EDGE_SAMPLES };
 
 struct drawn_mesh {
-    GLuint vertex_array, vertices, triangles;
+    GLuint vertex_array, vertices, triangles, uvs; /* 0: none */
     GLsizei indices;
     float posed_s; /* as of struct kiln_meshes */
 };
@@ -24,9 +24,12 @@ struct kiln_meshes_gl {
     uint32_t width, height, count;
     struct drawn_mesh drawn[KILN_MAX_MESHES];
     GLuint hit_program, shadow_program;
-    GLint hit_mesh, hit_shift, shadow_mesh; /* uniforms */
-    GLuint hits, shadows;                   /* array textures */
-    GLuint hit_depth, shadow_depth;         /* renderbuffers */
+    GLint hit_mesh, hit_shift, shadow_mesh;  /* uniforms */
+    GLuint hits, shadows;                    /* array textures */
+    GLuint paint;                            /* the same; 0: no mesh takes any */
+    uint32_t paint_changes[KILN_MAX_MESHES]; /* those that it shows */
+    const struct kiln_painted *painted;
+    GLuint hit_depth, shadow_depth; /* renderbuffers */
     GLuint framebuffer;
     struct kiln_draw_mesh shadowed[KILN_MAX_MESHES]; /* what the shadow maps show */
     float4 shadow_sun[2];
@@ -55,6 +58,18 @@ static void upload(struct kiln_device *device, const struct kiln_mesh *mesh,
     glBindVertexBuffer(0, drawn->vertices, 0, (GLsizei)stride);
     glEnableVertexAttribArray(0);
     glEnableVertexAttribArray(1);
+    if (mesh->uvs) {
+        const size_t uv = sizeof *mesh->uvs;
+        glGenBuffers(1, &drawn->uvs);
+        glBindBuffer(GL_ARRAY_BUFFER, drawn->uvs);
+        glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(mesh->vertex_count * uv), mesh->uvs,
+                     GL_STATIC_DRAW);
+        glVertexAttribFormat(2, 2, GL_FLOAT, GL_FALSE, 0);
+        glVertexAttribBinding(2, 1);
+        glBindVertexBuffer(1, drawn->uvs, 0, (GLsizei)uv);
+        glEnableVertexAttribArray(2);
+        kiln_device_label(device, GL_BUFFER, drawn->uvs, "texture coordinates of a mesh");
+    }
     glBindVertexArray(0);
     drawn->indices = (GLsizei)(mesh->triangle_count * 3);
     kiln_device_label(device, GL_BUFFER, drawn->vertices, "mesh");
@@ -83,7 +98,10 @@ static GLuint create_depth(GLsizei width, GLsizei height)
 static void create_targets(struct kiln_meshes_gl *m)
 {
     GLsizei width = (GLsizei)m->width, height = (GLsizei)m->height;
-    m->hits = create_layers(GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, width, height, HIT_LAYERS);
+    m->hits = m->painted ? create_layers(GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, width,
+                                         height, HIT_LAYERS)
+                         : create_layers(GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, width, height,
+                                         HIT_LAYERS);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     m->hit_depth = create_depth(width, height);
@@ -103,11 +121,33 @@ static void create_targets(struct kiln_meshes_gl *m)
     kiln_device_label(m->device, GL_TEXTURE, m->shadows, "mesh shadows");
 }
 
+/* Layers as large as the largest texture; the smaller ones begin at a coarser level (shapes.c). */
+static void create_paint(struct kiln_meshes_gl *m)
+{
+    uint32_t levels = 0, layers = 0;
+    for (uint32_t i = 0; i < m->count; i++) {
+        const struct kiln_pyramid *p = kiln_painted_picture(m->painted, i);
+        layers += p != NULL;
+        levels = p && p->levels > levels ? p->levels : levels;
+    }
+    const GLsizei edge = (GLsizei)1 << (levels - 1);
+    glGenTextures(1, &m->paint);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, m->paint);
+    glTexStorage3D(GL_TEXTURE_2D_ARRAY, (GLsizei)levels, GL_RGBA16F, edge, edge, (GLsizei)layers);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_REPEAT);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_REPEAT);
+    kiln_device_label(m->device, GL_TEXTURE, m->paint, "paint");
+}
+
 static bool create_programs(struct kiln_meshes_gl *m, struct kiln_error *error)
 {
     m->hit_program = kiln_program_create(
         m->device,
-        &(struct kiln_program_params){.vertex = "draw/mesh.vert", .fragment = "draw/mesh.frag"},
+        &(struct kiln_program_params){.vertex = "draw/mesh.vert",
+                                      .fragment = "draw/mesh.frag",
+                                      .defines = m->painted ? "#define PAINT 1\n" : NULL},
         error);
     if (!m->hit_program)
         return false;
@@ -139,6 +179,7 @@ struct kiln_meshes_gl *kiln_meshes_gl_create(struct kiln_device *device,
     m->width = scene->width;
     m->height = scene->height;
     m->count = meshes->count;
+    m->painted = meshes->painted;
     if (m->count == 0)
         return m;
     bool ok = create_programs(m, error);
@@ -148,6 +189,8 @@ struct kiln_meshes_gl *kiln_meshes_gl_create(struct kiln_device *device,
     }
     if (ok)
         create_targets(m);
+    if (ok && m->painted)
+        create_paint(m);
     ok = kiln_device_check(device, "meshes", error) && ok;
     if (!ok)
         kiln_meshes_gl_destroy(&m);
@@ -163,11 +206,13 @@ void kiln_meshes_gl_destroy(struct kiln_meshes_gl **meshes)
         glDeleteVertexArrays(1, &m->drawn[i].vertex_array); /* 0 is ignored, here and below */
         glDeleteBuffers(1, &m->drawn[i].vertices);
         glDeleteBuffers(1, &m->drawn[i].triangles);
+        glDeleteBuffers(1, &m->drawn[i].uvs);
     }
     glDeleteProgram(m->hit_program);
     glDeleteProgram(m->shadow_program);
     glDeleteTextures(1, &m->hits);
     glDeleteTextures(1, &m->shadows);
+    glDeleteTextures(1, &m->paint);
     glDeleteRenderbuffers(1, &m->hit_depth);
     glDeleteRenderbuffers(1, &m->shadow_depth);
     glDeleteFramebuffers(1, &m->framebuffer);
@@ -238,6 +283,24 @@ static void bind_layers(GLenum unit, GLuint texture)
     glBindTexture(GL_TEXTURE_2D_ARRAY, texture);
 }
 
+static void upload_paint(struct kiln_meshes_gl *m, const struct kiln_draw_shapes *shapes)
+{
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, m->paint);
+    for (uint32_t i = 0; i < m->count; i++) {
+        const struct kiln_pyramid *p = kiln_painted_picture(m->painted, i);
+        if (!p || kiln_painted_changes(m->painted, i) == m->paint_changes[i])
+            continue;
+        const GLint where = (GLint)shapes->meshes[i].color.w;
+        const GLint layer = where % 16 - 1, first = where / 16;
+        for (uint32_t level = 0; level < p->levels; level++)
+            glTexSubImage3D(GL_TEXTURE_2D_ARRAY, first + (GLint)level, 0, 0, layer,
+                            (GLsizei)p->widths[level], (GLsizei)p->heights[level], 1, GL_RGBA,
+                            GL_HALF_FLOAT, p->texels + p->first[level]);
+        m->paint_changes[i] = kiln_painted_changes(m->painted, i);
+    }
+}
+
 void kiln_meshes_gl_bind_shadows(const struct kiln_meshes_gl *meshes)
 {
     if (meshes->shadows)
@@ -280,6 +343,10 @@ bool kiln_meshes_gl_draw(struct kiln_meshes_gl *meshes, const struct kiln_draw_s
     }
     glDisable(GL_DEPTH_TEST);
     bind_layers(KILN_UNIT_MESH_HITS, meshes->hits);
+    if (meshes->paint) {
+        bind_layers(KILN_UNIT_MESH_PAINT, meshes->paint);
+        upload_paint(meshes, shapes);
+    }
     glActiveTexture(GL_TEXTURE0);
     return kiln_device_check(meshes->device, "meshes", error);
 }

@@ -21,7 +21,8 @@ void kiln_meshes_gl_destroy(struct kiln_meshes_gl **meshes);
 void kiln_meshes_gl_bind_shadows(const struct kiln_meshes_gl *meshes);
 
 /* Draws what the camera and the sun see of them and leaves that bound to KILN_UNIT_MESH_HITS and
- * KILN_UNIT_MESH_SHADOW; the blocks of the view, the backdrop and the shapes must be bound.
+ * KILN_UNIT_MESH_SHADOW, and their paint, as of the last kiln_painted_update, to
+ * KILN_UNIT_MESH_PAINT; the blocks of the view, the backdrop and the shapes must be bound.
  * Changes the framebuffer, the viewport and the program. */
 bool kiln_meshes_gl_draw(struct kiln_meshes_gl *meshes, const struct kiln_draw_shapes *shapes,
                          struct kiln_error *error);

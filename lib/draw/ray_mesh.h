@@ -3,6 +3,7 @@
 #ifndef KILN_DRAW_RAY_MESH_H
 #define KILN_DRAW_RAY_MESH_H
 
+#include "draw/ray_picture.h"
 #include "draw/ray_shapes.h"
 
 /* Rays of a layer. */
@@ -52,6 +53,57 @@ SIMD struct ray_mesh_hit find_mesh(const struct kiln_mesh_view *meshes, vi trian
     return hit;
 }
 
+/* How far what is linear along a triangle moves from this pixel to the next one, in u and v. */
+struct ray_drift {
+    vf u, v;
+};
+
+SIMD struct ray_drift find_slope(const float *plane, const float *nearness, vi uvs, vi triangle,
+                                 vf value, vf depth)
+{
+    return (struct ray_drift){
+        (vf_gather(plane, uvs) - value * vf_gather(nearness, triangle)) * depth,
+        (vf_gather(plane + 1, uvs) - value * vf_gather(nearness + 1, triangle)) * depth};
+}
+
+/* What is painted, over the mesh's own colour. A pixel covers as much of the texture as the area of
+ * its slopes says, or as half of the longer one. */
+SIMD struct vf3 add_paint(const struct kiln_ray_frame *frame, const struct ray_place *at,
+                          const struct ray_mesh_hit *found, vi wanted, struct vf3 albedo)
+{
+    const struct kiln_mesh_view *meshes = frame->meshes;
+    const int stride = (int)(sizeof *meshes->triangles / sizeof(float));
+    const int uvs_stride = (int)(sizeof *meshes->uvs / sizeof(float));
+    vi triangle = vi_select(found->triangle >= 0, found->triangle * stride, vi_all(0));
+    vi uvs = vi_select(found->triangle >= 0, found->triangle * uvs_stride, vi_all(0));
+    const float *nearness = meshes->triangles->nearness;
+    vf u = read_plane(meshes->uvs->u, uvs, at) * found->depth;
+    vf v = read_plane(meshes->uvs->v, uvs, at) * found->depth;
+    const float4 frustum = frame->view->frustum;
+    const float right = 2.0f * frustum.x / frustum.z, down = 2.0f * frustum.y / frustum.w;
+    struct ray_drift of_u = find_slope(meshes->uvs->u, nearness, uvs, triangle, u, found->depth);
+    struct ray_drift of_v = find_slope(meshes->uvs->v, nearness, uvs, triangle, v, found->depth);
+    vf area = vf_abs(of_u.u * of_v.v - of_u.v * of_v.u) * (right * down);
+    vf across = (of_u.u * of_u.u + of_v.u * of_v.u) * (right * right);
+    vf along = (of_u.v * of_u.v + of_v.v * of_v.v) * (down * down);
+    vf square = vf_max(area, vf_max(across, along) * 0.25f);
+    vf level = vf_log2(vf_min(vf_max(square, vf_all(1e-12f)), vf_all(1e12f))) * 0.5f;
+    for (int lane = 0; lane < LANES; lane++) {
+        const struct kiln_pyramid *paint = wanted[lane] ? meshes->paint[found->mesh[lane]] : NULL;
+        if (!paint)
+            continue;
+        const struct ray_levels levels =
+            choose_levels(paint, level[lane] + (float)(paint->levels - 1));
+        const ray_texel texel =
+            read_picture(paint, &levels, fraction(u[lane]), fraction(v[lane]), true);
+        const float left = 1.0f - texel[3];
+        albedo.x[lane] = albedo.x[lane] * left + texel[0];
+        albedo.y[lane] = albedo.y[lane] * left + texel[1];
+        albedo.z[lane] = albedo.z[lane] * left + texel[2];
+    }
+    return albedo;
+}
+
 SIMD void trace_meshes(const struct kiln_ray_frame *frame, const struct ray_place *at,
                        struct ray_hit *nearest)
 {
@@ -68,8 +120,10 @@ SIMD void trace_meshes(const struct kiln_ray_frame *frame, const struct ray_plac
     nearest->t = vf_select(nearer, found.depth, nearest->t);
     nearest->surface = vf_select(nearer, vf_of(found.mesh * 4 + RAY_MESHES), nearest->surface);
     nearest->normal = vf3_select(nearer, found.normal, nearest->normal);
-    const struct vf3 albedo = {vf_gather(colors, index), vf_gather(colors + 1, index),
-                               vf_gather(colors + 2, index)};
+    struct vf3 albedo = {vf_gather(colors, index), vf_gather(colors + 1, index),
+                         vf_gather(colors + 2, index)};
+    if (frame->meshes->uvs)
+        albedo = add_paint(frame, at, &found, nearer, albedo);
     nearest->albedo = vf3_select(nearer, albedo, nearest->albedo);
 }
 

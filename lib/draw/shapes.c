@@ -32,6 +32,7 @@ struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
                            (kind == KILN_OBJECT_PLANE && object->visible);
         features.round |= kind == KILN_OBJECT_SPHERE || kind == KILN_OBJECT_CYLINDER;
         features.meshes |= kiln_object_is_mesh(&backdrop->objects[i]);
+        features.paint |= kiln_object_takes_paint(object);
     }
     for (uint32_t i = 0; i < scene->system_count; i++)
         features.spheres |=
@@ -42,15 +43,15 @@ struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
 void kiln_shape_defines(const struct kiln_shape_features *features, int samples,
                         char out[KILN_SHAPE_DEFINES])
 {
-    snprintf(out, KILN_SHAPE_DEFINES, "#define SAMPLES %d\n%s%s%s%s%s%s%s%s", samples,
-             features->round ? "#define ROUND 1\n" : "",
-             features->turned ? "#define TURNED 1\n" : "",
-             features->meshes ? "#define MESHES 1\n" : "",
-             features->spheres ? "#define SPHERES 1\n" : "",
-             features->floor_image ? "#define FLOOR_IMAGE 1\n" : "",
-             features->floor_gloss ? "#define FLOOR_GLOSS 1\n" : "",
-             features->sky_image ? "#define SKY_IMAGE 1\n" : "",
-             features->soft_sun ? "#define SOFT_SUN 1\n" : "");
+    snprintf(
+        out, KILN_SHAPE_DEFINES, "#define SAMPLES %d\n%s%s%s%s%s%s%s%s%s", samples,
+        features->round ? "#define ROUND 1\n" : "", features->turned ? "#define TURNED 1\n" : "",
+        features->meshes ? "#define MESHES 1\n" : "", features->paint ? "#define PAINT 1\n" : "",
+        features->spheres ? "#define SPHERES 1\n" : "",
+        features->floor_image ? "#define FLOOR_IMAGE 1\n" : "",
+        features->floor_gloss ? "#define FLOOR_GLOSS 1\n" : "",
+        features->sky_image ? "#define SKY_IMAGE 1\n" : "",
+        features->soft_sun ? "#define SOFT_SUN 1\n" : "");
 }
 
 static float4 with_w(float3 v, float w)
@@ -137,6 +138,28 @@ static void fill_mesh(const struct kiln_scene *scene, const struct kiln_object *
     out->half_size = (float4){half_size[0], half_size[1], half_size[2], clip_s};
 }
 
+/* Which layer of the textures of paint each mesh has, and the first level of it: the largest
+ * texture fills all of its layer, a smaller one has a finer level of none. */
+static void fill_paint(const struct kiln_scene *scene, struct kiln_draw_shapes *shapes)
+{
+    uint32_t largest = 0, mesh = 0;
+    float layer = 0.0f;
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        const struct kiln_object *object = &scene->backdrop.objects[i];
+        if (kiln_object_takes_paint(object) && object->paint.size > largest)
+            largest = object->paint.size;
+    }
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        const struct kiln_object *object = &scene->backdrop.objects[i];
+        if (kiln_object_takes_paint(object)) {
+            shapes->meshes[mesh].color.w = ++layer;
+            for (uint32_t size = object->paint.size; size < largest; size *= 2)
+                shapes->meshes[mesh].color.w += 16.0f;
+        }
+        mesh += kiln_object_is_mesh(object);
+    }
+}
+
 static void fill_turned_box(const struct kiln_scene *scene, const struct kiln_object *object,
                             float time_s, struct kiln_draw_turned_box *out)
 {
@@ -205,4 +228,5 @@ void kiln_shapes_fill(const struct kiln_scene *scene, struct kiln_mesh *const *m
             fill_more(scene, object, time_s, shapes);
         }
     }
+    fill_paint(scene, shapes);
 }

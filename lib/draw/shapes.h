@@ -6,16 +6,14 @@
 #include "scene/scene.h"
 #include "shared/shape_layout.h"
 
-enum { KILN_SHAPE_DEFINES = 192 };
-
 /* What a scene needs of the shaders; sets of these choose a variant. spheres are particles that
  * throw shadows. */
 struct kiln_shape_features {
-    bool round, turned, meshes, spheres, floor_image, floor_gloss, sky_image, soft_sun;
+    bool round, turned, meshes, paint, spheres, floor_image, floor_gloss, sky_image, soft_sun;
 };
 struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene);
 
-#define KILN_SHAPE_DEFINES 192 /* bytes of their text */
+#define KILN_SHAPE_DEFINES 208 /* bytes of their text */
 
 /* The "#define" lines of the variant, SAMPLES rays a pixel; for kiln_program_params. */
 void kiln_shape_defines(const struct kiln_shape_features *features, int samples,

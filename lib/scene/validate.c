@@ -447,6 +447,9 @@ static bool check_objects(struct kiln_reader *reader, const struct kiln_node *ro
                                       "its collider to volume");
         if (object->kind == KILN_OBJECT_MESH && !check_solid(reader, root, i))
             return false;
+        snprintf(path, sizeof path, "backdrop.objects.%u.mesh.paint", i);
+        if (object->paint.enabled && object->animation.enabled)
+            return kiln_validate_fail(reader, root, path, "not of a mesh with an animation");
         if (kiln_object_takes_paint(object) && !check_paint(reader, root, i))
             return false;
         if (++meshes > KILN_MAX_MESHES)

@@ -2,7 +2,7 @@
  * horizon, boxes, one sun with hard shadows, point lights. View-space depth goes to a texture of its
  * own, for soft particles (Heinz 2019, 3.2.1 and 3.2.6). What not every scene has is compiled in by
  * defines: ROUND shapes, TURNED ones (capsules and planes, too), MESHES, particles that are SPHERES,
- * FLOOR_IMAGE, FLOOR_GLOSS, SKY_IMAGE, SOFT_SUN.
+ * PAINT on meshes, FLOOR_IMAGE, FLOOR_GLOSS, SKY_IMAGE, SOFT_SUN.
  *
  * Two passes: one ray through the centre of each pixel, which also notes what it hit; then SAMPLES
  * rays a pixel where backdrop_edges.vert finds that neighbours hit different things.
@@ -14,10 +14,11 @@
 // variant: SAMPLES=1 TURNED=1
 // variant: SAMPLES=4 TURNED=1 SOFT_SUN=1
 // variant: SAMPLES=1 MESHES=1
+// variant: SAMPLES=1 MESHES=1 PAINT=1
 // variant: SAMPLES=1 SPHERES=1
 // variant: SAMPLES=1 ROUND=1 MESHES=1 FLOOR_IMAGE=1 SKY_IMAGE=1 SOFT_SUN=1
 // variant: SAMPLES=1 FLOOR_GLOSS=1
-// variant: SAMPLES=4 ROUND=1 TURNED=1 MESHES=1 SPHERES=1 FLOOR_IMAGE=1 FLOOR_GLOSS=1 SKY_IMAGE=1 SOFT_SUN=1
+// variant: SAMPLES=4 ROUND=1 TURNED=1 MESHES=1 PAINT=1 SPHERES=1 FLOOR_IMAGE=1 FLOOR_GLOSS=1 SKY_IMAGE=1 SOFT_SUN=1
 #include "shared/draw_layout.h"
 #include "shared/shape_layout.h"
 

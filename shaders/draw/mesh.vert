@@ -1,4 +1,7 @@
-/* A mesh as the camera sees it, shifted so that a pixel's centre is where its ray passes. */
+/* A mesh as the camera sees it, shifted so that a pixel's centre is where its ray passes. PAINT: with
+ * its places in textures of paint. */
+// variant:
+// variant: PAINT=1
 #include "shared/draw_layout.h"
 #include "shared/shape_layout.h"
 
@@ -10,10 +13,16 @@ uniform vec2 shift; /* px */
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
+#ifdef PAINT
+layout(location = 2) in vec2 place_in_paint;
+#endif
 
 layout(location = 0) out vec3 world_normal;
 layout(location = 1) out vec3 from_eye;
 layout(location = 2) out float depth;
+#ifdef PAINT
+layout(location = 3) out vec2 uv;
+#endif
 
 const float NEAREST = 0.01; /* m */
 
@@ -28,5 +37,8 @@ void main()
                      dot(view.world_to_view[2], world));
     depth = -seen.z;
     vec2 place = vec2(seen.x, -seen.y) / view.frustum.xy + shift * 2.0 / view.frustum.zw * depth;
+#ifdef PAINT
+    uv = place_in_paint;
+#endif
     gl_Position = vec4(place, depth - 2.0 * NEAREST, depth); /* a far plane without end */
 }

@@ -5,14 +5,39 @@
 
 layout(binding = KILN_UNIT_MESH_HITS) uniform usampler2DArray mesh_hits;
 layout(binding = KILN_UNIT_MESH_SHADOW) uniform sampler2DArray mesh_shadow;
+#ifdef PAINT
+layout(binding = KILN_UNIT_MESH_PAINT) uniform sampler2DArray mesh_paint;
+#endif
+
+#ifdef PAINT
+
+/* What is painted, over the mesh's own colour. */
+vec3 add_paint(int i, uvec4 found, vec3 albedo)
+{
+    int where = int(shapes.meshes[i].color.w);
+    int layer = (where & 15) - 1;
+    if (layer < 0)
+        return albedo;
+    float finest = log2(float(textureSize(mesh_paint, 0).x));
+    float level = max(uintBitsToFloat(found.w) + finest, float(where >> 4));
+    vec4 paint = textureLod(mesh_paint, vec3(unpackUnorm2x16(found.z), float(layer)), level);
+    return albedo * (1.0 - paint.a) + paint.rgb;
+}
+
+#endif
 
 void trace_meshes(int layer, inout hit nearest)
 {
-    uvec2 found = texelFetch(mesh_hits, ivec3(gl_FragCoord.xy, layer), 0).xy;
-    int i = mesh_hit_index(found);
-    float t = mesh_hit_depth(found);
-    if (i >= 0 && t < nearest.t)
-        nearest = hit(t, SURFACE_MESHES + 4 * i, mesh_hit_normal(found), shapes.meshes[i].color.rgb);
+    uvec4 found = texelFetch(mesh_hits, ivec3(gl_FragCoord.xy, layer), 0);
+    int i = mesh_hit_index(found.xy);
+    float t = mesh_hit_depth(found.xy);
+    if (i >= 0 && t < nearest.t) {
+        vec3 albedo = shapes.meshes[i].color.rgb;
+#ifdef PAINT
+        albedo = add_paint(i, found, albedo);
+#endif
+        nearest = hit(t, SURFACE_MESHES + 4 * i, mesh_hit_normal(found.xy), albedo);
+    }
 }
 
 /* A mesh has edges inside, where it hides itself or bends. The surface's number changes there, and

@@ -17,6 +17,7 @@
 #define KILN_UNIT_MESH_SHADOW 7 /* a layer a mesh, as the sun sees it */
 #define KILN_UNIT_SPHERE_BINS 8 /* particles that are spheres */
 #define KILN_UNIT_SPHERE_LIST 9
+#define KILN_UNIT_MESH_PAINT  11 /* a layer a mesh that takes paint; 10 is in draw_layout.h */
 
 /* Rays of a pixel at an edge: a rotated grid, in which no two share a row or a column. */
 #define KILN_EDGE_SAMPLES 4
@@ -36,6 +37,8 @@
 
 struct kiln_draw_mesh {
     float4 to_world[3]; /* rows */
+    /* w: 1 + its layer of the textures of paint, and 16 times the first level of that; 0: it takes
+     * none */
     float4 color;
     float4 center; /* of its bounds in the world, m; w: radius of the sphere around them */
     float4
