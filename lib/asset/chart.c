@@ -229,39 +229,77 @@ static void add_border(struct making *m, uint8_t *on, uint8_t *ring)
 
 /* ---- blocks ---------------------------------------------------------------------------------- */
 
-/* Bits of 10, with two zeros after each. */
-static uint64_t spread(uint64_t x)
+/* Floats in the order of their values. */
+static uint32_t ordered(float x)
 {
-    x = (x | x << 16) & 0x030000ffu;
-    x = (x | x << 8) & 0x0300f00fu;
-    x = (x | x << 4) & 0x030c30c3u;
-    return (x | x << 2) & 0x09249249u;
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits & 0x80000000u ? ~bits : bits | 0x80000000u;
 }
 
-static int compare(const void *a, const void *b)
+static uint64_t middle_of(uint64_t a, uint64_t b, uint64_t c)
 {
-    const uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
-    return x < y ? -1 : x > y;
+    const uint64_t low = a < b ? a : b, high = a < b ? b : a;
+    return c < low ? low : c > high ? high : c;
 }
 
-/* Texels in the order of a curve that fills space, so that blocks of them are small in it. */
-static void sort_texels(const struct making *m, struct kiln_chart *chart, uint64_t *keys)
+/* Brings the least `count` of distinct keys to the front. */
+static void select_least(uint64_t *keys, size_t size, size_t count)
 {
-    const size_t count = (size_t)m->edge * m->edge;
-    size_t found = 0;
-    for (size_t i = 0; i < count; i++) {
-        if (!chart->on[i])
-            continue;
-        uint64_t key = 0;
-        for (int c = 0; c < 3; c++) {
-            float size = m->mesh->max[c] - m->mesh->min[c];
-            float part = size > 0.0f ? (m->texels[i].place[c] - m->mesh->min[c]) / size : 0.0f;
-            part = part < 0.0f ? 0.0f : part > 1.0f ? 1.0f : part;
-            key |= spread((uint64_t)(part * 1023.0f)) << c;
+    size_t first = 0, end = size; /* what is before and after is where it belongs */
+    while (end - first > 1) {
+        const uint64_t pivot =
+            middle_of(keys[first], keys[first + (end - first) / 2], keys[end - 1]);
+        size_t i = first, k = end - 1;
+        while (i <= k) {
+            while (keys[i] < pivot)
+                i++;
+            while (keys[k] > pivot)
+                k--;
+            if (i > k)
+                break;
+            const uint64_t swapped = keys[i];
+            keys[i++] = keys[k];
+            keys[k] = swapped;
+            if (k == 0)
+                break;
+            k--;
         }
-        keys[found++] = key << 32 | i;
+        if (count <= k)
+            end = k + 1;
+        else if (count >= i)
+            first = i;
+        else
+            return;
     }
-    qsort(keys, found, sizeof *keys, compare);
+}
+
+/* Halves texels across their longer side until they are blocks, which are so small in space. The
+ * lower half of a key is the texel, the upper one scratch. */
+static void sort_texels(const struct making *m, uint64_t *keys, size_t count)
+{
+    while (count > KILN_CHART_BLOCK) {
+        float low[3] = {0}, high[3] = {0};
+        for (size_t i = 0; i < count; i++) {
+            const float *place = m->texels[(uint32_t)keys[i]].place;
+            for (int c = 0; c < 3; c++) {
+                low[c] = i == 0 || place[c] < low[c] ? place[c] : low[c];
+                high[c] = i == 0 || place[c] > high[c] ? place[c] : high[c];
+            }
+        }
+        int axis = high[1] - low[1] > high[0] - low[0] ? 1 : 0;
+        axis = high[2] - low[2] > high[axis] - low[axis] ? 2 : axis;
+        for (size_t i = 0; i < count; i++) {
+            const uint32_t texel = (uint32_t)keys[i];
+            keys[i] = (uint64_t)ordered(m->texels[texel].place[axis]) << 32 | texel;
+        }
+        const size_t blocks = (count + KILN_CHART_BLOCK - 1) / KILN_CHART_BLOCK;
+        const size_t half = blocks / 2 * KILN_CHART_BLOCK; /* all blocks but the last are full */
+        select_least(keys, count, half);
+        sort_texels(m, keys, half);
+        keys += half;
+        count -= half;
+    }
 }
 
 static bool allocate(struct kiln_chart *chart)
@@ -322,7 +360,12 @@ static bool fill(const struct making *m, struct kiln_chart *chart, struct kiln_e
         kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory for paint", m->name);
         return false;
     }
-    sort_texels(m, chart, keys);
+    size_t found = 0;
+    for (size_t i = 0; i < (size_t)m->edge * m->edge; i++) {
+        if (chart->on[i])
+            keys[found++] = i;
+    }
+    sort_texels(m, keys, found);
     for (uint32_t block = 0; block < chart->block_count; block++)
         fill_block(m, chart, keys, block);
     free(keys);

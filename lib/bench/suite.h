@@ -23,6 +23,7 @@ bool kiln_suite_groups(const struct kiln_bench_run *run, struct kiln_error *erro
 bool kiln_suite_forces(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_colliders(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_flock(const struct kiln_bench_run *run, struct kiln_error *error);
+bool kiln_suite_paint(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_bytes(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_output(const struct kiln_bench_run *run, struct kiln_error *error);
 

@@ -80,8 +80,6 @@ void kiln_meshes_finish(struct kiln_meshes *meshes)
         kiln_mesh_destroy(&meshes->loaded[i]);
         kiln_skin_destroy(&meshes->skins[i]);
     }
-=======
     kiln_painted_destroy(&meshes->painted);
->>>>>>> b220b90 (draw: paint on meshes, in both backdrops; scenes: a paint fountain)
     meshes->count = 0;
 }

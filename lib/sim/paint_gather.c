@@ -32,19 +32,10 @@ static size_t cell_of(const struct kiln_paint_grid *grid, const float at[3])
     return (z * grid->size[1] + y) * grid->size[0] + cell_along(grid, 0, at[0]);
 }
 
+/* Cells are as large as blocks, so that a small splat looks at few. */
 static void measure(struct kiln_paint_grid *grid, const struct kiln_chart *chart)
 {
     float longest = 1e-6f;
-    for (int c = 0; c < 3; c++) {
-        grid->origin[c] = chart->min[c];
-        const float size = chart->max[c] - chart->min[c];
-        longest = size > longest ? size : longest;
-    }
-    grid->per_unit = (float)CELLS / longest;
-    for (int c = 0; c < 3; c++) {
-        const float cells = (chart->max[c] - chart->min[c]) * grid->per_unit;
-        grid->size[c] = 1 + (uint32_t)(cells < (float)(CELLS - 1) ? cells : (float)(CELLS - 1));
-    }
     for (uint32_t b = 0; b < chart->block_count; b++) {
         for (int c = 0; c < 3; c++) {
             const float low = chart->low[b][c], high = chart->high[b][c];
@@ -52,6 +43,17 @@ static void measure(struct kiln_paint_grid *grid, const struct kiln_chart *chart
             const float half = 0.5f * (high - low) * 1.0001f + 1e-6f * (fabsf(low) + fabsf(high));
             grid->reach = half > grid->reach ? half : grid->reach;
         }
+    }
+    for (int c = 0; c < 3; c++) {
+        grid->origin[c] = chart->min[c];
+        const float size = chart->max[c] - chart->min[c];
+        longest = size > longest ? size : longest;
+    }
+    const float least = longest / (float)CELLS, twice = 2.0f * grid->reach;
+    grid->per_unit = 1.0f / (least > twice ? least : twice);
+    for (int c = 0; c < 3; c++) {
+        const float cells = (chart->max[c] - chart->min[c]) * grid->per_unit;
+        grid->size[c] = 1 + (uint32_t)(cells < (float)(CELLS - 1) ? cells : (float)(CELLS - 1));
     }
 }
 

@@ -1,0 +1,188 @@
+/* What it costs to paint a mesh (Drone 2007, 7.6.1): a ball, on which splats lie evenly, by each
+ * gather, and by groups of particles. */
+#include <stdlib.h>
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "bench/suite.h"
+#include "shared/random.h"
+#include "sim/paint.h"
+
+enum { RINGS = 48, AROUND = 2 * RINGS, MEASURE = KILN_PASS_simulate };
+
+/* Ways to paint: in a frame, so many of the splats. */
+static const struct kiln_lane LANES[] = {
+    {.name = "gather=near"}, {.name = "gather=all"}, {.name = "gather=all, a hundredth a frame"}};
+enum { LANE_COUNT = sizeof LANES / sizeof *LANES };
+
+struct bout {
+    const struct kiln_bench_run *run;
+    struct kiln_threads *threads;
+    struct kiln_mesh *mesh;
+    struct kiln_chart *chart;
+    struct kiln_paint_grid grid;
+    kiln_paint_block *block;
+    struct kiln_splat *splats;
+    uint32_t count;
+    float (*texels)[4];
+    struct kiln_samples *samples; /* [LANE_COUNT] */
+};
+
+/* Of radius 1; longitude goes along u, latitude along v. */
+static struct kiln_mesh *make_ball(void)
+{
+    struct kiln_mesh *mesh = calloc(1, sizeof *mesh);
+    if (!mesh)
+        return NULL;
+    mesh->vertices = calloc((RINGS + 1) * (AROUND + 1), sizeof *mesh->vertices);
+    mesh->uvs = calloc((RINGS + 1) * (AROUND + 1), sizeof *mesh->uvs);
+    mesh->triangles = calloc(2 * RINGS * AROUND, sizeof *mesh->triangles);
+    if (!mesh->vertices || !mesh->uvs || !mesh->triangles) {
+        kiln_mesh_destroy(&mesh);
+        return NULL;
+    }
+    for (uint32_t i = 0; i <= RINGS; i++) {
+        const struct exact_angle down = exact_sincos(0.5f * EXACT_TWO_PI * (float)i / RINGS);
+        for (uint32_t k = 0; k <= AROUND; k++) {
+            const struct exact_angle way = exact_sincos(EXACT_TWO_PI * (float)k / AROUND);
+            const float at[3] = {down.sine * way.cosine, down.cosine, down.sine * way.sine};
+            for (int c = 0; c < 6; c++)
+                mesh->vertices[mesh->vertex_count][c] = at[c % 3];
+            mesh->uvs[mesh->vertex_count][0] = (float)k / AROUND;
+            mesh->uvs[mesh->vertex_count++][1] = (float)i / RINGS;
+        }
+    }
+    for (uint32_t i = 0; i < RINGS * AROUND; i++) {
+        const uint32_t a = i + i / AROUND, b = a + AROUND + 1;
+        const uint32_t corners[2][3] = {{a, a + 1, b}, {b, a + 1, b + 1}};
+        for (int k = 0; k < 6; k++)
+            mesh->triangles[mesh->triangle_count + (uint32_t)k / 3][k % 3] = corners[k / 3][k % 3];
+        mesh->triangle_count += 2;
+    }
+    for (int c = 0; c < 3; c++) {
+        mesh->min[c] = -1.0f;
+        mesh->max[c] = 1.0f;
+    }
+    return mesh;
+}
+
+/* Of a hundredth of the ball's radius, all over it. */
+static void make_splats(struct bout *bout)
+{
+    for (uint32_t i = 0; i < bout->count; i++) {
+        const uint32_t stream = random_stream(1, i);
+        const float y = 2.0f * random_unit(stream, 0) - 1.0f, r = exact_sqrt(1.0f - y * y);
+        const struct exact_angle way = exact_sincos(EXACT_TWO_PI * random_unit(stream, 1));
+        const float at[3] = {r * way.cosine, y, r * way.sine};
+        bout->splats[i] = (struct kiln_splat){.at = {at[0], at[1], at[2]},
+                                              .opacity = 0.8f,
+                                              .normal = {at[0], at[1], at[2]},
+                                              .square = 1e-4f,
+                                              .color = {0.8f, 0.3f, 0.1f},
+                                              .slope = 2e4f};
+    }
+}
+
+static bool set_up(struct bout *bout, uint32_t edge, struct kiln_error *error)
+{
+    enum kiln_simd simd;
+    if (!kiln_simd_choose(&simd, error))
+        return false;
+    bout->block = KILN_SIMD_PICK(kiln_paint_block_of, simd);
+    bout->threads = kiln_threads_create(bout->run->params->threads);
+    bout->mesh = make_ball();
+    bout->splats = calloc(bout->count, sizeof *bout->splats);
+    bout->texels = calloc((size_t)edge * edge, sizeof *bout->texels);
+    bout->samples = calloc(LANE_COUNT, sizeof *bout->samples);
+    if (!bout->threads || !bout->mesh || !bout->splats || !bout->texels || !bout->samples) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
+        return false;
+    }
+    make_splats(bout);
+    bout->chart = kiln_chart_create(bout->mesh, edge, "ball", error);
+    return bout->chart && kiln_paint_grid_init(&bout->grid, bout->chart, error);
+}
+
+static bool paint(struct bout *bout, size_t lane, double *ms, struct kiln_error *error)
+{
+    const struct kiln_paint_gather gather = {.threads = bout->threads,
+                                             .block = bout->block,
+                                             .chart = bout->chart,
+                                             .grid = lane == 0 ? &bout->grid : NULL};
+    const double start_s = kiln_clock_seconds();
+    bool changed;
+    const bool ok =
+        kiln_paint_gather(&gather, bout->splats, lane == 2 ? bout->count / 100 : bout->count,
+                          bout->texels, &changed, error);
+    *ms = 1e3 * (kiln_clock_seconds() - start_s);
+    return ok;
+}
+
+/* The first turn warms up. */
+static bool take_turns(struct bout *bout, struct kiln_error *error)
+{
+    const struct kiln_bench_params *params = bout->run->params;
+    double spent_ms = 0.0;
+    for (uint32_t turn = 0; turn <= bout->run->bench->repetitions; turn++) {
+        if (turn > KILN_BENCH_MIN_REPETITIONS && spent_ms > 1e3 * params->seconds)
+            return true;
+        for (size_t lane = 0; lane < LANE_COUNT; lane++) {
+            struct kiln_samples *samples = &bout->samples[lane];
+            double ms = 0.0;
+            if (params->stop && params->stop(params->user)) {
+                kiln_error_set(error, KILN_INTERRUPTED, "stopped");
+                return false;
+            }
+            if (!paint(bout, lane, &ms, error))
+                return false;
+            if (turn > 0)
+                samples->ms[MEASURE][samples->count++] = ms;
+            spent_ms += turn > 0 ? ms : 0.0;
+        }
+    }
+    return true;
+}
+
+static bool run_count(const struct kiln_bench_run *run, uint32_t count, uint32_t edge,
+                      struct kiln_error *error)
+{
+    struct bout bout = {.run = run, .count = count};
+    const struct kiln_comparison comparison = {.lanes = LANES,
+                                               .lane_count = LANE_COUNT,
+                                               .measures = KILN_MEASURE(simulate),
+                                               .as = "paint",
+                                               .x = (double)count};
+    const bool ok = set_up(&bout, edge, error) && take_turns(&bout, error) &&
+                    kiln_bench_add_samples(run, &comparison, bout.samples, error);
+    kiln_paint_grid_finish(&bout.grid);
+    kiln_chart_destroy(&bout.chart);
+    kiln_mesh_destroy(&bout.mesh);
+    free(bout.samples);
+    free(bout.splats);
+    free(bout.texels);
+    kiln_threads_destroy(&bout.threads);
+    return ok;
+}
+
+bool kiln_suite_paint(const struct kiln_bench_run *run, struct kiln_error *error)
+{
+    static const uint32_t counts[] = {1000, 10000, 100000};
+    const struct kiln_bench_part part = {
+        .name = "paint",
+        .title = "Painting a ball, a texture of 256 x 256 texels (Drone 2007, 7.6.1)",
+        .sweep = "splats",
+        .unit = "ms",
+        .reference = LANES[0].name,
+    };
+    if (!kiln_bench_begin(run, &part, error))
+        return false;
+    const size_t count = run->params->quick ? 1 : sizeof counts / sizeof *counts;
+    for (size_t i = 0; i < count; i++) {
+        kiln_bench_say(run, "%u splats", counts[i]);
+        if (!run_count(run, counts[i], 256, error))
+            return false;
+    }
+    return kiln_bench_add_note(run->bench, error,
+                               "Both gathers paint the same; a hundredth of the particles in each "
+                               "frame is how the paper spreads its own over frames (7.6.1.3).");
+}
