@@ -49,8 +49,8 @@ struct kiln_stages {
 };
 
 /* Sets everything up for a scene. device NULL: without GL, all techniques `cpu`. needs says what
- * the output will ask for; threads is borrowed, and so is the pool, whose paint is drawn. On failure
- * nothing is left. */
+ * the output will ask for; threads is borrowed, and so is the pool, whose paint is drawn. On
+ * failure nothing is left. */
 bool kiln_stages_init(struct kiln_stages *stages, struct kiln_device *device,
                       const struct kiln_scene *scene, const struct kiln_techniques *techniques,
                       struct kiln_output_needs needs, struct kiln_threads *threads,

@@ -16,7 +16,7 @@
 #define RANDOM_SPIN      11u /* 2 numbers: rate and sign */
 #define RANDOM_CELL      13u
 #define RANDOM_TEXTURE   14u
-#define RANDOM_AXIS      15u         /* 2 numbers */
+#define RANDOM_AXIS      15u /* 2 numbers */
 #define RANDOM_PAINT     20u
 #define RANDOM_BOUNCE    0x40000000u /* + step << 4 + bounce << 1: 2 numbers */
 
