@@ -317,28 +317,51 @@ static bool allocate(struct kiln_chart *chart)
     return ok && chart->texels && chart->low && chart->high;
 }
 
-static void fill_block(const struct making *m, struct kiln_chart *chart, const uint64_t *keys,
-                       uint32_t block)
+static void fill_texel(const struct making *m, struct kiln_chart *chart, size_t i, uint32_t texel)
 {
-    const size_t first = (size_t)block * KILN_CHART_BLOCK;
-    float *low = chart->low[block], *high = chart->high[block];
-    for (size_t i = first; i < first + KILN_CHART_BLOCK; i++) {
-        const bool real = i < chart->count;
-        const uint32_t texel = real ? (uint32_t)keys[i] : KILN_CHART_NOWHERE;
-        chart->texels[i] = texel;
-        for (int c = 0; c < 3; c++) {
-            const float place = real ? m->texels[texel].place[c] : NOWHERE;
-            chart->place[c][i] = place;
-            chart->normal[c][i] = real ? m->texels[texel].normal[c] : 0.0f;
-            if (!real)
-                continue;
-            low[c] = i == first || place < low[c] ? place : low[c];
-            high[c] = i == first || place > high[c] ? place : high[c];
-        }
-    }
+    chart->texels[i] = texel;
     for (int c = 0; c < 3; c++) {
-        chart->min[c] = block == 0 || low[c] < chart->min[c] ? low[c] : chart->min[c];
-        chart->max[c] = block == 0 || high[c] > chart->max[c] ? high[c] : chart->max[c];
+        chart->place[c][i] = m->texels[texel].place[c];
+        chart->normal[c][i] = m->texels[texel].normal[c];
+    }
+}
+
+static void fill_nowhere(struct kiln_chart *chart, size_t i)
+{
+    chart->texels[i] = KILN_CHART_NOWHERE;
+    for (int c = 0; c < 3; c++) {
+        chart->place[c][i] = NOWHERE;
+        chart->normal[c][i] = 0.0f;
+    }
+}
+
+/* The bounds of a block's texels, from the first to the last. */
+static void bound(struct kiln_chart *chart, uint32_t block, size_t first, size_t end)
+{
+    for (int c = 0; c < 3; c++) {
+        const float *place = chart->place[c];
+        float low = place[first], high = place[first];
+        for (size_t i = first + 1; i < end; i++) {
+            low = place[i] < low ? place[i] : low;
+            high = place[i] > high ? place[i] : high;
+        }
+        chart->low[block][c] = low;
+        chart->high[block][c] = high;
+        chart->min[c] = block == 0 || low < chart->min[c] ? low : chart->min[c];
+        chart->max[c] = block == 0 || high > chart->max[c] ? high : chart->max[c];
+    }
+}
+
+static void fill_blocks(const struct making *m, struct kiln_chart *chart, const uint64_t *keys)
+{
+    for (uint32_t block = 0; block < chart->block_count; block++) {
+        const size_t first = (size_t)block * KILN_CHART_BLOCK, full = first + KILN_CHART_BLOCK;
+        const size_t end = full < chart->count ? full : chart->count;
+        for (size_t i = first; i < end; i++)
+            fill_texel(m, chart, i, (uint32_t)keys[i]);
+        for (size_t i = end; i < full; i++)
+            fill_nowhere(chart, i);
+        bound(chart, block, first, end);
     }
 }
 
@@ -354,7 +377,7 @@ static bool fill(const struct making *m, struct kiln_chart *chart, struct kiln_e
         return false;
     }
     chart->block_count = (chart->count + KILN_CHART_BLOCK - 1) / KILN_CHART_BLOCK;
-    uint64_t *keys = malloc(chart->count * sizeof *keys);
+    uint64_t *keys = calloc(chart->count, sizeof *keys);
     if (!keys || !allocate(chart)) {
         free(keys);
         kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory for paint", m->name);
@@ -366,8 +389,7 @@ static bool fill(const struct making *m, struct kiln_chart *chart, struct kiln_e
             keys[found++] = i;
     }
     sort_texels(m, keys, found);
-    for (uint32_t block = 0; block < chart->block_count; block++)
-        fill_block(m, chart, keys, block);
+    fill_blocks(m, chart, keys);
     free(keys);
     return true;
 }

@@ -34,9 +34,10 @@ static struct kiln_mesh *make_ball(void)
     struct kiln_mesh *mesh = calloc(1, sizeof *mesh);
     if (!mesh)
         return NULL;
-    mesh->vertices = calloc((RINGS + 1) * (AROUND + 1), sizeof *mesh->vertices);
-    mesh->uvs = calloc((RINGS + 1) * (AROUND + 1), sizeof *mesh->uvs);
-    mesh->triangles = calloc(2 * RINGS * AROUND, sizeof *mesh->triangles);
+    const size_t vertices = (size_t)(RINGS + 1) * (AROUND + 1);
+    mesh->vertices = calloc(vertices, sizeof *mesh->vertices);
+    mesh->uvs = calloc(vertices, sizeof *mesh->uvs);
+    mesh->triangles = calloc((size_t)RINGS * AROUND * 2, sizeof *mesh->triangles);
     if (!mesh->vertices || !mesh->uvs || !mesh->triangles) {
         kiln_mesh_destroy(&mesh);
         return NULL;

@@ -42,7 +42,7 @@ bool kiln_canvas_copy(struct kiln_canvas *to, const struct kiln_canvas *from,
             return false;
     }
     memcpy(to->texels, from->texels, (size_t)to->edge * to->edge * sizeof *to->texels);
-    if (to->waiting)
+    if (to->slot_count > 0)
         memcpy(to->waiting, from->waiting, to->slot_count * sizeof *to->waiting);
     to->next = from->next;
     to->changes++; /* who has drawn either of them must not take this one for it */
