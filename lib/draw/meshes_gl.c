@@ -124,16 +124,19 @@ static void create_targets(struct kiln_meshes_gl *m)
 /* Layers as large as the largest texture; the smaller ones begin at a coarser level (shapes.c). */
 static void create_paint(struct kiln_meshes_gl *m)
 {
-    uint32_t levels = 0, layers = 0;
+    uint32_t levels = 1, layers = 0, edge = 1;
     for (uint32_t i = 0; i < m->count; i++) {
         const struct kiln_pyramid *p = kiln_painted_picture(m->painted, i);
-        layers += p != NULL;
-        levels = p && p->levels > levels ? p->levels : levels;
+        if (!p)
+            continue;
+        layers++;
+        levels = p->levels > levels ? p->levels : levels;
+        edge = p->width > edge ? p->width : edge;
     }
-    const GLsizei edge = (GLsizei)1 << (levels - 1);
     glGenTextures(1, &m->paint);
     glBindTexture(GL_TEXTURE_2D_ARRAY, m->paint);
-    glTexStorage3D(GL_TEXTURE_2D_ARRAY, (GLsizei)levels, GL_RGBA16F, edge, edge, (GLsizei)layers);
+    glTexStorage3D(GL_TEXTURE_2D_ARRAY, (GLsizei)levels, GL_RGBA16F, (GLsizei)edge, (GLsizei)edge,
+                   (GLsizei)layers);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_REPEAT);

@@ -36,17 +36,21 @@ void kiln_canvas_finish(struct kiln_canvas *canvas)
 bool kiln_canvas_copy(struct kiln_canvas *to, const struct kiln_canvas *from,
                       struct kiln_error *error)
 {
-    if (to->edge != from->edge || to->slot_count != from->slot_count) {
-        kiln_canvas_finish(to);
-        if (!kiln_canvas_init(to, from->edge, from->slot_count, error))
-            return false;
+    const bool fits = to->edge == from->edge && to->slot_count == from->slot_count;
+    struct kiln_canvas copy = *to;
+    if (!fits && !kiln_canvas_init(&copy, from->edge, from->slot_count, error)) {
+        kiln_canvas_finish(&copy);
+        return false;
     }
-    memcpy(to->texels, from->texels, (size_t)to->edge * to->edge * sizeof *to->texels);
-    if (to->slot_count > 0)
-        memcpy(to->waiting, from->waiting, to->slot_count * sizeof *to->waiting);
-    to->next = from->next;
-    to->changes++; /* who has drawn either of them must not take this one for it */
-    to->changes = to->changes > from->changes ? to->changes : from->changes + 1;
+    memcpy(copy.texels, from->texels, (size_t)copy.edge * copy.edge * sizeof *copy.texels);
+    if (copy.waiting)
+        memcpy(copy.waiting, from->waiting, copy.slot_count * sizeof *copy.waiting);
+    copy.next = from->next;
+    /* Who has drawn either of them must not take this one for it. */
+    copy.changes = 1 + (to->changes > from->changes ? to->changes : from->changes);
+    if (!fits)
+        kiln_canvas_finish(to);
+    *to = copy;
     return true;
 }
 
