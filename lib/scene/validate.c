@@ -399,6 +399,9 @@ static bool check_paint(struct kiln_reader *reader, const struct kiln_node *root
     const struct kiln_object *object = &scene->backdrop.objects[index];
     const uint32_t size = object->paint.size;
     char path[64];
+    snprintf(path, sizeof path, "backdrop.objects.%u.mesh.paint", index);
+    if (object->animation.enabled)
+        return kiln_validate_fail(reader, root, path, "not of a mesh with an animation");
     snprintf(path, sizeof path, "backdrop.objects.%u.mesh.paint.size", index);
     if ((size & (size - 1)) != 0)
         return kiln_validate_fail(reader, root, path, "%u is no power of two", size);
@@ -447,9 +450,6 @@ static bool check_objects(struct kiln_reader *reader, const struct kiln_node *ro
                                       "its collider to volume");
         if (object->kind == KILN_OBJECT_MESH && !check_solid(reader, root, i))
             return false;
-        snprintf(path, sizeof path, "backdrop.objects.%u.mesh.paint", i);
-        if (object->paint.enabled && object->animation.enabled)
-            return kiln_validate_fail(reader, root, path, "not of a mesh with an animation");
         if (kiln_object_takes_paint(object) && !check_paint(reader, root, i))
             return false;
         if (++meshes > KILN_MAX_MESHES)
