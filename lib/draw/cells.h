@@ -1,7 +1,8 @@
 /* The cells of flipbooks as the CPU rasteriser samples them (Heinz 2019, 3.2.4, equation 3.2). A
  * large particle takes a sample of both cells that it is between, and one of their motion. For a
- * small one they are mixed beforehand: its place between them is rounded to one of
- * KILN_CELL_PHASES, and what is mixed is kept. (Mixed large ones would not stay in the cache.)
+ * small one of very many they are mixed beforehand: its place between them is rounded to one of
+ * KILN_CELL_PHASES, and what is mixed is rounded to bytes and kept. (Mixed large ones would not
+ * stay in the cache.)
  */
 #ifndef KILN_DRAW_CELLS_H
 #define KILN_DRAW_CELLS_H
@@ -20,7 +21,10 @@ enum {
     KILN_CELL_LARGE_STEP = 2,  /* phases of the largest that is mixed, so that they fit a cache */
     KILN_CELL_MIXED_LEVEL = 2, /* the largest that is mixed... */
 };
-#define KILN_CELL_MIXED_MOVE 0.5f /* ...if nothing moves farther, texels: mixing blurs that */
+#define KILN_CELL_MIXED_MOVE 0.5f /* ...if nothing moves farther, texels: mixing blurs that... */
+#define KILN_CELL_MIXED_LEAST                                                                      \
+    (1u << 16) /* ...for systems of so many slots: of few sprites each is                          \
+                * seen alone with its error, and hardly two share a cell */
 
 struct kiln_cells;
 

@@ -75,7 +75,10 @@ static void choose_cells(struct subjects *p)
     position = vf_clamp(position, 0.0f, 1e6f);
     vf edge = (vf)((127 + KILN_ATLAS_LEVELS - 1 - p->level) << 23);
     vf motion = p->texture.c[3] * edge;
-    vi mixed = (p->level >= KILN_CELL_MIXED_LEVEL) & (motion <= KILN_CELL_MIXED_MOVE);
+    vi alone = (count == 1) & (motion == 0.0f); /* the next one is itself */
+    position = vf_where(~alone, position);
+    vi mixed = (p->level >= KILN_CELL_MIXED_LEVEL) & (motion <= KILN_CELL_MIXED_MOVE) & p->many;
+    mixed |= alone;
     vi fine = p->level > KILN_CELL_MIXED_LEVEL;
     vi step = vi_select(fine, vi_all(1), vi_all(KILN_CELL_LARGE_STEP));
     vf steps = vf_select(fine, vf_all(KILN_CELL_PHASES),

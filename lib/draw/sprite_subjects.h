@@ -23,6 +23,7 @@ struct subjects {
     const struct kiln_sprite_pass *pass;
     const struct kiln_draw_look *look;
     const float *rows; /* of their system in the table */
+    vi many;           /* all lanes, if it has so many that cells are mixed */
     vi seen;           /* lanes of which something may be seen */
     vi slots;
     struct vf_particles record;

@@ -5,14 +5,18 @@
  * by two bytes, then across by two words, both pairs with a sum of 255. A texel of 4 bytes is two
  * channels, half the work.
  *
- * A place in a cell is two words without sign, u and v, in 1/256 texels.
+ * A place in a cell is two words without sign, u and v: the texel, and the 255ths of the way to the
+ * next one that its weight is.
  */
 #ifndef KILN_DRAW_TEXELS_H
 #define KILN_DRAW_TEXELS_H
 
 #include "draw/simd.h"
 
-enum { PLACE_BITS = 8, PLACE_ONE = 1 << PLACE_BITS };
+enum { PLACE_BITS = 8, PLACE_ONE = 1 << PLACE_BITS, PLACE_STEPS = 255 };
+
+/* Where the first texel's near edge lies, in steps: half a texel in, and half a step to round. */
+#define PLACE_MIDDLE (0.5f * (PLACE_STEPS + 1))
 
 /* Sums of weighed texels of four or of two channels, before they are sorted by channel. */
 struct quads {
@@ -110,11 +114,14 @@ SIMD words pattern(int32_t a, int32_t b, int32_t c, int32_t d)
 }
 #endif
 
-/* Beyond 16 bits they become the least or greatest. */
+/* From 255ths of texels, rounded down. Beyond 16 bits they become the least or greatest. */
 SIMD vi places_of(vf u, vf v)
 {
     words both = WORDS(packus_epi32)((words) __builtin_convertvector(u, vi),
                                      (words) __builtin_convertvector(v, vi));
+    /* One more a texel: the product over 2^23 is the quotient by 255 of all 16 bits. */
+    words texels = WORDS(srli_epi16)(WORDS(mulhi_epu16)(both, WORDS(set1_epi16)((short)0x8081)), 7);
+    both = WORDS(adds_epu16)(both, texels);
     return (vi)WORDS(shuffle_epi8)(both, pattern(0x09080100, 0x0b0a0302, 0x0d0c0504, 0x0f0e0706));
 }
 
@@ -265,8 +272,11 @@ SIMD int32_t v_of(int32_t place)
 SIMD vi places_of(vf u, vf v)
 {
     vi x = __builtin_convertvector(u, vi), y = __builtin_convertvector(v, vi);
-    for (int i = 0; i < LANES; i++)
-        x[i] = place(limited(x[i], 0, 65535), limited(y[i], 0, 65535));
+    for (int i = 0; i < LANES; i++) {
+        int32_t right = limited(x[i], 0, 65535), down = limited(y[i], 0, 65535);
+        x[i] = place(limited(right + right / PLACE_STEPS, 0, 65535),
+                     limited(down + down / PLACE_STEPS, 0, 65535));
+    }
     return x;
 }
 

@@ -164,8 +164,8 @@ SIMD void put_pixels(struct batch *batch, const struct drawn *d, struct pixels p
         batch->depth[i] = 1.0f / p.q;
         if (textured) {
             vf limit = vf_all((float)b->edge + 2.0f * PLACE_ONE), depth = batch->depth[i];
-            p.u = vf_min(vf_max(p.u * depth + 0.5f * PLACE_ONE, vf_all(0.0f)), limit);
-            p.v = vf_min(vf_max(p.v * depth + 0.5f * PLACE_ONE, vf_all(0.0f)), limit);
+            p.u = vf_min(vf_max(p.u * depth + PLACE_MIDDLE, vf_all(0.0f)), limit);
+            p.v = vf_min(vf_max(p.v * depth + PLACE_MIDDLE, vf_all(0.0f)), limit);
         }
     }
     if (textured) {
@@ -290,8 +290,8 @@ SIMD void draw_wide(const struct drawn *d, const struct kiln_cell_hull *hull, co
     struct units units;
     bool textured = kind != KILN_SHADE_PLAIN;
     find_rows(d->tile, s, box, !deep && textured ? hull : NULL, &rows);
-    float scale = textured ? (float)PLACE_ONE : 1.0f;
-    float margin = textured && !deep ? 0.5f * PLACE_ONE : 0.0f;
+    float scale = textured ? (float)PLACE_STEPS : 1.0f;
+    float margin = textured && !deep ? PLACE_MIDDLE : 0.0f;
     for (int i = 0; i < KILN_TILE_HEIGHT && textured; i += LANES) {
         vf_store(rows.u + i, vf_load(rows.u + i) * scale + margin);
         vf_store(rows.v + i, vf_load(rows.v + i) * scale + margin);
@@ -331,7 +331,8 @@ SIMD void draw_narrow(const struct drawn *d, const struct box *box, struct batch
     const struct kiln_sprite *s = d->s;
     const struct kiln_tile *tile = d->tile;
     bool textured = kind != KILN_SHADE_PLAIN;
-    float scale = textured ? (float)PLACE_ONE : 1.0f, margin = textured ? 0.5f * PLACE_ONE : 0.0f;
+    float scale = textured ? (float)PLACE_STEPS : 1.0f;
+    float margin = textured ? PLACE_MIDDLE : 0.0f;
     vf u[UNIT_PARTS], v[UNIT_PARTS]; /* in the row of the anchor */
     for (int part = 0; part < UNIT_PARTS; part++) {
         vf x = vf_units_count(part) + ((float)(tile->x + box->x_from) + 0.5f) - s->x;

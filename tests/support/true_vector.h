@@ -1,0 +1,82 @@
+/* Vectors in double precision, of what true_sprite.h reads. */
+#ifndef TESTS_SUPPORT_TRUE_VECTOR_H
+#define TESTS_SUPPORT_TRUE_VECTOR_H
+
+#include <math.h>
+
+#include "draw/looks.h"
+#include "draw/view.h"
+
+typedef struct {
+    double x, y, z;
+} dvec;
+
+static inline dvec dvec_of(float4 v)
+{
+    return (dvec){(double)v.x, (double)v.y, (double)v.z};
+}
+
+static inline dvec dvec_of3(float3 v)
+{
+    return (dvec){(double)v.x, (double)v.y, (double)v.z};
+}
+
+static inline double dvec_dot(dvec a, dvec b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+/* a + b * t */
+static inline dvec dvec_add(dvec a, dvec b, double t)
+{
+    return (dvec){a.x + b.x * t, a.y + b.y * t, a.z + b.z * t};
+}
+
+static inline dvec dvec_scale(dvec a, double t)
+{
+    return (dvec){a.x * t, a.y * t, a.z * t};
+}
+
+static inline dvec dvec_cross(dvec a, dvec b)
+{
+    return (dvec){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+static inline dvec dvec_unit(dvec a)
+{
+    return dvec_scale(a, 1 / sqrt(dvec_dot(a, a)));
+}
+
+/* A row of an affine map, of a point. */
+static inline double dvec_row(float4 row, dvec p)
+{
+    return dvec_dot(dvec_of(row), p) + (double)row.w;
+}
+
+/* A point of the world in view space, and a direction. */
+static inline dvec dvec_view(const struct kiln_view *view, dvec p)
+{
+    const float4 *rows = view->world_to_view;
+    return (dvec){dvec_row(rows[0], p), dvec_row(rows[1], p), dvec_row(rows[2], p)};
+}
+
+static inline dvec dvec_turn(const struct kiln_view *view, dvec v)
+{
+    const float4 *rows = view->world_to_view;
+    return (dvec){dvec_dot(dvec_of(rows[0]), v), dvec_dot(dvec_of(rows[1]), v),
+                  dvec_dot(dvec_of(rows[2]), v)};
+}
+
+/* A row of a system's look (shared/look_layout.h) at a part of the life. */
+static inline void dvec_look(const float4 *table, uint32_t system, uint32_t row, float life,
+                             double out[4])
+{
+    double x = (double)(life * (float)(KILN_LOOK_SAMPLES - 1));
+    int sample = x < KILN_LOOK_SAMPLES - 2 ? (int)x : KILN_LOOK_SAMPLES - 2;
+    const float *from =
+        &table[(system * KILN_LOOK_ROWS + row) * KILN_LOOK_SAMPLES + (uint32_t)sample].x;
+    for (int i = 0; i < 4; i++)
+        out[i] = (double)from[i] + ((double)from[4 + i] - (double)from[i]) * (x - sample);
+}
+
+#endif
