@@ -71,8 +71,10 @@ static void open_subject(struct subject *s, struct kiln_device *device, const ch
                           .threads = kiln_threads_create(2)};
     s->scene = path ? kiln_scene_load(path, &params, &error)
                     : kiln_scene_parse(FAINT, strlen(FAINT), "faint", &params, &error);
-    if (!s->scene)
+    if (!s->scene) {
         fail_msg("%s", error.message);
+        return;
+    }
     uint32_t capacities[KILN_MAX_SYSTEMS];
     for (uint32_t i = 0; i < s->scene->system_count; i++)
         capacities[i] = s->scene->systems[i].capacity;
