@@ -19,6 +19,7 @@ struct kiln_backdrop_stage {
     const struct kiln_pool *pool;
     struct kiln_backdrop_gl *gl; /* one of these two */
     struct kiln_backdrop_cpu *cpu;
+    struct kiln_device *device;      /* of gl */
     struct kiln_sky_light sky_light; /* of the image */
     struct kiln_backdrop_inputs drawn;
     bool has_drawn;
@@ -169,6 +170,7 @@ struct kiln_backdrop_stage *kiln_backdrop_create(struct kiln_device *device,
     }
     stage->scene = scene;
     stage->pool = params->pool;
+    stage->device = device;
     const char *sky_image = scene->backdrop.sky_image;
     bool ok = kiln_meshes_init(&stage->meshes, scene, error) &&
               (!sky_image || kiln_sky_light_measure(&stage->sky_light, sky_image, error));
@@ -227,6 +229,24 @@ static struct kiln_backdrop_inputs make_inputs(struct kiln_backdrop_stage *stage
     return now;
 }
 
+/* A list that llvmpipe would silently not read to its end. An invocation reads lists for each of
+ * its rays, and what the floor mirrors; half of what its loops may run is left to everything else.
+ */
+static bool lists_are_short(const struct kiln_backdrop_stage *stage,
+                            const struct kiln_sphere_bins *spheres, struct kiln_error *error)
+{
+    const uint32_t readings =
+        KILN_EDGE_SAMPLES * (kiln_shape_features(stage->scene).floor_gloss ? 2 : 1);
+    const uint32_t most =
+        KILN_SOFTWARE_ITERATIONS / 2 / readings * (uint32_t)KILN_SPHERES_AT_A_TIME;
+    if (!stage->device->info.software || spheres->longest <= most)
+        return true;
+    return kiln_error_set(error, KILN_DEVICE_FAILED,
+                          "backdrop=gl: %u particles may shade one place; software GL draws up to "
+                          "%u: use --technique backdrop=cpu, or fewer",
+                          spheres->longest, most);
+}
+
 bool kiln_backdrop_draw(struct kiln_backdrop_stage *stage, const struct kiln_view *view,
                         const struct kiln_lighting *lighting, struct kiln_error *error)
 {
@@ -239,7 +259,8 @@ bool kiln_backdrop_draw(struct kiln_backdrop_stage *stage, const struct kiln_vie
     if (stage->cpu)
         stage->has_drawn = kiln_backdrop_cpu_draw(stage->cpu, &stage->drawn, lighting, kept, error);
     else
-        stage->has_drawn = kiln_lighting_bind(lighting, error) &&
+        stage->has_drawn = lists_are_short(stage, &lighting->spheres, error) &&
+                           kiln_lighting_bind(lighting, error) &&
                            kiln_backdrop_gl_draw(stage->gl, &stage->drawn, kept, error);
     return stage->has_drawn;
 }

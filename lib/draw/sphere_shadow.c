@@ -173,9 +173,10 @@ static bool make_room(struct kiln_sphere_shadow *shadow, size_t entries)
     return true;
 }
 
-static void fill_lists(struct kiln_sphere_shadow *shadow, const struct layout *layout)
+/* Returns the length of the longest. */
+static uint32_t fill_lists(struct kiln_sphere_shadow *shadow, const struct layout *layout)
 {
-    uint32_t edge = layout->edge, first = 0;
+    uint32_t edge = layout->edge, first = 0, longest = 0;
     memset(shadow->bins, 0, sizeof shadow->bins);
     for (int pass = 0; pass < 2; pass++) {
         for (size_t i = 0; i < shadow->count; i++) {
@@ -191,10 +192,13 @@ static void fill_lists(struct kiln_sphere_shadow *shadow, const struct layout *l
         }
         for (size_t i = 0; pass == 0 && i < (size_t)edge * edge; i++) {
             shadow->bins[2 * i] = first;
-            first += shadow->bins[2 * i + 1];
+            const uint32_t count = shadow->bins[2 * i + 1];
+            longest = count > longest ? count : longest;
+            first += count;
             shadow->bins[2 * i + 1] = 0;
         }
     }
+    return longest;
 }
 
 bool kiln_sphere_shadow_run(struct kiln_sphere_shadow *shadow,
@@ -223,14 +227,15 @@ bool kiln_sphere_shadow_run(struct kiln_sphere_shadow *shadow,
     }
     if (shadow->failed || !make_room(shadow, entries))
         return kiln_error_set(error, KILN_DEVICE_FAILED, "shadows of spheres: out of memory");
-    fill_lists(shadow, &layout);
+    const uint32_t longest = fill_lists(shadow, &layout);
     float scale = 1.0f / layout.size;
     const float3 right = shadow->sun.right, up = shadow->sun.up;
     *bins = (struct kiln_sphere_bins){.edge = layout.edge,
                                       .bins = shadow->bins,
                                       .list = shadow->entries,
                                       .entry_count = entries,
-                                      .rows = shadow->entry_rows};
+                                      .rows = shadow->entry_rows,
+                                      .longest = longest};
     bins->world_to_bin[0] =
         (float4){right.x * scale, right.y * scale, right.z * scale, -layout.low_x * scale};
     bins->world_to_bin[1] =

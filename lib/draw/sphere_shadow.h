@@ -16,6 +16,7 @@ struct kiln_sphere_bins {
     const uint32_t *bins;     /* two numbers a bin, in rows of `edge`: first entry, entries */
     const float4 *list;       /* world position and radius of a sphere, m */
     size_t entry_count, rows; /* rows: of KILN_SPHERE_ROW entries that there is memory for */
+    uint32_t longest;         /* entries of the bin with the most */
 };
 
 struct kiln_sphere_shadow;

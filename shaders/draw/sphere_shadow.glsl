@@ -19,6 +19,26 @@ float sphere_cover(vec4 sphere, vec3 origin, vec3 sun, float spread)
     return t > 0.0 ? part * most * most * fade : 0.0;
 }
 
+float listed_cover(int entry, int end, vec3 origin, vec3 sun, float spread)
+{
+    int i = min(entry, end - 1);
+    vec4 sphere = texelFetch(sphere_list, ivec2(i % KILN_SPHERE_ROW, i / KILN_SPHERE_ROW), 0);
+    return entry < end ? sphere_cover(sphere, origin, sun, spread) : 0.0;
+}
+
+/* Past KILN_SPHERES_AT_A_TIME of a list: llvmpipe bounds how often loops run, not what they do. */
+float listed_sun_visibility(int entry, int end, vec3 origin)
+{
+    float visible = 1.0;
+    vec3 sun = backdrop.sun_direction.xyz;
+    float spread = shapes.sun_right.w;
+    visible *= 1.0 - listed_cover(entry, end, origin, sun, spread);
+    visible *= 1.0 - listed_cover(entry + 1, end, origin, sun, spread);
+    visible *= 1.0 - listed_cover(entry + 2, end, origin, sun, spread);
+    visible *= 1.0 - listed_cover(entry + 3, end, origin, sun, spread);
+    return visible;
+}
+
 float sphere_sun_visibility(vec3 origin)
 {
     vec4 p = vec4(origin, 1.0);
@@ -27,12 +47,9 @@ float sphere_sun_visibility(vec3 origin)
     uvec2 bin = texelFetch(sphere_bins, ivec2(clamp(at, 0.0, max(edge - 1.0, 0.0))), 0).xy;
     bool inside = all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(edge)));
     int count = inside ? int(bin.y) : 0;
+    int first = int(bin.x), end = first + count;
     float visible = 1.0;
-    for (int i = 0; i < count; i++) {
-        int entry = int(bin.x) + i;
-        vec4 sphere =
-            texelFetch(sphere_list, ivec2(entry % KILN_SPHERE_ROW, entry / KILN_SPHERE_ROW), 0);
-        visible *= 1.0 - sphere_cover(sphere, origin, backdrop.sun_direction.xyz, shapes.sun_right.w);
-    }
+    for (int entry = first; entry < end; entry += KILN_SPHERES_AT_A_TIME)
+        visible *= listed_sun_visibility(entry, end, origin);
     return visible;
 }

@@ -31,9 +31,10 @@
 /* Spheres throw their shadows by lists: at most so many bins along each edge; entries in a row of
  * the list's texture. A shadow is gone where the penumbra is so many times as wide as the sphere.
  */
-#define KILN_SPHERE_BINS 128
-#define KILN_SPHERE_ROW  1024
-#define KILN_SPHERE_FADE 16.0f
+#define KILN_SPHERE_BINS       128
+#define KILN_SPHERE_ROW        1024
+#define KILN_SPHERE_FADE       16.0f
+#define KILN_SPHERES_AT_A_TIME 4 /* of a list, when shaders read it */
 
 struct kiln_draw_mesh {
     float4 to_world[3]; /* rows */

@@ -234,6 +234,52 @@ static void spheres_of_a_cloud_all_throw_shadows(void **state)
     finish(&f);
 }
 
+/* Draws the backdrop alone, with a sphere and so many below the floor, where its shadow falls; they
+ * come before it in all lists, and shade nothing. */
+static bool draw_buried(struct fixture *f, uint32_t buried, struct kiln_error *error)
+{
+    struct drawing *d = &f->drawing;
+    struct kiln_particle *particles = malloc((buried + 1) * sizeof *particles);
+    assert_non_null(particles);
+    const float3 still = {0.0f, 0.0f, 0.0f};
+    for (uint32_t i = 0; i < buried; i++)
+        particles[i] = drawing_particle(i, (float3){3.0f, -2.0f, 0.0f}, still);
+    particles[buried] = drawing_particle(buried, (float3){0.0f, 2.0f, 0.0f}, still);
+    drawing_place(d, particles, buried + 1, STEP);
+    free(particles);
+    d->pool.systems[0].next_serial = buried + 1;
+    bool ok = kiln_lighting_run(f->lighting, &d->pool, &d->view, &d->lighting, error) &&
+              kiln_backdrop_draw(d->backdrop, &d->view, &d->lighting, error);
+    return ok && kiln_image_host(&d->backdrop_color, KILN_READ, error);
+}
+
+/* All of a list is read, though llvmpipe lets loops run so often and no more; or it is said that it
+ * can not be. */
+static void a_list_of_spheres_may_be_long(void **state)
+{
+    const struct kiln_device *device = *state;
+    struct kiln_error error = {0};
+    struct fixture f;
+    const size_t bytes = (size_t)WIDTH * HEIGHT * 4 * sizeof(float);
+    float *alone = malloc(bytes);
+    assert_non_null(alone);
+    drawing_most = 40001;
+    init(&f, *state, HEAD "backdrop:\n" SUN SPHERES, NULL);
+    assert_true(draw_buried(&f, 0, &error));
+    memcpy(alone, f.drawing.backdrop_color.host, bytes);
+    assert_true(draw_buried(&f, 20000, &error));
+    double most = 0;
+    for (size_t i = 0; i < bytes / sizeof(float); i++)
+        most = fmax(most, fabs((double)alone[i] - (double)f.drawing.backdrop_color.host[i]));
+    assert_true(most < 1e-3);
+    bool drew = draw_buried(&f, 40000, &error);
+    assert_int_equal(drew, !device->info.software || backdrop_technique == KILN_BACKDROP_CPU);
+    assert_true(drew || strstr(error.message, "backdrop=cpu"));
+    finish(&f);
+    drawing_most = 32;
+    free(alone);
+}
+
 /* Light of the pixel that shows the top of the sphere at a place. */
 static double light_of(const struct fixture *f, vec place)
 {
@@ -391,6 +437,7 @@ int main(void)
         test_on_device(the_shadow_of_a_sphere_lies_where_geometry_says),
         test_on_device(the_shadow_of_a_mesh_is_that_of_a_sphere),
         test_on_device(spheres_of_a_cloud_all_throw_shadows),
+        test_on_device(a_list_of_spheres_may_be_long),
         test_on_device(spheres_shade_each_other),
         test_on_device(the_backdrop_shades_spheres),
         test_on_device(a_cylinder_is_round_from_above),
