@@ -41,12 +41,12 @@ const char *kiln_builtin_of(const char *source)
 
 bool kiln_builtin_exists(const char *name)
 {
-    return find(name, KILN_SIMD_PLAIN) != NULL;
+    return find(name, KILN_SIMD_NARROWEST) != NULL;
 }
 
 const char *kiln_builtin_name(size_t index)
 {
-    const struct builtin *builtin = at_index(index, KILN_SIMD_PLAIN);
+    const struct builtin *builtin = at_index(index, KILN_SIMD_NARROWEST);
     return builtin ? builtin->name : NULL;
 }
 

@@ -18,6 +18,8 @@ const char *kiln_simd_name(enum kiln_simd simd)
 
 bool kiln_simd_has(enum kiln_simd simd)
 {
+    if (!(KILN_SIMD_LEVELS & 1U << simd))
+        return false;
 #ifdef __x86_64__
     switch (simd) {
     case KILN_SIMD_SSE41:
@@ -44,7 +46,7 @@ bool kiln_simd_choose(enum kiln_simd *simd, struct kiln_error *error)
         const char *name = kiln_simd_name((enum kiln_simd)i);
         if (!kiln_simd_has((enum kiln_simd)i))
             continue;
-        kiln_text_add(&names, "%s%s", i ? ", " : "", name);
+        kiln_text_add(&names, "%s%s", names.length ? ", " : "", name);
         if (!wanted || strcmp(name, wanted) == 0) {
             *simd = (enum kiln_simd)i;
             found = true;

@@ -45,19 +45,48 @@ enum kiln_simd {
 #define KILN_SIMD_NAME(name) name##_avx512
 #endif
 
+/* The levels that this build has, a bit each (CMake's KILN_SIMD_LEVELS). */
+#ifndef KILN_SIMD_LEVELS
+#define KILN_SIMD_LEVELS 1
+#endif
+
+/* The narrowest of them. */
+#define KILN_SIMD_NARROWEST                                                                        \
+    (KILN_SIMD_LEVELS & 1   ? KILN_SIMD_PLAIN                                                      \
+     : KILN_SIMD_LEVELS & 2 ? KILN_SIMD_SSE41                                                      \
+     : KILN_SIMD_LEVELS & 4 ? KILN_SIMD_AVX2                                                       \
+                            : KILN_SIMD_AVX512)
+
+/* A level's own, NULL where the build lacks the level. */
+#if KILN_SIMD_LEVELS & 1
+#define KILN_SIMD_OF_PLAIN(name) &name##_plain
+#else
+#define KILN_SIMD_OF_PLAIN(name) (__typeof__(&name##_plain))NULL
+#endif
+#if KILN_SIMD_LEVELS & 2
+#define KILN_SIMD_OF_SSE41(name) &name##_sse41
+#else
+#define KILN_SIMD_OF_SSE41(name) (__typeof__(&name##_sse41))NULL
+#endif
+#if KILN_SIMD_LEVELS & 4
+#define KILN_SIMD_OF_AVX2(name) &name##_avx2
+#else
+#define KILN_SIMD_OF_AVX2(name) (__typeof__(&name##_avx2))NULL
+#endif
+#if KILN_SIMD_LEVELS & 8
+#define KILN_SIMD_OF_AVX512(name) &name##_avx512
+#else
+#define KILN_SIMD_OF_AVX512(name) (__typeof__(&name##_avx512))NULL
+#endif
+
 /* Declares what is exported, and takes the address of a level's. */
-#ifdef __x86_64__
 #define KILN_SIMD_DECLARE(type, name)                                                              \
     extern type name##_plain, name##_sse41, name##_avx2, name##_avx512
 #define KILN_SIMD_PICK(name, simd)                                                                 \
-    ((simd) == KILN_SIMD_AVX512  ? &name##_avx512                                                  \
-     : (simd) == KILN_SIMD_AVX2  ? &name##_avx2                                                    \
-     : (simd) == KILN_SIMD_SSE41 ? &name##_sse41                                                   \
-                                 : &name##_plain)
-#else
-#define KILN_SIMD_DECLARE(type, name) extern type name##_plain
-#define KILN_SIMD_PICK(name, simd)    ((void)(simd), &name##_plain)
-#endif
+    ((simd) == KILN_SIMD_AVX512  ? KILN_SIMD_OF_AVX512(name)                                       \
+     : (simd) == KILN_SIMD_AVX2  ? KILN_SIMD_OF_AVX2(name)                                         \
+     : (simd) == KILN_SIMD_SSE41 ? KILN_SIMD_OF_SSE41(name)                                        \
+                                 : KILN_SIMD_OF_PLAIN(name))
 
 /* "plain", "sse4.1", "avx2", "avx512". */
 const char *kiln_simd_name(enum kiln_simd simd);

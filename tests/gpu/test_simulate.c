@@ -27,7 +27,9 @@ static const struct {
 enum { WAY_COUNT = sizeof WAYS / sizeof *WAYS, DEVICE_WAYS = WAY_COUNT - 2 };
 
 /* Steps the scene in the first of these ways and compares after each step. GL in software takes
- * long to compile the larger variants, of which not every one is tried with each technique. */
+ * long to compile the larger variants. What is in the shared step alone is the same source for each
+ * technique, so one in GL is compared there; all are where they differ: in what they bind, and in
+ * how they keep what is born, moved and dead. */
 static void some_agree(struct kiln_device *device, const struct kiln_scene *scene, uint32_t steps,
                        size_t ways)
 {
@@ -76,22 +78,21 @@ static void velocity_first(void **state)
 static void position_first(void **state)
 {
     fixture_zoo(&fixture, KILN_INTEGRATE_POSITION_FIRST, STEPS);
-    all_agree(*state, &fixture.scene, STEPS);
+    some_agree(*state, &fixture.scene, STEPS, 1);
 }
 
 static void round_colliders(void **state)
 {
     fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, STEPS);
     fixture_add_round(&fixture);
-    all_agree(*state, &fixture.scene, STEPS);
+    some_agree(*state, &fixture.scene, STEPS, 1);
 }
 
-/* Few steps: compilers of software GL take seconds for each technique. */
 static void turned_colliders(void **state)
 {
     fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, 60);
     fixture_add_turned(&fixture);
-    all_agree(*state, &fixture.scene, 60);
+    some_agree(*state, &fixture.scene, 60, 1);
 }
 
 static void fields_agree(void **state)
@@ -112,7 +113,7 @@ static void colliders_out_of_grids_agree(void **state)
     fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, 90);
     fixture_add_terrain(&fixture, -0.4f, 3.0f, 0.9f, 40);
     fixture_add_moving_mesh(&fixture);
-    all_agree(*state, &fixture.scene, 90);
+    some_agree(*state, &fixture.scene, 90, 1);
     fixture_family(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT);
     fixture_add_terrain(&fixture, -0.4f, 3.0f, 0.9f, 40);
     fixture_add_moving_mesh(&fixture);
@@ -185,7 +186,7 @@ static void whirls_agree(void **state)
         fixture_add_whirls(&fixture);
         fixture_add_field(&fixture.scene.systems[0])->mode = KILN_WIND_ADD;
         fixture_finish(&fixture, 60);
-        some_agree(*state, &fixture.scene, 60, order == KILN_INTEGRATE_RK4 ? WAY_COUNT : 1);
+        some_agree(*state, &fixture.scene, 60, 1);
     }
 }
 
@@ -197,7 +198,7 @@ static void families_agree(void **state)
         const uint32_t steps = i < 2 ? 200 : 60;
         fixture_family(&fixture, orders[i]);
         fixture_finish(&fixture, steps);
-        some_agree(*state, &fixture.scene, steps, i < 2 ? WAY_COUNT : 1);
+        some_agree(*state, &fixture.scene, steps, i == 0 ? WAY_COUNT : 1);
     }
 }
 

@@ -75,8 +75,9 @@ static void assert_near(double found, double expected, double tolerance)
 
 static struct kiln_living_moment moment_of(const struct fixture *f)
 {
-    return (struct kiln_living_moment){f->scene, &f->pool, f->records,
-                                       &f->view, table,    &kiln_living_loops_plain};
+    return (struct kiln_living_moment){
+        f->scene, &f->pool, f->records,
+        &f->view, table,    KILN_SIMD_PICK(kiln_living_loops, KILN_SIMD_NARROWEST)};
 }
 
 static uint32_t gather_fire(const struct fixture *f, struct kiln_draw_light *lights)

@@ -90,8 +90,9 @@ static void tear_down(struct fixture *f)
 static void light(const struct fixture *f, uint32_t thread_count, struct result *result)
 {
     struct kiln_error error = {0};
-    const struct kiln_living_moment moment = {f->scene, &f->pool, f->records,
-                                              &f->view, f->table, &kiln_living_loops_plain};
+    const struct kiln_living_moment moment = {
+        f->scene, &f->pool, f->records,
+        &f->view, f->table, KILN_SIMD_PICK(kiln_living_loops, KILN_SIMD_NARROWEST)};
     struct kiln_threads *threads = kiln_threads_create(thread_count);
     struct kiln_smoke_shadow *shadow = kiln_smoke_shadow_create();
     struct kiln_smoke smoke = {0};
@@ -214,8 +215,9 @@ static void fill_by_the_book(const struct fixture *f, const float4 rows[3], stru
     book->cell =
         1 / (GRID *
              sqrt((double)(rows[0].x * rows[0].x + rows[0].y * rows[0].y + rows[0].z * rows[0].z)));
-    const struct kiln_living_moment moment = {f->scene, &f->pool, f->records,
-                                              &f->view, f->table, &kiln_living_loops_plain};
+    const struct kiln_living_moment moment = {
+        f->scene, &f->pool, f->records,
+        &f->view, f->table, KILN_SIMD_PICK(kiln_living_loops, KILN_SIMD_NARROWEST)};
     for (uint32_t i = 0; i < 2; i++) {
         const struct kiln_living_system system = kiln_living_system(&moment, i);
         for (uint32_t slot = 0; slot < system.used; slot++) {

@@ -196,7 +196,7 @@ static void compare_levels(struct fixture *f)
     const size_t bytes = COUNT * sizeof(struct kiln_sprite);
     struct kiln_sprite *plain = aligned_alloc(64, bytes), *other = aligned_alloc(64, bytes);
     assert_true(plain && other);
-    kiln_sprites_make_plain(&f->pass, f->entries, COUNT, plain);
+    KILN_SIMD_PICK(kiln_sprites_make, KILN_SIMD_NARROWEST)(&f->pass, f->entries, COUNT, plain);
     size_t seen = 0;
     for (size_t i = 0; i < COUNT; i++)
         seen += plain[i].x_from < plain[i].x_to;
