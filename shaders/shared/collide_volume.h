@@ -146,15 +146,77 @@ FN S(volume_hit) volume_hit_in(SIM_PARAM S(kiln_collider) c, S(volume_path) path
     return hit;
 }
 
+/* A cell on the way of a path, and the part of the path at which it comes there. */
+struct volume_walk {
+    float x, y, z;
+    float at;
+    bool ends; /* nothing is left of the path, or it leaves the grid */
+};
+
+/* The parts at which a path leaves its cell by each axis. */
+FN float3 volume_exits(S(volume_path) path, S(volume_walk) w)
+{
+    EXACT float3 y = FLOAT3(collide_leaves(path.start.x, path.across.x, w.x),
+                            collide_leaves(path.start.y, path.across.y, w.y),
+                            collide_leaves(path.start.z, path.across.z, w.z));
+    return y;
+}
+
+/* Into the neighbour by which a path leaves, at this part. */
+FN S(volume_walk) volume_step(S(volume_path) path, S(volume_walk) w, float3 exits, float at)
+{
+    bool along_x = exits.x <= exits.y && exits.x <= exits.z;
+    bool along_y = !along_x && exits.y <= exits.z;
+    EXACT float step_x = path.across.x > 0.0f ? 1.0f : -1.0f;
+    EXACT float step_y = path.across.y > 0.0f ? 1.0f : -1.0f;
+    EXACT float step_z = path.across.z > 0.0f ? 1.0f : -1.0f;
+    EXACT S(volume_walk) y;
+    y.x = along_x ? w.x + step_x : w.x;
+    y.y = along_y ? w.y + step_y : w.y;
+    y.z = along_x || along_y ? w.z : w.z + step_z;
+    y.at = at;
+    y.ends = false;
+    return y;
+}
+
+/* The cell after one with this mark: where no plane is near, several cells on. */
+FN S(volume_walk) volume_walk_on(S(kiln_grid) g, S(volume_path) path, S(volume_walk) w, float mark,
+                                 float per_cell, float to)
+{
+    EXACT float3 exits = volume_exits(path, w);
+    EXACT float leaves = exact_min(exits.x, exact_min(exits.y, exits.z));
+    EXACT float until = exact_min(leaves, to);
+    EXACT float next = exact_max(until, w.at);
+    EXACT float stride = w.at + (-1.0f - mark) * per_cell;
+    bool strides = mark < -1.5f && per_cell > 0.0f && stride > next;
+    EXACT S(volume_walk) y = volume_step(path, w, exits, next);
+    if (strides) {
+        EXACT float3 there = float3_add_scaled(path.start, path.across, stride);
+        y.x = volume_cell(there.x, g.size.x);
+        y.y = volume_cell(there.y, g.size.y);
+        y.z = volume_cell(there.z, g.size.z);
+        y.at = stride;
+    }
+    EXACT float held_x = volume_cell(y.x, g.size.x);
+    EXACT float held_y = volume_cell(y.y, g.size.y);
+    EXACT float held_z = volume_cell(y.z, g.size.z);
+    bool is_left = held_x != y.x || held_y != y.y || held_z != y.z;
+    y.ends = is_left || (strides ? stride >= to : leaves >= to);
+    return y;
+}
+
+/* Where a path first meets a plane of the cells that it goes through. */
 FN S(volume_hit) volume_march(SIM_PARAM S(kiln_collider) c, S(kiln_grid) g, S(volume_path) path,
                               float from, float to)
 {
     EXACT float3 first = float3_add_scaled(path.start, path.across, from);
-    EXACT float x = volume_cell(first.x, g.size.x);
-    EXACT float y = volume_cell(first.y, g.size.y);
-    EXACT float z = volume_cell(first.z, g.size.z);
+    EXACT S(volume_walk) w;
+    w.x = volume_cell(first.x, g.size.x);
+    w.y = volume_cell(first.y, g.size.y);
+    w.z = volume_cell(first.z, g.size.z);
+    w.at = from;
+    w.ends = false;
     EXACT float deep = VOLUME_DEPTH * exact_rcp(g.per_metre.x);
-    EXACT float at = from;
     EXACT float longest = exact_max(exact_abs(path.across.x),
                                     exact_max(exact_abs(path.across.y), exact_abs(path.across.z)));
     EXACT float per_cell = exact_rcp(longest);
@@ -165,50 +227,21 @@ FN S(volume_hit) volume_march(SIM_PARAM S(kiln_collider) c, S(kiln_grid) g, S(vo
     hit.face = VOLUME_FIRST_FACE;
     hit.side = 0;
     uint most = g.size.x + g.size.y + g.size.z;
-    for (uint i = 0u; i < most; i++) {
-        EXACT float leaves_x = collide_leaves(path.start.x, path.across.x, x);
-        EXACT float leaves_y = collide_leaves(path.start.y, path.across.y, y);
-        EXACT float leaves_z = collide_leaves(path.start.z, path.across.z, z);
-        EXACT float leaves = exact_min(leaves_x, exact_min(leaves_y, leaves_z));
-        EXACT float next = exact_min(leaves, to);
-        next = exact_max(next, at);
-        EXACT float mark = volume_mark(SIM g, UINT(x), UINT(y), UINT(z));
+    for (uint i = 0u; i < most && !w.ends; i++) {
+        EXACT float mark = volume_mark(SIM g, UINT(w.x), UINT(w.y), UINT(w.z));
+        side = mark > 0.0f ? side : unknown;
         if (mark > 0.0f) {
-            hit = volume_hit_in(SIM c, path, side, UINT(mark) - 1u, deep, at, next);
+            EXACT float3 exits = volume_exits(path, w);
+            EXACT float leaves = exact_min(exits.x, exact_min(exits.y, exits.z));
+            EXACT float until = exact_min(leaves, to);
+            EXACT float next = exact_max(until, w.at);
+            hit = volume_hit_in(SIM c, path, side, UINT(mark) - 1u, deep, w.at, next);
             if (hit.part <= 1.0f)
                 return hit;
             side = hit.side;
-        } else {
-            side = unknown;
+            hit.part = 2.0f;
         }
-        hit.part = 2.0f;
-        /* Where no plane is near, several cells at a time. */
-        EXACT float stride = at + (-1.0f - mark) * per_cell;
-        bool strides = mark < -1.5f && per_cell > 0.0f && stride > next;
-        if (strides ? stride >= to : leaves >= to)
-            return hit;
-        if (strides) {
-            EXACT float3 there = float3_add_scaled(path.start, path.across, stride);
-            x = volume_cell(there.x, g.size.x);
-            y = volume_cell(there.y, g.size.y);
-            z = volume_cell(there.z, g.size.z);
-            at = stride;
-        } else {
-            bool along_x = leaves_x <= leaves_y && leaves_x <= leaves_z;
-            bool along_y = !along_x && leaves_y <= leaves_z;
-            EXACT float step_x = path.across.x > 0.0f ? 1.0f : -1.0f;
-            EXACT float step_y = path.across.y > 0.0f ? 1.0f : -1.0f;
-            EXACT float step_z = path.across.z > 0.0f ? 1.0f : -1.0f;
-            x = along_x ? x + step_x : x;
-            y = along_y ? y + step_y : y;
-            z = along_x || along_y ? z : z + step_z;
-            at = next;
-        }
-        EXACT float held_x = volume_cell(x, g.size.x);
-        EXACT float held_y = volume_cell(y, g.size.y);
-        EXACT float held_z = volume_cell(z, g.size.z);
-        if (held_x != x || held_y != y || held_z != z)
-            return hit;
+        w = volume_walk_on(g, path, w, mark, per_cell, to);
     }
     return hit;
 }

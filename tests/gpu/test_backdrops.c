@@ -47,6 +47,8 @@ static void step_to(struct moment *m, uint32_t step)
     kiln_threads_destroy(&threads);
 }
 
+enum { MOST_STEPS = 200 }; /* that a scene is taken: then every one is on its way */
+
 static void open_moment(struct moment *m, struct kiln_device *device, struct kiln_scene *scene,
                         uint32_t frame)
 {
@@ -55,7 +57,8 @@ static void open_moment(struct moment *m, struct kiln_device *device, struct kil
     for (uint32_t i = 0; i < scene->system_count; i++)
         capacities[i] = scene->systems[i].capacity;
     kiln_pool_init(&m->pool, device, capacities, scene->system_count);
-    step_to(m, kiln_scene_frame_step(scene, frame));
+    const uint32_t step = kiln_scene_frame_step(scene, frame);
+    step_to(m, step < MOST_STEPS ? step : MOST_STEPS);
 }
 
 static void close_moment(struct moment *m)
