@@ -205,6 +205,33 @@ void kiln_mesh_bound(struct kiln_mesh *mesh)
     }
 }
 
+/* Six times the volume of a tetrahedron between a place and a triangle, positive if that faces
+ * away. */
+static double volume_below(const struct kiln_mesh *mesh, const uint32_t triangle[3],
+                           const float from[3])
+{
+    double v[3][3];
+    for (int k = 0; k < 3; k++) {
+        for (int c = 0; c < 3; c++)
+            v[k][c] = (double)mesh->vertices[triangle[k]][c] - (double)from[c];
+    }
+    return v[0][0] * (v[1][1] * v[2][2] - v[1][2] * v[2][1]) +
+           v[0][1] * (v[1][2] * v[2][0] - v[1][0] * v[2][2]) +
+           v[0][2] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
+}
+
+void kiln_mesh_face_outwards(struct kiln_mesh *mesh)
+{
+    double volume = 0.0;
+    for (uint32_t i = 0; i < mesh->triangle_count; i++)
+        volume += volume_below(mesh, mesh->triangles[i], mesh->min);
+    for (uint32_t i = 0; volume < 0.0 && i < mesh->triangle_count; i++) {
+        const uint32_t second = mesh->triangles[i][1];
+        mesh->triangles[i][1] = mesh->triangles[i][2];
+        mesh->triangles[i][2] = second;
+    }
+}
+
 static struct kiln_mesh *copy(const struct kiln_mesh_result *result, bool uvs)
 {
     struct kiln_mesh *mesh = calloc(1, sizeof *mesh);

@@ -43,6 +43,10 @@ struct kiln_mesh *kiln_mesh_load_unwrapped(const char *path, const char *root,
                                            bool (*stop)(void *user), void *user,
                                            struct kiln_error *error);
 
+/* Turns all triangles around where the volume that they enclose is negative: files differ in which
+ * way around is outside. */
+void kiln_mesh_face_outwards(struct kiln_mesh *mesh);
+
 /* As kiln_mesh_load, from bytes in memory, which may name no other files; name stands for the file.
  */
 struct kiln_mesh *kiln_mesh_parse(const void *bytes, size_t size, const char *name,

@@ -41,6 +41,8 @@ bool kiln_pool_copy(struct kiln_pool *to, struct kiln_pool *from, struct kiln_er
             return false;
         to->canvas_count = i < to->canvas_count ? to->canvas_count : i + 1;
     }
+    while (to->canvas_count > from->canvas_count)
+        kiln_canvas_finish(&to->canvases[--to->canvas_count]);
     return true;
 }
 

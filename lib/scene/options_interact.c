@@ -22,8 +22,9 @@ static const struct kiln_option collide[] = {
     VALUE("apart", apart, KILN_FRACTION, 0, 1, TIME, "0.5",
           "Part of what overlaps all the same that is pushed apart in a round."),
     VALUE("fastest", fastest, KILN_SPEED, 0, 10000, TIME, "0 m/s",
-          "Two that approach each other by no more are found before they meet, so that they never "
-          "pass through each other; who meets another so has no second collision in that step."),
+          "Two that approach each other by no more are found before they meet, and do not pass "
+          "through each other, but for who meets another first: that leaves no second collision in "
+          "the step. For mode exact."),
     INTEGER("rounds", rounds, 1, 64, "4",
             "Collisions that a particle may have in a step; the others wait for the next one."),
     END,
@@ -81,7 +82,8 @@ const struct kiln_option_kind kiln_interaction_kinds[] = {
      .shortcut = "radius",
      .help =
          "They bounce off each other like balls (UberFlow 2004, 4.4 and 4.5), and meet surfaces "
-         "with their radius, from the step after their birth on; how fast they may be without "
+         "with their radius (volumes and depth maps of meshes with their centre), from the step "
+         "after their birth on; how fast they may be without "
          "passing through each other is a matter of simulation.rate, or of fastest."},
     {.name = "gravity",
      .value = KILN_INTERACT_GRAVITY,

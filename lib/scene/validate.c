@@ -404,7 +404,8 @@ static bool check_paint(struct kiln_reader *reader, const struct kiln_node *root
         return kiln_validate_fail(reader, root, path, "not of a mesh with an animation");
     snprintf(path, sizeof path, "backdrop.objects.%u.mesh.paint.size", index);
     if ((size & (size - 1)) != 0)
-        return kiln_validate_fail(reader, root, path, "%u is no power of two", size);
+        return kiln_validate_fail(reader, root, path,
+                                  "%u is no power of two, of which 16 to 2048 are allowed", size);
     struct kiln_error error = {0};
     struct kiln_mesh *mesh =
         kiln_mesh_load_unwrapped(object->file, scene->asset_root, scene->stop, scene->user, &error);

@@ -112,10 +112,11 @@ bool kiln_sim_check_stage(struct kiln_device *device, const struct kiln_sim_para
     const GLint needed = (params->trace_count > 0) + (params->grids->count > 0) +
                          (params->grids->volumes.count > 0) + (params->push_count > 0);
     if (blocks < needed)
-        return kiln_error_set(error, KILN_NO_DEVICE,
-                              "%s: %d storage blocks in %s shaders; this scene, with children, "
-                              "grids or interaction, needs %d; use simulate=pingpong",
-                              device->info.name, blocks, name, needed);
+        return kiln_error_set(
+            error, KILN_NO_DEVICE,
+            "%s: %d storage blocks in %s shaders; this scene, with children, "
+            "paint, grids, volumes or interaction, needs %d; use simulate=pingpong",
+            device->info.name, blocks, name, needed);
     char reason[256];
     struct kiln_error problem = {0};
     if (kiln_probe_exact(device, stage, reason, &problem))

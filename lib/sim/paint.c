@@ -144,9 +144,10 @@ static bool find_mark(const struct making *m, const struct kiln_trace *trace, st
     if ((events & TRACE_TURN) == 0)
         return false;
     const float passed = exact_div(trace->turn.w - trace->start.w, trace->end.w - trace->start.w);
+    const float3 normal = trace_normal(*trace);
     *mark = (struct mark){
-        .at = trace_vector(trace->turn),
-        .normal = trace_normal(*trace),
+        .at = float3_add_scaled(trace_vector(trace->turn), normal, -trace->turn_velocity.w),
+        .normal = normal,
         .since = trace->turn.w,
         .life = exact_lerp(trace->start_velocity.w, trace->end_velocity.w,
                            exact_clamp(passed, 0.0f, 1.0f)),
@@ -265,12 +266,16 @@ static bool make_canvases(const struct kiln_paint *paint, struct kiln_pool *pool
                           struct kiln_error *error)
 {
     while (pool->canvas_count < paint->mesh_count) {
-        const uint32_t i = pool->canvas_count++;
+        const uint32_t i = pool->canvas_count;
         const struct kiln_object_paint *taker =
             &paint->scene->backdrop.objects[paint->meshes[i].object].paint;
         const bool all = taker->per_step == 0 || taker->per_step >= paint->slot_count;
-        if (!kiln_canvas_init(&pool->canvases[i], taker->size, all ? 0 : paint->slot_count, error))
+        if (!kiln_canvas_init(&pool->canvases[i], taker->size, all ? 0 : paint->slot_count,
+                              error)) {
+            kiln_canvas_finish(&pool->canvases[i]);
             return false;
+        }
+        pool->canvas_count++;
     }
     return true;
 }

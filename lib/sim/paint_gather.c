@@ -11,9 +11,10 @@
 #include "base/error.h"
 
 enum {
-    CELLS = 32,        /* at most, along an axis */
-    CHUNKS = 16,       /* of the splats */
-    LEAST_CHUNK = 256, /* splats */
+    CELLS = 32,            /* at most, along an axis */
+    CHUNKS = 16,           /* of the splats */
+    LEAST_CHUNK = 256,     /* splats */
+    MOST_LISTED = 1 << 26, /* of splats in blocks; beyond, all blocks look at all splats */
     BLOCKS_AT_A_TIME = 16
 };
 
@@ -98,6 +99,7 @@ struct gathering {
     const struct kiln_paint_gather *gather;
     const struct kiln_splat *splats;
     uint32_t count, chunk; /* splats; of them in a chunk */
+    bool listed;           /* by blocks, in the grid */
     float (*texels)[4];
     atomic_bool changed;
 };
@@ -184,13 +186,16 @@ static bool make_lists(struct gathering *g, struct kiln_error *error)
             total += count;
         }
     }
-    if (total > grid->list_capacity && total <= UINT32_MAX) {
+    g->listed = total <= MOST_LISTED;
+    if (!g->listed)
+        return true;
+    if (total > grid->list_capacity) {
         free(grid->list);
         grid->list_capacity = total + total / 2;
         grid->list = malloc(grid->list_capacity * sizeof *grid->list);
     }
-    if (total > UINT32_MAX || (total > 0 && !grid->list)) {
-        grid->list_capacity = grid->list ? grid->list_capacity : 0;
+    if (total > 0 && !grid->list) {
+        grid->list_capacity = 0;
         kiln_error_set(error, KILN_DEVICE_FAILED, "paint: out of memory for %u splats", g->count);
         return false;
     }
@@ -210,7 +215,7 @@ static void paint_blocks(void *context, size_t begin, size_t end, uint32_t worke
     for (size_t b = begin; b < end; b++) {
         const uint32_t *list = NULL;
         size_t count = g->count;
-        if (gather->grid) {
+        if (g->listed) {
             const uint32_t *ends = gather->grid->ends + (size_t)(CHUNKS - 1) * blocks;
             const uint32_t from = b > 0 ? ends[b - 1] : 0;
             list = gather->grid->list + from;

@@ -60,6 +60,8 @@ static struct kiln_volume *load(const struct kiln_scene *scene, uint32_t index,
     volume->two_sided = object->sides == KILN_SIDES_TWO;
     if (!load_mesh(volume, scene, object, error))
         return volume; /* its owner frees it */
+    if (!volume->two_sided)
+        kiln_mesh_face_outwards(volume->mesh);
     const size_t count = volume->mesh->vertex_count;
     volume->before = calloc(count, sizeof *volume->before);
     volume->after = calloc(count, sizeof *volume->after);
@@ -208,8 +210,19 @@ static bool fill(struct kiln_volumes *volumes, struct kiln_error *error)
         volume->first = total;
         total += mark_words(&volume->voxels) + 3 * (size_t)volume->voxels.plane_count;
     }
+    const struct kiln_device *device = volumes->words.device;
+    const size_t bytes = total * sizeof(float4);
+    const uint64_t most = device ? (uint64_t)device->info.max_storage_block_bytes : bytes;
+    if (bytes > most) {
+        kiln_error_set(
+            error, KILN_DEVICE_FAILED,
+            "backdrop: volumes of meshes take %zu bytes; %s allows %llu; set fewer cells, "
+            "or use simulate=cpu",
+            bytes, device->info.name, (unsigned long long)most);
+        return false;
+    }
     if (volumes->words.size < total * sizeof(float4))
-        kiln_buffer_reserve(&volumes->words, (total + total / 2) * sizeof(float4));
+        kiln_buffer_reserve(&volumes->words, bytes + bytes / 2 <= most ? bytes + bytes / 2 : bytes);
     float4 *words = kiln_buffer_host(&volumes->words, KILN_OVERWRITE, error);
     if (!words)
         return false;
@@ -229,7 +242,8 @@ bool kiln_volumes_step(struct kiln_volumes *volumes, const struct kiln_scene *sc
     for (uint32_t i = 0; i < volumes->count; i++) {
         struct kiln_volume *volume = volumes->items[i];
         const size_t bytes = volume->mesh->vertex_count * sizeof *volume->before;
-        const bool still = volume->made && memcmp(volume->before, volume->after, bytes) == 0;
+        const bool still = volume->made && volume->after_s == start_s &&
+                           memcmp(volume->before, volume->after, bytes) == 0;
         place(scene, volume, start_s, end_s);
         if (!make(scene, volume, still, threads, &changed, error))
             return false;

@@ -45,6 +45,9 @@
 #include "shared/collide_field.h"
 #endif
 
+/* Kinds that balls meet with their centres. */
+#define COLLIDE_MEETS_CENTRES(kind) ((kind) == COLLIDER_VOLUME || (kind) == COLLIDER_DEPTH)
+
 /* Impacts in one step; after the last, a particle rests for the remainder of the step: on what may
  * turn, which else could pass over it; or in space. */
 #define COLLIDE_BOUNCES 4u
@@ -268,6 +271,7 @@ struct collide_touch {
     float3 position; /* just outside of the face */
     float3 velocity; /* after the impact */
     float since;     /* part of the step that had passed */
+    float reach;     /* m: from the surface to the position */
     uint face;       /* for collide_normal_of */
     bool happened;
 };
@@ -284,6 +288,7 @@ FN S(collide_touch) collide_no_touch(void)
     touch.position = FLOAT3(0.0f, 0.0f, 0.0f);
     touch.velocity = FLOAT3(0.0f, 0.0f, 0.0f);
     touch.since = 0.0f;
+    touch.reach = 0.0f;
     touch.face = 0u;
     touch.happened = false;
     return touch;
@@ -295,6 +300,7 @@ FN S(collide_touch) collide_touched(S(collide_state) s, uint face)
     touch.position = s.position;
     touch.velocity = s.velocity;
     touch.since = s.since;
+    touch.reach = 0.0f;
     touch.face = face;
     touch.happened = true;
     return touch;
@@ -492,9 +498,12 @@ FN S(collide_way)
         now.since = now.since + left * hit.part;
         draw.purpose = collide_purpose(SIM bounce);
         now = collide_impact(SIM now, hit.box, hit.face, draw);
-        if (bounce == 0u)
+        if (bounce == 0u) {
+            uint kind = AROUND(colliders[hit.box].kind);
             way.first =
                 collide_touched(now, collide_face_met(SIM hit.box, answer.radius, now, hit.face));
+            way.first.reach = COLLIDE_MEETS_CENTRES(kind) ? 0.0f : answer.radius;
+        }
         EXACT float rest_s = (until - now.since) * dt_s;
         target = float3_add_scaled(now.position, now.velocity, rest_s);
         last = hit.box;
@@ -531,10 +540,13 @@ FN S(collide_way)
 #if COLLIDE_HAS_FIELDS
             draw.purpose = collide_purpose(SIM impacts & 7u);
             impacts++;
+            EXACT S(collide_state) before = now;
             now = collide_field_clamp(SIM now, c, draw);
+            if (c.kind != COLLIDER_VOLUME) /* whose cells know the plane behind alone */
+                before = now;
             if (impacts == 1u)
                 way.first = collide_touched(
-                    now, collide_face_met(SIM i, answer.radius, now, COLLIDE_SURFACE));
+                    now, collide_face_met(SIM i, answer.radius, before, COLLIDE_SURFACE));
 #endif
         } else if (inside && COLLIDE_IS_TURNED(c)) {
             uint nearest = collide_turned_nearest(SIM i, answer.radius, until, now.position);

@@ -13,7 +13,7 @@
 
 /* So many around one are looked at: rows of cells with more are left out, so that sums stay within
  * 31 bits, and loops within what every driver runs. */
-#define FLOCK_MOST 16384u
+#define FLOCK_MOST 8000u
 
 /* ---- sums of integers ----------------------------------------------------------------------- */
 

@@ -53,7 +53,7 @@ FN S(kiln_trace) step_trace(SIM_PARAM S(kiln_particle) p, S(step_way) way, uint 
     t.turn = trace_pack(way.first.position, way.first.since);
     t.end = trace_pack(way.end.position, way.end.since);
     t.start_velocity = trace_pack(way.start.velocity, progress);
-    t.turn_velocity = trace_pack(way.first.velocity, 0.0f);
+    t.turn_velocity = trace_pack(way.first.velocity, way.first.reach);
     t.end_velocity = trace_pack(way.end.velocity, progress_after);
     t.serial_event = UINT4(p.position_serial.w, events, way.first.face, FLOAT_BITS(life_s));
     return t;

@@ -20,7 +20,7 @@ struct kiln_trace {
     float4 turn;           /* the first impact, just outside of the surface */
     float4 end;            /* of the step or the life */
     float4 start_velocity; /* m/s; progress through life */
-    float4 turn_velocity;  /* after the impact; unused */
+    float4 turn_velocity;  /* after the impact; m from the surface */
     float4 end_velocity;   /* m/s; progress through life */
     uint4 serial_event;    /* serial; TRACE_*; face of the impact; life in seconds as float bits */
 };
