@@ -386,8 +386,10 @@ static struct kiln_skin *copy(const struct kiln_skin_result *r, struct kiln_mesh
     memcpy(skin->bones, r->bones, sizeof skin->bones);
     memcpy(skin->clips, r->clips, sizeof skin->clips);
     for (uint32_t i = 0; i < skin->clip_count; i++) {
-        for (char *c = skin->clips[i].name; *c; c++) /* they come into messages */
-            *c = (unsigned char)*c < ' ' || *c == 127 ? ' ' : *c;
+        for (char *c = skin->clips[i].name; *c; c++) { /* they come into messages */
+            if ((unsigned char)*c < ' ' || *c == 127)
+                *c = ' ';
+        }
     }
     if (!skin->sources || !skin->weights || !skin->channels || !skin->keys) {
         kiln_skin_destroy(&skin);

@@ -520,6 +520,16 @@ FN S(collide_way)
     return way;
 }
 
+/* From where a surface that has put somebody in front of it is found: a volume's cells know the
+ * plane behind which that was, others where it is now. */
+FN S(collide_state)
+    collide_seen_from(S(kiln_collider) c, S(collide_state) before, S(collide_state) now)
+{
+    if (c.kind == COLLIDER_VOLUME)
+        return before;
+    return now;
+}
+
 /* The thesis's way: whoever ends inside a box is put on the nearest face. Fast particles tunnel. */
 FN S(collide_way)
     collide_clamp(SIM_PARAM S(collide_state) s, float3 end, float until, S(collide_answer) answer)
@@ -542,11 +552,10 @@ FN S(collide_way)
             impacts++;
             EXACT S(collide_state) before = now;
             now = collide_field_clamp(SIM now, c, draw);
-            if (c.kind != COLLIDER_VOLUME) /* whose cells know the plane behind alone */
-                before = now;
             if (impacts == 1u)
-                way.first = collide_touched(
-                    now, collide_face_met(SIM i, answer.radius, before, COLLIDE_SURFACE));
+                way.first = collide_touched(now, collide_face_met(SIM i, answer.radius,
+                                                                  collide_seen_from(c, before, now),
+                                                                  COLLIDE_SURFACE));
 #endif
         } else if (inside && COLLIDE_IS_TURNED(c)) {
             uint nearest = collide_turned_nearest(SIM i, answer.radius, until, now.position);
