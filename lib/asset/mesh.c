@@ -101,10 +101,24 @@ static void run_child(const struct kiln_mesh_request *request, struct kiln_mesh_
 
 /* ---- the parent ------------------------------------------------------------------------------ */
 
-enum outcome { ENDED, STOPPED, TOO_SLOW };
+enum outcome { ENDED, STOPPED, TOO_SLOW, STUCK };
 
-/* Kills a child that does not end in time, or when nobody wants it any more. */
-static enum outcome await(pid_t child, const struct kiln_mesh_request *request)
+enum { ATTEMPTS = 3, STUCK_SECONDS = 4 };
+
+/* A child of a process with threads inherits locks that one of them held, and that nobody in the
+ * child will release; it waits and takes no time. */
+static bool is_stuck(pid_t child, double start_s)
+{
+    clockid_t clock;
+    struct timespec used = {0};
+    return kiln_clock_seconds() - start_s > STUCK_SECONDS &&
+           clock_getcpuclockid(child, &clock) == 0 && clock_gettime(clock, &used) == 0 &&
+           used.tv_sec == 0 && used.tv_nsec < 200000000;
+}
+
+/* Kills a child that does not end in time, or when nobody wants it any more; one that is stuck
+ * only if it may be tried again. */
+static enum outcome await(pid_t child, const struct kiln_mesh_request *request, bool may_retry)
 {
     enum outcome outcome = TOO_SLOW;
     const struct timespec pause = {.tv_nsec = 500000};
@@ -115,6 +129,10 @@ static enum outcome await(pid_t child, const struct kiln_mesh_request *request)
             return ENDED;
         if (request->stop && request->stop(request->user)) {
             outcome = STOPPED;
+            break;
+        }
+        if (may_retry && is_stuck(child, start_s)) {
+            outcome = STUCK;
             break;
         }
         nanosleep(&pause, NULL);
@@ -128,13 +146,16 @@ static enum outcome await(pid_t child, const struct kiln_mesh_request *request)
 static bool run(const struct kiln_mesh_request *request, struct kiln_mesh_result *result,
                 struct kiln_error *error)
 {
-    pid_t child = fork();
-    if (child == 0)
-        run_child(request, result);
-    if (child < 0)
-        return kiln_error_set_errno(error, KILN_DEVICE_FAILED, errno,
-                                    "%s: no process for the importer", request->name);
-    const enum outcome outcome = await(child, request);
+    enum outcome outcome = STUCK;
+    for (int attempt = 0; outcome == STUCK; attempt++) {
+        pid_t child = fork();
+        if (child == 0)
+            run_child(request, result);
+        if (child < 0)
+            return kiln_error_set_errno(error, KILN_DEVICE_FAILED, errno,
+                                        "%s: no process for the importer", request->name);
+        outcome = await(child, request, attempt < ATTEMPTS);
+    }
     if (outcome == STOPPED)
         return kiln_error_set(error, KILN_INTERRUPTED, "%s: stopped while reading the mesh",
                               request->name);
