@@ -155,6 +155,9 @@ static bool run(const struct kiln_mesh_request *request, struct kiln_mesh_result
             return kiln_error_set_errno(error, KILN_DEVICE_FAILED, errno,
                                         "%s: no process for the importer", request->name);
         outcome = await(child, request, attempt < ATTEMPTS);
+        /* What a killed child has written is taken away: the next one counts from 0. */
+        if (outcome == STUCK && madvise(result, sizeof *result, MADV_REMOVE) != 0)
+            outcome = TOO_SLOW;
     }
     if (outcome == STOPPED)
         return kiln_error_set(error, KILN_INTERRUPTED, "%s: stopped while reading the mesh",
