@@ -53,12 +53,26 @@ static const struct kiln_option cone[] = {
     END,
 };
 
+static const struct kiln_option line[] = {
+    PLACE("0 deg"),
+    VECTOR("span", size, KILN_METRES, -FAR, FAR, TIME, "[1, 0, 0]",
+           "From its first end to its last; the origin is in the middle."),
+    INTEGER("nozzles", nozzles, 0, 65536, "0",
+            "Places, in the middle of equal parts of it, that births take in turn; 0: anywhere."),
+    TURN,
+    END,
+};
+
 static const struct kiln_option_kind shapes[] = {
     {.name = "point", .value = KILN_EMITTER_POINT, .members = point, .help = "One place."},
     {.name = "sphere", .value = KILN_EMITTER_SPHERE, .members = sphere, .help = "A ball."},
     {.name = "box", .value = KILN_EMITTER_BOX, .members = box, .help = "A box along the axes."},
     {.name = "disc", .value = KILN_EMITTER_DISC, .members = disc, .help = "A flat disc."},
     {.name = "cone", .value = KILN_EMITTER_CONE, .members = cone, .help = "A nozzle."},
+    {.name = "line",
+     .value = KILN_EMITTER_LINE,
+     .members = line,
+     .help = "A line, or a rake of nozzles, whose smoke shows how air flows."},
     {.name = NULL},
 };
 

@@ -42,6 +42,7 @@ enum kiln_emitter_shape {
     KILN_EMITTER_BOX,
     KILN_EMITTER_DISC,
     KILN_EMITTER_CONE,
+    KILN_EMITTER_LINE,
 };
 
 enum kiln_event {
@@ -82,7 +83,8 @@ struct kiln_emitter {
     bool outward;                 /* sphere: directions point away from the origin instead */
     bool surface;                 /* sphere, box, disc: births on the surface or rim alone */
     struct kiln_value radius;     /* m: sphere, disc, base of the cone */
-    struct kiln_value3 size;      /* m: box, full edges */
+    struct kiln_value3 size;      /* m: box, full edges; line, from its first end to its last */
+    uint32_t nozzles;             /* line: places that births take in turn; 0: anywhere on it */
     struct kiln_value turn;       /* rad/s: of the shape about its direction */
     struct kiln_value inherit;    /* part of the emitter's (or parent's) velocity that it gets */
 };

@@ -38,7 +38,7 @@ static_assert(KILN_MAX_COLLIDERS == KILN_MAX_OBJECTS + 1, "each object and the f
 
 static_assert(EMIT_POINT == (uint)KILN_EMITTER_POINT && EMIT_SPHERE == (uint)KILN_EMITTER_SPHERE &&
                   EMIT_BOX == (uint)KILN_EMITTER_BOX && EMIT_DISC == (uint)KILN_EMITTER_DISC &&
-                  EMIT_CONE == (uint)KILN_EMITTER_CONE,
+                  EMIT_CONE == (uint)KILN_EMITTER_CONE && EMIT_LINE == (uint)KILN_EMITTER_LINE,
               "the shaders' names of enum kiln_emitter_shape");
 static_assert(FORCE_GRAVITY == (uint)KILN_FORCE_GRAVITY && FORCE_DRAG == (uint)KILN_FORCE_DRAG &&
                   FORCE_WIND == (uint)KILN_FORCE_WIND && FORCE_CURL == (uint)KILN_FORCE_CURL &&
@@ -83,6 +83,7 @@ static void fill_emitter(struct kiln_emit_params *params, const struct kiln_emit
         .shape = (uint)emit->shape,
         .outward = emit->outward,
         .surface = emit->surface,
+        .nozzles = emit->nozzles,
         .speed = emit->speed,
         .origin = emit->origin,
         .direction = emit->direction,

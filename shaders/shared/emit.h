@@ -61,7 +61,20 @@ FN float3 emit_on_disc(uint stream, uint purpose, float3 axis, float radius, boo
     return y;
 }
 
-FN S(emit_place) emit_place_at(SIM_PARAM uint stream, float time_s)
+/* On the line: at the nozzle whose turn it is, or anywhere. */
+FN float3 emit_on_line(SIM_PARAM uint stream, uint serial, float time_s)
+{
+    EXACT float3 span = value3_at(SIM_KEYS STEP(emit.size), time_s, 0.0f);
+    uint nozzles = STEP(emit.nozzles);
+    EXACT float part = random_unit(stream, RANDOM_PLACE);
+    if (nozzles != 0u)
+        part = exact_div(FLOAT(serial % nozzles) + 0.5f, FLOAT(nozzles));
+    EXACT float along = part - 0.5f;
+    EXACT float3 y = float3_scale(span, along);
+    return y;
+}
+
+FN S(emit_place) emit_place_at(SIM_PARAM uint stream, uint serial, float time_s)
 {
     EXACT float3 up = FLOAT3(0.0f, 1.0f, 0.0f);
     EXACT float3 towards = value3_at(SIM_KEYS STEP(emit.direction), time_s, 0.0f);
@@ -89,6 +102,8 @@ FN S(emit_place) emit_place_at(SIM_PARAM uint stream, float time_s)
          * from the middle a particle starts, the farther from the axis it flies, as if all came
          * from one point behind. */
         place.offset = emit_on_disc(stream, RANDOM_DIRECTION, axis, radius, false);
+    } else if (shape == EMIT_LINE) {
+        place.offset = emit_on_line(SIM stream, serial, time_s);
     }
     return place;
 }
@@ -99,9 +114,9 @@ struct emit_state {
 };
 
 /* A birth at a clip time as the shape says, from a resting emitter. */
-FN S(emit_state) emit_at_rest(SIM_PARAM uint stream, float time_s)
+FN S(emit_state) emit_at_rest(SIM_PARAM uint stream, uint serial, float time_s)
 {
-    EXACT S(emit_place) place = emit_place_at(SIM stream, time_s);
+    EXACT S(emit_place) place = emit_place_at(SIM stream, serial, time_s);
     EXACT float slowest = value_at(SIM_KEYS STEP(emit.speed.min), time_s, 0.0f);
     EXACT float fastest = value_at(SIM_KEYS STEP(emit.speed.max), time_s, 0.0f);
     EXACT float speed = random_between(stream, RANDOM_SPEED, slowest, fastest);
@@ -116,9 +131,9 @@ FN S(emit_state) emit_at_rest(SIM_PARAM uint stream, float time_s)
 }
 
 /* Where a particle born at a clip time starts, and how fast. */
-FN S(emit_state) emit_particle(SIM_PARAM uint stream, float time_s)
+FN S(emit_state) emit_particle(SIM_PARAM uint stream, uint serial, float time_s)
 {
-    EXACT S(emit_state) born = emit_at_rest(SIM stream, time_s);
+    EXACT S(emit_state) born = emit_at_rest(SIM stream, serial, time_s);
     EXACT float3 origin_rate = FLOAT3(value_rate_at(SIM_KEYS STEP(emit.origin.x), time_s),
                                       value_rate_at(SIM_KEYS STEP(emit.origin.y), time_s),
                                       value_rate_at(SIM_KEYS STEP(emit.origin.z), time_s));
@@ -139,9 +154,10 @@ FN float3 emit_turned(float3 v, float3 axis)
 
 /* The same of a particle that is born of another: `parent` at that moment is the origin of the
  * shape's space and `axis` its y axis. */
-FN S(emit_state) emit_child(SIM_PARAM uint stream, float time_s, S(emit_state) parent, float3 axis)
+FN S(emit_state)
+    emit_child(SIM_PARAM uint stream, uint serial, float time_s, S(emit_state) parent, float3 axis)
 {
-    EXACT S(emit_state) own = emit_at_rest(SIM stream, time_s);
+    EXACT S(emit_state) own = emit_at_rest(SIM stream, serial, time_s);
     EXACT float inherit = value_at(SIM_KEYS STEP(emit.inherit), time_s, 0.0f);
     EXACT float3 offset = emit_turned(own.position, axis);
     EXACT float3 thrown = emit_turned(own.velocity, axis);

@@ -34,12 +34,13 @@ struct kiln_derived_params {
 #define EMIT_BOX    2u
 #define EMIT_DISC   3u
 #define EMIT_CONE   4u
+#define EMIT_LINE   5u
 
 struct kiln_emit_params {
     uint shape;
     uint outward;
     uint surface;
-    uint unused;
+    uint nozzles;
     S(kiln_range) speed;
     S(kiln_value3) origin;
     S(kiln_value3) direction;

@@ -122,7 +122,7 @@ FN S(kiln_particle) step_child(SIM_PARAM uint slot, S(kiln_particle) old, S(kiln
     EXACT float born_s = particle_birth_time(STEP(derived), p);
     EXACT S(emit_state) at = family_parent_at(SIM parent, since);
     EXACT float3 axis = family_axis(SIM parent, at.velocity);
-    EXACT S(emit_state) born = emit_child(SIM stream, born_s, at, axis);
+    EXACT S(emit_state) born = emit_child(SIM stream, p.position_serial.w, born_s, at, axis);
     return step_with_motion(p, born.position, born.velocity);
 }
 

@@ -38,6 +38,9 @@ static inline void fixture_family_fireworks(struct scene_fixture *f)
     rocket->emit.life = fixture_range(0.2f, 0.6f);
     rocket->emit.speed = fixture_range(2.0f, 5.0f);
     rocket->emit.angle = fixture_constant(0.6f);
+    rocket->emit.shape = KILN_EMITTER_LINE;
+    rocket->emit.size = fixture_constant3(0.5f, 0.0f, -0.2f);
+    rocket->emit.nozzles = 3;
     fixture_add_force(rocket, KILN_FORCE_GRAVITY)->vector = fixture_constant3(0.0f, -9.81f, 0.0f);
     rocket->collide.enabled = true;
     rocket->bounds = (struct kiln_bounds){true, {-1.5f, -2.0f, -2.0f}, {1.5f, 3.0f, 2.0f}};
@@ -47,6 +50,8 @@ static inline void fixture_family_fireworks(struct scene_fixture *f)
     spark->emit.life = fixture_range(0.1f, 0.4f);
     spark->emit.speed = fixture_range(0.0f, 0.5f);
     spark->emit.angle = fixture_constant(3.0f);
+    spark->emit.shape = KILN_EMITTER_LINE;
+    spark->emit.size = fixture_constant3(0.0f, 0.03f, 0.04f);
     spark->emit.inherit = fixture_ramp(f, KILN_CLOCK_TIME, 0.0f, 0.0f, 3.0f, 1.0f);
 }
 

@@ -172,6 +172,8 @@ static void every_key_of_looks_and_shapes_arrives(void **state)
     assert_true(scene->systems[2].emit.size.z.constant == 3);
     assert_int_equal(scene->systems[3].emit.shape, KILN_EMITTER_DISC);
     assert_int_equal(scene->systems[4].emit.shape, KILN_EMITTER_CONE);
+    assert_int_equal(scene->systems[5].emit.shape, KILN_EMITTER_LINE);
+    assert_int_equal(scene->systems[5].emit.nozzles, 24);
     kiln_scene_destroy(&scene);
 }
 

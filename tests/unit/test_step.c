@@ -353,6 +353,14 @@ static void on_disc(float3 at, bool surface)
     assert_true(fabsf(at.z) < 1e-5f && r <= 2.0001 && (!surface || r > 1.9999));
 }
 
+static void on_line(float3 at, bool surface)
+{
+    (void)surface;
+    const float part = at.x / 2.0f;
+    assert_true(fabsf(part) <= 0.5001f && fabsf(at.y - 4.0f * part) < 1e-5f &&
+                fabsf(at.z - 6.0f * part) < 1e-5f);
+}
+
 static void emitters_keep_to_their_shapes(void **state)
 {
     (void)state;
@@ -363,6 +371,28 @@ static void emitters_keep_to_their_shapes(void **state)
     check_shape(KILN_EMITTER_BOX, true, on_box);
     check_shape(KILN_EMITTER_DISC, false, on_disc);
     check_shape(KILN_EMITTER_DISC, true, on_disc);
+    check_shape(KILN_EMITTER_LINE, false, on_line);
+}
+
+/* Serial after serial, from the first end to the last and again: in the middles of equal parts. */
+static void nozzles_take_turns(void **state)
+{
+    (void)state;
+    fixture_init(&fixture);
+    struct kiln_system *system = fixture_add_system(&fixture, "rake", 960.0f);
+    system->emit.shape = KILN_EMITTER_LINE;
+    system->emit.nozzles = 7;
+    system->emit.speed = fixture_range(0.0f, 0.0f);
+    system->emit.origin = fixture_constant3(1.0f, 2.0f, 3.0f);
+    system->emit.size = fixture_constant3(0.0f, -14.0f, 0.0f);
+    struct simulation run;
+    run_fixture(&run, 10);
+    for (uint32_t serial = 0; serial < 160; serial++) {
+        const float3 at = particle_position(simulation_records(&run)[serial]);
+        assert_true(at.x == 1.0f && at.z == 3.0f);
+        assert_near((double)at.y, 8.0 - 2.0 * (serial % 7), 1e-5);
+    }
+    simulation_end(&run);
 }
 
 /* A cone widens evenly: seen from the point behind, every direction is that of the place. With the
@@ -489,6 +519,7 @@ int main(void)
         cmocka_unit_test(demitters_bounds_and_absurdity_kill),
         cmocka_unit_test(emitters_keep_to_their_shapes),
         cmocka_unit_test(cones_widen_from_their_nozzle),
+        cmocka_unit_test(nozzles_take_turns),
         cmocka_unit_test(outward_spheres_throw_from_the_middle),
         cmocka_unit_test(a_run_that_does_not_fit_is_refused),
         cmocka_unit_test(the_states_are_what_they_always_were),
