@@ -19,12 +19,16 @@ enum {
     KILN_CELL_PHASES = 16,
     KILN_CELL_NUMBERS = KILN_CELL_PHASES * KILN_ATLAS_LEVELS, /* cells of a layer */
     KILN_CELL_LARGE_STEP = 2,  /* phases of the largest that is mixed, so that they fit a cache */
+    KILN_CELL_FINE_LEVEL = 3,  /* the largest that is sampled by floats */
     KILN_CELL_MIXED_LEVEL = 2, /* the largest that is mixed... */
 };
 #define KILN_CELL_MIXED_MOVE 0.5f /* ...if nothing moves farther, texels: mixing blurs that... */
 #define KILN_CELL_MIXED_LEAST                                                                      \
     (1u << 16) /* ...for systems of so many slots: of few sprites each is                          \
                 * seen alone with its error, and hardly two share a cell */
+#define KILN_CELL_FINE_MOST                                                                        \
+    1024u /* of systems of no more slots small cells without motion are sampled by floats: the     \
+           * error of places in bytes shows where light falls off within a texel or two */
 
 struct kiln_cells;
 

@@ -28,6 +28,7 @@ enum {
     KILN_SPRITE_LITERAL = 8, /* soft formula as printed: Heinz 2019, equation 3.3 */
     KILN_SPRITE_MIXED = 16,  /* its cell is mixed beforehand */
     KILN_SPRITE_EMITS = 32,  /* base and slope are not 0 */
+    KILN_SPRITE_FINE = 64,   /* its cells do not move, and are sampled by floats */
 };
 
 struct kiln_sprite {

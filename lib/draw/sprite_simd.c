@@ -300,7 +300,9 @@ static void make_piece(const struct kiln_sprite_pass *pass, struct piece *piece)
         p.look = &pass->looks[system];
         p.rows = &pass->table[(size_t)system * KILN_LOOK_ROWS * KILN_LOOK_SAMPLES].x;
         const uint32_t end = first[system + 1];
-        p.many = vi_all(-(pass->scene->systems[system].capacity >= KILN_CELL_MIXED_LEAST));
+        const uint32_t capacity = pass->scene->systems[system].capacity;
+        p.many = vi_all(-(capacity >= KILN_CELL_MIXED_LEAST));
+        p.few = vi_all(-(capacity <= KILN_CELL_FINE_MOST));
         for (uint32_t i = first[system]; i < end; i += LANES) {
             uint16_t rest[LANES]; /* and the last over and over */
             for (uint32_t k = 0; end - i < LANES && k < LANES; k++)

@@ -24,6 +24,7 @@ struct subjects {
     const struct kiln_draw_look *look;
     const float *rows; /* of their system in the table */
     vi many;           /* all lanes, if it has so many that cells are mixed */
+    vi few;            /* ...and so few that small cells are sampled by floats */
     vi seen;           /* lanes of which something may be seen */
     vi slots;
     struct vf_particles record;

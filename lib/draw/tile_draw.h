@@ -399,6 +399,16 @@ SIMD void make_brush(const struct kiln_tile *tile, const struct kiln_cells_conte
     b->move_mask = (0xffff >> b->move_shift) | (int32_t)(0xffffu >> b->move_shift << 16);
 }
 
+SIMD struct box box_in(const struct kiln_tile *tile, const struct kiln_sprite *s)
+{
+    return (struct box){
+        .x_from = s->x_from > tile->x ? s->x_from - tile->x : 0,
+        .x_to = s->x_to < tile->x + tile->width ? s->x_to - tile->x : tile->width,
+        .y_from = s->y_from > tile->y ? s->y_from - tile->y : 0,
+        .y_to = s->y_to < tile->y + tile->height ? s->y_to - tile->y : tile->height,
+    };
+}
+
 /* Whether no pixel of a box is seen. */
 SIMD bool box_hidden(const struct kiln_tile *tile, const struct box *box)
 {
@@ -431,12 +441,7 @@ SIMD void draw_sprite(struct kiln_tile *tile, const struct kiln_cells_content *c
                       const struct kiln_sprite *s, enum kiln_sprite_shade kind, bool deep,
                       bool covers, bool mixed)
 {
-    struct box box = {
-        .x_from = s->x_from > tile->x ? s->x_from - tile->x : 0,
-        .x_to = s->x_to < tile->x + tile->width ? s->x_to - tile->x : tile->width,
-        .y_from = s->y_from > tile->y ? s->y_from - tile->y : 0,
-        .y_to = s->y_to < tile->y + tile->height ? s->y_to - tile->y : tile->height,
-    };
+    const struct box box = box_in(tile, s);
     if (tile->hides && (box.x_from >= box.x_to || box_hidden(tile, &box)))
         return;
     struct drawn drawn = {.tile = tile, .s = s};
@@ -447,6 +452,75 @@ SIMD void draw_sprite(struct kiln_tile *tile, const struct kiln_cells_content *c
         draw_narrow(&drawn, &box, &batch, kind, covers, mixed);
     else
         draw_wide(&drawn, kiln_cells_hull(cells, s->cell), &box, &batch, kind, deep, covers, mixed);
+}
+
+/* ---- small sprites of which there are few ------------------------------------------------------
+ */
+
+/* At places among the texels as they lie in a cell. first: of four channels. */
+SIMD struct vf4 sample_floats(const struct brush *b, const uint8_t *cell, size_t first, vf u, vf v)
+{
+    struct vf4 sampled = {{{0}}};
+    for (int i = 0; i < LANES; i++) {
+        const int32_t column = (int32_t)u[i], row = (int32_t)v[i];
+        const float right = u[i] - (float)column, down = v[i] - (float)row;
+        const int8_t *texel =
+            (const int8_t *)cell + (ptrdiff_t)row * b->pitch + (ptrdiff_t)column * b->texel;
+        const int8_t *next = texel + b->texel;
+        for (size_t c = first; c < 4; c++, texel += 2, next += 2) {
+            float left_side = (float)texel[0] + (float)(texel[1] - texel[0]) * down;
+            float right_side = (float)next[0] + (float)(next[1] - next[0]) * down;
+            sampled.c[c][i] = left_side + (right_side - left_side) * right;
+        }
+    }
+    return sampled;
+}
+
+/* A unit of each of UNITS rows, or part of one. u, v: texels. */
+SIMD void draw_floats(const struct drawn *d, struct batch *batch, vf u, vf v)
+{
+    const struct kiln_sprite *s = d->s;
+    const struct brush *b = &d->brush;
+    const size_t first = s->shade == KILN_SHADE_GLOW ? 2 : 0;
+    const vf zero = vf_all(0.0f), edge = vf_all(s->edge_u);
+    batch->inside[0] &= (u >= 0.0f) & (u < edge) & (v >= 0.0f) & (v < edge);
+    u = vf_min(vf_max(u, zero), edge) + 0.5f;
+    v = vf_min(vf_max(v, zero), edge) + 0.5f;
+    struct vf4 cell = sample_floats(b, b->cell, first, u, v);
+    if (b->next) {
+        const struct vf4 next = sample_floats(b, b->next, first, u, v);
+        for (size_t c = first; c < 4; c++)
+            cell.c[c] += (next.c[c] - cell.c[c]) * s->part;
+    }
+    struct shaded c = s->shade == KILN_SHADE_LIT    ? shade_lit(s, b, cell)
+                      : s->shade == KILN_SHADE_GLOW ? shade_glow(s, b, cell)
+                                                    : shade_color(s, b, cell);
+    draw_vector(batch, 0, d, c, s->shade == KILN_SHADE_COLOR, false,
+                (s->flags & KILN_SPRITE_COVERS) != 0);
+}
+
+static void draw_few(struct kiln_tile *tile, const struct kiln_cells_content *cells,
+                     const struct kiln_sprite *s)
+{
+    const struct box box = box_in(tile, s);
+    if (tile->hides && (box.x_from >= box.x_to || box_hidden(tile, &box)))
+        return;
+    struct drawn d = {.tile = tile, .s = s};
+    make_brush(tile, cells, s, (enum kiln_sprite_shade)s->shade, false,
+               (s->flags & KILN_SPRITE_MIXED) != 0, &d.brush);
+    d.brush.sampled = 1.0f / 255.0f;
+    struct batch batch;
+    for (int y = box.y_from; y < box.y_to; y += UNITS) {
+        vf row = vf_units_number() + ((float)(tile->y + y) + 0.5f), below = row - s->y;
+        for (int x = box.x_from; x < box.x_to; x += LANES / UNITS) {
+            vf right = vf_units_count(0) + ((float)(tile->x + x) + 0.5f) - s->x;
+            batch.inside[0] = row < (float)(tile->y + box.y_to);
+            for (int k = 0; k < UNITS; k++)
+                batch.at[0][k] = (y + k) * KILN_TILE_PLANES * KILN_TILE_PITCH + x;
+            draw_floats(&d, &batch, (s->u + s->u_x * right) + s->u_y * below,
+                        (s->v + s->v_x * right) + s->v_y * below);
+        }
+    }
 }
 
 typedef void drawing(struct kiln_tile *tile, const struct kiln_cells_content *cells,
@@ -497,7 +571,10 @@ void TILE_DRAW(struct kiln_tile *tile, const struct kiln_sprite *sprites,
         }
         bool mixed = (s->flags & KILN_SPRITE_MIXED) != 0;
         uint32_t form = s->flags & (KILN_SPRITE_DEEP | KILN_SPRITE_COVERS);
-        draw[mixed][s->shade][form](tile, &content, s);
+        if (s->flags & KILN_SPRITE_FINE)
+            draw_few(tile, &content, s);
+        else
+            draw[mixed][s->shade][form](tile, &content, s);
         covering += (s->flags & KILN_SPRITE_COVERS) != 0;
         if (covering == LOOK_EVERY && tile->over) {
             covering = 0;

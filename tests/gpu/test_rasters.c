@@ -200,8 +200,7 @@ static struct difference measure(const double (*truth)[4], const float *drawn, c
 }
 
 /* What a technique drew of a pass. DESIGN: mean relative error at most 1e-3, no more than one value
- * in a thousand off by more than 1 %. `cpu` weighs texels by bytes: of a layer of a few steep
- * sprites (the glints of the fountain) that is up to 1.6e-3. */
+ * in a thousand off by more than 1 %. */
 static void compare(struct subject *s, const struct pass *pass, const char *raster,
                     const struct true_picture *truth)
 {
@@ -221,7 +220,7 @@ static void compare(struct subject *s, const struct pass *pass, const char *rast
         const struct difference d = of_layers[i];
         print_message("%-20s %-10s %-5s %-6s %.2g %.2g\n", s->name, raster, pass->name, layers[i],
                       d.mean, d.off);
-        s->failed = s->failed || d.mean > (pass->over ? 1e-3 : 2e-3) || d.off > 1e-3;
+        s->failed = s->failed || d.mean > 1e-3 || d.off > 1e-3;
     }
 }
 
