@@ -29,6 +29,8 @@ static const struct kiln_suite_row SUITES[] = {
      kiln_suite_colliders},
     {{"flock", "flocks of 4,096 and 16,384, by whom they look at (Drone 2007, 7.4.4)", 0.3},
      kiln_suite_flock},
+    {{"gravity", "gravity of all pairs, frames of it, and energy kept (Drone 2007, 7.4.3)", 0.5},
+     kiln_suite_gravity},
     {{"paint", "painting with particles by its gather (Drone 2007, 7.6.1)", 0.4}, kiln_suite_paint},
     {{"bytes", "memory and communication of techniques (Heinz 2019, 4.2)", 0.2}, kiln_suite_bytes},
     {{"output", "end to end to PNG, EXR and mp4, against what the stages take", 1},

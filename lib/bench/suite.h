@@ -23,9 +23,13 @@ bool kiln_suite_groups(const struct kiln_bench_run *run, struct kiln_error *erro
 bool kiln_suite_forces(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_colliders(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_flock(const struct kiln_bench_run *run, struct kiln_error *error);
+bool kiln_suite_gravity(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_paint(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_bytes(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_output(const struct kiln_bench_run *run, struct kiln_error *error);
+
+/* The part of `gravity` that says how well energy is kept. */
+bool kiln_bench_drift(const struct kiln_bench_run *run, struct kiln_error *error);
 
 #define KILN_UBERFLOW_SOURCE "UberFlow 2004, ATI 9800 Pro"
 

@@ -1,0 +1,199 @@
+/* How well long runs of bodies that attract each other keep their energy. A step kicks, then
+ * drifts: that is the leapfrog, whose velocities are half a step behind; energies are taken where
+ * both are known. */
+#include <math.h>
+#include <stdio.h>
+
+#include "base/error.h"
+#include "bench/suite.h"
+#include "shared/random.h"
+#include "sim/simulate.h"
+
+enum { STOPS = 3, BETWEEN = 30 /* looks at the energy, from a stop to the next */ };
+
+struct flight {
+    const char *name;
+    uint32_t bodies;
+    double strength, softening; /* m/s^2 at 1 m; m */
+    uint32_t stops[STOPS];      /* steps */
+    /* in a run: */
+    const struct kiln_bench_run *run;
+    struct kiln_scene *scene;
+    struct kiln_threads *threads;
+    struct kiln_simulate *simulate;
+    struct kiln_pool pool;
+};
+
+static const struct kiln_particle *records_of(struct flight *flight, struct kiln_error *error)
+{
+    return kiln_buffer_host(&flight->pool.records, KILN_READ, error);
+}
+
+/* The pull on a body, and half of the energy of its pairs. */
+static double add_pairs(const struct flight *flight, const struct kiln_particle *records,
+                        uint32_t self, double pull[3])
+{
+    const float3 at = particle_position(records[self]);
+    double potential = 0.0;
+    for (uint32_t k = 0; k < flight->bodies; k++) {
+        const float3 other = particle_position(records[k]);
+        const double x = (double)(other.x - at.x), y = (double)(other.y - at.y),
+                     z = (double)(other.z - at.z);
+        if (k == self)
+            continue;
+        const double inverse =
+            1.0 / sqrt(x * x + y * y + z * z + flight->softening * flight->softening);
+        const double strength = flight->strength * inverse;
+        potential -= 0.5 * strength;
+        pull[0] += x * strength * inverse * inverse;
+        pull[1] += y * strength * inverse * inverse;
+        pull[2] += z * strength * inverse * inverse;
+    }
+    return potential;
+}
+
+/* Of unit masses. */
+static double energy_of(const struct flight *flight, const struct kiln_particle *records)
+{
+    const double half_step_s = 0.5 / 60.0;
+    double sum = 0.0;
+    for (uint32_t i = 0; i < flight->bodies; i++) {
+        double pull[3] = {0};
+        sum += add_pairs(flight, records, i, pull);
+        const float3 v = particle_velocity(records[i]);
+        const double x = (double)v.x + half_step_s * pull[0];
+        const double y = (double)v.y + half_step_s * pull[1];
+        const double z = (double)v.z + half_step_s * pull[2];
+        sum += 0.5 * (x * x + y * y + z * z);
+    }
+    return sum;
+}
+
+/* Two, a metre apart, a tenth too slow for circles; or a ball of them in balance. */
+static void place(const struct flight *flight, struct kiln_particle *records)
+{
+    for (uint32_t i = 0; i < flight->bodies; i++) {
+        float3 p = random_in_ball(random_stream(7, i), 0, false);
+        float3 v = random_in_ball(random_stream(8, i), 0, false);
+        if (flight->bodies == 2) {
+            const float side = i == 0 ? -1.0f : 1.0f;
+            p = FLOAT3(0.5f * side, 0.0f, 0.0f);
+            v = FLOAT3(0.0f, 0.0f, 0.636f * side);
+        }
+        records[i].position_serial =
+            UINT4(FLOAT_BITS(p.x), FLOAT_BITS(p.y), FLOAT_BITS(p.z), records[i].position_serial.w);
+        records[i].velocity_birth =
+            UINT4(FLOAT_BITS(v.x), FLOAT_BITS(v.y), FLOAT_BITS(v.z), records[i].velocity_birth.w);
+    }
+}
+
+static bool take_off(struct flight *flight, struct kiln_error *error)
+{
+    struct kiln_settings settings = {.count = 0};
+    char text[128];
+    snprintf(text, sizeof text, "systems.stars.emit.bursts={0 s: %u}", flight->bodies);
+    kiln_set(flight->run, &settings, text);
+    snprintf(text, sizeof text, "systems.stars.interact=[gravity: {strength: %g, softening: %g}]",
+             flight->strength, flight->softening);
+    kiln_set(flight->run, &settings, text);
+    kiln_set(flight->run, &settings, "simulation.rate=60");
+    flight->scene = kiln_bench_load_scene(flight->run, "bench/stars.yaml", &settings, error);
+    flight->threads = kiln_threads_create(flight->bodies == 2 ? 1 : flight->run->params->threads);
+    if (!flight->scene)
+        return false;
+    if (!flight->threads)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
+    flight->simulate =
+        kiln_simulate_create(NULL, flight->scene, KILN_SIMULATE_CPU, flight->threads, error);
+    if (!flight->simulate)
+        return false;
+    kiln_pool_init(&flight->pool, NULL, &flight->scene->systems[0].capacity, 1);
+    if (!kiln_simulate_step(flight->simulate, &flight->pool, 1, error))
+        return false;
+    struct kiln_particle *records = kiln_buffer_host(&flight->pool.records, KILN_READ_WRITE, error);
+    if (records)
+        place(flight, records);
+    return records != NULL;
+}
+
+static void land(struct flight *flight)
+{
+    if (flight->simulate)
+        kiln_pool_finish(&flight->pool);
+    kiln_simulate_destroy(&flight->simulate);
+    kiln_threads_destroy(&flight->threads);
+    kiln_scene_destroy(&flight->scene);
+}
+
+/* The most that the energy is off on the way to each stop, in millionths of what it was at first.
+ */
+static bool fly(struct flight *flight, struct kiln_error *error)
+{
+    const struct kiln_bench_params *params = flight->run->params;
+    const struct kiln_particle *records = records_of(flight, error);
+    if (!records)
+        return false;
+    const double before = energy_of(flight, records);
+    uint32_t step = 0;
+    for (int stop = 0; stop < (params->quick ? 1 : STOPS); stop++) {
+        double worst = 0.0;
+        const uint32_t stride = flight->stops[stop] / BETWEEN;
+        while (step < flight->stops[stop]) {
+            step++;
+            if (!kiln_simulate_step(flight->simulate, &flight->pool, 1 + step, error))
+                return false;
+            if (step % stride != 0 && step != flight->stops[stop])
+                continue;
+            if (params->stop && params->stop(params->user))
+                return kiln_error_set(error, KILN_INTERRUPTED, "stopped");
+            records = records_of(flight, error);
+            if (!records)
+                return false;
+            worst = fmax(worst, 1e6 * fabs(energy_of(flight, records) / before - 1.0));
+        }
+        const struct kiln_bench_row row = {.x = flight->stops[stop],
+                                           .measure = "energy",
+                                           .technique = flight->name,
+                                           .spread = kiln_spread_of(&worst, 1)};
+        if (!kiln_bench_add_row(flight->run->bench, &row, error))
+            return false;
+    }
+    return true;
+}
+
+bool kiln_bench_drift(const struct kiln_bench_run *run, struct kiln_error *error)
+{
+    static const struct flight flights[] = {
+        {.name = "2 bodies",
+         .bodies = 2,
+         .strength = 1.0,
+         .softening = 0.001,
+         .stops = {2050, 20500, 205000}},
+        {.name = "1,000 bodies",
+         .bodies = 1000,
+         .strength = 0.001,
+         .softening = 0.05,
+         .stops = {300, 3000, 10000}},
+    };
+    const struct kiln_bench_part part = {
+        .name = "gravity_drift",
+        .title = "The most that the energy of bodies is off, in millionths, since the row before",
+        .sweep = "steps",
+        .unit = "ppm",
+    };
+    if (!kiln_bench_begin(run, &part, error))
+        return false;
+    for (size_t i = 0; i < sizeof flights / sizeof *flights; i++) {
+        struct flight flight = flights[i];
+        flight.run = run;
+        kiln_bench_say(run, "energy of %s", flight.name);
+        const bool ok = take_off(&flight, error) && fly(&flight, error);
+        land(&flight);
+        if (!ok)
+            return false;
+    }
+    return kiln_bench_add_note(
+        run->bench, error,
+        "The two fly about each other in 205 steps: 10, 100 and 1,000 times; "
+        "steps are of 1/60 s.");
+}

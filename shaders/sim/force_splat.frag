@@ -1,0 +1,18 @@
+/* What the body of a quad does to that of the texel, softened like shared/interact_gravity.h, which
+ * has its own arithmetic; blending adds it up (Drone 2007, 7.4.3.1). */
+layout(binding = 0) uniform sampler2D bodies; /* place, m, and strength, m/s^2 at 1 m */
+
+layout(location = 0) uniform uint row; /* texels in one */
+layout(location = 1) uniform float softening_square;
+
+flat in uint number;
+
+layout(location = 0) out vec4 acceleration;
+
+void main()
+{
+    vec4 source = texelFetch(bodies, ivec2(int(number % row), int(number / row)), 0);
+    vec3 to = source.xyz - texelFetch(bodies, ivec2(gl_FragCoord.xy), 0).xyz;
+    float inverse = inversesqrt(dot(to, to) + softening_square);
+    acceleration = vec4(to * (inverse * inverse * inverse * source.w), 0.0);
+}

@@ -1,0 +1,10 @@
+/* Quads over the whole of the force texture, one for each body that pulls; each knows which (Drone
+ * 2007, 7.4.2). */
+flat out uint number;
+
+void main()
+{
+    number = uint(gl_InstanceID);
+    vec2 corner = vec2(float(gl_VertexID & 1), float(gl_VertexID >> 1));
+    gl_Position = vec4(corner * 2.0 - 1.0, 0.0, 1.0);
+}
