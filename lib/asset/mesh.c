@@ -105,8 +105,9 @@ enum outcome { ENDED, STOPPED, TOO_SLOW, STUCK };
 
 enum { ATTEMPTS = 3, STUCK_SECONDS = 4 };
 
-/* A child of a process with threads inherits locks that one of them held, and that nobody in the
- * child will release; it waits and takes no time. */
+/* Scenes import before they have threads, but whoever loads one may have some: a child inherits
+ * locks that one of them held, and that nobody in the child will release; it waits and takes no
+ * time. */
 static bool is_stuck(pid_t child, double start_s)
 {
     clockid_t clock;
@@ -435,6 +436,25 @@ struct kiln_skin *kiln_skin_load(const char *path, const char *root, bool (*stop
     struct imported imported = load(&request, error);
     kiln_mesh_destroy(&imported.mesh); /* a skin has its own */
     return imported.skin;
+}
+
+static void *copy_of(const void *from, size_t count, size_t size)
+{
+    void *copy = calloc(count, size);
+    return copy ? memcpy(copy, from, count * size) : NULL;
+}
+
+struct kiln_mesh *kiln_mesh_copy(const struct kiln_mesh *mesh)
+{
+    struct kiln_mesh *other = copy_of(mesh, 1, sizeof *mesh);
+    if (!other)
+        return NULL;
+    other->vertices = copy_of(mesh->vertices, mesh->vertex_count, sizeof *mesh->vertices);
+    other->triangles = copy_of(mesh->triangles, mesh->triangle_count, sizeof *mesh->triangles);
+    other->uvs = mesh->uvs ? copy_of(mesh->uvs, mesh->vertex_count, sizeof *mesh->uvs) : NULL;
+    if (!other->vertices || !other->triangles || (mesh->uvs && !other->uvs))
+        kiln_mesh_destroy(&other);
+    return other;
 }
 
 void kiln_mesh_destroy(struct kiln_mesh **mesh)

@@ -47,6 +47,9 @@ struct kiln_mesh *kiln_mesh_load_unwrapped(const char *path, const char *root,
  * way around is outside. */
 void kiln_mesh_face_outwards(struct kiln_mesh *mesh);
 
+/* NULL when memory is short. The caller destroys it. */
+struct kiln_mesh *kiln_mesh_copy(const struct kiln_mesh *mesh);
+
 /* As kiln_mesh_load, from bytes in memory, which may name no other files; name stands for the file.
  */
 struct kiln_mesh *kiln_mesh_parse(const void *bytes, size_t size, const char *name,

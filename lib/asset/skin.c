@@ -440,19 +440,6 @@ const struct kiln_mesh *kiln_skin_mesh(const struct kiln_skin *skin)
     return skin->mesh;
 }
 
-struct kiln_mesh *kiln_skin_copy_mesh(const struct kiln_skin *skin)
-{
-    const struct kiln_mesh *from = skin->mesh;
-    struct kiln_mesh *mesh = copy_of(from, 1, sizeof *from);
-    if (!mesh)
-        return NULL;
-    mesh->vertices = copy_of(from->vertices, from->vertex_count, sizeof *from->vertices);
-    mesh->triangles = copy_of(from->triangles, from->triangle_count, sizeof *from->triangles);
-    if (!mesh->vertices || !mesh->triangles)
-        kiln_mesh_destroy(&mesh);
-    return mesh;
-}
-
 static bool is_number(const char *text)
 {
     const char *c = text;

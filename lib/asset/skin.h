@@ -46,7 +46,4 @@ void kiln_skin_pose(const struct kiln_skin *skin, uint32_t clip, float seconds,
 void kiln_skin_pose_mesh(const struct kiln_skin *skin, uint32_t clip, float seconds,
                          struct kiln_mesh *mesh);
 
-/* A copy of kiln_skin_mesh, to be posed. NULL when memory is short. The caller destroys it. */
-struct kiln_mesh *kiln_skin_copy_mesh(const struct kiln_skin *skin);
-
 #endif

@@ -33,25 +33,16 @@ static void add_corner(struct kiln_instances *instances, const struct kiln_mesh_
 static bool add_mesh(struct kiln_instances *instances, const struct kiln_scene *scene,
                      uint32_t system, struct kiln_error *error)
 {
-    struct kiln_mesh *mesh = kiln_mesh_load(scene->systems[system].look.mesh.file,
-                                            scene->asset_root, scene->stop, scene->user, error);
-    if (!mesh)
-        return false;
+    const struct kiln_mesh *mesh = scene->systems[system].look.mesh.shown;
     const struct kiln_mesh_measure measure = kiln_mesh_measure(mesh);
-    bool ok = mesh->triangle_count <= KILN_MAX_PARTICLE_TRIANGLES;
-    if (!ok)
-        kiln_error_set(error, KILN_INVALID_INPUT, "%s: has changed since the scene was read",
-                       scene->systems[system].look.mesh.file);
-    ok = ok && make_room(instances, mesh->triangle_count, error);
-    if (ok) {
-        instances->meshes[system] = (struct kiln_instance_mesh){
-            instances->corner_count, mesh->triangle_count, measure.reach / measure.edge};
-        for (uint32_t i = 0; i < mesh->triangle_count; i++)
-            for (int k = 0; k < 3; k++)
-                add_corner(instances, &measure, mesh->vertices[mesh->triangles[i][k]]);
-    }
-    kiln_mesh_destroy(&mesh);
-    return ok;
+    if (!make_room(instances, mesh->triangle_count, error))
+        return false;
+    instances->meshes[system] = (struct kiln_instance_mesh){
+        instances->corner_count, mesh->triangle_count, measure.reach / measure.edge};
+    for (uint32_t i = 0; i < mesh->triangle_count; i++)
+        for (int k = 0; k < 3; k++)
+            add_corner(instances, &measure, mesh->vertices[mesh->triangles[i][k]]);
+    return true;
 }
 
 bool kiln_instances_init(struct kiln_instances *instances, const struct kiln_scene *scene,

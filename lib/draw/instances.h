@@ -18,7 +18,7 @@ struct kiln_instances {
     uint32_t corner_count;
 };
 
-/* Loads those of the scene's systems; KILN_INVALID_INPUT and the rest as kiln_mesh_load.
+/* Of the scene's systems; KILN_DEVICE_FAILED when memory is short.
  * kiln_instances_finish then frees what there is. */
 bool kiln_instances_init(struct kiln_instances *instances, const struct kiln_scene *scene,
                          struct kiln_error *error);

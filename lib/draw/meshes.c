@@ -12,32 +12,32 @@ static struct kiln_mesh *make_terrain(const struct kiln_object *object, struct k
     return mesh;
 }
 
-/* One that moves; what there is at a failure is for kiln_meshes_finish. */
-static struct kiln_mesh *make_moving(struct kiln_meshes *meshes, const struct kiln_scene *scene,
-                                     const struct kiln_object *object, struct kiln_error *error)
+/* One that moves. */
+static struct kiln_mesh *make_moving(struct kiln_meshes *meshes, const struct kiln_object *object,
+                                     struct kiln_error *error)
 {
-    struct kiln_skin *skin =
-        kiln_skin_load(object->file, scene->asset_root, scene->stop, scene->user, error);
-    if (!skin)
-        return NULL;
-    meshes->skins[meshes->count] = skin;
+    meshes->skins[meshes->count] = object->skin;
     meshes->animations[meshes->count] = &object->animation;
     meshes->posed_s[meshes->count] = -1.0f;
-    struct kiln_mesh *mesh = kiln_skin_copy_mesh(skin);
+    struct kiln_mesh *mesh = kiln_mesh_copy(object->shown);
     if (!mesh)
         kiln_error_set(error, KILN_DEVICE_FAILED, "meshes: out of memory");
     return mesh;
 }
 
-static struct kiln_mesh *make_mesh(struct kiln_meshes *meshes, const struct kiln_scene *scene,
-                                   const struct kiln_object *object, struct kiln_error *error)
+static bool add_mesh(struct kiln_meshes *meshes, const struct kiln_object *object,
+                     struct kiln_error *error)
 {
+    struct kiln_mesh **own = &meshes->own[meshes->count];
     if (object->kind == KILN_OBJECT_TERRAIN)
-        return make_terrain(object, error);
-    if (object->animation.enabled)
-        return make_moving(meshes, scene, object, error);
-    return (kiln_object_takes_paint(object) ? kiln_mesh_load_unwrapped : kiln_mesh_load)(
-        object->file, scene->asset_root, scene->stop, scene->user, error);
+        *own = make_terrain(object, error);
+    else if (object->animation.enabled)
+        *own = make_moving(meshes, object, error);
+    else
+        meshes->loaded[meshes->count] = object->shown;
+    if (*own)
+        meshes->loaded[meshes->count] = *own;
+    return meshes->loaded[meshes->count++] != NULL;
 }
 
 bool kiln_meshes_init(struct kiln_meshes *meshes, const struct kiln_scene *scene,
@@ -49,10 +49,8 @@ bool kiln_meshes_init(struct kiln_meshes *meshes, const struct kiln_scene *scene
         const struct kiln_object *object = &scene->backdrop.objects[i];
         if (!kiln_object_is_mesh(object))
             continue;
-        struct kiln_mesh *mesh = make_mesh(meshes, scene, object, error);
-        if (!mesh)
+        if (!add_mesh(meshes, object, error))
             return false;
-        meshes->loaded[meshes->count++] = mesh;
         painted = painted || kiln_object_takes_paint(object);
     }
     if (painted)
@@ -69,17 +67,15 @@ void kiln_meshes_pose(struct kiln_meshes *meshes, float time_s)
         const float seconds = kiln_scene_animation_s(animation, time_s);
         if (seconds == meshes->posed_s[i])
             continue;
-        kiln_skin_pose_mesh(meshes->skins[i], animation->number, seconds, meshes->loaded[i]);
+        kiln_skin_pose_mesh(meshes->skins[i], animation->number, seconds, meshes->own[i]);
         meshes->posed_s[i] = seconds;
     }
 }
 
 void kiln_meshes_finish(struct kiln_meshes *meshes)
 {
-    for (uint32_t i = 0; i < KILN_MAX_MESHES; i++) {
-        kiln_mesh_destroy(&meshes->loaded[i]);
-        kiln_skin_destroy(&meshes->skins[i]);
-    }
+    for (uint32_t i = 0; i < KILN_MAX_MESHES; i++)
+        kiln_mesh_destroy(&meshes->own[i]);
     kiln_painted_destroy(&meshes->painted);
     meshes->count = 0;
 }

@@ -137,7 +137,8 @@ static bool init_picture(struct picture *picture, const struct kiln_object *obje
 }
 
 struct kiln_painted *kiln_painted_create(const struct kiln_scene *scene,
-                                         struct kiln_mesh *const *meshes, struct kiln_error *error)
+                                         const struct kiln_mesh *const *meshes,
+                                         struct kiln_error *error)
 {
     struct kiln_painted *painted = calloc(1, sizeof *painted);
     if (!painted) {

@@ -13,7 +13,8 @@ struct kiln_painted;
 /* meshes: those of the scene, in its order, the ones that take paint unwrapped; they are needed for
  * this call alone, the scene as long as it lives. NULL with an error, as kiln_chart_create. */
 struct kiln_painted *kiln_painted_create(const struct kiln_scene *scene,
-                                         struct kiln_mesh *const *meshes, struct kiln_error *error);
+                                         const struct kiln_mesh *const *meshes,
+                                         struct kiln_error *error);
 void kiln_painted_destroy(struct kiln_painted **painted);
 
 /* Brings the textures up to what is painted now. */

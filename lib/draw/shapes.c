@@ -196,8 +196,8 @@ static void fill_more(const struct kiln_scene *scene, const struct kiln_object *
     }
 }
 
-void kiln_shapes_fill(const struct kiln_scene *scene, struct kiln_mesh *const *meshes, float time_s,
-                      struct kiln_draw_shapes *shapes)
+void kiln_shapes_fill(const struct kiln_scene *scene, const struct kiln_mesh *const *meshes,
+                      float time_s, struct kiln_draw_shapes *shapes)
 {
     *shapes = (struct kiln_draw_shapes){.counts = {0, 0, 0, 0}};
     const struct kiln_sun_frame sun = kiln_sun_frame_at(scene, time_s);

@@ -28,7 +28,7 @@ struct kiln_sun_frame kiln_sun_frame_at(const struct kiln_scene *scene, float ti
 
 /* All of these objects and the sun's frame at a clip time; meshes are in the scene's order.
  * The pictures' maps and the bins of particles are left 0. */
-void kiln_shapes_fill(const struct kiln_scene *scene, struct kiln_mesh *const *meshes, float time_s,
-                      struct kiln_draw_shapes *shapes);
+void kiln_shapes_fill(const struct kiln_scene *scene, const struct kiln_mesh *const *meshes,
+                      float time_s, struct kiln_draw_shapes *shapes);
 
 #endif

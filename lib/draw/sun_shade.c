@@ -103,7 +103,7 @@ static void place_objects(struct kiln_sun_shade *shade, float time_s)
     const struct kiln_scene *scene = shade->scene;
     shade->sun = kiln_sun_frame_at(scene, time_s);
     struct kiln_meshes none = {.count = 0}, *used = shade->meshes ? shade->meshes : &none;
-    struct kiln_mesh *const *meshes = used->loaded;
+    const struct kiln_mesh *const *meshes = used->loaded;
     kiln_meshes_pose(used, time_s);
     kiln_shapes_fill(scene, meshes, time_s, &shade->shapes);
     shade->box_count = 0;

@@ -118,7 +118,7 @@ bool kiln_read_file_asset(struct kiln_reader *reader, const struct kiln_node *no
         kiln_reader_error(reader, node, "'%s' leads outside the asset root", quoted);
     else if (stat(real, &status) != 0 || !S_ISREG(status.st_mode))
         kiln_reader_error(reader, node, "'%s' is not a file", quoted);
-    else if (check_contents(reader, node, check, real, quoted)) {
+    else if (!check || check_contents(reader, node, check, real, quoted)) {
         *asset = kiln_arena_text(reader->arena, real, strlen(real));
         ok = *asset || kiln_reader_out_of_memory(reader);
     }

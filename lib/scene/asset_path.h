@@ -12,7 +12,8 @@ const char *kiln_asset_root(struct kiln_arena *arena, const char *root, const ch
 /* Reads "builtin:name", or the path of an image or video file, which becomes absolute. */
 bool kiln_read_asset(struct kiln_reader *reader, const struct kiln_node *node, const char **asset);
 
-/* Reads the path of a file that check accepts, which gets it absolute; it becomes absolute. */
+/* Reads the path of a file that check (or NULL) accepts, which gets it absolute; it becomes
+ * absolute. */
 bool kiln_read_file_asset(struct kiln_reader *reader, const struct kiln_node *node,
                           bool (*check)(const char *path, const struct kiln_scene *scene,
                                         struct kiln_error *error),

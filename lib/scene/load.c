@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "asset/mesh.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
@@ -52,14 +51,8 @@ static bool add_backdrop_hashes(const struct kiln_scene *scene, struct kiln_text
         if (object->kind == KILN_OBJECT_TERRAIN && object->file &&
             !add_file_hash(text, object->file, error))
             return false;
-        if (object->kind != KILN_OBJECT_MESH)
-            continue;
-        struct kiln_mesh *mesh =
-            kiln_mesh_load(object->file, scene->asset_root, scene->stop, scene->user, error);
-        if (!mesh)
-            return false;
-        kiln_text_add(text, "%s\n", mesh->hash);
-        kiln_mesh_destroy(&mesh);
+        if (object->kind == KILN_OBJECT_MESH)
+            kiln_text_add(text, "%s\n", object->shown->hash);
     }
     return true;
 }
@@ -76,7 +69,7 @@ static bool take_hash(struct kiln_scene *scene, struct kiln_error *error)
             read = add_file_hash(&text, look->atlas[k], error);
         read = read && add_file_hash(&text, look->motion, error);
         if (look->shape == KILN_SHAPE_MESH)
-            kiln_text_add(&text, "%s\n", look->mesh.hash);
+            kiln_text_add(&text, "%s\n", look->mesh.shown->hash);
         for (uint32_t k = 0; read && k < scene->systems[i].force_count; k++)
             if (scene->systems[i].forces[k].kind == KILN_FORCE_FIELD)
                 read = add_file_hash(&text, scene->systems[i].forces[k].file, error);
@@ -101,6 +94,10 @@ static bool build(struct kiln_reader *reader, const char *text, size_t size,
         if (!kiln_override(reader->scratch, root, params->overrides[i], reader->error))
             return false;
     }
+    reader->scene->meshes =
+        kiln_mesh_library_create(reader->scene->asset_root, params->stop, params->user);
+    if (!reader->scene->meshes)
+        return kiln_reader_out_of_memory(reader);
     return kiln_read_members(reader, kiln_options_root, root, reader->scene) && keep_keys(reader) &&
            kiln_validate(reader, root) && take_hash(reader->scene, reader->error);
 }
@@ -128,6 +125,8 @@ static struct kiln_scene *create(const char *text, size_t size, const char *name
         ok = scene->asset_root && build(reader, text, size, &origin, params);
     }
     kiln_arena_destroy(&scratch);
+    if (!ok && scene)
+        kiln_mesh_library_destroy(&scene->meshes);
     if (!ok)
         kiln_arena_destroy(&arena);
     return ok ? scene : NULL;

@@ -1,4 +1,3 @@
-/* A mesh is read once for all that loading a scene wants of it. */
 #include "scene/particle_mesh.h"
 
 #include <inttypes.h>
@@ -27,26 +26,25 @@ bool kiln_particle_mesh_settle(struct kiln_reader *reader, const struct kiln_nod
 {
     struct kiln_scene *scene = reader->scene;
     struct kiln_look *look = &system->look;
-    if (look->shape != KILN_SHAPE_MESH)
+    if (look->shape != KILN_SHAPE_MESH && !look->mesh.file)
         return true;
     char path[128];
     snprintf(path, sizeof path, "systems.%s.look.mesh.file", system->name);
     if (!look->mesh.file)
         return kiln_validate_fail(reader, root, path, "must name a file where shape is mesh");
     struct kiln_error error = {0};
-    struct kiln_mesh *mesh =
-        kiln_mesh_load(look->mesh.file, scene->asset_root, scene->stop, scene->user, &error);
+    const struct kiln_mesh *mesh = kiln_mesh_library_get(scene->meshes, look->mesh.file, &error);
     if (!mesh)
         return kiln_mesh_file_fail(reader, root, path, look->mesh.file, &error);
+    if (look->shape != KILN_SHAPE_MESH)
+        return true;
     const struct kiln_mesh_measure measure = kiln_mesh_measure(mesh);
-    look->mesh.triangles = mesh->triangle_count;
+    look->mesh.shown = mesh;
     look->mesh.shade = measure.shade / measure.edge;
-    memcpy(look->mesh.hash, mesh->hash, sizeof look->mesh.hash);
-    kiln_mesh_destroy(&mesh);
-    if (look->mesh.triangles > KILN_MAX_PARTICLE_TRIANGLES)
+    if (mesh->triangle_count > KILN_MAX_PARTICLE_TRIANGLES)
         return kiln_validate_fail(reader, root, path,
                                   "%u triangles; the mesh of a particle has at most %d",
-                                  look->mesh.triangles, KILN_MAX_PARTICLE_TRIANGLES);
+                                  mesh->triangle_count, KILN_MAX_PARTICLE_TRIANGLES);
     return true;
 }
 
@@ -59,7 +57,7 @@ bool kiln_particle_mesh_count(struct kiln_reader *reader, const struct kiln_node
         if (!system->enabled || system->look.shape != KILN_SHAPE_MESH)
             continue;
         meshes += system->capacity;
-        triangles += (uint64_t)system->capacity * system->look.mesh.triangles;
+        triangles += (uint64_t)system->capacity * system->look.mesh.shown->triangle_count;
         char path[128];
         snprintf(path, sizeof path, "systems.%s.emit", system->name);
         if (meshes > KILN_MAX_INSTANCES)
@@ -73,7 +71,7 @@ bool kiln_particle_mesh_count(struct kiln_reader *reader, const struct kiln_node
                                       "may have %d: lower rate, bursts or life, or take a mesh of "
                                       "fewer than %u",
                                       triangles, KILN_MAX_INSTANCE_TRIANGLES,
-                                      system->look.mesh.triangles);
+                                      system->look.mesh.shown->triangle_count);
     }
     return true;
 }

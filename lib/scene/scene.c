@@ -157,6 +157,7 @@ void kiln_scene_destroy(struct kiln_scene **scene)
     if (!*scene)
         return;
     struct kiln_arena *arena = (*scene)->arena; /* the scene lies in it */
+    kiln_mesh_library_destroy(&(*scene)->meshes);
     kiln_arena_destroy(&arena);
     *scene = NULL;
 }

@@ -7,6 +7,7 @@
 #ifndef KILN_SCENE_SCENE_H
 #define KILN_SCENE_SCENE_H
 
+#include "asset/mesh_library.h"
 #include "asset/terrain.h"
 #include "base/arena.h"
 #include "kiln.h"
@@ -252,9 +253,8 @@ enum kiln_orient {
 struct kiln_look_mesh {
     const char *file; /* an absolute path; NULL: none */
     enum kiln_orient orient;
-    uint32_t triangles; /* follows: of the file */
-    float shade;        /* follows: radius of a sphere with its mean shadow, in sizes */
-    char hash[65];      /* follows: of what the file contains */
+    const struct kiln_mesh *shown; /* follows: what the file contains */
+    float shade;                   /* follows: radius of a sphere with its mean shadow, in sizes */
 };
 
 /* How a billboard stands to the camera (Heinz 2019, 2.1.1). */
@@ -406,6 +406,10 @@ struct kiln_object {
     struct kiln_value3 rotation; /* rad: box, mesh: about x, then y, then z */
     struct kiln_value scale;     /* mesh: metres for a unit of the file */
     struct kiln_animation animation; /* mesh */
+    const struct kiln_mesh *shown;   /* mesh, follows: unwrapped where it takes paint; of one that
+                                      * moves, while no clip plays */
+    const struct kiln_mesh *met;     /* mesh that collides, follows: the same, but not unwrapped */
+    const struct kiln_skin *skin;    /* mesh that moves, follows */
     uint32_t samples[2];             /* terrain (asset/terrain.h), and what follows; constant */
     struct kiln_value hills, roughness, ridges;
     uint32_t octaves, seed;
@@ -499,9 +503,10 @@ struct kiln_post {
 
 struct kiln_scene {
     struct kiln_arena *arena;
-    const char *name;         /* the file, as given */
-    const char *asset_root;   /* absolute folder */
-    bool (*stop)(void *user); /* of kiln_scene_params */
+    const char *name;                 /* the file, as given */
+    const char *asset_root;           /* absolute folder */
+    struct kiln_mesh_library *meshes; /* all that objects and looks have */
+    bool (*stop)(void *user);         /* of kiln_scene_params */
     void *user;
 
     uint32_t format_version; /* 1 */

@@ -3,7 +3,6 @@
 
 #include "asset/grid_in.h"
 #include "asset/image.h"
-#include "asset/mesh.h"
 #include "scene/asset_path.h"
 #include "scene/printer.h"
 #include "scene/reader.h"
@@ -73,22 +72,14 @@ const struct kiln_option_type kiln_type_picture = {read_picture, print_file, des
 
 /* ---- mesh ------------------------------------------------------------------------------------ */
 
-static bool check_mesh(const char *path, const struct kiln_scene *scene, struct kiln_error *error)
-{
-    struct kiln_mesh *mesh =
-        kiln_mesh_load(path, scene->asset_root, scene->stop, scene->user, error);
-    bool good = mesh != NULL;
-    kiln_mesh_destroy(&mesh);
-    return good;
-}
-
-/* "none" is a default that some rows have. */
+/* What is in it is read when all is known that is wanted of it. "none" is a default that some rows
+ * have. */
 static bool read_mesh(struct kiln_reader *reader, const struct kiln_option *option,
                       const struct kiln_node *node, void *field)
 {
     const char **file = field;
     *file = NULL;
-    return (option->fallback && is_none(node)) || read_file(reader, option, node, check_mesh, file);
+    return (option->fallback && is_none(node)) || read_file(reader, option, node, NULL, file);
 }
 
 static void describe_mesh(const struct kiln_option *option, struct kiln_text *out)

@@ -6,14 +6,24 @@
 #include "asset/closed.h"
 #include "scene/asset_path.h"
 #include "scene/family.h"
-#include "scene/mesh_animation.h"
+#include "scene/object_mesh.h"
 #include "scene/particle_mesh.h"
 
 #include <inttypes.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+/* By its number. */
+static const struct kiln_node *entry_of_list(const struct kiln_node *list, const char *name)
+{
+    const struct kiln_node *entry = list->first;
+    for (unsigned long i = strtoul(name, NULL, 10); i > 0 && entry; i--)
+        entry = entry->next;
+    return entry;
+}
 
 bool kiln_validate_fail(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
                         const char *format, ...)
@@ -27,7 +37,8 @@ bool kiln_validate_fail(struct kiln_reader *reader, const struct kiln_node *root
     for (const char *part = path; node && *part;) {
         size_t length = strcspn(part, ".");
         snprintf(name, sizeof name, "%.*s", (int)length, part);
-        const struct kiln_node *next = kiln_node_entry(node, name);
+        const struct kiln_node *next =
+            node->kind == KILN_NODE_LIST ? entry_of_list(node, name) : kiln_node_entry(node, name);
         if (!next)
             break;
         node = next;
@@ -357,15 +368,10 @@ static const char *name_of_axis(const struct kiln_object *object)
 
 /* Of a mesh whose distance field is wanted. */
 static bool check_closed(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
-                         const char *file)
+                         const struct kiln_object *object)
 {
-    const struct kiln_scene *scene = reader->scene;
     struct kiln_error error = {0};
-    struct kiln_mesh *mesh =
-        kiln_mesh_load(file, scene->asset_root, scene->stop, scene->user, &error);
-    const bool closed = mesh && kiln_mesh_check_closed(mesh, kiln_asset_name(scene, file), &error);
-    kiln_mesh_destroy(&mesh);
-    if (closed)
+    if (kiln_mesh_check_closed(object->met, kiln_asset_name(reader->scene, object->file), &error))
         return true;
     kiln_validate_fail(reader, root, path, "%s", error.message);
     if (error.code != KILN_INVALID_INPUT)
@@ -389,7 +395,7 @@ static bool check_solid(struct kiln_reader *reader, const struct kiln_node *root
     }
     snprintf(path, sizeof path, "backdrop.objects.%u.mesh.collide", index);
     return !mesh->collide || mesh->collider != KILN_COLLIDER_FIELD ||
-           check_closed(reader, root, path, mesh->file);
+           check_closed(reader, root, path, mesh);
 }
 
 /* Of a mesh that is to take paint. */
@@ -407,13 +413,10 @@ static bool check_paint(struct kiln_reader *reader, const struct kiln_node *root
         return kiln_validate_fail(reader, root, path,
                                   "%u is no power of two, of which 16 to 2048 are allowed", size);
     struct kiln_error error = {0};
-    struct kiln_mesh *mesh =
-        kiln_mesh_load_unwrapped(object->file, scene->asset_root, scene->stop, scene->user, &error);
     struct kiln_chart *chart =
-        mesh ? kiln_chart_create(mesh, size, kiln_asset_name(scene, object->file), &error) : NULL;
+        kiln_chart_create(object->shown, size, kiln_asset_name(scene, object->file), &error);
     const bool good = chart != NULL;
     kiln_chart_destroy(&chart);
-    kiln_mesh_destroy(&mesh);
     if (good)
         return true;
     snprintf(path, sizeof path, "backdrop.objects.%u.mesh.paint", index);
@@ -437,7 +440,7 @@ static bool check_objects(struct kiln_reader *reader, const struct kiln_node *ro
             return kiln_validate_fail(reader, root, path, "must not be [0, 0, 0]");
         if (!kiln_object_is_mesh(object))
             continue;
-        if (!kiln_mesh_animation_settle(reader, root, i))
+        if (!kiln_object_mesh_settle(reader, root, i))
             return false;
         const struct kiln_value3 *heading = &object->heading;
         snprintf(path, sizeof path, "backdrop.objects.%u.mesh.heading", i);

@@ -85,14 +85,11 @@ static struct kiln_depth_maps *make_depths(const struct kiln_mesh *mesh,
                                   object->depth_resolution, threads, error);
 }
 
-static bool load_mesh(struct sources *sources, uint32_t number, const struct kiln_scene *scene,
+static bool make_mesh(struct sources *sources, uint32_t number, const struct kiln_scene *scene,
                       const struct kiln_object *object, struct kiln_threads *threads,
                       struct kiln_error *error)
 {
-    struct kiln_mesh *mesh =
-        kiln_mesh_load(object->file, scene->asset_root, scene->stop, scene->user, error);
-    if (!mesh)
-        return false;
+    const struct kiln_mesh *mesh = object->met;
     char cache[KILN_PATH_SIZE];
     const bool cached = kiln_field_cache(cache);
     if (object->collider == KILN_COLLIDER_DEPTH_MAPS)
@@ -101,7 +98,6 @@ static bool load_mesh(struct sources *sources, uint32_t number, const struct kil
         sources->fields[number] =
             kiln_field_create(mesh, object->file, object->cells, find_reach(scene, object),
                               cached ? cache : NULL, threads, error);
-    kiln_mesh_destroy(&mesh);
     return sources->depths[number] || sources->fields[number];
 }
 
@@ -110,7 +106,7 @@ static bool load_object(struct sources *sources, uint32_t number, const struct k
                         struct kiln_error *error)
 {
     if (object->kind == KILN_OBJECT_MESH)
-        return load_mesh(sources, number, scene, object, threads, error);
+        return make_mesh(sources, number, scene, object, threads, error);
     const struct kiln_terrain_params params = kiln_scene_terrain(object);
     sources->terrains[number] = kiln_terrain_create(&params, error);
     return sources->terrains[number] != NULL;

@@ -24,13 +24,8 @@ static bool load(struct kiln_paint *paint, uint32_t object, struct kiln_error *e
     const struct kiln_scene *scene = paint->scene;
     const struct kiln_object *taker = &scene->backdrop.objects[object];
     struct kiln_paint_mesh *mesh = &paint->meshes[paint->mesh_count++];
-    struct kiln_mesh *loaded =
-        kiln_mesh_load_unwrapped(taker->file, scene->asset_root, scene->stop, scene->user, error);
-    if (!loaded)
-        return false;
     mesh->object = object;
-    mesh->chart = kiln_chart_create(loaded, taker->paint.size, taker->file, error);
-    kiln_mesh_destroy(&loaded);
+    mesh->chart = kiln_chart_create(taker->shown, taker->paint.size, taker->file, error);
     return mesh->chart && kiln_paint_grid_init(&mesh->grid, mesh->chart, error);
 }
 

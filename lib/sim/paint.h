@@ -22,7 +22,7 @@ struct kiln_paint {
     struct kiln_splat *turns; /* those whose turn it is, in their order */
 };
 
-/* Loads the meshes. Errors are those of kiln_mesh_load_unwrapped and kiln_chart_create; after one,
+/* Errors are those of kiln_chart_create; after one,
  * too, kiln_paint_finish frees what there is. */
 bool kiln_paint_init(struct kiln_paint *paint, const struct kiln_scene *scene,
                      struct kiln_threads *threads, struct kiln_error *error);

@@ -13,7 +13,7 @@
 struct kiln_volume {
     uint32_t object;
     struct kiln_mesh *mesh;
-    struct kiln_skin *skin; /* of one with an animation, and its mesh is posed: else NULL */
+    const struct kiln_skin *skin; /* of one with an animation, and its mesh is posed: else NULL */
     float (*before)[3], (*after)[3]; /* m: its vertices */
     float before_s, after_s;         /* when they are there */
     bool placed, made;
@@ -30,23 +30,6 @@ bool kiln_volumes_needs(const struct kiln_object *object)
 
 /* ---- memory ---------------------------------------------------------------------------------- */
 
-static bool load_mesh(struct kiln_volume *volume, const struct kiln_scene *scene,
-                      const struct kiln_object *object, struct kiln_error *error)
-{
-    if (!object->animation.enabled) {
-        volume->mesh =
-            kiln_mesh_load(object->file, scene->asset_root, scene->stop, scene->user, error);
-        return volume->mesh != NULL;
-    }
-    volume->skin = kiln_skin_load(object->file, scene->asset_root, scene->stop, scene->user, error);
-    if (!volume->skin)
-        return false;
-    volume->mesh = kiln_skin_copy_mesh(volume->skin);
-    if (!volume->mesh)
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for its poses", object->file);
-    return volume->mesh != NULL;
-}
-
 static struct kiln_volume *load(const struct kiln_scene *scene, uint32_t index,
                                 struct kiln_error *error)
 {
@@ -58,14 +41,14 @@ static struct kiln_volume *load(const struct kiln_scene *scene, uint32_t index,
     }
     volume->object = index;
     volume->two_sided = object->sides == KILN_SIDES_TWO;
-    if (!load_mesh(volume, scene, object, error))
-        return volume; /* its owner frees it */
-    if (!volume->two_sided)
+    volume->skin = object->skin;
+    volume->mesh = kiln_mesh_copy(object->met);
+    if (volume->mesh && !volume->two_sided)
         kiln_mesh_face_outwards(volume->mesh);
-    const size_t count = volume->mesh->vertex_count;
+    const size_t count = object->met->vertex_count;
     volume->before = calloc(count, sizeof *volume->before);
     volume->after = calloc(count, sizeof *volume->after);
-    if (!volume->before || !volume->after) {
+    if (!volume->mesh || !volume->before || !volume->after) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for %zu vertices", object->file,
                        count);
         kiln_mesh_destroy(&volume->mesh);
@@ -98,7 +81,6 @@ void kiln_volumes_finish(struct kiln_volumes *volumes)
         struct kiln_volume *volume = volumes->items[i];
         kiln_voxels_finish(&volume->voxels);
         kiln_mesh_destroy(&volume->mesh);
-        kiln_skin_destroy(&volume->skin);
         free(volume->before);
         free(volume->after);
         free(volume);
@@ -149,7 +131,7 @@ static void place(const struct kiln_scene *scene, struct kiln_volume *volume, fl
 static float spacing_of(const struct kiln_scene *scene, const struct kiln_volume *volume)
 {
     const struct kiln_object *object = &scene->backdrop.objects[volume->object];
-    const struct kiln_mesh *mesh = volume->skin ? kiln_skin_mesh(volume->skin) : volume->mesh;
+    const struct kiln_mesh *mesh = object->met;
     float longest = 0.0f;
     for (int c = 0; c < 3; c++)
         longest = exact_max(longest, mesh->max[c] - mesh->min[c]);

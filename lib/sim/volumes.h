@@ -20,7 +20,7 @@ struct kiln_volumes {
 /* Does the object need a volume? */
 bool kiln_volumes_needs(const struct kiln_object *object);
 
-/* Loads the meshes. device NULL: for the host. Errors as kiln_mesh_load; after a failure, too,
+/* device NULL: for the host. KILN_DEVICE_FAILED when memory is short; then, too,
  * kiln_volumes_finish frees what there is. */
 bool kiln_volumes_init(struct kiln_volumes *volumes, struct kiln_device *device,
                        const struct kiln_scene *scene, struct kiln_error *error);

@@ -35,7 +35,7 @@ static void check_mesh(const struct kiln_mesh *mesh)
 
 static void check_skin(const struct kiln_skin *skin)
 {
-    struct kiln_mesh *mesh = kiln_skin_copy_mesh(skin);
+    struct kiln_mesh *mesh = kiln_mesh_copy(kiln_skin_mesh(skin));
     require(mesh != NULL, "no memory");
     const float length = kiln_skin_clip_length(skin, 0);
     for (int i = 0; i < 4; i++) {

@@ -13,9 +13,11 @@ struct scene_fixture {
     float4 keys[256];
 };
 
-/* An empty scene: 300 frames at 60 a second, one step each. */
+/* An empty scene: 300 frames at 60 a second, one step each. Before the first time, all of it is
+ * zeros. */
 static inline void fixture_init(struct scene_fixture *f)
 {
+    kiln_mesh_library_destroy(&f->scene.meshes);
     memset(f, 0, sizeof *f);
     f->scene.name = "fixture";
     f->scene.seed = 7;
@@ -164,9 +166,15 @@ static inline struct kiln_object *fixture_add_mesh(struct scene_fixture *f, cons
                                                    float x, float y, float z)
 {
     struct kiln_object *mesh = fixture_add_box(f, x, y, z, 0.0f, 0.0f, 0.0f);
+    struct kiln_error error = {0};
     f->scene.asset_root = "/";
+    if (!f->scene.meshes)
+        f->scene.meshes = kiln_mesh_library_create("/", NULL, NULL);
     mesh->kind = KILN_OBJECT_MESH;
     mesh->file = file;
+    mesh->shown = mesh->met = kiln_mesh_library_get(f->scene.meshes, file, &error);
+    if (!mesh->met)
+        fail_msg("%s", error.message);
     mesh->scale = fixture_constant(1.0f);
     mesh->cells = 20;
     return mesh;

@@ -449,7 +449,7 @@ static void bad_scenes_are_refused(void **state)
     } cases[] = {
         {"backdrop.objects.0.mesh.paint.size=100", "mesh.paint.size: 100 is no power of two"},
         {"backdrop.objects.0.mesh.file=meshes/cabin.obj",
-         "cabin.obj: the mesh, or a part of it, has no texture coordinates"},
+         "cabin.obj': the mesh, or a part of it, has no texture coordinates"},
         {"systems.drops.paint.when=impact", "systems.drops.paint.when: impact needs"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {

@@ -195,6 +195,7 @@ static void assert_same_scene(const struct kiln_scene *a, const struct kiln_scen
                sizeof left.systems[i].look.atlas);
         left.systems[i].look.motion = right.systems[i].look.motion;
     }
+    left.meshes = right.meshes;
     left.arena = right.arena;
     left.name = right.name;
     left.asset_root = right.asset_root;

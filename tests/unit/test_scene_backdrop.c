@@ -14,13 +14,13 @@ static const struct {
 } bad[] = {
     {"kiln: 1\n"
      "backdrop: {objects: [{box: {}}, {cylinder: {axis: [0, 0, 0]}}]}\n",
-     ":2:21: backdrop.objects.1.cylinder.axis: must not be [0, 0, 0]"},
+     ":2:51: backdrop.objects.1.cylinder.axis: must not be [0, 0, 0]"},
     {"kiln: 1\n"
      "backdrop: {objects: [{capsule: {axis: {keys: {0 s: [0, 1, 0], 1 s: [0, 0, 0]}}}}]}\n",
-     ":2:21: backdrop.objects.0.capsule.axis: must not be [0, 0, 0]"},
+     ":2:39: backdrop.objects.0.capsule.axis: must not be [0, 0, 0]"},
     {"kiln: 1\n"
      "backdrop: {objects: [{plane: {normal: [0, 0, 0]}}]}\n",
-     ":2:21: backdrop.objects.0.plane.normal: must not be [0, 0, 0]"},
+     ":2:39: backdrop.objects.0.plane.normal: must not be [0, 0, 0]"},
     {"kiln: 1\n"
      "backdrop: {objects: [{box: {friction: -1}}]}\n",
      ":2:39: backdrop.objects.0.box.friction: -1 is out of range; allowed is from 0 to 100"},

@@ -251,7 +251,7 @@ static void what_collides_must_be_closed(void **state)
     assert_null(kiln_scene_load("scenes/open.yaml", &params, &error));
     assert_int_equal(error.code, KILN_INVALID_INPUT);
     assert_string_equal(error.message,
-                        "scenes/open.yaml:2:21: backdrop.objects.0.mesh.collide: "
+                        "scenes/open.yaml:2:64: backdrop.objects.0.mesh.collide: "
                         "textures/open.obj: the mesh is not closed, so that nothing is inside of "
                         "it: 1 triangle is at the edge from 0 0 0 to 0 1 0, where there must be "
                         "two");
