@@ -44,9 +44,17 @@ static inline struct kiln_row_range cast_range(float low, float high, float size
                                    (int16_t)exact_clamp(high + 2.0f, 0.0f, size)};
 }
 
-/* What it may touch of the picture; nothing, if all of it lies before the near plane. */
-static inline void cast_bounds(const struct kiln_view *view, const float3 p[3],
-                               struct cast_triangle *t)
+/* On GL's grid of corners (GL_SUBPIXEL_BITS): of things a few pixels large, one sample in a hundred
+ * would else be covered here and not there. px from the middle of the picture, where it is finest.
+ */
+static inline float cast_snap(float place)
+{
+    return floorf(place * 256.0f + 0.5f) * (1.0f / 256.0f);
+}
+
+/* What it may touch of the picture; nothing, if all of it lies before the near plane. Moves its
+ * corners to where GL has them. */
+static inline void cast_bounds(const struct kiln_view *view, float3 p[3], struct cast_triangle *t)
 {
     const float4 frustum = view->frustum;
     float x[2] = {1e9f, -1e9f}, y[2] = {1e9f, -1e9f};
@@ -55,9 +63,12 @@ static inline void cast_bounds(const struct kiln_view *view, const float3 p[3],
         t->depth[k] = -p[k].z;
         if (!(t->depth[k] >= view->eye.w))
             continue;
-        float near = 1.0f / t->depth[k];
-        float column = (p[k].x * near / frustum.x + 1.0f) * 0.5f * frustum.z;
-        float row = (1.0f - p[k].y * near / frustum.y) * 0.5f * frustum.w;
+        float m_right = 2.0f * frustum.x * t->depth[k] / frustum.z; /* a pixel */
+        float m_up = 2.0f * frustum.y * t->depth[k] / frustum.w;
+        float right = cast_snap(p[k].x / m_right), up = cast_snap(p[k].y / m_up);
+        float column = 0.5f * frustum.z + right, row = 0.5f * frustum.w - up;
+        p[k].x = right * m_right;
+        p[k].y = up * m_up;
         x[0] = exact_min(x[0], column);
         x[1] = exact_max(x[1], column);
         y[0] = exact_min(y[0], row);
@@ -136,8 +147,8 @@ static void sample_triangle(const struct kiln_sphere_strip *s, uint32_t number, 
     const struct kiln_drawn_instance *instance = &s->instances[number];
     const float4(*corners)[2] = s->corners + instance->first + (size_t)3 * triangle;
     struct cast_triangle t;
-    const float3 p[3] = {cast_corner(instance, corners[0][0]), cast_corner(instance, corners[1][0]),
-                         cast_corner(instance, corners[2][0])};
+    float3 p[3] = {cast_corner(instance, corners[0][0]), cast_corner(instance, corners[1][0]),
+                   cast_corner(instance, corners[2][0])};
     cast_bounds(s->frame->view, p, &t);
     int32_t y = t.y.from > (int32_t)s->y ? t.y.from : (int32_t)s->y;
     int32_t y_to = t.y.to < (int32_t)s->y_to ? t.y.to : (int32_t)s->y_to;

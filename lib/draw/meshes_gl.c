@@ -238,20 +238,22 @@ static void draw_hits(struct kiln_meshes_gl *m)
     static const float offsets[HIT_LAYERS][2] = {{0.5f, 0.5f}, KILN_EDGE_OFFSETS(PAIR)};
 #undef PAIR
     static const GLuint nothing[4] = {0, 0, 0, 0};
-    static const GLfloat far = 1.0f;
+    static const GLfloat farthest = 0.0f;
     glViewport(0, 0, (GLsizei)m->width, (GLsizei)m->height);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, m->hit_depth);
     glUseProgram(m->hit_program);
+    glDepthFunc(GL_GREATER);
     for (int layer = 0; layer < HIT_LAYERS; layer++) {
         glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, m->hits, 0, layer);
         glClearBufferuiv(GL_COLOR, 0, nothing);
-        glClearBufferfv(GL_DEPTH, 0, &far);
+        glClearBufferfv(GL_DEPTH, 0, &farthest);
         glUniform2f(m->hit_shift, 0.5f - offsets[layer][0], 0.5f - offsets[layer][1]);
         for (uint32_t i = 0; i < m->count; i++) {
             glUniform1i(m->hit_mesh, (GLint)i);
             draw_mesh(&m->drawn[i]);
         }
     }
+    glDepthFunc(GL_LESS);
 }
 
 static void draw_shadows(struct kiln_meshes_gl *m)

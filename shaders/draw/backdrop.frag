@@ -183,7 +183,9 @@ void main()
 #ifdef MESHES
     h.surface = mark_mesh_edge(h.surface);
 #endif
-    out_surface = float(2 * h.surface) + (h.surface < 0 ? 0.0 : sunlit);
+    bool sunny = dot(h.normal, backdrop.sun_direction.xyz) > 0.0 &&
+                 dot(backdrop.sun_color.rgb, vec3(1.0)) > 0.0;
+    out_surface = float(2 * h.surface) + (h.surface >= 0 && sunny ? sunlit : 0.0);
 }
 
 #else

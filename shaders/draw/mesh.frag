@@ -22,6 +22,7 @@ layout(location = 0) out uvec2 out_hit;
 
 void main()
 {
+    gl_FragDepth = 1.0 / (1.0 + depth); /* as spheres have it */
     vec3 face = cross(dFdx(from_eye), dFdy(from_eye));
     face = dot(face, from_eye) > 0.0 ? -face : face;
     vec3 normal = dot(world_normal, face) < 0.0 ? -world_normal : world_normal;
