@@ -83,6 +83,7 @@ static bool run_way(struct pull *pull, size_t way, double *ms, struct kiln_error
                                     softening_square, ms, error);
     struct kiln_gravity gravity = {.sources = pull->sources,
                                    .count = pull->count,
+                                   .places = pull->sources,
                                    .softening_square = softening_square,
                                    .accelerations = pull->accelerations};
     const struct kiln_gravity_loops *loops =

@@ -73,23 +73,47 @@ uint32_t kiln_family_lifespan(const struct kiln_scene *scene, uint32_t system, u
 
 /* ---- settling ------------------------------------------------------------------------------- */
 
-static bool find_parent(struct kiln_reader *reader, const struct kiln_node *root, uint32_t index)
+/* Which system the option at a path names. */
+static bool find_system(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
+                        const char *name, uint32_t *system)
 {
-    struct kiln_scene *scene = reader->scene;
-    struct kiln_system *system = &scene->systems[index];
+    const struct kiln_scene *scene = reader->scene;
     const char *names[KILN_MAX_SYSTEMS];
     for (uint32_t i = 0; i < scene->system_count; i++) {
         names[i] = scene->systems[i].name;
-        system->emit.parent.system = i;
-        if (strcmp(names[i], system->emit.parent.name) == 0)
+        *system = i;
+        if (strcmp(names[i], name) == 0)
             return true;
     }
-    char path[128], suggestion[512], quoted[64];
-    snprintf(path, sizeof path, "systems.%s.emit.parent.system", system->name);
-    kiln_option_suggest(suggestion, sizeof suggestion, system->emit.parent.name, names,
-                        scene->system_count);
-    kiln_node_quote(quoted, system->emit.parent.name);
+    char suggestion[512], quoted[64];
+    kiln_option_suggest(suggestion, sizeof suggestion, name, names, scene->system_count);
+    kiln_node_quote(quoted, name);
     return kiln_validate_fail(reader, root, path, "unknown system '%s'%s", quoted, suggestion);
+}
+
+static bool find_parent(struct kiln_reader *reader, const struct kiln_node *root, uint32_t index)
+{
+    struct kiln_system *system = &reader->scene->systems[index];
+    struct kiln_parent *parent = &system->emit.parent;
+    char path[128];
+    snprintf(path, sizeof path, "systems.%s.emit.parent.system", system->name);
+    return !parent->enabled || find_system(reader, root, path, parent->name, &parent->system);
+}
+
+static bool find_sources(struct kiln_reader *reader, const struct kiln_node *root, uint32_t index)
+{
+    struct kiln_system *system = &reader->scene->systems[index];
+    bool ok = true;
+    for (uint32_t i = 0; ok && i < system->interaction_count; i++) {
+        struct kiln_interaction *gravity = &system->interactions[i];
+        if (gravity->kind != KILN_INTERACT_GRAVITY || strcmp(gravity->of, "self") == 0)
+            continue;
+        char path[128];
+        snprintf(path, sizeof path, "systems.%s.interact.%u.gravity.of", system->name, i);
+        ok = find_system(reader, root, path, gravity->of, &gravity->source);
+        gravity->of_other = ok && gravity->source != index;
+    }
+    return ok;
 }
 
 static bool check_generations(struct kiln_reader *reader, const struct kiln_node *root,
@@ -154,7 +178,7 @@ bool kiln_family_settle(struct kiln_reader *reader, const struct kiln_node *root
     struct kiln_scene *scene = reader->scene;
     bool ok = true;
     for (uint32_t i = 0; ok && i < scene->system_count; i++)
-        ok = !scene->systems[i].emit.parent.enabled || find_parent(reader, root, i);
+        ok = find_parent(reader, root, i) && find_sources(reader, root, i);
     for (uint32_t i = 0; ok && i < scene->system_count; i++) {
         struct kiln_system *system = &scene->systems[i];
         if (system->emit.parent.enabled)

@@ -35,6 +35,10 @@ static const struct kiln_option gravity[] = {
           "Acceleration that each particle causes at a distance of 1 m; below 0 they repel."),
     VALUE("softening", softening, KILN_METRES, 0.0001, 1000, TIME, "5 cm",
           "Distance below which attraction fades, as if particles were clouds so large."),
+    {ROW(
+        "of", name, AT(of), "self",
+        "The system whose particles attract, if not these themselves: few heavy ones and many that "
+        "only follow take little work. strength is then over the life of those.")},
     END,
 };
 
@@ -89,9 +93,9 @@ const struct kiln_option_kind kiln_interaction_kinds[] = {
      .value = KILN_INTERACT_GRAVITY,
      .members = gravity,
      .shortcut = "strength",
-     .help =
-         "Each attracts all others (Drone 2007, 7.4.3); the work grows with the square of their "
-         "number."},
+     .help = "Each attracts all others (Drone 2007, 7.4.3), or those of another system attract "
+             "these; the "
+             "work grows with how many attract times how many are attracted."},
     {.name = "flock",
      .value = KILN_INTERACT_FLOCK,
      .members = flock,

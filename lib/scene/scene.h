@@ -223,6 +223,9 @@ struct kiln_interaction {
     uint32_t rounds;               /* collide: of pairs in a step */
     struct kiln_value strength;    /* gravity: acceleration at 1 m, m/s^2; below 0 it repels */
     struct kiln_value softening;   /* m: gravity of nearer ones grows no more; above 0 */
+    const char *of;                /* gravity: the system that attracts, or "self" */
+    bool of_other;                 /* it is another one: */
+    uint32_t source;               /* its index */
     struct kiln_flock flock;
 };
 

@@ -205,6 +205,11 @@ static void add_define(struct defines *defines, const char *name, bool wanted)
         snprintf(defines->text + length, sizeof defines->text - length, "#define %s 1\n", name);
 }
 
+uint32_t kiln_sim_emitter_births(const struct kiln_device *device)
+{
+    return device->info.software ? 1 : SIM_EMITTER_BIRTHS;
+}
+
 bool kiln_sim_programs_init(struct kiln_sim_programs *programs, struct kiln_device *device,
                             const struct kiln_scene *scene, const struct kiln_sim_params *params,
                             struct kiln_program_params files, struct kiln_error *error)
@@ -215,7 +220,9 @@ bool kiln_sim_programs_init(struct kiln_sim_programs *programs, struct kiln_devi
     const bool fields = has_field_colliders(scene), pushes = params->push_count > 0;
     const bool forces = kiln_sim_needs_all_forces(scene);
     const bool round = has_round_colliders(scene), volumes = params->grids->volumes.count > 0;
-    snprintf(defines.text, sizeof defines.text, "#define SIM_GROUP_SIZE %u\n", group_size(device));
+    snprintf(defines.text, sizeof defines.text,
+             "#define SIM_GROUP_SIZE %u\n#define SIM_EMITTER_BIRTHS %u\n", group_size(device),
+             kiln_sim_emitter_births(device));
     add_define(&defines, "COLLIDE_ROUND", grids || volumes || turned || pushes || forces || round);
     add_define(&defines, "COLLIDE_TURNED", turned);
     add_define(&defines, "COLLIDE_RUB", has_rubbing(params));

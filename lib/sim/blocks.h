@@ -56,6 +56,9 @@ bool kiln_sim_programs_init(struct kiln_sim_programs *programs, struct kiln_devi
                             struct kiln_program_params files, struct kiln_error *error);
 void kiln_sim_programs_finish(struct kiln_sim_programs *programs);
 
+/* How many births an emitter of technique `feedback` spawns in those made for a device. */
+uint32_t kiln_sim_emitter_births(const struct kiln_device *device);
+
 /* The program for a system. */
 GLuint kiln_sim_programs_of(const struct kiln_sim_programs *programs,
                             const struct kiln_step_params *step);

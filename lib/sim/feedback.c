@@ -99,7 +99,8 @@ static void step_system(const struct kiln_feedback *feedback, const struct kiln_
     const struct range slots = {records, step->base, step->used};
     const struct range moved = {second, step->base, step->used - step->birth_count};
     const struct range born = {second, moved.first + moved.count, step->birth_count};
-    const uint32_t emitters = (step->birth_count + SIM_EMITTER_BIRTHS - 1) / SIM_EMITTER_BIRTHS;
+    const uint32_t births = kiln_sim_emitter_births(feedback->stream.device);
+    const uint32_t emitters = (step->birth_count + births - 1) / births;
     read_vertices(slots);
     stream(feedback->moved, kiln_sim_programs_of(&feedback->move, step), slots.count, moved);
     stream(feedback->born, kiln_sim_programs_of(&feedback->emit, step), emitters, born);

@@ -5,12 +5,13 @@
 #include "base/simd.h"
 #include "shared/interact_gravity.h"
 
-/* Sources that are taken from memory at a time, in multiples of which there is room. */
+/* Slots that are pulled at a time, in multiples of which there is room. */
 enum { KILN_GRAVITY_BLOCK = 32 };
 
 struct kiln_gravity {
-    const float4 *sources; /* gravity_source of each slot, zeros up to a multiple of a block */
+    const float4 *sources; /* gravity_source of each that may pull */
     size_t count;
+    const float4 *places;   /* x, y, z of each slot that is pulled, and w; up to a whole block */
     float softening_square; /* m^2 */
     float3 *accelerations;  /* of each slot, and up to a multiple of a block */
 };

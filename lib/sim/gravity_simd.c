@@ -18,13 +18,13 @@ struct targets {
     floats sum_x, sum_y, sum_z;
 };
 
-static inline struct targets targets_at(const float4 *sources)
+static inline struct targets targets_at(const float4 *places)
 {
     struct targets t = {.sum_x = {0}};
     for (int i = 0; i < LANES; i++) {
-        t.x[i] = sources[i].x;
-        t.y[i] = sources[i].y;
-        t.z[i] = sources[i].z;
+        t.x[i] = places[i].x;
+        t.y[i] = places[i].y;
+        t.z[i] = places[i].z;
     }
     return t;
 }
@@ -61,8 +61,8 @@ static void pull(void *context, size_t begin, size_t end, uint32_t worker)
     (void)worker;
     const struct kiln_gravity *g = context;
     for (size_t first = begin; first < end; first += (size_t)2 * LANES) {
-        struct targets a = targets_at(g->sources + first);
-        struct targets b = targets_at(g->sources + first + LANES);
+        struct targets a = targets_at(g->places + first);
+        struct targets b = targets_at(g->places + first + LANES);
         for (size_t i = 0; i < g->count; i++) {
             add(&a, &g->sources[i], g->softening_square);
             add(&b, &g->sources[i], g->softening_square);

@@ -79,8 +79,19 @@ static void add_collisions(struct kiln_interact_work *work, const struct kiln_sc
     params->scale = look->scale;
 }
 
+/* What holds for all that is gathered of a system. */
+static struct kiln_interact_params params_of(const struct kiln_step_params *step)
+{
+    return (struct kiln_interact_params){.derived = step->derived,
+                                         .base = step->base,
+                                         .used = step->used,
+                                         .first_push = step->first_push,
+                                         .step = step->step - 1,
+                                         .time_s = step->time_s};
+}
+
 static void add_gravity(struct kiln_interact_work *work, const struct kiln_scene *scene,
-                        uint32_t system)
+                        const struct kiln_sim_params *params, uint32_t system)
 {
     const struct kiln_interaction *gravity =
         kiln_scene_interaction(scene, system, KILN_INTERACT_GRAVITY);
@@ -90,7 +101,9 @@ static void add_gravity(struct kiln_interact_work *work, const struct kiln_scene
     work->pulls = true;
     work->params.adds = work->collides;
     work->params.softening_square = softening_m * softening_m;
-    work->params.strength = gravity->strength;
+    work->of_other = gravity->of_other;
+    work->sources = params_of(&params->systems[gravity->of_other ? gravity->source : system]);
+    work->sources.strength = gravity->strength;
 }
 
 /* The square of the cosine of half an angle, with its sign; all around whatever rounds. */
@@ -152,18 +165,13 @@ static struct kiln_interact_work work_of(const struct kiln_scene *scene,
                                          const struct kiln_sim_params *params, uint32_t system,
                                          bool flock)
 {
-    const struct kiln_step_params *step = &params->systems[system];
-    struct kiln_interact_work work = {.params = {.derived = step->derived,
-                                                 .base = step->base,
-                                                 .used = step->used,
-                                                 .first_push = step->first_push,
-                                                 .step = step->step - 1,
-                                                 .time_s = step->time_s}};
+    struct kiln_interact_work work = {.system = scene->systems[system].name,
+                                      .params = params_of(&params->systems[system])};
     if (flock) {
         add_flock(&work, scene, system);
     } else {
         add_collisions(&work, scene, system);
-        add_gravity(&work, scene, system);
+        add_gravity(&work, scene, params, system);
     }
     return work;
 }
@@ -178,16 +186,30 @@ static bool choose_loops(struct kiln_interact *interact, struct kiln_error *erro
     return true;
 }
 
+/* Slots of the largest that interacts, or that others do something with. */
+static uint32_t largest_system(const struct kiln_scene *scene, const struct kiln_sim_params *params)
+{
+    uint32_t largest = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        if (!params->systems[i].pushed)
+            continue;
+        const struct kiln_interaction *gravity =
+            kiln_scene_interaction(scene, i, KILN_INTERACT_GRAVITY);
+        const uint32_t other =
+            gravity && gravity->of_other ? scene->systems[gravity->source].capacity : 0;
+        const uint32_t own = scene->systems[i].capacity;
+        largest = own > largest ? own : largest;
+        largest = other > largest ? other : largest;
+    }
+    return largest;
+}
+
 bool kiln_interact_init(struct kiln_interact *interact, struct kiln_device *device,
                         const struct kiln_scene *scene, const struct kiln_sim_params *params,
                         struct kiln_threads *threads, struct kiln_error *error)
 {
     *interact = (struct kiln_interact){.scene = scene, .device = device, .threads = threads};
-    uint32_t largest = 0;
-    for (uint32_t i = 0; i < scene->system_count; i++) {
-        if (params->systems[i].pushed && scene->systems[i].capacity > largest)
-            largest = scene->systems[i].capacity;
-    }
+    const uint32_t largest = largest_system(scene, params);
     const size_t bodies = largest * sizeof(struct kiln_body);
     const size_t cells = largest ? count_cells(largest) : 0;
     const size_t entries = largest ? kiln_interact_entries(largest) : 0;
@@ -195,7 +217,8 @@ bool kiln_interact_init(struct kiln_interact *interact, struct kiln_device *devi
                      "pushes");
     kiln_buffer_init(&interact->bodies, device, bodies, "bodies");
     kiln_buffer_init(&interact->second, device, bodies + KILN_FLOCK_ROOM, "bodies, second");
-    kiln_buffer_init(&interact->cells, device, cells * sizeof(uint32_t), "cells of bodies");
+    interact->half = (uint32_t)entries;
+    kiln_buffer_init(&interact->cells, device, (cells + 1) * sizeof(uint32_t), "cells of bodies");
     kiln_buffer_init(&interact->partners, device, largest * sizeof(uint32_t), "partners");
     kiln_buffer_init(&interact->entries, device, 2 * entries * ENTRY_BYTES, "bodies in grids");
     kiln_buffer_init(&interact->order, device, (size_t)largest * 2 * sizeof(uint32_t),

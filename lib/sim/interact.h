@@ -33,7 +33,10 @@ enum kiln_interact_kernel {
 
 /* What is gathered for a system in a step. */
 struct kiln_interact_work {
+    const char *system; /* its name */
     struct kiln_interact_params params;
+    struct kiln_interact_params sources; /* gravity: of the system that pulls, which may be this */
+    bool of_other;                       /* it is another one */
     bool collides, pulls, flocks;
     enum kiln_contact_mode mode;
     uint32_t rounds;
@@ -48,7 +51,8 @@ struct kiln_interact {
     struct kiln_buffer bodies, second;        /* struct kiln_body, of the largest system */
     struct kiln_buffer cells;                 /* uint32_t, some a particle */
     struct kiln_buffer partners;              /* uint32_t, one a body */
-    struct kiln_buffer entries;               /* staggered: what is sorted; gravity: sources */
+    struct kiln_buffer entries;               /* staggered: what is sorted; gravity: two halves */
+    uint32_t half;                            /* of those: sources first, then what follows */
     struct kiln_buffer order;                 /* uint32_t, two a body */
     struct kiln_buffer counts;                /* staggered, on the host: of a sort */
     struct kiln_buffer accelerations;         /* gravity on the host: float3, one a slot */

@@ -117,7 +117,7 @@ static bool collide(struct kiln_interact *interact, const struct kiln_interact_w
 
 enum { TARGETS_AT_A_TIME = 4 * KILN_GRAVITY_BLOCK };
 
-/* There is room for a power of two of them, at least 64. */
+/* Of each slot, and zeros up to a whole block: there is room for a power of two, at least 64. */
 static void fill_sources(const struct kiln_crowd *view, const struct kiln_particle *records,
                          float4 *sources)
 {
@@ -129,22 +129,37 @@ static void fill_sources(const struct kiln_crowd *view, const struct kiln_partic
         sources[slot] = gravity_no_source();
 }
 
+static void fill_places(const struct kiln_particle *records, uint32_t used, float4 *places)
+{
+    for (uint32_t slot = 0; slot < used || slot % KILN_GRAVITY_BLOCK != 0; slot++) {
+        places[slot] = gravity_no_source();
+        if (slot < used && particle_is_alive(records[slot])) {
+            const float3 p = particle_position(records[slot]);
+            places[slot] = FLOAT4(p.x, p.y, p.z, 0.0f);
+        }
+    }
+}
+
 static bool pull(struct kiln_interact *interact, const struct kiln_interact_work *work,
                  struct kiln_pool *pool, struct kiln_error *error)
 {
     const struct kiln_interact_params *params = &work->params;
-    const struct kiln_crowd view = {.params = params, .value_keys = interact->scene->keys};
+    const struct kiln_crowd view = {.params = &work->sources, .value_keys = interact->scene->keys};
     const struct kiln_particle *records = kiln_buffer_host(&pool->records, KILN_READ, error);
     float4 *pushes = kiln_buffer_host(&interact->pushes, KILN_READ_WRITE, error);
     float4 *sources = kiln_buffer_host(&interact->entries, KILN_READ_WRITE, error);
     float3 *accelerations = kiln_buffer_host(&interact->accelerations, KILN_READ_WRITE, error);
     if (!records || !pushes || !sources || !accelerations)
         return false;
+    float4 *places = work->of_other ? sources + interact->half : sources;
+    fill_sources(&view, records + work->sources.base, sources);
     records += params->base;
     pushes += (size_t)params->first_push * 2;
-    fill_sources(&view, records, sources);
+    if (work->of_other)
+        fill_places(records, params->used, places);
     struct kiln_gravity gravity = {.sources = sources,
-                                   .count = params->used,
+                                   .count = work->sources.used,
+                                   .places = places,
                                    .softening_square = params->softening_square,
                                    .accelerations = accelerations};
     kiln_threads_for(interact->threads, params->used, TARGETS_AT_A_TIME, interact->gravity->pull,

@@ -1,6 +1,7 @@
 /* Pushes in compute: the kernels of shaders/sim/interact_*.comp, one after the other. */
 #include <stdio.h>
 
+#include "base/error.h"
 #include "gpu/program.h"
 #include "shared/limits.h"
 #include "sim/interact.h"
@@ -49,6 +50,10 @@ static int uses(const struct kiln_scene *scene)
     return all;
 }
 
+/* Bodies that one may look at on software GL, whose loops end silently; the rest is for the loops
+ * over rows of cells. */
+enum { MOST_AROUND = KILN_SOFTWARE_ITERATIONS - 535 };
+
 bool kiln_interact_gl_init(struct kiln_interact *interact, struct kiln_error *error)
 {
     struct kiln_device *device = interact->device;
@@ -57,9 +62,11 @@ bool kiln_interact_gl_init(struct kiln_interact *interact, struct kiln_error *er
     for (int i = 0; i < KILN_INTERACT_KERNELS; i++) {
         if ((used & KERNELS[i].used_for) == 0)
             continue;
-        char defines[96];
-        snprintf(defines, sizeof defines, "#define SIM_GROUP_SIZE %u\n%s", interact->group_size,
-                 KERNELS[i].defines);
+        char defines[128], counted[32] = "";
+        if (i == KILN_INTERACT_FIND && device->info.software)
+            snprintf(counted, sizeof counted, "#define COUNTED %uu\n", (unsigned)MOST_AROUND);
+        snprintf(defines, sizeof defines, "#define SIM_GROUP_SIZE %u\n%s%s", interact->group_size,
+                 KERNELS[i].defines, counted);
         interact->programs[i] = kiln_program_create(
             device, &(struct kiln_program_params){.compute = KERNELS[i].file, .defines = defines},
             error);
@@ -87,15 +94,22 @@ static bool bind(GLuint at, struct kiln_buffer *buffer, enum kiln_access access,
     return gl != 0;
 }
 
+static bool set_params(struct kiln_interact *interact, const struct kiln_interact_params *params,
+                       struct kiln_error *error)
+{
+    const GLuint block = kiln_buffer_upload(&interact->block, params, error);
+    if (block)
+        glBindBufferBase(GL_UNIFORM_BUFFER, INTERACT_BIND_PARAMS, block);
+    return block != 0;
+}
+
 static bool bind_all(struct kiln_interact *interact, const struct kiln_interact_work *work,
                      struct kiln_pool *pool, struct kiln_buffer *keys, struct kiln_error *error)
 {
     const GLuint values = kiln_buffer_gl(keys, KILN_READ, error);
-    const GLuint block = kiln_buffer_upload(&interact->block, &work->params, error);
-    if (!values || !block)
+    if (!values || !set_params(interact, &work->params, error))
         return false;
     glBindBufferBase(GL_UNIFORM_BUFFER, SIM_BIND_KEYS, values);
-    glBindBufferBase(GL_UNIFORM_BUFFER, INTERACT_BIND_PARAMS, block);
     const enum kiln_access change = KILN_READ_WRITE;
     const bool sorts = work->collides || work->flocks;
     return bind(SIM_BIND_RECORDS, &pool->records, KILN_READ, error) &&
@@ -123,7 +137,7 @@ static void sort_into_cells(const struct kiln_interact *interact,
                             const struct kiln_interact_params *params,
                             enum kiln_interact_kernel count)
 {
-    empty_cells(interact, params->cell_mask + 1);
+    empty_cells(interact, params->cell_mask + 2);
     run(interact, count, params->used);
     glUseProgram(interact->programs[KILN_INTERACT_SCAN]);
     glUniform1ui(0, params->cell_mask + 1);
@@ -159,7 +173,29 @@ static void sort_into_grids(const struct kiln_interact *interact,
     run(interact, KILN_INTERACT_ORDER_SECOND, params->used);
 }
 
-static void collide(const struct kiln_interact *interact, const struct kiln_interact_work *work)
+/* Whether all of them were looked at. */
+static bool saw_all(const struct kiln_interact *interact, const struct kiln_interact_work *work,
+                    struct kiln_error *error)
+{
+    if (!interact->device->info.software || work->mode != KILN_CONTACT_EXACT)
+        return true;
+    GLuint around = 0;
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glBindBuffer(GL_COPY_READ_BUFFER, interact->cells.gl);
+    glGetBufferSubData(GL_COPY_READ_BUFFER,
+                       (GLintptr)(work->params.cell_mask + 1) * (GLintptr)sizeof around,
+                       (GLsizeiptr)sizeof around, &around);
+    if (around <= MOST_AROUND)
+        return true;
+    return kiln_error_set(error, KILN_DEVICE_FAILED,
+                          "systems.%s.interact: a particle has %u others near enough to collide "
+                          "with; software GL looks at up to %u: use --technique simulate=cpu, or a "
+                          "smaller radius or lower fastest",
+                          work->system, around, (unsigned)MOST_AROUND);
+}
+
+static bool collide(const struct kiln_interact *interact, const struct kiln_interact_work *work,
+                    struct kiln_error *error)
 {
     const struct kiln_interact_params *params = &work->params;
     const bool exact = work->mode == KILN_CONTACT_EXACT;
@@ -174,6 +210,8 @@ static void collide(const struct kiln_interact *interact, const struct kiln_inte
         glUseProgram(interact->programs[find]);
         glUniform1ui(0, round > 0);
         run(interact, find, params->used);
+        if (round == 0 && !saw_all(interact, work, error))
+            return false;
         run(interact, KILN_INTERACT_ANSWER, params->used);
         const GLuint before = bodies;
         bodies = second;
@@ -182,6 +220,34 @@ static void collide(const struct kiln_interact *interact, const struct kiln_inte
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, INTERACT_BIND_SECOND, second);
     }
     run(interact, KILN_INTERACT_PUSH, params->used);
+    return true;
+}
+
+/* So many sources in a dispatch that llvmpipe's loops run to their end with any size of groups. */
+enum { SOURCES_AT_A_TIME = 1 << 14 };
+
+static bool pull(struct kiln_interact *interact, const struct kiln_interact_work *work,
+                 struct kiln_error *error)
+{
+    const uint32_t all = work->sources.used;
+    if (!set_params(interact, &work->sources, error))
+        return false;
+    run(interact, KILN_INTERACT_SOURCES, all);
+    if (!set_params(interact, &work->params, error))
+        return false;
+    glUseProgram(interact->programs[KILN_INTERACT_GRAVITY_TILES]);
+    glUniform1ui(2, all);
+    glUniform1ui(3, interact->half);
+    uint32_t first = 0;
+    do {
+        const uint32_t left = all - first;
+        const uint32_t end = first + (left < SOURCES_AT_A_TIME ? left : SOURCES_AT_A_TIME);
+        glUniform1ui(0, first);
+        glUniform1ui(1, end);
+        run(interact, KILN_INTERACT_GRAVITY_TILES, work->params.used);
+        first = end;
+    } while (first < all);
+    return true;
 }
 
 static void flock(const struct kiln_interact *interact, const struct kiln_interact_params *params)
@@ -198,12 +264,9 @@ bool kiln_interact_gl(struct kiln_interact *interact, const struct kiln_interact
         return true;
     if (!bind_all(interact, work, pool, keys, error))
         return false;
-    if (work->collides)
-        collide(interact, work);
-    if (work->pulls) {
-        run(interact, KILN_INTERACT_SOURCES, work->params.used);
-        run(interact, KILN_INTERACT_GRAVITY_TILES, work->params.used);
-    }
+    if ((work->collides && !collide(interact, work, error)) ||
+        (work->pulls && !pull(interact, work, error)))
+        return false;
     if (work->flocks)
         flock(interact, &work->params);
     return kiln_device_check(interact->device, "interact", error);

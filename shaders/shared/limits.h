@@ -65,8 +65,12 @@
 /* Slots that one invocation of the hash adds up. */
 #define SIM_HASH_SLOTS 16
 
-/* Births that one emitter spawns; 8 words each, of 1024 that every geometry shader may write. */
+/* Births that one emitter spawns; 8 words each, of 1024 that every geometry shader may write. On
+ * software GL it is one, as others step one slot: all loops of an emitter together run so often and
+ * no more (gpu/device.h). */
+#ifndef SIM_EMITTER_BIRTHS
 #define SIM_EMITTER_BIRTHS 32
+#endif
 
 /* Slots in a row of the textures of technique `texels`. */
 #define SIM_TEXEL_ROW 2048

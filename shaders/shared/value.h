@@ -44,10 +44,14 @@ struct kiln_range {
 /* Index of the last key at or before x, or of the first. */
 FN uint value_find(VALUE_KEYS_PARAM S(kiln_value) v, float x)
 {
-    uint last = v.first + v.count - 1u;
     uint k = v.first;
-    while (k < last && value_keys[k + 1u].x <= x)
-        k++;
+    uint end = v.first + v.count;
+    while (end - k > 1u) {
+        uint middle = k + (end - k) / 2u;
+        bool before = value_keys[middle].x <= x;
+        k = before ? middle : k;
+        end = before ? end : middle;
+    }
     return k;
 }
 

@@ -1,4 +1,5 @@
-/* Second: where the bodies of each cell begin, by one work group. */
+/* Second: where the bodies of each cell begin, by one work group; four cells at a time, since
+ * llvmpipe bounds how often loops run, and a table may have 2^24. */
 #include "shared/limits.h"
 
 layout(local_size_x = INTERACT_SCAN_GROUP) in;
@@ -13,18 +14,34 @@ layout(std430, binding = INTERACT_BIND_CELLS) buffer cell_block
 
 layout(location = 0) uniform uint count;
 
+uint bodies_of(uint cell, uint last)
+{
+    return cell < last ? cells[cell] : 0u;
+}
+
+/* Returns where those of the next cell begin. */
+uint begin_at(uint cell, uint last, uint before)
+{
+    uint bodies = bodies_of(cell, last);
+    if (cell < last)
+        cells[cell] = before;
+    return before + bodies;
+}
+
 void main()
 {
     uint stretch = (count + uint(INTERACT_SCAN_GROUP) - 1u) / uint(INTERACT_SCAN_GROUP);
     uint first = min(gl_LocalInvocationID.x * stretch, count);
     uint last = min(first + stretch, count);
     uint sum = 0u;
-    for (uint i = first; i < last; i++)
-        sum += cells[i];
+    for (uint i = first; i < last; i += 4u)
+        sum += bodies_of(i, last) + bodies_of(i + 1u, last) + bodies_of(i + 2u, last) +
+               bodies_of(i + 3u, last);
     uint before = group_sum_before(sum);
-    for (uint i = first; i < last; i++) {
-        uint bodies = cells[i];
-        cells[i] = before;
-        before += bodies;
+    for (uint i = first; i < last; i += 4u) {
+        before = begin_at(i, last, before);
+        before = begin_at(i + 1u, last, before);
+        before = begin_at(i + 2u, last, before);
+        before = begin_at(i + 3u, last, before);
     }
 }

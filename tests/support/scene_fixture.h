@@ -10,7 +10,7 @@
 
 struct scene_fixture {
     struct kiln_scene scene;
-    float4 keys[256];
+    float4 keys[KILN_MAX_VALUE_KEYS];
 };
 
 /* An empty scene: 300 frames at 60 a second, one step each. Before the first time, all of it is

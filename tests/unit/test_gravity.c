@@ -71,8 +71,11 @@ static void all_widths_give_the_same_bits(void **state)
     static float4 sources[ROOM];
     static float3 expected[ROOM], found[ROOM];
     fill_sources(sources);
-    struct kiln_gravity gravity = {
-        .sources = sources, .count = BODIES, .softening_square = 0.01f, .accelerations = found};
+    struct kiln_gravity gravity = {.sources = sources,
+                                   .count = BODIES,
+                                   .places = sources,
+                                   .softening_square = 0.01f,
+                                   .accelerations = found};
     for (uint32_t i = 0; i < BODIES; i++) {
         const float3 at = FLOAT3(sources[i].x, sources[i].y, sources[i].z);
         expected[i] = FLOAT3(0.0f, 0.0f, 0.0f);
@@ -148,6 +151,44 @@ static void two_stars_stay_on_their_circle(void **state)
         assert_true(fabsf(float3_length(p) - 0.5f) < 0.01f);
         assert_true(fabs(energy(&run, 2, 1.0, 0.001) - before) < 0.02 * fabs(before));
     }
+    simulation_end(&run);
+}
+
+/* Those who only follow do not pull, neither each other nor what they follow: 40 on circles of
+ * their own about one that rests, speed^2 = strength / radius. */
+static void followers_circle_what_they_follow(void **state)
+{
+    (void)state;
+    enum { FOLLOWERS = 40 };
+    struct simulation run;
+    balls_init(&fixture, 1, 0.01f);
+    fixture.scene.systems[0].interaction_count = 0;
+    struct kiln_system *followers = fixture_add_system(&fixture, "followers", 0.0f);
+    followers->emit.life = fixture_range(1000.0f, 1000.0f);
+    followers->capacity = FOLLOWERS;
+    struct kiln_interaction *gravity = fixture_add_gravity(followers, 4.0f);
+    gravity->softening = fixture_constant(0.001f);
+    gravity->of_other = true;
+    gravity->source = 0;
+    simulation_start(&run, &fixture.scene, NULL, 1);
+    balls_place(&run, 0, FLOAT3(1.0f, 0.0f, 0.0f), FLOAT3(0.0f, 0.0f, 0.0f));
+    for (uint32_t i = 0; i < FOLLOWERS; i++) {
+        const float radius = 1.0f + 0.1f * (float)i;
+        balls_place(&run, 1 + i, FLOAT3(1.0f + radius, 0.0f, 0.0f),
+                    FLOAT3(0.0f, 2.0f / sqrtf(radius), 0.0f));
+    }
+    run.pool.systems[0].next_serial = 1;
+    run.pool.systems[1].next_serial = FOLLOWERS;
+    simulation_run(&run, 600);
+    const struct kiln_particle *records = simulation_records(&run);
+    for (uint32_t i = 0; i < FOLLOWERS; i++) {
+        const float3 p = particle_position(records[1 + i]);
+        const double radius = 1.0 + 0.1 * i, x = (double)p.x - 1.0, y = (double)p.y;
+        assert_true(fabs(sqrt(x * x + y * y) - radius) < 0.02 * radius);
+        const double phase = 10.0 * 2.0 / (radius * sqrt(radius));
+        assert_true(fabs(sin(0.5 * (atan2(y, x) - phase))) < 0.04);
+    }
+    assert_true(particle_position(records[0]).x == 1.0f);
     simulation_end(&run);
 }
 
@@ -243,6 +284,7 @@ int main(void)
         cmocka_unit_test(all_widths_give_the_same_bits),
         cmocka_unit_test(roots_are_as_exact_as_promised),
         cmocka_unit_test(two_stars_stay_on_their_circle),
+        cmocka_unit_test(followers_circle_what_they_follow),
         cmocka_unit_test(energy_swings_and_does_not_drift),
         cmocka_unit_test(a_cluster_keeps_momentum_and_energy),
     };

@@ -37,6 +37,12 @@ static const struct bad interactions[] = {
      "1000 m"},
     {"kiln: 1\n"
      "systems:\n"
+     "  stars: {}\n"
+     "  a:\n"
+     "    interact: [{gravity: {of: star}}]\n",
+     ":5:15: systems.a.interact.0.gravity.of: unknown system 'star' (did you mean 'stars'?)"},
+    {"kiln: 1\n"
+     "systems:\n"
      "  a:\n"
      "    interact: [{flock: {slowest: 2, fastest: 1}}]\n",
      ":4:15: systems.a.interact: the slowest of a flock, 2 m/s, is faster than its fastest, 1 m/s"},

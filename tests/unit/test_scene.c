@@ -194,6 +194,14 @@ static void assert_same_scene(const struct kiln_scene *a, const struct kiln_scen
         memcpy(left.systems[i].look.atlas, right.systems[i].look.atlas,
                sizeof left.systems[i].look.atlas);
         left.systems[i].look.motion = right.systems[i].look.motion;
+        for (uint32_t k = 0; k < left.systems[i].interaction_count; k++) {
+            struct kiln_interaction *entry = &left.systems[i].interactions[k];
+            const char *of = right.systems[i].interactions[k].of;
+            assert_int_equal(entry->of != NULL, of != NULL);
+            if (of)
+                assert_string_equal(entry->of, of);
+            entry->of = of;
+        }
     }
     left.meshes = right.meshes;
     left.arena = right.arena;
