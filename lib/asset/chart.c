@@ -9,7 +9,10 @@
 
 #include "base/error.h"
 
-enum { SUBTEXELS = 256 };
+enum {
+    SUBTEXELS = 256,
+    MOST_ROWS = 1 << 24, /* of all triangles: where none overlap, they have about as many texels */
+};
 
 /* Of coordinates that a program wrote as 0 or 1. */
 static const float SLACK = 1e-5f;
@@ -27,6 +30,7 @@ struct making {
     uint32_t edge;
     uint32_t *owners; /* 1 + the triangle; 0: none */
     struct texel *texels;
+    int64_t rows; /* of all triangles up to now */
 };
 
 /* ---- triangles ------------------------------------------------------------------------------- */
@@ -76,6 +80,21 @@ static bool place_corners(const struct making *m, uint32_t number, struct flat *
 static int64_t floor_of(int64_t a, int64_t b) /* a / b, b > 0 */
 {
     return a >= 0 ? a / b : -((b - 1 - a) / b);
+}
+
+/* The rows from .. to that it may have texels in. */
+static void find_rows(const struct making *m, const struct flat *flat, int64_t *from, int64_t *to)
+{
+    int64_t low = flat->y[0], high = flat->y[0];
+    for (int k = 1; k < 3; k++) {
+        low = flat->y[k] < low ? flat->y[k] : low;
+        high = flat->y[k] > high ? flat->y[k] : high;
+    }
+    const int64_t last = (int64_t)m->edge - 1;
+    *from = floor_of(low, SUBTEXELS);
+    *to = floor_of(high, SUBTEXELS);
+    *from = *from < 0 ? 0 : *from;
+    *to = *to > last ? last : *to;
 }
 
 /* Twice the area between the edge that lies across from a corner and a place. */
@@ -157,15 +176,17 @@ static bool add_triangle(struct making *m, uint32_t number, struct kiln_error *e
         return false;
     if (flat.area == 0)
         return true;
-    int64_t low = flat.y[0], high = flat.y[0];
-    for (int k = 1; k < 3; k++) {
-        low = flat.y[k] < low ? flat.y[k] : low;
-        high = flat.y[k] > high ? flat.y[k] : high;
-    }
     const int64_t last = (int64_t)m->edge - 1;
-    int64_t row = floor_of(low, SUBTEXELS), end = floor_of(high, SUBTEXELS);
-    row = row < 0 ? 0 : row;
-    end = end > last ? last : end;
+    int64_t row, end;
+    find_rows(m, &flat, &row, &end);
+    m->rows += row <= end ? end - row + 1 : 0;
+    if (m->rows > MOST_ROWS) {
+        kiln_error_set(error, KILN_INVALID_INPUT,
+                       "%s: its triangles lie in more than %d rows of texels altogether; for "
+                       "paint, unwrap it with less narrow ones, or set a smaller size",
+                       m->name, MOST_ROWS);
+        return false;
+    }
     for (; row <= end; row++) {
         const int64_t y = row * SUBTEXELS + SUBTEXELS / 2;
         int64_t from = 0, to = last;

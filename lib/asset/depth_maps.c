@@ -11,10 +11,11 @@
 #include "shared/exact.h"
 
 enum {
-    SUB = 256,    /* places within a sample */
-    MARGIN = 5,   /* samples around the mesh */
-    REACH = 3,    /* samples from the mesh, up to which a map may find something */
-    HEIGHTS = 24, /* bits of a height */
+    SUB = 256,             /* places within a sample */
+    MARGIN = 5,            /* samples around the mesh */
+    REACH = 3,             /* samples from the mesh, up to which a map may find something */
+    HEIGHTS = 24,          /* bits of a height */
+    MOST_VISITS = 1 << 28, /* of samples by triangles, for a map */
 };
 
 /* The least way from front to back, in parts of the mesh's size: a sheet has a back, too. */
@@ -224,20 +225,33 @@ static void meet(const struct making *making, const struct facet *facet, int32_t
     come_near(making, sample, low, high, triangle, aside_of(making, facet, triangle, x, y));
 }
 
+/* Samples from x0 and y0 on, before x1 and y1. */
+struct range {
+    int64_t x0, x1, y0, y1;
+};
+
+/* Those that are at most one away from a triangle. */
+static struct range range_of(const struct making *making, const struct corner corners[3])
+{
+    const struct corner *c = corners;
+    const int64_t end = making->resolution;
+    return (struct range){
+        .x0 = most((least(c[0].x, least(c[1].x, c[2].x)) - 1) / SUB, 0),
+        .x1 = least(most(c[0].x, most(c[1].x, c[2].x)) / SUB + 2, end),
+        .y0 = most((least(c[0].y, least(c[1].y, c[2].y)) - 1) / SUB, 0),
+        .y1 = least(most(c[0].y, most(c[1].y, c[2].y)) / SUB + 2, end),
+    };
+}
+
 /* The samples of a triangle and around it, from one row on and up to another. */
 static void meet_samples(const struct making *making, uint32_t triangle, int64_t first_row,
                          int64_t end_row)
 {
     const struct facet facet = facet_of(making, triangle);
-    const struct corner *c = facet.corners;
-    const int64_t top = (int64_t)making->resolution - 1;
-    const int64_t x0 = (least(c[0].x, least(c[1].x, c[2].x)) - 1) / SUB; /* at most one away */
-    const int64_t x1 = most(c[0].x, most(c[1].x, c[2].x)) / SUB + 1;
-    const int64_t y0 = most((least(c[0].y, least(c[1].y, c[2].y)) - 1) / SUB, first_row);
-    const int64_t y1 = least(most(c[0].y, most(c[1].y, c[2].y)) / SUB + 2, end_row);
-    for (int64_t y = y0; y < y1; y++) {
+    const struct range range = range_of(making, facet.corners);
+    for (int64_t y = most(range.y0, first_row); y < least(range.y1, end_row); y++) {
         struct sample *row = making->samples + (size_t)y * making->resolution;
-        for (int64_t x = most(x0, 0); x <= least(x1, top); x++)
+        for (int64_t x = range.x0; x < range.x1; x++)
             meet(making, &facet, (int32_t)triangle, &row[x], x * SUB, y * SUB);
     }
 }
@@ -420,12 +434,57 @@ static void make(struct kiln_depth_maps *maps, struct making *making, const floa
     }
 }
 
+static double size_of(const struct kiln_mesh *mesh)
+{
+    double size = 1e-6;
+    for (int c = 0; c < 3; c++)
+        size = fmax(size, (double)mesh->max[c] - (double)mesh->min[c]);
+    return size;
+}
+
+size_t kiln_depth_maps_words(uint32_t count, uint32_t resolution)
+{
+    return (size_t)count * (3 + 2 * (size_t)resolution * resolution);
+}
+
+bool kiln_depth_maps_check(const struct kiln_mesh *mesh, const char *name,
+                           const float (*directions)[3], uint32_t count, uint32_t resolution,
+                           struct kiln_error *error)
+{
+    struct making making = {.mesh = mesh,
+                            .resolution = resolution,
+                            .corners = malloc(mesh->vertex_count * sizeof(struct corner))};
+    if (!making.corners)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", name);
+    int64_t visits = 0;
+    for (uint32_t k = 0; k < count && visits <= MOST_VISITS; k++) {
+        find_axes(directions[k], making.axes);
+        place_map(&making, size_of(mesh));
+        project(&making);
+        visits = 0;
+        for (uint32_t i = 0; i < mesh->triangle_count; i++) {
+            const uint32_t *t = mesh->triangles[i];
+            const struct range range = range_of(
+                &making, (const struct corner[3]){making.corners[t[0]], making.corners[t[1]],
+                                                  making.corners[t[2]]});
+            visits += (range.x1 - range.x0) * (range.y1 - range.y0);
+        }
+    }
+    free(making.corners);
+    return visits <= MOST_VISITS ||
+           kiln_error_set(error, KILN_INVALID_INPUT,
+                          "%s: its %u triangles lie in %lld samples of a depth map altogether; "
+                          "allowed are %d: lower the resolution",
+                          name, mesh->triangle_count, (long long)visits, MOST_VISITS);
+}
+
 struct kiln_depth_maps *kiln_depth_maps_create(const struct kiln_mesh *mesh, const char *name,
                                                const float (*directions)[3], uint32_t count,
                                                uint32_t resolution, struct kiln_threads *threads,
                                                struct kiln_error *error)
 {
     const size_t samples = (size_t)resolution * resolution;
+    const double size = size_of(mesh);
     const size_t corner_bytes = mesh->vertex_count * sizeof(struct corner);
     struct kiln_depth_maps *maps = calloc(1, sizeof *maps);
     double(*normals)[3] = malloc(mesh->triangle_count * sizeof *normals);
@@ -439,13 +498,10 @@ struct kiln_depth_maps *kiln_depth_maps_create(const struct kiln_mesh *mesh, con
     if (maps) {
         maps->count = count;
         maps->resolution = resolution;
-        maps->word_count = count * (3 + 2 * samples);
+        maps->word_count = kiln_depth_maps_words(count, resolution);
         maps->words = malloc(maps->word_count * sizeof *maps->words);
     }
     if (maps && maps->words && normals && making.corners && making.samples) {
-        double size = 1e-6;
-        for (int c = 0; c < 3; c++)
-            size = fmax(size, (double)mesh->max[c] - (double)mesh->min[c]);
         find_normals(mesh, normals);
         make(maps, &making, directions, size, threads);
     } else {

@@ -24,6 +24,15 @@ struct kiln_depth_maps {
     float (*words)[4];
 };
 
+/* How many words the maps of a mesh have. */
+size_t kiln_depth_maps_words(uint32_t count, uint32_t resolution);
+
+/* Refuses what would take long to make, as KILN_INVALID_INPUT: very many triangles that are large
+ * in a map. Parameters as of kiln_depth_maps_create. */
+bool kiln_depth_maps_check(const struct kiln_mesh *mesh, const char *name,
+                           const float (*directions)[3], uint32_t count, uint32_t resolution,
+                           struct kiln_error *error);
+
 /* By an exact rasteriser of our own, the same bytes for any number of threads. The directions, at
  * most KILN_MAX_DEPTH_DIRECTIONS, are of any length but 0. What a sample misses by at most one is
  * found nonetheless, so that nothing is too thin. name stands for the mesh in messages. NULL:

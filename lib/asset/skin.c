@@ -142,7 +142,17 @@ static float bounded(float x)
     return x >= -FARTHEST ? (x <= FARTHEST ? x : FARTHEST) : -FARTHEST;
 }
 
-/* A normal goes by the cofactors, which keep it across the surface however that is stretched. */
+/* Does it turn left into right? */
+static bool mirrors(const kiln_affine m)
+{
+    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) +
+               m[0][1] * (m[1][2] * m[2][0] - m[1][0] * m[2][2]) +
+               m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]) <
+           0.0f;
+}
+
+/* A normal goes by the cofactors, which keep it across the surface however that is stretched, and
+ * on its side unless it is mirrored. */
 static void turn_normal(const kiln_affine m, const float normal[3], float out[3])
 {
     float n[3], square = 0.0f;
@@ -153,7 +163,7 @@ static void turn_normal(const kiln_affine m, const float normal[3], float out[3]
         square += n[i] * n[i];
     }
     const bool flat = !(square > 1e-30f && square < 1e30f);
-    const float length = sqrtf(square);
+    const float length = mirrors(m) ? -sqrtf(square) : sqrtf(square);
     for (int i = 0; i < 3; i++)
         out[i] = flat ? (i == 1 ? 1.0f : 0.0f) : n[i] / length;
 }
@@ -166,6 +176,22 @@ static void blend(const struct kiln_skin_weights *weights, const kiln_affine *bo
         const float weight = weights->weights[k], *from = &bones[weights->bones[k]][0][0];
         for (int c = 0; weight > 0.0f && c < 12; c++)
             out[c / 4][c % 4] += weight * from[c];
+    }
+}
+
+/* What is mirrored at rest would show its inside: its triangles go around the other way. */
+static void turn_mirrored(struct kiln_skin *skin)
+{
+    kiln_affine bones[KILN_MAX_SKIN_BONES], m;
+    place_bones(skin, NULL, 0.0f, bones);
+    for (uint32_t i = 0; i < skin->mesh->triangle_count; i++) {
+        uint32_t *corners = skin->mesh->triangles[i];
+        const uint32_t second = corners[1];
+        blend(&skin->weights[corners[0]], (const kiln_affine *)bones, m);
+        if (mirrors((const float(*)[4])m)) {
+            corners[1] = corners[2];
+            corners[2] = second;
+        }
     }
 }
 
@@ -398,6 +424,7 @@ static struct kiln_skin *copy(const struct kiln_skin_result *r, struct kiln_mesh
     if (!r->has_normals)
         add_normals(skin);
     normalize(skin);
+    turn_mirrored(skin);
     pose(skin, NULL, 0.0f, mesh->vertices);
     kiln_mesh_bound(mesh);
     return skin;

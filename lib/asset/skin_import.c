@@ -2,6 +2,8 @@
  * itself is asked for that. */
 #include <assimp/mesh.h>
 #include <assimp/scene.h>
+#include <libfyaml.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -19,44 +21,74 @@ struct skinning {
 
 /* ---- interpolation --------------------------------------------------------------------------- */
 
-/* What is between the quotes at or after `at`, and where it ends; NULL: no more of them. */
-static const char *next_string(const char *at, const char *end, const char **after)
+/* The text of a glTF file, or that of the first chunk of a GLB, which comes after its length and
+ * type. Chunks are filled up with spaces, by some programs with zeros. */
+static const char *find_json(const struct kiln_mesh_request *request, size_t *size)
 {
-    const char *first = memchr(at, '"', (size_t)(end - at));
-    const char *c = first ? first + 1 : end;
-    while (c < end && *c != '"')
-        c += *c == '\\' ? 2 : 1;
-    if (c >= end)
-        return NULL;
-    *after = c;
-    return first + 1;
+    enum { GLB_HEADER = 12, CHUNK_HEADER = 8 };
+    const unsigned char *bytes = request->bytes;
+    const size_t start = request->size >= GLB_HEADER + CHUNK_HEADER && bytes[0] == 'g'
+                             ? GLB_HEADER + CHUNK_HEADER
+                             : 0;
+    *size = request->size - start;
+    if (start > 0) {
+        const unsigned char *b = bytes + GLB_HEADER;
+        const size_t length = b[0] | (size_t)b[1] << 8 | (size_t)b[2] << 16 | (size_t)b[3] << 24;
+        *size = length < *size ? length : *size;
+    }
+    while (*size > 0 && bytes[start + *size - 1] == '\0')
+        --*size;
+    return (const char *)bytes + start;
 }
 
-/* Where the value of a key starts whose quotes end at `after`; NULL: it is no key. */
-static const char *value_at(const char *after, const char *end)
+static struct fy_node *member(struct fy_node *node, const char *key)
 {
-    const char *c = after + 1;
-    bool colon = false;
-    while (c < end && (strchr(" \t\r\n", *c) || (*c == ':' && !colon)))
-        colon |= *c++ == ':';
-    return colon && c < end ? c : NULL;
+    return node && fy_node_is_mapping(node)
+               ? fy_node_mapping_lookup_by_string(node, key, strlen(key))
+               : NULL;
+}
+
+/* Members of a list or of an object (glTF 1), one after the other; NULL: no more of them. */
+static struct fy_node *next_of(struct fy_node *node, void **at)
+{
+    if (node && fy_node_is_sequence(node))
+        return fy_node_sequence_iterate(node, at);
+    return node && fy_node_is_mapping(node) ? fy_node_pair_value(fy_node_mapping_iterate(node, at))
+                                            : NULL;
+}
+
+static bool check_sampler(const struct skinning *s, struct fy_node *sampler)
+{
+    static const char linear[] = "LINEAR";
+    struct fy_node *said = member(sampler, "interpolation");
+    size_t length = 0;
+    const char *text = said ? fy_node_get_scalar(said, &length) : linear;
+    if (!said || (text && length == sizeof linear - 1 && memcmp(text, linear, length) == 0))
+        return true;
+    return SET(s, "%s: a sampler's interpolation is '%.*s'; allowed is LINEAR", s->request->name,
+               (int)(length < 40 ? length : 40), text ? text : "");
 }
 
 static bool check_interpolation(const struct skinning *s)
 {
-    static const char key[] = "interpolation", linear[] = "LINEAR";
-    const char *at = s->request->bytes, *end = at + s->request->size, *after = NULL;
-    for (const char *text; (text = next_string(at, end, &after)) != NULL; at = after + 1) {
-        const char *value = after - text == sizeof key - 1 && memcmp(text, key, sizeof key - 1) == 0
-                                ? value_at(after, end)
-                                : NULL;
-        text = value && *value == '"' ? next_string(value, end, &after) : NULL;
-        if (text &&
-            (after - text != sizeof linear - 1 || memcmp(text, linear, sizeof linear - 1) != 0))
-            return SET(s, "%s: a sampler's interpolation is '%.*s'; allowed is LINEAR",
-                       s->request->name, (int)(after - text < 40 ? after - text : 40), text);
+    if (strcmp(s->request->extension, ".obj") == 0)
+        return true;
+    const struct fy_parse_cfg config = {.flags = FYPCF_QUIET | FYPCF_JSON_FORCE};
+    size_t size;
+    const char *json = find_json(s->request, &size);
+    struct fy_document *document = fy_document_build_from_string(&config, json, size);
+    if (!document)
+        return SET(s, "%s: the mesh is broken: its JSON can not be read", s->request->name);
+    struct fy_node *animations = member(fy_document_root(document), "animations");
+    void *at = NULL, *at_sampler = NULL;
+    bool good = true;
+    for (struct fy_node *one; good && (one = next_of(animations, &at)); at_sampler = NULL) {
+        struct fy_node *samplers = member(one, "samplers");
+        for (struct fy_node *sampler; good && (sampler = next_of(samplers, &at_sampler));)
+            good = check_sampler(s, sampler);
     }
-    return true;
+    fy_document_destroy(document);
+    return good;
 }
 
 /* ---- nodes ----------------------------------------------------------------------------------- */
@@ -233,6 +265,26 @@ static bool put_turns(struct skinning *s, const struct aiQuatKey *keys, unsigned
     return true;
 }
 
+/* A node that has no rotation gets one from assimp 5.2 nonetheless, that of its matrix: a half turn
+ * where it is mirrored, of which the scale that goes with it knows nothing. Such a matrix has its
+ * scale alone. */
+static void mend_turn(struct kiln_skin_result *out, const struct kiln_skin_channel *channel)
+{
+    const struct kiln_skin_track *tracks = channel->tracks;
+    const float(*rest)[4] = (const float(*)[4])out->nodes[channel->node].rest;
+    if (tracks[KILN_CHANNEL_TURN].count != 1 || tracks[KILN_CHANNEL_SCALE].count == 0)
+        return;
+    const float *scale = out->keys[tracks[KILN_CHANNEL_SCALE].first].value;
+    struct kiln_skin_key *turn = &out->keys[tracks[KILN_CHANNEL_TURN].first];
+    bool unturned = fabsf(turn->value[3]) < 1e-4f && rest[0][0] * rest[1][1] * rest[2][2] < 0.0f;
+    for (int i = 0; i < 3; i++) {
+        for (int c = 0; c < 3; c++)
+            unturned = unturned && (i == c ? rest[i][i] * scale[i] > 0.0f : rest[i][c] == 0.0f);
+    }
+    if (unturned)
+        memcpy(turn->value, (float[4]){0.0f, 0.0f, 0.0f, 1.0f}, sizeof turn->value);
+}
+
 static bool put_channel(struct skinning *s, const struct aiNodeAnim *from, double rate)
 {
     struct kiln_skin_result *out = &s->result->skin;
@@ -241,13 +293,16 @@ static bool put_channel(struct skinning *s, const struct aiNodeAnim *from, doubl
                    KILN_MAX_CLIP_CHANNELS);
     struct kiln_skin_channel *channel = &out->channels[out->channel_count++];
     struct kiln_skin_track *tracks = channel->tracks;
-    return find_node(s, &from->mNodeName, &channel->node) &&
-           put_vectors(s, from->mPositionKeys, from->mNumPositionKeys, rate,
-                       &tracks[KILN_CHANNEL_MOVE]) &&
-           put_turns(s, from->mRotationKeys, from->mNumRotationKeys, rate,
-                     &tracks[KILN_CHANNEL_TURN]) &&
-           put_vectors(s, from->mScalingKeys, from->mNumScalingKeys, rate,
-                       &tracks[KILN_CHANNEL_SCALE]);
+    const bool put = find_node(s, &from->mNodeName, &channel->node) &&
+                     put_vectors(s, from->mPositionKeys, from->mNumPositionKeys, rate,
+                                 &tracks[KILN_CHANNEL_MOVE]) &&
+                     put_turns(s, from->mRotationKeys, from->mNumRotationKeys, rate,
+                               &tracks[KILN_CHANNEL_TURN]) &&
+                     put_vectors(s, from->mScalingKeys, from->mNumScalingKeys, rate,
+                                 &tracks[KILN_CHANNEL_SCALE]);
+    if (put)
+        mend_turn(&s->result->skin, channel);
+    return put;
 }
 
 static bool put_clips(struct skinning *s)

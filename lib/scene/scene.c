@@ -95,14 +95,38 @@ bool kiln_object_is_mesh(const struct kiln_object *object)
     return object->kind == KILN_OBJECT_MESH || object->kind == KILN_OBJECT_TERRAIN;
 }
 
+void kiln_object_depth_directions(const struct kiln_object *mesh,
+                                  float directions[KILN_MAX_DEPTH_DIRECTIONS][3])
+{
+    for (uint32_t i = 0; i < mesh->depth_direction_count; i++) {
+        directions[i][0] = mesh->depth_directions[i].x.constant;
+        directions[i][1] = mesh->depth_directions[i].y.constant;
+        directions[i][2] = mesh->depth_directions[i].z.constant;
+    }
+}
+
+static float rounds_of(const struct kiln_animation *animation, float time_s, float *seconds)
+{
+    const float length = animation->length;
+    *seconds = animation->start.constant + animation->speed.constant * time_s;
+    return animation->loop && length > 0.0f ? floorf(*seconds / length) : 0.0f;
+}
+
 float kiln_scene_animation_s(const struct kiln_animation *animation, float time_s)
 {
-    const float seconds = animation->start.constant + animation->speed.constant * time_s;
-    const float length = animation->length;
-    if (!animation->loop || !(length > 0.0f))
-        return exact_clamp(seconds, 0.0f, length);
-    const float rounds = floorf(seconds / length);
-    return exact_clamp(seconds - rounds * length, 0.0f, length);
+    float seconds;
+    const float rounds = rounds_of(animation, time_s, &seconds);
+    return exact_clamp(seconds - rounds * animation->length, 0.0f, animation->length);
+}
+
+bool kiln_scene_animation_ends(const struct kiln_animation *animation, float from_s, float to_s,
+                               float *end_s)
+{
+    float seconds;
+    const float before = rounds_of(animation, from_s, &seconds);
+    const float after = rounds_of(animation, to_s, &seconds);
+    *end_s = animation->speed.constant > 0.0f ? animation->length : 0.0f;
+    return before != after;
 }
 
 bool kiln_object_takes_paint(const struct kiln_object *object)

@@ -165,8 +165,7 @@ struct kiln_collide {
     struct kiln_value friction;    /* Coulomb's */
 };
 
-/* ---- paint: Drone 2007, 7.6.1 ------------------------------------------------------------------
- */
+/* ---- paint: Drone 2007, 7.6.1 ---------------------------------------------------------------- */
 
 enum kiln_paint_when {
     KILN_PAINT_IMPACT, /* where it meets a surface, at its first impact of a step */
@@ -182,8 +181,7 @@ struct kiln_painting {
     struct kiln_value soft;    /* 0..1: outer part of the radius over which it fades */
 };
 
-/* ---- interact: UberFlow 2004, 4.3 to 4.5, Drone 2007, 7.4; of each kind at most one a system
- * --------------------
+/* ---- interact: UberFlow 2004, 4.3 to 4.5, Drone 2007, 7.4; of each kind at most one a system --
  */
 
 enum kiln_interaction_kind {
@@ -569,8 +567,17 @@ void kiln_scene_rotation(float3 angles, float rows[3][3]);
 /* Is the object drawn as a mesh? */
 bool kiln_object_is_mesh(const struct kiln_object *object);
 
+/* Those of the depth maps of a mesh. */
+void kiln_object_depth_directions(const struct kiln_object *mesh,
+                                  float directions[KILN_MAX_DEPTH_DIRECTIONS][3]);
+
 /* How far into its clip a mesh that moves is at a clip time, s: what kiln_skin_pose takes. */
 float kiln_scene_animation_s(const struct kiln_animation *animation, float time_s);
+/* Does a clip begin anew between two times, the second later? Then *end_s is where in it it ends.
+ */
+bool kiln_scene_animation_ends(const struct kiln_animation *animation, float from_s, float to_s,
+                               float *end_s);
+
 /* Whether particles of a system paint any mesh, and whether an object takes paint. */
 bool kiln_scene_paints(const struct kiln_scene *scene, uint32_t system);
 bool kiln_object_takes_paint(const struct kiln_object *object);

@@ -4,6 +4,8 @@
 #include "asset/cells_in.h"
 #include "asset/chart.h"
 #include "asset/closed.h"
+#include "asset/depth_maps.h"
+#include "asset/grid_in.h"
 #include "scene/asset_path.h"
 #include "scene/family.h"
 #include "scene/object_mesh.h"
@@ -366,17 +368,35 @@ static const char *name_of_axis(const struct kiln_object *object)
     return object->kind == KILN_OBJECT_PLANE ? "plane.normal" : NULL;
 }
 
+static bool fail_mesh(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
+                      const struct kiln_error *error)
+{
+    kiln_validate_fail(reader, root, path, "%s", error->message);
+    if (error->code != KILN_INVALID_INPUT)
+        reader->error->code = error->code;
+    return false;
+}
+
 /* Of a mesh whose distance field is wanted. */
 static bool check_closed(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
                          const struct kiln_object *object)
 {
     struct kiln_error error = {0};
-    if (kiln_mesh_check_closed(object->met, kiln_asset_name(reader->scene, object->file), &error))
-        return true;
-    kiln_validate_fail(reader, root, path, "%s", error.message);
-    if (error.code != KILN_INVALID_INPUT)
-        reader->error->code = error.code;
-    return false;
+    return kiln_mesh_check_closed(object->met, kiln_asset_name(reader->scene, object->file),
+                                  &error) ||
+           fail_mesh(reader, root, path, &error);
+}
+
+static bool check_depth_maps(struct kiln_reader *reader, const struct kiln_node *root,
+                             const char *path, const struct kiln_object *object)
+{
+    struct kiln_error error = {0};
+    float directions[KILN_MAX_DEPTH_DIRECTIONS][3];
+    kiln_object_depth_directions(object, directions);
+    return kiln_depth_maps_check(object->met, kiln_asset_name(reader->scene, object->file),
+                                 (const float(*)[3])directions, object->depth_direction_count,
+                                 object->depth_resolution, &error) ||
+           fail_mesh(reader, root, path, &error);
 }
 
 static bool check_solid(struct kiln_reader *reader, const struct kiln_node *root, uint32_t index)
@@ -394,6 +414,8 @@ static bool check_solid(struct kiln_reader *reader, const struct kiln_node *root
             return kiln_validate_fail(reader, root, path, "must not be [0, 0, 0]");
     }
     snprintf(path, sizeof path, "backdrop.objects.%u.mesh.collide", index);
+    if (mesh->collide && mesh->collider == KILN_COLLIDER_DEPTH_MAPS)
+        return check_depth_maps(reader, root, path, mesh);
     return !mesh->collide || mesh->collider != KILN_COLLIDER_FIELD ||
            check_closed(reader, root, path, mesh);
 }
@@ -420,10 +442,29 @@ static bool check_paint(struct kiln_reader *reader, const struct kiln_node *root
     if (good)
         return true;
     snprintf(path, sizeof path, "backdrop.objects.%u.mesh.paint", index);
-    kiln_validate_fail(reader, root, path, "%s", error.message);
-    if (error.code != KILN_INVALID_INPUT)
-        reader->error->code = error.code;
-    return false;
+    return fail_mesh(reader, root, path, &error);
+}
+
+/* Of terrain and depth maps: how large a field is follows from its mesh. */
+static bool check_samples(struct kiln_reader *reader, const struct kiln_node *root)
+{
+    const struct kiln_backdrop *backdrop = &reader->scene->backdrop;
+    uint64_t samples = 0;
+    for (uint32_t i = 0; i < backdrop->object_count; i++) {
+        const struct kiln_object *object = &backdrop->objects[i];
+        if (!object->collide || !kiln_object_is_mesh(object))
+            continue;
+        if (object->kind == KILN_OBJECT_TERRAIN)
+            samples += (uint64_t)object->samples[0] * object->samples[1];
+        else if (object->collider == KILN_COLLIDER_DEPTH_MAPS)
+            samples +=
+                kiln_depth_maps_words(object->depth_direction_count, object->depth_resolution);
+    }
+    return samples <= KILN_MAX_GRID_SAMPLES ||
+           kiln_validate_fail(reader, root, "backdrop.objects",
+                              "terrain and depth maps that particles collide with have %" PRIu64
+                              " samples; a scene has at most %d",
+                              samples, KILN_MAX_GRID_SAMPLES);
 }
 
 static bool check_objects(struct kiln_reader *reader, const struct kiln_node *root)
@@ -460,7 +501,7 @@ static bool check_objects(struct kiln_reader *reader, const struct kiln_node *ro
             return kiln_validate_fail(reader, root, "backdrop.objects", "more than %d meshes",
                                       KILN_MAX_MESHES);
     }
-    return true;
+    return check_samples(reader, root);
 }
 
 static bool check_backdrop(struct kiln_reader *reader, const struct kiln_node *root)

@@ -76,13 +76,10 @@ static struct kiln_depth_maps *make_depths(const struct kiln_mesh *mesh,
                                            struct kiln_threads *threads, struct kiln_error *error)
 {
     float directions[KILN_MAX_DEPTH_DIRECTIONS][3];
-    for (uint32_t i = 0; i < object->depth_direction_count; i++) {
-        directions[i][0] = object->depth_directions[i].x.constant;
-        directions[i][1] = object->depth_directions[i].y.constant;
-        directions[i][2] = object->depth_directions[i].z.constant;
-    }
-    return kiln_depth_maps_create(mesh, object->file, directions, object->depth_direction_count,
-                                  object->depth_resolution, threads, error);
+    kiln_object_depth_directions(object, directions);
+    return kiln_depth_maps_create(mesh, object->file, (const float(*)[3])directions,
+                                  object->depth_direction_count, object->depth_resolution, threads,
+                                  error);
 }
 
 static bool make_mesh(struct sources *sources, uint32_t number, const struct kiln_scene *scene,

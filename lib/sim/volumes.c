@@ -17,6 +17,7 @@ struct kiln_volume {
     float (*before)[3], (*after)[3]; /* m: its vertices */
     float before_s, after_s;         /* when they are there */
     bool placed, made;
+    bool jumps; /* from the end of its clip to the start */
     struct kiln_voxels voxels;
     bool two_sided;
     size_t first; /* word of its marks; planes follow */
@@ -29,6 +30,28 @@ bool kiln_volumes_needs(const struct kiln_object *object)
 }
 
 /* ---- memory ---------------------------------------------------------------------------------- */
+
+/* Is a vertex at the end of the clip elsewhere than at the start, by more than a hundredth of the
+ * mesh's size? */
+static bool jumps(const struct kiln_volume *volume, const struct kiln_object *object)
+{
+    if (!volume->skin)
+        return false;
+    const struct kiln_mesh *rest = kiln_skin_mesh(volume->skin);
+    float(*vertices)[6] = volume->mesh->vertices;
+    const uint32_t clip = object->animation.number, count = rest->vertex_count;
+    float most = 0.0f, size = 0.0f;
+    kiln_skin_pose(volume->skin, clip, 0.0f, vertices);
+    for (uint32_t i = 0; i < count; i++)
+        memcpy(volume->before[i], vertices[i], sizeof volume->before[i]);
+    kiln_skin_pose(volume->skin, clip, object->animation.length, vertices);
+    for (int c = 0; c < 3; c++) {
+        size = exact_max(size, rest->max[c] - rest->min[c]);
+        for (uint32_t i = 0; i < count; i++)
+            most = exact_max(most, exact_abs(vertices[i][c] - volume->before[i][c]));
+    }
+    return most > 0.01f * size;
+}
 
 static struct kiln_volume *load(const struct kiln_scene *scene, uint32_t index,
                                 struct kiln_error *error)
@@ -52,7 +75,9 @@ static struct kiln_volume *load(const struct kiln_scene *scene, uint32_t index,
         kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for %zu vertices", object->file,
                        count);
         kiln_mesh_destroy(&volume->mesh);
+        return volume; /* its owner frees it */
     }
+    volume->jumps = jumps(volume, object);
     return volume;
 }
 
@@ -93,7 +118,7 @@ void kiln_volumes_finish(struct kiln_volumes *volumes)
 
 /* Where the vertices are at a time, in the world. */
 static void place_vertices(const struct kiln_scene *scene, const struct kiln_volume *volume,
-                           float time_s, float (*to)[3])
+                           float time_s, float clip_s, float (*to)[3])
 {
     const struct kiln_object *object = &scene->backdrop.objects[volume->object];
     const float3 center = kiln_scene_value3(scene, &object->center, time_s);
@@ -102,8 +127,7 @@ static void place_vertices(const struct kiln_scene *scene, const struct kiln_vol
     float rows[3][3];
     kiln_scene_rotation(kiln_scene_value3(scene, &object->rotation, time_s), rows);
     if (volume->skin)
-        kiln_skin_pose(volume->skin, object->animation.number,
-                       kiln_scene_animation_s(&object->animation, time_s), volume->mesh->vertices);
+        kiln_skin_pose(volume->skin, object->animation.number, clip_s, volume->mesh->vertices);
     for (uint32_t i = 0; i < volume->mesh->vertex_count; i++) {
         const float *v = volume->mesh->vertices[i];
         for (int c = 0; c < 3; c++)
@@ -111,20 +135,27 @@ static void place_vertices(const struct kiln_scene *scene, const struct kiln_vol
     }
 }
 
+/* A clip whose end is not its start does not sweep from one to the other: the step ends with its
+ * last pose, and the next begins with another. */
 static void place(const struct kiln_scene *scene, struct kiln_volume *volume, float start_s,
                   float end_s)
 {
+    const struct kiln_animation *clip = &scene->backdrop.objects[volume->object].animation;
+    float last_s;
+    const bool jumps = volume->jumps && kiln_scene_animation_ends(clip, start_s, end_s, &last_s);
+    const float end_clip_s = jumps ? last_s : kiln_scene_animation_s(clip, end_s);
     if (volume->placed && volume->after_s == start_s) {
         float(*swap)[3] = volume->before;
         volume->before = volume->after;
         volume->after = swap;
     } else {
-        place_vertices(scene, volume, start_s, volume->before);
+        place_vertices(scene, volume, start_s, kiln_scene_animation_s(clip, start_s),
+                       volume->before);
     }
-    place_vertices(scene, volume, end_s, volume->after);
+    place_vertices(scene, volume, end_s, end_clip_s, volume->after);
     volume->before_s = start_s;
     volume->after_s = end_s;
-    volume->placed = true;
+    volume->placed = !jumps;
 }
 
 /* m: an edge of a cell; of what moves, by how it stands while no clip plays. */
@@ -224,7 +255,7 @@ bool kiln_volumes_step(struct kiln_volumes *volumes, const struct kiln_scene *sc
     for (uint32_t i = 0; i < volumes->count; i++) {
         struct kiln_volume *volume = volumes->items[i];
         const size_t bytes = volume->mesh->vertex_count * sizeof *volume->before;
-        const bool still = volume->made && volume->after_s == start_s &&
+        const bool still = volume->made && volume->placed && volume->after_s == start_s &&
                            memcmp(volume->before, volume->after, bytes) == 0;
         place(scene, volume, start_s, end_s);
         if (!make(scene, volume, still, threads, &changed, error))

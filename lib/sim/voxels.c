@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "shared/exact.h"
+#include "sim/voxel_plane.h"
 
 enum {
     UNIT_BITS = 10, /* of a cell: corners are rounded to its 1024th parts */
@@ -45,6 +46,7 @@ struct work {
     struct kiln_voxels *voxels;
     const struct kiln_voxels_input *in;
     int32_t heading[3]; /* 1024 long */
+    _Atomic uint64_t visits;
 };
 
 /* ---- the lattice ----------------------------------------------------------------------------- */
@@ -303,8 +305,9 @@ static bool find_row(const struct sweep *t, int32_t y, int32_t z, int32_t *first
 static void find_layers(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
-    const struct work *work = context;
+    struct work *work = context;
     struct sweep t;
+    uint64_t visits = 0;
     for (size_t i = begin; i < end; i++) {
         uint8_t *layers = work->voxels->scratch->layers[i];
         find_corners(&t, work, (uint32_t)i);
@@ -313,7 +316,12 @@ static void find_layers(void *context, size_t begin, size_t end, uint32_t worker
         const bool flat = t.normal[0] == 0 && t.normal[1] == 0 && t.normal[2] == 0;
         layers[0] = flat ? 1 : (uint8_t)t.first[2];
         layers[1] = flat ? 0 : (uint8_t)t.last[2];
+        uint64_t cells = flat ? 0 : 1;
+        for (int c = 0; c < 3; c++)
+            cells *= (uint64_t)(t.last[c] - t.first[c] + 1);
+        visits += cells;
     }
+    work->visits += visits;
 }
 
 /* ---- the most important (Drone 2007, 7.5.2.3) ------------------------------------------------ */
@@ -437,74 +445,6 @@ static void claim_slabs(void *context, size_t begin, size_t end, uint32_t worker
 
 /* ---- planes ---------------------------------------------------------------------------------- */
 
-static bool plane_normal(const float *const p[3], float3 *normal)
-{
-    double a[3], b[3], n[3];
-    for (int c = 0; c < 3; c++) {
-        a[c] = (double)p[1][c] - (double)p[0][c];
-        b[c] = (double)p[2][c] - (double)p[0][c];
-    }
-    for (int c = 0; c < 3; c++)
-        n[c] = a[(c + 1) % 3] * b[(c + 2) % 3] - a[(c + 2) % 3] * b[(c + 1) % 3];
-    const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    if (!(length > 0))
-        return false;
-    *normal = float3_canon(
-        FLOAT3((float)(n[0] / length), (float)(n[1] / length), (float)(n[2] / length)));
-    return true;
-}
-
-/* What the corners weigh at the foot of a point, or at a place on an edge near it. */
-static void find_weights(const float *const p[3], float3 unit, const double at[3],
-                         double weights[3])
-{
-    const double n[3] = {(double)unit.x, (double)unit.y, (double)unit.z};
-    double sum = 0;
-    for (int k = 0; k < 3; k++) {
-        const float *a = p[(k + 1) % 3], *b = p[(k + 2) % 3];
-        double area = 0;
-        for (int c = 0; c < 3; c++) {
-            const int u = (c + 1) % 3, w = (c + 2) % 3;
-            area += n[c] * (((double)b[u] - (double)a[u]) * (at[w] - (double)a[w]) -
-                            ((double)b[w] - (double)a[w]) * (at[u] - (double)a[u]));
-        }
-        weights[k] = area > 0 ? area : 0;
-        sum += weights[k];
-    }
-    for (int k = 0; k < 3; k++)
-        weights[k] = sum > 0 ? weights[k] / sum : 1.0 / 3;
-}
-
-static float3 weighted(const float *const p[3], const double weights[3])
-{
-    double sum[3] = {0, 0, 0};
-    for (int k = 0; k < 3; k++)
-        for (int c = 0; c < 3; c++)
-            sum[c] += weights[k] * (double)p[k][c];
-    return float3_canon(FLOAT3((float)sum[0], (float)sum[1], (float)sum[2]));
-}
-
-static struct kiln_voxel plane_of(const struct work *work, uint32_t triangle,
-                                  const double middle[3])
-{
-    const uint32_t *corners = work->in->triangles[triangle];
-    const float *before[3], *after[3];
-    for (int k = 0; k < 3; k++) {
-        before[k] = work->in->before[corners[k]];
-        after[k] = work->in->after[corners[k]];
-    }
-    struct kiln_voxel plane = {.triangle = triangle};
-    double weights[3];
-    if (!plane_normal(after, &plane.normal_end)) /* its corners are apart only after rounding */
-        plane.normal_end = FLOAT3(0.0f, 1.0f, 0.0f);
-    if (!plane_normal(before, &plane.normal))
-        plane.normal = plane.normal_end;
-    find_weights(after, plane.normal_end, middle, weights);
-    plane.start = weighted(before, weights);
-    plane.end = weighted(after, weights);
-    return plane;
-}
-
 static void fill_slabs(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
@@ -526,7 +466,7 @@ static void fill_slabs(void *context, size_t begin, size_t end, uint32_t worker)
                     double middle[3];
                     for (int c = 0; c < 3; c++)
                         middle[c] = (double)v->origin[c] + at[c] * (double)v->spacing;
-                    v->planes[number] = plane_of(work, triangle, middle);
+                    v->planes[number] = kiln_voxel_plane(work->in, triangle, middle);
                     v->marks[i] = (float)++number;
                 }
             }
@@ -585,6 +525,12 @@ bool kiln_voxels_build(struct kiln_voxels *voxels, const struct kiln_voxels_inpu
     const size_t slabs = (v->size[2] + SLAB_LAYERS - 1) / SLAB_LAYERS;
     kiln_threads_for(threads, input->vertex_count, TRIANGLES, round_corners, &work);
     kiln_threads_for(threads, input->triangle_count, TRIANGLES, find_layers, &work);
+    if (work.visits > KILN_MAX_VOXEL_VISITS)
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "the %u triangles of a volume lie in %llu cells altogether in a "
+                              "step; allowed are %d: set fewer cells",
+                              input->triangle_count, (unsigned long long)work.visits,
+                              KILN_MAX_VOXEL_VISITS);
     kiln_threads_for(threads, slabs, 1, claim_slabs, &work);
     v->scratch->slab_planes[0] = 0;
     for (size_t slab = 0; slab < slabs; slab++)

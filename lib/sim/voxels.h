@@ -8,8 +8,9 @@
 #include "shared/layout.h"
 
 enum {
-    KILN_MAX_VOXEL_EDGE = 256,     /* cells along an axis */
-    KILN_MAX_VOXEL_CELLS = 1 << 22 /* in all */
+    KILN_MAX_VOXEL_EDGE = 256,       /* cells along an axis */
+    KILN_MAX_VOXEL_CELLS = 1 << 22,  /* in all */
+    KILN_MAX_VOXEL_VISITS = 1 << 28, /* of cells by triangles: by the box around each and its way */
 };
 
 /* Triangles at the start and at the end of a step; vertices go straight from one to the other. */
@@ -43,14 +44,16 @@ struct kiln_voxels {
     struct kiln_voxels_scratch *scratch;
 };
 
-/* From zeros. False: KILN_DEVICE_FAILED, memory is short; kiln_voxels_finish frees what there is.
+/* From zeros. False: KILN_DEVICE_FAILED, memory is short; KILN_INVALID_INPUT, it would take too
+ * long, with what to do. kiln_voxels_finish frees what there is.
  *
  * In a cell, triangles that face against the heading come before those that are seen edge-on, and
  * these before those that face along it; then those that the line along the heading through the
  * middle of the cell meets there; then whose plane it meets first; then the lower number. That is
  * decided by integers, for corners rounded to 1/1024 of a cell, so that it is the same everywhere.
- * A cell is touched if a triangle that stands still comes within 1/512 of it, and never left out if
- * one that moves does. */
+ * A cell is touched if a triangle that stands still comes within 1/512 of it. One that moves
+ * touches those that it comes so near to, and may touch others around its way. Triangles that have
+ * no area at the end of the step, after rounding, touch nothing. */
 bool kiln_voxels_build(struct kiln_voxels *voxels, const struct kiln_voxels_input *input,
                        struct kiln_threads *threads, struct kiln_error *error);
 void kiln_voxels_finish(struct kiln_voxels *voxels);

@@ -32,6 +32,31 @@ static struct kiln_depth_maps *create(const struct kiln_mesh *mesh, const float 
     return maps;
 }
 
+/* The same large triangle over and over. */
+static void what_would_take_long_is_refused(void **state)
+{
+    (void)state;
+    enum { MANY = 10000 };
+    static float vertices[3][6] = {{0, 0, 0, 0, 0, 1}, {1, 0, 0.1f, 0, 0, 1}, {0, 1, 0, 0, 0, 1}};
+    static uint32_t triangles[MANY][3];
+    struct kiln_mesh mesh = {.vertex_count = 3,
+                             .triangle_count = MANY,
+                             .vertices = vertices,
+                             .triangles = triangles,
+                             .max = {1, 1, 0.1f}};
+    struct kiln_error error = {0};
+    for (int i = 0; i < MANY; i++)
+        for (uint32_t k = 0; k < 3; k++)
+            triangles[i][k] = k;
+    assert_false(kiln_depth_maps_check(&mesh, "m.obj", ALONG, 3, 256, &error));
+    assert_int_equal(error.code, KILN_INVALID_INPUT);
+    assert_non_null(strstr(error.message, "m.obj: its 10000 triangles lie in "));
+    assert_non_null(strstr(error.message, "allowed are 268435456: lower the resolution"));
+    assert_true(kiln_depth_maps_check(&mesh, "m.obj", ALONG, 3, 64, &error));
+    mesh.triangle_count = 100;
+    assert_true(kiln_depth_maps_check(&mesh, "m.obj", ALONG, 3, 256, &error));
+}
+
 /* ---- maps ------------------------------------------------------------------------------------ */
 
 static double along(const float row[4], const double p[3])
@@ -451,6 +476,7 @@ int main(void)
         cmocka_unit_test(nothing_tunnels),
         cmocka_unit_test(without_gravity_no_impact_makes_faster),
         cmocka_unit_test(what_is_born_inside_comes_out),
+        cmocka_unit_test(what_would_take_long_is_refused),
     };
     return cmocka_run_group_tests_name("depth_maps", tests, test_enter_folder, test_leave_folder);
 }

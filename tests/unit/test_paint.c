@@ -441,6 +441,27 @@ static void paint_is_state(void **state)
     kiln_scene_destroy(&scene);
 }
 
+/* Needles between the middles of texels, all at one place: no texel is in two of them. */
+static void needles_without_end_are_refused(void **state)
+{
+    (void)state;
+    enum { MANY = 20000 };
+    static float vertices[3][6], uvs[3][2] = {{0, 0}, {0, 1}, {1e-4f, 0.5f}};
+    static uint32_t triangles[MANY][3];
+    const struct kiln_mesh mesh = {.vertex_count = 3,
+                                   .triangle_count = MANY,
+                                   .vertices = vertices,
+                                   .triangles = triangles,
+                                   .uvs = uvs};
+    struct kiln_error error = {0};
+    for (int i = 0; i < MANY; i++)
+        for (uint32_t k = 0; k < 3; k++)
+            triangles[i][k] = k;
+    assert_null(kiln_chart_create(&mesh, 2048, "needles", &error));
+    assert_int_equal(error.code, KILN_INVALID_INPUT);
+    assert_non_null(strstr(error.message, "needles: its triangles lie in more than 16777216 rows"));
+}
+
 static void bad_scenes_are_refused(void **state)
 {
     (void)state;
@@ -476,6 +497,7 @@ int main(void)
         cmocka_unit_test(turns_add_up),
         cmocka_unit_test(marks_are_where_drops_hit),
         cmocka_unit_test(paint_is_state),
+        cmocka_unit_test(needles_without_end_are_refused),
         cmocka_unit_test(bad_scenes_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

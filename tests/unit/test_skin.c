@@ -14,193 +14,7 @@
 #include "asset/closed.h"
 #include "asset/skin.h"
 #include "scene/scene.h"
-
-enum { JOINTS = 3, KEYS = 4, VERTICES = 12, TRIANGLES = 4 };
-
-struct rig {
-    float positions[VERTICES][3];
-    float weights[VERTICES][4];
-    float inverse[JOINTS][16]; /* bind matrices, by columns */
-    float times[KEYS];
-    float turns[JOINTS][KEYS][4];
-    float moves[KEYS][3]; /* of the first joint */
-    uint16_t triangles[TRIANGLES][3];
-    uint8_t joints[VERTICES][4];
-};
-
-static const char JSON[] =
-    "{\"asset\": {\"version\": \"2.0\"}, \"scene\": 0, \"scenes\": [{\"nodes\": [0, 4]}],"
-    " \"nodes\": [{\"name\": \"hips\", \"children\": [1]},"
-    " {\"name\": \"%s\", \"children\": [2], \"translation\": [0, 1, 0], \"scale\": [1, 1, 1]},"
-    " {\"name\": \"head\", \"translation\": [0, 1, 0]},"
-    " {\"name\": \"unused\"}, {\"name\": \"body\", \"mesh\": 0%s}],"
-    " \"skins\": [{\"joints\": [0, 1, 2], \"inverseBindMatrices\": 2}],"
-    " \"meshes\": [{\"primitives\": [{\"attributes\": {\"POSITION\": 0%s}, \"indices\": 8}]}],"
-    " %s"
-    " \"accessors\": ["
-    "{\"bufferView\": 0, \"componentType\": 5126, \"count\": 12, \"type\": \"VEC3\","
-    " \"min\": [-9, -9, -9], \"max\": [9, 9, 9]},"
-    "{\"bufferView\": 1, \"componentType\": 5126, \"count\": 12, \"type\": \"VEC4\"},"
-    "{\"bufferView\": 2, \"componentType\": 5126, \"count\": 3, \"type\": \"MAT4\"},"
-    "{\"bufferView\": 3, \"componentType\": 5126, \"count\": 4, \"type\": \"SCALAR\","
-    " \"min\": [0], \"max\": [2]},"
-    "{\"bufferView\": 4, \"componentType\": 5126, \"count\": 4, \"type\": \"VEC4\"},"
-    "{\"bufferView\": 4, \"byteOffset\": 64, \"componentType\": 5126, \"count\": 4,"
-    " \"type\": \"VEC4\"},"
-    "{\"bufferView\": 4, \"byteOffset\": 128, \"componentType\": 5126, \"count\": 4,"
-    " \"type\": \"VEC4\"},"
-    "{\"bufferView\": 5, \"componentType\": 5126, \"count\": 4, \"type\": \"VEC3\"},"
-    "{\"bufferView\": 6, \"componentType\": 5123, \"count\": 12, \"type\": \"SCALAR\"},"
-    "{\"bufferView\": 7, \"componentType\": 5121, \"count\": 12, \"type\": \"VEC4\"}],"
-    " \"bufferViews\": [%s],"
-    " \"buffers\": [{\"byteLength\": %zu, \"uri\": \"data:application/octet-stream;base64,%s\"}]}";
-
-/* How the file differs from a sound one. */
-struct variant {
-    const char *second; /* name of the second joint */
-    const char *skin, *attributes;
-    const char *animations; /* with one %s: the interpolation */
-    const char *interpolation;
-};
-
-#define CHANNELS(node)                                                                             \
-    "\"channels\": [{\"sampler\": 0, \"target\": {\"node\": 0, \"path\": \"rotation\"}},"          \
-    " {\"sampler\": 1, \"target\": {\"node\": " node ", \"path\": \"rotation\"}},"                 \
-    " {\"sampler\": 2, \"target\": {\"node\": 2, \"path\": \"rotation\"}},"                        \
-    " {\"sampler\": 3, \"target\": {\"node\": 0, \"path\": \"translation\"}}],"                    \
-    " \"samplers\": [{\"input\": 3, \"output\": 4}, {\"input\": 3, \"output\": 5},"                \
-    " {\"input\": 3, \"interpolation\" : \"%s\", \"output\": 6}, {\"input\": 3, \"output\": 7}]"
-
-#define SKIN       ", \"skin\": 0"
-#define ATTRIBUTES ", \"WEIGHTS_0\": 1, \"JOINTS_0\": 9"
-#define WAVE       "\"animations\": [{\"name\": \"wave\", " CHANNELS("1") "}],"
-
-static const struct variant SOUND = {"chest", SKIN, ATTRIBUTES, WAVE, "LINEAR"};
-
-static void to_base64(const void *data, size_t size, char *out)
-{
-    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const unsigned char *b = data; /* of a multiple of three bytes, padded with zeros */
-    for (size_t i = 0; i < size; i += 3) {
-        uint32_t bits = (uint32_t)b[i] << 16 | (uint32_t)b[i + 1] << 8 | b[i + 2];
-        for (int k = 0; k < 4; k++)
-            *out++ = digits[bits >> (18 - 6 * k) & 63];
-    }
-    *out = '\0';
-}
-
-static const char *to_gltf(const struct rig *rig, const struct variant *variant)
-{
-    static char text[16384];
-    char base64[8192], animations[2048], views[1024] = "";
-    unsigned char bytes[sizeof *rig / 3 * 3 + 3] = {0};
-    static const size_t offsets[] = {offsetof(struct rig, positions),
-                                     offsetof(struct rig, weights),
-                                     offsetof(struct rig, inverse),
-                                     offsetof(struct rig, times),
-                                     offsetof(struct rig, turns),
-                                     offsetof(struct rig, moves),
-                                     offsetof(struct rig, triangles),
-                                     offsetof(struct rig, joints),
-                                     sizeof(struct rig)};
-    size_t length = 0;
-    for (int i = 0; i < 8; i++)
-        length += (size_t)snprintf(views + length, sizeof views - length,
-                                   "%s{\"buffer\": 0, \"byteOffset\": %zu, \"byteLength\": %zu}",
-                                   i ? ", " : "", offsets[i], offsets[i + 1] - offsets[i]);
-    memcpy(bytes, rig, sizeof *rig);
-    to_base64(bytes, sizeof bytes, base64);
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wformat-nonliteral"
-    snprintf(animations, sizeof animations, variant->animations, variant->interpolation);
-#pragma GCC diagnostic pop
-    snprintf(text, sizeof text, JSON, variant->second, variant->skin, variant->attributes,
-             animations, views, sizeof bytes, base64);
-    return text;
-}
-
-static struct kiln_skin *parse(const struct rig *rig, const struct variant *variant)
-{
-    struct kiln_error error = {0};
-    const char *text = to_gltf(rig, variant);
-    struct kiln_skin *skin = kiln_skin_parse(text, strlen(text), "rig.gltf", &error);
-    if (!skin)
-        fail_msg("%s", error.message);
-    return skin;
-}
-
-static void refuse(const struct rig *rig, const struct variant *variant, const char *reason)
-{
-    struct kiln_error error = {0};
-    const char *text = to_gltf(rig, variant);
-    assert_null(kiln_skin_parse(text, strlen(text), "rig.gltf", &error));
-    assert_int_equal(error.code, KILN_INVALID_INPUT);
-    if (!strstr(error.message, reason) || strncmp(error.message, "rig.gltf: ", 10) != 0)
-        fail_msg("'%s' instead of 'rig.gltf: ...%s...'", error.message, reason);
-}
-
-/* Turned by an angle about an axis of length 1. */
-static void set_turn(float out[4], const double axis[3], double angle)
-{
-    for (int c = 0; c < 3; c++)
-        out[c] = (float)(axis[c] * sin(0.5 * angle));
-    out[3] = (float)cos(0.5 * angle);
-}
-
-static double chance(uint32_t *state)
-{
-    *state = *state * 1664525u + 1013904223u;
-    return (*state >> 8) / 16777216.0;
-}
-
-/* Nothing turns or moves; all vertices follow the first bone. */
-static struct rig still_rig(void)
-{
-    struct rig rig = {.times = {0.0f, 0.5f, 1.25f, 2.0f}};
-    uint32_t state = 5;
-    for (int i = 0; i < VERTICES; i++) {
-        for (int c = 0; c < 3; c++)
-            rig.positions[i][c] = (float)(chance(&state) * 3.0 - (c == 1 ? 0.0 : 1.5));
-        rig.weights[i][0] = 1.0f;
-        rig.triangles[i / 3][i % 3] = (uint16_t)i;
-    }
-    for (int j = 0; j < JOINTS; j++) {
-        for (int c = 0; c < 4; c++)
-            rig.inverse[j][5 * c] = 1.0f;
-        rig.inverse[j][13] = (float)-j;
-        for (int k = 0; k < KEYS; k++)
-            rig.turns[j][k][3] = 1.0f;
-    }
-    return rig;
-}
-
-/* All of it moves; the last key is the first. */
-static struct rig waving_rig(void)
-{
-    struct rig rig = still_rig();
-    uint32_t state = 11;
-    for (int i = 0; i < VERTICES; i++) {
-        double parts[JOINTS] = {chance(&state), chance(&state), chance(&state)};
-        double sum = parts[0] + parts[1] + parts[2];
-        for (int j = 0; j < JOINTS; j++) {
-            rig.weights[i][j] = (float)(parts[j] / sum);
-            rig.joints[i][j] = (uint8_t)j;
-        }
-    }
-    for (int k = 0; k < KEYS - 1; k++) {
-        for (int j = 0; j < JOINTS; j++) {
-            double a = 6.28 * chance(&state), b = 6.28 * chance(&state);
-            const double axis[3] = {cos(a) * cos(b), sin(a) * cos(b), sin(b)};
-            set_turn(rig.turns[j][k], axis, 3.0 * chance(&state));
-        }
-        for (int c = 0; c < 3; c++)
-            rig.moves[k][c] = (float)chance(&state);
-    }
-    for (int j = 0; j < JOINTS; j++)
-        memcpy(rig.turns[j][KEYS - 1], rig.turns[j][0], sizeof rig.turns[j][0]);
-    memcpy(rig.moves[KEYS - 1], rig.moves[0], sizeof rig.moves[0]);
-    return rig;
-}
+#include "support/rig.h"
 
 /* ---- the reference --------------------------------------------------------------------------- */
 
@@ -372,7 +186,14 @@ static void loops_join(void **state)
     assert_true(kiln_scene_animation_s(&animation, 0.75f) == 0.0f);
     assert_true(kiln_scene_animation_s(&animation, 100.0f) == 0.5f);
     assert_true(kiln_scene_animation_s(&animation, -0.5f) == 1.5f);
+    float end_s = 0.0f;
+    assert_false(kiln_scene_animation_ends(&animation, 0.0f, 0.7f, &end_s));
+    assert_true(kiln_scene_animation_ends(&animation, 0.7f, 0.75f, &end_s) && end_s == 2.0f);
+    animation.speed.constant = -2.0f;
+    assert_true(kiln_scene_animation_ends(&animation, 0.2f, 0.3f, &end_s) && end_s == 0.0f);
+    animation.speed.constant = 2.0f;
     animation.loop = false;
+    assert_false(kiln_scene_animation_ends(&animation, 0.7f, 0.75f, &end_s));
     assert_true(kiln_scene_animation_s(&animation, 0.75f) == 2.0f);
     assert_true(kiln_scene_animation_s(&animation, -0.5f) == 0.0f);
     animation.length = 0.0f;
@@ -422,6 +243,40 @@ static void parts_follow_their_nodes(void **state)
     kiln_skin_destroy(&skin);
 }
 
+/* A node that mirrors turns what is left to the right, and nothing inside out. */
+static void mirrored_parts_face_outwards(void **state)
+{
+    (void)state;
+    const struct rig rig = still_rig();
+    struct variant variant = SOUND;
+    variant.attributes = "";
+    variant.animations =
+        "\"animations\": [{\"name\": \"go\", \"channels\": [{\"sampler\": 0, \"target\": "
+        "{\"node\": 4, \"path\": \"translation\"}}], \"samplers\": [{\"input\": 3, \"output\": "
+        "7, \"interpolation\": \"%s\"}]}],";
+    variant.skin = "";
+    struct kiln_skin *plain = parse(&rig, &variant);
+    variant.skin = ", \"scale\": [-1, 1, 1]";
+    struct kiln_skin *mirrored = parse(&rig, &variant);
+    const struct kiln_mesh *from = kiln_skin_mesh(plain), *to = kiln_skin_mesh(mirrored);
+    float posed[VERTICES][6];
+    kiln_skin_pose(mirrored, 0, 0.75f, posed);
+    for (int i = 0; i < VERTICES; i++) {
+        for (int c = 0; c < 6; c++) {
+            const float expected = c % 3 == 0 ? -from->vertices[i][c] : from->vertices[i][c];
+            assert_true(fabsf(to->vertices[i][c] - expected) < 1e-6f);
+            assert_true(c < 3 || fabsf(posed[i][c] - expected) < 1e-6f);
+        }
+    }
+    for (int i = 0; i < TRIANGLES; i++) {
+        assert_int_equal(to->triangles[i][0], from->triangles[i][0]);
+        assert_int_equal(to->triangles[i][1], from->triangles[i][2]);
+        assert_int_equal(to->triangles[i][2], from->triangles[i][1]);
+    }
+    kiln_skin_destroy(&plain);
+    kiln_skin_destroy(&mirrored);
+}
+
 static void clips_are_found(void **state)
 {
     (void)state;
@@ -443,6 +298,51 @@ static void clips_are_found(void **state)
     assert_string_equal(
         error.message, "f: no animation is called 'walk'; there are 'wave', '0', by number 0 to 1");
     kiln_skin_destroy(&skin);
+}
+
+static void put_word(char *at, size_t word)
+{
+    for (int i = 0; i < 4; i++)
+        at[i] = (char)(word >> 8 * i & 255);
+}
+
+/* A GLB whose JSON has a length with a quotation mark among its bytes, and a zero after it. */
+static size_t to_glb(const struct rig *rig, const struct variant *variant, char *glb, size_t size)
+{
+    const char *text = to_gltf(rig, variant);
+    const size_t json = 0x2200, all = 28 + json + (sizeof *rig + 3) / 4 * 4;
+    assert_true(strlen(text) < json && all <= size);
+    memset(glb, ' ', all);
+    memcpy(glb, "glTF", 4);
+    put_word(glb + 4, 2);
+    put_word(glb + 8, all);
+    put_word(glb + 12, json);
+    memcpy(glb + 16, "JSON", 4);
+    memcpy(glb + 20, text, strlen(text));
+    glb[20 + json - 1] = '\0';
+    put_word(glb + 20 + json, all - 28 - json);
+    memcpy(glb + 24 + json, "BIN", 4);
+    memcpy(glb + 28 + json, rig, sizeof *rig);
+    return all;
+}
+
+static void binary_files_are_asked_too(void **state)
+{
+    (void)state;
+    static char glb[16384];
+    const struct rig rig = waving_rig();
+    struct variant variant = SOUND;
+    struct kiln_error error = {0};
+    size_t size = to_glb(&rig, &variant, glb, sizeof glb);
+    struct kiln_skin *skin = kiln_skin_parse(glb, size, "rig.glb", &error);
+    if (!skin)
+        fail_msg("%s", error.message);
+    kiln_skin_destroy(&skin);
+    variant.interpolation = "ST\\u0045P";
+    size = to_glb(&rig, &variant, glb, sizeof glb);
+    assert_null(kiln_skin_parse(glb, size, "rig.glb", &error));
+    assert_string_equal(error.message,
+                        "rig.glb: a sampler's interpolation is 'STEP'; allowed is LINEAR");
 }
 
 static void what_is_unsound_is_refused(void **state)
@@ -567,7 +467,9 @@ int main(void)
         cmocka_unit_test(loops_join),
         cmocka_unit_test(bits_are_known),
         cmocka_unit_test(parts_follow_their_nodes),
+        cmocka_unit_test(mirrored_parts_face_outwards),
         cmocka_unit_test(clips_are_found),
+        cmocka_unit_test(binary_files_are_asked_too),
         cmocka_unit_test(what_is_unsound_is_refused),
         cmocka_unit_test(scenes_say_what_is_wrong),
         cmocka_unit_test(feet_that_stand_do_not_slide),

@@ -169,6 +169,38 @@ static void what_a_clip_moves_pushes(void **state)
     }
 }
 
+/* From its end, a clip goes on at its start, which is 0.3 m away: nobody is hit by that at 19 m/s,
+ * only by the clip, at 0.8 m/s. */
+static void the_jump_to_the_start_sweeps_nothing(void **state)
+{
+    (void)state;
+    a_crowd_around(2000, 0.0001f, 0.0f);
+    struct kiln_emitter *emit = &fixture.scene.systems[0].emit;
+    emit->origin = fixture_constant3(0.4f, 0.4f, 0.4f);
+    emit->size = fixture_constant3(1.2f, 1.2f, 1.2f);
+    struct kiln_object *mesh =
+        add_volume(KILN_SOURCE_DIR "/tests/mutation/moving.gltf", 0, 0, 0, 20);
+    move_by_clips(mesh);
+    mesh->animation = (struct kiln_animation){.enabled = true,
+                                              .clip = "go",
+                                              .start = fixture_constant(0.5f),
+                                              .speed = fixture_constant(1.0f),
+                                              .loop = true,
+                                              .number = 1,
+                                              .length = 1.0f};
+    struct simulation run;
+    simulation_start(&run, &fixture.scene, NULL, 1);
+    simulation_run(&run, 35);
+    uint32_t pushed = 0;
+    for (uint32_t i = 0; i < 2000; i++) {
+        const float speed = float3_length(particle_velocity(simulation_records(&run)[i]));
+        pushed += speed > 0.1f;
+        assert_true(speed < 4.0f);
+    }
+    assert_true(pushed > 20);
+    simulation_end(&run);
+}
+
 /* A sheet at 60 m/s, which goes through 10 cells in a step and 10 m in all, takes all particles
  * with it that are in front of it and no other. */
 static void a_sheet_sweeps_all_before_it(void **state)
@@ -451,6 +483,7 @@ int main(void)
         cmocka_unit_test(a_ball_mirrors_within_a_cell),
         cmocka_unit_test(moving_surfaces_push),
         cmocka_unit_test(what_a_clip_moves_pushes),
+        cmocka_unit_test(the_jump_to_the_start_sweeps_nothing),
         cmocka_unit_test(a_sheet_sweeps_all_before_it),
         cmocka_unit_test(nothing_tunnels),
         cmocka_unit_test(without_gravity_no_impact_makes_faster),

@@ -65,6 +65,36 @@ static void build(struct kiln_voxels *voxels, const struct kiln_voxels_input *in
     kiln_threads_destroy(&pool);
 }
 
+/* The same triangle over and over, as large as the lattice. */
+static void what_would_take_long_is_refused(void **state)
+{
+    (void)state;
+    static const float corners[3][3] = {{0, 0, 0}, {1, 1, 0}, {0, 1, 1}};
+    static uint32_t triangles[100][3];
+    struct kiln_voxels_input input = {.before = corners,
+                                      .after = corners,
+                                      .vertex_count = 3,
+                                      .triangles = (const uint32_t(*)[3])triangles,
+                                      .spacing = 1.0f / 155,
+                                      .heading = {0.0f, -1.0f, 0.0f}};
+    struct kiln_voxels voxels = {.plane_count = 0};
+    struct kiln_threads *pool = kiln_threads_create(1);
+    for (int i = 0; i < 100; i++)
+        for (uint32_t k = 0; k < 3; k++)
+            triangles[i][k] = k;
+    input.triangle_count = 4;
+    struct kiln_error error = {0};
+    assert_true(kiln_voxels_build(&voxels, &input, pool, &error));
+    assert_true(voxels.plane_count > 10000);
+    input.triangle_count = 100;
+    assert_false(kiln_voxels_build(&voxels, &input, pool, &error));
+    assert_int_equal(error.code, KILN_INVALID_INPUT);
+    assert_non_null(strstr(error.message, "the 100 triangles of a volume lie in "));
+    assert_non_null(strstr(error.message, "allowed are 268435456: set fewer cells"));
+    kiln_voxels_finish(&voxels);
+    kiln_threads_destroy(&pool);
+}
+
 static size_t cells_of(const struct kiln_voxels *v)
 {
     return (size_t)v->size[0] * v->size[1] * v->size[2];
@@ -381,6 +411,7 @@ int main(void)
         cmocka_unit_test(no_plane_is_nearer_than_marks_say),
         cmocka_unit_test(threads_are_of_no_account),
         cmocka_unit_test(absurd_triangles_are_borne),
+        cmocka_unit_test(what_would_take_long_is_refused),
     };
     return cmocka_run_group_tests_name("voxels", tests, NULL, NULL);
 }
