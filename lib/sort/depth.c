@@ -1,0 +1,321 @@
+/* Three loops: the living of each block as pairs with keys; these thrown into cells of depth; each
+ * cell sorted by one thread, in its caches. Blocks come in the order of serials, so what is thrown
+ * into a cell keeps that order. Where most particles are in few cells, there are none, and all are
+ * sorted at once (pairs.c).
+ *
+ * What is sorted needs its pairs twice, 16 bytes a particle: the list takes the place of one. */
+#include "sort/depth.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "sort/bucket.h"
+#include "sort/cells.h"
+
+enum {
+    FEWEST_SLOTS = 16384, /* for cells to be worth it */
+    SLOTS_A_CELL = 1024,  /* 8 KiB of pairs, as many of scratch: a first cache has room */
+    MOST_IN_CELL = 32768, /* two times these 256 KiB are in a second cache */
+    CELLS_AT_A_TIME = 4,
+    SAMPLES = 512,
+    OUTLIERS = 2, /* of the samples, on either side */
+};
+
+/* What became of a block. */
+struct listed {
+    size_t place, count; /* of its pairs in scratch */
+    struct kiln_sort_span span;
+    uint32_t *counts; /* of each cell, then places */
+};
+
+struct kiln_sort_depth {
+    struct kiln_threads *threads;
+    const struct kiln_sort_loops *loops;
+    kiln_sort_bucket *sort_cell;
+    struct kiln_buffer pairs;     /* sorted by cells */
+    struct kiln_buffer listed;    /* of each block */
+    struct kiln_buffer counts;    /* theirs */
+    kiln_sort_pair *cell_scratch; /* MOST_IN_CELL of each thread */
+    uint32_t *digit_counts;       /* of pairs.c */
+};
+
+struct kiln_sort_depth *kiln_sort_depth_create(struct kiln_threads *threads,
+                                               struct kiln_error *error)
+{
+    enum kiln_simd simd;
+    if (!kiln_simd_choose(&simd, error))
+        return NULL;
+    struct kiln_sort_depth *depth = calloc(1, sizeof *depth);
+    if (!depth) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "sort: no memory");
+        return NULL;
+    }
+    depth->threads = threads;
+    depth->loops = KILN_SIMD_PICK(kiln_sort_loops, simd);
+    depth->sort_cell = KILN_SIMD_PICK(kiln_sort_bucket, simd);
+    kiln_buffer_init(&depth->pairs, NULL, 0, "sort pairs");
+    kiln_buffer_init(&depth->listed, NULL, 0, "blocks of pairs");
+    kiln_buffer_init(&depth->counts, NULL, 0, "counts of cells");
+    depth->cell_scratch =
+        malloc((size_t)kiln_threads_count(threads) * MOST_IN_CELL * sizeof *depth->cell_scratch);
+    depth->digit_counts = malloc(kiln_sort_count_words(threads) * sizeof *depth->digit_counts);
+    if (!depth->cell_scratch || !depth->digit_counts) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "sort: no memory");
+        kiln_sort_depth_destroy(&depth);
+    }
+    return depth;
+}
+
+void kiln_sort_depth_destroy(struct kiln_sort_depth **depth)
+{
+    struct kiln_sort_depth *d = *depth;
+    if (!d)
+        return;
+    kiln_buffer_finish(&d->pairs);
+    kiln_buffer_finish(&d->listed);
+    kiln_buffer_finish(&d->counts);
+    free(d->cell_scratch);
+    free(d->digit_counts);
+    free(d);
+    *depth = NULL;
+}
+
+struct work {
+    const struct kiln_sort_depth *depth;
+    const struct kiln_particle *records;
+    const struct kiln_sort_params *params;
+    const struct kiln_sort_block *blocks;
+    size_t block_count;
+    struct kiln_sort_cells cells;
+    struct listed *listed;
+    kiln_sort_pair *scratch, *pairs;
+    uint32_t *list; /* where scratch is */
+    uint32_t count;
+    uint32_t starts[KILN_SORT_MOST_CELLS + 1]; /* of the cells in pairs */
+};
+
+/* ---- cells ----------------------------------------------------------------------------------- */
+
+struct extremes {
+    float least[OUTLIERS + 1], greatest[OUTLIERS + 1]; /* outermost first */
+};
+
+static void take_sample(struct extremes *of, float depth_m)
+{
+    float low = depth_m, high = depth_m;
+    for (int i = 0; i <= OUTLIERS; i++) {
+        const float least = of->least[i], greatest = of->greatest[i];
+        of->least[i] = low < least ? low : least;
+        low = low < least ? least : low;
+        of->greatest[i] = high > greatest ? high : greatest;
+        high = high > greatest ? greatest : high;
+    }
+}
+
+/* Of some of the slots, all along the blocks. */
+static struct extremes sample(const struct work *work, size_t slots)
+{
+    struct extremes found;
+    for (int i = 0; i <= OUTLIERS; i++) {
+        found.least[i] = INFINITY;
+        found.greatest[i] = -INFINITY;
+    }
+    size_t before = 0, block = 0;
+    for (size_t s = 0; s < SAMPLES; s++) {
+        const size_t slot = slots * s / SAMPLES;
+        while (slot - before >= work->blocks[block].end - work->blocks[block].first) {
+            before += work->blocks[block].end - work->blocks[block].first;
+            block++;
+        }
+        const struct kiln_particle p = work->records[work->blocks[block].first + (slot - before)];
+        if (particle_is_alive(p))
+            take_sample(&found, float3_dot(float3_sub(particle_position(p), work->params->eye),
+                                           work->params->forward));
+    }
+    return found;
+}
+
+static struct kiln_sort_cells choose_cells(const struct work *work, size_t slots)
+{
+    const struct kiln_sort_cells all = {.start_m = 0.0f, .per_m = 0.0f, .count = 1};
+    if (slots < FEWEST_SLOTS)
+        return all;
+    const struct extremes found = sample(work, slots);
+    const float near_m = found.least[OUTLIERS], far_m = found.greatest[OUTLIERS];
+    const float across_m = (far_m - near_m) * 1.0625f;
+    if (!(across_m > 1e-6f && across_m < 1e6f))
+        return all;
+    struct kiln_sort_cells cells = {.start_m = far_m + 0.03f * across_m, .count = 16};
+    while (cells.count < KILN_SORT_MOST_CELLS && (size_t)cells.count * SLOTS_A_CELL < slots)
+        cells.count *= 2;
+    cells.per_m = (float)cells.count / across_m;
+    return cells;
+}
+
+/* Counts become places, ordered by cells and then blocks. Whether no cell has too many. */
+static bool sum_cells(struct work *work)
+{
+    uint32_t place = 0;
+    for (uint32_t cell = 0; cell < work->cells.count; cell++) {
+        work->starts[cell] = place;
+        for (size_t b = 0; b < work->block_count; b++) {
+            const uint32_t living = work->listed[b].counts[cell];
+            work->listed[b].counts[cell] = place;
+            place += living;
+        }
+        if (place - work->starts[cell] > MOST_IN_CELL)
+            return false;
+    }
+    work->starts[work->cells.count] = place;
+    return true;
+}
+
+/* ---- loops ----------------------------------------------------------------------------------- */
+
+static void list_blocks(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = context;
+    for (size_t b = begin; b < end; b++) {
+        const struct kiln_sort_block *block = &work->blocks[b];
+        struct listed *listed = &work->listed[b];
+        memset(listed->counts, 0, (work->cells.count + 1) * sizeof *listed->counts);
+        const struct kiln_sort_slots slots = {
+            .records = work->records,
+            .system = block->system,
+            .first = block->first,
+            .end = block->end,
+            .eye = work->params->eye,
+            .forward = work->params->forward,
+        };
+        listed->span = (struct kiln_sort_span){UINT32_MAX, 0};
+        listed->count = work->depth->loops->list(
+            &slots, &work->cells, work->scratch + listed->place, listed->counts, &listed->span);
+    }
+}
+
+static void scatter_blocks(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = context;
+    for (size_t b = begin; b < end; b++) {
+        const struct listed *listed = &work->listed[b];
+        work->depth->loops->scatter(work->scratch + listed->place, listed->count, &work->cells,
+                                    listed->counts, work->pairs);
+    }
+}
+
+static void sort_cells(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    const struct work *work = context;
+    const bool reverse = work->params->order == KILN_SORT_FRONT_TO_BACK;
+    kiln_sort_pair *scratch = work->depth->cell_scratch + (size_t)worker * MOST_IN_CELL;
+    for (size_t cell = begin; cell < end; cell++) {
+        const uint32_t first = work->starts[cell], count = work->starts[cell + 1] - first;
+        if (count > 0)
+            work->depth->sort_cell(work->pairs + first, count, scratch,
+                                   work->list + (reverse ? work->count - 1 - first : first),
+                                   reverse ? -1 : 1);
+    }
+}
+
+/* What a block listed follows what the one before it did. */
+static void close_up(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = context;
+    for (size_t b = begin; b < end; b++) {
+        size_t place = 0;
+        for (size_t before = 0; before < b; before++)
+            place += work->listed[before].count;
+        memcpy(work->pairs + place, work->scratch + work->listed[b].place,
+               work->listed[b].count * sizeof *work->pairs);
+    }
+}
+
+static void sort_at_once(struct work *work)
+{
+    struct kiln_sort_span span = {UINT32_MAX, 0};
+    for (size_t b = 0; b < work->block_count; b++) {
+        const struct kiln_sort_span *of = &work->listed[b].span;
+        span.least = of->least < span.least ? of->least : span.least;
+        span.greatest = of->greatest > span.greatest ? of->greatest : span.greatest;
+    }
+    kiln_threads_for(work->depth->threads, work->block_count, 1, close_up, work);
+    kiln_sort_pairs(work->depth->threads, work->pairs, work->count, span,
+                    work->params->order == KILN_SORT_FRONT_TO_BACK, work->list,
+                    work->depth->digit_counts);
+}
+
+/* ---- run ------------------------------------------------------------------------------------- */
+
+/* Each block has room for all its slots. How many these are. */
+static size_t give_room(const struct work *work)
+{
+    size_t slots = 0;
+    for (size_t b = 0; b < work->block_count; b++) {
+        work->listed[b] = (struct listed){.place = slots};
+        slots += work->blocks[b].end - work->blocks[b].first;
+    }
+    return slots;
+}
+
+static bool reserve(struct kiln_sort_depth *depth, const struct kiln_pool *pool,
+                    struct kiln_buffer *entries, struct work *work, struct kiln_error *error)
+{
+    const size_t pairs = pool->slot_count * sizeof(kiln_sort_pair);
+    kiln_buffer_reserve(entries, pairs);
+    kiln_buffer_reserve(&depth->pairs, pairs);
+    kiln_buffer_reserve(&depth->listed, work->block_count * sizeof(struct listed));
+    work->pairs = kiln_buffer_host(&depth->pairs, KILN_OVERWRITE, error);
+    work->listed = work->pairs ? kiln_buffer_host(&depth->listed, KILN_OVERWRITE, error) : NULL;
+    work->scratch = work->listed ? kiln_buffer_host(entries, KILN_OVERWRITE, error) : NULL;
+    work->list = (uint32_t *)(void *)work->scratch;
+    return work->scratch;
+}
+
+/* Room for the counts of each block. */
+static bool reserve_counts(struct kiln_sort_depth *depth, struct work *work,
+                           struct kiln_error *error)
+{
+    const size_t words = (size_t)work->cells.count + 1;
+    kiln_buffer_reserve(&depth->counts, work->block_count * words * sizeof(uint32_t));
+    uint32_t *counts = kiln_buffer_host(&depth->counts, KILN_OVERWRITE, error);
+    if (!counts)
+        return false;
+    for (size_t b = 0; b < work->block_count; b++)
+        work->listed[b].counts = counts + b * words;
+    return true;
+}
+
+bool kiln_sort_depth_run(struct kiln_sort_depth *depth, struct kiln_pool *pool,
+                         const struct kiln_sort_params *params,
+                         const struct kiln_sort_block *blocks, size_t block_count,
+                         struct kiln_buffer *entries, uint32_t *count, struct kiln_error *error)
+{
+    *count = 0;
+    struct work work = {
+        .depth = depth,
+        .params = params,
+        .blocks = blocks,
+        .block_count = block_count,
+    };
+    work.records = kiln_buffer_host(&pool->records, KILN_READ, error);
+    if (!work.records || !reserve(depth, pool, entries, &work, error))
+        return false;
+    work.cells = choose_cells(&work, give_room(&work));
+    if (!reserve_counts(depth, &work, error))
+        return false;
+    kiln_threads_for(depth->threads, block_count, 1, list_blocks, &work);
+    for (size_t b = 0; b < block_count; b++)
+        work.count += (uint32_t)work.listed[b].count;
+    if (work.cells.count > 1 && sum_cells(&work)) {
+        kiln_threads_for(depth->threads, block_count, 1, scatter_blocks, &work);
+        kiln_threads_for(depth->threads, work.cells.count, CELLS_AT_A_TIME, sort_cells, &work);
+    } else {
+        sort_at_once(&work);
+    }
+    *count = work.count;
+    return true;
+}
