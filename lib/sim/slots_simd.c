@@ -5,36 +5,7 @@
  */
 #include "sim/slots.h"
 
-#include "particles/lanes.h"
-
-/* struct stages of each lane. */
-struct stages_lanes {
-    struct kiln_floats3 position, velocity, at, moving, acceleration, first, early, changed, flown;
-    kiln_floats pull, quadratic, fastest, trust;
-};
-
-struct block {
-    struct kiln_lanes lanes;
-    uint32_t alone[KILN_LANES];       /* 1: a case for step_slot */
-    uint32_t touching[KILN_LANES];    /* 1: may touch the collider at hand */
-    uint32_t lost[KILN_LANES];        /* 1: where particles may not be */
-    kiln_floats life;                 /* progress at the start of the step */
-    struct kiln_floats3 start;        /* velocity at the start, pushes included */
-    kiln_floats radius;               /* of those that are pushed */
-    struct kiln_floats3 at;           /* where the forces are looked up */
-    struct kiln_floats3 acceleration; /* of the forces so far */
-    kiln_floats pull, quadratic;
-    struct kiln_floats3 velocity, position; /* at the end */
-    struct kiln_floats3 vector, drift;      /* options of a force */
-    kiln_floats strength, pulling, scale;
-    struct kiln_floats3 place, curl;
-    struct stages_lanes stages;
-};
-
-static inline struct kiln_particle record_at(const struct block *b, uint32_t i)
-{
-    return kiln_lanes_record(&b->lanes, i);
-}
+#include "sim/slots_touching.h"
 
 static inline void find_values(const struct kiln_sim *sim, struct kiln_value v,
                                const struct block *b, float *y)
@@ -331,135 +302,7 @@ static inline void find_lost(const struct kiln_sim *sim, struct block *b)
     }
 }
 
-/* Along one axis: whether a way from a to b may be between two faces. What is on one side of a face
- * at both ends never meets the collider (collide_face). */
-static inline uint32_t may_be_between(float a, float b, float low, float low_end, float high,
-                                      float high_end)
-{
-    uint32_t above = (a >= low) | (b >= low_end);
-    uint32_t below = (a <= high) | (b <= high_end);
-    return above & below;
-}
-
-/* A half space has no bounds. What turns with it may be anywhere; else a way touches it only if an
- * end does, up to the rounding of places far from its centre. */
-static inline void find_touching_plane(struct block *b, const struct kiln_collider *c, bool pushed)
-{
-    const float3 start = {c->center.x, c->center.y, c->center.z};
-    const float3 end = {c->center_end.x, c->center_end.y, c->center_end.z};
-    const float3 normal = {c->axis.x, c->axis.y, c->axis.z};
-    const bool turns = c->spin.w != 0.0f;
-    for (uint32_t i = 0; i < KILN_LANES; i++) {
-        float3 from = float3_sub(particle_position(record_at(b, i)), start);
-        float3 to = float3_sub(kiln_get3(&b->position, i), end);
-        float far_from = exact_abs(from.x) + exact_abs(from.y) + exact_abs(from.z);
-        float far_to = exact_abs(to.x) + exact_abs(to.y) + exact_abs(to.z);
-        const float away = 0.01f + (pushed ? b->radius[i] : 0.0f);
-        bool above_from = float3_dot(from, normal) > away + 1e-5f * far_from;
-        bool above_to = float3_dot(to, normal) > away + 1e-5f * far_to;
-        b->touching[i] = (uint32_t)turns | (uint32_t) !(above_from & above_to);
-    }
-}
-
-/* `pushed`: by as much as their radii, lanes come less near; collide_around has the same sums. */
-static inline void find_touching(struct block *b, const struct kiln_collider *c, bool pushed)
-{
-    if (c->kind == COLLIDER_PLANE) {
-        find_touching_plane(b, c, pushed);
-        return;
-    }
-    /* The bounds of a round shape are computed apart from its surface. */
-    const float gap = c->kind == COLLIDER_BOX ? 0.0f : 0.01f;
-    const float reach = c->kind == COLLIDER_TERRAIN ? c->steepest : 1.0f;
-    for (uint32_t i = 0; i < KILN_LANES; i++) {
-        const float r = pushed ? b->radius[i] * reach : 0.0f;
-        float3 from = particle_position(record_at(b, i)), to = kiln_get3(&b->position, i);
-        b->touching[i] =
-            may_be_between(from.x, to.x, (c->min.x - r) - gap, (c->min_end.x - r) - gap,
-                           (c->max.x + r) + gap, (c->max_end.x + r) + gap) &
-            may_be_between(from.y, to.y, (c->min.y - r) - gap, (c->min_end.y - r) - gap,
-                           (c->max.y + r) + gap, (c->max_end.y + r) + gap) &
-            may_be_between(from.z, to.z, (c->min.z - r) - gap, (c->min_end.z - r) - gap,
-                           (c->max.z + r) + gap, (c->max_end.z + r) + gap);
-    }
-}
-
-/* What is well above ground does not touch it. */
-static inline void find_touching_ground(const struct kiln_sim *sim, struct block *b,
-                                        const struct kiln_collider *c)
-{
-    const struct kiln_grid grid = sim->surroundings->grids[c->grid];
-    for (uint32_t i = 0; i < KILN_LANES; i++) {
-        float3 from = particle_position(record_at(b, i)), to = kiln_get3(&b->position, i);
-        const float raised = sim->step->pushed ? b->radius[i] * c->steepest : 0.0f;
-        b->touching[i] &= 1u ^ (uint32_t)terrain_is_clear(sim, grid, from, to, raised);
-    }
-}
-
-/* What is well away from a mesh does not touch it. */
-static inline void find_touching_mesh(const struct kiln_sim *sim, struct block *b,
-                                      const struct kiln_collider *c)
-{
-    const struct kiln_grid grid = sim->surroundings->grids[c->grid];
-    const struct kiln_pose pose = sim->surroundings->poses[c->mesh];
-    for (uint32_t i = 0; i < KILN_LANES; i++) {
-        float3 from = sdf_local(pose, 0.0f, particle_position(record_at(b, i)));
-        float3 to = sdf_local(pose, 1.0f, kiln_get3(&b->position, i));
-        float larger = 0.0f;
-        if (sim->step->pushed)
-            larger = exact_max(sdf_radius(pose, 0.0f, b->radius[i]),
-                               sdf_radius(pose, 1.0f, b->radius[i]));
-        b->touching[i] &= 1u ^ (uint32_t)sdf_is_clear(sim, grid, from, to, larger);
-    }
-}
-
-/* What no plane is near to touches none. */
-static inline void find_touching_volume(const struct kiln_sim *sim, struct block *b,
-                                        const struct kiln_collider *c)
-{
-    const struct kiln_grid grid = sim->surroundings->grids[c->grid];
-    for (uint32_t i = 0; i < KILN_LANES; i++) {
-        float3 from = particle_position(record_at(b, i)), to = kiln_get3(&b->position, i);
-        b->touching[i] &= 1u ^ (uint32_t)volume_is_clear(sim, grid, from, to);
-    }
-}
-
-/* What stays on one side of its depth maps does not touch it. */
-static inline void find_touching_depths(const struct kiln_sim *sim, struct block *b,
-                                        const struct kiln_collider *c)
-{
-    const struct kiln_grid grid = sim->surroundings->grids[c->grid];
-    const struct kiln_pose pose = sim->surroundings->poses[c->mesh];
-    for (uint32_t i = 0; i < KILN_LANES; i++) {
-        float3 from = sdf_local(pose, 0.0f, particle_position(record_at(b, i)));
-        float3 to = sdf_local(pose, 1.0f, kiln_get3(&b->position, i));
-        b->touching[i] &= 1u ^ (uint32_t)depth_is_clear(grid, from, to);
-    }
-}
-
-static inline void find_touching_any(const struct kiln_sim *sim, struct block *b)
-{
-    const bool pushed = sim->step->pushed != 0;
-    for (uint32_t k = 0; k < sim->surroundings->collider_count; k++) {
-        const struct kiln_collider *c = &sim->surroundings->colliders[k];
-        if (pushed)
-            find_touching(b, c, true);
-        else
-            find_touching(b, c, false);
-        if (c->kind == COLLIDER_TERRAIN)
-            find_touching_ground(sim, b, c);
-        else if (c->kind == COLLIDER_SDF)
-            find_touching_mesh(sim, b, c);
-        else if (c->kind == COLLIDER_VOLUME)
-            find_touching_volume(sim, b, c);
-        else if (c->kind == COLLIDER_DEPTH)
-            find_touching_depths(sim, b, c);
-        for (uint32_t i = 0; i < KILN_LANES; i++)
-            b->alone[i] |= b->touching[i];
-    }
-}
-
-/* Marks what step_slot is for: living particles that may touch something, and births. */
+/* Living particles that may touch something, and births. */
 static inline void find_alone(const struct kiln_sim *sim, struct block *b, uint32_t first_slot)
 {
     memset(b->alone, 0, sizeof b->alone);
@@ -470,7 +313,8 @@ static inline void find_alone(const struct kiln_sim *sim, struct block *b, uint3
         uint32_t alive =
             particle_is_alive(record_at(b, i)) & (b->lanes.age_s[i] < b->lanes.life_s[i]);
         uint32_t born = step_birth_index(sim, first_slot + i) < births;
-        b->alone[i] = (b->alone[i] & alive) | born;
+        const uint32_t touches = b->alone[i] & (0u - alive);
+        b->alone[i] = born ? ALONE_BORN : touches;
     }
 }
 
@@ -516,6 +360,22 @@ __attribute__((flatten)) static void step_block(const struct kiln_sim *sim, uint
     kiln_lanes_store(&b->lanes, records);
 }
 
+/* step_particle from where it has flown. */
+static struct kiln_particle step_touching(const struct kiln_sim *sim, const struct block *b,
+                                          uint32_t i, struct kiln_particle p)
+{
+    struct step_way way = {
+        .start = {.position = particle_position(p), .velocity = kiln_get3(&b->start, i)},
+        .end = {.position = kiln_get3(&b->position, i),
+                .velocity = kiln_get3(&b->velocity, i),
+                .since = 1.0f},
+        .first = collide_no_touch(),
+        .lost = true,
+    };
+    way = step_meet(sim, p, way, sim->step->pushed ? b->radius[i] : 0.0f, b->life[i], 1.0f);
+    return way.lost ? step_dead() : step_with_motion(p, way.end.position, way.end.velocity);
+}
+
 static void step_alone(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
@@ -531,7 +391,9 @@ static void step_alone(void *context, size_t begin, size_t end, uint32_t worker)
         if (count < KILN_LANES)
             memcpy(records, rest, count * sizeof *records);
         for (size_t i = 0; i < count; i++) {
-            if (block.alone[i])
+            if (block.alone[i] == ALONE_TOUCHES)
+                records[i] = step_touching(sim, &block, (uint32_t)i, records[i]);
+            else if (block.alone[i] == ALONE_BORN)
                 records[i] = step_slot(sim, (uint32_t)(first + i), records[i]);
         }
     }

@@ -11,8 +11,8 @@
 #ifndef KILN_SHARED_COLLIDE_H
 #define KILN_SHARED_COLLIDE_H
 
+#include "shared/collide_bounce.h"
 #include "shared/collide_turned.h"
-#include "shared/random.h"
 
 /* Shaders of scenes without round colliders are spared their code. */
 #if defined(GL_core_profile) && !defined(COLLIDE_ROUND)
@@ -21,17 +21,12 @@
 #define COLLIDE_IS_ROUND(collider) ((collider).kind != COLLIDER_BOX)
 #endif
 
-/* The same for shapes in frames of their own, and for restitution and friction. */
+/* The same for shapes in frames of their own. */
 #if defined(GL_core_profile) && !defined(COLLIDE_TURNED)
 #define COLLIDE_IS_TURNED(collider) false
 #else
 #define COLLIDE_IS_TURNED(collider)                                                                \
     ((collider).kind >= COLLIDER_TURNED_BOX && (collider).kind < COLLIDER_TERRAIN)
-#endif
-#if defined(GL_core_profile) && !defined(COLLIDE_RUB)
-#define COLLIDE_RUBS(answer) false
-#else
-#define COLLIDE_RUBS(answer) ((answer).rubs)
 #endif
 
 /* Likewise those of scenes without colliders out of grids; this is asked first. */
@@ -63,113 +58,6 @@ FN float3 collide_box_velocity(S(kiln_collider) c, uint face, float steps_per_s)
     EXACT float of_face = collide_component((face & 1u) != 0u ? high : low, axis);
     motion = collide_with_component(motion, axis, of_face);
     EXACT float3 y = float3_scale(motion, steps_per_s);
-    return y;
-}
-
-/* How a particle answers an impact. */
-struct collide_answer {
-    float randomness; /* 0 mirror .. 1 any direction of the hemisphere */
-    float slowdown;   /* factor on the speed */
-    uint stream;      /* the particle's */
-    uint purpose;     /* of two numbers for this impact */
-    bool rubs;        /* whether the rest matters */
-    float restitution;
-    float friction;
-    float radius; /* m: how near its centre comes */
-};
-
-/* On a collider with factors of its own. */
-FN S(collide_answer) collide_answer_of(S(collide_answer) answer, S(kiln_collider) c)
-{
-    EXACT S(collide_answer) y = answer;
-    if (COLLIDE_RUBS(answer)) {
-        y.restitution = answer.restitution * c.restitution;
-        y.friction = answer.friction * c.friction;
-    }
-    return y;
-}
-
-/* What restitution leaves of a mirrored velocity along the normal, and Coulomb's friction of the
- * rest: it takes as much as its factor on what the surface gives along the normal, but turns
- * nothing around. */
-FN_APART float3 collide_rubbed(float restitution, float friction, float3 mirrored, float3 normal,
-                               float outwards)
-{
-    EXACT float inwards = -outwards;
-    EXACT float3 aside = float3_add_scaled(mirrored, normal, inwards);
-    EXACT float speed = float3_length(aside);
-    EXACT float given = outwards * (1.0f + restitution);
-    EXACT float slower = speed - friction * given;
-    EXACT float quotient = exact_div(slower, speed);
-    EXACT float kept = exact_clamp(quotient, 0.0f, 1.0f);
-    EXACT float returned = outwards * restitution;
-    EXACT float3 along = float3_scale(normal, returned);
-    EXACT float3 y = float3_add_scaled(along, aside, kept);
-    return y;
-}
-
-/* The velocity (relative to the box) after an impact: a linear combination of the mirrored and a
- * random direction, with the slowed speed. The random direction is of the hemisphere about the
- * face's normal, so that it never points inwards; with `literal`, about the mirrored direction. */
-FN float3 collide_bounce(S(collide_answer) answer, float3 velocity, uint face, bool literal)
-{
-    uint axis = face >> 1u;
-    EXACT float out_sign = (face & 1u) != 0u ? 1.0f : -1.0f;
-    EXACT float across = collide_component(velocity, axis);
-    EXACT float outwards = across * out_sign;
-    if (outwards >= 0.0f)
-        return velocity;
-    EXACT float3 mirrored = collide_with_component(velocity, axis, -across);
-    EXACT float square = float3_dot(velocity, velocity);
-    EXACT float3 zero = FLOAT3(0.0f, 0.0f, 0.0f);
-    EXACT float3 normal = collide_with_component(zero, axis, out_sign);
-    if (COLLIDE_RUBS(answer)) {
-        EXACT float returned = -outwards;
-        mirrored = collide_rubbed(answer.restitution, answer.friction, mirrored, normal, returned);
-        square = float3_dot(mirrored, mirrored);
-    }
-    EXACT float speed = exact_sqrt(square);
-    EXACT float3 straight = float3_normalize(mirrored, normal);
-    EXACT float3 pole = normal;
-    if (literal)
-        pole = straight;
-    EXACT float3 astray = random_direction(answer.stream, answer.purpose, pole, 0.0f);
-    EXACT float kept = 1.0f - answer.randomness;
-    EXACT float3 part = float3_scale(straight, kept);
-    EXACT float3 mixed = float3_add_scaled(part, astray, answer.randomness);
-    EXACT float3 direction = float3_normalize(mixed, straight);
-    EXACT float slowed = speed * answer.slowdown;
-    EXACT float3 y = float3_scale(direction, slowed);
-    return y;
-}
-
-/* The same for a surface of any direction. */
-FN_CLOSE float3 collide_bounce_off(S(collide_answer) answer, float3 velocity, float3 normal,
-                                   bool literal)
-{
-    EXACT float outwards = float3_dot(velocity, normal);
-    if (outwards >= 0.0f)
-        return velocity;
-    EXACT float twice = -2.0f * outwards;
-    EXACT float3 mirrored = float3_add_scaled(velocity, normal, twice);
-    EXACT float square = float3_dot(velocity, velocity);
-    if (COLLIDE_RUBS(answer)) {
-        EXACT float returned = -outwards;
-        mirrored = collide_rubbed(answer.restitution, answer.friction, mirrored, normal, returned);
-        square = float3_dot(mirrored, mirrored);
-    }
-    EXACT float speed = exact_sqrt(square);
-    EXACT float3 straight = float3_normalize(mirrored, normal);
-    EXACT float3 pole = normal;
-    if (literal)
-        pole = straight;
-    EXACT float3 astray = random_direction(answer.stream, answer.purpose, pole, 0.0f);
-    EXACT float kept = 1.0f - answer.randomness;
-    EXACT float3 part = float3_scale(straight, kept);
-    EXACT float3 mixed = float3_add_scaled(part, astray, answer.randomness);
-    EXACT float3 direction = float3_normalize(mixed, straight);
-    EXACT float slowed = speed * answer.slowdown;
-    EXACT float3 y = float3_scale(direction, slowed);
     return y;
 }
 
@@ -312,21 +200,12 @@ struct collide_hit {
     uint face;
 };
 
-/* The way of a segment through a collider, between two parts of the step. */
-FN S(collide_span) collide_through(SIM_PARAM uint number, float radius, float since, float until,
-                                   float3 from, float3 end)
+/* The way of a segment through a box or a round shape, between two parts of the step. */
+FN_CLOSE S(collide_span)
+    collide_solid_through(S(kiln_collider) c, float since, float until, float3 from, float3 end)
 {
-    EXACT S(kiln_collider) c = collide_around(SIM number, radius);
     EXACT S(collide_span) span;
-#if COLLIDE_HAS_FIELDS
-    if (COLLIDE_IS_FIELD(c)) {
-        span = collide_field_segment(SIM c, since, until, from, end);
-        return span;
-    }
-#endif
-    if (COLLIDE_IS_TURNED(c)) {
-        span = collide_turned_through(SIM number, radius, since, until, from, end);
-    } else if (COLLIDE_IS_ROUND(c)) {
+    if (COLLIDE_IS_ROUND(c)) {
         EXACT S(collide_round) round_at_start = collide_round_at(c, since);
         EXACT S(collide_round) round_at_end = collide_round_at(c, until);
         span = collide_round_segment(c.kind, round_at_start, round_at_end, from, end);
@@ -335,6 +214,31 @@ FN S(collide_span) collide_through(SIM_PARAM uint number, float radius, float si
         EXACT S(collide_box) at_end = collide_box_at(c, until);
         span = collide_segment(at_start, at_end, from, end);
     }
+    return span;
+}
+
+/* The same of any collider. */
+FN S(collide_span) collide_through(SIM_PARAM uint number, float radius, float since, float until,
+                                   float3 from, float3 end)
+{
+    EXACT S(collide_span) span;
+#ifndef GL_core_profile
+    if (radius == 0.0f && AROUND(colliders[number].kind) <= COLLIDER_CYLINDER) { /* not copied */
+        span = collide_solid_through(AROUND(colliders[number]), since, until, from, end);
+        return span;
+    }
+#endif
+    EXACT S(kiln_collider) c = collide_around(SIM number, radius);
+#if COLLIDE_HAS_FIELDS
+    if (COLLIDE_IS_FIELD(c)) {
+        span = collide_field_segment(SIM c, since, until, from, end);
+        return span;
+    }
+#endif
+    if (COLLIDE_IS_TURNED(c))
+        span = collide_turned_through(SIM number, radius, since, until, from, end);
+    else
+        span = collide_solid_through(c, since, until, from, end);
     return span;
 }
 
@@ -424,7 +328,15 @@ FN S(collide_hit) collide_first(SIM_PARAM S(collide_state) s, float3 end, float 
     hit.part = -1.0f;
     hit.box = 0u;
     hit.face = 0u;
+#ifndef GL_core_profile
+    const bool whole = s.since == 0.0f && until == 1.0f;
+#endif
     for (uint i = 0u; i < AROUND(collider_count); i++) {
+#ifndef GL_core_profile
+        if (whole && AROUND(colliders[i].kind) != COLLIDER_PLANE &&
+            !collide_may_meet(&AROUND(colliders[i]), radius, s.position, end))
+            continue;
+#endif
         EXACT S(collide_span) span =
             collide_through(SIM i, radius, s.since, until, s.position, end);
         bool inside = !span.misses && !span.outside;

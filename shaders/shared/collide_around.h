@@ -3,7 +3,7 @@
 #ifndef KILN_SHARED_COLLIDE_AROUND_H
 #define KILN_SHARED_COLLIDE_AROUND_H
 
-#include "shared/layout.h"
+#include "shared/collide_box.h"
 
 FN float4 collide_shifted(float4 v, float by)
 {
@@ -55,5 +55,71 @@ FN S(kiln_collider) collide_around(SIM_PARAM uint number, float radius)
 #endif
     return c;
 }
+
+#ifndef GL_core_profile
+
+/* Along one axis: whether a way from a to b may be between two faces. What is on one side of a face
+ * at both ends never meets the collider (collide_face). */
+FN_CLOSE uint collide_is_between(float a, float b, float low, float low_end, float high,
+                                 float high_end)
+{
+    uint above = (uint)(a >= low) | (uint)(b >= low_end);
+    uint below = (uint)(a <= high) | (uint)(b <= high_end);
+    return above & below;
+}
+
+/* Whether a way may be between the ends of a cylinder, whose bounds are those of a ball about
+ * either end: of a flat one, much too high. Far from its centre, heights are as good as their
+ * places. */
+FN_CLOSE uint collide_is_between_ends(const S(kiln_collider) * c, float larger, float3 a, float3 b)
+{
+    float3 axis = FLOAT3(c->axis.x, c->axis.y, c->axis.z);
+    float3 from = float3_sub(a, FLOAT3(c->center.x, c->center.y, c->center.z));
+    float3 to = float3_sub(b, FLOAT3(c->center_end.x, c->center_end.y, c->center_end.z));
+    float far_from = exact_abs(from.x) + exact_abs(from.y) + exact_abs(from.z);
+    float far_to = exact_abs(to.x) + exact_abs(to.y) + exact_abs(to.z);
+    float height = float3_dot(from, axis), height_end = float3_dot(to, axis);
+    float limit = c->axis.w + larger + 1e-5f * far_from;
+    float limit_end = c->half_height_end + larger + 1e-5f * far_to;
+    return collide_is_between(height, height_end, -limit, -limit_end, limit, limit_end);
+}
+
+/* How much farther than its bounds a collider may be met: those of a round shape are computed apart
+ * from its surface. */
+FN_CLOSE float collide_bounds_gap(uint kind)
+{
+    return kind == COLLIDER_BOX ? 0.0f : 0.01f;
+}
+
+/* By how much its bounds grow for a radius: a cylinder's edges by what its side and its ends do. */
+FN_CLOSE float collide_bounds_growth(const S(kiln_collider) * c)
+{
+    return c->kind == COLLIDER_TERRAIN    ? c->steepest
+           : c->kind == COLLIDER_CYLINDER ? 1.4143f
+                                          : 1.0f;
+}
+
+/* Whether a way may be within bounds that are farther out by r and a gap. */
+FN_CLOSE uint collide_is_within(const S(kiln_collider) * c, float r, float gap, float3 a, float3 b)
+{
+    return collide_is_between(a.x, b.x, (c->min.x - r) - gap, (c->min_end.x - r) - gap,
+                              (c->max.x + r) + gap, (c->max_end.x + r) + gap) &
+           collide_is_between(a.y, b.y, (c->min.y - r) - gap, (c->min_end.y - r) - gap,
+                              (c->max.y + r) + gap, (c->max_end.y + r) + gap) &
+           collide_is_between(a.z, b.z, (c->min.z - r) - gap, (c->min_end.z - r) - gap,
+                              (c->max.z + r) + gap, (c->max_end.z + r) + gap);
+}
+
+/* Of a ball's way through the whole step: whether it may meet the collider, of any kind but planes.
+ * For those who then look closer. */
+FN_CLOSE bool collide_may_meet(const S(kiln_collider) * c, float radius, float3 a, float3 b)
+{
+    float gap = collide_bounds_gap(c->kind);
+    if (collide_is_within(c, radius * collide_bounds_growth(c), gap, a, b) == 0u)
+        return false;
+    return c->kind != COLLIDER_CYLINDER || collide_is_between_ends(c, radius + gap, a, b) != 0u;
+}
+
+#endif
 
 #endif

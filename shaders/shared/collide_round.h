@@ -74,7 +74,8 @@ FN bool collide_round_inside(uint kind, S(collide_round) shape, float3 p)
     return excess < 0.0f && between;
 }
 
-/* The round side as one more face: from a with radius r0 to b with radius r1. */
+/* The round side as one more face: from a with radius r0 to b with radius r1. Most ways miss it,
+ * which is known before roots are. */
 FN_CLOSE S(collide_span)
     collide_side(S(collide_span) before, float3 a, float3 b, float r0, float r1)
 {
@@ -95,12 +96,6 @@ FN_CLOSE S(collide_span)
     EXACT float product = square_term * at_start;
     EXACT float discriminant = linear2 - product;
     discriminant = exact_canon(discriminant);
-    EXACT float root = exact_sqrt(discriminant);
-    EXACT float divisor = root - linear_term;
-    EXACT float first = exact_div(at_start, divisor);
-    EXACT float last = exact_div(divisor, square_term);
-    first = exact_clamp(first, 0.0f, 1.0f);
-    last = exact_clamp(last, 0.0f, 1.0f);
 
     bool in0 = at_start < 0.0f;
     bool in1 = at_end < 0.0f;
@@ -108,6 +103,14 @@ FN_CLOSE S(collide_span)
                    -linear_term < square_term;
     span.misses = span.misses || (!in0 && !in1 && !crosses);
     span.outside = span.outside || !in0;
+    if (span.misses)
+        return span;
+    EXACT float root = exact_sqrt(discriminant);
+    EXACT float divisor = root - linear_term;
+    EXACT float first = exact_div(at_start, divisor);
+    EXACT float last = exact_div(divisor, square_term);
+    first = exact_clamp(first, 0.0f, 1.0f);
+    last = exact_clamp(last, 0.0f, 1.0f);
     if (!in0 && first >= span.enter) {
         span.enter = first;
         span.face = COLLIDE_SIDE;
@@ -117,8 +120,8 @@ FN_CLOSE S(collide_span)
     return span;
 }
 
-FN S(collide_span) collide_round_segment(uint kind, S(collide_round) start, S(collide_round) end,
-                                         float3 a, float3 b)
+FN_CLOSE S(collide_span) collide_round_segment(uint kind, S(collide_round) start,
+                                               S(collide_round) end, float3 a, float3 b)
 {
     EXACT S(collide_span) span;
     span.enter = 0.0f;
@@ -128,12 +131,19 @@ FN S(collide_span) collide_round_segment(uint kind, S(collide_round) start, S(co
     span.outside = false;
     EXACT S(collide_place) p0 = collide_round_place(kind, start, a);
     EXACT S(collide_place) p1 = collide_round_place(kind, end, b);
-    span = collide_side(span, p0.across, p1.across, start.radius, end.radius);
+    EXACT float lower0 = start.half_height + p0.height;
+    EXACT float lower1 = end.half_height + p1.height;
+    EXACT float upper0 = start.half_height - p0.height;
+    EXACT float upper1 = end.half_height - p1.height;
     if (kind == COLLIDER_CYLINDER) {
-        EXACT float lower0 = start.half_height + p0.height;
-        EXACT float lower1 = end.half_height + p1.height;
-        EXACT float upper0 = start.half_height - p0.height;
-        EXACT float upper1 = end.half_height - p1.height;
+        bool below = !(lower0 > 0.0f) && !(lower1 > 0.0f);
+        bool above = !(upper0 > 0.0f) && !(upper1 > 0.0f);
+        span.misses = below || above;
+    }
+    if (span.misses)
+        return span;
+    span = collide_side(span, p0.across, p1.across, start.radius, end.radius);
+    if (kind == COLLIDER_CYLINDER && !span.misses) {
         span = collide_face(span, COLLIDE_LOWER, lower0, lower1);
         span = collide_face(span, COLLIDE_UPPER, upper0, upper1);
     }

@@ -158,6 +158,29 @@ struct step_way {
     bool lost;              /* where particles may not be */
 };
 
+/* What is met on a way that is known as it would be without colliders; it has met nothing so far,
+ * and counts as lost. */
+FN S(step_way) step_meet(SIM_PARAM S(kiln_particle) p, S(step_way) flown, float radius, float life,
+                         float until)
+{
+    EXACT S(step_way) way = flown;
+    if (!step_is_sane(way.end.position) || !step_is_sane(way.end.velocity))
+        return way;
+    if (STEP(collide) != COLLIDE_OFF) {
+        EXACT S(collide_state) start = way.start;
+        start.velocity = way.end.velocity;
+        uint stream = particle_stream(STEP(derived), p);
+        EXACT S(collide_way) bounced =
+            step_collide(SIM start, way.end.position, until, life, stream, radius);
+        way.end = bounced.end;
+        way.first = bounced.first;
+        if (!step_is_sane(way.end.position) || !step_is_sane(way.end.velocity))
+            return way;
+    }
+    way.lost = step_is_removed(SIM way.end.position);
+    return way;
+}
+
 FN S(step_way) step_move(SIM_PARAM S(kiln_particle) p, S(step_push) push, float age_s, float life_s,
                          float until)
 {
@@ -174,20 +197,7 @@ FN S(step_way) step_move(SIM_PARAM S(kiln_particle) p, S(step_push) push, float 
     way.end.position = push_farther(push, way.end.position);
     way.first = collide_no_touch();
     way.lost = true;
-    if (!step_is_sane(way.end.position) || !step_is_sane(way.end.velocity))
-        return way;
-    if (STEP(collide) != COLLIDE_OFF) {
-        EXACT S(collide_state) start = way.start;
-        start.velocity = way.end.velocity;
-        uint stream = particle_stream(STEP(derived), p);
-        EXACT S(collide_way) bounced =
-            step_collide(SIM start, way.end.position, until, life, stream, push.radius);
-        way.end = bounced.end;
-        way.first = bounced.first;
-        if (!step_is_sane(way.end.position) || !step_is_sane(way.end.velocity))
-            return way;
-    }
-    way.lost = step_is_removed(SIM way.end.position);
+    way = step_meet(SIM p, way, push.radius, life, until);
     return way;
 }
 
