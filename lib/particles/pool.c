@@ -5,6 +5,7 @@
 #include <string.h>
 
 static_assert(sizeof(struct kiln_particle) == 32, "std430");
+static_assert(sizeof(struct kiln_spin) == 32, "std430");
 
 void kiln_pool_init(struct kiln_pool *pool, struct kiln_device *device, const uint32_t *capacities,
                     uint32_t system_count)
@@ -19,23 +20,50 @@ void kiln_pool_init(struct kiln_pool *pool, struct kiln_device *device, const ui
                      (size_t)pool->slot_count * sizeof(struct kiln_particle), "particles");
 }
 
+void kiln_pool_add_spins(struct kiln_pool *pool, const bool *systems)
+{
+    uint32_t slots = 0;
+    for (uint32_t i = 0; i < pool->system_count && pool->spins.size == 0; i++) {
+        pool->systems[i].spins = systems[i];
+        pool->systems[i].first_spin = slots;
+        slots += systems[i] ? pool->systems[i].capacity : 0;
+    }
+    if (slots > 0)
+        kiln_buffer_init(&pool->spins, pool->records.device, slots * sizeof(struct kiln_spin),
+                         "spins");
+}
+
 void kiln_pool_finish(struct kiln_pool *pool)
 {
     kiln_buffer_finish(&pool->records);
+    kiln_buffer_finish(&pool->spins);
     for (uint32_t i = 0; i < pool->canvas_count; i++)
         kiln_canvas_finish(&pool->canvases[i]);
     *pool = (struct kiln_pool){.system_count = 0};
 }
 
+static bool copy_buffer(struct kiln_buffer *to, struct kiln_buffer *from, struct kiln_error *error)
+{
+    if (from->size == 0)
+        return true;
+    const void *source = kiln_buffer_host(from, KILN_READ, error);
+    void *target = source ? kiln_buffer_host(to, KILN_OVERWRITE, error) : NULL;
+    if (target)
+        memcpy(target, source, from->size);
+    return target != NULL;
+}
+
 bool kiln_pool_copy(struct kiln_pool *to, struct kiln_pool *from, struct kiln_error *error)
 {
     assert(to->slot_count == from->slot_count && to->system_count == from->system_count);
-    const void *source = kiln_buffer_host(&from->records, KILN_READ, error);
-    void *target = source ? kiln_buffer_host(&to->records, KILN_OVERWRITE, error) : NULL;
-    if (!target)
-        return false;
-    memcpy(target, source, from->records.size);
     memcpy(to->systems, from->systems, sizeof to->systems);
+    if (to->spins.size != from->spins.size) {
+        kiln_buffer_finish(&to->spins);
+        kiln_buffer_init(&to->spins, to->records.device, from->spins.size, "spins");
+    }
+    if (!copy_buffer(&to->records, &from->records, error) ||
+        !copy_buffer(&to->spins, &from->spins, error))
+        return false;
     for (uint32_t i = 0; i < from->canvas_count; i++) {
         if (!kiln_canvas_copy(&to->canvases[i], &from->canvases[i], error))
             return false;

@@ -17,6 +17,8 @@ struct kiln_pool_system {
     uint32_t base, capacity; /* slots of this system in the record buffer */
     uint64_t next_serial;    /* births so far */
     uint64_t birth_wait;     /* what the next birth of the rate waits for; see births.h */
+    bool spins;              /* its particles turn: */
+    uint32_t first_spin;     /* slots of this system in the buffer of spins */
 };
 
 struct kiln_pool {
@@ -24,6 +26,10 @@ struct kiln_pool {
     uint32_t system_count;
     uint32_t slot_count;        /* of all systems */
     struct kiln_buffer records; /* struct kiln_particle [slot_count] */
+
+    /* How they turn: struct kiln_spin, one for each slot of the systems that spin. Of size 0 before
+     * the first step, and where none does. */
+    struct kiln_buffer spins;
 
     /* What they painted, in the order of the scene's meshes that take paint: none before the first
      * step. */
@@ -36,8 +42,11 @@ void kiln_pool_init(struct kiln_pool *pool, struct kiln_device *device, const ui
                     uint32_t system_count);
 void kiln_pool_finish(struct kiln_pool *pool);
 
-/* Gives a pool the particles of another one of the same capacities, by way of the host, and what
- * they painted. */
+/* Makes room for how the particles of these systems turn, as zeros; nothing if it is there. */
+void kiln_pool_add_spins(struct kiln_pool *pool, const bool *systems);
+
+/* Gives a pool the particles of another one of the same capacities, by way of the host, how they
+ * turn and what they painted. */
 bool kiln_pool_copy(struct kiln_pool *to, struct kiln_pool *from, struct kiln_error *error);
 
 /* Slots of a system that were ever born into: the first so many; the rest is still zero. */

@@ -27,6 +27,19 @@ static const struct kiln_option collide[] = {
           "the step. For mode exact."),
     INTEGER("rounds", rounds, 1, 64, "4",
             "Collisions that a particle may have in a step; the others wait for the next one."),
+    BOOLEAN("spin", spins, "false",
+            "They turn, as solid balls: friction acts where they touch each other, and surfaces "
+            "(collide.friction), so that they come to roll."),
+    VALUE("friction", friction, KILN_PLAIN, 0, 10, TIME, "0.2",
+          "Of those that spin, on each other: so much of what they give each other along the line "
+          "between them, but no more than stops the slip."),
+    RANGE("turning", turning, KILN_ANGULAR_SPEED, KILN_DEG(-36000), KILN_DEG(36000), TIME,
+          "0 deg/s", "How fast those that spin turn at birth, drawn for each."),
+    VECTOR("axis", axis, KILN_PLAIN, -1000, 1000, TIME, "[0, 0, 0]",
+           "About which they turn at birth, of any length; [0, 0, 0] draws one for each."),
+    VALUE("rolling", rolling, KILN_FRACTION, 0, 1, TIME, "0",
+          "Of those that spin, what rolling costs on surfaces: a moment as if these pushed by so "
+          "much of the radius off the middle."),
     END,
 };
 

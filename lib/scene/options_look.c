@@ -55,9 +55,26 @@ static const struct kiln_option mesh[] = {
          "Triangles in an OBJ, glTF or GLB file, z ahead and y up; its materials are left out. The "
          "longest edge of the box around it becomes the size.")},
     CHOICE("orient", mesh.orient, orients, "velocity",
-           "velocity: ahead is where the particle goes, without a roll; spin: rotation and spin "
-           "turn it about an axis drawn for each particle; upright: they turn it about the world's "
-           "up."),
+           "velocity: ahead is where the particle goes, without a roll; spin: as collisions that "
+           "spin have turned it, or else rotation and spin turn it about an axis drawn for each "
+           "particle; upright: they turn it about the world's up."),
+    END,
+};
+
+static const char *const patterns[] = {
+    [KILN_PATTERN_PLAIN] = "plain",
+    [KILN_PATTERN_STRIPE] = "stripe",
+    [KILN_PATTERN_SEGMENTS] = "segments",
+    NULL,
+};
+
+static const struct kiln_option sphere[] = {
+    CHOICE("pattern", sphere.pattern, patterns, "plain",
+           "stripe: look.color is a band about the equator; segments: it takes turns with the "
+           "other colour, from pole to pole. Collisions that spin turn it; else rotation and spin "
+           "do, about an axis drawn for each particle."),
+    INTEGER("segments", sphere.segments, 1, 8, "3", "So many of each colour."),
+    COLOR("color", sphere.color, 1000, BOTH, "1", "The other colour."),
     END,
 };
 
@@ -105,6 +122,7 @@ const struct kiln_option kiln_options_look[] = {
            "What axial billboards turn about; of any length but 0."),
     GROUP("point", 0, point, "How points look."),
     GROUP("line", 0, line, "How lines look."),
+    GROUP("sphere", 0, sphere, "How spheres look."),
     GROUP("mesh", 0, mesh, "How meshes look, which are instances of one from a file."),
     VALUE("stretch", stretch, KILN_SECONDS, 0, 10, BOTH, "0 s",
           "Longer along the velocity by the speed times this; 0 keeps a billboard square."),

@@ -205,6 +205,21 @@ const struct kiln_interaction *kiln_scene_interaction(const struct kiln_scene *s
     return NULL;
 }
 
+bool kiln_scene_system_spins(const struct kiln_scene *scene, uint32_t system)
+{
+    const struct kiln_interaction *collide =
+        kiln_scene_interaction(scene, system, KILN_INTERACT_COLLIDE);
+    return collide && collide->spins;
+}
+
+bool kiln_scene_spins(const struct kiln_scene *scene)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < scene->system_count; i++)
+        any = any || kiln_scene_system_spins(scene, i);
+    return any;
+}
+
 static float rate_at(const void *context, float time_s)
 {
     const struct kiln_scene_births *births = context;

@@ -12,6 +12,7 @@
 #include "base/arena.h"
 #include "kiln.h"
 #include "particles/births.h"
+#include "scene/pattern.h"
 #include "shared/draw_layout.h"
 #include "shared/particle.h"
 #include "shared/value.h"
@@ -219,6 +220,11 @@ struct kiln_interaction {
     struct kiln_value apart;       /* collide: 0..1: part of an overlap that a round takes away */
     struct kiln_value fastest;     /* collide: m/s: approach that is foreseen */
     uint32_t rounds;               /* collide: of pairs in a step */
+    bool spins;                    /* collide: they turn, and friction acts on their skin */
+    struct kiln_value friction;    /* collide: on each other, of those that turn */
+    struct kiln_range turning;     /* collide: rad/s at birth */
+    struct kiln_value3 axis;       /* collide: of that; 0: drawn for each particle */
+    struct kiln_value rolling;     /* collide: resistance on surfaces, part of what they give */
     struct kiln_value strength;    /* gravity: acceleration at 1 m, m/s^2; below 0 it repels */
     struct kiln_value softening;   /* m: gravity of nearer ones grows no more; above 0 */
     const char *of;                /* gravity: the system that attracts, or "self" */
@@ -246,7 +252,7 @@ enum kiln_shape {
 enum kiln_orient {
     KILN_ORIENT_VELOCITY, /* ahead is where the particle goes, up as near to the world's as can be
                            */
-    KILN_ORIENT_SPIN,     /* turned about an axis drawn for each particle */
+    KILN_ORIENT_SPIN,     /* turned by collisions that spin; else about an axis drawn for each */
     KILN_ORIENT_UPRIGHT,  /* turned about the world's up */
 };
 
@@ -293,6 +299,7 @@ struct kiln_look {
     bool point_round;             /* a disc; else a square */
     struct kiln_value line_width; /* px */
     enum kiln_line_to line_to;
+    struct kiln_look_sphere sphere;
     struct kiln_look_mesh mesh;
     struct kiln_value stretch;     /* s: longer along the velocity by speed * stretch; 0: square */
     struct kiln_range rotation;    /* rad at birth */
@@ -584,6 +591,10 @@ bool kiln_object_takes_paint(const struct kiln_object *object);
 
 /* What a terrain is made from; the image's path stays the scene's. */
 struct kiln_terrain_params kiln_scene_terrain(const struct kiln_object *terrain);
+/* Whether the particles of a system turn as balls that collide do; or those of any. */
+bool kiln_scene_system_spins(const struct kiln_scene *scene, uint32_t system);
+bool kiln_scene_spins(const struct kiln_scene *scene);
+
 /* The system's interaction of a kind, or NULL. */
 const struct kiln_interaction *kiln_scene_interaction(const struct kiln_scene *scene,
                                                       uint32_t system,

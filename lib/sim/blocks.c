@@ -53,7 +53,7 @@ void kiln_sim_blocks_finish(struct kiln_sim_blocks *blocks)
 
 bool kiln_sim_blocks_upload(struct kiln_sim_blocks *blocks, const struct kiln_sim_params *params,
                             struct kiln_buffer *traces, struct kiln_buffer *pushes,
-                            struct kiln_error *error)
+                            struct kiln_buffer *spins, struct kiln_error *error)
 {
     unsigned char *steps = kiln_buffer_host(&blocks->steps, KILN_READ_WRITE, error);
     if (!steps)
@@ -84,6 +84,12 @@ bool kiln_sim_blocks_upload(struct kiln_sim_blocks *blocks, const struct kiln_si
             return false;
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SIM_BIND_PUSHES, words);
     }
+    if (params->spin_count > 0) {
+        GLuint words = kiln_buffer_gl(spins, KILN_READ_WRITE, error);
+        if (!words)
+            return false;
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SIM_BIND_SPINS, words);
+    }
     if (params->trace_count == 0)
         return true;
     GLuint scratch = kiln_buffer_gl(traces, KILN_READ_WRITE, error);
@@ -110,7 +116,8 @@ bool kiln_sim_check_stage(struct kiln_device *device, const struct kiln_sim_para
                            : GL_MAX_GEOMETRY_SHADER_STORAGE_BLOCKS,
                   &blocks);
     const GLint needed = (params->trace_count > 0) + (params->grids->count > 0) +
-                         (params->grids->volumes.count > 0) + (params->push_count > 0);
+                         (params->grids->volumes.count > 0) + (params->push_count > 0) +
+                         (params->spin_count > 0);
     if (blocks < needed)
         return kiln_error_set(
             error, KILN_NO_DEVICE,
@@ -231,6 +238,7 @@ bool kiln_sim_programs_init(struct kiln_sim_programs *programs, struct kiln_devi
     add_define(&defines, "COLLIDE_VOLUME", volumes);
     add_define(&defines, "COLLIDE_DEPTH", has_depth_maps(scene));
     add_define(&defines, "PUSHES", pushes);
+    add_define(&defines, "SPINS", params->spin_count > 0);
     add_define(&defines, "FORCES_ALL", forces);
     files.defines = defines.text;
     programs->alone = kiln_program_create(device, &files, error);

@@ -22,10 +22,11 @@ void kiln_sim_blocks_finish(struct kiln_sim_blocks *blocks);
 
 /* Uploads a step's parameters and binds those of all systems, and the grids; with parents among
  * them, also their traces: struct kiln_trace [params->trace_count], scratch; with systems that
- * interact, also their pushes, which have been gathered. */
+ * interact, also their pushes, which have been gathered; with some that spin, also the pool's
+ * spins. */
 bool kiln_sim_blocks_upload(struct kiln_sim_blocks *blocks, const struct kiln_sim_params *params,
                             struct kiln_buffer *traces, struct kiln_buffer *pushes,
-                            struct kiln_error *error);
+                            struct kiln_buffer *spins, struct kiln_error *error);
 
 /* Binds what belongs to one system, uploaded before. A child's traces are waited for. */
 void kiln_sim_blocks_bind(const struct kiln_sim_blocks *blocks,
@@ -48,9 +49,10 @@ struct kiln_sim_programs {
     GLuint alone, family; /* family: 0 while no system needs it */
 };
 
-/* files: of a kernel that knows the variants COLLIDE_ROUND, COLLIDE_TURNED, GRIDS, PUSHES and
- * FORCES_ALL (with it), COLLIDE_FIELD (with GRIDS), COLLIDE_VOLUME, COLLIDE_RUB and FAMILY; its
- * defines are not looked at. After a failure, too, kiln_sim_programs_finish frees what there is. */
+/* files: of a kernel that knows the variants COLLIDE_ROUND, COLLIDE_TURNED, GRIDS, PUSHES,
+ * SPINS (with it and COLLIDE_RUB) and FORCES_ALL (with it), COLLIDE_FIELD (with GRIDS),
+ * COLLIDE_VOLUME, COLLIDE_RUB and FAMILY; its defines are not looked at. After a failure, too,
+ * kiln_sim_programs_finish frees what there is. */
 bool kiln_sim_programs_init(struct kiln_sim_programs *programs, struct kiln_device *device,
                             const struct kiln_scene *scene, const struct kiln_sim_params *params,
                             struct kiln_program_params files, struct kiln_error *error);

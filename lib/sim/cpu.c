@@ -21,8 +21,11 @@ bool kiln_sim_cpu_step(const struct kiln_slots_step *loops, struct kiln_threads 
                                ? kiln_buffer_host(&params->grids->volumes.words, KILN_READ, error)
                                : NULL;
     const float4 *pushed = params->push_count ? kiln_buffer_host(pushes, KILN_READ, error) : NULL;
+    uint4 *spins =
+        params->spin_count ? kiln_buffer_host(&pool->spins, KILN_READ_WRITE, error) : NULL;
     if (!records || (params->trace_count && !scratch) || (params->grids->count && !words) ||
-        (params->grids->volumes.count && !planes) || (params->push_count && !pushed))
+        (params->grids->volumes.count && !planes) || (params->push_count && !pushed) ||
+        (params->spin_count && !spins))
         return false;
     for (uint32_t k = 0; k < params->system_count; k++) {
         const struct kiln_step_params *step = &params->systems[params->order[k]];
@@ -32,6 +35,7 @@ bool kiln_sim_cpu_step(const struct kiln_slots_step *loops, struct kiln_threads 
                     .value_keys = value_keys,
                     .grid_words = words,
                     .push_words = pushed,
+                    .spin_words = spins,
                     .volume_words = planes},
             .records = records + step->base,
             .traces = scratch,
@@ -44,6 +48,7 @@ bool kiln_sim_cpu_step(const struct kiln_slots_step *loops, struct kiln_threads 
 
 struct hash_work {
     const struct kiln_particle *records; /* of the system */
+    const struct kiln_spin *spins;       /* likewise; NULL: they do not turn */
     uint32_t system;
     atomic_uint a, b, alive; /* sums of integers: their order is of no account */
 };
@@ -55,6 +60,12 @@ static void hash_slots(void *context, size_t begin, size_t end, uint32_t worker)
     uint32_t a = 0, b = 0, alive = 0;
     for (size_t slot = begin; slot < end; slot++) {
         struct state_hash_lanes lanes = state_hash_particle(work->system, work->records[slot]);
+        if (work->spins) {
+            const struct state_hash_lanes turning =
+                state_hash_spin(work->system, work->records[slot], work->spins[slot]);
+            lanes.a += turning.a;
+            lanes.b += turning.b;
+        }
         a += lanes.a;
         b += lanes.b;
         alive += particle_is_alive(work->records[slot]);
@@ -70,10 +81,17 @@ bool kiln_sim_cpu_hash(struct kiln_threads *threads, struct kiln_pool *pool,
     const struct kiln_particle *records = kiln_buffer_host(&pool->records, KILN_READ, error);
     if (!records)
         return false;
+    const struct kiln_spin *spins = NULL;
+    if (pool->spins.size > 0) {
+        spins = kiln_buffer_host(&pool->spins, KILN_READ, error);
+        if (!spins)
+            return false;
+    }
     struct hash_work work = {.system = 0};
     for (uint32_t i = 0; i < pool->system_count; i++) {
         const struct kiln_pool_system *system = &pool->systems[i];
         work.records = records + system->base;
+        work.spins = spins && system->spins ? spins + system->first_spin : NULL;
         work.system = i;
         kiln_threads_for(threads, kiln_pool_used(system), SLOTS_AT_A_TIME, hash_slots, &work);
     }

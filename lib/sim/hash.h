@@ -7,6 +7,7 @@
 struct kiln_sim_hash {
     struct kiln_device *device;
     GLuint program;
+    GLuint spins;            /* program for how particles turn; 0 until some do */
     struct kiln_buffer sums; /* two lanes and the living */
 };
 

@@ -5,7 +5,8 @@
 
 #include "sim/interact_sort.h"
 
-static_assert(sizeof(struct kiln_interact_params) == 272, "std140");
+static_assert(sizeof(struct kiln_interact_params) == 288, "std140");
+static_assert(offsetof(struct kiln_interact_params, spins) == 264, "std140");
 static_assert(offsetof(struct kiln_interact_params, radius) == 96, "std140");
 static_assert(offsetof(struct kiln_interact_params, flock) == 176, "std140");
 static_assert(sizeof(struct kiln_flock_params) == 80, "std140");
@@ -77,6 +78,7 @@ static void add_collisions(struct kiln_interact_work *work, const struct kiln_sc
     params->radius = collide->radius;
     params->size = look->size;
     params->scale = look->scale;
+    params->friction = kiln_scene_value(scene, &collide->friction, params->time_s);
 }
 
 /* What holds for all that is gathered of a system. */
@@ -86,6 +88,7 @@ static struct kiln_interact_params params_of(const struct kiln_step_params *step
                                          .base = step->base,
                                          .used = step->used,
                                          .first_push = step->first_push,
+                                         .first_spin = step->first_spin,
                                          .step = step->step - 1,
                                          .time_s = step->time_s};
 }
@@ -167,6 +170,7 @@ static struct kiln_interact_work work_of(const struct kiln_scene *scene,
 {
     struct kiln_interact_work work = {.system = scene->systems[system].name,
                                       .params = params_of(&params->systems[system])};
+    work.params.spins = params->systems[system].spins && !flock;
     if (flock) {
         add_flock(&work, scene, system);
     } else {
@@ -210,7 +214,7 @@ bool kiln_interact_init(struct kiln_interact *interact, struct kiln_device *devi
 {
     *interact = (struct kiln_interact){.scene = scene, .device = device, .threads = threads};
     const uint32_t largest = largest_system(scene, params);
-    const size_t bodies = largest * sizeof(struct kiln_body);
+    const size_t bodies = (size_t)(params->spin_count ? 2 : 1) * largest * sizeof(struct kiln_body);
     const size_t cells = largest ? count_cells(largest) : 0;
     const size_t entries = largest ? kiln_interact_entries(largest) : 0;
     kiln_buffer_init(&interact->pushes, device, (size_t)params->push_count * 2 * sizeof(float4),

@@ -62,6 +62,7 @@ struct kiln_interact {
     struct kiln_buffer block;               /* struct kiln_interact_params */
     GLuint programs[KILN_INTERACT_KERNELS]; /* 0: not used by the scene */
     uint32_t group_size;
+    bool spins; /* of some system, balls turn */
 };
 
 /* Nothing is allocated while no system interacts. After a failure, too, kiln_interact_finish frees

@@ -33,6 +33,18 @@ static void answer(void *context, size_t begin, size_t end, uint32_t worker)
         crowd->after[i] = contact_after(&crowd->view, (uint32_t)i);
 }
 
+static void answer_turning(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    struct kiln_interact_crowd *crowd = context;
+    const uint32_t used = crowd->view.params->used;
+    for (size_t i = begin; i < end; i++) {
+        const struct contact_turning after = contact_after_turning(&crowd->view, (uint32_t)i);
+        crowd->after[i] = after.body;
+        crowd->after[used + i].position_radius = spin_words_of(after.rate);
+    }
+}
+
 static void swap_bodies(struct kiln_interact_crowd *crowd)
 {
     struct kiln_body *before = crowd->bodies;
@@ -45,11 +57,14 @@ static void push(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
     struct kiln_interact_crowd *crowd = context;
+    const uint32_t used = crowd->view.params->used;
     for (size_t i = begin; i < end; i++) {
         const uint32_t slot = crowd->bodies[i].velocity_slot.w;
         const struct body_push words = body_push_of(crowd->bodies[i], crowd->records[slot]);
         crowd->pushes[(size_t)slot * 2] = words.velocity;
         crowd->pushes[(size_t)slot * 2 + 1] = words.position;
+        if (crowd->spins)
+            crowd->spins[slot].rate = crowd->bodies[used + i].position_radius;
     }
 }
 
@@ -77,6 +92,12 @@ static bool begin(struct kiln_interact_crowd *crowd, struct kiln_interact *inter
         crowd->counts = kiln_buffer_host(&interact->counts, KILN_READ_WRITE, error);
         if (!crowd->entries || !crowd->counts)
             return false;
+    }
+    if (params->spins) {
+        crowd->spins = kiln_buffer_host(&pool->spins, KILN_READ_WRITE, error);
+        if (!crowd->spins)
+            return false;
+        crowd->spins += params->first_spin;
     }
     crowd->records = records + params->base;
     crowd->pushes = pushes + (size_t)params->first_push * 2;
@@ -106,7 +127,8 @@ static bool collide(struct kiln_interact *interact, const struct kiln_interact_w
         kiln_threads_for(interact->threads, crowd.count, BODIES_AT_A_TIME, find, &crowd);
         if (atomic_load(&crowd.met) == 0) /* no round will change anything */
             break;
-        kiln_threads_for(interact->threads, crowd.count, BODIES_AT_A_TIME, answer, &crowd);
+        kiln_threads_for(interact->threads, crowd.count, BODIES_AT_A_TIME,
+                         crowd.spins ? answer_turning : answer, &crowd);
         swap_bodies(&crowd);
     }
     kiln_threads_for(interact->threads, crowd.count, BODIES_AT_A_TIME, push, &crowd);

@@ -5,6 +5,7 @@
 
 #include <stdatomic.h>
 
+#include "shared/spin.h"
 #include "sim/interact.h"
 #include "sim/interact_sort.h"
 
@@ -16,8 +17,9 @@ struct kiln_interact_crowd {
     uint32_t *cell_ends, *partners, *order;
     struct kiln_interact_entry *entries; /* of the paper's grids, as the counts are */
     uint32_t *counts;
-    float4 *pushes; /* of the system */
-    uint32_t count; /* of bodies */
+    float4 *pushes;          /* of the system */
+    struct kiln_spin *spins; /* likewise; NULL unless its balls turn */
+    uint32_t count;          /* of bodies */
     bool staggered;
     bool later;      /* not the first round */
     atomic_uint met; /* bodies that have a partner */

@@ -58,6 +58,14 @@ bool kiln_interact_gl_init(struct kiln_interact *interact, struct kiln_error *er
 {
     struct kiln_device *device = interact->device;
     const int used = uses(interact->scene);
+    GLint bindings = 0;
+    glGetIntegerv(GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS, &bindings);
+    interact->spins = kiln_scene_spins(interact->scene);
+    if (interact->spins && bindings <= INTERACT_BIND_SPINS)
+        return kiln_error_set(error, KILN_NO_DEVICE,
+                              "%s: %d places for storage blocks; balls that spin need %d; use "
+                              "simulate=cpu",
+                              device->info.name, bindings, INTERACT_BIND_SPINS + 1);
     interact->group_size = device->work_group_size ? device->work_group_size : SIM_GROUP_SIZE;
     for (int i = 0; i < KILN_INTERACT_KERNELS; i++) {
         if ((used & KERNELS[i].used_for) == 0)
@@ -65,8 +73,8 @@ bool kiln_interact_gl_init(struct kiln_interact *interact, struct kiln_error *er
         char defines[128], counted[32] = "";
         if (i == KILN_INTERACT_FIND && device->info.software)
             snprintf(counted, sizeof counted, "#define COUNTED %uu\n", (unsigned)MOST_AROUND);
-        snprintf(defines, sizeof defines, "#define SIM_GROUP_SIZE %u\n%s%s", interact->group_size,
-                 KERNELS[i].defines, counted);
+        snprintf(defines, sizeof defines, "#define SIM_GROUP_SIZE %u\n%s%s%s", interact->group_size,
+                 KERNELS[i].defines, counted, interact->spins ? "#define SPINS 1\n" : "");
         interact->programs[i] = kiln_program_create(
             device, &(struct kiln_program_params){.compute = KERNELS[i].file, .defines = defines},
             error);
@@ -112,6 +120,8 @@ static bool bind_all(struct kiln_interact *interact, const struct kiln_interact_
     glBindBufferBase(GL_UNIFORM_BUFFER, SIM_BIND_KEYS, values);
     const enum kiln_access change = KILN_READ_WRITE;
     const bool sorts = work->collides || work->flocks;
+    if (interact->spins && !bind(INTERACT_BIND_SPINS, &pool->spins, change, error))
+        return false;
     return bind(SIM_BIND_RECORDS, &pool->records, KILN_READ, error) &&
            bind(SIM_BIND_PUSHES, &interact->pushes, change, error) &&
            (!sorts || (bind(INTERACT_BIND_CELLS, &interact->cells, change, error) &&

@@ -22,7 +22,10 @@ static struct kiln_particle record_of(const struct kiln_interact_crowd *crowd, s
 
 static void put_body(struct kiln_interact_crowd *crowd, uint32_t at, uint32_t slot)
 {
+    const struct kiln_interact_params *params = crowd->view.params;
     crowd->bodies[at] = body_of(&crowd->view, record_of(crowd, slot), slot);
+    if (params->spins)
+        crowd->bodies[params->used + at].position_radius = crowd->spins[slot].rate;
 }
 
 /* ---- cells ---------------------------------------------------------------------------------- */

@@ -19,11 +19,11 @@ static_assert(sizeof(struct kiln_birth_group) == 16, "std140");
 static_assert(offsetof(struct kiln_step_params, step) == 304, "std140");
 static_assert(offsetof(struct kiln_step_params, randomness) == 368, "std140");
 static_assert(offsetof(struct kiln_step_params, pushed) == 436, "std140");
-static_assert(offsetof(struct kiln_step_params, bounds_min) == 448, "std140");
-static_assert(offsetof(struct kiln_step_params, groups) == 736, "std140");
-static_assert(offsetof(struct kiln_step_params, forces) == 1776, "std140");
-static_assert(offsetof(struct kiln_step_params, family) == 4592, "std140");
-static_assert(sizeof(struct kiln_step_params) == 4640, "std140");
+static_assert(offsetof(struct kiln_step_params, bounds_min) == 480, "std140");
+static_assert(offsetof(struct kiln_step_params, groups) == 768, "std140");
+static_assert(offsetof(struct kiln_step_params, forces) == 1808, "std140");
+static_assert(offsetof(struct kiln_step_params, family) == 4624, "std140");
+static_assert(sizeof(struct kiln_step_params) == 4672, "std140");
 static_assert(sizeof(struct kiln_step_params) <= 16384, "what every GL allows a uniform block");
 static_assert(sizeof(struct kiln_surroundings) <= 16384, "what every GL allows a uniform block");
 static_assert(sizeof(struct kiln_trace) == 112, "std430");
@@ -205,6 +205,35 @@ static void fill_pushes(struct kiln_sim_params *params, const struct kiln_scene 
     }
 }
 
+static void fill_spins(struct kiln_sim_params *params, const struct kiln_scene *scene)
+{
+    params->spin_count = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        params->spins[i] = kiln_scene_system_spins(scene, i);
+        if (!params->spins[i])
+            continue;
+        params->systems[i].spins = 1;
+        params->systems[i].rubs |= params->systems[i].collide != COLLIDE_OFF;
+        params->systems[i].first_spin = params->spin_count;
+        params->spin_count += scene->systems[i].capacity;
+    }
+}
+
+static void find_spin(struct kiln_step_params *params, const struct kiln_scene *scene,
+                      uint32_t system, float time_s)
+{
+    const struct kiln_interaction *collide =
+        kiln_scene_interaction(scene, system, KILN_INTERACT_COLLIDE);
+    if (!params->spins)
+        return;
+    params->spin_low = kiln_scene_value(scene, &collide->turning.min, time_s);
+    params->spin_high = kiln_scene_value(scene, &collide->turning.max, time_s);
+    params->rolling = kiln_scene_value(scene, &collide->rolling, time_s);
+    params->spin_axis = FLOAT4(kiln_scene_value(scene, &collide->axis.x, time_s),
+                               kiln_scene_value(scene, &collide->axis.y, time_s),
+                               kiln_scene_value(scene, &collide->axis.z, time_s), 0.0f);
+}
+
 bool kiln_sim_is_family(const struct kiln_step_params *params)
 {
     const struct kiln_family_params *family = &params->family;
@@ -222,6 +251,7 @@ void kiln_sim_params_init(struct kiln_sim_params *params, const struct kiln_scen
         fill_system(&params->systems[i], scene, i);
     fill_families(params, scene);
     fill_pushes(params, scene);
+    fill_spins(params, scene);
 }
 
 /* The value with its course over time taken at time_s; a curve over life stays one. */
@@ -344,6 +374,7 @@ bool kiln_sim_params_step(struct kiln_sim_params *params, const struct kiln_scen
         p->slowdown = at_time(scene, system->collide.slowdown, start_s);
         p->restitution = at_time(scene, system->collide.restitution, start_s);
         p->friction = at_time(scene, system->collide.friction, start_s);
+        find_spin(p, scene, i, start_s);
         for (uint32_t k = 0; k < system->force_count; k++)
             p->forces[k] = force_at_time(scene, params->grids, &system->forces[k], forces_s);
     }

@@ -16,6 +16,8 @@ struct kiln_sim_params {
     uint32_t order[KILN_MAX_SYSTEMS]; /* of the systems in a step: parents before their children */
     uint32_t trace_count;             /* of the systems with children or paint: one a slot */
     uint32_t push_count;              /* of the systems that interact: one a slot */
+    uint32_t spin_count;              /* of those that spin: one a slot */
+    bool spins[KILN_MAX_SYSTEMS];     /* which do: see kiln_pool_add_spins */
 };
 
 /* Does the system need the kernel for families (shared/step_family.h)? */

@@ -34,6 +34,8 @@ struct block {
     kiln_floats strength, pulling, scale;
     struct kiln_floats3 place, curl;
     struct stages_lanes stages;
+    struct kiln_floats3 rate; /* of balls that turn */
+    kiln_floats pose[4];
 };
 
 static inline struct kiln_particle record_at(const struct block *b, uint32_t i)

@@ -340,6 +340,39 @@ static inline void move(struct block *b)
     }
 }
 
+/* step_turn of what is not stepped alone. */
+static inline void turn(const struct kiln_sim *sim, struct block *b, uint32_t first_slot)
+{
+    const uint32_t slots = slots_left(sim, first_slot);
+    const float time_s = sim->step->derived.dt_s;
+    uint4 *words = sim->spin_words + ((size_t)sim->step->first_spin + first_slot) * 2;
+    memset(&b->rate, 0, sizeof b->rate);
+    memset(b->pose, 0, sizeof b->pose);
+    for (uint32_t i = 0; i < slots; i++) {
+        const float4 pose = spin_pose(words[(size_t)i * 2 + 1]);
+        kiln_set3(&b->rate, i, spin_rate(words[(size_t)i * 2]));
+        b->pose[0][i] = pose.x;
+        b->pose[1][i] = pose.y;
+        b->pose[2][i] = pose.z;
+        b->pose[3][i] = pose.w;
+    }
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        const float4 pose = {b->pose[0][i], b->pose[1][i], b->pose[2][i], b->pose[3][i]};
+        const float4 turned = spin_turned(pose, kiln_get3(&b->rate, i), time_s);
+        b->pose[0][i] = turned.x;
+        b->pose[1][i] = turned.y;
+        b->pose[2][i] = turned.z;
+        b->pose[3][i] = turned.w;
+    }
+    for (uint32_t i = 0; i < slots; i++) {
+        const float4 pose = {b->pose[0][i], b->pose[1][i], b->pose[2][i], b->pose[3][i]};
+        if (!particle_is_alive(record_at(b, i)) || b->alone[i])
+            continue;
+        words[(size_t)i * 2] = spin_words_of(kiln_get3(&b->rate, i));
+        words[(size_t)i * 2 + 1] = spin_pose_words(pose);
+    }
+}
+
 /* ---- loops ----------------------------------------------------------------------------------- */
 
 /* `records` is that of first_slot, and those behind it. */
@@ -357,12 +390,14 @@ __attribute__((flatten)) static void step_block(const struct kiln_sim *sim, uint
     find_lost(sim, b);
     find_alone(sim, b, first_slot);
     move(b);
+    if (sim->step->spins)
+        turn(sim, b, first_slot);
     kiln_lanes_store(&b->lanes, records);
 }
 
 /* step_particle from where it has flown. */
 static struct kiln_particle step_touching(const struct kiln_sim *sim, const struct block *b,
-                                          uint32_t i, struct kiln_particle p)
+                                          uint32_t i, uint32_t slot, struct kiln_particle p)
 {
     struct step_way way = {
         .start = {.position = particle_position(p), .velocity = kiln_get3(&b->start, i)},
@@ -372,8 +407,14 @@ static struct kiln_particle step_touching(const struct kiln_sim *sim, const stru
         .first = collide_no_touch(),
         .lost = true,
     };
+    if (sim->step->spins)
+        way.start.spin = way.end.spin = step_spin(sim, p, slot);
     way = step_meet(sim, p, way, sim->step->pushed ? b->radius[i] : 0.0f, b->life[i], 1.0f);
-    return way.lost ? step_dead() : step_with_motion(p, way.end.position, way.end.velocity);
+    if (way.lost)
+        return step_dead();
+    if (sim->step->spins)
+        step_turn(sim, p, slot, way.end.spin);
+    return step_with_motion(p, way.end.position, way.end.velocity);
 }
 
 static void step_alone(void *context, size_t begin, size_t end, uint32_t worker)
@@ -392,7 +433,8 @@ static void step_alone(void *context, size_t begin, size_t end, uint32_t worker)
             memcpy(records, rest, count * sizeof *records);
         for (size_t i = 0; i < count; i++) {
             if (block.alone[i] == ALONE_TOUCHES)
-                records[i] = step_touching(sim, &block, (uint32_t)i, records[i]);
+                records[i] =
+                    step_touching(sim, &block, (uint32_t)i, (uint32_t)(first + i), records[i]);
             else if (block.alone[i] == ALONE_BORN)
                 records[i] = step_slot(sim, (uint32_t)(first + i), records[i]);
         }

@@ -11,8 +11,7 @@
 #ifndef KILN_SHARED_COLLIDE_H
 #define KILN_SHARED_COLLIDE_H
 
-#include "shared/collide_bounce.h"
-#include "shared/collide_turned.h"
+#include "shared/collide_answer.h"
 
 /* Shaders of scenes without round colliders are spared their code. */
 #if defined(GL_core_profile) && !defined(COLLIDE_ROUND)
@@ -61,12 +60,6 @@ FN float3 collide_box_velocity(S(kiln_collider) c, uint face, float steps_per_s)
     return y;
 }
 
-struct collide_state {
-    float3 position;
-    float3 velocity;
-    float since; /* part of the step that has passed */
-};
-
 FN S(collide_state) collide_round_impact(SIM_PARAM S(collide_state) s, S(kiln_collider) c,
                                          uint face, S(collide_answer) answer)
 {
@@ -78,7 +71,8 @@ FN S(collide_state) collide_round_impact(SIM_PARAM S(collide_state) s, S(kiln_co
     EXACT float3 ground = collide_round_velocity(c, face, normal, AROUND(steps_per_s));
     EXACT float3 relative = float3_sub(s.velocity, ground);
     EXACT float3 bounced = collide_bounce_off(answer, relative, normal, false);
-    after.velocity = float3_add(ground, bounced);
+    EXACT float3 still = collide_not_turning();
+    after = collide_leave(answer, after, relative, bounced, normal, ground, still);
     return after;
 }
 
@@ -91,7 +85,12 @@ FN S(collide_state) collide_turned_impact(SIM_PARAM S(collide_state) s, uint num
     after.position = contact.position;
     EXACT float3 relative = float3_sub(s.velocity, contact.velocity);
     EXACT float3 bounced = collide_bounce_off(answer, relative, contact.normal, false);
-    after.velocity = float3_add(contact.velocity, bounced);
+    EXACT float4 around = AROUND(colliders[number].spin);
+    EXACT float rate = around.w * AROUND(steps_per_s);
+    EXACT float3 axis = FLOAT3(around.x, around.y, around.z);
+    EXACT float3 turning = float3_scale(axis, rate);
+    after =
+        collide_leave(answer, after, relative, bounced, contact.normal, contact.velocity, turning);
     return after;
 }
 
@@ -105,8 +104,14 @@ FN S(collide_state) collide_field_impact(SIM_PARAM S(collide_state) s, S(kiln_co
     EXACT float3 relative = float3_sub(s.velocity, ground.velocity);
     EXACT float3 bounced = collide_bounce_off(answer, relative, ground.normal, false);
     bounced = collide_clear_of(bounced, ground.facet);
-    after.velocity = float3_add(ground.velocity, bounced);
     after.position = ground.position;
+    EXACT float3 still = collide_not_turning();
+    after = collide_leave(answer, after, relative, bounced, ground.normal, ground.velocity, still);
+    if (COLLIDE_SPINS(answer)) { /* its change is along the surface as interpolated */
+        EXACT float3 left = float3_sub(after.velocity, ground.velocity);
+        EXACT float3 clear = collide_clear_of(left, ground.facet);
+        after.velocity = float3_add(ground.velocity, clear);
+    }
     return after;
 }
 
@@ -118,7 +123,8 @@ FN S(collide_state)
     EXACT S(collide_ground) ground =
         collide_field_ground(SIM c, COLLIDE_SURFACE, s.since, s.position);
     after.position = ground.position;
-    after.velocity = collide_bounce_off(answer, s.velocity, ground.normal, true);
+    EXACT float3 bounced = collide_bounce_off(answer, s.velocity, ground.normal, true);
+    after = collide_stay(answer, after, bounced, ground.normal);
     return after;
 }
 
@@ -150,7 +156,9 @@ FN S(collide_state)
     EXACT float3 ground = collide_box_velocity(c, face, AROUND(steps_per_s));
     EXACT float3 relative = float3_sub(s.velocity, ground);
     EXACT float3 bounced = collide_bounce(answer, relative, face, false);
-    after.velocity = float3_add(ground, bounced);
+    EXACT float3 normal = collide_normal_of(face);
+    EXACT float3 still = collide_not_turning();
+    after = collide_leave(answer, after, relative, bounced, normal, ground, still);
     return after;
 }
 
@@ -309,17 +317,6 @@ FN uint collide_face_met(SIM_PARAM uint number, float radius, S(collide_state) s
     return met;
 }
 
-/* Outwards, from a face that collide_face_met gave. */
-FN float3 collide_normal_of(uint face)
-{
-    EXACT float3 zero = FLOAT3(0.0f, 0.0f, 0.0f);
-    EXACT float out_sign = (face & 1u) != 0u ? 1.0f : -1.0f;
-    EXACT float3 y = collide_with_component(zero, face >> 1u, out_sign);
-    if (face >= COLLIDE_FACES)
-        y = collide_unpack_normal(face);
-    return y;
-}
-
 /* The first impact on the way from s to `end` when the part `until` of the step has passed. A start
  * inside a box (born there) is an impact at once on its nearest face. */
 FN S(collide_hit) collide_first(SIM_PARAM S(collide_state) s, float3 end, float until, float radius)
@@ -442,6 +439,21 @@ FN S(collide_state)
     return now;
 }
 
+/* Onto the face of a box. */
+FN S(collide_state)
+    collide_box_clamp(S(collide_box) box, S(collide_state) s, uint face, S(collide_answer) answer)
+{
+    EXACT S(collide_state) now = s;
+    uint axis = face >> 1u;
+    EXACT float at =
+        (face & 1u) != 0u ? collide_component(box.max, axis) : collide_component(box.min, axis);
+    now.position = collide_with_component(now.position, axis, at);
+    EXACT float3 bounced = collide_bounce(answer, now.velocity, face, true);
+    EXACT float3 normal = collide_normal_of(face);
+    now = collide_stay(answer, now, bounced, normal);
+    return now;
+}
+
 /* The thesis's way: whoever ends inside a box is put on the nearest face. Fast particles tunnel. */
 FN S(collide_way)
     collide_clamp(SIM_PARAM S(collide_state) s, float3 end, float until, S(collide_answer) answer)
@@ -476,7 +488,8 @@ FN S(collide_way)
             now.position = contact.position;
             draw.purpose = collide_purpose(SIM impacts & 7u);
             impacts++;
-            now.velocity = collide_bounce_off(draw, now.velocity, contact.normal, true);
+            EXACT float3 bounced = collide_bounce_off(draw, now.velocity, contact.normal, true);
+            now = collide_stay(draw, now, bounced, contact.normal);
             if (impacts == 1u)
                 way.first = collide_touched(now, collide_pack_normal(contact.normal));
         } else if (inside && COLLIDE_IS_ROUND(c)) {
@@ -486,18 +499,15 @@ FN S(collide_way)
             now.position = collide_round_put(c.kind, shape, side, now.position, 0.0f);
             draw.purpose = collide_purpose(SIM impacts & 7u);
             impacts++;
-            now.velocity = collide_bounce_off(draw, now.velocity, normal, true);
+            EXACT float3 bounced = collide_bounce_off(draw, now.velocity, normal, true);
+            now = collide_stay(draw, now, bounced, normal);
             if (impacts == 1u)
                 way.first = collide_touched(now, collide_pack_normal(normal));
         } else if (inside) {
             uint face = collide_nearest_face(box, now.position);
-            uint axis = face >> 1u;
-            EXACT float at = (face & 1u) != 0u ? collide_component(box.max, axis)
-                                               : collide_component(box.min, axis);
-            now.position = collide_with_component(now.position, axis, at);
             draw.purpose = collide_purpose(SIM impacts & 7u);
             impacts++;
-            now.velocity = collide_bounce(draw, now.velocity, face, true);
+            now = collide_box_clamp(box, now, face, draw);
             if (impacts == 1u)
                 way.first = collide_touched(now, face);
         }

@@ -17,6 +17,7 @@
 #define KILN_SHARED_INTERACT_COLLIDE_H
 
 #include "shared/interact_body.h"
+#include "shared/spin.h"
 
 /* Two bodies, as the first one sees the second. */
 struct contact {
@@ -219,6 +220,28 @@ FN float3 contact_any_normal(S(kiln_body) a, S(kiln_body) b)
     return y;
 }
 
+/* Two when they touched, as the first one sees the second. */
+struct contact_blow {
+    float3 apart;  /* from the first to the second, m */
+    float3 normal; /* the same, of length 1 */
+    float since_s; /* since then */
+    float towards; /* m/s along the normal */
+    float bounce;  /* m/s: how much of it changes */
+};
+
+FN S(contact_blow) contact_blow_of(S(contact) c, float3 otherwise, float restitution, float dt_s)
+{
+    EXACT S(contact_blow) blow;
+    bool approach = c.opening < 0.0f;
+    blow.since_s = approach ? contact_since(c, dt_s) : 0.0f;
+    blow.apart = float3_add_scaled(c.apart, c.parting, -blow.since_s);
+    blow.normal = float3_normalize(blow.apart, otherwise);
+    EXACT float away = float3_dot(c.parting, blow.normal);
+    blow.towards = approach && away < 0.0f ? -away : 0.0f;
+    blow.bounce = blow.towards + blow.towards * restitution;
+    return blow;
+}
+
 /* The first of two that touch after their collision. `restitution` 1 keeps all energy; of an
  * overlap that is left, the part `apart` is taken away. */
 FN S(kiln_body)
@@ -227,19 +250,15 @@ FN S(kiln_body)
     EXACT S(contact) c = contact_of(a, b);
     EXACT float share = contact_share(a, b);
     EXACT float3 otherwise = contact_any_normal(a, b);
-    bool approach = c.opening < 0.0f;
-    EXACT float since_s = approach ? contact_since(c, dt_s) : 0.0f;
-    EXACT float3 at_contact = float3_add_scaled(c.apart, c.parting, -since_s);
-    EXACT float3 normal = float3_normalize(at_contact, otherwise);
-    EXACT float away = float3_dot(c.parting, normal);
-    EXACT float towards = approach && away < 0.0f ? -away : 0.0f;
-    EXACT float bounce = towards + towards * restitution;
-    EXACT float change = -(bounce * share);
+    EXACT S(contact_blow) blow = contact_blow_of(c, otherwise, restitution, dt_s);
+    EXACT float since_s = blow.since_s;
+    EXACT float change = -(blow.bounce * share);
     EXACT float3 position = body_position(a);
     EXACT float3 velocity = body_velocity(a);
+    EXACT float3 normal = blow.normal;
     EXACT float3 faster = float3_add_scaled(velocity, normal, change);
     EXACT float moved = change * since_s;
-    EXACT float distance = float3_length(at_contact) + (towards * restitution) * since_s;
+    EXACT float distance = float3_length(blow.apart) + (blow.towards * restitution) * since_s;
     EXACT float overlap = c.reach - distance;
     EXACT float rest = overlap > 0.0f && since_s >= 0.0f ? overlap : 0.0f;
     EXACT float freed = (rest * apart) * share;
@@ -250,6 +269,75 @@ FN S(kiln_body)
         return body_done(after);
     return after;
 }
+
+/* ---- spin (UberFlow 2004, 4.5) -------------------------------------------------------------- */
+
+/* A body, and how it turns, rad/s. */
+struct contact_turning {
+    S(kiln_body) body;
+    float3 rate;
+};
+
+/* Friction between two that touch, as balls with rates: the change of velocity of the second, where
+ * the first had all the mass. Each sees the other's opposite. */
+FN float3 contact_rub(S(contact) c, S(contact_blow) blow, float3 skins, float friction)
+{
+    EXACT float away = -float3_dot(c.parting, blow.normal);
+    EXACT float3 aside = float3_add_scaled(c.parting, blow.normal, away);
+    EXACT float3 turning = float3_cross(skins, blow.normal);
+    EXACT float3 slip = float3_sub(aside, turning);
+    EXACT float most = friction * blow.bounce;
+    EXACT float3 y = spin_grip(slip, most);
+    return y;
+}
+
+/* The first of two that turn, after their collision: contact_answer, and friction at the point of
+ * contact, which both get back there in time for, so that angular momentum is kept as well. */
+FN S(contact_turning) contact_answer_turning(CROWD_PARAM S(contact_turning) a, S(contact_turning) b)
+{
+    EXACT S(contact_turning) after;
+    EXACT float dt_s = INTERACT(derived.dt_s);
+    after.body = contact_answer(a.body, b.body, INTERACT(restitution), INTERACT(apart), dt_s);
+    EXACT S(contact) c = contact_of(a.body, b.body);
+    EXACT float3 otherwise = contact_any_normal(a.body, b.body);
+    EXACT S(contact_blow) blow = contact_blow_of(c, otherwise, INTERACT(restitution), dt_s);
+    EXACT float radius = body_radius(a.body);
+    EXACT float3 mine = float3_scale(a.rate, radius);
+    EXACT float3 other = float3_scale(b.rate, body_radius(b.body));
+    EXACT float3 skins = float3_add(mine, other); /* m/s, each about its own centre */
+    EXACT float3 rub = contact_rub(c, blow, skins, INTERACT(friction));
+    EXACT float share = contact_share(a.body, b.body);
+    EXACT float3 part = float3_scale(rub, share);
+    EXACT float3 velocity = body_velocity(after.body);
+    EXACT float3 position = body_position(after.body);
+    EXACT float3 slower = float3_sub(velocity, part);
+    EXACT float3 shifted = float3_add_scaled(position, part, -blow.since_s);
+    after.body = body_with_motion(after.body, shifted, slower);
+    EXACT float3 turned = spin_from(part, blow.normal, radius);
+    EXACT float3 rate = float3_add(a.rate, turned);
+    after.rate = spin_held(rate);
+    return after;
+}
+
+/* contact_after, of bodies that turn. */
+FN S(contact_turning) contact_after_turning(CROWD_PARAM uint self)
+{
+    EXACT S(contact_turning) a;
+    a.body = BODY(self);
+    a.rate = spin_rate(TURNING(self));
+    uint partner = PARTNER(self);
+    if (partner >= INTERACT_NOBODY_NOW)
+        return a;
+    if (PARTNER(partner) != self)
+        return a;
+    EXACT S(contact_turning) b;
+    b.body = BODY(partner);
+    b.rate = spin_rate(TURNING(partner));
+    EXACT S(contact_turning) after = contact_answer_turning(CROWD a, b);
+    return after;
+}
+
+/* ---- rounds --------------------------------------------------------------------------------- */
 
 /* A body after a round: changed if it and its partner are each other's. */
 FN S(kiln_body) contact_after(CROWD_PARAM uint self)

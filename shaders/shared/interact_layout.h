@@ -3,7 +3,7 @@
  *
  * The kernels read these as globals in GLSL and through pointers in C: CROWD_PARAM and CROWD pass
  * them on, CROWD_KEYS is their VALUE_KEYS, INTERACT(x), BODY(i), CELL_END(cell), PARTNER(i) and
- * ORDER(i) name them.
+ * ORDER(i) name them; TURNING(i) has the words of a body's rate (shared/spin.h).
  */
 #ifndef KILN_SHARED_INTERACT_LAYOUT_H
 #define KILN_SHARED_INTERACT_LAYOUT_H
@@ -55,7 +55,10 @@ struct kiln_interact_params {
     S(kiln_flock_params) flock;
     float ahead_s;        /* so far ahead collisions are looked for */
     float fastest_square; /* m^2/s^2: of those who approach each other by so much at most */
-    uint unused0, unused1;
+    uint spins;           /* 1: its balls turn, and behind all bodies is how: TURNING(i) */
+    uint first_spin;      /* its first slot among those of all that turn */
+    float friction;       /* of two that turn, where they touch */
+    uint unused0, unused1, unused2;
 };
 
 struct kiln_body {
@@ -69,6 +72,7 @@ struct kiln_body {
 #define CROWD_KEYS
 #define INTERACT(x)    interact_params.x
 #define BODY(i)        bodies[i]
+#define TURNING(i)     bodies[interact_params.used + (i)].position_radius
 #define CELL_END(cell) cell_ends[cell]
 #define PARTNER(i)     partners[i]
 #define ORDER(i)       body_order[i]
@@ -86,6 +90,7 @@ struct kiln_crowd {
 #define CROWD_KEYS     crowd->value_keys,
 #define INTERACT(x)    crowd->params->x
 #define BODY(i)        crowd->bodies[i]
+#define TURNING(i)     crowd->bodies[crowd->params->used + (i)].position_radius
 #define CELL_END(cell) crowd->cell_ends[cell]
 #define PARTNER(i)     crowd->partners[i]
 #define ORDER(i)       crowd->order[i]

@@ -145,10 +145,14 @@ struct kiln_step_params {
     S(kiln_value) slowdown;
     S(kiln_value) restitution;
     S(kiln_value) friction;
-    uint rubs;       /* 1: restitution and friction matter, its own or those of objects */
-    uint pushed;     /* 1: its particles interact, and have pushes */
-    uint first_push; /* of its first slot: see push.h */
-    uint unused;
+    uint rubs;                 /* 1: restitution and friction matter, its own or those of objects */
+    uint pushed;               /* 1: its particles interact, and have pushes */
+    uint first_push;           /* of its first slot: see push.h */
+    uint spins;                /* 1: its particles turn, and have words for it: see spin.h */
+    uint first_spin;           /* of its first slot */
+    float spin_low, spin_high; /* rad/s at birth */
+    float rolling;             /* resistance: part of what a surface gives */
+    float4 spin_axis;          /* at birth, of any length; 0: drawn */
     float4 bounds_min, bounds_max;
     float4 demitter_min[KILN_MAX_DEMITTERS];
     float4 demitter_max[KILN_MAX_DEMITTERS];
@@ -230,6 +234,7 @@ struct kiln_surroundings {
 #define AROUND(x)      surroundings.x
 #define GRID_WORD(i)   grid_words[i]
 #define PUSH_WORD(i)   push_words[i]
+#define SPIN_WORD(i)   spin_words[i]
 #define VOLUME_WORD(i) volume_words[i]
 #else
 struct kiln_sim {
@@ -238,6 +243,7 @@ struct kiln_sim {
     const float4 *value_keys;
     const float4 *grid_words;
     const float4 *push_words; /* NULL where no system interacts */
+    uint4 *spin_words;        /* NULL where none turns; each slot writes its own */
     const float4 *volume_words;
 };
 #define SIM            sim,
@@ -247,6 +253,7 @@ struct kiln_sim {
 #define AROUND(x)      sim->surroundings->x
 #define GRID_WORD(i)   sim->grid_words[i]
 #define PUSH_WORD(i)   sim->push_words[i]
+#define SPIN_WORD(i)   sim->spin_words[i]
 #define VOLUME_WORD(i) sim->volume_words[i]
 #endif
 

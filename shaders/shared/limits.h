@@ -43,6 +43,7 @@
 #define SIM_BIND_SECOND  3 /* records, of techniques with two buffers */
 #define SIM_BIND_GRIDS   4
 #define SIM_BIND_PUSHES  5
+#define SIM_BIND_SPINS   6
 #define SIM_BIND_VOLUMES 7
 
 /* Of the kernels that gather pushes; SIM_BIND_KEYS, _RECORDS and _PUSHES serve them, too. */
@@ -53,6 +54,7 @@
 #define INTERACT_BIND_PARTNERS 4
 #define INTERACT_BIND_ENTRIES  6 /* of the two grids: what is sorted */
 #define INTERACT_BIND_ORDER    7 /* of the second grid */
+#define INTERACT_BIND_SPINS    8 /* of those that turn: every device in use has so many */
 
 /* Invocations of the work group that adds up all cells. */
 #define INTERACT_SCAN_GROUP 256

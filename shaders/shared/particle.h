@@ -18,6 +18,12 @@ struct kiln_particle {
     uint4 velocity_birth;  /* velocity as float bits, metres a second; birth word */
 };
 
+/* Beside it, how a particle turns, in systems that ask for it: part of the state, too. */
+struct kiln_spin {
+    uint4 rate; /* float bits, rad/s, in the world; w: 0 */
+    uint4 pose; /* float bits: a unit quaternion, from the ball to the world */
+};
+
 /* The birth word: step of birth (22 bits), 64ths of that step that had passed (6), flags (4).
  * A run of more steps than 22 bits hold is refused. */
 #define KILN_PARTICLE_ALIVE       1u

@@ -13,6 +13,7 @@ struct step_push {
     float3 velocity; /* m/s: change of it before the step */
     float3 position; /* m: added to where the step leads, so that no collider is passed */
     float radius;    /* m: how near its centre comes to colliders */
+    uint slot;       /* whose it is */
     bool happens;
 };
 
@@ -22,6 +23,7 @@ FN S(step_push) push_none(void)
     push.velocity = FLOAT3(0.0f, 0.0f, 0.0f);
     push.position = FLOAT3(0.0f, 0.0f, 0.0f);
     push.radius = 0.0f;
+    push.slot = 0u;
     push.happens = false;
     return push;
 }
@@ -30,6 +32,7 @@ FN S(step_push) push_none(void)
 FN S(step_push) push_of(SIM_PARAM uint slot)
 {
     EXACT S(step_push) push = push_none();
+    push.slot = slot;
 #if !defined(GL_core_profile) || defined(PUSHES)
     if (STEP(pushed) != 0u) {
         uint at = (STEP(first_push) + slot) * 2u;

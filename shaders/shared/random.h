@@ -18,6 +18,8 @@
 #define RANDOM_TEXTURE   14u
 #define RANDOM_AXIS      15u /* 2 numbers */
 #define RANDOM_PAINT     20u
+#define RANDOM_POSE      24u         /* 3 numbers */
+#define RANDOM_WHIRL     27u         /* 3 numbers: rate and direction */
 #define RANDOM_BOUNCE    0x40000000u /* + step << 4 + bounce << 1: 2 numbers */
 
 /* A hash of 32 bits that changes half of the bits when one changes (the finaliser with the

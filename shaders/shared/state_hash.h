@@ -40,4 +40,25 @@ FN S(state_hash_lanes) state_hash_particle(uint system, S(kiln_particle) p)
     return lanes;
 }
 
+/* What it adds besides if it turns. */
+FN S(state_hash_lanes) state_hash_spin(uint system, S(kiln_particle) p, S(kiln_spin) s)
+{
+    S(state_hash_lanes) lanes;
+    lanes.a = 0u;
+    lanes.b = 0u;
+    if (!particle_is_alive(p))
+        return lanes;
+    lanes.a = system + 0x7370696eu;
+    lanes.b = system + 0x726f6c6cu;
+    lanes = state_hash_word(lanes, p.position_serial.w);
+    lanes = state_hash_word(lanes, s.rate.x);
+    lanes = state_hash_word(lanes, s.rate.y);
+    lanes = state_hash_word(lanes, s.rate.z);
+    lanes = state_hash_word(lanes, s.pose.x);
+    lanes = state_hash_word(lanes, s.pose.y);
+    lanes = state_hash_word(lanes, s.pose.z);
+    lanes = state_hash_word(lanes, s.pose.w);
+    return lanes;
+}
+
 #endif

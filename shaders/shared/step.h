@@ -79,7 +79,7 @@ FN S(collide_state) step_integrate_plain(SIM_PARAM S(collide_state) s, float unt
 {
     EXACT float time_s = (until - s.since) * STEP(derived.dt_s);
     EXACT S(force_effect) forces = forces_sum(SIM s.position, life);
-    EXACT S(collide_state) moved;
+    EXACT S(collide_state) moved = s;
     moved.velocity = forces_apply(forces, s.velocity, time_s);
     if ((STEP(forces_do) & FORCES_LIMIT) != 0u)
         moved.velocity = force_limit_all(SIM moved.velocity, life);
@@ -106,7 +106,7 @@ FN S(collide_state) step_integrate_stages(SIM_PARAM S(collide_state) start, floa
         if ((STEP(forces_do) & FORCES_LIMIT) != 0u)
             s.moving = force_limit_all(SIM s.moving, life);
     }
-    EXACT S(collide_state) moved;
+    EXACT S(collide_state) moved = start;
     moved.position = stages_arrive(s, STEP(integration), time_s);
     moved.velocity = s.moving;
     moved.since = until;
@@ -145,6 +145,11 @@ FN S(collide_way) step_collide(SIM_PARAM S(collide_state) s, float3 end, float u
         answer.friction = value_at(SIM_KEYS STEP(friction), STEP(time_s), life);
     }
     answer.radius = radius;
+    answer.spins = STEP(spins) != 0u && radius > 0.0f;
+    answer.grip = answer.friction;
+    answer.rolling = STEP(rolling);
+    if (COLLIDE_SPINS(answer))
+        answer.friction = 0.0f;
     if (STEP(collide) == COLLIDE_CLAMP)
         return collide_clamp(SIM s, end, until, answer);
     return collide_swept(SIM s, end, until, answer);
@@ -157,6 +162,39 @@ struct step_way {
     S(collide_touch) first; /* impact */
     bool lost;              /* where particles may not be */
 };
+
+#if !defined(GL_core_profile) || defined(SPINS)
+
+/* Of those that turn: what they have been given, or are born with. */
+FN float3 step_spin(SIM_PARAM S(kiln_particle) p, uint slot)
+{
+    uint at = (STEP(first_spin) + slot) * 2u;
+    EXACT float3 rate = spin_rate(SPIN_WORD(at));
+    if (particle_birth_step(p) == STEP(step)) {
+        EXACT float3 axis = FLOAT3(STEP(spin_axis.x), STEP(spin_axis.y), STEP(spin_axis.z));
+        rate =
+            spin_at_birth(particle_stream(STEP(derived), p), STEP(spin_low), STEP(spin_high), axis);
+    }
+    return rate;
+}
+
+/* Turns by the rate at the end of the step, and notes both. Of a ball, the pose decides nothing. */
+FN void step_turn(SIM_PARAM S(kiln_particle) p, uint slot, float3 rate)
+{
+    uint at = (STEP(first_spin) + slot) * 2u;
+    EXACT float4 pose = spin_pose(SPIN_WORD(at + 1u));
+    EXACT float time_s = STEP(derived.dt_s);
+    if (particle_birth_step(p) == STEP(step)) {
+        EXACT float part = 1.0f - particle_birth_fraction(p);
+        time_s = time_s * part;
+        pose = spin_any_pose(particle_stream(STEP(derived), p));
+    }
+    EXACT float4 turned = spin_turned(pose, rate, time_s);
+    SPIN_WORD(at) = spin_words_of(rate);
+    SPIN_WORD(at + 1u) = spin_pose_words(turned);
+}
+
+#endif
 
 /* What is met on a way that is known as it would be without colliders; it has met nothing so far,
  * and counts as lost. */
@@ -193,11 +231,20 @@ FN S(step_way) step_move(SIM_PARAM S(kiln_particle) p, S(step_push) push, float 
     EXACT float3 velocity = particle_velocity(p);
     way.start.velocity = push_faster(push, velocity);
     way.start.since = born ? particle_birth_fraction(p) : 0.0f;
+    way.start.spin = FLOAT3(0.0f, 0.0f, 0.0f);
+#if !defined(GL_core_profile) || defined(SPINS)
+    if (STEP(spins) != 0u)
+        way.start.spin = step_spin(SIM p, push.slot);
+#endif
     way.end = step_integrate(SIM way.start, until, life);
     way.end.position = push_farther(push, way.end.position);
     way.first = collide_no_touch();
     way.lost = true;
     way = step_meet(SIM p, way, push.radius, life, until);
+#if !defined(GL_core_profile) || defined(SPINS)
+    if (STEP(spins) != 0u && !way.lost)
+        step_turn(SIM p, push.slot, way.end.spin);
+#endif
     return way;
 }
 

@@ -43,4 +43,11 @@ layout(std430, binding = SIM_BIND_PUSHES) readonly buffer push_block
 };
 #endif
 
+#ifdef SPINS
+layout(std430, binding = SIM_BIND_SPINS) buffer spin_block
+{
+    uvec4 spin_words[];
+};
+#endif
+
 #endif

@@ -1,5 +1,8 @@
-/* The state hash of one system and the number of its living particles, added to three sums. Integer
+/* The state hash of one system and the number of its living particles, added to three sums; with
+ * SPINS, that of how they turn. Integer
  * sums are the same in any order, so here atomics are harmless. */
+// variant: 
+// variant: SPINS=1
 #include "shared/limits.h"
 #include "shared/state_hash.h"
 
@@ -18,6 +21,14 @@ layout(std430, binding = SIM_BIND_SUMS) buffer sum_block
 layout(location = 0) uniform uint system;
 layout(location = 1) uniform uint base; /* the system's first slot */
 layout(location = 2) uniform uint used; /* its slots that were ever born into */
+#ifdef SPINS
+layout(location = 3) uniform uint first_spin; /* of its slots */
+
+layout(std430, binding = SIM_BIND_SPINS) readonly buffer spin_block
+{
+    kiln_spin spins[];
+};
+#endif
 
 shared uint group_sums[3];
 
@@ -35,10 +46,14 @@ void main()
         uint slot = first + i * SIM_GROUP_SIZE;
         if (slot < used) {
             kiln_particle p = records[base + slot];
+#ifdef SPINS /* its particles have been counted */
+            state_hash_lanes lanes = state_hash_spin(system, p, spins[first_spin + slot]);
+#else
             state_hash_lanes lanes = state_hash_particle(system, p);
+            living += particle_is_alive(p) ? 1u : 0u;
+#endif
             a += lanes.a;
             b += lanes.b;
-            living += particle_is_alive(p) ? 1u : 0u;
         }
     }
     atomicAdd(group_sums[0], a);

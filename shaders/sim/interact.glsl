@@ -57,6 +57,26 @@ layout(std430, binding = SIM_BIND_PUSHES) buffer push_block
     float4 push_words[];
 };
 
+#ifdef SPINS
+layout(std430, binding = INTERACT_BIND_SPINS) buffer spin_block
+{
+    uvec4 spin_words[];
+};
+
+/* The word with a slot's rate. */
+uint spin_word(uint slot)
+{
+    return (interact_params.first_spin + slot) * 2u;
+}
+
+/* Of a body, how it turns lies behind all bodies. */
+void note_turning(uint body, uint slot)
+{
+    if (interact_params.spins != 0u)
+        bodies[interact_params.used + body].position_radius = spin_words[spin_word(slot)];
+}
+#endif
+
 uint invocation()
 {
     uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;

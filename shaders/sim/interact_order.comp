@@ -1,6 +1,7 @@
 /* What follows from sorted entries: bodies in the order of the first grid, and their entries for the
  * second; with SECOND, the order of that one. */
 // variant: 
+// variant: SPINS=1
 // variant: SECOND=1
 #include "sim/interact.glsl"
 
@@ -22,6 +23,9 @@ void main()
     EXACT float3 position = body_position(body);
     stagger_key key = stagger_key_of(position, 0.5f);
     bodies[place] = body;
+#ifdef SPINS
+    note_turning(place, what);
+#endif
     entries[place] = uvec4(key.high, key.low, place, 0u);
 #endif
 }

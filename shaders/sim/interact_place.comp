@@ -1,5 +1,7 @@
 /* Third: bodies in order of their cells; thereafter each cell's number is where its bodies end. Of
  * those in one cell, scheduling decides the order, and nothing asks for it. */
+// variant: 
+// variant: SPINS=1
 #include "sim/interact.glsl"
 
 #include "shared/interact_body.h"
@@ -15,5 +17,9 @@ void main()
     if (!particle_is_alive(p))
         return;
     EXACT float3 position = particle_position(p);
-    bodies[atomicAdd(cell_ends[cell_of(position)], 1u)] = body_of(p, slot);
+    uint place = atomicAdd(cell_ends[cell_of(position)], 1u);
+    bodies[place] = body_of(p, slot);
+#ifdef SPINS
+    note_turning(place, slot);
+#endif
 }

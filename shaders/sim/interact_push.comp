@@ -1,4 +1,6 @@
 /* Last: by how much a body is not what its particle was. */
+// variant: 
+// variant: SPINS=1
 #include "sim/interact.glsl"
 
 #include "shared/interact_body.h"
@@ -15,4 +17,8 @@ void main()
     body_push push = body_push_of(bodies[self], records[interact_params.base + slot]);
     push_words[at] = push.velocity;
     push_words[at + 1u] = push.position;
+#ifdef SPINS
+    if (interact_params.spins != 0u)
+        spin_words[spin_word(slot)] = bodies[interact_params.used + self].position_radius;
+#endif
 }

@@ -158,6 +158,11 @@ static void add_crowd(const char *name, float x, enum kiln_contact_mode mode)
     collide->radius = fixture_ramp(&fixture, KILN_CLOCK_LIFE, 0.0f, 0.01f, 1.0f, 0.2f);
     collide->restitution = fixture_ramp(&fixture, KILN_CLOCK_TIME, 0.0f, 0.0f, 2.0f, 1.0f);
     collide->fastest = fixture_ramp(&fixture, KILN_CLOCK_TIME, 0.0f, 0.0f, 0.5f, 4.0f);
+    collide->spins = true;
+    collide->friction = fixture_ramp(&fixture, KILN_CLOCK_TIME, 0.0f, 0.0f, 0.5f, 0.8f);
+    collide->turning = fixture_range(0.0f, 30.0f);
+    collide->rolling = fixture_constant(0.02f);
+    s->collide.friction = fixture_constant(0.4f);
     fixture_add_gravity(s, 0.0f)->strength =
         fixture_ramp(&fixture, KILN_CLOCK_LIFE, 0.0f, -0.02f, 1.0f, 0.05f);
     if (mode == KILN_CONTACT_EXACT)
@@ -169,7 +174,7 @@ static void crowds_agree(void **state)
 {
     fixture_family(&fixture, KILN_INTEGRATE_POSITION_FIRST);
     for (uint32_t i = 0; i < fixture.scene.system_count; i++)
-        fixture_add_collisions(&fixture.scene.systems[i], 0.05f);
+        fixture_add_collisions(&fixture.scene.systems[i], 0.05f)->spins = i % 2 == 1;
     add_crowd("drawn", -1.0f, KILN_CONTACT_EXACT);
     add_crowd("staggered", 1.0f, KILN_CONTACT_STAGGERED);
     fixture_add_gravity(fixture_add_system(&fixture, "stars", 200.0f), 0.02f);

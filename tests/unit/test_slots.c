@@ -42,10 +42,29 @@ static void step_slots(struct kiln_slots *slots)
         slots->records[slot] = step_slot(&slots->sim, slot, slots->records[slot]);
 }
 
+/* How particles turn, twice; NULL where none does. */
+struct spins {
+    uint4 *words, *copy;
+    size_t bytes;
+};
+
+static struct spins make_spins(uint32_t slots)
+{
+    struct spins spins = {.bytes = slots * sizeof(struct kiln_spin)};
+    if (slots == 0)
+        return spins;
+    spins.words = aligned_alloc(32, spins.bytes);
+    spins.copy = aligned_alloc(32, spins.bytes);
+    assert_true(spins.words && spins.copy);
+    memset(spins.words, 0, spins.bytes);
+    return spins;
+}
+
 /* Steps all systems slot by slot, and each from the same state in blocks. Returns the living. */
 static uint32_t step_both(const struct kiln_slots_step *loops, const struct kiln_sim_params *params,
                           const float4 *words, const float4 *pushes, const float4 *planes,
-                          struct kiln_particle *records, struct kiln_particle *copy)
+                          struct kiln_particle *records, struct kiln_particle *copy,
+                          struct spins *spins)
 {
     uint32_t alive = 0;
     for (uint32_t k = 0; k < params->system_count; k++) {
@@ -56,15 +75,21 @@ static uint32_t step_both(const struct kiln_slots_step *loops, const struct kiln
                     .value_keys = fixture.scene.keys,
                     .grid_words = words,
                     .push_words = pushes,
+                    .spin_words = spins->words,
                     .volume_words = planes},
             .records = records + step->base,
         };
+        if (spins->words)
+            memcpy(spins->copy, spins->words, spins->bytes);
         const size_t bytes = step->used * sizeof *records;
         memcpy(copy, slots.records, bytes);
         step_slots(&slots);
         slots.records = copy;
+        slots.sim.spin_words = spins->copy;
         step_in_blocks(loops, &slots);
         assert_memory_equal(copy, records + step->base, bytes);
+        if (spins->words)
+            assert_memory_equal(spins->words, spins->copy, spins->bytes);
         for (uint32_t i = 0; i < step->used; i++)
             alive += particle_is_alive(copy[i]);
     }
@@ -100,18 +125,21 @@ static void run_level(enum kiln_simd simd)
     const float4 *words = kiln_buffer_host(&grids.words, KILN_READ, &error);
     kiln_sim_params_init(params, &fixture.scene, &grids);
     float4 *pushes = make_pushes(params->push_count);
+    struct spins spins = make_spins(params->spin_count);
     uint32_t most = 0;
     for (uint32_t step = 1; step <= STEPS; step++) {
         assert_true(kiln_volumes_step(&grids.volumes, &fixture.scene, step, run.threads, &error));
         const float4 *planes = kiln_buffer_host(&grids.volumes.words, KILN_READ, &error);
         assert_true(kiln_sim_params_step(params, &fixture.scene, &run.pool, step, &error));
         uint32_t alive = step_both(KILN_SIMD_PICK(kiln_slots_step, simd), params, words, pushes,
-                                   planes, records, copy);
+                                   planes, records, copy, &spins);
         most = alive > most ? alive : most;
     }
     assert_true(most > 1000);
     kiln_sim_grids_finish(&grids);
     free(pushes);
+    free(spins.words);
+    free(spins.copy);
     free(copy);
     free(params);
     simulation_end(&run);
@@ -189,6 +217,10 @@ static void pushed_among_colliders(void **state)
     fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, STEPS);
     for (uint32_t i = 0; i < fixture.scene.system_count; i += 2)
         fixture_add_collisions(&fixture.scene.systems[i], 0.1f);
+    struct kiln_interaction *turning = &fixture.scene.systems[0].interactions[0];
+    turning->spins = true;
+    turning->turning = fixture_range(1.0f, 40.0f);
+    fixture.scene.systems[0].collide.friction = fixture_constant(0.4f);
     run_levels();
     fixture_add_terrain(&fixture, -0.4f, 3.0f, 0.9f, 40);
     fixture_add_moving_mesh(&fixture);

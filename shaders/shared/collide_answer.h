@@ -1,16 +1,37 @@
-/* What an impact makes of a velocity (Heinz 2019, 3.5): mirrored, astray, slowed, rubbed. */
-#ifndef KILN_SHARED_COLLIDE_BOUNCE_H
-#define KILN_SHARED_COLLIDE_BOUNCE_H
+/* How a particle answers an impact on a surface: as in the thesis (Heinz 2019, 3.5), with
+ * restitution and friction; and balls that turn, with friction on their skin (shared/spin.h).
+ */
+#ifndef KILN_SHARED_COLLIDE_ANSWER_H
+#define KILN_SHARED_COLLIDE_ANSWER_H
 
-#include "shared/collide_box.h"
+#include "shared/collide_turned.h"
 #include "shared/random.h"
+#include "shared/spin.h"
 
-/* Shaders of scenes without restitution and friction are spared them. */
+/* Shaders of scenes without restitution and friction are spared their code. */
 #if defined(GL_core_profile) && !defined(COLLIDE_RUB)
 #define COLLIDE_RUBS(answer) false
 #else
 #define COLLIDE_RUBS(answer) ((answer).rubs)
 #endif
+
+/* And for balls that turn. */
+#if defined(GL_core_profile) && !defined(SPINS)
+#define COLLIDE_SPINS(answer) false
+#else
+#define COLLIDE_SPINS(answer) ((answer).spins)
+#endif
+
+/* Outwards, from a face that collide_face_met gave. */
+FN float3 collide_normal_of(uint face)
+{
+    EXACT float3 zero = FLOAT3(0.0f, 0.0f, 0.0f);
+    EXACT float out_sign = (face & 1u) != 0u ? 1.0f : -1.0f;
+    EXACT float3 y = collide_with_component(zero, face >> 1u, out_sign);
+    if (face >= COLLIDE_FACES)
+        y = collide_unpack_normal(face);
+    return y;
+}
 
 /* How a particle answers an impact. */
 struct collide_answer {
@@ -22,6 +43,9 @@ struct collide_answer {
     float restitution;
     float friction;
     float radius; /* m: how near its centre comes */
+    bool spins;   /* a ball that turns: friction acts on its skin, as grip, and not as above */
+    float grip;
+    float rolling; /* resistance, a part of what the surface gives */
 };
 
 /* On a collider with factors of its own. */
@@ -31,6 +55,7 @@ FN S(collide_answer) collide_answer_of(S(collide_answer) answer, S(kiln_collider
     if (COLLIDE_RUBS(answer)) {
         y.restitution = answer.restitution * c.restitution;
         y.friction = answer.friction * c.friction;
+        y.grip = answer.grip * c.friction;
     }
     return y;
 }
@@ -117,6 +142,93 @@ FN_CLOSE float3 collide_bounce_off(S(collide_answer) answer, float3 velocity, fl
     EXACT float slowed = speed * answer.slowdown;
     EXACT float3 y = float3_scale(direction, slowed);
     return y;
+}
+
+struct collide_state {
+    float3 position;
+    float3 velocity;
+    float since; /* part of the step that has passed */
+    float3 spin; /* rad/s, of balls that turn */
+};
+
+/* What rolling costs a ball that turns at a rate, relative to the surface that gives it so many
+ * m/s along the normal: no more than all. */
+FN float3 collide_rolling(S(collide_answer) answer, float3 rate, float given)
+{
+    EXACT float speed = float3_length(rate);
+    EXACT float per_metre = exact_div(SPIN_PER_PUSH, answer.radius);
+    EXACT float most = (answer.rolling * given) * per_metre;
+    EXACT float taken = exact_min(most, speed);
+    EXACT float quotient = exact_div(taken, speed);
+    EXACT float against = -quotient;
+    EXACT float3 y = float3_scale(rate, against);
+    return y;
+}
+
+/* How a ball that turns leaves a surface, from its velocities relative to it before and after the
+ * bounce: friction acts against the slip of its skin. The surface turns by `turning` rad/s; its
+ * velocity, `ground`, is that where the ball's centre is. */
+FN_APART S(collide_state)
+    collide_roll(S(collide_answer) answer, S(collide_state) s, float3 relative, float3 bounced,
+                 float3 normal, float3 ground, float3 turning)
+{
+    EXACT S(collide_state) after = s;
+    EXACT float before = float3_dot(relative, normal);
+    EXACT float now = float3_dot(bounced, normal);
+    EXACT float gained = now - before;
+    EXACT float given = exact_max(gained, 0.0f);
+    EXACT float inwards = -answer.radius;
+    EXACT float3 arm = float3_scale(normal, inwards);
+    EXACT float3 rate = float3_sub(s.spin, turning);
+    EXACT float3 around = float3_cross(rate, arm);
+    EXACT float3 moving = float3_add(bounced, around);
+    EXACT float across = -float3_dot(moving, normal);
+    EXACT float3 slip = float3_add_scaled(moving, normal, across);
+    EXACT float most = answer.grip * given;
+    EXACT float3 change = spin_grip(slip, most);
+    EXACT float3 turned = spin_from(change, normal, answer.radius);
+    rate = float3_add(rate, turned);
+    EXACT float3 slower = collide_rolling(answer, rate, given);
+    rate = float3_add(rate, slower);
+    EXACT float3 spin = float3_add(rate, turning);
+    EXACT float3 left = float3_add(bounced, change);
+    after.velocity = float3_add(ground, left);
+    after.spin = spin_held(spin);
+    return after;
+}
+
+/* Of a surface that does not turn, or whose velocity is known where it is touched. */
+FN float3 collide_not_turning(void)
+{
+    EXACT float3 y = FLOAT3(0.0f, 0.0f, 0.0f);
+    return y;
+}
+
+/* How a particle leaves a surface. */
+FN S(collide_state) collide_leave(S(collide_answer) answer, S(collide_state) s, float3 relative,
+                                  float3 bounced, float3 normal, float3 ground, float3 turning)
+{
+    EXACT S(collide_state) after = s;
+    if (COLLIDE_SPINS(answer)) {
+        after = collide_roll(answer, s, relative, bounced, normal, ground, turning);
+        return after;
+    }
+    after.velocity = float3_add(ground, bounced);
+    return after;
+}
+
+/* The same where surfaces are taken to rest (collide_clamp). */
+FN S(collide_state)
+    collide_stay(S(collide_answer) answer, S(collide_state) s, float3 bounced, float3 normal)
+{
+    EXACT S(collide_state) after = s;
+    if (COLLIDE_SPINS(answer)) {
+        EXACT float3 still = collide_not_turning();
+        after = collide_roll(answer, s, s.velocity, bounced, normal, still, still);
+        return after;
+    }
+    after.velocity = bounced;
+    return after;
 }
 
 #endif

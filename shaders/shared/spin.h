@@ -1,0 +1,162 @@
+/* How balls turn (UberFlow 2004, 4.5). Friction acts where a ball touches another or a surface, and
+ * takes at most the slip there: a solid ball of mass m then gets, per mass, 2/7 of it as velocity,
+ * because a push at its skin turns it as well (its moment of inertia is 2/5 m r^2).
+ */
+#ifndef KILN_SHARED_SPIN_H
+#define KILN_SHARED_SPIN_H
+
+#include "shared/particle.h"
+#include "shared/random.h"
+
+/* 5/2 and 2/7: of solid balls. */
+#define SPIN_PER_PUSH 2.5f
+#define SPIN_OF_SLIP  0.285714298f
+
+/* rad/s: as STEP_ABSURD_BITS has it of velocities, but who turns so fast is only held at it. */
+#define SPIN_FASTEST 1048576.0f
+
+FN uint4 spin_words_of(float3 v)
+{
+    EXACT float3 c = float3_canon(v);
+    return UINT4(FLOAT_BITS(c.x), FLOAT_BITS(c.y), FLOAT_BITS(c.z), 0u);
+}
+
+/* 0 for NaN. */
+FN float spin_held_along(float rate)
+{
+    EXACT float number = (FLOAT_BITS(rate) & EXACT_SIZE_BITS) > 0x7f800000u ? 0.0f : rate;
+    EXACT float y = exact_clamp(number, -SPIN_FASTEST, SPIN_FASTEST);
+    return y;
+}
+
+FN float3 spin_held(float3 rate)
+{
+    EXACT float3 y =
+        FLOAT3(spin_held_along(rate.x), spin_held_along(rate.y), spin_held_along(rate.z));
+    return y;
+}
+
+FN float3 spin_rate(uint4 bits)
+{
+    EXACT float3 v = FLOAT3(BITS_FLOAT(bits.x), BITS_FLOAT(bits.y), BITS_FLOAT(bits.z));
+    EXACT float3 y = spin_held(v);
+    return y;
+}
+
+/* The change of velocity across a contact, against the slip: all that takes away the slip, 2/7 of
+ * it, but at most `most` m/s. */
+FN float3 spin_grip(float3 slip, float most)
+{
+    EXACT float speed = float3_length(slip);
+    EXACT float wanted = speed * SPIN_OF_SLIP;
+    EXACT float taken = exact_min(wanted, most);
+    EXACT float quotient = exact_div(taken, speed);
+    EXACT float against = -quotient;
+    EXACT float3 y = float3_scale(slip, against);
+    return y;
+}
+
+/* rad/s that a ball gets from such a change where a surface of that normal, away from it, or a
+ * ball on the side of -normal touches it. */
+FN float3 spin_from(float3 change, float3 normal, float radius)
+{
+    EXACT float3 across = float3_cross(change, normal);
+    EXACT float per_metre = exact_div(SPIN_PER_PUSH, radius);
+    EXACT float3 y = float3_scale(across, per_metre);
+    return y;
+}
+
+/* ---- poses ---------------------------------------------------------------------------------- */
+
+FN float4 spin_pose(uint4 bits)
+{
+    EXACT float4 q =
+        FLOAT4(BITS_FLOAT(bits.x), BITS_FLOAT(bits.y), BITS_FLOAT(bits.z), BITS_FLOAT(bits.w));
+    return q;
+}
+
+/* One that lies straight where there is none. */
+FN float4 spin_unit(float4 q)
+{
+    EXACT float square = (q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w);
+    EXACT float r = exact_rsqrt(square);
+    EXACT float4 y = FLOAT4(q.x * r, q.y * r, q.z * r, q.w * r);
+    if (r == 0.0f)
+        y = FLOAT4(0.0f, 0.0f, 0.0f, 1.0f);
+    return y;
+}
+
+/* A pose turned by a rate, rad/s, for a time. */
+FN float4 spin_turned(float4 p, float3 rate, float time_s)
+{
+    EXACT float speed = float3_length(rate);
+    EXACT float half_angle = (0.5f * time_s) * speed;
+    EXACT S(exact_angle) turn = exact_sincos(half_angle);
+    EXACT float along = exact_div(turn.sine, speed);
+    EXACT float w = turn.cosine;
+    EXACT float x = rate.x * along;
+    EXACT float y = rate.y * along;
+    EXACT float z = rate.z * along;
+    EXACT float4 q = FLOAT4(
+        (w * p.x + x * p.w) + (y * p.z - z * p.y), (w * p.y + y * p.w) + (z * p.x - x * p.z),
+        (w * p.z + z * p.w) + (x * p.y - y * p.x), (w * p.w - x * p.x) - (y * p.y + z * p.z));
+    EXACT float4 unit = spin_unit(q);
+    return unit;
+}
+
+/* A direction of the ball, in the world. */
+FN float3 spin_outwards(float4 pose, float3 v)
+{
+    EXACT float3 u = FLOAT3(pose.x, pose.y, pose.z);
+    EXACT float3 across = float3_cross(u, v);
+    EXACT float3 twice = float3_scale(across, 2.0f);
+    EXACT float3 more = float3_cross(u, twice);
+    EXACT float3 y = float3_add_scaled(v, twice, pose.w);
+    y = float3_add(y, more);
+    return y;
+}
+
+/* The pose that a turn about a unit vector leads to. */
+FN float4 spin_about(float3 axis, float angle)
+{
+    EXACT float half_angle = 0.5f * angle;
+    EXACT S(exact_angle) turn = exact_sincos(half_angle);
+    EXACT float4 q =
+        FLOAT4(axis.x * turn.sine, axis.y * turn.sine, axis.z * turn.sine, turn.cosine);
+    return q;
+}
+
+FN uint4 spin_pose_words(float4 q)
+{
+    return UINT4(FLOAT_BITS(exact_canon(q.x)), FLOAT_BITS(exact_canon(q.y)),
+                 FLOAT_BITS(exact_canon(q.z)), FLOAT_BITS(exact_canon(q.w)));
+}
+
+/* Any pose, each as likely (Shoemake, "Uniform Random Rotations", 1992). */
+FN float4 spin_any_pose(uint stream)
+{
+    EXACT float part = random_unit(stream, RANDOM_POSE);
+    EXACT float rest = 1.0f - part;
+    EXACT float angle = random_unit(stream, RANDOM_POSE + 1u) * EXACT_TWO_PI;
+    EXACT float other = random_unit(stream, RANDOM_POSE + 2u) * EXACT_TWO_PI;
+    EXACT S(exact_angle) first = exact_sincos(angle);
+    EXACT S(exact_angle) second = exact_sincos(other);
+    EXACT float a = exact_sqrt(rest);
+    EXACT float b = exact_sqrt(part);
+    EXACT float4 q = FLOAT4(a * first.sine, a * first.cosine, b * second.sine, b * second.cosine);
+    EXACT float4 unit = spin_unit(q);
+    return unit;
+}
+
+/* rad/s at birth, about the axis, or about one drawn for each where that is none. */
+FN float3 spin_at_birth(uint stream, float low, float high, float3 axis)
+{
+    EXACT float speed = random_between(stream, RANDOM_WHIRL, low, high);
+    EXACT float3 up = FLOAT3(0.0f, 1.0f, 0.0f);
+    EXACT float3 any = random_direction(stream, RANDOM_WHIRL + 1u, up, -1.0f);
+    EXACT float3 about = float3_normalize(axis, any);
+    EXACT float3 y = float3_scale(about, speed);
+    return y;
+}
+
+#endif
