@@ -3,6 +3,7 @@
  */
 #include "draw/instances_gl.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "base/error.h"
@@ -31,8 +32,10 @@ bool kiln_instances_gl_exist(const struct kiln_scene *scene)
 static bool create_program(struct kiln_instances_gl *m, struct kiln_error *error)
 {
     const struct kiln_shape_features features = kiln_shape_features(m->scene);
-    char defines[KILN_SHAPE_DEFINES];
-    kiln_shape_defines(&features, 1, defines);
+    char shapes[KILN_SHAPE_DEFINES], defines[KILN_SHAPE_DEFINES + 64];
+    kiln_shape_defines(&features, 1, shapes);
+    snprintf(defines, sizeof defines, "%s%s", shapes,
+             kiln_scene_spins(m->scene) ? "#define SPINS 1\n" : "");
     m->program = kiln_program_create(
         m->device,
         &(struct kiln_program_params){

@@ -77,7 +77,10 @@ static void sample_light(const struct sampler *s, const struct kiln_look *look,
     if (additive)
         tint = float3_scale(color, intensity);
     float4 cover = {color.x, color.y, color.z, at(s, &look->lit)};
-    row[KILN_LOOK_COVER] = additive ? (float4){0.0f, 0.0f, 0.0f, cover.w} : cover;
+    const float4 covers_none = {0.0f, 0.0f, 0.0f, cover.w};
+    float3 other = at3(s, &look->sphere.color);
+    row[KILN_LOOK_COVER] = additive ? covers_none : cover;
+    row[KILN_LOOK_OTHER] = additive ? covers_none : (float4){other.x, other.y, other.z, cover.w};
     if (kelvin > 0.0f) {
         row[KILN_LOOK_HOT] = emitted(tint, kelvin, near_fade);
         row[KILN_LOOK_COOL] = emitted(tint, COOL_SHARE * kelvin, cycles);
@@ -160,11 +163,40 @@ bool kiln_looks_vary(const struct kiln_scene *scene)
                 return true;
         }
         if (varies3(&look->color) || varies3(&look->bloom) || varies3(&look->axis) ||
-            range_varies(&look->scale) || range_varies(&look->rotation) ||
-            range_varies(&look->spin))
+            varies3(&look->sphere.color) || range_varies(&look->scale) ||
+            range_varies(&look->rotation) || range_varies(&look->spin))
             return true;
     }
     return false;
+}
+
+uint32_t kiln_look_pattern(const struct kiln_look *look)
+{
+    if (look->sphere.pattern == KILN_PATTERN_SEGMENTS)
+        return LOOK_SEGMENTS + look->sphere.segments;
+    return look->sphere.pattern == KILN_PATTERN_STRIPE ? LOOK_STRIPE : LOOK_PLAIN;
+}
+
+bool kiln_looks_patterned(const struct kiln_scene *scene)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_look *look = &scene->systems[i].look;
+        any = any || (scene->systems[i].enabled && look->shape == KILN_SHAPE_SPHERE &&
+                      look->sphere.pattern != KILN_PATTERN_PLAIN);
+    }
+    return any;
+}
+
+/* What to add to a slot of the system in the pool to have that of its spin, modulo 2^32. */
+static uint32_t spins_before(const struct kiln_scene *scene, uint32_t index)
+{
+    uint32_t slots = 0, spins = 0;
+    for (uint32_t i = 0; i < index; i++) {
+        slots += scene->systems[i].capacity;
+        spins += kiln_scene_system_spins(scene, i) ? scene->systems[i].capacity : 0;
+    }
+    return spins - slots;
 }
 
 static struct kiln_draw_look make_look(const struct kiln_scene *scene, uint32_t index,
@@ -177,6 +209,9 @@ static struct kiln_draw_look make_look(const struct kiln_scene *scene, uint32_t 
                   look->soft_formula == KILN_SOFT_LITERAL, textures->count},
         .form = {look->shape, look->facing, look->point_round, look->line_to == KILN_LINE_PREVIOUS},
     };
+    const bool turns = kiln_scene_system_spins(scene, index);
+    made.turn = (uint4){turns, spins_before(scene, index), kiln_look_pattern(look),
+                        turns && look->mesh.orient == KILN_ORIENT_SPIN};
     for (uint32_t i = 0; i < textures->count; i++) {
         const struct kiln_atlas_range *cells = &textures->textures[i];
         made.textures[i] =

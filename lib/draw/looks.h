@@ -21,4 +21,10 @@ bool kiln_looks_vary(const struct kiln_scene *scene);
 void kiln_looks_fill(const struct kiln_scene *scene, const struct kiln_atlas *atlas,
                      struct kiln_draw_look looks[KILN_MAX_SYSTEMS]);
 
+/* The pattern of the spheres, LOOK_*. */
+uint32_t kiln_look_pattern(const struct kiln_look *look);
+
+/* Whether any system's spheres have one. */
+bool kiln_looks_patterned(const struct kiln_scene *scene);
+
 #endif

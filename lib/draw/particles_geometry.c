@@ -20,7 +20,7 @@
 #include <string.h>
 
 static_assert(offsetof(struct kiln_draw_look, flags) == 48, "std140");
-static_assert(sizeof(struct kiln_draw_look) == 80 + 16 * KILN_MAX_TEXTURES, "std140");
+static_assert(sizeof(struct kiln_draw_look) == 96 + 16 * KILN_MAX_TEXTURES, "std140");
 static_assert(KILN_MAX_SYSTEMS * sizeof(struct kiln_draw_look) <= 16384, "of every GL");
 struct kiln_geometry {
     struct kiln_device *device;

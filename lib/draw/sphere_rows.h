@@ -15,8 +15,10 @@ enum {
 struct kiln_drawn_sphere {
     float center[3], radius; /* in view space, m */
     float albedo[3], lit;    /* 1 lit .. 0 shows its colour as it is */
-    float glow[3], unused;   /* light that it emits */
+    float glow[3];           /* light that it emits */
+    float segments;          /* of each colour; 0: no pattern, below 0: a stripe */
     float bloom[3];          /* weights of equation 3.2 */
+    float other[3], pose[4]; /* of a pattern: the second albedo; from the ball to the world */
     struct kiln_row_range x; /* pixels that it may touch */
 };
 
@@ -39,6 +41,7 @@ struct kiln_sphere_strip {
     const struct kiln_row_range *rows;           /* that they may touch */
     const uint32_t *list;                        /* those of the strip */
     size_t count;
+    bool patterned; /* some spheres have patterns */
     uint32_t width, y, y_to;
     const float *scene_color, *scene_depth; /* of the picture */
     float *color, *depth, *bloom;

@@ -82,6 +82,64 @@ static void clear_samples(const struct kiln_sphere_strip *s, uint32_t row)
            SAMPLES * s->pitch * sizeof *s->nearest);
 }
 
+/* ---- patterns: as shaders/draw/spheres.frag has them ------------------------------------------
+ */
+
+SIMD vf part_beyond(vf distance, vf width)
+{
+    vf part = vf_min(vf_all(0.5f) + distance / width, vf_all(1.0f));
+    return vf_max(part, vf_all(0.0f));
+}
+
+/* The sine of an angle times its number of segments, from its sine and its cosine. */
+SIMD vf sine_of_segments(vf sine, vf cosine, vf segments)
+{
+    vf c = cosine, s = sine;
+    for (int i = 1; i < 8; i++) {
+        vi more = segments > (float)i;
+        vf next = c * cosine - s * sine;
+        s = vf_select(more, s * cosine + c * sine, s);
+        c = vf_select(more, next, c);
+    }
+    return s;
+}
+
+/* The part of the other colour where the ball's own normal is n; width: of a pixel there, rad. */
+SIMD vf other_part(struct vf3 n, vf segments, vf width)
+{
+    vf high = vf_abs(n.y);
+    vf rim = vf_sqrt(vf_max(n.x * n.x + n.z * n.z, vf_all(1e-12f)));
+    vf sine = sine_of_segments(n.z / rim, n.x / rim, segments);
+    vf lune = part_beyond(sine * rim / vf_max(segments, vf_all(1.0f)), width);
+    vf cap = part_beyond((high - 0.94f) * 2.9f, width);
+    vf beside = part_beyond((high - 0.42f) * 1.1f, width);
+    vf part = vf_select(segments < 0.0f, beside, vf_max(lune, cap));
+    return vf_select(segments == 0.0f, vf_all(0.0f), part);
+}
+
+/* A direction of the world, seen from the ball. */
+SIMD struct vf3 into_ball(const struct vf3 axis, vf w, struct vf3 v)
+{
+    struct vf3 twice = vf3_scale(cast_cross(axis, v), vf_all(-2.0f));
+    return vf3_add(vf3_along(v, twice, w), vf3_scale(cast_cross(axis, twice), vf_all(-1.0f)));
+}
+
+static void paint_spheres(const struct kiln_sphere_strip *s, const struct seen_things *seen,
+                          struct seen_place *place)
+{
+    const struct kiln_drawn_sphere *all = s->spheres;
+    const float4 frustum = s->frame->view->frustum;
+    const struct vf3 axis = gather3(all->pose, seen->thing);
+    struct vf3 n = into_ball(axis, vf_gather(all->pose + 3, seen->thing), place->normal);
+    vf away = vf3_dot(place->direction, place->direction);
+    vf facing = vf_max(-vf3_dot(place->direction, place->normal), vf_all(0.0f)) / vf_sqrt(away);
+    vf pixel = place->depth * (2.0f * frustum.y / frustum.w);
+    vf width = pixel / (vf_gather(&all->radius, seen->thing) * vf_max(facing, vf_all(0.1f)));
+    vf part = other_part(n, vf_gather(&all->segments, seen->thing), width);
+    struct vf3 other = gather3(all->other, seen->thing);
+    place->albedo = vf3_along(place->albedo, vf3_sub(other, place->albedo), part);
+}
+
 /* ---- light ----------------------------------------------------------------------------------- */
 
 static void light_spheres(const struct kiln_sphere_strip *s, const struct seen_things *seen,
@@ -102,6 +160,8 @@ static void light_spheres(const struct kiln_sphere_strip *s, const struct seen_t
     place.normal = view_to_world(frame, out);
     place.at = vf3_along(vf3_all(frame->view->eye), place.direction, t);
     place.sun_from = place.at;
+    if (s->patterned)
+        paint_spheres(s, seen, &place);
     light_place(frame, &place, seen, color);
 }
 

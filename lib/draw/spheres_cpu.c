@@ -113,6 +113,8 @@ struct making {
     const struct kiln_pool *pool;
     const struct kiln_view *view;
     const uint32_t *entries;
+    uint32_t patterns[KILN_MAX_SYSTEMS]; /* LOOK_* */
+    const struct kiln_spin *spins;       /* of the pool; NULL: none turns */
     struct kiln_living_system systems[KILN_MAX_SYSTEMS];
 };
 
@@ -167,6 +169,43 @@ static void set3(float to[3], float4 from)
     to[2] = from.z;
 }
 
+/* How far a particle has turned that collisions do not turn, rad. */
+static float turned_angle(const struct kiln_living_system *system, struct kiln_particle record,
+                          uint32_t stream, float progress)
+{
+    return instance_angle(stream, kiln_living_look(system, KILN_LOOK_TURN, progress),
+                          kiln_living_look(system, KILN_LOOK_SPREAD, progress),
+                          particle_age(record, system->step, system->dt_s));
+}
+
+/* NULL: collisions do not turn it. */
+static const struct kiln_spin *spin_of(const struct making *m, uint32_t number, uint32_t slot)
+{
+    const struct kiln_pool_system *system = &m->pool->systems[number];
+    return m->spins && system->spins ? &m->spins[system->first_spin + slot] : NULL;
+}
+
+static void make_pattern(const struct making *m, uint32_t number, uint32_t slot, float progress,
+                         struct kiln_drawn_sphere *s)
+{
+    const struct kiln_living_system *system = &m->systems[number];
+    const uint32_t pattern = m->patterns[number];
+    if (pattern == LOOK_PLAIN)
+        return;
+    s->segments = pattern == LOOK_STRIPE ? -1.0f : (float)(pattern - LOOK_SEGMENTS);
+    set3(s->other, kiln_living_look(system, KILN_LOOK_OTHER, progress));
+    const struct kiln_spin *spin = spin_of(m, number, slot);
+    const struct kiln_particle record = system->records[slot];
+    const uint32_t stream = particle_stream(system->derived, record);
+    const float4 pose = spin
+                            ? spin_unit(spin_pose(spin->pose))
+                            : instance_pose(stream, turned_angle(system, record, stream, progress));
+    s->pose[0] = pose.x;
+    s->pose[1] = pose.y;
+    s->pose[2] = pose.z;
+    s->pose[3] = pose.w;
+}
+
 /* It cannot fade, so it grows and shrinks by its opacity. One that reaches the near plane is not
  * drawn. */
 static void make_sphere(const struct making *m, const struct kiln_living_system *system,
@@ -215,13 +254,13 @@ static void make_instance(const struct making *m, uint32_t number, uint32_t slot
     if (!(size > 0.0f) || depth + reach <= view->eye.w)
         return;
     const struct kiln_particle record = system->records[slot];
-    uint32_t stream = particle_stream(system->derived, record);
-    float angle =
-        instance_angle(stream, kiln_living_look(system, KILN_LOOK_TURN, particle->progress),
-                       kiln_living_look(system, KILN_LOOK_SPREAD, particle->progress),
-                       particle_age(record, system->step, system->dt_s));
+    const uint32_t stream = particle_stream(system->derived, record);
+    const struct kiln_spin *spin =
+        look->mesh.orient == KILN_ORIENT_SPIN ? spin_of(m, number, slot) : NULL;
+    const float angle = turned_angle(system, record, stream, particle->progress);
     const struct instance_axes axes =
-        instance_axes_of(look->mesh.orient, particle_velocity(record), angle, stream);
+        spin ? instance_posed(spin_unit(spin_pose(spin->pose)))
+             : instance_axes_of(look->mesh.orient, particle_velocity(record), angle, stream);
     place_axes(view, &axes, reach / mesh->reach, d);
     for (int i = 0; i < 3; i++)
         d->to_view[i][3] = center[i];
@@ -256,6 +295,7 @@ static void make_spheres(void *context, size_t begin, size_t end, uint32_t worke
             make_instance(m, number, slot, &particle, instance, &m->stage->ranges[i]);
         else
             make_sphere(m, system, &particle, &m->stage->spheres[i], &m->stage->ranges[i]);
+        make_pattern(m, number, slot, particle.progress, &m->stage->spheres[i]);
     }
 }
 
@@ -279,8 +319,8 @@ static bool make_room(struct kiln_spheres_cpu *stage, uint32_t count, struct kil
 }
 
 static void make_all(struct kiln_spheres_cpu *stage, const struct kiln_pool *pool,
-                     const struct kiln_particle *records, const uint32_t *entries, uint32_t count,
-                     float time_s)
+                     const struct kiln_particle *records, const struct kiln_spin *spins,
+                     const uint32_t *entries, uint32_t count, float time_s)
 {
     if (!stage->table_valid || kiln_looks_vary(stage->scene))
         kiln_looks_sample(stage->scene, time_s, stage->table);
@@ -288,11 +328,14 @@ static void make_all(struct kiln_spheres_cpu *stage, const struct kiln_pool *poo
     struct making making = {.stage = stage,
                             .pool = pool,
                             .view = kiln_backdrop_rays(stage->backdrop)->view,
+                            .spins = spins,
                             .entries = entries};
     const struct kiln_living_moment moment = {stage->scene, pool,         records,
                                               making.view,  stage->table, NULL};
-    for (uint32_t i = 0; i < stage->scene->system_count; i++)
+    for (uint32_t i = 0; i < stage->scene->system_count; i++) {
         making.systems[i] = kiln_living_system(&moment, i);
+        making.patterns[i] = kiln_look_pattern(&stage->scene->systems[i].look);
+    }
     kiln_threads_for(stage->threads, count, MAKE_AT_A_TIME, make_spheres, &making);
 }
 
@@ -347,13 +390,20 @@ bool kiln_spheres_cpu_draw(struct kiln_spheres_cpu *stage, struct kiln_pool *poo
     const uint32_t *list = records ? kiln_buffer_host(entries, KILN_READ, error) : NULL;
     if (!list || !make_room(stage, count, error))
         return false;
-    make_all(stage, pool, records, list, count, time_s);
+    const struct kiln_spin *spins = NULL;
+    if (pool->spins.size > 0) {
+        spins = kiln_buffer_host(&pool->spins, KILN_READ, error);
+        if (!spins)
+            return false;
+    }
+    make_all(stage, pool, records, spins, list, count, time_s);
     struct drawing drawing = {stage,
                               {.frame = kiln_backdrop_rays(stage->backdrop),
                                .spheres = stage->spheres,
                                .instances = stage->instances,
                                .corners = (const float4(*)[2])stage->meshes.corners,
                                .rows = stage->ranges,
+                               .patterned = kiln_looks_patterned(stage->scene),
                                .width = stage->scene->width,
                                .pitch = stage->pitch}};
     if (!kiln_row_lists_fill(&stage->lists, stage->ranges, sizeof *stage->ranges, count,

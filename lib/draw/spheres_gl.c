@@ -6,9 +6,11 @@
 
 #include "base/error.h"
 #include "draw/instances_gl.h"
+#include "draw/looks.h"
 #include "draw/shapes.h"
 #include "gpu/program.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
 enum { SAMPLES = 4 }; /* what every GL has, and what the shaders count on */
@@ -29,8 +31,11 @@ static bool create_programs(struct kiln_spheres_gl *stage, const struct kiln_sce
                             struct kiln_error *error)
 {
     const struct kiln_shape_features features = kiln_shape_features(scene);
-    char defines[KILN_SHAPE_DEFINES];
-    kiln_shape_defines(&features, 1, defines);
+    char shapes[KILN_SHAPE_DEFINES], defines[KILN_SHAPE_DEFINES + 64];
+    kiln_shape_defines(&features, 1, shapes);
+    snprintf(defines, sizeof defines, "%s%s%s", shapes,
+             kiln_looks_patterned(scene) ? "#define PATTERN 1\n" : "",
+             kiln_scene_spins(scene) ? "#define SPINS 1\n" : "");
     const struct kiln_program_params cast = {.vertex = "draw/spheres.vert",
                                              .geometry = "draw/spheres.geom",
                                              .fragment = "draw/spheres.frag",
@@ -150,6 +155,12 @@ bool kiln_spheres_gl_draw(struct kiln_spheres_gl *stage, struct kiln_pool *pool,
     GLuint color = depth ? kiln_image_gl(stage->targets.backdrop_color, KILN_READ, error) : 0;
     if (!color || !kiln_particles_bind(stage->particles, pool, entries, time_s, error))
         return false;
+    if (pool->spins.size > 0) {
+        GLuint spins = kiln_buffer_gl(&pool->spins, KILN_READ, error);
+        if (!spins)
+            return false;
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, KILN_BIND_SPINS, spins);
+    }
     bind_texture(2, GL_TEXTURE_2D, depth);
     if (!cast(stage, count, error))
         return false;

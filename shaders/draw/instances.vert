@@ -3,8 +3,10 @@
  * and shrinks by its opacity. */
 #include "shared/draw_layout.h"
 
+// variant: 
+// variant: SPINS=1
 #include "draw/record.glsl"
-#include "shared/instance.h"
+#include "draw/pose.glsl"
 
 /* Of the meshes, three a triangle: position; normal. */
 layout(std430, binding = KILN_BIND_CORNERS) readonly buffer corner_block { vec4 corners[]; };
@@ -57,6 +59,10 @@ void main()
     float scale = max(size * extent.x, 0.5 * pixel_m) / extent.x;
     float angle = instance_angle(stream, look_at(system, KILN_LOOK_TURN, life), spread, age);
     instance_axes axes = instance_axes_of(orient, particle_velocity(record), angle, stream);
+#ifdef SPINS
+    if (looks[system].turn.w != 0u)
+        axes = instance_posed(pose_of_slot(system, entry & 0xffffffu));
+#endif
     mat3 turn = mat3(world_to_view_vector(axes.x), world_to_view_vector(axes.y),
                      world_to_view_vector(axes.z));
 

@@ -1,6 +1,8 @@
 /* The rectangle of the picture that a sphere covers: between the tangents from the eye, and a pixel
  * around it, because a driver may have a pixel's samples elsewhere than the fragment shader. A sphere
  * that reaches the near plane is not drawn. */
+// variant: 
+// variant: PATTERN=1
 #include "shared/draw_layout.h"
 
 layout(points) in;
@@ -12,11 +14,19 @@ layout(location = 0) in vec4 center[];
 layout(location = 1) in vec4 reflected[];
 layout(location = 2) in vec4 emitted[];
 layout(location = 3) in vec4 bloom_weights[];
+#ifdef PATTERN
+layout(location = 4) in vec4 second[];
+layout(location = 5) in vec4 lying[];
+#endif
 
 layout(location = 0) flat out vec4 sphere;
 layout(location = 1) flat out vec4 albedo;
 layout(location = 2) flat out vec4 glow;
 layout(location = 3) flat out vec4 bloom;
+#ifdef PATTERN
+layout(location = 4) flat out vec4 other;
+layout(location = 5) flat out vec4 pose;
+#endif
 
 /* Slopes of the two tangents at a circle, in a plane through the eye: x sideways, depth ahead. */
 vec2 tangents(float x, float depth, float radius)
@@ -40,6 +50,10 @@ void main()
         albedo = reflected[0];
         glow = emitted[0];
         bloom = bloom_weights[0];
+#ifdef PATTERN
+        other = second[0];
+        pose = lying[0];
+#endif
         EmitVertex();
     }
     EndPrimitive();

@@ -2,12 +2,20 @@
  * shrinks by its opacity. */
 #include "shared/draw_layout.h"
 
+// variant: 
+// variant: PATTERN=1
+// variant: PATTERN=1 SPINS=1
 #include "draw/record.glsl"
+#include "draw/pose.glsl"
 
 layout(location = 0) out vec4 center;        /* in view space; w: radius, m */
 layout(location = 1) out vec4 reflected;     /* albedo; a: 1 lit .. 0 shows it as it is */
 layout(location = 2) out vec4 emitted;       /* radiance */
 layout(location = 3) out vec4 bloom_weights; /* of equation 3.2 */
+#ifdef PATTERN
+layout(location = 4) out vec4 second; /* other albedo; a: segments of each; 0 none, below 0 a stripe */
+layout(location = 5) out vec4 lying;  /* from the ball to the world */
+#endif
 
 void main()
 {
@@ -29,4 +37,16 @@ void main()
     reflected = look_at(system, KILN_LOOK_COVER, life);
     emitted = look_at(system, KILN_LOOK_HOT, life);
     bloom_weights = look_at(system, KILN_LOOK_BLOOM, life);
+#ifdef PATTERN
+    uvec4 turn = looks[system].turn;
+    second = look_at(system, KILN_LOOK_OTHER, life);
+    second.a = turn.z == LOOK_STRIPE ? -1.0 : float(int(turn.z) - int(LOOK_SEGMENTS));
+    second.a = turn.z == LOOK_PLAIN ? 0.0 : second.a;
+    float angle = instance_angle(stream, look_at(system, KILN_LOOK_TURN, life), spread, age);
+    lying = instance_pose(stream, angle);
+#ifdef SPINS
+    if (turn.x != 0u)
+        lying = pose_of_slot(system, entry & 0xffffffu);
+#endif
+#endif
 }

@@ -7,7 +7,7 @@
 #include "shared/limits.h"
 #include "shared/platform.h"
 
-/* Binding points of uniform blocks (VIEW to BACKDROP) and storage blocks (RECORDS to CORNERS). */
+/* Binding points of uniform blocks (VIEW to BACKDROP) and storage blocks (RECORDS to SPINS). */
 #define KILN_BIND_VIEW     0
 #define KILN_BIND_LOOKS    1
 #define KILN_BIND_KEYS     2
@@ -15,6 +15,7 @@
 #define KILN_BIND_RECORDS  0
 #define KILN_BIND_ENTRIES  1
 #define KILN_BIND_CORNERS  2
+#define KILN_BIND_SPINS    3
 
 /* Edge of the tiles in which the backdrop is antialiased, px. */
 #define KILN_EDGE_TILE 8

@@ -5,6 +5,7 @@
 #define KILN_SHARED_INSTANCE_H
 
 #include "shared/random.h"
+#include "shared/spin.h"
 
 /* enum kiln_orient of the scene. */
 #define ORIENT_VELOCITY 0u
@@ -62,6 +63,27 @@ FN S(instance_axes) instance_about(float3 axis, float angle)
     axes.x = instance_turn(right, axis, turn.cosine, turn.sine);
     axes.y = instance_turn(up, axis, turn.cosine, turn.sine);
     axes.z = instance_turn(ahead, axis, turn.cosine, turn.sine);
+    return axes;
+}
+
+/* How a ball lies in the world that collisions do not turn. */
+FN float4 instance_pose(uint stream, float angle)
+{
+    EXACT float3 up = FLOAT3(0.0f, 1.0f, 0.0f);
+    EXACT float3 axis = random_direction(stream, RANDOM_AXIS, up, -1.0f);
+    return spin_about(axis, angle);
+}
+
+/* In a pose, as those have it that collisions turn. */
+FN S(instance_axes) instance_posed(float4 pose)
+{
+    EXACT float3 right = FLOAT3(1.0f, 0.0f, 0.0f);
+    EXACT float3 up = FLOAT3(0.0f, 1.0f, 0.0f);
+    EXACT float3 ahead = FLOAT3(0.0f, 0.0f, 1.0f);
+    EXACT S(instance_axes) axes;
+    axes.x = spin_outwards(pose, right);
+    axes.y = spin_outwards(pose, up);
+    axes.z = spin_outwards(pose, ahead);
     return axes;
 }
 

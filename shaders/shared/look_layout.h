@@ -21,7 +21,8 @@
 #define KILN_LOOK_SPREAD 5 /* scale, least and most; mean spin so far, least and most, rad/s */
 #define KILN_LOOK_TURN   6 /* rotation, least and most, rad; point, line width, px */
 #define KILN_LOOK_AXIS   7 /* unit vector in the world; unused */
-#define KILN_LOOK_ROWS   8
+#define KILN_LOOK_OTHER  8 /* the other colour of spheres, rgb; lit */
+#define KILN_LOOK_ROWS   9
 
 /* enum kiln_shape and enum kiln_facing of the scene. */
 #define LOOK_POINT     1u
@@ -32,11 +33,18 @@
 #define LOOK_AXIAL     3u
 #define LOOK_VELOCITY  4u
 
+/* Patterns of spheres: none, a stripe, or so many segments of each colour. */
+#define LOOK_PLAIN    0u
+#define LOOK_STRIPE   1u
+#define LOOK_SEGMENTS 2u /* and this plus their number */
+
 /* The rest of a look, the same at any age. */
 struct kiln_draw_look {
     S(kiln_derived_params) derived; /* for the progress through life */
     uint4 flags; /* additive; random start; literal soft formula (equation 3.3); textures */
     uint4 form;  /* LOOK_* shape; LOOK_* facing; points are round; lines reach back a frame */
+    uint4 turn; /* 1: collisions turn it; what its slots are less than those of spins; pattern of */
+                /* spheres, LOOK_* or segments; 1: a mesh lies as that */
     uint4 textures[KILN_MAX_TEXTURES]; /* first layer; cells; KILN_CELL_*; bits of the float that */
                                        /* scales the motion */
 };

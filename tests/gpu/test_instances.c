@@ -196,6 +196,33 @@ static void they_turn_about_an_axis(void **state)
     }
 }
 
+static void they_lie_as_collisions_have_turned_them(void **state)
+{
+    static const char *const overrides[] = {
+        "systems.a.look.mesh.orient=spin",
+        "systems.a.interact=[{collide: {radius: 20 cm, spin: true}}]"};
+    const double q[4] = {0.48, -0.6, 0.0, 0.64};
+    struct fixture f;
+    struct kiln_error error = {0};
+    init(&f, *state, overrides, 2);
+    kiln_pool_add_spins(&f.drawing.pool, (const bool[]){true});
+    struct kiln_spin *spins = kiln_buffer_host(&f.drawing.pool.spins, KILN_OVERWRITE, &error);
+    assert_non_null(spins);
+    memset(spins, 0, f.drawing.pool.spins.size);
+    spins[0].pose = (uint4){FLOAT_BITS((float)q[0]), FLOAT_BITS((float)q[1]),
+                            FLOAT_BITS((float)q[2]), FLOAT_BITS((float)q[3])};
+    const vec axes[3] = {{1 - 2 * (q[1] * q[1] + q[2] * q[2]), 2 * (q[0] * q[1] + q[2] * q[3]),
+                          2 * (q[0] * q[2] - q[1] * q[3])},
+                         {2 * (q[0] * q[1] - q[2] * q[3]), 1 - 2 * (q[0] * q[0] + q[2] * q[2]),
+                          2 * (q[1] * q[2] + q[0] * q[3])},
+                         {2 * (q[0] * q[2] + q[1] * q[3]), 2 * (q[1] * q[2] - q[0] * q[3]),
+                          1 - 2 * (q[0] * q[0] + q[1] * q[1])}};
+    const struct kiln_particle particle =
+        drawing_particle(0, (float3){0.2f, 0.9f, 1.2f}, (float3){1.0f, 0.0f, 0.0f});
+    check_solid(&f, &particle, axes);
+    finish(&f);
+}
+
 /* ---- light -------------------------------------------------------------------------------------
  */
 
@@ -377,8 +404,11 @@ static void many_take_little_memory(void **state)
 int main(void)
 {
     static const struct CMUnitTest each[] = {
-        test_on_device(ahead_is_where_they_go), test_on_device(they_turn_about_an_axis),
-        test_on_device(the_sun_shines_on_them), test_on_device(order_is_no_matter),
+        test_on_device(ahead_is_where_they_go),
+        test_on_device(they_turn_about_an_axis),
+        test_on_device(they_lie_as_collisions_have_turned_them),
+        test_on_device(the_sun_shines_on_them),
+        test_on_device(order_is_no_matter),
         test_on_device(the_near_plane_cuts),
     };
     static const struct CMUnitTest both[] = {

@@ -246,6 +246,68 @@ static void no_sphere_fills_the_picture(void **state)
     }
 }
 
+/* v, seen from a ball in a pose. */
+static vec into_ball(float4 pose, vec v)
+{
+    const vec u = {-(double)pose.x, -(double)pose.y, -(double)pose.z};
+    const vec twice = vec_add((vec){0}, vec_cross(u, v), 2);
+    return vec_add(vec_add(v, twice, (double)pose.w), vec_cross(u, twice), 1);
+}
+
+/* 1 where a ball shows its other colour, 0 where its own, and something between near the edge. */
+static double other_part(vec n, bool stripe)
+{
+    const double high = fabs(n.y), lune = sin(3 * atan2(n.z, n.x)) * hypot(n.x, n.z) / 3;
+    const double distance = stripe ? high - 0.42 : fmax(lune, (high - 0.94) * 2);
+    return distance > 0.06 ? 1 : distance < -0.06 ? 0 : 0.5;
+}
+
+static void place_turned(struct fixture *f, float4 pose)
+{
+    struct kiln_error error = {0};
+    kiln_pool_add_spins(&f->drawing.pool, (const bool[]){true});
+    struct kiln_spin *spins = kiln_buffer_host(&f->drawing.pool.spins, KILN_OVERWRITE, &error);
+    assert_non_null(spins);
+    memset(spins, 0, f->drawing.pool.spins.size);
+    spins[5].pose =
+        (uint4){FLOAT_BITS(pose.x), FLOAT_BITS(pose.y), FLOAT_BITS(pose.z), FLOAT_BITS(pose.w)};
+}
+
+/* A pattern lies on the ball as collisions have turned it. */
+static void patterns_turn_with_the_ball(void **state)
+{
+    static const char *const overrides[] = {
+        "systems.a.look.sphere={pattern: segments, color: [0.1, 0.9, 0.7]}",
+        "systems.a.interact=[{collide: {radius: 20 cm, spin: true}}]", "backdrop.objects=[]",
+        "systems.a.look.sphere.pattern=stripe"};
+    static const double other[3] = {0.1, 0.9, 0.7};
+    const float4 pose = {0.48f, -0.6f, 0.0f, 0.64f};
+    for (size_t stripe = 0; stripe < 2; stripe++) {
+        struct fixture f;
+        init(&f, *state, overrides, 3 + stripe);
+        struct kiln_particle particles[6] = {0};
+        particles[5] = drawing_particle(5, (float3){0.1f, 0.9f, 1.5f}, (float3){0.0f, 0.0f, 0.0f});
+        drawing_place(&f.drawing, particles, 6, STEP);
+        place_turned(&f, pose);
+        draw(&f, 6);
+        int shown[2] = {0, 0};
+        for (int p = 0; p < PIXELS; p++) {
+            const struct meeting m =
+                meet(&f, particles + 5, 1, 0.2, p % WIDTH + 0.5, p / WIDTH + 0.5);
+            if (m.edge_px < 2 || vec_dot(m.normal, m.normal) == 0)
+                continue;
+            const double part = other_part(into_ball(pose, m.normal), stripe);
+            for (int c = 0; c < 3 && part != 0.5; c++) {
+                const double color = part > 0 ? other[c] : ALBEDO[c];
+                assert_true(fabs((double)f.color.host[4 * p + c] - color) < 1e-3);
+            }
+            shown[part > 0] += part != 0.5;
+        }
+        assert_true(shown[0] > 100 && shown[1] > 100);
+        finish(&f);
+    }
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
@@ -255,6 +317,7 @@ int main(void)
         test_on_device(light_is_the_backdrops),
         test_on_device(hot_spheres_shine),
         test_on_device(no_sphere_fills_the_picture),
+        test_on_device(patterns_turn_with_the_ball),
     };
     int failed = 0;
     for (int i = 0; i < 2; i++) {
