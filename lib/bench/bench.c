@@ -27,6 +27,8 @@ static const struct kiln_suite_row SUITES[] = {
     {{"forces", "simulation by its force and integrator", 0.3}, kiln_suite_forces},
     {{"colliders", "simulation by what particles bounce off, and how volumes are built", 0.5},
      kiln_suite_colliders},
+    {{"balls", "simulation of 100,000 balls that collide, without and with spin", 0.2},
+     kiln_suite_balls},
     {{"flock", "flocks of 4,096 and 16,384, by whom they look at (Drone 2007, 7.4.4)", 0.3},
      kiln_suite_flock},
     {{"gravity", "gravity of all pairs, frames of it, and energy kept (Drone 2007, 7.4.3)", 0.5},

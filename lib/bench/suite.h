@@ -22,6 +22,7 @@ bool kiln_suite_curves(const struct kiln_bench_run *run, struct kiln_error *erro
 bool kiln_suite_groups(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_forces(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_colliders(const struct kiln_bench_run *run, struct kiln_error *error);
+bool kiln_suite_balls(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_flock(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_gravity(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_paint(const struct kiln_bench_run *run, struct kiln_error *error);

@@ -12,6 +12,7 @@ $ kiln bench --list | sed -E 's/ [0-9]+\.[0-9] min/ <time>/'
 1|  groups      <time>  kernels by the size of their work groups (Heinz 2019, 2.2.5)
 1|  forces      <time>  simulation by its force and integrator
 1|  colliders   <time>  simulation by what particles bounce off, and how volumes are built
+1|  balls       <time>  simulation of 100,000 balls that collide, without and with spin
 1|  flock       <time>  flocks of 4,096 and 16,384, by whom they look at (Drone 2007, 7.4.4)
 1|  gravity     <time>  gravity of all pairs, frames of it, and energy kept (Drone 2007, 7.4.3)
 1|  paint       <time>  painting with particles by its gather (Drone 2007, 7.6.1)
