@@ -159,7 +159,7 @@ static bool cast_shadows(struct kiln_lighting_stage *stage, const struct kiln_li
                          struct kiln_lighting *lighting, struct kiln_error *error)
 {
     if (stage->spheres &&
-        !kiln_sphere_shadow_run(stage->spheres, moment, &lighting->spheres, error))
+        !kiln_sphere_shadow_run(stage->spheres, moment, stage->threads, &lighting->spheres, error))
         return false;
     lighting->slot_count = moment->pool->slot_count;
     if (stage->shade)

@@ -6,7 +6,16 @@
 /* Texture units of the smoke's grids. */
 enum { UNIT_SMOKE_SUN = 4, UNIT_SMOKE_SKY = 5 };
 
-enum texture { SMOKE_SUN, SMOKE_SKY, SPHERE_BINS, SPHERE_LIST, SUN_SHADE, TEXTURE_COUNT };
+enum texture {
+    SMOKE_SUN,
+    SMOKE_SKY,
+    SPHERE_BINS,
+    SPHERE_LIST,
+    SPHERE_TILES,
+    SILHOUETTES,
+    SUN_SHADE,
+    TEXTURE_COUNT
+};
 
 static const struct {
     GLenum target;
@@ -17,6 +26,8 @@ static const struct {
     [SMOKE_SKY] = {GL_TEXTURE_3D, UNIT_SMOKE_SKY, "smoke towards the sky"},
     [SPHERE_BINS] = {GL_TEXTURE_2D, KILN_UNIT_SPHERE_BINS, "sphere bins"},
     [SPHERE_LIST] = {GL_TEXTURE_2D, KILN_UNIT_SPHERE_LIST, "sphere list"},
+    [SPHERE_TILES] = {GL_TEXTURE_2D, KILN_UNIT_SPHERE_TILES, "sphere tiles"},
+    [SILHOUETTES] = {GL_TEXTURE_2D, KILN_UNIT_SILHOUETTES, "silhouettes"},
     [SUN_SHADE] = {GL_TEXTURE_2D, KILN_UNIT_SUN_SHADE, "sun on particles"},
 };
 
@@ -81,6 +92,45 @@ static void send_grid(struct kiln_lighting_gl *gl, enum texture which, const flo
     gl->device->traffic.to_device += sizeof(float) * EDGE * EDGE * EDGE;
 }
 
+/* A list of float4 in rows; returns the rows that it has. */
+static size_t send_list(struct kiln_lighting_gl *gl, enum texture which,
+                        const struct kiln_sphere_bins *spheres, const float4 *list)
+{
+    make(gl, which, GL_NEAREST);
+    if (gl->sphere_rows != spheres->rows)
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, KILN_SPHERE_ROW, (GLsizei)spheres->rows, 0,
+                     GL_RGBA, GL_FLOAT, NULL);
+    size_t rows = (spheres->entry_count + KILN_SPHERE_ROW - 1) / KILN_SPHERE_ROW;
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, KILN_SPHERE_ROW, (GLsizei)rows, GL_RGBA, GL_FLOAT,
+                    list);
+    return rows;
+}
+
+/* The rows of tiles that are in use. */
+static void send_silhouettes(struct kiln_lighting_gl *gl, const struct kiln_sphere_bins *spheres)
+{
+    const float *texels = spheres->silhouettes;
+    const bool is_new = make(gl, SILHOUETTES, GL_NEAREST);
+    float last = 0.0f;
+    for (size_t i = 0; i < spheres->entry_count; i++) {
+        const float4 tile = spheres->tiles[i];
+        last = tile.y + tile.w > last ? tile.y + tile.w : last;
+    }
+    for (GLint level = 0; level < KILN_INSTANCE_LEVELS; level++) {
+        const GLsizei edge = KILN_INSTANCE_ATLAS >> level, rows = (GLsizei)last >> level;
+        if (is_new)
+            glTexImage2D(GL_TEXTURE_2D, level, GL_R32F, edge, edge, 0, GL_RED, GL_FLOAT, NULL);
+        if (rows > 0)
+            glTexSubImage2D(GL_TEXTURE_2D, level, 0, 0, edge, rows, GL_RED, GL_FLOAT, texels);
+        texels += (size_t)edge * (size_t)edge;
+        gl->device->traffic.to_device += sizeof(float) * (size_t)edge * (size_t)rows;
+    }
+    if (!is_new)
+        return;
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, KILN_INSTANCE_LEVELS - 1);
+}
+
 static void send_spheres(struct kiln_lighting_gl *gl, const struct kiln_sphere_bins *spheres)
 {
     GLsizei edge = (GLsizei)spheres->edge;
@@ -89,14 +139,12 @@ static void send_spheres(struct kiln_lighting_gl *gl, const struct kiln_sphere_b
                      GL_RG_INTEGER, GL_UNSIGNED_INT, NULL);
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, edge, edge, GL_RG_INTEGER, GL_UNSIGNED_INT,
                     spheres->bins);
-    make(gl, SPHERE_LIST, GL_NEAREST);
-    if (gl->sphere_rows != spheres->rows)
-        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, KILN_SPHERE_ROW, (GLsizei)spheres->rows, 0,
-                     GL_RGBA, GL_FLOAT, NULL);
+    size_t rows = send_list(gl, SPHERE_LIST, spheres, spheres->list);
+    if (spheres->tiles) {
+        rows += send_list(gl, SPHERE_TILES, spheres, spheres->tiles);
+        send_silhouettes(gl, spheres);
+    }
     gl->sphere_rows = spheres->rows;
-    size_t rows = (spheres->entry_count + KILN_SPHERE_ROW - 1) / KILN_SPHERE_ROW;
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, KILN_SPHERE_ROW, (GLsizei)rows, GL_RGBA, GL_FLOAT,
-                    spheres->list);
     gl->device->traffic.to_device += 2 * sizeof(uint32_t) * spheres->edge * spheres->edge +
                                      sizeof(float4) * KILN_SPHERE_ROW * rows;
 }

@@ -346,11 +346,123 @@ SIMD vf particle_cover(const struct kiln_ray_frame *frame, struct vf3 center, vf
     return vf_where(t > 0.0f, part * most * most * fade);
 }
 
+/* Where a level of the silhouettes starts, in texels. */
+SIMD vi silhouette_start(vi level)
+{
+    vi start = vi_all(0), size = vi_all(KILN_INSTANCE_ATLAS * KILN_INSTANCE_ATLAS);
+    for (int i = 0; i < KILN_INSTANCE_LEVELS; i++) {
+        start += (level > i) & size;
+        size >>= 2;
+    }
+    return start;
+}
+
+/* Tiles of meshes: where they start, their width in texels, as of struct kiln_sphere_bins. */
+struct ray_tile {
+    vi x, y, edge;
+    vf reach;
+};
+
+/* Linear between four texels of a level; nothing is beside the tile. */
+SIMD vf silhouette_level(const float *texels, const struct ray_tile *tile, vf u, vf v, vi level)
+{
+    const vi edge = tile->edge >> level, pitch = vi_all(KILN_INSTANCE_ATLAS) >> level;
+    const vi start = silhouette_start(level) + (tile->y >> level) * pitch + (tile->x >> level);
+    const vf size = vf_of(edge);
+    const vf x = vf_min(vf_max(u * size - 0.5f, vf_all(-2.0f)), size + 1.0f);
+    const vf y = vf_min(vf_max(v * size - 0.5f, vf_all(-2.0f)), size + 1.0f);
+    const vf left = vf_floor(x), top = vf_floor(y), right = x - left, down = y - top;
+    vf sum = vf_all(0.0f);
+    for (int i = 0; i < 4; i++) {
+        vi column = vi_of(left) + (i & 1), row = vi_of(top) + (i >> 1);
+        vi inside = (column >= 0) & (row >= 0) & (column < edge) & (row < edge);
+        vf weight = (i & 1 ? right : 1.0f - right) * (i >> 1 ? down : 1.0f - down);
+        vi at = vi_select(inside, start + row * pitch + column, vi_all(0));
+        sum += vf_where(inside, weight * vf_gather(texels, at));
+    }
+    return sum;
+}
+
+/* As silhouette_cover of sphere_shadow.glsl; ball: what the sphere covers that stands for it. */
+SIMD vf silhouette_cover(const struct kiln_ray_frame *frame, struct vf3 center,
+                         const struct ray_tile *tile, struct vf3 origin, vf ball)
+{
+    const struct kiln_draw_shapes *shapes = frame->shapes;
+    const float *texels = frame->spheres.silhouettes;
+    struct vf3 towards = vf3_sub(center, origin);
+    vf t = vf3_dot_all(towards, frame->backdrop->sun_direction), half = 0.5f / tile->reach;
+    vf u = 0.5f - vf3_dot_all(towards, shapes->sun_right) * half;
+    vf v = 0.5f - vf3_dot_all(towards, shapes->sun_up) * half;
+    vf radius = vf_max(t * shapes->sun_right.w, vf_all(1e-5f));
+    vf most = vf_floor(vf_log2(vf_of(tile->edge)) + 0.5f);
+    vf level = vf_log2(vf_max(radius * vf_of(tile->edge) * half, vf_all(1.0f)));
+    level = vf_max(vf_min(level, most), vf_all(0.0f));
+    vf fine = vf_floor(level), coarse = vf_min(fine + 1.0f, most);
+    vf cover = silhouette_level(texels, tile, u, v, vi_of(fine));
+    cover += (silhouette_level(texels, tile, u, v, vi_of(coarse)) - cover) * (level - fine);
+    vf wide = clamp01((radius / tile->reach - KILN_INSTANCE_SHARP) *
+                      (1.0f / (KILN_INSTANCE_ROUND - KILN_INSTANCE_SHARP)));
+    cover = vf_where(t > 0.0f, cover);
+    return cover + (ball - cover) * wide;
+}
+
+/* What of an entry follows from the place where it is. */
+struct ray_entry {
+    struct vf3 center;
+    vf size, reach; /* of the sphere, and of what may be in its tile; m */
+    vi at, edge;    /* edge: 0: it has no tile */
+};
+
+SIMD struct ray_entry read_entry(const struct kiln_sphere_bins *spheres, vi entry, vi wanted)
+{
+    const float *list = (const float *)spheres->list, *tiles = (const float *)spheres->tiles;
+    const vi at = vi_select(wanted, 4 * entry, vi_all(0));
+    struct ray_entry e = {
+        .center = {vf_gather(list, at), vf_gather(list + 1, at), vf_gather(list + 2, at)},
+        .size = vf_gather(list + 3, at),
+        .at = at};
+    e.reach = e.size;
+    if (tiles) {
+        const vf edge = vf_gather(tiles + 3, at);
+        e.edge = vi_of(edge);
+        e.reach = vf_select(edge > 0.0f, vf_gather(tiles + 2, at), e.size);
+    }
+    return e;
+}
+
+/* May it hide anything? Where it is not, its cover is 0. */
+SIMD vi entry_is_near(const struct kiln_ray_frame *frame, const struct ray_entry *e,
+                      struct vf3 origin)
+{
+    const struct kiln_draw_shapes *shapes = frame->shapes;
+    const struct vf3 towards = vf3_sub(e->center, origin);
+    const vf t = vf3_dot_all(towards, frame->backdrop->sun_direction);
+    const vf aside = vf_max(vf_abs(vf3_dot_all(towards, shapes->sun_right)),
+                            vf_abs(vf3_dot_all(towards, shapes->sun_up)));
+    /* Half a texel beside a tile is read, of levels as wide as the sun or of 1/16 of the tile. */
+    const vf wider = vf_max(t * shapes->sun_right.w, 0.125f * e->reach);
+    return (t > 0.0f) & (aside < e->reach + (wider + 1e-4f));
+}
+
+SIMD vf entry_cover(const struct kiln_ray_frame *frame, const struct ray_entry *e,
+                    struct vf3 origin)
+{
+    const vf ball = particle_cover(frame, e->center, e->size, origin);
+    const vi has = e->edge > 0;
+    if (!any(has))
+        return ball;
+    const float *tiles = (const float *)frame->spheres.tiles;
+    const struct ray_tile tile = {vi_of(vf_gather(tiles, e->at)),
+                                  vi_of(vf_gather(tiles + 1, e->at)),
+                                  vi_select(has, e->edge, vi_all(1)), e->reach};
+    return vf_select(has, silhouette_cover(frame, e->center, &tile, origin, ball), ball);
+}
+
+/* Each lane goes on in its list to what is near, so that few of them wait for the others. */
 SIMD vf particles_let_through(const struct kiln_ray_frame *frame, const struct ray_shade *shade)
 {
     const struct kiln_draw_shapes *shapes = frame->shapes;
     const int32_t *bins = (const int32_t *)frame->spheres.bins;
-    const float *list = (const float *)frame->spheres.list;
     const float edge = (float)shapes->counts.w;
     vf visible = vf_all(1.0f);
     vf x = vf3_map(shapes->world_to_bin[0], shade->origin);
@@ -361,15 +473,22 @@ SIMD vf particles_let_through(const struct kiln_ray_frame *frame, const struct r
     vi bin = vi_of(vf_where(inside, y)) * (int32_t)shapes->counts.w + vi_of(vf_where(inside, x));
     vi entry = vi_gather(bins, 2 * bin), count = inside & vi_gather(bins, 2 * bin + 1);
     for (;;) {
-        vi more = count > 0;
-        if (!any(more))
+        vi found = vi_all(0), pending = count > 0;
+        while (any(pending)) {
+            const struct ray_entry e = read_entry(&frame->spheres, entry, pending);
+            const vi near = pending & entry_is_near(frame, &e, shade->origin);
+            found |= near;
+            pending &= ~near;
+            entry -= pending; /* -1 where it is */
+            count += pending;
+            pending &= count > 0;
+        }
+        if (!any(found))
             return visible;
-        vi at = vi_select(more, 4 * entry, vi_all(0));
-        struct vf3 center = {vf_gather(list, at), vf_gather(list + 1, at), vf_gather(list + 2, at)};
-        vf cover = particle_cover(frame, center, vf_gather(list + 3, at), shade->origin);
-        visible *= 1.0f - vf_where(more, cover);
-        entry += 1;
-        count -= 1;
+        const struct ray_entry e = read_entry(&frame->spheres, entry, found);
+        visible *= 1.0f - vf_where(found, entry_cover(frame, &e, shade->origin));
+        entry -= found;
+        count += found;
     }
 }
 

@@ -34,9 +34,11 @@ struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
         features.meshes |= kiln_object_is_mesh(&backdrop->objects[i]);
         features.paint |= kiln_object_takes_paint(object);
     }
-    for (uint32_t i = 0; i < scene->system_count; i++)
-        features.spheres |=
-            scene->systems[i].enabled && kiln_look_is_opaque(&scene->systems[i].look);
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_system *system = &scene->systems[i];
+        features.spheres |= system->enabled && kiln_look_is_opaque(&system->look);
+        features.instances |= system->enabled && system->look.shape == KILN_SHAPE_MESH;
+    }
     return features;
 }
 
@@ -44,10 +46,11 @@ void kiln_shape_defines(const struct kiln_shape_features *features, int samples,
                         char out[KILN_SHAPE_DEFINES])
 {
     snprintf(
-        out, KILN_SHAPE_DEFINES, "#define SAMPLES %d\n%s%s%s%s%s%s%s%s%s", samples,
+        out, KILN_SHAPE_DEFINES, "#define SAMPLES %d\n%s%s%s%s%s%s%s%s%s%s", samples,
         features->round ? "#define ROUND 1\n" : "", features->turned ? "#define TURNED 1\n" : "",
         features->meshes ? "#define MESHES 1\n" : "", features->paint ? "#define PAINT 1\n" : "",
         features->spheres ? "#define SPHERES 1\n" : "",
+        features->instances ? "#define INSTANCES 1\n" : "",
         features->floor_image ? "#define FLOOR_IMAGE 1\n" : "",
         features->floor_gloss ? "#define FLOOR_GLOSS 1\n" : "",
         features->sky_image ? "#define SKY_IMAGE 1\n" : "",

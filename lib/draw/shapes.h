@@ -7,13 +7,14 @@
 #include "shared/shape_layout.h"
 
 /* What a scene needs of the shaders; sets of these choose a variant. spheres are particles that
- * throw shadows. */
+ * throw shadows, instances those of them that are meshes. */
 struct kiln_shape_features {
-    bool round, turned, meshes, paint, spheres, floor_image, floor_gloss, sky_image, soft_sun;
+    bool round, turned, meshes, paint, spheres, instances, floor_image, floor_gloss, sky_image,
+        soft_sun;
 };
 struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene);
 
-#define KILN_SHAPE_DEFINES 208 /* bytes of their text */
+#define KILN_SHAPE_DEFINES 240 /* bytes of their text */
 
 /* The "#define" lines of the variant, SAMPLES rays a pixel; for kiln_program_params. */
 void kiln_shape_defines(const struct kiln_shape_features *features, int samples,

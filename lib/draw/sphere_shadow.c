@@ -5,7 +5,11 @@
 #include "draw/sphere_shadow.h"
 
 #include "base/error.h"
+#include "draw/instance_tiles.h"
+#include "shared/derived.h"
 #include "shared/exact.h"
+#include "shared/instance.h"
+#include "shared/look_layout.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -14,9 +18,9 @@
 enum { MOST_ENTRIES = 1 << 20, FIRST_ROOM = 1024 };
 
 struct sphere {
-    float4 center; /* world; w: radius, m */
-    float x, y;    /* across the sun's direction, m */
-    float reach;   /* of the shadow around that, m */
+    float4 center;         /* world; w: radius, m */
+    float low[2], high[2]; /* of its shadow across the sun's direction, m */
+    float4 tile;           /* as of struct kiln_sphere_bins */
 };
 
 struct kiln_sphere_shadow {
@@ -25,11 +29,39 @@ struct kiln_sphere_shadow {
     float floor;               /* its height; infinite for none */
     struct sphere *spheres;
     size_t count, room;
+    struct kiln_instance_tiles *instances; /* NULL: no particles are meshes */
+    struct kiln_instance_place *places;    /* of the first so many spheres: those with tiles */
+    uint32_t place_count, place_room;
     bool failed;                                            /* no memory for one */
     uint32_t bins[KILN_SPHERE_BINS * KILN_SPHERE_BINS * 2]; /* first entry and number of each */
-    float4 *entries;
+    float4 *entries, *tiles;
     size_t entry_rows; /* of memory */
 };
+
+static uint64_t count_meshes(const struct kiln_scene *scene)
+{
+    uint64_t count = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_system *system = &scene->systems[i];
+        if (system->enabled && system->look.shape == KILN_SHAPE_MESH)
+            count += system->capacity;
+    }
+    return count;
+}
+
+void kiln_sphere_shadow_destroy(struct kiln_sphere_shadow **shadow)
+{
+    struct kiln_sphere_shadow *s = *shadow;
+    if (!s)
+        return;
+    free(s->spheres);
+    free(s->entries);
+    free(s->tiles);
+    free(s->places);
+    kiln_instance_tiles_destroy(&s->instances);
+    free(s);
+    *shadow = NULL;
+}
 
 struct kiln_sphere_shadow *kiln_sphere_shadow_create(const struct kiln_scene *scene,
                                                      struct kiln_error *error)
@@ -40,18 +72,13 @@ struct kiln_sphere_shadow *kiln_sphere_shadow_create(const struct kiln_scene *sc
         return NULL;
     }
     shadow->scene = scene;
+    const uint64_t meshes = count_meshes(scene);
+    if (meshes > 0) {
+        shadow->instances = kiln_instance_tiles_create(scene, meshes, error);
+        if (!shadow->instances)
+            kiln_sphere_shadow_destroy(&shadow);
+    }
     return shadow;
-}
-
-void kiln_sphere_shadow_destroy(struct kiln_sphere_shadow **shadow)
-{
-    struct kiln_sphere_shadow *s = *shadow;
-    if (!s)
-        return;
-    free(s->spheres);
-    free(s->entries);
-    free(s);
-    *shadow = NULL;
 }
 
 /* How far around itself a sphere may throw its shadow: the penumbra widens until the floor, or
@@ -64,30 +91,120 @@ static float reach_of(const struct kiln_sphere_shadow *shadow, float3 center, fl
     return radius + (spread > 0.0f ? widest : 0.0f);
 }
 
-/* radius: of a sphere with such a shadow, in radii of the particle. */
-static void collect(struct kiln_sphere_shadow *shadow, const struct kiln_living *particle,
-                    float radius)
+static struct sphere *add(struct kiln_sphere_shadow *shadow, float3 at)
 {
-    radius *= particle->radius * particle->opacity; /* it grows by it (spheres.vert) */
-    if (!(radius > 0.0f) || shadow->failed)
-        return;
     if (shadow->count == shadow->room) {
         size_t room = shadow->room ? 2 * shadow->room : FIRST_ROOM;
         struct sphere *more = realloc(shadow->spheres, room * sizeof *more);
         if (!more) {
             shadow->failed = true;
-            return;
+            return NULL;
         }
         shadow->spheres = more;
         shadow->room = room;
     }
-    float3 at = particle->position;
-    shadow->spheres[shadow->count++] = (struct sphere){
-        .center = {at.x, at.y, at.z, radius},
-        .x = float3_dot(at, shadow->sun.right),
-        .y = float3_dot(at, shadow->sun.up),
-        .reach = reach_of(shadow, at, radius),
-    };
+    struct sphere *sphere = &shadow->spheres[shadow->count++];
+    *sphere = (struct sphere){.center = {at.x, at.y, at.z, 0.0f}};
+    return sphere;
+}
+
+/* The bounds of its shadow, by its own around its middle and how much wider the penumbra is. */
+static void bound(const struct kiln_sphere_shadow *shadow, struct sphere *sphere,
+                  const float low[2], const float high[2], float wider)
+{
+    const float3 at = {sphere->center.x, sphere->center.y, sphere->center.z};
+    const float across[2] = {float3_dot(at, shadow->sun.right), float3_dot(at, shadow->sun.up)};
+    for (int c = 0; c < 2; c++) {
+        sphere->low[c] = across[c] + low[c] - wider;
+        sphere->high[c] = across[c] + high[c] + wider;
+    }
+}
+
+/* radius: of a sphere with such a shadow, in radii of the particle. */
+static void collect(struct kiln_sphere_shadow *shadow, const struct kiln_living *particle,
+                    float radius)
+{
+    radius *= particle->radius * particle->opacity; /* it grows by it (spheres.vert) */
+    struct sphere *sphere =
+        radius > 0.0f && !shadow->failed ? add(shadow, particle->position) : NULL;
+    if (!sphere)
+        return;
+    sphere->center.w = radius;
+    const float reach = reach_of(shadow, particle->position, radius);
+    bound(shadow, sphere, (const float[2]){0.0f, 0.0f}, (const float[2]){0.0f, 0.0f}, reach);
+}
+
+/* ---- meshes ---------------------------------------------------------------------------------- */
+
+static struct kiln_instance_place *add_place(struct kiln_sphere_shadow *shadow)
+{
+    if (shadow->place_count == shadow->place_room) {
+        const uint32_t room = shadow->place_room ? 2 * shadow->place_room : FIRST_ROOM;
+        struct kiln_instance_place *more = realloc(shadow->places, room * sizeof *more);
+        if (!more) {
+            shadow->failed = true;
+            return NULL;
+        }
+        shadow->places = more;
+        shadow->place_room = room;
+    }
+    return &shadow->places[shadow->place_count++];
+}
+
+/* A mesh with a tile: its radius waits for what is drawn there. */
+static void collect_mesh(struct kiln_sphere_shadow *shadow, const struct kiln_living_system *system,
+                         uint32_t number, uint32_t slot, const struct kiln_living *particle)
+{
+    const struct kiln_look *look = &shadow->scene->systems[number].look;
+    const struct kiln_particle record = system->records[slot];
+    const float reach = kiln_instance_tiles_mesh(shadow->instances, number)->reach;
+    const float size = 2.0f * particle->radius * particle->opacity;
+    struct sphere *sphere = size > 0.0f ? add(shadow, particle->position) : NULL;
+    struct kiln_instance_place *place = sphere ? add_place(shadow) : NULL;
+    if (!place)
+        return;
+    const uint32_t stream = particle_stream(system->derived, record);
+    const float angle =
+        instance_angle(stream, kiln_living_look(system, KILN_LOOK_TURN, particle->progress),
+                       kiln_living_look(system, KILN_LOOK_SPREAD, particle->progress),
+                       particle_age(record, system->step, system->dt_s));
+    const struct instance_axes axes =
+        instance_axes_of(look->mesh.orient, particle_velocity(record), angle, stream);
+    const float3 columns[3] = {axes.x, axes.y, axes.z};
+    place->system = number;
+    for (int c = 0; c < 3; c++) {
+        place->across[0][c] = float3_dot(columns[c], shadow->sun.right) / reach;
+        place->across[1][c] = float3_dot(columns[c], shadow->sun.up) / reach;
+    }
+    sphere->tile.z = size * reach;
+}
+
+/* The spheres that stand for them are as large as their silhouettes. */
+static void draw_tiles(struct kiln_sphere_shadow *shadow, struct kiln_threads *threads)
+{
+    struct kiln_instance_tiles *tiles = shadow->instances;
+    const float root = 2.0f / 1.7724539f; /* of pi */
+    kiln_instance_tiles_run(tiles, shadow->places, shadow->place_count, threads);
+    for (uint32_t i = 0; i < shadow->place_count; i++) {
+        struct sphere *sphere = &shadow->spheres[i];
+        const struct kiln_instance_tile at = kiln_instance_tile_at(tiles, i);
+        const float4 center = sphere->center;
+        const struct kiln_instance_place *place = &shadow->places[i];
+        const float reach = sphere->tile.z, radius = reach * root * sqrtf(place->covered);
+        const float edge = (float)kiln_instance_tiles_edge(tiles), texel = 2.0f * reach / edge;
+        const float spread =
+            reach_of(shadow, (float3){center.x, center.y, center.z}, radius) - radius;
+        sphere->tile = (float4){(float)at.x, (float)at.y, reach, edge};
+        sphere->center.w = radius;
+        const float low[2] = {reach * place->low[0], reach * place->low[1]};
+        const float high[2] = {reach * place->high[0], reach * place->high[1]};
+        bound(shadow, sphere, low, high, exact_max(texel, spread)); /* half of a level's texel */
+    }
+}
+
+static bool has_tiles(const struct kiln_sphere_shadow *shadow)
+{
+    return shadow->instances && kiln_instance_tiles_edge(shadow->instances) > 0;
 }
 
 static void collect_system(struct kiln_sphere_shadow *shadow,
@@ -95,13 +212,38 @@ static void collect_system(struct kiln_sphere_shadow *shadow,
 {
     const struct kiln_living_system system = kiln_living_system(moment, index);
     const struct kiln_look *look = &shadow->scene->systems[index].look;
-    float radius = look->shape == KILN_SHAPE_MESH ? 2.0f * look->mesh.shade : 1.0f;
-    for (uint32_t slot = 0; slot < system.used; slot++) {
+    const bool mesh = look->shape == KILN_SHAPE_MESH;
+    float radius = mesh ? 2.0f * look->mesh.shade : 1.0f;
+    for (uint32_t slot = 0; slot < system.used && !shadow->failed; slot++) {
         struct kiln_living particle;
-        if (kiln_living_at(&system, slot, &particle))
+        if (!kiln_living_at(&system, slot, &particle))
+            continue;
+        if (mesh && has_tiles(shadow))
+            collect_mesh(shadow, &system, index, slot, &particle);
+        else
             collect(shadow, &particle, radius);
     }
 }
+
+/* Those with tiles first. */
+static void collect_all(struct kiln_sphere_shadow *shadow, const struct kiln_living_moment *moment,
+                        struct kiln_threads *threads)
+{
+    const struct kiln_scene *scene = shadow->scene;
+    shadow->count = shadow->place_count = 0;
+    for (int meshes = 1; meshes >= 0; meshes--) {
+        for (uint32_t i = 0; i < scene->system_count; i++) {
+            const struct kiln_system *system = &scene->systems[i];
+            if (system->enabled && kiln_look_is_opaque(&system->look) &&
+                (system->look.shape == KILN_SHAPE_MESH) == (meshes == 1))
+                collect_system(shadow, moment, i);
+        }
+    }
+    if (shadow->place_count > 0 && !shadow->failed)
+        draw_tiles(shadow, threads);
+}
+
+/* ---- lists ----------------------------------------------------------------------------------- */
 
 /* Where the bins lie across the sun's direction. */
 struct layout {
@@ -112,13 +254,12 @@ struct layout {
 static struct layout lay_out(const struct kiln_sphere_shadow *shadow)
 {
     const struct sphere *s = shadow->spheres;
-    float low_x = s->x - s->reach, low_y = s->y - s->reach;
-    float high_x = s->x + s->reach, high_y = s->y + s->reach;
+    float low_x = s->low[0], low_y = s->low[1], high_x = s->high[0], high_y = s->high[1];
     for (size_t i = 1; i < shadow->count; i++) {
-        low_x = fminf(low_x, s[i].x - s[i].reach);
-        low_y = fminf(low_y, s[i].y - s[i].reach);
-        high_x = fmaxf(high_x, s[i].x + s[i].reach);
-        high_y = fmaxf(high_y, s[i].y + s[i].reach);
+        low_x = fminf(low_x, s[i].low[0]);
+        low_y = fminf(low_y, s[i].low[1]);
+        high_x = fmaxf(high_x, s[i].high[0]);
+        high_y = fmaxf(high_y, s[i].high[1]);
     }
     float longest = fmaxf(high_x - low_x, high_y - low_y);
     return (struct layout){KILN_SPHERE_BINS, low_x, low_y, longest / KILN_SPHERE_BINS};
@@ -136,9 +277,9 @@ static uint32_t bin_at(const struct layout *layout, float distance)
 
 static struct range bins_of(const struct layout *layout, const struct sphere *s)
 {
-    float x = s->x - layout->low_x, y = s->y - layout->low_y;
-    return (struct range){{bin_at(layout, x - s->reach), bin_at(layout, x + s->reach)},
-                          {bin_at(layout, y - s->reach), bin_at(layout, y + s->reach)}};
+    const float x = layout->low_x, y = layout->low_y;
+    return (struct range){{bin_at(layout, s->low[0] - x), bin_at(layout, s->high[0] - x)},
+                          {bin_at(layout, s->low[1] - y), bin_at(layout, s->high[1] - y)}};
 }
 
 /* Bins so large that their lists are not too long in all; returns the entries. */
@@ -169,8 +310,22 @@ static bool make_room(struct kiln_sphere_shadow *shadow, size_t entries)
         return false;
     memset(more, 0, rows * KILN_SPHERE_ROW * sizeof *more);
     shadow->entries = more;
+    if (has_tiles(shadow)) {
+        more = realloc(shadow->tiles, rows * KILN_SPHERE_ROW * sizeof *more);
+        if (!more)
+            return false;
+        memset(more, 0, rows * KILN_SPHERE_ROW * sizeof *more);
+        shadow->tiles = more;
+    }
     shadow->entry_rows = rows;
     return true;
+}
+
+static void put_entry(struct kiln_sphere_shadow *shadow, uint32_t at, const struct sphere *sphere)
+{
+    shadow->entries[at] = sphere->center;
+    if (shadow->tiles)
+        shadow->tiles[at] = sphere->tile;
 }
 
 /* Returns the length of the longest. */
@@ -185,7 +340,7 @@ static uint32_t fill_lists(struct kiln_sphere_shadow *shadow, const struct layou
                 for (uint32_t x = r.x[0]; x <= r.x[1]; x++) {
                     uint32_t *bin = shadow->bins + 2 * ((size_t)y * edge + x);
                     if (pass == 1)
-                        shadow->entries[bin[0] + bin[1]] = shadow->spheres[i].center;
+                        put_entry(shadow, bin[0] + bin[1], &shadow->spheres[i]);
                     bin[1]++;
                 }
             }
@@ -202,8 +357,8 @@ static uint32_t fill_lists(struct kiln_sphere_shadow *shadow, const struct layou
 }
 
 bool kiln_sphere_shadow_run(struct kiln_sphere_shadow *shadow,
-                            const struct kiln_living_moment *moment, struct kiln_sphere_bins *bins,
-                            struct kiln_error *error)
+                            const struct kiln_living_moment *moment, struct kiln_threads *threads,
+                            struct kiln_sphere_bins *bins, struct kiln_error *error)
 {
     const struct kiln_scene *scene = shadow->scene;
     *bins = (struct kiln_sphere_bins){.edge = 0};
@@ -212,11 +367,7 @@ bool kiln_sphere_shadow_run(struct kiln_sphere_shadow *shadow,
         scene->backdrop.floor_enabled
             ? kiln_scene_value(scene, &scene->backdrop.floor_height, moment->view->clock.x)
             : INFINITY;
-    shadow->count = 0;
-    for (uint32_t i = 0; i < scene->system_count; i++) {
-        if (scene->systems[i].enabled && kiln_look_is_opaque(&scene->systems[i].look))
-            collect_system(shadow, moment, i);
-    }
+    collect_all(shadow, moment, threads);
     if (shadow->count == 0 && !shadow->failed)
         return true;
     struct layout layout = {0};
@@ -230,12 +381,15 @@ bool kiln_sphere_shadow_run(struct kiln_sphere_shadow *shadow,
     const uint32_t longest = fill_lists(shadow, &layout);
     float scale = 1.0f / layout.size;
     const float3 right = shadow->sun.right, up = shadow->sun.up;
-    *bins = (struct kiln_sphere_bins){.edge = layout.edge,
-                                      .bins = shadow->bins,
-                                      .list = shadow->entries,
-                                      .entry_count = entries,
-                                      .rows = shadow->entry_rows,
-                                      .longest = longest};
+    *bins = (struct kiln_sphere_bins){
+        .edge = layout.edge,
+        .bins = shadow->bins,
+        .list = shadow->entries,
+        .entry_count = entries,
+        .rows = shadow->entry_rows,
+        .tiles = shadow->tiles,
+        .silhouettes = shadow->tiles ? kiln_instance_tiles_texels(shadow->instances) : NULL,
+        .longest = longest};
     bins->world_to_bin[0] =
         (float4){right.x * scale, right.y * scale, right.z * scale, -layout.low_x * scale};
     bins->world_to_bin[1] =

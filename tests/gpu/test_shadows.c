@@ -1,5 +1,5 @@
 /* Shadows of particles and on particles: of spheres on the floor and on each other, against rays
- * that are counted; of a box on spheres and on smoke. */
+ * that are counted; of meshes, against their corners; of a box on spheres and on smoke. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -31,15 +31,15 @@ enum { WIDTH = 160, HEIGHT = 90, STEP = 30 };
     "    emit: {life: 1 s}\n"                                                                      \
     "    look: {shape: sphere, size: 0.6 m, color: 1, lit: 1, fade: {in: 0, out: 0}}\n"
 
-/* Its surface is 2.366025 in squares of its edge, so a sphere of RADIUS has as large a shadow. */
+/* A corner where three edges of EDGE meet; turned about y by TURN. */
 #define TETRAHEDRA                                                                                 \
     "systems:\n"                                                                                   \
     "  a:\n"                                                                                       \
     "    emit: {life: 1 s}\n"                                                                      \
-    "    look: {shape: mesh, mesh: {file: tetrahedron.obj}, size: 0.691376 m, color: 1, lit: 1,\n" \
-    "           fade: {in: 0, out: 0}}\n"
+    "    look: {shape: mesh, mesh: {file: tetrahedron.obj, orient: upright}, size: 0.9 m,\n"       \
+    "           rotation: [40 deg, 40 deg], color: 1, lit: 1, fade: {in: 0, out: 0}}\n"
 
-static const double RADIUS = 0.3;
+static const double RADIUS = 0.3, EDGE = 0.9, TURN = 0.698131701;
 static const vec TOWARDS = {-0.6, 0.8, 0};
 
 struct fixture {
@@ -197,16 +197,78 @@ static void the_shadow_of_a_sphere_lies_where_geometry_says(void **state)
     assert_true(penumbra[3] > penumbra[2]);
 }
 
-/* A mesh throws the shadow of a sphere, as large as its own is on average over all directions. */
-static void the_shadow_of_a_mesh_is_that_of_a_sphere(void **state)
+/* Is a place behind the tetrahedron, as the sun sees them? */
+static bool is_behind(vec place, vec middle)
 {
+    double x[5], y[5];
+    for (int k = 0; k < 5; k++) {
+        const vec half = {k == 1 ? 0.5 : -0.5, k == 2 ? 0.5 : -0.5, k == 3 ? 0.5 : -0.5};
+        const vec turned = {half.x * cos(TURN) + half.z * sin(TURN), half.y,
+                            half.z * cos(TURN) - half.x * sin(TURN)};
+        const vec at = k == 4 ? place : vec_add(middle, turned, EDGE);
+        x[k] = 0.8 * at.x + 0.6 * at.y;
+        y[k] = at.z;
+    }
+    for (int face = 0; face < 4; face++) {
+        bool left = true, right = true;
+        for (int k = 0; k < 3; k++) {
+            const int a = (face + k) % 4, b = (face + (k + 1) % 3) % 4;
+            const double side = (x[b] - x[a]) * (y[4] - y[a]) - (y[b] - y[a]) * (x[4] - x[a]);
+            left = left && side >= 0;
+            right = right && side <= 0;
+        }
+        if (left || right)
+            return true;
+    }
+    return false;
+}
+
+/* The sunlight that the floor lacks, all over the picture. */
+static double darkness(const struct fixture *f)
+{
+    double sum = 0;
+    for (int i = 0; i < WIDTH * HEIGHT; i++)
+        sum += 1 - (double)f->drawing.backdrop_color.host[4 * i] / 0.8;
+    return sum;
+}
+
+/* Pixels are wrong that are not near its edge. */
+static void check_shape(const struct fixture *f, vec place)
+{
+    int dark = 0;
+    for (int p = 0; p < WIDTH * HEIGHT; p++) {
+        const vec at = floor_at(&f->drawing, p % WIDTH, p / WIDTH);
+        const bool behind = is_behind(at, place);
+        bool even = true;
+        for (int n = 0; n < 4; n++) {
+            const vec aside = {at.x + (n & 1 ? 0.05 : -0.05), 0, at.z + (n & 2 ? 0.05 : -0.05)};
+            even = even && is_behind(aside, place) == behind;
+        }
+        const double found = (double)f->drawing.backdrop_color.host[4 * p] / 0.8;
+        assert_true(!even || fabs(found - (behind ? 0 : 1)) < 0.05);
+        dark += even && behind;
+    }
+    assert_true(dark > 30);
+}
+
+/* With a sharp edge under a small sun; a larger one blurs it, and takes away as much light, a very
+ * large one about as much, as of a sphere. */
+static void the_shadow_of_a_mesh_has_its_shape(void **state)
+{
+    static const char *const suns[] = {NULL, "backdrop.sun.size=8 deg", "backdrop.sun.size=30 deg"};
     const vec place = {0, 2, 0};
-    struct fixture f;
+    double lost[3];
     drawing_asset_root = KILN_SOURCE_DIR "/tests/mutation";
-    init(&f, *state, HEAD "backdrop:\n" SUN TETRAHEDRA, NULL);
-    draw(&f, &place, 1);
-    check_floor(&f, &place, 1, 0, 0.06);
-    finish(&f);
+    for (int k = 0; k < 3; k++) {
+        struct fixture f;
+        init(&f, *state, HEAD "backdrop:\n" SUN TETRAHEDRA, suns[k]);
+        draw(&f, &place, 1);
+        lost[k] = darkness(&f);
+        if (k == 0)
+            check_shape(&f, place);
+        finish(&f);
+        assert_true(fabs(lost[k] - lost[0]) < (k == 2 ? 0.2 : 0.02) * lost[0]);
+    }
     drawing_asset_root = NULL;
 }
 
@@ -435,7 +497,7 @@ int main(void)
         return 1;
     static const struct CMUnitTest tests[] = {
         test_on_device(the_shadow_of_a_sphere_lies_where_geometry_says),
-        test_on_device(the_shadow_of_a_mesh_is_that_of_a_sphere),
+        test_on_device(the_shadow_of_a_mesh_has_its_shape),
         test_on_device(spheres_of_a_cloud_all_throw_shadows),
         test_on_device(a_list_of_spheres_may_be_long),
         test_on_device(spheres_shade_each_other),
