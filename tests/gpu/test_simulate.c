@@ -212,7 +212,7 @@ static void births_are_split_among_emitters(void **state)
 {
     fixture_init(&fixture);
     struct kiln_system *s = fixture_add_system(&fixture, "burst", 0.0f);
-    s->emit.bursts[0] = (struct kiln_burst){0.1, 5000 * SIM_EMITTER_BIRTHS + 1};
+    s->emit.bursts[0] = (struct kiln_burst){0.1, 500 * SIM_EMITTER_BIRTHS + 1};
     s->emit.bursts[1] = (struct kiln_burst){0.5, SIM_EMITTER_BIRTHS};
     s->emit.bursts[2] = (struct kiln_burst){0.6, SIM_EMITTER_BIRTHS - 1};
     s->emit.burst_count = 3;
@@ -298,8 +298,7 @@ static void work_groups_may_have_any_size(void **state)
 {
     struct kiln_device *device = *state;
     static const uint32_t sizes[] = {1, 8, 96, 1024};
-    fixture_family(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT);
-    fixture_finish(&fixture, 60);
+    fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, 60);
     struct simulation cpu, run;
     uint64_t alive = 0;
     simulation_start(&cpu, &fixture.scene, NULL, 1);
