@@ -109,8 +109,11 @@ bool kiln_read_file_asset(struct kiln_reader *reader, const struct kiln_node *no
     kiln_text_free(&joined);
     if (!real) {
         char text[128];
-        return kiln_reader_error(reader, node, "cannot open '%s': %s", quoted,
-                                 strerror_r(reason, text, sizeof text));
+        return kiln_reader_error(reader, node, "cannot open '%s': %s%s", quoted,
+                                 strerror_r(reason, text, sizeof text),
+                                 reason == ENOENT ? "; a path starts at the scene's folder, or at "
+                                                    "the asset root that is given instead"
+                                                  : "");
     }
     struct stat status;
     bool ok = false;

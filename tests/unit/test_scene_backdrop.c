@@ -41,7 +41,8 @@ static const struct {
      "513"},
     {"kiln: 1\n"
      "backdrop: {objects: [{terrain: {image: none.png}}]}\n",
-     ":2:40: backdrop.objects.0.terrain.image: cannot open 'none.png': No such file or directory"},
+     ":2:40: backdrop.objects.0.terrain.image: cannot open 'none.png': No such file or directory"
+     "; a path starts at the scene's folder, or at the asset root that is given instead"},
     {"kiln: 1\n"
      "backdrop: {objects: [{terrain: {}}, {terrain: {}}, {terrain: {}}, {terrain: {}}, {terrain: "
      "{}}, "
@@ -53,7 +54,8 @@ static const struct {
      "scene's folder and stays below it"},
     {"kiln: 1\n"
      "backdrop: {floor: {image: no-such-file.png}}\n",
-     ":2:27: backdrop.floor.image: cannot open 'no-such-file.png': No such file or directory"},
+     ":2:27: backdrop.floor.image: cannot open 'no-such-file.png': No such file or directory"
+     "; a path starts at the scene's folder, or at the asset root that is given instead"},
 };
 
 static void bad_backdrops(void **state)

@@ -150,7 +150,8 @@ static const struct bad types[] = {
      ":2:44: systems.a.look.atlas: expected " ATLASES ", found '3'"},
     {"kiln: 1\n"
      "systems: {a: {look: {atlas: [a]}}}\n",
-     ":2:30: systems.a.look.atlas: cannot open 'a': No such file or directory"},
+     ":2:30: systems.a.look.atlas: cannot open 'a': No such file or directory"
+     "; a path starts at the scene's folder, or at the asset root that is given instead"},
     {"kiln: 1\n"
      "systems: {a: {look: {motion: builtin:fire}}}\n",
      ":2:30: systems.a.look.motion: expected auto, none, or the path of an image file, from the "

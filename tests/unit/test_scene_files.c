@@ -150,7 +150,10 @@ static void assets_stay_below_the_scene(void **state)
     expect_atlas_error("link.bmp", "'link.bmp' leads outside the asset root");
     expect_atlas_error("up/outside.bmp", "'up/outside.bmp' leads outside the asset root");
     expect_atlas_error("textures", "'textures' is not a file");
-    expect_atlas_error("no.bmp", "cannot open 'no.bmp': No such file or directory");
+    expect_atlas_error(
+        "no.bmp",
+        "cannot open 'no.bmp': No such file or directory"
+        "; a path starts at the scene's folder, or at the asset root that is given instead");
     expect_atlas_error("builtin:smoek",
                        "unknown built-in asset 'builtin:smoek' (did you mean 'smoke'?)");
     static const char *const good[] = {"textures/in.bmp", "./textures/../textures/in.bmp",
@@ -196,9 +199,11 @@ static void asset_root_may_be_given(void **state)
     write_file("scenes/textures/in.bmp", bitmap, sizeof bitmap);
     write_scene("s.yaml", "textures/in.bmp");
     struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
-    expect_error("s.yaml", &params,
-                 "s.yaml:2:29: systems.a.look.atlas: cannot open 'textures/in.bmp': No such file "
-                 "or directory");
+    expect_error(
+        "s.yaml", &params,
+        "s.yaml:2:29: systems.a.look.atlas: cannot open 'textures/in.bmp': No such file "
+        "or directory"
+        "; a path starts at the scene's folder, or at the asset root that is given instead");
     params.asset_root = "nowhere";
     expect_error("s.yaml", &params, "asset root 'nowhere': No such file or directory");
     params.asset_root = "s.yaml";

@@ -97,7 +97,7 @@ $ cat >texture <<'END'
 > END
 > chmod +x texture
 $ ./texture missing.png missing
-2|missing.yaml:2:67: systems.a.look.atlas: cannot open 'missing.png': No such file or directory
+2|missing.yaml:2:67: systems.a.look.atlas: cannot open 'missing.png': No such file or directory; a path starts at the scene's folder, or at the asset root that is given instead
 = 3
 $ ./texture builtin:fier builtin
 2|builtin.yaml:2:67: systems.a.look.atlas: unknown built-in asset 'builtin:fier' (did you mean 'fire'?)
