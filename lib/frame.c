@@ -279,14 +279,18 @@ static bool open_output(struct kiln_job *job, struct kiln_error *error)
 static void init_pool(struct kiln_job *job)
 {
     uint32_t capacities[KILN_MAX_SYSTEMS] = {0};
-    for (uint32_t i = 0; i < job->scene->system_count; i++)
+    uint64_t spins = 0;
+    for (uint32_t i = 0; i < job->scene->system_count; i++) {
         capacities[i] = job->scene->systems[i].capacity;
+        spins += kiln_scene_system_spins(job->scene, i) ? capacities[i] : 0;
+    }
     kiln_pool_init(&job->run.pool, kiln_device_gl(job->device), capacities,
                    job->scene->system_count);
     job->stats.particle_capacity = job->run.pool.slot_count;
     const uint32_t slots = job->run.pool.slot_count;
     job->stats.particle_bytes =
         (uint64_t)slots * kiln_simulate_slot_bytes(job->techniques.simulate) +
+        spins * sizeof(struct kiln_spin) +
         kiln_sort_bytes(job->techniques.sort, job->techniques.sort_spread > 0, slots);
 }
 

@@ -23,18 +23,6 @@ struct collide_frame {
     float radius;
 };
 
-/* v turned by a unit quaternion. */
-FN float3 collide_turn(float4 pose, float3 v)
-{
-    EXACT float3 u = FLOAT3(pose.x, pose.y, pose.z);
-    EXACT float3 across = float3_cross(u, v);
-    EXACT float3 twice = float3_scale(across, 2.0f);
-    EXACT float3 more = float3_cross(u, twice);
-    EXACT float3 y = float3_add_scaled(v, twice, pose.w);
-    y = float3_add(y, more);
-    return y;
-}
-
 /* The pose when the part `since` of the step has passed. */
 FN float4 collide_pose_at(S(kiln_collider) c, float since)
 {
@@ -71,13 +59,13 @@ FN float3 collide_to_frame(S(collide_frame) frame, float3 p)
 {
     EXACT float3 from = float3_sub(p, frame.center);
     EXACT float4 back = FLOAT4(-frame.pose.x, -frame.pose.y, -frame.pose.z, frame.pose.w);
-    EXACT float3 y = collide_turn(back, from);
+    EXACT float3 y = float3_turn(back, from);
     return y;
 }
 
 FN float3 collide_from_frame(S(collide_frame) frame, float3 q)
 {
-    EXACT float3 from = collide_turn(frame.pose, q);
+    EXACT float3 from = float3_turn(frame.pose, q);
     EXACT float3 y = float3_add(frame.center, from);
     return y;
 }
@@ -392,7 +380,7 @@ FN_APART S(collide_contact)
     EXACT float gap = collide_turned_gap(frame, q) * spacing;
     EXACT float3 normal = collide_frame_normal(c.kind, frame, face, q);
     EXACT float3 beside = collide_frame_put(c.kind, frame, face, q, gap);
-    contact.normal = collide_turn(frame.pose, normal);
+    contact.normal = float3_turn(frame.pose, normal);
     contact.position = collide_from_frame(frame, beside);
 
     EXACT float growth = collide_turned_growth(c, face);
@@ -405,7 +393,7 @@ FN_APART S(collide_contact)
     }
     EXACT float3 motion = FLOAT3(c.center_end.x - c.center.x, c.center_end.y - c.center.y,
                                  c.center_end.z - c.center.z);
-    EXACT float3 outwards = collide_turn(frame.pose, grown);
+    EXACT float3 outwards = float3_turn(frame.pose, grown);
     EXACT float3 arm = float3_sub(contact.position, frame.center);
     EXACT float3 spin = FLOAT3(c.spin.x, c.spin.y, c.spin.z);
     spin = float3_scale(spin, c.spin.w);

@@ -286,4 +286,16 @@ FN float3 float3_normalize(float3 a, float3 otherwise)
     return y;
 }
 
+/* v turned by a unit quaternion. */
+FN float3 float3_turn(float4 pose, float3 v)
+{
+    EXACT float3 u = FLOAT3(pose.x, pose.y, pose.z);
+    EXACT float3 across = float3_cross(u, v);
+    EXACT float3 twice = float3_scale(across, 2.0f);
+    EXACT float3 more = float3_cross(u, twice);
+    EXACT float3 y = float3_add_scaled(v, twice, pose.w);
+    y = float3_add(y, more);
+    return y;
+}
+
 #endif

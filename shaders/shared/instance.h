@@ -81,9 +81,9 @@ FN S(instance_axes) instance_posed(float4 pose)
     EXACT float3 up = FLOAT3(0.0f, 1.0f, 0.0f);
     EXACT float3 ahead = FLOAT3(0.0f, 0.0f, 1.0f);
     EXACT S(instance_axes) axes;
-    axes.x = spin_outwards(pose, right);
-    axes.y = spin_outwards(pose, up);
-    axes.z = spin_outwards(pose, ahead);
+    axes.x = float3_turn(pose, right);
+    axes.y = float3_turn(pose, up);
+    axes.z = float3_turn(pose, ahead);
     return axes;
 }
 

@@ -104,18 +104,6 @@ FN float4 spin_turned(float4 p, float3 rate, float time_s)
     return unit;
 }
 
-/* A direction of the ball, in the world. */
-FN float3 spin_outwards(float4 pose, float3 v)
-{
-    EXACT float3 u = FLOAT3(pose.x, pose.y, pose.z);
-    EXACT float3 across = float3_cross(u, v);
-    EXACT float3 twice = float3_scale(across, 2.0f);
-    EXACT float3 more = float3_cross(u, twice);
-    EXACT float3 y = float3_add_scaled(v, twice, pose.w);
-    y = float3_add(y, more);
-    return y;
-}
-
 /* The pose that a turn about a unit vector leads to. */
 FN float4 spin_about(float3 axis, float angle)
 {
