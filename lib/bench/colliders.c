@@ -28,6 +28,8 @@ static const struct {
     {"height field", "terrain: {size: [12, 1.2, 8], samples: [257, 257], hills: 3 m}"},
     {"distance field", RING STANDING "}"},
     {"distance field, turning", RING TURNING "}"},
+    {"depth maps", RING STANDING ", collider: depth_maps}"},
+    {"depth maps, turning", RING TURNING ", collider: depth_maps}"},
     {"volume", RING STANDING ", collider: volume}"},
     {"volume, turning", RING TURNING ", collider: volume}"},
 };

@@ -40,7 +40,7 @@ static const struct bad interactions[] = {
      "  stars: {}\n"
      "  a:\n"
      "    interact: [{gravity: {of: star}}]\n",
-     ":5:15: systems.a.interact.0.gravity.of: unknown system 'star' (did you mean 'stars'?)"},
+     ":5:31: systems.a.interact.0.gravity.of: unknown system 'star' (did you mean 'stars'?)"},
     {"kiln: 1\n"
      "systems:\n"
      "  a:\n"
