@@ -8,8 +8,6 @@
 #include "base/file.h"
 #include "bench/suite.h"
 
-static const struct kiln_lane CPU = {.name = "simulate=cpu", .techniques = "simulate=cpu"};
-
 /* A ring, as wide as the cloud is high; scenes of the library have no files of their own. */
 #define RING "mesh: {file: ring.obj, position: [0, 2, 0], collide: true, "
 enum { AROUND = 96, ACROSS = 48 }; /* its squares, of two triangles each */
@@ -63,20 +61,10 @@ static bool run_row(const struct kiln_bench_run *run, const char *root, const ch
     struct kiln_settings settings = {.asset_root = root};
     char objects[320];
     snprintf(objects, sizeof objects, "backdrop.objects=[%s]", object);
-    kiln_set_number(run, &settings, "systems.*.emit.rate", particles / 2);
     kiln_set(run, &settings, "systems.*.forces=[gravity: [0, -4, 0]]");
     kiln_set(run, &settings, "backdrop.floor.collide=false");
     kiln_set(run, &settings, objects);
-    kiln_set_unseen(run, &settings);
-    const struct kiln_comparison comparison = {.scene = "bench/cloud.yaml",
-                                               .settings = &settings,
-                                               .lanes = &CPU,
-                                               .lane_count = 1,
-                                               .measures = KILN_MEASURE(simulate),
-                                               .as = name,
-                                               .x = x};
-    kiln_bench_say(run, "%s", name);
-    return kiln_compare_lanes(run, &comparison, error);
+    return kiln_compare_cloud(run, &settings, particles, name, x, error);
 }
 
 static bool run_particles(const struct kiln_bench_run *run, const char *root,

@@ -3,8 +3,6 @@
 
 #include "bench/suite.h"
 
-static const struct kiln_lane CPU = {.name = "simulate=cpu", .techniques = "simulate=cpu"};
-
 #define VORTEX "vortex: {inward: 0.3, lift: 0.5, pull: 2"
 
 static const struct {
@@ -39,7 +37,6 @@ bool kiln_suite_forces(const struct kiln_bench_run *run, struct kiln_error *erro
         struct kiln_settings settings = {.count = 0};
         char forces[160];
         snprintf(forces, sizeof forces, "systems.*.forces=%s", ROWS[i].forces);
-        kiln_set_number(run, &settings, "systems.*.emit.rate", particles / 2);
         kiln_set(run, &settings, "systems.*.collide=none");
         kiln_set(run, &settings, forces);
         if (ROWS[i].integration) {
@@ -48,16 +45,7 @@ bool kiln_suite_forces(const struct kiln_bench_run *run, struct kiln_error *erro
                      ROWS[i].integration);
             kiln_set(run, &settings, integration);
         }
-        kiln_set_unseen(run, &settings);
-        const struct kiln_comparison comparison = {.scene = "bench/cloud.yaml",
-                                                   .settings = &settings,
-                                                   .lanes = &CPU,
-                                                   .lane_count = 1,
-                                                   .measures = KILN_MEASURE(simulate),
-                                                   .as = ROWS[i].name,
-                                                   .x = particles};
-        kiln_bench_say(run, "%s", ROWS[i].name);
-        if (!kiln_compare_lanes(run, &comparison, error))
+        if (!kiln_compare_cloud(run, &settings, particles, ROWS[i].name, particles, error))
             return false;
     }
     return kiln_bench_add_note(run->bench, error,

@@ -196,6 +196,23 @@ bool kiln_compare_lanes(const struct kiln_bench_run *run, const struct kiln_comp
     return ok;
 }
 
+bool kiln_compare_cloud(const struct kiln_bench_run *run, struct kiln_settings *settings,
+                        double particles, const char *as, double x, struct kiln_error *error)
+{
+    static const struct kiln_lane cpu = {.name = "simulate=cpu", .techniques = "simulate=cpu"};
+    kiln_set_number(run, settings, "systems.*.emit.rate", particles / 2);
+    kiln_set_unseen(run, settings);
+    const struct kiln_comparison comparison = {.scene = "bench/cloud.yaml",
+                                               .settings = settings,
+                                               .lanes = &cpu,
+                                               .lane_count = 1,
+                                               .measures = KILN_MEASURE(simulate),
+                                               .as = as,
+                                               .x = x};
+    kiln_bench_say(run, "%s", as);
+    return kiln_compare_lanes(run, &comparison, error);
+}
+
 /* ---- Growth ---------------------------------------------------------------------------------- */
 
 static bool same_curve(const struct kiln_bench_row *a, const struct kiln_bench_row *b)

@@ -83,6 +83,11 @@ struct kiln_comparison {
     bool rates; /* frames a second, not milliseconds */
 };
 
+/* How long a step of the library's cloud takes, of so many particles, on threads: a row that is
+ * called `as`. Adds to the settings. */
+bool kiln_compare_cloud(const struct kiln_bench_run *run, struct kiln_settings *settings,
+                        double particles, const char *as, double x, struct kiln_error *error);
+
 /* Runs it, and adds a row for each measure and lane. */
 bool kiln_compare_lanes(const struct kiln_bench_run *run, const struct kiln_comparison *comparison,
                         struct kiln_error *error);
