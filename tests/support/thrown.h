@@ -100,4 +100,68 @@ static inline void a_crowd_around(uint32_t count, float speed, float gravity)
     fixture_finish(&fixture, 60);
 }
 
+/* For 20 steps of a crowd of at most 1000: no bounce adds speed, which some take, and nobody comes
+ * nearer to the origin than that, m. */
+static inline void no_bounce_makes_faster(float nearest)
+{
+    struct simulation run;
+    simulation_start(&run, &fixture.scene, NULL, 1);
+    simulation_run(&run, 1);
+    static float speeds[1000];
+    uint32_t impacts = 0;
+    for (int step = 0; step < 20; step++) {
+        const struct kiln_particle *records = simulation_records(&run);
+        assert_true(run.pool.slot_count <= 1000);
+        for (uint32_t i = 0; i < run.pool.slot_count; i++) {
+            const float speed = float3_length(particle_velocity(records[i]));
+            assert_true(step == 0 || speed <= speeds[i] * 1.000001f);
+            impacts += step > 0 && speed < 0.9f * speeds[i];
+            speeds[i] = speed;
+            assert_true(float3_length(particle_position(records[i])) > nearest);
+        }
+        simulation_run(&run, 1);
+    }
+    assert_true(impacts > 100);
+    simulation_end(&run);
+}
+
+typedef bool in_object(const struct kiln_scene *scene, const struct kiln_object *object, float3 p,
+                       float time_s);
+
+static inline uint32_t count_inside(const struct kiln_particle *p, float time_s,
+                                    in_object *is_inside)
+{
+    const struct kiln_scene *scene = &fixture.scene;
+    uint32_t count = 0;
+    for (uint32_t j = 0; particle_is_alive(*p) && j < scene->backdrop.object_count; j++)
+        count += is_inside(scene, &scene->backdrop.objects[j], particle_position(*p), time_s);
+    return count;
+}
+
+/* At the end of no step of the fixture's scene is anybody in an object who collides by paths; some
+ * are who do not. */
+static inline void nobody_ends_inside(uint32_t steps, in_object *is_inside)
+{
+    const struct kiln_scene *scene = &fixture.scene;
+    uint32_t met = 0;
+    struct simulation run;
+    simulation_start(&run, scene, NULL, 2);
+    for (uint32_t step = 1; step <= steps; step++) {
+        simulation_run(&run, 1);
+        const float end_s = kiln_scene_time(scene, step);
+        for (uint32_t i = 0; i < scene->system_count; i++) {
+            const struct kiln_collide *collide = &scene->systems[i].collide;
+            const struct kiln_pool_system *slots = &run.pool.systems[i];
+            const bool swept = collide->enabled && collide->mode == KILN_COLLIDE_SWEPT;
+            for (uint32_t k = slots->base; k < slots->base + slots->capacity; k++) {
+                const uint32_t count = count_inside(&simulation_records(&run)[k], end_s, is_inside);
+                assert_true(count == 0 || !swept);
+                met += count;
+            }
+        }
+    }
+    assert_true(met > 100);
+    simulation_end(&run);
+}
+
 #endif
