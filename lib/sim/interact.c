@@ -1,8 +1,10 @@
 #include "sim/interact.h"
 
 #include <assert.h>
+#include <inttypes.h>
 #include <stddef.h>
 
+#include "base/error.h"
 #include "sim/interact_sort.h"
 
 static_assert(sizeof(struct kiln_interact_params) == 288, "std140");
@@ -208,13 +210,26 @@ static uint32_t largest_system(const struct kiln_scene *scene, const struct kiln
     return largest;
 }
 
+/* Balls that spin take two each: shared/interact_layout.h. */
+static size_t count_bodies(const struct kiln_scene *scene, const struct kiln_sim_params *params,
+                           uint32_t largest)
+{
+    size_t most = largest;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const size_t own = 2 * (size_t)scene->systems[i].capacity;
+        if (params->systems[i].spins && own > most)
+            most = own;
+    }
+    return most;
+}
+
 bool kiln_interact_init(struct kiln_interact *interact, struct kiln_device *device,
                         const struct kiln_scene *scene, const struct kiln_sim_params *params,
                         struct kiln_threads *threads, struct kiln_error *error)
 {
     *interact = (struct kiln_interact){.scene = scene, .device = device, .threads = threads};
     const uint32_t largest = largest_system(scene, params);
-    const size_t bodies = (size_t)(params->spin_count ? 2 : 1) * largest * sizeof(struct kiln_body);
+    const size_t bodies = count_bodies(scene, params, largest) * sizeof(struct kiln_body);
     const size_t cells = largest ? count_cells(largest) : 0;
     const size_t entries = largest ? kiln_interact_entries(largest) : 0;
     kiln_buffer_init(&interact->pushes, device, (size_t)params->push_count * 2 * sizeof(float4),
@@ -236,6 +251,12 @@ bool kiln_interact_init(struct kiln_interact *interact, struct kiln_device *devi
                      "interaction parameters");
     if (!device)
         return choose_loops(interact, error);
+    if (!device->info.software && bodies > (uint64_t)device->info.max_storage_block_bytes)
+        return kiln_error_set(error, KILN_DEVICE_FAILED,
+                              "systems: those that interact need %zu bytes in one piece; %s has up "
+                              "to %" PRId64 "; use simulate=cpu",
+                              bodies, device->info.name,
+                              (int64_t)device->info.max_storage_block_bytes);
     return largest == 0 || kiln_interact_gl_init(interact, error);
 }
 

@@ -58,8 +58,10 @@ bool kiln_interact_gl_init(struct kiln_interact *interact, struct kiln_error *er
 {
     struct kiln_device *device = interact->device;
     const int used = uses(interact->scene);
-    GLint bindings = 0;
+    GLint bindings = 0, blocks = 0;
     glGetIntegerv(GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS, &bindings);
+    glGetIntegerv(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS, &blocks);
+    bindings = blocks < bindings ? blocks : bindings;
     interact->spins = kiln_scene_spins(interact->scene);
     if (interact->spins && bindings <= INTERACT_BIND_SPINS)
         return kiln_error_set(error, KILN_NO_DEVICE,
@@ -220,8 +222,6 @@ static bool collide(const struct kiln_interact *interact, const struct kiln_inte
         glUseProgram(interact->programs[find]);
         glUniform1ui(0, round > 0);
         run(interact, find, params->used);
-        if (round == 0 && !saw_all(interact, work, error))
-            return false;
         run(interact, KILN_INTERACT_ANSWER, params->used);
         const GLuint before = bodies;
         bodies = second;
@@ -229,6 +229,8 @@ static bool collide(const struct kiln_interact *interact, const struct kiln_inte
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, INTERACT_BIND_BODIES, bodies);
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, INTERACT_BIND_SECOND, second);
     }
+    if (!saw_all(interact, work, error))
+        return false;
     run(interact, KILN_INTERACT_PUSH, params->used);
     return true;
 }

@@ -27,6 +27,18 @@ FN S(kiln_collider) collide_field_around(S(kiln_collider) collider, float radius
     return c;
 }
 
+/* By how much the bounds of what lies askew grow for a radius, whichever way it is turned: a box's
+ * corners by the root of three, a cylinder's edges by the root of two. */
+FN float collide_askew_growth(uint kind)
+{
+    EXACT float y = 1.0f;
+    if (kind == COLLIDER_TURNED_BOX)
+        y = 1.7321f;
+    else if (kind == COLLIDER_TURNED_CYLINDER)
+        y = 1.4143f;
+    return y;
+}
+
 /* A collider as a ball of a radius meets it with its centre: as much larger as the ball is. Edges
  * and corners stay sharp. Shaders of scenes without interaction are spared this. */
 FN S(kiln_collider) collide_around(SIM_PARAM uint number, float radius)
@@ -36,11 +48,12 @@ FN S(kiln_collider) collide_around(SIM_PARAM uint number, float radius)
     if (radius > 0.0f && c.kind >= COLLIDER_TERRAIN) {
         c = collide_field_around(c, radius);
     } else if (radius > 0.0f) {
-        EXACT float lower = -radius;
+        EXACT float higher = radius * collide_askew_growth(c.kind);
+        EXACT float lower = -higher;
         c.min = collide_shifted(c.min, lower);
         c.min_end = collide_shifted(c.min_end, lower);
-        c.max = collide_shifted(c.max, radius);
-        c.max_end = collide_shifted(c.max_end, radius);
+        c.max = collide_shifted(c.max, higher);
+        c.max_end = collide_shifted(c.max_end, higher);
         c.center.w = c.center.w + radius;
         c.center_end.w = c.center_end.w + radius;
         if (c.kind == COLLIDER_CYLINDER) {
@@ -96,7 +109,7 @@ FN_CLOSE float collide_bounds_growth(const S(kiln_collider) * c)
 {
     return c->kind == COLLIDER_TERRAIN    ? c->steepest
            : c->kind == COLLIDER_CYLINDER ? 1.4143f
-                                          : 1.0f;
+                                          : collide_askew_growth(c->kind);
 }
 
 /* Whether a way may be within bounds that are farther out by r and a gap. */

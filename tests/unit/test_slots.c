@@ -227,6 +227,19 @@ static void pushed_among_colliders(void **state)
     run_levels();
 }
 
+/* Larger balls among what lies askew, whose corners are met before its bounds as they are. */
+static void clamped_among_turning_colliders(void **state)
+{
+    (void)state;
+    fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, STEPS);
+    fixture_add_turned(&fixture);
+    for (uint32_t i = 0; i < fixture.scene.system_count; i++) {
+        fixture_add_collisions(&fixture.scene.systems[i], 0.1f);
+        fixture.scene.systems[i].collide.mode = KILN_COLLIDE_CLAMP;
+    }
+    run_levels();
+}
+
 /* Each integrator, with all forces. */
 static void whirls(void **state)
 {
@@ -252,6 +265,7 @@ int main(void)
         cmocka_unit_test(around_moving_volumes),
         cmocka_unit_test(around_a_moving_mesh_by_its_depths),
         cmocka_unit_test(pushed_among_colliders),
+        cmocka_unit_test(clamped_among_turning_colliders),
         cmocka_unit_test(whirls),
     };
     return cmocka_run_group_tests_name("slots", tests, NULL, NULL);
