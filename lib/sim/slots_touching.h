@@ -33,7 +33,7 @@ static inline void find_touching(struct block *b, const struct kiln_collider *co
         find_touching_plane(b, &c, pushed);
         return;
     }
-    const float gap = collide_bounds_gap(c.kind), growth = collide_bounds_growth(&c);
+    const float gap = collide_bounds_gap(&c), growth = collide_bounds_growth(&c);
     for (uint32_t i = 0; i < KILN_LANES; i++)
         b->touching[i] =
             collide_is_within(&c, pushed ? b->radius[i] * growth : 0.0f, gap,

@@ -98,10 +98,14 @@ FN_CLOSE uint collide_is_between_ends(const S(kiln_collider) * c, float larger, 
 }
 
 /* How much farther than its bounds a collider may be met: those of a round shape are computed apart
- * from its surface. */
-FN_CLOSE float collide_bounds_gap(uint kind)
+ * from its surface, which is as good as its place and size are. */
+FN_CLOSE float collide_bounds_gap(const S(kiln_collider) * c)
 {
-    return kind == COLLIDER_BOX ? 0.0f : 0.01f;
+    if (c->kind == COLLIDER_BOX)
+        return 0.0f;
+    float place = exact_abs(c->center.x) + exact_abs(c->center.y) + exact_abs(c->center.z);
+    float size = c->max.x - c->min.x;
+    return 0.01f + 1e-6f * (place + size);
 }
 
 /* By how much its bounds grow for a radius: a cylinder's edges by what its side and its ends do. */
@@ -127,7 +131,7 @@ FN_CLOSE uint collide_is_within(const S(kiln_collider) * c, float r, float gap, 
  * For those who then look closer. */
 FN_CLOSE bool collide_may_meet(const S(kiln_collider) * c, float radius, float3 a, float3 b)
 {
-    float gap = collide_bounds_gap(c->kind);
+    float gap = collide_bounds_gap(c);
     if (collide_is_within(c, radius * collide_bounds_growth(c), gap, a, b) == 0u)
         return false;
     return c->kind != COLLIDER_CYLINDER || collide_is_between_ends(c, radius + gap, a, b) != 0u;
