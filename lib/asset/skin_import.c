@@ -1,10 +1,11 @@
-/* What assimp knows of nodes, bones and clips. It drops how keys are interpolated, so the file
- * itself is asked for that. */
+/* What assimp knows of nodes, bones and clips. It drops how keys are interpolated and which of them
+ * the file has, so the file itself is asked for that. */
 #include <assimp/mesh.h>
 #include <assimp/scene.h>
 #include <libfyaml.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "asset/mesh_import.h"
@@ -14,12 +15,15 @@ struct skinning {
     const struct kiln_mesh_request *request;
     const struct aiScene *scene;
     struct kiln_mesh_result *result;
+    struct fy_document *json; /* NULL: the file has none */
     const struct aiNode *nodes[KILN_MAX_SKIN_NODES];
+    long numbers[KILN_MAX_SKIN_NODES]; /* of nodes in the file; -1: not in it */
+    bool turned[KILN_MAX_SKIN_NODES];  /* has the clip a rotation of the node? */
 };
 
 #define SET(s, ...) kiln_error_set(&(s)->result->error, KILN_INVALID_INPUT, __VA_ARGS__)
 
-/* ---- interpolation --------------------------------------------------------------------------- */
+/* ---- the file itself ------------------------------------------------------------------------- */
 
 /* The text of a glTF file, or that of the first chunk of a GLB, which comes after its length and
  * type. Chunks are filled up with spaces, by some programs with zeros. */
@@ -41,11 +45,25 @@ static const char *find_json(const struct kiln_mesh_request *request, size_t *si
     return (const char *)bytes + start;
 }
 
+/* The first of that name, as assimp takes it. */
 static struct fy_node *member(struct fy_node *node, const char *key)
 {
-    return node && fy_node_is_mapping(node)
-               ? fy_node_mapping_lookup_by_string(node, key, strlen(key))
-               : NULL;
+    void *at = NULL;
+    if (!node || !fy_node_is_mapping(node))
+        return NULL;
+    for (struct fy_node_pair *pair; (pair = fy_node_mapping_iterate(node, &at));) {
+        size_t length = 0;
+        const char *text = fy_node_get_scalar(fy_node_pair_key(pair), &length);
+        if (text && length == strlen(key) && memcmp(text, key, length) == 0)
+            return fy_node_pair_value(pair);
+    }
+    return NULL;
+}
+
+static const char *text_of(struct fy_node *node)
+{
+    const char *text = node ? fy_node_get_scalar0(node) : NULL;
+    return text ? text : "";
 }
 
 /* Members of a list or of an object (glTF 1), one after the other; NULL: no more of them. */
@@ -69,26 +87,76 @@ static bool check_sampler(const struct skinning *s, struct fy_node *sampler)
                (int)(length < 40 ? length : 40), text ? text : "");
 }
 
-static bool check_interpolation(const struct skinning *s)
+static bool read_json(struct skinning *s)
 {
     if (strcmp(s->request->extension, ".obj") == 0)
         return true;
-    const struct fy_parse_cfg config = {.flags = FYPCF_QUIET | FYPCF_JSON_FORCE};
+    /* what an exporter adds for itself may have a key twice */
+    const struct fy_parse_cfg config = {.flags = FYPCF_QUIET | FYPCF_JSON_FORCE |
+                                                 FYPCF_ALLOW_DUPLICATE_KEYS};
     size_t size;
     const char *json = find_json(s->request, &size);
-    struct fy_document *document = fy_document_build_from_string(&config, json, size);
-    if (!document)
-        return SET(s, "%s: the mesh is broken: its JSON can not be read", s->request->name);
-    struct fy_node *animations = member(fy_document_root(document), "animations");
+    s->json = fy_document_build_from_string(&config, json, size);
+    if (s->json)
+        return true;
+    return SET(s, "%s: its JSON can not be read: it is broken, or nested deeper than %d levels",
+               s->request->name, FYPCF_GUARANTEED_MINIMUM_DEPTH_LIMIT - 1);
+}
+
+static struct fy_node *json_member(const struct skinning *s, const char *key)
+{
+    return s->json ? member(fy_document_root(s->json), key) : NULL;
+}
+
+static bool check_interpolation(const struct skinning *s)
+{
+    struct fy_node *animations = json_member(s, "animations");
     void *at = NULL, *at_sampler = NULL;
-    bool good = true;
-    for (struct fy_node *one; good && (one = next_of(animations, &at)); at_sampler = NULL) {
+    for (struct fy_node *one; (one = next_of(animations, &at)); at_sampler = NULL) {
         struct fy_node *samplers = member(one, "samplers");
-        for (struct fy_node *sampler; good && (sampler = next_of(samplers, &at_sampler));)
-            good = check_sampler(s, sampler);
+        for (struct fy_node *sampler; (sampler = next_of(samplers, &at_sampler));) {
+            if (!check_sampler(s, sampler))
+                return false;
+        }
     }
-    fy_document_destroy(document);
-    return good;
+    return true;
+}
+
+/* Assimp's nodes have the names of the file's, or are called after their numbers. */
+static void find_numbers(struct skinning *s)
+{
+    const uint32_t count = s->result->skin.node_count;
+    struct fy_node *nodes = json_member(s, "nodes");
+    void *at = NULL;
+    long number = 0;
+    for (uint32_t i = 0; i < count; i++)
+        s->numbers[i] = -1;
+    for (struct fy_node *one; (one = next_of(nodes, &at)); number++) {
+        char own[32];
+        snprintf(own, sizeof own, "nodes[%ld]", number);
+        const char *said = text_of(member(one, "name"));
+        const char *name = *said ? said : own;
+        for (uint32_t i = 0; i < count; i++) {
+            if (strcmp(s->nodes[i]->mName.data, name) == 0)
+                s->numbers[i] = number;
+        }
+    }
+}
+
+static void find_turned(struct skinning *s, struct fy_node *animation)
+{
+    struct fy_node *channels = member(animation, "channels");
+    void *at = NULL;
+    memset(s->turned, 0, sizeof s->turned);
+    for (struct fy_node *one; (one = next_of(channels, &at));) {
+        struct fy_node *target = member(one, "target");
+        const char *digits = text_of(member(target, "node"));
+        if (*digits == '\0' || strcmp(text_of(member(target, "path")), "rotation") != 0)
+            continue;
+        const long number = strtol(digits, NULL, 10);
+        for (uint32_t i = 0; i < s->result->skin.node_count; i++)
+            s->turned[i] = s->turned[i] || s->numbers[i] == number;
+    }
 }
 
 /* ---- nodes ----------------------------------------------------------------------------------- */
@@ -265,14 +333,16 @@ static bool put_turns(struct skinning *s, const struct aiQuatKey *keys, unsigned
     return true;
 }
 
-/* A node that has no rotation gets one from assimp 5.2 nonetheless, that of its matrix: a half turn
- * where it is mirrored, of which the scale that goes with it knows nothing. Such a matrix has its
- * scale alone. */
-static void mend_turn(struct kiln_skin_result *out, const struct kiln_skin_channel *channel)
+/* A node that a clip does not turn gets a rotation from assimp 5.2 nonetheless, that of its matrix:
+ * a half turn where it is mirrored, of which the scale that goes with it knows nothing. Such a
+ * matrix has its scale alone. */
+static void mend_turn(const struct skinning *s, const struct kiln_skin_channel *channel)
 {
+    struct kiln_skin_result *out = &s->result->skin;
     const struct kiln_skin_track *tracks = channel->tracks;
     const float(*rest)[4] = (const float(*)[4])out->nodes[channel->node].rest;
-    if (tracks[KILN_CHANNEL_TURN].count != 1 || tracks[KILN_CHANNEL_SCALE].count == 0)
+    if (s->turned[channel->node] || tracks[KILN_CHANNEL_TURN].count != 1 ||
+        tracks[KILN_CHANNEL_SCALE].count == 0)
         return;
     const float *scale = out->keys[tracks[KILN_CHANNEL_SCALE].first].value;
     struct kiln_skin_key *turn = &out->keys[tracks[KILN_CHANNEL_TURN].first];
@@ -301,14 +371,18 @@ static bool put_channel(struct skinning *s, const struct aiNodeAnim *from, doubl
                      put_vectors(s, from->mScalingKeys, from->mNumScalingKeys, rate,
                                  &tracks[KILN_CHANNEL_SCALE]);
     if (put)
-        mend_turn(&s->result->skin, channel);
+        mend_turn(s, channel);
     return put;
 }
 
 static bool put_clips(struct skinning *s)
 {
     struct kiln_skin_result *out = &s->result->skin;
+    struct fy_node *animations = json_member(s, "animations");
+    void *at = NULL;
+    find_numbers(s);
     for (unsigned i = 0; i < s->scene->mNumAnimations; i++) {
+        find_turned(s, next_of(animations, &at));
         const struct aiAnimation *from = s->scene->mAnimations[i];
         if (i == KILN_MAX_CLIPS)
             return SET(s, "%s: more than %d animations", s->request->name, KILN_MAX_CLIPS);
@@ -335,5 +409,8 @@ bool kiln_skin_import(const struct kiln_mesh_request *request, const struct aiSc
                       struct kiln_mesh_result *result)
 {
     struct skinning s = {.request = request, .scene = scene, .result = result};
-    return check_interpolation(&s) && put_nodes(&s) && put_meshes(&s) && put_clips(&s);
+    const bool imported = read_json(&s) && check_interpolation(&s) && put_nodes(&s) &&
+                          put_meshes(&s) && put_clips(&s);
+    fy_document_destroy(s.json);
+    return imported;
 }

@@ -18,10 +18,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* By its number. */
+/* By its number; NULL: it is none, or there are fewer. */
 static const struct kiln_node *entry_of_list(const struct kiln_node *list, const char *name)
 {
     const struct kiln_node *entry = list->first;
+    if (*name == '\0' || name[strspn(name, "0123456789")] != '\0')
+        return NULL;
     for (unsigned long i = strtoul(name, NULL, 10); i > 0 && entry; i--)
         entry = entry->next;
     return entry;

@@ -7,6 +7,7 @@
 
 #include "asset/skin.h"
 #include "base/error.h"
+#include "scene/asset_path.h"
 #include "shared/exact.h"
 #include "sim/voxels.h"
 
@@ -192,7 +193,11 @@ static bool make(const struct kiln_scene *scene, struct kiln_volume *volume, boo
         .heading = float3_normalize(heading, FLOAT3(0.0f, -1.0f, 0.0f)),
         .two_sided = volume->two_sided,
     };
-    volume->made = kiln_voxels_build(&volume->voxels, &input, threads, error);
+    struct kiln_error why = {0};
+    volume->made = kiln_voxels_build(&volume->voxels, &input, threads, &why);
+    if (!volume->made)
+        kiln_error_set(error, why.code, "backdrop.objects.%u.mesh: '%s': %s", volume->object,
+                       kiln_asset_name(scene, object->file), why.message);
     return volume->made;
 }
 

@@ -44,7 +44,10 @@ static const char JSON[] =
     " \"type\": \"VEC4\"},"
     "{\"bufferView\": 5, \"componentType\": 5126, \"count\": 4, \"type\": \"VEC3\"},"
     "{\"bufferView\": 6, \"componentType\": 5123, \"count\": 12, \"type\": \"SCALAR\"},"
-    "{\"bufferView\": 7, \"componentType\": 5121, \"count\": 12, \"type\": \"VEC4\"}],"
+    "{\"bufferView\": 7, \"componentType\": 5121, \"count\": 12, \"type\": \"VEC4\"},"
+    "{\"bufferView\": 3, \"componentType\": 5126, \"count\": 1, \"type\": \"SCALAR\","
+    " \"min\": [0], \"max\": [0]},"
+    "{\"bufferView\": 4, \"componentType\": 5126, \"count\": 1, \"type\": \"VEC4\"}],"
     " \"bufferViews\": [%s],"
     " \"buffers\": [{\"byteLength\": %zu, \"uri\": \"data:application/octet-stream;base64,%s\"}]}";
 

@@ -16,6 +16,8 @@
 #include "scene/scene.h"
 #include "support/rig.h"
 
+#define EIGHT(text) text text text text text text text text
+
 /* ---- the reference --------------------------------------------------------------------------- */
 
 static void slerp(const float a[4], const float b[4], double t, double out[4])
@@ -277,6 +279,57 @@ static void mirrored_parts_face_outwards(void **state)
     kiln_skin_destroy(&mirrored);
 }
 
+/* A clip that turns what its node mirrors half around does so: two axes are turned about. */
+static void mirrored_parts_turn(void **state)
+{
+    (void)state;
+    struct rig rig = still_rig();
+    for (int k = 0; k < KEYS; k++) {
+        memcpy(rig.turns[0][k], (float[4]){0.0f, 0.0f, 1.0f, 0.0f}, sizeof rig.turns[0][k]);
+        memcpy(rig.moves[k], (float[3]){-1.0f, 1.0f, 1.0f}, sizeof rig.moves[k]);
+    }
+    struct variant variant = SOUND;
+    variant.attributes = "";
+    variant.skin = ", \"scale\": [-1, 1, 1]";
+    for (int turned = 0; turned < 2; turned++) {
+        /* accessors 10 and 11: the first keys alone */
+        variant.animations =
+            turned ? "\"animations\": [{\"channels\": [{\"sampler\": 0, \"target\": {\"node\": 4, "
+                     "\"path\": \"rotation\"}}, {\"sampler\": 1, \"target\": {\"node\": 4, "
+                     "\"path\": \"scale\"}}], \"samplers\": [{\"input\": 10, \"output\": 11, "
+                     "\"interpolation\": \"%s\"}, {\"input\": 3, \"output\": 7}]}],"
+                   : "\"animations\": [{\"channels\": [{\"sampler\": 0, \"target\": {\"node\": 4, "
+                     "\"path\": \"scale\"}}], \"samplers\": [{\"input\": 3, \"output\": 7, "
+                     "\"interpolation\": \"%s\"}]}],";
+        struct kiln_skin *skin = parse(&rig, &variant);
+        float posed[VERTICES][6];
+        kiln_skin_pose(skin, 0, 0.75f, posed);
+        for (int i = 0; i < VERTICES; i++) {
+            const float *p = rig.positions[i];
+            assert_true(fabsf(posed[i][0] - (turned ? p[0] : -p[0])) < 1e-5f);
+            assert_true(fabsf(posed[i][1] - (turned ? -p[1] : p[1])) < 1e-5f);
+            assert_true(fabsf(posed[i][2] - p[2]) < 1e-5f);
+        }
+        kiln_skin_destroy(&skin);
+    }
+}
+
+/* What an exporter adds for itself may say a thing twice. */
+static void keys_may_come_twice(void **state)
+{
+    (void)state;
+    const struct rig rig = waving_rig();
+    struct variant variant = SOUND;
+    variant.skin = SKIN ", \"extras\": {\"by\": 1, \"by\": {\"by\": 2}, \"by\": []}";
+    struct kiln_skin *skin = parse(&rig, &variant);
+    expect_pose(&rig, skin, 0.75);
+    kiln_skin_destroy(&skin);
+    variant.skin = SKIN;
+    variant.animations = WAVE "\"extras\": {\"by\": " EIGHT(EIGHT("[")) EIGHT(EIGHT("]")) "},";
+    refuse(&rig, &variant,
+           "its JSON can not be read: it is broken, or nested deeper than 63 levels");
+}
+
 static void clips_are_found(void **state)
 {
     (void)state;
@@ -468,6 +521,8 @@ int main(void)
         cmocka_unit_test(bits_are_known),
         cmocka_unit_test(parts_follow_their_nodes),
         cmocka_unit_test(mirrored_parts_face_outwards),
+        cmocka_unit_test(mirrored_parts_turn),
+        cmocka_unit_test(keys_may_come_twice),
         cmocka_unit_test(clips_are_found),
         cmocka_unit_test(binary_files_are_asked_too),
         cmocka_unit_test(what_is_unsound_is_refused),

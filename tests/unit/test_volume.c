@@ -50,6 +50,11 @@ static void write_meshes(void)
     body = begin("bar.obj");
     add_box(&body, 0, 0, 0, 4, 0.5, 0.5);
     fclose(body.out);
+    body = begin("heap.obj");
+    fputs("v 0 0 0\nv 1 1 0\nv 0 1 1\n", body.out);
+    for (int i = 0; i < 100; i++)
+        fputs("f 1 2 3\n", body.out);
+    fclose(body.out);
     test_write_file("sheet.obj", "v -2 0 2\nv 2 0 2\nv 2 0 -2\nv -2 0 -2\nf 1 2 3 4\n");
 }
 
@@ -199,6 +204,26 @@ static void the_jump_to_the_start_sweeps_nothing(void **state)
     }
     assert_true(pushed > 20);
     simulation_end(&run);
+}
+
+/* A hundred triangles in one place. */
+static void what_would_take_long_is_named(void **state)
+{
+    (void)state;
+    rest_at((const double[3]){0, 5, 0});
+    add_volume("heap.obj", 0, 0, 0, 155);
+    fixture_finish(&fixture, 1);
+    struct kiln_volumes volumes;
+    struct kiln_error error = {0};
+    struct kiln_threads *threads = kiln_threads_create(1);
+    assert_true(kiln_volumes_init(&volumes, NULL, &fixture.scene, &error));
+    assert_false(kiln_volumes_step(&volumes, &fixture.scene, 1, threads, &error));
+    assert_int_equal(error.code, KILN_INVALID_INPUT);
+    const char named[] = "backdrop.objects.0.mesh: 'heap.obj': the 100 triangles of a volume lie";
+    if (strncmp(error.message, named, strlen(named)) != 0)
+        fail_msg("'%s'", error.message);
+    kiln_volumes_finish(&volumes);
+    kiln_threads_destroy(&threads);
 }
 
 /* A sheet at 60 m/s, which goes through 10 cells in a step and 10 m in all, takes all particles
@@ -484,6 +509,7 @@ int main(void)
         cmocka_unit_test(moving_surfaces_push),
         cmocka_unit_test(what_a_clip_moves_pushes),
         cmocka_unit_test(the_jump_to_the_start_sweeps_nothing),
+        cmocka_unit_test(what_would_take_long_is_named),
         cmocka_unit_test(a_sheet_sweeps_all_before_it),
         cmocka_unit_test(nothing_tunnels),
         cmocka_unit_test(without_gravity_no_impact_makes_faster),
