@@ -173,6 +173,18 @@ void kiln_lighting_use_meshes(struct kiln_lighting_stage *stage, struct kiln_mes
         kiln_sun_shade_use_meshes(stage->shade, meshes);
 }
 
+/* Do shadows follow from how collisions have turned particles? */
+static bool asks_for_spins(const struct kiln_lighting_stage *stage, const struct kiln_pool *pool)
+{
+    for (uint32_t i = 0; stage->spheres && i < stage->scene->system_count; i++) {
+        const struct kiln_look *look = &stage->scene->systems[i].look;
+        if (pool->systems[i].spins && look->shape == KILN_SHAPE_MESH &&
+            look->mesh.orient == KILN_ORIENT_SPIN)
+            return pool->spins.size > 0;
+    }
+    return false;
+}
+
 bool kiln_lighting_run(struct kiln_lighting_stage *stage, struct kiln_pool *pool,
                        const struct kiln_view *view, struct kiln_lighting *lighting,
                        struct kiln_error *error)
@@ -186,8 +198,14 @@ bool kiln_lighting_run(struct kiln_lighting_stage *stage, struct kiln_pool *pool
     if (!stage->table_valid || kiln_looks_vary(stage->scene))
         kiln_looks_sample(stage->scene, view->clock.x, stage->table);
     stage->table_valid = true;
-    const struct kiln_living_moment moment = {stage->scene, pool,         records,
-                                              view,         stage->table, stage->loops};
+    const struct kiln_spin *spins = NULL;
+    if (asks_for_spins(stage, pool)) {
+        spins = kiln_buffer_host(&pool->spins, KILN_READ, error);
+        if (!spins)
+            return false;
+    }
+    const struct kiln_living_moment moment = {stage->scene, pool,         records, view,
+                                              stage->table, stage->loops, spins};
     if (!cast_shadows(stage, &moment, lighting, error))
         return false;
     if (stage->fire)

@@ -1,8 +1,13 @@
 /* Records, looks and random numbers put together as the vertex shader does it. */
 #include "draw/living.h"
 
+#include <assert.h>
+
 #include "shared/derived.h"
 #include "shared/look_layout.h"
+
+static_assert(ORIENT_VELOCITY == KILN_ORIENT_VELOCITY && ORIENT_SPIN == KILN_ORIENT_SPIN,
+              "ways to lie in the world");
 
 static float4 mix4(float4 a, float4 b, float t)
 {
@@ -32,6 +37,7 @@ struct kiln_living_system kiln_living_system(const struct kiln_living_moment *mo
         .used = kiln_pool_used(slots),
         .step = moment->view->clock_step.x,
         .dt_s = moment->scene->dt_s,
+        .spins = moment->spins && slots->spins ? moment->spins + slots->first_spin : NULL,
     };
 }
 
@@ -54,6 +60,35 @@ bool kiln_living_at(const struct kiln_living_system *system, uint32_t slot,
         .opacity = shape.z,
     };
     return true;
+}
+
+/* How far a particle has turned that collisions do not turn, rad. */
+static float turned_angle(const struct kiln_living_system *system, struct kiln_particle record,
+                          uint32_t stream, float progress)
+{
+    return instance_angle(stream, kiln_living_look(system, KILN_LOOK_TURN, progress),
+                          kiln_living_look(system, KILN_LOOK_SPREAD, progress),
+                          particle_age(record, system->step, system->dt_s));
+}
+
+float4 kiln_living_pose(const struct kiln_living_system *system, uint32_t slot, float progress)
+{
+    if (system->spins)
+        return spin_unit(spin_pose(system->spins[slot].pose));
+    const struct kiln_particle record = system->records[slot];
+    const uint32_t stream = particle_stream(system->derived, record);
+    return instance_pose(stream, turned_angle(system, record, stream, progress));
+}
+
+struct instance_axes kiln_living_axes(const struct kiln_living_system *system, uint32_t slot,
+                                      float progress, uint32_t orient)
+{
+    if (system->spins && orient == ORIENT_SPIN)
+        return instance_posed(kiln_living_pose(system, slot, progress));
+    const struct kiln_particle record = system->records[slot];
+    const uint32_t stream = particle_stream(system->derived, record);
+    const float angle = turned_angle(system, record, stream, progress);
+    return instance_axes_of(orient, particle_velocity(record), angle, stream);
 }
 
 float3 kiln_living_glow(const struct kiln_living_system *system, float progress)

@@ -6,6 +6,7 @@
 #include "particles/pool.h"
 #include "scene/scene.h"
 #include "shared/draw_layout.h"
+#include "shared/instance.h"
 
 struct kiln_living_loops;
 
@@ -17,6 +18,8 @@ struct kiln_living_moment {
     const struct kiln_view *view;
     const float4 *table;                   /* of kiln_looks_sample at the view's time */
     const struct kiln_living_loops *loops; /* for this machine: living_blocks.h */
+    const struct kiln_spin *spins;         /* of the pool; NULL: nobody asks how they turn, or none
+                                            * does by collisions */
 };
 
 /* What the particles of one system follow from. */
@@ -28,6 +31,7 @@ struct kiln_living_system {
     uint32_t used;                       /* slots to ask for: 0 .. used - 1 */
     uint32_t step;
     float dt_s;
+    const struct kiln_spin *spins; /* of the system; NULL: collisions do not turn its particles */
 };
 
 struct kiln_living {
@@ -47,6 +51,13 @@ bool kiln_living_at(const struct kiln_living_system *system, uint32_t slot,
 
 /* A row of the system's look (KILN_LOOK_*) at a progress through life. */
 float4 kiln_living_look(const struct kiln_living_system *system, uint32_t row, float progress);
+
+/* How a ball lies in the world, as collisions have turned it or by itself. */
+float4 kiln_living_pose(const struct kiln_living_system *system, uint32_t slot, float progress);
+
+/* How a mesh does whose look has this enum kiln_orient. */
+struct instance_axes kiln_living_axes(const struct kiln_living_system *system, uint32_t slot,
+                                      float progress, uint32_t orient);
 
 /* The light that a particle emits, the mean of its hot and cool parts. */
 float3 kiln_living_glow(const struct kiln_living_system *system, float progress);

@@ -6,10 +6,7 @@
 
 #include "base/error.h"
 #include "draw/instance_tiles.h"
-#include "shared/derived.h"
 #include "shared/exact.h"
-#include "shared/instance.h"
-#include "shared/look_layout.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -156,20 +153,14 @@ static void collect_mesh(struct kiln_sphere_shadow *shadow, const struct kiln_li
                          uint32_t number, uint32_t slot, const struct kiln_living *particle)
 {
     const struct kiln_look *look = &shadow->scene->systems[number].look;
-    const struct kiln_particle record = system->records[slot];
     const float reach = kiln_instance_tiles_mesh(shadow->instances, number)->reach;
     const float size = 2.0f * particle->radius * particle->opacity;
     struct sphere *sphere = size > 0.0f ? add(shadow, particle->position) : NULL;
     struct kiln_instance_place *place = sphere ? add_place(shadow) : NULL;
     if (!place)
         return;
-    const uint32_t stream = particle_stream(system->derived, record);
-    const float angle =
-        instance_angle(stream, kiln_living_look(system, KILN_LOOK_TURN, particle->progress),
-                       kiln_living_look(system, KILN_LOOK_SPREAD, particle->progress),
-                       particle_age(record, system->step, system->dt_s));
     const struct instance_axes axes =
-        instance_axes_of(look->mesh.orient, particle_velocity(record), angle, stream);
+        kiln_living_axes(system, slot, particle->progress, look->mesh.orient);
     const float3 columns[3] = {axes.x, axes.y, axes.z};
     place->system = number;
     for (int c = 0; c < 3; c++) {

@@ -8,15 +8,10 @@
 #include "draw/looks.h"
 #include "draw/sphere_rows.h"
 #include "shared/derived.h"
-#include "shared/instance.h"
 
-#include <assert.h>
 #include <stdlib.h>
 
 enum { MAKE_AT_A_TIME = 512 };
-
-static_assert(ORIENT_VELOCITY == KILN_ORIENT_VELOCITY && ORIENT_SPIN == KILN_ORIENT_SPIN,
-              "ways to lie in the world");
 
 struct kiln_spheres_cpu {
     const struct kiln_scene *scene;
@@ -114,7 +109,6 @@ struct making {
     const struct kiln_view *view;
     const uint32_t *entries;
     uint32_t patterns[KILN_MAX_SYSTEMS]; /* LOOK_* */
-    const struct kiln_spin *spins;       /* of the pool; NULL: none turns */
     struct kiln_living_system systems[KILN_MAX_SYSTEMS];
 };
 
@@ -169,22 +163,6 @@ static void set3(float to[3], float4 from)
     to[2] = from.z;
 }
 
-/* How far a particle has turned that collisions do not turn, rad. */
-static float turned_angle(const struct kiln_living_system *system, struct kiln_particle record,
-                          uint32_t stream, float progress)
-{
-    return instance_angle(stream, kiln_living_look(system, KILN_LOOK_TURN, progress),
-                          kiln_living_look(system, KILN_LOOK_SPREAD, progress),
-                          particle_age(record, system->step, system->dt_s));
-}
-
-/* NULL: collisions do not turn it. */
-static const struct kiln_spin *spin_of(const struct making *m, uint32_t number, uint32_t slot)
-{
-    const struct kiln_pool_system *system = &m->pool->systems[number];
-    return m->spins && system->spins ? &m->spins[system->first_spin + slot] : NULL;
-}
-
 static void make_pattern(const struct making *m, uint32_t number, uint32_t slot, float progress,
                          struct kiln_drawn_sphere *s)
 {
@@ -194,12 +172,7 @@ static void make_pattern(const struct making *m, uint32_t number, uint32_t slot,
         return;
     s->segments = pattern == LOOK_STRIPE ? -1.0f : (float)(pattern - LOOK_SEGMENTS);
     set3(s->other, kiln_living_look(system, KILN_LOOK_OTHER, progress));
-    const struct kiln_spin *spin = spin_of(m, number, slot);
-    const struct kiln_particle record = system->records[slot];
-    const uint32_t stream = particle_stream(system->derived, record);
-    const float4 pose = spin
-                            ? spin_unit(spin_pose(spin->pose))
-                            : instance_pose(stream, turned_angle(system, record, stream, progress));
+    const float4 pose = kiln_living_pose(system, slot, progress);
     s->pose[0] = pose.x;
     s->pose[1] = pose.y;
     s->pose[2] = pose.z;
@@ -253,14 +226,8 @@ static void make_instance(const struct making *m, uint32_t number, uint32_t slot
     float depth = -center[2], reach = exact_max(size * mesh->reach, least_radius(view, depth));
     if (!(size > 0.0f) || depth + reach <= view->eye.w)
         return;
-    const struct kiln_particle record = system->records[slot];
-    const uint32_t stream = particle_stream(system->derived, record);
-    const struct kiln_spin *spin =
-        look->mesh.orient == KILN_ORIENT_SPIN ? spin_of(m, number, slot) : NULL;
-    const float angle = turned_angle(system, record, stream, particle->progress);
     const struct instance_axes axes =
-        spin ? instance_posed(spin_unit(spin_pose(spin->pose)))
-             : instance_axes_of(look->mesh.orient, particle_velocity(record), angle, stream);
+        kiln_living_axes(system, slot, particle->progress, look->mesh.orient);
     place_axes(view, &axes, reach / mesh->reach, d);
     for (int i = 0; i < 3; i++)
         d->to_view[i][3] = center[i];
@@ -328,10 +295,9 @@ static void make_all(struct kiln_spheres_cpu *stage, const struct kiln_pool *poo
     struct making making = {.stage = stage,
                             .pool = pool,
                             .view = kiln_backdrop_rays(stage->backdrop)->view,
-                            .spins = spins,
                             .entries = entries};
-    const struct kiln_living_moment moment = {stage->scene, pool,         records,
-                                              making.view,  stage->table, NULL};
+    const struct kiln_living_moment moment = {stage->scene, pool, records, making.view,
+                                              stage->table, NULL, spins};
     for (uint32_t i = 0; i < stage->scene->system_count; i++) {
         making.systems[i] = kiln_living_system(&moment, i);
         making.patterns[i] = kiln_look_pattern(&stage->scene->systems[i].look);

@@ -77,7 +77,8 @@ static struct kiln_living_moment moment_of(const struct fixture *f)
 {
     return (struct kiln_living_moment){
         f->scene, &f->pool, f->records,
-        &f->view, table,    KILN_SIMD_PICK(kiln_living_loops, KILN_SIMD_NARROWEST)};
+        &f->view, table,    KILN_SIMD_PICK(kiln_living_loops, KILN_SIMD_NARROWEST),
+        NULL};
 }
 
 static uint32_t gather_fire(const struct fixture *f, struct kiln_draw_light *lights)

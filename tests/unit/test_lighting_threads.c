@@ -92,7 +92,8 @@ static void light(const struct fixture *f, uint32_t thread_count, struct result 
     struct kiln_error error = {0};
     const struct kiln_living_moment moment = {
         f->scene, &f->pool, f->records,
-        &f->view, f->table, KILN_SIMD_PICK(kiln_living_loops, KILN_SIMD_NARROWEST)};
+        &f->view, f->table, KILN_SIMD_PICK(kiln_living_loops, KILN_SIMD_NARROWEST),
+        NULL};
     struct kiln_threads *threads = kiln_threads_create(thread_count);
     struct kiln_smoke_shadow *shadow = kiln_smoke_shadow_create();
     struct kiln_smoke smoke = {0};
@@ -217,7 +218,8 @@ static void fill_by_the_book(const struct fixture *f, const float4 rows[3], stru
              sqrt((double)(rows[0].x * rows[0].x + rows[0].y * rows[0].y + rows[0].z * rows[0].z)));
     const struct kiln_living_moment moment = {
         f->scene, &f->pool, f->records,
-        &f->view, f->table, KILN_SIMD_PICK(kiln_living_loops, KILN_SIMD_NARROWEST)};
+        &f->view, f->table, KILN_SIMD_PICK(kiln_living_loops, KILN_SIMD_NARROWEST),
+        NULL};
     for (uint32_t i = 0; i < 2; i++) {
         const struct kiln_living_system system = kiln_living_system(&moment, i);
         for (uint32_t slot = 0; slot < system.used; slot++) {
