@@ -38,16 +38,29 @@ static size_t level_at(uint32_t level)
     return at;
 }
 
+uint32_t kiln_instance_tiles_edge(const struct kiln_scene *scene)
+{
+    uint64_t count = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_system *system = &scene->systems[i];
+        if (system->enabled && system->look.shape == KILN_SHAPE_MESH)
+            count += system->capacity;
+    }
+    uint32_t edge = 0;
+    for (size_t i = sizeof SIZES / sizeof *SIZES; count > 0 && i-- > 0;)
+        edge = count <= SIZES[i].most ? SIZES[i].edge : edge;
+    return edge;
+}
+
 struct kiln_instance_tiles *kiln_instance_tiles_create(const struct kiln_scene *scene,
-                                                       uint64_t particles, struct kiln_error *error)
+                                                       struct kiln_error *error)
 {
     struct kiln_instance_tiles *tiles = calloc(1, sizeof *tiles);
     if (!tiles) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "shadows of meshes: out of memory");
         return NULL;
     }
-    for (size_t i = sizeof SIZES / sizeof *SIZES; i-- > 0;)
-        tiles->edge = particles <= SIZES[i].most ? SIZES[i].edge : tiles->edge;
+    tiles->edge = kiln_instance_tiles_edge(scene);
     bool good = kiln_instances_init(&tiles->meshes, scene, error);
     tiles->texels = calloc(level_at(KILN_INSTANCE_LEVELS), sizeof *tiles->texels);
     if (good && !tiles->texels)
@@ -65,11 +78,6 @@ void kiln_instance_tiles_destroy(struct kiln_instance_tiles **tiles)
     free((*tiles)->texels);
     free(*tiles);
     *tiles = NULL;
-}
-
-uint32_t kiln_instance_tiles_edge(const struct kiln_instance_tiles *tiles)
-{
-    return tiles->edge;
 }
 
 const struct kiln_instance_mesh *kiln_instance_tiles_mesh(const struct kiln_instance_tiles *tiles,
@@ -219,6 +227,5 @@ void kiln_instance_tiles_run(struct kiln_instance_tiles *tiles, struct kiln_inst
                              uint32_t count, struct kiln_threads *threads)
 {
     tiles->places = places;
-    if (tiles->edge > 0)
-        kiln_threads_for(threads, count, AT_A_TIME, draw_tiles, tiles);
+    kiln_threads_for(threads, count, AT_A_TIME, draw_tiles, tiles);
 }

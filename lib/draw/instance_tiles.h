@@ -22,15 +22,14 @@ struct kiln_instance_tile {
 
 struct kiln_instance_tiles;
 
-/* For at most so many particles: more of them have smaller tiles, and very many have none. NULL:
- * KILN_DEVICE_FAILED, no memory. */
+/* Texels along an edge of a tile, a power of two: many particles have smaller ones. 0: a scene has
+ * none, for no particles are meshes or too many. */
+uint32_t kiln_instance_tiles_edge(const struct kiln_scene *scene);
+
+/* Of a scene that has some. NULL: KILN_DEVICE_FAILED, no memory. */
 struct kiln_instance_tiles *kiln_instance_tiles_create(const struct kiln_scene *scene,
-                                                       uint64_t particles,
                                                        struct kiln_error *error);
 void kiln_instance_tiles_destroy(struct kiln_instance_tiles **tiles);
-
-/* Texels along an edge of a tile, a power of two; 0: there are none. */
-uint32_t kiln_instance_tiles_edge(const struct kiln_instance_tiles *tiles);
 
 /* The mesh of a system. */
 const struct kiln_instance_mesh *kiln_instance_tiles_mesh(const struct kiln_instance_tiles *tiles,

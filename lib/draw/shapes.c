@@ -1,6 +1,7 @@
 /* Scene values at a time into the block that shaders read. Pictures alone depend on it. */
 #include "draw/shapes.h"
 
+#include "draw/instance_tiles.h"
 #include "shared/exact.h"
 
 #include <assert.h>
@@ -37,8 +38,8 @@ struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
     for (uint32_t i = 0; i < scene->system_count; i++) {
         const struct kiln_system *system = &scene->systems[i];
         features.spheres |= system->enabled && kiln_look_is_opaque(&system->look);
-        features.instances |= system->enabled && system->look.shape == KILN_SHAPE_MESH;
     }
+    features.instances = kiln_instance_tiles_edge(scene) > 0;
     return features;
 }
 

@@ -7,7 +7,7 @@
 #include "shared/shape_layout.h"
 
 /* What a scene needs of the shaders; sets of these choose a variant. spheres are particles that
- * throw shadows, instances those of them that are meshes. */
+ * throw shadows, instances those of them that are meshes with tiles (instance_tiles.h). */
 struct kiln_shape_features {
     bool round, turned, meshes, paint, spheres, instances, floor_image, floor_gloss, sky_image,
         soft_sun;

@@ -26,7 +26,7 @@ struct kiln_sphere_shadow {
     float floor;               /* its height; infinite for none */
     struct sphere *spheres;
     size_t count, room;
-    struct kiln_instance_tiles *instances; /* NULL: no particles are meshes */
+    struct kiln_instance_tiles *instances; /* NULL: there are no tiles */
     struct kiln_instance_place *places;    /* of the first so many spheres: those with tiles */
     uint32_t place_count, place_room;
     bool failed;                                            /* no memory for one */
@@ -34,17 +34,6 @@ struct kiln_sphere_shadow {
     float4 *entries, *tiles;
     size_t entry_rows; /* of memory */
 };
-
-static uint64_t count_meshes(const struct kiln_scene *scene)
-{
-    uint64_t count = 0;
-    for (uint32_t i = 0; i < scene->system_count; i++) {
-        const struct kiln_system *system = &scene->systems[i];
-        if (system->enabled && system->look.shape == KILN_SHAPE_MESH)
-            count += system->capacity;
-    }
-    return count;
-}
 
 void kiln_sphere_shadow_destroy(struct kiln_sphere_shadow **shadow)
 {
@@ -69,9 +58,8 @@ struct kiln_sphere_shadow *kiln_sphere_shadow_create(const struct kiln_scene *sc
         return NULL;
     }
     shadow->scene = scene;
-    const uint64_t meshes = count_meshes(scene);
-    if (meshes > 0) {
-        shadow->instances = kiln_instance_tiles_create(scene, meshes, error);
+    if (kiln_instance_tiles_edge(scene) > 0) {
+        shadow->instances = kiln_instance_tiles_create(scene, error);
         if (!shadow->instances)
             kiln_sphere_shadow_destroy(&shadow);
     }
@@ -175,6 +163,7 @@ static void draw_tiles(struct kiln_sphere_shadow *shadow, struct kiln_threads *t
 {
     struct kiln_instance_tiles *tiles = shadow->instances;
     const float root = 2.0f / 1.7724539f; /* of pi */
+    const float edge = (float)kiln_instance_tiles_edge(shadow->scene);
     kiln_instance_tiles_run(tiles, shadow->places, shadow->place_count, threads);
     for (uint32_t i = 0; i < shadow->place_count; i++) {
         struct sphere *sphere = &shadow->spheres[i];
@@ -182,7 +171,7 @@ static void draw_tiles(struct kiln_sphere_shadow *shadow, struct kiln_threads *t
         const float4 center = sphere->center;
         const struct kiln_instance_place *place = &shadow->places[i];
         const float reach = sphere->tile.z, radius = reach * root * sqrtf(place->covered);
-        const float edge = (float)kiln_instance_tiles_edge(tiles), texel = 2.0f * reach / edge;
+        const float texel = 2.0f * reach / edge;
         const float spread =
             reach_of(shadow, (float3){center.x, center.y, center.z}, radius) - radius;
         sphere->tile = (float4){(float)at.x, (float)at.y, reach, edge};
@@ -191,11 +180,6 @@ static void draw_tiles(struct kiln_sphere_shadow *shadow, struct kiln_threads *t
         const float high[2] = {reach * place->high[0], reach * place->high[1]};
         bound(shadow, sphere, low, high, exact_max(texel, spread)); /* half of a level's texel */
     }
-}
-
-static bool has_tiles(const struct kiln_sphere_shadow *shadow)
-{
-    return shadow->instances && kiln_instance_tiles_edge(shadow->instances) > 0;
 }
 
 static void collect_system(struct kiln_sphere_shadow *shadow,
@@ -209,7 +193,7 @@ static void collect_system(struct kiln_sphere_shadow *shadow,
         struct kiln_living particle;
         if (!kiln_living_at(&system, slot, &particle))
             continue;
-        if (mesh && has_tiles(shadow))
+        if (mesh && shadow->instances)
             collect_mesh(shadow, &system, index, slot, &particle);
         else
             collect(shadow, &particle, radius);
@@ -301,7 +285,7 @@ static bool make_room(struct kiln_sphere_shadow *shadow, size_t entries)
         return false;
     memset(more, 0, rows * KILN_SPHERE_ROW * sizeof *more);
     shadow->entries = more;
-    if (has_tiles(shadow)) {
+    if (shadow->instances) {
         more = realloc(shadow->tiles, rows * KILN_SPHERE_ROW * sizeof *more);
         if (!more)
             return false;

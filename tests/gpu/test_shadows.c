@@ -298,6 +298,21 @@ static void the_shadow_of_a_mesh_turns_with_it(void **state)
     drawing_asset_root = NULL;
 }
 
+/* They have the mean shadow of all poses, which is a quarter of the surface. */
+static void meshes_that_are_too_many_have_round_shadows(void **state)
+{
+    const vec place = {0, 2, 0};
+    const double surface = (1.5 + 0.5 * sqrt(3)) * EDGE * EDGE, pixel = 16 * tan(acos(-1.0) / 9);
+    const double expected = surface / 4 / 0.8 / (pixel * pixel) * HEIGHT * HEIGHT;
+    struct fixture f;
+    drawing_asset_root = KILN_SOURCE_DIR "/tests/mutation";
+    init(&f, *state, HEAD "backdrop:\n" SUN TETRAHEDRA, "systems.a.emit.rate=20000");
+    draw(&f, &place, 1);
+    assert_true(fabs(darkness(&f) - expected) < 0.03 * expected);
+    finish(&f);
+    drawing_asset_root = NULL;
+}
+
 /* So many that bins have several, whatever their order; where two overlap, their covers are
  * multiplied, which a small sun hardly shows. */
 static void spheres_of_a_cloud_all_throw_shadows(void **state)
@@ -525,6 +540,7 @@ int main(void)
         test_on_device(the_shadow_of_a_sphere_lies_where_geometry_says),
         test_on_device(the_shadow_of_a_mesh_has_its_shape),
         test_on_device(the_shadow_of_a_mesh_turns_with_it),
+        test_on_device(meshes_that_are_too_many_have_round_shadows),
         test_on_device(spheres_of_a_cloud_all_throw_shadows),
         test_on_device(a_list_of_spheres_may_be_long),
         test_on_device(spheres_shade_each_other),
