@@ -66,14 +66,19 @@ struct kiln_sphere_shadow *kiln_sphere_shadow_create(const struct kiln_scene *sc
     return shadow;
 }
 
-/* How far around itself a sphere may throw its shadow: the penumbra widens until the floor, or
- * until nothing is left of the shadow (KILN_SPHERE_FADE). */
-static float reach_of(const struct kiln_sphere_shadow *shadow, float3 center, float radius)
+/* The penumbra widens until the floor, or until nothing is left of what it blurs. */
+static float penumbra_of(const struct kiln_sphere_shadow *shadow, float3 center, float widest)
 {
-    float spread = shadow->sun.spread, widest = radius * KILN_SPHERE_FADE;
+    const float spread = shadow->sun.spread;
     if (shadow->sun.towards.y > 0.0f && center.y > shadow->floor)
         widest = fminf(widest, spread * (center.y - shadow->floor) / shadow->sun.towards.y);
-    return radius + (spread > 0.0f ? widest : 0.0f);
+    return spread > 0.0f ? widest : 0.0f;
+}
+
+/* How far around itself a sphere may throw its shadow. */
+static float reach_of(const struct kiln_sphere_shadow *shadow, float3 center, float radius)
+{
+    return radius + penumbra_of(shadow, center, radius * KILN_SPHERE_FADE);
 }
 
 static struct sphere *add(struct kiln_sphere_shadow *shadow, float3 at)
@@ -93,15 +98,15 @@ static struct sphere *add(struct kiln_sphere_shadow *shadow, float3 at)
     return sphere;
 }
 
-/* The bounds of its shadow, by its own around its middle and how much wider the penumbra is. */
+/* The bounds of its shadow, by those around its middle. */
 static void bound(const struct kiln_sphere_shadow *shadow, struct sphere *sphere,
-                  const float low[2], const float high[2], float wider)
+                  const float low[2], const float high[2])
 {
     const float3 at = {sphere->center.x, sphere->center.y, sphere->center.z};
     const float across[2] = {float3_dot(at, shadow->sun.right), float3_dot(at, shadow->sun.up)};
     for (int c = 0; c < 2; c++) {
-        sphere->low[c] = across[c] + low[c] - wider;
-        sphere->high[c] = across[c] + high[c] + wider;
+        sphere->low[c] = across[c] + low[c];
+        sphere->high[c] = across[c] + high[c];
     }
 }
 
@@ -116,7 +121,7 @@ static void collect(struct kiln_sphere_shadow *shadow, const struct kiln_living 
         return;
     sphere->center.w = radius;
     const float reach = reach_of(shadow, particle->position, radius);
-    bound(shadow, sphere, (const float[2]){0.0f, 0.0f}, (const float[2]){0.0f, 0.0f}, reach);
+    bound(shadow, sphere, (const float[2]){-reach, -reach}, (const float[2]){reach, reach});
 }
 
 /* ---- meshes ---------------------------------------------------------------------------------- */
@@ -158,6 +163,28 @@ static void collect_mesh(struct kiln_sphere_shadow *shadow, const struct kiln_li
     sphere->tile.z = size * reach;
 }
 
+/* A silhouette spreads half a texel past the texels that it touches, but not farther past its tile;
+ * the coarser of its levels has texels up to twice as large as the sun's radius. Where the sphere
+ * takes its place, its shadow counts, too. */
+static void bound_silhouette(const struct kiln_sphere_shadow *shadow, struct sphere *sphere,
+                             const struct kiln_instance_place *place)
+{
+    const float4 center = sphere->center, tile = sphere->tile;
+    const float3 at = {center.x, center.y, center.z};
+    const float soft = penumbra_of(shadow, at, tile.z * KILN_INSTANCE_ROUND);
+    const float texel = exact_max(2.0f * tile.z / tile.w, 2.0f * soft);
+    const float farthest = tile.z + 0.5f * texel;
+    const float ball = soft > tile.z * KILN_INSTANCE_SHARP ? reach_of(shadow, at, center.w) : 0.0f;
+    float low[2], high[2];
+    for (int c = 0; c < 2; c++) {
+        low[c] = exact_max(tile.z * place->low[c] - 1.5f * texel, -farthest);
+        high[c] = exact_min(tile.z * place->high[c] + 1.5f * texel, farthest);
+        low[c] = exact_min(low[c], -ball);
+        high[c] = exact_max(high[c], ball);
+    }
+    bound(shadow, sphere, low, high);
+}
+
 /* The spheres that stand for them are as large as their silhouettes. */
 static void draw_tiles(struct kiln_sphere_shadow *shadow, struct kiln_threads *threads)
 {
@@ -168,17 +195,10 @@ static void draw_tiles(struct kiln_sphere_shadow *shadow, struct kiln_threads *t
     for (uint32_t i = 0; i < shadow->place_count; i++) {
         struct sphere *sphere = &shadow->spheres[i];
         const struct kiln_instance_tile at = kiln_instance_tile_at(tiles, i);
-        const float4 center = sphere->center;
-        const struct kiln_instance_place *place = &shadow->places[i];
-        const float reach = sphere->tile.z, radius = reach * root * sqrtf(place->covered);
-        const float texel = 2.0f * reach / edge;
-        const float spread =
-            reach_of(shadow, (float3){center.x, center.y, center.z}, radius) - radius;
+        const float reach = sphere->tile.z;
         sphere->tile = (float4){(float)at.x, (float)at.y, reach, edge};
-        sphere->center.w = radius;
-        const float low[2] = {reach * place->low[0], reach * place->low[1]};
-        const float high[2] = {reach * place->high[0], reach * place->high[1]};
-        bound(shadow, sphere, low, high, exact_max(texel, spread)); /* half of a level's texel */
+        sphere->center.w = reach * root * sqrtf(shadow->places[i].covered);
+        bound_silhouette(shadow, sphere, &shadow->places[i]);
     }
 }
 

@@ -298,6 +298,33 @@ static void the_shadow_of_a_mesh_turns_with_it(void **state)
     drawing_asset_root = NULL;
 }
 
+/* Lists have it wherever its shadow falls: so it is with bins that are much larger, because of
+ * another one far away. */
+static void the_soft_shadow_of_a_mesh_is_whole(void **state)
+{
+    static const char *const suns[] = {"backdrop.sun.size=4 deg", "backdrop.sun.size=16 deg"};
+    const vec places[] = {{0, 2, 0}, {0, 2, 900}};
+    const size_t values = (size_t)WIDTH * HEIGHT * 4;
+    float *alone = malloc(values * sizeof *alone);
+    assert_non_null(alone);
+    drawing_asset_root = KILN_SOURCE_DIR "/tests/mutation";
+    for (int k = 0; k < 2; k++) {
+        struct fixture f;
+        init(&f, *state, HEAD "backdrop:\n" SUN TETRAHEDRA, suns[k]);
+        draw(&f, places, 1);
+        memcpy(alone, f.drawing.backdrop_color.host, values * sizeof *alone);
+        draw(&f, places, 2);
+        double most = 0;
+        for (size_t i = 0; i < values; i++)
+            most = fmax(most, fabs((double)alone[i] - (double)f.drawing.backdrop_color.host[i]));
+        if (most > 1e-4)
+            fail_msg("%g of the light is cut off", most);
+        finish(&f);
+    }
+    drawing_asset_root = NULL;
+    free(alone);
+}
+
 /* They have the mean shadow of all poses, which is a quarter of the surface. */
 static void meshes_that_are_too_many_have_round_shadows(void **state)
 {
@@ -540,6 +567,7 @@ int main(void)
         test_on_device(the_shadow_of_a_sphere_lies_where_geometry_says),
         test_on_device(the_shadow_of_a_mesh_has_its_shape),
         test_on_device(the_shadow_of_a_mesh_turns_with_it),
+        test_on_device(the_soft_shadow_of_a_mesh_is_whole),
         test_on_device(meshes_that_are_too_many_have_round_shadows),
         test_on_device(spheres_of_a_cloud_all_throw_shadows),
         test_on_device(a_list_of_spheres_may_be_long),
