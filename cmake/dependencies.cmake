@@ -6,7 +6,7 @@ pkg_check_modules(KILN_DEPS IMPORTED_TARGET ${kiln_linked_packages})
 # Headers only: libepoxy loads EGL when it is first called, so that a machine without it gets an
 # error from kiln, not from the loader.
 pkg_check_modules(KILN_EGL egl)
-# Headers only: assimp is loaded when a scene has a mesh (lib/asset/mesh_import.c).
+# Headers only: assimp is loaded when a scene has a mesh (lib/asset/geometry/mesh_import.c).
 pkg_check_modules(KILN_ASSIMP assimp>=5)
 # Of OpenEXR only the C core: the rest is C++ and would be loaded at every start.
 pkg_check_modules(KILN_EXR OpenEXR)

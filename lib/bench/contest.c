@@ -6,7 +6,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
-#include "frame.h"
+#include "frame/frame.h"
 #include "gpu/device.h"
 
 struct entrant {

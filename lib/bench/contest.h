@@ -4,8 +4,8 @@
 #define KILN_BENCH_CONTEST_H
 
 #include "bench/result.h"
+#include "frame/technique.h"
 #include "scene/scene.h"
-#include "technique.h"
 
 /* A run of kiln_bench_run. */
 struct kiln_bench_run {

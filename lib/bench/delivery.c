@@ -13,7 +13,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/file.h"
-#include "frame.h"
+#include "frame/frame.h"
 
 enum { LEAST_FRAMES = 3, MOST_FRAMES = 32 };
 

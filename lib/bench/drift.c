@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "bench/suite.h"
 #include "shared/random.h"
-#include "sim/simulate.h"
+#include "sim/step/simulate.h"
 
 enum { STOPS = 3, BETWEEN = 30 /* looks at the energy, from a stop to the next */ };
 

@@ -6,10 +6,10 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "bench/force_splat.h"
 #include "bench/suite.h"
 #include "shared/random.h"
-#include "sim/force_splat.h"
-#include "sim/gravity.h"
+#include "sim/crowd/gravity.h"
 
 static const char SCENE[] = "bench/stars.yaml";
 

@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "bench/suite.h"
 #include "shared/random.h"
-#include "sim/paint.h"
+#include "sim/paint/paint.h"
 
 enum { RINGS = 48, AROUND = 2 * RINGS, MEASURE = KILN_PASS_simulate };
 

@@ -5,8 +5,8 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/temporary.h"
 #include "bench/result.h"
-#include "output/temporary.h"
 
 bool kiln_bench_write(const struct kiln_bench *bench, enum kiln_bench_format format, FILE *out,
                       struct kiln_error *error)

@@ -5,9 +5,9 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "bench/sort_trial.h"
 #include "bench/suite.h"
 #include "shared/random.h"
-#include "sort/trial.h"
 
 /* Behind the kinds: packed pairs sorted within sets of so many rows (UberFlow, 5). */
 static const uint32_t ROWS[] = {1, 16};

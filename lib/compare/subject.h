@@ -3,7 +3,7 @@
 #ifndef KILN_COMPARE_SUBJECT_H
 #define KILN_COMPARE_SUBJECT_H
 
-#include "asset/image.h"
+#include "asset/image/image.h"
 #include "base/thread.h"
 
 /* Rows from the top. A level is 1/255 of the way from black to white in sRGB's encoding, which goes

@@ -8,10 +8,10 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
+#include "base/temporary.h"
 #include "figure/layout.h"
 #include "figure/record.h"
 #include "figure/verdict.h"
-#include "output/temporary.h"
 
 struct job {
     const struct kiln_figure_params *params;

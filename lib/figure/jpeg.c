@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "asset/avlog.h"
+#include "asset/image/avlog.h"
 #include "base/error.h"
 #include "figure/drawing.h"
 

@@ -12,8 +12,8 @@
 #include "base/hash.h"
 #include "figure/inset.h"
 #include "figure/sweep.h"
+#include "frame/technique.h"
 #include "scene/scene.h"
-#include "technique.h"
 
 bool kiln_panel_take_pixels(struct kiln_panels *panels, struct kiln_panel *panel, uint32_t width,
                             uint32_t height, const uint8_t *rgba, struct kiln_error *error)

@@ -4,11 +4,11 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "compare/footage.h"
 #include "compare/magma.h"
 #include "compare/measure.h"
 #include "figure/inset.h"
 #include "figure/panels.h"
-#include "footage.h"
 
 static bool take_subject(struct kiln_panels *panels, struct kiln_panel *panel,
                          const struct kiln_subject *subject, struct kiln_error *error)

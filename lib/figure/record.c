@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/text.h"
-#include "scene/node.h"
+#include "option/node.h"
 
 enum { VERSION = 2, MAX_SIZE = 16 << 20 };
 

@@ -26,7 +26,7 @@ void kiln_framebuffer_finish(struct kiln_framebuffer *framebuffer);
 bool kiln_framebuffer_bind(struct kiln_framebuffer *framebuffer, struct kiln_error *error);
 
 /* Draws one triangle over the whole of the bound framebuffer with the bound program, whose vertex
- * shader is draw/fullscreen.vert. vertex_array: any, it has no attributes. */
+ * shader is gpu/framebuffer_fill.vert. vertex_array: any, it has no attributes. */
 void kiln_framebuffer_fill(GLuint vertex_array);
 
 #endif

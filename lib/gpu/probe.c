@@ -178,7 +178,7 @@ static bool init_probe(struct probe *probe, struct kiln_error *error)
 {
     struct kiln_program_params files = {.compute = "gpu/probe.comp"};
     if (probe->stage == KILN_PROBE_FRAGMENT)
-        files = (struct kiln_program_params){.vertex = "draw/fullscreen.vert",
+        files = (struct kiln_program_params){.vertex = "gpu/framebuffer_fill.vert",
                                              .fragment = "gpu/probe.frag"};
     if (probe->stage == KILN_PROBE_GEOMETRY) {
         static const char *const words[] = {"sums",        "orders",     "roots",      "curves",

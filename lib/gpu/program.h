@@ -4,8 +4,8 @@
 
 #include "gpu/device.h"
 
-/* The files of a program, named under shaders/ ("draw/particles.frag"); NULL stages are absent.
- * defines is text put after #version, "#define N 1\n" lines, or NULL. */
+/* The files of a program, named under shaders/ ("draw/sprites/particles.frag"); NULL stages are
+ * absent. defines is text put after #version, "#define N 1\n" lines, or NULL. */
 struct kiln_program_params {
     const char *compute, *vertex, *geometry, *fragment;
     const char *defines;

@@ -23,7 +23,7 @@ void kiln_words_finish(struct kiln_words *words);
 /* Makes the textures the units first, first + 1, ... of what is drawn next. */
 void kiln_words_bind_textures(const struct kiln_words *words, GLuint first);
 
-/* Runs the bound program, whose vertex shader is draw/fullscreen.vert, over whole rows. */
+/* Runs the bound program, whose vertex shader is gpu/framebuffer_fill.vert, over whole rows. */
 void kiln_words_draw(const struct kiln_words *words, uint32_t first_row, uint32_t rows);
 
 #endif

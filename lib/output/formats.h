@@ -3,8 +3,8 @@
 #ifndef KILN_OUTPUT_FORMATS_H
 #define KILN_OUTPUT_FORMATS_H
 
+#include "base/temporary.h"
 #include "output/output.h"
-#include "output/temporary.h"
 
 /* An encoder makes one file: of one picture, or of all when one_file is set. Encoders of different
  * files run on different threads at once; one encoder's calls never overlap. The parameters and the

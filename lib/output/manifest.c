@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/temporary.h"
 #include "base/text.h"
-#include "output/temporary.h"
 #include "scene/scene.h"
 
 struct kiln_manifest {

@@ -10,9 +10,9 @@
 
 #include "base/arena.h"
 #include "base/error.h"
+#include "base/pattern.h"
 #include "output/flipbook.h"
 #include "output/formats.h"
-#include "output/pattern.h"
 
 enum { MAX_ENCODERS = 64, QUEUE_SIZE = MAX_ENCODERS + 1 };
 

@@ -18,7 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "asset/avlog.h"
+#include "asset/image/avlog.h"
 #include "base/error.h"
 #include "output/bleed.h"
 

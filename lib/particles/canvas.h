@@ -1,5 +1,5 @@
 /* Paint that particles left on a mesh, as a texture, and what waits to be painted: part of the
- * state of a run. Who paints, and where its texels lie, is in sim/paint.h. */
+ * state of a run. Who paints, and where its texels lie, is in sim/paint/paint.h. */
 #ifndef KILN_PARTICLES_CANVAS_H
 #define KILN_PARTICLES_CANVAS_H
 

@@ -62,7 +62,7 @@ GLuint kiln_bloom_program(struct kiln_device *device, const char *fragment,
 {
     return kiln_program_create(
         device,
-        &(struct kiln_program_params){.vertex = "draw/fullscreen.vert", .fragment = fragment},
+        &(struct kiln_program_params){.vertex = "gpu/framebuffer_fill.vert", .fragment = fragment},
         error);
 }
 

@@ -52,7 +52,7 @@ struct kiln_composite_gl *kiln_composite_gl_create(struct kiln_device *device,
     *stage = (struct kiln_composite_gl){.device = device, .scene = scene, .bits = bits};
     stage->program =
         kiln_program_create(device,
-                            &(struct kiln_program_params){.vertex = "draw/fullscreen.vert",
+                            &(struct kiln_program_params){.vertex = "gpu/framebuffer_fill.vert",
                                                           .fragment = "post/composite.frag"},
                             error);
     kiln_image_init(&stage->display, device, scene->width, scene->height,

@@ -19,7 +19,7 @@ static GLuint make_program(struct kiln_device *device, const char *fragment,
 {
     return kiln_program_create(
         device,
-        &(struct kiln_program_params){.vertex = "draw/fullscreen.vert", .fragment = fragment},
+        &(struct kiln_program_params){.vertex = "gpu/framebuffer_fill.vert", .fragment = fragment},
         error);
 }
 

@@ -5,9 +5,9 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "asset/file_in.h"
-#include "asset/image.h"
+#include "asset/image/image.h"
 #include "base/error.h"
+#include "base/file_in.h"
 #include "base/text.h"
 #include "report/markup.h"
 #include "report/preview.h"

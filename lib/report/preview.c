@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "asset/image.h"
+#include "asset/image/image.h"
 #include "base/error.h"
 #include "output/formats.h"
 

@@ -2,7 +2,7 @@
 #ifndef KILN_REPORT_PREVIEW_H
 #define KILN_REPORT_PREVIEW_H
 
-#include "output/temporary.h"
+#include "base/temporary.h"
 
 /* Whether a file can be shown as it is: a PNG of 8 bits a channel or fewer. False, too, when it
  * cannot be read. */

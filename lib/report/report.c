@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
-#include "output/temporary.h"
+#include "base/temporary.h"
 
 static const struct kiln_report_format *const formats[] = {
     &kiln_report_junit, &kiln_report_json, &kiln_report_tap, &kiln_report_github, &kiln_report_html,

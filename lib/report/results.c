@@ -7,10 +7,10 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/temporary.h"
 #include "base/text.h"
-#include "output/temporary.h"
+#include "option/node.h"
 #include "report/report.h"
-#include "scene/node.h"
 #include "suite/suite.h"
 
 /* Tests are listed in groups, since a list of a file that kiln reads ends at 1024 entries. */

@@ -7,8 +7,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "asset/builtin.h"
-#include "asset/cells_in.h"
+#include "asset/atlas/builtin.h"
+#include "asset/atlas/cells_in.h"
 #include "base/error.h"
 
 const char *kiln_asset_root(struct kiln_arena *arena, const char *root, const char *file,

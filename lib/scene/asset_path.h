@@ -2,7 +2,7 @@
 #ifndef KILN_SCENE_ASSET_PATH_H
 #define KILN_SCENE_ASSET_PATH_H
 
-#include "scene/reader.h"
+#include "option/reader.h"
 
 /* The absolute folder that a scene's paths start from: root, or without one the folder of the
  * file, or without that the working directory. NULL with an error when there is no such folder. */

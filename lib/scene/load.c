@@ -6,10 +6,10 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
+#include "option/override.h"
+#include "option/printer.h"
+#include "option/reader.h"
 #include "scene/asset_path.h"
-#include "scene/override.h"
-#include "scene/printer.h"
-#include "scene/reader.h"
 #include "scene/validate.h"
 
 enum { MAX_FILE_SIZE = 4 << 20 };

@@ -1,8 +1,8 @@
 /* Sky, floor, sun, objects and lights. */
-#include "asset/chart.h"
-#include "asset/depth_maps.h"
-#include "asset/field.h"
-#include "scene/option_rows.h"
+#include "asset/geometry/chart.h"
+#include "asset/geometry/depth_maps.h"
+#include "asset/geometry/field.h"
+#include "option/option_rows.h"
 
 #define AT(field) offsetof(struct kiln_object, field)
 

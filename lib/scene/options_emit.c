@@ -1,5 +1,5 @@
 /* A system, and how its particles are born (Heinz 2019, 2.1.2). */
-#include "scene/option_rows.h"
+#include "option/option_rows.h"
 
 #define AT(field) offsetof(struct kiln_emitter, field)
 

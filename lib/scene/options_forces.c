@@ -1,5 +1,5 @@
 /* Forces: a row in kiln_force_kinds and a table of members for each kind. */
-#include "scene/option_rows.h"
+#include "option/option_rows.h"
 
 #define AT(field) offsetof(struct kiln_force, field)
 

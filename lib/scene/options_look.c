@@ -1,5 +1,5 @@
 /* What the particles of a system look like. */
-#include "scene/option_rows.h"
+#include "option/option_rows.h"
 
 #define AT(field) offsetof(struct kiln_look, field)
 

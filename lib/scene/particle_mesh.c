@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "asset/mesh_measure.h"
+#include "asset/geometry/mesh_measure.h"
 #include "scene/asset_path.h"
 
 bool kiln_mesh_file_fail(struct kiln_reader *reader, const struct kiln_node *root, const char *path,

@@ -1,6 +1,6 @@
 /* The scene as a scene file, with nothing left to defaults: what `kiln check` prints, and what the
  * scene's hash is taken of. It names no path but those of assets, below their root. */
-#include "scene/printer.h"
+#include "option/printer.h"
 
 #include "base/error.h"
 

@@ -1,6 +1,6 @@
 /* Questions to a scene that is loaded. */
 #include "scene/scene.h"
-#include "scene/unit.h"
+#include "option/unit.h"
 
 #include "shared/exact.h"
 #include "shared/random.h"

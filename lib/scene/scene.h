@@ -7,8 +7,8 @@
 #ifndef KILN_SCENE_SCENE_H
 #define KILN_SCENE_SCENE_H
 
-#include "asset/mesh_library.h"
-#include "asset/terrain.h"
+#include "asset/geometry/mesh_library.h"
+#include "asset/geometry/terrain.h"
 #include "base/arena.h"
 #include "kiln.h"
 #include "particles/births.h"
@@ -138,7 +138,7 @@ struct kiln_force {
     enum kiln_falloff falloff;
     enum kiln_vortex_profile profile;
     enum kiln_wind_mode mode; /* of air */
-    const char *file;         /* field: an absolute path (asset/grid_in.h) */
+    const char *file;         /* field: an absolute path (asset/geometry/grid_in.h) */
 };
 
 enum kiln_integration {
@@ -313,7 +313,7 @@ enum kiln_object_kind {
     KILN_OBJECT_TERRAIN, /* drawn as a mesh */
 };
 
-/* A mesh that moves in its own space as a clip of its file says (asset/skin.h). */
+/* A mesh that moves in its own space as a clip of its file says (asset/geometry/skin.h). */
 struct kiln_animation {
     bool enabled;
     const char *clip;               /* its name or number, as written */
@@ -366,7 +366,7 @@ struct kiln_object {
                                       * moves, while no clip plays */
     const struct kiln_mesh *met;     /* mesh that collides, follows: the same, but not unwrapped */
     const struct kiln_skin *skin;    /* mesh that moves, follows */
-    uint32_t samples[2];             /* terrain (asset/terrain.h), and what follows; constant */
+    uint32_t samples[2]; /* terrain (asset/geometry/terrain.h), and what follows; constant */
     struct kiln_value hills, roughness, ridges;
     uint32_t octaves, seed;
     uint32_t cells;                   /* mesh: of what it collides by, along its longest edge */
@@ -374,8 +374,8 @@ struct kiln_object {
     struct kiln_value3 heading;       /* volume: where most particles go; not zero, of any length */
     enum kiln_sides sides;            /* likewise, of its planes */
     struct kiln_value3 depth_directions[KILN_MAX_DEPTH_DIRECTIONS]; /* of its depth maps */
-    uint32_t depth_direction_count, depth_resolution;               /* (asset/depth_maps.h) */
-    struct kiln_object_paint paint;                                 /* mesh */
+    uint32_t depth_direction_count, depth_resolution; /* (asset/geometry/depth_maps.h) */
+    struct kiln_object_paint paint;                   /* mesh */
     bool collide;
     bool visible;                  /* plane: drawn */
     struct kiln_value restitution; /* factors on those of the particles that bounce off it */

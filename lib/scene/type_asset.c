@@ -1,11 +1,11 @@
 /* Types that name textures: assets (one, or a list of which each particle gets one) and motion. */
 #include <string.h>
 
-#include "asset/builtin.h"
+#include "asset/atlas/builtin.h"
+#include "option/printer.h"
+#include "option/reader.h"
+#include "option/schema.h"
 #include "scene/asset_path.h"
-#include "scene/printer.h"
-#include "scene/reader.h"
-#include "scene/schema.h"
 
 /* ---- assets --------------------------------------------------------------------------------- */
 

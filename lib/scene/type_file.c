@@ -1,11 +1,11 @@
 /* Files that a scene names: picture, mesh, grid. */
 #include <string.h>
 
-#include "asset/grid_in.h"
-#include "asset/image.h"
+#include "asset/geometry/grid_in.h"
+#include "asset/image/image.h"
+#include "option/printer.h"
+#include "option/reader.h"
 #include "scene/asset_path.h"
-#include "scene/printer.h"
-#include "scene/reader.h"
 
 static bool is_none(const struct kiln_node *node)
 {

@@ -2,9 +2,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "scene/printer.h"
-#include "scene/reader.h"
-#include "scene/schema.h"
+#include "option/printer.h"
+#include "option/reader.h"
+#include "option/schema.h"
 
 /* ---- pair ----------------------------------------------------------------------------------- */
 

@@ -1,11 +1,11 @@
 /* Checks across options, and what follows from them: steps, capacities, bounds. */
 #include "scene/validate.h"
 
-#include "asset/cells_in.h"
-#include "asset/chart.h"
-#include "asset/closed.h"
-#include "asset/depth_maps.h"
-#include "asset/grid_in.h"
+#include "asset/atlas/cells_in.h"
+#include "asset/geometry/chart.h"
+#include "asset/geometry/closed.h"
+#include "asset/geometry/depth_maps.h"
+#include "asset/geometry/grid_in.h"
 #include "scene/asset_path.h"
 #include "scene/family.h"
 #include "scene/object_mesh.h"

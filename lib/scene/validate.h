@@ -2,7 +2,7 @@
 #ifndef KILN_SCENE_VALIDATE_H
 #define KILN_SCENE_VALIDATE_H
 
-#include "scene/reader.h"
+#include "option/reader.h"
 
 /* Fills what follows from the options (steps, capacities, bounds) and refuses what cannot run. root
  * is the tree, for the places of errors. scene->keys is set. */

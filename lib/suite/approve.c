@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/text.h"
-#include "scene/node.h"
+#include "option/node.h"
 #include "suite/golden.h"
 #include "suite/rendering.h"
 #include "suite/test_file.h"

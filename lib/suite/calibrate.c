@@ -8,13 +8,13 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/temporary.h"
 #include "base/text.h"
 #include "base/thread.h"
 #include "compare/metric.h"
-#include "output/temporary.h"
+#include "frame/technique.h"
 #include "suite/summary.h"
 #include "suite/trial.h"
-#include "technique.h"
 
 /* About three times what another code path of a driver changes (docs/measurements.md, "How much
  * changes show"), or a few pixels where that is nothing: a limit of 0 would fail by chance. */

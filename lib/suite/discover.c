@@ -13,7 +13,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/text.h"
-#include "scene/node.h"
+#include "option/node.h"
 #include "suite/expect.h"
 #include "suite/test_file.h"
 

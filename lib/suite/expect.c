@@ -10,9 +10,9 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "output/temporary.h"
-#include "scene/option_rows.h"
-#include "scene/reader.h"
+#include "base/temporary.h"
+#include "option/option_rows.h"
+#include "option/reader.h"
 #include "suite/golden.h"
 #include "suite/type.h"
 

@@ -11,11 +11,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "asset/image.h"
+#include "asset/image/image.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
-#include "output/temporary.h"
+#include "base/temporary.h"
 
 void kiln_device_name(const char *renderer, char name[KILN_DEVICE_NAME_SIZE])
 {

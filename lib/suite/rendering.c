@@ -5,9 +5,9 @@
 #include <unistd.h>
 
 #include "base/error.h"
-#include "output/pattern.h"
-#include "scene/printer.h"
-#include "technique.h"
+#include "base/pattern.h"
+#include "frame/technique.h"
+#include "option/printer.h"
 
 struct job {
     struct kiln_arena *arena;

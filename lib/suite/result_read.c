@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/text.h"
-#include "scene/node.h"
+#include "option/node.h"
 #include "suite/result_member.h"
 
 enum { MAX_FILE_SIZE = 64 << 20 };

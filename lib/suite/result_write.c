@@ -4,8 +4,8 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/temporary.h"
 #include "base/text.h"
-#include "output/temporary.h"
 #include "suite/result_member.h"
 
 /* JSON knows no infinity, which PSNR of equal pictures is; null stands for it. */

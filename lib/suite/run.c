@@ -9,9 +9,9 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/temporary.h"
 #include "base/thread.h"
 #include "compare/mask.h"
-#include "output/temporary.h"
 #include "suite/summary.h"
 #include "suite/trial.h"
 

@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "scene/node.h"
+#include "option/node.h"
 #include "suite/trial.h"
 
 struct entry {

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "scene/node.h"
+#include "option/node.h"
 #include "suite/discover.h"
 #include "suite/golden.h"
 #include "suite/test_file.h"

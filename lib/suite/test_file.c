@@ -7,9 +7,9 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "scene/option_rows.h"
-#include "scene/reader.h"
-#include "scene/reference.h"
+#include "option/option_rows.h"
+#include "option/reader.h"
+#include "option/reference.h"
 #include "suite/golden.h"
 #include "suite/type.h"
 

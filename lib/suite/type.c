@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "compare/metric.h"
-#include "scene/option_rows.h"
+#include "frame/technique.h"
+#include "option/option_rows.h"
 #include "suite/golden.h"
-#include "technique.h"
 
 static uint32_t *count_of(const struct kiln_option *option, void *field)
 {

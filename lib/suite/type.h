@@ -3,7 +3,7 @@
 #ifndef KILN_SUITE_TYPE_H
 #define KILN_SUITE_TYPE_H
 
-#include "scene/reader.h"
+#include "option/reader.h"
 #include "suite/expect.h"
 
 enum {

@@ -39,7 +39,7 @@ FN S(volume_plane) volume_plane_at(SIM_PARAM S(kiln_collider) c, uint number)
     return plane;
 }
 
-/* What is known of a cell, by its place in the lattice: see sim/voxels.h. */
+/* What is known of a cell, by its place in the lattice: see sim/world/voxels.h. */
 FN float volume_mark(SIM_PARAM S(kiln_grid) g, uint x, uint y, uint z)
 {
     uint cell = (z * g.size.y + y) * g.size.x + x;

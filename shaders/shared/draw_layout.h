@@ -35,7 +35,7 @@
 #define KILN_CELL_PLAIN 2u /* no texture: a rectangle... */
 #define KILN_CELL_DISC  3u /* ...or a disc, whose edges are as sharp as pixels allow */
 
-/* What each particle sees of the sun past the backdrop (lib/draw/sun_shade.h), by its slot: a
+/* What each particle sees of the sun past the backdrop (lib/draw/light/sun_shade.h), by its slot: a
  * texture unit, and the slots in a row of the texture. */
 #define KILN_UNIT_SUN_SHADE 10
 #define KILN_SUN_SHADE_ROW  1024

@@ -378,7 +378,7 @@ FN uint flock_row_size(S(flock_row) row)
 }
 
 /* All that a body sees, in the 27 cells around it; its own row of them first.
- * lib/sim/flock_simd.c does the same in vectors. */
+ * lib/sim/crowd/flock_simd.c does the same in vectors. */
 FN S(flock_sums) flock_look(CROWD_PARAM uint self)
 {
     S(kiln_body) a = BODY(self);

@@ -39,8 +39,8 @@
 #define KILN_SPHERES_AT_A_TIME 4 /* of a list, when shaders read it */
 
 /* Meshes throw theirs by tiles of an atlas, so many texels square, with levels of half the size and
- * so on, until the largest of the tiles is a texel (lib/draw/instance_tiles.h). Where the penumbra
- * is wider than parts of their reach, they do as spheres. */
+ * so on, until the largest of the tiles is a texel (lib/draw/light/instance_tiles.h). Where the
+ * penumbra is wider than parts of their reach, they do as spheres. */
 #define KILN_INSTANCE_ATLAS  2048
 #define KILN_INSTANCE_LEVELS 7
 #define KILN_INSTANCE_SHARP  0.3f

@@ -45,7 +45,7 @@ struct tiled_bin {
     uint cover, add;   /* most that one that covers adds, or one that does not; bits of floats */
 };
 
-/* A sprite is so many float4 (shaders/draw/tiled.glsl). */
+/* A sprite is so many float4 (shaders/draw/sprites/tiled.glsl). */
 #define TILED_SPRITE_ROWS 14
 
 /* A pixel between two chunks. */

@@ -1,5 +1,5 @@
 /* Fuzzes the reader of EXR layers in the same way. */
-#include "asset/exr_in.h"
+#include "asset/image/exr_in.h"
 #include "fuzz.h"
 #include "image_check.h"
 

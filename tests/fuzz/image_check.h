@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "asset/image.h"
+#include "asset/image/image.h"
 
 static inline void require(bool condition, const char *what)
 {

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "asset/skin.h"
+#include "asset/geometry/skin.h"
 
 static void require(bool condition, const char *what)
 {

@@ -1,4 +1,4 @@
-/* lib/draw/backdrop.c against a plain C ray caster. */
+/* lib/draw/backdrop/backdrop.c against a plain C ray caster. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "draw/backdrop.h"
+#include "draw/backdrop/backdrop.h"
 #include "support/backdrops.h"
 
 enum { WIDTH = 96, HEIGHT = 54 };

@@ -1,5 +1,5 @@
-/* Spheres, cylinders, meshes, shadows and pictures of lib/draw/backdrop.c against a plain C ray
- * caster in doubles. */
+/* Spheres, cylinders, meshes, shadows and pictures of lib/draw/backdrop/backdrop.c against a plain
+ * C ray caster in doubles. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "asset/texture.h"
+#include "asset/image/texture.h"
 #include "support/folders.h"
 #include "support/ray_caster.h"
 

@@ -1,5 +1,5 @@
-/* Capsules, planes and boxes of any direction of lib/draw/backdrop.c, and their shadows, against a
- * plain C ray caster in doubles. */
+/* Capsules, planes and boxes of any direction of lib/draw/backdrop/backdrop.c, and their shadows,
+ * against a plain C ray caster in doubles. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -12,7 +12,7 @@
 #include <string.h>
 
 #include "base/simd.h"
-#include "stages.h"
+#include "frame/stages.h"
 #include "support/device.h"
 
 enum { WIDTH = 384, HEIGHT = 216, PIXELS = WIDTH * HEIGHT, COLORS = 4 * PIXELS };

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "draw/backdrop.h"
+#include "draw/backdrop/backdrop.h"
 #include "support/backdrops.h"
 
 enum { WIDTH = 96, HEIGHT = 54 };

@@ -1,4 +1,4 @@
-/* lib/frame.c: jobs beside each other in one process. */
+/* lib/frame/frame.c: jobs beside each other in one process. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "frame.h"
+#include "frame/frame.h"
 #include "support/device.h"
 #include "support/pictures.h"
 #include "support/scenes.h"

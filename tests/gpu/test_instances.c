@@ -1,6 +1,6 @@
-/* Particles that are meshes (lib/draw/spheres.c) against triangles that are intersected in double
- * precision: how they lie, depth, silhouettes, light; that both techniques agree, and that neither
- * order, threads nor the width of vectors matter. */
+/* Particles that are meshes (lib/draw/solids/spheres.c) against triangles that are intersected in
+ * double precision: how they lie, depth, silhouettes, light; that both techniques agree, and that
+ * neither order, threads nor the width of vectors matter. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

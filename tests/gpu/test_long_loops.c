@@ -71,7 +71,7 @@ static void cells_are_added_up_to_the_last(void **state)
     struct kiln_error error = {0};
     struct kiln_buffer cells;
     const GLuint program = kiln_program_create(
-        *state, &(struct kiln_program_params){.compute = "sim/interact_scan.comp"}, &error);
+        *state, &(struct kiln_program_params){.compute = "sim/crowd/interact_scan.comp"}, &error);
     kiln_buffer_init(&cells, *state, CELLS * sizeof(uint32_t), "cells");
     uint32_t *counts = kiln_buffer_host(&cells, KILN_OVERWRITE, &error);
     assert_true(program && counts);

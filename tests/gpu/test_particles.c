@@ -1,5 +1,5 @@
-/* Each technique of lib/draw/particles.c against a plain C rasteriser that follows equations 3.1
- * to 3.3 of Heinz 2019 pixel by pixel. */
+/* Each technique of lib/draw/sprites/particles.c against a plain C rasteriser that follows
+ * equations 3.1 to 3.3 of Heinz 2019 pixel by pixel. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,10 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "asset/builtin.h"
-#include "draw/backdrop.h"
-#include "draw/looks.h"
-#include "draw/particles.h"
+#include "asset/atlas/builtin.h"
+#include "draw/backdrop/backdrop.h"
+#include "draw/moment/looks.h"
+#include "draw/sprites/particles.h"
 #include "gpu/framebuffer.h"
 #include "shared/derived.h"
 #include "support/backdrops.h"

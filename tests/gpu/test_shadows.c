@@ -9,8 +9,8 @@
 
 #include <unistd.h>
 
-#include "draw/lighting.h"
-#include "draw/spheres.h"
+#include "draw/light/lighting.h"
+#include "draw/solids/spheres.h"
 #include "support/drawing.h"
 
 enum { WIDTH = 160, HEIGHT = 90, STEP = 30 };

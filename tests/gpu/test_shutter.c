@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "asset/image.h"
+#include "asset/image/image.h"
 #include "support/device.h"
 #include "support/scenes.h"
 

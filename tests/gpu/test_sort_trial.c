@@ -1,4 +1,4 @@
-/* lib/sort/trial.c: what is timed has sorted. */
+/* lib/bench/sort_trial.c: what is timed has sorted. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "sort/bitonic_field.h"
-#include "sort/trial.h"
+#include "bench/bitonic_field.h"
+#include "bench/sort_trial.h"
 #include "support/simulation.h"
 #include "support/sort_keys.h"
 

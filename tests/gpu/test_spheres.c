@@ -1,5 +1,5 @@
-/* lib/draw/spheres.c against spheres that are intersected in double precision: depth, silhouettes,
- * light, and that the order of the list is no matter. */
+/* lib/draw/solids/spheres.c against spheres that are intersected in double precision: depth,
+ * silhouettes, light, and that the order of the list is no matter. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

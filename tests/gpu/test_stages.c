@@ -1,4 +1,4 @@
-/* lib/stages.c: how the stages of a frame play together, and its named layers. */
+/* lib/frame/stages.c: how the stages of a frame play together, and its named layers. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "stages.h"
+#include "frame/stages.h"
 #include "support/device.h"
 
 enum { WIDTH = 96, HEIGHT = 64, PIXELS = WIDTH * HEIGHT, BEAUTY = 0, DEPTH, FIRE, SMOKE, BLOOM };

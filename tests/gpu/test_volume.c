@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "sim/voxels.h"
+#include "sim/world/voxels.h"
 #include "support/device.h"
 
 enum { RINGS = 24, AROUND = 48, VERTICES = (RINGS + 1) * AROUND, TRIANGLES = 2 * RINGS * AROUND };

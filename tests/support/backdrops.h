@@ -2,7 +2,7 @@
 #ifndef TESTS_SUPPORT_BACKDROPS_H
 #define TESTS_SUPPORT_BACKDROPS_H
 
-#include "draw/backdrop.h"
+#include "draw/backdrop/backdrop.h"
 #include "support/device.h"
 
 /* All of them, and what backdrop_create takes. */

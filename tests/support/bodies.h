@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "asset/mesh.h"
+#include "asset/geometry/mesh.h"
 
 struct body {
     FILE *out;

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "draw/backdrop.h"
-#include "draw/particles.h"
+#include "draw/backdrop/backdrop.h"
+#include "draw/sprites/particles.h"
 #include "gpu/framebuffer.h"
 #include "shared/derived.h"
 #include "support/backdrops.h"

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "stages.h"
+#include "frame/stages.h"
 #include "support/device.h"
 
 enum { FRAME_BEAUTY, FRAME_DEPTH, FRAME_FIRE, FRAME_SMOKE, FRAME_BLOOM, FRAME_LAYERS };

@@ -2,7 +2,7 @@
 #ifndef TESTS_SUPPORT_OPAQUE_H
 #define TESTS_SUPPORT_OPAQUE_H
 
-#include "draw/spheres.h"
+#include "draw/solids/spheres.h"
 #include "support/drawing.h"
 
 enum { WIDTH = 320, HEIGHT = 240, PIXELS = WIDTH * HEIGHT };

@@ -5,7 +5,7 @@
 
 #include <stdlib.h>
 
-#include "draw/particles.h"
+#include "draw/sprites/particles.h"
 #include "shared/particle.h"
 #include "support/scenes.h"
 

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "asset/mesh.h"
-#include "draw/backdrop.h"
+#include "asset/geometry/mesh.h"
+#include "draw/backdrop/backdrop.h"
 #include "support/backdrops.h"
 
 enum { WIDTH = 128, HEIGHT = 72 };

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "asset/skin.h"
+#include "asset/geometry/skin.h"
 
 enum { JOINTS = 3, KEYS = 4, VERTICES = 12, TRIANGLES = 4 };
 

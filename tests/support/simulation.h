@@ -3,7 +3,7 @@
 #define TESTS_SUPPORT_SIMULATION_H
 
 #include "shared/random.h"
-#include "sim/simulate.h"
+#include "sim/step/simulate.h"
 #include "support/device.h"
 #include "support/scene_fixture.h"
 

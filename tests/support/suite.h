@@ -2,7 +2,7 @@
 #ifndef KILN_TEST_SUITE_H
 #define KILN_TEST_SUITE_H
 
-#include "asset/image.h"
+#include "asset/image/image.h"
 #include "suite/golden.h"
 #include "support/device.h"
 #include "support/folders.h"

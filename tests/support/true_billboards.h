@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "draw/looks.h"
-#include "draw/particles.h"
+#include "draw/moment/looks.h"
+#include "draw/sprites/particles.h"
 #include "shared/derived.h"
 #include "shared/fragment_layout.h"
 #include "support/true_sprite.h"

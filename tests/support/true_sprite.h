@@ -1,11 +1,11 @@
-/* One particle for true_billboards.h: shaders/draw/particle.glsl, corner.glsl and shade.glsl in
- * double precision. Only what the definition rounds is in floats: age, random numbers, the choice
- * of a cell.
+/* One particle for true_billboards.h: shaders/draw/sprites/particle.glsl, corner.glsl and
+ * shade.glsl in double precision. Only what the definition rounds is in floats: age, random
+ * numbers, the choice of a cell.
  */
 #ifndef TESTS_SUPPORT_TRUE_SPRITE_H
 #define TESTS_SUPPORT_TRUE_SPRITE_H
 
-#include "draw/smoke_shadow.h"
+#include "draw/light/smoke_shadow.h"
 #include "support/true_vector.h"
 
 /* What all of a pass have in common. */

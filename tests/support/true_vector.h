@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-#include "draw/looks.h"
-#include "draw/view.h"
+#include "draw/moment/looks.h"
+#include "draw/moment/view.h"
 
 typedef struct {
     double x, y, z;

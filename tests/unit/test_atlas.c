@@ -9,9 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "asset/atlas.h"
-#include "asset/blackbody.h"
-#include "asset/builtin.h"
+#include "asset/atlas/atlas.h"
+#include "asset/atlas/blackbody.h"
+#include "asset/atlas/builtin.h"
 
 enum { EDGE = 128, CELL_FLOATS = EDGE * EDGE * 4 };
 
@@ -257,7 +257,7 @@ static float sample(const float *grid, uint32_t channels, uint32_t channel, floa
     return sum;
 }
 
-/* Density as the fragment shader finds it (draw/shade.glsl), at a progress through life. */
+/* Density as the fragment shader finds it (draw/sprites/shade.glsl), at a progress through life. */
 static float played(const struct book *book, bool moving, float life, uint32_t x, uint32_t y)
 {
     float position = life * (float)(book->count - 1), first = floorf(position);

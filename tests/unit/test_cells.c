@@ -7,7 +7,7 @@
 #include <cmocka.h>
 #include <math.h>
 
-#include "asset/cells_in.h"
+#include "asset/atlas/cells_in.h"
 #include "support/pictures.h"
 
 struct picture {
@@ -192,8 +192,8 @@ static float sample(const float *cell, float x, float y)
     return sum;
 }
 
-/* 16 cells of a file, played as the fragment shader does (draw/shade.glsl) at 61 times: with
- * the motion file, nearer to what was filmed than mixed, by a lot. */
+/* 16 cells of a file, played as the fragment shader does (draw/sprites/shade.glsl) at 61 times:
+ * with the motion file, nearer to what was filmed than mixed, by a lot. */
 static void motion_of_a_file_makes_up_for_cells(void **state)
 {
     struct fixture *f = *state;

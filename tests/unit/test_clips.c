@@ -11,7 +11,7 @@
 #include <libavutil/pixdesc.h>
 #include <math.h>
 
-#include "asset/video_in.h"
+#include "asset/image/video_in.h"
 #include "support/pictures.h"
 
 static bool encoders_are_missing; /* played by standing before FFmpeg's own function */

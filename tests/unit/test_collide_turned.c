@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "shared/collide.h"
-#include "sim/turned.h"
+#include "sim/world/turned.h"
 #include "support/thrown.h"
 
 /* ---- in doubles ------------------------------------------------------------------------------ */

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "asset/image.h"
+#include "asset/image/image.h"
 #include "support/pictures.h"
 
 struct sequences {

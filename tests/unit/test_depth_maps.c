@@ -9,8 +9,8 @@
 #include <cmocka.h>
 #include <math.h>
 
-#include "asset/depth_maps.h"
-#include "asset/field.h"
+#include "asset/geometry/depth_maps.h"
+#include "asset/geometry/field.h"
 #include "shared/collide.h"
 #include "support/bodies.h"
 #include "support/folders.h"

@@ -8,8 +8,8 @@
 
 #include <openexr.h>
 
-#include "asset/exr_in.h"
-#include "asset/file_in.h"
+#include "asset/image/exr_in.h"
+#include "base/file_in.h"
 #include "support/pictures.h"
 
 /* Writes frame 5 of the test picture and returns the file's bytes. */

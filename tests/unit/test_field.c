@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "asset/field.h"
+#include "asset/geometry/field.h"
 #include "shared/random.h"
 #include "support/bodies.h"
 #include "support/folders.h"

@@ -9,7 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "asset/image.h"
+#include "asset/image/image.h"
 #include "base/hash.h"
 #include "figure/font_glyphs.h"
 #include "figure/layout.h"

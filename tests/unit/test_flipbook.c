@@ -8,7 +8,7 @@
 #include <math.h>
 #include <sys/stat.h>
 
-#include "asset/image.h"
+#include "asset/image/image.h"
 #include "support/pictures.h"
 
 static char folder[32], path[64];

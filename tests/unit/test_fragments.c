@@ -1,5 +1,6 @@
-/* lib/draw/fragments.c and what particles_cpu.c does with it: more fragments than a thread has room
- * for, and more sprites than are made at a time, give the picture all the same, in bounded memory.
+/* lib/draw/sprites/fragments.c and what particles_cpu.c does with it: more fragments than a thread
+ * has room for, and more sprites than are made at a time, give the picture all the same, in bounded
+ * memory.
  */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <sys/stat.h>
 
-#include "asset/image.h"
+#include "asset/image/image.h"
 #include "base/arena.h"
 #include "output/formats.h"
 #include "report/gallery.h"

@@ -7,7 +7,7 @@
 #include <cmocka.h>
 #include <stdlib.h>
 
-#include "sim/interact.h"
+#include "sim/crowd/interact.h"
 #include "support/balls.h"
 
 static struct scene_fixture fixture; /* too large for a stack */

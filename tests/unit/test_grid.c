@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "asset/grid_in.h"
-#include "sim/grids.h"
+#include "asset/geometry/grid_in.h"
+#include "sim/world/grids.h"
 #include "support/simulation.h"
 
 static struct scene_fixture fixture; /* too large for a stack */

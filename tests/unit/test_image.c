@@ -15,7 +15,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "asset/image.h"
+#include "asset/image/image.h"
 
 enum { WIDTH = 29, HEIGHT = 13 };
 

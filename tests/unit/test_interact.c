@@ -9,7 +9,7 @@
 #include <stdlib.h>
 
 #include "shared/interact_staggered.h"
-#include "sim/interact.h"
+#include "sim/crowd/interact.h"
 #include "support/balls.h"
 
 static struct scene_fixture fixture; /* too large for a stack */

@@ -9,11 +9,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "draw/firelight.h"
-#include "draw/living_blocks.h"
-#include "draw/looks.h"
-#include "draw/smoke_shadow.h"
-#include "draw/view.h"
+#include "draw/light/firelight.h"
+#include "draw/light/living_blocks.h"
+#include "draw/light/smoke_shadow.h"
+#include "draw/moment/looks.h"
+#include "draw/moment/view.h"
 #include "support/scenes.h"
 
 enum { GRID = KILN_SMOKE_GRID, MOST = 4096 };

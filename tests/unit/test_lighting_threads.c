@@ -10,11 +10,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "draw/firelight.h"
-#include "draw/living_blocks.h"
-#include "draw/looks.h"
-#include "draw/smoke_shadow.h"
-#include "draw/view.h"
+#include "draw/light/firelight.h"
+#include "draw/light/living_blocks.h"
+#include "draw/light/smoke_shadow.h"
+#include "draw/moment/looks.h"
+#include "draw/moment/view.h"
 #include "support/scenes.h"
 
 enum { GRID = KILN_SMOKE_GRID, CELLS = GRID * GRID * GRID, LEVELS = 4, MOST = 40000, STEP = 30 };

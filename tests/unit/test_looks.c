@@ -7,7 +7,7 @@
 #include <cmocka.h>
 #include <math.h>
 
-#include "draw/looks.h"
+#include "draw/moment/looks.h"
 #include "shared/look_layout.h"
 #include "support/scenes.h"
 

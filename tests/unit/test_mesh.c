@@ -12,7 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "asset/mesh.h"
+#include "asset/geometry/mesh.h"
 #include "support/folders.h"
 
 static struct kiln_mesh *parse(const char *text, const char *name)

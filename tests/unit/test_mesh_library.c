@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "asset/mesh_library.h"
+#include "asset/geometry/mesh_library.h"
 #include "kiln.h"
 
 static const char FOLDER[] = KILN_SOURCE_DIR "/tests/mutation";

@@ -1,4 +1,4 @@
-/* lib/asset/mesh_measure.c against bodies whose mean shadow is known. */
+/* lib/asset/geometry/mesh_measure.c against bodies whose mean shadow is known. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "asset/mesh_measure.h"
+#include "asset/geometry/mesh_measure.h"
 
 static struct kiln_mesh_measure measure(const char *text)
 {

@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <sys/wait.h>
 
-#include "output/pattern.h"
+#include "base/pattern.h"
 #include "support/pictures.h"
 
 static const char *const suffixes[] = {".png", ".exr", ".mp4"};

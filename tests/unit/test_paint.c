@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "sim/paint.h"
+#include "sim/paint/paint.h"
 #include "support/scenes.h"
 #include "support/simulation.h"
 

@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "asset/closed.h"
-#include "asset/skin.h"
+#include "asset/geometry/closed.h"
+#include "asset/geometry/skin.h"
 #include "scene/scene.h"
 #include "support/rig.h"
 

@@ -1,5 +1,5 @@
-/* lib/sim/slots_simd.c: stepping slots in blocks gives the bits of step_slot, at every width of
- * vectors and for any stretch of slots. */
+/* lib/sim/step/slots_simd.c: stepping slots in blocks gives the bits of step_slot, at every width
+ * of vectors and for any stretch of slots. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -8,8 +8,8 @@
 #include <cmocka.h>
 #include <stdlib.h>
 
-#include "sim/params.h"
-#include "sim/slots.h"
+#include "sim/step/slots.h"
+#include "sim/world/params.h"
 #include "support/balls.h"
 
 static struct scene_fixture fixture; /* too large for a stack */

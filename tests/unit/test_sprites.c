@@ -1,5 +1,6 @@
-/* lib/draw/sprite_simd.c: the sprites are the same bytes for every width of vectors, and whichever
- * particles share a vector. lib/draw/particle_math.h: the same bits as shaders/shared. */
+/* lib/draw/sprites/sprite_simd.c: the sprites are the same bytes for every width of vectors, and
+ * whichever particles share a vector. lib/draw/vector/particle_math.h: the same bits as
+ * shaders/shared. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -9,9 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "draw/looks.h"
-#include "draw/particle_math.h"
-#include "draw/sprite.h"
+#include "draw/moment/looks.h"
+#include "draw/sprites/sprite.h"
+#include "draw/vector/particle_math.h"
 #include "support/raster.h"
 
 enum { COUNT = 1511, STEP = 90, GRID = KILN_SMOKE_GRID * KILN_SMOKE_GRID * KILN_SMOKE_GRID };

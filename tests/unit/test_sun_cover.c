@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "draw/sun_box.h"
-#include "draw/sun_mesh.h"
+#include "draw/light/sun_box.h"
+#include "draw/light/sun_mesh.h"
 #include "shared/exact.h"
 
 #ifdef __SANITIZE_ADDRESS__ /* slow, and sees as much in fewer */

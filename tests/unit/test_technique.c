@@ -1,4 +1,4 @@
-/* lib/technique.c: the choice of techniques. */
+/* lib/frame/technique.c: the choice of techniques. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "technique.h"
+#include "frame/technique.h"
 
 static bool choose(bool software, bool exact, const char *flag, char text[256],
                    struct kiln_error *error)

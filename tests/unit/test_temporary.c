@@ -1,4 +1,4 @@
-/* lib/output/temporary.c: what others left under the same names. */
+/* lib/base/temporary.c: what others left under the same names. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,7 +12,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include "output/temporary.h"
+#include "base/temporary.h"
 #include "support/pictures.h"
 
 enum { KILLED_JOBS = 100 };

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 
 #include "shared/collide.h"
-#include "sim/params.h"
+#include "sim/world/params.h"
 #include "support/folders.h"
 #include "support/thrown.h"
 

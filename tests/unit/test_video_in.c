@@ -8,8 +8,8 @@
 #include <math.h>
 #include <sys/stat.h>
 
-#include "asset/file_in.h"
-#include "asset/video_in.h"
+#include "asset/image/video_in.h"
+#include "base/file_in.h"
 #include "support/pictures.h"
 
 enum { FRAMES = 12 };

@@ -1,4 +1,4 @@
-/* lib/draw/view.c: the camera. */
+/* lib/draw/moment/view.c: the camera. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "draw/view.h"
+#include "draw/moment/view.h"
 
 static struct kiln_view view_of(const char *camera, uint32_t step)
 {

@@ -8,8 +8,8 @@
 
 #include <cmocka.h>
 
-#include "asset/skin.h"
-#include "sim/volumes.h"
+#include "asset/geometry/skin.h"
+#include "sim/world/volumes.h"
 #include "support/bodies.h"
 #include "support/folders.h"
 #include "support/thrown.h"

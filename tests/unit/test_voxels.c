@@ -1,5 +1,5 @@
-/* lib/sim/voxels.c: which cells triangles touch, which of them a cell keeps, and that the number of
- * threads is of no account.
+/* lib/sim/world/voxels.c: which cells triangles touch, which of them a cell keeps, and that the
+ * number of threads is of no account.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -10,7 +10,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "sim/voxels.h"
+#include "sim/world/voxels.h"
 #include "support/balls.h"
 
 enum { TRIANGLES = 60 };

@@ -1,0 +1,60 @@
+/* Planck's spectrum times the CIE 1931 colour matching functions, in the multi-lobe fit of Wyman,
+ * Sloan and Shirley, "Simple Analytic Approximations to the CIE XYZ Color Matching Functions" (JCGT
+ * 2013), summed every 5 nm; XYZ to Rec. 709 by the matrix of IEC 61966-2-1. */
+#include "asset/atlas/blackbody.h"
+
+#include "shared/exact.h"
+
+struct lobe {
+    float scale, center, below, above; /* nm: widths on either side of the centre */
+};
+
+static float lobe_at(const struct lobe *lobe, float nm)
+{
+    float t = (nm - lobe->center) * (nm < lobe->center ? lobe->below : lobe->above);
+    return lobe->scale * exact_exp(-0.5f * t * t);
+}
+
+/* Planck's law up to a factor: l^-5 / (exp(c2 / (l T)) - 1), l in micrometres. */
+static float planck(float nm, float kelvin)
+{
+    float um = nm * 0.001f;
+    float exponent = 14387.77f / (um * kelvin);
+    if (exponent > 80.0f)
+        return 0.0f;
+    return 1.0f / (um * um * um * um * um * (exact_exp(exponent) - 1.0f));
+}
+
+void kiln_blackbody_color(float kelvin, float rgb[3])
+{
+    static const struct lobe X[] = {{0.362f, 442.0f, 0.0624f, 0.0374f},
+                                    {1.056f, 599.8f, 0.0264f, 0.0323f},
+                                    {-0.065f, 501.1f, 0.0490f, 0.0382f}};
+    static const struct lobe Y[] = {{0.821f, 568.8f, 0.0213f, 0.0247f},
+                                    {0.286f, 530.9f, 0.0613f, 0.0322f}};
+    static const struct lobe Z[] = {{1.217f, 437.0f, 0.0845f, 0.0278f},
+                                    {0.681f, 459.0f, 0.0385f, 0.0725f}};
+    rgb[0] = rgb[1] = rgb[2] = 0.0f;
+    if (!(kelvin >= 400.0f))
+        return;
+
+    float x = 0.0f, y = 0.0f, z = 0.0f;
+    for (int wavelength = 380; wavelength <= 780; wavelength += 5) {
+        float nm = (float)wavelength;
+        float power = planck(nm, kelvin);
+        x += power * (lobe_at(&X[0], nm) + lobe_at(&X[1], nm) + lobe_at(&X[2], nm));
+        y += power * (lobe_at(&Y[0], nm) + lobe_at(&Y[1], nm));
+        z += power * (lobe_at(&Z[0], nm) + lobe_at(&Z[1], nm));
+    }
+    if (!(y > 0.0f))
+        return;
+
+    float relative = kelvin / 1900.0f;
+    float scale = relative * relative * relative * relative / y;
+    float r = (3.2406f * x - 1.5372f * y - 0.4986f * z) * scale;
+    float g = (-0.9689f * x + 1.8758f * y + 0.0415f * z) * scale;
+    float b = (0.0557f * x - 0.2040f * y + 1.0570f * z) * scale;
+    rgb[0] = r > 0.0f ? r : 0.0f;
+    rgb[1] = g > 0.0f ? g : 0.0f;
+    rgb[2] = b > 0.0f ? b : 0.0f;
+}

@@ -1,0 +1,114 @@
+/* The procedural flipbooks: their names, and from texels to cells. */
+#include "asset/atlas/builtin.h"
+
+#include "asset/atlas/texel_cell.h"
+#include "shared/random.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const struct builtin *at_index(size_t index, enum kiln_simd simd)
+{
+    const struct builtin *gas = KILN_SIMD_PICK(kiln_builtin_gases, simd)->builtins;
+    const struct builtin *solid = KILN_SIMD_PICK(kiln_builtin_solids, simd)->builtins;
+    for (; gas->name; gas++) {
+        if (index-- == 0)
+            return gas;
+    }
+    for (; solid->name; solid++) {
+        if (index-- == 0)
+            return solid;
+    }
+    return NULL;
+}
+
+static const struct builtin *find(const char *name, enum kiln_simd simd)
+{
+    const struct builtin *builtin;
+    for (size_t i = 0; (builtin = at_index(i, simd)); i++) {
+        if (strcmp(builtin->name, name) == 0)
+            return builtin;
+    }
+    return NULL;
+}
+
+const char *kiln_builtin_of(const char *source)
+{
+    static const char prefix[] = "builtin:";
+    const size_t length = sizeof prefix - 1;
+    return strncmp(source, prefix, length) == 0 ? source + length : NULL;
+}
+
+bool kiln_builtin_exists(const char *name)
+{
+    return find(name, KILN_SIMD_NARROWEST) != NULL;
+}
+
+const char *kiln_builtin_name(size_t index)
+{
+    const struct builtin *builtin = at_index(index, KILN_SIMD_NARROWEST);
+    return builtin ? builtin->name : NULL;
+}
+
+bool kiln_builtin_open(struct kiln_builtin *builtin, const char *name, uint32_t cell_count,
+                       enum kiln_simd simd)
+{
+    *builtin = (struct kiln_builtin){.name = name, .cell_count = cell_count, .simd = simd};
+    const struct builtin *found = find(name, simd);
+    if (found && found->gas)
+        builtin->film = kiln_film_create(found->gas, KILN_SIMD_PICK(kiln_fluid, simd), cell_count);
+    return found && (builtin->film || !found->gas);
+}
+
+void kiln_builtin_close(struct kiln_builtin *builtin)
+{
+    free(builtin->film);
+    *builtin = (struct kiln_builtin){0};
+}
+
+struct kiln_builtin_room *kiln_builtin_room(void)
+{
+    return malloc(sizeof(struct kiln_builtin_room));
+}
+
+static struct texel_lobe lobe_at(uint32_t index)
+{
+    uint stream = random_stream(0x10be5u, index);
+    struct exact_angle angle = exact_sincos(EXACT_TWO_PI * random_unit(stream, 0));
+    float away = 0.50f * exact_sqrt(random_unit(stream, 1));
+    if (index == 0) /* the one in the middle */
+        return (struct texel_lobe){0.0f, 0.0f, 0.52f};
+    return (struct texel_lobe){away * angle.cosine, away * angle.sine,
+                               0.18f + 0.26f * random_unit(stream, 2) * random_unit(stream, 4)};
+}
+
+void kiln_builtin_cell(const struct kiln_builtin *builtin, uint32_t cell, uint32_t edge,
+                       struct kiln_builtin_room *room, float *pixels)
+{
+    const uint32_t gaps = builtin->cell_count > 1 ? builtin->cell_count - 1 : 1;
+    const struct kiln_film_cell *gas = builtin->film ? &builtin->film->cells[cell] : NULL;
+    struct texel_lobe lobes[TEXEL_LOBES];
+    for (uint32_t i = 0; i < TEXEL_LOBES; i++)
+        lobes[i] = lobe_at(i);
+    const struct texel_job job = {
+        .builtin = find(builtin->name, builtin->simd),
+        .gas = gas,
+        .lobes = lobes,
+        .time = gas ? gas->time : (float)cell / (float)gaps,
+        .edge = edge,
+    };
+    KILN_SIMD_PICK(kiln_texel, builtin->simd)->make_cell(&job, room, pixels);
+}
+
+void kiln_builtin_motion(const struct kiln_builtin *builtin, uint32_t cell, uint32_t edge,
+                         struct kiln_builtin_room *room, float *motion)
+{
+    const struct kiln_film_cell *gas = &builtin->film->cells[cell];
+    const struct kiln_fluid_code *fluid = KILN_SIMD_PICK(kiln_fluid, builtin->simd);
+    fluid->sample(gas->motion_x, edge, &room->fluid, room->x);
+    fluid->sample(gas->motion_y, edge, &room->fluid, room->y);
+    for (uint32_t i = 0; i < edge * edge; i++) {
+        motion[2 * (size_t)i] = 0.5f * room->x[i];
+        motion[2 * (size_t)i + 1] = 0.5f * room->y[i];
+    }
+}

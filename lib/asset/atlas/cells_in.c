@@ -1,0 +1,283 @@
+/* An image is resized cell by cell, so that neighbours do not bleed into each other: each of its
+ * rows becomes linear light, is filtered along and then added to the rows of the cell that it
+ * touches. The filter is Mitchell and Netravali's cubic ("Reconstruction Filters in Computer
+ * Graphics", 1988), widened where a cell shrinks. */
+#include "asset/atlas/cells_in.h"
+
+#include "asset/image/image.h"
+#include "asset/image/linear.h"
+#include "asset/image/video_in.h"
+#include "base/error.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- pixels ---------------------------------------------------------------------------------- */
+
+static void read_raw(const struct kiln_asset_image *image, size_t pixel, float rgba[4])
+{
+    for (size_t c = 0; c < 4; c++) {
+        if (image->type == KILN_IMAGE_U8)
+            rgba[c] = (float)((const uint8_t *)image->pixels)[pixel * 4 + c] / 255.0f;
+        else if (image->type == KILN_IMAGE_U16)
+            rgba[c] = (float)((const uint16_t *)image->pixels)[pixel * 4 + c] / 65535.0f;
+        else
+            rgba[c] = ((const float *)image->pixels)[pixel * 4 + c];
+    }
+}
+
+/* As premultiplied linear light. */
+static void read_light(const struct kiln_asset_image *image, size_t pixel, float rgba[4])
+{
+    read_raw(image, pixel, rgba);
+    for (int c = 0; c < 3; c++) {
+        if (image->srgb)
+            rgba[c] = kiln_decode_srgb(rgba[c]);
+        if (!image->premultiplied)
+            rgba[c] *= rgba[3];
+    }
+}
+
+/* As motion, in red and green. Half of the full value of 8 bits is no whole number: 128 is 0. */
+static void read_motion(const struct kiln_asset_image *image, size_t pixel, float rgba[4])
+{
+    read_raw(image, pixel, rgba);
+    float none = image->type == KILN_IMAGE_U8    ? 128.0f / 255.0f
+                 : image->type == KILN_IMAGE_U16 ? 32768.0f / 65535.0f
+                                                 : 0.5f;
+    for (int c = 0; c < 2; c++)
+        rgba[c] = (rgba[c] - none) / (1.0f - none);
+    rgba[2] = rgba[3] = 0.0f;
+}
+
+/* ---- filter ---------------------------------------------------------------------------------- */
+
+/* Of one axis: what the samples of a cell give to those of the resized one. */
+struct filter {
+    uint32_t taps;   /* of each resized sample */
+    uint32_t *first; /* sample of the cell */
+    float *weights;  /* resized x taps */
+};
+
+static float cubic(float x)
+{
+    x = fabsf(x);
+    if (x < 1.0f)
+        return (7.0f * x * x * x - 12.0f * x * x + 16.0f / 3.0f) / 6.0f;
+    if (x < 2.0f)
+        return (-7.0f / 3.0f * x * x * x + 12.0f * x * x - 20.0f * x + 32.0f / 3.0f) / 6.0f;
+    return 0.0f;
+}
+
+static void filter_finish(struct filter *filter)
+{
+    free(filter->first);
+    free(filter->weights);
+}
+
+static bool filter_init(struct filter *filter, uint32_t from, uint32_t to)
+{
+    float step = (float)from / (float)to, widening = step > 1.0f ? step : 1.0f;
+    uint32_t taps = (uint32_t)(4.0f * widening) + 2;
+    filter->taps = taps < from ? taps : from;
+    filter->first = calloc(to, sizeof *filter->first);
+    filter->weights = calloc((size_t)to * filter->taps, sizeof *filter->weights);
+    if (!filter->first || !filter->weights)
+        return false;
+    for (uint32_t i = 0; i < to; i++) {
+        float middle = ((float)i + 0.5f) * step, lowest = floorf(middle - 2.0f * widening);
+        float most = (float)(from - filter->taps);
+        float first = fminf(fmaxf(lowest, 0.0f), most), sum = 0.0f;
+        float *weights = filter->weights + (size_t)i * filter->taps;
+        filter->first[i] = (uint32_t)first;
+        for (uint32_t k = 0; k < filter->taps; k++) {
+            weights[k] = cubic((first + (float)k + 0.5f - middle) / widening);
+            sum += weights[k];
+        }
+        for (uint32_t k = 0; k < filter->taps; k++)
+            weights[k] /= sum;
+    }
+    return true;
+}
+
+/* ---- images ---------------------------------------------------------------------------------- */
+
+struct resize {
+    const struct kiln_asset_image *image;
+    void (*read)(const struct kiln_asset_image *image, size_t pixel, float rgba[4]);
+    uint32_t columns, cell_width, cell_height, edge;
+    struct filter across, down;
+    float *rows; /* of each worker: a row of a cell, then of the resized one */
+    float *cells;
+};
+
+/* Reads a row of a cell and filters it along. */
+static void filter_row(const struct resize *job, size_t first_pixel, float *row, float *resized)
+{
+    for (uint32_t x = 0; x < job->cell_width; x++)
+        job->read(job->image, first_pixel + x, row + (size_t)x * 4);
+    const float *weights = job->across.weights;
+    for (uint32_t x = 0; x < job->edge; x++, resized += 4, weights += job->across.taps) {
+        const float *from = row + (size_t)job->across.first[x] * 4;
+        float sum[4] = {0};
+        for (uint32_t k = 0; k < job->across.taps; k++, from += 4) {
+            for (int c = 0; c < 4; c++)
+                sum[c] += weights[k] * from[c];
+        }
+        memcpy(resized, sum, sizeof sum);
+    }
+}
+
+static void resize_cell(const struct resize *job, size_t cell, float *row, float *resized)
+{
+    size_t left = cell % job->columns * job->cell_width;
+    size_t top = cell / job->columns * job->cell_height, row_floats = (size_t)job->edge * 4;
+    float *out = job->cells + cell * job->edge * row_floats;
+    for (uint32_t y = 0; y < job->cell_height; y++) {
+        filter_row(job, (top + y) * job->image->width + left, row, resized);
+        for (uint32_t to = 0; to < job->edge; to++) {
+            uint32_t tap = y - job->down.first[to];
+            if (y < job->down.first[to] || tap >= job->down.taps)
+                continue;
+            float weight = job->down.weights[(size_t)to * job->down.taps + tap];
+            for (size_t i = 0; i < row_floats; i++)
+                out[to * row_floats + i] += weight * resized[i];
+        }
+    }
+}
+
+static void resize_cells(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    const struct resize *job = context;
+    size_t floats = ((size_t)job->cell_width + job->edge) * 4;
+    float *row = job->rows + worker * floats;
+    for (size_t cell = begin; cell < end; cell++)
+        resize_cell(job, cell, row, row + (size_t)job->cell_width * 4);
+}
+
+static bool check_division(const struct kiln_asset_image *image,
+                           const struct kiln_cells_source *source, struct kiln_error *error)
+{
+    if (image->width % source->columns == 0 && image->height % source->rows == 0)
+        return true;
+    kiln_error_set(error, KILN_INVALID_INPUT,
+                   "%s: %u x %u pixels do not divide into %u columns and %u rows", source->path,
+                   image->width, image->height, source->columns, source->rows);
+    return false;
+}
+
+/* Adds to cells, which are zero. */
+static bool resize_image(const struct kiln_asset_image *image,
+                         const struct kiln_cells_source *source, bool motion, float *cells,
+                         struct kiln_threads *threads, struct kiln_error *error)
+{
+    struct resize job = {.image = image,
+                         .read = motion ? read_motion : read_light,
+                         .columns = source->columns,
+                         .cell_width = image->width / source->columns,
+                         .cell_height = image->height / source->rows,
+                         .edge = source->edge,
+                         .cells = cells};
+    if (!check_division(image, source, error))
+        return false;
+    job.rows = calloc(kiln_threads_count(threads),
+                      ((size_t)job.cell_width + job.edge) * 4 * sizeof(float));
+    bool ok = job.rows && filter_init(&job.across, job.cell_width, job.edge) &&
+              filter_init(&job.down, job.cell_height, job.edge);
+    if (ok)
+        kiln_threads_for(threads, (size_t)source->columns * source->rows, 1, resize_cells, &job);
+    else
+        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory for its cells", source->path);
+    filter_finish(&job.across);
+    filter_finish(&job.down);
+    free(job.rows);
+    return ok;
+}
+
+/* ---- videos ---------------------------------------------------------------------------------- */
+
+static bool load_video(const struct kiln_cells_source *source, float *cells,
+                       struct kiln_threads *threads, struct kiln_error *error)
+{
+    struct kiln_video_in *video = kiln_video_in_open(source->path, error);
+    if (!video)
+        return false;
+    struct kiln_cells_source frame = *source;
+    frame.columns = frame.rows = 1;
+    uint32_t count = source->columns * source->rows;
+    bool ok = true;
+    for (uint32_t i = 0; ok && i < count; i++) {
+        struct kiln_asset_image *image = NULL;
+        ok = kiln_video_in_read(video, &image, error);
+        if (ok && !image) {
+            kiln_error_set(error, KILN_INVALID_INPUT,
+                           "%s: a video of %u frames; the %u columns and %u rows take %u",
+                           source->path, i, source->columns, source->rows, count);
+            ok = false;
+        }
+        if (ok)
+            ok = resize_image(image, &frame, false,
+                              cells + (size_t)i * source->edge * source->edge * 4, threads, error);
+        kiln_asset_image_destroy(&image);
+    }
+    kiln_video_in_close(&video);
+    return ok;
+}
+
+/* ---- files ----------------------------------------------------------------------------------- */
+
+bool kiln_cells_load(const struct kiln_cells_source *source, float *cells,
+                     struct kiln_threads *threads, struct kiln_error *error)
+{
+    size_t floats = (size_t)source->columns * source->rows * source->edge * source->edge * 4;
+    memset(cells, 0, floats * sizeof *cells);
+    if (kiln_video_in_has_suffix(source->path))
+        return load_video(source, cells, threads, error);
+    struct kiln_asset_image *image = kiln_asset_image_load(source->path, error);
+    bool ok = image && resize_image(image, source, false, cells, threads, error);
+    kiln_asset_image_destroy(&image);
+    for (size_t i = 0; ok && i < floats; i++) /* the filter overshoots at hard edges */
+        cells[i] = fmaxf(cells[i], 0.0f);
+    return ok;
+}
+
+bool kiln_cells_load_motion(const struct kiln_cells_source *source, float *motion,
+                            struct kiln_threads *threads, struct kiln_error *error)
+{
+    size_t pixels = (size_t)source->columns * source->rows * source->edge * source->edge;
+    float *cells = calloc(pixels, 4 * sizeof *cells);
+    if (!cells)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory for its cells",
+                              source->path);
+    struct kiln_asset_image *image = kiln_asset_image_load(source->path, error);
+    bool ok = image && resize_image(image, source, true, cells, threads, error);
+    kiln_asset_image_destroy(&image);
+    for (size_t i = 0; ok && i < pixels; i++)
+        memcpy(motion + 2 * i, cells + 4 * i, 2 * sizeof *motion);
+    free(cells);
+    return ok;
+}
+
+bool kiln_cells_check_division(const struct kiln_cells_source *source, struct kiln_error *error)
+{
+    if (source->columns * source->rows == 1 || kiln_video_in_has_suffix(source->path))
+        return true;
+    struct kiln_asset_image *image = kiln_asset_image_load(source->path, error);
+    bool ok = image && check_division(image, source, error);
+    kiln_asset_image_destroy(&image);
+    return ok;
+}
+
+bool kiln_cells_check(const char *path, struct kiln_error *error)
+{
+    if (!kiln_video_in_has_suffix(path))
+        return kiln_asset_image_check(path, error);
+    struct kiln_video_in *video = kiln_video_in_open(path, error);
+    struct kiln_asset_image *image = NULL;
+    bool ok = video && kiln_video_in_read(video, &image, error);
+    kiln_asset_image_destroy(&image);
+    if (video)
+        kiln_video_in_close(&video);
+    return ok;
+}

@@ -1,0 +1,115 @@
+/* The gas takes the same steps whatever the number of cells, which lie between two of them: a film
+ * of few cells is the film of many with cells left out. */
+#include "asset/atlas/film.h"
+
+#include "shared/exact.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { STEPS = 126 };
+
+/* What a cell shows of the gas, before a step. */
+struct moment {
+    float heat[KILN_FLUID_SIZE];
+    float place_x[KILN_FLUID_SIZE], place_y[KILN_FLUID_SIZE];
+};
+
+static void remember(const struct kiln_fluid *fluid, struct moment *before)
+{
+    memcpy(before->heat, fluid->heat, sizeof before->heat);
+    memcpy(before->place_x, fluid->place_x, sizeof before->place_x);
+    memcpy(before->place_y, fluid->place_y, sizeof before->place_y);
+}
+
+static void mix(const float *from, const float *to, float part, float *out)
+{
+    for (uint32_t i = 0; i < KILN_FLUID_SIZE; i++)
+        out[i] = from[i] + part * (to[i] - from[i]);
+}
+
+static void weigh(struct kiln_film_cell *cell)
+{
+    for (uint32_t i = 0; i < KILN_FLUID_SIZE; i++) {
+        float hot = cell->heat[i] * cell->heat[i];
+        cell->weight[i] = hot * hot + 1e-6f;
+        cell->place_x[i] *= cell->weight[i];
+        cell->place_y[i] *= cell->weight[i];
+    }
+}
+
+/* Where a cell lies, in steps. */
+static float step_of(const struct kiln_film *film, uint32_t cell)
+{
+    uint32_t gaps = film->cell_count > 1 ? film->cell_count - 1 : 1;
+    return (float)(cell * STEPS) / (float)gaps;
+}
+
+/* The cells between the step that begins at `start` and its end, from `next` on. */
+static uint32_t record(const struct kiln_fluid *fluid, const struct moment *before, float start,
+                       struct kiln_film *film, uint32_t next)
+{
+    while (next < film->cell_count && step_of(film, next) <= start + 1.0f) {
+        struct kiln_film_cell *cell = &film->cells[next];
+        float part = step_of(film, next) - start;
+        cell->time = step_of(film, next) / STEPS;
+        mix(before->heat, fluid->heat, part, cell->heat);
+        mix(before->place_x, fluid->place_x, part, cell->place_x);
+        mix(before->place_y, fluid->place_y, part, cell->place_y);
+        weigh(cell);
+        next++;
+    }
+    return next;
+}
+
+/* Adds the step that begins at `start` to the motion of the cells that it is part of. */
+static void add_motion(const struct kiln_fluid *fluid, float start, struct kiln_film *film)
+{
+    for (uint32_t k = 0; k + 1 < film->cell_count; k++) {
+        float from = exact_max(start, step_of(film, k));
+        float to = exact_min(start + 1.0f, step_of(film, k + 1));
+        if (to <= from)
+            continue;
+        float time = (to - from) / STEPS;
+        for (uint32_t i = 0; i < KILN_FLUID_SIZE; i++) {
+            film->cells[k].motion_x[i] += time * fluid->velocity_x[i];
+            film->cells[k].motion_y[i] += time * fluid->velocity_y[i];
+        }
+    }
+}
+
+static void run(const struct kiln_film_gas *gas, const struct kiln_fluid_code *code,
+                struct kiln_fluid *fluid, struct moment *before, struct kiln_film *film)
+{
+    const float dt = 1.0f / STEPS;
+    uint32_t next = 0;
+    for (uint32_t step = 0; next < film->cell_count; step++) {
+        remember(fluid, before);
+        if (gas->drive)
+            gas->drive(fluid, (float)step * dt, dt);
+        code->step(fluid, dt);
+        next = record(fluid, before, (float)step, film, next);
+        add_motion(fluid, (float)step, film);
+    }
+}
+
+struct kiln_film *kiln_film_create(const struct kiln_film_gas *gas,
+                                   const struct kiln_fluid_code *code, uint32_t cell_count)
+{
+    struct kiln_fluid *fluid = aligned_alloc(alignof(struct kiln_fluid), sizeof *fluid);
+    struct moment *before = malloc(sizeof *before);
+    struct kiln_film *film = calloc(1, sizeof *film + cell_count * sizeof film->cells[0]);
+    if (film && fluid && before) {
+        film->cell_count = cell_count;
+        kiln_fluid_init(fluid);
+        if (gas->start)
+            gas->start(fluid);
+        run(gas, code, fluid, before, film);
+    } else {
+        free(film);
+        film = NULL;
+    }
+    free(before);
+    free(fluid);
+    return film;
+}

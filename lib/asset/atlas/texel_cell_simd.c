@@ -1,0 +1,111 @@
+/* From the gas of one cell of a procedural flipbook to its texels. */
+#include "asset/atlas/texel_cell.h"
+
+#include <math.h>
+#include <string.h>
+
+/* The gas at every texel. */
+static void find_gas(const struct texel_job *job, struct kiln_builtin_room *room)
+{
+    const size_t texels = (size_t)job->edge * job->edge;
+    if (!job->gas) {
+        memset(room->heat, 0, texels * sizeof(float));
+        memset(room->x, 0, texels * sizeof(float));
+        memset(room->y, 0, texels * sizeof(float));
+        return;
+    }
+    float *weight = room->weight;
+    const struct kiln_fluid_code *fluid = &KILN_SIMD_NAME(kiln_fluid);
+    fluid->sample(job->gas->heat, job->edge, &room->fluid, room->heat);
+    fluid->sample(job->gas->place_x, job->edge, &room->fluid, room->x);
+    fluid->sample(job->gas->place_y, job->edge, &room->fluid, room->y);
+    fluid->sample(job->gas->weight, job->edge, &room->fluid, weight);
+    for (size_t i = 0; i < texels; i++) {
+        room->x[i] = room->x[i] / weight[i];
+        room->y[i] = room->y[i] / weight[i];
+    }
+}
+
+/* Puts together those of a row that may show something, and says where they are from. */
+static uint32_t gather(const struct texel_job *job, const struct kiln_builtin_room *room,
+                       uint32_t row, struct texel_sites *sites, uint8_t from[TEXEL_ROW])
+{
+    const struct builtin *builtin = job->builtin;
+    const float *heat = room->heat + (size_t)row * job->edge;
+    const float *x = room->x + (size_t)row * job->edge, *y = room->y + (size_t)row * job->edge;
+    const float texel_size = 2.0f / (float)job->edge;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < job->edge; i++) {
+        sites->u[count] = ((float)i + 0.5f) * texel_size - 1.0f;
+        sites->place_x[count] = x[i];
+        sites->place_y[count] = y[i];
+        sites->heat[count] = heat[i];
+        from[count] = (uint8_t)i;
+        bool near = builtin->reach2 == 0.0f || x[i] * x[i] + y[i] * y[i] <= builtin->reach2;
+        count += heat[i] >= builtin->least_heat && near;
+    }
+    sites->v = 1.0f - ((float)row + 0.5f) * texel_size;
+    sites->count = (count + TEXEL_BLOCK - 1) & ~(uint32_t)(TEXEL_BLOCK - 1);
+    for (uint32_t i = count; i < sites->count; i++)
+        sites->u[i] = sites->place_x[i] = sites->place_y[i] = sites->heat[i] = 0.0f;
+    return count;
+}
+
+/* Leaves heights in x, heat in heat and density in y. */
+static void make_texels(const struct texel_job *job, struct kiln_builtin_room *room)
+{
+    struct texel_sites sites = {.time = job->time, .lobes = job->lobes};
+    struct texels texels;
+    uint8_t from[TEXEL_ROW];
+    for (uint32_t row = 0; row < job->edge; row++) {
+        const uint32_t count = gather(job, room, row, &sites, from);
+        float *height = room->x + (size_t)row * job->edge;
+        float *heat = room->heat + (size_t)row * job->edge;
+        float *density = room->y + (size_t)row * job->edge;
+        for (uint32_t i = 0; i < job->edge; i++)
+            height[i] = heat[i] = density[i] = 0.0f;
+        if (count > 0)
+            job->builtin->texels(&sites, &texels);
+        for (uint32_t i = 0; i < count; i++) {
+            height[from[i]] = texels.height[i];
+            heat[from[i]] = texels.heat[i];
+            density[from[i]] = texels.density[i];
+        }
+    }
+}
+
+/* Normals from slopes of the height. */
+static void tilt(const struct texel_job *job, const struct kiln_builtin_room *room, float *pixels)
+{
+    const uint32_t edge = job->edge;
+    const float scale = job->builtin->relief;
+    for (uint32_t row = 0; row < edge; row++) {
+        const float *height = room->x + (size_t)row * edge;
+        const float *above = height - (row > 0 ? edge : 0);
+        const float *below = height + (row < edge - 1 ? edge : 0);
+        const float *heat = room->heat + (size_t)row * edge;
+        const float *density = room->y + (size_t)row * edge;
+        float beside[TEXEL_ROW + 2];
+        memcpy(beside + 1, height, edge * sizeof(float));
+        beside[0] = height[0];
+        beside[edge + 1] = height[edge - 1];
+        for (uint32_t i = 0; i < edge; i++, pixels += 4) {
+            float slope_x = scale * (beside[i] - beside[i + 2]);
+            float slope_y = scale * (below[i] - above[i]);
+            float shorten = 1.0f / sqrtf(1.0f + slope_x * slope_x + slope_y * slope_y);
+            pixels[0] = slope_x * shorten;
+            pixels[1] = slope_y * shorten;
+            pixels[2] = heat[i];
+            pixels[3] = density[i];
+        }
+    }
+}
+
+static void make_cell(const struct texel_job *job, struct kiln_builtin_room *room, float *pixels)
+{
+    find_gas(job, room);
+    make_texels(job, room);
+    tilt(job, room, pixels);
+}
+
+const struct texel_code KILN_SIMD_NAME(kiln_texel) = {.make_cell = make_cell};

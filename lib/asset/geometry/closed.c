@@ -1,0 +1,111 @@
+/* Vertices are told apart by their normals, too, so that their places are compared first. */
+#include "asset/geometry/closed.h"
+
+#include <stdlib.h>
+
+#include "base/error.h"
+
+struct place {
+    float at[3];
+    uint32_t vertex;
+};
+
+struct edge {
+    uint32_t low, high; /* places */
+    int32_t way;        /* 1: from low to high; -1: back */
+};
+
+static int by_place(const void *left, const void *right)
+{
+    const struct place *a = left, *b = right;
+    for (int c = 0; c < 3; c++) {
+        if (a->at[c] != b->at[c])
+            return a->at[c] < b->at[c] ? -1 : 1;
+    }
+    return 0;
+}
+
+static int by_ends(const void *left, const void *right)
+{
+    const struct edge *a = left, *b = right;
+    if (a->low != b->low)
+        return a->low < b->low ? -1 : 1;
+    if (a->high != b->high)
+        return a->high < b->high ? -1 : 1;
+    return 0;
+}
+
+/* The number of each vertex's place, and a vertex of each place. */
+static bool number_places(const struct kiln_mesh *mesh, uint32_t *place_of, uint32_t *vertex_of)
+{
+    struct place *places = malloc(mesh->vertex_count * sizeof *places);
+    if (!places)
+        return false;
+    for (uint32_t i = 0; i < mesh->vertex_count; i++) {
+        const float *v = mesh->vertices[i];
+        places[i] = (struct place){{v[0], v[1], v[2]}, i};
+    }
+    qsort(places, mesh->vertex_count, sizeof *places, by_place);
+    uint32_t number = 0;
+    for (uint32_t i = 0; i < mesh->vertex_count; i++) {
+        number += i > 0 && by_place(&places[i - 1], &places[i]) != 0;
+        place_of[places[i].vertex] = number;
+        vertex_of[number] = places[i].vertex;
+    }
+    free(places);
+    return true;
+}
+
+static size_t list_edges(const struct kiln_mesh *mesh, const uint32_t *place_of, struct edge *edges)
+{
+    size_t count = 0;
+    for (uint32_t i = 0; i < mesh->triangle_count; i++) {
+        for (int c = 0; c < 3; c++) {
+            const uint32_t a = place_of[mesh->triangles[i][c]];
+            const uint32_t b = place_of[mesh->triangles[i][(c + 1) % 3]];
+            if (a != b)
+                edges[count++] = a < b ? (struct edge){a, b, 1} : (struct edge){b, a, -1};
+        }
+    }
+    qsort(edges, count, sizeof *edges, by_ends);
+    return count;
+}
+
+static bool check_edges(const struct kiln_mesh *mesh, const struct edge *edges, size_t count,
+                        const uint32_t *vertex_of, const char *name, struct kiln_error *error)
+{
+    for (size_t first = 0, next; first < count; first = next) {
+        int32_t sum = 0;
+        for (next = first; next < count && by_ends(&edges[first], &edges[next]) == 0; next++)
+            sum += edges[next].way;
+        if (sum == 0)
+            continue;
+        const float *a = mesh->vertices[vertex_of[edges[first].low]];
+        const float *b = mesh->vertices[vertex_of[edges[first].high]];
+        return kiln_error_set(
+            error, KILN_INVALID_INPUT,
+            "%s: the mesh is not closed, so that nothing is inside of it: %zu %s at the edge from "
+            "%g %g %g to %g %g %g%s",
+            name, next - first, next - first == 1 ? "triangle is" : "triangles are", (double)a[0],
+            (double)a[1], (double)a[2], (double)b[0], (double)b[1], (double)b[2],
+            next - first == 1 ? ", where there must be two" : ", and do not face the same side");
+    }
+    return true;
+}
+
+bool kiln_mesh_check_closed(const struct kiln_mesh *mesh, const char *name,
+                            struct kiln_error *error)
+{
+    uint32_t *place_of = malloc(mesh->vertex_count * sizeof *place_of);
+    uint32_t *vertex_of = malloc(mesh->vertex_count * sizeof *vertex_of);
+    struct edge *edges = malloc((size_t)mesh->triangle_count * 3 * sizeof *edges);
+    bool ok = place_of && vertex_of && edges && number_places(mesh, place_of, vertex_of);
+    if (ok)
+        ok = check_edges(mesh, edges, list_edges(mesh, place_of, edges), vertex_of, name, error);
+    else
+        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", name);
+    free(place_of);
+    free(vertex_of);
+    free(edges);
+    return ok;
+}

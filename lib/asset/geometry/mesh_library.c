@@ -1,0 +1,112 @@
+/* A list: scenes name few files. A file is imported once for each way of it that is asked for. */
+#include "asset/geometry/mesh_library.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+
+enum way { PLAIN, UNWRAPPED, MOVING };
+
+struct entry {
+    struct entry *next;
+    char *path;
+    enum way way;
+    struct kiln_mesh *mesh; /* unless it moves */
+    struct kiln_skin *skin;
+};
+
+struct kiln_mesh_library {
+    const char *root;
+    bool (*stop)(void *user);
+    void *user;
+    struct entry *entries;
+};
+
+struct kiln_mesh_library *kiln_mesh_library_create(const char *root, bool (*stop)(void *user),
+                                                   void *user)
+{
+    struct kiln_mesh_library *library = calloc(1, sizeof *library);
+    if (library)
+        *library = (struct kiln_mesh_library){.root = root, .stop = stop, .user = user};
+    return library;
+}
+
+static void destroy_entry(struct entry *entry)
+{
+    kiln_mesh_destroy(&entry->mesh);
+    kiln_skin_destroy(&entry->skin);
+    free(entry->path);
+    free(entry);
+}
+
+void kiln_mesh_library_destroy(struct kiln_mesh_library **library)
+{
+    if (!*library)
+        return;
+    for (struct entry *entry = (*library)->entries, *next; entry; entry = next) {
+        next = entry->next;
+        destroy_entry(entry);
+    }
+    free(*library);
+    *library = NULL;
+}
+
+static bool import(const struct kiln_mesh_library *library, struct entry *entry,
+                   struct kiln_error *error)
+{
+    const char *path = entry->path, *root = library->root;
+    if (entry->way == MOVING)
+        entry->skin = kiln_skin_load(path, root, library->stop, library->user, error);
+    else if (entry->way == UNWRAPPED)
+        entry->mesh = kiln_mesh_load_unwrapped(path, root, library->stop, library->user, error);
+    else
+        entry->mesh = kiln_mesh_load(path, root, library->stop, library->user, error);
+    return entry->mesh || entry->skin;
+}
+
+/* NULL: it can not be imported. */
+static const struct entry *get(struct kiln_mesh_library *library, const char *path, enum way way,
+                               struct kiln_error *error)
+{
+    struct entry *entry = library->entries;
+    while (entry && (entry->way != way || strcmp(entry->path, path) != 0))
+        entry = entry->next;
+    if (entry)
+        return entry;
+    char *copy = strdup(path);
+    entry = copy ? calloc(1, sizeof *entry) : NULL;
+    if (!entry) {
+        free(copy);
+        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory while reading", path);
+        return NULL;
+    }
+    *entry = (struct entry){.next = library->entries, .path = copy, .way = way};
+    if (!import(library, entry, error)) {
+        destroy_entry(entry);
+        return NULL;
+    }
+    library->entries = entry;
+    return entry;
+}
+
+const struct kiln_mesh *kiln_mesh_library_get(struct kiln_mesh_library *library, const char *path,
+                                              struct kiln_error *error)
+{
+    const struct entry *entry = get(library, path, PLAIN, error);
+    return entry ? entry->mesh : NULL;
+}
+
+const struct kiln_mesh *kiln_mesh_library_get_unwrapped(struct kiln_mesh_library *library,
+                                                        const char *path, struct kiln_error *error)
+{
+    const struct entry *entry = get(library, path, UNWRAPPED, error);
+    return entry ? entry->mesh : NULL;
+}
+
+const struct kiln_skin *kiln_mesh_library_get_skin(struct kiln_mesh_library *library,
+                                                   const char *path, struct kiln_error *error)
+{
+    const struct entry *entry = get(library, path, MOVING, error);
+    return entry ? entry->skin : NULL;
+}

@@ -1,0 +1,18 @@
+/* How large a mesh is, for those who show it at a size of their own. */
+#ifndef KILN_ASSET_MESH_MEASURE_H
+#define KILN_ASSET_MESH_MEASURE_H
+
+#include "asset/geometry/mesh.h"
+
+/* In the units of the file. */
+struct kiln_mesh_measure {
+    float middle[3]; /* of the box around it */
+    float edge;      /* the longest of that box: above 0, since a triangle has an area */
+    float reach;     /* from the middle to the farthest vertex */
+    float shade; /* radius of the sphere whose shadow is as large as the mesh's is on average over
+                  * all directions, at most `reach` */
+};
+
+struct kiln_mesh_measure kiln_mesh_measure(const struct kiln_mesh *mesh);
+
+#endif

@@ -1,0 +1,17 @@
+/* How far a point is from the triangles of a mesh: a tree of boxes around them. */
+#ifndef KILN_ASSET_NEAREST_H
+#define KILN_ASSET_NEAREST_H
+
+#include "asset/geometry/mesh.h"
+
+struct kiln_nearest;
+
+/* The mesh must outlive it. NULL when memory is short. The caller destroys it. */
+struct kiln_nearest *kiln_nearest_create(const struct kiln_mesh *mesh);
+void kiln_nearest_destroy(struct kiln_nearest **nearest);
+
+/* The square of the distance to the nearest triangle, or `most` if that is less. Several threads
+ * may ask at once; the same bits on every machine. */
+double kiln_nearest_square(const struct kiln_nearest *nearest, const double p[3], double most);
+
+#endif

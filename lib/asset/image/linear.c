@@ -1,0 +1,33 @@
+/* A row at a time, so that no second picture lies in memory. */
+#include "asset/image/linear.h"
+
+#include "shared/exact.h"
+
+static const float MOST = 65504.0f; /* of a half float */
+
+float kiln_decode_srgb(float x)
+{
+    return x <= 0.04045f ? x / 12.92f : exact_pow((x + 0.055f) / 1.055f, 2.4f);
+}
+
+static float decode(const struct kiln_asset_image *image, size_t at)
+{
+    if (image->type == KILN_IMAGE_F32)
+        return ((const float *)image->pixels)[at];
+    if (image->type == KILN_IMAGE_U16)
+        return (float)((const uint16_t *)image->pixels)[at] / 65535.0f;
+    return (float)((const uint8_t *)image->pixels)[at] / 255.0f;
+}
+
+void kiln_linear_row(const struct kiln_asset_image *image, uint32_t y, float *rgb)
+{
+    for (uint32_t x = 0; x < image->width; x++, rgb += 3) {
+        size_t at = ((size_t)y * image->width + x) * 4;
+        float alpha = image->premultiplied ? 1.0f : decode(image, at + 3);
+        for (size_t c = 0; c < 3; c++) {
+            float value = decode(image, at + c);
+            value = alpha * (image->srgb ? kiln_decode_srgb(value) : value);
+            rgb[c] = value > 0.0f ? fminf(value, MOST) : 0.0f; /* NaN, too, is dark */
+        }
+    }
+}

@@ -1,0 +1,307 @@
+/* Temporary names are the one state of the library at file scope: kiln_abandon_outputs must find
+ * them from a signal handler, where no lock and no owner can be asked. So they lie in a table of
+ * fixed size. A slot is claimed and released by an atomic, its path is written before it is marked
+ * as armed, and a file exists only while its slot is armed. */
+#include "base/temporary.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/error.h"
+
+enum { SLOT_COUNT = 256, MAX_ATTEMPTS = 64 };
+
+enum slot_state { SLOT_FREE, SLOT_CLAIMED, SLOT_ARMED };
+
+static struct slot {
+    atomic_int state;
+    char path[KILN_PATH_SIZE];
+} slots[SLOT_COUNT];
+
+static atomic_bool abandoned; /* the process is about to end: no new files */
+
+static int claim_slot(void)
+{
+    for (int i = 0; i < SLOT_COUNT; i++) {
+        int expected = SLOT_FREE;
+        if (atomic_compare_exchange_strong(&slots[i].state, &expected, SLOT_CLAIMED))
+            return i;
+    }
+    return -1;
+}
+
+static void release_slot(int slot)
+{
+    atomic_store(&slots[slot].state, SLOT_FREE);
+}
+
+void kiln_abandon_outputs(void)
+{
+    atomic_store(&abandoned, true);
+    for (int i = 0; i < SLOT_COUNT; i++) {
+        if (atomic_load(&slots[i].state) == SLOT_ARMED)
+            unlink(slots[i].path);
+    }
+}
+
+bool kiln_target_check(const char *path, bool overwrite, struct kiln_error *error)
+{
+    struct stat status;
+    if (lstat(path, &status) != 0) {
+        if (errno == ENOENT || errno == ENOTDIR)
+            return true;
+        return kiln_error_set_errno(error, KILN_IO, errno, "%s: the path cannot be used", path);
+    }
+    if (S_ISDIR(status.st_mode))
+        return kiln_error_set(error, KILN_IO, "%s: a folder has this name", path);
+    if (!S_ISREG(status.st_mode) && !S_ISLNK(status.st_mode))
+        return kiln_error_set(error, KILN_IO, "%s: a device, pipe or socket has this name", path);
+    return overwrite ||
+           kiln_error_set(error, KILN_IO, "%s: the file exists (--force replaces it)", path);
+}
+
+bool kiln_make_parent_folders(const char *path, struct kiln_error *error)
+{
+    char folder[KILN_PATH_SIZE];
+    size_t length = strlen(path);
+    if (length >= sizeof folder)
+        return kiln_error_set(error, KILN_USAGE, "%.200s...: the path is longer than %d bytes",
+                              path, KILN_PATH_SIZE - 1);
+    memcpy(folder, path, length + 1);
+    for (char *slash = strchr(folder + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
+        *slash = '\0';
+        struct stat status;
+        if (mkdir(folder, 0777) != 0 && errno != EEXIST)
+            return kiln_error_set_errno(error, KILN_IO, errno, "%s: the folder cannot be made",
+                                        folder);
+        if (stat(folder, &status) != 0 || !S_ISDIR(status.st_mode))
+            return kiln_error_set(error, KILN_IO, "%s: not a folder, but %s needs one here", folder,
+                                  path);
+        *slash = '/';
+    }
+    return true;
+}
+
+/* ".NAME.kiln-PID-N.tmp" beside the target; a long NAME is cut, since names have a limit. */
+static bool write_temporary_name(char path[KILN_PATH_SIZE], const char *target, int number)
+{
+    const char *slash = strrchr(target, '/');
+    const char *name = slash ? slash + 1 : target;
+    int length = snprintf(path, KILN_PATH_SIZE, "%.*s.%.100s.kiln-%ld-%d.tmp", (int)(name - target),
+                          target, name, (long)getpid(), number);
+    return length < KILN_PATH_SIZE;
+}
+
+/* Opens a new file, locked for as long as someone writes it; -1 with errno. */
+static int open_locked(const char *path)
+{
+    int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file < 0)
+        return -1;
+    struct stat status;
+    bool taken = flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    if (!taken && fstat(file, &status) == 0 && status.st_nlink > 0)
+        return file;
+    close(file); /* another took it for abandoned, right after it was made */
+    errno = EEXIST;
+    return -1;
+}
+
+/* Removes a file whose writer was killed: one that nobody locks. Else a job that is killed and
+ * tried again under the same process number, as in a container, would run out of names. */
+static bool remove_abandoned(const char *path)
+{
+    int file = open(path, O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
+    if (file < 0)
+        return false;
+    bool removed = flock(file, LOCK_EX | LOCK_NB) == 0 && unlink(path) == 0;
+    close(file);
+    return removed;
+}
+
+/* A new file in an armed slot, or -1 with errno. */
+static int create_file(int slot, const char *target)
+{
+    int number = slot;
+    for (int attempt = 0; attempt < MAX_ATTEMPTS; attempt++) {
+        if (!write_temporary_name(slots[slot].path, target, number)) {
+            errno = ENAMETOOLONG;
+            return -1;
+        }
+        atomic_store(&slots[slot].state, SLOT_ARMED);
+        int file = atomic_load(&abandoned) ? -1 : open_locked(slots[slot].path);
+        if (file >= 0 && atomic_load(&abandoned)) {
+            unlink(slots[slot].path);
+            close(file);
+            file = -1;
+        }
+        if (atomic_load(&abandoned))
+            errno = ECANCELED;
+        if (file >= 0 || errno != EEXIST)
+            return file;
+        atomic_store(&slots[slot].state, SLOT_CLAIMED); /* another's file */
+        if (!remove_abandoned(slots[slot].path))
+            number += SLOT_COUNT;
+    }
+    return -1;
+}
+
+bool kiln_temporary_open(struct kiln_temporary *temporary, const char *target,
+                         struct kiln_error *error)
+{
+    int slot = claim_slot();
+    if (slot < 0) {
+        kiln_error_set(error, KILN_IO, "%s: more than %d files are being written at once", target,
+                       SLOT_COUNT);
+        return false;
+    }
+    char *copy = strdup(target);
+    int file = copy ? create_file(slot, target) : -1;
+    if (file >= 0) {
+        *temporary = (struct kiln_temporary){.target = copy, .file = file, .slot = slot};
+        return true;
+    }
+    kiln_error_set_errno(error, KILN_IO, errno, "%s: the file cannot be created", target);
+    release_slot(slot);
+    free(copy);
+    return false;
+}
+
+const char *kiln_temporary_path(const struct kiln_temporary *temporary)
+{
+    return slots[temporary->slot].path;
+}
+
+bool kiln_temporary_write(struct kiln_temporary *temporary, const void *bytes, size_t size)
+{
+    const char *rest = bytes;
+    while (size > 0 && temporary->failure == 0) {
+        ssize_t written = write(temporary->file, rest, size);
+        if (written > 0) {
+            rest += written;
+            size -= (size_t)written;
+        } else if (written == 0 || errno != EINTR) {
+            temporary->failure = written == 0 ? EIO : errno;
+        }
+    }
+    return temporary->failure == 0;
+}
+
+bool kiln_temporary_seek(struct kiln_temporary *temporary, int64_t offset)
+{
+    if (temporary->failure == 0 && lseek(temporary->file, offset, SEEK_SET) != offset)
+        temporary->failure = errno;
+    return temporary->failure == 0;
+}
+
+static void end(struct kiln_temporary *temporary)
+{
+    release_slot(temporary->slot);
+    free(temporary->target);
+    *temporary = (struct kiln_temporary){0};
+}
+
+/* Renames; without overwrite, fails where a file has appeared meanwhile. File systems that cannot
+ * promise that get a plain rename: the name was free when the job began. */
+static bool move_into_place(const char *path, const char *target, bool overwrite)
+{
+    if (!overwrite) {
+        if (renameat2(AT_FDCWD, path, AT_FDCWD, target, RENAME_NOREPLACE) == 0)
+            return true;
+        if (errno != EINVAL && errno != ENOSYS)
+            return false;
+    }
+    return rename(path, target) == 0;
+}
+
+/* Closes the file under the name it has; errno of what failed since it was opened, or 0. */
+static int close_file(struct kiln_temporary *temporary)
+{
+    if (close(temporary->file) != 0 && temporary->failure == 0)
+        temporary->failure = errno;
+    return temporary->failure;
+}
+
+static bool fail(const struct kiln_temporary *temporary, int failure, struct kiln_error *error)
+{
+    return kiln_error_set_errno(error, KILN_IO, failure, "%s: the file cannot be written",
+                                temporary->target);
+}
+
+bool kiln_temporary_commit(struct kiln_temporary *temporary, bool overwrite,
+                           struct kiln_error *error)
+{
+    return kiln_temporary_commit_all(&temporary, 1, overwrite, error);
+}
+
+/* That all are whole and may get their names. */
+static bool close_all(struct kiln_temporary *const *files, size_t count, bool overwrite,
+                      struct kiln_error *error)
+{
+    bool good = true;
+    for (size_t i = 0; i < count; i++) {
+        int failure = close_file(files[i]);
+        if (good && failure != 0)
+            good = fail(files[i], failure, error);
+    }
+    for (size_t i = 0; i < count && good; i++)
+        good = kiln_target_check(files[i]->target, overwrite, error);
+    return good;
+}
+
+/* How many got their names; all, unless there is an error. */
+static size_t rename_all(struct kiln_temporary *const *files, size_t count, bool overwrite,
+                         struct kiln_error *error)
+{
+    const char *last = files[count - 1]->target;
+    if (overwrite && count > 1 && unlink(last) != 0 && errno != ENOENT) {
+        fail(files[count - 1], errno, error);
+        return 0;
+    }
+    for (size_t i = 0; i < count; i++) {
+        if (!move_into_place(slots[files[i]->slot].path, files[i]->target, overwrite)) {
+            fail(files[i], errno, error);
+            return i;
+        }
+    }
+    return count;
+}
+
+bool kiln_temporary_commit_all(struct kiln_temporary *const *files, size_t count, bool overwrite,
+                               struct kiln_error *error)
+{
+    size_t renamed =
+        close_all(files, count, overwrite, error) ? rename_all(files, count, overwrite, error) : 0;
+    for (size_t i = 0; i < count; i++) {
+        if (renamed < count)
+            unlink(i < renamed ? files[i]->target : slots[files[i]->slot].path);
+        end(files[i]);
+    }
+    return renamed == count;
+}
+
+void kiln_temporary_discard(struct kiln_temporary *temporary)
+{
+    if (!temporary->target)
+        return;
+    close(temporary->file);
+    unlink(slots[temporary->slot].path);
+    end(temporary);
+}
+
+bool kiln_temporary_write_file(const char *path, const void *bytes, size_t size,
+                               struct kiln_error *error)
+{
+    struct kiln_temporary file = {0};
+    if (!kiln_target_check(path, true, error) || !kiln_make_parent_folders(path, error) ||
+        !kiln_temporary_open(&file, path, error))
+        return false;
+    kiln_temporary_write(&file, bytes, size); /* commit tells of failures */
+    return kiln_temporary_commit(&file, true, error);
+}

@@ -1,0 +1,365 @@
+/* Comparing pictures: frames of both sides are paired, decoded, measured and judged one after the
+ * other, so that memory holds one pair at a time. */
+#include "kiln.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "compare/difference.h"
+#include "compare/footage.h"
+#include "compare/mask.h"
+#include "compare/metric.h"
+
+struct comparison {
+    const struct kiln_compare_params *params;
+    struct kiln_footage *footage[2]; /* reference, test */
+    struct kiln_metric_set set;
+    struct kiln_difference_plan diff, error_map;
+    struct kiln_mask mask; /* of the size of the frame before */
+    struct kiln_threads *threads;
+    struct kiln_compare_result result;
+    double sums[KILN_MAX_COLUMNS];
+    double worst_score;        /* of result.worst_frame; below 0: there is none */
+    struct kiln_error failure; /* the first thing that could not be read */
+    bool ended;                /* by an error, or by a video that cannot be read on */
+};
+
+const char *kiln_compare_verdict_name(enum kiln_compare_verdict verdict)
+{
+    static const char *const names[KILN_COMPARE_VERDICT_COUNT] = {
+        [KILN_COMPARE_SAME] = "same",
+        [KILN_COMPARE_DIFFERENT] = "different",
+        [KILN_COMPARE_MISSING] = "missing",
+        [KILN_COMPARE_EXTRA] = "extra",
+        [KILN_COMPARE_UNREADABLE] = "unreadable",
+    };
+    return (unsigned)verdict < KILN_COMPARE_VERDICT_COUNT ? names[verdict] : "";
+}
+
+/* ---- One frame ---------------------------------------------------------------------------- */
+
+static bool choose_mode(struct comparison *comparison, const struct kiln_subject *const subjects[2],
+                        bool *hdr, struct kiln_error *error)
+{
+    enum kiln_compare_mode mode = comparison->params->mode;
+    if (mode == KILN_COMPARE_AUTO && subjects[0]->hdr != subjects[1]->hdr)
+        return kiln_error_set(error, KILN_USAGE,
+                              "%s is %s and %s is not: choose the range of light, ldr or hdr",
+                              kiln_footage_path(comparison->footage[0]),
+                              subjects[0]->hdr ? "of floats" : "of integers",
+                              kiln_footage_path(comparison->footage[1]));
+    *hdr = mode == KILN_COMPARE_AUTO ? subjects[0]->hdr : mode == KILN_COMPARE_HDR;
+    comparison->result.hdr = *hdr;
+    return true;
+}
+
+static void note_places(const struct kiln_measurement *measurement,
+                        struct kiln_compare_frame *frame)
+{
+    const struct kiln_level_difference *d = &measurement->levels;
+    frame->equal = d->maximum == 0.0;
+    frame->worst_x = d->x;
+    frame->worst_y = d->y;
+    frame->window_x = d->window_x;
+    frame->window_y = d->window_y;
+    frame->window_width = d->window_width;
+    frame->window_height = d->window_height;
+    frame->window_differing = (uint32_t)d->window_differing;
+    frame->flip_s = measurement->flip_s;
+}
+
+/* Measures and judges, and draws the difference. A mismatch is a verdict, no error. */
+static bool compare_subjects(struct comparison *comparison,
+                             const struct kiln_subject *const subjects[2],
+                             struct kiln_compare_frame *frame, uint32_t number,
+                             struct kiln_error *error)
+{
+    const struct kiln_compare_params *params = comparison->params;
+    struct kiln_measurement measurement = {0};
+    struct kiln_measure_params measure = {.pixels_per_degree = params->pixels_per_degree,
+                                          .threshold = params->threshold,
+                                          .window = params->window};
+    frame->width = subjects[0]->width;
+    frame->height = subjects[0]->height;
+    if (!choose_mode(comparison, subjects, &measure.hdr, error))
+        return false;
+    bool ok = kiln_measurement_take(&measurement, subjects[0], subjects[1], &measure,
+                                    comparison->threads, error) &&
+              kiln_metric_set_judge(&comparison->set, &measurement, frame, error);
+    if (ok) {
+        frame->measured = true;
+        note_places(&measurement, frame);
+    } else if (error->code == KILN_FRAME_FAILED) {
+        frame->verdict = KILN_COMPARE_DIFFERENT;
+        frame->message = error->message;
+    }
+    const struct kiln_difference_plan *plans[] = {
+        params->diff ? &comparison->diff : NULL, params->error_map ? &comparison->error_map : NULL};
+    for (size_t i = 0; i < 2; i++)
+        ok = ok && (!plans[i] || kiln_difference_write(plans[i], frame->name, number, subjects[0],
+                                                       subjects[1], measurement.errors, error));
+    kiln_measurement_finish(&measurement);
+    return ok || error->code == KILN_FRAME_FAILED;
+}
+
+/* Decodes both sides even if the first fails, so that they stay in step. */
+static bool load_images(struct comparison *comparison, struct kiln_asset_image *images[2],
+                        struct kiln_error *error)
+{
+    struct kiln_error errors[2] = {0};
+    for (int i = 0; i < 2; i++) {
+        images[i] = kiln_footage_take(comparison->footage[i], &errors[i]);
+        if (!images[i] && kiln_footage_kind(comparison->footage[i]) == KILN_FOOTAGE_VIDEO)
+            comparison->ended = true;
+    }
+    *error = images[0] ? errors[1] : errors[0];
+    return images[0] && images[1];
+}
+
+/* The mask for a pair of pictures; none for those of two sizes, which differ anyway. */
+static bool make_mask(struct comparison *comparison, struct kiln_asset_image *const images[2],
+                      const struct kiln_mask **mask, struct kiln_error *error)
+{
+    const struct kiln_compare_params *params = comparison->params;
+    uint32_t width = images[0]->width, height = images[0]->height;
+    *mask = NULL;
+    if (params->mask_count == 0 || width != images[1]->width || height != images[1]->height)
+        return true;
+    *mask = &comparison->mask;
+    return (comparison->mask.width == width && comparison->mask.height == height) ||
+           kiln_mask_make(&comparison->mask, params->masks, params->mask_count, width, height,
+                          error);
+}
+
+static bool make_subjects(struct comparison *comparison, const char *frame,
+                          struct kiln_asset_image *const images[2],
+                          struct kiln_subject *subjects[2], struct kiln_error *error)
+{
+    const struct kiln_mask *mask;
+    if (!make_mask(comparison, images, &mask, error))
+        return false;
+    for (int i = 0; i < 2; i++) {
+        char name[KILN_PATH_SIZE]; /* for messages */
+        bool still = kiln_footage_kind(comparison->footage[i]) == KILN_FOOTAGE_STILL;
+        snprintf(name, sizeof name, "%s%s%s", kiln_footage_path(comparison->footage[i]),
+                 still ? "" : ": frame ", still ? "" : frame);
+        subjects[i] = kiln_subject_create(images[i], mask ? mask->masked : NULL, name,
+                                          comparison->threads, error);
+        if (!subjects[i])
+            return false;
+    }
+    if (mask)
+        kiln_mask_apply(mask, subjects[0], subjects[1]);
+    return true;
+}
+
+static bool load_subjects(struct comparison *comparison, const char *frame,
+                          struct kiln_subject *subjects[2], struct kiln_error *error)
+{
+    struct kiln_asset_image *images[2] = {NULL, NULL};
+    bool ok = load_images(comparison, images, error) &&
+              make_subjects(comparison, frame, images, subjects, error);
+    for (int i = 0; i < 2; i++)
+        kiln_asset_image_destroy(&images[i]);
+    return ok;
+}
+
+static bool compare_frame(struct comparison *comparison, struct kiln_compare_frame *frame,
+                          uint32_t number, struct kiln_error *error)
+{
+    struct kiln_subject *subjects[2] = {NULL, NULL};
+    bool ok = load_subjects(comparison, frame->name, subjects, error);
+    if (ok) {
+        const struct kiln_subject *const both[2] = {subjects[0], subjects[1]};
+        ok = compare_subjects(comparison, both, frame, number, error);
+    } else if (error->code == KILN_INVALID_INPUT) {
+        frame->verdict = KILN_COMPARE_UNREADABLE;
+        frame->message = error->message;
+        if (comparison->failure.code == KILN_OK)
+            comparison->failure = *error;
+        ok = true;
+    }
+    kiln_subject_destroy(&subjects[0]);
+    kiln_subject_destroy(&subjects[1]);
+    return ok;
+}
+
+/* ---- All of them -------------------------------------------------------------------------- */
+
+static void note_name(char out[256], const char *name)
+{
+    snprintf(out, 256, "%s", name);
+}
+
+static void add_to_result(struct comparison *comparison, const struct kiln_compare_frame *frame)
+{
+    struct kiln_compare_result *result = &comparison->result;
+    result->frames++;
+    result->counts[frame->verdict]++;
+    result->flip_s += frame->flip_s;
+    double score = frame->measured ? frame->score : INFINITY;
+    if (score > comparison->worst_score) {
+        comparison->worst_score = score;
+        note_name(result->worst_frame, frame->name);
+    }
+    if (!frame->measured)
+        return;
+    result->measured++;
+    for (size_t i = 0; i < result->column_count; i++) {
+        double value = frame->values[i];
+        comparison->sums[i] += value;
+        result->mean[i] = comparison->sums[i] / result->measured;
+        if (result->measured == 1 ||
+            kiln_metric_set_is_worse(&comparison->set, i, value, result->worst[i])) {
+            result->worst[i] = value;
+            note_name(result->worst_names[i], frame->name);
+        }
+    }
+}
+
+/* Which side has the frame that comes first: below 0 the reference, above 0 the test, 0 both. */
+static int order(const struct comparison *comparison, const struct kiln_footage_frame next[2],
+                 const bool has[2])
+{
+    if (!has[0] || !has[1])
+        return has[0] ? -1 : 1;
+    switch (kiln_footage_kind(comparison->footage[0])) {
+    case KILN_FOOTAGE_STILL:
+        return 0;
+    case KILN_FOOTAGE_FOLDER:
+        return strcmp(next[0].name, next[1].name);
+    case KILN_FOOTAGE_NUMBERED:
+    case KILN_FOOTAGE_VIDEO:
+        break;
+    }
+    return (next[0].number > next[1].number) - (next[0].number < next[1].number);
+}
+
+/* The next frame of either side; false at the end or with the error. */
+static bool compare_next(struct comparison *comparison, struct kiln_error *error)
+{
+    struct kiln_footage_frame next[2];
+    bool has[2];
+    for (int i = 0; i < 2; i++)
+        has[i] = kiln_footage_peek(comparison->footage[i], &next[i]);
+    if ((!has[0] && !has[1]) || comparison->ended)
+        return false;
+    int first = order(comparison, next, has);
+    const struct kiln_footage_frame *taken = &next[first > 0];
+    char name[256]; /* the entry's own goes with the next peek */
+    note_name(name, taken->name);
+    struct kiln_compare_frame frame = {.name = name, .message = ""};
+    if (first == 0) {
+        if (!compare_frame(comparison, &frame, taken->number, error))
+            return false;
+    } else {
+        frame.verdict = first < 0 ? KILN_COMPARE_MISSING : KILN_COMPARE_EXTRA;
+        frame.message = first < 0 ? "only in the reference" : "only in the test";
+        kiln_footage_skip(comparison->footage[first > 0]);
+    }
+    add_to_result(comparison, &frame);
+    if (comparison->params->frame)
+        comparison->params->frame(comparison->params->user, &comparison->result, &frame);
+    return true;
+}
+
+static bool compare_all(struct comparison *comparison, struct kiln_error *error)
+{
+    const struct kiln_compare_params *params = comparison->params;
+    struct kiln_error frame_error = {0};
+    while (compare_next(comparison, &frame_error)) {
+        frame_error = (struct kiln_error){0};
+        if (params->stop && params->stop(params->user))
+            return kiln_error_set(error, KILN_INTERRUPTED, "stopped after %u frames",
+                                  comparison->result.frames);
+    }
+    if (frame_error.code == KILN_OK && comparison->failure.code != KILN_OK)
+        frame_error = comparison->failure;
+    if (frame_error.code != KILN_OK)
+        *error = frame_error;
+    return frame_error.code == KILN_OK;
+}
+
+/* ---- The request -------------------------------------------------------------------------- */
+
+static bool check_params(const struct kiln_compare_params *params, struct kiln_error *error)
+{
+    if (!(params->pixels_per_degree >= 4 && params->pixels_per_degree <= 400))
+        return kiln_error_set(error, KILN_USAGE, "%g pixels a degree; allowed are 4 to 400",
+                              params->pixels_per_degree);
+    if (!(params->threshold >= 0 && params->threshold <= 255))
+        return kiln_error_set(error, KILN_USAGE, "a threshold of %g levels; allowed are 0 to 255",
+                              params->threshold);
+    if (params->window < 1)
+        return kiln_error_set(error, KILN_USAGE, "a window of 0 pixels; it needs 1 or more");
+    if (!params->layer || !*params->layer)
+        return kiln_error_set(error, KILN_USAGE, "the name of the layer is empty");
+    return true;
+}
+
+/* Names pair with names, numbers with numbers, one picture with one. */
+static bool check_kinds(const struct comparison *comparison, struct kiln_error *error)
+{
+    static const char *const names[] = {
+        [KILN_FOOTAGE_STILL] = "a picture",
+        [KILN_FOOTAGE_FOLDER] = "a folder",
+        [KILN_FOOTAGE_NUMBERED] = "a pattern of numbered pictures",
+        [KILN_FOOTAGE_VIDEO] = "a video",
+    };
+    enum kiln_footage_kind a = kiln_footage_kind(comparison->footage[0]);
+    enum kiln_footage_kind b = kiln_footage_kind(comparison->footage[1]);
+    bool numbers = a >= KILN_FOOTAGE_NUMBERED && b >= KILN_FOOTAGE_NUMBERED;
+    return a == b || numbers ||
+           kiln_error_set(error, KILN_USAGE, "%s is %s and %s is %s: they cannot be compared",
+                          kiln_footage_path(comparison->footage[0]), names[a],
+                          kiln_footage_path(comparison->footage[1]), names[b]);
+}
+
+static bool prepare(struct comparison *comparison, struct kiln_error *error)
+{
+    static const char *const default_limits[] = {KILN_COMPARE_DEFAULT_LIMITS};
+    const struct kiln_compare_params *params = comparison->params;
+    bool own = params->limit_count > 0;
+    if (!check_params(params, error) ||
+        !kiln_metric_set_make(&comparison->set, own ? params->limits : default_limits,
+                              own ? params->limit_count : 1, error))
+        return false;
+    const char *const paths[2] = {params->reference, params->test};
+    for (int i = 0; i < 2; i++) {
+        comparison->footage[i] = kiln_footage_open(paths[i], params->layer, error);
+        if (!comparison->footage[i])
+            return false;
+    }
+    comparison->result.sequence = kiln_footage_kind(comparison->footage[0]) != KILN_FOOTAGE_STILL;
+    comparison->result.column_count = comparison->set.count;
+    memcpy(comparison->result.columns, comparison->set.columns, sizeof comparison->result.columns);
+    bool sequence = comparison->result.sequence;
+    if (!check_kinds(comparison, error) ||
+        (params->diff && !kiln_difference_plan_make(&comparison->diff, params->diff, false,
+                                                    sequence, params->overwrite, error)) ||
+        (params->error_map && !kiln_difference_plan_make(&comparison->error_map, params->error_map,
+                                                         true, sequence, params->overwrite, error)))
+        return false;
+    comparison->threads = kiln_threads_create(params->threads);
+    return comparison->threads ||
+           kiln_error_set(error, KILN_DEVICE_FAILED, "the system refuses to start threads");
+}
+
+bool kiln_compare(const struct kiln_compare_params *params, struct kiln_compare_result *result,
+                  struct kiln_error *error)
+{
+    double start_s = kiln_clock_seconds();
+    struct comparison comparison = {.params = params, .worst_score = -1};
+    bool ok = prepare(&comparison, error) && compare_all(&comparison, error);
+    struct kiln_compare_result *found = &comparison.result;
+    found->same = ok && found->measured > 0 && found->counts[KILN_COMPARE_SAME] == found->frames;
+    found->total_s = kiln_clock_seconds() - start_s;
+    *result = *found;
+    kiln_threads_destroy(&comparison.threads);
+    kiln_mask_finish(&comparison.mask);
+    kiln_footage_close(&comparison.footage[0]);
+    kiln_footage_close(&comparison.footage[1]);
+    return ok;
+}

@@ -1,0 +1,31 @@
+/* Pictures of differences: the error map, alone or beside reference and test, as PNG. */
+#ifndef KILN_DIFFERENCE_H
+#define KILN_DIFFERENCE_H
+
+#include "base/pattern.h"
+#include "compare/measure.h"
+
+/* Where they go, and what they show. */
+struct kiln_difference_plan {
+    const char *path; /* as it was given */
+    bool map_alone;   /* the error map; else reference, test and error map side by side */
+    bool overwrite;
+    bool folder; /* NAME.png of each frame's name in it */
+    struct kiln_path_pattern pattern;
+};
+
+/* A single picture goes to path; those of a sequence need a pattern with a number, or get one
+ * ("_0000"); with a path that is a folder or ends in a slash, each is named after its frame.
+ * KILN_USAGE when the path makes no sense or is no PNG, KILN_IO when a single one may not be put
+ * there. */
+bool kiln_difference_plan_make(struct kiln_difference_plan *plan, const char *path, bool map_alone,
+                               bool sequence, bool overwrite, struct kiln_error *error);
+
+/* Writes one picture, which appears whole or not at all. name is the frame's, number that for the
+ * pattern. KILN_IO, KILN_DEVICE_FAILED. */
+bool kiln_difference_write(const struct kiln_difference_plan *plan, const char *name,
+                           uint32_t number, const struct kiln_subject *reference,
+                           const struct kiln_subject *test, const float *errors,
+                           struct kiln_error *error);
+
+#endif

@@ -1,0 +1,299 @@
+/* Folders and patterns are listed at once, so that what is missing or too much on either side
+ * shows; of a video, the frame after the last is known only by decoding. */
+#include "compare/footage.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+#include "asset/image/video_in.h"
+#include "base/arena.h"
+#include "base/error.h"
+#include "base/pattern.h"
+
+struct entry {
+    const char *name;
+    uint32_t number;
+};
+
+struct kiln_footage {
+    struct kiln_arena *arena;
+    enum kiln_footage_kind kind;
+    const char *path;
+    const char *folder; /* of the entries; "" for the working directory */
+    const char *layer;
+    struct entry *entries;
+    size_t count, capacity, next;
+
+    struct kiln_video_in *video;
+    struct kiln_asset_image *image; /* decoded ahead */
+    struct kiln_error video_error;
+    bool ahead, ended; /* a frame, or an error, was decoded ahead; there is none */
+    char number_text[16];
+};
+
+static bool no_memory(const char *path, struct kiln_error *error)
+{
+    return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", path);
+}
+
+/* ---- Lists -------------------------------------------------------------------------------- */
+
+static bool add_entry(struct kiln_footage *footage, const char *name, uint32_t number)
+{
+    if (footage->count == footage->capacity) {
+        size_t capacity = footage->capacity ? 2 * footage->capacity : 64;
+        struct entry *entries = realloc(footage->entries, capacity * sizeof *entries);
+        if (!entries)
+            return false;
+        footage->entries = entries;
+        footage->capacity = capacity;
+    }
+    const char *copy = kiln_arena_text(footage->arena, name, strlen(name));
+    footage->entries[footage->count++] = (struct entry){copy, number};
+    return copy != NULL;
+}
+
+static bool is_picture(const char *name)
+{
+    static const char *const suffixes[] = {".png", ".jpg",  ".jpeg", ".webp",
+                                           ".tif", ".tiff", ".bmp",  ".exr"};
+    const char *dot = strrchr(name, '.');
+    for (size_t i = 0; dot && dot > name && i < sizeof suffixes / sizeof *suffixes; i++) {
+        if (name[0] != '.' && strcasecmp(dot, suffixes[i]) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* Whether the name is what the pattern makes of a number. */
+static bool has_number(const struct kiln_path_pattern *pattern, const char *folder,
+                       const char *name, uint32_t *number)
+{
+    const char *slash = strrchr(pattern->before, '/');
+    const char *before = slash ? slash + 1 : pattern->before;
+    size_t length = strlen(before);
+    char digits[16] = "", path[KILN_PATH_SIZE + 256], expected[KILN_PATH_SIZE + 256];
+    uint64_t value = 0;
+    size_t count = strncmp(name, before, length) == 0 ? strspn(name + length, "0123456789") : 0;
+    if (count == 0 || count >= sizeof digits)
+        return false;
+    memcpy(digits, name + length, count);
+    if (!kiln_text_to_uint64(digits, &value) || value > UINT32_MAX)
+        return false;
+    *number = (uint32_t)value;
+    snprintf(path, sizeof path, "%s%s", folder, name);
+    return kiln_path_pattern_format(pattern, *number, expected, sizeof expected) &&
+           strcmp(path, expected) == 0;
+}
+
+static int compare_entries(const void *a, const void *b)
+{
+    const struct entry *p = a, *q = b;
+    return p->number != q->number ? (p->number > q->number) - (p->number < q->number)
+                                  : strcmp(p->name, q->name);
+}
+
+/* Lists the folder: names that fit the pattern or, without one, pictures. */
+static bool list_entries(struct kiln_footage *footage, const struct kiln_path_pattern *pattern,
+                         struct kiln_error *error)
+{
+    struct dirent **items = NULL;
+    int count = scandir(*footage->folder ? footage->folder : ".", &items, NULL, NULL);
+    if (count < 0)
+        return kiln_error_set_errno(error, KILN_INVALID_INPUT, errno,
+                                    "%s: the folder cannot be read", footage->path);
+    bool ok = true;
+    for (int i = 0; i < count; i++) {
+        const char *name = items[i]->d_name;
+        uint32_t number = 0;
+        if (ok &&
+            (pattern ? has_number(pattern, footage->folder, name, &number) : is_picture(name)))
+            ok = add_entry(footage, name, number);
+        free(items[i]);
+    }
+    free(items);
+    if (!ok)
+        return no_memory(footage->path, error);
+    if (footage->count == 0)
+        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: %s", footage->path,
+                              pattern ? "no file fits the pattern"
+                                      : "the folder has no pictures (PNG, JPEG, WebP, TIFF, BMP "
+                                        "or EXR, by their suffix)");
+    qsort(footage->entries, footage->count, sizeof *footage->entries, compare_entries);
+    return true;
+}
+
+/* ---- Opening ------------------------------------------------------------------------------ */
+
+/* The folder with its slash, and the name behind it. */
+static bool open_still(struct kiln_footage *footage, struct kiln_error *error)
+{
+    const char *slash = strrchr(footage->path, '/');
+    const char *name = slash ? slash + 1 : footage->path;
+    footage->kind = KILN_FOOTAGE_STILL;
+    footage->folder =
+        kiln_arena_text(footage->arena, footage->path, (size_t)(name - footage->path));
+    return (footage->folder && add_entry(footage, name, 0)) || no_memory(footage->path, error);
+}
+
+static bool open_folder(struct kiln_footage *footage, struct kiln_error *error)
+{
+    size_t length = strlen(footage->path);
+    char *folder = kiln_arena_alloc(footage->arena, length + 2, 1);
+    if (!folder)
+        return no_memory(footage->path, error);
+    memcpy(folder, footage->path, length);
+    folder[length] = footage->path[length - 1] == '/' ? '\0' : '/';
+    footage->folder = folder;
+    footage->kind = KILN_FOOTAGE_FOLDER;
+    return list_entries(footage, NULL, error);
+}
+
+static bool open_numbered(struct kiln_footage *footage, const struct kiln_path_pattern *pattern,
+                          struct kiln_error *error)
+{
+    const char *slash = strrchr(pattern->before, '/');
+    size_t length = slash ? (size_t)(slash + 1 - pattern->before) : 0;
+    footage->folder = kiln_arena_text(footage->arena, pattern->before, length);
+    footage->kind = KILN_FOOTAGE_NUMBERED;
+    return footage->folder ? list_entries(footage, pattern, error)
+                           : no_memory(footage->path, error);
+}
+
+static bool open_path(struct kiln_footage *footage, struct kiln_error *error)
+{
+    struct stat status;
+    bool exists = stat(footage->path, &status) == 0;
+    int failure = errno;
+    if (exists && S_ISDIR(status.st_mode))
+        return open_folder(footage, error);
+    if (exists && kiln_video_in_has_suffix(footage->path)) {
+        footage->kind = KILN_FOOTAGE_VIDEO;
+        footage->video = kiln_video_in_open(footage->path, error);
+        return footage->video != NULL;
+    }
+    if (exists)
+        return open_still(footage, error);
+    struct kiln_path_pattern pattern;
+    if (!kiln_path_pattern_parse(&pattern, footage->path, KILN_NUMBER_IF_ASKED, error))
+        return false;
+    if (pattern.numbered)
+        return open_numbered(footage, &pattern, error);
+    return kiln_error_set_errno(error, KILN_INVALID_INPUT, failure, "%s", footage->path);
+}
+
+struct kiln_footage *kiln_footage_open(const char *path, const char *layer,
+                                       struct kiln_error *error)
+{
+    struct kiln_arena *arena = kiln_arena_create();
+    struct kiln_footage *footage = arena ? kiln_arena_alloc(arena, 1, sizeof *footage) : NULL;
+    const char *copy = footage ? kiln_arena_text(arena, path, strlen(path)) : NULL;
+    if (!copy) {
+        no_memory(path, error);
+        kiln_arena_destroy(&arena);
+        return NULL;
+    }
+    *footage = (struct kiln_footage){.arena = arena, .path = copy, .layer = layer};
+    if (!open_path(footage, error)) {
+        if (error->code == KILN_IO)
+            error->code = KILN_INVALID_INPUT;
+        kiln_footage_close(&footage);
+    }
+    return footage;
+}
+
+void kiln_footage_close(struct kiln_footage **footage)
+{
+    if (!*footage)
+        return;
+    kiln_video_in_close(&(*footage)->video);
+    kiln_asset_image_destroy(&(*footage)->image);
+    free((*footage)->entries);
+    struct kiln_arena *arena = (*footage)->arena;
+    *footage = NULL;
+    kiln_arena_destroy(&arena);
+}
+
+enum kiln_footage_kind kiln_footage_kind(const struct kiln_footage *footage)
+{
+    return footage->kind;
+}
+
+const char *kiln_footage_path(const struct kiln_footage *footage)
+{
+    return footage->path;
+}
+
+/* ---- Reading ------------------------------------------------------------------------------ */
+
+static bool peek_video(struct kiln_footage *footage, struct kiln_footage_frame *frame)
+{
+    if (!footage->ahead && !footage->ended) {
+        footage->ahead =
+            !kiln_video_in_read(footage->video, &footage->image, &footage->video_error) ||
+            footage->image;
+        footage->ended = !footage->ahead;
+    }
+    snprintf(footage->number_text, sizeof footage->number_text, "%zu", footage->next);
+    *frame = (struct kiln_footage_frame){footage->number_text, (uint32_t)footage->next};
+    return footage->ahead;
+}
+
+bool kiln_footage_peek(struct kiln_footage *footage, struct kiln_footage_frame *frame)
+{
+    if (footage->video)
+        return peek_video(footage, frame);
+    if (footage->next == footage->count)
+        return false;
+    const struct entry *entry = &footage->entries[footage->next];
+    *frame = (struct kiln_footage_frame){entry->name, entry->number};
+    return true;
+}
+
+static struct kiln_asset_image *take_video(struct kiln_footage *footage, struct kiln_error *error)
+{
+    struct kiln_asset_image *image = footage->image;
+    footage->image = NULL;
+    footage->ahead = false;
+    if (!image) {
+        *error = footage->video_error;
+        footage->ended = true;
+    }
+    return image;
+}
+
+static struct kiln_asset_image *take_file(const struct kiln_footage *footage, const char *name,
+                                          struct kiln_error *error)
+{
+    char path[KILN_PATH_SIZE];
+    int length = snprintf(path, sizeof path, "%s%s", footage->folder, name);
+    if (length < 0 || (size_t)length >= sizeof path) {
+        kiln_error_set(error, KILN_INVALID_INPUT, "%s: the path is too long", footage->path);
+        return NULL;
+    }
+    return kiln_asset_image_load_layer(path, footage->layer, error);
+}
+
+struct kiln_asset_image *kiln_footage_take(struct kiln_footage *footage, struct kiln_error *error)
+{
+    struct kiln_asset_image *image =
+        footage->video ? take_video(footage, error)
+                       : take_file(footage, footage->entries[footage->next].name, error);
+    footage->next++;
+    if (!image && error->code == KILN_IO)
+        error->code = KILN_INVALID_INPUT;
+    return image;
+}
+
+void kiln_footage_skip(struct kiln_footage *footage)
+{
+    if (footage->video && !footage->image)
+        footage->ended = true;
+    kiln_asset_image_destroy(&footage->image);
+    footage->ahead = false;
+    footage->next++;
+}

@@ -1,0 +1,276 @@
+/* The backdrop: scene values at the frame's time into the blocks that its techniques read. When
+ * neither a block nor the camera changed since the last frame, the picture is kept. */
+#include "draw/backdrop/backdrop.h"
+
+#include "asset/image/texture.h"
+#include "base/error.h"
+#include "draw/backdrop/backdrop_cpu.h"
+#include "draw/backdrop/backdrop_gl.h"
+#include "draw/light/lighting_gl.h"
+#include "draw/light/sun_cover.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct kiln_backdrop_stage {
+    const struct kiln_scene *scene;
+    struct kiln_meshes meshes;
+    const struct kiln_pool *pool;
+    struct kiln_backdrop_gl *gl; /* one of these two */
+    struct kiln_backdrop_cpu *cpu;
+    struct kiln_device *device;      /* of gl */
+    struct kiln_sky_light sky_light; /* of the image */
+    struct kiln_backdrop_inputs drawn;
+    bool has_drawn;
+};
+
+static float4 with_w(float3 v, float w)
+{
+    return (float4){v.x, v.y, v.z, w};
+}
+
+static float3 normalized(float3 v)
+{
+    float length = sqrtf(v.x * v.x + v.y * v.y + v.z * v.z);
+    if (!(length > 0.0f))
+        return (float3){0.0f, 1.0f, 0.0f};
+    return (float3){v.x / length, v.y / length, v.z / length};
+}
+
+static void fill_boxes(const struct kiln_scene *scene, float time_s,
+                       struct kiln_draw_backdrop *block)
+{
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        const struct kiln_object *box = &scene->backdrop.objects[i];
+        if (box->kind != KILN_OBJECT_BOX || kiln_object_is_turned_box(box))
+            continue;
+        uint k = block->counts.x++;
+        float3 size = kiln_scene_value3(scene, &box->size, time_s);
+        block->box_center[k] = with_w(kiln_scene_value3(scene, &box->center, time_s), 0.0f);
+        block->box_half[k] = (float4){0.5f * size.x, 0.5f * size.y, 0.5f * size.z, 0.0f};
+        block->box_color[k] = with_w(kiln_scene_value3(scene, &box->color, time_s), 0.0f);
+    }
+}
+
+static void fill_lights(const struct kiln_scene *scene, float time_s,
+                        struct kiln_draw_backdrop *block)
+{
+    for (uint32_t i = 0; i < scene->backdrop.light_count; i++) {
+        const struct kiln_light *light = &scene->backdrop.lights[i];
+        float radius = kiln_scene_value(scene, &light->radius, time_s);
+        float3 position = kiln_scene_value3(scene, &light->position, time_s);
+        block->lights[i].position_radius2 = with_w(position, radius * radius);
+        block->lights[i].color = with_w(kiln_scene_value3(scene, &light->color, time_s), 0.0f);
+    }
+}
+
+/* What the particles light and shade. */
+static void add_lighting(struct kiln_draw_backdrop *block, const struct kiln_lighting *lighting)
+{
+    for (uint32_t i = 0; i < lighting->fire_count; i++)
+        block->lights[block->counts.y++] = lighting->fire[i];
+    block->counts.w = lighting->smoke ? 1u : 0u;
+    block->sun_color.w = lighting->sunlit ? 1.0f : 0.0f;
+    memcpy(block->sun_to_grid, lighting->sun_to_grid, sizeof block->sun_to_grid);
+    memcpy(block->sky_to_grid, lighting->sky_to_grid, sizeof block->sky_to_grid);
+}
+
+/* Surfaces, particles and the haze are lit by the image, where there is one. */
+static void light_by_image(const struct kiln_backdrop_stage *stage, float intensity,
+                           struct kiln_draw_backdrop *block)
+{
+    const float *up = stage->sky_light.up, *horizon = stage->sky_light.horizon;
+    block->sky_top = (float4){up[0] * intensity, up[1] * intensity, up[2] * intensity, 0.0f};
+    block->sky_horizon =
+        (float4){horizon[0] * intensity, horizon[1] * intensity, horizon[2] * intensity, 0.0f};
+}
+
+/* The pictures of the floor and the sky, as the technique has them; 0 wide: none. */
+struct pictures {
+    struct kiln_picture_size floor, sky;
+};
+
+/* Where they lie. */
+static void fill_maps(const struct kiln_scene *scene, const struct pictures *pictures, float time_s,
+                      struct kiln_draw_shapes *shapes)
+{
+    const float full_turn = 6.28318531f;
+    if (pictures->floor.width) {
+        float tile = kiln_scene_value(scene, &scene->backdrop.floor_tile, time_s);
+        float width = (float)pictures->floor.width, height = (float)pictures->floor.height;
+        shapes->floor_map.x = 1.0f / tile;
+        shapes->floor_map.y = width / (tile * height);
+        shapes->floor_map.z = width / tile;
+    }
+    if (pictures->sky.width)
+        shapes->sky_map =
+            (float4){kiln_scene_value(scene, &scene->backdrop.sky_rotation, time_s) / full_turn,
+                     kiln_scene_value(scene, &scene->backdrop.sky_intensity, time_s),
+                     (float)pictures->sky.width / full_turn, 0.0f};
+}
+
+/* The sun's light, where no half space is between: one without end leaves all in its shade. */
+static float3 sun_color(const struct kiln_scene *scene, float time_s)
+{
+    const struct kiln_sun_frame sun = kiln_sun_frame_at(scene, time_s);
+    float3 color = kiln_scene_value3(scene, &scene->backdrop.sun_color, time_s);
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        const struct kiln_object *plane = &scene->backdrop.objects[i];
+        if (plane->kind != KILN_OBJECT_PLANE || !plane->visible)
+            continue;
+        float3 normal = normalized(kiln_scene_value3(scene, &plane->axis, time_s));
+        color = float3_scale(color, 1.0f - kiln_plane_sun_cover(normal, &sun));
+    }
+    return color;
+}
+
+static struct kiln_draw_backdrop make_block(const struct kiln_scene *scene, float time_s)
+{
+    const struct kiln_backdrop *b = &scene->backdrop;
+    struct kiln_draw_backdrop block = {
+        .sky_top = with_w(kiln_scene_value3(scene, &b->sky_top, time_s), 0.0f),
+        .sky_horizon = with_w(kiln_scene_value3(scene, &b->sky_horizon, time_s), 0.0f),
+        .floor_color = with_w(kiln_scene_value3(scene, &b->floor_color, time_s),
+                              kiln_scene_value(scene, &b->floor_height, time_s)),
+        .floor_params = {b->floor_enabled ? 1.0f : 0.0f,
+                         kiln_scene_value(scene, &b->floor_checker, time_s),
+                         kiln_scene_value(scene, &b->haze, time_s), 0.0f},
+        .sun_direction =
+            with_w(normalized(kiln_scene_value3(scene, &b->sun_direction, time_s)), 0.0f),
+        .sun_color = with_w(sun_color(scene, time_s), 0.0f),
+        .counts = {0, b->light_count, b->transparent ? 1u : 0u, 0},
+    };
+    fill_boxes(scene, time_s, &block);
+    fill_lights(scene, time_s, &block);
+    return block;
+}
+
+/* The camera's clock does not show in the backdrop; smoke and spheres do, whose grids and lists are
+ * not compared. */
+static bool same_picture(const struct kiln_backdrop_inputs *a, const struct kiln_backdrop_inputs *b)
+{
+    return a->block.counts.w == 0 && a->shapes.counts.w == 0 && a->paint == b->paint &&
+           memcmp(&a->block, &b->block, sizeof a->block) == 0 &&
+           memcmp(&a->shapes, &b->shapes, sizeof a->shapes) == 0 &&
+           memcmp(a->view.world_to_view, b->view.world_to_view, sizeof a->view.world_to_view) ==
+               0 &&
+           memcmp(&a->view.frustum, &b->view.frustum, sizeof a->view.frustum) == 0;
+}
+
+struct kiln_backdrop_stage *kiln_backdrop_create(struct kiln_device *device,
+                                                 const struct kiln_scene *scene,
+                                                 const struct kiln_backdrop_params *params,
+                                                 struct kiln_error *error)
+{
+    struct kiln_backdrop_stage *stage = calloc(1, sizeof *stage);
+    if (!stage) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "backdrop: out of memory");
+        return NULL;
+    }
+    stage->scene = scene;
+    stage->pool = params->pool;
+    stage->device = device;
+    const char *sky_image = scene->backdrop.sky_image;
+    bool ok = kiln_meshes_init(&stage->meshes, scene, error) &&
+              (!sky_image || kiln_sky_light_measure(&stage->sky_light, sky_image, error));
+    if (ok && params->technique == KILN_BACKDROP_CPU)
+        stage->cpu = kiln_backdrop_cpu_create(scene, &stage->meshes, params, error);
+    else if (ok)
+        stage->gl = kiln_backdrop_gl_create(device, scene, &stage->meshes, params, error);
+    if (!stage->cpu && !stage->gl)
+        kiln_backdrop_destroy(&stage);
+    return stage;
+}
+
+void kiln_backdrop_destroy(struct kiln_backdrop_stage **stage)
+{
+    if (!*stage)
+        return;
+    kiln_backdrop_cpu_destroy(&(*stage)->cpu);
+    kiln_backdrop_gl_destroy(&(*stage)->gl);
+    kiln_meshes_finish(&(*stage)->meshes);
+    free(*stage);
+    *stage = NULL;
+}
+
+struct kiln_meshes *kiln_backdrop_meshes(struct kiln_backdrop_stage *stage)
+{
+    return &stage->meshes;
+}
+
+static struct pictures pictures_of(const struct kiln_backdrop_stage *stage)
+{
+    struct pictures pictures;
+    if (stage->cpu)
+        kiln_backdrop_cpu_pictures(stage->cpu, &pictures.floor, &pictures.sky);
+    else
+        kiln_backdrop_gl_pictures(stage->gl, &pictures.floor, &pictures.sky);
+    return pictures;
+}
+
+static struct kiln_backdrop_inputs make_inputs(struct kiln_backdrop_stage *stage,
+                                               const struct kiln_view *view,
+                                               const struct kiln_lighting *lighting)
+{
+    float time_s = view->clock.x;
+    const struct pictures pictures = pictures_of(stage);
+    struct kiln_backdrop_inputs now = {.view = *view, .block = make_block(stage->scene, time_s)};
+    kiln_meshes_pose(&stage->meshes, time_s);
+    kiln_shapes_fill(stage->scene, stage->meshes.loaded, time_s, &now.shapes);
+    fill_maps(stage->scene, &pictures, time_s, &now.shapes);
+    if (pictures.sky.width)
+        light_by_image(stage, now.shapes.sky_map.y, &now.block);
+    if (stage->meshes.painted)
+        now.paint = kiln_painted_all_changes(stage->meshes.painted);
+    add_lighting(&now.block, lighting);
+    now.shapes.counts.w = lighting->spheres.edge;
+    memcpy(now.shapes.world_to_bin, lighting->spheres.world_to_bin, sizeof now.shapes.world_to_bin);
+    return now;
+}
+
+/* A list that llvmpipe would silently not read to its end. An invocation reads lists for each of
+ * its rays, and what the floor mirrors; half of what its loops may run is left to everything else.
+ */
+static bool lists_are_short(const struct kiln_backdrop_stage *stage,
+                            const struct kiln_sphere_bins *spheres, struct kiln_error *error)
+{
+    const uint32_t readings =
+        KILN_EDGE_SAMPLES * (kiln_shape_features(stage->scene).floor_gloss ? 2 : 1);
+    const uint32_t most =
+        KILN_SOFTWARE_ITERATIONS / 2 / readings * (uint32_t)KILN_SPHERES_AT_A_TIME;
+    if (!stage->device->info.software || spheres->longest <= most)
+        return true;
+    return kiln_error_set(error, KILN_DEVICE_FAILED,
+                          "backdrop=gl: %u particles may shade one place; software GL draws up to "
+                          "%u: use --technique backdrop=cpu, or fewer",
+                          spheres->longest, most);
+}
+
+bool kiln_backdrop_draw(struct kiln_backdrop_stage *stage, const struct kiln_view *view,
+                        const struct kiln_lighting *lighting, struct kiln_error *error)
+{
+    if (stage->meshes.painted && stage->pool)
+        kiln_painted_update(stage->meshes.painted, stage->pool);
+    const struct kiln_backdrop_inputs now = make_inputs(stage, view, lighting);
+    bool kept = stage->has_drawn && same_picture(&now, &stage->drawn);
+    stage->drawn = now;
+    stage->has_drawn = false;
+    if (stage->cpu)
+        stage->has_drawn = kiln_backdrop_cpu_draw(stage->cpu, &stage->drawn, lighting, kept, error);
+    else
+        stage->has_drawn = lists_are_short(stage, &lighting->spheres, error) &&
+                           kiln_lighting_bind(lighting, error) &&
+                           kiln_backdrop_gl_draw(stage->gl, &stage->drawn, kept, error);
+    return stage->has_drawn;
+}
+
+const struct kiln_draw_backdrop *kiln_backdrop_block(const struct kiln_backdrop_stage *stage)
+{
+    return &stage->drawn.block;
+}
+
+const struct kiln_ray_frame *kiln_backdrop_rays(const struct kiln_backdrop_stage *stage)
+{
+    return stage->cpu ? kiln_backdrop_cpu_rays(stage->cpu) : NULL;
+}

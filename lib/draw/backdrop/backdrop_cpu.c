@@ -1,0 +1,320 @@
+/* What rays may meet in a frame, then two passes over rows of tiles: a ray a pixel, and more where
+ * there are edges. The order of the rows is no matter: a row writes what is its own. */
+#include "draw/backdrop/backdrop_cpu.h"
+
+#include "base/error.h"
+#include "draw/backdrop/backdrop_rows.h"
+#include "draw/backdrop/meshes_cpu.h"
+#include "draw/light/sun_box.h"
+#include "shared/exact.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+struct kiln_backdrop_cpu {
+    const struct kiln_scene *scene;
+    struct kiln_threads *threads;
+    struct kiln_image *color, *depth;
+    const struct kiln_backdrop_rows *rows;
+    struct kiln_pyramid *floor_image, *sky_image; /* NULL: none */
+    struct kiln_meshes_cpu *meshes;               /* the same */
+    float *surfaces;
+    struct kiln_ray_frame frame;
+};
+
+static bool load_pictures(struct kiln_backdrop_cpu *cpu, struct kiln_error *error)
+{
+    const struct kiln_backdrop *backdrop = &cpu->scene->backdrop;
+    if (backdrop->floor_image) {
+        cpu->floor_image = kiln_pyramid_load(backdrop->floor_image, true, error);
+        if (!cpu->floor_image)
+            return false;
+    }
+    if (backdrop->sky_image)
+        cpu->sky_image = kiln_pyramid_load(backdrop->sky_image, false, error);
+    return cpu->sky_image || !backdrop->sky_image;
+}
+
+struct kiln_backdrop_cpu *kiln_backdrop_cpu_create(const struct kiln_scene *scene,
+                                                   const struct kiln_meshes *meshes,
+                                                   const struct kiln_backdrop_params *params,
+                                                   struct kiln_error *error)
+{
+    enum kiln_simd simd;
+    if (!kiln_simd_choose(&simd, error))
+        return NULL;
+    struct kiln_backdrop_cpu *cpu = calloc(1, sizeof *cpu);
+    size_t pixels = (size_t)scene->width * scene->height;
+    if (cpu) {
+        cpu->scene = scene;
+        cpu->threads = params->threads;
+        cpu->color = params->color;
+        cpu->depth = params->depth;
+        cpu->rows = KILN_SIMD_PICK(kiln_backdrop_rows, simd);
+        cpu->surfaces = malloc(pixels * sizeof *cpu->surfaces);
+    }
+    if (!cpu || !cpu->surfaces) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "backdrop: out of memory");
+        kiln_backdrop_cpu_destroy(&cpu);
+        return NULL;
+    }
+    bool ok = load_pictures(cpu, error);
+    if (ok && meshes->count > 0) {
+        cpu->meshes = kiln_meshes_cpu_create(scene, meshes, params->threads, error);
+        ok = cpu->meshes != NULL;
+    }
+    if (!ok)
+        kiln_backdrop_cpu_destroy(&cpu);
+    return cpu;
+}
+
+void kiln_backdrop_cpu_destroy(struct kiln_backdrop_cpu **cpu)
+{
+    if (!*cpu)
+        return;
+    kiln_pyramid_destroy(&(*cpu)->floor_image);
+    kiln_pyramid_destroy(&(*cpu)->sky_image);
+    kiln_meshes_cpu_destroy(&(*cpu)->meshes);
+    free((*cpu)->surfaces);
+    free(*cpu);
+    *cpu = NULL;
+}
+
+void kiln_backdrop_cpu_pictures(const struct kiln_backdrop_cpu *cpu,
+                                struct kiln_picture_size *floor, struct kiln_picture_size *sky)
+{
+    *floor = *sky = (struct kiln_picture_size){0, 0};
+    if (cpu->floor_image)
+        *floor = (struct kiln_picture_size){cpu->floor_image->width, cpu->floor_image->height};
+    if (cpu->sky_image)
+        *sky = (struct kiln_picture_size){cpu->sky_image->width, cpu->sky_image->height};
+}
+
+/* ---- what rays meet -------------------------------------------------------------------------- */
+
+static float inverse_of(float x)
+{
+    return (x < 0.0f ? -1.0f : 1.0f) / exact_max(exact_abs(x), 1e-8f);
+}
+
+/* Eight waves about the wind, each shorter than the one before
+ * (shaders/draw/backdrop/floor_gloss.glsl). */
+static void fill_waves(const struct kiln_draw_shapes *shapes, struct kiln_wave waves[KILN_WAVES])
+{
+    const float gravity = 9.81f, full_turn = EXACT_TWO_PI;
+    float length_m = shapes->floor_gloss.z, time_s = shapes->floor_map.w;
+    for (int i = 0; i < KILN_WAVES; i++) {
+        const struct exact_angle heading =
+            exact_sincos(1.2f + 1.1f * exact_sincos(2.7f * (float)i).sine);
+        float number = full_turn / length_m, turns = sqrtf(gravity * number) * time_s / full_turn;
+        waves[i] = (struct kiln_wave){.way_x = heading.cosine,
+                                      .way_z = heading.sine,
+                                      .number = number,
+                                      .phase = (turns - floorf(turns)) * full_turn,
+                                      .bend = 0.1f * length_m};
+        length_m *= 0.71f;
+    }
+}
+
+static void fill_turned_suns(float4 sun, const struct kiln_draw_shapes *shapes,
+                             struct kiln_turned_sun suns[KILN_MAX_OBJECTS])
+{
+    for (uint32_t i = 0; i < shapes->more.y; i++) {
+        const float4 *rows = shapes->turned[i].rows;
+        float way[3];
+        for (int k = 0; k < 3; k++)
+            way[k] = rows[k].x * sun.x + rows[k].y * sun.y + rows[k].z * sun.z;
+        suns[i] = (struct kiln_turned_sun){
+            .inverse = {inverse_of(way[0]), inverse_of(way[1]), inverse_of(way[2])},
+            .edges_alike = {kiln_sun_likeness(way[1], way[2]), kiln_sun_likeness(way[0], way[2]),
+                            kiln_sun_likeness(way[0], way[1])},
+        };
+    }
+}
+
+static struct kiln_ray_frame make_frame(const struct kiln_backdrop_cpu *cpu,
+                                        const struct kiln_backdrop_inputs *inputs,
+                                        const struct kiln_lighting *lighting)
+{
+    const struct kiln_shape_features features = kiln_shape_features(cpu->scene);
+    const float4 sun = inputs->block.sun_direction;
+    struct kiln_ray_frame frame = {
+        .view = &inputs->view,
+        .backdrop = &inputs->block,
+        .shapes = &inputs->shapes,
+        .floor_image = cpu->floor_image,
+        .sky_image = cpu->sky_image,
+        .smoke_to_sun = lighting->smoke ? lighting->sun_depth : NULL,
+        .smoke_to_sky = lighting->smoke ? lighting->sky_depth : NULL,
+        .spheres = lighting->spheres,
+        .meshes = cpu->meshes ? kiln_meshes_cpu_view(cpu->meshes) : NULL,
+        .floor_gloss = features.floor_gloss && inputs->block.floor_params.x > 0.0f,
+        .soft_sun = features.soft_sun,
+        .sun_inverse = {inverse_of(sun.x), inverse_of(sun.y), inverse_of(sun.z)},
+        .edges_alike = {kiln_sun_likeness(sun.y, sun.z), kiln_sun_likeness(sun.x, sun.z),
+                        kiln_sun_likeness(sun.x, sun.y)},
+    };
+    if (frame.floor_gloss)
+        fill_waves(&inputs->shapes, frame.waves);
+    fill_turned_suns(sun, &inputs->shapes, frame.turned);
+    return frame;
+}
+
+/* ---- where objects are seen ------------------------------------------------------------------ */
+
+static float4 row_at(const struct kiln_view *view, float3 p)
+{
+    const float4 *rows = view->world_to_view;
+    float at[3];
+    for (int i = 0; i < 3; i++)
+        at[i] = rows[i].x * p.x + rows[i].y * p.y + rows[i].z * p.z + rows[i].w;
+    return (float4){at[0], at[1], at[2], 0.0f};
+}
+
+static int32_t pixel_within(float x, float size)
+{
+    return (int32_t)exact_clamp(x, 0.0f, size);
+}
+
+/* The pixels that a box along the axes may cover, and a few around them. */
+static struct kiln_pixel_box cover_box(const struct kiln_view *view, float4 center, float3 half)
+{
+    const float near = 0.01f, margin = 3.0f, width = view->frustum.z, height = view->frustum.w;
+    float low[2] = {1e9f, 1e9f}, high[2] = {-1e9f, -1e9f};
+    int before = 0;
+    for (int i = 0; i < 8; i++) {
+        float3 corner = {center.x + (i & 1 ? half.x : -half.x),
+                         center.y + (i & 2 ? half.y : -half.y),
+                         center.z + (i & 4 ? half.z : -half.z)};
+        float4 seen = row_at(view, corner);
+        if (-seen.z < near)
+            continue;
+        before++;
+        float x = (seen.x / (-seen.z * view->frustum.x) + 1.0f) * 0.5f * width;
+        float y = (1.0f - seen.y / (-seen.z * view->frustum.y)) * 0.5f * height;
+        low[0] = exact_min(low[0], x);
+        high[0] = exact_max(high[0], x);
+        low[1] = exact_min(low[1], y);
+        high[1] = exact_max(high[1], y);
+    }
+    if (before < 8) /* the eye is beside it: anywhere, unless it is behind */
+        return (struct kiln_pixel_box){0, before ? (int32_t)width : 0, 0,
+                                       before ? (int32_t)height : 0};
+    return (struct kiln_pixel_box){
+        pixel_within(low[0] - margin, width), pixel_within(high[0] + margin, width),
+        pixel_within(low[1] - margin, height), pixel_within(high[1] + margin, height)};
+}
+
+static float reach_along(float axis, float half_height, float radius)
+{
+    return half_height * exact_abs(axis) + radius * sqrtf(exact_max(1.0f - axis * axis, 0.0f)) +
+           1e-4f * radius;
+}
+
+static void find_more_boxes(struct kiln_backdrop_picture *picture)
+{
+    const struct kiln_view *view = picture->frame->view;
+    const struct kiln_draw_shapes *shapes = picture->frame->shapes;
+    for (uint32_t i = 0; i < shapes->more.x; i++) {
+        const float4 capsule = shapes->capsules[i], axis = shapes->capsule_axis[i];
+        const float radius = 1.0001f * capsule.w;
+        const float3 half = {radius + axis.w * exact_abs(axis.x),
+                             radius + axis.w * exact_abs(axis.y),
+                             radius + axis.w * exact_abs(axis.z)};
+        picture->capsules[i] = cover_box(view, capsule, half);
+    }
+    for (uint32_t i = 0; i < shapes->more.y; i++) {
+        const float4 *rows = shapes->turned[i].rows, half_size = shapes->turned[i].half_size;
+        const float halves[3] = {half_size.x, half_size.y, half_size.z};
+        float3 half = {0.0f, 0.0f, 0.0f};
+        for (int k = 0; k < 3; k++) {
+            half.x += exact_abs(rows[k].x) * halves[k];
+            half.y += exact_abs(rows[k].y) * halves[k];
+            half.z += exact_abs(rows[k].z) * halves[k];
+        }
+        picture->turned[i] = cover_box(view, shapes->turned[i].center, half);
+    }
+}
+
+static void find_boxes(struct kiln_backdrop_picture *picture)
+{
+    const struct kiln_ray_frame *frame = picture->frame;
+    const struct kiln_draw_backdrop *block = frame->backdrop;
+    const struct kiln_draw_shapes *shapes = frame->shapes;
+    for (uint32_t i = 0; i < block->counts.x; i++) {
+        const float4 half = block->box_half[i];
+        picture->boxes[i] =
+            cover_box(frame->view, block->box_center[i], (float3){half.x, half.y, half.z});
+    }
+    for (uint32_t i = 0; i < shapes->counts.x; i++) {
+        const float4 sphere = shapes->spheres[i];
+        picture->spheres[i] =
+            cover_box(frame->view, sphere, (float3){sphere.w, sphere.w, sphere.w});
+    }
+    for (uint32_t i = 0; i < shapes->counts.y; i++) {
+        const float4 cylinder = shapes->cylinders[i], axis = shapes->cylinder_axis[i];
+        const float3 half = {reach_along(axis.x, axis.w, cylinder.w),
+                             reach_along(axis.y, axis.w, cylinder.w),
+                             reach_along(axis.z, axis.w, cylinder.w)};
+        picture->cylinders[i] = cover_box(frame->view, cylinder, half);
+    }
+    find_more_boxes(picture);
+}
+
+/* ---- the picture ----------------------------------------------------------------------------- */
+
+struct job {
+    const struct kiln_backdrop_picture *picture;
+    const struct kiln_backdrop_rows *rows;
+};
+
+static void cast(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct job *job = context;
+    for (size_t i = begin; i < end; i++)
+        job->rows->cast(job->picture, (uint32_t)i * KILN_EDGE_TILE);
+}
+
+static void antialias(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct job *job = context;
+    for (size_t i = begin; i < end; i++)
+        job->rows->antialias(job->picture, (uint32_t)i * KILN_EDGE_TILE);
+}
+
+bool kiln_backdrop_cpu_draw(struct kiln_backdrop_cpu *cpu,
+                            const struct kiln_backdrop_inputs *inputs,
+                            const struct kiln_lighting *lighting, bool kept,
+                            struct kiln_error *error)
+{
+    cpu->frame = make_frame(cpu, inputs, lighting);
+    if (kept)
+        return true;
+    if (cpu->meshes &&
+        !kiln_meshes_cpu_run(cpu->meshes, &inputs->view, &inputs->block, &inputs->shapes, error))
+        return false;
+    struct kiln_backdrop_picture picture = {
+        .frame = &cpu->frame,
+        .width = cpu->color->width,
+        .height = cpu->color->height,
+        .color = kiln_image_host(cpu->color, KILN_OVERWRITE, error),
+        .surfaces = cpu->surfaces,
+    };
+    if (picture.color)
+        picture.depth = kiln_image_host(cpu->depth, KILN_OVERWRITE, error);
+    if (!picture.depth)
+        return false;
+    find_boxes(&picture);
+    struct job job = {&picture, cpu->rows};
+    size_t tiles = (picture.height + KILN_EDGE_TILE - 1) / KILN_EDGE_TILE;
+    kiln_threads_for(cpu->threads, tiles, 1, cast, &job);
+    kiln_threads_for(cpu->threads, tiles, 1, antialias, &job);
+    return true;
+}
+
+const struct kiln_ray_frame *kiln_backdrop_cpu_rays(const struct kiln_backdrop_cpu *cpu)
+{
+    return &cpu->frame;
+}

@@ -1,0 +1,24 @@
+/* Technique backdrop=gl: a ray a pixel in a fragment shader, and four in tiles with edges. */
+#ifndef KILN_DRAW_BACKDROP_GL_H
+#define KILN_DRAW_BACKDROP_GL_H
+
+#include "draw/backdrop/backdrop_inputs.h"
+
+struct kiln_backdrop_gl;
+
+/* Scene and meshes must outlive it. NULL with an error. */
+struct kiln_backdrop_gl *kiln_backdrop_gl_create(struct kiln_device *device,
+                                                 const struct kiln_scene *scene,
+                                                 const struct kiln_meshes *meshes,
+                                                 const struct kiln_backdrop_params *params,
+                                                 struct kiln_error *error);
+void kiln_backdrop_gl_destroy(struct kiln_backdrop_gl **gl);
+
+void kiln_backdrop_gl_pictures(const struct kiln_backdrop_gl *gl, struct kiln_picture_size *floor,
+                               struct kiln_picture_size *sky);
+
+/* Binds blocks and textures, and draws; kept: the picture of the last call still holds. */
+bool kiln_backdrop_gl_draw(struct kiln_backdrop_gl *gl, const struct kiln_backdrop_inputs *inputs,
+                           bool kept, struct kiln_error *error);
+
+#endif

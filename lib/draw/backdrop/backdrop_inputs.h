@@ -1,0 +1,20 @@
+/* What both techniques of stage `backdrop` draw from. */
+#ifndef KILN_DRAW_BACKDROP_INPUTS_H
+#define KILN_DRAW_BACKDROP_INPUTS_H
+
+#include "draw/backdrop/backdrop.h"
+#include "draw/moment/meshes.h"
+
+/* All that the picture depends on but the grids of smoke and the lists of spheres. */
+struct kiln_backdrop_inputs {
+    struct kiln_view view;
+    struct kiln_draw_backdrop block;
+    struct kiln_draw_shapes shapes;
+    uint64_t paint; /* changes of it */
+};
+
+struct kiln_picture_size {
+    uint32_t width, height; /* texels; 0: there is no picture */
+};
+
+#endif

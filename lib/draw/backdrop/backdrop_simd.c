@@ -1,0 +1,322 @@
+/* Rays of the picture, a vector of them at a time: what shaders/draw/backdrop/backdrop.frag and
+ * backdrop_edges.vert do in GL. */
+#include "draw/backdrop/backdrop_rows.h"
+
+#include "draw/backdrop/ray_floor.h"
+#include "draw/backdrop/ray_mesh.h"
+
+enum { TILE = KILN_EDGE_TILE, STRIP = 64 }; /* px; a strip's rays try the same objects */
+
+/* Rays of pixels from the eye. */
+struct eye_rays {
+    struct ray ray;
+    struct ray_place place;
+};
+
+SIMD struct eye_rays aim_at(const struct kiln_ray_frame *frame, const struct ray_place *place)
+{
+    const float4 *rows = frame->view->world_to_view;
+    vf u = place->u, v = place->v;
+    return (struct eye_rays){
+        .ray = {.origin = vf3_all(frame->view->eye),
+                .direction = {rows[0].x * u + rows[1].x * v - rows[2].x,
+                              rows[0].y * u + rows[1].y * v - rows[2].y,
+                              rows[0].z * u + rows[1].z * v - rows[2].z}},
+        .place = *place,
+    };
+}
+
+/* Through the centres of pixels. */
+SIMD struct eye_rays aim(const struct kiln_ray_frame *frame, vi column, vi row)
+{
+    const float4 frustum = frame->view->frustum;
+    vf x = vf_of(column) + 0.5f, y = vf_of(row) + 0.5f;
+    struct ray_place place = {
+        .u = (x * (2.0f / frustum.z) - 1.0f) * frustum.x,
+        .v = (1.0f - y * (2.0f / frustum.w)) * frustum.y,
+    };
+    if (frame->meshes)
+        place.hit = row * (int32_t)(KILN_HIT_LAYERS * frame->meshes->pitch) + column;
+    return aim_at(frame, &place);
+}
+
+/* What rays meet first; floor: the t of the floor, whose albedo is left open. */
+SIMD struct ray_hit trace(const struct kiln_ray_frame *frame,
+                          const struct kiln_ray_objects *objects, const struct ray *ray, vf floor,
+                          const struct ray_place *place)
+{
+    struct ray_hit nearest = {.t = vf_all(RAY_FAR),
+                              .surface = vf_all(-1.0f),
+                              .normal = {vf_all(0.0f), vf_all(1.0f), vf_all(0.0f)},
+                              .albedo = {{0}, {0}, {0}}};
+    trace_boxes(frame, objects->boxes, ray, &nearest);
+    trace_spheres(frame, objects->spheres, ray, &nearest);
+    trace_cylinders(frame, objects->cylinders, ray, &nearest);
+    trace_capsules(frame, objects->capsules, ray, &nearest);
+    trace_turned(frame, objects->turned, ray, &nearest);
+    trace_planes(frame, objects->planes, ray, &nearest);
+    if (frame->meshes && place->layer >= 0)
+        trace_meshes(frame, place, &nearest);
+    vi below = floor < nearest.t;
+    const struct vf3 up = {vf_all(0.0f), vf_all(1.0f), vf_all(0.0f)};
+    nearest.t = vf_select(below, floor, nearest.t);
+    nearest.surface = vf_where(~below, nearest.surface);
+    nearest.normal = vf3_select(below, up, nearest.normal);
+    return nearest;
+}
+
+/* What rays find. */
+struct sight {
+    struct ray_color color;
+    struct ray_hit first;
+    vf sunlit;  /* part of the sun there, before smoke */
+    vf arrives; /* and past it */
+};
+
+SIMD struct sight look_along(const struct kiln_ray_frame *frame,
+                             const struct kiln_ray_objects *objects, const struct ray *ray,
+                             vf floor, const struct ray_place *place)
+{
+    struct sight seen = {.first = trace(frame, objects, ray, floor, place)};
+    vi below = seen.first.surface == 0.0f;
+    if (any(below))
+        seen.first.albedo =
+            vf3_select(below, floor_albedo(frame, ray, seen.first.t, below), seen.first.albedo);
+    const struct ray_point point = {ray_at(ray, seen.first.t), seen.first.normal,
+                                    seen.first.surface >= 0.0f};
+    struct vf3 irradiance = {{0}, {0}, {0}};
+    if (any(point.wanted)) {
+        vi lit = turned_to_sun(frame, &point);
+        seen.sunlit = sun_visibility(frame, point.at, point.normal, lit);
+        const struct ray_point sunny = {point.at, point.normal, seen.sunlit > 0.0f};
+        seen.arrives = seen.sunlit * smoke_lets_through(frame->smoke_to_sun,
+                                                        frame->backdrop->sun_to_grid, &sunny);
+        irradiance = soft_irradiance(frame, &point);
+    }
+    seen.color = radiance_or_sky(frame, &seen.first, ray->direction, irradiance, seen.arrives);
+    return seen;
+}
+
+SIMD uint32_t first_bits(uint32_t count)
+{
+    return (uint32_t)((1ull << count) - 1);
+}
+
+/* Goes on from a floor that mirrors. */
+SIMD void add_mirrored(const struct kiln_ray_frame *frame, const struct ray *ray,
+                       struct sight *seen)
+{
+    vi floor = seen->first.surface == 0.0f;
+    if (!any(floor))
+        return;
+    const uint4 round = frame->shapes->counts, others = frame->shapes->more;
+    const struct kiln_ray_objects objects = {first_bits(frame->backdrop->counts.x),
+                                             first_bits(round.x),
+                                             first_bits(round.y),
+                                             first_bits(others.x),
+                                             first_bits(others.y),
+                                             first_bits(others.z)};
+    const struct ray_mirror m = floor_mirror(frame, ray);
+    const struct ray onwards = {ray_at(ray, seen->first.t), m.onwards};
+    const struct ray_place nowhere = {.layer = -1};
+    const struct sight next =
+        look_along(frame, &objects, &onwards, vf_all(2.0f * RAY_FAR), &nowhere);
+    struct vf3 more = vf3_along(m.lights, m.sun, seen->arrives);
+    more = vf3_along(more, next.color.rgb, m.weight);
+    seen->color.rgb = vf3_select(floor, vf3_add(seen->color.rgb, more), seen->color.rgb);
+}
+
+SIMD struct sight look(const struct kiln_ray_frame *frame, const struct kiln_ray_objects *objects,
+                       const struct eye_rays *eye)
+{
+    struct sight seen =
+        look_along(frame, objects, &eye->ray, find_floor(frame, &eye->ray), &eye->place);
+    if (frame->floor_gloss)
+        add_mirrored(frame, &eye->ray, &seen);
+    return seen;
+}
+
+/* ---- rows ------------------------------------------------------------------------------------ */
+
+static uint32_t seen_in(const struct kiln_pixel_box boxes[KILN_MAX_OBJECTS], uint32_t count,
+                        int32_t x, int32_t y, int32_t width)
+{
+    uint32_t seen = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const struct kiln_pixel_box *b = &boxes[i];
+        if (b->x_from < x + width && b->x_to > x && b->y_from < y + TILE && b->y_to > y)
+            seen |= 1u << i;
+    }
+    return seen;
+}
+
+/* The objects that may be seen in a part of TILE rows. */
+static struct kiln_ray_objects find_objects(const struct kiln_backdrop_picture *p, uint32_t x,
+                                            uint32_t y, uint32_t width)
+{
+    const struct kiln_ray_frame *frame = p->frame;
+    int32_t left = (int32_t)x, top = (int32_t)y, columns = (int32_t)width;
+    return (struct kiln_ray_objects){
+        seen_in(p->boxes, frame->backdrop->counts.x, left, top, columns),
+        seen_in(p->spheres, frame->shapes->counts.x, left, top, columns),
+        seen_in(p->cylinders, frame->shapes->counts.y, left, top, columns),
+        seen_in(p->capsules, frame->shapes->more.x, left, top, columns),
+        seen_in(p->turned, frame->shapes->more.y, left, top, columns),
+        first_bits(frame->shapes->more.z)};
+}
+
+SIMD void store_colors(float *to, const struct ray_color *color, uint32_t count)
+{
+    _Alignas(64) float channels[4][LANES];
+    vf_store(channels[0], color->rgb.x);
+    vf_store(channels[1], color->rgb.y);
+    vf_store(channels[2], color->rgb.z);
+    vf_store(channels[3], color->alpha);
+    for (uint32_t i = 0; i < count; i++, to += 4) {
+        for (int c = 0; c < 4; c++)
+            to[c] = channels[c][i];
+    }
+}
+
+SIMD void store_numbers(float *to, vf numbers, uint32_t count)
+{
+    if (count == LANES) {
+        vf_store(to, numbers);
+        return;
+    }
+    _Alignas(64) float all[LANES];
+    vf_store(all, numbers);
+    for (uint32_t i = 0; i < count; i++)
+        to[i] = all[i];
+}
+
+/* Pixels from (x, y) on, up to LANES of a row. */
+SIMD void cast_pixels(const struct kiln_backdrop_picture *p, const struct kiln_ray_objects *objects,
+                      uint32_t x, uint32_t y)
+{
+    const struct kiln_ray_frame *frame = p->frame;
+    uint32_t left = p->width - x, count = left < LANES ? left : LANES;
+    size_t first = (size_t)y * p->width + x;
+    vi column = vi_count() + (int32_t)x;
+    vi last = vi_all((int32_t)p->width - 1);
+    column = vi_select(column < last, column, last);
+    const struct eye_rays eye = aim(frame, column, vi_all((int32_t)y));
+    const struct sight seen = look(frame, objects, &eye);
+    vf surface = seen.first.surface;
+    if (frame->meshes)
+        surface = mark_mesh_edges(frame, &eye.place, surface, -((column + (int32_t)y) & 1));
+    surface = 2.0f * surface + seen.sunlit;
+    store_colors(p->color + 4 * first, &seen.color, count);
+    store_numbers(p->depth + first, seen.first.t, count);
+    store_numbers(p->surfaces + first, surface, count);
+}
+
+static uint32_t rows_from(const struct kiln_backdrop_picture *p, uint32_t y)
+{
+    return y + TILE < p->height ? y + TILE : p->height;
+}
+
+static void cast_rows(const struct kiln_backdrop_picture *p, uint32_t y)
+{
+    uint32_t y_to = rows_from(p, y);
+    for (uint32_t strip = 0; strip < p->width; strip += STRIP) {
+        const struct kiln_ray_objects objects = find_objects(p, strip, y, STRIP);
+        uint32_t x_to = strip + STRIP < p->width ? strip + STRIP : p->width;
+        for (uint32_t row = y; row < y_to; row++) {
+            for (uint32_t x = strip; x < x_to; x += LANES)
+                cast_pixels(p, &objects, x, row);
+        }
+    }
+}
+
+/* ---- edges ----------------------------------------------------------------------------------- */
+
+/* The sun's light may change by this much from a pixel to the next: a penumbra four wide. Surfaces
+ * differ by more. */
+static const float WIDE = 0.25f;
+
+static inline int32_t within(int32_t x, uint32_t size)
+{
+    return x < 0 ? 0 : x < (int32_t)size ? x : (int32_t)size - 1;
+}
+
+static inline const float *surface_row(const struct kiln_backdrop_picture *p, int32_t y)
+{
+    return p->surfaces + (size_t)within(y, p->height) * p->width;
+}
+
+/* Whether two neighbours in the tile, or just around it, show different things. */
+static bool has_edge(const struct kiln_backdrop_picture *p, int32_t x, int32_t y)
+{
+    float steepest = 0.0f, above[TILE + 2] = {0};
+    for (int32_t j = -1; j <= TILE; j++) {
+        const float *from = surface_row(p, y + j);
+        float row[TILE + 2];
+        if (x > 0 && x + TILE < (int32_t)p->width) {
+            memcpy(row, from + x - 1, sizeof row);
+        } else {
+            for (int32_t i = 0; i < TILE + 2; i++)
+                row[i] = from[within(x - 1 + i, p->width)];
+        }
+        float steps[TILE + 2] = {0};
+        for (int i = 1; i < TILE + 2; i++)
+            steps[i] = fabsf(row[i] - row[i - 1]);
+        for (int i = 0; j >= 0 && i < TILE + 2; i++)
+            steps[i] = exact_max(steps[i], fabsf(row[i] - above[i]));
+        for (int i = 0; i < TILE + 2; i++)
+            steepest = exact_max(steepest, steps[i]);
+        memcpy(above, row, sizeof above);
+    }
+    return steepest > WIDE;
+}
+
+SIMD void store_tile(const struct kiln_backdrop_picture *p, const struct ray_color *color, vi pixel,
+                     vi inside)
+{
+    _Alignas(64) float channels[4 * LANES];
+    store_colors(channels, color, LANES);
+    for (int i = 0; i < LANES; i++) {
+        if (inside[i])
+            memcpy(p->color + 4 * (size_t)pixel[i], channels + 4 * (size_t)i, 4 * sizeof *channels);
+    }
+}
+
+static void antialias_tile(const struct kiln_backdrop_picture *p, uint32_t x, uint32_t y)
+{
+    const struct kiln_ray_frame *frame = p->frame;
+    const struct kiln_ray_objects objects = find_objects(p, x, y, TILE);
+    for (int32_t i = 0; i < TILE * TILE; i += LANES) {
+        vi number = vi_count() + i;
+        vi column = number % TILE + (int32_t)x, row = number / TILE + (int32_t)y;
+        vi inside = (column < (int32_t)p->width) & (row < (int32_t)p->height);
+        if (!any(inside))
+            continue;
+        vi pixel = row * (int32_t)p->width + column, zero = vi_all(0);
+        const struct eye_rays center =
+            aim(frame, vi_select(inside, column, zero), vi_select(inside, row, zero));
+        struct ray_color sum = {{{0}, {0}, {0}}, {0}};
+        for (int s = 0; s < KILN_EDGE_SAMPLES; s++) {
+            const struct ray_place place = sample_place(frame, &center.place, s);
+            const struct eye_rays eye = aim_at(frame, &place);
+            const struct sight seen = look(frame, &objects, &eye);
+            sum.rgb = vf3_add(sum.rgb, seen.color.rgb);
+            sum.alpha += seen.color.alpha;
+        }
+        const vf share = vf_all(1.0f / (float)KILN_EDGE_SAMPLES);
+        const struct ray_color mean = {vf3_scale(sum.rgb, share), sum.alpha * share};
+        store_tile(p, &mean, pixel, inside);
+    }
+}
+
+static void antialias_rows(const struct kiln_backdrop_picture *p, uint32_t y)
+{
+    for (uint32_t x = 0; x < p->width; x += TILE) {
+        if (has_edge(p, (int32_t)x, (int32_t)y))
+            antialias_tile(p, x, y);
+    }
+}
+
+const struct kiln_backdrop_rows KILN_SIMD_NAME(kiln_backdrop_rows) = {
+    .cast = cast_rows,
+    .antialias = antialias_rows,
+};

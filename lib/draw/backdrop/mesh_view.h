@@ -1,0 +1,44 @@
+/* Meshes as camera and sun see them, on the host: which triangle each ray of the picture meets, and
+ * maps of what lies in the sun's light. */
+#ifndef KILN_DRAW_MESH_VIEW_H
+#define KILN_DRAW_MESH_VIEW_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "asset/image/pyramid.h"
+#include "draw/moment/shapes.h"
+
+enum {
+    KILN_SHADOW_ONE = 65535,
+    KILN_HIT_LAYERS = 1 + KILN_EDGE_SAMPLES, /* the centres of pixels, and their samples */
+    KILN_SHADOW_LEVELS = 11,                 /* of half the edge each, down to 1 texel */
+    KILN_SHADOW_TEXELS = (4 * KILN_SHADOW_EDGE * KILN_SHADOW_EDGE - 1) / 3, /* of all of them */
+};
+
+/* A triangle along rays (u, v, -1) in view space: planes over u and v, as factors of u, v and 1. */
+struct kiln_mesh_triangle {
+    float nearness[3];  /* 1 / depth, 1/m */
+    float normal[3][3]; /* in the world, of any length, by axis */
+    float face[3];      /* in the world, towards the eye */
+    int32_t mesh;       /* in the scene's order */
+};
+
+/* Where a triangle's places are in the texture of paint, times nearness: planes over u and v. */
+struct kiln_mesh_uvs {
+    float u[3], v[3];
+};
+
+struct kiln_mesh_view {
+    const struct kiln_mesh_triangle *triangles; /* of all meshes */
+    const int32_t *hits; /* by row, layer and column: 1 + the triangle that is nearest; 0: none */
+    size_t pitch;        /* columns */
+    const struct kiln_mesh_uvs *uvs; /* of all triangles; NULL: no mesh takes paint */
+    const struct kiln_pyramid *paint[KILN_MAX_MESHES]; /* NULL: takes none */
+    /* Of each mesh, level by level: the part of a texel that the mesh is in in the lower 16 bits,
+     * and its mean distance there times that in the upper ones, each in parts of KILN_SHADOW_ONE;
+     * the distance is 0 nearest to the sun and 1 farthest. */
+    const uint32_t *shadows[KILN_MAX_MESHES];
+};
+
+#endif

@@ -1,0 +1,379 @@
+/* Each triangle becomes a pyramid with its tip in the eye, whose sides are planes over the picture.
+ * What is nearest is found band by band, at the centres of pixels and at the samples of edges at
+ * once, as a number of a triangle; rays take depth and normal from the triangle itself.
+ */
+#include "draw/backdrop/meshes_cpu.h"
+
+#include <assert.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "draw/light/mesh_shadow.h"
+#include "shared/exact.h"
+
+enum { AT_A_TIME = 512 };
+
+static const float NEAREST = 0.01f; /* m */
+
+static_assert((int)KILN_HIT_LAYERS == (int)KILN_MESH_LAYERS, "a layer for each ray of a pixel");
+
+struct kiln_meshes_cpu {
+    const struct kiln_meshes *meshes;
+    uint32_t width, height;
+    float3 *seen, *normals;               /* of all vertices: in view space, in the world */
+    struct kiln_mesh_triangle *triangles; /* of all meshes */
+    struct kiln_mesh_uvs *uvs;            /* the same; NULL: none takes paint */
+    int32_t *hits;
+    bool *empty; /* bands in whose hits there is nothing */
+    struct kiln_mesh_canvas canvas;
+    struct kiln_mesh_shadow shadows[KILN_MAX_MESHES];
+    struct kiln_mesh_view view;
+};
+
+/* Of the meshes before one of them. */
+static size_t vertices_before(const struct kiln_meshes *meshes, uint32_t end)
+{
+    size_t count = 0;
+    for (uint32_t i = 0; i < end; i++)
+        count += meshes->loaded[i]->vertex_count;
+    return count;
+}
+
+static size_t triangles_before(const struct kiln_meshes *meshes, uint32_t end)
+{
+    size_t count = 0;
+    for (uint32_t i = 0; i < end; i++)
+        count += meshes->loaded[i]->triangle_count;
+    return count;
+}
+
+static bool allocate(struct kiln_meshes_cpu *m, struct kiln_threads *threads)
+{
+    size_t vertices = vertices_before(m->meshes, m->meshes->count);
+    size_t triangles = triangles_before(m->meshes, m->meshes->count);
+    size_t widest = m->width > KILN_SHADOW_EDGE ? m->width : KILN_SHADOW_EDGE;
+    size_t pitch = widest + KILN_MESH_PAD,
+           bands = (m->height + KILN_MESH_ROWS - 1) / KILN_MESH_ROWS;
+    if (vertices == 0 || triangles == 0) /* no mesh is empty */
+        return false;
+    m->seen = calloc(vertices, sizeof *m->seen);
+    m->normals = calloc(vertices, sizeof *m->normals);
+    m->triangles = calloc(triangles, sizeof *m->triangles);
+    if (m->meshes->painted)
+        m->uvs = calloc(triangles, sizeof *m->uvs);
+    m->hits = calloc(bands * KILN_MESH_ROWS * KILN_HIT_LAYERS * pitch, sizeof *m->hits);
+    m->empty = malloc(bands * sizeof *m->empty);
+    struct kiln_mesh_canvas *canvas = &m->canvas;
+    canvas->threads = threads;
+    canvas->pitch = pitch;
+    canvas->strip = (size_t)KILN_MESH_ROWS * KILN_HIT_LAYERS * pitch;
+    canvas->triangles = calloc(triangles, sizeof *canvas->triangles);
+    canvas->nearness =
+        malloc(kiln_threads_count(threads) * canvas->strip * sizeof *canvas->nearness);
+    if (m->empty)
+        memset(m->empty, 1, bands * sizeof *m->empty);
+    return m->seen && m->normals && m->triangles && (m->uvs || !m->meshes->painted) && m->hits &&
+           m->empty && canvas->triangles && canvas->nearness;
+}
+
+struct kiln_meshes_cpu *kiln_meshes_cpu_create(const struct kiln_scene *scene,
+                                               const struct kiln_meshes *meshes,
+                                               struct kiln_threads *threads,
+                                               struct kiln_error *error)
+{
+    enum kiln_simd simd;
+    if (!kiln_simd_choose(&simd, error))
+        return NULL;
+    struct kiln_meshes_cpu *m = calloc(1, sizeof *m);
+    if (m) {
+        m->meshes = meshes;
+        m->width = scene->width;
+        m->height = scene->height;
+        m->canvas.rows = KILN_SIMD_PICK(kiln_mesh_rows, simd);
+    }
+    if (!m || !allocate(m, threads)) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "meshes: out of memory");
+        kiln_meshes_cpu_destroy(&m);
+        return NULL;
+    }
+    m->view = (struct kiln_mesh_view){
+        .triangles = m->triangles, .uvs = m->uvs, .hits = m->hits, .pitch = m->canvas.pitch};
+    for (uint32_t i = 0; i < meshes->count; i++) {
+        if (!kiln_mesh_shadow_init(&m->shadows[i], error)) {
+            kiln_meshes_cpu_destroy(&m);
+            return NULL;
+        }
+        m->view.shadows[i] = m->shadows[i].texels;
+        if (meshes->painted)
+            m->view.paint[i] = kiln_painted_picture(meshes->painted, i);
+    }
+    return m;
+}
+
+void kiln_meshes_cpu_destroy(struct kiln_meshes_cpu **meshes)
+{
+    struct kiln_meshes_cpu *m = *meshes;
+    if (!m)
+        return;
+    for (uint32_t i = 0; i < KILN_MAX_MESHES; i++)
+        kiln_mesh_shadow_finish(&m->shadows[i]);
+    free(m->seen);
+    free(m->normals);
+    free(m->triangles);
+    free(m->uvs);
+    free(m->hits);
+    free(m->empty);
+    free(m->canvas.triangles);
+    free(m->canvas.nearness);
+    kiln_row_lists_finish(&m->canvas.lists);
+    free(m);
+    *meshes = NULL;
+}
+
+const struct kiln_mesh_view *kiln_meshes_cpu_view(const struct kiln_meshes_cpu *meshes)
+{
+    return &meshes->view;
+}
+
+/* ---- triangles ------------------------------------------------------------------------------- */
+
+/* One mesh on its way into the picture. */
+struct placing {
+    struct kiln_meshes_cpu *m;
+    const struct kiln_view *view;
+    const struct kiln_draw_mesh *placed;
+    const struct kiln_mesh *mesh;
+    int32_t number;
+    float3 *seen, *normals; /* of the mesh, as below */
+    struct kiln_mesh_triangle *triangles;
+    struct kiln_mesh_uvs *uvs; /* NULL: takes no paint */
+    struct kiln_flat_triangle *flat;
+};
+
+static float3 turn(const float4 rows[3], const float v[3])
+{
+    return (float3){rows[0].x * v[0] + rows[0].y * v[1] + rows[0].z * v[2],
+                    rows[1].x * v[0] + rows[1].y * v[1] + rows[1].z * v[2],
+                    rows[2].x * v[0] + rows[2].y * v[1] + rows[2].z * v[2]};
+}
+
+static float3 shift(const float4 rows[3], float3 v)
+{
+    return (float3){v.x + rows[0].w, v.y + rows[1].w, v.z + rows[2].w};
+}
+
+static void place_vertices(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct placing *p = context;
+    for (size_t i = begin; i < end; i++) {
+        const float *vertex = p->mesh->vertices[i];
+        float3 world = shift(p->placed->to_world, turn(p->placed->to_world, vertex));
+        const float at[3] = {world.x, world.y, world.z};
+        p->seen[i] = shift(p->view->world_to_view, turn(p->view->world_to_view, at));
+        p->normals[i] = turn(p->placed->to_world, vertex + 3);
+    }
+}
+
+/* The side of the pyramid through an edge; the same, times -1, for the edge's other direction. */
+static float3 side_of(float3 a, float3 b)
+{
+    bool swap = a.x > b.x || (a.x == b.x && (a.y > b.y || (a.y == b.y && a.z > b.z)));
+    float3 from = swap ? b : a, to = swap ? a : b;
+    return float3_scale(float3_cross(from, float3_sub(to, from)), swap ? -1.0f : 1.0f);
+}
+
+/* Its value along (u, v, -1). */
+static void set_plane(float plane[3], float3 normal)
+{
+    plane[0] = normal.x;
+    plane[1] = normal.y;
+    plane[2] = -normal.z;
+}
+
+static struct kiln_row_range pixels_between(float low, float high, float size)
+{
+    return (struct kiln_row_range){(int16_t)exact_clamp(low - 1.0f, 0.0f, size),
+                                   (int16_t)exact_clamp(high + 2.0f, 0.0f, size)};
+}
+
+/* The pixels that it may touch. Where it reaches behind the eye, that may be any. */
+static void find_bounds(const struct kiln_view *view, const float3 p[3],
+                        struct kiln_flat_triangle *flat)
+{
+    const float width = view->frustum.z, height = view->frustum.w;
+    float low[2] = {1e9f, 1e9f}, high[2] = {-1e9f, -1e9f};
+    int before = 0;
+    for (int k = 0; k < 3; k++) {
+        float depth = -p[k].z;
+        if (depth < NEAREST)
+            continue;
+        before++;
+        float x = (p[k].x / (depth * view->frustum.x) + 1.0f) * 0.5f * width;
+        float y = (1.0f - p[k].y / (depth * view->frustum.y)) * 0.5f * height;
+        low[0] = exact_min(low[0], x);
+        high[0] = exact_max(high[0], x);
+        low[1] = exact_min(low[1], y);
+        high[1] = exact_max(high[1], y);
+    }
+    if (before == 0)
+        return;
+    bool any = before < 3;
+    flat->x = pixels_between(any ? 0.0f : low[0], any ? width : high[0], width);
+    flat->y = pixels_between(any ? 0.0f : low[1], any ? height : high[1], height);
+}
+
+static void place_uvs(const struct placing *p, size_t i, float volume)
+{
+    struct kiln_mesh_uvs *uvs = &p->uvs[i];
+    *uvs = (struct kiln_mesh_uvs){{0}, {0}};
+    for (int k = 0; k < 3; k++) {
+        const float *uv = p->mesh->uvs[p->mesh->triangles[i][k]];
+        for (int c = 0; c < 3; c++) {
+            const float part = p->flat[i].edges[k][c] / volume;
+            uvs->u[c] += part * uv[0];
+            uvs->v[c] += part * uv[1];
+        }
+    }
+}
+
+static void place_triangle(const struct placing *p, size_t i)
+{
+    const uint32_t *corners = p->mesh->triangles[i];
+    struct kiln_mesh_triangle *t = &p->triangles[i];
+    struct kiln_flat_triangle *flat = &p->flat[i];
+    *flat = (struct kiln_flat_triangle){.y = {0, 0}};
+    const float3 seen[3] = {p->seen[corners[0]], p->seen[corners[1]], p->seen[corners[2]]};
+    float3 face = float3_cross(float3_sub(seen[1], seen[0]), float3_sub(seen[2], seen[0]));
+    float volume = float3_dot(seen[0], face), sign = volume < 0.0f ? -1.0f : 1.0f;
+    /* Seen from the side, it has no pixels and no depth. */
+    float size2 = float3_dot(face, face) * float3_dot(seen[0], seen[0]);
+    if (!(volume * volume > 1e-10f * size2))
+        return;
+    set_plane(t->nearness, float3_scale(face, 1.0f / volume));
+    memset(t->normal, 0, sizeof t->normal);
+    for (int k = 0; k < 3; k++) {
+        float3 side = float3_scale(side_of(seen[(k + 1) % 3], seen[(k + 2) % 3]), sign);
+        set_plane(flat->edges[k], side);
+        const float3 normal = p->normals[corners[k]];
+        for (int c = 0; c < 3; c++) {
+            float part = flat->edges[k][c] / exact_abs(volume);
+            t->normal[0][c] += part * normal.x;
+            t->normal[1][c] += part * normal.y;
+            t->normal[2][c] += part * normal.z;
+        }
+    }
+    if (p->uvs)
+        place_uvs(p, i, exact_abs(volume));
+    memcpy(flat->nearness, t->nearness, sizeof flat->nearness);
+    const float4 *rows = p->view->world_to_view;
+    t->face[0] = -sign * (rows[0].x * face.x + rows[1].x * face.y + rows[2].x * face.z);
+    t->face[1] = -sign * (rows[0].y * face.x + rows[1].y * face.y + rows[2].y * face.z);
+    t->face[2] = -sign * (rows[0].z * face.x + rows[1].z * face.y + rows[2].z * face.z);
+    t->mesh = p->number;
+    find_bounds(p->view, seen, flat);
+}
+
+static void place_triangles(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    for (size_t i = begin; i < end; i++)
+        place_triangle(context, i);
+}
+
+static void place_meshes(struct kiln_meshes_cpu *m, const struct kiln_view *view,
+                         const struct kiln_draw_shapes *shapes)
+{
+    for (uint32_t i = 0; i < m->meshes->count; i++) {
+        const struct kiln_mesh *mesh = m->meshes->loaded[i];
+        size_t vertex = vertices_before(m->meshes, i), triangle = triangles_before(m->meshes, i);
+        struct placing placing = {
+            .m = m,
+            .view = view,
+            .placed = &shapes->meshes[i],
+            .mesh = mesh,
+            .number = (int32_t)i,
+            .seen = m->seen + vertex,
+            .normals = m->normals + vertex,
+            .triangles = m->triangles + triangle,
+            .uvs = mesh->uvs ? m->uvs + triangle : NULL,
+            .flat = m->canvas.triangles + triangle,
+        };
+        struct kiln_threads *threads = m->canvas.threads;
+        kiln_threads_for(threads, mesh->vertex_count, AT_A_TIME, place_vertices, &placing);
+        kiln_threads_for(threads, mesh->triangle_count, AT_A_TIME, place_triangles, &placing);
+    }
+}
+
+/* ---- what rays meet -------------------------------------------------------------------------- */
+
+struct finding {
+    struct kiln_meshes_cpu *m;
+    const struct kiln_view *view;
+};
+
+static void find_band(const struct finding *f, uint32_t band, float *nearness)
+{
+#define PAIR(x, y)                                                                                 \
+    {                                                                                              \
+        x, y                                                                                       \
+    }
+    struct kiln_meshes_cpu *m = f->m;
+    const float4 frustum = f->view->frustum;
+    const struct kiln_row_lists *lists = &m->canvas.lists;
+    size_t count = lists->first[band + 1] - lists->first[band],
+           row = KILN_HIT_LAYERS * m->view.pitch;
+    uint32_t y = band * KILN_MESH_ROWS, left = m->height - y;
+    int32_t *hits = m->hits + y * row;
+    if (!m->empty[band])
+        memset(hits, 0, KILN_MESH_ROWS * row * sizeof *hits);
+    m->empty[band] = count == 0;
+    if (count == 0)
+        return;
+    memset(nearness, 0, KILN_MESH_ROWS * row * sizeof *nearness);
+    const struct kiln_mesh_strip strip = {
+        .width = m->width,
+        .y = y,
+        .rows = left < KILN_MESH_ROWS ? left : KILN_MESH_ROWS,
+        .u = -frustum.x,
+        .v = frustum.y,
+        .u_step = 2.0f * frustum.x / frustum.z,
+        .v_step = -2.0f * frustum.y / frustum.w,
+        .layers = KILN_HIT_LAYERS,
+        .offsets = {{0.5f, 0.5f}, KILN_EDGE_OFFSETS(PAIR)},
+        .most = 1.0f / NEAREST,
+        .nearness = nearness,
+        .triangles = hits,
+        .pitch = m->view.pitch,
+    };
+    m->canvas.rows->draw(&strip, m->canvas.triangles, lists->list + lists->first[band], count);
+#undef PAIR
+}
+
+static void find_bands(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    const struct finding *f = context;
+    for (size_t band = begin; band < end; band++)
+        find_band(f, (uint32_t)band, f->m->canvas.nearness + worker * f->m->canvas.strip);
+}
+
+bool kiln_meshes_cpu_run(struct kiln_meshes_cpu *meshes, const struct kiln_view *view,
+                         const struct kiln_draw_backdrop *backdrop,
+                         const struct kiln_draw_shapes *shapes, struct kiln_error *error)
+{
+    struct kiln_meshes_cpu *m = meshes;
+    for (uint32_t i = 0; i < m->meshes->count; i++) {
+        if (!kiln_mesh_shadow_update(&m->shadows[i], &m->canvas, m->meshes->loaded[i],
+                                     &shapes->meshes[i], shapes, backdrop->sun_direction, error))
+            return false;
+    }
+    place_meshes(m, view, shapes);
+    uint32_t triangles = (uint32_t)triangles_before(m->meshes, m->meshes->count);
+    if (!kiln_row_lists_fill(&m->canvas.lists, &m->canvas.triangles->y, sizeof *m->canvas.triangles,
+                             triangles, m->height, KILN_MESH_ROWS, error))
+        return false;
+    struct finding finding = {m, view};
+    kiln_threads_for(m->canvas.threads, m->canvas.lists.bands, 1, find_bands, &finding);
+    return true;
+}

@@ -1,0 +1,26 @@
+/* Technique backdrop=cpu: meshes as camera and sun see them. */
+#ifndef KILN_DRAW_MESHES_CPU_H
+#define KILN_DRAW_MESHES_CPU_H
+
+#include "base/thread.h"
+#include "draw/backdrop/mesh_view.h"
+#include "draw/moment/meshes.h"
+
+struct kiln_meshes_cpu;
+
+/* For a scene with meshes; all three must outlive it. NULL with an error. */
+struct kiln_meshes_cpu *kiln_meshes_cpu_create(const struct kiln_scene *scene,
+                                               const struct kiln_meshes *meshes,
+                                               struct kiln_threads *threads,
+                                               struct kiln_error *error);
+void kiln_meshes_cpu_destroy(struct kiln_meshes_cpu **meshes);
+
+/* Finds what the rays of the view meet, and draws the sun's maps of those that moved. */
+bool kiln_meshes_cpu_run(struct kiln_meshes_cpu *meshes, const struct kiln_view *view,
+                         const struct kiln_draw_backdrop *backdrop,
+                         const struct kiln_draw_shapes *shapes, struct kiln_error *error);
+
+/* As of the last run; it stays where it is. */
+const struct kiln_mesh_view *kiln_meshes_cpu_view(const struct kiln_meshes_cpu *meshes);
+
+#endif

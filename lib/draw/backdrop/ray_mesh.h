@@ -1,0 +1,170 @@
+/* Meshes along vectors of rays: triangles that were found beforehand (mesh_rows.h). As
+ * shaders/draw/backdrop/mesh_trace.glsl has it. */
+#ifndef KILN_DRAW_RAY_MESH_H
+#define KILN_DRAW_RAY_MESH_H
+
+#include "draw/backdrop/ray_picture.h"
+#include "draw/backdrop/ray_shapes.h"
+
+/* Rays of a layer. */
+struct ray_place {
+    vf u, v;   /* the ray is (u, v, -1) in view space */
+    vi hit;    /* in the meshes' hits, of layer 0 */
+    int layer; /* -1: other rays than those from the eye */
+};
+
+struct ray_mesh_hit {
+    vi triangle; /* -1: none */
+    vi mesh;
+    vf depth;
+    struct vf3 normal;
+};
+
+SIMD vf read_plane(const float *plane, vi triangle, const struct ray_place *at)
+{
+    return vf_gather(plane, triangle) * at->u + vf_gather(plane + 1, triangle) * at->v +
+           vf_gather(plane + 2, triangle);
+}
+
+SIMD vi read_hit(const struct kiln_mesh_view *meshes, const struct ray_place *at, int layer)
+{
+    return vi_gather(meshes->hits + meshes->pitch * (size_t)layer, at->hit) - 1;
+}
+
+/* Both sides of a triangle are seen; the normal is turned to the side that faces the eye. */
+SIMD struct ray_mesh_hit find_mesh(const struct kiln_mesh_view *meshes, vi triangle,
+                                   const struct ray_place *at)
+{
+    const struct kiln_mesh_triangle *all = meshes->triangles;
+    const int stride = (int)(sizeof *all / sizeof(float));
+    vi index = vi_select(triangle >= 0, triangle * stride, vi_all(0));
+    struct ray_mesh_hit hit = {.triangle = triangle};
+    hit.depth = 1.0f / read_plane(all->nearness, index, at);
+    hit.normal =
+        (struct vf3){read_plane(all->normal[0], index, at), read_plane(all->normal[1], index, at),
+                     read_plane(all->normal[2], index, at)};
+    struct vf3 face = {vf_gather(all->face, index), vf_gather(all->face + 1, index),
+                       vf_gather(all->face + 2, index)};
+    vf length2 = vf_max(vf3_dot(hit.normal, hit.normal), vf_all(1e-24f));
+    vf scale = vf_rsqrt(length2);
+    scale = vf_select(vf3_dot(hit.normal, face) < 0.0f, -scale, scale);
+    hit.normal = vf3_scale(hit.normal, scale);
+    hit.mesh = vi_gather(&all->mesh, index);
+    return hit;
+}
+
+/* How far what is linear along a triangle moves from this pixel to the next one, in u and v. */
+struct ray_drift {
+    vf u, v;
+};
+
+SIMD struct ray_drift find_slope(const float *plane, const float *nearness, vi uvs, vi triangle,
+                                 vf value, vf depth)
+{
+    return (struct ray_drift){
+        (vf_gather(plane, uvs) - value * vf_gather(nearness, triangle)) * depth,
+        (vf_gather(plane + 1, uvs) - value * vf_gather(nearness + 1, triangle)) * depth};
+}
+
+/* What is painted, over the mesh's own colour. A pixel covers as much of the texture as the area of
+ * its slopes says, or as half of the longer one. */
+SIMD struct vf3 add_paint(const struct kiln_ray_frame *frame, const struct ray_place *at,
+                          const struct ray_mesh_hit *found, vi wanted, struct vf3 albedo)
+{
+    const struct kiln_mesh_view *meshes = frame->meshes;
+    const int stride = (int)(sizeof *meshes->triangles / sizeof(float));
+    const int uvs_stride = (int)(sizeof *meshes->uvs / sizeof(float));
+    vi triangle = vi_select(found->triangle >= 0, found->triangle * stride, vi_all(0));
+    vi uvs = vi_select(found->triangle >= 0, found->triangle * uvs_stride, vi_all(0));
+    const float *nearness = meshes->triangles->nearness;
+    vf u = read_plane(meshes->uvs->u, uvs, at) * found->depth;
+    vf v = read_plane(meshes->uvs->v, uvs, at) * found->depth;
+    const float4 frustum = frame->view->frustum;
+    const float right = 2.0f * frustum.x / frustum.z, down = 2.0f * frustum.y / frustum.w;
+    struct ray_drift of_u = find_slope(meshes->uvs->u, nearness, uvs, triangle, u, found->depth);
+    struct ray_drift of_v = find_slope(meshes->uvs->v, nearness, uvs, triangle, v, found->depth);
+    vf area = vf_abs(of_u.u * of_v.v - of_u.v * of_v.u) * (right * down);
+    vf across = (of_u.u * of_u.u + of_v.u * of_v.u) * (right * right);
+    vf along = (of_u.v * of_u.v + of_v.v * of_v.v) * (down * down);
+    vf square = vf_max(area, vf_max(across, along) * 0.25f);
+    vf level = vf_log2(vf_min(vf_max(square, vf_all(1e-12f)), vf_all(1e12f))) * 0.5f;
+    for (int lane = 0; lane < LANES; lane++) {
+        const struct kiln_pyramid *paint = wanted[lane] ? meshes->paint[found->mesh[lane]] : NULL;
+        if (!paint)
+            continue;
+        const struct ray_levels levels =
+            choose_levels(paint, level[lane] + (float)(paint->levels - 1));
+        const ray_texel texel =
+            read_picture(paint, &levels, fraction(u[lane]), fraction(v[lane]), true);
+        const float left = 1.0f - texel[3];
+        albedo.x[lane] = albedo.x[lane] * left + texel[0];
+        albedo.y[lane] = albedo.y[lane] * left + texel[1];
+        albedo.z[lane] = albedo.z[lane] * left + texel[2];
+    }
+    return albedo;
+}
+
+SIMD void trace_meshes(const struct kiln_ray_frame *frame, const struct ray_place *at,
+                       struct ray_hit *nearest)
+{
+    vi triangle = read_hit(frame->meshes, at, at->layer);
+    if (!any(triangle >= 0))
+        return;
+    const struct ray_mesh_hit found = find_mesh(frame->meshes, triangle, at);
+    vi nearer = (triangle >= 0) & (found.depth < nearest->t);
+    if (!any(nearer))
+        return;
+    const float *colors = &frame->shapes->meshes[0].color.x;
+    const int stride = (int)(sizeof frame->shapes->meshes[0] / sizeof(float));
+    vi index = found.mesh * stride;
+    nearest->t = vf_select(nearer, found.depth, nearest->t);
+    nearest->surface = vf_select(nearer, vf_of(found.mesh * 4 + RAY_MESHES), nearest->surface);
+    nearest->normal = vf3_select(nearer, found.normal, nearest->normal);
+    struct vf3 albedo = {vf_gather(colors, index), vf_gather(colors + 1, index),
+                         vf_gather(colors + 2, index)};
+    if (frame->meshes->uvs)
+        albedo = add_paint(frame, at, &found, nearer, albedo);
+    nearest->albedo = vf3_select(nearer, albedo, nearest->albedo);
+}
+
+/* The place of a sample of the same pixel. */
+SIMD struct ray_place sample_place(const struct kiln_ray_frame *frame, const struct ray_place *at,
+                                   int sample)
+{
+#define PAIR(x, y)                                                                                 \
+    {                                                                                              \
+        x, y                                                                                       \
+    }
+    static const float offsets[KILN_EDGE_SAMPLES][2] = {KILN_EDGE_OFFSETS(PAIR)};
+#undef PAIR
+    const float4 frustum = frame->view->frustum;
+    float right = (offsets[sample][0] - 0.5f) * 2.0f * frustum.x / frustum.z;
+    float down = (offsets[sample][1] - 0.5f) * 2.0f * frustum.y / frustum.w;
+    return (struct ray_place){at->u + right, at->v - down, at->hit, 1 + sample};
+}
+
+/* A mesh has edges inside, where it hides itself or bends. The surface's number changes there, and
+ * so that a whole tile of edges is seen, too, it changes from pixel to pixel. */
+SIMD vf mark_mesh_edges(const struct kiln_ray_frame *frame, const struct ray_place *at, vf surface,
+                        vi odd)
+{
+    vi seen = surface >= (float)RAY_MESHES;
+    if (!any(seen))
+        return surface;
+    vi center = read_hit(frame->meshes, at, 0), edge = vi_all(0);
+    const struct ray_mesh_hit middle = find_mesh(frame->meshes, center, at);
+    for (int s = 0; s < KILN_EDGE_SAMPLES; s++) {
+        const struct ray_place aside = sample_place(frame, at, s);
+        vi triangle = read_hit(frame->meshes, &aside, aside.layer);
+        vi other = seen & (triangle != center);
+        if (!any(other))
+            continue;
+        const struct ray_mesh_hit hit = find_mesh(frame->meshes, triangle, &aside);
+        edge |= other & ((triangle < 0) | (hit.mesh != middle.mesh) |
+                         (vf_abs(hit.depth - middle.depth) > 0.01f * middle.depth) |
+                         (vf3_dot(hit.normal, middle.normal) < 0.95f));
+    }
+    return surface + vf_where(edge, vf_select(odd, vf_all(2.0f), vf_all(1.0f)));
+}
+
+#endif

@@ -1,0 +1,168 @@
+/* Pictures of the floor and the sky along vectors of rays: as
+ * shaders/draw/backdrop/floor_image.glsl and sky_image.glsl have it. A texel is a vector of its
+ * own, fetched for one lane after the other.
+ */
+#ifndef KILN_DRAW_RAY_PICTURE_H
+#define KILN_DRAW_RAY_PICTURE_H
+
+#include "draw/backdrop/ray.h"
+#include "draw/vector/ray_math.h"
+
+enum { RAY_FLOOR_TAPS = 8 };
+
+typedef float ray_texel __attribute__((vector_size(16)));
+
+/* The colour in half floats: their bits, shifted, are floats 2^112 times too small. */
+static inline ray_texel read_texel(const uint16_t half[4])
+{
+    typedef uint16_t halves __attribute__((vector_size(8)));
+    typedef uint32_t widened __attribute__((vector_size(16)));
+    halves bits;
+    memcpy(&bits, half, sizeof bits);
+    return (ray_texel)(__builtin_convertvector(bits, widened) << 13) * 0x1p112f;
+}
+
+static inline float fraction(float x)
+{
+    return x - floorf(x);
+}
+
+/* Linear between four texels of a level. u: 0 to 1, beyond which the picture repeats; v: the same,
+ * or clamped to the picture. */
+static inline ray_texel read_level(const struct kiln_pyramid *p, uint32_t level, float u, float v,
+                                   bool repeats_y)
+{
+    int32_t width = (int32_t)p->widths[level], height = (int32_t)p->heights[level];
+    float x = u * (float)width - 0.5f, y = v * (float)height - 0.5f;
+    float left = floorf(x), top = floorf(y), right = x - left, down = y - top;
+    int32_t x0 = (int32_t)left, x1 = x0 + 1 < width ? x0 + 1 : 0;
+    int32_t y0 = (int32_t)top, y1 = y0 + 1;
+    x0 = x0 < 0 ? width - 1 : x0;
+    if (y1 >= height)
+        y1 = repeats_y ? 0 : height - 1;
+    if (y0 < 0)
+        y0 = repeats_y ? height - 1 : 0;
+    const uint16_t(*upper)[4] = (const uint16_t(*)[4])p->texels + p->first[level];
+    const uint16_t(*lower)[4] = upper + (size_t)y1 * (size_t)width;
+    upper += (size_t)y0 * (size_t)width;
+    ray_texel a = read_texel(upper[x0]), b = read_texel(upper[x1]);
+    ray_texel c = read_texel(lower[x0]), d = read_texel(lower[x1]);
+    a += (b - a) * right;
+    c += (d - c) * right;
+    return a + (c - a) * down;
+}
+
+/* The levels of one lane. */
+struct ray_levels {
+    uint32_t fine, coarse;
+    float part; /* of the coarse one */
+};
+
+static inline struct ray_levels choose_levels(const struct kiln_pyramid *p, float level)
+{
+    float most = (float)(p->levels - 1);
+    level = level > 0.0f ? level : 0.0f;
+    level = level < most ? level : most;
+    uint32_t fine = (uint32_t)level;
+    return (struct ray_levels){fine, fine + 1 < p->levels ? fine + 1 : fine, level - (float)fine};
+}
+
+static inline ray_texel read_picture(const struct kiln_pyramid *p, const struct ray_levels *levels,
+                                     float u, float v, bool repeats_y)
+{
+    ray_texel fine = read_level(p, levels->fine, u, v, repeats_y);
+    if (levels->part > 0.0f)
+        fine += (read_level(p, levels->coarse, u, v, repeats_y) - fine) * levels->part;
+    return fine;
+}
+
+SIMD void set_lane(struct vf3 *color, int lane, ray_texel texel)
+{
+    color->x[lane] = texel[0];
+    color->y[lane] = texel[1];
+    color->z[lane] = texel[2];
+}
+
+/* ---- the floor ------------------------------------------------------------------------------- */
+
+/* A place on the floor, and the longer edge of what a pixel covers of it. */
+struct ray_patch {
+    vf x, z, longer_x, longer_z, level;
+};
+
+/* How far a place on the floor moves with the ray's direction. */
+SIMD void shift_on_floor(struct vf3 direction, float4 row, float factor, vf t, vf *x, vf *z)
+{
+    vf climb = (row.y * factor) / direction.y;
+    *x = t * (row.x * factor - direction.x * climb);
+    *z = t * (row.z * factor - direction.z * climb);
+}
+
+/* Along the longer edge several fetches lie; the shorter one chooses their level. */
+SIMD struct ray_patch find_patch(const struct kiln_ray_frame *frame, struct vf3 direction, vf t,
+                                 vf x, vf z)
+{
+    const struct kiln_view *view = frame->view;
+    vf ux, uz, vx, vz;
+    shift_on_floor(direction, view->world_to_view[0], 2.0f * view->frustum.x / view->frustum.z, t,
+                   &ux, &uz);
+    shift_on_floor(direction, view->world_to_view[1], 2.0f * view->frustum.y / view->frustum.w, t,
+                   &vx, &vz);
+    vf u2 = ux * ux + uz * uz, v2 = vx * vx + vz * vz;
+    vi along_u = u2 > v2;
+    vf length2 = vf_max(vf_select(along_u, u2, v2), vf_all(1e-18f));
+    vf inverse = vf_rsqrt(length2);
+    /* By the area: the two need not be square to each other. */
+    vf width = vf_abs(ux * vz - uz * vx) * inverse;
+    vf covered = vf_max(width, length2 * inverse * (1.0f / (float)RAY_FLOOR_TAPS));
+    vf texels = vf_min(vf_max(covered * frame->shapes->floor_map.z, vf_all(1e-6f)), vf_all(1e9f));
+    return (struct ray_patch){x, z, vf_select(along_u, ux, vx), vf_select(along_u, uz, vz),
+                              vf_log2(texels)};
+}
+
+SIMD struct vf3 floor_picture(const struct kiln_ray_frame *frame, const struct ray_patch *patch,
+                              vi wanted)
+{
+    const struct kiln_pyramid *picture = frame->floor_image;
+    const float4 map = frame->shapes->floor_map;
+    struct vf3 color = {{0}, {0}, {0}};
+    for (int lane = 0; lane < LANES; lane++) {
+        if (!wanted[lane])
+            continue;
+        const struct ray_levels levels = choose_levels(picture, patch->level[lane]);
+        ray_texel sum = {0};
+        for (int i = 0; i < RAY_FLOOR_TAPS; i++) {
+            float way = ((float)i + 0.5f) / (float)RAY_FLOOR_TAPS - 0.5f;
+            float u = fraction((patch->x[lane] + patch->longer_x[lane] * way) * map.x);
+            float v = fraction((patch->z[lane] + patch->longer_z[lane] * way) * map.y);
+            sum += read_picture(picture, &levels, u, v, true);
+        }
+        set_lane(&color, lane, sum * (1.0f / (float)RAY_FLOOR_TAPS));
+    }
+    return color;
+}
+
+/* ---- the sky --------------------------------------------------------------------------------- */
+
+/* Averaged over at least `angle` radians. The picture's middle lies towards -z. */
+SIMD struct vf3 sky_picture(const struct kiln_ray_frame *frame, struct vf3 direction, float angle,
+                            vi wanted)
+{
+    const struct kiln_pyramid *picture = frame->sky_image;
+    const float4 map = frame->shapes->sky_map;
+    const struct ray_levels levels =
+        choose_levels(picture, exact_log2(exact_max(angle * map.z, 1e-6f)));
+    vf flat2 = direction.x * direction.x + direction.z * direction.z;
+    vf flat_length = flat2 * vf_rsqrt(flat2);
+    vf u = vf_atan2(direction.x, -direction.z) * (0.5f / RAY_PI) + (0.5f + map.x);
+    vf v = vf_atan2(flat_length, direction.y) * (1.0f / RAY_PI);
+    u -= vf_floor(u);
+    struct vf3 color = {{0}, {0}, {0}};
+    for (int lane = 0; lane < LANES; lane++) {
+        if (wanted[lane])
+            set_lane(&color, lane, read_picture(picture, &levels, u[lane], v[lane], false) * map.y);
+    }
+    return color;
+}
+
+#endif

@@ -1,0 +1,517 @@
+/* The part of the sun that surfaces see past the backdrop's objects and past particles that are
+ * spheres: as shaders/draw/backdrop/surface.glsl, sun_cover.glsl, round.glsl, mesh_trace.glsl and
+ * sphere_shadow.glsl have it. What hides nothing from a lane multiplies its light by exactly 1, so
+ * that it does not matter which lanes share a vector.
+ */
+#ifndef KILN_DRAW_RAY_SUN_H
+#define KILN_DRAW_RAY_SUN_H
+
+#include "draw/backdrop/ray_turned.h"
+
+/* Where light starts from, and which lanes ask. */
+struct ray_shade {
+    struct vf3 origin, normal;
+    vi wanted;
+};
+
+SIMD vf clamp01(vf x)
+{
+    return vf_clamp(x, 0.0f, 1.0f);
+}
+
+/* The part of a disc on the far side of a line, by the line's signed distance in radii. */
+SIMD vf disc_cover(vf distance)
+{
+    vf x = clamp01(0.5f + 0.5f * distance);
+    return x * x * (3.0f - 2.0f * x);
+}
+
+/* Between two parallel lines, the distances to which are positive inside. */
+SIMD vf strip_cover(vf one, vf other, vf radius)
+{
+    vf scale = 1.0f / vf_max(radius, vf_all(1e-5f));
+    return vf_max(disc_cover(one * scale) + disc_cover(other * scale) - 1.0f, vf_all(0.0f));
+}
+
+/* ---- boxes ----------------------------------------------------------------------------------- */
+
+/* The strip between the edges where two pairs of faces meet; how far outside of it a ray is, m. */
+SIMD vf box_strip(vf in_a, vf in_b, vf out_a, vf out_b, float inverse_a, float inverse_b,
+                  float spread, vf *outside)
+{
+    float square_a = inverse_a * inverse_a, square_b = inverse_b * inverse_b;
+    float sum = 1.0f / (square_a + square_b), scale = sqrtf(sum);
+    vf one = (out_b - in_a) * scale, other = (out_a - in_b) * scale;
+    vf one_at = (in_a * square_b + out_b * square_a) * sum;
+    vf other_at = (in_b * square_a + out_a * square_b) * sum;
+    *outside = vf_max(*outside, -vf_min(one, other));
+    vf least = vf_all(1e-5f);
+    vf cover = disc_cover(one / vf_max(one_at * spread, least)) +
+               disc_cover(other / vf_max(other_at * spread, least)) - 1.0f;
+    return vf_max(cover, vf_all(0.0f));
+}
+
+#define BOX_EDGE 1e-4f /* m: what rounding puts a ray aside, and less than surfaces are */
+
+/* Of two strips; edges that look alike count once. */
+SIMD vf both_strips(vf a, vf b, float alike)
+{
+    return a * b + (vf_min(a, b) - a * b) * alike;
+}
+
+/* How much later a ray leaves a slab that passes `aside` of it, at most. */
+SIMD vf later(float inverse, vf aside)
+{
+    return aside * sqrtf(fmaxf(inverse * inverse - 1.0f, 0.0f));
+}
+
+SIMD vf box_cover(const struct ray_slabs *s, float3 inverse, float3 alike, float spread)
+{
+    vf outside = vf_all(0.0f);
+    vf xy = box_strip(s->in.x, s->in.y, s->out.x, s->out.y, inverse.x, inverse.y, spread, &outside);
+    vf yz = box_strip(s->in.y, s->in.z, s->out.y, s->out.z, inverse.y, inverse.z, spread, &outside);
+    vf xz = box_strip(s->in.x, s->in.z, s->out.x, s->out.z, inverse.x, inverse.z, spread, &outside);
+    vf cover = both_strips(both_strips(yz, xz, alike.z), xy, fmaxf(alike.x, alike.y));
+    vf aside = outside + BOX_EDGE;
+    vf out = vf_min(vf_min(s->out.x + later(inverse.x, aside), s->out.y + later(inverse.y, aside)),
+                    s->out.z + later(inverse.z, aside));
+    return vf_where(out > 0.0f, cover);
+}
+
+SIMD vf boxes_let_through(const struct kiln_ray_frame *frame, const struct ray_shade *shade)
+{
+    const struct kiln_draw_backdrop *b = frame->backdrop;
+    float3 inverse = frame->sun_inverse;
+    const struct vf3 inverses = {vf_all(inverse.x), vf_all(inverse.y), vf_all(inverse.z)};
+    vf visible = vf_all(1.0f);
+    for (uint32_t i = 0; i < b->counts.x; i++) {
+        struct ray_slabs s = cross_slabs(b->box_center[i], b->box_half[i], shade->origin, inverses);
+        if (!frame->soft_sun) {
+            vf out = vf_min(vf_min(s.out.x, s.out.y), s.out.z);
+            vf in = vf_max(vf_max(s.in.x, s.in.y), s.in.z);
+            vi hidden = shade->wanted & (out > 0.0f) & (in < out);
+            visible = vf_where(~hidden, visible);
+        } else {
+            vf cover = box_cover(&s, inverse, frame->edges_alike, frame->shapes->sun_right.w);
+            visible *= 1.0f - vf_where(shade->wanted, cover);
+        }
+    }
+    return visible;
+}
+
+/* ---- spheres and cylinders ------------------------------------------------------------------- */
+
+/* Of a ball whose centre is so far away. */
+SIMD vf ball_cover(struct vf3 towards, float radius, float4 sun, float spread)
+{
+    vf t = vf3_dot_all(towards, sun);
+    vf across = vf3_length(vf3_along(towards, vf3_all(sun), -t));
+    return vf_where(t >= 0.0f, strip_cover(radius - across, radius + across, t * spread));
+}
+
+SIMD vf sphere_cover(float4 sphere, struct vf3 origin, float4 sun, float spread)
+{
+    return ball_cover(vf3_towards(sphere, origin), sphere.w, sun, spread);
+}
+
+/* Its outline is a band along `up`, with round ends; seen along its axis, it is round. */
+SIMD vf cylinder_cover(const struct kiln_ray_frame *frame, int i, struct vf3 origin)
+{
+    const float4 sun4 = frame->backdrop->sun_direction, axis4 = frame->shapes->cylinder_axis[i];
+    const float4 cylinder = frame->shapes->cylinders[i], aside4 = frame->shapes->sun_right;
+    const float3 sun = {sun4.x, sun4.y, sun4.z}, axis = {axis4.x, axis4.y, axis4.z};
+    float halves = axis4.w, radius = cylinder.w, spread = aside4.w;
+    float climb = float3_dot(axis, sun), slant = sqrtf(fmaxf(1.0f - climb * climb, 1e-6f));
+    float3 right = {aside4.x, aside4.y, aside4.z};
+    if (slant > 1e-3f)
+        right = float3_scale(float3_cross(axis, sun), 1.0f / slant);
+    float3 up = float3_cross(sun, right);
+    float tilt = float3_dot(axis, up) < 0.0f ? -1.0f : 1.0f;
+
+    struct vf3 towards = vf3_towards(cylinder, origin);
+    vf x = towards.x * right.x + towards.y * right.y + towards.z * right.z;
+    vf y = towards.x * up.x + towards.y * up.y + towards.z * up.z;
+    vf along = vf_clamp(-y * (1.0f / (slant * tilt)), -halves, halves);
+    vf t = vf_max(vf3_dot_all(towards, sun4) + along * climb, vf_all(0.0f));
+    vf inside = vf_sqrt(vf_max(radius * radius - x * x, vf_all(0.0f)));
+    vf end = halves * slant + fabsf(climb) * inside;
+    vf sides = strip_cover(radius - vf_abs(x), radius + vf_abs(x), t * spread);
+    vf ends = strip_cover(end - vf_abs(y), end + vf_abs(y), t * spread);
+    /* On its way to the sun, light that starts beside it or beyond an end may lead only away. */
+    vf height = -vf3_dot_all(towards, axis4);
+    struct vf3 aside = vf3_along(towards, vf3_all(axis4), height);
+    vi beyond = (vf_abs(height) >= halves) & (height * climb > 0.0f);
+    vi beside = (vf3_dot(aside, aside) >= radius * radius) & (vf3_dot_all(aside, sun4) < 0.0f);
+    return vf_where(~(beyond | beside), sides * ends);
+}
+
+/* A light without size is seen, or not. */
+SIMD vi is_free(struct ray_interval at)
+{
+    return vf_max(at.in, vf_all(0.0f)) >= at.out;
+}
+
+SIMD vf round_let_through(const struct kiln_ray_frame *frame, const struct ray_shade *shade)
+{
+    const struct kiln_draw_shapes *shapes = frame->shapes;
+    const float4 sun = frame->backdrop->sun_direction;
+    const struct ray ray = {shade->origin, vf3_all(sun)};
+    vf visible = vf_all(1.0f);
+    for (int i = 0; i < (int)shapes->counts.x; i++) {
+        if (frame->soft_sun)
+            visible *=
+                1.0f - sphere_cover(shapes->spheres[i], ray.origin, sun, shapes->sun_right.w);
+        else
+            visible = vf_where(is_free(cross_sphere(shapes->spheres[i], &ray)), visible);
+    }
+    for (int i = 0; i < (int)shapes->counts.y; i++) {
+        if (frame->soft_sun) {
+            visible *= 1.0f - cylinder_cover(frame, i, ray.origin);
+        } else {
+            struct ray_cylinder c =
+                cross_cylinder(shapes->cylinders[i], shapes->cylinder_axis[i], &ray);
+            visible = vf_where(is_free(c.interval), visible);
+        }
+    }
+    return visible;
+}
+
+/* ---- capsules and turned boxes --------------------------------------------------------------- */
+
+/* Of the balls that a capsule is made of, the one that the ray passes most closely. */
+SIMD vf capsule_cover(const struct kiln_ray_frame *frame, int i, struct vf3 origin)
+{
+    const float4 sun = frame->backdrop->sun_direction, axis = frame->shapes->capsule_axis[i];
+    const float4 capsule = frame->shapes->capsules[i];
+    const float climb = axis.x * sun.x + axis.y * sun.y + axis.z * sun.z;
+    const float4 flat = {axis.x - sun.x * climb, axis.y - sun.y * climb, axis.z - sun.z * climb,
+                         0.0f};
+    const float square = flat.x * flat.x + flat.y * flat.y + flat.z * flat.z;
+    struct vf3 towards = vf3_towards(capsule, origin);
+    vf along = vf3_dot_all(towards, flat) * (-1.0f / fmaxf(square, 1e-6f));
+    towards = vf3_along(towards, vf3_all(axis), vf_clamp(along, -axis.w, axis.w));
+    return ball_cover(towards, capsule.w, sun, frame->shapes->sun_right.w);
+}
+
+SIMD vf turned_let_through(const struct kiln_ray_frame *frame, const struct ray_shade *shade)
+{
+    const struct kiln_draw_shapes *shapes = frame->shapes;
+    const struct ray ray = {shade->origin, vf3_all(frame->backdrop->sun_direction)};
+    vf visible = vf_all(1.0f);
+    for (int i = 0; i < (int)shapes->more.x; i++) {
+        if (frame->soft_sun)
+            visible *= 1.0f - capsule_cover(frame, i, ray.origin);
+        else
+            visible =
+                vf_where(is_free(cross_capsule(shapes->capsules[i], shapes->capsule_axis[i], &ray)),
+                         visible);
+    }
+    for (int i = 0; i < (int)shapes->more.y; i++) {
+        const struct kiln_turned_sun *sun = &frame->turned[i];
+        const struct vf3 inverse = {vf_all(sun->inverse.x), vf_all(sun->inverse.y),
+                                    vf_all(sun->inverse.z)};
+        struct ray_slabs s = cross_turned(&shapes->turned[i], ray.origin, inverse);
+        if (frame->soft_sun)
+            visible *= 1.0f - box_cover(&s, sun->inverse, sun->edges_alike, shapes->sun_right.w);
+        else
+            visible = vf_where(is_free(slabs_interval(&s)), visible);
+    }
+    return visible;
+}
+
+/* ---- meshes ---------------------------------------------------------------------------------- */
+
+/* How much of a place in a map is covered, and the mean distance there times that. */
+struct ray_seen {
+    vf cover, distance;
+};
+
+/* Linear between four texels of a level; nothing is beside the map. */
+SIMD struct ray_seen read_shadow_level(const uint32_t *map, vf u, vf v, vi level)
+{
+    static const int32_t first[KILN_SHADOW_LEVELS] = {0,       1048576, 1310720, 1376256,
+                                                      1392640, 1396736, 1397760, 1398016,
+                                                      1398080, 1398096, 1398100};
+    vi edge = vi_all(KILN_SHADOW_EDGE) >> level;
+    vf size = vf_of(edge);
+    vf x = vf_min(vf_max(u * size - 0.5f, vf_all(-2.0f)), size + 1.0f);
+    vf y = vf_min(vf_max(v * size - 0.5f, vf_all(-2.0f)), size + 1.0f);
+    vf left = vf_floor(x), top = vf_floor(y), right = x - left, down = y - top;
+    vi start = vi_gather(first, level);
+    struct ray_seen seen = {{0}, {0}};
+    for (int i = 0; i < 4; i++) {
+        vi column = vi_of(left) + (i & 1), row = vi_of(top) + (i >> 1);
+        vi inside = (column >= 0) & (row >= 0) & (column < edge) & (row < edge);
+        vf weight = (i & 1 ? right : 1.0f - right) * (i >> 1 ? down : 1.0f - down);
+        weight = vf_where(inside, weight);
+        vi at = vi_select(inside, start + row * edge + column, vi_all(0));
+        vi texel = vi_gather((const int32_t *)map, at);
+        weight *= 1.0f / (float)KILN_SHADOW_ONE;
+        seen.cover += weight * vf_of(texel & 0xffff);
+        seen.distance += weight * vf_of(texel >> 16 & 0xffff);
+    }
+    return seen;
+}
+
+/* Between two levels, too. */
+SIMD struct ray_seen read_shadow(const uint32_t *map, vf u, vf v, vf level)
+{
+    level = vf_clamp(level, 0.0f, (float)(KILN_SHADOW_LEVELS - 1));
+    vf fine = vf_floor(level), part = level - fine;
+    struct ray_seen seen = read_shadow_level(map, u, v, vi_of(fine));
+    if (any(part > 0.0f)) {
+        vf coarse = vf_min(fine + 1.0f, vf_all((float)(KILN_SHADOW_LEVELS - 1)));
+        struct ray_seen more = read_shadow_level(map, u, v, vi_of(coarse));
+        seen.cover += (more.cover - seen.cover) * part;
+        seen.distance += (more.distance - seen.distance) * part;
+    }
+    return seen;
+}
+
+/* A place in the map of a mesh. */
+struct ray_shadow_place {
+    vf u, v, depth;
+    vf slope_u, slope_v; /* of the receiver's plane: what its depth is a step aside */
+};
+
+SIMD struct ray_shadow_place place_in_shadow(const struct kiln_ray_frame *frame, int i,
+                                             const struct ray_shade *shade)
+{
+    const struct kiln_draw_shapes *shapes = frame->shapes;
+    const float4 sun = frame->backdrop->sun_direction, center = shapes->meshes[i].center;
+    struct vf3 from = vf3_sub(shade->origin, vf3_all(center));
+    float scale = 0.5f / (center.w * (1.0f + KILN_SHADOW_MARGIN));
+    vf facing = 1.0f / vf_max(vf3_dot_all(shade->normal, sun), vf_all(0.05f));
+    return (struct ray_shadow_place){
+        .u = 0.5f + vf3_dot_all(from, shapes->sun_right) * scale,
+        .v = 0.5f + vf3_dot_all(from, shapes->sun_up) * scale,
+        .depth = 0.5f - vf3_dot_all(from, sun) * scale,
+        .slope_u = vf3_dot_all(shade->normal, shapes->sun_right) * facing,
+        .slope_v = vf3_dot_all(shade->normal, shapes->sun_up) * facing,
+    };
+}
+
+/* A first fetch looks for anything between that the others could find, over more than they reach;
+ * four bilinear ones half a step aside then make a tent, as nine would. */
+SIMD vf mesh_cover(const struct kiln_ray_frame *frame, int i, const struct ray_shade *shade)
+{
+    const uint32_t *map = frame->meshes->shadows[i];
+    const float texel = 1.0f / (float)KILN_SHADOW_EDGE, spread = frame->shapes->sun_right.w;
+    const struct ray_shadow_place at = place_in_shadow(frame, i, shade);
+    vf slack = 1.5f * texel * (1.0f + 0.5f * (vf_abs(at.slope_u) + vf_abs(at.slope_v)));
+    vf widest = vf_max(spread * at.depth, vf_all(texel)); /* penumbra of what is nearest the sun */
+    vf reach = 4.0f * widest;
+    vi near = shade->wanted & (at.u > -reach) & (at.v > -reach) & (at.u < 1.0f + reach) &
+              (at.v < 1.0f + reach);
+    if (!any(near))
+        return vf_all(0.0f);
+
+    struct ray_seen seen = read_shadow(map, at.u, at.v, vf_log2(widest * (1.0f / texel)) + 1.0f);
+    near &= seen.cover > 0.0f;
+    if (!any(near))
+        return vf_all(0.0f);
+    vf middle = seen.distance / vf_max(seen.cover, vf_all(1e-4f));
+    /* How far the sun's disc spreads at the distance of what is between. */
+    vf gap = at.depth - vf_min(middle, at.depth);
+    vf width = vf_max(0.75f * spread * gap, vf_all(texel));
+    vf level = vf_log2(width * (1.0f / texel)), stride = 0.5f * width, cover = vf_all(0.0f);
+    vf ramp = 1.0f / (slack + stride);
+    for (int k = 0; k < 4; k++) {
+        vf aside_u = k & 1 ? stride : -stride, aside_v = k >> 1 ? stride : -stride;
+        seen = read_shadow(map, at.u + aside_u, at.v + aside_v, level);
+        middle = seen.distance / vf_max(seen.cover, vf_all(1e-4f));
+        vf before = at.depth + (at.slope_u * aside_u + at.slope_v * aside_v) - middle;
+        cover += 0.25f * seen.cover * clamp01(before * ramp - 0.5f);
+    }
+    return vf_where(near, cover);
+}
+
+/* ---- particles ------------------------------------------------------------------------------- */
+
+/* Two discs, within 3 % of their exact common part. */
+SIMD vf particle_cover(const struct kiln_ray_frame *frame, struct vf3 center, vf size,
+                       struct vf3 origin)
+{
+    const float4 sun = frame->backdrop->sun_direction;
+    struct vf3 towards = vf3_sub(center, origin);
+    vf t = vf3_dot_all(towards, sun);
+    vf across = vf3_length(vf3_along(towards, vf3_all(sun), -t));
+    vf radius = vf_max(t * frame->shapes->sun_right.w, vf_all(1e-5f));
+    vf smaller = vf_min(radius, size), ratio = smaller / vf_max(radius, size);
+    vf x = clamp01((radius + size - across) / (2.0f * smaller));
+    vf large_over_small = x * x * (3.0f - 2.0f * x), like_over_like = x * (0.55f + 0.45f * x);
+    vf part = large_over_small + (like_over_like - large_over_small) * ratio;
+    vf most = smaller / radius;
+    vf fade = clamp01(2.0f - 2.0f * radius / (size * KILN_SPHERE_FADE));
+    return vf_where(t > 0.0f, part * most * most * fade);
+}
+
+/* Where a level of the silhouettes starts, in texels. */
+SIMD vi silhouette_start(vi level)
+{
+    vi start = vi_all(0), size = vi_all(KILN_INSTANCE_ATLAS * KILN_INSTANCE_ATLAS);
+    for (int i = 0; i < KILN_INSTANCE_LEVELS; i++) {
+        start += (level > i) & size;
+        size >>= 2;
+    }
+    return start;
+}
+
+/* Tiles of meshes: where they start, their width in texels, as of struct kiln_sphere_bins. */
+struct ray_tile {
+    vi x, y, edge;
+    vf reach;
+};
+
+/* Linear between four texels of a level; nothing is beside the tile. */
+SIMD vf silhouette_level(const float *texels, const struct ray_tile *tile, vf u, vf v, vi level)
+{
+    const vi edge = tile->edge >> level, pitch = vi_all(KILN_INSTANCE_ATLAS) >> level;
+    const vi start = silhouette_start(level) + (tile->y >> level) * pitch + (tile->x >> level);
+    const vf size = vf_of(edge);
+    const vf x = vf_min(vf_max(u * size - 0.5f, vf_all(-2.0f)), size + 1.0f);
+    const vf y = vf_min(vf_max(v * size - 0.5f, vf_all(-2.0f)), size + 1.0f);
+    const vf left = vf_floor(x), top = vf_floor(y), right = x - left, down = y - top;
+    vf sum = vf_all(0.0f);
+    for (int i = 0; i < 4; i++) {
+        vi column = vi_of(left) + (i & 1), row = vi_of(top) + (i >> 1);
+        vi inside = (column >= 0) & (row >= 0) & (column < edge) & (row < edge);
+        vf weight = (i & 1 ? right : 1.0f - right) * (i >> 1 ? down : 1.0f - down);
+        vi at = vi_select(inside, start + row * pitch + column, vi_all(0));
+        sum += vf_where(inside, weight * vf_gather(texels, at));
+    }
+    return sum;
+}
+
+/* As silhouette_cover of sphere_shadow.glsl; ball: what the sphere covers that stands for it. */
+SIMD vf silhouette_cover(const struct kiln_ray_frame *frame, struct vf3 center,
+                         const struct ray_tile *tile, struct vf3 origin, vf ball)
+{
+    const struct kiln_draw_shapes *shapes = frame->shapes;
+    const float *texels = frame->spheres.silhouettes;
+    struct vf3 towards = vf3_sub(center, origin);
+    vf t = vf3_dot_all(towards, frame->backdrop->sun_direction), half = 0.5f / tile->reach;
+    vf u = 0.5f - vf3_dot_all(towards, shapes->sun_right) * half;
+    vf v = 0.5f - vf3_dot_all(towards, shapes->sun_up) * half;
+    vf radius = vf_max(t * shapes->sun_right.w, vf_all(1e-5f));
+    vf most = vf_floor(vf_log2(vf_of(tile->edge)) + 0.5f);
+    vf level = vf_log2(vf_max(radius * vf_of(tile->edge) * half, vf_all(1.0f)));
+    level = vf_max(vf_min(level, most), vf_all(0.0f));
+    vf fine = vf_floor(level), coarse = vf_min(fine + 1.0f, most);
+    vf cover = silhouette_level(texels, tile, u, v, vi_of(fine));
+    cover += (silhouette_level(texels, tile, u, v, vi_of(coarse)) - cover) * (level - fine);
+    vf wide = clamp01((radius / tile->reach - KILN_INSTANCE_SHARP) *
+                      (1.0f / (KILN_INSTANCE_ROUND - KILN_INSTANCE_SHARP)));
+    cover = vf_where(t > 0.0f, cover);
+    return cover + (ball - cover) * wide;
+}
+
+/* What of an entry follows from the place where it is. */
+struct ray_entry {
+    struct vf3 center;
+    vf size, reach; /* of the sphere, and of what may be in its tile; m */
+    vi at, edge;    /* edge: 0: it has no tile */
+};
+
+SIMD struct ray_entry read_entry(const struct kiln_sphere_bins *spheres, vi entry, vi wanted)
+{
+    const float *list = (const float *)spheres->list, *tiles = (const float *)spheres->tiles;
+    const vi at = vi_select(wanted, 4 * entry, vi_all(0));
+    struct ray_entry e = {
+        .center = {vf_gather(list, at), vf_gather(list + 1, at), vf_gather(list + 2, at)},
+        .size = vf_gather(list + 3, at),
+        .at = at};
+    e.reach = e.size;
+    if (tiles) {
+        const vf edge = vf_gather(tiles + 3, at);
+        e.edge = vi_of(edge);
+        e.reach = vf_select(edge > 0.0f, vf_gather(tiles + 2, at), e.size);
+    }
+    return e;
+}
+
+/* May it hide anything? Where it is not, its cover is 0. */
+SIMD vi entry_is_near(const struct kiln_ray_frame *frame, const struct ray_entry *e,
+                      struct vf3 origin)
+{
+    const struct kiln_draw_shapes *shapes = frame->shapes;
+    const struct vf3 towards = vf3_sub(e->center, origin);
+    const vf t = vf3_dot_all(towards, frame->backdrop->sun_direction);
+    const vf aside = vf_max(vf_abs(vf3_dot_all(towards, shapes->sun_right)),
+                            vf_abs(vf3_dot_all(towards, shapes->sun_up)));
+    /* Half a texel beside a tile is read, of levels as wide as the sun or of 1/16 of the tile. */
+    const vf wider = vf_max(t * shapes->sun_right.w, 0.125f * e->reach);
+    return (t > 0.0f) & (aside < e->reach + (wider + 1e-4f));
+}
+
+SIMD vf entry_cover(const struct kiln_ray_frame *frame, const struct ray_entry *e,
+                    struct vf3 origin)
+{
+    const vf ball = particle_cover(frame, e->center, e->size, origin);
+    const vi has = e->edge > 0;
+    if (!any(has))
+        return ball;
+    const float *tiles = (const float *)frame->spheres.tiles;
+    const struct ray_tile tile = {vi_of(vf_gather(tiles, e->at)),
+                                  vi_of(vf_gather(tiles + 1, e->at)),
+                                  vi_select(has, e->edge, vi_all(1)), e->reach};
+    return vf_select(has, silhouette_cover(frame, e->center, &tile, origin, ball), ball);
+}
+
+/* Each lane goes on in its list to what is near, so that few of them wait for the others. */
+SIMD vf particles_let_through(const struct kiln_ray_frame *frame, const struct ray_shade *shade)
+{
+    const struct kiln_draw_shapes *shapes = frame->shapes;
+    const int32_t *bins = (const int32_t *)frame->spheres.bins;
+    const float edge = (float)shapes->counts.w;
+    vf visible = vf_all(1.0f);
+    vf x = vf3_map(shapes->world_to_bin[0], shade->origin);
+    vf y = vf3_map(shapes->world_to_bin[1], shade->origin);
+    vi inside = shade->wanted & (x >= 0.0f) & (y >= 0.0f) & (x < edge) & (y < edge);
+    if (!any(inside))
+        return visible;
+    vi bin = vi_of(vf_where(inside, y)) * (int32_t)shapes->counts.w + vi_of(vf_where(inside, x));
+    vi entry = vi_gather(bins, 2 * bin), count = inside & vi_gather(bins, 2 * bin + 1);
+    for (;;) {
+        vi found = vi_all(0), pending = count > 0;
+        while (any(pending)) {
+            const struct ray_entry e = read_entry(&frame->spheres, entry, pending);
+            const vi near = pending & entry_is_near(frame, &e, shade->origin);
+            found |= near;
+            pending &= ~near;
+            entry -= pending; /* -1 where it is */
+            count += pending;
+            pending &= count > 0;
+        }
+        if (!any(found))
+            return visible;
+        const struct ray_entry e = read_entry(&frame->spheres, entry, found);
+        visible *= 1.0f - vf_where(found, entry_cover(frame, &e, shade->origin));
+        entry -= found;
+        count += found;
+    }
+}
+
+/* ---- all of them ----------------------------------------------------------------------------- */
+
+/* 0 for the lanes that do not ask. */
+SIMD vf sun_visibility(const struct kiln_ray_frame *frame, struct vf3 point, struct vf3 normal,
+                       vi wanted)
+{
+    if (!any(wanted))
+        return vf_all(0.0f);
+    const struct kiln_draw_shapes *shapes = frame->shapes;
+    const struct ray_shade shade = {vf3_along(point, normal, vf_all(1e-3f)), normal, wanted};
+    vf visible = boxes_let_through(frame, &shade);
+    if (shapes->counts.x + shapes->counts.y > 0)
+        visible *= round_let_through(frame, &shade);
+    if (shapes->more.x + shapes->more.y > 0)
+        visible *= turned_let_through(frame, &shade);
+    for (int i = 0; i < (int)shapes->counts.z; i++)
+        visible *= 1.0f - mesh_cover(frame, i, &shade);
+    if (shapes->counts.w > 0)
+        visible *= particles_let_through(frame, &shade);
+    return vf_where(wanted, visible);
+}
+
+#endif

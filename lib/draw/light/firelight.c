@@ -1,0 +1,133 @@
+/* A system's particles are gathered by their progress through life: each belongs to the two nearest
+ * of its lights, in parts. Particles of one age are near each other in a jet, a flame or a burst,
+ * and since ages grow evenly a light moves and flickers with its part of the fire and never jumps.
+ *
+ * Sums are taken over stretches of slots, as many as the slots ask for, and then over the
+ * stretches: the same for any number of threads.
+ */
+#include "draw/light/firelight.h"
+
+#include "draw/light/living_blocks.h"
+
+/* The part of a billboard's square that its cell fills with light. */
+static const float FILL = 0.25f;
+
+static const double PI = 3.14159265358979;
+
+enum { MOST_STRETCHES = 16, LEAST_STRETCH = 2048 /* slots */ };
+
+struct gatherer {
+    const struct kiln_living_loops *loops;
+    struct kiln_living_system system;
+    struct kiln_glow glow;
+    uint32_t light_count;
+    uint32_t stretches;
+    struct kiln_gathering lights[MOST_STRETCHES][KILN_MAX_FIRE_LIGHTS];
+};
+
+/* Stretches are of whole blocks. */
+static void gather_stretches(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    struct gatherer *gatherer = context;
+    const uint64_t blocks = (gatherer->system.used + KILN_LANES - 1) / KILN_LANES;
+    struct kiln_living_block block;
+    for (size_t stretch = begin; stretch < end; stretch++) {
+        uint64_t last = blocks * (stretch + 1) / gatherer->stretches;
+        for (uint64_t k = blocks * stretch / gatherer->stretches; k < last; k++) {
+            gatherer->loops->find(&gatherer->system, (uint32_t)k * KILN_LANES, &block);
+            gatherer->loops->gather_fire(&block, &gatherer->glow, FILL, gatherer->light_count,
+                                         gatherer->lights[stretch]);
+        }
+    }
+}
+
+static void sample_glow(struct gatherer *gatherer)
+{
+    for (uint32_t i = 0; i < KILN_LOOK_SAMPLES; i++) {
+        float3 glow =
+            kiln_living_glow(&gatherer->system, (float)i / (float)(KILN_LOOK_SAMPLES - 1));
+        gatherer->glow.red[i] = glow.x;
+        gatherer->glow.green[i] = glow.y;
+        gatherer->glow.blue[i] = glow.z;
+    }
+}
+
+static void add_gathering(struct kiln_gathering *sum, const struct kiln_gathering *other)
+{
+    for (int c = 0; c < 3; c++) {
+        sum->color[c] += other->color[c];
+        sum->position[c] += other->position[c];
+    }
+    sum->energy += other->energy;
+    sum->square += other->square;
+    sum->radius += other->radius;
+}
+
+/* Leaves the sums in the first stretch. */
+static void gather_system(struct gatherer *gatherer, struct kiln_threads *threads)
+{
+    uint32_t useful = gatherer->system.used / LEAST_STRETCH + 1;
+    gatherer->stretches = useful < MOST_STRETCHES ? useful : MOST_STRETCHES;
+    kiln_threads_for(threads, gatherer->stretches, 1, gather_stretches, gatherer);
+    for (uint32_t stretch = 1; stretch < gatherer->stretches; stretch++) {
+        for (uint32_t k = 0; k < gatherer->light_count; k++)
+            add_gathering(&gatherer->lights[0][k], &gatherer->lights[stretch][k]);
+    }
+}
+
+/* A patch of radiance L and area A lights a surface that faces it at distance d by L A / d^2; a
+ * light of colour c (what arrives at 1 m, over pi) by pi c / d^2. The light's radius is how far its
+ * particles are spread, so that a surface among them is not lit by a point. */
+static struct kiln_draw_light make_light(const struct kiln_gathering *light, float3 strength)
+{
+    double mean[3], square = 0.0;
+    for (int c = 0; c < 3; c++) {
+        mean[c] = light->position[c] / light->energy;
+        square += mean[c] * mean[c];
+    }
+    double radius = light->radius / light->energy;
+    double spread = light->square / light->energy - square;
+    return (struct kiln_draw_light){
+        .position_radius2 = {(float)mean[0], (float)mean[1], (float)mean[2],
+                             (float)(radius * radius + (spread > 0.0 ? spread : 0.0))},
+        .color = {strength.x * (float)(light->color[0] / PI),
+                  strength.y * (float)(light->color[1] / PI),
+                  strength.z * (float)(light->color[2] / PI), 0.0f},
+    };
+}
+
+uint32_t kiln_firelight_gather(const struct kiln_living_moment *moment,
+                               struct kiln_threads *threads, struct kiln_draw_light *lights)
+{
+    const struct kiln_scene *scene = moment->scene;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_look *look = &scene->systems[i].look;
+        float3 strength = kiln_scene_value3(scene, &look->light, moment->view->clock.x);
+        if (!scene->systems[i].enabled || !(strength.x + strength.y + strength.z > 0.0f))
+            continue;
+        struct gatherer gatherer = {.loops = moment->loops,
+                                    .system = kiln_living_system(moment, i),
+                                    .light_count = look->light_count};
+        sample_glow(&gatherer);
+        gather_system(&gatherer, threads);
+        for (uint32_t k = 0; k < gatherer.light_count && count < KILN_MAX_FIRE_LIGHTS; k++) {
+            if (gatherer.lights[0][k].energy > 0.0)
+                lights[count++] = make_light(&gatherer.lights[0][k], strength);
+        }
+    }
+    return count;
+}
+
+bool kiln_firelight_exists(const struct kiln_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_value3 *light = &scene->systems[i].look.light;
+        if (scene->systems[i].enabled && (kiln_scene_value_max(scene, &light->x) > 0.0f ||
+                                          kiln_scene_value_max(scene, &light->y) > 0.0f ||
+                                          kiln_scene_value_max(scene, &light->z) > 0.0f))
+            return true;
+    }
+    return false;
+}

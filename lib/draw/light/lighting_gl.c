@@ -1,0 +1,187 @@
+/* What changes every frame is sent once a frame, however many stages ask. */
+#include "draw/light/lighting_gl.h"
+
+#include <stdlib.h>
+
+/* Texture units of the smoke's grids. */
+enum { UNIT_SMOKE_SUN = 4, UNIT_SMOKE_SKY = 5 };
+
+enum texture {
+    SMOKE_SUN,
+    SMOKE_SKY,
+    SPHERE_BINS,
+    SPHERE_LIST,
+    SPHERE_TILES,
+    SILHOUETTES,
+    SUN_SHADE,
+    TEXTURE_COUNT
+};
+
+static const struct {
+    GLenum target;
+    GLuint unit;
+    const char *label;
+} ABOUT[TEXTURE_COUNT] = {
+    [SMOKE_SUN] = {GL_TEXTURE_3D, UNIT_SMOKE_SUN, "smoke towards the sun"},
+    [SMOKE_SKY] = {GL_TEXTURE_3D, UNIT_SMOKE_SKY, "smoke towards the sky"},
+    [SPHERE_BINS] = {GL_TEXTURE_2D, KILN_UNIT_SPHERE_BINS, "sphere bins"},
+    [SPHERE_LIST] = {GL_TEXTURE_2D, KILN_UNIT_SPHERE_LIST, "sphere list"},
+    [SPHERE_TILES] = {GL_TEXTURE_2D, KILN_UNIT_SPHERE_TILES, "sphere tiles"},
+    [SILHOUETTES] = {GL_TEXTURE_2D, KILN_UNIT_SILHOUETTES, "silhouettes"},
+    [SUN_SHADE] = {GL_TEXTURE_2D, KILN_UNIT_SUN_SHADE, "sun on particles"},
+};
+
+struct kiln_lighting_gl {
+    struct kiln_device *device;
+    GLuint textures[TEXTURE_COUNT]; /* 0: not made yet */
+    uint64_t run;                   /* of the light that they show */
+    size_t sphere_rows, shade_rows; /* that the textures have */
+};
+
+struct kiln_lighting_gl *kiln_lighting_gl_create(struct kiln_device *device)
+{
+    struct kiln_lighting_gl *gl = calloc(1, sizeof *gl);
+    if (gl)
+        gl->device = device;
+    return gl;
+}
+
+void kiln_lighting_gl_destroy(struct kiln_lighting_gl **gl)
+{
+    if (!*gl)
+        return;
+    for (int i = 0; i < TEXTURE_COUNT; i++) {
+        if ((*gl)->textures[i])
+            glDeleteTextures(1, &(*gl)->textures[i]);
+    }
+    free(*gl);
+    *gl = NULL;
+}
+
+static void bind(const struct kiln_lighting_gl *gl, enum texture which)
+{
+    glActiveTexture(GL_TEXTURE0 + ABOUT[which].unit);
+    glBindTexture(ABOUT[which].target, gl->textures[which]);
+}
+
+/* Binds the texture; true when it is new and needs storage. */
+static bool make(struct kiln_lighting_gl *gl, enum texture which, GLint filter)
+{
+    bool is_new = gl->textures[which] == 0;
+    if (is_new)
+        glGenTextures(1, &gl->textures[which]);
+    bind(gl, which);
+    if (!is_new)
+        return false;
+    GLenum target = ABOUT[which].target;
+    glTexParameteri(target, GL_TEXTURE_MIN_FILTER, filter);
+    glTexParameteri(target, GL_TEXTURE_MAG_FILTER, filter);
+    glTexParameteri(target, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glTexParameteri(target, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
+    kiln_device_label(gl->device, GL_TEXTURE, gl->textures[which], ABOUT[which].label);
+    return true;
+}
+
+static void send_grid(struct kiln_lighting_gl *gl, enum texture which, const float *depth)
+{
+    enum { EDGE = KILN_SMOKE_GRID };
+    if (make(gl, which, GL_LINEAR))
+        glTexImage3D(GL_TEXTURE_3D, 0, GL_R32F, EDGE, EDGE, EDGE, 0, GL_RED, GL_FLOAT, NULL);
+    glTexSubImage3D(GL_TEXTURE_3D, 0, 0, 0, 0, EDGE, EDGE, EDGE, GL_RED, GL_FLOAT, depth);
+    gl->device->traffic.to_device += sizeof(float) * EDGE * EDGE * EDGE;
+}
+
+/* A list of float4 in rows; returns the rows that it has. */
+static size_t send_list(struct kiln_lighting_gl *gl, enum texture which,
+                        const struct kiln_sphere_bins *spheres, const float4 *list)
+{
+    make(gl, which, GL_NEAREST);
+    if (gl->sphere_rows != spheres->rows)
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, KILN_SPHERE_ROW, (GLsizei)spheres->rows, 0,
+                     GL_RGBA, GL_FLOAT, NULL);
+    size_t rows = (spheres->entry_count + KILN_SPHERE_ROW - 1) / KILN_SPHERE_ROW;
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, KILN_SPHERE_ROW, (GLsizei)rows, GL_RGBA, GL_FLOAT,
+                    list);
+    return rows;
+}
+
+/* The rows of tiles that are in use. */
+static void send_silhouettes(struct kiln_lighting_gl *gl, const struct kiln_sphere_bins *spheres)
+{
+    const float *texels = spheres->silhouettes;
+    const bool is_new = make(gl, SILHOUETTES, GL_NEAREST);
+    float last = 0.0f;
+    for (size_t i = 0; i < spheres->entry_count; i++) {
+        const float4 tile = spheres->tiles[i];
+        last = tile.y + tile.w > last ? tile.y + tile.w : last;
+    }
+    for (GLint level = 0; level < KILN_INSTANCE_LEVELS; level++) {
+        const GLsizei edge = KILN_INSTANCE_ATLAS >> level, rows = (GLsizei)last >> level;
+        if (is_new)
+            glTexImage2D(GL_TEXTURE_2D, level, GL_R32F, edge, edge, 0, GL_RED, GL_FLOAT, NULL);
+        if (rows > 0)
+            glTexSubImage2D(GL_TEXTURE_2D, level, 0, 0, edge, rows, GL_RED, GL_FLOAT, texels);
+        texels += (size_t)edge * (size_t)edge;
+        gl->device->traffic.to_device += sizeof(float) * (size_t)edge * (size_t)rows;
+    }
+    if (!is_new)
+        return;
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, KILN_INSTANCE_LEVELS - 1);
+}
+
+static void send_spheres(struct kiln_lighting_gl *gl, const struct kiln_sphere_bins *spheres)
+{
+    GLsizei edge = (GLsizei)spheres->edge;
+    if (make(gl, SPHERE_BINS, GL_NEAREST))
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RG32UI, KILN_SPHERE_BINS, KILN_SPHERE_BINS, 0,
+                     GL_RG_INTEGER, GL_UNSIGNED_INT, NULL);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, edge, edge, GL_RG_INTEGER, GL_UNSIGNED_INT,
+                    spheres->bins);
+    size_t rows = send_list(gl, SPHERE_LIST, spheres, spheres->list);
+    if (spheres->tiles) {
+        rows += send_list(gl, SPHERE_TILES, spheres, spheres->tiles);
+        send_silhouettes(gl, spheres);
+    }
+    gl->sphere_rows = spheres->rows;
+    gl->device->traffic.to_device += 2 * sizeof(uint32_t) * spheres->edge * spheres->edge +
+                                     sizeof(float4) * KILN_SPHERE_ROW * rows;
+}
+
+static void send_shade(struct kiln_lighting_gl *gl, const struct kiln_lighting *lighting)
+{
+    size_t rows = (lighting->slot_count + KILN_SUN_SHADE_ROW - 1) / KILN_SUN_SHADE_ROW;
+    make(gl, SUN_SHADE, GL_NEAREST);
+    if (gl->shade_rows != rows)
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_R32F, KILN_SUN_SHADE_ROW, (GLsizei)rows, 0, GL_RED,
+                     GL_FLOAT, NULL);
+    gl->shade_rows = rows;
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, KILN_SUN_SHADE_ROW, (GLsizei)rows, GL_RED, GL_FLOAT,
+                    lighting->sunlit);
+    gl->device->traffic.to_device += sizeof(float) * KILN_SUN_SHADE_ROW * rows;
+}
+
+bool kiln_lighting_bind(const struct kiln_lighting *lighting, struct kiln_error *error)
+{
+    struct kiln_lighting_gl *gl = lighting->gl;
+    if (!gl) /* no light at all follows from the particles */
+        return true;
+    if (gl->run != lighting->run) {
+        gl->run = lighting->run;
+        if (lighting->smoke)
+            send_grid(gl, SMOKE_SKY, lighting->sky_depth);
+        if (lighting->smoke && lighting->sun_depth)
+            send_grid(gl, SMOKE_SUN, lighting->sun_depth);
+        if (lighting->spheres.edge > 0)
+            send_spheres(gl, &lighting->spheres);
+        if (lighting->sunlit)
+            send_shade(gl, lighting);
+    }
+    for (int i = 0; i < TEXTURE_COUNT; i++) {
+        if (gl->textures[i])
+            bind(gl, (enum texture)i);
+    }
+    glActiveTexture(GL_TEXTURE0);
+    return kiln_device_check(gl->device, "lighting", error);
+}

@@ -1,0 +1,224 @@
+/* Every loop here is over lanes, and without branches: compilers make vectors of it. Sums are taken
+ * in the same order at every level. */
+#include "draw/light/living_blocks.h"
+
+#include <math.h>
+
+#include "shared/exact.h"
+
+/* ---- particles ------------------------------------------------------------------------------- */
+
+/* kiln_living_look: a number of a look between two of its samples, four floats apart. */
+struct place {
+    int sample, texel; /* texel: where it is in a row of the table */
+    float part;
+};
+
+static inline struct place place_at(float progress)
+{
+    float x = progress * (float)(KILN_LOOK_SAMPLES - 1);
+    int sample = (int)x;
+    sample = sample > KILN_LOOK_SAMPLES - 2 ? KILN_LOOK_SAMPLES - 2 : sample;
+    return (struct place){sample, 4 * sample, x - (float)sample};
+}
+
+static inline float look_at(const float *samples, struct place at)
+{
+    float a = samples[at.texel], b = samples[at.texel + 4];
+    return a + (b - a) * at.part;
+}
+
+static inline void load(struct kiln_living_block *b, const struct kiln_living_system *system,
+                        uint32_t first)
+{
+    const uint32_t left = system->used - first;
+    if (left >= KILN_LANES) {
+        kiln_lanes_load(&b->lanes, system->records + first);
+        return;
+    }
+    struct kiln_particle rest[KILN_LANES] = {0};
+    memcpy(rest, system->records + first, left * sizeof *rest);
+    kiln_lanes_load(&b->lanes, rest);
+}
+
+__attribute__((flatten)) static void find(const struct kiln_living_system *system, uint32_t first,
+                                          struct kiln_living_block *b)
+{
+    load(b, system, first);
+    kiln_lanes_find_ages(&b->lanes, system->keys, system->derived, system->step);
+    const float *shape = &system->rows[(size_t)KILN_LOOK_SHAPE * KILN_LOOK_SAMPLES].x;
+    const float *spread = &system->rows[(size_t)KILN_LOOK_SPREAD * KILN_LOOK_SAMPLES].x;
+    const struct kiln_derived_params derived = system->derived;
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        struct kiln_particle p = kiln_lanes_record(&b->lanes, i);
+        float progress = particle_progress(b->lanes.age_s[i], b->lanes.life_s[i]);
+        struct place at = place_at(progress);
+        float scale = random_unit(particle_stream(derived, p), RANDOM_SCALE);
+        float least = look_at(spread, at), most = look_at(spread + 1, at);
+        float radius = 0.5f * look_at(shape, at) * (least + (most - least) * scale);
+        float opacity = look_at(shape + 2, at);
+        bool alive = particle_is_alive(p);
+        kiln_set3(&b->position, i, particle_position(p));
+        b->alive[i] = alive;
+        b->progress[i] = progress;
+        b->radius[i] = alive ? radius : 0.0f;
+        b->opacity[i] = alive ? opacity : 0.0f;
+    }
+}
+
+/* ---- fire ------------------------------------------------------------------------------------ */
+
+enum { SUMS = 16 };
+
+/* As many sums side by side at every level. */
+typedef float sums __attribute__((vector_size(4 * SUMS), may_alias));
+
+static inline double total(const sums *of)
+{
+    const sums parts = *of;
+    double halves[SUMS / 2], sum = 0.0;
+    for (int i = 0; i < SUMS / 2; i++)
+        halves[i] = (double)(parts[i] + parts[i + SUMS / 2]);
+    for (int i = 0; i < SUMS / 2; i++)
+        sum += halves[i];
+    return sum;
+}
+
+struct fire {
+    alignas(64) kiln_floats place; /* among the lights */
+    kiln_floats red, green, blue, energy;
+    struct kiln_floats3 offset; /* from `origin`, so that squares stay small */
+    float3 origin;
+    float least, most; /* places */
+};
+
+static inline void find_fire(struct fire *f, const struct kiln_living_block *b,
+                             const struct kiln_glow *glow, float fill, uint32_t light_count)
+{
+    f->origin = kiln_get3(&b->position, 0);
+    f->least = f->most = b->progress[0] * (float)(light_count - 1);
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        struct place at = place_at(b->progress[i]);
+        float sent = fill * 4.0f * b->radius[i] * b->radius[i] * b->opacity[i];
+        const float *r = glow->red + at.sample, *g = glow->green + at.sample;
+        const float *l = glow->blue + at.sample;
+        f->red[i] = sent * (r[0] + (r[1] - r[0]) * at.part);
+        f->green[i] = sent * (g[0] + (g[1] - g[0]) * at.part);
+        f->blue[i] = sent * (l[0] + (l[1] - l[0]) * at.part);
+        f->energy[i] = (f->red[i] + f->green[i]) + f->blue[i];
+        f->place[i] = b->progress[i] * (float)(light_count - 1);
+        kiln_set3(&f->offset, i, float3_sub(kiln_get3(&b->position, i), f->origin));
+    }
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        f->least = exact_min(f->least, f->place[i]);
+        f->most = exact_max(f->most, f->place[i]);
+    }
+}
+
+/* Such sums of arrays, which are as aligned. */
+static inline const sums *as_sums(const float *from)
+{
+    return (const sums *)__builtin_assume_aligned(from, 64);
+}
+
+/* Adds the block's part of light k. */
+static inline void add_light(const struct fire *f, const struct kiln_living_block *b, float k,
+                             struct kiln_gathering *light)
+{
+    sums red = {0}, green = {0}, blue = {0}, energy = {0}, radius = {0};
+    sums x = {0}, y = {0}, z = {0}, square = {0};
+    for (uint32_t i = 0; i < KILN_LANES; i += SUMS) {
+        sums share;
+        for (uint32_t j = 0; j < SUMS; j++)
+            share[j] = exact_max(1.0f - exact_abs(f->place[i + j] - k), 0.0f);
+        const sums sent = share * *as_sums(f->energy + i);
+        const sums dx = *as_sums(f->offset.x + i), dy = *as_sums(f->offset.y + i);
+        const sums dz = *as_sums(f->offset.z + i);
+        red += share * *as_sums(f->red + i);
+        green += share * *as_sums(f->green + i);
+        blue += share * *as_sums(f->blue + i);
+        energy += sent;
+        radius += sent * *as_sums(b->radius + i);
+        x += sent * dx;
+        y += sent * dy;
+        z += sent * dz;
+        square += sent * (dx * dx + dy * dy + dz * dz);
+    }
+    const double all = total(&energy), offset[3] = {total(&x), total(&y), total(&z)};
+    const double origin[3] = {(double)f->origin.x, (double)f->origin.y, (double)f->origin.z};
+    light->color[0] += total(&red);
+    light->color[1] += total(&green);
+    light->color[2] += total(&blue);
+    light->energy += all;
+    light->radius += total(&radius);
+    light->square += total(&square);
+    for (int c = 0; c < 3; c++) {
+        light->position[c] += offset[c] + all * origin[c];
+        light->square += origin[c] * (2.0 * offset[c] + all * origin[c]);
+    }
+}
+
+__attribute__((flatten)) static void gather_fire(const struct kiln_living_block *b,
+                                                 const struct kiln_glow *glow, float fill,
+                                                 uint32_t light_count,
+                                                 struct kiln_gathering *lights)
+{
+    struct fire fire;
+    find_fire(&fire, b, glow, fill, light_count);
+    for (uint32_t k = (uint32_t)fire.least; k < light_count && (float)k < fire.most + 1.0f; k++)
+        add_light(&fire, b, (float)k, &lights[k]);
+}
+
+/* ---- smoke ----------------------------------------------------------------------------------- */
+
+/* Extinction of e (1 - d^2)^2, d in radii, has the optical depth 16/15 e r through the middle of a
+ * ball and, summed over it, e r^3 32 pi / 105. */
+__attribute__((flatten)) static void find_extinction(const struct kiln_living_block *b, float cover,
+                                                     float shadow, float extinction[KILN_LANES])
+{
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        float alpha = cover * b->opacity[i], radius = b->radius[i];
+        float passed = 1.0f - (alpha < 0.98f ? alpha : 0.98f);
+        float middle_depth = exact_log2(passed) * -0.693147181f * shadow;
+        extinction[i] =
+            middle_depth * 15.0f / 16.0f * radius * radius * (32.0f * 3.14159265f / 105.0f);
+    }
+}
+
+/* ---- shade ----------------------------------------------------------------------------------- */
+
+/* Most blocks are far from the shade of most boxes. */
+static inline bool any_near(const struct kiln_living_block *b, const struct kiln_sun_box *box,
+                            const struct kiln_sun_frame *sun)
+{
+    uint32_t near = 0;
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        const struct kiln_ball ball = {kiln_get3(&b->position, i), b->radius[i]};
+        near |= b->alive[i] & !kiln_sun_misses(box->center, box->size, ball, sun);
+    }
+    return near != 0;
+}
+
+__attribute__((flatten)) static void shade(const struct kiln_living_block *b,
+                                           const struct kiln_sun_box *boxes, uint32_t box_count,
+                                           const struct kiln_sun_frame *sun,
+                                           float visible[KILN_LANES])
+{
+    const struct kiln_sun_frame frame = *sun;
+    for (uint32_t k = 0; k < box_count; k++) {
+        const struct kiln_sun_box box = boxes[k];
+        if (!any_near(b, &box, &frame))
+            continue;
+        for (uint32_t i = 0; i < KILN_LANES; i++) {
+            const struct kiln_ball ball = {kiln_get3(&b->position, i), b->radius[i]};
+            visible[i] *= 1.0f - kiln_sun_box_cover(&box, ball, &frame);
+        }
+    }
+}
+
+const struct kiln_living_loops KILN_SIMD_NAME(kiln_living_loops) = {
+    .find = find,
+    .gather_fire = gather_fire,
+    .find_extinction = find_extinction,
+    .shade = shade,
+};

@@ -1,0 +1,213 @@
+/* The sphere around the mesh fills the map but for a border
+ * (shaders/draw/backdrop/mesh_shadow.vert). Coarser levels are means of four texels. */
+#include "draw/light/mesh_shadow.h"
+
+#include <assert.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "shared/exact.h"
+
+enum { EDGE = KILN_SHADOW_EDGE, ROWS_AT_A_TIME = 32 };
+
+static_assert(EDGE == 1 << (KILN_SHADOW_LEVELS - 1), "down to one texel");
+
+bool kiln_mesh_shadow_init(struct kiln_mesh_shadow *shadow, struct kiln_error *error)
+{
+    *shadow = (struct kiln_mesh_shadow){.drawn = false};
+    shadow->texels = malloc(KILN_SHADOW_TEXELS * sizeof *shadow->texels);
+    return shadow->texels ||
+           kiln_error_set(error, KILN_DEVICE_FAILED, "shadows of meshes: out of memory");
+}
+
+void kiln_mesh_shadow_finish(struct kiln_mesh_shadow *shadow)
+{
+    free(shadow->texels);
+    shadow->texels = NULL;
+}
+
+struct drawing {
+    struct kiln_mesh_shadow *shadow;
+    struct kiln_mesh_canvas *canvas;
+    const struct kiln_mesh *mesh;
+    uint32_t level; /* that is made of the one before */
+};
+
+/* ---- triangles ------------------------------------------------------------------------------- */
+
+struct corner {
+    float x, y, height; /* texels; 0 to 1, towards the sun */
+};
+
+static float dot(float4 a, float3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static struct corner project(const struct kiln_mesh_shadow *shadow, const float vertex[3])
+{
+    const struct kiln_draw_mesh *placed = &shadow->placed;
+    float world[3];
+    for (int i = 0; i < 3; i++) {
+        const float4 row = placed->to_world[i];
+        world[i] = row.x * vertex[0] + row.y * vertex[1] + row.z * vertex[2] + row.w;
+    }
+    const float3 from = {world[0] - placed->center.x, world[1] - placed->center.y,
+                         world[2] - placed->center.z};
+    float scale = 0.5f / (placed->center.w * (1.0f + KILN_SHADOW_MARGIN));
+    return (struct corner){(0.5f + dot(shadow->right, from) * scale) * (float)EDGE,
+                           (0.5f + dot(shadow->up, from) * scale) * (float)EDGE,
+                           0.5f + dot(shadow->sun, from) * scale};
+}
+
+/* The plane that is 0 along a line; the same, times -1, for its other direction. */
+static void edge_plane(struct corner a, struct corner b, float plane[3])
+{
+    bool swap = a.x > b.x || (a.x == b.x && a.y > b.y);
+    struct corner from = swap ? b : a, to = swap ? a : b;
+    float x = to.x - from.x, y = to.y - from.y, sign = swap ? -1.0f : 1.0f;
+    plane[0] = -y * sign;
+    plane[1] = x * sign;
+    plane[2] = (y * from.x - x * from.y) * sign;
+}
+
+static struct kiln_row_range pixels_between(float low, float high)
+{
+    const float last = (float)EDGE;
+    return (struct kiln_row_range){(int16_t)exact_clamp(low - 1.0f, 0.0f, last),
+                                   (int16_t)exact_clamp(high + 2.0f, 0.0f, last)};
+}
+
+static void flatten(const struct corner c[3], struct kiln_flat_triangle *t)
+{
+    *t = (struct kiln_flat_triangle){.y = {0, 0}};
+    float area = (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[1].y - c[0].y) * (c[2].x - c[0].x);
+    if (!(exact_abs(area) > 1e-6f))
+        return;
+    float sign = area < 0.0f ? -1.0f : 1.0f;
+    for (int k = 0; k < 3; k++) {
+        edge_plane(c[(k + 1) % 3], c[(k + 2) % 3], t->edges[k]);
+        for (int i = 0; i < 3; i++) {
+            t->nearness[i] += t->edges[k][i] / area * c[k].height;
+            t->edges[k][i] *= sign;
+        }
+    }
+    t->x = pixels_between(exact_min(exact_min(c[0].x, c[1].x), c[2].x),
+                          exact_max(exact_max(c[0].x, c[1].x), c[2].x));
+    t->y = pixels_between(exact_min(exact_min(c[0].y, c[1].y), c[2].y),
+                          exact_max(exact_max(c[0].y, c[1].y), c[2].y));
+}
+
+static void flatten_some(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct drawing *d = context;
+    for (size_t i = begin; i < end; i++) {
+        struct corner corners[3];
+        for (int k = 0; k < 3; k++)
+            corners[k] = project(d->shadow, d->mesh->vertices[d->mesh->triangles[i][k]]);
+        flatten(corners, &d->canvas->triangles[i]);
+    }
+}
+
+/* ---- texels ---------------------------------------------------------------------------------- */
+
+static void draw_band(const struct drawing *d, uint32_t band, float *nearness)
+{
+    const struct kiln_mesh_canvas *canvas = d->canvas;
+    const struct kiln_row_lists *lists = &canvas->lists;
+    const uint32_t y = band * KILN_MESH_ROWS;
+    memset(nearness, 0, KILN_MESH_ROWS * canvas->pitch * sizeof *nearness);
+    const struct kiln_mesh_strip strip = {
+        .width = EDGE,
+        .y = y,
+        .rows = KILN_MESH_ROWS,
+        .u_step = 1.0f,
+        .v_step = 1.0f,
+        .layers = 1,
+        .offsets = {{0.5f, 0.5f}},
+        .most = 2.0f,
+        .nearness = nearness,
+        .pitch = canvas->pitch,
+    };
+    canvas->rows->draw(&strip, canvas->triangles, lists->list + lists->first[band],
+                       lists->first[band + 1] - lists->first[band]);
+    for (uint32_t row = 0; row < KILN_MESH_ROWS; row++) {
+        const float *from = nearness + row * canvas->pitch;
+        uint32_t *to = d->shadow->texels + (size_t)(y + row) * EDGE;
+        for (uint32_t x = 0; x < EDGE; x++) {
+            float distance = exact_clamp(1.0f - from[x], 0.0f, 1.0f) * (float)KILN_SHADOW_ONE;
+            uint32_t seen = (uint32_t)(distance + 0.5f) << 16 | KILN_SHADOW_ONE;
+            to[x] = from[x] > 0.0f ? seen : 0;
+        }
+    }
+}
+
+static void draw_bands(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    const struct drawing *d = context;
+    for (size_t band = begin; band < end; band++)
+        draw_band(d, (uint32_t)band, d->canvas->nearness + worker * d->canvas->strip);
+}
+
+static size_t first_of(uint32_t level)
+{
+    size_t whole = (size_t)4 * EDGE * EDGE, rest = whole >> (2 * level);
+    return (whole - rest) / 3;
+}
+
+static void shrink_rows(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct drawing *d = context;
+    size_t edge = EDGE >> d->level;
+    const uint32_t *from = d->shadow->texels + first_of(d->level - 1);
+    uint32_t *to = d->shadow->texels + first_of(d->level);
+    for (size_t y = begin; y < end; y++) {
+        for (size_t x = 0; x < edge; x++) {
+            const uint32_t *four = from + 4 * y * edge + 2 * x;
+            const uint32_t texels[4] = {four[0], four[1], four[2 * edge], four[2 * edge + 1]};
+            uint32_t cover = 2, distance = 2; /* rounded */
+            for (int i = 0; i < 4; i++) {
+                cover += texels[i] & 0xffffu;
+                distance += texels[i] >> 16;
+            }
+            to[y * edge + x] = distance / 4 << 16 | cover / 4;
+        }
+    }
+}
+
+static bool shows(const struct kiln_mesh_shadow *shadow, const struct kiln_draw_mesh *placed,
+                  const struct kiln_draw_shapes *shapes, float4 sun)
+{
+    return shadow->drawn && memcmp(&shadow->placed, placed, sizeof *placed) == 0 &&
+           memcmp(&shadow->right, &shapes->sun_right, sizeof(float4)) == 0 &&
+           memcmp(&shadow->up, &shapes->sun_up, sizeof(float4)) == 0 &&
+           memcmp(&shadow->sun, &sun, sizeof(float4)) == 0;
+}
+
+bool kiln_mesh_shadow_update(struct kiln_mesh_shadow *shadow, struct kiln_mesh_canvas *canvas,
+                             const struct kiln_mesh *mesh, const struct kiln_draw_mesh *placed,
+                             const struct kiln_draw_shapes *shapes, float4 sun,
+                             struct kiln_error *error)
+{
+    if (shows(shadow, placed, shapes, sun))
+        return true;
+    shadow->placed = *placed;
+    shadow->right = shapes->sun_right;
+    shadow->up = shapes->sun_up;
+    shadow->sun = sun;
+    struct drawing drawing = {shadow, canvas, mesh, 0};
+    kiln_threads_for(canvas->threads, mesh->triangle_count, 512, flatten_some, &drawing);
+    shadow->drawn =
+        kiln_row_lists_fill(&canvas->lists, &canvas->triangles->y, sizeof *canvas->triangles,
+                            mesh->triangle_count, EDGE, KILN_MESH_ROWS, error);
+    if (!shadow->drawn)
+        return false;
+    kiln_threads_for(canvas->threads, canvas->lists.bands, 1, draw_bands, &drawing);
+    while (++drawing.level < KILN_SHADOW_LEVELS)
+        kiln_threads_for(canvas->threads, EDGE >> drawing.level, ROWS_AT_A_TIME, shrink_rows,
+                         &drawing);
+    return true;
+}

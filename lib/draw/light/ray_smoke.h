@@ -1,0 +1,67 @@
+/* The light that smoke lets through to vectors of points: as shaders/draw/light/smoke_shadow.glsl
+ * has it.
+ */
+#ifndef KILN_DRAW_RAY_SMOKE_H
+#define KILN_DRAW_RAY_SMOKE_H
+
+#include "draw/light/smoke_shadow.h"
+#include "draw/vector/ray_math.h"
+
+/* A point that asks for light. */
+struct ray_point {
+    struct vf3 at, normal;
+    vi wanted; /* lanes */
+};
+
+/* A cell and its next one along an axis, and the way between; clamped to the centres of the outer
+ * cells. */
+struct ray_cell {
+    vi from, step;
+    vf part;
+};
+
+SIMD struct ray_cell find_cell(vf at, int32_t stride)
+{
+    vf cell = vf_clamp(at * (float)KILN_SMOKE_GRID - 0.5f, 0.0f, (float)(KILN_SMOKE_GRID - 1));
+    vi from = vi_of(cell);
+    vi step = (from + 1 < KILN_SMOKE_GRID) & stride;
+    return (struct ray_cell){from * stride, step, cell - vf_of(from)};
+}
+
+SIMD vf read_grid_row(const float *depth, vi from, const struct ray_cell *x)
+{
+    vf left = vf_gather(depth, from);
+    return left + (vf_gather(depth, from + x->step) - left) * x->part;
+}
+
+SIMD vf read_grid(const float *depth, vf x, vf y, vf z)
+{
+    const struct ray_cell cx = find_cell(x, 1), cy = find_cell(y, KILN_SMOKE_GRID);
+    const struct ray_cell cz = find_cell(z, KILN_SMOKE_GRID * KILN_SMOKE_GRID);
+    vi from = cx.from + cy.from + cz.from, next = from + cz.step;
+    vf near = read_grid_row(depth, from, &cx), far = read_grid_row(depth, next, &cx);
+    near += (read_grid_row(depth, from + cy.step, &cx) - near) * cy.part;
+    far += (read_grid_row(depth, next + cy.step, &cx) - far) * cy.part;
+    return near + (far - near) * cz.part;
+}
+
+/* The part of the light that gets through the smoke to a place. */
+SIMD vf smoke_lets_through(const float *depth, const float4 to_grid[3], const struct ray_point *p)
+{
+    vf one = vf_all(1.0f);
+    if (!depth)
+        return one;
+    vf x = vf3_map(to_grid[0], p->at), y = vf3_map(to_grid[1], p->at);
+    vf z = vf3_map(to_grid[2], p->at);
+    /* Beside the smoke, or between it and the light, there is none. */
+    vi inside = p->wanted & (x >= 0.0f) & (y >= 0.0f) & (x <= 1.0f) & (y <= 1.0f) & (z <= 1.0f);
+    if (!any(inside))
+        return one;
+    vf zero = vf_all(0.0f);
+    x = vf_select(inside, x, zero);
+    y = vf_select(inside, y, zero);
+    z = vf_select(inside, z, zero);
+    return vf_select(inside, vf_exp(-read_grid(depth, x, y, z)), one);
+}
+
+#endif

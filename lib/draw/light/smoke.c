@@ -1,0 +1,132 @@
+/* A system's slots are cut into stretches, and each stretch keeps what lives in it in order. */
+#include "draw/light/smoke.h"
+
+#include "base/error.h"
+#include "draw/light/living_blocks.h"
+
+#include <assert.h>
+#include <stdlib.h>
+
+static const float FILL = 0.6f; /* of a cell of the atlas, in its middle */
+
+struct gatherer {
+    const struct kiln_living_loops *loops;
+    struct kiln_living_system system;
+    float shadow;
+    struct kiln_puff *puffs; /* of the system */
+    uint32_t *counts;
+};
+
+static uint32_t gather_block(const struct gatherer *gatherer, uint32_t first,
+                             struct kiln_puff *puffs)
+{
+    struct kiln_living_block block;
+    float extinction[KILN_LANES];
+    gatherer->loops->find(&gatherer->system, first, &block);
+    gatherer->loops->find_extinction(&block, FILL, gatherer->shadow, extinction);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        if (block.radius[i] > 0.0f && block.opacity[i] > 0.0f)
+            puffs[count++] =
+                (struct kiln_puff){kiln_get3(&block.position, i), block.radius[i], extinction[i]};
+    }
+    return count;
+}
+
+static_assert(KILN_SMOKE_STRETCH % KILN_LANES == 0, "stretches are of whole blocks");
+
+static void gather_slots(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct gatherer *gatherer = context;
+    size_t stretch = begin / KILN_SMOKE_STRETCH;
+    struct kiln_puff *puffs = gatherer->puffs + stretch * KILN_SMOKE_STRETCH;
+    uint32_t count = 0;
+    for (size_t slot = begin; slot < end; slot += KILN_LANES)
+        count += gather_block(gatherer, (uint32_t)slot, puffs + count);
+    gatherer->counts[stretch] = count;
+}
+
+/* Spheres are no smoke, and what is a few pixels wide hides nothing. */
+static bool is_smoke(const struct kiln_system *system)
+{
+    return system->enabled && system->look.blend == KILN_BLEND_ALPHA &&
+           system->look.shape == KILN_SHAPE_BILLBOARD;
+}
+
+/* 0 for a system that throws no shadow. */
+static float shadow_of(const struct kiln_living_moment *moment, uint32_t system)
+{
+    const struct kiln_system *s = &moment->scene->systems[system];
+    if (!is_smoke(s))
+        return 0.0f;
+    return kiln_scene_value(moment->scene, &s->look.shadow, moment->view->clock.x);
+}
+
+static uint32_t stretches_of(const struct kiln_pool *pool, uint32_t system)
+{
+    return (kiln_pool_used(&pool->systems[system]) + KILN_SMOKE_STRETCH - 1) / KILN_SMOKE_STRETCH;
+}
+
+static bool make_room(struct kiln_smoke *smoke, uint32_t stretches, struct kiln_error *error)
+{
+    if (stretches <= smoke->capacity)
+        return true;
+    uint32_t capacity = stretches + stretches / 4;
+    kiln_smoke_finish(smoke);
+    smoke->puffs = malloc((size_t)capacity * KILN_SMOKE_STRETCH * sizeof *smoke->puffs);
+    smoke->counts = malloc(capacity * sizeof *smoke->counts);
+    if (!smoke->puffs || !smoke->counts) {
+        kiln_smoke_finish(smoke);
+        kiln_error_set(error, KILN_DEVICE_FAILED, "lighting: out of memory");
+        return false;
+    }
+    smoke->capacity = capacity;
+    return true;
+}
+
+bool kiln_smoke_gather(struct kiln_smoke *smoke, const struct kiln_living_moment *moment,
+                       struct kiln_threads *threads, struct kiln_error *error)
+{
+    uint32_t stretches = 0, systems = moment->scene->system_count;
+    for (uint32_t i = 0; i < systems; i++) {
+        if (shadow_of(moment, i) > 0.0f)
+            stretches += stretches_of(moment->pool, i);
+    }
+    if (!make_room(smoke, stretches, error))
+        return false;
+    smoke->stretch_count = 0;
+    for (uint32_t i = 0; i < systems; i++) {
+        float shadow = shadow_of(moment, i);
+        if (!(shadow > 0.0f))
+            continue;
+        struct gatherer gatherer = {
+            .loops = moment->loops,
+            .system = kiln_living_system(moment, i),
+            .shadow = shadow,
+            .puffs = smoke->puffs + (size_t)smoke->stretch_count * KILN_SMOKE_STRETCH,
+            .counts = smoke->counts + smoke->stretch_count,
+        };
+        kiln_threads_for(threads, gatherer.system.used, KILN_SMOKE_STRETCH, gather_slots,
+                         &gatherer);
+        smoke->stretch_count += stretches_of(moment->pool, i);
+    }
+    return true;
+}
+
+void kiln_smoke_finish(struct kiln_smoke *smoke)
+{
+    free(smoke->puffs);
+    free(smoke->counts);
+    *smoke = (struct kiln_smoke){.puffs = NULL};
+}
+
+bool kiln_smoke_exists(const struct kiln_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_system *system = &scene->systems[i];
+        if (is_smoke(system) && kiln_scene_value_max(scene, &system->look.shadow) > 0.0f)
+            return true;
+    }
+    return false;
+}

@@ -1,0 +1,37 @@
+/* The particles that throw a shadow, gathered once a moment into a compact array. */
+#ifndef KILN_DRAW_SMOKE_H
+#define KILN_DRAW_SMOKE_H
+
+#include "base/thread.h"
+#include "draw/moment/living.h"
+
+struct kiln_error;
+
+/* A ball of smoke. */
+struct kiln_puff {
+    float3 position;  /* m */
+    float radius;     /* m, above 0 */
+    float extinction; /* summed over its volume, m^2 */
+};
+
+/* Stretches of puffs, each of which starts at a multiple of KILN_SMOKE_STRETCH: which puff lies
+ * where follows from the pool alone. */
+enum { KILN_SMOKE_STRETCH = 2048 };
+
+struct kiln_smoke {
+    struct kiln_puff *puffs;
+    uint32_t *counts; /* puffs of each stretch */
+    uint32_t stretch_count;
+    uint32_t capacity; /* stretches that there is room for */
+};
+
+/* The smoke of all systems that cover. `smoke` starts as zeros and is gathered into again and
+ * again. False with an error: no memory. */
+bool kiln_smoke_gather(struct kiln_smoke *smoke, const struct kiln_living_moment *moment,
+                       struct kiln_threads *threads, struct kiln_error *error);
+void kiln_smoke_finish(struct kiln_smoke *smoke);
+
+/* Whether any system throws a shadow. */
+bool kiln_smoke_exists(const struct kiln_scene *scene);
+
+#endif

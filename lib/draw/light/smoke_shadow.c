@@ -1,0 +1,501 @@
+/* Each particle is a ball whose density falls off smoothly, put into a grid of about its own
+ * fineness: a pyramid of grids, so that a large puff costs no more cells than a small one. The
+ * pyramid is added up, and then summed along the light.
+ *
+ * The smoke is cut into parts, as many as its amount asks for, each with a pyramid of its own; they
+ * are added up in order, so that threads do not matter. What of a pyramid is empty is not even
+ * cleared: most of it, mostly.
+ */
+#include "draw/light/smoke_shadow.h"
+
+#include "base/vector.h"
+#include "shared/exact.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    EDGE = KILN_SMOKE_GRID,
+    LEVELS = 4, /* 64, 32, 16 and 8 cells */
+    MOST_PARTS = 8,
+    LEAST_PART = 2, /* stretches of puffs */
+    BAND = 8,       /* rows of a slice that are summed along the light together */
+    LANES = 8,      /* cells of a row that a ball reaches at most */
+    BALLS = 64,     /* at a time */
+};
+
+static const float MOST_CELLS = 2.5f;  /* of a ball's radius, in its grid */
+static const float LEAST_CELLS = 1.2f; /* smaller balls are put in as large as this */
+
+/* The smoke of a part in one grid. */
+struct pyramid {
+    float *levels[LEVELS];    /* extinction, 1/m */
+    uint64_t touched[LEVELS]; /* a bit a slice of cells; the others have no contents */
+    float low[3], high[3];    /* bounds along the axes, m */
+    bool any;
+};
+
+struct box {
+    struct kiln_smoke_grid *grid;
+    float3 axes[3];  /* of the grid; the third to the light */
+    float cell;      /* m */
+    float origin[3]; /* the grid's low corner along the axes, m */
+    float *finer;    /* level 1, interpolated along its rows */
+    bool coarse;     /* whether any level but the finest has contents */
+    struct pyramid parts[MOST_PARTS];
+};
+
+struct kiln_smoke_shadow {
+    struct box boxes[KILN_MAX_SMOKE_GRIDS];
+    float *memory;
+    /* Of one call. */
+    const struct kiln_smoke *smoke;
+    uint32_t parts;
+};
+
+static size_t level_floats(int level)
+{
+    size_t edge = (size_t)(EDGE >> level);
+    return edge * edge * edge;
+}
+
+struct kiln_smoke_shadow *kiln_smoke_shadow_create(void)
+{
+    size_t pyramid = 0, finer = 2 * level_floats(1);
+    for (int level = 0; level < LEVELS; level++)
+        pyramid += level_floats(level);
+    struct kiln_smoke_shadow *shadow = calloc(1, sizeof *shadow);
+    float *memory = malloc(KILN_MAX_SMOKE_GRIDS * (MOST_PARTS * pyramid + finer) * sizeof *memory);
+    if (!shadow || !memory) {
+        free(shadow);
+        free(memory);
+        return NULL;
+    }
+    shadow->memory = memory;
+    for (int i = 0; i < KILN_MAX_SMOKE_GRIDS; i++) {
+        struct box *box = &shadow->boxes[i];
+        for (int part = 0; part < MOST_PARTS; part++) {
+            for (int level = 0; level < LEVELS; level++) {
+                box->parts[part].levels[level] = memory;
+                memory += level_floats(level);
+            }
+        }
+        box->finer = memory;
+        memory += finer;
+    }
+    return shadow;
+}
+
+void kiln_smoke_shadow_destroy(struct kiln_smoke_shadow **shadow)
+{
+    if (!*shadow)
+        return;
+    free((*shadow)->memory);
+    free(*shadow);
+    *shadow = NULL;
+}
+
+static float3 cross(float3 a, float3 b)
+{
+    return (float3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+static float dot(float3 a, float3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static void choose_axes(float3 axes[3], float3 direction)
+{
+    float3 aside = fabsf(direction.y) < 0.9f ? (float3){0, 1, 0} : (float3){1, 0, 0};
+    float3 first = cross(aside, direction);
+    float length = sqrtf(dot(first, first));
+    axes[0] = (float3){first.x / length, first.y / length, first.z / length};
+    axes[1] = cross(direction, axes[0]);
+    axes[2] = direction;
+}
+
+/* The stretches of a part. */
+static uint32_t first_stretch(const struct kiln_smoke_shadow *shadow, size_t part)
+{
+    return (uint32_t)((uint64_t)shadow->smoke->stretch_count * part / shadow->parts);
+}
+
+static void widen(const struct box *box, struct pyramid *part, const struct kiln_puff *puff)
+{
+    for (int i = 0; i < 3; i++) {
+        float at = dot(box->axes[i], puff->position);
+        float low = at - puff->radius, high = at + puff->radius;
+        part->low[i] = part->any && part->low[i] < low ? part->low[i] : low;
+        part->high[i] = part->any && part->high[i] > high ? part->high[i] : high;
+    }
+    part->any = true;
+}
+
+/* Work is a part of a grid: grid * parts + part. */
+static void find_bounds(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    struct kiln_smoke_shadow *shadow = context;
+    for (size_t work = begin; work < end; work++) {
+        struct box *box = &shadow->boxes[work / shadow->parts];
+        size_t index = work % shadow->parts;
+        struct pyramid *part = &box->parts[index];
+        part->any = false;
+        uint32_t last = first_stretch(shadow, index + 1);
+        for (uint32_t stretch = first_stretch(shadow, index); stretch < last; stretch++) {
+            const struct kiln_puff *puffs =
+                shadow->smoke->puffs + (size_t)stretch * KILN_SMOKE_STRETCH;
+            for (uint32_t i = 0; i < shadow->smoke->counts[stretch]; i++)
+                widen(box, part, &puffs[i]);
+        }
+    }
+}
+
+/* The cells lie at multiples of their size in the world, and their size is one of few, so that the
+ * grid does not crawl when the smoke grows. False when there is no smoke. */
+static bool place_grid(struct box *box, uint32_t parts)
+{
+    float low[3], high[3], longest = 0.0f;
+    bool any = false;
+    for (uint32_t k = 0; k < parts; k++) {
+        const struct pyramid *part = &box->parts[k];
+        for (int i = 0; i < 3 && part->any; i++) {
+            low[i] = any && low[i] < part->low[i] ? low[i] : part->low[i];
+            high[i] = any && high[i] > part->high[i] ? high[i] : part->high[i];
+        }
+        any = any || part->any;
+    }
+    if (!any)
+        return false;
+    for (int i = 0; i < 3; i++)
+        longest = fmaxf(longest, high[i] - low[i]);
+    float least = longest / (EDGE - 4);
+    box->cell = exact_exp2(0.25f * ceilf(4.0f * exact_log2(fmaxf(least, 1e-4f))));
+    float edge_m = box->cell * EDGE;
+    for (int i = 0; i < 3; i++) {
+        float margin = 0.5f * (edge_m - (high[i] - low[i]));
+        box->origin[i] = box->cell * floorf((low[i] - margin) / box->cell);
+        float3 axis = box->axes[i];
+        box->grid->world_to_grid[i] =
+            (float4){axis.x / edge_m, axis.y / edge_m, axis.z / edge_m, -box->origin[i] / edge_m};
+    }
+    return true;
+}
+
+/* Balls of smoke in the cells of their levels, some at a time: loops over them become vectors. */
+struct balls {
+    float at[3][BALLS]; /* the centre, in cells */
+    float radius[BALLS];
+    float inverse[BALLS]; /* of the radius */
+    float volume[BALLS];  /* of a cell, m^3 */
+    int level[BALLS];
+    int first[3][BALLS], count[3][BALLS]; /* the cells that the ball reaches, along each axis */
+};
+
+static inline void place_balls(const struct box *box, const struct kiln_puff *puffs, int count,
+                               struct balls *balls)
+{
+    const float cell = box->cell;
+    for (int i = 0; i < count; i++) {
+        int level = 0;
+        for (int k = 1; k < LEVELS; k++)
+            level += puffs[i].radius > MOST_CELLS * (cell * 0.5f * (float)(1 << k));
+        float size = cell * (float)(1 << level);
+        float radius = exact_max(puffs[i].radius / size, LEAST_CELLS);
+        balls->level[i] = level;
+        balls->radius[i] = radius;
+        balls->inverse[i] = 1.0f / radius;
+        balls->volume[i] = size * size * size;
+        for (int axis = 0; axis < 3; axis++)
+            balls->at[axis][i] =
+                (dot(box->axes[axis], puffs[i].position) - box->origin[axis]) / size;
+    }
+}
+
+/* Rows end with those of the grid, so that one may be read whole. */
+static inline void find_reaches(int count, struct balls *balls)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        for (int i = 0; i < count; i++) {
+            int edge = EDGE >> balls->level[i];
+            float at = balls->at[axis][i], radius = balls->radius[i];
+            int first = (int)floorf(at - radius), last = (int)ceilf(at + radius) - 1;
+            first = first < 0 ? 0 : first;
+            last = last > edge - 1 ? edge - 1 : last;
+            int reached = last - first + 1;
+            balls->count[axis][i] = reached > LANES ? LANES : reached;
+            balls->first[axis][i] = axis == 0 && first > edge - LANES ? edge - LANES : first;
+        }
+    }
+}
+
+/* Cells of a row at once. */
+typedef float row8 __attribute__((vector_size(4 * LANES)));
+typedef int32_t mask8 __attribute__((vector_size(4 * LANES)));
+
+/* A ball's weights: (1 - d^2)^2, d in radii, in rows of a fixed width. */
+struct ball {
+    float squares[3][LANES]; /* of the distances of cells from its centre, beyond its reach, too */
+    row8 weights[LANES * LANES];
+};
+
+static inline void measure(const struct balls *balls, int i, struct ball *ball)
+{
+    const row8 middles = {0.5f, 1.5f, 2.5f, 3.5f, 4.5f, 5.5f, 6.5f, 7.5f};
+    for (int axis = 0; axis < 3; axis++) {
+        row8 away =
+            (middles + ((float)balls->first[axis][i] - balls->at[axis][i])) * balls->inverse[i];
+        away *= away;
+        memcpy(ball->squares[axis], &away, sizeof away);
+    }
+}
+
+/* Returns the sum of the weights. */
+static inline float weigh(const struct balls *balls, int i, struct ball *ball)
+{
+    row8 sum = {0.0f}, squares;
+    memcpy(&squares, ball->squares[0], sizeof squares);
+    for (int z = 0; z < balls->count[2][i]; z++) {
+        for (int y = 0; y < balls->count[1][i]; y++) {
+            row8 inside = 1.0f - (ball->squares[2][z] + ball->squares[1][y]) - squares;
+            inside = (row8)((mask8)inside & (mask8)(inside > 0.0f));
+            sum += ball->weights[z * LANES + y] = inside * inside;
+        }
+    }
+    return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
+}
+
+static inline void add_ball(float *cells, const struct balls *balls, int i, const struct ball *ball,
+                            float scale)
+{
+    const int edge = EDGE >> balls->level[i];
+    for (int z = 0; z < balls->count[2][i]; z++) {
+        int row = (balls->first[2][i] + z) * edge + balls->first[1][i];
+        float *at = cells + (size_t)row * (size_t)edge + (size_t)balls->first[0][i];
+        for (int y = 0; y < balls->count[1][i]; y++, at += edge) {
+            row8 sum;
+            memcpy(&sum, at, sizeof sum);
+            sum += scale * ball->weights[z * LANES + y];
+            memcpy(at, &sum, sizeof sum);
+        }
+    }
+}
+
+/* Clears the slices of a level that are about to be written for the first time. */
+static inline void touch(struct pyramid *part, int level, int first, int count)
+{
+    size_t slice = (size_t)(EDGE >> level) * (size_t)(EDGE >> level);
+    for (int z = first; z < first + count; z++) {
+        if (!(part->touched[level] >> z & 1))
+            memset(part->levels[level] + (size_t)z * slice, 0, slice * sizeof(float));
+        part->touched[level] |= (uint64_t)1 << z;
+    }
+}
+
+/* The sum is what is kept, however few cells there are. */
+static inline void deposit(const struct box *box, struct pyramid *part,
+                           const struct kiln_puff *puffs, int count)
+{
+    struct balls balls;
+    struct ball ball;
+    place_balls(box, puffs, count, &balls);
+    find_reaches(count, &balls);
+    for (int i = 0; i < count; i++) {
+        measure(&balls, i, &ball);
+        float sum = weigh(&balls, i, &ball);
+        if (!(sum > 0.0f))
+            continue;
+        const int level = balls.level[i];
+        touch(part, level, balls.first[2][i], balls.count[2][i]);
+        add_ball(part->levels[level], &balls, i, &ball,
+                 puffs[i].extinction / (sum * balls.volume[i]));
+    }
+}
+
+KILN_WIDE_VECTORS
+static void deposit_parts(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    struct kiln_smoke_shadow *shadow = context;
+    for (size_t work = begin; work < end; work++) {
+        const struct box *box = &shadow->boxes[work / shadow->parts];
+        size_t index = work % shadow->parts;
+        struct pyramid *part = &shadow->boxes[work / shadow->parts].parts[index];
+        memset(part->touched, 0, sizeof part->touched);
+        uint32_t last = first_stretch(shadow, index + 1);
+        for (uint32_t stretch = first_stretch(shadow, index); stretch < last; stretch++) {
+            const struct kiln_puff *puffs =
+                shadow->smoke->puffs + (size_t)stretch * KILN_SMOKE_STRETCH;
+            const uint32_t count = shadow->smoke->counts[stretch];
+            for (uint32_t i = 0; i < count; i += BALLS)
+                deposit(box, part, puffs + i, (int)(count - i < BALLS ? count - i : BALLS));
+        }
+    }
+}
+
+/* Adds a level of all parts up in the first one. */
+static void add_parts(struct box *box, int level, uint32_t parts)
+{
+    struct pyramid *sum = &box->parts[0];
+    size_t slice = (size_t)(EDGE >> level) * (size_t)(EDGE >> level);
+    for (int z = 0; z < EDGE >> level; z++) {
+        float *cells = sum->levels[level] + (size_t)z * slice;
+        for (uint32_t k = 1; k < parts; k++) {
+            if (!(box->parts[k].touched[level] >> z & 1))
+                continue;
+            const float *more = box->parts[k].levels[level] + (size_t)z * slice;
+            if (!(sum->touched[level] >> z & 1))
+                memset(cells, 0, slice * sizeof *cells);
+            sum->touched[level] |= (uint64_t)1 << z;
+            for (size_t i = 0; i < slice; i++)
+                cells[i] += more[i];
+        }
+    }
+}
+
+/* The two coarse cells that a fine one lies between: its own, of weight 3/4, and the next, of 1/4.
+ */
+struct between {
+    int cells[2];
+};
+
+static struct between between_of(int fine, int coarse_edge)
+{
+    int own = fine / 2, next = fine & 1 ? own + 1 : own - 1;
+    next = next < 0 ? 0 : next > coarse_edge - 1 ? coarse_edge - 1 : next;
+    return (struct between){{own, next}};
+}
+
+/* Interpolates a level along its rows: each becomes one of twice as many cells. */
+static inline void refine_rows(const float *restrict coarse, int coarse_edge, float *restrict rows)
+{
+    for (int row = 0; row < coarse_edge * coarse_edge; row++) {
+        const float *from = coarse + (size_t)row * (size_t)coarse_edge;
+        float *to = rows + 2 * (size_t)row * (size_t)coarse_edge;
+        int last = coarse_edge - 1;
+        to[0] = 0.75f * from[0] + 0.25f * from[0];
+        for (int x = 0; x < last; x++) {
+            to[2 * x + 1] = 0.75f * from[x] + 0.25f * from[x + 1];
+            to[2 * x + 2] = 0.75f * from[x + 1] + 0.25f * from[x];
+        }
+        to[2 * last + 1] = 0.75f * from[last] + 0.25f * from[last];
+    }
+}
+
+/* Adds to row (y, z) of a level what lies in the refined rows of the coarser one. */
+static inline void add_coarser(const float *rows, int edge, int y, int z, float *restrict fine)
+{
+    struct between at_y = between_of(y, edge / 2), at_z = between_of(z, edge / 2);
+    const float *from[4];
+    for (int i = 0; i < 4; i++)
+        from[i] =
+            rows + (size_t)(at_z.cells[i / 2] * (edge / 2) + at_y.cells[i % 2]) * (size_t)edge;
+    const float *restrict a = from[0], *restrict b = from[1];
+    const float *restrict c = from[2], *restrict d = from[3];
+    for (int x = 0; x < edge; x++) {
+        float nearer = fine[x] + 0.5625f * a[x] + 0.1875f * b[x];
+        fine[x] = nearer + 0.1875f * c[x] + 0.0625f * d[x];
+    }
+}
+
+/* Brings every level of all parts but the finest together in `finer`. */
+KILN_WIDE_VECTORS
+static void add_levels(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    struct kiln_smoke_shadow *shadow = context;
+    for (size_t which = begin; which < end; which++) {
+        struct box *box = &shadow->boxes[which];
+        box->coarse = false;
+        for (int level = LEVELS - 1; level > 0; level--) {
+            int edge = EDGE >> level;
+            float *cells = box->parts[0].levels[level];
+            add_parts(box, level, shadow->parts);
+            uint64_t touched = box->parts[0].touched[level];
+            if (!box->coarse && !touched)
+                continue;
+            for (int row = 0; row < edge * edge; row++) {
+                float *fine = cells + (size_t)row * (size_t)edge;
+                if (!(touched >> (row / edge) & 1))
+                    memset(fine, 0, (size_t)edge * sizeof *fine);
+                if (box->coarse)
+                    add_coarser(box->finer, edge, row % edge, row / edge, fine);
+            }
+            box->coarse = true;
+            refine_rows(cells, edge, box->finer);
+        }
+    }
+}
+
+/* The extinction of a row of cells. */
+static inline void add_row(const struct kiln_smoke_shadow *shadow, const struct box *box, int y,
+                           int z, float *restrict extinction)
+{
+    for (uint32_t k = 0; k < shadow->parts; k++) {
+        const struct pyramid *part = &box->parts[k];
+        if (!(part->touched[0] >> z & 1))
+            continue;
+        const float *restrict cells = part->levels[0] + (size_t)(z * EDGE + y) * EDGE;
+        for (int x = 0; x < EDGE; x++)
+            extinction[x] += cells[x];
+    }
+    if (box->coarse)
+        add_coarser(box->finer, EDGE, y, z, extinction);
+}
+
+/* From extinction to the optical depth between a cell's centre and the light. above: up to the
+ * cell's upper face. */
+static inline void advance(const float *restrict extinction, float cell, float *restrict above,
+                           float *restrict depth)
+{
+    for (int x = 0; x < EDGE; x++) {
+        float own = extinction[x] * cell;
+        depth[x] = above[x] + 0.5f * own;
+        above[x] += own;
+    }
+}
+
+/* Some rows of every slice of a grid: grid * (EDGE / BAND) + band. */
+KILN_WIDE_VECTORS
+static void sum_towards_light(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct kiln_smoke_shadow *shadow = context;
+    for (size_t work = begin; work < end; work++) {
+        const struct box *box = &shadow->boxes[work / (EDGE / BAND)];
+        int first = (int)(work % (EDGE / BAND)) * BAND;
+        float above[BAND][EDGE] = {{0}};
+        for (int z = EDGE - 1; z >= 0; z--) {
+            for (int y = first; y < first + BAND; y++) {
+                float extinction[EDGE] = {0};
+                add_row(shadow, box, y, z, extinction);
+                advance(extinction, box->cell, above[y - first],
+                        box->grid->depth + (size_t)(z * EDGE + y) * EDGE);
+            }
+        }
+    }
+}
+
+bool kiln_smoke_shadow_fill(struct kiln_smoke_shadow *shadow, const struct kiln_smoke *smoke,
+                            struct kiln_threads *threads, struct kiln_smoke_grid *grids,
+                            uint32_t count)
+{
+    uint32_t useful = smoke->stretch_count / LEAST_PART;
+    shadow->parts = useful < 1 ? 1 : useful > MOST_PARTS ? MOST_PARTS : useful;
+    shadow->smoke = smoke;
+    for (uint32_t i = 0; i < count; i++) {
+        shadow->boxes[i].grid = &grids[i];
+        choose_axes(shadow->boxes[i].axes, grids[i].direction);
+    }
+    kiln_threads_for(threads, (size_t)count * shadow->parts, 1, find_bounds, shadow);
+    for (uint32_t i = 0; i < count; i++) {
+        if (!place_grid(&shadow->boxes[i], shadow->parts))
+            return false;
+    }
+    kiln_threads_for(threads, (size_t)count * shadow->parts, 1, deposit_parts, shadow);
+    kiln_threads_for(threads, count, 1, add_levels, shadow);
+    kiln_threads_for(threads, (size_t)count * (EDGE / BAND), 1, sum_towards_light, shadow);
+    return true;
+}

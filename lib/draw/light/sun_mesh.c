@@ -1,0 +1,152 @@
+/* Cells whose centre a triangle covers keep its height, the highest of all; coarser levels keep
+ * means. The sphere around the mesh fills the map.
+ */
+#include "draw/light/sun_mesh.h"
+
+#include "shared/exact.h"
+
+#include <assert.h>
+#include <math.h>
+#include <string.h>
+
+enum { EDGE = KILN_SUN_MESH_EDGE };
+
+static_assert(KILN_SUN_MESH_CELLS == (4 * EDGE * EDGE - 1) / 3, "all levels");
+
+struct corner {
+    float x, y, height; /* cells; m */
+};
+
+static float3 middle_of(const struct kiln_draw_mesh *placed)
+{
+    return (float3){placed->center.x, placed->center.y, placed->center.z};
+}
+
+/* A place relative to the mesh's middle. */
+static struct corner project(const struct kiln_sun_mesh *map, float3 from)
+{
+    float scale = 0.5f * EDGE / map->placed.center.w;
+    return (struct corner){0.5f * EDGE + float3_dot(from, map->sun.right) * scale,
+                           0.5f * EDGE + float3_dot(from, map->sun.up) * scale,
+                           float3_dot(from, map->sun.towards)};
+}
+
+static struct corner corner_of(const struct kiln_sun_mesh *map, const float vertex[3])
+{
+    const float4 *rows = map->placed.to_world;
+    float world[3];
+    for (int i = 0; i < 3; i++)
+        world[i] =
+            rows[i].x * vertex[0] + rows[i].y * vertex[1] + rows[i].z * vertex[2] + rows[i].w;
+    float3 at = {world[0], world[1], world[2]};
+    return project(map, float3_sub(at, middle_of(&map->placed)));
+}
+
+/* Twice the signed area. */
+static float area(struct corner a, struct corner b, float x, float y)
+{
+    return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
+}
+
+static int cell_at(float x)
+{
+    return (int)exact_clamp(x, 0.0f, (float)(EDGE - 1));
+}
+
+static void draw_triangle(struct kiln_sun_mesh *map, const struct corner c[3])
+{
+    float whole = area(c[0], c[1], c[2].x, c[2].y);
+    if (whole == 0.0f)
+        return;
+    int last_x = cell_at(fmaxf(fmaxf(c[0].x, c[1].x), c[2].x));
+    int last_y = cell_at(fmaxf(fmaxf(c[0].y, c[1].y), c[2].y));
+    for (int y = cell_at(fminf(fminf(c[0].y, c[1].y), c[2].y)); y <= last_y; y++) {
+        for (int x = cell_at(fminf(fminf(c[0].x, c[1].x), c[2].x)); x <= last_x; x++) {
+            float px = (float)x + 0.5f, py = (float)y + 0.5f;
+            float u = area(c[1], c[2], px, py) / whole, v = area(c[2], c[0], px, py) / whole;
+            float w = 1.0f - u - v;
+            if (u < 0.0f || v < 0.0f || w < 0.0f)
+                continue;
+            float height = u * c[0].height + v * c[1].height + w * c[2].height;
+            int cell = y * EDGE + x;
+            if (map->cover[cell] == 0.0f || height > map->height[cell])
+                map->height[cell] = height;
+            map->cover[cell] = 1.0f;
+        }
+    }
+}
+
+static void average_levels(float *cells)
+{
+    const float *fine = cells;
+    for (size_t edge = EDGE / 2; edge > 0; edge /= 2) {
+        float *coarse = cells += 4 * edge * edge;
+        for (size_t i = 0; i < edge * edge; i++) {
+            const float *from = fine + 4 * edge * (i / edge) + 2 * (i % edge);
+            coarse[i] = 0.25f * (from[0] + from[1] + from[2 * edge] + from[2 * edge + 1]);
+        }
+        fine = coarse;
+    }
+}
+
+void kiln_sun_mesh_update(struct kiln_sun_mesh *map, const struct kiln_mesh *mesh,
+                          const struct kiln_draw_mesh *placed, const struct kiln_sun_frame *sun)
+{
+    if (map->drawn && memcmp(&map->placed, placed, sizeof *placed) == 0 &&
+        memcmp(&map->sun, sun, sizeof *sun) == 0)
+        return;
+    memset(map, 0, sizeof *map);
+    map->placed = *placed;
+    map->sun = *sun;
+    map->drawn = true;
+    for (uint32_t i = 0; i < mesh->triangle_count; i++) {
+        struct corner corners[3];
+        for (int k = 0; k < 3; k++)
+            corners[k] = corner_of(map, mesh->vertices[mesh->triangles[i][k]]);
+        draw_triangle(map, corners);
+    }
+    average_levels(map->cover);
+    average_levels(map->height);
+}
+
+/* Linear between the centres of four cells; nothing is beside the map. */
+static float read_level(const float *cells, int edge, float x, float y)
+{
+    float left = floorf(x - 0.5f), top = floorf(y - 0.5f), sum = 0.0f;
+    for (int i = 0; i < 4; i++) {
+        float cx = left + (float)(i & 1), cy = top + (float)(i >> 1);
+        if (cx < 0.0f || cy < 0.0f || cx >= (float)edge || cy >= (float)edge)
+            continue;
+        float weight = (1.0f - fabsf(x - 0.5f - cx)) * (1.0f - fabsf(y - 0.5f - cy));
+        sum += weight * cells[(int)cy * edge + (int)cx];
+    }
+    return sum;
+}
+
+/* Four places within the penumbra, in a level whose cells are about as wide as it. */
+float kiln_sun_mesh_cover(const struct kiln_sun_mesh *map, struct kiln_ball ball)
+{
+    struct corner at = project(map, float3_sub(ball.center, middle_of(&map->placed)));
+    float size = map->placed.center.w;
+    if (at.height > size)
+        return 0.0f;
+    float spread = map->sun.spread * fmaxf(-at.height, 0.0f);
+    float width = (ball.radius + spread) * 0.5f * EDGE / size; /* cells */
+    if (fabsf(at.x - 0.5f * EDGE) > 0.5f * EDGE + 2.0f * width ||
+        fabsf(at.y - 0.5f * EDGE) > 0.5f * EDGE + 2.0f * width)
+        return 0.0f;
+    size_t first = 0;
+    int edge = EDGE;
+    for (; edge > 1 && (float)(4 * EDGE / edge) <= width; edge /= 2)
+        first += (size_t)(edge * edge);
+    float cover = 0.0f, scale = (float)edge / EDGE, aside = 0.5f * fmaxf(width, 1.0f);
+    for (int i = 0; i < 4; i++) {
+        float x = (at.x + (i & 1 ? aside : -aside)) * scale;
+        float y = (at.y + (i & 2 ? aside : -aside)) * scale;
+        float covered = read_level(map->cover + first, edge, x, y);
+        float top = read_level(map->height + first, edge, x, y) / fmaxf(covered, 1e-4f);
+        float way = (top - at.height) / fmaxf(ball.radius, 2.0f * size / EDGE);
+        cover += 0.25f * covered * exact_clamp(way, 0.0f, 1.0f);
+    }
+    return cover;
+}

@@ -1,0 +1,227 @@
+/* On the host, a particle at a time: what an object hides of the sun has a closed form, except for
+ * a mesh, which has a map. What every technique of drawing reads is the same number. */
+#include "draw/light/sun_shade.h"
+
+#include "base/error.h"
+#include "draw/light/living_blocks.h"
+#include "draw/light/sun_mesh.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { GRAIN = 8 * KILN_LANES }; /* slots that a worker takes at a time */
+
+/* A box of any direction, in its own frame. */
+struct turned_box {
+    struct kiln_sun_box box; /* about the origin */
+    struct kiln_sun_frame sun;
+};
+
+struct kiln_sun_shade {
+    const struct kiln_scene *scene;
+    struct kiln_meshes *meshes;
+    struct kiln_sun_mesh *maps; /* a mesh each */
+    struct kiln_sun_frame sun;  /* these are of the frame at hand */
+    struct kiln_draw_shapes shapes;
+    uint32_t box_count;
+    struct kiln_sun_box boxes[KILN_MAX_OBJECTS];
+    struct turned_box turned[KILN_MAX_OBJECTS]; /* as many as shapes has */
+    float *visible;                             /* by slot, whole rows of KILN_SUN_SHADE_ROW */
+};
+
+static bool is_shaded(const struct kiln_scene *scene, uint32_t system)
+{
+    const struct kiln_system *s = &scene->systems[system];
+    return s->enabled && !kiln_look_is_opaque(&s->look) &&
+           kiln_scene_value_max(scene, &s->look.lit) > 0.0f;
+}
+
+bool kiln_sun_shade_exists(const struct kiln_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        if (is_shaded(scene, i))
+            return scene->backdrop.object_count > 0;
+    }
+    return false;
+}
+
+struct kiln_sun_shade *kiln_sun_shade_create(const struct kiln_scene *scene,
+                                             struct kiln_error *error)
+{
+    size_t meshes = 0;
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++)
+        meshes += kiln_object_is_mesh(&scene->backdrop.objects[i]);
+    struct kiln_sun_shade *shade = calloc(1, sizeof *shade);
+    if (shade)
+        shade->maps = calloc(meshes ? meshes : 1, sizeof *shade->maps);
+    if (!shade || !shade->maps) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "shade of particles: out of memory");
+        free(shade);
+        return NULL;
+    }
+    shade->scene = scene;
+    return shade;
+}
+
+void kiln_sun_shade_destroy(struct kiln_sun_shade **shade)
+{
+    if (!*shade)
+        return;
+    free((*shade)->maps);
+    free((*shade)->visible);
+    free(*shade);
+    *shade = NULL;
+}
+
+void kiln_sun_shade_use_meshes(struct kiln_sun_shade *shade, struct kiln_meshes *meshes)
+{
+    shade->meshes = meshes;
+}
+
+static float3 xyz(float4 v)
+{
+    return (float3){v.x, v.y, v.z};
+}
+
+static float3 into_box(const struct kiln_draw_turned_box *box, float3 v)
+{
+    return (float3){float3_dot(v, xyz(box->rows[0])), float3_dot(v, xyz(box->rows[1])),
+                    float3_dot(v, xyz(box->rows[2]))};
+}
+
+static struct turned_box turned_box_at(const struct kiln_draw_turned_box *box,
+                                       const struct kiln_sun_frame *sun)
+{
+    const struct kiln_sun_frame there = {into_box(box, sun->right), into_box(box, sun->up),
+                                         into_box(box, sun->towards), sun->spread};
+    const float3 middle = {0.0f, 0.0f, 0.0f};
+    return (struct turned_box){kiln_sun_box_at(middle, xyz(box->half_size), &there), there};
+}
+
+static void place_objects(struct kiln_sun_shade *shade, float time_s)
+{
+    const struct kiln_scene *scene = shade->scene;
+    shade->sun = kiln_sun_frame_at(scene, time_s);
+    struct kiln_meshes none = {.count = 0}, *used = shade->meshes ? shade->meshes : &none;
+    const struct kiln_mesh *const *meshes = used->loaded;
+    kiln_meshes_pose(used, time_s);
+    kiln_shapes_fill(scene, meshes, time_s, &shade->shapes);
+    shade->box_count = 0;
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        const struct kiln_object *object = &scene->backdrop.objects[i];
+        if (object->kind != KILN_OBJECT_BOX || kiln_object_is_turned_box(object))
+            continue;
+        float3 size = kiln_scene_value3(scene, &object->size, time_s);
+        const float3 half = {0.5f * size.x, 0.5f * size.y, 0.5f * size.z};
+        shade->boxes[shade->box_count++] =
+            kiln_sun_box_at(kiln_scene_value3(scene, &object->center, time_s), half, &shade->sun);
+    }
+    for (uint32_t i = 0; i < shade->shapes.more.y; i++)
+        shade->turned[i] = turned_box_at(&shade->shapes.turned[i], &shade->sun);
+    for (uint32_t i = 0; i < shade->shapes.counts.z; i++)
+        kiln_sun_mesh_update(&shade->maps[i], meshes[i], &shade->shapes.meshes[i], &shade->sun);
+}
+
+/* One whose particles are at hand. */
+struct seen_system {
+    const struct kiln_sun_shade *shade;
+    const struct kiln_living_loops *loops;
+    struct kiln_living_system system;
+    float *visible; /* from its slots */
+};
+
+static float look_past_turned(const struct kiln_sun_shade *shade, struct kiln_ball ball)
+{
+    const struct kiln_draw_shapes *shapes = &shade->shapes;
+    float visible = 1.0f;
+    for (uint32_t i = 0; i < shapes->more.x; i++)
+        visible *= 1.0f - kiln_capsule_sun_cover(xyz(shapes->capsules[i]), shapes->capsules[i].w,
+                                                 xyz(shapes->capsule_axis[i]),
+                                                 shapes->capsule_axis[i].w, ball, &shade->sun);
+    for (uint32_t i = 0; i < shapes->more.y; i++) {
+        const struct turned_box *turned = &shade->turned[i];
+        const struct kiln_draw_turned_box *box = &shapes->turned[i];
+        const struct kiln_ball there = {into_box(box, float3_sub(ball.center, xyz(box->center))),
+                                        ball.radius};
+        visible *= 1.0f - kiln_sun_box_cover(&turned->box, there, &turned->sun);
+    }
+    return visible;
+}
+
+/* What is seen of it past all objects but boxes along the axes. */
+static float look_past_others(const struct kiln_sun_shade *shade, struct kiln_ball ball)
+{
+    const struct kiln_draw_shapes *shapes = &shade->shapes;
+    const struct kiln_sun_frame *sun = &shade->sun;
+    float visible = 1.0f;
+    for (uint32_t i = 0; i < shapes->counts.x; i++)
+        visible *=
+            1.0f - kiln_sphere_sun_cover(xyz(shapes->spheres[i]), shapes->spheres[i].w, ball, sun);
+    for (uint32_t i = 0; i < shapes->counts.y; i++)
+        visible *= 1.0f - kiln_cylinder_sun_cover(xyz(shapes->cylinders[i]), shapes->cylinders[i].w,
+                                                  xyz(shapes->cylinder_axis[i]),
+                                                  shapes->cylinder_axis[i].w, ball, sun);
+    for (uint32_t i = 0; i < shapes->counts.z; i++)
+        visible *= 1.0f - kiln_sun_mesh_cover(&shade->maps[i], ball);
+    return visible * look_past_turned(shade, ball);
+}
+
+/* Whether anything but those may hide the sun. */
+static bool has_others(const struct kiln_sun_shade *shade)
+{
+    const struct kiln_draw_shapes *shapes = &shade->shapes;
+    const uint4 counts = shapes->counts, more = shapes->more;
+    return counts.x > 0 || counts.y > 0 || counts.z > 0 || more.x > 0 || more.y > 0;
+}
+
+/* As with the backdrop's surfaces, what two objects let through is multiplied. */
+static void look_from_block(const struct seen_system *seen, uint32_t first)
+{
+    const struct kiln_sun_shade *shade = seen->shade;
+    struct kiln_living_block block;
+    alignas(64) float visible[KILN_LANES];
+    seen->loops->find(&seen->system, first, &block);
+    for (uint32_t i = 0; i < KILN_LANES; i++)
+        visible[i] = 1.0f;
+    seen->loops->shade(&block, shade->boxes, shade->box_count, &shade->sun, visible);
+    if (has_others(shade)) {
+        for (uint32_t i = 0; i < KILN_LANES; i++) {
+            const struct kiln_ball ball = {kiln_get3(&block.position, i), block.radius[i]};
+            visible[i] *= block.alive[i] ? look_past_others(shade, ball) : 1.0f;
+        }
+    }
+    const uint32_t left = seen->system.used - first;
+    memcpy(seen->visible + first, visible,
+           (left < KILN_LANES ? left : KILN_LANES) * sizeof *visible);
+}
+
+static void look_from_slots(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    for (size_t slot = begin; slot < end; slot += KILN_LANES)
+        look_from_block(context, (uint32_t)slot);
+}
+
+const float *kiln_sun_shade_run(struct kiln_sun_shade *shade,
+                                const struct kiln_living_moment *moment,
+                                struct kiln_threads *threads, struct kiln_error *error)
+{
+    if (!shade->visible) { /* the number of slots does not change */
+        size_t rows = (moment->pool->slot_count + KILN_SUN_SHADE_ROW - 1) / KILN_SUN_SHADE_ROW;
+        shade->visible = calloc(rows * KILN_SUN_SHADE_ROW, sizeof *shade->visible);
+    }
+    if (!shade->visible) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "shade of particles: out of memory");
+        return NULL;
+    }
+    place_objects(shade, moment->view->clock.x);
+    for (uint32_t i = 0; i < shade->scene->system_count; i++) {
+        struct seen_system seen = {.shade = shade, .loops = moment->loops};
+        if (!is_shaded(shade->scene, i))
+            continue;
+        seen.system = kiln_living_system(moment, i);
+        seen.visible = shade->visible + moment->pool->systems[i].base;
+        kiln_threads_for(threads, seen.system.used, GRAIN, look_from_slots, &seen);
+    }
+    return shade->visible;
+}

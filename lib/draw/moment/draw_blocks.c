@@ -1,0 +1,40 @@
+/* Two buffers, new for each picture. */
+#include "draw/moment/draw_blocks.h"
+
+#include <assert.h>
+#include <stddef.h>
+
+static_assert(sizeof(struct kiln_view) == 112, "std140");
+static_assert(offsetof(struct kiln_view, eye) == 48, "std140");
+static_assert(sizeof(struct kiln_draw_light) == 32, "std140");
+static_assert(offsetof(struct kiln_draw_backdrop, counts) == 96, "std140");
+static_assert(offsetof(struct kiln_draw_backdrop, box_half) == 112 + 16 * KILN_MAX_OBJECTS,
+              "std140");
+static_assert(offsetof(struct kiln_draw_backdrop, lights) == 112 + 48 * KILN_MAX_OBJECTS, "std140");
+static_assert(sizeof(struct kiln_draw_backdrop) ==
+                  208 + 48 * KILN_MAX_OBJECTS + 32 * (KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS),
+              "std140, and no padding, which the backdrop would compare");
+
+void kiln_draw_blocks_init(struct kiln_draw_blocks *blocks, struct kiln_device *device)
+{
+    kiln_buffer_init(&blocks->view, device, sizeof(struct kiln_view), "view");
+    kiln_buffer_init(&blocks->backdrop, device, sizeof(struct kiln_draw_backdrop), "backdrop");
+}
+
+void kiln_draw_blocks_finish(struct kiln_draw_blocks *blocks)
+{
+    kiln_buffer_finish(&blocks->view);
+    kiln_buffer_finish(&blocks->backdrop);
+}
+
+bool kiln_draw_blocks_bind(struct kiln_draw_blocks *blocks, const struct kiln_view *view,
+                           const struct kiln_draw_backdrop *backdrop, struct kiln_error *error)
+{
+    GLuint view_buffer = kiln_buffer_upload(&blocks->view, view, error);
+    GLuint backdrop_buffer = kiln_buffer_upload(&blocks->backdrop, backdrop, error);
+    if (!view_buffer || !backdrop_buffer)
+        return false;
+    glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_VIEW, view_buffer);
+    glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_BACKDROP, backdrop_buffer);
+    return true;
+}

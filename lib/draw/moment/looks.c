@@ -1,0 +1,229 @@
+/* Every value of a look, at evenly spaced ages. */
+#include "draw/moment/looks.h"
+
+#include <assert.h>
+#include <math.h>
+#include <string.h>
+
+#include "asset/atlas/blackbody.h"
+#include "shared/exact.h"
+
+/* A cell's cool parts are at this share of the hot parts' temperature. */
+static const float COOL_SHARE = 0.72f;
+
+static_assert(LOOK_POINT == KILN_SHAPE_POINT && LOOK_LINE == KILN_SHAPE_LINE &&
+                  LOOK_MESH == KILN_SHAPE_MESH,
+              "shapes");
+static_assert(LOOK_SCREEN == KILN_FACING_SCREEN && LOOK_VIEWPOINT == KILN_FACING_VIEWPOINT &&
+                  LOOK_AXIAL == KILN_FACING_AXIAL && LOOK_VELOCITY == KILN_FACING_VELOCITY,
+              "facings");
+
+struct sampler {
+    const struct kiln_scene *scene;
+    float time_s, life;
+};
+
+static float at(const struct sampler *s, const struct kiln_value *value)
+{
+    return value_at(s->scene->keys, *value, s->time_s, s->life);
+}
+
+static float3 at3(const struct sampler *s, const struct kiln_value3 *value)
+{
+    return value3_at(s->scene->keys, *value, s->time_s, s->life);
+}
+
+/* The mean of a curve over the life so far: times the age, it is what has gone by of a speed. */
+static float mean_at(const struct sampler *s, const struct kiln_value *value)
+{
+    bool over_life = value->count > 0 && value->clock == KILN_CLOCK_LIFE;
+    if (!over_life || s->life <= 0.0f)
+        return at(s, value);
+    return value_sum_at(s->scene->keys, *value, s->life) / s->life;
+}
+
+static float saturate(float x)
+{
+    return x < 0.0f ? 0.0f : x > 1.0f ? 1.0f : x;
+}
+
+/* 0 at birth and at death, 1 in between (Heinz 2019, 3.2.4). */
+static float fade(const struct sampler *s, const struct kiln_look *look)
+{
+    float in = at(s, &look->fade_in), out = at(s, &look->fade_out);
+    float risen = in > 0.0f ? saturate(s->life / in) : 1.0f;
+    float left = out > 0.0f ? saturate((1.0f - s->life) / out) : 1.0f;
+    return risen * left;
+}
+
+static float4 emitted(float3 tint, float kelvin, float w)
+{
+    float rgb[3];
+    kiln_blackbody_color(kelvin, rgb);
+    return (float4){tint.x * rgb[0], tint.y * rgb[1], tint.z * rgb[2], w};
+}
+
+/* What glows is tinted by the colour if it covers nothing; a covering particle keeps the colour for
+ * what it reflects. */
+static void sample_light(const struct sampler *s, const struct kiln_look *look,
+                         float4 row[KILN_LOOK_ROWS])
+{
+    bool additive = look->blend == KILN_BLEND_ADD;
+    float3 color = at3(s, &look->color);
+    float kelvin = at(s, &look->temperature), intensity = at(s, &look->intensity);
+    float near_fade = at(s, &look->near_fade), cycles = at(s, &look->cycles);
+
+    float3 tint = {intensity, intensity, intensity};
+    if (additive)
+        tint = float3_scale(color, intensity);
+    float4 cover = {color.x, color.y, color.z, at(s, &look->lit)};
+    const float4 covers_none = {0.0f, 0.0f, 0.0f, cover.w};
+    float3 other = at3(s, &look->sphere.color);
+    row[KILN_LOOK_COVER] = additive ? covers_none : cover;
+    row[KILN_LOOK_OTHER] = additive ? covers_none : (float4){other.x, other.y, other.z, cover.w};
+    if (kelvin > 0.0f) {
+        row[KILN_LOOK_HOT] = emitted(tint, kelvin, near_fade);
+        row[KILN_LOOK_COOL] = emitted(tint, COOL_SHARE * kelvin, cycles);
+    } else {
+        float3 glow = additive ? tint : (float3){0.0f, 0.0f, 0.0f};
+        row[KILN_LOOK_HOT] = (float4){glow.x, glow.y, glow.z, near_fade};
+        row[KILN_LOOK_COOL] = (float4){glow.x, glow.y, glow.z, cycles};
+    }
+}
+
+/* Of any length but 0, through which keys may lead it: then it points up. In double, since squares
+ * of small floats vanish. */
+static float4 unit(float3 v)
+{
+    double x = (double)v.x, y = (double)v.y, z = (double)v.z, length = sqrt(x * x + y * y + z * z);
+    if (!(length > 0.0))
+        return (float4){0.0f, 1.0f, 0.0f, 0.0f};
+    return (float4){(float)(x / length), (float)(y / length), (float)(z / length), 0.0f};
+}
+
+static void sample_look(const struct sampler *s, const struct kiln_look *look,
+                        float4 row[KILN_LOOK_ROWS])
+{
+    float3 bloom = at3(s, &look->bloom);
+    row[KILN_LOOK_SHAPE] = (float4){at(s, &look->size), at(s, &look->stretch),
+                                    at(s, &look->opacity) * fade(s, look), at(s, &look->soft)};
+    row[KILN_LOOK_BLOOM] = (float4){bloom.x, bloom.y, bloom.z, at(s, &look->thickness)};
+    row[KILN_LOOK_SPREAD] = (float4){at(s, &look->scale.min), at(s, &look->scale.max),
+                                     mean_at(s, &look->spin.min), mean_at(s, &look->spin.max)};
+    row[KILN_LOOK_TURN] = (float4){at(s, &look->rotation.min), at(s, &look->rotation.max),
+                                   at(s, &look->point_size), at(s, &look->line_width)};
+    row[KILN_LOOK_AXIS] = unit(at3(s, &look->axis));
+    sample_light(s, look, row);
+}
+
+void kiln_looks_sample(const struct kiln_scene *scene, float time_s, float4 *table)
+{
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        float4 *rows = table + (size_t)i * KILN_LOOK_ROWS * KILN_LOOK_SAMPLES;
+        for (uint32_t k = 0; k < KILN_LOOK_SAMPLES; k++) {
+            const struct sampler sampler = {
+                .scene = scene,
+                .time_s = time_s,
+                .life = (float)k / (float)(KILN_LOOK_SAMPLES - 1),
+            };
+            float4 texel[KILN_LOOK_ROWS];
+            sample_look(&sampler, &scene->systems[i].look, texel);
+            for (uint32_t row = 0; row < KILN_LOOK_ROWS; row++)
+                rows[row * KILN_LOOK_SAMPLES + k] = texel[row];
+        }
+    }
+}
+
+static bool varies(const struct kiln_value *value)
+{
+    return value->count > 0 && value->clock == KILN_CLOCK_TIME;
+}
+
+static bool varies3(const struct kiln_value3 *value)
+{
+    return varies(&value->x) || varies(&value->y) || varies(&value->z);
+}
+
+static bool range_varies(const struct kiln_range *range)
+{
+    return varies(&range->min) || varies(&range->max);
+}
+
+bool kiln_looks_vary(const struct kiln_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_look *look = &scene->systems[i].look;
+        const struct kiln_value *values[] = {
+            &look->size,        &look->stretch,   &look->cycles,  &look->opacity,
+            &look->temperature, &look->intensity, &look->fade_in, &look->fade_out,
+            &look->soft,        &look->near_fade, &look->lit,     &look->point_size,
+            &look->line_width,  &look->thickness};
+        for (size_t k = 0; k < sizeof values / sizeof *values; k++) {
+            if (varies(values[k]))
+                return true;
+        }
+        if (varies3(&look->color) || varies3(&look->bloom) || varies3(&look->axis) ||
+            varies3(&look->sphere.color) || range_varies(&look->scale) ||
+            range_varies(&look->rotation) || range_varies(&look->spin))
+            return true;
+    }
+    return false;
+}
+
+uint32_t kiln_look_pattern(const struct kiln_look *look)
+{
+    if (look->sphere.pattern == KILN_PATTERN_SEGMENTS)
+        return LOOK_SEGMENTS + look->sphere.segments;
+    return look->sphere.pattern == KILN_PATTERN_STRIPE ? LOOK_STRIPE : LOOK_PLAIN;
+}
+
+bool kiln_looks_patterned(const struct kiln_scene *scene)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_look *look = &scene->systems[i].look;
+        any = any || (scene->systems[i].enabled && look->shape == KILN_SHAPE_SPHERE &&
+                      look->sphere.pattern != KILN_PATTERN_PLAIN);
+    }
+    return any;
+}
+
+/* What to add to a slot of the system in the pool to have that of its spin, modulo 2^32. */
+static uint32_t spins_before(const struct kiln_scene *scene, uint32_t index)
+{
+    uint32_t slots = 0, spins = 0;
+    for (uint32_t i = 0; i < index; i++) {
+        slots += scene->systems[i].capacity;
+        spins += kiln_scene_system_spins(scene, i) ? scene->systems[i].capacity : 0;
+    }
+    return spins - slots;
+}
+
+static struct kiln_draw_look make_look(const struct kiln_scene *scene, uint32_t index,
+                                       const struct kiln_atlas_textures *textures)
+{
+    const struct kiln_look *look = &scene->systems[index].look;
+    struct kiln_draw_look made = {
+        .derived = kiln_scene_derived(scene, index),
+        .flags = {look->blend == KILN_BLEND_ADD, look->random_start,
+                  look->soft_formula == KILN_SOFT_LITERAL, textures->count},
+        .form = {look->shape, look->facing, look->point_round, look->line_to == KILN_LINE_PREVIOUS},
+    };
+    const bool turns = kiln_scene_system_spins(scene, index);
+    made.turn = (uint4){turns, spins_before(scene, index), kiln_look_pattern(look),
+                        turns && look->mesh.orient == KILN_ORIENT_SPIN};
+    for (uint32_t i = 0; i < textures->count; i++) {
+        const struct kiln_atlas_range *cells = &textures->textures[i];
+        made.textures[i] =
+            (uint4){cells->first_layer, cells->cells, cells->kind, FLOAT_BITS(cells->motion)};
+    }
+    return made;
+}
+
+void kiln_looks_fill(const struct kiln_scene *scene, const struct kiln_atlas *atlas,
+                     struct kiln_draw_look looks[KILN_MAX_SYSTEMS])
+{
+    memset(looks, 0, KILN_MAX_SYSTEMS * sizeof *looks);
+    for (uint32_t i = 0; i < scene->system_count; i++)
+        looks[i] = make_look(scene, i, &atlas->systems[i]);
+}

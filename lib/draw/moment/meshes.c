@@ -1,0 +1,81 @@
+/* One after the other, in the order in which kiln_shapes_fill counts them. */
+#include "draw/moment/meshes.h"
+
+#include "base/error.h"
+
+static struct kiln_mesh *make_terrain(const struct kiln_object *object, struct kiln_error *error)
+{
+    const struct kiln_terrain_params params = kiln_scene_terrain(object);
+    struct kiln_terrain *terrain = kiln_terrain_create(&params, error);
+    struct kiln_mesh *mesh = terrain ? kiln_terrain_mesh(terrain, error) : NULL;
+    kiln_terrain_destroy(&terrain);
+    return mesh;
+}
+
+/* One that moves. */
+static struct kiln_mesh *make_moving(struct kiln_meshes *meshes, const struct kiln_object *object,
+                                     struct kiln_error *error)
+{
+    meshes->skins[meshes->count] = object->skin;
+    meshes->animations[meshes->count] = &object->animation;
+    meshes->posed_s[meshes->count] = -1.0f;
+    struct kiln_mesh *mesh = kiln_mesh_copy(object->shown);
+    if (!mesh)
+        kiln_error_set(error, KILN_DEVICE_FAILED, "meshes: out of memory");
+    return mesh;
+}
+
+static bool add_mesh(struct kiln_meshes *meshes, const struct kiln_object *object,
+                     struct kiln_error *error)
+{
+    struct kiln_mesh **own = &meshes->own[meshes->count];
+    if (object->kind == KILN_OBJECT_TERRAIN)
+        *own = make_terrain(object, error);
+    else if (object->animation.enabled)
+        *own = make_moving(meshes, object, error);
+    else
+        meshes->loaded[meshes->count] = object->shown;
+    if (*own)
+        meshes->loaded[meshes->count] = *own;
+    return meshes->loaded[meshes->count++] != NULL;
+}
+
+bool kiln_meshes_init(struct kiln_meshes *meshes, const struct kiln_scene *scene,
+                      struct kiln_error *error)
+{
+    *meshes = (struct kiln_meshes){.count = 0};
+    bool painted = false;
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        const struct kiln_object *object = &scene->backdrop.objects[i];
+        if (!kiln_object_is_mesh(object))
+            continue;
+        if (!add_mesh(meshes, object, error))
+            return false;
+        painted = painted || kiln_object_takes_paint(object);
+    }
+    if (painted)
+        meshes->painted = kiln_painted_create(scene, meshes->loaded, error);
+    return !painted || meshes->painted;
+}
+
+void kiln_meshes_pose(struct kiln_meshes *meshes, float time_s)
+{
+    for (uint32_t i = 0; i < meshes->count; i++) {
+        const struct kiln_animation *animation = meshes->animations[i];
+        if (!animation)
+            continue;
+        const float seconds = kiln_scene_animation_s(animation, time_s);
+        if (seconds == meshes->posed_s[i])
+            continue;
+        kiln_skin_pose_mesh(meshes->skins[i], animation->number, seconds, meshes->own[i]);
+        meshes->posed_s[i] = seconds;
+    }
+}
+
+void kiln_meshes_finish(struct kiln_meshes *meshes)
+{
+    for (uint32_t i = 0; i < KILN_MAX_MESHES; i++)
+        kiln_mesh_destroy(&meshes->own[i]);
+    kiln_painted_destroy(&meshes->painted);
+    meshes->count = 0;
+}

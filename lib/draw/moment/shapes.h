@@ -1,0 +1,35 @@
+/* The block of the backdrop's pictures and of its objects but boxes along the axes. */
+#ifndef KILN_DRAW_SHAPES_H
+#define KILN_DRAW_SHAPES_H
+
+#include "asset/geometry/mesh.h"
+#include "scene/scene.h"
+#include "shared/shape_layout.h"
+
+/* What a scene needs of the shaders; sets of these choose a variant. spheres are particles that
+ * throw shadows, instances those of them that are meshes with tiles (instance_tiles.h). */
+struct kiln_shape_features {
+    bool round, turned, meshes, paint, spheres, instances, floor_image, floor_gloss, sky_image,
+        soft_sun;
+};
+struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene);
+
+#define KILN_SHAPE_DEFINES 240 /* bytes of their text */
+
+/* The "#define" lines of the variant, SAMPLES rays a pixel; for kiln_program_params. */
+void kiln_shape_defines(const struct kiln_shape_features *features, int samples,
+                        char out[KILN_SHAPE_DEFINES]);
+
+/* Unit vectors towards the sun and across, and the tangent of its radius. */
+struct kiln_sun_frame {
+    float3 right, up, towards;
+    float spread;
+};
+struct kiln_sun_frame kiln_sun_frame_at(const struct kiln_scene *scene, float time_s);
+
+/* All of these objects and the sun's frame at a clip time; meshes are in the scene's order.
+ * The pictures' maps and the bins of particles are left 0. */
+void kiln_shapes_fill(const struct kiln_scene *scene, const struct kiln_mesh *const *meshes,
+                      float time_s, struct kiln_draw_shapes *shapes);
+
+#endif

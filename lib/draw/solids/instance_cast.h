@@ -1,0 +1,240 @@
+/* Instances of meshes as rays see them: which triangle lies nearest in which samples, and what
+ * light it sends. Like spheres, a triangle has one depth and one light in a pixel: those in its
+ * middle, or at the triangle's edge where that is outside. */
+#ifndef KILN_DRAW_INSTANCE_CAST_H
+#define KILN_DRAW_INSTANCE_CAST_H
+
+#include "draw/solids/opaque_ray.h"
+#include "shared/exact.h"
+
+static inline bool is_instance(const struct kiln_sphere_strip *s, uint32_t number)
+{
+    return s->instances && s->instances[number].triangles > 0;
+}
+
+/* The first corner of a triangle, in floats. */
+static inline int32_t corner_of(const struct kiln_sphere_strip *s, uint32_t number,
+                                uint32_t triangle)
+{
+    return (int32_t)((s->instances[number].first + 3 * triangle) * 8);
+}
+
+/* ---- samples --------------------------------------------------------------------------------- */
+
+/* Planes over the rays (u, v, -1), as factors of u, v and 1: a ray is inside where none is
+ * negative, and there they are the corners' parts. */
+struct cast_triangle {
+    float edges[3][3];
+    float depth[3]; /* of the corners, m */
+    struct kiln_row_range x, y;
+};
+
+static inline float3 cast_corner(const struct kiln_drawn_instance *instance, float4 at)
+{
+    const float(*rows)[4] = instance->to_view;
+    return (float3){rows[0][0] * at.x + rows[0][1] * at.y + rows[0][2] * at.z + rows[0][3],
+                    rows[1][0] * at.x + rows[1][1] * at.y + rows[1][2] * at.z + rows[1][3],
+                    rows[2][0] * at.x + rows[2][1] * at.y + rows[2][2] * at.z + rows[2][3]};
+}
+
+/* Of the sample positions of `size` pixels, those between two, and a pixel around. */
+static inline struct kiln_row_range cast_range(float low, float high, float size)
+{
+    return (struct kiln_row_range){(int16_t)exact_clamp(low - 1.0f, 0.0f, size),
+                                   (int16_t)exact_clamp(high + 2.0f, 0.0f, size)};
+}
+
+/* On GL's grid of corners (GL_SUBPIXEL_BITS): of things a few pixels large, one sample in a hundred
+ * would else be covered here and not there. px from the middle of the picture, where it is finest.
+ */
+static inline float cast_snap(float place)
+{
+    return floorf(place * 256.0f + 0.5f) * (1.0f / 256.0f);
+}
+
+/* What it may touch of the picture; nothing, if all of it lies before the near plane. Moves its
+ * corners to where GL has them. */
+static inline void cast_bounds(const struct kiln_view *view, float3 p[3], struct cast_triangle *t)
+{
+    const float4 frustum = view->frustum;
+    float x[2] = {1e9f, -1e9f}, y[2] = {1e9f, -1e9f};
+    int before = 0;
+    for (int k = 0; k < 3; k++) {
+        t->depth[k] = -p[k].z;
+        if (!(t->depth[k] >= view->eye.w))
+            continue;
+        float m_right = 2.0f * frustum.x * t->depth[k] / frustum.z; /* a pixel */
+        float m_up = 2.0f * frustum.y * t->depth[k] / frustum.w;
+        float right = cast_snap(p[k].x / m_right), up = cast_snap(p[k].y / m_up);
+        float column = 0.5f * frustum.z + right, row = 0.5f * frustum.w - up;
+        p[k].x = right * m_right;
+        p[k].y = up * m_up;
+        x[0] = exact_min(x[0], column);
+        x[1] = exact_max(x[1], column);
+        y[0] = exact_min(y[0], row);
+        y[1] = exact_max(y[1], row);
+        before++;
+    }
+    bool any_place = before > 0 && before < 3;
+    t->x = any_place ? cast_range(0.0f, frustum.z, frustum.z) : cast_range(x[0], x[1], frustum.z);
+    t->y = any_place ? cast_range(0.0f, frustum.w, frustum.w) : cast_range(y[0], y[1], frustum.w);
+    if (before == 0)
+        t->y = (struct kiln_row_range){0, 0};
+}
+
+/* The side, through an edge, of the pyramid with its tip in the eye; the same, times -1, for the
+ * edge's other direction, so that no ray is between two triangles. */
+static inline float3 cast_side(float3 a, float3 b)
+{
+    bool swap = a.x > b.x || (a.x == b.x && (a.y > b.y || (a.y == b.y && a.z > b.z)));
+    float3 from = swap ? b : a, to = swap ? a : b;
+    return float3_scale(float3_cross(from, float3_sub(to, from)), swap ? -1.0f : 1.0f);
+}
+
+/* False for one that is seen from its side. */
+static inline bool cast_edges(const float3 p[3], struct cast_triangle *t)
+{
+    float3 face = float3_cross(float3_sub(p[1], p[0]), float3_sub(p[2], p[0]));
+    float volume = float3_dot(p[0], face), sign = volume < 0.0f ? -1.0f : 1.0f;
+    float size2 = float3_dot(face, face) * float3_dot(p[0], p[0]);
+    if (!(volume * volume > 1e-10f * size2))
+        return false;
+    for (int k = 0; k < 3; k++) {
+        float3 side = float3_scale(cast_side(p[(k + 1) % 3], p[(k + 2) % 3]), sign);
+        t->edges[k][0] = side.x;
+        t->edges[k][1] = side.y;
+        t->edges[k][2] = -side.z;
+    }
+    return true;
+}
+
+SIMD vf cast_edge(const float plane[3], vf u, vf v)
+{
+    return plane[0] * u + (plane[1] * v + plane[2]);
+}
+
+SIMD void cast_pixels(const struct kiln_sphere_strip *s, const struct cast_triangle *t,
+                      int32_t number, int32_t triangle, uint32_t row, int32_t x)
+{
+    vf column = vf_count() + ((float)x + 0.5f), zero = vf_all(0.0f);
+    float line = (float)(s->y + row) + 0.5f;
+    const struct vf3 middle = view_ray(s->frame, column, vf_all(line));
+    vf a = vf_max(cast_edge(t->edges[0], middle.x, middle.y), zero);
+    vf b = vf_max(cast_edge(t->edges[1], middle.x, middle.y), zero);
+    vf c = vf_max(cast_edge(t->edges[2], middle.x, middle.y), zero), sum = a + b + c;
+    vf depth = (a * t->depth[0] + b * t->depth[1] + c * t->depth[2]) / vf_max(sum, vf_all(1e-30f));
+    vi seen = (sum > 0.0f) & (depth >= s->frame->view->eye.w);
+    size_t at = (size_t)row * KILN_SPHERE_SAMPLES * s->pitch + (size_t)x;
+    for (int k = 0; k < KILN_SPHERE_SAMPLES && any(seen); k++, at += s->pitch) {
+        const struct vf3 ray =
+            view_ray(s->frame, column + SAMPLE_OFFSETS[k][0], vf_all(line + SAMPLE_OFFSETS[k][1]));
+        vf before = vf_load(s->samples + at);
+        vi nearer = seen & (depth < before) & (cast_edge(t->edges[0], ray.x, ray.y) >= 0.0f) &
+                    (cast_edge(t->edges[1], ray.x, ray.y) >= 0.0f) &
+                    (cast_edge(t->edges[2], ray.x, ray.y) >= 0.0f);
+        if (!any(nearer))
+            continue;
+        float *numbers = (float *)(void *)(s->nearest + at);
+        float *triangles = (float *)(void *)(s->triangles + at);
+        vf_store(s->samples + at, vf_select(nearer, depth, before));
+        vf_store(numbers, (vf)vi_select(nearer, vi_all(number), (vi)vf_load(numbers)));
+        vf_store(triangles, (vf)vi_select(nearer, vi_all(triangle), (vi)vf_load(triangles)));
+    }
+}
+
+static void sample_triangle(const struct kiln_sphere_strip *s, uint32_t number, uint32_t triangle)
+{
+    const struct kiln_drawn_instance *instance = &s->instances[number];
+    const float4(*corners)[2] = s->corners + instance->first + (size_t)3 * triangle;
+    struct cast_triangle t;
+    float3 p[3] = {cast_corner(instance, corners[0][0]), cast_corner(instance, corners[1][0]),
+                   cast_corner(instance, corners[2][0])};
+    cast_bounds(s->frame->view, p, &t);
+    int32_t y = t.y.from > (int32_t)s->y ? t.y.from : (int32_t)s->y;
+    int32_t y_to = t.y.to < (int32_t)s->y_to ? t.y.to : (int32_t)s->y_to;
+    if (y >= y_to || t.x.from >= t.x.to || !cast_edges(p, &t))
+        return;
+    for (; y < y_to; y++) {
+        for (int32_t x = t.x.from; x < t.x.to; x += LANES)
+            cast_pixels(s, &t, (int32_t)number, (int32_t)triangle, (uint32_t)y - s->y, x);
+    }
+}
+
+static void sample_instance(const struct kiln_sphere_strip *s, uint32_t number)
+{
+    for (uint32_t i = 0; i < s->instances[number].triangles; i++)
+        sample_triangle(s, number, i);
+}
+
+/* ---- light ----------------------------------------------------------------------------------- */
+
+/* A direction from a mesh to view space, or a place less the middle. */
+SIMD struct vf3 cast_to_view(const struct vf3 rows[3], struct vf3 v)
+{
+    return (struct vf3){vf3_dot(rows[0], v), vf3_dot(rows[1], v), vf3_dot(rows[2], v)};
+}
+
+SIMD struct vf3 cast_cross(struct vf3 a, struct vf3 b)
+{
+    return (struct vf3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/* A corner's part of the triangle at the ray, times what all three share; edge: from a to b, the
+ * other two. */
+SIMD vf cast_part(struct vf3 a, struct vf3 b, struct vf3 ray, vf sign)
+{
+    vf part = vf3_dot(cast_cross(a, vf3_sub(b, a)), ray) * sign;
+    return vf_max(part, vf_all(0.0f));
+}
+
+SIMD struct vf3 cast_mean(const struct vf3 of[3], const vf parts[3])
+{
+    return vf3_along(vf3_along(vf3_scale(of[0], parts[0]), of[1], parts[1]), of[2], parts[2]);
+}
+
+static void light_triangles(const struct kiln_sphere_strip *s, const struct seen_things *seen,
+                            uint32_t y, struct ray_color *color)
+{
+    const struct kiln_ray_frame *frame = s->frame;
+    const struct kiln_drawn_instance *all = s->instances;
+    const float *corners = &s->corners[0][0].x;
+    const struct vf3 ray = view_ray(frame, vf_of(seen->column) + 0.5f, vf_all((float)y + 0.5f));
+    struct vf3 rows[3], p[3], normals[3];
+    for (int i = 0; i < 3; i++)
+        rows[i] = gather3(all->to_view[i], seen->thing);
+    const struct vf3 center = {vf_gather(&all->to_view[0][3], seen->thing),
+                               vf_gather(&all->to_view[1][3], seen->thing),
+                               vf_gather(&all->to_view[2][3], seen->thing)};
+    for (size_t k = 0; k < 3; k++) {
+        p[k] = vf3_add(cast_to_view(rows, gather3(corners + 8 * k, seen->corner)), center);
+        normals[k] = gather3(corners + 8 * k + 4, seen->corner);
+    }
+    struct vf3 face = cast_cross(vf3_sub(p[1], p[0]), vf3_sub(p[2], p[0]));
+    vi away = vf3_dot(face, p[0]) > 0.0f;
+    vf sign = vf_select(away, vf_all(1.0f), vf_all(-1.0f));
+    vf parts[3] = {cast_part(p[1], p[2], ray, sign), cast_part(p[2], p[0], ray, sign),
+                   cast_part(p[0], p[1], ray, sign)};
+    vf scale = 1.0f / vf_max(parts[0] + parts[1] + parts[2], vf_all(1e-30f));
+    for (int k = 0; k < 3; k++)
+        parts[k] *= scale;
+    struct vf3 point = cast_mean(p, parts);
+    struct vf3 normal = cast_to_view(rows, cast_mean(normals, parts));
+    vi behind = vf3_dot(normal, face) * sign > 0.0f; /* both sides are seen */
+    normal = vf3_normalize(vf3_scale(normal, vf_select(behind, vf_all(-1.0f), vf_all(1.0f))));
+
+    struct seen_place place = {.depth = -point.z,
+                               .lit = vf_gather(&all->lit, seen->thing),
+                               .albedo = gather3(all->albedo, seen->thing),
+                               .glow = gather3(all->glow, seen->thing)};
+    place.direction = view_to_world(frame, ray);
+    place.normal = view_to_world(frame, normal);
+    place.at = vf3_add(vf3_all(frame->view->eye), view_to_world(frame, point));
+    /* Out of the sphere that throws its shadow on others. */
+    const float4 sun = frame->backdrop->sun_direction;
+    vf ahead = vf3_dot_all(view_to_world(frame, vf3_sub(center, point)), sun);
+    vf out = ahead + 0.05f * vf_gather(&all->shade, seen->thing) + 1e-5f * place.depth;
+    place.sun_from = vf3_along(place.at, vf3_all(sun), vf_max(out, vf_all(0.0f)));
+    light_place(frame, &place, seen, color);
+}
+
+#endif

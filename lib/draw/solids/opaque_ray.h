@@ -1,0 +1,68 @@
+/* What spheres and meshes of particles have in common as rays see them: the rays themselves, and
+ * the light of what they meet. For the files of one width of vectors. */
+#ifndef KILN_DRAW_OPAQUE_RAY_H
+#define KILN_DRAW_OPAQUE_RAY_H
+
+#include "draw/backdrop/ray_light.h"
+#include "draw/solids/sphere_rows.h"
+
+/* A rotated grid: no two samples share a row or a column. */
+static const float SAMPLE_OFFSETS[KILN_SPHERE_SAMPLES][2] = {
+    {-0.125f, -0.375f}, {0.375f, -0.125f}, {-0.375f, 0.125f}, {0.125f, 0.375f}};
+
+/* The ray through a place in the picture, with z of -1: its t is depth. */
+SIMD struct vf3 view_ray(const struct kiln_ray_frame *frame, vf x, vf y)
+{
+    const float4 frustum = frame->view->frustum;
+    return (struct vf3){(x * (2.0f / frustum.z) - 1.0f) * frustum.x,
+                        (1.0f - y * (2.0f / frustum.w)) * frustum.y, vf_all(-1.0f)};
+}
+
+SIMD struct vf3 gather3(const float *from, vi index)
+{
+    return (struct vf3){vf_gather(from, index), vf_gather(from + 1, index),
+                        vf_gather(from + 2, index)};
+}
+
+SIMD struct vf3 view_to_world(const struct kiln_ray_frame *frame, struct vf3 v)
+{
+    const float4 *rows = frame->view->world_to_view;
+    return (struct vf3){rows[0].x * v.x + rows[1].x * v.y + rows[2].x * v.z,
+                        rows[0].y * v.x + rows[1].y * v.y + rows[2].y * v.z,
+                        rows[0].z * v.x + rows[1].z * v.y + rows[2].z * v.z};
+}
+
+/* Things of pixels of a row. */
+struct seen_things {
+    vi column, thing; /* number times the words of a record */
+    vi corner;        /* of a mesh: the triangle's first, in floats */
+    vf part;          /* of the pixel */
+};
+
+/* A place on one of them. */
+struct seen_place {
+    struct vf3 at, normal, direction; /* in the world; of the ray */
+    struct vf3 sun_from;              /* where it looks for the sun */
+    vf depth, lit;
+    struct vf3 albedo, glow;
+};
+
+SIMD void light_place(const struct kiln_ray_frame *frame, const struct seen_place *place,
+                      const struct seen_things *seen, struct ray_color *color)
+{
+    const struct ray_hit hit = {.t = place->depth,
+                                .surface = vf_all(0.0f),
+                                .normal = place->normal,
+                                .albedo = place->albedo};
+    const struct ray_point point = {place->at, hit.normal, seen->part > 0.0f};
+    vf sunlit = sun_visibility(frame, place->sun_from, point.normal, turned_to_sun(frame, &point));
+    const struct ray_point sunny = {point.at, point.normal, sunlit > 0.0f};
+    sunlit *= smoke_lets_through(frame->smoke_to_sun, frame->backdrop->sun_to_grid, &sunny);
+    const struct ray_color lit =
+        radiance(frame, &hit, place->direction, soft_irradiance(frame, &point), sunlit);
+    struct vf3 shown = vf3_along(hit.albedo, vf3_sub(lit.rgb, hit.albedo), place->lit);
+    color->rgb = vf3_add(place->glow, shown);
+    color->alpha = seen->part;
+}
+
+#endif

@@ -1,0 +1,336 @@
+/* What shaders/draw/solids/spheres.frag, instances.frag and spheres_resolve.frag do in GL: which
+ * sphere or triangle each of a pixel's samples shows, then the light of each one of a pixel, once,
+ * by a ray through the middle.
+ */
+#include "draw/solids/instance_cast.h"
+
+enum { SAMPLES = KILN_SPHERE_SAMPLES };
+
+/* Farther than any scene. */
+#define NOTHING 2e9f
+
+/* The t at which a ray passes the centre most closely, and the square of the radius less that of
+ * the distance there: negative for a miss. */
+struct approach {
+    vf t, inside;
+    vf inverse2; /* of the ray's length */
+};
+
+SIMD struct approach come_close(struct vf3 ray, struct vf3 center, vf radius)
+{
+    vf inverse2 = 1.0f / vf3_dot(ray, ray), t = vf3_dot(ray, center) * inverse2;
+    struct vf3 away = vf3_sub(vf3_scale(ray, t), center);
+    return (struct approach){t, radius * radius - vf3_dot(away, away), inverse2};
+}
+
+SIMD vf surface_depth(const struct approach *a)
+{
+    return a->t - vf_sqrt(vf_max(a->inside, vf_all(0.0f)) * a->inverse2);
+}
+
+/* ---- samples --------------------------------------------------------------------------------- */
+
+SIMD void sample_pixels(const struct kiln_sphere_strip *s, const struct kiln_drawn_sphere *sphere,
+                        int32_t number, uint32_t row, int32_t x)
+{
+    const struct vf3 center = {vf_all(sphere->center[0]), vf_all(sphere->center[1]),
+                               vf_all(sphere->center[2])};
+    vf radius = vf_all(sphere->radius), column = vf_count() + ((float)x + 0.5f);
+    float line = (float)(s->y + row) + 0.5f;
+    const struct approach middle =
+        come_close(view_ray(s->frame, column, vf_all(line)), center, radius);
+    vf t = surface_depth(&middle);
+    size_t at = (size_t)row * SAMPLES * s->pitch + (size_t)x;
+    for (int k = 0; k < SAMPLES; k++, at += s->pitch) {
+        struct vf3 ray =
+            view_ray(s->frame, column + SAMPLE_OFFSETS[k][0], vf_all(line + SAMPLE_OFFSETS[k][1]));
+        const struct approach aside = come_close(ray, center, radius);
+        vf before = vf_load(s->samples + at);
+        vi nearer = (aside.inside >= 0.0f) & (t < before);
+        if (!any(nearer))
+            continue;
+        float *numbers = (float *)(void *)(s->nearest + at);
+        vf_store(s->samples + at, vf_select(nearer, t, before));
+        vf_store(numbers, (vf)vi_select(nearer, vi_all(number), (vi)vf_load(numbers)));
+    }
+}
+
+static void sample_sphere(const struct kiln_sphere_strip *s, uint32_t number)
+{
+    const struct kiln_drawn_sphere *sphere = &s->spheres[number];
+    const struct kiln_row_range rows = s->rows[number];
+    int32_t y = rows.from > (int32_t)s->y ? rows.from : (int32_t)s->y;
+    int32_t y_to = rows.to < (int32_t)s->y_to ? rows.to : (int32_t)s->y_to;
+    for (; y < y_to; y++) {
+        for (int32_t x = sphere->x.from; x < sphere->x.to; x += LANES)
+            sample_pixels(s, sphere, (int32_t)number, (uint32_t)y - s->y, x);
+    }
+}
+
+/* What is behind the scene is not seen. */
+static void clear_samples(const struct kiln_sphere_strip *s, uint32_t row)
+{
+    const float *scene = s->scene_depth + (size_t)(s->y + row) * s->width;
+    float *samples = s->samples + (size_t)row * SAMPLES * s->pitch;
+    for (int k = 0; k < SAMPLES; k++, samples += s->pitch) {
+        for (uint32_t x = 0; x < s->width; x++)
+            samples[x] = scene[x] + scene[x] * 1e-7f; /* at the same depth, it is */
+        for (size_t x = s->width; x < s->pitch; x++)
+            samples[x] = -1.0f;
+    }
+    memset(s->nearest + (size_t)row * SAMPLES * s->pitch, 0xff,
+           SAMPLES * s->pitch * sizeof *s->nearest);
+}
+
+/* ---- patterns: as shaders/draw/solids/spheres.frag has them
+ * ------------------------------------------
+ */
+
+SIMD vf part_beyond(vf distance, vf width)
+{
+    vf part = vf_min(vf_all(0.5f) + distance / width, vf_all(1.0f));
+    return vf_max(part, vf_all(0.0f));
+}
+
+/* The sine of an angle times its number of segments, from its sine and its cosine. */
+SIMD vf sine_of_segments(vf sine, vf cosine, vf segments)
+{
+    vf c = cosine, s = sine;
+    for (int i = 1; i < 8; i++) {
+        vi more = segments > (float)i;
+        vf next = c * cosine - s * sine;
+        s = vf_select(more, s * cosine + c * sine, s);
+        c = vf_select(more, next, c);
+    }
+    return s;
+}
+
+/* The part of the other colour where the ball's own normal is n; width: of a pixel there, rad. */
+SIMD vf other_part(struct vf3 n, vf segments, vf width)
+{
+    vf high = vf_abs(n.y);
+    vf rim = vf_sqrt(vf_max(n.x * n.x + n.z * n.z, vf_all(1e-12f)));
+    vf sine = sine_of_segments(n.z / rim, n.x / rim, segments);
+    vf lune = part_beyond(sine * rim / vf_max(segments, vf_all(1.0f)), width);
+    vf cap = part_beyond((high - 0.94f) * 2.9f, width);
+    vf beside = part_beyond((high - 0.42f) * 1.1f, width);
+    vf part = vf_select(segments < 0.0f, beside, vf_max(lune, cap));
+    return vf_select(segments == 0.0f, vf_all(0.0f), part);
+}
+
+/* A direction of the world, seen from the ball. */
+SIMD struct vf3 into_ball(const struct vf3 axis, vf w, struct vf3 v)
+{
+    struct vf3 twice = vf3_scale(cast_cross(axis, v), vf_all(-2.0f));
+    return vf3_add(vf3_along(v, twice, w), vf3_scale(cast_cross(axis, twice), vf_all(-1.0f)));
+}
+
+static void paint_spheres(const struct kiln_sphere_strip *s, const struct seen_things *seen,
+                          struct seen_place *place)
+{
+    const struct kiln_drawn_sphere *all = s->spheres;
+    const float4 frustum = s->frame->view->frustum;
+    const struct vf3 axis = gather3(all->pose, seen->thing);
+    struct vf3 n = into_ball(axis, vf_gather(all->pose + 3, seen->thing), place->normal);
+    vf away = vf3_dot(place->direction, place->direction);
+    vf facing = vf_max(-vf3_dot(place->direction, place->normal), vf_all(0.0f)) / vf_sqrt(away);
+    vf pixel = place->depth * (2.0f * frustum.y / frustum.w);
+    vf width = pixel / (vf_gather(&all->radius, seen->thing) * vf_max(facing, vf_all(0.1f)));
+    vf part = other_part(n, vf_gather(&all->segments, seen->thing), width);
+    struct vf3 other = gather3(all->other, seen->thing);
+    place->albedo = vf3_along(place->albedo, vf3_sub(other, place->albedo), part);
+}
+
+/* ---- light ----------------------------------------------------------------------------------- */
+
+static void light_spheres(const struct kiln_sphere_strip *s, const struct seen_things *seen,
+                          uint32_t y, struct ray_color *color)
+{
+    const struct kiln_ray_frame *frame = s->frame;
+    const struct kiln_drawn_sphere *all = s->spheres;
+    struct vf3 ray = view_ray(frame, vf_of(seen->column) + 0.5f, vf_all((float)y + 0.5f));
+    struct vf3 center = gather3(all->center, seen->thing);
+    const struct approach close = come_close(ray, center, vf_gather(&all->radius, seen->thing));
+    vf t = surface_depth(&close);
+    struct vf3 out = vf3_normalize(vf3_sub(vf3_scale(ray, t), center));
+    struct seen_place place = {.depth = t,
+                               .lit = vf_gather(&all->lit, seen->thing),
+                               .albedo = gather3(all->albedo, seen->thing),
+                               .glow = gather3(all->glow, seen->thing)};
+    place.direction = view_to_world(frame, ray);
+    place.normal = view_to_world(frame, out);
+    place.at = vf3_along(vf3_all(frame->view->eye), place.direction, t);
+    place.sun_from = place.at;
+    if (s->patterned)
+        paint_spheres(s, seen, &place);
+    light_place(frame, &place, seen, color);
+}
+
+/* Adds the light of things to their pixels, in their order. bloom: weights of the first thing. */
+SIMD void add_things(const struct kiln_sphere_strip *s, const struct seen_things *seen,
+                     uint32_t count, uint32_t y, const float *bloom, const struct ray_color *light)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        const float *weights = bloom + seen->thing[i];
+        size_t at = 4 * ((size_t)y * s->width + (size_t)seen->column[i]);
+        float part = seen->part[i];
+        const float rgb[3] = {light->rgb.x[i], light->rgb.y[i], light->rgb.z[i]};
+        for (int c = 0; c < 3; c++) {
+            s->color[at + (size_t)c] += rgb[c] * part;
+            s->bloom[at + (size_t)c] += rgb[c] * part * weights[c];
+        }
+        s->color[at + 3] += part;
+        s->bloom[at + 3] += part;
+    }
+}
+
+/* ---- pixels ---------------------------------------------------------------------------------- */
+
+static inline float lesser(float a, float b)
+{
+    return a < b ? a : b;
+}
+
+static inline float greater(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+/* A depth has no mean: a pixel is where the second nearest of its samples is. */
+static inline float second_of(const float t[SAMPLES])
+{
+    float near_a = lesser(t[0], t[1]), far_a = greater(t[0], t[1]);
+    float near_b = lesser(t[2], t[3]), far_b = greater(t[2], t[3]);
+    return lesser(greater(near_a, near_b), lesser(far_a, far_b));
+}
+
+/* Things of the pixels of a row and the quarters of them that they cover, three words each: the
+ * pixel; the thing times 4 and the quarters less 1; the triangle. Spheres come from the front of
+ * the room, triangles from its back. */
+struct row_entries {
+    uint32_t *spheres, *triangles; /* where the next sphere goes; the last triangle */
+};
+
+static void list_thing(const struct kiln_sphere_strip *s, struct row_entries *entries,
+                       const uint32_t entry[3])
+{
+    uint32_t **to = is_instance(s, entry[1] >> 2) ? &entries->triangles : &entries->spheres;
+    if (to == &entries->triangles)
+        *to -= 3;
+    memcpy(*to, entry, 3 * sizeof *entry);
+    if (to == &entries->spheres)
+        *to += 3;
+}
+
+static void list_pixel(const struct kiln_sphere_strip *s, size_t first, uint32_t x,
+                       struct row_entries *entries, float *depth)
+{
+    int32_t numbers[SAMPLES], triangles[SAMPLES] = {0};
+    float t[SAMPLES];
+    for (size_t k = 0; k < SAMPLES; k++) {
+        size_t at = first + k * s->pitch + x;
+        numbers[k] = s->nearest[at];
+        t[k] = numbers[k] < 0 ? NOTHING : s->samples[at];
+        if (numbers[k] >= 0 && is_instance(s, (uint32_t)numbers[k]))
+            triangles[k] = s->triangles[at];
+    }
+    float second = second_of(t);
+    if (second < NOTHING)
+        *depth = second;
+    for (int k = 0; k < SAMPLES; k++) {
+        uint32_t quarters = 0;
+        for (int other = k; numbers[k] >= 0 && other < SAMPLES; other++) {
+            bool same = numbers[other] == numbers[k] && triangles[other] == triangles[k];
+            quarters += same;
+            if (same && other > k)
+                numbers[other] = -1;
+        }
+        if (quarters > 0)
+            list_thing(s, entries,
+                       (const uint32_t[3]){x, (uint32_t)numbers[k] << 2 | (quarters - 1),
+                                           (uint32_t)triangles[k]});
+    }
+}
+
+/* Puts the scene behind what the spheres' samples have become. */
+static void add_scene(const struct kiln_sphere_strip *s, uint32_t y)
+{
+    const float *scene = s->scene_color + 4 * (size_t)y * s->width;
+    float *color = s->color + 4 * (size_t)y * s->width;
+    for (uint32_t x = 0; x < s->width; x++, scene += 4, color += 4) {
+        float part = 1.0f - color[3];
+        for (int c = 0; c < 4; c++)
+            color[c] += scene[c] * part;
+    }
+}
+
+/* The things of some entries; size: of a record. */
+static void see_things(const struct kiln_sphere_strip *s, const uint32_t *entries, uint32_t lanes,
+                       size_t size, struct seen_things *seen)
+{
+    const int32_t stride = (int32_t)(size / sizeof(float));
+    *seen = (struct seen_things){{0}, {0}, {0}, {0}};
+    for (uint32_t lane = 0; lane < lanes; lane++, entries += 3) {
+        uint32_t number = entries[1] >> 2;
+        seen->column[lane] = (int32_t)entries[0];
+        seen->thing[lane] = (int32_t)number * stride;
+        seen->part[lane] = 0.25f * (float)((entries[1] & 3) + 1);
+        if (is_instance(s, number))
+            seen->corner[lane] = corner_of(s, number, entries[2]);
+    }
+    for (uint32_t lane = lanes; lane < LANES; lane++) { /* no part of one that is there */
+        seen->thing[lane] = seen->thing[0];
+        seen->corner[lane] = seen->corner[0];
+    }
+}
+
+static void resolve_row(const struct kiln_sphere_strip *s, uint32_t row)
+{
+    const uint32_t y = s->y + row;
+    const size_t width = s->width, first = (size_t)row * SAMPLES * s->pitch, pixel = y * width;
+    memcpy(s->depth + pixel, s->scene_depth + pixel, width * sizeof *s->depth);
+    memset(s->color + 4 * pixel, 0, 4 * width * sizeof *s->color);
+    memset(s->bloom + 4 * pixel, 0, 4 * width * sizeof *s->bloom);
+    uint32_t *const room_end = s->entries + (size_t)3 * SAMPLES * s->pitch;
+    struct row_entries entries = {s->entries, room_end};
+    for (uint32_t x = 0; x < width; x++) {
+        const int32_t *nearest = s->nearest + first + x;
+        if ((nearest[0] & nearest[s->pitch] & nearest[2 * s->pitch] & nearest[3 * s->pitch]) != -1)
+            list_pixel(s, first, x, &entries, &s->depth[pixel + x]);
+    }
+    const size_t spheres = (size_t)(entries.spheres - s->entries) / 3;
+    for (size_t i = 0; i < spheres; i += LANES) {
+        struct seen_things seen;
+        struct ray_color light;
+        uint32_t lanes = spheres - i < LANES ? (uint32_t)(spheres - i) : LANES;
+        see_things(s, s->entries + 3 * i, lanes, sizeof *s->spheres, &seen);
+        light_spheres(s, &seen, y, &light);
+        add_things(s, &seen, lanes, y, s->spheres->bloom, &light);
+    }
+    const size_t triangles = (size_t)(room_end - entries.triangles) / 3;
+    for (size_t i = 0; i < triangles; i += LANES) {
+        struct seen_things seen;
+        struct ray_color light;
+        uint32_t lanes = triangles - i < LANES ? (uint32_t)(triangles - i) : LANES;
+        see_things(s, entries.triangles + 3 * i, lanes, sizeof *s->instances, &seen);
+        light_triangles(s, &seen, y, &light);
+        add_things(s, &seen, lanes, y, s->instances->bloom, &light);
+    }
+    add_scene(s, y);
+}
+
+static void draw_strip(const struct kiln_sphere_strip *strip)
+{
+    for (uint32_t row = 0; strip->y + row < strip->y_to; row++)
+        clear_samples(strip, row);
+    for (size_t i = 0; i < strip->count; i++) {
+        if (is_instance(strip, strip->list[i]))
+            sample_instance(strip, strip->list[i]);
+        else
+            sample_sphere(strip, strip->list[i]);
+    }
+    for (uint32_t row = 0; strip->y + row < strip->y_to; row++)
+        resolve_row(strip, row);
+}
+
+const struct kiln_sphere_rows KILN_SIMD_NAME(kiln_sphere_rows) = {.draw = draw_strip};

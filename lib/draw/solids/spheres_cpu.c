@@ -1,0 +1,381 @@
+/* Each particle becomes a sphere or a mesh before the eye, each band of rows draws those that touch
+ * it. Which of them a sample shows is found before any light is computed. */
+#include "draw/solids/spheres_cpu.h"
+
+#include "base/error.h"
+#include "draw/moment/instances.h"
+#include "draw/moment/living.h"
+#include "draw/moment/looks.h"
+#include "draw/solids/sphere_rows.h"
+#include "shared/derived.h"
+
+#include <stdlib.h>
+
+enum { MAKE_AT_A_TIME = 512 };
+
+struct kiln_spheres_cpu {
+    const struct kiln_scene *scene;
+    const struct kiln_backdrop_stage *backdrop;
+    struct kiln_threads *threads;
+    struct kiln_spheres_targets targets;
+    const struct kiln_sphere_rows *rows;
+    float4 *table; /* looks */
+    bool table_valid;
+    struct kiln_instances meshes;
+    struct kiln_drawn_sphere *spheres;
+    struct kiln_drawn_instance *instances; /* NULL where there are no meshes */
+    struct kiln_row_range *ranges;         /* their rows */
+    uint32_t room;
+    struct kiln_row_lists lists;
+    size_t pitch; /* of a row of samples */
+    float *samples;
+    int32_t *nearest, *triangles;
+    uint32_t *entries; /* these four: for each thread */
+};
+
+static size_t samples_of(const struct kiln_spheres_cpu *stage)
+{
+    return (size_t)KILN_SPHERE_ROWS * KILN_SPHERE_SAMPLES * stage->pitch;
+}
+
+static size_t entries_of(const struct kiln_spheres_cpu *stage)
+{
+    return (size_t)3 * KILN_SPHERE_SAMPLES * stage->pitch;
+}
+
+static bool allocate(struct kiln_spheres_cpu *stage)
+{
+    size_t threads = kiln_threads_count(stage->threads);
+    stage->pitch = stage->scene->width + KILN_SPHERE_PAD;
+    stage->table = calloc((size_t)KILN_LOOK_TEXELS, sizeof *stage->table);
+    stage->samples = malloc(threads * samples_of(stage) * sizeof *stage->samples);
+    stage->nearest = malloc(threads * samples_of(stage) * sizeof *stage->nearest);
+    stage->entries = malloc(threads * entries_of(stage) * sizeof *stage->entries);
+    bool meshes = stage->meshes.corners != NULL;
+    if (meshes)
+        stage->triangles = malloc(threads * samples_of(stage) * sizeof *stage->triangles);
+    return stage->table && stage->samples && stage->nearest && stage->entries &&
+           (stage->triangles || !meshes);
+}
+
+struct kiln_spheres_cpu *kiln_spheres_cpu_create(const struct kiln_scene *scene,
+                                                 const struct kiln_spheres_params *params,
+                                                 struct kiln_error *error)
+{
+    enum kiln_simd simd;
+    if (!kiln_simd_choose(&simd, error))
+        return NULL;
+    struct kiln_spheres_cpu *stage = calloc(1, sizeof *stage);
+    if (stage)
+        *stage = (struct kiln_spheres_cpu){.scene = scene,
+                                           .backdrop = params->backdrop,
+                                           .threads = params->threads,
+                                           .targets = params->targets,
+                                           .rows = KILN_SIMD_PICK(kiln_sphere_rows, simd)};
+    if (stage && !kiln_instances_init(&stage->meshes, scene, error)) {
+        kiln_spheres_cpu_destroy(&stage);
+        return NULL;
+    }
+    if (!stage || !allocate(stage)) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "spheres: out of memory");
+        kiln_spheres_cpu_destroy(&stage);
+    }
+    return stage;
+}
+
+void kiln_spheres_cpu_destroy(struct kiln_spheres_cpu **stage)
+{
+    if (!*stage)
+        return;
+    kiln_row_lists_finish(&(*stage)->lists);
+    kiln_instances_finish(&(*stage)->meshes);
+    free((*stage)->table);
+    free((*stage)->spheres);
+    free((*stage)->instances);
+    free((*stage)->triangles);
+    free((*stage)->ranges);
+    free((*stage)->samples);
+    free((*stage)->nearest);
+    free((*stage)->entries);
+    free(*stage);
+    *stage = NULL;
+}
+
+/* ---- from particles to spheres --------------------------------------------------------------- */
+
+struct making {
+    struct kiln_spheres_cpu *stage;
+    const struct kiln_pool *pool;
+    const struct kiln_view *view;
+    const uint32_t *entries;
+    uint32_t patterns[KILN_MAX_SYSTEMS]; /* LOOK_* */
+    struct kiln_living_system systems[KILN_MAX_SYSTEMS];
+};
+
+/* Between the slopes of the tangents at a circle, in a plane through the eye, and a pixel or two
+ * around; scale: pixels of a slope of 1. */
+static struct kiln_row_range between_tangents(float aside, float depth, float radius, float scale,
+                                              float size)
+{
+    float t = sqrtf(exact_max(aside * aside + depth * depth - radius * radius, 0.0f));
+    float low = (aside * t - depth * radius) / (depth * t + aside * radius);
+    float high = (aside * t + depth * radius) / (depth * t - aside * radius);
+    low = low * scale + 0.5f * size - 2.0f;
+    high = high * scale + 0.5f * size + 3.0f;
+    return (struct kiln_row_range){(int16_t)exact_clamp(low, 0.0f, size),
+                                   (int16_t)exact_clamp(high, 0.0f, size)};
+}
+
+/* The columns and rows that a ball may touch; of one that reaches the near plane, all of them. */
+static void bound_ball(const struct kiln_view *view, const float center[3], float radius,
+                       struct kiln_row_range *x, struct kiln_row_range *y)
+{
+    const float4 frustum = view->frustum;
+    float depth = -center[2];
+    if (depth - radius <= view->eye.w) {
+        *x = (struct kiln_row_range){0, (int16_t)frustum.z};
+        *y = (struct kiln_row_range){0, (int16_t)frustum.w};
+        return;
+    }
+    *x = between_tangents(center[0], depth, radius, 0.5f * frustum.z / frustum.x, frustum.z);
+    *y = between_tangents(-center[1], depth, radius, 0.5f * frustum.w / frustum.y, frustum.w);
+}
+
+static void find_center(const struct kiln_view *view, float3 at, float center[3])
+{
+    for (int i = 0; i < 3; i++) {
+        const float4 row = view->world_to_view[i];
+        center[i] = row.x * at.x + row.y * at.y + row.z * at.z + row.w;
+    }
+}
+
+/* No smaller than a pixel, or it would twinkle between the samples. */
+static float least_radius(const struct kiln_view *view, float depth)
+{
+    float pixel_m = 2.0f * view->frustum.y * exact_max(depth, 1e-3f) / view->frustum.w;
+    return 0.5f * pixel_m;
+}
+
+static void set3(float to[3], float4 from)
+{
+    to[0] = from.x;
+    to[1] = from.y;
+    to[2] = from.z;
+}
+
+static void make_pattern(const struct making *m, uint32_t number, uint32_t slot, float progress,
+                         struct kiln_drawn_sphere *s)
+{
+    const struct kiln_living_system *system = &m->systems[number];
+    const uint32_t pattern = m->patterns[number];
+    if (pattern == LOOK_PLAIN)
+        return;
+    s->segments = pattern == LOOK_STRIPE ? -1.0f : (float)(pattern - LOOK_SEGMENTS);
+    set3(s->other, kiln_living_look(system, KILN_LOOK_OTHER, progress));
+    const float4 pose = kiln_living_pose(system, slot, progress);
+    s->pose[0] = pose.x;
+    s->pose[1] = pose.y;
+    s->pose[2] = pose.z;
+    s->pose[3] = pose.w;
+}
+
+/* It cannot fade, so it grows and shrinks by its opacity. One that reaches the near plane is not
+ * drawn. */
+static void make_sphere(const struct making *m, const struct kiln_living_system *system,
+                        const struct kiln_living *particle, struct kiln_drawn_sphere *s,
+                        struct kiln_row_range *rows)
+{
+    const struct kiln_view *view = m->view;
+    find_center(view, particle->position, s->center);
+    float radius = particle->radius * particle->opacity, depth = -s->center[2];
+    s->radius = exact_max(radius, least_radius(view, depth));
+    if (!(radius > 0.0f) || depth - s->radius <= view->eye.w)
+        return;
+    float4 cover = kiln_living_look(system, KILN_LOOK_COVER, particle->progress);
+    set3(s->albedo, cover);
+    s->lit = cover.w;
+    set3(s->glow, kiln_living_look(system, KILN_LOOK_HOT, particle->progress));
+    set3(s->bloom, kiln_living_look(system, KILN_LOOK_BLOOM, particle->progress));
+    bound_ball(view, s->center, s->radius, &s->x, rows);
+}
+
+/* The mesh's axes in view space, each as long as a unit of it is in metres. */
+static void place_axes(const struct kiln_view *view, const struct instance_axes *axes, float scale,
+                       struct kiln_drawn_instance *d)
+{
+    const float3 columns[3] = {axes->x, axes->y, axes->z};
+    for (int i = 0; i < 3; i++) {
+        const float4 row = view->world_to_view[i];
+        for (int c = 0; c < 3; c++)
+            d->to_view[i][c] =
+                scale * (row.x * columns[c].x + row.y * columns[c].y + row.z * columns[c].z);
+    }
+}
+
+/* It grows and shrinks by its opacity, too. */
+static void make_instance(const struct making *m, uint32_t number, uint32_t slot,
+                          const struct kiln_living *particle, struct kiln_drawn_instance *d,
+                          struct kiln_row_range *rows)
+{
+    const struct kiln_living_system *system = &m->systems[number];
+    const struct kiln_instance_mesh *mesh = &m->stage->meshes.meshes[number];
+    const struct kiln_look *look = &m->stage->scene->systems[number].look;
+    const struct kiln_view *view = m->view;
+    float center[3], size = 2.0f * particle->radius * particle->opacity;
+    find_center(view, particle->position, center);
+    float depth = -center[2], reach = exact_max(size * mesh->reach, least_radius(view, depth));
+    if (!(size > 0.0f) || depth + reach <= view->eye.w)
+        return;
+    const struct instance_axes axes =
+        kiln_living_axes(system, slot, particle->progress, look->mesh.orient);
+    place_axes(view, &axes, reach / mesh->reach, d);
+    for (int i = 0; i < 3; i++)
+        d->to_view[i][3] = center[i];
+    float4 cover = kiln_living_look(system, KILN_LOOK_COVER, particle->progress);
+    set3(d->albedo, cover);
+    d->lit = cover.w;
+    d->shade = size * look->mesh.shade;
+    set3(d->glow, kiln_living_look(system, KILN_LOOK_HOT, particle->progress));
+    set3(d->bloom, kiln_living_look(system, KILN_LOOK_BLOOM, particle->progress));
+    d->first = mesh->first;
+    d->triangles = mesh->triangles;
+    bound_ball(view, center, reach, &d->x, rows);
+}
+
+static void make_spheres(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct making *m = context;
+    for (size_t i = begin; i < end; i++) {
+        uint32_t number = m->entries[i] >> 24, slot = m->entries[i] & 0xffffffu;
+        const struct kiln_living_system *system = &m->systems[number];
+        struct kiln_living particle;
+        m->stage->ranges[i] = (struct kiln_row_range){0, 0};
+        m->stage->spheres[i] = (struct kiln_drawn_sphere){.radius = 0.0f};
+        struct kiln_drawn_instance *instance = m->stage->instances ? &m->stage->instances[i] : NULL;
+        if (instance)
+            *instance = (struct kiln_drawn_instance){.triangles = 0};
+        slot -= m->pool->systems[number].base;
+        if (!kiln_living_at(system, slot, &particle))
+            continue;
+        if (instance && m->stage->meshes.meshes[number].triangles > 0)
+            make_instance(m, number, slot, &particle, instance, &m->stage->ranges[i]);
+        else
+            make_sphere(m, system, &particle, &m->stage->spheres[i], &m->stage->ranges[i]);
+        make_pattern(m, number, slot, particle.progress, &m->stage->spheres[i]);
+    }
+}
+
+static bool make_room(struct kiln_spheres_cpu *stage, uint32_t count, struct kiln_error *error)
+{
+    if (count <= stage->room && stage->spheres)
+        return true;
+    free(stage->spheres);
+    free(stage->ranges);
+    free(stage->instances);
+    stage->room = count + count / 4 + 64;
+    stage->spheres = malloc(stage->room * sizeof *stage->spheres);
+    stage->ranges = malloc(stage->room * sizeof *stage->ranges);
+    bool meshes = stage->meshes.corners != NULL;
+    stage->instances = meshes ? malloc(stage->room * sizeof *stage->instances) : NULL;
+    if (stage->spheres && stage->ranges && (stage->instances || !meshes))
+        return true;
+    free(stage->spheres);
+    stage->spheres = NULL;
+    return kiln_error_set(error, KILN_DEVICE_FAILED, "spheres: out of memory");
+}
+
+static void make_all(struct kiln_spheres_cpu *stage, const struct kiln_pool *pool,
+                     const struct kiln_particle *records, const struct kiln_spin *spins,
+                     const uint32_t *entries, uint32_t count, float time_s)
+{
+    if (!stage->table_valid || kiln_looks_vary(stage->scene))
+        kiln_looks_sample(stage->scene, time_s, stage->table);
+    stage->table_valid = true;
+    struct making making = {.stage = stage,
+                            .pool = pool,
+                            .view = kiln_backdrop_rays(stage->backdrop)->view,
+                            .entries = entries};
+    const struct kiln_living_moment moment = {stage->scene, pool, records, making.view,
+                                              stage->table, NULL, spins};
+    for (uint32_t i = 0; i < stage->scene->system_count; i++) {
+        making.systems[i] = kiln_living_system(&moment, i);
+        making.patterns[i] = kiln_look_pattern(&stage->scene->systems[i].look);
+    }
+    kiln_threads_for(stage->threads, count, MAKE_AT_A_TIME, make_spheres, &making);
+}
+
+/* ---- into the picture ------------------------------------------------------------------------ */
+
+struct drawing {
+    struct kiln_spheres_cpu *stage;
+    struct kiln_sphere_strip strip; /* what all have in common */
+};
+
+static void draw_bands(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    const struct drawing *d = context;
+    struct kiln_spheres_cpu *stage = d->stage;
+    const struct kiln_row_lists *lists = &stage->lists;
+    for (size_t band = begin; band < end; band++) {
+        struct kiln_sphere_strip strip = d->strip;
+        uint32_t y = (uint32_t)band * KILN_SPHERE_ROWS, height = stage->scene->height;
+        strip.y = y;
+        strip.y_to = y + KILN_SPHERE_ROWS < height ? y + KILN_SPHERE_ROWS : height;
+        strip.list = lists->list + lists->first[band];
+        strip.count = lists->first[band + 1] - lists->first[band];
+        strip.samples = stage->samples + worker * samples_of(stage);
+        strip.nearest = stage->nearest + worker * samples_of(stage);
+        strip.entries = stage->entries + worker * entries_of(stage);
+        if (stage->triangles)
+            strip.triangles = stage->triangles + worker * samples_of(stage);
+        stage->rows->draw(&strip);
+    }
+}
+
+static bool open_images(const struct kiln_spheres_targets *t, struct kiln_sphere_strip *strip,
+                        struct kiln_error *error)
+{
+    strip->scene_color = kiln_image_host(t->backdrop_color, KILN_READ, error);
+    if (strip->scene_color)
+        strip->scene_depth = kiln_image_host(t->backdrop_depth, KILN_READ, error);
+    if (strip->scene_depth)
+        strip->color = kiln_image_host(t->color, KILN_OVERWRITE, error);
+    if (strip->color)
+        strip->depth = kiln_image_host(t->depth, KILN_OVERWRITE, error);
+    if (strip->depth)
+        strip->bloom = kiln_image_host(t->bloom, KILN_OVERWRITE, error);
+    return strip->bloom != NULL;
+}
+
+bool kiln_spheres_cpu_draw(struct kiln_spheres_cpu *stage, struct kiln_pool *pool,
+                           struct kiln_buffer *entries, uint32_t count, float time_s,
+                           struct kiln_error *error)
+{
+    const struct kiln_particle *records = kiln_buffer_host(&pool->records, KILN_READ, error);
+    const uint32_t *list = records ? kiln_buffer_host(entries, KILN_READ, error) : NULL;
+    if (!list || !make_room(stage, count, error))
+        return false;
+    const struct kiln_spin *spins = NULL;
+    if (pool->spins.size > 0) {
+        spins = kiln_buffer_host(&pool->spins, KILN_READ, error);
+        if (!spins)
+            return false;
+    }
+    make_all(stage, pool, records, spins, list, count, time_s);
+    struct drawing drawing = {stage,
+                              {.frame = kiln_backdrop_rays(stage->backdrop),
+                               .spheres = stage->spheres,
+                               .instances = stage->instances,
+                               .corners = (const float4(*)[2])stage->meshes.corners,
+                               .rows = stage->ranges,
+                               .patterned = kiln_looks_patterned(stage->scene),
+                               .width = stage->scene->width,
+                               .pitch = stage->pitch}};
+    if (!kiln_row_lists_fill(&stage->lists, stage->ranges, sizeof *stage->ranges, count,
+                             stage->scene->height, KILN_SPHERE_ROWS, error) ||
+        !open_images(&stage->targets, &drawing.strip, error))
+        return false;
+    kiln_threads_for(stage->threads, stage->lists.bands, 1, draw_bands, &drawing);
+    return true;
+}

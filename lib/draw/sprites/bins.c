@@ -1,0 +1,183 @@
+/* Count, scan, scatter: pieces of the sprites are counted and written independently, each to the
+ * place that the scan gave it, so the order of a list is that of the sprites for any number of
+ * threads. */
+#include "draw/sprites/bins.h"
+
+#include "base/error.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { PIECE = 4096 }; /* sprites */
+
+static bool out_of_memory(struct kiln_error *error)
+{
+    return kiln_error_set(error, KILN_DEVICE_FAILED, "bins: out of memory");
+}
+
+bool kiln_bins_init(struct kiln_bins *bins, uint32_t width, uint32_t height,
+                    struct kiln_error *error)
+{
+    *bins = (struct kiln_bins){
+        .columns = (width + KILN_TILE_WIDTH - 1) / KILN_TILE_WIDTH,
+        .rows = (height + KILN_TILE_HEIGHT - 1) / KILN_TILE_HEIGHT,
+    };
+    size_t tiles = (size_t)bins->columns * bins->rows;
+    bins->depth = calloc(tiles, sizeof *bins->depth);
+    bins->first = calloc(tiles + 1, sizeof *bins->first);
+    return (bins->depth && bins->first) || out_of_memory(error);
+}
+
+void kiln_bins_finish(struct kiln_bins *bins)
+{
+    free(bins->depth);
+    free(bins->counts);
+    free(bins->first);
+    free(bins->list);
+    *bins = (struct kiln_bins){0};
+}
+
+struct measure {
+    struct kiln_bins *bins;
+    const float *depth;
+    uint32_t width, height;
+};
+
+static struct kiln_tile_depth measure_tile(const struct measure *m, uint32_t x, uint32_t y)
+{
+    uint32_t x_to = x + KILN_TILE_WIDTH < m->width ? x + KILN_TILE_WIDTH : m->width;
+    uint32_t y_to = y + KILN_TILE_HEIGHT < m->height ? y + KILN_TILE_HEIGHT : m->height;
+    float nearest = m->depth[(size_t)y * m->width + x], farthest = nearest;
+    for (; y < y_to; y++) {
+        const float *row = m->depth + (size_t)y * m->width;
+        for (uint32_t i = x; i < x_to; i++) {
+            nearest = row[i] < nearest ? row[i] : nearest;
+            farthest = row[i] > farthest ? row[i] : farthest;
+        }
+    }
+    return (struct kiln_tile_depth){nearest, farthest};
+}
+
+static void measure_rows(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    struct measure *m = context;
+    for (size_t row = begin; row < end; row++) {
+        for (uint32_t column = 0; column < m->bins->columns; column++)
+            m->bins->depth[row * m->bins->columns + column] =
+                measure_tile(m, column * KILN_TILE_WIDTH, (uint32_t)row * KILN_TILE_HEIGHT);
+    }
+}
+
+void kiln_bins_measure(struct kiln_bins *bins, const float *depth, uint32_t width, uint32_t height,
+                       struct kiln_threads *threads)
+{
+    bins->columns = (width + KILN_TILE_WIDTH - 1) / KILN_TILE_WIDTH;
+    bins->rows = (height + KILN_TILE_HEIGHT - 1) / KILN_TILE_HEIGHT;
+    struct measure measure = {bins, depth, width, height};
+    kiln_threads_for(threads, bins->rows, 1, measure_rows, &measure);
+}
+
+struct filling {
+    struct kiln_bins *bins;
+    const struct kiln_sprite *sprites;
+    uint32_t count;
+};
+
+static bool hidden(const struct kiln_sprite *s, struct kiln_tile_depth depth)
+{
+    return !(s->flags & KILN_SPRITE_DEEP) && s->depth > depth.farthest;
+}
+
+/* Calls for each tile of each sprite of a piece: counts it, or writes it to where counts says. */
+static void visit_piece(const struct filling *f, size_t piece, uint32_t *list)
+{
+    const struct kiln_bins *bins = f->bins;
+    size_t tiles = (size_t)bins->columns * bins->rows;
+    uint32_t *counts = bins->counts + piece * tiles;
+    uint32_t begin = (uint32_t)piece * PIECE;
+    uint32_t end = f->count - begin < PIECE ? f->count : begin + PIECE;
+    for (uint32_t i = begin; i < end; i++) {
+        const struct kiln_sprite *s = &f->sprites[i];
+        if (s->x_from >= s->x_to)
+            continue;
+        uint32_t left = (uint32_t)s->x_from / KILN_TILE_WIDTH;
+        uint32_t right = (uint32_t)(s->x_to - 1) / KILN_TILE_WIDTH;
+        uint32_t bottom = (uint32_t)(s->y_to - 1) / KILN_TILE_HEIGHT;
+        for (uint32_t y = (uint32_t)s->y_from / KILN_TILE_HEIGHT; y <= bottom; y++) {
+            for (uint32_t x = left; x <= right; x++) {
+                size_t tile = (size_t)y * bins->columns + x;
+                if (hidden(s, bins->depth[tile]))
+                    continue;
+                if (list)
+                    list[counts[tile]] = i;
+                counts[tile]++;
+            }
+        }
+    }
+}
+
+static void count_pieces(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct filling *f = context;
+    size_t tiles = (size_t)f->bins->columns * f->bins->rows;
+    memset(f->bins->counts + begin * tiles, 0, (end - begin) * tiles * sizeof *f->bins->counts);
+    for (size_t piece = begin; piece < end; piece++)
+        visit_piece(f, piece, NULL);
+}
+
+static void write_pieces(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct filling *f = context;
+    for (size_t piece = begin; piece < end; piece++)
+        visit_piece(f, piece, f->bins->list);
+}
+
+/* Makes the counts places; false when there are more than 32 bits name. */
+static bool scan(struct kiln_bins *bins, size_t pieces, size_t *total)
+{
+    size_t tiles = (size_t)bins->columns * bins->rows, place = 0;
+    for (size_t tile = 0; tile < tiles; tile++) {
+        bins->first[tile] = (uint32_t)place;
+        for (size_t piece = 0; piece < pieces; piece++) {
+            uint32_t *count = &bins->counts[piece * tiles + tile], was = *count;
+            *count = (uint32_t)place;
+            place += was;
+        }
+        if (place > UINT32_MAX)
+            return false;
+    }
+    bins->first[tiles] = (uint32_t)place;
+    *total = place;
+    return true;
+}
+
+/* Room for count words; what was there is lost. */
+static bool make_room(uint32_t **words, size_t *room, size_t count)
+{
+    if (count <= *room)
+        return true;
+    free(*words);
+    *room = count + count / 4;
+    *words = malloc(*room * sizeof **words);
+    if (!*words)
+        *room = 0;
+    return *words != NULL;
+}
+
+bool kiln_bins_fill(struct kiln_bins *bins, const struct kiln_sprite *sprites, uint32_t count,
+                    struct kiln_threads *threads, struct kiln_error *error)
+{
+    struct filling filling = {bins, sprites, count};
+    size_t tiles = (size_t)bins->columns * bins->rows, pieces = (count + PIECE - 1) / PIECE;
+    if (!make_room(&bins->counts, &bins->count_room, pieces * tiles))
+        return out_of_memory(error);
+    kiln_threads_for(threads, pieces, 1, count_pieces, &filling);
+    size_t total = 0;
+    if (!scan(bins, pieces, &total) || !make_room(&bins->list, &bins->list_room, total))
+        return out_of_memory(error);
+    kiln_threads_for(threads, pieces, 1, write_pieces, &filling);
+    return true;
+}

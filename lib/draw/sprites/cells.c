@@ -1,0 +1,349 @@
+/* What is mixed stays as bytes, like the atlas. The shader follows the motion at each pixel, here
+ * it is followed at each texel. */
+#include "draw/sprites/cells.h"
+
+#include "base/error.h"
+
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    MIXED_EDGE = KILN_ATLAS_CELL >> KILN_CELL_MIXED_LEVEL,
+};
+
+struct slot {
+    uint32_t next_layer;
+    float motion;
+};
+
+struct kiln_cells {
+    const struct kiln_atlas *atlas;
+    struct slot *slots;  /* by layer, phase and level */
+    atomic_bool *wanted; /* of each */
+    uint8_t **texels;    /* of each; NULL: not mixed yet */
+    uint32_t slot_count;
+    uint32_t *missing;            /* numbers of slots to be mixed */
+    struct kiln_cell_hull *hulls; /* by layer and level */
+    uint8_t *moves;               /* of all layers; NULL: none moves */
+};
+
+/* Lays some channels of RGBA out for sampling: as a row and, beside it, the one below. */
+static void spread(const uint8_t *from, uint32_t edge, uint32_t channel, uint32_t count,
+                   uint8_t *to)
+{
+    for (uint32_t y = 0; y <= edge; y++) {
+        const uint8_t *row = from + 4 * (size_t)(y > 0 ? y - 1 : 0) * edge;
+        const uint8_t *below = from + 4 * (size_t)(y < edge ? y : edge - 1) * edge;
+        for (uint32_t x = 0; x < edge + KILN_CELL_MARGIN; x++) {
+            size_t column = x == 0 ? 0 : x <= edge ? x - 1 : edge - 1;
+            for (size_t c = channel; c < channel + count; c++) {
+                *to++ = row[4 * column + c] ^ 0x80;
+                *to++ = below[4 * column + c] ^ 0x80;
+            }
+        }
+    }
+}
+
+static void spread_cell(const uint8_t *from, uint32_t edge, uint8_t *to)
+{
+    spread(from, edge, 0, 4, to);
+    spread(from, edge, 2, 2, to + KILN_CELL_TEXEL * kiln_cells_texels(edge));
+}
+
+/* The atlas's motion of a layer. */
+static void spread_moves(const int8_t *from, uint8_t *to)
+{
+    uint8_t texels[4 * KILN_ATLAS_MOTION * KILN_ATLAS_MOTION] = {0};
+    for (size_t i = 0; i < (size_t)KILN_ATLAS_MOTION * KILN_ATLAS_MOTION; i++) {
+        texels[4 * i] = (uint8_t)(128 + from[2 * i]);
+        texels[4 * i + 1] = (uint8_t)(128 + from[2 * i + 1]);
+    }
+    spread(texels, KILN_ATLAS_MOTION, 0, 2, to);
+}
+
+static bool make_moves(struct kiln_cells *cells)
+{
+    const struct kiln_atlas *atlas = cells->atlas;
+    if (!atlas->moves)
+        return true;
+    size_t bytes = KILN_CELL_PAIR * kiln_cells_texels(KILN_ATLAS_MOTION);
+    cells->moves = calloc((size_t)atlas->layers + 1, bytes); /* none: not NULL */
+    for (uint32_t i = 0; cells->moves && i < atlas->layers; i++)
+        spread_moves(atlas->moves + (size_t)i * KILN_ATLAS_MOVES_BYTES, cells->moves + i * bytes);
+    return cells->moves != NULL;
+}
+
+/* ---- hulls ----------------------------------------------------------------------------------- */
+
+/* The least and greatest x, y, x + y and x - y of the texels that show anything. */
+struct extent {
+    int least[4], most[4];
+};
+
+static bool shows(const uint8_t *texel, uint32_t kind)
+{
+    return texel[3] > 0 || (kind == KILN_CELL_COLOR && (texel[0] || texel[1] || texel[2]));
+}
+
+static void extend(struct extent *extent, const uint8_t *texels, int edge, uint32_t kind)
+{
+    for (int y = 0; y < edge; y++) {
+        for (int x = 0; x < edge; x++, texels += 4) {
+            if (!shows(texels, kind))
+                continue;
+            const int at[4] = {x, y, x + y, x - y};
+            for (int i = 0; i < 4; i++) {
+                extent->least[i] = at[i] < extent->least[i] ? at[i] : extent->least[i];
+                extent->most[i] = at[i] > extent->most[i] ? at[i] : extent->most[i];
+            }
+        }
+    }
+}
+
+/* A texel shows up to one texel from its centre, one that is mixed up to one more; and as far as it
+ * moves. */
+static void make_hull(struct kiln_cells *cells, const struct kiln_atlas_range *range, uint32_t cell,
+                      uint32_t level)
+{
+    const struct kiln_atlas *atlas = cells->atlas;
+    uint32_t layer = range->first_layer + cell;
+    uint32_t next = range->first_layer + (cell + 1) % range->cells;
+    int edge = KILN_ATLAS_CELL >> level;
+    struct extent extent = {{INT_MAX, INT_MAX, INT_MAX, INT_MAX},
+                            {INT_MIN, INT_MIN, INT_MIN, INT_MIN}};
+    extend(&extent, kiln_atlas_level(atlas, layer, level), edge, range->kind);
+    extend(&extent, kiln_atlas_level(atlas, next, level), edge, range->kind);
+    struct kiln_cell_hull *hull = &cells->hulls[layer * KILN_ATLAS_LEVELS + level];
+    *hull = (struct kiln_cell_hull){{0}, {0}};
+    if (extent.least[0] > extent.most[0])
+        return;
+    static const float middle[4] = {0.5f, 0.5f, 1.0f, 0.0f};
+    float reach = 2.0f + range->motion * (float)edge;
+    for (int i = 0; i < 4; i++) {
+        float around = i < 2 ? reach : 2.0f * reach;
+        hull->from[i] = ((float)extent.least[i] + middle[i] - around) / (float)edge;
+        hull->to[i] = ((float)extent.most[i] + middle[i] + around) / (float)edge;
+    }
+    for (int i = 0; i < 2; i++) {
+        hull->from[i] = hull->from[i] > 0.0f ? hull->from[i] : 0.0f;
+        hull->to[i] = hull->to[i] < 1.0f ? hull->to[i] : 1.0f;
+    }
+}
+
+static void make_hulls(struct kiln_cells *cells)
+{
+    for (uint32_t i = 0; i < KILN_MAX_SYSTEMS; i++) {
+        const struct kiln_atlas_textures *textures = &cells->atlas->systems[i];
+        for (uint32_t t = 0; t < textures->count; t++) {
+            const struct kiln_atlas_range *range = &textures->textures[t];
+            for (uint32_t k = 0; k < range->cells * KILN_ATLAS_LEVELS; k++)
+                make_hull(cells, range, k / KILN_ATLAS_LEVELS, k % KILN_ATLAS_LEVELS);
+        }
+    }
+}
+
+struct kiln_cells *kiln_cells_create(const struct kiln_atlas *atlas, struct kiln_error *error)
+{
+    struct kiln_cells *cells = calloc(1, sizeof *cells);
+    if (cells) {
+        cells->atlas = atlas;
+        cells->slot_count = (atlas->layers ? atlas->layers : 1) * KILN_CELL_NUMBERS;
+        cells->slots = calloc(cells->slot_count, sizeof *cells->slots);
+        cells->wanted = calloc(cells->slot_count, sizeof *cells->wanted);
+        cells->texels = calloc(cells->slot_count, sizeof *cells->texels);
+        cells->missing = calloc(cells->slot_count, sizeof *cells->missing);
+        cells->hulls = calloc(cells->slot_count / KILN_CELL_PHASES, sizeof *cells->hulls);
+    }
+    if (!cells || !cells->slots || !cells->wanted || !cells->texels || !cells->missing ||
+        !cells->hulls || !make_moves(cells)) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "cells: out of memory");
+        kiln_cells_destroy(&cells);
+        return NULL;
+    }
+    make_hulls(cells);
+    return cells;
+}
+
+void kiln_cells_destroy(struct kiln_cells **cells)
+{
+    struct kiln_cells *c = *cells;
+    if (!c)
+        return;
+    for (uint32_t i = 0; c->texels && i < c->slot_count; i++)
+        free(c->texels[i]);
+    free(c->slots);
+    free(c->wanted);
+    free(c->texels);
+    free(c->missing);
+    free(c->hulls);
+    free(c->moves);
+    free(c);
+    *cells = NULL;
+}
+
+uint32_t kiln_cells_want(struct kiln_cells *cells, const struct kiln_cell_name *name)
+{
+    uint32_t number =
+        (name->layer * KILN_CELL_PHASES + name->phase) * KILN_ATLAS_LEVELS + name->level;
+    atomic_bool *wanted = &cells->wanted[number];
+    /* Whoever comes first writes; all would write the same. */
+    if (!atomic_load_explicit(wanted, memory_order_relaxed) &&
+        !atomic_exchange_explicit(wanted, true, memory_order_relaxed))
+        cells->slots[number] = (struct slot){name->next_layer, name->motion};
+    return number;
+}
+
+struct kiln_cells_content kiln_cells_content(const struct kiln_cells *cells)
+{
+    return (struct kiln_cells_content){.texels = (const uint8_t *const *)cells->texels,
+                                       .wanted = cells->wanted,
+                                       .hulls = cells->hulls,
+                                       .moves = cells->moves,
+                                       .move_bytes =
+                                           KILN_CELL_PAIR * kiln_cells_texels(KILN_ATLAS_MOTION)};
+}
+
+/* A grid of `channels` a texel, read between its texels and clamped at its edge. */
+struct bilinear {
+    uint32_t from[2], to[2]; /* columns, rows */
+    float part[2];
+};
+
+static float clamp(float x, float low, float high)
+{
+    return x < low ? low : x > high ? high : x;
+}
+
+/* x, y: in edges of the grid. */
+static struct bilinear place(float x, float y, uint32_t edge)
+{
+    struct bilinear at;
+    const float position[2] = {x, y};
+    for (int i = 0; i < 2; i++) {
+        float texel = clamp(position[i] * (float)edge - 0.5f, 0.0f, (float)(edge - 1));
+        at.from[i] = (uint32_t)texel;
+        at.to[i] = at.from[i] + 1 < edge ? at.from[i] + 1 : at.from[i];
+        at.part[i] = texel - (float)at.from[i];
+    }
+    return at;
+}
+
+static float between(float upper_left, float upper_right, float lower_left, float lower_right,
+                     const float part[2])
+{
+    float upper = upper_left + (upper_right - upper_left) * part[0];
+    float lower = lower_left + (lower_right - lower_left) * part[0];
+    return upper + (lower - upper) * part[1];
+}
+
+/* The weights of four texels about a place between the middle two: cubic convolution (Keys 1981)
+ * with a = -1/4, which comes closest to the shader's picture. */
+static void weigh_four(float part, float weights[4])
+{
+    float square = part * part, cube = square * part;
+    weights[0] = 0.5f * square - 0.25f * (part + cube);
+    weights[1] = 1.0f - 2.75f * square + 1.75f * cube;
+    weights[2] = 0.25f * part + 2.5f * square - 1.75f * cube;
+    weights[3] = 0.25f * (cube - square);
+}
+
+/* RGBA at a place. Straight lines between texels would blur it, for it becomes texels again. */
+static void read_texel(const uint8_t *texels, uint32_t edge, float x, float y, float rgba[4])
+{
+    const struct bilinear at = place(x, y, edge);
+    float across[4], down[4];
+    weigh_four(at.part[0], across);
+    weigh_four(at.part[1], down);
+    for (uint32_t c = 0; c < 4; c++)
+        rgba[c] = 0.0f;
+    for (uint32_t i = 0; i < 16; i++) {
+        uint32_t column = at.from[0] + i % 4, row = at.from[1] + i / 4;
+        column = column > 0 ? column - 1 : 0;
+        row = row > 0 ? row - 1 : 0;
+        column = column < edge ? column : edge - 1;
+        row = row < edge ? row : edge - 1;
+        const uint8_t *texel = texels + 4 * ((size_t)row * edge + column);
+        for (uint32_t c = 0; c < 4; c++)
+            rgba[c] += (float)texel[c] * (across[i % 4] * down[i / 4]);
+    }
+}
+
+static void read_move(const int8_t *moves, float x, float y, float way[2])
+{
+    struct bilinear at = place(x, y, KILN_ATLAS_MOTION);
+    const int8_t *upper = moves + 2 * (size_t)at.from[1] * KILN_ATLAS_MOTION;
+    const int8_t *lower = moves + 2 * (size_t)at.to[1] * KILN_ATLAS_MOTION;
+    for (uint32_t c = 0; c < 2; c++)
+        way[c] = between(upper[2 * at.from[0] + c], upper[2 * at.to[0] + c],
+                         lower[2 * at.from[0] + c], lower[2 * at.to[0] + c], at.part);
+}
+
+/* As cell_between() of shaders/draw/sprites/shade.glsl, at each texel. */
+static void mix(const struct kiln_cells *cells, uint32_t number)
+{
+    uint8_t texels[4 * MIXED_EDGE * MIXED_EDGE] = {0}, *texel = texels;
+    const struct slot *slot = &cells->slots[number];
+    const struct kiln_atlas *atlas = cells->atlas;
+    uint32_t layer = number / KILN_CELL_NUMBERS, level = number % KILN_ATLAS_LEVELS;
+    uint32_t phase = number / KILN_ATLAS_LEVELS % KILN_CELL_PHASES;
+    uint32_t edge = (uint32_t)KILN_ATLAS_CELL >> level;
+    const uint8_t *from = kiln_atlas_level(atlas, layer, level);
+    const uint8_t *to = kiln_atlas_level(atlas, slot->next_layer, level);
+    const int8_t *moves = atlas->moves && slot->motion > 0.0f
+                              ? atlas->moves + (size_t)layer * KILN_ATLAS_MOVES_BYTES
+                              : NULL;
+    const float part = (float)phase / (float)KILN_CELL_PHASES, left = 1.0f - part;
+    const float scale = slot->motion / 127.0f;
+    for (uint32_t y = 0; y < edge; y++) {
+        for (uint32_t x = 0; x < edge; x++, texel += 4) {
+            float u = ((float)x + 0.5f) / (float)edge, v = ((float)y + 0.5f) / (float)edge;
+            float way[2] = {0}, first[4], second[4];
+            if (moves)
+                read_move(moves, u, v, way);
+            float x_way = way[0] * scale, y_way = way[1] * scale;
+            read_texel(from, edge, u - part * x_way, v - part * y_way, first);
+            read_texel(to, edge, u + left * x_way, v + left * y_way, second);
+            for (int c = 0; c < 4; c++)
+                texel[c] =
+                    (uint8_t)(clamp(first[c] + (second[c] - first[c]) * part, 0.0f, 255.0f) + 0.5f);
+        }
+    }
+    spread_cell(texels, edge, cells->texels[number]);
+}
+
+/* A layer itself. */
+static void copy(const struct kiln_cells *cells, uint32_t number)
+{
+    uint32_t layer = number / KILN_CELL_NUMBERS, level = number % KILN_ATLAS_LEVELS;
+    spread_cell(kiln_atlas_level(cells->atlas, layer, level), (uint32_t)KILN_ATLAS_CELL >> level,
+                cells->texels[number]);
+}
+
+static void mix_missing(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct kiln_cells *cells = context;
+    for (size_t i = begin; i < end; i++) {
+        uint32_t number = cells->missing[i];
+        bool itself = number / KILN_ATLAS_LEVELS % KILN_CELL_PHASES == 0;
+        (itself ? copy : mix)(cells, number);
+    }
+}
+
+bool kiln_cells_mix(struct kiln_cells *cells, struct kiln_threads *threads,
+                    struct kiln_error *error)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < cells->slot_count; i++) {
+        if (cells->texels[i] || !atomic_load_explicit(&cells->wanted[i], memory_order_relaxed))
+            continue;
+        size_t texels = kiln_cells_texels((size_t)KILN_ATLAS_CELL >> i % KILN_ATLAS_LEVELS);
+        cells->texels[i] = malloc((KILN_CELL_TEXEL + KILN_CELL_PAIR) * texels);
+        if (!cells->texels[i])
+            return kiln_error_set(error, KILN_DEVICE_FAILED, "cells: out of memory");
+        cells->missing[count++] = i;
+    }
+    kiln_threads_for(threads, count, 1, mix_missing, cells);
+    return true;
+}

@@ -1,0 +1,128 @@
+/* Around the rasterisers, whichever it is: each pass is drawn small, against a small depth of the
+ * scene, then brought to the frame. Near edges it is drawn again at full resolution, against a
+ * depth of 0 everywhere else, behind which rasterisers find that nothing is to be seen. */
+#include "draw/sprites/coarse.h"
+
+#include "base/error.h"
+#include "draw/sprites/coarse_cpu.h"
+#include "draw/sprites/coarse_gl.h"
+
+#include <stdlib.h>
+
+struct kiln_coarse_stage {
+    struct kiln_device *device;
+    struct kiln_particles_stage *particles;
+    struct kiln_coarse_images images;
+    struct kiln_coarse_cpu *cpu; /* one of these two */
+    struct kiln_coarse_gl *gl;
+};
+
+static bool init_images(struct kiln_coarse_stage *stage, const struct kiln_scene *scene,
+                        GLenum format, struct kiln_error *error)
+{
+    struct kiln_coarse_images *images = &stage->images;
+    const uint32_t factor = scene->post.resolution == KILN_RESOLUTION_HALF ? 2 : 4;
+    const uint32_t width = (scene->width + factor - 1) / factor;
+    const uint32_t height = (scene->height + factor - 1) / factor;
+    images->factor = factor;
+    images->width = scene->width;
+    images->height = scene->height;
+    images->beyond_x = 0.5f * (float)(width * factor - scene->width);
+    images->beyond_y = 0.5f * (float)(height * factor - scene->height);
+    images->mixed = scene->post.mixed_resolution;
+    kiln_image_init(&images->depth, stage->device, width, height, GL_R32F, "coarse depth");
+    kiln_image_init(&images->edges, stage->device, width, height, GL_R32F, "coarse edges");
+    kiln_image_init(&images->color, stage->device, width, height, format, "coarse particles");
+    kiln_image_init(&images->bloom, stage->device, width, height, format, "coarse bloom");
+    struct kiln_image *coarse[] = {&images->color, &images->bloom};
+    if (!kiln_framebuffer_init(&images->framebuffer, stage->device, coarse, 2, error))
+        return false;
+    if (!images->mixed)
+        return true;
+    const uint32_t w = scene->width, h = scene->height;
+    kiln_image_init(&images->fine_depth, stage->device, w, h, GL_R32F, "depth at edges");
+    kiln_image_init(&images->fine_color, stage->device, w, h, format, "particles at edges");
+    kiln_image_init(&images->fine_bloom, stage->device, w, h, format, "bloom at edges");
+    struct kiln_image *fine[] = {&images->fine_color, &images->fine_bloom};
+    return kiln_framebuffer_init(&images->fine_framebuffer, stage->device, fine, 2, error);
+}
+
+struct kiln_coarse_stage *kiln_coarse_create(struct kiln_device *device,
+                                             const struct kiln_scene *scene,
+                                             const struct kiln_coarse_params *params,
+                                             struct kiln_threads *threads, struct kiln_error *error)
+{
+    struct kiln_coarse_stage *stage = calloc(1, sizeof *stage);
+    if (!stage) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "coarse particles: out of memory");
+        return NULL;
+    }
+    stage->device = device;
+    stage->particles = params->particles;
+    bool ok = init_images(stage, scene, params->format, error);
+    if (ok && params->in_gl)
+        stage->gl = kiln_coarse_gl_create(device, &stage->images, error);
+    else if (ok)
+        stage->cpu = kiln_coarse_cpu_create(&stage->images, threads, error);
+    if (!stage->gl && !stage->cpu)
+        kiln_coarse_destroy(&stage);
+    return stage;
+}
+
+void kiln_coarse_destroy(struct kiln_coarse_stage **stage)
+{
+    struct kiln_coarse_stage *s = *stage;
+    if (!s)
+        return;
+    kiln_coarse_gl_destroy(&s->gl);
+    kiln_coarse_cpu_destroy(&s->cpu);
+    kiln_framebuffer_finish(&s->images.framebuffer);
+    kiln_framebuffer_finish(&s->images.fine_framebuffer);
+    struct kiln_image *images[] = {
+        &s->images.depth,      &s->images.edges,      &s->images.color,     &s->images.bloom,
+        &s->images.fine_depth, &s->images.fine_color, &s->images.fine_bloom};
+    for (size_t i = 0; i < sizeof images / sizeof *images; i++)
+        kiln_image_finish(images[i]);
+    free(s);
+    *stage = NULL;
+}
+
+bool kiln_coarse_prepare(struct kiln_coarse_stage *stage, struct kiln_image *depth,
+                         struct kiln_error *error)
+{
+    return stage->gl ? kiln_coarse_gl_measure(stage->gl, depth, error)
+                     : kiln_coarse_cpu_measure(stage->cpu, depth, error);
+}
+
+static bool draw_coarse(struct kiln_coarse_stage *stage, const struct kiln_particles_draw *draw,
+                        struct kiln_error *error)
+{
+    const struct kiln_view view = kiln_view_coarse(draw->view, stage->images.factor);
+    struct kiln_particles_draw coarse = *draw;
+    coarse.view = &view;
+    coarse.depth = &stage->images.depth;
+    coarse.framebuffer = &stage->images.framebuffer;
+    coarse.keep_bloom = false;
+    return kiln_particles_run(stage->particles, &coarse, error);
+}
+
+static bool draw_fine(struct kiln_coarse_stage *stage, const struct kiln_particles_draw *draw,
+                      struct kiln_error *error)
+{
+    struct kiln_particles_draw fine = *draw;
+    fine.depth = &stage->images.fine_depth;
+    fine.framebuffer = &stage->images.fine_framebuffer;
+    fine.keep_bloom = false;
+    return kiln_particles_run(stage->particles, &fine, error);
+}
+
+bool kiln_coarse_run(struct kiln_coarse_stage *stage, const struct kiln_particles_draw *draw,
+                     struct kiln_error *error)
+{
+    const struct kiln_coarse_blend blend = {
+        .target = draw->framebuffer, .keep_bloom = draw->keep_bloom, .sum_alpha = draw->sum_alpha};
+    return draw_coarse(stage, draw, error) &&
+           (!stage->images.mixed || draw_fine(stage, draw, error)) &&
+           (stage->gl ? kiln_coarse_gl_spread(stage->gl, &blend, draw->depth, error)
+                      : kiln_coarse_cpu_spread(stage->cpu, &blend, draw->depth, error));
+}

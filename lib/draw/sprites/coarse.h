@@ -1,0 +1,35 @@
+/* Stage 4b where a scene asks for it: particles in a picture of half or a quarter of the frame's
+ * width and height, brought to the frame's by its depth; and at full resolution near edges of the
+ * depth, if it asks for that, too (Heinz 2019, 2.2.2). */
+#ifndef KILN_DRAW_COARSE_H
+#define KILN_DRAW_COARSE_H
+
+#include "draw/sprites/particles.h"
+
+struct kiln_coarse_stage;
+
+struct kiln_coarse_params {
+    struct kiln_particles_stage *particles; /* draws them */
+    bool in_gl;    /* where depth is made smaller and pictures larger; both ways make the same, to
+                    * rounding, and on the host to the bit on every machine */
+    GLenum format; /* of the colours */
+};
+
+/* The scene's resolution must not be full. What is passed must outlive the stage; device may be
+ * NULL unless in_gl. NULL with an error. */
+struct kiln_coarse_stage *kiln_coarse_create(struct kiln_device *device,
+                                             const struct kiln_scene *scene,
+                                             const struct kiln_coarse_params *params,
+                                             struct kiln_threads *threads,
+                                             struct kiln_error *error);
+void kiln_coarse_destroy(struct kiln_coarse_stage **stage);
+
+/* Takes in the depth of the scene, which the next calls of kiln_coarse_run are for. */
+bool kiln_coarse_prepare(struct kiln_coarse_stage *stage, struct kiln_image *depth,
+                         struct kiln_error *error);
+
+/* What kiln_particles_run does. */
+bool kiln_coarse_run(struct kiln_coarse_stage *stage, const struct kiln_particles_draw *draw,
+                     struct kiln_error *error);
+
+#endif

@@ -1,0 +1,179 @@
+/* Threads over rows, by the widest vectors that the machine has. */
+#include "draw/sprites/coarse_cpu.h"
+
+#include "base/error.h"
+#include "draw/sprites/coarse_rows.h"
+#include "shared/coarse.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { ROWS_AT_A_TIME = 4 };
+
+struct kiln_coarse_cpu {
+    struct kiln_coarse_images *images;
+    struct kiln_threads *threads;
+    const struct kiln_coarse_loops *loops;
+    struct kiln_coarse_place *columns, *rows; /* of the frame */
+    uint8_t *bent;                            /* as in struct kiln_coarse_rows */
+    struct kiln_coarse_shown *mixed;
+    struct kiln_coarse_columns *known;
+};
+
+static int32_t limit(int32_t index, uint32_t count)
+{
+    return index < 0 ? 0 : index < (int32_t)count ? index : (int32_t)count - 1;
+}
+
+static struct kiln_coarse_place find_place(uint32_t pixel, float beyond, uint32_t factor,
+                                           uint32_t count)
+{
+    struct kiln_coarse_place place = {.at = ((float)pixel + 0.5f + beyond) / (float)factor - 0.5f};
+    int32_t low = (int32_t)(place.at + 1.0f) - 1; /* floor: it is beyond -1 */
+    place.part = place.at - (float)low;
+    place.own = limit(place.part < 0.5f ? low : low + 1, count);
+    const float4 weights = coarse_spline(place.part);
+    memcpy(place.weights, &weights, sizeof place.weights);
+    for (int32_t i = 0; i < 4; i++)
+        place.taps[i] = limit(low - 1 + i, count);
+    return place;
+}
+
+static bool find_places(struct kiln_coarse_cpu *coarse)
+{
+    const struct kiln_coarse_images *images = coarse->images;
+    coarse->columns = calloc(images->width, sizeof *coarse->columns);
+    coarse->rows = calloc(images->height, sizeof *coarse->rows);
+    if (!coarse->columns || !coarse->rows)
+        return false;
+    for (uint32_t x = 0; x < images->width; x++)
+        coarse->columns[x] = find_place(x, images->beyond_x, images->factor, images->depth.width);
+    for (uint32_t y = 0; y < images->height; y++)
+        coarse->rows[y] = find_place(y, images->beyond_y, images->factor, images->depth.height);
+    return true;
+}
+
+static bool make_scratch(struct kiln_coarse_cpu *coarse)
+{
+    const struct kiln_coarse_images *images = coarse->images;
+    const size_t width = images->depth.width, threads = kiln_threads_count(coarse->threads);
+    coarse->bent = calloc(width * images->depth.height, sizeof *coarse->bent);
+    coarse->mixed = aligned_alloc(16, width * threads * sizeof *coarse->mixed);
+    coarse->known = calloc(threads, sizeof *coarse->known);
+    bool ok = coarse->bent && coarse->mixed && coarse->known;
+    for (size_t i = 0; ok && i < threads; i++) {
+        struct kiln_coarse_columns *known = &coarse->known[i];
+        known->farthest = malloc(images->width * sizeof *known->farthest);
+        known->bent = malloc(images->width * sizeof *known->bent);
+        ok = known->farthest && known->bent;
+    }
+    return ok;
+}
+
+struct kiln_coarse_cpu *kiln_coarse_cpu_create(struct kiln_coarse_images *images,
+                                               struct kiln_threads *threads,
+                                               struct kiln_error *error)
+{
+    enum kiln_simd simd;
+    if (!kiln_simd_choose(&simd, error))
+        return NULL;
+    struct kiln_coarse_cpu *coarse = calloc(1, sizeof *coarse);
+    if (coarse)
+        *coarse = (struct kiln_coarse_cpu){
+            .images = images, .threads = threads, .loops = KILN_SIMD_PICK(kiln_coarse_loops, simd)};
+    if (!coarse || !make_scratch(coarse) || !find_places(coarse)) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "coarse particles: out of memory");
+        kiln_coarse_cpu_destroy(&coarse);
+    }
+    return coarse;
+}
+
+void kiln_coarse_cpu_destroy(struct kiln_coarse_cpu **coarse)
+{
+    struct kiln_coarse_cpu *c = *coarse;
+    if (!c)
+        return;
+    free(c->columns);
+    free(c->rows);
+    free(c->bent);
+    free(c->mixed);
+    for (size_t i = 0; c->known && i < kiln_threads_count(c->threads); i++) {
+        free(c->known[i].farthest);
+        free(c->known[i].bent);
+    }
+    free(c->known);
+    free(c);
+    *coarse = NULL;
+}
+
+static struct kiln_coarse_rows begin(const struct kiln_coarse_cpu *coarse)
+{
+    return (struct kiln_coarse_rows){.images = coarse->images,
+                                     .columns = coarse->columns,
+                                     .rows = coarse->rows,
+                                     .bent = coarse->bent,
+                                     .mixed = coarse->mixed,
+                                     .known = coarse->known};
+}
+
+bool kiln_coarse_cpu_measure(struct kiln_coarse_cpu *coarse, struct kiln_image *depth,
+                             struct kiln_error *error)
+{
+    struct kiln_coarse_images *images = coarse->images;
+    struct kiln_coarse_rows rows = begin(coarse);
+    rows.depth = kiln_image_host(depth, KILN_READ, error);
+    if (rows.depth)
+        rows.coarse_depth = kiln_image_host(&images->depth, KILN_OVERWRITE, error);
+    if (rows.coarse_depth)
+        rows.edges = kiln_image_host(&images->edges, KILN_OVERWRITE, error);
+    if (!rows.edges)
+        return false;
+    const uint32_t height = images->depth.height;
+    kiln_threads_for(coarse->threads, height, ROWS_AT_A_TIME, coarse->loops->measure, &rows);
+    kiln_threads_for(coarse->threads, height, ROWS_AT_A_TIME, coarse->loops->find_edges, &rows);
+    if (!images->mixed)
+        return true;
+    rows.fine_depth = kiln_image_host(&images->fine_depth, KILN_OVERWRITE, error);
+    if (rows.fine_depth)
+        kiln_threads_for(coarse->threads, images->height, ROWS_AT_A_TIME, coarse->loops->mask,
+                         &rows);
+    return rows.fine_depth != NULL;
+}
+
+/* False when one of the images cannot be had. */
+static bool open_images(struct kiln_coarse_images *images, struct kiln_image *depth,
+                        struct kiln_coarse_rows *rows, struct kiln_error *error)
+{
+    rows->depth = kiln_image_host(depth, KILN_READ, error);
+    rows->coarse_depth = kiln_image_host(&images->depth, KILN_READ, error);
+    rows->edges = kiln_image_host(&images->edges, KILN_READ, error);
+    rows->coarse_color = kiln_image_host(&images->color, KILN_READ, error);
+    rows->coarse_bloom = kiln_image_host(&images->bloom, KILN_READ, error);
+    bool all = rows->depth && rows->coarse_depth && rows->edges && rows->coarse_color &&
+               rows->coarse_bloom;
+    if (!all || !images->mixed)
+        return all;
+    rows->fine_color = kiln_image_host(&images->fine_color, KILN_READ, error);
+    rows->fine_bloom = kiln_image_host(&images->fine_bloom, KILN_READ, error);
+    return rows->fine_color && rows->fine_bloom;
+}
+
+bool kiln_coarse_cpu_spread(struct kiln_coarse_cpu *coarse, const struct kiln_coarse_blend *blend,
+                            struct kiln_image *depth, struct kiln_error *error)
+{
+    struct kiln_coarse_rows rows = begin(coarse);
+    rows.keep_bloom = blend->keep_bloom;
+    rows.over = blend->sum_alpha ? 0.0f : 1.0f;
+    if (!open_images(coarse->images, depth, &rows, error))
+        return false;
+    const bool blooms = blend->target->count > 1;
+    rows.color = kiln_image_host(blend->target->images[0], KILN_OVERWRITE, error);
+    if (rows.color && blooms)
+        rows.bloom = kiln_image_host(blend->target->images[1],
+                                     blend->keep_bloom ? KILN_READ_WRITE : KILN_OVERWRITE, error);
+    if (!rows.color || (blooms && !rows.bloom))
+        return false;
+    kiln_threads_for(coarse->threads, coarse->images->height, ROWS_AT_A_TIME, coarse->loops->spread,
+                     &rows);
+    return true;
+}

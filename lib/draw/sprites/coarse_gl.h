@@ -1,0 +1,20 @@
+/* Between a frame and its smaller picture by fragment shaders: see draw/sprites/coarse_cpu.h. */
+#ifndef KILN_DRAW_COARSE_GL_H
+#define KILN_DRAW_COARSE_GL_H
+
+#include "draw/sprites/coarse_images.h"
+
+struct kiln_coarse_gl;
+
+/* NULL with an error. images and device must outlive it. */
+struct kiln_coarse_gl *kiln_coarse_gl_create(struct kiln_device *device,
+                                             struct kiln_coarse_images *images,
+                                             struct kiln_error *error);
+void kiln_coarse_gl_destroy(struct kiln_coarse_gl **coarse);
+
+bool kiln_coarse_gl_measure(struct kiln_coarse_gl *coarse, struct kiln_image *depth,
+                            struct kiln_error *error);
+bool kiln_coarse_gl_spread(struct kiln_coarse_gl *coarse, const struct kiln_coarse_blend *blend,
+                           struct kiln_image *depth, struct kiln_error *error);
+
+#endif

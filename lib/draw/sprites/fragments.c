@@ -1,0 +1,314 @@
+/* What a sprite shows is found by drawing it alone, into an empty tile, so that no rasteriser needs
+ * to know of lists. */
+#include "draw/sprites/fragments.h"
+
+#include "shared/fragment_layout.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { FRAGMENTS_AT_A_TIME = 1 << 19, TILE_PIXELS = KILN_TILE_WIDTH * KILN_TILE_HEIGHT };
+
+struct fragment {
+    float rgb[3], alpha; /* premultiplied */
+    uint64_t key;        /* the least is the farthest; then by the order of sprites */
+    uint32_t sprite;
+    uint32_t pixel; /* of the scratch tile */
+};
+
+/* A fragment on the list of its pixel. */
+struct link {
+    uint64_t key;
+    uint32_t fragment;
+};
+
+struct kiln_fragments {
+    struct kiln_tile *scratch;  /* shows one sprite, of some rows of the tile */
+    struct fragment *fragments; /* FRAGMENTS_AT_A_TIME of both */
+    struct link *links;
+    size_t count;
+    uint64_t from, until;       /* keys that are gathered now: those before until */
+    uint32_t ends[TILE_PIXELS]; /* of the pixels' lists in links */
+};
+
+struct kiln_fragments *kiln_fragments_create(void)
+{
+    struct kiln_fragments *f = calloc(1, sizeof *f);
+    if (!f)
+        return NULL;
+    f->scratch = aligned_alloc(64, sizeof *f->scratch);
+    f->fragments = malloc(FRAGMENTS_AT_A_TIME * sizeof *f->fragments);
+    f->links = malloc(FRAGMENTS_AT_A_TIME * sizeof *f->links);
+    if (!f->scratch || !f->fragments || !f->links)
+        kiln_fragments_destroy(&f);
+    return f;
+}
+
+void kiln_fragments_destroy(struct kiln_fragments **fragments)
+{
+    if (!*fragments)
+        return;
+    free((*fragments)->scratch);
+    free((*fragments)->fragments);
+    free((*fragments)->links);
+    free(*fragments);
+    *fragments = NULL;
+}
+
+/* ---- gathering ------------------------------------------------------------------------------- */
+
+/* Pixels of the scratch tile. */
+struct box {
+    int x_from, x_to, y_from, y_to;
+};
+
+static struct box find_box(const struct kiln_tile *tile, const struct kiln_sprite *s)
+{
+    return (struct box){
+        .x_from = s->x_from > tile->x ? s->x_from - tile->x : 0,
+        .x_to = s->x_to < tile->x + tile->width ? s->x_to - tile->x : tile->width,
+        .y_from = s->y_from > tile->y ? s->y_from - tile->y : 0,
+        .y_to = s->y_to < tile->y + tile->height ? s->y_to - tile->y : tile->height,
+    };
+}
+
+/* Makes the scratch tile some rows of another, with nothing in them. */
+static void begin_rows(struct kiln_fragments *f, const struct kiln_tile *tile, int y, int rows)
+{
+    struct kiln_tile *scratch = f->scratch;
+    *scratch = *tile;
+    scratch->y = tile->y + y;
+    scratch->height = rows;
+    scratch->glow = KILN_TILE_GLOW_NONE;
+    for (int row = 0; row < rows; row++) {
+        memset(scratch->pixels[row], 0, KILN_TILE_DEPTH * sizeof *scratch->pixels[row]);
+        memcpy(scratch->pixels[row][KILN_TILE_DEPTH], tile->pixels[y + row][KILN_TILE_DEPTH],
+               sizeof scratch->pixels[row][KILN_TILE_DEPTH]);
+    }
+    f->count = 0;
+}
+
+static void clear_box(struct kiln_tile *tile, const struct box *box)
+{
+    size_t bytes = (size_t)(box->x_to - box->x_from) * sizeof(float);
+    for (int y = box->y_from; y < box->y_to; y++) {
+        for (int plane = 0; plane < KILN_TILE_DEPTH; plane++)
+            memset(&tile->pixels[y][plane][box->x_from], 0, bytes);
+    }
+}
+
+/* View depth of a sprite's plane at a pixel, m, and how far from it each half of its thickness is.
+ */
+struct place {
+    float depth, half_depth;
+};
+
+static struct place find_place(const struct kiln_sprite *s, float x, float y)
+{
+    float dx = x - s->x, dy = y - s->y;
+    float u = s->u + s->u_x * dx + s->u_y * dy, v = s->v + s->v_x * dx + s->v_y * dy;
+    struct place place = {.depth = s->depth};
+    if (s->flags & KILN_SPRITE_DEEP) {
+        place.depth = 1.0f / (s->q + s->q_x * dx + s->q_y * dy);
+        u *= place.depth;
+        v *= place.depth;
+    }
+    if (s->bulge > 0.0f) {
+        float across = 2.0f * u / s->edge_u - 1.0f, along = 2.0f * v / s->edge_v - 1.0f;
+        float inside = exact_max(1.0f - (across * across + along * along), 0.0f);
+        place.half_depth = 0.5f * s->bulge * exact_sqrt(inside);
+    }
+    return place;
+}
+
+static void put(struct kiln_fragments *f, const struct fragment *fragment, float depth,
+                uint32_t place)
+{
+    const uint64_t key = (uint64_t)~FLOAT_BITS(exact_max(depth, 0.0f)) << 32 | place;
+    if (key < f->from || key >= f->until)
+        return;
+    struct fragment *to = &f->fragments[f->count++];
+    *to = *fragment;
+    to->key = key;
+}
+
+static void put_pixel(struct kiln_fragments *f, const struct kiln_sprite *s, int x, int y,
+                      uint32_t number, uint32_t order)
+{
+    const struct kiln_tile *tile = f->scratch;
+    const float(*planes)[KILN_TILE_PITCH] = (const float(*)[KILN_TILE_PITCH])tile->pixels[y];
+    struct fragment fragment = {
+        .rgb = {planes[KILN_TILE_RED][x], planes[KILN_TILE_GREEN][x], planes[KILN_TILE_BLUE][x]},
+        .alpha = planes[KILN_TILE_ALPHA][x],
+        .sprite = number,
+        .pixel = (uint32_t)(y * KILN_TILE_WIDTH + x),
+    };
+    if (fragment.rgb[0] == 0.0f && fragment.rgb[1] == 0.0f && fragment.rgb[2] == 0.0f &&
+        fragment.alpha == 0.0f)
+        return;
+    struct place at = find_place(s, (float)(tile->x + x) + 0.5f, (float)(tile->y + y) + 0.5f);
+    if (!(at.half_depth > 0.0f)) {
+        put(f, &fragment, at.depth, 2 * order);
+        return;
+    }
+    fragment.alpha = half_alpha(fragment.alpha);
+    float part = half_color(fragment.alpha);
+    for (int c = 0; c < 3; c++)
+        fragment.rgb[c] *= part;
+    put(f, &fragment, at.depth + at.half_depth, 2 * order);
+    put(f, &fragment, at.depth - at.half_depth, 2 * order + 1);
+}
+
+static size_t count_before(const struct kiln_fragments *f, uint64_t key)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < f->count; i++)
+        count += f->fragments[i].key < key;
+    return count;
+}
+
+/* Leaves the farther half, about, for this time. A row has a key no more often than pixels, so that
+ * there is a key in between. */
+static void keep_farther(struct kiln_fragments *f)
+{
+    uint64_t low = f->from, high = f->until;
+    size_t kept;
+    do {
+        f->until = low + (high - low) / 2;
+        kept = count_before(f, f->until);
+        if (kept < f->count / 4)
+            low = f->until;
+        else
+            high = f->until;
+    } while (kept < f->count / 4 || kept > f->count * 3 / 4);
+    kept = 0;
+    for (size_t i = 0; i < f->count; i++) {
+        if (f->fragments[i].key < f->until)
+            f->fragments[kept++] = f->fragments[i];
+    }
+    f->count = kept;
+}
+
+/* The fragments of rows of a tile, of one row those of which there is room for, the farthest that
+ * have not been blended. False for rows that have too many together. */
+static bool gather(struct kiln_fragments *f, kiln_tile_draw *draw, const struct kiln_tile *tile,
+                   int y, int rows, const struct kiln_sprite *sprites,
+                   const struct kiln_cells *cells, const uint32_t *list, size_t count)
+{
+    begin_rows(f, tile, y, rows);
+    for (size_t i = 0; i < count; i++) {
+        const struct kiln_sprite *s = &sprites[list[i]];
+        const struct box box = find_box(f->scratch, s);
+        if (box.y_from >= box.y_to)
+            continue;
+        size_t most =
+            f->count + 2 * (size_t)(box.x_to - box.x_from) * (size_t)(box.y_to - box.y_from);
+        if (most > FRAGMENTS_AT_A_TIME && rows > 1)
+            return false;
+        if (most > FRAGMENTS_AT_A_TIME)
+            keep_farther(f);
+        draw(f->scratch, sprites, cells, &list[i], 1);
+        for (int row = box.y_from; row < box.y_to; row++) {
+            for (int x = box.x_from; x < box.x_to; x++)
+                put_pixel(f, s, x, row, list[i], (uint32_t)i);
+        }
+        clear_box(f->scratch, &box);
+    }
+    return true;
+}
+
+/* ---- blending -------------------------------------------------------------------------------- */
+
+/* By pixels: counted, given places, filled in. */
+static void make_lists(struct kiln_fragments *f)
+{
+    memset(f->ends, 0, sizeof f->ends);
+    for (size_t i = 0; i < f->count; i++)
+        f->ends[f->fragments[i].pixel]++;
+    uint32_t place = 0;
+    for (size_t pixel = 0; pixel < TILE_PIXELS; pixel++) {
+        uint32_t length = f->ends[pixel];
+        f->ends[pixel] = place;
+        place += length;
+    }
+    for (size_t i = 0; i < f->count; i++)
+        f->links[f->ends[f->fragments[i].pixel]++] =
+            (struct link){f->fragments[i].key, (uint32_t)i};
+}
+
+/* Shell's sort: short, and quick on what is almost in order. */
+static void sort_list(struct link *links, size_t count)
+{
+    size_t gap = 1;
+    while (gap < count / 3)
+        gap = gap * 3 + 1;
+    for (; gap > 0; gap /= 3) {
+        for (size_t i = gap; i < count; i++) {
+            const struct link link = links[i];
+            size_t to = i;
+            for (; to >= gap && link.key < links[to - gap].key; to -= gap)
+                links[to] = links[to - gap];
+            links[to] = link;
+        }
+    }
+}
+
+static void blend_list(const struct kiln_fragments *f, const struct link *links, size_t count,
+                       const struct kiln_sprite *sprites, float (*planes)[KILN_TILE_PITCH], int x)
+{
+    float color[4], glow[3];
+    for (int c = 0; c < 4; c++)
+        color[c] = planes[KILN_TILE_RED + c][x];
+    for (int c = 0; c < 3; c++)
+        glow[c] = planes[KILN_TILE_GLOW_RED + c][x];
+    for (size_t i = 0; i < count; i++) {
+        const struct fragment *fragment = &f->fragments[links[i].fragment];
+        const float *bloom = sprites[fragment->sprite].bloom;
+        float passed = 1.0f - fragment->alpha;
+        for (int c = 0; c < 3; c++) {
+            color[c] = fragment->rgb[c] + color[c] * passed;
+            glow[c] = fragment->rgb[c] * bloom[c] + glow[c] * passed;
+        }
+        color[3] = fragment->alpha + color[3] * passed;
+    }
+    for (int c = 0; c < 4; c++)
+        planes[KILN_TILE_RED + c][x] = color[c];
+    for (int c = 0; c < 3; c++)
+        planes[KILN_TILE_GLOW_RED + c][x] = glow[c];
+}
+
+static void blend_rows(struct kiln_fragments *f, struct kiln_tile *tile, int y, int rows,
+                       const struct kiln_sprite *sprites)
+{
+    make_lists(f);
+    uint32_t first = 0;
+    for (int pixel = 0; pixel < rows * KILN_TILE_WIDTH; pixel++) {
+        uint32_t count = f->ends[pixel] - first;
+        if (count > 0) {
+            sort_list(f->links + first, count);
+            blend_list(f, f->links + first, count, sprites,
+                       tile->pixels[y + pixel / KILN_TILE_WIDTH], pixel % KILN_TILE_WIDTH);
+        }
+        first += count;
+    }
+}
+
+void kiln_fragments_draw(struct kiln_fragments *fragments, kiln_tile_draw *draw,
+                         struct kiln_tile *tile, const struct kiln_sprite *sprites,
+                         const struct kiln_cells *cells, const uint32_t *list, size_t count)
+{
+    struct kiln_fragments *f = fragments;
+    int rows = tile->height;
+    f->from = 0;
+    for (int y = 0; y < tile->height;) {
+        rows = rows < tile->height - y ? rows : tile->height - y;
+        f->until = UINT64_MAX;
+        if (!gather(f, draw, tile, y, rows, sprites, cells, list, count)) {
+            rows = (rows + 1) / 2;
+            continue;
+        }
+        blend_rows(f, tile, y, rows, sprites);
+        f->from = f->until < UINT64_MAX ? f->until : 0;
+        y += f->from ? 0 : rows;
+    }
+}

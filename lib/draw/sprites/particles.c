@@ -1,0 +1,92 @@
+/* The stage: hands over to its technique. */
+#include "draw/sprites/particles.h"
+
+#include "base/error.h"
+#include "draw/moment/draw_blocks.h"
+#include "draw/sprites/particles_cpu.h"
+#include "draw/sprites/particles_geometry.h"
+#include "draw/sprites/particles_tiled.h"
+
+#include <stdlib.h>
+
+struct kiln_particles_stage {
+    enum kiln_raster_technique technique;
+    struct kiln_draw_blocks blocks; /* of techniques in GL */
+    struct kiln_device *device;
+    const struct kiln_scene *scene;
+    struct kiln_atlas *atlas;
+    struct kiln_geometry *geometry; /* of GL, also where spheres alone are drawn there */
+    struct kiln_tiled *tiled;       /* `tiled` */
+    struct kiln_tiles *tiles;       /* `cpu` */
+};
+
+struct kiln_particles_stage *
+kiln_particles_create(struct kiln_device *device, const struct kiln_scene *scene,
+                      struct kiln_atlas *atlas, enum kiln_raster_technique technique,
+                      struct kiln_threads *threads, struct kiln_error *error)
+{
+    struct kiln_particles_stage *stage = calloc(1, sizeof *stage);
+    if (!stage) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "particles: out of memory");
+        return NULL;
+    }
+    *stage = (struct kiln_particles_stage){
+        .technique = technique, .device = device, .scene = scene, .atlas = atlas};
+    kiln_draw_blocks_init(&stage->blocks, device);
+    if (technique == KILN_RASTER_CPU)
+        stage->tiles = kiln_tiles_create(scene, atlas, threads, error);
+    else if (kiln_atlas_send(atlas, error))
+        stage->geometry = kiln_geometry_create(device, scene, atlas, technique, error);
+    if (technique == KILN_RASTER_TILED && stage->geometry)
+        stage->tiled = kiln_tiled_create(device, scene, stage->geometry, error);
+    if ((!stage->geometry && !stage->tiles) || (technique == KILN_RASTER_TILED && !stage->tiled))
+        kiln_particles_destroy(&stage);
+    return stage;
+}
+
+void kiln_particles_destroy(struct kiln_particles_stage **stage)
+{
+    if (!*stage)
+        return;
+    kiln_tiled_destroy(&(*stage)->tiled);
+    kiln_draw_blocks_finish(&(*stage)->blocks);
+    kiln_geometry_destroy(&(*stage)->geometry);
+    kiln_tiles_destroy(&(*stage)->tiles);
+    free(*stage);
+    *stage = NULL;
+}
+
+bool kiln_particles_nearest_first(const struct kiln_particles_stage *stage)
+{
+    /* Chunks of `tiled` begin with what may hide all others. It leaves lists of fragments to those
+     * who blend. */
+    return stage->technique == KILN_RASTER_TILED && stage->scene->post.compose != KILN_COMPOSE_OIT;
+}
+
+bool kiln_particles_bind(struct kiln_particles_stage *stage, struct kiln_pool *pool,
+                         struct kiln_buffer *entries, float time_s, struct kiln_error *error)
+{
+    if (!stage->geometry)
+        stage->geometry = kiln_geometry_create(stage->device, stage->scene, stage->atlas,
+                                               stage->technique, error);
+    return stage->geometry && kiln_geometry_bind(stage->geometry, pool, entries, time_s, error);
+}
+
+bool kiln_particles_run(struct kiln_particles_stage *stage, const struct kiln_particles_draw *draw,
+                        struct kiln_error *error)
+{
+    switch (stage->technique) {
+    case KILN_RASTER_GEOMETRY:
+    case KILN_RASTER_INSTANCED:
+        return kiln_draw_blocks_bind(&stage->blocks, draw->view, draw->backdrop, error) &&
+               kiln_geometry_run(stage->geometry, draw, error);
+    case KILN_RASTER_TILED:
+        if (!kiln_draw_blocks_bind(&stage->blocks, draw->view, draw->backdrop, error))
+            return false;
+        return draw->by_fragment ? kiln_geometry_run(stage->geometry, draw, error)
+                                 : kiln_tiled_run(stage->tiled, draw, error);
+    case KILN_RASTER_CPU:
+        return kiln_tiles_run(stage->tiles, draw, error);
+    }
+    return false;
+}

@@ -1,0 +1,493 @@
+/* The particles in pieces of so many that memory stays bounded: made into sprites, sorted into the
+ * tiles that they touch, then tile by tile drawn in order. */
+#include "draw/sprites/particles_cpu.h"
+
+#include "base/error.h"
+#include "draw/moment/looks.h"
+#include "draw/sprites/bins.h"
+#include "draw/sprites/fragments.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+
+enum {
+    SPRITES_AT_A_TIME = 1 << 18,
+    SPRITES_OF_A_TILE = 1 << 22, /* where pixels sort: in a tile alone, if they must */
+    MAKE_AT_A_TIME = 512,
+    LARGE_PAGE = 1 << 21
+};
+
+struct kiln_tiles {
+    const struct kiln_scene *scene;
+    struct kiln_threads *threads;
+    struct kiln_cells *cells;
+    struct kiln_bins bins;
+    struct kiln_draw_look looks[KILN_MAX_SYSTEMS];
+    float4 *table;
+    bool table_valid;
+    struct kiln_sprite *sprites;
+    uint32_t sprite_room;
+    struct kiln_tile *tiles;           /* one a thread */
+    struct kiln_fragments **fragments; /* one a thread, of a scene whose pixels sort; else NULL */
+    kiln_sprites_make *make;
+    kiln_tile_draw *draw;
+};
+
+static bool out_of_memory(struct kiln_error *error)
+{
+    return kiln_error_set(error, KILN_DEVICE_FAILED, "particles: out of memory");
+}
+
+static bool create_fragments(struct kiln_tiles *tiles)
+{
+    if (tiles->scene->post.compose != KILN_COMPOSE_OIT)
+        return true;
+    const uint32_t threads = kiln_threads_count(tiles->threads);
+    tiles->fragments = calloc(threads, sizeof(struct kiln_fragments *));
+    for (uint32_t i = 0; i < threads && tiles->fragments; i++) {
+        tiles->fragments[i] = kiln_fragments_create();
+        if (!tiles->fragments[i])
+            return false;
+    }
+    return tiles->fragments != NULL;
+}
+
+struct kiln_tiles *kiln_tiles_create(const struct kiln_scene *scene, const struct kiln_atlas *atlas,
+                                     struct kiln_threads *threads, struct kiln_error *error)
+{
+    struct kiln_tiles *tiles = calloc(1, sizeof *tiles);
+    if (!tiles) {
+        out_of_memory(error);
+        return NULL;
+    }
+    tiles->scene = scene;
+    tiles->threads = threads;
+    enum kiln_simd simd;
+    if (!kiln_simd_choose(&simd, error)) {
+        kiln_tiles_destroy(&tiles);
+        return NULL;
+    }
+    tiles->make = KILN_SIMD_PICK(kiln_sprites_make, simd);
+    tiles->draw = KILN_SIMD_PICK(kiln_tile_draw, simd);
+    kiln_looks_fill(scene, atlas, tiles->looks);
+    tiles->table = calloc((size_t)KILN_LOOK_TEXELS, sizeof *tiles->table);
+    tiles->tiles = aligned_alloc(64, kiln_threads_count(threads) * sizeof *tiles->tiles);
+    tiles->cells = kiln_cells_create(atlas, error);
+    if (!tiles->table || !tiles->tiles || !tiles->cells || !create_fragments(tiles) ||
+        !kiln_bins_init(&tiles->bins, scene->width, scene->height, error)) {
+        out_of_memory(error);
+        kiln_tiles_destroy(&tiles);
+    }
+    return tiles;
+}
+
+void kiln_tiles_destroy(struct kiln_tiles **tiles)
+{
+    struct kiln_tiles *t = *tiles;
+    if (!t)
+        return;
+    kiln_cells_destroy(&t->cells);
+    kiln_bins_finish(&t->bins);
+    for (uint32_t i = 0; t->fragments && i < kiln_threads_count(t->threads); i++)
+        kiln_fragments_destroy(&t->fragments[i]);
+    free((void *)t->fragments);
+    free(t->table);
+    free(t->sprites);
+    free(t->tiles);
+    free(t);
+    *tiles = NULL;
+}
+
+/* ---- sprites --------------------------------------------------------------------------------- */
+
+struct making {
+    kiln_sprites_make *make;
+    const struct kiln_sprite_pass *pass;
+    const uint32_t *entries;
+    struct kiln_sprite *sprites;
+};
+
+static void make_sprites(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct making *making = context;
+    making->make(making->pass, making->entries + begin, end - begin, making->sprites + begin);
+}
+
+/* In large pages where the system has them: tiles read sprites from all over, and with small ones
+ * a quarter of the drawing was waiting for addresses. */
+static struct kiln_sprite *allocate_sprites(uint32_t count)
+{
+    size_t bytes = (size_t)count * sizeof(struct kiln_sprite);
+    bytes = (bytes + LARGE_PAGE - 1) / LARGE_PAGE * LARGE_PAGE;
+    struct kiln_sprite *sprites = aligned_alloc(LARGE_PAGE, bytes);
+    if (sprites)
+        (void)madvise(sprites, bytes, MADV_HUGEPAGE); /* only faster */
+    return sprites;
+}
+
+static bool make_room(struct kiln_tiles *tiles, uint32_t wanted, struct kiln_error *error)
+{
+    if (wanted <= tiles->sprite_room)
+        return true;
+    free(tiles->sprites);
+    tiles->sprites = allocate_sprites(wanted);
+    tiles->sprite_room = tiles->sprites ? wanted : 0;
+    return tiles->sprites || out_of_memory(error);
+}
+
+/* ---- tiles ----------------------------------------------------------------------------------- */
+
+struct drawing {
+    struct kiln_tiles *tiles;
+    float *color, *bloom; /* pixels of the targets; no bloom: NULL */
+    const float *depth;
+    uint32_t width, height;
+    bool first; /* piece of the pass */
+    bool keep_bloom, sum, by_fragment;
+    size_t first_tile;
+    enum kiln_tile_glow glow;
+    float weights[3]; /* of what glows, if it is apart */
+};
+
+static void begin_row(const struct drawing *d, struct kiln_tile *tile, int y, size_t at)
+{
+    float(*planes)[KILN_TILE_PITCH] = tile->pixels[y];
+    memcpy(planes[KILN_TILE_DEPTH], d->depth + at, (size_t)tile->width * sizeof(float));
+    memset(planes, 0, KILN_TILE_DEPTH * sizeof *planes);
+}
+
+typedef float four __attribute__((vector_size(16)));
+typedef float four_unaligned __attribute__((vector_size(16), aligned(4), may_alias));
+
+/* Channels of four pixels become four pixels. */
+static inline void transpose(four c[4])
+{
+    four low = __builtin_shufflevector(c[0], c[1], 0, 4, 1, 5);
+    four high = __builtin_shufflevector(c[0], c[1], 2, 6, 3, 7);
+    four low2 = __builtin_shufflevector(c[2], c[3], 0, 4, 1, 5);
+    four high2 = __builtin_shufflevector(c[2], c[3], 2, 6, 3, 7);
+    c[0] = __builtin_shufflevector(low, low2, 0, 1, 4, 5);
+    c[1] = __builtin_shufflevector(low, low2, 2, 3, 6, 7);
+    c[2] = __builtin_shufflevector(high, high2, 0, 1, 4, 5);
+    c[3] = __builtin_shufflevector(high, high2, 2, 3, 6, 7);
+}
+
+/* Puts four pixels over others, or in their place. */
+static inline void put_over(const four drawn[4], const float passed[4], bool keep, float *to,
+                            size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        four_unaligned *pixel = (four_unaligned *)(to + 4 * i);
+        *pixel = keep ? drawn[i] + *pixel * passed[i] : drawn[i];
+    }
+}
+
+/* Puts a row over what pieces before have drawn, and an earlier pass into the glow. */
+static void store_row(const struct drawing *d, const struct kiln_tile *tile, int y, size_t at)
+{
+    const float(*planes)[KILN_TILE_PITCH] = (const float(*)[KILN_TILE_PITCH])tile->pixels[y];
+    for (size_t x = 0; x < (size_t)tile->width; x += 4) {
+        four color[4], glow[4];
+        float passed[4];
+        for (int c = 0; c < 3; c++) {
+            memcpy(&color[c], &planes[KILN_TILE_RED + c][x], sizeof color[c]);
+            memcpy(&glow[c], &planes[KILN_TILE_GLOW_RED + c][x], sizeof glow[c]);
+            if (d->glow == KILN_TILE_GLOW_APART) {
+                color[c] += glow[c];
+                glow[c] *= d->weights[c];
+            }
+        }
+        four alpha;
+        memcpy(&alpha, &planes[KILN_TILE_ALPHA][x], sizeof alpha);
+        const four left = 1.0f - (d->sum ? (four){0} : alpha);
+        memcpy(passed, &left, sizeof passed);
+        color[3] = glow[3] = alpha;
+        transpose(color);
+        transpose(glow);
+        size_t count = (size_t)tile->width - x < 4 ? (size_t)tile->width - x : 4;
+        put_over(color, passed, !d->first, d->color + 4 * (at + x), count);
+        if (d->bloom)
+            put_over(glow, passed, !d->first || d->keep_bloom, d->bloom + 4 * (at + x), count);
+    }
+}
+
+/* A tile in which a piece has nothing. */
+static void leave_empty(const struct drawing *d, size_t at, uint32_t width, uint32_t height)
+{
+    const size_t bytes = 4 * sizeof(float) * (width < KILN_TILE_WIDTH ? width : KILN_TILE_WIDTH);
+    for (uint32_t row = 0; row < height && row < KILN_TILE_HEIGHT && d->first; row++) {
+        size_t place = 4 * (at + (size_t)row * d->width);
+        memset(d->color + place, 0, bytes);
+        if (d->bloom && !d->keep_bloom)
+            memset(d->bloom + place, 0, bytes);
+    }
+}
+
+static void draw_tile(const struct drawing *d, size_t number, uint32_t worker)
+{
+    const struct kiln_tiles *tiles = d->tiles;
+    const struct kiln_bins *bins = &tiles->bins;
+    struct kiln_tile *tile = &tiles->tiles[worker];
+    uint32_t x = (uint32_t)(number % bins->columns) * KILN_TILE_WIDTH;
+    uint32_t y = (uint32_t)(number / bins->columns) * KILN_TILE_HEIGHT;
+    uint32_t width = d->width - x, height = d->height - y;
+    const uint32_t *list = bins->list + bins->first[number];
+    size_t count = bins->first[number + 1] - bins->first[number];
+    if (count == 0) {
+        leave_empty(d, (size_t)y * d->width + x, width, height);
+        return;
+    }
+    tile->x = (int)x;
+    tile->y = (int)y;
+    tile->width = width < KILN_TILE_WIDTH ? (int)width : KILN_TILE_WIDTH;
+    tile->height = height < KILN_TILE_HEIGHT ? (int)height : KILN_TILE_HEIGHT;
+    tile->glow = d->glow;
+    tile->nearest = bins->depth[number].nearest;
+    tile->over = !d->sum && !d->by_fragment; /* lists of fragments need each sprite's alpha */
+    for (int row = 0; row < tile->height; row++)
+        begin_row(d, tile, row, (size_t)(y + (uint32_t)row) * d->width + x);
+    if (!d->by_fragment)
+        tiles->draw(tile, tiles->sprites, tiles->cells, list, count);
+    else
+        kiln_fragments_draw(tiles->fragments[worker], tiles->draw, tile, tiles->sprites,
+                            tiles->cells, list, count);
+    for (int row = 0; row < tile->height; row++)
+        store_row(d, tile, row, (size_t)(y + (uint32_t)row) * d->width + x);
+}
+
+static void draw_tiles(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    const struct drawing *d = context;
+    for (size_t number = begin; number < end; number++)
+        draw_tile(d, d->first_tile + number, worker);
+}
+
+/* ---- a pass ---------------------------------------------------------------------------------- */
+
+static bool draw_piece(struct kiln_tiles *tiles, const struct kiln_sprite_pass *pass,
+                       const uint32_t *entries, uint32_t count, struct drawing *drawing,
+                       struct kiln_error *error)
+{
+    struct making making = {tiles->make, pass, entries, tiles->sprites};
+    kiln_threads_for(tiles->threads, count, MAKE_AT_A_TIME, make_sprites, &making);
+    if (!kiln_cells_mix(tiles->cells, tiles->threads, error) ||
+        !kiln_bins_fill(&tiles->bins, tiles->sprites, count, tiles->threads, error))
+        return false;
+    size_t tile_count = (size_t)tiles->bins.columns * tiles->bins.rows;
+    kiln_threads_for(tiles->threads, tile_count, 1, draw_tiles, drawing);
+    return true;
+}
+
+/* ---- pixels that sort, of more sprites than are there at a time ------------------------------ */
+
+/* Lists are of all sprites that touch a tile, so they are made for some tiles at a time. */
+struct sorting {
+    struct kiln_tiles *tiles;
+    const struct kiln_sprite_pass *pass;
+    const uint32_t *entries;
+    uint32_t count;
+    size_t *totals; /* sprites of each tile */
+    bool *wanted;   /* of a piece */
+    struct kiln_sprite *kept;
+    uint32_t kept_count;
+};
+
+/* Makes a piece, in its lists of bins; returns how many sprites that are. 0 with an error. */
+static uint32_t make_piece(const struct sorting *s, uint32_t first, struct kiln_error *error)
+{
+    const uint32_t left = s->count - first;
+    const uint32_t count = left < SPRITES_AT_A_TIME ? left : SPRITES_AT_A_TIME;
+    struct making making = {s->tiles->make, s->pass, s->entries + first, s->tiles->sprites};
+    kiln_threads_for(s->tiles->threads, count, MAKE_AT_A_TIME, make_sprites, &making);
+    bool ok = kiln_bins_fill(&s->tiles->bins, s->tiles->sprites, count, s->tiles->threads, error);
+    return ok ? count : 0;
+}
+
+static bool count_tiles(const struct sorting *s, size_t tile_count, struct kiln_error *error)
+{
+    const uint32_t *first = s->tiles->bins.first;
+    for (uint32_t done = 0, count; done < s->count; done += count) {
+        count = make_piece(s, done, error);
+        if (count == 0)
+            return false;
+        for (size_t tile = 0; tile < tile_count; tile++)
+            s->totals[tile] += first[tile + 1] - first[tile];
+    }
+    for (size_t tile = 0; tile < tile_count; tile++) {
+        if (s->totals[tile] > SPRITES_OF_A_TILE)
+            return kiln_error_set(error, KILN_DEVICE_FAILED,
+                                  "post.compose: oit: %zu particles in one part of %d x %d pixels; "
+                                  "at most %d can be there: use post.compose=merged, or fewer",
+                                  s->totals[tile], KILN_TILE_WIDTH, KILN_TILE_HEIGHT,
+                                  SPRITES_OF_A_TILE);
+    }
+    return kiln_cells_mix(s->tiles->cells, s->tiles->threads, error);
+}
+
+/* Makes all sprites once more and keeps those of some tiles, in their order. */
+static bool keep_sprites(struct sorting *s, size_t first_tile, size_t end_tile,
+                         struct kiln_error *error)
+{
+    const struct kiln_bins *bins = &s->tiles->bins;
+    s->kept_count = 0;
+    for (uint32_t done = 0, count; done < s->count; done += count) {
+        count = make_piece(s, done, error);
+        if (count == 0)
+            return false;
+        memset(s->wanted, 0, count * sizeof *s->wanted);
+        for (size_t i = bins->first[first_tile]; i < bins->first[end_tile]; i++)
+            s->wanted[bins->list[i]] = true;
+        for (uint32_t i = 0; i < count; i++) {
+            if (s->wanted[i])
+                s->kept[s->kept_count++] = s->tiles->sprites[i];
+        }
+    }
+    return true;
+}
+
+static bool draw_some_tiles(struct sorting *s, struct drawing *drawing, size_t first_tile,
+                            size_t end_tile, struct kiln_error *error)
+{
+    struct kiln_tiles *tiles = s->tiles;
+    if (!keep_sprites(s, first_tile, end_tile, error))
+        return false;
+    struct kiln_sprite *piece = tiles->sprites;
+    tiles->sprites = s->kept;
+    bool ok = kiln_bins_fill(&tiles->bins, s->kept, s->kept_count, tiles->threads, error);
+    drawing->first_tile = first_tile;
+    if (ok)
+        kiln_threads_for(tiles->threads, end_tile - first_tile, 1, draw_tiles, drawing);
+    tiles->sprites = piece;
+    return ok;
+}
+
+static bool draw_sorting(struct sorting *s, struct drawing *drawing, struct kiln_error *error)
+{
+    const size_t tile_count = (size_t)s->tiles->bins.columns * s->tiles->bins.rows;
+    size_t most = SPRITES_AT_A_TIME;
+    s->totals = calloc(tile_count, sizeof *s->totals);
+    s->wanted = calloc(SPRITES_AT_A_TIME, sizeof *s->wanted);
+    bool ok = s->totals && s->wanted;
+    if (!ok)
+        out_of_memory(error);
+    ok = ok && count_tiles(s, tile_count, error);
+    for (size_t tile = 0; ok && tile < tile_count; tile++)
+        most = s->totals[tile] > most ? s->totals[tile] : most;
+    s->kept = ok ? allocate_sprites((uint32_t)most) : NULL;
+    if (ok && !s->kept)
+        ok = out_of_memory(error);
+    for (size_t first = 0, end; ok && first < tile_count; first = end) {
+        size_t total = s->totals[first];
+        for (end = first + 1; end < tile_count && total + s->totals[end] <= most; end++)
+            total += s->totals[end];
+        ok = draw_some_tiles(s, drawing, first, end, error);
+    }
+    free(s->kept);
+    free(s->wanted);
+    free(s->totals);
+    return ok;
+}
+
+/* The weights of a system's glow, if they are the same at any age. */
+static bool steady_bloom(const float4 *table, uint32_t system, float weights[3])
+{
+    const float4 *row =
+        table + ((size_t)system * KILN_LOOK_ROWS + KILN_LOOK_BLOOM) * KILN_LOOK_SAMPLES;
+    for (int i = 1; i < KILN_LOOK_SAMPLES; i++) {
+        if (row[i].x != row[0].x || row[i].y != row[0].y || row[i].z != row[0].z)
+            return false;
+    }
+    weights[0] = row[0].x;
+    weights[1] = row[0].y;
+    weights[2] = row[0].z;
+    return true;
+}
+
+/* What tiles do with the glow: nothing if there is none, and as little as possible where all that
+ * glows does so alike, which is what most scenes have. */
+static void choose_glow(const struct kiln_tiles *tiles, struct drawing *d)
+{
+    d->glow = KILN_TILE_GLOW_NONE;
+    if (!d->bloom)
+        return;
+    for (uint32_t i = 0; i < tiles->scene->system_count && !d->keep_bloom && !d->by_fragment; i++) {
+        float weights[3];
+        bool steady = steady_bloom(tiles->table, i, weights);
+        if (steady && weights[0] == 0.0f && weights[1] == 0.0f && weights[2] == 0.0f)
+            continue;
+        if (steady && d->glow == KILN_TILE_GLOW_NONE) {
+            d->glow = KILN_TILE_GLOW_APART;
+            memcpy(d->weights, weights, sizeof weights);
+        } else if (!steady || memcmp(d->weights, weights, sizeof weights) != 0) {
+            d->glow = KILN_TILE_GLOW_WEIGHED;
+            return;
+        }
+    }
+    if (d->keep_bloom || d->by_fragment)
+        d->glow = KILN_TILE_GLOW_WEIGHED;
+}
+
+/* The pixels that a pass reads and writes. */
+static bool open_images(const struct kiln_particles_draw *draw, struct drawing *d,
+                        struct kiln_error *error)
+{
+    struct kiln_image *color = draw->framebuffer->images[0];
+    bool glows = draw->framebuffer->count > 1;
+    d->width = color->width;
+    d->height = color->height;
+    d->depth = kiln_image_host(draw->depth, KILN_READ, error);
+    d->color = d->depth ? kiln_image_host(color, KILN_OVERWRITE, error) : NULL;
+    if (d->color && glows)
+        d->bloom = kiln_image_host(draw->framebuffer->images[1],
+                                   draw->keep_bloom ? KILN_READ_WRITE : KILN_OVERWRITE, error);
+    return d->color && (d->bloom || !glows);
+}
+
+bool kiln_tiles_run(struct kiln_tiles *tiles, const struct kiln_particles_draw *draw,
+                    struct kiln_error *error)
+{
+    const uint32_t most = SPRITES_AT_A_TIME;
+    struct drawing drawing = {.tiles = tiles,
+                              .keep_bloom = draw->keep_bloom,
+                              .sum = draw->sum_alpha,
+                              .by_fragment = draw->by_fragment};
+    const struct kiln_particle *records = kiln_buffer_host(&draw->pool->records, KILN_READ, error);
+    const uint32_t *entries = records ? kiln_buffer_host(draw->entries, KILN_READ, error) : NULL;
+    if (!entries || !open_images(draw, &drawing, error) ||
+        !make_room(tiles, draw->count < most ? draw->count : most, error))
+        return false;
+    if (!tiles->table_valid || kiln_looks_vary(tiles->scene))
+        kiln_looks_sample(tiles->scene, draw->view->clock.x, tiles->table);
+    tiles->table_valid = true;
+    choose_glow(tiles, &drawing);
+    struct kiln_sprite_pass pass = {
+        .scene = tiles->scene,
+        .looks = tiles->looks,
+        .table = tiles->table,
+        .records = records,
+        .view = draw->view,
+        .backdrop = draw->backdrop,
+        .lighting = draw->lighting,
+        .cells = tiles->cells,
+        .content = kiln_cells_content(tiles->cells),
+        .fire_covers = draw->sum_alpha || draw->fire_covers,
+    };
+    kiln_bins_measure(&tiles->bins, drawing.depth, drawing.width, drawing.height, tiles->threads);
+    if (draw->by_fragment && draw->count > most) {
+        struct sorting sorting = {
+            .tiles = tiles, .pass = &pass, .entries = entries, .count = draw->count};
+        drawing.first = true;
+        return draw_sorting(&sorting, &drawing, error);
+    }
+    uint32_t done = 0;
+    do { /* at least once, for the clear picture of no particles */
+        uint32_t count = draw->count - done < most ? draw->count - done : most;
+        drawing.first = done == 0;
+        if (!draw_piece(tiles, &pass, entries + done, count, &drawing, error))
+            return false;
+        done += count;
+    } while (done < draw->count);
+    return true;
+}

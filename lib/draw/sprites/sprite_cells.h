@@ -1,0 +1,115 @@
+/* Which cells sprites show (Heinz 2019, 3.2.4). */
+#ifndef KILN_DRAW_SPRITE_CELLS_H
+#define KILN_DRAW_SPRITE_CELLS_H
+
+#include "draw/sprites/sprite_subjects.h"
+
+/* Of the billboards in a vector. */
+struct chosen_cells {
+    vi layer, next_layer, phase, level; /* struct kiln_cell_name */
+    vf motion;
+};
+
+/* Which of their system's textures they have. */
+SIMD struct columns choose_textures(const struct subjects *p)
+{
+    const uint32_t count = p->look->flags.w;
+    const uint4 *textures = p->look->textures;
+    vi chosen = vi_all(0);
+    if (count > 1) {
+        chosen = vi_of(vu_unit(p->stream, RANDOM_TEXTURE) * (float)count);
+        vi last = vi_all((int32_t)count - 1);
+        chosen = vi_select(chosen < last, chosen, last) * 4;
+    }
+    const struct places places = places_of_lanes(chosen);
+    return columns_load((const float *)(const void *)textures, &places);
+}
+
+/* The level with one to two texels a pixel: 7 less the power of two that is not below the size. */
+SIMD vi level_of(vf diameter_px)
+{
+    vi bits = (vi)vf_clamp(diameter_px, 1.0f, (float)KILN_ATLAS_CELL);
+    return KILN_ATLAS_LEVELS - 1 - (((bits - 1) >> 23) - 126);
+}
+
+SIMD vi cell_number(vi layer, vi phase, vi level)
+{
+    return (layer * KILN_CELL_PHASES + phase) * KILN_ATLAS_LEVELS + level;
+}
+
+/* Wants a cell for each lane that is seen; most have been wanted. */
+SIMD void want_cells(const struct subjects *p, const struct chosen_cells *chosen, vi number,
+                     vi lanes)
+{
+    const atomic_bool *wanted = p->pass->content.wanted;
+    const struct places numbers = places_of_lanes(number), seen = places_of_lanes(lanes);
+    int32_t missing = 0;
+    for (int i = 0; i < LANES; i++)
+        missing |= seen.at[i] & !atomic_load_explicit(&wanted[numbers.at[i]], memory_order_relaxed);
+    for (int i = 0; missing && i < LANES; i++) {
+        const struct kiln_cell_name name = {
+            (uint32_t)chosen->layer[i], (uint32_t)chosen->next_layer[i], (uint32_t)chosen->phase[i],
+            (uint32_t)chosen->level[i], chosen->motion[i]};
+        if (seen.at[i])
+            (void)kiln_cells_want(p->pass->cells, &name);
+    }
+}
+
+SIMD void read_hulls(struct subjects *p, vi layer)
+{
+    enum { FLOATS = sizeof(struct kiln_cell_hull) / sizeof(float) };
+    const struct places at = places_of_lanes((layer * KILN_ATLAS_LEVELS + p->level) * FLOATS);
+    const float *hulls = (const float *)(const void *)p->pass->content.hulls;
+    p->hull_from = columns_load(hulls, &at);
+    p->hull_to = columns_load(hulls + 4, &at);
+    p->seen &= p->hull_from.c[0] < p->hull_to.c[0];
+}
+
+/* Equation 3.2: the two adjacent cells and the way between them, by the progress through life. */
+static void choose_cells(struct subjects *p)
+{
+    vi first = (vi)p->texture.c[0], count = (vi)p->texture.c[1];
+    vf counted = vf_of(count), position = p->progress * p->cool.c[3] * (counted - 1.0f);
+    if (p->look->flags.y != 0)
+        position += vu_unit(p->stream, RANDOM_CELL) * counted;
+    position = vf_clamp(position, 0.0f, 1e6f);
+    vf edge = (vf)((127 + KILN_ATLAS_LEVELS - 1 - p->level) << 23);
+    vf motion = p->texture.c[3] * edge;
+    vi alone = (count == 1) & (motion == 0.0f); /* the next one is itself */
+    position = vf_where(~alone, position);
+    vi mixed = (p->level >= KILN_CELL_MIXED_LEVEL) & (motion <= KILN_CELL_MIXED_MOVE) & p->many;
+    mixed |= alone;
+    vi fine = p->level > KILN_CELL_MIXED_LEVEL;
+    vi step = vi_select(fine, vi_all(1), vi_all(KILN_CELL_LARGE_STEP));
+    vf steps = vf_select(fine, vf_all(KILN_CELL_PHASES),
+                         vf_all((float)(KILN_CELL_PHASES / KILN_CELL_LARGE_STEP)));
+    vi phase = step * vi_of(position * steps + 0.5f);
+    vi number = vi_select(mixed, (vi)((vu)phase / KILN_CELL_PHASES), vi_of(position));
+    /* Of numbers below 2^20 the quotient rounds to none above its own. */
+    vi cell = number - vi_of(vf_of(number) / counted) * count;
+    vi after = cell + 1;
+    after &= after < count;
+    struct chosen_cells chosen = {first + cell, first + after,
+                                  (phase & (KILN_CELL_PHASES - 1)) & mixed, p->level,
+                                  p->texture.c[3]};
+    vi cells = cell_number(chosen.layer, chosen.phase, p->level);
+    want_cells(p, &chosen, cells, p->seen);
+    p->w[WORD_OF(cell)] = (vf)cells;
+    p->w[WORD_OF(edge_u)] = p->w[WORD_OF(edge_v)] = edge;
+    p->flags |= mixed & KILN_SPRITE_MIXED;
+    if (lie_in_picture(p))
+        p->flags |=
+            p->few & (motion == 0.0f) & (p->level >= KILN_CELL_FINE_LEVEL) & KILN_SPRITE_FINE;
+    read_hulls(p, chosen.layer);
+    vi large = p->seen & ~mixed;
+    if (!any(large))
+        return;
+    chosen.layer = chosen.next_layer;
+    vi next = cell_number(chosen.layer, chosen.phase, p->level);
+    want_cells(p, &chosen, next, large);
+    p->w[WORD_OF(part)] = vf_where(large, position - vf_of(number));
+    p->w[WORD_OF(motion)] = vf_where(large, motion);
+    p->w[WORD_OF(next_cell)] = (vf)(next & large);
+}
+
+#endif

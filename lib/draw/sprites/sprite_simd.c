@@ -1,0 +1,325 @@
+/* As shaders/draw/sprites/particle.glsl and corner.glsl do it, but for vectors of particles and in
+ * arithmetic of our own, so that pictures do not depend on the machine's mathematics either.
+ */
+#include "draw/sprites/sprite_cells.h"
+#include "draw/sprites/sprite_light.h"
+#include "draw/sprites/sprite_place.h"
+
+enum {
+    AT_A_TIME = 512, /* particles that are put in order of systems */
+    AHEAD = 32,      /* of which so many are fetched beforehand */
+};
+
+/* ---- form ------------------------------------------------------------------------------------ */
+
+/* The plane that billboards turn in (Heinz 2019, 2.1.1). Where the direction that says what is up
+ * points at the eye, the picture's right is the billboard's. */
+static struct plane facing_plane(const struct subjects *p)
+{
+    const vf zero = vf_all(0.0f), one = vf_all(1.0f);
+    const struct vf3 x = {one, zero, zero}, y = {zero, one, zero}, z = {zero, zero, one};
+    if (lie_in_picture(p))
+        return (struct plane){x, y, z};
+    uint32_t facing = p->look->form.y;
+    bool to_eye = facing == LOOK_VIEWPOINT || facing == LOOK_AXIAL;
+    struct vf3 towards = z, axis = y;
+    if (to_eye)
+        towards = vf3_scale(p->center, -vf_rsqrt(vf3_dot(p->center, p->center)));
+    if (facing == LOOK_AXIAL) {
+        struct columns row = look_row(p, KILN_LOOK_AXIS);
+        axis = (struct vf3){row.c[0], row.c[1], row.c[2]};
+    }
+    struct vf3 upward = to_view(p->pass->view, axis), sideways = vf3_cross(upward, towards);
+    sideways = vf3_select(vf3_dot(sideways, sideways) < 1e-8f, vf3_along(x, towards, -towards.x),
+                          sideways);
+    vf square = vf3_dot(sideways, sideways);
+    sideways = vf3_select(square < 1e-30f, x, vf3_scale(sideways, vf_rsqrt(square)));
+    if (facing != LOOK_AXIAL)
+        return (struct plane){sideways, vf3_cross(towards, sideways), towards};
+    return (struct plane){sideways, upward, vf3_cross(sideways, upward)};
+}
+
+/* Where a billboard's upward edge points in its plane. */
+struct upward {
+    vf x, y;
+};
+
+/* Lays those that are stretched along their velocity, and makes them longer. Slow ones keep their
+ * turn. */
+static void stretch_billboards(struct subjects *p, const struct plane *plane, struct upward *up)
+{
+    vf stretch = p->shape.c[1];
+    bool along_axis = p->look->form.y == LOOK_AXIAL;
+    vi stretched = stretch > 0.0f;
+    if (along_axis || p->look->form.y == LOOK_VELOCITY)
+        stretched = vi_all(-1);
+    if (!any(stretched))
+        return;
+    struct vf3 moving = to_view(p->pass->view, p->record.velocity);
+    vf x = vf3_dot(moving, plane->right), y = vf3_dot(moving, plane->up);
+    if (along_axis) {
+        *up = (struct upward){vf_all(0.0f), vf_all(1.0f)};
+        p->half_length += 0.5f * vf_abs(y) * stretch;
+        return;
+    }
+    vf speed = vf_sqrt(x * x + y * y), scale = 1.0f / vf_max(speed, vf_all(1e-4f));
+    vf part = vf_smoothstep(0.05f, 0.2f, speed);
+    vf up_x = vf_lerp(up->x, x * scale, part), up_y = vf_lerp(up->y, y * scale, part) + 1e-5f;
+    vf shorter = vf_rsqrt(up_x * up_x + up_y * up_y);
+    up->x = vf_select(stretched, up_x * shorter, up->x);
+    up->y = vf_select(stretched, up_y * shorter, up->y);
+    p->half_length += vf_where(stretched, 0.5f * speed * stretch);
+}
+
+/* Turns billboards in their plane: by their angle, or along their velocity. Half of all are
+ * mirrored. */
+static void turn_billboards(struct subjects *p)
+{
+    const struct plane plane = facing_plane(p);
+    vf angle = vf_lerp(p->turn.c[0], p->turn.c[1], vu_unit(p->stream, RANDOM_ROTATION));
+    vf spin = vf_lerp(p->spread.c[2], p->spread.c[3], vu_unit(p->stream, RANDOM_SPIN));
+    vi backwards = vu_unit(p->stream, RANDOM_SPIN + 1u) < 0.5f;
+    vi mirror = backwards & INT32_MIN;
+    angle += (vf)((vi)spin ^ mirror) * p->age_s;
+    const struct vf_angle turned = vf_sincos(angle);
+    struct upward up = {-turned.sine, turned.cosine};
+    p->half_length = p->half_size;
+    stretch_billboards(p, &plane, &up);
+    vf right_x = (vf)((vi)up.y ^ mirror), right_y = (vf)((vi)up.x ^ mirror ^ INT32_MIN);
+    p->plane =
+        (struct plane){vf3_along(vf3_scale(plane.right, right_x), plane.up, right_y),
+                       vf3_along(vf3_scale(plane.right, up.x), plane.up, up.y), plane.normal};
+}
+
+/* In a picture smaller than the frame, billboards have a least size, and what is less becomes as
+ * much fainter: else it would flicker. */
+SIMD void widen(struct subjects *p, vf pixels_per_m)
+{
+    if (!(p->pass->view->clock.w < 1.0f) || p->look->form.x != 0)
+        return;
+    vf least = 0.5f * KILN_COARSE_LEAST / pixels_per_m, area = p->half_size * p->half_length;
+    p->half_size = vf_max(p->half_size, least);
+    p->half_length = vf_max(p->half_length, least);
+    p->w[WORD_OF(opacity)] *= area / (p->half_size * p->half_length);
+}
+
+/* ---- colour ---------------------------------------------------------------------------------- */
+
+SIMD vi reflecting(const struct subjects *p)
+{
+    return (p->cover.c[0] > 0.0f) | (p->cover.c[1] > 0.0f) | (p->cover.c[2] > 0.0f);
+}
+
+static void choose_shade(struct subjects *p)
+{
+    p->shade = vi_all(KILN_SHADE_PLAIN);
+    if (p->look->form.x != 0)
+        return;
+    vi lit = (p->cover.c[3] > 0.0f) & reflecting(p);
+    p->shade = vi_select((vi)p->texture.c[2] == (int32_t)KILN_CELL_COLOR, vi_all(KILN_SHADE_COLOR),
+                         vi_select(lit, vi_all(KILN_SHADE_LIT), vi_all(KILN_SHADE_GLOW)));
+}
+
+static void color_sprites(struct subjects *p)
+{
+    const vf zero = vf_all(0.0f);
+    vi lit = p->shade == KILN_SHADE_LIT, glows = p->shade == KILN_SHADE_GLOW, emits = vi_all(0);
+    struct sprite_light light;
+    memset(&light, 0, sizeof light);
+    if (any(p->seen & reflecting(p)))
+        light_sprites(p, &light);
+    bool some_lit = any(lit & p->seen);
+    for (size_t c = 0; c < 3; c++) {
+        vf albedo = p->cover.c[c], hot = p->hot.c[c], cool = p->cool.c[c];
+        /* Of what is not lit by its cell, nothing changes along the axes. */
+        vf flat = vf_max(light.parts[0][c] + light.parts[3][c], zero) * albedo;
+        vf base = vf_select(lit, cool, vf_select(glows, cool, hot) + flat);
+        vf slope = vf_where(lit | glows, hot - cool);
+        emits |= (base != 0.0f) | (slope != 0.0f);
+        p->w[WORD_OF(base) + c] = base;
+        p->w[WORD_OF(slope) + c] = slope;
+        for (size_t i = 0; some_lit && i < 4; i++)
+            p->w[WORD_OF(light) + 3 * i + c] = vf_where(lit, light.parts[i][c] * albedo);
+    }
+    p->flags |= emits & KILN_SPRITE_EMITS;
+    const struct columns bloom = look_row(p, KILN_LOOK_BLOOM);
+    for (size_t c = 0; c < 3; c++)
+        p->w[WORD_OF(bloom) + c] = bloom.c[c];
+    if (p->look->form.x == 0)
+        p->w[WORD_OF(bulge)] = p->half_size * bloom.c[3];
+}
+
+/* ---- all of it ------------------------------------------------------------------------------- */
+
+static void read_particles(struct subjects *p)
+{
+    const struct kiln_sprite_pass *pass = p->pass;
+    const struct kiln_view *view = pass->view;
+    p->record = read_records(pass->records, p->slots);
+    p->stream = vu_mix(p->record.serial + p->look->derived.random_key);
+    p->age_s = vf_age(p->record.birth, view->clock_step.x, view->clock.y);
+    p->progress = vf_progress(
+        p->age_s, vf_life(pass->scene->keys, &p->look->derived, p->stream, p->record.birth));
+    vf sample = p->progress * (float)(KILN_LOOK_SAMPLES - 1);
+    vi number = vi_of(vf_min(sample, vf_all((float)(KILN_LOOK_SAMPLES - 2))));
+    p->samples = places_of_lanes(number * 4);
+    vf_spread_fours(sample - vf_of(number), p->sample_part);
+    const float4 *rows = view->world_to_view;
+    p->center =
+        (struct vf3){vf3_map(rows[0], p->record.position), vf3_map(rows[1], p->record.position),
+                     vf3_map(rows[2], p->record.position)};
+    p->depth = -p->center.z;
+}
+
+/* How much of them may be seen, by their look at their age. */
+static void fade_particles(struct subjects *p)
+{
+    const float near = p->pass->view->eye.w;
+    p->shape = look_row(p, KILN_LOOK_SHAPE);
+    p->hot = look_row(p, KILN_LOOK_HOT);
+    vf near_fade = vf_clamp01((p->depth - near) / vf_max(p->hot.c[3], vf_all(1e-6f)));
+    vf opacity = p->shape.c[2] * near_fade;
+    p->w[WORD_OF(opacity)] = opacity;
+    p->w[WORD_OF(soft)] = p->shape.c[3];
+    p->seen = (p->depth > near) & (opacity > 0.0f);
+}
+
+static void place_sprites(struct subjects *p)
+{
+    const struct kiln_view *view = p->pass->view;
+    p->spread = look_row(p, KILN_LOOK_SPREAD);
+    p->turn = look_row(p, KILN_LOOK_TURN);
+    p->cool = look_row(p, KILN_LOOK_COOL);
+    p->cover = look_row(p, KILN_LOOK_COVER);
+    p->scale = vf_lerp(p->spread.c[0], p->spread.c[1], vu_unit(p->stream, RANDOM_SCALE));
+    p->half_size = 0.5f * p->shape.c[0] * p->scale;
+    turn_billboards(p);
+    p->texture = choose_textures(p);
+    choose_shade(p);
+    vf pixels_per_m =
+        (view->frustum.w / (2.0f * view->frustum.y)) / vf_max(p->depth, vf_all(1e-3f));
+    widen(p, pixels_per_m);
+    vf diameter_px = 2.0f * p->half_size * pixels_per_m;
+    if (p->look->form.x != 0) {
+        place_plain(p, diameter_px);
+        return;
+    }
+    p->level = level_of(diameter_px);
+    choose_cells(p);
+    if (lie_in_picture(p))
+        place_flat(p);
+    else
+        place_deep(p);
+}
+
+static_assert(WORD_OF(pitch) == WORD_OF(shade) && WORD_OF(pitch) == WORD_OF(flags) &&
+                  offsetof(struct kiln_sprite, shade) % 4 == 2,
+              "pitch, shade and flags are one word");
+
+static void finish_sprites(struct subjects *p)
+{
+    bool covers = p->look->flags.x == 0 || p->pass->fire_covers;
+    p->flags |=
+        (covers ? KILN_SPRITE_COVERS : 0) | (p->look->flags.z != 0 ? KILN_SPRITE_LITERAL : 0);
+    vi pitch = vi_all(0);
+    if (p->look->form.x == 0)
+        pitch = vi_of(p->w[WORD_OF(edge_u)]) + KILN_CELL_MARGIN;
+    p->w[WORD_OF(pitch)] = (vf)(pitch | p->shade << 16 | p->flags << 24);
+    if (p->look->flags.z != 0)
+        p->w[WORD_OF(distance)] = vf_sqrt(vf3_dot(p->center, p->center));
+}
+
+/* Entries of a piece in the order of their systems, and among those in their own. */
+struct piece {
+    const uint32_t *entries;
+    struct kiln_sprite *sprites;
+    uint32_t count;
+    uint16_t order[AT_A_TIME];
+};
+
+/* first: where a system's entries begin. */
+static void order_piece(struct piece *piece, uint32_t first[KILN_MAX_SYSTEMS + 1])
+{
+    memset(first, 0, (KILN_MAX_SYSTEMS + 1) * sizeof *first);
+    for (uint32_t i = 0; i < piece->count; i++)
+        first[KILN_ENTRY_SYSTEM(piece->entries[i]) + 1]++;
+    uint32_t next[KILN_MAX_SYSTEMS];
+    for (uint32_t i = 0; i < KILN_MAX_SYSTEMS; i++) {
+        next[i] = first[i];
+        first[i + 1] += first[i];
+    }
+    for (uint32_t i = 0; i < piece->count; i++)
+        piece->order[next[KILN_ENTRY_SYSTEM(piece->entries[i])]++] = (uint16_t)i;
+}
+
+/* Neighbours in depth are far apart in memory, and the sprites' is too large for the caches.
+ * Inline: a function that does nothing else counts as one without effect, and gcc leaves it out. */
+SIMD void fetch(const struct kiln_sprite_pass *pass, const struct piece *piece, uint32_t from,
+                uint32_t to)
+{
+    const float *sunlit = pass->lighting->sunlit;
+    for (uint32_t i = from; i < to && i < piece->count; i++) {
+        uint32_t slot = KILN_ENTRY_SLOT(piece->entries[piece->order[i]]);
+        __builtin_prefetch(&pass->records[slot]);
+        if (sunlit)
+            __builtin_prefetch(&sunlit[slot]);
+        const char *sprite = (const char *)&piece->sprites[piece->order[i]];
+        for (size_t line = 0; line < sizeof *piece->sprites; line += 64)
+            __builtin_prefetch(sprite + line, 1);
+    }
+}
+
+/* lanes: numbers in the piece. */
+static void make_vector(struct subjects *p, const struct piece *piece, const uint16_t lanes[LANES])
+{
+    for (int i = 0; i < LANES; i++)
+        p->slots[i] = (int32_t)KILN_ENTRY_SLOT(piece->entries[lanes[i]]);
+    memset(p->w, 0, sizeof p->w);
+    p->flags = vi_all(0);
+    read_particles(p);
+    fade_particles(p);
+    if (any(p->seen))
+        place_sprites(p);
+    if (any(p->seen)) {
+        color_sprites(p);
+        finish_sprites(p);
+    }
+    float *sprites = (float *)(void *)piece->sprites;
+    for (int line = 0; line < SPRITE_WORDS; line += LINE_FLOATS)
+        vf_store_lines(p->w + line, sprites + line, SPRITE_WORDS, lanes);
+}
+
+static void make_piece(const struct kiln_sprite_pass *pass, struct piece *piece)
+{
+    uint32_t first[KILN_MAX_SYSTEMS + 1];
+    order_piece(piece, first);
+    fetch(pass, piece, 0, AHEAD);
+    struct subjects p;
+    p.pass = pass;
+    for (uint32_t system = 0; system < KILN_MAX_SYSTEMS; system++) {
+        p.look = &pass->looks[system];
+        p.rows = &pass->table[(size_t)system * KILN_LOOK_ROWS * KILN_LOOK_SAMPLES].x;
+        const uint32_t end = first[system + 1];
+        const uint32_t capacity = pass->scene->systems[system].capacity;
+        p.many = vi_all(-(capacity >= KILN_CELL_MIXED_LEAST));
+        p.few = vi_all(-(capacity <= KILN_CELL_FINE_MOST));
+        for (uint32_t i = first[system]; i < end; i += LANES) {
+            uint16_t rest[LANES]; /* and the last over and over */
+            for (uint32_t k = 0; end - i < LANES && k < LANES; k++)
+                rest[k] = piece->order[i + k < end ? i + k : end - 1];
+            fetch(pass, piece, i + AHEAD, i + AHEAD + LANES);
+            make_vector(&p, piece, end - i < LANES ? rest : piece->order + i);
+        }
+    }
+}
+
+void KILN_SIMD_NAME(kiln_sprites_make)(const struct kiln_sprite_pass *pass, const uint32_t *entries,
+                                       size_t count, struct kiln_sprite *sprites)
+{
+    for (size_t i = 0; i < count; i += AT_A_TIME) {
+        struct piece piece = {.entries = entries + i,
+                              .sprites = sprites + i,
+                              .count = count - i < AT_A_TIME ? (uint32_t)(count - i) : AT_A_TIME};
+        make_piece(pass, &piece);
+    }
+}

@@ -1,0 +1,69 @@
+/* A vector of particles on their way to sprites: each lane is one, all are of one system, so that
+ * what their look decides is the same for all of them.
+ */
+#ifndef KILN_DRAW_SPRITE_SUBJECTS_H
+#define KILN_DRAW_SPRITE_SUBJECTS_H
+
+#include <assert.h>
+
+#include "draw/sprites/sprite.h"
+#include "draw/vector/particle_math.h"
+
+enum { SPRITE_WORDS = sizeof(struct kiln_sprite) / sizeof(float) };
+
+/* The word of a sprite that a field of one is. */
+#define WORD_OF(field) (offsetof(struct kiln_sprite, field) / sizeof(float))
+
+/* The plane of a billboard: unit vectors in view space. */
+struct plane {
+    struct vf3 right, up, normal;
+};
+
+struct subjects {
+    const struct kiln_sprite_pass *pass;
+    const struct kiln_draw_look *look;
+    const float *rows; /* of their system in the table */
+    vi many;           /* all lanes, if it has so many that cells are mixed */
+    vi few;            /* ...and so few that small cells are sampled by floats */
+    vi seen;           /* lanes of which something may be seen */
+    vi slots;
+    struct vf_particles record;
+    vu stream;
+    vf progress, age_s;
+    struct places samples; /* of their looks: where in a row, in floats */
+    vf sample_part[4];     /* of the way to the next sample, as columns_load_between takes it */
+    struct vf3 center;     /* view space */
+    vf depth;
+    struct columns shape, spread, turn, hot, cool, cover;
+    vf scale; /* random */
+    vf half_size;
+    vf half_length; /* of the billboard along plane.up */
+    struct plane plane;
+    struct columns texture; /* bits of a texture of struct kiln_draw_look */
+    vi level;
+    struct columns hull_from, hull_to; /* of their cells */
+    vi shade, flags;                   /* as a sprite has them */
+    _Alignas(64) vf w[SPRITE_WORDS];   /* the sprites, word by word */
+};
+
+/* Those that turn in the picture's own plane. */
+SIMD bool lie_in_picture(const struct subjects *p)
+{
+    uint32_t facing = p->look->form.y;
+    return facing == LOOK_SCREEN || facing == LOOK_VELOCITY;
+}
+
+/* A row of the look at the particles' age. */
+SIMD struct columns look_row(const struct subjects *p, uint32_t row)
+{
+    return columns_load_between(p->rows + (size_t)row * KILN_LOOK_SAMPLES * 4, &p->samples,
+                                p->sample_part);
+}
+
+SIMD struct vf3 to_view(const struct kiln_view *view, struct vf3 v)
+{
+    const float4 *rows = view->world_to_view;
+    return (struct vf3){vf3_dot_all(v, rows[0]), vf3_dot_all(v, rows[1]), vf3_dot_all(v, rows[2])};
+}
+
+#endif

@@ -1,0 +1,585 @@
+/* Sprites into a tile: included by a file for each level of KILN_SIMD_LEVEL, which says what
+ * TILE_DRAW is called. The operations of a pixel are those of shaders/draw/sprites/shade.glsl
+ * (Heinz 2019, 3.2.3 to 3.2.6); all lanes do them, and those outside of the sprite with alpha 0.
+ */
+#include "draw/sprites/texels.h"
+#include "draw/sprites/tile_rows.h"
+
+enum {
+    TILE_AHEAD = 6,  /* sprites that are fetched beforehand */
+    LOOK_EVERY = 24, /* sprites that cover: then it is found out what is still seen behind */
+};
+
+/* Where less than this part of the light from behind is left, no more is drawn. */
+#define UNSEEN 0x1p-16f
+
+/* What all pixels of a sprite have in common. */
+struct brush {
+    const uint8_t *cell, *next, *moves; /* next: NULL if mixed; moves: NULL where nothing does */
+    int32_t pitch, texel;               /* of the cells, bytes */
+    int32_t edge;                       /* of the cells, places */
+    int32_t part;                       /* of the way to the next cell, of PART_ONE */
+    int32_t from, to;              /* places that a full move makes, of the cell and of the next */
+    int32_t move_shift, move_mask; /* of a place in the cells to one in the motion */
+    float sampled;                 /* the unit of sampled channels */
+    bool emits;                    /* base or slope are not 0 */
+    bool whole;                    /* all of the tile lies so far behind it that nothing fades */
+    int32_t layer;                 /* the first of the planes that get its colour */
+    bool weighs;                   /* its colour for the glow's planes */
+};
+
+static inline float least(float a, float b)
+{
+    return a < b ? a : b;
+}
+
+/* The colour of a vector of pixels without its alpha, or with it if it comes from a cell. */
+struct shaded {
+    vf rgb[3], alpha;
+};
+
+SIMD struct shaded shade_glow(const struct kiln_sprite *s, const struct brush *b, struct vf4 cell)
+{
+    vf heat = cell.c[2] * b->sampled + SAMPLED_ZERO;
+    struct shaded shaded = {.alpha = cell.c[3] * b->sampled + SAMPLED_ZERO};
+    for (int c = 0; c < 3; c++)
+        shaded.rgb[c] = s->base[c] + s->slope[c] * heat;
+    return shaded;
+}
+
+SIMD struct shaded shade_lit(const struct kiln_sprite *s, const struct brush *b, struct vf4 cell)
+{
+    struct shaded shaded = {.alpha = cell.c[3] * b->sampled + SAMPLED_ZERO};
+    float twice = 2.0f * b->sampled, zeros = 2.0f * SAMPLED_ZERO - 1.0f;
+    vf x = cell.c[0] * twice + zeros, y = cell.c[1] * twice + zeros;
+    vf zero = vf_all(0.0f);
+    vf z = vf_sqrt(vf_max(1.0f - (x * x + y * y), zero));
+    for (int c = 0; c < 3; c++) {
+        vf light =
+            (s->light[0][c] + s->light[1][c] * x) + (s->light[2][c] * y + s->light[3][c] * z);
+        shaded.rgb[c] = vf_max(light, zero);
+    }
+    if (b->emits) {
+        vf heat = cell.c[2] * b->sampled + SAMPLED_ZERO;
+        for (int c = 0; c < 3; c++)
+            shaded.rgb[c] += s->base[c] + s->slope[c] * heat;
+    }
+    return shaded;
+}
+
+/* Colour cells are stored under a square root. */
+SIMD struct shaded shade_color(const struct kiln_sprite *s, const struct brush *b, struct vf4 cell)
+{
+    for (int c = 0; c < 4; c++) {
+        cell.c[c] = cell.c[c] * b->sampled + SAMPLED_ZERO;
+        cell.c[c] *= cell.c[c];
+    }
+    return (struct shaded){{cell.c[0] * s->base[0], cell.c[1] * s->base[1], cell.c[2] * s->base[2]},
+                           cell.c[3]};
+}
+
+/* The part of a pixel inside a disc or a rectangle. */
+SIMD struct shaded shade_plain(const struct kiln_sprite *s, vf u, vf v)
+{
+    vf alpha;
+    if (s->flags & KILN_SPRITE_DISC)
+        alpha = vf_clamp01(s->edge_u + 0.5f - vf_sqrt(u * u + v * v));
+    else
+        alpha = vf_clamp01(s->edge_u + 0.5f - vf_abs(u)) * vf_clamp01(s->edge_v + 0.5f - vf_abs(v));
+    return (struct shaded){{vf_all(s->base[0]), vf_all(s->base[1]), vf_all(s->base[2])}, alpha};
+}
+
+/* What is left of a sprite before the scene: equation 3.3, clamped to a fade, or as printed. */
+SIMD vf fade(const struct kiln_sprite *s, vf scene, vf depth, vi inside)
+{
+    vi visible = inside & (depth <= scene);
+    if (s->soft <= 0.0f)
+        return vf_where(visible, vf_all(s->opacity));
+    if (s->flags & KILN_SPRITE_LITERAL)
+        return vf_where(visible, vf_abs(scene - s->distance) * s->soft * s->opacity);
+    return vf_where(inside, vf_clamp01((scene - depth) * s->soft) * s->opacity);
+}
+
+/* Puts light behind what lies at the offsets. */
+SIMD void blend(float (*planes)[KILN_TILE_PITCH], const int32_t *at, const struct brush *b,
+                const float bloom[3], const vf rgb[3])
+{
+    for (int c = 0; c < 3; c++) {
+        float *color = planes[b->layer + c];
+        vf_store_units(color, at, vf_load_units(color, at) + rgb[c]);
+    }
+    for (int c = 0; c < 3 && b->weighs; c++) {
+        float *glow = planes[KILN_TILE_GLOW_RED + c];
+        vf_store_units(glow, at, vf_load_units(glow, at) + rgb[c] * bloom[c]);
+    }
+}
+
+/* ---- vectors of pixels ------------------------------------------------------------------------
+ */
+
+/* A vector of pixels, its units anywhere in the tile. */
+struct pixels {
+    vf u, v, q;
+    vi inside;         /* those that count */
+    int32_t at[UNITS]; /* in the planes */
+};
+
+enum { BATCH = 16 };
+
+/* Vectors of pixels on their way, one step after the other for all of them: each step alone takes
+ * little room in the processor, so that several are under way while texels come. Of a cell and, if
+ * not mixed, of the next one: places, and their texels. */
+struct batch {
+    _Alignas(64) int32_t texels[2][BATCH][LANES];
+    vi places[2][BATCH], inside[BATCH];
+    struct vf4 cells[BATCH];
+    vf u[BATCH], v[BATCH], depth[BATCH]; /* of plain and of deep ones */
+    int32_t at[BATCH][UNITS];
+    int count;
+};
+
+/* What all steps know of a sprite. */
+struct drawn {
+    struct kiln_tile *tile;
+    const struct kiln_sprite *s;
+    struct brush brush;
+};
+
+SIMD void put_texels(struct batch *batch, int cell, int i, vi places, int32_t pitch, int32_t texel)
+{
+    vi texels = texel_offsets(places, pitch, texel);
+    batch->places[cell][i] = places;
+    memcpy(batch->texels[cell][i], &texels, sizeof texels);
+}
+
+SIMD void put_pixels(struct batch *batch, const struct drawn *d, struct pixels p,
+                     enum kiln_sprite_shade kind, bool deep, bool mixed)
+{
+    const struct brush *b = &d->brush;
+    int i = batch->count++;
+    bool textured = kind != KILN_SHADE_PLAIN;
+    vi inside = p.inside;
+    if (deep) {
+        inside &= p.q > 0.0f;
+        batch->depth[i] = 1.0f / p.q;
+        if (textured) {
+            vf limit = vf_all((float)b->edge + 2.0f * PLACE_ONE), depth = batch->depth[i];
+            p.u = vf_min(vf_max(p.u * depth + PLACE_MIDDLE, vf_all(0.0f)), limit);
+            p.v = vf_min(vf_max(p.v * depth + PLACE_MIDDLE, vf_all(0.0f)), limit);
+        }
+    }
+    if (textured) {
+        vi places = places_of(p.u, p.v);
+        inside &= places_between(places, PLACE_ONE / 2, b->edge + PLACE_ONE / 2 - 1);
+        if (mixed)
+            put_texels(batch, 0, i, places & inside, b->pitch, b->texel);
+        else
+            batch->places[0][i] = places;
+    } else {
+        batch->u[i] = p.u;
+        batch->v[i] = p.v;
+    }
+    batch->inside[i] = inside;
+    memcpy(batch->at[i], p.at, sizeof p.at);
+}
+
+/* Between two cells, each of which is followed to where it is at that time. Clamped to the centres
+ * of the outer texels. */
+SIMD void follow(struct batch *batch, const struct brush *b)
+{
+    const int32_t half = PLACE_ONE / 2, most = b->edge + half;
+    const uint32_t halves = (uint32_t)half << 16 | (uint32_t)half;
+    for (int i = 0; i < batch->count && b->moves; i++) {
+        vi at = (vi)((vu)places_clamped(batch->places[0][i], half, most - 1) - halves);
+        at = (vi)((vu)((at >> b->move_shift) & b->move_mask) + halves);
+        batch->places[1][i] = at;
+        vi texels = texel_offsets(at, KILN_CELL_PAIR * (KILN_ATLAS_MOTION + KILN_CELL_MARGIN),
+                                  KILN_CELL_PAIR);
+        memcpy(batch->texels[1][i], &texels, sizeof texels);
+    }
+    for (int i = 0; i < batch->count; i++) {
+        vi places = batch->places[0][i], next;
+        if (b->moves) {
+            vi way = ways_of(sample_pairs(b->moves, batch->texels[1][i], batch->places[1][i], 1));
+            next = places_moved(places, way, b->to, half, most);
+            places = places_moved(places, way, -b->from, half, most);
+        } else {
+            next = places = places_clamped(places, half, most);
+        }
+        put_texels(batch, 0, i, places, b->pitch, b->texel);
+        put_texels(batch, 1, i, next, b->pitch, b->texel);
+    }
+}
+
+/* Vector i of what a sprite shows. pair: only heat and alpha. */
+SIMD struct vf4 sample(const struct batch *batch, int i, const struct brush *b, bool pair,
+                       bool mixed)
+{
+    const int32_t part = mixed ? 1 : PART_ONE - b->part;
+    vi places = batch->places[0][i], next = batch->places[1][i];
+    const int32_t *texels = batch->texels[0][i], *next_texels = batch->texels[1][i];
+    if (pair) {
+        struct pairs pairs = sample_pairs(b->cell, texels, places, part);
+        return channels_of_pairs(
+            mixed ? pairs : pairs_sum(pairs, sample_pairs(b->next, next_texels, next, b->part)));
+    }
+    struct quads quads = sample_quads(b->cell, texels, places, part);
+    return channels_of(mixed ? quads
+                             : quads_sum(quads, sample_quads(b->next, next_texels, next, b->part)));
+}
+
+/* Vector i of a batch behind what was drawn. */
+SIMD void draw_vector(const struct batch *batch, int i, const struct drawn *d, struct shaded c,
+                      bool multiplied, bool deep, bool covers)
+{
+    float(*planes)[KILN_TILE_PITCH] = d->tile->pixels[0];
+    const struct kiln_sprite *s = d->s;
+    const bool over = d->tile->over;
+    const int32_t *at = batch->at[i];
+    vf left = vf_where(batch->inside[i], vf_all(s->opacity)), before = vf_all(0.0f);
+    if (!d->brush.whole) {
+        vf depth = deep ? batch->depth[i] : vf_all(s->depth);
+        left = fade(s, vf_load_units(planes[KILN_TILE_DEPTH], at), depth, batch->inside[i]);
+    }
+    if (s->flags & KILN_SPRITE_LITERAL) /* has no bound of its own: alpha up to 1 */
+        left = vf_min(left, 1.0f / vf_max(c.alpha, vf_all(1e-6f)));
+    if (over || covers)
+        before = vf_load_units(planes[KILN_TILE_ALPHA], at);
+    if (over)
+        left *= 1.0f - before;
+    vf alpha = c.alpha * left;
+    for (int k = 0; k < 3; k++)
+        c.rgb[k] *= multiplied ? left : alpha;
+    blend(planes, at, &d->brush, s->bloom, c.rgb);
+    if (covers) {
+        before += alpha;
+        vf_store_units(planes[KILN_TILE_ALPHA], at, over ? vf_min(before, vf_all(1.0f)) : before);
+    }
+}
+
+SIMD void draw_batch(struct batch *batch, const struct drawn *d, enum kiln_sprite_shade kind,
+                     bool deep, bool covers, bool mixed)
+{
+    const struct kiln_sprite *s = d->s;
+    const struct brush *b = &d->brush;
+    const bool textured = kind != KILN_SHADE_PLAIN;
+    __asm__("" : "+m"(*batch)); /* through memory: to take a vector apart costs twice as much */
+    if (textured && !mixed)
+        follow(batch, b);
+    for (int i = 0; i < batch->count && textured; i++)
+        batch->cells[i] = sample(batch, i, b, kind == KILN_SHADE_GLOW, mixed);
+    for (int i = 0; i < batch->count; i++) {
+        struct shaded c = kind == KILN_SHADE_LIT     ? shade_lit(s, b, batch->cells[i])
+                          : kind == KILN_SHADE_GLOW  ? shade_glow(s, b, batch->cells[i])
+                          : kind == KILN_SHADE_COLOR ? shade_color(s, b, batch->cells[i])
+                                                     : shade_plain(s, batch->u[i], batch->v[i]);
+        draw_vector(batch, i, d, c, kind == KILN_SHADE_COLOR, deep, covers);
+    }
+    batch->count = 0;
+}
+
+/* ---- wide sprites: units of their rows ---------------------------------------------------------
+ */
+
+SIMD void draw_wide(const struct drawn *d, const struct kiln_cell_hull *hull, const struct box *box,
+                    struct batch *batch, enum kiln_sprite_shade kind, bool deep, bool covers,
+                    bool mixed)
+{
+    const struct kiln_sprite *s = d->s;
+    struct rows rows;
+    struct units units;
+    bool textured = kind != KILN_SHADE_PLAIN;
+    find_rows(d->tile, s, box, !deep && textured ? hull : NULL, &rows);
+    float scale = textured ? (float)PLACE_STEPS : 1.0f;
+    float margin = textured && !deep ? PLACE_MIDDLE : 0.0f;
+    for (int i = 0; i < KILN_TILE_HEIGHT && textured; i += LANES) {
+        vf_store(rows.u + i, vf_load(rows.u + i) * scale + margin);
+        vf_store(rows.v + i, vf_load(rows.v + i) * scale + margin);
+    }
+    const float steps[3] = {s->u_x * scale, s->v_x * scale, s->q_x};
+    int count = list_units(&rows, box, steps, deep, &units);
+    if (d->tile->hides)
+        count = drop_hidden(d->tile, &units, count);
+    if (UNITS > 1)
+        add_nowhere(&units, count);
+    for (int begin = 0; begin < count; begin += BATCH / UNIT_PARTS * UNITS) {
+        int end =
+            count - begin < BATCH / UNIT_PARTS * UNITS ? count : begin + BATCH / UNIT_PARTS * UNITS;
+        for (int i = begin; i < end; i += UNITS) {
+            for (int part = 0; part < UNIT_PARTS; part++) {
+                vf lane = vf_units_count(part);
+                struct pixels p = {.u = vf_units(units.u + i) + lane * steps[0],
+                                   .v = vf_units(units.v + i) + lane * steps[1],
+                                   .inside = ~(vi){0}};
+                if (deep)
+                    p.q = vf_units(units.q + i) + lane * steps[2];
+                for (int k = 0; k < UNITS; k++)
+                    p.at[k] = units.at[i + k] + part * LANES;
+                put_pixels(batch, d, p, kind, deep, mixed);
+            }
+        }
+        draw_batch(batch, d, kind, deep, covers, mixed);
+    }
+}
+
+/* ---- sprites no wider than a unit: one a row ----------------------------------------------------
+ */
+
+SIMD void draw_narrow(const struct drawn *d, const struct box *box, struct batch *batch,
+                      enum kiln_sprite_shade kind, bool covers, bool mixed)
+{
+    const struct kiln_sprite *s = d->s;
+    const struct kiln_tile *tile = d->tile;
+    bool textured = kind != KILN_SHADE_PLAIN;
+    float scale = textured ? (float)PLACE_STEPS : 1.0f;
+    float margin = textured ? PLACE_MIDDLE : 0.0f;
+    vf u[UNIT_PARTS], v[UNIT_PARTS]; /* in the row of the anchor */
+    for (int part = 0; part < UNIT_PARTS; part++) {
+        vf x = vf_units_count(part) + ((float)(tile->x + box->x_from) + 0.5f) - s->x;
+        u[part] = (s->u + s->u_x * x) * scale + margin;
+        v[part] = (s->v + s->v_x * x) * scale + margin;
+    }
+    float u_row = s->u_y * scale, v_row = s->v_y * scale;
+    const float end = (float)(tile->y + box->y_to);
+    int32_t at = box->y_from * KILN_TILE_PLANES * KILN_TILE_PITCH + box->x_from;
+    for (int y = box->y_from; y < box->y_to; y += UNITS) {
+        vf row = vf_units_number() + ((float)(tile->y + y) + 0.5f), from_anchor = row - s->y;
+        for (int part = 0; part < UNIT_PARTS; part++) {
+            struct pixels p = {.u = u[part] + from_anchor * u_row,
+                               .v = v[part] + from_anchor * v_row,
+                               .inside = row < end};
+            for (int k = 0; k < UNITS; k++)
+                p.at[k] = at + k * KILN_TILE_PLANES * KILN_TILE_PITCH + part * LANES;
+            put_pixels(batch, d, p, kind, false, mixed);
+        }
+        at += UNITS * KILN_TILE_PLANES * KILN_TILE_PITCH;
+        if (batch->count == BATCH)
+            draw_batch(batch, d, kind, false, covers, mixed);
+    }
+    draw_batch(batch, d, kind, false, covers, mixed);
+}
+
+/* ---- any sprite --------------------------------------------------------------------------------
+ */
+
+SIMD void make_brush(const struct kiln_tile *tile, const struct kiln_cells_content *cells,
+                     const struct kiln_sprite *s, enum kiln_sprite_shade kind, bool deep,
+                     bool mixed, struct brush *b)
+{
+    bool glows = s->bloom[0] != 0.0f || s->bloom[1] != 0.0f || s->bloom[2] != 0.0f;
+    bool apart = glows && tile->glow == KILN_TILE_GLOW_APART;
+    *b = (struct brush){
+        .layer = apart ? KILN_TILE_GLOW_RED : KILN_TILE_RED,
+        .weighs = glows && tile->glow == KILN_TILE_GLOW_WEIGHED,
+    };
+    b->whole = !deep && !(s->flags & KILN_SPRITE_LITERAL) && tile->nearest >= s->depth &&
+               (tile->nearest - s->depth) * s->soft >= (s->soft > 0.0f ? 1.0f : 0.0f);
+    if (kind == KILN_SHADE_PLAIN)
+        return;
+    bool pair = kind == KILN_SHADE_GLOW;
+    size_t offset = pair ? (size_t)KILN_CELL_TEXEL * (s->pitch - 1u) * s->pitch : 0;
+    b->cell = cells->texels[s->cell] + offset;
+    b->texel = pair ? KILN_CELL_PAIR : KILN_CELL_TEXEL;
+    b->pitch = b->texel * s->pitch;
+    b->edge = (s->pitch - KILN_CELL_MARGIN) * PLACE_ONE;
+    b->sampled = SAMPLED_UNIT;
+    b->emits = (s->flags & KILN_SPRITE_EMITS) != 0;
+    if (mixed)
+        return;
+    b->sampled = SAMPLED_UNIT / (float)PART_ONE;
+    b->next = cells->texels[s->next_cell] + offset;
+    b->part = (int32_t)(s->part * (float)PART_ONE + 0.5f);
+    b->moves = s->motion > 0.0f ? kiln_cells_moves(cells, s->cell) : NULL;
+    float full = s->motion * (float)PLACE_ONE * (32768.0f / WAY_ONE);
+    b->from = (int32_t)least(full * s->part + 0.5f, 32767.0f);
+    b->to = (int32_t)least(full * (1.0f - s->part) + 0.5f, 32767.0f);
+    b->move_shift = 0;
+    for (int32_t edge = b->edge / PLACE_ONE; edge > KILN_ATLAS_MOTION; edge >>= 1)
+        b->move_shift++;
+    b->move_mask = (0xffff >> b->move_shift) | (int32_t)(0xffffu >> b->move_shift << 16);
+}
+
+SIMD struct box box_in(const struct kiln_tile *tile, const struct kiln_sprite *s)
+{
+    return (struct box){
+        .x_from = s->x_from > tile->x ? s->x_from - tile->x : 0,
+        .x_to = s->x_to < tile->x + tile->width ? s->x_to - tile->x : tile->width,
+        .y_from = s->y_from > tile->y ? s->y_from - tile->y : 0,
+        .y_to = s->y_to < tile->y + tile->height ? s->y_to - tile->y : tile->height,
+    };
+}
+
+/* Whether no pixel of a box is seen. */
+SIMD bool box_hidden(const struct kiln_tile *tile, const struct box *box)
+{
+    uint64_t seen = 0;
+    for (int y = box->y_from; y < box->y_to; y++)
+        seen |= tile->seen[y];
+    seen &= ~(uint64_t)0 >> (KILN_TILE_WIDTH - (box->x_to - box->x_from)) << box->x_from;
+    return seen == 0;
+}
+
+/* Finds out what is still seen behind what was drawn; false when nothing is. */
+static bool look_behind(struct kiln_tile *tile)
+{
+    const uint64_t whole = ~(uint64_t)0 >> (KILN_TILE_WIDTH - tile->width);
+    uint64_t any = 0, every = whole;
+    for (int y = 0; y < tile->height; y++) {
+        uint64_t seen = 0;
+        for (int x = 0; x < KILN_TILE_WIDTH; x += LANES)
+            seen |= (uint64_t)vi_bits(vf_load(&tile->pixels[y][KILN_TILE_ALPHA][x]) < 1.0f - UNSEEN)
+                    << x;
+        tile->seen[y] = seen & whole;
+        any |= tile->seen[y];
+        every &= tile->seen[y];
+    }
+    tile->hides = every != whole;
+    return any != 0;
+}
+
+SIMD void draw_sprite(struct kiln_tile *tile, const struct kiln_cells_content *cells,
+                      const struct kiln_sprite *s, enum kiln_sprite_shade kind, bool deep,
+                      bool covers, bool mixed)
+{
+    const struct box box = box_in(tile, s);
+    if (tile->hides && (box.x_from >= box.x_to || box_hidden(tile, &box)))
+        return;
+    struct drawn drawn = {.tile = tile, .s = s};
+    make_brush(tile, cells, s, kind, deep, mixed, &drawn.brush);
+    struct batch batch;
+    batch.count = 0;
+    if (!deep && box.x_to - box.x_from <= UNIT)
+        draw_narrow(&drawn, &box, &batch, kind, covers, mixed);
+    else
+        draw_wide(&drawn, kiln_cells_hull(cells, s->cell), &box, &batch, kind, deep, covers, mixed);
+}
+
+/* ---- small sprites of which there are few ------------------------------------------------------
+ */
+
+/* At places among the texels as they lie in a cell. first: of four channels. */
+SIMD struct vf4 sample_floats(const struct brush *b, const uint8_t *cell, size_t first, vf u, vf v)
+{
+    struct vf4 sampled = {{{0}}};
+    for (int i = 0; i < LANES; i++) {
+        const int32_t column = (int32_t)u[i], row = (int32_t)v[i];
+        const float right = u[i] - (float)column, down = v[i] - (float)row;
+        const int8_t *texel =
+            (const int8_t *)cell + (ptrdiff_t)row * b->pitch + (ptrdiff_t)column * b->texel;
+        const int8_t *next = texel + b->texel;
+        for (size_t c = first; c < 4; c++, texel += 2, next += 2) {
+            float left_side = (float)texel[0] + (float)(texel[1] - texel[0]) * down;
+            float right_side = (float)next[0] + (float)(next[1] - next[0]) * down;
+            sampled.c[c][i] = left_side + (right_side - left_side) * right;
+        }
+    }
+    return sampled;
+}
+
+/* A unit of each of UNITS rows, or part of one. u, v: texels. */
+SIMD void draw_floats(const struct drawn *d, struct batch *batch, vf u, vf v)
+{
+    const struct kiln_sprite *s = d->s;
+    const struct brush *b = &d->brush;
+    const size_t first = s->shade == KILN_SHADE_GLOW ? 2 : 0;
+    const vf zero = vf_all(0.0f), edge = vf_all(s->edge_u);
+    batch->inside[0] &= (u >= 0.0f) & (u < edge) & (v >= 0.0f) & (v < edge);
+    u = vf_min(vf_max(u, zero), edge) + 0.5f;
+    v = vf_min(vf_max(v, zero), edge) + 0.5f;
+    struct vf4 cell = sample_floats(b, b->cell, first, u, v);
+    if (b->next) {
+        const struct vf4 next = sample_floats(b, b->next, first, u, v);
+        for (size_t c = first; c < 4; c++)
+            cell.c[c] += (next.c[c] - cell.c[c]) * s->part;
+    }
+    struct shaded c = s->shade == KILN_SHADE_LIT    ? shade_lit(s, b, cell)
+                      : s->shade == KILN_SHADE_GLOW ? shade_glow(s, b, cell)
+                                                    : shade_color(s, b, cell);
+    draw_vector(batch, 0, d, c, s->shade == KILN_SHADE_COLOR, false,
+                (s->flags & KILN_SPRITE_COVERS) != 0);
+}
+
+static void draw_few(struct kiln_tile *tile, const struct kiln_cells_content *cells,
+                     const struct kiln_sprite *s)
+{
+    const struct box box = box_in(tile, s);
+    if (tile->hides && (box.x_from >= box.x_to || box_hidden(tile, &box)))
+        return;
+    struct drawn d = {.tile = tile, .s = s};
+    make_brush(tile, cells, s, (enum kiln_sprite_shade)s->shade, false,
+               (s->flags & KILN_SPRITE_MIXED) != 0, &d.brush);
+    d.brush.sampled = 1.0f / 255.0f;
+    struct batch batch;
+    for (int y = box.y_from; y < box.y_to; y += UNITS) {
+        vf row = vf_units_number() + ((float)(tile->y + y) + 0.5f), below = row - s->y;
+        for (int x = box.x_from; x < box.x_to; x += LANES / UNITS) {
+            vf right = vf_units_count(0) + ((float)(tile->x + x) + 0.5f) - s->x;
+            batch.inside[0] = row < (float)(tile->y + box.y_to);
+            for (int k = 0; k < UNITS; k++)
+                batch.at[0][k] = (y + k) * KILN_TILE_PLANES * KILN_TILE_PITCH + x;
+            draw_floats(&d, &batch, (s->u + s->u_x * right) + s->u_y * below,
+                        (s->v + s->v_x * right) + s->v_y * below);
+        }
+    }
+}
+
+typedef void drawing(struct kiln_tile *tile, const struct kiln_cells_content *cells,
+                     const struct kiln_sprite *s);
+
+#define DRAW(name, kind, deep, covers, mixed)                                                      \
+    static void name(struct kiln_tile *tile, const struct kiln_cells_content *cells,               \
+                     const struct kiln_sprite *s)                                                  \
+    {                                                                                              \
+        draw_sprite(tile, cells, s, kind, deep, covers, mixed);                                    \
+    }
+#define DRAW_FORMS(name, kind, mixed)                                                              \
+    DRAW(name##_flat_adds, kind, false, false, mixed)                                              \
+    DRAW(name##_flat_covers, kind, false, true, mixed)                                             \
+    DRAW(name##_deep_adds, kind, true, false, mixed)                                               \
+    DRAW(name##_deep_covers, kind, true, true, mixed)
+
+DRAW_FORMS(glow, KILN_SHADE_GLOW, false)
+DRAW_FORMS(lit, KILN_SHADE_LIT, false)
+DRAW_FORMS(color, KILN_SHADE_COLOR, false)
+DRAW_FORMS(plain, KILN_SHADE_PLAIN, false)
+DRAW_FORMS(mixed_glow, KILN_SHADE_GLOW, true)
+DRAW_FORMS(mixed_lit, KILN_SHADE_LIT, true)
+DRAW_FORMS(mixed_color, KILN_SHADE_COLOR, true)
+
+/* By KILN_SPRITE_DEEP and KILN_SPRITE_COVERS. */
+#define ROW(name)                                                                                  \
+    {                                                                                              \
+        name##_flat_adds, name##_deep_adds, name##_flat_covers, name##_deep_covers                 \
+    }
+
+void TILE_DRAW(struct kiln_tile *tile, const struct kiln_sprite *sprites,
+               const struct kiln_cells *cells, const uint32_t *list, size_t count)
+{
+    static drawing *const draw[2][KILN_SHADES][4] = {
+        {ROW(glow), ROW(lit), ROW(color), ROW(plain)},
+        {ROW(mixed_glow), ROW(mixed_lit), ROW(mixed_color), ROW(plain)},
+    };
+    const struct kiln_cells_content content = kiln_cells_content(cells);
+    tile->hides = false;
+    uint32_t covering = 0;
+    for (size_t i = count; i-- > 0;) {
+        const struct kiln_sprite *s = &sprites[list[i]];
+        if (i >= TILE_AHEAD) { /* neighbours in a list are far apart in memory */
+            const char *next = (const char *)&sprites[list[i - TILE_AHEAD]];
+            for (size_t line = 0; line < sizeof *s; line += 64)
+                __builtin_prefetch(next + line);
+        }
+        bool mixed = (s->flags & KILN_SPRITE_MIXED) != 0;
+        uint32_t form = s->flags & (KILN_SPRITE_DEEP | KILN_SPRITE_COVERS);
+        if (s->flags & KILN_SPRITE_FINE)
+            draw_few(tile, &content, s);
+        else
+            draw[mixed][s->shade][form](tile, &content, s);
+        covering += (s->flags & KILN_SPRITE_COVERS) != 0;
+        if (covering == LOOK_EVERY && tile->over) {
+            covering = 0;
+            if (!look_behind(tile))
+                return;
+        }
+    }
+}

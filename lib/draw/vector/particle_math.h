@@ -1,0 +1,125 @@
+/* What shaders/shared has for one particle (exact.h, random.h, derived.h), for vectors of them,
+ * with the same bits.
+ */
+#ifndef KILN_DRAW_PARTICLE_MATH_H
+#define KILN_DRAW_PARTICLE_MATH_H
+
+#include "draw/vector/transpose.h"
+#include "shared/derived.h"
+
+/* exact_rcp */
+SIMD vf vf_rcp(vf x)
+{
+    vi size = (vi)x & (int32_t)EXACT_SIZE_BITS;
+    vi usual = (size >= (int32_t)EXACT_TINY_BITS) & (size <= (int32_t)EXACT_VAST_BITS);
+    vf a = (vf)size, y = (vf)(0x7ef311c7 - size);
+    y = y * (2.0f - a * y);
+    y = y * (2.0f - a * y);
+    y = y + y * (1.0f - a * y);
+    return (vf)(((vi)y | ((vi)x & (int32_t)EXACT_SIGN_BIT)) & usual);
+}
+
+/* a at t = 0, b at t = 1. */
+SIMD vf vf_lerp(vf a, vf b, vf t)
+{
+    return a + (b - a) * t;
+}
+
+/* exact_lerp */
+SIMD vf vf_lerp_within(vf a, vf b, vf t)
+{
+    return vf_min(vf_max(vf_lerp(a, b, t), vf_min(a, b)), vf_max(a, b));
+}
+
+SIMD vf vf_smoothstep(float from, float to, vf x)
+{
+    vf t = vf_clamp01((x - from) * (1.0f / (to - from)));
+    return t * t * (3.0f - 2.0f * t);
+}
+
+SIMD struct vf3 vf3_cross(struct vf3 a, struct vf3 b)
+{
+    return (struct vf3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/* ---- random numbers -------------------------------------------------------------------------- */
+
+/* random_mix */
+SIMD vu vu_mix(vu x)
+{
+    x ^= x >> 16;
+    x *= 0x21f0aaadu;
+    x ^= x >> 15;
+    x *= 0xd35a2d97u;
+    x ^= x >> 15;
+    return x;
+}
+
+/* random_unit */
+SIMD vf vu_unit(vu stream, uint32_t purpose)
+{
+    vu bits = vu_mix(stream ^ random_mix(purpose + 0x9e3779b9u));
+    return vf_of((vi)(bits >> 8)) * 5.9604644775390625e-8f;
+}
+
+/* ---- records --------------------------------------------------------------------------------- */
+
+/* Of struct kiln_particle. */
+struct vf_particles {
+    struct vf3 position, velocity;
+    vu serial, birth;
+};
+
+/* Those in slots of a pool's records. */
+SIMD struct vf_particles read_records(const struct kiln_particle *records, vi slots)
+{
+    const struct places places =
+        places_of_lanes(slots * (int32_t)(sizeof *records / sizeof(float)));
+    const float *from = (const float *)(const void *)records;
+    const struct columns first = columns_load(from, &places),
+                         second = columns_load(from + 4, &places);
+    return (struct vf_particles){{first.c[0], first.c[1], first.c[2]},
+                                 {second.c[0], second.c[1], second.c[2]},
+                                 (vu)first.c[3],
+                                 (vu)second.c[3]};
+}
+
+SIMD vf vf_birth_fraction(vu birth)
+{
+    return vf_of((vi)(birth >> KILN_BIRTH_FRACTION_SHIFT & KILN_BIRTH_FRACTION_MASK)) * 0.015625f;
+}
+
+/* particle_age */
+SIMD vf vf_age(vu birth, uint32_t step, float dt_s)
+{
+    vf steps = vf_of((vi)(step - (birth >> KILN_BIRTH_STEP_SHIFT))) + 1.0f;
+    return (steps - vf_birth_fraction(birth)) * dt_s;
+}
+
+/* A value at times: most are the same at all. */
+SIMD vf vf_value_at(const float4 *keys, const struct kiln_value *value, vf time_s)
+{
+    if (value->count == 0)
+        return vf_all(value->constant);
+    vf y;
+    for (int i = 0; i < LANES; i++)
+        y[i] = value_at(keys, *value, time_s[i], 0.0f);
+    return y;
+}
+
+/* particle_life_s */
+SIMD vf vf_life(const float4 *keys, const struct kiln_derived_params *d, vu stream, vu birth)
+{
+    vf before = vf_of((vi)((birth >> KILN_BIRTH_STEP_SHIFT) - 1u)) - (float)d->warmup_steps;
+    vf born_s = (before + vf_birth_fraction(birth)) * d->dt_s;
+    return vf_lerp_within(vf_value_at(keys, &d->life.min, born_s),
+                          vf_value_at(keys, &d->life.max, born_s), vu_unit(stream, RANDOM_LIFE));
+}
+
+/* particle_progress */
+SIMD vf vf_progress(vf age_s, vf life_s)
+{
+    return vf_clamp01(age_s * vf_rcp(life_s));
+}
+
+#endif

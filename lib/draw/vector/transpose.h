@@ -1,0 +1,137 @@
+/* Records in memory to vectors and back: the lanes of a vector are records, and what lies four
+ * floats long in each becomes four vectors. In between, vector k of four has, in its 128 bits p,
+ * the four floats of lane 4 p + k.
+ */
+#ifndef KILN_DRAW_TRANSPOSE_H
+#define KILN_DRAW_TRANSPOSE_H
+
+#include "draw/vector/ray_math.h"
+
+/* The numbers of lanes a, b, c and d (beyond 3: of the second operand) of the 128 bits p. */
+#define LANE_OF(a, p)           (4 * (p) + ((a)&3) + ((a) >> 2) * LANES)
+#define LANES_OF(a, b, c, d, p) LANE_OF(a, p), LANE_OF(b, p), LANE_OF(c, p), LANE_OF(d, p)
+
+/* The same four lanes of two vectors in each 128 bits. */
+#if LANES == 16
+#define VF_PICK(x, y, a, b, c, d)                                                                  \
+    __builtin_shufflevector(x, y, LANES_OF(a, b, c, d, 0), LANES_OF(a, b, c, d, 1),                \
+                            LANES_OF(a, b, c, d, 2), LANES_OF(a, b, c, d, 3))
+#elif LANES == 8
+#define VF_PICK(x, y, a, b, c, d)                                                                  \
+    __builtin_shufflevector(x, y, LANES_OF(a, b, c, d, 0), LANES_OF(a, b, c, d, 1))
+#else
+#define VF_PICK(x, y, a, b, c, d) __builtin_shufflevector(x, y, LANES_OF(a, b, c, d, 0))
+#endif
+
+/* Lanes as places in memory. Through memory: to take a vector apart costs twice as much. */
+struct places {
+    _Alignas(64) int32_t at[LANES];
+};
+
+SIMD struct places places_of_lanes(vi x)
+{
+    struct places places;
+    memcpy(places.at, &x, sizeof places.at);
+    __asm__("" : "+m"(places));
+    return places;
+}
+
+/* Of lanes k, 4 + k...: the four floats of each from `from` + its place on. at: the place of lane
+ * k, in floats. */
+SIMD vf vf_load_fours(const float *from, const int32_t *at)
+{
+#if LANES == 16
+    __m256 low = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(from + at[0])),
+                                      _mm_loadu_ps(from + at[4]), 1);
+    __m256 high = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(from + at[8])),
+                                       _mm_loadu_ps(from + at[12]), 1);
+    return (vf)_mm512_insertf32x8(_mm512_castps256_ps512(low), high, 1);
+#elif LANES == 8
+    return (vf)_mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(from + at[0])),
+                                    _mm_loadu_ps(from + at[4]), 1);
+#else
+    return vf_load(from + at[0]);
+#endif
+}
+
+/* Four floats of the lanes' records, a vector of each. */
+struct columns {
+    vf c[4];
+};
+
+/* From the floats of records to vectors of them, and back. */
+SIMD struct columns columns_transpose(vf a, vf b, vf c, vf d)
+{
+    vf ab = VF_PICK(a, b, 0, 4, 1, 5), cd = VF_PICK(c, d, 0, 4, 1, 5);
+    vf ab_high = VF_PICK(a, b, 2, 6, 3, 7), cd_high = VF_PICK(c, d, 2, 6, 3, 7);
+    return (struct columns){{VF_PICK(ab, cd, 0, 1, 4, 5), VF_PICK(ab, cd, 2, 3, 6, 7),
+                             VF_PICK(ab_high, cd_high, 0, 1, 4, 5),
+                             VF_PICK(ab_high, cd_high, 2, 3, 6, 7)}};
+}
+
+/* Four floats of each lane's record. places: in floats. */
+SIMD struct columns columns_load(const float *from, const struct places *places)
+{
+    const int32_t *at = places->at;
+    return columns_transpose(vf_load_fours(from, at), vf_load_fours(from, at + 1),
+                             vf_load_fours(from, at + 2), vf_load_fours(from, at + 3));
+}
+
+/* The same, and the four floats after them: between the two, by a part of the way that is given as
+ * it is for each of the vectors that become transposed. */
+SIMD struct columns columns_load_between(const float *from, const struct places *places,
+                                         const vf part[4])
+{
+    vf between[4];
+    for (int k = 0; k < 4; k++) {
+        vf a = vf_load_fours(from, places->at + k);
+        vf b = vf_load_fours(from + 4, places->at + k);
+        between[k] = a + (b - a) * part[k];
+    }
+    return columns_transpose(between[0], between[1], between[2], between[3]);
+}
+
+/* Each lane's value for the floats of its record. */
+SIMD void vf_spread_fours(vf x, vf spread[4])
+{
+    spread[0] = VF_PICK(x, x, 0, 0, 0, 0);
+    spread[1] = VF_PICK(x, x, 1, 1, 1, 1);
+    spread[2] = VF_PICK(x, x, 2, 2, 2, 2);
+    spread[3] = VF_PICK(x, x, 3, 3, 3, 3);
+}
+
+enum { LINE_FLOATS = 16 };
+
+/* Sixteen floats of each lane to its record, a line of the cache as a whole. lanes: the numbers of
+ * records of `size` floats. */
+SIMD void vf_store_lines(const vf x[LINE_FLOATS], float *records, size_t size,
+                         const uint16_t lanes[LANES])
+{
+    struct columns fours[4];
+    for (size_t i = 0; i < 4; i++)
+        fours[i] = columns_transpose(x[4 * i], x[4 * i + 1], x[4 * i + 2], x[4 * i + 3]);
+    for (int k = 0; k < 4; k++) {
+#if LANES == 16
+#define PARTS(a, b, parts) _mm512_shuffle_f32x4(a, b, parts)
+#define STORE(lane, line)  _mm512_store_ps(records + size * lanes[lane], line)
+        __m512 a = (__m512)fours[0].c[k], b = (__m512)fours[1].c[k];
+        __m512 c = (__m512)fours[2].c[k], d = (__m512)fours[3].c[k];
+        __m512 ab = PARTS(a, b, 0x44), cd = PARTS(c, d, 0x44);
+        __m512 ab_high = PARTS(a, b, 0xee), cd_high = PARTS(c, d, 0xee);
+        STORE(k, PARTS(ab, cd, 0x88));
+        STORE(4 + k, PARTS(ab, cd, 0xdd));
+        STORE(8 + k, PARTS(ab_high, cd_high, 0x88));
+        STORE(12 + k, PARTS(ab_high, cd_high, 0xdd));
+#undef STORE
+#undef PARTS
+#else
+        for (size_t part = 0; part < LANES / 4; part++) {
+            float *to = records + size * lanes[4 * part + (size_t)k];
+            for (size_t i = 0; i < 4; i++)
+                memcpy(to + 4 * i, (const char *)&fours[i].c[k] + 16 * part, 16);
+        }
+#endif
+    }
+}
+
+#endif

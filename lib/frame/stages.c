@@ -1,0 +1,553 @@
+/* One frame through the stages, in the order of figure 3.1. */
+#include "frame/stages.h"
+
+#include "base/error.h"
+
+#include <string.h>
+
+/* Float targets accumulate without the dark bias of 16 bits where that costs nothing: on software.
+ */
+static GLenum target_format(const struct kiln_device *device)
+{
+    return !device || device->info.software ? GL_RGBA32F : GL_RGBA16F;
+}
+
+static uint32_t spheres_of(const struct kiln_scene *scene)
+{
+    uint32_t mask = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        if (scene->systems[i].enabled && kiln_look_is_opaque(&scene->systems[i].look))
+            mask |= 1u << i;
+    }
+    return mask;
+}
+
+/* Of all that is blended. */
+static uint32_t systems_with(const struct kiln_scene *scene, enum kiln_blend blend)
+{
+    uint32_t mask = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        if (scene->systems[i].enabled && scene->systems[i].look.blend == blend)
+            mask |= 1u << i;
+    }
+    return mask & ~spheres_of(scene);
+}
+
+/* Whether particles leave a glow of their own: what the bright pass finds takes its place. */
+static bool needs_glow(const struct kiln_scene *scene, bool layers)
+{
+    bool blooms = scene->post.bloom != KILN_BLOOM_NONE;
+    return blooms ? scene->post.bloom_source != KILN_BLOOM_BRIGHT : layers;
+}
+
+static bool init_targets(struct kiln_stages *s, struct kiln_error *error)
+{
+    uint32_t w = s->scene->width, h = s->scene->height;
+    GLenum format = target_format(s->device);
+    kiln_image_init(&s->scene_color, s->device, w, h, format, "scene");
+    kiln_image_init(&s->scene_depth, s->device, w, h, GL_R32F, "scene depth");
+    kiln_image_init(&s->backdrop_color, s->device, w, h, format, "backdrop");
+    kiln_image_init(&s->backdrop_depth, s->device, w, h, GL_R32F, "backdrop depth");
+    kiln_image_init(&s->particle_color, s->device, w, h, format, "particles");
+    kiln_image_init(&s->bloom_color, s->device, w, h, format, "bloom source");
+    size_t targets = s->glow ? 2 : 1;
+    struct kiln_image *merged[] = {&s->particle_color, &s->bloom_color};
+    if (!kiln_framebuffer_init(&s->particle_framebuffer, s->device, merged, targets, error))
+        return false;
+
+    bool separate = s->scene->post.compose == KILN_COMPOSE_SEPARATE;
+    if (s->layers && !separate) {
+        kiln_image_init(&s->smoke_color, s->device, w, h, format, "smoke");
+        struct kiln_image *smoke[] = {&s->smoke_color};
+        if (!kiln_framebuffer_init(&s->smoke_framebuffer, s->device, smoke, 1, error))
+            return false;
+    }
+    if (!s->layers && !separate)
+        return true;
+    kiln_image_init(&s->fire_color, s->device, w, h, format, "fire");
+    struct kiln_image *fire[] = {&s->fire_color, &s->bloom_color};
+    return kiln_framebuffer_init(&s->fire_framebuffer, s->device, fire, separate ? targets : 1,
+                                 error);
+}
+
+static bool init_atlas(struct kiln_stages *s, struct kiln_error *error)
+{
+    static const char *const plain = "builtin:spark";
+    struct kiln_atlas_request requests[KILN_MAX_SYSTEMS];
+    for (uint32_t i = 0; i < s->scene->system_count; i++) {
+        const struct kiln_look *look = &s->scene->systems[i].look;
+        requests[i] = (struct kiln_atlas_request){.sources = look->atlas,
+                                                  .count = look->atlas_count,
+                                                  .columns = look->columns,
+                                                  .rows = look->rows,
+                                                  .motion = look->motion,
+                                                  .motion_scale = (float)look->motion_scale};
+        if (look->shape != KILN_SHAPE_BILLBOARD) /* shows no texture: the least there is */
+            requests[i] = (struct kiln_atlas_request){
+                .sources = &plain, .count = 1, .columns = 1, .rows = 1, .motion = "none"};
+    }
+    return kiln_atlas_init(&s->atlas, s->device, requests, s->scene->system_count, s->threads,
+                           error);
+}
+
+/* What will be blurred. */
+static struct kiln_image *bloom_source(struct kiln_stages *s)
+{
+    return s->shutter ? kiln_shutter_image(s->shutter, KILN_SHUTTER_BLOOM) : &s->bloom_color;
+}
+
+/* The backdrop draws the scene itself, or what spheres are then put before. */
+static bool init_scenery(struct kiln_stages *s, enum kiln_backdrop_technique technique,
+                         const struct kiln_pool *pool, struct kiln_error *error)
+{
+    bool spheres = spheres_of(s->scene) != 0;
+    const struct kiln_backdrop_params behind = {
+        .technique = technique,
+        .threads = s->threads,
+        .color = spheres ? &s->backdrop_color : &s->scene_color,
+        .depth = spheres ? &s->backdrop_depth : &s->scene_depth,
+        .pool = pool,
+    };
+    s->backdrop = kiln_backdrop_create(s->device, s->scene, &behind, error);
+    if (!s->backdrop)
+        return false;
+    kiln_lighting_use_meshes(s->lighting, kiln_backdrop_meshes(s->backdrop));
+    if (!spheres)
+        return true;
+    const struct kiln_spheres_params before = {
+        .backdrop = s->backdrop,
+        .particles = s->particles,
+        .threads = s->threads,
+        .targets = {.backdrop_color = &s->backdrop_color,
+                    .backdrop_depth = &s->backdrop_depth,
+                    .color = &s->scene_color,
+                    .depth = &s->scene_depth,
+                    .bloom = &s->bloom_color},
+    };
+    s->spheres = kiln_spheres_create(s->device, s->scene, &before, error);
+    return s->spheres;
+}
+
+static bool init_coarse(struct kiln_stages *s, const struct kiln_techniques *techniques,
+                        struct kiln_error *error)
+{
+    if (s->scene->post.resolution == KILN_RESOLUTION_FULL)
+        return true;
+    const struct kiln_coarse_params params = {.particles = s->particles,
+                                              .in_gl = techniques->composite == KILN_COMPOSITE_GL,
+                                              .format = target_format(s->device)};
+    s->coarse = kiln_coarse_create(s->device, s->scene, &params, s->threads, error);
+    return s->coarse != NULL;
+}
+
+static bool init_stages(struct kiln_stages *s, const struct kiln_techniques *techniques,
+                        uint32_t bits, const struct kiln_pool *pool, struct kiln_error *error)
+{
+    struct kiln_device *device = s->device;
+    s->simulate = kiln_simulate_create(device, s->scene, techniques->simulate, s->threads, error);
+    if (!s->simulate)
+        return false;
+    s->sort = techniques->sort_spread > 0
+                  ? kiln_sort_create_spread(device, techniques->sort_spread, s->threads, error)
+                  : kiln_sort_create(device, techniques->sort, s->threads, error);
+    if (!s->sort)
+        return false;
+    s->lighting = kiln_lighting_create(device, s->scene, s->threads, error);
+    if (!s->lighting)
+        return false;
+    s->particles =
+        kiln_particles_create(device, s->scene, &s->atlas, techniques->raster, s->threads, error);
+    if (!s->particles || !init_coarse(s, techniques, error) ||
+        !init_scenery(s, techniques->backdrop, pool, error))
+        return false;
+    if (s->scene->camera.shutter_samples > 1) {
+        s->shutter =
+            kiln_shutter_create(device,
+                                &(struct kiln_shutter_params){.technique = techniques->composite,
+                                                              .threads = s->threads,
+                                                              .width = s->scene->width,
+                                                              .height = s->scene->height},
+                                error);
+        if (!s->shutter)
+            return false;
+    }
+    if (s->scene->post.bloom != KILN_BLOOM_NONE) {
+        s->bloom = kiln_bloom_create(device, s->scene,
+                                     &(struct kiln_bloom_params){.technique = techniques->bloom,
+                                                                 .threads = s->threads,
+                                                                 .source = bloom_source(s),
+                                                                 .format = target_format(device)},
+                                     error);
+        if (!s->bloom)
+            return false;
+    }
+    s->composite =
+        kiln_composite_create(device, s->scene,
+                              &(struct kiln_composite_params){.technique = techniques->composite,
+                                                              .threads = s->threads,
+                                                              .bits = bits ? bits : 8,
+                                                              .beauty = s->layers},
+                              error);
+    return s->composite != NULL;
+}
+
+bool kiln_stages_init(struct kiln_stages *stages, struct kiln_device *device,
+                      const struct kiln_scene *scene, const struct kiln_techniques *techniques,
+                      struct kiln_output_needs needs, struct kiln_threads *threads,
+                      const struct kiln_pool *pool, struct kiln_error *error)
+{
+    *stages = (struct kiln_stages){.device = device, .scene = scene, .threads = threads};
+    stages->layers = needs.layers;
+    stages->glow = needs_glow(scene, needs.layers);
+    kiln_buffer_init(&stages->entries, device, pool->slot_count * sizeof(uint32_t), "entries");
+    stages->timer = kiln_timer_create(device);
+    if (!stages->timer) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "timers: out of memory");
+        goto fail;
+    }
+    if (!init_atlas(stages, error) || !init_targets(stages, error) ||
+        !init_stages(stages, techniques, needs.bits, pool, error))
+        goto fail;
+    return true;
+
+fail:
+    kiln_stages_finish(stages);
+    return false;
+}
+
+void kiln_stages_finish(struct kiln_stages *stages)
+{
+    kiln_composite_destroy(&stages->composite);
+    kiln_bloom_destroy(&stages->bloom);
+    kiln_shutter_destroy(&stages->shutter);
+    kiln_spheres_destroy(&stages->spheres);
+    kiln_coarse_destroy(&stages->coarse);
+    kiln_particles_destroy(&stages->particles);
+    kiln_backdrop_destroy(&stages->backdrop);
+    kiln_lighting_destroy(&stages->lighting);
+    kiln_sort_destroy(&stages->sort);
+    kiln_simulate_destroy(&stages->simulate);
+    kiln_framebuffer_finish(&stages->particle_framebuffer);
+    kiln_framebuffer_finish(&stages->fire_framebuffer);
+    kiln_framebuffer_finish(&stages->smoke_framebuffer);
+    struct kiln_image *images[] = {&stages->backdrop_color, &stages->backdrop_depth,
+                                   &stages->scene_color,    &stages->scene_depth,
+                                   &stages->particle_color, &stages->fire_color,
+                                   &stages->smoke_color,    &stages->bloom_color};
+    for (size_t i = 0; i < sizeof images / sizeof *images; i++)
+        kiln_image_finish(images[i]);
+    kiln_atlas_finish(&stages->atlas);
+    kiln_buffer_finish(&stages->entries);
+    kiln_timer_destroy(&stages->timer);
+}
+
+/* Sorts the chosen systems and draws them into a framebuffer. */
+struct particle_pass {
+    uint32_t systems;
+    bool by_depth;
+    struct kiln_framebuffer *framebuffer;
+    bool keep_bloom; /* clear the colour only */
+    bool sum_alpha, fire_covers;
+    bool by_fragment;
+};
+
+/* Where blending does not ask for an order, none is made. */
+static enum kiln_sort_order order_of(const struct kiln_stages *s, bool by_depth)
+{
+    if (!by_depth)
+        return KILN_SORT_BY_SERIAL;
+    return kiln_particles_nearest_first(s->particles) ? KILN_SORT_FRONT_TO_BACK
+                                                      : KILN_SORT_BACK_TO_FRONT;
+}
+
+static struct kiln_sort_params sort_params(const struct kiln_view *view)
+{
+    return (struct kiln_sort_params){
+        .eye = {view->eye.x, view->eye.y, view->eye.z},
+        .forward = kiln_view_forward(view),
+    };
+}
+
+/* Takes a sort that is spread over frames on to this moment. */
+static bool follow(struct kiln_stages *s, struct kiln_pool *pool, const struct kiln_view *view,
+                   struct kiln_error *error)
+{
+    const struct kiln_sort_params params = sort_params(view);
+    kiln_timer_begin(s->timer, KILN_PASS_sort);
+    bool ok = kiln_sort_follow(s->sort, pool, &params, error);
+    kiln_timer_end(s->timer);
+    return ok;
+}
+
+static bool sort_particles(struct kiln_stages *s, struct kiln_pool *pool,
+                           const struct kiln_view *view, uint32_t systems, bool by_depth,
+                           uint32_t *count, struct kiln_error *error)
+{
+    struct kiln_sort_params params = sort_params(view);
+    params.systems = systems;
+    params.order = order_of(s, by_depth);
+    kiln_timer_begin(s->timer, KILN_PASS_sort);
+    bool ok = kiln_sort_run(s->sort, pool, &params, &s->entries, count, error);
+    kiln_timer_end(s->timer);
+    return ok;
+}
+
+static bool draw_particles(struct kiln_stages *s, struct kiln_pool *pool,
+                           const struct kiln_view *view, const struct particle_pass *pass,
+                           uint32_t *count, struct kiln_error *error)
+{
+    if (!sort_particles(s, pool, view, pass->systems, pass->by_depth, count, error))
+        return false;
+
+    const struct kiln_particles_draw draw = {
+        .pool = pool,
+        .entries = &s->entries,
+        .count = *count,
+        .view = view,
+        .backdrop = kiln_backdrop_block(s->backdrop),
+        .lighting = &s->light,
+        .depth = &s->scene_depth,
+        .framebuffer = pass->framebuffer,
+        .keep_bloom = pass->keep_bloom,
+        .sum_alpha = pass->sum_alpha,
+        .fire_covers = pass->fire_covers,
+        .by_fragment = pass->by_fragment,
+    };
+    kiln_timer_begin(s->timer, KILN_PASS_particles);
+    bool ok = s->coarse ? kiln_coarse_run(s->coarse, &draw, error)
+                        : kiln_particles_run(s->particles, &draw, error);
+    kiln_timer_end(s->timer);
+    return ok;
+}
+
+/* A depth test orders the spheres, so their list need not be sorted. */
+static bool draw_spheres(struct kiln_stages *s, struct kiln_pool *pool,
+                         const struct kiln_view *view, uint32_t *count, struct kiln_error *error)
+{
+    if (!sort_particles(s, pool, view, spheres_of(s->scene), false, count, error))
+        return false;
+    kiln_timer_begin(s->timer, KILN_PASS_particles);
+    bool ok = kiln_spheres_draw(s->spheres, pool, &s->entries, *count, view->clock.x, error);
+    kiln_timer_end(s->timer);
+    return ok;
+}
+
+/* Fire and smoke in one sorted list, or one in each pixel: fire adds and covers nothing, smoke
+ * covers fire and its glow; or fire covers, too (Heinz 2019, 2.3.1). The layers of an EXR are drawn
+ * apart. */
+static bool draw_merged(struct kiln_stages *s, struct kiln_pool *pool, const struct kiln_view *view,
+                        uint32_t *drawn, struct kiln_error *error)
+{
+    uint32_t fire = systems_with(s->scene, KILN_BLEND_ADD);
+    uint32_t smoke = systems_with(s->scene, KILN_BLEND_ALPHA);
+    bool fire_covers = s->scene->post.compose == KILN_COMPOSE_ALPHA;
+    bool by_fragment = s->scene->post.compose == KILN_COMPOSE_OIT && smoke != 0;
+    struct particle_pass all = {.systems = fire | smoke,
+                                .by_depth = smoke != 0 || fire_covers,
+                                .framebuffer = &s->particle_framebuffer,
+                                .keep_bloom = s->spheres != NULL,
+                                .fire_covers = fire_covers,
+                                .by_fragment = by_fragment};
+    if (!draw_particles(s, pool, view, &all, drawn, error))
+        return false;
+    if (!s->layers)
+        return true;
+
+    uint32_t count = 0;
+    struct particle_pass smoke_layer = {.systems = smoke,
+                                        .by_depth = true,
+                                        .framebuffer = &s->smoke_framebuffer,
+                                        .by_fragment = by_fragment};
+    struct particle_pass fire_layer = {.systems = fire,
+                                       .by_depth = fire_covers,
+                                       .framebuffer = &s->fire_framebuffer,
+                                       .fire_covers = fire_covers};
+    return draw_particles(s, pool, view, &smoke_layer, &count, error) &&
+           draw_particles(s, pool, view, &fire_layer, &count, error);
+}
+
+/* The thesis's order: smoke over the scene, then fire summed in a target of its own, so that it
+ * shines through smoke (Heinz 2019, 3.2.1 and figure 4.3). */
+static bool draw_separate(struct kiln_stages *s, struct kiln_pool *pool,
+                          const struct kiln_view *view, uint32_t *drawn, struct kiln_error *error)
+{
+    struct particle_pass smoke = {.systems = systems_with(s->scene, KILN_BLEND_ALPHA),
+                                  .by_depth = true,
+                                  .framebuffer = &s->particle_framebuffer,
+                                  .keep_bloom = s->spheres != NULL};
+    struct particle_pass fire = {.systems = systems_with(s->scene, KILN_BLEND_ADD),
+                                 .framebuffer = &s->fire_framebuffer,
+                                 .keep_bloom = true,
+                                 .sum_alpha = true};
+    uint32_t smoke_count = 0, fire_count = 0;
+    bool ok = draw_particles(s, pool, view, &smoke, &smoke_count, error) &&
+              draw_particles(s, pool, view, &fire, &fire_count, error);
+    *drawn = smoke_count + fire_count;
+    return ok;
+}
+
+/* The pictures of the moment that was drawn last. */
+static struct kiln_composite_inputs moment_inputs(struct kiln_stages *s)
+{
+    bool separate = s->scene->post.compose == KILN_COMPOSE_SEPARATE;
+    return (struct kiln_composite_inputs){
+        .scene = &s->scene_color,
+        .particles = &s->particle_color,
+        .fire = separate ? &s->fire_color : NULL,
+    };
+}
+
+/* The image that is read as the layer of smoke. */
+static struct kiln_image *smoke_layer(struct kiln_stages *s)
+{
+    bool separate = s->scene->post.compose == KILN_COMPOSE_SEPARATE;
+    return separate ? &s->particle_color : &s->smoke_color;
+}
+
+/* Adds the moment to the sums of its frame. */
+static bool add_moment(struct kiln_stages *s, uint32_t moment, struct kiln_error *error)
+{
+    float weight = 1.0f / (float)s->scene->camera.shutter_samples;
+    bool first = moment == 0;
+    const struct kiln_composite_inputs inputs = moment_inputs(s);
+    return kiln_shutter_add_composed(s->shutter, &inputs, weight, first, error) &&
+           (!s->glow || kiln_shutter_add(s->shutter, KILN_SHUTTER_BLOOM, &s->bloom_color, weight,
+                                         first, error)) &&
+           (!s->layers || (kiln_shutter_add(s->shutter, KILN_SHUTTER_FIRE, &s->fire_color, weight,
+                                            first, error) &&
+                           kiln_shutter_add(s->shutter, KILN_SHUTTER_SMOKE, smoke_layer(s), weight,
+                                            first, error)));
+}
+
+bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *pool, uint32_t step,
+                      uint32_t moment, uint32_t *drawn, struct kiln_error *error)
+{
+    struct kiln_stages *s = stages;
+    struct kiln_view view = kiln_view_compute(s->scene, step);
+    if (!follow(s, pool, &view, error))
+        return false;
+
+    kiln_timer_begin(s->timer, KILN_PASS_lighting);
+    bool ok = kiln_lighting_run(s->lighting, pool, &view, &s->light, error);
+    kiln_timer_end(s->timer);
+    if (!ok)
+        return false;
+
+    kiln_timer_begin(s->timer, KILN_PASS_backdrop);
+    ok = kiln_backdrop_draw(s->backdrop, &view, &s->light, error);
+    kiln_timer_end(s->timer);
+    if (!ok)
+        return false;
+
+    uint32_t spheres = 0;
+    if (s->spheres && !draw_spheres(s, pool, &view, &spheres, error))
+        return false;
+    if (s->coarse) {
+        kiln_timer_begin(s->timer, KILN_PASS_particles);
+        ok = kiln_coarse_prepare(s->coarse, &s->scene_depth, error);
+        kiln_timer_end(s->timer);
+        if (!ok)
+            return false;
+    }
+    bool separate = s->scene->post.compose == KILN_COMPOSE_SEPARATE;
+    ok = separate ? draw_separate(s, pool, &view, drawn, error)
+                  : draw_merged(s, pool, &view, drawn, error);
+    if (!ok)
+        return false;
+    *drawn += spheres;
+    if (!s->shutter)
+        return true;
+    kiln_timer_begin(s->timer, KILN_PASS_composite);
+    ok = add_moment(s, moment, error);
+    kiln_timer_end(s->timer);
+    return ok;
+}
+
+bool kiln_stages_keep_history(const struct kiln_stages *stages)
+{
+    return kiln_sort_keeps_history(stages->sort);
+}
+
+bool kiln_stages_pass_over(struct kiln_stages *stages, struct kiln_pool *pool, uint32_t step,
+                           struct kiln_error *error)
+{
+    const struct kiln_view view = kiln_view_compute(stages->scene, step);
+    return follow(stages, pool, &view, error);
+}
+
+bool kiln_stages_compose(struct kiln_stages *stages, uint32_t frame, struct kiln_error *error)
+{
+    struct kiln_stages *s = stages;
+    struct kiln_composite_inputs inputs = moment_inputs(s);
+    if (s->shutter)
+        inputs = (struct kiln_composite_inputs){
+            .scene = kiln_shutter_image(s->shutter, KILN_SHUTTER_COMPOSED)};
+    inputs.frame = frame;
+    inputs.time_s = kiln_scene_time(s->scene, kiln_scene_frame_step(s->scene, frame));
+    if (s->bloom) {
+        const struct kiln_bloom_inputs light = {inputs.scene, inputs.particles, inputs.fire,
+                                                inputs.time_s};
+        kiln_timer_begin(s->timer, KILN_PASS_bloom);
+        inputs.bloom = kiln_bloom_run(s->bloom, &light, &inputs.bloom_scale, error);
+        kiln_timer_end(s->timer);
+        if (!inputs.bloom)
+            return false;
+    }
+    kiln_timer_begin(s->timer, KILN_PASS_composite);
+    bool ok = kiln_composite_run(s->composite, &inputs, error);
+    kiln_timer_end(s->timer);
+    return ok;
+}
+
+static const char *const LAYER_NAMES[] = {"beauty", "depth", "fire", "smoke", "bloom"};
+static const uint32_t LAYER_CHANNELS[] = {4, 1, 4, 4, 4};
+
+uint32_t kiln_stages_layers(const char *names[KILN_MAX_LAYERS], uint32_t channels[KILN_MAX_LAYERS])
+{
+    uint32_t count = sizeof LAYER_CHANNELS / sizeof *LAYER_CHANNELS;
+    for (uint32_t i = 0; i < count; i++) {
+        names[i] = LAYER_NAMES[i];
+        channels[i] = LAYER_CHANNELS[i];
+    }
+    return count;
+}
+
+static bool copy_layer(struct kiln_image *image, struct kiln_layer *layer, struct kiln_error *error)
+{
+    const float *pixels = kiln_image_host(image, KILN_READ, error);
+    if (!pixels)
+        return false;
+    size_t floats = (size_t)image->width * image->height * layer->channels;
+    memcpy(layer->pixels, pixels, floats * sizeof(float));
+    return true;
+}
+
+static bool read_layers(struct kiln_stages *s, struct kiln_picture *picture,
+                        struct kiln_error *error)
+{
+    struct kiln_image *sources[] = {NULL, &s->scene_depth, &s->fire_color, smoke_layer(s),
+                                    bloom_source(s)};
+    if (s->shutter) { /* the depth is that of the last moment: depths have no mean */
+        sources[2] = kiln_shutter_image(s->shutter, KILN_SHUTTER_FIRE);
+        sources[3] = kiln_shutter_image(s->shutter, KILN_SHUTTER_SMOKE);
+    }
+    if (!kiln_composite_read_beauty(s->composite, picture->layers[0].pixels, error))
+        return false;
+    for (uint32_t i = 1; i < picture->layer_count; i++) {
+        if (!copy_layer(sources[i], &picture->layers[i], error))
+            return false;
+    }
+    return true;
+}
+
+bool kiln_stages_read(struct kiln_stages *stages, struct kiln_picture *picture,
+                      struct kiln_error *error)
+{
+    kiln_timer_begin(stages->timer, KILN_PASS_readback);
+    bool ok = picture->bits == 0 ||
+              kiln_composite_read_display(stages->composite, picture->display, error);
+    if (ok && picture->layer_count > 0)
+        ok = read_layers(stages, picture, error);
+    kiln_timer_end(stages->timer);
+    return ok;
+}

@@ -1,0 +1,81 @@
+/* The stages of a job and the images between them (Heinz 2019, figure 3.1). */
+#ifndef KILN_STAGES_H
+#define KILN_STAGES_H
+
+#include "asset/atlas/atlas.h"
+#include "draw/backdrop/backdrop.h"
+#include "draw/solids/spheres.h"
+#include "draw/sprites/coarse.h"
+#include "draw/sprites/particles.h"
+#include "frame/run.h"
+#include "frame/technique.h"
+#include "gpu/timer.h"
+#include "output/output.h"
+#include "post/bloom.h"
+#include "post/composite.h"
+#include "post/shutter.h"
+#include "sim/step/simulate.h"
+#include "sort/sort.h"
+
+struct kiln_stages {
+    struct kiln_device *device; /* NULL: all on the host */
+    const struct kiln_scene *scene;
+    struct kiln_threads *threads;
+    bool layers; /* of an EXR are asked for */
+    bool glow;   /* particles leave one */
+    struct kiln_timer *timer;
+    struct kiln_atlas atlas;
+
+    struct kiln_simulate *simulate;
+    struct kiln_sort *sort;
+    struct kiln_lighting_stage *lighting;
+    struct kiln_lighting light; /* of the moment at hand */
+    struct kiln_backdrop_stage *backdrop;
+    struct kiln_particles_stage *particles;
+    struct kiln_coarse_stage *coarse;   /* NULL: particles have the frame's resolution */
+    struct kiln_spheres_stage *spheres; /* NULL without any */
+    struct kiln_shutter_stage *shutter; /* NULL: a frame is a single moment */
+    struct kiln_bloom_stage *bloom;
+    struct kiln_composite_stage *composite;
+
+    struct kiln_buffer entries;                       /* draw entries of the pass at hand */
+    struct kiln_image backdrop_color, backdrop_depth; /* of a scene with spheres */
+    struct kiln_image scene_color, scene_depth;       /* the backdrop, and spheres if any */
+    struct kiln_image particle_color; /* all particles (merged), or smoke alone (separate) */
+    struct kiln_image fire_color;     /* separate composition, and for layers */
+    struct kiln_image smoke_color;    /* for layers of merged composition */
+    struct kiln_image bloom_color;    /* what will be blurred */
+    struct kiln_framebuffer particle_framebuffer, fire_framebuffer, smoke_framebuffer;
+};
+
+/* Sets everything up for a scene. device NULL: without GL, all techniques `cpu`. needs says what
+ * the output will ask for; threads is borrowed, and so is the pool, whose paint is drawn. On
+ * failure nothing is left. */
+bool kiln_stages_init(struct kiln_stages *stages, struct kiln_device *device,
+                      const struct kiln_scene *scene, const struct kiln_techniques *techniques,
+                      struct kiln_output_needs needs, struct kiln_threads *threads,
+                      const struct kiln_pool *pool, struct kiln_error *error);
+void kiln_stages_finish(struct kiln_stages *stages);
+
+/* Draws the pool as it is after `step` steps, as one of the moments of a frame (from 0; there are
+ * scene->shutter_samples): every stage from sort to particles. *drawn counts the particles. */
+bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *pool, uint32_t step,
+                      uint32_t moment, uint32_t *drawn, struct kiln_error *error);
+
+/* What a moment that is not drawn leaves for later ones, where kiln_stages_keep_history: the same
+ * as one that is. */
+bool kiln_stages_pass_over(struct kiln_stages *stages, struct kiln_pool *pool, uint32_t step,
+                           struct kiln_error *error);
+bool kiln_stages_keep_history(const struct kiln_stages *stages);
+
+/* Makes the picture of a frame of the moments that were drawn: bloom and composite. */
+bool kiln_stages_compose(struct kiln_stages *stages, uint32_t frame, struct kiln_error *error);
+
+/* Copies what was drawn into a picture made for the same needs. */
+bool kiln_stages_read(struct kiln_stages *stages, struct kiln_picture *picture,
+                      struct kiln_error *error);
+
+/* The named layers of a frame, for kiln_picture_create; returns how many. */
+uint32_t kiln_stages_layers(const char *names[KILN_MAX_LAYERS], uint32_t channels[KILN_MAX_LAYERS]);
+
+#endif

@@ -1,0 +1,376 @@
+/* Two tables: the techniques of each stage and what each is for, and which of them `auto` takes. */
+#include "frame/technique.h"
+
+#include "base/error.h"
+#include "base/text.h"
+
+#include <string.h>
+
+enum stage { SIMULATE, SORT, BACKDROP, RASTER, BLOOM, COMPOSITE, STAGE_COUNT };
+_Static_assert((int)STAGE_COUNT == (int)KILN_STAGE_COUNT, "the header says how many");
+
+static const char *const STAGE_NAMES[STAGE_COUNT] = {
+    [SIMULATE] = "simulate", [SORT] = "sort",   [BACKDROP] = "backdrop",
+    [RASTER] = "raster",     [BLOOM] = "bloom", [COMPOSITE] = "composite"};
+
+static const enum kiln_pass STAGE_PASSES[STAGE_COUNT] = {
+    [SIMULATE] = KILN_PASS_simulate, [SORT] = KILN_PASS_sort,   [BACKDROP] = KILN_PASS_backdrop,
+    [RASTER] = KILN_PASS_particles,  [BLOOM] = KILN_PASS_bloom, [COMPOSITE] = KILN_PASS_composite};
+
+#define AUTO "auto"
+
+/* The one technique of sorting with a number behind it. */
+#define SPREADABLE "oddeven"
+
+struct row {
+    enum stage stage;
+    const char *name;
+    int value; /* of the stage's enum */
+    const char *help;
+};
+
+static const struct row ROWS[] = {
+    {SIMULATE, "cpu", KILN_SIMULATE_CPU, "host threads"},
+    {SIMULATE, "inplace", KILN_SIMULATE_INPLACE, "compute, one buffer updated in place"},
+    {SIMULATE, "pingpong", KILN_SIMULATE_PINGPONG,
+     "compute, from one buffer to another; twice the memory"},
+    {SIMULATE, "feedback", KILN_SIMULATE_FEEDBACK,
+     "geometry shaders and transform feedback; twice the memory"},
+    {SIMULATE, "texels", KILN_SIMULATE_TEXELS,
+     "fragment shaders, from textures to textures; three times the memory"},
+    {SORT, "cpu", KILN_SORT_CPU, "stable radix sort, host threads"},
+    {SORT, "radix", KILN_SORT_RADIX, "stable radix sort, compute"},
+    {SORT, "bitonic", KILN_SORT_BITONIC, "bitonic merge sort, compute, padded to a power of two"},
+    {SORT, SPREADABLE, KILN_SORT_ODDEVEN,
+     "odd-even merge sort, compute; " SPREADABLE ":N spreads it over N frames"},
+    {BACKDROP, "cpu", KILN_BACKDROP_CPU, "host threads, rays in vectors"},
+    {BACKDROP, "gl", KILN_BACKDROP_GL, "fragment shaders"},
+    {RASTER, "cpu", KILN_RASTER_CPU, "host threads, tiles and vectors"},
+    {RASTER, "geometry", KILN_RASTER_GEOMETRY,
+     "points turned into billboards by a geometry shader"},
+    {RASTER, "instanced", KILN_RASTER_INSTANCED,
+     "a quad for each particle, without a geometry shader"},
+    {RASTER, "tiled", KILN_RASTER_TILED, "compute: bins, and tiles drawn from front to back"},
+    {BLOOM, "cpu", KILN_BLOOM_CPU, "host threads, rows"},
+    {BLOOM, "gl", KILN_BLOOM_GL, "fragment shaders"},
+    {COMPOSITE, "cpu", KILN_COMPOSITE_CPU, "host threads, rows"},
+    {COMPOSITE, "gl", KILN_COMPOSITE_GL, "one fragment shader"},
+};
+
+enum { ROW_COUNT = sizeof ROWS / sizeof *ROWS };
+
+/* What a device can be, as far as `auto` cares. */
+enum device_class { SOFTWARE, GPU, INEXACT_GPU, CLASS_COUNT };
+
+static const char *const CLASS_NAMES[CLASS_COUNT] = {
+    [SOFTWARE] = "a software device",
+    [GPU] = "a GPU",
+    [INEXACT_GPU] = "a GPU that computes inexactly",
+};
+
+static enum device_class classify(const struct kiln_device_info *device)
+{
+    return device->software ? SOFTWARE : device->exact ? GPU : INEXACT_GPU;
+}
+
+/* `auto`, with its reasons: figures are of docs/measurements.md. */
+static const struct choice {
+    const char *name, *why;
+} AUTO_CHOICES[STAGE_COUNT][CLASS_COUNT] = {
+    [SIMULATE] = {[SOFTWARE] = {"cpu", "threads run the step faster than GL on the same cores"},
+                  [GPU] = {"inplace", "records stay where they are drawn; the least memory in GL"},
+                  [INEXACT_GPU] = {"cpu", "only exact arithmetic may move particles"}},
+    [SORT] = {[SOFTWARE] = {"cpu", "threads sort several times as fast as GL on the same cores"},
+              [GPU] = {"cpu", "the sorts in compute are not measured on a GPU yet"},
+              [INEXACT_GPU] = {"cpu", "only exact arithmetic may order particles"}},
+    [BACKDROP] = {[SOFTWARE] = {"cpu", "several times as fast as GL on the same cores"},
+                  [GPU] = {"gl", "the hardware casts the rays"},
+                  [INEXACT_GPU] = {"gl", "the hardware casts the rays"}},
+    [RASTER] = {[SOFTWARE] = {"cpu", "vectors on the host draw several times as fast as GL there"},
+                [GPU] = {"geometry", "the hardware blends"},
+                [INEXACT_GPU] = {"geometry", "the hardware blends"}},
+    [BLOOM] = {[SOFTWARE] = {"cpu", "several times as fast as GL on the same cores"},
+               [GPU] = {"gl", "the picture is there already"},
+               [INEXACT_GPU] = {"gl", "the picture is there already"}},
+    [COMPOSITE] = {[SOFTWARE] = {"cpu", "faster than GL on the same cores"},
+                   [GPU] = {"gl", "the picture is there already"},
+                   [INEXACT_GPU] = {"gl", "the picture is there already"}},
+};
+
+/* A row of each stage, and why `auto` takes it: NULL where it was asked for. */
+struct choices {
+    const struct row *rows[STAGE_COUNT];
+    const char *why[STAGE_COUNT];
+    uint32_t sort_spread;
+};
+
+static const struct row *find_row(enum stage stage, const char *name)
+{
+    for (size_t i = 0; i < ROW_COUNT; i++) {
+        if (ROWS[i].stage == stage && strcmp(ROWS[i].name, name) == 0)
+            return &ROWS[i];
+    }
+    return NULL;
+}
+
+static struct choices choose_automatically(const struct kiln_device_info *device)
+{
+    struct choices choices = {0};
+    for (int stage = 0; stage < STAGE_COUNT; stage++) {
+        const struct choice *choice = &AUTO_CHOICES[stage][classify(device)];
+        choices.rows[stage] = find_row((enum stage)stage, choice->name);
+        choices.why[stage] = choice->why;
+    }
+    return choices;
+}
+
+static bool unknown_name(const char *what, const char *found, const char *const *names,
+                         size_t count, struct kiln_error *error)
+{
+    char list[256] = "";
+    for (size_t i = 0; i < count; i++) {
+        size_t used = strlen(list);
+        snprintf(list + used, sizeof list - used, "%s%s", i ? ", " : "", names[i]);
+    }
+    const char *nearest = kiln_text_nearest(found, names, count);
+    return kiln_error_set(error, KILN_USAGE, "%s '%s' is not known%s%s%s; there is: %s", what,
+                          found, nearest ? " (did you mean '" : "", nearest ? nearest : "",
+                          nearest ? "'?)" : "", list);
+}
+
+/* Takes ":N" off "oddeven:N". */
+static bool take_spread(char *name, uint32_t *spread, struct kiln_error *error)
+{
+    *spread = 0;
+    char *colon = strchr(name, ':');
+    if (!colon || (size_t)(colon - name) != strlen(SPREADABLE) ||
+        strncmp(name, SPREADABLE, strlen(SPREADABLE)) != 0)
+        return true;
+    uint64_t frames = 0;
+    if (!kiln_text_to_uint64(colon + 1, &frames) || frames < 1 || frames > KILN_SORT_MAX_SPREAD)
+        return kiln_error_set(error, KILN_USAGE,
+                              "technique: sort=%s: expected " SPREADABLE
+                              ":N with the frames that it is spread over, 1 to %d",
+                              name, KILN_SORT_MAX_SPREAD);
+    *spread = (uint32_t)frames;
+    *colon = '\0';
+    return true;
+}
+
+static bool apply_flag(const char *flag, const struct choices *automatic, struct choices *choices,
+                       struct kiln_error *error)
+{
+    const char *equals = strchr(flag, '=');
+    if (!equals || equals == flag || equals[1] == '\0')
+        return kiln_error_set(error, KILN_USAGE, "technique '%s': expected stage=name", flag);
+    char stage_name[64];
+    snprintf(stage_name, sizeof stage_name, "%.*s", (int)(equals - flag), flag);
+
+    size_t stage = 0;
+    while (stage < STAGE_COUNT && strcmp(STAGE_NAMES[stage], stage_name) != 0)
+        stage++;
+    if (stage == STAGE_COUNT)
+        return unknown_name("technique: stage", stage_name, STAGE_NAMES, STAGE_COUNT, error);
+
+    char name[64];
+    snprintf(name, sizeof name, "%s", equals + 1);
+    uint32_t spread = 0;
+    if (stage == SORT && !take_spread(name, &spread, error))
+        return false;
+    bool is_auto = strcmp(name, AUTO) == 0;
+    const struct row *row = find_row((enum stage)stage, name);
+    if (is_auto || row) {
+        if (stage == SORT)
+            choices->sort_spread = spread;
+        choices->rows[stage] = is_auto ? automatic->rows[stage] : row;
+        choices->why[stage] = is_auto ? automatic->why[stage] : NULL;
+        return true;
+    }
+    const char *names[ROW_COUNT + 1];
+    size_t count = 0;
+    for (size_t i = 0; i < ROW_COUNT; i++) {
+        if (ROWS[i].stage == (enum stage)stage)
+            names[count++] = ROWS[i].name;
+    }
+    names[count++] = AUTO;
+    char what[96];
+    snprintf(what, sizeof what, "technique: %s", stage_name);
+    return unknown_name(what, equals + 1, names, count, error);
+}
+
+/* The first row that was chosen and runs in GL, which only those called `cpu` do not; or NULL. */
+static const struct row *find_gl(const struct choices *choices)
+{
+    for (int stage = 0; stage < STAGE_COUNT; stage++) {
+        if (strcmp(choices->rows[stage]->name, "cpu") != 0)
+            return choices->rows[stage];
+    }
+    return NULL;
+}
+
+static bool refuse_gl(const struct row *row, const char *device, struct kiln_error *error)
+{
+    const char *stage = STAGE_NAMES[row->stage];
+    return kiln_error_set(error, KILN_USAGE,
+                          "technique %s=%s needs OpenGL, which the device '%s' does not have: use "
+                          "%s=cpu, or another device ('kiln devices' lists them)",
+                          stage, row->name, device, stage);
+}
+
+bool kiln_techniques_need_gl(const char *const *techniques, size_t count)
+{
+    const struct kiln_device_info host = {.software = true, .exact = true};
+    const struct choices automatic = choose_automatically(&host);
+    struct choices choices = automatic;
+    struct kiln_error ignored = {0};
+    for (size_t i = 0; i < count; i++)
+        apply_flag(techniques[i], &automatic, &choices, &ignored);
+    return find_gl(&choices) != NULL;
+}
+
+bool kiln_techniques_choose(const struct kiln_device_info *device, const char *const *flags,
+                            size_t flag_count, struct kiln_techniques *techniques,
+                            struct kiln_error *error)
+{
+    const struct choices automatic = choose_automatically(device);
+    struct choices choices = automatic;
+    for (size_t i = 0; i < flag_count; i++) {
+        if (!apply_flag(flags[i], &automatic, &choices, error))
+            return false;
+    }
+    if (!device->gl && find_gl(&choices))
+        return refuse_gl(find_gl(&choices), device->name, error);
+    if (choices.rows[SIMULATE]->value != KILN_SIMULATE_CPU && !device->exact)
+        return kiln_error_set(error, KILN_NO_DEVICE,
+                              "%s computes inexactly: it can not simulate; use simulate=cpu",
+                              device->name);
+    if (choices.rows[SORT]->value != KILN_SORT_CPU && !device->exact)
+        return kiln_error_set(error, KILN_NO_DEVICE,
+                              "%s computes inexactly: it can not sort; use sort=cpu", device->name);
+    *techniques = (struct kiln_techniques){
+        .simulate = (enum kiln_simulate_technique)choices.rows[SIMULATE]->value,
+        .sort = (enum kiln_sort_technique)choices.rows[SORT]->value,
+        .sort_spread = choices.sort_spread,
+        .backdrop = (enum kiln_backdrop_technique)choices.rows[BACKDROP]->value,
+        .raster = (enum kiln_raster_technique)choices.rows[RASTER]->value,
+        .bloom = (enum kiln_bloom_technique)choices.rows[BLOOM]->value,
+        .composite = (enum kiln_composite_technique)choices.rows[COMPOSITE]->value,
+    };
+    for (int stage = 0; stage < STAGE_COUNT; stage++)
+        techniques->choices[stage] = (struct kiln_technique_choice){
+            STAGE_NAMES[stage], choices.rows[stage]->name, choices.why[stage]};
+    return true;
+}
+
+struct kiln_device_params kiln_techniques_device(const char *wanted, const char *const *flags,
+                                                 size_t flag_count)
+{
+    struct kiln_device_params params = KILN_DEVICE_DEFAULTS;
+    params.gl = kiln_techniques_need_gl(flags, flag_count);
+    params.wanted = wanted || params.gl ? wanted : KILN_DEVICE_CPU;
+    return params;
+}
+
+/* The rows of a stage in their order, with `cpu` before the others. */
+static size_t list_rows(enum stage stage, const struct row *rows[ROW_COUNT])
+{
+    const struct row *first = find_row(stage, "cpu");
+    size_t count = 0;
+    if (first)
+        rows[count++] = first;
+    for (size_t i = 0; i < ROW_COUNT; i++) {
+        if (ROWS[i].stage == stage && &ROWS[i] != first)
+            rows[count++] = &ROWS[i];
+    }
+    return count;
+}
+
+/* The stages at the end of a frame vary fastest: their techniques are those whose pixels differ. */
+bool kiln_techniques_combination(size_t index, struct kiln_technique_list *list)
+{
+    for (int stage = STAGE_COUNT; stage-- > 0;) {
+        const struct row *rows[ROW_COUNT];
+        size_t count = list_rows((enum stage)stage, rows);
+        snprintf(list->flags[stage], sizeof list->flags[stage], "%s=%s", STAGE_NAMES[stage],
+                 rows[index % count]->name);
+        index /= count;
+    }
+    return index == 0;
+}
+
+const char *kiln_stage_name(size_t stage)
+{
+    return STAGE_NAMES[stage];
+}
+
+enum kiln_pass kiln_stage_pass(size_t stage)
+{
+    return STAGE_PASSES[stage];
+}
+
+size_t kiln_stage_techniques(size_t stage, const char *names[KILN_MAX_TECHNIQUES])
+{
+    size_t count = 0;
+    for (size_t i = 0; i < ROW_COUNT && count < KILN_MAX_TECHNIQUES; i++) {
+        if (ROWS[i].stage == (enum stage)stage)
+            names[count++] = ROWS[i].name;
+    }
+    return count;
+}
+
+void kiln_technique_describe(const struct kiln_techniques *techniques, size_t stage, char *out,
+                             size_t size)
+{
+    const struct kiln_technique_choice *choice = &techniques->choices[stage];
+    if (stage == SORT && techniques->sort_spread > 0)
+        snprintf(out, size, "%s=%s:%u", choice->stage, choice->name, techniques->sort_spread);
+    else
+        snprintf(out, size, "%s=%s", choice->stage, choice->name);
+}
+
+void kiln_techniques_describe(const struct kiln_techniques *techniques, char *out, size_t size)
+{
+    size_t used = 0;
+    for (size_t stage = 0; stage < STAGE_COUNT && used < size; stage++) {
+        char name[KILN_TECHNIQUE_SIZE];
+        kiln_technique_describe(techniques, stage, name, sizeof name);
+        int length = snprintf(out + used, size - used, "%s%s", used ? " " : "", name);
+        used += length > 0 ? (size_t)length : 0;
+    }
+}
+
+void kiln_visit_techniques(void (*visit)(void *user, const char *name, const char *help),
+                           void *user)
+{
+    for (size_t i = 0; i < ROW_COUNT; i++) {
+        char name[64];
+        snprintf(name, sizeof name, "%s=%s", STAGE_NAMES[ROWS[i].stage], ROWS[i].name);
+        visit(user, name, ROWS[i].help);
+    }
+}
+
+static void write_technique(void *user, const char *name, const char *help)
+{
+    fprintf(user, "  %-18s %s\n", name, help);
+}
+
+/* The table of `auto`: a paragraph a class of devices. */
+static void write_choices(FILE *out, enum device_class class)
+{
+    fprintf(out, "\n'" AUTO "' on %s:\n", CLASS_NAMES[class]);
+    for (int stage = 0; stage < STAGE_COUNT; stage++) {
+        const struct choice *choice = &AUTO_CHOICES[stage][class];
+        char name[64];
+        snprintf(name, sizeof name, "%s=%s", STAGE_NAMES[stage], choice->name);
+        fprintf(out, "  %-18s %s\n", name, choice->why);
+    }
+}
+
+bool kiln_write_techniques(FILE *out)
+{
+    write_technique(out, "STAGE=" AUTO, "the default of each stage, by the tables below");
+    kiln_visit_techniques(write_technique, out);
+    for (int class = 0; class < CLASS_COUNT; class ++)
+        write_choices(out, (enum device_class) class);
+    return !ferror(out);
+}

@@ -1,0 +1,219 @@
+/* Reading and printing keys. Slopes are divided, and areas added up, here, once, in IEEE float:
+ * every technique then interpolates with the same bits. */
+#include "option/animated.h"
+
+#include <math.h>
+#include <string.h>
+
+bool kiln_node_is_animated(const struct kiln_node *node)
+{
+    return node->kind == KILN_NODE_MAP && node->first &&
+           (strcmp(node->first->key->text, "keys") == 0 ||
+            strcmp(node->first->key->text, "life") == 0);
+}
+
+/* ---- reading -------------------------------------------------------------------------------- */
+
+/* Do the option's values take one number for all three components? */
+static bool allows_grey(const struct kiln_option *option)
+{
+    return option->type == &kiln_type_color;
+}
+
+/* The components of one key, or of a constant: numbers without a clock. */
+static bool read_plain(struct kiln_reader *reader, const struct kiln_option *option,
+                       const struct kiln_node *node, float *out, unsigned count)
+{
+    struct kiln_option number = *option; /* what an error says is expected */
+    number.type = &kiln_type_number;
+    number.clocks = 0;
+    if (count == 1)
+        return kiln_read_float(reader, &number, node, out);
+    if (node->kind == KILN_NODE_SCALAR && allows_grey(option)) {
+        if (!kiln_read_float(reader, &number, node, out))
+            return false;
+        out[1] = out[2] = out[0];
+        return true;
+    }
+    if (node->kind != KILN_NODE_LIST || node->count != count)
+        return kiln_reader_expected(reader, node, "[x, y, z]");
+    const struct kiln_node *item = node->first;
+    for (unsigned i = 0; i < count; i++, item = item->next) {
+        if (!kiln_read_float(reader, &number, item, &out[i]))
+            return false;
+    }
+    return true;
+}
+
+/* Where the keys of `count` components go while they are read. */
+struct curve {
+    struct kiln_value *values;
+    unsigned count;
+    uint32_t points;
+};
+
+static bool begin_curve(struct kiln_reader *reader, const struct kiln_node *node,
+                        struct curve *curve, uint32_t clock)
+{
+    if (node->count == 0)
+        return kiln_reader_error(reader, node, "needs at least one key");
+    uint32_t needed = curve->count * node->count; /* node->count <= KILN_NODE_MAX_ENTRIES */
+    if (needed > KILN_MAX_VALUE_KEYS - reader->key_count)
+        return kiln_reader_error(reader, node,
+                                 "%u keys are too many; a scene has at most %d and used %u before",
+                                 needed, KILN_MAX_VALUE_KEYS, reader->key_count);
+    for (unsigned i = 0; i < curve->count; i++) {
+        uint32_t first = reader->key_count + i * node->count;
+        curve->values[i] =
+            (struct kiln_value){.first = first, .count = node->count, .clock = clock};
+    }
+    reader->key_count += needed;
+    return true;
+}
+
+/* Some stages flush denormals and some do not (see shared/exact.h). */
+static float without_denormals(float x)
+{
+    return fabsf(x) < 0x1p-100f ? 0 : x;
+}
+
+static bool add_point(struct kiln_reader *reader, const struct kiln_node *node, struct curve *curve,
+                      float x, const float *y)
+{
+    for (unsigned i = 0; i < curve->count; i++) {
+        float4 *key = &reader->keys[curve->values[i].first + curve->points];
+        *key = FLOAT4(x, y[i], 0, without_denormals(x * y[i]));
+        if (curve->points == 0)
+            continue;
+        if (x <= key[-1].x)
+            return kiln_reader_error(reader, node, "keys must ascend, each after the one before");
+        float slope = (y[i] - key[-1].y) / (x - key[-1].x);
+        if (!isfinite(slope))
+            return kiln_reader_error(reader, node, "too close to the key before");
+        key[-1].z = without_denormals(slope);
+        float area = (x - key[-1].x) * (0.5f * (key[-1].y + y[i]));
+        key->w = without_denormals(key[-1].w + area);
+    }
+    curve->points++;
+    return true;
+}
+
+/* A clock's own "option": what the x of a key may be. */
+static const struct kiln_option time_axis = {.name = "time",
+                                             .type = &kiln_type_number,
+                                             .dimension = KILN_SECONDS,
+                                             .min = -100000,
+                                             .max = 1000000};
+static const struct kiln_option life_axis = {
+    .name = "life", .type = &kiln_type_number, .dimension = KILN_FRACTION, .min = 0, .max = 1};
+
+static bool read_points(struct kiln_reader *reader, const struct kiln_option *option,
+                        const struct kiln_node *node, struct curve *curve,
+                        const struct kiln_option *axis)
+{
+    uint32_t index = 0;
+    for (const struct kiln_node *entry = node->first; entry; entry = entry->next, index++) {
+        float x = 0, y[3] = {0};
+        size_t before = entry->key ? kiln_reader_enter(reader, entry->key->text)
+                                   : kiln_reader_enter_index(reader, index);
+        if (entry->key && !kiln_read_float(reader, axis, entry->key, &x))
+            return false;
+        if (!entry->key && node->count > 1) /* a list: spread evenly over the life */
+            x = (float)((double)index / (double)(node->count - 1));
+        if (!read_plain(reader, option, entry, y, curve->count) ||
+            !add_point(reader, entry->key ? entry->key : entry, curve, x, y))
+            return false;
+        kiln_reader_leave(reader, before);
+    }
+    return true;
+}
+
+static const char *allowed_clocks(const struct kiln_option *option)
+{
+    switch (option->clocks) {
+    case KILN_ALLOW_TIME:
+        return "a constant or {keys: {...}} over time";
+    case KILN_ALLOW_LIFE:
+        return "a constant or {life: ...} over a particle's life";
+    case KILN_ALLOW_BOTH:
+        return "a constant, {keys: {...}} over time or {life: ...} over a particle's life";
+    default:
+        return "a constant";
+    }
+}
+
+static bool read_curve(struct kiln_reader *reader, const struct kiln_option *option,
+                       const struct kiln_node *node, struct kiln_value *values, unsigned count)
+{
+    if (!kiln_node_is_animated(node) || node->count != 1)
+        return kiln_reader_error(reader, node, "expected %s, found a mapping",
+                                 allowed_clocks(option));
+    const struct kiln_node *keys = node->first;
+    bool over_life = strcmp(keys->key->text, "life") == 0;
+    uint32_t clock = over_life ? KILN_CLOCK_LIFE : KILN_CLOCK_TIME;
+    size_t before = kiln_reader_enter(reader, keys->key->text);
+    if (!(option->clocks & 1u << clock))
+        return kiln_reader_error(reader, keys->key, "cannot vary over %s here; allowed is %s",
+                                 over_life ? "life" : "time", allowed_clocks(option));
+    if (!over_life && keys->kind != KILN_NODE_MAP)
+        return kiln_reader_expected(reader, keys, "a mapping {time: value, ...}");
+    if (over_life && keys->kind == KILN_NODE_SCALAR)
+        return kiln_reader_expected(reader, keys, "[first, ..., last] or {part of life: value}");
+    struct curve curve = {.values = values, .count = count};
+    if (!begin_curve(reader, keys, &curve, clock) ||
+        !read_points(reader, option, keys, &curve, over_life ? &life_axis : &time_axis))
+        return false;
+    kiln_reader_leave(reader, before);
+    return true;
+}
+
+bool kiln_read_animated(struct kiln_reader *reader, const struct kiln_option *option,
+                        const struct kiln_node *node, struct kiln_value *values, unsigned count)
+{
+    if (node->kind == KILN_NODE_MAP)
+        return read_curve(reader, option, node, values, count);
+    if (count == 3 && node->kind == KILN_NODE_LIST) {
+        if (node->count != 3)
+            return kiln_reader_mismatch(reader, option, node);
+        struct kiln_option component = *option;
+        component.type = &kiln_type_value;
+        const struct kiln_node *item = node->first;
+        for (uint32_t i = 0; i < 3; i++, item = item->next) {
+            size_t before = kiln_reader_enter_index(reader, i);
+            if (!kiln_read_animated(reader, &component, item, &values[i], 1))
+                return false;
+            kiln_reader_leave(reader, before);
+        }
+        return true;
+    }
+    if (node->kind == KILN_NODE_LIST || (count == 3 && !allows_grey(option)))
+        return kiln_reader_mismatch(reader, option, node);
+    float plain[3] = {0};
+    if (!read_plain(reader, option, node, plain, count))
+        return false;
+    for (unsigned i = 0; i < count; i++)
+        values[i] = (struct kiln_value){.constant = plain[i]};
+    return true;
+}
+
+/* ---- printing ------------------------------------------------------------------------------- */
+
+void kiln_print_animated(struct kiln_printer *printer, const struct kiln_option *option,
+                         const struct kiln_value *value)
+{
+    char x[48], y[48];
+    if (value->count == 0) {
+        kiln_unit_print(y, option->dimension, value->constant);
+        kiln_text_add(&printer->text, "%s", y);
+        return;
+    }
+    bool over_life = value->clock == KILN_CLOCK_LIFE;
+    kiln_text_add(&printer->text, over_life ? "{life: {" : "{keys: {");
+    for (uint32_t i = 0; i < value->count; i++) {
+        float4 key = printer->scene->keys[value->first + i];
+        kiln_unit_print(x, over_life ? KILN_FRACTION : KILN_SECONDS, key.x);
+        kiln_unit_print(y, option->dimension, key.y);
+        kiln_text_add(&printer->text, "%s%s: %s", i ? ", " : "", x, y);
+    }
+    kiln_text_add(&printer->text, "}}");
+}

@@ -1,0 +1,345 @@
+/* libfyaml's events become the tree; its own documents are not used, because events let us refuse
+ * anchors and depth before anything is built from them. */
+#include "option/node.h"
+
+#include <libfyaml.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/text.h"
+
+void kiln_node_append(struct kiln_node *node, struct kiln_node *child)
+{
+    if (node->last)
+        node->last->next = child;
+    else
+        node->first = child;
+    node->last = child;
+    node->count++;
+}
+
+struct kiln_node *kiln_node_entry(const struct kiln_node *node, const char *key)
+{
+    if (node->kind != KILN_NODE_MAP)
+        return NULL;
+    for (struct kiln_node *entry = node->first; entry; entry = entry->next) {
+        if (strcmp(entry->key->text, key) == 0)
+            return entry;
+    }
+    return NULL;
+}
+
+struct kiln_node *kiln_node_create_map(struct kiln_arena *arena, const struct kiln_origin *origin)
+{
+    struct kiln_node *node = kiln_arena_alloc(arena, 1, sizeof *node);
+    if (node) {
+        node->kind = KILN_NODE_MAP;
+        node->origin = origin;
+    }
+    return node;
+}
+
+bool kiln_node_error(const struct kiln_node *node, struct kiln_error *error, const char *format,
+                     ...)
+{
+    char message[KILN_MESSAGE_SIZE];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(message, sizeof message, format, args);
+    va_end(args);
+    if (!node->origin->has_lines || node->line == 0)
+        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: %s", node->origin->name, message);
+    return kiln_error_set(error, KILN_INVALID_INPUT, "%s:%u:%u: %s", node->origin->name, node->line,
+                          node->column, message);
+}
+
+void kiln_node_quote(char out[64], const char *text)
+{
+    enum { SHOWN = 48 };
+    size_t length = 0;
+    while (*text) {
+        size_t bytes = kiln_text_utf8_length(text);
+        if (length + (bytes ? bytes : 1) > SHOWN) {
+            memcpy(out + length, "...", 4);
+            return;
+        }
+        bool control = bytes == 0 || (unsigned char)*text < 0x20 || *text == 0x7f;
+        /* U+0080 to U+009F are controls, too. */
+        if (bytes == 2 && (unsigned char)text[0] == 0xc2 && (unsigned char)text[1] < 0xa0)
+            control = true;
+        if (control)
+            out[length++] = '?';
+        else
+            for (size_t i = 0; i < bytes; i++)
+                out[length++] = text[i];
+        text += bytes ? bytes : 1;
+    }
+    out[length] = '\0';
+}
+
+/* ---- building ------------------------------------------------------------------------------ */
+
+struct builder {
+    struct kiln_arena *arena;
+    struct kiln_error *error;
+    const struct kiln_origin *origin;
+    struct kiln_node *root;
+    struct kiln_node *open[KILN_NODE_MAX_DEPTH]; /* the collections around the next event */
+    struct kiln_node *key[KILN_NODE_MAX_DEPTH];  /* of open[i], a mapping: waits for its value */
+    uint32_t depth, total, documents;
+};
+
+static bool out_of_memory(struct kiln_error *error)
+{
+    return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading a scene");
+}
+
+static struct kiln_node *create_node(struct builder *builder, struct fy_event *event,
+                                     enum kiln_node_kind kind)
+{
+    struct kiln_node *node = kiln_arena_alloc(builder->arena, 1, sizeof *node);
+    if (!node) {
+        out_of_memory(builder->error);
+        return NULL;
+    }
+    node->kind = kind;
+    node->origin = builder->origin;
+    const struct fy_mark *mark = fy_event_start_mark(event);
+    if (mark) {
+        node->line = (uint32_t)mark->line + 1;
+        node->column = (uint32_t)mark->column + 1;
+    }
+    if (++builder->total > KILN_NODE_MAX_TOTAL) {
+        kiln_node_error(node, builder->error, "more than %d entries in all", KILN_NODE_MAX_TOTAL);
+        return NULL;
+    }
+    return node;
+}
+
+/* Takes a node in as the root, the next entry of a list, or a key or value of a mapping. */
+static bool place_node(struct builder *builder, struct kiln_node *node)
+{
+    struct kiln_error *error = builder->error;
+    if (builder->depth == 0) {
+        builder->root = node;
+        return true;
+    }
+    struct kiln_node *parent = builder->open[builder->depth - 1];
+    struct kiln_node **key = &builder->key[builder->depth - 1];
+    if (parent->count == KILN_NODE_MAX_ENTRIES)
+        return kiln_node_error(node, error, "more than %d entries in one list or mapping",
+                               KILN_NODE_MAX_ENTRIES);
+    if (parent->kind == KILN_NODE_LIST || *key) {
+        node->key = *key;
+        if (*key && node->line == 0) { /* "key:" with nothing behind it */
+            node->line = (*key)->line;
+            node->column = (*key)->column;
+        }
+        *key = NULL;
+        kiln_node_append(parent, node);
+        return true;
+    }
+    char quoted[64];
+    if (node->kind != KILN_NODE_SCALAR)
+        return kiln_node_error(node, error, "a key must be a word, not a list or mapping");
+    kiln_node_quote(quoted, node->text);
+    if (strcmp(node->text, "<<") == 0)
+        return kiln_node_error(node, error, "merge keys are not allowed");
+    if (*node->text == '\0')
+        return kiln_node_error(node, error, "empty key");
+    const struct kiln_node *before = kiln_node_entry(parent, node->text);
+    if (before && builder->origin->has_lines)
+        return kiln_node_error(node, error, "duplicate key '%s' (first in line %u)", quoted,
+                               before->key->line);
+    if (before)
+        return kiln_node_error(node, error, "duplicate key '%s'", quoted);
+    *key = node;
+    return true;
+}
+
+static bool open_collection(struct builder *builder, struct fy_event *event,
+                            enum kiln_node_kind kind)
+{
+    struct kiln_node *node = create_node(builder, event, kind);
+    if (!node || !place_node(builder, node))
+        return false;
+    if (builder->depth == KILN_NODE_MAX_DEPTH)
+        return kiln_node_error(node, builder->error, "nested deeper than %d levels",
+                               KILN_NODE_MAX_DEPTH);
+    builder->open[builder->depth] = node;
+    builder->key[builder->depth] = NULL;
+    builder->depth++;
+    return true;
+}
+
+static bool add_scalar(struct builder *builder, struct fy_event *event)
+{
+    struct kiln_node *node = create_node(builder, event, KILN_NODE_SCALAR);
+    if (!node)
+        return false;
+    size_t length = 0;
+    const char *text = event->scalar.value ? fy_token_get_text(event->scalar.value, &length) : "";
+    if (!text || memchr(text, '\0', length))
+        return kiln_node_error(node, builder->error, "a text must not contain zero bytes");
+    node->text = kiln_arena_text(builder->arena, text, length);
+    if (!node->text)
+        return out_of_memory(builder->error);
+    enum fy_scalar_style style =
+        event->scalar.value ? fy_scalar_token_get_style(event->scalar.value) : FYSS_PLAIN;
+    node->quoted = style != FYSS_PLAIN;
+    /* libfyaml's mark is behind the opening quote. */
+    if (style == FYSS_SINGLE_QUOTED || style == FYSS_DOUBLE_QUOTED)
+        node->column--;
+    return place_node(builder, node);
+}
+
+/* A node for the position of an event that we refuse. */
+static bool refuse(struct builder *builder, struct fy_event *event, const char *reason)
+{
+    struct kiln_node *node = create_node(builder, event, KILN_NODE_SCALAR);
+    return node && kiln_node_error(node, builder->error, "%s", reason);
+}
+
+static const char *kind_of(const struct kiln_origin *origin)
+{
+    return origin->kind ? origin->kind : "a scene";
+}
+
+static bool refuse_second_document(struct builder *builder, struct fy_event *event)
+{
+    char reason[96];
+    snprintf(reason, sizeof reason, "%s is one document; a second starts here",
+             kind_of(builder->origin));
+    return refuse(builder, event, reason);
+}
+
+static bool refuse_decoration(struct builder *builder, struct fy_event *event,
+                              struct fy_token *anchor, struct fy_token *tag)
+{
+    if (anchor)
+        return refuse(builder, event, "anchors and aliases are not allowed");
+    if (tag)
+        return refuse(builder, event, "tags are not allowed");
+    return true;
+}
+
+static bool take_event(struct builder *builder, struct fy_event *event)
+{
+    switch (event->type) {
+    case FYET_DOCUMENT_START:
+        if (builder->documents++ > 0)
+            return refuse_second_document(builder, event);
+        return true;
+    case FYET_ALIAS:
+        return refuse(builder, event, "anchors and aliases are not allowed");
+    case FYET_SCALAR:
+        return refuse_decoration(builder, event, event->scalar.anchor, event->scalar.tag) &&
+               add_scalar(builder, event);
+    case FYET_MAPPING_START:
+        return refuse_decoration(builder, event, event->mapping_start.anchor,
+                                 event->mapping_start.tag) &&
+               open_collection(builder, event, KILN_NODE_MAP);
+    case FYET_SEQUENCE_START:
+        return refuse_decoration(builder, event, event->sequence_start.anchor,
+                                 event->sequence_start.tag) &&
+               open_collection(builder, event, KILN_NODE_LIST);
+    case FYET_MAPPING_END:
+    case FYET_SEQUENCE_END:
+        builder->depth--;
+        return true;
+    default:
+        return true;
+    }
+}
+
+/* libfyaml's first complaint, in our form. */
+static bool report_syntax(struct builder *builder, struct fy_diag *diag)
+{
+    struct kiln_node place = {.origin = builder->origin};
+    void *iterator = NULL;
+    const struct fy_diag_error *first = fy_diag_errors_iterate(diag, &iterator);
+    if (!first || !first->msg)
+        return kiln_node_error(&place, builder->error, "not valid YAML");
+    if (first->line > 0 && first->column > 0) {
+        place.line = (uint32_t)first->line;
+        place.column = (uint32_t)first->column;
+    }
+    return kiln_node_error(&place, builder->error, "not valid YAML: %s", first->msg);
+}
+
+static bool take_all_events(struct builder *builder, struct fy_parser *parser, struct fy_diag *diag)
+{
+    for (;;) {
+        struct fy_event *event = fy_parser_parse(parser);
+        if (!event)
+            break;
+        enum fy_event_type type = event->type;
+        bool ok = take_event(builder, event);
+        fy_parser_event_free(parser, event);
+        if (!ok)
+            return false;
+        if (type == FYET_STREAM_END)
+            return true;
+    }
+    return report_syntax(builder, diag);
+}
+
+/* Refuses what is no text before a parser sees it. */
+static bool check_bytes(const char *text, size_t size, const struct kiln_origin *origin,
+                        struct kiln_error *error)
+{
+    struct kiln_node place = {.origin = origin, .line = 1, .column = 1};
+    for (size_t i = 0; i < size;) {
+        size_t length = kiln_text_utf8_length(text + i);
+        if (text[i] == '\0')
+            return kiln_node_error(&place, error, "not a text: a zero byte");
+        if (length == 0)
+            return kiln_node_error(&place, error, "not a text: invalid UTF-8 (byte 0x%02x)",
+                                   (unsigned char)text[i]);
+        if (text[i] == '\n') {
+            place.line++;
+            place.column = 0;
+        }
+        place.column++;
+        i += length;
+    }
+    return true;
+}
+
+struct kiln_node *kiln_node_parse(struct kiln_arena *arena, const char *text, size_t size,
+                                  const struct kiln_origin *origin, struct kiln_error *error)
+{
+    if (!check_bytes(text, size, origin, error))
+        return NULL;
+
+    struct builder builder = {.arena = arena, .error = error, .origin = origin};
+    /* Collected diagnostics are printed nowhere. */
+    struct fy_diag *diag = fy_diag_create(&(struct fy_diag_cfg){.level = FYET_ERROR});
+    struct fy_parse_cfg config = {.flags = FYPCF_QUIET | FYPCF_COLLECT_DIAG | FYPCF_JSON_NONE,
+                                  .diag = diag};
+    struct fy_parser *parser = NULL;
+    if (diag) {
+        fy_diag_set_collect_errors(diag, true);
+        parser = fy_parser_create(&config);
+    }
+    bool ok = false;
+    if (!parser || fy_parser_set_string(parser, text, size) != 0)
+        out_of_memory(error);
+    else
+        ok = take_all_events(&builder, parser, diag);
+    if (ok && !builder.root) {
+        struct kiln_node place = {.origin = origin};
+        if (origin->has_lines)
+            ok = kiln_node_error(&place, error, "empty; %s starts with '%s'", kind_of(origin),
+                                 origin->version ? origin->version : "kiln: 1");
+        else
+            ok = kiln_node_error(&place, error, "there is no value after '='");
+    }
+    if (parser)
+        fy_parser_destroy(parser);
+    if (diag)
+        fy_diag_destroy(diag);
+    return ok ? builder.root : NULL;
+}

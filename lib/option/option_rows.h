@@ -1,0 +1,67 @@
+/* How the tables write their rows. Before the rows of a table, AT(field) is defined as the offset
+ * of a field in its struct. Included by options_*.c only. */
+#ifndef KILN_SCENE_OPTION_ROWS_H
+#define KILN_SCENE_OPTION_ROWS_H
+
+#include "option/option.h"
+
+/* The limit of places in a scene: particles beyond 2^20 m die, so this is well inside. */
+#define FAR 100000
+
+#define TIME KILN_ALLOW_TIME
+#define BOTH KILN_ALLOW_BOTH
+
+#define ROW(name_, type_, offset_, fallback_, help_)                                               \
+    .name = name_, .type = &kiln_type_##type_, .offset = offset_, .fallback = fallback_,           \
+    .help = help_
+#define LIMITS(dimension_, min_, max_) .dimension = dimension_, .min = min_, .max = max_
+
+/* name, field, dimension, smallest, largest, clocks, default, help */
+#define VALUE(n, f, dim, lo, hi, when, def, h)                                                     \
+    {                                                                                              \
+        ROW(n, value, AT(f), def, h), LIMITS(dim, lo, hi), .clocks = when                          \
+    }
+#define VECTOR(n, f, dim, lo, hi, when, def, h)                                                    \
+    {                                                                                              \
+        ROW(n, vector, AT(f), def, h), LIMITS(dim, lo, hi), .clocks = when                         \
+    }
+#define RANGE(n, f, dim, lo, hi, when, def, h)                                                     \
+    {                                                                                              \
+        ROW(n, range, AT(f), def, h), LIMITS(dim, lo, hi), .clocks = when                          \
+    }
+/* name, field, largest, clocks, default, help */
+#define COLOR(n, f, hi, when, def, h)                                                              \
+    {                                                                                              \
+        ROW(n, color, AT(f), def, h), LIMITS(KILN_PLAIN, 0, hi), .clocks = when                    \
+    }
+/* name, field, smallest, largest, default, help */
+#define INTEGER(n, f, lo, hi, def, h)                                                              \
+    {                                                                                              \
+        ROW(n, integer, AT(f), def, h), LIMITS(KILN_PLAIN, lo, hi)                                 \
+    }
+/* name, field, default, help */
+#define BOOLEAN(n, f, def, h)                                                                      \
+    {                                                                                              \
+        ROW(n, boolean, AT(f), def, h)                                                             \
+    }
+/* name, field, words, default, help */
+#define CHOICE(n, f, words, def, h)                                                                \
+    {                                                                                              \
+        ROW(n, choice, AT(f), def, h), .choices = words                                            \
+    }
+/* name, offset, members, help; every member has a default or is required on its own */
+#define GROUP(n, at, rows, h)                                                                      \
+    {                                                                                              \
+        ROW(n, group, at, "{}", h), .members = rows                                                \
+    }
+/* name, field, default, help */
+#define BOUNDS(n, f, def, h)                                                                       \
+    {                                                                                              \
+        ROW(n, bounds, AT(f), def, h), LIMITS(KILN_METRES, -FAR, FAR), .word = "none"              \
+    }
+#define END                                                                                        \
+    {                                                                                              \
+        .name = NULL                                                                               \
+    }
+
+#endif

@@ -1,0 +1,238 @@
+/* The key is walked through the tree and through the option tables side by side: the tables tell
+ * where a name is the author's own (a system), which a misspelling must not add to. */
+#include "option/override.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "option/option.h"
+
+enum { MAX_PARTS = 32, MAX_KEY = 256 };
+
+struct override {
+    struct kiln_arena *arena;
+    struct kiln_error *error;
+    const struct kiln_origin *origin;
+    const struct kiln_node *value;
+    const char *parts[MAX_PARTS]; /* of the key */
+    uint32_t part_count;
+    uint32_t places; /* set so far */
+    bool wild;       /* the key has a '*': what does not fit is passed over */
+};
+
+static bool out_of_memory(struct override *override)
+{
+    return kiln_error_set(override->error, KILN_DEVICE_FAILED,
+                          "out of memory while reading a scene");
+}
+
+static bool fail(struct override *override, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+static bool fail(struct override *override, const char *format, ...)
+{
+    char message[KILN_MESSAGE_SIZE];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(message, sizeof message, format, args);
+    va_end(args);
+    return kiln_error_set(override->error, KILN_INVALID_INPUT, "%s: %s", override->origin->name,
+                          message);
+}
+
+/* A copy, so that a later override of one place leaves the others alone. */
+static struct kiln_node *copy_tree(struct override *override, const struct kiln_node *node)
+{
+    struct kiln_node *copy = kiln_arena_alloc(override->arena, 1, sizeof *copy);
+    if (!copy) {
+        out_of_memory(override);
+        return NULL;
+    }
+    *copy = *node;
+    copy->first = copy->last = copy->next = NULL;
+    copy->count = 0;
+    for (const struct kiln_node *child = node->first; child; child = child->next) {
+        struct kiln_node *child_copy = copy_tree(override, child); /* as deep as YAML may nest */
+        if (!child_copy)
+            return NULL;
+        kiln_node_append(copy, child_copy);
+    }
+    return copy;
+}
+
+/* Puts a new node in place of one, which keeps its key and its neighbours. */
+static void replace(struct kiln_node *node, const struct kiln_node *by)
+{
+    struct kiln_node *key = node->key, *next = node->next;
+    *node = *by;
+    node->key = key;
+    node->next = next;
+}
+
+static struct kiln_node *add_entry(struct override *override, struct kiln_node *map,
+                                   const char *name)
+{
+    struct kiln_node *key = kiln_arena_alloc(override->arena, 1, sizeof *key);
+    struct kiln_node *entry = kiln_node_create_map(override->arena, override->origin);
+    if (!key || !entry) {
+        out_of_memory(override);
+        return NULL;
+    }
+    *key = (struct kiln_node){.origin = override->origin, .text = name};
+    entry->key = key;
+    kiln_node_append(map, entry);
+    return entry;
+}
+
+static bool unknown_name(struct override *override, const struct kiln_node *node, const char *name)
+{
+    const char *names[64];
+    size_t count = 0;
+    for (const struct kiln_node *entry = node->first; entry && count < 64; entry = entry->next)
+        names[count++] = entry->key->text;
+    char suggestion[512];
+    kiln_option_suggest(suggestion, sizeof suggestion, name, names, count);
+    return fail(override, "there is no '%s'%s", name, suggestion);
+}
+
+/* What may be under a node. */
+struct place {
+    const struct kiln_option *members; /* the table of its keys, or NULL: not known */
+    bool closed;                       /* its keys cannot be made up */
+};
+
+static struct place place_under(const struct kiln_node *node, struct place place,
+                                const struct kiln_node *child)
+{
+    if (node->kind == KILN_NODE_LIST) /* a force, an object: its one key is its kind */
+        return (struct place){.closed = true};
+    if (place.members && place.closed) /* a named entry: the table is that of its members */
+        return (struct place){.members = place.members};
+    const struct kiln_option *option =
+        place.members ? kiln_option_find(place.members, child->key->text) : NULL;
+    if (!option)
+        return (struct place){0};
+    return (struct place){.members = option->members, .closed = option->type == &kiln_type_map};
+}
+
+/* The entry of a list or mapping that a part of the key names; NULL with an error. */
+static struct kiln_node *find_child(struct override *override, struct kiln_node *node,
+                                    struct place place, const char *name)
+{
+    if (node->kind == KILN_NODE_LIST) {
+        uint64_t index = 0;
+        if (!kiln_text_to_uint64(name, &index)) {
+            fail(override, "'%s' is no index into a list", name);
+            return NULL;
+        }
+        if (index >= node->count) {
+            fail(override, "there is no entry %s; the list has %u", name, node->count);
+            return NULL;
+        }
+        struct kiln_node *child = node->first;
+        while (index--)
+            child = child->next;
+        return child;
+    }
+    if (node->kind == KILN_NODE_SCALAR) /* "none", say: make room for the mapping that is meant */
+        replace(node, &(struct kiln_node){.kind = KILN_NODE_MAP, .origin = override->origin});
+    struct kiln_node *child = kiln_node_entry(node, name);
+    if (child)
+        return child;
+    if (place.closed) {
+        unknown_name(override, node, name);
+        return NULL;
+    }
+    return add_entry(override, node, name);
+}
+
+/* Is this the name of a list that the scene does not have? */
+static bool lacks_list(const struct kiln_node *node, struct place place, const char *name)
+{
+    if (!place.members || place.closed || kiln_node_entry(node, name))
+        return false;
+    const struct kiln_option *option = kiln_option_find(place.members, name);
+    return option && option->type == &kiln_type_list;
+}
+
+/* Sets all places that the parts from this one on name below node. */
+static bool walk(struct override *override, struct kiln_node *node, struct place place,
+                 uint32_t part)
+{
+    if (part == override->part_count) {
+        const struct kiln_node *copy = copy_tree(override, override->value);
+        if (!copy)
+            return false;
+        replace(node, copy);
+        override->places++;
+        return true;
+    }
+    const char *name = override->parts[part];
+    if (strcmp(name, "*") != 0) {
+        if (lacks_list(node, place, name) && part + 1 < override->part_count)
+            return override->wild || fail(override, "there is no entry %s; the list is empty",
+                                          override->parts[part + 1]);
+        struct kiln_node *child = find_child(override, node, place, name);
+        return child && walk(override, child, place_under(node, place, child), part + 1);
+    }
+    for (struct kiln_node *child = node->first; child; child = child->next) {
+        struct place below = place_under(node, place, child);
+        /* Of a list of several kinds, '*' means those that fit. */
+        bool fits = node->kind != KILN_NODE_LIST || child->kind != KILN_NODE_MAP ||
+                    part + 1 == override->part_count ||
+                    strcmp(override->parts[part + 1], "*") == 0 ||
+                    kiln_node_entry(child, override->parts[part + 1]);
+        if (fits && !walk(override, child, below, part + 1))
+            return false;
+    }
+    return true;
+}
+
+/* Splits the key at its dots. */
+static bool split_key(struct override *override, char *key)
+{
+    for (char *part = key; part;) {
+        if (override->part_count == MAX_PARTS)
+            return fail(override, "a key has at most %d parts", MAX_PARTS);
+        override->parts[override->part_count++] = part;
+        char *dot = strchr(part, '.');
+        if (dot)
+            *dot = '\0';
+        if (*part == '\0')
+            return fail(override, "a part of the key is empty");
+        override->wild |= strcmp(part, "*") == 0;
+        part = dot ? dot + 1 : NULL;
+    }
+    return true;
+}
+
+bool kiln_override(struct kiln_arena *arena, struct kiln_node *root, const char *text,
+                   struct kiln_error *error)
+{
+    struct override override = {.arena = arena, .error = error};
+    char quoted[64];
+    const char *equals = strchr(text, '=');
+    bool printable = equals != NULL;
+    for (const char *c = text; printable && c < equals; c++)
+        printable = *c >= 0x20 && *c <= 0x7e;
+    if (!printable || equals == text || equals - text > MAX_KEY) {
+        kiln_node_quote(quoted, text);
+        return kiln_error_set(error, KILN_USAGE, "--set %s: expected KEY=VALUE", quoted);
+    }
+    char *key = kiln_arena_text(arena, text, (size_t)(equals - text));
+    char *name = kiln_arena_alloc(arena, MAX_KEY + 8, 1);
+    struct kiln_origin *origin = kiln_arena_alloc(arena, 1, sizeof *origin);
+    char *value = kiln_arena_text(arena, equals + 1, strlen(equals + 1));
+    if (!key || !name || !origin || !value)
+        return out_of_memory(&override);
+    snprintf(name, MAX_KEY + 8, "--set %s", key);
+    origin->name = name;
+    override.origin = origin;
+    override.value = kiln_node_parse(arena, value, strlen(value), origin, error);
+    if (!override.value || !split_key(&override, key) ||
+        !walk(&override, root, (struct place){.members = kiln_options_root}, 0))
+        return false;
+    return override.places > 0 || fail(&override, "there is nothing of that name");
+}

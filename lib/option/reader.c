@@ -1,0 +1,339 @@
+/* What all types' readers share: the place for errors, defaults, numbers, and filling a struct. */
+#include "option/reader.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/error.h"
+
+/* ---- where we are --------------------------------------------------------------------------- */
+
+size_t kiln_reader_enter(struct kiln_reader *reader, const char *name)
+{
+    size_t before = reader->path_length;
+    char quoted[64];
+    kiln_node_quote(quoted, name);
+    int added = snprintf(reader->path + before, sizeof reader->path - before, "%s%s",
+                         before ? "." : "", quoted);
+    size_t length = before + (added > 0 ? (size_t)added : 0);
+    reader->path_length = length < sizeof reader->path ? length : sizeof reader->path - 1;
+    return before;
+}
+
+size_t kiln_reader_enter_index(struct kiln_reader *reader, uint32_t index)
+{
+    char name[16];
+    snprintf(name, sizeof name, "%u", index);
+    return kiln_reader_enter(reader, name);
+}
+
+void kiln_reader_leave(struct kiln_reader *reader, size_t length)
+{
+    reader->path_length = length;
+    reader->path[length] = '\0';
+}
+
+bool kiln_reader_error(struct kiln_reader *reader, const struct kiln_node *node, const char *format,
+                       ...)
+{
+    char message[KILN_MESSAGE_SIZE];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(message, sizeof message, format, args);
+    va_end(args);
+    /* "--set camera.fov: camera.fov: ..." would stutter. */
+    const char *name = node->origin->name;
+    size_t name_length = strlen(name);
+    bool same = !node->origin->has_lines && name_length >= reader->path_length &&
+                strcmp(name + name_length - reader->path_length, reader->path) == 0;
+    if (same || reader->path_length == 0)
+        return kiln_node_error(node, reader->error, "%s", message);
+    return kiln_node_error(node, reader->error, "%s: %s", reader->path, message);
+}
+
+bool kiln_reader_out_of_memory(struct kiln_reader *reader)
+{
+    return kiln_error_set(reader->error, KILN_DEVICE_FAILED, "out of memory while reading a scene");
+}
+
+bool kiln_reader_expected(struct kiln_reader *reader, const struct kiln_node *node,
+                          const char *expected)
+{
+    if (node->kind == KILN_NODE_LIST)
+        return kiln_reader_error(reader, node, "expected %s, found a list", expected);
+    if (node->kind == KILN_NODE_MAP)
+        return kiln_reader_error(reader, node, "expected %s, found a mapping", expected);
+    if (*node->text == '\0' && !node->quoted)
+        return kiln_reader_error(reader, node, "expected %s, found nothing", expected);
+    char quoted[64];
+    kiln_node_quote(quoted, node->text);
+    if (node->quoted)
+        return kiln_reader_error(reader, node, "expected %s, found the text \"%s\"", expected,
+                                 quoted);
+    return kiln_reader_error(reader, node, "expected %s, found '%s'", expected, quoted);
+}
+
+bool kiln_reader_mismatch(struct kiln_reader *reader, const struct kiln_option *option,
+                          const struct kiln_node *node)
+{
+    struct kiln_text expected = {0};
+    option->type->describe(option, &expected);
+    if (option->clocks & KILN_ALLOW_TIME)
+        kiln_text_add(&expected, ", or {keys: {time: value}}");
+    if (option->clocks & KILN_ALLOW_LIFE)
+        kiln_text_add(&expected, ", or {life: [...]}");
+    if (expected.failed || !expected.data)
+        kiln_reader_out_of_memory(reader);
+    else
+        kiln_reader_expected(reader, node, expected.data);
+    kiln_text_free(&expected);
+    return false;
+}
+
+/* ---- options -------------------------------------------------------------------------------- */
+
+const struct kiln_option *kiln_option_find(const struct kiln_option *table, const char *name)
+{
+    for (; table->name; table++) {
+        if (strcmp(table->name, name) == 0)
+            return table;
+    }
+    return NULL;
+}
+
+void kiln_option_suggest(char *out, size_t size, const char *name, const char *const *names,
+                         size_t count)
+{
+    const char *nearest = kiln_text_nearest(name, names, count);
+    if (nearest) {
+        snprintf(out, size, " (did you mean '%s'?)", nearest);
+        return;
+    }
+    size_t length = (size_t)snprintf(out, size, count ? " (there are: " : " (there are none)");
+    for (size_t i = 0; i < count && length < size; i++)
+        length += (size_t)snprintf(out + length, size - length, "%s%s", i ? ", " : "", names[i]);
+    if (count && length < size)
+        snprintf(out + length, size - length, ")");
+}
+
+const char *kiln_option_clocks(const struct kiln_option *option)
+{
+    switch (option->clocks) {
+    case KILN_ALLOW_TIME:
+        return "over time";
+    case KILN_ALLOW_LIFE:
+        return "over life";
+    case KILN_ALLOW_BOTH:
+        return "over time or life";
+    default:
+        return NULL;
+    }
+}
+
+void kiln_option_describe_limits(const struct kiln_option *option, struct kiln_text *out)
+{
+    char min[48], max[48];
+    kiln_unit_print_double(min, option->dimension, option->min);
+    kiln_unit_print_double(max, option->dimension, option->max);
+    if (option->min == option->max)
+        kiln_text_add(out, " %s", min);
+    else
+        kiln_text_add(out, " from %s to %s", min, max);
+}
+
+/* A default becomes a tree once a load, however many systems use it. */
+struct kiln_default {
+    struct kiln_default *next;
+    const struct kiln_option *option;
+    const struct kiln_node *node;
+};
+
+static const struct kiln_node *parse_default(struct kiln_reader *reader,
+                                             const struct kiln_option *option)
+{
+    static const struct kiln_origin origin = {.name = "(default)", .has_lines = false};
+    for (struct kiln_default *known = reader->defaults; known; known = known->next) {
+        if (known->option == option)
+            return known->node;
+    }
+    struct kiln_default *added = kiln_arena_alloc(reader->scratch, 1, sizeof *added);
+    if (!added) {
+        kiln_reader_out_of_memory(reader);
+        return NULL;
+    }
+    added->option = option;
+    added->node = kiln_node_parse(reader->scratch, option->fallback, strlen(option->fallback),
+                                  &origin, reader->error);
+    added->next = reader->defaults;
+    reader->defaults = added;
+    return added->node;
+}
+
+/* ---- structs -------------------------------------------------------------------------------- */
+
+static bool check_keys(struct kiln_reader *reader, const struct kiln_option *members,
+                       const struct kiln_node *node)
+{
+    for (const struct kiln_node *entry = node->first; entry; entry = entry->next) {
+        if (kiln_option_find(members, entry->key->text))
+            continue;
+        const char *names[64];
+        size_t count = 0;
+        for (const struct kiln_option *row = members; row->name && count < 64; row++)
+            names[count++] = row->name;
+        char suggestion[512];
+        kiln_option_suggest(suggestion, sizeof suggestion, entry->key->text, names, count);
+        kiln_reader_enter(reader, entry->key->text);
+        return kiln_reader_error(reader, entry->key, "unknown key%s", suggestion);
+    }
+    return true;
+}
+
+/* The default, where there is one. A group that is not there ("none") has no required keys. */
+static const struct kiln_node *default_of(struct kiln_reader *reader,
+                                          const struct kiln_option *option,
+                                          const struct kiln_node *group)
+{
+    if (option->fallback)
+        return parse_default(reader, option);
+    if (group)
+        kiln_reader_error(reader, group, "missing; it must be given");
+    return NULL;
+}
+
+bool kiln_reader_is_text(const struct kiln_node *node)
+{
+    static const char *const others[] = {"true", "false", "null", "~"};
+    double number;
+    if (node->kind != KILN_NODE_SCALAR || *node->text == '\0')
+        return false;
+    bool is_other = kiln_text_to_double(node->text, &number);
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        is_other |= strcmp(node->text, others[i]) == 0;
+    return node->quoted || !is_other;
+}
+
+bool kiln_read_members(struct kiln_reader *reader, const struct kiln_option *members,
+                       const struct kiln_node *node, void *base)
+{
+    if (node && node->kind != KILN_NODE_MAP)
+        return kiln_reader_expected(reader, node, "a mapping of keys");
+    if (node && !check_keys(reader, members, node))
+        return false;
+    for (const struct kiln_option *row = members; row->name; row++) {
+        const struct kiln_node *value = node ? kiln_node_entry(node, row->name) : NULL;
+        size_t before = kiln_reader_enter(reader, row->name);
+        if (!value)
+            value = default_of(reader, row, node);
+        if (!value && (node || row->fallback))
+            return false;
+        if (value && !row->type->read(reader, row, value, (char *)base + row->offset))
+            return false;
+        kiln_reader_leave(reader, before);
+    }
+    return true;
+}
+
+/* ---- numbers -------------------------------------------------------------------------------- */
+
+static bool is_named_number(const char *text)
+{
+    static const char *const names[] = {"nan", "inf", "infinity"};
+    text += *text == '-' || *text == '+';
+    text += *text == '.';
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        if (strcasecmp(text, names[i]) == 0)
+            return true;
+    }
+    return false;
+}
+
+static bool unit_error(struct kiln_reader *reader, const struct kiln_option *option,
+                       const struct kiln_node *node, const char *unit)
+{
+    char quoted[64];
+    kiln_node_quote(quoted, unit);
+    if (option->dimension == KILN_PLAIN)
+        return kiln_reader_error(reader, node, "'%s' does not fit; this number has no unit",
+                                 quoted);
+    return kiln_reader_error(reader, node, "'%s' does not fit; the unit is %s", quoted,
+                             kiln_unit_choices(option->dimension));
+}
+
+static bool limit_error(struct kiln_reader *reader, const struct kiln_option *option,
+                        const struct kiln_node *node)
+{
+    char quoted[64];
+    kiln_node_quote(quoted, node->text);
+    struct kiln_text limits = {0};
+    kiln_option_describe_limits(option, &limits);
+    kiln_reader_error(reader, node, "%s is out of range; allowed is%s", quoted,
+                      limits.data ? limits.data : "");
+    kiln_text_free(&limits);
+    return false;
+}
+
+/* The number without its limits. */
+static bool read_si(struct kiln_reader *reader, const struct kiln_option *option,
+                    const struct kiln_node *node, double *value)
+{
+    const char *unit = "";
+    if (node->kind != KILN_NODE_SCALAR)
+        return kiln_reader_mismatch(reader, option, node);
+    if (!node->quoted && is_named_number(node->text))
+        return kiln_reader_error(reader, node, "%s is no finite number", node->text);
+    if (!kiln_unit_split(node->text, value, &unit))
+        return kiln_reader_mismatch(reader, option, node);
+    if (*unit == '\0') {
+        if (node->quoted)
+            return kiln_reader_mismatch(reader, option, node);
+        if (!kiln_unit_is_required(option->dimension) || *value == 0)
+            return true;
+        const char *rate = option->dimension == KILN_ANGLE ? "" : "/s";
+        return kiln_reader_error(reader, node, "an angle needs its unit: %s deg%s or %s rad%s",
+                                 node->text, rate, node->text, rate);
+    }
+    if (!kiln_unit_to_si(option->dimension, unit, value))
+        return unit_error(reader, option, node, unit);
+    return true;
+}
+
+bool kiln_read_number(struct kiln_reader *reader, const struct kiln_option *option,
+                      const struct kiln_node *node, double *value)
+{
+    if (!read_si(reader, option, node, value))
+        return false;
+    if (!(*value >= option->min && *value <= option->max))
+        return limit_error(reader, option, node);
+    return true;
+}
+
+bool kiln_read_float(struct kiln_reader *reader, const struct kiln_option *option,
+                     const struct kiln_node *node, float *value)
+{
+    double number = 0;
+    if (!read_si(reader, option, node, &number))
+        return false;
+    /* Compared as floats, so that a printed limit is within the limit. The first test keeps the
+     * conversion defined. */
+    if (!(fabs(number) <= 1e30) || (float)number < (float)option->min ||
+        (float)number > (float)option->max)
+        return limit_error(reader, option, node);
+    /* Some stages flush denormals and some do not (see shared/exact.h): a value has none. */
+    *value = fabs(number) < 0x1p-100 ? 0.0f : (float)number;
+    return true;
+}
+
+bool kiln_read_whole(struct kiln_reader *reader, const struct kiln_option *option,
+                     const struct kiln_node *node, uint32_t *value)
+{
+    double number = 0;
+    if (!kiln_read_number(reader, option, node, &number))
+        return false;
+    if (floor(number) != number)
+        return kiln_reader_mismatch(reader, option, node);
+    *value = (uint32_t)number;
+    return true;
+}

@@ -1,0 +1,205 @@
+/* The reference of scene keys, from the option tables. */
+#include "option/reference.h"
+
+#include <string.h>
+
+#include "asset/atlas/builtin.h"
+
+enum { WIDTH = 100, MAX_VARIANTS = 32 };
+
+/* A paragraph, indented and broken at blanks. */
+static void add_wrapped(struct kiln_text *out, unsigned indent, const char *text)
+{
+    size_t room = WIDTH - indent;
+    while (*text) {
+        size_t length = strlen(text);
+        if (length > room) {
+            length = room;
+            while (length > 1 && text[length] != ' ')
+                length--;
+        }
+        kiln_text_add(out, "%*s%.*s\n", (int)indent, "", (int)length, text);
+        text += length;
+        text += strspn(text, " ");
+    }
+}
+
+/* A walk over a table and the tables in it. */
+struct walk {
+    void (*visit)(void *user, const struct kiln_scene_key *key);
+    void *user;
+    bool failed;
+};
+
+static void visit_rows(struct walk *walk, const char *prefix, const struct kiln_option *rows);
+
+/* Words that a value may be, between bars. */
+static void add_words(struct kiln_text *out, const struct kiln_option *row)
+{
+    if (row->type == &kiln_type_boolean)
+        kiln_text_add(out, "true|false");
+    for (size_t i = 0; row->choices && row->choices[i]; i++)
+        kiln_text_add(out, "%s%s", i ? "|" : "", row->choices[i]);
+    for (size_t i = 0; row->type == &kiln_type_assets && kiln_builtin_name(i); i++)
+        kiln_text_add(out, "%sbuiltin:%s", i ? "|" : "", kiln_builtin_name(i));
+    if (row->word)
+        kiln_text_add(out, "%s", row->word);
+    if (row->type == &kiln_type_switch || row->type == &kiln_type_picture ||
+        row->type == &kiln_type_bounds)
+        kiln_text_add(out, "none");
+}
+
+static void visit_row(struct walk *walk, const char *path, const struct kiln_option *row)
+{
+    struct kiln_scene_key key = {.path = path, .help = row->help};
+    key.holds_keys = row->members || row->kinds || row->item;
+    if (row->type == &kiln_type_group) {
+        walk->visit(walk->user, &key);
+        return;
+    }
+    struct kiln_text allowed = {0}, words = {0};
+    row->type->describe(row, &allowed);
+    if (*kiln_unit_choices(row->dimension))
+        kiln_text_add(&allowed, "; unit %s", kiln_unit_choices(row->dimension));
+    key.allowed = allowed.data ? allowed.data : "";
+    key.varies = kiln_option_clocks(row);
+    key.fallback = row->fallback;
+    add_words(&words, row);
+    key.words = words.data;
+    walk->visit(walk->user, &key);
+    walk->failed |= allowed.failed || words.failed;
+    kiln_text_free(&allowed);
+    kiln_text_free(&words);
+}
+
+/* `field` chooses among kinds of one name, of which the first is meant without it. */
+static void visit_field(struct walk *walk, const char *path, const struct kiln_option_kind *first)
+{
+    const char *variants[MAX_VARIANTS + 1] = {NULL};
+    for (size_t i = 0; i < MAX_VARIANTS && first[i].name && strcmp(first[i].name, first->name) == 0;
+         i++)
+        variants[i] = first[i].variant;
+    struct kiln_text name = {0};
+    kiln_text_add(&name, "%s.field", path);
+    const struct kiln_option row = {.type = &kiln_type_choice,
+                                    .choices = variants,
+                                    .fallback = first->variant,
+                                    .help = "Which of these it is."};
+    if (!name.failed)
+        visit_row(walk, name.data, &row);
+    walk->failed |= name.failed;
+    kiln_text_free(&name);
+}
+
+static void visit_kinds(struct walk *walk, const char *path, const struct kiln_option_kind *kinds)
+{
+    for (const struct kiln_option_kind *kind = kinds; kind->name; kind++) {
+        struct kiln_text name = {0};
+        kiln_text_add(&name, "%s.%s", path, kind->name);
+        if (!name.failed) {
+            walk->visit(walk->user, &(struct kiln_scene_key){.path = name.data,
+                                                             .help = kind->help,
+                                                             .variant = kind->variant,
+                                                             .shortcut = kind->shortcut,
+                                                             .holds_keys = true});
+            bool is_first = kind == kinds || strcmp(kind[-1].name, kind->name) != 0;
+            if (kind->variant && is_first)
+                visit_field(walk, name.data, kind);
+            visit_rows(walk, name.data, kind->members);
+        }
+        walk->failed |= name.failed;
+        kiln_text_free(&name);
+    }
+}
+
+static void visit_rows(struct walk *walk, const char *prefix, const struct kiln_option *rows)
+{
+    for (const struct kiln_option *row = rows; row->name && !walk->failed; row++) {
+        struct kiln_text path = {0};
+        kiln_text_add(&path, "%s%s%s", prefix, *prefix ? "." : "", row->name);
+        if (!path.failed)
+            visit_row(walk, path.data, row);
+        const struct kiln_option *item = row->type == &kiln_type_list ? row->item : row;
+        if (row->type == &kiln_type_map)
+            kiln_text_add(&path, ".NAME");
+        else if (row->type == &kiln_type_list)
+            kiln_text_add(&path, ".N");
+        if (item->members && !path.failed)
+            visit_rows(walk, path.data, item->members);
+        if (item->kinds && !path.failed)
+            visit_kinds(walk, path.data, item->kinds);
+        walk->failed |= path.failed;
+        kiln_text_free(&path);
+    }
+}
+
+static void add_key(void *user, const struct kiln_scene_key *key)
+{
+    struct kiln_text *out = user;
+    kiln_text_add(out, "%s", key->path);
+    if (key->variant)
+        kiln_text_add(out, " with field: %s", key->variant);
+    kiln_text_add(out, "\n");
+    add_wrapped(out, 4, key->help);
+    if (key->shortcut) {
+        const char *dot = strrchr(key->path, '.');
+        const char *name = dot ? dot + 1 : key->path;
+        kiln_text_add(out, "    %s: VALUE is short for %s: {%s: VALUE}\n", name, name,
+                      key->shortcut);
+    }
+    if (key->allowed)
+        add_wrapped(out, 4, key->allowed);
+    if (key->varies)
+        kiln_text_add(out, "    may vary %s\n", key->varies);
+    if (key->fallback)
+        kiln_text_add(out, "    default: %s\n", key->fallback);
+    else if (key->allowed)
+        kiln_text_add(out, "    must be given\n");
+    kiln_text_add(out, "\n");
+}
+
+bool kiln_reference_write(FILE *out, const char *introduction, const struct kiln_option *rows)
+{
+    struct kiln_text text = {0};
+    kiln_text_add(&text, "%s", introduction);
+    struct walk walk = {.visit = add_key, .user = &text};
+    visit_rows(&walk, "", rows);
+    bool ok = !walk.failed && !text.failed && fputs(text.data, out) >= 0 && fflush(out) == 0;
+    kiln_text_free(&text);
+    return ok;
+}
+
+static const char scene_introduction[] =
+    "A scene is a YAML file. Every key below may also be given with --set KEY=VALUE; '*' in a KEY\n"
+    "stands for every entry of a mapping or list, and entries of a list are counted from 0.\n"
+    "\n"
+    "Numbers may carry a unit (2 s, 45 deg); without one they are in the SI unit, except that an\n"
+    "angle always needs one. Where it is allowed, a number or colour may vary:\n"
+    "\n"
+    "    {keys: {0 s: 1, 3 s: 2}}      over time; 0 s is the first frame\n"
+    "    {life: [0.1, 1.2]}            over a particle's life, evenly spread from birth to death\n"
+    "    {life: {0: 0, 0.2: 1, 1: 0}}  the same with the parts of the life named\n"
+    "\n"
+    "joined by straight lines, held before the first and after the last. A vector or colour "
+    "varies\n"
+    "as a whole ({keys: {0 s: [1, 0, 0], 1 s: [0, 1, 0]}}) or in each component.\n"
+    "\n"
+    "Metres, y up, right-handed; colours linear, Rec. 709 primaries.\n"
+    "\n";
+
+bool kiln_scene_write_reference(FILE *out)
+{
+    return kiln_reference_write(out, scene_introduction, kiln_options_root);
+}
+
+const char *kiln_scene_introduction(void)
+{
+    return scene_introduction;
+}
+
+bool kiln_scene_visit_keys(void (*visit)(void *user, const struct kiln_scene_key *key), void *user)
+{
+    struct walk walk = {.visit = visit, .user = user};
+    visit_rows(&walk, "", kiln_options_root);
+    return !walk.failed;
+}

@@ -1,0 +1,234 @@
+/* Types that hold other options: group, switch, map, list. */
+#include <ctype.h>
+#include <string.h>
+
+#include "option/printer.h"
+#include "option/reader.h"
+#include "option/schema.h"
+
+/* The number of entries beside an array: both lie in the struct that the option's table describes.
+ */
+static uint32_t *count_of(const struct kiln_option *option, void *field)
+{
+    return (uint32_t *)((char *)field - option->offset + option->count_offset);
+}
+
+static uint32_t read_count(const struct kiln_option *option, const void *field)
+{
+    return *(const uint32_t *)((const char *)field - option->offset + option->count_offset);
+}
+
+/* ---- group ---------------------------------------------------------------------------------- */
+
+static bool read_group(struct kiln_reader *reader, const struct kiln_option *option,
+                       const struct kiln_node *node, void *field)
+{
+    return kiln_read_members(reader, option->members, node, field);
+}
+
+static void print_group(struct kiln_printer *printer, const struct kiln_option *option,
+                        const void *field)
+{
+    kiln_text_add(&printer->text, "\n");
+    printer->indent += 2;
+    kiln_print_members(printer, option->members, field);
+    printer->indent -= 2;
+}
+
+static void describe_group(const struct kiln_option *option, struct kiln_text *out)
+{
+    (void)option;
+    kiln_text_add(out, "a mapping of keys");
+}
+
+static void schema_group(const struct kiln_option *option, struct kiln_text *out)
+{
+    kiln_schema_members(option->members, NULL, false, out);
+}
+
+const struct kiln_option_type kiln_type_group = {read_group, print_group, describe_group,
+                                                 schema_group};
+
+/* ---- switch: a group that may be absent ------------------------------------------------------ */
+
+static bool is_none(const struct kiln_node *node)
+{
+    return node->kind == KILN_NODE_SCALAR && strcmp(node->text, "none") == 0;
+}
+
+static bool read_switch(struct kiln_reader *reader, const struct kiln_option *option,
+                        const struct kiln_node *node, void *field)
+{
+    bool *enabled = (bool *)((char *)field - option->offset + option->count_offset);
+    bool none = is_none(node);
+    if (!none && node->kind != KILN_NODE_MAP)
+        return kiln_reader_mismatch(reader, option, node);
+    *enabled = !none;
+    return kiln_read_members(reader, option->members, none ? NULL : node, field);
+}
+
+static void print_switch(struct kiln_printer *printer, const struct kiln_option *option,
+                         const void *field)
+{
+    if (*(const bool *)((const char *)field - option->offset + option->count_offset))
+        print_group(printer, option, field);
+    else
+        kiln_text_add(&printer->text, " none\n");
+}
+
+static void describe_switch(const struct kiln_option *option, struct kiln_text *out)
+{
+    (void)option;
+    kiln_text_add(out, "a mapping of keys, or none");
+}
+
+static void schema_switch(const struct kiln_option *option, struct kiln_text *out)
+{
+    kiln_text_add(out, "{\"anyOf\": [{\"const\": \"none\"}, ");
+    kiln_schema_members(option->members, NULL, false, out);
+    kiln_text_add(out, "]}");
+}
+
+const struct kiln_option_type kiln_type_switch = {read_switch, print_switch, describe_switch,
+                                                  schema_switch};
+
+/* ---- map: named entries; an entry's struct starts with its name ------------------------------ */
+
+enum { MAX_NAME = 32 };
+
+static bool is_name(const char *text)
+{
+    size_t length = strlen(text);
+    if (length == 0 || length > MAX_NAME || !(isalpha((unsigned char)*text) || *text == '_'))
+        return false;
+    for (const char *c = text; *c; c++) {
+        if (!isalnum((unsigned char)*c) && *c != '_' && *c != '-')
+            return false;
+    }
+    return true;
+}
+
+/* How many entries there are so far, to be counted up while they are read; NULL with an error when
+ * the node has too many. */
+static uint32_t *begin_entries(struct kiln_reader *reader, const struct kiln_option *option,
+                               const struct kiln_node *node, void *field)
+{
+    if (node->count <= option->max_count)
+        return count_of(option, field);
+    kiln_reader_error(reader, node, "%u are too many; at most %zu", node->count, option->max_count);
+    return NULL;
+}
+
+static bool read_map(struct kiln_reader *reader, const struct kiln_option *option,
+                     const struct kiln_node *node, void *field)
+{
+    if (node->kind != KILN_NODE_MAP)
+        return kiln_reader_mismatch(reader, option, node);
+    uint32_t *count = begin_entries(reader, option, node, field);
+    if (!count)
+        return false;
+    for (const struct kiln_node *entry = node->first; entry; entry = entry->next) {
+        void *item = (char *)field + *count * option->item_size;
+        const char *name = entry->key->text;
+        size_t before = kiln_reader_enter(reader, name);
+        if (!is_name(name))
+            return kiln_reader_error(reader, entry->key,
+                                     "a name starts with a letter and has at most %d letters, "
+                                     "digits, '_' and '-'",
+                                     MAX_NAME);
+        const char *copy = kiln_arena_text(reader->arena, name, strlen(name));
+        if (!copy)
+            return kiln_reader_out_of_memory(reader);
+        memcpy(item, &copy, sizeof copy);
+        if (!kiln_read_members(reader, option->members, entry, item))
+            return false;
+        kiln_reader_leave(reader, before);
+        ++*count;
+    }
+    return true;
+}
+
+static void print_map(struct kiln_printer *printer, const struct kiln_option *option,
+                      const void *field)
+{
+    uint32_t count = read_count(option, field);
+    kiln_text_add(&printer->text, count ? "\n" : " {}\n");
+    printer->indent += 2;
+    for (uint32_t i = 0; i < count; i++) {
+        const void *item = (const char *)field + i * option->item_size;
+        const char *name;
+        memcpy(&name, item, sizeof name);
+        kiln_print_key(printer, name);
+        print_group(printer, option, item);
+    }
+    printer->indent -= 2;
+}
+
+static void describe_map(const struct kiln_option *option, struct kiln_text *out)
+{
+    kiln_text_add(out, "a mapping of up to %zu names to mappings of keys", option->max_count);
+}
+
+static void schema_map(const struct kiln_option *option, struct kiln_text *out)
+{
+    kiln_text_add(out,
+                  "{\"type\": \"object\", \"maxProperties\": %zu, \"propertyNames\": "
+                  "{\"pattern\": \"^[A-Za-z_][A-Za-z0-9_-]{0,%d}$\"}, \"additionalProperties\": ",
+                  option->max_count, MAX_NAME - 1);
+    kiln_schema_members(option->members, NULL, false, out);
+    kiln_text_add(out, "}");
+}
+
+const struct kiln_option_type kiln_type_map = {read_map, print_map, describe_map, schema_map};
+
+/* ---- list ----------------------------------------------------------------------------------- */
+
+static bool read_list(struct kiln_reader *reader, const struct kiln_option *option,
+                      const struct kiln_node *node, void *field)
+{
+    if (node->kind != KILN_NODE_LIST)
+        return kiln_reader_mismatch(reader, option, node);
+    uint32_t *count = begin_entries(reader, option, node, field);
+    if (!count)
+        return false;
+    for (const struct kiln_node *entry = node->first; entry; entry = entry->next) {
+        void *item = (char *)field + *count * option->item_size;
+        size_t before = kiln_reader_enter_index(reader, *count);
+        if (!option->item->type->read(reader, option->item, entry, item))
+            return false;
+        kiln_reader_leave(reader, before);
+        ++*count;
+    }
+    return true;
+}
+
+static void print_list(struct kiln_printer *printer, const struct kiln_option *option,
+                       const void *field)
+{
+    uint32_t count = read_count(option, field);
+    kiln_text_add(&printer->text, count ? "\n" : " []\n");
+    printer->indent += 2;
+    for (uint32_t i = 0; i < count; i++) {
+        kiln_text_add(&printer->text, "%*s-", (int)printer->indent, "");
+        printer->after_dash = true;
+        option->item->type->print(printer, option->item,
+                                  (const char *)field + i * option->item_size);
+    }
+    printer->after_dash = false;
+    printer->indent -= 2;
+}
+
+static void describe_list(const struct kiln_option *option, struct kiln_text *out)
+{
+    kiln_text_add(out, "a list of up to %zu: ", option->max_count);
+    option->item->type->describe(option->item, out);
+}
+
+static void schema_list(const struct kiln_option *option, struct kiln_text *out)
+{
+    kiln_text_add(out, "{\"type\": \"array\", \"maxItems\": %zu, \"items\": ", option->max_count);
+    option->item->type->schema(option->item, out);
+    kiln_text_add(out, "}");
+}
+
+const struct kiln_option_type kiln_type_list = {read_list, print_list, describe_list, schema_list};

@@ -1,0 +1,217 @@
+/* Things of several kinds: `cone: {angle: 8 deg}`, a mapping whose one key names the kind and whose
+ * value fills the members of that kind. A kind may have a shortcut, a member that a bare value
+ * means: `gravity: [0, -9.81, 0]`. In a list they are the forces and the objects of a scene.
+ */
+#include <string.h>
+
+#include "option/animated.h"
+#include "option/printer.h"
+#include "option/reader.h"
+#include "option/schema.h"
+
+static size_t kind_names(const struct kiln_option_kind *kinds, const char *names[32])
+{
+    size_t count = 0;
+    for (; kinds->name && count < 32; kinds++) {
+        if (count == 0 || strcmp(names[count - 1], kinds->name) != 0)
+            names[count++] = kinds->name;
+    }
+    return count;
+}
+
+/* The row for a kind and, where kinds of one name differ by `field: variant`, its variant. */
+static const struct kiln_option_kind *find_kind(struct kiln_reader *reader,
+                                                const struct kiln_option *option,
+                                                const struct kiln_node *node)
+{
+    const char *name = node->key->text;
+    const struct kiln_node *field = kiln_node_entry(node, "field");
+    const struct kiln_option_kind *first = NULL;
+    const char *variants[32];
+    size_t variant_count = 0;
+    for (const struct kiln_option_kind *kind = option->kinds; kind->name; kind++) {
+        if (strcmp(kind->name, name) != 0)
+            continue;
+        first = first ? first : kind;
+        if (!kind->variant || !field)
+            return first;
+        if (field->kind == KILN_NODE_SCALAR && strcmp(field->text, kind->variant) == 0)
+            return kind;
+        variants[variant_count++] = kind->variant;
+    }
+    kiln_reader_enter(reader, name);
+    char suggestion[512], quoted[64];
+    if (first) {
+        kiln_reader_enter(reader, "field");
+        if (field->kind != KILN_NODE_SCALAR) {
+            kiln_reader_expected(reader, field, "a word");
+            return NULL;
+        }
+        kiln_node_quote(quoted, field->text);
+        kiln_option_suggest(suggestion, sizeof suggestion, field->text, variants, variant_count);
+        kiln_reader_error(reader, field, "unknown word '%s'%s", quoted, suggestion);
+        return NULL;
+    }
+    const char *names[32];
+    size_t count = kind_names(option->kinds, names);
+    kiln_option_suggest(suggestion, sizeof suggestion, name, names, count);
+    kiln_reader_error(reader, node->key, "unknown kind%s", suggestion);
+    return NULL;
+}
+
+/* A mapping as the tree has it, less one key: `field`, which only chose the kind. */
+static struct kiln_node *without_field(struct kiln_reader *reader, const struct kiln_node *node)
+{
+    struct kiln_node *rest = kiln_arena_alloc(reader->scratch, 1, sizeof *rest);
+    if (!rest) {
+        kiln_reader_out_of_memory(reader);
+        return NULL;
+    }
+    *rest = *node;
+    rest->first = rest->last = NULL;
+    rest->count = 0;
+    for (const struct kiln_node *entry = node->first; entry; entry = entry->next) {
+        if (strcmp(entry->key->text, "field") == 0)
+            continue;
+        struct kiln_node *copy = kiln_arena_alloc(reader->scratch, 1, sizeof *copy);
+        if (!copy) {
+            kiln_reader_out_of_memory(reader);
+            return NULL;
+        }
+        *copy = *entry;
+        copy->next = NULL;
+        kiln_node_append(rest, copy);
+    }
+    return rest;
+}
+
+/* A bare value stands for {shortcut: value}. */
+static struct kiln_node *spell_out(struct kiln_reader *reader, const struct kiln_node *node,
+                                   const char *shortcut)
+{
+    struct kiln_node *map = kiln_node_create_map(reader->scratch, node->origin);
+    struct kiln_node *key = kiln_arena_alloc(reader->scratch, 1, sizeof *key);
+    struct kiln_node *value = kiln_arena_alloc(reader->scratch, 1, sizeof *value);
+    if (!map || !key || !value) {
+        kiln_reader_out_of_memory(reader);
+        return NULL;
+    }
+    *key = (struct kiln_node){.origin = node->origin, .text = shortcut};
+    *value = *node;
+    value->key = key;
+    value->next = NULL;
+    map->line = node->line;
+    map->column = node->column;
+    kiln_node_append(map, value);
+    return map;
+}
+
+static bool read_kind(struct kiln_reader *reader, const struct kiln_option *option,
+                      const struct kiln_node *node, void *field)
+{
+    if (node->kind != KILN_NODE_MAP)
+        return kiln_reader_mismatch(reader, option, node);
+    if (node->count == 0)
+        return kiln_reader_mismatch(reader, option, node);
+    if (node->count > 1) {
+        char first[64], second[64];
+        kiln_node_quote(first, node->first->key->text);
+        kiln_node_quote(second, node->first->next->key->text);
+        return kiln_reader_error(reader, node->first->next->key,
+                                 "expected one kind, found '%s' and '%s'", first, second);
+    }
+    const struct kiln_node *body = node->first;
+    const struct kiln_option_kind *kind = find_kind(reader, option, body);
+    if (!kind)
+        return false;
+    if (option->kind_offset != KILN_KIND_NONE)
+        memcpy((char *)field + option->kind_offset, &kind->value, sizeof kind->value);
+    size_t before = kiln_reader_enter(reader, kind->name);
+    if (kind->shortcut && (body->kind != KILN_NODE_MAP || kiln_node_is_animated(body)))
+        body = spell_out(reader, body, kind->shortcut);
+    else if (kind->variant && kiln_node_entry(body, "field"))
+        body = without_field(reader, body);
+    if (!body || !kiln_read_members(reader, kind->members, body, field))
+        return false;
+    kiln_reader_leave(reader, before);
+    return true;
+}
+
+static const struct kiln_option_kind *kind_of(const struct kiln_option *option, const void *field)
+{
+    const struct kiln_option_kind *kind = option->kinds;
+    if (option->kind_offset == KILN_KIND_NONE)
+        return kind;
+    int value;
+    memcpy(&value, (const char *)field + option->kind_offset, sizeof value);
+    while (kind->value != value)
+        kind++;
+    return kind;
+}
+
+/* Whether a kind without `field` would be another one of that name. */
+static bool needs_field(const struct kiln_option *option, const struct kiln_option_kind *kind)
+{
+    const struct kiln_option_kind *first = option->kinds;
+    while (strcmp(first->name, kind->name) != 0)
+        first++;
+    return first != kind;
+}
+
+static void print_kind(struct kiln_printer *printer, const struct kiln_option *option,
+                       const void *field)
+{
+    const struct kiln_option_kind *kind = kind_of(option, field);
+    unsigned before = printer->indent;
+    printer->indent += 2;
+    if (printer->after_dash) { /* "- gravity:" in one line */
+        printer->after_dash = false;
+        kiln_text_add(&printer->text, " %s:\n", kind->name);
+    } else {
+        kiln_text_add(&printer->text, "\n");
+        kiln_print_key(printer, kind->name);
+        kiln_text_add(&printer->text, "\n");
+    }
+    printer->indent += 2;
+    if (needs_field(option, kind)) {
+        kiln_print_key(printer, "field");
+        kiln_text_add(&printer->text, " %s\n", kind->variant);
+    }
+    kiln_print_members(printer, kind->members, field);
+    printer->indent = before;
+}
+
+static void describe_kind(const struct kiln_option *option, struct kiln_text *out)
+{
+    const char *names[32];
+    size_t count = kind_names(option->kinds, names);
+    for (size_t i = 0; i < count; i++)
+        kiln_text_add(out, "%s%s", i == 0 ? "{" : i + 1 < count ? ", " : " or ", names[i]);
+    kiln_text_add(out, ": {...}}");
+}
+
+static void schema_kind(const struct kiln_option *option, struct kiln_text *out)
+{
+    kiln_text_add(out, "{\"anyOf\": [");
+    const char *before = "";
+    for (const struct kiln_option_kind *kind = option->kinds; kind->name; kind++) {
+        kiln_text_add(out,
+                      "%s{\"type\": \"object\", \"additionalProperties\": false, \"required\": "
+                      "[\"%s\"], \"properties\": {\"%s\": ",
+                      kind == option->kinds ? "" : ", ", kind->name, kind->name);
+        if (kind->shortcut) {
+            const struct kiln_option *member = kiln_option_find(kind->members, kind->shortcut);
+            kiln_text_add(out, "{\"anyOf\": [");
+            member->type->schema(member, out);
+            kiln_text_add(out, ", ");
+        }
+        /* The first variant is what a kind without `field` means. */
+        bool needed = kind->variant && strcmp(before, kind->name) == 0;
+        kiln_schema_members(kind->members, kind->variant, needed, out);
+        kiln_text_add(out, kind->shortcut ? "]}}}" : "}}");
+        before = kind->name;
+    }
+    kiln_text_add(out, "]}");
+}
+
+const struct kiln_option_type kiln_type_kind = {read_kind, print_kind, describe_kind, schema_kind};

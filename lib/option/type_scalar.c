@@ -1,0 +1,240 @@
+/* Types of one plain value each: boolean, integer, rational, number, choice. */
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "option/printer.h"
+#include "option/reader.h"
+#include "option/schema.h"
+
+/* ---- boolean -------------------------------------------------------------------------------- */
+
+static bool read_boolean(struct kiln_reader *reader, const struct kiln_option *option,
+                         const struct kiln_node *node, void *field)
+{
+    bool is_word = node->kind == KILN_NODE_SCALAR && !node->quoted;
+    bool yes = is_word && strcmp(node->text, "true") == 0;
+    if (!yes && !(is_word && strcmp(node->text, "false") == 0))
+        return kiln_reader_mismatch(reader, option, node);
+    *(bool *)field = yes;
+    return true;
+}
+
+static void print_boolean(struct kiln_printer *printer, const struct kiln_option *option,
+                          const void *field)
+{
+    (void)option;
+    kiln_text_add(&printer->text, " %s\n", *(const bool *)field ? "true" : "false");
+}
+
+static void describe_boolean(const struct kiln_option *option, struct kiln_text *out)
+{
+    (void)option;
+    kiln_text_add(out, "true or false");
+}
+
+static void schema_boolean(const struct kiln_option *option, struct kiln_text *out)
+{
+    (void)option;
+    kiln_text_add(out, "{\"type\": \"boolean\"}");
+}
+
+const struct kiln_option_type kiln_type_boolean = {read_boolean, print_boolean, describe_boolean,
+                                                   schema_boolean};
+
+/* ---- integer -------------------------------------------------------------------------------- */
+
+static bool read_integer(struct kiln_reader *reader, const struct kiln_option *option,
+                         const struct kiln_node *node, void *field)
+{
+    return kiln_read_whole(reader, option, node, field);
+}
+
+static void print_integer(struct kiln_printer *printer, const struct kiln_option *option,
+                          const void *field)
+{
+    (void)option;
+    kiln_text_add(&printer->text, " %" PRIu32 "\n", *(const uint32_t *)field);
+}
+
+static void describe_integer(const struct kiln_option *option, struct kiln_text *out)
+{
+    if (option->min == option->max)
+        kiln_text_add(out, "the number %.0f", option->min);
+    else
+        kiln_text_add(out, "a whole number from %.0f to %.0f", option->min, option->max);
+}
+
+static void schema_integer(const struct kiln_option *option, struct kiln_text *out)
+{
+    kiln_text_add(out, "{\"type\": \"integer\", \"minimum\": %.0f, \"maximum\": %.0f}", option->min,
+                  option->max);
+}
+
+const struct kiln_option_type kiln_type_integer = {read_integer, print_integer, describe_integer,
+                                                   schema_integer};
+
+/* ---- rational ------------------------------------------------------------------------------- */
+
+/* "30", "29.97" or "30000/1001" as a reduced fraction. */
+static bool parse_rational(const char *text, uint64_t *num, uint64_t *den)
+{
+    char part[24];
+    size_t length = strcspn(text, "/.");
+    if (length >= sizeof part || length == 0)
+        return false;
+    memcpy(part, text, length);
+    part[length] = '\0';
+    if (!kiln_text_to_uint64(part, num) || *num > UINT32_MAX)
+        return false;
+    *den = 1;
+    const char *rest = text + length;
+    uint64_t decimals = 0;
+    if (*rest == '/') {
+        if (!kiln_text_to_uint64(rest + 1, den))
+            return false;
+    } else if (*rest == '.') {
+        if (strlen(rest + 1) > 6 || !kiln_text_to_uint64(rest + 1, &decimals))
+            return false;
+        for (size_t i = 0; i < strlen(rest + 1); i++)
+            *den *= 10;
+        *num = *num * *den + decimals;
+    }
+    if (*num == 0 || *den == 0)
+        return false;
+    kiln_unit_reduce(num, den);
+    return *num <= UINT32_MAX && *den <= 1000000;
+}
+
+static bool read_rational(struct kiln_reader *reader, const struct kiln_option *option,
+                          const struct kiln_node *node, void *field)
+{
+    struct kiln_rational *rational = field;
+    if (node->kind != KILN_NODE_SCALAR)
+        return kiln_reader_mismatch(reader, option, node);
+    if (option->word && strcmp(node->text, option->word) == 0) {
+        *rational = (struct kiln_rational){0, 1};
+        return true;
+    }
+    uint64_t num = 0, den = 1;
+    bool is_text = node->quoted && !strchr(node->text, '/');
+    if (is_text || !parse_rational(node->text, &num, &den))
+        return kiln_reader_mismatch(reader, option, node);
+    double value = (double)num / (double)den;
+    if (value < option->min || value > option->max)
+        return kiln_reader_mismatch(reader, option, node);
+    *rational = (struct kiln_rational){(uint32_t)num, (uint32_t)den};
+    return true;
+}
+
+static void print_rational(struct kiln_printer *printer, const struct kiln_option *option,
+                           const void *field)
+{
+    (void)option;
+    const struct kiln_rational *rational = field;
+    kiln_text_add(&printer->text, rational->den == 1 ? " %u\n" : " %u/%u\n", rational->num,
+                  rational->den);
+}
+
+static void describe_rational(const struct kiln_option *option, struct kiln_text *out)
+{
+    kiln_text_add(out, "a rate like 30, 29.97 or 30000/1001");
+    kiln_option_describe_limits(option, out);
+    if (option->word)
+        kiln_text_add(out, ", or %s", option->word);
+}
+
+static void schema_rational(const struct kiln_option *option, struct kiln_text *out)
+{
+    kiln_text_add(out,
+                  "{\"type\": [\"number\", \"string\"], \"minimum\": %.0f, \"maximum\": %.0f, "
+                  "\"pattern\": \"^([0-9]+/[0-9]+%s%s)$\"}",
+                  option->min, option->max, option->word ? "|" : "",
+                  option->word ? option->word : "");
+}
+
+const struct kiln_option_type kiln_type_rational = {read_rational, print_rational,
+                                                    describe_rational, schema_rational};
+
+/* ---- number --------------------------------------------------------------------------------- */
+
+static bool read_number(struct kiln_reader *reader, const struct kiln_option *option,
+                        const struct kiln_node *node, void *field)
+{
+    double value = 0;
+    if (!kiln_read_number(reader, option, node, &value))
+        return false;
+    *(double *)field = value;
+    return true;
+}
+
+static void print_number(struct kiln_printer *printer, const struct kiln_option *option,
+                         const void *field)
+{
+    char number[48];
+    kiln_unit_print_double(number, option->dimension, *(const double *)field);
+    kiln_text_add(&printer->text, " %s\n", number);
+}
+
+static void describe_number(const struct kiln_option *option, struct kiln_text *out)
+{
+    kiln_text_add(out, "a number");
+    kiln_option_describe_limits(option, out);
+}
+
+const struct kiln_option_type kiln_type_number = {read_number, print_number, describe_number,
+                                                  kiln_schema_number};
+
+/* ---- choice --------------------------------------------------------------------------------- */
+
+static bool read_choice(struct kiln_reader *reader, const struct kiln_option *option,
+                        const struct kiln_node *node, void *field)
+{
+    if (node->kind != KILN_NODE_SCALAR)
+        return kiln_reader_mismatch(reader, option, node);
+    size_t count = 0;
+    for (; option->choices[count]; count++) {
+        if (strcmp(option->choices[count], node->text) == 0) {
+            unsigned value = (unsigned)count; /* enumerations of this library are 4 bytes */
+            memcpy(field, &value, sizeof value);
+            return true;
+        }
+    }
+    const char *nearest = kiln_text_nearest(node->text, option->choices, count);
+    if (!nearest)
+        return kiln_reader_mismatch(reader, option, node);
+    char quoted[64];
+    kiln_node_quote(quoted, node->text);
+    return kiln_reader_error(reader, node, "unknown word '%s' (did you mean '%s'?)", quoted,
+                             nearest);
+}
+
+static void print_choice(struct kiln_printer *printer, const struct kiln_option *option,
+                         const void *field)
+{
+    unsigned value;
+    memcpy(&value, field, sizeof value);
+    kiln_text_add(&printer->text, " %s\n", option->choices[value]);
+}
+
+static void describe_choice(const struct kiln_option *option, struct kiln_text *out)
+{
+    for (size_t i = 0; option->choices[i]; i++)
+        kiln_text_add(out, "%s%s",
+                      i == 0                   ? ""
+                      : option->choices[i + 1] ? ", "
+                                               : " or ",
+                      option->choices[i]);
+}
+
+static void schema_choice(const struct kiln_option *option, struct kiln_text *out)
+{
+    kiln_text_add(out, "{\"enum\": [");
+    for (size_t i = 0; option->choices[i]; i++)
+        kiln_text_add(out, "%s\"%s\"", i ? ", " : "", option->choices[i]);
+    kiln_text_add(out, "]}");
+}
+
+const struct kiln_option_type kiln_type_choice = {read_choice, print_choice, describe_choice,
+                                                  schema_choice};

@@ -1,0 +1,253 @@
+/* Types of animated numbers: value, vector, colour, range. */
+#include <string.h>
+
+#include "option/animated.h"
+#include "option/schema.h"
+
+/* ---- value ---------------------------------------------------------------------------------- */
+
+static bool read_value(struct kiln_reader *reader, const struct kiln_option *option,
+                       const struct kiln_node *node, void *field)
+{
+    return kiln_read_animated(reader, option, node, field, 1);
+}
+
+static void print_value(struct kiln_printer *printer, const struct kiln_option *option,
+                        const void *field)
+{
+    kiln_text_add(&printer->text, " ");
+    kiln_print_animated(printer, option, field);
+    kiln_text_add(&printer->text, "\n");
+}
+
+static void describe_value(const struct kiln_option *option, struct kiln_text *out)
+{
+    kiln_text_add(out, "a number");
+    kiln_option_describe_limits(option, out);
+}
+
+/* {"keys": {...}} and {"life": ...} with `plain` as the schema of each key's value. */
+static void schema_curves(const struct kiln_option *option, const char *plain,
+                          struct kiln_text *out)
+{
+    if (option->clocks & KILN_ALLOW_TIME) {
+        kiln_text_add(out, ", {\"type\": \"object\", \"required\": [\"keys\"], "
+                           "\"additionalProperties\": false, \"properties\": {\"keys\": "
+                           "{\"type\": \"object\", \"minProperties\": 1, "
+                           "\"propertyNames\": {\"pattern\": ");
+        kiln_schema_number_pattern(KILN_SECONDS, out);
+        kiln_text_add(out, "}, \"additionalProperties\": %s}}}", plain);
+    }
+    if (option->clocks & KILN_ALLOW_LIFE) {
+        kiln_text_add(out,
+                      ", {\"type\": \"object\", \"required\": [\"life\"], "
+                      "\"additionalProperties\": false, \"properties\": {\"life\": "
+                      "{\"anyOf\": [{\"type\": \"array\", \"minItems\": 1, \"items\": %s}, "
+                      "{\"type\": \"object\", \"minProperties\": 1, "
+                      "\"propertyNames\": {\"pattern\": ",
+                      plain);
+        kiln_schema_number_pattern(KILN_FRACTION, out);
+        kiln_text_add(out, "}, \"additionalProperties\": %s}]}}}", plain);
+    }
+}
+
+static void schema_value(const struct kiln_option *option, struct kiln_text *out)
+{
+    if (!option->clocks) {
+        kiln_schema_number(option, out);
+        return;
+    }
+    struct kiln_text plain = {0};
+    kiln_schema_number(option, &plain);
+    kiln_text_add(out, "{\"anyOf\": [%s", plain.data ? plain.data : "");
+    schema_curves(option, plain.data ? plain.data : "", out);
+    kiln_text_add(out, "]}");
+    out->failed |= plain.failed;
+    kiln_text_free(&plain);
+}
+
+const struct kiln_option_type kiln_type_value = {read_value, print_value, describe_value,
+                                                 schema_value};
+
+/* ---- vector and colour ---------------------------------------------------------------------- */
+
+static bool read_vector(struct kiln_reader *reader, const struct kiln_option *option,
+                        const struct kiln_node *node, void *field)
+{
+    struct kiln_value values[3];
+    if (!kiln_read_animated(reader, option, node, values, 3))
+        return false;
+    *(struct kiln_value3 *)field = (struct kiln_value3){values[0], values[1], values[2]};
+    return true;
+}
+
+/* May the three curves be written as one of [x, y, z]? */
+static bool share_keys(const struct kiln_scene *scene, const struct kiln_value3 *v)
+{
+    if (v->x.count == 0 || v->y.count != v->x.count || v->z.count != v->x.count ||
+        v->y.clock != v->x.clock || v->z.clock != v->x.clock ||
+        v->y.first != v->x.first + v->x.count || v->z.first != v->y.first + v->y.count)
+        return false;
+    for (uint32_t i = 0; i < v->x.count; i++) {
+        float x = scene->keys[v->x.first + i].x;
+        if (scene->keys[v->y.first + i].x != x || scene->keys[v->z.first + i].x != x)
+            return false;
+    }
+    return true;
+}
+
+static void print_shared_keys(struct kiln_printer *printer, const struct kiln_option *option,
+                              const struct kiln_value3 *v)
+{
+    const float4 *keys = printer->scene->keys;
+    bool over_life = v->x.clock == KILN_CLOCK_LIFE;
+    kiln_text_add(&printer->text, over_life ? " {life: {" : " {keys: {");
+    for (uint32_t i = 0; i < v->x.count; i++) {
+        char text[4][48];
+        kiln_unit_print(text[0], over_life ? KILN_FRACTION : KILN_SECONDS, keys[v->x.first + i].x);
+        kiln_unit_print(text[1], option->dimension, keys[v->x.first + i].y);
+        kiln_unit_print(text[2], option->dimension, keys[v->y.first + i].y);
+        kiln_unit_print(text[3], option->dimension, keys[v->z.first + i].y);
+        kiln_text_add(&printer->text, "%s%s: [%s, %s, %s]", i ? ", " : "", text[0], text[1],
+                      text[2], text[3]);
+    }
+    kiln_text_add(&printer->text, "}}\n");
+}
+
+static void print_vector(struct kiln_printer *printer, const struct kiln_option *option,
+                         const void *field)
+{
+    const struct kiln_value3 *v = field;
+    struct kiln_option bare = *option; /* three units in a row are hard to read */
+    if (!kiln_unit_is_required(option->dimension))
+        bare.dimension = KILN_PLAIN;
+    if (share_keys(printer->scene, v)) {
+        print_shared_keys(printer, &bare, v);
+        return;
+    }
+    kiln_text_add(&printer->text, " [");
+    kiln_print_animated(printer, &bare, &v->x);
+    kiln_text_add(&printer->text, ", ");
+    kiln_print_animated(printer, &bare, &v->y);
+    kiln_text_add(&printer->text, ", ");
+    kiln_print_animated(printer, &bare, &v->z);
+    kiln_text_add(&printer->text, "]\n");
+}
+
+static void describe_vector(const struct kiln_option *option, struct kiln_text *out)
+{
+    kiln_text_add(out, "[x, y, z], each");
+    kiln_option_describe_limits(option, out);
+}
+
+static void describe_color(const struct kiln_option *option, struct kiln_text *out)
+{
+    kiln_text_add(out, "[red, green, blue] or one number for grey, linear, each");
+    kiln_option_describe_limits(option, out);
+}
+
+static void schema_vector(const struct kiln_option *option, struct kiln_text *out)
+{
+    bool grey = option->type == &kiln_type_color;
+    struct kiln_text number = {0}, component = {0}, plain = {0};
+    kiln_schema_number(option, &number);
+    schema_value(option, &component);
+    const char *item = number.data ? number.data : "";
+    const char *animated = component.data ? component.data : "";
+    const char *array = "{\"type\": \"array\", \"minItems\": 3, \"maxItems\": 3, \"items\": %s}";
+    kiln_text_add(&plain, "%s", grey ? "{\"anyOf\": [" : "");
+    kiln_text_add(&plain, array, item);
+    if (grey)
+        kiln_text_add(&plain, ", %s]}", item);
+    kiln_text_add(out, "{\"anyOf\": [");
+    kiln_text_add(out, array, animated);
+    if (grey)
+        kiln_text_add(out, ", %s", item);
+    schema_curves(option, plain.data ? plain.data : "", out);
+    kiln_text_add(out, "]}");
+    out->failed |= number.failed || component.failed || plain.failed;
+    kiln_text_free(&number);
+    kiln_text_free(&component);
+    kiln_text_free(&plain);
+}
+
+const struct kiln_option_type kiln_type_vector = {read_vector, print_vector, describe_vector,
+                                                  schema_vector};
+const struct kiln_option_type kiln_type_color = {read_vector, print_vector, describe_color,
+                                                 schema_vector};
+
+/* ---- range ---------------------------------------------------------------------------------- */
+
+/* Ends are straight lines between keys, so min <= max everywhere when it holds at every key of the
+ * one clock that they have. */
+static bool is_ordered(const float4 *keys, const struct kiln_range *range)
+{
+    const struct kiln_value *ends[2] = {&range->min, &range->max};
+    for (unsigned e = 0; e < 2; e++) {
+        for (uint32_t i = 0; i < ends[e]->count || i == 0; i++) {
+            float x = ends[e]->count ? keys[ends[e]->first + i].x : 0;
+            if (value_at(keys, range->min, x, x) > value_at(keys, range->max, x, x))
+                return false;
+        }
+    }
+    return true;
+}
+
+static bool read_range(struct kiln_reader *reader, const struct kiln_option *option,
+                       const struct kiln_node *node, void *field)
+{
+    struct kiln_range *range = field;
+    if (node->kind != KILN_NODE_LIST) {
+        if (!kiln_read_animated(reader, option, node, &range->min, 1))
+            return false;
+        range->max = range->min;
+        return true;
+    }
+    if (node->count != 2)
+        return kiln_reader_mismatch(reader, option, node);
+    if (!kiln_read_animated(reader, option, node->first, &range->min, 1) ||
+        !kiln_read_animated(reader, option, node->first->next, &range->max, 1))
+        return false;
+    if (range->min.count > 0 && range->max.count > 0 && range->min.clock != range->max.clock)
+        return kiln_reader_error(reader, node, "both must vary over time, or both over life");
+    if (!is_ordered(reader->keys, range))
+        return kiln_reader_error(reader, node, "the first must not be above the second");
+    return true;
+}
+
+static void print_range(struct kiln_printer *printer, const struct kiln_option *option,
+                        const void *field)
+{
+    const struct kiln_range *range = field;
+    if (memcmp(&range->min, &range->max, sizeof range->min) == 0) {
+        print_value(printer, option, &range->min);
+        return;
+    }
+    kiln_text_add(&printer->text, " [");
+    kiln_print_animated(printer, option, &range->min);
+    kiln_text_add(&printer->text, ", ");
+    kiln_print_animated(printer, option, &range->max);
+    kiln_text_add(&printer->text, "]\n");
+}
+
+static void describe_range(const struct kiln_option *option, struct kiln_text *out)
+{
+    kiln_text_add(out, "[min, max] or one number,");
+    kiln_option_describe_limits(option, out);
+}
+
+static void schema_range(const struct kiln_option *option, struct kiln_text *out)
+{
+    struct kiln_text value = {0};
+    schema_value(option, &value);
+    const char *item = value.data ? value.data : "";
+    kiln_text_add(out,
+                  "{\"anyOf\": [%s, {\"type\": \"array\", \"minItems\": 2, \"maxItems\": 2, "
+                  "\"items\": %s}]}",
+                  item, item);
+    out->failed |= value.failed;
+    kiln_text_free(&value);
+}
+
+const struct kiln_option_type kiln_type_range = {read_range, print_range, describe_range,
+                                                 schema_range};

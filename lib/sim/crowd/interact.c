@@ -1,0 +1,297 @@
+#include "sim/crowd/interact.h"
+
+#include <assert.h>
+#include <inttypes.h>
+#include <stddef.h>
+
+#include "base/error.h"
+#include "sim/crowd/interact_sort.h"
+
+static_assert(sizeof(struct kiln_interact_params) == 288, "std140");
+static_assert(offsetof(struct kiln_interact_params, spins) == 264, "std140");
+static_assert(offsetof(struct kiln_interact_params, radius) == 96, "std140");
+static_assert(offsetof(struct kiln_interact_params, flock) == 176, "std140");
+static_assert(sizeof(struct kiln_flock_params) == 80, "std140");
+static_assert(sizeof(struct kiln_body) == 32, "std430");
+
+/* So much wider than two radii are the cells: positions up to 2^18 cells out are rounded by less
+ * when their cell is found. */
+static const float CELL_SLACK = 1.0f + 1.0f / 64.0f;
+
+/* Of struct kiln_interact_entry on the host, which sorts to and fro, and of a uvec4 in GL. */
+enum { ENTRY_BYTES = 16 };
+
+/* Of the table: so sparse that few of them hold particles of other places; but no more than 64 MiB.
+ */
+enum { CELLS_A_PARTICLE = 2, MAX_CELLS = 1 << 24 };
+
+uint32_t kiln_interact_entries(uint32_t count)
+{
+    uint32_t entries = 64;
+    while (entries < count)
+        entries *= 2;
+    return entries;
+}
+
+static uint32_t count_cells(uint32_t particles)
+{
+    return kiln_interact_entries(
+        particles < MAX_CELLS / CELLS_A_PARTICLE ? particles * CELLS_A_PARTICLE : MAX_CELLS);
+}
+
+float kiln_interact_radius(const struct kiln_scene *scene, uint32_t system)
+{
+    const struct kiln_interaction *collide =
+        kiln_scene_interaction(scene, system, KILN_INTERACT_COLLIDE);
+    if (!collide)
+        return 0.0f;
+    const struct kiln_look *look = &scene->systems[system].look;
+    float largest = kiln_scene_value_max(scene, &collide->radius);
+    if (collide->as_drawn) {
+        const float low = kiln_scene_value_max(scene, &look->scale.min);
+        const float high = kiln_scene_value_max(scene, &look->scale.max);
+        largest = 0.5f * kiln_scene_value_max(scene, &look->size) * (low > high ? low : high);
+    }
+    return largest > 1e-4f ? largest : 1e-4f;
+}
+
+static void add_collisions(struct kiln_interact_work *work, const struct kiln_scene *scene,
+                           uint32_t system)
+{
+    const struct kiln_interaction *collide =
+        kiln_scene_interaction(scene, system, KILN_INTERACT_COLLIDE);
+    if (!collide)
+        return;
+    const struct kiln_look *look = &scene->systems[system].look;
+    struct kiln_interact_params *params = &work->params;
+    work->collides = true;
+    work->mode = collide->mode;
+    work->rounds = collide->rounds;
+    params->cell_mask = count_cells(scene->systems[system].capacity) - 1;
+    const float fastest = kiln_scene_value(scene, &collide->fastest, params->time_s);
+    const float reach_m =
+        2.0f * kiln_interact_radius(scene, system) + fastest * params->derived.dt_s;
+    params->cells_per_metre = 1.0f / (reach_m * CELL_SLACK);
+    params->ahead_s = fastest > 0.0f ? params->derived.dt_s : 0.0f;
+    params->fastest_square = fastest * fastest;
+    params->as_drawn = collide->as_drawn;
+    params->restitution = kiln_scene_value(scene, &collide->restitution, params->time_s);
+    params->apart = kiln_scene_value(scene, &collide->apart, params->time_s);
+    params->radius = collide->radius;
+    params->size = look->size;
+    params->scale = look->scale;
+    params->friction = kiln_scene_value(scene, &collide->friction, params->time_s);
+}
+
+/* What holds for all that is gathered of a system. */
+static struct kiln_interact_params params_of(const struct kiln_step_params *step)
+{
+    return (struct kiln_interact_params){.derived = step->derived,
+                                         .base = step->base,
+                                         .used = step->used,
+                                         .first_push = step->first_push,
+                                         .first_spin = step->first_spin,
+                                         .step = step->step - 1,
+                                         .time_s = step->time_s};
+}
+
+static void add_gravity(struct kiln_interact_work *work, const struct kiln_scene *scene,
+                        const struct kiln_sim_params *params, uint32_t system)
+{
+    const struct kiln_interaction *gravity =
+        kiln_scene_interaction(scene, system, KILN_INTERACT_GRAVITY);
+    if (!gravity)
+        return;
+    const float softening_m = kiln_scene_value(scene, &gravity->softening, work->params.time_s);
+    work->pulls = true;
+    work->params.adds = work->collides;
+    work->params.softening_square = softening_m * softening_m;
+    work->of_other = gravity->of_other;
+    work->sources = params_of(&params->systems[gravity->of_other ? gravity->source : system]);
+    work->sources.strength = gravity->strength;
+}
+
+/* The square of the cosine of half an angle, with its sign; all around whatever rounds. */
+static float view_of(float angle)
+{
+    const float cosine = exact_sincos(0.5f * angle).cosine;
+    return angle > 6.28318f ? -2.0f : cosine * exact_abs(cosine);
+}
+
+static struct kiln_flock_params flock_at(const struct kiln_scene *scene,
+                                         const struct kiln_flock *flock, float time_s)
+{
+    const float radius = kiln_scene_value(scene, &flock->radius, time_s);
+    const float horizon_s = kiln_scene_value(scene, &flock->horizon, time_s);
+    const float slowest = kiln_scene_value(scene, &flock->slowest, time_s);
+    const float fastest = kiln_scene_value(scene, &flock->fastest, time_s);
+    struct kiln_flock_params params = {
+        .radius = radius,
+        .radius_square = radius * radius,
+        .per_radius = 1.0f / radius,
+        .per_space = 1.0f / kiln_scene_value(scene, &flock->space, time_s),
+        .speed = 2.0f * fastest,
+        .per_speed = 0.5f / fastest,
+        .horizon_s = horizon_s,
+        .per_horizon = 1.0f / horizon_s,
+        .view = view_of(kiln_scene_value(scene, &flock->view, time_s)),
+        .separation = kiln_scene_value(scene, &flock->separation, time_s),
+        .avoidance = kiln_scene_value(scene, &flock->avoidance, time_s),
+        .cohesion = kiln_scene_value(scene, &flock->cohesion, time_s),
+        .all_cohesion = kiln_scene_value(scene, &flock->all_cohesion, time_s),
+        .alignment = kiln_scene_value(scene, &flock->alignment, time_s),
+        .all_alignment = kiln_scene_value(scene, &flock->all_alignment, time_s),
+        .strongest = kiln_scene_value(scene, &flock->acceleration, time_s),
+        .slowest = slowest < fastest ? slowest : fastest,
+        .fastest = fastest,
+    };
+    params.looks = params.separation > 0.0f || params.avoidance > 0.0f || params.cohesion > 0.0f ||
+                   params.alignment > 0.0f;
+    return params;
+}
+
+static void add_flock(struct kiln_interact_work *work, const struct kiln_scene *scene,
+                      uint32_t system)
+{
+    const struct kiln_interaction *flock =
+        kiln_scene_interaction(scene, system, KILN_INTERACT_FLOCK);
+    if (!flock)
+        return;
+    struct kiln_interact_params *params = &work->params;
+    work->flocks = true;
+    params->adds = scene->systems[system].interaction_count > 1;
+    params->flock = flock_at(scene, &flock->flock, params->time_s);
+    params->cell_mask = count_cells(scene->systems[system].capacity) - 1;
+    params->cells_per_metre = 1.0f / (params->flock.radius * CELL_SLACK);
+}
+
+/* Cells of a flock are not those of collisions: it is a work of its own, after the others. */
+static struct kiln_interact_work work_of(const struct kiln_scene *scene,
+                                         const struct kiln_sim_params *params, uint32_t system,
+                                         bool flock)
+{
+    struct kiln_interact_work work = {.system = scene->systems[system].name,
+                                      .params = params_of(&params->systems[system])};
+    work.params.spins = params->systems[system].spins && !flock;
+    if (flock) {
+        add_flock(&work, scene, system);
+    } else {
+        add_collisions(&work, scene, system);
+        add_gravity(&work, scene, params, system);
+    }
+    return work;
+}
+
+static bool choose_loops(struct kiln_interact *interact, struct kiln_error *error)
+{
+    enum kiln_simd simd;
+    if (!kiln_simd_choose(&simd, error))
+        return false;
+    interact->gravity = KILN_SIMD_PICK(kiln_gravity_loops, simd);
+    interact->flock = KILN_SIMD_PICK(kiln_flock_loops, simd);
+    return true;
+}
+
+/* Slots of the largest that interacts, or that others do something with. */
+static uint32_t largest_system(const struct kiln_scene *scene, const struct kiln_sim_params *params)
+{
+    uint32_t largest = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        if (!params->systems[i].pushed)
+            continue;
+        const struct kiln_interaction *gravity =
+            kiln_scene_interaction(scene, i, KILN_INTERACT_GRAVITY);
+        const uint32_t other =
+            gravity && gravity->of_other ? scene->systems[gravity->source].capacity : 0;
+        const uint32_t own = scene->systems[i].capacity;
+        largest = own > largest ? own : largest;
+        largest = other > largest ? other : largest;
+    }
+    return largest;
+}
+
+/* Balls that spin take two each: shared/interact_layout.h. */
+static size_t count_bodies(const struct kiln_scene *scene, const struct kiln_sim_params *params,
+                           uint32_t largest)
+{
+    size_t most = largest;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const size_t own = 2 * (size_t)scene->systems[i].capacity;
+        if (params->systems[i].spins && own > most)
+            most = own;
+    }
+    return most;
+}
+
+bool kiln_interact_init(struct kiln_interact *interact, struct kiln_device *device,
+                        const struct kiln_scene *scene, const struct kiln_sim_params *params,
+                        struct kiln_threads *threads, struct kiln_error *error)
+{
+    *interact = (struct kiln_interact){.scene = scene, .device = device, .threads = threads};
+    const uint32_t largest = largest_system(scene, params);
+    const size_t bodies = count_bodies(scene, params, largest) * sizeof(struct kiln_body);
+    const size_t cells = largest ? count_cells(largest) : 0;
+    const size_t entries = largest ? kiln_interact_entries(largest) : 0;
+    kiln_buffer_init(&interact->pushes, device, (size_t)params->push_count * 2 * sizeof(float4),
+                     "pushes");
+    kiln_buffer_init(&interact->bodies, device, bodies, "bodies");
+    kiln_buffer_init(&interact->second, device, bodies + KILN_FLOCK_ROOM, "bodies, second");
+    interact->half = (uint32_t)entries;
+    kiln_buffer_init(&interact->cells, device, (cells + 1) * sizeof(uint32_t), "cells of bodies");
+    kiln_buffer_init(&interact->partners, device, largest * sizeof(uint32_t), "partners");
+    kiln_buffer_init(&interact->entries, device, 2 * entries * ENTRY_BYTES, "bodies in grids");
+    kiln_buffer_init(&interact->order, device, (size_t)largest * 2 * sizeof(uint32_t),
+                     "order of a grid");
+    kiln_buffer_init(&interact->counts, NULL,
+                     (size_t)KILN_SORT_STRETCHES * KILN_SORT_DIGITS * sizeof(uint32_t),
+                     "counts of digits");
+    kiln_buffer_init(&interact->accelerations, NULL,
+                     ((size_t)largest + KILN_GRAVITY_BLOCK) * sizeof(float3), "accelerations");
+    kiln_buffer_init(&interact->block, device, sizeof(struct kiln_interact_params),
+                     "interaction parameters");
+    if (!device)
+        return choose_loops(interact, error);
+    if (!device->info.software && bodies > (uint64_t)device->info.max_storage_block_bytes)
+        return kiln_error_set(error, KILN_DEVICE_FAILED,
+                              "systems: those that interact need %zu bytes in one piece; %s has up "
+                              "to %" PRId64 "; use simulate=cpu",
+                              bodies, device->info.name,
+                              (int64_t)device->info.max_storage_block_bytes);
+    return largest == 0 || kiln_interact_gl_init(interact, error);
+}
+
+void kiln_interact_finish(struct kiln_interact *interact)
+{
+    kiln_buffer_finish(&interact->pushes);
+    kiln_buffer_finish(&interact->bodies);
+    kiln_buffer_finish(&interact->second);
+    kiln_buffer_finish(&interact->cells);
+    kiln_buffer_finish(&interact->partners);
+    kiln_buffer_finish(&interact->entries);
+    kiln_buffer_finish(&interact->order);
+    kiln_buffer_finish(&interact->counts);
+    kiln_buffer_finish(&interact->accelerations);
+    kiln_buffer_finish(&interact->block);
+    for (size_t i = 0; i < KILN_INTERACT_KERNELS; i++) {
+        if (interact->programs[i])
+            glDeleteProgram(interact->programs[i]);
+    }
+    *interact = (struct kiln_interact){.device = NULL};
+}
+
+bool kiln_interact_gather(struct kiln_interact *interact, const struct kiln_sim_params *params,
+                          struct kiln_pool *pool, struct kiln_buffer *keys,
+                          struct kiln_error *error)
+{
+    bool ok = true;
+    for (uint32_t i = 0; ok && i < params->system_count; i++) {
+        if (!params->systems[i].pushed || params->systems[i].used == 0)
+            continue;
+        for (int flock = 0; ok && flock < 2; flock++) {
+            const struct kiln_interact_work work = work_of(interact->scene, params, i, flock);
+            ok = interact->device ? kiln_interact_gl(interact, &work, pool, keys, error)
+                                  : kiln_interact_cpu(interact, &work, pool, error);
+        }
+    }
+    return ok;
+}

@@ -1,0 +1,285 @@
+/* Pushes in compute: the kernels of shaders/sim/interact_*.comp, one after the other. */
+#include <stdio.h>
+
+#include "base/error.h"
+#include "gpu/program.h"
+#include "shared/limits.h"
+#include "sim/crowd/interact.h"
+
+/* What a kernel is for. */
+enum { EXACT_MODE = 1, STAGGERED_MODE = 2, GRAVITY = 4, FLOCK = 8 };
+
+static const struct {
+    const char *file, *defines;
+    int used_for;
+} KERNELS[KILN_INTERACT_KERNELS] = {
+    [KILN_INTERACT_COUNT] = {"sim/crowd/interact_count.comp", "", EXACT_MODE},
+    [KILN_INTERACT_SCAN] = {"sim/crowd/interact_scan.comp", "", EXACT_MODE | FLOCK},
+    [KILN_INTERACT_PLACE] = {"sim/crowd/interact_place.comp", "", EXACT_MODE | FLOCK},
+    [KILN_INTERACT_FIND] = {"sim/crowd/interact_find.comp", "", EXACT_MODE},
+    [KILN_INTERACT_COUNT_STAGGERED] = {"sim/crowd/interact_count.comp", "#define STAGGERED 1\n",
+                                       STAGGERED_MODE},
+    [KILN_INTERACT_BITONIC] = {"sim/crowd/interact_bitonic.comp", "", STAGGERED_MODE},
+    [KILN_INTERACT_ORDER] = {"sim/crowd/interact_order.comp", "", STAGGERED_MODE},
+    [KILN_INTERACT_ORDER_SECOND] = {"sim/crowd/interact_order.comp", "#define SECOND 1\n",
+                                    STAGGERED_MODE},
+    [KILN_INTERACT_FIND_STAGGERED] = {"sim/crowd/interact_find.comp", "#define STAGGERED 1\n",
+                                      STAGGERED_MODE},
+    [KILN_INTERACT_ANSWER] = {"sim/crowd/interact_answer.comp", "", EXACT_MODE | STAGGERED_MODE},
+    [KILN_INTERACT_PUSH] = {"sim/crowd/interact_push.comp", "", EXACT_MODE | STAGGERED_MODE},
+    [KILN_INTERACT_SOURCES] = {"sim/crowd/interact_sources.comp", "", GRAVITY},
+    [KILN_INTERACT_GRAVITY_TILES] = {"sim/crowd/interact_gravity.comp", "", GRAVITY},
+    [KILN_INTERACT_COUNT_FLOCK] = {"sim/crowd/interact_count.comp", "#define FLOCK 1\n", FLOCK},
+    [KILN_INTERACT_FLOCK_MEANS] = {"sim/crowd/interact_flock_means.comp", "", FLOCK},
+    [KILN_INTERACT_FLOCK_STEER] = {"sim/crowd/interact_flock.comp", "", FLOCK},
+};
+
+static int uses(const struct kiln_scene *scene)
+{
+    int all = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_interaction *collide =
+            kiln_scene_interaction(scene, i, KILN_INTERACT_COLLIDE);
+        if (collide)
+            all |= collide->mode == KILN_CONTACT_EXACT ? EXACT_MODE : STAGGERED_MODE;
+        if (kiln_scene_interaction(scene, i, KILN_INTERACT_GRAVITY))
+            all |= GRAVITY;
+        if (kiln_scene_interaction(scene, i, KILN_INTERACT_FLOCK))
+            all |= FLOCK;
+    }
+    return all;
+}
+
+/* Bodies that one may look at on software GL, whose loops end silently; the rest is for the loops
+ * over rows of cells. */
+enum { MOST_AROUND = KILN_SOFTWARE_ITERATIONS - 535 };
+
+bool kiln_interact_gl_init(struct kiln_interact *interact, struct kiln_error *error)
+{
+    struct kiln_device *device = interact->device;
+    const int used = uses(interact->scene);
+    GLint bindings = 0, blocks = 0;
+    glGetIntegerv(GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS, &bindings);
+    glGetIntegerv(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS, &blocks);
+    bindings = blocks < bindings ? blocks : bindings;
+    interact->spins = kiln_scene_spins(interact->scene);
+    if (interact->spins && bindings <= INTERACT_BIND_SPINS)
+        return kiln_error_set(error, KILN_NO_DEVICE,
+                              "%s: %d places for storage blocks; balls that spin need %d; use "
+                              "simulate=cpu",
+                              device->info.name, bindings, INTERACT_BIND_SPINS + 1);
+    interact->group_size = device->work_group_size ? device->work_group_size : SIM_GROUP_SIZE;
+    for (int i = 0; i < KILN_INTERACT_KERNELS; i++) {
+        if ((used & KERNELS[i].used_for) == 0)
+            continue;
+        char defines[128], counted[32] = "";
+        if (i == KILN_INTERACT_FIND && device->info.software)
+            snprintf(counted, sizeof counted, "#define COUNTED %uu\n", (unsigned)MOST_AROUND);
+        snprintf(defines, sizeof defines, "#define SIM_GROUP_SIZE %u\n%s%s%s", interact->group_size,
+                 KERNELS[i].defines, counted, interact->spins ? "#define SPINS 1\n" : "");
+        interact->programs[i] = kiln_program_create(
+            device, &(struct kiln_program_params){.compute = KERNELS[i].file, .defines = defines},
+            error);
+        if (!interact->programs[i])
+            return false;
+    }
+    return true;
+}
+
+/* For so many slots, bodies or pairs. */
+static void run(const struct kiln_interact *interact, enum kiln_interact_kernel kernel,
+                uint32_t count)
+{
+    glUseProgram(interact->programs[kernel]);
+    kiln_device_dispatch(interact->device, count, interact->group_size);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+static bool bind(GLuint at, struct kiln_buffer *buffer, enum kiln_access access,
+                 struct kiln_error *error)
+{
+    const GLuint gl = kiln_buffer_gl(buffer, access, error);
+    if (gl)
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, at, gl);
+    return gl != 0;
+}
+
+static bool set_params(struct kiln_interact *interact, const struct kiln_interact_params *params,
+                       struct kiln_error *error)
+{
+    const GLuint block = kiln_buffer_upload(&interact->block, params, error);
+    if (block)
+        glBindBufferBase(GL_UNIFORM_BUFFER, INTERACT_BIND_PARAMS, block);
+    return block != 0;
+}
+
+static bool bind_all(struct kiln_interact *interact, const struct kiln_interact_work *work,
+                     struct kiln_pool *pool, struct kiln_buffer *keys, struct kiln_error *error)
+{
+    const GLuint values = kiln_buffer_gl(keys, KILN_READ, error);
+    if (!values || !set_params(interact, &work->params, error))
+        return false;
+    glBindBufferBase(GL_UNIFORM_BUFFER, SIM_BIND_KEYS, values);
+    const enum kiln_access change = KILN_READ_WRITE;
+    const bool sorts = work->collides || work->flocks;
+    if (interact->spins && !bind(INTERACT_BIND_SPINS, &pool->spins, change, error))
+        return false;
+    return bind(SIM_BIND_RECORDS, &pool->records, KILN_READ, error) &&
+           bind(SIM_BIND_PUSHES, &interact->pushes, change, error) &&
+           (!sorts || (bind(INTERACT_BIND_CELLS, &interact->cells, change, error) &&
+                       bind(INTERACT_BIND_PARTNERS, &interact->partners, change, error) &&
+                       bind(INTERACT_BIND_BODIES, &interact->bodies, change, error) &&
+                       bind(INTERACT_BIND_SECOND, &interact->second, change, error))) &&
+           ((work->mode == KILN_CONTACT_EXACT && !work->pulls && !work->flocks) ||
+            (bind(INTERACT_BIND_ENTRIES, &interact->entries, change, error) &&
+             bind(INTERACT_BIND_ORDER, &interact->order, change, error)));
+}
+
+static void empty_cells(const struct kiln_interact *interact, uint32_t cells)
+{
+    const GLuint zero = 0;
+    glBindBuffer(GL_COPY_WRITE_BUFFER, interact->cells.gl);
+    glClearBufferSubData(GL_COPY_WRITE_BUFFER, GL_R32UI, 0,
+                         (GLsizeiptr)cells * (GLsizeiptr)sizeof zero, GL_RED_INTEGER,
+                         GL_UNSIGNED_INT, &zero);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+static void sort_into_cells(const struct kiln_interact *interact,
+                            const struct kiln_interact_params *params,
+                            enum kiln_interact_kernel count)
+{
+    empty_cells(interact, params->cell_mask + 2);
+    run(interact, count, params->used);
+    glUseProgram(interact->programs[KILN_INTERACT_SCAN]);
+    glUniform1ui(0, params->cell_mask + 1);
+    glDispatchCompute(1, 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    run(interact, KILN_INTERACT_PLACE, params->used);
+}
+
+/* A power of two of entries. */
+static void sort_entries(const struct kiln_interact *interact, uint32_t count)
+{
+    glUseProgram(interact->programs[KILN_INTERACT_BITONIC]);
+    glUniform1ui(0, count);
+    for (uint32_t length = 2; length <= count; length *= 2) {
+        for (uint32_t distance = length / 2; distance > 0; distance /= 2) {
+            glUniform1ui(1, length);
+            glUniform1ui(2, distance);
+            kiln_device_dispatch(interact->device, count / 2, interact->group_size);
+            glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+        }
+    }
+}
+
+static void sort_into_grids(const struct kiln_interact *interact,
+                            const struct kiln_interact_params *params)
+{
+    const uint32_t entries = kiln_interact_entries(params->used);
+    empty_cells(interact, params->cell_mask + 1);
+    run(interact, KILN_INTERACT_COUNT_STAGGERED, entries);
+    sort_entries(interact, entries);
+    run(interact, KILN_INTERACT_ORDER, params->used);
+    sort_entries(interact, entries);
+    run(interact, KILN_INTERACT_ORDER_SECOND, params->used);
+}
+
+/* Whether all of them were looked at. */
+static bool saw_all(const struct kiln_interact *interact, const struct kiln_interact_work *work,
+                    struct kiln_error *error)
+{
+    if (!interact->device->info.software || work->mode != KILN_CONTACT_EXACT)
+        return true;
+    GLuint around = 0;
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glBindBuffer(GL_COPY_READ_BUFFER, interact->cells.gl);
+    glGetBufferSubData(GL_COPY_READ_BUFFER,
+                       (GLintptr)(work->params.cell_mask + 1) * (GLintptr)sizeof around,
+                       (GLsizeiptr)sizeof around, &around);
+    if (around <= MOST_AROUND)
+        return true;
+    return kiln_error_set(error, KILN_DEVICE_FAILED,
+                          "systems.%s.interact: a particle has %u others near enough to collide "
+                          "with; software GL looks at up to %u: use --technique simulate=cpu, or a "
+                          "smaller radius or lower fastest",
+                          work->system, around, (unsigned)MOST_AROUND);
+}
+
+static bool collide(const struct kiln_interact *interact, const struct kiln_interact_work *work,
+                    struct kiln_error *error)
+{
+    const struct kiln_interact_params *params = &work->params;
+    const bool exact = work->mode == KILN_CONTACT_EXACT;
+    if (exact)
+        sort_into_cells(interact, params, KILN_INTERACT_COUNT);
+    else
+        sort_into_grids(interact, params);
+    GLuint bodies = interact->bodies.gl, second = interact->second.gl;
+    for (uint32_t round = 0; round < work->rounds; round++) {
+        const enum kiln_interact_kernel find =
+            exact ? KILN_INTERACT_FIND : KILN_INTERACT_FIND_STAGGERED;
+        glUseProgram(interact->programs[find]);
+        glUniform1ui(0, round > 0);
+        run(interact, find, params->used);
+        run(interact, KILN_INTERACT_ANSWER, params->used);
+        const GLuint before = bodies;
+        bodies = second;
+        second = before;
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, INTERACT_BIND_BODIES, bodies);
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, INTERACT_BIND_SECOND, second);
+    }
+    if (!saw_all(interact, work, error))
+        return false;
+    run(interact, KILN_INTERACT_PUSH, params->used);
+    return true;
+}
+
+/* So many sources in a dispatch that llvmpipe's loops run to their end with any size of groups. */
+enum { SOURCES_AT_A_TIME = 1 << 14 };
+
+static bool pull(struct kiln_interact *interact, const struct kiln_interact_work *work,
+                 struct kiln_error *error)
+{
+    const uint32_t all = work->sources.used;
+    if (!set_params(interact, &work->sources, error))
+        return false;
+    run(interact, KILN_INTERACT_SOURCES, all);
+    if (!set_params(interact, &work->params, error))
+        return false;
+    glUseProgram(interact->programs[KILN_INTERACT_GRAVITY_TILES]);
+    glUniform1ui(2, all);
+    glUniform1ui(3, interact->half);
+    uint32_t first = 0;
+    do {
+        const uint32_t left = all - first;
+        const uint32_t end = first + (left < SOURCES_AT_A_TIME ? left : SOURCES_AT_A_TIME);
+        glUniform1ui(0, first);
+        glUniform1ui(1, end);
+        run(interact, KILN_INTERACT_GRAVITY_TILES, work->params.used);
+        first = end;
+    } while (first < all);
+    return true;
+}
+
+static void flock(const struct kiln_interact *interact, const struct kiln_interact_params *params)
+{
+    sort_into_cells(interact, params, KILN_INTERACT_COUNT_FLOCK);
+    run(interact, KILN_INTERACT_FLOCK_MEANS, 1);
+    run(interact, KILN_INTERACT_FLOCK_STEER, params->used);
+}
+
+bool kiln_interact_gl(struct kiln_interact *interact, const struct kiln_interact_work *work,
+                      struct kiln_pool *pool, struct kiln_buffer *keys, struct kiln_error *error)
+{
+    if (!work->collides && !work->pulls && !work->flocks)
+        return true;
+    if (!bind_all(interact, work, pool, keys, error))
+        return false;
+    if ((work->collides && !collide(interact, work, error)) ||
+        (work->pulls && !pull(interact, work, error)))
+        return false;
+    if (work->flocks)
+        flock(interact, &work->params);
+    return kiln_device_check(interact->device, "interact", error);
+}

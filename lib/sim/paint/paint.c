@@ -1,0 +1,309 @@
+/* Splats are made of the traces of each slot, in the mesh's own space at the moment of the impact,
+ * and gathered by its texels in the order of systems and slots. Where only some have their turn in
+ * a step (7.6.1.3), each slot keeps its last splat until then. */
+#include "sim/paint/paint.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "shared/trace.h"
+
+enum { SLOTS_AT_A_TIME = 1024 };
+
+struct kiln_paint_mesh {
+    uint32_t object; /* of the scene */
+    struct kiln_chart *chart;
+    struct kiln_paint_grid grid;
+};
+
+/* ---- meshes ---------------------------------------------------------------------------------- */
+
+static bool load(struct kiln_paint *paint, uint32_t object, struct kiln_error *error)
+{
+    const struct kiln_scene *scene = paint->scene;
+    const struct kiln_object *taker = &scene->backdrop.objects[object];
+    struct kiln_paint_mesh *mesh = &paint->meshes[paint->mesh_count++];
+    mesh->object = object;
+    mesh->chart = kiln_chart_create(taker->shown, taker->paint.size, taker->file, error);
+    return mesh->chart && kiln_paint_grid_init(&mesh->grid, mesh->chart, error);
+}
+
+static bool any_paints(struct kiln_paint *paint)
+{
+    for (uint32_t i = 0; i < paint->scene->system_count; i++) {
+        if (kiln_scene_paints(paint->scene, i))
+            paint->slot_count += paint->scene->systems[i].capacity;
+    }
+    return paint->slot_count > 0;
+}
+
+bool kiln_paint_init(struct kiln_paint *paint, const struct kiln_scene *scene,
+                     struct kiln_threads *threads, struct kiln_error *error)
+{
+    *paint = (struct kiln_paint){.scene = scene, .threads = threads};
+    if (!any_paints(paint))
+        return true;
+    enum kiln_simd simd;
+    if (!kiln_simd_choose(&simd, error))
+        return false;
+    paint->block = KILN_SIMD_PICK(kiln_paint_block_of, simd);
+    paint->meshes = calloc(KILN_MAX_MESHES, sizeof *paint->meshes);
+    paint->made = malloc(paint->slot_count * sizeof *paint->made);
+    paint->turns = malloc(paint->slot_count * sizeof *paint->turns);
+    if (!paint->meshes || !paint->made || !paint->turns) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "paint: out of memory");
+        return false;
+    }
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        if (kiln_object_takes_paint(&scene->backdrop.objects[i]) && !load(paint, i, error))
+            return false;
+    }
+    return true;
+}
+
+void kiln_paint_finish(struct kiln_paint *paint)
+{
+    for (uint32_t i = 0; i < paint->mesh_count; i++) {
+        kiln_chart_destroy(&paint->meshes[i].chart);
+        kiln_paint_grid_finish(&paint->meshes[i].grid);
+    }
+    free(paint->meshes);
+    free(paint->made);
+    free(paint->turns);
+    *paint = (struct kiln_paint){.mesh_count = 0};
+}
+
+/* ---- splats ---------------------------------------------------------------------------------- */
+
+/* Where a mesh is at a time: rows from the world to its frame, and metres for a unit of it. */
+struct pose {
+    float4 to_local[3];
+    float metres;
+};
+
+static struct pose pose_at(const struct kiln_scene *scene, const struct kiln_object *mesh,
+                           float time_s)
+{
+    const float3 at = kiln_scene_value3(scene, &mesh->center, time_s);
+    float rows[3][3];
+    struct pose pose = {.metres = kiln_scene_value(scene, &mesh->scale, time_s)};
+    kiln_scene_rotation(kiln_scene_value3(scene, &mesh->rotation, time_s), rows);
+    for (int i = 0; i < 3; i++) { /* the transposed rotation, shrunk, less the position */
+        const float3 row =
+            FLOAT3(rows[0][i] / pose.metres, rows[1][i] / pose.metres, rows[2][i] / pose.metres);
+        pose.to_local[i] = FLOAT4(row.x, row.y, row.z, -float3_dot(row, at));
+    }
+    return pose;
+}
+
+/* Making the splats of a system on a mesh. */
+struct making {
+    const struct kiln_scene *scene;
+    const struct kiln_system *system;
+    const struct kiln_step_params *step;
+    const struct kiln_trace *traces;
+    const struct kiln_chart *chart;
+    struct pose start, end; /* of the step */
+    struct kiln_splat *out;
+};
+
+/* In the mesh's frame, the part `since` of the step after its start. */
+static float3 to_mesh(const struct making *m, float3 v, float w, float since)
+{
+    float local[3];
+    for (int i = 0; i < 3; i++) {
+        const float4 a = m->start.to_local[i], b = m->end.to_local[i];
+        const float before = a.x * v.x + a.y * v.y + a.z * v.z + a.w * w;
+        const float after = b.x * v.x + b.y * v.y + b.z * v.z + b.w * w;
+        local[i] = before + (after - before) * since;
+    }
+    return FLOAT3(local[0], local[1], local[2]);
+}
+
+/* What a particle's trace says of its mark. */
+struct mark {
+    float3 at, normal; /* in the world */
+    float since;       /* part of the step */
+    float life;        /* progress then */
+};
+
+static bool find_mark(const struct making *m, const struct kiln_trace *trace, struct mark *mark)
+{
+    const uint32_t events = trace->serial_event.y;
+    if (m->system->paint.when == KILN_PAINT_NEAR) {
+        *mark = (struct mark){
+            .at = trace_vector(trace->end), .since = trace->end.w, .life = trace->end_velocity.w};
+        return (events & TRACE_ALIVE) != 0;
+    }
+    if ((events & TRACE_TURN) == 0)
+        return false;
+    const float passed = exact_div(trace->turn.w - trace->start.w, trace->end.w - trace->start.w);
+    const float3 normal = trace_normal(*trace);
+    *mark = (struct mark){
+        .at = float3_add_scaled(trace_vector(trace->turn), normal, -trace->turn_velocity.w),
+        .normal = normal,
+        .since = trace->turn.w,
+        .life = exact_lerp(trace->start_velocity.w, trace->end_velocity.w,
+                           exact_clamp(passed, 0.0f, 1.0f)),
+    };
+    return true;
+}
+
+/* May it reach the mesh? */
+static bool is_near(const struct kiln_chart *chart, float3 at, float radius)
+{
+    const float place[3] = {at.x, at.y, at.z};
+    bool near = true;
+    for (int c = 0; c < 3; c++)
+        near = near && place[c] >= chart->min[c] - radius && place[c] <= chart->max[c] + radius;
+    return near;
+}
+
+static struct kiln_splat make_splat(const struct making *m, const struct kiln_trace *trace)
+{
+    struct kiln_splat splat = {.opacity = 0.0f};
+    struct mark mark;
+    if (!find_mark(m, trace, &mark))
+        return splat;
+    const struct kiln_painting *paint = &m->system->paint;
+    const float4 *keys = m->scene->keys;
+    const float time_s = m->step->time_s + mark.since * m->scene->dt_s;
+    const uint32_t stream = random_stream(m->step->derived.random_key, trace->serial_event.x);
+    const float radius_m =
+        random_between(stream, RANDOM_PAINT, value_at(keys, paint->radius.min, time_s, 0.0f),
+                       value_at(keys, paint->radius.max, time_s, 0.0f));
+    const float radius =
+        radius_m / (m->start.metres + (m->end.metres - m->start.metres) * mark.since);
+    const float3 at = to_mesh(m, mark.at, 1.0f, mark.since);
+    if (!is_near(m->chart, at, radius))
+        return splat;
+    const float3 normal = to_mesh(m, mark.normal, 0.0f, mark.since);
+    const float3 color = value3_at(keys, m->system->look.color, time_s, mark.life);
+    const float soft = value_at(keys, paint->soft, time_s, mark.life);
+    /* No edge is quite hard. */
+    const float outer = exact_max(soft * (2.0f - soft), 1e-3f);
+    splat = (struct kiln_splat){
+        .at = {at.x, at.y, at.z},
+        .opacity = exact_clamp(value_at(keys, paint->opacity, time_s, mark.life), 0.0f, 1.0f),
+        .normal = {normal.x, normal.y, normal.z},
+        .square = radius * radius,
+        .color = {exact_clamp(color.x, 0.0f, 1.0f), exact_clamp(color.y, 0.0f, 1.0f),
+                  exact_clamp(color.z, 0.0f, 1.0f)},
+        .slope = 1.0f / (outer * radius * radius),
+    };
+    return splat;
+}
+
+static void make_splats(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct making *m = context;
+    for (size_t slot = begin; slot < end; slot++)
+        m->out[slot] = make_splat(m, &m->traces[slot]);
+}
+
+/* Of all systems that paint, in the order of their slots. */
+static void make_all(const struct kiln_paint *paint, const struct kiln_sim_params *params,
+                     const struct kiln_paint_mesh *mesh, const struct kiln_trace *traces)
+{
+    const struct kiln_scene *scene = paint->scene;
+    const struct kiln_object *object = &scene->backdrop.objects[mesh->object];
+    const float start_s = params->systems[0].time_s;
+    const float end_s = kiln_scene_time(scene, params->systems[0].step);
+    const struct pose start = pose_at(scene, object, start_s), end = pose_at(scene, object, end_s);
+    struct kiln_splat *out = paint->made;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        if (!kiln_scene_paints(scene, i))
+            continue;
+        const struct kiln_step_params *step = &params->systems[i];
+        struct making making = {.scene = scene,
+                                .system = &scene->systems[i],
+                                .step = step,
+                                .traces = traces + step->family.traces,
+                                .chart = mesh->chart,
+                                .start = start,
+                                .end = end,
+                                .out = out};
+        kiln_threads_for(paint->threads, step->used, SLOTS_AT_A_TIME, make_splats, &making);
+        for (uint32_t slot = step->used; slot < step->capacity; slot++)
+            out[slot].opacity = 0.0f;
+        out += step->capacity;
+    }
+}
+
+/* Those that paint now; returns how many. */
+static uint32_t take_turns(const struct kiln_paint *paint, struct kiln_canvas *canvas,
+                           uint32_t per_step)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < paint->slot_count; i++) {
+        if (!(paint->made[i].opacity > 0.0f))
+            continue;
+        if (canvas->waiting)
+            canvas->waiting[i] = paint->made[i];
+        else
+            paint->turns[count++] = paint->made[i];
+    }
+    for (uint32_t k = 0; canvas->waiting && k < per_step; k++) {
+        struct kiln_splat *splat = &canvas->waiting[canvas->next];
+        canvas->next = canvas->next + 1 < canvas->slot_count ? canvas->next + 1 : 0;
+        if (splat->opacity > 0.0f)
+            paint->turns[count++] = *splat;
+        splat->opacity = 0.0f;
+    }
+    return count;
+}
+
+/* ---- a step ---------------------------------------------------------------------------------- */
+
+static bool make_canvases(const struct kiln_paint *paint, struct kiln_pool *pool,
+                          struct kiln_error *error)
+{
+    while (pool->canvas_count < paint->mesh_count) {
+        const uint32_t i = pool->canvas_count;
+        const struct kiln_object_paint *taker =
+            &paint->scene->backdrop.objects[paint->meshes[i].object].paint;
+        const bool all = taker->per_step == 0 || taker->per_step >= paint->slot_count;
+        if (!kiln_canvas_init(&pool->canvases[i], taker->size, all ? 0 : paint->slot_count,
+                              error)) {
+            kiln_canvas_finish(&pool->canvases[i]);
+            return false;
+        }
+        pool->canvas_count++;
+    }
+    return true;
+}
+
+bool kiln_paint_step(struct kiln_paint *paint, const struct kiln_sim_params *params,
+                     struct kiln_pool *pool, struct kiln_buffer *traces, struct kiln_error *error)
+{
+    if (paint->mesh_count == 0)
+        return true;
+    const struct kiln_trace *left = kiln_buffer_host(traces, KILN_READ, error);
+    if (!left || !make_canvases(paint, pool, error))
+        return false;
+    for (uint32_t i = 0; i < paint->mesh_count; i++) {
+        struct kiln_paint_mesh *mesh = &paint->meshes[i];
+        struct kiln_canvas *canvas = &pool->canvases[i];
+        const struct kiln_object_paint *taker = &paint->scene->backdrop.objects[mesh->object].paint;
+        const struct kiln_paint_gather gather = {
+            .threads = paint->threads,
+            .block = paint->block,
+            .chart = mesh->chart,
+            .grid = taker->gather == KILN_GATHER_NEAR ? &mesh->grid : NULL};
+        bool changed;
+        make_all(paint, params, mesh, left);
+        const uint32_t count = take_turns(paint, canvas, taker->per_step);
+        if (!kiln_paint_gather(&gather, paint->turns, count, canvas->texels, &changed, error))
+            return false;
+        canvas->changes += changed;
+    }
+    return true;
+}
+
+void kiln_paint_hash(const struct kiln_pool *pool, struct kiln_state_hash *hash)
+{
+    for (uint32_t i = 0; i < pool->canvas_count; i++)
+        kiln_canvas_hash(&pool->canvases[i], i, hash);
+}

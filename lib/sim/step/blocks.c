@@ -1,0 +1,265 @@
+/* The host uploads a few kilobytes a step and reads nothing back. */
+#include "sim/step/blocks.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "shared/trace.h"
+#include "sim/world/turned.h"
+
+static size_t step_stride(void)
+{
+    GLint alignment = 0;
+    glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &alignment);
+    size_t unit = alignment > 0 ? (size_t)alignment : 256;
+    return (sizeof(struct kiln_step_params) + unit - 1) / unit * unit;
+}
+
+static uint32_t group_size(const struct kiln_device *device)
+{
+    return device->work_group_size ? device->work_group_size : SIM_GROUP_SIZE;
+}
+
+bool kiln_sim_blocks_init(struct kiln_sim_blocks *blocks, struct kiln_device *device,
+                          const struct kiln_scene *scene, struct kiln_error *error)
+{
+    *blocks = (struct kiln_sim_blocks){
+        .device = device, .group_size = group_size(device), .step_stride = step_stride()};
+    if (blocks->group_size > (uint32_t)device->info.max_work_group_invocations)
+        return kiln_error_set(
+            error, KILN_USAGE, "a work group of %u invocations; %s takes up to %d",
+            blocks->group_size, device->info.name, device->info.max_work_group_invocations);
+    kiln_buffer_init(&blocks->keys, device, KILN_MAX_VALUE_KEYS * sizeof(float4), "value keys");
+    kiln_buffer_init(&blocks->steps, device, KILN_MAX_SYSTEMS * blocks->step_stride,
+                     "step parameters");
+    kiln_buffer_init(&blocks->surroundings, device, sizeof(struct kiln_surroundings),
+                     "surroundings");
+    float4 *keys = kiln_buffer_host(&blocks->keys, KILN_READ_WRITE, error);
+    if (!keys)
+        return false;
+    if (scene->key_count > 0)
+        memcpy(keys, scene->keys, scene->key_count * sizeof *keys);
+    return true;
+}
+
+void kiln_sim_blocks_finish(struct kiln_sim_blocks *blocks)
+{
+    kiln_buffer_finish(&blocks->keys);
+    kiln_buffer_finish(&blocks->steps);
+    kiln_buffer_finish(&blocks->surroundings);
+    *blocks = (struct kiln_sim_blocks){.device = NULL};
+}
+
+bool kiln_sim_blocks_upload(struct kiln_sim_blocks *blocks, const struct kiln_sim_params *params,
+                            struct kiln_buffer *traces, struct kiln_buffer *pushes,
+                            struct kiln_buffer *spins, struct kiln_error *error)
+{
+    unsigned char *steps = kiln_buffer_host(&blocks->steps, KILN_READ_WRITE, error);
+    if (!steps)
+        return false;
+    for (uint32_t i = 0; i < params->system_count; i++)
+        memcpy(steps + i * blocks->step_stride, &params->systems[i], sizeof params->systems[i]);
+    GLuint key_buffer = kiln_buffer_gl(&blocks->keys, KILN_READ, error);
+    GLuint surroundings = kiln_buffer_upload(&blocks->surroundings, &params->surroundings, error);
+    if (!key_buffer || !surroundings || !kiln_buffer_gl(&blocks->steps, KILN_READ, error))
+        return false;
+    glBindBufferBase(GL_UNIFORM_BUFFER, SIM_BIND_KEYS, key_buffer);
+    glBindBufferBase(GL_UNIFORM_BUFFER, SIM_BIND_SURROUNDINGS, surroundings);
+    if (params->grids->count > 0) {
+        GLuint words = kiln_buffer_gl(&params->grids->words, KILN_READ, error);
+        if (!words)
+            return false;
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SIM_BIND_GRIDS, words);
+    }
+    if (params->grids->volumes.count > 0) {
+        GLuint words = kiln_buffer_gl(&params->grids->volumes.words, KILN_READ, error);
+        if (!words)
+            return false;
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SIM_BIND_VOLUMES, words);
+    }
+    if (params->push_count > 0) {
+        GLuint words = kiln_buffer_gl(pushes, KILN_READ, error);
+        if (!words)
+            return false;
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SIM_BIND_PUSHES, words);
+    }
+    if (params->spin_count > 0) {
+        GLuint words = kiln_buffer_gl(spins, KILN_READ_WRITE, error);
+        if (!words)
+            return false;
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SIM_BIND_SPINS, words);
+    }
+    if (params->trace_count == 0)
+        return true;
+    GLuint scratch = kiln_buffer_gl(traces, KILN_READ_WRITE, error);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SIM_BIND_TRACES, scratch);
+    return scratch != 0;
+}
+
+void kiln_sim_blocks_bind(const struct kiln_sim_blocks *blocks,
+                          const struct kiln_sim_params *params, uint32_t system)
+{
+    if (params->systems[system].family.born_of != BORN_OF_CLOCK) /* its parent has left traces */
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    glBindBufferRange(GL_UNIFORM_BUFFER, SIM_BIND_STEP, blocks->steps.gl,
+                      (GLintptr)(system * blocks->step_stride), sizeof(struct kiln_step_params));
+}
+
+bool kiln_sim_check_stage(struct kiln_device *device, const struct kiln_sim_params *params,
+                          enum kiln_probe_stage stage, struct kiln_error *error)
+{
+    const bool fragment = stage == KILN_PROBE_FRAGMENT;
+    const char *name = fragment ? "fragment" : "geometry";
+    GLint blocks = 0;
+    glGetIntegerv(fragment ? GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS
+                           : GL_MAX_GEOMETRY_SHADER_STORAGE_BLOCKS,
+                  &blocks);
+    const GLint needed = (params->trace_count > 0) + (params->grids->count > 0) +
+                         (params->grids->volumes.count > 0) + (params->push_count > 0) +
+                         (params->spin_count > 0);
+    if (blocks < needed)
+        return kiln_error_set(
+            error, KILN_NO_DEVICE,
+            "%s: %d storage blocks in %s shaders; this scene, with children, "
+            "paint, grids, volumes or interaction, needs %d; use simulate=pingpong",
+            device->info.name, blocks, name, needed);
+    char reason[256];
+    struct kiln_error problem = {0};
+    if (kiln_probe_exact(device, stage, reason, &problem))
+        return true;
+    return kiln_error_set(error, KILN_NO_DEVICE,
+                          "%s computes inexactly in %s shaders (%s); use simulate=pingpong",
+                          device->info.name, name, reason[0] ? reason : problem.message);
+}
+
+GLuint kiln_sim_second(struct kiln_buffer *second, const struct kiln_pool *pool,
+                       struct kiln_error *error)
+{
+    if (second->size != pool->records.size) {
+        struct kiln_device *device = second->device;
+        kiln_buffer_finish(second);
+        kiln_buffer_init(second, device, pool->records.size, KILN_SIM_SECOND);
+    }
+    return kiln_buffer_gl(second, KILN_READ_WRITE, error);
+}
+
+static bool has_families(const struct kiln_sim_params *params)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < params->system_count; i++)
+        any = any || kiln_sim_is_family(&params->systems[i]);
+    return any;
+}
+
+static bool has_round_colliders(const struct kiln_scene *scene)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        const struct kiln_object *object = &scene->backdrop.objects[i];
+        any = any || (object->collide &&
+                      (object->kind == KILN_OBJECT_SPHERE || object->kind == KILN_OBJECT_CYLINDER));
+    }
+    return any;
+}
+
+static bool has_turned_colliders(const struct kiln_scene *scene)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        const struct kiln_object *object = &scene->backdrop.objects[i];
+        any = any || (object->collide && kiln_turned_is(object));
+    }
+    return any;
+}
+
+static bool has_rubbing(const struct kiln_sim_params *params)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < params->system_count; i++)
+        any = any || params->systems[i].rubs;
+    return any;
+}
+
+static bool has_field_colliders(const struct kiln_scene *scene)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++)
+        any = any || kiln_sim_grids_needs(&scene->backdrop.objects[i]);
+    return any;
+}
+
+static bool has_depth_maps(const struct kiln_scene *scene)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        const struct kiln_object *object = &scene->backdrop.objects[i];
+        any = any || (object->collide && object->kind == KILN_OBJECT_MESH &&
+                      object->collider == KILN_COLLIDER_DEPTH_MAPS);
+    }
+    return any;
+}
+
+/* What a scene needs of the kernels. */
+struct defines {
+    char text[512];
+};
+
+static void add_define(struct defines *defines, const char *name, bool wanted)
+{
+    const size_t length = strlen(defines->text);
+    if (wanted)
+        snprintf(defines->text + length, sizeof defines->text - length, "#define %s 1\n", name);
+}
+
+uint32_t kiln_sim_emitter_births(const struct kiln_device *device)
+{
+    return device->info.software ? 1 : SIM_EMITTER_BIRTHS;
+}
+
+bool kiln_sim_programs_init(struct kiln_sim_programs *programs, struct kiln_device *device,
+                            const struct kiln_scene *scene, const struct kiln_sim_params *params,
+                            struct kiln_program_params files, struct kiln_error *error)
+{
+    *programs = (struct kiln_sim_programs){.alone = 0};
+    struct defines defines;
+    const bool grids = params->grids->count > 0, turned = has_turned_colliders(scene);
+    const bool fields = has_field_colliders(scene), pushes = params->push_count > 0;
+    const bool forces = kiln_sim_needs_all_forces(scene);
+    const bool round = has_round_colliders(scene), volumes = params->grids->volumes.count > 0;
+    snprintf(defines.text, sizeof defines.text,
+             "#define SIM_GROUP_SIZE %u\n#define SIM_EMITTER_BIRTHS %u\n", group_size(device),
+             kiln_sim_emitter_births(device));
+    add_define(&defines, "COLLIDE_ROUND", grids || volumes || turned || pushes || forces || round);
+    add_define(&defines, "COLLIDE_TURNED", turned);
+    add_define(&defines, "COLLIDE_RUB", has_rubbing(params));
+    add_define(&defines, "GRIDS", grids);
+    add_define(&defines, "COLLIDE_FIELD", fields);
+    add_define(&defines, "COLLIDE_VOLUME", volumes);
+    add_define(&defines, "COLLIDE_DEPTH", has_depth_maps(scene));
+    add_define(&defines, "PUSHES", pushes);
+    add_define(&defines, "SPINS", params->spin_count > 0);
+    add_define(&defines, "FORCES_ALL", forces);
+    files.defines = defines.text;
+    programs->alone = kiln_program_create(device, &files, error);
+    if (!programs->alone || !has_families(params))
+        return programs->alone != 0;
+    add_define(&defines, "FAMILY", true);
+    programs->family = kiln_program_create(device, &files, error);
+    return programs->family != 0;
+}
+
+void kiln_sim_programs_finish(struct kiln_sim_programs *programs)
+{
+    if (programs->alone)
+        glDeleteProgram(programs->alone);
+    if (programs->family)
+        glDeleteProgram(programs->family);
+    *programs = (struct kiln_sim_programs){.alone = 0};
+}
+
+GLuint kiln_sim_programs_of(const struct kiln_sim_programs *programs,
+                            const struct kiln_step_params *step)
+{
+    return kiln_sim_is_family(step) ? programs->family : programs->alone;
+}

@@ -1,0 +1,133 @@
+/* The thesis keeps its particles in the stream and asks a query for their number before the next
+ * step (Heinz 2019, 3.3.3). Here the number stays in GL, and after each step the state is in the
+ * slots, as with every technique: so it can be hashed, sorted, drawn and saved alike. A child reads
+ * its parent's trace, and a parent leaves one, in storage blocks as in compute. */
+#include "sim/step/feedback.h"
+
+bool kiln_feedback_init(struct kiln_feedback *feedback, struct kiln_device *device,
+                        const struct kiln_scene *scene, const struct kiln_sim_params *params,
+                        struct kiln_error *error)
+{
+    *feedback = (struct kiln_feedback){.place_program = 0};
+    kiln_buffer_init(&feedback->stream, device, 0, KILN_SIM_SECOND);
+    if (!kiln_sim_check_stage(device, params, KILN_PROBE_GEOMETRY, error) ||
+        !kiln_capture_init(&feedback->capture, device, 2, error))
+        return false;
+    glGenTransformFeedbacks(1, &feedback->moved);
+    glGenTransformFeedbacks(1, &feedback->born);
+    static const char *const record[] = {"stream_position_serial", "stream_velocity_birth"};
+    struct kiln_program_params files = {.vertex = "sim/step/feedback.vert",
+                                        .geometry = "sim/step/feedback.geom",
+                                        .captured = record,
+                                        .captured_count = 2};
+    if (!kiln_sim_programs_init(&feedback->move, device, scene, params, files, error))
+        return false;
+    files.geometry = "sim/step/feedback_emit.geom";
+    if (!kiln_sim_programs_init(&feedback->emit, device, scene, params, files, error))
+        return false;
+    feedback->place_program = kiln_program_create(
+        device, &(struct kiln_program_params){.vertex = "sim/step/feedback_place.vert"}, error);
+    return feedback->place_program != 0;
+}
+
+void kiln_feedback_finish(struct kiln_feedback *feedback)
+{
+    kiln_capture_finish(&feedback->capture);
+    kiln_sim_programs_finish(&feedback->move);
+    kiln_sim_programs_finish(&feedback->emit);
+    if (feedback->place_program)
+        glDeleteProgram(feedback->place_program);
+    if (feedback->moved)
+        glDeleteTransformFeedbacks(1, &feedback->moved);
+    if (feedback->born)
+        glDeleteTransformFeedbacks(1, &feedback->born);
+    kiln_buffer_finish(&feedback->stream);
+    *feedback = (struct kiln_feedback){.place_program = 0};
+}
+
+static const size_t RECORD = sizeof(struct kiln_particle);
+
+/* Records of one system, in a buffer. */
+struct range {
+    GLuint buffer;
+    uint32_t first, count;
+};
+
+static void read_vertices(struct range from)
+{
+    glBindVertexBuffer(0, from.buffer, (GLintptr)(from.first * RECORD), (GLsizei)RECORD);
+}
+
+/* Runs the program for so many vertices; what it emits goes to the range, which has room for it. */
+static void stream(GLuint object, GLuint program, uint32_t vertices, struct range to)
+{
+    if (to.count == 0)
+        return;
+    glBindTransformFeedback(GL_TRANSFORM_FEEDBACK, object);
+    glBindBufferRange(GL_TRANSFORM_FEEDBACK_BUFFER, 0, to.buffer, (GLintptr)(to.first * RECORD),
+                      (GLsizeiptr)(to.count * RECORD));
+    glUseProgram(program);
+    glBeginTransformFeedback(GL_POINTS);
+    glDrawArrays(GL_POINTS, 0, (GLsizei)vertices);
+    glEndTransformFeedback();
+    glBindTransformFeedback(GL_TRANSFORM_FEEDBACK, 0);
+}
+
+/* Puts what was streamed into its slots. */
+static void place(GLuint object, struct range from)
+{
+    if (from.count == 0)
+        return;
+    read_vertices(from);
+    glDrawTransformFeedback(GL_POINTS, object);
+}
+
+static void empty(struct range slots)
+{
+    const GLuint zero = 0;
+    glBindBuffer(GL_COPY_WRITE_BUFFER, slots.buffer);
+    glClearBufferSubData(GL_COPY_WRITE_BUFFER, GL_R32UI, (GLintptr)(slots.first * RECORD),
+                         (GLsizeiptr)(slots.count * RECORD), GL_RED_INTEGER, GL_UNSIGNED_INT,
+                         &zero);
+}
+
+/* Births take the last places of the stream. What is moved finds room before them, since it comes
+ * from slots that nothing is born into. */
+static void step_system(const struct kiln_feedback *feedback, const struct kiln_step_params *step,
+                        GLuint records, GLuint second)
+{
+    const struct range slots = {records, step->base, step->used};
+    const struct range moved = {second, step->base, step->used - step->birth_count};
+    const struct range born = {second, moved.first + moved.count, step->birth_count};
+    const uint32_t births = kiln_sim_emitter_births(feedback->stream.device);
+    const uint32_t emitters = (step->birth_count + births - 1) / births;
+    read_vertices(slots);
+    stream(feedback->moved, kiln_sim_programs_of(&feedback->move, step), slots.count, moved);
+    stream(feedback->born, kiln_sim_programs_of(&feedback->emit, step), emitters, born);
+    empty(slots);
+    glUseProgram(feedback->place_program);
+    place(feedback->moved, moved);
+    place(feedback->born, born);
+}
+
+bool kiln_feedback_step(struct kiln_feedback *feedback, const struct kiln_sim_blocks *blocks,
+                        const struct kiln_sim_params *params, struct kiln_pool *pool,
+                        struct kiln_error *error)
+{
+    GLuint records = kiln_buffer_gl(&pool->records, KILN_READ_WRITE, error);
+    GLuint second = kiln_sim_second(&feedback->stream, pool, error);
+    if (!records || !second)
+        return false;
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SIM_BIND_RECORDS, records);
+    kiln_capture_begin(&feedback->capture);
+    for (uint32_t k = 0; k < params->system_count; k++) {
+        uint32_t i = params->order[k];
+        if (params->systems[i].used == 0)
+            continue;
+        kiln_sim_blocks_bind(blocks, params, i);
+        step_system(feedback, &params->systems[i], records, second);
+    }
+    kiln_capture_end();
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
+    return kiln_device_check(blocks->device, "simulate", error);
+}

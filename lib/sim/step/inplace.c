@@ -1,0 +1,29 @@
+/* Each slot is read and written by one invocation. */
+#include "sim/step/inplace.h"
+
+bool kiln_inplace_init(struct kiln_sim_programs *programs, struct kiln_device *device,
+                       const struct kiln_scene *scene, const struct kiln_sim_params *params,
+                       struct kiln_error *error)
+{
+    const struct kiln_program_params files = {.compute = "sim/step/inplace.comp"};
+    return kiln_sim_programs_init(programs, device, scene, params, files, error);
+}
+
+bool kiln_inplace_step(const struct kiln_sim_programs *programs,
+                       const struct kiln_sim_blocks *blocks, const struct kiln_sim_params *params,
+                       struct kiln_pool *pool, struct kiln_error *error)
+{
+    GLuint records = kiln_buffer_gl(&pool->records, KILN_READ_WRITE, error);
+    if (!records)
+        return false;
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SIM_BIND_RECORDS, records);
+    for (uint32_t k = 0; k < params->system_count; k++) {
+        uint32_t i = params->order[k];
+        const struct kiln_step_params *step = &params->systems[i];
+        kiln_sim_blocks_bind(blocks, params, i);
+        glUseProgram(kiln_sim_programs_of(programs, step));
+        kiln_device_dispatch(blocks->device, step->used, blocks->group_size);
+    }
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    return kiln_device_check(blocks->device, "simulate", error);
+}

@@ -1,0 +1,39 @@
+/* Nothing is copied: the pool takes the buffer that was written, and leaves its own. */
+#include "sim/step/pingpong.h"
+
+bool kiln_pingpong_init(struct kiln_pingpong *pingpong, struct kiln_device *device,
+                        const struct kiln_scene *scene, const struct kiln_sim_params *params,
+                        struct kiln_error *error)
+{
+    kiln_buffer_init(&pingpong->second, device, 0, KILN_SIM_SECOND);
+    const struct kiln_program_params files = {.compute = "sim/step/pingpong.comp"};
+    return kiln_sim_programs_init(&pingpong->programs, device, scene, params, files, error);
+}
+
+void kiln_pingpong_finish(struct kiln_pingpong *pingpong)
+{
+    kiln_sim_programs_finish(&pingpong->programs);
+    kiln_buffer_finish(&pingpong->second);
+}
+
+bool kiln_pingpong_step(struct kiln_pingpong *pingpong, const struct kiln_sim_blocks *blocks,
+                        const struct kiln_sim_params *params, struct kiln_pool *pool,
+                        struct kiln_error *error)
+{
+    GLuint records = kiln_buffer_gl(&pool->records, KILN_READ_WRITE, error);
+    GLuint second = kiln_sim_second(&pingpong->second, pool, error);
+    if (!records || !second)
+        return false;
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SIM_BIND_RECORDS, records);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SIM_BIND_SECOND, second);
+    for (uint32_t k = 0; k < params->system_count; k++) {
+        uint32_t i = params->order[k];
+        const struct kiln_step_params *step = &params->systems[i];
+        kiln_sim_blocks_bind(blocks, params, i);
+        glUseProgram(kiln_sim_programs_of(&pingpong->programs, step));
+        kiln_device_dispatch(blocks->device, step->used, blocks->group_size);
+    }
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    kiln_buffer_swap_gl(&pool->records, &pingpong->second);
+    return kiln_device_check(blocks->device, "simulate", error);
+}

@@ -1,0 +1,464 @@
+/* Steps blocks of slots: what most particles do in most steps (fly, and touch nothing) stage by
+ * stage for all of a block, in loops over arrays that compilers make into vectors. The stages are
+ * the functions of shaders/shared, so the bits are those of step_slot, which steps the others:
+ * births, and particles that may have met a collider.
+ */
+#include "sim/step/slots.h"
+
+#include "sim/step/slots_touching.h"
+
+static inline void find_values(const struct kiln_sim *sim, struct kiln_value v,
+                               const struct block *b, float *y)
+{
+    kiln_lanes_values(sim->value_keys, v, KILN_CLOCK_LIFE, b->life, sim->step->time_s, y);
+}
+
+static inline void find_values3(const struct kiln_sim *sim, struct kiln_value3 v,
+                                const struct block *b, struct kiln_floats3 *y)
+{
+    find_values(sim, v.x, b, y->x);
+    find_values(sim, v.y, b, y->y);
+    find_values(sim, v.z, b, y->z);
+}
+
+/* ---- stages ---------------------------------------------------------------------------------- */
+
+static inline void find_ages(const struct kiln_sim *sim, struct block *b)
+{
+    const float dt_s = sim->step->derived.dt_s;
+    kiln_lanes_find_ages(&b->lanes, sim->value_keys, sim->step->derived, sim->step->step);
+    for (uint32_t i = 0; i < KILN_LANES; i++)
+        b->life[i] = particle_progress(b->lanes.age_s[i] - dt_s, b->lanes.life_s[i]);
+}
+
+static inline struct force_input force_input_at(const struct block *b, uint32_t i,
+                                                const struct kiln_force_params *force, float time_s)
+{
+    return (struct force_input){
+        .position = kiln_get3(&b->at, i),
+        .time_s = time_s,
+        .vector = kiln_get3(&b->vector, i),
+        .strength = b->strength[i],
+        .drift = kiln_get3(&b->drift, i),
+        .pull = b->pulling[i],
+        .scale = b->scale[i],
+        .inward = force->inward,
+        .lift = force->lift,
+        .added = force->added,
+        .grid = force->grid,
+        .profile = force->profile,
+    };
+}
+
+static inline struct force_effect effect_at(const struct block *b, uint32_t i)
+{
+    return (struct force_effect){kiln_get3(&b->acceleration, i), b->pull[i], b->quadratic[i]};
+}
+
+static inline void add_effect(struct block *b, uint32_t i, struct force_effect effect)
+{
+    struct force_effect sum = forces_add(effect_at(b, i), effect);
+    kiln_set3(&b->acceleration, i, sum.acceleration);
+    b->pull[i] = sum.pull;
+    b->quadratic[i] = sum.quadratic;
+}
+
+/* force_curl, an octave of all lanes after the other. */
+static inline void add_curl(const struct kiln_sim *sim, struct block *b,
+                            const struct kiln_force_params *force)
+{
+    const float time_s = forces_time_s(sim, sim->step->time_s);
+    const uint32_t seed = sim->step->noise_seed, octaves = force->octaves;
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        kiln_set3(&b->place, i, force_curl_place(force_input_at(b, i, force, time_s)));
+        kiln_set3(&b->curl, i, (float3){0.0f, 0.0f, 0.0f});
+    }
+    for (uint32_t octave = 0; octave < octaves && octave < NOISE_OCTAVES; octave++) {
+        for (uint32_t i = 0; i < KILN_LANES; i++)
+            kiln_set3(
+                &b->curl, i,
+                noise_curl_add(kiln_get3(&b->curl, i), kiln_get3(&b->place, i), seed, octave));
+    }
+    for (uint32_t i = 0; i < KILN_LANES; i++)
+        add_effect(b, i, force_air(force_input_at(b, i, force, time_s), kiln_get3(&b->curl, i)));
+}
+
+/* Of each lane i. */
+#define ADD_EFFECT(effect)                                                                         \
+    for (uint32_t i = 0; i < KILN_LANES; i++)                                                      \
+    add_effect(b, i, effect)
+
+static inline void add_force(const struct kiln_sim *sim, struct block *b,
+                             const struct kiln_force_params *force)
+{
+    const float time_s = forces_time_s(sim, sim->step->time_s);
+    find_values3(sim, force->vector, b, &b->vector);
+    find_values(sim, force->strength, b, b->strength);
+    find_values3(sim, force->drift, b, &b->drift);
+    find_values(sim, force->pull, b, b->pulling);
+    find_values(sim, force->scale, b, b->scale);
+    switch (force->kind) {
+    case FORCE_GRAVITY:
+        ADD_EFFECT(force_gravity(force_input_at(b, i, force, time_s)));
+        break;
+    case FORCE_DRAG:
+        ADD_EFFECT(force_drag(force_input_at(b, i, force, time_s)));
+        break;
+    case FORCE_WIND:
+        ADD_EFFECT(force_wind(force_input_at(b, i, force, time_s)));
+        break;
+    case FORCE_CURL:
+        add_curl(sim, b, force);
+        break;
+    case FORCE_FIELD:
+        ADD_EFFECT(force_field(sim, force_input_at(b, i, force, time_s)));
+        break;
+    case FORCE_ATTRACT:
+        ADD_EFFECT(force_attract(force_input_at(b, i, force, time_s)));
+        break;
+    case FORCE_VORTEX:
+        ADD_EFFECT(force_vortex(force_input_at(b, i, force, time_s)));
+        break;
+    default:
+        break;
+    }
+}
+
+static inline void add_forces(const struct kiln_sim *sim, struct block *b)
+{
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        kiln_set3(&b->acceleration, i, (float3){0.0f, 0.0f, 0.0f});
+        b->pull[i] = 0.0f;
+        b->quadratic[i] = 0.0f;
+    }
+    for (uint32_t k = 0; k < sim->step->force_count; k++)
+        add_force(sim, b, &sim->step->forces[k]);
+}
+
+static inline void limit_speed(const struct kiln_sim *sim, struct block *b,
+                               struct kiln_floats3 *velocity)
+{
+    for (uint32_t k = 0; k < sim->step->force_count; k++) {
+        const struct kiln_force_params *force = &sim->step->forces[k];
+        if (force->kind != FORCE_LIMIT)
+            continue;
+        find_values(sim, force->strength, b, b->strength);
+        for (uint32_t i = 0; i < KILN_LANES; i++)
+            kiln_set3(velocity, i, force_limit_one(kiln_get3(velocity, i), b->strength[i]));
+    }
+}
+
+/* Slots from first_slot on, as far as there are any. */
+static inline uint32_t slots_left(const struct kiln_sim *sim, uint32_t first_slot)
+{
+    const uint32_t left = sim->step->used - first_slot;
+    return left < KILN_LANES ? left : KILN_LANES;
+}
+
+static inline void start_moving(const struct kiln_sim *sim, struct block *b, uint32_t first_slot)
+{
+    for (uint32_t i = 0; i < KILN_LANES; i++)
+        kiln_set3(&b->start, i, particle_velocity(record_at(b, i)));
+    if (!sim->step->pushed)
+        return;
+    memset(b->radius, 0, sizeof b->radius);
+    for (uint32_t i = 0; i < slots_left(sim, first_slot); i++) {
+        const struct step_push push = push_of(sim, first_slot + i);
+        kiln_set3(&b->start, i, push_faster(push, kiln_get3(&b->start, i)));
+        b->radius[i] = push.radius;
+    }
+}
+
+static inline void push_on(const struct kiln_sim *sim, struct block *b, uint32_t first_slot)
+{
+    if (!sim->step->pushed)
+        return;
+    for (uint32_t i = 0; i < slots_left(sim, first_slot); i++)
+        kiln_set3(&b->position, i,
+                  push_farther(push_of(sim, first_slot + i), kiln_get3(&b->position, i)));
+}
+
+/* step_integrate, over the whole step. */
+static inline void fly(const struct kiln_sim *sim, struct block *b)
+{
+    const float time_s = sim->step->derived.dt_s;
+    for (uint32_t i = 0; i < KILN_LANES; i++)
+        kiln_set3(&b->at, i, particle_position(record_at(b, i)));
+    add_forces(sim, b);
+    for (uint32_t i = 0; i < KILN_LANES; i++)
+        kiln_set3(&b->velocity, i, forces_apply(effect_at(b, i), kiln_get3(&b->start, i), time_s));
+    if (sim->step->forces_do & FORCES_SLOW) {
+        for (uint32_t i = 0; i < KILN_LANES; i++)
+            kiln_set3(&b->velocity, i,
+                      forces_slow(kiln_get3(&b->velocity, i), b->quadratic[i],
+                                  forces_acting_s(b->pull[i], time_s)));
+    }
+    if (sim->step->forces_do & FORCES_LIMIT)
+        limit_speed(sim, b, &b->velocity);
+    const bool position_first = sim->step->integration == INTEGRATE_POSITION_FIRST;
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        struct kiln_particle p = record_at(b, i);
+        float3 before = kiln_get3(&b->start, i), after = kiln_get3(&b->velocity, i);
+        float3 carrying = {position_first ? before.x : after.x, position_first ? before.y : after.y,
+                           position_first ? before.z : after.z};
+        kiln_set3(&b->position, i, float3_add_scaled(particle_position(p), carrying, time_s));
+    }
+}
+
+static inline struct stages stages_get(const struct stages_lanes *s, uint32_t i)
+{
+    return (struct stages){
+        .position = kiln_get3(&s->position, i),
+        .velocity = kiln_get3(&s->velocity, i),
+        .at = kiln_get3(&s->at, i),
+        .moving = kiln_get3(&s->moving, i),
+        .acceleration = kiln_get3(&s->acceleration, i),
+        .first = kiln_get3(&s->first, i),
+        .early = kiln_get3(&s->early, i),
+        .changed = kiln_get3(&s->changed, i),
+        .flown = kiln_get3(&s->flown, i),
+        .pull = s->pull[i],
+        .quadratic = s->quadratic[i],
+        .fastest = s->fastest[i],
+        .trust = s->trust[i],
+    };
+}
+
+static inline void stages_set(struct stages_lanes *to, uint32_t i, struct stages s)
+{
+    kiln_set3(&to->position, i, s.position);
+    kiln_set3(&to->velocity, i, s.velocity);
+    kiln_set3(&to->at, i, s.at);
+    kiln_set3(&to->moving, i, s.moving);
+    kiln_set3(&to->acceleration, i, s.acceleration);
+    kiln_set3(&to->first, i, s.first);
+    kiln_set3(&to->early, i, s.early);
+    kiln_set3(&to->changed, i, s.changed);
+    kiln_set3(&to->flown, i, s.flown);
+    to->pull[i] = s.pull;
+    to->quadratic[i] = s.quadratic;
+    to->fastest[i] = s.fastest;
+    to->trust[i] = s.trust;
+}
+
+/* A stage of all lanes; in each loop it is known which. */
+#define TAKE_STAGE(stage, count)                                                                   \
+    for (uint32_t i = 0; i < KILN_LANES; i++)                                                      \
+    stages_set(s, i, stages_take(stages_get(s, i), effect_at(b, i), stage, count, time_s))
+
+static inline void take_stage(struct block *b, uint32_t stage, uint32_t count, float time_s)
+{
+    struct stages_lanes *s = &b->stages;
+    if (count == 2 && stage == 0) {
+        TAKE_STAGE(0, 2);
+    } else if (count == 2) {
+        TAKE_STAGE(1, 2);
+    } else if (stage == 0) {
+        TAKE_STAGE(0, 4);
+    } else if (stage == 1) {
+        TAKE_STAGE(1, 4);
+    } else if (stage == 2) {
+        TAKE_STAGE(2, 4);
+    } else {
+        TAKE_STAGE(3, 4);
+    }
+}
+
+/* step_integrate_stages, over the whole step. */
+static inline void fly_in_stages(const struct kiln_sim *sim, struct block *b)
+{
+    const float time_s = sim->step->derived.dt_s;
+    const uint32_t integration = sim->step->integration, count = stages_count(integration);
+    struct stages_lanes *s = &b->stages;
+    for (uint32_t i = 0; i < KILN_LANES; i++)
+        stages_set(s, i, stages_start(particle_position(record_at(b, i)), kiln_get3(&b->start, i)));
+    for (uint32_t stage = 0; stage < count; stage++) {
+        b->at = s->at;
+        add_forces(sim, b);
+        take_stage(b, stage, count, time_s);
+        if (sim->step->forces_do & FORCES_LIMIT)
+            limit_speed(sim, b, &s->moving);
+    }
+    for (uint32_t i = 0; i < KILN_LANES; i++)
+        kiln_set3(&b->position, i, stages_arrive(stages_get(s, i), integration, time_s));
+    b->velocity = s->moving;
+}
+
+static inline void find_lost(const struct kiln_sim *sim, struct block *b)
+{
+    const struct kiln_step_params *step = sim->step;
+    for (uint32_t i = 0; i < KILN_LANES; i++)
+        b->lost[i] = 1u ^ ((uint32_t)step_is_sane(kiln_get3(&b->position, i)) &
+                           (uint32_t)step_is_sane(kiln_get3(&b->velocity, i)));
+    if (step->bounded) {
+        const float4 low = step->bounds_min, high = step->bounds_max;
+        for (uint32_t i = 0; i < KILN_LANES; i++)
+            b->lost[i] |= !step_is_between(kiln_get3(&b->position, i), low, high);
+    }
+    for (uint32_t k = 0; k < step->demitter_count; k++) {
+        const float4 low = step->demitter_min[k], high = step->demitter_max[k];
+        for (uint32_t i = 0; i < KILN_LANES; i++)
+            b->lost[i] |= step_is_between(kiln_get3(&b->position, i), low, high);
+    }
+}
+
+/* Living particles that may touch something, and births. */
+static inline void find_alone(const struct kiln_sim *sim, struct block *b, uint32_t first_slot)
+{
+    memset(b->alone, 0, sizeof b->alone);
+    if (sim->step->collide != COLLIDE_OFF)
+        find_touching_any(sim, b);
+    const uint32_t births = sim->step->birth_count;
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        uint32_t alive =
+            particle_is_alive(record_at(b, i)) & (b->lanes.age_s[i] < b->lanes.life_s[i]);
+        uint32_t born = step_birth_index(sim, first_slot + i) < births;
+        const uint32_t touches = b->alone[i] & (0u - alive);
+        b->alone[i] = born ? ALONE_BORN : touches;
+    }
+}
+
+/* step_particle of what is not stepped alone. */
+static inline void move(struct block *b)
+{
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        struct kiln_particle p = record_at(b, i);
+        struct kiln_particle moved =
+            step_with_motion(p, kiln_get3(&b->position, i), kiln_get3(&b->velocity, i));
+        bool stays = !particle_is_alive(p) || b->alone[i] != 0;
+        bool dies = b->lanes.age_s[i] >= b->lanes.life_s[i] || b->lost[i] != 0;
+        uint32_t living = dies ? 0u : ~0u;
+        const uint4 *place = &moved.position_serial, *speed = &moved.velocity_birth;
+        b->lanes.words[0][i] = stays ? b->lanes.words[0][i] : place->x & living;
+        b->lanes.words[1][i] = stays ? b->lanes.words[1][i] : place->y & living;
+        b->lanes.words[2][i] = stays ? b->lanes.words[2][i] : place->z & living;
+        b->lanes.words[3][i] = stays ? b->lanes.words[3][i] : place->w & living;
+        b->lanes.words[4][i] = stays ? b->lanes.words[4][i] : speed->x & living;
+        b->lanes.words[5][i] = stays ? b->lanes.words[5][i] : speed->y & living;
+        b->lanes.words[6][i] = stays ? b->lanes.words[6][i] : speed->z & living;
+        b->lanes.words[7][i] = stays ? b->lanes.words[7][i] : speed->w & living;
+    }
+}
+
+/* step_turn of what is not stepped alone. */
+static inline void turn(const struct kiln_sim *sim, struct block *b, uint32_t first_slot)
+{
+    const uint32_t slots = slots_left(sim, first_slot);
+    const float time_s = sim->step->derived.dt_s;
+    uint4 *words = sim->spin_words + ((size_t)sim->step->first_spin + first_slot) * 2;
+    memset(&b->rate, 0, sizeof b->rate);
+    memset(b->pose, 0, sizeof b->pose);
+    for (uint32_t i = 0; i < slots; i++) {
+        const float4 pose = spin_pose(words[(size_t)i * 2 + 1]);
+        kiln_set3(&b->rate, i, spin_rate(words[(size_t)i * 2]));
+        b->pose[0][i] = pose.x;
+        b->pose[1][i] = pose.y;
+        b->pose[2][i] = pose.z;
+        b->pose[3][i] = pose.w;
+    }
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        const float4 pose = {b->pose[0][i], b->pose[1][i], b->pose[2][i], b->pose[3][i]};
+        const float4 turned = spin_turned(pose, kiln_get3(&b->rate, i), time_s);
+        b->pose[0][i] = turned.x;
+        b->pose[1][i] = turned.y;
+        b->pose[2][i] = turned.z;
+        b->pose[3][i] = turned.w;
+    }
+    for (uint32_t i = 0; i < slots; i++) {
+        const float4 pose = {b->pose[0][i], b->pose[1][i], b->pose[2][i], b->pose[3][i]};
+        if (!particle_is_alive(record_at(b, i)) || b->alone[i])
+            continue;
+        words[(size_t)i * 2] = spin_words_of(kiln_get3(&b->rate, i));
+        words[(size_t)i * 2 + 1] = spin_pose_words(pose);
+    }
+}
+
+/* ---- loops ----------------------------------------------------------------------------------- */
+
+/* `records` is that of first_slot, and those behind it. */
+__attribute__((flatten)) static void step_block(const struct kiln_sim *sim, uint32_t first_slot,
+                                                struct kiln_particle *records, struct block *b)
+{
+    kiln_lanes_load(&b->lanes, records);
+    find_ages(sim, b);
+    start_moving(sim, b, first_slot);
+    if (sim->step->integration >= INTEGRATE_TRAPEZOID)
+        fly_in_stages(sim, b);
+    else
+        fly(sim, b);
+    push_on(sim, b, first_slot);
+    find_lost(sim, b);
+    find_alone(sim, b, first_slot);
+    move(b);
+    if (sim->step->spins)
+        turn(sim, b, first_slot);
+    kiln_lanes_store(&b->lanes, records);
+}
+
+/* step_particle from where it has flown. */
+static struct kiln_particle step_touching(const struct kiln_sim *sim, const struct block *b,
+                                          uint32_t i, uint32_t slot, struct kiln_particle p)
+{
+    struct step_way way = {
+        .start = {.position = particle_position(p), .velocity = kiln_get3(&b->start, i)},
+        .end = {.position = kiln_get3(&b->position, i),
+                .velocity = kiln_get3(&b->velocity, i),
+                .since = 1.0f},
+        .first = collide_no_touch(),
+        .lost = true,
+    };
+    if (sim->step->spins)
+        way.start.spin = way.end.spin = step_spin(sim, p, slot);
+    way = step_meet(sim, p, way, sim->step->pushed ? b->radius[i] : 0.0f, b->life[i], 1.0f);
+    if (way.lost)
+        return step_dead();
+    if (sim->step->spins)
+        step_turn(sim, p, slot, way.end.spin);
+    return step_with_motion(p, way.end.position, way.end.velocity);
+}
+
+static void step_alone(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct kiln_slots *slots = context;
+    const struct kiln_sim *sim = &slots->sim;
+    struct block block;
+    for (size_t first = begin; first < end; first += KILN_LANES) {
+        struct kiln_particle rest[KILN_LANES] = {0}, *records = slots->records + first;
+        const size_t count = end - first < KILN_LANES ? end - first : KILN_LANES;
+        if (count < KILN_LANES)
+            memcpy(rest, records, count * sizeof *records);
+        step_block(sim, (uint32_t)first, count < KILN_LANES ? rest : records, &block);
+        if (count < KILN_LANES)
+            memcpy(records, rest, count * sizeof *records);
+        for (size_t i = 0; i < count; i++) {
+            if (block.alone[i] == ALONE_TOUCHES)
+                records[i] =
+                    step_touching(sim, &block, (uint32_t)i, (uint32_t)(first + i), records[i]);
+            else if (block.alone[i] == ALONE_BORN)
+                records[i] = step_slot(sim, (uint32_t)(first + i), records[i]);
+        }
+    }
+}
+
+static void step_family(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct kiln_slots *slots = context;
+    const struct kiln_sim *sim = &slots->sim;
+    const struct kiln_family_params *family = &sim->step->family;
+    for (size_t slot = begin; slot < end; slot++) {
+        struct kiln_trace parent = trace_nothing();
+        if (family->born_of != BORN_OF_CLOCK)
+            parent = slots->traces[family_parent_trace(sim, (uint)slot)];
+        struct step_result after = step_family_slot(sim, (uint)slot, slots->records[slot], parent);
+        slots->records[slot] = after.particle;
+        if (family->traced)
+            slots->traces[family->traces + slot] = after.trace;
+    }
+}
+
+const struct kiln_slots_step KILN_SIMD_NAME(kiln_slots_step) = {
+    .alone = step_alone,
+    .family = step_family,
+};

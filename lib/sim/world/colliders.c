@@ -1,0 +1,271 @@
+/* From the scene's objects to what particles meet in a step. */
+#include "sim/world/colliders.h"
+
+#include <string.h>
+
+#include "shared/exact.h"
+#include "sim/world/turned.h"
+
+static float4 to_float4(const float v[3])
+{
+    return FLOAT4(exact_canon(v[0]), exact_canon(v[1]), exact_canon(v[2]), 0.0f);
+}
+
+/* A box's lower and upper corner. */
+static void box_corners(const struct kiln_scene *scene, const struct kiln_object *box, float time_s,
+                        float4 *min, float4 *max)
+{
+    float3 center = kiln_scene_value3(scene, &box->center, time_s);
+    float3 size = kiln_scene_value3(scene, &box->size, time_s);
+    float3 low = float3_canon(float3_add_scaled(center, size, -0.5f));
+    float3 high = float3_canon(float3_add_scaled(center, size, 0.5f));
+    *min = FLOAT4(low.x, low.y, low.z, 0.0f);
+    *max = FLOAT4(high.x, high.y, high.z, 0.0f);
+}
+
+static float4 canon4(float3 v, float w)
+{
+    return FLOAT4(exact_canon(v.x), exact_canon(v.y), exact_canon(v.z), exact_canon(w));
+}
+
+/* A round shape at a time: its centre and radius, half of its height, and what bounds it. */
+struct round_values {
+    float4 center;
+    float half_height;
+    float4 min, max;
+};
+
+static struct round_values round_values(const struct kiln_scene *scene,
+                                        const struct kiln_object *object, float3 axis, float time_s)
+{
+    float3 center = kiln_scene_value3(scene, &object->center, time_s);
+    float radius = kiln_scene_value(scene, &object->radius, time_s);
+    float half = 0.0f;
+    if (object->kind == KILN_OBJECT_CYLINDER)
+        half = 0.5f * kiln_scene_value(scene, &object->height, time_s);
+    float3 reach = FLOAT3(radius + half * exact_abs(axis.x), radius + half * exact_abs(axis.y),
+                          radius + half * exact_abs(axis.z));
+    return (struct round_values){.center = canon4(center, radius),
+                                 .half_height = exact_canon(half),
+                                 .min = canon4(float3_sub(center, reach), 0.0f),
+                                 .max = canon4(float3_add(center, reach), 0.0f)};
+}
+
+static struct kiln_collider round_collider(const struct kiln_scene *scene,
+                                           const struct kiln_object *object, float start_s,
+                                           float end_s)
+{
+    float3 axis = FLOAT3(0.0f, 0.0f, 0.0f);
+    if (object->kind == KILN_OBJECT_CYLINDER) /* it does not vary */
+        axis = float3_normalize(kiln_scene_value3(scene, &object->axis, start_s),
+                                FLOAT3(0.0f, 1.0f, 0.0f));
+    struct round_values start = round_values(scene, object, axis, start_s);
+    struct round_values end = round_values(scene, object, axis, end_s);
+    return (struct kiln_collider){
+        .min = start.min,
+        .max = start.max,
+        .min_end = end.min,
+        .max_end = end.max,
+        .center = start.center,
+        .center_end = end.center,
+        .axis = canon4(axis, start.half_height),
+        .kind = object->kind == KILN_OBJECT_SPHERE ? COLLIDER_SPHERE : COLLIDER_CYLINDER,
+        .half_height_end = end.half_height,
+    };
+}
+
+static struct kiln_collider box_collider(const struct kiln_scene *scene,
+                                         const struct kiln_object *object, float start_s,
+                                         float end_s)
+{
+    struct kiln_collider box = {.kind = COLLIDER_BOX};
+    box_corners(scene, object, start_s, &box.min, &box.max);
+    box_corners(scene, object, end_s, &box.min_end, &box.max_end);
+    return box;
+}
+
+/* The floor is a box as wide and deep as the world. */
+static struct kiln_collider floor_collider(float before_m, float after_m)
+{
+    return (struct kiln_collider){
+        .min = FLOAT4(-KILN_WORLD, -KILN_WORLD, -KILN_WORLD, 0.0f),
+        .max = FLOAT4(KILN_WORLD, exact_canon(before_m), KILN_WORLD, 0.0f),
+        .min_end = FLOAT4(-KILN_WORLD, -KILN_WORLD, -KILN_WORLD, 0.0f),
+        .max_end = FLOAT4(KILN_WORLD, exact_canon(after_m), KILN_WORLD, 0.0f),
+    };
+}
+
+/* Without end downwards; what is above it is not even looked up. */
+static struct kiln_collider terrain_collider(const struct kiln_sim_grids *grids, uint32_t number)
+{
+    const struct kiln_grid *grid = &grids->table[number];
+    const float width = (float)(grid->size.x - 1), depth = (float)(grid->size.z - 1);
+    struct kiln_collider terrain = {
+        .min = FLOAT4(grid->origin.x, -KILN_WORLD, grid->origin.z, 0.0f),
+        .max = FLOAT4(exact_canon(grid->origin.x + width / grid->per_metre.x),
+                      exact_canon(grids->top[number] + 0.01f),
+                      exact_canon(grid->origin.z + depth / grid->per_metre.z), 0.0f),
+        .kind = COLLIDER_TERRAIN,
+        .grid = number,
+        .steepest = grids->steepest[number],
+    };
+    terrain.min_end = terrain.min;
+    terrain.max_end = terrain.max;
+    return terrain;
+}
+
+/* A mesh at a time: rows from its frame to the world, and the number of metres for a unit. */
+struct pose {
+    float rows[3][3], position[3], scale;
+};
+
+static struct pose pose_at(const struct kiln_scene *scene, const struct kiln_object *mesh,
+                           float time_s)
+{
+    const float3 at = kiln_scene_value3(scene, &mesh->center, time_s);
+    struct pose pose = {.position = {at.x, at.y, at.z},
+                        .scale = kiln_scene_value(scene, &mesh->scale, time_s)};
+    kiln_scene_rotation(kiln_scene_value3(scene, &mesh->rotation, time_s), pose.rows);
+    return pose;
+}
+
+/* The vector of the rotation from one to the other: along its axis, as long as its angle. */
+static float3 turn_between(const struct pose *a, const struct pose *b)
+{
+    float turn[3][3]; /* b a^T */
+    for (int i = 0; i < 9; i++)
+        turn[i / 3][i % 3] = a->rows[i % 3][0] * b->rows[i / 3][0] +
+                             a->rows[i % 3][1] * b->rows[i / 3][1] +
+                             a->rows[i % 3][2] * b->rows[i / 3][2];
+    const float3 skew = FLOAT3(0.5f * (turn[2][1] - turn[1][2]), 0.5f * (turn[0][2] - turn[2][0]),
+                               0.5f * (turn[1][0] - turn[0][1]));
+    const float sine = float3_length(skew);
+    const float cosine = 0.5f * (turn[0][0] + turn[1][1] + turn[2][2] - 1.0f);
+    float angle = 0.0f;
+    for (int i = 0; i < 4; i++) { /* what is left has this sine */
+        const struct exact_angle found = exact_sincos(angle);
+        angle += sine * found.cosine - cosine * found.sine;
+    }
+    return float3_scale(float3_normalize(skew, FLOAT3(0.0f, 0.0f, 0.0f)), angle);
+}
+
+/* The transposed rotation, shrunk, less the position. */
+static void invert(const struct pose *pose, float4 to_local[3])
+{
+    for (int i = 0; i < 3; i++) {
+        const float x = pose->rows[0][i] / pose->scale, y = pose->rows[1][i] / pose->scale;
+        const float z = pose->rows[2][i] / pose->scale;
+        const float moved = x * pose->position[0] + y * pose->position[1] + z * pose->position[2];
+        to_local[i] = FLOAT4(exact_canon(x), exact_canon(y), exact_canon(z), exact_canon(-moved));
+    }
+}
+
+/* A grid's box, in the frame of its mesh. */
+struct extent {
+    float half[3], middle[3];
+};
+
+static struct extent extent_of(const struct kiln_grid *grid, bool depths)
+{
+    const float low[3] = {grid->origin.x, grid->origin.y, grid->origin.z};
+    const float high[3] = {grid->per_metre.x, grid->per_metre.y, grid->per_metre.z};
+    const uint size[3] = {grid->size.x, grid->size.y, grid->size.z};
+    struct extent extent;
+    for (int i = 0; i < 3; i++) {
+        extent.half[i] = depths ? 0.5f * (high[i] - low[i]) : 0.5f * (float)(size[i] - 1) / high[i];
+        extent.middle[i] = low[i] + extent.half[i];
+    }
+    return extent;
+}
+
+/* The box in the world around that one, larger by a factor. */
+static void bound(const struct pose *pose, const struct extent *extent, float factor, float4 *min,
+                  float4 *max)
+{
+    float low[3], high[3];
+    for (int i = 0; i < 3; i++) {
+        float center = pose->position[i], reach = 0.0f;
+        for (int c = 0; c < 3; c++) {
+            center += pose->scale * pose->rows[i][c] * extent->middle[c];
+            reach += pose->scale * exact_abs(pose->rows[i][c]) * extent->half[c];
+        }
+        low[i] = center - factor * reach;
+        high[i] = center + factor * reach;
+    }
+    *min = to_float4(low);
+    *max = to_float4(high);
+}
+
+/* While a mesh turns, its frame goes straight from one place to the next, and what is in it is
+ * larger on the way: by less than half for less than 96 degrees a step. */
+static struct kiln_collider mesh_collider(const struct kiln_scene *scene,
+                                          const struct kiln_sim_grids *grids, uint32_t index,
+                                          float start_s, float end_s, float steps_per_s,
+                                          struct kiln_pose *out)
+{
+    const struct kiln_object *mesh = &scene->backdrop.objects[index];
+    const uint32_t number = grids->of_object[index];
+    const struct pose start = pose_at(scene, mesh, start_s), end = pose_at(scene, mesh, end_s);
+    struct kiln_collider field = {
+        .kind = mesh->collider == KILN_COLLIDER_DEPTH_MAPS ? COLLIDER_DEPTH : COLLIDER_SDF,
+        .grid = number,
+        .mesh = number - grids->wind_count};
+    const struct extent extent = extent_of(&grids->table[number], field.kind == COLLIDER_DEPTH);
+    const float factor = memcmp(start.rows, end.rows, sizeof start.rows) != 0 ? 1.5f : 1.0f;
+    bound(&start, &extent, factor, &field.min, &field.max);
+    bound(&end, &extent, factor, &field.min_end, &field.max_end);
+    invert(&start, out->to_local);
+    invert(&end, out->to_local_end);
+    out->metres = FLOAT4(start.scale, end.scale, 0.0f, 0.0f);
+    out->center = to_float4(start.position);
+    out->center_end = to_float4(end.position);
+    out->turn = canon4(float3_scale(turn_between(&start, &end), steps_per_s), 0.0f);
+    return field;
+}
+
+static struct kiln_collider object_collider(struct kiln_surroundings *around,
+                                            const struct kiln_scene *scene,
+                                            const struct kiln_sim_grids *grids, uint32_t index,
+                                            float start_s, float end_s)
+{
+    const struct kiln_object *object = &scene->backdrop.objects[index];
+    struct kiln_collider c;
+    if (kiln_turned_is(object))
+        c = kiln_turned_collider(scene, object, start_s, end_s);
+    else if (object->kind == KILN_OBJECT_BOX)
+        c = box_collider(scene, object, start_s, end_s);
+    else if (object->kind == KILN_OBJECT_TERRAIN)
+        c = terrain_collider(grids, grids->of_object[index]);
+    else if (kiln_volumes_needs(object))
+        c = kiln_volumes_collider(&grids->volumes, index, &around->grids[KILN_MAX_WINDS]);
+    else if (object->kind == KILN_OBJECT_MESH)
+        c = mesh_collider(scene, grids, index, start_s, end_s, around->steps_per_s,
+                          &around->poses[grids->of_object[index] - grids->wind_count]);
+    else
+        c = round_collider(scene, object, start_s, end_s);
+    c.restitution = kiln_scene_value(scene, &object->restitution, start_s);
+    c.friction = kiln_scene_value(scene, &object->friction, start_s);
+    return c;
+}
+
+void kiln_sim_colliders_fill(struct kiln_surroundings *around, const struct kiln_scene *scene,
+                             const struct kiln_sim_grids *grids, float start_s, float end_s)
+{
+    const struct kiln_backdrop *backdrop = &scene->backdrop;
+    around->collider_count = 0;
+    around->steps_per_s = (float)((double)scene->rate.num / scene->rate.den);
+    for (uint32_t i = 0; i < backdrop->object_count; i++) {
+        const struct kiln_object *object = &backdrop->objects[i];
+        if (!object->collide)
+            continue;
+        around->colliders[around->collider_count++] =
+            object_collider(around, scene, grids, i, start_s, end_s);
+    }
+    if (backdrop->floor_collide) {
+        struct kiln_collider *c = &around->colliders[around->collider_count++];
+        *c = floor_collider(kiln_scene_value(scene, &backdrop->floor_height, start_s),
+                            kiln_scene_value(scene, &backdrop->floor_height, end_s));
+        c->restitution = kiln_scene_value(scene, &backdrop->floor_restitution, start_s);
+        c->friction = kiln_scene_value(scene, &backdrop->floor_friction, start_s);
+    }
+}

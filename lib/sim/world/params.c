@@ -1,0 +1,383 @@
+/* From the scene to struct kiln_step_params. */
+#include "sim/world/params.h"
+
+#include <assert.h>
+#include <stddef.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "shared/exact.h"
+#include "shared/random.h"
+#include "shared/trace.h"
+#include "sim/world/colliders.h"
+
+static_assert(sizeof(struct kiln_value) == 16, "std140");
+static_assert(sizeof(struct kiln_derived_params) == 48, "std140");
+static_assert(sizeof(struct kiln_emit_params) == 256, "std140");
+static_assert(sizeof(struct kiln_force_params) == 176, "std140");
+static_assert(sizeof(struct kiln_birth_group) == 16, "std140");
+static_assert(offsetof(struct kiln_step_params, step) == 304, "std140");
+static_assert(offsetof(struct kiln_step_params, randomness) == 368, "std140");
+static_assert(offsetof(struct kiln_step_params, pushed) == 436, "std140");
+static_assert(offsetof(struct kiln_step_params, bounds_min) == 480, "std140");
+static_assert(offsetof(struct kiln_step_params, groups) == 768, "std140");
+static_assert(offsetof(struct kiln_step_params, forces) == 1808, "std140");
+static_assert(offsetof(struct kiln_step_params, family) == 4624, "std140");
+static_assert(sizeof(struct kiln_step_params) == 4672, "std140");
+static_assert(sizeof(struct kiln_step_params) <= 16384, "what every GL allows a uniform block");
+static_assert(sizeof(struct kiln_surroundings) <= 16384, "what every GL allows a uniform block");
+static_assert(sizeof(struct kiln_trace) == 112, "std430");
+static_assert(offsetof(struct kiln_surroundings, colliders) == 16, "std140");
+static_assert(offsetof(struct kiln_surroundings, grids) == 6880, "std140");
+static_assert(sizeof(struct kiln_grid) == 48, "std140");
+static_assert(sizeof(struct kiln_collider) == 208, "std140");
+static_assert(sizeof(struct kiln_pose) == 160, "std140");
+
+static_assert(KILN_MAX_BIRTH_GROUPS == KILN_MAX_BURSTS + 1, "the rate and each burst");
+static_assert(KILN_MAX_COLLIDERS == KILN_MAX_OBJECTS + 1, "each object and the floor");
+
+static_assert(EMIT_POINT == (uint)KILN_EMITTER_POINT && EMIT_SPHERE == (uint)KILN_EMITTER_SPHERE &&
+                  EMIT_BOX == (uint)KILN_EMITTER_BOX && EMIT_DISC == (uint)KILN_EMITTER_DISC &&
+                  EMIT_CONE == (uint)KILN_EMITTER_CONE && EMIT_LINE == (uint)KILN_EMITTER_LINE,
+              "the shaders' names of enum kiln_emitter_shape");
+static_assert(FORCE_GRAVITY == (uint)KILN_FORCE_GRAVITY && FORCE_DRAG == (uint)KILN_FORCE_DRAG &&
+                  FORCE_WIND == (uint)KILN_FORCE_WIND && FORCE_CURL == (uint)KILN_FORCE_CURL &&
+                  FORCE_LIMIT == (uint)KILN_FORCE_LIMIT && FORCE_FIELD == (uint)KILN_FORCE_FIELD &&
+                  FORCE_ATTRACT == (uint)KILN_FORCE_ATTRACT &&
+                  FORCE_VORTEX == (uint)KILN_FORCE_VORTEX,
+              "the shaders' names of enum kiln_force_kind");
+static_assert(INTEGRATE_SEMI_IMPLICIT == (uint)KILN_INTEGRATE_SEMI_IMPLICIT &&
+                  INTEGRATE_POSITION_FIRST == (uint)KILN_INTEGRATE_POSITION_FIRST &&
+                  INTEGRATE_TRAPEZOID == (uint)KILN_INTEGRATE_TRAPEZOID &&
+                  INTEGRATE_RK4 == (uint)KILN_INTEGRATE_RK4,
+              "the shaders' names of enum kiln_integration");
+static_assert(FALLOFF_INVERSE_SQUARE == (uint)KILN_FALLOFF_INVERSE_SQUARE &&
+                  FALLOFF_INVERSE == (uint)KILN_FALLOFF_INVERSE &&
+                  FALLOFF_CONSTANT == (uint)KILN_FALLOFF_CONSTANT &&
+                  FALLOFF_LINEAR == (uint)KILN_FALLOFF_LINEAR,
+              "the shaders' names of enum kiln_falloff");
+static_assert(VORTEX_RANKINE == (uint)KILN_VORTEX_RANKINE &&
+                  VORTEX_LAMB_OSEEN == (uint)KILN_VORTEX_LAMB_OSEEN,
+              "the shaders' names of enum kiln_vortex_profile");
+
+static_assert(BORN_OF_DEATH == 1 + (uint)KILN_EVENT_DEATH &&
+                  BORN_OF_BOUNCE == 1 + (uint)KILN_EVENT_BOUNCE &&
+                  BORN_OF_TRAIL == 1 + (uint)KILN_EVENT_TRAIL,
+              "the shaders' names of enum kiln_event");
+static_assert(ALIGN_WORLD == (uint)KILN_ALIGN_WORLD &&
+                  ALIGN_VELOCITY == (uint)KILN_ALIGN_VELOCITY &&
+                  ALIGN_NORMAL == (uint)KILN_ALIGN_NORMAL,
+              "the shaders' names of enum kiln_align");
+
+/* The key of the noise that all systems share: of no system. */
+enum { NOISE_SYSTEM = KILN_MAX_SYSTEMS };
+
+static float4 to_float4(const float v[3])
+{
+    return FLOAT4(exact_canon(v[0]), exact_canon(v[1]), exact_canon(v[2]), 0.0f);
+}
+
+static void fill_emitter(struct kiln_emit_params *params, const struct kiln_emitter *emit)
+{
+    *params = (struct kiln_emit_params){
+        .shape = (uint)emit->shape,
+        .outward = emit->outward,
+        .surface = emit->surface,
+        .nozzles = emit->nozzles,
+        .speed = emit->speed,
+        .origin = emit->origin,
+        .direction = emit->direction,
+        .size = emit->size,
+        .angle = emit->angle,
+        .radius = emit->radius,
+        .inherit = emit->inherit,
+        .turn = emit->turn,
+    };
+}
+
+static uint collide_kind(const struct kiln_collide *collide)
+{
+    if (!collide->enabled)
+        return COLLIDE_OFF;
+    return collide->mode == KILN_COLLIDE_CLAMP ? COLLIDE_CLAMP : COLLIDE_SWEPT;
+}
+
+static bool is_one(const struct kiln_value *value)
+{
+    return value->count == 0 && value->constant == 1.0f;
+}
+
+/* Whether impacts do more than mirror. */
+static bool rubs(const struct kiln_scene *scene, const struct kiln_collide *collide)
+{
+    const struct kiln_backdrop *backdrop = &scene->backdrop;
+    const struct kiln_value *friction = &collide->friction;
+    bool any = !is_one(&collide->restitution) || friction->count > 0 || friction->constant != 0.0f;
+    any = any || (backdrop->floor_collide && !is_one(&backdrop->floor_restitution));
+    for (uint32_t i = 0; i < backdrop->object_count; i++)
+        any = any || (backdrop->objects[i].collide && !is_one(&backdrop->objects[i].restitution));
+    return collide->enabled && any;
+}
+
+static uint what_force_does(const struct kiln_force *force)
+{
+    if (force->kind == KILN_FORCE_LIMIT)
+        return FORCES_LIMIT;
+    const bool none = force->pull.count == 0 && force->pull.constant == 0.0f;
+    return force->kind == KILN_FORCE_DRAG && !none ? FORCES_SLOW : 0;
+}
+
+bool kiln_sim_needs_all_forces(const struct kiln_scene *scene)
+{
+    bool any = scene->integration >= KILN_INTEGRATE_TRAPEZOID;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_system *system = &scene->systems[i];
+        for (uint32_t k = 0; k < system->force_count; k++) {
+            const struct kiln_force *force = &system->forces[k];
+            any = any || force->kind == KILN_FORCE_ATTRACT || force->kind == KILN_FORCE_VORTEX ||
+                  what_force_does(force) == FORCES_SLOW;
+        }
+    }
+    return any;
+}
+
+static void fill_system(struct kiln_step_params *params, const struct kiln_scene *scene,
+                        uint32_t index)
+{
+    const struct kiln_system *system = &scene->systems[index];
+    *params = (struct kiln_step_params){
+        .derived = kiln_scene_derived(scene, index),
+        .force_count = system->force_count,
+        .integration = (uint)scene->integration,
+        .collide = collide_kind(&system->collide),
+        .demitter_count = system->demitter_count,
+        .bounded = system->bounds.enabled,
+        .noise_seed = random_key(scene->seed, NOISE_SYSTEM),
+        .bounds_min = to_float4(system->bounds.min),
+        .bounds_max = to_float4(system->bounds.max),
+        .rubs = rubs(scene, &system->collide),
+    };
+    fill_emitter(&params->emit, &system->emit);
+    for (uint32_t i = 0; i < system->force_count; i++)
+        params->forces_do |= what_force_does(&system->forces[i]);
+    for (uint32_t i = 0; i < system->demitter_count; i++) {
+        params->demitter_min[i] = to_float4(system->demitters[i].min);
+        params->demitter_max[i] = to_float4(system->demitters[i].max);
+    }
+}
+
+/* Parents come first, so that their traces have places when their children ask. */
+static void fill_families(struct kiln_sim_params *params, const struct kiln_scene *scene)
+{
+    params->trace_count = 0;
+    kiln_family_order(scene, params->order);
+    for (uint32_t k = 0; k < scene->system_count; k++) {
+        uint32_t index = params->order[k];
+        const struct kiln_system *system = &scene->systems[index];
+        const struct kiln_parent *parent = &system->emit.parent;
+        struct kiln_family_params *family = &params->systems[index].family;
+        *family =
+            (struct kiln_family_params){.dies = system->collide.enabled && system->collide.dies};
+        if (parent->enabled) {
+            family->born_of = 1 + (uint)parent->event;
+            family->align = (uint)parent->align;
+            family->slots = parent->slots;
+            family->rate = parent->rate;
+            family->parent_traces = params->systems[parent->system].family.traces;
+        }
+        if (kiln_family_has_children(scene, index) || kiln_scene_paints(scene, index)) {
+            family->traced = 1;
+            family->traces = params->trace_count;
+            params->trace_count += system->capacity;
+        }
+    }
+}
+
+static void fill_pushes(struct kiln_sim_params *params, const struct kiln_scene *scene)
+{
+    params->push_count = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        if (scene->systems[i].interaction_count == 0)
+            continue;
+        params->systems[i].pushed = 1;
+        params->systems[i].first_push = params->push_count;
+        params->push_count += scene->systems[i].capacity;
+    }
+}
+
+static void fill_spins(struct kiln_sim_params *params, const struct kiln_scene *scene)
+{
+    params->spin_count = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        params->spins[i] = kiln_scene_system_spins(scene, i);
+        if (!params->spins[i])
+            continue;
+        params->systems[i].spins = 1;
+        params->systems[i].rubs |= params->systems[i].collide != COLLIDE_OFF;
+        params->systems[i].first_spin = params->spin_count;
+        params->spin_count += scene->systems[i].capacity;
+    }
+}
+
+static void find_spin(struct kiln_step_params *params, const struct kiln_scene *scene,
+                      uint32_t system, float time_s)
+{
+    const struct kiln_interaction *collide =
+        kiln_scene_interaction(scene, system, KILN_INTERACT_COLLIDE);
+    if (!params->spins)
+        return;
+    params->spin_low = kiln_scene_value(scene, &collide->turning.min, time_s);
+    params->spin_high = kiln_scene_value(scene, &collide->turning.max, time_s);
+    params->rolling = kiln_scene_value(scene, &collide->rolling, time_s);
+    params->spin_axis = FLOAT4(kiln_scene_value(scene, &collide->axis.x, time_s),
+                               kiln_scene_value(scene, &collide->axis.y, time_s),
+                               kiln_scene_value(scene, &collide->axis.z, time_s), 0.0f);
+}
+
+bool kiln_sim_is_family(const struct kiln_step_params *params)
+{
+    const struct kiln_family_params *family = &params->family;
+    return family->born_of != BORN_OF_CLOCK || family->traced != 0 || family->dies != 0;
+}
+
+void kiln_sim_params_init(struct kiln_sim_params *params, const struct kiln_scene *scene,
+                          struct kiln_sim_grids *grids)
+{
+    params->grids = grids;
+    for (uint32_t i = 0; i < grids->count; i++)
+        params->surroundings.grids[i] = grids->table[i];
+    params->system_count = scene->system_count;
+    for (uint32_t i = 0; i < scene->system_count; i++)
+        fill_system(&params->systems[i], scene, i);
+    fill_families(params, scene);
+    fill_pushes(params, scene);
+    fill_spins(params, scene);
+}
+
+/* The value with its course over time taken at time_s; a curve over life stays one. */
+static struct kiln_value at_time(const struct kiln_scene *scene, struct kiln_value value,
+                                 float time_s)
+{
+    if (value.count != 0 && value.clock == KILN_CLOCK_LIFE)
+        return value;
+    return (struct kiln_value){.constant = kiln_scene_value(scene, &value, time_s)};
+}
+
+static struct kiln_value3 at_time3(const struct kiln_scene *scene, struct kiln_value3 value,
+                                   float time_s)
+{
+    return (struct kiln_value3){at_time(scene, value.x, time_s), at_time(scene, value.y, time_s),
+                                at_time(scene, value.z, time_s)};
+}
+
+static struct kiln_force_params force_at_time(const struct kiln_scene *scene,
+                                              const struct kiln_sim_grids *grids,
+                                              const struct kiln_force *force, float time_s)
+{
+    const bool attracts = force->kind == KILN_FORCE_ATTRACT;
+    struct kiln_force_params params = {
+        .kind = (uint)force->kind,
+        .octaves = force->octaves,
+        .profile = attracts ? (uint)force->falloff : (uint)force->profile,
+        .grid = force->kind == KILN_FORCE_FIELD ? kiln_sim_grids_find(grids, force->file) : 0,
+        .vector = at_time3(scene, force->vector, time_s),
+        .drift = at_time3(scene, force->drift, time_s),
+        .strength = at_time(scene, force->strength, time_s),
+        .pull = at_time(scene, force->pull, time_s),
+        .scale = at_time(scene, force->scale, time_s),
+        .inward = kiln_scene_value(scene, &force->inward, time_s),
+        .lift = kiln_scene_value(scene, &force->lift, time_s),
+    };
+    if (force->mode == KILN_WIND_ADD) {
+        params.added = (float)((double)scene->rate.num / scene->rate.den);
+        *(force->kind == KILN_FORCE_WIND ? &params.strength : &params.pull) =
+            (struct kiln_value){.constant = 0.0f};
+    }
+    return params;
+}
+
+/* Children have their serials from their parents': there is nothing to count. */
+static bool count_children(struct kiln_step_params *params, const struct kiln_scene *scene,
+                           uint32_t index, struct kiln_pool *pool, struct kiln_error *error)
+{
+    const struct kiln_parent *parent = &scene->systems[index].emit.parent;
+    const struct kiln_pool_system *born = &pool->systems[parent->system];
+    struct kiln_pool_system *slots = &pool->systems[index];
+    if (!scene->systems[index].enabled)
+        return true;
+    if (slots->capacity != (uint64_t)born->capacity * parent->slots)
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "%s: systems.%s: %u slots, but %u parents with %u children each",
+                              scene->name, scene->systems[index].name, slots->capacity,
+                              born->capacity, parent->slots);
+    uint64_t serials = born->next_serial * parent->slots;
+    if (serials > UINT32_MAX)
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "%s: systems.%s: more than 2^32 births by step %u", scene->name,
+                              scene->systems[index].name, params->step);
+    slots->next_serial = serials;
+    return true;
+}
+
+/* Counts the births of one system and tells the step about them. */
+static bool count_births(struct kiln_step_params *params, const struct kiln_scene *scene,
+                         uint32_t index, struct kiln_pool_system *slots, struct kiln_error *error)
+{
+    const struct kiln_system *system = &scene->systems[index];
+    struct kiln_births births = {.count = 0};
+    if (system->enabled) {
+        struct kiln_scene_births counted;
+        kiln_scene_births_init(&counted, scene, index);
+        kiln_births_step(&counted.source, params->step, &slots->birth_wait, &births);
+    }
+    if (births.count > slots->capacity)
+        return kiln_error_set(
+            error, KILN_INVALID_INPUT, "%s: systems.%s: %u births in step %u, but only %u slots",
+            scene->name, system->name, births.count, params->step, slots->capacity);
+    if (slots->next_serial + births.count > UINT32_MAX)
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "%s: systems.%s: more than 2^32 births by step %u", scene->name,
+                              system->name, params->step);
+    params->first_serial = (uint)slots->next_serial;
+    params->first_slot = slots->capacity ? params->first_serial % slots->capacity : 0;
+    params->birth_count = births.count;
+    params->group_count = births.group_count;
+    for (uint32_t i = 0; i < births.group_count; i++)
+        params->groups[i] = births.groups[i];
+    slots->next_serial += births.count;
+    return true;
+}
+
+bool kiln_sim_params_step(struct kiln_sim_params *params, const struct kiln_scene *scene,
+                          struct kiln_pool *pool, uint32_t step, struct kiln_error *error)
+{
+    if (step == 0 || step > KILN_MAX_STEPS)
+        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: step %u; a run has at most %u steps",
+                              scene->name, step, KILN_MAX_STEPS);
+    float start_s = kiln_scene_time(scene, step - 1);
+    float end_s = kiln_scene_time(scene, step);
+    const bool staged = scene->integration >= KILN_INTEGRATE_TRAPEZOID;
+    float forces_s = staged ? 0.5f * (start_s + end_s) : start_s;
+    for (uint32_t n = 0; n < params->system_count; n++) {
+        uint32_t i = params->order[n];
+        const struct kiln_system *system = &scene->systems[i];
+        struct kiln_step_params *p = &params->systems[i];
+        p->step = step;
+        p->time_s = start_s;
+        if (system->emit.parent.enabled ? !count_children(p, scene, i, pool, error)
+                                        : !count_births(p, scene, i, &pool->systems[i], error))
+            return false;
+        p->base = pool->systems[i].base;
+        p->capacity = pool->systems[i].capacity;
+        p->used = kiln_pool_used(&pool->systems[i]);
+        p->randomness = at_time(scene, system->collide.randomness, start_s);
+        p->slowdown = at_time(scene, system->collide.slowdown, start_s);
+        p->restitution = at_time(scene, system->collide.restitution, start_s);
+        p->friction = at_time(scene, system->collide.friction, start_s);
+        find_spin(p, scene, i, start_s);
+        for (uint32_t k = 0; k < system->force_count; k++)
+            p->forces[k] = force_at_time(scene, params->grids, &system->forces[k], forces_s);
+    }
+    kiln_sim_colliders_fill(&params->surroundings, scene, params->grids, start_s, end_s);
+    return true;
+}

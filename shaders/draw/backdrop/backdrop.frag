@@ -1,0 +1,203 @@
+/* The scene behind the particles, cast analytically: a sky gradient, a floor that fades into the
+ * horizon, boxes, one sun with hard shadows, point lights. View-space depth goes to a texture of its
+ * own, for soft particles (Heinz 2019, 3.2.1 and 3.2.6). What not every scene has is compiled in by
+ * defines: ROUND shapes, TURNED ones (capsules and planes, too), MESHES, particles that are SPHERES,
+ * PAINT on meshes, FLOOR_IMAGE, FLOOR_GLOSS, SKY_IMAGE, SOFT_SUN.
+ *
+ * Two passes: one ray through the centre of each pixel, which also notes what it hit; then SAMPLES
+ * rays a pixel where backdrop_edges.vert finds that neighbours hit different things.
+ */
+// variant: SAMPLES=1
+// variant: SAMPLES=4
+// variant: SAMPLES=1 ROUND=1
+// variant: SAMPLES=4 ROUND=1 SOFT_SUN=1
+// variant: SAMPLES=1 TURNED=1
+// variant: SAMPLES=4 TURNED=1 SOFT_SUN=1
+// variant: SAMPLES=1 MESHES=1
+// variant: SAMPLES=1 MESHES=1 PAINT=1
+// variant: SAMPLES=1 SPHERES=1
+// variant: SAMPLES=1 ROUND=1 MESHES=1 FLOOR_IMAGE=1 SKY_IMAGE=1 SOFT_SUN=1
+// variant: SAMPLES=1 FLOOR_GLOSS=1
+// variant: SAMPLES=4 ROUND=1 TURNED=1 MESHES=1 PAINT=1 SPHERES=1 INSTANCES=1 FLOOR_IMAGE=1 FLOOR_GLOSS=1 SKY_IMAGE=1 SOFT_SUN=1
+#include "shared/draw_layout.h"
+#include "shared/shape_layout.h"
+
+layout(std140, binding = KILN_BIND_VIEW) uniform view_block { kiln_view view; };
+layout(std140, binding = KILN_BIND_BACKDROP) uniform backdrop_block { kiln_draw_backdrop backdrop; };
+layout(std140, binding = KILN_BIND_SHAPES) uniform shape_block { kiln_draw_shapes shapes; };
+
+layout(location = 0) out vec4 out_color;
+#if SAMPLES == 1
+layout(location = 1) out float out_depth;
+layout(location = 2) out float out_surface; /* a number that changes at every edge */
+#endif
+
+#include "draw/backdrop/surface.glsl"
+
+vec3 box_normal(int i, vec3 point)
+{
+    vec3 local = (point - backdrop.box_center[i].xyz) / backdrop.box_half[i].xyz;
+    vec3 a = abs(local);
+    vec3 axis = vec3(a.x >= a.y && a.x >= a.z, a.y > a.x && a.y >= a.z, a.z > a.x && a.z > a.y);
+    return axis * sign(local);
+}
+
+/* The integral of a square wave of period 2. */
+vec2 square_integral(vec2 x)
+{
+    return 1.0 - abs(fract(x * 0.5) * 2.0 - 1.0);
+}
+
+/* Squares of two shades, averaged over the footprint of a pixel, so that they do not alias. */
+vec3 floor_albedo(vec2 position, vec2 footprint)
+{
+    vec3 color = backdrop.floor_color.rgb;
+    float edge = backdrop.floor_params.y;
+    if (edge <= 0.0)
+        return color;
+    vec2 width = max(footprint / edge, vec2(1e-3));
+    vec2 p = position / edge;
+    vec2 wave = (square_integral(p + 0.5 * width) - square_integral(p - 0.5 * width)) / width;
+    return color * (1.0 + 0.2 * wave.x * wave.y);
+}
+
+#ifdef FLOOR_IMAGE
+#include "draw/backdrop/floor_image.glsl"
+#endif
+
+/* The floor that one pixel covers: longer along the view where it is seen flat. */
+vec2 floor_footprint(vec3 direction, float t)
+{
+    float pixel = 2.0 * view.frustum.y / view.frustum.w * t;
+    vec2 along = abs(direction.xz) / max(length(direction.xz), 1e-6);
+    return pixel * (1.0 + along * length(direction) / max(abs(direction.y), 1e-6));
+}
+
+#ifdef FLOOR_GLOSS
+#include "draw/backdrop/floor_gloss.glsl"
+#endif
+
+/* The ray's t at the floor, and what the floor reflects there; beyond everything for a ray that goes
+ * up. */
+vec4 floor_along(vec3 origin, vec3 direction)
+{
+    float height = origin.y - backdrop.floor_color.w;
+    if (backdrop.floor_params.x <= 0.0 || direction.y >= -1e-6 || height <= 0.0)
+        return vec4(vec3(0.0), 2.0 * FAR);
+    float t = height / -direction.y;
+    vec2 position = (origin + direction * t).xz;
+#ifdef FLOOR_IMAGE
+    return vec4(floor_picture(position, direction, t), t);
+#else
+    return vec4(floor_albedo(position, floor_footprint(direction, t)), t);
+#endif
+}
+
+/* ground: by floor_along(). layer: of the rasterised meshes, those that this ray hits; -1: none. */
+hit trace(vec3 origin, vec3 direction, vec4 ground, int layer)
+{
+    hit nearest = hit(FAR, -1, vec3(0.0, 1.0, 0.0), vec3(0.0));
+    vec3 inverse = safe_inverse(direction);
+    int found = -1;
+    for (int i = 0; i < int(backdrop.counts.x); i++) {
+        vec2 interval = box_interval(i, origin, inverse);
+        if (interval.x <= interval.y && interval.x > 0.0 && interval.x < nearest.t) {
+            nearest.t = interval.x;
+            found = i;
+        }
+    }
+    if (found >= 0) {
+        nearest.normal = box_normal(found, origin + direction * nearest.t);
+        nearest.albedo = backdrop.box_color[found].rgb;
+        nearest.surface = 14 + 27 * found + int(dot(nearest.normal, vec3(1.0, 3.0, 9.0)));
+    }
+#ifdef ROUND
+    trace_spheres(origin, direction, nearest);
+    trace_cylinders(origin, direction, nearest);
+#endif
+#ifdef TURNED
+    trace_capsules(origin, direction, nearest);
+    trace_turned(origin, direction, nearest);
+    trace_planes(origin, direction, nearest);
+#endif
+#ifdef MESHES
+    if (layer >= 0)
+        trace_meshes(layer, nearest);
+#endif
+    if (ground.w < nearest.t)
+        nearest = hit(ground.w, 0, vec3(0.0, 1.0, 0.0), ground.rgb);
+    return nearest;
+}
+
+/* What a ray from the eye finds. */
+struct sight {
+    vec4 color;
+    hit first;
+    float sunlit; /* part of the sun there, before smoke */
+};
+
+/* Follows a ray, and on from a floor that mirrors: in a loop, since compilers take minutes over a
+ * second copy of all this, and with its test at the end, since software GL runs the body once more
+ * after one at the start. */
+sight look(vec3 direction, int layer)
+{
+    sight seen;
+    vec3 origin = view.eye.xyz;
+    vec4 ground = floor_along(origin, direction);
+    bool first = true, goes_on = false;
+#ifdef FLOOR_GLOSS
+    mirror m = floor_mirror(direction);
+#endif
+    do {
+        hit h = trace(origin, direction, ground, first ? layer : -1);
+        vec3 point = origin + direction * h.t;
+        float sunlit = sun_visibility(point, h.normal);
+        float arriving = sunlit * sunlight_through_smoke(point);
+        vec4 color = radiance(h, direction, soft_irradiance(h, point), arriving);
+        if (first)
+            seen = sight(color, h, sunlit);
+#ifdef FLOOR_GLOSS
+        if (!first)
+            seen.color.rgb += m.weight * color.rgb;
+        goes_on = first && h.surface == 0;
+        if (goes_on)
+            seen.color.rgb += m.lights + arriving * m.sun;
+        origin = point;
+        direction = m.onwards;
+        ground.w = 2.0 * FAR;
+        first = false;
+#endif
+    } while (goes_on);
+    return seen;
+}
+
+#if SAMPLES == 1
+
+void main()
+{
+    sight seen = look(ray_direction(gl_FragCoord.xy), 0);
+    hit h = seen.first;
+    float sunlit = seen.sunlit;
+    out_color = seen.color;
+    out_depth = h.t;
+#ifdef MESHES
+    h.surface = mark_mesh_edge(h.surface);
+#endif
+    bool sunny = dot(h.normal, backdrop.sun_direction.xyz) > 0.0 &&
+                 dot(backdrop.sun_color.rgb, vec3(1.0)) > 0.0;
+    out_surface = float(2 * h.surface) + (h.surface >= 0 && sunny ? sunlit : 0.0);
+}
+
+#else
+
+const vec2 SAMPLE_OFFSETS[KILN_EDGE_SAMPLES] = vec2[](KILN_EDGE_OFFSETS(vec2));
+
+void main()
+{
+    vec4 sum = vec4(0.0);
+    for (int s = 0; s < SAMPLES; s++)
+        sum += look(ray_direction(floor(gl_FragCoord.xy) + SAMPLE_OFFSETS[s]), 1 + s).color;
+    out_color = sum / float(SAMPLES);
+}
+
+#endif

@@ -1,0 +1,88 @@
+/* A triangle of a mesh that is one particle, from the record, the look and the clock (Drone 2007,
+ * 7.4.4). An instance is an entry; those of other systems are not drawn. It cannot fade, so it grows
+ * and shrinks by its opacity. */
+#include "shared/draw_layout.h"
+
+// variant: 
+// variant: SPINS=1
+#include "draw/moment/record.glsl"
+#include "draw/solids/pose.glsl"
+
+/* Of the meshes, three a triangle: position; normal. */
+layout(std430, binding = KILN_BIND_CORNERS) readonly buffer corner_block { vec4 corners[]; };
+
+uniform uint drawn_system;
+uniform uint first_corner;
+uniform uint orient; /* ORIENT_* */
+uniform vec2 extent; /* of the mesh: from the middle to the farthest corner; of its shadow's sphere */
+
+layout(location = 0) flat out vec4 a; /* corners in view space, m */
+layout(location = 1) flat out vec4 b;
+layout(location = 2) flat out vec4 c;
+layout(location = 3) flat out vec4 normal_a;
+layout(location = 4) flat out vec4 normal_b;
+layout(location = 5) flat out vec4 normal_c;
+layout(location = 6) flat out vec4 middle;        /* in view space; w: radius of its shadow, m */
+layout(location = 7) flat out vec4 reflected;     /* albedo; a: 1 lit .. 0 shows it as it is */
+layout(location = 8) flat out vec4 emitted;       /* radiance */
+layout(location = 9) flat out vec4 bloom_weights; /* of equation 3.2 */
+
+vec3 world_to_view_vector(vec3 v)
+{
+    return vec3(dot(view.world_to_view[0].xyz, v), dot(view.world_to_view[1].xyz, v),
+                dot(view.world_to_view[2].xyz, v));
+}
+
+/* Seen from its side, a triangle has no pixels and no depth. */
+bool is_seen(vec3 p, vec3 q, vec3 r)
+{
+    vec3 face = cross(q - p, r - p);
+    float volume = dot(p, face);
+    return volume * volume > 1e-10 * dot(face, face) * dot(p, p);
+}
+
+void main()
+{
+    uint entry = entries[gl_InstanceID];
+    uint system = entry >> 24;
+    kiln_particle record = records[entry & 0xffffffu];
+    uint stream = particle_stream(looks[system].derived, record);
+    float age = particle_age(record, view.clock_step.x, view.clock.y);
+    float life = particle_progress(age, particle_life_s(looks[system].derived, record));
+    vec4 shape = look_at(system, KILN_LOOK_SHAPE, life);
+    vec4 spread = look_at(system, KILN_LOOK_SPREAD, life);
+
+    vec3 center = world_to_view_point(particle_position(record));
+    float size = shape.x * mix(spread.x, spread.y, random_unit(stream, RANDOM_SCALE)) * shape.z;
+    /* No smaller than a pixel, or it would twinkle between the samples. */
+    float pixel_m = 2.0 * view.frustum.y * max(-center.z, 1e-3) / view.frustum.w;
+    float scale = max(size * extent.x, 0.5 * pixel_m) / extent.x;
+    float angle = instance_angle(stream, look_at(system, KILN_LOOK_TURN, life), spread, age);
+    instance_axes axes = instance_axes_of(orient, particle_velocity(record), angle, stream);
+#ifdef SPINS
+    if (looks[system].turn.w != 0u)
+        axes = instance_posed(pose_of_slot(system, entry & 0xffffffu));
+#endif
+    mat3 turn = mat3(world_to_view_vector(axes.x), world_to_view_vector(axes.y),
+                     world_to_view_vector(axes.z));
+
+    uint corner = 2u * (first_corner + 3u * (uint(gl_VertexID) / 3u));
+    a = vec4(turn * corners[corner].xyz * scale + center, 1.0);
+    b = vec4(turn * corners[corner + 2u].xyz * scale + center, 1.0);
+    c = vec4(turn * corners[corner + 4u].xyz * scale + center, 1.0);
+    normal_a = vec4(turn * corners[corner + 1u].xyz, 0.0);
+    normal_b = vec4(turn * corners[corner + 3u].xyz, 0.0);
+    normal_c = vec4(turn * corners[corner + 5u].xyz, 0.0);
+    middle = vec4(center, size * extent.y);
+    reflected = look_at(system, KILN_LOOK_COVER, life);
+    emitted = look_at(system, KILN_LOOK_HOT, life);
+    bloom_weights = look_at(system, KILN_LOOK_BLOOM, life);
+
+    int k = gl_VertexID % 3;
+    vec3 place = k == 0 ? a.xyz : k == 1 ? b.xyz : c.xyz;
+    /* Clipped at the near plane; a far plane without end. */
+    gl_Position = vec4(place.x / view.frustum.x, -place.y / view.frustum.y,
+                       -place.z - 2.0 * view.eye.w, -place.z);
+    if (system != drawn_system || !(size > 0.0) || !is_seen(a.xyz, b.xyz, c.xyz))
+        gl_Position = vec4(0.0, 0.0, -2.0, 1.0);
+}

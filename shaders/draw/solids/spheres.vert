@@ -1,0 +1,52 @@
+/* One opaque sphere, from the record, the look and the clock. It cannot fade, so it grows and
+ * shrinks by its opacity. */
+#include "shared/draw_layout.h"
+
+// variant: 
+// variant: PATTERN=1
+// variant: PATTERN=1 SPINS=1
+#include "draw/moment/record.glsl"
+#include "draw/solids/pose.glsl"
+
+layout(location = 0) out vec4 center;        /* in view space; w: radius, m */
+layout(location = 1) out vec4 reflected;     /* albedo; a: 1 lit .. 0 shows it as it is */
+layout(location = 2) out vec4 emitted;       /* radiance */
+layout(location = 3) out vec4 bloom_weights; /* of equation 3.2 */
+#ifdef PATTERN
+layout(location = 4) out vec4 second; /* other albedo; a: segments of each; 0 none, below 0 a stripe */
+layout(location = 5) out vec4 lying;  /* from the ball to the world */
+#endif
+
+void main()
+{
+    uint entry = entries[gl_VertexID];
+    uint system = entry >> 24;
+    kiln_particle record = records[entry & 0xffffffu];
+    uint stream = particle_stream(looks[system].derived, record);
+    float age = particle_age(record, view.clock_step.x, view.clock.y);
+    float life = particle_progress(age, particle_life_s(looks[system].derived, record));
+    vec4 shape = look_at(system, KILN_LOOK_SHAPE, life);
+    vec4 spread = look_at(system, KILN_LOOK_SPREAD, life);
+
+    center.xyz = world_to_view_point(particle_position(record));
+    float scale = mix(spread.x, spread.y, random_unit(stream, RANDOM_SCALE));
+    float radius = looks[system].form.x == LOOK_MESH ? 0.0 : 0.5 * shape.x * scale * shape.z;
+    /* No smaller than a pixel, or it would twinkle between the samples. */
+    float pixel_m = 2.0 * view.frustum.y * max(-center.z, 1e-3) / view.frustum.w;
+    center.w = radius > 0.0 ? max(radius, 0.5 * pixel_m) : 0.0;
+    reflected = look_at(system, KILN_LOOK_COVER, life);
+    emitted = look_at(system, KILN_LOOK_HOT, life);
+    bloom_weights = look_at(system, KILN_LOOK_BLOOM, life);
+#ifdef PATTERN
+    uvec4 turn = looks[system].turn;
+    second = look_at(system, KILN_LOOK_OTHER, life);
+    second.a = turn.z == LOOK_STRIPE ? -1.0 : float(int(turn.z) - int(LOOK_SEGMENTS));
+    second.a = turn.z == LOOK_PLAIN ? 0.0 : second.a;
+    float angle = instance_angle(stream, look_at(system, KILN_LOOK_TURN, life), spread, age);
+    lying = instance_pose(stream, angle);
+#ifdef SPINS
+    if (turn.x != 0u)
+        lying = pose_of_slot(system, entry & 0xffffffu);
+#endif
+#endif
+}

@@ -1,0 +1,13 @@
+/* The depth of the scene where particles are drawn finely, elsewhere 0: nothing is nearer. */
+#include "draw/sprites/coarse.glsl"
+
+layout(binding = 0) uniform sampler2D depth;
+layout(binding = 1) uniform sampler2D edges; /* of coarse_edges.frag */
+
+layout(location = 0) out float out_depth;
+
+void main()
+{
+    bool fine = fine_part(edges, coarse_place(gl_FragCoord.xy)) > 0.0;
+    out_depth = fine ? texelFetch(depth, ivec2(gl_FragCoord.xy), 0).r : 0.0;
+}

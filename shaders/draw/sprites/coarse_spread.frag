@@ -1,0 +1,80 @@
+/* A pixel of the frame. Where the scene is smooth, it is interpolated by a spline from the sixteen
+ * coarse ones around it; near edges it takes those of nine that have a depth like its own, however
+ * far their places. */
+#include "draw/sprites/coarse.glsl"
+
+layout(binding = 0) uniform sampler2D depth;
+layout(binding = 1) uniform sampler2D coarse_depth;
+layout(binding = 2) uniform sampler2D edges;
+layout(binding = 3) uniform sampler2D coarse_color;
+layout(binding = 4) uniform sampler2D coarse_bloom;
+layout(binding = 5) uniform sampler2D fine_color;
+layout(binding = 6) uniform sampler2D fine_bloom;
+
+uniform bool has_fine;
+
+layout(location = 0) out vec4 out_color;
+layout(location = 1) out vec4 out_bloom;
+
+/* Between the middle two of four by their spline, which must not overshoot. */
+vec4 interpolate(vec4 from[4], vec4 weights)
+{
+    vec4 sum = from[0] * weights.x + from[1] * weights.y + from[2] * weights.z + from[3] * weights.w;
+    return clamp(sum, min(from[1], from[2]), max(from[1], from[2]));
+}
+
+void interpolate_both(vec2 place)
+{
+    ivec2 first = ivec2(floor(place)) - 1, last = textureSize(coarse_depth, 0) - 1;
+    vec4 across = coarse_spline(place.x - floor(place.x));
+    vec4 along = coarse_spline(place.y - floor(place.y));
+    vec4 colors[4], blooms[4];
+    for (int x = 0; x < 4; x++) {
+        vec4 color[4], bloom[4];
+        for (int y = 0; y < 4; y++) {
+            ivec2 at = clamp(first + ivec2(x, y), ivec2(0), last);
+            color[y] = texelFetch(coarse_color, at, 0);
+            bloom[y] = texelFetch(coarse_bloom, at, 0);
+        }
+        colors[x] = interpolate(color, along);
+        blooms[x] = interpolate(bloom, along);
+    }
+    out_color = interpolate(colors, across);
+    out_bloom = interpolate(blooms, across);
+}
+
+void choose_by_depth(vec2 place, ivec2 own, float here)
+{
+    ivec2 size = textureSize(coarse_depth, 0);
+    float weights = 0.0;
+    out_color = out_bloom = vec4(0.0);
+    for (int i = 0; i < 9; i++) {
+        ivec2 at = own + ivec2(i % 3, i / 3) - 1;
+        vec2 away = place - vec2(at);
+        float weight = coarse_near(away.x) * coarse_near(away.y) *
+                       coarse_alike(here, texelFetch(coarse_depth, at, 0).r);
+        if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size)))
+            continue;
+        out_color += texelFetch(coarse_color, at, 0) * weight;
+        out_bloom += texelFetch(coarse_bloom, at, 0) * weight;
+        weights += weight;
+    }
+    out_color /= weights;
+    out_bloom /= weights;
+}
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec2 place = coarse_place(gl_FragCoord.xy);
+    ivec2 own = clamp(ivec2(floor(place + 0.5)), ivec2(0), textureSize(coarse_depth, 0) - 1);
+    if (texelFetch(edges, own, 0).r > 0.0)
+        choose_by_depth(place, own, texelFetch(depth, pixel, 0).r);
+    else
+        interpolate_both(place);
+    if (has_fine) {
+        float fine = fine_part(edges, place);
+        out_color = mix(out_color, texelFetch(fine_color, pixel, 0), fine);
+        out_bloom = mix(out_bloom, texelFetch(fine_bloom, pixel, 0), fine);
+    }
+}

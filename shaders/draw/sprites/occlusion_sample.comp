@@ -1,0 +1,30 @@
+/* How many of some particles have the scene before their middle. */
+#include "shared/draw_layout.h"
+
+#include "draw/moment/record.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(binding = 2) uniform sampler2D scene_depth;
+
+layout(std430, binding = 2) buffer hidden_block
+{
+    uint hidden;
+};
+
+layout(location = 0) uniform uint count;
+layout(location = 1) uniform uint spacing; /* in the drawing order */
+
+void main()
+{
+    uint i = gl_GlobalInvocationID.x * spacing;
+    if (i >= count)
+        return;
+    vec3 at = world_to_view_point(particle_position(records[entries[i] & 0xffffffu]));
+    vec2 size = vec2(textureSize(scene_depth, 0));
+    vec2 pixel = size * (0.5 + vec2(at.x, -at.y) / view.frustum.xy * (0.5 / max(-at.z, 1e-3)));
+    if (any(lessThan(pixel, vec2(0.0))) || any(greaterThanEqual(pixel, size)))
+        return;
+    if (texelFetch(scene_depth, ivec2(pixel), 0).r < -at.z)
+        atomicAdd(hidden, 1u);
+}

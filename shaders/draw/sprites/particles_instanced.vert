@@ -1,0 +1,27 @@
+/* One corner of a particle's billboard, an instance of four vertices: without a geometry shader, but
+ * each corner makes the particle anew (Heinz 2019, 2.2.4; Terpstra 2023, figure 2.2).
+ */
+// variant: SHAPES=0
+// variant: SHAPES=1
+// variant: SHAPES=1 SUN_SHADE=1
+#include "shared/draw_layout.h"
+
+#include "draw/moment/record.glsl"
+
+#include "draw/sprites/billboard.glsl"
+
+vec4 center, right, up;
+billboard particle;
+
+#include "draw/sprites/corner.glsl"
+#include "draw/sprites/particle.glsl"
+
+void main()
+{
+    make_particle(entries[gl_InstanceID]);
+    particle.light_y.a = float(gl_InstanceID);
+    if (is_seen(center, particle))
+        put_corner(gl_VertexID, center, right, up, particle);
+    else
+        gl_Position = vec4(0.0, 0.0, 0.0, 1.0); /* all corners at one place */
+}

@@ -1,0 +1,211 @@
+/* A tile of the picture: what touches it is drawn from front to back in registers, until nothing that
+ * is behind could be seen, and written once. An invocation has one pixel; or several below each other,
+ * where fetching a sprite costs as much as drawing a pixel of it. */
+// variant: SHAPES=0 TILED_EDGE=16 TILED_ROWS=16
+// variant: SHAPES=1 TILED_EDGE=8 TILED_ROWS=2
+#include "shared/draw_layout.h"
+
+#include "draw/sprites/tiled.glsl"
+
+const uint PIXELS = uint(TILED_EDGE / TILED_ROWS); /* of an invocation */
+const uint ROWS = uint(TILED_ROWS), GROUP_SIZE = uint(TILED_EDGE * TILED_ROWS);
+
+layout(local_size_x = TILED_EDGE, local_size_y = TILED_ROWS) in;
+
+layout(std430, binding = TILED_BIND_BINS) readonly buffer bin_block
+{
+    tiled_bin bins[];
+};
+
+layout(std430, binding = TILED_BIND_LISTS) readonly buffer list_block
+{
+    uint lists[];
+};
+
+layout(std430, binding = TILED_BIND_MASKS) readonly buffer mask_block
+{
+    uint masks[];
+};
+
+layout(std430, binding = TILED_BIND_CARRY) buffer carry_block
+{
+    vec4 carry[]; /* colour and alpha; glow and transmittance */
+};
+
+layout(binding = 2) uniform sampler2D scene_depth;
+layout(binding = TILED_UNIT_SPRITES) uniform samplerBuffer sprites;
+layout(binding = TILED_UNIT_BEFORE) uniform sampler2D bloom_before;
+layout(binding = TILED_IMAGE_COLOR) writeonly uniform image2D color_image;
+layout(binding = TILED_IMAGE_BLOOM) writeonly uniform image2D bloom_image;
+
+layout(location = 1) uniform uint bin_columns;
+layout(location = 2) uniform bvec2 ends;   /* pixels start here; they are done hereafter */
+layout(location = 3) uniform bool keeps;   /* the glow of an earlier pass */
+layout(location = 4) uniform float over;   /* 1: what covers hides what is behind; 0: it is summed */
+layout(location = 5) uniform float unseen; /* what may be left out of the chunk */
+layout(location = 6) uniform uvec2 span;   /* words of masks that are drawn now, from a whole round on */
+
+#include "draw/sprites/shade.glsl"
+
+const uint WORDS = uint(TILED_ROUND_WORDS);
+shared uint touching[WORDS];
+shared uint hits[WORDS * 32u]; /* the sprites that touch the tile, in order */
+shared uint hit_count, left_bits;
+
+/* Lists what the masks of a tile have from a word on; returns how many. */
+uint list_hits(tiled_bin bin, uint tile, uint first)
+{
+    for (uint i = gl_LocalInvocationIndex; i < WORDS; i += GROUP_SIZE) {
+        uint word = first + i;
+        touching[i] = word * 32u < bin.count ? masks[mask_word(bin, tile, word)] : 0u;
+    }
+    barrier();
+    for (uint i = gl_LocalInvocationIndex; i < WORDS; i += GROUP_SIZE) {
+        uint place = 0u, bits = touching[i];
+        for (uint k = 0u; k < i; k++)
+            place += uint(bitCount(touching[k]));
+        while (bits != 0u) {
+            hits[place++] = lists[bin.first + (first + i) * 32u + uint(findLSB(bits))];
+            bits &= bits - 1u;
+        }
+        if (i == WORDS - 1u)
+            hit_count = place;
+    }
+    barrier();
+    return hit_count;
+}
+
+/* A pixel on its way from front to back. */
+struct pixel {
+    float scene; /* its depth, m */
+    vec4 color, glow; /* glow.a: transmittance */
+};
+
+pixel pixels[PIXELS];
+
+/* Starts the pixels; returns the most that an earlier pass has left in a channel of the glow. */
+float open_pixels(uvec2 first, uvec2 size)
+{
+    vec4 before = vec4(0.0);
+    for (uint k = 0u; k < PIXELS; k++) {
+        uvec2 at = first + uvec2(0u, k * ROWS);
+        bool inside = all(lessThan(at, size));
+        pixels[k] = pixel(0.0, vec4(0.0), vec4(0.0, 0.0, 0.0, inside ? 1.0 : 0.0));
+        if (!inside)
+            continue;
+        pixels[k].scene = texelFetch(scene_depth, ivec2(at), 0).r;
+        if (keeps)
+            before = max(before, texelFetch(bloom_before, ivec2(at), 0));
+        if (!ends.x) {
+            uint word = (at.y * size.x + at.x) * 2u;
+            pixels[k].color = carry[word];
+            pixels[k].glow = carry[word + 1u];
+        }
+    }
+    return max(max(before.r, before.g), before.b);
+}
+
+billboard fetch_quad(int row)
+{
+    return billboard(texelFetch(sprites, row), texelFetch(sprites, row + 1),
+                     texelFetch(sprites, row + 2), texelFetch(sprites, row + 3),
+                     texelFetch(sprites, row + 4), texelFetch(sprites, row + 5),
+                     texelFetch(sprites, row + 6), texelFetch(sprites, row + 7),
+                     texelFetch(sprites, row + 8), texelFetch(sprites, row + 9));
+}
+
+/* Draws a sprite into the invocation's pixels, the first of which has its middle there, px. */
+void draw(uint i, vec2 first)
+{
+    int row = int(i) * TILED_SPRITE_ROWS;
+    vec4 u = texelFetch(sprites, row + SPRITE_U), v = texelFetch(sprites, row + SPRITE_V);
+    billboard quad = fetch_quad(row + SPRITE_QUAD);
+#if SHAPES
+    vec4 q = texelFetch(sprites, row + SPRITE_Q);
+    vec2 edge = texelFetch(sprites, row + SPRITE_MOST).xy;
+    bool plain = edge.x > 0.0;
+    vec2 low = plain ? -edge : vec2(0.0), high = plain ? edge : vec2(1.0);
+#else
+    vec2 low = vec2(0.0), high = vec2(1.0);
+#endif
+    for (uint k = 0u; k < PIXELS; k++) {
+        vec2 from_anchor = first + vec2(0.0, float(k * ROWS)) - vec2(u.w, v.w);
+        vec2 at = vec2(u.x + dot(u.yz, from_anchor), v.x + dot(v.yz, from_anchor));
+        float depth = quad.depth.x;
+#if SHAPES
+        float near = q.x + dot(q.yz, from_anchor);
+        depth = near > 0.0 ? 1.0 / near : 0.0;
+        at = near > 0.0 ? (plain ? at : at * depth) : high;
+#endif
+        if (all(greaterThanEqual(at, low)) && all(lessThan(at, high))) {
+            vec4 color, glow;
+            shade(quad, at, depth, pixels[k].scene, color, glow);
+            float passed = pixels[k].glow.a;
+            pixels[k].color += color * passed;
+            pixels[k].glow += vec4(glow.rgb, -over * color.a) * passed;
+        }
+    }
+}
+
+/* The most that any pixel of the tile could still get of so many sprites of a bin. */
+float most_left(tiled_bin bin, float before, uint sprites_left)
+{
+    if (gl_LocalInvocationIndex == 0u)
+        left_bits = 0u;
+    barrier();
+    float adding = float(min(bin.adding, sprites_left)) * uintBitsToFloat(bin.add);
+    float transmittance = 0.0;
+    for (uint k = 0u; k < PIXELS; k++)
+        transmittance = max(transmittance, pixels[k].glow.a);
+    float left = transmittance * (max(uintBitsToFloat(bin.cover), before) + adding);
+    atomicMax(left_bits, floatBitsToUint(left));
+    barrier();
+    return uintBitsToFloat(left_bits);
+}
+
+uvec2 first_pixel()
+{
+    uvec2 me = gl_LocalInvocationID.xy;
+#if TILED_ROWS == TILED_EDGE
+    /* Blocks of 8 x 4 pixels lie together, which often take the same branches. */
+    uint i = gl_LocalInvocationIndex, block = i / 32u, blocks_a_row = uint(TILED_EDGE / 8);
+    me = uvec2(i % 8u + 8u * (block % blocks_a_row), i / 8u % 4u + 4u * (block / blocks_a_row));
+#endif
+    return gl_WorkGroupID.xy * uint(TILED_EDGE) + me;
+}
+
+void close_pixels(uvec2 first, uvec2 size)
+{
+    for (uint k = 0u; k < PIXELS; k++) {
+        uvec2 at = first + uvec2(0u, k * ROWS);
+        if (any(greaterThanEqual(at, size)))
+            continue;
+        vec4 color = pixels[k].color, glow = pixels[k].glow;
+        if (ends.y) {
+            vec4 before = keeps ? texelFetch(bloom_before, ivec2(at), 0) : vec4(0.0);
+            imageStore(color_image, ivec2(at), color);
+            imageStore(bloom_image, ivec2(at), vec4(glow.rgb, color.a) + before * glow.a);
+        } else {
+            uint word = (at.y * size.x + at.x) * 2u;
+            carry[word] = color;
+            carry[word + 1u] = glow;
+        }
+    }
+}
+
+void main()
+{
+    uvec2 first = first_pixel(), size = uvec2(textureSize(scene_depth, 0));
+    float before = open_pixels(first, size);
+    uvec2 home = gl_WorkGroupID.xy / uint(TILED_BIN_TILES);
+    uvec2 tile = gl_WorkGroupID.xy % uint(TILED_BIN_TILES);
+    tiled_bin bin = bins[home.y * bin_columns + home.x];
+    for (uint word = span.x; word < span.y && word * 32u < bin.count; word += WORDS) {
+        if (most_left(bin, before, bin.count - word * 32u) < unseen)
+            break;
+        uint count = list_hits(bin, tile.y * uint(TILED_BIN_TILES) + tile.x, word);
+        for (uint i = 0u; i < count; i++)
+            draw(hits[i], vec2(first) + 0.5);
+    }
+    close_pixels(first, size);
+}

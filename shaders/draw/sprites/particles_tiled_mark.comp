@@ -1,0 +1,141 @@
+/* Which tiles of its bin each sprite of a list touches, before what is farthest in them: a piece of
+ * a list a work group. Also gathers what the bin could add to a pixel. */
+// variant: SHAPES=0 TILED_EDGE=16
+// variant: SHAPES=1 TILED_EDGE=8
+#include "shared/draw_layout.h"
+
+#include "draw/sprites/tiled.glsl"
+
+layout(local_size_x = TILED_PIECE) in;
+
+layout(std430, binding = TILED_BIND_BOXES) readonly buffer box_block
+{
+    uvec2 boxes[];
+};
+
+layout(std430, binding = TILED_BIND_SPRITES) readonly buffer sprite_block
+{
+    vec4 sprites[]; /* TILED_SPRITE_ROWS each */
+};
+
+layout(std430, binding = TILED_BIND_FARTHEST) readonly buffer farthest_block
+{
+    uint farthest[];
+};
+
+layout(std430, binding = TILED_BIND_BINS) buffer bin_block
+{
+    tiled_bin bins[];
+};
+
+layout(std430, binding = TILED_BIND_LISTS) readonly buffer list_block
+{
+    uint lists[];
+};
+
+layout(std430, binding = TILED_BIND_MASKS) writeonly buffer mask_block
+{
+    uint masks[];
+};
+
+layout(location = 0) uniform uint pieces;
+layout(location = 1) uniform uint bin_count;
+layout(location = 2) uniform uint bin_columns;
+layout(location = 3) uniform uint tile_columns;
+
+const uint WORDS = uint(TILED_PIECE / 32);
+shared uint marks[TILED_TILES * WORDS];
+shared uint adding, cover, add;
+
+/* Whose list an entry is in: the last that starts no later. */
+uint bin_of(uint entry)
+{
+    uint low = 0u, high = bin_count;
+    while (high - low > 1u) {
+        uint middle = (low + high) / 2u;
+        if (bins[middle].first <= entry)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* The least and most of a linear function over the middles of a tile's pixels. */
+vec2 range_of(vec3 plane, vec2 from_anchor)
+{
+    float middle = plane.x + dot(plane.yz, from_anchor);
+    float reach = dot(abs(plane.yz), vec2(0.5 * float(TILED_EDGE - 1)));
+    return vec2(middle - reach, middle + reach);
+}
+
+/* Does a tile lie on the inner side of each edge, somewhere? */
+bool touches(vec4 u, vec4 v, vec4 q, vec4 most, vec2 corner)
+{
+    vec2 from_anchor = corner + 0.5 * float(TILED_EDGE) - vec2(u.w, v.w);
+    vec2 us = range_of(u.xyz, from_anchor), vs = range_of(v.xyz, from_anchor);
+    vec4 inner = vec4(us.y, vs.y, 1.0 - us.x, 1.0 - vs.x);
+    float slack = 1e-4; /* for rounding */
+#if SHAPES
+    inner.z = range_of(q.xyz - u.xyz, from_anchor).y;
+    inner.w = range_of(q.xyz - v.xyz, from_anchor).y;
+    slack *= range_of(abs(q.xyz), abs(from_anchor)).y;
+    if (most.x > 0.0) {
+        inner = vec4(most.xy + vec2(us.y, vs.y), most.xy - vec2(us.x, vs.x));
+        slack = 1e-2;
+    }
+#endif
+    return all(greaterThanEqual(inner, vec4(-slack)));
+}
+
+void mark_tiles(uint i, uvec2 bin_corner)
+{
+    uint row = i * uint(TILED_SPRITE_ROWS);
+    vec4 u = sprites[row + uint(SPRITE_U)], v = sprites[row + uint(SPRITE_V)];
+    vec4 q = sprites[row + uint(SPRITE_Q)], most = sprites[row + uint(SPRITE_MOST)];
+    uvec2 from = bin_corner * uint(TILED_BIN_TILES);
+    uvec4 touched = squares_of(boxes[i], uint(TILED_EDGE));
+    touched.xy = max(touched.xy, from);
+    touched.zw = min(touched.zw, from + uint(TILED_BIN_TILES - 1));
+    uint word = gl_LocalInvocationID.x / 32u, bit = 1u << (gl_LocalInvocationID.x % 32u);
+    for (uint y = touched.y; y <= touched.w; y++) {
+        for (uint x = touched.x; x <= touched.z; x++) {
+            float scene = uintBitsToFloat(farthest[y * tile_columns + x]);
+            uint tile = (y - from.y) * uint(TILED_BIN_TILES) + x - from.x;
+            if (most.z <= scene && touches(u, v, q, most, vec2(x, y) * float(TILED_EDGE)))
+                atomicOr(marks[tile * WORDS + word], bit);
+        }
+    }
+    if (most.w < 0.0) {
+        atomicAdd(adding, 1u);
+        atomicMax(add, floatBitsToUint(-most.w));
+    } else {
+        atomicMax(cover, floatBitsToUint(most.w));
+    }
+}
+
+void main()
+{
+    uint me = gl_LocalInvocationID.x;
+    uint piece = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    if (piece >= pieces)
+        return;
+    uint number = bin_of(piece * uint(TILED_PIECE));
+    tiled_bin bin = bins[number];
+    uint at = piece * uint(TILED_PIECE) - bin.first; /* in the bin's list */
+    for (uint k = 0u; k < WORDS; k++)
+        marks[me * WORDS + k] = 0u;
+    if (me == 0u)
+        adding = cover = add = 0u;
+    barrier();
+    if (at + me < bin.count)
+        mark_tiles(lists[bin.first + at + me], uvec2(number % bin_columns, number / bin_columns));
+    barrier();
+    for (uint k = 0u; k < WORDS; k++)
+        masks[mask_word(bin, me, at / 32u + k)] = marks[me * WORDS + k];
+    if (me == 0u) {
+        atomicAdd(bins[number].adding, adding);
+        atomicMax(bins[number].cover, cover);
+        atomicMax(bins[number].add, add);
+    }
+}

@@ -1,0 +1,69 @@
+/* Once a round: each body's closest partner; with STAGGERED, as the paper finds it. With COUNTED,
+ * where so many are around that software GL would not look at all of them, nobody finds any, and
+ * the word behind all cells says how many there are. */
+// variant: 
+// variant: STAGGERED=1
+// variant: COUNTED=65000u
+#include "sim/crowd/interact.glsl"
+
+#include "shared/interact_staggered.h"
+
+layout(local_size_x = SIM_GROUP_SIZE) in;
+
+layout(location = 0) uniform uint later; /* 1: not the first round */
+
+#ifdef COUNTED
+
+/* Of each of the nine rows of cells around a body, the most bodies that any of the group looks at:
+ * loops run for as long as any of them. */
+shared uint row_most[9];
+
+uint count_around(uint self)
+{
+    EXACT float3 p = body_position(bodies[self]);
+    int x = cell_along(p.x, interact_params.cells_per_metre);
+    int y = cell_along(p.y, interact_params.cells_per_metre);
+    int z = cell_along(p.z, interact_params.cells_per_metre);
+    if (gl_LocalInvocationID.x == 0u)
+        for (int row = 0; row < 9; row++)
+            row_most[row] = 0u;
+    barrier();
+    for (int row = 0; row < 9; row++) {
+        uint start = cell_row(y + row % 3 - 1, z + row / 3 - 1);
+        uint first = cell_in_row(start, x - 1);
+        uint last = cell_in_row(start, x + 1);
+        uint behind = last < first ? body_count() : 0u;
+        atomicMax(row_most[row], behind + cell_ends[last] - cell_begin(first));
+    }
+    barrier();
+    uint sum = 0u;
+    for (int row = 0; row < 9; row++)
+        sum += row_most[row];
+    return sum;
+}
+
+#endif
+
+void main()
+{
+    uint self = invocation();
+#ifdef COUNTED
+    uint around = count_around(min(self, max(body_count(), 1u) - 1u));
+    if (around > COUNTED) {
+        atomicMax(cell_ends[interact_params.cell_mask + 1u], around);
+        if (self < body_count())
+            partners[self] = INTERACT_NOBODY;
+        return;
+    }
+#endif
+    if (self >= body_count())
+        return;
+    if (later != 0u && partners[self] == INTERACT_NOBODY)
+        return;
+#ifdef STAGGERED
+    uint partner = stagger_find(self, body_count());
+#else
+    uint partner = contact_find(self);
+#endif
+    partners[self] = later != 0u ? contact_later(partner) : partner;
+}

@@ -1,0 +1,32 @@
+/* Averages of all bodies of a flock, by one work group: sums of integers, as a float each. The paper
+ * takes them from the last level of mip-maps (Drone 2007, 7.4.4.2). */
+#include "sim/crowd/interact.glsl"
+
+#include "shared/interact_flock.h"
+
+layout(local_size_x = INTERACT_SCAN_GROUP) in;
+
+shared flock_all group_sums[INTERACT_SCAN_GROUP];
+
+void main()
+{
+    uint me = gl_LocalInvocationID.x;
+    uint count = body_count();
+    flock_all sum = flock_nobody();
+    for (uint i = me; i < count; i += uint(INTERACT_SCAN_GROUP))
+        sum = flock_all_add(sum, flock_all_of(bodies[i]));
+    group_sums[me] = sum;
+    barrier();
+    for (uint half_way = uint(INTERACT_SCAN_GROUP) / 2u; half_way > 0u; half_way /= 2u) {
+        if (me < half_way)
+            group_sums[me] = flock_all_add(group_sums[me], group_sums[me + half_way]);
+        barrier();
+    }
+    if (me != 0u || count == 0u)
+        return;
+    EXACT flock_means means = flock_means_of(group_sums[0], count);
+    entries[0] = uvec4(FLOAT_BITS(means.position.x), FLOAT_BITS(means.position.y),
+                       FLOAT_BITS(means.position.z), 0u);
+    entries[1] = uvec4(FLOAT_BITS(means.velocity.x), FLOAT_BITS(means.velocity.y),
+                       FLOAT_BITS(means.velocity.z), 0u);
+}

@@ -1,0 +1,25 @@
+/* Third: bodies in order of their cells; thereafter each cell's number is where its bodies end. Of
+ * those in one cell, scheduling decides the order, and nothing asks for it. */
+// variant: 
+// variant: SPINS=1
+#include "sim/crowd/interact.glsl"
+
+#include "shared/interact_body.h"
+
+layout(local_size_x = SIM_GROUP_SIZE) in;
+
+void main()
+{
+    uint slot = invocation();
+    if (slot >= interact_params.used)
+        return;
+    kiln_particle p = records[interact_params.base + slot];
+    if (!particle_is_alive(p))
+        return;
+    EXACT float3 position = particle_position(p);
+    uint place = atomicAdd(cell_ends[cell_of(position)], 1u);
+    bodies[place] = body_of(p, slot);
+#ifdef SPINS
+    note_turning(place, slot);
+#endif
+}

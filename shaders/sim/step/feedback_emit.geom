@@ -1,0 +1,44 @@
+/* Technique `feedback` (Heinz 2019, 3.3.3, algorithm 3.1, lines 3 to 8): an emitter writes new
+ * particles. The thesis has one; since a geometry shader writes only so many vertices, here each
+ * emitter spawns SIM_EMITTER_BIRTHS of the step's births, and there are as many as it takes. */
+// variant: 
+// variant: COLLIDE_ROUND=1
+// variant: FAMILY=1
+// variant: FAMILY=1 COLLIDE_ROUND=1
+// variant: GRIDS=1 COLLIDE_ROUND=1
+// variant: GRIDS=1 FAMILY=1 COLLIDE_ROUND=1
+// variant: COLLIDE_RUB=1
+// variant: COLLIDE_ROUND=1 COLLIDE_TURNED=1
+// variant: GRIDS=1 FAMILY=1 COLLIDE_ROUND=1 COLLIDE_TURNED=1 COLLIDE_RUB=1
+// variant: COLLIDE_FIELD=1 GRIDS=1 COLLIDE_ROUND=1
+// variant: COLLIDE_DEPTH=1 COLLIDE_FIELD=1 GRIDS=1 COLLIDE_ROUND=1
+// variant: PUSHES=1 COLLIDE_FIELD=1 GRIDS=1 FAMILY=1 COLLIDE_ROUND=1
+// variant: COLLIDE_VOLUME=1 COLLIDE_ROUND=1
+// variant: PUSHES=1 COLLIDE_VOLUME=1 COLLIDE_FIELD=1 GRIDS=1 FAMILY=1 COLLIDE_ROUND=1
+// variant: PUSHES=1 COLLIDE_ROUND=1
+// variant: SPINS=1 PUSHES=1 COLLIDE_ROUND=1 COLLIDE_RUB=1
+// variant: SPINS=1 PUSHES=1 COLLIDE_FIELD=1 GRIDS=1 FAMILY=1 COLLIDE_ROUND=1 COLLIDE_TURNED=1 COLLIDE_RUB=1
+// variant: PUSHES=1 GRIDS=1 FAMILY=1 COLLIDE_ROUND=1
+// variant: FORCES_ALL=1 COLLIDE_ROUND=1
+// variant: FORCES_ALL=1 FAMILY=1 COLLIDE_ROUND=1
+// variant: FORCES_ALL=1 GRIDS=1 COLLIDE_ROUND=1
+// variant: FORCES_ALL=1 GRIDS=1 FAMILY=1 COLLIDE_ROUND=1
+#include "shared/limits.h"
+
+layout(points) in;
+layout(points, max_vertices = SIM_EMITTER_BIRTHS) out;
+
+#include "sim/step/feedback.glsl"
+
+void main()
+{
+    uint first = vertices[0].number * SIM_EMITTER_BIRTHS;
+    uint end = min(first + SIM_EMITTER_BIRTHS, step_params.birth_count);
+    for (uint birth = first; birth < end; birth++) {
+        uint to_wrap = step_params.capacity - step_params.first_slot;
+        uint slot = birth < to_wrap ? step_params.first_slot + birth : birth - to_wrap;
+        kiln_particle p = slot_after(slot, step_dead());
+        if (particle_is_alive(p))
+            write_particle(p);
+    }
+}

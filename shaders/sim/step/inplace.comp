@@ -1,0 +1,43 @@
+/* Technique `inplace` (Heinz 2019, algorithm 3.2): one buffer, each invocation steps its slot where
+ * it lies. Unlike the thesis's, it finds no free slots by an atomic counter: the host says which
+ * slots are born into, so the order never depends on scheduling. */
+// variant: 
+// variant: COLLIDE_ROUND=1
+// variant: FAMILY=1
+// variant: FAMILY=1 COLLIDE_ROUND=1
+// variant: GRIDS=1 COLLIDE_ROUND=1
+// variant: GRIDS=1 FAMILY=1 COLLIDE_ROUND=1
+// variant: COLLIDE_RUB=1
+// variant: COLLIDE_ROUND=1 COLLIDE_TURNED=1
+// variant: GRIDS=1 FAMILY=1 COLLIDE_ROUND=1 COLLIDE_TURNED=1 COLLIDE_RUB=1
+// variant: COLLIDE_FIELD=1 GRIDS=1 COLLIDE_ROUND=1
+// variant: COLLIDE_DEPTH=1 COLLIDE_FIELD=1 GRIDS=1 COLLIDE_ROUND=1
+// variant: PUSHES=1 COLLIDE_FIELD=1 GRIDS=1 FAMILY=1 COLLIDE_ROUND=1
+// variant: COLLIDE_VOLUME=1 COLLIDE_ROUND=1
+// variant: PUSHES=1 COLLIDE_VOLUME=1 COLLIDE_FIELD=1 GRIDS=1 FAMILY=1 COLLIDE_ROUND=1
+// variant: PUSHES=1 COLLIDE_ROUND=1
+// variant: SPINS=1 PUSHES=1 COLLIDE_ROUND=1 COLLIDE_RUB=1
+// variant: SPINS=1 PUSHES=1 COLLIDE_FIELD=1 GRIDS=1 FAMILY=1 COLLIDE_ROUND=1 COLLIDE_TURNED=1 COLLIDE_RUB=1
+// variant: PUSHES=1 GRIDS=1 FAMILY=1 COLLIDE_ROUND=1
+// variant: FORCES_ALL=1 COLLIDE_ROUND=1
+// variant: FORCES_ALL=1 FAMILY=1 COLLIDE_ROUND=1
+// variant: FORCES_ALL=1 GRIDS=1 COLLIDE_ROUND=1
+// variant: FORCES_ALL=1 GRIDS=1 FAMILY=1 COLLIDE_ROUND=1
+#include "sim/step/slot.glsl"
+
+layout(local_size_x = SIM_GROUP_SIZE) in;
+
+layout(std430, binding = SIM_BIND_RECORDS) buffer record_block
+{
+    kiln_particle records[];
+};
+
+void main()
+{
+    uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    uint slot = group * SIM_GROUP_SIZE + gl_LocalInvocationID.x;
+    if (slot >= step_params.used)
+        return;
+    uint index = step_params.base + slot;
+    records[index] = slot_after(slot, records[index]);
+}
