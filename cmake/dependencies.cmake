@@ -8,14 +8,17 @@ pkg_check_modules(KILN_DEPS IMPORTED_TARGET ${kiln_linked_packages})
 pkg_check_modules(KILN_EGL egl)
 # Headers only: assimp is loaded when a scene has a mesh (lib/asset/geometry/mesh_import.c).
 pkg_check_modules(KILN_ASSIMP assimp>=5)
+# Headers only: lib/base/matrix.h takes the functions that cglm's headers define.
+pkg_check_modules(KILN_CGLM cglm)
 # Of OpenEXR only the C core: the rest is C++ and would be loaded at every start.
 pkg_check_modules(KILN_EXR OpenEXR)
 find_library(KILN_EXR_CORE OpenEXRCore)
 if(NOT KILN_DEPS_FOUND OR NOT KILN_EGL_FOUND OR NOT KILN_ASSIMP_FOUND OR
-   NOT KILN_EXR_FOUND OR NOT KILN_EXR_CORE)
+   NOT KILN_CGLM_FOUND OR NOT KILN_EXR_FOUND OR NOT KILN_EXR_CORE)
     message(FATAL_ERROR "A library is missing; run tools/setup to install all that kiln needs.")
 endif()
 add_library(kiln_dependencies INTERFACE)
-target_include_directories(kiln_dependencies SYSTEM INTERFACE ${KILN_EXR_INCLUDE_DIRS})
+target_include_directories(kiln_dependencies SYSTEM INTERFACE
+    ${KILN_CGLM_INCLUDE_DIRS} ${KILN_EXR_INCLUDE_DIRS})
 target_link_libraries(kiln_dependencies INTERFACE PkgConfig::KILN_DEPS ${KILN_EXR_CORE}
     Threads::Threads ${CMAKE_DL_LIBS} m)

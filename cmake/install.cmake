@@ -1,4 +1,4 @@
-# cmake --install: the program, the library, its header, a pkg-config file, the scenes and what bash
+# cmake --install: the program, the library, its headers, a pkg-config file, the scenes and what bash
 # and zsh complete command lines with. docs/ adds manual pages and the schema of scenes.
 
 # The pkg-config file finds its prefix from where it lies, whatever --prefix it was installed to.
@@ -11,7 +11,8 @@ if(BUILD_SHARED_LIBS)
 endif()
 configure_file(cmake/kiln.pc.in ${CMAKE_CURRENT_BINARY_DIR}/kiln.pc @ONLY)
 install(TARGETS kiln_program kiln)
-install(FILES lib/kiln.h lib/kiln_bench.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(FILES lib/kiln.h lib/kiln_bench.h
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/kiln.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/kiln)
 install(FILES cmd/completion/kiln.bash

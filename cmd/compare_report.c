@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "event.h"
+
 /* ---- Text --------------------------------------------------------------------------------- */
 
 /* Five digits, right of a column's start; counts in full. */
@@ -111,86 +113,89 @@ static void print_result_text(const struct compare_report *report,
 
 /* ---- JSON --------------------------------------------------------------------------------- */
 
-/* JSON knows no infinity; null stands for it. */
-static void print_number(double value)
+/* A value, which is null where it was not measured, or infinite. */
+static void add_number(struct kiln_json *json, const char *key, double value)
 {
-    if (isfinite(value))
-        printf("%.9g", value);
-    else
-        printf("null");
+    kiln_json_rounded(json, key, value, 9);
+}
+
+static void add_measured(struct kiln_json *json, const struct kiln_compare_result *result,
+                         const struct kiln_compare_frame *frame)
+{
+    kiln_json_uint(json, "width", frame->width);
+    kiln_json_uint(json, "height", frame->height);
+    kiln_json_bool(json, "equal", frame->equal);
+    add_number(json, "score", frame->score);
+    kiln_json_begin_object(json, "metrics");
+    for (size_t i = 0; i < result->column_count; i++)
+        add_number(json, result->columns[i].name, frame->values[i]);
+    kiln_json_end(json);
+    kiln_json_begin_array(json, "beyond");
+    for (size_t i = 0; i < result->column_count; i++)
+        if (frame->beyond[i])
+            kiln_json_string(json, NULL, result->columns[i].name);
+    kiln_json_end(json);
+    kiln_json_pair(json, "worst_pixel", frame->worst_x, frame->worst_y);
+    kiln_json_begin_object(json, "window");
+    kiln_json_uint(json, "x", frame->window_x);
+    kiln_json_uint(json, "y", frame->window_y);
+    kiln_json_uint(json, "width", frame->window_width);
+    kiln_json_uint(json, "height", frame->window_height);
+    kiln_json_uint(json, "differing", frame->window_differing);
+    kiln_json_end(json);
 }
 
 static void print_frame_json(const struct kiln_compare_result *result,
                              const struct kiln_compare_frame *frame)
 {
-    printf("{\"event\": \"frame\", \"name\": ");
-    kiln_write_json_string(stdout, frame->name);
-    printf(", \"verdict\": \"%s\"", kiln_compare_verdict_name(frame->verdict));
-    if (!frame->measured) {
-        printf(", \"message\": ");
-        kiln_write_json_string(stdout, frame->message);
-        printf("}\n");
-        return;
-    }
-    printf(", \"width\": %u, \"height\": %u, \"equal\": %s, \"score\": ", frame->width,
-           frame->height, frame->equal ? "true" : "false");
-    print_number(frame->score);
-    printf(", \"metrics\": {");
-    for (size_t i = 0; i < result->column_count; i++) {
-        printf("%s\"%s\": ", i ? ", " : "", result->columns[i].name);
-        print_number(frame->values[i]);
-    }
-    printf("}, \"beyond\": [");
-    const char *comma = "";
-    for (size_t i = 0; i < result->column_count; i++) {
-        if (!frame->beyond[i])
-            continue;
-        printf("%s\"%s\"", comma, result->columns[i].name);
-        comma = ", ";
-    }
-    printf("], \"worst_pixel\": [%u, %u], \"window\": {\"x\": %u, \"y\": %u, \"width\": %u, "
-           "\"height\": %u, \"differing\": %u}}\n",
-           frame->worst_x, frame->worst_y, frame->window_x, frame->window_y, frame->window_width,
-           frame->window_height, frame->window_differing);
+    struct kiln_json json = event_begin("frame");
+    kiln_json_string(&json, "name", frame->name);
+    kiln_json_string(&json, "verdict", kiln_compare_verdict_name(frame->verdict));
+    if (frame->measured)
+        add_measured(&json, result, frame);
+    else
+        kiln_json_string(&json, "message", frame->message);
+    event_end(&json);
 }
 
-static void print_metrics_json(const struct kiln_compare_result *result)
+static void add_metrics(struct kiln_json *json, const struct kiln_compare_result *result)
 {
-    printf(", \"metrics\": {");
+    kiln_json_begin_object(json, "metrics");
     for (size_t i = 0; i < result->column_count; i++) {
         const struct kiln_compare_column *column = &result->columns[i];
-        printf("%s\"%s\": {\"worst\": ", i ? ", " : "", column->name);
-        print_number(result->measured ? result->worst[i] : NAN);
-        printf(", \"mean\": ");
-        print_number(result->measured ? result->mean[i] : NAN);
-        printf(", \"at\": ");
-        kiln_write_json_string(stdout, result->worst_names[i]);
-        printf(", \"unit\": \"%s\", \"better\": \"%s\", \"limit\": ", column->unit,
-               column->higher_is_better ? "higher" : "lower");
-        print_number(column->limited ? column->limit : NAN);
-        printf("}");
+        kiln_json_begin_object(json, column->name);
+        add_number(json, "worst", result->measured ? result->worst[i] : NAN);
+        add_number(json, "mean", result->measured ? result->mean[i] : NAN);
+        kiln_json_string(json, "at", result->worst_names[i]);
+        kiln_json_string(json, "unit", column->unit);
+        kiln_json_string(json, "better", column->higher_is_better ? "higher" : "lower");
+        add_number(json, "limit", column->limited ? column->limit : NAN);
+        kiln_json_end(json);
     }
-    printf("}");
+    kiln_json_end(json);
 }
 
 static void print_result_json(const struct compare_report *report,
                               const struct kiln_compare_result *result)
 {
-    printf("{\"event\": \"result\", \"reference\": ");
-    kiln_write_json_string(stdout, report->reference);
-    printf(", \"test\": ");
-    kiln_write_json_string(stdout, report->test);
-    printf(", \"same\": %s, \"range\": \"%s\", \"frames\": %u, \"counts\": {",
-           result->same ? "true" : "false", result->hdr ? "hdr" : "ldr", result->frames);
+    struct kiln_json json = event_begin("result");
+    kiln_json_string(&json, "reference", report->reference);
+    kiln_json_string(&json, "test", report->test);
+    kiln_json_bool(&json, "same", result->same);
+    kiln_json_string(&json, "range", result->hdr ? "hdr" : "ldr");
+    kiln_json_uint(&json, "frames", result->frames);
+    kiln_json_begin_object(&json, "counts");
     for (int i = 0; i < KILN_COMPARE_VERDICT_COUNT; i++)
-        printf("%s\"%s\": %u", i ? ", " : "",
-               kiln_compare_verdict_name((enum kiln_compare_verdict)i), result->counts[i]);
-    printf("}, \"worst_frame\": ");
-    kiln_write_json_string(stdout, result->worst_frame);
-    print_metrics_json(result);
-    if (report->stats)
-        printf(", \"flip_s\": %.3f, \"total_s\": %.3f", result->flip_s, result->total_s);
-    printf("}\n");
+        kiln_json_uint(&json, kiln_compare_verdict_name((enum kiln_compare_verdict)i),
+                       result->counts[i]);
+    kiln_json_end(&json);
+    kiln_json_string(&json, "worst_frame", result->worst_frame);
+    add_metrics(&json, result);
+    if (report->stats) {
+        kiln_json_time(&json, "flip_s", result->flip_s);
+        kiln_json_time(&json, "total_s", result->total_s);
+    }
+    event_end(&json);
 }
 
 /* ---- Both --------------------------------------------------------------------------------- */

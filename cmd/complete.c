@@ -130,7 +130,7 @@ static void put_entries(struct value *value, bool named)
         kiln_scene_visit_systems(value->line->operand, put_system, value, &error);
 }
 
-static void put_key(void *user, const struct kiln_scene_key *key)
+static void put_key(void *user, const struct kiln_option_key *key)
 {
     struct value *value = user;
     const char *part = follow(key->path, value->rest, &value->part);
@@ -150,7 +150,7 @@ static void put_key(void *user, const struct kiln_scene_key *key)
 }
 
 /* Words that the key may be, of KEY=WORD. */
-static void put_key_words(void *user, const struct kiln_scene_key *key)
+static void put_key_words(void *user, const struct kiln_option_key *key)
 {
     const struct value *value = user;
     const char *part = NULL, *end = key->words ? follow(key->path, value->part, &part) : NULL;

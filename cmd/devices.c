@@ -44,68 +44,62 @@ static void print_text(const struct kiln_device_info *info)
            info->max_storage_block_bytes, info->max_texture_size, info->max_array_layers);
 }
 
-static void print_json_text(const char *key, const char *value)
+static void add_device(struct kiln_json *json, const struct kiln_device_info *info)
 {
-    printf("\"%s\": ", key);
-    kiln_write_json_string(stdout, value);
-    fputs(", ", stdout);
-}
-
-static void print_json_bool(const char *key, bool value)
-{
-    printf("\"%s\": %s, ", key, value ? "true" : "false");
-}
-
-static void print_json(const struct kiln_device_info *info)
-{
-    printf("    {\"index\": %u, ", info->index);
-    print_json_text("name", info->name);
-    print_json_text("vendor", info->vendor);
-    print_json_text("gl_version", info->gl_version);
-    print_json_text("platform", info->platform);
-    print_json_bool("gl", info->gl);
-    print_json_bool("software", info->software);
-    print_json_bool("usable", info->usable);
-    print_json_text("problem", info->problem);
-    print_json_bool("exact", info->exact);
-    if (!info->gl) {
-        print_json_text("vectors", info->vectors);
-        printf("\"threads\": %u}", info->threads);
-        return;
+    kiln_json_begin_object(json, NULL);
+    kiln_json_uint(json, "index", info->index);
+    kiln_json_string(json, "name", info->name);
+    kiln_json_string(json, "vendor", info->vendor);
+    kiln_json_string(json, "gl_version", info->gl_version);
+    kiln_json_string(json, "platform", info->platform);
+    kiln_json_bool(json, "gl", info->gl);
+    kiln_json_bool(json, "software", info->software);
+    kiln_json_bool(json, "usable", info->usable);
+    kiln_json_string(json, "problem", info->problem);
+    kiln_json_bool(json, "exact", info->exact);
+    if (info->gl) {
+        kiln_json_int(json, "max_work_group_invocations", info->max_work_group_invocations);
+        kiln_json_int(json, "max_shared_memory_bytes", info->max_shared_memory_bytes);
+        kiln_json_int(json, "max_storage_block_bytes", info->max_storage_block_bytes);
+        kiln_json_int(json, "max_texture_size", info->max_texture_size);
+        kiln_json_int(json, "max_array_layers", info->max_array_layers);
+    } else {
+        kiln_json_string(json, "vectors", info->vectors);
+        kiln_json_uint(json, "threads", info->threads);
     }
-    printf("\"max_work_group_invocations\": %d, \"max_shared_memory_bytes\": %d, "
-           "\"max_storage_block_bytes\": %" PRId64 ", \"max_texture_size\": %d, "
-           "\"max_array_layers\": %d}",
-           info->max_work_group_invocations, info->max_shared_memory_bytes,
-           info->max_storage_block_bytes, info->max_texture_size, info->max_array_layers);
+    kiln_json_end(json);
+}
+
+static void print_json(const struct kiln_device_info *infos, size_t count, const char *advice)
+{
+    struct kiln_json json = kiln_json_to_file(stdout);
+    kiln_json_begin_object(&json, NULL);
+    kiln_json_lines(&json, 2);
+    kiln_json_begin_array(&json, "devices");
+    kiln_json_lines(&json, 4);
+    for (size_t i = 0; i < count; i++)
+        add_device(&json, &infos[i]);
+    kiln_json_end_line(&json, 2);
+    kiln_json_string(&json, "advice", advice);
+    kiln_json_end_line(&json, 0);
+    kiln_json_finish(&json);
 }
 
 static int run(const struct arguments *arguments)
 {
-    bool json = arguments_last(arguments, "json") != NULL;
     struct kiln_device_info infos[MAX_DEVICES];
     char advice[256] = "";
     size_t count = kiln_device_list(infos, MAX_DEVICES, advice);
     if (count > MAX_DEVICES)
         count = MAX_DEVICES;
-
-    if (json)
-        printf("{\n  \"devices\": [");
-    for (size_t i = 0; i < count; i++) {
-        if (json) {
-            printf(i ? ",\n" : "\n");
-            print_json(&infos[i]);
-        } else {
-            print_text(&infos[i]);
-        }
+    if (arguments_last(arguments, "json")) {
+        print_json(infos, count, advice);
+        return 0;
     }
-    if (json) {
-        printf("%s],\n  \"advice\": ", count ? "\n  " : "");
-        kiln_write_json_string(stdout, advice);
-        printf("\n}\n");
-    } else if (advice[0]) {
+    for (size_t i = 0; i < count; i++)
+        print_text(&infos[i]);
+    if (advice[0])
         printf("advice: %s\n", advice);
-    }
     return 0;
 }
 

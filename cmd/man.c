@@ -218,7 +218,7 @@ static void put_line(FILE *out, const char *label, const char *text)
     fputc('\n', out);
 }
 
-static void put_key(void *user, const struct kiln_scene_key *key)
+static void put_key(void *user, const struct kiln_option_key *key)
 {
     FILE *out = user;
     fputs(".TP\n\\fB", out);

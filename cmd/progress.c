@@ -3,6 +3,8 @@
 
 #include <inttypes.h>
 
+#include "event.h"
+
 static const double tty_interval_s = 0.1, lines_interval_s = 5.0;
 
 void progress_start(struct progress *progress, enum progress_mode mode)
@@ -16,12 +18,12 @@ const char *state_text(char out[STATE_TEXT_SIZE], struct kiln_state_hash state)
     return out;
 }
 
-void print_pass_json(const double pass_ms[KILN_PASS_COUNT])
+void add_passes(struct kiln_json *json, const double pass_ms[KILN_PASS_COUNT])
 {
+    kiln_json_begin_object(json, "pass_ms");
     for (int pass = 0; pass < KILN_PASS_COUNT; pass++)
-        printf("%s\"%s\": %.3f", pass ? ", " : "{", kiln_pass_name((enum kiln_pass)pass),
-               pass_ms[pass]);
-    printf("}");
+        kiln_json_time(json, kiln_pass_name((enum kiln_pass)pass), pass_ms[pass]);
+    kiln_json_end(json);
 }
 
 /* "1:05" or "2:00:05". */
@@ -49,18 +51,20 @@ static void print_line(const char *scene, const struct kiln_progress *frame)
 static void print_json(const char *scene, const struct kiln_progress *frame)
 {
     char state[STATE_TEXT_SIZE];
-    printf("{\"event\": \"frame\", \"scene\": ");
-    kiln_write_json_string(stdout, scene);
-    printf(", \"frame\": %u, \"done\": %u, \"total\": %u, \"elapsed_s\": %.3f, ", frame->frame,
-           frame->done, frame->total, frame->elapsed_s);
+    struct kiln_json json = event_begin("frame");
+    kiln_json_string(&json, "scene", scene);
+    kiln_json_uint(&json, "frame", frame->frame);
+    kiln_json_uint(&json, "done", frame->done);
+    kiln_json_uint(&json, "total", frame->total);
+    kiln_json_time(&json, "elapsed_s", frame->elapsed_s);
     if (frame->eta_s >= 0)
-        printf("\"eta_s\": %.3f, ", frame->eta_s);
+        kiln_json_time(&json, "eta_s", frame->eta_s);
     else
-        printf("\"eta_s\": null, ");
-    printf("\"alive\": %" PRIu64 ", \"state\": \"%s\", \"pass_ms\": ", frame->alive,
-           state_text(state, frame->state));
-    print_pass_json(frame->pass_ms);
-    printf("}\n");
+        kiln_json_null(&json, "eta_s");
+    kiln_json_uint(&json, "alive", frame->alive);
+    kiln_json_string(&json, "state", state_text(state, frame->state));
+    add_passes(&json, frame->pass_ms);
+    event_end(&json);
     fflush(stdout);
 }
 

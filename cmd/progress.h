@@ -30,7 +30,7 @@ void progress_clear(struct progress *progress);
 enum { STATE_TEXT_SIZE = 17 };
 const char *state_text(char out[STATE_TEXT_SIZE], struct kiln_state_hash state);
 
-/* Writes {"simulate": 1.25, ...} to standard output. */
-void print_pass_json(const double pass_ms[KILN_PASS_COUNT]);
+/* Adds the member "pass_ms": {"simulate": 1.250, ...}. */
+void add_passes(struct kiln_json *json, const double pass_ms[KILN_PASS_COUNT]);
 
 #endif

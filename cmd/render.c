@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "command.h"
+#include "event.h"
 #include "overrides.h"
 #include "plan.h"
 #include "progress.h"
@@ -224,18 +225,24 @@ static bool read_options(struct render *render, const struct arguments *argument
 
 /* ---- Running -------------------------------------------------------------------------------- */
 
+static void print_device_json(const struct kiln_device_info *info)
+{
+    struct kiln_json json = event_begin("device");
+    kiln_json_uint(&json, "index", info->index);
+    kiln_json_string(&json, "name", info->name);
+    kiln_json_bool(&json, "software", info->software);
+    event_end(&json);
+}
+
 /* The first line of output: nobody shall take a picture of a software device for a GPU's. */
 static void print_device(const struct render *render, const struct kiln_device_info *info)
 {
-    if (render->json) {
-        printf("{\"event\": \"device\", \"index\": %u, \"name\": ", info->index);
-        kiln_write_json_string(stdout, info->name);
-        printf(", \"software\": %s}\n", info->software ? "true" : "false");
-    } else if (!render->quiet && !info->gl) {
+    if (render->json)
+        print_device_json(info);
+    else if (!render->quiet && !info->gl)
         printf("device: %s (%s, no OpenGL)\n", info->name, info->vectors);
-    } else if (!render->quiet) {
+    else if (!render->quiet)
         printf("device: %s%s\n", info->name, info->software ? " (software)" : "");
-    }
     fflush(stdout);
 }
 

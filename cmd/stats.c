@@ -4,6 +4,7 @@
 #include <inttypes.h>
 #include <sys/resource.h>
 
+#include "event.h"
 #include "progress.h"
 
 /* The most memory that the process has had at once. */
@@ -68,51 +69,47 @@ void print_stats_text(const struct job_result *result)
     printf("  state        %s\n", state_text(state, stats->state));
 }
 
-static void print_choices_json(const struct kiln_render_stats *stats)
+static void add_choices(struct kiln_json *json, const struct kiln_render_stats *stats)
 {
-    printf(", \"chosen\": [");
+    kiln_json_begin_array(json, "chosen");
     for (uint32_t i = 0; i < stats->choice_count; i++) {
         const struct kiln_technique_choice *choice = &stats->choices[i];
-        printf("%s{\"stage\": \"%s\", \"technique\": \"%s\", \"why\": ", i ? ", " : "",
-               choice->stage, choice->name);
-        if (choice->why)
-            kiln_write_json_string(stdout, choice->why);
-        else
-            printf("null");
-        printf("}");
+        kiln_json_begin_object(json, NULL);
+        kiln_json_string(json, "stage", choice->stage);
+        kiln_json_string(json, "technique", choice->name);
+        kiln_json_string(json, "why", choice->why);
+        kiln_json_end(json);
     }
-    printf("]");
+    kiln_json_end(json);
 }
 
-static void print_text_member(const char *key, const char *value)
+static void add_stats(struct kiln_json *json, const struct job_result *result)
 {
-    printf(", \"%s\": ", key);
-    if (value)
-        kiln_write_json_string(stdout, value);
-    else
-        printf("null");
+    const struct kiln_render_stats *stats = result->stats;
+    char state[STATE_TEXT_SIZE];
+    kiln_json_time(json, "setup_s", stats->setup_s);
+    kiln_json_uint(json, "steps", stats->steps);
+    add_passes(json, stats->pass_ms);
+    kiln_json_uint(json, "alive", stats->alive);
+    kiln_json_uint(json, "particle_capacity", stats->particle_capacity);
+    kiln_json_uint(json, "particle_bytes", stats->particle_bytes);
+    kiln_json_uint(json, "peak_memory_bytes", peak_memory_bytes());
+    kiln_json_string(json, "techniques", stats->techniques);
+    add_choices(json, stats);
+    kiln_json_string(json, "scene_hash", result->info->hash);
+    kiln_json_string(json, "state", state_text(state, stats->state));
 }
 
 void print_result_json(const struct job_result *result, bool with_stats)
 {
     const struct kiln_render_stats *stats = result->stats;
-    char state[STATE_TEXT_SIZE];
-    printf("{\"event\": \"result\"");
-    print_text_member("scene", result->scene);
-    print_text_member("output", result->output);
-    print_text_member("first_file", result->output ? stats->first_file : NULL);
-    printf(", \"frames\": %u, \"total_s\": %.3f", stats->frames, stats->total_s);
-    if (with_stats) {
-        printf(", \"setup_s\": %.3f, \"steps\": %" PRIu64 ", \"pass_ms\": ", stats->setup_s,
-               stats->steps);
-        print_pass_json(stats->pass_ms);
-        printf(", \"alive\": %" PRIu64 ", \"particle_capacity\": %" PRIu64
-               ", \"particle_bytes\": %" PRIu64 ", \"peak_memory_bytes\": %" PRIu64,
-               stats->alive, stats->particle_capacity, stats->particle_bytes, peak_memory_bytes());
-        print_text_member("techniques", stats->techniques);
-        print_choices_json(stats);
-        print_text_member("scene_hash", result->info->hash);
-        print_text_member("state", state_text(state, stats->state));
-    }
-    printf("}\n");
+    struct kiln_json json = event_begin("result");
+    kiln_json_string(&json, "scene", result->scene);
+    kiln_json_string(&json, "output", result->output);
+    kiln_json_string(&json, "first_file", result->output ? stats->first_file : NULL);
+    kiln_json_uint(&json, "frames", stats->frames);
+    kiln_json_time(&json, "total_s", stats->total_s);
+    if (with_stats)
+        add_stats(&json, result);
+    event_end(&json);
 }

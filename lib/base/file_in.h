@@ -1,6 +1,6 @@
 /* Whole files into memory. */
-#ifndef KILN_ASSET_FILE_IN_H
-#define KILN_ASSET_FILE_IN_H
+#ifndef KILN_BASE_FILE_IN_H
+#define KILN_BASE_FILE_IN_H
 
 #include "kiln.h"
 

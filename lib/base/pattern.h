@@ -1,6 +1,6 @@
 /* Where the number of a frame goes in a file name. */
-#ifndef KILN_OUTPUT_PATTERN_H
-#define KILN_OUTPUT_PATTERN_H
+#ifndef KILN_BASE_PATTERN_H
+#define KILN_BASE_PATTERN_H
 
 #include "base/temporary.h"
 #include "kiln.h"

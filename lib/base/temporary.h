@@ -1,7 +1,7 @@
 /* Files that appear whole or not at all: written beside their place under a temporary name, and
  * renamed when complete. */
-#ifndef KILN_OUTPUT_TEMPORARY_H
-#define KILN_OUTPUT_TEMPORARY_H
+#ifndef KILN_BASE_TEMPORARY_H
+#define KILN_BASE_TEMPORARY_H
 
 #include "kiln.h"
 

@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/json.h"
+
 bool kiln_text_to_double(const char *text, double *value)
 {
     /* strtod also takes leading blanks, hexadecimal, "inf" and "nan": none is a number here. */
@@ -40,7 +42,7 @@ bool kiln_text_to_uint64(const char *text, uint64_t *value)
     return true;
 }
 
-static void print_number(char out[32], double value, int digits)
+void kiln_text_from_rounded(char out[32], double value, int digits)
 {
     locale_t c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
     locale_t before = c_locale ? uselocale(c_locale) : (locale_t)0;
@@ -55,7 +57,7 @@ void kiln_text_from_float(char out[32], float value)
 {
     for (int digits = 6; digits <= 9; digits++) {
         double back = 0;
-        print_number(out, (double)value, digits);
+        kiln_text_from_rounded(out, (double)value, digits);
         if (kiln_text_to_double(out, &back) && (float)back == value)
             return;
     }
@@ -65,7 +67,7 @@ void kiln_text_from_double(char out[32], double value)
 {
     for (int digits = 6; digits <= 17; digits++) {
         double back = 0;
-        print_number(out, value, digits);
+        kiln_text_from_rounded(out, value, digits);
         if (kiln_text_to_double(out, &back) && back == value)
             return;
     }
@@ -170,20 +172,8 @@ size_t kiln_text_utf8_length(const char *text)
 
 void kiln_text_add_json(struct kiln_text *text, const char *string)
 {
-    kiln_text_add(text, "\"");
-    for (const unsigned char *s = (const unsigned char *)string; *s;) {
-        size_t length = kiln_text_utf8_length((const char *)s);
-        if (length == 0)
-            kiln_text_add(text, "\\ufffd");
-        else if (*s == '"' || *s == '\\')
-            kiln_text_add(text, "\\%c", *s);
-        else if (*s < 0x20 || *s == 0x7f)
-            kiln_text_add(text, "\\u%04x", *s);
-        else
-            kiln_text_add(text, "%.*s", (int)length, (const char *)s);
-        s += length ? length : 1;
-    }
-    kiln_text_add(text, "\"");
+    struct kiln_json json = kiln_json_to_text(text);
+    kiln_json_string(&json, NULL, string);
 }
 
 void kiln_text_add_shell_word(struct kiln_text *text, const char *word)
@@ -197,23 +187,11 @@ void kiln_text_add_shell_word(struct kiln_text *text, const char *word)
     kiln_text_add(text, quoted ? "'" : "");
 }
 
-static bool write_text(FILE *out, struct kiln_text *text)
-{
-    bool written = !text->failed && fputs(text->data, out) >= 0;
-    kiln_text_free(text);
-    return written;
-}
-
-bool kiln_write_json_string(FILE *out, const char *string)
-{
-    struct kiln_text text = {0};
-    kiln_text_add_json(&text, string);
-    return write_text(out, &text);
-}
-
 bool kiln_write_shell_word(FILE *out, const char *word)
 {
     struct kiln_text text = {0};
     kiln_text_add_shell_word(&text, word);
-    return write_text(out, &text);
+    bool written = !text.failed && fputs(text.data, out) >= 0;
+    kiln_text_free(&text);
+    return written;
 }

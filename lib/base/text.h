@@ -8,6 +8,9 @@
 void kiln_text_from_float(char out[32], float value);
 void kiln_text_from_double(char out[32], double value);
 
+/* A double, rounded to so many significant digits: 17 at most. */
+void kiln_text_from_rounded(char out[32], double value, int digits);
+
 /* A growing text. Zero-initialised is empty; after memory ran short, `failed` stays true and
  * nothing more is added. The owner frees `data` with kiln_text_free. */
 struct kiln_text {

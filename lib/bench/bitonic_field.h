@@ -1,8 +1,8 @@
 /* Bitonic sorting as UberFlow compares it (4.3.2, 4.3.3 and table 1): a pass a kernel over a field
  * of pairs in rows, in three variants of how the comparator's constants reach the kernel. All sort
  * like technique `bitonic`; they are there to be measured. */
-#ifndef KILN_SORT_BITONIC_FIELD_H
-#define KILN_SORT_BITONIC_FIELD_H
+#ifndef KILN_BENCH_BITONIC_FIELD_H
+#define KILN_BENCH_BITONIC_FIELD_H
 
 #include "sort/network.h"
 

@@ -1,7 +1,7 @@
 /* Gravity by splatting forces (Drone 2007, 7.4.2 and 7.4.3.1), for tests and benchmarks: what the
  * blending unit adds up decides no state. */
-#ifndef KILN_SIM_FORCE_SPLAT_H
-#define KILN_SIM_FORCE_SPLAT_H
+#ifndef KILN_BENCH_FORCE_SPLAT_H
+#define KILN_BENCH_FORCE_SPLAT_H
 
 #include "gpu/framebuffer.h"
 #include "shared/platform.h"

@@ -1,5 +1,7 @@
 /* N-body gravity (Drone 2007, 7.4.3): pairs a second by width of vectors, beside the paper's way to
  * add up forces, which is to splat them; whole frames; and how well energy is kept. */
+#include "sim/crowd/gravity.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,7 +11,6 @@
 #include "bench/force_splat.h"
 #include "bench/suite.h"
 #include "shared/random.h"
-#include "sim/crowd/gravity.h"
 
 static const char SCENE[] = "bench/stars.yaml";
 

@@ -1,12 +1,13 @@
 /* What it costs to paint a mesh (Drone 2007, 7.6.1): a ball, on which splats lie evenly, by each
  * gather, and by groups of particles. */
+#include "sim/paint/paint.h"
+
 #include <stdlib.h>
 
 #include "base/clock.h"
 #include "base/error.h"
 #include "bench/suite.h"
 #include "shared/random.h"
-#include "sim/paint/paint.h"
 
 enum { RINGS = 48, AROUND = 2 * RINGS, MEASURE = KILN_PASS_simulate };
 

@@ -13,85 +13,85 @@ static void put_number(FILE *out, double value)
 
 /* ---- JSON ------------------------------------------------------------------------------------ */
 
-static void put_text(FILE *out, const char *before, const char *key, const char *value)
+static void add_spread(struct kiln_json *json, const char *key, const struct kiln_spread *spread)
 {
-    fprintf(out, "%s\"%s\": ", before, key);
-    if (value)
-        kiln_write_json_string(out, value);
-    else
-        fputs("null", out);
+    kiln_json_begin_object(json, key);
+    kiln_json_uint(json, "turns", spread->count);
+    kiln_json_number(json, "median", spread->median);
+    kiln_json_number(json, "first_quartile", spread->first_quartile);
+    kiln_json_number(json, "third_quartile", spread->third_quartile);
+    kiln_json_number(json, "least", spread->least);
+    kiln_json_number(json, "most", spread->most);
+    kiln_json_end(json);
 }
 
-static void put_spread(FILE *out, const char *key, const struct kiln_spread *spread)
+static void add_row(struct kiln_json *json, const struct kiln_bench_row *row)
 {
-    const struct {
-        const char *name;
-        double value;
-    } members[] = {{"median", spread->median},
-                   {"first_quartile", spread->first_quartile},
-                   {"third_quartile", spread->third_quartile},
-                   {"least", spread->least},
-                   {"most", spread->most}};
-    fprintf(out, ", \"%s\": {\"turns\": %u", key, spread->count);
-    for (size_t i = 0; i < sizeof members / sizeof *members; i++) {
-        fprintf(out, ", \"%s\": ", members[i].name);
-        put_number(out, members[i].value);
-    }
-    fputs("}", out);
-}
-
-static void put_row(FILE *out, const struct kiln_bench_row *row)
-{
-    fputs("{\"x\": ", out);
-    put_number(out, row->x);
-    put_text(out, ", ", "measure", row->measure);
-    put_text(out, ", ", "technique", row->technique);
-    put_spread(out, "value", &row->spread);
+    kiln_json_begin_object(json, NULL);
+    kiln_json_number(json, "x", row->x);
+    kiln_json_string(json, "measure", row->measure);
+    kiln_json_string(json, "technique", row->technique);
+    add_spread(json, "value", &row->spread);
     if (row->faster.count > 0)
-        put_spread(out, "times_as_fast", &row->faster);
+        add_spread(json, "times_as_fast", &row->faster);
     else
-        fputs(", \"times_as_fast\": null", out);
-    put_text(out, ", ", "published", row->source);
-    fputs("}", out);
+        kiln_json_null(json, "times_as_fast");
+    kiln_json_string(json, "published", row->source);
+    kiln_json_end(json);
 }
 
-static void put_part(FILE *out, const struct kiln_bench_part *part)
+static void add_part(struct kiln_json *json, const struct kiln_bench_part *part)
 {
-    put_text(out, "{", "name", part->name);
-    put_text(out, ", ", "suite", part->suite);
-    put_text(out, ",\n   ", "title", part->title);
-    put_text(out, ",\n   ", "sweep", part->sweep);
-    put_text(out, ", ", "unit", part->unit);
-    put_text(out, ", ", "reference", part->reference);
-    fputs(",\n   \"notes\": [", out);
-    for (size_t i = 0; i < part->note_count; i++) {
-        fputs(i ? ", " : "", out);
-        kiln_write_json_string(out, part->notes[i]);
-    }
-    fputs("],\n   \"rows\": [", out);
-    for (size_t i = 0; i < part->row_count; i++) {
-        fputs(i ? ",\n    " : "\n    ", out);
-        put_row(out, &part->rows[i]);
-    }
-    fputs("]}", out);
+    kiln_json_begin_object(json, NULL);
+    kiln_json_string(json, "name", part->name);
+    kiln_json_string(json, "suite", part->suite);
+    kiln_json_line(json, 3);
+    kiln_json_string(json, "title", part->title);
+    kiln_json_line(json, 3);
+    kiln_json_string(json, "sweep", part->sweep);
+    kiln_json_string(json, "unit", part->unit);
+    kiln_json_string(json, "reference", part->reference);
+    kiln_json_lines(json, 3);
+    kiln_json_strings(json, "notes", part->notes, part->note_count);
+    kiln_json_begin_array(json, "rows");
+    kiln_json_lines(json, 4);
+    for (size_t i = 0; i < part->row_count; i++)
+        add_row(json, &part->rows[i]);
+    kiln_json_end(json);
+    kiln_json_end(json);
+}
+
+static void add_device(struct kiln_json *json, const struct kiln_device_info *device)
+{
+    kiln_json_begin_object(json, "device");
+    kiln_json_string(json, "name", device->name);
+    kiln_json_bool(json, "software", device->software);
+    kiln_json_string(json, "gl_version", device->gl_version);
+    kiln_json_end(json);
 }
 
 void kiln_bench_write_json(const struct kiln_bench *bench, FILE *out)
 {
-    put_text(out, "{", "version", KILN_VERSION);
-    put_text(out, ",\n \"device\": {", "name", bench->device.name);
-    fprintf(out, ", \"software\": %s", bench->device.software ? "true" : "false");
-    put_text(out, ", ", "gl_version", bench->device.gl_version);
-    put_text(out, "},\n ", "processor", bench->processor);
-    fprintf(out, ", \"cores\": %u,\n \"turns\": %u, \"quick\": %s, \"total_s\": ", bench->cores,
-            bench->repetitions, bench->quick ? "true" : "false");
-    put_number(out, bench->seconds);
-    fputs(",\n \"parts\": [", out);
-    for (size_t i = 0; i < bench->part_count; i++) {
-        fputs(i ? ",\n  " : "\n  ", out);
-        put_part(out, &bench->parts[i]);
-    }
-    fputs("]}\n", out);
+    struct kiln_json json = kiln_json_to_file(out);
+    kiln_json_begin_object(&json, NULL);
+    kiln_json_string(&json, "version", KILN_VERSION);
+    kiln_json_line(&json, 1);
+    add_device(&json, &bench->device);
+    kiln_json_line(&json, 1);
+    kiln_json_string(&json, "processor", bench->processor);
+    kiln_json_uint(&json, "cores", bench->cores);
+    kiln_json_line(&json, 1);
+    kiln_json_uint(&json, "turns", bench->repetitions);
+    kiln_json_bool(&json, "quick", bench->quick);
+    kiln_json_number(&json, "total_s", bench->seconds);
+    kiln_json_line(&json, 1);
+    kiln_json_begin_array(&json, "parts");
+    kiln_json_lines(&json, 2);
+    for (size_t i = 0; i < bench->part_count; i++)
+        add_part(&json, &bench->parts[i]);
+    kiln_json_end(&json);
+    kiln_json_end(&json);
+    kiln_json_finish(&json);
 }
 
 /* ---- CSV (RFC 4180, but for the ends of lines) ----------------------------------------------- */

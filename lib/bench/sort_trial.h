@@ -1,7 +1,7 @@
 /* Sorts of given keys that are timed, for benchmarks: the techniques of the stage, and the variants
  * of bitonic sorting that UberFlow's table 1 compares. */
-#ifndef KILN_SORT_TRIAL_H
-#define KILN_SORT_TRIAL_H
+#ifndef KILN_BENCH_SORT_TRIAL_H
+#define KILN_BENCH_SORT_TRIAL_H
 
 #include "base/thread.h"
 #include "gpu/device.h"

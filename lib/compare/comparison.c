@@ -1,7 +1,5 @@
 /* Comparing pictures: frames of both sides are paired, decoded, measured and judged one after the
  * other, so that memory holds one pair at a time. */
-#include "kiln.h"
-
 #include <math.h>
 #include <string.h>
 
@@ -11,6 +9,7 @@
 #include "compare/footage.h"
 #include "compare/mask.h"
 #include "compare/metric.h"
+#include "kiln.h"
 
 struct comparison {
     const struct kiln_compare_params *params;

@@ -1,6 +1,6 @@
 /* Pictures of differences: the error map, alone or beside reference and test, as PNG. */
-#ifndef KILN_DIFFERENCE_H
-#define KILN_DIFFERENCE_H
+#ifndef KILN_COMPARE_DIFFERENCE_H
+#define KILN_COMPARE_DIFFERENCE_H
 
 #include "base/pattern.h"
 #include "compare/measure.h"

@@ -5,13 +5,13 @@
  */
 #include "compare/flip.h"
 
-#include "base/error.h"
-#include "base/vector.h"
-
 #include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "base/error.h"
+#include "base/vector.h"
 
 enum {
     TILE_WIDTH = 256,

@@ -1,11 +1,11 @@
 /* HDR-FLIP (EG 2021): LDR-FLIP at every exposure at which something of the reference can be seen;
  * the worst counts. */
-#include "base/error.h"
-#include "compare/flip.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "base/error.h"
+#include "compare/flip.h"
 
 /* ACES as (c0 x^2 + c1 x) / (c3 x^2 + c4 x + c5), Narkowicz's fit at 0.6 of its exposure. */
 static const double ACES[6] = {0.6 * 0.6 * 2.51, 0.6 * 0.03, 0.0,

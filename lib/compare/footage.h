@@ -1,7 +1,7 @@
 /* What a path to compare stands for: a picture, a folder of pictures, a numbered pattern, a video;
  * read frame by frame. */
-#ifndef KILN_FOOTAGE_H
-#define KILN_FOOTAGE_H
+#ifndef KILN_COMPARE_FOOTAGE_H
+#define KILN_COMPARE_FOOTAGE_H
 
 #include "asset/image/image.h"
 

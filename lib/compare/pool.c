@@ -2,10 +2,10 @@
  * found by two counts over 16 bits each, without sorting. */
 #include "compare/pool.h"
 
-#include "base/error.h"
-
 #include <stdlib.h>
 #include <string.h>
+
+#include "base/error.h"
 
 enum { BUCKETS = 1 << 16 };
 

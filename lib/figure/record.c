@@ -6,56 +6,50 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "base/text.h"
+#include "base/json.h"
 #include "option/node.h"
 
 enum { VERSION = 2, MAX_SIZE = 16 << 20 };
 
-static void add_member(struct kiln_text *text, const char *before, const char *name,
-                       const char *value)
+static void add_panel(struct kiln_json *json, const struct kiln_panel *panel)
 {
-    kiln_text_add(text, "%s\"%s\": ", before, name);
-    kiln_text_add_json(text, value);
-}
-
-static void add_panel(struct kiln_text *text, const struct kiln_panel *panel)
-{
-    add_member(text, "{", "label", panel->label);
-    add_member(text, ", ", "source", panel->source);
+    kiln_json_begin_object(json, NULL);
+    kiln_json_string(json, "label", panel->label);
+    kiln_json_string(json, "source", panel->source);
     if (panel->has_frame)
-        kiln_text_add(text, ", \"frame\": %u", panel->frame);
+        kiln_json_uint(json, "frame", panel->frame);
+    kiln_json_lines(json, 3);
     if (*panel->scene_hash)
-        add_member(text, ",\n   ", "scene_hash", panel->scene_hash);
+        kiln_json_string(json, "scene_hash", panel->scene_hash);
     if (*panel->state)
-        add_member(text, ",\n   ", "state", panel->state);
-    add_member(text, ",\n   ", "pixels", panel->hash);
-    kiln_text_add(text, "}");
+        kiln_json_string(json, "state", panel->state);
+    kiln_json_string(json, "pixels", panel->hash);
+    kiln_json_end(json);
 }
 
 bool kiln_record_write(const struct kiln_record *record, struct kiln_text *text,
                        struct kiln_error *error)
 {
-    kiln_text_add(text, "{\n\"kiln_figure\": %d,\n", VERSION);
-    add_member(text, "", "version", record->version);
-    add_member(text, ",\n", "folder", record->folder);
-    kiln_text_add(text, ",\n\"command\": [");
-    for (size_t i = 0; i < record->command_count; i++) {
-        kiln_text_add(text, i ? ", " : "");
-        kiln_text_add_json(text, record->command[i]);
-    }
-    add_member(text, "],\n", "device", record->device);
-    add_member(text, ",\n", "driver", record->driver);
-    add_member(text, ",\n", "cpu", record->cpu);
-    kiln_text_add(text, ",\n\"size\": [%u, %u]", record->width, record->height);
-    add_member(text, ",\n", "pixels", record->pixels);
-    add_member(text, ",\n", "file", record->file);
-    kiln_text_add(text, ",\n\"panels\": [");
-    for (size_t i = 0; i < record->panel_count; i++) {
-        kiln_text_add(text, i ? ",\n  " : "\n  ");
-        add_panel(text, &record->panels[i]);
-    }
-    kiln_text_add(text, "\n]\n}\n");
-    return !text->failed ||
+    struct kiln_json json = kiln_json_to_text(text);
+    kiln_json_begin_object(&json, NULL);
+    kiln_json_lines(&json, 0);
+    kiln_json_uint(&json, "kiln_figure", VERSION);
+    kiln_json_string(&json, "version", record->version);
+    kiln_json_string(&json, "folder", record->folder);
+    kiln_json_strings(&json, "command", record->command, record->command_count);
+    kiln_json_string(&json, "device", record->device);
+    kiln_json_string(&json, "driver", record->driver);
+    kiln_json_string(&json, "cpu", record->cpu);
+    kiln_json_pair(&json, "size", record->width, record->height);
+    kiln_json_string(&json, "pixels", record->pixels);
+    kiln_json_string(&json, "file", record->file);
+    kiln_json_begin_array(&json, "panels");
+    kiln_json_lines(&json, 2);
+    for (size_t i = 0; i < record->panel_count; i++)
+        add_panel(&json, &record->panels[i]);
+    kiln_json_end_line(&json, 0);
+    kiln_json_end_line(&json, 0);
+    return kiln_json_finish(&json) ||
            kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for the sidecar of a figure");
 }
 

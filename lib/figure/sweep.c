@@ -11,7 +11,7 @@
 struct setting {
     const char **overrides;
     size_t override_count;
-    enum kiln_moment moment;
+    enum kiln_sweep_moment moment;
     double when;
     const char *label;
 };

@@ -7,16 +7,16 @@
 
 enum { KILN_MAX_PANELS = 1024, KILN_MAX_AXES = 8 };
 
-enum kiln_moment { KILN_MOMENT_NONE, KILN_MOMENT_FRAME, KILN_MOMENT_TIME };
+enum kiln_sweep_moment { KILN_MOMENT_NONE, KILN_MOMENT_FRAME, KILN_MOMENT_TIME };
 
 /* What one panel shows. */
 struct kiln_choice {
     size_t scene;           /* index of the inputs */
     const char **overrides; /* "key=value" */
     size_t override_count;
-    enum kiln_moment moment; /* NONE: the figure's own frame */
-    double when;             /* a frame's number, or seconds */
-    const char *label;       /* "" without one */
+    enum kiln_sweep_moment moment; /* NONE: the figure's own frame */
+    double when;                   /* a frame's number, or seconds */
+    const char *label;             /* "" without one */
 };
 
 struct kiln_choices {

@@ -1,7 +1,7 @@
 /* All state that a run changes, in one struct, so that it can be saved and loaded whole. (Only an
  * order that a spread sort keeps is elsewhere, in its stage.) */
-#ifndef KILN_RUN_H
-#define KILN_RUN_H
+#ifndef KILN_FRAME_RUN_H
+#define KILN_FRAME_RUN_H
 
 #include "particles/pool.h"
 

@@ -1,9 +1,9 @@
 /* One frame through the stages, in the order of figure 3.1. */
 #include "frame/stages.h"
 
-#include "base/error.h"
-
 #include <string.h>
+
+#include "base/error.h"
 
 /* Float targets accumulate without the dark bias of 16 bits where that costs nothing: on software.
  */
@@ -12,7 +12,7 @@ static GLenum target_format(const struct kiln_device *device)
     return !device || device->info.software ? GL_RGBA32F : GL_RGBA16F;
 }
 
-static uint32_t spheres_of(const struct kiln_scene *scene)
+static uint32_t solids_of(const struct kiln_scene *scene)
 {
     uint32_t mask = 0;
     for (uint32_t i = 0; i < scene->system_count; i++) {
@@ -30,7 +30,7 @@ static uint32_t systems_with(const struct kiln_scene *scene, enum kiln_blend ble
         if (scene->systems[i].enabled && scene->systems[i].look.blend == blend)
             mask |= 1u << i;
     }
-    return mask & ~spheres_of(scene);
+    return mask & ~solids_of(scene);
 }
 
 /* Whether particles leave a glow of their own: what the bright pass finds takes its place. */
@@ -96,27 +96,24 @@ static struct kiln_image *bloom_source(struct kiln_stages *s)
     return s->shutter ? kiln_shutter_image(s->shutter, KILN_SHUTTER_BLOOM) : &s->bloom_color;
 }
 
-/* The backdrop draws the scene itself, or what spheres are then put before. */
+/* The backdrop draws the scene itself, or what solids are then put before. */
 static bool init_scenery(struct kiln_stages *s, enum kiln_backdrop_technique technique,
-                         const struct kiln_pool *pool, struct kiln_error *error)
+                         struct kiln_error *error)
 {
-    bool spheres = spheres_of(s->scene) != 0;
+    bool solids = solids_of(s->scene) != 0;
     const struct kiln_backdrop_params behind = {
         .technique = technique,
         .threads = s->threads,
-        .color = spheres ? &s->backdrop_color : &s->scene_color,
-        .depth = spheres ? &s->backdrop_depth : &s->scene_depth,
-        .pool = pool,
+        .color = solids ? &s->backdrop_color : &s->scene_color,
+        .depth = solids ? &s->backdrop_depth : &s->scene_depth,
     };
-    s->backdrop = kiln_backdrop_create(s->device, s->scene, &behind, error);
+    s->backdrop = kiln_backdrop_create(s->device, &s->moment, &behind, error);
     if (!s->backdrop)
         return false;
-    kiln_lighting_use_meshes(s->lighting, kiln_backdrop_meshes(s->backdrop));
-    if (!spheres)
+    if (!solids)
         return true;
-    const struct kiln_spheres_params before = {
+    const struct kiln_solids_params before = {
         .backdrop = s->backdrop,
-        .particles = s->particles,
         .threads = s->threads,
         .targets = {.backdrop_color = &s->backdrop_color,
                     .backdrop_depth = &s->backdrop_depth,
@@ -124,8 +121,8 @@ static bool init_scenery(struct kiln_stages *s, enum kiln_backdrop_technique tec
                     .depth = &s->scene_depth,
                     .bloom = &s->bloom_color},
     };
-    s->spheres = kiln_spheres_create(s->device, s->scene, &before, error);
-    return s->spheres;
+    s->solids = kiln_solids_create(s->device, &s->moment, &before, error);
+    return s->solids;
 }
 
 static bool init_coarse(struct kiln_stages *s, const struct kiln_techniques *techniques,
@@ -141,25 +138,25 @@ static bool init_coarse(struct kiln_stages *s, const struct kiln_techniques *tec
 }
 
 static bool init_stages(struct kiln_stages *s, const struct kiln_techniques *techniques,
-                        uint32_t bits, const struct kiln_pool *pool, struct kiln_error *error)
+                        uint32_t bits, struct kiln_error *error)
 {
     struct kiln_device *device = s->device;
-    s->simulate = kiln_simulate_create(device, s->scene, techniques->simulate, s->threads, error);
-    if (!s->simulate)
-        return false;
     s->sort = techniques->sort_spread > 0
                   ? kiln_sort_create_spread(device, techniques->sort_spread, s->threads, error)
                   : kiln_sort_create(device, techniques->sort, s->threads, error);
     if (!s->sort)
         return false;
-    s->lighting = kiln_lighting_create(device, s->scene, s->threads, error);
+    s->lighting = kiln_lighting_create(device, &s->moment, s->threads, error);
     if (!s->lighting)
         return false;
     s->particles =
         kiln_particles_create(device, s->scene, &s->atlas, techniques->raster, s->threads, error);
     if (!s->particles || !init_coarse(s, techniques, error) ||
-        !init_scenery(s, techniques->backdrop, pool, error))
+        !init_scenery(s, techniques->backdrop, error))
         return false;
+    s->on_host = techniques->raster == KILN_RASTER_CPU ||
+                 kiln_lighting_reads_particles(s->lighting) ||
+                 (s->solids && techniques->backdrop == KILN_BACKDROP_CPU);
     if (s->scene->camera.shutter_samples > 1) {
         s->shutter =
             kiln_shutter_create(device,
@@ -192,25 +189,21 @@ static bool init_stages(struct kiln_stages *s, const struct kiln_techniques *tec
 }
 
 bool kiln_stages_init(struct kiln_stages *stages, struct kiln_device *device,
-                      const struct kiln_scene *scene, const struct kiln_techniques *techniques,
-                      struct kiln_output_needs needs, struct kiln_threads *threads,
-                      const struct kiln_pool *pool, struct kiln_error *error)
+                      const struct kiln_scene *scene, const struct kiln_stages_params *params,
+                      struct kiln_error *error)
 {
-    *stages = (struct kiln_stages){.device = device, .scene = scene, .threads = threads};
-    stages->layers = needs.layers;
-    stages->glow = needs_glow(scene, needs.layers);
-    kiln_buffer_init(&stages->entries, device, pool->slot_count * sizeof(uint32_t), "entries");
-    stages->timer = kiln_timer_create(device);
-    if (!stages->timer) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "timers: out of memory");
-        goto fail;
-    }
-    if (!init_atlas(stages, error) || !init_targets(stages, error) ||
-        !init_stages(stages, techniques, needs.bits, pool, error))
-        goto fail;
-    return true;
-
-fail:
+    const struct kiln_output_needs needs = params->needs;
+    *stages = (struct kiln_stages){.device = device,
+                                   .scene = scene,
+                                   .threads = params->threads,
+                                   .timer = params->timer,
+                                   .layers = needs.layers,
+                                   .glow = needs_glow(scene, needs.layers)};
+    kiln_buffer_init(&stages->entries, device, params->slot_count * sizeof(uint32_t), "entries");
+    if (init_atlas(stages, error) && init_targets(stages, error) &&
+        kiln_moment_init(&stages->moment, device, scene, &stages->atlas, error) &&
+        init_stages(stages, &params->techniques, needs.bits, error))
+        return true;
     kiln_stages_finish(stages);
     return false;
 }
@@ -220,13 +213,13 @@ void kiln_stages_finish(struct kiln_stages *stages)
     kiln_composite_destroy(&stages->composite);
     kiln_bloom_destroy(&stages->bloom);
     kiln_shutter_destroy(&stages->shutter);
-    kiln_spheres_destroy(&stages->spheres);
+    kiln_solids_destroy(&stages->solids);
     kiln_coarse_destroy(&stages->coarse);
     kiln_particles_destroy(&stages->particles);
     kiln_backdrop_destroy(&stages->backdrop);
     kiln_lighting_destroy(&stages->lighting);
     kiln_sort_destroy(&stages->sort);
-    kiln_simulate_destroy(&stages->simulate);
+    kiln_moment_finish(&stages->moment);
     kiln_framebuffer_finish(&stages->particle_framebuffer);
     kiln_framebuffer_finish(&stages->fire_framebuffer);
     kiln_framebuffer_finish(&stages->smoke_framebuffer);
@@ -238,7 +231,6 @@ void kiln_stages_finish(struct kiln_stages *stages)
         kiln_image_finish(images[i]);
     kiln_atlas_finish(&stages->atlas);
     kiln_buffer_finish(&stages->entries);
-    kiln_timer_destroy(&stages->timer);
 }
 
 /* Sorts the chosen systems and draws them into a framebuffer. */
@@ -268,42 +260,40 @@ static struct kiln_sort_params sort_params(const struct kiln_view *view)
     };
 }
 
-/* Takes a sort that is spread over frames on to this moment. */
-static bool follow(struct kiln_stages *s, struct kiln_pool *pool, const struct kiln_view *view,
-                   struct kiln_error *error)
+bool kiln_stages_pass_over(struct kiln_stages *stages, struct kiln_pool *pool, uint32_t step,
+                           struct kiln_error *error)
 {
-    const struct kiln_sort_params params = sort_params(view);
-    kiln_timer_begin(s->timer, KILN_PASS_sort);
-    bool ok = kiln_sort_follow(s->sort, pool, &params, error);
-    kiln_timer_end(s->timer);
+    const struct kiln_view view = kiln_view_compute(stages->scene, step);
+    const struct kiln_sort_params params = sort_params(&view);
+    kiln_timer_begin(stages->timer, KILN_PASS_sort);
+    bool ok = kiln_sort_follow(stages->sort, pool, &params, error);
+    kiln_timer_end(stages->timer);
     return ok;
 }
 
-static bool sort_particles(struct kiln_stages *s, struct kiln_pool *pool,
-                           const struct kiln_view *view, uint32_t systems, bool by_depth,
-                           uint32_t *count, struct kiln_error *error)
+static bool sort_particles(struct kiln_stages *s, uint32_t systems, bool by_depth, uint32_t *count,
+                           struct kiln_error *error)
 {
-    struct kiln_sort_params params = sort_params(view);
+    struct kiln_sort_params params = sort_params(&s->moment.view);
     params.systems = systems;
     params.order = order_of(s, by_depth);
     kiln_timer_begin(s->timer, KILN_PASS_sort);
-    bool ok = kiln_sort_run(s->sort, pool, &params, &s->entries, count, error);
+    bool ok = kiln_sort_run(s->sort, s->moment.pool, &params, &s->entries, count, error);
     kiln_timer_end(s->timer);
     return ok;
 }
 
-static bool draw_particles(struct kiln_stages *s, struct kiln_pool *pool,
-                           const struct kiln_view *view, const struct particle_pass *pass,
-                           uint32_t *count, struct kiln_error *error)
+static bool draw_particles(struct kiln_stages *s, const struct particle_pass *pass, uint32_t *count,
+                           struct kiln_error *error)
 {
-    if (!sort_particles(s, pool, view, pass->systems, pass->by_depth, count, error))
+    if (!sort_particles(s, pass->systems, pass->by_depth, count, error))
         return false;
 
     const struct kiln_particles_draw draw = {
-        .pool = pool,
+        .moment = &s->moment,
         .entries = &s->entries,
         .count = *count,
-        .view = view,
+        .view = &s->moment.view,
         .backdrop = kiln_backdrop_block(s->backdrop),
         .lighting = &s->light,
         .depth = &s->scene_depth,
@@ -320,14 +310,13 @@ static bool draw_particles(struct kiln_stages *s, struct kiln_pool *pool,
     return ok;
 }
 
-/* A depth test orders the spheres, so their list need not be sorted. */
-static bool draw_spheres(struct kiln_stages *s, struct kiln_pool *pool,
-                         const struct kiln_view *view, uint32_t *count, struct kiln_error *error)
+/* A depth test orders the solids, so their list need not be sorted. */
+static bool draw_solids(struct kiln_stages *s, uint32_t *count, struct kiln_error *error)
 {
-    if (!sort_particles(s, pool, view, spheres_of(s->scene), false, count, error))
+    if (!sort_particles(s, solids_of(s->scene), false, count, error))
         return false;
     kiln_timer_begin(s->timer, KILN_PASS_particles);
-    bool ok = kiln_spheres_draw(s->spheres, pool, &s->entries, *count, view->clock.x, error);
+    bool ok = kiln_solids_draw(s->solids, &s->moment, &s->entries, *count, error);
     kiln_timer_end(s->timer);
     return ok;
 }
@@ -335,8 +324,7 @@ static bool draw_spheres(struct kiln_stages *s, struct kiln_pool *pool,
 /* Fire and smoke in one sorted list, or one in each pixel: fire adds and covers nothing, smoke
  * covers fire and its glow; or fire covers, too (Heinz 2019, 2.3.1). The layers of an EXR are drawn
  * apart. */
-static bool draw_merged(struct kiln_stages *s, struct kiln_pool *pool, const struct kiln_view *view,
-                        uint32_t *drawn, struct kiln_error *error)
+static bool draw_merged(struct kiln_stages *s, uint32_t *drawn, struct kiln_error *error)
 {
     uint32_t fire = systems_with(s->scene, KILN_BLEND_ADD);
     uint32_t smoke = systems_with(s->scene, KILN_BLEND_ALPHA);
@@ -345,10 +333,10 @@ static bool draw_merged(struct kiln_stages *s, struct kiln_pool *pool, const str
     struct particle_pass all = {.systems = fire | smoke,
                                 .by_depth = smoke != 0 || fire_covers,
                                 .framebuffer = &s->particle_framebuffer,
-                                .keep_bloom = s->spheres != NULL,
+                                .keep_bloom = s->solids != NULL,
                                 .fire_covers = fire_covers,
                                 .by_fragment = by_fragment};
-    if (!draw_particles(s, pool, view, &all, drawn, error))
+    if (!draw_particles(s, &all, drawn, error))
         return false;
     if (!s->layers)
         return true;
@@ -362,26 +350,25 @@ static bool draw_merged(struct kiln_stages *s, struct kiln_pool *pool, const str
                                        .by_depth = fire_covers,
                                        .framebuffer = &s->fire_framebuffer,
                                        .fire_covers = fire_covers};
-    return draw_particles(s, pool, view, &smoke_layer, &count, error) &&
-           draw_particles(s, pool, view, &fire_layer, &count, error);
+    return draw_particles(s, &smoke_layer, &count, error) &&
+           draw_particles(s, &fire_layer, &count, error);
 }
 
 /* The thesis's order: smoke over the scene, then fire summed in a target of its own, so that it
  * shines through smoke (Heinz 2019, 3.2.1 and figure 4.3). */
-static bool draw_separate(struct kiln_stages *s, struct kiln_pool *pool,
-                          const struct kiln_view *view, uint32_t *drawn, struct kiln_error *error)
+static bool draw_separate(struct kiln_stages *s, uint32_t *drawn, struct kiln_error *error)
 {
     struct particle_pass smoke = {.systems = systems_with(s->scene, KILN_BLEND_ALPHA),
                                   .by_depth = true,
                                   .framebuffer = &s->particle_framebuffer,
-                                  .keep_bloom = s->spheres != NULL};
+                                  .keep_bloom = s->solids != NULL};
     struct particle_pass fire = {.systems = systems_with(s->scene, KILN_BLEND_ADD),
                                  .framebuffer = &s->fire_framebuffer,
                                  .keep_bloom = true,
                                  .sum_alpha = true};
     uint32_t smoke_count = 0, fire_count = 0;
-    bool ok = draw_particles(s, pool, view, &smoke, &smoke_count, error) &&
-              draw_particles(s, pool, view, &fire, &fire_count, error);
+    bool ok = draw_particles(s, &smoke, &smoke_count, error) &&
+              draw_particles(s, &fire, &fire_count, error);
     *drawn = smoke_count + fire_count;
     return ok;
 }
@@ -405,10 +392,10 @@ static struct kiln_image *smoke_layer(struct kiln_stages *s)
 }
 
 /* Adds the moment to the sums of its frame. */
-static bool add_moment(struct kiln_stages *s, uint32_t moment, struct kiln_error *error)
+static bool add_moment(struct kiln_stages *s, uint32_t sample, struct kiln_error *error)
 {
     float weight = 1.0f / (float)s->scene->camera.shutter_samples;
-    bool first = moment == 0;
+    bool first = sample == 0;
     const struct kiln_composite_inputs inputs = moment_inputs(s);
     return kiln_shutter_add_composed(s->shutter, &inputs, weight, first, error) &&
            (!s->glow || kiln_shutter_add(s->shutter, KILN_SHUTTER_BLOOM, &s->bloom_color, weight,
@@ -419,46 +406,49 @@ static bool add_moment(struct kiln_stages *s, uint32_t moment, struct kiln_error
                                             first, error)));
 }
 
+static bool fill_moment(struct kiln_stages *s, struct kiln_pool *pool, uint32_t step,
+                        struct kiln_error *error)
+{
+    kiln_timer_begin(s->timer, KILN_PASS_lighting);
+    bool ok = kiln_moment_fill(&s->moment, pool, step, s->on_host, error) &&
+              kiln_lighting_run(s->lighting, &s->moment, &s->light, error);
+    kiln_timer_end(s->timer);
+    return ok;
+}
+
+/* The backdrop, and solid particles before it: what the others are blended over. */
+static bool draw_scenery(struct kiln_stages *s, uint32_t *drawn, struct kiln_error *error)
+{
+    kiln_timer_begin(s->timer, KILN_PASS_backdrop);
+    bool ok = kiln_backdrop_draw(s->backdrop, &s->moment, &s->light, error);
+    kiln_timer_end(s->timer);
+    *drawn = 0;
+    if (!ok || (s->solids && !draw_solids(s, drawn, error)))
+        return false;
+    if (!s->coarse)
+        return true;
+    kiln_timer_begin(s->timer, KILN_PASS_particles);
+    ok = kiln_coarse_prepare(s->coarse, &s->scene_depth, error);
+    kiln_timer_end(s->timer);
+    return ok;
+}
+
 bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *pool, uint32_t step,
-                      uint32_t moment, uint32_t *drawn, struct kiln_error *error)
+                      uint32_t sample, uint32_t *drawn, struct kiln_error *error)
 {
     struct kiln_stages *s = stages;
-    struct kiln_view view = kiln_view_compute(s->scene, step);
-    if (!follow(s, pool, &view, error))
+    const bool separate = s->scene->post.compose == KILN_COMPOSE_SEPARATE;
+    uint32_t solids = 0;
+    if (!kiln_stages_pass_over(s, pool, step, error) || !fill_moment(s, pool, step, error) ||
+        !draw_scenery(s, &solids, error))
         return false;
-
-    kiln_timer_begin(s->timer, KILN_PASS_lighting);
-    bool ok = kiln_lighting_run(s->lighting, pool, &view, &s->light, error);
-    kiln_timer_end(s->timer);
-    if (!ok)
+    if (!(separate ? draw_separate(s, drawn, error) : draw_merged(s, drawn, error)))
         return false;
-
-    kiln_timer_begin(s->timer, KILN_PASS_backdrop);
-    ok = kiln_backdrop_draw(s->backdrop, &view, &s->light, error);
-    kiln_timer_end(s->timer);
-    if (!ok)
-        return false;
-
-    uint32_t spheres = 0;
-    if (s->spheres && !draw_spheres(s, pool, &view, &spheres, error))
-        return false;
-    if (s->coarse) {
-        kiln_timer_begin(s->timer, KILN_PASS_particles);
-        ok = kiln_coarse_prepare(s->coarse, &s->scene_depth, error);
-        kiln_timer_end(s->timer);
-        if (!ok)
-            return false;
-    }
-    bool separate = s->scene->post.compose == KILN_COMPOSE_SEPARATE;
-    ok = separate ? draw_separate(s, pool, &view, drawn, error)
-                  : draw_merged(s, pool, &view, drawn, error);
-    if (!ok)
-        return false;
-    *drawn += spheres;
+    *drawn += solids;
     if (!s->shutter)
         return true;
     kiln_timer_begin(s->timer, KILN_PASS_composite);
-    ok = add_moment(s, moment, error);
+    bool ok = add_moment(s, sample, error);
     kiln_timer_end(s->timer);
     return ok;
 }
@@ -466,13 +456,6 @@ bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *pool, uint32
 bool kiln_stages_keep_history(const struct kiln_stages *stages)
 {
     return kiln_sort_keeps_history(stages->sort);
-}
-
-bool kiln_stages_pass_over(struct kiln_stages *stages, struct kiln_pool *pool, uint32_t step,
-                           struct kiln_error *error)
-{
-    const struct kiln_view view = kiln_view_compute(stages->scene, step);
-    return follow(stages, pool, &view, error);
 }
 
 bool kiln_stages_compose(struct kiln_stages *stages, uint32_t frame, struct kiln_error *error)

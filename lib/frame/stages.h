@@ -1,10 +1,10 @@
-/* The stages of a job and the images between them (Heinz 2019, figure 3.1). */
-#ifndef KILN_STAGES_H
-#define KILN_STAGES_H
+/* The stages that draw a state, and the images between them (Heinz 2019, figure 3.1). */
+#ifndef KILN_FRAME_STAGES_H
+#define KILN_FRAME_STAGES_H
 
 #include "asset/atlas/atlas.h"
 #include "draw/backdrop/backdrop.h"
-#include "draw/solids/spheres.h"
+#include "draw/solids/solids.h"
 #include "draw/sprites/coarse.h"
 #include "draw/sprites/particles.h"
 #include "frame/run.h"
@@ -14,33 +14,33 @@
 #include "post/bloom.h"
 #include "post/composite.h"
 #include "post/shutter.h"
-#include "sim/step/simulate.h"
 #include "sort/sort.h"
 
 struct kiln_stages {
     struct kiln_device *device; /* NULL: all on the host */
     const struct kiln_scene *scene;
     struct kiln_threads *threads;
-    bool layers; /* of an EXR are asked for */
-    bool glow;   /* particles leave one */
-    struct kiln_timer *timer;
+    bool layers;              /* of an EXR are asked for */
+    bool glow;                /* particles leave one */
+    struct kiln_timer *timer; /* borrowed */
     struct kiln_atlas atlas;
 
-    struct kiln_simulate *simulate;
     struct kiln_sort *sort;
+    struct kiln_moment moment; /* the one at hand */
     struct kiln_lighting_stage *lighting;
-    struct kiln_lighting light; /* of the moment at hand */
+    struct kiln_lighting light; /* of the moment */
+    bool on_host;               /* a stage of drawing reads particles there */
     struct kiln_backdrop_stage *backdrop;
     struct kiln_particles_stage *particles;
     struct kiln_coarse_stage *coarse;   /* NULL: particles have the frame's resolution */
-    struct kiln_spheres_stage *spheres; /* NULL without any */
+    struct kiln_solids_stage *solids;   /* NULL without any */
     struct kiln_shutter_stage *shutter; /* NULL: a frame is a single moment */
     struct kiln_bloom_stage *bloom;
     struct kiln_composite_stage *composite;
 
     struct kiln_buffer entries;                       /* draw entries of the pass at hand */
-    struct kiln_image backdrop_color, backdrop_depth; /* of a scene with spheres */
-    struct kiln_image scene_color, scene_depth;       /* the backdrop, and spheres if any */
+    struct kiln_image backdrop_color, backdrop_depth; /* of a scene with solids */
+    struct kiln_image scene_color, scene_depth;       /* the backdrop, and solids if any */
     struct kiln_image particle_color; /* all particles (merged), or smoke alone (separate) */
     struct kiln_image fire_color;     /* separate composition, and for layers */
     struct kiln_image smoke_color;    /* for layers of merged composition */
@@ -48,19 +48,27 @@ struct kiln_stages {
     struct kiln_framebuffer particle_framebuffer, fire_framebuffer, smoke_framebuffer;
 };
 
-/* Sets everything up for a scene. device NULL: without GL, all techniques `cpu`. needs says what
- * the output will ask for; threads is borrowed, and so is the pool, whose paint is drawn. On
- * failure nothing is left. */
+/* What stages are set up for. Threads and timer are borrowed. */
+struct kiln_stages_params {
+    struct kiln_techniques techniques;
+    struct kiln_output_needs needs; /* what the output will ask for */
+    struct kiln_threads *threads;
+    struct kiln_timer *timer;
+    uint32_t slot_count; /* of the pool that will be drawn */
+};
+
+/* Sets everything up for a scene. device NULL: without GL, all techniques `cpu`. On failure nothing
+ * is left. */
 bool kiln_stages_init(struct kiln_stages *stages, struct kiln_device *device,
-                      const struct kiln_scene *scene, const struct kiln_techniques *techniques,
-                      struct kiln_output_needs needs, struct kiln_threads *threads,
-                      const struct kiln_pool *pool, struct kiln_error *error);
+                      const struct kiln_scene *scene, const struct kiln_stages_params *params,
+                      struct kiln_error *error);
 void kiln_stages_finish(struct kiln_stages *stages);
 
-/* Draws the pool as it is after `step` steps, as one of the moments of a frame (from 0; there are
- * scene->shutter_samples): every stage from sort to particles. *drawn counts the particles. */
+/* Draws the pool as it is after `step` steps, as one of the samples of a frame (from 0; there are
+ * scene->camera.shutter_samples): every stage from sort to particles. *drawn counts the particles.
+ */
 bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *pool, uint32_t step,
-                      uint32_t moment, uint32_t *drawn, struct kiln_error *error);
+                      uint32_t sample, uint32_t *drawn, struct kiln_error *error);
 
 /* What a moment that is not drawn leaves for later ones, where kiln_stages_keep_history: the same
  * as one that is. */

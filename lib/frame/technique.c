@@ -1,10 +1,10 @@
 /* Two tables: the techniques of each stage and what each is for, and which of them `auto` takes. */
 #include "frame/technique.h"
 
+#include <string.h>
+
 #include "base/error.h"
 #include "base/text.h"
-
-#include <string.h>
 
 enum stage { SIMULATE, SORT, BACKDROP, RASTER, BLOOM, COMPOSITE, STAGE_COUNT };
 _Static_assert((int)STAGE_COUNT == (int)KILN_STAGE_COUNT, "the header says how many");

@@ -1,7 +1,7 @@
 /* Which technique runs each stage: a pure function of the device and the flags, never of a timing,
  * so that pixels do not depend on luck. */
-#ifndef KILN_TECHNIQUE_H
-#define KILN_TECHNIQUE_H
+#ifndef KILN_FRAME_TECHNIQUE_H
+#define KILN_FRAME_TECHNIQUE_H
 
 #include "draw/backdrop/backdrop.h"
 #include "draw/sprites/particles.h"

@@ -3,9 +3,9 @@
 #ifndef KILN_GPU_DEVICE_H
 #define KILN_GPU_DEVICE_H
 
-#include "kiln.h"
-
 #include <epoxy/gl.h>
+
+#include "kiln.h"
 
 /* llvmpipe lets the loops of an invocation run so many times, all together, each once more than its
  * body; then, silently, every loop ends (LP_MAX_TGSI_LOOP_ITERATIONS, which nothing but its source

@@ -6,10 +6,9 @@
 #include "gpu/egl.h"
 
 #include <dlfcn.h>
+#include <epoxy/egl.h>
 #include <stdio.h>
 #include <string.h>
-
-#include <epoxy/egl.h>
 
 static bool has_extension(const char *list, const char *name)
 {

@@ -1,4 +1,4 @@
-/* Reading and printing keys. Slopes are divided, and areas added up, here, once, in IEEE float:
+/* Reads and prints keys. Slopes are divided, and areas added up, here, once, in IEEE float:
  * every technique then interpolates with the same bits. */
 #include "option/animated.h"
 
@@ -57,11 +57,15 @@ static bool begin_curve(struct kiln_reader *reader, const struct kiln_node *node
 {
     if (node->count == 0)
         return kiln_reader_error(reader, node, "needs at least one key");
+    if (!reader->keys)
+        reader->keys = kiln_arena_alloc(reader->scratch, KILN_MAX_VALUE_KEYS, sizeof *reader->keys);
+    if (!reader->keys)
+        return kiln_reader_out_of_memory(reader);
     uint32_t needed = curve->count * node->count; /* node->count <= KILN_NODE_MAX_ENTRIES */
     if (needed > KILN_MAX_VALUE_KEYS - reader->key_count)
-        return kiln_reader_error(reader, node,
-                                 "%u keys are too many; a scene has at most %d and used %u before",
-                                 needed, KILN_MAX_VALUE_KEYS, reader->key_count);
+        return kiln_reader_error(
+            reader, node, "%u keys are too many; %s has at most %d and used %u before", needed,
+            reader->origin->kind, KILN_MAX_VALUE_KEYS, reader->key_count);
     for (unsigned i = 0; i < curve->count; i++) {
         uint32_t first = reader->key_count + i * node->count;
         curve->values[i] =
@@ -99,7 +103,7 @@ static bool add_point(struct kiln_reader *reader, const struct kiln_node *node, 
 }
 
 /* A clock's own "option": what the x of a key may be. */
-static const struct kiln_option time_axis = {.name = "time",
+const struct kiln_option kiln_option_time = {.name = "time",
                                              .type = &kiln_type_number,
                                              .dimension = KILN_SECONDS,
                                              .min = -100000,
@@ -161,7 +165,7 @@ static bool read_curve(struct kiln_reader *reader, const struct kiln_option *opt
         return kiln_reader_expected(reader, keys, "[first, ..., last] or {part of life: value}");
     struct curve curve = {.values = values, .count = count};
     if (!begin_curve(reader, keys, &curve, clock) ||
-        !read_points(reader, option, keys, &curve, over_life ? &life_axis : &time_axis))
+        !read_points(reader, option, keys, &curve, over_life ? &life_axis : &kiln_option_time))
         return false;
     kiln_reader_leave(reader, before);
     return true;
@@ -210,7 +214,7 @@ void kiln_print_animated(struct kiln_printer *printer, const struct kiln_option 
     bool over_life = value->clock == KILN_CLOCK_LIFE;
     kiln_text_add(&printer->text, over_life ? "{life: {" : "{keys: {");
     for (uint32_t i = 0; i < value->count; i++) {
-        float4 key = printer->scene->keys[value->first + i];
+        float4 key = printer->keys[value->first + i];
         kiln_unit_print(x, over_life ? KILN_FRACTION : KILN_SECONDS, key.x);
         kiln_unit_print(y, option->dimension, key.y);
         kiln_text_add(&printer->text, "%s%s: %s", i ? ", " : "", x, y);

@@ -31,6 +31,11 @@ struct kiln_node *kiln_node_entry(const struct kiln_node *node, const char *key)
     return NULL;
 }
 
+bool kiln_node_is(const struct kiln_node *node, const char *text)
+{
+    return node->kind == KILN_NODE_SCALAR && strcmp(node->text, text) == 0;
+}
+
 struct kiln_node *kiln_node_create_map(struct kiln_arena *arena, const struct kiln_origin *origin)
 {
     struct kiln_node *node = kiln_arena_alloc(arena, 1, sizeof *node);
@@ -91,9 +96,10 @@ struct builder {
     uint32_t depth, total, documents;
 };
 
-static bool out_of_memory(struct kiln_error *error)
+static bool out_of_memory(const struct kiln_origin *origin, struct kiln_error *error)
 {
-    return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading a scene");
+    return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading %s",
+                          origin->kind);
 }
 
 static struct kiln_node *create_node(struct builder *builder, struct fy_event *event,
@@ -101,7 +107,7 @@ static struct kiln_node *create_node(struct builder *builder, struct fy_event *e
 {
     struct kiln_node *node = kiln_arena_alloc(builder->arena, 1, sizeof *node);
     if (!node) {
-        out_of_memory(builder->error);
+        out_of_memory(builder->origin, builder->error);
         return NULL;
     }
     node->kind = kind;
@@ -185,7 +191,7 @@ static bool add_scalar(struct builder *builder, struct fy_event *event)
         return kiln_node_error(node, builder->error, "a text must not contain zero bytes");
     node->text = kiln_arena_text(builder->arena, text, length);
     if (!node->text)
-        return out_of_memory(builder->error);
+        return out_of_memory(builder->origin, builder->error);
     enum fy_scalar_style style =
         event->scalar.value ? fy_scalar_token_get_style(event->scalar.value) : FYSS_PLAIN;
     node->quoted = style != FYSS_PLAIN;
@@ -202,16 +208,11 @@ static bool refuse(struct builder *builder, struct fy_event *event, const char *
     return node && kiln_node_error(node, builder->error, "%s", reason);
 }
 
-static const char *kind_of(const struct kiln_origin *origin)
-{
-    return origin->kind ? origin->kind : "a scene";
-}
-
 static bool refuse_second_document(struct builder *builder, struct fy_event *event)
 {
     char reason[96];
     snprintf(reason, sizeof reason, "%s is one document; a second starts here",
-             kind_of(builder->origin));
+             builder->origin->kind);
     return refuse(builder, event, reason);
 }
 
@@ -286,6 +287,17 @@ static bool take_all_events(struct builder *builder, struct fy_parser *parser, s
     return report_syntax(builder, diag);
 }
 
+static bool report_nothing(const struct kiln_origin *origin, struct kiln_error *error)
+{
+    struct kiln_node place = {.origin = origin};
+    if (!origin->has_lines)
+        return kiln_node_error(&place, error, "there is no value after '='");
+    if (!origin->version)
+        return kiln_node_error(&place, error, "empty; %s was to be here", origin->kind);
+    return kiln_node_error(&place, error, "empty; %s starts with '%s'", origin->kind,
+                           origin->version);
+}
+
 /* Refuses what is no text before a parser sees it. */
 static bool check_bytes(const char *text, size_t size, const struct kiln_origin *origin,
                         struct kiln_error *error)
@@ -326,17 +338,11 @@ struct kiln_node *kiln_node_parse(struct kiln_arena *arena, const char *text, si
     }
     bool ok = false;
     if (!parser || fy_parser_set_string(parser, text, size) != 0)
-        out_of_memory(error);
+        out_of_memory(origin, error);
     else
         ok = take_all_events(&builder, parser, diag);
-    if (ok && !builder.root) {
-        struct kiln_node place = {.origin = origin};
-        if (origin->has_lines)
-            ok = kiln_node_error(&place, error, "empty; %s starts with '%s'", kind_of(origin),
-                                 origin->version ? origin->version : "kiln: 1");
-        else
-            ok = kiln_node_error(&place, error, "there is no value after '='");
-    }
+    if (ok && !builder.root)
+        ok = report_nothing(origin, error);
     if (parser)
         fy_parser_destroy(parser);
     if (diag)

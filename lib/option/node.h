@@ -1,11 +1,11 @@
-/* A scene file as a tree: what YAML says, before anyone asks what it means. Every node knows where
- * it was written, so that whoever finds it wrong can say so.
+/* A YAML file as a tree: what it says, before anyone asks what it means. Every node knows where it
+ * was written, so that whoever finds it wrong can say so.
  *
  * The dialect is YAML 1.2 without anchors, aliases, merge keys, tags and further documents, and
  * with keys that are plain words: nothing in it can grow beyond the size of the file.
  */
-#ifndef KILN_SCENE_NODE_H
-#define KILN_SCENE_NODE_H
+#ifndef KILN_OPTION_NODE_H
+#define KILN_OPTION_NODE_H
 
 #include "base/arena.h"
 #include "kiln.h"
@@ -20,8 +20,8 @@ enum {
 struct kiln_origin {
     const char *name;
     bool has_lines;      /* false: positions inside it mean nothing to the reader */
-    const char *kind;    /* for messages: "a test"; NULL: "a scene" */
-    const char *version; /* what such a file starts with: "kiln_test: 1"; NULL: "kiln: 1" */
+    const char *kind;    /* for messages: "a scene" */
+    const char *version; /* what such a file starts with: "kiln: 1"; NULL: not told */
 };
 
 enum kiln_node_kind { KILN_NODE_SCALAR, KILN_NODE_LIST, KILN_NODE_MAP };
@@ -45,6 +45,9 @@ struct kiln_node *kiln_node_parse(struct kiln_arena *arena, const char *text, si
 
 /* The value under a key, or NULL; also when node is no mapping. */
 struct kiln_node *kiln_node_entry(const struct kiln_node *node, const char *key);
+
+/* Is it a scalar of this text, in quotes or not? */
+bool kiln_node_is(const struct kiln_node *node, const char *text);
 
 /* Appends a child to a list or, with its key set, to a mapping. */
 void kiln_node_append(struct kiln_node *node, struct kiln_node *child);

@@ -1,23 +1,25 @@
-/* The option tables: one row per scene key makes the loader, its errors, --set, the printed scene,
- * the reference and the JSON schema. To add a key, add a field to scene.h and a row to the table of
- * its topic (options_*.c).
+/* Option tables: one row per key of a file makes the reader, its errors, --set, the printed file,
+ * the reference and the JSON schema. To add a key, add a field to the struct that a table fills and
+ * a row to the table.
+ *
+ * A type is a table of functions, so a room that knows more (the assets of a scene, the metrics of
+ * a test) has types of its own beside those that are here.
  */
-#ifndef KILN_SCENE_OPTION_H
-#define KILN_SCENE_OPTION_H
+#ifndef KILN_OPTION_OPTION_H
+#define KILN_OPTION_OPTION_H
 
-#include <float.h>
 #include <stddef.h>
 
 #include "base/text.h"
 #include "option/node.h"
 #include "option/unit.h"
-#include "scene/scene.h"
+#include "option/values.h"
 
 struct kiln_option;
 struct kiln_reader;
 struct kiln_printer;
 
-/* What a type does with its rows. `field` points at the row's field in the scene. */
+/* What a type does with its rows. `field` points at the row's field in the struct of its table. */
 struct kiln_option_type {
     bool (*read)(struct kiln_reader *reader, const struct kiln_option *option,
                  const struct kiln_node *node, void *field);
@@ -28,26 +30,20 @@ struct kiln_option_type {
     void (*describe)(const struct kiln_option *option, struct kiln_text *out);
     /* Appends a JSON schema, one object. */
     void (*schema)(const struct kiln_option *option, struct kiln_text *out);
+    /* Appends the words that a value may be, perhaps beside others, with bars between them:
+     * "true|false". NULL: the choices and the word of the row, where it has any. */
+    void (*words)(const struct kiln_option *option, struct kiln_text *out);
 };
 
-/* The types; what a scene writes, and the field that it fills. */
+/* The types; what a file says, and the field that it fills. */
 extern const struct kiln_option_type kiln_type_boolean;  /* true; bool */
 extern const struct kiln_option_type kiln_type_integer;  /* 7; uint32_t */
 extern const struct kiln_option_type kiln_type_rational; /* 30000/1001; struct kiln_rational */
 extern const struct kiln_option_type kiln_type_number;   /* 2 s; double */
 extern const struct kiln_option_type kiln_type_choice;   /* a word of `choices`; an enum */
+extern const struct kiln_option_type kiln_type_text;     /* "so", of min to max bytes; char * */
 extern const struct kiln_option_type kiln_type_pair;     /* [1280, 720]; uint32_t[2] */
-extern const struct kiln_option_type kiln_type_assets;   /* builtin:name, a path, or a list of */
-                                                         /* these; const char *[], count */
-extern const struct kiln_option_type kiln_type_motion;   /* a word of `choices` or a path; */
-                                                         /* const char * */
-extern const struct kiln_option_type kiln_type_name;     /* of a system; const char * */
-extern const struct kiln_option_type kiln_type_picture;  /* an image's path or none; const char * */
-extern const struct kiln_option_type kiln_type_mesh;     /* a mesh's path; const char * */
-extern const struct kiln_option_type kiln_type_clip;     /* a name or number; const char * */
-extern const struct kiln_option_type kiln_type_grid;     /* a wind's path; const char * */
 extern const struct kiln_option_type kiln_type_bounds;   /* {min, max} or none; kiln_bounds */
-extern const struct kiln_option_type kiln_type_bursts;   /* {1 s: 100}; kiln_burst[], count */
 extern const struct kiln_option_type kiln_type_value;    /* animated; struct kiln_value */
 extern const struct kiln_option_type kiln_type_vector;   /* animated; struct kiln_value3 */
 extern const struct kiln_option_type kiln_type_color;    /* the same; one number means grey */
@@ -80,7 +76,7 @@ struct kiln_option {
     const char *name; /* NULL ends a table */
     const struct kiln_option_type *type;
     size_t offset;                 /* of the field in the struct of its table */
-    const char *fallback;          /* the default, as a scene would write it; NULL: required */
+    const char *fallback;          /* the default, as a file would write it; NULL: required */
     const char *help;              /* one line */
     double min, max;               /* SI, both allowed */
     enum kiln_dimension dimension; /* of numbers */
@@ -95,14 +91,16 @@ struct kiln_option {
     size_t max_count;
 };
 
-/* The tables that others refer to. */
-extern const struct kiln_option kiln_options_root[];
-extern const struct kiln_option kiln_options_system[];
-extern const struct kiln_option kiln_options_look[];
-extern const struct kiln_option kiln_options_backdrop[];
-extern const struct kiln_option kiln_options_post[];
-extern const struct kiln_option_kind kiln_force_kinds[];
-extern const struct kiln_option_kind kiln_interaction_kinds[];
+/* The number of entries beside an array: both lie in the struct that the row's table describes. */
+static inline uint32_t *kiln_option_count_of(const struct kiln_option *option, void *field)
+{
+    return (uint32_t *)((char *)field - option->offset + option->count_offset);
+}
+
+static inline uint32_t kiln_option_count(const struct kiln_option *option, const void *field)
+{
+    return *(const uint32_t *)((const char *)field - option->offset + option->count_offset);
+}
 
 /* The row of a name in a table, or NULL. */
 const struct kiln_option *kiln_option_find(const struct kiln_option *table, const char *name);

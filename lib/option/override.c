@@ -1,5 +1,5 @@
 /* The key is walked through the tree and through the option tables side by side: the tables tell
- * where a name is the author's own (a system), which a misspelling must not add to. */
+ * where a name is the author's own (an entry of a map), which a misspelling must not add to. */
 #include "option/override.h"
 
 #include <stdarg.h>
@@ -7,13 +7,11 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "option/option.h"
 
 enum { MAX_PARTS = 32, MAX_KEY = 256 };
 
 struct override {
-    struct kiln_arena *arena;
-    struct kiln_error *error;
+    struct kiln_reader *reader;
     const struct kiln_origin *origin;
     const struct kiln_node *value;
     const char *parts[MAX_PARTS]; /* of the key */
@@ -21,12 +19,6 @@ struct override {
     uint32_t places; /* set so far */
     bool wild;       /* the key has a '*': what does not fit is passed over */
 };
-
-static bool out_of_memory(struct override *override)
-{
-    return kiln_error_set(override->error, KILN_DEVICE_FAILED,
-                          "out of memory while reading a scene");
-}
 
 static bool fail(struct override *override, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
@@ -38,16 +30,16 @@ static bool fail(struct override *override, const char *format, ...)
     va_start(args, format);
     vsnprintf(message, sizeof message, format, args);
     va_end(args);
-    return kiln_error_set(override->error, KILN_INVALID_INPUT, "%s: %s", override->origin->name,
-                          message);
+    return kiln_error_set(override->reader->error, KILN_INVALID_INPUT, "%s: %s",
+                          override->origin->name, message);
 }
 
 /* A copy, so that a later override of one place leaves the others alone. */
 static struct kiln_node *copy_tree(struct override *override, const struct kiln_node *node)
 {
-    struct kiln_node *copy = kiln_arena_alloc(override->arena, 1, sizeof *copy);
+    struct kiln_node *copy = kiln_arena_alloc(override->reader->scratch, 1, sizeof *copy);
     if (!copy) {
-        out_of_memory(override);
+        kiln_reader_out_of_memory(override->reader);
         return NULL;
     }
     *copy = *node;
@@ -74,10 +66,10 @@ static void replace(struct kiln_node *node, const struct kiln_node *by)
 static struct kiln_node *add_entry(struct override *override, struct kiln_node *map,
                                    const char *name)
 {
-    struct kiln_node *key = kiln_arena_alloc(override->arena, 1, sizeof *key);
-    struct kiln_node *entry = kiln_node_create_map(override->arena, override->origin);
+    struct kiln_node *key = kiln_arena_alloc(override->reader->scratch, 1, sizeof *key);
+    struct kiln_node *entry = kiln_node_create_map(override->reader->scratch, override->origin);
     if (!key || !entry) {
-        out_of_memory(override);
+        kiln_reader_out_of_memory(override->reader);
         return NULL;
     }
     *key = (struct kiln_node){.origin = override->origin, .text = name};
@@ -106,7 +98,7 @@ struct place {
 static struct place place_under(const struct kiln_node *node, struct place place,
                                 const struct kiln_node *child)
 {
-    if (node->kind == KILN_NODE_LIST) /* a force, an object: its one key is its kind */
+    if (node->kind == KILN_NODE_LIST) /* its one key may be its kind */
         return (struct place){.closed = true};
     if (place.members && place.closed) /* a named entry: the table is that of its members */
         return (struct place){.members = place.members};
@@ -148,7 +140,7 @@ static struct kiln_node *find_child(struct override *override, struct kiln_node 
     return add_entry(override, node, name);
 }
 
-/* Is this the name of a list that the scene does not have? */
+/* Is this the name of a list that the file does not have? */
 static bool lacks_list(const struct kiln_node *node, struct place place, const char *name)
 {
     if (!place.members || place.closed || kiln_node_entry(node, name))
@@ -208,10 +200,11 @@ static bool split_key(struct override *override, char *key)
     return true;
 }
 
-bool kiln_override(struct kiln_arena *arena, struct kiln_node *root, const char *text,
-                   struct kiln_error *error)
+bool kiln_override(struct kiln_reader *reader, const struct kiln_option *rows,
+                   struct kiln_node *root, const char *text)
 {
-    struct override override = {.arena = arena, .error = error};
+    struct kiln_arena *arena = reader->scratch;
+    struct override override = {.reader = reader};
     char quoted[64];
     const char *equals = strchr(text, '=');
     bool printable = equals != NULL;
@@ -219,20 +212,20 @@ bool kiln_override(struct kiln_arena *arena, struct kiln_node *root, const char 
         printable = *c >= 0x20 && *c <= 0x7e;
     if (!printable || equals == text || equals - text > MAX_KEY) {
         kiln_node_quote(quoted, text);
-        return kiln_error_set(error, KILN_USAGE, "--set %s: expected KEY=VALUE", quoted);
+        return kiln_error_set(reader->error, KILN_USAGE, "--set %s: expected KEY=VALUE", quoted);
     }
     char *key = kiln_arena_text(arena, text, (size_t)(equals - text));
     char *name = kiln_arena_alloc(arena, MAX_KEY + 8, 1);
     struct kiln_origin *origin = kiln_arena_alloc(arena, 1, sizeof *origin);
     char *value = kiln_arena_text(arena, equals + 1, strlen(equals + 1));
     if (!key || !name || !origin || !value)
-        return out_of_memory(&override);
+        return kiln_reader_out_of_memory(reader);
     snprintf(name, MAX_KEY + 8, "--set %s", key);
-    origin->name = name;
+    *origin = (struct kiln_origin){.name = name, .kind = reader->origin->kind};
     override.origin = origin;
-    override.value = kiln_node_parse(arena, value, strlen(value), origin, error);
+    override.value = kiln_node_parse(arena, value, strlen(value), origin, reader->error);
     if (!override.value || !split_key(&override, key) ||
-        !walk(&override, root, (struct place){.members = kiln_options_root}, 0))
+        !walk(&override, root, (struct place){.members = rows}, 0))
         return false;
     return override.places > 0 || fail(&override, "there is nothing of that name");
 }

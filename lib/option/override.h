@@ -1,13 +1,13 @@
 /* --set key=value. */
-#ifndef KILN_SCENE_OVERRIDE_H
-#define KILN_SCENE_OVERRIDE_H
+#ifndef KILN_OPTION_OVERRIDE_H
+#define KILN_OPTION_OVERRIDE_H
 
-#include "option/node.h"
+#include "option/reader.h"
 
-/* Puts the value of "dotted.key=value" into the tree, before anything is converted; mappings that
- * are missing on the way are made, entries of lists and named entries are not. The text need not
- * outlive the call. */
-bool kiln_override(struct kiln_arena *arena, struct kiln_node *root, const char *text,
-                   struct kiln_error *error);
+/* Puts the value of "dotted.key=value" into a tree that the table describes, before anything of it
+ * is read; mappings that are missing on the way are made, entries of lists and named entries are
+ * not. The text need not outlive the call. */
+bool kiln_override(struct kiln_reader *reader, const struct kiln_option *rows,
+                   struct kiln_node *root, const char *text);
 
 #endif

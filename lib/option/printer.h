@@ -1,14 +1,16 @@
-/* The scene as a text: the state of the writer, and what the types' printers share. */
-#ifndef KILN_SCENE_PRINTER_H
-#define KILN_SCENE_PRINTER_H
+/* From the struct of a table to a text: the state of one printing, and what the printers of all
+ * types share. */
+#ifndef KILN_OPTION_PRINTER_H
+#define KILN_OPTION_PRINTER_H
 
 #include "option/option.h"
 
 struct kiln_printer {
     struct kiln_text text;
-    const struct kiln_scene *scene;
-    unsigned indent; /* spaces of the current block */
-    bool after_dash; /* a list's "-" has just been written */
+    const void *source; /* what the whole table describes, for types that look around in it */
+    const float4 *keys; /* of its animated values */
+    unsigned indent;    /* spaces of the current block */
+    bool after_dash;    /* a list's "-" has just been written */
 };
 
 /* Writes "name:" at the current indent; the type writes the rest. */
@@ -18,7 +20,8 @@ void kiln_print_key(struct kiln_printer *printer, const char *name);
 void kiln_print_members(struct kiln_printer *printer, const struct kiln_option *members,
                         const void *base);
 
-/* The whole scene into a text that the caller frees; false when memory is short. */
-bool kiln_print_scene(const struct kiln_scene *scene, struct kiln_text *text);
+/* The print of types whose field is a text: in quotes. */
+void kiln_print_text(struct kiln_printer *printer, const struct kiln_option *option,
+                     const void *field);
 
 #endif

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
@@ -53,9 +54,52 @@ bool kiln_reader_error(struct kiln_reader *reader, const struct kiln_node *node,
     return kiln_node_error(node, reader->error, "%s: %s", reader->path, message);
 }
 
+/* By its number; NULL: it is none, or there are fewer. */
+static const struct kiln_node *entry_of_list(const struct kiln_node *list, const char *name)
+{
+    const struct kiln_node *entry = list->first;
+    if (*name == '\0' || name[strspn(name, "0123456789")] != '\0')
+        return NULL;
+    for (unsigned long i = strtoul(name, NULL, 10); i > 0 && entry; i--)
+        entry = entry->next;
+    return entry;
+}
+
+bool kiln_reader_error_at(struct kiln_reader *reader, const struct kiln_node *root,
+                          const char *path, const char *format, ...)
+{
+    char message[KILN_MESSAGE_SIZE], name[64];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(message, sizeof message, format, args);
+    va_end(args);
+    const struct kiln_node *node = root;
+    for (const char *part = path; node && *part;) {
+        size_t length = strcspn(part, ".");
+        snprintf(name, sizeof name, "%.*s", (int)length, part);
+        const struct kiln_node *next =
+            node->kind == KILN_NODE_LIST ? entry_of_list(node, name) : kiln_node_entry(node, name);
+        if (!next)
+            break;
+        node = next;
+        part += length + (part[length] == '.');
+    }
+    kiln_reader_leave(reader, 0);
+    snprintf(reader->path, sizeof reader->path, "%s", path);
+    reader->path_length = strlen(reader->path);
+    return kiln_reader_error(reader, node, "%s", message);
+}
+
 bool kiln_reader_out_of_memory(struct kiln_reader *reader)
 {
-    return kiln_error_set(reader->error, KILN_DEVICE_FAILED, "out of memory while reading a scene");
+    return kiln_error_set(reader->error, KILN_DEVICE_FAILED, "out of memory while reading %s",
+                          reader->origin->kind);
+}
+
+bool kiln_reader_keep_text(struct kiln_reader *reader, const char *text, const char **kept)
+{
+    *kept = kiln_arena_text(reader->arena, text, strlen(text));
+    return *kept || kiln_reader_out_of_memory(reader);
 }
 
 bool kiln_reader_expected(struct kiln_reader *reader, const struct kiln_node *node,
@@ -92,58 +136,10 @@ bool kiln_reader_mismatch(struct kiln_reader *reader, const struct kiln_option *
     return false;
 }
 
-/* ---- options -------------------------------------------------------------------------------- */
+/* ---- defaults ---------------------------------------------------------------------------------
+ */
 
-const struct kiln_option *kiln_option_find(const struct kiln_option *table, const char *name)
-{
-    for (; table->name; table++) {
-        if (strcmp(table->name, name) == 0)
-            return table;
-    }
-    return NULL;
-}
-
-void kiln_option_suggest(char *out, size_t size, const char *name, const char *const *names,
-                         size_t count)
-{
-    const char *nearest = kiln_text_nearest(name, names, count);
-    if (nearest) {
-        snprintf(out, size, " (did you mean '%s'?)", nearest);
-        return;
-    }
-    size_t length = (size_t)snprintf(out, size, count ? " (there are: " : " (there are none)");
-    for (size_t i = 0; i < count && length < size; i++)
-        length += (size_t)snprintf(out + length, size - length, "%s%s", i ? ", " : "", names[i]);
-    if (count && length < size)
-        snprintf(out + length, size - length, ")");
-}
-
-const char *kiln_option_clocks(const struct kiln_option *option)
-{
-    switch (option->clocks) {
-    case KILN_ALLOW_TIME:
-        return "over time";
-    case KILN_ALLOW_LIFE:
-        return "over life";
-    case KILN_ALLOW_BOTH:
-        return "over time or life";
-    default:
-        return NULL;
-    }
-}
-
-void kiln_option_describe_limits(const struct kiln_option *option, struct kiln_text *out)
-{
-    char min[48], max[48];
-    kiln_unit_print_double(min, option->dimension, option->min);
-    kiln_unit_print_double(max, option->dimension, option->max);
-    if (option->min == option->max)
-        kiln_text_add(out, " %s", min);
-    else
-        kiln_text_add(out, " from %s to %s", min, max);
-}
-
-/* A default becomes a tree once a load, however many systems use it. */
+/* A default becomes a tree once a reading, however many entries of a map or list take it. */
 struct kiln_default {
     struct kiln_default *next;
     const struct kiln_option *option;
@@ -153,7 +149,7 @@ struct kiln_default {
 static const struct kiln_node *parse_default(struct kiln_reader *reader,
                                              const struct kiln_option *option)
 {
-    static const struct kiln_origin origin = {.name = "(default)", .has_lines = false};
+    static const struct kiln_origin origin = {.name = "(default)", .kind = "a default"};
     for (struct kiln_default *known = reader->defaults; known; known = known->next) {
         if (known->option == option)
             return known->node;
@@ -234,6 +230,14 @@ bool kiln_read_members(struct kiln_reader *reader, const struct kiln_option *mem
         kiln_reader_leave(reader, before);
     }
     return true;
+}
+
+bool kiln_read_document(struct kiln_reader *reader, const struct kiln_option *rows,
+                        const char *text, size_t size)
+{
+    const struct kiln_node *root =
+        kiln_node_parse(reader->scratch, text, size, reader->origin, reader->error);
+    return root && kiln_read_members(reader, rows, root, reader->target);
 }
 
 /* ---- numbers -------------------------------------------------------------------------------- */

@@ -1,19 +1,23 @@
-/* From the tree to the scene: the state of one load, and what the types' readers share. */
-#ifndef KILN_SCENE_READER_H
-#define KILN_SCENE_READER_H
+/* From a tree to the struct that a table describes: the state of one reading, and what the readers
+ * of all types share. */
+#ifndef KILN_OPTION_READER_H
+#define KILN_OPTION_READER_H
 
 #include "option/option.h"
 
 struct kiln_default; /* a default's text as a tree */
 
+/* The caller sets the first part; all else is 0 at the start. */
 struct kiln_reader {
-    struct kiln_arena *arena;   /* of the scene */
-    struct kiln_arena *scratch; /* of the load: trees */
+    const struct kiln_origin *origin; /* of the text */
+    struct kiln_arena *arena;         /* of what is read: the texts that the target points to */
+    struct kiln_arena *scratch;       /* of the reading: trees, keys; may end with it */
     struct kiln_error *error;
-    struct kiln_scene *scene;
+    void *target; /* what the whole table fills, for types that look around in it */
+
     char path[512]; /* "systems.smoke.emit.rate": where the reader is */
     size_t path_length;
-    float4 keys[KILN_MAX_VALUE_KEYS]; /* becomes scene->keys */
+    float4 *keys; /* of all animated values so far; NULL before the first */
     uint32_t key_count;
     struct kiln_default *defaults;
 };
@@ -27,12 +31,21 @@ void kiln_reader_leave(struct kiln_reader *reader, size_t length);
 bool kiln_reader_error(struct kiln_reader *reader, const struct kiln_node *node, const char *format,
                        ...) __attribute__((format(printf, 3, 4)));
 
+/* The same at a dotted path below root ("systems.smoke.emit"), or at the nearest part of it that
+ * was written. */
+bool kiln_reader_error_at(struct kiln_reader *reader, const struct kiln_node *root,
+                          const char *path, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
 /* "expected <what the option allows>, found <the node>"; returns false. */
 bool kiln_reader_mismatch(struct kiln_reader *reader, const struct kiln_option *option,
                           const struct kiln_node *node);
 bool kiln_reader_expected(struct kiln_reader *reader, const struct kiln_node *node,
                           const char *expected);
 bool kiln_reader_out_of_memory(struct kiln_reader *reader);
+
+/* Copies a text into the arena of what is read. */
+bool kiln_reader_keep_text(struct kiln_reader *reader, const char *text, const char **kept);
 
 /* Is this a text for YAML? Without quotes, some words are numbers and such. */
 bool kiln_reader_is_text(const struct kiln_node *node);
@@ -41,6 +54,11 @@ bool kiln_reader_is_text(const struct kiln_node *node);
  * takes every default. */
 bool kiln_read_members(struct kiln_reader *reader, const struct kiln_option *members,
                        const struct kiln_node *node, void *base);
+
+/* Reads a text, which must end in a zero byte that size does not count, and fills the reader's
+ * target by a table. */
+bool kiln_read_document(struct kiln_reader *reader, const struct kiln_option *rows,
+                        const char *text, size_t size);
 
 /* Reads a number with its unit into SI and checks the limits, as a float or as a double. */
 bool kiln_read_number(struct kiln_reader *reader, const struct kiln_option *option,

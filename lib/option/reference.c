@@ -1,9 +1,7 @@
-/* The reference of scene keys, from the option tables. */
+/* The reference of the keys of a table: a walk over its rows and over those of the tables in it. */
 #include "option/reference.h"
 
 #include <string.h>
-
-#include "asset/atlas/builtin.h"
 
 enum { WIDTH = 100, MAX_VARIANTS = 32 };
 
@@ -26,32 +24,28 @@ static void add_wrapped(struct kiln_text *out, unsigned indent, const char *text
 
 /* A walk over a table and the tables in it. */
 struct walk {
-    void (*visit)(void *user, const struct kiln_scene_key *key);
+    void (*visit)(void *user, const struct kiln_option_key *key);
     void *user;
     bool failed;
 };
 
 static void visit_rows(struct walk *walk, const char *prefix, const struct kiln_option *rows);
 
-/* Words that a value may be, between bars. */
 static void add_words(struct kiln_text *out, const struct kiln_option *row)
 {
-    if (row->type == &kiln_type_boolean)
-        kiln_text_add(out, "true|false");
+    if (row->type->words) {
+        row->type->words(row, out);
+        return;
+    }
     for (size_t i = 0; row->choices && row->choices[i]; i++)
         kiln_text_add(out, "%s%s", i ? "|" : "", row->choices[i]);
-    for (size_t i = 0; row->type == &kiln_type_assets && kiln_builtin_name(i); i++)
-        kiln_text_add(out, "%sbuiltin:%s", i ? "|" : "", kiln_builtin_name(i));
     if (row->word)
         kiln_text_add(out, "%s", row->word);
-    if (row->type == &kiln_type_switch || row->type == &kiln_type_picture ||
-        row->type == &kiln_type_bounds)
-        kiln_text_add(out, "none");
 }
 
 static void visit_row(struct walk *walk, const char *path, const struct kiln_option *row)
 {
-    struct kiln_scene_key key = {.path = path, .help = row->help};
+    struct kiln_option_key key = {.path = path, .help = row->help};
     key.holds_keys = row->members || row->kinds || row->item;
     if (row->type == &kiln_type_group) {
         walk->visit(walk->user, &key);
@@ -97,11 +91,11 @@ static void visit_kinds(struct walk *walk, const char *path, const struct kiln_o
         struct kiln_text name = {0};
         kiln_text_add(&name, "%s.%s", path, kind->name);
         if (!name.failed) {
-            walk->visit(walk->user, &(struct kiln_scene_key){.path = name.data,
-                                                             .help = kind->help,
-                                                             .variant = kind->variant,
-                                                             .shortcut = kind->shortcut,
-                                                             .holds_keys = true});
+            walk->visit(walk->user, &(struct kiln_option_key){.path = name.data,
+                                                              .help = kind->help,
+                                                              .variant = kind->variant,
+                                                              .shortcut = kind->shortcut,
+                                                              .holds_keys = true});
             bool is_first = kind == kinds || strcmp(kind[-1].name, kind->name) != 0;
             if (kind->variant && is_first)
                 visit_field(walk, name.data, kind);
@@ -133,7 +127,7 @@ static void visit_rows(struct walk *walk, const char *prefix, const struct kiln_
     }
 }
 
-static void add_key(void *user, const struct kiln_scene_key *key)
+static void add_key(void *user, const struct kiln_option_key *key)
 {
     struct kiln_text *out = user;
     kiln_text_add(out, "%s", key->path);
@@ -169,37 +163,10 @@ bool kiln_reference_write(FILE *out, const char *introduction, const struct kiln
     return ok;
 }
 
-static const char scene_introduction[] =
-    "A scene is a YAML file. Every key below may also be given with --set KEY=VALUE; '*' in a KEY\n"
-    "stands for every entry of a mapping or list, and entries of a list are counted from 0.\n"
-    "\n"
-    "Numbers may carry a unit (2 s, 45 deg); without one they are in the SI unit, except that an\n"
-    "angle always needs one. Where it is allowed, a number or colour may vary:\n"
-    "\n"
-    "    {keys: {0 s: 1, 3 s: 2}}      over time; 0 s is the first frame\n"
-    "    {life: [0.1, 1.2]}            over a particle's life, evenly spread from birth to death\n"
-    "    {life: {0: 0, 0.2: 1, 1: 0}}  the same with the parts of the life named\n"
-    "\n"
-    "joined by straight lines, held before the first and after the last. A vector or colour "
-    "varies\n"
-    "as a whole ({keys: {0 s: [1, 0, 0], 1 s: [0, 1, 0]}}) or in each component.\n"
-    "\n"
-    "Metres, y up, right-handed; colours linear, Rec. 709 primaries.\n"
-    "\n";
-
-bool kiln_scene_write_reference(FILE *out)
-{
-    return kiln_reference_write(out, scene_introduction, kiln_options_root);
-}
-
-const char *kiln_scene_introduction(void)
-{
-    return scene_introduction;
-}
-
-bool kiln_scene_visit_keys(void (*visit)(void *user, const struct kiln_scene_key *key), void *user)
+bool kiln_reference_visit(const struct kiln_option *rows,
+                          void (*visit)(void *user, const struct kiln_option_key *key), void *user)
 {
     struct walk walk = {.visit = visit, .user = user};
-    visit_rows(&walk, "", kiln_options_root);
+    visit_rows(&walk, "", rows);
     return !walk.failed;
 }

@@ -80,14 +80,14 @@ void kiln_schema_members(const struct kiln_option *members, const char *variant,
     kiln_text_add(out, "}}");
 }
 
-bool kiln_scene_write_schema(FILE *out)
+bool kiln_schema_write(FILE *out, const char *title, const struct kiln_option *rows)
 {
     struct kiln_text text = {0}, root = {0};
-    kiln_schema_members(kiln_options_root, NULL, false, &root);
+    kiln_schema_members(rows, NULL, false, &root);
     kiln_text_add(&text,
                   "{\"$schema\": \"http://json-schema.org/draft-07/schema#\",\n"
-                  "\"title\": \"kiln scene\",\n%s\n",
-                  root.data ? root.data + 1 : "");
+                  "\"title\": \"%s\",\n%s\n",
+                  title, root.data ? root.data + 1 : "");
     bool ok = !text.failed && !root.failed && fputs(text.data, out) >= 0 && fflush(out) == 0;
     kiln_text_free(&root);
     kiln_text_free(&text);

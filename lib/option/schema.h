@@ -1,8 +1,11 @@
-/* Pieces of JSON schema that several types share. */
-#ifndef KILN_SCENE_SCHEMA_H
-#define KILN_SCENE_SCHEMA_H
+/* The JSON schema of a table, and pieces that several types share. */
+#ifndef KILN_OPTION_SCHEMA_H
+#define KILN_OPTION_SCHEMA_H
 
 #include "option/option.h"
+
+/* Writes the schema of files that the table reads. */
+bool kiln_schema_write(FILE *out, const char *title, const struct kiln_option *rows);
 
 /* A number with or without its unit, by the option's dimension and limits. */
 void kiln_schema_number(const struct kiln_option *option, struct kiln_text *out);

@@ -6,18 +6,6 @@
 #include "option/reader.h"
 #include "option/schema.h"
 
-/* The number of entries beside an array: both lie in the struct that the option's table describes.
- */
-static uint32_t *count_of(const struct kiln_option *option, void *field)
-{
-    return (uint32_t *)((char *)field - option->offset + option->count_offset);
-}
-
-static uint32_t read_count(const struct kiln_option *option, const void *field)
-{
-    return *(const uint32_t *)((const char *)field - option->offset + option->count_offset);
-}
-
 /* ---- group ---------------------------------------------------------------------------------- */
 
 static bool read_group(struct kiln_reader *reader, const struct kiln_option *option,
@@ -46,21 +34,20 @@ static void schema_group(const struct kiln_option *option, struct kiln_text *out
     kiln_schema_members(option->members, NULL, false, out);
 }
 
-const struct kiln_option_type kiln_type_group = {read_group, print_group, describe_group,
-                                                 schema_group};
+const struct kiln_option_type kiln_type_group = {
+    .read = read_group,
+    .print = print_group,
+    .describe = describe_group,
+    .schema = schema_group,
+};
 
 /* ---- switch: a group that may be absent ------------------------------------------------------ */
-
-static bool is_none(const struct kiln_node *node)
-{
-    return node->kind == KILN_NODE_SCALAR && strcmp(node->text, "none") == 0;
-}
 
 static bool read_switch(struct kiln_reader *reader, const struct kiln_option *option,
                         const struct kiln_node *node, void *field)
 {
     bool *enabled = (bool *)((char *)field - option->offset + option->count_offset);
-    bool none = is_none(node);
+    bool none = kiln_node_is(node, "none");
     if (!none && node->kind != KILN_NODE_MAP)
         return kiln_reader_mismatch(reader, option, node);
     *enabled = !none;
@@ -89,8 +76,19 @@ static void schema_switch(const struct kiln_option *option, struct kiln_text *ou
     kiln_text_add(out, "]}");
 }
 
-const struct kiln_option_type kiln_type_switch = {read_switch, print_switch, describe_switch,
-                                                  schema_switch};
+static void words_switch(const struct kiln_option *option, struct kiln_text *out)
+{
+    (void)option;
+    kiln_text_add(out, "none");
+}
+
+const struct kiln_option_type kiln_type_switch = {
+    .read = read_switch,
+    .print = print_switch,
+    .describe = describe_switch,
+    .schema = schema_switch,
+    .words = words_switch,
+};
 
 /* ---- map: named entries; an entry's struct starts with its name ------------------------------ */
 
@@ -114,7 +112,7 @@ static uint32_t *begin_entries(struct kiln_reader *reader, const struct kiln_opt
                                const struct kiln_node *node, void *field)
 {
     if (node->count <= option->max_count)
-        return count_of(option, field);
+        return kiln_option_count_of(option, field);
     kiln_reader_error(reader, node, "%u are too many; at most %zu", node->count, option->max_count);
     return NULL;
 }
@@ -136,11 +134,8 @@ static bool read_map(struct kiln_reader *reader, const struct kiln_option *optio
                                      "a name starts with a letter and has at most %d letters, "
                                      "digits, '_' and '-'",
                                      MAX_NAME);
-        const char *copy = kiln_arena_text(reader->arena, name, strlen(name));
-        if (!copy)
-            return kiln_reader_out_of_memory(reader);
-        memcpy(item, &copy, sizeof copy);
-        if (!kiln_read_members(reader, option->members, entry, item))
+        if (!kiln_reader_keep_text(reader, name, item) ||
+            !kiln_read_members(reader, option->members, entry, item))
             return false;
         kiln_reader_leave(reader, before);
         ++*count;
@@ -151,7 +146,7 @@ static bool read_map(struct kiln_reader *reader, const struct kiln_option *optio
 static void print_map(struct kiln_printer *printer, const struct kiln_option *option,
                       const void *field)
 {
-    uint32_t count = read_count(option, field);
+    uint32_t count = kiln_option_count(option, field);
     kiln_text_add(&printer->text, count ? "\n" : " {}\n");
     printer->indent += 2;
     for (uint32_t i = 0; i < count; i++) {
@@ -179,7 +174,12 @@ static void schema_map(const struct kiln_option *option, struct kiln_text *out)
     kiln_text_add(out, "}");
 }
 
-const struct kiln_option_type kiln_type_map = {read_map, print_map, describe_map, schema_map};
+const struct kiln_option_type kiln_type_map = {
+    .read = read_map,
+    .print = print_map,
+    .describe = describe_map,
+    .schema = schema_map,
+};
 
 /* ---- list ----------------------------------------------------------------------------------- */
 
@@ -205,7 +205,7 @@ static bool read_list(struct kiln_reader *reader, const struct kiln_option *opti
 static void print_list(struct kiln_printer *printer, const struct kiln_option *option,
                        const void *field)
 {
-    uint32_t count = read_count(option, field);
+    uint32_t count = kiln_option_count(option, field);
     kiln_text_add(&printer->text, count ? "\n" : " []\n");
     printer->indent += 2;
     for (uint32_t i = 0; i < count; i++) {
@@ -231,4 +231,9 @@ static void schema_list(const struct kiln_option *option, struct kiln_text *out)
     kiln_text_add(out, "}");
 }
 
-const struct kiln_option_type kiln_type_list = {read_list, print_list, describe_list, schema_list};
+const struct kiln_option_type kiln_type_list = {
+    .read = read_list,
+    .print = print_list,
+    .describe = describe_list,
+    .schema = schema_list,
+};

@@ -1,6 +1,6 @@
 /* Things of several kinds: `cone: {angle: 8 deg}`, a mapping whose one key names the kind and whose
  * value fills the members of that kind. A kind may have a shortcut, a member that a bare value
- * means: `gravity: [0, -9.81, 0]`. In a list they are the forces and the objects of a scene.
+ * means: `gravity: [0, -9.81, 0]`.
  */
 #include <string.h>
 
@@ -35,7 +35,7 @@ static const struct kiln_option_kind *find_kind(struct kiln_reader *reader,
         first = first ? first : kind;
         if (!kind->variant || !field)
             return first;
-        if (field->kind == KILN_NODE_SCALAR && strcmp(field->text, kind->variant) == 0)
+        if (kiln_node_is(field, kind->variant))
             return kind;
         variants[variant_count++] = kind->variant;
     }
@@ -214,4 +214,9 @@ static void schema_kind(const struct kiln_option *option, struct kiln_text *out)
     kiln_text_add(out, "]}");
 }
 
-const struct kiln_option_type kiln_type_kind = {read_kind, print_kind, describe_kind, schema_kind};
+const struct kiln_option_type kiln_type_kind = {
+    .read = read_kind,
+    .print = print_kind,
+    .describe = describe_kind,
+    .schema = schema_kind,
+};

@@ -1,7 +1,5 @@
-/* Types of one plain value each: boolean, integer, rational, number, choice. */
+/* Types of one plain value each: boolean, integer, rational, number, choice, text. */
 #include <inttypes.h>
-#include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "option/printer.h"
@@ -13,9 +11,8 @@
 static bool read_boolean(struct kiln_reader *reader, const struct kiln_option *option,
                          const struct kiln_node *node, void *field)
 {
-    bool is_word = node->kind == KILN_NODE_SCALAR && !node->quoted;
-    bool yes = is_word && strcmp(node->text, "true") == 0;
-    if (!yes && !(is_word && strcmp(node->text, "false") == 0))
+    bool yes = kiln_node_is(node, "true");
+    if (node->quoted || (!yes && !kiln_node_is(node, "false")))
         return kiln_reader_mismatch(reader, option, node);
     *(bool *)field = yes;
     return true;
@@ -40,8 +37,19 @@ static void schema_boolean(const struct kiln_option *option, struct kiln_text *o
     kiln_text_add(out, "{\"type\": \"boolean\"}");
 }
 
-const struct kiln_option_type kiln_type_boolean = {read_boolean, print_boolean, describe_boolean,
-                                                   schema_boolean};
+static void words_boolean(const struct kiln_option *option, struct kiln_text *out)
+{
+    (void)option;
+    kiln_text_add(out, "true|false");
+}
+
+const struct kiln_option_type kiln_type_boolean = {
+    .read = read_boolean,
+    .print = print_boolean,
+    .describe = describe_boolean,
+    .schema = schema_boolean,
+    .words = words_boolean,
+};
 
 /* ---- integer -------------------------------------------------------------------------------- */
 
@@ -72,8 +80,12 @@ static void schema_integer(const struct kiln_option *option, struct kiln_text *o
                   option->max);
 }
 
-const struct kiln_option_type kiln_type_integer = {read_integer, print_integer, describe_integer,
-                                                   schema_integer};
+const struct kiln_option_type kiln_type_integer = {
+    .read = read_integer,
+    .print = print_integer,
+    .describe = describe_integer,
+    .schema = schema_integer,
+};
 
 /* ---- rational ------------------------------------------------------------------------------- */
 
@@ -113,7 +125,7 @@ static bool read_rational(struct kiln_reader *reader, const struct kiln_option *
     struct kiln_rational *rational = field;
     if (node->kind != KILN_NODE_SCALAR)
         return kiln_reader_mismatch(reader, option, node);
-    if (option->word && strcmp(node->text, option->word) == 0) {
+    if (option->word && kiln_node_is(node, option->word)) {
         *rational = (struct kiln_rational){0, 1};
         return true;
     }
@@ -131,10 +143,12 @@ static bool read_rational(struct kiln_reader *reader, const struct kiln_option *
 static void print_rational(struct kiln_printer *printer, const struct kiln_option *option,
                            const void *field)
 {
-    (void)option;
     const struct kiln_rational *rational = field;
-    kiln_text_add(&printer->text, rational->den == 1 ? " %u\n" : " %u/%u\n", rational->num,
-                  rational->den);
+    if (option->word && rational->num == 0)
+        kiln_text_add(&printer->text, " %s\n", option->word);
+    else
+        kiln_text_add(&printer->text, rational->den == 1 ? " %u\n" : " %u/%u\n", rational->num,
+                      rational->den);
 }
 
 static void describe_rational(const struct kiln_option *option, struct kiln_text *out)
@@ -154,8 +168,12 @@ static void schema_rational(const struct kiln_option *option, struct kiln_text *
                   option->word ? option->word : "");
 }
 
-const struct kiln_option_type kiln_type_rational = {read_rational, print_rational,
-                                                    describe_rational, schema_rational};
+const struct kiln_option_type kiln_type_rational = {
+    .read = read_rational,
+    .print = print_rational,
+    .describe = describe_rational,
+    .schema = schema_rational,
+};
 
 /* ---- number --------------------------------------------------------------------------------- */
 
@@ -183,8 +201,12 @@ static void describe_number(const struct kiln_option *option, struct kiln_text *
     kiln_option_describe_limits(option, out);
 }
 
-const struct kiln_option_type kiln_type_number = {read_number, print_number, describe_number,
-                                                  kiln_schema_number};
+const struct kiln_option_type kiln_type_number = {
+    .read = read_number,
+    .print = print_number,
+    .describe = describe_number,
+    .schema = kiln_schema_number,
+};
 
 /* ---- choice --------------------------------------------------------------------------------- */
 
@@ -236,5 +258,45 @@ static void schema_choice(const struct kiln_option *option, struct kiln_text *ou
     kiln_text_add(out, "]}");
 }
 
-const struct kiln_option_type kiln_type_choice = {read_choice, print_choice, describe_choice,
-                                                  schema_choice};
+const struct kiln_option_type kiln_type_choice = {
+    .read = read_choice,
+    .print = print_choice,
+    .describe = describe_choice,
+    .schema = schema_choice,
+};
+
+/* ---- text ----------------------------------------------------------------------------------- */
+
+static bool read_text(struct kiln_reader *reader, const struct kiln_option *option,
+                      const struct kiln_node *node, void *field)
+{
+    if (node->kind != KILN_NODE_SCALAR || (*node->text == '\0' && !node->quoted))
+        return kiln_reader_mismatch(reader, option, node);
+    size_t length = strlen(node->text);
+    if ((double)length < option->min)
+        return kiln_reader_error(reader, node, "must not be empty");
+    if ((double)length > option->max)
+        return kiln_reader_error(reader, node, "%zu bytes are too many; at most %.0f", length,
+                                 option->max);
+    return kiln_reader_keep_text(reader, node->text, field);
+}
+
+static void describe_text(const struct kiln_option *option, struct kiln_text *out)
+{
+    (void)option;
+    kiln_text_add(out, "a text");
+}
+
+/* Characters are not more than bytes, of which an empty text has none. */
+static void schema_text(const struct kiln_option *option, struct kiln_text *out)
+{
+    kiln_text_add(out, "{\"type\": \"string\", \"minLength\": %d, \"maxLength\": %.0f}",
+                  option->min > 0, option->max);
+}
+
+const struct kiln_option_type kiln_type_text = {
+    .read = read_text,
+    .print = kiln_print_text,
+    .describe = describe_text,
+    .schema = schema_text,
+};

@@ -66,8 +66,12 @@ static void schema_value(const struct kiln_option *option, struct kiln_text *out
     kiln_text_free(&plain);
 }
 
-const struct kiln_option_type kiln_type_value = {read_value, print_value, describe_value,
-                                                 schema_value};
+const struct kiln_option_type kiln_type_value = {
+    .read = read_value,
+    .print = print_value,
+    .describe = describe_value,
+    .schema = schema_value,
+};
 
 /* ---- vector and colour ---------------------------------------------------------------------- */
 
@@ -82,15 +86,15 @@ static bool read_vector(struct kiln_reader *reader, const struct kiln_option *op
 }
 
 /* May the three curves be written as one of [x, y, z]? */
-static bool share_keys(const struct kiln_scene *scene, const struct kiln_value3 *v)
+static bool share_keys(const float4 *keys, const struct kiln_value3 *v)
 {
     if (v->x.count == 0 || v->y.count != v->x.count || v->z.count != v->x.count ||
         v->y.clock != v->x.clock || v->z.clock != v->x.clock ||
         v->y.first != v->x.first + v->x.count || v->z.first != v->y.first + v->y.count)
         return false;
     for (uint32_t i = 0; i < v->x.count; i++) {
-        float x = scene->keys[v->x.first + i].x;
-        if (scene->keys[v->y.first + i].x != x || scene->keys[v->z.first + i].x != x)
+        float x = keys[v->x.first + i].x;
+        if (keys[v->y.first + i].x != x || keys[v->z.first + i].x != x)
             return false;
     }
     return true;
@@ -99,7 +103,7 @@ static bool share_keys(const struct kiln_scene *scene, const struct kiln_value3 
 static void print_shared_keys(struct kiln_printer *printer, const struct kiln_option *option,
                               const struct kiln_value3 *v)
 {
-    const float4 *keys = printer->scene->keys;
+    const float4 *keys = printer->keys;
     bool over_life = v->x.clock == KILN_CLOCK_LIFE;
     kiln_text_add(&printer->text, over_life ? " {life: {" : " {keys: {");
     for (uint32_t i = 0; i < v->x.count; i++) {
@@ -121,7 +125,7 @@ static void print_vector(struct kiln_printer *printer, const struct kiln_option 
     struct kiln_option bare = *option; /* three units in a row are hard to read */
     if (!kiln_unit_is_required(option->dimension))
         bare.dimension = KILN_PLAIN;
-    if (share_keys(printer->scene, v)) {
+    if (share_keys(printer->keys, v)) {
         print_shared_keys(printer, &bare, v);
         return;
     }
@@ -171,10 +175,18 @@ static void schema_vector(const struct kiln_option *option, struct kiln_text *ou
     kiln_text_free(&plain);
 }
 
-const struct kiln_option_type kiln_type_vector = {read_vector, print_vector, describe_vector,
-                                                  schema_vector};
-const struct kiln_option_type kiln_type_color = {read_vector, print_vector, describe_color,
-                                                 schema_vector};
+const struct kiln_option_type kiln_type_vector = {
+    .read = read_vector,
+    .print = print_vector,
+    .describe = describe_vector,
+    .schema = schema_vector,
+};
+const struct kiln_option_type kiln_type_color = {
+    .read = read_vector,
+    .print = print_vector,
+    .describe = describe_color,
+    .schema = schema_vector,
+};
 
 /* ---- range ---------------------------------------------------------------------------------- */
 
@@ -249,5 +261,9 @@ static void schema_range(const struct kiln_option *option, struct kiln_text *out
     kiln_text_free(&value);
 }
 
-const struct kiln_option_type kiln_type_range = {read_range, print_range, describe_range,
-                                                 schema_range};
+const struct kiln_option_type kiln_type_range = {
+    .read = read_range,
+    .print = print_range,
+    .describe = describe_range,
+    .schema = schema_range,
+};

@@ -1,4 +1,4 @@
-/* One row per unit. Conversions are IEEE products and quotients in double, so that a scene means
+/* One row per unit. Conversions are IEEE products and quotients in double, so that a file means
  * the same floats on every machine. */
 #include "option/unit.h"
 

@@ -1,6 +1,6 @@
-/* Dimensions, and the units a scene may write them in. */
-#ifndef KILN_SCENE_UNIT_H
-#define KILN_SCENE_UNIT_H
+/* Dimensions, and the units a file may write them in. */
+#ifndef KILN_OPTION_UNIT_H
+#define KILN_OPTION_UNIT_H
 
 #include <stdbool.h>
 #include <stddef.h>

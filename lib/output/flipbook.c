@@ -9,8 +9,8 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/json.h"
 #include "base/log.h"
-#include "base/text.h"
 #include "output/bleed.h"
 #include "output/flow.h"
 
@@ -376,79 +376,103 @@ static struct kiln_picture *draw_motion(const struct flipbook_encoder *encoder, 
 
 /* ---- Files ---------------------------------------------------------------------------------- */
 
-static void add_name(struct kiln_text *text, const struct kiln_temporary *file)
+static void add_name(struct kiln_json *json, const struct kiln_temporary *file)
 {
     const char *slash = strrchr(file->target, '/');
-    kiln_text_add_json(text, slash ? slash + 1 : file->target);
+    kiln_json_string(json, "image", slash ? slash + 1 : file->target);
 }
 
-static void add_frames(struct kiln_text *text, const struct kiln_output_params *params)
+/* Left open, for more members. */
+static void begin_size(struct kiln_json *json, const char *key, uint32_t width, uint32_t height)
+{
+    kiln_json_begin_object(json, key);
+    kiln_json_uint(json, "width", width);
+    kiln_json_uint(json, "height", height);
+}
+
+static void add_frames(struct kiln_json *json, const struct kiln_output_params *params)
 {
     uint32_t frame = 0, first = 0;
-    kiln_text_add(text, "  \"frames\": [");
+    kiln_json_begin_array(json, "frames");
     for (uint32_t i = 0; i < cell_count(params); i++) {
         nth_frame(params->ranges, params->range_count, i, &frame);
         first = i == 0 ? frame : first;
-        kiln_text_add(text, "%s%u", i > 0 ? ", " : "", frame);
+        kiln_json_uint(json, NULL, frame);
     }
+    kiln_json_end(json);
     double step = cell_count(params) > 1 ? (double)(frame - first) / (cell_count(params) - 1) : 1;
-    char rate[32];
-    kiln_text_from_double(rate, (double)params->fps_num / params->fps_den / step);
-    kiln_text_add(text, "],\n  \"frame_rate\": [%u, %u],\n  \"cells_per_second\": %s,\n",
-                  params->fps_num, params->fps_den, rate);
+    kiln_json_pair(json, "frame_rate", params->fps_num, params->fps_den);
+    kiln_json_number(json, "cells_per_second", (double)params->fps_num / params->fps_den / step);
 }
 
-static void add_motion_layout(struct kiln_text *text, const struct flipbook_encoder *encoder,
+static void add_motion_layout(struct kiln_json *json, const struct flipbook_encoder *encoder,
                               float scale)
 {
     if (!encoder->motion_file.target) {
-        kiln_text_add(text, "  \"motion\": null,\n");
+        kiln_json_null(json, "motion");
         return;
     }
     char number[32];
     kiln_text_from_float(number, scale);
-    kiln_text_add(text, "  \"motion\": {\n    \"image\": ");
-    add_name(text, &encoder->motion_file);
-    kiln_text_add(text,
-                  ",\n    \"cell\": {\"width\": %u, \"height\": %u},\n"
-                  "    \"encoding\": \"(channel / 255 * 2 - 1) * scale\",\n"
-                  "    \"scale\": %s,\n"
-                  "    \"unit\": \"cell\",\n"
-                  "    \"red\": \"right\",\n    \"green\": \"down\",\n"
-                  "    \"from\": \"this cell\",\n    \"to\": \"the next cell\",\n"
-                  "    \"color_space\": \"linear\"\n  },\n",
-                  encoder->motion_width, encoder->motion_height, number);
+    kiln_json_begin_object(json, "motion");
+    kiln_json_lines(json, 4);
+    add_name(json, &encoder->motion_file);
+    begin_size(json, "cell", encoder->motion_width, encoder->motion_height);
+    kiln_json_end(json);
+    kiln_json_string(json, "encoding", "(channel / 255 * 2 - 1) * scale");
+    kiln_json_raw(json, "scale", number);
+    kiln_json_string(json, "unit", "cell");
+    kiln_json_string(json, "red", "right");
+    kiln_json_string(json, "green", "down");
+    kiln_json_string(json, "from", "this cell");
+    kiln_json_string(json, "to", "the next cell");
+    kiln_json_string(json, "color_space", "linear");
+    kiln_json_end_line(json, 2);
+}
+
+static void add_layout(struct kiln_json *json, const struct flipbook_encoder *encoder, float scale)
+{
+    const struct kiln_output_params *params = encoder->params;
+    const struct kiln_flipbook *flipbook = &params->flipbook;
+    kiln_json_uint(json, "kiln_flipbook", 1);
+    add_name(json, encoder->file);
+    begin_size(json, "size", encoder->atlas->width, encoder->atlas->height);
+    kiln_json_end(json);
+    kiln_json_uint(json, "columns", flipbook->columns);
+    kiln_json_uint(json, "rows", flipbook->rows);
+    kiln_json_uint(json, "cells", cell_count(params));
+    kiln_json_string(json, "order", "rows from the top, each from the left");
+    begin_size(json, "cell", encoder->cell_width, encoder->cell_height);
+    kiln_json_uint(json, "padding", flipbook->padding);
+    kiln_json_end(json);
+    kiln_json_string(json, "alpha",
+                     !params->alpha            ? "none"
+                     : flipbook->premultiplied ? "premultiplied"
+                                               : "straight");
+    kiln_json_string(json, "color_space", "srgb");
+    add_frames(json, params);
+    add_motion_layout(json, encoder, scale);
+    kiln_json_begin_object(json, "kiln");
+    kiln_json_string(json, "version", KILN_VERSION);
+    kiln_json_string(json, "scene_hash", params->scene_hash);
+    kiln_json_uint(json, "seed", params->seed);
+    kiln_json_end(json);
 }
 
 static bool write_layout(struct flipbook_encoder *encoder, float scale, struct kiln_error *error)
 {
-    const struct kiln_output_params *params = encoder->params;
-    const struct kiln_flipbook *flipbook = &params->flipbook;
     struct kiln_text text = {0};
-    kiln_text_add(&text, "{\n  \"kiln_flipbook\": 1,\n  \"image\": ");
-    add_name(&text, encoder->file);
-    kiln_text_add(&text,
-                  ",\n  \"size\": {\"width\": %u, \"height\": %u},\n"
-                  "  \"columns\": %u,\n  \"rows\": %u,\n  \"cells\": %u,\n"
-                  "  \"order\": \"rows from the top, each from the left\",\n"
-                  "  \"cell\": {\"width\": %u, \"height\": %u, \"padding\": %u},\n",
-                  encoder->atlas->width, encoder->atlas->height, flipbook->columns, flipbook->rows,
-                  cell_count(params), encoder->cell_width, encoder->cell_height, flipbook->padding);
-    kiln_text_add(&text, "  \"alpha\": \"%s\",\n  \"color_space\": \"srgb\",\n",
-                  !params->alpha            ? "none"
-                  : flipbook->premultiplied ? "premultiplied"
-                                            : "straight");
-    add_frames(&text, params);
-    add_motion_layout(&text, encoder, scale);
-    kiln_text_add(&text,
-                  "  \"kiln\": {\"version\": \"%s\", \"scene_hash\": \"%s\", \"seed\": %u}\n}\n",
-                  KILN_VERSION, params->scene_hash, params->seed);
-    bool good = !text.failed;
+    struct kiln_json json = kiln_json_to_text(&text);
+    kiln_json_begin_object(&json, NULL);
+    kiln_json_lines(&json, 2);
+    add_layout(&json, encoder, scale);
+    kiln_json_end_line(&json, 0);
+    bool good = kiln_json_finish(&json);
     if (good) /* the commit tells of failures */
         kiln_temporary_write(&encoder->layout_file, text.data, text.length);
     kiln_text_free(&text);
-    return good ||
-           kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the layout", params->path);
+    return good || kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the layout",
+                                  encoder->params->path);
 }
 
 static bool encode(void *opaque, const struct kiln_picture *picture, struct kiln_error *error)

@@ -2,27 +2,26 @@
  * piece. Nothing here depends on the locale. */
 #include "output/manifest.h"
 
-#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
+#include "base/json.h"
 #include "base/temporary.h"
-#include "base/text.h"
 #include "scene/scene.h"
 
 struct kiln_manifest {
     struct kiln_temporary file;
     bool overwrite;
-    bool has_frames;
     struct kiln_text text; /* the piece that is being written */
+    struct kiln_json json; /* into it */
 };
 
 /* Sends the piece to the file. */
 static bool flush(struct kiln_manifest *manifest, struct kiln_error *error)
 {
     struct kiln_text *text = &manifest->text;
-    bool whole = !text->failed;
+    bool whole = !manifest->json.failed;
     bool good = whole && kiln_temporary_write(&manifest->file, text->data, text->length);
     text->length = 0;
     if (good)
@@ -34,102 +33,83 @@ static bool flush(struct kiln_manifest *manifest, struct kiln_error *error)
                                 "%s: the file cannot be written", manifest->file.target);
 }
 
-static void add_string(struct kiln_text *text, const char *key, const char *value)
+static void add_passes(struct kiln_json *json, const double pass_ms[KILN_PASS_COUNT])
 {
-    kiln_text_add(text, "\"%s\": ", key);
-    if (value)
-        kiln_text_add_json(text, value);
-    else
-        kiln_text_add(text, "null");
+    kiln_json_begin_object(json, "ms");
+    for (int i = 0; i < KILN_PASS_COUNT; i++)
+        kiln_json_time(json, kiln_pass_name((enum kiln_pass)i), pass_ms[i]);
+    kiln_json_end(json);
 }
 
-/* To three decimals, as whole numbers, since printf's point belongs to the locale. */
-static void add_thousandths(struct kiln_text *text, const char *key, double value)
+static void add_state(struct kiln_json *json, const struct kiln_state_hash *state, uint64_t alive)
 {
-    uint64_t thousandths = value > 0 && value < 1e15 ? (uint64_t)(value * 1000.0 + 0.5) : 0;
-    kiln_text_add(text, "\"%s\": %" PRIu64 ".%03u", key, thousandths / 1000,
-                  (unsigned)(thousandths % 1000));
+    kiln_json_format(json, "state", "%08x%08x", state->lane[0], state->lane[1]);
+    kiln_json_uint(json, "alive", alive);
 }
 
-static void add_passes(struct kiln_text *text, const double pass_ms[KILN_PASS_COUNT])
-{
-    kiln_text_add(text, "\"ms\": {");
-    for (int i = 0; i < KILN_PASS_COUNT; i++) {
-        kiln_text_add(text, i > 0 ? ", " : "");
-        add_thousandths(text, kiln_pass_name((enum kiln_pass)i), pass_ms[i]);
-    }
-    kiln_text_add(text, "}");
-}
-
-static void add_state(struct kiln_text *text, const struct kiln_state_hash *state, uint64_t alive)
-{
-    kiln_text_add(text, "\"state\": \"%08x%08x\", \"alive\": %" PRIu64, state->lane[0],
-                  state->lane[1], alive);
-}
-
-static bool add_scene(struct kiln_text *text, const struct kiln_scene *scene)
+/* The text of the scene, with every default. */
+static void add_scene_text(struct kiln_json *json, const struct kiln_scene *scene)
 {
     char *printed = NULL;
     size_t size = 0;
     FILE *memory = open_memstream(&printed, &size);
-    if (!memory)
-        return false;
-    bool good = kiln_scene_print(scene, memory);
-    good = fclose(memory) == 0 && good;
-    struct kiln_scene_info info = kiln_scene_info(scene);
-    kiln_text_add(text, "  \"scene\": {");
-    add_string(text, "file", scene->name);
-    kiln_text_add(text, ", ");
-    add_string(text, "hash", info.hash);
-    kiln_text_add(text,
-                  ", \"seed\": %u, \"size\": [%u, %u], \"fps\": [%u, %u], \"frames\": %u, "
-                  "\"steps_per_frame\": %u, \"warmup_steps\": %u, \"systems\": %u, "
-                  "\"particle_capacity\": %" PRIu64 ",\n    ",
-                  scene->seed, info.width, info.height, info.fps_num, info.fps_den, info.frames,
-                  info.steps_per_frame, info.warmup_steps, info.system_count,
-                  info.particle_capacity);
-    add_string(text, "text", good ? printed : "");
-    kiln_text_add(text, "},\n");
+    bool good = memory && kiln_scene_print(scene, memory);
+    json->failed |= !memory || fclose(memory) != 0 || !good;
+    kiln_json_string(json, "text", printed);
     free(printed);
-    return good;
 }
 
-static void add_device(struct kiln_text *text, const struct kiln_device_info *device)
+static void add_scene(struct kiln_json *json, const struct kiln_scene *scene)
 {
-    kiln_text_add(text, "  \"device\": ");
+    struct kiln_scene_info info = kiln_scene_info(scene);
+    kiln_json_begin_object(json, "scene");
+    kiln_json_string(json, "file", scene->name);
+    kiln_json_string(json, "hash", info.hash);
+    kiln_json_uint(json, "seed", scene->seed);
+    kiln_json_pair(json, "size", info.width, info.height);
+    kiln_json_pair(json, "fps", info.fps_num, info.fps_den);
+    kiln_json_uint(json, "frames", info.frames);
+    kiln_json_uint(json, "steps_per_frame", info.steps_per_frame);
+    kiln_json_uint(json, "warmup_steps", info.warmup_steps);
+    kiln_json_uint(json, "systems", info.system_count);
+    kiln_json_uint(json, "particle_capacity", info.particle_capacity);
+    kiln_json_line(json, 4);
+    add_scene_text(json, scene);
+    kiln_json_end(json);
+}
+
+static void add_device(struct kiln_json *json, const struct kiln_device_info *device)
+{
     if (!device) {
-        kiln_text_add(text, "null,\n");
+        kiln_json_null(json, "device");
         return;
     }
-    kiln_text_add(text, "{");
-    add_string(text, "name", device->name);
-    kiln_text_add(text, ", ");
-    add_string(text, "vendor", device->vendor);
-    kiln_text_add(text, ", ");
-    add_string(text, "gl_version", device->gl_version);
-    kiln_text_add(text, ", ");
-    add_string(text, "platform", device->platform);
-    kiln_text_add(text, ", \"software\": %s, \"exact\": %s},\n",
-                  device->software ? "true" : "false", device->exact ? "true" : "false");
+    kiln_json_begin_object(json, "device");
+    kiln_json_string(json, "name", device->name);
+    kiln_json_string(json, "vendor", device->vendor);
+    kiln_json_string(json, "gl_version", device->gl_version);
+    kiln_json_string(json, "platform", device->platform);
+    kiln_json_bool(json, "software", device->software);
+    kiln_json_bool(json, "exact", device->exact);
+    kiln_json_end(json);
 }
 
 /* "simulate=cpu sort=cpu" as an object. */
-static void add_techniques(struct kiln_text *text, const char *techniques)
+static void add_techniques(struct kiln_json *json, const char *techniques)
 {
-    kiln_text_add(text, "  \"techniques\": {");
-    bool first = true;
+    kiln_json_begin_object(json, "techniques");
     while (*techniques) {
         size_t length = strcspn(techniques, " ");
         const char *equals = memchr(techniques, '=', length);
         if (equals) {
-            size_t stage = (size_t)(equals - techniques);
-            kiln_text_add(text, "%s\"%.*s\": \"%.*s\"", first ? "" : ", ", (int)stage, techniques,
-                          (int)(length - stage - 1), equals + 1);
-            first = false;
+            char stage[32];
+            size_t stage_length = (size_t)(equals - techniques);
+            snprintf(stage, sizeof stage, "%.*s", (int)stage_length, techniques);
+            kiln_json_format(json, stage, "%.*s", (int)(length - stage_length - 1), equals + 1);
         }
         techniques += length + strspn(techniques + length, " ");
     }
-    kiln_text_add(text, "},\n");
+    kiln_json_end(json);
 }
 
 struct kiln_manifest *kiln_manifest_open(const struct kiln_manifest_params *params,
@@ -148,15 +128,17 @@ struct kiln_manifest *kiln_manifest_open(const struct kiln_manifest_params *para
         kiln_manifest_close(&manifest);
         return NULL;
     }
-    struct kiln_text *text = &manifest->text;
-    kiln_text_add(text, "{\n  \"kiln\": \"%s\",\n", KILN_VERSION);
-    if (!add_scene(text, params->scene))
-        text->failed = true;
-    add_device(text, params->device);
-    add_techniques(text, params->techniques);
-    kiln_text_add(text, "  ");
-    add_string(text, "output", params->output);
-    kiln_text_add(text, ",\n  \"frames\": [");
+    struct kiln_json *json = &manifest->json;
+    *json = kiln_json_to_text(&manifest->text);
+    kiln_json_begin_object(json, NULL);
+    kiln_json_lines(json, 2);
+    kiln_json_string(json, "kiln", KILN_VERSION);
+    add_scene(json, params->scene);
+    add_device(json, params->device);
+    add_techniques(json, params->techniques);
+    kiln_json_string(json, "output", params->output);
+    kiln_json_begin_array(json, "frames");
+    kiln_json_lines(json, 4);
     if (!flush(manifest, error))
         kiln_manifest_close(&manifest);
     return manifest;
@@ -165,33 +147,33 @@ struct kiln_manifest *kiln_manifest_open(const struct kiln_manifest_params *para
 bool kiln_manifest_add(struct kiln_manifest *manifest, const struct kiln_progress *progress,
                        const char *file, struct kiln_error *error)
 {
-    struct kiln_text *text = &manifest->text;
-    kiln_text_add(text, "%s\n    {\"frame\": %u, ", manifest->has_frames ? "," : "",
-                  progress->frame);
-    add_string(text, "file", file);
-    kiln_text_add(text, ", ");
-    add_state(text, &progress->state, progress->alive);
-    kiln_text_add(text, ", ");
-    add_passes(text, progress->pass_ms);
-    kiln_text_add(text, "}");
-    manifest->has_frames = true;
+    struct kiln_json *json = &manifest->json;
+    kiln_json_begin_object(json, NULL);
+    kiln_json_uint(json, "frame", progress->frame);
+    kiln_json_string(json, "file", file);
+    add_state(json, &progress->state, progress->alive);
+    add_passes(json, progress->pass_ms);
+    kiln_json_end(json);
     return flush(manifest, error);
 }
 
 bool kiln_manifest_finish(struct kiln_manifest *manifest, const struct kiln_render_stats *stats,
                           struct kiln_error *error)
 {
-    struct kiln_text *text = &manifest->text;
-    kiln_text_add(text, "%s],\n  \"totals\": {\"frames\": %u, \"steps\": %" PRIu64 ", ",
-                  manifest->has_frames ? "\n  " : "", stats->frames, stats->steps);
-    add_thousandths(text, "setup_s", stats->setup_s);
-    kiln_text_add(text, ", ");
-    add_thousandths(text, "total_s", stats->total_s);
-    kiln_text_add(text, ", ");
-    add_state(text, &stats->state, stats->alive);
-    kiln_text_add(text, ", \"particle_bytes\": %" PRIu64 ",\n    ", stats->particle_bytes);
-    add_passes(text, stats->pass_ms);
-    kiln_text_add(text, "}\n}\n");
+    struct kiln_json *json = &manifest->json;
+    kiln_json_end_line(json, 2);
+    kiln_json_begin_object(json, "totals");
+    kiln_json_uint(json, "frames", stats->frames);
+    kiln_json_uint(json, "steps", stats->steps);
+    kiln_json_time(json, "setup_s", stats->setup_s);
+    kiln_json_time(json, "total_s", stats->total_s);
+    add_state(json, &stats->state, stats->alive);
+    kiln_json_uint(json, "particle_bytes", stats->particle_bytes);
+    kiln_json_line(json, 4);
+    add_passes(json, stats->pass_ms);
+    kiln_json_end(json);
+    kiln_json_end_line(json, 0);
+    kiln_json_finish(json);
     if (flush(manifest, error))
         return kiln_temporary_commit(&manifest->file, manifest->overwrite, error);
     kiln_temporary_discard(&manifest->file);

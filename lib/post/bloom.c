@@ -1,11 +1,11 @@
 /* The stage: hands over to its technique. */
 #include "post/bloom.h"
 
+#include <stdlib.h>
+
 #include "base/error.h"
 #include "post/bloom_cpu.h"
 #include "post/bloom_gl.h"
-
-#include <stdlib.h>
 
 struct kiln_bloom_stage { /* one of these two */
     struct kiln_bloom_gl *gl;

@@ -1,10 +1,10 @@
 /* The passes of the blooms, each a loop over rows (bloom_rows.h). */
 #include "post/bloom_cpu.h"
 
+#include <stdlib.h>
+
 #include "base/error.h"
 #include "post/bloom_rows.h"
-
-#include <stdlib.h>
 
 enum { ROWS_AT_A_TIME = 4 };
 

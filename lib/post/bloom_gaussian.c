@@ -2,12 +2,11 @@
  * 2019, 3.2.5). Each shrinking averages whole blocks first, where the thesis samples bilinearly and
  * may miss a spark.
  */
-#include "post/bloom_spread.h"
+#include <stdlib.h>
 
 #include "base/error.h"
 #include "post/bloom_kernels.h"
-
-#include <stdlib.h>
+#include "post/bloom_spread.h"
 
 struct level {
     struct kiln_bloom_target down, across; /* shrunk and blurred down; blurred across */

@@ -1,12 +1,12 @@
 /* What glows, by weights or by the bright pass, goes to one of the ways to spread it. */
 #include "post/bloom_gl.h"
 
+#include <stdlib.h>
+
 #include "base/error.h"
 #include "gpu/program.h"
 #include "post/bloom_spread.h"
 #include "shared/exact.h"
-
-#include <stdlib.h>
 
 struct kiln_bloom_gl {
     struct kiln_device *device;

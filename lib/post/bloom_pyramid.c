@@ -2,12 +2,11 @@
  * doubled one below it, so that the glow has a bright core and a wide, faint skirt. Its depth
  * follows the picture, and so does the glow: it covers the same part of a picture of any size.
  */
-#include "post/bloom_spread.h"
+#include <stdlib.h>
 
 #include "base/error.h"
 #include "post/bloom_kernels.h"
-
-#include <stdlib.h>
+#include "post/bloom_spread.h"
 
 struct kiln_bloom_pyramid {
     GLuint halve, join;

@@ -1,11 +1,11 @@
 /* The stage: hands over to its technique. */
 #include "post/composite.h"
 
+#include <stdlib.h>
+
 #include "base/error.h"
 #include "post/composite_cpu.h"
 #include "post/composite_gl.h"
-
-#include <stdlib.h>
 
 struct kiln_composite_stage { /* one of these two */
     struct kiln_composite_gl *gl;

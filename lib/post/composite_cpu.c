@@ -1,12 +1,12 @@
 /* One loop over the rows of the picture (composite_rows.h). */
 #include "post/composite_cpu.h"
 
+#include <stdlib.h>
+#include <string.h>
+
 #include "base/error.h"
 #include "post/composite_rows.h"
 #include "shared/exact.h"
-
-#include <stdlib.h>
-#include <string.h>
 
 enum { ROWS_AT_A_TIME = 8 };
 

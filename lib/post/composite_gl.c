@@ -1,13 +1,13 @@
 /* One full-screen pass writes both the display picture and the linear one. */
 #include "post/composite_gl.h"
 
+#include <stdlib.h>
+#include <string.h>
+
 #include "base/error.h"
 #include "gpu/framebuffer.h"
 #include "gpu/program.h"
 #include "shared/exact.h"
-
-#include <stdlib.h>
-#include <string.h>
 
 struct uniforms {
     GLint bloom_strength, bloom_scale, separate_fire, scene_alone, exposure, tonemap, levels,

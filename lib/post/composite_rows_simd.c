@@ -2,7 +2,6 @@
  * by pixel, then channel by channel, which compilers make into vectors.
  */
 #include "post/composite_rows.h"
-
 #include "post/tonemap.h"
 
 enum { BLOCK = 128 };

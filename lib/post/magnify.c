@@ -2,10 +2,10 @@
  */
 #include "post/magnify.h"
 
-#include "base/error.h"
-
 #include <math.h>
 #include <stdlib.h>
+
+#include "base/error.h"
 
 enum { EDGE = 2 }; /* texels that are asked for beyond the picture, on each side */
 

@@ -1,11 +1,11 @@
 /* The stage: its sums, and how they are taken on the host; in GL that is shutter_gl.c. */
 #include "post/shutter.h"
 
+#include <stdlib.h>
+
 #include "base/error.h"
 #include "post/compose.h"
 #include "post/shutter_gl.h"
-
-#include <stdlib.h>
 
 enum { ROWS_AT_A_TIME = 16 };
 

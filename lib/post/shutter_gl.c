@@ -1,11 +1,11 @@
 /* Additive blending into float targets. */
 #include "post/shutter_gl.h"
 
+#include <stdlib.h>
+
 #include "base/error.h"
 #include "gpu/framebuffer.h"
 #include "gpu/program.h"
-
-#include <stdlib.h>
 
 struct kiln_shutter_gl {
     struct kiln_device *device;

@@ -2,7 +2,6 @@
  * no copy of them is held. */
 #include "report/markup.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "base/error.h"
@@ -74,33 +73,6 @@ void kiln_markup_write_text(FILE *out, const char *text)
         else
             fwrite(text, 1, length, out);
         text += length ? length : 1;
-    }
-}
-
-void kiln_markup_write_json(FILE *out, const char *text)
-{
-    struct kiln_text json = {0};
-    kiln_text_add_json(&json, text);
-    /* "</script>" would end the element, and "<!--" would change how its end is found. */
-    for (const char *c = json.failed ? "\"\"" : json.data; *c; c++) {
-        if (*c == '<' || *c == '>' || *c == '&')
-            fprintf(out, "\\u%04x", (unsigned)*c);
-        else
-            fputc(*c, out);
-    }
-    kiln_text_free(&json);
-}
-
-void kiln_markup_write_number(FILE *out, double value)
-{
-    char text[32];
-    if (isnan(value)) {
-        fputs("\"nan\"", out);
-    } else if (isinf(value)) {
-        fputs(value > 0 ? "\"inf\"" : "\"-inf\"", out);
-    } else {
-        kiln_text_from_double(text, value);
-        fputs(text, out);
     }
 }
 

@@ -23,12 +23,6 @@ const char *kiln_markup_entity(char c);
  * than line feed and tab become U+FFFD. */
 void kiln_markup_write_text(FILE *out, const char *text);
 
-/* A JSON string with its quotes, for a <script> element: it has no '<', '>' or '&'. */
-void kiln_markup_write_json(FILE *out, const char *text);
-
-/* A JSON number, or the strings "inf", "-inf" or "nan". */
-void kiln_markup_write_number(FILE *out, double value);
-
 /* A path as a relative URL: what is special in URLs or in HTML is percent-encoded. */
 void kiln_markup_write_url(FILE *out, const char *path);
 

@@ -7,8 +7,8 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/json.h"
 #include "base/temporary.h"
-#include "base/text.h"
 #include "option/node.h"
 #include "report/report.h"
 #include "suite/suite.h"
@@ -21,30 +21,48 @@ static bool out_of_memory(struct kiln_error *error)
     return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for the results");
 }
 
+static void add_tests(struct kiln_json *json, const struct kiln_suite *suite)
+{
+    kiln_json_begin_array(json, "tests");
+    for (size_t i = 0; i < suite->count; i++) {
+        if (i % GROUP_SIZE == 0) {
+            if (i > 0)
+                kiln_json_end(json);
+            kiln_json_begin_array(json, NULL);
+            kiln_json_lines(json, 4);
+        }
+        kiln_json_begin_object(json, NULL);
+        kiln_json_string(json, "name", suite->tests[i].full_name);
+        kiln_json_string(json, "test", suite->tests[i].path);
+        kiln_json_end(json);
+    }
+    if (suite->count > 0)
+        kiln_json_end(json);
+    kiln_json_end(json);
+}
+
 bool kiln_suite_write_run(const struct kiln_suite *suite, double total_s, struct kiln_error *error)
 {
-    char path[KILN_PATH_SIZE], seconds[32];
+    char path[KILN_PATH_SIZE];
     if (!kiln_path_join(path, suite->results_folder, "run.json", error))
         return false;
-    kiln_text_from_double(seconds, total_s);
     struct kiln_text text = {0};
-    kiln_text_add(&text, "{\n  \"kiln_run\": %d,\n  \"version\": \"%s\",\n  \"total_s\": %s,\n",
-                  RUN_VERSION, KILN_VERSION, seconds);
-    if (suite->shards > 0)
-        kiln_text_add(&text, "  \"shard\": %u,\n  \"shards\": %u,\n  \"all_tests\": %zu,\n",
-                      suite->shard, suite->shards, suite->all_count);
-    kiln_text_add(&text, "  \"tests\": [");
-    for (size_t i = 0; i < suite->count; i++) {
-        const char *before = i == 0 ? "[\n    " : i % GROUP_SIZE ? ",\n    " : "], [\n    ";
-        kiln_text_add(&text, "%s{\"name\": ", before);
-        kiln_text_add_json(&text, suite->tests[i].full_name);
-        kiln_text_add(&text, ", \"test\": ");
-        kiln_text_add_json(&text, suite->tests[i].path);
-        kiln_text_add(&text, "}");
+    struct kiln_json json = kiln_json_to_text(&text);
+    kiln_json_begin_object(&json, NULL);
+    kiln_json_lines(&json, 2);
+    kiln_json_uint(&json, "kiln_run", RUN_VERSION);
+    kiln_json_string(&json, "version", KILN_VERSION);
+    kiln_json_number(&json, "total_s", total_s);
+    if (suite->shards > 0) {
+        kiln_json_uint(&json, "shard", suite->shard);
+        kiln_json_uint(&json, "shards", suite->shards);
+        kiln_json_uint(&json, "all_tests", suite->all_count);
     }
-    kiln_text_add(&text, suite->count ? "]]\n}\n" : "]\n}\n");
-    bool written = text.failed ? out_of_memory(error)
-                               : kiln_temporary_write_file(path, text.data, text.length, error);
+    add_tests(&json, suite);
+    kiln_json_end_line(&json, 0);
+    bool written = kiln_json_finish(&json)
+                       ? kiln_temporary_write_file(path, text.data, text.length, error)
+                       : out_of_memory(error);
     kiln_text_free(&text);
     return written;
 }
@@ -236,13 +254,9 @@ static bool load_run(struct loading *loading, const char *folder)
     char *text = kiln_text_file_read(path, "the list of a run", MAX_RUN_SIZE, &size, error);
     if (!text)
         return false;
-    const struct kiln_origin origin = {.name = path, .has_lines = true};
-    const struct kiln_node *root = NULL;
-    if (strspn(text, " \t\r\n") == size)
-        kiln_error_set(error, KILN_INVALID_INPUT, "%s: empty; the list of a run was to be here",
-                       path);
-    else
-        root = kiln_node_parse(loading->arena, text, size, &origin, error);
+    const struct kiln_origin origin = {
+        .name = path, .has_lines = true, .kind = "the list of a run"};
+    const struct kiln_node *root = kiln_node_parse(loading->arena, text, size, &origin, error);
     free(text);
     return root && read_head(loading, root) && read_shard(loading, root) &&
            load_tests(loading, folder, root);

@@ -17,13 +17,20 @@ static void write_description(FILE *out, const char *text)
     }
 }
 
-/* A member of the block; a JSON string is a YAML scalar, too. */
+/* A JSON string, which is a YAML scalar, too. */
+static void write_string(FILE *out, const char *text)
+{
+    struct kiln_json json = kiln_json_to_file(out);
+    kiln_json_string(&json, NULL, text);
+}
+
+/* A member of the block. */
 static void write_text(FILE *out, const char *key, const char *text)
 {
     if (!*text)
         return;
     fprintf(out, "  %s: ", key);
-    kiln_write_json_string(out, text);
+    write_string(out, text);
     fputs("\n", out);
 }
 
@@ -44,7 +51,7 @@ static void write_metrics(FILE *out, const struct kiln_result *result,
         if (!result->columns[i].limited)
             continue;
         fputs(before, out);
-        kiln_write_json_string(out, result->columns[i].name);
+        write_string(out, result->columns[i].name);
         fputs(": {value: ", out);
         write_number(out, frame->values[i]);
         fputs(", limit: ", out);
@@ -72,7 +79,7 @@ static void write_frames(FILE *out, const struct kiln_result *result)
         fprintf(out, "    - frame: %u\n      status: %s\n      judged_by: %s\n      message: ",
                 frame->number, kiln_test_status_name(frame->status),
                 kiln_judged_by_name(frame->judged_by));
-        kiln_write_json_string(out, frame->message);
+        write_string(out, frame->message);
         fputs("\n", out);
         if (frame->measured)
             write_metrics(out, result, frame);
@@ -99,7 +106,7 @@ static void write_block(FILE *out, const struct kiln_result *result)
     write_frames(out, result);
     for (size_t i = 0; i < result->note_count; i++) {
         fputs(i ? "    - " : "  notes:\n    - ", out);
-        kiln_write_json_string(out, result->notes[i]);
+        write_string(out, result->notes[i]);
         fputs("\n", out);
     }
     fputs("  ...\n", out);

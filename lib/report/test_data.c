@@ -3,167 +3,132 @@
 #include "report/test_data.h"
 
 #include <ctype.h>
+#include <stdlib.h>
 
 #include "report/markup.h"
 #include "suite/result_member.h"
 
 /* ---- Members of a result ------------------------------------------------------------------ */
 
-static void add_key(FILE *out, const char *name)
+enum { KEY_SIZE = 64 };
+
+/* "device_name" as "deviceName". */
+static const char *script_name(char key[KEY_SIZE], const char *name)
 {
-    fputc('"', out);
-    for (const char *c = name; *c; c++)
-        fputc(*c == '_' && c[1] ? toupper(*++c) : *c, out);
-    fputs("\":", out);
+    size_t length = 0;
+    for (const char *c = name; *c && length + 1 < KEY_SIZE; c++)
+        key[length++] = (char)(*c == '_' && c[1] ? toupper(*++c) : *c);
+    key[length] = '\0';
+    return key;
 }
 
-static void add_value(FILE *out, enum kiln_member_kind kind, const void *value)
+static void add_members(struct kiln_json *json, const struct kiln_member *members,
+                        const void *object)
 {
-    switch (kind) {
-    case KILN_MEMBER_TEXT:
-    case KILN_MEMBER_FILE:
-        kiln_markup_write_json(out, *(const char *const *)value);
-        break;
-    case KILN_MEMBER_NAME:
-        kiln_markup_write_json(out, value);
-        break;
-    case KILN_MEMBER_UINT32:
-        fprintf(out, "%u", *(const uint32_t *)value);
-        break;
-    case KILN_MEMBER_DOUBLE:
-        kiln_markup_write_number(out, *(const double *)value);
-        break;
-    case KILN_MEMBER_BOOL:
-        fputs(*(const bool *)value ? "true" : "false", out);
-        break;
-    case KILN_MEMBER_CODE:
-        fprintf(out, "%d", (int)*(const enum kiln_code *)value);
-        break;
-    case KILN_MEMBER_STATUS:
-        kiln_markup_write_json(out, kiln_test_status_name(*(const enum kiln_test_status *)value));
-        break;
-    case KILN_MEMBER_JUDGED_BY:
-        kiln_markup_write_json(out, kiln_judged_by_name(*(const enum kiln_judged_by *)value));
-        break;
-    case KILN_MEMBER_END:
-        break;
-    }
+    char key[KEY_SIZE];
+    for (const struct kiln_member *m = members; m->name; m++)
+        kiln_member_write(json, script_name(key, m->name), m, object);
 }
 
-static void add_members(FILE *out, const struct kiln_member *members, const void *object)
+static void add_columns(struct kiln_json *json, const struct kiln_result *result)
 {
-    for (const struct kiln_member *m = members; m->name; m++) {
-        fputs(m == members ? "" : ",", out);
-        add_key(out, m->name);
-        add_value(out, m->kind, (const char *)object + m->offset);
-    }
-}
-
-static void add_columns(FILE *out, const struct kiln_result *result)
-{
-    fputs(",\"columns\":[", out);
+    kiln_json_begin_array(json, "columns");
     for (size_t i = 0; i < result->column_count; i++) {
-        fputs(i ? ",{" : "{", out);
-        add_members(out, kiln_result_column_members, &result->columns[i]);
-        fputc('}', out);
+        kiln_json_begin_object(json, NULL);
+        add_members(json, kiln_result_column_members, &result->columns[i]);
+        kiln_json_end(json);
     }
-    fputc(']', out);
+    kiln_json_end(json);
 }
 
 /* ---- What is made for the page ------------------------------------------------------------ */
 
-static void add_pictures(FILE *out, const struct kiln_gallery_place *places)
+static void add_url(struct kiln_json *json, const char *path)
 {
-    fputs(",\"pictures\":[", out);
-    for (int i = 0; i < KILN_GALLERY_ROLE_COUNT; i++) {
-        const struct kiln_gallery_place *place = &places[i];
-        fputs(i ? "," : "", out);
-        switch (place->kind) {
-        case KILN_GALLERY_NONE:
-            fputs("null", out);
-            break;
-        case KILN_GALLERY_INSIDE:
-            fprintf(out, "%u", place->number);
-            break;
-        case KILN_GALLERY_LINKED:
-            fputs("{\"url\":\"", out);
-            kiln_markup_write_url(out, place->text);
-            fputs("\"}", out);
-            break;
-        case KILN_GALLERY_BROKEN:
-            fputs("{\"problem\":", out);
-            kiln_markup_write_json(out, place->text);
-            fputc('}', out);
-            break;
-        }
-    }
-    fputc(']', out);
+    char *url = NULL;
+    size_t size = 0;
+    FILE *memory = open_memstream(&url, &size);
+    if (memory)
+        kiln_markup_write_url(memory, path);
+    json->failed |= !memory || fclose(memory) != 0;
+    kiln_json_string(json, "url", url);
+    free(url);
 }
 
-static void add_measurement(FILE *out, const struct kiln_result *result,
+static void add_picture(struct kiln_json *json, const struct kiln_gallery_place *place)
+{
+    if (place->kind == KILN_GALLERY_NONE) {
+        kiln_json_null(json, NULL);
+        return;
+    }
+    if (place->kind == KILN_GALLERY_INSIDE) {
+        kiln_json_uint(json, NULL, place->number);
+        return;
+    }
+    kiln_json_begin_object(json, NULL);
+    if (place->kind == KILN_GALLERY_LINKED)
+        add_url(json, place->text);
+    else
+        kiln_json_string(json, "problem", place->text);
+    kiln_json_end(json);
+}
+
+static void add_measurement(struct kiln_json *json, const struct kiln_result *result,
                             const struct kiln_result_frame *frame)
 {
-    fputc(',', out);
-    add_members(out, kiln_result_measured_members, frame);
-    fputs(",\"values\":[", out);
-    for (size_t i = 0; i < result->column_count; i++) {
-        fputs(i ? "," : "", out);
-        kiln_markup_write_number(out, frame->values[i]);
-    }
-    fputs("],\"beyond\":[", out);
+    add_members(json, kiln_result_measured_members, frame);
+    kiln_json_begin_array(json, "values");
     for (size_t i = 0; i < result->column_count; i++)
-        fprintf(out, "%s%d", i ? "," : "", frame->beyond[i]);
-    fputc(']', out);
+        kiln_json_number(json, NULL, frame->values[i]);
+    kiln_json_end(json);
+    kiln_json_begin_array(json, "beyond");
+    for (size_t i = 0; i < result->column_count; i++)
+        kiln_json_int(json, NULL, frame->beyond[i]);
+    kiln_json_end(json);
 }
 
-static void add_frame(FILE *out, const struct kiln_result *result,
+static void add_frame(struct kiln_json *json, const struct kiln_result *result,
                       const struct kiln_result_frame *frame,
                       const struct kiln_gallery_place *places)
 {
-    fputc('{', out);
-    add_members(out, kiln_result_frame_members, frame);
-    add_pictures(out, places);
+    kiln_json_begin_object(json, NULL);
+    add_members(json, kiln_result_frame_members, frame);
+    kiln_json_begin_array(json, "pictures");
+    for (int i = 0; i < KILN_GALLERY_ROLE_COUNT; i++)
+        add_picture(json, &places[i]);
+    kiln_json_end(json);
     if (frame->measured)
-        add_measurement(out, result, frame);
-    fputc('}', out);
+        add_measurement(json, result, frame);
+    kiln_json_end(json);
 }
 
-static void add_changes(FILE *out, const struct kiln_result *result)
+static void add_changes(struct kiln_json *json, const struct kiln_result *result)
 {
-    fputs(",\"changes\":[", out);
+    kiln_json_begin_array(json, "changes");
     for (size_t i = 0; i < result->change_count; i++) {
         const struct kiln_result_change *change = &result->changes[i];
-        fputs(i ? ",[" : "[", out);
-        kiln_markup_write_json(out, change->key);
-        fputc(',', out);
-        kiln_markup_write_json(out, change->before);
-        fputc(',', out);
-        kiln_markup_write_json(out, change->after);
-        fputc(']', out);
+        const char *const texts[] = {change->key, change->before, change->after};
+        kiln_json_strings(json, NULL, texts, 3);
     }
-    fputs("],\"notes\":[", out);
-    for (size_t i = 0; i < result->note_count; i++) {
-        fputs(i ? "," : "", out);
-        kiln_markup_write_json(out, result->notes[i]);
-    }
-    fputc(']', out);
+    kiln_json_end(json);
 }
 
 void kiln_test_data_write(FILE *out, const struct kiln_results *results, size_t test,
                           const struct kiln_gallery *gallery)
 {
     const struct kiln_result *result = results->tests[test];
-    fputs("{\"folder\":", out);
-    kiln_markup_write_json(out, results->folders[test]);
-    fputc(',', out);
-    add_members(out, kiln_result_members, result);
-    add_columns(out, result);
-    fprintf(out, ",\"first\":%zu,\"frames\":[", kiln_result_worst_frame(result));
-    for (size_t i = 0; i < result->frame_count; i++) {
-        fputs(i ? "," : "", out);
-        add_frame(out, result, &result->frames[i], kiln_gallery_places(gallery, test, i));
-    }
-    fputc(']', out);
-    add_changes(out, result);
-    fputc('}', out);
+    struct kiln_json json = kiln_json_to_file(out);
+    json.style = KILN_JSON_SCRIPT;
+    kiln_json_begin_object(&json, NULL);
+    kiln_json_string(&json, "folder", results->folders[test]);
+    add_members(&json, kiln_result_members, result);
+    add_columns(&json, result);
+    kiln_json_uint(&json, "first", kiln_result_worst_frame(result));
+    kiln_json_begin_array(&json, "frames");
+    for (size_t i = 0; i < result->frame_count; i++)
+        add_frame(&json, result, &result->frames[i], kiln_gallery_places(gallery, test, i));
+    kiln_json_end(&json);
+    add_changes(&json, result);
+    kiln_json_strings(&json, "notes", result->notes, result->note_count);
+    kiln_json_end(&json);
 }

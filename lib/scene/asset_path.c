@@ -65,19 +65,13 @@ static bool climbs_out(const char *path)
     return false;
 }
 
-typedef bool check_file(const char *path, const struct kiln_scene *scene, struct kiln_error *error);
-
-static bool check_cells(const char *path, const struct kiln_scene *scene, struct kiln_error *error)
-{
-    (void)scene;
-    return kiln_cells_check(path, error);
-}
+typedef bool check_file(const char *path, struct kiln_error *error);
 
 static bool check_contents(struct kiln_reader *reader, const struct kiln_node *node,
                            check_file *check, const char *path, const char *name)
 {
     struct kiln_error error = {0};
-    if (check(path, reader->scene, &error))
+    if (check(path, &error))
         return true;
     /* The scene's own name for it instead of the whole path. */
     size_t length = strlen(path);
@@ -93,7 +87,7 @@ static bool check_contents(struct kiln_reader *reader, const struct kiln_node *n
 bool kiln_read_file_asset(struct kiln_reader *reader, const struct kiln_node *node,
                           check_file *check, const char **asset)
 {
-    const char *root = reader->scene->asset_root;
+    const char *root = kiln_reader_scene(reader)->asset_root;
     char quoted[64];
     kiln_node_quote(quoted, node->text);
     if (node->text[0] == '/' || climbs_out(node->text))
@@ -122,8 +116,7 @@ bool kiln_read_file_asset(struct kiln_reader *reader, const struct kiln_node *no
     else if (stat(real, &status) != 0 || !S_ISREG(status.st_mode))
         kiln_reader_error(reader, node, "'%s' is not a file", quoted);
     else if (!check || check_contents(reader, node, check, real, quoted)) {
-        *asset = kiln_arena_text(reader->arena, real, strlen(real));
-        ok = *asset || kiln_reader_out_of_memory(reader);
+        ok = kiln_reader_keep_text(reader, real, asset);
     }
     free(real);
     return ok;
@@ -133,11 +126,9 @@ bool kiln_read_asset(struct kiln_reader *reader, const struct kiln_node *node, c
 {
     const char *name = kiln_builtin_of(node->text);
     if (!name)
-        return kiln_read_file_asset(reader, node, check_cells, asset);
-    if (kiln_builtin_exists(name)) {
-        *asset = kiln_arena_text(reader->arena, node->text, strlen(node->text));
-        return *asset || kiln_reader_out_of_memory(reader);
-    }
+        return kiln_read_file_asset(reader, node, kiln_cells_check, asset);
+    if (kiln_builtin_exists(name))
+        return kiln_reader_keep_text(reader, node->text, asset);
     const char *names[32];
     size_t count = 0;
     while (count < 32 && (names[count] = kiln_builtin_name(count)))

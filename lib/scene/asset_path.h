@@ -2,7 +2,7 @@
 #ifndef KILN_SCENE_ASSET_PATH_H
 #define KILN_SCENE_ASSET_PATH_H
 
-#include "option/reader.h"
+#include "scene/options.h"
 
 /* The absolute folder that a scene's paths start from: root, or without one the folder of the
  * file, or without that the working directory. NULL with an error when there is no such folder. */
@@ -15,8 +15,7 @@ bool kiln_read_asset(struct kiln_reader *reader, const struct kiln_node *node, c
 /* Reads the path of a file that check (or NULL) accepts, which gets it absolute; it becomes
  * absolute. */
 bool kiln_read_file_asset(struct kiln_reader *reader, const struct kiln_node *node,
-                          bool (*check)(const char *path, const struct kiln_scene *scene,
-                                        struct kiln_error *error),
+                          bool (*check)(const char *path, struct kiln_error *error),
                           const char **asset);
 
 /* The asset as a scene names it: relative to the asset root. */

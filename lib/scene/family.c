@@ -77,7 +77,7 @@ uint32_t kiln_family_lifespan(const struct kiln_scene *scene, uint32_t system, u
 static bool find_system(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
                         const char *name, uint32_t *system)
 {
-    const struct kiln_scene *scene = reader->scene;
+    const struct kiln_scene *scene = kiln_reader_scene(reader);
     const char *names[KILN_MAX_SYSTEMS];
     for (uint32_t i = 0; i < scene->system_count; i++) {
         names[i] = scene->systems[i].name;
@@ -88,12 +88,12 @@ static bool find_system(struct kiln_reader *reader, const struct kiln_node *root
     char suggestion[512], quoted[64];
     kiln_option_suggest(suggestion, sizeof suggestion, name, names, scene->system_count);
     kiln_node_quote(quoted, name);
-    return kiln_validate_fail(reader, root, path, "unknown system '%s'%s", quoted, suggestion);
+    return kiln_reader_error_at(reader, root, path, "unknown system '%s'%s", quoted, suggestion);
 }
 
 static bool find_parent(struct kiln_reader *reader, const struct kiln_node *root, uint32_t index)
 {
-    struct kiln_system *system = &reader->scene->systems[index];
+    struct kiln_system *system = &kiln_reader_scene(reader)->systems[index];
     struct kiln_parent *parent = &system->emit.parent;
     char path[128];
     snprintf(path, sizeof path, "systems.%s.emit.parent.system", system->name);
@@ -102,7 +102,7 @@ static bool find_parent(struct kiln_reader *reader, const struct kiln_node *root
 
 static bool find_sources(struct kiln_reader *reader, const struct kiln_node *root, uint32_t index)
 {
-    struct kiln_system *system = &reader->scene->systems[index];
+    struct kiln_system *system = &kiln_reader_scene(reader)->systems[index];
     bool ok = true;
     for (uint32_t i = 0; ok && i < system->interaction_count; i++) {
         struct kiln_interaction *gravity = &system->interactions[i];
@@ -119,7 +119,7 @@ static bool find_sources(struct kiln_reader *reader, const struct kiln_node *roo
 static bool check_generations(struct kiln_reader *reader, const struct kiln_node *root,
                               uint32_t index)
 {
-    const struct kiln_scene *scene = reader->scene;
+    const struct kiln_scene *scene = kiln_reader_scene(reader);
     uint32_t generations = generation(scene, index);
     bool ring = generations > scene->system_count;
     if (!ring && generations <= KILN_MAX_GENERATIONS)
@@ -127,55 +127,55 @@ static bool check_generations(struct kiln_reader *reader, const struct kiln_node
     char path[128];
     snprintf(path, sizeof path, "systems.%s.emit.parent.system", scene->systems[index].name);
     if (ring)
-        return kiln_validate_fail(reader, root, path,
-                                  "born of its own descendants; the first parent must have none");
-    return kiln_validate_fail(reader, root, path, "%u generations of systems; at most %d",
-                              generations, KILN_MAX_GENERATIONS);
+        return kiln_reader_error_at(reader, root, path,
+                                    "born of its own descendants; the first parent must have none");
+    return kiln_reader_error_at(reader, root, path, "%u generations of systems; at most %d",
+                                generations, KILN_MAX_GENERATIONS);
 }
 
 /* What a system with a parent must not say, or must. */
 static bool check_births(struct kiln_reader *reader, const struct kiln_node *root,
                          const struct kiln_system *system)
 {
-    const struct kiln_scene *scene = reader->scene;
+    const struct kiln_scene *scene = kiln_reader_scene(reader);
     const struct kiln_parent *parent = &system->emit.parent;
     const struct kiln_system *born_of = &scene->systems[parent->system];
     char path[128];
     snprintf(path, sizeof path, "systems.%s.emit.rate", system->name);
     if (kiln_scene_value_max(scene, &system->emit.rate) > 0)
-        return kiln_validate_fail(reader, root, path,
-                                  "must be 0 where there is a parent: emit.parent.on counts");
+        return kiln_reader_error_at(reader, root, path,
+                                    "must be 0 where there is a parent: emit.parent.on counts");
     snprintf(path, sizeof path, "systems.%s.emit.bursts", system->name);
     if (system->emit.burst_count > 0)
-        return kiln_validate_fail(reader, root, path,
-                                  "must be {} where there is a parent: emit.parent.on counts");
+        return kiln_reader_error_at(reader, root, path,
+                                    "must be {} where there is a parent: emit.parent.on counts");
     snprintf(path, sizeof path, "systems.%s.emit.parent.on", system->name);
     if (parent->event == KILN_EVENT_TRAIL && kiln_scene_value_max(scene, &parent->rate) <= 0)
-        return kiln_validate_fail(reader, root, path, "the rate is 0 all along");
+        return kiln_reader_error_at(reader, root, path, "the rate is 0 all along");
     if (parent->event == KILN_EVENT_BOUNCE && !born_of->collide.enabled)
-        return kiln_validate_fail(reader, root, path,
-                                  "particles of '%s' never bounce: set systems.%s.collide",
-                                  born_of->name, born_of->name);
+        return kiln_reader_error_at(reader, root, path,
+                                    "particles of '%s' never bounce: set systems.%s.collide",
+                                    born_of->name, born_of->name);
     return true;
 }
 
 static bool settle_slots(struct kiln_reader *reader, const struct kiln_node *root,
                          struct kiln_system *system)
 {
-    uint64_t slots = kiln_family_slots(reader->scene, &system->emit.parent);
+    uint64_t slots = kiln_family_slots(kiln_reader_scene(reader), &system->emit.parent);
     char path[128];
     snprintf(path, sizeof path, "systems.%s.emit.parent.on", system->name);
     if (slots > KILN_MAX_PARTICLES)
-        return kiln_validate_fail(reader, root, path,
-                                  "up to %" PRIu64 " particles born of one; at most %d", slots,
-                                  KILN_MAX_PARTICLES);
+        return kiln_reader_error_at(reader, root, path,
+                                    "up to %" PRIu64 " particles born of one; at most %d", slots,
+                                    KILN_MAX_PARTICLES);
     system->emit.parent.slots = (uint32_t)slots;
     return true;
 }
 
 bool kiln_family_settle(struct kiln_reader *reader, const struct kiln_node *root)
 {
-    struct kiln_scene *scene = reader->scene;
+    struct kiln_scene *scene = kiln_reader_scene(reader);
     bool ok = true;
     for (uint32_t i = 0; ok && i < scene->system_count; i++)
         ok = find_parent(reader, root, i) && find_sources(reader, root, i);

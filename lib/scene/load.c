@@ -7,23 +7,22 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "option/override.h"
-#include "option/printer.h"
-#include "option/reader.h"
 #include "scene/asset_path.h"
 #include "scene/validate.h"
 
 enum { MAX_FILE_SIZE = 4 << 20 };
 
-static bool keep_keys(struct kiln_reader *reader)
+static bool keep_keys(struct kiln_reader *reader, struct kiln_scene *scene)
 {
     /* At least one, so that the table is never an empty buffer. */
     size_t count = reader->key_count ? reader->key_count : 1;
     float4 *keys = kiln_arena_alloc(reader->arena, count, sizeof *keys);
     if (!keys)
         return kiln_reader_out_of_memory(reader);
-    memcpy(keys, reader->keys, count * sizeof *keys);
-    reader->scene->keys = keys;
-    reader->scene->key_count = reader->key_count;
+    if (reader->keys)
+        memcpy(keys, reader->keys, reader->key_count * sizeof *keys);
+    scene->keys = keys;
+    scene->key_count = reader->key_count;
     return true;
 }
 
@@ -83,23 +82,24 @@ static bool take_hash(struct kiln_scene *scene, struct kiln_error *error)
 }
 
 static bool build(struct kiln_reader *reader, const char *text, size_t size,
-                  const struct kiln_origin *origin, const struct kiln_scene_params *params)
+                  const struct kiln_scene_params *params)
 {
-    struct kiln_node *root = kiln_node_parse(reader->scratch, text, size, origin, reader->error);
+    struct kiln_scene *scene = kiln_reader_scene(reader);
+    struct kiln_node *root =
+        kiln_node_parse(reader->scratch, text, size, reader->origin, reader->error);
     if (!root)
         return false;
     if (root->kind != KILN_NODE_MAP)
         return kiln_reader_expected(reader, root, "a mapping of keys");
     for (size_t i = 0; i < params->override_count; i++) {
-        if (!kiln_override(reader->scratch, root, params->overrides[i], reader->error))
+        if (!kiln_override(reader, kiln_options_root, root, params->overrides[i]))
             return false;
     }
-    reader->scene->meshes =
-        kiln_mesh_library_create(reader->scene->asset_root, params->stop, params->user);
-    if (!reader->scene->meshes)
+    scene->meshes = kiln_mesh_library_create(scene->asset_root, params->stop, params->user);
+    if (!scene->meshes)
         return kiln_reader_out_of_memory(reader);
-    return kiln_read_members(reader, kiln_options_root, root, reader->scene) && keep_keys(reader) &&
-           kiln_validate(reader, root) && take_hash(reader->scene, reader->error);
+    return kiln_read_members(reader, kiln_options_root, root, scene) && keep_keys(reader, scene) &&
+           kiln_validate(reader, root) && take_hash(scene, reader->error);
 }
 
 /* file: where relative paths start, or NULL. */
@@ -107,22 +107,21 @@ static struct kiln_scene *create(const char *text, size_t size, const char *name
                                  const struct kiln_scene_params *params, struct kiln_error *error)
 {
     struct kiln_arena *arena = kiln_arena_create(), *scratch = kiln_arena_create();
-    struct kiln_reader *reader = scratch ? kiln_arena_alloc(scratch, 1, sizeof *reader) : NULL;
     struct kiln_scene *scene = arena ? kiln_arena_alloc(arena, 1, sizeof *scene) : NULL;
     char *kept_name = arena ? kiln_arena_text(arena, name, strlen(name)) : NULL;
     bool ok = false;
-    if (!reader || !scene || !kept_name) {
+    if (!scratch || !scene || !kept_name) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading a scene");
     } else {
-        struct kiln_origin origin = {.name = kept_name, .has_lines = true};
-        *reader = (struct kiln_reader){
-            .arena = arena, .scratch = scratch, .error = error, .scene = scene};
+        const struct kiln_origin origin = kiln_scene_origin(kept_name);
+        struct kiln_reader reader = {
+            .origin = &origin, .arena = arena, .scratch = scratch, .error = error, .target = scene};
         scene->arena = arena;
         scene->name = kept_name;
         scene->stop = params->stop;
         scene->user = params->user;
         scene->asset_root = kiln_asset_root(arena, params->asset_root, file, error);
-        ok = scene->asset_root && build(reader, text, size, &origin, params);
+        ok = scene->asset_root && build(&reader, text, size, params);
     }
     kiln_arena_destroy(&scratch);
     if (!ok && scene)
@@ -171,7 +170,7 @@ bool kiln_scene_visit_systems(const char *path, void (*visit)(void *user, const 
     size_t size = 0;
     char *text = kiln_text_file_read(path, "a scene file", MAX_FILE_SIZE, &size, error);
     struct kiln_arena *arena = text ? kiln_arena_create() : NULL;
-    const struct kiln_origin origin = {.name = path, .has_lines = true};
+    const struct kiln_origin origin = kiln_scene_origin(path);
     const struct kiln_node *root =
         arena ? kiln_node_parse(arena, text, size, &origin, error) : NULL;
     if (text && !arena)

@@ -1,3 +1,4 @@
+/* Loads the meshes of the backdrop's objects, and finds the clips of those that move. */
 #include "scene/object_mesh.h"
 
 #include <stdio.h>
@@ -23,13 +24,13 @@ static bool import(const struct kiln_scene *scene, struct kiln_object *object,
 
 bool kiln_object_mesh_settle(struct kiln_reader *reader, const struct kiln_node *root, uint32_t i)
 {
-    struct kiln_object *object = &reader->scene->backdrop.objects[i];
+    struct kiln_object *object = &kiln_reader_scene(reader)->backdrop.objects[i];
     struct kiln_animation *animation = &object->animation;
     if (object->kind != KILN_OBJECT_MESH)
         return true;
     char path[64];
     struct kiln_error error = {0};
-    const bool imported = import(reader->scene, object, &error);
+    const bool imported = import(kiln_reader_scene(reader), object, &error);
     const bool found = imported && (!animation->enabled ||
                                     kiln_skin_find_clip(object->skin, animation->clip, object->file,
                                                         &animation->number, &error));

@@ -2,7 +2,7 @@
 #include "asset/geometry/chart.h"
 #include "asset/geometry/depth_maps.h"
 #include "asset/geometry/field.h"
-#include "option/option_rows.h"
+#include "scene/rows.h"
 
 #define AT(field) offsetof(struct kiln_object, field)
 

@@ -1,5 +1,5 @@
 /* A system, and how its particles are born (Heinz 2019, 2.1.2). */
-#include "option/option_rows.h"
+#include "scene/rows.h"
 
 #define AT(field) offsetof(struct kiln_emitter, field)
 

@@ -1,5 +1,5 @@
 /* Forces: a row in kiln_force_kinds and a table of members for each kind. */
-#include "option/option_rows.h"
+#include "scene/rows.h"
 
 #define AT(field) offsetof(struct kiln_force, field)
 
@@ -10,9 +10,9 @@ static const struct kiln_option gravity[] = {
 };
 
 static const struct kiln_option drag[] = {
-    VALUE("strength", strength, KILN_PER_SECOND, 0, 1000, BOTH, "0.5",
+    VALUE("strength", pull, KILN_PER_SECOND, 0, 1000, BOTH, "0.5",
           "Part of the velocity that is lost a second, for small values."),
-    VALUE("quadratic", pull, KILN_PER_METRE, 0, 1000, BOTH, "0",
+    VALUE("quadratic", quadratic, KILN_PER_METRE, 0, 1000, BOTH, "0",
           "The same by the speed: what air does to all but the smallest and slowest."),
     END,
 };
@@ -31,7 +31,7 @@ static const char *const modes[] = {
 static const struct kiln_option wind[] = {
     VECTOR("velocity", vector, KILN_SPEED, -10000, 10000, BOTH, "[1, 0, 0]",
            "Velocity of the air."),
-    VALUE("pull", strength, KILN_PER_SECOND, 0, 1000, BOTH, "1",
+    VALUE("pull", pull, KILN_PER_SECOND, 0, 1000, BOTH, "1",
           "How fast particles take up the velocity of the air."),
     MODE,
     END,

@@ -1,6 +1,6 @@
 /* What particles of a system do to each other: a row in kiln_interaction_kinds and a table of
  * members for each kind. */
-#include "option/option_rows.h"
+#include "scene/rows.h"
 
 #define AT(field) offsetof(struct kiln_interaction, field)
 

@@ -1,5 +1,5 @@
 /* What the particles of a system look like. */
-#include "option/option_rows.h"
+#include "scene/rows.h"
 
 #define AT(field) offsetof(struct kiln_look, field)
 

@@ -1,5 +1,5 @@
 /* From light to picture. */
-#include "option/option_rows.h"
+#include "scene/rows.h"
 
 #define AT(field) offsetof(struct kiln_post, field)
 

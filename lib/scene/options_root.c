@@ -1,5 +1,5 @@
 /* The top of a scene, its output, its clock, its camera and its systems. */
-#include "option/option_rows.h"
+#include "scene/rows.h"
 
 #define AT(field) offsetof(struct kiln_camera, field)
 

@@ -1,3 +1,4 @@
+/* Loads the meshes that particles look like and checks their size. */
 #include "scene/particle_mesh.h"
 
 #include <inttypes.h>
@@ -14,8 +15,8 @@ bool kiln_mesh_file_fail(struct kiln_reader *reader, const struct kiln_node *roo
     const char *reason = error->message;
     if (strncmp(reason, file, length) == 0)
         reason += length + strspn(reason + length, ": ");
-    kiln_validate_fail(reader, root, path, "'%s': %s", kiln_asset_name(reader->scene, file),
-                       reason);
+    kiln_reader_error_at(reader, root, path, "'%s': %s",
+                         kiln_asset_name(kiln_reader_scene(reader), file), reason);
     if (error->code == KILN_DEVICE_FAILED || error->code == KILN_INTERRUPTED)
         reader->error->code = error->code;
     return false;
@@ -24,14 +25,14 @@ bool kiln_mesh_file_fail(struct kiln_reader *reader, const struct kiln_node *roo
 bool kiln_particle_mesh_settle(struct kiln_reader *reader, const struct kiln_node *root,
                                struct kiln_system *system)
 {
-    struct kiln_scene *scene = reader->scene;
+    struct kiln_scene *scene = kiln_reader_scene(reader);
     struct kiln_look *look = &system->look;
     if (look->shape != KILN_SHAPE_MESH && !look->mesh.file)
         return true;
     char path[128];
     snprintf(path, sizeof path, "systems.%s.look.mesh.file", system->name);
     if (!look->mesh.file)
-        return kiln_validate_fail(reader, root, path, "must name a file where shape is mesh");
+        return kiln_reader_error_at(reader, root, path, "must name a file where shape is mesh");
     struct kiln_error error = {0};
     const struct kiln_mesh *mesh = kiln_mesh_library_get(scene->meshes, look->mesh.file, &error);
     if (!mesh)
@@ -42,15 +43,15 @@ bool kiln_particle_mesh_settle(struct kiln_reader *reader, const struct kiln_nod
     look->mesh.shown = mesh;
     look->mesh.shade = measure.shade / measure.edge;
     if (mesh->triangle_count > KILN_MAX_PARTICLE_TRIANGLES)
-        return kiln_validate_fail(reader, root, path,
-                                  "%u triangles; the mesh of a particle has at most %d",
-                                  mesh->triangle_count, KILN_MAX_PARTICLE_TRIANGLES);
+        return kiln_reader_error_at(reader, root, path,
+                                    "%u triangles; the mesh of a particle has at most %d",
+                                    mesh->triangle_count, KILN_MAX_PARTICLE_TRIANGLES);
     return true;
 }
 
 bool kiln_particle_mesh_count(struct kiln_reader *reader, const struct kiln_node *root)
 {
-    const struct kiln_scene *scene = reader->scene;
+    const struct kiln_scene *scene = kiln_reader_scene(reader);
     uint64_t meshes = 0, triangles = 0;
     for (uint32_t i = 0; i < scene->system_count; i++) {
         const struct kiln_system *system = &scene->systems[i];
@@ -61,17 +62,18 @@ bool kiln_particle_mesh_count(struct kiln_reader *reader, const struct kiln_node
         char path[128];
         snprintf(path, sizeof path, "systems.%s.emit", system->name);
         if (meshes > KILN_MAX_INSTANCES)
-            return kiln_validate_fail(reader, root, path,
-                                      "up to %" PRIu64 " particles at once are meshes; a scene may "
-                                      "have %d: lower rate, bursts or life",
-                                      meshes, KILN_MAX_INSTANCES);
+            return kiln_reader_error_at(reader, root, path,
+                                        "up to %" PRIu64
+                                        " particles at once are meshes; a scene may "
+                                        "have %d: lower rate, bursts or life",
+                                        meshes, KILN_MAX_INSTANCES);
         if (triangles > KILN_MAX_INSTANCE_TRIANGLES)
-            return kiln_validate_fail(reader, root, path,
-                                      "up to %" PRIu64 " triangles of particles at once; a scene "
-                                      "may have %d: lower rate, bursts or life, or take a mesh of "
-                                      "fewer than %u",
-                                      triangles, KILN_MAX_INSTANCE_TRIANGLES,
-                                      system->look.mesh.shown->triangle_count);
+            return kiln_reader_error_at(
+                reader, root, path,
+                "up to %" PRIu64 " triangles of particles at once; a scene "
+                "may have %d: lower rate, bursts or life, or take a mesh of "
+                "fewer than %u",
+                triangles, KILN_MAX_INSTANCE_TRIANGLES, system->look.mesh.shown->triangle_count);
     }
     return true;
 }

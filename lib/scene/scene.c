@@ -1,12 +1,13 @@
 /* Questions to a scene that is loaded. */
 #include "scene/scene.h"
-#include "option/unit.h"
-
-#include "shared/exact.h"
-#include "shared/random.h"
 
 #include <math.h>
 #include <string.h>
+
+#include "base/matrix.h"
+#include "option/unit.h"
+#include "shared/exact.h"
+#include "shared/random.h"
 
 float kiln_scene_time(const struct kiln_scene *scene, uint32_t step)
 {
@@ -78,16 +79,15 @@ float kiln_scene_value_min(const struct kiln_scene *scene, const struct kiln_val
     return least;
 }
 
-void kiln_scene_rotation(float3 angles, float rows[3][3])
+void kiln_scene_rotation(float3 angles, float columns[3][3])
 {
     const struct exact_angle x = exact_sincos(angles.x), y = exact_sincos(angles.y);
     const struct exact_angle z = exact_sincos(angles.z);
     float sx = x.sine, cx = x.cosine, sy = y.sine, cy = y.cosine, sz = z.sine, cz = z.cosine;
-    const float r[3][3] = {{cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx},
-                           {sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx},
-                           {-sy, cy * sx, cy * cx}};
-    for (int i = 0; i < 9; i++)
-        rows[i / 3][i % 3] = r[i / 3][i % 3];
+    mat3 rotation = {{cz * cy, sz * cy, -sy},
+                     {cz * sy * sx - sz * cx, sz * sy * sx + cz * cx, cy * sx},
+                     {cz * sy * cx + sz * sx, sz * sy * cx - cz * sx, cy * cx}};
+    glm_mat3_copy(rotation, columns);
 }
 
 bool kiln_object_is_mesh(const struct kiln_object *object)
@@ -203,6 +203,22 @@ const struct kiln_interaction *kiln_scene_interaction(const struct kiln_scene *s
         if (s->interactions[i].kind == kind)
             return &s->interactions[i];
     return NULL;
+}
+
+float kiln_scene_contact_radius(const struct kiln_scene *scene, uint32_t system)
+{
+    const struct kiln_interaction *collide =
+        kiln_scene_interaction(scene, system, KILN_INTERACT_COLLIDE);
+    if (!collide)
+        return 0.0f;
+    const struct kiln_look *look = &scene->systems[system].look;
+    float largest = kiln_scene_value_max(scene, &collide->radius);
+    if (collide->as_drawn) {
+        const float low = kiln_scene_value_max(scene, &look->scale.min);
+        const float high = kiln_scene_value_max(scene, &look->scale.max);
+        largest = 0.5f * kiln_scene_value_max(scene, &look->size) * (low > high ? low : high);
+    }
+    return largest > 1e-4f ? largest : 1e-4f;
 }
 
 bool kiln_scene_system_spins(const struct kiln_scene *scene, uint32_t system)

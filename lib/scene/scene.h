@@ -10,13 +10,14 @@
 #include "asset/geometry/mesh_library.h"
 #include "asset/geometry/terrain.h"
 #include "base/arena.h"
+#include "base/text.h"
 #include "kiln.h"
+#include "option/values.h"
 #include "particles/births.h"
 #include "scene/interaction.h"
 #include "scene/pattern.h"
 #include "shared/draw_layout.h"
 #include "shared/particle.h"
-#include "shared/value.h"
 
 enum {
     /* shared/limits.h and particle.h have those that shaders know, too */
@@ -29,10 +30,6 @@ enum {
     KILN_MAX_INSTANCES = 1 << 20,          /* slots */
     KILN_MAX_PARTICLE_TRIANGLES = 1 << 16, /* of one particle */
     KILN_MAX_INSTANCE_TRIANGLES = 1 << 26, /* of all slots */
-};
-
-struct kiln_rational {
-    uint32_t num, den;
 };
 
 /* ---- emit: Heinz 2019, 2.1.2; births are spread inside the step ------------------------------ */
@@ -94,8 +91,8 @@ struct kiln_emitter {
 
 enum kiln_force_kind {
     KILN_FORCE_GRAVITY, /* vector: acceleration, m/s^2 */
-    KILN_FORCE_DRAG,    /* strength: 1/s, towards rest; pull: 1/m, the same by the speed */
-    KILN_FORCE_WIND,    /* vector: air velocity, m/s; strength: 1/s, pull towards it */
+    KILN_FORCE_DRAG,    /* towards rest */
+    KILN_FORCE_WIND,    /* vector: air velocity, m/s; pulled towards */
     KILN_FORCE_CURL,    /* curl noise: strength m/s of air velocity, scale m, speed m/s of drift,
                          * pull 1/s towards the air, octaves */
     KILN_FORCE_LIMIT,   /* strength: m/s, the most that is left of the speed */
@@ -129,12 +126,13 @@ struct kiln_force {
     enum kiln_force_kind kind;
     struct kiln_value3 vector;
     struct kiln_value strength;
-    struct kiln_value pull;   /* 1/s; drag: 1/m */
-    struct kiln_value scale;  /* m */
-    struct kiln_value3 drift; /* m/s: the noise field moves with it */
-    struct kiln_value inward; /* m/s; it and lift vary over time alone */
-    struct kiln_value lift;   /* m/s */
-    uint32_t octaves;         /* 1..4 */
+    struct kiln_value pull;      /* 1/s */
+    struct kiln_value quadratic; /* 1/m: drag by the square of the speed */
+    struct kiln_value scale;     /* m */
+    struct kiln_value3 drift;    /* m/s: the noise field moves with it */
+    struct kiln_value inward;    /* m/s; it and lift vary over time alone */
+    struct kiln_value lift;      /* m/s */
+    uint32_t octaves;            /* 1..4 */
     enum kiln_falloff falloff;
     enum kiln_vortex_profile profile;
     enum kiln_wind_mode mode; /* of air */
@@ -277,11 +275,6 @@ static inline bool kiln_look_is_opaque(const struct kiln_look *look)
 }
 
 /* ---- systems --------------------------------------------------------------------------------- */
-
-struct kiln_bounds {
-    bool enabled;
-    float min[3], max[3]; /* m */
-};
 
 struct kiln_system {
     const char *name;
@@ -490,6 +483,10 @@ struct kiln_scene {
     char hash[65]; /* SHA-256 of what kiln_scene_print writes and of the textures, in hex */
 };
 
+/* The scene as a scene file, with nothing left to defaults, into a text that the caller frees;
+ * false when memory is short. */
+bool kiln_print_scene(const struct kiln_scene *scene, struct kiln_text *text);
+
 /* Clip time in seconds at the end of a step; steps count from 1, 0 is the start of the run. The
  * division is IEEE's, so every host gets the same float. */
 float kiln_scene_time(const struct kiln_scene *scene, uint32_t step);
@@ -516,8 +513,9 @@ bool kiln_object_is_turned_box(const struct kiln_object *object);
 float kiln_scene_value_max(const struct kiln_scene *scene, const struct kiln_value *value);
 float kiln_scene_value_min(const struct kiln_scene *scene, const struct kiln_value *value);
 
-/* Rows of the rotation about x, then y, then z, by angles in radians. */
-void kiln_scene_rotation(float3 angles, float rows[3][3]);
+/* Columns of the rotation about x, then y, then z, by angles in radians: a mat3 of base/matrix.h.
+ */
+void kiln_scene_rotation(float3 angles, float columns[3][3]);
 
 /* Is the object drawn as a mesh? */
 bool kiln_object_is_mesh(const struct kiln_object *object);
@@ -539,6 +537,10 @@ bool kiln_object_takes_paint(const struct kiln_object *object);
 
 /* What a terrain is made from; the image's path stays the scene's. */
 struct kiln_terrain_params kiln_scene_terrain(const struct kiln_object *terrain);
+/* The largest radius that particles of a system ever have as balls, m; 0: they do not collide with
+ * each other. */
+float kiln_scene_contact_radius(const struct kiln_scene *scene, uint32_t system);
+
 /* Whether the particles of a system turn as balls that collide do; or those of any. */
 bool kiln_scene_system_spins(const struct kiln_scene *scene, uint32_t system);
 bool kiln_scene_spins(const struct kiln_scene *scene);

@@ -2,8 +2,6 @@
 #include <string.h>
 
 #include "asset/atlas/builtin.h"
-#include "option/printer.h"
-#include "option/reader.h"
 #include "option/schema.h"
 #include "scene/asset_path.h"
 
@@ -13,7 +11,7 @@ static bool read_assets(struct kiln_reader *reader, const struct kiln_option *op
                         const struct kiln_node *node, void *field)
 {
     const char **assets = field;
-    uint32_t *count = (uint32_t *)((char *)field - option->offset + option->count_offset);
+    uint32_t *count = kiln_option_count_of(option, field);
     const struct kiln_node *item = node;
     *count = 1;
     if (node->kind == KILN_NODE_LIST) {
@@ -35,12 +33,11 @@ static void print_assets(struct kiln_printer *printer, const struct kiln_option 
                          const void *field)
 {
     const char *const *assets = field;
-    uint32_t count =
-        *(const uint32_t *)((const char *)field - option->offset + option->count_offset);
+    uint32_t count = kiln_option_count(option, field);
     kiln_text_add(&printer->text, count > 1 ? " [" : " ");
     for (uint32_t i = 0; i < count; i++) {
         kiln_text_add(&printer->text, "%s", i ? ", " : "");
-        kiln_text_add_json(&printer->text, kiln_asset_name(printer->scene, assets[i]));
+        kiln_text_add_json(&printer->text, kiln_asset_name(kiln_printer_scene(printer), assets[i]));
     }
     kiln_text_add(&printer->text, count > 1 ? "]\n" : "\n");
 }
@@ -71,8 +68,20 @@ static void schema_assets(const struct kiln_option *option, struct kiln_text *ou
     kiln_text_free(&one);
 }
 
-const struct kiln_option_type kiln_type_assets = {read_assets, print_assets, describe_assets,
-                                                  schema_assets};
+static void words_assets(const struct kiln_option *option, struct kiln_text *out)
+{
+    (void)option;
+    for (size_t i = 0; kiln_builtin_name(i); i++)
+        kiln_text_add(out, "%sbuiltin:%s", i ? "|" : "", kiln_builtin_name(i));
+}
+
+const struct kiln_option_type kiln_type_assets = {
+    .read = read_assets,
+    .print = print_assets,
+    .describe = describe_assets,
+    .schema = schema_assets,
+    .words = words_assets,
+};
 
 /* ---- motion --------------------------------------------------------------------------------- */
 
@@ -98,7 +107,7 @@ static void print_motion(struct kiln_printer *printer, const struct kiln_option 
     const char *motion = *(const char *const *)field;
     kiln_text_add(&printer->text, " ");
     if (motion[0] == '/')
-        kiln_text_add_json(&printer->text, kiln_asset_name(printer->scene, motion));
+        kiln_text_add_json(&printer->text, kiln_asset_name(kiln_printer_scene(printer), motion));
     else
         kiln_text_add(&printer->text, "%s", motion);
     kiln_text_add(&printer->text, "\n");
@@ -117,5 +126,9 @@ static void schema_motion(const struct kiln_option *option, struct kiln_text *ou
     kiln_text_add(out, "{\"type\": \"string\", \"pattern\": \"^(?!builtin:|/).+$\"}");
 }
 
-const struct kiln_option_type kiln_type_motion = {read_motion, print_motion, describe_motion,
-                                                  schema_motion};
+const struct kiln_option_type kiln_type_motion = {
+    .read = read_motion,
+    .print = print_motion,
+    .describe = describe_motion,
+    .schema = schema_motion,
+};

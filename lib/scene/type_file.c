@@ -1,21 +1,11 @@
 /* Files that a scene names: picture, mesh, grid. */
-#include <string.h>
-
 #include "asset/geometry/grid_in.h"
 #include "asset/image/image.h"
-#include "option/printer.h"
-#include "option/reader.h"
 #include "scene/asset_path.h"
-
-static bool is_none(const struct kiln_node *node)
-{
-    return node->kind == KILN_NODE_SCALAR && strcmp(node->text, "none") == 0;
-}
 
 static bool read_file(struct kiln_reader *reader, const struct kiln_option *option,
                       const struct kiln_node *node,
-                      bool (*check)(const char *, const struct kiln_scene *, struct kiln_error *),
-                      const char **file)
+                      bool (*check)(const char *, struct kiln_error *), const char **file)
 {
     double number;
     bool is_text = node->kind == KILN_NODE_SCALAR && *node->text &&
@@ -32,7 +22,7 @@ static void print_file(struct kiln_printer *printer, const struct kiln_option *o
     const char *file = *(const char *const *)field;
     kiln_text_add(&printer->text, " ");
     if (file)
-        kiln_text_add_json(&printer->text, kiln_asset_name(printer->scene, file));
+        kiln_text_add_json(&printer->text, kiln_asset_name(kiln_printer_scene(printer), file));
     else
         kiln_text_add(&printer->text, "none");
     kiln_text_add(&printer->text, "\n");
@@ -46,19 +36,13 @@ static void schema_file(const struct kiln_option *option, struct kiln_text *out)
 
 /* ---- picture --------------------------------------------------------------------------------- */
 
-static bool check_picture(const char *path, const struct kiln_scene *scene,
-                          struct kiln_error *error)
-{
-    (void)scene;
-    return kiln_asset_image_check(path, error);
-}
-
 static bool read_picture(struct kiln_reader *reader, const struct kiln_option *option,
                          const struct kiln_node *node, void *field)
 {
     const char **picture = field;
     *picture = NULL;
-    return is_none(node) || read_file(reader, option, node, check_picture, picture);
+    return kiln_node_is(node, "none") ||
+           read_file(reader, option, node, kiln_asset_image_check, picture);
 }
 
 static void describe_picture(const struct kiln_option *option, struct kiln_text *out)
@@ -67,8 +51,19 @@ static void describe_picture(const struct kiln_option *option, struct kiln_text 
     kiln_text_add(out, "the path of an image file, from the scene's folder and inside it, or none");
 }
 
-const struct kiln_option_type kiln_type_picture = {read_picture, print_file, describe_picture,
-                                                   schema_file};
+static void words_picture(const struct kiln_option *option, struct kiln_text *out)
+{
+    (void)option;
+    kiln_text_add(out, "none");
+}
+
+const struct kiln_option_type kiln_type_picture = {
+    .read = read_picture,
+    .print = print_file,
+    .describe = describe_picture,
+    .schema = schema_file,
+    .words = words_picture,
+};
 
 /* ---- mesh ------------------------------------------------------------------------------------ */
 
@@ -79,7 +74,8 @@ static bool read_mesh(struct kiln_reader *reader, const struct kiln_option *opti
 {
     const char **file = field;
     *file = NULL;
-    return (option->fallback && is_none(node)) || read_file(reader, option, node, NULL, file);
+    return (option->fallback && kiln_node_is(node, "none")) ||
+           read_file(reader, option, node, NULL, file);
 }
 
 static void describe_mesh(const struct kiln_option *option, struct kiln_text *out)
@@ -89,13 +85,17 @@ static void describe_mesh(const struct kiln_option *option, struct kiln_text *ou
                   option->fallback ? ", or none" : "");
 }
 
-const struct kiln_option_type kiln_type_mesh = {read_mesh, print_file, describe_mesh, schema_file};
+const struct kiln_option_type kiln_type_mesh = {
+    .read = read_mesh,
+    .print = print_file,
+    .describe = describe_mesh,
+    .schema = schema_file,
+};
 
 /* ---- grid ------------------------------------------------------------------------------------ */
 
-static bool check_grid(const char *path, const struct kiln_scene *scene, struct kiln_error *error)
+static bool check_grid(const char *path, struct kiln_error *error)
 {
-    (void)scene;
     struct kiln_grid_file *grid = kiln_grid_load(path, error);
     bool good = grid != NULL;
     kiln_grid_destroy(&grid);
@@ -114,4 +114,9 @@ static void describe_grid(const struct kiln_option *option, struct kiln_text *ou
     kiln_text_add(out, "the path of a kiln-grid file, from the scene's folder and inside it");
 }
 
-const struct kiln_option_type kiln_type_grid = {read_grid, print_file, describe_grid, schema_file};
+const struct kiln_option_type kiln_type_grid = {
+    .read = read_grid,
+    .print = print_file,
+    .describe = describe_grid,
+    .schema = schema_file,
+};

@@ -1,6 +1,11 @@
 /* Checks across options, and what follows from them: steps, capacities, bounds. */
 #include "scene/validate.h"
 
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
 #include "asset/atlas/cells_in.h"
 #include "asset/geometry/chart.h"
 #include "asset/geometry/closed.h"
@@ -10,49 +15,6 @@
 #include "scene/family.h"
 #include "scene/object_mesh.h"
 #include "scene/particle_mesh.h"
-
-#include <inttypes.h>
-#include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-/* By its number; NULL: it is none, or there are fewer. */
-static const struct kiln_node *entry_of_list(const struct kiln_node *list, const char *name)
-{
-    const struct kiln_node *entry = list->first;
-    if (*name == '\0' || name[strspn(name, "0123456789")] != '\0')
-        return NULL;
-    for (unsigned long i = strtoul(name, NULL, 10); i > 0 && entry; i--)
-        entry = entry->next;
-    return entry;
-}
-
-bool kiln_validate_fail(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
-                        const char *format, ...)
-{
-    char message[KILN_MESSAGE_SIZE], name[64];
-    va_list args;
-    va_start(args, format);
-    vsnprintf(message, sizeof message, format, args);
-    va_end(args);
-    const struct kiln_node *node = root;
-    for (const char *part = path; node && *part;) {
-        size_t length = strcspn(part, ".");
-        snprintf(name, sizeof name, "%.*s", (int)length, part);
-        const struct kiln_node *next =
-            node->kind == KILN_NODE_LIST ? entry_of_list(node, name) : kiln_node_entry(node, name);
-        if (!next)
-            break;
-        node = next;
-        part += length + (part[length] == '.');
-    }
-    kiln_reader_leave(reader, 0);
-    snprintf(reader->path, sizeof reader->path, "%s", path);
-    reader->path_length = strlen(reader->path);
-    return kiln_reader_error(reader, node, "%s", message);
-}
 
 /* ---- clock ---------------------------------------------------------------------------------- */
 
@@ -69,15 +31,15 @@ static void print_multiple(char out[32], struct kiln_rational fps, uint64_t mult
 static bool refuse_rate(struct kiln_reader *reader, const struct kiln_node *root, uint64_t below)
 {
     char lower[32], upper[32];
-    print_multiple(lower, reader->scene->fps, below);
-    print_multiple(upper, reader->scene->fps, below + 1);
+    print_multiple(lower, kiln_reader_scene(reader)->fps, below);
+    print_multiple(upper, kiln_reader_scene(reader)->fps, below + 1);
     if (below == 0)
-        return kiln_validate_fail(reader, root, "simulation.rate",
-                                  "must be a whole multiple of output.fps; the nearest is %s",
-                                  upper);
-    return kiln_validate_fail(reader, root, "simulation.rate",
-                              "must be a whole multiple of output.fps; the nearest are %s and %s",
-                              lower, upper);
+        return kiln_reader_error_at(reader, root, "simulation.rate",
+                                    "must be a whole multiple of output.fps; the nearest is %s",
+                                    upper);
+    return kiln_reader_error_at(reader, root, "simulation.rate",
+                                "must be a whole multiple of output.fps; the nearest are %s and %s",
+                                lower, upper);
 }
 
 /* Each moment of the shutter is after a step of its own. */
@@ -91,7 +53,7 @@ static uint32_t least_steps_a_frame(const struct kiln_scene *scene)
 
 static bool settle_clock(struct kiln_reader *reader, const struct kiln_node *root)
 {
-    struct kiln_scene *scene = reader->scene;
+    struct kiln_scene *scene = kiln_reader_scene(reader);
     uint64_t fps_num = scene->fps.num, fps_den = scene->fps.den;
     if (scene->rate.num == 0) { /* auto */
         uint64_t multiple = (60 * fps_den + fps_num - 1) / fps_num;
@@ -111,18 +73,18 @@ static bool settle_clock(struct kiln_reader *reader, const struct kiln_node *roo
     if (scene->steps_per_frame < least_steps_a_frame(scene)) {
         char least[32];
         print_multiple(least, scene->fps, least_steps_a_frame(scene));
-        return kiln_validate_fail(reader, root, "camera.shutter.samples",
-                                  "%u moments need a step each: a simulation.rate of at least %s",
-                                  scene->camera.shutter_samples, least);
+        return kiln_reader_error_at(reader, root, "camera.shutter.samples",
+                                    "%u moments need a step each: a simulation.rate of at least %s",
+                                    scene->camera.shutter_samples, least);
     }
 
     double warmup = scene->warmup_s * (double)scene->rate.num / (double)scene->rate.den;
     double steps = floor(warmup + 0.5) + (double)(scene->frames - 1) * scene->steps_per_frame +
                    (scene->camera.shutter_samples > 1 ? scene->steps_per_frame - 1 : 0);
     if (steps > (double)KILN_MAX_STEPS)
-        return kiln_validate_fail(reader, root, "output.frames",
-                                  "the clip and its warm-up are %.0f steps; a run has at most %u",
-                                  steps, KILN_MAX_STEPS);
+        return kiln_reader_error_at(reader, root, "output.frames",
+                                    "the clip and its warm-up are %.0f steps; a run has at most %u",
+                                    steps, KILN_MAX_STEPS);
     scene->warmup_steps = (uint32_t)floor(warmup + 0.5);
     return true;
 }
@@ -151,7 +113,7 @@ static struct kiln_births_bound births_bound(const struct kiln_scene *scene, uin
 
 static bool settle_capacity(struct kiln_reader *reader, const struct kiln_node *root)
 {
-    struct kiln_scene *scene = reader->scene;
+    struct kiln_scene *scene = kiln_reader_scene(reader);
     uint64_t total = 0;
     uint32_t order[KILN_MAX_SYSTEMS];
     kiln_family_order(scene, order);
@@ -165,22 +127,23 @@ static bool settle_capacity(struct kiln_reader *reader, const struct kiln_node *
         const char *advice = system->emit.parent.enabled ? "children, or the parents' rate or life"
                                                          : "rate, bursts or life";
         if (slots > KILN_MAX_PARTICLES - total)
-            return kiln_validate_fail(reader, root, path,
-                                      "up to %" PRIu64 " particles at once need %" PRIu64
-                                      " MiB; the systems of a scene may have %d in all (%" PRIu64
-                                      " MiB), of which %" PRIu64 " are taken: lower %s",
-                                      slots, slots * bytes / mebibyte, KILN_MAX_PARTICLES,
-                                      KILN_MAX_PARTICLES * bytes / mebibyte, total, advice);
+            return kiln_reader_error_at(reader, root, path,
+                                        "up to %" PRIu64 " particles at once need %" PRIu64
+                                        " MiB; the systems of a scene may have %d in all (%" PRIu64
+                                        " MiB), of which %" PRIu64 " are taken: lower %s",
+                                        slots, slots * bytes / mebibyte, KILN_MAX_PARTICLES,
+                                        KILN_MAX_PARTICLES * bytes / mebibyte, total, advice);
         if (bound.total > UINT32_MAX)
-            return kiln_validate_fail(reader, root, path,
-                                      "%" PRIu64 " births in the run; at most %" PRIu32
-                                      " can be told apart",
-                                      bound.total, UINT32_MAX);
+            return kiln_reader_error_at(reader, root, path,
+                                        "%" PRIu64 " births in the run; at most %" PRIu32
+                                        " can be told apart",
+                                        bound.total, UINT32_MAX);
         if (slots > KILN_MAX_FLOCK && kiln_scene_interaction(scene, order[i], KILN_INTERACT_FLOCK))
-            return kiln_validate_fail(reader, root, path,
-                                      "up to %" PRIu64 " particles at once in a flock; at most %d: "
-                                      "lower %s",
-                                      slots, KILN_MAX_FLOCK, advice);
+            return kiln_reader_error_at(reader, root, path,
+                                        "up to %" PRIu64
+                                        " particles at once in a flock; at most %d: "
+                                        "lower %s",
+                                        slots, KILN_MAX_FLOCK, advice);
         system->capacity = (uint32_t)slots;
         total += slots;
     }
@@ -226,13 +189,13 @@ static bool check_shape(struct kiln_reader *reader, const struct kiln_node *root
     const struct kiln_value3 *axis = &look->axis;
     char path[128];
     snprintf(path, sizeof path, "systems.%s.look.axis", system->name);
-    if (!at_all_keys(reader->scene, &axis, 1, is_not_zero))
-        return kiln_validate_fail(reader, root, path, "must not be [0, 0, 0]");
+    if (!at_all_keys(kiln_reader_scene(reader), &axis, 1, is_not_zero))
+        return kiln_reader_error_at(reader, root, path, "must not be [0, 0, 0]");
     snprintf(path, sizeof path, "systems.%s.look.blend", system->name);
     if (kiln_look_is_opaque(look) && look->blend != KILN_BLEND_ALPHA)
-        return kiln_validate_fail(reader, root, path,
-                                  "must be alpha for %s, which cover what is behind",
-                                  look->shape == KILN_SHAPE_MESH ? "meshes" : "spheres");
+        return kiln_reader_error_at(reader, root, path,
+                                    "must be alpha for %s, which cover what is behind",
+                                    look->shape == KILN_SHAPE_MESH ? "meshes" : "spheres");
     return true;
 }
 
@@ -251,8 +214,8 @@ static bool check_division(struct kiln_reader *reader, const struct kiln_node *r
     const char *reason = error.message;
     if (strncmp(reason, file, length) == 0)
         reason += length + strspn(reason + length, ": ");
-    kiln_validate_fail(reader, root, path, "'%s': %s", kiln_asset_name(reader->scene, file),
-                       reason);
+    kiln_reader_error_at(reader, root, path, "'%s': %s",
+                         kiln_asset_name(kiln_reader_scene(reader), file), reason);
     if (error.code == KILN_DEVICE_FAILED)
         reader->error->code = error.code;
     return false;
@@ -285,13 +248,13 @@ static const char *shape_name(const struct kiln_emitter *emit)
 static bool check_flock(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
                         const struct kiln_flock *flock)
 {
-    const float slowest = kiln_scene_value_max(reader->scene, &flock->slowest);
-    const float fastest = kiln_scene_value_max(reader->scene, &flock->fastest);
+    const float slowest = kiln_scene_value_max(kiln_reader_scene(reader), &flock->slowest);
+    const float fastest = kiln_scene_value_max(kiln_reader_scene(reader), &flock->fastest);
     if (slowest > fastest)
-        return kiln_validate_fail(reader, root, path,
-                                  "the slowest of a flock, %g m/s, is faster than its fastest, "
-                                  "%g m/s",
-                                  (double)slowest, (double)fastest);
+        return kiln_reader_error_at(reader, root, path,
+                                    "the slowest of a flock, %g m/s, is faster than its fastest, "
+                                    "%g m/s",
+                                    (double)slowest, (double)fastest);
     return true;
 }
 
@@ -305,15 +268,15 @@ static bool check_interactions(struct kiln_reader *reader, const struct kiln_nod
         snprintf(path, sizeof path, "systems.%s.interact", system->name);
         for (uint32_t k = 0; k < i; k++) {
             if (system->interactions[k].kind == interaction->kind)
-                return kiln_validate_fail(reader, root, path,
-                                          "entries %u and %u are of one kind; at most one of each",
-                                          k, i);
+                return kiln_reader_error_at(
+                    reader, root, path, "entries %u and %u are of one kind; at most one of each", k,
+                    i);
         }
         if (interaction->kind == KILN_INTERACT_COLLIDE && !interaction->as_drawn &&
-            kiln_scene_value_max(reader->scene, &interaction->radius) <= 0.0f)
-            return kiln_validate_fail(reader, root, path,
-                                      "the radius of entry %u is 0 all along: nothing can collide",
-                                      i);
+            kiln_scene_value_max(kiln_reader_scene(reader), &interaction->radius) <= 0.0f)
+            return kiln_reader_error_at(
+                reader, root, path, "the radius of entry %u is 0 all along: nothing can collide",
+                i);
         if (interaction->kind == KILN_INTERACT_FLOCK &&
             !check_flock(reader, root, path, &interaction->flock))
             return false;
@@ -323,7 +286,7 @@ static bool check_interactions(struct kiln_reader *reader, const struct kiln_nod
 
 static bool check_systems(struct kiln_reader *reader, const struct kiln_node *root)
 {
-    struct kiln_scene *scene = reader->scene;
+    struct kiln_scene *scene = kiln_reader_scene(reader);
     for (uint32_t i = 0; i < scene->system_count; i++) {
         struct kiln_system *system = &scene->systems[i];
         const struct kiln_emitter *emit = &system->emit;
@@ -332,22 +295,23 @@ static bool check_systems(struct kiln_reader *reader, const struct kiln_node *ro
         snprintf(path, sizeof path, "systems.%s.emit.from.%s.direction", system->name,
                  shape_name(emit));
         if (!emit->outward && !at_all_keys(scene, &direction, 1, is_not_zero))
-            return kiln_validate_fail(reader, root, path, "must not be [0, 0, 0]");
+            return kiln_reader_error_at(reader, root, path, "must not be [0, 0, 0]");
         snprintf(path, sizeof path, "systems.%s.look.cells", system->name);
         uint32_t cells = system->look.columns * system->look.rows;
         if (cells > KILN_MAX_CELLS)
-            return kiln_validate_fail(reader, root, path, "%u cells are too many; at most %d",
-                                      cells, KILN_MAX_CELLS);
+            return kiln_reader_error_at(reader, root, path, "%u cells are too many; at most %d",
+                                        cells, KILN_MAX_CELLS);
         snprintf(path, sizeof path, "systems.%s.look.motion", system->name);
         if (system->look.motion[0] == '/' &&
             (system->look.atlas_count > 1 || system->look.atlas[0][0] != '/'))
-            return kiln_validate_fail(reader, root, path, "a motion file goes with one atlas file");
+            return kiln_reader_error_at(reader, root, path,
+                                        "a motion file goes with one atlas file");
         snprintf(path, sizeof path, "systems.%s.paint.when", system->name);
         if (system->paint.enabled && system->paint.when == KILN_PAINT_IMPACT &&
             !system->collide.enabled)
-            return kiln_validate_fail(reader, root, path,
-                                      "impact needs systems.%s.collide, or there are none",
-                                      system->name);
+            return kiln_reader_error_at(reader, root, path,
+                                        "impact needs systems.%s.collide, or there are none",
+                                        system->name);
         if (!check_shape(reader, root, system) || !check_cells(reader, root, system) ||
             !check_interactions(reader, root, system) ||
             !kiln_particle_mesh_settle(reader, root, system))
@@ -373,7 +337,7 @@ static const char *name_of_axis(const struct kiln_object *object)
 static bool fail_mesh(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
                       const struct kiln_error *error)
 {
-    kiln_validate_fail(reader, root, path, "%s", error->message);
+    kiln_reader_error_at(reader, root, path, "%s", error->message);
     if (error->code != KILN_INVALID_INPUT)
         reader->error->code = error->code;
     return false;
@@ -384,8 +348,8 @@ static bool check_closed(struct kiln_reader *reader, const struct kiln_node *roo
                          const struct kiln_object *object)
 {
     struct kiln_error error = {0};
-    return kiln_mesh_check_closed(object->met, kiln_asset_name(reader->scene, object->file),
-                                  &error) ||
+    return kiln_mesh_check_closed(
+               object->met, kiln_asset_name(kiln_reader_scene(reader), object->file), &error) ||
            fail_mesh(reader, root, path, &error);
 }
 
@@ -395,7 +359,8 @@ static bool check_depth_maps(struct kiln_reader *reader, const struct kiln_node 
     struct kiln_error error = {0};
     float directions[KILN_MAX_DEPTH_DIRECTIONS][3];
     kiln_object_depth_directions(object, directions);
-    return kiln_depth_maps_check(object->met, kiln_asset_name(reader->scene, object->file),
+    return kiln_depth_maps_check(object->met,
+                                 kiln_asset_name(kiln_reader_scene(reader), object->file),
                                  (const float(*)[3])directions, object->depth_direction_count,
                                  object->depth_resolution, &error) ||
            fail_mesh(reader, root, path, &error);
@@ -403,17 +368,17 @@ static bool check_depth_maps(struct kiln_reader *reader, const struct kiln_node 
 
 static bool check_solid(struct kiln_reader *reader, const struct kiln_node *root, uint32_t index)
 {
-    const struct kiln_scene *scene = reader->scene;
+    const struct kiln_scene *scene = kiln_reader_scene(reader);
     const struct kiln_object *mesh = &scene->backdrop.objects[index];
     char path[80];
     snprintf(path, sizeof path, "backdrop.objects.%u.mesh.depth_maps.directions", index);
     if (mesh->depth_direction_count == 0)
-        return kiln_validate_fail(reader, root, path, "must name at least one direction");
+        return kiln_reader_error_at(reader, root, path, "must name at least one direction");
     for (uint32_t i = 0; i < mesh->depth_direction_count; i++) {
         const struct kiln_value3 *direction = &mesh->depth_directions[i];
         snprintf(path, sizeof path, "backdrop.objects.%u.mesh.depth_maps.directions.%u", index, i);
         if (!at_all_keys(scene, &direction, 1, is_not_zero))
-            return kiln_validate_fail(reader, root, path, "must not be [0, 0, 0]");
+            return kiln_reader_error_at(reader, root, path, "must not be [0, 0, 0]");
     }
     snprintf(path, sizeof path, "backdrop.objects.%u.mesh.collide", index);
     if (mesh->collide && mesh->collider == KILN_COLLIDER_DEPTH_MAPS)
@@ -425,17 +390,17 @@ static bool check_solid(struct kiln_reader *reader, const struct kiln_node *root
 /* Of a mesh that is to take paint. */
 static bool check_paint(struct kiln_reader *reader, const struct kiln_node *root, uint32_t index)
 {
-    const struct kiln_scene *scene = reader->scene;
+    const struct kiln_scene *scene = kiln_reader_scene(reader);
     const struct kiln_object *object = &scene->backdrop.objects[index];
     const uint32_t size = object->paint.size;
     char path[64];
     snprintf(path, sizeof path, "backdrop.objects.%u.mesh.paint", index);
     if (object->animation.enabled)
-        return kiln_validate_fail(reader, root, path, "not of a mesh with an animation");
+        return kiln_reader_error_at(reader, root, path, "not of a mesh with an animation");
     snprintf(path, sizeof path, "backdrop.objects.%u.mesh.paint.size", index);
     if ((size & (size - 1)) != 0)
-        return kiln_validate_fail(reader, root, path,
-                                  "%u is no power of two, of which 16 to 2048 are allowed", size);
+        return kiln_reader_error_at(reader, root, path,
+                                    "%u is no power of two, of which 16 to 2048 are allowed", size);
     struct kiln_error error = {0};
     struct kiln_chart *chart =
         kiln_chart_create(object->shown, size, kiln_asset_name(scene, object->file), &error);
@@ -450,7 +415,7 @@ static bool check_paint(struct kiln_reader *reader, const struct kiln_node *root
 /* Of terrain and depth maps: how large a field is follows from its mesh. */
 static bool check_samples(struct kiln_reader *reader, const struct kiln_node *root)
 {
-    const struct kiln_backdrop *backdrop = &reader->scene->backdrop;
+    const struct kiln_backdrop *backdrop = &kiln_reader_scene(reader)->backdrop;
     uint64_t samples = 0;
     for (uint32_t i = 0; i < backdrop->object_count; i++) {
         const struct kiln_object *object = &backdrop->objects[i];
@@ -463,15 +428,15 @@ static bool check_samples(struct kiln_reader *reader, const struct kiln_node *ro
                 kiln_depth_maps_words(object->depth_direction_count, object->depth_resolution);
     }
     return samples <= KILN_MAX_GRID_SAMPLES ||
-           kiln_validate_fail(reader, root, "backdrop.objects",
-                              "terrain and depth maps that particles collide with have %" PRIu64
-                              " samples; a scene has at most %d",
-                              samples, KILN_MAX_GRID_SAMPLES);
+           kiln_reader_error_at(reader, root, "backdrop.objects",
+                                "terrain and depth maps that particles collide with have %" PRIu64
+                                " samples; a scene has at most %d",
+                                samples, KILN_MAX_GRID_SAMPLES);
 }
 
 static bool check_objects(struct kiln_reader *reader, const struct kiln_node *root)
 {
-    const struct kiln_scene *scene = reader->scene;
+    const struct kiln_scene *scene = kiln_reader_scene(reader);
     uint32_t meshes = 0;
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
         const struct kiln_object *object = &scene->backdrop.objects[i];
@@ -480,7 +445,7 @@ static bool check_objects(struct kiln_reader *reader, const struct kiln_node *ro
         char path[64];
         snprintf(path, sizeof path, "backdrop.objects.%u.%s", i, name ? name : "");
         if (name && !at_all_keys(scene, &axis, 1, is_not_zero))
-            return kiln_validate_fail(reader, root, path, "must not be [0, 0, 0]");
+            return kiln_reader_error_at(reader, root, path, "must not be [0, 0, 0]");
         if (!kiln_object_is_mesh(object))
             continue;
         if (!kiln_object_mesh_settle(reader, root, i))
@@ -488,33 +453,34 @@ static bool check_objects(struct kiln_reader *reader, const struct kiln_node *ro
         const struct kiln_value3 *heading = &object->heading;
         snprintf(path, sizeof path, "backdrop.objects.%u.mesh.heading", i);
         if (object->kind == KILN_OBJECT_MESH && !at_all_keys(scene, &heading, 1, is_not_zero))
-            return kiln_validate_fail(reader, root, path, "must not be [0, 0, 0]");
+            return kiln_reader_error_at(reader, root, path, "must not be [0, 0, 0]");
         snprintf(path, sizeof path, "backdrop.objects.%u.mesh.collide", i);
         if (object->collide && object->animation.enabled &&
             object->collider != KILN_COLLIDER_VOLUME)
-            return kiln_validate_fail(reader, root, path,
-                                      "a mesh with an animation collides as a volume alone: set "
-                                      "its collider to volume");
+            return kiln_reader_error_at(reader, root, path,
+                                        "a mesh with an animation collides as a volume alone: set "
+                                        "its collider to volume");
         if (object->kind == KILN_OBJECT_MESH && !check_solid(reader, root, i))
             return false;
         if (kiln_object_takes_paint(object) && !check_paint(reader, root, i))
             return false;
         if (++meshes > KILN_MAX_MESHES)
-            return kiln_validate_fail(reader, root, "backdrop.objects", "more than %d meshes",
-                                      KILN_MAX_MESHES);
+            return kiln_reader_error_at(reader, root, "backdrop.objects", "more than %d meshes",
+                                        KILN_MAX_MESHES);
     }
     return check_samples(reader, root);
 }
 
 static bool check_backdrop(struct kiln_reader *reader, const struct kiln_node *root)
 {
-    const struct kiln_scene *scene = reader->scene;
+    const struct kiln_scene *scene = kiln_reader_scene(reader);
     const struct kiln_backdrop *backdrop = &scene->backdrop;
     const struct kiln_value3 *sun = &backdrop->sun_direction;
     if (!at_all_keys(scene, &sun, 1, is_not_zero))
-        return kiln_validate_fail(reader, root, "backdrop.sun.direction", "must not be [0, 0, 0]");
+        return kiln_reader_error_at(reader, root, "backdrop.sun.direction",
+                                    "must not be [0, 0, 0]");
     if (backdrop->floor_enabled && backdrop->floor_collide && backdrop->floor_height.count > 0)
-        return kiln_validate_fail(
+        return kiln_reader_error_at(
             reader, root, "backdrop.floor.height",
             "cannot vary while the floor collides; set backdrop.floor.collide to false");
     return check_objects(reader, root);
@@ -522,10 +488,11 @@ static bool check_backdrop(struct kiln_reader *reader, const struct kiln_node *r
 
 static bool check_camera(struct kiln_reader *reader, const struct kiln_node *root)
 {
-    const struct kiln_scene *scene = reader->scene;
+    const struct kiln_scene *scene = kiln_reader_scene(reader);
     const struct kiln_value3 *ends[2] = {&scene->camera.position, &scene->camera.target};
     if (!at_all_keys(scene, ends, 2, are_apart))
-        return kiln_validate_fail(reader, root, "camera.target", "must not be where the camera is");
+        return kiln_reader_error_at(reader, root, "camera.target",
+                                    "must not be where the camera is");
     return true;
 }
 

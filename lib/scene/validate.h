@@ -2,15 +2,10 @@
 #ifndef KILN_SCENE_VALIDATE_H
 #define KILN_SCENE_VALIDATE_H
 
-#include "option/reader.h"
+#include "scene/options.h"
 
 /* Fills what follows from the options (steps, capacities, bounds) and refuses what cannot run. root
  * is the tree, for the places of errors. scene->keys is set. */
 bool kiln_validate(struct kiln_reader *reader, const struct kiln_node *root);
-
-/* Fails at the place of a dotted path ("systems.smoke.emit"), or at the nearest part of it that was
- * written; returns false. */
-bool kiln_validate_fail(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
-                        const char *format, ...) __attribute__((format(printf, 4, 5)));
 
 #endif

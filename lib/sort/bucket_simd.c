@@ -1,8 +1,8 @@
 /* Least significant digit first. The digits of all passes are counted at once, since no other
  * thread moves pairs in between. */
-#include "sort/bucket.h"
-
 #include <string.h>
+
+#include "sort/bucket.h"
 
 enum { MOST_DIGIT_BITS = 9, MOST_PASSES = 4 };
 

@@ -1,10 +1,9 @@
 /* Keys and cells of a few particles at a time, in loops without branches, which become vectors;
  * what is left to do for each of them is to store it. */
-#include "sort/cells.h"
-
 #include <string.h>
 
 #include "particles/pool.h"
+#include "sort/cells.h"
 
 enum {
     LANES = 128,

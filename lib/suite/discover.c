@@ -126,7 +126,7 @@ struct keys {
 static bool find_keys(const char *text, size_t size, const char *path, struct keys *keys)
 {
     struct kiln_arena *scratch = kiln_arena_create();
-    struct kiln_origin origin = {.name = path, .has_lines = true};
+    struct kiln_origin origin = {.name = path, .has_lines = true, .kind = "a file"};
     struct kiln_error error = {0};
     const struct kiln_node *root =
         scratch ? kiln_node_parse(scratch, text, size, &origin, &error) : NULL;

@@ -11,8 +11,8 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/temporary.h"
-#include "option/option_rows.h"
 #include "option/reader.h"
+#include "option/rows.h"
 #include "suite/golden.h"
 #include "suite/type.h"
 
@@ -95,10 +95,8 @@ static bool read_pixels(struct kiln_reader *reader, const struct kiln_option *op
             return kiln_reader_error(reader, entry->key,
                                      "no device's name; those have lower-case letters, digits, "
                                      "'.' and '-', as in llvmpipe-llvm-15.0.6-256-bits");
-        pixels->device = kiln_arena_text(reader->arena, device, strlen(device));
-        if (!pixels->device)
-            return kiln_reader_out_of_memory(reader);
-        if (!kiln_read_members(reader, pixels_rows, entry, pixels))
+        if (!kiln_reader_keep_text(reader, device, &pixels->device) ||
+            !kiln_read_members(reader, pixels_rows, entry, pixels))
             return false;
         kiln_reader_leave(reader, before);
         frame->pixel_count++;
@@ -243,23 +241,25 @@ static struct kiln_expect *take_document(struct document *document)
     return &document->expect;
 }
 
-static struct kiln_expect *read_root(struct kiln_reader *reader, const struct kiln_node *root,
-                                     const char *golden)
+static struct kiln_expect *read_document(struct kiln_arena *arena, struct kiln_arena *scratch,
+                                         const char *text, size_t size, const char *golden,
+                                         struct kiln_error *error)
 {
-    struct document *document = kiln_arena_alloc(reader->arena, 1, sizeof *document);
-    if (!document) {
-        out_of_memory(reader->error);
+    const char *path = kiln_arena_format(scratch, "%s/expect.yaml", golden);
+    struct document *document = kiln_arena_alloc(arena, 1, sizeof *document);
+    if (!path || !document) {
+        out_of_memory(error);
         return NULL;
     }
-    if (root->kind != KILN_NODE_MAP) {
-        kiln_reader_expected(reader, root, "a mapping of keys");
+    const struct kiln_origin origin = {
+        .name = path, .has_lines = true, .kind = "what is expected", .version = "kiln_expect: 1"};
+    struct kiln_reader reader = {
+        .origin = &origin, .arena = arena, .scratch = scratch, .error = error, .target = document};
+    if (!kiln_read_document(&reader, rows, text, size))
         return NULL;
-    }
-    if (!kiln_read_members(reader, rows, root, document))
-        return NULL;
-    if (resolve_masks(reader->arena, document, golden))
+    if (resolve_masks(arena, document, golden))
         return take_document(document);
-    out_of_memory(reader->error);
+    out_of_memory(error);
     return NULL;
 }
 
@@ -267,22 +267,10 @@ struct kiln_expect *kiln_expect_parse(struct kiln_arena *arena, const char *text
                                       const char *golden, struct kiln_error *error)
 {
     struct kiln_arena *scratch = kiln_arena_create();
-    struct kiln_reader *reader = scratch ? kiln_arena_alloc(scratch, 1, sizeof *reader) : NULL;
-    struct kiln_text path = {0};
-    kiln_text_add(&path, "%s/expect.yaml", golden);
-    struct kiln_expect *expect = NULL;
-    if (!reader || path.failed) {
+    struct kiln_expect *expect =
+        scratch ? read_document(arena, scratch, text, size, golden, error) : NULL;
+    if (!scratch)
         out_of_memory(error);
-    } else {
-        struct kiln_origin origin = {.name = path.data,
-                                     .has_lines = true,
-                                     .kind = "what is expected",
-                                     .version = "kiln_expect: 1"};
-        *reader = (struct kiln_reader){.arena = arena, .scratch = scratch, .error = error};
-        const struct kiln_node *root = kiln_node_parse(scratch, text, size, &origin, error);
-        expect = root ? read_root(reader, root, golden) : NULL;
-    }
-    kiln_text_free(&path);
     kiln_arena_destroy(&scratch);
     return expect;
 }

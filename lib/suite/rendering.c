@@ -7,7 +7,6 @@
 #include "base/error.h"
 #include "base/pattern.h"
 #include "frame/technique.h"
-#include "option/printer.h"
 
 struct job {
     struct kiln_arena *arena;

@@ -107,9 +107,12 @@ struct kiln_result *kiln_result_read(struct kiln_arena *arena, const char *folde
 struct kiln_result *kiln_result_parse(struct kiln_arena *arena, const char *text, size_t size,
                                       const char *name, struct kiln_error *error);
 
-/* Adds what write writes, as the members of a JSON object without its braces. An infinite value is
- * null. Of more changes or notes than KILN_RESULT_MAX_ENTRIES, the last one says how many are left
- * out. */
-void kiln_result_add_json(struct kiln_text *text, const struct kiln_result *result);
+/* Adds the text of result.json. False when memory is short. */
+bool kiln_result_print(const struct kiln_result *result, struct kiln_text *text);
+
+/* Adds the members of result.json but its version to an open object of JSON, whose lines begin
+ * with two spaces. An infinite value is null. Of more changes or notes than
+ * KILN_RESULT_MAX_ENTRIES, the last one says how many are left out. */
+void kiln_result_add_json(struct kiln_json *json, const struct kiln_result *result);
 
 #endif

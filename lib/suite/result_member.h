@@ -29,6 +29,10 @@ struct kiln_member {
 extern const struct kiln_member kiln_result_members[], kiln_result_column_members[],
     kiln_result_frame_members[], kiln_result_change_members[];
 
+/* Writes a member of an object under a key. */
+void kiln_member_write(struct kiln_json *json, const char *key, const struct kiln_member *member,
+                       const void *object);
+
 /* Of frames that were measured, beside "metrics" and "beyond". */
 extern const struct kiln_member kiln_result_measured_members[];
 

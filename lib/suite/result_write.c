@@ -1,120 +1,92 @@
 /* result.json, written by the same tables of members as it is read. */
-#include <math.h>
 #include <stdio.h>
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/json.h"
 #include "base/temporary.h"
-#include "base/text.h"
 #include "suite/result_member.h"
 
-/* JSON knows no infinity, which PSNR of equal pictures is; null stands for it. */
-static void add_double(struct kiln_text *text, double value)
+void kiln_member_write(struct kiln_json *json, const char *key, const struct kiln_member *member,
+                       const void *object)
 {
-    char number[32] = "null";
-    if (isfinite(value))
-        kiln_text_from_double(number, value);
-    kiln_text_add(text, "%s", number);
-}
-
-static void add_value(struct kiln_text *text, enum kiln_member_kind kind, const void *value)
-{
-    switch (kind) {
+    const void *value = (const char *)object + member->offset;
+    switch (member->kind) {
     case KILN_MEMBER_TEXT:
     case KILN_MEMBER_FILE:
-        kiln_text_add_json(text, *(const char *const *)value);
+        kiln_json_string(json, key, *(const char *const *)value);
         break;
     case KILN_MEMBER_NAME:
-        kiln_text_add_json(text, value);
+        kiln_json_string(json, key, value);
         break;
     case KILN_MEMBER_UINT32:
-        kiln_text_add(text, "%u", *(const uint32_t *)value);
+        kiln_json_uint(json, key, *(const uint32_t *)value);
         break;
     case KILN_MEMBER_DOUBLE:
-        add_double(text, *(const double *)value);
+        kiln_json_number(json, key, *(const double *)value);
         break;
     case KILN_MEMBER_BOOL:
-        kiln_text_add(text, "%s", *(const bool *)value ? "true" : "false");
+        kiln_json_bool(json, key, *(const bool *)value);
         break;
     case KILN_MEMBER_CODE:
-        kiln_text_add(text, "%d", (int)*(const enum kiln_code *)value);
+        kiln_json_int(json, key, (int)*(const enum kiln_code *)value);
         break;
     case KILN_MEMBER_STATUS:
-        kiln_text_add_json(text, kiln_test_status_name(*(const enum kiln_test_status *)value));
+        kiln_json_string(json, key, kiln_test_status_name(*(const enum kiln_test_status *)value));
         break;
     case KILN_MEMBER_JUDGED_BY:
-        kiln_text_add_json(text, kiln_judged_by_name(*(const enum kiln_judged_by *)value));
+        kiln_json_string(json, key, kiln_judged_by_name(*(const enum kiln_judged_by *)value));
         break;
     case KILN_MEMBER_END:
         break;
     }
 }
 
-/* `between` goes between two members. */
-static void add_members(struct kiln_text *text, const struct kiln_member *members,
-                        const void *object, const char *between)
+static void add_members(struct kiln_json *json, const struct kiln_member *members,
+                        const void *object)
 {
-    for (const struct kiln_member *m = members; m->name; m++) {
-        kiln_text_add(text, "%s\"%s\": ", m == members ? "" : between, m->name);
-        add_value(text, m->kind, (const char *)object + m->offset);
-    }
+    for (const struct kiln_member *m = members; m->name; m++)
+        kiln_member_write(json, m->name, m, object);
 }
 
-static void add_measurement(struct kiln_text *text, const struct kiln_result *result,
+static void add_object(struct kiln_json *json, const struct kiln_member *members,
+                       const void *object)
+{
+    kiln_json_begin_object(json, NULL);
+    add_members(json, members, object);
+    kiln_json_end(json);
+}
+
+/* A list whose entries have lines of their own. */
+static void begin_list(struct kiln_json *json, const char *key)
+{
+    kiln_json_begin_array(json, key);
+    kiln_json_lines(json, 4);
+}
+
+static void add_measurement(struct kiln_json *json, const struct kiln_result *result,
                             const struct kiln_result_frame *frame)
 {
-    kiln_text_add(text, ", ");
-    add_members(text, kiln_result_measured_members, frame, ", ");
-    kiln_text_add(text, ", \"metrics\": {");
-    for (size_t i = 0; i < result->column_count; i++) {
-        kiln_text_add(text, i ? ", " : "");
-        kiln_text_add_json(text, result->columns[i].name);
-        kiln_text_add(text, ": ");
-        add_double(text, frame->values[i]);
-    }
-    kiln_text_add(text, "}, \"beyond\": [");
-    const char *comma = "";
-    for (size_t i = 0; i < result->column_count; i++) {
-        if (!frame->beyond[i])
-            continue;
-        kiln_text_add(text, "%s", comma);
-        kiln_text_add_json(text, result->columns[i].name);
-        comma = ", ";
-    }
-    kiln_text_add(text, "]");
+    add_members(json, kiln_result_measured_members, frame);
+    kiln_json_begin_object(json, "metrics");
+    for (size_t i = 0; i < result->column_count; i++)
+        kiln_json_number(json, result->columns[i].name, frame->values[i]);
+    kiln_json_end(json);
+    kiln_json_begin_array(json, "beyond");
+    for (size_t i = 0; i < result->column_count; i++)
+        if (frame->beyond[i])
+            kiln_json_string(json, NULL, result->columns[i].name);
+    kiln_json_end(json);
 }
 
-/* Opens the list at its first entry, and its lines. */
-static void start_entry(struct kiln_text *text, size_t index)
+static void add_frame(struct kiln_json *json, const struct kiln_result *result,
+                      const struct kiln_result_frame *frame)
 {
-    kiln_text_add(text, index ? ",\n    " : "\n    ");
-}
-
-static void add_columns(struct kiln_text *text, const struct kiln_result *result)
-{
-    kiln_text_add(text, "\"columns\": [");
-    for (size_t i = 0; i < result->column_count; i++) {
-        start_entry(text, i);
-        kiln_text_add(text, "{");
-        add_members(text, kiln_result_column_members, &result->columns[i], ", ");
-        kiln_text_add(text, "}");
-    }
-    kiln_text_add(text, "]");
-}
-
-static void add_frames(struct kiln_text *text, const struct kiln_result *result)
-{
-    kiln_text_add(text, "\"frames\": [");
-    for (size_t i = 0; i < result->frame_count; i++) {
-        const struct kiln_result_frame *frame = &result->frames[i];
-        start_entry(text, i);
-        kiln_text_add(text, "{");
-        add_members(text, kiln_result_frame_members, frame, ", ");
-        if (frame->measured)
-            add_measurement(text, result, frame);
-        kiln_text_add(text, "}");
-    }
-    kiln_text_add(text, "]");
+    kiln_json_begin_object(json, NULL);
+    add_members(json, kiln_result_frame_members, frame);
+    if (frame->measured)
+        add_measurement(json, result, frame);
+    kiln_json_end(json);
 }
 
 /* How many of `count` entries are written; the others are summed up in one more. */
@@ -123,54 +95,56 @@ static size_t entries_written(size_t count)
     return count > KILN_RESULT_MAX_ENTRIES ? KILN_RESULT_MAX_ENTRIES - 1 : count;
 }
 
-static void add_changes(struct kiln_text *text, const struct kiln_result *result)
+static void add_changes(struct kiln_json *json, const struct kiln_result *result)
 {
-    kiln_text_add(text, "\"changes\": [");
+    begin_list(json, "changes");
     size_t written = entries_written(result->change_count);
-    for (size_t i = 0; i < written; i++) {
-        start_entry(text, i);
-        kiln_text_add(text, "{");
-        add_members(text, kiln_result_change_members, &result->changes[i], ", ");
-        kiln_text_add(text, "}");
-    }
+    for (size_t i = 0; i < written; i++)
+        add_object(json, kiln_result_change_members, &result->changes[i]);
     if (written < result->change_count) {
         char key[64];
         snprintf(key, sizeof key, "and %zu more", result->change_count - written);
         const struct kiln_result_change rest = {key, "", ""};
-        start_entry(text, written);
-        kiln_text_add(text, "{");
-        add_members(text, kiln_result_change_members, &rest, ", ");
-        kiln_text_add(text, "}");
+        add_object(json, kiln_result_change_members, &rest);
     }
-    kiln_text_add(text, "]");
+    kiln_json_end(json);
 }
 
-static void add_notes(struct kiln_text *text, const struct kiln_result *result)
+static void add_notes(struct kiln_json *json, const struct kiln_result *result)
 {
-    kiln_text_add(text, "\"notes\": [");
+    begin_list(json, "notes");
     size_t written = entries_written(result->note_count);
-    for (size_t i = 0; i < written; i++) {
-        start_entry(text, i);
-        kiln_text_add_json(text, result->notes[i]);
-    }
-    if (written < result->note_count) {
-        start_entry(text, written);
-        kiln_text_add(text, "\"and %zu more\"", result->note_count - written);
-    }
-    kiln_text_add(text, "]");
+    for (size_t i = 0; i < written; i++)
+        kiln_json_string(json, NULL, result->notes[i]);
+    if (written < result->note_count)
+        kiln_json_format(json, NULL, "and %zu more", result->note_count - written);
+    kiln_json_end(json);
 }
 
-void kiln_result_add_json(struct kiln_text *text, const struct kiln_result *result)
+void kiln_result_add_json(struct kiln_json *json, const struct kiln_result *result)
 {
-    add_members(text, kiln_result_members, result, ",\n  ");
-    kiln_text_add(text, ",\n  ");
-    add_columns(text, result);
-    kiln_text_add(text, ",\n  ");
-    add_frames(text, result);
-    kiln_text_add(text, ",\n  ");
-    add_changes(text, result);
-    kiln_text_add(text, ",\n  ");
-    add_notes(text, result);
+    add_members(json, kiln_result_members, result);
+    begin_list(json, "columns");
+    for (size_t i = 0; i < result->column_count; i++)
+        add_object(json, kiln_result_column_members, &result->columns[i]);
+    kiln_json_end(json);
+    begin_list(json, "frames");
+    for (size_t i = 0; i < result->frame_count; i++)
+        add_frame(json, result, &result->frames[i]);
+    kiln_json_end(json);
+    add_changes(json, result);
+    add_notes(json, result);
+}
+
+bool kiln_result_print(const struct kiln_result *result, struct kiln_text *text)
+{
+    struct kiln_json json = kiln_json_to_text(text);
+    kiln_json_begin_object(&json, NULL);
+    kiln_json_lines(&json, 2);
+    kiln_json_uint(&json, "kiln_result", KILN_RESULT_VERSION);
+    kiln_result_add_json(&json, result);
+    kiln_json_end_line(&json, 0);
+    return kiln_json_finish(&json);
 }
 
 bool kiln_result_write(const struct kiln_result *result, const char *folder,
@@ -180,11 +154,9 @@ bool kiln_result_write(const struct kiln_result *result, const char *folder,
     if (!kiln_path_join(path, folder, "result.json", error))
         return false;
     struct kiln_text text = {0};
-    kiln_text_add(&text, "{\n  \"kiln_result\": %d,\n  ", KILN_RESULT_VERSION);
-    kiln_result_add_json(&text, result);
-    kiln_text_add(&text, "\n}\n");
-    bool written = text.failed ? kiln_error_set(error, KILN_IO, "%s: no memory to write it", path)
-                               : kiln_temporary_write_file(path, text.data, text.length, error);
+    bool written = kiln_result_print(result, &text)
+                       ? kiln_temporary_write_file(path, text.data, text.length, error)
+                       : kiln_error_set(error, KILN_IO, "%s: no memory to write it", path);
     kiln_text_free(&text);
     return written;
 }

@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "option/node.h"
+#include "scene/options.h"
 #include "suite/trial.h"
 
 struct entry {
@@ -98,7 +98,7 @@ static bool read_entries(struct flattening *f, const char *text, const char *nam
     struct kiln_origin *origin = kiln_arena_alloc(f->arena, 1, sizeof *origin);
     if (!origin)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", name);
-    *origin = (struct kiln_origin){.name = name, .has_lines = true};
+    *origin = kiln_scene_origin(name);
     const struct kiln_node *root = kiln_node_parse(f->arena, text, strlen(text), origin, error);
     if (!root)
         return false;

@@ -7,9 +7,9 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "option/option_rows.h"
 #include "option/reader.h"
 #include "option/reference.h"
+#include "option/rows.h"
 #include "suite/golden.h"
 #include "suite/type.h"
 
@@ -226,38 +226,25 @@ static bool check_devices(struct kiln_reader *reader, const struct kiln_node *ro
             char a[KILN_DEVICE_NAME_SIZE], b[KILN_DEVICE_NAME_SIZE];
             kiln_device_name(document->devices[i], a);
             kiln_device_name(document->devices[j], b);
-            if (strcmp(a, b) == 0) {
-                kiln_reader_enter(reader, "devices");
-                return kiln_reader_error(reader, kiln_node_entry(root, "devices"),
-                                         "'%s' is given twice", a);
-            }
+            if (strcmp(a, b) == 0)
+                return kiln_reader_error_at(reader, root, "devices", "'%s' is given twice", a);
         }
     }
     return true;
-}
-
-static bool read_document(struct kiln_reader *reader, const struct kiln_node *root,
-                          struct document *document)
-{
-    if (root->kind != KILN_NODE_MAP)
-        return kiln_reader_expected(reader, root, "a mapping of keys");
-    return kiln_read_members(reader, rows, root, document) && check_devices(reader, root, document);
 }
 
 /* What a test has when no file says anything. */
 static bool take_defaults(struct kiln_arena *arena, struct kiln_arena *scratch, const char *path,
                           struct kiln_test_file *file, struct kiln_error *error)
 {
-    struct kiln_reader *reader = kiln_arena_alloc(scratch, 1, sizeof *reader);
     struct document *document = kiln_arena_alloc(arena, 1, sizeof *document);
-    if (!reader || !document)
+    if (!document)
         return out_of_memory(error);
-    *reader = (struct kiln_reader){.arena = arena, .scratch = scratch, .error = error};
-    static const struct kiln_origin origin = {.name = "", .has_lines = false};
+    static const struct kiln_origin origin = {.name = "", .kind = "a test"};
     static const char least[] = "{kiln_test: 1, scene: scene}";
-    const struct kiln_node *root =
-        kiln_node_parse(scratch, least, sizeof least - 1, &origin, error);
-    return root && read_document(reader, root, document) &&
+    struct kiln_reader reader = {
+        .origin = &origin, .arena = arena, .scratch = scratch, .error = error, .target = document};
+    return kiln_read_document(&reader, rows, least, sizeof least - 1) &&
            (take_document(arena, document, path, file) || out_of_memory(error));
 }
 
@@ -266,13 +253,16 @@ static bool take_text(struct kiln_arena *arena, struct kiln_arena *scratch, cons
                       size_t size, struct kiln_test_file *file, struct kiln_error *problem)
 {
     const char *path = file->test.path;
-    struct kiln_reader *reader = kiln_arena_alloc(scratch, 1, sizeof *reader);
     struct document *document = kiln_arena_alloc(arena, 1, sizeof *document);
-    if (!reader || !document)
+    if (!document)
         return out_of_memory(problem);
-    *reader = (struct kiln_reader){.arena = arena, .scratch = scratch, .error = problem};
     struct kiln_origin origin = {
         .name = path, .has_lines = true, .kind = "a test", .version = "kiln_test: 1"};
+    struct kiln_reader reader = {.origin = &origin,
+                                 .arena = arena,
+                                 .scratch = scratch,
+                                 .error = problem,
+                                 .target = document};
     const struct kiln_node *root = kiln_node_parse(scratch, text, size, &origin, problem);
     if (!root)
         return false;
@@ -280,7 +270,8 @@ static bool take_text(struct kiln_arena *arena, struct kiln_arena *scratch, cons
     if (scene && scene->kind == KILN_NODE_SCALAR && *scene->text &&
         !(file->test.scene = resolve(arena, path, scene->text)))
         return out_of_memory(problem);
-    return read_document(reader, root, document) &&
+    return kiln_read_members(&reader, rows, root, document) &&
+           check_devices(&reader, root, document) &&
            (take_document(arena, document, path, file) || out_of_memory(problem));
 }
 

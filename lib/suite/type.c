@@ -1,3 +1,5 @@
+/* The types of options that test files alone have: overrides, techniques, metrics and their limits.
+ */
 #include "suite/type.h"
 
 #include <stdlib.h>
@@ -5,61 +7,24 @@
 
 #include "compare/metric.h"
 #include "frame/technique.h"
-#include "option/option_rows.h"
+#include "option/rows.h"
 #include "suite/golden.h"
-
-static uint32_t *count_of(const struct kiln_option *option, void *field)
-{
-    return (uint32_t *)((char *)field - option->offset + option->count_offset);
-}
 
 static bool is_word(const struct kiln_node *node, const char *word)
 {
-    return node->kind == KILN_NODE_SCALAR && !node->quoted && strcmp(node->text, word) == 0;
+    return !node->quoted && kiln_node_is(node, word);
 }
 
 /* ---- texts ---------------------------------------------------------------------------------- */
 
-static bool read_text(struct kiln_reader *reader, const struct kiln_option *option,
-                      const struct kiln_node *node, void *field)
-{
-    if (node->kind != KILN_NODE_SCALAR || (*node->text == '\0' && !node->quoted))
-        return kiln_reader_mismatch(reader, option, node);
-    size_t length = strlen(node->text);
-    if ((double)length < option->min)
-        return kiln_reader_error(reader, node, "must not be empty");
-    if ((double)length > option->max)
-        return kiln_reader_error(reader, node, "%zu bytes are too many; at most %.0f", length,
-                                 option->max);
-    const char *text = kiln_arena_text(reader->arena, node->text, length);
-    if (!text)
-        return kiln_reader_out_of_memory(reader);
-    memcpy(field, &text, sizeof text);
-    return true;
-}
-
-static const char *text_at(const void *field)
-{
-    const char *text;
-    memcpy(&text, field, sizeof text);
-    return text;
-}
-
-static void describe_text(const struct kiln_option *option, struct kiln_text *out)
-{
-    (void)option;
-    kiln_text_add(out, "a text");
-}
-
-const struct kiln_option_type kiln_type_text = {.read = read_text, .describe = describe_text};
-
 static bool read_override(struct kiln_reader *reader, const struct kiln_option *option,
                           const struct kiln_node *node, void *field)
 {
-    if (!read_text(reader, option, node, field))
+    if (!kiln_type_text.read(reader, option, node, field))
         return false;
-    const char *equals = strchr(text_at(field), '=');
-    return (equals && equals != text_at(field)) || kiln_reader_mismatch(reader, option, node);
+    const char *const *text = field;
+    const char *equals = strchr(*text, '=');
+    return (equals && equals != *text) || kiln_reader_mismatch(reader, option, node);
 }
 
 static void describe_override(const struct kiln_option *option, struct kiln_text *out)
@@ -74,13 +39,13 @@ const struct kiln_option_type kiln_type_override = {.read = read_override,
 static bool read_technique(struct kiln_reader *reader, const struct kiln_option *option,
                            const struct kiln_node *node, void *field)
 {
-    if (!read_text(reader, option, node, field))
+    if (!kiln_type_text.read(reader, option, node, field))
         return false;
     static const struct kiln_device_info any_device = {.gl = true, .exact = true};
-    const char *text = text_at(field);
+    const char *const *text = field;
     struct kiln_techniques techniques;
     struct kiln_error error = {0};
-    if (kiln_techniques_choose(&any_device, &text, 1, &techniques, &error))
+    if (kiln_techniques_choose(&any_device, text, 1, &techniques, &error))
         return true;
     static const char stutter[] = "technique: ";
     bool stutters = strncmp(error.message, stutter, sizeof stutter - 1) == 0;
@@ -101,9 +66,9 @@ static bool read_device(struct kiln_reader *reader, const struct kiln_option *op
                         const struct kiln_node *node, void *field)
 {
     char name[KILN_DEVICE_NAME_SIZE];
-    if (!read_text(reader, option, node, field))
+    if (!kiln_type_text.read(reader, option, node, field))
         return false;
-    kiln_device_name(text_at(field), name);
+    kiln_device_name(*(const char *const *)field, name);
     return *name || kiln_reader_mismatch(reader, option, node);
 }
 
@@ -194,7 +159,7 @@ static int compare_numbers(const void *a, const void *b)
 static bool read_frames(struct kiln_reader *reader, const struct kiln_option *option,
                         const struct kiln_node *node, void *field)
 {
-    uint32_t *frames = field, *count = count_of(option, field), kept = 0;
+    uint32_t *frames = field, *count = kiln_option_count_of(option, field), kept = 0;
     *count = 0;
     if (is_word(node, "auto"))
         return true;
@@ -244,15 +209,14 @@ static bool read_limit(struct kiln_reader *reader, const struct kiln_option *opt
         const char *message = strstr(error.message, "': "); /* after "limit '...'" */
         return kiln_reader_error(reader, node->key, "%s", message ? message + 3 : error.message);
     }
-    value->metric = kiln_arena_text(reader->arena, name, strlen(name));
-    return value->metric || kiln_reader_out_of_memory(reader);
+    return kiln_reader_keep_text(reader, name, &value->metric);
 }
 
 static bool read_limits(struct kiln_reader *reader, const struct kiln_option *option,
                         const struct kiln_node *node, void *field)
 {
     struct kiln_expect_value *values = field;
-    uint32_t *count = count_of(option, field);
+    uint32_t *count = kiln_option_count_of(option, field);
     *count = 0;
     if (node->kind != KILN_NODE_MAP)
         return kiln_reader_mismatch(reader, option, node);

@@ -12,7 +12,6 @@ enum {
     KILN_TEST_MAX_FRAME = 999999, /* that a scene can have */
 };
 
-extern const struct kiln_option_type kiln_type_text;      /* of min to max bytes; const char * */
 extern const struct kiln_option_type kiln_type_override;  /* key=value; const char * */
 extern const struct kiln_option_type kiln_type_technique; /* stage=name; const char * */
 extern const struct kiln_option_type kiln_type_device;    /* of kiln_device_params; const char * */

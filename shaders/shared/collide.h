@@ -116,8 +116,8 @@ FN S(collide_state) collide_field_impact(SIM_PARAM S(collide_state) s, S(kiln_co
 }
 
 /* As collide_clamp has it. */
-FN S(collide_state)
-    collide_field_clamp(SIM_PARAM S(collide_state) s, S(kiln_collider) c, S(collide_answer) answer)
+FN S(collide_state) collide_field_clamp(SIM_PARAM S(collide_state) s, S(kiln_collider) c,
+                                        S(collide_answer) answer)
 {
     EXACT S(collide_state) after = s;
     EXACT S(collide_ground) ground =
@@ -131,8 +131,8 @@ FN S(collide_state)
 #endif
 
 /* The state after an impact on a face of a collider. */
-FN S(collide_state)
-    collide_impact(SIM_PARAM S(collide_state) s, uint number, uint face, S(collide_answer) of_all)
+FN S(collide_state) collide_impact(SIM_PARAM S(collide_state) s, uint number, uint face,
+                                   S(collide_answer) of_all)
 {
     EXACT S(collide_state) after = s;
     EXACT S(kiln_collider) c = collide_around(SIM number, of_all.radius);
@@ -209,8 +209,8 @@ struct collide_hit {
 };
 
 /* The way of a segment through a box or a round shape, between two parts of the step. */
-FN_CLOSE S(collide_span)
-    collide_solid_through(S(kiln_collider) c, float since, float until, float3 from, float3 end)
+FN_CLOSE S(collide_span) collide_solid_through(S(kiln_collider) c, float since, float until,
+                                               float3 from, float3 end)
 {
     EXACT S(collide_span) span;
     if (COLLIDE_IS_ROUND(c)) {
@@ -383,8 +383,8 @@ FN uint collide_purpose(SIM_PARAM uint bounce)
 
 /* From s, whose position is where the particle is and `end` where it would be when the part `until`
  * of the step (1: all of it) has passed; the result is at that time, outside of every box. */
-FN S(collide_way)
-    collide_swept(SIM_PARAM S(collide_state) s, float3 end, float until, S(collide_answer) answer)
+FN S(collide_way) collide_swept(SIM_PARAM S(collide_state) s, float3 end, float until,
+                                S(collide_answer) answer)
 {
     EXACT S(collide_way) way;
     way.first = collide_no_touch();
@@ -431,8 +431,8 @@ FN S(collide_way)
 
 /* From where a surface that has put somebody in front of it is found: a volume's cells know the
  * plane behind which that was, others where it is now. */
-FN S(collide_state)
-    collide_seen_from(S(kiln_collider) c, S(collide_state) before, S(collide_state) now)
+FN S(collide_state) collide_seen_from(S(kiln_collider) c, S(collide_state) before,
+                                      S(collide_state) now)
 {
     if (c.kind == COLLIDER_VOLUME)
         return before;
@@ -440,8 +440,8 @@ FN S(collide_state)
 }
 
 /* Onto the face of a box. */
-FN S(collide_state)
-    collide_box_clamp(S(collide_box) box, S(collide_state) s, uint face, S(collide_answer) answer)
+FN S(collide_state) collide_box_clamp(S(collide_box) box, S(collide_state) s, uint face,
+                                      S(collide_answer) answer)
 {
     EXACT S(collide_state) now = s;
     uint axis = face >> 1u;
@@ -455,8 +455,8 @@ FN S(collide_state)
 }
 
 /* The thesis's way: whoever ends inside a box is put on the nearest face. Fast particles tunnel. */
-FN S(collide_way)
-    collide_clamp(SIM_PARAM S(collide_state) s, float3 end, float until, S(collide_answer) answer)
+FN S(collide_way) collide_clamp(SIM_PARAM S(collide_state) s, float3 end, float until,
+                                S(collide_answer) answer)
 {
     EXACT S(collide_way) way;
     way.first = collide_no_touch();

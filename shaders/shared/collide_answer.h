@@ -168,9 +168,9 @@ FN float3 collide_rolling(S(collide_answer) answer, float3 rate, float given)
 /* How a ball that turns leaves a surface, from its velocities relative to it before and after the
  * bounce: friction acts against the slip of its skin. The surface turns by `turning` rad/s; its
  * velocity, `ground`, is that where the ball's centre is. */
-FN_APART S(collide_state)
-    collide_roll(S(collide_answer) answer, S(collide_state) s, float3 relative, float3 bounced,
-                 float3 normal, float3 ground, float3 turning)
+FN_APART S(collide_state) collide_roll(S(collide_answer) answer, S(collide_state) s,
+                                       float3 relative, float3 bounced, float3 normal,
+                                       float3 ground, float3 turning)
 {
     EXACT S(collide_state) after = s;
     EXACT float before = float3_dot(relative, normal);
@@ -218,8 +218,8 @@ FN S(collide_state) collide_leave(S(collide_answer) answer, S(collide_state) s, 
 }
 
 /* The same where surfaces are taken to rest (collide_clamp). */
-FN S(collide_state)
-    collide_stay(S(collide_answer) answer, S(collide_state) s, float3 bounced, float3 normal)
+FN S(collide_state) collide_stay(S(collide_answer) answer, S(collide_state) s, float3 bounced,
+                                 float3 normal)
 {
     EXACT S(collide_state) after = s;
     if (COLLIDE_SPINS(answer)) {

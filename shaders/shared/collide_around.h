@@ -84,7 +84,7 @@ FN_CLOSE uint collide_is_between(float a, float b, float low, float low_end, flo
 /* Whether a way may be between the ends of a cylinder, whose bounds are those of a ball about
  * either end: of a flat one, much too high. Far from its centre, heights are as good as their
  * places. */
-FN_CLOSE uint collide_is_between_ends(const S(kiln_collider) * c, float larger, float3 a, float3 b)
+FN_CLOSE uint collide_is_between_ends(const S(kiln_collider) *c, float larger, float3 a, float3 b)
 {
     float3 axis = FLOAT3(c->axis.x, c->axis.y, c->axis.z);
     float3 from = float3_sub(a, FLOAT3(c->center.x, c->center.y, c->center.z));
@@ -99,7 +99,7 @@ FN_CLOSE uint collide_is_between_ends(const S(kiln_collider) * c, float larger, 
 
 /* How much farther than its bounds a collider may be met: those of a round shape are computed apart
  * from its surface, which is as good as its place and size are. */
-FN_CLOSE float collide_bounds_gap(const S(kiln_collider) * c)
+FN_CLOSE float collide_bounds_gap(const S(kiln_collider) *c)
 {
     if (c->kind == COLLIDER_BOX)
         return 0.0f;
@@ -109,7 +109,7 @@ FN_CLOSE float collide_bounds_gap(const S(kiln_collider) * c)
 }
 
 /* By how much its bounds grow for a radius: a cylinder's edges by what its side and its ends do. */
-FN_CLOSE float collide_bounds_growth(const S(kiln_collider) * c)
+FN_CLOSE float collide_bounds_growth(const S(kiln_collider) *c)
 {
     return c->kind == COLLIDER_TERRAIN    ? c->steepest
            : c->kind == COLLIDER_CYLINDER ? 1.4143f
@@ -117,7 +117,7 @@ FN_CLOSE float collide_bounds_growth(const S(kiln_collider) * c)
 }
 
 /* Whether a way may be within bounds that are farther out by r and a gap. */
-FN_CLOSE uint collide_is_within(const S(kiln_collider) * c, float r, float gap, float3 a, float3 b)
+FN_CLOSE uint collide_is_within(const S(kiln_collider) *c, float r, float gap, float3 a, float3 b)
 {
     return collide_is_between(a.x, b.x, (c->min.x - r) - gap, (c->min_end.x - r) - gap,
                               (c->max.x + r) + gap, (c->max_end.x + r) + gap) &
@@ -129,7 +129,7 @@ FN_CLOSE uint collide_is_within(const S(kiln_collider) * c, float r, float gap, 
 
 /* Of a ball's way through the whole step: whether it may meet the collider, of any kind but planes.
  * For those who then look closer. */
-FN_CLOSE bool collide_may_meet(const S(kiln_collider) * c, float radius, float3 a, float3 b)
+FN_CLOSE bool collide_may_meet(const S(kiln_collider) *c, float radius, float3 a, float3 b)
 {
     float gap = collide_bounds_gap(c);
     if (collide_is_within(c, radius * collide_bounds_growth(c), gap, a, b) == 0u)

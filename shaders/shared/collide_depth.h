@@ -85,8 +85,8 @@ struct depth_place {
     float before; /* the back: units; both above 0: inside */
 };
 
-FN S(depth_place)
-    depth_place_at(S(terrain_path) path, S(depth_cell) cell, float x, float z, float part)
+FN S(depth_place) depth_place_at(S(terrain_path) path, S(depth_cell) cell, float x, float z,
+                                 float part)
 {
     EXACT S(depth_place) place;
     EXACT float u = path.x + path.way_x * part - x;
@@ -110,8 +110,8 @@ struct depth_inside {
 };
 
 /* Narrowed by one surface, over a triangle; d0 and d1 are above 0 on its inner side. */
-FN S(depth_inside)
-    depth_within(S(depth_inside) before, S(depth_place) a, S(depth_place) b, float d0, float d1)
+FN S(depth_inside) depth_within(S(depth_inside) before, S(depth_place) a, S(depth_place) b,
+                                float d0, float d1)
 {
     EXACT S(depth_inside) y = before;
     EXACT float change = d0 - d1;
@@ -146,8 +146,8 @@ struct depth_found {
     bool begun, ended;
 };
 
-FN S(depth_found)
-    depth_go_on(S(depth_found) before, S(depth_inside) next, S(depth_place) a, S(depth_place) b)
+FN S(depth_found) depth_go_on(S(depth_found) before, S(depth_inside) next, S(depth_place) a,
+                              S(depth_place) b)
 {
     EXACT S(depth_found) found = before;
     bool any = next.enter < next.leave;
@@ -257,17 +257,16 @@ FN float depth_first_inside(SIM_PARAM S(kiln_grid) g, float3 a, float3 b, float 
 /* Is a way on the outer side of one of the faces of the box around all maps? */
 FN bool depth_is_clear(S(kiln_grid) g, float3 a, float3 b)
 {
-    return (a.x < g.origin.x && b.x < g.origin.x) || (a.y < g.origin.y && b.y < g.origin.y) ||
-           (a.z < g.origin.z && b.z < g.origin.z) || (a.x > g.per_metre.x && b.x > g.per_metre.x) ||
-           (a.y > g.per_metre.y && b.y > g.per_metre.y) ||
-           (a.z > g.per_metre.z && b.z > g.per_metre.z);
+    return (a.x < g.low.x && b.x < g.low.x) || (a.y < g.low.y && b.y < g.low.y) ||
+           (a.z < g.low.z && b.z < g.low.z) || (a.x > g.high.x && b.x > g.high.x) ||
+           (a.y > g.high.y && b.y > g.high.y) || (a.z > g.high.z && b.z > g.high.z);
 }
 
 FN S(collide_box) depth_box(S(kiln_grid) g)
 {
     EXACT S(collide_box) box;
-    box.min = FLOAT3(g.origin.x, g.origin.y, g.origin.z);
-    box.max = FLOAT3(g.per_metre.x, g.per_metre.y, g.per_metre.z);
+    box.min = FLOAT3(g.low.x, g.low.y, g.low.z);
+    box.max = FLOAT3(g.high.x, g.high.y, g.high.z);
     return box;
 }
 
@@ -333,8 +332,8 @@ FN bool depth_is_within(SIM_PARAM S(kiln_grid) g, float3 q)
 }
 
 /* The way of a segment between two parts of the step, as collide_segment has it. */
-FN S(collide_span)
-    depth_segment(SIM_PARAM S(kiln_collider) c, float since, float until, float3 a, float3 b)
+FN S(collide_span) depth_segment(SIM_PARAM S(kiln_collider) c, float since, float until, float3 a,
+                                 float3 b)
 {
     EXACT S(collide_box) at_start = collide_box_at(c, since);
     EXACT S(collide_box) at_end = collide_box_at(c, until);

@@ -75,8 +75,8 @@ FN bool collide_field_inside(SIM_PARAM S(kiln_collider) c, float until, float3 p
     return inside;
 }
 
-FN S(collide_ground)
-    collide_field_ground(SIM_PARAM S(kiln_collider) c, uint face, float since, float3 p)
+FN S(collide_ground) collide_field_ground(SIM_PARAM S(kiln_collider) c, uint face, float since,
+                                          float3 p)
 {
     EXACT S(collide_ground) ground;
 #if COLLIDE_HAS_VOLUMES

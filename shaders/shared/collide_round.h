@@ -76,8 +76,8 @@ FN bool collide_round_inside(uint kind, S(collide_round) shape, float3 p)
 
 /* The round side as one more face: from a with radius r0 to b with radius r1. Most ways miss it,
  * which is known before roots are. */
-FN_CLOSE S(collide_span)
-    collide_side(S(collide_span) before, float3 a, float3 b, float r0, float r1)
+FN_CLOSE S(collide_span) collide_side(S(collide_span) before, float3 a, float3 b, float r0,
+                                      float r1)
 {
     EXACT S(collide_span) span = before;
     EXACT float3 way = float3_sub(b, a);

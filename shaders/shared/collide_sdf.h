@@ -208,8 +208,8 @@ FN bool sdf_is_clear(SIM_PARAM S(kiln_grid) g, float3 a, float3 b, float larger)
 }
 
 /* The way of a segment between two parts of the step, as collide_segment has it. */
-FN S(collide_span)
-    sdf_segment(SIM_PARAM S(kiln_collider) c, float since, float until, float3 a, float3 b)
+FN S(collide_span) sdf_segment(SIM_PARAM S(kiln_collider) c, float since, float until, float3 a,
+                               float3 b)
 {
     EXACT S(collide_box) at_start = collide_box_at(c, since);
     EXACT S(collide_box) at_end = collide_box_at(c, until);

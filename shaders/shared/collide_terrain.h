@@ -102,8 +102,8 @@ struct terrain_place {
     float above; /* m */
 };
 
-FN S(terrain_place)
-    terrain_place_at(S(terrain_path) path, S(terrain_cell) cell, float x, float z, float part)
+FN S(terrain_place) terrain_place_at(S(terrain_path) path, S(terrain_cell) cell, float x, float z,
+                                     float part)
 {
     EXACT S(terrain_place) place;
     EXACT float u = path.x + path.way_x * part - x;

@@ -143,8 +143,8 @@ FN S(collide_span) collide_either(S(collide_span) one, S(collide_span) other)
 }
 
 /* The ball at one of a capsule's ends. */
-FN S(collide_span)
-    collide_ball(S(collide_frame) start, S(collide_frame) end, float3 a, float3 b, float upwards)
+FN S(collide_span) collide_ball(S(collide_frame) start, S(collide_frame) end, float3 a, float3 b,
+                                float upwards)
 {
     EXACT S(collide_span) span = collide_span_start();
     EXACT float3 from = FLOAT3(a.x, a.y - upwards * start.extent.y, a.z);
@@ -369,9 +369,9 @@ FN float collide_turned_growth(S(kiln_collider) c, uint face)
 }
 
 /* Where a particle at p meets a face; `spacing`: 1, or 0 for a place on the face itself. */
-FN_APART S(collide_contact)
-    collide_turned_contact(SIM_PARAM uint number, float larger, float since, uint face, float3 p,
-                           float steps_per_s, float spacing)
+FN_APART S(collide_contact) collide_turned_contact(SIM_PARAM uint number, float larger, float since,
+                                                   uint face, float3 p, float steps_per_s,
+                                                   float spacing)
 {
     EXACT S(kiln_collider) c = collide_around(SIM number, larger);
     EXACT S(collide_contact) contact;

@@ -154,8 +154,8 @@ FN float3 emit_turned(float3 v, float3 axis)
 
 /* The same of a particle that is born of another: `parent` at that moment is the origin of the
  * shape's space and `axis` its y axis. */
-FN S(emit_state)
-    emit_child(SIM_PARAM uint stream, uint serial, float time_s, S(emit_state) parent, float3 axis)
+FN S(emit_state) emit_child(SIM_PARAM uint stream, uint serial, float time_s, S(emit_state) parent,
+                            float3 axis)
 {
     EXACT S(emit_state) own = emit_at_rest(SIM stream, serial, time_s);
     EXACT float inherit = value_at(SIM_KEYS STEP(emit.inherit), time_s, 0.0f);

@@ -33,6 +33,7 @@ struct force_input {
     float strength;
     float3 drift;
     float pull;
+    float quadratic; /* with FORCES_ALL */
     float scale;
     float inward;
     float lift;

@@ -1,4 +1,4 @@
-/* Uniform wind: what air of one velocity does (force_air); `strength` is the pull. */
+/* Uniform wind: what air of one velocity, `vector`, does. */
 #ifndef KILN_SHARED_FORCE_WIND_H
 #define KILN_SHARED_FORCE_WIND_H
 
@@ -7,10 +7,10 @@
 
 FN S(force_effect) force_wind(S(force_input) f)
 {
-    EXACT float per_s = f.strength + f.added;
+    EXACT float per_s = f.pull + f.added;
     EXACT S(force_effect) effect = force_none();
     effect.acceleration = float3_scale(f.vector, per_s);
-    effect.pull = f.strength;
+    effect.pull = f.pull;
     return effect;
 }
 

@@ -84,6 +84,9 @@ FN S(force_effect) forces_sum(SIM_PARAM float3 position, float life)
         force.strength = value_at(SIM_KEYS STEP(forces[i].strength), force.time_s, life);
         force.drift = value3_at(SIM_KEYS STEP(forces[i].drift), force.time_s, life);
         force.pull = value_at(SIM_KEYS STEP(forces[i].pull), force.time_s, life);
+#ifdef FORCES_ALL
+        force.quadratic = value_at(SIM_KEYS STEP(forces[i].quadratic), force.time_s, life);
+#endif
         force.scale = value_at(SIM_KEYS STEP(forces[i].scale), force.time_s, life);
         force.inward = STEP(forces[i].inward);
         force.lift = STEP(forces[i].lift);

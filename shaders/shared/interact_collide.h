@@ -126,8 +126,8 @@ FN S(contact_choice) contact_no_choice(void)
     return choice;
 }
 
-FN S(contact_choice)
-    contact_choose(CROWD_PARAM S(contact_choice) best, S(kiln_body) a, S(kiln_body) b, uint at)
+FN S(contact_choice) contact_choose(CROWD_PARAM S(contact_choice) best, S(kiln_body) a,
+                                    S(kiln_body) b, uint at)
 {
     uint mine = a.velocity_slot.w;
     uint other = b.velocity_slot.w;
@@ -147,8 +147,8 @@ FN S(contact_choice)
     return best;
 }
 
-FN S(contact_choice)
-    contact_choose_among(CROWD_PARAM S(contact_choice) best, S(kiln_body) a, uint begin, uint end)
+FN S(contact_choice) contact_choose_among(CROWD_PARAM S(contact_choice) best, S(kiln_body) a,
+                                          uint begin, uint end)
 {
     S(contact_choice) choice = best;
     for (uint k = begin; k < end; k++)
@@ -244,8 +244,8 @@ FN S(contact_blow) contact_blow_of(S(contact) c, float3 otherwise, float restitu
 
 /* The first of two that touch after their collision. `restitution` 1 keeps all energy; of an
  * overlap that is left, the part `apart` is taken away. */
-FN S(kiln_body)
-    contact_answer(S(kiln_body) a, S(kiln_body) b, float restitution, float apart, float dt_s)
+FN S(kiln_body) contact_answer(S(kiln_body) a, S(kiln_body) b, float restitution, float apart,
+                               float dt_s)
 {
     EXACT S(contact) c = contact_of(a, b);
     EXACT float share = contact_share(a, b);

@@ -313,8 +313,8 @@ FN bool flock_is_seen(CROWD_PARAM float3 velocity, float3 apart, float square, f
 }
 
 /* Sums, with one more that is there. */
-FN S(flock_sums)
-    flock_add(CROWD_PARAM S(flock_sums) sums, S(kiln_body) a, S(kiln_body) b, int y, int z)
+FN S(flock_sums) flock_add(CROWD_PARAM S(flock_sums) sums, S(kiln_body) a, S(kiln_body) b, int y,
+                           int z)
 {
     EXACT float3 from = body_position(a);
     EXACT float3 to = body_position(b);

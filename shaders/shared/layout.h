@@ -78,7 +78,8 @@ struct kiln_force_params {
     S(kiln_value3) vector;
     S(kiln_value3) drift;
     S(kiln_value) strength;
-    S(kiln_value) pull;
+    S(kiln_value) pull;      /* 1/s */
+    S(kiln_value) quadratic; /* 1/m */
     S(kiln_value) scale;
     float inward, lift; /* m/s */
     float added; /* 1/s: steps a second where the air's velocity is added in each step, else 0 */
@@ -208,11 +209,11 @@ struct kiln_pose {
 
 /* Samples on a lattice in space; GRID_WORD(i) is the i-th of all grids: see grid.h. Of a volume,
  * the lattice's cells, of which a VOLUME_WORD has four: see collide_volume.h. Of depth maps
- * (collide_depth.h), two corners of the box around all in place of origin and per_metre, and as
- * size columns, rows, maps and the first word. */
+ * (collide_depth.h), size has columns, rows, maps and the first word. */
 struct kiln_grid {
     float4 origin;    /* m: where the first sample lies */
     float4 per_metre; /* samples, along each axis */
+    float4 low, high; /* m: of depth maps: corners of the box around all */
     uint4 size;       /* samples along each axis, at least 2; w: the word of the first */
 };
 

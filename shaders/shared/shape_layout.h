@@ -10,16 +10,16 @@
 #define KILN_BIND_SHAPES 4 /* a uniform block */
 
 /* Texture units of the backdrop. */
-#define KILN_UNIT_SURFACES     0
-#define KILN_UNIT_MESH_HITS    1 /* what the rays of a pixel hit: its centre, then its samples */
-#define KILN_UNIT_FLOOR        3
-#define KILN_UNIT_SKY          6 /* 4 and 5 are those of smoke */
-#define KILN_UNIT_MESH_SHADOW  7 /* a layer a mesh, as the sun sees it */
-#define KILN_UNIT_SPHERE_BINS  8 /* particles that are spheres */
-#define KILN_UNIT_SPHERE_LIST  9
-#define KILN_UNIT_MESH_PAINT   11 /* a layer a mesh that takes paint; 10 is in draw_layout.h */
-#define KILN_UNIT_SPHERE_TILES 13 /* particles that are meshes: 12 is in tiled_layout.h */
-#define KILN_UNIT_SILHOUETTES  14
+#define KILN_UNIT_SURFACES    0
+#define KILN_UNIT_MESH_HITS   1 /* what the rays of a pixel hit: its centre, then its samples */
+#define KILN_UNIT_FLOOR       3
+#define KILN_UNIT_SKY         6 /* 4 and 5 are those of smoke */
+#define KILN_UNIT_MESH_SHADOW 7 /* a layer a mesh, as the sun sees it */
+#define KILN_UNIT_SOLID_BINS  8 /* of particles that are solid */
+#define KILN_UNIT_SOLID_LIST  9
+#define KILN_UNIT_MESH_PAINT  11 /* a layer a mesh that takes paint; 10 is in draw_layout.h */
+#define KILN_UNIT_SOLID_TILES 13 /* particles that are meshes: 12 is in tiled_layout.h */
+#define KILN_UNIT_SILHOUETTES 14
 
 /* Rays of a pixel at an edge: a rotated grid, in which no two share a row or a column. */
 #define KILN_EDGE_SAMPLES 4
@@ -30,13 +30,13 @@
 #define KILN_SHADOW_EDGE   1024
 #define KILN_SHADOW_MARGIN 0.01f /* border, in parts of the half edge */
 
-/* Spheres throw their shadows by lists: at most so many bins along each edge; entries in a row of
+/* Solids throw their shadows by lists: at most so many bins along each edge; entries in a row of
  * the list's texture. A shadow is gone where the penumbra is so many times as wide as the sphere.
  */
-#define KILN_SPHERE_BINS       128
-#define KILN_SPHERE_ROW        1024
-#define KILN_SPHERE_FADE       16.0f
-#define KILN_SPHERES_AT_A_TIME 4 /* of a list, when shaders read it */
+#define KILN_SOLID_BINS       128
+#define KILN_SOLID_ROW        1024
+#define KILN_SOLID_FADE       16.0f
+#define KILN_SOLIDS_AT_A_TIME 4 /* of a list, when shaders read it */
 
 /* Meshes throw theirs by tiles of an atlas, so many texels square, with levels of half the size and
  * so on, until the largest of the tiles is a texel (lib/draw/light/instance_tiles.h). Where the

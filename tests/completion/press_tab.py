@@ -97,6 +97,7 @@ source {script}
 show() {{ printf '\\n<<%s>>\\n' "$BUFFER" }}; zle -N show; bindkey -e; bindkey '^G' show
 """,
 }
+PATIENCE_S = 50  # for a shell that hangs
 ARGUMENTS = {"bash": ["--norc", "--noprofile", "-i"], "zsh": ["-f", "-i"]}
 
 
@@ -110,7 +111,7 @@ class Shell:
             os.execvpe(name, [name] + ARGUMENTS[name], environment)
 
     def wait_for(self, pattern):
-        text, end = "", time.monotonic() + 30
+        text, end = "", time.monotonic() + PATIENCE_S
         while time.monotonic() < end:
             if select.select([self.terminal], [], [], 1)[0]:
                 text += os.read(self.terminal, 65536).decode(errors="replace")

@@ -15,6 +15,7 @@ import subprocess
 import sys
 import tempfile
 
+PATIENCE_S = 600  # for a command that hangs
 TREE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 
@@ -22,7 +23,7 @@ def run(command, folder, environment):
     if command.startswith("tools/"):
         command = os.path.join(TREE, command)
     done = subprocess.run(["bash", "-c", command], cwd=folder, env=environment, text=True,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=120)
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=PATIENCE_S)
     lines = [re.sub(r"\b[0-9.]+ s\b", "N s", line) for line in done.stdout.splitlines()]
     return lines + ([f"exit code {done.returncode}"] if done.returncode else [])
 

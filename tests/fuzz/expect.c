@@ -1,12 +1,13 @@
 /* Fuzzes the reader of expect.yaml: any bytes are read or an error, never a crash; what is read is
  * written as a text that reads and writes as the same; and accepting a picture keeps all the rest.
  */
+#include "suite/expect.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "fuzz.h"
-#include "suite/expect.h"
 
 static void require(bool condition, const char *what)
 {

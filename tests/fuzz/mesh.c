@@ -1,14 +1,13 @@
 /* Fuzzes the mesh loader: any bytes are a mesh within the limits or an error, never a crash; of
  * this process, that is: the importer has one of its own. What moves is within them at any moment.
  */
-#include "fuzz.h"
-
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "asset/geometry/skin.h"
+#include "fuzz.h"
 
 static void require(bool condition, const char *what)
 {

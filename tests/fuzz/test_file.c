@@ -1,11 +1,12 @@
 /* Fuzzes the reader of test files: any bytes are a test, or one with a problem, never a crash; and
  * what a test says is within what its keys allow. */
+#include "suite/test_file.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "fuzz.h"
-#include "suite/test_file.h"
 
 static void require(bool condition, const char *what)
 {

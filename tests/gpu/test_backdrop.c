@@ -1,16 +1,13 @@
 /* lib/draw/backdrop/backdrop.c against a plain C ray caster. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "draw/backdrop/backdrop.h"
 #include "support/backdrops.h"
+#include "support/cmocka.h"
 
 enum { WIDTH = 96, HEIGHT = 54 };
 
@@ -34,6 +31,7 @@ static const char SCENE[] = "kiln: 1\n"
 struct fixture {
     struct kiln_scene *scene;
     struct kiln_image color, depth;
+    struct kiln_moment moment;
     struct kiln_backdrop_stage *stage;
 };
 
@@ -52,7 +50,8 @@ static void fixture_start(struct fixture *f, void *device)
     struct kiln_error error = {0};
     kiln_image_init(&f->color, device, WIDTH, HEIGHT, GL_RGBA32F, "color");
     kiln_image_init(&f->depth, device, WIDTH, HEIGHT, GL_R32F, "depth");
-    f->stage = backdrop_create(device, f->scene, &f->color, &f->depth, &error);
+    assert_true(kiln_moment_init(&f->moment, device, f->scene, NULL, &error));
+    f->stage = backdrop_create(device, &f->moment, &f->color, &f->depth, &error);
     if (!f->stage)
         fail_msg("%s", error.message);
 }
@@ -60,6 +59,7 @@ static void fixture_start(struct fixture *f, void *device)
 static void fixture_end(struct fixture *f)
 {
     kiln_backdrop_destroy(&f->stage);
+    kiln_moment_finish(&f->moment);
     kiln_image_finish(&f->color);
     kiln_image_finish(&f->depth);
     kiln_scene_destroy(&f->scene);
@@ -117,8 +117,8 @@ static void depth_matches_c(void **state)
     struct kiln_error error = {0};
     struct fixture f = fixture_create();
     fixture_start(&f, *state);
-    struct kiln_view view = kiln_view_compute(f.scene, 0);
-    assert_true(kiln_backdrop_draw(f.stage, &view, &NO_LIGHTING, &error));
+    assert_true(kiln_moment_fill(&f.moment, NULL, 0, false, &error));
+    assert_true(kiln_backdrop_draw(f.stage, &f.moment, &NO_LIGHTING, &error));
     const float *depth = kiln_image_host(&f.depth, KILN_READ, &error);
     assert_non_null(depth);
     const double eye[3] = {3, 2, 6};
@@ -146,8 +146,8 @@ static void sky_floor_and_shadow_have_their_colors(void **state)
     struct kiln_error error = {0};
     struct fixture f = fixture_create();
     fixture_start(&f, *state);
-    struct kiln_view view = kiln_view_compute(f.scene, 0);
-    assert_true(kiln_backdrop_draw(f.stage, &view, &NO_LIGHTING, &error));
+    assert_true(kiln_moment_fill(&f.moment, NULL, 0, false, &error));
+    assert_true(kiln_backdrop_draw(f.stage, &f.moment, &NO_LIGHTING, &error));
     const float *color = kiln_image_host(&f.color, KILN_READ, &error);
     assert_non_null(color);
 
@@ -173,18 +173,18 @@ static void only_changes_are_drawn_again(void **state)
     struct kiln_error error = {0};
     struct fixture f = fixture_create();
     fixture_start(&f, *state);
-    struct kiln_view view = kiln_view_compute(f.scene, 0);
-    assert_true(kiln_backdrop_draw(f.stage, &view, &NO_LIGHTING, &error));
+    assert_true(kiln_moment_fill(&f.moment, NULL, 0, false, &error));
+    assert_true(kiln_backdrop_draw(f.stage, &f.moment, &NO_LIGHTING, &error));
     float *depth = kiln_image_host(&f.depth, KILN_READ_WRITE, &error);
     assert_non_null(depth);
     float before = depth[0];
     depth[0] = -1.0f;
-    assert_true(kiln_backdrop_draw(f.stage, &view, &NO_LIGHTING, &error));
+    assert_true(kiln_backdrop_draw(f.stage, &f.moment, &NO_LIGHTING, &error));
     depth = kiln_image_host(&f.depth, KILN_READ_WRITE, &error);
     assert_true(depth[0] == -1.0f);
 
-    view = kiln_view_compute(f.scene, 30);
-    assert_true(kiln_backdrop_draw(f.stage, &view, &NO_LIGHTING, &error));
+    assert_true(kiln_moment_fill(&f.moment, NULL, 30, false, &error));
+    assert_true(kiln_backdrop_draw(f.stage, &f.moment, &NO_LIGHTING, &error));
     depth = kiln_image_host(&f.depth, KILN_READ, &error);
     assert_true(depth[0] == before);
     fixture_end(&f);

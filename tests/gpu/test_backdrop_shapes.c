@@ -1,16 +1,13 @@
 /* Spheres, cylinders, meshes, shadows and pictures of lib/draw/backdrop/backdrop.c against a plain
  * C ray caster in doubles. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "asset/image/texture.h"
+#include "support/cmocka.h"
 #include "support/folders.h"
 #include "support/ray_caster.h"
 

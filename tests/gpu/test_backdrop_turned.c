@@ -1,12 +1,9 @@
 /* Capsules, planes and boxes of any direction of lib/draw/backdrop/backdrop.c, and their shadows,
  * against a plain C ray caster in doubles. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
+#include "support/cmocka.h"
 #include "support/ray_caster.h"
 
 #define OBJECTS                                                                                    \

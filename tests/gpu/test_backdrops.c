@@ -1,19 +1,17 @@
 /* The techniques of stage `backdrop` agree on every scene and on fixtures that have every feature;
  * those in C give the same bytes for any number of threads and every width of vectors. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <glob.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/simd.h"
 #include "frame/stages.h"
+#include "support/cmocka.h"
 #include "support/device.h"
+#include "support/parts.h"
+#include "support/stages.h"
 
 enum { WIDTH = 384, HEIGHT = 216, PIXELS = WIDTH * HEIGHT, COLORS = 4 * PIXELS };
 
@@ -114,19 +112,17 @@ static struct picture *draw(struct moment *m, enum kiln_backdrop_technique techn
                                                .backdrop = technique,
                                                .raster = KILN_RASTER_CPU,
                                                .composite = KILN_COMPOSITE_CPU};
-    const struct kiln_output_needs needs = {.bits = 8};
     uint32_t drawn = 0;
     assert_non_null(picture);
-    if (!kiln_stages_init(&stages, m->device, m->scene, &techniques, needs, workers, &m->pool,
-                          &error) ||
-        (m->before && !kiln_stages_draw(&stages, &m->pool, m->before, 0, &drawn, &error)) ||
+    stages_open(&stages, NULL, m->device, m->scene, &techniques, false, workers, &m->pool);
+    if ((m->before && !kiln_stages_draw(&stages, &m->pool, m->before, 0, &drawn, &error)) ||
         !kiln_stages_draw(&stages, &m->pool, m->step, 0, &drawn, &error))
         fail_msg("%s", error.message);
     take(&stages.scene_color, picture->color, COLORS);
     take(&stages.scene_depth, picture->depth, PIXELS);
-    if (stages.spheres)
+    if (stages.solids)
         take(&stages.bloom_color, picture->bloom, COLORS);
-    kiln_stages_finish(&stages);
+    stages_close(&stages, NULL);
     kiln_threads_destroy(&workers);
     return picture;
 }
@@ -240,7 +236,7 @@ static void check_agreement(struct moment *m, const char *name)
     "    emit: {rate: 100, life: 1 s, speed: 1, from: {sphere: {origin: [0.8, 0.5, 1]}}}\n"        \
     "    look: {blend: add, size: 0.4 m, temperature: 1800, light: 1, lights: 5}\n"
 
-static const struct fixture {
+static struct fixture {
     const char *name, *text;
 } FIXTURES[] = {
     {"checkers, haze", HEAD CAMERA
@@ -283,36 +279,31 @@ enum { FIXTURE_COUNT = sizeof FIXTURES / sizeof *FIXTURES };
 
 /* ---- tests ----------------------------------------------------------------------------------- */
 
-static void techniques_agree_on_every_scene(void **state)
+static void techniques_agree_on_a_scene(void **state)
 {
-    glob_t scenes;
-    assert_int_equal(glob(KILN_SOURCE_DIR "/scenes/*.yaml", 0, NULL, &scenes), 0);
-    assert_true(scenes.gl_pathc >= 10);
-    for (size_t i = 0; i < scenes.gl_pathc; i++) {
-        struct moment m;
-        struct kiln_scene *scene = load(scenes.gl_pathv[i]);
-        open_moment(&m, *state, scene, scene->frames / 2);
-        check_agreement(&m, strrchr(scenes.gl_pathv[i], '/') + 1);
-        close_moment(&m);
-    }
-    globfree(&scenes);
+    const struct test_scene *given = *state;
+    struct moment m;
+    struct kiln_scene *scene = load(given->path);
+    open_moment(&m, test_device(), scene, scene->frames / 2);
+    check_agreement(&m, strrchr(given->path, '/') + 1);
+    close_moment(&m);
 }
 
-static void techniques_agree_on_every_feature(void **state)
+static void techniques_agree_on_a_fixture(void **state)
 {
-    for (size_t i = 0; i < FIXTURE_COUNT; i++) {
-        struct moment m;
-        open_moment(&m, *state, parse(FIXTURES[i].text), 40);
-        check_agreement(&m, FIXTURES[i].name);
-        close_moment(&m);
-    }
+    const struct fixture *given = *state;
+    struct moment m;
+    open_moment(&m, test_device(), parse(given->text), 40);
+    check_agreement(&m, given->name);
+    close_moment(&m);
 }
 
 /* What was drawn before leaves nothing behind. */
 static void what_moves_is_drawn_anew(void **state)
 {
+    (void)state;
     struct moment m;
-    open_moment(&m, *state, parse(HEAD CAMERA "backdrop:\n" MOVING), 40);
+    open_moment(&m, test_device(), parse(HEAD CAMERA "backdrop:\n" MOVING), 40);
     for (int i = 0; i < 2; i++) {
         const enum kiln_backdrop_technique technique = i ? KILN_BACKDROP_GL : KILN_BACKDROP_CPU;
         struct picture *pictures[4];
@@ -341,30 +332,41 @@ static void check_bytes(struct moment *m, const struct picture *expected, const 
     unsetenv("KILN_SIMD");
 }
 
-static void every_width_and_thread_count_gives_the_same_bytes(void **state)
+static void a_fixture_is_the_same_bytes(void **state)
+{
+    const struct fixture *given = *state;
+    struct moment m;
+    open_moment(&m, test_device(), parse(given->text), 40);
+    struct picture *expected = draw(&m, KILN_BACKDROP_CPU, 1);
+    for (uint32_t threads = 3; threads <= 5; threads += 2)
+        check_bytes(&m, expected, NULL, threads);
+    for (enum kiln_simd simd = 0; simd < KILN_SIMD_COUNT; simd++) {
+        if (kiln_simd_has(simd))
+            check_bytes(&m, expected, kiln_simd_name(simd), 2);
+    }
+    free(expected);
+    close_moment(&m);
+}
+
+static void add_fixtures(struct test_list *list, struct CMUnitTest test)
 {
     for (size_t i = 0; i < FIXTURE_COUNT; i++) {
-        struct moment m;
-        open_moment(&m, *state, parse(FIXTURES[i].text), 40);
-        struct picture *expected = draw(&m, KILN_BACKDROP_CPU, 1);
-        for (uint32_t threads = 3; threads <= 5; threads += 2)
-            check_bytes(&m, expected, NULL, threads);
-        for (enum kiln_simd simd = 0; simd < KILN_SIMD_COUNT; simd++) {
-            if (kiln_simd_has(simd))
-                check_bytes(&m, expected, kiln_simd_name(simd), 2);
-        }
-        free(expected);
-        close_moment(&m);
+        test.name = FIXTURES[i].name;
+        test.initial_state = &FIXTURES[i];
+        test_list_add(list, &test, 1);
     }
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
-    static const struct CMUnitTest tests[] = {
-        test_on_device(every_width_and_thread_count_gives_the_same_bytes),
-        test_on_device(what_moves_is_drawn_anew),
-        test_on_device(techniques_agree_on_every_feature),
-        test_on_device(techniques_agree_on_every_scene),
-    };
-    return cmocka_run_group_tests(tests, test_device_open, test_device_close);
+    static const struct CMUnitTest moves = test_on_device(what_moves_is_drawn_anew);
+    static const struct CMUnitTest same = test_on_device(a_fixture_is_the_same_bytes);
+    static const struct CMUnitTest agree = test_on_device(techniques_agree_on_a_fixture);
+    static const struct CMUnitTest scene = test_on_device(techniques_agree_on_a_scene);
+    struct test_list list = {.count = 0};
+    test_list_add(&list, &moves, 1);
+    add_fixtures(&list, same);
+    add_fixtures(&list, agree);
+    test_list_add_scenes(&list, scene, 1);
+    return test_list_run(&list, "backdrops", argc, argv, test_device_open_alone, test_device_close);
 }

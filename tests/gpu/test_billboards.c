@@ -1,12 +1,9 @@
 /* Billboards of every kind, points and lines (Heinz 2019, 2.1.1) before a rolled camera, against
  * planes, discs and segments that are worked out in the world. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
+#include "support/cmocka.h"
 #include "support/drawing.h"
 
 enum { WIDTH = 320, HEIGHT = 240, PIXELS = WIDTH * HEIGHT, STEP = 30 };
@@ -198,7 +195,7 @@ static void check_point(struct kiln_device *device, const char *const *overrides
     drawing_run(&d, 1, (float)WALL_M);
     vec center = drawing_project(&d, vec_of(POSITION));
     if (diameter_px <= 0)
-        diameter_px = 1.2 * HEIGHT / (2 * (double)d.view.frustum.y * center.z);
+        diameter_px = 1.2 * HEIGHT / (2 * (double)d.moment.view.frustum.y * center.z);
     double thin = fmin(diameter_px, 1), half = fmax(diameter_px, 1) / 2, sum = 0;
     for (int p = 0; p < PIXELS; p++) {
         double alpha =

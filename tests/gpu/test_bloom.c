@@ -1,15 +1,12 @@
 /* lib/post/bloom*.c against a plain reference: each technique. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "post/bloom.h"
+#include "support/cmocka.h"
 #include "support/device.h"
 
 static enum kiln_bloom_technique technique = KILN_BLOOM_GL;

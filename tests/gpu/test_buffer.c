@@ -1,13 +1,10 @@
 /* lib/gpu/buffer.h: the same bytes on both sides, whoever wrote them last. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
 #include <string.h>
 
 #include "gpu/buffer.h"
+#include "support/cmocka.h"
 #include "support/device.h"
 
 enum { COUNT = 1000 };

@@ -1,12 +1,9 @@
 /* Limits from measurements. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-#include <math.h>
-
+#include "support/cmocka.h"
 #include "support/suite.h"
 
 #define EXPECT "golden/spark/expect.yaml"

@@ -1,13 +1,10 @@
 /* Particles at less than full resolution: near what full resolution shows, the same from both
  * techniques, without what belongs behind an edge before it. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
 #include "base/simd.h"
+#include "support/cmocka.h"
 #include "support/frame.h"
 
 enum { WIDTH = 101, HEIGHT = 67, PIXELS = WIDTH * HEIGHT };

@@ -1,15 +1,12 @@
 /* lib/post/composite*.c against a plain reference: each technique. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "post/composite.h"
+#include "support/cmocka.h"
 #include "support/device.h"
 
 enum { WIDTH = 48, HEIGHT = 36, PIXELS = WIDTH * HEIGHT };

@@ -1,12 +1,9 @@
 /* The techniques of stage `raster` agree where it is hard: on sprites larger than the picture,
  * thousands in one place, more than are drawn at a time, and on those that the camera is in. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
+#include "support/cmocka.h"
 #include "support/drawing.h"
 
 enum { WIDTH = 600, HEIGHT = 400, VALUES = WIDTH * HEIGHT * 4, STEP = 30, MOST = 300000 };

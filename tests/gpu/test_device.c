@@ -1,16 +1,13 @@
 /* lib/gpu/device.h: listing, choosing, opening, errors, dispatch. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "gpu/probe.h"
+#include "support/cmocka.h"
 #include "support/device.h"
 
 static struct kiln_device *open_named(const char *wanted, struct kiln_error *error)

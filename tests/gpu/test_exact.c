@@ -1,12 +1,9 @@
 /* The shared arithmetic in GLSL against C, bit for bit, on a million vectors. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
 #include "gpu/probe.h"
+#include "support/cmocka.h"
 #include "support/device.h"
 
 static void vectors_agree_with_c(struct kiln_device *device, enum kiln_probe_stage stage)

@@ -1,16 +1,13 @@
 /* Averages of a flock: by the sums of integers that decide states, and as the paper takes them,
  * from the last level of mip-maps of float textures (Drone 2007, 7.4.4.2), whose error is reported.
  */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-#include <math.h>
-
 #include "shared/interact_flock.h"
 #include "support/balls.h"
+#include "support/cmocka.h"
 #include "support/device.h"
 
 enum { SIDE = 64, BIRDS = SIDE * SIDE };

@@ -1,15 +1,12 @@
 /* What the floor mirrors, against the same in plain C. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <string.h>
 
 #include "draw/backdrop/backdrop.h"
 #include "support/backdrops.h"
+#include "support/cmocka.h"
 
 enum { WIDTH = 96, HEIGHT = 54 };
 
@@ -25,6 +22,7 @@ enum { WIDTH = 96, HEIGHT = 54 };
 struct picture {
     struct kiln_scene *scene;
     struct kiln_image color, depth;
+    struct kiln_moment moment;
     struct kiln_backdrop_stage *stage;
     const float *colors;
 };
@@ -33,8 +31,8 @@ static void draw_at(struct picture *p, uint32_t step)
 {
     static const struct kiln_lighting lighting; /* none */
     struct kiln_error error = {0};
-    struct kiln_view view = kiln_view_compute(p->scene, step);
-    if (!kiln_backdrop_draw(p->stage, &view, &lighting, &error))
+    if (!kiln_moment_fill(&p->moment, NULL, step, false, &error) ||
+        !kiln_backdrop_draw(p->stage, &p->moment, &lighting, &error))
         fail_msg("%s", error.message);
     p->colors = kiln_image_host(&p->color, KILN_READ, &error);
     assert_non_null(p->colors);
@@ -48,7 +46,8 @@ static void start(struct picture *p, void *device, const char *text)
         fail_msg("%s", error.message);
     kiln_image_init(&p->color, device, WIDTH, HEIGHT, GL_RGBA32F, "color");
     kiln_image_init(&p->depth, device, WIDTH, HEIGHT, GL_R32F, "depth");
-    p->stage = backdrop_create(device, p->scene, &p->color, &p->depth, &error);
+    assert_true(kiln_moment_init(&p->moment, device, p->scene, NULL, &error));
+    p->stage = backdrop_create(device, &p->moment, &p->color, &p->depth, &error);
     if (!p->stage)
         fail_msg("%s", error.message);
     draw_at(p, 0);
@@ -57,6 +56,7 @@ static void start(struct picture *p, void *device, const char *text)
 static void finish(struct picture *p)
 {
     kiln_backdrop_destroy(&p->stage);
+    kiln_moment_finish(&p->moment);
     kiln_image_finish(&p->color);
     kiln_image_finish(&p->depth);
     kiln_scene_destroy(&p->scene);

@@ -1,15 +1,12 @@
 /* lib/bench/force_splat.c: gravity as the blending unit adds it up (Drone 2007, 7.4.3.1), beside
  * the sums in a fixed order that decide states; both against sums in double. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
 
 #include "bench/force_splat.h"
 #include "shared/interact_gravity.h"
 #include "support/balls.h"
+#include "support/cmocka.h"
 
 enum { BODIES = 300 /* no multiple of a row of texels */, WAYS = 3 };
 

@@ -1,12 +1,9 @@
 /* The state hash on the device against the host's, for sizes around those of work groups. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
 #include "shared/random.h"
+#include "support/cmocka.h"
 #include "support/simulation.h"
 
 static struct scene_fixture fixture; /* too large for a stack */

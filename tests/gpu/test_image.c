@@ -1,13 +1,10 @@
 /* lib/gpu/image.h: pixels on both sides, rows from the top. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
 #include <string.h>
 
 #include "gpu/image.h"
+#include "support/cmocka.h"
 #include "support/device.h"
 
 /* Odd sizes, so that a row alignment would show. */

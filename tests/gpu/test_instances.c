@@ -1,16 +1,12 @@
-/* Particles that are meshes (lib/draw/solids/spheres.c) against triangles that are intersected in
+/* Particles that are meshes (lib/draw/solids/solids.c) against triangles that are intersected in
  * double precision: how they lie, depth, silhouettes, light; that both techniques agree, and that
  * neither order, threads nor the width of vectors matter. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-
 #include <sys/resource.h>
 
 #include "base/simd.h"
+#include "support/cmocka.h"
 #include "support/opaque.h"
 
 enum { STEP = 30, COUNT = 24 };

@@ -1,15 +1,12 @@
 /* lib/draw/lighting as the backdrop shows it: fire lights the floor, smoke shades it. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <string.h>
 
 #include "draw/backdrop/backdrop.h"
 #include "support/backdrops.h"
+#include "support/cmocka.h"
 #include "support/scenes.h"
 
 enum { WIDTH = 64, HEIGHT = 36, STEP = 30, SLOTS = 512 };
@@ -35,7 +32,7 @@ static const char SCENE[] = "kiln: 1\n"
 struct fixture {
     struct kiln_scene *scene;
     struct kiln_pool pool;
-    struct kiln_view view;
+    struct kiln_moment moment;
     struct kiln_image color, depth;
     struct kiln_threads *threads;
     struct kiln_lighting_stage *lighting;
@@ -52,16 +49,17 @@ static void set_up(struct fixture *f, void *device)
     assert_non_null(f->threads);
     kiln_image_init(&f->color, device, WIDTH, HEIGHT, GL_RGBA32F, "color");
     kiln_image_init(&f->depth, device, WIDTH, HEIGHT, GL_R32F, "depth");
-    f->lighting = kiln_lighting_create(device, f->scene, f->threads, &error);
-    f->backdrop = backdrop_create(device, f->scene, &f->color, &f->depth, &error);
+    assert_true(kiln_moment_init(&f->moment, device, f->scene, NULL, &error));
+    f->lighting = kiln_lighting_create(device, &f->moment, f->threads, &error);
+    f->backdrop = backdrop_create(device, &f->moment, &f->color, &f->depth, &error);
     assert_true(f->lighting && f->backdrop);
-    f->view = kiln_view_compute(f->scene, STEP);
 }
 
 static void tear_down(struct fixture *f)
 {
     kiln_backdrop_destroy(&f->backdrop);
     kiln_lighting_destroy(&f->lighting);
+    kiln_moment_finish(&f->moment);
     kiln_threads_destroy(&f->threads);
     kiln_image_finish(&f->color);
     kiln_image_finish(&f->depth);
@@ -86,8 +84,9 @@ static void draw(struct fixture *f, int x, int y, float rgb[3])
 {
     struct kiln_error error = {0};
     struct kiln_lighting lighting;
-    assert_true(kiln_lighting_run(f->lighting, &f->pool, &f->view, &lighting, &error));
-    assert_true(kiln_backdrop_draw(f->backdrop, &f->view, &lighting, &error));
+    assert_true(kiln_moment_fill(&f->moment, &f->pool, STEP, true, &error));
+    assert_true(kiln_lighting_run(f->lighting, &f->moment, &lighting, &error));
+    assert_true(kiln_backdrop_draw(f->backdrop, &f->moment, &lighting, &error));
     const float *pixels = kiln_image_host(&f->color, KILN_READ, &error);
     assert_non_null(pixels);
     memcpy(rgb, pixels + 4 * (y * WIDTH + x), 3 * sizeof *rgb);

@@ -1,15 +1,12 @@
 /* Kernels whose loops are long. llvmpipe lets those of an invocation run 65,535 times in all and
  * then ends them, silently: each must be right all the same, or say that it can not be. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
 #include <stdlib.h>
 
 #include "gpu/program.h"
 #include "support/balls.h"
+#include "support/cmocka.h"
 
 static struct scene_fixture fixture; /* too large for a stack */
 

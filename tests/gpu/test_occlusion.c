@@ -1,11 +1,8 @@
 /* What the scene hides of particles is not shaded, and that changes no bit of what is seen. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
+#include "support/cmocka.h"
 #include "support/drawing.h"
 #include "support/folders.h"
 #include "support/frame.h"

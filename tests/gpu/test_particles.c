@@ -1,12 +1,8 @@
 /* Each technique of lib/draw/sprites/particles.c against a plain C rasteriser that follows
  * equations 3.1 to 3.3 of Heinz 2019 pixel by pixel. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -17,6 +13,7 @@
 #include "gpu/framebuffer.h"
 #include "shared/derived.h"
 #include "support/backdrops.h"
+#include "support/cmocka.h"
 
 enum { WIDTH = 480, HEIGHT = 360, PIXELS = WIDTH * HEIGHT, COUNT = 24, STEP = 40 };
 
@@ -57,10 +54,9 @@ struct fixture {
     struct kiln_pool pool;
     struct kiln_buffer entries;
     struct kiln_framebuffer framebuffer;
-    struct kiln_view view;
+    struct kiln_moment moment;
     struct kiln_lighting lighting; /* none */
-    float4 *looks;
-    float *cells[2]; /* of the systems */
+    float *cells[2];               /* of the systems */
     uint32_t cell_count[2];
     float motion[FIRE_CELLS * KILN_ATLAS_MOTION * KILN_ATLAS_MOTION * 2];
     bool literal; /* smoke fades by the formula as it is printed */
@@ -153,17 +149,15 @@ static int set_up_with(void **state, const char *const *overrides, size_t count)
         {.sources = &sources[1], .count = 1, .columns = 4, .rows = 4, .motion = "auto"}};
     assert_true(kiln_atlas_init(&f->atlas, f->device, requests, 2, f->threads, &error));
     make_targets(f);
-    f->backdrop = backdrop_create(f->device, f->scene, &f->scene_color, &f->depth, &error);
+    assert_true(kiln_moment_init(&f->moment, f->device, f->scene, &f->atlas, &error));
+    f->backdrop = backdrop_create(f->device, &f->moment, &f->scene_color, &f->depth, &error);
     f->particles =
         kiln_particles_create(f->device, f->scene, &f->atlas, technique, f->threads, &error);
     assert_true(f->backdrop && f->particles);
     place_particles(f);
-    f->view = kiln_view_compute(f->scene, STEP);
-    assert_true(kiln_backdrop_draw(f->backdrop, &f->view, &f->lighting, &error));
+    assert_true(kiln_moment_fill(&f->moment, &f->pool, STEP, true, &error));
+    assert_true(kiln_backdrop_draw(f->backdrop, &f->moment, &f->lighting, &error));
 
-    f->looks = calloc(KILN_LOOK_TEXELS, sizeof *f->looks);
-    assert_non_null(f->looks);
-    kiln_looks_sample(f->scene, f->view.clock.x, f->looks);
     for (int i = 0; i < 2; i++) {
         f->cell_count[i] = requests[i].columns * requests[i].rows;
         size_t floats = (size_t)f->cell_count[i] * KILN_ATLAS_CELL * KILN_ATLAS_CELL * 4;
@@ -193,11 +187,11 @@ static int tear_down(void **state)
     struct fixture *f = *state;
     free(f->cells[0]);
     free(f->cells[1]);
-    free(f->looks);
     kiln_buffer_finish(&f->entries);
     kiln_pool_finish(&f->pool);
     kiln_particles_destroy(&f->particles);
     kiln_backdrop_destroy(&f->backdrop);
+    kiln_moment_finish(&f->moment);
     kiln_framebuffer_finish(&f->framebuffer);
     struct kiln_image *images[] = {&f->scene_color, &f->depth, &f->color, &f->bloom};
     for (size_t i = 0; i < 4; i++)
@@ -229,8 +223,8 @@ static float4 look(const struct fixture *f, uint32_t system, int row, double lif
     double x = life * (KILN_LOOK_SAMPLES - 1);
     int k = x >= KILN_LOOK_SAMPLES - 2 ? KILN_LOOK_SAMPLES - 2 : (int)x;
     float t = (float)(x - k);
-    const float4 *p =
-        f->looks + ((size_t)system * KILN_LOOK_ROWS + (size_t)row) * KILN_LOOK_SAMPLES + k;
+    const float4 *p = f->moment.look_table +
+                      ((size_t)system * KILN_LOOK_ROWS + (size_t)row) * KILN_LOOK_SAMPLES + k;
     return (float4){p[0].x + (p[1].x - p[0].x) * t, p[0].y + (p[1].y - p[0].y) * t,
                     p[0].z + (p[1].z - p[0].z) * t, p[0].w + (p[1].w - p[0].w) * t};
 }
@@ -238,7 +232,7 @@ static float4 look(const struct fixture *f, uint32_t system, int row, double lif
 static void to_view(const struct fixture *f, float3 v, double w, double out[3])
 {
     for (int i = 0; i < 3; i++) {
-        const float4 *row = &f->view.world_to_view[i];
+        const float4 *row = &f->moment.view.world_to_view[i];
         out[i] = (double)row->x * (double)v.x + (double)row->y * (double)v.y +
                  (double)row->z * (double)v.z + (double)row->w * w;
     }
@@ -316,7 +310,7 @@ static struct sprite make_sprite(const struct fixture *f, uint32_t entry)
     if (f->scene->systems[s.system].look.soft_formula == KILN_SOFT_LITERAL)
         s.distance =
             sqrt(s.center[0] * s.center[0] + s.center[1] * s.center[1] + s.center[2] * s.center[2]);
-    double near = (s.depth - (double)f->view.eye.w) / (double)hot.w;
+    double near = (s.depth - (double)f->moment.view.eye.w) / (double)hot.w;
     s.opacity = (double)shape.z * fmin(fmax(near, 0), 1);
     s.half_width =
         0.5 * (double)shape.x * (double)random_between(stream, RANDOM_SCALE, spread.x, spread.y);
@@ -382,8 +376,10 @@ static void sample_motion(const float *motion, double x, double y, double out[2]
 static void shade(const struct fixture *f, const struct sprite *s, int px, int py, double out[4],
                   double bloom[3])
 {
-    double vx = (2 * (px + 0.5) / WIDTH - 1) * (double)f->view.frustum.x * s->depth - s->center[0];
-    double vy = (1 - 2 * (py + 0.5) / HEIGHT) * (double)f->view.frustum.y * s->depth - s->center[1];
+    double vx =
+        (2 * (px + 0.5) / WIDTH - 1) * (double)f->moment.view.frustum.x * s->depth - s->center[0];
+    double vy =
+        (1 - 2 * (py + 0.5) / HEIGHT) * (double)f->moment.view.frustum.y * s->depth - s->center[1];
     double a = (vx * s->right[0] + vy * s->right[1]) / s->half_width;
     double b = (vx * s->up[0] + vy * s->up[1]) / s->half_height;
     memset(out, 0, 4 * sizeof *out);
@@ -437,10 +433,10 @@ static void draw(struct fixture *f, bool sum_alpha)
         reverse(f);
     struct kiln_error error = {0};
     const struct kiln_particles_draw job = {
-        .pool = &f->pool,
+        .moment = &f->moment,
         .entries = &f->entries,
         .count = COUNT,
-        .view = &f->view,
+        .view = &f->moment.view,
         .backdrop = kiln_backdrop_block(f->backdrop),
         .lighting = &f->lighting,
         .depth = &f->depth,

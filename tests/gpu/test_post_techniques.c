@@ -1,16 +1,13 @@
 /* The techniques of the stages in lib/post make the same picture. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "post/bloom.h"
 #include "post/composite.h"
+#include "support/cmocka.h"
 #include "support/device.h"
 #include "support/scenes.h"
 

@@ -1,10 +1,6 @@
 /* lib/gpu/program.h: includes, error lines, KILN_SHADER_DIR. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -13,6 +9,7 @@
 #include "gpu/buffer.h"
 #include "gpu/program.h"
 #include "gpu/source.h"
+#include "support/cmocka.h"
 #include "support/device.h"
 
 struct fixture {

@@ -1,16 +1,14 @@
 /* The techniques of stage `raster` on every scene, against the definition of what they draw: the
  * layers of a frame in linear light, in double precision (support/true_billboards.h). */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <glob.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "support/cmocka.h"
 #include "support/frame.h"
+#include "support/parts.h"
+#include "support/stages.h"
 #include "support/true_billboards.h"
 
 static const struct {
@@ -32,7 +30,7 @@ struct subject {
     struct kiln_threads *threads;
     struct kiln_run run;
     struct kiln_stages stages;
-    struct kiln_view view;
+    struct kiln_simulate *simulate;
     struct kiln_particles_stage *rasters[RASTER_COUNT];
     struct kiln_image color, glow;
     struct kiln_framebuffer targets;
@@ -79,10 +77,8 @@ static void open_subject(struct subject *s, struct kiln_device *device, const ch
     for (uint32_t i = 0; i < s->scene->system_count; i++)
         capacities[i] = s->scene->systems[i].capacity;
     kiln_pool_init(&s->run.pool, device, capacities, s->scene->system_count);
-    const struct kiln_output_needs needs = {.bits = 8, .layers = true};
-    if (!kiln_stages_init(&s->stages, device, s->scene, &FRAME_CPU, needs, s->threads, &s->run.pool,
-                          &error))
-        fail_msg("%s", error.message);
+    stages_open(&s->stages, &s->simulate, device, s->scene, &FRAME_CPU, true, s->threads,
+                &s->run.pool);
     for (int i = 0; i < RASTER_COUNT; i++) {
         s->rasters[i] = kiln_particles_create(device, s->scene, &s->stages.atlas,
                                               RASTERS[i].technique, s->threads, &error);
@@ -102,11 +98,10 @@ static void draw_subject(struct subject *s)
     uint32_t step = kiln_scene_moment_step(s->scene, s->scene->frames / 2, 0), drawn = 0;
     step = step < MOST_STEPS ? step : MOST_STEPS;
     for (uint32_t i = 1; i <= step; i++)
-        assert_true(kiln_simulate_step(s->stages.simulate, &s->run.pool, i, &error));
+        assert_true(kiln_simulate_step(s->simulate, &s->run.pool, i, &error));
     if (!kiln_stages_draw(&s->stages, &s->run.pool, step, 0, &drawn, &error))
         fail_msg("%s", error.message);
     assert_true(drawn > 0);
-    s->view = kiln_view_compute(s->scene, step);
 }
 
 static void close_subject(struct subject *s)
@@ -116,7 +111,7 @@ static void close_subject(struct subject *s)
     kiln_framebuffer_finish(&s->targets);
     kiln_image_finish(&s->color);
     kiln_image_finish(&s->glow);
-    kiln_stages_finish(&s->stages);
+    stages_close(&s->stages, &s->simulate);
     kiln_pool_finish(&s->run.pool);
     kiln_threads_destroy(&s->threads);
     kiln_scene_destroy(&s->scene);
@@ -140,9 +135,9 @@ static struct kiln_particles_draw list_pass(struct subject *s, const struct pass
     const bool separate = s->scene->post.compose == KILN_COMPOSE_SEPARATE;
     const bool smoke = (pass->systems & systems_of(s->scene, KILN_BLEND_ALPHA)) != 0;
     struct kiln_particles_draw draw = {
-        .pool = &s->run.pool,
+        .moment = &s->stages.moment,
         .entries = &s->stages.entries,
-        .view = &s->view,
+        .view = &s->stages.moment.view,
         .backdrop = kiln_backdrop_block(s->stages.backdrop),
         .lighting = &s->stages.light,
         .depth = &s->stages.scene_depth,
@@ -152,8 +147,9 @@ static struct kiln_particles_draw list_pass(struct subject *s, const struct pass
         .by_fragment = s->scene->post.compose == KILN_COMPOSE_OIT && smoke,
     };
     const struct kiln_sort_params params = {
-        .eye = {s->view.eye.x, s->view.eye.y, s->view.eye.z},
-        .forward = kiln_view_forward(&s->view),
+        .eye = {s->stages.moment.view.eye.x, s->stages.moment.view.eye.y,
+                s->stages.moment.view.eye.z},
+        .forward = kiln_view_forward(&s->stages.moment.view),
         .systems = pass->systems,
         .order = smoke || draw.fire_covers ? KILN_SORT_BACK_TO_FRONT : KILN_SORT_BY_SERIAL,
     };
@@ -276,28 +272,24 @@ static bool agree_on(struct kiln_device *device, const char *path)
     return !s.failed;
 }
 
-static void techniques_agree_on_every_scene(void **state)
+static void techniques_agree_on_a_scene(void **state)
 {
-    glob_t scenes;
-    assert_int_equal(glob(KILN_SOURCE_DIR "/scenes/*.yaml", 0, NULL, &scenes), 0);
-    assert_true(scenes.gl_pathc >= 10);
-    bool agree = true;
-    for (size_t i = 0; i < scenes.gl_pathc; i++)
-        agree = agree_on(*state, scenes.gl_pathv[i]) && agree;
-    globfree(&scenes);
-    assert_true(agree);
+    const struct test_scene *given = *state;
+    assert_true(agree_on(test_device(), given->path));
 }
 
 static void techniques_agree_on_what_is_faint(void **state)
 {
-    assert_true(agree_on(*state, NULL));
+    (void)state;
+    assert_true(agree_on(test_device(), NULL));
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
-    static const struct CMUnitTest tests[] = {
-        test_on_device(techniques_agree_on_what_is_faint),
-        test_on_device(techniques_agree_on_every_scene),
-    };
-    return cmocka_run_group_tests(tests, test_device_open, test_device_close);
+    static const struct CMUnitTest faint = test_on_device(techniques_agree_on_what_is_faint);
+    static const struct CMUnitTest scene = test_on_device(techniques_agree_on_a_scene);
+    struct test_list list = {.count = 0};
+    test_list_add(&list, &faint, 1);
+    test_list_add_scenes(&list, scene, 1);
+    return test_list_run(&list, "rasters", argc, argv, test_device_open_alone, test_device_close);
 }

@@ -1,17 +1,14 @@
 /* Shadows of particles and on particles: of spheres on the floor and on each other, against rays
  * that are counted; of meshes, against their corners; of a box on spheres and on smoke. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-
 #include <unistd.h>
 
 #include "draw/light/lighting.h"
-#include "draw/solids/spheres.h"
+#include "draw/solids/solids.h"
+#include "support/cmocka.h"
 #include "support/drawing.h"
+#include "support/parts.h"
 
 enum { WIDTH = 160, HEIGHT = 90, STEP = 30 };
 
@@ -46,7 +43,7 @@ struct fixture {
     struct drawing drawing;
     struct kiln_threads *threads;
     struct kiln_lighting_stage *lighting;
-    struct kiln_spheres_stage *spheres; /* NULL: the particles have another shape */
+    struct kiln_solids_stage *solids; /* NULL: the particles have another shape */
     struct kiln_image color, depth, bloom;
 };
 
@@ -55,33 +52,31 @@ static void init(struct fixture *f, struct kiln_device *device, const char *text
 {
     struct kiln_error error = {0};
     struct drawing *d = &f->drawing;
-    *f = (struct fixture){.spheres = NULL};
+    *f = (struct fixture){.solids = NULL};
     drawing_init(d, device, text, &override, override ? 1 : 0);
     kiln_image_init(&f->color, device, WIDTH, HEIGHT, GL_RGBA32F, "scene");
     kiln_image_init(&f->depth, device, WIDTH, HEIGHT, GL_R32F, "scene depth");
     kiln_image_init(&f->bloom, device, WIDTH, HEIGHT, GL_RGBA32F, "sphere bloom");
-    const struct kiln_spheres_params params = {
+    const struct kiln_solids_params params = {
         .backdrop = d->backdrop,
-        .particles = d->particles,
         .threads = d->threads,
         .targets = {&d->backdrop_color, &d->backdrop_depth, &f->color, &f->depth, &f->bloom},
     };
     f->threads = kiln_threads_create(2);
     assert_non_null(f->threads);
-    f->lighting = kiln_lighting_create(device, d->scene, f->threads, &error);
+    f->lighting = kiln_lighting_create(device, &d->moment, f->threads, &error);
     if (!f->lighting)
         fail_msg("%s", error.message);
-    kiln_lighting_use_meshes(f->lighting, kiln_backdrop_meshes(d->backdrop));
     if (!kiln_look_is_opaque(&d->scene->systems[0].look))
         return;
-    f->spheres = kiln_spheres_create(device, d->scene, &params, &error);
-    if (!f->spheres)
+    f->solids = kiln_solids_create(device, &d->moment, &params, &error);
+    if (!f->solids)
         fail_msg("%s", error.message);
 }
 
 static void finish(struct fixture *f)
 {
-    kiln_spheres_destroy(&f->spheres);
+    kiln_solids_destroy(&f->solids);
     kiln_lighting_destroy(&f->lighting);
     kiln_threads_destroy(&f->threads);
     kiln_image_finish(&f->color);
@@ -103,12 +98,12 @@ static void draw(struct fixture *f, const vec *places, uint32_t count)
     }
     drawing_place(d, particles, count, STEP);
     d->pool.systems[0].next_serial = count;
-    if (!kiln_lighting_run(f->lighting, &d->pool, &d->view, &d->lighting, &error) ||
-        !kiln_backdrop_draw(d->backdrop, &d->view, &d->lighting, &error))
+    if (!kiln_lighting_run(f->lighting, &d->moment, &d->lighting, &error) ||
+        !kiln_backdrop_draw(d->backdrop, &d->moment, &d->lighting, &error))
         fail_msg("%s", error.message);
-    if (!f->spheres)
+    if (!f->solids)
         drawing_run(d, count, 100.0f);
-    else if (!kiln_spheres_draw(f->spheres, &d->pool, &d->entries, count, d->view.clock.x, &error))
+    else if (!kiln_solids_draw(f->solids, &d->moment, &d->entries, count, &error))
         fail_msg("%s", error.message);
     assert_non_null(kiln_image_host(&d->backdrop_color, KILN_READ, &error));
     assert_non_null(kiln_image_host(&f->color, KILN_READ, &error));
@@ -378,8 +373,8 @@ static bool draw_buried(struct fixture *f, uint32_t buried, struct kiln_error *e
     drawing_place(d, particles, buried + 1, STEP);
     free(particles);
     d->pool.systems[0].next_serial = buried + 1;
-    bool ok = kiln_lighting_run(f->lighting, &d->pool, &d->view, &d->lighting, error) &&
-              kiln_backdrop_draw(d->backdrop, &d->view, &d->lighting, error);
+    bool ok = kiln_lighting_run(f->lighting, &d->moment, &d->lighting, error) &&
+              kiln_backdrop_draw(d->backdrop, &d->moment, &d->lighting, error);
     return ok && kiln_image_host(&d->backdrop_color, KILN_READ, error);
 }
 
@@ -559,7 +554,7 @@ static void the_backdrop_shades_smoke(void **state)
     assert_true(light[1][3] > 0.3 * light[0][3] && light[1][3] < 0.7 * light[0][3]);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
     if (chdir(KILN_SOURCE_DIR "/scenes/meshes") != 0)
         return 1;
@@ -577,11 +572,12 @@ int main(void)
         test_on_device(the_backdrop_shades_smoke),
         test_on_device(the_penumbra_of_a_box_is_that_of_its_edges),
     };
+    struct test_list list = {.count = 0};
+    test_list_add(&list, tests, sizeof tests / sizeof *tests);
     int failed = 0;
     for (int i = 0; i < 2; i++) {
         backdrop_technique = BACKDROPS[i];
-        failed +=
-            cmocka_run_group_tests_name("shadows", tests, test_device_open, test_device_close);
+        failed += test_list_run(&list, "shadows", argc, argv, test_device_open, test_device_close);
     }
     return failed;
 }

@@ -1,17 +1,14 @@
 /* Motion blur: a frame with a shutter is the mean, in linear light, of the pictures at the moments
  * while it is open, which a clip of a higher rate shows one by one. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
 
 #include "asset/image/image.h"
+#include "support/cmocka.h"
 #include "support/device.h"
 #include "support/scenes.h"
 

@@ -1,15 +1,12 @@
 /* lib/bench/sort_trial.c: what is timed has sorted. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "bench/bitonic_field.h"
 #include "bench/sort_trial.h"
+#include "support/cmocka.h"
 #include "support/simulation.h"
 #include "support/sort_keys.h"
 

@@ -1,12 +1,9 @@
-/* lib/draw/solids/spheres.c against spheres that are intersected in double precision: depth,
+/* lib/draw/solids/solids.c against spheres that are intersected in double precision: depth,
  * silhouettes, light, and that the order of the list is no matter. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
+#include "support/cmocka.h"
 #include "support/opaque.h"
 
 enum { STEP = 30, COUNT = 24 };
@@ -62,7 +59,7 @@ static struct meeting meet(const struct fixture *f, const struct kiln_particle *
 {
     const struct drawing *d = &f->drawing;
     vec ray = drawing_ray(d, x, y);
-    double pixel = 2 * (double)d->view.frustum.y / HEIGHT;
+    double pixel = 2 * (double)d->moment.view.frustum.y / HEIGHT;
     size_t p = (size_t)y * WIDTH + (size_t)x;
     struct meeting first = {.depth = (double)d->backdrop_depth.host[p], .edge_px = 1e9};
     for (uint32_t i = 0; i < count; i++) {
@@ -271,6 +268,7 @@ static void place_turned(struct fixture *f, float4 pose)
     memset(spins, 0, f->drawing.pool.spins.size);
     spins[5].pose =
         (uint4){FLOAT_BITS(pose.x), FLOAT_BITS(pose.y), FLOAT_BITS(pose.z), FLOAT_BITS(pose.w)};
+    assert_true(kiln_moment_fill(&f->drawing.moment, &f->drawing.pool, STEP, true, &error));
 }
 
 /* A pattern lies on the ball as collisions have turned it. */

@@ -1,16 +1,14 @@
 /* lib/frame/stages.c: how the stages of a frame play together, and its named layers. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "frame/stages.h"
+#include "support/cmocka.h"
 #include "support/device.h"
+#include "support/stages.h"
 
 enum { WIDTH = 96, HEIGHT = 64, PIXELS = WIDTH * HEIGHT, BEAUTY = 0, DEPTH, FIRE, SMOKE, BLOOM };
 
@@ -33,6 +31,7 @@ struct frame {
     struct kiln_threads *threads;
     struct kiln_run run;
     struct kiln_stages stages;
+    struct kiln_simulate *simulate;
     struct kiln_picture *picture;
     uint32_t drawn;
 };
@@ -44,7 +43,7 @@ static void step_and_draw(struct frame *f, uint32_t steps)
     uint32_t channels[KILN_MAX_LAYERS];
     uint32_t count = f->stages.layers ? kiln_stages_layers(names, channels) : 0;
     for (uint32_t step = f->run.step + 1; step <= steps; step++)
-        assert_true(kiln_simulate_step(f->stages.simulate, &f->run.pool, step, &error));
+        assert_true(kiln_simulate_step(f->simulate, &f->run.pool, step, &error));
     f->run.step = steps;
     if (!kiln_stages_draw(&f->stages, &f->run.pool, steps, 0, &f->drawn, &error) ||
         !kiln_stages_compose(&f->stages, 3, &error))
@@ -71,10 +70,8 @@ static void frame_init_with(struct frame *f, struct kiln_device *device, const c
         capacities[i] = f->scene->systems[i].capacity;
     kiln_pool_init(&f->run.pool, device, capacities, f->scene->system_count);
     struct kiln_techniques techniques = {0};
-    struct kiln_output_needs needs = {.bits = 8, .layers = layers};
-    if (!kiln_stages_init(&f->stages, device, f->scene, &techniques, needs, f->threads,
-                          &f->run.pool, &error))
-        fail_msg("%s", error.message);
+    stages_open(&f->stages, &f->simulate, device, f->scene, &techniques, layers, f->threads,
+                &f->run.pool);
 }
 
 static void frame_init(struct frame *f, struct kiln_device *device, const char *override)
@@ -85,7 +82,7 @@ static void frame_init(struct frame *f, struct kiln_device *device, const char *
 static void frame_finish(struct frame *f)
 {
     kiln_picture_destroy(&f->picture);
-    kiln_stages_finish(&f->stages);
+    stages_close(&f->stages, &f->simulate);
     kiln_pool_finish(&f->run.pool);
     kiln_threads_destroy(&f->threads);
     kiln_scene_destroy(&f->scene);

@@ -1,11 +1,8 @@
 /* How frames of a test are judged. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
+#include "support/cmocka.h"
 #include "support/suite.h"
 
 static void accept_goldens(const char *more)

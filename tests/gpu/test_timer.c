@@ -1,15 +1,12 @@
 /* lib/gpu/timer.h: passes add up, host work counts, and GL work is waited for. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
 #include <string.h>
 #include <time.h>
 
 #include "base/clock.h"
 #include "gpu/timer.h"
+#include "support/cmocka.h"
 #include "support/device.h"
 
 static void sleep_ms(long ms)

@@ -1,11 +1,8 @@
 /* What updates of goldens write, and what they leave; repeated renders; notes. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
+#include "support/cmocka.h"
 #include "support/suite.h"
 
 #define EXPECT        "golden/spark/expect.yaml"

@@ -3,16 +3,13 @@
  * rasteriser asks for the middles of pixels alone, so that it leaves out cells; how many, and how
  * often another triangle is kept, is told and bounded here. States never depend on it.
  */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <string.h>
 
 #include "sim/world/voxels.h"
+#include "support/cmocka.h"
 #include "support/device.h"
 
 enum { RINGS = 24, AROUND = 48, VERTICES = (RINGS + 1) * AROUND, TRIANGLES = 2 * RINGS * AROUND };

@@ -1,34 +1,57 @@
 #!/usr/bin/env bash
-# effects.sh KILN FOLDER NAME: no option of a scene is without effect. Each override of NAME.txt must
-# change the picture of FOLDER/NAME.yaml, in at least one value. "A given B" stands for an option A
-# that shows only where B is set.
+# effects.sh KILN FOLDER NAME [NUMBER/COUNT]: no option of a scene is without effect. Each override of
+# NAME.txt must change the picture of FOLDER/NAME.yaml, in at least one value. "A given B" stands for
+# an option A that shows only where B is set. With 2/3, every third override from the second on.
 set -euo pipefail
 
-kiln=$1 folder=$2 name=$3
+kiln=$1 folder=$2 name=$3 part=${4:-1/1}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export XDG_CACHE_HOME=$work/cache
 
 draw() {
-    "$kiln" render "$folder/$name.yaml" --frames 40 --device cpu --quiet --force \
-        -o "$work/$1.png" "${@:2}"
+    "$kiln" render "$folder/$name.yaml" --frames 40 --device cpu --quiet -o "$1" "${@:2}" </dev/null
 }
 
-draw base
-failed=0 count=0
+# What is given to several is drawn once.
+declare -A drawn=()
+draw_given() {
+    local picture=$work/given_${#drawn[@]}.png
+    draw "$picture" "${@:2}"
+    drawn[$1]=$picture
+}
+
+draw_given base
+mkdir "$work/before" "$work/after"
+number=${part%/*} step=${part#*/}
+row_number=0 rows=()
 while IFS= read -r row; do
     [[ -z $row || $row == '#'* ]] && continue
-    count=$((count + 1))
-    before=base given=()
+    row_number=$((row_number + 1))
+    (((row_number - number) % step == 0)) || continue
+    key=base given=()
     if [[ $row == *' given '* ]]; then
-        before=given given=(--set "${row#* given }")
-        draw given "${given[@]}" </dev/null
+        key=${row#* given } given=(--set "${row#* given }")
+        [[ -n ${drawn[$key]:-} ]] || draw_given "$key" "${given[@]}"
     fi
-    draw changed "${given[@]}" --set "${row% given *}" </dev/null
-    if "$kiln" compare --quiet --limit abs.max=0 "$work/$before.png" "$work/changed.png"; then
-        echo "--set '$row' changes nothing" >&2
-        failed=1
-    fi
+    draw "$work/after/${#rows[@]}.png" "${given[@]}" --set "${row% given *}"
+    ln "${drawn[$key]}" "$work/before/${#rows[@]}.png"
+    rows+=("$row")
 done <"$folder/$name.txt"
-echo "$count overrides"
+((${#rows[@]} > 0))
+
+# Pictures without a difference are within this limit; those that differ make it exit with 1.
+status=0
+"$kiln" compare --json --limit abs.max=0 "$work/before" "$work/after" >"$work/pairs" || status=$?
+compared=$(jq 'select(.event == "result").counts | .same + .different' "$work/pairs")
+if ((status > 1)) || [[ $compared != "${#rows[@]}" ]]; then
+    echo "kiln compare: exit $status, $compared of ${#rows[@]} pictures" >&2
+    exit 2
+fi
+failed=0
+while read -r unchanged; do
+    echo "--set '${rows[${unchanged%.png}]}' changes nothing" >&2
+    failed=1
+done < <(jq -r 'select(.event == "frame" and .verdict == "same").name' "$work/pairs")
+echo "${#rows[@]} overrides"
 exit "$failed"

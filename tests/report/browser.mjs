@@ -5,6 +5,9 @@ import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
 
+// Limits are for hangs, also on a slow machine that does other things besides.
+const PATIENCE_MS = 120000;
+
 export async function startBrowser() {
     const profile = mkdtempSync(join(tmpdir(), "kiln-page-"));
     const context = await chromium.launchPersistentContext(profile, {
@@ -12,8 +15,10 @@ export async function startBrowser() {
         args: ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
             "--disable-background-networking", "--disable-component-update", "--disable-sync"],
         offline: true,
+        timeout: PATIENCE_MS,
         viewport: { width: 1440, height: 900 },
     });
+    context.setDefaultTimeout(PATIENCE_MS);
     const faults = []; // of every page: nothing may be asked for but the page and its links
     let allowed = () => true;
     context.on("request", (request) => {
@@ -45,7 +50,7 @@ export async function startBrowser() {
 
 // Waits until the pictures of a frame are on the stage.
 export async function shown(page, frame) {
-    await page.waitForSelector(`#stage[data-frame="${frame}"]`, { timeout: 5000 });
+    await page.waitForSelector(`#stage[data-frame="${frame}"]`);
     await settle(page);
 }
 

@@ -20,14 +20,14 @@ static inline struct kiln_threads *backdrop_threads(void)
 }
 
 static inline struct kiln_backdrop_stage *
-backdrop_create(struct kiln_device *device, const struct kiln_scene *scene,
+backdrop_create(struct kiln_device *device, const struct kiln_moment *moment,
                 struct kiln_image *color, struct kiln_image *depth, struct kiln_error *error)
 {
     const struct kiln_backdrop_params params = {.technique = backdrop_technique,
                                                 .threads = backdrop_threads(),
                                                 .color = color,
                                                 .depth = depth};
-    return kiln_backdrop_create(device, scene, &params, error);
+    return kiln_backdrop_create(device, moment, &params, error);
 }
 
 #endif

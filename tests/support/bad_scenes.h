@@ -2,6 +2,7 @@
 #ifndef KILN_TESTS_BAD_SCENES_H
 #define KILN_TESTS_BAD_SCENES_H
 
+#include "support/cmocka.h"
 #include "support/scenes.h"
 
 struct bad {

@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "support/cmocka.h"
 #include "support/simulation.h"
 
 enum { BALLS_FIRST_STEP = 1 }; /* that the balls are placed after */

@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 #include "asset/geometry/mesh.h"
+#include "support/cmocka.h"
 
 struct body {
     FILE *out;

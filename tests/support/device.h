@@ -6,12 +6,21 @@
 #include <stdlib.h>
 
 #include "gpu/device.h"
+#include "support/cmocka.h"
 
 static inline void test_log(void *user, enum kiln_log_level level, const char *line)
 {
     (void)user;
     if (level == KILN_LOG_WARNING)
         fprintf(stderr, "%s\n", line);
+}
+
+static struct kiln_device *test_opened_device;
+
+/* The device of the group, for tests whose state is something else. */
+static inline struct kiln_device *test_device(void)
+{
+    return test_opened_device;
 }
 
 /* A group set-up of cmocka: *state becomes the device. KILN_TEST_DEVICE names another than the
@@ -30,22 +39,32 @@ static inline int test_device_open(void **state)
         exit(77);
     }
     fprintf(stderr, "on %s\n", kiln_device_info(device)->name);
-    *state = device;
+    *state = test_opened_device = device;
     return 0;
+}
+
+/* The same for a group whose tests have states of their own: cmocka gives them that of the group,
+ * if there is one. */
+static inline int test_device_open_alone(void **state)
+{
+    const int failed = test_device_open(state);
+    *state = NULL;
+    return failed;
 }
 
 static inline int test_device_close(void **state)
 {
-    struct kiln_device *device = *state;
-    kiln_device_close(&device);
+    (void)state;
+    kiln_device_close(&test_opened_device);
     return 0;
 }
 
 /* A test's tear-down: GL errors that nobody looked at are failures. */
 static inline int test_device_is_clean(void **state)
 {
+    (void)state;
     struct kiln_error error = {0};
-    if (kiln_device_check(*state, "after the test", &error))
+    if (kiln_device_check(test_device(), "after the test", &error))
         return 0;
     fprintf(stderr, "%s\n", error.message);
     return -1;

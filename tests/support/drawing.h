@@ -12,6 +12,7 @@
 #include "gpu/framebuffer.h"
 #include "shared/derived.h"
 #include "support/backdrops.h"
+#include "support/cmocka.h"
 
 enum { DRAWING_CELL = 128 };
 
@@ -34,7 +35,7 @@ struct drawing {
     struct kiln_particles_stage *particles;
     struct kiln_pool pool;
     struct kiln_buffer entries;
-    struct kiln_view view;
+    struct kiln_moment moment;
     struct kiln_lighting lighting; /* of the particles: none, unless a test runs it */
 };
 
@@ -109,7 +110,10 @@ static inline void drawing_init(struct drawing *d, struct kiln_device *device, c
         fail_msg("%s", error.message);
     drawing_make_atlas(d);
     drawing_make_targets(d);
-    d->backdrop = backdrop_create(device, d->scene, &d->backdrop_color, &d->backdrop_depth, &error);
+    if (!kiln_moment_init(&d->moment, device, d->scene, &d->atlas, &error))
+        fail_msg("%s", error.message);
+    d->backdrop =
+        backdrop_create(device, &d->moment, &d->backdrop_color, &d->backdrop_depth, &error);
     d->particles =
         kiln_particles_create(device, d->scene, &d->atlas, drawing_technique, d->threads, &error);
     if (!d->backdrop || !d->particles)
@@ -124,6 +128,7 @@ static inline void drawing_finish(struct drawing *d)
     kiln_pool_finish(&d->pool);
     kiln_particles_destroy(&d->particles);
     kiln_backdrop_destroy(&d->backdrop);
+    kiln_moment_finish(&d->moment);
     kiln_framebuffer_finish(&d->framebuffer);
     struct kiln_image *images[] = {&d->backdrop_color, &d->backdrop_depth, &d->depth, &d->color,
                                    &d->bloom};
@@ -157,9 +162,10 @@ static inline void drawing_place(struct drawing *d, const struct kiln_particle *
     memcpy(records, particles, count * sizeof *records);
     for (uint32_t i = 0; i < drawing_most; i++)
         entries[i] = KILN_ENTRY(0, i);
-    d->view = kiln_view_compute(d->scene, step);
+    if (!kiln_moment_fill(&d->moment, &d->pool, step, true, &error))
+        fail_msg("%s", error.message);
     const struct kiln_lighting none = {0};
-    assert_true(kiln_backdrop_draw(d->backdrop, &d->view, &none, &error));
+    assert_true(kiln_backdrop_draw(d->backdrop, &d->moment, &none, &error));
 }
 
 /* Makes the scene a wall at a depth, and draws the particles before it, each over those before. */
@@ -174,10 +180,10 @@ static inline void drawing_run(struct drawing *d, uint32_t count, float depth_m)
     assert_non_null(depth);
     for (uint32_t i = 0; i < d->scene->width * d->scene->height; i++)
         depth[i] = depth_m;
-    const struct kiln_particles_draw job = {.pool = &d->pool,
+    const struct kiln_particles_draw job = {.moment = &d->moment,
                                             .entries = &d->entries,
                                             .count = count,
-                                            .view = &d->view,
+                                            .view = &d->moment.view,
                                             .backdrop = kiln_backdrop_block(d->backdrop),
                                             .lighting = &d->lighting,
                                             .depth = &d->depth,
@@ -224,22 +230,23 @@ static inline vec vec_unit(vec a)
 /* Row of the camera: 0 its right, 1 its up, 2 backwards. */
 static inline vec drawing_axis(const struct drawing *d, int row)
 {
-    const float4 *r = &d->view.world_to_view[row];
+    const float4 *r = &d->moment.view.world_to_view[row];
     return (vec){(double)r->x, (double)r->y, (double)r->z};
 }
 
 static inline vec drawing_eye(const struct drawing *d)
 {
-    return (vec){(double)d->view.eye.x, (double)d->view.eye.y, (double)d->view.eye.z};
+    return (vec){(double)d->moment.view.eye.x, (double)d->moment.view.eye.y,
+                 (double)d->moment.view.eye.z};
 }
 
 /* The ray through a position in the picture; its t is view depth. */
 static inline vec drawing_ray(const struct drawing *d, double x, double y)
 {
-    double w = (double)d->view.frustum.z, h = (double)d->view.frustum.w;
+    double w = (double)d->moment.view.frustum.z, h = (double)d->moment.view.frustum.w;
     vec ray = {0};
-    ray = vec_add(ray, drawing_axis(d, 0), (2 * x / w - 1) * (double)d->view.frustum.x);
-    ray = vec_add(ray, drawing_axis(d, 1), (1 - 2 * y / h) * (double)d->view.frustum.y);
+    ray = vec_add(ray, drawing_axis(d, 0), (2 * x / w - 1) * (double)d->moment.view.frustum.x);
+    ray = vec_add(ray, drawing_axis(d, 1), (1 - 2 * y / h) * (double)d->moment.view.frustum.y);
     return vec_add(ray, drawing_axis(d, 2), -1);
 }
 
@@ -248,10 +255,10 @@ static inline vec drawing_project(const struct drawing *d, vec point)
 {
     vec away = vec_add(point, drawing_eye(d), -1);
     double depth = -vec_dot(away, drawing_axis(d, 2));
-    double x = vec_dot(away, drawing_axis(d, 0)) / depth / (double)d->view.frustum.x;
-    double y = vec_dot(away, drawing_axis(d, 1)) / depth / (double)d->view.frustum.y;
-    return (vec){(x + 1) / 2 * (double)d->view.frustum.z, (1 - y) / 2 * (double)d->view.frustum.w,
-                 depth};
+    double x = vec_dot(away, drawing_axis(d, 0)) / depth / (double)d->moment.view.frustum.x;
+    double y = vec_dot(away, drawing_axis(d, 1)) / depth / (double)d->moment.view.frustum.y;
+    return (vec){(x + 1) / 2 * (double)d->moment.view.frustum.z,
+                 (1 - y) / 2 * (double)d->moment.view.frustum.w, depth};
 }
 
 #endif

@@ -1,9 +1,10 @@
-/* A working directory of a test's own, and files in it. Include it after cmocka.h. */
+/* A working directory of a test's own, and files in it. */
 #ifndef KILN_TEST_FOLDERS_H
 #define KILN_TEST_FOLDERS_H
 
 #include <sys/stat.h>
 
+#include "support/cmocka.h"
 #include "support/pictures.h"
 
 struct test_place {

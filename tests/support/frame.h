@@ -6,8 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "frame/stages.h"
+#include "support/cmocka.h"
 #include "support/device.h"
+#include "support/stages.h"
 
 enum { FRAME_BEAUTY, FRAME_DEPTH, FRAME_FIRE, FRAME_SMOKE, FRAME_BLOOM, FRAME_LAYERS };
 
@@ -35,15 +36,13 @@ static inline bool frame_stage(struct kiln_device *device, const struct kiln_sce
         capacities[i] = scene->systems[i].capacity;
     kiln_pool_init(&run.pool, device, capacities, scene->system_count);
     struct kiln_stages stages;
-    const struct kiln_output_needs needs = {.bits = 8, .layers = true};
-    if (!kiln_stages_init(&stages, device, scene, &setting->techniques, needs, threads, &run.pool,
-                          error))
-        fail_msg("%s", error->message);
+    struct kiln_simulate *simulate;
+    stages_open(&stages, &simulate, device, scene, &setting->techniques, true, threads, &run.pool);
     for (uint32_t step = 1; step <= steps; step++)
-        assert_true(kiln_simulate_step(stages.simulate, &run.pool, step, error));
+        assert_true(kiln_simulate_step(simulate, &run.pool, step, error));
     bool drew = kiln_stages_draw(&stages, &run.pool, steps, 0, &drawn, error) &&
                 kiln_stages_compose(&stages, 0, error) && kiln_stages_read(&stages, picture, error);
-    kiln_stages_finish(&stages);
+    stages_close(&stages, &simulate);
     kiln_pool_finish(&run.pool);
     return drew;
 }

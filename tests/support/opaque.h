@@ -2,7 +2,8 @@
 #ifndef TESTS_SUPPORT_OPAQUE_H
 #define TESTS_SUPPORT_OPAQUE_H
 
-#include "draw/solids/spheres.h"
+#include "draw/solids/solids.h"
+#include "support/cmocka.h"
 #include "support/drawing.h"
 
 enum { WIDTH = 320, HEIGHT = 240, PIXELS = WIDTH * HEIGHT };
@@ -11,7 +12,7 @@ enum { WIDTH = 320, HEIGHT = 240, PIXELS = WIDTH * HEIGHT };
 struct fixture {
     struct drawing drawing;
     struct kiln_image depth, color, bloom;
-    struct kiln_spheres_stage *stage;
+    struct kiln_solids_stage *stage;
 };
 
 static inline void opaque_init(struct fixture *f, struct kiln_device *device, const char *text,
@@ -23,20 +24,19 @@ static inline void opaque_init(struct fixture *f, struct kiln_device *device, co
     kiln_image_init(&f->color, device, WIDTH, HEIGHT, GL_RGBA32F, "scene");
     kiln_image_init(&f->depth, device, WIDTH, HEIGHT, GL_R32F, "scene depth");
     kiln_image_init(&f->bloom, device, WIDTH, HEIGHT, GL_RGBA32F, "bloom");
-    const struct kiln_spheres_params params = {
+    const struct kiln_solids_params params = {
         .backdrop = d->backdrop,
-        .particles = d->particles,
         .threads = d->threads,
         .targets = {&d->backdrop_color, &d->backdrop_depth, &f->color, &f->depth, &f->bloom},
     };
-    f->stage = kiln_spheres_create(device, d->scene, &params, &error);
+    f->stage = kiln_solids_create(device, &d->moment, &params, &error);
     if (!f->stage)
         fail_msg("%s", error.message);
 }
 
 static inline void finish(struct fixture *f)
 {
-    kiln_spheres_destroy(&f->stage);
+    kiln_solids_destroy(&f->stage);
     kiln_image_finish(&f->color);
     kiln_image_finish(&f->depth);
     kiln_image_finish(&f->bloom);
@@ -47,7 +47,7 @@ static inline void draw(struct fixture *f, uint32_t count)
 {
     struct kiln_error error = {0};
     struct drawing *d = &f->drawing;
-    if (!kiln_spheres_draw(f->stage, &d->pool, &d->entries, count, d->view.clock.x, &error))
+    if (!kiln_solids_draw(f->stage, &d->moment, &d->entries, count, &error))
         fail_msg("%s", error.message);
     struct kiln_image *images[] = {&f->color, &f->depth, &f->bloom, &d->backdrop_color,
                                    &d->backdrop_depth};

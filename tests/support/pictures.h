@@ -1,5 +1,4 @@
-/* Pictures with known pixels and folders that go away, for the tests of lib/output. Include it
- * after cmocka.h. */
+/* Pictures with known pixels and folders that go away, for the tests of lib/output. */
 #ifndef KILN_TEST_PICTURES_H
 #define KILN_TEST_PICTURES_H
 
@@ -12,6 +11,7 @@
 #include <unistd.h>
 
 #include "output/output.h"
+#include "support/cmocka.h"
 
 static const char *const test_layer_names[] = {"beauty", "depth", "fire"};
 static const uint32_t test_layer_channels[] = {4, 1, 4};

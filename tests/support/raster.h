@@ -7,13 +7,14 @@
 
 #include "draw/sprites/particles.h"
 #include "shared/particle.h"
+#include "support/cmocka.h"
 #include "support/scenes.h"
 
 struct raster {
     struct kiln_scene *scene;
     struct kiln_threads *threads;
     struct kiln_atlas atlas;
-    struct kiln_view view;
+    struct kiln_moment moment;
     struct kiln_draw_backdrop light;
     /* of raster_add_targets */
     struct kiln_image depth, color, bloom;
@@ -60,7 +61,9 @@ static inline void raster_open(struct raster *r, struct kiln_scene *scene, uint3
     }
     if (!kiln_atlas_init(&r->atlas, NULL, requests, scene->system_count, r->threads, &error))
         fail_msg("%s", error.message);
-    r->view = kiln_view_compute(scene, step);
+    if (!kiln_moment_init(&r->moment, NULL, scene, &r->atlas, &error) ||
+        !kiln_moment_fill(&r->moment, NULL, step, false, &error))
+        fail_msg("%s", error.message);
     r->light = (struct kiln_draw_backdrop){.sky_top = {0.2f, 0.3f, 0.5f, 0.0f},
                                            .sky_horizon = {0.3f, 0.3f, 0.3f, 0.0f}};
 }
@@ -112,10 +115,14 @@ static inline void raster_add_particles(struct raster *r, uint32_t capacity, uin
 static inline struct kiln_particles_draw raster_job(struct raster *r)
 {
     static const struct kiln_lighting lighting = {.smoke = false};
-    return (struct kiln_particles_draw){.pool = &r->pool,
+    struct kiln_error error = {0};
+    r->moment.pool = &r->pool;
+    r->moment.records = kiln_buffer_host(&r->pool.records, KILN_READ, &error);
+    assert_non_null(r->moment.records);
+    return (struct kiln_particles_draw){.moment = &r->moment,
                                         .entries = &r->entries,
                                         .count = r->count,
-                                        .view = &r->view,
+                                        .view = &r->moment.view,
                                         .backdrop = &r->light,
                                         .lighting = &lighting,
                                         .depth = &r->depth,
@@ -138,6 +145,7 @@ static inline void raster_draw(struct raster *r, const struct kiln_particles_dra
 
 static inline void raster_close(struct raster *r)
 {
+    kiln_moment_finish(&r->moment);
     kiln_buffer_finish(&r->entries);
     kiln_pool_finish(&r->pool);
     struct kiln_image *images[] = {&r->depth, &r->color, &r->bloom};

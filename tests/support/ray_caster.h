@@ -10,6 +10,7 @@
 #include "asset/geometry/mesh.h"
 #include "draw/backdrop/backdrop.h"
 #include "support/backdrops.h"
+#include "support/cmocka.h"
 
 enum { WIDTH = 128, HEIGHT = 72 };
 
@@ -259,6 +260,7 @@ static inline double sun_seen(const struct shape *shapes, int count, struct vec 
 struct picture {
     struct kiln_scene *scene;
     struct kiln_image color, depth;
+    struct kiln_moment *moment;
     struct kiln_backdrop_stage *stage;
     const float *colors, *depths;
 };
@@ -273,10 +275,14 @@ static inline struct picture draw_below(void *device, const char *text, const ch
         fail_msg("%s", error.message);
     kiln_image_init(&p.color, device, WIDTH, HEIGHT, GL_RGBA32F, "color");
     kiln_image_init(&p.depth, device, WIDTH, HEIGHT, GL_R32F, "depth");
-    p.stage = backdrop_create(device, p.scene, &p.color, &p.depth, &error);
-    struct kiln_view view = kiln_view_compute(p.scene, 0);
+    p.moment = calloc(1, sizeof *p.moment); /* it stays where it is when the picture moves */
+    assert_non_null(p.moment);
+    if (!kiln_moment_init(p.moment, device, p.scene, NULL, &error) ||
+        !kiln_moment_fill(p.moment, NULL, 0, false, &error))
+        fail_msg("%s", error.message);
+    p.stage = backdrop_create(device, p.moment, &p.color, &p.depth, &error);
     static const struct kiln_lighting lighting; /* none */
-    if (!p.stage || !kiln_backdrop_draw(p.stage, &view, &lighting, &error))
+    if (!p.stage || !kiln_backdrop_draw(p.stage, p.moment, &lighting, &error))
         fail_msg("%s", error.message);
     p.colors = kiln_image_host(&p.color, KILN_READ, &error);
     p.depths = kiln_image_host(&p.depth, KILN_READ, &error);
@@ -292,6 +298,8 @@ static inline struct picture draw(void *device, const char *text)
 static inline void finish(struct picture *p)
 {
     kiln_backdrop_destroy(&p->stage);
+    kiln_moment_finish(p->moment);
+    free(p->moment);
     kiln_image_finish(&p->color);
     kiln_image_finish(&p->depth);
     kiln_scene_destroy(&p->scene);

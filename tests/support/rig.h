@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "asset/geometry/skin.h"
+#include "support/cmocka.h"
 
 enum { JOINTS = 3, KEYS = 4, VERTICES = 12, TRIANGLES = 4 };
 

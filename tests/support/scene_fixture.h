@@ -7,6 +7,7 @@
 #include "particles/births.h"
 #include "scene/family.h"
 #include "scene/scene.h"
+#include "support/cmocka.h"
 
 struct scene_fixture {
     struct kiln_scene scene;
@@ -414,7 +415,7 @@ static inline void fixture_zoo_sphere(struct scene_fixture *f)
     s->emit.origin.x = fixture_ramp(f, KILN_CLOCK_TIME, 0.0f, -2.0f, 2.0f, 2.0f);
     s->emit.inherit = fixture_constant(0.7f);
     s->emit.life.max = fixture_ramp(f, KILN_CLOCK_TIME, 0.0f, 1.2f, 3.0f, 2.0f);
-    fixture_add_force(s, KILN_FORCE_DRAG)->strength =
+    fixture_add_force(s, KILN_FORCE_DRAG)->pull =
         fixture_ramp(f, KILN_CLOCK_LIFE, 0.0f, 0.1f, 1.0f, 300.0f);
     s->collide.enabled = true;
     s->collide.slowdown = fixture_constant(0.8f);
@@ -429,7 +430,7 @@ static inline void fixture_zoo_box(struct scene_fixture *f)
     struct kiln_force *wind = fixture_add_force(s, KILN_FORCE_WIND);
     wind->vector = fixture_constant3(1.0f, 0.0f, 0.0f);
     wind->vector.z = fixture_ramp(f, KILN_CLOCK_TIME, 0.0f, -2.0f, 2.0f, 2.0f);
-    wind->strength = fixture_constant(2.0f);
+    wind->pull = fixture_constant(2.0f);
     struct kiln_force *curl = fixture_add_force(s, KILN_FORCE_CURL);
     curl->strength = fixture_constant(1.5f);
     curl->pull = fixture_ramp(f, KILN_CLOCK_LIFE, 0.0f, 0.0f, 0.5f, 4.0f);
@@ -544,8 +545,8 @@ static inline void fixture_add_whirls(struct scene_fixture *f)
         force->falloff = (enum kiln_falloff)i;
     }
     struct kiln_force *drag = fixture_add_force(seeking, KILN_FORCE_DRAG);
-    drag->strength = fixture_constant(0.2f);
-    drag->pull = fixture_ramp(f, KILN_CLOCK_LIFE, 0.0f, 0.0f, 1.0f, 900.0f);
+    drag->pull = fixture_constant(0.2f);
+    drag->quadratic = fixture_ramp(f, KILN_CLOCK_LIFE, 0.0f, 0.0f, 1.0f, 900.0f);
     fixture_add_force(seeking, KILN_FORCE_LIMIT)->strength = fixture_constant(8.0f);
     seeking->collide.enabled = true;
 

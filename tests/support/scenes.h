@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "scene/scene.h"
+#include "support/cmocka.h"
 
 /* The name that scenes of texts have in messages. */
 #define SCENE_NAME "test.yaml"

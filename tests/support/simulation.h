@@ -4,6 +4,7 @@
 
 #include "shared/random.h"
 #include "sim/step/simulate.h"
+#include "support/cmocka.h"
 #include "support/device.h"
 #include "support/scene_fixture.h"
 

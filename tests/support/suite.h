@@ -1,9 +1,10 @@
-/* A folder with one small test, which is run again and again. Include it after cmocka.h. */
+/* A folder with one small test, which is run again and again. */
 #ifndef KILN_TEST_SUITE_H
 #define KILN_TEST_SUITE_H
 
 #include "asset/image/image.h"
 #include "suite/golden.h"
+#include "support/cmocka.h"
 #include "support/device.h"
 #include "support/folders.h"
 

@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "support/cmocka.h"
 #include "support/simulation.h"
 
 static struct scene_fixture fixture; /* too large for a stack */

@@ -13,6 +13,7 @@
 #include "draw/sprites/particles.h"
 #include "shared/derived.h"
 #include "shared/fragment_layout.h"
+#include "support/cmocka.h"
 #include "support/true_sprite.h"
 
 /* What was drawn, premultiplied: red, green, blue and alpha; and the same of the glow. */
@@ -155,7 +156,8 @@ static inline void true_draw(const struct true_scene *scene, const struct kiln_p
     struct true_pass pass = {
         scene, draw, kiln_image_host(draw->depth, KILN_READ, &error), {0}, pictures};
     const uint32_t *entries = kiln_buffer_host(draw->entries, KILN_READ, &error);
-    const struct kiln_particle *records = kiln_buffer_host(&draw->pool->records, KILN_READ, &error);
+    const struct kiln_particle *records =
+        kiln_buffer_host(&draw->moment->pool->records, KILN_READ, &error);
     assert_true(entries && records && pass.depth);
     for (uint32_t i = 0; i < draw->count; i++) {
         struct true_sprite sprite;

@@ -1,29 +1,61 @@
 #!/usr/bin/env bash
-# The include law of lib/ and cmd/: a file includes headers of its own room and of rooms to its left,
-#     base < gpu < asset, particles < scene < sim, sort, draw, post, output, compare < frame < suite < report < figure < bench < cmd
-# and cmd/ includes nothing of lib/ but kiln.h. shaders/shared is below all; kiln.h is for all, and so is
-# what it includes.
+# The include law of lib/, cmd/ and shaders/: includes.sh SOURCE. A file includes headers of its own
+# room and of rooms before it (rooms.awk); cmd/ includes nothing of lib/ but kiln.h. shaders/shared is
+# below all, and so are kiln.h and what it includes. A folder of shaders is the room of that name,
+# and the stem of a shader begins with that of a C file of the same room.
 set -euo pipefail
+rooms=$(dirname "$(realpath "$0")")/rooms.awk
 cd "$1"
 
-find lib cmd shaders/shared -name '*.[ch]' | sort | xargs awk '
-function rank_of(room) { return room in rank ? rank[room] : -1 }
+find lib cmd shaders -name '*.[ch]' -o -path 'shaders/*.*' -type f | sort -u >"${TMPDIR:-/tmp}/includes.$$"
+trap 'rm -f "${TMPDIR:-/tmp}/includes.$$"' EXIT
+mapfile -t files <"${TMPDIR:-/tmp}/includes.$$"
+
+awk -f "$rooms" -f - "${files[@]}" <<'AWK'
 function complain(text) { printf "%s:%d: %s\n", FILENAME, FNR, text; failed = 1 }
+
+# The file's folder in words of rooms: "cmd", "shared", a room, or "" for the root of lib/.
+function where(path) {
+    if (path ~ /^cmd\//) return "cmd"
+    if (path ~ /^shaders\/shared\//) return "shared"
+    sub(/^(lib|shaders)\//, "", path)
+    return room_of(path)
+}
+
+# A shader's name without its ending begins with the name of a C file, which may add its technique.
+function has_file(path,    stem) {
+    sub(/^shaders\//, "", path)
+    sub(/\.[a-z]*$/, "", path)
+    for (stem = path; stem != ""; ) {
+        if (("lib/" stem) in stems) return 1
+        if (!sub(/_[^_\/]*$/, "", stem)) return 0
+    }
+    return 0
+}
+
 BEGIN {
-    rank["base"] = 1; rank["gpu"] = 2; rank["asset"] = rank["particles"] = 3; rank["scene"] = 4
-    rank["sim"] = rank["sort"] = rank["draw"] = rank["post"] = rank["output"] = rank["compare"] = 5
-    rank["frame"] = 6; rank["suite"] = 7; rank["report"] = 8; rank["figure"] = 9; rank["bench"] = 10
     # What a program may take from the system: the C library, POSIX and what Linux adds to it.
     split("assert ctype errno fcntl float inttypes limits locale math poll pthread sched setjmp " \
           "signal stdalign stdarg stdatomic stdbool stddef stdint stdio stdlib string strings " \
           "sys/file sys/ioctl sys/prctl sys/resource sys/stat sys/time sys/types sys/wait termios " \
           "time unistd", names, " ")
     for (i in names) libc[names[i] ".h"] = 1
+    for (i = 1; i < ARGC; i++) {
+        stem = ARGV[i]
+        if (stem !~ /^lib\/.*\.c$/) continue
+        sub(/\.c$/, "", stem)
+        stems[stem] = 1
+        if (sub(/_(gl|cpu|simd)$/, "", stem)) stems[stem] = 1
+    }
 }
 FNR == 1 {
-    count = split(FILENAME, part, "/")
-    room = part[1] == "cmd" ? "cmd" : part[1] == "shaders" ? "shared" : count == 2 ? "frame" : part[2]
-    if (part[1] == "lib" && rank_of(room) < 0) complain("a folder that the include law does not know")
+    room = where(FILENAME)
+    if (room == "" && FILENAME !~ /^lib\/kiln(_[a-z]*)?\.h$/)
+        complain("the root of lib/ is for kiln.h and its parts alone")
+    else if (room != "" && room != "cmd" && room != "shared" && !is_room(room))
+        complain("a folder that the include law does not know")
+    if (FILENAME ~ /^shaders\/.*\.(comp|vert|frag|geom)$/ && !has_file(FILENAME))
+        complain("no C file of its room has a name that this one begins with")
 }
 /^[ \t]*#[ \t]*include/ {
     path = $0
@@ -35,20 +67,20 @@ FNR == 1 {
         next
     }
     if ((path == "kiln.h" || path == "kiln_bench.h") && room != "shared") next
-    slash = index(path, "/")
-    target = slash ? substr(path, 1, slash - 1) : "frame"
+    target = path ~ /^shared\// ? "shared" : room_of(path)
     if (room == "cmd") {
-        if (slash || system("test -f cmd/" path) != 0)
+        if (target != "" || system("test -f cmd/" path) != 0)
             complain("cmd/ includes \"" path "\", which is neither kiln.h nor of cmd/")
     } else if (target == "shared") {
         next
     } else if (room == "shared") {
         complain("shaders/shared includes \"" path "\"")
-    } else if (rank_of(target) < 0) {
+    } else if (!is_room(target)) {
         complain("\"" path "\" is not a header of lib/")
-    } else if (target != room && rank_of(target) >= rank_of(room)) {
+    } else if (!may_read(room, target)) {
         complain(room " includes \"" path "\" of " target)
     }
 }
-END { exit failed }'
+END { exit failed }
+AWK
 echo "the includes keep the law"

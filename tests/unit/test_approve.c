@@ -1,12 +1,9 @@
 /* kiln_test_approve: the pictures of a run become goldens, and only of the run that they are of. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
 #include "suite/golden.h"
+#include "support/cmocka.h"
 #include "support/folders.h"
 
 static const char scene[] = "kiln: 1\noutput: {frames: 4}\n";

@@ -1,17 +1,14 @@
 /* lib/asset: blackbody colours and procedural flipbooks. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "asset/atlas/atlas.h"
 #include "asset/atlas/blackbody.h"
 #include "asset/atlas/builtin.h"
+#include "support/cmocka.h"
 
 enum { EDGE = 128, CELL_FLOATS = EDGE * EDGE * 4 };
 

@@ -1,16 +1,13 @@
 /* lib/bench: statistics on given numbers, and what is written of given measurements. Nothing here
  * asks how fast anything is. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "bench/result.h"
+#include "support/cmocka.h"
 #include "support/folders.h"
 
 static void expect_spread(struct kiln_spread spread, uint32_t count, const double expected[5])

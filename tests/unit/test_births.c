@@ -1,14 +1,11 @@
 /* lib/particles/births: counts equal the integral of the rate, times are exact and evenly spread.
  */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-#include <math.h>
-
 #include "particles/births.h"
+#include "support/cmocka.h"
 
 static float constant_rate(const void *context, float time_s)
 {

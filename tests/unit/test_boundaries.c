@@ -3,14 +3,11 @@
  * the speeds of scenes. Each has its top at the origin; test_collide*.c, test_terrain.c,
  * test_field.c and test_depth_maps.c have what is special about one kind.
  */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
 #include "support/bodies.h"
+#include "support/cmocka.h"
 #include "support/folders.h"
 #include "support/thrown.h"
 

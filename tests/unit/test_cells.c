@@ -1,13 +1,10 @@
 /* lib/asset/cells_in: flipbooks out of images and videos, and how they move. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-#include <math.h>
-
 #include "asset/atlas/cells_in.h"
+#include "support/cmocka.h"
 #include "support/pictures.h"
 
 struct picture {

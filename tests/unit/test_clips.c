@@ -1,17 +1,14 @@
 /* Every format of clips, written and decoded again: frames, times, sizes, alpha, colours, tags; the
  * same bytes with any number of threads; and what cannot be held is refused or said. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 #include <dlfcn.h>
 #include <libavformat/avformat.h>
 #include <libavutil/pixdesc.h>
 #include <math.h>
+#include <stddef.h>
+#include <stdint.h>
 
 #include "asset/image/video_in.h"
+#include "support/cmocka.h"
 #include "support/pictures.h"
 
 static bool encoders_are_missing; /* played by standing before FFmpeg's own function */

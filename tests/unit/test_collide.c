@@ -1,13 +1,10 @@
 /* Collision with boxes and the floor: closed forms, and what must never happen. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-#include <math.h>
-
 #include "shared/collide.h"
+#include "support/cmocka.h"
 #include "support/thrown.h"
 
 /* Each face in turn: a mirror with the speed reduced, at the exact point and time of impact. */

@@ -1,13 +1,10 @@
 /* Collision with spheres and cylinders: closed forms, and what must never happen. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-#include <math.h>
-
 #include "shared/collide.h"
+#include "support/cmocka.h"
 #include "support/thrown.h"
 
 /* Beside the middle of a unit sphere: the exact point, normal and time of a chord's start. */

@@ -1,14 +1,11 @@
 /* Collision with capsules, planes and what turns, and how surfaces rub: closed forms, and what must
  * never happen. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
 #include "shared/collide.h"
 #include "sim/world/turned.h"
+#include "support/cmocka.h"
 #include "support/thrown.h"
 
 /* ---- in doubles ------------------------------------------------------------------------------ */

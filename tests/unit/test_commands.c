@@ -1,13 +1,10 @@
 /* The commands that a result offers to a person. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
 #include <string.h>
 
 #include "suite/trial.h"
+#include "support/cmocka.h"
 
 struct fixture {
     struct kiln_suite suite;

@@ -1,14 +1,11 @@
 /* kiln_compare, as a program uses it. The rest of it is in tests/cli/cases/compare.t. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <string.h>
 
 #include "asset/image/image.h"
+#include "support/cmocka.h"
 #include "support/pictures.h"
 
 struct sequences {

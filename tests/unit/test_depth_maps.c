@@ -1,18 +1,15 @@
 /* Depth maps of meshes: what they say, how far they are from distance fields, and particles that
  * meet them.
  */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 
 #include "asset/geometry/depth_maps.h"
 #include "asset/geometry/field.h"
 #include "shared/collide.h"
 #include "support/bodies.h"
+#include "support/cmocka.h"
 #include "support/folders.h"
 #include "support/thrown.h"
 

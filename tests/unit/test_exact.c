@@ -1,15 +1,12 @@
 /* shaders/shared/exact.h against double-precision closed forms. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdio.h>
 
 #include "shared/exact.h"
 #include "shared/random.h"
+#include "support/cmocka.h"
 
 enum { SAMPLES = 1000000 };
 

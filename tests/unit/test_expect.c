@@ -1,13 +1,10 @@
 /* lib/suite: what expect.yaml says, and that writing it keeps what others wrote. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-#include <math.h>
-
 #include "suite/expect.h"
+#include "support/cmocka.h"
 #include "support/folders.h"
 
 #define HASH_A "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa"

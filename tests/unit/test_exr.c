@@ -1,13 +1,10 @@
 /* EXR files read back by OpenEXR's C core: channels, values, kinds of numbers and metadata. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
+#include <openexr.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-#include <math.h>
-#include <openexr.h>
-
+#include "support/cmocka.h"
 #include "support/pictures.h"
 
 /* Reads one channel whole, as float. */

@@ -1,15 +1,11 @@
 /* lib/asset/exr_in: the layers that kiln writes come back, and what is broken is refused. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <openexr.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
-#include <openexr.h>
-
 #include "asset/image/exr_in.h"
 #include "base/file_in.h"
+#include "support/cmocka.h"
 #include "support/pictures.h"
 
 /* Writes frame 5 of the test picture and returns the file's bytes. */

@@ -1,14 +1,11 @@
 /* Particles born of particles: where, when and how fast against closed forms; slots that are never
  * taken from the living. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-#include <math.h>
-
 #include "shared/random.h"
+#include "support/cmocka.h"
 #include "support/family_fixture.h"
 #include "support/simulation.h"
 

@@ -1,12 +1,9 @@
 /* lib/scene/family: bad families of systems, and the exact words that say so. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
 #include "support/bad_scenes.h"
+#include "support/cmocka.h"
 
 #define CHILD(name, of, on) "  " name ": {emit: {parent: {system: " of ", on: " on "}}}\n"
 

@@ -1,16 +1,13 @@
 /* Distance fields of meshes: what they say, the cache that keeps them, and particles that meet
  * them.
  */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
 
 #include "asset/geometry/field.h"
 #include "shared/random.h"
 #include "support/bodies.h"
+#include "support/cmocka.h"
 #include "support/folders.h"
 #include "support/thrown.h"
 

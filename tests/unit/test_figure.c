@@ -1,10 +1,6 @@
 /* lib/figure: the lettering, the panels of sweeps, the layout, what is written and read back. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -15,6 +11,7 @@
 #include "figure/layout.h"
 #include "figure/record.h"
 #include "figure/sweep.h"
+#include "support/cmocka.h"
 
 /* ---- Lettering ------------------------------------------------------------------------------ */
 

@@ -1,17 +1,14 @@
 /* lib/compare/flip: numbers of the authors' reference implementation, and what must hold for any
  * pair of pictures. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "compare/flip.h"
 #include "compare/pool.h"
+#include "support/cmocka.h"
 
 struct picture {
     uint32_t width, height;

@@ -1,14 +1,11 @@
 /* Flipbooks: which frames, where they are in the atlas, alpha, padding, layout and motion. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <sys/stat.h>
 
 #include "asset/image/image.h"
+#include "support/cmocka.h"
 #include "support/pictures.h"
 
 static char folder[32], path[64];

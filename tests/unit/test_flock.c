@@ -1,15 +1,12 @@
 /* Flocks: what each steers by, against sums over all pairs in double; averages; limits. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
 #include <stdlib.h>
 
 #include "base/simd.h"
 #include "shared/interact_flock.h"
 #include "support/balls.h"
+#include "support/cmocka.h"
 
 static struct scene_fixture fixture; /* too large for a stack */
 

@@ -1,15 +1,12 @@
 /* Optical flow against motions that are known. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "output/flow.h"
+#include "support/cmocka.h"
 
 enum { EDGE = 96, PIXELS = EDGE * EDGE };
 

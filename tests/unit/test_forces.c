@@ -1,16 +1,13 @@
 /* Forces and integrators by technique `cpu`, against closed forms in double precision; and of which
  * order of accuracy each integrator is. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <complex.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-#include <complex.h>
-#include <math.h>
-
 #include "shared/force_vortex.h"
 #include "shared/stages.h"
+#include "support/cmocka.h"
 #include "support/simulation.h"
 
 static struct scene_fixture fixture; /* too large for a stack */
@@ -116,7 +113,7 @@ static struct motion fall(uint32_t rate)
     struct kiln_system *system = one_particle(rate, 0.0f);
     fixture_add_force(system, KILN_FORCE_GRAVITY)->vector = fixture_constant3(0.0f, -9.81f, 0.0f);
     struct kiln_force *drag = fixture_add_force(system, KILN_FORCE_DRAG);
-    drag->pull = fixture_constant((float)k);
+    drag->quadratic = fixture_constant((float)k);
     const double fallen = most * most / g * log(cosh(g / most));
     return (struct motion){{1, -fallen, 0}, {0, -most * tanh(g / most), 0}};
 }
@@ -189,7 +186,7 @@ static void quadratic_drag_is_the_closed_form(void **state)
     (void)state;
     for (int i = KILN_INTEGRATE_TRAPEZOID; i <= KILN_INTEGRATE_RK4; i++) {
         struct kiln_force *drag = fixture_add_force(one_particle(60, 20.0f), KILN_FORCE_DRAG);
-        drag->pull = fixture_constant(0.5f);
+        drag->quadratic = fixture_constant(0.5f);
         fixture.scene.integration = (enum kiln_integration)i;
         struct motion end = run_fixture(60);
         assert_near(end.v[1], 20.0 / (1 + 0.5 * 20.0), i == KILN_INTEGRATE_RK4 ? 1e-4 : 5e-3);
@@ -210,7 +207,7 @@ static void drag_never_overshoots(void **state)
         fixture.scene.integration = (enum kiln_integration)(n / 8);
         fixture_add_force(system, KILN_FORCE_GRAVITY)->vector =
             fixture_constant3(0.0f, -9.81f, 0.0f);
-        fixture_add_force(system, KILN_FORCE_DRAG)->pull = fixture_constant(drags[n / 2 % 4]);
+        fixture_add_force(system, KILN_FORCE_DRAG)->quadratic = fixture_constant(drags[n / 2 % 4]);
         fixture_finish(&fixture, 380);
         struct simulation run;
         simulation_start(&run, &fixture.scene, NULL, 1);
@@ -243,7 +240,7 @@ static void pulls_stay_exact_in_stages(void **state)
             fixture_constant3(0.0f, -9.81f, 0.0f);
         struct kiln_force *wind = fixture_add_force(system, KILN_FORCE_WIND);
         wind->vector = fixture_constant3(3.0f, 0.0f, 0.0f);
-        wind->strength = fixture_constant(pulls[n % 5]);
+        wind->pull = fixture_constant(pulls[n % 5]);
         struct motion end = run_fixture(5);
         const double k = (double)pulls[n % 5], left = exp(-0.5 * k);
         assert_near(end.v[0], 3 * (1 - left), 1e-5);
@@ -330,7 +327,7 @@ static void winds_may_be_added(void **state)
             fixture.scene.integration = (enum kiln_integration)order;
             struct kiln_force *wind = fixture_add_force(system, KILN_FORCE_WIND);
             wind->vector = fixture_constant3(0.0f, 0.0f, 0.25f);
-            wind->strength = fixture_constant(7.0f);
+            wind->pull = fixture_constant(7.0f);
             wind->mode = KILN_WIND_ADD;
             struct kiln_force *vortex = fixture_add_force(system, KILN_FORCE_VORTEX);
             vortex->vector = fixture_constant3(1.0f, 0.0f, 0.0f);

@@ -2,17 +2,14 @@
  * has room for, and more sprites than are made at a time, give the picture all the same, in bounded
  * memory.
  */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 
+#include "support/cmocka.h"
 #include "support/raster.h"
 
 enum { STEP = 40, PLACES = 1024 };

@@ -1,10 +1,6 @@
 /* lib/report/gallery.c, preview.c: which pictures are in a page, and how. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 
@@ -13,6 +9,7 @@
 #include "output/formats.h"
 #include "report/gallery.h"
 #include "report/preview.h"
+#include "support/cmocka.h"
 #include "support/pictures.h"
 
 static void write_text(const char *path, const char *text)

@@ -1,14 +1,11 @@
 /* lib/suite: which accepted pictures a device is judged by, and where new ones go. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <signal.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <signal.h>
 #include <sys/wait.h>
 
 #include "suite/golden.h"
+#include "support/cmocka.h"
 #include "support/folders.h"
 
 static const char llvmpipe[] = "llvmpipe-llvm-15.0.6-256-bits";

@@ -1,17 +1,14 @@
 /* Grids: what files may say, what lies between samples, and the wind that a force makes of it. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "asset/geometry/grid_in.h"
 #include "sim/world/grids.h"
+#include "support/cmocka.h"
 #include "support/simulation.h"
 
 static struct scene_fixture fixture; /* too large for a stack */

@@ -1,14 +1,10 @@
 /* lib/asset/image: every format is decoded, and what is no good image is refused by name. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 #include <libavcodec/avcodec.h>
 #include <libavutil/opt.h>
 #include <libswscale/swscale.h>
 #include <math.h>
+#include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,6 +12,7 @@
 #include <unistd.h>
 
 #include "asset/image/image.h"
+#include "support/cmocka.h"
 
 enum { WIDTH = 29, HEIGHT = 13 };
 

@@ -1,16 +1,13 @@
 /* Collisions of particles with each other: closed forms in double, what is kept, and that no pair
  * is missed. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
 #include <stdlib.h>
 
 #include "shared/interact_staggered.h"
 #include "sim/crowd/interact.h"
 #include "support/balls.h"
+#include "support/cmocka.h"
 
 static struct scene_fixture fixture; /* too large for a stack */
 

@@ -1,12 +1,9 @@
 /* What is said of scenes whose particles cannot interact as they are told. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
 #include "support/bad_scenes.h"
+#include "support/cmocka.h"
 
 static const struct bad interactions[] = {
     {"kiln: 1\n"

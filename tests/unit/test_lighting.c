@@ -1,31 +1,26 @@
 /* lib/draw/firelight and smoke_shadow: what particles shed and keep off, against closed forms. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "draw/light/firelight.h"
-#include "draw/light/living_blocks.h"
 #include "draw/light/smoke_shadow.h"
+#include "draw/moment/living_blocks.h"
 #include "draw/moment/looks.h"
 #include "draw/moment/view.h"
+#include "support/cmocka.h"
 #include "support/scenes.h"
 
 enum { GRID = KILN_SMOKE_GRID, MOST = 4096 };
-
-static float4 table[KILN_LOOK_TEXELS];
 
 /* A scene's pool on the host, whose particles the test places, at the end of step 30. */
 struct fixture {
     struct kiln_scene *scene;
     struct kiln_pool pool;
     struct kiln_particle *records;
-    struct kiln_view view;
+    struct kiln_moment moment;
     struct kiln_threads *threads;
 };
 
@@ -42,14 +37,15 @@ static void set_up(struct fixture *f, const char *text, const char *override)
     kiln_pool_init(&f->pool, NULL, capacities, f->scene->system_count);
     f->records = kiln_buffer_host(&f->pool.records, KILN_READ_WRITE, &error);
     assert_non_null(f->records);
-    f->view = kiln_view_compute(f->scene, STEP);
-    kiln_looks_sample(f->scene, f->view.clock.x, table);
+    assert_true(kiln_moment_init(&f->moment, NULL, f->scene, NULL, &error));
+    assert_true(kiln_moment_fill(&f->moment, &f->pool, STEP, true, &error));
     f->threads = kiln_threads_create(2);
     assert_non_null(f->threads);
 }
 
 static void tear_down(struct fixture *f)
 {
+    kiln_moment_finish(&f->moment);
     kiln_threads_destroy(&f->threads);
     kiln_pool_finish(&f->pool);
     kiln_scene_destroy(&f->scene);
@@ -73,18 +69,9 @@ static void assert_near(double found, double expected, double tolerance)
         fail_msg("%.9g instead of %.9g", found, expected);
 }
 
-static struct kiln_living_moment moment_of(const struct fixture *f)
-{
-    return (struct kiln_living_moment){
-        f->scene, &f->pool, f->records,
-        &f->view, table,    KILN_SIMD_PICK(kiln_living_loops, KILN_SIMD_NARROWEST),
-        NULL};
-}
-
 static uint32_t gather_fire(const struct fixture *f, struct kiln_draw_light *lights)
 {
-    const struct kiln_living_moment moment = moment_of(f);
-    return kiln_firelight_gather(&moment, f->threads, lights);
+    return kiln_firelight_gather(&f->moment, f->threads, lights);
 }
 
 static const char FIRE[] =
@@ -131,7 +118,7 @@ static void light_moves_without_jumps(void **state)
     const double whole = 3 * 0.25 * 0.16 * 0.5 / acos(-1.0);
     place(&f, 0, (float3){0, 0, 0}, 1);
     for (uint32_t step = 1; step < 60; step++) {
-        f.view.clock_step.x = step;
+        f.moment.view.clock_step.x = step;
         uint32_t count = gather_fire(&f, lights);
         assert_in_range(count, 1, 2);
         double sum = 0;
@@ -185,12 +172,11 @@ static bool fill(struct fixture *f, float3 direction, struct kiln_smoke_grid *gr
 {
     static float depth[GRID * GRID * GRID];
     struct kiln_error error = {0};
-    const struct kiln_living_moment moment = moment_of(f);
     struct kiln_smoke smoke = {0};
     struct kiln_smoke_shadow *shadow = kiln_smoke_shadow_create();
     assert_non_null(shadow);
     *grid = (struct kiln_smoke_grid){.direction = direction, .depth = depth};
-    assert_true(kiln_smoke_gather(&smoke, &moment, f->threads, &error));
+    assert_true(kiln_smoke_gather(&smoke, &f->moment, f->threads, &error));
     bool any = kiln_smoke_shadow_fill(shadow, &smoke, f->threads, grid, 1);
     kiln_smoke_shadow_destroy(&shadow);
     kiln_smoke_finish(&smoke);

@@ -1,20 +1,17 @@
 /* lib/draw/firelight and smoke_shadow: fast, but the same as a plain reading of what they are, and
  * the same for any number of threads. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "draw/light/firelight.h"
-#include "draw/light/living_blocks.h"
 #include "draw/light/smoke_shadow.h"
+#include "draw/moment/living_blocks.h"
 #include "draw/moment/looks.h"
 #include "draw/moment/view.h"
+#include "support/cmocka.h"
 #include "support/scenes.h"
 
 enum { GRID = KILN_SMOKE_GRID, CELLS = GRID * GRID * GRID, LEVELS = 4, MOST = 40000, STEP = 30 };
@@ -44,8 +41,7 @@ struct fixture {
     struct kiln_scene *scene;
     struct kiln_pool pool;
     struct kiln_particle *records;
-    struct kiln_view view;
-    float4 *table;
+    struct kiln_moment moment;
 };
 
 static float part_of(uint32_t i, uint32_t factor)
@@ -61,10 +57,9 @@ static void set_up(struct fixture *f, const uint32_t counts[3])
     *f = (struct fixture){.scene = load_scene(SCENE, NULL)};
     kiln_pool_init(&f->pool, NULL, capacities, 3);
     f->records = kiln_buffer_host(&f->pool.records, KILN_READ_WRITE, &error);
-    f->view = kiln_view_compute(f->scene, STEP);
-    f->table = malloc(KILN_LOOK_TEXELS * sizeof *f->table);
-    assert_true(f->records && f->table);
-    kiln_looks_sample(f->scene, f->view.clock.x, f->table);
+    assert_non_null(f->records);
+    assert_true(kiln_moment_init(&f->moment, NULL, f->scene, NULL, &error));
+    assert_true(kiln_moment_fill(&f->moment, &f->pool, STEP, true, &error));
     for (uint32_t system = 0; system < 3; system++) {
         struct kiln_pool_system *slots = &f->pool.systems[system];
         slots->next_serial = counts[system];
@@ -81,7 +76,7 @@ static void set_up(struct fixture *f, const uint32_t counts[3])
 
 static void tear_down(struct fixture *f)
 {
-    free(f->table);
+    kiln_moment_finish(&f->moment);
     kiln_pool_finish(&f->pool);
     kiln_scene_destroy(&f->scene);
 }
@@ -90,10 +85,6 @@ static void tear_down(struct fixture *f)
 static void light(const struct fixture *f, uint32_t thread_count, struct result *result)
 {
     struct kiln_error error = {0};
-    const struct kiln_living_moment moment = {
-        f->scene, &f->pool, f->records,
-        &f->view, f->table, KILN_SIMD_PICK(kiln_living_loops, KILN_SIMD_NARROWEST),
-        NULL};
     struct kiln_threads *threads = kiln_threads_create(thread_count);
     struct kiln_smoke_shadow *shadow = kiln_smoke_shadow_create();
     struct kiln_smoke smoke = {0};
@@ -104,8 +95,8 @@ static void light(const struct fixture *f, uint32_t thread_count, struct result 
         for (int i = 0; i < KILN_MAX_SMOKE_GRIDS; i++)
             grids[i] =
                 (struct kiln_smoke_grid){.direction = DIRECTIONS[i], .depth = result->depth[i]};
-        result->light_count = kiln_firelight_gather(&moment, threads, result->lights);
-        assert_true(kiln_smoke_gather(&smoke, &moment, threads, &error));
+        result->light_count = kiln_firelight_gather(&f->moment, threads, result->lights);
+        assert_true(kiln_smoke_gather(&smoke, &f->moment, threads, &error));
         result->smoke =
             kiln_smoke_shadow_fill(shadow, &smoke, threads, grids, KILN_MAX_SMOKE_GRIDS);
         for (int i = 0; i < KILN_MAX_SMOKE_GRIDS && result->smoke; i++)
@@ -216,12 +207,8 @@ static void fill_by_the_book(const struct fixture *f, const float4 rows[3], stru
     book->cell =
         1 / (GRID *
              sqrt((double)(rows[0].x * rows[0].x + rows[0].y * rows[0].y + rows[0].z * rows[0].z)));
-    const struct kiln_living_moment moment = {
-        f->scene, &f->pool, f->records,
-        &f->view, f->table, KILN_SIMD_PICK(kiln_living_loops, KILN_SIMD_NARROWEST),
-        NULL};
     for (uint32_t i = 0; i < 2; i++) {
-        const struct kiln_living_system system = kiln_living_system(&moment, i);
+        const struct kiln_living_system system = kiln_living_system(&f->moment, i);
         for (uint32_t slot = 0; slot < system.used; slot++) {
             struct kiln_living puff;
             if (!kiln_living_at(&system, slot, &puff) || !(puff.opacity > 0))

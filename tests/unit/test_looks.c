@@ -1,14 +1,11 @@
 /* lib/draw/looks: what a look says over life, sampled. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-#include <math.h>
-
 #include "draw/moment/looks.h"
 #include "shared/look_layout.h"
+#include "support/cmocka.h"
 #include "support/scenes.h"
 
 static float4 table[KILN_LOOK_TEXELS];

@@ -1,13 +1,10 @@
 /* The manifest, read back as JSON. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <libfyaml.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-#include <libfyaml.h>
-
 #include "output/manifest.h"
+#include "support/cmocka.h"
 #include "support/pictures.h"
 
 static const char scene_text[] = "kiln: 1\n"

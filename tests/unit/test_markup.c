@@ -1,16 +1,12 @@
 /* lib/report/markup.c: what is written into pages stays where it was put. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/embedded.h"
 #include "report/markup.h"
+#include "support/cmocka.h"
 
 static void assert_written(void (*write)(FILE *, const char *), const char *text,
                            const char *expected)
@@ -36,14 +32,6 @@ static void text_cannot_leave_its_element(void **state)
     assert_written(kiln_markup_write_text, "\xf0\x9f<b>", "\xef\xbf\xbd\xef\xbf\xbd&lt;b&gt;");
 }
 
-static void json_cannot_end_its_script(void **state)
-{
-    (void)state;
-    assert_written(kiln_markup_write_json, "</script><!--\"\\&]]>",
-                   "\"\\u003c/script\\u003e\\u003c!--\\\"\\\\\\u0026]]\\u003e\"");
-    assert_written(kiln_markup_write_json, "\n\x01", "\"\\u000a\\u0001\"");
-}
-
 static void urls_name_files_and_nothing_else(void **state)
 {
     (void)state;
@@ -51,28 +39,6 @@ static void urls_name_files_and_nothing_else(void **state)
                    "../a%20b/c%25d%231%3Fx%3D%22%3C%26%27.png");
     assert_written(kiln_markup_write_url, "javascript:alert(1)", "javascript%3Aalert%281%29");
     assert_written(kiln_markup_write_url, "\xc3\xa9", "%C3%A9");
-}
-
-static void numbers_are_json(void **state)
-{
-    (void)state;
-    static const struct {
-        double value;
-        const char *expected;
-    } cases[] = {{0.1, "0.1"},
-                 {-3, "-3"},
-                 {INFINITY, "\"inf\""},
-                 {-INFINITY, "\"-inf\""},
-                 {(double)NAN, "\"nan\""},
-                 {1e-20, "1e-20"}};
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        char written[64] = "";
-        FILE *out = fmemopen(written, sizeof written, "w");
-        assert_non_null(out);
-        kiln_markup_write_number(out, cases[i].value);
-        fclose(out);
-        assert_string_equal(written, cases[i].expected);
-    }
 }
 
 /* The vectors of RFC 4648, 10. */
@@ -156,9 +122,7 @@ int main(void)
 {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(text_cannot_leave_its_element),
-        cmocka_unit_test(json_cannot_end_its_script),
         cmocka_unit_test(urls_name_files_and_nothing_else),
-        cmocka_unit_test(numbers_are_json),
         cmocka_unit_test(base64_is_the_standard_one),
         cmocka_unit_test(templates_are_filled),
         cmocka_unit_test(the_page_is_in_the_library),

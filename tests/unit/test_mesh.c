@@ -1,11 +1,7 @@
 /* lib/asset/mesh: what is read of a mesh file, and what is refused. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,6 +9,7 @@
 #include <unistd.h>
 
 #include "asset/geometry/mesh.h"
+#include "support/cmocka.h"
 #include "support/folders.h"
 
 static struct kiln_mesh *parse(const char *text, const char *name)

@@ -1,18 +1,15 @@
 /* Meshes are imported once each, and before there are threads: a child of a process with threads
  * may wait for ever for a lock that one of them holds. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 #include <dirent.h>
 #include <pthread.h>
+#include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "asset/geometry/mesh_library.h"
 #include "kiln.h"
+#include "support/cmocka.h"
 
 static const char FOLDER[] = KILN_SOURCE_DIR "/tests/mutation";
 #define TETRAHEDRON KILN_SOURCE_DIR "/tests/mutation/tetrahedron.obj"

@@ -1,15 +1,11 @@
 /* lib/asset/geometry/mesh_measure.c against bodies whose mean shadow is known. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-
-#include <math.h>
 #include <string.h>
 
 #include "asset/geometry/mesh_measure.h"
+#include "support/cmocka.h"
 
 static struct kiln_mesh_measure measure(const char *text)
 {

@@ -1,17 +1,14 @@
 /* lib/compare: levels, SSIM, PSNR, the densest window, the table of metrics and its limits; closed
  * forms, what must hold for any pair, and FFmpeg's filters as a second opinion. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "compare/magma.h"
 #include "compare/metric.h"
+#include "support/cmocka.h"
 #include "support/pictures.h"
 
 struct level_picture {

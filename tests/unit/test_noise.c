@@ -1,13 +1,10 @@
 /* shaders/shared/noise.h: the analytic curl against a potential in double, and what follows. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-#include <math.h>
-
 #include "shared/noise.h"
+#include "support/cmocka.h"
 
 static float3 random_point(uint32_t i, float reach)
 {

@@ -1,18 +1,15 @@
 /* What every output format shares: names of files, refusals, whole files or none, bounded memory.
  */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 #include <errno.h>
 #include <signal.h>
+#include <stddef.h>
+#include <stdint.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 
 #include "base/pattern.h"
+#include "support/cmocka.h"
 #include "support/pictures.h"
 
 static const char *const suffixes[] = {".png", ".exr", ".mp4"};

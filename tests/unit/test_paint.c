@@ -1,15 +1,12 @@
 /* Painting with particles: where texels lie, what they gather, and that it is the same by whatever
  * way. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdlib.h>
 
 #include "sim/paint/paint.h"
+#include "support/cmocka.h"
 #include "support/scenes.h"
 #include "support/simulation.h"
 

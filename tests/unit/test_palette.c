@@ -1,15 +1,12 @@
 /* Palettes: few colours come back as they are, many are covered well, mixes keep the average. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "output/palette.h"
+#include "support/cmocka.h"
 
 static struct kiln_palette make(const uint8_t *rgb, size_t pixels, uint32_t most)
 {

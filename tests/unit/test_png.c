@@ -1,12 +1,9 @@
 /* PNG files read back by libpng: pixels, alpha, depth, colour space and metadata. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <png.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-#include <png.h>
-
+#include "support/cmocka.h"
 #include "support/pictures.h"
 
 struct decoded {

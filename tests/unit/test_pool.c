@@ -1,12 +1,9 @@
 /* lib/particles/pool: slots and entries. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
 #include "particles/pool.h"
+#include "support/cmocka.h"
 
 static void slots_follow_one_another(void **state)
 {

@@ -1,13 +1,10 @@
 /* shaders/shared/random.h: uniform, independent, and where it should be. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-#include <math.h>
-
 #include "shared/random.h"
+#include "support/cmocka.h"
 
 enum { SAMPLES = 200000 };
 

@@ -1,18 +1,15 @@
 /* lib/report: runs put together, and the exact text of reports. What programs that read them say is
  * in tests/report. KILN_UPDATE_EXPECTED=1 writes the expected texts anew. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "report/words.h"
 #include "suite/result_member.h"
+#include "support/cmocka.h"
 #include "support/pictures.h"
 #include "support/results.h"
 

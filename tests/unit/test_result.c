@@ -1,11 +1,7 @@
 /* lib/suite/result*.c: result.json. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -13,6 +9,7 @@
 
 #include "base/text.h"
 #include "suite/result_member.h"
+#include "support/cmocka.h"
 #include "support/pictures.h"
 
 /* Whatever a scene, a driver or a crash may put into a text. */
@@ -185,9 +182,7 @@ static void long_lists_are_cut_and_say_so(void **state)
         result.notes[i] = "note";
     }
     struct kiln_text text = {0};
-    kiln_text_add(&text, "{\"kiln_result\": 1, ");
-    kiln_result_add_json(&text, &result);
-    kiln_text_add(&text, "}");
+    assert_true(kiln_result_print(&result, &text));
     struct kiln_error error = {0};
     struct kiln_result *back = kiln_result_parse(arena, text.data, text.length, "a", &error);
     if (!back)
@@ -279,9 +274,7 @@ static void broken_results_are_refused_with_their_place(void **state)
     result.frame_count = 2;
     result.frames = frames;
     struct kiln_text good = {0};
-    kiln_text_add(&good, "{\n  \"kiln_result\": 1,\n  ");
-    kiln_result_add_json(&good, &result);
-    kiln_text_add(&good, "}\n");
+    assert_true(kiln_result_print(&result, &good));
     struct kiln_arena *arena = kiln_arena_create();
     struct kiln_error error = {0};
     if (!kiln_result_parse(arena, good.data, good.length, "r.json", &error))

@@ -1,11 +1,8 @@
 /* lib/scene: good scenes mean what they say, and print as themselves. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
+#include "support/cmocka.h"
 #include "support/scenes.h"
 
 #define GOOD KILN_SOURCE_DIR "/tests/fuzz/corpus/scene/good/"
@@ -35,7 +32,7 @@ static void example_loads(void **state)
     assert_int_equal(smoke->forces[0].kind, KILN_FORCE_GRAVITY);
     assert_true(smoke->forces[0].vector.y.constant == 0.4f);
     assert_int_equal(smoke->forces[1].kind, KILN_FORCE_DRAG);
-    assert_true(smoke->forces[1].strength.constant == 0.2f);
+    assert_true(smoke->forces[1].pull.constant == 0.2f);
     assert_int_equal(smoke->forces[2].kind, KILN_FORCE_CURL);
     assert_true(smoke->forces[2].strength.constant == 0.6f);
     assert_true(smoke->collide.enabled && smoke->collide.randomness.constant == 0.4f);
@@ -121,11 +118,11 @@ static void every_key_of_a_system_arrives(void **state)
     for (uint32_t i = 0; i < point->force_count; i++)
         assert_int_equal(point->forces[i].kind, kinds[i]);
     assert_true(point->forces[5].vector.z.constant == 2);
-    assert_true(point->forces[6].strength.constant == 2);
+    assert_true(point->forces[6].pull.constant == 2);
     assert_true(point->forces[7].scale.constant == 0.1f && point->forces[7].octaves == 4);
     assert_int_equal(point->forces[7].pull.clock, KILN_CLOCK_LIFE);
     assert_int_equal(point->forces[9].mode, KILN_WIND_ADD);
-    assert_true(point->forces[10].pull.constant == 2);
+    assert_true(point->forces[10].quadratic.constant == 2);
     assert_true(point->forces[11].vector.x.count == 2 && point->forces[11].strength.constant == -3);
     assert_int_equal(point->forces[11].falloff, KILN_FALLOFF_LINEAR);
     assert_int_equal(point->forces[12].profile, KILN_VORTEX_LAMB_OSEEN);

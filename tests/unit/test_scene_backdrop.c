@@ -1,11 +1,8 @@
 /* lib/scene: what is wrong with the objects and pictures of a backdrop, in the exact words. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
+#include "support/cmocka.h"
 #include "support/scenes.h"
 
 static const struct {

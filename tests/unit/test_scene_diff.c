@@ -1,13 +1,10 @@
 /* The keys that differ between two scenes. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
 #include <string.h>
 
 #include "suite/trial.h"
+#include "support/cmocka.h"
 
 static void expect_changes(const char *before, const char *after, const char *expected)
 {

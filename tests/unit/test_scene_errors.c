@@ -1,12 +1,9 @@
 /* lib/scene: bad scenes, and the exact words that say where, what was found and what is allowed. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
 #include "support/bad_scenes.h"
+#include "support/cmocka.h"
 
 #define ATLASES                                                                                    \
     "\"builtin:fire\", \"builtin:flame\", \"builtin:tongue\", \"builtin:smoke\", "                 \

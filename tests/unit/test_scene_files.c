@@ -1,16 +1,13 @@
 /* lib/scene: files that are no scenes, and assets that are not the scene's to read. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <stddef.h>
+#include <stdint.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/clock.h"
+#include "support/cmocka.h"
 #include "support/pictures.h"
 #include "support/scenes.h"
 

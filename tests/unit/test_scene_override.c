@@ -1,11 +1,8 @@
 /* lib/scene: --set key=value. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
+#include "support/cmocka.h"
 #include "support/scenes.h"
 
 static const char text[] = "kiln: 1\n"

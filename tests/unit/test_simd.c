@@ -1,13 +1,9 @@
 /* lib/base/simd.c: levels are chosen by name. lib/post/{bloom,composite}_cpu.c: their pixels are
  * the same bytes at every level and for any number of threads. That they are right is tested
  * against GL in tests/gpu/test_post_techniques.c. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,6 +11,7 @@
 #include "base/simd.h"
 #include "post/bloom.h"
 #include "post/composite.h"
+#include "support/cmocka.h"
 #include "support/scenes.h"
 
 enum { WIDTH = 211, HEIGHT = 93, FLOATS = 4 * WIDTH * HEIGHT }; /* no multiples of anything */

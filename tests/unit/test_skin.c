@@ -1,12 +1,8 @@
 /* lib/asset/skin: meshes that follow bones, and what is refused. A chain of bones a metre long each
  * stands along y, in a file of our own; what is expected is computed in double. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,6 +10,7 @@
 #include "asset/geometry/closed.h"
 #include "asset/geometry/skin.h"
 #include "scene/scene.h"
+#include "support/cmocka.h"
 #include "support/rig.h"
 
 #define EIGHT(text) text text text text text text text text
@@ -218,7 +215,7 @@ static void bits_are_known(void **state)
             sum = (sum ^ bytes[k]) * 16777619u;
     }
     kiln_skin_destroy(&skin);
-    assert_int_equal(sum, 0x5cc4285fu);
+    assert_int_equal(sum, 0x75f8c57eu);
 }
 
 /* Without bones, a mesh goes where its node does. */

@@ -1,16 +1,13 @@
 /* lib/sim/step/slots_simd.c: stepping slots in blocks gives the bits of step_slot, at every width
  * of vectors and for any stretch of slots. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
 #include <stdlib.h>
 
 #include "sim/step/slots.h"
 #include "sim/world/params.h"
 #include "support/balls.h"
+#include "support/cmocka.h"
 
 static struct scene_fixture fixture; /* too large for a stack */
 

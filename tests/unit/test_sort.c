@@ -1,15 +1,12 @@
 /* lib/sort: against qsort, and the order that drawing asks for. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "sort/sort.h"
+#include "support/cmocka.h"
 #include "support/sort_keys.h"
 
 enum { MOST = 300000 };

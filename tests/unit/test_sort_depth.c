@@ -1,18 +1,15 @@
 /* sort=cpu by depth: against qsort, with depths that fill cells evenly, hardly, or too much; at
  * every level and for any number of threads. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/simd.h"
 #include "shared/keys.h"
 #include "sort/sort.h"
+#include "support/cmocka.h"
 #include "support/sort_keys.h"
 
 enum { CAPACITY = 40003, SLOTS = 2 * CAPACITY, TURN = 123 }; /* serials from TURN on */

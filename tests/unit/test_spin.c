@@ -1,14 +1,11 @@
 /* Balls that turn (UberFlow 2004, 4.5): closed forms in double, what is kept, and what a run saves.
  */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
 #include "shared/spin.h"
 #include "support/balls.h"
+#include "support/cmocka.h"
 
 static struct scene_fixture fixture; /* too large for a stack */
 

@@ -1,18 +1,15 @@
 /* lib/draw/sprites/sprite_simd.c: the sprites are the same bytes for every width of vectors, and
  * whichever particles share a vector. lib/draw/vector/particle_math.h: the same bits as
  * shaders/shared. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "draw/moment/looks.h"
 #include "draw/sprites/sprite.h"
 #include "draw/vector/particle_math.h"
+#include "support/cmocka.h"
 #include "support/raster.h"
 
 enum { COUNT = 1511, STEP = 90, GRID = KILN_SMOKE_GRID * KILN_SMOKE_GRID * KILN_SMOKE_GRID };
@@ -105,8 +102,6 @@ struct fixture {
     struct raster raster;
     struct kiln_cells *cells;
     struct kiln_lighting lighting;
-    struct kiln_draw_look looks[KILN_MAX_SYSTEMS];
-    float4 table[KILN_LOOK_TEXELS];
     float depth[GRID], sunlit[COUNT];
     struct kiln_particle records[COUNT];
     uint32_t entries[COUNT];
@@ -117,7 +112,7 @@ struct fixture {
 static void place_particles(struct fixture *f)
 {
     srand(7);
-    const struct kiln_view *view = &f->raster.view;
+    const struct kiln_view *view = &f->raster.moment.view;
     const float3 forward = kiln_view_forward(view);
     for (uint32_t i = 0; i < COUNT; i++) {
         float far = raster_random(-1.0f, 12.0f);
@@ -157,16 +152,14 @@ static struct fixture *open_scene(const char *path, bool coarse)
     f->cells = kiln_cells_create(&raster->atlas, &error);
     assert_non_null(f->cells);
     if (coarse)
-        raster->view = kiln_view_coarse(&raster->view, 2);
-    kiln_looks_fill(raster->scene, &raster->atlas, f->looks);
-    kiln_looks_sample(raster->scene, raster->view.clock.x, f->table);
+        raster->moment.view = kiln_view_coarse(&raster->moment.view, 2);
     place_particles(f);
     light_particles(f);
     f->pass = (struct kiln_sprite_pass){.scene = raster->scene,
-                                        .looks = f->looks,
-                                        .table = f->table,
+                                        .looks = raster->moment.looks,
+                                        .table = raster->moment.look_table,
                                         .records = f->records,
-                                        .view = &raster->view,
+                                        .view = &raster->moment.view,
                                         .backdrop = &raster->light,
                                         .lighting = &f->lighting,
                                         .cells = f->cells,

@@ -1,13 +1,10 @@
 /* What became of tests, as names and as exit codes. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
 #include <string.h>
 
 #include "kiln.h"
+#include "support/cmocka.h"
 
 static void every_status_has_a_name(void **state)
 {

@@ -1,13 +1,10 @@
 /* The step of a particle, by technique `cpu`: births, motion and death against closed forms. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-#include <math.h>
-
 #include "shared/forces.h"
+#include "support/cmocka.h"
 #include "support/simulation.h"
 
 static struct scene_fixture fixture; /* too large for a stack */
@@ -66,7 +63,7 @@ static void drag_decays_exponentially(void **state)
     static const float strengths[] = {0.01f, 1.0f, 14.0f, 16.0f, 100.0f, 5000.0f};
     for (size_t i = 0; i < sizeof strengths / sizeof *strengths; i++) {
         struct kiln_system *system = one_particle(&fixture);
-        fixture_add_force(system, KILN_FORCE_DRAG)->strength = fixture_constant(strengths[i]);
+        fixture_add_force(system, KILN_FORCE_DRAG)->pull = fixture_constant(strengths[i]);
         struct simulation run;
         run_fixture(&run, 30);
         struct kiln_particle p = simulation_records(&run)[0];
@@ -87,7 +84,7 @@ static void wind_and_gravity_find_their_balance(void **state)
             fixture_constant3(0.0f, -9.81f, 0.0f);
         struct kiln_force *wind = fixture_add_force(system, KILN_FORCE_WIND);
         wind->vector = fixture_constant3(-2.0f, 1.0f, 7.0f);
-        wind->strength = fixture_constant(pulls[i]);
+        wind->pull = fixture_constant(pulls[i]);
         struct simulation run;
         run_fixture(&run, 60);
         float3 v = particle_velocity(simulation_records(&run)[0]);

@@ -1,13 +1,10 @@
 /* Files whose completion takes long: their caller is asked meanwhile, and nothing is left of what
  * it does not want any more. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
 #include "base/error.h"
+#include "support/cmocka.h"
 #include "support/pictures.h"
 
 /* Of each one-file output, and the least times that it asks: so often that the next one is never

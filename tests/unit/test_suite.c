@@ -1,12 +1,9 @@
 /* lib/suite: which files are tests, and what a test file says. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
 #include "suite/suite.h"
+#include "support/cmocka.h"
 #include "support/folders.h"
 
 static const char scene[] = "kiln: 1\nsystems: {}\n";

@@ -1,18 +1,15 @@
 /* lib/draw/sun_cover and sun_mesh: what shapes hide of the sun from a ball, against rays that are
  * counted. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "draw/light/sun_box.h"
 #include "draw/light/sun_mesh.h"
 #include "shared/exact.h"
+#include "support/cmocka.h"
 
 #ifdef __SANITIZE_ADDRESS__ /* slow, and sees as much in fewer */
 enum { RAYS = 400, BALLS = 60 };

@@ -1,12 +1,9 @@
 /* lib/frame/technique.c: the choice of techniques. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
 #include "frame/technique.h"
+#include "support/cmocka.h"
 
 static bool choose(bool software, bool exact, const char *flag, char text[256],
                    struct kiln_error *error)

@@ -1,18 +1,15 @@
 /* lib/base/temporary.c: what others left under the same names. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/file.h>
 #include <unistd.h>
 
 #include "base/temporary.h"
+#include "support/cmocka.h"
 #include "support/pictures.h"
 
 enum { KILLED_JOBS = 100 };

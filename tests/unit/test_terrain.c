@@ -1,16 +1,13 @@
 /* Terrain: heights out of pictures and noise, its mesh, and particles that fall on it. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "shared/collide.h"
 #include "sim/world/params.h"
+#include "support/cmocka.h"
 #include "support/folders.h"
 #include "support/thrown.h"
 

@@ -1,16 +1,13 @@
 /* lib/draw/sprites/particles_cpu.c: the pixels are the same bytes for every width of vectors and
  * any number of threads. That they are right is tested against C in tests/gpu/test_particles.c. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "draw/sprites/tile.h"
+#include "support/cmocka.h"
 #include "support/raster.h"
 
 enum { WIDTH = 301, HEIGHT = 173, PIXELS = WIDTH * HEIGHT, STEP = 40, COUNT = 600 };

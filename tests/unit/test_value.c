@@ -1,12 +1,9 @@
 /* Animated values and units: what a scene writes is, to the bit, what a run reads. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-#include <math.h>
-
+#include "support/cmocka.h"
 #include "support/scenes.h"
 
 /* A scene with `text` as the roll of its camera, an angle over time. */

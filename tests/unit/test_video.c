@@ -1,16 +1,13 @@
 /* MP4 files read back by FFmpeg: frames, rate, size, tags, colours, metadata, order of the parts.
  */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 #include <dlfcn.h>
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
 #include <math.h>
+#include <stddef.h>
+#include <stdint.h>
 
+#include "support/cmocka.h"
 #include "support/pictures.h"
 
 /* Stands before FFmpeg's own, so that a build without the encoder can be played. */

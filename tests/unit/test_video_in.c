@@ -1,15 +1,12 @@
 /* lib/asset/video_in: the frames that kiln writes come back, and no damage passes. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <sys/stat.h>
 
 #include "asset/image/video_in.h"
 #include "base/file_in.h"
+#include "support/cmocka.h"
 #include "support/pictures.h"
 
 enum { FRAMES = 12 };

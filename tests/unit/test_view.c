@@ -1,15 +1,12 @@
 /* lib/draw/moment/view.c: the camera. */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "draw/moment/view.h"
+#include "support/cmocka.h"
 
 static struct kiln_view view_of(const char *camera, uint32_t step)
 {

@@ -1,16 +1,13 @@
 /* Particles that meet volumes of planes (Drone 2007, 7.5.2): closed forms, what moves and pushes,
  * sheets, and that nothing gets through.
  */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
 
 #include "asset/geometry/skin.h"
 #include "sim/world/volumes.h"
 #include "support/bodies.h"
+#include "support/cmocka.h"
 #include "support/folders.h"
 #include "support/thrown.h"
 

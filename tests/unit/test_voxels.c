@@ -1,17 +1,14 @@
 /* lib/sim/world/voxels.c: which cells triangles touch, which of them a cell keeps, and that the
  * number of threads is of no account.
  */
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdlib.h>
 
 #include "sim/world/voxels.h"
 #include "support/balls.h"
+#include "support/cmocka.h"
 
 enum { TRIANGLES = 60 };
 

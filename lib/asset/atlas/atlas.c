@@ -4,13 +4,13 @@
  */
 #include "asset/atlas/atlas.h"
 
+#include <math.h>
+#include <stdlib.h>
+
 #include "asset/atlas/atlas_code.h"
 #include "asset/atlas/builtin.h"
 #include "asset/atlas/cells_in.h"
 #include "base/error.h"
-
-#include <math.h>
-#include <stdlib.h>
 
 /* One flipbook of all that are asked for, once each. */
 struct flipbook {

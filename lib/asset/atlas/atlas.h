@@ -1,8 +1,8 @@
 /* The textures of particles: every cell of every atlas is one layer of one mipmapped array texture,
  * so that systems of different looks draw in one call and every rasteriser samples alike (Heinz
  * 2019, 3.2.4; cells as layers do not bleed into each other). */
-#ifndef KILN_ASSET_ATLAS_H
-#define KILN_ASSET_ATLAS_H
+#ifndef KILN_ASSET_ATLAS_ATLAS_H
+#define KILN_ASSET_ATLAS_ATLAS_H
 
 #include "base/thread.h"
 #include "gpu/device.h"

@@ -1,6 +1,6 @@
 /* The inner loops of atlas.c. */
-#ifndef KILN_ASSET_ATLAS_CODE_H
-#define KILN_ASSET_ATLAS_CODE_H
+#ifndef KILN_ASSET_ATLAS_ATLAS_CODE_H
+#define KILN_ASSET_ATLAS_ATLAS_CODE_H
 
 #include "base/simd.h"
 

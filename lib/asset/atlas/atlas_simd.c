@@ -1,9 +1,9 @@
 /* Levels of detail of a cell, and their 8 bits. */
+#include <math.h>
+
 #include "asset/atlas/atlas_code.h"
 #include "asset/atlas/quad.h"
 #include "shared/draw_layout.h"
-
-#include <math.h>
 
 /* Halves a level in place of the next; normals and heat count as much as their density. */
 static void shrink(const float *from, size_t edge, uint32_t kind, float *to)

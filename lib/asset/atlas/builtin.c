@@ -1,11 +1,11 @@
 /* The procedural flipbooks: their names, and from texels to cells. */
 #include "asset/atlas/builtin.h"
 
-#include "asset/atlas/texel_cell.h"
-#include "shared/random.h"
-
 #include <stdlib.h>
 #include <string.h>
+
+#include "asset/atlas/texel_cell.h"
+#include "shared/random.h"
 
 static const struct builtin *at_index(size_t index, enum kiln_simd simd)
 {

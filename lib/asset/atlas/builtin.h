@@ -1,6 +1,6 @@
 /* Procedural flipbooks, made by the program itself and the same on every machine. */
-#ifndef KILN_ASSET_BUILTIN_H
-#define KILN_ASSET_BUILTIN_H
+#ifndef KILN_ASSET_ATLAS_BUILTIN_H
+#define KILN_ASSET_ATLAS_BUILTIN_H
 
 #include "asset/atlas/film.h"
 

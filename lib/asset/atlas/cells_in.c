@@ -4,14 +4,14 @@
  * Graphics", 1988), widened where a cell shrinks. */
 #include "asset/atlas/cells_in.h"
 
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
 #include "asset/image/image.h"
 #include "asset/image/linear.h"
 #include "asset/image/video_in.h"
 #include "base/error.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* ---- pixels ---------------------------------------------------------------------------------- */
 

@@ -1,6 +1,6 @@
 /* Cells of flipbooks out of files: images cut into columns and rows, and the frames of videos. */
-#ifndef KILN_ASSET_CELLS_IN_H
-#define KILN_ASSET_CELLS_IN_H
+#ifndef KILN_ASSET_ATLAS_CELLS_IN_H
+#define KILN_ASSET_ATLAS_CELLS_IN_H
 
 #include "base/thread.h"
 #include "kiln.h"

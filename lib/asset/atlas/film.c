@@ -2,10 +2,10 @@
  * of few cells is the film of many with cells left out. */
 #include "asset/atlas/film.h"
 
-#include "shared/exact.h"
-
 #include <stdlib.h>
 #include <string.h>
+
+#include "shared/exact.h"
 
 enum { STEPS = 126 };
 

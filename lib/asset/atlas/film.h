@@ -1,10 +1,10 @@
 /* The moving gas of one procedural flipbook, recorded at the times of its cells. */
-#ifndef KILN_ASSET_FILM_H
-#define KILN_ASSET_FILM_H
-
-#include "asset/atlas/fluid.h"
+#ifndef KILN_ASSET_ATLAS_FILM_H
+#define KILN_ASSET_ATLAS_FILM_H
 
 #include <stdbool.h>
+
+#include "asset/atlas/fluid.h"
 
 /* How the gas starts and what happens to it besides flowing. Time runs from 0 at a particle's birth
  * to 1 at its death. Either may be NULL. */

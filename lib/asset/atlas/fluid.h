@@ -1,12 +1,12 @@
 /* A small two-dimensional fluid, which carries the gas of the procedural flipbooks. The same bits
  * on every machine: nothing but IEEE arithmetic in a fixed order. */
-#ifndef KILN_ASSET_FLUID_H
-#define KILN_ASSET_FLUID_H
-
-#include "base/simd.h"
+#ifndef KILN_ASSET_ATLAS_FLUID_H
+#define KILN_ASSET_ATLAS_FLUID_H
 
 #include <stdalign.h>
 #include <stdint.h>
+
+#include "base/simd.h"
 
 enum {
     KILN_FLUID_EDGE = 64, /* samples a side */

@@ -1,12 +1,11 @@
 /* The vorticity form of an ideal fluid: vorticity moves with the flow and is made by buoyancy; the
  * flow is the curl of a stream function whose Laplacian is minus the vorticity. Backward tracing as
  * in Stam, "Stable Fluids" (1999), with cubic interpolation, which hardly blurs. */
-#include "asset/atlas/fluid.h"
+#include <string.h>
 
+#include "asset/atlas/fluid.h"
 #include "asset/atlas/quad.h"
 #include "shared/exact.h"
-
-#include <string.h>
 
 enum {
     EDGE = KILN_FLUID_EDGE,

@@ -1,6 +1,6 @@
 /* Four floats side by side: a texel, or all that moves at a sample of a fluid. */
-#ifndef KILN_ASSET_QUAD_H
-#define KILN_ASSET_QUAD_H
+#ifndef KILN_ASSET_ATLAS_QUAD_H
+#define KILN_ASSET_ATLAS_QUAD_H
 
 #include <stdint.h>
 

@@ -1,7 +1,7 @@
 /* What the procedural flipbooks are made of: each is a gas that flows (or none), and a function
  * from places at a time to texels. Private to builtin.c and the files with the functions. */
-#ifndef KILN_ASSET_TEXEL_H
-#define KILN_ASSET_TEXEL_H
+#ifndef KILN_ASSET_ATLAS_TEXEL_H
+#define KILN_ASSET_ATLAS_TEXEL_H
 
 #include "asset/atlas/film.h"
 

@@ -1,6 +1,6 @@
 /* One cell of a procedural flipbook. Private to builtin.c and texel_cell_simd.c. */
-#ifndef KILN_ASSET_TEXEL_CELL_H
-#define KILN_ASSET_TEXEL_CELL_H
+#ifndef KILN_ASSET_ATLAS_TEXEL_CELL_H
+#define KILN_ASSET_ATLAS_TEXEL_CELL_H
 
 #include "asset/atlas/builtin.h"
 #include "asset/atlas/texel.h"

@@ -1,8 +1,8 @@
 /* From the gas of one cell of a procedural flipbook to its texels. */
-#include "asset/atlas/texel_cell.h"
-
 #include <math.h>
 #include <string.h>
+
+#include "asset/atlas/texel_cell.h"
 
 /* The gas at every texel. */
 static void find_gas(const struct texel_job *job, struct kiln_builtin_room *room)

@@ -1,12 +1,11 @@
 /* Flames, smoke and steam. The large shapes are those of a gas that flows; torn sheets and wisps
  * are noise over the places where the gas came from, so that they are stretched and folded with it;
  * and a threshold that rises with age eats the thin parts first (erosion). */
+#include <math.h>
+
 #include "asset/atlas/texel.h"
 #include "asset/atlas/turbulence.h"
-
 #include "shared/random.h"
-
-#include <math.h>
 
 enum { EDGE = KILN_FLUID_EDGE };
 

@@ -1,9 +1,8 @@
 /* Things with a shape of their own: grains, drops, splinters, glints. */
-#include "asset/atlas/texel.h"
-
-#include "shared/random.h"
-
 #include <math.h>
+
+#include "asset/atlas/texel.h"
+#include "shared/random.h"
 
 /* A glowing grain: a hot point with a faint halo, the same at any age. */
 static void spark_texels(const struct texel_sites *restrict s, struct texels *restrict out)

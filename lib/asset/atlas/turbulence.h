@@ -1,7 +1,7 @@
 /* Gradient noise for the procedural flipbooks, over the lattice of the wind field's curl noise, for
  * many points at once. For files *_simd.c; the same bits at every level. */
-#ifndef KILN_ASSET_TURBULENCE_H
-#define KILN_ASSET_TURBULENCE_H
+#ifndef KILN_ASSET_ATLAS_TURBULENCE_H
+#define KILN_ASSET_ATLAS_TURBULENCE_H
 
 #include <stddef.h>
 #include <stdint.h>

@@ -2,8 +2,8 @@
  * by exact rasterisation of the triangles in texture space, so that it is the same on every
  * machine.
  */
-#ifndef KILN_ASSET_CHART_H
-#define KILN_ASSET_CHART_H
+#ifndef KILN_ASSET_GEOMETRY_CHART_H
+#define KILN_ASSET_GEOMETRY_CHART_H
 
 #include "asset/geometry/mesh.h"
 

@@ -1,6 +1,6 @@
 /* Whether a mesh has an inside. */
-#ifndef KILN_ASSET_CLOSED_H
-#define KILN_ASSET_CLOSED_H
+#ifndef KILN_ASSET_GEOMETRY_CLOSED_H
+#define KILN_ASSET_GEOMETRY_CLOSED_H
 
 #include "asset/geometry/mesh.h"
 

@@ -2,8 +2,8 @@
  * of each column along a direction, the first and the last of the surface, and their normals. What
  * lies between them in every map counts as inside: the mesh, and its hollows that no direction
  * looks into. The mesh need not be closed. */
-#ifndef KILN_ASSET_DEPTH_MAPS_H
-#define KILN_ASSET_DEPTH_MAPS_H
+#ifndef KILN_ASSET_GEOMETRY_DEPTH_MAPS_H
+#define KILN_ASSET_GEOMETRY_DEPTH_MAPS_H
 
 #include "asset/geometry/mesh.h"
 #include "base/thread.h"

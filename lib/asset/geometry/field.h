@@ -1,8 +1,8 @@
 /* The signed distance field of a closed mesh (UberFlow 2004, 4.6): how far points of a lattice are
  * from its surface, below 0 inside. It is kept on disk, under a name out of all that it follows
  * from. */
-#ifndef KILN_ASSET_FIELD_H
-#define KILN_ASSET_FIELD_H
+#ifndef KILN_ASSET_GEOMETRY_FIELD_H
+#define KILN_ASSET_GEOMETRY_FIELD_H
 
 #include "asset/geometry/mesh.h"
 #include "base/thread.h"

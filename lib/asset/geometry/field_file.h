@@ -1,6 +1,6 @@
 /* Distance fields in the cache: written beside their place and renamed, checked when read. */
-#ifndef KILN_ASSET_FIELD_FILE_H
-#define KILN_ASSET_FIELD_FILE_H
+#ifndef KILN_ASSET_GEOMETRY_FIELD_FILE_H
+#define KILN_ASSET_GEOMETRY_FIELD_FILE_H
 
 #include "asset/geometry/field.h"
 

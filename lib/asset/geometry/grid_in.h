@@ -10,8 +10,8 @@
  * followed by x, y and z of each sample as 32-bit floats, little end first: neighbours along x
  * follow one another, then rows along y, then layers along z.
  */
-#ifndef KILN_ASSET_GRID_IN_H
-#define KILN_ASSET_GRID_IN_H
+#ifndef KILN_ASSET_GEOMETRY_GRID_IN_H
+#define KILN_ASSET_GEOMETRY_GRID_IN_H
 
 #include <stddef.h>
 #include <stdint.h>

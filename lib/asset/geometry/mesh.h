@@ -1,8 +1,8 @@
 /* Meshes in, by assimp: OBJ, glTF and GLB. The importer runs in a child process with limits on its
  * memory and time, so that a file that it cannot bear is an error and no crash; it reads the file
  * itself and the buffers that a glTF file names, and nothing else. */
-#ifndef KILN_ASSET_MESH_H
-#define KILN_ASSET_MESH_H
+#ifndef KILN_ASSET_GEOMETRY_MESH_H
+#define KILN_ASSET_GEOMETRY_MESH_H
 
 #include <stddef.h>
 #include <stdint.h>

@@ -1,7 +1,7 @@
-/* What the child process of asset/geometry/mesh.c does, and the memory that it shares with its
- * parent. */
-#ifndef KILN_ASSET_MESH_IMPORT_H
-#define KILN_ASSET_MESH_IMPORT_H
+/* The import of meshes in the child process of asset/geometry/mesh.c, and the memory that it shares
+ * with its parent. */
+#ifndef KILN_ASSET_GEOMETRY_MESH_IMPORT_H
+#define KILN_ASSET_GEOMETRY_MESH_IMPORT_H
 
 #include "asset/geometry/mesh.h"
 #include "asset/geometry/skin_import.h"

@@ -1,8 +1,8 @@
 /* The meshes of a scene, each imported once, however many show it or collide with it. They are
  * imported while the scene is loaded: nobody needs the importer's process later, when there are
  * threads. Filling one is for one thread; what is in it is for any number. */
-#ifndef KILN_ASSET_MESH_LIBRARY_H
-#define KILN_ASSET_MESH_LIBRARY_H
+#ifndef KILN_ASSET_GEOMETRY_MESH_LIBRARY_H
+#define KILN_ASSET_GEOMETRY_MESH_LIBRARY_H
 
 #include "asset/geometry/skin.h"
 

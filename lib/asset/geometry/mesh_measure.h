@@ -1,6 +1,6 @@
 /* How large a mesh is, for those who show it at a size of their own. */
-#ifndef KILN_ASSET_MESH_MEASURE_H
-#define KILN_ASSET_MESH_MEASURE_H
+#ifndef KILN_ASSET_GEOMETRY_MESH_MEASURE_H
+#define KILN_ASSET_GEOMETRY_MESH_MEASURE_H
 
 #include "asset/geometry/mesh.h"
 

@@ -1,6 +1,6 @@
 /* How far a point is from the triangles of a mesh: a tree of boxes around them. */
-#ifndef KILN_ASSET_NEAREST_H
-#define KILN_ASSET_NEAREST_H
+#ifndef KILN_ASSET_GEOMETRY_NEAREST_H
+#define KILN_ASSET_GEOMETRY_NEAREST_H
 
 #include "asset/geometry/mesh.h"
 

@@ -27,11 +27,6 @@ struct kiln_skin {
 
 /* ---- between keys ---------------------------------------------------------------------------- */
 
-static float dot4(const float a[4], const float b[4])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
-}
-
 /* sin(t angle) / sin(angle) by the cosine of an angle of at most a quarter turn, as a series in
  * (cosine - 1) whose coefficients are polynomials of t (Eberly 2011, A Fast and Accurate Algorithm
  * for Computing SLERP). A term is at most half of the one before. */
@@ -49,89 +44,72 @@ static float part_of_turn(float t, float cosine)
 }
 
 /* Along the shorter way, at constant speed. */
-static void turn_between(const float a[4], const float b[4], float t, float out[4])
+static void turn_between(versor a, versor b, float t, versor out)
 {
-    const float cosine = dot4(a, b), sign = cosine < 0.0f ? -1.0f : 1.0f;
+    const float cosine = glm_quat_dot(a, b), sign = cosine < 0.0f ? -1.0f : 1.0f;
     const float from = part_of_turn(1.0f - t, sign * cosine);
     const float to = sign * part_of_turn(t, sign * cosine);
-    for (int c = 0; c < 4; c++)
-        out[c] = from * a[c] + to * b[c];
-    const float length = sqrtf(dot4(out, out)); /* 1 but for rounding */
-    for (int c = 0; c < 4; c++)
-        out[c] /= length;
+    glm_vec4_scale(a, from, out);
+    glm_vec4_muladds(b, to, out);
+    glm_quat_normalize(out); /* its length was 1 but for rounding */
 }
 
 /* At a moment; what is there without keys stays. */
 static void read_track(const struct kiln_skin *skin, const struct kiln_skin_track *track,
-                       bool turns, float seconds, float out[4])
+                       bool turns, float seconds, vec4 out)
 {
     if (track->count == 0)
         return;
-    const struct kiln_skin_key *keys = skin->keys + track->first;
+    struct kiln_skin_key *keys = skin->keys + track->first;
     uint32_t low = 0, high = track->count; /* the last key at or before the moment is in there */
     while (high - low > 1) {
         const uint32_t middle = low + (high - low) / 2;
         *(keys[middle].seconds <= seconds ? &low : &high) = middle;
     }
-    const struct kiln_skin_key *a = &keys[low], *b = &keys[low + 1 < track->count ? low + 1 : low];
+    struct kiln_skin_key *a = &keys[low], *b = &keys[low + 1 < track->count ? low + 1 : low];
     float t =
         seconds > a->seconds && b > a ? (seconds - a->seconds) / (b->seconds - a->seconds) : 0.0f;
     if (turns && t > 0.0f) {
         turn_between(a->value, b->value, t, out);
         return;
     }
-    for (int c = 0; c < 4; c++)
-        out[c] = a->value[c] + (b->value[c] - a->value[c]) * t;
+    glm_vec4_lerp(a->value, b->value, t, out);
 }
 
 /* ---- matrices -------------------------------------------------------------------------------- */
 
 /* Turned, after being scaled, and then moved. */
-static void compose(const float move[4], const float turn[4], const float scale[4], kiln_affine out)
+static void compose(vec4 move, versor turn, vec4 scale, mat4 out)
 {
-    const float x = turn[0], y = turn[1], z = turn[2], w = turn[3];
-    const float rows[3][3] = {
-        {1.0f - 2.0f * (y * y + z * z), 2.0f * (x * y - z * w), 2.0f * (x * z + y * w)},
-        {2.0f * (x * y + z * w), 1.0f - 2.0f * (x * x + z * z), 2.0f * (y * z - x * w)},
-        {2.0f * (x * z - y * w), 2.0f * (y * z + x * w), 1.0f - 2.0f * (x * x + y * y)}};
-    for (int i = 0; i < 3; i++) {
-        for (int c = 0; c < 3; c++)
-            out[i][c] = rows[i][c] * scale[c];
-        out[i][3] = move[i];
-    }
-}
-
-/* The second first; out may be neither. */
-static void multiply(const kiln_affine a, const kiln_affine b, kiln_affine out)
-{
-    for (int i = 0; i < 3; i++) {
-        for (int c = 0; c < 4; c++)
-            out[i][c] = a[i][0] * b[0][c] + a[i][1] * b[1][c] + a[i][2] * b[2][c] +
-                        (c == 3 ? a[i][3] : 0.0f);
-    }
+    glm_quat_mat4(turn, out);
+    glm_scale(out, scale);
+    glm_vec3_copy(move, out[3]);
 }
 
 /* From vertices to the file's space, for each bone. A clip moves its nodes, if there is one. */
 static void place_bones(const struct kiln_skin *skin, const struct kiln_skin_clip *clip,
-                        float seconds, kiln_affine *bones)
+                        float seconds, mat4 *bones)
 {
-    kiln_affine local[KILN_MAX_SKIN_NODES], nodes[KILN_MAX_SKIN_NODES];
+    mat4 local[KILN_MAX_SKIN_NODES], nodes[KILN_MAX_SKIN_NODES];
     memcpy(local[0], skin->nodes[0].rest, sizeof local[0]); /* there is one */
     for (uint32_t i = 1; i < skin->node_count; i++)
         memcpy(local[i], skin->nodes[i].rest, sizeof local[i]);
     for (uint32_t i = 0; clip && i < clip->count; i++) {
         const struct kiln_skin_channel *channel = &skin->channels[clip->first + i];
-        float move[4] = {0}, turn[4] = {0.0f, 0.0f, 0.0f, 1.0f}, scale[4] = {1.0f, 1.0f, 1.0f};
+        versor turn = GLM_QUAT_IDENTITY_INIT;
+        vec4 move = GLM_VEC4_ZERO_INIT, scale = GLM_VEC4_ONE_INIT;
         read_track(skin, &channel->tracks[KILN_CHANNEL_MOVE], false, seconds, move);
         read_track(skin, &channel->tracks[KILN_CHANNEL_TURN], true, seconds, turn);
         read_track(skin, &channel->tracks[KILN_CHANNEL_SCALE], false, seconds, scale);
         compose(move, turn, scale, local[channel->node]);
     }
-    memcpy(nodes[0], local[0], sizeof nodes[0]);
+    glm_mat4_copy(local[0], nodes[0]);
     for (uint32_t i = 1; i < skin->node_count; i++)
-        multiply(nodes[skin->nodes[i].parent], local[i], nodes[i]);
-    for (uint32_t i = 0; i < skin->bone_count; i++)
-        multiply(nodes[skin->bones[i].node], skin->bones[i].offset, bones[i]);
+        glm_mul(nodes[skin->nodes[i].parent], local[i], nodes[i]);
+    for (uint32_t i = 0; i < skin->bone_count; i++) {
+        struct kiln_skin_bone bone = skin->bones[i];
+        glm_mul(nodes[bone.node], bone.offset, bones[i]);
+    }
 }
 
 /* ---- vertices -------------------------------------------------------------------------------- */
@@ -143,52 +121,49 @@ static float bounded(float x)
 }
 
 /* Does it turn left into right? */
-static bool mirrors(const kiln_affine m)
+static bool mirrors(mat4 m)
 {
-    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) +
-               m[0][1] * (m[1][2] * m[2][0] - m[1][0] * m[2][2]) +
-               m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]) <
-           0.0f;
+    mat3 linear;
+    glm_mat4_pick3(m, linear);
+    return glm_mat3_det(linear) < 0.0f;
 }
 
 /* A normal goes by the cofactors, which keep it across the surface however that is stretched, and
  * on its side unless it is mirrored. */
-static void turn_normal(const kiln_affine m, const float normal[3], float out[3])
+static void turn_normal(mat4 m, vec3 normal, vec3 out)
 {
-    float n[3], square = 0.0f;
-    for (int i = 0; i < 3; i++) {
-        const float *p = m[(i + 1) % 3], *q = m[(i + 2) % 3];
-        n[i] = (p[1] * q[2] - p[2] * q[1]) * normal[0] + (p[2] * q[0] - p[0] * q[2]) * normal[1] +
-               (p[0] * q[1] - p[1] * q[0]) * normal[2];
-        square += n[i] * n[i];
-    }
-    const bool flat = !(square > 1e-30f && square < 1e30f);
-    const float length = mirrors(m) ? -sqrtf(square) : sqrtf(square);
-    for (int i = 0; i < 3; i++)
-        out[i] = flat ? (i == 1 ? 1.0f : 0.0f) : n[i] / length;
+    mat3 cofactors;
+    vec3 n;
+    for (int c = 0; c < 3; c++)
+        glm_vec3_cross(m[(c + 1) % 3], m[(c + 2) % 3], cofactors[c]);
+    glm_mat3_mulv(cofactors, normal, n);
+    const float square = glm_vec3_norm2(n);
+    if (square > 1e-30f && square < 1e30f)
+        glm_vec3_divs(n, mirrors(m) ? -sqrtf(square) : sqrtf(square), out);
+    else
+        glm_vec3_copy(GLM_YUP, out);
 }
 
-static void blend(const struct kiln_skin_weights *weights, const kiln_affine *bones,
-                  kiln_affine out)
+static void blend(const struct kiln_skin_weights *weights, mat4 *bones, mat4 out)
 {
-    memset(out, 0, sizeof(kiln_affine));
+    glm_mat4_zero(out);
     for (int k = 0; k < KILN_SKIN_INFLUENCES; k++) {
-        const float weight = weights->weights[k], *from = &bones[weights->bones[k]][0][0];
-        for (int c = 0; weight > 0.0f && c < 12; c++)
-            out[c / 4][c % 4] += weight * from[c];
+        const float weight = weights->weights[k];
+        for (int c = 0; weight > 0.0f && c < 4; c++)
+            glm_vec4_muladds(bones[weights->bones[k]][c], weight, out[c]);
     }
 }
 
 /* What is mirrored at rest would show its inside: its triangles go around the other way. */
 static void turn_mirrored(struct kiln_skin *skin)
 {
-    kiln_affine bones[KILN_MAX_SKIN_BONES], m;
+    mat4 bones[KILN_MAX_SKIN_BONES], m;
     place_bones(skin, NULL, 0.0f, bones);
     for (uint32_t i = 0; i < skin->mesh->triangle_count; i++) {
         uint32_t *corners = skin->mesh->triangles[i];
         const uint32_t second = corners[1];
-        blend(&skin->weights[corners[0]], (const kiln_affine *)bones, m);
-        if (mirrors((const float(*)[4])m)) {
+        blend(&skin->weights[corners[0]], bones, m);
+        if (mirrors(m)) {
             corners[1] = corners[2];
             corners[2] = second;
         }
@@ -198,14 +173,15 @@ static void turn_mirrored(struct kiln_skin *skin)
 static void pose(const struct kiln_skin *skin, const struct kiln_skin_clip *clip, float seconds,
                  float (*vertices)[6])
 {
-    kiln_affine bones[KILN_MAX_SKIN_BONES], m;
+    mat4 bones[KILN_MAX_SKIN_BONES], m;
     place_bones(skin, clip, seconds, bones);
     for (uint32_t i = 0; i < skin->mesh->vertex_count; i++) {
-        const float *v = skin->sources[i];
-        blend(&skin->weights[i], (const kiln_affine *)bones, m);
+        float *v = skin->sources[i];
+        blend(&skin->weights[i], bones, m);
+        glm_mat4_mulv3(m, v, 1.0f, vertices[i]);
         for (int c = 0; c < 3; c++)
-            vertices[i][c] = bounded(m[c][0] * v[0] + m[c][1] * v[1] + m[c][2] * v[2] + m[c][3]);
-        turn_normal((const float(*)[4])m, v + 3, vertices[i] + 3);
+            vertices[i][c] = bounded(vertices[i][c]);
+        turn_normal(m, v + 3, vertices[i] + 3);
     }
 }
 
@@ -271,9 +247,9 @@ static bool check_matrices(const struct check *check)
     const struct kiln_skin_result *r = &check->result->skin;
     bool good = true;
     for (uint32_t i = 0; i < r->node_count; i++)
-        good &= is_near(&r->nodes[i].rest[0][0], 12);
+        good &= is_near(&r->nodes[i].rest[0][0], 16);
     for (uint32_t i = 0; i < r->bone_count; i++)
-        good &= is_near(&r->bones[i].offset[0][0], 12);
+        good &= is_near(&r->bones[i].offset[0][0], 16);
     return good || kiln_error_set(check->error, KILN_INVALID_INPUT,
                                   "%s: a matrix has numbers beyond -%g and %g", check->name,
                                   (double)FARTHEST, (double)FARTHEST);
@@ -283,21 +259,22 @@ static bool check_track(const struct check *check, const struct kiln_skin_track 
 {
     const struct kiln_skin_key *keys = check->result->skin.keys + track->first;
     for (uint32_t i = 0; i < track->count; i++) {
-        const float seconds = keys[i].seconds;
+        struct kiln_skin_key key = keys[i];
+        const float seconds = key.seconds;
         if (!(seconds >= 0.0f && seconds <= FARTHEST) ||
             (i > 0 && !(seconds > keys[i - 1].seconds)))
             return kiln_error_set(check->error, KILN_INVALID_INPUT,
                                   "%s: a key lies at %g s; allowed are times from 0 s to %g s, "
                                   "each later than the one before",
                                   check->name, (double)seconds, (double)FARTHEST);
-        const float square = dot4(keys[i].value, keys[i].value);
-        if (!is_near(keys[i].value, 4) || (turns && !(square > 0.25f && square < 4.0f)))
+        const float square = glm_quat_dot(key.value, key.value);
+        if (!is_near(key.value, 4) || (turns && !(square > 0.25f && square < 4.0f)))
             return kiln_error_set(check->error, KILN_INVALID_INPUT,
                                   "%s: the key at %g s has the value %g %g %g %g; allowed are "
                                   "numbers within -%g and %g, of turns unit quaternions",
-                                  check->name, (double)seconds, (double)keys[i].value[0],
-                                  (double)keys[i].value[1], (double)keys[i].value[2],
-                                  (double)keys[i].value[3], (double)FARTHEST, (double)FARTHEST);
+                                  check->name, (double)seconds, (double)key.value[0],
+                                  (double)key.value[1], (double)key.value[2], (double)key.value[3],
+                                  (double)FARTHEST, (double)FARTHEST);
     }
     return true;
 }
@@ -353,15 +330,12 @@ static void add_normals(struct kiln_skin *skin)
         }
     }
     /* Of length 1, since the square of a small area would be nothing. */
-    static const kiln_affine same = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
-    for (uint32_t i = 0; i < mesh->vertex_count; i++) {
-        float normal[3];
-        turn_normal(same, skin->sources[i] + 3, normal);
-        memcpy(skin->sources[i] + 3, normal, sizeof normal);
-    }
+    mat4 same = GLM_MAT4_IDENTITY_INIT;
+    for (uint32_t i = 0; i < mesh->vertex_count; i++)
+        turn_normal(same, skin->sources[i] + 3, skin->sources[i] + 3);
 }
 
-/* So that they sum to 1 and quaternions have that length, as exactly as floats can. */
+/* Makes weights sum to 1 and gives quaternions that length, up to rounding. */
 static void normalize(struct kiln_skin *skin)
 {
     for (uint32_t i = 0; i < skin->mesh->vertex_count; i++) {
@@ -378,9 +352,8 @@ static void normalize(struct kiln_skin *skin)
                 &skin->channels[clip->first + c / KILN_CHANNEL_TRACKS].tracks[kind];
             for (uint32_t k = track->first; k < track->first + track->count; k++) {
                 struct kiln_skin_key *key = &skin->keys[k];
-                const float length = sqrtf(dot4(key->value, key->value));
-                for (int v = 0; kind == KILN_CHANNEL_TURN && v < 4; v++)
-                    key->value[v] /= length;
+                if (kind == KILN_CHANNEL_TURN)
+                    glm_quat_normalize(key->value);
                 skin->lengths[i] = fmaxf(skin->lengths[i], key->seconds);
             }
         }

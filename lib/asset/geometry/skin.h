@@ -1,7 +1,7 @@
 /* Meshes that move: vertices that follow bones (linear blend skinning) or whole parts that follow
  * nodes, and the clips that say how, out of glTF and GLB files. The same bits on every machine. */
-#ifndef KILN_ASSET_SKIN_H
-#define KILN_ASSET_SKIN_H
+#ifndef KILN_ASSET_GEOMETRY_SKIN_H
+#define KILN_ASSET_GEOMETRY_SKIN_H
 
 #include "asset/geometry/mesh.h"
 

@@ -161,11 +161,11 @@ static void find_turned(struct skinning *s, struct fy_node *animation)
 
 /* ---- nodes ----------------------------------------------------------------------------------- */
 
-static bool put_matrix(const struct skinning *s, const struct aiMatrix4x4 *m, kiln_affine out)
+static bool put_matrix(const struct skinning *s, const struct aiMatrix4x4 *m, mat4 out)
 {
-    const kiln_affine rows = {
+    const float4 rows[3] = {
         {m->a1, m->a2, m->a3, m->a4}, {m->b1, m->b2, m->b3, m->b4}, {m->c1, m->c2, m->c3, m->c4}};
-    memcpy(out, rows, sizeof rows);
+    kiln_matrix_from_rows(rows, out);
     return (m->d1 == 0.0f && m->d2 == 0.0f && m->d3 == 0.0f && m->d4 == 1.0f) ||
            SET(s, "%s: a matrix has the last row %g %g %g %g; allowed is 0 0 0 1", s->request->name,
                (double)m->d1, (double)m->d2, (double)m->d3, (double)m->d4);
@@ -207,18 +207,18 @@ static bool find_node(const struct skinning *s, const struct aiString *name, uin
 
 /* ---- vertices -------------------------------------------------------------------------------- */
 
-static bool put_bone(struct skinning *s, uint32_t node, const kiln_affine offset, uint16_t *number)
+static bool put_bone(struct skinning *s, uint32_t node, mat4 offset, uint16_t *number)
 {
     struct kiln_skin_result *out = &s->result->skin;
     uint32_t i = 0;
-    while (i < out->bone_count && (out->bones[i].node != node ||
-                                   memcmp(out->bones[i].offset, offset, sizeof(kiln_affine)) != 0))
+    while (i < out->bone_count &&
+           (out->bones[i].node != node || memcmp(out->bones[i].offset, offset, sizeof(mat4)) != 0))
         i++;
     if (i == KILN_MAX_SKIN_BONES)
         return SET(s, "%s: more than %d bones", s->request->name, KILN_MAX_SKIN_BONES);
     if (i == out->bone_count) {
         out->bones[i].node = node;
-        memcpy(out->bones[i].offset, offset, sizeof(kiln_affine));
+        glm_mat4_copy(offset, out->bones[i].offset);
         out->bone_count++;
     }
     *number = (uint16_t)i;
@@ -243,10 +243,9 @@ static bool add_weight(struct skinning *s, uint32_t vertex, uint16_t bone, float
 static bool put_weights(struct skinning *s, const struct aiMesh *mesh, uint32_t node,
                         uint32_t first)
 {
-    static const kiln_affine same = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
     uint16_t number = 0;
     if (mesh->mNumBones == 0) {
-        if (!put_bone(s, node, same, &number))
+        if (!put_bone(s, node, GLM_MAT4_IDENTITY, &number))
             return false;
         for (uint32_t i = 0; i < mesh->mNumVertices; i++)
             s->result->skin.weights[first + i] =
@@ -256,7 +255,7 @@ static bool put_weights(struct skinning *s, const struct aiMesh *mesh, uint32_t 
     for (unsigned b = 0; b < mesh->mNumBones; b++) {
         const struct aiBone *bone = mesh->mBones[b];
         uint32_t joint = 0;
-        kiln_affine offset;
+        mat4 offset;
         if (!find_node(s, &bone->mName, &joint) || !put_matrix(s, &bone->mOffsetMatrix, offset) ||
             !put_bone(s, joint, offset, &number))
             return false;
@@ -340,7 +339,7 @@ static void mend_turn(const struct skinning *s, const struct kiln_skin_channel *
 {
     struct kiln_skin_result *out = &s->result->skin;
     const struct kiln_skin_track *tracks = channel->tracks;
-    const float(*rest)[4] = (const float(*)[4])out->nodes[channel->node].rest;
+    vec4 *rest = out->nodes[channel->node].rest;
     if (s->turned[channel->node] || tracks[KILN_CHANNEL_TURN].count != 1 ||
         tracks[KILN_CHANNEL_SCALE].count == 0)
         return;
@@ -349,7 +348,7 @@ static void mend_turn(const struct skinning *s, const struct kiln_skin_channel *
     bool unturned = fabsf(turn->value[3]) < 1e-4f && rest[0][0] * rest[1][1] * rest[2][2] < 0.0f;
     for (int i = 0; i < 3; i++) {
         for (int c = 0; c < 3; c++)
-            unturned = unturned && (i == c ? rest[i][i] * scale[i] > 0.0f : rest[i][c] == 0.0f);
+            unturned = unturned && (i == c ? rest[i][i] * scale[i] > 0.0f : rest[c][i] == 0.0f);
     }
     if (unturned)
         memcpy(turn->value, (float[4]){0.0f, 0.0f, 0.0f, 1.0f}, sizeof turn->value);

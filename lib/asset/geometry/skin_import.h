@@ -1,17 +1,15 @@
 /* What moves a mesh, on its way from the importer's process. */
-#ifndef KILN_ASSET_SKIN_IMPORT_H
-#define KILN_ASSET_SKIN_IMPORT_H
+#ifndef KILN_ASSET_GEOMETRY_SKIN_IMPORT_H
+#define KILN_ASSET_GEOMETRY_SKIN_IMPORT_H
 
 #include "asset/geometry/skin.h"
-
-/* Rows of a matrix whose fourth is (0, 0, 0, 1): from column vectors to column vectors. */
-typedef float kiln_affine[3][4];
+#include "base/matrix.h"
 
 enum { KILN_CHANNEL_MOVE, KILN_CHANNEL_TURN, KILN_CHANNEL_SCALE, KILN_CHANNEL_TRACKS };
 
 struct kiln_skin_key {
     float seconds;
-    float value[4]; /* of a turn a quaternion: x, y, z, w */
+    vec4 value; /* of a turn a quaternion */
 };
 
 struct kiln_skin_track {
@@ -29,14 +27,15 @@ struct kiln_skin_clip {
     uint32_t first, count; /* channels */
 };
 
+/* The last row of each matrix of nodes and bones is (0, 0, 0, 1). */
 struct kiln_skin_node {
-    uint32_t parent;  /* before it; of the first, itself */
-    kiln_affine rest; /* to the parent */
+    uint32_t parent; /* before it; of the first, itself */
+    mat4 rest;       /* to the parent */
 };
 
 struct kiln_skin_bone {
     uint32_t node;
-    kiln_affine offset; /* from the vertices to the bone */
+    mat4 offset; /* from the vertices to the bone */
 };
 
 struct kiln_skin_weights {

@@ -1,8 +1,8 @@
 /* Terrain: heights on a lattice of points over a rectangle, out of a picture or of noise. Between
  * four points lie two triangles, which meet between the first and the last of the four: where the
  * ground is for those who draw it and for those who fall on it. */
-#ifndef KILN_ASSET_TERRAIN_H
-#define KILN_ASSET_TERRAIN_H
+#ifndef KILN_ASSET_GEOMETRY_TERRAIN_H
+#define KILN_ASSET_GEOMETRY_TERRAIN_H
 
 #include "asset/geometry/mesh.h"
 

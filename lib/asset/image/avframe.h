@@ -1,6 +1,6 @@
 /* From FFmpeg's frames to pictures. */
-#ifndef KILN_ASSET_AVFRAME_H
-#define KILN_ASSET_AVFRAME_H
+#ifndef KILN_ASSET_IMAGE_AVFRAME_H
+#define KILN_ASSET_IMAGE_AVFRAME_H
 
 #include <libavutil/frame.h>
 

@@ -1,6 +1,6 @@
 /* What FFmpeg has to say, taken from stderr to where it belongs. */
-#ifndef KILN_ASSET_AVLOG_H
-#define KILN_ASSET_AVLOG_H
+#ifndef KILN_ASSET_IMAGE_AVLOG_H
+#define KILN_ASSET_IMAGE_AVLOG_H
 
 #include "kiln.h"
 

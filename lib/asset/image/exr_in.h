@@ -1,7 +1,7 @@
 /* Layers of OpenEXR files, by OpenEXR's C core. FFmpeg reads tiled files as well, but not those of
  * several layers, which kiln writes. */
-#ifndef KILN_ASSET_EXR_IN_H
-#define KILN_ASSET_EXR_IN_H
+#ifndef KILN_ASSET_IMAGE_EXR_IN_H
+#define KILN_ASSET_IMAGE_EXR_IN_H
 
 #include "asset/image/image.h"
 

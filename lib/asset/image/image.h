@@ -1,8 +1,8 @@
 /* Pictures in: textures and figures, decoded by FFmpeg's decoders alone. The format is told by the
  * file's first bytes, never by its name, and no demuxer or protocol is involved, so an image can
  * not make kiln open anything else. */
-#ifndef KILN_ASSET_IMAGE_H
-#define KILN_ASSET_IMAGE_H
+#ifndef KILN_ASSET_IMAGE_IMAGE_H
+#define KILN_ASSET_IMAGE_IMAGE_H
 
 #include "kiln.h"
 

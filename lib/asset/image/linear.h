@@ -1,6 +1,6 @@
 /* The pixels of an image file as linear light. */
-#ifndef KILN_ASSET_LINEAR_H
-#define KILN_ASSET_LINEAR_H
+#ifndef KILN_ASSET_IMAGE_LINEAR_H
+#define KILN_ASSET_IMAGE_LINEAR_H
 
 #include "asset/image/image.h"
 

@@ -1,8 +1,8 @@
 /* A picture on the host with mip levels: what asset/image/texture.h is in GL, for those who draw
  * without.
  */
-#ifndef KILN_ASSET_PYRAMID_H
-#define KILN_ASSET_PYRAMID_H
+#ifndef KILN_ASSET_IMAGE_PYRAMID_H
+#define KILN_ASSET_IMAGE_PYRAMID_H
 
 #include <stddef.h>
 #include <stdint.h>

@@ -1,6 +1,6 @@
 /* A picture as a texture of linear light: of the floor, of the sky. */
-#ifndef KILN_ASSET_TEXTURE_H
-#define KILN_ASSET_TEXTURE_H
+#ifndef KILN_ASSET_IMAGE_TEXTURE_H
+#define KILN_ASSET_IMAGE_TEXTURE_H
 
 #include "gpu/device.h"
 

@@ -1,7 +1,7 @@
 /* Videos in, frame by frame, by FFmpeg. The file is opened here and handed to a video demuxer; it
  * cannot make FFmpeg open another one, and no network protocol is involved. */
-#ifndef KILN_ASSET_VIDEO_IN_H
-#define KILN_ASSET_VIDEO_IN_H
+#ifndef KILN_ASSET_IMAGE_VIDEO_IN_H
+#define KILN_ASSET_IMAGE_VIDEO_IN_H
 
 #include "asset/image/image.h"
 

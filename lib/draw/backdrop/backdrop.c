@@ -2,6 +2,9 @@
  * neither a block nor the camera changed since the last frame, the picture is kept. */
 #include "draw/backdrop/backdrop.h"
 
+#include <stdlib.h>
+#include <string.h>
+
 #include "asset/image/texture.h"
 #include "base/error.h"
 #include "draw/backdrop/backdrop_cpu.h"
@@ -9,14 +12,8 @@
 #include "draw/light/lighting_gl.h"
 #include "draw/light/sun_cover.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 struct kiln_backdrop_stage {
     const struct kiln_scene *scene;
-    struct kiln_meshes meshes;
-    const struct kiln_pool *pool;
     struct kiln_backdrop_gl *gl; /* one of these two */
     struct kiln_backdrop_cpu *cpu;
     struct kiln_device *device;      /* of gl */
@@ -28,14 +25,6 @@ struct kiln_backdrop_stage {
 static float4 with_w(float3 v, float w)
 {
     return (float4){v.x, v.y, v.z, w};
-}
-
-static float3 normalized(float3 v)
-{
-    float length = sqrtf(v.x * v.x + v.y * v.y + v.z * v.z);
-    if (!(length > 0.0f))
-        return (float3){0.0f, 1.0f, 0.0f};
-    return (float3){v.x / length, v.y / length, v.z / length};
 }
 
 static void fill_boxes(const struct kiln_scene *scene, float time_s,
@@ -111,22 +100,25 @@ static void fill_maps(const struct kiln_scene *scene, const struct pictures *pic
 }
 
 /* The sun's light, where no half space is between: one without end leaves all in its shade. */
-static float3 sun_color(const struct kiln_scene *scene, float time_s)
+static float3 sun_color(const struct kiln_moment *moment)
 {
-    const struct kiln_sun_frame sun = kiln_sun_frame_at(scene, time_s);
+    const struct kiln_scene *scene = moment->scene;
+    const float time_s = moment->view.clock.x;
     float3 color = kiln_scene_value3(scene, &scene->backdrop.sun_color, time_s);
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
         const struct kiln_object *plane = &scene->backdrop.objects[i];
         if (plane->kind != KILN_OBJECT_PLANE || !plane->visible)
             continue;
-        float3 normal = normalized(kiln_scene_value3(scene, &plane->axis, time_s));
-        color = float3_scale(color, 1.0f - kiln_plane_sun_cover(normal, &sun));
+        float3 normal = kiln_direction(kiln_scene_value3(scene, &plane->axis, time_s));
+        color = float3_scale(color, 1.0f - kiln_plane_sun_cover(normal, &moment->sun));
     }
     return color;
 }
 
-static struct kiln_draw_backdrop make_block(const struct kiln_scene *scene, float time_s)
+static struct kiln_draw_backdrop make_block(const struct kiln_moment *moment)
 {
+    const struct kiln_scene *scene = moment->scene;
+    const float time_s = moment->view.clock.x;
     const struct kiln_backdrop *b = &scene->backdrop;
     struct kiln_draw_backdrop block = {
         .sky_top = with_w(kiln_scene_value3(scene, &b->sky_top, time_s), 0.0f),
@@ -136,9 +128,8 @@ static struct kiln_draw_backdrop make_block(const struct kiln_scene *scene, floa
         .floor_params = {b->floor_enabled ? 1.0f : 0.0f,
                          kiln_scene_value(scene, &b->floor_checker, time_s),
                          kiln_scene_value(scene, &b->haze, time_s), 0.0f},
-        .sun_direction =
-            with_w(normalized(kiln_scene_value3(scene, &b->sun_direction, time_s)), 0.0f),
-        .sun_color = with_w(sun_color(scene, time_s), 0.0f),
+        .sun_direction = with_w(moment->sun.towards, 0.0f),
+        .sun_color = with_w(sun_color(moment), 0.0f),
         .counts = {0, b->light_count, b->transparent ? 1u : 0u, 0},
     };
     fill_boxes(scene, time_s, &block);
@@ -146,8 +137,8 @@ static struct kiln_draw_backdrop make_block(const struct kiln_scene *scene, floa
     return block;
 }
 
-/* The camera's clock does not show in the backdrop; smoke and spheres do, whose grids and lists are
- * not compared. */
+/* The camera's clock does not show in the backdrop; smoke and solid particles do, whose grids and
+ * lists are not compared. */
 static bool same_picture(const struct kiln_backdrop_inputs *a, const struct kiln_backdrop_inputs *b)
 {
     return a->block.counts.w == 0 && a->shapes.counts.w == 0 && a->paint == b->paint &&
@@ -159,7 +150,7 @@ static bool same_picture(const struct kiln_backdrop_inputs *a, const struct kiln
 }
 
 struct kiln_backdrop_stage *kiln_backdrop_create(struct kiln_device *device,
-                                                 const struct kiln_scene *scene,
+                                                 const struct kiln_moment *moment,
                                                  const struct kiln_backdrop_params *params,
                                                  struct kiln_error *error)
 {
@@ -168,16 +159,15 @@ struct kiln_backdrop_stage *kiln_backdrop_create(struct kiln_device *device,
         kiln_error_set(error, KILN_DEVICE_FAILED, "backdrop: out of memory");
         return NULL;
     }
+    const struct kiln_scene *scene = moment->scene;
     stage->scene = scene;
-    stage->pool = params->pool;
     stage->device = device;
     const char *sky_image = scene->backdrop.sky_image;
-    bool ok = kiln_meshes_init(&stage->meshes, scene, error) &&
-              (!sky_image || kiln_sky_light_measure(&stage->sky_light, sky_image, error));
+    bool ok = !sky_image || kiln_sky_light_measure(&stage->sky_light, sky_image, error);
     if (ok && params->technique == KILN_BACKDROP_CPU)
-        stage->cpu = kiln_backdrop_cpu_create(scene, &stage->meshes, params, error);
+        stage->cpu = kiln_backdrop_cpu_create(scene, &moment->meshes, params, error);
     else if (ok)
-        stage->gl = kiln_backdrop_gl_create(device, scene, &stage->meshes, params, error);
+        stage->gl = kiln_backdrop_gl_create(device, scene, &moment->meshes, params, error);
     if (!stage->cpu && !stage->gl)
         kiln_backdrop_destroy(&stage);
     return stage;
@@ -189,14 +179,8 @@ void kiln_backdrop_destroy(struct kiln_backdrop_stage **stage)
         return;
     kiln_backdrop_cpu_destroy(&(*stage)->cpu);
     kiln_backdrop_gl_destroy(&(*stage)->gl);
-    kiln_meshes_finish(&(*stage)->meshes);
     free(*stage);
     *stage = NULL;
-}
-
-struct kiln_meshes *kiln_backdrop_meshes(struct kiln_backdrop_stage *stage)
-{
-    return &stage->meshes;
 }
 
 static struct pictures pictures_of(const struct kiln_backdrop_stage *stage)
@@ -210,22 +194,21 @@ static struct pictures pictures_of(const struct kiln_backdrop_stage *stage)
 }
 
 static struct kiln_backdrop_inputs make_inputs(struct kiln_backdrop_stage *stage,
-                                               const struct kiln_view *view,
+                                               const struct kiln_moment *moment,
                                                const struct kiln_lighting *lighting)
 {
-    float time_s = view->clock.x;
+    const float time_s = moment->view.clock.x;
     const struct pictures pictures = pictures_of(stage);
-    struct kiln_backdrop_inputs now = {.view = *view, .block = make_block(stage->scene, time_s)};
-    kiln_meshes_pose(&stage->meshes, time_s);
-    kiln_shapes_fill(stage->scene, stage->meshes.loaded, time_s, &now.shapes);
+    struct kiln_backdrop_inputs now = {
+        .view = moment->view, .block = make_block(moment), .shapes = moment->shapes};
     fill_maps(stage->scene, &pictures, time_s, &now.shapes);
     if (pictures.sky.width)
         light_by_image(stage, now.shapes.sky_map.y, &now.block);
-    if (stage->meshes.painted)
-        now.paint = kiln_painted_all_changes(stage->meshes.painted);
+    if (moment->meshes.painted)
+        now.paint = kiln_painted_all_changes(moment->meshes.painted);
     add_lighting(&now.block, lighting);
-    now.shapes.counts.w = lighting->spheres.edge;
-    memcpy(now.shapes.world_to_bin, lighting->spheres.world_to_bin, sizeof now.shapes.world_to_bin);
+    now.shapes.counts.w = lighting->solids.edge;
+    memcpy(now.shapes.world_to_bin, lighting->solids.world_to_bin, sizeof now.shapes.world_to_bin);
     return now;
 }
 
@@ -233,33 +216,30 @@ static struct kiln_backdrop_inputs make_inputs(struct kiln_backdrop_stage *stage
  * its rays, and what the floor mirrors; half of what its loops may run is left to everything else.
  */
 static bool lists_are_short(const struct kiln_backdrop_stage *stage,
-                            const struct kiln_sphere_bins *spheres, struct kiln_error *error)
+                            const struct kiln_solid_bins *solids, struct kiln_error *error)
 {
     const uint32_t readings =
         KILN_EDGE_SAMPLES * (kiln_shape_features(stage->scene).floor_gloss ? 2 : 1);
-    const uint32_t most =
-        KILN_SOFTWARE_ITERATIONS / 2 / readings * (uint32_t)KILN_SPHERES_AT_A_TIME;
-    if (!stage->device->info.software || spheres->longest <= most)
+    const uint32_t most = KILN_SOFTWARE_ITERATIONS / 2 / readings * (uint32_t)KILN_SOLIDS_AT_A_TIME;
+    if (!stage->device->info.software || solids->longest <= most)
         return true;
     return kiln_error_set(error, KILN_DEVICE_FAILED,
                           "backdrop=gl: %u particles may shade one place; software GL draws up to "
                           "%u: use --technique backdrop=cpu, or fewer",
-                          spheres->longest, most);
+                          solids->longest, most);
 }
 
-bool kiln_backdrop_draw(struct kiln_backdrop_stage *stage, const struct kiln_view *view,
+bool kiln_backdrop_draw(struct kiln_backdrop_stage *stage, const struct kiln_moment *moment,
                         const struct kiln_lighting *lighting, struct kiln_error *error)
 {
-    if (stage->meshes.painted && stage->pool)
-        kiln_painted_update(stage->meshes.painted, stage->pool);
-    const struct kiln_backdrop_inputs now = make_inputs(stage, view, lighting);
+    const struct kiln_backdrop_inputs now = make_inputs(stage, moment, lighting);
     bool kept = stage->has_drawn && same_picture(&now, &stage->drawn);
     stage->drawn = now;
     stage->has_drawn = false;
     if (stage->cpu)
         stage->has_drawn = kiln_backdrop_cpu_draw(stage->cpu, &stage->drawn, lighting, kept, error);
     else
-        stage->has_drawn = lists_are_short(stage, &lighting->spheres, error) &&
+        stage->has_drawn = lists_are_short(stage, &lighting->solids, error) &&
                            kiln_lighting_bind(lighting, error) &&
                            kiln_backdrop_gl_draw(stage->gl, &stage->drawn, kept, error);
     return stage->has_drawn;

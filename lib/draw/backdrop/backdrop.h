@@ -1,14 +1,12 @@
 /* Stage 4a: what lies behind the particles, and its depth (Heinz 2019, 3.2.1: render scene).
  * Techniques `gl` and `cpu` make the same pictures within the error of their arithmetic; those of
  * `cpu` are the same bytes on every machine. */
-#ifndef KILN_DRAW_BACKDROP_H
-#define KILN_DRAW_BACKDROP_H
+#ifndef KILN_DRAW_BACKDROP_BACKDROP_H
+#define KILN_DRAW_BACKDROP_BACKDROP_H
 
 #include "base/thread.h"
 #include "draw/light/lighting.h"
-#include "draw/moment/view.h"
 #include "gpu/image.h"
-#include "particles/pool.h"
 
 enum kiln_backdrop_technique { KILN_BACKDROP_CPU, KILN_BACKDROP_GL };
 
@@ -17,25 +15,21 @@ struct kiln_backdrop_params {
     struct kiln_threads *threads; /* of `cpu` */
     /* Targets of scene size: RGBA; view-space metres, 1e9 for sky. */
     struct kiln_image *color, *depth;
-    const struct kiln_pool *pool; /* whose paint is on meshes; NULL: there is none */
 };
 
 struct kiln_backdrop_stage;
 
-/* Scene, threads and images are the caller's and must outlive the stage; device may be NULL for
- * `cpu`. NULL with an error. */
+/* The moment need not be filled yet; it, threads and images are the caller's and must outlive the
+ * stage. device may be NULL for `cpu`. NULL with an error. */
 struct kiln_backdrop_stage *kiln_backdrop_create(struct kiln_device *device,
-                                                 const struct kiln_scene *scene,
+                                                 const struct kiln_moment *moment,
                                                  const struct kiln_backdrop_params *params,
                                                  struct kiln_error *error);
 void kiln_backdrop_destroy(struct kiln_backdrop_stage **stage);
 
-/* The scene's meshes; they live as long as the stage, which poses them when it draws. */
-struct kiln_meshes *kiln_backdrop_meshes(struct kiln_backdrop_stage *stage);
-
 /* Draws it, unless the picture of the last call still holds. `gl` leaves bound what shaders read
  * that light surfaces like it does (shaders/draw/backdrop/surface.glsl). */
-bool kiln_backdrop_draw(struct kiln_backdrop_stage *stage, const struct kiln_view *view,
+bool kiln_backdrop_draw(struct kiln_backdrop_stage *stage, const struct kiln_moment *moment,
                         const struct kiln_lighting *lighting, struct kiln_error *error);
 
 /* What lights the particles, as of the last kiln_backdrop_draw. */

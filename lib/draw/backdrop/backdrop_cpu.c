@@ -2,14 +2,15 @@
  * there are edges. The order of the rows is no matter: a row writes what is its own. */
 #include "draw/backdrop/backdrop_cpu.h"
 
+#include <math.h>
+#include <stdlib.h>
+
 #include "base/error.h"
+#include "base/matrix.h"
 #include "draw/backdrop/backdrop_rows.h"
 #include "draw/backdrop/meshes_cpu.h"
 #include "draw/light/sun_box.h"
 #include "shared/exact.h"
-
-#include <math.h>
-#include <stdlib.h>
 
 struct kiln_backdrop_cpu {
     const struct kiln_scene *scene;
@@ -146,7 +147,7 @@ static struct kiln_ray_frame make_frame(const struct kiln_backdrop_cpu *cpu,
         .sky_image = cpu->sky_image,
         .smoke_to_sun = lighting->smoke ? lighting->sun_depth : NULL,
         .smoke_to_sky = lighting->smoke ? lighting->sky_depth : NULL,
-        .spheres = lighting->spheres,
+        .solids = lighting->solids,
         .meshes = cpu->meshes ? kiln_meshes_cpu_view(cpu->meshes) : NULL,
         .floor_gloss = features.floor_gloss && inputs->block.floor_params.x > 0.0f,
         .soft_sun = features.soft_sun,
@@ -162,15 +163,6 @@ static struct kiln_ray_frame make_frame(const struct kiln_backdrop_cpu *cpu,
 
 /* ---- where objects are seen ------------------------------------------------------------------ */
 
-static float4 row_at(const struct kiln_view *view, float3 p)
-{
-    const float4 *rows = view->world_to_view;
-    float at[3];
-    for (int i = 0; i < 3; i++)
-        at[i] = rows[i].x * p.x + rows[i].y * p.y + rows[i].z * p.z + rows[i].w;
-    return (float4){at[0], at[1], at[2], 0.0f};
-}
-
 static int32_t pixel_within(float x, float size)
 {
     return (int32_t)exact_clamp(x, 0.0f, size);
@@ -182,16 +174,17 @@ static struct kiln_pixel_box cover_box(const struct kiln_view *view, float4 cent
     const float near = 0.01f, margin = 3.0f, width = view->frustum.z, height = view->frustum.w;
     float low[2] = {1e9f, 1e9f}, high[2] = {-1e9f, -1e9f};
     int before = 0;
+    mat4 world_to_view;
+    kiln_matrix_from_rows(view->world_to_view, world_to_view);
     for (int i = 0; i < 8; i++) {
-        float3 corner = {center.x + (i & 1 ? half.x : -half.x),
-                         center.y + (i & 2 ? half.y : -half.y),
-                         center.z + (i & 4 ? half.z : -half.z)};
-        float4 seen = row_at(view, corner);
-        if (-seen.z < near)
+        vec3 at = {center.x + (i & 1 ? half.x : -half.x), center.y + (i & 2 ? half.y : -half.y),
+                   center.z + (i & 4 ? half.z : -half.z)};
+        glm_mat4_mulv3(world_to_view, at, 1.0f, at);
+        if (-at[2] < near)
             continue;
         before++;
-        float x = (seen.x / (-seen.z * view->frustum.x) + 1.0f) * 0.5f * width;
-        float y = (1.0f - seen.y / (-seen.z * view->frustum.y)) * 0.5f * height;
+        float x = (at[0] / (-at[2] * view->frustum.x) + 1.0f) * 0.5f * width;
+        float y = (1.0f - at[1] / (-at[2] * view->frustum.y)) * 0.5f * height;
         low[0] = exact_min(low[0], x);
         high[0] = exact_max(high[0], x);
         low[1] = exact_min(low[1], y);

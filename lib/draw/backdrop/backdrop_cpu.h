@@ -1,6 +1,6 @@
 /* Technique backdrop=cpu: rays on threads, many at a time. */
-#ifndef KILN_DRAW_BACKDROP_CPU_H
-#define KILN_DRAW_BACKDROP_CPU_H
+#ifndef KILN_DRAW_BACKDROP_BACKDROP_CPU_H
+#define KILN_DRAW_BACKDROP_BACKDROP_CPU_H
 
 #include "draw/backdrop/backdrop_inputs.h"
 

@@ -3,14 +3,14 @@
  */
 #include "draw/backdrop/backdrop_gl.h"
 
+#include <stdlib.h>
+
 #include "asset/image/texture.h"
 #include "base/error.h"
 #include "draw/backdrop/meshes_gl.h"
 #include "draw/moment/draw_blocks.h"
 #include "gpu/framebuffer.h"
 #include "gpu/program.h"
-
-#include <stdlib.h>
 
 struct kiln_backdrop_gl {
     struct kiln_device *device;

@@ -1,6 +1,6 @@
 /* Technique backdrop=gl: a ray a pixel in a fragment shader, and four in tiles with edges. */
-#ifndef KILN_DRAW_BACKDROP_GL_H
-#define KILN_DRAW_BACKDROP_GL_H
+#ifndef KILN_DRAW_BACKDROP_BACKDROP_GL_H
+#define KILN_DRAW_BACKDROP_BACKDROP_GL_H
 
 #include "draw/backdrop/backdrop_inputs.h"
 

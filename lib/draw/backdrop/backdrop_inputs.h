@@ -1,11 +1,11 @@
 /* What both techniques of stage `backdrop` draw from. */
-#ifndef KILN_DRAW_BACKDROP_INPUTS_H
-#define KILN_DRAW_BACKDROP_INPUTS_H
+#ifndef KILN_DRAW_BACKDROP_BACKDROP_INPUTS_H
+#define KILN_DRAW_BACKDROP_BACKDROP_INPUTS_H
 
 #include "draw/backdrop/backdrop.h"
 #include "draw/moment/meshes.h"
 
-/* All that the picture depends on but the grids of smoke and the lists of spheres. */
+/* All that the picture depends on but the grids of smoke and the lists of solids. */
 struct kiln_backdrop_inputs {
     struct kiln_view view;
     struct kiln_draw_backdrop block;

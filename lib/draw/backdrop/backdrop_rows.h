@@ -1,6 +1,6 @@
 /* The loops of technique backdrop=cpu over the picture, for each width of vectors. */
-#ifndef KILN_DRAW_BACKDROP_ROWS_H
-#define KILN_DRAW_BACKDROP_ROWS_H
+#ifndef KILN_DRAW_BACKDROP_BACKDROP_ROWS_H
+#define KILN_DRAW_BACKDROP_BACKDROP_ROWS_H
 
 #include "base/simd.h"
 #include "draw/backdrop/ray.h"

@@ -1,7 +1,6 @@
 /* Rays of the picture, a vector of them at a time: what shaders/draw/backdrop/backdrop.frag and
  * backdrop_edges.vert do in GL. */
 #include "draw/backdrop/backdrop_rows.h"
-
 #include "draw/backdrop/ray_floor.h"
 #include "draw/backdrop/ray_mesh.h"
 

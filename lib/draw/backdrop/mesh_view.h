@@ -1,19 +1,16 @@
 /* Meshes as camera and sun see them, on the host: which triangle each ray of the picture meets, and
  * maps of what lies in the sun's light. */
-#ifndef KILN_DRAW_MESH_VIEW_H
-#define KILN_DRAW_MESH_VIEW_H
+#ifndef KILN_DRAW_BACKDROP_MESH_VIEW_H
+#define KILN_DRAW_BACKDROP_MESH_VIEW_H
 
 #include <stddef.h>
 #include <stdint.h>
 
 #include "asset/image/pyramid.h"
-#include "draw/moment/shapes.h"
+#include "draw/light/mesh_shadow.h"
 
 enum {
-    KILN_SHADOW_ONE = 65535,
     KILN_HIT_LAYERS = 1 + KILN_EDGE_SAMPLES, /* the centres of pixels, and their samples */
-    KILN_SHADOW_LEVELS = 11,                 /* of half the edge each, down to 1 texel */
-    KILN_SHADOW_TEXELS = (4 * KILN_SHADOW_EDGE * KILN_SHADOW_EDGE - 1) / 3, /* of all of them */
 };
 
 /* A triangle along rays (u, v, -1) in view space: planes over u and v, as factors of u, v and 1. */
@@ -35,10 +32,7 @@ struct kiln_mesh_view {
     size_t pitch;        /* columns */
     const struct kiln_mesh_uvs *uvs; /* of all triangles; NULL: no mesh takes paint */
     const struct kiln_pyramid *paint[KILN_MAX_MESHES]; /* NULL: takes none */
-    /* Of each mesh, level by level: the part of a texel that the mesh is in in the lower 16 bits,
-     * and its mean distance there times that in the upper ones, each in parts of KILN_SHADOW_ONE;
-     * the distance is 0 nearest to the sun and 1 farthest. */
-    const uint32_t *shadows[KILN_MAX_MESHES];
+    const uint32_t *shadows[KILN_MAX_MESHES]; /* of each mesh: texels of struct kiln_mesh_shadow */
 };
 
 #endif

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/matrix.h"
 #include "draw/light/mesh_shadow.h"
 #include "shared/exact.h"
 
@@ -151,28 +152,23 @@ struct placing {
     struct kiln_flat_triangle *flat;
 };
 
-static float3 turn(const float4 rows[3], const float v[3])
-{
-    return (float3){rows[0].x * v[0] + rows[0].y * v[1] + rows[0].z * v[2],
-                    rows[1].x * v[0] + rows[1].y * v[1] + rows[1].z * v[2],
-                    rows[2].x * v[0] + rows[2].y * v[1] + rows[2].z * v[2]};
-}
-
-static float3 shift(const float4 rows[3], float3 v)
-{
-    return (float3){v.x + rows[0].w, v.y + rows[1].w, v.z + rows[2].w};
-}
-
 static void place_vertices(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
     const struct placing *p = context;
+    mat4 to_world, world_to_view;
+    mat3 turn;
+    kiln_matrix_from_rows(p->placed->to_world, to_world);
+    glm_mat4_pick3(to_world, turn);
+    kiln_matrix_from_rows(p->view->world_to_view, world_to_view);
     for (size_t i = begin; i < end; i++) {
-        const float *vertex = p->mesh->vertices[i];
-        float3 world = shift(p->placed->to_world, turn(p->placed->to_world, vertex));
-        const float at[3] = {world.x, world.y, world.z};
-        p->seen[i] = shift(p->view->world_to_view, turn(p->view->world_to_view, at));
-        p->normals[i] = turn(p->placed->to_world, vertex + 3);
+        float *vertex = p->mesh->vertices[i];
+        vec3 at, normal;
+        glm_mat4_mulv3(to_world, vertex, 1.0f, at);
+        glm_mat4_mulv3(world_to_view, at, 1.0f, at);
+        glm_mat3_mulv(turn, vertex + 3, normal);
+        p->seen[i] = (float3){at[0], at[1], at[2]};
+        p->normals[i] = (float3){normal[0], normal[1], normal[2]};
     }
 }
 

@@ -1,6 +1,6 @@
 /* Technique backdrop=cpu: meshes as camera and sun see them. */
-#ifndef KILN_DRAW_MESHES_CPU_H
-#define KILN_DRAW_MESHES_CPU_H
+#ifndef KILN_DRAW_BACKDROP_MESHES_CPU_H
+#define KILN_DRAW_BACKDROP_MESHES_CPU_H
 
 #include "base/thread.h"
 #include "draw/backdrop/mesh_view.h"

@@ -148,16 +148,16 @@ static bool create_programs(struct kiln_meshes_gl *m, struct kiln_error *error)
 {
     m->hit_program = kiln_program_create(
         m->device,
-        &(struct kiln_program_params){.vertex = "draw/backdrop/mesh.vert",
-                                      .fragment = "draw/backdrop/mesh.frag",
+        &(struct kiln_program_params){.vertex = "draw/backdrop/meshes.vert",
+                                      .fragment = "draw/backdrop/meshes.frag",
                                       .defines = m->painted ? "#define PAINT 1\n" : NULL},
         error);
     if (!m->hit_program)
         return false;
     m->shadow_program = kiln_program_create(
         m->device,
-        &(struct kiln_program_params){.vertex = "draw/backdrop/mesh_shadow.vert",
-                                      .fragment = "draw/backdrop/mesh_shadow.frag"},
+        &(struct kiln_program_params){.vertex = "draw/backdrop/meshes_shadow.vert",
+                                      .fragment = "draw/backdrop/meshes_shadow.frag"},
         error);
     if (!m->shadow_program)
         return false;

@@ -1,6 +1,6 @@
 /* Technique backdrop=gl: meshes rasterised for its rays, and their shadow maps. */
-#ifndef KILN_DRAW_MESHES_GL_H
-#define KILN_DRAW_MESHES_GL_H
+#ifndef KILN_DRAW_BACKDROP_MESHES_GL_H
+#define KILN_DRAW_BACKDROP_MESHES_GL_H
 
 #include "draw/moment/meshes.h"
 #include "draw/moment/shapes.h"

@@ -1,9 +1,9 @@
 /* What rays of technique backdrop=cpu may meet in a frame, and what lights it. The code that
- * follows them is for vectors of rays: ray_*.h, in backdrop_simd.c and spheres_simd.c. It says what
+ * follows them is for vectors of rays: ray_*.h, in backdrop_simd.c and solid_simd.c. It says what
  * shaders/draw says for GL, in arithmetic of our own.
  */
-#ifndef KILN_DRAW_RAY_H
-#define KILN_DRAW_RAY_H
+#ifndef KILN_DRAW_BACKDROP_RAY_H
+#define KILN_DRAW_BACKDROP_RAY_H
 
 #include "asset/image/pyramid.h"
 #include "draw/backdrop/mesh_view.h"
@@ -32,7 +32,7 @@ struct kiln_ray_frame {
     const struct kiln_draw_shapes *shapes;
     const struct kiln_pyramid *floor_image, *sky_image; /* NULL: none */
     const float *smoke_to_sun, *smoke_to_sky;           /* NULL: none */
-    struct kiln_sphere_bins spheres;
+    struct kiln_solid_bins solids;
     const struct kiln_mesh_view *meshes; /* NULL: none */
     bool floor_gloss, soft_sun;
     float3 sun_inverse; /* of the direction, by axis; large for 0 */

@@ -1,7 +1,7 @@
 /* The floor along vectors of rays, and what it mirrors: as shaders/draw/backdrop/backdrop.frag and
  * floor_gloss.glsl have it. */
-#ifndef KILN_DRAW_RAY_FLOOR_H
-#define KILN_DRAW_RAY_FLOOR_H
+#ifndef KILN_DRAW_BACKDROP_RAY_FLOOR_H
+#define KILN_DRAW_BACKDROP_RAY_FLOOR_H
 
 #include "draw/backdrop/ray_light.h"
 

@@ -1,7 +1,7 @@
 /* The light that surfaces send along vectors of rays, and the sky's: as
  * shaders/draw/backdrop/surface.glsl, round.glsl, mesh_trace.glsl and smoke_shadow.glsl have it. */
-#ifndef KILN_DRAW_RAY_LIGHT_H
-#define KILN_DRAW_RAY_LIGHT_H
+#ifndef KILN_DRAW_BACKDROP_RAY_LIGHT_H
+#define KILN_DRAW_BACKDROP_RAY_LIGHT_H
 
 #include "draw/backdrop/ray_picture.h"
 #include "draw/backdrop/ray_sun.h"

@@ -1,7 +1,7 @@
 /* Meshes along vectors of rays: triangles that were found beforehand (mesh_rows.h). As
  * shaders/draw/backdrop/mesh_trace.glsl has it. */
-#ifndef KILN_DRAW_RAY_MESH_H
-#define KILN_DRAW_RAY_MESH_H
+#ifndef KILN_DRAW_BACKDROP_RAY_MESH_H
+#define KILN_DRAW_BACKDROP_RAY_MESH_H
 
 #include "draw/backdrop/ray_picture.h"
 #include "draw/backdrop/ray_shapes.h"

@@ -2,8 +2,8 @@
  * shaders/draw/backdrop/floor_image.glsl and sky_image.glsl have it. A texel is a vector of its
  * own, fetched for one lane after the other.
  */
-#ifndef KILN_DRAW_RAY_PICTURE_H
-#define KILN_DRAW_RAY_PICTURE_H
+#ifndef KILN_DRAW_BACKDROP_RAY_PICTURE_H
+#define KILN_DRAW_BACKDROP_RAY_PICTURE_H
 
 #include "draw/backdrop/ray.h"
 #include "draw/vector/ray_math.h"

@@ -1,7 +1,7 @@
-/* Where vectors of rays meet boxes, spheres and cylinders: as shaders/draw/backdrop/surface.glsl
- * and round.glsl have it. */
-#ifndef KILN_DRAW_RAY_SHAPES_H
-#define KILN_DRAW_RAY_SHAPES_H
+/* Finds where vectors of rays meet boxes, spheres and cylinders: as
+ * shaders/draw/backdrop/surface.glsl and round.glsl have it. */
+#ifndef KILN_DRAW_BACKDROP_RAY_SHAPES_H
+#define KILN_DRAW_BACKDROP_RAY_SHAPES_H
 
 #include "draw/backdrop/ray.h"
 #include "draw/vector/ray_math.h"

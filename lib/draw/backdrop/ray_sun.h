@@ -1,10 +1,10 @@
 /* The part of the sun that surfaces see past the backdrop's objects and past particles that are
  * spheres: as shaders/draw/backdrop/surface.glsl, sun_cover.glsl, round.glsl, mesh_trace.glsl and
- * sphere_shadow.glsl have it. What hides nothing from a lane multiplies its light by exactly 1, so
+ * solid_shadow.glsl have it. What hides nothing from a lane multiplies its light by exactly 1, so
  * that it does not matter which lanes share a vector.
  */
-#ifndef KILN_DRAW_RAY_SUN_H
-#define KILN_DRAW_RAY_SUN_H
+#ifndef KILN_DRAW_BACKDROP_RAY_SUN_H
+#define KILN_DRAW_BACKDROP_RAY_SUN_H
 
 #include "draw/backdrop/ray_turned.h"
 
@@ -342,7 +342,7 @@ SIMD vf particle_cover(const struct kiln_ray_frame *frame, struct vf3 center, vf
     vf large_over_small = x * x * (3.0f - 2.0f * x), like_over_like = x * (0.55f + 0.45f * x);
     vf part = large_over_small + (like_over_like - large_over_small) * ratio;
     vf most = smaller / radius;
-    vf fade = clamp01(2.0f - 2.0f * radius / (size * KILN_SPHERE_FADE));
+    vf fade = clamp01(2.0f - 2.0f * radius / (size * KILN_SOLID_FADE));
     return vf_where(t > 0.0f, part * most * most * fade);
 }
 
@@ -357,7 +357,7 @@ SIMD vi silhouette_start(vi level)
     return start;
 }
 
-/* Tiles of meshes: where they start, their width in texels, as of struct kiln_sphere_bins. */
+/* Tiles of meshes: where they start, their width in texels, as of struct kiln_solid_bins. */
 struct ray_tile {
     vi x, y, edge;
     vf reach;
@@ -383,12 +383,13 @@ SIMD vf silhouette_level(const float *texels, const struct ray_tile *tile, vf u,
     return sum;
 }
 
-/* As silhouette_cover of sphere_shadow.glsl; ball: what the sphere covers that stands for it. */
+/* The part of the sun that silhouettes cover: silhouette_cover of solid_shadow.glsl in vectors.
+ * ball is the cover of the sphere that stands for each mesh. */
 SIMD vf silhouette_cover(const struct kiln_ray_frame *frame, struct vf3 center,
                          const struct ray_tile *tile, struct vf3 origin, vf ball)
 {
     const struct kiln_draw_shapes *shapes = frame->shapes;
-    const float *texels = frame->spheres.silhouettes;
+    const float *texels = frame->solids.silhouettes;
     struct vf3 towards = vf3_sub(center, origin);
     vf t = vf3_dot_all(towards, frame->backdrop->sun_direction), half = 0.5f / tile->reach;
     vf u = 0.5f - vf3_dot_all(towards, shapes->sun_right) * half;
@@ -413,9 +414,9 @@ struct ray_entry {
     vi at, edge;    /* edge: 0: it has no tile */
 };
 
-SIMD struct ray_entry read_entry(const struct kiln_sphere_bins *spheres, vi entry, vi wanted)
+SIMD struct ray_entry read_entry(const struct kiln_solid_bins *solids, vi entry, vi wanted)
 {
-    const float *list = (const float *)spheres->list, *tiles = (const float *)spheres->tiles;
+    const float *list = (const float *)solids->list, *tiles = (const float *)solids->tiles;
     const vi at = vi_select(wanted, 4 * entry, vi_all(0));
     struct ray_entry e = {
         .center = {vf_gather(list, at), vf_gather(list + 1, at), vf_gather(list + 2, at)},
@@ -451,7 +452,7 @@ SIMD vf entry_cover(const struct kiln_ray_frame *frame, const struct ray_entry *
     const vi has = e->edge > 0;
     if (!any(has))
         return ball;
-    const float *tiles = (const float *)frame->spheres.tiles;
+    const float *tiles = (const float *)frame->solids.tiles;
     const struct ray_tile tile = {vi_of(vf_gather(tiles, e->at)),
                                   vi_of(vf_gather(tiles + 1, e->at)),
                                   vi_select(has, e->edge, vi_all(1)), e->reach};
@@ -462,7 +463,7 @@ SIMD vf entry_cover(const struct kiln_ray_frame *frame, const struct ray_entry *
 SIMD vf particles_let_through(const struct kiln_ray_frame *frame, const struct ray_shade *shade)
 {
     const struct kiln_draw_shapes *shapes = frame->shapes;
-    const int32_t *bins = (const int32_t *)frame->spheres.bins;
+    const int32_t *bins = (const int32_t *)frame->solids.bins;
     const float edge = (float)shapes->counts.w;
     vf visible = vf_all(1.0f);
     vf x = vf3_map(shapes->world_to_bin[0], shade->origin);
@@ -475,7 +476,7 @@ SIMD vf particles_let_through(const struct kiln_ray_frame *frame, const struct r
     for (;;) {
         vi found = vi_all(0), pending = count > 0;
         while (any(pending)) {
-            const struct ray_entry e = read_entry(&frame->spheres, entry, pending);
+            const struct ray_entry e = read_entry(&frame->solids, entry, pending);
             const vi near = pending & entry_is_near(frame, &e, shade->origin);
             found |= near;
             pending &= ~near;
@@ -485,7 +486,7 @@ SIMD vf particles_let_through(const struct kiln_ray_frame *frame, const struct r
         }
         if (!any(found))
             return visible;
-        const struct ray_entry e = read_entry(&frame->spheres, entry, found);
+        const struct ray_entry e = read_entry(&frame->solids, entry, found);
         visible *= 1.0f - vf_where(found, entry_cover(frame, &e, shade->origin));
         entry -= found;
         count += found;

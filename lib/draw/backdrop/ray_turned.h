@@ -1,7 +1,7 @@
-/* Where vectors of rays meet capsules, boxes of any direction and planes: as
+/* Finds where vectors of rays meet capsules, boxes of any direction and planes: as
  * shaders/draw/backdrop/turned.glsl has it. */
-#ifndef KILN_DRAW_RAY_TURNED_H
-#define KILN_DRAW_RAY_TURNED_H
+#ifndef KILN_DRAW_BACKDROP_RAY_TURNED_H
+#define KILN_DRAW_BACKDROP_RAY_TURNED_H
 
 #include "draw/backdrop/ray_shapes.h"
 

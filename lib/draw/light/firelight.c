@@ -7,7 +7,7 @@
  */
 #include "draw/light/firelight.h"
 
-#include "draw/light/living_blocks.h"
+#include "draw/light/light_blocks.h"
 
 /* The part of a billboard's square that its cell fills with light. */
 static const float FILL = 0.25f;
@@ -17,7 +17,8 @@ static const double PI = 3.14159265358979;
 enum { MOST_STRETCHES = 16, LEAST_STRETCH = 2048 /* slots */ };
 
 struct gatherer {
-    const struct kiln_living_loops *loops;
+    kiln_living_find *find;
+    const struct kiln_light_loops *loops;
     struct kiln_living_system system;
     struct kiln_glow glow;
     uint32_t light_count;
@@ -35,7 +36,7 @@ static void gather_stretches(void *context, size_t begin, size_t end, uint32_t w
     for (size_t stretch = begin; stretch < end; stretch++) {
         uint64_t last = blocks * (stretch + 1) / gatherer->stretches;
         for (uint64_t k = blocks * stretch / gatherer->stretches; k < last; k++) {
-            gatherer->loops->find(&gatherer->system, (uint32_t)k * KILN_LANES, &block);
+            gatherer->find(&gatherer->system, (uint32_t)k * KILN_LANES, &block);
             gatherer->loops->gather_fire(&block, &gatherer->glow, FILL, gatherer->light_count,
                                          gatherer->lights[stretch]);
         }
@@ -97,20 +98,28 @@ static struct kiln_draw_light make_light(const struct kiln_gathering *light, flo
     };
 }
 
-uint32_t kiln_firelight_gather(const struct kiln_living_moment *moment,
-                               struct kiln_threads *threads, struct kiln_draw_light *lights)
+/* For one of the systems, with nothing gathered yet. */
+static struct gatherer gatherer_of(const struct kiln_moment *moment, uint32_t system)
+{
+    struct gatherer gatherer = {.find = KILN_SIMD_PICK(kiln_living_find, moment->simd),
+                                .loops = KILN_SIMD_PICK(kiln_light_loops, moment->simd),
+                                .system = kiln_living_system(moment, system),
+                                .light_count = moment->scene->systems[system].look.light_count};
+    sample_glow(&gatherer);
+    return gatherer;
+}
+
+uint32_t kiln_firelight_gather(const struct kiln_moment *moment, struct kiln_threads *threads,
+                               struct kiln_draw_light *lights)
 {
     const struct kiln_scene *scene = moment->scene;
     uint32_t count = 0;
     for (uint32_t i = 0; i < scene->system_count; i++) {
         const struct kiln_look *look = &scene->systems[i].look;
-        float3 strength = kiln_scene_value3(scene, &look->light, moment->view->clock.x);
+        float3 strength = kiln_scene_value3(scene, &look->light, moment->view.clock.x);
         if (!scene->systems[i].enabled || !(strength.x + strength.y + strength.z > 0.0f))
             continue;
-        struct gatherer gatherer = {.loops = moment->loops,
-                                    .system = kiln_living_system(moment, i),
-                                    .light_count = look->light_count};
-        sample_glow(&gatherer);
+        struct gatherer gatherer = gatherer_of(moment, i);
         gather_system(&gatherer, threads);
         for (uint32_t k = 0; k < gatherer.light_count && count < KILN_MAX_FIRE_LIGHTS; k++) {
             if (gatherer.lights[0][k].energy > 0.0)

@@ -1,15 +1,15 @@
 /* The light that fire sheds on backdrop and smoke: what its particles emit, gathered into a few
  * moving point lights. */
-#ifndef KILN_DRAW_FIRELIGHT_H
-#define KILN_DRAW_FIRELIGHT_H
+#ifndef KILN_DRAW_LIGHT_FIRELIGHT_H
+#define KILN_DRAW_LIGHT_FIRELIGHT_H
 
 #include "base/thread.h"
 #include "draw/moment/living.h"
 
 /* Gathers the lights of all systems with look.light into lights (KILN_MAX_FIRE_LIGHTS) and returns
  * how many there are. */
-uint32_t kiln_firelight_gather(const struct kiln_living_moment *moment,
-                               struct kiln_threads *threads, struct kiln_draw_light *lights);
+uint32_t kiln_firelight_gather(const struct kiln_moment *moment, struct kiln_threads *threads,
+                               struct kiln_draw_light *lights);
 
 /* Whether a system sheds light at all. */
 bool kiln_firelight_exists(const struct kiln_scene *scene);

@@ -9,21 +9,14 @@
 #include "shared/exact.h"
 
 enum {
-    SUB = 4,      /* bits of a texel, across and down */
-    LARGEST = 64, /* texels along an edge of a tile */
-    BITS = LARGEST * SUB,
+    SUB = 4, /* bits of a texel, across and down */
+    BITS = KILN_INSTANCE_LARGEST_TILE * SUB,
     WORDS = BITS / 64,
     AT_A_TIME = 16,
 };
 
-/* How many particles have tiles so large. */
-static const struct {
-    uint64_t most;
-    uint32_t edge;
-} SIZES[] = {{512, LARGEST}, {2048, 32}, {16384, 16}};
-
 struct kiln_instance_tiles {
-    struct kiln_instances meshes;
+    const struct kiln_instances *meshes;
     uint32_t edge;
     float *texels;
     struct kiln_instance_place *places; /* of the run at hand */
@@ -38,21 +31,8 @@ static size_t level_at(uint32_t level)
     return at;
 }
 
-uint32_t kiln_instance_tiles_edge(const struct kiln_scene *scene)
-{
-    uint64_t count = 0;
-    for (uint32_t i = 0; i < scene->system_count; i++) {
-        const struct kiln_system *system = &scene->systems[i];
-        if (system->enabled && system->look.shape == KILN_SHAPE_MESH)
-            count += system->capacity;
-    }
-    uint32_t edge = 0;
-    for (size_t i = sizeof SIZES / sizeof *SIZES; count > 0 && i-- > 0;)
-        edge = count <= SIZES[i].most ? SIZES[i].edge : edge;
-    return edge;
-}
-
 struct kiln_instance_tiles *kiln_instance_tiles_create(const struct kiln_scene *scene,
+                                                       const struct kiln_instances *meshes,
                                                        struct kiln_error *error)
 {
     struct kiln_instance_tiles *tiles = calloc(1, sizeof *tiles);
@@ -60,13 +40,13 @@ struct kiln_instance_tiles *kiln_instance_tiles_create(const struct kiln_scene *
         kiln_error_set(error, KILN_DEVICE_FAILED, "shadows of meshes: out of memory");
         return NULL;
     }
-    tiles->edge = kiln_instance_tiles_edge(scene);
-    bool good = kiln_instances_init(&tiles->meshes, scene, error);
+    tiles->edge = kiln_instance_tile_edge(scene);
+    tiles->meshes = meshes;
     tiles->texels = calloc(level_at(KILN_INSTANCE_LEVELS), sizeof *tiles->texels);
-    if (good && !tiles->texels)
-        good = kiln_error_set(error, KILN_DEVICE_FAILED, "shadows of meshes: out of memory");
-    if (!good)
+    if (!tiles->texels) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "shadows of meshes: out of memory");
         kiln_instance_tiles_destroy(&tiles);
+    }
     return tiles;
 }
 
@@ -74,7 +54,6 @@ void kiln_instance_tiles_destroy(struct kiln_instance_tiles **tiles)
 {
     if (!*tiles)
         return;
-    kiln_instances_finish(&(*tiles)->meshes);
     free((*tiles)->texels);
     free(*tiles);
     *tiles = NULL;
@@ -83,7 +62,7 @@ void kiln_instance_tiles_destroy(struct kiln_instance_tiles **tiles)
 const struct kiln_instance_mesh *kiln_instance_tiles_mesh(const struct kiln_instance_tiles *tiles,
                                                           uint32_t system)
 {
-    return &tiles->meshes.meshes[system];
+    return &tiles->meshes->meshes[system];
 }
 
 struct kiln_instance_tile kiln_instance_tile_at(const struct kiln_instance_tiles *tiles,
@@ -148,8 +127,8 @@ static void set_triangle(uint64_t (*rows)[WORDS], int32_t bits, const float p[3]
 static void set_mesh(const struct kiln_instance_tiles *tiles, struct kiln_instance_place *place,
                      uint64_t (*rows)[WORDS])
 {
-    const struct kiln_instance_mesh *mesh = &tiles->meshes.meshes[place->system];
-    const float4(*corners)[2] = (const float4(*)[2])tiles->meshes.corners + mesh->first;
+    const struct kiln_instance_mesh *mesh = &tiles->meshes->meshes[place->system];
+    const float4(*corners)[2] = (const float4(*)[2])tiles->meshes->corners + mesh->first;
     const int32_t bits = (int32_t)tiles->edge * SUB;
     const float half = 0.5f * (float)bits;
     for (int c = 0; c < 2; c++) {

@@ -1,7 +1,7 @@
 /* What the sun sees of particles that are meshes: the silhouette of each in a tile of an atlas, as
  * parts of texels that are covered, and the same at half the size and so on. */
-#ifndef KILN_DRAW_INSTANCE_TILES_H
-#define KILN_DRAW_INSTANCE_TILES_H
+#ifndef KILN_DRAW_LIGHT_INSTANCE_TILES_H
+#define KILN_DRAW_LIGHT_INSTANCE_TILES_H
 
 #include "base/thread.h"
 #include "draw/moment/instances.h"
@@ -22,12 +22,10 @@ struct kiln_instance_tile {
 
 struct kiln_instance_tiles;
 
-/* Texels along an edge of a tile, a power of two: many particles have smaller ones. 0: a scene has
- * none, for no particles are meshes or too many. */
-uint32_t kiln_instance_tiles_edge(const struct kiln_scene *scene);
-
-/* Of a scene that has some. NULL: KILN_DEVICE_FAILED, no memory. */
+/* Creates the tiles of a scene whose kiln_instance_tile_edge is not 0. meshes are those of its
+ * particles and must outlive the tiles. NULL: KILN_DEVICE_FAILED, no memory. */
 struct kiln_instance_tiles *kiln_instance_tiles_create(const struct kiln_scene *scene,
+                                                       const struct kiln_instances *meshes,
                                                        struct kiln_error *error);
 void kiln_instance_tiles_destroy(struct kiln_instance_tiles **tiles);
 

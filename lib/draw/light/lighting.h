@@ -1,12 +1,12 @@
 /* Stage 4, first: the light of a frame that follows from its particles: what fire sheds, what smoke
- * and spheres keep off. Backdrop and particles are lit by it.
+ * and solid particles keep off. Backdrop and particles are lit by it.
  */
-#ifndef KILN_DRAW_LIGHTING_H
-#define KILN_DRAW_LIGHTING_H
+#ifndef KILN_DRAW_LIGHT_LIGHTING_H
+#define KILN_DRAW_LIGHT_LIGHTING_H
 
 #include "base/thread.h"
 #include "draw/light/smoke_shadow.h"
-#include "draw/light/sphere_shadow.h"
+#include "draw/light/solid_shadow.h"
 #include "draw/light/sun_shade.h"
 #include "draw/moment/living.h"
 
@@ -20,7 +20,7 @@ struct kiln_lighting {
     float4 sun_to_grid[3], sky_to_grid[3]; /* world positions to 0..1 in the grids */
     const float *sun_depth, *sky_depth;    /* optical depth in them, KILN_SMOKE_GRID cubed, rows
                                             * along x; no sun_depth where there is no sun */
-    struct kiln_sphere_bins spheres;       /* opaque particles */
+    struct kiln_solid_bins solids;         /* opaque particles */
     const float *sunlit; /* by slot: the part of the sun that a lit particle sees past the backdrop,
                           * smoke apart. NULL: all of it */
     uint32_t slot_count;
@@ -29,20 +29,18 @@ struct kiln_lighting {
 
 struct kiln_lighting_stage;
 
-/* NULL with an error. Scene and threads must outlive it; device NULL: host only. */
+/* NULL with an error. Moment and threads must outlive it; device NULL: host only. */
 struct kiln_lighting_stage *kiln_lighting_create(struct kiln_device *device,
-                                                 const struct kiln_scene *scene,
+                                                 const struct kiln_moment *moment,
                                                  struct kiln_threads *threads,
                                                  struct kiln_error *error);
 void kiln_lighting_destroy(struct kiln_lighting_stage **stage);
 
-/* The scene's meshes (kiln_backdrop_meshes), which it poses and which must outlive its use: before
- * its first run. */
-void kiln_lighting_use_meshes(struct kiln_lighting_stage *stage, struct kiln_meshes *meshes);
+/* Does it read particles on the host, so that moments must have them there? */
+bool kiln_lighting_reads_particles(const struct kiln_lighting_stage *stage);
 
-/* The light of the pool's particles at a view. */
-bool kiln_lighting_run(struct kiln_lighting_stage *stage, struct kiln_pool *pool,
-                       const struct kiln_view *view, struct kiln_lighting *lighting,
-                       struct kiln_error *error);
+/* The light of a moment's particles. */
+bool kiln_lighting_run(struct kiln_lighting_stage *stage, const struct kiln_moment *moment,
+                       struct kiln_lighting *lighting, struct kiln_error *error);
 
 #endif

@@ -9,9 +9,9 @@ enum { UNIT_SMOKE_SUN = 4, UNIT_SMOKE_SKY = 5 };
 enum texture {
     SMOKE_SUN,
     SMOKE_SKY,
-    SPHERE_BINS,
-    SPHERE_LIST,
-    SPHERE_TILES,
+    SOLID_BINS,
+    SOLID_LIST,
+    SOLID_TILES,
     SILHOUETTES,
     SUN_SHADE,
     TEXTURE_COUNT
@@ -24,9 +24,9 @@ static const struct {
 } ABOUT[TEXTURE_COUNT] = {
     [SMOKE_SUN] = {GL_TEXTURE_3D, UNIT_SMOKE_SUN, "smoke towards the sun"},
     [SMOKE_SKY] = {GL_TEXTURE_3D, UNIT_SMOKE_SKY, "smoke towards the sky"},
-    [SPHERE_BINS] = {GL_TEXTURE_2D, KILN_UNIT_SPHERE_BINS, "sphere bins"},
-    [SPHERE_LIST] = {GL_TEXTURE_2D, KILN_UNIT_SPHERE_LIST, "sphere list"},
-    [SPHERE_TILES] = {GL_TEXTURE_2D, KILN_UNIT_SPHERE_TILES, "sphere tiles"},
+    [SOLID_BINS] = {GL_TEXTURE_2D, KILN_UNIT_SOLID_BINS, "solid bins"},
+    [SOLID_LIST] = {GL_TEXTURE_2D, KILN_UNIT_SOLID_LIST, "solid list"},
+    [SOLID_TILES] = {GL_TEXTURE_2D, KILN_UNIT_SOLID_TILES, "solid tiles"},
     [SILHOUETTES] = {GL_TEXTURE_2D, KILN_UNIT_SILHOUETTES, "silhouettes"},
     [SUN_SHADE] = {GL_TEXTURE_2D, KILN_UNIT_SUN_SHADE, "sun on particles"},
 };
@@ -35,7 +35,7 @@ struct kiln_lighting_gl {
     struct kiln_device *device;
     GLuint textures[TEXTURE_COUNT]; /* 0: not made yet */
     uint64_t run;                   /* of the light that they show */
-    size_t sphere_rows, shade_rows; /* that the textures have */
+    size_t solid_rows, shade_rows;  /* that the textures have */
 };
 
 struct kiln_lighting_gl *kiln_lighting_gl_create(struct kiln_device *device)
@@ -94,26 +94,25 @@ static void send_grid(struct kiln_lighting_gl *gl, enum texture which, const flo
 
 /* A list of float4 in rows; returns the rows that it has. */
 static size_t send_list(struct kiln_lighting_gl *gl, enum texture which,
-                        const struct kiln_sphere_bins *spheres, const float4 *list)
+                        const struct kiln_solid_bins *solids, const float4 *list)
 {
     make(gl, which, GL_NEAREST);
-    if (gl->sphere_rows != spheres->rows)
-        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, KILN_SPHERE_ROW, (GLsizei)spheres->rows, 0,
+    if (gl->solid_rows != solids->rows)
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, KILN_SOLID_ROW, (GLsizei)solids->rows, 0,
                      GL_RGBA, GL_FLOAT, NULL);
-    size_t rows = (spheres->entry_count + KILN_SPHERE_ROW - 1) / KILN_SPHERE_ROW;
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, KILN_SPHERE_ROW, (GLsizei)rows, GL_RGBA, GL_FLOAT,
-                    list);
+    size_t rows = (solids->entry_count + KILN_SOLID_ROW - 1) / KILN_SOLID_ROW;
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, KILN_SOLID_ROW, (GLsizei)rows, GL_RGBA, GL_FLOAT, list);
     return rows;
 }
 
 /* The rows of tiles that are in use. */
-static void send_silhouettes(struct kiln_lighting_gl *gl, const struct kiln_sphere_bins *spheres)
+static void send_silhouettes(struct kiln_lighting_gl *gl, const struct kiln_solid_bins *solids)
 {
-    const float *texels = spheres->silhouettes;
+    const float *texels = solids->silhouettes;
     const bool is_new = make(gl, SILHOUETTES, GL_NEAREST);
     float last = 0.0f;
-    for (size_t i = 0; i < spheres->entry_count; i++) {
-        const float4 tile = spheres->tiles[i];
+    for (size_t i = 0; i < solids->entry_count; i++) {
+        const float4 tile = solids->tiles[i];
         last = tile.y + tile.w > last ? tile.y + tile.w : last;
     }
     for (GLint level = 0; level < KILN_INSTANCE_LEVELS; level++) {
@@ -131,22 +130,22 @@ static void send_silhouettes(struct kiln_lighting_gl *gl, const struct kiln_sphe
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, KILN_INSTANCE_LEVELS - 1);
 }
 
-static void send_spheres(struct kiln_lighting_gl *gl, const struct kiln_sphere_bins *spheres)
+static void send_solids(struct kiln_lighting_gl *gl, const struct kiln_solid_bins *solids)
 {
-    GLsizei edge = (GLsizei)spheres->edge;
-    if (make(gl, SPHERE_BINS, GL_NEAREST))
-        glTexImage2D(GL_TEXTURE_2D, 0, GL_RG32UI, KILN_SPHERE_BINS, KILN_SPHERE_BINS, 0,
+    GLsizei edge = (GLsizei)solids->edge;
+    if (make(gl, SOLID_BINS, GL_NEAREST))
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RG32UI, KILN_SOLID_BINS, KILN_SOLID_BINS, 0,
                      GL_RG_INTEGER, GL_UNSIGNED_INT, NULL);
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, edge, edge, GL_RG_INTEGER, GL_UNSIGNED_INT,
-                    spheres->bins);
-    size_t rows = send_list(gl, SPHERE_LIST, spheres, spheres->list);
-    if (spheres->tiles) {
-        rows += send_list(gl, SPHERE_TILES, spheres, spheres->tiles);
-        send_silhouettes(gl, spheres);
+                    solids->bins);
+    size_t rows = send_list(gl, SOLID_LIST, solids, solids->list);
+    if (solids->tiles) {
+        rows += send_list(gl, SOLID_TILES, solids, solids->tiles);
+        send_silhouettes(gl, solids);
     }
-    gl->sphere_rows = spheres->rows;
-    gl->device->traffic.to_device += 2 * sizeof(uint32_t) * spheres->edge * spheres->edge +
-                                     sizeof(float4) * KILN_SPHERE_ROW * rows;
+    gl->solid_rows = solids->rows;
+    gl->device->traffic.to_device +=
+        2 * sizeof(uint32_t) * solids->edge * solids->edge + sizeof(float4) * KILN_SOLID_ROW * rows;
 }
 
 static void send_shade(struct kiln_lighting_gl *gl, const struct kiln_lighting *lighting)
@@ -173,8 +172,8 @@ bool kiln_lighting_bind(const struct kiln_lighting *lighting, struct kiln_error 
             send_grid(gl, SMOKE_SKY, lighting->sky_depth);
         if (lighting->smoke && lighting->sun_depth)
             send_grid(gl, SMOKE_SUN, lighting->sun_depth);
-        if (lighting->spheres.edge > 0)
-            send_spheres(gl, &lighting->spheres);
+        if (lighting->solids.edge > 0)
+            send_solids(gl, &lighting->solids);
         if (lighting->sunlit)
             send_shade(gl, lighting);
     }

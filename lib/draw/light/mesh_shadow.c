@@ -1,5 +1,5 @@
 /* The sphere around the mesh fills the map but for a border
- * (shaders/draw/backdrop/mesh_shadow.vert). Coarser levels are means of four texels. */
+ * (shaders/draw/backdrop/meshes_shadow.vert). Coarser levels are means of four texels. */
 #include "draw/light/mesh_shadow.h"
 
 #include <assert.h>
@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/matrix.h"
 #include "shared/exact.h"
 
 enum { EDGE = KILN_SHADOW_EDGE, ROWS_AT_A_TIME = 32 };
@@ -45,14 +46,11 @@ static float dot(float4 a, float3 b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-static struct corner project(const struct kiln_mesh_shadow *shadow, const float vertex[3])
+static struct corner project(const struct kiln_mesh_shadow *shadow, mat4 to_world, vec3 vertex)
 {
     const struct kiln_draw_mesh *placed = &shadow->placed;
-    float world[3];
-    for (int i = 0; i < 3; i++) {
-        const float4 row = placed->to_world[i];
-        world[i] = row.x * vertex[0] + row.y * vertex[1] + row.z * vertex[2] + row.w;
-    }
+    vec3 world;
+    glm_mat4_mulv3(to_world, vertex, 1.0f, world);
     const float3 from = {world[0] - placed->center.x, world[1] - placed->center.y,
                          world[2] - placed->center.z};
     float scale = 0.5f / (placed->center.w * (1.0f + KILN_SHADOW_MARGIN));
@@ -103,10 +101,12 @@ static void flatten_some(void *context, size_t begin, size_t end, uint32_t worke
 {
     (void)worker;
     const struct drawing *d = context;
+    mat4 to_world;
+    kiln_matrix_from_rows(d->shadow->placed.to_world, to_world);
     for (size_t i = begin; i < end; i++) {
         struct corner corners[3];
         for (int k = 0; k < 3; k++)
-            corners[k] = project(d->shadow, d->mesh->vertices[d->mesh->triangles[i][k]]);
+            corners[k] = project(d->shadow, to_world, d->mesh->vertices[d->mesh->triangles[i][k]]);
         flatten(corners, &d->canvas->triangles[i]);
     }
 }

@@ -1,14 +1,23 @@
-/* What the sun sees of a mesh, on the host: a map that fits it (mesh_view.h). */
-#ifndef KILN_DRAW_MESH_SHADOW_H
-#define KILN_DRAW_MESH_SHADOW_H
+/* Shadow maps of meshes on the host: each shows one mesh as the sun sees it, and fits it. */
+#ifndef KILN_DRAW_LIGHT_MESH_SHADOW_H
+#define KILN_DRAW_LIGHT_MESH_SHADOW_H
 
 #include "asset/geometry/mesh.h"
 #include "base/thread.h"
-#include "draw/backdrop/mesh_view.h"
+#include "draw/moment/shapes.h"
 #include "draw/vector/mesh_rows.h"
 
+enum {
+    KILN_SHADOW_ONE = 65535,
+    KILN_SHADOW_LEVELS = 11, /* of half the edge each, down to 1 texel */
+    KILN_SHADOW_TEXELS = (4 * KILN_SHADOW_EDGE * KILN_SHADOW_EDGE - 1) / 3, /* of all of them */
+};
+
 struct kiln_mesh_shadow {
-    uint32_t *texels;             /* KILN_SHADOW_TEXELS (mesh_view.h) */
+    /* KILN_SHADOW_TEXELS, level by level: the part of a texel that the mesh is in in the lower 16
+     * bits, and its mean distance there times that in the upper ones, each in parts of
+     * KILN_SHADOW_ONE; the distance is 0 nearest to the sun and 1 farthest. */
+    uint32_t *texels;
     struct kiln_draw_mesh placed; /* what it shows, and under which sun */
     float4 right, up, sun;
     bool drawn;

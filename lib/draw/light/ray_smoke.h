@@ -1,8 +1,8 @@
 /* The light that smoke lets through to vectors of points: as shaders/draw/light/smoke_shadow.glsl
  * has it.
  */
-#ifndef KILN_DRAW_RAY_SMOKE_H
-#define KILN_DRAW_RAY_SMOKE_H
+#ifndef KILN_DRAW_LIGHT_RAY_SMOKE_H
+#define KILN_DRAW_LIGHT_RAY_SMOKE_H
 
 #include "draw/light/smoke_shadow.h"
 #include "draw/vector/ray_math.h"

@@ -1,16 +1,17 @@
 /* A system's slots are cut into stretches, and each stretch keeps what lives in it in order. */
 #include "draw/light/smoke.h"
 
-#include "base/error.h"
-#include "draw/light/living_blocks.h"
-
 #include <assert.h>
 #include <stdlib.h>
+
+#include "base/error.h"
+#include "draw/light/light_blocks.h"
 
 static const float FILL = 0.6f; /* of a cell of the atlas, in its middle */
 
 struct gatherer {
-    const struct kiln_living_loops *loops;
+    kiln_living_find *find;
+    const struct kiln_light_loops *loops;
     struct kiln_living_system system;
     float shadow;
     struct kiln_puff *puffs; /* of the system */
@@ -22,7 +23,7 @@ static uint32_t gather_block(const struct gatherer *gatherer, uint32_t first,
 {
     struct kiln_living_block block;
     float extinction[KILN_LANES];
-    gatherer->loops->find(&gatherer->system, first, &block);
+    gatherer->find(&gatherer->system, first, &block);
     gatherer->loops->find_extinction(&block, FILL, gatherer->shadow, extinction);
     uint32_t count = 0;
     for (uint32_t i = 0; i < KILN_LANES; i++) {
@@ -55,12 +56,12 @@ static bool is_smoke(const struct kiln_system *system)
 }
 
 /* 0 for a system that throws no shadow. */
-static float shadow_of(const struct kiln_living_moment *moment, uint32_t system)
+static float shadow_of(const struct kiln_moment *moment, uint32_t system)
 {
     const struct kiln_system *s = &moment->scene->systems[system];
     if (!is_smoke(s))
         return 0.0f;
-    return kiln_scene_value(moment->scene, &s->look.shadow, moment->view->clock.x);
+    return kiln_scene_value(moment->scene, &s->look.shadow, moment->view.clock.x);
 }
 
 static uint32_t stretches_of(const struct kiln_pool *pool, uint32_t system)
@@ -85,7 +86,7 @@ static bool make_room(struct kiln_smoke *smoke, uint32_t stretches, struct kiln_
     return true;
 }
 
-bool kiln_smoke_gather(struct kiln_smoke *smoke, const struct kiln_living_moment *moment,
+bool kiln_smoke_gather(struct kiln_smoke *smoke, const struct kiln_moment *moment,
                        struct kiln_threads *threads, struct kiln_error *error)
 {
     uint32_t stretches = 0, systems = moment->scene->system_count;
@@ -101,7 +102,8 @@ bool kiln_smoke_gather(struct kiln_smoke *smoke, const struct kiln_living_moment
         if (!(shadow > 0.0f))
             continue;
         struct gatherer gatherer = {
-            .loops = moment->loops,
+            .find = KILN_SIMD_PICK(kiln_living_find, moment->simd),
+            .loops = KILN_SIMD_PICK(kiln_light_loops, moment->simd),
             .system = kiln_living_system(moment, i),
             .shadow = shadow,
             .puffs = smoke->puffs + (size_t)smoke->stretch_count * KILN_SMOKE_STRETCH,

@@ -1,6 +1,6 @@
 /* The particles that throw a shadow, gathered once a moment into a compact array. */
-#ifndef KILN_DRAW_SMOKE_H
-#define KILN_DRAW_SMOKE_H
+#ifndef KILN_DRAW_LIGHT_SMOKE_H
+#define KILN_DRAW_LIGHT_SMOKE_H
 
 #include "base/thread.h"
 #include "draw/moment/living.h"
@@ -27,7 +27,7 @@ struct kiln_smoke {
 
 /* The smoke of all systems that cover. `smoke` starts as zeros and is gathered into again and
  * again. False with an error: no memory. */
-bool kiln_smoke_gather(struct kiln_smoke *smoke, const struct kiln_living_moment *moment,
+bool kiln_smoke_gather(struct kiln_smoke *smoke, const struct kiln_moment *moment,
                        struct kiln_threads *threads, struct kiln_error *error);
 void kiln_smoke_finish(struct kiln_smoke *smoke);
 

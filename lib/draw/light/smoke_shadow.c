@@ -8,12 +8,12 @@
  */
 #include "draw/light/smoke_shadow.h"
 
-#include "base/vector.h"
-#include "shared/exact.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "base/vector.h"
+#include "shared/exact.h"
 
 enum {
     EDGE = KILN_SMOKE_GRID,
@@ -96,23 +96,13 @@ void kiln_smoke_shadow_destroy(struct kiln_smoke_shadow **shadow)
     *shadow = NULL;
 }
 
-static float3 cross(float3 a, float3 b)
-{
-    return (float3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-static float dot(float3 a, float3 b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
 static void choose_axes(float3 axes[3], float3 direction)
 {
     float3 aside = fabsf(direction.y) < 0.9f ? (float3){0, 1, 0} : (float3){1, 0, 0};
-    float3 first = cross(aside, direction);
-    float length = sqrtf(dot(first, first));
+    float3 first = float3_cross(aside, direction);
+    float length = sqrtf(float3_dot(first, first));
     axes[0] = (float3){first.x / length, first.y / length, first.z / length};
-    axes[1] = cross(direction, axes[0]);
+    axes[1] = float3_cross(direction, axes[0]);
     axes[2] = direction;
 }
 
@@ -125,7 +115,7 @@ static uint32_t first_stretch(const struct kiln_smoke_shadow *shadow, size_t par
 static void widen(const struct box *box, struct pyramid *part, const struct kiln_puff *puff)
 {
     for (int i = 0; i < 3; i++) {
-        float at = dot(box->axes[i], puff->position);
+        float at = float3_dot(box->axes[i], puff->position);
         float low = at - puff->radius, high = at + puff->radius;
         part->low[i] = part->any && part->low[i] < low ? part->low[i] : low;
         part->high[i] = part->any && part->high[i] > high ? part->high[i] : high;
@@ -210,7 +200,7 @@ static inline void place_balls(const struct box *box, const struct kiln_puff *pu
         balls->volume[i] = size * size * size;
         for (int axis = 0; axis < 3; axis++)
             balls->at[axis][i] =
-                (dot(box->axes[axis], puffs[i].position) - box->origin[axis]) / size;
+                (float3_dot(box->axes[axis], puffs[i].position) - box->origin[axis]) / size;
     }
 }
 

@@ -1,8 +1,8 @@
 /* The shadow of smoke: how much of it light has crossed at each place, along the sun's direction
  * and from straight above. Smoke shadows itself and what lies below it.
  */
-#ifndef KILN_DRAW_SMOKE_SHADOW_H
-#define KILN_DRAW_SMOKE_SHADOW_H
+#ifndef KILN_DRAW_LIGHT_SMOKE_SHADOW_H
+#define KILN_DRAW_LIGHT_SMOKE_SHADOW_H
 
 #include "draw/light/smoke.h"
 

@@ -1,6 +1,6 @@
 /* How much of the sun a box hides from a ball, for one or, in a loop without branches, many. */
-#ifndef KILN_DRAW_SUN_BOX_H
-#define KILN_DRAW_SUN_BOX_H
+#ifndef KILN_DRAW_LIGHT_SUN_BOX_H
+#define KILN_DRAW_LIGHT_SUN_BOX_H
 
 #include "draw/light/sun_cover.h"
 

@@ -1,13 +1,12 @@
 /* How much of the sun convex shapes hide from a ball: as shaders/draw/light/sun_cover.glsl has it
  * for a point, with the ball's radius added to that of the penumbra.
  */
-#ifndef KILN_DRAW_SUN_COVER_H
-#define KILN_DRAW_SUN_COVER_H
-
-#include "draw/moment/shapes.h"
+#ifndef KILN_DRAW_LIGHT_SUN_COVER_H
+#define KILN_DRAW_LIGHT_SUN_COVER_H
 
 #include <math.h>
 
+#include "draw/moment/shapes.h"
 #include "shared/exact.h"
 
 struct kiln_ball {

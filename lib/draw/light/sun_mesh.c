@@ -3,11 +3,12 @@
  */
 #include "draw/light/sun_mesh.h"
 
-#include "shared/exact.h"
-
 #include <assert.h>
 #include <math.h>
 #include <string.h>
+
+#include "base/matrix.h"
+#include "shared/exact.h"
 
 enum { EDGE = KILN_SUN_MESH_EDGE };
 
@@ -31,13 +32,10 @@ static struct corner project(const struct kiln_sun_mesh *map, float3 from)
                            float3_dot(from, map->sun.towards)};
 }
 
-static struct corner corner_of(const struct kiln_sun_mesh *map, const float vertex[3])
+static struct corner corner_of(const struct kiln_sun_mesh *map, mat4 to_world, vec3 vertex)
 {
-    const float4 *rows = map->placed.to_world;
-    float world[3];
-    for (int i = 0; i < 3; i++)
-        world[i] =
-            rows[i].x * vertex[0] + rows[i].y * vertex[1] + rows[i].z * vertex[2] + rows[i].w;
+    vec3 world;
+    glm_mat4_mulv3(to_world, vertex, 1.0f, world);
     float3 at = {world[0], world[1], world[2]};
     return project(map, float3_sub(at, middle_of(&map->placed)));
 }
@@ -99,10 +97,12 @@ void kiln_sun_mesh_update(struct kiln_sun_mesh *map, const struct kiln_mesh *mes
     map->placed = *placed;
     map->sun = *sun;
     map->drawn = true;
+    mat4 to_world;
+    kiln_matrix_from_rows(placed->to_world, to_world);
     for (uint32_t i = 0; i < mesh->triangle_count; i++) {
         struct corner corners[3];
         for (int k = 0; k < 3; k++)
-            corners[k] = corner_of(map, mesh->vertices[mesh->triangles[i][k]]);
+            corners[k] = corner_of(map, to_world, mesh->vertices[mesh->triangles[i][k]]);
         draw_triangle(map, corners);
     }
     average_levels(map->cover);

@@ -1,7 +1,7 @@
 /* A mesh as the sun sees it, on the host: a small map of how high it reaches, for particles, whose
  * shade needs no fine one. */
-#ifndef KILN_DRAW_SUN_MESH_H
-#define KILN_DRAW_SUN_MESH_H
+#ifndef KILN_DRAW_LIGHT_SUN_MESH_H
+#define KILN_DRAW_LIGHT_SUN_MESH_H
 
 #include "draw/light/sun_cover.h"
 

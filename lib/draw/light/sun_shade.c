@@ -2,12 +2,12 @@
  * a mesh, which has a map. What every technique of drawing reads is the same number. */
 #include "draw/light/sun_shade.h"
 
-#include "base/error.h"
-#include "draw/light/living_blocks.h"
-#include "draw/light/sun_mesh.h"
-
 #include <stdlib.h>
 #include <string.h>
+
+#include "base/error.h"
+#include "draw/light/light_blocks.h"
+#include "draw/light/sun_mesh.h"
 
 enum { GRAIN = 8 * KILN_LANES }; /* slots that a worker takes at a time */
 
@@ -19,10 +19,9 @@ struct turned_box {
 
 struct kiln_sun_shade {
     const struct kiln_scene *scene;
-    struct kiln_meshes *meshes;
     struct kiln_sun_mesh *maps; /* a mesh each */
     struct kiln_sun_frame sun;  /* these are of the frame at hand */
-    struct kiln_draw_shapes shapes;
+    const struct kiln_draw_shapes *shapes;
     uint32_t box_count;
     struct kiln_sun_box boxes[KILN_MAX_OBJECTS];
     struct turned_box turned[KILN_MAX_OBJECTS]; /* as many as shapes has */
@@ -73,11 +72,6 @@ void kiln_sun_shade_destroy(struct kiln_sun_shade **shade)
     *shade = NULL;
 }
 
-void kiln_sun_shade_use_meshes(struct kiln_sun_shade *shade, struct kiln_meshes *meshes)
-{
-    shade->meshes = meshes;
-}
-
 static float3 xyz(float4 v)
 {
     return (float3){v.x, v.y, v.z};
@@ -98,14 +92,13 @@ static struct turned_box turned_box_at(const struct kiln_draw_turned_box *box,
     return (struct turned_box){kiln_sun_box_at(middle, xyz(box->half_size), &there), there};
 }
 
-static void place_objects(struct kiln_sun_shade *shade, float time_s)
+static void place_objects(struct kiln_sun_shade *shade, const struct kiln_moment *moment)
 {
     const struct kiln_scene *scene = shade->scene;
-    shade->sun = kiln_sun_frame_at(scene, time_s);
-    struct kiln_meshes none = {.count = 0}, *used = shade->meshes ? shade->meshes : &none;
-    const struct kiln_mesh *const *meshes = used->loaded;
-    kiln_meshes_pose(used, time_s);
-    kiln_shapes_fill(scene, meshes, time_s, &shade->shapes);
+    const struct kiln_mesh *const *meshes = moment->meshes.loaded;
+    const float time_s = moment->view.clock.x;
+    shade->sun = moment->sun;
+    shade->shapes = &moment->shapes;
     shade->box_count = 0;
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
         const struct kiln_object *object = &scene->backdrop.objects[i];
@@ -116,23 +109,24 @@ static void place_objects(struct kiln_sun_shade *shade, float time_s)
         shade->boxes[shade->box_count++] =
             kiln_sun_box_at(kiln_scene_value3(scene, &object->center, time_s), half, &shade->sun);
     }
-    for (uint32_t i = 0; i < shade->shapes.more.y; i++)
-        shade->turned[i] = turned_box_at(&shade->shapes.turned[i], &shade->sun);
-    for (uint32_t i = 0; i < shade->shapes.counts.z; i++)
-        kiln_sun_mesh_update(&shade->maps[i], meshes[i], &shade->shapes.meshes[i], &shade->sun);
+    for (uint32_t i = 0; i < shade->shapes->more.y; i++)
+        shade->turned[i] = turned_box_at(&shade->shapes->turned[i], &shade->sun);
+    for (uint32_t i = 0; i < shade->shapes->counts.z; i++)
+        kiln_sun_mesh_update(&shade->maps[i], meshes[i], &shade->shapes->meshes[i], &shade->sun);
 }
 
 /* One whose particles are at hand. */
 struct seen_system {
     const struct kiln_sun_shade *shade;
-    const struct kiln_living_loops *loops;
+    kiln_living_find *find;
+    const struct kiln_light_loops *loops;
     struct kiln_living_system system;
     float *visible; /* from its slots */
 };
 
 static float look_past_turned(const struct kiln_sun_shade *shade, struct kiln_ball ball)
 {
-    const struct kiln_draw_shapes *shapes = &shade->shapes;
+    const struct kiln_draw_shapes *shapes = shade->shapes;
     float visible = 1.0f;
     for (uint32_t i = 0; i < shapes->more.x; i++)
         visible *= 1.0f - kiln_capsule_sun_cover(xyz(shapes->capsules[i]), shapes->capsules[i].w,
@@ -151,7 +145,7 @@ static float look_past_turned(const struct kiln_sun_shade *shade, struct kiln_ba
 /* What is seen of it past all objects but boxes along the axes. */
 static float look_past_others(const struct kiln_sun_shade *shade, struct kiln_ball ball)
 {
-    const struct kiln_draw_shapes *shapes = &shade->shapes;
+    const struct kiln_draw_shapes *shapes = shade->shapes;
     const struct kiln_sun_frame *sun = &shade->sun;
     float visible = 1.0f;
     for (uint32_t i = 0; i < shapes->counts.x; i++)
@@ -169,7 +163,7 @@ static float look_past_others(const struct kiln_sun_shade *shade, struct kiln_ba
 /* Whether anything but those may hide the sun. */
 static bool has_others(const struct kiln_sun_shade *shade)
 {
-    const struct kiln_draw_shapes *shapes = &shade->shapes;
+    const struct kiln_draw_shapes *shapes = shade->shapes;
     const uint4 counts = shapes->counts, more = shapes->more;
     return counts.x > 0 || counts.y > 0 || counts.z > 0 || more.x > 0 || more.y > 0;
 }
@@ -180,7 +174,7 @@ static void look_from_block(const struct seen_system *seen, uint32_t first)
     const struct kiln_sun_shade *shade = seen->shade;
     struct kiln_living_block block;
     alignas(64) float visible[KILN_LANES];
-    seen->loops->find(&seen->system, first, &block);
+    seen->find(&seen->system, first, &block);
     for (uint32_t i = 0; i < KILN_LANES; i++)
         visible[i] = 1.0f;
     seen->loops->shade(&block, shade->boxes, shade->box_count, &shade->sun, visible);
@@ -202,8 +196,7 @@ static void look_from_slots(void *context, size_t begin, size_t end, uint32_t wo
         look_from_block(context, (uint32_t)slot);
 }
 
-const float *kiln_sun_shade_run(struct kiln_sun_shade *shade,
-                                const struct kiln_living_moment *moment,
+const float *kiln_sun_shade_run(struct kiln_sun_shade *shade, const struct kiln_moment *moment,
                                 struct kiln_threads *threads, struct kiln_error *error)
 {
     if (!shade->visible) { /* the number of slots does not change */
@@ -214,9 +207,11 @@ const float *kiln_sun_shade_run(struct kiln_sun_shade *shade,
         kiln_error_set(error, KILN_DEVICE_FAILED, "shade of particles: out of memory");
         return NULL;
     }
-    place_objects(shade, moment->view->clock.x);
+    place_objects(shade, moment);
     for (uint32_t i = 0; i < shade->scene->system_count; i++) {
-        struct seen_system seen = {.shade = shade, .loops = moment->loops};
+        struct seen_system seen = {.shade = shade,
+                                   .find = KILN_SIMD_PICK(kiln_living_find, moment->simd),
+                                   .loops = KILN_SIMD_PICK(kiln_light_loops, moment->simd)};
         if (!is_shaded(shade->scene, i))
             continue;
         seen.system = kiln_living_system(moment, i);

@@ -1,13 +1,11 @@
 /* Which part of the sun each particle sees past the boxes, spheres, cylinders and meshes of the
  * backdrop. A particle is a ball here, whose shade comes softly as it drifts behind an edge.
  */
-#ifndef KILN_DRAW_SUN_SHADE_H
-#define KILN_DRAW_SUN_SHADE_H
+#ifndef KILN_DRAW_LIGHT_SUN_SHADE_H
+#define KILN_DRAW_LIGHT_SUN_SHADE_H
 
 #include "base/thread.h"
 #include "draw/moment/living.h"
-#include "draw/moment/meshes.h"
-#include "draw/moment/shapes.h"
 
 struct kiln_sun_shade;
 
@@ -19,14 +17,9 @@ struct kiln_sun_shade *kiln_sun_shade_create(const struct kiln_scene *scene,
                                              struct kiln_error *error);
 void kiln_sun_shade_destroy(struct kiln_sun_shade **shade);
 
-/* The scene's meshes, which it poses and which must outlive its use; before the first run of a
- * scene with meshes. */
-void kiln_sun_shade_use_meshes(struct kiln_sun_shade *shade, struct kiln_meshes *meshes);
-
 /* Computes it for all lit particles. Returns 0 to 1 for each slot of the pool, with room for whole
  * rows of KILN_SUN_SHADE_ROW, valid until the next run; NULL with an error. */
-const float *kiln_sun_shade_run(struct kiln_sun_shade *shade,
-                                const struct kiln_living_moment *moment,
+const float *kiln_sun_shade_run(struct kiln_sun_shade *shade, const struct kiln_moment *moment,
                                 struct kiln_threads *threads, struct kiln_error *error);
 
 #endif

@@ -1,6 +1,6 @@
 /* The uniform blocks of the camera and of what lights the particles, for techniques in GL. */
-#ifndef KILN_DRAW_DRAW_BLOCKS_H
-#define KILN_DRAW_DRAW_BLOCKS_H
+#ifndef KILN_DRAW_MOMENT_DRAW_BLOCKS_H
+#define KILN_DRAW_MOMENT_DRAW_BLOCKS_H
 
 #include "gpu/buffer.h"
 #include "shared/draw_layout.h"

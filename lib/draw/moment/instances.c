@@ -6,6 +6,12 @@
 #include "asset/geometry/mesh_measure.h"
 #include "base/error.h"
 
+/* How many particles have tiles so large. */
+static const struct {
+    uint64_t most;
+    uint32_t edge;
+} SIZES[] = {{512, KILN_INSTANCE_LARGEST_TILE}, {2048, 32}, {16384, 16}};
+
 static bool make_room(struct kiln_instances *instances, uint32_t triangles,
                       struct kiln_error *error)
 {
@@ -62,4 +68,18 @@ void kiln_instances_finish(struct kiln_instances *instances)
 {
     free(instances->corners);
     *instances = (struct kiln_instances){.corners = NULL};
+}
+
+uint32_t kiln_instance_tile_edge(const struct kiln_scene *scene)
+{
+    uint64_t count = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_system *system = &scene->systems[i];
+        if (system->enabled && system->look.shape == KILN_SHAPE_MESH)
+            count += system->capacity;
+    }
+    uint32_t edge = 0;
+    for (size_t i = sizeof SIZES / sizeof *SIZES; count > 0 && i-- > 0;)
+        edge = count <= SIZES[i].most ? SIZES[i].edge : edge;
+    return edge;
 }

@@ -1,8 +1,10 @@
 /* The meshes that particles look like, ready to be drawn. */
-#ifndef KILN_DRAW_INSTANCES_H
-#define KILN_DRAW_INSTANCES_H
+#ifndef KILN_DRAW_MOMENT_INSTANCES_H
+#define KILN_DRAW_MOMENT_INSTANCES_H
 
 #include "scene/scene.h"
+
+enum { KILN_INSTANCE_LARGEST_TILE = 64 }; /* texels along an edge */
 
 /* Of one system. */
 struct kiln_instance_mesh {
@@ -23,5 +25,10 @@ struct kiln_instances {
 bool kiln_instances_init(struct kiln_instances *instances, const struct kiln_scene *scene,
                          struct kiln_error *error);
 void kiln_instances_finish(struct kiln_instances *instances);
+
+/* Texels along an edge of the tile that the silhouette of each such particle gets, as the sun sees
+ * it, a power of two: many particles have smaller ones. 0: a scene has no tiles, for no particles
+ * are meshes or too many. */
+uint32_t kiln_instance_tile_edge(const struct kiln_scene *scene);
 
 #endif

@@ -25,17 +25,16 @@ float4 kiln_living_look(const struct kiln_living_system *system, uint32_t row, f
     return mix4(samples[i], samples[i + 1], x - (float)i);
 }
 
-struct kiln_living_system kiln_living_system(const struct kiln_living_moment *moment,
-                                             uint32_t index)
+struct kiln_living_system kiln_living_system(const struct kiln_moment *moment, uint32_t index)
 {
     const struct kiln_pool_system *slots = &moment->pool->systems[index];
     return (struct kiln_living_system){
         .derived = kiln_scene_derived(moment->scene, index),
         .keys = moment->scene->keys,
         .records = moment->records + slots->base,
-        .rows = moment->table + (size_t)index * KILN_LOOK_ROWS * KILN_LOOK_SAMPLES,
+        .rows = moment->look_table + (size_t)index * KILN_LOOK_ROWS * KILN_LOOK_SAMPLES,
         .used = kiln_pool_used(slots),
-        .step = moment->view->clock_step.x,
+        .step = moment->view.clock_step.x,
         .dt_s = moment->scene->dt_s,
         .spins = moment->spins && slots->spins ? moment->spins + slots->first_spin : NULL,
     };

@@ -1,26 +1,10 @@
 /* The living particles as the host sees them, for what is computed of all of them: the light that
  * fire sheds, the shadow that smoke throws. */
-#ifndef KILN_DRAW_LIVING_H
-#define KILN_DRAW_LIVING_H
+#ifndef KILN_DRAW_MOMENT_LIVING_H
+#define KILN_DRAW_MOMENT_LIVING_H
 
-#include "particles/pool.h"
-#include "scene/scene.h"
-#include "shared/draw_layout.h"
+#include "draw/moment/moment.h"
 #include "shared/instance.h"
-
-struct kiln_living_loops;
-
-/* A pool at one moment. */
-struct kiln_living_moment {
-    const struct kiln_scene *scene;
-    const struct kiln_pool *pool;
-    const struct kiln_particle *records; /* of the pool */
-    const struct kiln_view *view;
-    const float4 *table;                   /* of kiln_looks_sample at the view's time */
-    const struct kiln_living_loops *loops; /* for this machine: living_blocks.h */
-    const struct kiln_spin *spins;         /* of the pool; NULL: nobody asks how they turn, or none
-                                            * does by collisions */
-};
 
 /* What the particles of one system follow from. */
 struct kiln_living_system {
@@ -41,9 +25,9 @@ struct kiln_living {
     float opacity;   /* at this age, fades included */
 };
 
-/* What the moment names must outlive the result. */
-struct kiln_living_system kiln_living_system(const struct kiln_living_moment *moment,
-                                             uint32_t index);
+/* Returns what the particles of one system follow from. The moment was filled with on_host, and
+ * must outlive the result. */
+struct kiln_living_system kiln_living_system(const struct kiln_moment *moment, uint32_t index);
 
 /* The particle in a slot; false when none lives there. */
 bool kiln_living_at(const struct kiln_living_system *system, uint32_t slot,

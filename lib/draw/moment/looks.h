@@ -1,6 +1,6 @@
 /* The looks of all systems, ready to be read while drawing (shared/look_layout.h). */
-#ifndef KILN_DRAW_LOOKS_H
-#define KILN_DRAW_LOOKS_H
+#ifndef KILN_DRAW_MOMENT_LOOKS_H
+#define KILN_DRAW_MOMENT_LOOKS_H
 
 #include "asset/atlas/atlas.h"
 #include "scene/scene.h"

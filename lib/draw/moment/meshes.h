@@ -1,6 +1,6 @@
 /* The backdrop's meshes, in the space of their files, and its terrain. */
-#ifndef KILN_DRAW_MESHES_H
-#define KILN_DRAW_MESHES_H
+#ifndef KILN_DRAW_MOMENT_MESHES_H
+#define KILN_DRAW_MOMENT_MESHES_H
 
 #include "asset/geometry/skin.h"
 #include "draw/moment/painted.h"

@@ -1,7 +1,7 @@
 /* What particles painted on the backdrop's meshes, as textures with mip levels for both techniques.
  */
-#ifndef KILN_DRAW_PAINTED_H
-#define KILN_DRAW_PAINTED_H
+#ifndef KILN_DRAW_MOMENT_PAINTED_H
+#define KILN_DRAW_MOMENT_PAINTED_H
 
 #include "asset/geometry/mesh.h"
 #include "asset/image/pyramid.h"

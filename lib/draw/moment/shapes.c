@@ -1,13 +1,14 @@
 /* Scene values at a time into the block that shaders read. Pictures alone depend on it. */
 #include "draw/moment/shapes.h"
 
-#include "draw/light/instance_tiles.h"
-#include "shared/exact.h"
-
 #include <assert.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
+
+#include "base/matrix.h"
+#include "draw/moment/instances.h"
+#include "shared/exact.h"
 
 static_assert(sizeof(struct kiln_draw_mesh) == 96, "std140");
 static_assert(sizeof(struct kiln_draw_turned_box) == 96, "std140");
@@ -37,9 +38,9 @@ struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
     }
     for (uint32_t i = 0; i < scene->system_count; i++) {
         const struct kiln_system *system = &scene->systems[i];
-        features.spheres |= system->enabled && kiln_look_is_opaque(&system->look);
+        features.solids |= system->enabled && kiln_look_is_opaque(&system->look);
     }
-    features.instances = kiln_instance_tiles_edge(scene) > 0;
+    features.instances = kiln_instance_tile_edge(scene) > 0;
     return features;
 }
 
@@ -50,7 +51,7 @@ void kiln_shape_defines(const struct kiln_shape_features *features, int samples,
         out, KILN_SHAPE_DEFINES, "#define SAMPLES %d\n%s%s%s%s%s%s%s%s%s%s", samples,
         features->round ? "#define ROUND 1\n" : "", features->turned ? "#define TURNED 1\n" : "",
         features->meshes ? "#define MESHES 1\n" : "", features->paint ? "#define PAINT 1\n" : "",
-        features->spheres ? "#define SPHERES 1\n" : "",
+        features->solids ? "#define SOLIDS 1\n" : "",
         features->instances ? "#define INSTANCES 1\n" : "",
         features->floor_image ? "#define FLOOR_IMAGE 1\n" : "",
         features->floor_gloss ? "#define FLOOR_GLOSS 1\n" : "",
@@ -63,12 +64,7 @@ static float4 with_w(float3 v, float w)
     return (float4){v.x, v.y, v.z, w};
 }
 
-static float3 cross(float3 a, float3 b)
-{
-    return (float3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-static float3 normalized(float3 v)
+float3 kiln_direction(float3 v)
 {
     float length = sqrtf(v.x * v.x + v.y * v.y + v.z * v.z);
     if (!(length > 0.0f))
@@ -79,12 +75,13 @@ static float3 normalized(float3 v)
 struct kiln_sun_frame kiln_sun_frame_at(const struct kiln_scene *scene, float time_s)
 {
     const struct kiln_backdrop *backdrop = &scene->backdrop;
-    float3 sun = normalized(kiln_scene_value3(scene, &backdrop->sun_direction, time_s));
+    float3 sun = kiln_direction(kiln_scene_value3(scene, &backdrop->sun_direction, time_s));
     float3 aside = fabsf(sun.y) < 0.9f ? (float3){0.0f, 1.0f, 0.0f} : (float3){1.0f, 0.0f, 0.0f};
-    float3 right = normalized(cross(aside, sun));
+    float3 right = kiln_direction(float3_cross(aside, sun));
     const struct exact_angle radius =
         exact_sincos(0.5f * kiln_scene_value(scene, &backdrop->sun_size, time_s));
-    return (struct kiln_sun_frame){right, cross(sun, right), sun, radius.sine / radius.cosine};
+    return (struct kiln_sun_frame){right, float3_cross(sun, right), sun,
+                                   radius.sine / radius.cosine};
 }
 
 /* A wave of height h and length l is pi h / l steep; the shorter ones are as steep as the longest.
@@ -117,26 +114,27 @@ static void fill_mesh(const struct kiln_scene *scene, const struct kiln_object *
                       const struct kiln_mesh *mesh, float time_s, struct kiln_draw_mesh *out)
 {
     float3 at = mesh_origin(scene, object, time_s);
-    const float position[3] = {at.x, at.y, at.z};
     float scale = object->kind == KILN_OBJECT_TERRAIN
                       ? 1.0f
                       : kiln_scene_value(scene, &object->scale, time_s);
-    float rows[3][3], center[3], half_size[3], radius2 = 0.0f;
-    kiln_scene_rotation(kiln_scene_value3(scene, &object->rotation, time_s), rows);
-    for (int i = 0; i < 3; i++) {
-        center[i] = position[i];
-        half_size[i] = 0.0f;
-        for (int c = 0; c < 3; c++) {
-            rows[i][c] *= scale;
-            center[i] += rows[i][c] * 0.5f * (mesh->min[c] + mesh->max[c]);
-            half_size[i] += fabsf(rows[i][c]) * 0.5f * (mesh->max[c] - mesh->min[c]);
-        }
-        float half_edge = scale * 0.5f * (mesh->max[i] - mesh->min[i]);
-        radius2 += half_edge * half_edge;
-        out->to_world[i] = (float4){rows[i][0], rows[i][1], rows[i][2], position[i]};
+    mat3 turn;
+    mat4 to_world = {{0.0f}, {0.0f}, {0.0f}, {at.x, at.y, at.z, 1.0f}};
+    vec3 center = {at.x, at.y, at.z}, half_size = GLM_VEC3_ZERO_INIT, half_edges;
+    kiln_scene_rotation(kiln_scene_value3(scene, &object->rotation, time_s), turn);
+    glm_mat3_scale(turn, scale);
+    glm_mat4_ins3(turn, to_world);
+    kiln_matrix_to_rows(to_world, out->to_world);
+    for (int c = 0; c < 3; c++) {
+        vec3 size;
+        glm_vec3_abs(turn[c], size);
+        half_edges[c] = 0.5f * (mesh->max[c] - mesh->min[c]);
+        glm_vec3_muladds(turn[c], 0.5f * (mesh->min[c] + mesh->max[c]), center);
+        glm_vec3_muladds(size, half_edges[c], half_size);
     }
+    glm_vec3_scale(half_edges, scale, half_edges);
+    const float radius = glm_vec3_norm(half_edges);
     out->color = with_w(kiln_scene_value3(scene, &object->color, time_s), 0.0f);
-    out->center = (float4){center[0], center[1], center[2], fmaxf(sqrtf(radius2), 1e-6f)};
+    out->center = (float4){center[0], center[1], center[2], fmaxf(radius, 1e-6f)};
     const float clip_s =
         object->animation.enabled ? kiln_scene_animation_s(&object->animation, time_s) : 0.0f;
     out->half_size = (float4){half_size[0], half_size[1], half_size[2], clip_s};
@@ -167,10 +165,10 @@ static void fill_paint(const struct kiln_scene *scene, struct kiln_draw_shapes *
 static void fill_turned_box(const struct kiln_scene *scene, const struct kiln_object *object,
                             float time_s, struct kiln_draw_turned_box *out)
 {
-    float rows[3][3];
-    kiln_scene_rotation(kiln_scene_value3(scene, &object->rotation, time_s), rows);
+    mat3 rotation; /* the rows of its inverse are its columns */
+    kiln_scene_rotation(kiln_scene_value3(scene, &object->rotation, time_s), rotation);
     for (int i = 0; i < 3; i++)
-        out->rows[i] = (float4){rows[0][i], rows[1][i], rows[2][i], 0.0f};
+        out->rows[i] = (float4){rotation[i][0], rotation[i][1], rotation[i][2], 0.0f};
     float3 size = kiln_scene_value3(scene, &object->size, time_s);
     out->center = with_w(kiln_scene_value3(scene, &object->center, time_s), 0.0f);
     out->half_size = (float4){0.5f * size.x, 0.5f * size.y, 0.5f * size.z, 0.0f};
@@ -185,7 +183,7 @@ static void fill_more(const struct kiln_scene *scene, const struct kiln_object *
     float4 color = with_w(kiln_scene_value3(scene, &object->color, time_s), 0.0f);
     if (object->kind == KILN_OBJECT_CAPSULE) {
         uint k = shapes->more.x++;
-        float3 axis = normalized(kiln_scene_value3(scene, &object->axis, time_s));
+        float3 axis = kiln_direction(kiln_scene_value3(scene, &object->axis, time_s));
         shapes->capsules[k] = with_w(center, kiln_scene_value(scene, &object->radius, time_s));
         shapes->capsule_axis[k] =
             with_w(axis, 0.5f * kiln_scene_value(scene, &object->height, time_s));
@@ -194,19 +192,19 @@ static void fill_more(const struct kiln_scene *scene, const struct kiln_object *
         fill_turned_box(scene, object, time_s, &shapes->turned[shapes->more.y++]);
     } else if (object->kind == KILN_OBJECT_PLANE && object->visible) {
         uint k = shapes->more.z++;
-        float3 normal = normalized(kiln_scene_value3(scene, &object->axis, time_s));
+        float3 normal = kiln_direction(kiln_scene_value3(scene, &object->axis, time_s));
         shapes->planes[k] = with_w(normal, float3_dot(normal, center));
         shapes->plane_color[k] = color;
     }
 }
 
 void kiln_shapes_fill(const struct kiln_scene *scene, const struct kiln_mesh *const *meshes,
-                      float time_s, struct kiln_draw_shapes *shapes)
+                      const struct kiln_sun_frame *sun, float time_s,
+                      struct kiln_draw_shapes *shapes)
 {
     *shapes = (struct kiln_draw_shapes){.counts = {0, 0, 0, 0}};
-    const struct kiln_sun_frame sun = kiln_sun_frame_at(scene, time_s);
-    shapes->sun_right = with_w(sun.right, sun.spread);
-    shapes->sun_up = with_w(sun.up, sun.spread);
+    shapes->sun_right = with_w(sun->right, sun->spread);
+    shapes->sun_up = with_w(sun->up, sun->spread);
     if (kiln_shape_features(scene).floor_gloss)
         fill_gloss(scene, time_s, shapes);
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
@@ -220,7 +218,7 @@ void kiln_shapes_fill(const struct kiln_scene *scene, const struct kiln_mesh *co
             shapes->sphere_color[k] = color;
         } else if (object->kind == KILN_OBJECT_CYLINDER) {
             uint k = shapes->counts.y++;
-            float3 axis = normalized(kiln_scene_value3(scene, &object->axis, time_s));
+            float3 axis = kiln_direction(kiln_scene_value3(scene, &object->axis, time_s));
             shapes->cylinders[k] = with_w(center, radius);
             shapes->cylinder_axis[k] =
                 with_w(axis, 0.5f * kiln_scene_value(scene, &object->height, time_s));

@@ -1,15 +1,16 @@
 /* The block of the backdrop's pictures and of its objects but boxes along the axes. */
-#ifndef KILN_DRAW_SHAPES_H
-#define KILN_DRAW_SHAPES_H
+#ifndef KILN_DRAW_MOMENT_SHAPES_H
+#define KILN_DRAW_MOMENT_SHAPES_H
 
 #include "asset/geometry/mesh.h"
 #include "scene/scene.h"
 #include "shared/shape_layout.h"
 
-/* What a scene needs of the shaders; sets of these choose a variant. spheres are particles that
- * throw shadows, instances those of them that are meshes with tiles (instance_tiles.h). */
+/* The features of the shaders that a scene needs; sets of these choose a variant. solids are
+ * particles that throw shadows, instances those of them that are meshes with tiles
+ * (instance_tiles.h). */
 struct kiln_shape_features {
-    bool round, turned, meshes, paint, spheres, instances, floor_image, floor_gloss, sky_image,
+    bool round, turned, meshes, paint, solids, instances, floor_image, floor_gloss, sky_image,
         soft_sun;
 };
 struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene);
@@ -20,6 +21,9 @@ struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene);
 void kiln_shape_defines(const struct kiln_shape_features *features, int samples,
                         char out[KILN_SHAPE_DEFINES]);
 
+/* The unit vector along v, or up where v has no length. */
+float3 kiln_direction(float3 v);
+
 /* Unit vectors towards the sun and across, and the tangent of its radius. */
 struct kiln_sun_frame {
     float3 right, up, towards;
@@ -27,9 +31,10 @@ struct kiln_sun_frame {
 };
 struct kiln_sun_frame kiln_sun_frame_at(const struct kiln_scene *scene, float time_s);
 
-/* All of these objects and the sun's frame at a clip time; meshes are in the scene's order.
+/* All of these objects at a clip time, and the sun's frame then; meshes are in the scene's order.
  * The pictures' maps and the bins of particles are left 0. */
 void kiln_shapes_fill(const struct kiln_scene *scene, const struct kiln_mesh *const *meshes,
-                      float time_s, struct kiln_draw_shapes *shapes);
+                      const struct kiln_sun_frame *sun, float time_s,
+                      struct kiln_draw_shapes *shapes);
 
 #endif

@@ -1,6 +1,7 @@
 /* Scene camera to matrices, in arithmetic that is the same on every machine. */
 #include "draw/moment/view.h"
 
+#include "base/matrix.h"
 #include "shared/exact.h"
 
 static const float FULL_TURN = 6.28318531f;
@@ -32,9 +33,16 @@ static float3 forward_of(float3 position, float3 target)
     return normalized(forward);
 }
 
-static float4 row_of(float3 axis, float3 eye)
+/* The inverse of the camera's pose. */
+static void set_world_to_view(float3 right, float3 forward, float3 eye, float4 rows[3])
 {
-    return (float4){axis.x, axis.y, axis.z, -float3_dot(axis, eye)};
+    const float3 up = float3_cross(right, forward);
+    mat4 m = {{right.x, right.y, right.z, 0.0f},
+              {up.x, up.y, up.z, 0.0f},
+              {-forward.x, -forward.y, -forward.z, 0.0f},
+              {eye.x, eye.y, eye.z, 1.0f}};
+    glm_inv_tr(m);
+    kiln_matrix_to_rows(m, rows);
 }
 
 struct kiln_view kiln_view_compute(const struct kiln_scene *scene, uint32_t step)
@@ -54,16 +62,14 @@ struct kiln_view kiln_view_compute(const struct kiln_scene *scene, uint32_t step
     if (roll != 0.0f)
         up = turned(up, forward, roll);
     float3 right = normalized(float3_cross(forward, up));
-    float3 backwards = {-forward.x, -forward.y, -forward.z};
 
     struct kiln_view view = {
         .eye = {position.x, position.y, position.z,
                 kiln_scene_value(scene, &camera->near_plane, time_s)},
         .clock = {time_s, scene->dt_s, scene->dt_s * (float)scene->steps_per_frame, 1.0f},
         .clock_step = {step, scene->seed, 0, 0},
-        .world_to_view = {row_of(right, position), row_of(float3_cross(right, forward), position),
-                          row_of(backwards, position)},
     };
+    set_world_to_view(right, forward, position, view.world_to_view);
     float tan_y = half_fov.sine / half_fov.cosine;
     float width = (float)scene->width, height = (float)scene->height;
     view.frustum = (float4){tan_y * width / height, tan_y, width, height};

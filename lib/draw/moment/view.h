@@ -1,6 +1,6 @@
 /* The camera of a frame. */
-#ifndef KILN_DRAW_VIEW_H
-#define KILN_DRAW_VIEW_H
+#ifndef KILN_DRAW_MOMENT_VIEW_H
+#define KILN_DRAW_MOMENT_VIEW_H
 
 #include "scene/scene.h"
 #include "shared/draw_layout.h"

@@ -1,19 +1,19 @@
 /* Instances of meshes as rays see them: which triangle lies nearest in which samples, and what
  * light it sends. Like spheres, a triangle has one depth and one light in a pixel: those in its
  * middle, or at the triangle's edge where that is outside. */
-#ifndef KILN_DRAW_INSTANCE_CAST_H
-#define KILN_DRAW_INSTANCE_CAST_H
+#ifndef KILN_DRAW_SOLIDS_INSTANCE_CAST_H
+#define KILN_DRAW_SOLIDS_INSTANCE_CAST_H
 
 #include "draw/solids/opaque_ray.h"
 #include "shared/exact.h"
 
-static inline bool is_instance(const struct kiln_sphere_strip *s, uint32_t number)
+static inline bool is_instance(const struct kiln_solid_strip *s, uint32_t number)
 {
     return s->instances && s->instances[number].triangles > 0;
 }
 
 /* The first corner of a triangle, in floats. */
-static inline int32_t corner_of(const struct kiln_sphere_strip *s, uint32_t number,
+static inline int32_t corner_of(const struct kiln_solid_strip *s, uint32_t number,
                                 uint32_t triangle)
 {
     return (int32_t)((s->instances[number].first + 3 * triangle) * 8);
@@ -113,7 +113,7 @@ SIMD vf cast_edge(const float plane[3], vf u, vf v)
     return plane[0] * u + (plane[1] * v + plane[2]);
 }
 
-SIMD void cast_pixels(const struct kiln_sphere_strip *s, const struct cast_triangle *t,
+SIMD void cast_pixels(const struct kiln_solid_strip *s, const struct cast_triangle *t,
                       int32_t number, int32_t triangle, uint32_t row, int32_t x)
 {
     vf column = vf_count() + ((float)x + 0.5f), zero = vf_all(0.0f);
@@ -124,8 +124,8 @@ SIMD void cast_pixels(const struct kiln_sphere_strip *s, const struct cast_trian
     vf c = vf_max(cast_edge(t->edges[2], middle.x, middle.y), zero), sum = a + b + c;
     vf depth = (a * t->depth[0] + b * t->depth[1] + c * t->depth[2]) / vf_max(sum, vf_all(1e-30f));
     vi seen = (sum > 0.0f) & (depth >= s->frame->view->eye.w);
-    size_t at = (size_t)row * KILN_SPHERE_SAMPLES * s->pitch + (size_t)x;
-    for (int k = 0; k < KILN_SPHERE_SAMPLES && any(seen); k++, at += s->pitch) {
+    size_t at = (size_t)row * KILN_SOLID_SAMPLES * s->pitch + (size_t)x;
+    for (int k = 0; k < KILN_SOLID_SAMPLES && any(seen); k++, at += s->pitch) {
         const struct vf3 ray =
             view_ray(s->frame, column + SAMPLE_OFFSETS[k][0], vf_all(line + SAMPLE_OFFSETS[k][1]));
         vf before = vf_load(s->samples + at);
@@ -142,7 +142,7 @@ SIMD void cast_pixels(const struct kiln_sphere_strip *s, const struct cast_trian
     }
 }
 
-static void sample_triangle(const struct kiln_sphere_strip *s, uint32_t number, uint32_t triangle)
+static void sample_triangle(const struct kiln_solid_strip *s, uint32_t number, uint32_t triangle)
 {
     const struct kiln_drawn_instance *instance = &s->instances[number];
     const float4(*corners)[2] = s->corners + instance->first + (size_t)3 * triangle;
@@ -160,7 +160,7 @@ static void sample_triangle(const struct kiln_sphere_strip *s, uint32_t number, 
     }
 }
 
-static void sample_instance(const struct kiln_sphere_strip *s, uint32_t number)
+static void sample_instance(const struct kiln_solid_strip *s, uint32_t number)
 {
     for (uint32_t i = 0; i < s->instances[number].triangles; i++)
         sample_triangle(s, number, i);
@@ -192,7 +192,7 @@ SIMD struct vf3 cast_mean(const struct vf3 of[3], const vf parts[3])
     return vf3_along(vf3_along(vf3_scale(of[0], parts[0]), of[1], parts[1]), of[2], parts[2]);
 }
 
-static void light_triangles(const struct kiln_sphere_strip *s, const struct seen_things *seen,
+static void light_triangles(const struct kiln_solid_strip *s, const struct seen_things *seen,
                             uint32_t y, struct ray_color *color)
 {
     const struct kiln_ray_frame *frame = s->frame;

@@ -7,27 +7,16 @@
 #include <stdlib.h>
 
 #include "base/error.h"
-#include "draw/moment/instances.h"
-#include "draw/moment/shapes.h"
 #include "gpu/program.h"
 
 struct kiln_instances_gl {
     struct kiln_device *device;
     const struct kiln_scene *scene;
-    struct kiln_instances meshes; /* without the corners, which are in GL */
+    const struct kiln_instances *meshes;
     GLuint corners, vertex_array;
     GLuint program;
     GLint system, first, orient, extent; /* uniforms */
 };
-
-bool kiln_instances_gl_exist(const struct kiln_scene *scene)
-{
-    for (uint32_t i = 0; i < scene->system_count; i++) {
-        if (scene->systems[i].enabled && scene->systems[i].look.shape == KILN_SHAPE_MESH)
-            return true;
-    }
-    return false;
-}
 
 static bool create_program(struct kiln_instances_gl *m, struct kiln_error *error)
 {
@@ -53,19 +42,17 @@ static bool create_program(struct kiln_instances_gl *m, struct kiln_error *error
 
 static bool upload(struct kiln_instances_gl *m, struct kiln_error *error)
 {
-    size_t size = m->meshes.corner_count * sizeof *m->meshes.corners;
+    size_t size = m->meshes->corner_count * sizeof *m->meshes->corners;
     glGenVertexArrays(1, &m->vertex_array);
     glGenBuffers(1, &m->corners);
     glBindBuffer(GL_SHADER_STORAGE_BUFFER, m->corners);
-    glBufferData(GL_SHADER_STORAGE_BUFFER, (GLsizeiptr)size, m->meshes.corners, GL_STATIC_DRAW);
+    glBufferData(GL_SHADER_STORAGE_BUFFER, (GLsizeiptr)size, m->meshes->corners, GL_STATIC_DRAW);
     kiln_device_label(m->device, GL_BUFFER, m->corners, "meshes of particles");
-    free(m->meshes.corners);
-    m->meshes.corners = NULL;
     return kiln_device_check(m->device, "meshes of particles", error);
 }
 
 struct kiln_instances_gl *kiln_instances_gl_create(struct kiln_device *device,
-                                                   const struct kiln_scene *scene,
+                                                   const struct kiln_moment *moment,
                                                    struct kiln_error *error)
 {
     struct kiln_instances_gl *m = calloc(1, sizeof *m);
@@ -74,9 +61,9 @@ struct kiln_instances_gl *kiln_instances_gl_create(struct kiln_device *device,
         return NULL;
     }
     m->device = device;
-    m->scene = scene;
-    if (!kiln_instances_init(&m->meshes, scene, error) || !upload(m, error) ||
-        !create_program(m, error))
+    m->scene = moment->scene;
+    m->meshes = &moment->instances;
+    if (!upload(m, error) || !create_program(m, error))
         kiln_instances_gl_destroy(&m);
     return m;
 }
@@ -90,7 +77,6 @@ void kiln_instances_gl_destroy(struct kiln_instances_gl **meshes)
         glDeleteProgram(m->program);
     glDeleteBuffers(1, &m->corners); /* 0 is ignored */
     glDeleteVertexArrays(1, &m->vertex_array);
-    kiln_instances_finish(&m->meshes);
     free(m);
     *meshes = NULL;
 }
@@ -102,7 +88,7 @@ bool kiln_instances_gl_draw(struct kiln_instances_gl *meshes, uint32_t count,
     glBindVertexArray(meshes->vertex_array);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, KILN_BIND_CORNERS, meshes->corners);
     for (uint32_t i = 0; count > 0 && i < meshes->scene->system_count; i++) {
-        const struct kiln_instance_mesh *mesh = &meshes->meshes.meshes[i];
+        const struct kiln_instance_mesh *mesh = &meshes->meshes->meshes[i];
         const struct kiln_look *look = &meshes->scene->systems[i].look;
         if (mesh->triangles == 0)
             continue;

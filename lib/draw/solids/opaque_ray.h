@@ -1,13 +1,13 @@
 /* What spheres and meshes of particles have in common as rays see them: the rays themselves, and
  * the light of what they meet. For the files of one width of vectors. */
-#ifndef KILN_DRAW_OPAQUE_RAY_H
-#define KILN_DRAW_OPAQUE_RAY_H
+#ifndef KILN_DRAW_SOLIDS_OPAQUE_RAY_H
+#define KILN_DRAW_SOLIDS_OPAQUE_RAY_H
 
 #include "draw/backdrop/ray_light.h"
-#include "draw/solids/sphere_rows.h"
+#include "draw/solids/solid_rows.h"
 
 /* A rotated grid: no two samples share a row or a column. */
-static const float SAMPLE_OFFSETS[KILN_SPHERE_SAMPLES][2] = {
+static const float SAMPLE_OFFSETS[KILN_SOLID_SAMPLES][2] = {
     {-0.125f, -0.375f}, {0.375f, -0.125f}, {-0.375f, 0.125f}, {0.125f, 0.375f}};
 
 /* The ray through a place in the picture, with z of -1: its t is depth. */

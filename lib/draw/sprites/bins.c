@@ -3,10 +3,10 @@
  * threads. */
 #include "draw/sprites/bins.h"
 
-#include "base/error.h"
-
 #include <stdlib.h>
 #include <string.h>
+
+#include "base/error.h"
 
 enum { PIECE = 4096 }; /* sprites */
 

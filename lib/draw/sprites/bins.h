@@ -1,6 +1,6 @@
 /* Which sprites touch which tiles of the picture: for each tile a list, in drawing order. */
-#ifndef KILN_DRAW_BINS_H
-#define KILN_DRAW_BINS_H
+#ifndef KILN_DRAW_SPRITES_BINS_H
+#define KILN_DRAW_SPRITES_BINS_H
 
 #include "base/thread.h"
 #include "draw/sprites/tile.h"

@@ -2,11 +2,11 @@
  * it is followed at each texel. */
 #include "draw/sprites/cells.h"
 
-#include "base/error.h"
-
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "base/error.h"
 
 enum {
     MIXED_EDGE = KILN_ATLAS_CELL >> KILN_CELL_MIXED_LEVEL,

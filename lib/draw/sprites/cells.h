@@ -4,13 +4,13 @@
  * KILN_CELL_PHASES, and what is mixed is rounded to bytes and kept. (Mixed large ones would not
  * stay in the cache.)
  */
-#ifndef KILN_DRAW_CELLS_H
-#define KILN_DRAW_CELLS_H
+#ifndef KILN_DRAW_SPRITES_CELLS_H
+#define KILN_DRAW_SPRITES_CELLS_H
+
+#include <stdatomic.h>
 
 #include "asset/atlas/atlas.h"
 #include "base/thread.h"
-
-#include <stdatomic.h>
 
 enum {
     KILN_CELL_TEXEL = 8,  /* bytes: as draw/sprites/texels.h has them */

@@ -3,11 +3,11 @@
  * depth of 0 everywhere else, behind which rasterisers find that nothing is to be seen. */
 #include "draw/sprites/coarse.h"
 
+#include <stdlib.h>
+
 #include "base/error.h"
 #include "draw/sprites/coarse_cpu.h"
 #include "draw/sprites/coarse_gl.h"
-
-#include <stdlib.h>
 
 struct kiln_coarse_stage {
     struct kiln_device *device;

@@ -1,8 +1,8 @@
 /* Stage 4b where a scene asks for it: particles in a picture of half or a quarter of the frame's
  * width and height, brought to the frame's by its depth; and at full resolution near edges of the
  * depth, if it asks for that, too (Heinz 2019, 2.2.2). */
-#ifndef KILN_DRAW_COARSE_H
-#define KILN_DRAW_COARSE_H
+#ifndef KILN_DRAW_SPRITES_COARSE_H
+#define KILN_DRAW_SPRITES_COARSE_H
 
 #include "draw/sprites/particles.h"
 

@@ -1,12 +1,12 @@
 /* Threads over rows, by the widest vectors that the machine has. */
 #include "draw/sprites/coarse_cpu.h"
 
+#include <stdlib.h>
+#include <string.h>
+
 #include "base/error.h"
 #include "draw/sprites/coarse_rows.h"
 #include "shared/coarse.h"
-
-#include <stdlib.h>
-#include <string.h>
 
 enum { ROWS_AT_A_TIME = 4 };
 

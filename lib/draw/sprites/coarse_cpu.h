@@ -1,7 +1,7 @@
 /* Between a frame and its smaller picture on the host, in arithmetic that is the same on every
  * machine. */
-#ifndef KILN_DRAW_COARSE_CPU_H
-#define KILN_DRAW_COARSE_CPU_H
+#ifndef KILN_DRAW_SPRITES_COARSE_CPU_H
+#define KILN_DRAW_SPRITES_COARSE_CPU_H
 
 #include "draw/sprites/coarse_images.h"
 

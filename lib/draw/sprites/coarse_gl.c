@@ -1,10 +1,10 @@
 /* Full-screen passes. */
 #include "draw/sprites/coarse_gl.h"
 
+#include <stdlib.h>
+
 #include "base/error.h"
 #include "gpu/program.h"
-
-#include <stdlib.h>
 
 enum program { DEPTH, EDGES, MASK, SPREAD, PROGRAM_COUNT };
 

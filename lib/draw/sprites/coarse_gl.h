@@ -1,6 +1,6 @@
 /* Between a frame and its smaller picture by fragment shaders: see draw/sprites/coarse_cpu.h. */
-#ifndef KILN_DRAW_COARSE_GL_H
-#define KILN_DRAW_COARSE_GL_H
+#ifndef KILN_DRAW_SPRITES_COARSE_GL_H
+#define KILN_DRAW_SPRITES_COARSE_GL_H
 
 #include "draw/sprites/coarse_images.h"
 

@@ -1,8 +1,8 @@
 /* The images between a frame and its smaller picture, for both techniques of going between them. A
  * coarse pixel stands for factor x factor of the frame's, and the coarse picture has the same
  * middle as the frame. */
-#ifndef KILN_DRAW_COARSE_IMAGES_H
-#define KILN_DRAW_COARSE_IMAGES_H
+#ifndef KILN_DRAW_SPRITES_COARSE_IMAGES_H
+#define KILN_DRAW_SPRITES_COARSE_IMAGES_H
 
 #include "base/thread.h"
 #include "gpu/framebuffer.h"

@@ -1,6 +1,6 @@
 /* The loops of draw/sprites/coarse_cpu.c over rows. */
-#ifndef KILN_DRAW_COARSE_ROWS_H
-#define KILN_DRAW_COARSE_ROWS_H
+#ifndef KILN_DRAW_SPRITES_COARSE_ROWS_H
+#define KILN_DRAW_SPRITES_COARSE_ROWS_H
 
 #include "base/simd.h"
 #include "draw/sprites/coarse_images.h"

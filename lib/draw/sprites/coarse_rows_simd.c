@@ -2,11 +2,10 @@
  * coarse ones around it; near edges it takes those of nine that have a depth like its own, however
  * far their places.
  */
-#include "draw/sprites/coarse_rows.h"
-
-#include "shared/coarse.h"
-
 #include <string.h>
+
+#include "draw/sprites/coarse_rows.h"
+#include "shared/coarse.h"
 
 typedef kiln_coarse_quad quad;
 typedef int32_t mask __attribute__((vector_size(16)));

@@ -2,10 +2,10 @@
  * to know of lists. */
 #include "draw/sprites/fragments.h"
 
-#include "shared/fragment_layout.h"
-
 #include <stdlib.h>
 #include <string.h>
+
+#include "shared/fragment_layout.h"
 
 enum { FRAGMENTS_AT_A_TIME = 1 << 19, TILE_PIXELS = KILN_TILE_WIDTH * KILN_TILE_HEIGHT };
 

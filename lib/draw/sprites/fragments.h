@@ -1,7 +1,7 @@
 /* Particles whose order is decided pixel by pixel, on the host: a tile's lists in its thread
  * (shared/fragment_layout.h). */
-#ifndef KILN_DRAW_FRAGMENTS_H
-#define KILN_DRAW_FRAGMENTS_H
+#ifndef KILN_DRAW_SPRITES_FRAGMENTS_H
+#define KILN_DRAW_SPRITES_FRAGMENTS_H
 
 #include "draw/sprites/tile.h"
 

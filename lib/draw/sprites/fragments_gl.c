@@ -3,11 +3,11 @@
  * long ones in passes that merge, so that none takes more loops than software GL allows. */
 #include "draw/sprites/fragments_gl.h"
 
-#include "base/error.h"
-#include "shared/fragment_layout.h"
-
 #include <assert.h>
 #include <stdlib.h>
+
+#include "base/error.h"
+#include "shared/fragment_layout.h"
 
 enum { FRAGMENTS_AT_A_TIME = 1 << 21, KEY_BYTES = 16, FRAGMENT_BYTES = 32 };
 

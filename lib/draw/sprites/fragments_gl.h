@@ -1,7 +1,7 @@
 /* Particles whose order is decided pixel by pixel, for techniques that draw them by a vertex
  * shader: lists in GL, which are counted, filled, sorted and blended (shared/fragment_layout.h). */
-#ifndef KILN_DRAW_FRAGMENTS_GL_H
-#define KILN_DRAW_FRAGMENTS_GL_H
+#ifndef KILN_DRAW_SPRITES_FRAGMENTS_GL_H
+#define KILN_DRAW_SPRITES_FRAGMENTS_GL_H
 
 #include "draw/sprites/particles.h"
 #include "gpu/program.h"

@@ -2,10 +2,10 @@
  * pictures stay the same to the bit; the fragment shader decides about the rest. */
 #include "draw/sprites/occlusion.h"
 
+#include <stdlib.h>
+
 #include "base/error.h"
 #include "gpu/program.h"
-
-#include <stdlib.h>
 
 /* On software a test costs some hundredths of shading a fragment, and saves four fifths: it pays
  * where of so many particles one in eight is hidden. On GPUs it costs nothing. */

@@ -1,7 +1,7 @@
 /* What lies behind opaque geometry, rejected before it is shaded: a depth buffer with the depth of
  * the scene, for techniques that draw particles by a vertex shader. */
-#ifndef KILN_DRAW_OCCLUSION_H
-#define KILN_DRAW_OCCLUSION_H
+#ifndef KILN_DRAW_SPRITES_OCCLUSION_H
+#define KILN_DRAW_SPRITES_OCCLUSION_H
 
 #include "draw/sprites/particles.h"
 

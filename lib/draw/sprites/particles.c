@@ -1,13 +1,13 @@
 /* The stage: hands over to its technique. */
 #include "draw/sprites/particles.h"
 
+#include <stdlib.h>
+
 #include "base/error.h"
 #include "draw/moment/draw_blocks.h"
 #include "draw/sprites/particles_cpu.h"
 #include "draw/sprites/particles_geometry.h"
 #include "draw/sprites/particles_tiled.h"
-
-#include <stdlib.h>
 
 struct kiln_particles_stage {
     enum kiln_raster_technique technique;
@@ -15,7 +15,7 @@ struct kiln_particles_stage {
     struct kiln_device *device;
     const struct kiln_scene *scene;
     struct kiln_atlas *atlas;
-    struct kiln_geometry *geometry; /* of GL, also where spheres alone are drawn there */
+    struct kiln_geometry *geometry; /* of GL */
     struct kiln_tiled *tiled;       /* `tiled` */
     struct kiln_tiles *tiles;       /* `cpu` */
 };
@@ -61,15 +61,6 @@ bool kiln_particles_nearest_first(const struct kiln_particles_stage *stage)
     /* Chunks of `tiled` begin with what may hide all others. It leaves lists of fragments to those
      * who blend. */
     return stage->technique == KILN_RASTER_TILED && stage->scene->post.compose != KILN_COMPOSE_OIT;
-}
-
-bool kiln_particles_bind(struct kiln_particles_stage *stage, struct kiln_pool *pool,
-                         struct kiln_buffer *entries, float time_s, struct kiln_error *error)
-{
-    if (!stage->geometry)
-        stage->geometry = kiln_geometry_create(stage->device, stage->scene, stage->atlas,
-                                               stage->technique, error);
-    return stage->geometry && kiln_geometry_bind(stage->geometry, pool, entries, time_s, error);
 }
 
 bool kiln_particles_run(struct kiln_particles_stage *stage, const struct kiln_particles_draw *draw,

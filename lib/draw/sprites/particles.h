@@ -1,14 +1,12 @@
 /* Stage 4b: the particles as billboards (Heinz 2019, 3.2.3 to 3.2.6). All techniques make the
  * same pictures within the error of their arithmetic. */
-#ifndef KILN_DRAW_PARTICLES_H
-#define KILN_DRAW_PARTICLES_H
+#ifndef KILN_DRAW_SPRITES_PARTICLES_H
+#define KILN_DRAW_SPRITES_PARTICLES_H
 
 #include "asset/atlas/atlas.h"
 #include "base/thread.h"
 #include "draw/light/lighting.h"
-#include "draw/moment/view.h"
 #include "gpu/framebuffer.h"
-#include "particles/pool.h"
 
 enum kiln_raster_technique {
     KILN_RASTER_GEOMETRY,
@@ -31,10 +29,10 @@ void kiln_particles_destroy(struct kiln_particles_stage **stage);
 bool kiln_particles_nearest_first(const struct kiln_particles_stage *stage);
 
 struct kiln_particles_draw {
-    struct kiln_pool *pool;
-    struct kiln_buffer *entries; /* draw entries in drawing order */
+    const struct kiln_moment *moment; /* for `cpu`, with its particles on the host */
+    struct kiln_buffer *entries;      /* draw entries in drawing order */
     uint32_t count;
-    const struct kiln_view *view;
+    const struct kiln_view *view;              /* the moment's, for a picture of this size */
     const struct kiln_draw_backdrop *backdrop; /* what lights them */
     const struct kiln_lighting *lighting;
     struct kiln_image *depth;             /* of the scene */
@@ -46,12 +44,6 @@ struct kiln_particles_draw {
                        * without sum_alpha and fire_covers */
     bool fire_covers; /* premultiplied `over` in which additive particles cover like others */
 };
-
-/* Binds what vertex shaders read of particles (shaders/draw/moment/record.glsl), but for the view
- * block that kiln_backdrop_draw leaves bound: for stages that draw other shapes. entries name the
- * particles. Of a device. */
-bool kiln_particles_bind(struct kiln_particles_stage *stage, struct kiln_pool *pool,
-                         struct kiln_buffer *entries, float time_s, struct kiln_error *error);
 
 /* All but `cpu` need bound what kiln_lighting_run binds. */
 bool kiln_particles_run(struct kiln_particles_stage *stage, const struct kiln_particles_draw *draw,

@@ -2,14 +2,13 @@
  * tiles that they touch, then tile by tile drawn in order. */
 #include "draw/sprites/particles_cpu.h"
 
-#include "base/error.h"
-#include "draw/moment/looks.h"
-#include "draw/sprites/bins.h"
-#include "draw/sprites/fragments.h"
-
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+
+#include "base/error.h"
+#include "draw/sprites/bins.h"
+#include "draw/sprites/fragments.h"
 
 enum {
     SPRITES_AT_A_TIME = 1 << 18,
@@ -23,9 +22,6 @@ struct kiln_tiles {
     struct kiln_threads *threads;
     struct kiln_cells *cells;
     struct kiln_bins bins;
-    struct kiln_draw_look looks[KILN_MAX_SYSTEMS];
-    float4 *table;
-    bool table_valid;
     struct kiln_sprite *sprites;
     uint32_t sprite_room;
     struct kiln_tile *tiles;           /* one a thread */
@@ -70,11 +66,9 @@ struct kiln_tiles *kiln_tiles_create(const struct kiln_scene *scene, const struc
     }
     tiles->make = KILN_SIMD_PICK(kiln_sprites_make, simd);
     tiles->draw = KILN_SIMD_PICK(kiln_tile_draw, simd);
-    kiln_looks_fill(scene, atlas, tiles->looks);
-    tiles->table = calloc((size_t)KILN_LOOK_TEXELS, sizeof *tiles->table);
     tiles->tiles = aligned_alloc(64, kiln_threads_count(threads) * sizeof *tiles->tiles);
     tiles->cells = kiln_cells_create(atlas, error);
-    if (!tiles->table || !tiles->tiles || !tiles->cells || !create_fragments(tiles) ||
+    if (!tiles->tiles || !tiles->cells || !create_fragments(tiles) ||
         !kiln_bins_init(&tiles->bins, scene->width, scene->height, error)) {
         out_of_memory(error);
         kiln_tiles_destroy(&tiles);
@@ -92,7 +86,6 @@ void kiln_tiles_destroy(struct kiln_tiles **tiles)
     for (uint32_t i = 0; t->fragments && i < kiln_threads_count(t->threads); i++)
         kiln_fragments_destroy(&t->fragments[i]);
     free((void *)t->fragments);
-    free(t->table);
     free(t->sprites);
     free(t->tiles);
     free(t);
@@ -407,14 +400,15 @@ static bool steady_bloom(const float4 *table, uint32_t system, float weights[3])
 
 /* What tiles do with the glow: nothing if there is none, and as little as possible where all that
  * glows does so alike, which is what most scenes have. */
-static void choose_glow(const struct kiln_tiles *tiles, struct drawing *d)
+static void choose_glow(const struct kiln_moment *moment, struct drawing *d)
 {
     d->glow = KILN_TILE_GLOW_NONE;
     if (!d->bloom)
         return;
-    for (uint32_t i = 0; i < tiles->scene->system_count && !d->keep_bloom && !d->by_fragment; i++) {
+    for (uint32_t i = 0; i < moment->scene->system_count && !d->keep_bloom && !d->by_fragment;
+         i++) {
         float weights[3];
-        bool steady = steady_bloom(tiles->table, i, weights);
+        bool steady = steady_bloom(moment->look_table, i, weights);
         if (steady && weights[0] == 0.0f && weights[1] == 0.0f && weights[2] == 0.0f)
             continue;
         if (steady && d->glow == KILN_TILE_GLOW_NONE) {
@@ -453,20 +447,16 @@ bool kiln_tiles_run(struct kiln_tiles *tiles, const struct kiln_particles_draw *
                               .keep_bloom = draw->keep_bloom,
                               .sum = draw->sum_alpha,
                               .by_fragment = draw->by_fragment};
-    const struct kiln_particle *records = kiln_buffer_host(&draw->pool->records, KILN_READ, error);
-    const uint32_t *entries = records ? kiln_buffer_host(draw->entries, KILN_READ, error) : NULL;
+    const uint32_t *entries = kiln_buffer_host(draw->entries, KILN_READ, error);
     if (!entries || !open_images(draw, &drawing, error) ||
         !make_room(tiles, draw->count < most ? draw->count : most, error))
         return false;
-    if (!tiles->table_valid || kiln_looks_vary(tiles->scene))
-        kiln_looks_sample(tiles->scene, draw->view->clock.x, tiles->table);
-    tiles->table_valid = true;
-    choose_glow(tiles, &drawing);
+    choose_glow(draw->moment, &drawing);
     struct kiln_sprite_pass pass = {
         .scene = tiles->scene,
-        .looks = tiles->looks,
-        .table = tiles->table,
-        .records = records,
+        .looks = draw->moment->looks,
+        .table = draw->moment->look_table,
+        .records = draw->moment->records,
         .view = draw->view,
         .backdrop = draw->backdrop,
         .lighting = draw->lighting,

@@ -1,7 +1,7 @@
 /* Technique `cpu` of the particles: sprites into tiles, by threads and the machine's widest
  * vectors. The pixels are the same bytes on every machine and for any number of threads. */
-#ifndef KILN_DRAW_PARTICLES_CPU_H
-#define KILN_DRAW_PARTICLES_CPU_H
+#ifndef KILN_DRAW_SPRITES_PARTICLES_CPU_H
+#define KILN_DRAW_SPRITES_PARTICLES_CPU_H
 
 #include "draw/sprites/particles.h"
 

@@ -3,25 +3,18 @@
  * and the vertex shader fetches the rest (Heinz 2019, 3.2.2: one draw call, nothing stored but what
  * changes). */
 #include "draw/sprites/particles_geometry.h"
-#include "draw/light/lighting_gl.h"
-#include "draw/light/sun_shade.h"
-#include "draw/moment/looks.h"
-#include "draw/sprites/fragments_gl.h"
-#include "draw/sprites/occlusion.h"
 
-#include "base/error.h"
-#include "gpu/program.h"
-#include "shared/look_layout.h"
-
-#include <assert.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
-static_assert(offsetof(struct kiln_draw_look, flags) == 48, "std140");
-static_assert(sizeof(struct kiln_draw_look) == 96 + 16 * KILN_MAX_TEXTURES, "std140");
-static_assert(KILN_MAX_SYSTEMS * sizeof(struct kiln_draw_look) <= 16384, "of every GL");
+#include "base/error.h"
+#include "draw/light/lighting_gl.h"
+#include "draw/light/sun_shade.h"
+#include "draw/moment/moment_gl.h"
+#include "draw/sprites/fragments_gl.h"
+#include "draw/sprites/occlusion.h"
+#include "gpu/program.h"
+
 struct kiln_geometry {
     struct kiln_device *device;
     const struct kiln_scene *scene;
@@ -31,50 +24,8 @@ struct kiln_geometry {
     struct kiln_fragments_gl *fragments; /* of a scene whose pixels sort */
     struct kiln_occlusion *occlusion;
     GLuint vertex_array;
-    struct kiln_buffer looks, keys;
-    GLuint look_table; /* texture, KILN_LOOK_SAMPLES wide */
-    float4 *table;     /* what is in it */
-    bool table_valid;
     GLint additive_alpha;
 };
-
-static bool make_buffers(struct kiln_geometry *stage, struct kiln_error *error)
-{
-    const struct kiln_scene *scene = stage->scene;
-    struct kiln_draw_look looks[KILN_MAX_SYSTEMS];
-    kiln_looks_fill(scene, stage->atlas, looks);
-    float4 keys[KILN_MAX_VALUE_KEYS] = {{0}};
-    if (scene->key_count)
-        memcpy(keys, scene->keys, scene->key_count * sizeof *keys);
-    kiln_buffer_init(&stage->looks, stage->device, sizeof looks, "looks");
-    kiln_buffer_init(&stage->keys, stage->device, sizeof keys, "value keys");
-    return kiln_buffer_upload(&stage->looks, looks, error) &&
-           kiln_buffer_upload(&stage->keys, keys, error);
-}
-
-static void make_look_table(struct kiln_geometry *stage)
-{
-    glGenTextures(1, &stage->look_table);
-    glBindTexture(GL_TEXTURE_2D, stage->look_table);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, KILN_LOOK_SAMPLES,
-                 KILN_LOOK_TEXELS / KILN_LOOK_SAMPLES, 0, GL_RGBA, GL_FLOAT, NULL);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    kiln_device_label(stage->device, GL_TEXTURE, stage->look_table, "look table");
-}
-
-/* Brings the table to a clip time. */
-static void update_looks(struct kiln_geometry *stage, float time_s)
-{
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, stage->look_table);
-    if (stage->table_valid && !kiln_looks_vary(stage->scene))
-        return;
-    kiln_looks_sample(stage->scene, time_s, stage->table);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, KILN_LOOK_SAMPLES, KILN_LOOK_TEXELS / KILN_LOOK_SAMPLES,
-                    GL_RGBA, GL_FLOAT, stage->table);
-    stage->table_valid = true;
-}
 
 /* Does any system need more than billboards parallel to the picture? One program draws all that is
  * sorted together, in one call, however the depths of the shapes interleave; the one that knows all
@@ -134,12 +85,6 @@ struct kiln_geometry *kiln_geometry_create(struct kiln_device *device,
     }
     *stage = (struct kiln_geometry){
         .device = device, .scene = scene, .atlas = atlas, .technique = technique};
-    stage->table = calloc((size_t)KILN_LOOK_TEXELS, sizeof *stage->table);
-    if (!stage->table) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "particles: out of memory");
-        kiln_geometry_destroy(&stage);
-        return NULL;
-    }
     /* `tiled` leaves lists of fragments to it. */
     bool draws = technique == KILN_RASTER_GEOMETRY || technique == KILN_RASTER_INSTANCED ||
                  (technique == KILN_RASTER_TILED && scene->post.compose == KILN_COMPOSE_OIT);
@@ -148,8 +93,7 @@ struct kiln_geometry *kiln_geometry_create(struct kiln_device *device,
         return NULL;
     }
     glGenVertexArrays(1, &stage->vertex_array);
-    make_look_table(stage);
-    if (!make_buffers(stage, error) || !kiln_device_check(device, "particles set-up", error))
+    if (!kiln_device_check(device, "particles set-up", error))
         kiln_geometry_destroy(&stage);
     return stage;
 }
@@ -164,10 +108,6 @@ void kiln_geometry_destroy(struct kiln_geometry **stage)
     kiln_fragments_gl_destroy(&s->fragments);
     kiln_occlusion_destroy(&s->occlusion);
     glDeleteVertexArrays(1, &s->vertex_array);
-    kiln_buffer_finish(&s->looks);
-    kiln_buffer_finish(&s->keys);
-    glDeleteTextures(1, &s->look_table);
-    free(s->table);
     free(s);
     *stage = NULL;
 }
@@ -178,29 +118,12 @@ static void bind_texture(GLuint unit, GLenum target, GLuint texture)
     glBindTexture(target, texture);
 }
 
-bool kiln_geometry_bind(struct kiln_geometry *stage, struct kiln_pool *pool,
-                        struct kiln_buffer *entries, float time_s, struct kiln_error *error)
-{
-    GLuint records = kiln_buffer_gl(&pool->records, KILN_READ, error);
-    GLuint order = records ? kiln_buffer_gl(entries, KILN_READ, error) : 0;
-    GLuint looks = order ? kiln_buffer_gl(&stage->looks, KILN_READ, error) : 0;
-    GLuint keys = looks ? kiln_buffer_gl(&stage->keys, KILN_READ, error) : 0;
-    if (!keys)
-        return false;
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, KILN_BIND_RECORDS, records);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, KILN_BIND_ENTRIES, order);
-    glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_LOOKS, looks);
-    glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_KEYS, keys);
-    update_looks(stage, time_s);
-    return true;
-}
-
 bool kiln_geometry_bind_draw(struct kiln_geometry *stage, const struct kiln_particles_draw *draw,
                              struct kiln_error *error)
 {
     GLuint depth = kiln_image_gl(draw->depth, KILN_READ, error);
     if (!depth || !kiln_lighting_bind(draw->lighting, error) ||
-        !kiln_geometry_bind(stage, draw->pool, draw->entries, draw->view->clock.x, error))
+        !kiln_moment_bind(draw->moment, draw->entries, error))
         return false;
     bind_texture(1, GL_TEXTURE_2D_ARRAY, stage->atlas->texture);
     bind_texture(2, GL_TEXTURE_2D, depth);

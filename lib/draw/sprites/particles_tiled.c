@@ -7,13 +7,13 @@
  */
 #include "draw/sprites/particles_tiled.h"
 
-#include "base/error.h"
-#include "gpu/program.h"
-#include "shared/tiled_layout.h"
-
 #include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
+
+#include "base/error.h"
+#include "gpu/program.h"
+#include "shared/tiled_layout.h"
 
 static_assert(sizeof(struct tiled_bin) == 20, "std430");
 

@@ -1,6 +1,6 @@
 /* Technique `tiled` of the particles: compute kernels, without rasteriser and blending. */
-#ifndef KILN_DRAW_PARTICLES_TILED_H
-#define KILN_DRAW_PARTICLES_TILED_H
+#ifndef KILN_DRAW_SPRITES_PARTICLES_TILED_H
+#define KILN_DRAW_SPRITES_PARTICLES_TILED_H
 
 #include "draw/sprites/particles_geometry.h"
 

@@ -2,8 +2,8 @@
  * needs. The places of a sprite's texture are linear in those of the picture, or, where it is not
  * parallel to it, become so when they are divided by its depth (q is one over the depth).
  */
-#ifndef KILN_DRAW_SPRITE_H
-#define KILN_DRAW_SPRITE_H
+#ifndef KILN_DRAW_SPRITES_SPRITE_H
+#define KILN_DRAW_SPRITES_SPRITE_H
 
 #include "base/simd.h"
 #include "draw/light/lighting.h"

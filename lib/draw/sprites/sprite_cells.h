@@ -1,6 +1,6 @@
 /* Which cells sprites show (Heinz 2019, 3.2.4). */
-#ifndef KILN_DRAW_SPRITE_CELLS_H
-#define KILN_DRAW_SPRITE_CELLS_H
+#ifndef KILN_DRAW_SPRITES_SPRITE_CELLS_H
+#define KILN_DRAW_SPRITES_SPRITE_CELLS_H
 
 #include "draw/sprites/sprite_subjects.h"
 

@@ -1,6 +1,6 @@
 /* The light that falls on sprites: as light_particle() of shaders/draw/sprites/particle.glsl. */
-#ifndef KILN_DRAW_SPRITE_LIGHT_H
-#define KILN_DRAW_SPRITE_LIGHT_H
+#ifndef KILN_DRAW_SPRITES_SPRITE_LIGHT_H
+#define KILN_DRAW_SPRITES_SPRITE_LIGHT_H
 
 #include "draw/light/ray_smoke.h"
 #include "draw/sprites/sprite_subjects.h"

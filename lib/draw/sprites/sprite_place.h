@@ -1,8 +1,8 @@
 /* Where sprites lie in the picture, and what their pixels are to each other: as corner.glsl of
  * shaders/draw does it.
  */
-#ifndef KILN_DRAW_SPRITE_PLACE_H
-#define KILN_DRAW_SPRITE_PLACE_H
+#ifndef KILN_DRAW_SPRITES_SPRITE_PLACE_H
+#define KILN_DRAW_SPRITES_SPRITE_PLACE_H
 
 #include "draw/sprites/sprite_subjects.h"
 

@@ -1,8 +1,8 @@
 /* A vector of particles on their way to sprites: each lane is one, all are of one system, so that
  * what their look decides is the same for all of them.
  */
-#ifndef KILN_DRAW_SPRITE_SUBJECTS_H
-#define KILN_DRAW_SPRITE_SUBJECTS_H
+#ifndef KILN_DRAW_SPRITES_SPRITE_SUBJECTS_H
+#define KILN_DRAW_SPRITES_SPRITE_SUBJECTS_H
 
 #include <assert.h>
 

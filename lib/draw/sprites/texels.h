@@ -8,8 +8,8 @@
  * A place in a cell is two words without sign, u and v: the texel, and the 255ths of the way to the
  * next one that its weight is.
  */
-#ifndef KILN_DRAW_TEXELS_H
-#define KILN_DRAW_TEXELS_H
+#ifndef KILN_DRAW_SPRITES_TEXELS_H
+#define KILN_DRAW_SPRITES_TEXELS_H
 
 #include "draw/vector/simd.h"
 

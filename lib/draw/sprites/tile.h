@@ -1,7 +1,7 @@
 /* A part of the picture that stays in the first cache while everything that touches it is drawn,
  * in order. Sprites are drawn by the widest vectors that the machine has, with the same bits. */
-#ifndef KILN_DRAW_TILE_H
-#define KILN_DRAW_TILE_H
+#ifndef KILN_DRAW_SPRITES_TILE_H
+#define KILN_DRAW_SPRITES_TILE_H
 
 #include "base/simd.h"
 #include "draw/sprites/sprite.h"

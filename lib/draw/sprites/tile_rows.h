@@ -1,6 +1,6 @@
 /* Which pixels of a tile a wide sprite touches: a span in each row, in units of 8 pixels. */
-#ifndef KILN_DRAW_TILE_ROWS_H
-#define KILN_DRAW_TILE_ROWS_H
+#ifndef KILN_DRAW_SPRITES_TILE_ROWS_H
+#define KILN_DRAW_SPRITES_TILE_ROWS_H
 
 #include "draw/sprites/tile.h"
 #include "draw/vector/simd.h"

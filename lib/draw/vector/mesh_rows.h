@@ -1,7 +1,7 @@
 /* Triangles into rows of a picture, for each width of vectors: for technique backdrop=cpu, where GL
  * has its rasteriser. */
-#ifndef KILN_DRAW_MESH_ROWS_H
-#define KILN_DRAW_MESH_ROWS_H
+#ifndef KILN_DRAW_VECTOR_MESH_ROWS_H
+#define KILN_DRAW_VECTOR_MESH_ROWS_H
 
 #include <stddef.h>
 #include <stdint.h>

@@ -1,8 +1,8 @@
 /* What shaders/shared has for one particle (exact.h, random.h, derived.h), for vectors of them,
  * with the same bits.
  */
-#ifndef KILN_DRAW_PARTICLE_MATH_H
-#define KILN_DRAW_PARTICLE_MATH_H
+#ifndef KILN_DRAW_VECTOR_PARTICLE_MATH_H
+#define KILN_DRAW_VECTOR_PARTICLE_MATH_H
 
 #include "draw/vector/transpose.h"
 #include "shared/derived.h"

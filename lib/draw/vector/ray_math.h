@@ -2,8 +2,8 @@
  * operations that IEEE 754 rounds, with no function of libm (the scalar ones are in
  * shaders/shared/exact.h).
  */
-#ifndef KILN_DRAW_RAY_MATH_H
-#define KILN_DRAW_RAY_MATH_H
+#ifndef KILN_DRAW_VECTOR_RAY_MATH_H
+#define KILN_DRAW_VECTOR_RAY_MATH_H
 
 #include "draw/vector/simd.h"
 #include "shared/exact.h"

@@ -1,7 +1,7 @@
 /* Which of many things touch which rows of a picture: for each band of rows a list, in the things'
  * order, so that bands can be drawn by threads. */
-#ifndef KILN_DRAW_ROW_LISTS_H
-#define KILN_DRAW_ROW_LISTS_H
+#ifndef KILN_DRAW_VECTOR_ROW_LISTS_H
+#define KILN_DRAW_VECTOR_ROW_LISTS_H
 
 #include <stddef.h>
 #include <stdint.h>

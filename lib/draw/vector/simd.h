@@ -2,8 +2,8 @@
  * KILN_SIMD_LEVEL is 0 (any machine), 1 (SSE4.1), 2 (AVX2) or 3 (AVX-512 with BW). Every operation
  * rounds the same at all levels; a port to another processor starts from level 0.
  */
-#ifndef KILN_DRAW_SIMD_H
-#define KILN_DRAW_SIMD_H
+#ifndef KILN_DRAW_VECTOR_SIMD_H
+#define KILN_DRAW_VECTOR_SIMD_H
 
 #include <math.h>
 #include <stddef.h>

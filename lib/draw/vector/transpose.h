@@ -2,8 +2,8 @@
  * floats long in each becomes four vectors. In between, vector k of four has, in its 128 bits p,
  * the four floats of lane 4 p + k.
  */
-#ifndef KILN_DRAW_TRANSPOSE_H
-#define KILN_DRAW_TRANSPOSE_H
+#ifndef KILN_DRAW_VECTOR_TRANSPOSE_H
+#define KILN_DRAW_VECTOR_TRANSPOSE_H
 
 #include "draw/vector/ray_math.h"
 

@@ -1,6 +1,6 @@
 /* Flocks on the host: the loop over neighbours. */
-#ifndef KILN_SIM_FLOCK_H
-#define KILN_SIM_FLOCK_H
+#ifndef KILN_SIM_CROWD_FLOCK_H
+#define KILN_SIM_CROWD_FLOCK_H
 
 #include "base/simd.h"
 #include "shared/interact_flock.h"

@@ -1,6 +1,6 @@
 /* Gravity on the host: the loop over all pairs. */
-#ifndef KILN_SIM_GRAVITY_H
-#define KILN_SIM_GRAVITY_H
+#ifndef KILN_SIM_CROWD_GRAVITY_H
+#define KILN_SIM_CROWD_GRAVITY_H
 
 #include "base/simd.h"
 #include "shared/interact_gravity.h"

@@ -39,22 +39,6 @@ static uint32_t count_cells(uint32_t particles)
         particles < MAX_CELLS / CELLS_A_PARTICLE ? particles * CELLS_A_PARTICLE : MAX_CELLS);
 }
 
-float kiln_interact_radius(const struct kiln_scene *scene, uint32_t system)
-{
-    const struct kiln_interaction *collide =
-        kiln_scene_interaction(scene, system, KILN_INTERACT_COLLIDE);
-    if (!collide)
-        return 0.0f;
-    const struct kiln_look *look = &scene->systems[system].look;
-    float largest = kiln_scene_value_max(scene, &collide->radius);
-    if (collide->as_drawn) {
-        const float low = kiln_scene_value_max(scene, &look->scale.min);
-        const float high = kiln_scene_value_max(scene, &look->scale.max);
-        largest = 0.5f * kiln_scene_value_max(scene, &look->size) * (low > high ? low : high);
-    }
-    return largest > 1e-4f ? largest : 1e-4f;
-}
-
 static void add_collisions(struct kiln_interact_work *work, const struct kiln_scene *scene,
                            uint32_t system)
 {
@@ -70,7 +54,7 @@ static void add_collisions(struct kiln_interact_work *work, const struct kiln_sc
     params->cell_mask = count_cells(scene->systems[system].capacity) - 1;
     const float fastest = kiln_scene_value(scene, &collide->fastest, params->time_s);
     const float reach_m =
-        2.0f * kiln_interact_radius(scene, system) + fastest * params->derived.dt_s;
+        2.0f * kiln_scene_contact_radius(scene, system) + fastest * params->derived.dt_s;
     params->cells_per_metre = 1.0f / (reach_m * CELL_SLACK);
     params->ahead_s = fastest > 0.0f ? params->derived.dt_s : 0.0f;
     params->fastest_square = fastest * fastest;

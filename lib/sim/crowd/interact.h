@@ -1,8 +1,8 @@
 /* Gathering, before a step, what the particles of a system do to each other: pushes
  * (shared/push.h), by the technique that steps them, where their records lie, so that none are
  * moved; all give the same bits. */
-#ifndef KILN_SIM_INTERACT_H
-#define KILN_SIM_INTERACT_H
+#ifndef KILN_SIM_CROWD_INTERACT_H
+#define KILN_SIM_CROWD_INTERACT_H
 
 #include "base/thread.h"
 #include "shared/interact_layout.h"
@@ -71,10 +71,6 @@ bool kiln_interact_init(struct kiln_interact *interact, struct kiln_device *devi
                         const struct kiln_scene *scene, const struct kiln_sim_params *params,
                         struct kiln_threads *threads, struct kiln_error *error);
 void kiln_interact_finish(struct kiln_interact *interact);
-
-/* The largest that particles of a system ever have as balls, m; 0: they do not collide with each
- * other. */
-float kiln_interact_radius(const struct kiln_scene *scene, uint32_t system);
 
 /* Gathers the pushes of a step whose parameters are these, from the state before it. keys: the
  * scene's values, in GL; NULL on the host. */

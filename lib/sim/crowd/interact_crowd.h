@@ -1,7 +1,7 @@
 /* The bodies of a system while their pushes are gathered on the host, and how they are put in
  * order. */
-#ifndef KILN_SIM_INTERACT_CROWD_H
-#define KILN_SIM_INTERACT_CROWD_H
+#ifndef KILN_SIM_CROWD_INTERACT_CROWD_H
+#define KILN_SIM_CROWD_INTERACT_CROWD_H
 
 #include <stdatomic.h>
 

@@ -1,6 +1,6 @@
 /* The order of bodies in a grid (shared/interact_staggered.h), on the host. */
-#ifndef KILN_SIM_INTERACT_SORT_H
-#define KILN_SIM_INTERACT_SORT_H
+#ifndef KILN_SIM_CROWD_INTERACT_SORT_H
+#define KILN_SIM_CROWD_INTERACT_SORT_H
 
 #include "base/thread.h"
 

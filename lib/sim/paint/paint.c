@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/matrix.h"
 #include "shared/trace.h"
 
 enum { SLOTS_AT_A_TIME = 1024 };
@@ -76,24 +77,27 @@ void kiln_paint_finish(struct kiln_paint *paint)
 
 /* ---- splats ---------------------------------------------------------------------------------- */
 
-/* Where a mesh is at a time: rows from the world to its frame, and metres for a unit of it. */
+/* Where a mesh is at a time: from the world to its frame, and metres for a unit of it. */
 struct pose {
-    float4 to_local[3];
+    mat4 to_local;
     float metres;
 };
 
 static struct pose pose_at(const struct kiln_scene *scene, const struct kiln_object *mesh,
                            float time_s)
 {
-    const float3 at = kiln_scene_value3(scene, &mesh->center, time_s);
-    float rows[3][3];
+    const float3 center = kiln_scene_value3(scene, &mesh->center, time_s);
+    vec3 at = {center.x, center.y, center.z};
+    mat3 rotation;
+    float4 rows[3];
     struct pose pose = {.metres = kiln_scene_value(scene, &mesh->scale, time_s)};
-    kiln_scene_rotation(kiln_scene_value3(scene, &mesh->rotation, time_s), rows);
+    kiln_scene_rotation(kiln_scene_value3(scene, &mesh->rotation, time_s), rotation);
     for (int i = 0; i < 3; i++) { /* the transposed rotation, shrunk, less the position */
-        const float3 row =
-            FLOAT3(rows[0][i] / pose.metres, rows[1][i] / pose.metres, rows[2][i] / pose.metres);
-        pose.to_local[i] = FLOAT4(row.x, row.y, row.z, -float3_dot(row, at));
+        vec3 row;
+        glm_vec3_divs(rotation[i], pose.metres, row);
+        rows[i] = FLOAT4(row[0], row[1], row[2], -glm_vec3_dot(row, at));
     }
+    kiln_matrix_from_rows(rows, pose.to_local);
     return pose;
 }
 
@@ -111,14 +115,12 @@ struct making {
 /* In the mesh's frame, the part `since` of the step after its start. */
 static float3 to_mesh(const struct making *m, float3 v, float w, float since)
 {
-    float local[3];
-    for (int i = 0; i < 3; i++) {
-        const float4 a = m->start.to_local[i], b = m->end.to_local[i];
-        const float before = a.x * v.x + a.y * v.y + a.z * v.z + a.w * w;
-        const float after = b.x * v.x + b.y * v.y + b.z * v.z + b.w * w;
-        local[i] = before + (after - before) * since;
-    }
-    return FLOAT3(local[0], local[1], local[2]);
+    struct pose start = m->start, end = m->end;
+    vec4 at = {v.x, v.y, v.z, w}, before, after;
+    glm_mat4_mulv(start.to_local, at, before);
+    glm_mat4_mulv(end.to_local, at, after);
+    glm_vec4_lerp(before, after, since, at);
+    return FLOAT3(at[0], at[1], at[2]);
 }
 
 /* What a particle's trace says of its mark. */

@@ -1,8 +1,8 @@
 /* Painting with particles (Drone 2007, 7.6.1): what those of a step leave on the meshes that take
  * paint, out of their traces (shared/trace.h), by threads of the host whatever stepped them, so
  * that it is the same bits everywhere. */
-#ifndef KILN_SIM_PAINT_H
-#define KILN_SIM_PAINT_H
+#ifndef KILN_SIM_PAINT_PAINT_H
+#define KILN_SIM_PAINT_PAINT_H
 
 #include "asset/geometry/chart.h"
 #include "base/thread.h"

@@ -1,6 +1,6 @@
 /* Splats onto the texels of a mesh, for each width of vectors and in threads. */
-#ifndef KILN_SIM_PAINT_GATHER_H
-#define KILN_SIM_PAINT_GATHER_H
+#ifndef KILN_SIM_PAINT_PAINT_GATHER_H
+#define KILN_SIM_PAINT_PAINT_GATHER_H
 
 #include "asset/geometry/chart.h"
 #include "base/simd.h"

@@ -1,9 +1,9 @@
 /* A block of texels at once. A splat covers what is painted as one layer of paint does another, by
  * an opacity that falls from its middle to its rim; of none, nothing changes, not a bit. So texels
  * may be passed over, and a splat by all of them, without a trace. */
-#include "sim/paint/paint_gather.h"
-
 #include <string.h>
+
+#include "sim/paint/paint_gather.h"
 
 /* A block's paint, by channel. */
 struct layer {

@@ -1,6 +1,6 @@
 /* What every technique in GL tells its kernels: the uniform blocks of shaders/sim/step/blocks.h. */
-#ifndef KILN_SIM_BLOCKS_H
-#define KILN_SIM_BLOCKS_H
+#ifndef KILN_SIM_STEP_BLOCKS_H
+#define KILN_SIM_STEP_BLOCKS_H
 
 #include "gpu/probe.h"
 #include "gpu/program.h"

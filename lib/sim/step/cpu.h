@@ -1,7 +1,7 @@
 /* Technique `cpu`: the step in threads, the records on the host. It is the reference, and the fast
  * path on a machine without a GPU. */
-#ifndef KILN_SIM_CPU_H
-#define KILN_SIM_CPU_H
+#ifndef KILN_SIM_STEP_CPU_H
+#define KILN_SIM_STEP_CPU_H
 
 #include "base/thread.h"
 #include "sim/step/slots.h"

@@ -1,8 +1,8 @@
 /* Technique `feedback`: the step in geometry shaders, whose vertices are captured in a second
  * buffer by transform feedback: the stream of the living, without holes. Then the stream goes back
  * into the pool's slots, where the other stages look. */
-#ifndef KILN_SIM_FEEDBACK_H
-#define KILN_SIM_FEEDBACK_H
+#ifndef KILN_SIM_STEP_FEEDBACK_H
+#define KILN_SIM_STEP_FEEDBACK_H
 
 #include "gpu/capture.h"
 #include "sim/step/blocks.h"

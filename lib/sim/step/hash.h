@@ -1,6 +1,6 @@
 /* The state hash where the state lies in GL; every technique there shares it. */
-#ifndef KILN_SIM_HASH_H
-#define KILN_SIM_HASH_H
+#ifndef KILN_SIM_STEP_HASH_H
+#define KILN_SIM_STEP_HASH_H
 
 #include "sim/world/params.h"
 

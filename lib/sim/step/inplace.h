@@ -1,6 +1,6 @@
 /* Technique `inplace`: the step in one compute dispatch a system, the records in one GL buffer. */
-#ifndef KILN_SIM_INPLACE_H
-#define KILN_SIM_INPLACE_H
+#ifndef KILN_SIM_STEP_INPLACE_H
+#define KILN_SIM_STEP_INPLACE_H
 
 #include "sim/step/blocks.h"
 

@@ -1,7 +1,7 @@
 /* Technique `pingpong`: the step in compute, from one buffer of records to another; the two change
  * places after each step. */
-#ifndef KILN_SIM_PINGPONG_H
-#define KILN_SIM_PINGPONG_H
+#ifndef KILN_SIM_STEP_PINGPONG_H
+#define KILN_SIM_STEP_PINGPONG_H
 
 #include "sim/step/blocks.h"
 

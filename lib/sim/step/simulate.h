@@ -1,6 +1,6 @@
 /* Stage 2: one step of every system. All techniques give the same bits. */
-#ifndef KILN_SIM_SIMULATE_H
-#define KILN_SIM_SIMULATE_H
+#ifndef KILN_SIM_STEP_SIMULATE_H
+#define KILN_SIM_STEP_SIMULATE_H
 
 #include "base/thread.h"
 #include "particles/pool.h"

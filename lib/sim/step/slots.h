@@ -1,6 +1,6 @@
 /* The loops of simulate=cpu over slots. */
-#ifndef KILN_SIM_SLOTS_H
-#define KILN_SIM_SLOTS_H
+#ifndef KILN_SIM_STEP_SLOTS_H
+#define KILN_SIM_STEP_SLOTS_H
 
 #include "base/simd.h"
 #include "shared/step_family.h"

@@ -1,6 +1,6 @@
 /* A block of slots while it is stepped, for slots_simd.c. */
-#ifndef KILN_SIM_SLOTS_BLOCK_H
-#define KILN_SIM_SLOTS_BLOCK_H
+#ifndef KILN_SIM_STEP_SLOTS_BLOCK_H
+#define KILN_SIM_STEP_SLOTS_BLOCK_H
 
 #include "particles/lanes.h"
 #include "sim/step/slots.h"
@@ -31,7 +31,7 @@ struct block {
     kiln_floats pull, quadratic;
     struct kiln_floats3 velocity, position; /* at the end */
     struct kiln_floats3 vector, drift;      /* options of a force */
-    kiln_floats strength, pulling, scale;
+    kiln_floats strength, pulling, braking, scale;
     struct kiln_floats3 place, curl;
     struct stages_lanes stages;
     struct kiln_floats3 rate; /* of balls that turn */

@@ -4,7 +4,6 @@
  * births, and particles that may have met a collider.
  */
 #include "sim/step/slots.h"
-
 #include "sim/step/slots_touching.h"
 
 static inline void find_values(const struct kiln_sim *sim, struct kiln_value v,
@@ -41,6 +40,7 @@ static inline struct force_input force_input_at(const struct block *b, uint32_t 
         .strength = b->strength[i],
         .drift = kiln_get3(&b->drift, i),
         .pull = b->pulling[i],
+        .quadratic = b->braking[i],
         .scale = b->scale[i],
         .inward = force->inward,
         .lift = force->lift,
@@ -102,6 +102,7 @@ static inline void add_force(const struct kiln_sim *sim, struct block *b,
         ADD_EFFECT(force_gravity(force_input_at(b, i, force, time_s)));
         break;
     case FORCE_DRAG:
+        find_values(sim, force->quadratic, b, b->braking);
         ADD_EFFECT(force_drag(force_input_at(b, i, force, time_s)));
         break;
     case FORCE_WIND:
@@ -130,6 +131,7 @@ static inline void add_forces(const struct kiln_sim *sim, struct block *b)
         kiln_set3(&b->acceleration, i, (float3){0.0f, 0.0f, 0.0f});
         b->pull[i] = 0.0f;
         b->quadratic[i] = 0.0f;
+        b->braking[i] = 0.0f;
     }
     for (uint32_t k = 0; k < sim->step->force_count; k++)
         add_force(sim, b, &sim->step->forces[k]);

@@ -1,7 +1,7 @@
 /* Which of a block's ways may touch a collider: bounds of ways and colliders in vectors, for
  * slots_simd.c. Nothing that touches may be left out; what does not, costs only time. */
-#ifndef KILN_SIM_SLOTS_TOUCHING_H
-#define KILN_SIM_SLOTS_TOUCHING_H
+#ifndef KILN_SIM_STEP_SLOTS_TOUCHING_H
+#define KILN_SIM_STEP_SLOTS_TOUCHING_H
 
 #include "sim/step/slots_block.h"
 

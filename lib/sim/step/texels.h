@@ -1,7 +1,7 @@
 /* Technique `texels`: the state in textures, which a fragment shader updates from one pair to
  * another. */
-#ifndef KILN_SIM_TEXELS_H
-#define KILN_SIM_TEXELS_H
+#ifndef KILN_SIM_STEP_TEXELS_H
+#define KILN_SIM_STEP_TEXELS_H
 
 #include "gpu/words.h"
 #include "sim/step/blocks.h"

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/matrix.h"
 #include "shared/exact.h"
 #include "sim/world/turned.h"
 
@@ -114,9 +115,11 @@ static struct kiln_collider terrain_collider(const struct kiln_sim_grids *grids,
     return terrain;
 }
 
-/* A mesh at a time: rows from its frame to the world, and the number of metres for a unit. */
+/* A mesh at a time: from its frame to the world, and the number of metres for a unit. */
 struct pose {
-    float rows[3][3], position[3], scale;
+    mat3 rotation;
+    vec3 position;
+    float scale;
 };
 
 static struct pose pose_at(const struct kiln_scene *scene, const struct kiln_object *mesh,
@@ -125,22 +128,20 @@ static struct pose pose_at(const struct kiln_scene *scene, const struct kiln_obj
     const float3 at = kiln_scene_value3(scene, &mesh->center, time_s);
     struct pose pose = {.position = {at.x, at.y, at.z},
                         .scale = kiln_scene_value(scene, &mesh->scale, time_s)};
-    kiln_scene_rotation(kiln_scene_value3(scene, &mesh->rotation, time_s), pose.rows);
+    kiln_scene_rotation(kiln_scene_value3(scene, &mesh->rotation, time_s), pose.rotation);
     return pose;
 }
 
 /* The vector of the rotation from one to the other: along its axis, as long as its angle. */
-static float3 turn_between(const struct pose *a, const struct pose *b)
+static float3 turn_between(struct pose a, struct pose b)
 {
-    float turn[3][3]; /* b a^T */
-    for (int i = 0; i < 9; i++)
-        turn[i / 3][i % 3] = a->rows[i % 3][0] * b->rows[i / 3][0] +
-                             a->rows[i % 3][1] * b->rows[i / 3][1] +
-                             a->rows[i % 3][2] * b->rows[i / 3][2];
-    const float3 skew = FLOAT3(0.5f * (turn[2][1] - turn[1][2]), 0.5f * (turn[0][2] - turn[2][0]),
-                               0.5f * (turn[1][0] - turn[0][1]));
+    mat3 turn; /* b a^T */
+    glm_mat3_transpose(a.rotation);
+    glm_mat3_mul(b.rotation, a.rotation, turn);
+    const float3 skew = FLOAT3(0.5f * (turn[1][2] - turn[2][1]), 0.5f * (turn[2][0] - turn[0][2]),
+                               0.5f * (turn[0][1] - turn[1][0]));
     const float sine = float3_length(skew);
-    const float cosine = 0.5f * (turn[0][0] + turn[1][1] + turn[2][2] - 1.0f);
+    const float cosine = 0.5f * (glm_mat3_trace(turn) - 1.0f);
     float angle = 0.0f;
     for (int i = 0; i < 4; i++) { /* what is left has this sine */
         const struct exact_angle found = exact_sincos(angle);
@@ -150,48 +151,54 @@ static float3 turn_between(const struct pose *a, const struct pose *b)
 }
 
 /* The transposed rotation, shrunk, less the position. */
-static void invert(const struct pose *pose, float4 to_local[3])
+static void invert(struct pose pose, float4 to_local[3])
 {
     for (int i = 0; i < 3; i++) {
-        const float x = pose->rows[0][i] / pose->scale, y = pose->rows[1][i] / pose->scale;
-        const float z = pose->rows[2][i] / pose->scale;
-        const float moved = x * pose->position[0] + y * pose->position[1] + z * pose->position[2];
-        to_local[i] = FLOAT4(exact_canon(x), exact_canon(y), exact_canon(z), exact_canon(-moved));
+        vec3 row;
+        glm_vec3_divs(pose.rotation[i], pose.scale, row);
+        to_local[i] = to_float4(row);
+        to_local[i].w = exact_canon(-glm_vec3_dot(row, pose.position));
     }
 }
 
 /* A grid's box, in the frame of its mesh. */
 struct extent {
-    float half[3], middle[3];
+    vec3 half, middle;
 };
 
-static struct extent extent_of(const struct kiln_grid *grid, bool depths)
+static struct extent extent_of_depths(const struct kiln_grid *g)
 {
-    const float low[3] = {grid->origin.x, grid->origin.y, grid->origin.z};
-    const float high[3] = {grid->per_metre.x, grid->per_metre.y, grid->per_metre.z};
-    const uint size[3] = {grid->size.x, grid->size.y, grid->size.z};
-    struct extent extent;
-    for (int i = 0; i < 3; i++) {
-        extent.half[i] = depths ? 0.5f * (high[i] - low[i]) : 0.5f * (float)(size[i] - 1) / high[i];
-        extent.middle[i] = low[i] + extent.half[i];
-    }
+    struct extent extent = {.half = {0.5f * (g->high.x - g->low.x), 0.5f * (g->high.y - g->low.y),
+                                     0.5f * (g->high.z - g->low.z)}};
+    glm_vec3_add((vec3){g->low.x, g->low.y, g->low.z}, extent.half, extent.middle);
+    return extent;
+}
+
+static struct extent extent_of_field(const struct kiln_grid *g)
+{
+    struct extent extent = {.half = {0.5f * (float)(g->size.x - 1) / g->per_metre.x,
+                                     0.5f * (float)(g->size.y - 1) / g->per_metre.y,
+                                     0.5f * (float)(g->size.z - 1) / g->per_metre.z}};
+    glm_vec3_add((vec3){g->origin.x, g->origin.y, g->origin.z}, extent.half, extent.middle);
     return extent;
 }
 
 /* The box in the world around that one, larger by a factor. */
-static void bound(const struct pose *pose, const struct extent *extent, float factor, float4 *min,
+static void bound(struct pose pose, const struct extent *extent, float factor, float4 *min,
                   float4 *max)
 {
-    float low[3], high[3];
-    for (int i = 0; i < 3; i++) {
-        float center = pose->position[i], reach = 0.0f;
-        for (int c = 0; c < 3; c++) {
-            center += pose->scale * pose->rows[i][c] * extent->middle[c];
-            reach += pose->scale * exact_abs(pose->rows[i][c]) * extent->half[c];
-        }
-        low[i] = center - factor * reach;
-        high[i] = center + factor * reach;
+    vec3 center, low, high, reach = GLM_VEC3_ZERO_INIT;
+    glm_vec3_copy(pose.position, center);
+    glm_mat3_scale(pose.rotation, pose.scale);
+    for (int c = 0; c < 3; c++) {
+        vec3 size;
+        glm_vec3_abs(pose.rotation[c], size);
+        glm_vec3_muladds(pose.rotation[c], extent->middle[c], center);
+        glm_vec3_muladds(size, extent->half[c], reach);
     }
+    glm_vec3_scale(reach, factor, reach);
+    glm_vec3_sub(center, reach, low);
+    glm_vec3_add(center, reach, high);
     *min = to_float4(low);
     *max = to_float4(high);
 }
@@ -210,16 +217,19 @@ static struct kiln_collider mesh_collider(const struct kiln_scene *scene,
         .kind = mesh->collider == KILN_COLLIDER_DEPTH_MAPS ? COLLIDER_DEPTH : COLLIDER_SDF,
         .grid = number,
         .mesh = number - grids->wind_count};
-    const struct extent extent = extent_of(&grids->table[number], field.kind == COLLIDER_DEPTH);
-    const float factor = memcmp(start.rows, end.rows, sizeof start.rows) != 0 ? 1.5f : 1.0f;
-    bound(&start, &extent, factor, &field.min, &field.max);
-    bound(&end, &extent, factor, &field.min_end, &field.max_end);
-    invert(&start, out->to_local);
-    invert(&end, out->to_local_end);
+    const struct kiln_grid *grid = &grids->table[number];
+    const struct extent extent =
+        field.kind == COLLIDER_DEPTH ? extent_of_depths(grid) : extent_of_field(grid);
+    const float factor =
+        memcmp(start.rotation, end.rotation, sizeof start.rotation) != 0 ? 1.5f : 1.0f;
+    bound(start, &extent, factor, &field.min, &field.max);
+    bound(end, &extent, factor, &field.min_end, &field.max_end);
+    invert(start, out->to_local);
+    invert(end, out->to_local_end);
     out->metres = FLOAT4(start.scale, end.scale, 0.0f, 0.0f);
     out->center = to_float4(start.position);
     out->center_end = to_float4(end.position);
-    out->turn = canon4(float3_scale(turn_between(&start, &end), steps_per_s), 0.0f);
+    out->turn = canon4(float3_scale(turn_between(start, end), steps_per_s), 0.0f);
     return field;
 }
 

@@ -1,6 +1,6 @@
 /* The colliders of a step, in the layout of the shaders. */
-#ifndef KILN_SIM_COLLIDERS_H
-#define KILN_SIM_COLLIDERS_H
+#ifndef KILN_SIM_WORLD_COLLIDERS_H
+#define KILN_SIM_WORLD_COLLIDERS_H
 
 #include "sim/world/grids.h"
 

@@ -7,7 +7,6 @@
 #include "asset/geometry/grid_in.h"
 #include "base/error.h"
 #include "shared/exact.h"
-#include "sim/crowd/interact.h"
 
 /* What the grids are made of, in their order: wind, then objects, of each one of the three. */
 struct sources {
@@ -63,7 +62,7 @@ static float find_reach(const struct kiln_scene *scene, const struct kiln_object
 {
     float largest = 0.0f;
     for (uint32_t i = 0; i < scene->system_count; i++) {
-        const float radius = kiln_interact_radius(scene, i);
+        const float radius = kiln_scene_contact_radius(scene, i);
         if (scene->systems[i].collide.enabled && radius > largest)
             largest = radius;
     }
@@ -171,8 +170,8 @@ static struct kiln_grid place_field(const struct kiln_field *field, size_t first
 static struct kiln_grid place_depths(const struct kiln_depth_maps *maps, size_t first)
 {
     return (struct kiln_grid){
-        .origin = canon4(maps->min),
-        .per_metre = canon4(maps->max),
+        .low = canon4(maps->min),
+        .high = canon4(maps->max),
         .size = {maps->resolution, maps->resolution, maps->count, (uint)first}};
 }
 

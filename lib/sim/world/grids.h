@@ -1,7 +1,7 @@
 /* The grids that a scene's forces and colliders look up: in one buffer, and a table of where each
  * lies. */
-#ifndef KILN_SIM_GRIDS_H
-#define KILN_SIM_GRIDS_H
+#ifndef KILN_SIM_WORLD_GRIDS_H
+#define KILN_SIM_WORLD_GRIDS_H
 
 #include "base/thread.h"
 #include "gpu/buffer.h"

@@ -14,7 +14,7 @@
 static_assert(sizeof(struct kiln_value) == 16, "std140");
 static_assert(sizeof(struct kiln_derived_params) == 48, "std140");
 static_assert(sizeof(struct kiln_emit_params) == 256, "std140");
-static_assert(sizeof(struct kiln_force_params) == 176, "std140");
+static_assert(sizeof(struct kiln_force_params) == 192, "std140");
 static_assert(sizeof(struct kiln_birth_group) == 16, "std140");
 static_assert(offsetof(struct kiln_step_params, step) == 304, "std140");
 static_assert(offsetof(struct kiln_step_params, randomness) == 368, "std140");
@@ -22,14 +22,14 @@ static_assert(offsetof(struct kiln_step_params, pushed) == 436, "std140");
 static_assert(offsetof(struct kiln_step_params, bounds_min) == 480, "std140");
 static_assert(offsetof(struct kiln_step_params, groups) == 768, "std140");
 static_assert(offsetof(struct kiln_step_params, forces) == 1808, "std140");
-static_assert(offsetof(struct kiln_step_params, family) == 4624, "std140");
-static_assert(sizeof(struct kiln_step_params) == 4672, "std140");
+static_assert(offsetof(struct kiln_step_params, family) == 4880, "std140");
+static_assert(sizeof(struct kiln_step_params) == 4928, "std140");
 static_assert(sizeof(struct kiln_step_params) <= 16384, "what every GL allows a uniform block");
 static_assert(sizeof(struct kiln_surroundings) <= 16384, "what every GL allows a uniform block");
 static_assert(sizeof(struct kiln_trace) == 112, "std430");
 static_assert(offsetof(struct kiln_surroundings, colliders) == 16, "std140");
 static_assert(offsetof(struct kiln_surroundings, grids) == 6880, "std140");
-static_assert(sizeof(struct kiln_grid) == 48, "std140");
+static_assert(sizeof(struct kiln_grid) == 80, "std140");
 static_assert(sizeof(struct kiln_collider) == 208, "std140");
 static_assert(sizeof(struct kiln_pose) == 160, "std140");
 
@@ -123,7 +123,7 @@ static uint what_force_does(const struct kiln_force *force)
 {
     if (force->kind == KILN_FORCE_LIMIT)
         return FORCES_LIMIT;
-    const bool none = force->pull.count == 0 && force->pull.constant == 0.0f;
+    const bool none = force->quadratic.count == 0 && force->quadratic.constant == 0.0f;
     return force->kind == KILN_FORCE_DRAG && !none ? FORCES_SLOW : 0;
 }
 
@@ -284,14 +284,14 @@ static struct kiln_force_params force_at_time(const struct kiln_scene *scene,
         .drift = at_time3(scene, force->drift, time_s),
         .strength = at_time(scene, force->strength, time_s),
         .pull = at_time(scene, force->pull, time_s),
+        .quadratic = at_time(scene, force->quadratic, time_s),
         .scale = at_time(scene, force->scale, time_s),
         .inward = kiln_scene_value(scene, &force->inward, time_s),
         .lift = kiln_scene_value(scene, &force->lift, time_s),
     };
     if (force->mode == KILN_WIND_ADD) {
         params.added = (float)((double)scene->rate.num / scene->rate.den);
-        *(force->kind == KILN_FORCE_WIND ? &params.strength : &params.pull) =
-            (struct kiln_value){.constant = 0.0f};
+        params.pull = (struct kiln_value){.constant = 0.0f};
     }
     return params;
 }

@@ -1,8 +1,8 @@
 /* What a step is told: the scene at one time, in the layout of the shaders. Births are counted
  * here, on the host, so that no technique decides an order.
  */
-#ifndef KILN_SIM_PARAMS_H
-#define KILN_SIM_PARAMS_H
+#ifndef KILN_SIM_WORLD_PARAMS_H
+#define KILN_SIM_WORLD_PARAMS_H
 
 #include "particles/pool.h"
 #include "scene/family.h"

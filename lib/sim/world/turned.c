@@ -2,6 +2,7 @@
  * shorter way. All of it is in arithmetic that every host rounds alike. */
 #include "sim/world/turned.h"
 
+#include "base/matrix.h"
 #include "shared/exact.h"
 
 /* Less is no turn: the rounding of the poses, rad. */
@@ -32,40 +33,39 @@ static float4 with_w(float3 v, float w)
 
 /* ---- quaternions ----------------------------------------------------------------------------- */
 
-static float4 product(float4 a, float4 b)
+/* Scales it to length 1 by the root of exact.h, and leaves no denormals. */
+static void make_unit(versor q)
 {
-    return FLOAT4(a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
-                  a.w * b.y + a.y * b.w + a.z * b.x - a.x * b.z,
-                  a.w * b.z + a.z * b.w + a.x * b.y - a.y * b.x,
-                  a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z);
-}
-
-static float4 unit(float4 q)
-{
-    float r = exact_rsqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
-    return FLOAT4(exact_canon(q.x * r), exact_canon(q.y * r), exact_canon(q.z * r),
-                  exact_canon(q.w * r));
+    glm_vec4_scale(q, exact_rsqrt(glm_vec4_norm2(q)), q);
+    for (int i = 0; i < 4; i++)
+        q[i] = exact_canon(q[i]);
 }
 
 /* About x, then about y, then about z. */
-static float4 pose_of_angles(float3 angles)
+static void pose_of_angles(float3 angles, versor pose)
 {
     const struct exact_angle x = exact_sincos(0.5f * angles.x), y = exact_sincos(0.5f * angles.y);
     const struct exact_angle z = exact_sincos(0.5f * angles.z);
-    const float4 about_x = FLOAT4(x.sine, 0.0f, 0.0f, x.cosine);
-    const float4 about_y = FLOAT4(0.0f, y.sine, 0.0f, y.cosine);
-    const float4 about_z = FLOAT4(0.0f, 0.0f, z.sine, z.cosine);
-    return unit(product(about_z, product(about_y, about_x)));
+    versor about_x = {x.sine, 0.0f, 0.0f, x.cosine};
+    versor about_y = {0.0f, y.sine, 0.0f, y.cosine};
+    versor about_z = {0.0f, 0.0f, z.sine, z.cosine}, about_both;
+    glm_quat_mul(about_y, about_x, about_both);
+    glm_quat_mul(about_z, about_both, pose);
+    make_unit(pose);
 }
 
 /* Takes y to a unit vector, the shortest way; what points down comes by way of -y, where that is
  * well defined. */
-static float4 pose_of_axis(float3 axis)
+static void pose_of_axis(float3 axis, versor pose)
 {
+    const float sign = axis.y >= 0.0f ? 1.0f : -1.0f;
+    versor shortest = {sign * axis.z, 0.0f, -sign * axis.x, 1.0f + sign * axis.y};
+    versor over = {1.0f, 0.0f, 0.0f, 0.0f}; /* half a turn about x */
+    make_unit(shortest);
     if (axis.y >= 0.0f)
-        return unit(FLOAT4(axis.z, 0.0f, -axis.x, 1.0f + axis.y));
-    const float4 over = FLOAT4(1.0f, 0.0f, 0.0f, 0.0f); /* half a turn about x */
-    return product(unit(FLOAT4(-axis.z, 0.0f, axis.x, 1.0f - axis.y)), over);
+        glm_vec4_copy(shortest, pose);
+    else
+        glm_quat_mul(shortest, over, pose);
 }
 
 /* The angle of 0 to a quarter turn with this sine and cosine, up to a common factor. */
@@ -83,23 +83,32 @@ static float angle_of(float sine, float cosine)
 }
 
 /* A turn as an axis and an angle. */
-static float4 spin_of(float4 turn)
+static float4 spin_of(versor turn)
 {
-    const float3 v = FLOAT3(turn.x, turn.y, turn.z);
-    float sine = float3_length(v), angle = 2.0f * angle_of(sine, exact_abs(turn.w));
+    const float3 v = FLOAT3(turn[0], turn[1], turn[2]);
+    float sine = float3_length(v), angle = 2.0f * angle_of(sine, exact_abs(turn[3]));
     if (!(angle >= LEAST_TURN))
         return FLOAT4(0.0f, 0.0f, 0.0f, 0.0f);
     float3 axis = float3_normalize(v, FLOAT3(0.0f, 1.0f, 0.0f));
-    return with_w(axis, turn.w < 0.0f ? -angle : angle);
+    return with_w(axis, turn[3] < 0.0f ? -angle : angle);
 }
 
 /* From one unit vector to another. */
 static float4 spin_between(float3 from, float3 to)
 {
     float3 across = float3_cross(from, to);
-    float cosine = float3_dot(from, to);
-    /* The quaternion of half of that angle. */
-    return spin_of(unit(FLOAT4(across.x, across.y, across.z, 1.0f + cosine)));
+    versor turn = {across.x, across.y, across.z, 1.0f + float3_dot(from, to)}; /* half the angle */
+    make_unit(turn);
+    return spin_of(turn);
+}
+
+/* From one pose to another. */
+static float4 spin_from(versor from, versor to)
+{
+    versor back, turn;
+    glm_quat_conjugate(from, back);
+    glm_quat_mul(to, back, turn);
+    return spin_of(turn);
 }
 
 /* ---- colliders ------------------------------------------------------------------------------- */
@@ -110,7 +119,7 @@ struct place {
     float radius;
     float3 extent;
     float3 axis; /* of all but boxes */
-    float4 pose;
+    versor pose;
 };
 
 static struct place place_at(const struct kiln_scene *scene, const struct kiln_object *object,
@@ -119,12 +128,12 @@ static struct place place_at(const struct kiln_scene *scene, const struct kiln_o
     struct place place = {.center = kiln_scene_value3(scene, &object->center, time_s)};
     if (object->kind == KILN_OBJECT_BOX) {
         place.extent = float3_scale(kiln_scene_value3(scene, &object->size, time_s), 0.5f);
-        place.pose = pose_of_angles(kiln_scene_value3(scene, &object->rotation, time_s));
+        pose_of_angles(kiln_scene_value3(scene, &object->rotation, time_s), place.pose);
         return place;
     }
     place.axis =
         float3_normalize(kiln_scene_value3(scene, &object->axis, time_s), FLOAT3(0.0f, 1.0f, 0.0f));
-    place.pose = pose_of_axis(place.axis);
+    pose_of_axis(place.axis, place.pose);
     if (object->kind != KILN_OBJECT_PLANE) {
         place.radius = kiln_scene_value(scene, &object->radius, time_s);
         place.extent.y = 0.5f * kiln_scene_value(scene, &object->height, time_s);
@@ -133,31 +142,31 @@ static struct place place_at(const struct kiln_scene *scene, const struct kiln_o
 }
 
 /* Half of what bounds a shape: in all poses, if it turns. */
-static float3 reach_of(const struct kiln_object *object, const struct place *place, bool turns)
+static float3 reach_of(const struct kiln_object *object, struct place place, bool turns)
 {
-    const float3 e = place->extent;
-    const float margin = 1e-5f + 1e-6f * (place->radius + e.x + e.y + e.z); /* of rounding */
+    const float3 e = place.extent;
+    const float margin = 1e-5f + 1e-6f * (place.radius + e.x + e.y + e.z); /* of rounding */
     if (object->kind == KILN_OBJECT_PLANE)
         return FLOAT3(KILN_WORLD, KILN_WORLD, KILN_WORLD);
     if (turns) {
-        float reach = place->radius + float3_length(e) + margin;
+        float reach = place.radius + float3_length(e) + margin;
         return FLOAT3(reach, reach, reach);
     }
     if (object->kind == KILN_OBJECT_BOX) {
-        const float4 q = place->pose;
-        float xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z, xy = q.x * q.y, xz = q.x * q.z;
-        float yz = q.y * q.z, xw = q.x * q.w, yw = q.y * q.w, zw = q.z * q.w;
-        return FLOAT3(
-            margin + exact_abs(1.0f - 2.0f * (yy + zz)) * e.x + exact_abs(2.0f * (xy - zw)) * e.y +
-                exact_abs(2.0f * (xz + yw)) * e.z,
-            margin + exact_abs(2.0f * (xy + zw)) * e.x + exact_abs(1.0f - 2.0f * (xx + zz)) * e.y +
-                exact_abs(2.0f * (yz - xw)) * e.z,
-            margin + exact_abs(2.0f * (xz - yw)) * e.x + exact_abs(2.0f * (yz + xw)) * e.y +
-                exact_abs(1.0f - 2.0f * (xx + yy)) * e.z);
+        const float half[3] = {e.x, e.y, e.z};
+        vec3 reach = {margin, margin, margin};
+        mat3 rotation;
+        glm_quat_mat3(place.pose, rotation);
+        for (int c = 0; c < 3; c++) {
+            vec3 size;
+            glm_vec3_abs(rotation[c], size);
+            glm_vec3_muladds(size, half[c], reach);
+        }
+        return FLOAT3(reach[0], reach[1], reach[2]);
     }
-    const float around = margin + place->radius;
-    return FLOAT3(around + e.y * exact_abs(place->axis.x), around + e.y * exact_abs(place->axis.y),
-                  around + e.y * exact_abs(place->axis.z));
+    const float around = margin + place.radius;
+    return FLOAT3(around + e.y * exact_abs(place.axis.x), around + e.y * exact_abs(place.axis.y),
+                  around + e.y * exact_abs(place.axis.z));
 }
 
 static uint kind_of(const struct kiln_object *object)
@@ -178,14 +187,13 @@ struct kiln_collider kiln_turned_collider(const struct kiln_scene *scene,
                                           const struct kiln_object *object, float start_s,
                                           float end_s)
 {
-    const struct place start = place_at(scene, object, start_s);
-    const struct place end = place_at(scene, object, end_s);
-    const float4 back = FLOAT4(-start.pose.x, -start.pose.y, -start.pose.z, start.pose.w);
-    const float4 spin = object->kind == KILN_OBJECT_BOX ? spin_of(product(end.pose, back))
+    struct place start = place_at(scene, object, start_s);
+    struct place end = place_at(scene, object, end_s);
+    const float4 spin = object->kind == KILN_OBJECT_BOX ? spin_from(start.pose, end.pose)
                                                         : spin_between(start.axis, end.axis);
     const bool turns = spin.w != 0.0f;
-    const float3 reach = reach_of(object, &start, turns);
-    const float3 reach_end = reach_of(object, &end, turns);
+    const float3 reach = reach_of(object, start, turns);
+    const float3 reach_end = reach_of(object, end, turns);
     return (struct kiln_collider){
         .min = with_w(float3_sub(start.center, reach), 0.0f),
         .max = with_w(float3_add(start.center, reach), 0.0f),
@@ -197,7 +205,7 @@ struct kiln_collider kiln_turned_collider(const struct kiln_scene *scene,
         .kind = kind_of(object),
         .extent = with_w(start.extent, 0.0f),
         .extent_end = with_w(end.extent, 0.0f),
-        .pose = start.pose,
+        .pose = FLOAT4(start.pose[0], start.pose[1], start.pose[2], start.pose[3]),
         .spin = spin,
     };
 }

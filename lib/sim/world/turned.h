@@ -1,6 +1,6 @@
 /* Colliders in frames of their own, which may turn (shared/collide_turned.h). */
-#ifndef KILN_SIM_TURNED_H
-#define KILN_SIM_TURNED_H
+#ifndef KILN_SIM_WORLD_TURNED_H
+#define KILN_SIM_WORLD_TURNED_H
 
 #include "scene/scene.h"
 #include "shared/layout.h"

@@ -7,6 +7,7 @@
 
 #include "asset/geometry/skin.h"
 #include "base/error.h"
+#include "base/matrix.h"
 #include "scene/asset_path.h"
 #include "shared/exact.h"
 #include "sim/world/voxels.h"
@@ -123,16 +124,16 @@ static void place_vertices(const struct kiln_scene *scene, const struct kiln_vol
 {
     const struct kiln_object *object = &scene->backdrop.objects[volume->object];
     const float3 center = kiln_scene_value3(scene, &object->center, time_s);
-    const float at[3] = {center.x, center.y, center.z};
     const float scale = kiln_scene_value(scene, &object->scale, time_s);
-    float rows[3][3];
-    kiln_scene_rotation(kiln_scene_value3(scene, &object->rotation, time_s), rows);
+    vec3 at = {center.x, center.y, center.z};
+    mat3 rotation;
+    kiln_scene_rotation(kiln_scene_value3(scene, &object->rotation, time_s), rotation);
     if (volume->skin)
         kiln_skin_pose(volume->skin, object->animation.number, clip_s, volume->mesh->vertices);
     for (uint32_t i = 0; i < volume->mesh->vertex_count; i++) {
-        const float *v = volume->mesh->vertices[i];
-        for (int c = 0; c < 3; c++)
-            to[i][c] = at[c] + scale * (rows[c][0] * v[0] + rows[c][1] * v[1] + rows[c][2] * v[2]);
+        glm_mat3_mulv(rotation, volume->mesh->vertices[i], to[i]);
+        glm_vec3_scale(to[i], scale, to[i]);
+        glm_vec3_add(at, to[i], to[i]);
     }
 }
 

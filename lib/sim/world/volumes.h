@@ -1,7 +1,7 @@
 /* Render-to-volume (Drone 2007, 7.5.2): the meshes that particles meet as planes in the cells of a
  * lattice, which are found anew in each step. */
-#ifndef KILN_SIM_VOLUMES_H
-#define KILN_SIM_VOLUMES_H
+#ifndef KILN_SIM_WORLD_VOLUMES_H
+#define KILN_SIM_WORLD_VOLUMES_H
 
 #include "base/thread.h"
 #include "gpu/buffer.h"

@@ -1,6 +1,6 @@
 /* The plane that a cell of a volume keeps. */
-#ifndef KILN_SIM_VOXEL_PLANE_H
-#define KILN_SIM_VOXEL_PLANE_H
+#ifndef KILN_SIM_WORLD_VOXEL_PLANE_H
+#define KILN_SIM_WORLD_VOXEL_PLANE_H
 
 #include "sim/world/voxels.h"
 

@@ -1,7 +1,7 @@
 /* Triangles put into a lattice of cells (Drone 2007, 7.5.2.1 and 7.5.2.3): each cell that some
  * touch on their way through a step keeps one of them, its plane and how it moves. */
-#ifndef KILN_SIM_VOXELS_H
-#define KILN_SIM_VOXELS_H
+#ifndef KILN_SIM_WORLD_VOXELS_H
+#define KILN_SIM_WORLD_VOXELS_H
 
 #include "base/thread.h"
 #include "kiln.h"

@@ -1,7 +1,7 @@
 /* The scene behind the particles, cast analytically: a sky gradient, a floor that fades into the
  * horizon, boxes, one sun with hard shadows, point lights. View-space depth goes to a texture of its
  * own, for soft particles (Heinz 2019, 3.2.1 and 3.2.6). What not every scene has is compiled in by
- * defines: ROUND shapes, TURNED ones (capsules and planes, too), MESHES, particles that are SPHERES,
+ * defines: ROUND shapes, TURNED ones (capsules and planes, too), MESHES, particles that are SOLIDS,
  * PAINT on meshes, FLOOR_IMAGE, FLOOR_GLOSS, SKY_IMAGE, SOFT_SUN.
  *
  * Two passes: one ray through the centre of each pixel, which also notes what it hit; then SAMPLES
@@ -15,10 +15,10 @@
 // variant: SAMPLES=4 TURNED=1 SOFT_SUN=1
 // variant: SAMPLES=1 MESHES=1
 // variant: SAMPLES=1 MESHES=1 PAINT=1
-// variant: SAMPLES=1 SPHERES=1
+// variant: SAMPLES=1 SOLIDS=1
 // variant: SAMPLES=1 ROUND=1 MESHES=1 FLOOR_IMAGE=1 SKY_IMAGE=1 SOFT_SUN=1
 // variant: SAMPLES=1 FLOOR_GLOSS=1
-// variant: SAMPLES=4 ROUND=1 TURNED=1 MESHES=1 PAINT=1 SPHERES=1 INSTANCES=1 FLOOR_IMAGE=1 FLOOR_GLOSS=1 SKY_IMAGE=1 SOFT_SUN=1
+// variant: SAMPLES=4 ROUND=1 TURNED=1 MESHES=1 PAINT=1 SOLIDS=1 INSTANCES=1 FLOOR_IMAGE=1 FLOOR_GLOSS=1 SKY_IMAGE=1 SOFT_SUN=1
 #include "shared/draw_layout.h"
 #include "shared/shape_layout.h"
 

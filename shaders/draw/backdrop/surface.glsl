@@ -76,8 +76,8 @@ float box_sky_visibility(vec3 towards, vec3 halves, vec3 normal)
 #ifdef MESHES
 #include "draw/backdrop/mesh_trace.glsl"
 #endif
-#ifdef SPHERES
-#include "draw/light/sphere_shadow.glsl"
+#ifdef SOLIDS
+#include "draw/light/solid_shadow.glsl"
 #endif
 #ifdef SKY_IMAGE
 #include "draw/backdrop/sky_image.glsl"
@@ -128,8 +128,8 @@ float sun_visibility(vec3 point, vec3 normal)
 #ifdef MESHES
     visible *= mesh_sun_visibility(origin, normal);
 #endif
-#ifdef SPHERES
-    visible *= sphere_sun_visibility(origin);
+#ifdef SOLIDS
+    visible *= solid_sun_visibility(origin);
 #endif
     return visible;
 }

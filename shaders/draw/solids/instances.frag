@@ -1,7 +1,7 @@
 /* A triangle of a particle that is a mesh, lit like the backdrop. Like a sphere, it has one depth and
  * one light in a pixel: those in its middle, or at the triangle's edge where that is outside. */
-// variant: SPHERES=1
-// variant: SPHERES=1 INSTANCES=1 ROUND=1 MESHES=1 SKY_IMAGE=1 SOFT_SUN=1
+// variant: SOLIDS=1
+// variant: SOLIDS=1 INSTANCES=1 ROUND=1 MESHES=1 SKY_IMAGE=1 SOFT_SUN=1
 #include "shared/draw_layout.h"
 #include "shared/shape_layout.h"
 

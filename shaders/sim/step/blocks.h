@@ -1,6 +1,6 @@
 /* What the shared step reads as globals in GLSL. */
-#ifndef KILN_SIM_BLOCKS_H
-#define KILN_SIM_BLOCKS_H
+#ifndef KILN_SIM_STEP_BLOCKS_H
+#define KILN_SIM_STEP_BLOCKS_H
 
 #include "shared/limits.h"
 #include "shared/platform.h"

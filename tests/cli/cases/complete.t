@@ -86,6 +86,8 @@ $ kiln complete -- check --set 'systems.*.forces.'
 $ kiln complete -- check --set 'systems.*.forces.0.wind.f'
 1|part	systems.*.forces.0.wind.field=	Which of these it is.
 1|part	systems.*.forces.0.wind.file=	Velocities of the air at points of a lattice; between them it moves as they say, beyond them as at the edge.
+$ kiln complete -- check --set simulation.bounds=
+1|word	simulation.bounds=none	
 $ kiln complete -- check --set 'systems.*.forces.0.wind.field='
 1|word	systems.*.forces.0.wind.field=uniform	
 1|word	systems.*.forces.0.wind.field=curl	

@@ -1,10 +1,10 @@
-/* What shaders/draw/solids/spheres.frag, instances.frag and spheres_resolve.frag do in GL: which
- * sphere or triangle each of a pixel's samples shows, then the light of each one of a pixel, once,
- * by a ray through the middle.
+/* What shaders/draw/solids/solids_spheres.frag, instances.frag and solids_resolve.frag do in GL:
+ * which sphere or triangle each of a pixel's samples shows, then the light of each one of a pixel,
+ * once, by a ray through the middle.
  */
 #include "draw/solids/instance_cast.h"
 
-enum { SAMPLES = KILN_SPHERE_SAMPLES };
+enum { SAMPLES = KILN_SOLID_SAMPLES };
 
 /* Farther than any scene. */
 #define NOTHING 2e9f
@@ -30,7 +30,7 @@ SIMD vf surface_depth(const struct approach *a)
 
 /* ---- samples --------------------------------------------------------------------------------- */
 
-SIMD void sample_pixels(const struct kiln_sphere_strip *s, const struct kiln_drawn_sphere *sphere,
+SIMD void sample_pixels(const struct kiln_solid_strip *s, const struct kiln_drawn_sphere *sphere,
                         int32_t number, uint32_t row, int32_t x)
 {
     const struct vf3 center = {vf_all(sphere->center[0]), vf_all(sphere->center[1]),
@@ -55,7 +55,7 @@ SIMD void sample_pixels(const struct kiln_sphere_strip *s, const struct kiln_dra
     }
 }
 
-static void sample_sphere(const struct kiln_sphere_strip *s, uint32_t number)
+static void sample_sphere(const struct kiln_solid_strip *s, uint32_t number)
 {
     const struct kiln_drawn_sphere *sphere = &s->spheres[number];
     const struct kiln_row_range rows = s->rows[number];
@@ -68,7 +68,7 @@ static void sample_sphere(const struct kiln_sphere_strip *s, uint32_t number)
 }
 
 /* What is behind the scene is not seen. */
-static void clear_samples(const struct kiln_sphere_strip *s, uint32_t row)
+static void clear_samples(const struct kiln_solid_strip *s, uint32_t row)
 {
     const float *scene = s->scene_depth + (size_t)(s->y + row) * s->width;
     float *samples = s->samples + (size_t)row * SAMPLES * s->pitch;
@@ -82,7 +82,7 @@ static void clear_samples(const struct kiln_sphere_strip *s, uint32_t row)
            SAMPLES * s->pitch * sizeof *s->nearest);
 }
 
-/* ---- patterns: as shaders/draw/solids/spheres.frag has them
+/* ---- patterns: as shaders/draw/solids/solids_spheres.frag has them
  * ------------------------------------------
  */
 
@@ -125,7 +125,7 @@ SIMD struct vf3 into_ball(const struct vf3 axis, vf w, struct vf3 v)
     return vf3_add(vf3_along(v, twice, w), vf3_scale(cast_cross(axis, twice), vf_all(-1.0f)));
 }
 
-static void paint_spheres(const struct kiln_sphere_strip *s, const struct seen_things *seen,
+static void paint_spheres(const struct kiln_solid_strip *s, const struct seen_things *seen,
                           struct seen_place *place)
 {
     const struct kiln_drawn_sphere *all = s->spheres;
@@ -143,7 +143,7 @@ static void paint_spheres(const struct kiln_sphere_strip *s, const struct seen_t
 
 /* ---- light ----------------------------------------------------------------------------------- */
 
-static void light_spheres(const struct kiln_sphere_strip *s, const struct seen_things *seen,
+static void light_spheres(const struct kiln_solid_strip *s, const struct seen_things *seen,
                           uint32_t y, struct ray_color *color)
 {
     const struct kiln_ray_frame *frame = s->frame;
@@ -167,7 +167,7 @@ static void light_spheres(const struct kiln_sphere_strip *s, const struct seen_t
 }
 
 /* Adds the light of things to their pixels, in their order. bloom: weights of the first thing. */
-SIMD void add_things(const struct kiln_sphere_strip *s, const struct seen_things *seen,
+SIMD void add_things(const struct kiln_solid_strip *s, const struct seen_things *seen,
                      uint32_t count, uint32_t y, const float *bloom, const struct ray_color *light)
 {
     for (uint32_t i = 0; i < count; i++) {
@@ -211,7 +211,7 @@ struct row_entries {
     uint32_t *spheres, *triangles; /* where the next sphere goes; the last triangle */
 };
 
-static void list_thing(const struct kiln_sphere_strip *s, struct row_entries *entries,
+static void list_thing(const struct kiln_solid_strip *s, struct row_entries *entries,
                        const uint32_t entry[3])
 {
     uint32_t **to = is_instance(s, entry[1] >> 2) ? &entries->triangles : &entries->spheres;
@@ -222,7 +222,7 @@ static void list_thing(const struct kiln_sphere_strip *s, struct row_entries *en
         *to += 3;
 }
 
-static void list_pixel(const struct kiln_sphere_strip *s, size_t first, uint32_t x,
+static void list_pixel(const struct kiln_solid_strip *s, size_t first, uint32_t x,
                        struct row_entries *entries, float *depth)
 {
     int32_t numbers[SAMPLES], triangles[SAMPLES] = {0};
@@ -252,8 +252,8 @@ static void list_pixel(const struct kiln_sphere_strip *s, size_t first, uint32_t
     }
 }
 
-/* Puts the scene behind what the spheres' samples have become. */
-static void add_scene(const struct kiln_sphere_strip *s, uint32_t y)
+/* Puts the scene behind what the solids' samples have become. */
+static void add_scene(const struct kiln_solid_strip *s, uint32_t y)
 {
     const float *scene = s->scene_color + 4 * (size_t)y * s->width;
     float *color = s->color + 4 * (size_t)y * s->width;
@@ -265,7 +265,7 @@ static void add_scene(const struct kiln_sphere_strip *s, uint32_t y)
 }
 
 /* The things of some entries; size: of a record. */
-static void see_things(const struct kiln_sphere_strip *s, const uint32_t *entries, uint32_t lanes,
+static void see_things(const struct kiln_solid_strip *s, const uint32_t *entries, uint32_t lanes,
                        size_t size, struct seen_things *seen)
 {
     const int32_t stride = (int32_t)(size / sizeof(float));
@@ -284,7 +284,7 @@ static void see_things(const struct kiln_sphere_strip *s, const uint32_t *entrie
     }
 }
 
-static void resolve_row(const struct kiln_sphere_strip *s, uint32_t row)
+static void resolve_row(const struct kiln_solid_strip *s, uint32_t row)
 {
     const uint32_t y = s->y + row;
     const size_t width = s->width, first = (size_t)row * SAMPLES * s->pitch, pixel = y * width;
@@ -319,7 +319,7 @@ static void resolve_row(const struct kiln_sphere_strip *s, uint32_t row)
     add_scene(s, y);
 }
 
-static void draw_strip(const struct kiln_sphere_strip *strip)
+static void draw_strip(const struct kiln_solid_strip *strip)
 {
     for (uint32_t row = 0; strip->y + row < strip->y_to; row++)
         clear_samples(strip, row);
@@ -333,4 +333,4 @@ static void draw_strip(const struct kiln_sphere_strip *strip)
         resolve_row(strip, row);
 }
 
-const struct kiln_sphere_rows KILN_SIMD_NAME(kiln_sphere_rows) = {.draw = draw_strip};
+const struct kiln_solid_rows KILN_SIMD_NAME(kiln_solid_rows) = {.draw = draw_strip};

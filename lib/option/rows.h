@@ -1,12 +1,9 @@
 /* How the tables write their rows. Before the rows of a table, AT(field) is defined as the offset
- * of a field in its struct. Included by options_*.c only. */
-#ifndef KILN_SCENE_OPTION_ROWS_H
-#define KILN_SCENE_OPTION_ROWS_H
+ * of a field in its struct. Included by files with tables only. */
+#ifndef KILN_OPTION_ROWS_H
+#define KILN_OPTION_ROWS_H
 
 #include "option/option.h"
-
-/* The limit of places in a scene: particles beyond 2^20 m die, so this is well inside. */
-#define FAR 100000
 
 #define TIME KILN_ALLOW_TIME
 #define BOTH KILN_ALLOW_BOTH
@@ -53,11 +50,6 @@
 #define GROUP(n, at, rows, h)                                                                      \
     {                                                                                              \
         ROW(n, group, at, "{}", h), .members = rows                                                \
-    }
-/* name, field, default, help */
-#define BOUNDS(n, f, def, h)                                                                       \
-    {                                                                                              \
-        ROW(n, bounds, AT(f), def, h), LIMITS(KILN_METRES, -FAR, FAR), .word = "none"              \
     }
 #define END                                                                                        \
     {                                                                                              \

@@ -1,6 +1,6 @@
-/* The sun's light that particles let through which are opaque spheres (lib/draw/light/sphere_shadow.h). */
-layout(binding = KILN_UNIT_SPHERE_BINS) uniform usampler2D sphere_bins;
-layout(binding = KILN_UNIT_SPHERE_LIST) uniform sampler2D sphere_list;
+/* The sun's light that particles let through which are opaque spheres (lib/draw/light/solid_shadow.h). */
+layout(binding = KILN_UNIT_SOLID_BINS) uniform usampler2D solid_bins;
+layout(binding = KILN_UNIT_SOLID_LIST) uniform sampler2D solid_list;
 
 /* How much of the sun's disc, which a point sees through a disc as wide as the penumbra, a sphere
  * hides from it: two discs, within 3 % of their exact common part. */
@@ -15,12 +15,12 @@ float sphere_cover(vec4 sphere, vec3 origin, vec3 sun, float spread)
     float large_over_small = x * x * (3.0 - 2.0 * x), like_over_like = x * (0.55 + 0.45 * x);
     float part = mix(large_over_small, like_over_like, ratio);
     float most = smaller / radius;
-    float fade = clamp(2.0 - 2.0 * radius / (sphere.w * KILN_SPHERE_FADE), 0.0, 1.0);
+    float fade = clamp(2.0 - 2.0 * radius / (sphere.w * KILN_SOLID_FADE), 0.0, 1.0);
     return t > 0.0 ? part * most * most * fade : 0.0;
 }
 
 #ifdef INSTANCES
-layout(binding = KILN_UNIT_SPHERE_TILES) uniform sampler2D sphere_tiles;
+layout(binding = KILN_UNIT_SOLID_TILES) uniform sampler2D solid_tiles;
 layout(binding = KILN_UNIT_SILHOUETTES) uniform sampler2D silhouettes;
 
 float silhouette_texel(ivec2 first, int edge, ivec2 at, int level, float weight)
@@ -67,18 +67,18 @@ float silhouette_cover(vec4 sphere, vec4 tile, vec3 origin, vec3 sun, float spre
 float listed_cover(int entry, int end, vec3 origin, vec3 sun, float spread)
 {
     int i = min(entry, end - 1);
-    ivec2 place = ivec2(i % KILN_SPHERE_ROW, i / KILN_SPHERE_ROW);
-    vec4 sphere = texelFetch(sphere_list, place, 0);
+    ivec2 place = ivec2(i % KILN_SOLID_ROW, i / KILN_SOLID_ROW);
+    vec4 sphere = texelFetch(solid_list, place, 0);
     float cover = sphere_cover(sphere, origin, sun, spread);
 #ifdef INSTANCES
-    vec4 tile = texelFetch(sphere_tiles, place, 0);
+    vec4 tile = texelFetch(solid_tiles, place, 0);
     if (tile.w > 0.0)
         cover = silhouette_cover(sphere, tile, origin, sun, spread);
 #endif
     return entry < end ? cover : 0.0;
 }
 
-/* Past KILN_SPHERES_AT_A_TIME of a list: llvmpipe bounds how often loops run, not what they do. */
+/* Past KILN_SOLIDS_AT_A_TIME of a list: llvmpipe bounds how often loops run, not what they do. */
 float listed_sun_visibility(int entry, int end, vec3 origin)
 {
     float visible = 1.0;
@@ -91,17 +91,17 @@ float listed_sun_visibility(int entry, int end, vec3 origin)
     return visible;
 }
 
-float sphere_sun_visibility(vec3 origin)
+float solid_sun_visibility(vec3 origin)
 {
     vec4 p = vec4(origin, 1.0);
     vec2 at = vec2(dot(shapes.world_to_bin[0], p), dot(shapes.world_to_bin[1], p));
     float edge = float(shapes.counts.w);
-    uvec2 bin = texelFetch(sphere_bins, ivec2(clamp(at, 0.0, max(edge - 1.0, 0.0))), 0).xy;
+    uvec2 bin = texelFetch(solid_bins, ivec2(clamp(at, 0.0, max(edge - 1.0, 0.0))), 0).xy;
     bool inside = all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(edge)));
     int count = inside ? int(bin.y) : 0;
     int first = int(bin.x), end = first + count;
     float visible = 1.0;
-    for (int entry = first; entry < end; entry += KILN_SPHERES_AT_A_TIME)
+    for (int entry = first; entry < end; entry += KILN_SOLIDS_AT_A_TIME)
         visible *= listed_sun_visibility(entry, end, origin);
     return visible;
 }

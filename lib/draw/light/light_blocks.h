@@ -1,21 +1,10 @@
-/* The living particles in blocks of slots, and the loops over them that become vectors
- * (living_simd.c): what lighting asks of all particles. */
-#ifndef KILN_DRAW_LIVING_BLOCKS_H
-#define KILN_DRAW_LIVING_BLOCKS_H
+/* Sums of light and shade over blocks of living particles, by loops that become vectors
+ * (light_simd.c). */
+#ifndef KILN_DRAW_LIGHT_LIGHT_BLOCKS_H
+#define KILN_DRAW_LIGHT_LIGHT_BLOCKS_H
 
-#include "base/simd.h"
 #include "draw/light/sun_box.h"
-#include "draw/moment/living.h"
-#include "particles/lanes.h"
-#include "shared/look_layout.h"
-
-/* struct kiln_living of each slot; where none lives, radius and opacity are 0. */
-struct kiln_living_block {
-    struct kiln_lanes lanes;
-    uint32_t alive[KILN_LANES]; /* 0 or 1 */
-    struct kiln_floats3 position;
-    kiln_floats radius, progress, opacity;
-};
+#include "draw/moment/living_blocks.h"
 
 /* kiln_living_glow at the samples of a look. */
 struct kiln_glow {
@@ -31,10 +20,7 @@ struct kiln_gathering {
     double radius;      /* of a particle, m */
 };
 
-struct kiln_living_loops {
-    /* Slots first to first + KILN_LANES - 1, of which those from system->used on are empty. */
-    void (*find)(const struct kiln_living_system *system, uint32_t first,
-                 struct kiln_living_block *block);
+struct kiln_light_loops {
     /* Adds what the particles emit, cells being filled to a part, to the two lights that each lies
      * between by its progress. */
     void (*gather_fire)(const struct kiln_living_block *block, const struct kiln_glow *glow,
@@ -47,6 +33,6 @@ struct kiln_living_loops {
     void (*shade)(const struct kiln_living_block *block, const struct kiln_sun_box *boxes,
                   uint32_t box_count, const struct kiln_sun_frame *sun, float visible[KILN_LANES]);
 };
-KILN_SIMD_DECLARE(const struct kiln_living_loops, kiln_living_loops);
+KILN_SIMD_DECLARE(const struct kiln_light_loops, kiln_light_loops);
 
 #endif

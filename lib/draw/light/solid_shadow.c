@@ -1,46 +1,46 @@
-/* Lists on the host, by counting: first how many spheres each bin has, then where its list begins,
- * then the spheres themselves, in the order of systems and slots. A sphere is in all bins that its
+/* Lists on the host, by counting: first how many solids each bin has, then where its list begins,
+ * then the solids themselves, in the order of systems and slots. A solid is in all bins that its
  * shadow can fall into, penumbra included.
  */
-#include "draw/light/sphere_shadow.h"
-
-#include "base/error.h"
-#include "draw/light/instance_tiles.h"
-#include "shared/exact.h"
+#include "draw/light/solid_shadow.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/error.h"
+#include "draw/light/instance_tiles.h"
+#include "shared/exact.h"
+
 enum { MOST_ENTRIES = 1 << 20, FIRST_ROOM = 1024 };
 
-struct sphere {
+struct solid {
     float4 center;         /* world; w: radius, m */
     float low[2], high[2]; /* of its shadow across the sun's direction, m */
-    float4 tile;           /* as of struct kiln_sphere_bins */
+    float4 tile;           /* as of struct kiln_solid_bins */
 };
 
-struct kiln_sphere_shadow {
+struct kiln_solid_shadow {
     const struct kiln_scene *scene;
     struct kiln_sun_frame sun; /* of the frame at hand */
     float floor;               /* its height; infinite for none */
-    struct sphere *spheres;
+    struct solid *solids;
     size_t count, room;
     struct kiln_instance_tiles *instances; /* NULL: there are no tiles */
-    struct kiln_instance_place *places;    /* of the first so many spheres: those with tiles */
+    struct kiln_instance_place *places;    /* of the first so many solids: those with tiles */
     uint32_t place_count, place_room;
-    bool failed;                                            /* no memory for one */
-    uint32_t bins[KILN_SPHERE_BINS * KILN_SPHERE_BINS * 2]; /* first entry and number of each */
+    bool failed;                                          /* no memory for one */
+    uint32_t bins[KILN_SOLID_BINS * KILN_SOLID_BINS * 2]; /* first entry and number of each */
     float4 *entries, *tiles;
     size_t entry_rows; /* of memory */
 };
 
-void kiln_sphere_shadow_destroy(struct kiln_sphere_shadow **shadow)
+void kiln_solid_shadow_destroy(struct kiln_solid_shadow **shadow)
 {
-    struct kiln_sphere_shadow *s = *shadow;
+    struct kiln_solid_shadow *s = *shadow;
     if (!s)
         return;
-    free(s->spheres);
+    free(s->solids);
     free(s->entries);
     free(s->tiles);
     free(s->places);
@@ -49,25 +49,26 @@ void kiln_sphere_shadow_destroy(struct kiln_sphere_shadow **shadow)
     *shadow = NULL;
 }
 
-struct kiln_sphere_shadow *kiln_sphere_shadow_create(const struct kiln_scene *scene,
-                                                     struct kiln_error *error)
+struct kiln_solid_shadow *kiln_solid_shadow_create(const struct kiln_scene *scene,
+                                                   const struct kiln_instances *meshes,
+                                                   struct kiln_error *error)
 {
-    struct kiln_sphere_shadow *shadow = calloc(1, sizeof *shadow);
+    struct kiln_solid_shadow *shadow = calloc(1, sizeof *shadow);
     if (!shadow) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "shadows of spheres: out of memory");
+        kiln_error_set(error, KILN_DEVICE_FAILED, "shadows of solids: out of memory");
         return NULL;
     }
     shadow->scene = scene;
-    if (kiln_instance_tiles_edge(scene) > 0) {
-        shadow->instances = kiln_instance_tiles_create(scene, error);
+    if (kiln_instance_tile_edge(scene) > 0) {
+        shadow->instances = kiln_instance_tiles_create(scene, meshes, error);
         if (!shadow->instances)
-            kiln_sphere_shadow_destroy(&shadow);
+            kiln_solid_shadow_destroy(&shadow);
     }
     return shadow;
 }
 
 /* The penumbra widens until the floor, or until nothing is left of what it blurs. */
-static float penumbra_of(const struct kiln_sphere_shadow *shadow, float3 center, float widest)
+static float penumbra_of(const struct kiln_solid_shadow *shadow, float3 center, float widest)
 {
     const float spread = shadow->sun.spread;
     if (shadow->sun.towards.y > 0.0f && center.y > shadow->floor)
@@ -75,58 +76,57 @@ static float penumbra_of(const struct kiln_sphere_shadow *shadow, float3 center,
     return spread > 0.0f ? widest : 0.0f;
 }
 
-/* How far around itself a sphere may throw its shadow. */
-static float reach_of(const struct kiln_sphere_shadow *shadow, float3 center, float radius)
+/* How far around itself a solid may throw its shadow. */
+static float reach_of(const struct kiln_solid_shadow *shadow, float3 center, float radius)
 {
-    return radius + penumbra_of(shadow, center, radius * KILN_SPHERE_FADE);
+    return radius + penumbra_of(shadow, center, radius * KILN_SOLID_FADE);
 }
 
-static struct sphere *add(struct kiln_sphere_shadow *shadow, float3 at)
+static struct solid *add(struct kiln_solid_shadow *shadow, float3 at)
 {
     if (shadow->count == shadow->room) {
         size_t room = shadow->room ? 2 * shadow->room : FIRST_ROOM;
-        struct sphere *more = realloc(shadow->spheres, room * sizeof *more);
+        struct solid *more = realloc(shadow->solids, room * sizeof *more);
         if (!more) {
             shadow->failed = true;
             return NULL;
         }
-        shadow->spheres = more;
+        shadow->solids = more;
         shadow->room = room;
     }
-    struct sphere *sphere = &shadow->spheres[shadow->count++];
-    *sphere = (struct sphere){.center = {at.x, at.y, at.z, 0.0f}};
-    return sphere;
+    struct solid *solid = &shadow->solids[shadow->count++];
+    *solid = (struct solid){.center = {at.x, at.y, at.z, 0.0f}};
+    return solid;
 }
 
 /* The bounds of its shadow, by those around its middle. */
-static void bound(const struct kiln_sphere_shadow *shadow, struct sphere *sphere,
-                  const float low[2], const float high[2])
+static void bound(const struct kiln_solid_shadow *shadow, struct solid *solid, const float low[2],
+                  const float high[2])
 {
-    const float3 at = {sphere->center.x, sphere->center.y, sphere->center.z};
+    const float3 at = {solid->center.x, solid->center.y, solid->center.z};
     const float across[2] = {float3_dot(at, shadow->sun.right), float3_dot(at, shadow->sun.up)};
     for (int c = 0; c < 2; c++) {
-        sphere->low[c] = across[c] + low[c];
-        sphere->high[c] = across[c] + high[c];
+        solid->low[c] = across[c] + low[c];
+        solid->high[c] = across[c] + high[c];
     }
 }
 
 /* radius: of a sphere with such a shadow, in radii of the particle. */
-static void collect(struct kiln_sphere_shadow *shadow, const struct kiln_living *particle,
+static void collect(struct kiln_solid_shadow *shadow, const struct kiln_living *particle,
                     float radius)
 {
-    radius *= particle->radius * particle->opacity; /* it grows by it (spheres.vert) */
-    struct sphere *sphere =
-        radius > 0.0f && !shadow->failed ? add(shadow, particle->position) : NULL;
-    if (!sphere)
+    radius *= particle->radius * particle->opacity; /* it grows by it (solids_spheres.vert) */
+    struct solid *solid = radius > 0.0f && !shadow->failed ? add(shadow, particle->position) : NULL;
+    if (!solid)
         return;
-    sphere->center.w = radius;
+    solid->center.w = radius;
     const float reach = reach_of(shadow, particle->position, radius);
-    bound(shadow, sphere, (const float[2]){-reach, -reach}, (const float[2]){reach, reach});
+    bound(shadow, solid, (const float[2]){-reach, -reach}, (const float[2]){reach, reach});
 }
 
 /* ---- meshes ---------------------------------------------------------------------------------- */
 
-static struct kiln_instance_place *add_place(struct kiln_sphere_shadow *shadow)
+static struct kiln_instance_place *add_place(struct kiln_solid_shadow *shadow)
 {
     if (shadow->place_count == shadow->place_room) {
         const uint32_t room = shadow->place_room ? 2 * shadow->place_room : FIRST_ROOM;
@@ -142,14 +142,14 @@ static struct kiln_instance_place *add_place(struct kiln_sphere_shadow *shadow)
 }
 
 /* A mesh with a tile: its radius waits for what is drawn there. */
-static void collect_mesh(struct kiln_sphere_shadow *shadow, const struct kiln_living_system *system,
+static void collect_mesh(struct kiln_solid_shadow *shadow, const struct kiln_living_system *system,
                          uint32_t number, uint32_t slot, const struct kiln_living *particle)
 {
     const struct kiln_look *look = &shadow->scene->systems[number].look;
     const float reach = kiln_instance_tiles_mesh(shadow->instances, number)->reach;
     const float size = 2.0f * particle->radius * particle->opacity;
-    struct sphere *sphere = size > 0.0f ? add(shadow, particle->position) : NULL;
-    struct kiln_instance_place *place = sphere ? add_place(shadow) : NULL;
+    struct solid *solid = size > 0.0f ? add(shadow, particle->position) : NULL;
+    struct kiln_instance_place *place = solid ? add_place(shadow) : NULL;
     if (!place)
         return;
     const struct instance_axes axes =
@@ -160,16 +160,16 @@ static void collect_mesh(struct kiln_sphere_shadow *shadow, const struct kiln_li
         place->across[0][c] = float3_dot(columns[c], shadow->sun.right) / reach;
         place->across[1][c] = float3_dot(columns[c], shadow->sun.up) / reach;
     }
-    sphere->tile.z = size * reach;
+    solid->tile.z = size * reach;
 }
 
 /* A silhouette spreads half a texel past the texels that it touches, but not farther past its tile;
  * the coarser of its levels has texels up to twice as large as the sun's radius. Where the sphere
  * takes its place, its shadow counts, too. */
-static void bound_silhouette(const struct kiln_sphere_shadow *shadow, struct sphere *sphere,
+static void bound_silhouette(const struct kiln_solid_shadow *shadow, struct solid *solid,
                              const struct kiln_instance_place *place)
 {
-    const float4 center = sphere->center, tile = sphere->tile;
+    const float4 center = solid->center, tile = solid->tile;
     const float3 at = {center.x, center.y, center.z};
     const float soft = penumbra_of(shadow, at, tile.z * KILN_INSTANCE_ROUND);
     const float texel = exact_max(2.0f * tile.z / tile.w, 2.0f * soft);
@@ -182,28 +182,28 @@ static void bound_silhouette(const struct kiln_sphere_shadow *shadow, struct sph
         low[c] = exact_min(low[c], -ball);
         high[c] = exact_max(high[c], ball);
     }
-    bound(shadow, sphere, low, high);
+    bound(shadow, solid, low, high);
 }
 
 /* The spheres that stand for them are as large as their silhouettes. */
-static void draw_tiles(struct kiln_sphere_shadow *shadow, struct kiln_threads *threads)
+static void draw_tiles(struct kiln_solid_shadow *shadow, struct kiln_threads *threads)
 {
     struct kiln_instance_tiles *tiles = shadow->instances;
     const float root = 2.0f / 1.7724539f; /* of pi */
-    const float edge = (float)kiln_instance_tiles_edge(shadow->scene);
+    const float edge = (float)kiln_instance_tile_edge(shadow->scene);
     kiln_instance_tiles_run(tiles, shadow->places, shadow->place_count, threads);
     for (uint32_t i = 0; i < shadow->place_count; i++) {
-        struct sphere *sphere = &shadow->spheres[i];
+        struct solid *solid = &shadow->solids[i];
         const struct kiln_instance_tile at = kiln_instance_tile_at(tiles, i);
-        const float reach = sphere->tile.z;
-        sphere->tile = (float4){(float)at.x, (float)at.y, reach, edge};
-        sphere->center.w = reach * root * sqrtf(shadow->places[i].covered);
-        bound_silhouette(shadow, sphere, &shadow->places[i]);
+        const float reach = solid->tile.z;
+        solid->tile = (float4){(float)at.x, (float)at.y, reach, edge};
+        solid->center.w = reach * root * sqrtf(shadow->places[i].covered);
+        bound_silhouette(shadow, solid, &shadow->places[i]);
     }
 }
 
-static void collect_system(struct kiln_sphere_shadow *shadow,
-                           const struct kiln_living_moment *moment, uint32_t index)
+static void collect_system(struct kiln_solid_shadow *shadow, const struct kiln_moment *moment,
+                           uint32_t index)
 {
     const struct kiln_living_system system = kiln_living_system(moment, index);
     const struct kiln_look *look = &shadow->scene->systems[index].look;
@@ -221,7 +221,7 @@ static void collect_system(struct kiln_sphere_shadow *shadow,
 }
 
 /* Those with tiles first. */
-static void collect_all(struct kiln_sphere_shadow *shadow, const struct kiln_living_moment *moment,
+static void collect_all(struct kiln_solid_shadow *shadow, const struct kiln_moment *moment,
                         struct kiln_threads *threads)
 {
     const struct kiln_scene *scene = shadow->scene;
@@ -246,9 +246,9 @@ struct layout {
     float low_x, low_y, size; /* m */
 };
 
-static struct layout lay_out(const struct kiln_sphere_shadow *shadow)
+static struct layout lay_out(const struct kiln_solid_shadow *shadow)
 {
-    const struct sphere *s = shadow->spheres;
+    const struct solid *s = shadow->solids;
     float low_x = s->low[0], low_y = s->low[1], high_x = s->high[0], high_y = s->high[1];
     for (size_t i = 1; i < shadow->count; i++) {
         low_x = fminf(low_x, s[i].low[0]);
@@ -257,7 +257,7 @@ static struct layout lay_out(const struct kiln_sphere_shadow *shadow)
         high_y = fmaxf(high_y, s[i].high[1]);
     }
     float longest = fmaxf(high_x - low_x, high_y - low_y);
-    return (struct layout){KILN_SPHERE_BINS, low_x, low_y, longest / KILN_SPHERE_BINS};
+    return (struct layout){KILN_SOLID_BINS, low_x, low_y, longest / KILN_SOLID_BINS};
 }
 
 struct range {
@@ -270,7 +270,7 @@ static uint32_t bin_at(const struct layout *layout, float distance)
     return (uint32_t)(at > 0.0f ? fminf(at, last) : 0.0f);
 }
 
-static struct range bins_of(const struct layout *layout, const struct sphere *s)
+static struct range bins_of(const struct layout *layout, const struct solid *s)
 {
     const float x = layout->low_x, y = layout->low_y;
     return (struct range){{bin_at(layout, s->low[0] - x), bin_at(layout, s->high[0] - x)},
@@ -278,12 +278,12 @@ static struct range bins_of(const struct layout *layout, const struct sphere *s)
 }
 
 /* Bins so large that their lists are not too long in all; returns the entries. */
-static size_t choose_bins(const struct kiln_sphere_shadow *shadow, struct layout *layout)
+static size_t choose_bins(const struct kiln_solid_shadow *shadow, struct layout *layout)
 {
     for (;;) {
         size_t entries = 0;
         for (size_t i = 0; i < shadow->count; i++) {
-            struct range r = bins_of(layout, &shadow->spheres[i]);
+            struct range r = bins_of(layout, &shadow->solids[i]);
             entries += (size_t)(r.x[1] - r.x[0] + 1) * (r.y[1] - r.y[0] + 1);
         }
         if (entries <= MOST_ENTRIES || layout->edge == 1)
@@ -293,49 +293,49 @@ static size_t choose_bins(const struct kiln_sphere_shadow *shadow, struct layout
     }
 }
 
-static bool make_room(struct kiln_sphere_shadow *shadow, size_t entries)
+static bool make_room(struct kiln_solid_shadow *shadow, size_t entries)
 {
     size_t rows = shadow->entry_rows ? shadow->entry_rows : 1;
-    while (rows * KILN_SPHERE_ROW < entries)
+    while (rows * KILN_SOLID_ROW < entries)
         rows *= 2;
     if (rows == shadow->entry_rows)
         return true;
-    float4 *more = realloc(shadow->entries, rows * KILN_SPHERE_ROW * sizeof *more);
+    float4 *more = realloc(shadow->entries, rows * KILN_SOLID_ROW * sizeof *more);
     if (!more)
         return false;
-    memset(more, 0, rows * KILN_SPHERE_ROW * sizeof *more);
+    memset(more, 0, rows * KILN_SOLID_ROW * sizeof *more);
     shadow->entries = more;
     if (shadow->instances) {
-        more = realloc(shadow->tiles, rows * KILN_SPHERE_ROW * sizeof *more);
+        more = realloc(shadow->tiles, rows * KILN_SOLID_ROW * sizeof *more);
         if (!more)
             return false;
-        memset(more, 0, rows * KILN_SPHERE_ROW * sizeof *more);
+        memset(more, 0, rows * KILN_SOLID_ROW * sizeof *more);
         shadow->tiles = more;
     }
     shadow->entry_rows = rows;
     return true;
 }
 
-static void put_entry(struct kiln_sphere_shadow *shadow, uint32_t at, const struct sphere *sphere)
+static void put_entry(struct kiln_solid_shadow *shadow, uint32_t at, const struct solid *solid)
 {
-    shadow->entries[at] = sphere->center;
+    shadow->entries[at] = solid->center;
     if (shadow->tiles)
-        shadow->tiles[at] = sphere->tile;
+        shadow->tiles[at] = solid->tile;
 }
 
 /* Returns the length of the longest. */
-static uint32_t fill_lists(struct kiln_sphere_shadow *shadow, const struct layout *layout)
+static uint32_t fill_lists(struct kiln_solid_shadow *shadow, const struct layout *layout)
 {
     uint32_t edge = layout->edge, first = 0, longest = 0;
     memset(shadow->bins, 0, sizeof shadow->bins);
     for (int pass = 0; pass < 2; pass++) {
         for (size_t i = 0; i < shadow->count; i++) {
-            struct range r = bins_of(layout, &shadow->spheres[i]);
+            struct range r = bins_of(layout, &shadow->solids[i]);
             for (uint32_t y = r.y[0]; y <= r.y[1]; y++) {
                 for (uint32_t x = r.x[0]; x <= r.x[1]; x++) {
                     uint32_t *bin = shadow->bins + 2 * ((size_t)y * edge + x);
                     if (pass == 1)
-                        put_entry(shadow, bin[0] + bin[1], &shadow->spheres[i]);
+                        put_entry(shadow, bin[0] + bin[1], &shadow->solids[i]);
                     bin[1]++;
                 }
             }
@@ -351,16 +351,16 @@ static uint32_t fill_lists(struct kiln_sphere_shadow *shadow, const struct layou
     return longest;
 }
 
-bool kiln_sphere_shadow_run(struct kiln_sphere_shadow *shadow,
-                            const struct kiln_living_moment *moment, struct kiln_threads *threads,
-                            struct kiln_sphere_bins *bins, struct kiln_error *error)
+bool kiln_solid_shadow_run(struct kiln_solid_shadow *shadow, const struct kiln_moment *moment,
+                           struct kiln_threads *threads, struct kiln_solid_bins *bins,
+                           struct kiln_error *error)
 {
     const struct kiln_scene *scene = shadow->scene;
-    *bins = (struct kiln_sphere_bins){.edge = 0};
-    shadow->sun = kiln_sun_frame_at(scene, moment->view->clock.x);
+    *bins = (struct kiln_solid_bins){.edge = 0};
+    shadow->sun = moment->sun;
     shadow->floor =
         scene->backdrop.floor_enabled
-            ? kiln_scene_value(scene, &scene->backdrop.floor_height, moment->view->clock.x)
+            ? kiln_scene_value(scene, &scene->backdrop.floor_height, moment->view.clock.x)
             : INFINITY;
     collect_all(shadow, moment, threads);
     if (shadow->count == 0 && !shadow->failed)
@@ -372,11 +372,11 @@ bool kiln_sphere_shadow_run(struct kiln_sphere_shadow *shadow,
         entries = choose_bins(shadow, &layout);
     }
     if (shadow->failed || !make_room(shadow, entries))
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "shadows of spheres: out of memory");
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "shadows of solids: out of memory");
     const uint32_t longest = fill_lists(shadow, &layout);
     float scale = 1.0f / layout.size;
     const float3 right = shadow->sun.right, up = shadow->sun.up;
-    *bins = (struct kiln_sphere_bins){
+    *bins = (struct kiln_solid_bins){
         .edge = layout.edge,
         .bins = shadow->bins,
         .list = shadow->entries,

@@ -1,70 +1,10 @@
-/* Every loop here is over lanes, and without branches: compilers make vectors of it. Sums are taken
+/* Sums up fire, the extinction of smoke and the shade of boxes over blocks of living particles.
+ * Every loop here is over lanes, and without branches: compilers make vectors of it. Sums are taken
  * in the same order at every level. */
-#include "draw/light/living_blocks.h"
-
 #include <math.h>
 
+#include "draw/light/light_blocks.h"
 #include "shared/exact.h"
-
-/* ---- particles ------------------------------------------------------------------------------- */
-
-/* kiln_living_look: a number of a look between two of its samples, four floats apart. */
-struct place {
-    int sample, texel; /* texel: where it is in a row of the table */
-    float part;
-};
-
-static inline struct place place_at(float progress)
-{
-    float x = progress * (float)(KILN_LOOK_SAMPLES - 1);
-    int sample = (int)x;
-    sample = sample > KILN_LOOK_SAMPLES - 2 ? KILN_LOOK_SAMPLES - 2 : sample;
-    return (struct place){sample, 4 * sample, x - (float)sample};
-}
-
-static inline float look_at(const float *samples, struct place at)
-{
-    float a = samples[at.texel], b = samples[at.texel + 4];
-    return a + (b - a) * at.part;
-}
-
-static inline void load(struct kiln_living_block *b, const struct kiln_living_system *system,
-                        uint32_t first)
-{
-    const uint32_t left = system->used - first;
-    if (left >= KILN_LANES) {
-        kiln_lanes_load(&b->lanes, system->records + first);
-        return;
-    }
-    struct kiln_particle rest[KILN_LANES] = {0};
-    memcpy(rest, system->records + first, left * sizeof *rest);
-    kiln_lanes_load(&b->lanes, rest);
-}
-
-__attribute__((flatten)) static void find(const struct kiln_living_system *system, uint32_t first,
-                                          struct kiln_living_block *b)
-{
-    load(b, system, first);
-    kiln_lanes_find_ages(&b->lanes, system->keys, system->derived, system->step);
-    const float *shape = &system->rows[(size_t)KILN_LOOK_SHAPE * KILN_LOOK_SAMPLES].x;
-    const float *spread = &system->rows[(size_t)KILN_LOOK_SPREAD * KILN_LOOK_SAMPLES].x;
-    const struct kiln_derived_params derived = system->derived;
-    for (uint32_t i = 0; i < KILN_LANES; i++) {
-        struct kiln_particle p = kiln_lanes_record(&b->lanes, i);
-        float progress = particle_progress(b->lanes.age_s[i], b->lanes.life_s[i]);
-        struct place at = place_at(progress);
-        float scale = random_unit(particle_stream(derived, p), RANDOM_SCALE);
-        float least = look_at(spread, at), most = look_at(spread + 1, at);
-        float radius = 0.5f * look_at(shape, at) * (least + (most - least) * scale);
-        float opacity = look_at(shape + 2, at);
-        bool alive = particle_is_alive(p);
-        kiln_set3(&b->position, i, particle_position(p));
-        b->alive[i] = alive;
-        b->progress[i] = progress;
-        b->radius[i] = alive ? radius : 0.0f;
-        b->opacity[i] = alive ? opacity : 0.0f;
-    }
-}
 
 /* ---- fire ------------------------------------------------------------------------------------ */
 
@@ -98,7 +38,7 @@ static inline void find_fire(struct fire *f, const struct kiln_living_block *b,
     f->origin = kiln_get3(&b->position, 0);
     f->least = f->most = b->progress[0] * (float)(light_count - 1);
     for (uint32_t i = 0; i < KILN_LANES; i++) {
-        struct place at = place_at(b->progress[i]);
+        struct kiln_look_place at = kiln_look_place_at(b->progress[i]);
         float sent = fill * 4.0f * b->radius[i] * b->radius[i] * b->opacity[i];
         const float *r = glow->red + at.sample, *g = glow->green + at.sample;
         const float *l = glow->blue + at.sample;
@@ -216,8 +156,7 @@ __attribute__((flatten)) static void shade(const struct kiln_living_block *b,
     }
 }
 
-const struct kiln_living_loops KILN_SIMD_NAME(kiln_living_loops) = {
-    .find = find,
+const struct kiln_light_loops KILN_SIMD_NAME(kiln_light_loops) = {
     .gather_fire = gather_fire,
     .find_extinction = find_extinction,
     .shade = shade,

@@ -1,15 +1,15 @@
 /* Particles that are spheres or meshes into rows of the picture, for each width of vectors. */
-#ifndef KILN_DRAW_SPHERE_ROWS_H
-#define KILN_DRAW_SPHERE_ROWS_H
+#ifndef KILN_DRAW_SOLIDS_SOLID_ROWS_H
+#define KILN_DRAW_SOLIDS_SOLID_ROWS_H
 
 #include "base/simd.h"
 #include "draw/backdrop/ray.h"
 #include "draw/vector/row_lists.h"
 
 enum {
-    KILN_SPHERE_ROWS = 8,
-    KILN_SPHERE_SAMPLES = 4,
-    KILN_SPHERE_PAD = 16, /* pixels that vectors may reach beyond the right edge */
+    KILN_SOLID_ROWS = 8,
+    KILN_SOLID_SAMPLES = 4,
+    KILN_SOLID_PAD = 16, /* pixels that vectors may reach beyond the right edge */
 };
 
 struct kiln_drawn_sphere {
@@ -31,9 +31,9 @@ struct kiln_drawn_instance {
     struct kiln_row_range x;
 };
 
-/* KILN_SPHERE_ROWS rows of the picture from row y. Samples are by row, sample and pixel, `pitch`
- * floats apart; all pixels have room for KILN_SPHERE_PAD more at the end of a row. */
-struct kiln_sphere_strip {
+/* KILN_SOLID_ROWS rows of the picture from row y. Samples are by row, sample and pixel, `pitch`
+ * floats apart; all pixels have room for KILN_SOLID_PAD more at the end of a row. */
+struct kiln_solid_strip {
     const struct kiln_ray_frame *frame;
     const struct kiln_drawn_sphere *spheres;
     const struct kiln_drawn_instance *instances; /* by the same numbers; NULL: none is a mesh */
@@ -52,10 +52,10 @@ struct kiln_sphere_strip {
     size_t pitch;
 };
 
-struct kiln_sphere_rows {
-    void (*draw)(const struct kiln_sphere_strip *strip);
+struct kiln_solid_rows {
+    void (*draw)(const struct kiln_solid_strip *strip);
 };
 
-KILN_SIMD_DECLARE(const struct kiln_sphere_rows, kiln_sphere_rows);
+KILN_SIMD_DECLARE(const struct kiln_solid_rows, kiln_solid_rows);
 
 #endif

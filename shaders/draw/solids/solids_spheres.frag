@@ -1,8 +1,8 @@
 /* A sphere, cast by one ray a pixel and lit like the backdrop. Its silhouette is found at the four
  * samples of a pixel, whose nearest spheres a depth test keeps. */
-// variant: SPHERES=1
-// variant: SPHERES=1 PATTERN=1
-// variant: SPHERES=1 ROUND=1 TURNED=1 MESHES=1 SKY_IMAGE=1 SOFT_SUN=1
+// variant: SOLIDS=1
+// variant: SOLIDS=1 PATTERN=1
+// variant: SOLIDS=1 ROUND=1 TURNED=1 MESHES=1 SKY_IMAGE=1 SOFT_SUN=1
 #include "shared/draw_layout.h"
 #include "shared/shape_layout.h"
 

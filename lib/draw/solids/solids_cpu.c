@@ -1,27 +1,24 @@
 /* Each particle becomes a sphere or a mesh before the eye, each band of rows draws those that touch
  * it. Which of them a sample shows is found before any light is computed. */
-#include "draw/solids/spheres_cpu.h"
-
-#include "base/error.h"
-#include "draw/moment/instances.h"
-#include "draw/moment/living.h"
-#include "draw/moment/looks.h"
-#include "draw/solids/sphere_rows.h"
-#include "shared/derived.h"
+#include "draw/solids/solids_cpu.h"
 
 #include <stdlib.h>
 
+#include "base/error.h"
+#include "base/matrix.h"
+#include "draw/moment/living.h"
+#include "draw/solids/solid_rows.h"
+#include "shared/derived.h"
+
 enum { MAKE_AT_A_TIME = 512 };
 
-struct kiln_spheres_cpu {
+struct kiln_solids_cpu {
     const struct kiln_scene *scene;
     const struct kiln_backdrop_stage *backdrop;
     struct kiln_threads *threads;
-    struct kiln_spheres_targets targets;
-    const struct kiln_sphere_rows *rows;
-    float4 *table; /* looks */
-    bool table_valid;
-    struct kiln_instances meshes;
+    struct kiln_solids_targets targets;
+    const struct kiln_solid_rows *rows;
+    const struct kiln_instances *meshes;
     struct kiln_drawn_sphere *spheres;
     struct kiln_drawn_instance *instances; /* NULL where there are no meshes */
     struct kiln_row_range *ranges;         /* their rows */
@@ -33,63 +30,53 @@ struct kiln_spheres_cpu {
     uint32_t *entries; /* these four: for each thread */
 };
 
-static size_t samples_of(const struct kiln_spheres_cpu *stage)
+static size_t samples_of(const struct kiln_solids_cpu *stage)
 {
-    return (size_t)KILN_SPHERE_ROWS * KILN_SPHERE_SAMPLES * stage->pitch;
+    return (size_t)KILN_SOLID_ROWS * KILN_SOLID_SAMPLES * stage->pitch;
 }
 
-static size_t entries_of(const struct kiln_spheres_cpu *stage)
+static size_t entries_of(const struct kiln_solids_cpu *stage)
 {
-    return (size_t)3 * KILN_SPHERE_SAMPLES * stage->pitch;
+    return (size_t)3 * KILN_SOLID_SAMPLES * stage->pitch;
 }
 
-static bool allocate(struct kiln_spheres_cpu *stage)
+static bool allocate(struct kiln_solids_cpu *stage)
 {
     size_t threads = kiln_threads_count(stage->threads);
-    stage->pitch = stage->scene->width + KILN_SPHERE_PAD;
-    stage->table = calloc((size_t)KILN_LOOK_TEXELS, sizeof *stage->table);
+    stage->pitch = stage->scene->width + KILN_SOLID_PAD;
     stage->samples = malloc(threads * samples_of(stage) * sizeof *stage->samples);
     stage->nearest = malloc(threads * samples_of(stage) * sizeof *stage->nearest);
     stage->entries = malloc(threads * entries_of(stage) * sizeof *stage->entries);
-    bool meshes = stage->meshes.corners != NULL;
+    bool meshes = stage->meshes->corners != NULL;
     if (meshes)
         stage->triangles = malloc(threads * samples_of(stage) * sizeof *stage->triangles);
-    return stage->table && stage->samples && stage->nearest && stage->entries &&
-           (stage->triangles || !meshes);
+    return stage->samples && stage->nearest && stage->entries && (stage->triangles || !meshes);
 }
 
-struct kiln_spheres_cpu *kiln_spheres_cpu_create(const struct kiln_scene *scene,
-                                                 const struct kiln_spheres_params *params,
-                                                 struct kiln_error *error)
+struct kiln_solids_cpu *kiln_solids_cpu_create(const struct kiln_moment *moment,
+                                               const struct kiln_solids_params *params,
+                                               struct kiln_error *error)
 {
-    enum kiln_simd simd;
-    if (!kiln_simd_choose(&simd, error))
-        return NULL;
-    struct kiln_spheres_cpu *stage = calloc(1, sizeof *stage);
+    struct kiln_solids_cpu *stage = calloc(1, sizeof *stage);
     if (stage)
-        *stage = (struct kiln_spheres_cpu){.scene = scene,
-                                           .backdrop = params->backdrop,
-                                           .threads = params->threads,
-                                           .targets = params->targets,
-                                           .rows = KILN_SIMD_PICK(kiln_sphere_rows, simd)};
-    if (stage && !kiln_instances_init(&stage->meshes, scene, error)) {
-        kiln_spheres_cpu_destroy(&stage);
-        return NULL;
-    }
+        *stage = (struct kiln_solids_cpu){.scene = moment->scene,
+                                          .meshes = &moment->instances,
+                                          .backdrop = params->backdrop,
+                                          .threads = params->threads,
+                                          .targets = params->targets,
+                                          .rows = KILN_SIMD_PICK(kiln_solid_rows, moment->simd)};
     if (!stage || !allocate(stage)) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "spheres: out of memory");
-        kiln_spheres_cpu_destroy(&stage);
+        kiln_error_set(error, KILN_DEVICE_FAILED, "solids: out of memory");
+        kiln_solids_cpu_destroy(&stage);
     }
     return stage;
 }
 
-void kiln_spheres_cpu_destroy(struct kiln_spheres_cpu **stage)
+void kiln_solids_cpu_destroy(struct kiln_solids_cpu **stage)
 {
     if (!*stage)
         return;
     kiln_row_lists_finish(&(*stage)->lists);
-    kiln_instances_finish(&(*stage)->meshes);
-    free((*stage)->table);
     free((*stage)->spheres);
     free((*stage)->instances);
     free((*stage)->triangles);
@@ -101,10 +88,10 @@ void kiln_spheres_cpu_destroy(struct kiln_spheres_cpu **stage)
     *stage = NULL;
 }
 
-/* ---- from particles to spheres --------------------------------------------------------------- */
+/* ---- from particles to solids ---------------------------------------------------------------- */
 
 struct making {
-    struct kiln_spheres_cpu *stage;
+    struct kiln_solids_cpu *stage;
     const struct kiln_pool *pool;
     const struct kiln_view *view;
     const uint32_t *entries;
@@ -141,12 +128,11 @@ static void bound_ball(const struct kiln_view *view, const float center[3], floa
     *y = between_tangents(-center[1], depth, radius, 0.5f * frustum.w / frustum.y, frustum.w);
 }
 
-static void find_center(const struct kiln_view *view, float3 at, float center[3])
+static void find_center(const struct kiln_view *view, float3 at, vec3 center)
 {
-    for (int i = 0; i < 3; i++) {
-        const float4 row = view->world_to_view[i];
-        center[i] = row.x * at.x + row.y * at.y + row.z * at.z + row.w;
-    }
+    mat4 world_to_view;
+    kiln_matrix_from_rows(view->world_to_view, world_to_view);
+    glm_mat4_mulv3(world_to_view, (vec3){at.x, at.y, at.z}, 1.0f, center);
 }
 
 /* No smaller than a pixel, or it would twinkle between the samples. */
@@ -203,13 +189,16 @@ static void make_sphere(const struct making *m, const struct kiln_living_system 
 static void place_axes(const struct kiln_view *view, const struct instance_axes *axes, float scale,
                        struct kiln_drawn_instance *d)
 {
-    const float3 columns[3] = {axes->x, axes->y, axes->z};
-    for (int i = 0; i < 3; i++) {
-        const float4 row = view->world_to_view[i];
-        for (int c = 0; c < 3; c++)
-            d->to_view[i][c] =
-                scale * (row.x * columns[c].x + row.y * columns[c].y + row.z * columns[c].z);
-    }
+    mat4 world_to_view;
+    mat3 turn, to_world = {{axes->x.x, axes->x.y, axes->x.z},
+                           {axes->y.x, axes->y.y, axes->y.z},
+                           {axes->z.x, axes->z.y, axes->z.z}};
+    kiln_matrix_from_rows(view->world_to_view, world_to_view);
+    glm_mat4_pick3(world_to_view, turn);
+    glm_mat3_mul(turn, to_world, turn);
+    glm_mat3_scale(turn, scale);
+    for (int i = 0; i < 9; i++)
+        d->to_view[i % 3][i / 3] = turn[i / 3][i % 3];
 }
 
 /* It grows and shrinks by its opacity, too. */
@@ -218,7 +207,7 @@ static void make_instance(const struct making *m, uint32_t number, uint32_t slot
                           struct kiln_row_range *rows)
 {
     const struct kiln_living_system *system = &m->systems[number];
-    const struct kiln_instance_mesh *mesh = &m->stage->meshes.meshes[number];
+    const struct kiln_instance_mesh *mesh = &m->stage->meshes->meshes[number];
     const struct kiln_look *look = &m->stage->scene->systems[number].look;
     const struct kiln_view *view = m->view;
     float center[3], size = 2.0f * particle->radius * particle->opacity;
@@ -242,7 +231,7 @@ static void make_instance(const struct making *m, uint32_t number, uint32_t slot
     bound_ball(view, center, reach, &d->x, rows);
 }
 
-static void make_spheres(void *context, size_t begin, size_t end, uint32_t worker)
+static void make_solids(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
     const struct making *m = context;
@@ -258,7 +247,7 @@ static void make_spheres(void *context, size_t begin, size_t end, uint32_t worke
         slot -= m->pool->systems[number].base;
         if (!kiln_living_at(system, slot, &particle))
             continue;
-        if (instance && m->stage->meshes.meshes[number].triangles > 0)
+        if (instance && m->stage->meshes->meshes[number].triangles > 0)
             make_instance(m, number, slot, &particle, instance, &m->stage->ranges[i]);
         else
             make_sphere(m, system, &particle, &m->stage->spheres[i], &m->stage->ranges[i]);
@@ -266,7 +255,7 @@ static void make_spheres(void *context, size_t begin, size_t end, uint32_t worke
     }
 }
 
-static bool make_room(struct kiln_spheres_cpu *stage, uint32_t count, struct kiln_error *error)
+static bool make_room(struct kiln_solids_cpu *stage, uint32_t count, struct kiln_error *error)
 {
     if (count <= stage->room && stage->spheres)
         return true;
@@ -276,52 +265,44 @@ static bool make_room(struct kiln_spheres_cpu *stage, uint32_t count, struct kil
     stage->room = count + count / 4 + 64;
     stage->spheres = malloc(stage->room * sizeof *stage->spheres);
     stage->ranges = malloc(stage->room * sizeof *stage->ranges);
-    bool meshes = stage->meshes.corners != NULL;
+    bool meshes = stage->meshes->corners != NULL;
     stage->instances = meshes ? malloc(stage->room * sizeof *stage->instances) : NULL;
     if (stage->spheres && stage->ranges && (stage->instances || !meshes))
         return true;
     free(stage->spheres);
     stage->spheres = NULL;
-    return kiln_error_set(error, KILN_DEVICE_FAILED, "spheres: out of memory");
+    return kiln_error_set(error, KILN_DEVICE_FAILED, "solids: out of memory");
 }
 
-static void make_all(struct kiln_spheres_cpu *stage, const struct kiln_pool *pool,
-                     const struct kiln_particle *records, const struct kiln_spin *spins,
-                     const uint32_t *entries, uint32_t count, float time_s)
+static void make_all(struct kiln_solids_cpu *stage, const struct kiln_moment *moment,
+                     const uint32_t *entries, uint32_t count)
 {
-    if (!stage->table_valid || kiln_looks_vary(stage->scene))
-        kiln_looks_sample(stage->scene, time_s, stage->table);
-    stage->table_valid = true;
-    struct making making = {.stage = stage,
-                            .pool = pool,
-                            .view = kiln_backdrop_rays(stage->backdrop)->view,
-                            .entries = entries};
-    const struct kiln_living_moment moment = {stage->scene, pool, records, making.view,
-                                              stage->table, NULL, spins};
+    struct making making = {
+        .stage = stage, .pool = moment->pool, .view = &moment->view, .entries = entries};
     for (uint32_t i = 0; i < stage->scene->system_count; i++) {
-        making.systems[i] = kiln_living_system(&moment, i);
+        making.systems[i] = kiln_living_system(moment, i);
         making.patterns[i] = kiln_look_pattern(&stage->scene->systems[i].look);
     }
-    kiln_threads_for(stage->threads, count, MAKE_AT_A_TIME, make_spheres, &making);
+    kiln_threads_for(stage->threads, count, MAKE_AT_A_TIME, make_solids, &making);
 }
 
 /* ---- into the picture ------------------------------------------------------------------------ */
 
 struct drawing {
-    struct kiln_spheres_cpu *stage;
-    struct kiln_sphere_strip strip; /* what all have in common */
+    struct kiln_solids_cpu *stage;
+    struct kiln_solid_strip strip; /* what all have in common */
 };
 
 static void draw_bands(void *context, size_t begin, size_t end, uint32_t worker)
 {
     const struct drawing *d = context;
-    struct kiln_spheres_cpu *stage = d->stage;
+    struct kiln_solids_cpu *stage = d->stage;
     const struct kiln_row_lists *lists = &stage->lists;
     for (size_t band = begin; band < end; band++) {
-        struct kiln_sphere_strip strip = d->strip;
-        uint32_t y = (uint32_t)band * KILN_SPHERE_ROWS, height = stage->scene->height;
+        struct kiln_solid_strip strip = d->strip;
+        uint32_t y = (uint32_t)band * KILN_SOLID_ROWS, height = stage->scene->height;
         strip.y = y;
-        strip.y_to = y + KILN_SPHERE_ROWS < height ? y + KILN_SPHERE_ROWS : height;
+        strip.y_to = y + KILN_SOLID_ROWS < height ? y + KILN_SOLID_ROWS : height;
         strip.list = lists->list + lists->first[band];
         strip.count = lists->first[band + 1] - lists->first[band];
         strip.samples = stage->samples + worker * samples_of(stage);
@@ -333,7 +314,7 @@ static void draw_bands(void *context, size_t begin, size_t end, uint32_t worker)
     }
 }
 
-static bool open_images(const struct kiln_spheres_targets *t, struct kiln_sphere_strip *strip,
+static bool open_images(const struct kiln_solids_targets *t, struct kiln_solid_strip *strip,
                         struct kiln_error *error)
 {
     strip->scene_color = kiln_image_host(t->backdrop_color, KILN_READ, error);
@@ -348,32 +329,24 @@ static bool open_images(const struct kiln_spheres_targets *t, struct kiln_sphere
     return strip->bloom != NULL;
 }
 
-bool kiln_spheres_cpu_draw(struct kiln_spheres_cpu *stage, struct kiln_pool *pool,
-                           struct kiln_buffer *entries, uint32_t count, float time_s,
-                           struct kiln_error *error)
+bool kiln_solids_cpu_draw(struct kiln_solids_cpu *stage, const struct kiln_moment *moment,
+                          struct kiln_buffer *entries, uint32_t count, struct kiln_error *error)
 {
-    const struct kiln_particle *records = kiln_buffer_host(&pool->records, KILN_READ, error);
-    const uint32_t *list = records ? kiln_buffer_host(entries, KILN_READ, error) : NULL;
+    const uint32_t *list = kiln_buffer_host(entries, KILN_READ, error);
     if (!list || !make_room(stage, count, error))
         return false;
-    const struct kiln_spin *spins = NULL;
-    if (pool->spins.size > 0) {
-        spins = kiln_buffer_host(&pool->spins, KILN_READ, error);
-        if (!spins)
-            return false;
-    }
-    make_all(stage, pool, records, spins, list, count, time_s);
+    make_all(stage, moment, list, count);
     struct drawing drawing = {stage,
                               {.frame = kiln_backdrop_rays(stage->backdrop),
                                .spheres = stage->spheres,
                                .instances = stage->instances,
-                               .corners = (const float4(*)[2])stage->meshes.corners,
+                               .corners = (const float4(*)[2])stage->meshes->corners,
                                .rows = stage->ranges,
                                .patterned = kiln_looks_patterned(stage->scene),
                                .width = stage->scene->width,
                                .pitch = stage->pitch}};
     if (!kiln_row_lists_fill(&stage->lists, stage->ranges, sizeof *stage->ranges, count,
-                             stage->scene->height, KILN_SPHERE_ROWS, error) ||
+                             stage->scene->height, KILN_SOLID_ROWS, error) ||
         !open_images(&stage->targets, &drawing.strip, error))
         return false;
     kiln_threads_for(stage->threads, stage->lists.bands, 1, draw_bands, &drawing);

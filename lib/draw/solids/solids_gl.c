@@ -2,23 +2,22 @@
  * shader casts a ray at it. Four samples a pixel with a depth test of their own make the order of
  * the spheres and smooth silhouettes no concern of anybody else; a second pass puts their mean over
  * the backdrop, whose own picture is kept from frame to frame and must not change. */
-#include "draw/solids/spheres_gl.h"
-
-#include "base/error.h"
-#include "draw/moment/looks.h"
-#include "draw/moment/shapes.h"
-#include "draw/solids/instances_gl.h"
-#include "gpu/program.h"
+#include "draw/solids/solids_gl.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/error.h"
+#include "draw/moment/moment_gl.h"
+#include "draw/solids/instances_gl.h"
+#include "gpu/framebuffer.h"
+#include "gpu/program.h"
+
 enum { SAMPLES = 4 }; /* what every GL has, and what the shaders count on */
 
-struct kiln_spheres_gl {
+struct kiln_solids_gl {
     struct kiln_device *device;
-    struct kiln_particles_stage *particles;
-    struct kiln_spheres_targets targets;
+    struct kiln_solids_targets targets;
     GLuint cast, resolve;             /* programs */
     struct kiln_instances_gl *meshes; /* NULL: there are none */
     GLuint samples[3];                /* multisampled textures: colour, bloom, depth */
@@ -27,7 +26,7 @@ struct kiln_spheres_gl {
     GLuint vertex_array;
 };
 
-static bool create_programs(struct kiln_spheres_gl *stage, const struct kiln_scene *scene,
+static bool create_programs(struct kiln_solids_gl *stage, const struct kiln_scene *scene,
                             struct kiln_error *error)
 {
     const struct kiln_shape_features features = kiln_shape_features(scene);
@@ -36,12 +35,12 @@ static bool create_programs(struct kiln_spheres_gl *stage, const struct kiln_sce
     snprintf(defines, sizeof defines, "%s%s%s", shapes,
              kiln_looks_patterned(scene) ? "#define PATTERN 1\n" : "",
              kiln_scene_spins(scene) ? "#define SPINS 1\n" : "");
-    const struct kiln_program_params cast = {.vertex = "draw/solids/spheres.vert",
-                                             .geometry = "draw/solids/spheres.geom",
-                                             .fragment = "draw/solids/spheres.frag",
+    const struct kiln_program_params cast = {.vertex = "draw/solids/solids_spheres.vert",
+                                             .geometry = "draw/solids/solids_spheres.geom",
+                                             .fragment = "draw/solids/solids_spheres.frag",
                                              .defines = defines};
     const struct kiln_program_params resolve = {.vertex = "gpu/framebuffer_fill.vert",
-                                                .fragment = "draw/solids/spheres_resolve.frag"};
+                                                .fragment = "draw/solids/solids_resolve.frag"};
     stage->cast = kiln_program_create(stage->device, &cast, error);
     if (!stage->cast)
         return false;
@@ -50,13 +49,13 @@ static bool create_programs(struct kiln_spheres_gl *stage, const struct kiln_sce
 }
 
 /* Nothing is blended in them, so 16 bits lose nothing, and four samples take the less memory. */
-static bool create_samples(struct kiln_spheres_gl *stage, struct kiln_error *error)
+static bool create_samples(struct kiln_solids_gl *stage, struct kiln_error *error)
 {
     static const GLenum formats[3] = {GL_RGBA16F, GL_RGBA16F, GL_DEPTH_COMPONENT32F};
     static const GLenum points[3] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
                                      GL_DEPTH_ATTACHMENT};
-    static const char *const labels[3] = {"sphere samples", "sphere bloom samples",
-                                          "sphere depth samples"};
+    static const char *const labels[3] = {"solid samples", "solid bloom samples",
+                                          "solid depth samples"};
     const struct kiln_image *size = stage->targets.color;
     glGenTextures(3, stage->samples);
     glGenFramebuffers(1, &stage->framebuffer);
@@ -70,44 +69,43 @@ static bool create_samples(struct kiln_spheres_gl *stage, struct kiln_error *err
         kiln_device_label(stage->device, GL_TEXTURE, stage->samples[i], labels[i]);
     }
     glDrawBuffers(2, points);
-    if (!kiln_device_check(stage->device, "samples of spheres", error))
+    if (!kiln_device_check(stage->device, "samples of solids", error))
         return false;
     GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE)
         return kiln_error_set(error, KILN_DEVICE_FAILED,
-                              "%s: framebuffer of spheres is incomplete (0x%04x)",
+                              "%s: framebuffer of solids is incomplete (0x%04x)",
                               stage->device->info.name, status);
     return true;
 }
 
-struct kiln_spheres_gl *kiln_spheres_gl_create(struct kiln_device *device,
-                                               const struct kiln_scene *scene,
-                                               const struct kiln_spheres_params *params,
-                                               struct kiln_error *error)
+struct kiln_solids_gl *kiln_solids_gl_create(struct kiln_device *device,
+                                             const struct kiln_moment *moment,
+                                             const struct kiln_solids_params *params,
+                                             struct kiln_error *error)
 {
-    struct kiln_spheres_gl *stage = calloc(1, sizeof *stage);
+    struct kiln_solids_gl *stage = calloc(1, sizeof *stage);
     if (!stage) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "spheres: out of memory");
+        kiln_error_set(error, KILN_DEVICE_FAILED, "solids: out of memory");
         return NULL;
     }
-    const struct kiln_spheres_targets *targets = &params->targets;
-    *stage = (struct kiln_spheres_gl){
-        .device = device, .particles = params->particles, .targets = *targets};
+    const struct kiln_solids_targets *targets = &params->targets;
+    *stage = (struct kiln_solids_gl){.device = device, .targets = *targets};
     struct kiln_image *written[] = {targets->color, targets->depth, targets->bloom};
     glGenVertexArrays(1, &stage->vertex_array);
-    bool ok = create_programs(stage, scene, error) && create_samples(stage, error);
-    if (ok && kiln_instances_gl_exist(scene)) {
-        stage->meshes = kiln_instances_gl_create(device, scene, error);
+    bool ok = create_programs(stage, moment->scene, error) && create_samples(stage, error);
+    if (ok && moment->instances.corners) {
+        stage->meshes = kiln_instances_gl_create(device, moment, error);
         ok = stage->meshes != NULL;
     }
     if (!ok || !kiln_framebuffer_init(&stage->scene, device, written, 3, error))
-        kiln_spheres_gl_destroy(&stage);
+        kiln_solids_gl_destroy(&stage);
     return stage;
 }
 
-void kiln_spheres_gl_destroy(struct kiln_spheres_gl **stage)
+void kiln_solids_gl_destroy(struct kiln_solids_gl **stage)
 {
-    struct kiln_spheres_gl *s = *stage;
+    struct kiln_solids_gl *s = *stage;
     if (!s)
         return;
     kiln_instances_gl_destroy(&s->meshes);
@@ -127,7 +125,7 @@ static void bind_texture(GLuint unit, GLenum target, GLuint texture)
     glBindTexture(target, texture);
 }
 
-static bool cast(struct kiln_spheres_gl *stage, uint32_t count, struct kiln_error *error)
+static bool cast(struct kiln_solids_gl *stage, uint32_t count, struct kiln_error *error)
 {
     const struct kiln_image *size = stage->targets.color;
     static const GLfloat transparent[4] = {0}, farthest = 0.0f;
@@ -147,14 +145,14 @@ static bool cast(struct kiln_spheres_gl *stage, uint32_t count, struct kiln_erro
     return ok;
 }
 
-bool kiln_spheres_gl_draw(struct kiln_spheres_gl *stage, struct kiln_pool *pool,
-                          struct kiln_buffer *entries, uint32_t count, float time_s,
-                          struct kiln_error *error)
+bool kiln_solids_gl_draw(struct kiln_solids_gl *stage, const struct kiln_moment *moment,
+                         struct kiln_buffer *entries, uint32_t count, struct kiln_error *error)
 {
     GLuint depth = kiln_image_gl(stage->targets.backdrop_depth, KILN_READ, error);
     GLuint color = depth ? kiln_image_gl(stage->targets.backdrop_color, KILN_READ, error) : 0;
-    if (!color || !kiln_particles_bind(stage->particles, pool, entries, time_s, error))
+    if (!color || !kiln_moment_bind(moment, entries, error))
         return false;
+    struct kiln_pool *pool = moment->pool;
     if (pool->spins.size > 0) {
         GLuint spins = kiln_buffer_gl(&pool->spins, KILN_READ, error);
         if (!spins)
@@ -173,5 +171,5 @@ bool kiln_spheres_gl_draw(struct kiln_spheres_gl *stage, struct kiln_pool *pool,
     bind_texture(4, GL_TEXTURE_2D, depth);
     glUseProgram(stage->resolve);
     kiln_framebuffer_fill(stage->vertex_array);
-    return kiln_device_check(stage->device, "spheres", error);
+    return kiln_device_check(stage->device, "solids", error);
 }

@@ -1,0 +1,11 @@
+/* JSON into a text that grows, beside the writer of kiln.h. */
+#ifndef KILN_BASE_JSON_H
+#define KILN_BASE_JSON_H
+
+#include "base/text.h"
+#include "kiln.h"
+
+/* A writer that adds to a text, which must stay where it is. It fails when the text does. */
+struct kiln_json kiln_json_to_text(struct kiln_text *text);
+
+#endif

@@ -1,0 +1,38 @@
+/* The living particles in blocks of slots, found by a loop that becomes vectors (living_simd.c). */
+#ifndef KILN_DRAW_MOMENT_LIVING_BLOCKS_H
+#define KILN_DRAW_MOMENT_LIVING_BLOCKS_H
+
+#include "base/simd.h"
+#include "draw/moment/living.h"
+#include "particles/lanes.h"
+#include "shared/look_layout.h"
+
+/* struct kiln_living of each slot; where none lives, radius and opacity are 0. */
+struct kiln_living_block {
+    struct kiln_lanes lanes;
+    uint32_t alive[KILN_LANES]; /* 0 or 1 */
+    struct kiln_floats3 position;
+    kiln_floats radius, progress, opacity;
+};
+
+/* A progress through life between two samples of a look, four floats apart in a row of the table.
+ */
+struct kiln_look_place {
+    int sample, texel; /* texel: where it is in a row of the table */
+    float part;
+};
+
+static inline struct kiln_look_place kiln_look_place_at(float progress)
+{
+    float x = progress * (float)(KILN_LOOK_SAMPLES - 1);
+    int sample = (int)x;
+    sample = sample > KILN_LOOK_SAMPLES - 2 ? KILN_LOOK_SAMPLES - 2 : sample;
+    return (struct kiln_look_place){sample, 4 * sample, x - (float)sample};
+}
+
+/* Slots first to first + KILN_LANES - 1, of which those from system->used on are empty. */
+typedef void kiln_living_find(const struct kiln_living_system *system, uint32_t first,
+                              struct kiln_living_block *block);
+KILN_SIMD_DECLARE(kiln_living_find, kiln_living_find);
+
+#endif

@@ -1,0 +1,73 @@
+/* Fills a drawn moment: camera, sun, looks, posed meshes and shapes, in an order in which each
+ * needs only what stands before it. */
+#include "draw/moment/moment.h"
+
+#include <stdlib.h>
+
+#include "base/error.h"
+#include "draw/moment/moment_gl.h"
+
+bool kiln_moment_init(struct kiln_moment *moment, struct kiln_device *device,
+                      const struct kiln_scene *scene, const struct kiln_atlas *atlas,
+                      struct kiln_error *error)
+{
+    *moment = (struct kiln_moment){.scene = scene};
+    if (!kiln_simd_choose(&moment->simd, error) || !kiln_meshes_init(&moment->meshes, scene, error))
+        goto fail;
+    if (!kiln_instances_init(&moment->instances, scene, error))
+        goto fail;
+    if (atlas)
+        kiln_looks_fill(scene, atlas, moment->looks);
+    moment->look_table = calloc((size_t)KILN_LOOK_TEXELS, sizeof *moment->look_table);
+    if (device)
+        moment->gl = kiln_moment_gl_create(device);
+    if (moment->look_table && (moment->gl || !device))
+        return true;
+    kiln_error_set(error, KILN_DEVICE_FAILED, "looks: out of memory");
+
+fail:
+    kiln_moment_finish(moment);
+    return false;
+}
+
+void kiln_moment_finish(struct kiln_moment *moment)
+{
+    kiln_moment_gl_destroy(&moment->gl);
+    kiln_instances_finish(&moment->instances);
+    kiln_meshes_finish(&moment->meshes);
+    free(moment->look_table);
+    moment->look_table = NULL;
+}
+
+/* Brings records and spins to the host. */
+static bool read_particles(struct kiln_moment *moment, struct kiln_error *error)
+{
+    struct kiln_pool *pool = moment->pool;
+    moment->records = kiln_buffer_host(&pool->records, KILN_READ, error);
+    if (!moment->records)
+        return false;
+    if (pool->spins.size > 0)
+        moment->spins = kiln_buffer_host(&pool->spins, KILN_READ, error);
+    return moment->spins || pool->spins.size == 0;
+}
+
+bool kiln_moment_fill(struct kiln_moment *moment, struct kiln_pool *pool, uint32_t step,
+                      bool on_host, struct kiln_error *error)
+{
+    const struct kiln_scene *scene = moment->scene;
+    moment->pool = pool;
+    moment->view = kiln_view_compute(scene, step);
+    const float time_s = moment->view.clock.x;
+    moment->sun = kiln_sun_frame_at(scene, time_s);
+    if (moment->look_changes == 0 || kiln_looks_vary(scene)) {
+        kiln_looks_sample(scene, time_s, moment->look_table);
+        moment->look_changes++;
+    }
+    kiln_meshes_pose(&moment->meshes, time_s);
+    if (moment->meshes.painted && pool)
+        kiln_painted_update(moment->meshes.painted, pool);
+    kiln_shapes_fill(scene, moment->meshes.loaded, &moment->sun, time_s, &moment->shapes);
+    moment->records = NULL;
+    moment->spins = NULL;
+    return !on_host || !pool || read_particles(moment, error);
+}

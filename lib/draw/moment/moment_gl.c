@@ -1,0 +1,102 @@
+/* Sends the looks of a scene to GL once and their table whenever it has changed, and binds them
+ * with the particles' records. */
+#include "draw/moment/moment_gl.h"
+
+#include <assert.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "gpu/buffer.h"
+
+static_assert(offsetof(struct kiln_draw_look, flags) == 48, "std140");
+static_assert(sizeof(struct kiln_draw_look) == 96 + 16 * KILN_MAX_TEXTURES, "std140");
+static_assert(KILN_MAX_SYSTEMS * sizeof(struct kiln_draw_look) <= 16384, "of every GL");
+
+struct kiln_moment_gl {
+    struct kiln_device *device;
+    struct kiln_buffer looks, keys;
+    GLuint look_table; /* texture, KILN_LOOK_SAMPLES wide; 0: nothing is made yet */
+    uint64_t sent;     /* the moment's look_changes that the texture shows */
+};
+
+struct kiln_moment_gl *kiln_moment_gl_create(struct kiln_device *device)
+{
+    struct kiln_moment_gl *gl = calloc(1, sizeof *gl);
+    if (gl)
+        gl->device = device;
+    return gl;
+}
+
+void kiln_moment_gl_destroy(struct kiln_moment_gl **gl)
+{
+    if (!*gl)
+        return;
+    if ((*gl)->look_table) {
+        kiln_buffer_finish(&(*gl)->looks);
+        kiln_buffer_finish(&(*gl)->keys);
+        glDeleteTextures(1, &(*gl)->look_table);
+    }
+    free(*gl);
+    *gl = NULL;
+}
+
+static bool make_buffers(const struct kiln_moment *moment, struct kiln_error *error)
+{
+    struct kiln_moment_gl *gl = moment->gl;
+    const struct kiln_scene *scene = moment->scene;
+    float4 keys[KILN_MAX_VALUE_KEYS] = {{0}};
+    if (scene->key_count)
+        memcpy(keys, scene->keys, scene->key_count * sizeof *keys);
+    kiln_buffer_init(&gl->looks, gl->device, sizeof moment->looks, "looks");
+    kiln_buffer_init(&gl->keys, gl->device, sizeof keys, "value keys");
+    return kiln_buffer_upload(&gl->looks, moment->looks, error) &&
+           kiln_buffer_upload(&gl->keys, keys, error);
+}
+
+static bool make(const struct kiln_moment *moment, struct kiln_error *error)
+{
+    struct kiln_moment_gl *gl = moment->gl;
+    glGenTextures(1, &gl->look_table);
+    glBindTexture(GL_TEXTURE_2D, gl->look_table);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, KILN_LOOK_SAMPLES,
+                 KILN_LOOK_TEXELS / KILN_LOOK_SAMPLES, 0, GL_RGBA, GL_FLOAT, NULL);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    kiln_device_label(gl->device, GL_TEXTURE, gl->look_table, "look table");
+    return make_buffers(moment, error) && kiln_device_check(gl->device, "looks", error);
+}
+
+static void bind_look_table(const struct kiln_moment *moment)
+{
+    struct kiln_moment_gl *gl = moment->gl;
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, gl->look_table);
+    if (gl->sent == moment->look_changes)
+        return;
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, KILN_LOOK_SAMPLES, KILN_LOOK_TEXELS / KILN_LOOK_SAMPLES,
+                    GL_RGBA, GL_FLOAT, moment->look_table);
+    gl->sent = moment->look_changes;
+}
+
+bool kiln_moment_bind(const struct kiln_moment *moment, struct kiln_buffer *entries,
+                      struct kiln_error *error)
+{
+    struct kiln_moment_gl *gl = moment->gl;
+    struct kiln_pool *pool = moment->pool;
+    if (!gl->look_table && !make(moment, error))
+        return false;
+    GLuint records = kiln_buffer_gl(&pool->records, KILN_READ, error);
+    GLuint order = records ? kiln_buffer_gl(entries, KILN_READ, error) : 0;
+    GLuint looks = order ? kiln_buffer_gl(&gl->looks, KILN_READ, error) : 0;
+    GLuint keys = looks ? kiln_buffer_gl(&gl->keys, KILN_READ, error) : 0;
+    if (!keys)
+        return false;
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, KILN_BIND_RECORDS, records);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, KILN_BIND_ENTRIES, order);
+    glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_LOOKS, looks);
+    glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_KEYS, keys);
+    bind_look_table(moment);
+    return true;
+}

@@ -1,0 +1,17 @@
+/* Technique backdrop=cpu: solids cast by rays, on threads. */
+#ifndef KILN_DRAW_SOLIDS_SOLIDS_CPU_H
+#define KILN_DRAW_SOLIDS_SOLIDS_CPU_H
+
+#include "draw/solids/solids.h"
+
+struct kiln_solids_cpu;
+
+struct kiln_solids_cpu *kiln_solids_cpu_create(const struct kiln_moment *moment,
+                                               const struct kiln_solids_params *params,
+                                               struct kiln_error *error);
+void kiln_solids_cpu_destroy(struct kiln_solids_cpu **stage);
+
+bool kiln_solids_cpu_draw(struct kiln_solids_cpu *stage, const struct kiln_moment *moment,
+                          struct kiln_buffer *entries, uint32_t count, struct kiln_error *error);
+
+#endif

@@ -1,0 +1,19 @@
+/* Technique backdrop=gl: spheres as impostors with four samples a pixel. */
+#ifndef KILN_DRAW_SOLIDS_SOLIDS_GL_H
+#define KILN_DRAW_SOLIDS_SOLIDS_GL_H
+
+#include "draw/solids/solids.h"
+
+struct kiln_solids_gl;
+
+struct kiln_solids_gl *kiln_solids_gl_create(struct kiln_device *device,
+                                             const struct kiln_moment *moment,
+                                             const struct kiln_solids_params *params,
+                                             struct kiln_error *error);
+void kiln_solids_gl_destroy(struct kiln_solids_gl **stage);
+
+/* With the view and backdrop blocks that kiln_backdrop_draw left bound. */
+bool kiln_solids_gl_draw(struct kiln_solids_gl *stage, const struct kiln_moment *moment,
+                         struct kiln_buffer *entries, uint32_t count, struct kiln_error *error);
+
+#endif

@@ -1,0 +1,25 @@
+/* What the printers of all types share. */
+#include "option/printer.h"
+
+void kiln_print_key(struct kiln_printer *printer, const char *name)
+{
+    kiln_text_add(&printer->text, "%*s%s:", (int)printer->indent, "", name);
+}
+
+void kiln_print_members(struct kiln_printer *printer, const struct kiln_option *members,
+                        const void *base)
+{
+    for (const struct kiln_option *row = members; row->name; row++) {
+        kiln_print_key(printer, row->name);
+        row->type->print(printer, row, (const char *)base + row->offset);
+    }
+}
+
+void kiln_print_text(struct kiln_printer *printer, const struct kiln_option *option,
+                     const void *field)
+{
+    (void)option;
+    kiln_text_add(&printer->text, " ");
+    kiln_text_add_json(&printer->text, *(const char *const *)field);
+    kiln_text_add(&printer->text, "\n");
+}

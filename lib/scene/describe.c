@@ -1,0 +1,42 @@
+/* What is said of the keys of a scene: the reference for people, the JSON schema for editors. */
+#include "option/reference.h"
+#include "option/schema.h"
+#include "scene/options.h"
+
+static const char scene_introduction[] =
+    "A scene is a YAML file. Every key below may also be given with --set KEY=VALUE; '*' in a KEY\n"
+    "stands for every entry of a mapping or list, and entries of a list are counted from 0.\n"
+    "\n"
+    "Numbers may carry a unit (2 s, 45 deg); without one they are in the SI unit, except that an\n"
+    "angle always needs one. Where it is allowed, a number or colour may vary:\n"
+    "\n"
+    "    {keys: {0 s: 1, 3 s: 2}}      over time; 0 s is the first frame\n"
+    "    {life: [0.1, 1.2]}            over a particle's life, evenly spread from birth to death\n"
+    "    {life: {0: 0, 0.2: 1, 1: 0}}  the same with the parts of the life named\n"
+    "\n"
+    "joined by straight lines, held before the first and after the last. A vector or colour "
+    "varies\n"
+    "as a whole ({keys: {0 s: [1, 0, 0], 1 s: [0, 1, 0]}}) or in each component.\n"
+    "\n"
+    "Metres, y up, right-handed; colours linear, Rec. 709 primaries.\n"
+    "\n";
+
+bool kiln_scene_write_reference(FILE *out)
+{
+    return kiln_reference_write(out, scene_introduction, kiln_options_root);
+}
+
+const char *kiln_scene_introduction(void)
+{
+    return scene_introduction;
+}
+
+bool kiln_scene_visit_keys(void (*visit)(void *user, const struct kiln_option_key *key), void *user)
+{
+    return kiln_reference_visit(kiln_options_root, visit, user);
+}
+
+bool kiln_scene_write_schema(FILE *out)
+{
+    return kiln_schema_write(out, "kiln scene", kiln_options_root);
+}

@@ -1,0 +1,18 @@
+/* How the tables of a scene write their rows, beside what every table writes. Included by
+ * options_*.c only. */
+#ifndef KILN_SCENE_ROWS_H
+#define KILN_SCENE_ROWS_H
+
+#include "option/rows.h"
+#include "scene/options.h"
+
+/* The limit of places in a scene: particles beyond 2^20 m die, so this is well inside. */
+#define FAR 100000
+
+/* name, field, default, help */
+#define BOUNDS(n, f, def, h)                                                                       \
+    {                                                                                              \
+        ROW(n, bounds, AT(f), def, h), LIMITS(KILN_METRES, -FAR, FAR), .word = "none"              \
+    }
+
+#endif

@@ -1,0 +1,61 @@
+/* Types that name what a scene or a file of it has: a system, a clip. */
+#include "scene/options.h"
+
+/* ---- name: which systems there are is known when all are read ----------------------------------
+ */
+
+static bool read_name(struct kiln_reader *reader, const struct kiln_option *option,
+                      const struct kiln_node *node, void *field)
+{
+    return kiln_reader_is_text(node) ? kiln_reader_keep_text(reader, node->text, field)
+                                     : kiln_reader_mismatch(reader, option, node);
+}
+
+static void describe_name(const struct kiln_option *option, struct kiln_text *out)
+{
+    (void)option;
+    kiln_text_add(out, "the name of another system");
+}
+
+static void schema_name(const struct kiln_option *option, struct kiln_text *out)
+{
+    (void)option;
+    kiln_text_add(out, "{\"type\": \"string\", \"minLength\": 1}");
+}
+
+const struct kiln_option_type kiln_type_name = {
+    .read = read_name,
+    .print = kiln_print_text,
+    .describe = describe_name,
+    .schema = schema_name,
+};
+
+/* ---- clip: which ones there are, its file knows ------------------------------------------------
+ */
+
+static bool read_clip(struct kiln_reader *reader, const struct kiln_option *option,
+                      const struct kiln_node *node, void *field)
+{
+    return node->kind == KILN_NODE_SCALAR && *node->text
+               ? kiln_reader_keep_text(reader, node->text, field)
+               : kiln_reader_mismatch(reader, option, node);
+}
+
+static void describe_clip(const struct kiln_option *option, struct kiln_text *out)
+{
+    (void)option;
+    kiln_text_add(out, "the name of an animation in the file, or its number from 0");
+}
+
+static void schema_clip(const struct kiln_option *option, struct kiln_text *out)
+{
+    (void)option;
+    kiln_text_add(out, "{\"type\": [\"string\", \"integer\"]}");
+}
+
+const struct kiln_option_type kiln_type_clip = {
+    .read = read_clip,
+    .print = kiln_print_text,
+    .describe = describe_clip,
+    .schema = schema_clip,
+};

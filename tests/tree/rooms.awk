@@ -1,0 +1,33 @@
+# The rooms of lib/ in their order, for the laws of includes and of symbols. A room reads what stands
+# before it; rooms with the same number do not read each other.
+BEGIN {
+    rank["base"] = 1; rank["option"] = 2; rank["gpu"] = 3
+    rank["asset"] = rank["particles"] = 4; rank["scene"] = 5
+    rank["sim"] = rank["sort"] = rank["draw"] = rank["post"] = rank["output"] = 6
+    rank["compare"] = 7; rank["frame"] = 8; rank["suite"] = 9; rank["report"] = 10
+    rank["figure"] = 11; rank["bench"] = 12
+
+    # Inside of three of them.
+    inner["asset/image"] = 1; inner["asset/geometry"] = inner["asset/atlas"] = 2
+    inner["sim/world"] = 1; inner["sim/crowd"] = inner["sim/paint"] = 2; inner["sim/step"] = 3
+    inner["draw/vector"] = 1; inner["draw/moment"] = 2; inner["draw/light"] = 3
+    inner["draw/backdrop"] = 4; inner["draw/solids"] = 5; inner["draw/sprites"] = 6
+    for (room in inner) divided[substr(room, 1, index(room, "/") - 1)] = 1
+}
+
+# "draw/light" of "draw/light/smoke.c", "base" of "base/error.h", "" of "kiln.h".
+function room_of(path) {
+    return sub(/\/[^\/]*$/, "", path) ? path : ""
+}
+
+function is_room(room) {
+    return room in inner || (room in rank && !(room in divided))
+}
+
+function may_read(room, other,    a, b) {
+    split(room, a, "/")
+    split(other, b, "/")
+    if (a[1] != b[1])
+        return rank[b[1]] < rank[a[1]]
+    return room == other || inner[other] < inner[room]
+}

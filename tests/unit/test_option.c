@@ -1,0 +1,366 @@
+/* lib/option: a table of its own, which is no scene's, is read, printed, changed and explained. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "option/override.h"
+#include "option/printer.h"
+#include "option/reference.h"
+#include "option/rows.h"
+#include "option/schema.h"
+#include "support/cmocka.h"
+
+enum medium { MEDIUM_PAPER, MEDIUM_GLASS };
+enum mark { MARK_DOT, MARK_BAR };
+
+struct mark_of {
+    enum mark kind;
+    double radius, length;
+};
+
+struct tray {
+    const char *name;
+    uint32_t sheets;
+};
+
+/* A plotter: something that has every type. */
+struct plotter {
+    uint32_t version, pens, width[2];
+    bool quiet, limited;
+    struct kiln_rational rate;
+    double pause_s, limit_s;
+    enum medium medium;
+    const char *title;
+    struct kiln_bounds room;
+    struct kiln_value speed;
+    struct kiln_value3 place, ink;
+    struct kiln_range pressure;
+    struct tray trays[2];
+    uint32_t tray_count;
+    struct mark_of marks[3];
+    uint32_t mark_count;
+};
+
+#define AT(field) offsetof(struct tray, field)
+
+static const struct kiln_option tray[] = {
+    INTEGER("sheets", sheets, 0, 500, "100", "What is in it."),
+    END,
+};
+
+#undef AT
+#define AT(field) offsetof(struct mark_of, field)
+
+static const struct kiln_option dot[] = {
+    {ROW("radius", number, AT(radius), "1 mm", "Of the dot."), LIMITS(KILN_METRES, 0, 1)},
+    END,
+};
+
+static const struct kiln_option bar[] = {
+    {ROW("length", number, AT(length), NULL, "Of the bar."), LIMITS(KILN_METRES, 0, 1)},
+    END,
+};
+
+static const struct kiln_option_kind mark_kinds[] = {
+    {.name = "dot", .value = MARK_DOT, .members = dot, .shortcut = "radius", .help = "A dot."},
+    {.name = "bar", .value = MARK_BAR, .members = bar, .help = "A bar."},
+    {.name = NULL},
+};
+
+static const struct kiln_option mark = {
+    .type = &kiln_type_kind, .kinds = mark_kinds, .kind_offset = AT(kind)};
+
+#undef AT
+#define AT(field) offsetof(struct plotter, field)
+
+static const char *const media[] = {
+    [MEDIUM_PAPER] = "paper",
+    [MEDIUM_GLASS] = "glass",
+    NULL,
+};
+
+static const struct kiln_option pens[] = {
+    INTEGER("count", pens, 1, 8, "4", "How many."),
+    END,
+};
+
+static const struct kiln_option limit[] = {
+    {ROW("time", number, AT(limit_s), "60 s", "After so long it stops."),
+     LIMITS(KILN_SECONDS, 1, 3600)},
+    END,
+};
+
+static const struct kiln_option rows[] = {
+    INTEGER("plotter", version, 1, 1, NULL, "Version of the format."),
+    GROUP("pens", 0, pens, "What it draws with."),
+    {ROW("limit", switch, 0, "none", "When it gives up."), .members = limit,
+     .count_offset = AT(limited)},
+    {ROW("width", pair, AT(width), "[1, 2]", "Of thin and thick lines."),
+     LIMITS(KILN_PIXELS, 1, 9)},
+    BOOLEAN("quiet", quiet, "false", "It makes no noise."),
+    {ROW("rate", rational, AT(rate), "auto", "Lines a second."), LIMITS(KILN_PLAIN, 1, 100),
+     .word = "auto"},
+    {ROW("pause", number, AT(pause_s), "0 s", "Between two lines."), LIMITS(KILN_SECONDS, 0, 10)},
+    CHOICE("medium", medium, media, "paper", "What it draws on."),
+    {ROW("title", text, AT(title), "\"\"", "What it draws."), LIMITS(KILN_PLAIN, 0, 20)},
+    {ROW("room", bounds, AT(room), "none", "Where the pen may be."), LIMITS(KILN_METRES, -9, 9),
+     .word = "none"},
+    VALUE("speed", speed, KILN_SPEED, 0, 10, BOTH, "1 m/s", "Of the pen."),
+    VECTOR("place", place, KILN_METRES, -9, 9, TIME, "[0, 0, 0]", "Of the plotter."),
+    COLOR("ink", ink, 1, TIME, "0", "What it draws with."),
+    RANGE("pressure", pressure, KILN_PLAIN, 0, 1, TIME, "0.5", "Of the pen."),
+    {ROW("trays", map, AT(trays), "{}", "The trays by their names."), .members = tray,
+     .item_size = sizeof(struct tray), .count_offset = AT(tray_count), .max_count = 2},
+    {ROW("marks", list, AT(marks), "[]", "What it draws."), .item = &mark,
+     .item_size = sizeof(struct mark_of), .count_offset = AT(mark_count), .max_count = 3},
+    END,
+};
+
+static const char everything[] = "plotter: 1\n"
+                                 "pens: {count: 8}\n"
+                                 "limit: {time: 90 s}\n"
+                                 "width: [3, 9]\n"
+                                 "quiet: true\n"
+                                 "rate: 29.97\n"
+                                 "pause: 20 ms\n"
+                                 "medium: glass\n"
+                                 "title: a \"line\"\n"
+                                 "room: {min: [0, 0, 0], max: [1, 2, 3]}\n"
+                                 "speed: {keys: {0 s: 1, 2 s: 3 m/s}}\n"
+                                 "place: {keys: {0 s: [0, 1, 2], 1 s: [3, 4, 5]}}\n"
+                                 "ink: 0.25\n"
+                                 "pressure: [0.25, 0.5]\n"
+                                 "trays: {upper: {}, lower: {sheets: 7}}\n"
+                                 "marks: [dot: 5 mm, bar: {length: 10 cm}]\n";
+
+/* One reading, and all that it leaves. */
+struct reading {
+    struct kiln_arena *arena, *scratch;
+    struct kiln_origin origin;
+    struct kiln_error error;
+    struct plotter plotter;
+    struct kiln_reader reader;
+};
+
+static void begin(struct reading *r)
+{
+    *r = (struct reading){.arena = kiln_arena_create(), .scratch = kiln_arena_create()};
+    assert_true(r->arena && r->scratch);
+    r->origin = (struct kiln_origin){
+        .name = "p.yaml", .has_lines = true, .kind = "a plotter", .version = "plotter: 1"};
+    r->reader = (struct kiln_reader){.origin = &r->origin,
+                                     .arena = r->arena,
+                                     .scratch = r->scratch,
+                                     .error = &r->error,
+                                     .target = &r->plotter};
+}
+
+static void end(struct reading *r)
+{
+    kiln_arena_destroy(&r->scratch);
+    kiln_arena_destroy(&r->arena);
+}
+
+static void read_plotter(struct reading *r, const char *text)
+{
+    begin(r);
+    if (!kiln_read_document(&r->reader, rows, text, strlen(text)))
+        fail_msg("%s", r->error.message);
+}
+
+static char *print_plotter(const struct reading *r)
+{
+    struct kiln_printer printer = {.source = &r->plotter, .keys = r->reader.keys};
+    kiln_print_members(&printer, rows, &r->plotter);
+    assert_false(printer.text.failed);
+    return printer.text.data;
+}
+
+static void a_document_fills_its_target(void **state)
+{
+    (void)state;
+    struct reading r;
+    read_plotter(&r, everything);
+    const struct plotter *p = &r.plotter;
+    assert_true(p->quiet && p->limited && p->limit_s == 90 && p->pause_s == 0.02);
+    assert_true(p->pens == 8 && p->width[0] == 3 && p->width[1] == 9);
+    assert_true(p->rate.num == 2997 && p->rate.den == 100);
+    assert_int_equal(p->medium, MEDIUM_GLASS);
+    assert_string_equal(p->title, "a \"line\"");
+    assert_true(p->room.enabled && p->room.max[2] == 3.0f);
+    assert_true(value_at(r.reader.keys, p->speed, 1.0f, 0.0f) == 2.0f);
+    assert_true(value3_at(r.reader.keys, p->place, 0.5f, 0.0f).z == 3.5f);
+    assert_true(p->ink.y.constant == 0.25f && p->pressure.max.constant == 0.5f);
+    assert_int_equal(p->tray_count, 2);
+    assert_string_equal(p->trays[1].name, "lower");
+    assert_true(p->trays[0].sheets == 100 && p->trays[1].sheets == 7);
+    assert_int_equal(p->mark_count, 2);
+    assert_true(p->marks[0].kind == MARK_DOT && p->marks[0].radius == 0.005);
+    assert_true(p->marks[1].kind == MARK_BAR && p->marks[1].length == 0.1);
+    end(&r);
+}
+
+static void what_is_not_said_has_its_default(void **state)
+{
+    (void)state;
+    struct reading r;
+    read_plotter(&r, "plotter: 1");
+    const struct plotter *p = &r.plotter;
+    assert_true(!p->quiet && !p->limited && p->pens == 4 && p->rate.num == 0);
+    assert_true(p->medium == MEDIUM_PAPER && !p->room.enabled && p->speed.constant == 1.0f);
+    assert_string_equal(p->title, "");
+    assert_null(r.reader.keys);
+    end(&r);
+}
+
+static void what_is_printed_reads_as_the_same(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {"plotter: 1", everything};
+    for (size_t i = 0; i < 2; i++) {
+        struct reading r, again;
+        read_plotter(&r, texts[i]);
+        char *printed = print_plotter(&r);
+        read_plotter(&again, printed);
+        char *printed_again = print_plotter(&again);
+        assert_string_equal(printed, printed_again);
+        free(printed);
+        free(printed_again);
+        end(&r);
+        end(&again);
+    }
+}
+
+static void errors_say_where_and_in_what(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *message;
+    } cases[] = {
+        {"", "p.yaml: empty; a plotter starts with 'plotter: 1'"},
+        {"[]", "p.yaml:1:1: expected a mapping of keys, found a list"},
+        {"plotter: 1\n---\nplotter: 1\n",
+         "p.yaml:2:1: a plotter is one document; a second starts here"},
+        {"pens: {}", "p.yaml:1:1: plotter: missing; it must be given"},
+        {"plotter: 1\npens: {cuont: 3}",
+         "p.yaml:2:8: pens.cuont: unknown key (did you mean 'count'?)"},
+        {"plotter: 1\nlimit: {time: 2 h}",
+         "p.yaml:2:15: limit.time: 'h' does not fit; the unit is s or ms"},
+        {"plotter: 1\ntitle: 123456789012345678901",
+         "p.yaml:2:8: title: 21 bytes are too many; at most 20"},
+        {"plotter: 1\nmarks: [dot: 1 mm, circle: {}]",
+         "p.yaml:2:20: marks.1.circle: unknown kind (there are: dot, bar)"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct reading r;
+        begin(&r);
+        assert_false(kiln_read_document(&r.reader, rows, cases[i].text, strlen(cases[i].text)));
+        assert_string_equal(r.error.message, cases[i].message);
+        assert_int_equal(r.error.code, KILN_INVALID_INPUT);
+        end(&r);
+    }
+}
+
+static void an_error_finds_its_place_by_a_path(void **state)
+{
+    (void)state;
+    struct reading r;
+    begin(&r);
+    const struct kiln_node *root =
+        kiln_node_parse(r.scratch, everything, sizeof everything - 1, &r.origin, &r.error);
+    assert_non_null(root);
+    assert_false(kiln_reader_error_at(&r.reader, root, "marks.1.bar.length", "too %s", "long"));
+    assert_string_equal(r.error.message, "p.yaml:16:34: marks.1.bar.length: too long");
+    kiln_reader_error_at(&r.reader, root, "marks.0.dot.color", "dull");
+    assert_string_equal(r.error.message, "p.yaml:16:14: marks.0.dot.color: dull");
+    end(&r);
+}
+
+static void keys_are_overridden_by_the_table(void **state)
+{
+    (void)state;
+    static const char *const overrides[] = {"trays.*.sheets=9", "limit.time=5 s",
+                                            "marks.1.bar.length=1", "pens.count=2"};
+    struct reading r;
+    begin(&r);
+    struct kiln_node *root =
+        kiln_node_parse(r.scratch, everything, sizeof everything - 1, &r.origin, &r.error);
+    for (size_t i = 0; i < sizeof overrides / sizeof *overrides; i++)
+        assert_true(kiln_override(&r.reader, rows, root, overrides[i]));
+    assert_true(kiln_read_members(&r.reader, rows, root, &r.plotter));
+    assert_true(r.plotter.trays[0].sheets == 9 && r.plotter.trays[1].sheets == 9);
+    assert_true(r.plotter.limit_s == 5 && r.plotter.marks[1].length == 1 && r.plotter.pens == 2);
+    assert_false(kiln_override(&r.reader, rows, root, "trays.uper.sheets=1"));
+    assert_string_equal(r.error.message,
+                        "--set trays.uper.sheets: there is no 'uper' (did you mean 'upper'?)");
+    end(&r);
+}
+
+/* ---- what is said of the keys --------------------------------------------------------------- */
+
+static void count_key(void *user, const struct kiln_option_key *key)
+{
+    static const char *const words[][2] = {
+        {"quiet", "true|false"}, {"medium", "paper|glass"}, {"rate", "auto"},
+        {"room", "none"},        {"limit", "none"},
+    };
+    unsigned *found = user;
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        if (strcmp(key->path, words[i][0]) != 0)
+            continue;
+        assert_string_equal(key->words, words[i][1]);
+        ++*found;
+    }
+}
+
+static void words_are_offered_as_a_file_has_them(void **state)
+{
+    (void)state;
+    unsigned found = 0;
+    assert_true(kiln_reference_visit(rows, count_key, &found));
+    assert_int_equal(found, 5);
+}
+
+static void a_reference_and_a_schema_follow(void **state)
+{
+    (void)state;
+    static const char *const said[] = {
+        "Plots.\n",
+        "\ntrays.NAME.sheets\n    What is in it.\n    a whole number from 0 to 500\n"
+        "    default: 100\n",
+        "\nmarks.N.dot\n    A dot.\n    dot: VALUE is short for dot: {radius: VALUE}\n",
+        "\nspeed\n    Of the pen.\n    a number from 0 m/s to 10 m/s; unit m/s or cm/s\n"
+        "    may vary over time or life\n",
+        "\"title\": \"a plotter\"",
+        "\"title\": {\"description\": \"What it draws.\", \"type\": \"string\", \"minLength\": 0, "
+        "\"maxLength\": 20}",
+        "\"required\": [\"plotter\"]",
+    };
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    assert_true(kiln_reference_write(out, "Plots.\n\n", rows));
+    assert_true(kiln_schema_write(out, "a plotter", rows));
+    fclose(out);
+    for (size_t i = 0; i < sizeof said / sizeof *said; i++) {
+        if (!strstr(text, said[i]))
+            fail_msg("not said: %s", said[i]);
+    }
+    free(text);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_document_fills_its_target),
+        cmocka_unit_test(what_is_not_said_has_its_default),
+        cmocka_unit_test(what_is_printed_reads_as_the_same),
+        cmocka_unit_test(errors_say_where_and_in_what),
+        cmocka_unit_test(an_error_finds_its_place_by_a_path),
+        cmocka_unit_test(keys_are_overridden_by_the_table),
+        cmocka_unit_test(words_are_offered_as_a_file_has_them),
+        cmocka_unit_test(a_reference_and_a_schema_follow),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
