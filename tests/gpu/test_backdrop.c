@@ -8,6 +8,7 @@
 #include "draw/backdrop/backdrop.h"
 #include "support/backdrops.h"
 #include "support/cmocka.h"
+#include "support/device.h"
 
 enum { WIDTH = 96, HEIGHT = 54 };
 

@@ -7,8 +7,11 @@
 #include <string.h>
 
 #include "asset/image/texture.h"
+#include "support/backdrops.h"
 #include "support/cmocka.h"
+#include "support/device.h"
 #include "support/folders.h"
+#include "support/pictures.h"
 #include "support/ray_caster.h"
 
 /* ---- tests ----------------------------------------------------------------------------------- */

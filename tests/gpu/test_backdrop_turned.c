@@ -3,7 +3,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "support/backdrops.h"
 #include "support/cmocka.h"
+#include "support/device.h"
 #include "support/ray_caster.h"
 
 #define OBJECTS                                                                                    \

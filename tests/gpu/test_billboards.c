@@ -4,6 +4,7 @@
 #include <stdint.h>
 
 #include "support/cmocka.h"
+#include "support/device.h"
 #include "support/drawing.h"
 
 enum { WIDTH = 320, HEIGHT = 240, PIXELS = WIDTH * HEIGHT, STEP = 30 };

@@ -2,8 +2,13 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 #include "support/cmocka.h"
+#include "support/folders.h"
+#include "support/pictures.h"
 #include "support/suite.h"
 
 #define EXPECT "golden/spark/expect.yaml"

@@ -2,9 +2,11 @@
  * techniques, without what belongs behind an edge before it. */
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 
 #include "base/simd.h"
 #include "support/cmocka.h"
+#include "support/device.h"
 #include "support/frame.h"
 
 enum { WIDTH = 101, HEIGHT = 67, PIXELS = WIDTH * HEIGHT };

@@ -2,8 +2,10 @@
  * thousands in one place, more than are drawn at a time, and on those that the camera is in. */
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 
 #include "support/cmocka.h"
+#include "support/device.h"
 #include "support/drawing.h"
 
 enum { WIDTH = 600, HEIGHT = 400, VALUES = WIDTH * HEIGHT * 4, STEP = 30, MOST = 300000 };

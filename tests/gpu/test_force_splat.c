@@ -7,6 +7,7 @@
 #include "shared/interact_gravity.h"
 #include "support/balls.h"
 #include "support/cmocka.h"
+#include "support/device.h"
 
 enum { BODIES = 300 /* no multiple of a row of texels */, WAYS = 3 };
 

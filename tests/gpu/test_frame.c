@@ -1,6 +1,8 @@
 /* lib/frame/loop.c: jobs beside each other in one process. */
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "frame/loop.h"
 #include "support/cmocka.h"

@@ -4,6 +4,8 @@
 
 #include "shared/random.h"
 #include "support/cmocka.h"
+#include "support/device.h"
+#include "support/scene_fixture.h"
 #include "support/simulation.h"
 
 static struct scene_fixture fixture; /* too large for a stack */

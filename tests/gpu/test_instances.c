@@ -3,10 +3,14 @@
  * neither order, threads nor the width of vectors matter. */
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <sys/resource.h>
 
 #include "base/simd.h"
+#include "shared/derived.h"
+#include "support/backdrops.h"
 #include "support/cmocka.h"
+#include "support/device.h"
 #include "support/opaque.h"
 
 enum { STEP = 30, COUNT = 24 };
@@ -99,7 +103,7 @@ static void check_solid(struct fixture *f, const struct kiln_particle *particle,
 {
     const struct drawing *d = &f->drawing;
     drawing_place(&f->drawing, particle, 1, STEP);
-    draw(f, 1);
+    opaque_draw(f, 1);
     const struct solid solid = solid_of(vec_of(particle_position(*particle)), axes);
     double drawn = 0, expected = 0;
     int faces = 0;
@@ -151,7 +155,7 @@ static void ahead_is_where_they_go(void **state)
         const vec axes[3] = {right, vec_cross(ahead, right), ahead};
         check_solid(&f, &particle, axes);
     }
-    finish(&f);
+    opaque_finish(&f);
 }
 
 /* Rodrigues. */
@@ -188,7 +192,7 @@ static void they_turn_about_an_axis(void **state)
                 axes[i] = turned(units[i], axis, angle);
             check_solid(&f, &particle, axes);
         }
-        finish(&f);
+        opaque_finish(&f);
     }
 }
 
@@ -216,7 +220,7 @@ static void they_lie_as_collisions_have_turned_them(void **state)
     const struct kiln_particle particle =
         drawing_particle(0, (float3){0.2f, 0.9f, 1.2f}, (float3){1.0f, 0.0f, 0.0f});
     check_solid(&f, &particle, axes);
-    finish(&f);
+    opaque_finish(&f);
 }
 
 /* ---- light -------------------------------------------------------------------------------------
@@ -237,7 +241,7 @@ static void the_sun_shines_on_them(void **state)
     init(&f, *state, overrides, sizeof overrides / sizeof *overrides);
     const struct kiln_particle particle = drawing_particle(0, PLACE, (float3){0.0f, 0.0f, 0.0f});
     drawing_place(&f.drawing, &particle, 1, STEP);
-    draw(&f, 1);
+    opaque_draw(&f, 1);
     double brightest = 0;
     for (int p = 0; p < PIXELS; p++) {
         bool covered = f.bloom.host[4 * p + 3] == 1.0f;
@@ -246,7 +250,7 @@ static void the_sun_shines_on_them(void **state)
     vec sun = vec_unit((vec){0.5, 1.5, 3}), slope = vec_unit((vec){1, 1, 1});
     double lambert = ALBEDO[0] * 3 * vec_dot(sun, slope) / 3.14159265358979;
     assert_true(fabs(brightest - lambert) < 0.01 * lambert);
-    finish(&f);
+    opaque_finish(&f);
 }
 
 /* ---- pictures ----------------------------------------------------------------------------------
@@ -270,20 +274,20 @@ static void order_is_no_matter(void **state)
     init(&f, *state, NULL, 0);
     struct kiln_particle particles[COUNT];
     place_cloud(&f, particles, COUNT);
-    draw(&f, COUNT);
+    opaque_draw(&f, COUNT);
     float *before = copy_of(&f);
     struct kiln_error error = {0};
     uint32_t *entries = kiln_buffer_host(&f.drawing.entries, KILN_READ_WRITE, &error);
     assert_non_null(entries);
     for (uint32_t i = 0; i < COUNT; i++)
         entries[i] = KILN_ENTRY(0, COUNT - 1 - i);
-    draw(&f, COUNT);
+    opaque_draw(&f, COUNT);
     float *after = copy_of(&f);
     for (size_t i = 0; i < (size_t)PIXELS * 9; i++)
         assert_true(fabsf(after[i] - before[i]) <= 1e-6f * (1.0f + fabsf(after[i]))); /* sums */
     free(after);
     free(before);
-    finish(&f);
+    opaque_finish(&f);
 }
 
 /* Behind the camera, shrunk to nothing, or none at all: the backdrop stays as it is. One that is
@@ -298,23 +302,23 @@ static void the_near_plane_cuts(void **state)
         const struct kiln_particle particle =
             drawing_particle(0, i == 0 ? behind : PLACE, (float3){1.0f, 0.0f, 0.0f});
         drawing_place(&f.drawing, &particle, 1, STEP);
-        draw(&f, i == 2 ? 0 : 1);
+        opaque_draw(&f, i == 2 ? 0 : 1);
         assert_memory_equal(f.color.host, f.drawing.backdrop_color.host, PIXELS * 16);
         assert_memory_equal(f.depth.host, f.drawing.backdrop_depth.host, PIXELS * 4);
-        finish(&f);
+        opaque_finish(&f);
     }
     struct fixture f;
     init(&f, *state, NULL, 0);
     const struct kiln_particle particle = drawing_particle(0, around, (float3){1.0f, 0.0f, 0.0f});
     drawing_place(&f.drawing, &particle, 1, STEP);
-    draw(&f, 1);
+    opaque_draw(&f, 1);
     int seen = 0;
     for (int p = 0; p < PIXELS; p++) {
         assert_true(isfinite(f.color.host[4 * p]) && f.depth.host[p] >= 0.0999f);
         seen += f.depth.host[p] < f.drawing.backdrop_depth.host[p];
     }
     assert_true(seen > 0);
-    finish(&f);
+    opaque_finish(&f);
 }
 
 /* ---- both techniques, and one of them in all ways -----------------------------------------------
@@ -331,9 +335,9 @@ static float *draw_crowd(void *device, enum kiln_backdrop_technique technique)
     init(&f, device, overrides, 2);
     static struct kiln_particle particles[CROWD];
     place_cloud(&f, particles, CROWD);
-    draw(&f, CROWD);
+    opaque_draw(&f, CROWD);
     float *copy = copy_of(&f);
-    finish(&f);
+    opaque_finish(&f);
     drawing_most = 32;
     return copy;
 }
@@ -386,14 +390,14 @@ static void many_take_little_memory(void **state)
     init(&f, *state, small, 1);
     place_cloud(&f, particles, MANY);
     assert_int_equal(getrusage(RUSAGE_SELF, &before), 0);
-    draw(&f, MANY);
+    opaque_draw(&f, MANY);
     assert_int_equal(getrusage(RUSAGE_SELF, &after), 0);
     assert_true(after.ru_maxrss - before.ru_maxrss < 64 * 1024);
     double covered = 0;
     for (int p = 0; p < PIXELS; p++)
         covered += (double)f.bloom.host[4 * p + 3];
     assert_true(covered > PIXELS / 4);
-    finish(&f);
+    opaque_finish(&f);
     drawing_most = 32;
 }
 

@@ -7,6 +7,7 @@
 #include "draw/backdrop/backdrop.h"
 #include "support/backdrops.h"
 #include "support/cmocka.h"
+#include "support/device.h"
 #include "support/scenes.h"
 
 enum { WIDTH = 64, HEIGHT = 36, STEP = 30, SLOTS = 512 };

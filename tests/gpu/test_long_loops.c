@@ -7,6 +7,7 @@
 #include "gpu/program.h"
 #include "support/balls.h"
 #include "support/cmocka.h"
+#include "support/device.h"
 
 static struct scene_fixture fixture; /* too large for a stack */
 

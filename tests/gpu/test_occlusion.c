@@ -1,11 +1,14 @@
 /* What the scene hides of particles is not shaded, and that changes no bit of what is seen. */
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 
 #include "support/cmocka.h"
+#include "support/device.h"
 #include "support/drawing.h"
 #include "support/folders.h"
 #include "support/frame.h"
+#include "support/pictures.h"
 
 /* Billboards parallel to the picture; with system b, those of all shapes. */
 static const char CARDS[] =

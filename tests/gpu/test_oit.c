@@ -2,11 +2,14 @@
  * many fragments there are. */
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 
 #include "base/text.h"
 #include "support/cmocka.h"
+#include "support/device.h"
 #include "support/folders.h"
 #include "support/frame.h"
+#include "support/pictures.h"
 
 enum { WIDTH = 96, HEIGHT = 64, STEPS = 20 };
 

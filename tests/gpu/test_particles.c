@@ -14,6 +14,7 @@
 #include "shared/derived.h"
 #include "support/backdrops.h"
 #include "support/cmocka.h"
+#include "support/device.h"
 
 enum { WIDTH = 480, HEIGHT = 360, PIXELS = WIDTH * HEIGHT, COUNT = 24, STEP = 40 };
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "support/cmocka.h"
+#include "support/device.h"
 #include "support/frame.h"
 #include "support/parts.h"
 #include "support/stages.h"

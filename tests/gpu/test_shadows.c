@@ -2,11 +2,14 @@
  * that are counted; of meshes, against their corners; of a box on spheres and on smoke. */
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 #include "draw/light/lighting.h"
 #include "draw/solids/solids.h"
+#include "support/backdrops.h"
 #include "support/cmocka.h"
+#include "support/device.h"
 #include "support/drawing.h"
 #include "support/parts.h"
 
@@ -91,7 +94,7 @@ static void draw(struct fixture *f, const vec *places, uint32_t count)
 {
     struct kiln_error error = {0};
     struct drawing *d = &f->drawing;
-    struct kiln_particle particles[32];
+    struct kiln_particle particles[32] = {0};
     for (uint32_t i = 0; i < count; i++) {
         const float3 at = {(float)places[i].x, (float)places[i].y, (float)places[i].z};
         particles[i] = drawing_particle(i, at, (float3){0.0f, 0.0f, 0.0f});

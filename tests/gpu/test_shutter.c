@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "asset/image/image.h"
+#include "scene/scene.h"
 #include "support/cmocka.h"
 #include "support/device.h"
 #include "support/scenes.h"

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "support/cmocka.h"
+#include "support/device.h"
 #include "support/family_fixture.h"
 #include "support/parts.h"
 #include "support/simulation.h"

@@ -3,11 +3,15 @@
 #include <stdint.h>
 #include <stdlib.h>
 
+#include "shared/random.h"
 #include "sort/bitonic.h"
 #include "sort/oddeven.h"
+#include "sort/pairs.h"
 #include "sort/radix.h"
 #include "sort/sort.h"
 #include "support/cmocka.h"
+#include "support/device.h"
+#include "support/scene_fixture.h"
 #include "support/simulation.h"
 #include "support/sort_keys.h"
 

@@ -6,7 +6,9 @@
 
 #include "bench/bitonic_field.h"
 #include "bench/sort_trial.h"
+#include "sort/pairs.h"
 #include "support/cmocka.h"
+#include "support/device.h"
 #include "support/simulation.h"
 #include "support/sort_keys.h"
 

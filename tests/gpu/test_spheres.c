@@ -2,8 +2,11 @@
  * silhouettes, light, and that the order of the list is no matter. */
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 
+#include "support/backdrops.h"
 #include "support/cmocka.h"
+#include "support/device.h"
 #include "support/opaque.h"
 
 enum { STEP = 30, COUNT = 24 };
@@ -84,7 +87,7 @@ static void depth_is_where_the_ray_meets_a_sphere(void **state)
     init(&f, *state, NULL, 0);
     struct kiln_particle particles[COUNT];
     place_cloud(&f, particles);
-    draw(&f, COUNT);
+    opaque_draw(&f, COUNT);
     int spheres = 0, kept = 0;
     for (int p = 0; p < PIXELS; p++) {
         struct meeting m = meet(&f, particles, COUNT, 0.2, p % WIDTH + 0.5, p / WIDTH + 0.5);
@@ -102,7 +105,7 @@ static void depth_is_where_the_ray_meets_a_sphere(void **state)
         kept += !is_sphere;
     }
     assert_true(spheres > 3000 && kept > 20000);
-    finish(&f);
+    opaque_finish(&f);
 }
 
 /* One sphere at the side, where perspective makes it an ellipse: its part of each pixel, and so its
@@ -116,7 +119,7 @@ static void silhouettes_are_smooth(void **state)
         struct kiln_particle particle =
             drawing_particle(0, (float3){1.4f, 1.9f, 0.8f}, (float3){0.0f, 0.0f, 0.0f});
         drawing_place(&f.drawing, &particle, 1, STEP);
-        draw(&f, 1);
+        opaque_draw(&f, 1);
         double drawn = 0, expected = 0, partly = 0;
         for (int p = 0; p < PIXELS; p++) {
             double part = 0;
@@ -135,7 +138,7 @@ static void silhouettes_are_smooth(void **state)
         }
         assert_true(expected > 200 && partly > 20);
         assert_true(fabs(drawn - expected) < 0.01 * expected);
-        finish(&f);
+        opaque_finish(&f);
     }
 }
 
@@ -145,7 +148,7 @@ static void order_is_no_matter(void **state)
     init(&f, *state, NULL, 0);
     struct kiln_particle particles[COUNT];
     place_cloud(&f, particles);
-    draw(&f, COUNT);
+    opaque_draw(&f, COUNT);
     float *before = malloc(PIXELS * 5 * sizeof(float));
     assert_non_null(before);
     memcpy(before, f.color.host, PIXELS * 4 * sizeof(float));
@@ -155,11 +158,11 @@ static void order_is_no_matter(void **state)
     assert_non_null(entries);
     for (uint32_t i = 0; i < COUNT; i++)
         entries[i] = KILN_ENTRY(0, COUNT - 1 - i);
-    draw(&f, COUNT);
+    opaque_draw(&f, COUNT);
     assert_memory_equal(before, f.color.host, PIXELS * 4 * sizeof(float));
     assert_memory_equal(before + PIXELS * 4, f.depth.host, PIXELS * sizeof(float));
     free(before);
-    finish(&f);
+    opaque_finish(&f);
 }
 
 /* Lambert under sky, sun and a lamp, and what it emits on top. */
@@ -179,7 +182,7 @@ static void light_is_the_backdrops(void **state)
     init(&f, *state, overrides, 6);
     struct kiln_particle particles[COUNT];
     place_cloud(&f, particles);
-    draw(&f, COUNT);
+    opaque_draw(&f, COUNT);
     int checked = 0;
     for (int p = 0; p < PIXELS; p++) {
         double x = p % WIDTH + 0.5, y = p / WIDTH + 0.5;
@@ -199,7 +202,7 @@ static void light_is_the_backdrops(void **state)
         checked++;
     }
     assert_true(checked > 3000);
-    finish(&f);
+    opaque_finish(&f);
 }
 
 /* What glows does so besides, and goes to the bloom. */
@@ -213,12 +216,12 @@ static void hot_spheres_shine(void **state)
         init(&f[i], *state, overrides, i * 2);
         struct kiln_particle particles[COUNT];
         place_cloud(&f[i], particles);
-        draw(&f[i], COUNT);
+        opaque_draw(&f[i], COUNT);
         for (int p = 0; p < PIXELS; p++) {
             red[i] += (double)f[i].color.host[4 * p];
             bloom[i] += (double)f[i].bloom.host[4 * p];
         }
-        finish(&f[i]);
+        opaque_finish(&f[i]);
     }
     assert_true(red[1] > 1.2 * red[0] && bloom[1] > 2 * bloom[0]);
     assert_true(fabs((red[1] - red[0]) - (bloom[1] - bloom[0])) < 0.01 * red[1]);
@@ -235,11 +238,11 @@ static void no_sphere_fills_the_picture(void **state)
         struct kiln_particle particle =
             drawing_particle(0, i ? far : near, (float3){0.0f, 0.0f, 0.0f});
         drawing_place(&f.drawing, &particle, 1, STEP);
-        draw(&f, 1);
+        opaque_draw(&f, 1);
         assert_memory_equal(f.color.host, f.drawing.backdrop_color.host,
                             PIXELS * 4 * sizeof(float));
         assert_memory_equal(f.depth.host, f.drawing.backdrop_depth.host, PIXELS * sizeof(float));
-        finish(&f);
+        opaque_finish(&f);
     }
 }
 
@@ -287,7 +290,7 @@ static void patterns_turn_with_the_ball(void **state)
         particles[5] = drawing_particle(5, (float3){0.1f, 0.9f, 1.5f}, (float3){0.0f, 0.0f, 0.0f});
         drawing_place(&f.drawing, particles, 6, STEP);
         place_turned(&f, pose);
-        draw(&f, 6);
+        opaque_draw(&f, 6);
         int shown[2] = {0, 0};
         for (int p = 0; p < PIXELS; p++) {
             const struct meeting m =
@@ -302,7 +305,7 @@ static void patterns_turn_with_the_ball(void **state)
             shown[part > 0] += part != 0.5;
         }
         assert_true(shown[0] > 100 && shown[1] > 100);
-        finish(&f);
+        opaque_finish(&f);
     }
 }
 

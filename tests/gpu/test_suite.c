@@ -1,8 +1,12 @@
 /* How frames of a test are judged. */
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
+#include <unistd.h>
 
+#include "suite/golden.h"
 #include "support/cmocka.h"
+#include "support/folders.h"
 #include "support/suite.h"
 
 static void accept_goldens(const char *more)

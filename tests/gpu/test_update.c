@@ -1,8 +1,14 @@
 /* What updates of goldens write, and what they leave; repeated renders; notes. */
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include "suite/golden.h"
 #include "support/cmocka.h"
+#include "support/folders.h"
 #include "support/suite.h"
 
 #define EXPECT        "golden/spark/expect.yaml"

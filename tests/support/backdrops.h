@@ -1,33 +1,18 @@
 /* Backdrops of either technique, so that tests of what they show run on both. */
-#ifndef TESTS_SUPPORT_BACKDROPS_H
-#define TESTS_SUPPORT_BACKDROPS_H
+#ifndef KILN_TESTS_BACKDROPS_H
+#define KILN_TESTS_BACKDROPS_H
 
 #include "draw/backdrop/backdrop.h"
-#include "support/device.h"
 
-/* All of them, and what backdrop_create takes. */
-static const enum kiln_backdrop_technique BACKDROPS[2]
-    __attribute__((unused)) = {KILN_BACKDROP_GL, KILN_BACKDROP_CPU};
-static enum kiln_backdrop_technique backdrop_technique = KILN_BACKDROP_GL;
+/* All of them. */
+extern const enum kiln_backdrop_technique BACKDROPS[2];
 
-/* Of the whole program. */
-static inline struct kiln_threads *backdrop_threads(void)
-{
-    static struct kiln_threads *threads;
-    if (!threads)
-        threads = kiln_threads_create(2);
-    return threads;
-}
+/* What backdrop_create takes, for tests to set; KILN_BACKDROP_GL at first. */
+extern enum kiln_backdrop_technique backdrop_technique;
 
-static inline struct kiln_backdrop_stage *
-backdrop_create(struct kiln_device *device, const struct kiln_moment *moment,
-                struct kiln_image *color, struct kiln_image *depth, struct kiln_error *error)
-{
-    const struct kiln_backdrop_params params = {.technique = backdrop_technique,
-                                                .threads = backdrop_threads(),
-                                                .color = color,
-                                                .depth = depth};
-    return kiln_backdrop_create(device, moment, &params, error);
-}
+struct kiln_backdrop_stage *backdrop_create(struct kiln_device *device,
+                                            const struct kiln_moment *moment,
+                                            struct kiln_image *color, struct kiln_image *depth,
+                                            struct kiln_error *error);
 
 #endif

@@ -1,26 +1,17 @@
 /* Hand-made particles before the drawing stages: a scene's text and its records, drawn into float
  * images over a depth that the test chooses. */
-#ifndef TESTS_SUPPORT_DRAWING_H
-#define TESTS_SUPPORT_DRAWING_H
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
+#ifndef KILN_TESTS_DRAWING_H
+#define KILN_TESTS_DRAWING_H
 
 #include "draw/backdrop/backdrop.h"
 #include "draw/sprites/particles.h"
 #include "gpu/framebuffer.h"
-#include "shared/derived.h"
-#include "support/backdrops.h"
-#include "support/cmocka.h"
 
-enum { DRAWING_CELL = 128 };
-
-/* What drawing_init takes for the particles. */
-static enum kiln_raster_technique drawing_technique = KILN_RASTER_GEOMETRY;
-static uint32_t drawing_most = 32; /* particles */
-static uint32_t drawing_threads = 2;
-static const char *drawing_asset_root; /* NULL: the working directory */
+/* What drawing_init takes, for tests to set before it. */
+extern enum kiln_raster_technique drawing_technique; /* KILN_RASTER_GEOMETRY at first */
+extern uint32_t drawing_most;                        /* particles: 32 */
+extern uint32_t drawing_threads;                     /* 2 */
+extern const char *drawing_asset_root;               /* NULL: the working directory */
 
 struct drawing {
     struct kiln_device *device;
@@ -39,160 +30,20 @@ struct drawing {
     struct kiln_lighting lighting; /* of the particles: none, unless a test runs it */
 };
 
-/* A texture whose colour is where it is: red from left to right, green from top to bottom, blue 1.
- */
-static inline void drawing_fill_level(unsigned char *texels, int edge)
-{
-    for (int i = 0; i < edge * edge; i++) {
-        double x = (i % edge + 0.5) / edge, y = (i / edge + 0.5) / edge;
-        unsigned char texel[4] = {(unsigned char)(sqrt(x) * 255 + 0.5),
-                                  (unsigned char)(sqrt(y) * 255 + 0.5), 255, 255};
-        memcpy(texels + 4 * i, texel, 4);
-    }
-}
-
-static inline void drawing_make_atlas(struct drawing *d)
-{
-    static const signed char still[2] = {0, 0};
-    GLuint textures[2];
-    glGenTextures(2, textures);
-    d->atlas = (struct kiln_atlas){.texels = calloc(1, KILN_ATLAS_LAYER_BYTES),
-                                   .texture = textures[0],
-                                   .motion = textures[1],
-                                   .layers = 1};
-    assert_non_null(d->atlas.texels);
-    glBindTexture(GL_TEXTURE_2D_ARRAY, textures[0]);
-    glTexStorage3D(GL_TEXTURE_2D_ARRAY, KILN_ATLAS_LEVELS, GL_RGBA8, DRAWING_CELL, DRAWING_CELL, 1);
-    unsigned char *texels = d->atlas.texels;
-    for (int level = 0; level < KILN_ATLAS_LEVELS; level++) {
-        int edge = DRAWING_CELL >> level;
-        drawing_fill_level(texels, edge);
-        glTexSubImage3D(GL_TEXTURE_2D_ARRAY, level, 0, 0, 0, edge, edge, 1, GL_RGBA,
-                        GL_UNSIGNED_BYTE, texels);
-        texels += 4 * edge * edge;
-    }
-    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    glBindTexture(GL_TEXTURE_2D_ARRAY, textures[1]);
-    glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_RG8_SNORM, 1, 1, 1);
-    glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, 1, 1, 1, GL_RG, GL_BYTE, still);
-    for (int i = 0; i < KILN_MAX_SYSTEMS; i++)
-        d->atlas.systems[i] = (struct kiln_atlas_textures){
-            .textures = {{.cells = 1, .kind = KILN_CELL_COLOR}}, .count = 1};
-}
-
-static inline void drawing_make_targets(struct drawing *d)
-{
-    struct kiln_error error = {0};
-    uint32_t w = d->scene->width, h = d->scene->height;
-    kiln_image_init(&d->backdrop_color, d->device, w, h, GL_RGBA32F, "backdrop");
-    kiln_image_init(&d->backdrop_depth, d->device, w, h, GL_R32F, "backdrop depth");
-    kiln_image_init(&d->depth, d->device, w, h, GL_R32F, "depth");
-    kiln_image_init(&d->color, d->device, w, h, GL_RGBA32F, "particles");
-    kiln_image_init(&d->bloom, d->device, w, h, GL_RGBA32F, "bloom");
-    struct kiln_image *targets[] = {&d->color, &d->bloom};
-    assert_true(kiln_framebuffer_init(&d->framebuffer, d->device, targets, 2, &error));
-}
-
 /* The text of a scene with one system, and overrides for it. */
-static inline void drawing_init(struct drawing *d, struct kiln_device *device, const char *text,
-                                const char *const *overrides, size_t override_count)
-{
-    struct kiln_error error = {0};
-    *d = (struct drawing){.device = device, .threads = kiln_threads_create(drawing_threads)};
-    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
-    params.asset_root = drawing_asset_root;
-    params.overrides = overrides;
-    params.override_count = override_count;
-    d->scene = kiln_scene_parse(text, strlen(text), "test", &params, &error);
-    if (!d->scene)
-        fail_msg("%s", error.message);
-    drawing_make_atlas(d);
-    drawing_make_targets(d);
-    if (!kiln_moment_init(&d->moment, device, d->scene, &d->atlas, &error))
-        fail_msg("%s", error.message);
-    d->backdrop =
-        backdrop_create(device, &d->moment, &d->backdrop_color, &d->backdrop_depth, &error);
-    d->particles =
-        kiln_particles_create(device, d->scene, &d->atlas, drawing_technique, d->threads, &error);
-    if (!d->backdrop || !d->particles)
-        fail_msg("%s", error.message);
-    kiln_pool_init(&d->pool, device, &drawing_most, 1);
-    kiln_buffer_init(&d->entries, device, drawing_most * sizeof(uint32_t), "entries");
-}
-
-static inline void drawing_finish(struct drawing *d)
-{
-    kiln_buffer_finish(&d->entries);
-    kiln_pool_finish(&d->pool);
-    kiln_particles_destroy(&d->particles);
-    kiln_backdrop_destroy(&d->backdrop);
-    kiln_moment_finish(&d->moment);
-    kiln_framebuffer_finish(&d->framebuffer);
-    struct kiln_image *images[] = {&d->backdrop_color, &d->backdrop_depth, &d->depth, &d->color,
-                                   &d->bloom};
-    for (size_t i = 0; i < sizeof images / sizeof *images; i++)
-        kiln_image_finish(images[i]);
-    kiln_atlas_finish(&d->atlas);
-    kiln_scene_destroy(&d->scene);
-    kiln_threads_destroy(&d->threads);
-}
+void drawing_init(struct drawing *d, struct kiln_device *device, const char *text,
+                  const char *const *overrides, size_t override_count);
+void drawing_finish(struct drawing *d);
 
 /* A particle that was born at the start of step 1. */
-static inline struct kiln_particle drawing_particle(uint32_t serial, float3 position,
-                                                    float3 velocity)
-{
-    return (struct kiln_particle){
-        .position_serial = {FLOAT_BITS(position.x), FLOAT_BITS(position.y), FLOAT_BITS(position.z),
-                            serial},
-        .velocity_birth = {FLOAT_BITS(velocity.x), FLOAT_BITS(velocity.y), FLOAT_BITS(velocity.z),
-                           1u << KILN_BIRTH_STEP_SHIFT | KILN_PARTICLE_ALIVE}};
-}
+struct kiln_particle drawing_particle(uint32_t serial, float3 position, float3 velocity);
 
 /* Puts particles into the pool and the entries, in order, and the camera at a step. */
-static inline void drawing_place(struct drawing *d, const struct kiln_particle *particles,
-                                 uint32_t count, uint32_t step)
-{
-    struct kiln_error error = {0};
-    struct kiln_particle *records = kiln_buffer_host(&d->pool.records, KILN_OVERWRITE, &error);
-    uint32_t *entries = kiln_buffer_host(&d->entries, KILN_OVERWRITE, &error);
-    assert_true(records && entries && count <= drawing_most);
-    memset(records, 0, drawing_most * sizeof *records);
-    memcpy(records, particles, count * sizeof *records);
-    for (uint32_t i = 0; i < drawing_most; i++)
-        entries[i] = KILN_ENTRY(0, i);
-    if (!kiln_moment_fill(&d->moment, &d->pool, step, true, &error))
-        fail_msg("%s", error.message);
-    const struct kiln_lighting none = {0};
-    assert_true(kiln_backdrop_draw(d->backdrop, &d->moment, &none, &error));
-}
+void drawing_place(struct drawing *d, const struct kiln_particle *particles, uint32_t count,
+                   uint32_t step);
 
 /* Makes the scene a wall at a depth, and draws the particles before it, each over those before. */
-static inline void drawing_run(struct drawing *d, uint32_t count, float depth_m)
-{
-    struct kiln_error error = {0};
-    uint32_t *entries = kiln_buffer_host(&d->entries, KILN_OVERWRITE, &error);
-    assert_non_null(entries);
-    for (uint32_t i = 0; i < count; i++)
-        entries[i] = KILN_ENTRY(0, kiln_particles_nearest_first(d->particles) ? count - 1 - i : i);
-    float *depth = kiln_image_host(&d->depth, KILN_OVERWRITE, &error);
-    assert_non_null(depth);
-    for (uint32_t i = 0; i < d->scene->width * d->scene->height; i++)
-        depth[i] = depth_m;
-    const struct kiln_particles_draw job = {.moment = &d->moment,
-                                            .entries = &d->entries,
-                                            .count = count,
-                                            .view = &d->moment.view,
-                                            .backdrop = kiln_backdrop_block(d->backdrop),
-                                            .lighting = &d->lighting,
-                                            .depth = &d->depth,
-                                            .framebuffer = &d->framebuffer};
-    if (!kiln_particles_run(d->particles, &job, &error))
-        fail_msg("%s", error.message);
-    assert_non_null(kiln_image_host(&d->color, KILN_READ, &error));
-    assert_non_null(kiln_image_host(&d->bloom, KILN_READ, &error));
-}
+void drawing_run(struct drawing *d, uint32_t count, float depth_m);
 
 /* ---- vectors of the world in double ---------------------------------------------------------- */
 
@@ -200,65 +51,24 @@ typedef struct {
     double x, y, z;
 } vec;
 
-static inline vec vec_of(float3 v)
-{
-    return (vec){(double)v.x, (double)v.y, (double)v.z};
-}
-
-static inline double vec_dot(vec a, vec b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
+vec vec_of(float3 v);
+double vec_dot(vec a, vec b);
 
 /* a + b * t */
-static inline vec vec_add(vec a, vec b, double t)
-{
-    return (vec){a.x + b.x * t, a.y + b.y * t, a.z + b.z * t};
-}
+vec vec_add(vec a, vec b, double t);
 
-static inline vec vec_cross(vec a, vec b)
-{
-    return (vec){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-static inline vec vec_unit(vec a)
-{
-    double scale = 1 / sqrt(vec_dot(a, a));
-    return (vec){a.x * scale, a.y * scale, a.z * scale};
-}
+vec vec_cross(vec a, vec b);
+vec vec_unit(vec a);
 
 /* Row of the camera: 0 its right, 1 its up, 2 backwards. */
-static inline vec drawing_axis(const struct drawing *d, int row)
-{
-    const float4 *r = &d->moment.view.world_to_view[row];
-    return (vec){(double)r->x, (double)r->y, (double)r->z};
-}
+vec drawing_axis(const struct drawing *d, int row);
 
-static inline vec drawing_eye(const struct drawing *d)
-{
-    return (vec){(double)d->moment.view.eye.x, (double)d->moment.view.eye.y,
-                 (double)d->moment.view.eye.z};
-}
+vec drawing_eye(const struct drawing *d);
 
 /* The ray through a position in the picture; its t is view depth. */
-static inline vec drawing_ray(const struct drawing *d, double x, double y)
-{
-    double w = (double)d->moment.view.frustum.z, h = (double)d->moment.view.frustum.w;
-    vec ray = {0};
-    ray = vec_add(ray, drawing_axis(d, 0), (2 * x / w - 1) * (double)d->moment.view.frustum.x);
-    ray = vec_add(ray, drawing_axis(d, 1), (1 - 2 * y / h) * (double)d->moment.view.frustum.y);
-    return vec_add(ray, drawing_axis(d, 2), -1);
-}
+vec drawing_ray(const struct drawing *d, double x, double y);
 
 /* The inverse: where in the picture a point of the world is, and its depth. */
-static inline vec drawing_project(const struct drawing *d, vec point)
-{
-    vec away = vec_add(point, drawing_eye(d), -1);
-    double depth = -vec_dot(away, drawing_axis(d, 2));
-    double x = vec_dot(away, drawing_axis(d, 0)) / depth / (double)d->moment.view.frustum.x;
-    double y = vec_dot(away, drawing_axis(d, 1)) / depth / (double)d->moment.view.frustum.y;
-    return (vec){(x + 1) / 2 * (double)d->moment.view.frustum.z,
-                 (1 - y) / 2 * (double)d->moment.view.frustum.w, depth};
-}
+vec drawing_project(const struct drawing *d, vec point);
 
 #endif

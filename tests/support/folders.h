@@ -1,11 +1,6 @@
 /* A working directory of a test's own, and files in it. */
-#ifndef KILN_TEST_FOLDERS_H
-#define KILN_TEST_FOLDERS_H
-
-#include <sys/stat.h>
-
-#include "support/cmocka.h"
-#include "support/pictures.h"
+#ifndef KILN_TESTS_FOLDERS_H
+#define KILN_TESTS_FOLDERS_H
 
 struct test_place {
     char folder[32];
@@ -13,55 +8,13 @@ struct test_place {
 };
 
 /* cmocka's setup and teardown. */
-static inline int test_enter_folder(void **state)
-{
-    struct test_place *place = malloc(sizeof *place);
-    assert_non_null(place);
-    test_make_folder(place->folder);
-    place->before = open(".", O_RDONLY | O_DIRECTORY);
-    assert_true(place->before >= 0 && chdir(place->folder) == 0);
-    *state = place;
-    return 0;
-}
-
-static inline int test_leave_folder(void **state)
-{
-    struct test_place *place = *state;
-    assert_int_equal(fchdir(place->before), 0);
-    close(place->before);
-    test_remove_folder(place->folder);
-    free(place);
-    return 0;
-}
+int test_enter_folder(void **state);
+int test_leave_folder(void **state);
 
 /* Writes a text file and the folders above it. */
-static inline void test_write_file(const char *path, const char *text)
-{
-    char folder[256];
-    assert_true(snprintf(folder, sizeof folder, "%s", path) < (int)sizeof folder);
-    for (char *slash = strchr(folder, '/'); slash; slash = strchr(slash + 1, '/')) {
-        *slash = '\0';
-        mkdir(folder, 0777);
-        *slash = '/';
-    }
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    assert_int_equal(fputs(text, file) >= 0, 1);
-    assert_int_equal(fclose(file), 0);
-}
+void test_write_file(const char *path, const char *text);
 
 /* The whole file, to be freed. */
-static inline char *test_read_file(const char *path)
-{
-    FILE *file = fopen(path, "rb");
-    if (!file)
-        fail_msg("%s cannot be opened", path);
-    enum { MOST = 1 << 20 };
-    char *text = calloc(1, MOST);
-    assert_non_null(text);
-    assert_true(fread(text, 1, MOST - 1, file) < MOST - 1);
-    fclose(file);
-    return text;
-}
+char *test_read_file(const char *path);
 
 #endif

@@ -1,14 +1,9 @@
 /* A frame of a scene's text, through all stages, with the layers of an EXR. */
-#ifndef TESTS_SUPPORT_FRAME_H
-#define TESTS_SUPPORT_FRAME_H
+#ifndef KILN_TESTS_FRAME_H
+#define KILN_TESTS_FRAME_H
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "support/cmocka.h"
-#include "support/device.h"
-#include "support/stages.h"
+#include "frame/technique.h"
+#include "output/output.h"
 
 enum { FRAME_BEAUTY, FRAME_DEPTH, FRAME_FIRE, FRAME_SMOKE, FRAME_BLOOM, FRAME_LAYERS };
 
@@ -20,80 +15,17 @@ struct frame_setting {
     uint32_t threads; /* 0: two */
 };
 
-static const struct kiln_techniques FRAME_CPU = {
-    .raster = KILN_RASTER_CPU, .bloom = KILN_BLOOM_CPU, .composite = KILN_COMPOSITE_CPU};
-static const struct kiln_techniques FRAME_GL = {
-    .raster = KILN_RASTER_GEOMETRY, .bloom = KILN_BLOOM_GL, .composite = KILN_COMPOSITE_GL};
-
-static inline bool frame_stage(struct kiln_device *device, const struct kiln_scene *scene,
-                               const struct frame_setting *setting, uint32_t steps,
-                               struct kiln_threads *threads, struct kiln_picture *picture,
-                               struct kiln_error *error)
-{
-    struct kiln_run run = {0};
-    uint32_t capacities[KILN_MAX_SYSTEMS], drawn = 0;
-    for (uint32_t i = 0; i < scene->system_count; i++)
-        capacities[i] = scene->systems[i].capacity;
-    kiln_pool_init(&run.pool, device, capacities, scene->system_count);
-    struct kiln_stages stages;
-    struct kiln_simulate *simulate;
-    stages_open(&stages, &simulate, device, scene, &setting->techniques, true, threads, &run.pool);
-    for (uint32_t step = 1; step <= steps; step++)
-        assert_true(kiln_simulate_step(simulate, &run.pool, step, error));
-    bool drew = kiln_stages_draw(&stages, &run.pool, steps, 0, &drawn, error) &&
-                kiln_stages_compose(&stages, 0, error) && kiln_stages_read(&stages, picture, error);
-    stages_close(&stages, &simulate);
-    kiln_pool_finish(&run.pool);
-    return drew;
-}
+/* Particles, bloom and the picture on the host, and on the device. */
+extern const struct kiln_techniques FRAME_CPU, FRAME_GL;
 
 /* What a scene shows after so many steps, or NULL with an error of drawing it. */
-static inline struct kiln_picture *frame_try(struct kiln_device *device, const char *text,
-                                             uint32_t steps, const struct frame_setting *setting,
-                                             struct kiln_error *result)
-{
-    struct kiln_error error = {0};
-    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
-    params.overrides = setting->overrides;
-    params.override_count = setting->count;
-    struct kiln_scene *scene = kiln_scene_parse(text, strlen(text), "test", &params, &error);
-    assert_string_equal(error.message, "");
-    const char *names[KILN_MAX_LAYERS];
-    uint32_t channels[KILN_MAX_LAYERS], count = kiln_stages_layers(names, channels);
-    struct kiln_picture *picture =
-        kiln_picture_create(scene->width, scene->height, 8, names, channels, count, &error);
-    assert_non_null(picture);
-    struct kiln_threads *threads = kiln_threads_create(setting->threads ? setting->threads : 2);
-    if (!frame_stage(device, scene, setting, steps, threads, picture, result))
-        kiln_picture_destroy(&picture);
-    kiln_threads_destroy(&threads);
-    kiln_scene_destroy(&scene);
-    return picture;
-}
+struct kiln_picture *frame_try(struct kiln_device *device, const char *text, uint32_t steps,
+                               const struct frame_setting *setting, struct kiln_error *result);
 
-static inline struct kiln_picture *frame_draw(struct kiln_device *device, const char *text,
-                                              uint32_t steps, const struct frame_setting *setting)
-{
-    struct kiln_error error = {0};
-    struct kiln_picture *picture = frame_try(device, text, steps, setting, &error);
-    if (!picture)
-        fail_msg("%s", error.message);
-    return picture;
-}
+struct kiln_picture *frame_draw(struct kiln_device *device, const char *text, uint32_t steps,
+                                const struct frame_setting *setting);
 
 /* Sum of the differences of a layer in parts of the first one's sum. */
-static inline double frame_difference(const struct kiln_picture *a, const struct kiln_picture *b,
-                                      int layer)
-{
-    double sum = 1e-9, off = 0;
-    size_t floats = (size_t)a->width * a->height * a->layers[layer].channels;
-    for (size_t i = 0; i < floats; i++) {
-        double one = (double)a->layers[layer].pixels[i], other = (double)b->layers[layer].pixels[i];
-        assert_true(isfinite(other));
-        sum += fabs(one);
-        off += fabs(one - other);
-    }
-    return off / sum;
-}
+double frame_difference(const struct kiln_picture *a, const struct kiln_picture *b, int layer);
 
 #endif

@@ -4,9 +4,6 @@
 #define KILN_TESTS_PARTS_H
 
 #include <glob.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "support/cmocka.h"
 
@@ -26,55 +23,16 @@ struct test_list {
     glob_t files; /* owns the paths */
 };
 
-static inline void test_list_add(struct test_list *list, const struct CMUnitTest *tests,
-                                 size_t count)
-{
-    if (count > TEST_LIST_SIZE - list->count)
-        abort();
-    memcpy(list->tests + list->count, tests, count * sizeof *tests);
-    list->count += count;
-}
+void test_list_add(struct test_list *list, const struct CMUnitTest *tests, size_t count);
 
 /* Adds a test of every scene of scenes/, or of every STRIDEth: it has the scene's name, and its
  * state is a struct test_scene. Once a list. */
-static inline void test_list_add_scenes(struct test_list *list, struct CMUnitTest test,
-                                        size_t stride)
-{
-    glob_t *files = &list->files;
-    if (files->gl_pathv || glob(KILN_SOURCE_DIR "/scenes/*.yaml", 0, NULL, files) != 0)
-        abort();
-    for (size_t i = 0; i < files->gl_pathc; i += stride) {
-        list->scenes[list->count] = (struct test_scene){files->gl_pathv[i], i};
-        test.name = strrchr(files->gl_pathv[i], '/') + 1;
-        test.initial_state = &list->scenes[list->count];
-        test_list_add(list, &test, 1);
-    }
-}
+void test_list_add_scenes(struct test_list *list, struct CMUnitTest test, size_t stride);
 
 /* Runs the group and frees the list. The argument "2/3" chooses its second part of three: the
  * second test, the fifth, the eighth and so on, so that each test is in one part, however many
  * there are. */
-static inline int test_list_run(struct test_list *list, const char *name, int argc, char **argv,
-                                CMFixtureFunction setup, CMFixtureFunction teardown)
-{
-    unsigned long number = 1, count = 1;
-    if (argc == 2) {
-        char *end = argv[1];
-        number = strtoul(argv[1], &end, 10);
-        count = *end == '/' ? strtoul(end + 1, &end, 10) : 0;
-        count = *end ? 0 : count;
-    }
-    if (argc > 2 || number < 1 || number > count) {
-        fprintf(stderr, "usage: %s [NUMBER/COUNT]\n", argv[0]);
-        return 2;
-    }
-    struct CMUnitTest part[TEST_LIST_SIZE];
-    size_t length = 0;
-    for (size_t i = number - 1; i < list->count; i += count)
-        part[length++] = list->tests[i];
-    int failed = _cmocka_run_group_tests(name, part, length, setup, teardown);
-    globfree(&list->files);
-    return failed;
-}
+int test_list_run(struct test_list *list, const char *name, int argc, char **argv,
+                  CMFixtureFunction setup, CMFixtureFunction teardown);
 
 #endif

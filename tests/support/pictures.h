@@ -1,147 +1,31 @@
 /* Pictures with known pixels and folders that go away, for the tests of lib/output. */
-#ifndef KILN_TEST_PICTURES_H
-#define KILN_TEST_PICTURES_H
-
-#include <dirent.h>
-#include <fcntl.h>
-#include <ftw.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
+#ifndef KILN_TESTS_PICTURES_H
+#define KILN_TESTS_PICTURES_H
 
 #include "output/output.h"
-#include "support/cmocka.h"
 
-static const char *const test_layer_names[] = {"beauty", "depth", "fire"};
-static const uint32_t test_layer_channels[] = {4, 1, 4};
-
-static const char test_scene_hash[] =
-    "0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef";
-
-/* Up and down again between 0 and 200. */
-static inline uint32_t test_wave(uint32_t phase)
-{
-    return phase % 400 < 200 ? phase % 400 : 400 - phase % 400;
-}
+/* That of the scene in test_output_params. */
+extern const char test_scene_hash[];
 
 /* Smooth in x, y and time, another in each channel: 0..255. */
-static inline uint32_t test_level(uint32_t frame, uint32_t width, uint32_t x, uint32_t y,
-                                  int channel)
-{
-    uint32_t ramp = x * 200 / width;
-    uint32_t level[4] = {20 + ramp, 220 - ramp, 30 + test_wave(ramp + y + frame * 4),
-                         255 - test_wave(y)};
-    return level[channel];
-}
+uint32_t test_level(uint32_t frame, uint32_t width, uint32_t x, uint32_t y, int channel);
 
-static inline float test_layer_value(uint32_t frame, uint32_t x, uint32_t y, uint32_t layer,
-                                     uint32_t channel)
-{
-    return (float)(x + 3 * y + 7 * layer + frame) * 0.125f - (float)channel;
-}
-
-static inline struct kiln_output_params test_output_params(const char *path,
-                                                           const struct kiln_frame_range *range)
-{
-    return (struct kiln_output_params){
-        .path = path,
-        .width = 64,
-        .height = 36,
-        .fps_num = 30,
-        .fps_den = 1,
-        .ranges = range,
-        .range_count = 1,
-        .threads = 2,
-        .png_bits = 8,
-        .exr_bits = 16,
-        .quality = 80,
-        .scene_hash = test_scene_hash,
-        .seed = 4000000007u,
-    };
-}
+float test_layer_value(uint32_t frame, uint32_t x, uint32_t y, uint32_t layer, uint32_t channel);
+struct kiln_output_params test_output_params(const char *path,
+                                             const struct kiln_frame_range *range);
 
 /* A picture as the output wants it. */
-static inline struct kiln_picture *test_picture(const struct kiln_output *output,
-                                                const struct kiln_output_params *params,
-                                                uint32_t frame)
-{
-    struct kiln_output_needs needs = kiln_output_needs(output);
-    struct kiln_error error = {0};
-    struct kiln_picture *picture =
-        kiln_picture_create(params->width, params->height, needs.bits, test_layer_names,
-                            test_layer_channels, needs.layers ? 3 : 0, &error);
-    assert_non_null(picture);
-    picture->frame = frame;
-    picture->has_alpha = params->alpha;
-    for (uint32_t y = 0; y < params->height; y++) {
-        for (uint32_t x = 0; x < params->width; x++) {
-            size_t pixel = (size_t)y * params->width + x;
-            for (int c = 0; c < 4; c++) {
-                uint32_t level = test_level(frame, params->width, x, y, c);
-                if (c == 3 && !params->alpha)
-                    level = 255;
-                if (needs.bits == 8)
-                    ((uint8_t *)picture->display)[pixel * 4 + (size_t)c] = (uint8_t)level;
-                if (needs.bits == 16)
-                    ((uint16_t *)picture->display)[pixel * 4 + (size_t)c] =
-                        (uint16_t)(level * 256 + x);
-            }
-            for (uint32_t i = 0; i < picture->layer_count; i++) {
-                struct kiln_layer *layer = &picture->layers[i];
-                for (uint32_t c = 0; c < layer->channels; c++)
-                    layer->pixels[pixel * layer->channels + c] =
-                        test_layer_value(frame, x, y, i, c);
-            }
-        }
-    }
-    return picture;
-}
+struct kiln_picture *test_picture(const struct kiln_output *output,
+                                  const struct kiln_output_params *params, uint32_t frame);
 
 /* Opens, writes every frame of the ranges and finishes; false with the first error. */
-static inline bool test_write_all(const struct kiln_output_params *params, struct kiln_error *error)
-{
-    struct kiln_output *output = kiln_output_open(params, error);
-    bool good = output != NULL;
-    for (size_t i = 0; good && i < params->range_count; i++) {
-        for (uint32_t f = params->ranges[i].first; good && f <= params->ranges[i].last; f++)
-            good = kiln_output_write(output, test_picture(output, params, f), error);
-    }
-    good = good && kiln_output_finish(output, error);
-    kiln_output_close(&output);
-    return good;
-}
+bool test_write_all(const struct kiln_output_params *params, struct kiln_error *error);
 
-static inline void test_make_folder(char folder[32])
-{
-    snprintf(folder, 32, "/tmp/kiln-output-XXXXXX");
-    assert_non_null(mkdtemp(folder));
-}
+void test_make_folder(char folder[32]);
 
 /* Entries of a folder, hidden ones too. */
-static inline int test_count_files(const char *folder)
-{
-    int count = 0;
-    DIR *entries = opendir(folder);
-    assert_non_null(entries);
-    for (struct dirent *entry = readdir(entries); entry; entry = readdir(entries))
-        count += strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
-    closedir(entries);
-    return count;
-}
+int test_count_files(const char *folder);
 
-static inline int test_remove_entry(const char *path, const struct stat *status, int kind,
-                                    struct FTW *place)
-{
-    (void)status;
-    (void)kind;
-    (void)place;
-    return remove(path);
-}
-
-static inline void test_remove_folder(const char *folder)
-{
-    assert_int_equal(nftw(folder, test_remove_entry, 8, FTW_DEPTH | FTW_PHYS), 0);
-}
+void test_remove_folder(const char *folder);
 
 #endif

@@ -2,55 +2,19 @@
 #ifndef KILN_TESTS_SCENES_H
 #define KILN_TESTS_SCENES_H
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "scene/scene.h"
-#include "support/cmocka.h"
+#include "kiln.h"
 
 /* The name that scenes of texts have in messages. */
 #define SCENE_NAME "test.yaml"
 
 /* overrides ends in NULL, or is NULL. A NULL with an error is the caller's to judge. */
-static inline struct kiln_scene *try_scene(const char *text, const char *const *overrides,
-                                           struct kiln_error *error)
-{
-    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
-    params.overrides = overrides;
-    while (overrides && overrides[params.override_count])
-        params.override_count++;
-    return kiln_scene_parse(text, strlen(text), SCENE_NAME, &params, error);
-}
+struct kiln_scene *try_scene(const char *text, const char *const *overrides,
+                             struct kiln_error *error);
 
-static inline struct kiln_scene *load_scene(const char *text, const char *const *overrides)
-{
-    struct kiln_error error = {0};
-    struct kiln_scene *scene = try_scene(text, overrides, &error);
-    if (!scene)
-        fail_msg("%s", error.message);
-    return scene;
-}
-
-static inline struct kiln_scene *load_scene_file(const char *path)
-{
-    struct kiln_error error = {0};
-    struct kiln_scene *scene = kiln_scene_load(path, &KILN_SCENE_DEFAULTS, &error);
-    if (!scene)
-        fail_msg("%s", error.message);
-    return scene;
-}
+struct kiln_scene *load_scene(const char *text, const char *const *overrides);
+struct kiln_scene *load_scene_file(const char *path);
 
 /* The caller frees it. */
-static inline char *print_scene(const struct kiln_scene *scene)
-{
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    assert_non_null(out);
-    assert_true(kiln_scene_print(scene, out));
-    assert_int_equal(fclose(out), 0);
-    return text;
-}
+char *print_scene(const struct kiln_scene *scene);
 
 #endif

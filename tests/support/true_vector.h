@@ -1,11 +1,10 @@
 /* Vectors in double precision, of what true_sprite.h reads. */
-#ifndef TESTS_SUPPORT_TRUE_VECTOR_H
-#define TESTS_SUPPORT_TRUE_VECTOR_H
+#ifndef KILN_TESTS_TRUE_VECTOR_H
+#define KILN_TESTS_TRUE_VECTOR_H
 
 #include <math.h>
 
-#include "draw/moment/looks.h"
-#include "draw/moment/view.h"
+#include "shared/draw_layout.h"
 
 typedef struct {
     double x, y, z;
@@ -48,35 +47,13 @@ static inline dvec dvec_unit(dvec a)
 }
 
 /* A row of an affine map, of a point. */
-static inline double dvec_row(float4 row, dvec p)
-{
-    return dvec_dot(dvec_of(row), p) + (double)row.w;
-}
+double dvec_row(float4 row, dvec p);
 
 /* A point of the world in view space, and a direction. */
-static inline dvec dvec_view(const struct kiln_view *view, dvec p)
-{
-    const float4 *rows = view->world_to_view;
-    return (dvec){dvec_row(rows[0], p), dvec_row(rows[1], p), dvec_row(rows[2], p)};
-}
-
-static inline dvec dvec_turn(const struct kiln_view *view, dvec v)
-{
-    const float4 *rows = view->world_to_view;
-    return (dvec){dvec_dot(dvec_of(rows[0]), v), dvec_dot(dvec_of(rows[1]), v),
-                  dvec_dot(dvec_of(rows[2]), v)};
-}
+dvec dvec_view(const struct kiln_view *view, dvec p);
+dvec dvec_turn(const struct kiln_view *view, dvec v);
 
 /* A row of a system's look (shared/look_layout.h) at a part of the life. */
-static inline void dvec_look(const float4 *table, uint32_t system, uint32_t row, float life,
-                             double out[4])
-{
-    double x = (double)(life * (float)(KILN_LOOK_SAMPLES - 1));
-    int sample = x < KILN_LOOK_SAMPLES - 2 ? (int)x : KILN_LOOK_SAMPLES - 2;
-    const float *from =
-        &table[(system * KILN_LOOK_ROWS + row) * KILN_LOOK_SAMPLES + (uint32_t)sample].x;
-    for (int i = 0; i < 4; i++)
-        out[i] = (double)from[i] + ((double)from[4 + i] - (double)from[i]) * (x - sample);
-}
+void dvec_look(const float4 *table, uint32_t system, uint32_t row, float life, double out[4]);
 
 #endif

@@ -1,10 +1,15 @@
 /* kiln_test_approve: the pictures of a run become goldens, and only of the run that they are of. */
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "suite/golden.h"
 #include "support/cmocka.h"
 #include "support/folders.h"
+#include "support/pictures.h"
 
 static const char scene[] = "kiln: 1\noutput: {frames: 4}\n";
 static const char device[] = "llvmpipe-llvm-15.0.6-256-bits";

@@ -9,6 +9,7 @@
 #include "bench/result.h"
 #include "support/cmocka.h"
 #include "support/folders.h"
+#include "support/pictures.h"
 
 static void expect_spread(struct kiln_spread spread, uint32_t count, const double expected[5])
 {

@@ -6,9 +6,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "shared/exact.h"
 #include "support/bodies.h"
 #include "support/cmocka.h"
 #include "support/folders.h"
+#include "support/simulation.h"
 #include "support/thrown.h"
 
 static struct kiln_object *add_floor(void)

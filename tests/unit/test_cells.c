@@ -2,6 +2,8 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "asset/atlas/cells_in.h"
 #include "support/cmocka.h"

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <unistd.h>
 
 #include "asset/image/video_in.h"
 #include "support/cmocka.h"

@@ -5,6 +5,7 @@
 
 #include "shared/collide.h"
 #include "support/cmocka.h"
+#include "support/simulation.h"
 #include "support/thrown.h"
 
 /* Each face in turn: a mirror with the speed reduced, at the exact point and time of impact. */

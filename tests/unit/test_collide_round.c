@@ -5,6 +5,7 @@
 
 #include "shared/collide.h"
 #include "support/cmocka.h"
+#include "support/simulation.h"
 #include "support/thrown.h"
 
 /* Beside the middle of a unit sphere: the exact point, normal and time of a chord's start. */

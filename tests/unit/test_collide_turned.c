@@ -6,6 +6,7 @@
 #include "shared/collide.h"
 #include "sim/world/turned.h"
 #include "support/cmocka.h"
+#include "support/simulation.h"
 #include "support/thrown.h"
 
 /* ---- in doubles ------------------------------------------------------------------------------ */

@@ -11,6 +11,7 @@
 #include "support/bodies.h"
 #include "support/cmocka.h"
 #include "support/folders.h"
+#include "support/simulation.h"
 #include "support/thrown.h"
 
 static const float ALONG[3][3] = {{1, 0, 0}, {0, 2, 0}, {0, 0, 0.5f}};

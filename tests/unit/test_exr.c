@@ -3,6 +3,8 @@
 #include <openexr.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "support/cmocka.h"
 #include "support/pictures.h"

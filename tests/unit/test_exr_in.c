@@ -2,6 +2,8 @@
 #include <openexr.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "asset/image/exr_in.h"
 #include "base/file_in.h"

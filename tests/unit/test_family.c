@@ -4,6 +4,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "scene/family.h"
 #include "shared/random.h"
 #include "support/cmocka.h"
 #include "support/family_fixture.h"

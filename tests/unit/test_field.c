@@ -1,14 +1,19 @@
 /* Distance fields of meshes: what they say, the cache that keeps them, and particles that meet
  * them.
  */
+#include <dirent.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "asset/geometry/field.h"
 #include "shared/random.h"
 #include "support/bodies.h"
 #include "support/cmocka.h"
 #include "support/folders.h"
+#include "support/simulation.h"
 #include "support/thrown.h"
 
 static struct kiln_field *create(const struct kiln_mesh *mesh, uint32_t cells, const char *cache)

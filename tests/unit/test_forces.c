@@ -8,6 +8,7 @@
 #include "shared/force_vortex.h"
 #include "shared/stages.h"
 #include "support/cmocka.h"
+#include "support/scene_fixture.h"
 #include "support/simulation.h"
 
 static struct scene_fixture fixture; /* too large for a stack */

@@ -11,6 +11,7 @@
 
 #include "support/cmocka.h"
 #include "support/raster.h"
+#include "support/scenes.h"
 
 enum { STEP = 40, PLACES = 1024 };
 

@@ -1,12 +1,17 @@
 /* lib/suite: which accepted pictures a device is judged by, and where new ones go. */
+#include <fcntl.h>
 #include <signal.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 #include "suite/golden.h"
 #include "support/cmocka.h"
 #include "support/folders.h"
+#include "support/pictures.h"
 
 static const char llvmpipe[] = "llvmpipe-llvm-15.0.6-256-bits";
 

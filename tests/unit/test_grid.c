@@ -9,6 +9,7 @@
 #include "asset/geometry/grid_in.h"
 #include "sim/world/grids.h"
 #include "support/cmocka.h"
+#include "support/scene_fixture.h"
 #include "support/simulation.h"
 
 static struct scene_fixture fixture; /* too large for a stack */

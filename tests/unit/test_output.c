@@ -1,9 +1,12 @@
 /* What every output format shares: names of files, refusals, whole files or none, bounded memory.
  */
+#include <dirent.h>
 #include <errno.h>
 #include <signal.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>

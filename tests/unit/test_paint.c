@@ -5,6 +5,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
+#include "shared/random.h"
 #include "sim/paint/paint.h"
 #include "support/cmocka.h"
 #include "support/scenes.h"

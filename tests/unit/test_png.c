@@ -2,6 +2,7 @@
 #include <png.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #include "support/cmocka.h"
 #include "support/pictures.h"

@@ -1,14 +1,17 @@
 /* lib/report: runs put together, and the exact text of reports. What programs that read them say is
  * in tests/report. KILN_UPDATE_EXPECTED=1 writes the expected texts anew. */
+#include <fcntl.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "report/words.h"
 #include "suite/result_member.h"
+#include "suite/suite.h"
 #include "support/cmocka.h"
 #include "support/pictures.h"
 #include "support/results.h"

@@ -1,7 +1,10 @@
 /* lib/scene: good scenes mean what they say, and print as themselves. */
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
 
+#include "scene/scene.h"
 #include "support/cmocka.h"
 #include "support/scenes.h"
 

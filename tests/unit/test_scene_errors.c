@@ -1,9 +1,14 @@
 /* lib/scene: bad scenes, and the exact words that say where, what was found and what is allowed. */
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
+#include "scene/scene.h"
 #include "support/bad_scenes.h"
 #include "support/cmocka.h"
+#include "support/scenes.h"
 
 #define ATLASES                                                                                    \
     "\"builtin:fire\", \"builtin:flame\", \"builtin:tongue\", \"builtin:smoke\", "                 \

@@ -3,10 +3,13 @@
 #include <fcntl.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/clock.h"
+#include "scene/scene.h"
 #include "support/cmocka.h"
 #include "support/pictures.h"
 #include "support/scenes.h"

@@ -1,7 +1,9 @@
 /* lib/scene: --set key=value. */
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 
+#include "scene/scene.h"
 #include "support/cmocka.h"
 #include "support/scenes.h"
 

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "shared/random.h"
+#include "sort/pairs.h"
 #include "sort/sort.h"
 #include "support/cmocka.h"
 #include "support/sort_keys.h"

@@ -8,6 +8,8 @@
 
 #include "base/simd.h"
 #include "shared/keys.h"
+#include "shared/random.h"
+#include "sort/pairs.h"
 #include "sort/sort.h"
 #include "support/cmocka.h"
 #include "support/sort_keys.h"

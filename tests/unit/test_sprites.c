@@ -11,6 +11,7 @@
 #include "draw/vector/particle_math.h"
 #include "support/cmocka.h"
 #include "support/raster.h"
+#include "support/scenes.h"
 
 enum { COUNT = 1511, STEP = 90, GRID = KILN_SMOKE_GRID * KILN_SMOKE_GRID * KILN_SMOKE_GRID };
 

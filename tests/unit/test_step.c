@@ -5,6 +5,7 @@
 
 #include "shared/forces.h"
 #include "support/cmocka.h"
+#include "support/scene_fixture.h"
 #include "support/simulation.h"
 
 static struct scene_fixture fixture; /* too large for a stack */

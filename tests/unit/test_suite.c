@@ -1,6 +1,10 @@
 /* lib/suite: which files are tests, and what a test file says. */
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "suite/suite.h"
 #include "support/cmocka.h"

@@ -9,6 +9,7 @@
 #include "sim/world/params.h"
 #include "support/cmocka.h"
 #include "support/folders.h"
+#include "support/simulation.h"
 #include "support/thrown.h"
 
 /* A BMP of grey pixels, row by row from the top. */

@@ -9,6 +9,7 @@
 #include "draw/sprites/tile.h"
 #include "support/cmocka.h"
 #include "support/raster.h"
+#include "support/scenes.h"
 
 enum { WIDTH = 301, HEIGHT = 173, PIXELS = WIDTH * HEIGHT, STEP = 40, COUNT = 600 };
 

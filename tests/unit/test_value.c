@@ -2,7 +2,9 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 
+#include "scene/scene.h"
 #include "support/cmocka.h"
 #include "support/scenes.h"
 

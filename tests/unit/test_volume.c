@@ -5,10 +5,12 @@
 #include <stdint.h>
 
 #include "asset/geometry/skin.h"
+#include "shared/exact.h"
 #include "sim/world/volumes.h"
 #include "support/bodies.h"
 #include "support/cmocka.h"
 #include "support/folders.h"
+#include "support/simulation.h"
 #include "support/thrown.h"
 
 static struct kiln_object *add_volume(const char *file, float x, float y, float z, uint32_t cells)

@@ -1,0 +1,25 @@
+#include "support/backdrops.h"
+
+const enum kiln_backdrop_technique BACKDROPS[2] = {KILN_BACKDROP_GL, KILN_BACKDROP_CPU};
+enum kiln_backdrop_technique backdrop_technique = KILN_BACKDROP_GL;
+
+/* Of the whole program. */
+static struct kiln_threads *backdrop_threads(void)
+{
+    static struct kiln_threads *threads;
+    if (!threads)
+        threads = kiln_threads_create(2);
+    return threads;
+}
+
+struct kiln_backdrop_stage *backdrop_create(struct kiln_device *device,
+                                            const struct kiln_moment *moment,
+                                            struct kiln_image *color, struct kiln_image *depth,
+                                            struct kiln_error *error)
+{
+    const struct kiln_backdrop_params params = {.technique = backdrop_technique,
+                                                .threads = backdrop_threads(),
+                                                .color = color,
+                                                .depth = depth};
+    return kiln_backdrop_create(device, moment, &params, error);
+}

@@ -1,0 +1,60 @@
+#include "support/device.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+static struct kiln_device *test_opened_device;
+
+void test_log(void *user, enum kiln_log_level level, const char *line)
+{
+    (void)user;
+    if (level == KILN_LOG_WARNING)
+        fprintf(stderr, "%s\n", line);
+}
+
+struct kiln_device *test_device(void)
+{
+    return test_opened_device;
+}
+
+int test_device_open(void **state)
+{
+    struct kiln_error error = {0};
+    struct kiln_device_params params = KILN_DEVICE_DEFAULTS;
+    params.wanted = getenv("KILN_TEST_DEVICE");
+    params.gl = true;
+    params.debug = true;
+    params.log.write = test_log;
+    struct kiln_device *device = kiln_device_open(&params, &error);
+    if (!device) {
+        fprintf(stderr, "skipped: %s\n", error.message);
+        exit(77);
+    }
+    fprintf(stderr, "on %s\n", kiln_device_info(device)->name);
+    *state = test_opened_device = device;
+    return 0;
+}
+
+int test_device_open_alone(void **state)
+{
+    const int failed = test_device_open(state);
+    *state = NULL;
+    return failed;
+}
+
+int test_device_close(void **state)
+{
+    (void)state;
+    kiln_device_close(&test_opened_device);
+    return 0;
+}
+
+int test_device_is_clean(void **state)
+{
+    (void)state;
+    struct kiln_error error = {0};
+    if (kiln_device_check(test_device(), "after the test", &error))
+        return 0;
+    fprintf(stderr, "%s\n", error.message);
+    return -1;
+}

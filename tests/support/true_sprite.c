@@ -1,0 +1,456 @@
+#include "support/true_sprite.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "draw/light/smoke_shadow.h"
+#include "shared/derived.h"
+
+/* The parts of a pixel on which GL rasterisers put corners (GL_SUBPIXEL_BITS), which says what
+ * pixels a thin sprite covers, and nothing else. */
+#define TRUE_SNAP (1.0 / 256)
+
+/* ---- light ----------------------------------------------------------------------------------- */
+
+/* Between cells of a grid of smoke. */
+static double true_grid(const float *depth, const double at[3])
+{
+    int cell[3], next[3];
+    double part[3], sum = 0;
+    for (int i = 0; i < 3; i++) {
+        double x = fmin(fmax(at[i] * KILN_SMOKE_GRID - 0.5, 0), KILN_SMOKE_GRID - 1);
+        cell[i] = (int)x;
+        next[i] = cell[i] + 1 < KILN_SMOKE_GRID ? cell[i] + 1 : cell[i];
+        part[i] = x - cell[i];
+    }
+    for (int k = 0; k < 8; k++) {
+        double weight = 1;
+        int place[3];
+        for (int i = 0; i < 3; i++) {
+            bool far = (k >> i & 1) != 0;
+            place[i] = far ? next[i] : cell[i];
+            weight *= far ? part[i] : 1 - part[i];
+        }
+        sum += weight *
+               (double)depth[(place[2] * KILN_SMOKE_GRID + place[1]) * KILN_SMOKE_GRID + place[0]];
+    }
+    return sum;
+}
+
+static double true_smoke(const float *depth, const float4 to_grid[3], dvec p)
+{
+    if (!depth)
+        return 1;
+    double at[3];
+    for (int i = 0; i < 3; i++)
+        at[i] = dvec_row(to_grid[i], p);
+    if (at[0] < 0 || at[1] < 0 || at[0] > 1 || at[1] > 1 || at[2] > 1)
+        return 1;
+    return exp(-true_grid(depth, at));
+}
+
+static void true_add_light(const struct true_scene *t, struct true_sprite *s, float4 color,
+                           double factor, dvec direction, const dvec axes[3])
+{
+    const double rgb[3] = {(double)color.x, (double)color.y, (double)color.z};
+    dvec v = dvec_turn(t->view, direction);
+    for (int c = 0; c < 3; c++) {
+        double radiance = 0.5 * rgb[c] * factor;
+        s->light[0][c] += radiance;
+        for (int i = 0; i < 3; i++)
+            s->light[1 + i][c] += radiance * dvec_dot(v, axes[i]);
+    }
+}
+
+static void true_light(const struct true_scene *t, struct true_sprite *s, double lit, uint32_t slot,
+                       dvec position, const dvec axes[3])
+{
+    const struct kiln_draw_backdrop *b = t->backdrop;
+    const struct kiln_lighting *l = t->lighting;
+    for (int c = 0; c < 3; c++)
+        s->light[0][c] = 1 - lit;
+    if (lit <= 0)
+        return;
+    double sky = true_smoke(l->smoke ? l->sky_depth : NULL, l->sky_to_grid, position);
+    double sun = true_smoke(l->smoke ? l->sun_depth : NULL, l->sun_to_grid, position);
+    if (l->sunlit)
+        sun *= (double)l->sunlit[slot];
+    const double horizon[3] = {(double)b->sky_horizon.x, (double)b->sky_horizon.y,
+                               (double)b->sky_horizon.z};
+    for (int c = 0; c < 3; c++)
+        s->light[0][c] += horizon[c] * lit * sqrt(sky);
+    true_add_light(t, s, b->sky_top, lit * sky, (dvec){0, 1, 0}, axes);
+    true_add_light(t, s, b->sun_color, lit * sun / M_PI, dvec_of(b->sun_direction), axes);
+    for (uint32_t i = 0; i < b->counts.y; i++) {
+        dvec towards = dvec_add(dvec_of(b->lights[i].position_radius2), position, -1);
+        double d2 = dvec_dot(towards, towards);
+        double falloff = 1 / (d2 + (double)b->lights[i].position_radius2.w);
+        true_add_light(t, s, b->lights[i].color, lit * falloff,
+                       dvec_scale(towards, 1 / sqrt(fmax(d2, 1e-9))), axes);
+    }
+}
+
+/* ---- form ------------------------------------------------------------------------------------ */
+
+/* Heinz 2019, 2.1.1: right, up and towards the viewer. */
+static void true_plane(const struct true_scene *t, uint32_t facing, dvec axis, dvec center,
+                       dvec axes[3])
+{
+    bool to_eye = facing == LOOK_VIEWPOINT || facing == LOOK_AXIAL;
+    bool in_picture = facing == LOOK_SCREEN || facing == LOOK_VELOCITY;
+    dvec normal = to_eye ? dvec_scale(dvec_unit(center), -1) : (dvec){0, 0, 1};
+    dvec upward = in_picture ? (dvec){0, 1, 0} : dvec_turn(t->view, axis);
+    dvec sideways = dvec_cross(upward, normal);
+    if (dvec_dot(sideways, sideways) < 1e-8)
+        sideways = dvec_add((dvec){1, 0, 0}, normal, -normal.x);
+    axes[0] = dvec_unit(sideways);
+    axes[1] = facing == LOOK_AXIAL ? upward : dvec_cross(normal, axes[0]);
+    axes[2] = facing == LOOK_AXIAL ? dvec_cross(axes[0], upward) : normal;
+}
+
+/* Which way is up in the plane, and what that adds to the half length. */
+static double true_up(double angle, double stretch, const double moving[2], uint32_t facing,
+                      double up[2])
+{
+    up[0] = -sin(angle);
+    up[1] = cos(angle);
+    if (facing == LOOK_AXIAL) {
+        up[0] = 0;
+        up[1] = 1;
+        return 0.5 * fabs(moving[1]) * stretch;
+    }
+    if (!(stretch > 0) && facing != LOOK_VELOCITY)
+        return 0;
+    double speed = hypot(moving[0], moving[1]);
+    double x = fmin(fmax((speed - 0.05) / 0.15, 0), 1), part = x * x * (3 - 2 * x);
+    for (int i = 0; i < 2; i++)
+        up[i] += (moving[i] / fmax(speed, 1e-4) - up[i]) * part;
+    up[1] += 1e-5;
+    double length = hypot(up[0], up[1]);
+    up[0] /= length;
+    up[1] /= length;
+    return 0.5 * speed * stretch;
+}
+
+static void true_choose_cells(const struct true_scene *t, struct true_sprite *s,
+                              const struct kiln_draw_look *look, uint32_t stream, float passes,
+                              double diameter_px)
+{
+    uint32_t number = (uint32_t)(random_unit(stream, RANDOM_TEXTURE) * (float)look->flags.w);
+    uint4 texture = look->textures[number < look->flags.w ? number : look->flags.w - 1];
+    float cells = (float)texture.y, position = passes * (cells - 1.0f);
+    if (look->flags.y != 0)
+        position += random_unit(stream, RANDOM_CELL) * cells;
+    uint32_t first = (uint32_t)floorf(position);
+    s->layers[0] = texture.x + first % texture.y;
+    s->layers[1] = texture.x + (first + 1) % texture.y;
+    s->part = (double)position - first;
+    s->level = (uint32_t)floor(log2(fmax(KILN_ATLAS_CELL / fmax(diameter_px, 1), 1)));
+    s->masks = texture.z != KILN_CELL_COLOR;
+    s->motion = t->atlas->moves ? (double)BITS_FLOAT(texture.w) : 0;
+}
+
+static void true_pixel(const struct true_scene *t, dvec v, double pixel[2])
+{
+    const float4 f = t->view->frustum;
+    pixel[0] = 0.5 * (double)f.z * (1 + v.x / (double)f.x / -v.z);
+    pixel[1] = 0.5 * (double)f.w * (1 - v.y / (double)f.y / -v.z);
+}
+
+/* Points and lines, as quads of the picture. */
+static void true_make_plain(const struct true_scene *t, struct true_sprite *s,
+                            const struct kiln_draw_look *look, double width, dvec way_m)
+{
+    bool line = look->form.x == LOOK_LINE;
+    double thin = fmin(width, 1), half_width = 0.5 * fmax(width, 1);
+    double near = fmax((double)t->view->eye.w, 1e-3);
+    dvec head = s->center, tail = line ? dvec_add(head, way_m, 1) : head;
+    if (-tail.z < near)
+        tail = dvec_add(head, dvec_add(tail, head, -1), (-head.z - near) / (tail.z - head.z));
+    double from[2], to[2];
+    true_pixel(t, tail, from);
+    true_pixel(t, head, to);
+    double length = hypot(to[0] - from[0], to[1] - from[1]);
+    for (int i = 0; i < 2; i++) {
+        s->way[i] = length > 1e-3 ? (to[i] - from[i]) / length : i == 0;
+        s->middle[i] = 0.5 * (from[i] + to[i]);
+        s->extent[i] = half_width + (i == 0 ? 0.5 * length : 0);
+    }
+    s->near[0] = 1 / -tail.z;
+    s->near[1] = 1 / -head.z;
+    s->opacity *= line ? thin : thin * thin;
+    s->plain = true;
+    s->disc = !line && look->form.z != 0;
+}
+
+static dvec true_corner(const struct true_sprite *s, int i)
+{
+    double across = i == 1 || i == 2 ? 1 : -1, along = i < 2 ? 1 : -1;
+    return dvec_add(dvec_add(s->center, s->right, across), s->up, along);
+}
+
+/* Its corners, and pixels that it may touch. */
+static void true_bound(const struct true_scene *t, struct true_sprite *s)
+{
+    const double size[2] = {(double)t->view->frustum.z, (double)t->view->frustum.w};
+    double low[2] = {1e9, 1e9}, high[2] = {-1e9, -1e9};
+    for (int i = 0; i < 4; i++) {
+        double *at = s->corners[i];
+        if (s->plain) {
+            double across = (i == 1 || i == 2 ? 1 : -1) * (s->extent[0] + 0.5);
+            double along = (i < 2 ? 1 : -1) * (s->extent[1] + 0.5);
+            at[0] = s->middle[0] + s->way[0] * across - s->way[1] * along;
+            at[1] = s->middle[1] + s->way[1] * across + s->way[0] * along;
+        } else {
+            s->behind = s->behind || -true_corner(s, i).z < 1e-6;
+            true_pixel(t, true_corner(s, i), at);
+        }
+        for (int k = 0; k < 2; k++) {
+            at[k] = floor(at[k] / TRUE_SNAP + 0.5) * TRUE_SNAP;
+            low[k] = fmin(low[k], at[k]);
+            high[k] = fmax(high[k], at[k]);
+        }
+    }
+    for (int k = 0; k < 2; k++) {
+        s->box[k] = s->behind ? 0 : (int)fmin(fmax(floor(low[k]) - 1, 0), size[k]);
+        s->box[2 + k] = s->behind ? (int)size[k] : (int)fmin(fmax(ceil(high[k]) + 1, 0), size[k]);
+    }
+}
+
+/* ---- all of it ------------------------------------------------------------------------------- */
+
+/* A particle's numbers on the way to a sprite. */
+struct true_subject {
+    const struct kiln_draw_look *look;
+    uint32_t stream;
+    float life; /* the part that has passed */
+    double age, row[KILN_LOOK_ROWS][4];
+    double scale, half_size, diameter_px;
+    dvec position, moving, axes[3];
+};
+
+/* A random number between two. */
+static double true_between(const struct true_subject *p, uint32_t purpose, double least,
+                           double most)
+{
+    return least + (most - least) * (double)random_unit(p->stream, purpose);
+}
+
+static void true_turn(const struct true_scene *t, struct true_subject *p, struct true_sprite *s)
+{
+    const double *turn = p->row[KILN_LOOK_TURN], *axis = p->row[KILN_LOOK_AXIS];
+    const double *spread = p->row[KILN_LOOK_SPREAD];
+    double angle = true_between(p, RANDOM_ROTATION, turn[0], turn[1]);
+    double spin = true_between(p, RANDOM_SPIN, spread[2], spread[3]);
+    bool backwards = random_unit(p->stream, RANDOM_SPIN + 1u) < 0.5f;
+    angle += (backwards ? -spin : spin) * p->age;
+    const uint32_t facing = p->look->form.y;
+    dvec upward = facing == LOOK_AXIAL ? (dvec){axis[0], axis[1], axis[2]} : (dvec){0, 1, 0};
+    true_plane(t, facing, upward, s->center, p->axes);
+    const double in_plane[2] = {dvec_dot(p->moving, p->axes[0]), dvec_dot(p->moving, p->axes[1])};
+    double up[2];
+    double longer = true_up(angle, p->row[KILN_LOOK_SHAPE][1], in_plane, facing, up);
+    dvec upwards = dvec_add(dvec_scale(p->axes[0], up[0]), p->axes[1], up[1]);
+    dvec sideways = dvec_add(dvec_scale(p->axes[0], up[1]), p->axes[1], -up[0]);
+    p->axes[0] = backwards ? dvec_scale(sideways, -1) : sideways;
+    p->axes[1] = upwards;
+    s->right = dvec_scale(p->axes[0], p->half_size);
+    s->up = dvec_scale(p->axes[1], p->half_size + longer);
+}
+
+static void true_read(const struct true_scene *t, uint32_t entry,
+                      const struct kiln_particle *record, struct true_subject *p)
+{
+    const struct kiln_view *view = t->view;
+    p->look = &t->looks[KILN_ENTRY_SYSTEM(entry)];
+    p->stream = particle_stream(p->look->derived, *record);
+    float age_s = particle_age(*record, view->clock_step.x, view->clock.y);
+    p->age = (double)age_s;
+    p->life = particle_progress(age_s, particle_life_s(t->scene->keys, p->look->derived, *record));
+    for (uint32_t i = 0; i < KILN_LOOK_ROWS; i++)
+        dvec_look(t->table, KILN_ENTRY_SYSTEM(entry), i, p->life, p->row[i]);
+    p->position = dvec_of3(particle_position(*record));
+    p->moving = dvec_turn(view, dvec_of3(particle_velocity(*record)));
+}
+
+static void true_color(struct true_sprite *s, double const row[KILN_LOOK_ROWS][4])
+{
+    const size_t bytes = sizeof s->hot;
+    memcpy(s->hot, row[KILN_LOOK_HOT], bytes);
+    memcpy(s->cool, row[KILN_LOOK_COOL], bytes);
+    memcpy(s->color, row[KILN_LOOK_COVER], bytes);
+    memcpy(s->bloom, row[KILN_LOOK_BLOOM], bytes);
+}
+
+bool true_sprite_make(const struct true_scene *t, uint32_t entry,
+                      const struct kiln_particle *record, struct true_sprite *s)
+{
+    struct true_subject p;
+    true_read(t, entry, record, &p);
+    const struct kiln_view *view = t->view;
+    const double *shape = p.row[KILN_LOOK_SHAPE], *spread = p.row[KILN_LOOK_SPREAD];
+    *s = (struct true_sprite){.center = dvec_view(view, p.position),
+                              .additive = p.look->flags.x != 0,
+                              .literal = p.look->flags.z != 0,
+                              .soft = shape[3]};
+    double depth = -s->center.z, beyond = depth - (double)view->eye.w;
+    s->opacity = shape[2] * fmin(fmax(beyond / fmax(p.row[KILN_LOOK_HOT][3], 1e-6), 0), 1);
+    if (!(beyond > 0) || !(s->opacity > 0))
+        return false;
+    double pixels_per_m = (double)view->frustum.w / (2 * (double)view->frustum.y * depth);
+    p.scale = true_between(&p, RANDOM_SCALE, spread[0], spread[1]);
+    p.half_size = 0.5 * shape[0] * p.scale;
+    p.diameter_px = 2 * p.half_size * pixels_per_m;
+    true_turn(t, &p, s);
+    true_color(s, (double const(*)[4])p.row);
+    s->bulge = p.half_size * p.row[KILN_LOOK_BLOOM][3];
+    s->distance = sqrt(dvec_dot(s->center, s->center));
+    true_choose_cells(t, s, p.look, p.stream, p.life * (float)p.row[KILN_LOOK_COOL][3],
+                      p.diameter_px);
+    true_light(t, s, p.row[KILN_LOOK_COVER][3], KILN_ENTRY_SLOT(entry), p.position, p.axes);
+    if (p.look->form.x != 0) {
+        bool line = p.look->form.x == LOOK_LINE;
+        double width = p.row[KILN_LOOK_TURN][line ? 3 : 2] * p.scale * (double)view->clock.w;
+        double back = p.look->form.w != 0 ? (double)view->clock.z : shape[1];
+        true_make_plain(t, s, p.look, line || width > 0 ? width : p.diameter_px,
+                        dvec_scale(p.moving, -back));
+    }
+    true_bound(t, s);
+    return true;
+}
+
+/* ---- pixels ---------------------------------------------------------------------------------- */
+
+/* Inside of corners that go around in either direction. */
+static bool true_inside(double const corners[4][2], double x, double y)
+{
+    int left = 0, right = 0;
+    for (int i = 0; i < 4; i++) {
+        const double *a = corners[i], *b = corners[(i + 1) % 4];
+        double side = (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
+        left += side > 0;
+        right += side < 0;
+    }
+    return left == 0 || right == 0;
+}
+
+static bool true_place_plain(const struct true_sprite *s, double x, double y, struct true_place *at)
+{
+    double dx = x - s->middle[0], dy = y - s->middle[1];
+    at->u = dx * s->way[0] + dy * s->way[1];
+    at->v = dy * s->way[0] - dx * s->way[1];
+    double along = 0.5 + 0.5 * at->u / (s->extent[0] + 0.5);
+    at->depth = 1 / (s->near[0] + (s->near[1] - s->near[0]) * along);
+    return fabs(at->u) <= s->extent[0] + 0.5 && fabs(at->v) <= s->extent[1] + 0.5;
+}
+
+int true_place_of(const struct true_scene *t, const struct true_sprite *s, double x, double y,
+                  struct true_place *at)
+{
+    bool exact;
+    if (s->plain) {
+        exact = true_place_plain(s, x, y, at);
+    } else {
+        const float4 f = t->view->frustum;
+        dvec ray = {(2 * x / (double)f.z - 1) * (double)f.x,
+                    (1 - 2 * y / (double)f.w) * (double)f.y, -1};
+        dvec normal = dvec_cross(s->right, s->up);
+        at->depth = dvec_dot(s->center, normal) / dvec_dot(ray, normal);
+        dvec from_middle = dvec_add(dvec_scale(ray, at->depth), s->center, -1);
+        double a = dvec_dot(dvec_cross(from_middle, s->up), normal) / dvec_dot(normal, normal);
+        double b = dvec_dot(dvec_cross(s->right, from_middle), normal) / dvec_dot(normal, normal);
+        at->u = 0.5 + 0.5 * a;
+        at->v = 0.5 - 0.5 * b;
+        exact = at->depth > 0 && fabs(a) <= 1 && fabs(b) <= 1;
+    }
+    bool snapped = s->behind ? exact : true_inside(s->corners, x, y);
+    return (exact ? TRUE_EXACT : 0) | (snapped ? TRUE_SNAPPED : 0);
+}
+
+/* Channels of a grid of bytes between its texels, clamped at its edge. */
+static double true_bilinear(const uint8_t *texels, int edge, int channels, int c, double u,
+                            double v, bool has_sign)
+{
+    double x = fmin(fmax(u * edge - 0.5, 0), edge - 1), y = fmin(fmax(v * edge - 0.5, 0), edge - 1);
+    int x0 = (int)x, y0 = (int)y;
+    int x1 = x0 + 1 < edge ? x0 + 1 : x0, y1 = y0 + 1 < edge ? y0 + 1 : y0;
+    const int at[4] = {y0 * edge + x0, y0 * edge + x1, y1 * edge + x0, y1 * edge + x1};
+    double t[4];
+    for (int i = 0; i < 4; i++) {
+        uint8_t byte = texels[at[i] * channels + c];
+        t[i] = has_sign ? fmax((int8_t)byte / 127.0, -1) : byte / 255.0;
+    }
+    double part_x = x - x0, part_y = y - y0;
+    double upper = t[0] + (t[1] - t[0]) * part_x, lower = t[2] + (t[3] - t[2]) * part_x;
+    return upper + (lower - upper) * part_y;
+}
+
+static void true_cell(const struct true_scene *t, const struct true_sprite *s,
+                      const struct true_place *at, double cell[4])
+{
+    double way[2] = {0, 0};
+    if (s->motion > 0) {
+        const int8_t *moves = t->atlas->moves + (size_t)s->layers[0] * KILN_ATLAS_MOVES_BYTES;
+        for (int i = 0; i < 2; i++)
+            way[i] = s->motion * true_bilinear((const uint8_t *)moves, KILN_ATLAS_MOTION, 2, i,
+                                               at->u, at->v, true);
+    }
+    const uint8_t *from = kiln_atlas_level(t->atlas, s->layers[0], s->level);
+    const uint8_t *to = kiln_atlas_level(t->atlas, s->layers[1], s->level);
+    int edge = KILN_ATLAS_CELL >> s->level;
+    for (int c = 0; c < 4; c++) {
+        double one = true_bilinear(from, edge, 4, c, at->u - s->part * way[0],
+                                   at->v - s->part * way[1], false);
+        double other = true_bilinear(to, edge, 4, c, at->u + (1 - s->part) * way[0],
+                                     at->v + (1 - s->part) * way[1], false);
+        cell[c] = one + (other - one) * s->part;
+    }
+}
+
+static double true_soft(const struct true_sprite *s, double depth, double scene)
+{
+    if (s->soft <= 0)
+        return depth <= scene;
+    if (s->literal)
+        return depth <= scene ? fabs(scene - s->distance) * s->soft : 0;
+    return fmin(fmax((scene - depth) * s->soft, 0), 1);
+}
+
+static double true_coverage(const struct true_sprite *s, const struct true_place *at)
+{
+    if (s->disc)
+        return fmin(fmax(s->extent[0] + 0.5 - hypot(at->u, at->v), 0), 1);
+    return fmin(fmax(s->extent[0] + 0.5 - fabs(at->u), 0), 1) *
+           fmin(fmax(s->extent[1] + 0.5 - fabs(at->v), 0), 1);
+}
+
+void true_shade(const struct true_scene *t, const struct true_sprite *s,
+                const struct true_place *at, double scene, double rgba[4])
+{
+    double cell[4] = {0.5, 0.5, 1, 0}, slope[2] = {0, 0}, alpha;
+    bool masks = s->masks || s->plain;
+    if (s->plain)
+        cell[3] = true_coverage(s, at);
+    else
+        true_cell(t, s, at, cell);
+    if (masks) {
+        slope[0] = cell[0] * 2 - 1;
+        slope[1] = cell[1] * 2 - 1;
+    } else {
+        for (int c = 0; c < 4; c++)
+            cell[c] *= cell[c];
+    }
+    alpha = cell[3];
+    double facing = sqrt(fmax(1 - slope[0] * slope[0] - slope[1] * slope[1], 0));
+    double depth = s->plain || fabs(s->right.z) + fabs(s->up.z) > 0 ? at->depth : -s->center.z;
+    double fade = s->opacity * true_soft(s, depth, scene);
+    fade = fmin(fade, 1 / fmax(alpha, 1e-6));
+    for (int c = 0; c < 3; c++) {
+        double light = s->light[0][c] + s->light[1][c] * slope[0] + s->light[2][c] * slope[1] +
+                       s->light[3][c] * facing;
+        double covering = s->color[c] * fmax(light, 0);
+        double emitted = masks ? s->cool[c] + (s->hot[c] - s->cool[c]) * cell[2] : s->hot[c];
+        rgba[c] = (emitted + covering) * (masks ? alpha : cell[c]) * fade;
+    }
+    rgba[3] = alpha * fade;
+}
