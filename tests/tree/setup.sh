@@ -56,10 +56,18 @@ export ABSENT=libcmocka-dev
 run "the demo needs no tests" 0 "${unprivileged[@]}" "$machine/tools/setup" demo
 expect ""
 
+run "several names, the one of which is missing" 1 "${unprivileged[@]}" \
+    "$machine/tools/setup" demo fuzz
+expect "Packages are missing*apt-get install -y libcmocka-dev"
+run "a wrong word after a right one" 2 "$machine/tools/setup" demo everything
+expect "usage: *"
+
 # Without what is optional, setup goes on and says what will be missing.
 export ABSENT=gnuplot-nox
 run "an optional one is missing, without root" 0 "${unprivileged[@]}" "$machine/tools/setup" test
 expect "gnuplot-nox is not there and not needed: *"
+run "what is optional can be wanted" 1 "${unprivileged[@]}" "$machine/tools/setup" bench
+expect "Packages are missing*apt-get install -y gnuplot-nox"
 run "the demo needs nothing optional" 0 "${unprivileged[@]}" "$machine/tools/setup" demo
 expect ""
 
