@@ -1,5 +1,5 @@
 /* How many particles live in each block of a system. */
-// variant: 
+// variant:
 // variant: KEPT=1
 #include "sort/alive.glsl"
 

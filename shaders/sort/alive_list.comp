@@ -1,6 +1,6 @@
 /* The entries of the living of a system, in order, after those of the blocks before: alone, or as
  * pairs of their depth's key and either the entry or its place in the list. */
-// variant: 
+// variant:
 // variant: PAIRED=1
 // variant: NUMBERED=1
 // variant: KEPT=1

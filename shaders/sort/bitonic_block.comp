@@ -1,7 +1,7 @@
 /* Bitonic sort (Heinz 2019, 2.4.1) of a block in shared memory: all comparisons over distances
  * shorter than it, for bunches of some sizes. Each invocation has eight pairs at a time, for three
  * passes; where fewer are left, it repeats some that are done, which changes nothing. */
-// variant: 
+// variant:
 // variant: FROM_START=1
 // variant: FROM_START=1 NETWORK_GROUP_SIZE=512
 #include "sort/bitonic.glsl"

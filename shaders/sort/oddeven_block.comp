@@ -1,5 +1,5 @@
 /* Passes of the odd-even merge sort that merge no more than a block, in shared memory. */
-// variant: 
+// variant:
 // variant: NETWORK_GROUP_SIZE=512
 #include "sort/oddeven.glsl"
 

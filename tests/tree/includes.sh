@@ -7,9 +7,7 @@ set -euo pipefail
 rooms=$(dirname "$(realpath "$0")")/rooms.awk
 cd "$1"
 
-find lib cmd shaders -name '*.[ch]' -o -path 'shaders/*.*' -type f | sort -u >"${TMPDIR:-/tmp}/includes.$$"
-trap 'rm -f "${TMPDIR:-/tmp}/includes.$$"' EXIT
-mapfile -t files <"${TMPDIR:-/tmp}/includes.$$"
+mapfile -t files < <(find lib cmd shaders -name '*.[ch]' -o -path 'shaders/*.*' -type f | sort -u)
 
 awk -f "$rooms" -f - "${files[@]}" <<'AWK'
 function complain(text) { printf "%s:%d: %s\n", FILENAME, FNR, text; failed = 1 }

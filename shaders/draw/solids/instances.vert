@@ -3,7 +3,7 @@
  * and shrinks by its opacity. */
 #include "shared/draw_layout.h"
 
-// variant: 
+// variant:
 // variant: SPINS=1
 #include "draw/moment/record.glsl"
 #include "draw/solids/pose.glsl"

@@ -1,7 +1,7 @@
 /* The rectangle of the picture that a sphere covers: between the tangents from the eye, and a pixel
  * around it, because a driver may have a pixel's samples elsewhere than the fragment shader. A sphere
  * that reaches the near plane is not drawn. */
-// variant: 
+// variant:
 // variant: PATTERN=1
 #include "shared/draw_layout.h"
 

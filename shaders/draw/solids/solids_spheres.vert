@@ -2,7 +2,7 @@
  * shrinks by its opacity. */
 #include "shared/draw_layout.h"
 
-// variant: 
+// variant:
 // variant: PATTERN=1
 // variant: PATTERN=1 SPINS=1
 #include "draw/moment/record.glsl"

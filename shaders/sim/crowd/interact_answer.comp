@@ -1,5 +1,5 @@
 /* Once a round: partners collide. Both compute it, each for itself. */
-// variant: 
+// variant:
 // variant: SPINS=1
 #include "sim/crowd/interact.glsl"
 

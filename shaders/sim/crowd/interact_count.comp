@@ -1,6 +1,6 @@
 /* First of the kernels that gather pushes: how many bodies each cell has; with STAGGERED, how many
  * there are, and their cells in the first grid; with FLOCK, others may have pushed before. A sum of integers is the same in any order. */
-// variant: 
+// variant:
 // variant: STAGGERED=1
 // variant: FLOCK=1
 #include "sim/crowd/interact.glsl"

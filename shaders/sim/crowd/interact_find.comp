@@ -1,7 +1,7 @@
 /* Once a round: each body's closest partner; with STAGGERED, as the paper finds it. With COUNTED,
  * where so many are around that software GL would not look at all of them, nobody finds any, and
  * the word behind all cells says how many there are. */
-// variant: 
+// variant:
 // variant: STAGGERED=1
 // variant: COUNTED=65000u
 #include "sim/crowd/interact.glsl"

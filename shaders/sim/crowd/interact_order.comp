@@ -1,6 +1,6 @@
 /* What follows from sorted entries: bodies in the order of the first grid, and their entries for the
  * second; with SECOND, the order of that one. */
-// variant: 
+// variant:
 // variant: SPINS=1
 // variant: SECOND=1
 #include "sim/crowd/interact.glsl"

@@ -1,6 +1,6 @@
 /* Third: bodies in order of their cells; thereafter each cell's number is where its bodies end. Of
  * those in one cell, scheduling decides the order, and nothing asks for it. */
-// variant: 
+// variant:
 // variant: SPINS=1
 #include "sim/crowd/interact.glsl"
 

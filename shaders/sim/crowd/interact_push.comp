@@ -1,5 +1,5 @@
 /* Last: by how much a body is not what its particle was. */
-// variant: 
+// variant:
 // variant: SPINS=1
 #include "sim/crowd/interact.glsl"
 

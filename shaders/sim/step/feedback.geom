@@ -1,7 +1,7 @@
 /* Technique `feedback` (Heinz 2019, 3.3.3, algorithm 3.1, lines 9 to 13): moves one particle and
  * writes it to the stream, from which the dead are missing. What lies in a slot that this step is
  * born into is left to the emitters. Children are born here: each has a slot to itself. */
-// variant: 
+// variant:
 // variant: COLLIDE_ROUND=1
 // variant: FAMILY=1
 // variant: FAMILY=1 COLLIDE_ROUND=1

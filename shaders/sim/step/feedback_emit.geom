@@ -1,7 +1,7 @@
 /* Technique `feedback` (Heinz 2019, 3.3.3, algorithm 3.1, lines 3 to 8): an emitter writes new
  * particles. The thesis has one; since a geometry shader writes only so many vertices, here each
  * emitter spawns SIM_EMITTER_BIRTHS of the step's births, and there are as many as it takes. */
-// variant: 
+// variant:
 // variant: COLLIDE_ROUND=1
 // variant: FAMILY=1
 // variant: FAMILY=1 COLLIDE_ROUND=1

@@ -1,7 +1,7 @@
 /* The state hash of one system and the number of its living particles, added to three sums; with
  * SPINS, that of how they turn. Integer
  * sums are the same in any order, so here atomics are harmless. */
-// variant: 
+// variant:
 // variant: SPINS=1
 #include "shared/limits.h"
 #include "shared/state_hash.h"

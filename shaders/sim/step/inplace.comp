@@ -1,7 +1,7 @@
 /* Technique `inplace` (Heinz 2019, algorithm 3.2): one buffer, each invocation steps its slot where
  * it lies. Unlike the thesis's, it finds no free slots by an atomic counter: the host says which
  * slots are born into, so the order never depends on scheduling. */
-// variant: 
+// variant:
 // variant: COLLIDE_ROUND=1
 // variant: FAMILY=1
 // variant: FAMILY=1 COLLIDE_ROUND=1

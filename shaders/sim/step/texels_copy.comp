@@ -1,5 +1,5 @@
 /* Technique `texels`: all slots from textures to the records, or back. */
-// variant: 
+// variant:
 // variant: FROM_RECORDS=1
 #include "shared/particle.h"
 #include "sim/step/texels.glsl"

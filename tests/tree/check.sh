@@ -1,0 +1,54 @@
+#!/usr/bin/env bash
+# tools/check passes a small tree that is well, and names what is not: check.sh SOURCE CC.
+set -euo pipefail
+source=$1 compiler=$2
+tree=$(mktemp -d)
+trap 'rm -rf "$tree"' EXIT
+mkdir -p "$tree"/{.ci,cmd,lib/base,tools,tests/tree,shaders/shared,cmake,build/release}
+cp "$source"/tools/check "$tree/tools/"
+cp "$source"/tests/tree/* "$tree/tests/tree/"
+cp "$source"/.clang-format "$source"/.clang-tidy "$tree/"
+cd "$tree"
+echo "tools/demo tools/test" >README.md
+echo "/build/" >.gitignore
+: >CMakeLists.txt
+printf 'int kiln_sum(int a, int b);\n' >lib/base/sum.h
+printf '#include "base/sum.h"\n\nint kiln_sum(int a, int b)\n{\n    return a + b;\n}\n' >lib/base/sum.c
+printf '[{"directory": "%s", "file": "lib/base/sum.c", "command": "%s -Wall -Ilib -c lib/base/sum.c"}]\n' \
+    "$tree" "$compiler" >build/release/compile_commands.json
+git init -q
+git add -A
+git -c user.name=kiln -c user.email=kiln@localhost commit -qm "a tree that is well"
+
+# said NAME STATUS TEXT: what tools/check must print and how it must end.
+said() {
+    local name=$1 expected=$2 text=$3 printed status=0
+    shift 3
+    printed=$(tools/check "$@" 2>&1) || status=$?
+    if ((status != expected)) || [[ $printed != *"$text"* ]]; then
+        printf '%s: exit %d, said\n%s\nand not: %s\n' "$name" "$status" "$printed" "$text"
+        exit 1
+    fi
+    git checkout -q .
+    git clean -qf
+}
+
+said "all is well" 0 "and 0 C files of the change: all well"
+printf '\nint kiln_sum(int a,  int b);\n' >>lib/base/sum.h
+said "a format" 1 "refused: format"
+printf '#include "draw/picture.h"\n' >lib/base/sum.h
+said "an include" 1 'lib/base/sum.h:1: "draw/picture.h" is not a header of lib/'
+printf '/* Long. */\n%.0s' {1..601} >lib/base/sum.h
+said "a size" 1 "refused: sizes"
+printf '#!/bin/sh\n' >tools/new
+said "a script" 1 "refused: scripts"
+printf 'int kiln_sum(int first, int second);\n' >lib/base/sum.h
+said "a header, seen through its own file" 1 "readability-inconsistent-declaration-parameter-name"
+printf '#include "base/sum.h"\n\nint kiln_sum(int a, int b)\n{\n    int unused;\n    return a + b;\n}\n' \
+    >lib/base/sum.c
+said "a warning of clang" 1 "clang-diagnostic-unused-variable"
+rm -r build/release
+printf '\n/* More. */\n' >>lib/base/sum.h
+said "a tree that is not configured" 1 "cmake --preset release"
+said "no commit" 2 "'nothing' is not a commit" nothing
+echo "tools/check refuses what it should"
