@@ -48,9 +48,9 @@ $ mkdir twice && mkfifo frames
 > count=0
 > until [ $count -gt 0 ] && [ $count = "$(ls twice | wc -l)" ]; do
 >     count=$(ls twice | wc -l)
->     sleep 1
+>     sleep 2
 > done
-> kill -TERM $job; sleep 0.5; kill -TERM $job
+> kill -TERM $job; sleep 1; kill -TERM $job
 > wait $job
 = 143
 $ ls -A twice | grep -v '^[0-9]*\.png$'
@@ -58,8 +58,8 @@ $ ls -A twice | grep -v '^[0-9]*\.png$'
 
 A frame over its limit, and a device that does not open in time. Nothing half-written is left.
 
-$ kiln render scenes/tiny.yaml -q -o late.mp4 --frame-timeout 6 --set systems.smoke.emit.rate=1000000 --set 'simulation.warmup=4000 s'
-2|kiln: scenes/tiny.yaml: frame 0 took longer than its limit of 6 s
+$ kiln render scenes/tiny.yaml -q -o late.mp4 --device cpu --frame-timeout 2 --set systems.smoke.emit.rate=1000000 --set 'simulation.warmup=4000 s'
+2|kiln: scenes/tiny.yaml: frame 0 took longer than its limit of 2 s
 = 5
 $ kiln render scenes/tiny.yaml -q -o late.mp4 --device software --frame-timeout 0.001
 2|kiln: opening the device took longer than its limit of 0.001 s
