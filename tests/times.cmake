@@ -10,21 +10,39 @@ endif()
 # Processor seconds of the tests that take more than five on the two quiet cores of CONTRIBUTING.md;
 # where a test is cut into parts, those of the longest one, and how many there are.
 set(kiln_test_times
-    "gpu.simulate 50 7"
-    "gpu.shadows 40 2"
-    "gpu.backdrops 40 2"
+    "gpu.simulate 30 7"
+    "gpu.shadows 15 2"
+    "gpu.backdrops 30 2"
     "gpu.rasters 20 2"
-    "gpu.sort 30"
-    "gpu.oit 20"
+    "gpu.sort 20"
+    "gpu.oit 15"
     "gpu.instances 10"
-    "gpu.long_loops 20"
-    "unit.host 30 3"
-    "mutation.effects 60"
-    "mutation.shapes 20"
-    "mutation.turned 20"
-    "tree.tidy 30 4"
-    "tree.format 10"
-    "sanitize.library 80"
+    "gpu.crowds 30"
+    "gpu.billboards 10"
+    "gpu.particles 10"
+    "gpu.coarse 10"
+    "gpu.occlusion 10"
+    "gpu.long_loops 10"
+    "unit.host 20 3"
+    "unit.slots 10"
+    "unit.fragments 10"
+    "unit.sun_cover 10"
+    "unit.field 10"
+    "fuzz.mesh 15"
+    "golden.suite 20"
+    "golden.readers 15"
+    "report.page 20"
+    "schema.ajv 10"
+    "cli.bench 20"
+    "cli.stop 10"
+    "cli.compare 10"
+    "cli.test 10"
+    "docs.scenes 10"
+    "mutation.effects 40"
+    "mutation.shapes 10"
+    "mutation.turned 10"
+    "tree.tidy 20 4"
+    "sanitize.library 90"
     "sanitize.tests 60"
 )
 
@@ -49,7 +67,7 @@ endfunction()
 
 # kiln_add_test(name label [TIMES row] [SANITIZED] COMMAND command... [PROPERTIES name value...]): a
 # test that CTest begins the earlier the longer it takes, so that no core is idle at the end. Its
-# limit is for hangs: ten times what it takes, at least one minute and at most fifteen. One that is
+# limit is for hangs: ten times what it takes, at least two minutes and at most fifteen. One that is
 # cut into parts becomes NAME.1, NAME.2 and so on, which get "1/2" as their last argument. What takes
 # no more than five seconds has the label "quick", too. TIMES: the row of another test. SANITIZED: it
 # takes several times as long as that, whatever the build.
@@ -63,8 +81,8 @@ function(kiln_add_test name label)
         math(EXPR test_seconds "${test_seconds} * 4")
     endif()
     math(EXPR limit "${test_seconds} * 10")
-    if(limit LESS 60)
-        set(limit 60)
+    if(limit LESS 120)
+        set(limit 120)
     elseif(limit GREATER 900)
         set(limit 900)
     endif()

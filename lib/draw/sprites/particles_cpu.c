@@ -226,12 +226,12 @@ static void draw_tile(const struct drawing *d, size_t number, uint32_t worker)
     uint32_t x = (uint32_t)(number % bins->columns) * KILN_TILE_WIDTH;
     uint32_t y = (uint32_t)(number / bins->columns) * KILN_TILE_HEIGHT;
     uint32_t width = d->width - x, height = d->height - y;
-    const uint32_t *list = bins->list + bins->first[number];
     size_t count = bins->first[number + 1] - bins->first[number];
     if (count == 0) {
         leave_empty(d, (size_t)y * d->width + x, width, height);
         return;
     }
+    const uint32_t *list = bins->list + bins->first[number];
     tile->x = (int)x;
     tile->y = (int)y;
     tile->width = width < KILN_TILE_WIDTH ? (int)width : KILN_TILE_WIDTH;
