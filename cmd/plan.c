@@ -78,7 +78,8 @@ static char *file_name(const char *pattern, const char *scene, const char *suffi
     return NULL;
 }
 
-/* No two jobs may write one file. */
+/* No two jobs may write one file: found here by its name, so that the message can say what to do,
+ * and by where it leads once the scenes are loaded. */
 static int check_clash(const struct job *a, const struct job *b)
 {
     bool output = a->output && b->output && strcmp(a->output, b->output) == 0;
@@ -90,6 +91,27 @@ static int check_clash(const struct job *a, const struct job *b)
                   "{scene} into the name",
                   output ? "output" : "manifest", a->path, b->path,
                   output ? a->output : a->manifest);
+}
+
+/* The files of all jobs together. */
+static int claim_files(const struct plan *plan)
+{
+    struct kiln_claims *claims = kiln_claims_create();
+    int code = claims ? 0 : report_no_memory();
+    for (size_t i = 0; i < plan->count && code == 0; i++) {
+        const struct job *job = &plan->jobs[i];
+        struct kiln_error error = {0};
+        struct kiln_render_params params = KILN_RENDER_DEFAULTS;
+        params.output = job->output;
+        params.manifest = job->manifest;
+        params.ranges = job->frames.ranges;
+        params.range_count = job->frames.count;
+        params.flipbook = plan->flipbook;
+        if (!kiln_render_claim(job->scene, &params, claims, &error))
+            code = report_error(&error);
+    }
+    kiln_claims_destroy(&claims);
+    return code;
 }
 
 static int name_files(struct plan *plan, const struct arguments *arguments)
@@ -109,9 +131,6 @@ static int name_files(struct plan *plan, const struct arguments *arguments)
             job->manifest = file_name(manifest->text, job->path, ".json", false);
         if ((writes && !job->output) || (manifest && !job->manifest))
             return report_no_memory();
-        if (job->output && job->manifest && strcmp(job->output, job->manifest) == 0)
-            return report(KILN_USAGE, "render: --output and --manifest would both write '%s'",
-                          job->output);
         for (size_t j = 0; j < i; j++) {
             int code = check_clash(&plan->jobs[j], job);
             if (code)
@@ -210,7 +229,8 @@ int plan_create(struct plan *plan, const struct arguments *arguments)
     }
     int code = read_flipbook(plan, arguments);
     code = code ? code : name_files(plan, arguments);
-    return code ? code : load_scenes(plan, arguments);
+    code = code ? code : load_scenes(plan, arguments);
+    return code ? code : claim_files(plan);
 }
 
 void plan_free(struct plan *plan)

@@ -53,6 +53,20 @@ struct kiln_error {
 
 enum kiln_log_level { KILN_LOG_DEBUG, KILN_LOG_INFO, KILN_LOG_WARNING };
 
+/* The files that a call reads and those that it writes, each known by where its path leads. Whoever
+ * does several things in one call declares the files of all of them before the first begins: what
+ * is declared to be read is never written then, and nothing is written twice. */
+struct kiln_claims;
+
+/* NULL when memory is short. */
+struct kiln_claims *kiln_claims_create(void);
+void kiln_claims_destroy(struct kiln_claims **claims);
+
+/* Declares a file that the call writes; `what` stands for it in messages: "--manifest". KILN_USAGE
+ * when the call reads or writes it already, KILN_DEVICE_FAILED when memory is short. */
+bool kiln_claims_write(struct kiln_claims *claims, const char *path, const char *what,
+                       struct kiln_error *error);
+
 /* Receives one line without its newline. May be called from worker threads. */
 struct kiln_log {
     void (*write)(void *user, enum kiln_log_level level, const char *line);
@@ -305,6 +319,12 @@ struct kiln_render_stats {
     uint32_t files;                  /* images, 1 for a video; 0: nothing was to be written */
     char first_file[KILN_PATH_SIZE]; /* what was written first */
 };
+
+/* Declares what the job reads (the scene and its files) and writes. KILN_USAGE when a file would be
+ * written that is read, or twice; also when the output is no format, or the ranges make no sense
+ * for it. kiln_render does that itself, for its one job. */
+bool kiln_render_claim(const struct kiln_scene *scene, const struct kiln_render_params *params,
+                       struct kiln_claims *claims, struct kiln_error *error);
 
 /* Renders the job; its callbacks may use other devices, or render on this one. Files appear under
  * their names only when whole; after an error or a stop, what was finished stays and nothing

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/claims.h"
 #include "base/clock.h"
 #include "base/error.h"
 #include "compare/difference.h"
@@ -16,7 +17,8 @@ struct comparison {
     struct kiln_footage *footage[2]; /* reference, test */
     struct kiln_metric_set set;
     struct kiln_difference_plan diff, error_map;
-    struct kiln_mask mask; /* of the size of the frame before */
+    struct kiln_claims *claims; /* of all that is read and written */
+    struct kiln_mask mask;      /* of the size of the frame before */
     struct kiln_threads *threads;
     struct kiln_compare_result result;
     double sums[KILN_MAX_COLUMNS];
@@ -316,6 +318,30 @@ static bool check_kinds(const struct comparison *comparison, struct kiln_error *
                           kiln_footage_path(comparison->footage[1]), names[b]);
 }
 
+/* No picture that is compared, and no mask, is replaced. */
+static bool claim_files(struct comparison *comparison, struct kiln_error *error)
+{
+    static const char *const names[2] = {"a picture of the reference", "a picture of the test"};
+    const struct kiln_compare_params *params = comparison->params;
+    comparison->claims = kiln_claims_create();
+    if (!comparison->claims)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "files to compare: out of memory");
+    for (int i = 0; i < 2; i++) {
+        if (!kiln_footage_claim(comparison->footage[i], names[i], comparison->claims, error))
+            return false;
+    }
+    for (size_t i = 0; i < params->mask_count; i++) {
+        const char *mask = params->masks[i].picture;
+        if (mask && !kiln_claims_read(comparison->claims, mask, "a mask", error))
+            return false;
+    }
+    const struct kiln_footage *reference = comparison->footage[0];
+    return (!params->diff || kiln_difference_plan_claim(&comparison->diff, "--diff", reference,
+                                                        comparison->claims, error)) &&
+           (!params->error_map || kiln_difference_plan_claim(&comparison->error_map, "--error-map",
+                                                             reference, comparison->claims, error));
+}
+
 static bool prepare(struct comparison *comparison, struct kiln_error *error)
 {
     static const char *const default_limits[] = {KILN_COMPARE_DEFAULT_LIMITS};
@@ -338,8 +364,10 @@ static bool prepare(struct comparison *comparison, struct kiln_error *error)
     if (!check_kinds(comparison, error) ||
         (params->diff && !kiln_difference_plan_make(&comparison->diff, params->diff, false,
                                                     sequence, params->overwrite, error)) ||
-        (params->error_map && !kiln_difference_plan_make(&comparison->error_map, params->error_map,
-                                                         true, sequence, params->overwrite, error)))
+        (params->error_map &&
+         !kiln_difference_plan_make(&comparison->error_map, params->error_map, true, sequence,
+                                    params->overwrite, error)) ||
+        !claim_files(comparison, error))
         return false;
     comparison->threads = kiln_threads_create(params->threads);
     return comparison->threads ||
@@ -360,5 +388,6 @@ bool kiln_compare(const struct kiln_compare_params *params, struct kiln_compare_
     kiln_mask_finish(&comparison.mask);
     kiln_footage_close(&comparison.footage[0]);
     kiln_footage_close(&comparison.footage[1]);
+    kiln_claims_destroy(&comparison.claims);
     return ok;
 }

@@ -52,6 +52,37 @@ static bool format_path(const struct kiln_difference_plan *plan, const char *nam
     return length >= 0 && (size_t)length < size;
 }
 
+static bool declare(const struct kiln_difference_plan *plan, struct kiln_claims *claims,
+                    const char *name, uint32_t number, struct kiln_error *error)
+{
+    char path[KILN_PATH_SIZE];
+    if (!format_path(plan, name, number, path, sizeof path))
+        return kiln_error_set(error, KILN_USAGE, "%s: the path is too long", plan->path);
+    return kiln_claims_write(claims, path, plan->option, error);
+}
+
+struct declaring {
+    const struct kiln_difference_plan *plan;
+    struct kiln_claims *claims;
+    struct kiln_error *error;
+};
+
+static bool declare_frame(void *user, const struct kiln_footage_frame *frame)
+{
+    const struct declaring *d = user;
+    return declare(d->plan, d->claims, frame->name, frame->number, d->error);
+}
+
+bool kiln_difference_plan_claim(struct kiln_difference_plan *plan, const char *option,
+                                const struct kiln_footage *reference, struct kiln_claims *claims,
+                                struct kiln_error *error)
+{
+    plan->option = option;
+    plan->claims = kiln_footage_kind(reference) == KILN_FOOTAGE_VIDEO ? claims : NULL;
+    struct declaring declaring = {plan, claims, error};
+    return kiln_footage_visit(reference, declare_frame, &declaring);
+}
+
 static void put_levels(const float *levels, uint8_t *out)
 {
     for (int c = 0; c < 3; c++) {
@@ -89,6 +120,8 @@ bool kiln_difference_write(const struct kiln_difference_plan *plan, const char *
     char path[KILN_PATH_SIZE];
     if (!format_path(plan, name, number, path, sizeof path))
         return kiln_error_set(error, KILN_IO, "%s: the path is too long", plan->path);
+    if (plan->claims && number > 0 && !declare(plan, plan->claims, name, number, error))
+        return false;
     struct kiln_temporary file = {0};
     if (!kiln_target_check(path, plan->overwrite, error) || !kiln_make_parent_folders(path, error))
         return false;

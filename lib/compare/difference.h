@@ -3,6 +3,7 @@
 #define KILN_COMPARE_DIFFERENCE_H
 
 #include "base/pattern.h"
+#include "compare/footage.h"
 #include "compare/measure.h"
 
 /* Where they go, and what they show. */
@@ -12,6 +13,8 @@ struct kiln_difference_plan {
     bool overwrite;
     bool folder; /* NAME.png of each frame's name in it */
     struct kiln_path_pattern pattern;
+    const char *option;
+    struct kiln_claims *claims; /* of pictures that have not been declared; else NULL */
 };
 
 /* A single picture goes to path; those of a sequence need a pattern with a number, or get one
@@ -20,6 +23,13 @@ struct kiln_difference_plan {
  * there. */
 bool kiln_difference_plan_make(struct kiln_difference_plan *plan, const char *path, bool map_alone,
                                bool sequence, bool overwrite, struct kiln_error *error);
+
+/* Declares the pictures of the frames of a reference, which the call writes for `option`: all, but
+ * only the first of a video, whose others are declared when they are written. The claims outlive
+ * the plan. */
+bool kiln_difference_plan_claim(struct kiln_difference_plan *plan, const char *option,
+                                const struct kiln_footage *reference, struct kiln_claims *claims,
+                                struct kiln_error *error);
 
 /* Writes one picture, which appears whole or not at all. name is the frame's, number that for the
  * pattern. KILN_IO, KILN_DEVICE_FAILED. */

@@ -11,6 +11,7 @@
 
 #include "asset/image/video_in.h"
 #include "base/arena.h"
+#include "base/claims.h"
 #include "base/error.h"
 #include "base/pattern.h"
 
@@ -124,6 +125,8 @@ static bool list_entries(struct kiln_footage *footage, const struct kiln_path_pa
                                       : "the folder has no pictures (PNG, JPEG, WebP, TIFF, BMP "
                                         "or EXR, by their suffix)");
     qsort(footage->entries, footage->count, sizeof *footage->entries, compare_entries);
+    for (size_t i = 0; i < footage->count && !pattern; i++)
+        footage->entries[i].number = (uint32_t)i;
     return true;
 }
 
@@ -266,23 +269,27 @@ static struct kiln_asset_image *take_video(struct kiln_footage *footage, struct 
     return image;
 }
 
-static struct kiln_asset_image *take_file(const struct kiln_footage *footage, const char *name,
+static bool entry_path(const struct kiln_footage *footage, const struct entry *entry,
+                       char path[KILN_PATH_SIZE], struct kiln_error *error)
+{
+    int length = snprintf(path, KILN_PATH_SIZE, "%s%s", footage->folder, entry->name);
+    return (length >= 0 && length < KILN_PATH_SIZE) ||
+           kiln_error_set(error, KILN_INVALID_INPUT, "%s: the path is too long", footage->path);
+}
+
+static struct kiln_asset_image *take_file(const struct kiln_footage *footage,
                                           struct kiln_error *error)
 {
     char path[KILN_PATH_SIZE];
-    int length = snprintf(path, sizeof path, "%s%s", footage->folder, name);
-    if (length < 0 || (size_t)length >= sizeof path) {
-        kiln_error_set(error, KILN_INVALID_INPUT, "%s: the path is too long", footage->path);
+    if (!entry_path(footage, &footage->entries[footage->next], path, error))
         return NULL;
-    }
     return kiln_asset_image_load_layer(path, footage->layer, error);
 }
 
 struct kiln_asset_image *kiln_footage_take(struct kiln_footage *footage, struct kiln_error *error)
 {
     struct kiln_asset_image *image =
-        footage->video ? take_video(footage, error)
-                       : take_file(footage, footage->entries[footage->next].name, error);
+        footage->video ? take_video(footage, error) : take_file(footage, error);
     footage->next++;
     if (!image && error->code == KILN_IO)
         error->code = KILN_INVALID_INPUT;
@@ -296,4 +303,34 @@ void kiln_footage_skip(struct kiln_footage *footage)
     kiln_asset_image_destroy(&footage->image);
     footage->ahead = false;
     footage->next++;
+}
+
+/* ---- All of it ------------------------------------------------------------------------------ */
+
+bool kiln_footage_visit(const struct kiln_footage *footage,
+                        bool (*visit)(void *user, const struct kiln_footage_frame *frame),
+                        void *user)
+{
+    if (footage->video)
+        return visit(user, &(struct kiln_footage_frame){"0", 0});
+    for (size_t i = 0; i < footage->count; i++) {
+        const struct entry *entry = &footage->entries[i];
+        if (!visit(user, &(struct kiln_footage_frame){entry->name, entry->number}))
+            return false;
+    }
+    return true;
+}
+
+bool kiln_footage_claim(const struct kiln_footage *footage, const char *what,
+                        struct kiln_claims *claims, struct kiln_error *error)
+{
+    if (footage->video)
+        return kiln_claims_read(claims, footage->path, what, error);
+    for (size_t i = 0; i < footage->count; i++) {
+        char path[KILN_PATH_SIZE];
+        if (!entry_path(footage, &footage->entries[i], path, error) ||
+            !kiln_claims_read(claims, path, what, error))
+            return false;
+    }
+    return true;
 }

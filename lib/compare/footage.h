@@ -7,7 +7,7 @@
 
 enum kiln_footage_kind {
     KILN_FOOTAGE_STILL,
-    KILN_FOOTAGE_FOLDER,   /* ordered and paired by file name */
+    KILN_FOOTAGE_FOLDER,   /* ordered and paired by file name; numbered in that order from 0 */
     KILN_FOOTAGE_NUMBERED, /* by number */
     KILN_FOOTAGE_VIDEO,    /* by number, counted from 0 */
 };
@@ -27,11 +27,21 @@ const char *kiln_footage_path(const struct kiln_footage *footage);
 /* The next frame. */
 struct kiln_footage_frame {
     const char *name; /* of its file, or its number; until the next call */
-    uint32_t number;  /* where there are numbers */
+    uint32_t number;
 };
 
 /* False at the end. What cannot be decoded is found by take. */
 bool kiln_footage_peek(struct kiln_footage *footage, struct kiln_footage_frame *frame);
+
+/* Visits the frames that are known to be there, wherever reading has come to: all, but only the
+ * first of a video. False as soon as a visit is. */
+bool kiln_footage_visit(const struct kiln_footage *footage,
+                        bool (*visit)(void *user, const struct kiln_footage_frame *frame),
+                        void *user);
+
+/* Declares its files as read; `what` as in base/claims.h. */
+bool kiln_footage_claim(const struct kiln_footage *footage, const char *what,
+                        struct kiln_claims *claims, struct kiln_error *error);
 
 /* Decodes the frame that peek told of, which the caller destroys, and goes on to the next; NULL
  * with the error. A video ends at its first error. */

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/claims.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
@@ -17,6 +18,7 @@ struct job {
     const struct kiln_figure_params *params;
     const struct kiln_figure_format *format;
     struct kiln_arena *arena;
+    struct kiln_claims *claims;
     struct kiln_panels panels;
     struct kiln_drawing drawing;
     struct kiln_pixels pixels;
@@ -44,22 +46,22 @@ static bool is_same_file(const char *path, const struct stat *other)
            status.st_ino == other->st_ino;
 }
 
-/* Whether the figure may lie where it is wanted. */
+/* Whether the figure may lie where it is wanted. What it is made of is declared as it is read,
+ * which is before anything is written. */
 static bool check_target(const struct job *job)
 {
     const struct kiln_figure_params *params = job->params;
     char sidecar[KILN_PATH_SIZE];
-    struct stat figure;
-    if (stat(params->output, &figure) == 0) {
-        for (size_t i = 0; i < params->input_count; i++) {
-            if (is_same_file(params->inputs[i], &figure))
-                return kiln_error_set(job->error, KILN_USAGE,
-                                      "%s: the figure would replace what it is made of",
-                                      params->output);
-        }
+    for (size_t i = 0; i < params->input_count; i++) {
+        if (!kiln_claims_read(job->claims, params->inputs[i], "a file that it is made of",
+                              job->error))
+            return false;
     }
-    return kiln_target_check(params->output, params->overwrite, job->error) &&
-           sidecar_path(job, sidecar) && kiln_target_check(sidecar, params->overwrite, job->error);
+    return sidecar_path(job, sidecar) &&
+           kiln_claims_write(job->claims, params->output, "the figure", job->error) &&
+           kiln_claims_write(job->claims, sidecar, "the figure's sidecar", job->error) &&
+           kiln_target_check(params->output, params->overwrite, job->error) &&
+           kiln_target_check(sidecar, params->overwrite, job->error);
 }
 
 /* What can be refused before anything is rendered. */
@@ -85,8 +87,8 @@ static bool check_request(struct job *job)
 static bool draw(struct job *job)
 {
     const struct kiln_figure_params *params = job->params;
-    job->panels =
-        (struct kiln_panels){.arena = job->arena, .paper = kiln_layout_paper(params->dark)};
+    job->panels = (struct kiln_panels){
+        .arena = job->arena, .paper = kiln_layout_paper(params->dark), .claims = job->claims};
     job->drawing = (struct kiln_drawing){.arena = job->arena};
     bool ok = params->kind == KILN_FIGURE_SHEET
                   ? kiln_panels_of_sheet(&job->panels, params, job->error)
@@ -226,13 +228,15 @@ bool kiln_figure_make(const struct kiln_figure_params *params, struct kiln_figur
 {
     *result = (struct kiln_figure_result){0};
     struct job job = {.params = params, .arena = kiln_arena_create(), .error = error};
-    bool ok = (job.arena || no_memory(&job)) && check_request(&job);
+    job.claims = kiln_claims_create();
+    bool ok = ((job.arena && job.claims) || no_memory(&job)) && check_request(&job);
     if (ok)
         ok = params->check ? check_figure(&job, result) : draw(&job) && write_figure(&job);
     result->width = job.drawing.width;
     result->height = job.drawing.height;
     result->panels = (uint32_t)job.panels.count;
     free(job.pixels.rgba);
+    kiln_claims_destroy(&job.claims);
     kiln_arena_destroy(&job.arena);
     return ok;
 }

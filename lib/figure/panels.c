@@ -78,7 +78,7 @@ static bool load_scene(struct rendering *r, const struct kiln_choice *choice)
     params.override_count = count;
     kiln_scene_destroy(&r->scene);
     r->scene = kiln_scene_load(r->params->inputs[choice->scene], &params, r->error);
-    return r->scene != NULL;
+    return r->scene && kiln_scene_claim(r->scene, r->panels->claims, r->error);
 }
 
 static bool choose_frame(const struct rendering *r, const struct kiln_choice *choice,

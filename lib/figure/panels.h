@@ -29,7 +29,8 @@ struct kiln_panels {
     size_t count;
     size_t columns; /* that look right */
     struct kiln_maker maker;
-    uint32_t paper; /* 0xRRGGBB: below pictures with holes */
+    uint32_t paper;             /* 0xRRGGBB: below pictures with holes */
+    struct kiln_claims *claims; /* borrowed: the figure's files, and all that panels are made of */
 };
 
 /* Makes the panels of a figure of its kind. False as kiln_figure_make says. */

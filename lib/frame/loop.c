@@ -234,10 +234,22 @@ static bool choose_frames(struct kiln_loop *loop, struct kiln_error *error)
     return true;
 }
 
+/* No file of the job is written twice, or written and read. */
+static bool check_files(const struct kiln_loop *loop, struct kiln_error *error)
+{
+    struct kiln_claims *claims = kiln_claims_create();
+    bool ok = claims ? kiln_render_claim(loop->scene, loop->params, claims, error)
+                     : kiln_error_set(error, KILN_DEVICE_FAILED, "files of the job: out of memory");
+    kiln_claims_destroy(&claims);
+    return ok;
+}
+
 static bool open_output(struct kiln_loop *loop, struct kiln_error *error)
 {
     const struct kiln_render_params *params = loop->params;
     const struct kiln_scene *scene = loop->scene;
+    if (!check_files(loop, error))
+        return false;
     if (params->output) {
         loop->output = kiln_output_open(
             &(struct kiln_output_params){

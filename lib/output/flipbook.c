@@ -148,14 +148,18 @@ static void warn(const struct kiln_output_params *params)
                        params->path);
 }
 
-/* Opens "NAME" and an ending beside the atlas, whose own ending is ".png". */
-static bool open_beside(const struct flipbook_encoder *encoder, const char *ending,
+static const char *beside(const struct kiln_output_params *params, uint32_t index)
+{
+    static const char *const endings[] = {".json", "_motion.png"};
+    return index < (params->flipbook.motion ? 2 : 1) ? endings[index] : NULL;
+}
+
+/* Opens one of them. */
+static bool open_beside(const struct flipbook_encoder *encoder, uint32_t index,
                         struct kiln_temporary *file, struct kiln_error *error)
 {
     char path[KILN_PATH_SIZE];
-    const char *atlas = encoder->file->target;
-    int stem = (int)(strrchr(atlas, '.') - atlas);
-    if (snprintf(path, sizeof path, "%.*s%s", stem, atlas, ending) >= (int)sizeof path)
+    if (!kiln_format_beside(encoder->file->target, beside(encoder->params, index), path))
         return kiln_error_set(error, KILN_USAGE, "%s: the path is too long", encoder->params->path);
     return kiln_target_check(path, encoder->params->overwrite, error) &&
            kiln_temporary_open(file, path, error);
@@ -205,10 +209,9 @@ static void *open_encoder(const struct kiln_output_params *params, struct kiln_t
     encoder->atlas = kiln_picture_create(encoder->cell_width * flipbook->columns,
                                          encoder->cell_height * flipbook->rows, params->png_bits,
                                          NULL, NULL, 0, error);
-    bool good =
-        encoder->atlas && open_beside(encoder, ".json", &encoder->layout_file, error) &&
-        (!flipbook->motion || (open_beside(encoder, "_motion.png", &encoder->motion_file, error) &&
-                               create_motion(encoder, error)));
+    bool good = encoder->atlas && open_beside(encoder, 0, &encoder->layout_file, error) &&
+                (!flipbook->motion || (open_beside(encoder, 1, &encoder->motion_file, error) &&
+                                       create_motion(encoder, error)));
     if (good) {
         encoder->atlas->has_alpha = params->alpha;
         warn(params);
@@ -535,4 +538,5 @@ const struct kiln_format kiln_format_flipbook = {
     .finish = finish,
     .commit = commit,
     .close = close_encoder,
+    .beside = beside,
 };

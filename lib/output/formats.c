@@ -48,6 +48,15 @@ const struct kiln_format *kiln_format_find(const char *path, struct kiln_error *
     return NULL;
 }
 
+bool kiln_format_beside(const char *path, const char *ending, char beside[KILN_PATH_SIZE])
+{
+    const char *slash = strrchr(path, '/');
+    const char *suffix = strrchr(slash ? slash : path, '.');
+    int stem = suffix ? (int)(suffix - path) : (int)strlen(path);
+    int length = snprintf(beside, KILN_PATH_SIZE, "%.*s%s", stem, path, ending);
+    return length >= 0 && length < KILN_PATH_SIZE;
+}
+
 bool kiln_write_outputs(FILE *out)
 {
     fprintf(out, "Output formats, by the suffix of the output:\n\n");

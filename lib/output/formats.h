@@ -32,6 +32,9 @@ struct kiln_format {
      * others. */
     bool (*commit)(void *encoder, struct kiln_error *error);
     void (*close)(void *encoder); /* with or without a finish before */
+    /* What takes the place of the suffix in the names of other files that belong to it: the first,
+     * the second; NULL: there are no more. NULL instead of the function: there are none. */
+    const char *(*beside)(const struct kiln_output_params *params, uint32_t index);
 };
 
 extern const struct kiln_format kiln_format_png;
@@ -46,6 +49,10 @@ extern const struct kiln_format kiln_format_webp;
 
 /* The format for the path's suffix, in any case of letters; NULL with KILN_USAGE and the list. */
 const struct kiln_format *kiln_format_find(const char *path, struct kiln_error *error);
+
+/* The name of a file that belongs to another: an ending takes the place of that one's suffix. False
+ * when it does not fit. */
+bool kiln_format_beside(const char *path, const char *ending, char beside[KILN_PATH_SIZE]);
 
 /* Encodes a picture as PNG into the open file. Of params, scene_hash (with seed and flipbook) is
  * what matters; the picture brings the rest. Asks the caller (which may be NULL) meanwhile. */

@@ -260,6 +260,46 @@ static const struct kiln_format *find_format(const struct kiln_output_params *pa
     return NULL;
 }
 
+static bool claim_frames(const struct kiln_output_params *params,
+                         const struct kiln_path_pattern *pattern, struct kiln_claims *claims,
+                         struct kiln_error *error)
+{
+    char path[KILN_PATH_SIZE];
+    for (size_t i = 0; i < params->range_count; i++) {
+        const struct kiln_frame_range *range = &params->ranges[i];
+        for (uint64_t frame = range->first; frame <= range->last; frame++) {
+            if (!kiln_path_pattern_format(pattern, (uint32_t)frame, path, sizeof path))
+                return kiln_error_set(error, KILN_USAGE, "%s: the path is too long", params->path);
+            if (!kiln_claims_write(claims, path, "--output", error))
+                return false;
+            if (!pattern->numbered)
+                return true;
+        }
+    }
+    return true;
+}
+
+bool kiln_output_claim(const struct kiln_output_params *params, struct kiln_claims *claims,
+                       struct kiln_error *error)
+{
+    const struct kiln_format *format = find_format(params, error);
+    struct kiln_path_pattern pattern;
+    if (!format || !check_ranges(params, format, error) ||
+        !kiln_path_pattern_parse(&pattern, params->path, numbering(params, format), error) ||
+        !claim_frames(params, &pattern, claims, error))
+        return false;
+    const char *ending;
+    for (uint32_t i = 0; format->beside && (ending = format->beside(params, i)); i++) {
+        char path[KILN_PATH_SIZE], beside[KILN_PATH_SIZE];
+        if (!kiln_path_pattern_format(&pattern, 0, path, sizeof path) ||
+            !kiln_format_beside(path, ending, beside))
+            return kiln_error_set(error, KILN_USAGE, "%s: the path is too long", params->path);
+        if (!kiln_claims_write(claims, beside, "--output", error))
+            return false;
+    }
+    return true;
+}
+
 /* Both what the format's functions are given and what stays in the output. */
 static struct kiln_output_params with_format(const struct kiln_output_params *params,
                                              const struct kiln_format *format)
@@ -418,10 +458,11 @@ bool kiln_output_path(const struct kiln_output *output, uint32_t frame, char *pa
 uint32_t kiln_output_file_count(const struct kiln_output *output)
 {
     const struct kiln_output_params *params = &output->params;
-    if (params->flipbook.columns > 0)
-        return params->flipbook.motion ? 3 : 2;
-    uint32_t frames = 0;
-    for (size_t i = 0; i < params->range_count; i++)
-        frames += params->ranges[i].last - params->ranges[i].first + 1;
-    return output->format->one_file ? 1 : frames;
+    const struct kiln_format *format = output->format;
+    uint32_t count = format->one_file ? 1 : 0;
+    for (size_t i = 0; i < params->range_count && !format->one_file; i++)
+        count += params->ranges[i].last - params->ranges[i].first + 1;
+    for (uint32_t i = 0; format->beside && format->beside(params, i); i++)
+        count++;
+    return count;
 }

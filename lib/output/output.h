@@ -88,6 +88,11 @@ struct kiln_output_needs kiln_output_needs(const struct kiln_output *output);
 bool kiln_output_write(struct kiln_output *output, struct kiln_picture *picture,
                        struct kiln_error *error);
 
+/* Declares the files that kiln_output_open would write with the same parameters. KILN_USAGE when
+ * one of them is taken, or when the path, its suffix or the ranges make no sense. */
+bool kiln_output_claim(const struct kiln_output_params *params, struct kiln_claims *claims,
+                       struct kiln_error *error);
+
 /* Waits for the encoders, completes and renames the files. Asks params.caller every now and then
  * while that takes long; with its error the file is given up. */
 bool kiln_output_finish(struct kiln_output *output, struct kiln_error *error);

@@ -9,6 +9,7 @@
 
 #include "asset/atlas/builtin.h"
 #include "asset/atlas/cells_in.h"
+#include "base/claims.h"
 #include "base/error.h"
 
 const char *kiln_asset_root(struct kiln_arena *arena, const char *root, const char *file,
@@ -84,6 +85,26 @@ static bool check_contents(struct kiln_reader *reader, const struct kiln_node *n
     return false;
 }
 
+bool kiln_scene_add_file(struct kiln_scene *scene, const char *path, const char *what)
+{
+    struct kiln_scene_file *file = kiln_arena_alloc(scene->arena, 1, sizeof *file);
+    if (!file)
+        return false;
+    *file = (struct kiln_scene_file){path, what, scene->files};
+    scene->files = file;
+    return true;
+}
+
+bool kiln_scene_claim(const struct kiln_scene *scene, struct kiln_claims *claims,
+                      struct kiln_error *error)
+{
+    for (const struct kiln_scene_file *file = scene->files; file; file = file->next) {
+        if (!kiln_claims_read(claims, file->path, file->what, error))
+            return false;
+    }
+    return true;
+}
+
 bool kiln_read_file_asset(struct kiln_reader *reader, const struct kiln_node *node,
                           check_file *check, const char **asset)
 {
@@ -116,7 +137,9 @@ bool kiln_read_file_asset(struct kiln_reader *reader, const struct kiln_node *no
     else if (stat(real, &status) != 0 || !S_ISREG(status.st_mode))
         kiln_reader_error(reader, node, "'%s' is not a file", quoted);
     else if (!check || check_contents(reader, node, check, real, quoted)) {
-        ok = kiln_reader_keep_text(reader, real, asset);
+        ok = kiln_reader_keep_text(reader, real, asset) &&
+             (kiln_scene_add_file(kiln_reader_scene(reader), *asset, "a file of the scene") ||
+              kiln_reader_out_of_memory(reader));
     }
     free(real);
     return ok;

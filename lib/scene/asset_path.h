@@ -18,6 +18,10 @@ bool kiln_read_file_asset(struct kiln_reader *reader, const struct kiln_node *no
                           bool (*check)(const char *path, struct kiln_error *error),
                           const char **asset);
 
+/* Notes that the scene was read from this file, too. `what`: static text, for messages. False when
+ * memory is short. */
+bool kiln_scene_add_file(struct kiln_scene *scene, const char *path, const char *what);
+
 /* The asset as a scene names it: relative to the asset root. */
 const char *kiln_asset_name(const struct kiln_scene *scene, const char *asset);
 

@@ -121,7 +121,10 @@ static struct kiln_scene *create(const char *text, size_t size, const char *name
         scene->stop = params->stop;
         scene->user = params->user;
         scene->asset_root = kiln_asset_root(arena, params->asset_root, file, error);
-        ok = scene->asset_root && build(&reader, text, size, params);
+        ok = scene->asset_root &&
+             (!file || kiln_scene_add_file(scene, kept_name, "the scene") ||
+              kiln_reader_out_of_memory(&reader)) &&
+             build(&reader, text, size, params);
     }
     kiln_arena_destroy(&scratch);
     if (!ok && scene)

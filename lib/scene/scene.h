@@ -450,9 +450,17 @@ struct kiln_post {
     bool dither;
 };
 
+/* A file that a scene was read from. */
+struct kiln_scene_file {
+    const char *path;
+    const char *what; /* for messages: "the scene" */
+    struct kiln_scene_file *next;
+};
+
 struct kiln_scene {
     struct kiln_arena *arena;
     const char *name;                 /* the file, as given */
+    struct kiln_scene_file *files;    /* all that were read; those that meshes name are not here */
     const char *asset_root;           /* absolute folder */
     struct kiln_mesh_library *meshes; /* all that objects and looks have */
     bool (*stop)(void *user);         /* of kiln_scene_params */
@@ -482,6 +490,10 @@ struct kiln_scene {
     uint32_t key_count;
     char hash[65]; /* SHA-256 of what kiln_scene_print writes and of the textures, in hex */
 };
+
+/* Declares the files that the scene was read from as read; errors as of kiln_claims_read. */
+bool kiln_scene_claim(const struct kiln_scene *scene, struct kiln_claims *claims,
+                      struct kiln_error *error);
 
 /* The scene as a scene file, with nothing left to defaults, into a text that the caller frees;
  * false when memory is short. */

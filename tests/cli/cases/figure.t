@@ -66,7 +66,7 @@ $ kiln figure sheet scenes/tiny.yaml -o a.png --plain --title T
 2|kiln: figure sheet: --plain leaves no room for a title or labels
 = 2
 $ kiln figure triptych scenes/puff.png scenes/puff.png -o scenes/../scenes/puff.png --force
-2|kiln: figure triptych: scenes/../scenes/puff.png: the figure would replace what it is made of
+2|kiln: figure triptych: scenes/../scenes/puff.png: the figure would replace a file that it is made of, which this call reads
 = 2
 $ kiln figure sheet scenes/tiny.yaml -o a.png --sweep seed=1,2 --label one
 2|kiln: figure sheet: found 1 labels for 2 pictures

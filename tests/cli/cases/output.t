@@ -39,7 +39,7 @@ $ mkfifo pipe.png && kiln render scenes/tiny.yaml -q --frames 0 -o pipe.png --fo
 2|kiln: pipe.png: a device, pipe or socket has this name
 = 6
 $ kiln render scenes/tiny.yaml -q --frames 0 -o b.png --manifest b.png --force
-2|kiln: render: --output and --manifest would both write 'b.png'
+2|kiln: b.png: --output and --manifest would both write this file
 = 2
 $ kiln render scenes/tiny.yaml -q --frames 0 -o huge.png --size 16384x16384 --technique backdrop=gl
 2|kiln: scene, 16384 x 16384 pixels: GL: the device is out of memory (0x0505)

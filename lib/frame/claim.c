@@ -1,0 +1,25 @@
+/* The files of a job: what its scene was read from, and what it writes. */
+#include "base/claims.h"
+#include "output/output.h"
+#include "scene/scene.h"
+
+static bool claim_output(const struct kiln_scene *scene, const struct kiln_render_params *params,
+                         struct kiln_claims *claims, struct kiln_error *error)
+{
+    const struct kiln_frame_range whole_clip = {0, scene->frames - 1};
+    const struct kiln_output_params output = {
+        .path = params->output,
+        .ranges = params->range_count > 0 ? params->ranges : &whole_clip,
+        .range_count = params->range_count > 0 ? params->range_count : 1,
+        .flipbook = params->flipbook,
+    };
+    return kiln_output_claim(&output, claims, error);
+}
+
+bool kiln_render_claim(const struct kiln_scene *scene, const struct kiln_render_params *params,
+                       struct kiln_claims *claims, struct kiln_error *error)
+{
+    return kiln_scene_claim(scene, claims, error) &&
+           (!params->output || claim_output(scene, params, claims, error)) &&
+           (!params->manifest || kiln_claims_write(claims, params->manifest, "--manifest", error));
+}
