@@ -30,7 +30,9 @@ const struct variable variables[] = {
     {"LP_NUM_THREADS",
      "Threads of Mesa's software device. 'kiln test' sets it where it is not set, "
      "so that its jobs share the cores."},
-    {"TMPDIR", "Where 'kiln bench' writes pictures that it removes again, instead of /tmp."},
+    {"TMPDIR", "Where 'kiln bench' and 'kiln test calibrate' write pictures that they remove "
+               "again, instead of "
+               "/tmp."},
     {"NO_COLOR", "Where it is set, terminals get no colours."},
     {NULL, NULL},
 };

@@ -197,24 +197,6 @@ static bool wants_stop(void *user)
 
 /* ---- The run -------------------------------------------------------------------------------- */
 
-/* What an earlier run left must not be taken for this one's. */
-static int remove_stale(const struct test_run *run, const char *results)
-{
-    for (size_t i = 0; i <= run->count; i++) {
-        const char *folder = i < run->count ? kiln_suite_test(run->suite, i).results : results;
-        char *path = join_path(folder, i < run->count ? "result.json" : "run.json");
-        if (!path)
-            return report_no_memory();
-        if (!remove_file(path)) {
-            int code = report(KILN_IO, "%s: cannot remove the result of an earlier run", path);
-            free(path);
-            return code;
-        }
-        free(path);
-    }
-    return 0;
-}
-
 /* Writes what programs and people read later; summary is filled where that is possible. Returns the
  * worse of the code and what went wrong here. */
 static enum kiln_code write_results(const struct test_run *run, struct test_outputs *outputs,
@@ -232,7 +214,7 @@ static enum kiln_code write_results(const struct test_run *run, struct test_outp
     }
     *summary = kiln_results_summary(results);
     enum kiln_code code =
-        test_outputs_write(outputs, results, kiln_code_worse(run->code, summary->code));
+        test_outputs_write(outputs, results, &folder, 1, kiln_code_worse(run->code, summary->code));
     kiln_results_destroy(&results);
     return code;
 }
@@ -325,6 +307,20 @@ static int read_options(struct test_run *run, struct test_outputs *outputs,
     return test_outputs_read(outputs, arguments, "test", page);
 }
 
+/* No report replaces what the run reads, or its results. */
+static int claim_files(const struct test_run *run, const struct test_outputs *outputs)
+{
+    struct kiln_error error = {0};
+    struct kiln_claims *claims = kiln_claims_create();
+    int code = claims ? 0 : report_no_memory();
+    if (code == 0 && !kiln_suite_claim(run->suite, claims, &error))
+        code = report_error(&error);
+    if (code == 0)
+        code = test_outputs_claim(outputs, claims);
+    kiln_claims_destroy(&claims);
+    return code;
+}
+
 static int run_suite(struct test_run *run, struct test_outputs *outputs,
                      const struct arguments *arguments)
 {
@@ -338,9 +334,12 @@ static int run_suite(struct test_run *run, struct test_outputs *outputs,
         code = run->summaries && run->ended ? 0 : report_no_memory();
     }
     if (code == 0)
-        code = claim_folder(run->lines.results);
+        code = claim_files(run, outputs);
     if (code == 0)
-        code = remove_stale(run, run->lines.results);
+        code = claim_folder(run->lines.results);
+    struct kiln_error error = {0};
+    if (code == 0 && !kiln_suite_begin(suite, &error))
+        code = report_error(&error);
     if (code == 0) {
         share_cores(run, arguments);
         test_lines_start(&run->lines, suite, outputs->standard_output ? stderr : stdout);

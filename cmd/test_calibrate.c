@@ -4,7 +4,6 @@
 #include "command.h"
 #include "report.h"
 #include "signals.h"
-#include "test_files.h"
 #include "test_select.h"
 
 static const struct option options[] = {
@@ -93,14 +92,14 @@ static int run(const struct arguments *arguments)
     struct value_list devices;
     bool ok = value_list_create(&devices, arguments, "device");
     int code = ok ? select_tests(&suite, arguments, "test calibrate") : report_no_memory();
-    if (code == 0)
-        code = claim_folder(arguments_text(arguments, "results", DEFAULT_RESULTS));
     struct kiln_calibrate_params params = KILN_CALIBRATE_DEFAULTS;
     params.devices = devices.items;
     params.device_count = devices.count;
     params.renders = arguments_integer(arguments, "renders", params.renders);
     params.margin = arguments_number(arguments, "margin", params.margin);
     params.write = arguments_flag(arguments, "write");
+    const char *scratch = getenv("TMPDIR");
+    params.scratch = scratch && *scratch ? scratch : params.scratch;
     params.render = print_render;
     params.stop = wants_stop;
     params.user = &quiet;

@@ -12,12 +12,13 @@ int test_outputs_read(struct test_outputs *outputs, const struct arguments *argu
         return report(KILN_USAGE, "%s: --report and --no-report exclude each other", command);
     if (!arguments_flag(arguments, "no-report"))
         outputs->page = arguments_text(arguments, "report", page);
+    const bool force = arguments_flag(arguments, "force");
     const struct kiln_results_output all[MAX_OUTPUTS] = {
-        {"json", arguments_text(arguments, "json", NULL), false},
-        {"junit", arguments_text(arguments, "junit", NULL), false},
-        {"tap", arguments_text(arguments, "tap", NULL), false},
-        {"html", outputs->page, arguments_flag(arguments, "link")},
-        {"github", arguments_flag(arguments, "github") ? "-" : NULL, false},
+        {"json", arguments_text(arguments, "json", NULL), false, force},
+        {"junit", arguments_text(arguments, "junit", NULL), false, force},
+        {"tap", arguments_text(arguments, "tap", NULL), false, force},
+        {"html", outputs->page, arguments_flag(arguments, "link"), force},
+        {"github", arguments_flag(arguments, "github") ? "-" : NULL, false, force},
     };
     size_t on_standard_output = 0;
     for (size_t i = 0; i < MAX_OUTPUTS; i++) {
@@ -37,9 +38,39 @@ int test_outputs_read(struct test_outputs *outputs, const struct arguments *argu
     return 0;
 }
 
+int test_outputs_claim(const struct test_outputs *outputs, struct kiln_claims *claims)
+{
+    for (size_t i = 0; i < outputs->count; i++) {
+        struct kiln_error error = {0};
+        if (!kiln_results_claim(&outputs->files[i], claims, &error))
+            return report_error(&error);
+    }
+    return 0;
+}
+
+static int claim_results(const struct test_outputs *outputs, const struct kiln_results *results,
+                         const char *const *folders, size_t folder_count)
+{
+    struct kiln_error error = {0};
+    struct kiln_claims *claims = kiln_claims_create();
+    int code = claims ? 0 : report_no_memory();
+    if (code == 0 && !kiln_results_claim_inputs(results, folders, folder_count, claims, &error))
+        code = report_error(&error);
+    if (code == 0)
+        code = test_outputs_claim(outputs, claims);
+    kiln_claims_destroy(&claims);
+    return code;
+}
+
 enum kiln_code test_outputs_write(struct test_outputs *outputs, const struct kiln_results *results,
+                                  const char *const *folders, size_t folder_count,
                                   enum kiln_code code)
 {
+    int refused = claim_results(outputs, results, folders, folder_count);
+    if (refused) {
+        outputs->page = NULL;
+        return kiln_code_worse(code, (enum kiln_code)refused);
+    }
     for (size_t i = 0; i < outputs->count; i++) {
         struct kiln_error error = {0};
         if (kiln_results_write(results, &outputs->files[i], &error))

@@ -12,6 +12,9 @@
      .help = "Where the page goes that shows the run: one HTML file.",                             \
      .fallback = report_fallback},                                                                 \
         {.name = "no-report", .kind = OPTION_FLAG, .help = "Write no page."},                      \
+        {.name = "force",                                                                          \
+         .kind = OPTION_FLAG,                                                                      \
+         .help = "Let reports replace files that are no such reports of kiln's."},                 \
         {.name = "link",                                                                           \
          .kind = OPTION_FLAG,                                                                      \
          .help = "Let the page refer to the pictures in the results, instead of holding them."},   \
@@ -48,8 +51,14 @@ struct test_outputs {
 int test_outputs_read(struct test_outputs *outputs, const struct arguments *arguments,
                       const char *command, const char *page);
 
-/* Writes all of them. Returns the worse of the code and what went wrong here, which it reports. */
+/* Declares all of them, before the run. Returns 0, or the exit code after reporting what cannot be
+ * written. */
+int test_outputs_claim(const struct test_outputs *outputs, struct kiln_claims *claims);
+
+/* Writes all of them, or none where one would replace what the results of these folders are made
+ * of. Returns the worse of the code and what went wrong here, which it reports. */
 enum kiln_code test_outputs_write(struct test_outputs *outputs, const struct kiln_results *results,
+                                  const char *const *folders, size_t folder_count,
                                   enum kiln_code code);
 
 #endif

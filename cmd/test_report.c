@@ -25,7 +25,8 @@ static int write_reports(const struct arguments *arguments, struct test_outputs 
         report(KILN_INVALID_INPUT,
                "test report: shard %u of %u is missing: its tests were judged nowhere",
                summary.missing_shard, summary.shards);
-    enum kiln_code code = test_outputs_write(outputs, results, summary.code);
+    enum kiln_code code = test_outputs_write(outputs, results, arguments->operands,
+                                             arguments->operand_count, summary.code);
     kiln_results_destroy(&results);
     if (code || !arguments_flag(arguments, "quiet")) {
         FILE *out = outputs->standard_output ? stderr : stdout;

@@ -15,7 +15,8 @@
 #define RESULTS_OPTION                                                                             \
     {                                                                                              \
         .name = "results", .letter = 'o', .kind = OPTION_TEXT, .placeholder = "FOLDER",            \
-        .help = "Where results go: FOLDER/TEST/result.json, pictures and log.txt.",                \
+        .help = "Where results go: FOLDER/TEST/result.json, pictures and log.txt; what is in the " \
+                "folder must be kiln's, which .kiln-results lists there.",                         \
         .fallback = DEFAULT_RESULTS                                                                \
     }
 #define FILTER_OPTION                                                                              \

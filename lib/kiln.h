@@ -54,12 +54,9 @@ struct kiln_error {
 enum kiln_log_level { KILN_LOG_DEBUG, KILN_LOG_INFO, KILN_LOG_WARNING };
 
 /* The files that a call reads and those that it writes, each known by where its path leads. Whoever
- * does several things in one call declares the files of all of them before the first begins: what
- * is declared to be read is never written then, and nothing is written twice. */
+ * declares all before the work begins writes nothing that is read, and nothing twice. */
 struct kiln_claims;
-
-/* NULL when memory is short. */
-struct kiln_claims *kiln_claims_create(void);
+struct kiln_claims *kiln_claims_create(void); /* NULL when memory is short */
 void kiln_claims_destroy(struct kiln_claims **claims);
 
 /* Declares a file that the call writes; `what` stands for it in messages: "--manifest". KILN_USAGE
@@ -563,6 +560,7 @@ struct kiln_figure_entry kiln_figure_list_entry(const struct kiln_figure_list *l
  * test runs alone, so that a program can give each a process of its own:
  *
  *     suite = kiln_suite_load(&params, &error);
+ *     kiln_suite_begin(suite, &error);
  *     for (size_t i = 0; i < kiln_suite_count(suite); i++)
  *         kiln_test_run(suite, i, &KILN_TEST_DEFAULTS, &summary, &error);
  *     kiln_suite_write_run(suite, seconds, &error);
@@ -605,6 +603,17 @@ struct kiln_suite *kiln_suite_load(const struct kiln_suite_params *params,
                                    struct kiln_error *error);
 void kiln_suite_destroy(struct kiln_suite **suite);
 size_t kiln_suite_count(const struct kiln_suite *suite);
+
+/* Prepares the folder of results: removes what an earlier run of these tests left there, as far as
+ * kiln wrote it and nobody changed it since. Makes the folder where there is none. KILN_IO, and
+ * nothing is removed, when it has contents and no list of what kiln wrote (.kiln-results), or when
+ * there is a file where a test would write one that is not listed or was changed. */
+bool kiln_suite_begin(const struct kiln_suite *suite, struct kiln_error *error);
+
+/* Declares what a run of the tests reads (test files, scenes and what they name, masks, goldens)
+ * and the files of its results. */
+bool kiln_suite_claim(const struct kiln_suite *suite, struct kiln_claims *claims,
+                      struct kiln_error *error);
 
 struct kiln_test_info {
     const char *name;    /* "effects/fire", and "effects/fire@nvidia" where it names devices */
@@ -698,15 +707,17 @@ bool kiln_test_approve(const struct kiln_approve_params *params, struct kiln_err
 struct kiln_calibrate_params {
     const char *const *devices; /* 0: the default one */
     size_t device_count;
-    uint32_t renders; /* each with other threads and techniques; at least 2 */
-    double margin;    /* proposed: the worst value times this; at least 1 */
-    bool write;       /* into expect.yaml, with the values */
+    uint32_t renders;    /* each with other threads and techniques; at least 2 */
+    double margin;       /* proposed: the worst value times this; at least 1 */
+    bool write;          /* into expect.yaml, with the values */
+    const char *scratch; /* a folder for pictures that are removed again */
     void (*render)(void *user, const char *line); /* told of each: "threads=2 simulate=inplace" */
     bool (*stop)(void *user);
     void *user;
     struct kiln_log log;
 };
-#define KILN_CALIBRATE_DEFAULTS ((struct kiln_calibrate_params){.renders = 8, .margin = 3})
+#define KILN_CALIBRATE_DEFAULTS                                                                    \
+    ((struct kiln_calibrate_params){.renders = 8, .margin = 3, .scratch = "/tmp"})
 
 struct kiln_calibration {
     size_t count;
@@ -723,7 +734,8 @@ bool kiln_test_calibrate(const struct kiln_suite *suite, size_t index,
                          const struct kiln_calibrate_params *params,
                          struct kiln_calibration *calibration, struct kiln_error *error);
 
-/* Writes RESULTS/run.json: which tests this run consisted of. Tests without a result are errors. */
+/* Ends a run that kiln_suite_begin began: writes RESULTS/run.json, which tells what tests it
+ * consisted of, and the list of what kiln wrote there. Tests without a result are errors. */
 bool kiln_suite_write_run(const struct kiln_suite *suite, double total_s, struct kiln_error *error);
 
 /* The results of a run, or of several that were shards of one. */
@@ -757,9 +769,19 @@ enum kiln_code kiln_code_worse(enum kiln_code a, enum kiln_code b);
 
 struct kiln_results_output {
     const char *format; /* "junit", "json", "tap", "github" or "html" */
-    const char *path;   /* replaced when it exists; "-" is standard output */
+    const char *path;   /* "-" is standard output */
     bool link;          /* html: refer to pictures by their paths, instead of holding them */
+    bool overwrite;     /* whatever is there; else only such a report of kiln's is replaced */
 };
+
+/* Declares the files of results that were loaded from these folders as read. */
+bool kiln_results_claim_inputs(const struct kiln_results *results, const char *const *folders,
+                               size_t folder_count, struct kiln_claims *claims,
+                               struct kiln_error *error);
+
+/* Declares the file of a report, before the run. KILN_IO when something else is there. */
+bool kiln_results_claim(const struct kiln_results_output *output, struct kiln_claims *claims,
+                        struct kiln_error *error);
 
 /* Writes a report. KILN_USAGE for another format, KILN_IO. */
 bool kiln_results_write(const struct kiln_results *results,
@@ -784,29 +806,17 @@ bool kiln_write_shell_word(FILE *out, const char *word);
 /* ---- JSON ----------------------------------------------------------------------------------- */
 
 /* Writing JSON. The caller names members and says where lines begin; the writer adds quotes, commas
- * and colons:
+ * and colons. These calls write {"frame": 7, "name": "campfire"}:
  *
  *     struct kiln_json json = kiln_json_to_file(stdout);
  *     kiln_json_begin_object(&json, NULL);
- *     kiln_json_lines(&json, 2);
+ *     kiln_json_uint(&json, "frame", 7);
  *     kiln_json_string(&json, "name", "campfire");
- *     kiln_json_begin_array(&json, "frames");
- *     kiln_json_uint(&json, NULL, 7);
- *     kiln_json_uint(&json, NULL, 9);
  *     kiln_json_end(&json);
- *     kiln_json_end_line(&json, 0);
  *     bool written = kiln_json_finish(&json);
- *
- * writes
- *
- *     {
- *       "name": "campfire",
- *       "frames": [7, 9]
- *     }
  *
  * Nothing depends on the locale. No call but the last has to be checked: after a failure nothing
  * more is written, and `failed` stays true. */
-
 enum kiln_json_style {
     KILN_JSON_SPACED, /* {"a": 1, "b": 2}; null stands for infinity and NaN */
     /* Fits into a <script> element of a page: {"a":1,"b":2} without '<', '>' and '&'. The strings
@@ -827,12 +837,8 @@ struct kiln_json {
     bool (*write)(void *sink, const char *bytes, size_t length); /* false: it could not */
     void *sink;
     enum kiln_json_style style;
-    /* The sink failed, memory ran short, or the calls made no JSON: a member had no name, an entry
-     * of an array had one, nothing was open at an end, a second value followed the document before
-     * it was finished, or too much was open. */
-    bool failed;
-    /* The writer's own: */
-    bool has_key; /* the name of the next value is written */
+    bool failed;  /* the sink, or for want of memory, or the calls made no JSON */
+    bool has_key; /* the writer's own, as the rest: the name of the next value is written */
     int spaces;   /* before the next item; -1: as the level says */
     size_t depth;
     struct kiln_json_level levels[KILN_JSON_MAX_DEPTH + 1];
@@ -847,9 +853,9 @@ struct kiln_json kiln_json_to_file(FILE *out);
  * writes what its buffer holds. */
 bool kiln_json_finish(struct kiln_json *json);
 
-/* `key` names a member of an object. It is NULL for an entry of an array and for the document
- * itself. It is NULL, too, for the value after kiln_json_key, with which a caller can name what
- * another function writes. In keys and strings U+FFFD stands for each byte that is no UTF-8. */
+/* `key` names a member of an object. It is NULL for an entry of an array, for the document itself
+ * and for the value after kiln_json_key, with which a caller names what another function writes. In
+ * keys and strings U+FFFD stands for each byte that is no UTF-8. */
 void kiln_json_key(struct kiln_json *json, const char *key);
 void kiln_json_begin_object(struct kiln_json *json, const char *key);
 void kiln_json_begin_array(struct kiln_json *json, const char *key);
@@ -873,18 +879,14 @@ void kiln_json_null(struct kiln_json *json, const char *key);
 void kiln_json_int(struct kiln_json *json, const char *key, int64_t value);
 void kiln_json_uint(struct kiln_json *json, const char *key, uint64_t value);
 
-/* A number is written in the fewest digits that read back as the same, or is rounded to so many
- * significant digits (at most 17). */
+/* Numbers: in the fewest digits that read back as the same; rounded to so many significant digits
+ * (at most 17); a time to three decimals, a negative one as 0.000. */
 void kiln_json_number(struct kiln_json *json, const char *key, double value);
 void kiln_json_rounded(struct kiln_json *json, const char *key, double value, int digits);
-
-/* A time is written to three decimals, a negative one as 0.000. */
 void kiln_json_time(struct kiln_json *json, const char *key, double value);
 
-/* Writes a text that is JSON already. */
+/* A text that is JSON already; an array of two whole numbers; one of strings. */
 void kiln_json_raw(struct kiln_json *json, const char *key, const char *text);
-
-/* Write an array of two whole numbers, and one of strings. */
 void kiln_json_pair(struct kiln_json *json, const char *key, uint64_t first, uint64_t second);
 void kiln_json_strings(struct kiln_json *json, const char *key, const char *const *values,
                        size_t count);

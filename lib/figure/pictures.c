@@ -209,8 +209,8 @@ static bool take_frames(struct kiln_panels *panels, const struct kiln_figure_par
     struct kiln_threads *threads = kiln_threads_create(1);
     struct kiln_footage *footage = kiln_footage_open(params->inputs[0], "beauty", error);
     uint32_t number, most = (uint32_t)panels->count;
-    bool ok = footage &&
-              kiln_footage_claim(footage, "a frame that it is made of", panels->claims, error);
+    bool ok =
+        footage && kiln_footage_claim(footage, "a frame that it is made of", panels->claims, error);
     if (ok && !threads)
         ok = kiln_error_set(error, KILN_DEVICE_FAILED, "cannot start threads");
     panels->count = 0;

@@ -107,5 +107,6 @@ static bool write_github(const struct kiln_results *results,
 const struct kiln_report_format kiln_report_github = {
     .name = "github",
     .help = "annotations for GitHub Actions, which reads them from standard output",
+    .option = "--github",
     .write = write_github,
 };

@@ -288,5 +288,8 @@ static bool write_page(const struct kiln_results *results, const struct kiln_res
 const struct kiln_report_format kiln_report_html = {
     .name = "html",
     .help = "a page for people: pictures side by side, metrics, commands; one file with all in it",
+    .option = "--report",
+    .start = "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+             "<meta name=\"generator\" content=\"kiln\">\n",
     .write = write_page,
 };

@@ -46,5 +46,7 @@ static bool write_json(const struct kiln_results *results, const struct kiln_res
 const struct kiln_report_format kiln_report_json = {
     .name = "json",
     .help = "one document with all results, for programs",
+    .option = "--json",
+    .start = "{\n\"kiln_report\": ",
     .write = write_json,
 };

@@ -383,5 +383,7 @@ static bool write_junit(const struct kiln_results *results,
 const struct kiln_report_format kiln_report_junit = {
     .name = "junit",
     .help = "JUnit XML with the pictures as attachments, for Jenkins, GitLab and the like",
+    .option = "--junit",
+    .start = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"kiln\" ",
     .write = write_junit,
 };

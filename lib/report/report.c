@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/error.h"
@@ -51,12 +52,50 @@ static FILE *open_stream(const struct kiln_temporary *file)
     return out;
 }
 
+/* Whether the file is a report of that format, by kiln: what cannot be read is none. */
+static bool is_own(const struct kiln_report_format *format, const char *path)
+{
+    char start[256] = "";
+    const size_t length = format->start ? strlen(format->start) : 0;
+    FILE *file = length > 0 ? fopen(path, "rb") : NULL;
+    bool own = file && length <= sizeof start && fread(start, 1, length, file) == length &&
+               memcmp(start, format->start, length) == 0;
+    if (file)
+        fclose(file);
+    return own;
+}
+
+/* An empty file is nobody's loss. */
+static bool check_target(const struct kiln_report_format *format,
+                         const struct kiln_results_output *output, struct kiln_error *error)
+{
+    struct stat status;
+    if (!kiln_target_check(output->path, true, error))
+        return false;
+    return output->overwrite || stat(output->path, &status) != 0 || status.st_size == 0 ||
+           is_own(format, output->path) ||
+           kiln_error_set(error, KILN_IO,
+                          "%s: the file exists, and is nothing that %s has written (--force "
+                          "replaces it)",
+                          output->path, format->option);
+}
+
+bool kiln_results_claim(const struct kiln_results_output *output, struct kiln_claims *claims,
+                        struct kiln_error *error)
+{
+    const struct kiln_report_format *format = find_format(output->format, error);
+    if (!format)
+        return false;
+    return strcmp(output->path, "-") == 0 ||
+           (kiln_claims_write(claims, output->path, format->option, error) &&
+            check_target(format, output, error));
+}
+
 static bool write_file(const struct kiln_report_format *format, const struct kiln_results *results,
                        const struct kiln_results_output *output, struct kiln_error *error)
 {
     struct kiln_temporary file = {0};
-    if (!kiln_target_check(output->path, true, error) ||
-        !kiln_make_parent_folders(output->path, error) ||
+    if (!check_target(format, output, error) || !kiln_make_parent_folders(output->path, error) ||
         !kiln_temporary_open(&file, output->path, error))
         return false;
     FILE *out = open_stream(&file);

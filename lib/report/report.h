@@ -18,6 +18,8 @@ struct kiln_results {
 struct kiln_report_format {
     const char *name; /* NULL ends the table */
     const char *help;
+    const char *option; /* of `kiln test` */
+    const char *start;  /* what every such file of kiln's begins with; NULL: it is no file */
     bool (*write)(const struct kiln_results *results, const struct kiln_results_output *output,
                   FILE *out, struct kiln_error *error);
 };

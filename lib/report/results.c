@@ -5,13 +5,14 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/claims.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json.h"
 #include "base/temporary.h"
 #include "option/node.h"
 #include "report/report.h"
-#include "suite/suite.h"
+#include "suite/results_folder.h"
 
 /* Tests are listed in groups, since a list of a file that kiln reads ends at 1024 entries. */
 enum { RUN_VERSION = 1, GROUP_SIZE = 1000, MAX_RUN_SIZE = 64 << 20 };
@@ -64,7 +65,7 @@ bool kiln_suite_write_run(const struct kiln_suite *suite, double total_s, struct
                        ? kiln_temporary_write_file(path, text.data, text.length, error)
                        : out_of_memory(error);
     kiln_text_free(&text);
-    return written;
+    return written && kiln_results_folder_end(suite, error);
 }
 
 /* ---- Reading run.json --------------------------------------------------------------------- */
@@ -459,4 +460,37 @@ struct kiln_results_summary kiln_results_summary(const struct kiln_results *resu
 const char *kiln_results_name(const struct kiln_results *results, size_t index)
 {
     return results->tests[index]->name;
+}
+
+static bool claim_result(const struct kiln_result *result, const char *folder,
+                         struct kiln_claims *claims, struct kiln_error *error)
+{
+    char path[KILN_PATH_SIZE];
+    if (!kiln_path_join(path, folder, "result.json", error) ||
+        !kiln_claims_read(claims, path, "a result", error))
+        return false;
+    for (size_t i = 0; i < result->frame_count; i++) {
+        const char *picture = result->frames[i].picture;
+        if (*picture && (!kiln_path_join(path, folder, picture, error) ||
+                         !kiln_claims_read(claims, path, "a picture of a result", error)))
+            return false;
+    }
+    return true;
+}
+
+bool kiln_results_claim_inputs(const struct kiln_results *results, const char *const *folders,
+                               size_t folder_count, struct kiln_claims *claims,
+                               struct kiln_error *error)
+{
+    for (size_t i = 0; i < folder_count; i++) {
+        char path[KILN_PATH_SIZE];
+        if (!kiln_path_join(path, folders[i], "run.json", error) ||
+            !kiln_claims_read(claims, path, "a run", error))
+            return false;
+    }
+    for (size_t i = 0; i < results->count; i++) {
+        if (!claim_result(results->tests[i], results->folders[i], claims, error))
+            return false;
+    }
+    return true;
 }

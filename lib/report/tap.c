@@ -117,7 +117,7 @@ static bool write_tap(const struct kiln_results *results, const struct kiln_resu
 {
     (void)output;
     (void)error;
-    fprintf(out, "TAP version 13\n1..%zu%s\n", results->count,
+    fprintf(out, "%s1..%zu%s\n", kiln_report_tap.start, results->count,
             results->count ? "" : " # SKIP there are no tests");
     for (size_t i = 0; i < results->count; i++) {
         const struct kiln_result *result = results->tests[i];
@@ -136,5 +136,7 @@ static bool write_tap(const struct kiln_results *results, const struct kiln_resu
 const struct kiln_report_format kiln_report_tap = {
     .name = "tap",
     .help = "the Test Anything Protocol, version 13, for prove and the like",
+    .option = "--tap",
+    .start = "TAP version 13\n# kiln\n",
     .write = write_tap,
 };

@@ -9,7 +9,6 @@
 
 #include "asset/atlas/builtin.h"
 #include "asset/atlas/cells_in.h"
-#include "base/claims.h"
 #include "base/error.h"
 
 const char *kiln_asset_root(struct kiln_arena *arena, const char *root, const char *file,
@@ -83,26 +82,6 @@ static bool check_contents(struct kiln_reader *reader, const struct kiln_node *n
     if (error.code == KILN_DEVICE_FAILED || error.code == KILN_INTERRUPTED)
         reader->error->code = error.code;
     return false;
-}
-
-bool kiln_scene_add_file(struct kiln_scene *scene, const char *path, const char *what)
-{
-    struct kiln_scene_file *file = kiln_arena_alloc(scene->arena, 1, sizeof *file);
-    if (!file)
-        return false;
-    *file = (struct kiln_scene_file){path, what, scene->files};
-    scene->files = file;
-    return true;
-}
-
-bool kiln_scene_claim(const struct kiln_scene *scene, struct kiln_claims *claims,
-                      struct kiln_error *error)
-{
-    for (const struct kiln_scene_file *file = scene->files; file; file = file->next) {
-        if (!kiln_claims_read(claims, file->path, file->what, error))
-            return false;
-    }
-    return true;
 }
 
 bool kiln_read_file_asset(struct kiln_reader *reader, const struct kiln_node *node,

@@ -495,6 +495,12 @@ struct kiln_scene {
 bool kiln_scene_claim(const struct kiln_scene *scene, struct kiln_claims *claims,
                       struct kiln_error *error);
 
+/* Declares a scene file as read, and the files that its texts or those of overrides ("key=value")
+ * name, without loading it: whatever is a file below the scene's folder. What cannot be read is
+ * nobody's file. */
+bool kiln_scene_claim_file(const char *path, const char *const *overrides, size_t override_count,
+                           struct kiln_claims *claims, struct kiln_error *error);
+
 /* The scene as a scene file, with nothing left to defaults, into a text that the caller frees;
  * false when memory is short. */
 bool kiln_print_scene(const struct kiln_scene *scene, struct kiln_text *text);

@@ -1,14 +1,15 @@
 /* Limits from measurements: the same frames with other threads, techniques and devices, which
  * nobody means to see, against the goldens. What is proposed leaves a margin above the worst that
  * was measured, and never goes below what another driver's rounding would give. */
+#include <errno.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
 
 #include "base/error.h"
 #include "base/log.h"
-#include "base/temporary.h"
 #include "base/text.h"
 #include "base/thread.h"
 #include "compare/metric.h"
@@ -41,6 +42,7 @@ struct calibrating {
     struct kiln_test_params test_params;
     const struct kiln_calibrate_params *params;
     struct kiln_calibration *calibration;
+    const char *folder; /* of the pictures, as long as they are needed */
     uint32_t threads[MAX_THREAD_COUNTS];
     size_t thread_counts, combinations, devices;
     struct kiln_rendering first;
@@ -114,7 +116,7 @@ static bool render(struct calibrating *c, const struct variant *variant,
         .techniques = flags,
         .technique_count = KILN_STAGE_COUNT,
         .threads = variant->threads,
-        .folder = c->trial.test->results,
+        .folder = c->folder,
         .addition = c->calibration->renders == 0 ? "_first" : "_again",
         .stop = c->params->stop,
         .user = c->params->user,
@@ -410,10 +412,20 @@ static bool check_params(const struct kiln_calibrate_params *params, struct kiln
     return params->renders >= 2 && margin;
 }
 
+/* A folder of its own: the results of a run stay as they are. */
+static bool make_folder(struct calibrating *c, struct kiln_error *error)
+{
+    char *folder = kiln_arena_format(c->trial.arena, "%s/kiln-XXXXXX", c->params->scratch);
+    if (!folder)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", c->trial.test->path);
+    c->folder = mkdtemp(folder);
+    return c->folder ||
+           kiln_error_set_errno(error, KILN_IO, errno, "%s: the folder cannot be made", folder);
+}
+
 static bool prepare(struct calibrating *c, struct kiln_error *error)
 {
     struct kiln_trial *trial = &c->trial;
-    char path[KILN_PATH_SIZE];
     if (trial->test->problem.code != KILN_OK) {
         *error = trial->test->problem;
         return false;
@@ -424,9 +436,7 @@ static bool prepare(struct calibrating *c, struct kiln_error *error)
         return false;
     }
     trial->expect = kiln_expect_read(trial->arena, trial->test->golden, error);
-    return trial->expect && kiln_trial_set_limits(trial, error) &&
-           kiln_trial_path(trial, "frame_0000.png", path, error) &&
-           kiln_make_parent_folders(path, error);
+    return trial->expect && kiln_trial_set_limits(trial, error) && make_folder(c, error);
 }
 
 bool kiln_test_calibrate(const struct kiln_suite *suite, size_t index,
@@ -448,6 +458,8 @@ bool kiln_test_calibrate(const struct kiln_suite *suite, size_t index,
         remove_pictures(&c.first);
         ok = ok && propose_and_write(&c, error);
     }
+    if (c.folder)
+        rmdir(c.folder);
     kiln_arena_destroy(&c.trial.arena);
     return ok;
 }

@@ -1,9 +1,7 @@
 /* A run of one test, from its file to its result. Whatever goes wrong on the way is in the result,
  * so that a run of many tests tells of each. */
-#include <dirent.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/clock.h"
@@ -16,54 +14,6 @@
 #include "suite/trial.h"
 
 enum { MAX_SCENE_SIZE = 16 << 20 };
-
-/* ---- The folder of results ---------------------------------------------------------------- */
-
-static bool ends_in(const char *name, const char *suffix)
-{
-    size_t length = strlen(name), end = strlen(suffix);
-    return length > end && strcmp(name + length - end, suffix) == 0;
-}
-
-/* Whether an earlier run may have left it here. What this process prints into is not earlier. */
-static bool is_left_over(const char *name, const char *path)
-{
-    struct stat log, out;
-    if (strncmp(name, "frame_", 6) == 0)
-        return ends_in(name, ".png") || ends_in(name, ".exr");
-    if (strncmp(name, ".frame_", 7) == 0)
-        return ends_in(name, ".tmp"); /* of a process that was killed */
-    if (strcmp(name, "log.txt") == 0)
-        return stat(path, &log) == 0 && !(fstat(STDERR_FILENO, &out) == 0 &&
-                                          out.st_dev == log.st_dev && out.st_ino == log.st_ino);
-    return strcmp(name, "result.json") == 0; /* other files may be anybody's */
-}
-
-static bool empty_folder(const struct kiln_trial *trial, struct kiln_error *error)
-{
-    char path[KILN_PATH_SIZE];
-    if (!kiln_trial_path(trial, "expect.yaml", path, error))
-        return false;
-    if (access(path, F_OK) == 0)
-        return kiln_error_set(error, KILN_IO, "%s: is a folder of goldens, and not for results",
-                              trial->test->results);
-    if (!kiln_trial_path(trial, "result.json", path, error) ||
-        !kiln_make_parent_folders(path, error))
-        return false;
-    struct dirent **entries = NULL;
-    int count = scandir(trial->test->results, &entries, NULL, NULL);
-    bool ok = count >= 0 ||
-              kiln_error_set(error, KILN_IO, "%s: the folder cannot be read", trial->test->results);
-    for (int i = 0; i < count; i++) {
-        ok = ok && kiln_trial_path(trial, entries[i]->d_name, path, error);
-        if (ok && is_left_over(entries[i]->d_name, path) && unlink(path) != 0)
-            ok = kiln_error_set(error, KILN_IO, "%s: the file of an earlier run cannot be removed",
-                                path);
-        free(entries[i]);
-    }
-    free(entries);
-    return ok;
-}
 
 /* ---- Rendering ---------------------------------------------------------------------------- */
 
@@ -302,7 +252,9 @@ static bool run_to_result(struct kiln_trial *trial, struct kiln_error *error)
 {
     struct kiln_result *result = trial->result;
     struct kiln_error problem = {0};
-    if (!empty_folder(trial, error))
+    char path[KILN_PATH_SIZE];
+    if (!kiln_trial_path(trial, "result.json", path, error) ||
+        !kiln_make_parent_folders(path, error))
         return false;
     result->threads = count_threads(trial->params->threads);
     result->repeat = trial->params->repeat;

@@ -335,13 +335,30 @@ static void results_of_before_are_removed_and_nothing_else(void **state)
 {
     (void)state;
     spark_write("");
-    test_write_file("out/test/spark/frame_0099.png", "");
-    test_write_file("out/test/spark/notes.json", "mine");
     struct spark_run run = spark_run(NULL);
     assert_true(run.ok);
-    assert_int_equal(access("out/test/spark/frame_0099.png", F_OK), -1);
-    assert_int_equal(access("out/test/spark/notes.json", F_OK), 0);
+    assert_int_equal(access("out/test/spark/frame_0003.png", F_OK), 0);
+    struct kiln_error error = {0};
+    assert_true(kiln_suite_write_run(run.suite, 1, &error));
     spark_end(&run);
+
+    test_write_file("out/test/spark/notes.json", "mine");
+    spark_replace("spark.test.yaml", "[3, 5]", "[0]");
+    run = spark_run(NULL);
+    assert_true(run.ok);
+    assert_int_equal(access("out/test/spark/frame_0003.png", F_OK), -1);
+    assert_int_equal(access("out/test/spark/frame_0000.png", F_OK), 0);
+    assert_int_equal(access("out/test/spark/notes.json", F_OK), 0);
+    assert_true(kiln_suite_write_run(run.suite, 1, &error));
+    spark_end(&run);
+
+    test_write_file("out/test/spark/frame_0099.png", "mine");
+    struct kiln_suite *suite = spark_suite();
+    assert_false(kiln_suite_begin(suite, &error));
+    assert_int_equal(error.code, KILN_IO);
+    assert_non_null(strstr(error.message, "frame_0099.png: kiln did not write this file"));
+    assert_int_equal(access("out/test/spark/frame_0000.png", F_OK), 0);
+    kiln_suite_destroy(&suite);
 }
 
 static void a_device_that_is_absent_is_skipped(void **state)

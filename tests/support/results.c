@@ -131,19 +131,23 @@ bool test_write_run(const char *folder, bool good, struct kiln_error *error)
     size_t count = good ? 3 : TEST_RESULT_COUNT;
     struct kiln_test tests[TEST_RESULT_COUNT + 1] = {0};
     for (size_t i = 0; i < count; i++) {
-        char path[KILN_PATH_SIZE];
-        snprintf(path, sizeof path, "%s/%s", folder, all.results[i].name);
-        if (!kiln_result_write(&all.results[i], path, error))
-            return false;
         tests[i].full_name = all.results[i].name;
         tests[i].path = all.results[i].test;
     }
     if (!good) {
         tests[count].full_name = "lost";
-        tests[count++].path = "tests/lost.test.yaml";
+        tests[count].path = "tests/lost.test.yaml";
     }
     char results[KILN_PATH_SIZE];
     snprintf(results, sizeof results, "%s", folder);
-    struct kiln_suite suite = {.tests = tests, .count = count, .results_folder = results};
+    struct kiln_suite suite = {.tests = tests, .count = count + !good, .results_folder = results};
+    if (!kiln_suite_begin(&suite, error))
+        return false;
+    for (size_t i = 0; i < count; i++) {
+        char path[KILN_PATH_SIZE];
+        snprintf(path, sizeof path, "%s/%s", folder, all.results[i].name);
+        if (!kiln_result_write(&all.results[i], path, error))
+            return false;
+    }
     return kiln_suite_write_run(&suite, 12.3456, error);
 }

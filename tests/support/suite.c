@@ -60,7 +60,8 @@ struct spark_run spark_run(const struct kiln_test_params *params)
 {
     const struct kiln_test_params usual = spark_params();
     struct spark_run run = {.arena = kiln_arena_create(), .suite = spark_suite()};
-    run.ok = kiln_test_run(run.suite, 0, params ? params : &usual, &run.summary, &run.error);
+    run.ok = kiln_suite_begin(run.suite, &run.error) &&
+             kiln_test_run(run.suite, 0, params ? params : &usual, &run.summary, &run.error);
     if (!run.ok)
         return run;
     run.result = kiln_result_read(run.arena, "out/test/spark", &run.error);

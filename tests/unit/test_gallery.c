@@ -155,7 +155,7 @@ static struct kiln_gallery *plan(const struct album *album, bool link)
 {
     static const size_t order[] = {0};
     struct kiln_error error = {0};
-    const struct kiln_results_output output = {"html", album->page, link};
+    const struct kiln_results_output output = {"html", album->page, link, false};
     struct kiln_gallery *gallery = kiln_gallery_plan(&album->all, order, &output, &error);
     if (!gallery)
         fail_msg("%s", error.message);

@@ -115,6 +115,7 @@ static void an_empty_run_is_green(void **state)
     static const char *const out[] = {"out"};
     struct kiln_suite suite = {.results_folder = folder};
     struct kiln_error error = {0};
+    assert_true(kiln_suite_begin(&suite, &error));
     assert_true(kiln_suite_write_run(&suite, 0, &error));
     struct kiln_results *results = load(out, 1);
     assert_int_equal(kiln_results_summary(results).tests, 0);
@@ -138,6 +139,7 @@ static void large_runs_are_listed(void **state)
     static const char *const out[] = {"out"};
     struct kiln_suite suite = {.results_folder = folder, .tests = tests, .count = COUNT};
     struct kiln_error error = {0};
+    assert_true(kiln_suite_begin(&suite, &error));
     assert_true(kiln_suite_write_run(&suite, 1, &error));
     struct kiln_results *results = load(out, 1);
     assert_int_equal(results->count, COUNT);
@@ -154,6 +156,10 @@ static void write_shard(const char *out, const char *name)
     struct kiln_test test = {.full_name = name, .path = "a.yaml"};
     struct kiln_suite suite = {.results_folder = folder, .tests = &test, .count = 1};
     struct kiln_error error = {0};
+    char run[64];
+    snprintf(run, sizeof run, "%s/run.json", out);
+    unlink(run); /* which a test may have changed */
+    assert_true(kiln_suite_begin(&suite, &error));
     assert_true(kiln_suite_write_run(&suite, 2, &error));
 }
 
@@ -189,6 +195,10 @@ static void write_part(const char *out, const char *name, uint32_t shard, uint32
                                .shards = shards,
                                .all_count = all_count};
     struct kiln_error error = {0};
+    char run[64];
+    snprintf(run, sizeof run, "%s/run.json", out);
+    unlink(run); /* which a test may have changed */
+    assert_true(kiln_suite_begin(&suite, &error));
     assert_true(kiln_suite_write_run(&suite, 2, &error));
 }
 
@@ -244,7 +254,8 @@ static void reports_tell_of_missing_shards(void **state)
     write_part("a", "one", 1, 6, 9);
     write_part("c", "other", 3, 6, 9);
     for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
-        const struct kiln_results_output output = {.format = formats[i].format, .path = "report"};
+        const struct kiln_results_output output = {
+            .format = formats[i].format, .path = "report", .overwrite = true};
         struct kiln_results *results = kiln_results_load_whole(shards, 2, &error);
         assert_non_null(results);
         const struct kiln_results_summary summary = kiln_results_summary(results);
@@ -345,7 +356,8 @@ static void reports_have_their_exact_text(void **state)
         char path[KILN_PATH_SIZE];
         snprintf(path, sizeof path, "%s/tests/report/expected/%s", KILN_SOURCE_DIR, formats[i]);
         const char *update = getenv("KILN_UPDATE_EXPECTED");
-        struct kiln_results_output output = {.format = formats[i], .path = "new/report"};
+        struct kiln_results_output output = {
+            .format = formats[i], .path = "new/report", .overwrite = true};
         output.path = update ? path : output.path;
         struct kiln_error error = {0};
         if (!kiln_results_write(results, &output, &error))
@@ -419,7 +431,8 @@ static void long_sequences_are_cut(void **state)
     static const char *const formats[] = {"junit", "tap"};
     static const char *const cut[] = {"and 980 frames more\n", "  frames_left_out: 980\n"};
     for (size_t i = 0; i < 2; i++) {
-        struct kiln_results_output output = {.format = formats[i], .path = "report"};
+        struct kiln_results_output output = {
+            .format = formats[i], .path = "report", .overwrite = true};
         assert_true(kiln_results_write(results, &output, &error));
         char *text = read_text("report");
         assert_non_null(strstr(text, cut[i]));
@@ -437,7 +450,7 @@ static void reports_that_cannot_be_written(void **state)
     write_run("out", true);
     struct kiln_results *results = load(out, 1);
     struct kiln_error error = {0};
-    struct kiln_results_output output = {.format = "jnuit", .path = "report"};
+    struct kiln_results_output output = {.format = "jnuit", .path = "report", .overwrite = true};
     assert_false(kiln_results_write(results, &output, &error));
     assert_int_equal(error.code, KILN_USAGE);
     assert_non_null(strstr(error.message, "'jnuit' is no format of a report; there are junit, "));

@@ -208,6 +208,7 @@ static void assert_same_scene(const struct kiln_scene *a, const struct kiln_scen
     left.name = right.name;
     left.asset_root = right.asset_root;
     left.keys = right.keys;
+    left.files = right.files;
     assert_memory_equal(&left, &right, sizeof left);
 }
 
