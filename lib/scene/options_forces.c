@@ -73,13 +73,16 @@ static const struct kiln_option attract[] = {
     VECTOR("position", vector, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",
            "Where they are drawn to."),
     VALUE("strength", strength, KILN_ACCELERATION, -100000, 100000, BOTH, "1 m/s^2",
-          "Acceleration at a distance of 1 m; away from there where it is negative."),
+          "Acceleration at a distance of 1 m, but for what the radius takes; away from there where "
+          "it "
+          "is negative."),
     CHOICE("falloff", falloff, falloffs, "inverse_square",
            "By the distance: inverse_square like gravity, inverse, constant, or linear like a "
            "spring."),
     VALUE("radius", scale, KILN_METRES, 0.001, FAR, TIME, "0.1 m",
-          "Within it the acceleration goes down to nothing at the position itself; linear is as it "
-          "is."),
+          "Softens at every distance (Plummer): the acceleration is strength * d / (d^2 + "
+          "radius^2)^(n/2), with n of 3, 2, 1 or 0 by the falloff. It is nothing at the position "
+          "itself, and at a distance of three radii 15, 10 or 5 % less than without."),
     END,
 };
 

@@ -450,6 +450,12 @@ struct kiln_post {
     bool dither;
 };
 
+/* Whether particles meet the floor: one that there is. */
+static inline bool kiln_backdrop_floor_collides(const struct kiln_backdrop *backdrop)
+{
+    return backdrop->floor_enabled && backdrop->floor_collide;
+}
+
 /* A file that a scene was read from. */
 struct kiln_scene_file {
     const char *path;

@@ -479,7 +479,7 @@ static bool check_backdrop(struct kiln_reader *reader, const struct kiln_node *r
     if (!at_all_keys(scene, &sun, 1, is_not_zero))
         return kiln_reader_error_at(reader, root, "backdrop.sun.direction",
                                     "must not be [0, 0, 0]");
-    if (backdrop->floor_enabled && backdrop->floor_collide && backdrop->floor_height.count > 0)
+    if (kiln_backdrop_floor_collides(backdrop) && backdrop->floor_height.count > 0)
         return kiln_reader_error_at(
             reader, root, "backdrop.floor.height",
             "cannot vary while the floor collides; set backdrop.floor.collide to false");

@@ -1,6 +1,6 @@
 /* A point that particles seek, or flee where the strength is negative (Drone 2007, 7.5.1). The
- * strength is what acts at a distance of 1 m; within the radius `scale` it is softened, so that
- * nothing is thrown out by what is closer than a step.
+ * strength is what acts at a distance of 1 m without a radius; the radius `scale` softens it at all
+ * distances, as in Plummer's sphere, so that nothing is thrown out by what is closer than a step.
  */
 #ifndef KILN_SHARED_FORCE_ATTRACT_H
 #define KILN_SHARED_FORCE_ATTRACT_H

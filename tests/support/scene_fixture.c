@@ -253,6 +253,7 @@ void fixture_zoo_backdrop(struct scene_fixture *f)
 {
     const uint32_t time = KILN_CLOCK_TIME;
     struct kiln_backdrop *backdrop = &f->scene.backdrop;
+    backdrop->floor_enabled = true;
     backdrop->floor_collide = true;
     backdrop->floor_height = fixture_constant(-0.5f);
     fixture_add_box(f, 2.0f, 1.0f, 0.0f, 1.0f, 2.0f, 1.5f);

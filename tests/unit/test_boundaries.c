@@ -15,6 +15,7 @@
 
 static struct kiln_object *add_floor(void)
 {
+    fixture.scene.backdrop.floor_enabled = true;
     fixture.scene.backdrop.floor_collide = true;
     return NULL;
 }

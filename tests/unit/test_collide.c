@@ -41,6 +41,7 @@ static void a_lossless_ball_keeps_bouncing(void **state)
 {
     (void)state;
     struct kiln_system *system = one_particle(FLOAT3(0, 2, 0), FLOAT3(0, -0.001f, 0));
+    fixture.scene.backdrop.floor_enabled = true;
     fixture.scene.backdrop.floor_collide = true;
     fixture_add_force(system, KILN_FORCE_GRAVITY)->vector = fixture_constant3(0, -10, 0);
     fixture_finish(&fixture, 500);
@@ -58,10 +59,24 @@ static void a_lossless_ball_keeps_bouncing(void **state)
     simulation_end(&run);
 }
 
+/* Where there is no floor, nothing lies at its height. */
+static void a_floor_that_is_not_there_stops_nobody(void **state)
+{
+    (void)state;
+    for (int enabled = 0; enabled < 2; enabled++) {
+        struct kiln_system *system = one_particle(FLOAT3(0, 1, 0), FLOAT3(0, -4, 0));
+        system->collide.slowdown = fixture_constant(0.5f);
+        fixture.scene.backdrop.floor_enabled = enabled != 0;
+        fixture.scene.backdrop.floor_collide = true;
+        struct kiln_particle p = after(60);
+        assert_near((double)particle_position(p).y, enabled ? 1.5 : -3.0, 1e-3);
+    }
+}
+
 static bool inside_any(const struct kiln_scene *scene, float3 p, float time_s)
 {
     const struct kiln_backdrop *b = &scene->backdrop;
-    if (b->floor_collide && p.y < kiln_scene_value(scene, &b->floor_height, time_s))
+    if (kiln_backdrop_floor_collides(b) && p.y < kiln_scene_value(scene, &b->floor_height, time_s))
         return true;
     for (uint32_t i = 0; i < b->object_count; i++) {
         if (!b->objects[i].collide)
@@ -301,6 +316,7 @@ int main(void)
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_box_mirrors_at_every_face),
         cmocka_unit_test(a_lossless_ball_keeps_bouncing),
+        cmocka_unit_test(a_floor_that_is_not_there_stops_nobody),
         cmocka_unit_test(nothing_tunnels_at_ten_times_the_speed),
         cmocka_unit_test(the_clamp_mode_tunnels),
         cmocka_unit_test(the_clamp_mode_puts_on_the_nearest_face),

@@ -269,6 +269,7 @@ static void balls_meet_surfaces_with_their_radius(void **state)
     fixture_add_force(s, KILN_FORCE_GRAVITY)->vector = fixture_constant3(0.0f, -9.81f, 0.0f);
     s->collide.enabled = true;
     s->collide.slowdown = fixture_constant(0.4f);
+    fixture.scene.backdrop.floor_enabled = true;
     fixture.scene.backdrop.floor_collide = true;
     fixture.scene.backdrop.floor_height = fixture_constant(0.0f);
     fixture_add_box(&fixture, 3.0f, 0.5f, 0.0f, 1.0f, 1.0f, 1.0f);

@@ -270,6 +270,7 @@ static void balls_roll_down_a_slope(void **state)
 static void init_on_floor(float friction)
 {
     init_on_ground(friction);
+    fixture.scene.backdrop.floor_enabled = true;
     fixture.scene.backdrop.floor_collide = true;
     fixture.scene.backdrop.floor_height = fixture_constant(0.0f);
 }

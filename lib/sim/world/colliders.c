@@ -271,7 +271,7 @@ void kiln_sim_colliders_fill(struct kiln_surroundings *around, const struct kiln
         around->colliders[around->collider_count++] =
             object_collider(around, scene, grids, i, start_s, end_s);
     }
-    if (backdrop->floor_collide) {
+    if (kiln_backdrop_floor_collides(backdrop)) {
         struct kiln_collider *c = &around->colliders[around->collider_count++];
         *c = floor_collider(kiln_scene_value(scene, &backdrop->floor_height, start_s),
                             kiln_scene_value(scene, &backdrop->floor_height, end_s));

@@ -113,7 +113,7 @@ static bool rubs(const struct kiln_scene *scene, const struct kiln_collide *coll
     const struct kiln_backdrop *backdrop = &scene->backdrop;
     const struct kiln_value *friction = &collide->friction;
     bool any = !is_one(&collide->restitution) || friction->count > 0 || friction->constant != 0.0f;
-    any = any || (backdrop->floor_collide && !is_one(&backdrop->floor_restitution));
+    any = any || (kiln_backdrop_floor_collides(backdrop) && !is_one(&backdrop->floor_restitution));
     for (uint32_t i = 0; i < backdrop->object_count; i++)
         any = any || (backdrop->objects[i].collide && !is_one(&backdrop->objects[i].restitution));
     return collide->enabled && any;
