@@ -15,7 +15,7 @@ const struct exit_code exit_codes[] = {
     {"5", "the device was lost, memory ran out, a frame or test took longer than its limit, or a "
           "test crashed"},
     {"6", "reading or writing failed"},
-    {"7", "a golden picture is missing"},
+    {"7", "a golden picture is missing, or what was accepted with it"},
     {"129", "stopped by SIGHUP; only whole files are left"},
     {"130", "stopped by SIGINT; only whole files are left"},
     {"143", "stopped by SIGTERM; only whole files are left"},

@@ -285,8 +285,13 @@ struct kiln_expect *kiln_expect_read(struct kiln_arena *arena, const char *golde
     if (!kiln_path_join(path, golden, "expect.yaml", error))
         return NULL;
     if (lstat(path, &status) != 0) {
-        if (errno == ENOENT)
-            return kiln_expect_parse(arena, nothing, sizeof nothing - 1, golden, error);
+        if (errno == ENOENT) {
+            struct kiln_expect *expect =
+                kiln_expect_parse(arena, nothing, sizeof nothing - 1, golden, error);
+            if (expect)
+                expect->missing = true;
+            return expect;
+        }
         kiln_error_set_errno(error, KILN_IO, errno, "%s", path);
         return NULL;
     }

@@ -42,6 +42,7 @@ struct kiln_expect_value {
 };
 
 struct kiln_expect {
+    bool missing;           /* there is no such file */
     const char *scene_hash; /* NULL: not known */
     const char **techniques;
     size_t technique_count;

@@ -212,6 +212,18 @@ static bool judge_new(struct judging *j)
                                   j->frame->number, j->goldens.paths[0]));
 }
 
+/* Pictures alone do not show that the state is another. */
+static bool judge_unlisted(struct judging *j)
+{
+    j->own->unlisted = true;
+    memcpy(j->own->golden_hash, j->hashes[j->nearest], sizeof j->own->golden_hash);
+    return decide(j, KILN_TEST_NEW, KILN_JUDGED_BY_METRICS,
+                  kiln_trial_text(j->trial,
+                                  "frame %u is like its golden, but there is no %s/expect.yaml, so "
+                                  "the state that was accepted is not known",
+                                  j->frame->number, j->trial->test->golden));
+}
+
 static bool judge_by_metrics(struct judging *j, bool known)
 {
     struct kiln_trial_comparison comparison;
@@ -229,6 +241,8 @@ static bool judge_by_metrics(struct judging *j, bool known)
     if (!same)
         return decide(j, KILN_TEST_FAIL, KILN_JUDGED_BY_METRICS,
                       kiln_trial_text(j->trial, "frame %u: %s", j->frame->number, beyond));
+    if (j->trial->expect->missing && !j->trial->params->ignore_hashes)
+        return judge_unlisted(j);
     if (j->frame->score > j->trial->warn)
         return decide(j, KILN_TEST_WARN, KILN_JUDGED_BY_METRICS,
                       kiln_trial_text(j->trial, "frame %u is at %.0f %% of its limits: %s",

@@ -125,7 +125,7 @@ static void note_states(struct kiln_trial *trial)
     for (size_t i = 0; i < result->frame_count; i++) {
         const struct kiln_result_frame *frame = &result->frames[i];
         if (!trial->frames[i].has_golden || *frame->state_expected ||
-            frame->status == KILN_TEST_ERROR)
+            frame->status == KILN_TEST_ERROR || frame->status == KILN_TEST_NEW)
             continue;
         if (used < sizeof list) {
             int length =

@@ -10,6 +10,7 @@ struct kiln_trial_frame {
     bool has_golden;
     bool broken_golden; /* which cannot be decoded, while the picture could take its place */
     bool equals_golden; /* to the bit */
+    bool unlisted;      /* like its golden, of which no expect.yaml says what was accepted */
     char golden_hash[65];
     const char *unsteady; /* how another render differed; NULL: none did */
 };

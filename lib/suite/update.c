@@ -28,7 +28,8 @@ static enum action choose_action(const struct kiln_trial *trial, size_t index)
         return LEAVE;
     if (frame->judged_by == KILN_JUDGED_BY_PIXELS && frame->status == KILN_TEST_PASS)
         return *frame->state_expected || !own->equals_golden ? LEAVE : ACCEPT_HASHES;
-    return own->equals_golden ? ACCEPT_HASHES : ACCEPT_PICTURE;
+    bool keeps = own->equals_golden || (own->unlisted && trial->params->update != KILN_UPDATE_ALL);
+    return keeps ? ACCEPT_HASHES : ACCEPT_PICTURE;
 }
 
 /* Pictures that pass may be of a scene that has changed: all that is accepted is brought up to

@@ -290,7 +290,7 @@ $ kiln help exit-codes
 1|    5  the device was lost, memory ran out, a frame or test took longer than its
 1|       limit, or a test crashed
 1|    6  reading or writing failed
-1|    7  a golden picture is missing
+1|    7  a golden picture is missing, or what was accepted with it
 1|  129  stopped by SIGHUP; only whole files are left
 1|  130  stopped by SIGINT; only whole files are left
 1|  143  stopped by SIGTERM; only whole files are left

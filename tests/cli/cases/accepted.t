@@ -1,0 +1,30 @@
+What a run is judged by.
+
+$ printf 'kiln_test: 1\nscene: scenes/tiny.yaml\nframes: [6]\nsize: [32, 18]\n' >fire.test.yaml
+$ kiln test fire -q --update missing --no-report && kiln test fire -q --no-report
+
+A picture without what was accepted of its state is not accepted, strictly or not.
+
+$ rm golden/fire/expect.yaml && kiln test fire --no-report
+1|new    fire  1 frame in <s> s: frame 6 is like its golden, but there is no golden/fire/expect.yaml, so the state that was accepted is not known
+1|1 test in <s> s: 1 new
+1|where the pictures are right, accept them:
+1|  kiln test approve fire
+= 7
+$ kiln test fire -q --strict --no-report
+1|new    fire  1 frame in <s> s: frame 6 is like its golden, but there is no golden/fire/expect.yaml, so the state that was accepted is not known
+1|1 test in <s> s: 1 new
+1|where the pictures are right, accept them:
+1|  kiln test approve fire
+= 7
+$ kiln test fire -q --ignore-hashes --no-report
+$ kiln test fire --update missing --dry-run --no-report | grep would
+1|       would accept the hashes of frame 6 on cpu
+$ cp golden/fire/frame_0006.png before.png && kiln test fire -q --update missing --no-report && cmp before.png golden/fire/frame_0006.png && grep -c state: golden/fire/expect.yaml
+1|1
+$ kiln test fire -q --strict --no-report
+
+Nor one that differs.
+
+$ rm golden/fire/expect.yaml && sed -i '4a set: [post.exposure=1]' fire.test.yaml && kiln test fire --no-report | head -n 1
+1|fail   fire  1 frame in <s> s: frame 6: flip.mean is <value>, beyond 0.01; flip.p99 is <value>, beyond 0.1; window.share is <value>, beyond 0.1
