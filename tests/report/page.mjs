@@ -40,6 +40,17 @@ test("opens with the worst test and its reason", async () => {
     await page.close();
 });
 
+test("does not scroll behind its columns", async () => {
+    for (const [path, hash] of [[cases, BEAM], [cases, ""], [many, "#test=effects/case_0000"]]) {
+        const page = await browser.open(path, { hash });
+        await page.waitForSelector("#name:not(:empty)");
+        const [height, room] = await page.evaluate(() =>
+            [document.documentElement.scrollHeight, document.documentElement.clientHeight]);
+        assert.ok(height <= room, `${path}${hash}: a page of ${height} pixels in a window of ${room}`);
+        await page.close();
+    }
+});
+
 test("runs nothing that a test has in its texts", async () => {
     const page = await browser.open(many, { hash: "#test=effects/case_0000" });
     await shown(page, 24);
