@@ -10,6 +10,7 @@
 #include "base/temporary.h"
 #include "base/thread.h"
 #include "compare/mask.h"
+#include "scene/scene.h"
 #include "suite/summary.h"
 #include "suite/trial.h"
 
@@ -160,6 +161,25 @@ static void sum_up(struct kiln_trial *trial)
         result->code = kiln_code_worse(result->code, trial->frames[i].code);
 }
 
+/* The accepted scene as this kiln writes it, so that keys which it did not have then are what they
+ * are without being stated. As it is, where this kiln cannot read it. */
+static const char *complete_scene(struct kiln_trial *trial, const char *text, const char *name)
+{
+    const char *scene_path = trial->test->scene, *slash = strrchr(scene_path, '/');
+    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    params.asset_root =
+        slash ? kiln_trial_text(trial, "%.*s", (int)(slash - scene_path) + 1, scene_path) : ".";
+    struct kiln_error ignored = {0};
+    struct kiln_text printed = {0};
+    struct kiln_scene *scene = kiln_scene_parse(text, strlen(text), name, &params, &ignored);
+    const char *complete = scene && kiln_print_scene(scene, &printed)
+                               ? kiln_arena_text(trial->arena, printed.data, printed.length)
+                               : NULL;
+    kiln_text_free(&printed);
+    kiln_scene_destroy(&scene);
+    return complete ? complete : text;
+}
+
 /* Where the accepted scene cannot be read, that is a note: nothing is judged by it. */
 static void take_changes(struct kiln_trial *trial)
 {
@@ -170,7 +190,13 @@ static void take_changes(struct kiln_trial *trial)
     if (!kiln_path_join(path, trial->test->golden, "scene.yaml", &error) || access(path, F_OK) != 0)
         return;
     char *text = kiln_text_file_read(path, "the accepted scene", MAX_SCENE_SIZE, &size, &error);
-    if (!text || !kiln_scene_diff(trial->arena, text, path, trial->rendering.scene_text,
+    if (text && strcmp(text, trial->rendering.scene_text) == 0) {
+        free(text);
+        return;
+    }
+    const char *before = text ? complete_scene(trial, text, path) : NULL;
+    trial->other_keys = text && strcmp(text, before) != 0;
+    if (!text || !kiln_scene_diff(trial->arena, before, path, trial->rendering.scene_text,
                                   &result->changes, &result->change_count, &error))
         kiln_trial_note(trial, "what changed in the scene is not known: %s", error.message);
     free(text);

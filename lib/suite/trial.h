@@ -25,6 +25,7 @@ struct kiln_trial {
     const char **limits;             /* of all sources, in the order in which they override */
     size_t limit_count;
     bool own_limits; /* not just the default ones */
+    bool other_keys; /* a kiln that writes scenes with other keys wrote the accepted one */
     struct kiln_compare_mask *masks;
     size_t mask_count;
     double warn;
