@@ -31,13 +31,23 @@ static bool wants_colour(FILE *out)
     return isatty(fileno(out)) == 1 && term && strcmp(term, "dumb") != 0 && !(refused && *refused);
 }
 
+/* Bytes of UTF-8 that begin no character take no column. */
+static int bytes_beside(const char *name)
+{
+    int count = 0;
+    for (; *name; name++)
+        count += ((unsigned char)*name & 0xc0) == 0x80;
+    return count;
+}
+
 void test_lines_start(struct test_lines *lines, const struct kiln_suite *suite, FILE *out)
 {
     lines->suite = suite;
     lines->out = out;
     lines->colour = wants_colour(out);
     for (size_t i = 0; i < kiln_suite_count(suite); i++) {
-        int width = (int)strlen(kiln_suite_test(suite, i).name);
+        const char *name = kiln_suite_test(suite, i).name;
+        int width = (int)strlen(name) - bytes_beside(name);
         if (width > lines->name_width)
             lines->name_width = width < MAX_NAME_WIDTH ? width : MAX_NAME_WIDTH;
     }
@@ -77,10 +87,10 @@ void test_lines_test(struct test_lines *lines, const struct kiln_suite *suite, s
 {
     bool red = is_red(summary->status), silent = lines->quiet && !red;
     if (!silent) {
+        const char *name = kiln_suite_test(suite, index).name;
         fprintf(lines->out, "%s%-*s%s  %-*s ", lines->colour ? colour_of(summary->status) : "",
                 STATUS_WIDTH, kiln_test_status_name(summary->status),
-                lines->colour ? "\033[0m" : "", lines->name_width,
-                kiln_suite_test(suite, index).name);
+                lines->colour ? "\033[0m" : "", lines->name_width + bytes_beside(name), name);
         if (summary->frames > 0)
             fprintf(lines->out, " %u frame%s in %.3f s", summary->frames,
                     summary->frames == 1 ? "" : "s", summary->total_s);

@@ -12,10 +12,10 @@
 #include "suite/discover.h"
 #include "suite/golden.h"
 #include "suite/test_file.h"
+#include "suite/test_name.h"
 #include "suite/unused.h"
 
-/* A name goes into names of folders, and with a device into a summary's 256 bytes. */
-enum { MAX_NAME = 200, MAX_FULL_NAME = 255 };
+enum { MAX_FULL_NAME = 255 }; /* it goes into a summary's 256 bytes */
 
 struct entry {
     struct kiln_found found;
@@ -95,29 +95,30 @@ static void drop_named_scenes(struct loader *loader)
 
 /* ---- names ---------------------------------------------------------------------------------- */
 
-static bool is_name(const char *name)
+/* A file of an odd name is the error of its own test, which has a name that is like it. */
+static bool mend_name(struct loader *loader, struct entry *entry)
 {
-    static const char allowed[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                  "0123456789._-/";
-    bool hidden = *name == '.' || strstr(name, "/.");
-    bool like_an_option = *name == '-'; /* in the commands that reports give */
-    size_t length = strlen(name);
-    return length > 0 && length <= MAX_NAME && !hidden && !like_an_option &&
-           strspn(name, allowed) == length;
+    char quoted[64];
+    kiln_node_quote(quoted, entry->found.name);
+    kiln_error_set(&entry->file.test.problem, KILN_INVALID_INPUT,
+                   "%s: '%s' cannot name a test: up to %d bytes of letters, digits, '.', '_' and "
+                   "'-' can, and none that starts with '.' or '-'",
+                   entry->found.path, quoted, KILN_TEST_MAX_NAME);
+    entry->found.name = kiln_test_name_mended(loader->suite->arena, entry->found.name);
+    return entry->found.name || out_of_memory(loader);
 }
 
 static bool check_names(struct loader *loader)
 {
     for (size_t i = 0; i < loader->count; i++) {
+        if (!kiln_test_name_is_good(loader->entries[i].found.name) &&
+            !mend_name(loader, &loader->entries[i]))
+            return false;
+    }
+    qsort(loader->entries, loader->count, sizeof *loader->entries, by_name);
+    for (size_t i = 1; i < loader->count; i++) {
         const struct kiln_found *found = &loader->entries[i].found;
-        char quoted[64];
-        kiln_node_quote(quoted, found->name);
-        if (!is_name(found->name))
-            return kiln_error_set(loader->error, KILN_USAGE,
-                                  "%s: '%s' cannot name a test: up to %d letters, digits, '.', '_' "
-                                  "and '-' can, and none that starts with '.' or '-'",
-                                  found->path, quoted, MAX_NAME);
-        if (i > 0 && strcmp(found[0].name, loader->entries[i - 1].found.name) == 0)
+        if (strcmp(found->name, loader->entries[i - 1].found.name) == 0)
             return kiln_error_set(loader->error, KILN_USAGE,
                                   "%s and %s: two tests of the name '%s'",
                                   loader->entries[i - 1].found.path, found->path, found->name);

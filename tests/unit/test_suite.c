@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "suite/suite.h"
+#include "suite/test_name.h"
 #include "support/cmocka.h"
 #include "support/folders.h"
 
@@ -195,23 +196,69 @@ static void two_tests_of_one_name(void **state)
     expect_names(&params, "fire");
 }
 
-static void names_become_folders(void **state)
+/* Loads one file, whose name is none, and compares what is wrong and what stands for it. */
+static void expect_mended(const char *path, const char *name, const char *quoted)
+{
+    test_write_file(path, fire_test);
+    const char *const files[] = {path};
+    struct kiln_suite_params params = paths(files, 1);
+    expect_names(&params, name);
+    struct kiln_suite *suite = load(&params);
+    char message[512];
+    snprintf(message, sizeof message,
+             "%s: '%s' cannot name a test: up to 200 bytes of letters, digits, '.', '_' and '-' "
+             "can, and none that starts with '.' or '-'",
+             path, quoted);
+    assert_string_equal(suite->tests[0].problem.message, message);
+    assert_int_equal(suite->tests[0].problem.code, KILN_INVALID_INPUT);
+    kiln_suite_destroy(&suite);
+}
+
+static void odd_names_are_errors_of_their_tests(void **state)
 {
     (void)state;
-    test_write_file("my fire.yaml", scene);
-    struct kiln_suite_params params = paths(here, 1);
-    expect_usage(&params, "my fire.yaml: 'my fire' cannot name a test: up to 200 letters, digits, "
-                          "'.', '_' and '-' can, and none that starts with '.' or '-'");
-    test_write_file("..test.yaml", fire_test);
-    test_write_file("-q.test.yaml", fire_test);
-    static const char *const dash[] = {"./-q.test.yaml"};
-    params = paths(dash, 1);
-    expect_usage(&params, "./-q.test.yaml: '-q' cannot name a test: up to 200 letters, digits, "
-                          "'.', '_' and '-' can, and none that starts with '.' or '-'");
-    static const char *const dots[] = {"..test.yaml"};
-    params = paths(dots, 1);
-    expect_usage(&params, "..test.yaml: '.' cannot name a test: up to 200 letters, digits, '.', "
-                          "'_' and '-' can, and none that starts with '.' or '-'");
+    test_write_file("fire.yaml", scene);
+    expect_mended("my fire.test.yaml", "my_fire", "my fire");
+    expect_mended("./-q.test.yaml", "_q", "-q");
+    expect_mended("..test.yaml", "_", ".");
+    expect_mended("a\xe2\x80\x8b.test.yaml", "a___", "a\xe2\x80\x8b");
+    expect_mended("a\xff.test.yaml", "a_", "a?");
+    /* The others run. */
+    test_write_file("fine.test.yaml", fire_test);
+    static const char *const files[] = {"my fire.test.yaml", "fine.test.yaml"};
+    struct kiln_suite_params params = paths(files, 2);
+    struct kiln_suite *suite = load(&params);
+    assert_int_equal(kiln_suite_count(suite), 2);
+    assert_string_equal(suite->tests[0].name, "fine");
+    assert_int_equal(suite->tests[0].problem.code, KILN_OK);
+    kiln_suite_destroy(&suite);
+    /* Two that are mended alike cannot be told apart. */
+    test_write_file("my,fire.test.yaml", fire_test);
+    static const char *const alike[] = {"my fire.test.yaml", "my,fire.test.yaml"};
+    params = paths(alike, 2);
+    expect_usage(&params,
+                 "my fire.test.yaml and my,fire.test.yaml: two tests of the name 'my_fire'");
+}
+
+static void letters_of_any_script_name_tests(void **state)
+{
+    (void)state;
+    static const char *const good[] = {"Gl\xc3\xbch", "\xd0\xbe\xd0\xb3\xd0\xbe\xd0\xbd\xd1\x8c",
+                                       "\xe7\x81\xab/\xe7\x84\xb0_2", "a.b-c"};
+    static const char *const odd[] = {"",
+                                      "a b",
+                                      "a\xc2\xa0",
+                                      "a\xe2\x80\x8b",
+                                      "a\xef\xbb\xbf",
+                                      "a\xc3\x97",
+                                      "\xf0\x9f\x94\xa5\xff",
+                                      "a/.b",
+                                      "a\n",
+                                      "a@b"};
+    for (size_t i = 0; i < sizeof good / sizeof *good; i++)
+        assert_true(kiln_test_name_is_good(good[i]));
+    for (size_t i = 0; i < sizeof odd / sizeof *odd; i++)
+        assert_false(kiln_test_name_is_good(odd[i]));
 }
 
 static void names_are_chosen(void **state)
@@ -522,7 +569,8 @@ int main(void)
         IN_FOLDER(scenes_with_faults_are_not_passed_over),
         IN_FOLDER(operands_that_are_no_tests),
         IN_FOLDER(two_tests_of_one_name),
-        IN_FOLDER(names_become_folders),
+        IN_FOLDER(odd_names_are_errors_of_their_tests),
+        IN_FOLDER(letters_of_any_script_name_tests),
         IN_FOLDER(names_are_chosen),
         IN_FOLDER(shards_share_the_tests),
         IN_FOLDER(goldens_of_no_test_are_found),

@@ -42,3 +42,16 @@ Nor is a picture right that differs.
 
 $ rm golden/fire/expect.yaml && sed -i '4a set: [post.exposure=1]' fire.test.yaml && kiln test fire --no-report | head -n 1
 1|fail   fire  1 frame in <s> s: frame 6: flip.mean is <value>, beyond 0.01; flip.p99 is <value>, beyond 0.1; window.share is <value>, beyond 0.1
+
+A file whose name cannot be that of a test is the error of one test. Names have letters of any script.
+
+$ mkdir names && cd names && cp -r ../scenes . && for name in 'my fire' Glühen; do sed 's/, frames.*//' ../fire.test.yaml >"$name.test.yaml"; done && kiln test . --no-report --update missing; ls golden
+1|pass   Glühen        1 frame in <s> s
+1|       wrote golden/Glühen/frame_0006.png
+1|error  my_fire       my fire.test.yaml: 'my fire' cannot name a test: up to 200 bytes of letters, digits, '.', '_' and '-' can, and none that starts with '.' or '-'
+1|pass   scenes/empty  1 frame in <s> s
+1|       wrote golden/scenes/empty/frame_0001.png
+1|3 tests in <s> s: 2 pass, 1 error
+1|2 pictures were written: look at them before you keep them
+1|Glühen
+1|scenes

@@ -1,0 +1,76 @@
+/* Which characters are letters follows from the blocks of Unicode that have none, not from a
+ * locale.
+ */
+#include "suite/test_name.h"
+
+#include <stdint.h>
+#include <string.h>
+
+#include "base/text.h"
+
+/* Above U+00C0: signs, spaces, what is not seen or turns text around, private use, what is none. */
+static const uint32_t no_letters[][2] = {
+    {0xd7, 0xd7},     {0xf7, 0xf7},     {0x2000, 0x2bff},    {0x2e00, 0x2e7f},
+    {0x3000, 0x3004}, {0x3008, 0x3020}, {0xe000, 0xf8ff},    {0xfe00, 0xfe6f},
+    {0xfeff, 0xfeff}, {0xfff0, 0xffff}, {0xe0000, 0x10ffff},
+};
+
+/* length: as kiln_text_utf8_length says, 2 to 4. */
+static uint32_t decode(const char *text, size_t length)
+{
+    uint32_t code = (unsigned char)text[0] & (0x7fu >> length);
+    for (size_t i = 1; i < length; i++)
+        code = code << 6 | ((unsigned char)text[i] & 0x3fu);
+    return code;
+}
+
+/* The bytes of the character that starts a text, or 0 where it cannot be in a name. */
+static size_t name_character(const char *text)
+{
+    static const char ascii[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                "0123456789._-/";
+    size_t length = kiln_text_utf8_length(text);
+    if (length < 2)
+        return length == 1 && *text && strchr(ascii, *text) ? 1 : 0;
+    uint32_t code = decode(text, length);
+    for (size_t i = 0; i < sizeof no_letters / sizeof *no_letters; i++) {
+        if (code >= no_letters[i][0] && code <= no_letters[i][1])
+            return 0;
+    }
+    return code >= 0xc0 ? length : 0;
+}
+
+bool kiln_test_name_is_good(const char *name)
+{
+    size_t length = strlen(name);
+    bool hidden = *name == '.' || strstr(name, "/.");
+    if (length == 0 || length > KILN_TEST_MAX_NAME || hidden || *name == '-')
+        return false;
+    while (*name) {
+        size_t bytes = name_character(name);
+        if (bytes == 0)
+            return false;
+        name += bytes;
+    }
+    return true;
+}
+
+const char *kiln_test_name_mended(struct kiln_arena *arena, const char *name)
+{
+    char *mended = kiln_arena_alloc(arena, KILN_TEST_MAX_NAME + 1, 1);
+    size_t used = 0;
+    for (const char *c = name; mended && *c;) {
+        size_t bytes = name_character(c);
+        bool first = used == 0 || mended[used - 1] == '/';
+        bool wrong = bytes == 0 || (first && (*c == '.' || *c == '-' || *c == '/'));
+        size_t step = bytes > 0 ? bytes : 1;
+        if (used + step > KILN_TEST_MAX_NAME)
+            break;
+        memcpy(mended + used, wrong ? "____" : c, step);
+        used += step;
+        c += step;
+    }
+    if (mended && used == 0)
+        mended[0] = '_';
+    return mended;
+}
