@@ -414,10 +414,11 @@ static void crashes_are_recorded(void **state)
     kiln_suite_destroy(&suite);
 }
 
-static void files_of_earlier_runs_go_and_no_others(void **state)
+static void files_of_a_run_that_was_killed_go_and_no_others(void **state)
 {
     (void)state;
     spark_write("");
+    test_write_file("out/test/.kiln-results", "# kiln results 1\n# writing spark\n");
     test_write_file("out/test/spark/frame_0001.png", "old");
     test_write_file("out/test/spark/.frame_0001.png.kiln-7-0.tmp", "of a process that crashed");
     test_write_file("out/test/spark/log.txt", "old");
@@ -469,7 +470,7 @@ int main(void)
         IN_FOLDER(what_was_accepted_of_another_kind_is_noted),
         IN_FOLDER(failed_replaces_the_nearest_golden),
         IN_FOLDER(crashes_are_recorded),
-        IN_FOLDER(files_of_earlier_runs_go_and_no_others),
+        IN_FOLDER(files_of_a_run_that_was_killed_go_and_no_others),
         IN_FOLDER(exr_goldens_work_too),
     };
     return cmocka_run_group_tests_name("update", tests, spark_needs_device, NULL);
