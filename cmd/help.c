@@ -31,8 +31,7 @@ const struct variable variables[] = {
      "Threads of Mesa's software device. 'kiln test' sets it where it is not set, "
      "so that its jobs share the cores."},
     {"TMPDIR", "Where 'kiln bench' and 'kiln test calibrate' write pictures that they remove "
-               "again, instead of "
-               "/tmp."},
+               "again, instead of /tmp."},
     {"NO_COLOR", "Where it is set, terminals get no colours."},
     {NULL, NULL},
 };

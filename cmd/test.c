@@ -382,11 +382,11 @@ const struct command test_command = {
         "'cpu', whose pixels are the same on every machine.\n\n"
         "Each test has a process of its own: a crash or a hang is the error of that test alone. "
         "What the process prints goes to log.txt in its results.\n\n"
-        "Exit code 0: every test passed; 1: a picture or the state differs; 7: a golden or "
-        "its expect.yaml is missing; 2: usage, or there are no tests; 3: a test, scene or golden "
-        "cannot be read; 4: "
-        "no usable device, or every test was skipped; 5: a test crashed or took too long; 6: "
-        "results or a report cannot be written. Of several, the worst: 5, 6, 4, 3, 2, 1, 7.",
+        "Exit code 0: every test passed; 1: a picture or the state differs; 7: a golden or its "
+        "expect.yaml is missing; 2: usage, or there are no tests; 3: a test, scene or golden "
+        "cannot be read; 4: no usable device, or every test was skipped; 5: a test crashed or took "
+        "too long; 6: results or a report cannot be written. Of several, the worst: 5, 6, 4, 3, 2, "
+        "1, 7.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .most_operands = SIZE_MAX,

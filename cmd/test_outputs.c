@@ -1,3 +1,5 @@
+/* From the options of reports to files: which there will be, that none replaces what the run reads,
+ * and writing them. */
 #include "test_outputs.h"
 
 #include <string.h>

@@ -13,8 +13,8 @@
 enum { FIRST_CAPACITY = 64 };
 
 struct claim {
-    const char *path; /* absolute, of the real folder; NULL: this place of a table is free */
-    const char *what;
+    const char *path; /* absolute, in its real folder */
+    const char *what; /* for messages */
     bool written, exists;
     dev_t device;
     ino_t inode;
@@ -30,8 +30,8 @@ struct table {
 struct kiln_claims {
     struct kiln_arena *arena;
     struct table by_path, by_inode;
-    char folder[KILN_PATH_SIZE],
-        real_folder[KILN_PATH_SIZE]; /* of the last: often the next one's */
+    /* The folder of the path before, which is often the next one's, too. */
+    char folder[KILN_PATH_SIZE], real_folder[KILN_PATH_SIZE];
 };
 
 struct kiln_claims *kiln_claims_create(void)
@@ -171,7 +171,7 @@ static bool is_inode(const struct claim *a, const struct claim *b)
 typedef size_t hash_claim(const struct claim *claim);
 typedef bool equal_claims(const struct claim *a, const struct claim *b);
 
-/* Where the claim is, or a free place for it; the table has one. */
+/* Finds the place of an equal claim, or else a free one, of which a table has always some. */
 static struct claim **find(const struct table *table, const struct claim *claim, hash_claim *hash,
                            equal_claims *equal)
 {

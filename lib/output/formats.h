@@ -32,8 +32,9 @@ struct kiln_format {
      * others. */
     bool (*commit)(void *encoder, struct kiln_error *error);
     void (*close)(void *encoder); /* with or without a finish before */
-    /* What takes the place of the suffix in the names of other files that belong to it: the first,
-     * the second; NULL: there are no more. NULL instead of the function: there are none. */
+    /* Other files may belong to the file: this gives the ending that takes the place of the suffix
+     * in the name of each, and NULL behind the last. NULL instead of the function: there are none.
+     */
     const char *(*beside)(const struct kiln_output_params *params, uint32_t index);
 };
 

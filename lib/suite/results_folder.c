@@ -91,7 +91,7 @@ static const struct entry *find(const struct entries *entries, const char *path)
                : bsearch(&wanted, entries->items, entries->count, sizeof wanted, by_path);
 }
 
-/* As sha256sum escapes names, in lines that begin with a backslash. */
+/* Adds a name as sha256sum escapes it, in a line that begins with a backslash. */
 static void add_escaped(struct kiln_text *text, const char *path)
 {
     for (; *path; path++) {
@@ -175,7 +175,7 @@ static void add_line(struct kiln_text *text, const struct entry *entry)
     kiln_text_add(text, "\n");
 }
 
-/* What is in the list, without what is removed and with what is added. */
+/* Writes the list without what is removed and with what is added. */
 static bool write_list(struct folder *f)
 {
     char path[KILN_PATH_SIZE];
@@ -200,7 +200,8 @@ static bool write_list(struct folder *f)
     return ok;
 }
 
-static int is_no_dot(const struct dirent *entry)
+/* Whether an entry of a folder is more than the folder or the one above it. */
+static int is_contents(const struct dirent *entry)
 {
     return strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
 }
@@ -209,7 +210,7 @@ static int is_no_dot(const struct dirent *entry)
 static int list_entries(const char *folder, struct dirent ***entries)
 {
     *entries = NULL;
-    return scandir(folder, entries, is_no_dot, alphasort);
+    return scandir(folder, entries, is_contents, alphasort);
 }
 
 static void free_entries(struct dirent **entries, int count)
@@ -287,7 +288,7 @@ static bool visit_test(struct folder *f, const struct kiln_test *test, visit_fil
     return ok;
 }
 
-/* Those of all tests, and run.json. */
+/* Visits the files of all tests, and run.json. */
 static bool visit_all(struct folder *f, visit_file *visit)
 {
     char path[KILN_PATH_SIZE];

@@ -1,3 +1,5 @@
+/* Results of a run that never took place: every status, and names and messages that are hard to
+ * write. */
 #include "support/results.h"
 
 #include <math.h>

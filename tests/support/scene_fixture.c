@@ -1,3 +1,4 @@
+/* Scenes put together in C: values, keys, emitters, forces, boxes, and a scene with everything. */
 #include "support/scene_fixture.h"
 
 #include <string.h>

@@ -1,3 +1,5 @@
+/* A test of a few sparks, which runs in a folder of its own: written, run, updated, painted over.
+ */
 #include "support/suite.h"
 
 #include <stdio.h>

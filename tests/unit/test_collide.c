@@ -59,7 +59,7 @@ static void a_lossless_ball_keeps_bouncing(void **state)
     simulation_end(&run);
 }
 
-/* Where there is no floor, nothing lies at its height. */
+/* A particle falls on through the height of a floor that the scene does not have. */
 static void a_floor_that_is_not_there_stops_nobody(void **state)
 {
     (void)state;
