@@ -2,10 +2,10 @@
  * its top and without end in all other directions; with round shapes (shared/collide_round.h); with
  * what may turn (shared/collide_turned.h); and with surfaces out of grids (shared/collide_field.h).
  *
- * Swept: the path of the step is a segment, and each of a box's six faces moves evenly during the
- * step, so the distance to it changes evenly along the path; the particle is inside while all six
- * distances are positive. The earliest entry is the impact: the position is set there, the velocity
- * relative to the box answers as in the thesis, and the rest of the step goes on from there.
+ * Swept (shared/sweep.h): a piece of a path is a segment, and each of a box's six faces moves
+ * evenly in its time, so the distance to it changes evenly along the piece; the particle is inside
+ * while all six distances are positive. The earliest entry is the impact: the position is set
+ * there, the velocity relative to the box answers as in the thesis, and the way goes on from there.
  * Nothing can be fast enough to tunnel.
  */
 #ifndef KILN_SHARED_COLLIDE_H
@@ -379,54 +379,6 @@ FN float3 collide_rise(SIM_PARAM float3 position, float until, float radius)
 FN uint collide_purpose(SIM_PARAM uint bounce)
 {
     return RANDOM_BOUNCE + (STEP(step) << 4u) + (bounce << 1u);
-}
-
-/* From s, whose position is where the particle is and `end` where it would be when the part `until`
- * of the step (1: all of it) has passed; the result is at that time, outside of every box. */
-FN S(collide_way) collide_swept(SIM_PARAM S(collide_state) s, float3 end, float until,
-                                S(collide_answer) answer)
-{
-    EXACT S(collide_way) way;
-    way.first = collide_no_touch();
-    EXACT S(collide_state) now = s;
-    EXACT float3 target = end;
-    EXACT float dt_s = STEP(derived.dt_s);
-    EXACT S(collide_answer) draw = answer;
-    uint last = 0u;
-    uint last_face = 0u;
-    for (uint bounce = 0u; bounce < COLLIDE_BOUNCES; bounce++) {
-        EXACT S(collide_hit) hit = collide_first(SIM now, target, until, answer.radius);
-        if (hit.part < 0.0f) {
-            now.position = target;
-            way.end = now;
-            return way;
-        }
-        EXACT float3 ahead = float3_sub(target, now.position);
-        now.position = float3_add_scaled(now.position, ahead, hit.part);
-        EXACT float left = until - now.since;
-        now.since = now.since + left * hit.part;
-        draw.purpose = collide_purpose(SIM bounce);
-        now = collide_impact(SIM now, hit.box, hit.face, draw);
-        if (bounce == 0u) {
-            uint kind = AROUND(colliders[hit.box].kind);
-            way.first =
-                collide_touched(now, collide_face_met(SIM hit.box, answer.radius, now, hit.face));
-            way.first.reach = COLLIDE_MEETS_CENTRES(kind) ? 0.0f : answer.radius;
-        }
-        EXACT float rest_s = (until - now.since) * dt_s;
-        target = float3_add_scaled(now.position, now.velocity, rest_s);
-        last = hit.box;
-        last_face = hit.face;
-    }
-#if COLLIDE_HAS_VOLUMES
-    if (AROUND(colliders[last].kind) == COLLIDER_VOLUME)
-        now.position = volume_carry(SIM AROUND(colliders[last]), last_face, until, now.position);
-#endif
-    if (COLLIDE_IS_TURNED(AROUND(colliders[last])))
-        now.position = collide_turned_carry(SIM last, now.since, until, now.position);
-    now.position = collide_rise(SIM now.position, until, answer.radius);
-    way.end = now;
-    return way;
 }
 
 /* From where a surface that has put somebody in front of it is found: a volume's cells know the

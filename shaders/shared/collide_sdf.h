@@ -153,6 +153,23 @@ FN float sdf_radius(S(kiln_pose) pose, float since, float radius)
     return y;
 }
 
+/* Where a distance of 0 begins between two parts of a segment: within a mesh as thin as a cell,
+ * whose two sides lie on samples, all distances are 0. */
+FN float sdf_march_back(SIM_PARAM S(kiln_grid) g, float3 a, float3 way, S(sdf_reach) reach,
+                        float from, float to)
+{
+    EXACT float outside = from;
+    EXACT float hit = to;
+    for (uint i = 0u; i < 16u; i++) {
+        EXACT float at = 0.5f * (outside + hit);
+        EXACT float3 q = float3_add_scaled(a, way, at);
+        EXACT float distance = sdf_distance_at(SIM g, q) - sdf_mix(reach.start, reach.end, at);
+        outside = distance > 0.0f ? at : outside;
+        hit = distance > 0.0f ? hit : at;
+    }
+    return hit;
+}
+
 /* Along a segment in the frame of the mesh, from a part of it to another: the part at which it
  * first gets inside, or 2. */
 FN float sdf_march(SIM_PARAM S(kiln_grid) g, float3 a, float3 b, S(sdf_reach) reach, float from,
@@ -175,6 +192,8 @@ FN float sdf_march(SIM_PARAM S(kiln_grid) g, float3 a, float3 b, S(sdf_reach) re
             EXACT float quotient = exact_div(distance_before, fall);
             EXACT float part = exact_clamp(quotient, 0.0f, 1.0f);
             EXACT float hit = before + (at - before) * part;
+            if (distance == 0.0f)
+                hit = sdf_march_back(SIM g, a, way, reach, before, at);
             return hit;
         }
         if (at >= to)

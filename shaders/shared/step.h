@@ -4,14 +4,10 @@
 #ifndef KILN_SHARED_STEP_H
 #define KILN_SHARED_STEP_H
 
-#include "shared/collide.h"
 #include "shared/emit.h"
 #include "shared/family.h"
-#include "shared/forces.h"
 #include "shared/push.h"
-#ifdef FORCES_ALL
-#include "shared/stages.h"
-#endif
+#include "shared/sweep.h"
 
 /* Farther out, or faster, or not a number: the particle is lost. 2^20 m, m/s. */
 #define STEP_ABSURD_BITS 0x49800000u
@@ -72,65 +68,8 @@ FN S(kiln_particle) step_birth(SIM_PARAM uint index)
     return step_with_motion(p, born.position, born.velocity);
 }
 
-#ifdef FORCES_PLAIN
-
-/* step_integrate for forces that one look is enough for, and no drag by the square of the speed. */
-FN S(collide_state) step_integrate_plain(SIM_PARAM S(collide_state) s, float until, float life)
-{
-    EXACT float time_s = (until - s.since) * STEP(derived.dt_s);
-    EXACT S(force_effect) forces = forces_sum(SIM s.position, life);
-    EXACT S(collide_state) moved = s;
-    moved.velocity = forces_apply(forces, s.velocity, time_s);
-    if ((STEP(forces_do) & FORCES_LIMIT) != 0u)
-        moved.velocity = force_limit_all(SIM moved.velocity, life);
-    EXACT float3 carrying = moved.velocity;
-    if (STEP(integration) == INTEGRATE_POSITION_FIRST)
-        carrying = s.velocity;
-    moved.position = float3_add_scaled(s.position, carrying, time_s);
-    moved.since = until;
-    return moved;
-}
-
-#endif
-#ifdef FORCES_ALL
-
-/* step_integrate for all of them. */
-FN S(collide_state) step_integrate_stages(SIM_PARAM S(collide_state) start, float until, float life)
-{
-    EXACT float time_s = (until - start.since) * STEP(derived.dt_s);
-    uint count = stages_count(STEP(integration));
-    EXACT S(stages) s = stages_start(start.position, start.velocity);
-    for (uint stage = 0u; stage < count; stage++) {
-        EXACT S(force_effect) forces = forces_sum(SIM s.at, life);
-        s = stages_take(s, forces, stage, count, time_s);
-        if ((STEP(forces_do) & FORCES_LIMIT) != 0u)
-            s.moving = force_limit_all(SIM s.moving, life);
-    }
-    EXACT S(collide_state) moved = start;
-    moved.position = stages_arrive(s, STEP(integration), time_s);
-    moved.velocity = s.moving;
-    moved.since = until;
-    return moved;
-}
-
-#endif
-
-/* Motion from the part `since` of the step to the part `until`, without collision. */
-FN S(collide_state) step_integrate(SIM_PARAM S(collide_state) s, float until, float life)
-{
-#if defined(FORCES_ALL) && defined(FORCES_PLAIN)
-    if (STEP(integration) < INTEGRATE_TRAPEZOID && (STEP(forces_do) & FORCES_SLOW) == 0u)
-        return step_integrate_plain(SIM s, until, life);
-    return step_integrate_stages(SIM s, until, life);
-#elif defined(FORCES_ALL)
-    return step_integrate_stages(SIM s, until, life);
-#else
-    return step_integrate_plain(SIM s, until, life);
-#endif
-}
-
-FN S(collide_way) step_collide(SIM_PARAM S(collide_state) s, float3 end, float until, float life,
-                               uint stream, float radius)
+/* How a particle answers impacts in this step, at a part of its life. */
+FN S(collide_answer) step_answer(SIM_PARAM uint stream, float life, float radius)
 {
     EXACT S(collide_answer) answer;
     answer.randomness = value_at(SIM_KEYS STEP(randomness), STEP(time_s), life);
@@ -150,9 +89,7 @@ FN S(collide_way) step_collide(SIM_PARAM S(collide_state) s, float3 end, float u
     answer.rolling = STEP(rolling);
     if (COLLIDE_SPINS(answer))
         answer.friction = 0.0f;
-    if (STEP(collide) == COLLIDE_CLAMP)
-        return collide_clamp(SIM s, end, until, answer);
-    return collide_swept(SIM s, end, until, answer);
+    return answer;
 }
 
 /* A particle's way from its start to the part `until` of the step. */
@@ -196,20 +133,38 @@ FN void step_turn(SIM_PARAM S(kiln_particle) p, uint slot, float3 rate)
 
 #endif
 
+/* A way among the colliders, and how its first impact was. */
+FN S(collide_way) step_collide(SIM_PARAM S(step_way) way, float3 push, float life,
+                               S(collide_answer) answer)
+{
+    EXACT S(collide_way) bounced;
+    EXACT S(collide_state) start = way.start;
+    if (STEP(collide) == COLLIDE_CLAMP) {
+        start.velocity = way.end.velocity;
+        bounced = collide_clamp(SIM start, way.end.position, way.end.since, answer);
+        return bounced;
+    }
+    bounced = sweep(SIM start, way.end, push, life, answer);
+    if (SWEEP_POSITION_FIRST) {
+        start.velocity = bounced.end.velocity;
+        start = integrate(SIM start, way.end.since, life);
+        bounced.end.velocity = start.velocity;
+    }
+    return bounced;
+}
+
 /* What is met on a way that is known as it would be without colliders; it has met nothing so far,
  * and counts as lost. */
-FN S(step_way) step_meet(SIM_PARAM S(kiln_particle) p, S(step_way) flown, float radius, float life,
-                         float until)
+FN S(step_way) step_meet(SIM_PARAM S(kiln_particle) p, S(step_way) flown, S(step_push) push,
+                         float life)
 {
     EXACT S(step_way) way = flown;
     if (!step_is_sane(way.end.position) || !step_is_sane(way.end.velocity))
         return way;
     if (STEP(collide) != COLLIDE_OFF) {
-        EXACT S(collide_state) start = way.start;
-        start.velocity = way.end.velocity;
-        uint stream = particle_stream(STEP(derived), p);
-        EXACT S(collide_way) bounced =
-            step_collide(SIM start, way.end.position, until, life, stream, radius);
+        EXACT S(collide_answer) answer =
+            step_answer(SIM particle_stream(STEP(derived), p), life, push.radius);
+        EXACT S(collide_way) bounced = step_collide(SIM way, push.position, life, answer);
         way.end = bounced.end;
         way.first = bounced.first;
         if (!step_is_sane(way.end.position) || !step_is_sane(way.end.velocity))
@@ -236,11 +191,11 @@ FN S(step_way) step_move(SIM_PARAM S(kiln_particle) p, S(step_push) push, float 
     if (STEP(spins) != 0u)
         way.start.spin = step_spin(SIM p, push.slot);
 #endif
-    way.end = step_integrate(SIM way.start, until, life);
+    way.end = integrate(SIM way.start, until, life);
     way.end.position = push_farther(push, way.end.position);
     way.first = collide_no_touch();
     way.lost = true;
-    way = step_meet(SIM p, way, push.radius, life, until);
+    way = step_meet(SIM p, way, push, life);
 #if !defined(GL_core_profile) || defined(SPINS)
     if (STEP(spins) != 0u && !way.lost)
         step_turn(SIM p, push.slot, way.end.spin);

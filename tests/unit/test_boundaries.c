@@ -7,123 +7,16 @@
 #include <stdint.h>
 
 #include "shared/exact.h"
-#include "support/bodies.h"
 #include "support/cmocka.h"
 #include "support/folders.h"
 #include "support/simulation.h"
+#include "support/surfaces.h"
 #include "support/thrown.h"
-
-static struct kiln_object *add_floor(void)
-{
-    fixture.scene.backdrop.floor_enabled = true;
-    fixture.scene.backdrop.floor_collide = true;
-    return NULL;
-}
-
-static struct kiln_object *add_flat_box(void)
-{
-    return fixture_add_box(&fixture, 0, -1, 0, 40, 2, 40);
-}
-
-static struct kiln_object *add_turned_box(void)
-{
-    struct kiln_object *box = fixture_add_box(&fixture, 0, -1, 0, 40, 2, 40);
-    box->rotation.y = fixture_constant(0.7f);
-    return box;
-}
-
-static struct kiln_object *add_level_plane(void)
-{
-    return fixture_add_plane(&fixture, 0, 0, 0);
-}
-
-static struct kiln_object *add_globe(void)
-{
-    return fixture_add_sphere(&fixture, 0, -5, 0, 5);
-}
-
-static struct kiln_object *add_cylinder_end(void)
-{
-    return fixture_add_cylinder(&fixture, 0, -1, 0, 30, 2);
-}
-
-static struct kiln_object *add_cylinder_side(void)
-{
-    struct kiln_object *cylinder = fixture_add_cylinder(&fixture, 0, -5, 0, 5, 40);
-    cylinder->axis = fixture_constant3(0, 0, 2);
-    return cylinder;
-}
-
-/* One that might turn, and does not. */
-static struct kiln_object *add_turning_cylinder(void)
-{
-    struct kiln_object *cylinder = add_cylinder_side();
-    cylinder->axis.z = fixture_ramp(&fixture, KILN_CLOCK_TIME, 0, 1, 1, 2);
-    return cylinder;
-}
-
-static struct kiln_object *add_lying_capsule(void)
-{
-    struct kiln_object *capsule = fixture_add_capsule(&fixture, 0, -5, 0, 5, 40);
-    capsule->axis = fixture_constant3(0, 0, 2);
-    return capsule;
-}
-
-/* Out of a black picture. */
-static struct kiln_object *add_flat_terrain(void)
-{
-    static const uint8_t pixel[58] = {
-        'B', 'M', 58, [10] = 54, [14] = 40, [18] = 1, [22] = 1, [26] = 1, [28] = 24};
-    FILE *out = fopen("black.bmp", "wb");
-    assert_non_null(out);
-    assert_int_equal(fwrite(pixel, sizeof pixel, 1, out), 1);
-    fclose(out);
-    struct kiln_object *terrain = fixture_add_terrain(&fixture, 0, 40, 1, 9);
-    terrain->file = "black.bmp";
-    return terrain;
-}
-
-static struct kiln_object *add_slab(void)
-{
-    body_write_box("slab.obj", 40, 2, 40);
-    return fixture_add_mesh(&fixture, "slab.obj", 0, -1, 0);
-}
-
-static struct kiln_object *add_mapped_slab(void)
-{
-    struct kiln_object *slab = add_slab();
-    fixture_map_depths(slab, 32);
-    return slab;
-}
-
-enum form { FLAT, ROUND, LYING };
-
-/* `moves`: it may, by its centre, and shapes of no size may not. */
-static const struct {
-    const char *name;
-    struct kiln_object *(*add)(void);
-    enum form form;
-    bool moves;
-} KINDS[] = {
-    {"floor", add_floor, FLAT, false},
-    {"box", add_flat_box, FLAT, true},
-    {"turned box", add_turned_box, FLAT, true},
-    {"plane", add_level_plane, FLAT, true},
-    {"sphere", add_globe, ROUND, true},
-    {"end of a cylinder", add_cylinder_end, FLAT, true},
-    {"side of a cylinder", add_cylinder_side, LYING, true},
-    {"cylinder that may turn", add_turning_cylinder, LYING, true},
-    {"capsule", add_lying_capsule, LYING, true},
-    {"terrain", add_flat_terrain, FLAT, false},
-    {"distance field", add_slab, FLAT, true},
-    {"depth maps", add_mapped_slab, FLAT, true},
-};
-enum { KIND_COUNT = sizeof KINDS / sizeof *KINDS };
 
 /* With factors of its own. */
 static struct kiln_object *add_rubbing(size_t kind, double restitution, double friction)
 {
-    struct kiln_object *object = KINDS[kind].add();
+    struct kiln_object *object = surfaces[kind].add();
     struct kiln_backdrop *backdrop = &fixture.scene.backdrop;
     *(object ? &object->restitution : &backdrop->floor_restitution) =
         fixture_constant((float)restitution);
@@ -135,7 +28,7 @@ static void assert_speed(size_t kind, const char *what, float found, double expe
                          double allowed)
 {
     if (!(fabs((double)found - expected) <= allowed))
-        fail_msg("%s: %s %.9g instead of %.9g", KINDS[kind].name, what, (double)found, expected);
+        fail_msg("%s: %s %.9g instead of %.9g", surfaces[kind].name, what, (double)found, expected);
 }
 
 /* Onto the top, with 2 m/s down and 3 m/s along. */
@@ -144,7 +37,7 @@ static void they_give_back_rub_and_slow_down(void **state)
     (void)state;
     static const double cases[][3] = {{1, 0, 1},   {0.5, 0, 1}, {0.5, 0.25, 1},
                                       {0.8, 5, 1}, {0, 0.5, 1}, {0.6, 0.3, 0.5}};
-    for (size_t kind = 0; kind < KIND_COUNT; kind++) {
+    for (size_t kind = 0; kind < SURFACES; kind++) {
         for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
             const double e = cases[i][0], mu = cases[i][1], slow = cases[i][2];
             struct kiln_system *system = one_particle(FLOAT3(-0.75f, 0.5f, 0), FLOAT3(3, -2, 0));
@@ -178,7 +71,7 @@ static void they_scatter_over_the_hemisphere(void **state)
 {
     (void)state;
     enum { COUNT = 4000 };
-    for (size_t kind = 0; kind < KIND_COUNT; kind++) {
+    for (size_t kind = 0; kind < SURFACES; kind++) {
         struct kiln_system *system = a_crowd(COUNT);
         system->emit.speed = fixture_range(10.0f, 10.0f);
         system->collide.randomness = fixture_constant(1.0f);
@@ -207,8 +100,8 @@ static void they_scatter_over_the_hemisphere(void **state)
 static void what_moves_pushes_and_drags(void **state)
 {
     (void)state;
-    for (size_t kind = 0; kind < KIND_COUNT; kind++) {
-        if (!KINDS[kind].moves)
+    for (size_t kind = 0; kind < SURFACES; kind++) {
+        if (!surfaces[kind].moves)
             continue;
         one_particle(FLOAT3(0, 2, 0), FLOAT3(0, -0.0001f, 0));
         struct kiln_object *object = add_rubbing(kind, 0.5, 1);
@@ -221,7 +114,7 @@ static void what_moves_pushes_and_drags(void **state)
         system->collide.friction = fixture_constant(9.0f);
         object = add_rubbing(kind, 1, 1);
         object->center.z = fixture_ramp(&fixture, KILN_CLOCK_TIME, 0, 0, 1, 0.5f);
-        if (KINDS[kind].form != ROUND) /* whose top is elsewhere by then */
+        if (surfaces[kind].form != SURFACE_ROUND) /* whose top is elsewhere by then */
             assert_speed(kind, "carried", particle_velocity(after(10)).z, 0.5, 1e-3);
     }
 }
@@ -230,9 +123,9 @@ static void what_moves_pushes_and_drags(void **state)
 static double outside_of(size_t kind, float3 p)
 {
     const double x = (double)p.x, y = (double)p.y, z = (double)p.z;
-    if (KINDS[kind].form == FLAT)
+    if (surfaces[kind].form == SURFACE_FLAT)
         return fabs(x) < 10 && fabs(z) < 10 ? y : 0;
-    if (KINDS[kind].form == ROUND)
+    if (surfaces[kind].form == SURFACE_ROUND)
         return sqrt(x * x + (y + 5) * (y + 5) + z * z) - 5;
     return fabs(z) < 10 ? sqrt(x * x + (y + 5) * (y + 5)) - 5 : 0;
 }
@@ -262,22 +155,22 @@ static void rain(size_t kind, float gravity)
             const double speed = (double)float3_length(particle_velocity(p));
             const double out = outside_of(kind, particle_position(p));
             if (out < -1e-5)
-                fail_msg("%s: %g m inside in step %d", KINDS[kind].name, -out, step);
+                fail_msg("%s: %g m inside in step %d", surfaces[kind].name, -out, step);
             if (step > 0 && gravity == 0.0f && speed > before[i] * (1 + 2e-6))
-                fail_msg("%s: %.9g m/s after %.9g", KINDS[kind].name, speed, before[i]);
+                fail_msg("%s: %.9g m/s after %.9g", surfaces[kind].name, speed, before[i]);
             slowed += step == 0 ? particle_velocity(p).y > 0 : speed < 0.99 * before[i];
             before[i] = speed;
         }
     }
     if (slowed < COUNT / 2)
-        fail_msg("%s: %u impacts", KINDS[kind].name, slowed);
+        fail_msg("%s: %u impacts", surfaces[kind].name, slowed);
     simulation_end(&run);
 }
 
 static void nothing_tunnels_and_no_energy_grows(void **state)
 {
     (void)state;
-    for (size_t kind = 0; kind < KIND_COUNT; kind++) {
+    for (size_t kind = 0; kind < SURFACES; kind++) {
         rain(kind, 0.0f);
         rain(kind, 200.0f);
     }

@@ -240,6 +240,7 @@ bool kiln_sim_programs_init(struct kiln_sim_programs *programs, struct kiln_devi
     add_define(&defines, "PUSHES", pushes);
     add_define(&defines, "SPINS", params->spin_count > 0);
     add_define(&defines, "FORCES_ALL", forces);
+    add_define(&defines, "SWEEP_ALL", scene->integration != KILN_INTEGRATE_SEMI_IMPLICIT);
     files.defines = defines.text;
     programs->alone = kiln_program_create(device, &files, error);
     if (!programs->alone || !has_families(params))

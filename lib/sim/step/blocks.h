@@ -50,7 +50,7 @@ struct kiln_sim_programs {
 };
 
 /* files: of a kernel that knows the variants COLLIDE_ROUND, COLLIDE_TURNED, GRIDS, PUSHES,
- * SPINS (with it and COLLIDE_RUB) and FORCES_ALL (with it), COLLIDE_FIELD (with GRIDS),
+ * SPINS (with it and COLLIDE_RUB), FORCES_ALL (with it), SWEEP_ALL, COLLIDE_FIELD (with GRIDS),
  * COLLIDE_VOLUME, COLLIDE_RUB and FAMILY; its defines are not looked at. After a failure, too,
  * kiln_sim_programs_finish frees what there is. */
 bool kiln_sim_programs_init(struct kiln_sim_programs *programs, struct kiln_device *device,

@@ -180,7 +180,7 @@ static inline void push_on(const struct kiln_sim *sim, struct block *b, uint32_t
                   push_farther(push_of(sim, first_slot + i), kiln_get3(&b->position, i)));
 }
 
-/* step_integrate, over the whole step. */
+/* integrate, over the whole step. */
 static inline void fly(const struct kiln_sim *sim, struct block *b)
 {
     const float time_s = sim->step->derived.dt_s;
@@ -266,7 +266,7 @@ static inline void take_stage(struct block *b, uint32_t stage, uint32_t count, f
     }
 }
 
-/* step_integrate_stages, over the whole step. */
+/* integrate_stages, over the whole step. */
 static inline void fly_in_stages(const struct kiln_sim *sim, struct block *b)
 {
     const float time_s = sim->step->derived.dt_s;
@@ -411,7 +411,7 @@ static struct kiln_particle step_touching(const struct kiln_sim *sim, const stru
     };
     if (sim->step->spins)
         way.start.spin = way.end.spin = step_spin(sim, p, slot);
-    way = step_meet(sim, p, way, sim->step->pushed ? b->radius[i] : 0.0f, b->life[i], 1.0f);
+    way = step_meet(sim, p, way, push_of(sim, slot), b->life[i]);
     if (way.lost)
         return step_dead();
     if (sim->step->spins)

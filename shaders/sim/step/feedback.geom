@@ -23,6 +23,8 @@
 // variant: FORCES_ALL=1 FAMILY=1 COLLIDE_ROUND=1
 // variant: FORCES_ALL=1 GRIDS=1 COLLIDE_ROUND=1
 // variant: FORCES_ALL=1 GRIDS=1 FAMILY=1 COLLIDE_ROUND=1
+// variant: SWEEP_ALL=1
+// variant: SWEEP_ALL=1 FORCES_ALL=1 GRIDS=1 FAMILY=1 COLLIDE_ROUND=1 PUSHES=1
 layout(points) in;
 layout(points, max_vertices = 1) out;
 

@@ -22,6 +22,8 @@
 // variant: FORCES_ALL=1 FAMILY=1 COLLIDE_ROUND=1
 // variant: FORCES_ALL=1 GRIDS=1 COLLIDE_ROUND=1
 // variant: FORCES_ALL=1 GRIDS=1 FAMILY=1 COLLIDE_ROUND=1
+// variant: SWEEP_ALL=1
+// variant: SWEEP_ALL=1 FORCES_ALL=1 GRIDS=1 FAMILY=1 COLLIDE_ROUND=1 PUSHES=1
 
 /* llvmpipe's compiler needs minutes for as many loops as there are values in a fragment shader. */
 #define VALUE_UNROLLED 1

@@ -1,0 +1,68 @@
+/* A particle's motion under the forces of its system, from one part of a step to another. */
+#ifndef KILN_SHARED_INTEGRATE_H
+#define KILN_SHARED_INTEGRATE_H
+
+#include "shared/collide_answer.h"
+#include "shared/forces.h"
+#ifdef FORCES_ALL
+#include "shared/stages.h"
+#endif
+
+#ifdef FORCES_PLAIN
+
+/* integrate for forces that one look is enough for, and no drag by the square of the speed. */
+FN S(collide_state) integrate_plain(SIM_PARAM S(collide_state) s, float until, float life)
+{
+    EXACT float time_s = (until - s.since) * STEP(derived.dt_s);
+    EXACT S(force_effect) forces = forces_sum(SIM s.position, life);
+    EXACT S(collide_state) moved = s;
+    moved.velocity = forces_apply(forces, s.velocity, time_s);
+    if ((STEP(forces_do) & FORCES_LIMIT) != 0u)
+        moved.velocity = force_limit_all(SIM moved.velocity, life);
+    EXACT float3 carrying = moved.velocity;
+    if (STEP(integration) == INTEGRATE_POSITION_FIRST)
+        carrying = s.velocity;
+    moved.position = float3_add_scaled(s.position, carrying, time_s);
+    moved.since = until;
+    return moved;
+}
+
+#endif
+#ifdef FORCES_ALL
+
+/* integrate for all of them. */
+FN S(collide_state) integrate_stages(SIM_PARAM S(collide_state) start, float until, float life)
+{
+    EXACT float time_s = (until - start.since) * STEP(derived.dt_s);
+    uint count = stages_count(STEP(integration));
+    EXACT S(stages) s = stages_start(start.position, start.velocity);
+    for (uint stage = 0u; stage < count; stage++) {
+        EXACT S(force_effect) forces = forces_sum(SIM s.at, life);
+        s = stages_take(s, forces, stage, count, time_s);
+        if ((STEP(forces_do) & FORCES_LIMIT) != 0u)
+            s.moving = force_limit_all(SIM s.moving, life);
+    }
+    EXACT S(collide_state) moved = start;
+    moved.position = stages_arrive(s, STEP(integration), time_s);
+    moved.velocity = s.moving;
+    moved.since = until;
+    return moved;
+}
+
+#endif
+
+/* Motion from the part `since` of the step to the part `until`, without collision. */
+FN S(collide_state) integrate(SIM_PARAM S(collide_state) s, float until, float life)
+{
+#if defined(FORCES_ALL) && defined(FORCES_PLAIN)
+    if (STEP(integration) < INTEGRATE_TRAPEZOID && (STEP(forces_do) & FORCES_SLOW) == 0u)
+        return integrate_plain(SIM s, until, life);
+    return integrate_stages(SIM s, until, life);
+#elif defined(FORCES_ALL)
+    return integrate_stages(SIM s, until, life);
+#else
+    return integrate_plain(SIM s, until, life);
+#endif
+}
+
+#endif

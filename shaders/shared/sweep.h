@@ -1,0 +1,264 @@
+/* A particle's way through a step among colliders: to an impact, and from it on, by the integrator
+ * of the scene.
+ *
+ * - `semi_implicit` flies a straight line at the velocity that it has after the step's forces, and
+ * a surface answers that velocity. Forces and flights take turns, and neither adds energy.
+ * - `position_first` is its mirror image: the line is flown, and answered, at the velocity before
+ *   the forces, which then act on what the impacts have left.
+ * - `trapezoid` and `rk4` fly curves. Where one meets a surface is found by regula falsi, each
+ * guess being a shorter step of the integrator; the surface answers the velocity there, and another
+ *   step of the integrator leads from it to the next impact or the end. So both keep their orders.
+ *   What comes back to a surface in the step in which it has left it lies there: the surface bears
+ *   what the forces give in the rest of the step, and the rest is flown as semi_implicit does.
+ *   What a curve meets between two places whose straight connection meets nothing is not seen: at
+ *   most acceleration * time^2 / 8 deep.
+ */
+#ifndef KILN_SHARED_SWEEP_H
+#define KILN_SHARED_SWEEP_H
+
+#include "shared/collide.h"
+#include "shared/integrate.h"
+
+/* Shaders of scenes that move by semi_implicit are spared the code of the others. */
+#if defined(GL_core_profile) && !defined(SWEEP_ALL)
+#define SWEEP_IS_CURVED      false
+#define SWEEP_POSITION_FIRST false
+#else
+#define SWEEP_IS_CURVED      (STEP(integration) >= INTEGRATE_TRAPEZOID)
+#define SWEEP_POSITION_FIRST (STEP(integration) == INTEGRATE_POSITION_FIRST)
+#endif
+
+/* Guesses of the time of an impact. Each is off by less than the one before, by a factor of the
+ * velocity that the forces give in a step to twice that of the impact. */
+#define SWEEP_GUESSES 3u
+
+/* m: what a guess may be off by. */
+#define SWEEP_CLOSE 3.814697265625e-6f
+
+/* Pieces of a way that are looked at: two for a guess, the one that meets, and the one behind it.
+ */
+#define SWEEP_PIECES (COLLIDE_BOUNCES * (2u * SWEEP_GUESSES + 2u))
+
+/* A particle on its way. Between `now` and `ahead` is the piece that is looked at. */
+struct sweep_path {
+    S(collide_state) now;
+    S(collide_state) ahead;
+    S(collide_hit) hit; /* the last impact */
+    float until;        /* the part of the step at which the way ends */
+    float later;        /* by when the curve is known to have met something */
+    float aim;          /* where the next piece is to end */
+    float3 push;        /* m in a whole step, from the others of its system */
+    uint bounces;
+    uint guesses; /* of the time of the next impact */
+    bool curved;
+};
+
+FN S(sweep_path) sweep_start(SIM_PARAM S(collide_state) start, S(collide_state) end, float3 push,
+                             bool curved)
+{
+    EXACT S(sweep_path) path;
+    path.now = start;
+    path.ahead = end;
+    path.hit.part = -1.0f;
+    path.hit.box = 0u;
+    path.hit.face = 0u;
+    path.until = end.since;
+    path.later = end.since;
+    path.aim = end.since;
+    path.push = push;
+    path.bounces = 0u;
+    path.guesses = 0u;
+    path.curved = curved;
+    if (!path.curved && !SWEEP_POSITION_FIRST)
+        path.now.velocity = end.velocity;
+    return path;
+}
+
+/* To the end of the next piece: of a curve, or of a straight line. */
+FN S(collide_state) sweep_ahead(SIM_PARAM S(sweep_path) path, float life)
+{
+    EXACT S(collide_state) ahead = path.now;
+    EXACT float part = path.aim - path.now.since;
+    if (path.curved) {
+        ahead = integrate(SIM path.now, path.aim, life);
+        ahead.position = float3_add_scaled(ahead.position, path.push, part);
+        return ahead;
+    }
+    EXACT float time_s = part * STEP(derived.dt_s);
+    ahead.position = float3_add_scaled(path.now.position, path.now.velocity, time_s);
+    ahead.since = path.aim;
+    return ahead;
+}
+
+/* What the forces change of the velocity along the piece. */
+FN float3 sweep_change(S(sweep_path) path)
+{
+    EXACT float3 change = float3_sub(path.ahead.velocity, path.now.velocity);
+    return change;
+}
+
+/* Where the piece meets something. What lies on a surface has the velocity that all of the piece
+ * gives it, which the surface is to bear. */
+FN S(collide_state) sweep_meeting(S(sweep_path) path, S(collide_hit) hit, bool lies)
+{
+    EXACT S(collide_state) y = path.now;
+    EXACT float3 way = float3_sub(path.ahead.position, path.now.position);
+    EXACT float3 change = sweep_change(path);
+    EXACT float time = path.ahead.since - path.now.since;
+    EXACT float part = lies ? 1.0f : hit.part;
+    y.position = float3_add_scaled(path.now.position, way, hit.part);
+    y.since = path.now.since + time * hit.part;
+    if (path.curved)
+        y.velocity = float3_add_scaled(path.now.velocity, change, part);
+    return y;
+}
+
+/* Is the time of a meeting to be found more closely? Not where the bend of the curve makes no
+ * difference, and not if the blow is less than what the forces give in the piece, as it is to what
+ * has come to rest. */
+FN bool sweep_is_rough(SIM_PARAM S(sweep_path) path, float part, float3 before, float3 after)
+{
+    EXACT float3 change = sweep_change(path);
+    EXACT float3 blow = float3_sub(after, before);
+    EXACT float given = float3_dot(change, change);
+    EXACT float taken = float3_dot(blow, blow);
+    EXACT float time_s = (path.ahead.since - path.now.since) * STEP(derived.dt_s);
+    EXACT float bend = 0.5f * exact_sqrt(given) * time_s * part * (1.0f - part);
+    return path.guesses < SWEEP_GUESSES && taken > given && bend > SWEEP_CLOSE;
+}
+
+/* What leaves a surface has been put a little in front of it. It climbs there under the forces that
+ * it has on the way, or each bounce would give it the energy of that height. */
+FN S(collide_state) sweep_climb(SIM_PARAM S(collide_state) left, S(sweep_path) path, float3 from)
+{
+    EXACT S(collide_state) y = left;
+    EXACT float3 lift = float3_sub(left.position, from);
+    EXACT float3 change = sweep_change(path);
+    EXACT float square = float3_dot(lift, lift);
+    EXACT float flown = float3_dot(left.velocity, lift) * STEP(derived.dt_s);
+    EXACT float part = exact_div(square, flown);
+    EXACT float of_piece = exact_div(part, path.ahead.since - path.now.since);
+    if (flown > 0.0f && part < path.until - left.since) {
+        y.velocity = float3_add_scaled(left.velocity, change, of_piece);
+        y.since = left.since + part;
+    }
+    return y;
+}
+
+/* Past a piece that meets nothing. */
+FN S(sweep_path) sweep_past(S(sweep_path) before)
+{
+    EXACT S(sweep_path) path = before;
+    path.now.position = path.ahead.position;
+    if (!path.curved)
+        return path;
+    path.now = path.ahead;
+    if (path.ahead.since == path.later) {
+        path.later = path.until;
+        path.guesses = 0u;
+    }
+    path.aim = path.later;
+    return path;
+}
+
+/* From an impact, to the end if nothing else is met. */
+FN S(sweep_path) sweep_off(S(sweep_path) before, S(collide_hit) hit, S(collide_state) left,
+                           bool lies)
+{
+    EXACT S(sweep_path) path = before;
+    path.now = left;
+    path.hit = hit;
+    path.later = path.until;
+    path.aim = path.until;
+    path.push = FLOAT3(0.0f, 0.0f, 0.0f);
+    path.bounces++;
+    path.guesses = 0u;
+    path.curved = path.curved && !lies;
+    return path;
+}
+
+/* The first impact of a step, from the state behind it. */
+FN S(collide_touch) sweep_touch(SIM_PARAM S(collide_state) s, S(collide_hit) hit, float radius)
+{
+    uint kind = AROUND(colliders[hit.box].kind);
+    EXACT S(collide_touch) touch =
+        collide_touched(s, collide_face_met(SIM hit.box, radius, s, hit.face));
+    touch.reach = COLLIDE_MEETS_CENTRES(kind) ? 0.0f : radius;
+    return touch;
+}
+
+/* The rest of a step after the last impact that it may have: carried by what was met last. */
+FN S(collide_state) sweep_stay(SIM_PARAM S(sweep_path) path, float radius)
+{
+    EXACT S(collide_state) now = path.now;
+    uint last = path.hit.box;
+#if COLLIDE_HAS_VOLUMES
+    if (AROUND(colliders[last].kind) == COLLIDER_VOLUME)
+        now.position =
+            volume_carry(SIM AROUND(colliders[last]), path.hit.face, path.until, now.position);
+#endif
+    if (COLLIDE_IS_TURNED(AROUND(colliders[last])))
+        now.position = collide_turned_carry(SIM last, now.since, path.until, now.position);
+    now.position = collide_rise(SIM now.position, path.until, radius);
+    return now;
+}
+
+/* sweep, by the kind of way. */
+FN S(collide_way) sweep_along(SIM_PARAM S(collide_state) start, S(collide_state) end, float3 push,
+                              float life, S(collide_answer) answer, bool curved)
+{
+    EXACT S(collide_way) way;
+    way.first = collide_no_touch();
+    EXACT S(collide_answer) draw = answer;
+    EXACT S(sweep_path) path = sweep_start(SIM start, end, push, curved);
+    for (uint piece = 0u; piece < SWEEP_PIECES && path.bounces < COLLIDE_BOUNCES; piece++) {
+        S(collide_hit) hit =
+            collide_first(SIM path.now, path.ahead.position, path.ahead.since, answer.radius);
+        if (hit.part < 0.0f) {
+            bool arrives = path.ahead.since == path.until;
+            path = sweep_past(path);
+            way.end = path.now;
+            if (arrives)
+                return way;
+        } else {
+            bool again = hit.box == path.hit.box && hit.face == path.hit.face;
+            bool lies = path.curved && path.bounces > 0u && path.guesses == 0u && again;
+            EXACT S(collide_state) at = sweep_meeting(path, hit, lies);
+            draw.purpose = collide_purpose(SIM path.bounces);
+            EXACT S(collide_state) left = collide_impact(SIM at, hit.box, hit.face, draw);
+            if (path.curved && !lies &&
+                sweep_is_rough(SIM path, hit.part, at.velocity, left.velocity)) {
+                path.later = path.ahead.since;
+                path.aim = at.since;
+                path.guesses++;
+            } else {
+                if (path.bounces == 0u)
+                    way.first = sweep_touch(SIM left, hit, answer.radius);
+                if (path.curved && !lies)
+                    left = sweep_climb(SIM left, path, at.position);
+                path = sweep_off(path, hit, left, lies);
+            }
+        }
+        path.ahead = sweep_ahead(SIM path, life);
+    }
+    way.end = sweep_stay(SIM path, answer.radius);
+    return way;
+}
+
+/* From `start` to the time of `end`, which is where it would be without colliders; with `push`, m,
+ * from the others of its system in that. The result is outside of every collider. */
+FN S(collide_way) sweep(SIM_PARAM S(collide_state) start, S(collide_state) end, float3 push,
+                        float life, S(collide_answer) answer)
+{
+    EXACT S(collide_way) way;
+#ifndef GL_core_profile /* where compilers make two loops of it */
+    if (!SWEEP_IS_CURVED) {
+        way = sweep_along(SIM start, end, push, life, answer, false);
+        return way;
+    }
+#endif
+    way = sweep_along(SIM start, end, push, life, answer, SWEEP_IS_CURVED);
+    return way;
+}
+
+#endif

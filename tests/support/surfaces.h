@@ -1,0 +1,18 @@
+/* One collider of each kind, whose top is at the origin. */
+#ifndef KILN_TESTS_SURFACES_H
+#define KILN_TESTS_SURFACES_H
+
+#include "support/scene_fixture.h"
+
+enum surface_form { SURFACE_FLAT, SURFACE_ROUND, SURFACE_LYING };
+
+enum { SURFACES = 12 };
+
+extern const struct surface {
+    const char *name;
+    struct kiln_object *(*add)(void); /* to thrown.h's scene; NULL for the floor */
+    enum surface_form form;
+    bool moves; /* by its centre */
+} surfaces[SURFACES];
+
+#endif
