@@ -71,6 +71,10 @@ static bool step_to(struct kiln_loop *loop, uint32_t step, struct kiln_error *er
              kiln_simulate_step(loop->simulate, &run->pool, run->step + 1, error);
         if (ok)
             run->step++;
+        const char *warning = kiln_simulate_warning(loop->simulate);
+        if (ok && warning)
+            kiln_log_write(&loop->params->log, KILN_LOG_WARNING, "%s: %s", loop->scene->name,
+                           warning);
     }
     kiln_timer_end(loop->timer);
     return ok;

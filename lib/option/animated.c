@@ -164,8 +164,10 @@ static bool read_curve(struct kiln_reader *reader, const struct kiln_option *opt
     if (over_life && keys->kind == KILN_NODE_SCALAR)
         return kiln_reader_expected(reader, keys, "[first, ..., last] or {part of life: value}");
     struct curve curve = {.values = values, .count = count};
+    struct kiln_option point = *option;
+    point.word = NULL; /* stands for all of the curve */
     if (!begin_curve(reader, keys, &curve, clock) ||
-        !read_points(reader, option, keys, &curve, over_life ? &life_axis : &kiln_option_time))
+        !read_points(reader, &point, keys, &curve, over_life ? &life_axis : &kiln_option_time))
         return false;
     kiln_reader_leave(reader, before);
     return true;

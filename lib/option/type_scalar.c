@@ -199,6 +199,8 @@ static void describe_number(const struct kiln_option *option, struct kiln_text *
 {
     kiln_text_add(out, "a number");
     kiln_option_describe_limits(option, out);
+    if (option->word)
+        kiln_text_add(out, ", or %s", option->word);
 }
 
 const struct kiln_option_type kiln_type_number = {

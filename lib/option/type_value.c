@@ -9,14 +9,22 @@
 static bool read_value(struct kiln_reader *reader, const struct kiln_option *option,
                        const struct kiln_node *node, void *field)
 {
+    if (option->word && kiln_node_is(node, option->word)) {
+        *(struct kiln_value *)field = (struct kiln_value){.constant = KILN_VALUE_BY_WORD};
+        return true;
+    }
     return kiln_read_animated(reader, option, node, field, 1);
 }
 
 static void print_value(struct kiln_printer *printer, const struct kiln_option *option,
                         const void *field)
 {
+    const struct kiln_value *value = field;
     kiln_text_add(&printer->text, " ");
-    kiln_print_animated(printer, option, field);
+    if (option->word && value->count == 0 && value->constant < 0.0f)
+        kiln_text_add(&printer->text, "%s", option->word);
+    else
+        kiln_print_animated(printer, option, value);
     kiln_text_add(&printer->text, "\n");
 }
 
@@ -24,6 +32,8 @@ static void describe_value(const struct kiln_option *option, struct kiln_text *o
 {
     kiln_text_add(out, "a number");
     kiln_option_describe_limits(option, out);
+    if (option->word)
+        kiln_text_add(out, ", or %s", option->word);
 }
 
 /* {"keys": {...}} and {"life": ...} with `plain` as the schema of each key's value. */
@@ -61,6 +71,8 @@ static void schema_value(const struct kiln_option *option, struct kiln_text *out
     kiln_schema_number(option, &plain);
     kiln_text_add(out, "{\"anyOf\": [%s", plain.data ? plain.data : "");
     schema_curves(option, plain.data ? plain.data : "", out);
+    if (option->word)
+        kiln_text_add(out, ", {\"const\": \"%s\"}", option->word);
     kiln_text_add(out, "]}");
     out->failed |= plain.failed;
     kiln_text_free(&plain);

@@ -7,6 +7,9 @@
 
 #include "shared/value.h"
 
+/* What an animated number has as its constant where its option's word stands in its place. */
+#define KILN_VALUE_BY_WORD (-1.0f)
+
 /* A positive fraction in its lowest terms, or 0/1 where the option has a word for it. */
 struct kiln_rational {
     uint32_t num, den;

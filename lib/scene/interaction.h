@@ -40,7 +40,7 @@ struct kiln_interaction {
     struct kiln_value radius;      /* m: collide, of who is not */
     struct kiln_value restitution; /* collide: 0 no bounce .. 1 all energy is kept */
     struct kiln_value apart;       /* collide: 0..1: part of an overlap that a round takes away */
-    struct kiln_value fastest;     /* collide: m/s: approach that is foreseen */
+    struct kiln_value fastest;     /* collide: m/s: approach that is foreseen; below 0: auto */
     uint32_t rounds;               /* collide: of pairs in a step */
     bool spins;                    /* collide: they turn, and friction acts on their skin */
     struct kiln_value friction;    /* collide: on each other, of those that turn */

@@ -21,10 +21,12 @@ static const struct kiln_option collide[] = {
           "Part of the speed of approach that is kept; 1 keeps all energy."),
     VALUE("apart", apart, KILN_FRACTION, 0, 1, TIME, "0.5",
           "Part of what overlaps all the same that is pushed apart in a round."),
-    VALUE("fastest", fastest, KILN_SPEED, 0, 10000, TIME, "0 m/s",
-          "Two that approach each other by no more are found before they meet, and do not pass "
-          "through each other, but for who meets another first: that leaves no second collision in "
-          "the step. For mode exact."),
+    {ROW("fastest", value, AT(fastest), "auto",
+         "Two that approach each other by no more are found before they meet, and do not pass "
+         "through each other, but for who meets another first: that leaves no second collision in "
+         "the step. auto: what the speeds of each step ask for, up to two widths of a particle in "
+         "a step; 0 foresees nothing. For mode exact."),
+     LIMITS(KILN_SPEED, 0, 10000), .clocks = TIME, .word = "auto"},
     INTEGER("rounds", rounds, 1, 64, "4",
             "Collisions that a particle may have in a step; the others wait for the next one."),
     BOOLEAN("spin", spins, "false",

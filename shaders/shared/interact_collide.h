@@ -85,10 +85,27 @@ FN bool contact_comes(CROWD_PARAM S(contact) c)
            since >= soonest;
 }
 
-/* The same, of bodies; few are, and those that fly side by side are not even asked. */
+/* Are two within the width of a cell, and come closer? Others do not meet within the step. */
+FN bool contact_closes(CROWD_PARAM S(kiln_body) a, S(kiln_body) b)
+{
+    EXACT float3 from = body_position(a);
+    EXACT float3 to = body_position(b);
+    EXACT float3 apart = float3_sub(to, from);
+    EXACT float square = float3_dot(apart, apart);
+    EXACT float cells = INTERACT(cells_per_metre);
+    EXACT float cells_square = (square * cells) * cells;
+    EXACT float3 slow = body_velocity(a);
+    EXACT float3 fast = body_velocity(b);
+    EXACT float3 parting = float3_sub(fast, slow);
+    EXACT float opening = float3_dot(apart, parting);
+    return cells_square < 1.0f && opening < 0.0f;
+}
+
+/* The same, of bodies; few are. */
 FN bool contact_is_ahead(CROWD_PARAM S(kiln_body) a, S(kiln_body) b)
 {
-    if (!(INTERACT(ahead_s) > 0.0f) || !(body_radius(a) > 0.0f) || !(body_radius(b) > 0.0f))
+    if (!(INTERACT(ahead_s) > 0.0f) || !contact_closes(CROWD a, b) || !(body_radius(a) > 0.0f) ||
+        !(body_radius(b) > 0.0f))
         return false;
     EXACT S(contact) c = contact_of(a, b);
     bool comes = contact_comes(CROWD c);

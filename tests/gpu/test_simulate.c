@@ -174,8 +174,11 @@ static void add_crowd(const char *name, float x, enum kiln_contact_mode mode)
 /* Crowds beside the systems of a scene, each of which collides with itself, too. */
 static void crowd_the_fixture(void)
 {
-    for (uint32_t i = 0; i < fixture.scene.system_count; i++)
-        fixture_add_collisions(&fixture.scene.systems[i], 0.05f)->spins = i % 2 == 1;
+    for (uint32_t i = 0; i < fixture.scene.system_count; i++) {
+        struct kiln_interaction *collide = fixture_add_collisions(&fixture.scene.systems[i], 0.05f);
+        collide->spins = i % 2 == 1;
+        collide->fastest = fixture_constant(KILN_VALUE_BY_WORD);
+    }
     add_crowd("drawn", -1.0f, KILN_CONTACT_EXACT);
     add_crowd("staggered", 1.0f, KILN_CONTACT_STAGGERED);
     fixture_add_gravity(fixture_add_system(&fixture, "stars", 200.0f), 0.02f);

@@ -2,9 +2,12 @@
 
 #include <assert.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stddef.h>
+#include <stdio.h>
 
 #include "base/error.h"
+#include "shared/interact_speeds.h"
 #include "sim/crowd/interact_sort.h"
 
 static_assert(sizeof(struct kiln_interact_params) == 288, "std140");
@@ -17,6 +20,10 @@ static_assert(sizeof(struct kiln_body) == 32, "std430");
 /* So much wider than two radii are the cells: positions up to 2^18 cells out are rounded by less
  * when their cell is found. */
 static const float CELL_SLACK = 1.0f + 1.0f / 64.0f;
+
+/* Widths of a particle that `fastest: auto` looks ahead in a step, and the part of one that two may
+ * go into each other unseen without a warning. */
+static const float MOST_AHEAD = 2.0f, UNSEEN = 0.1f;
 
 /* Of struct kiln_interact_entry on the host, which sorts to and fro, and of a uvec4 in GL. */
 enum { ENTRY_BYTES = 16 };
@@ -52,12 +59,8 @@ static void add_collisions(struct kiln_interact_work *work, const struct kiln_sc
     work->mode = collide->mode;
     work->rounds = collide->rounds;
     params->cell_mask = count_cells(scene->systems[system].capacity) - 1;
-    const float fastest = kiln_scene_value(scene, &collide->fastest, params->time_s);
-    const float reach_m =
-        2.0f * kiln_scene_contact_radius(scene, system) + fastest * params->derived.dt_s;
-    params->cells_per_metre = 1.0f / (reach_m * CELL_SLACK);
-    params->ahead_s = fastest > 0.0f ? params->derived.dt_s : 0.0f;
-    params->fastest_square = fastest * fastest;
+    work->width_m = 2.0f * kiln_scene_contact_radius(scene, system);
+    work->fastest = kiln_scene_value(scene, &collide->fastest, params->time_s);
     params->as_drawn = collide->as_drawn;
     params->restitution = kiln_scene_value(scene, &collide->restitution, params->time_s);
     params->apart = kiln_scene_value(scene, &collide->apart, params->time_s);
@@ -263,6 +266,74 @@ void kiln_interact_finish(struct kiln_interact *interact)
     *interact = (struct kiln_interact){.device = NULL};
 }
 
+/* How far ahead collisions are looked for: as the scene says, or as far as the velocities ask for,
+ * which differ by up to `spread` m/s. Cells grow by as much, so that there are limits to this. */
+static void foresee(struct kiln_interact *interact, struct kiln_interact_work *work, float spread)
+{
+    struct kiln_interact_params *params = &work->params;
+    const float dt_s = params->derived.dt_s, most = MOST_AHEAD * work->width_m / dt_s;
+    float fastest = work->fastest;
+    const bool found = fastest < 0.0f;
+    if (found)
+        fastest = spread < most ? spread : most;
+    params->cells_per_metre = 1.0f / ((work->width_m + fastest * dt_s) * CELL_SLACK);
+    params->ahead_s = fastest > 0.0f ? dt_s : 0.0f;
+    params->fastest_square = fastest * fastest;
+    if (interact->warning[0] || spread <= fastest || spread * dt_s <= UNSEEN * work->width_m)
+        return;
+    char key[160];
+    snprintf(key, sizeof key, "systems.%s.interact: collide.fastest", work->system);
+    if (found)
+        snprintf(interact->warning, sizeof interact->warning,
+                 "%s: step %u: particles approach each other by up to %.3g m/s, and auto foresees "
+                 "%.3g: some may pass through each other; a higher simulation.rate helps, or "
+                 "fastest: %.3g m/s, which takes longer",
+                 key, (unsigned)params->step + 1, (double)spread, (double)most, (double)spread);
+    else
+        snprintf(interact->warning, sizeof interact->warning,
+                 "%s: step %u: particles approach each other by up to %.3g m/s, and %.3g m/s are "
+                 "foreseen: some may pass through each other; fastest: auto foresees more",
+                 key, (unsigned)params->step + 1, (double)spread, (double)fastest);
+}
+
+/* By how much velocities of living particles differ at most, m/s: no two approach each other by
+ * more than the diagonal of the box around all velocities. A hair more, whatever rounds. */
+static float spread_of(const uint32_t bounds[SPEEDS_BOUNDS])
+{
+    double square = 0;
+    for (uint32_t i = 0; i < SPEEDS_BOUNDS; i += 2) {
+        const double extent = (double)speeds_value(bounds[i]) + (double)speeds_value(bounds[i + 1]);
+        square += bounds[i] ? extent * extent : 0;
+    }
+    return (float)(sqrt(square) * (1 + 1e-6));
+}
+
+/* What a scene does not say about collisions: how far ahead they are looked for. */
+static bool find_ahead(struct kiln_interact *interact, struct kiln_interact_work *work,
+                       struct kiln_pool *pool, struct kiln_buffer *keys, struct kiln_error *error)
+{
+    if (!work->collides)
+        return true;
+    uint32_t bounds[SPEEDS_BOUNDS] = {0};
+    if (work->mode == KILN_CONTACT_STAGGERED) { /* which looks at what there is now */
+        foresee(interact, work, 0.0f);
+        return true;
+    }
+    if (interact->device ? !kiln_interact_gl_speeds(interact, work, pool, keys, bounds, error)
+                         : !kiln_interact_cpu_speeds(interact, work, pool, bounds, error))
+        return false;
+    foresee(interact, work, spread_of(bounds));
+    return true;
+}
+
+const char *kiln_interact_warning(struct kiln_interact *interact)
+{
+    if (!interact->warning[0] || interact->warned)
+        return NULL;
+    interact->warned = true;
+    return interact->warning;
+}
+
 bool kiln_interact_gather(struct kiln_interact *interact, const struct kiln_sim_params *params,
                           struct kiln_pool *pool, struct kiln_buffer *keys,
                           struct kiln_error *error)
@@ -272,9 +343,10 @@ bool kiln_interact_gather(struct kiln_interact *interact, const struct kiln_sim_
         if (!params->systems[i].pushed || params->systems[i].used == 0)
             continue;
         for (int flock = 0; ok && flock < 2; flock++) {
-            const struct kiln_interact_work work = work_of(interact->scene, params, i, flock);
-            ok = interact->device ? kiln_interact_gl(interact, &work, pool, keys, error)
-                                  : kiln_interact_cpu(interact, &work, pool, error);
+            struct kiln_interact_work work = work_of(interact->scene, params, i, flock);
+            ok = find_ahead(interact, &work, pool, keys, error) &&
+                 (interact->device ? kiln_interact_gl(interact, &work, pool, keys, error)
+                                   : kiln_interact_cpu(interact, &work, pool, error));
         }
     }
     return ok;

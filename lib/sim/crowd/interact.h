@@ -12,6 +12,7 @@
 
 /* In the order of their use. */
 enum kiln_interact_kernel {
+    KILN_INTERACT_SPEEDS,
     KILN_INTERACT_COUNT,
     KILN_INTERACT_SCAN,
     KILN_INTERACT_PLACE,
@@ -38,8 +39,10 @@ struct kiln_interact_work {
     struct kiln_interact_params sources; /* gravity: of the system that pulls, which may be this */
     bool of_other;                       /* it is another one */
     bool collides, pulls, flocks;
-    enum kiln_contact_mode mode;
+    enum kiln_contact_mode mode; /* of collisions, and what follows: */
     uint32_t rounds;
+    float width_m; /* of the largest particle */
+    float fastest; /* m/s: approach that the scene wants foreseen; below 0: auto */
 };
 
 struct kiln_interact {
@@ -63,6 +66,9 @@ struct kiln_interact {
     GLuint programs[KILN_INTERACT_KERNELS]; /* 0: not used by the scene */
     uint32_t group_size;
     bool spins; /* of some system, balls turn */
+
+    char warning[512]; /* "": none */
+    bool warned;
 };
 
 /* Nothing is allocated while no system interacts. After a failure, too, kiln_interact_finish frees
@@ -78,10 +84,20 @@ bool kiln_interact_gather(struct kiln_interact *interact, const struct kiln_sim_
                           struct kiln_pool *pool, struct kiln_buffer *keys,
                           struct kiln_error *error);
 
+/* A warning about the steps so far, the first of them alone; NULL: none. It is the interact's. */
+const char *kiln_interact_warning(struct kiln_interact *interact);
+
 /* ---- for the two ways to gather -------------------------------------------------------------- */
 
 /* Room for so many entries: a power of two, at least 64. */
 uint32_t kiln_interact_entries(uint32_t count);
+
+/* The bounds of the velocities of all that live, as shared/interact_speeds.h has them. */
+bool kiln_interact_cpu_speeds(struct kiln_interact *interact, const struct kiln_interact_work *work,
+                              struct kiln_pool *pool, uint32_t *bounds, struct kiln_error *error);
+bool kiln_interact_gl_speeds(struct kiln_interact *interact, const struct kiln_interact_work *work,
+                             struct kiln_pool *pool, struct kiln_buffer *keys, uint32_t *bounds,
+                             struct kiln_error *error);
 
 bool kiln_interact_cpu(struct kiln_interact *interact, const struct kiln_interact_work *work,
                        struct kiln_pool *pool, struct kiln_error *error);

@@ -3,10 +3,58 @@
 #include <string.h>
 
 #include "shared/interact_gravity.h"
+#include "shared/interact_speeds.h"
 #include "shared/interact_staggered.h"
 #include "sim/crowd/interact_crowd.h"
 
 enum { BODIES_AT_A_TIME = 512 };
+
+/* ---- bounds of velocities -------------------------------------------------------------------- */
+
+struct speeds {
+    const struct kiln_particle *records; /* of the system */
+    _Atomic uint32_t bounds[SPEEDS_BOUNDS];
+};
+
+static void raise_bound(_Atomic uint32_t *bound, uint32_t to)
+{
+    uint32_t now = atomic_load(bound);
+    while (now < to && !atomic_compare_exchange_weak(bound, &now, to))
+        continue;
+}
+
+static void bound_speeds(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    struct speeds *speeds = context;
+    uint32_t bounds[SPEEDS_BOUNDS] = {0};
+    for (size_t slot = begin; slot < end; slot++) {
+        if (!particle_is_alive(speeds->records[slot]))
+            continue;
+        const float3 velocity = particle_velocity(speeds->records[slot]);
+        for (uint32_t i = 0; i < SPEEDS_BOUNDS; i++) {
+            const uint32_t bound = speeds_bound(velocity, i);
+            bounds[i] = bound > bounds[i] ? bound : bounds[i];
+        }
+    }
+    for (uint32_t i = 0; i < SPEEDS_BOUNDS; i++)
+        raise_bound(&speeds->bounds[i], bounds[i]);
+}
+
+bool kiln_interact_cpu_speeds(struct kiln_interact *interact, const struct kiln_interact_work *work,
+                              struct kiln_pool *pool, uint32_t *bounds, struct kiln_error *error)
+{
+    const struct kiln_particle *records = kiln_buffer_host(&pool->records, KILN_READ, error);
+    if (!records)
+        return false;
+    struct speeds speeds = {.records = records + work->params.base};
+    kiln_threads_for(interact->threads, work->params.used, BODIES_AT_A_TIME, bound_speeds, &speeds);
+    for (uint32_t i = 0; i < SPEEDS_BOUNDS; i++)
+        bounds[i] = atomic_load(&speeds.bounds[i]);
+    return true;
+}
+
+/* ---- collisions ------------------------------------------------------------------------------ */
 
 static void find(void *context, size_t begin, size_t end, uint32_t worker)
 {

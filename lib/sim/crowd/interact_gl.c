@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "gpu/program.h"
+#include "shared/interact_speeds.h"
 #include "shared/limits.h"
 #include "sim/crowd/interact.h"
 
@@ -13,6 +14,7 @@ static const struct {
     const char *file, *defines;
     int used_for;
 } KERNELS[KILN_INTERACT_KERNELS] = {
+    [KILN_INTERACT_SPEEDS] = {"sim/crowd/interact_speeds.comp", "", EXACT_MODE},
     [KILN_INTERACT_COUNT] = {"sim/crowd/interact_count.comp", "", EXACT_MODE},
     [KILN_INTERACT_SCAN] = {"sim/crowd/interact_scan.comp", "", EXACT_MODE | FLOCK},
     [KILN_INTERACT_PLACE] = {"sim/crowd/interact_place.comp", "", EXACT_MODE | FLOCK},
@@ -143,6 +145,20 @@ static void empty_cells(const struct kiln_interact *interact, uint32_t cells)
                          (GLsizeiptr)cells * (GLsizeiptr)sizeof zero, GL_RED_INTEGER,
                          GL_UNSIGNED_INT, &zero);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+bool kiln_interact_gl_speeds(struct kiln_interact *interact, const struct kiln_interact_work *work,
+                             struct kiln_pool *pool, struct kiln_buffer *keys, uint32_t *bounds,
+                             struct kiln_error *error)
+{
+    if (!bind_all(interact, work, pool, keys, error))
+        return false;
+    empty_cells(interact, SPEEDS_BOUNDS);
+    run(interact, KILN_INTERACT_SPEEDS, work->params.used);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glBindBuffer(GL_COPY_READ_BUFFER, interact->cells.gl);
+    glGetBufferSubData(GL_COPY_READ_BUFFER, 0, SPEEDS_BOUNDS * (GLsizeiptr)sizeof *bounds, bounds);
+    return kiln_device_check(interact->device, "interact", error);
 }
 
 static void sort_into_cells(const struct kiln_interact *interact,

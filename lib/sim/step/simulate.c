@@ -167,6 +167,11 @@ bool kiln_simulate_hash(struct kiln_simulate *simulate, struct kiln_pool *pool,
     return ok;
 }
 
+const char *kiln_simulate_warning(struct kiln_simulate *simulate)
+{
+    return kiln_interact_warning(&simulate->interact);
+}
+
 size_t kiln_simulate_slot_bytes(enum kiln_simulate_technique technique)
 {
     size_t copies = 1;

@@ -29,6 +29,9 @@ void kiln_simulate_destroy(struct kiln_simulate **simulate);
 bool kiln_simulate_step(struct kiln_simulate *simulate, struct kiln_pool *pool, uint32_t step,
                         struct kiln_error *error);
 
+/* A warning about the steps so far, once; NULL: none. It lives as long as the simulation. */
+const char *kiln_simulate_warning(struct kiln_simulate *simulate);
+
 /* The state hash, of what is painted as well, and the number of living particles, reduced where the
  * state lives. */
 bool kiln_simulate_hash(struct kiln_simulate *simulate, struct kiln_pool *pool,
