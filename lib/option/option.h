@@ -82,7 +82,7 @@ struct kiln_option {
     enum kiln_dimension dimension; /* of numbers */
     unsigned clocks;               /* KILN_ALLOW_*; a constant always is */
     const char *const *choices;    /* words in the order of the enum, NULL at the end */
-    const char *word;              /* rational: stands for 0/1; value, of 0 or more: KILN_VALUE_BY_WORD */
+    const char *word; /* rational: stands for 0/1; value, of 0 or more: KILN_VALUE_BY_WORD */
     const struct kiln_option *members;
     const struct kiln_option_kind *kinds;
     const struct kiln_option *item; /* of a list */
