@@ -11,7 +11,6 @@ struct true_fragment {
     double depth, rgba[4], glow[3];
     uint64_t order;
     uint32_t pixel;
-    int covers;
 };
 
 struct true_fragments {
@@ -19,13 +18,12 @@ struct true_fragments {
     size_t count, room;
 };
 
-void true_picture_init(struct true_picture *picture, int covers, uint32_t width, uint32_t height)
+void true_picture_init(struct true_picture *picture, uint32_t width, uint32_t height)
 {
     size_t pixels = (size_t)width * height;
     *picture = (struct true_picture){
         .width = width,
         .height = height,
-        .covers = covers,
         .color = (double(*)[4])calloc(pixels, sizeof *picture->color),
         .glow = (double(*)[4])calloc(pixels, sizeof *picture->glow),
     };
@@ -38,12 +36,10 @@ void true_picture_finish(struct true_picture *picture)
     free(picture->glow);
 }
 
-/* rgba over a pixel, and weighted over its glow; or the sum. covers: of the sprite. */
-static void true_blend(struct true_picture *picture, int covers, size_t pixel, const double rgba[4],
+/* rgba over a pixel, and weighted over its glow; or the sum. */
+static void true_blend(struct true_picture *picture, size_t pixel, const double rgba[4],
                        const double weights[3], bool sum)
 {
-    if ((covers & picture->covers) == 0)
-        return;
     double passed = sum ? 1 : 1 - rgba[3];
     for (int c = 0; c < 4; c++) {
         double *color = &picture->color[pixel][c], *glow = &picture->glow[pixel][c];
@@ -64,11 +60,10 @@ static void true_keep(struct true_fragments *list, const struct true_fragment *f
 
 /* A round billboard's two sheets of half its density (shared/fragment_layout.h). */
 static void true_split(struct true_fragments *list, const struct true_sprite *s,
-                       const struct true_place *at, const double rgba[4], int covers, size_t pixel,
+                       const struct true_place *at, const double rgba[4], size_t pixel,
                        size_t number)
 {
-    struct true_fragment f = {
-        .depth = at->depth, .order = 2 * number, .pixel = (uint32_t)pixel, .covers = covers};
+    struct true_fragment f = {.depth = at->depth, .order = 2 * number, .pixel = (uint32_t)pixel};
     memcpy(f.rgba, rgba, sizeof f.rgba);
     memcpy(f.glow, s->bloom, sizeof f.glow);
     double u = at->u * 2 - 1, v = at->v * 2 - 1;
@@ -104,7 +99,7 @@ struct true_pass {
     const struct kiln_particles_draw *draw;
     const float *depth;
     struct true_fragments list;
-    struct true_picture *pictures; /* two */
+    struct true_picture *picture;
 };
 
 static void true_draw_sprite(struct true_pass *pass, const struct true_sprite *s, size_t number)
@@ -113,28 +108,27 @@ static void true_draw_sprite(struct true_pass *pass, const struct true_sprite *s
     for (int y = s->box[1]; y < s->box[3]; y++) {
         for (int x = s->box[0]; x < s->box[2]; x++) {
             struct true_place at;
-            size_t pixel = (size_t)y * pass->pictures->width + (size_t)x;
+            size_t pixel = (size_t)y * pass->picture->width + (size_t)x;
             double rgba[4];
-            int covers = true_place_of(pass->scene, s, x + 0.5, y + 0.5, &at);
-            if (covers == 0)
+            if (!true_place_of(pass->scene, s, x + 0.5, y + 0.5, &at))
                 continue;
             true_shade(pass->scene, s, &at, (double)pass->depth[pixel], rgba);
             if (s->additive && !draw->sum_alpha && !draw->fire_covers)
                 rgba[3] = 0;
-            for (int i = 0; i < 2 && !draw->by_fragment; i++)
-                true_blend(&pass->pictures[i], covers, pixel, rgba, s->bloom, draw->sum_alpha);
-            if (draw->by_fragment && (rgba[0] != 0 || rgba[1] != 0 || rgba[2] != 0 || rgba[3] != 0))
-                true_split(&pass->list, s, &at, rgba, covers, pixel, number);
+            if (!draw->by_fragment)
+                true_blend(pass->picture, pixel, rgba, s->bloom, draw->sum_alpha);
+            else if (rgba[0] != 0 || rgba[1] != 0 || rgba[2] != 0 || rgba[3] != 0)
+                true_split(&pass->list, s, &at, rgba, pixel, number);
         }
     }
 }
 
 void true_draw(const struct true_scene *scene, const struct kiln_particles_draw *draw,
-               struct true_picture pictures[2])
+               struct true_picture *picture)
 {
     struct kiln_error error = {0};
     struct true_pass pass = {
-        scene, draw, kiln_image_host(draw->depth, KILN_READ, &error), {0}, pictures};
+        scene, draw, kiln_image_host(draw->depth, KILN_READ, &error), {0}, picture};
     const uint32_t *entries = kiln_buffer_host(draw->entries, KILN_READ, &error);
     const struct kiln_particle *records =
         kiln_buffer_host(&draw->moment->pool->records, KILN_READ, &error);
@@ -149,8 +143,7 @@ void true_draw(const struct true_scene *scene, const struct kiln_particles_draw 
         qsort(list.all, list.count, sizeof *list.all, true_compare);
     for (size_t i = 0; i < list.count; i++) {
         const struct true_fragment *f = &list.all[i];
-        for (int k = 0; k < 2; k++)
-            true_blend(&pictures[k], f->covers, f->pixel, f->rgba, f->glow, false);
+        true_blend(picture, f->pixel, f->rgba, f->glow, false);
     }
     free(list.all);
 }

@@ -11,15 +11,14 @@
 /* What was drawn, premultiplied: red, green, blue and alpha; and the same of the glow. */
 struct true_picture {
     uint32_t width, height;
-    int covers; /* TRUE_EXACT or TRUE_SNAPPED: what a sprite is drawn to */
     double (*color)[4], (*glow)[4];
 };
 
-void true_picture_init(struct true_picture *picture, int covers, uint32_t width, uint32_t height);
+void true_picture_init(struct true_picture *picture, uint32_t width, uint32_t height);
 void true_picture_finish(struct true_picture *picture);
 
-/* Draws what kiln_particles_run draws, farthest first, over two pictures at once. */
+/* Draws what kiln_particles_run draws, farthest first. */
 void true_draw(const struct true_scene *scene, const struct kiln_particles_draw *draw,
-               struct true_picture pictures[2]);
+               struct true_picture *picture);
 
 #endif

@@ -8,7 +8,6 @@
 
 /* The parts of a pixel on which GL rasterisers put corners (GL_SUBPIXEL_BITS), which says what
  * pixels a thin sprite covers, and nothing else. */
-#define TRUE_SNAP (1.0 / 256)
 
 /* ---- light ----------------------------------------------------------------------------------- */
 
@@ -189,31 +188,31 @@ static dvec true_corner(const struct true_sprite *s, int i)
     return dvec_add(dvec_add(s->center, s->right, across), s->up, along);
 }
 
-/* Its corners, and pixels that it may touch. */
+/* Pixels that it may touch; all, where a corner is behind the eye. */
 static void true_bound(const struct true_scene *t, struct true_sprite *s)
 {
     const double size[2] = {(double)t->view->frustum.z, (double)t->view->frustum.w};
     double low[2] = {1e9, 1e9}, high[2] = {-1e9, -1e9};
+    bool behind = false;
     for (int i = 0; i < 4; i++) {
-        double *at = s->corners[i];
+        double at[2];
         if (s->plain) {
             double across = (i == 1 || i == 2 ? 1 : -1) * (s->extent[0] + 0.5);
             double along = (i < 2 ? 1 : -1) * (s->extent[1] + 0.5);
             at[0] = s->middle[0] + s->way[0] * across - s->way[1] * along;
             at[1] = s->middle[1] + s->way[1] * across + s->way[0] * along;
         } else {
-            s->behind = s->behind || -true_corner(s, i).z < 1e-6;
+            behind = behind || -true_corner(s, i).z < 1e-6;
             true_pixel(t, true_corner(s, i), at);
         }
         for (int k = 0; k < 2; k++) {
-            at[k] = floor(at[k] / TRUE_SNAP + 0.5) * TRUE_SNAP;
             low[k] = fmin(low[k], at[k]);
             high[k] = fmax(high[k], at[k]);
         }
     }
     for (int k = 0; k < 2; k++) {
-        s->box[k] = s->behind ? 0 : (int)fmin(fmax(floor(low[k]) - 1, 0), size[k]);
-        s->box[2 + k] = s->behind ? (int)size[k] : (int)fmin(fmax(ceil(high[k]) + 1, 0), size[k]);
+        s->box[k] = behind ? 0 : (int)fmin(fmax(floor(low[k]) - 1, 0), size[k]);
+        s->box[2 + k] = behind ? (int)size[k] : (int)fmin(fmax(ceil(high[k]) + 1, 0), size[k]);
     }
 }
 
@@ -321,19 +320,6 @@ bool true_sprite_make(const struct true_scene *t, uint32_t entry,
 
 /* ---- pixels ---------------------------------------------------------------------------------- */
 
-/* Inside of corners that go around in either direction. */
-static bool true_inside(double const corners[4][2], double x, double y)
-{
-    int left = 0, right = 0;
-    for (int i = 0; i < 4; i++) {
-        const double *a = corners[i], *b = corners[(i + 1) % 4];
-        double side = (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
-        left += side > 0;
-        right += side < 0;
-    }
-    return left == 0 || right == 0;
-}
-
 static bool true_place_plain(const struct true_sprite *s, double x, double y, struct true_place *at)
 {
     double dx = x - s->middle[0], dy = y - s->middle[1];
@@ -344,27 +330,22 @@ static bool true_place_plain(const struct true_sprite *s, double x, double y, st
     return fabs(at->u) <= s->extent[0] + 0.5 && fabs(at->v) <= s->extent[1] + 0.5;
 }
 
-int true_place_of(const struct true_scene *t, const struct true_sprite *s, double x, double y,
-                  struct true_place *at)
+bool true_place_of(const struct true_scene *t, const struct true_sprite *s, double x, double y,
+                   struct true_place *at)
 {
-    bool exact;
-    if (s->plain) {
-        exact = true_place_plain(s, x, y, at);
-    } else {
-        const float4 f = t->view->frustum;
-        dvec ray = {(2 * x / (double)f.z - 1) * (double)f.x,
-                    (1 - 2 * y / (double)f.w) * (double)f.y, -1};
-        dvec normal = dvec_cross(s->right, s->up);
-        at->depth = dvec_dot(s->center, normal) / dvec_dot(ray, normal);
-        dvec from_middle = dvec_add(dvec_scale(ray, at->depth), s->center, -1);
-        double a = dvec_dot(dvec_cross(from_middle, s->up), normal) / dvec_dot(normal, normal);
-        double b = dvec_dot(dvec_cross(s->right, from_middle), normal) / dvec_dot(normal, normal);
-        at->u = 0.5 + 0.5 * a;
-        at->v = 0.5 - 0.5 * b;
-        exact = at->depth > 0 && fabs(a) <= 1 && fabs(b) <= 1;
-    }
-    bool snapped = s->behind ? exact : true_inside(s->corners, x, y);
-    return (exact ? TRUE_EXACT : 0) | (snapped ? TRUE_SNAPPED : 0);
+    if (s->plain)
+        return true_place_plain(s, x, y, at);
+    const float4 f = t->view->frustum;
+    dvec ray = {(2 * x / (double)f.z - 1) * (double)f.x, (1 - 2 * y / (double)f.w) * (double)f.y,
+                -1};
+    dvec normal = dvec_cross(s->right, s->up);
+    at->depth = dvec_dot(s->center, normal) / dvec_dot(ray, normal);
+    dvec from_middle = dvec_add(dvec_scale(ray, at->depth), s->center, -1);
+    double a = dvec_dot(dvec_cross(from_middle, s->up), normal) / dvec_dot(normal, normal);
+    double b = dvec_dot(dvec_cross(s->right, from_middle), normal) / dvec_dot(normal, normal);
+    at->u = 0.5 + 0.5 * a;
+    at->v = 0.5 - 0.5 * b;
+    return at->depth > 0 && fabs(a) <= 1 && fabs(b) <= 1;
 }
 
 /* Channels of a grid of bytes between its texels, clamped at its edge. */

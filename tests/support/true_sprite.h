@@ -1,5 +1,5 @@
-/* One particle for true_billboards.h: shaders/draw/sprites/particle.glsl, corner.glsl and
- * shade.glsl in double precision. Only what the definition rounds is in floats: age, random
+/* One particle for true_billboards.h: shaders/draw/sprites/particle.glsl, outline.glsl
+ * and shade.glsl in double precision. Only what the definition rounds is in floats: age, random
  * numbers, the choice of a cell.
  */
 #ifndef KILN_TESTS_TRUE_SPRITE_H
@@ -20,9 +20,6 @@ struct true_scene {
     float4 *table;
 };
 
-/* Where a sprite covers a pixel: as defined, and with its corners snapped. */
-enum { TRUE_EXACT = 1, TRUE_SNAPPED = 2 };
-
 struct true_sprite {
     bool plain, disc, masks, additive, literal;
     dvec center, right, up; /* half edges, view space, m */
@@ -32,9 +29,7 @@ struct true_sprite {
     double part, motion;
     /* Plain ones lie in the picture, px: middle, unit way, half edges, 1/m at both ends. */
     double middle[2], way[2], extent[2], near[2];
-    double corners[4][2]; /* around the quad, snapped, px */
-    bool behind;          /* the eye, some of them: not snapped */
-    int box[4];           /* pixels: x and y from, x and y to */
+    int box[4]; /* pixels: x and y from, x and y to */
 };
 
 /* A place of a sprite. Of plain ones, u and v are pixels from the middle. */
@@ -46,9 +41,9 @@ struct true_place {
 bool true_sprite_make(const struct true_scene *t, uint32_t entry,
                       const struct kiln_particle *record, struct true_sprite *s);
 
-/* Where the ray through a place of the picture meets it: how it covers that. */
-int true_place_of(const struct true_scene *t, const struct true_sprite *s, double x, double y,
-                  struct true_place *at);
+/* Where the ray through a place of the picture meets it; false: nowhere. */
+bool true_place_of(const struct true_scene *t, const struct true_sprite *s, double x, double y,
+                   struct true_place *at);
 
 /* Premultiplied; alpha as of one that covers. */
 void true_shade(const struct true_scene *t, const struct true_sprite *s,

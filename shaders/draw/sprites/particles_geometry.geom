@@ -10,19 +10,29 @@ layout(std140, binding = KILN_BIND_VIEW) uniform view_block { kiln_view view; };
 
 #include "draw/sprites/billboard.glsl"
 
-layout(location = 0) in vec4 center[];
-layout(location = 1) in vec4 right[];
-layout(location = 2) in vec4 up[];
-layout(location = 3) in billboard particle[];
+layout(location = 0) in vec4 point_center[];
+layout(location = 1) in vec4 point_right[];
+layout(location = 2) in vec4 point_up[];
+layout(location = 3) in billboard point_particle[];
+
+vec4 center, right, up;
+billboard particle;
 
 #include "draw/sprites/corner.glsl"
 
 void main()
 {
-    if (!is_seen(center[0], particle[0]))
+    center = point_center[0];
+    right = point_right[0];
+    up = point_up[0];
+    particle = point_particle[0];
+    if (!is_seen(center, particle))
+        return;
+    outline s = find_any_outline();
+    if (!s.seen)
         return;
     for (int i = 0; i < 4; i++) {
-        put_corner(i, center[0], right[0], up[0], particle[0]);
+        put_corner(i, s);
         EmitVertex();
     }
     EndPrimitive();

@@ -13,15 +13,17 @@
 vec4 center, right, up;
 billboard particle;
 
-#include "draw/sprites/corner.glsl"
 #include "draw/sprites/particle.glsl"
+
+#include "draw/sprites/corner.glsl"
 
 void main()
 {
     make_particle(entries[gl_InstanceID]);
     particle.light_y.a = float(gl_InstanceID);
-    if (is_seen(center, particle))
-        put_corner(gl_VertexID, center, right, up, particle);
+    outline s = find_any_outline();
+    if (is_seen(center, particle) && s.seen)
+        put_corner(gl_VertexID, s);
     else
         gl_Position = vec4(0.0, 0.0, 0.0, 1.0); /* all corners at one place */
 }

@@ -5,49 +5,41 @@
 // variant: SHAPES=1
 #include "shared/draw_layout.h"
 
-#include "draw/sprites/billboard.glsl"
-
 layout(early_fragment_tests) in;
 
-layout(binding = 2) uniform sampler2D scene_depth;
-
-layout(location = 0) in vec2 uv;
-layout(location = 1) flat in billboard quad;
-#if SHAPES
-layout(location = 11) in float view_depth; /* of points and lines: its reciprocal */
-#endif
-
+#include "draw/sprites/fragment.glsl"
 #include "draw/sprites/fragments.glsl"
 #include "draw/sprites/fragments_pixel.glsl"
-#include "draw/sprites/shade.glsl"
 
 uniform bool fills;
 
 /* number: on the list. None is longer than counted, lest it writes into the next one's place. */
 void put(uint number, float depth, uint half_, vec4 color)
 {
-    uint pixel = pixel_number(), place = places[pixel].first + number;
+    uint pixel = pixel_number(), next = places[pixel].first + number;
     if (number >= counts[pixel])
         return;
-    list_keys[place] = uvec4(floatBitsToUint(depth), uint(quad.light_y.a) * 2u + half_, place, 0u);
-    fragments[place].color = color;
-    fragments[place].bloom = vec4(quad.bloom.rgb, 0.0);
+    list_keys[next] = uvec4(floatBitsToUint(depth), uint(quad.light_y.a) * 2u + half_, next, 0u);
+    fragments[next].color = color;
+    fragments[next].bloom = vec4(quad.bloom.rgb, 0.0);
 }
 
 void main()
 {
-    float depth = quad.depth.x, bulge = quad.light_x.a;
+    vec2 at;
+    float depth, bulge = quad.light_x.a;
+    if (!is_covered(at, depth))
+        return;
 #if SHAPES
-    depth = is_plain(quad) ? 1.0 / view_depth : view_depth;
     if (is_plain(quad))
         bulge = 0.0;
 #endif
     float scene = texelFetch(scene_depth, ivec2(gl_FragCoord.xy), 0).r;
     vec4 color, bloom;
-    shade(quad, uv, depth, scene, color, bloom);
+    shade(quad, at, depth, scene, color, bloom);
     if (color == vec4(0.0))
         return;
-    vec2 from_middle = uv * 2.0 - 1.0;
+    vec2 from_middle = at * 2.0 - 1.0;
     float half_depth = 0.5 * bulge * sqrt(max(1.0 - dot(from_middle, from_middle), 0.0));
     uint pieces = half_depth > 0.0 ? 2u : 1u;
     if (!fills) {

@@ -45,6 +45,7 @@ layout(location = 4) uniform float over;   /* 1: what covers hides what is behin
 layout(location = 5) uniform float unseen; /* what may be left out of the chunk */
 layout(location = 6) uniform uvec2 span;   /* words of masks that are drawn now, from a whole round on */
 
+#include "draw/sprites/place.glsl"
 #include "draw/sprites/shade.glsl"
 
 const uint WORDS = uint(TILED_ROUND_WORDS);
@@ -120,24 +121,15 @@ void draw(uint i, vec2 first)
     int row = int(i) * TILED_SPRITE_ROWS;
     vec4 u = texelFetch(sprites, row + SPRITE_U), v = texelFetch(sprites, row + SPRITE_V);
     billboard quad = fetch_quad(row + SPRITE_QUAD);
+    place rows = place(u, v, vec4(0.0), vec2(0.0));
 #if SHAPES
-    vec4 q = texelFetch(sprites, row + SPRITE_Q);
-    vec2 edge = texelFetch(sprites, row + SPRITE_MOST).xy;
-    bool plain = edge.x > 0.0;
-    vec2 low = plain ? -edge : vec2(0.0), high = plain ? edge : vec2(1.0);
-#else
-    vec2 low = vec2(0.0), high = vec2(1.0);
+    rows.q = texelFetch(sprites, row + SPRITE_Q);
+    rows.edge = texelFetch(sprites, row + SPRITE_MOST).xy;
 #endif
     for (uint k = 0u; k < PIXELS; k++) {
-        vec2 from_anchor = first + vec2(0.0, float(k * ROWS)) - vec2(u.w, v.w);
-        vec2 at = vec2(u.x + dot(u.yz, from_anchor), v.x + dot(v.yz, from_anchor));
+        vec2 at;
         float depth = quad.depth.x;
-#if SHAPES
-        float near = q.x + dot(q.yz, from_anchor);
-        depth = near > 0.0 ? 1.0 / near : 0.0;
-        at = near > 0.0 ? (plain ? at : at * depth) : high;
-#endif
-        if (all(greaterThanEqual(at, low)) && all(lessThan(at, high))) {
+        if (place_covers(rows, first + vec2(0.0, float(k * ROWS)), depth, at)) {
             vec4 color, glow;
             shade(quad, at, depth, pixels[k].scene, color, glow);
             float passed = pixels[k].glow.a;

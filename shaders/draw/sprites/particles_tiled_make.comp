@@ -35,17 +35,7 @@ billboard particle;
 
 #include "draw/sprites/particle.glsl"
 
-/* Where it is in the picture. */
-struct place {
-    vec4 u, v, q, most; /* rows of the sprite */
-    uvec2 box;
-};
-
-/* Pixels from the top left, of a point before the eye. */
-vec2 to_pixels(vec3 v)
-{
-    return view.frustum.zw * (0.5 + vec2(v.x, -v.y) / view.frustum.xy * (0.5 / -v.z));
-}
+#include "draw/sprites/outline.glsl"
 
 /* The pixels between two places, within the picture. */
 uvec2 box_of(vec2 low, vec2 high)
@@ -57,92 +47,16 @@ uvec2 box_of(vec2 low, vec2 high)
     return uvec2(from.x | from.y << 16, to.x | to.y << 16);
 }
 
-#if SHAPES
-
-/* A linear function of view space, as one of the pixels about the anchor. */
-vec4 plane_of(vec3 row, vec2 anchor, float w)
+/* What reaches behind the eye may be anywhere. */
+uvec2 box_around(outline s)
 {
-    vec2 slope = row.xy * 2.0 * view.frustum.xy / view.frustum.zw * vec2(1.0, -1.0);
-    return vec4(dot(slope, anchor - 0.5 * view.frustum.zw) - row.z, slope, w);
+    if (!s.seen)
+        return uvec2(0u);
+    if (!s.before)
+        return box_of(vec2(0.0), view.frustum.zw);
+    return box_of(min(min(s.corners[0], s.corners[1]), min(s.corners[2], s.corners[3])),
+                  max(max(s.corners[0], s.corners[1]), max(s.corners[2], s.corners[3])));
 }
-
-/* A billboard in any plane: a point of the picture is a direction d, and with the inverse of the
- * matrix of right, up and centre, (a, b, 1) / depth = inverse * d. */
-place find_place()
-{
-    place s;
-    vec2 anchor = to_pixels(center.xyz);
-    vec3 normal = cross(right.xyz, up.xyz);
-    float det = dot(normal, center.xyz);
-    float scale = abs(det) > 1e-12 ? 1.0 / det : 0.0;
-    vec3 a = cross(up.xyz, center.xyz) * scale, b = cross(center.xyz, right.xyz) * scale;
-    normal *= scale;
-    s.u = plane_of(0.5 * (normal + a), anchor, anchor.x);
-    s.v = plane_of(0.5 * (normal - b), anchor, anchor.y);
-    s.q = plane_of(normal, anchor, 0.0);
-    vec2 low = view.frustum.zw, high = vec2(0.0);
-    float least = -center.z;
-    for (int i = 0; i < 4; i++) {
-        vec2 corner = vec2((i & 1) == 0 ? -1.0 : 1.0, (i & 2) == 0 ? -1.0 : 1.0);
-        vec3 at = center.xyz + (right.xyz * corner.x + up.xyz * corner.y);
-        bool before = -at.z >= 1e-3 * -center.z; /* what reaches behind the eye may be anywhere */
-        vec2 pixel = to_pixels(vec3(at.xy, before ? at.z : -1.0));
-        low = min(low, before ? pixel : vec2(0.0));
-        high = max(high, before ? pixel : view.frustum.zw);
-        least = before ? min(least, -at.z) : 0.0;
-    }
-    s.most = vec4(0.0, 0.0, max(least, 0.0), 0.0);
-    s.box = scale == 0.0 ? uvec2(0u) : box_of(low, high);
-    return s;
-}
-
-/* A line, or a point as a line of no length: see draw/sprites/corner.glsl. */
-place find_plain_place()
-{
-    place s;
-    vec3 head = center.xyz, tail = head + up.xyz;
-    float near = max(view.eye.w, 1e-3);
-    if (-tail.z < near)
-        tail = mix(head, tail, (-head.z - near) / (tail.z - head.z));
-    vec2 from = to_pixels(tail), to = to_pixels(head), way = to - from;
-    float way_px = length(way);
-    vec2 along = way_px > 1e-3 ? way / way_px : vec2(1.0, 0.0);
-    vec2 extent = vec2(0.5 * way_px, 0.0) + right.w, middle = 0.5 * (from + to);
-    vec2 edge = extent + 0.5;
-    s.u = vec4(0.0, along, middle.x);
-    s.v = vec4(0.0, -along.y, along.x, middle.y);
-    /* From end to end, rims and all, the reciprocal of the depth changes evenly. */
-    float first = 1.0 / -tail.z, last = 1.0 / -head.z;
-    s.q = vec4(0.5 * (first + last), along * (0.5 * (last - first) / edge.x), 0.0);
-    s.most = vec4(edge, 1.0 / max(first, last), 0.0);
-    particle.cells.xy = extent;
-    vec2 reach = abs(along) * edge.x + abs(along.yx) * edge.y;
-    s.box = box_of(middle - reach, middle + reach);
-    return s;
-}
-
-#else
-
-/* A billboard parallel to the picture. */
-place find_place()
-{
-    place s;
-    float depth = -center.z;
-    vec2 middle = to_pixels(center.xyz);
-    vec2 scale = 0.5 * view.frustum.zw / (view.frustum.xy * depth) * vec2(1.0, -1.0);
-    vec2 r = right.xy * scale, u = up.xy * scale; /* half edges, px */
-    float det = r.x * u.y - u.x * r.y;
-    float half_edge = abs(det) > 1e-12 ? 0.5 / det : 0.0;
-    s.u = vec4(0.5, vec2(u.y, -u.x) * half_edge, middle.x);
-    s.v = vec4(0.5, vec2(r.y, -r.x) * half_edge, middle.y);
-    s.q = vec4(0.0);
-    s.most = vec4(0.0, 0.0, depth, 0.0);
-    vec2 reach = abs(r) + abs(u);
-    s.box = half_edge == 0.0 ? uvec2(0u) : box_of(middle - reach, middle + reach);
-    return s;
-}
-
-#endif
 
 /* The most that the particle can add to a channel of either target. */
 float most_added()
@@ -155,12 +69,13 @@ float most_added()
     return particle.hot.a > 0.0 && additive_alpha == 0.0 ? -most : max(most, 1.0);
 }
 
-void write(uint row, place s)
+void write(uint row, outline s)
 {
-    sprites[row + uint(SPRITE_U)] = s.u;
-    sprites[row + uint(SPRITE_V)] = s.v;
-    sprites[row + uint(SPRITE_Q)] = s.q;
-    sprites[row + uint(SPRITE_MOST)] = s.most;
+    float least = s.before ? s.least : 0.0;
+    sprites[row + uint(SPRITE_U)] = s.rows.u;
+    sprites[row + uint(SPRITE_V)] = s.rows.v;
+    sprites[row + uint(SPRITE_Q)] = s.rows.q;
+    sprites[row + uint(SPRITE_MOST)] = vec4(s.rows.edge, least, most_added());
     row += uint(SPRITE_QUAD);
     sprites[row] = particle.color;
     sprites[row + 1u] = particle.hot;
@@ -194,13 +109,8 @@ void main()
     make_particle(entries[first + i]);
     uvec2 box = uvec2(0u);
     if (-center.z > view.eye.w && particle.color.a > 0.0) {
-#if SHAPES
-        place s = center.w > 0.0 ? find_plain_place() : find_place();
-#else
-        place s = find_place();
-#endif
-        s.most.w = most_added();
-        box = s.box;
+        outline s = find_any_outline();
+        box = box_around(s);
         write(i * uint(TILED_SPRITE_ROWS), s);
     }
     boxes[i] = box;

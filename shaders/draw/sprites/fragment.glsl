@@ -1,0 +1,27 @@
+/* What a fragment of a billboard gets. */
+#include "draw/sprites/billboard.glsl"
+#include "draw/sprites/place.glsl"
+
+layout(binding = 2) uniform sampler2D scene_depth;
+
+layout(location = 0) flat in vec4 place_u;
+layout(location = 1) flat in billboard quad;
+layout(location = 11) flat in vec4 place_v;
+#if SHAPES
+layout(location = 12) flat in vec4 place_q;
+#endif
+
+#include "draw/sprites/shade.glsl"
+
+/* Does the particle cover the fragment? Where on it that is, and how far from the eye, m. */
+bool is_covered(out vec2 at, out float depth)
+{
+    place rows = place(place_u, place_v, vec4(0.0), vec2(0.0));
+    depth = quad.depth.x;
+#if SHAPES
+    rows.q = place_q;
+    if (is_plain(quad))
+        rows.edge = quad.cells.xy + 0.5;
+#endif
+    return place_covers(rows, gl_FragCoord.xy, depth, at);
+}
