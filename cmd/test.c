@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "build.h"
 #include "command.h"
 #include "report.h"
 #include "signals.h"
@@ -77,7 +78,14 @@ static const struct option options[] = {
      .help = "Judge by the metrics alone, as if neither state nor pixels had ever been hashed."},
     {.name = "strict",
      .kind = OPTION_FLAG,
-     .help = "On a device whose pixels are known, let only those pass."},
+     .help =
+         "On a device whose pixels are known, let only those pass; on 'cpu', they must be known."},
+    {.name = "against",
+     .kind = OPTION_TEXT,
+     .placeholder = "PROGRAM",
+     .help =
+         "Of frames whose pixels have changed, draw the accepted side with another kiln, and say "
+         "whether it draws what was accepted."},
     OUTPUT_OPTIONS("report.html in the results"),
     HELP_OPTION,
 };
@@ -228,7 +236,7 @@ static int finish(struct test_run *run, struct test_outputs *outputs, double tot
     if (!run->lines.quiet || code) {
         if (summary.tests > 0)
             test_lines_counts(run->lines.out, &summary);
-        test_lines_end(&run->lines, outputs->page);
+        test_lines_end(&run->lines, &summary, outputs->page);
     }
     if (code == 0 && nothing)
         return report(KILN_NO_DEVICE,
@@ -296,6 +304,8 @@ static int read_options(struct test_run *run, struct test_outputs *outputs,
     params->dry_run = arguments_flag(arguments, "dry-run");
     params->ignore_hashes = arguments_flag(arguments, "ignore-hashes");
     params->strict = arguments_flag(arguments, "strict");
+    params->build = build_name();
+    params->against = arguments_text(arguments, "against", NULL);
     params->log = report_log();
     run->time_limit_s = arguments_number(arguments, "time-limit", 0);
     run->lines.quiet = arguments_flag(arguments, "quiet");
@@ -376,7 +386,9 @@ const struct command test_command = {
         "\n\n"
         "A frame is judged by the hash of the simulation's state, which is the same everywhere; "
         "then by the hash of the picture's pixels on this device; then by how different it looks "
-        "from the golden picture (see 'kiln compare'). A golden that is missing is a failure, and "
+        "from the golden picture (see 'kiln compare'). Other pixels within the limits are a "
+        "change, "
+        "which is told and, with --strict, fails. A golden that is missing is a failure, and "
         "is never written without --update. 'kiln help tests' explains test files.\n\n"
         "Unless a test, --device or a technique that needs OpenGL asks for another device, it is "
         "'cpu', whose pixels are the same on every machine.\n\n"

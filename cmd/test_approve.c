@@ -1,4 +1,7 @@
 /* kiln test approve: the pictures of the last run are right. */
+#include <fnmatch.h>
+#include <string.h>
+
 #include "command.h"
 #include "report.h"
 #include "signals.h"
@@ -11,6 +14,14 @@ static const struct option options[] = {
      .placeholder = "FOLDER",
      .help = "The results of the run.",
      .fallback = DEFAULT_RESULTS},
+    {.name = "all",
+     .kind = OPTION_FLAG,
+     .help = "Every test of the run: what was new, failed, changed or was warned of."},
+    {.name = "device",
+     .kind = OPTION_TEXT,
+     .placeholder = "DEVICE",
+     .help = "Only what a device drew whose name has this in it.",
+     .fallback = "any"},
     {.name = "as",
      .kind = OPTION_CHOICE,
      .placeholder = "replace|device|alternative",
@@ -25,56 +36,108 @@ static const struct option options[] = {
     HELP_OPTION,
 };
 
-struct listing {
+struct approval {
+    struct kiln_approve_params params;
     bool quiet;
-    uint32_t count;
+    uint32_t count; /* files written for the test at hand */
+    uint32_t all;   /* tests of which something was accepted */
+    enum kiln_code code;
 };
 
 static void print_change(void *user, const char *line)
 {
-    struct listing *listing = user;
-    listing->count++;
-    if (!listing->quiet)
+    struct approval *approval = user;
+    approval->count++;
+    if (!approval->quiet)
         printf("%s\n", line);
+}
+
+/* named: by the user, who is told when there is nothing to accept. */
+static void approve(struct approval *approval, const char *name, bool named)
+{
+    struct kiln_error error = {0};
+    approval->params.name = name;
+    approval->count = 0;
+    if (!kiln_test_approve(&approval->params, &error)) {
+        report_error(&error);
+        approval->code = kiln_code_worse(approval->code, error.code);
+    } else if (approval->count == 0 && named && !approval->quiet) {
+        printf("%s: nothing to accept, every picture passes\n", name);
+    }
+    approval->all += approval->count > 0;
+}
+
+static bool is_pattern(const char *operand)
+{
+    return operand[strcspn(operand, "*?[")] != '\0';
+}
+
+/* The tests of the last run that a pattern means; without one, all. */
+static int approve_matching(struct approval *approval, const char *pattern)
+{
+    struct kiln_error error = {0};
+    struct kiln_results *results = kiln_results_load(&approval->params.results, 1, &error);
+    if (!results)
+        return report_error(&error);
+    const uint32_t count = kiln_results_summary(results).tests, before = approval->all;
+    bool any = !pattern;
+    for (uint32_t i = 0; i < count; i++) {
+        const char *name = kiln_results_name(results, i);
+        if (pattern && fnmatch(pattern, name, 0) != 0)
+            continue;
+        any = true;
+        approve(approval, name, false);
+    }
+    kiln_results_destroy(&results);
+    if (!any)
+        return report(KILN_USAGE, "test approve: no result of a test like '%s' in %s", pattern,
+                      approval->params.results);
+    if (approval->all == before && approval->code == KILN_OK && !approval->quiet)
+        printf("%s: nothing to accept, every picture passes\n", pattern ? pattern : "all tests");
+    return 0;
 }
 
 static int run(const struct arguments *arguments)
 {
-    enum kiln_code code = KILN_OK;
+    const bool all = arguments_flag(arguments, "all");
+    struct approval approval = {.quiet = arguments_flag(arguments, "quiet")};
+    approval.params = (struct kiln_approve_params){
+        .results = arguments_text(arguments, "results", DEFAULT_RESULTS),
+        .as = (enum kiln_approve_as)arguments_choice(arguments, "as", KILN_APPROVE_REPLACE),
+        .device = arguments_text(arguments, "device", NULL),
+        .dry_run = arguments_flag(arguments, "dry-run"),
+        .change = print_change,
+        .user = &approval};
+    if (all == (arguments->operand_count > 0))
+        return report(KILN_USAGE, all ? "test approve: --all takes no names"
+                                      : "test approve: which tests? name them, or --all");
     signals_end_at_once(); /* whole pictures only */
+    int code = all ? approve_matching(&approval, NULL) : 0;
     for (size_t i = 0; i < arguments->operand_count; i++) {
-        struct listing listing = {.quiet = arguments_flag(arguments, "quiet")};
-        const struct kiln_approve_params params = {
-            .results = arguments_text(arguments, "results", DEFAULT_RESULTS),
-            .name = arguments->operands[i],
-            .as = (enum kiln_approve_as)arguments_choice(arguments, "as", KILN_APPROVE_REPLACE),
-            .dry_run = arguments_flag(arguments, "dry-run"),
-            .change = print_change,
-            .user = &listing};
-        struct kiln_error error = {0};
-        if (!kiln_test_approve(&params, &error)) {
-            report_error(&error);
-            code = kiln_code_worse(code, error.code);
-        } else if (listing.count == 0 && !listing.quiet) {
-            printf("%s: nothing to accept, every picture passes\n", params.name);
-        }
+        const char *operand = arguments->operands[i];
+        if (!is_pattern(operand))
+            approve(&approval, operand, true);
+        else
+            code = (int)kiln_code_worse((enum kiln_code)code,
+                                        (enum kiln_code)approve_matching(&approval, operand));
     }
-    return (int)code;
+    return (int)kiln_code_worse((enum kiln_code)code, approval.code);
 }
 
 const struct command test_approve_command = {
     .name = "test approve",
     .summary = "accept pictures of the last run as goldens",
-    .operands = "NAME...",
+    .operands = "[NAME | PATTERN]...",
     .description =
-        "Accepts what the last run of each test rendered, where it was new, failed or was warned "
-        "of: the pictures become goldens, and their hashes are expected from then on. Nothing is "
+        "Accepts what the last run of each test rendered, where it was new, failed, changed or "
+        "was warned of: the pictures become goldens, and their hashes are expected from then on. "
+        "Nothing is "
         "rendered: what is accepted is what was looked at. Results are refused when the scene, the "
         "pictures or the goldens have changed since.\n\n"
-        "One test that cannot be accepted does not keep the others from it.",
+        "A pattern as 'effects/*' means the tests of the last run that it matches, and --all every "
+        "one. One test that cannot be accepted does not keep the others from it.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
-    .least_operands = 1,
     .most_operands = SIZE_MAX,
     .run = run,
 };

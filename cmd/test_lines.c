@@ -8,7 +8,7 @@
 #include "test_files.h"
 #include "test_select.h"
 
-enum { MAX_NAME_WIDTH = 40, STATUS_WIDTH = 5 };
+enum { MAX_NAME_WIDTH = 40, STATUS_WIDTH = 6 };
 
 static const char *colour_of(enum kiln_test_status status)
 {
@@ -18,6 +18,7 @@ static const char *colour_of(enum kiln_test_status status)
     case KILN_TEST_SKIP:
         return "\033[2m"; /* faint */
     case KILN_TEST_WARN:
+    case KILN_TEST_CHANGE:
     case KILN_TEST_NEW:
         return "\033[33m"; /* yellow */
     default:
@@ -101,10 +102,8 @@ void test_lines_test(struct test_lines *lines, const struct kiln_suite *suite, s
     print_notes(lines, suite, index, summary, silent);
     if (summary->status == KILN_TEST_ERROR)
         print_log_place(lines, kiln_suite_test(suite, index).results);
-    if (summary->status == KILN_TEST_NEW || summary->status == KILN_TEST_FAIL) {
-        size_t most = sizeof lines->accept / sizeof *lines->accept;
-        if (lines->accept_count < most)
-            lines->accept[lines->accept_count] = kiln_suite_test(suite, index).name;
+    if (summary->status >= KILN_TEST_CHANGE && summary->status <= KILN_TEST_FAIL) {
+        lines->accept = kiln_suite_test(suite, index).name;
         lines->accept_count++;
     }
     fflush(lines->out);
@@ -125,25 +124,22 @@ void test_lines_counts(FILE *out, const struct kiln_results_summary *summary)
     fputc('\n', out);
 }
 
-static void print_approvals(const struct test_lines *lines)
+/* One command: of a test, or of all of them. */
+static void print_approval(const struct test_lines *lines)
 {
     FILE *out = lines->out;
-    size_t shown = sizeof lines->accept / sizeof *lines->accept;
-    if (lines->accept_count < shown)
-        shown = lines->accept_count;
-    if (shown > 0)
-        fprintf(out, "where the pictures are right, accept them:\n");
-    for (size_t i = 0; i < shown; i++) {
-        fprintf(out, "  kiln test approve ");
-        kiln_write_shell_word(out, lines->accept[i]);
-        if (strcmp(lines->results, DEFAULT_RESULTS) != 0) {
-            fprintf(out, " --results ");
-            kiln_write_shell_word(out, lines->results);
-        }
-        fputc('\n', out);
+    if (lines->accept_count == 0)
+        return;
+    fprintf(out, "where the pictures are right, accept them: kiln test approve ");
+    if (lines->accept_count > 1)
+        fprintf(out, "--all");
+    else
+        kiln_write_shell_word(out, lines->accept);
+    if (strcmp(lines->results, DEFAULT_RESULTS) != 0) {
+        fprintf(out, " --results ");
+        kiln_write_shell_word(out, lines->results);
     }
-    if (lines->accept_count > shown)
-        fprintf(out, "  and %u more\n", lines->accept_count - (uint32_t)shown);
+    fputc('\n', out);
 }
 
 static void print_unused(const struct test_lines *lines)
@@ -157,7 +153,8 @@ static void print_unused(const struct test_lines *lines)
         fprintf(lines->out, "and %zu more folders of goldens that no test uses\n", count - SHOWN);
 }
 
-void test_lines_end(const struct test_lines *lines, const char *page)
+void test_lines_end(const struct test_lines *lines, const struct kiln_results_summary *summary,
+                    const char *page)
 {
     if (page)
         fprintf(lines->out, "report: %s\n", page);
@@ -169,5 +166,9 @@ void test_lines_end(const struct test_lines *lines, const char *page)
         fprintf(lines->out, "%u picture%s would be written; this was a dry run\n", lines->to_write,
                 lines->to_write == 1 ? "" : "s");
     print_unused(lines);
-    print_approvals(lines);
+    print_approval(lines);
+    if (summary->tests > 0) {
+        kiln_write_frames(lines->out, summary);
+        fputc('\n', lines->out);
+    }
 }

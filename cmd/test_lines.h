@@ -12,7 +12,7 @@ struct test_lines {
     int name_width;             /* of the column of names */
     const char *results;        /* the folder, as given */
     uint32_t written, to_write; /* pictures that updates wrote, or would write */
-    const char *accept[10];     /* the first tests whose pictures might be accepted */
+    const char *accept;         /* a test whose pictures might be accepted */
     uint32_t accept_count;      /* of all such tests */
 };
 
@@ -26,7 +26,10 @@ void test_lines_test(struct test_lines *lines, const struct kiln_suite *suite, s
 /* "5 tests in 1.234 s: 4 pass, 1 fail" */
 void test_lines_counts(FILE *out, const struct kiln_results_summary *summary);
 
-/* What to look at and what to do next; page may be NULL. */
-void test_lines_end(const struct test_lines *lines, const char *page);
+/* What to look at and what to do next, and at last by what the frames were judged; page may be
+ * NULL.
+ */
+void test_lines_end(const struct test_lines *lines, const struct kiln_results_summary *summary,
+                    const char *page);
 
 #endif

@@ -31,6 +31,8 @@ static int write_reports(const struct arguments *arguments, struct test_outputs 
     if (code || !arguments_flag(arguments, "quiet")) {
         FILE *out = outputs->standard_output ? stderr : stdout;
         test_lines_counts(out, &summary);
+        kiln_write_frames(out, &summary);
+        fputc('\n', out);
         if (outputs->page)
             fprintf(out, "report: %s\n", outputs->page);
     }

@@ -11,10 +11,10 @@
  *     kiln_device_close(&device);
  *     kiln_scene_destroy(&scene);
  *
- * Errors: a function that can fail returns false or NULL and fills the error, which must not be
- * NULL. Nothing in the library prints or exits; messages go to the log callback.
- * Threads: a device and what was made with it belong to the thread that opened it. Scenes are
- * immutable once loaded and may be shared. Nothing is global: any number of each may coexist.
+ * Errors: a function that can fail returns false or NULL and fills the error, which is not NULL.
+ * Nothing in the library prints or exits; messages go to the log callback. Threads: a device and
+ * what was made with it belong to the thread that opened it. Scenes are immutable once loaded and
+ * may be shared. Nothing is global.
  */
 #ifndef KILN_H
 #define KILN_H
@@ -80,10 +80,10 @@ struct kiln_scene_params {
     const char *asset_root;
     const char *const *overrides;
     size_t override_count;
-    bool (*stop)(
-        void *user); /* asked while a mesh is imported, now or when it is drawn, which may */
-                     /* take seconds; true ends with KILN_INTERRUPTED; NULL: never */
-    void *user;      /* for as long as the scene lives */
+    /* Asked while a mesh is imported, now or when it is drawn, which may take seconds, for as long
+     * as the scene lives; true ends with KILN_INTERRUPTED; NULL: never. */
+    bool (*stop)(void *user);
+    void *user;
 };
 #define KILN_SCENE_DEFAULTS ((struct kiln_scene_params){.asset_root = NULL})
 
@@ -120,8 +120,7 @@ struct kiln_option_key {
     bool holds_keys;
 };
 
-/* Visits all keys in the order of the reference; the texts last until the visit returns. False when
- * memory is short. */
+/* Visits all keys in the order of the reference; texts last for a visit. False: memory is short. */
 bool kiln_scene_visit_keys(void (*visit)(void *user, const struct kiln_option_key *key),
                            void *user);
 
@@ -191,8 +190,7 @@ struct kiln_device_params {
 bool kiln_environment_check(struct kiln_error *error);
 
 /* Fills up to capacity entries, KILN_DEVICE_CPU first, and returns how many devices there are;
- * *advice (may be NULL) gets what is missing on this machine and the package that mends it, "" if
- * nothing is. */
+ * *advice (may be NULL) gets what this machine lacks and the package that mends it, or "". */
 size_t kiln_device_list(struct kiln_device_info *infos, size_t capacity, char advice[256]);
 
 struct kiln_device *kiln_device_open(const struct kiln_device_params *params,
@@ -255,9 +253,8 @@ struct kiln_flipbook {
     bool motion;
 };
 
-/* Chooses the frames of the cells, evenly out of ascending ranges: the k-th cell of n shows the
- * frame at k/n of them. cells has room for columns * rows entries. KILN_USAGE when the ranges have
- * fewer frames. */
+/* Chooses the frames of the cells, columns * rows, evenly out of ascending ranges: the k-th cell of
+ * n shows the frame at k/n of them. KILN_USAGE when the ranges have fewer frames. */
 bool kiln_flipbook_sample(const struct kiln_flipbook *flipbook,
                           const struct kiln_frame_range *ranges, size_t range_count,
                           struct kiln_frame_range *cells, struct kiln_error *error);
@@ -283,8 +280,7 @@ struct kiln_render_params {
      * the top; until the call returns. */
     void (*picture)(void *user, uint32_t frame, const uint8_t *pixels);
     void (*progress)(void *user, const struct kiln_progress *progress);
-    /* Asked between frames and steps, and while a clip is completed; true ends with
-     * KILN_INTERRUPTED. */
+    /* Asked between frames and steps, and while a clip ends; true ends with KILN_INTERRUPTED. */
     bool (*stop)(void *user);
     void *user;
     struct kiln_log log;
@@ -356,7 +352,6 @@ enum kiln_compare_mode { KILN_COMPARE_AUTO, KILN_COMPARE_LDR, KILN_COMPARE_HDR }
 
 enum { KILN_MAX_COLUMNS = 32, KILN_METRIC_NAME_SIZE = 24 };
 
-/* A metric in a report. */
 struct kiln_compare_column {
     char name[KILN_METRIC_NAME_SIZE]; /* "flip.mean" */
     const char *unit;                 /* "" without one */
@@ -396,7 +391,6 @@ struct kiln_compare_frame {
     double flip_s; /* the time that FLIP took */
 };
 
-/* What a comparison came to. */
 struct kiln_compare_result {
     bool same;     /* every frame is */
     bool sequence; /* not one picture against one */
@@ -476,8 +470,7 @@ enum kiln_sweep_kind {
     KILN_SWEEP_VARIANT,  /* "key=value;key=value": a panel; neighbours make an axis */
 };
 
-/* A sweep: an axis of panels, "key=value,value,...". The key is of the scene, or "frame", or "time"
- * (in seconds). */
+/* An axis of panels, "key=value,value,...", of a key of the scene, "frame" or "time" (in s). */
 struct kiln_figure_sweep {
     enum kiln_sweep_kind kind;
     const char *text;
@@ -571,11 +564,12 @@ struct kiln_figure_entry kiln_figure_list_entry(const struct kiln_figure_list *l
 /* Ordered: of several, the last counts. */
 enum kiln_test_status {
     KILN_TEST_PASS,
-    KILN_TEST_SKIP,  /* not for any device of this machine */
-    KILN_TEST_WARN,  /* within the limits, beyond the warn level */
-    KILN_TEST_NEW,   /* a golden is missing */
-    KILN_TEST_FAIL,  /* the state or a picture differs */
-    KILN_TEST_ERROR, /* nothing that could be judged: the scene, the device, a crash, a hang */
+    KILN_TEST_SKIP,   /* not for any device of this machine */
+    KILN_TEST_WARN,   /* within the limits, beyond the warn level */
+    KILN_TEST_CHANGE, /* within the limits, but other pixels than were accepted on this device */
+    KILN_TEST_NEW,    /* a golden is missing */
+    KILN_TEST_FAIL,   /* the state or a picture differs */
+    KILN_TEST_ERROR,  /* nothing that could be judged: the scene, the device, a crash, a hang */
     KILN_TEST_STATUS_COUNT
 };
 
@@ -644,16 +638,17 @@ struct kiln_test_params {
     uint32_t threads; /* 0 takes one a core */
     uint32_t repeat;  /* renders, all of which must have the same hashes; at least 1 */
     enum kiln_update update;
-    bool dry_run;             /* say what an update would write, and write it not */
-    bool ignore_hashes;       /* judge by the metrics alone */
-    bool strict;              /* on a driver whose pixels are known, only those pass */
+    bool dry_run;        /* say what an update would write, and write it not */
+    bool ignore_hashes;  /* judge by the metrics alone */
+    bool strict;         /* where pixels are known, or made by `cpu`, only these pass */
+    const char *build;   /* the caller's "0.1.0 (254e4dc)", for what is accepted; NULL: a version */
+    const char *against; /* a kiln program that draws the accepted side; NULL: goldens are that */
     bool (*stop)(void *user); /* asked between frames */
     void *user;
     struct kiln_log log;
 };
 #define KILN_TEST_DEFAULTS ((struct kiln_test_params){.repeat = 1})
 
-/* A test in a line. */
 struct kiln_test_summary {
     enum kiln_test_status status;
     enum kiln_code code; /* what it means for an exit code */
@@ -670,8 +665,7 @@ bool kiln_test_run(const struct kiln_suite *suite, size_t index,
                    const struct kiln_test_params *params, struct kiln_test_summary *summary,
                    struct kiln_error *error);
 
-/* Writes the result of a test that could not write it itself: its process crashed (code
- * KILN_DEVICE_FAILED) or ran beyond its time. message says which. */
+/* Writes the result of a test whose process crashed (code KILN_DEVICE_FAILED) or ran too long. */
 bool kiln_test_record_error(const struct kiln_suite *suite, size_t index, enum kiln_code code,
                             const char *message, double total_s, struct kiln_error *error);
 
@@ -693,14 +687,15 @@ struct kiln_approve_params {
     const char *results; /* the folder of the results */
     const char *name;    /* of the test */
     enum kiln_approve_as as;
+    const char *device; /* only what a device drew whose name has this in it; NULL: any */
     bool dry_run;
     void (*change)(void *user, const char *line); /* told of each file: "wrote golden/..." */
     void *user;
 };
 
-/* Of the frames that are new, fail or draw a warning; those that pass stay as they are. KILN_USAGE
- * with the nearest name when there is no such result, KILN_INVALID_INPUT when it has no pictures
- * (an error), or when the scene, the pictures or the goldens have changed since, KILN_IO. */
+/* Of frames that are new, fail, change or draw a warning. KILN_USAGE with the nearest name when
+ * there is no such result, KILN_INVALID_INPUT when it has no pictures (an error), or when the
+ * scene, the pictures or the goldens have changed since, KILN_IO. */
 bool kiln_test_approve(const struct kiln_approve_params *params, struct kiln_error *error);
 
 /* Measures how pictures of a test differ for reasons that nobody means, and proposes limits. */
@@ -723,9 +718,8 @@ struct kiln_calibration {
     size_t count;
     struct kiln_calibrated {
         char metric[KILN_METRIC_NAME_SIZE];
-        double now;              /* the limit in force */
+        double now, proposed;    /* the limit in force, and another */
         double worst;            /* measured */
-        double proposed;         /* the limit */
     } metrics[KILN_MAX_COLUMNS]; /* those that have limits */
     uint32_t renders;
     bool equal; /* all of them to the bit */
@@ -754,11 +748,17 @@ void kiln_results_destroy(struct kiln_results **results);
 struct kiln_results_summary {
     uint32_t tests;
     uint32_t counts[KILN_TEST_STATUS_COUNT];
+    struct kiln_results_frames { /* by what judged them */
+        uint32_t all, by_pixels, by_metrics, by_state;
+    } frames, gl_frames; /* gl: of tests that pin a device or technique of GL */
     enum kiln_code code; /* that of the worst test */
     double total_s;
     uint32_t missing_shard, shards; /* the first that is not there, of how many; 0: all are */
 };
 struct kiln_results_summary kiln_results_summary(const struct kiln_results *results);
+
+/* "67 frames: 66 by pixels, 1 by metrics", without the end of a line. */
+bool kiln_write_frames(FILE *out, const struct kiln_results_summary *summary);
 
 /* The name of a test, which belongs to the results; index below the summary's `tests`. */
 const char *kiln_results_name(const struct kiln_results *results, size_t index);

@@ -48,6 +48,8 @@ static const char *title_of(enum kiln_test_status status)
         return "Golden image differs: ";
     case KILN_TEST_NEW:
         return "Golden image is missing: ";
+    case KILN_TEST_CHANGE:
+        return "Golden image has other pixels: ";
     case KILN_TEST_WARN:
         return "Golden image is close to its limits: ";
     default:
@@ -92,7 +94,8 @@ static bool write_github(const struct kiln_results *results,
             write_test(out, results->tests[i], "error");
     }
     for (size_t i = 0; i < results->count; i++) {
-        if (results->tests[i]->status == KILN_TEST_WARN)
+        if (results->tests[i]->status == KILN_TEST_WARN ||
+            results->tests[i]->status == KILN_TEST_CHANGE)
             write_test(out, results->tests[i], "warning");
         write_stale_notes(out, results->tests[i]);
     }

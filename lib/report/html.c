@@ -124,10 +124,55 @@ static void write_facts(FILE *out, const void *user)
         fputs("</time>", out);
     }
     fprintf(out, "<span>%.1f s</span><span>kiln " KILN_VERSION "</span>", page->summary.total_s);
+    fputs("<span>", out);
+    kiln_write_frames(out, &page->summary);
+    fputs("</span>", out);
     uint32_t crowded_out = kiln_gallery_crowded_out(page->gallery);
     if (crowded_out > 0)
         fprintf(out, "<span>%u picture%s linked: the page holds %d MiB of them</span>", crowded_out,
                 crowded_out == 1 ? " is" : "s are", KILN_GALLERY_BYTES >> 20);
+}
+
+/* The folder that all results lie in; NULL: in several. */
+static const char *common_folder(const struct kiln_results *results)
+{
+    const char *folder = NULL;
+    for (size_t i = 0; i < results->count; i++) {
+        size_t length = strlen(results->folders[i]), name = strlen(results->tests[i]->name);
+        if (length <= name + 1)
+            return NULL;
+        const char *own = kiln_arena_text(results->arena, results->folders[i], length - name - 1);
+        if (!own || (folder && strcmp(own, folder) != 0))
+            return NULL;
+        folder = own;
+    }
+    return folder;
+}
+
+/* One command for many pictures, with a button that copies it. */
+static void write_approval(FILE *out, const void *user)
+{
+    const struct page *page = user;
+    const uint32_t *counts = page->summary.counts;
+    const uint32_t changed =
+        counts[KILN_TEST_CHANGE] + counts[KILN_TEST_NEW] + counts[KILN_TEST_FAIL];
+    const char *folder = changed > 1 ? common_folder(page->results) : NULL;
+    struct kiln_text command = {0};
+    if (!folder)
+        return;
+    kiln_text_add(&command, "kiln test approve --all");
+    if (strcmp(folder, KILN_SUITE_DEFAULTS.results) != 0) {
+        kiln_text_add(&command, " --results ");
+        kiln_text_add_shell_word(&command, folder);
+    }
+    if (!command.failed) {
+        fputs("<div class=\"command\" id=\"approve-all\"><div><span>To approve all pictures</span>"
+              "<code>",
+              out);
+        kiln_markup_write_text(out, command.data);
+        fputs("</code></div></div>\n", out);
+    }
+    kiln_text_free(&command);
 }
 
 /* A button for each status that there is, the worst first. */
@@ -265,17 +310,12 @@ static bool write_page(const struct kiln_results *results, const struct kiln_res
 {
     struct page page = {.results = results, .link = output->link};
     const struct kiln_markup_field fields[] = {
-        {"policy", write_policy, &page},
-        {"style", write_style, &page},
-        {"script", write_script, &page},
-        {"verdict", write_verdict, &page},
-        {"outcome", write_outcome, &page},
-        {"facts", write_facts, &page},
-        {"counts", write_counts, &page},
-        {"rows", write_rows, &page},
-        {"tests", write_tests, &page},
-        {"pictures", write_pictures, &page},
-        {NULL, NULL, NULL},
+        {"policy", write_policy, &page},     {"style", write_style, &page},
+        {"script", write_script, &page},     {"verdict", write_verdict, &page},
+        {"outcome", write_outcome, &page},   {"facts", write_facts, &page},
+        {"approval", write_approval, &page}, {"counts", write_counts, &page},
+        {"rows", write_rows, &page},         {"tests", write_tests, &page},
+        {"pictures", write_pictures, &page}, {NULL, NULL, NULL},
     };
     bool ok = prepare(&page, output, error) &&
               kiln_markup_write_template(out, kiln_embedded_find(kiln_embedded_page, "report.html"),

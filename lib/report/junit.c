@@ -284,7 +284,7 @@ static void write_output(FILE *out, const struct kiln_result *result, const char
     if (quiet && result->note_count == 0)
         return;
     fputs("      <system-out>", out);
-    if (result->status == KILN_TEST_WARN)
+    if (result->status == KILN_TEST_WARN || result->status == KILN_TEST_CHANGE)
         write_causes(out, result);
     for (size_t i = 0; i < result->note_count; i++) {
         fputs("note: ", out);

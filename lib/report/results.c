@@ -444,6 +444,17 @@ void kiln_results_destroy(struct kiln_results **results)
     *results = NULL;
 }
 
+static void count_frames(const struct kiln_result *result, struct kiln_results_summary *summary)
+{
+    struct kiln_results_frames *frames = result->pins_gl ? &summary->gl_frames : &summary->frames;
+    frames->all += (uint32_t)result->frame_count;
+    for (size_t i = 0; i < result->frame_count; i++) {
+        frames->by_pixels += result->frames[i].judged_by == KILN_JUDGED_BY_PIXELS;
+        frames->by_metrics += result->frames[i].judged_by == KILN_JUDGED_BY_METRICS;
+        frames->by_state += result->frames[i].judged_by == KILN_JUDGED_BY_STATE;
+    }
+}
+
 struct kiln_results_summary kiln_results_summary(const struct kiln_results *results)
 {
     struct kiln_results_summary summary = {.tests = (uint32_t)results->count,
@@ -452,6 +463,7 @@ struct kiln_results_summary kiln_results_summary(const struct kiln_results *resu
                                            .shards = results->shards};
     for (size_t i = 0; i < results->count; i++) {
         summary.counts[results->tests[i]->status]++;
+        count_frames(results->tests[i], &summary);
         summary.code = kiln_code_worse(summary.code, results->tests[i]->code);
     }
     return summary;

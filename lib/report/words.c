@@ -23,6 +23,29 @@ void kiln_words_seconds(char out[32], double seconds)
     snprintf(out, 32, "%" PRIu64 ".%03" PRIu64, ms / 1000, ms % 1000);
 }
 
+/* "66 by pixels, 1 by metrics": always these two, since they are what a run is judged by. */
+static void write_judges(FILE *out, const struct kiln_results_frames *frames)
+{
+    const uint32_t judged = frames->by_pixels + frames->by_metrics + frames->by_state;
+    fprintf(out, "%u by pixels, %u by metrics", frames->by_pixels, frames->by_metrics);
+    if (frames->by_state > 0)
+        fprintf(out, ", %u by state", frames->by_state);
+    if (frames->all > judged)
+        fprintf(out, ", %u by nothing", frames->all - judged);
+}
+
+bool kiln_write_frames(FILE *out, const struct kiln_results_summary *summary)
+{
+    const struct kiln_results_frames *frames = &summary->frames, *gl = &summary->gl_frames;
+    fprintf(out, "%u frame%s: ", frames->all, frames->all == 1 ? "" : "s");
+    write_judges(out, frames);
+    if (gl->all > 0) {
+        fprintf(out, "; %u of tests that pin GL: ", gl->all);
+        write_judges(out, gl);
+    }
+    return !ferror(out);
+}
+
 void kiln_words_summary(char out[256], const struct kiln_results *results)
 {
     struct kiln_results_summary summary = kiln_results_summary(results);

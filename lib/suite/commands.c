@@ -31,27 +31,13 @@ static void add_folders(const struct kiln_trial *trial, struct kiln_text *text, 
         add_option(text, "--results", results);
 }
 
-/* What finds the test under its name: a name with a folder in it counts from the folder that was
- * searched. */
+/* What finds the test under its name. */
 static void add_selection(const struct kiln_trial *trial, struct kiln_text *text)
 {
     const struct kiln_test *test = trial->test;
-    const char *end = strstr(test->path, ".test.yaml");
-    end = end ? end : strrchr(test->path, '.');
-    size_t stem = end ? (size_t)(end - test->path) : strlen(test->path);
-    size_t name = strlen(test->name);
-    bool below = strchr(test->name, '/') && stem >= name &&
-                 strncmp(test->path + stem - name, test->name, name) == 0;
-    if (below || strcmp(test->name, test->full_name) != 0)
+    if (strcmp(test->name, test->full_name) != 0)
         add_option(text, "--filter", test->full_name);
-    if (!below)
-        add_word(text, test->path);
-    if (!below || stem == name)
-        return;
-    size_t length = stem - name; /* with a slash at its end, which may be all of it */
-    const char *folder =
-        kiln_arena_text(trial->arena, test->path, length > 1 ? length - 1 : length);
-    add_word(text, folder ? folder : ".");
+    add_word(text, test->path);
 }
 
 static const char *take(struct kiln_trial *trial, struct kiln_text *text)
@@ -76,6 +62,8 @@ const char *kiln_trial_rerun_command(struct kiln_trial *trial)
         kiln_text_add(&text, " --repeat %u", params->repeat);
     kiln_text_add(&text, "%s%s", params->ignore_hashes ? " --ignore-hashes" : "",
                   params->strict ? " --strict" : "");
+    if (params->against)
+        add_option(&text, "--against", params->against);
     add_selection(trial, &text);
     return take(trial, &text);
 }

@@ -24,6 +24,7 @@ struct search {
     struct kiln_findings *findings;
     struct kiln_error *error;
     const char *operand;
+    const char *root;       /* real path of the folder that the goldens lie in; NULL: not known */
     struct stat skipped[2]; /* the folders of goldens and of results */
     size_t skipped_count;
     size_t seen; /* files of tests, those that were known included */
@@ -32,6 +33,42 @@ struct search {
 static bool out_of_memory(struct search *search)
 {
     return kiln_error_set(search->error, KILN_DEVICE_FAILED, "out of memory while finding tests");
+}
+
+/* ---- names ---------------------------------------------------------------------------------- */
+
+static const char marker[] = ".kiln-tests";
+
+/* How much of a real path of a file is the folder that names begin from, '/' included: the nearest
+ * one with a marker; or that of the goldens; or the file's own. So a test has one name, however it
+ * is found. */
+static size_t root_length(const struct search *search, const char *path)
+{
+    const size_t own = (size_t)(strrchr(path, '/') - path) + 1;
+    char file[KILN_PATH_SIZE];
+    for (size_t length = own; length > 0; length--) {
+        if (path[length - 1] != '/')
+            continue;
+        int written = snprintf(file, sizeof file, "%.*s%s", (int)length, path, marker);
+        if (written < (int)sizeof file && access(file, F_OK) == 0)
+            return length;
+    }
+    const size_t root = search->root ? strlen(search->root) : 0;
+    if (root == 1) /* "/" */
+        return root;
+    return root > 0 && strncmp(path, search->root, root) == 0 && path[root] == '/' ? root + 1 : own;
+}
+
+/* The real path of the folder that a folder lies in, whether that exists or not. */
+static const char *find_parent(struct kiln_arena *arena, const char *folder)
+{
+    const char *slash = strrchr(folder, '/');
+    const size_t length = slash ? (size_t)(slash - folder) : 0;
+    const char *parent = length ? kiln_arena_text(arena, folder, length) : slash ? "/" : ".";
+    char *real = parent ? realpath(parent, NULL) : NULL;
+    const char *kept = real ? kiln_arena_text(arena, real, strlen(real)) : NULL;
+    free(real);
+    return kept;
 }
 
 /* ---- one file ------------------------------------------------------------------------------- */
@@ -66,16 +103,16 @@ static const char *identity_of(struct kiln_arena *arena, const char *path)
     return identity;
 }
 
-/* named: the part of the path that names the test. */
-static bool add_file(struct search *search, const char *path, const char *named, bool in_folder)
+static bool add_file(struct search *search, const char *path, bool in_folder)
 {
     struct kiln_findings *findings = search->findings;
     struct kiln_found found = {
         .path = kiln_arena_text(search->arena, path, strlen(path)),
-        .name = name_of(search->arena, named),
         .identity = identity_of(search->arena, path),
         .in_folder = in_folder,
     };
+    if (found.identity)
+        found.name = name_of(search->arena, found.identity + root_length(search, found.identity));
     if (!found.path || !found.name || !found.identity)
         return out_of_memory(search);
     search->seen++;
@@ -139,7 +176,7 @@ static bool find_keys(const char *text, size_t size, const char *path, struct ke
 }
 
 /* A YAML file of a folder: of another kind, it is passed over. */
-static bool add_if_scene(struct search *search, const char *path, const char *named)
+static bool add_if_scene(struct search *search, const char *path)
 {
     struct kiln_error error = {0};
     size_t size = 0;
@@ -159,7 +196,7 @@ static bool add_if_scene(struct search *search, const char *path, const char *na
         return kiln_error_set(
             search->error, KILN_USAGE,
             "%s: has the key kiln_test, but a test file's name ends in .test.yaml", path);
-    return ok && (!keys.scene || add_file(search, path, named, true));
+    return ok && (!keys.scene || add_file(search, path, true));
 }
 
 /* ---- folders -------------------------------------------------------------------------------- */
@@ -190,25 +227,22 @@ static bool is_accepted_scene(const char *path)
     return strcmp(slash ? slash + 1 : path, "scene.yaml") == 0;
 }
 
-static bool search_folder(struct search *search, const char *folder, const char *named);
+static bool search_folder(struct search *search, const char *folder);
 
-/* path: of the entry; named: what of it names a test. */
-static bool search_entry(struct search *search, const char *path, const char *named,
-                         bool has_goldens)
+static bool search_entry(struct search *search, const char *path, bool has_goldens)
 {
     struct stat status;
     if (lstat(path, &status) != 0)
         return errno == ENOENT || kiln_error_set_errno(search->error, KILN_IO, errno, "%s", path);
     if (S_ISDIR(status.st_mode))
-        return is_skipped(search, &status) || search_folder(search, path, named);
+        return is_skipped(search, &status) || search_folder(search, path);
     if (!kiln_test_file_is_yaml(path) || (has_goldens && is_accepted_scene(path)))
         return true;
     if (stat(path, &status) != 0)
         return kiln_error_set_errno(search->error, KILN_IO, errno, "%s", path);
     if (!S_ISREG(status.st_mode))
         return true;
-    return kiln_test_file_is(path) ? add_file(search, path, named, true)
-                                   : add_if_scene(search, path, named);
+    return kiln_test_file_is(path) ? add_file(search, path, true) : add_if_scene(search, path);
 }
 
 static int is_visible(const struct dirent *entry)
@@ -221,8 +255,8 @@ static int by_bytes(const struct dirent **a, const struct dirent **b)
     return strcmp((*a)->d_name, (*b)->d_name);
 }
 
-/* folder "" is the working directory. named: of the folder, "" for the operand. */
-static bool search_folder(struct search *search, const char *folder, const char *named)
+/* folder "" is the working directory. */
+static bool search_folder(struct search *search, const char *folder)
 {
     struct dirent **entries = NULL;
     int count = scandir(*folder ? folder : ".", &entries, is_visible, by_bytes);
@@ -231,19 +265,17 @@ static bool search_folder(struct search *search, const char *folder, const char 
                                     *folder ? folder : ".");
     bool has_goldens = has_expect_file(entries, count), ok = true;
     for (int i = 0; i < count; i++) {
-        struct kiln_text path = {0}, name = {0};
+        struct kiln_text path = {0};
         bool slash = *folder && folder[strlen(folder) - 1] != '/';
         kiln_text_add(&path, "%s%s%s", folder, slash ? "/" : "", entries[i]->d_name);
-        kiln_text_add(&name, "%s%s%s", named, *named ? "/" : "", entries[i]->d_name);
-        if (path.failed || name.failed)
+        if (path.failed)
             ok = ok && out_of_memory(search);
         else if (ok && path.length >= KILN_PATH_SIZE)
             ok = kiln_error_set(search->error, KILN_IO, "%.200s...: the path is too long",
                                 path.data);
         else if (ok)
-            ok = search_entry(search, path.data, name.data, has_goldens);
+            ok = search_entry(search, path.data, has_goldens);
         kiln_text_free(&path);
-        kiln_text_free(&name);
         free(entries[i]);
     }
     free(entries);
@@ -261,7 +293,7 @@ static bool search_operand_folder(struct search *search)
         length--;
     bool here = length == 1 && *operand == '.';
     char *folder = strndup(operand, here ? 0 : length);
-    bool ok = folder ? search_folder(search, folder, "") : out_of_memory(search);
+    bool ok = folder ? search_folder(search, folder) : out_of_memory(search);
     free(folder);
     return ok &&
            (search->seen > before ||
@@ -284,14 +316,16 @@ static bool search_operand(struct search *search)
         return kiln_error_set(search->error, KILN_USAGE,
                               "%s: not a test; a test is a *.test.yaml or a scene, *.yaml or *.yml",
                               operand);
-    const char *slash = strrchr(operand, '/');
-    return add_file(search, operand, slash ? slash + 1 : operand, false);
+    return add_file(search, operand, false);
 }
 
 bool kiln_discover(struct kiln_arena *arena, const struct kiln_suite_params *params,
                    struct kiln_findings *findings, struct kiln_error *error)
 {
-    struct search search = {.arena = arena, .findings = findings, .error = error};
+    struct search search = {.arena = arena,
+                            .findings = findings,
+                            .error = error,
+                            .root = find_parent(arena, params->golden)};
     const char *const skipped[] = {params->golden, params->results};
     for (size_t i = 0; i < 2; i++) {
         if (stat(skipped[i], &search.skipped[search.skipped_count]) == 0)

@@ -6,7 +6,7 @@
 
 struct kiln_found {
     const char *path;
-    const char *name;     /* of the test: its path below the operand, without a suffix */
+    const char *name;     /* of the test: its path below the folder that names begin from */
     const char *identity; /* equal for one file that was found twice */
     bool in_folder;       /* not an operand itself */
 };

@@ -68,7 +68,12 @@ static const struct kiln_option_type type_hex = {.read = read_hex, .describe = d
 
 static const struct kiln_option pixels_rows[] = {
     {.name = "hash", .type = &type_hex, .offset = AT(hash), LIMITS(KILN_PLAIN, 64, 64)},
-    {.name = "golden", .type = &type_hex, .offset = AT(golden), LIMITS(KILN_PLAIN, 64, 64)},
+    {.name = "golden",
+     .type = &type_hex,
+     .offset = AT(golden),
+     .fallback = "\"\"",
+     LIMITS(KILN_PLAIN, 0, 64)},
+    {ROW("kiln", text, AT(kiln), "\"\"", "That was accepted."), LIMITS(KILN_PLAIN, 0, 60)},
     END,
 };
 
@@ -373,18 +378,28 @@ static void print_frames(struct kiln_text *text, const struct kiln_expect *expec
             kiln_text_add(text, "    state: \"%s\"\n", frame->state);
         for (size_t p = 0; p < frame->pixel_count; p++) {
             const struct kiln_expect_pixels *pixels = &frame->pixels[p];
-            kiln_text_add(text, "%s      %s: {hash: \"%s\", golden: \"%s\"}\n",
-                          p ? "" : "    pixels:\n", pixels->device, pixels->hash, pixels->golden);
+            kiln_text_add(text, "%s      %s: {hash: \"%s\"", p ? "" : "    pixels:\n",
+                          pixels->device, pixels->hash);
+            if (pixels->golden)
+                kiln_text_add(text, ", golden: \"%s\"", pixels->golden);
+            if (pixels->kiln && *pixels->kiln) {
+                kiln_text_add(text, ", kiln: ");
+                kiln_text_add_json(text, pixels->kiln);
+            }
+            kiln_text_add(text, "}\n");
         }
     }
 }
 
 bool kiln_expect_print(const struct kiln_expect *expect, const char *golden, struct kiln_text *text)
 {
-    kiln_text_add(text, "# Written by kiln test, and rewritten by it: comments are not kept.\n"
-                        "kiln_expect: 1\n");
+    if (!expect->bare)
+        kiln_text_add(text,
+                      "# Written by kiln test, and rewritten by it: comments are not kept.\n");
+    kiln_text_add(text, "kiln_expect: 1\n");
     print_text(text, "scene_hash", expect->scene_hash);
-    print_techniques(text, expect);
+    if (!expect->bare)
+        print_techniques(text, expect);
     print_values(text, "limits", expect->limits, expect->limit_count);
     print_text(text, "reason", expect->reason);
     if (expect->warn >= 0) {
@@ -476,6 +491,13 @@ static struct kiln_expect_pixels *insert_pixels(struct kiln_arena *arena,
     return &pixels[at];
 }
 
+/* The same text, or NULL, in the arena; false when memory is short. */
+static bool copy_text(struct kiln_arena *arena, const char **to, const char *text)
+{
+    *to = text ? kiln_arena_text(arena, text, strlen(text)) : NULL;
+    return !text || *to;
+}
+
 bool kiln_expect_accept(struct kiln_arena *arena, struct kiln_expect *expect, uint32_t number,
                         const char *state, const struct kiln_expect_pixels *pixels)
 {
@@ -488,13 +510,12 @@ bool kiln_expect_accept(struct kiln_arena *arena, struct kiln_expect *expect, ui
         return false;
     if (!pixels)
         return true;
-    struct kiln_expect_pixels copy = {
-        .device = kiln_arena_text(arena, pixels->device, strlen(pixels->device)),
-        .hash = kiln_arena_text(arena, pixels->hash, strlen(pixels->hash)),
-        .golden = kiln_arena_text(arena, pixels->golden, strlen(pixels->golden)),
-    };
-    struct kiln_expect_pixels *entry =
-        copy.device && copy.hash && copy.golden ? insert_pixels(arena, frame, copy.device) : NULL;
+    struct kiln_expect_pixels copy = {0};
+    bool copied = copy_text(arena, &copy.device, pixels->device) &&
+                  copy_text(arena, &copy.hash, pixels->hash) &&
+                  copy_text(arena, &copy.golden, pixels->golden) &&
+                  copy_text(arena, &copy.kiln, pixels->kiln);
+    struct kiln_expect_pixels *entry = copied ? insert_pixels(arena, frame, copy.device) : NULL;
     if (entry)
         *entry = copy;
     return entry != NULL;

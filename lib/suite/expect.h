@@ -12,10 +12,11 @@
  *       24:
  *         state: 13e7be772847a38f
  *         pixels:
- *           llvmpipe-llvm-15.0.6-256-bits: {hash: ..., golden: ...}
+ *           cpu: {hash: ..., golden: ..., kiln: 0.1.0 (254e4dc)}
  *
  * A pixel hash is believed only while the golden that it was accepted with is still the one that is
- * found for that device: `golden` is the hash of that picture's pixels.
+ * found for that device: `golden` is the hash of that picture's pixels. A test whose goldens are
+ * hashes has no pictures, and no `golden`.
  */
 #ifndef KILN_SUITE_EXPECT_H
 #define KILN_SUITE_EXPECT_H
@@ -26,7 +27,8 @@
 struct kiln_expect_pixels {
     const char *device; /* a device's name, see kiln_device_name */
     const char *hash;   /* SHA-256 of the decoded pixels */
-    const char *golden; /* the same of the golden it was accepted with */
+    const char *golden; /* the same of the golden it was accepted with; NULL: without a picture */
+    const char *kiln;   /* that was accepted: its version and commit, or NULL */
 };
 
 struct kiln_expect_frame {
@@ -43,6 +45,7 @@ struct kiln_expect_value {
 
 struct kiln_expect {
     bool missing;           /* there is no such file */
+    bool bare;              /* of a test that keeps hashes: hashes are all that is written */
     const char *scene_hash; /* NULL: not known */
     const char **techniques;
     size_t technique_count;

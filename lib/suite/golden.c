@@ -368,12 +368,17 @@ bool kiln_goldens_accept(struct kiln_arena *arena, const struct kiln_test *test,
                          char path[KILN_PATH_SIZE], struct kiln_error *error)
 {
     char pixels[65];
-    if (!kiln_pixel_hash(acceptance->picture, pixels, error) ||
-        !choose_place(test, acceptance, pixels, path, error) ||
-        !put_picture(acceptance, path, pixels, error))
+    const bool hash = test->kept == KILN_GOLDEN_HASH;
+    if (!kiln_pixel_hash(acceptance->picture, pixels, error))
         return false;
-    const struct kiln_expect_pixels accepted = {
-        .device = acceptance->device_name, .hash = pixels, .golden = pixels};
+    if (hash ? !kiln_path_join(path, test->golden, "expect.yaml", error)
+             : !choose_place(test, acceptance, pixels, path, error) ||
+                   !put_picture(acceptance, path, pixels, error))
+        return false;
+    const struct kiln_expect_pixels accepted = {.device = acceptance->device_name,
+                                                .hash = pixels,
+                                                .golden = hash ? NULL : pixels,
+                                                .kiln = acceptance->build};
     return kiln_expect_accept(arena, expect, acceptance->frame, acceptance->state, &accepted) ||
            kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while accepting pictures");
 }

@@ -56,9 +56,10 @@ bool kiln_file_copy(const char *from, const char *to, struct kiln_error *error);
 bool kiln_pixel_hash(const char *path, char hex[65], struct kiln_error *error);
 
 /* One accepted picture and what goes with it: the picture to its place, unless one of the same
- * pixels is there (as one more, anywhere among the frame's); state and pixels into expect; the
- * scene beside it. The caller holds the lock, and writes expect. path gets the place.
- * KILN_INVALID_INPUT when the picture cannot be decoded, KILN_IO, KILN_DEVICE_FAILED. */
+ * pixels is there (as one more, anywhere among the frame's) or the test keeps hashes alone; state
+ * and pixels into expect; the scene beside it. The caller holds the lock, and writes expect. path
+ * gets the place. KILN_INVALID_INPUT when the picture cannot be decoded, KILN_IO,
+ * KILN_DEVICE_FAILED. */
 struct kiln_acceptance {
     uint32_t frame;
     const char *picture; /* a file */
@@ -66,6 +67,7 @@ struct kiln_acceptance {
     const char *device_name;
     enum kiln_approve_as as;
     const char *golden; /* replace: that one; NULL: the first of the frame's */
+    const char *build;  /* of kiln, or NULL */
 };
 bool kiln_goldens_accept(struct kiln_arena *arena, const struct kiln_test *test,
                          struct kiln_expect *expect, const struct kiln_acceptance *acceptance,

@@ -1,9 +1,12 @@
 /* One frame: the state first, which is the same everywhere; then pixels that are known to be right
- * on this device; then how different it looks. */
+ * on this device; then how different it looks. Of a test that keeps hashes alone, pixels that are
+ * not known to be right fail. */
 #include <math.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/error.h"
+#include "suite/against.h"
 #include "suite/trial.h"
 
 struct judging {
@@ -51,8 +54,13 @@ static bool hash_golden(struct judging *j, size_t index)
 static bool find_goldens(struct judging *j)
 {
     struct kiln_trial *trial = j->trial;
-    if (!kiln_trial_path(trial, j->frame->picture, j->picture, &j->error) ||
-        !kiln_goldens_find(trial->test, j->frame->number, trial->rendering.device_name, &j->goldens,
+    if (!kiln_trial_path(trial, j->frame->picture, j->picture, &j->error))
+        return false;
+    if (trial->test->kept == KILN_GOLDEN_HASH) {
+        j->frame->golden = kiln_trial_text(trial, "%s/expect.yaml", trial->test->golden);
+        return true;
+    }
+    if (!kiln_goldens_find(trial->test, j->frame->number, trial->rendering.device_name, &j->goldens,
                            &j->error))
         return false;
     j->frame->golden = kiln_trial_text(trial, "%s", j->goldens.paths[0]);
@@ -68,6 +76,12 @@ static bool find_goldens(struct judging *j)
     return true;
 }
 
+static void take_expected(struct judging *j, const struct kiln_expect_pixels *pixels)
+{
+    j->frame->pixels_expected = pixels->hash;
+    j->frame->kiln_expected = pixels->kiln ? pixels->kiln : "";
+}
+
 /* The pixels of this device, while the golden that they were accepted with is there. */
 static void find_expected(struct judging *j)
 {
@@ -80,9 +94,11 @@ static void find_expected(struct judging *j)
         const struct kiln_expect_pixels *pixels = &expected->pixels[i];
         if (strcmp(pixels->device, trial->rendering.device_name) != 0)
             continue;
-        for (size_t k = 0; k < j->goldens.count; k++) {
+        if (trial->test->kept == KILN_GOLDEN_HASH)
+            take_expected(j, pixels);
+        for (size_t k = 0; pixels->golden && k < j->goldens.count; k++) {
             if (strcmp(pixels->golden, j->hashes[k]) == 0) {
-                j->frame->pixels_expected = pixels->hash;
+                take_expected(j, pixels);
                 j->nearest = k;
             }
         }
@@ -224,25 +240,62 @@ static bool judge_unlisted(struct judging *j)
                                   j->frame->number, j->trial->test->golden));
 }
 
+/* Scene and state are as they were accepted, so what drew them is not. */
+static bool renderer_changed(const struct judging *j)
+{
+    const struct kiln_trial *trial = j->trial;
+    const char *scene = trial->result->scene_hash_expected, *state = j->frame->state_expected;
+    bool same_scene = *scene && (strcmp(scene, trial->rendering.scene.hash) == 0 ||
+                                 (trial->other_keys && trial->result->change_count == 0));
+    return same_scene && *state && strcmp(state, j->frame->state) == 0;
+}
+
+/* What is to be said of pixels that are not those which were accepted. */
+static const char *describe_change(struct judging *j, const char *picture)
+{
+    const struct kiln_result *result = j->trial->result;
+    const char *before = j->frame->kiln_expected;
+    if (!renderer_changed(j))
+        return kiln_trial_text(j->trial, "frame %u has other pixels than were accepted on %s; %s",
+                               j->frame->number, j->trial->rendering.device_name, picture);
+    if (!*before)
+        before = "one that is not known";
+    return kiln_trial_text(j->trial, "frame %u: the renderer changed, from %s%s to kiln %s; %s",
+                           j->frame->number, *j->frame->kiln_expected ? "kiln " : "", before,
+                           result->version, picture);
+}
+
+/* `cpu` makes the same pixels everywhere. */
+static bool is_cpu(const struct judging *j)
+{
+    return strcmp(j->trial->rendering.device_name, "cpu") == 0;
+}
+
 static bool judge_by_metrics(struct judging *j, bool known)
 {
     struct kiln_trial_comparison comparison;
     if (!measure(j, &comparison) || !copy_reference(j))
         return false;
-    bool same = comparison.result.same;
+    const bool same = comparison.result.same, strict = j->trial->params->strict;
     const char *beyond = same ? "the picture is within its limits" : describe(j, &comparison, true);
     if (state_changed(j))
         return decide(j, KILN_TEST_FAIL, KILN_JUDGED_BY_STATE, describe_state(j, beyond));
-    if (known && j->trial->params->strict)
-        return decide(j, KILN_TEST_FAIL, KILN_JUDGED_BY_PIXELS,
-                      kiln_trial_text(j->trial,
-                                      "frame %u has other pixels than were accepted on %s; %s",
-                                      j->frame->number, j->trial->rendering.device_name, beyond));
+    if (known && (strict || !same))
+        return decide(j, KILN_TEST_FAIL, strict ? KILN_JUDGED_BY_PIXELS : KILN_JUDGED_BY_METRICS,
+                      describe_change(j, beyond));
     if (!same)
         return decide(j, KILN_TEST_FAIL, KILN_JUDGED_BY_METRICS,
                       kiln_trial_text(j->trial, "frame %u: %s", j->frame->number, beyond));
     if (j->trial->expect->missing && !j->trial->params->ignore_hashes)
         return judge_unlisted(j);
+    if (known)
+        return decide(j, KILN_TEST_CHANGE, KILN_JUDGED_BY_METRICS, describe_change(j, beyond));
+    if (strict && is_cpu(j))
+        return decide(j, KILN_TEST_FAIL, KILN_JUDGED_BY_PIXELS,
+                      kiln_trial_text(j->trial,
+                                      "frame %u has no accepted pixels of cpu, which are the same "
+                                      "everywhere; --update all accepts them",
+                                      j->frame->number));
     if (j->frame->score > j->trial->warn)
         return decide(j, KILN_TEST_WARN, KILN_JUDGED_BY_METRICS,
                       kiln_trial_text(j->trial, "frame %u is at %.0f %% of its limits: %s",
@@ -251,11 +304,62 @@ static bool judge_by_metrics(struct judging *j, bool known)
     return decide(j, KILN_TEST_PASS, KILN_JUDGED_BY_METRICS, "");
 }
 
+/* Nothing but hashes was accepted. */
+static bool judge_by_hashes(struct judging *j)
+{
+    const bool known = *j->frame->pixels_expected;
+    if (!check_picture(j, &j->error))
+        return false;
+    if (state_changed(j))
+        return decide(j, KILN_TEST_FAIL, KILN_JUDGED_BY_STATE,
+                      describe_state(j, "no picture is kept"));
+    if (!known)
+        return decide(j, KILN_TEST_NEW, KILN_JUDGED_BY_NOTHING,
+                      kiln_trial_text(j->trial, "frame %u has no accepted hash of %s in %s",
+                                      j->frame->number, j->trial->rendering.device_name,
+                                      j->frame->golden));
+    if (strcmp(j->frame->pixels, j->frame->pixels_expected) == 0)
+        return decide(j, KILN_TEST_PASS, KILN_JUDGED_BY_PIXELS, "");
+    return decide(j, KILN_TEST_FAIL, KILN_JUDGED_BY_PIXELS,
+                  describe_change(j, j->trial->params->against
+                                         ? "no picture is kept"
+                                         : "no picture is kept; --against PROGRAM draws it"));
+}
+
+/* Shows a frame whose pixels are others beside what another kiln draws; where a picture was
+ * accepted, that stays. */
+static bool show_against(struct judging *j)
+{
+    struct kiln_result_frame *frame = j->frame;
+    const bool hash = j->trial->test->kept == KILN_GOLDEN_HASH;
+    const bool differs = frame->status == KILN_TEST_CHANGE || frame->status == KILN_TEST_FAIL;
+    char path[KILN_PATH_SIZE];
+    struct kiln_trial_comparison comparison;
+    if (!j->trial->params->against || !differs)
+        return true;
+    const char *name =
+        kiln_trial_text(j->trial, "frame_%04u_%s%s", frame->number, hash ? "reference" : "against",
+                        kiln_test_suffix(j->trial->test));
+    if (!kiln_trial_path(j->trial, name, path, &j->error) ||
+        !kiln_trial_draw_against(j->trial, frame, path, &j->error))
+        return false;
+    if (!hash)
+        unlink(path);
+    if (!hash || access(path, F_OK) != 0)
+        return true;
+    frame->reference = name;
+    snprintf(j->goldens.paths[0], sizeof j->goldens.paths[0], "%s", path);
+    j->goldens.count = 1;
+    return measure(j, &comparison);
+}
+
 static bool judge(struct judging *j)
 {
     if (!find_goldens(j))
         return false;
     find_expected(j);
+    if (j->trial->test->kept == KILN_GOLDEN_HASH)
+        return judge_by_hashes(j);
     if (j->goldens.count == 0)
         return judge_new(j);
     bool known = !j->trial->params->ignore_hashes && *j->frame->pixels_expected;
@@ -268,7 +372,7 @@ void kiln_trial_judge(struct kiln_trial *trial, size_t index)
 {
     struct judging j = {
         .trial = trial, .frame = &trial->result->frames[index], .own = &trial->frames[index]};
-    if (judge(&j))
+    if (judge(&j) && show_against(&j))
         return;
     j.own->code = j.error.code;
     decide(&j, KILN_TEST_ERROR, KILN_JUDGED_BY_NOTHING,

@@ -76,6 +76,7 @@ const struct kiln_member kiln_result_members[] = {
     MEMBER(kiln_result, TEXT, techniques),
     MEMBER(kiln_result, TEXT, techniques_expected),
     MEMBER(kiln_result, TEXT, version),
+    MEMBER(kiln_result, BOOL, pins_gl),
     MEMBER(kiln_result, UINT32, seed),
     MEMBER(kiln_result, UINT32, width),
     MEMBER(kiln_result, UINT32, height),
@@ -114,6 +115,7 @@ const struct kiln_member kiln_result_frame_members[] = {
     MEMBER(kiln_result_frame, TEXT, state_expected),
     MEMBER(kiln_result_frame, TEXT, pixels),
     MEMBER(kiln_result_frame, TEXT, pixels_expected),
+    MEMBER(kiln_result_frame, TEXT, kiln_expected),
     MEMBER(kiln_result_frame, BOOL, measured),
     MEMBERS_END,
 };

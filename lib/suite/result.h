@@ -33,6 +33,7 @@ struct kiln_result_frame {
     const char *golden;    /* the golden's own path, as a person would open it; where it would be */
     const char *state, *state_expected;   /* 16 hex digits; expected "" when nothing is */
     const char *pixels, *pixels_expected; /* SHA-256 of the decoded pixels */
+    const char *kiln_expected;            /* that drew what was accepted; "" where not known */
     bool measured;                        /* what follows means something */
     double values[KILN_MAX_COLUMNS];      /* by the result's columns */
     bool beyond[KILN_MAX_COLUMNS];
@@ -62,7 +63,8 @@ struct kiln_result {
     const char *driver;      /* GL version and vendor */
     const char *platform;
     const char *techniques, *techniques_expected;
-    const char *version; /* of kiln */
+    const char *version; /* of kiln, with its commit where that is known */
+    bool pins_gl;        /* the test itself names a device or a technique of GL */
     uint32_t seed;
     uint32_t width, height;
     uint32_t threads, repeat;

@@ -4,7 +4,7 @@
 
 #include "suite/result.h"
 
-enum { KILN_RESULT_VERSION = 1 };
+enum { KILN_RESULT_VERSION = 2 }; /* result_read.c names it, too */
 
 enum kiln_member_kind {
     KILN_MEMBER_TEXT,

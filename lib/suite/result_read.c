@@ -118,7 +118,7 @@ static bool read_status(const struct reading *reading, const struct kiln_node *n
         if (strcmp(node->text, kiln_test_status_name(*status)) == 0)
             return true;
     }
-    return refuse(reading, node, name, "pass, skip, warn, new, fail or error");
+    return refuse(reading, node, name, "pass, skip, warn, change, new, fail or error");
 }
 
 static bool read_judged_by(const struct reading *reading, const struct kiln_node *node,
@@ -362,7 +362,7 @@ static bool check_version(const struct reading *reading, const struct kiln_node 
                                "not the result of a test: \"kiln_result\" is missing");
     return (is_literal(version) && kiln_text_to_uint64(version->text, &number) &&
             number == KILN_RESULT_VERSION) ||
-           refuse(reading, version, "kiln_result", "1, which this version of kiln writes");
+           refuse(reading, version, "kiln_result", "2, which this version of kiln writes");
 }
 
 struct kiln_result *kiln_result_parse(struct kiln_arena *arena, const char *text, size_t size,

@@ -52,6 +52,8 @@ static void take_rendering(struct kiln_trial *trial)
     result->width = rendering->scene.width;
     result->height = rendering->scene.height;
     result->scene_hash = rendering->scene.hash;
+    result->pins_gl = (trial->test->device || trial->test->technique_count > 0) &&
+                      strcmp(rendering->device_name, "cpu") != 0;
 }
 
 static bool take_frames(struct kiln_trial *trial)
@@ -238,10 +240,10 @@ static bool run(struct kiln_trial *trial, struct kiln_error *error)
         return false;
     if (!take_frames(trial))
         return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", trial->test->path);
+    take_changes(trial);
     if (!check_masks(trial, error) || !repeat(trial, error) || !judge_frames(trial, error))
         return false;
     sum_up(trial);
-    take_changes(trial);
     kiln_trial_take_notes(trial);
     if (!kiln_trial_update(trial, error))
         return false;
@@ -282,6 +284,8 @@ static bool run_to_result(struct kiln_trial *trial, struct kiln_error *error)
     if (!kiln_trial_path(trial, "result.json", path, error) ||
         !kiln_make_parent_folders(path, error))
         return false;
+    if (trial->params->build)
+        result->version = trial->params->build;
     result->threads = count_threads(trial->params->threads);
     result->repeat = trial->params->repeat;
     bool done = run(trial, &problem);

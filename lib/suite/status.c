@@ -4,8 +4,9 @@
 const char *kiln_test_status_name(enum kiln_test_status status)
 {
     static const char *const names[KILN_TEST_STATUS_COUNT] = {
-        [KILN_TEST_PASS] = "pass", [KILN_TEST_SKIP] = "skip", [KILN_TEST_WARN] = "warn",
-        [KILN_TEST_NEW] = "new",   [KILN_TEST_FAIL] = "fail", [KILN_TEST_ERROR] = "error",
+        [KILN_TEST_PASS] = "pass",     [KILN_TEST_SKIP] = "skip", [KILN_TEST_WARN] = "warn",
+        [KILN_TEST_CHANGE] = "change", [KILN_TEST_NEW] = "new",   [KILN_TEST_FAIL] = "fail",
+        [KILN_TEST_ERROR] = "error",
     };
     return (unsigned)status < KILN_TEST_STATUS_COUNT ? names[status] : "";
 }

@@ -120,7 +120,8 @@ static bool check_names(struct loader *loader)
         const struct kiln_found *found = &loader->entries[i].found;
         if (strcmp(found->name, loader->entries[i - 1].found.name) == 0)
             return kiln_error_set(loader->error, KILN_USAGE,
-                                  "%s and %s: two tests of the name '%s'",
+                                  "%s and %s: two tests of the name '%s'; an empty file "
+                                  ".kiln-tests marks the folder that names begin from",
                                   loader->entries[i - 1].found.path, found->path, found->name);
     }
     return true;

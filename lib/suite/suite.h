@@ -9,6 +9,9 @@
 /* A picture format of goldens. */
 enum kiln_test_format { KILN_TEST_PNG, KILN_TEST_PNG16, KILN_TEST_EXR };
 
+/* What is kept of what was accepted. */
+enum kiln_test_golden { KILN_GOLDEN_PICTURE, KILN_GOLDEN_HASH };
+
 struct kiln_test_mask {
     uint32_t rect[4];    /* x, y, width, height */
     const char *picture; /* a path, or NULL: the rectangle */
@@ -31,6 +34,7 @@ struct kiln_test {
     uint32_t *frames; /* ascending; none: the middle and the last one of the scene */
     size_t frame_count;
     enum kiln_test_format format;
+    enum kiln_test_golden kept;
     const char *device;      /* wanted, or NULL: that of the run */
     bool may_skip;           /* that device may be absent: the test is skipped then */
     const char **techniques; /* "stage=name", over those that every test pins */

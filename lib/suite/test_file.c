@@ -25,6 +25,7 @@ struct document {
     uint32_t frames[KILN_TEST_MAX_FRAMES];
     uint32_t frame_count;
     enum kiln_test_format format;
+    enum kiln_test_golden golden;
     const char *devices[KILN_TEST_MAX_DEVICES];
     uint32_t device_count;
     const char *techniques[KILN_TEST_MAX_TECHNIQUES];
@@ -41,6 +42,12 @@ static const char *const formats[] = {
     [KILN_TEST_PNG] = "png",
     [KILN_TEST_PNG16] = "png16",
     [KILN_TEST_EXR] = "exr",
+    NULL,
+};
+
+static const char *const goldens[] = {
+    [KILN_GOLDEN_PICTURE] = "picture",
+    [KILN_GOLDEN_HASH] = "hash",
     NULL,
 };
 
@@ -77,6 +84,9 @@ static const struct kiln_option rows[] = {
          "The frames to judge; auto: the middle and the last one of the scene."),
      .count_offset = AT(frame_count), .max_count = KILN_TEST_MAX_FRAMES},
     CHOICE("format", format, formats, "png", "Of the pictures, the goldens too."),
+    CHOICE("golden", golden, goldens, "picture",
+           "What is kept of what was accepted: pictures, or hashes of state and pixels alone, of "
+           "which any change fails."),
     LIST("devices", devices, device_item, device_count, KILN_TEST_MAX_DEVICES,
          "Devices to test, each as a test of its own if there are several; it is skipped where "
          "there is no such device. None takes that of the run."),
@@ -179,6 +189,7 @@ static bool take_document(struct kiln_arena *arena, struct document *document, c
     test->frames = document->frames;
     test->frame_count = document->frame_count;
     test->format = document->format;
+    test->kept = document->golden;
     test->warn = document->warn;
     test->threshold = document->threshold;
     test->window = document->window;

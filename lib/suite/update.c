@@ -28,6 +28,8 @@ static enum action choose_action(const struct kiln_trial *trial, size_t index)
         return LEAVE;
     if (frame->judged_by == KILN_JUDGED_BY_PIXELS && frame->status == KILN_TEST_PASS)
         return *frame->state_expected || !own->equals_golden ? LEAVE : ACCEPT_HASHES;
+    if (trial->test->kept == KILN_GOLDEN_HASH)
+        return ACCEPT_HASHES;
     bool keeps = own->equals_golden || (own->unlisted && trial->params->update != KILN_UPDATE_ALL);
     return keeps ? ACCEPT_HASHES : ACCEPT_PICTURE;
 }
@@ -38,7 +40,7 @@ static bool is_scene_new(const struct kiln_trial *trial)
 {
     const struct kiln_expect *expect = trial->expect;
     return trial->params->update == KILN_UPDATE_ALL && expect->scene_hash &&
-           trial->result->status <= KILN_TEST_WARN &&
+           trial->result->status <= KILN_TEST_CHANGE &&
            (strcmp(expect->scene_hash, trial->rendering.scene.hash) != 0 ||
             strcmp(trial->result->techniques, trial->result->techniques_expected) != 0);
 }
@@ -76,8 +78,13 @@ static bool accept(struct kiln_trial *trial, size_t index, enum action action,
     const char *device = trial->rendering.device_name;
     char path[KILN_PATH_SIZE], picture[KILN_PATH_SIZE];
     if (action == ACCEPT_HASHES) {
-        const struct kiln_expect_pixels pixels = {device, frame->pixels,
-                                                  trial->frames[index].golden_hash};
+        const bool hash = trial->test->kept == KILN_GOLDEN_HASH;
+        const struct kiln_expect_pixels pixels = {
+            .device = device,
+            .hash = frame->pixels,
+            .golden = hash ? NULL : trial->frames[index].golden_hash,
+            .kiln = trial->result->version,
+        };
         if (!kiln_expect_accept(trial->arena, trial->expect, frame->number, frame->state, &pixels))
             return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory",
                                   trial->test->golden);
@@ -91,6 +98,7 @@ static bool accept(struct kiln_trial *trial, size_t index, enum action action,
             .state = frame->state,
             .device_name = device,
             .as = KILN_APPROVE_REPLACE,
+            .build = trial->result->version,
             .golden = trial->frames[index].has_golden ? frame->golden : NULL};
         if (!kiln_goldens_accept(trial->arena, trial->test, trial->expect, &acceptance, path,
                                  error))
@@ -112,6 +120,9 @@ static bool accept_scene(struct kiln_trial *trial, struct kiln_error *error)
             return true;
     }
     trial->expect->scene_hash = trial->rendering.scene.hash;
+    trial->expect->bare = trial->test->kept == KILN_GOLDEN_HASH;
+    if (trial->expect->bare)
+        return true;
     if (!kiln_expect_set_techniques(trial->arena, trial->expect, trial->rendering.techniques))
         return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", trial->test->golden);
     return kiln_goldens_write_scene(trial->test, trial->rendering.scene_text, error);
@@ -144,7 +155,8 @@ bool kiln_trial_update(struct kiln_trial *trial, struct kiln_error *error)
             return false;
     }
     bool scene = is_scene_new(trial);
-    if (scene && trial->params->dry_run)
+    const bool keeps_scene = scene && trial->test->kept == KILN_GOLDEN_PICTURE;
+    if (keeps_scene && trial->params->dry_run)
         kiln_trial_note(trial, "would write %s/scene.yaml", trial->test->golden);
     if ((wanted == 0 && !scene) || trial->params->dry_run)
         return true;
@@ -153,7 +165,7 @@ bool kiln_trial_update(struct kiln_trial *trial, struct kiln_error *error)
         return false;
     bool ok = accept_all(trial, actions, error);
     kiln_goldens_unlock(lock);
-    if (ok && scene)
+    if (ok && keeps_scene)
         kiln_trial_note(trial, "wrote %s/scene.yaml", trial->test->golden);
     return ok;
 }

@@ -281,8 +281,11 @@ static void strictly_only_known_pixels_pass(void **state)
                   "hash: "
                   "\"00000000000000000000000000000000ffffffffffffffffffffffffffffffff\"");
     run = spark_run(NULL);
-    assert_int_equal(run.summary.status, KILN_TEST_PASS);
+    assert_int_equal(run.summary.status, KILN_TEST_CHANGE);
+    assert_int_equal(run.summary.code, KILN_OK);
     assert_int_equal(run.result->frames[0].judged_by, KILN_JUDGED_BY_METRICS);
+    assert_non_null(strstr(run.summary.message, "the renderer changed, from kiln " KILN_VERSION
+                                                " to kiln " KILN_VERSION "; "));
     spark_end(&run);
     run = spark_run(&params);
     assert_int_equal(run.summary.status, KILN_TEST_FAIL);

@@ -10,7 +10,7 @@
 /* What ends a string, a line, an element, a comment or a command in some format. */
 #define TEST_NASTY_NAME "a&b<c>\"d'#e\\f%g:h,i]]>j{k}\x01\x1b[31m\nl\tm\r\xc3\xa9\xef\xbf\xbe"
 
-enum { TEST_RESULT_COUNT = 8, TEST_COLUMN_COUNT = 3 };
+enum { TEST_RESULT_COUNT = 9, TEST_COLUMN_COUNT = 3 };
 
 /* Room for what the results point to. */
 struct test_results {
@@ -116,9 +116,17 @@ static void test_fill_bad(struct test_results *all)
     result->log = "log.txt";
 
     test_result(all, 7, TEST_NASTY_NAME, KILN_TEST_ERROR, TEST_NASTY_NAME);
+
+    result = test_result(all, 8, "effects/torch", KILN_TEST_CHANGE,
+                         "frame 24: the renderer changed, from kiln 0.1.0 (1234567) to kiln 0.1.0; "
+                         "the picture is within its limits");
+    test_frame(result, 24, KILN_TEST_CHANGE, KILN_JUDGED_BY_METRICS, 0.001)->kiln_expected =
+        "0.1.0 (1234567)";
+    result->approve = "kiln test approve effects/torch";
+    result->pins_gl = true;
     static const enum kiln_code codes[] = {
         [3] = KILN_FRAME_FAILED,  [4] = KILN_FRAME_FAILED,  [5] = KILN_GOLDEN_MISSING,
-        [6] = KILN_INVALID_INPUT, [7] = KILN_DEVICE_FAILED,
+        [6] = KILN_INVALID_INPUT, [7] = KILN_DEVICE_FAILED, [8] = KILN_OK,
     };
     for (size_t i = 3; i < TEST_RESULT_COUNT; i++)
         all->results[i].code = codes[i];

@@ -40,12 +40,12 @@ static void a_test_is_found_under_its_name_again(void **state)
     (void)state;
     expect_rerun("fire", "fire", "fire.test.yaml", "kiln test fire.test.yaml");
     expect_rerun("fire", "fire", "a/b/fire.yml", "kiln test a/b/fire.yml");
-    expect_rerun("b/fire", "b/fire", "a/b/fire.test.yaml", "kiln test --filter b/fire a");
-    expect_rerun("b/fire", "b/fire", "b/fire.test.yaml", "kiln test --filter b/fire");
-    expect_rerun("b/fire", "b/fire", "/b/fire.yaml", "kiln test --filter b/fire /");
+    expect_rerun("b/fire", "b/fire", "a/b/fire.test.yaml", "kiln test a/b/fire.test.yaml");
+    expect_rerun("b/fire", "b/fire", "b/fire.test.yaml", "kiln test b/fire.test.yaml");
+    expect_rerun("b/fire", "b/fire", "/b/fire.yaml", "kiln test /b/fire.yaml");
     expect_rerun("fire", "fire@gpu", "a/fire.yaml", "kiln test --filter fire@gpu a/fire.yaml");
     expect_rerun("-a", "-a", "-a.yaml", "kiln test ./-a.yaml");
-    expect_rerun("b/c", "b/c", "it's mine/b/c.yaml", "kiln test --filter b/c 'it'\\''s mine'");
+    expect_rerun("b/c", "b/c", "it's mine/b/c.yaml", "kiln test 'it'\\''s mine/b/c.yaml'");
 }
 
 static void what_was_asked_for_is_asked_for_again(void **state)

@@ -88,21 +88,29 @@ static void a_run_is_summed_up(void **state)
     write_run("out", false);
     struct kiln_results *results = load(out, 1);
     struct kiln_results_summary summary = kiln_results_summary(results);
-    static const uint32_t counts[KILN_TEST_STATUS_COUNT] = {1, 1, 1, 1, 2, 3};
-    assert_int_equal(summary.tests, 9);
+    static const uint32_t counts[KILN_TEST_STATUS_COUNT] = {1, 1, 1, 1, 1, 2, 3};
+    assert_int_equal(summary.tests, 10);
     assert_memory_equal(summary.counts, counts, sizeof counts);
     assert_int_equal(summary.code, KILN_DEVICE_FAILED);
     assert_true(summary.total_s == 12.3456);
     assert_string_equal(results->started, "2026-01-31T12:00:00Z");
     for (size_t i = 1; i < results->count; i++)
         assert_true(strcmp(results->tests[i - 1]->name, results->tests[i]->name) < 0);
-    assert_string_equal(results->tests[6]->name, "lost");
-    assert_int_equal(results->tests[6]->status, KILN_TEST_ERROR);
-    assert_string_equal(results->folders[6], "out/lost");
+    assert_string_equal(results->tests[7]->name, "lost");
+    assert_int_equal(results->tests[7]->status, KILN_TEST_ERROR);
+    assert_string_equal(results->folders[7], "out/lost");
     char text[256];
     kiln_words_summary(text, results);
-    assert_string_equal(text, "9 tests: 1 pass, 1 skip, 1 warn, 1 new, 2 fail, 3 error; "
+    assert_string_equal(text, "10 tests: 1 pass, 1 skip, 1 warn, 1 change, 1 new, 2 fail, 3 error; "
                               "in 12.346 s");
+    char *line = NULL;
+    size_t size = 0;
+    FILE *out_text = open_memstream(&line, &size);
+    assert_true(kiln_write_frames(out_text, &summary));
+    assert_int_equal(fclose(out_text), 0);
+    assert_string_equal(line, "7 frames: 2 by pixels, 3 by metrics, 1 by state, 1 by nothing; "
+                              "1 of tests that pin GL: 0 by pixels, 1 by metrics");
+    free(line);
     kiln_results_destroy(&results);
     assert_null(results);
     kiln_results_destroy(&results);
@@ -340,7 +348,7 @@ static void results_of_other_tests_are_refused(void **state)
     write_run("out", true);
     assert_int_equal(rename("out/effects/fire/result.json", "out/effects/smoke/result.json"), 0);
     assert_refused(out, 1, "the result of 'effects/fire'; that of 'effects/smoke' was to be here");
-    write_text("out/effects/smoke/result.json", "{\"kiln_result\": 1}");
+    write_text("out/effects/smoke/result.json", "{\"kiln_result\": 2}");
     assert_refused(out, 1, "out/effects/smoke/result.json:1:1: name is missing");
 }
 

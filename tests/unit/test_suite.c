@@ -62,6 +62,7 @@ static const char *const here[] = {"."};
 
 static void make_tree(void)
 {
+    test_write_file("scenes/.kiln-tests", "");
     test_write_file("scenes/plain.yaml", scene);
     test_write_file("scenes/other.yml", scene);
     test_write_file("scenes/fire.yaml", scene);
@@ -83,7 +84,7 @@ static void folders_are_searched(void **state)
     (void)state;
     make_tree();
     struct kiln_suite_params params = paths(here, 1);
-    expect_names(&params, "scenes/effects/far scenes/effects/near scenes/fire scenes/other");
+    expect_names(&params, "effects/far effects/near fire other");
     static const char *const folder[] = {"scenes//"};
     params = paths(folder, 1);
     expect_names(&params, "effects/far effects/near fire other");
@@ -97,7 +98,7 @@ static void folders_are_searched(void **state)
     /* But no other file is, wherever an expect.yaml is dropped. */
     test_write_file("elsewhere/fire/torch.yaml", scene);
     test_write_file("elsewhere/fire/smoke.test.yaml", fire_test);
-    expect_names(&params, "fire/smoke fire/torch");
+    expect_names(&params, "elsewhere/fire/smoke elsewhere/fire/torch");
 }
 
 static void paths_lead_from_the_test_file(void **state)
@@ -119,14 +120,14 @@ static void paths_lead_from_the_test_file(void **state)
     kiln_suite_destroy(&suite);
 }
 
-static void files_are_named_by_their_stem(void **state)
+static void files_are_found_once(void **state)
 {
     (void)state;
     make_tree();
     static const char *const files[] = {"scenes/effects/far.test.yaml", "scenes/plain.yaml",
                                         "./scenes/other.yml"};
     struct kiln_suite_params params = paths(files, 3);
-    expect_names(&params, "far other plain");
+    expect_names(&params, "effects/far other plain");
     /* Found again in a folder, a file is still one test. */
     static const char *const twice[] = {"scenes/fire.test.yaml", "scenes", "./scenes/"};
     params = paths(twice, 3);
@@ -186,14 +187,18 @@ static void two_tests_of_one_name(void **state)
     test_write_file("b/fire.yaml", scene);
     static const char *const files[] = {"a/fire.test.yaml", "b/fire.yaml"};
     struct kiln_suite_params params = paths(files, 2);
-    expect_usage(&params, "a/fire.test.yaml and b/fire.yaml: two tests of the name 'fire'");
+    expect_names(&params, "a/fire b/fire");
+    params.golden = "/nowhere/goldens";
+    expect_usage(&params,
+                 "a/fire.test.yaml and b/fire.yaml: two tests of the name 'fire'; an empty "
+                 "file .kiln-tests marks the folder that names begin from");
 
     /* A scene beside its broken test file is not a second test. */
     test_write_file("c/fire.test.yaml", "kiln_test: 1\nscene: [\n");
     test_write_file("c/fire.yaml", scene);
     static const char *const folder[] = {"c"};
     params = paths(folder, 1);
-    expect_names(&params, "fire");
+    expect_names(&params, "c/fire");
 }
 
 /* Loads one file, whose name is none, and compares what is wrong and what stands for it. */
@@ -237,7 +242,8 @@ static void odd_names_are_errors_of_their_tests(void **state)
     static const char *const alike[] = {"my fire.test.yaml", "my,fire.test.yaml"};
     params = paths(alike, 2);
     expect_usage(&params,
-                 "my fire.test.yaml and my,fire.test.yaml: two tests of the name 'my_fire'");
+                 "my fire.test.yaml and my,fire.test.yaml: two tests of the name 'my_fire'; an "
+                 "empty file .kiln-tests marks the folder that names begin from");
 }
 
 static void letters_of_any_script_name_tests(void **state)
@@ -513,7 +519,7 @@ static void wrong_test_files_say_where(void **state)
         snprintf(message, sizeof message, "x/t.test.yaml%s", wrong_files[i].message);
         assert_string_equal(test->problem.message, message);
         assert_int_equal(test->problem.code, KILN_INVALID_INPUT);
-        assert_string_equal(test->name, "t");
+        assert_string_equal(test->name, "x/t");
         assert_true(test->time_limit_s > 0);
         kiln_suite_destroy(&suite);
     }
@@ -565,7 +571,7 @@ int main(void)
     static const struct CMUnitTest tests[] = {
         IN_FOLDER(folders_are_searched),
         IN_FOLDER(paths_lead_from_the_test_file),
-        IN_FOLDER(files_are_named_by_their_stem),
+        IN_FOLDER(files_are_found_once),
         IN_FOLDER(scenes_with_faults_are_not_passed_over),
         IN_FOLDER(operands_that_are_no_tests),
         IN_FOLDER(two_tests_of_one_name),

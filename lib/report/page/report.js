@@ -37,6 +37,7 @@ function showReason(test, frame) {
     const text = frame && !worst && frame.message ? frame.message : frame && !worst ? "" : test.message || (frame ? frame.message : "");
     const texts = {
         pass: "Passed.", warn: "Passed, but beyond the warn level.", skip: "Skipped.",
+        change: "Within the limits, but other pixels than were accepted.",
         new: "Nothing was accepted yet.", fail: "Failed.", error: "It could not be judged.",
     };
     const status = frame && !worst ? frame.status : test.status;
@@ -296,6 +297,10 @@ function startButtons() {
         },
     };
     for (const [id, act] of Object.entries(acts)) byId(id).addEventListener("click", act);
+    if (byId("approve-all")) {
+        const all = byId("approve-all");
+        all.replaceWith(command("copy-approve-all", "approve all pictures", all.querySelector("code").textContent));
+    }
     byId("amount").addEventListener("input", (event) => viewer.setAmount(Number(event.target.value)));
     byId("jump").addEventListener("click", (event) => {
         event.preventDefault();

@@ -32,7 +32,7 @@ const timeline = {
         }, this.draw(scores));
         this.listen();
         const last = test.frames.length - 1;
-        const red = test.frames.filter((frame) => !["pass", "warn", "skip"].includes(frame.status)).length;
+        const red = test.frames.filter((frame) => !["pass", "warn", "change", "skip"].includes(frame.status)).length;
         const middle = red ? `${red} of ${last + 1} frames did not pass` : `${last + 1} frames`;
         out.replaceChildren(
             make("div", { class: "line" },

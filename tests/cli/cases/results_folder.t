@@ -98,16 +98,22 @@ $ kiln test fire -q --report r.html --junit r.xml --json r.json --tap r.tap && k
 $ for report in 'junit r.tap' 'tap r.json' 'json r.xml' 'report r.xml' 'junit r.html' 'junit notes'; do echo mine >notes; kiln test fire -q --${report% *} ${report#* } 2>&1 || kiln test report out/test -q --${report% *} ${report#* }; done
 1|kiln: r.tap: the file exists, and is nothing that --junit has written (--force replaces it)
 1|1 test in <s> s: 1 pass
+1|1 frame: 1 by pixels, 0 by metrics
 1|kiln: r.json: the file exists, and is nothing that --tap has written (--force replaces it)
 1|1 test in <s> s: 1 pass
+1|1 frame: 1 by pixels, 0 by metrics
 1|kiln: r.xml: the file exists, and is nothing that --json has written (--force replaces it)
 1|1 test in <s> s: 1 pass
+1|1 frame: 1 by pixels, 0 by metrics
 1|kiln: r.xml: the file exists, and is nothing that --report has written (--force replaces it)
 1|1 test in <s> s: 1 pass
+1|1 frame: 1 by pixels, 0 by metrics
 1|kiln: r.html: the file exists, and is nothing that --junit has written (--force replaces it)
 1|1 test in <s> s: 1 pass
+1|1 frame: 1 by pixels, 0 by metrics
 1|kiln: notes: the file exists, and is nothing that --junit has written (--force replaces it)
 1|1 test in <s> s: 1 pass
+1|1 frame: 1 by pixels, 0 by metrics
 2|kiln: r.tap: the file exists, and is nothing that --junit has written (--force replaces it)
 2|kiln: r.json: the file exists, and is nothing that --tap has written (--force replaces it)
 2|kiln: r.xml: the file exists, and is nothing that --json has written (--force replaces it)
@@ -121,6 +127,7 @@ $ kiln test fire -q --junit notes --force && head -n 1 notes
 1|<?xml version="1.0" encoding="UTF-8"?>
 $ for file in fire.test.yaml scenes/tiny.yaml scenes/puff.png golden/fire/frame_0006.png golden/fire/expect.yaml golden/fire/../fire/scene.yaml out/test/fire/frame_0006.png out/test/run.json out/test/fire/result.json out/test/.kiln-results; do kiln test fire -q --force --report $file; done
 1|1 test in <s> s: 1 pass
+1|1 frame: 1 by pixels, 0 by metrics
 2|kiln: fire.test.yaml: --report would replace a test file, which this call reads
 2|kiln: scenes/tiny.yaml: --report would replace a scene, which this call reads
 2|kiln: scenes/puff.png: --report would replace a file of a scene, which this call reads
@@ -140,8 +147,11 @@ $ kiln test fire -q --report out/test/x.html --tap out/../out/test/x.html
 = 2
 $ for file in out/test/run.json out/test/fire/result.json out/test/fire/frame_0006.png; do kiln test report out/test -q --force --report $file; done
 1|1 test in <s> s: 1 pass
+1|1 frame: 1 by pixels, 0 by metrics
 1|1 test in <s> s: 1 pass
+1|1 frame: 1 by pixels, 0 by metrics
 1|1 test in <s> s: 1 pass
+1|1 frame: 1 by pixels, 0 by metrics
 2|kiln: out/test/run.json: --report would replace a run, which this call reads
 2|kiln: out/test/fire/result.json: --report would replace a result, which this call reads
 2|kiln: out/test/fire/frame_0006.png: --report would replace a picture of a result, which this call reads

@@ -13,65 +13,69 @@ $ kiln test list --files
 A golden that is missing is a failure, and is not written before one is told to.
 
 $ kiln test fire
-1|new    fire  1 frame in <s> s: frame 6 has no golden: there is no golden/fire/frame_0006.png
+1|new     fire  1 frame in <s> s: frame 6 has no golden: there is no golden/fire/frame_0006.png
 1|1 test in <s> s: 1 new
 1|report: out/test/report.html
-1|where the pictures are right, accept them:
-1|  kiln test approve fire
+1|where the pictures are right, accept them: kiln test approve fire
+1|1 frame: 0 by pixels, 0 by metrics, 1 by nothing
 = 7
 $ ls golden
 2|ls: cannot access 'golden': No such file or directory
 = 2
 $ kiln test fire --update missing --dry-run
-1|new    fire  1 frame in <s> s: frame 6 has no golden: there is no golden/fire/frame_0006.png
-1|       would write golden/fire/frame_0006.png
+1|new     fire  1 frame in <s> s: frame 6 has no golden: there is no golden/fire/frame_0006.png
+1|        would write golden/fire/frame_0006.png
 1|1 test in <s> s: 1 new
 1|report: out/test/report.html
 1|1 picture would be written; this was a dry run
-1|where the pictures are right, accept them:
-1|  kiln test approve fire
+1|where the pictures are right, accept them: kiln test approve fire
+1|1 frame: 0 by pixels, 0 by metrics, 1 by nothing
 = 7
 $ ls golden
 2|ls: cannot access 'golden': No such file or directory
 = 2
 $ kiln test fire --update missing
-1|pass   fire  1 frame in <s> s
-1|       wrote golden/fire/frame_0006.png
+1|pass    fire  1 frame in <s> s
+1|        wrote golden/fire/frame_0006.png
 1|1 test in <s> s: 1 pass
 1|report: out/test/report.html
 1|1 picture was written: look at it before you keep it
+1|1 frame: 0 by pixels, 0 by metrics, 1 by nothing
 $ find golden -type f | sort
 1|golden/fire/expect.yaml
 1|golden/fire/frame_0006.png
 1|golden/fire/scene.yaml
 $ kiln test fire
-1|pass   fire  1 frame in <s> s
+1|pass    fire  1 frame in <s> s
 1|1 test in <s> s: 1 pass
 1|report: out/test/report.html
+1|1 frame: 1 by pixels, 0 by metrics
 $ kiln test fire -q
 $ kiln test fire --repeat 2 --threads 3 --strict
-1|pass   fire  1 frame in <s> s
+1|pass    fire  1 frame in <s> s
 1|1 test in <s> s: 1 pass
 1|report: out/test/report.html
+1|1 frame: 1 by pixels, 0 by metrics
 
 A picture that has changed fails, and can be accepted.
 
 $ echo 'set: [systems.fire.look.size=0.6]' >>fire.test.yaml
 $ kiln test fire
-1|fail   fire  1 frame in <s> s: frame 6: flip.mean is <value>, beyond 0.01; flip.p99 is <value>, beyond 0.1
+1|fail    fire  1 frame in <s> s: frame 6 has other pixels than were accepted on cpu; flip.mean is <value>, beyond 0.01; flip.p99 is <value>, beyond 0.1
 1|1 test in <s> s: 1 fail
 1|report: out/test/report.html
-1|where the pictures are right, accept them:
-1|  kiln test approve fire
+1|where the pictures are right, accept them: kiln test approve fire
+1|1 frame: 0 by pixels, 1 by metrics
 = 1
 $ kiln test fire -q --update missing
-1|fail   fire  1 frame in <s> s: frame 6: flip.mean is <value>, beyond 0.01; flip.p99 is <value>, beyond 0.1
+1|fail    fire  1 frame in <s> s: frame 6 has other pixels than were accepted on cpu; flip.mean is <value>, beyond 0.01; flip.p99 is <value>, beyond 0.1
 1|1 test in <s> s: 1 fail
 1|report: out/test/report.html
-1|where the pictures are right, accept them:
-1|  kiln test approve fire
+1|where the pictures are right, accept them: kiln test approve fire
+1|1 frame: 0 by pixels, 1 by metrics
 = 1
 $ kiln complete -- test approve fi | cut -f 1,2
+1|word	fire
 1|word	fire
 $ kiln test approve fire --dry-run
 1|would write golden/fire/frame_0006.png
@@ -82,44 +86,48 @@ $ kiln test approve fire
 1|wrote golden/fire/scene.yaml
 1|wrote golden/fire/expect.yaml
 $ kiln test fire
-1|pass   fire  1 frame in <s> s
+1|pass    fire  1 frame in <s> s
 1|1 test in <s> s: 1 pass
 1|report: out/test/report.html
+1|1 frame: 1 by pixels, 0 by metrics
 $ kiln test approve fire
 1|fire: nothing to accept, every picture passes
 $ kiln test approve fir
 2|kiln: no result of a test 'fir' in out/test (did you mean 'fire'?)
 = 2
 $ kiln test approve
-2|kiln: test approve: needs NAME...
+2|kiln: test approve: which tests? name them, or --all
 = 2
 
 So does a simulation that has changed, however like the picture is.
 
 $ sed -i 's/^set:.*/set: [systems.fire.look.size=0.6, simulation.rate=120]/' fire.test.yaml
 $ kiln test fire
-1|fail   fire  1 frame in <s> s: the simulation changed: state a6edc2d5ec8d500c at frame 6, accepted was 3bdb35dd0e9813d8; the picture is within its limits
+1|fail    fire  1 frame in <s> s: the simulation changed: state a6edc2d5ec8d500c at frame 6, accepted was 3bdb35dd0e9813d8; the picture is within its limits
 1|1 test in <s> s: 1 fail
 1|report: out/test/report.html
-1|where the pictures are right, accept them:
-1|  kiln test approve fire
+1|where the pictures are right, accept them: kiln test approve fire
+1|1 frame: 0 by pixels, 0 by metrics, 1 by state
 = 1
 $ kiln test fire --ignore-hashes --json - | jq -c '.tests[] | [.name, .status]'
 1|["fire","pass"]
-2|pass   fire  1 frame in <s> s
-2|       the scene has changed in 1 key, and everything passes
+2|pass    fire  1 frame in <s> s
+2|        the scene has changed in 1 key, and everything passes
 2|1 test in <s> s: 1 pass
 2|report: out/test/report.html
+2|1 frame: 0 by pixels, 1 by metrics
 $ kiln test fire --update failed
-1|pass   fire  1 frame in <s> s
-1|       wrote golden/fire/frame_0006.png
+1|pass    fire  1 frame in <s> s
+1|        wrote golden/fire/frame_0006.png
 1|1 test in <s> s: 1 pass
 1|report: out/test/report.html
 1|1 picture was written: look at it before you keep it
+1|1 frame: 0 by pixels, 0 by metrics, 1 by state
 $ kiln test fire
-1|pass   fire  1 frame in <s> s
+1|pass    fire  1 frame in <s> s
 1|1 test in <s> s: 1 pass
 1|report: out/test/report.html
+1|1 frame: 1 by pixels, 0 by metrics
 
 What is no test, and names of none.
 
@@ -168,15 +176,17 @@ $ echo 'scne: x' >wrong.test.yaml
 > printf 'kiln_test: 1\nscene: scenes/empty.yaml\nframes: [0]\ndevices: [no-such-device]\n' >elsewhere.test.yaml
 > printf 'kiln_test: 1\nscene: scenes/tiny.yaml\nframes: [0]\nset: [systems.smoke.emit.rate=1000000, simulation.warmup=4000 s]\n' >slow.test.yaml
 $ kiln test fire wrong
-1|pass   fire   1 frame in <s> s
-1|error  wrong  wrong.test.yaml:1:1: scne: unknown key (did you mean 'scene'?)
+1|pass    fire   1 frame in <s> s
+1|error   wrong  wrong.test.yaml:1:1: scne: unknown key (did you mean 'scene'?)
 1|2 tests in <s> s: 1 pass, 1 error
 1|report: out/test/report.html
+1|1 frame: 1 by pixels, 0 by metrics
 = 3
 $ kiln test elsewhere
-1|skip   elsewhere  there is no device 'no-such-device'; there are: <devices>
+1|skip    elsewhere  there is no device 'no-such-device'; there are: <devices>
 1|1 test in <s> s: 1 skip
 1|report: out/test/report.html
+1|0 frames: 0 by pixels, 0 by metrics
 2|kiln: test: every test was skipped, so nothing was tested: none is for a device of this machine
 = 4
 $ kiln test approve elsewhere wrong
@@ -184,22 +194,25 @@ $ kiln test approve elsewhere wrong
 2|wrong: the test ended with an error, and nothing can be accepted: wrong.test.yaml:1:1: scne: unknown key (did you mean 'scene'?)
 = 3
 $ kiln test elsewhere fire
-1|skip   elsewhere  there is no device 'no-such-device'; there are: <devices>
-1|pass   fire       1 frame in <s> s
+1|skip    elsewhere  there is no device 'no-such-device'; there are: <devices>
+1|pass    fire       1 frame in <s> s
 1|2 tests in <s> s: 1 pass, 1 skip
 1|report: out/test/report.html
+1|1 frame: 1 by pixels, 0 by metrics
 $ echo 'time_limit: 0.5 s' >>slow.test.yaml
 $ kiln test slow fire
-1|pass   fire  1 frame in <s> s
-1|error  slow  took longer than 0.5 s
+1|pass    fire  1 frame in <s> s
+1|error   slow  took longer than 0.5 s
 1|2 tests in <s> s: 1 pass, 1 error
 1|report: out/test/report.html
+1|1 frame: 1 by pixels, 0 by metrics
 = 5
 $ kiln test wrong slow fire elsewhere -q
-1|error  slow       took longer than 0.5 s
-1|error  wrong      wrong.test.yaml:1:1: scne: unknown key (did you mean 'scene'?)
+1|error   slow       took longer than 0.5 s
+1|error   wrong      wrong.test.yaml:1:1: scne: unknown key (did you mean 'scene'?)
 1|4 tests in <s> s: 1 pass, 1 skip, 2 error
 1|report: out/test/report.html
+1|1 frame: 1 by pixels, 0 by metrics
 = 5
 
 Names, patterns and shards.
@@ -214,9 +227,10 @@ $ kiln test list --filter '*e*' --shard 1/2; kiln test list --filter '*e*' --sha
 Reports are written also when tests fail, and each can go to standard output instead of the text.
 
 $ kiln test fire wrong --no-report --junit out/r/junit.xml --json out/r/all.json --tap out/r/all.tap; echo $?; ls out/r
-1|pass   fire   1 frame in <s> s
-1|error  wrong  wrong.test.yaml:1:1: scne: unknown key (did you mean 'scene'?)
+1|pass    fire   1 frame in <s> s
+1|error   wrong  wrong.test.yaml:1:1: scne: unknown key (did you mean 'scene'?)
 1|2 tests in <s> s: 1 pass, 1 error
+1|1 frame: 1 by pixels, 0 by metrics
 1|3
 1|all.json
 1|all.tap
@@ -231,29 +245,33 @@ $ kiln test fire wrong --no-report --json - 2>/dev/null | jq -c '.tests[] | [.na
 1|["fire","pass"]
 1|["wrong","error"]
 $ kiln test fire wrong --no-report --github
-1|pass   fire   1 frame in <s> s
-1|error  wrong  wrong.test.yaml:1:1: scne: unknown key (did you mean 'scene'?)
+1|pass    fire   1 frame in <s> s
+1|error   wrong  wrong.test.yaml:1:1: scne: unknown key (did you mean 'scene'?)
 1|::error file=wrong.test.yaml,title=Golden image test broke%3A wrong::wrong.test.yaml:1:1: scne: unknown key (did you mean 'scene'?)%0Ato run it again: kiln test wrong.test.yaml
 1|::notice title=kiln test::2 tests: 1 pass, 1 error; in <s> s
 1|2 tests in <s> s: 1 pass, 1 error
+1|1 frame: 1 by pixels, 0 by metrics
 = 3
 $ kiln test fire --report page.html --junit fire.test.yaml/junit.xml; echo $?; ls page.html
-1|pass   fire  1 frame in <s> s
+1|pass    fire  1 frame in <s> s
 1|1 test in <s> s: 1 pass
 1|report: page.html
+1|1 frame: 1 by pixels, 0 by metrics
 1|6
 1|page.html
 2|kiln: fire.test.yaml: not a folder, but fire.test.yaml/junit.xml needs one here
 $ kiln test wrong -q --junit fire.test.yaml/junit.xml
-1|error  wrong  wrong.test.yaml:1:1: scne: unknown key (did you mean 'scene'?)
+1|error   wrong  wrong.test.yaml:1:1: scne: unknown key (did you mean 'scene'?)
 1|1 test in <s> s: 1 error
 1|report: out/test/report.html
+1|0 frames: 0 by pixels, 0 by metrics
 2|kiln: fire.test.yaml: not a folder, but fire.test.yaml/junit.xml needs one here
 = 6
 $ kiln test slow -q --time-limit 0.25 --junit fire.test.yaml/junit.xml
-1|error  slow  took longer than 0.25 s
+1|error   slow  took longer than 0.25 s
 1|1 test in <s> s: 1 error
 1|report: out/test/report.html
+1|0 frames: 0 by pixels, 0 by metrics
 2|kiln: fire.test.yaml: not a folder, but fire.test.yaml/junit.xml needs one here
 = 5
 $ kiln test fire -o fire.test.yaml
@@ -267,13 +285,12 @@ A test that is gone leaves its goldens, which a run of a whole folder tells.
 
 $ mkdir one; cp -r fire.test.yaml scenes one; mv golden/fire golden/fir
 $ kiln test one --no-report; mv golden/fir golden/fire; rm -r one
-1|new    fire          1 frame in <s> s: frame 6 has no golden: there is no golden/fire/frame_0006.png
-1|new    scenes/empty  1 frame in <s> s: frame 1 has no golden: there is no golden/scenes/empty/frame_0001.png
+1|new     one/fire          1 frame in <s> s: frame 6 has no golden: there is no golden/one/fire/frame_0006.png
+1|new     one/scenes/empty  1 frame in <s> s: frame 1 has no golden: there is no golden/one/scenes/empty/frame_0001.png
 1|2 tests in <s> s: 2 new
 1|golden/fir: no test uses these goldens; was one renamed or lost?
-1|where the pictures are right, accept them:
-1|  kiln test approve fire
-1|  kiln test approve scenes/empty
+1|where the pictures are right, accept them: kiln test approve --all
+1|2 frames: 0 by pixels, 0 by metrics, 2 by nothing
 
 Results do not go where goldens are, whose pictures they would replace.
 
@@ -294,17 +311,20 @@ $ diff -r golden kept; diff -rq golden/fire out/nested/fire; rm -r kept link
 Shards are merged.
 
 $ kiln test fire wrong --shard 1/2 -o out/1 --no-report -q; kiln test fire wrong --shard 2/2 -o out/2 --no-report -q
-1|error  wrong  wrong.test.yaml:1:1: scne: unknown key (did you mean 'scene'?)
+1|error   wrong  wrong.test.yaml:1:1: scne: unknown key (did you mean 'scene'?)
 1|1 test in <s> s: 1 error
+1|0 frames: 0 by pixels, 0 by metrics
 = 3
 $ kiln test report out/1 out/2 --tap out/all.tap; echo $?; ls out/1/report.html; grep -c 'ok ' out/all.tap
 1|2 tests in <s> s: 1 pass, 1 error
+1|1 frame: 1 by pixels, 0 by metrics
 1|report: out/1/report.html
 1|3
 1|out/1/report.html
 1|2
 $ kiln test report out/1 -q --junit out/half.xml; echo $?; grep -c 'message="shard 2 of 2 is missing' out/half.xml; kiln test report void
 1|2 tests in <s> s: 1 pass, 1 error
+1|1 frame: 1 by pixels, 0 by metrics
 1|report: out/1/report.html
 1|3
 1|1
@@ -330,9 +350,10 @@ $ cat >child <<'END'
 > END
 $ kiln test fire slow -j1 -o out/crash --no-report & run=$!
 > child=$(bash child crash $run); kill -SEGV $child; wait $run
-1|pass   fire  1 frame in <s> s
-1|error  slow  crashed: signal 11 (Segmentation fault)
+1|pass    fire  1 frame in <s> s
+1|error   slow  crashed: signal 11 (Segmentation fault)
 1|2 tests in <s> s: 1 pass, 1 error
+1|1 frame: 1 by pixels, 0 by metrics
 = 5
 
 A signal to the run ends its tests, and leaves neither processes nor half-written files.
@@ -381,8 +402,9 @@ $ kiln test calibrate fire --renders 2 -q --write; grep -E '^(measured|limits)' 
 1|limits: {flip.mean: 0.001, flip.p99: 0.025, window.share: 0.01}
 1|measured: {flip.mean: 0, flip.p99: 0, window.share: 0}
 $ kiln test fire --no-report
-1|pass   fire  1 frame in <s> s
+1|pass    fire  1 frame in <s> s
 1|1 test in <s> s: 1 pass
+1|1 frame: 1 by pixels, 0 by metrics
 $ kiln test calibrate wrong fier
 2|kiln: no test has the name 'fier' (did you mean 'fire'?)
 = 2

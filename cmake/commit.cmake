@@ -1,0 +1,25 @@
+# Writes OUTPUT, a header that names the commit of the working tree in SOURCE, "254e4dc", with a '+'
+# where tracked files have changed since; "" where there is none. The file is left alone while it
+# would be the same, so that nothing is compiled anew.
+find_program(git git)
+set(commit "")
+if(git)
+    execute_process(COMMAND ${git} -C ${SOURCE} rev-parse --show-prefix --short=7 HEAD
+        OUTPUT_VARIABLE found ERROR_QUIET OUTPUT_STRIP_TRAILING_WHITESPACE RESULT_VARIABLE failed)
+    if(NOT failed AND found MATCHES "^\n([0-9a-f]+)$") # the tree is the repository's, at its top
+        set(commit ${CMAKE_MATCH_1})
+        execute_process(COMMAND ${git} -C ${SOURCE} diff --quiet HEAD --
+            ERROR_QUIET RESULT_VARIABLE changed)
+        if(changed)
+            string(APPEND commit "+")
+        endif()
+    endif()
+endif()
+set(text "#define KILN_COMMIT \"${commit}\"\n")
+set(before "")
+if(EXISTS ${OUTPUT})
+    file(READ ${OUTPUT} before)
+endif()
+if(NOT text STREQUAL before)
+    file(WRITE ${OUTPUT} "${text}")
+endif()

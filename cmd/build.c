@@ -1,0 +1,10 @@
+/* Which kiln this is. */
+#include "build.h"
+
+#include "commit.h"
+#include "kiln.h"
+
+const char *build_name(void)
+{
+    return *KILN_COMMIT ? KILN_VERSION " (" KILN_COMMIT ")" : KILN_VERSION;
+}
