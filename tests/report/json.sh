@@ -26,7 +26,7 @@ expect good .kiln_report 1
 expect good .code 0
 expect good '[.total_s, .started]' '[12.3456,"2026-01-31T12:00:00Z"]'
 expect bad .code 5
-expect bad .counts '{"tests":9,"pass":1,"skip":1,"warn":1,"new":1,"fail":2,"error":3}'
+expect bad .counts '{"tests":10,"pass":1,"skip":1,"warn":1,"change":1,"new":1,"fail":2,"error":3}'
 expect bad '[.tests[] | select(.status == "fail") | .name]' '["fail/metrics","fail/state"]'
 expect bad '[.tests[].name] == ([.tests[].name] | sort)' true
 # The same members in every test, and in every frame that was measured.

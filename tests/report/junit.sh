@@ -58,7 +58,7 @@ assert pictures[0] == "[[ATTACHMENT|out/effects/smoke/frame_0024.png]]" and len(
 PYTHON
 }
 expect good 0 3 0 0 1
-expect bad 5 9 3 3 1
+expect bad 5 10 3 3 1
 
 # The schema would see what is wrong.
 sed 's/<testcase name=/<testcase title=/' "$work/bad/junit" >"$work/broken.xml"

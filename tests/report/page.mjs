@@ -33,9 +33,9 @@ test("opens with the worst test and its reason", async () => {
     assert.match(await text(page, "#about"), /<\/script><script>window.harmed=1/);
     assert.equal(await page.locator("#viewer").isVisible(), false);
     const order = await page.$$eval("#rows li", (rows) => rows.map((row) => row.classList[0]));
-    assert.deepEqual(order, ["error", "fail", "fail", "new", "warn", "skip", "pass"]);
+    assert.deepEqual(order, ["error", "fail", "fail", "new", "change", "skip", "pass"]);
     assert.deepEqual(await page.$$eval(".count", (all) => all.map((b) => b.textContent.trim())),
-        ["1 error", "2 fail", "1 new", "1 warn", "1 skip", "1 pass"]);
+        ["1 error", "2 fail", "1 new", "1 change", "1 skip", "1 pass"]);
     await photograph(page, "error-light");
     await page.close();
 });
@@ -51,10 +51,22 @@ test("does not scroll behind its columns", async () => {
     }
 });
 
+test("copies one command that approves all pictures", async () => {
+    const page = await browser.open(cases);
+    assert.equal(await text(page, ".command:has(#copy-approve-all) code"), "kiln test approve --all");
+    await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+    await page.locator("#copy-approve-all").click();
+    await page.waitForFunction(() => document.querySelector("#copy-approve-all").textContent.startsWith("Copied"));
+    assert.equal(await page.evaluate(() => navigator.clipboard.readText()), "kiln test approve --all");
+    assert.match(await text(page, ".run"), /\d+ frames: \d+ by pixels, \d+ by metrics/);
+    await photograph(page, "approve-all");
+    await page.close();
+});
+
 test("runs nothing that a test has in its texts", async () => {
     const page = await browser.open(many, { hash: "#test=effects/case_0000" });
     await shown(page, 24);
-    for (const selector of ["#reason", "#about", ".notes", "td.before", "dd", "code", "li .why"])
+    for (const selector of ["#reason", "#about", ".notes", "td.before", "dd", "#facts code", "li .why"])
         assert.ok((await page.locator(selector).first().innerText()).includes("</script><script>window.harmed=1"), selector);
     assert.equal(await page.evaluate(() => window.harmed), undefined);
     assert.equal(await page.locator("img").count(), 0);

@@ -8,7 +8,7 @@ const tests = {};
 for (const [, line, block] of text.matchAll(/^((?:not )?ok \d+ - .*)\n  ---\n([^]*?)\n  \.\.\.$/gm))
     tests[line.replace(/^.*? - /, "")] = parse(block);
 
-assert.equal(Object.keys(tests).length, 9);
+assert.equal(Object.keys(tests).length, 10);
 assert.equal(tests["effects/fire"].status, "pass");
 assert.equal(tests["effects/fire"].seconds, 1.25);
 assert.equal(tests["effects/fire"].frames, undefined);

@@ -34,10 +34,10 @@ expect() {
     fi
 }
 expect good 0 "All tests successful." "Result: PASS"
-expect bad 1 "  Failed tests:  1-2, 5-8" "Result: FAIL"
+expect bad 1 "  Failed tests:  1-2, 6-9" "Result: FAIL"
 
 # A test more than was planned is noticed.
-sed 's/^1\.\.9/1..8/' "$work/bad/tap" >"$work/cut"
+sed 's/^1\.\.10/1..9/' "$work/bad/tap" >"$work/cut"
 said=$(prove --exec cat "$work/cut" 2>&1) || true
 if [[ $said != *"Parse errors: Bad plan"* ]]; then
     echo "prove takes anything"

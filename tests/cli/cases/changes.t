@@ -1,0 +1,123 @@
+Pixels that have changed, hashes alone, and many pictures at once.
+
+$ printf 'kiln_test: 1\nscene: scenes/tiny.yaml\nframes: [6]\nsize: [32, 18]\n' | tee a.test.yaml >b.test.yaml; printf 'golden: hash\n' | cat a.test.yaml - >hash.test.yaml
+$ kiln test --filter a --filter b --filter hash -q --update missing --no-report; ls golden/a golden/hash; wc -c <golden/hash/expect.yaml
+1|golden/a:
+1|expect.yaml
+1|frame_0006.png
+1|scene.yaml
+1|
+1|golden/hash:
+1|expect.yaml
+1|260
+
+What was accepted says of which kiln. A hash golden has no picture.
+
+$ grep -o 'kiln: "[^"]*"' golden/a/expect.yaml golden/hash/expect.yaml
+1|golden/a/expect.yaml:kiln: "0.1.0"
+1|golden/hash/expect.yaml:kiln: "0.1.0"
+
+Other pixels within the limits are a change: told, and strictly a failure.
+
+$ cp -r golden right; sed -i 's/{hash: "..../{hash: "0000/' golden/*/expect.yaml
+$ kiln test --filter a --no-report
+1|change  a  1 frame in <s> s: frame 6: the renderer changed, from kiln 0.1.0 to kiln 0.1.0; the picture is within its limits
+1|1 test in <s> s: 1 change
+1|where the pictures are right, accept them: kiln test approve a
+1|1 frame: 0 by pixels, 1 by metrics
+$ kiln test --filter a --no-report --strict
+1|fail    a  1 frame in <s> s: frame 6: the renderer changed, from kiln 0.1.0 to kiln 0.1.0; the picture is within its limits
+1|1 test in <s> s: 1 fail
+1|where the pictures are right, accept them: kiln test approve a
+1|1 frame: 1 by pixels, 0 by metrics
+= 1
+$ sed -i '/^scene_hash/s/"..../"0000/' golden/a/expect.yaml && kiln test --filter a --no-report; rm -r golden/a && cp -r right/a golden
+1|change  a  1 frame in <s> s: frame 6 has other pixels than were accepted on cpu; the picture is within its limits
+1|1 test in <s> s: 1 change
+1|where the pictures are right, accept them: kiln test approve a
+1|1 frame: 0 by pixels, 1 by metrics
+$ kiln test --filter hash --no-report
+1|fail    hash  1 frame in <s> s: frame 6: the renderer changed, from kiln 0.1.0 to kiln 0.1.0; no picture is kept; --against PROGRAM draws it
+1|1 test in <s> s: 1 fail
+1|where the pictures are right, accept them: kiln test approve hash
+1|1 frame: 1 by pixels, 0 by metrics
+= 1
+
+Another kiln draws what was accepted; one that draws something else, or nothing, is told of.
+
+$ printf '#!/bin/sh\nexec kiln "$@" --set post.exposure=0.3\n' >other; chmod +x other; cp -r right/. golden; sed -i '3a set: [post.exposure=0.4]' hash.test.yaml
+$ kiln test --filter hash --no-report --against ./other; ls out/test/hash
+1|fail    hash  1 frame in <s> s: frame 6 has other pixels than were accepted on cpu; no picture is kept
+1|        ./other draws frame 6 otherwise than was accepted of kiln 0.1.0: it or the scene is another
+1|1 test in <s> s: 1 fail
+1|where the pictures are right, accept them: kiln test approve hash
+1|1 frame: 1 by pixels, 0 by metrics
+1|frame_0006.png
+1|frame_0006_error.png
+1|frame_0006_reference.png
+1|log.txt
+1|result.json
+$ sed -i '/^set/d' hash.test.yaml; sed -i 's/{hash: "..../{hash: "0000/' golden/hash/expect.yaml; kiln test --filter hash --no-report --against kiln | head -n 2
+1|fail    hash  1 frame in <s> s: frame 6: the renderer changed, from kiln 0.1.0 to kiln 0.1.0; no picture is kept
+1|        kiln draws frame 6 otherwise than was accepted of kiln 0.1.0: it or the scene is another
+$ kiln test --filter hash --no-report --against false | head -n 2
+1|fail    hash  1 frame in <s> s: frame 6: the renderer changed, from kiln 0.1.0 to kiln 0.1.0; no picture is kept
+1|        false does not draw frame 6, exit code 1
+$ kiln test --filter hash --no-report --against ./nowhere
+1|error   hash  1 frame in <s> s: frame 6: ./nowhere cannot be run: No such file or directory
+1|1 test in <s> s: 1 error
+1|1 frame: 0 by pixels, 0 by metrics, 1 by nothing
+= 2
+
+One command accepts what a mass change has changed; others take names, patterns, and a device.
+
+$ sed -i '3a set: [post.exposure=0.4]' a.test.yaml b.test.yaml hash.test.yaml; kiln test --filter a --filter b --filter hash
+1|fail    a     1 frame in <s> s: frame 6 has other pixels than were accepted on cpu; flip.mean is <value>, beyond 0.01; flip.p99 is <value>, beyond 0.1; window.share is <value>, beyond 0.1
+1|fail    b     1 frame in <s> s: frame 6 has other pixels than were accepted on cpu; flip.mean is <value>, beyond 0.01; flip.p99 is <value>, beyond 0.1; window.share is <value>, beyond 0.1
+1|fail    hash  1 frame in <s> s: frame 6 has other pixels than were accepted on cpu; no picture is kept; --against PROGRAM draws it
+1|3 tests in <s> s: 3 fail
+1|report: out/test/report.html
+1|where the pictures are right, accept them: kiln test approve --all
+1|3 frames: 1 by pixels, 2 by metrics
+= 1
+$ grep -o 'kiln test approve --all' out/test/report.html | head -n 1
+1|kiln test approve --all
+$ kiln test approve --all --dry-run --device llvmpipe
+1|all tests: nothing to accept, every picture passes
+$ kiln test approve '[bc]*'
+1|wrote golden/b/frame_0006.png
+1|wrote golden/b/scene.yaml
+1|wrote golden/b/expect.yaml
+$ kiln test approve --all
+1|wrote golden/a/frame_0006.png
+1|wrote golden/a/scene.yaml
+1|wrote golden/a/expect.yaml
+1|wrote golden/b/frame_0006.png
+1|wrote golden/b/scene.yaml
+1|wrote golden/b/expect.yaml
+1|wrote golden/hash/expect.yaml
+$ kiln test approve --all; kiln test approve 'z*'; kiln test approve; kiln test approve --all a
+1|wrote golden/a/frame_0006.png
+1|wrote golden/a/scene.yaml
+1|wrote golden/a/expect.yaml
+1|wrote golden/b/frame_0006.png
+1|wrote golden/b/scene.yaml
+1|wrote golden/b/expect.yaml
+1|wrote golden/hash/expect.yaml
+2|kiln: test approve: no result of a test like 'z*' in out/test
+2|kiln: test approve: which tests? name them, or --all
+2|kiln: test approve: --all takes no names
+= 2
+$ kiln test --filter a --filter b --filter hash -q --strict --no-report
+
+Pixels of cpu must be known, strictly.
+
+$ sed -i '/^ *pixels:/,$d' golden/a/expect.yaml; kiln test --filter a --no-report; kiln test --filter a --no-report --strict
+1|pass    a  1 frame in <s> s
+1|1 test in <s> s: 1 pass
+1|1 frame: 0 by pixels, 1 by metrics
+1|fail    a  1 frame in <s> s: frame 6 has no accepted pixels of cpu, which are the same everywhere; --update all accepts them
+1|1 test in <s> s: 1 fail
+1|where the pictures are right, accept them: kiln test approve a
+1|1 frame: 1 by pixels, 0 by metrics
+= 1
