@@ -1,7 +1,7 @@
 Pixels that have changed, hashes alone, and many pictures at once.
 
 $ printf 'kiln_test: 1\nscene: scenes/tiny.yaml\nframes: [6]\nsize: [32, 18]\n' | tee a.test.yaml >b.test.yaml; printf 'golden: hash\n' | cat a.test.yaml - >hash.test.yaml
-$ kiln test --filter a --filter b --filter hash -q --update missing --no-report; ls golden/a golden/hash; wc -c <golden/hash/expect.yaml
+$ kiln test --filter a --filter b --filter hash -q --update missing --no-report; ls golden/a golden/hash; test $(wc -c <golden/hash/expect.yaml) -lt 300 && echo small
 1|golden/a:
 1|expect.yaml
 1|frame_0006.png
@@ -9,7 +9,7 @@ $ kiln test --filter a --filter b --filter hash -q --update missing --no-report;
 1|
 1|golden/hash:
 1|expect.yaml
-1|260
+1|small
 
 What was accepted says of which kiln. A hash golden has no picture.
 
