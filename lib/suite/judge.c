@@ -310,6 +310,11 @@ static bool judge_by_hashes(struct judging *j)
     const bool known = *j->frame->pixels_expected;
     if (!check_picture(j, &j->error))
         return false;
+    if (j->trial->params->ignore_hashes)
+        return decide(j, KILN_TEST_NEW, KILN_JUDGED_BY_NOTHING,
+                      kiln_trial_text(
+                          j->trial, "frame %u: the test keeps hashes alone, and these are ignored",
+                          j->frame->number));
     if (state_changed(j))
         return decide(j, KILN_TEST_FAIL, KILN_JUDGED_BY_STATE,
                       describe_state(j, "no picture is kept"));

@@ -8,10 +8,10 @@
  * - `trapezoid` and `rk4` fly curves. Where one meets a surface is found by regula falsi, each
  * guess being a shorter step of the integrator; the surface answers the velocity there, and another
  *   step of the integrator leads from it to the next impact or the end. So both keep their orders.
- *   What comes back to a surface in the step in which it has left it lies there: the surface bears
- *   what the forces give in the rest of the step, and the rest is flown as semi_implicit does.
- *   What a curve meets between two places whose straight connection meets nothing is not seen: at
- *   most acceleration * time^2 / 8 deep.
+ *   What lies on a surface is struck by less than the forces give in the step: it flies the rest of
+ *   the step as semi_implicit does, so that surfaces bear what the forces give, also in their
+ * edges. What a curve meets between two places whose straight connection meets nothing is not seen:
+ * at most acceleration * time^2 / 8 deep.
  */
 #ifndef KILN_SHARED_SWEEP_H
 #define KILN_SHARED_SWEEP_H
@@ -97,48 +97,57 @@ FN float3 sweep_change(S(sweep_path) path)
     return change;
 }
 
-/* Where the piece meets something. What lies on a surface has the velocity that all of the piece
- * gives it, which the surface is to bear. */
-FN S(collide_state) sweep_meeting(S(sweep_path) path, S(collide_hit) hit, bool lies)
+/* Where the piece meets something. */
+FN S(collide_state) sweep_meeting(S(sweep_path) path, float part)
 {
     EXACT S(collide_state) y = path.now;
     EXACT float3 way = float3_sub(path.ahead.position, path.now.position);
     EXACT float3 change = sweep_change(path);
     EXACT float time = path.ahead.since - path.now.since;
-    EXACT float part = lies ? 1.0f : hit.part;
-    y.position = float3_add_scaled(path.now.position, way, hit.part);
-    y.since = path.now.since + time * hit.part;
+    y.position = float3_add_scaled(path.now.position, way, part);
+    y.since = path.now.since + time * part;
     if (path.curved)
         y.velocity = float3_add_scaled(path.now.velocity, change, part);
     return y;
 }
 
-/* Is the time of a meeting to be found more closely? Not where the bend of the curve makes no
- * difference, and not if the blow is less than what the forces give in the piece, as it is to what
- * has come to rest. */
-FN bool sweep_is_rough(SIM_PARAM S(sweep_path) path, float part, float3 before, float3 after)
+/* Is a blow less than what the forces give in the piece? So it is to what lies on a surface. */
+FN bool sweep_is_gentle(S(sweep_path) path, float3 blow)
 {
     EXACT float3 change = sweep_change(path);
-    EXACT float3 blow = float3_sub(after, before);
     EXACT float given = float3_dot(change, change);
     EXACT float taken = float3_dot(blow, blow);
+    return taken <= given;
+}
+
+/* Is the time of a meeting to be found more closely? Not where the bend of the curve makes no
+ * difference. */
+FN bool sweep_is_rough(SIM_PARAM S(sweep_path) path, float part)
+{
+    EXACT float3 change = sweep_change(path);
     EXACT float time_s = (path.ahead.since - path.now.since) * STEP(derived.dt_s);
-    EXACT float bend = 0.5f * exact_sqrt(given) * time_s * part * (1.0f - part);
-    return path.guesses < SWEEP_GUESSES && taken > given && bend > SWEEP_CLOSE;
+    EXACT float given = float3_length(change);
+    EXACT float bend = 0.5f * given * time_s * part * (1.0f - part);
+    return path.guesses < SWEEP_GUESSES && bend > SWEEP_CLOSE;
 }
 
 /* What leaves a surface has been put a little in front of it. It climbs there under the forces that
- * it has on the way, or each bounce would give it the energy of that height. */
-FN S(collide_state) sweep_climb(SIM_PARAM S(collide_state) left, S(sweep_path) path, float3 from)
+ * it has on the way, or each bounce would give it the energy of that height. What leaves slowly is
+ * left as it is: it would take long. */
+FN S(collide_state) sweep_climb(SIM_PARAM S(collide_state) left, S(sweep_path) path, float3 from,
+                                float3 blow)
 {
     EXACT S(collide_state) y = left;
+    EXACT float3 outwards = float3_normalize(blow, blow);
     EXACT float3 lift = float3_sub(left.position, from);
     EXACT float3 change = sweep_change(path);
-    EXACT float square = float3_dot(lift, lift);
-    EXACT float flown = float3_dot(left.velocity, lift) * STEP(derived.dt_s);
-    EXACT float part = exact_div(square, flown);
+    EXACT float height = float3_dot(lift, outwards);
+    EXACT float speed = float3_dot(left.velocity, outwards);
+    EXACT float given = float3_dot(change, change);
+    EXACT float part = exact_div(height, speed * STEP(derived.dt_s));
     EXACT float of_piece = exact_div(part, path.ahead.since - path.now.since);
-    if (flown > 0.0f && part < path.until - left.since) {
+    bool climbs = height > 0.0f && speed > 0.0f && speed * speed > given;
+    if (climbs && part < path.until - left.since) {
         y.velocity = float3_add_scaled(left.velocity, change, of_piece);
         y.since = left.since + part;
     }
@@ -162,8 +171,7 @@ FN S(sweep_path) sweep_past(S(sweep_path) before)
 }
 
 /* From an impact, to the end if nothing else is met. */
-FN S(sweep_path) sweep_off(S(sweep_path) before, S(collide_hit) hit, S(collide_state) left,
-                           bool lies)
+FN S(sweep_path) sweep_off(S(sweep_path) before, S(collide_hit) hit, S(collide_state) left)
 {
     EXACT S(sweep_path) path = before;
     path.now = left;
@@ -173,7 +181,6 @@ FN S(sweep_path) sweep_off(S(sweep_path) before, S(collide_hit) hit, S(collide_s
     path.push = FLOAT3(0.0f, 0.0f, 0.0f);
     path.bounces++;
     path.guesses = 0u;
-    path.curved = path.curved && !lies;
     return path;
 }
 
@@ -221,22 +228,25 @@ FN S(collide_way) sweep_along(SIM_PARAM S(collide_state) start, S(collide_state)
             if (arrives)
                 return way;
         } else {
-            bool again = hit.box == path.hit.box && hit.face == path.hit.face;
-            bool lies = path.curved && path.bounces > 0u && path.guesses == 0u && again;
-            EXACT S(collide_state) at = sweep_meeting(path, hit, lies);
+            EXACT S(collide_state) at = sweep_meeting(path, hit.part);
             draw.purpose = collide_purpose(SIM path.bounces);
             EXACT S(collide_state) left = collide_impact(SIM at, hit.box, hit.face, draw);
-            if (path.curved && !lies &&
-                sweep_is_rough(SIM path, hit.part, at.velocity, left.velocity)) {
+            EXACT float3 blow = float3_sub(left.velocity, at.velocity);
+            if (path.curved && path.guesses == 0u && sweep_is_gentle(path, blow)) {
+                path.curved = false;
+                path.now.velocity = path.ahead.velocity;
+                continue; /* along the same piece */
+            }
+            if (path.curved && sweep_is_rough(SIM path, hit.part)) {
                 path.later = path.ahead.since;
                 path.aim = at.since;
                 path.guesses++;
             } else {
                 if (path.bounces == 0u)
                     way.first = sweep_touch(SIM left, hit, answer.radius);
-                if (path.curved && !lies)
-                    left = sweep_climb(SIM left, path, at.position);
-                path = sweep_off(path, hit, left, lies);
+                if (path.curved)
+                    left = sweep_climb(SIM left, path, at.position, blow);
+                path = sweep_off(path, hit, left);
             }
         }
         path.ahead = sweep_ahead(SIM path, life);

@@ -125,6 +125,55 @@ static void a_slide_slows_by_friction(void **state)
     }
 }
 
+/* One particle that lies still, and what pulls at it; surfaces take all that goes against them. */
+static void lay(enum kiln_integration integration, float3 at, float3 pull)
+{
+    struct kiln_system *system = one_particle(at, FLOAT3(0, 1e-6f, 0));
+    system->collide.restitution = fixture_constant(0.0f);
+    system->collide.friction = fixture_constant(0.0f);
+    fixture_add_force(system, KILN_FORCE_GRAVITY)->vector =
+        fixture_constant3(pull.x, pull.y, pull.z);
+    fixture.scene.integration = integration;
+}
+
+/* Down a slope of 1 in 2, wherever it lies: a quarter of g along z, less its part across. */
+static void a_slide_down_a_slope_gets_faster(void **state)
+{
+    (void)state;
+    static const float heights[] = {0, 3, 1000};
+    for (int i = 0; i < INTEGRATIONS; i++) {
+        for (int k = 0; k < 3; k++) {
+            lay((enum kiln_integration)i, FLOAT3(0, heights[k] + 1e-3f, 0), FLOAT3(0, -5, 0));
+            struct kiln_object *slope = fixture_add_plane(&fixture, 0, heights[k], 0);
+            slope->axis = fixture_constant3(0, 1, 0.5f);
+            const double z = (double)particle_position(after(90)).z, expected = 2.25;
+            if (!(fabs(z - expected) < 0.04))
+                fail_msg("%s at %g m: %g m instead of %g", names[i], (double)heights[k], z,
+                         expected);
+        }
+    }
+}
+
+/* In the edge between two surfaces, and at the bottom of a groove. */
+static void an_edge_holds_nothing_back(void **state)
+{
+    (void)state;
+    static const float3 normals[][2] = {{{1, 0, 0}, {0, 1, 0}}, {{1, 1, 0}, {-1, 1, 0}}};
+    static const float3 pulls[] = {{-5, -5, 2}, {0, -7, 2}};
+    for (int i = 0; i < INTEGRATIONS; i++) {
+        for (int k = 0; k < 2; k++) {
+            lay((enum kiln_integration)i, FLOAT3(1e-3f, 1e-3f, 0), pulls[k]);
+            for (int side = 0; side < 2; side++)
+                fixture_add_plane(&fixture, 0, 0, 0)->axis =
+                    fixture_constant3(normals[k][side].x, normals[k][side].y, normals[k][side].z);
+            const float3 p = particle_position(after(60));
+            if (!(fabs((double)p.z - 1) < 0.05 && fabs((double)p.x) + fabs((double)p.y) < 0.02))
+                fail_msg("%s, edge %d: at (%g, %g, %g)", names[i], k, (double)p.x, (double)p.y,
+                         (double)p.z);
+        }
+    }
+}
+
 /* ---- order of convergence -------------------------------------------------------------------- */
 
 struct impact {
@@ -192,6 +241,8 @@ int main(void)
         cmocka_unit_test(a_ball_follows_the_closed_form),
         cmocka_unit_test(no_bounce_adds_energy),
         cmocka_unit_test(a_slide_slows_by_friction),
+        cmocka_unit_test(a_slide_down_a_slope_gets_faster),
+        cmocka_unit_test(an_edge_holds_nothing_back),
         cmocka_unit_test(impacts_are_found_with_the_order_of_the_integrator),
     };
     return cmocka_run_group_tests_name("bounces", tests, test_enter_folder, test_leave_folder);

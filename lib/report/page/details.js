@@ -112,6 +112,7 @@ function hashesCard(test, frame) {
     if (test.sceneHash || test.sceneHashExpected)
         pairs.push(["Scene", compared(test.sceneHash, test.sceneHashExpected, "hash")]);
     if (test.deviceName) pairs.push(["Known as", make("span", { class: "hash" }, test.deviceName)]);
+    if (frame && frame.kilnExpected) pairs.push(["Accepted", make("span", {}, "of kiln " + frame.kilnExpected)]);
     if (frame && frame.golden) pairs.push(["Golden", make("span", { class: "mono" }, frame.golden)]);
     return pairs.length ? pairsCard("Hashes", pairs) : null;
 }

@@ -43,6 +43,8 @@ $ kiln test --filter hash --no-report
 1|1 frame: 1 by pixels, 0 by metrics
 = 1
 
+$ kiln test --filter hash --no-report --ignore-hashes
+
 Another kiln draws what was accepted; one that draws something else, or nothing, is told of.
 
 $ printf '#!/bin/sh\nexec kiln "$@" --set post.exposure=0.3\n' >other; chmod +x other; cp -r right/. golden; sed -i '3a set: [post.exposure=0.4]' hash.test.yaml
