@@ -20,8 +20,7 @@ static const struct option options[] = {
     {.name = "device",
      .kind = OPTION_TEXT,
      .placeholder = "DEVICE",
-     .help = "Only what a device drew whose name has this in it.",
-     .fallback = "any"},
+     .help = "Only what a device drew whose name has this in it."},
     {.name = "as",
      .kind = OPTION_CHOICE,
      .placeholder = "replace|device|alternative",
@@ -62,7 +61,7 @@ static void approve(struct approval *approval, const char *name, bool named)
         report_error(&error);
         approval->code = kiln_code_worse(approval->code, error.code);
     } else if (approval->count == 0 && named && !approval->quiet) {
-        printf("%s: nothing to accept, every picture passes\n", name);
+        printf("%s: nothing to accept\n", name);
     }
     approval->all += approval->count > 0;
 }
@@ -80,6 +79,7 @@ static int approve_matching(struct approval *approval, const char *pattern)
     if (!results)
         return report_error(&error);
     const uint32_t count = kiln_results_summary(results).tests, before = approval->all;
+    approval->params.one_of_many = true;
     bool any = !pattern;
     for (uint32_t i = 0; i < count; i++) {
         const char *name = kiln_results_name(results, i);
@@ -88,12 +88,13 @@ static int approve_matching(struct approval *approval, const char *pattern)
         any = true;
         approve(approval, name, false);
     }
+    approval->params.one_of_many = false;
     kiln_results_destroy(&results);
     if (!any)
         return report(KILN_USAGE, "test approve: no result of a test like '%s' in %s", pattern,
                       approval->params.results);
     if (approval->all == before && approval->code == KILN_OK && !approval->quiet)
-        printf("%s: nothing to accept, every picture passes\n", pattern ? pattern : "all tests");
+        printf("%s: nothing to accept\n", pattern ? pattern : "all tests");
     return 0;
 }
 
@@ -127,7 +128,7 @@ static int run(const struct arguments *arguments)
 const struct command test_approve_command = {
     .name = "test approve",
     .summary = "accept pictures of the last run as goldens",
-    .operands = "[NAME | PATTERN]...",
+    .operands = "[NAME]...",
     .description =
         "Accepts what the last run of each test rendered, where it was new, failed, changed or "
         "was warned of: the pictures become goldens, and their hashes are expected from then on. "

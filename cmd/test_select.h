@@ -37,7 +37,9 @@
 #define SELECT_DESCRIPTION                                                                         \
     "A PATH is a test file (*.test.yaml), a scene, or a folder, which is searched for both; "      \
     "without one, the working directory is. A NAME, or a shell pattern of names, takes some of "   \
-    "the tests. A test is named by its path in the folder, without its suffix: effects/fire."
+    "the tests. A test is named by its path, without its suffix, from the folder that the "        \
+    "goldens' "                                                                                    \
+    "folder lies in, or from the nearest folder with a file .kiln-tests: effects/fire."
 
 /* Finds the tests of a command, whose arguments must outlive nothing. Returns 0, or the exit code
  * after reporting what is wrong; to find none is an error. The caller destroys the suite. */

@@ -687,8 +687,8 @@ struct kiln_approve_params {
     const char *results; /* the folder of the results */
     const char *name;    /* of the test */
     enum kiln_approve_as as;
-    const char *device; /* only what a device drew whose name has this in it; NULL: any */
-    bool dry_run;
+    const char *device;        /* only what a device drew whose name has this in it; NULL: any */
+    bool dry_run, one_of_many; /* one of many: what was skipped is passed over */
     void (*change)(void *user, const char *line); /* told of each file: "wrote golden/..." */
     void *user;
 };

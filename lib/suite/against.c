@@ -51,7 +51,7 @@ static void add_techniques(struct words *words)
 static const char **command_of(struct kiln_trial *trial, uint32_t frame, const char *picture)
 {
     const struct kiln_test *test = trial->test;
-    const char *device = test->device ? test->device : trial->params->device;
+    const bool cpu = strcmp(trial->result->device_name, "cpu") == 0;
     struct words words = {.trial = trial, .capacity = 64 + 2 * test->override_count};
     words.items = kiln_arena_alloc(trial->arena, words.capacity, sizeof *words.items);
     if (!words.items)
@@ -61,7 +61,7 @@ static const char **command_of(struct kiln_trial *trial, uint32_t frame, const c
     for (size_t i = 0; i < test->override_count; i++)
         add_option(&words, "--set", test->overrides[i]);
     add_option(&words, "--frames", kiln_trial_text(trial, "%u", frame));
-    add_option(&words, "--device", device ? device : "cpu");
+    add_option(&words, "--device", cpu ? "cpu" : trial->result->device);
     add_option(&words, "--threads", kiln_trial_text(trial, "%u", trial->result->threads));
     if (test->format == KILN_TEST_PNG16)
         add_option(&words, "--png-bits", "16");
@@ -118,6 +118,8 @@ bool kiln_trial_draw_against(struct kiln_trial *trial, struct kiln_result_frame 
 {
     const char *program = trial->params->against;
     char log[KILN_PATH_SIZE], hash[65];
+    struct kiln_error problem = {0};
+    bool drawn = false;
     if (!kiln_trial_path(trial, "against.txt", log, error))
         return false;
     const char **command = command_of(trial, frame->number, picture);
@@ -126,16 +128,22 @@ bool kiln_trial_draw_against(struct kiln_trial *trial, struct kiln_result_frame 
     const int code = run(command, log), failure = errno;
     const char *line = last_line(trial, log);
     unlink(log);
-    if (code < 0)
-        return kiln_error_set_errno(error, KILN_USAGE, failure, "%s cannot be run", program);
-    if (code != 0) {
-        unlink(picture);
+    if (code < 0) {
+        kiln_error_set_errno(&problem, KILN_USAGE, failure, "%s cannot be run", program);
+        kiln_trial_note(trial, "%s", problem.message);
+    } else if (code != 0) {
         kiln_trial_note(trial, "%s does not draw frame %u, exit code %d%s%s", program,
                         frame->number, code, *line ? ": " : "", line);
+    } else {
+        drawn = kiln_pixel_hash(picture, hash, &problem);
+        if (!drawn)
+            kiln_trial_note(trial, "%s does not draw frame %u: %s", program, frame->number,
+                            problem.message);
+    }
+    if (!drawn) {
+        unlink(picture);
         return true;
     }
-    if (!kiln_pixel_hash(picture, hash, error))
-        return false;
     if (*frame->pixels_expected && strcmp(hash, frame->pixels_expected) != 0)
         kiln_trial_note(trial,
                         "%s draws frame %u otherwise than was accepted%s%s: it or the scene is "

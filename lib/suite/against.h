@@ -5,9 +5,9 @@
 #include "suite/trial.h"
 
 /* Draws the frame with the program that the parameters name, into a picture of the test's results,
- * and notes where its pixels are not those that were accepted. A program that refuses the scene is
- * a note, and leaves no picture. KILN_USAGE when it cannot be run, KILN_INVALID_INPUT when what it
- * wrote is no picture, KILN_IO, KILN_DEVICE_FAILED. */
+ * and notes where its pixels are not those that were accepted. A program that cannot be run,
+ * refuses the scene or writes no picture is a note, and leaves no picture. KILN_IO,
+ * KILN_DEVICE_FAILED. */
 bool kiln_trial_draw_against(struct kiln_trial *trial, struct kiln_result_frame *frame,
                              const char *picture, struct kiln_error *error);
 

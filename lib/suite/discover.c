@@ -59,13 +59,16 @@ static size_t root_length(const struct search *search, const char *path)
     return root > 0 && strncmp(path, search->root, root) == 0 && path[root] == '/' ? root + 1 : own;
 }
 
-/* The real path of the folder that a folder lies in, whether that exists or not. */
+/* The real path of the folder that a folder lies in; where it does not exist yet, by its name. */
 static const char *find_parent(struct kiln_arena *arena, const char *folder)
 {
-    const char *slash = strrchr(folder, '/');
-    const size_t length = slash ? (size_t)(slash - folder) : 0;
-    const char *parent = length ? kiln_arena_text(arena, folder, length) : slash ? "/" : ".";
-    char *real = parent ? realpath(parent, NULL) : NULL;
+    char *there = realpath(folder, NULL);
+    const char *path = there ? kiln_arena_text(arena, there, strlen(there)) : folder;
+    free(there);
+    const char *slash = path ? strrchr(path, '/') : NULL;
+    const size_t length = slash ? (size_t)(slash - path) : 0;
+    const char *parent = length ? kiln_arena_text(arena, path, length) : slash ? "/" : ".";
+    char *real = path && parent ? realpath(parent, NULL) : NULL;
     const char *kept = real ? kiln_arena_text(arena, real, strlen(real)) : NULL;
     free(real);
     return kept;

@@ -323,7 +323,9 @@ static bool judge_by_hashes(struct judging *j)
                       kiln_trial_text(j->trial, "frame %u has no accepted hash of %s in %s",
                                       j->frame->number, j->trial->rendering.device_name,
                                       j->frame->golden));
-    if (strcmp(j->frame->pixels, j->frame->pixels_expected) == 0)
+    j->own->has_golden = true;
+    j->own->equals_golden = strcmp(j->frame->pixels, j->frame->pixels_expected) == 0;
+    if (j->own->equals_golden)
         return decide(j, KILN_TEST_PASS, KILN_JUDGED_BY_PIXELS, "");
     return decide(j, KILN_TEST_FAIL, KILN_JUDGED_BY_PIXELS,
                   describe_change(j, j->trial->params->against

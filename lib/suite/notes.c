@@ -158,6 +158,8 @@ static void note_scene(struct kiln_trial *trial)
 static bool is_used(const struct kiln_trial *trial, const char *name)
 {
     const char *suffix = kiln_test_suffix(trial->test);
+    if (trial->test->kept == KILN_GOLDEN_HASH)
+        return false;
     size_t length = strlen(name), end = strlen(suffix);
     if (length < end || strcmp(name + length - end, suffix) != 0)
         return false;

@@ -259,7 +259,8 @@ static bool is_written_by_tests(const char *name)
         return ends_in(name, ".png") || ends_in(name, ".exr");
     if (strncmp(name, ".frame_", 7) == 0)
         return ends_in(name, ".tmp"); /* of a process that was killed */
-    return strcmp(name, "log.txt") == 0 || strcmp(name, "result.json") == 0;
+    return strcmp(name, "log.txt") == 0 || strcmp(name, "against.txt") == 0 ||
+           strcmp(name, "result.json") == 0;
 }
 
 typedef bool visit_file(struct folder *f, const char *path, const char *from_root, bool writing);

@@ -52,8 +52,10 @@ static void take_rendering(struct kiln_trial *trial)
     result->width = rendering->scene.width;
     result->height = rendering->scene.height;
     result->scene_hash = rendering->scene.hash;
-    result->pins_gl = (trial->test->device || trial->test->technique_count > 0) &&
-                      strcmp(rendering->device_name, "cpu") != 0;
+    const struct kiln_test *test = trial->test;
+    result->pins_gl =
+        (test->device || kiln_techniques_need_gl(test->techniques, test->technique_count)) &&
+        strcmp(rendering->device_name, "cpu") != 0;
 }
 
 static bool take_frames(struct kiln_trial *trial)
@@ -189,6 +191,8 @@ static void take_changes(struct kiln_trial *trial)
     struct kiln_error error = {0};
     char path[KILN_PATH_SIZE];
     size_t size;
+    if (trial->test->kept == KILN_GOLDEN_HASH) /* of which no scene is kept */
+        return;
     if (!kiln_path_join(path, trial->test->golden, "scene.yaml", &error) || access(path, F_OK) != 0)
         return;
     char *text = kiln_text_file_read(path, "the accepted scene", MAX_SCENE_SIZE, &size, &error);

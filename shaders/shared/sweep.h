@@ -1,17 +1,19 @@
 /* A particle's way through a step among colliders: to an impact, and from it on, by the integrator
  * of the scene.
  *
- * - `semi_implicit` flies a straight line at the velocity that it has after the step's forces, and
- * a surface answers that velocity. Forces and flights take turns, and neither adds energy.
- * - `position_first` is its mirror image: the line is flown, and answered, at the velocity before
- *   the forces, which then act on what the impacts have left.
- * - `trapezoid` and `rk4` fly curves. Where one meets a surface is found by regula falsi, each
- * guess being a shorter step of the integrator; the surface answers the velocity there, and another
- *   step of the integrator leads from it to the next impact or the end. So both keep their orders.
- *   What lies on a surface is struck by less than the forces give in the step: it flies the rest of
- *   the step as semi_implicit does, so that surfaces bear what the forces give, also in their
- * edges. What a curve meets between two places whose straight connection meets nothing is not seen:
- * at most acceleration * time^2 / 8 deep.
+ * With `semi_implicit` it is a straight line at the velocity after the step's forces, and a surface
+ * answers that velocity. What a bounce gives or takes by that does not add up.
+ *
+ * With `position_first`, its mirror image, the line is flown and answered at the velocity before
+ * the forces, which then act on what the impacts have left.
+ *
+ * With `trapezoid` and `rk4` it is a curve. Where one meets a surface is found by regula falsi,
+ * each guess being a shorter step of the integrator; the surface answers the velocity there, and
+ * another step of the integrator leads from it to the next impact or the end. So both keep their
+ * orders. What lies on a surface is struck by less than the forces give in the step: it flies the
+ * rest of the step as with semi_implicit, so that surfaces bear what the forces give, also in their
+ * edges. What a curve meets between two places whose straight connection meets nothing is not seen;
+ * it is at most acceleration * time^2 / 8 deep.
  */
 #ifndef KILN_SHARED_SWEEP_H
 #define KILN_SHARED_SWEEP_H

@@ -282,18 +282,20 @@ static void foresee(struct kiln_interact *interact, struct kiln_interact_work *w
     if (interact->warning[0] || spread <= fastest || spread * dt_s <= UNSEEN * work->width_m)
         return;
     char key[160];
+    const double wanted = ceil((double)spread * 10) / 10;
     snprintf(key, sizeof key, "systems.%s.interact: collide.fastest", work->system);
     if (found)
         snprintf(interact->warning, sizeof interact->warning,
-                 "%s: step %u: particles approach each other by up to %.3g m/s, and auto foresees "
-                 "%.3g: some may pass through each other; a higher simulation.rate helps, or "
-                 "fastest: %.3g m/s, which takes longer",
-                 key, (unsigned)params->step + 1, (double)spread, (double)most, (double)spread);
+                 "%s: step %u: velocities differ by up to %.1f m/s, and auto foresees %.1f m/s: "
+                 "particles may pass through each other; a higher simulation.rate helps, or "
+                 "fastest: %.1f m/s, which takes longer",
+                 key, (unsigned)params->step + 1, wanted, (double)most, wanted);
     else
         snprintf(interact->warning, sizeof interact->warning,
-                 "%s: step %u: particles approach each other by up to %.3g m/s, and %.3g m/s are "
-                 "foreseen: some may pass through each other; fastest: auto foresees more",
-                 key, (unsigned)params->step + 1, (double)spread, (double)fastest);
+                 "%s: step %u: velocities differ by up to %.1f m/s, and %g m/s are foreseen: "
+                 "particles may pass through each other; fastest: %s%.1f m/s foresees that",
+                 key, (unsigned)params->step + 1, wanted, (double)fastest,
+                 spread < most ? "auto or " : "", wanted);
 }
 
 /* By how much velocities of living particles differ at most, m/s: no two approach each other by

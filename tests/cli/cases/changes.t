@@ -44,6 +44,11 @@ $ kiln test --filter hash --no-report
 = 1
 
 $ kiln test --filter hash --no-report --ignore-hashes
+1|new     hash  1 frame in <s> s: frame 6: the test keeps hashes alone, and these are ignored
+1|1 test in <s> s: 1 new
+1|where the pictures are right, accept them: kiln test approve hash
+1|1 frame: 0 by pixels, 0 by metrics, 1 by nothing
+= 7
 
 Another kiln draws what was accepted; one that draws something else, or nothing, is told of.
 
@@ -66,10 +71,12 @@ $ kiln test --filter hash --no-report --against false | head -n 2
 1|fail    hash  1 frame in <s> s: frame 6: the renderer changed, from kiln 0.1.0 to kiln 0.1.0; no picture is kept
 1|        false does not draw frame 6, exit code 1
 $ kiln test --filter hash --no-report --against ./nowhere
-1|error   hash  1 frame in <s> s: frame 6: ./nowhere cannot be run: No such file or directory
-1|1 test in <s> s: 1 error
-1|1 frame: 0 by pixels, 0 by metrics, 1 by nothing
-= 2
+1|fail    hash  1 frame in <s> s: frame 6: the renderer changed, from kiln 0.1.0 to kiln 0.1.0; no picture is kept
+1|        ./nowhere cannot be run: No such file or directory
+1|1 test in <s> s: 1 fail
+1|where the pictures are right, accept them: kiln test approve hash
+1|1 frame: 1 by pixels, 0 by metrics
+= 1
 
 One command accepts what a mass change has changed; others take names, patterns, and a device.
 
@@ -85,7 +92,7 @@ $ sed -i '3a set: [post.exposure=0.4]' a.test.yaml b.test.yaml hash.test.yaml; k
 $ grep -o 'kiln test approve --all' out/test/report.html | head -n 1
 1|kiln test approve --all
 $ kiln test approve --all --dry-run --device llvmpipe
-1|all tests: nothing to accept, every picture passes
+1|all tests: nothing to accept
 $ kiln test approve '[bc]*'
 1|wrote golden/b/frame_0006.png
 1|wrote golden/b/scene.yaml
@@ -111,6 +118,28 @@ $ kiln test approve --all; kiln test approve 'z*'; kiln test approve; kiln test 
 2|kiln: test approve: --all takes no names
 = 2
 $ kiln test --filter a --filter b --filter hash -q --strict --no-report
+
+A test that was skipped keeps no other from it; hashes that others have accepted since are kept, and
+those of a state that is not known are added.
+
+$ printf 'kiln_test: 1\nscene: scenes/tiny.yaml\nframes: [6]\nsize: [32, 18]\ndevices: [no-such-device]\n' >skip.test.yaml; sed -i 's/0.4/0.5/' hash.test.yaml
+$ kiln test --filter skip --filter hash -q --no-report | tail -n 1; sed -i 's/{hash: "..../{hash: "0000/' golden/hash/expect.yaml; kiln test approve --all
+1|1 frame: 1 by pixels, 0 by metrics
+2|hash: its goldens have changed since the run; run it again: kiln test hash.test.yaml
+= 3
+$ kiln test --filter skip --filter hash -q --no-report | tail -n 1; kiln test approve --all; kiln test approve --all --device nowhere
+1|1 frame: 1 by pixels, 0 by metrics
+1|wrote golden/hash/expect.yaml
+1|all tests: nothing to accept
+$ sed -i '/state:/d' golden/hash/expect.yaml; kiln test --filter hash --no-report; kiln test --filter hash -q --no-report --update all; grep -c state: golden/hash/expect.yaml
+1|pass    hash  1 frame in <s> s
+1|        no state was accepted of frame 6: --update all adds it
+1|1 test in <s> s: 1 pass
+1|1 frame: 1 by pixels, 0 by metrics
+1|1
+$ kiln test --filter hash -q --no-report --against true; sed -i 's/0.5/0.6/' hash.test.yaml; kiln test --filter hash --no-report --against true | head -n 2
+1|fail    hash  1 frame in <s> s: frame 6 has other pixels than were accepted on cpu; no picture is kept
+1|        true does not draw frame 6: out/test/hash/frame_0006_reference.png: the image cannot be opened: No such file or directory
 
 Pixels of cpu must be known, strictly.
 

@@ -8,7 +8,7 @@ $ kiln help man | grep '^\.SH\|^\.SS'
 1|.SS kiln render [\fIOPTION...\fR] \fISCENE...\fR
 1|.SS kiln compare [\fIOPTION...\fR] \fIREFERENCE TEST\fR
 1|.SS kiln test [\fIOPTION...\fR] \fI[PATH | NAME]...\fR
-1|.SS kiln test approve [\fIOPTION...\fR] \fI[NAME | PATTERN]...\fR
+1|.SS kiln test approve [\fIOPTION...\fR] \fI[NAME]...\fR
 1|.SS kiln test calibrate [\fIOPTION...\fR] \fI[PATH | NAME]...\fR
 1|.SS kiln test report [\fIOPTION...\fR] \fIFOLDER...\fR
 1|.SS kiln test list [\fIOPTION...\fR] \fI[PATH | NAME]...\fR

@@ -76,7 +76,6 @@ $ kiln test fire -q --update missing
 = 1
 $ kiln complete -- test approve fi | cut -f 1,2
 1|word	fire
-1|word	fire
 $ kiln test approve fire --dry-run
 1|would write golden/fire/frame_0006.png
 1|would write golden/fire/scene.yaml
@@ -91,7 +90,7 @@ $ kiln test fire
 1|report: out/test/report.html
 1|1 frame: 1 by pixels, 0 by metrics
 $ kiln test approve fire
-1|fire: nothing to accept, every picture passes
+1|fire: nothing to accept
 $ kiln test approve fir
 2|kiln: no result of a test 'fir' in out/test (did you mean 'fire'?)
 = 2
