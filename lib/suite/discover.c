@@ -287,6 +287,19 @@ static bool search_folder(struct search *search, const char *folder)
 
 /* ---- operands ------------------------------------------------------------------------------- */
 
+/* How names of tests in a folder start, unless a folder below it is marked. */
+static bool add_start(struct search *search, const char *folder)
+{
+    struct kiln_findings *findings = search->findings;
+    char *real = realpath(*folder ? folder : ".", NULL);
+    const char *path = real ? kiln_arena_format(search->arena, "%s/", real) : NULL;
+    free(real);
+    if (!path)
+        return out_of_memory(search);
+    findings->starts[findings->start_count++] = path + root_length(search, path);
+    return true;
+}
+
 /* "scenes//" as "scenes", "." as "". */
 static bool search_operand_folder(struct search *search)
 {
@@ -296,7 +309,8 @@ static bool search_operand_folder(struct search *search)
         length--;
     bool here = length == 1 && *operand == '.';
     char *folder = strndup(operand, here ? 0 : length);
-    bool ok = folder ? search_folder(search, folder) : out_of_memory(search);
+    bool ok =
+        folder ? search_folder(search, folder) && add_start(search, folder) : out_of_memory(search);
     free(folder);
     return ok &&
            (search->seen > before ||
@@ -330,6 +344,9 @@ bool kiln_discover(struct kiln_arena *arena, const struct kiln_suite_params *par
                             .error = error,
                             .root = find_parent(arena, params->golden)};
     const char *const skipped[] = {params->golden, params->results};
+    findings->starts = kiln_arena_alloc(arena, params->path_count + 1, sizeof *findings->starts);
+    if (!findings->starts)
+        return out_of_memory(&search);
     for (size_t i = 0; i < 2; i++) {
         if (stat(skipped[i], &search.skipped[search.skipped_count]) == 0)
             search.skipped_count++;

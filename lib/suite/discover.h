@@ -15,6 +15,8 @@ struct kiln_found {
 struct kiln_findings {
     struct kiln_found *items; /* in the arena */
     size_t count, capacity;
+    const char **starts; /* of folders: how names of tests in them start, "effects/" or "" */
+    size_t start_count;
 };
 
 /* Looks at the operands. In folders, a file of tests or a YAML file with the key kiln is taken;

@@ -51,6 +51,8 @@ static bool read_files(struct loader *loader)
     struct kiln_findings findings = {0};
     if (!kiln_discover(arena, loader->params, &findings, loader->error))
         return false;
+    loader->suite->starts = findings.starts;
+    loader->suite->start_count = findings.start_count;
     loader->entries = kiln_arena_alloc(arena, findings.count + 1, sizeof *loader->entries);
     if (!loader->entries)
         return out_of_memory(loader);

@@ -56,7 +56,9 @@ struct kiln_suite {
     size_t count;
     uint32_t shard, shards; /* as asked for; 0 and 0: all tests */
     size_t all_count;       /* tests of all shards */
-    const char **unused;    /* folders of goldens */
+    const char **starts;    /* of names of tests in the folders that were searched */
+    size_t start_count;
+    const char **unused; /* folders of goldens */
     size_t unused_count, unused_capacity;
     char *results_folder;
 };

@@ -244,6 +244,16 @@ static bool check_devices(struct kiln_reader *reader, const struct kiln_node *ro
     return true;
 }
 
+/* Limits and masks are of pictures. */
+static bool check_golden(struct kiln_reader *reader, const struct kiln_node *root,
+                         const struct document *document)
+{
+    const bool compares = document->limit_count > 0 || document->mask_count > 0;
+    return document->golden != KILN_GOLDEN_HASH || !compares ||
+           kiln_reader_error_at(reader, root, "golden",
+                                "hash keeps no picture, so there is nothing for limits or masks");
+}
+
 /* What a test has when no file says anything. */
 static bool take_defaults(struct kiln_arena *arena, struct kiln_arena *scratch, const char *path,
                           struct kiln_test_file *file, struct kiln_error *error)
@@ -282,7 +292,7 @@ static bool take_text(struct kiln_arena *arena, struct kiln_arena *scratch, cons
         !(file->test.scene = resolve(arena, path, scene->text)))
         return out_of_memory(problem);
     return kiln_read_members(&reader, rows, root, document) &&
-           check_devices(&reader, root, document) &&
+           check_devices(&reader, root, document) && check_golden(&reader, root, document) &&
            (take_document(arena, document, path, file) || out_of_memory(problem));
 }
 

@@ -18,6 +18,16 @@ static bool is_test(const struct kiln_suite *suite, const char *name)
     return false;
 }
 
+/* Was it looked for? */
+static bool is_searched(const struct kiln_suite *suite, const char *name)
+{
+    for (size_t i = 0; i < suite->start_count; i++) {
+        if (strncmp(name, suite->starts[i], strlen(suite->starts[i])) == 0)
+            return true;
+    }
+    return false;
+}
+
 static bool add(struct kiln_suite *suite, const char *path)
 {
     if (suite->unused_count == suite->unused_capacity) {
@@ -43,7 +53,8 @@ static bool search(struct kiln_suite *suite, const char *folder, const char *nam
     for (int i = 0; i < count; i++) {
         const char *entry = entries[i]->d_name;
         struct stat status;
-        if (strcmp(entry, "expect.yaml") == 0 && *name && !is_test(suite, name))
+        if (strcmp(entry, "expect.yaml") == 0 && *name && is_searched(suite, name) &&
+            !is_test(suite, name))
             ok = ok && add(suite, folder);
         if (ok && *entry != '.') {
             const char *path = kiln_arena_format(suite->arena, "%s/%s", folder, entry);

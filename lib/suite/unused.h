@@ -5,8 +5,8 @@
 #include "suite/suite.h"
 
 /* Lists the folders below `golden` that hold what was accepted of a test which is not among the
- * suite's, which is all that were found. Folders that cannot be read are passed over. False when
- * memory is short. */
+ * suite's, which is all that were found in the folders of their names. Folders that cannot be read
+ * are passed over. False when memory is short. */
 bool kiln_unused_find(struct kiln_suite *suite, const char *golden);
 
 #endif

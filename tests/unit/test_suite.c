@@ -336,6 +336,13 @@ static void goldens_of_no_test_are_found(void **state)
     assert_string_equal(unused[1], "golden/fir");
     kiln_suite_destroy(&suite);
 
+    static const char *const effects[] = {"scenes/effects"}; /* elsewhere, tests may be */
+    params = paths(effects, 1);
+    suite = load(&params);
+    unused = kiln_suite_unused(suite, &count);
+    assert_int_equal(count, 1);
+    assert_string_equal(unused[0], "golden/effects/gone");
+    kiln_suite_destroy(&suite);
     /* Of a part of the tests, nothing can be said. */
     params = paths(folder, 1);
     params.names = names;
@@ -473,6 +480,8 @@ static const struct {
     {START "about: &a x\n", ":3:11: anchors and aliases are not allowed"},
     {"kiln_test: 1\nscene: \"\"\n", ":2:8: scene: must not be empty"},
     {"kiln_test: 1\nscene: [a]\n", ":2:8: scene: expected a text, found a list"},
+    {START "golden: hash\nlimits: {psnr: 30}\n",
+     ":3:9: golden: hash keeps no picture, so there is nothing for limits or masks"},
     {START "set: [seed]\n", ":3:7: set.0: expected key=value, as for --set, found 'seed'"},
     {START "size: [320]\n", ":3:7: size: expected [width, height], each from 16 px to 16384 "
                             "px, or scene, found a list"},

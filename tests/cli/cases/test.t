@@ -282,12 +282,12 @@ $ kiln test fire --no-report >/dev/full
 
 A test that is gone leaves its goldens, which a run of a whole folder tells.
 
-$ mkdir one; cp -r fire.test.yaml scenes one; mv golden/fire golden/fir
-$ kiln test one --no-report; mv golden/fir golden/fire; rm -r one
+$ mkdir one; cp -r fire.test.yaml scenes one; mkdir golden/one; mv golden/fire golden/one/fir
+$ kiln test one --no-report; mv golden/one/fir golden/fire; rm -r one golden/one
 1|new     one/fire          1 frame in <s> s: frame 6 has no golden: there is no golden/one/fire/frame_0006.png
 1|new     one/scenes/empty  1 frame in <s> s: frame 1 has no golden: there is no golden/one/scenes/empty/frame_0001.png
 1|2 tests in <s> s: 2 new
-1|golden/fir: no test uses these goldens; was one renamed or lost?
+1|golden/one/fir: no test uses these goldens; was one renamed or lost?
 1|where the pictures are right, accept them: kiln test approve --all
 1|2 frames: 0 by pixels, 0 by metrics, 2 by nothing
 
