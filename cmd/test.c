@@ -325,6 +325,9 @@ static int claim_files(const struct test_run *run, const struct test_outputs *ou
     int code = claims ? 0 : report_no_memory();
     if (code == 0 && !kiln_suite_claim(run->suite, claims, &error))
         code = report_error(&error);
+    if (code == 0 && run->params.against && strchr(run->params.against, '/') &&
+        !kiln_claims_read(claims, run->params.against, "--against", &error))
+        code = report_error(&error);
     if (code == 0)
         code = test_outputs_claim(outputs, claims);
     kiln_claims_destroy(&claims);

@@ -26,8 +26,8 @@ void test_lines_test(struct test_lines *lines, const struct kiln_suite *suite, s
 /* "5 tests in 1.234 s: 4 pass, 1 fail" */
 void test_lines_counts(FILE *out, const struct kiln_results_summary *summary);
 
-/* What to look at and what to do next, and at last by what the frames were judged; page may be
- * NULL.
+/* Prints what to look at and what to do next, and at last by what the frames were judged; page may
+ * be NULL.
  */
 void test_lines_end(const struct test_lines *lines, const struct kiln_results_summary *summary,
                     const char *page);

@@ -59,8 +59,11 @@ struct kiln_claims;
 struct kiln_claims *kiln_claims_create(void); /* NULL when memory is short */
 void kiln_claims_destroy(struct kiln_claims **claims);
 
-/* Declares a file that the call writes; `what` stands for it in messages: "--manifest". KILN_USAGE
- * when the call reads or writes it already, KILN_DEVICE_FAILED when memory is short. */
+/* Declares a file that the call reads, or writes; `what` stands for it in messages: "a texture",
+ * "--manifest". KILN_USAGE when the call writes it already, or reads what is to be written,
+ * KILN_DEVICE_FAILED when memory is short. A path that leads nowhere is read by nobody. */
+bool kiln_claims_read(struct kiln_claims *claims, const char *path, const char *what,
+                      struct kiln_error *error);
 bool kiln_claims_write(struct kiln_claims *claims, const char *path, const char *what,
                        struct kiln_error *error);
 
@@ -224,7 +227,6 @@ enum kiln_pass {
         KILN_PASS_COUNT
 };
 
-/* "simulate", "sort", ... */
 const char *kiln_pass_name(enum kiln_pass pass);
 
 /* The 64-bit state hash after a step; equal on every device and with every technique. */
@@ -369,7 +371,6 @@ enum kiln_compare_verdict {
     KILN_COMPARE_VERDICT_COUNT
 };
 
-/* "same", "different", ... */
 const char *kiln_compare_verdict_name(enum kiln_compare_verdict verdict);
 
 /* One frame of a comparison. Only what was measured has values: not a frame that is missing, extra
@@ -573,7 +574,6 @@ enum kiln_test_status {
     KILN_TEST_STATUS_COUNT
 };
 
-/* "pass", "skip", ... */
 const char *kiln_test_status_name(enum kiln_test_status status);
 
 struct kiln_suite;

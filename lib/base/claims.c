@@ -1,7 +1,5 @@
 /* Two paths lead to one file when they end in one name in one real folder, whether there is such a
  * file yet or not; or when both files exist and are one, by links. */
-#include "base/claims.h"
-
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,6 +7,7 @@
 
 #include "base/arena.h"
 #include "base/error.h"
+#include "kiln.h"
 
 enum { FIRST_CAPACITY = 64 };
 

@@ -3,7 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/claims.h"
 #include "base/clock.h"
 #include "base/error.h"
 #include "compare/difference.h"

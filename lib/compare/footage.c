@@ -11,9 +11,9 @@
 
 #include "asset/image/video_in.h"
 #include "base/arena.h"
-#include "base/claims.h"
 #include "base/error.h"
 #include "base/pattern.h"
+#include "kiln.h"
 
 struct entry {
     const char *name;

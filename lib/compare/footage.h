@@ -39,7 +39,7 @@ bool kiln_footage_visit(const struct kiln_footage *footage,
                         bool (*visit)(void *user, const struct kiln_footage_frame *frame),
                         void *user);
 
-/* Declares its files as read; `what` as in base/claims.h. */
+/* Declares its files as read; `what` as in kiln_claims_read. */
 bool kiln_footage_claim(const struct kiln_footage *footage, const char *what,
                         struct kiln_claims *claims, struct kiln_error *error);
 

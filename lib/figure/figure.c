@@ -5,7 +5,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/claims.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
@@ -13,6 +12,7 @@
 #include "figure/layout.h"
 #include "figure/record.h"
 #include "figure/verdict.h"
+#include "kiln.h"
 
 struct job {
     const struct kiln_figure_params *params;

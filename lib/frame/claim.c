@@ -1,5 +1,5 @@
 /* The files of a job: what its scene was read from, and what it writes. */
-#include "base/claims.h"
+#include "kiln.h"
 #include "output/output.h"
 #include "scene/scene.h"
 

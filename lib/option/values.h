@@ -7,7 +7,7 @@
 
 #include "shared/value.h"
 
-/* What an animated number has as its constant where its option's word stands in its place. */
+/* The constant of an animated number in whose place its option's word stands. */
 #define KILN_VALUE_BY_WORD (-1.0f)
 
 /* A positive fraction in its lowest terms, or 0/1 where the option has a word for it. */

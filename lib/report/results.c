@@ -5,11 +5,11 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/claims.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json.h"
 #include "base/temporary.h"
+#include "kiln.h"
 #include "option/node.h"
 #include "report/report.h"
 #include "suite/results_folder.h"

@@ -1,3 +1,4 @@
+/* Numbers, counts and summaries as the text formats of reports write them. */
 #include "report/words.h"
 
 #include <inttypes.h>

@@ -3,9 +3,9 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/claims.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "kiln.h"
 #include "option/node.h"
 #include "scene/asset_path.h"
 

@@ -2,8 +2,8 @@
 #include <dirent.h>
 #include <stdlib.h>
 
-#include "base/claims.h"
 #include "base/file.h"
+#include "kiln.h"
 #include "scene/scene.h"
 #include "suite/results_folder.h"
 
@@ -57,7 +57,8 @@ bool kiln_suite_claim(const struct kiln_suite *suite, struct kiln_claims *claims
         const struct kiln_test *test = &suite->tests[i];
         ok = claim_inputs(test, claims, error) &&
              claim_result(test->results, "result.json", claims, error) &&
-             claim_result(test->results, "log.txt", claims, error);
+             claim_result(test->results, "log.txt", claims, error) &&
+             claim_result(test->results, "against.txt", claims, error);
     }
     return ok;
 }

@@ -31,7 +31,7 @@ static void add_folders(const struct kiln_trial *trial, struct kiln_text *text, 
         add_option(text, "--results", results);
 }
 
-/* What finds the test under its name. */
+/* Adds the words that find the test under its name. */
 static void add_selection(const struct kiln_trial *trial, struct kiln_text *text)
 {
     const struct kiln_test *test = trial->test;

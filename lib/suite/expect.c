@@ -491,7 +491,7 @@ static struct kiln_expect_pixels *insert_pixels(struct kiln_arena *arena,
     return &pixels[at];
 }
 
-/* The same text, or NULL, in the arena; false when memory is short. */
+/* Copies a text into the arena; NULL stays NULL. False when memory is short. */
 static bool copy_text(struct kiln_arena *arena, const char **to, const char *text)
 {
     *to = text ? kiln_arena_text(arena, text, strlen(text)) : NULL;

@@ -250,19 +250,16 @@ static bool renderer_changed(const struct judging *j)
     return same_scene && *state && strcmp(state, j->frame->state) == 0;
 }
 
-/* What is to be said of pixels that are not those which were accepted. */
+/* Says of a frame that its pixels are not those that were accepted, and how its picture is. */
 static const char *describe_change(struct judging *j, const char *picture)
 {
-    const struct kiln_result *result = j->trial->result;
     const char *before = j->frame->kiln_expected;
     if (!renderer_changed(j))
         return kiln_trial_text(j->trial, "frame %u has other pixels than were accepted on %s; %s",
                                j->frame->number, j->trial->rendering.device_name, picture);
-    if (!*before)
-        before = "one that is not known";
-    return kiln_trial_text(j->trial, "frame %u: the renderer changed, from %s%s to kiln %s; %s",
-                           j->frame->number, *j->frame->kiln_expected ? "kiln " : "", before,
-                           result->version, picture);
+    return kiln_trial_text(j->trial, "frame %u: the renderer changed, from %s %s to kiln %s; %s",
+                           j->frame->number, *before ? "kiln" : "one that is not",
+                           *before ? before : "known", j->trial->result->version, picture);
 }
 
 /* `cpu` makes the same pixels everywhere. */
@@ -304,7 +301,7 @@ static bool judge_by_metrics(struct judging *j, bool known)
     return decide(j, KILN_TEST_PASS, KILN_JUDGED_BY_METRICS, "");
 }
 
-/* Nothing but hashes was accepted. */
+/* Judges a frame of a test that keeps hashes alone. */
 static bool judge_by_hashes(struct judging *j)
 {
     const bool known = *j->frame->pixels_expected;

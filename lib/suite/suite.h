@@ -9,7 +9,7 @@
 /* A picture format of goldens. */
 enum kiln_test_format { KILN_TEST_PNG, KILN_TEST_PNG16, KILN_TEST_EXR };
 
-/* What is kept of what was accepted. */
+/* The form in which accepted frames are kept. */
 enum kiln_test_golden { KILN_GOLDEN_PICTURE, KILN_GOLDEN_HASH };
 
 struct kiln_test_mask {

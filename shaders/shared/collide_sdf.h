@@ -153,8 +153,8 @@ FN float sdf_radius(S(kiln_pose) pose, float since, float radius)
     return y;
 }
 
-/* Where a distance of 0 begins between two parts of a segment: within a mesh as thin as a cell,
- * whose two sides lie on samples, all distances are 0. */
+/* The part of a segment at which a distance of 0 begins, between two parts of a segment: within a
+ * mesh as thin as a cell, whose two sides lie on samples, all distances are 0. */
 FN float sdf_march_back(SIM_PARAM S(kiln_grid) g, float3 a, float3 way, S(sdf_reach) reach,
                         float from, float to)
 {

@@ -92,14 +92,14 @@ FN S(collide_state) sweep_ahead(SIM_PARAM S(sweep_path) path, float life)
     return ahead;
 }
 
-/* What the forces change of the velocity along the piece. */
+/* The change of the velocity that the forces make along the piece. */
 FN float3 sweep_change(S(sweep_path) path)
 {
     EXACT float3 change = float3_sub(path.ahead.velocity, path.now.velocity);
     return change;
 }
 
-/* Where the piece meets something. */
+/* The state at which the piece meets something, after this part of it. */
 FN S(collide_state) sweep_meeting(S(sweep_path) path, float part)
 {
     EXACT S(collide_state) y = path.now;

@@ -1,3 +1,4 @@
+/* Draws billboards one after the other in double precision, or sorts their fragments by pixels. */
 #include "support/true_billboards.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* Makes a sprite of a particle, finds its place at a pixel and shades it, in double precision. */
 #include "support/true_sprite.h"
 
 #include <math.h>

@@ -5,7 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/claims.h"
+#include "kiln.h"
 #include "support/cmocka.h"
 
 /* A fresh folder, which is the working folder. */

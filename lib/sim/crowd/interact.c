@@ -1,3 +1,5 @@
+/* Gathers the pushes of all systems that interact: finds out what each wants, and how far ahead
+ * collisions are looked for, and lets the host or GL gather it. */
 #include "sim/crowd/interact.h"
 
 #include <assert.h>
@@ -310,7 +312,7 @@ static float spread_of(const uint32_t bounds[SPEEDS_BOUNDS])
     return (float)(sqrt(square) * (1 + 1e-6));
 }
 
-/* What a scene does not say about collisions: how far ahead they are looked for. */
+/* Finds how far ahead collisions are looked for, which a scene need not say. */
 static bool find_ahead(struct kiln_interact *interact, struct kiln_interact_work *work,
                        struct kiln_pool *pool, struct kiln_buffer *keys, struct kiln_error *error)
 {

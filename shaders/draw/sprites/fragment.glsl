@@ -1,4 +1,4 @@
-/* What a fragment of a billboard gets. */
+/* Inputs of the fragments of billboards, and whether the particle covers one. */
 #include "draw/sprites/billboard.glsl"
 #include "draw/sprites/place.glsl"
 

@@ -47,7 +47,7 @@ uvec2 box_of(vec2 low, vec2 high)
     return uvec2(from.x | from.y << 16, to.x | to.y << 16);
 }
 
-/* What reaches behind the eye may be anywhere. */
+/* The box around an outline; all of the picture where a part of it is behind the eye. */
 uvec2 box_around(outline s)
 {
     if (!s.seen)

@@ -1,4 +1,4 @@
-/* Where a particle is in the picture: by these rows every technique finds the place of a pixel on it,
+/* A particle's place in the picture: by these rows every technique finds the place of a pixel on it,
  * so all cover the same pixels, however thin it is. GL itself may move corners by a part of a pixel.
  */
 struct place {

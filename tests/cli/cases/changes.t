@@ -78,6 +78,14 @@ $ kiln test --filter hash --no-report --against ./nowhere
 1|1 frame: 1 by pixels, 0 by metrics
 = 1
 
+No report replaces the program that draws.
+
+$ kiln test --filter hash --against ./other --report ./other --force
+2|kiln: ./other: --report would replace --against, which this call reads
+= 2
+$ grep -c exec other
+1|1
+
 One command accepts what a mass change has changed; others take names, patterns, and a device.
 
 $ sed -i '3a set: [post.exposure=0.4]' a.test.yaml b.test.yaml hash.test.yaml; kiln test --filter a --filter b --filter hash
