@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Files stay short enough to read: 600 lines; the one public header may have 900. (clang-tidy limits
+# Files stay short enough to read: 600 lines; the public header kiln.h may have 700. (clang-tidy limits
 # functions.)
 set -euo pipefail
 cd "$1"
 failed=0
 while read -r lines file; do
     most=600
-    [ "$file" != lib/kiln.h ] || most=900
+    [ "$file" != lib/kiln.h ] || most=700
     if ((lines > most)); then
         echo "$file: $lines lines; $most are allowed"
         failed=1
