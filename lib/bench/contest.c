@@ -6,15 +6,15 @@
 
 #include "base/clock.h"
 #include "base/error.h"
-#include "frame/loop.h"
 #include "gpu/device.h"
+#include "job/job.h"
 
 struct entrant {
     const struct kiln_lane *lane;
     struct kiln_samples *samples;
     struct kiln_lane_flags flags;
     struct kiln_render_params params;
-    struct kiln_loop *job; /* NULL: refused */
+    struct kiln_job *job; /* NULL: refused */
 };
 
 struct contest {
@@ -73,20 +73,20 @@ static bool enter(struct contest *contest, struct entrant *entrant, struct kiln_
 {
     entrant->params =
         kiln_lane_params(contest->run, entrant->lane, &entrant->flags, &contest->range);
-    entrant->job = kiln_loop_create(contest->run->device, contest->scene, &entrant->params, error);
+    entrant->job = kiln_job_create(contest->run->device, contest->scene, &entrant->params, error);
     return entrant->job || kiln_lane_is_refused(contest->run, error, &entrant->samples->problem);
 }
 
 /* One steps to the first frame, the others take over its particles. */
 static bool line_up(struct contest *contest, struct kiln_error *error)
 {
-    struct kiln_loop *first = NULL;
+    struct kiln_job *first = NULL;
     for (size_t i = 0; i < contest->count; i++) {
-        struct kiln_loop *job = contest->entrants[i].job;
+        struct kiln_job *job = contest->entrants[i].job;
         if (!job)
             continue;
-        bool ok = first ? kiln_loop_adopt(job, first, error)
-                        : kiln_loop_advance(job, contest->range.first, error);
+        bool ok = first ? kiln_loop_adopt(kiln_job_loop(job), kiln_job_loop(first), error)
+                        : kiln_loop_advance(kiln_job_loop(job), contest->range.first, error);
         if (!ok)
             return false;
         first = first ? first : job;
@@ -102,13 +102,13 @@ static bool draw(struct contest *contest, struct entrant *entrant, uint32_t fram
     const struct kiln_traffic *traffic = &contest->run->device->traffic;
     struct kiln_traffic before = *traffic;
     double start_s = kiln_clock_seconds();
-    if (!kiln_loop_draw(entrant->job, frame, error))
+    if (!kiln_job_draw(entrant->job, frame, error))
         return false;
     double frame_ms = 1e3 * (kiln_clock_seconds() - start_s);
     if (!counts)
         return true;
     struct kiln_samples *samples = entrant->samples;
-    const struct kiln_progress *progress = kiln_loop_progress(entrant->job);
+    const struct kiln_progress *progress = kiln_job_progress(entrant->job);
     for (int pass = 0; pass < KILN_PASS_COUNT; pass++)
         samples->ms[pass][samples->count] = progress->pass_ms[pass];
     samples->ms[KILN_MEASURE_FRAME][samples->count++] = frame_ms;
@@ -162,7 +162,7 @@ bool kiln_contest_run(const struct kiln_bench_run *run, const struct kiln_scene 
     }
     ok = ok && line_up(&contest, error) && take_turns(&contest, error);
     for (size_t i = 0; i < lane_count; i++)
-        kiln_loop_destroy(&contest.entrants[i].job);
+        kiln_job_destroy(&contest.entrants[i].job);
     free(contest.entrants);
     return ok;
 }

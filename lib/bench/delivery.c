@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "bench/contest.h"
-#include "frame/loop.h"
+#include "job/job.h"
 
 enum { LEAST_FRAMES = 3, MOST_FRAMES = 32 };
 
@@ -21,7 +21,7 @@ struct delivery {
     const struct kiln_scene *scene;
     const char *name;
     char folder[KILN_PATH_SIZE];
-    struct kiln_loop *donor; /* stands at the first frame and writes nothing */
+    struct kiln_job *donor; /* stands at the first frame and writes nothing */
     struct kiln_lane_flags flags;
     struct kiln_render_params donor_params;
     struct kiln_frame_range range;
@@ -38,15 +38,15 @@ static double cpu_seconds(void)
 }
 
 /* Draws frames that count; returns the time of the slowest pass, ms a frame, or less than 0. */
-static double draw_frames(struct kiln_loop *job, uint32_t first, uint32_t count,
+static double draw_frames(struct kiln_job *job, uint32_t first, uint32_t count,
                           struct kiln_error *error)
 {
     double sums[KILN_PASS_COUNT] = {0};
     for (uint32_t frame = first; frame < first + count; frame++) {
-        if (!kiln_loop_draw(job, frame, error))
+        if (!kiln_job_draw(job, frame, error))
             return -1.0;
         for (int pass = 0; pass < KILN_PASS_COUNT; pass++)
-            sums[pass] += kiln_loop_progress(job)->pass_ms[pass] / count;
+            sums[pass] += kiln_job_progress(job)->pass_ms[pass] / count;
     }
     double slowest = 0.0;
     for (int pass = 0; pass < KILN_PASS_output; pass++) /* which waits for the encoders */
@@ -54,13 +54,13 @@ static double draw_frames(struct kiln_loop *job, uint32_t first, uint32_t count,
     return slowest;
 }
 
-static bool time_job(struct kiln_loop *job, uint32_t frames, struct kiln_delivery *delivery,
+static bool time_job(struct kiln_job *job, uint32_t frames, struct kiln_delivery *delivery,
                      struct kiln_error *error)
 {
     double start_s = kiln_clock_seconds(), start_cpu_s = cpu_seconds();
     struct kiln_render_stats stats;
     double slowest = draw_frames(job, KILN_BENCH_WARM_UP, frames, error);
-    if (slowest < 0.0 || !kiln_loop_finish(job, &stats, error))
+    if (slowest < 0.0 || !kiln_job_finish(job, &stats, error))
         return false;
     delivery->ms[delivery->count] = 1e3 * (kiln_clock_seconds() - start_s) / frames;
     delivery->cpu_ms[delivery->count] = 1e3 * (cpu_seconds() - start_cpu_s) / frames;
@@ -83,13 +83,13 @@ static void remove_files(const struct delivery *d)
         close(folder);
 }
 
-static bool warm_up(struct delivery *d, struct kiln_loop *job, double *last_s,
+static bool warm_up(struct delivery *d, struct kiln_job *job, double *last_s,
                     struct kiln_error *error)
 {
-    bool ok = kiln_loop_adopt(job, d->donor, error);
+    bool ok = kiln_loop_adopt(kiln_job_loop(job), kiln_job_loop(d->donor), error);
     for (uint32_t frame = 0; frame < KILN_BENCH_WARM_UP && ok; frame++) {
         double start_s = kiln_clock_seconds();
-        ok = kiln_loop_draw(job, frame, error);
+        ok = kiln_job_draw(job, frame, error);
         *last_s = kiln_clock_seconds() - start_s;
     }
     return ok;
@@ -110,13 +110,13 @@ static bool look_ahead(struct delivery *d, size_t index, const struct kiln_lane 
 {
     struct kiln_lane_flags flags;
     const struct kiln_render_params params = kiln_lane_params(d->run, lane, &flags, &d->range);
-    struct kiln_loop *job = kiln_loop_create(d->run->device, d->scene, &params, error);
+    struct kiln_job *job = kiln_job_create(d->run->device, d->scene, &params, error);
     if (!job)
         return kiln_lane_is_refused(d->run, error, &delivery->problem);
     double frame_s = 0.0;
     bool ok = warm_up(d, job, &frame_s, error);
     d->frames[index] = choose_frames(d, frame_s);
-    kiln_loop_destroy(&job);
+    kiln_job_destroy(&job);
     return ok;
 }
 
@@ -130,11 +130,11 @@ static bool run_lane(struct delivery *d, size_t index, const struct kiln_lane *l
     const struct kiln_frame_range range = {0, KILN_BENCH_WARM_UP + d->frames[index] - 1};
     struct kiln_render_params params = kiln_lane_params(d->run, lane, &flags, &range);
     params.output = path;
-    struct kiln_loop *job = kiln_loop_create(d->run->device, d->scene, &params, error);
+    struct kiln_job *job = kiln_job_create(d->run->device, d->scene, &params, error);
     double unused = 0.0;
     bool ok =
         job && warm_up(d, job, &unused, error) && time_job(job, d->frames[index], delivery, error);
-    kiln_loop_destroy(&job);
+    kiln_job_destroy(&job);
     remove_files(d);
     return ok;
 }
@@ -144,8 +144,8 @@ static bool open_donor(struct delivery *d, struct kiln_error *error)
     static const struct kiln_lane automatic = {.name = "auto", .techniques = ""};
     d->range = (struct kiln_frame_range){0, KILN_BENCH_WARM_UP};
     d->donor_params = kiln_lane_params(d->run, &automatic, &d->flags, &d->range);
-    d->donor = kiln_loop_create(d->run->device, d->scene, &d->donor_params, error);
-    return d->donor && kiln_loop_advance(d->donor, 0, error);
+    d->donor = kiln_job_create(d->run->device, d->scene, &d->donor_params, error);
+    return d->donor && kiln_loop_advance(kiln_job_loop(d->donor), 0, error);
 }
 
 static bool take_turns(struct delivery *d, const struct kiln_lane *lanes, size_t lane_count,
@@ -180,7 +180,7 @@ bool kiln_delivery_run(const struct kiln_bench_run *run, const struct kiln_scene
         return kiln_error_set(error, KILN_IO, "%s: no folder for pictures can be made there",
                               run->params->scratch);
     bool ok = open_donor(&d, error) && take_turns(&d, lanes, lane_count, deliveries, error);
-    kiln_loop_destroy(&d.donor);
+    kiln_job_destroy(&d.donor);
     rmdir(d.folder);
     return ok;
 }

@@ -1,34 +1,70 @@
-/* A job frame by frame, for who has several at once; kiln_render is the loop over one. */
+/* The frame loop: steps the particles of a scene to a frame and draws it. What becomes of the
+ * picture is a matter of who asks for it (lib/job). */
 #ifndef KILN_FRAME_LOOP_H
 #define KILN_FRAME_LOOP_H
 
-#include "kiln.h"
+#include "frame/run.h"
+#include "frame/technique.h"
+#include "output/output.h"
 
 struct kiln_loop;
 
-/* Chooses techniques, opens outputs and sets all stages up. Everything is borrowed until the job is
- * destroyed; errors are those of kiln_render. */
-struct kiln_loop *kiln_loop_create(struct kiln_device *device, const struct kiln_scene *scene,
-                                   const struct kiln_render_params *params,
-                                   struct kiln_error *error);
+struct kiln_loop_params {
+    const char *const *techniques; /* "stage=name" */
+    size_t technique_count;
+    uint32_t threads;         /* 0 takes one a core */
+    uint32_t work_group_size; /* as in kiln_render_params */
+    struct kiln_log log;
+    struct kiln_output_caller caller; /* asked between steps and before frames */
+};
 
-/* What is not finished is given up: no output stays half-written. */
+/* A frame as it was drawn. */
+struct kiln_drawn {
+    struct kiln_picture *picture; /* the caller's */
+    uint64_t alive;               /* particles, at the first of its moments */
+    struct kiln_state_hash state; /* where it was asked for */
+    double pass_ms[KILN_PASS_COUNT];
+};
+
+/* Chooses techniques and starts threads. Device, scene and the texts of params are borrowed. NULL
+ * with KILN_USAGE for techniques that there are not, KILN_NO_DEVICE, or KILN_DEVICE_FAILED, also
+ * when the device cannot draw so large a scene. */
+struct kiln_loop *kiln_loop_create(struct kiln_device *device, const struct kiln_scene *scene,
+                                   const struct kiln_loop_params *params, struct kiln_error *error);
 void kiln_loop_destroy(struct kiln_loop **loop);
 
-/* Steps to where a frame starts, if it is not there yet, and draws nothing. */
-bool kiln_loop_advance(struct kiln_loop *loop, uint32_t frame, struct kiln_error *error);
+/* Makes buffers, programs and textures for pictures of such needs. Once, before the functions
+ * below. */
+bool kiln_loop_set_up(struct kiln_loop *loop, struct kiln_output_needs needs,
+                      struct kiln_error *error);
 
-/* Takes over the particles of another job of the same scene, whatever techniques either has. */
+const struct kiln_techniques *kiln_loop_techniques(const struct kiln_loop *loop);
+uint32_t kiln_loop_threads(const struct kiln_loop *loop);
+
+/* Bytes that the particles and their sorting take, on each side that they are on. */
+uint64_t kiln_loop_particle_bytes(const struct kiln_loop *loop);
+
+/* The state of the run, of the loop's own. Whoever replaces it says so with kiln_loop_resume. */
+struct kiln_run *kiln_loop_run(struct kiln_loop *loop);
+
+/* The state in kiln_loop_run is the one in which a frame starts, with all that earlier frames
+ * leave. */
+void kiln_loop_resume(struct kiln_loop *loop, uint32_t frame);
+
+/* Takes over the particles of another loop of the same scene, whatever techniques either has. What
+ * a spread sort keeps stays behind. */
 bool kiln_loop_adopt(struct kiln_loop *loop, struct kiln_loop *from, struct kiln_error *error);
 
-/* Draws a frame, no earlier one than before, and hands it to the output. */
-bool kiln_loop_draw(struct kiln_loop *loop, uint32_t frame, struct kiln_error *error);
+/* Steps to where a frame starts, if it is not there yet, and draws nothing. Frames in between leave
+ * what later ones need of them. */
+bool kiln_loop_advance(struct kiln_loop *loop, uint32_t frame, struct kiln_error *error);
 
-/* Of the frame drawn last. */
-const struct kiln_progress *kiln_loop_progress(const struct kiln_loop *loop);
+/* Draws a frame, no earlier one than before; `hash` asks for the state's. */
+bool kiln_loop_draw(struct kiln_loop *loop, uint32_t frame, bool hash, struct kiln_drawn *drawn,
+                    struct kiln_error *error);
 
-/* Waits until the outputs are whole, and sums up. */
-bool kiln_loop_finish(struct kiln_loop *loop, struct kiln_render_stats *stats,
-                      struct kiln_error *error);
+/* The state hash now, and the number of living particles. */
+bool kiln_loop_hash(struct kiln_loop *loop, struct kiln_state_hash *hash, uint64_t *alive,
+                    struct kiln_error *error);
 
 #endif

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "frame/loop.h"
+#include "job/job.h"
 #include "support/cmocka.h"
 #include "support/device.h"
 #include "support/pictures.h"
@@ -250,15 +250,15 @@ static void a_spread_sort_follows_undrawn_frames(void **state)
     assert_memory_equal(part + 9 * ORBIT_BYTES, exact + 9 * ORBIT_BYTES, ORBIT_BYTES);
 }
 
-static struct kiln_loop *make_job(struct kiln_device *device, const struct kiln_scene *scene,
-                                  struct kiln_render_params *params, const char *const *technique)
+static struct kiln_job *make_job(struct kiln_device *device, const struct kiln_scene *scene,
+                                 struct kiln_render_params *params, const char *const *technique)
 {
     struct kiln_error error = {0};
     *params = KILN_RENDER_DEFAULTS;
     params->techniques = technique;
     params->technique_count = 1;
     params->state_hash = true;
-    struct kiln_loop *job = kiln_loop_create(device, scene, params, &error);
+    struct kiln_job *job = kiln_job_create(device, scene, params, &error);
     if (!job)
         fail_msg("%s", error.message);
     return job;
@@ -273,35 +273,36 @@ static void jobs_go_on_from_each_other(void **state)
     struct kiln_scene *scene = load_scene(SMOKE, NULL);
     struct kiln_error error = {0};
     struct kiln_render_params params[JOBS];
-    struct kiln_loop *jobs[JOBS];
+    struct kiln_job *jobs[JOBS];
     for (int i = 0; i < JOBS; i++) {
         jobs[i] = make_job(*state, scene, &params[i], &flags[i]);
-        bool ok = i == 0 ? kiln_loop_advance(jobs[0], 2, &error)
-                         : kiln_loop_adopt(jobs[i], jobs[i - 1], &error);
+        bool ok = i == 0
+                      ? kiln_loop_advance(kiln_job_loop(jobs[0]), 2, &error)
+                      : kiln_loop_adopt(kiln_job_loop(jobs[i]), kiln_job_loop(jobs[i - 1]), &error);
         if (!ok)
             fail_msg("%s", error.message);
     }
     struct kiln_state_hash before = {{0}};
     for (uint32_t frame = 2; frame < FRAMES; frame++) {
         for (int i = 0; i < JOBS; i++) {
-            if (!kiln_loop_draw(jobs[i], frame, &error))
+            if (!kiln_job_draw(jobs[i], frame, &error))
                 fail_msg("%s", error.message);
-            const struct kiln_progress *progress = kiln_loop_progress(jobs[i]);
+            const struct kiln_progress *progress = kiln_job_progress(jobs[i]);
             assert_int_equal(progress->frame, frame);
             assert_true(progress->alive > 0);
-            assert_memory_equal(&progress->state, &kiln_loop_progress(jobs[0])->state,
+            assert_memory_equal(&progress->state, &kiln_job_progress(jobs[0])->state,
                                 sizeof progress->state);
         }
-        assert_memory_not_equal(&kiln_loop_progress(jobs[0])->state, &before, sizeof before);
-        before = kiln_loop_progress(jobs[0])->state;
+        assert_memory_not_equal(&kiln_job_progress(jobs[0])->state, &before, sizeof before);
+        before = kiln_job_progress(jobs[0])->state;
     }
     struct kiln_render_stats whole, stats;
     assert_true(kiln_render(*state, scene, &params[0], &whole, &error));
     for (int i = 0; i < JOBS; i++) {
-        assert_true(kiln_loop_finish(jobs[i], &stats, &error));
+        assert_true(kiln_job_finish(jobs[i], &stats, &error));
         assert_memory_equal(&stats.state, &whole.state, sizeof whole.state);
         assert_int_equal(stats.frames, 2);
-        kiln_loop_destroy(&jobs[i]);
+        kiln_job_destroy(&jobs[i]);
     }
     kiln_scene_destroy(&scene);
 }

@@ -4,8 +4,8 @@ BEGIN {
     rank["base"] = 1; rank["option"] = 2; rank["gpu"] = 3
     rank["asset"] = rank["particles"] = 4; rank["scene"] = 5
     rank["sim"] = rank["sort"] = rank["draw"] = rank["post"] = rank["output"] = 6
-    rank["compare"] = 7; rank["frame"] = 8; rank["suite"] = 9; rank["report"] = 10
-    rank["figure"] = 11; rank["bench"] = 12
+    rank["compare"] = 7; rank["frame"] = 8; rank["job"] = 9; rank["suite"] = 10
+    rank["report"] = 11; rank["figure"] = 12; rank["bench"] = 13
 
     # Inside of three of them.
     inner["asset/image"] = 1; inner["asset/geometry"] = inner["asset/atlas"] = 2

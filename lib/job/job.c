@@ -1,0 +1,300 @@
+/* A job: opens what it writes, asks the frame loop for each wanted frame, hands the pictures on and
+ * keeps count. */
+#include "job/job.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "output/manifest.h"
+
+struct kiln_job {
+    struct kiln_device *device;
+    const struct kiln_scene *scene;
+    const struct kiln_render_params *params;
+    struct kiln_frame_range whole_clip; /* what an empty list of ranges means */
+    const struct kiln_frame_range *ranges;
+    size_t range_count;
+
+    struct kiln_loop *loop;
+    struct kiln_output *output;     /* NULL when nothing is written */
+    struct kiln_manifest *manifest; /* NULL when none is wanted */
+
+    double started_s;
+    uint32_t total_frames;
+    struct kiln_progress progress; /* of the frame at hand */
+    struct kiln_render_stats stats;
+};
+
+/* ---- frame by frame -------------------------------------------------------------------------- */
+
+/* A callback may have used another device on this thread. */
+static bool return_from_caller(const struct kiln_job *job, struct kiln_error *error)
+{
+    return kiln_device_make_current(job->device, error);
+}
+
+/* False with KILN_INTERRUPTED when the caller wants no more. */
+static bool may_go_on(void *user, struct kiln_error *error)
+{
+    const struct kiln_job *job = user;
+    if (!job->params->stop)
+        return true;
+    bool stop = job->params->stop(job->params->user);
+    if (!return_from_caller(job, error))
+        return false;
+    return !stop || kiln_error_set(error, KILN_INTERRUPTED, "stopped after %u of %u frames",
+                                   job->progress.done, job->total_frames);
+}
+
+/* Takes the picture. */
+static bool hand_over(struct kiln_job *job, struct kiln_picture *picture, struct kiln_error *error)
+{
+    if (job->output)
+        return kiln_output_write(job->output, picture, error);
+    if (job->params->picture)
+        job->params->picture(job->params->user, picture->frame, picture->display);
+    kiln_picture_destroy(&picture);
+    return return_from_caller(job, error);
+}
+
+static bool report_frame(struct kiln_job *job, uint32_t frame, struct kiln_error *error)
+{
+    struct kiln_progress *p = &job->progress;
+    p->frame = frame;
+    p->done++;
+    p->total = job->total_frames;
+    p->elapsed_s = kiln_clock_seconds() - job->started_s;
+    p->eta_s = p->elapsed_s / p->done * (p->total - p->done);
+    for (int i = 0; i < KILN_PASS_COUNT; i++)
+        job->stats.pass_ms[i] += p->pass_ms[i];
+    char path[KILN_PATH_SIZE] = "";
+    bool written = job->output && kiln_output_path(job->output, frame, path, sizeof path);
+    if (job->manifest && !kiln_manifest_add(job->manifest, p, written ? path : NULL, error))
+        return false;
+    if (!job->params->progress)
+        return true;
+    job->params->progress(job->params->user, p);
+    return return_from_caller(job, error);
+}
+
+bool kiln_job_draw(struct kiln_job *job, uint32_t frame, struct kiln_error *error)
+{
+    struct kiln_drawn drawn;
+    const bool hash = job->params->state_hash || job->manifest;
+    if (!kiln_loop_draw(job->loop, frame, hash, &drawn, error))
+        return false;
+    struct kiln_progress *progress = &job->progress;
+    progress->alive = drawn.alive;
+    progress->state = drawn.state;
+    memcpy(progress->pass_ms, drawn.pass_ms, sizeof progress->pass_ms);
+    double before_s = kiln_clock_seconds();
+    if (!hand_over(job, drawn.picture, error))
+        return false;
+    progress->pass_ms[KILN_PASS_output] = 1e3 * (kiln_clock_seconds() - before_s);
+    return report_frame(job, frame, error);
+}
+
+const struct kiln_progress *kiln_job_progress(const struct kiln_job *job)
+{
+    return &job->progress;
+}
+
+struct kiln_loop *kiln_job_loop(struct kiln_job *job)
+{
+    return job->loop;
+}
+
+static bool draw_frames(struct kiln_job *job, struct kiln_error *error)
+{
+    for (size_t i = 0; i < job->range_count; i++) {
+        const struct kiln_frame_range range = job->ranges[i];
+        for (uint32_t frame = range.first; frame <= range.last; frame++) {
+            if (!kiln_job_draw(job, frame, error))
+                return false;
+        }
+    }
+    return true;
+}
+
+/* ---- before and after ------------------------------------------------------------------------ */
+
+static bool choose_frames(struct kiln_job *job, struct kiln_error *error)
+{
+    job->ranges = job->params->ranges;
+    job->range_count = job->params->range_count;
+    if (job->range_count == 0) {
+        job->whole_clip = (struct kiln_frame_range){0, job->scene->frames - 1};
+        job->ranges = &job->whole_clip;
+        job->range_count = 1;
+    }
+    uint64_t next = 0;
+    for (size_t i = 0; i < job->range_count; i++) {
+        struct kiln_frame_range range = job->ranges[i];
+        if (range.first > range.last || range.first < next || range.last >= job->scene->frames)
+            return kiln_error_set(error, KILN_USAGE,
+                                  "frames %u-%u: expected ascending ranges within 0-%u",
+                                  range.first, range.last, job->scene->frames - 1);
+        next = (uint64_t)range.last + 1;
+        job->total_frames += range.last - range.first + 1;
+    }
+    return true;
+}
+
+/* No file of the job is written twice, or written and read. */
+static bool check_files(const struct kiln_job *job, struct kiln_error *error)
+{
+    struct kiln_claims *claims = kiln_claims_create();
+    bool ok = claims ? kiln_render_claim(job->scene, job->params, claims, error)
+                     : kiln_error_set(error, KILN_DEVICE_FAILED, "files of the job: out of memory");
+    kiln_claims_destroy(&claims);
+    return ok;
+}
+
+static bool open_output(struct kiln_job *job, struct kiln_error *error)
+{
+    const struct kiln_render_params *params = job->params;
+    const struct kiln_scene *scene = job->scene;
+    if (!check_files(job, error))
+        return false;
+    if (params->output) {
+        job->output = kiln_output_open(
+            &(struct kiln_output_params){
+                .path = params->output,
+                .width = scene->width,
+                .height = scene->height,
+                .fps_num = scene->fps.num,
+                .fps_den = scene->fps.den,
+                .alpha = scene->backdrop.transparent,
+                .ranges = job->ranges,
+                .range_count = job->range_count,
+                .threads = kiln_loop_threads(job->loop),
+                .overwrite = params->overwrite,
+                .png_bits = params->png_bits,
+                .exr_bits = params->exr_bits,
+                .quality = params->quality,
+                .flipbook = params->flipbook,
+                .scene_hash = scene->hash,
+                .seed = scene->seed,
+                .log = params->log,
+                .caller = {may_go_on, job},
+            },
+            error);
+        if (!job->output)
+            return false;
+    }
+    if (params->manifest) {
+        job->manifest = kiln_manifest_open(
+            &(struct kiln_manifest_params){
+                .path = params->manifest,
+                .overwrite = params->overwrite,
+                .scene = scene,
+                .device = &job->device->info,
+                .techniques = job->stats.techniques,
+                .output = params->output,
+            },
+            error);
+        return job->manifest != NULL;
+    }
+    return true;
+}
+
+/* What statistics tell of the loop. */
+static void describe_loop(struct kiln_job *job)
+{
+    const struct kiln_techniques *techniques = kiln_loop_techniques(job->loop);
+    struct kiln_render_stats *stats = &job->stats;
+    kiln_techniques_describe(techniques, stats->techniques, sizeof stats->techniques);
+    stats->choice_count = KILN_STAGE_COUNT;
+    memcpy(stats->choices, techniques->choices, sizeof techniques->choices);
+}
+
+static bool begin(struct kiln_job *job, struct kiln_error *error)
+{
+    const struct kiln_render_params *params = job->params;
+    const struct kiln_loop_params loop = {.techniques = params->techniques,
+                                          .technique_count = params->technique_count,
+                                          .threads = params->threads,
+                                          .work_group_size = params->work_group_size,
+                                          .log = params->log,
+                                          .caller = {may_go_on, job}};
+    if (!choose_frames(job, error))
+        return false;
+    job->loop = kiln_loop_create(job->device, job->scene, &loop, error);
+    if (!job->loop)
+        return false;
+    describe_loop(job);
+    if (!open_output(job, error))
+        return false;
+    const struct kiln_output_needs plain = {.bits = 8};
+    if (!kiln_loop_set_up(job->loop, job->output ? kiln_output_needs(job->output) : plain, error))
+        return false;
+    job->stats.particle_capacity = kiln_loop_run(job->loop)->pool.slot_count;
+    job->stats.particle_bytes = kiln_loop_particle_bytes(job->loop);
+    job->stats.setup_s = kiln_clock_seconds() - job->started_s;
+    return true;
+}
+
+bool kiln_job_finish(struct kiln_job *job, struct kiln_render_stats *stats,
+                     struct kiln_error *error)
+{
+    struct kiln_render_stats *s = &job->stats;
+    if (!kiln_loop_hash(job->loop, &s->state, &s->alive, error))
+        return false;
+    s->frames = job->progress.done;
+    s->steps = kiln_loop_run(job->loop)->step;
+    if (job->output) {
+        s->files = kiln_output_file_count(job->output);
+        kiln_output_path(job->output, job->ranges[0].first, s->first_file, sizeof s->first_file);
+        if (!kiln_output_finish(job->output, error))
+            return false;
+    }
+    s->total_s = kiln_clock_seconds() - job->started_s;
+    if (job->manifest && !kiln_manifest_finish(job->manifest, s, error))
+        return false;
+    *stats = *s;
+    return true;
+}
+
+void kiln_job_destroy(struct kiln_job **job)
+{
+    struct kiln_job *j = *job;
+    if (!j)
+        return;
+    kiln_manifest_close(&j->manifest);
+    kiln_output_close(&j->output);
+    kiln_loop_destroy(&j->loop);
+    free(j);
+    *job = NULL;
+}
+
+struct kiln_job *kiln_job_create(struct kiln_device *device, const struct kiln_scene *scene,
+                                 const struct kiln_render_params *params, struct kiln_error *error)
+{
+    struct kiln_job *job = calloc(1, sizeof *job);
+    if (!job) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a job");
+        return NULL;
+    }
+    job->device = device;
+    job->scene = scene;
+    job->params = params;
+    job->started_s = kiln_clock_seconds();
+    if (!begin(job, error))
+        kiln_job_destroy(&job);
+    return job;
+}
+
+bool kiln_render(struct kiln_device *device, const struct kiln_scene *scene,
+                 const struct kiln_render_params *params, struct kiln_render_stats *stats,
+                 struct kiln_error *error)
+{
+    struct kiln_render_stats done = {0};
+    struct kiln_job *job = kiln_job_create(device, scene, params, error);
+    bool ok = job && draw_frames(job, error) && kiln_job_finish(job, &done, error);
+    kiln_job_destroy(&job);
+    if (stats)
+        *stats = done;
+    return ok;
+}

@@ -1,0 +1,31 @@
+/* A job: which frames of a scene are drawn, and what becomes of their pictures. kiln_render runs a
+ * whole one; whoever has several at once takes them frame by frame. */
+#ifndef KILN_JOB_JOB_H
+#define KILN_JOB_JOB_H
+
+#include "frame/loop.h"
+
+struct kiln_job;
+
+/* Checks the frames, opens the outputs and sets all stages up. Everything is borrowed until the job
+ * is destroyed; errors are those of kiln_render. */
+struct kiln_job *kiln_job_create(struct kiln_device *device, const struct kiln_scene *scene,
+                                 const struct kiln_render_params *params, struct kiln_error *error);
+
+/* What is not finished is given up: no output stays half-written. */
+void kiln_job_destroy(struct kiln_job **job);
+
+/* Its frame loop, which belongs to it. */
+struct kiln_loop *kiln_job_loop(struct kiln_job *job);
+
+/* Draws a frame, no earlier one than before, and hands it to the output. */
+bool kiln_job_draw(struct kiln_job *job, uint32_t frame, struct kiln_error *error);
+
+/* Of the frame drawn last. */
+const struct kiln_progress *kiln_job_progress(const struct kiln_job *job);
+
+/* Waits until the outputs are whole, and sums up. */
+bool kiln_job_finish(struct kiln_job *job, struct kiln_render_stats *stats,
+                     struct kiln_error *error);
+
+#endif
