@@ -1,246 +1,236 @@
-/* From operands and options to jobs. */
-#include "plan.h"
-
+/* kiln plan: what a clip costs, and what each of several tasks would do. */
+#include <inttypes.h>
 #include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
 
+#include "command.h"
+#include "device.h"
+#include "event.h"
 #include "overrides.h"
 #include "report.h"
+#include "signals.h"
 
-static const char mark[] = "{scene}";
+static const struct option options[] = {
+    {.name = "tasks",
+     .kind = OPTION_INTEGER,
+     .placeholder = "N",
+     .help = "Tasks that draw the clip together, as with 'kiln render --shard I/N'.",
+     .fallback = "1",
+     .min = 1,
+     .max = 1000000},
+    {.name = "states",
+     .kind = OPTION_TEXT,
+     .placeholder = "STATES",
+     .help = "A folder that 'kiln bake' made, at whose states the tasks start."},
+    {.name = "frame",
+     .kind = OPTION_INTEGER,
+     .placeholder = "N",
+     .help = "The frame to measure.",
+     .fallback = "the middle one",
+     .max = UINT32_MAX},
+    {.name = "size",
+     .kind = OPTION_SIZE,
+     .placeholder = "WxH",
+     .help = "Size of the picture in pixels: --set output.size=[W, H].",
+     .sets = "output.size"},
+    {.name = "fps",
+     .kind = OPTION_RATIO,
+     .placeholder = "RATE",
+     .help = "Frames a second: --set output.fps=RATE.",
+     .sets = "output.fps"},
+    SET_OPTION,
+    ASSET_ROOT_OPTION,
+    DEVICE_OPTION,
+    TECHNIQUE_OPTION,
+    THREADS_OPTION,
+    {.name = "json", .kind = OPTION_FLAG, .help = "Print JSON instead: one object."},
+    HELP_OPTION,
+};
 
-/* The file's name without folder and suffix. */
-static const char *scene_stem(const char *path, size_t *length)
+/* What the library tells task by task. */
+struct planning {
+    const char *scene_path;
+    bool json_wanted;
+    struct kiln_json json;
+    double cpu_s; /* of all tasks */
+};
+
+static bool wants_stop(void *user)
 {
-    const char *slash = strrchr(path, '/');
-    const char *name = slash ? slash + 1 : path;
-    const char *dot = strrchr(name, '.');
-    *length = dot && dot > name ? (size_t)(dot - name) : strlen(name);
-    return name;
+    (void)user;
+    return signals_received() != 0;
 }
 
-static bool is_folder(const char *path)
+/* ---- text ------------------------------------------------------------------------------------ */
+
+static void print_head(const struct planning *planning, const struct kiln_plan *plan)
 {
-    struct stat status;
-    size_t length = strlen(path);
-    return (length > 0 && path[length - 1] == '/') ||
-           (stat(path, &status) == 0 && S_ISDIR(status.st_mode));
+    printf("%s: %" PRIu32 " part%s of %" PRIu32 " frames, motion %.16s\n", planning->scene_path,
+           plan->parts, plan->parts == 1 ? "" : "s", plan->part_frames, plan->motion);
+    printf("measured at frame %" PRIu32 ": set-up %.2f, a step %.4f, a frame %.3f seconds of CPU; "
+           "%.0f MiB\n",
+           plan->frame, plan->setup_cpu_s, plan->step_cpu_s, plan->frame_cpu_s,
+           (double)plan->memory_bytes / 1048576.0);
+    printf("  %5s  %-11s  %-15s  %10s  %8s  %10s\n", "task", "parts", "frames", "from step",
+           "steps", "CPU s");
 }
 
-/* Adds the scene's name to a text. In the name of an output, what would stand for the number of a
- * frame is escaped. */
-static void add_stem(FILE *out, const char *scene, bool escape)
+static void print_task(const struct kiln_plan_task *task)
 {
-    size_t length;
-    const char *stem = scene_stem(scene, &length);
-    for (size_t i = 0; i < length; i++)
-        fprintf(out, "%s%c", escape && (stem[i] == '%' || stem[i] == '#') ? "%" : "", stem[i]);
-}
-
-/* Adds the pattern with every mark replaced; a folder's name knows no numbers and no escapes. */
-static void add_marked(FILE *out, const char *pattern, const char *scene, bool escape)
-{
-    const char *slash = strrchr(pattern, '/');
-    while (*pattern) {
-        if (strncmp(pattern, mark, sizeof mark - 1) == 0) {
-            add_stem(out, scene, escape && (!slash || pattern > slash));
-            pattern += sizeof mark - 1;
-        } else {
-            fputc(*pattern++, out);
-        }
+    char parts[32], frames[32];
+    if (task->first_part == task->end) {
+        printf("  %5" PRIu32 "  none\n", task->index + 1);
+        return;
     }
+    const int length = snprintf(parts, sizeof parts, "%" PRIu32, task->first_part + 1);
+    if (task->end > task->first_part + 1)
+        snprintf(parts + length, sizeof parts - (size_t)length, "-%" PRIu32, task->end);
+    snprintf(frames, sizeof frames, "%" PRIu32 "-%" PRIu32, task->frames.first, task->frames.last);
+    printf("  %5" PRIu32 "  %-11s  %-15s  %10" PRIu32 "  %8" PRIu64 "  %10.2f\n", task->index + 1,
+           parts, frames, task->state_step, task->steps, task->cpu_s);
 }
 
-/* The file that a pattern means for a scene, in new memory; NULL when memory is short. A folder
- * gets a file named after the scene. */
-static char *file_name(const char *pattern, const char *scene, const char *suffix, bool numbers)
+/* ---- JSON ------------------------------------------------------------------------------------ */
+
+static void begin_json(struct planning *planning, const struct kiln_plan *plan)
 {
-    char *name = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&name, &size);
-    if (!out)
-        return NULL;
-    add_marked(out, pattern, scene, false);
-    fflush(out);
-    if (name && is_folder(name)) {
-        fputs(name[size - 1] == '/' ? "" : "/", out);
-        add_stem(out, scene, numbers);
-        fputs(suffix, out);
-    } else if (numbers) {
-        rewind(out);
-        add_marked(out, pattern, scene, true);
+    struct kiln_json *json = &planning->json;
+    *json = kiln_json_to_file(stdout);
+    kiln_json_begin_object(json, NULL);
+    kiln_json_lines(json, 2);
+    kiln_json_string(json, "scene", planning->scene_path);
+    kiln_json_string(json, "motion", plan->motion);
+    kiln_json_string(json, "techniques", plan->techniques);
+    kiln_json_uint(json, "parts", plan->parts);
+    kiln_json_uint(json, "part_frames", plan->part_frames);
+    kiln_json_begin_object(json, "measured");
+    kiln_json_uint(json, "frame", plan->frame);
+    kiln_json_uint(json, "steps", plan->steps);
+    kiln_json_rounded(json, "setup_cpu_s", plan->setup_cpu_s, 6);
+    kiln_json_rounded(json, "step_cpu_s", plan->step_cpu_s, 6);
+    kiln_json_rounded(json, "frame_cpu_s", plan->frame_cpu_s, 6);
+    kiln_json_uint(json, "memory_bytes", plan->memory_bytes);
+    kiln_json_end(json);
+    kiln_json_begin_array(json, "tasks");
+    kiln_json_lines(json, 4);
+}
+
+static void add_task(struct kiln_json *json, const struct kiln_plan_task *task)
+{
+    const bool empty = task->first_part == task->end;
+    kiln_json_begin_object(json, NULL);
+    kiln_json_uint(json, "task", task->index + 1);
+    kiln_json_uint(json, "first_part", task->first_part);
+    kiln_json_uint(json, "parts", task->end - task->first_part);
+    if (empty) {
+        kiln_json_null(json, "frames");
+    } else {
+        kiln_json_pair(json, "frames", task->frames.first, task->frames.last);
+        kiln_json_uint(json, "from_step", task->state_step);
+        kiln_json_bool(json, "from_state", task->has_state);
+        kiln_json_uint(json, "steps", task->steps);
+        kiln_json_rounded(json, "cpu_s", task->cpu_s, 6);
     }
-    bool failed = ferror(out) != 0;
-    if (fclose(out) == 0 && !failed)
-        return name;
-    free(name);
-    return NULL;
+    kiln_json_end(json);
 }
 
-/* No two jobs may write one file: found here by its name, so that the message can say what to do,
- * and by where it leads once the scenes are loaded. */
-static int check_clash(const struct job *a, const struct job *b)
+static void end_json(struct planning *planning)
 {
-    bool output = a->output && b->output && strcmp(a->output, b->output) == 0;
-    bool manifest = a->manifest && b->manifest && strcmp(a->manifest, b->manifest) == 0;
-    if (!output && !manifest)
-        return 0;
-    return report(KILN_USAGE,
-                  "render: --%s: '%s' and '%s' would both write '%s'; name a folder, or put "
-                  "{scene} into the name",
-                  output ? "output" : "manifest", a->path, b->path,
-                  output ? a->output : a->manifest);
+    struct kiln_json *json = &planning->json;
+    kiln_json_end_line(json, 2);
+    kiln_json_rounded(json, "cpu_s", planning->cpu_s, 6);
+    kiln_json_end_line(json, 0);
+    kiln_json_finish(json);
 }
 
-/* The files of all jobs together. */
-static int claim_files(const struct plan *plan)
+static void show_task(void *user, const struct kiln_plan *plan, const struct kiln_plan_task *task)
 {
-    struct kiln_claims *claims = kiln_claims_create();
-    int code = claims ? 0 : report_no_memory();
-    for (size_t i = 0; i < plan->count && code == 0; i++) {
-        const struct job *job = &plan->jobs[i];
-        struct kiln_error error = {0};
-        struct kiln_render_params params = KILN_RENDER_DEFAULTS;
-        params.output = job->output;
-        params.manifest = job->manifest;
-        params.ranges = job->frames.ranges;
-        params.range_count = job->frames.count;
-        params.flipbook = plan->flipbook;
-        if (!kiln_render_claim(job->scene, &params, claims, &error))
-            code = report_error(&error);
-    }
-    kiln_claims_destroy(&claims);
-    return code;
+    struct planning *planning = user;
+    if (task->index == 0 && planning->json_wanted)
+        begin_json(planning, plan);
+    else if (task->index == 0)
+        print_head(planning, plan);
+    if (planning->json_wanted)
+        add_task(&planning->json, task);
+    else
+        print_task(task);
+    planning->cpu_s += task->cpu_s;
 }
 
-static int name_files(struct plan *plan, const struct arguments *arguments)
+/* ---- running --------------------------------------------------------------------------------- */
+
+static int report_failure(const struct planning *planning, const struct kiln_error *error)
 {
-    const struct option_use *output = arguments_last(arguments, "output");
-    const struct option_use *manifest = arguments_last(arguments, "manifest");
-    if (!output)
-        return report(KILN_USAGE, "render: needs --output FILE; '--output none' writes nothing");
-    bool writes = strcmp(output->text, "none") != 0;
-    for (size_t i = 0; i < plan->count; i++) {
-        struct job *job = &plan->jobs[i];
-        job->path = arguments->operands[i];
-        if (writes)
-            job->output = file_name(output->text, job->path,
-                                    plan->flipbook.columns > 0 ? ".png" : ".mp4", true);
-        if (manifest)
-            job->manifest = file_name(manifest->text, job->path, ".json", false);
-        if ((writes && !job->output) || (manifest && !job->manifest))
-            return report_no_memory();
-        for (size_t j = 0; j < i; j++) {
-            int code = check_clash(&plan->jobs[j], job);
-            if (code)
-                return code;
-        }
-    }
-    return 0;
+    const int number = signals_received();
+    if (error->code != KILN_INTERRUPTED)
+        return report_error(error);
+    report(KILN_INTERRUPTED, "%s: stopped by %s", planning->scene_path, signals_name(number));
+    return 128 + number;
 }
 
-/* Every frame that was asked for must exist. */
-static int choose_frames(struct job *job, const struct arguments *arguments)
+static int run_plan(const struct arguments *arguments, const struct kiln_scene *scene,
+                    const struct value_list *techniques)
 {
-    const struct option_use *frames = arguments_last(arguments, "frames");
-    uint32_t last = job->info.frames - 1;
-    if (!frames) {
-        job->every_frame = (struct kiln_frame_range){0, last};
-        job->frames = (struct frame_list){&job->every_frame, 1};
-        return 0;
-    }
-    job->frames = frames->frames;
-    struct kiln_frame_range end = frames->frames.ranges[frames->frames.count - 1];
-    if (end.last <= last)
-        return 0;
-    return report(KILN_USAGE, "render: --frames: found frame %u, but '%s' has frames 0-%u",
-                  end.last, job->path, last);
-}
-
-static int read_flipbook(struct plan *plan, const struct arguments *arguments)
-{
-    const struct option_use *grid = arguments_last(arguments, "flipbook");
-    const struct option_use *alpha = arguments_last(arguments, "flipbook-alpha");
-    const struct option_use *motion = arguments_last(arguments, "flipbook-motion");
-    const struct option_use *padding = arguments_last(arguments, "flipbook-padding");
-    const struct option_use *part = alpha ? alpha : motion ? motion : padding;
-    if (!grid)
-        return part ? report(KILN_USAGE, "render: --%s: there is no --flipbook to apply it to",
-                             part->option->name)
-                    : 0;
-    plan->flipbook = (struct kiln_flipbook){
-        .columns = (uint32_t)grid->integer[0],
-        .rows = (uint32_t)grid->integer[1],
-        .padding = padding ? (uint32_t)padding->integer[0] : 0,
-        .premultiplied = alpha && alpha->choice == 1,
-        .motion = motion != NULL,
+    struct planning planning = {.scene_path = arguments->operands[0],
+                                .json_wanted = arguments_flag(arguments, "json")};
+    const struct option_use *frame = arguments_last(arguments, "frame");
+    const struct kiln_plan_params params = {
+        .tasks = arguments_integer(arguments, "tasks", 1),
+        .states = arguments_text(arguments, "states", NULL),
+        .frame = frame ? (int64_t)frame->integer[0] : -1,
+        .techniques = techniques->items,
+        .technique_count = techniques->count,
+        .threads = arguments_integer(arguments, "threads", 0),
+        .stop = wants_stop,
+        .task = show_task,
+        .user = &planning,
+        .log = report_log(),
     };
-    return 0;
-}
-
-/* Leaves of the job's frames those that a flipbook shows. */
-static int choose_cells(struct job *job, const struct kiln_flipbook *flipbook)
-{
-    size_t count = (size_t)flipbook->columns * flipbook->rows;
+    struct kiln_plan plan;
     struct kiln_error error = {0};
-    job->cells = calloc(count, sizeof *job->cells);
-    if (!job->cells)
-        return report_no_memory();
-    if (!kiln_flipbook_sample(flipbook, job->frames.ranges, job->frames.count, job->cells, &error))
-        return report(error.code, "render: --flipbook: '%s': %s", job->path, error.message);
-    job->frames = (struct frame_list){job->cells, count};
-    return 0;
-}
-
-static int load_scenes(struct plan *plan, const struct arguments *arguments)
-{
-    struct overrides overrides;
-    if (!overrides_create(&overrides, arguments))
-        return report_no_memory();
-    struct kiln_scene_params params = overrides_scene_params(&overrides, arguments);
     int code = 0;
-    for (size_t i = 0; i < plan->count; i++) {
-        struct job *job = &plan->jobs[i];
-        struct kiln_error error = {0};
-        job->scene = kiln_scene_load(job->path, &params, &error);
-        int failure;
-        if (job->scene) {
-            job->info = kiln_scene_info(job->scene);
-            failure = choose_frames(job, arguments);
-            if (failure == 0 && plan->flipbook.columns > 0)
-                failure = choose_cells(job, &plan->flipbook);
-        } else {
-            failure = report_error(&error);
-        }
-        code = code ? code : failure;
-    }
-    overrides_free(&overrides);
+    struct kiln_device *device = open_device(arguments, techniques, &code);
+    if (device && !kiln_plan(device, scene, &params, &plan, &error))
+        code = report_failure(&planning, &error);
+    else if (device && planning.json_wanted)
+        end_json(&planning);
+    else if (device && params.tasks > 1)
+        printf("  all of them: %.2f seconds of CPU\n", planning.cpu_s);
+    kiln_device_close(&device);
     return code;
 }
 
-int plan_create(struct plan *plan, const struct arguments *arguments)
+static int run(const struct arguments *arguments)
 {
-    *plan = (struct plan){.jobs = calloc(arguments->operand_count, sizeof *plan->jobs),
-                          .count = arguments->operand_count};
-    if (!plan->jobs) {
-        plan->count = 0;
-        return report_no_memory();
+    struct overrides overrides = {0};
+    struct value_list techniques = {0};
+    struct kiln_error error = {0};
+    struct kiln_scene *scene = NULL;
+    int code = 0;
+    signals_install();
+    if (!overrides_create(&overrides, arguments) ||
+        !value_list_create(&techniques, arguments, "technique"))
+        code = report_no_memory();
+    if (code == 0) {
+        const struct kiln_scene_params params = overrides_scene_params(&overrides, arguments);
+        scene = kiln_scene_load(arguments->operands[0], &params, &error);
+        code = scene ? run_plan(arguments, scene, &techniques) : report_error(&error);
     }
-    int code = read_flipbook(plan, arguments);
-    code = code ? code : name_files(plan, arguments);
-    code = code ? code : load_scenes(plan, arguments);
-    return code ? code : claim_files(plan);
+    kiln_scene_destroy(&scene);
+    overrides_free(&overrides);
+    value_list_free(&techniques);
+    return code;
 }
 
-void plan_free(struct plan *plan)
-{
-    for (size_t i = 0; i < plan->count; i++) {
-        kiln_scene_destroy(&plan->jobs[i].scene);
-        free(plan->jobs[i].output);
-        free(plan->jobs[i].manifest);
-        free(plan->jobs[i].cells);
-    }
-    free(plan->jobs);
-    *plan = (struct plan){0};
-}
+const struct command plan_command = {
+    .name = "plan",
+    .summary = "say what a clip costs, and how it divides into tasks",
+    .operands = "SCENE",
+    .description =
+        "Draws one frame and says from its times what each of N tasks would do: its parts of the "
+        "clip, its frames, the steps to them, seconds of CPU and memory. Encoding is not measured.",
+    .options = options,
+    .option_count = sizeof options / sizeof *options,
+    .least_operands = 1,
+    .most_operands = 1,
+    .run = run,
+};

@@ -5,9 +5,10 @@
 #include <unistd.h>
 
 #include "command.h"
+#include "device.h"
 #include "event.h"
+#include "jobs.h"
 #include "overrides.h"
-#include "plan.h"
 #include "progress.h"
 #include "report.h"
 #include "signals.h"
@@ -46,26 +47,9 @@ static const struct option options[] = {
      .max = UINT32_MAX},
     SET_OPTION,
     ASSET_ROOT_OPTION,
-    {.name = "device",
-     .kind = OPTION_TEXT,
-     .placeholder = "DEVICE",
-     .help =
-         "A number from 'kiln devices', a part of a device's name, 'cpu' for none of OpenGL, or "
-         "'software' for OpenGL on the CPU.",
-     .fallback = "the first GPU, or else 'cpu' if the techniques need no OpenGL"},
-    {.name = "technique",
-     .repeats = true,
-     .commas = true,
-     .kind = OPTION_PAIRS,
-     .placeholder = "STAGE=NAME",
-     .help = "How to run a stage; more of them after commas (see 'kiln help techniques').",
-     .fallback = "what suits the device"},
-    {.name = "threads",
-     .kind = OPTION_INTEGER,
-     .placeholder = "N",
-     .help = "Threads that work beside the device; 0 takes one a core.",
-     .fallback = "0",
-     .max = 256},
+    DEVICE_OPTION,
+    TECHNIQUE_OPTION,
+    THREADS_OPTION,
     {.name = "png-bits",
      .kind = OPTION_CHOICE,
      .placeholder = "8|16",
@@ -109,6 +93,11 @@ static const struct option options[] = {
      .placeholder = "FILE",
      .help = "Also write a JSON file that describes the run: scene, device, techniques, state of "
              "each frame, times. A folder or '{scene}' as for --output."},
+    {.name = "states",
+     .kind = OPTION_TEXT,
+     .placeholder = "STATES",
+     .help = "Start at the nearest state before the frames, out of a folder that 'kiln bake' made, "
+             "and step on from there. The pictures are the same as without."},
     {.name = "force", .kind = OPTION_FLAG, .help = "Replace files that exist."},
     {.name = "frame-timeout",
      .kind = OPTION_NUMBER,
@@ -139,10 +128,9 @@ static const struct option options[] = {
 };
 
 struct render {
-    struct plan plan;
+    struct job_list list;
     struct kiln_render_params params;
     struct value_list techniques;
-    const char *device;
     bool quiet, stats, json; /* json: standard output is lines of JSON */
     enum progress_mode progress_mode;
     double frame_timeout_s;
@@ -199,8 +187,8 @@ static bool read_options(struct render *render, const struct arguments *argument
     params->png_bits = arguments_choice(arguments, "png-bits", 0) == 0 ? 8 : 16;
     params->exr_bits = arguments_choice(arguments, "exr-bits", 0) == 0 ? 16 : 32;
     params->overwrite = arguments_flag(arguments, "force");
+    params->states = arguments_text(arguments, "states", NULL);
 
-    render->device = arguments_text(arguments, "device", NULL);
     render->frame_timeout_s = arguments_number(arguments, "frame-timeout", 0);
 
     bool terminal = isatty(STDERR_FILENO) == 1;
@@ -271,7 +259,7 @@ static int report_failure(const struct render *render, const struct kiln_error *
         return report_error(error);
     if (number == 0) /* nobody reads: main says why */
         return KILN_IO;
-    const char *name = number == SIGINT ? "SIGINT" : number == SIGTERM ? "SIGTERM" : "SIGHUP";
+    const char *name = signals_name(number);
     if (render->frames_done > 0 && render->frames_done == render->frames_total)
         report(KILN_INTERRUPTED, "%s: stopped by %s before %s was complete", render->job->path,
                name, render->job->output);
@@ -289,7 +277,7 @@ static int run_job(struct render *render, struct kiln_device *device, const stru
     render->params.manifest = job->manifest;
     render->params.ranges = job->frames.ranges;
     render->params.range_count = job->frames.count;
-    render->params.flipbook = render->plan.flipbook;
+    render->params.flipbook = render->list.flipbook;
     progress_start(&render->progress, render->progress_mode);
     allow_frame(render, -1);
 
@@ -305,24 +293,19 @@ static int run_job(struct render *render, struct kiln_device *device, const stru
     return 0;
 }
 
-static int run_jobs(struct render *render)
+static int run_jobs(struct render *render, const struct arguments *arguments)
 {
-    struct kiln_error error = {0};
-    struct kiln_device_params params = KILN_DEVICE_DEFAULTS;
-    params.wanted = render->device;
-    params.gl = kiln_techniques_need_gl(render->params.techniques, render->params.technique_count);
-    params.log = report_log();
+    int code = 0;
     if (render->watchdog)
         watchdog_arm(render->watchdog, render->frame_timeout_s, "opening the device");
-    struct kiln_device *device = kiln_device_open(&params, &error);
+    struct kiln_device *device = open_device(arguments, &render->techniques, &code);
     if (render->watchdog)
         watchdog_disarm(render->watchdog);
     if (!device)
-        return report_error(&error);
+        return code;
     print_device(render, kiln_device_info(device));
-    int code = 0;
-    for (size_t i = 0; i < render->plan.count && code == 0; i++)
-        code = run_job(render, device, &render->plan.jobs[i]);
+    for (size_t i = 0; i < render->list.count && code == 0; i++)
+        code = run_job(render, device, &render->list.jobs[i]);
     kiln_device_close(&device);
     return code;
 }
@@ -332,7 +315,7 @@ static int run(const struct arguments *arguments)
     struct render render = {0};
     int code = read_options(&render, arguments) ? 0 : report_no_memory();
     if (code == 0)
-        code = plan_create(&render.plan, arguments);
+        code = job_list_create(&render.list, arguments);
     if (code == 0 && render.frame_timeout_s > 0) {
         render.watchdog = watchdog_create();
         if (!render.watchdog)
@@ -340,10 +323,10 @@ static int run(const struct arguments *arguments)
     }
     if (code == 0) {
         signals_install();
-        code = run_jobs(&render);
+        code = run_jobs(&render, arguments);
     }
     watchdog_destroy(&render.watchdog);
-    plan_free(&render.plan);
+    job_list_free(&render.list);
     value_list_free(&render.techniques);
     return code;
 }

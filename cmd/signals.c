@@ -43,6 +43,11 @@ void signals_end_at_once(void)
     install(end_program);
 }
 
+const char *signals_name(int number)
+{
+    return number == SIGINT ? "SIGINT" : number == SIGTERM ? "SIGTERM" : "SIGHUP";
+}
+
 int signals_received(void)
 {
     return received;

@@ -12,4 +12,7 @@ void signals_end_at_once(void);
 /* The signal that asked to stop, or 0. */
 int signals_received(void);
 
+/* "SIGTERM". */
+const char *signals_name(int number);
+
 #endif

@@ -264,6 +264,7 @@ bool kiln_flipbook_sample(const struct kiln_flipbook *flipbook,
 struct kiln_render_params {
     const char *output;   /* a file, a pattern with %d or #, or NULL to render without writing */
     const char *manifest; /* a JSON file that describes the run, or NULL */
+    const char *states;   /* a folder of kiln_bake, where the run starts if it can, or NULL */
     const struct kiln_frame_range *ranges; /* ascending; range_count 0 renders every frame */
     size_t range_count;
     const char *const *techniques; /* "stage=name" */
@@ -653,6 +654,7 @@ void kiln_json_strings(struct kiln_json *json, const char *key, const char *cons
 #endif
 
 #include "kiln_bench.h"
+#include "kiln_job.h"
 #include "kiln_test.h"
 
 #endif

@@ -27,7 +27,8 @@ struct kiln_loop {
     struct kiln_stages stages;
 
     struct kiln_run run;
-    uint32_t next; /* frames before it have left what they leave to later ones */
+    uint32_t next;  /* frames before it have left what they leave to later ones */
+    uint64_t steps; /* done here */
 };
 
 /* ---- the loop -------------------------------------------------------------------------------- */
@@ -40,8 +41,10 @@ static bool step_to(struct kiln_loop *loop, uint32_t step, struct kiln_error *er
     while (ok && run->step < step) {
         ok = kiln_output_may_go_on(&loop->params.caller, error) &&
              kiln_simulate_step(loop->simulate, &run->pool, run->step + 1, error);
-        if (ok)
+        if (ok) {
             run->step++;
+            loop->steps++;
+        }
         const char *warning = kiln_simulate_warning(loop->simulate);
         if (ok && warning)
             kiln_log_write(&loop->params.log, KILN_LOG_WARNING, "%s: %s", loop->scene->name,
@@ -241,9 +244,19 @@ const struct kiln_techniques *kiln_loop_techniques(const struct kiln_loop *loop)
     return &loop->techniques;
 }
 
-uint32_t kiln_loop_threads(const struct kiln_loop *loop)
+struct kiln_threads *kiln_loop_threads(struct kiln_loop *loop)
 {
-    return kiln_threads_count(loop->threads);
+    return loop->threads;
+}
+
+struct kiln_sort *kiln_loop_kept_sort(struct kiln_loop *loop)
+{
+    return kiln_stages_keep_history(&loop->stages) ? loop->stages.sort : NULL;
+}
+
+uint64_t kiln_loop_steps(const struct kiln_loop *loop)
+{
+    return loop->steps;
 }
 
 uint64_t kiln_loop_particle_bytes(const struct kiln_loop *loop)

@@ -6,6 +6,7 @@
 #include "frame/run.h"
 #include "frame/technique.h"
 #include "output/output.h"
+#include "sort/sort.h"
 
 struct kiln_loop;
 
@@ -39,7 +40,6 @@ bool kiln_loop_set_up(struct kiln_loop *loop, struct kiln_output_needs needs,
                       struct kiln_error *error);
 
 const struct kiln_techniques *kiln_loop_techniques(const struct kiln_loop *loop);
-uint32_t kiln_loop_threads(const struct kiln_loop *loop);
 
 /* Bytes that the particles and their sorting take, on each side that they are on. */
 uint64_t kiln_loop_particle_bytes(const struct kiln_loop *loop);
@@ -50,6 +50,16 @@ struct kiln_run *kiln_loop_run(struct kiln_loop *loop);
 /* The state in kiln_loop_run is the one in which a frame starts, with all that earlier frames
  * leave. */
 void kiln_loop_resume(struct kiln_loop *loop, uint32_t frame);
+
+/* Its sort where that keeps an order from frame to frame, which then belongs to the state; NULL:
+ * it does not. */
+struct kiln_sort *kiln_loop_kept_sort(struct kiln_loop *loop);
+
+/* Worker threads, for who has work between frames. */
+struct kiln_threads *kiln_loop_threads(struct kiln_loop *loop);
+
+/* Steps that this loop has done itself. */
+uint64_t kiln_loop_steps(const struct kiln_loop *loop);
 
 /* Takes over the particles of another loop of the same scene, whatever techniques either has. What
  * a spread sort keeps stays behind. */

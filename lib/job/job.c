@@ -7,6 +7,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "job/states.h"
 #include "output/manifest.h"
 
 struct kiln_job {
@@ -20,6 +21,7 @@ struct kiln_job {
     struct kiln_loop *loop;
     struct kiln_output *output;     /* NULL when nothing is written */
     struct kiln_manifest *manifest; /* NULL when none is wanted */
+    struct kiln_states *states;     /* NULL where none are to be taken up */
 
     double started_s;
     uint32_t total_frames;
@@ -110,6 +112,8 @@ static bool draw_frames(struct kiln_job *job, struct kiln_error *error)
 {
     for (size_t i = 0; i < job->range_count; i++) {
         const struct kiln_frame_range range = job->ranges[i];
+        if (job->states && !kiln_states_take_up(job->states, job->loop, range.first, error))
+            return false;
         for (uint32_t frame = range.first; frame <= range.last; frame++) {
             if (!kiln_job_draw(job, frame, error))
                 return false;
@@ -169,7 +173,7 @@ static bool open_output(struct kiln_job *job, struct kiln_error *error)
                 .alpha = scene->backdrop.transparent,
                 .ranges = job->ranges,
                 .range_count = job->range_count,
-                .threads = kiln_loop_threads(job->loop),
+                .threads = kiln_threads_count(kiln_loop_threads(job->loop)),
                 .overwrite = params->overwrite,
                 .png_bits = params->png_bits,
                 .exr_bits = params->exr_bits,
@@ -230,6 +234,10 @@ static bool begin(struct kiln_job *job, struct kiln_error *error)
     const struct kiln_output_needs plain = {.bits = 8};
     if (!kiln_loop_set_up(job->loop, job->output ? kiln_output_needs(job->output) : plain, error))
         return false;
+    if (params->states &&
+        !(job->states = kiln_states_open(params->states, job->scene,
+                                         kiln_loop_techniques(job->loop), &params->log, error)))
+        return false;
     job->stats.particle_capacity = kiln_loop_run(job->loop)->pool.slot_count;
     job->stats.particle_bytes = kiln_loop_particle_bytes(job->loop);
     job->stats.setup_s = kiln_clock_seconds() - job->started_s;
@@ -243,7 +251,7 @@ bool kiln_job_finish(struct kiln_job *job, struct kiln_render_stats *stats,
     if (!kiln_loop_hash(job->loop, &s->state, &s->alive, error))
         return false;
     s->frames = job->progress.done;
-    s->steps = kiln_loop_run(job->loop)->step;
+    s->steps = kiln_loop_steps(job->loop);
     if (job->output) {
         s->files = kiln_output_file_count(job->output);
         kiln_output_path(job->output, job->ranges[0].first, s->first_file, sizeof s->first_file);
@@ -262,6 +270,7 @@ void kiln_job_destroy(struct kiln_job **job)
     struct kiln_job *j = *job;
     if (!j)
         return;
+    kiln_states_close(&j->states);
     kiln_manifest_close(&j->manifest);
     kiln_output_close(&j->output);
     kiln_loop_destroy(&j->loop);

@@ -75,9 +75,13 @@ enum {
 struct kiln_option {
     const char *name; /* NULL ends a table */
     const struct kiln_option_type *type;
-    size_t offset;                 /* of the field in the struct of its table */
-    const char *fallback;          /* the default, as a file would write it; NULL: required */
-    const char *help;              /* one line */
+    size_t offset;        /* of the field in the struct of its table */
+    const char *fallback; /* the default, as a file would write it; NULL: required */
+    const char *help;     /* one line */
+    /* The parts of a file that the row belongs to, a bit each, for printing one of them: of what
+     * the whole table describes, and of the struct that its own table describes. NULL: the file has
+     * no parts. */
+    unsigned (*parts)(const void *source, const void *base);
     double min, max;               /* SI, both allowed */
     enum kiln_dimension dimension; /* of numbers */
     unsigned clocks;               /* KILN_ALLOW_*; a constant always is */

@@ -6,10 +6,19 @@ void kiln_print_key(struct kiln_printer *printer, const char *name)
     kiln_text_add(&printer->text, "%*s%s:", (int)printer->indent, "", name);
 }
 
+bool kiln_print_wants(const struct kiln_printer *printer, const struct kiln_option *row,
+                      const void *base)
+{
+    return printer->parts == 0 || !row->parts ||
+           (row->parts(printer->source, base) & printer->parts) != 0;
+}
+
 void kiln_print_members(struct kiln_printer *printer, const struct kiln_option *members,
                         const void *base)
 {
     for (const struct kiln_option *row = members; row->name; row++) {
+        if (!kiln_print_wants(printer, row, base))
+            continue;
         kiln_print_key(printer, row->name);
         row->type->print(printer, row, (const char *)base + row->offset);
     }

@@ -8,48 +8,52 @@
 #define TIME KILN_ALLOW_TIME
 #define BOTH KILN_ALLOW_BOTH
 
-#define ROW(name_, type_, offset_, fallback_, help_)                                               \
+#define ROW(part_, name_, type_, offset_, fallback_, help_)                                        \
     .name = name_, .type = &kiln_type_##type_, .offset = offset_, .fallback = fallback_,           \
-    .help = help_
+    .help = help_, .parts = part_
 #define LIMITS(dimension_, min_, max_) .dimension = dimension_, .min = min_, .max = max_
 
+/* Every row begins with the parts of its file that it belongs to (`parts` of struct kiln_option).
+ */
+#define NO_PART NULL
+
 /* name, field, dimension, smallest, largest, clocks, default, help */
-#define VALUE(n, f, dim, lo, hi, when, def, h)                                                     \
+#define VALUE(part, n, f, dim, lo, hi, when, def, h)                                               \
     {                                                                                              \
-        ROW(n, value, AT(f), def, h), LIMITS(dim, lo, hi), .clocks = when                          \
+        ROW(part, n, value, AT(f), def, h), LIMITS(dim, lo, hi), .clocks = when                    \
     }
-#define VECTOR(n, f, dim, lo, hi, when, def, h)                                                    \
+#define VECTOR(part, n, f, dim, lo, hi, when, def, h)                                              \
     {                                                                                              \
-        ROW(n, vector, AT(f), def, h), LIMITS(dim, lo, hi), .clocks = when                         \
+        ROW(part, n, vector, AT(f), def, h), LIMITS(dim, lo, hi), .clocks = when                   \
     }
-#define RANGE(n, f, dim, lo, hi, when, def, h)                                                     \
+#define RANGE(part, n, f, dim, lo, hi, when, def, h)                                               \
     {                                                                                              \
-        ROW(n, range, AT(f), def, h), LIMITS(dim, lo, hi), .clocks = when                          \
+        ROW(part, n, range, AT(f), def, h), LIMITS(dim, lo, hi), .clocks = when                    \
     }
 /* name, field, largest, clocks, default, help */
-#define COLOR(n, f, hi, when, def, h)                                                              \
+#define COLOR(part, n, f, hi, when, def, h)                                                        \
     {                                                                                              \
-        ROW(n, color, AT(f), def, h), LIMITS(KILN_PLAIN, 0, hi), .clocks = when                    \
+        ROW(part, n, color, AT(f), def, h), LIMITS(KILN_PLAIN, 0, hi), .clocks = when              \
     }
 /* name, field, smallest, largest, default, help */
-#define INTEGER(n, f, lo, hi, def, h)                                                              \
+#define INTEGER(part, n, f, lo, hi, def, h)                                                        \
     {                                                                                              \
-        ROW(n, integer, AT(f), def, h), LIMITS(KILN_PLAIN, lo, hi)                                 \
+        ROW(part, n, integer, AT(f), def, h), LIMITS(KILN_PLAIN, lo, hi)                           \
     }
 /* name, field, default, help */
-#define BOOLEAN(n, f, def, h)                                                                      \
+#define BOOLEAN(part, n, f, def, h)                                                                \
     {                                                                                              \
-        ROW(n, boolean, AT(f), def, h)                                                             \
+        ROW(part, n, boolean, AT(f), def, h)                                                       \
     }
 /* name, field, words, default, help */
-#define CHOICE(n, f, words, def, h)                                                                \
+#define CHOICE(part, n, f, words, def, h)                                                          \
     {                                                                                              \
-        ROW(n, choice, AT(f), def, h), .choices = words                                            \
+        ROW(part, n, choice, AT(f), def, h), .choices = words                                      \
     }
 /* name, offset, members, help; every member has a default or is required on its own */
-#define GROUP(n, at, rows, h)                                                                      \
+#define GROUP(part, n, at, rows, h)                                                                \
     {                                                                                              \
-        ROW(n, group, at, "{}", h), .members = rows                                                \
+        ROW(part, n, group, at, "{}", h), .members = rows                                          \
     }
 #define END                                                                                        \
     {                                                                                              \

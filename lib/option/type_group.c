@@ -209,10 +209,12 @@ static void print_list(struct kiln_printer *printer, const struct kiln_option *o
     kiln_text_add(&printer->text, count ? "\n" : " []\n");
     printer->indent += 2;
     for (uint32_t i = 0; i < count; i++) {
+        const void *item = (const char *)field + i * option->item_size;
+        if (!kiln_print_wants(printer, option->item, item))
+            continue;
         kiln_text_add(&printer->text, "%*s-", (int)printer->indent, "");
         printer->after_dash = true;
-        option->item->type->print(printer, option->item,
-                                  (const char *)field + i * option->item_size);
+        option->item->type->print(printer, option->item, item);
     }
     printer->after_dash = false;
     printer->indent -= 2;

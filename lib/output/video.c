@@ -25,7 +25,6 @@
 enum {
     ENCODER_THREADS = 4,
     IO_BUFFER_SIZE = 1 << 17,
-    KEYFRAME_SECONDS = 2, /* so that seeking stays quick */
 };
 
 struct video_encoder {
@@ -174,8 +173,7 @@ static int open_codec(struct video_encoder *encoder)
     codec->pix_fmt = pixel_format(params);
     codec->framerate = (AVRational){(int)params->fps_num, (int)params->fps_den};
     codec->time_base = av_inv_q(codec->framerate);
-    uint64_t keyframe = (uint64_t)params->fps_num * KEYFRAME_SECONDS / params->fps_den;
-    codec->gop_size = keyframe < 1 ? 1 : keyframe > 600 ? 600 : (int)keyframe;
+    codec->gop_size = (int)kiln_part_frames(params->fps_num, params->fps_den);
     if (encoder->settings->intra)
         codec->gop_size = 1;
     set_colors(codec);

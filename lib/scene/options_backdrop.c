@@ -8,52 +8,58 @@
 
 /* Factors on a system's. */
 #define RUBBING                                                                                    \
-    VALUE("restitution", restitution, KILN_FRACTION, 0, 1, TIME, "1",                              \
+    VALUE(MOTION, "restitution", restitution, KILN_FRACTION, 0, 1, TIME, "1",                      \
           "Factor on the restitution of what bounces off it."),                                    \
-        VALUE("friction", friction, KILN_PLAIN, 0, 100, TIME, "1",                                 \
+        VALUE(MOTION, "friction", friction, KILN_PLAIN, 0, 100, TIME, "1",                         \
               "Factor on the friction of what touches it.")
 
 #define COLLIDING                                                                                  \
-    BOOLEAN("collide", collide, "true", "Particles of systems that collide bounce off it."), RUBBING
+    BOOLEAN(MOTION, "collide", collide, "true",                                                    \
+            "Particles of systems that collide bounce off it."),                                   \
+        RUBBING
 
 #define REFLECTANCE                                                                                \
-    COLOR("color", color, 1, TIME, "[0.35, 0.34, 0.33]", "Part of the light that it reflects.")
+    COLOR(LOOK, "color", color, 1, TIME, "[0.35, 0.34, 0.33]",                                     \
+          "Part of the light that it reflects.")
 
 static const struct kiln_option box[] = {
-    VECTOR("center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]", "Centre."),
-    VECTOR("size", size, KILN_METRES, 0.001, FAR, TIME, "[1, 1, 1]", "Full edges."),
-    VECTOR("rotation", rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME, "[0, 0, 0]",
-           "About x, then about y, then about z; in a step it turns the shorter way."),
+    VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]", "Centre."),
+    VECTOR(MOTION, "size", size, KILN_METRES, 0.001, FAR, TIME, "[1, 1, 1]", "Full edges."),
+    VECTOR(MOTION, "rotation", rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME,
+           "[0, 0, 0]", "About x, then about y, then about z; in a step it turns the shorter way."),
     REFLECTANCE,
     COLLIDING,
     END,
 };
 
 static const struct kiln_option sphere[] = {
-    VECTOR("center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]", "Centre."),
-    VALUE("radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.5 m", "From centre to surface."),
+    VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]", "Centre."),
+    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.5 m",
+          "From centre to surface."),
     REFLECTANCE,
     COLLIDING,
     END,
 };
 
 static const struct kiln_option cylinder[] = {
-    VECTOR("center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]", "Centre."),
-    VECTOR("axis", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
+    VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]", "Centre."),
+    VECTOR(MOTION, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
            "Along it; of any length but 0."),
-    VALUE("radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.5 m", "Of its round side."),
-    VALUE("height", height, KILN_METRES, 0.001, FAR, TIME, "1 m", "Along the axis, end to end."),
+    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.5 m", "Of its round side."),
+    VALUE(MOTION, "height", height, KILN_METRES, 0.001, FAR, TIME, "1 m",
+          "Along the axis, end to end."),
     REFLECTANCE,
     COLLIDING,
     END,
 };
 
 static const struct kiln_option capsule[] = {
-    VECTOR("center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 1, 0]", "Centre."),
-    VECTOR("axis", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
+    VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 1, 0]", "Centre."),
+    VECTOR(MOTION, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
            "Along it; of any length but 0."),
-    VALUE("radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.5 m", "Of its side and ends."),
-    VALUE("height", height, KILN_METRES, 0.001, FAR, TIME, "1 m",
+    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.5 m",
+          "Of its side and ends."),
+    VALUE(MOTION, "height", height, KILN_METRES, 0.001, FAR, TIME, "1 m",
           "Along the axis, between the centres of its round ends."),
     REFLECTANCE,
     COLLIDING,
@@ -61,23 +67,25 @@ static const struct kiln_option capsule[] = {
 };
 
 static const struct kiln_option plane[] = {
-    VECTOR("center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",
+    VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",
            "A place on it, about which it turns."),
-    VECTOR("normal", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
+    VECTOR(MOTION, "normal", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
            "Away from it; of any length but 0."),
     REFLECTANCE,
-    BOOLEAN("visible", visible, "true", "False: particles alone meet it."),
+    BOOLEAN(LOOK, "visible", visible, "true", "False: particles alone meet it."),
     COLLIDING,
     END,
 };
 
 static const struct kiln_option animation[] = {
-    {ROW("clip", clip, AT(animation.clip), "0", "Its name in the file, or its number from 0.")},
-    VALUE("start", animation.start, KILN_SECONDS, -FAR, FAR, 0, "0 s",
+    {ROW(MOTION, "clip", clip, AT(animation.clip), "0",
+         "Its name in the file, or its number from 0.")},
+    VALUE(MOTION, "start", animation.start, KILN_SECONDS, -FAR, FAR, 0, "0 s",
           "Where in it the mesh is at clip time 0."),
-    VALUE("speed", animation.speed, KILN_PLAIN, -1000, 1000, 0, "1",
+    VALUE(MOTION, "speed", animation.speed, KILN_PLAIN, -1000, 1000, 0, "1",
           "Factor on how fast it plays; below 0 backwards."),
-    BOOLEAN("loop", animation.loop, "true", "From its end it goes on at its start; else it stays."),
+    BOOLEAN(MOTION, "loop", animation.loop, "true",
+            "From its end it goes on at its start; else it stays."),
     END,
 };
 
@@ -85,16 +93,17 @@ static const char *const colliders[] = {"field", "volume", "depth_maps", NULL};
 static const char *const sides[] = {"one", "two", NULL};
 
 static const struct kiln_option direction = {
-    ROW("direction", vector, 0, NULL, "From which the mesh is seen, and from its opposite."),
+    ROW(MOTION, "direction", vector, 0, NULL,
+        "From which the mesh is seen, and from its opposite."),
     LIMITS(KILN_PLAIN, -FAR, FAR)};
 
 static const struct kiln_option depth_maps[] = {
-    {ROW("directions", list, AT(depth_directions), "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]",
+    {ROW(MOTION, "directions", list, AT(depth_directions), "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]",
          "In the frame of the mesh, of any length but 0; each gives a front and a back."),
      .item = &direction, .item_size = sizeof(struct kiln_value3),
      .count_offset = AT(depth_direction_count), .max_count = KILN_MAX_DEPTH_DIRECTIONS},
-    INTEGER("resolution", depth_resolution, KILN_MIN_DEPTH_RESOLUTION, KILN_MAX_DEPTH_RESOLUTION,
-            "128", "Samples along each edge of a map."),
+    INTEGER(MOTION, "resolution", depth_resolution, KILN_MIN_DEPTH_RESOLUTION,
+            KILN_MAX_DEPTH_RESOLUTION, "128", "Samples along each edge of a map."),
     END,
 };
 
@@ -105,50 +114,52 @@ static const char *const gathers[] = {
 };
 
 static const struct kiln_option paint[] = {
-    INTEGER("size", paint.size, KILN_MIN_CHART, KILN_MAX_CHART, "512",
+    INTEGER(MOTION, "size", paint.size, KILN_MIN_CHART, KILN_MAX_CHART, "512",
             "Texels along an edge of its texture; a power of two."),
     CHOICE(
-        "gather", paint.gather, gathers, "near",
+        LOOK, "gather", paint.gather, gathers, "near",
         "near brings splats to the texels that they may reach; all has each texel look at all of "
         "them, as the paper does. They paint the same."),
-    INTEGER("per_step", paint.per_step, 0, KILN_MAX_PARTICLES, "0",
+    INTEGER(MOTION, "per_step", paint.per_step, 0, KILN_MAX_PARTICLES, "0",
             "Particles whose turn it is to paint in a step, one after the other; what several of "
             "a particle's splats would be is then the last. 0: all."),
     END,
 };
 
 static const struct kiln_option mesh[] = {
-    {ROW("file", mesh, AT(file), NULL,
+    {ROW(MOTION, "file", mesh, AT(file), NULL,
          "Triangles in an OBJ, glTF or GLB file, in metres and y up; its materials are left out.")},
-    VECTOR("position", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",
+    VECTOR(MOTION, "position", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",
            "Where the origin of the file lies."),
-    VECTOR("rotation", rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME, "[0, 0, 0]",
-           "About x, then about y, then about z."),
-    VALUE("scale", scale, KILN_PLAIN, 0.000001, FAR, TIME, "1", "Metres for a unit of the file."),
-    {ROW("animation", switch, 0, "none",
+    VECTOR(MOTION, "rotation", rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME,
+           "[0, 0, 0]", "About x, then about y, then about z."),
+    VALUE(MOTION, "scale", scale, KILN_PLAIN, 0.000001, FAR, TIME, "1",
+          "Metres for a unit of the file."),
+    {ROW(MOTION, "animation", switch, 0, "none",
          "An animation of the glTF or GLB file: nodes, and bones that vertices follow."),
      .members = animation, .count_offset = AT(animation.enabled)},
     REFLECTANCE,
-    BOOLEAN("collide", collide, "false", "Particles of systems that collide bounce off it."),
+    BOOLEAN(MOTION, "collide", collide, "false",
+            "Particles of systems that collide bounce off it."),
     RUBBING,
     CHOICE(
-        "collider", collider, colliders, "field",
+        MOTION, "collider", collider, colliders, "field",
         "What they collide with: field, a lattice of distances, made once, of a mesh that is "
         "closed (UberFlow 2004, 4.6); volume, cells that in each step take up planes of any "
         "mesh, and how these move (Drone 2007, 7.5.2); depth_maps, its fronts and backs from some "
         "directions, which fill hollows that none of them looks into (Heinz 2019, 2.5.1)."),
-    INTEGER("cells", cells, KILN_MIN_FIELD_CELLS, KILN_MAX_FIELD_CELLS, "48",
+    INTEGER(MOTION, "cells", cells, KILN_MIN_FIELD_CELLS, KILN_MAX_FIELD_CELLS, "48",
             "Of that lattice, along the mesh's longest edge; what is thinner than a cell particles "
             "may miss."),
-    VECTOR("heading", heading, KILN_PLAIN, -FAR, FAR, TIME, "[0, -1, 0]",
+    VECTOR(MOTION, "heading", heading, KILN_PLAIN, -FAR, FAR, TIME, "[0, -1, 0]",
            "Of a volume, where most particles go; a cell keeps the plane that they meet first, of "
            "those that face them (Drone 2007, 7.5.2.3). Of any length but 0."),
-    CHOICE("sides", sides, sides, "one",
+    CHOICE(MOTION, "sides", sides, sides, "one",
            "Of a volume's planes: one, what is behind is put in front, for closed meshes; two, "
            "they are met from both sides, for sheets."),
-    GROUP("depth_maps", 0, depth_maps,
+    GROUP(MOTION, "depth_maps", 0, depth_maps,
           "Of collider depth_maps; nothing is too thin for them, and the mesh need not be closed."),
-    {ROW("paint", switch, 0, "none",
+    {ROW(MOTION, "paint", switch, 0, "none",
          "It takes paint of the systems that have some (Drone 2007, 7.6.1). The file has texture "
          "coordinates, from 0 to 1, by which no two triangles overlap."),
      .members = paint, .count_offset = AT(paint.enabled)},
@@ -156,23 +167,25 @@ static const struct kiln_option mesh[] = {
 };
 
 static const struct kiln_option terrain[] = {
-    {ROW("image", picture, AT(file), "none",
+    {ROW(MOTION, "image", picture, AT(file), "none",
          "Heights by how bright a picture is, its top towards -z; none: hills out of noise.")},
-    VECTOR("position", center, KILN_METRES, -FAR, FAR, 0, "[0, 0, 0]",
+    VECTOR(MOTION, "position", center, KILN_METRES, -FAR, FAR, 0, "[0, 0, 0]",
            "The middle, and where black or the deepest valley lies."),
-    VECTOR("size", size, KILN_METRES, 0.001, FAR, 0, "[20, 2, 20]",
+    VECTOR(MOTION, "size", size, KILN_METRES, 0.001, FAR, 0, "[20, 2, 20]",
            "Width, height from black to white or from valley to peak, and depth."),
-    {ROW("samples", pair, AT(samples), "[129, 129]",
+    {ROW(MOTION, "samples", pair, AT(samples), "[129, 129]",
          "Points along x and z, of which every four carry two triangles."),
      LIMITS(KILN_PLAIN, 2, KILN_MAX_TERRAIN_EDGE)},
-    VALUE("hills", hills, KILN_METRES, 0.001, FAR, 0, "8 m", "Size of the largest hills."),
-    INTEGER("octaves", octaves, 1, KILN_MAX_TERRAIN_OCTAVES, "6", "Layers of ever smaller hills."),
-    VALUE("roughness", roughness, KILN_PLAIN, 0, 1, 0, "0.45",
+    VALUE(MOTION, "hills", hills, KILN_METRES, 0.001, FAR, 0, "8 m", "Size of the largest hills."),
+    INTEGER(MOTION, "octaves", octaves, 1, KILN_MAX_TERRAIN_OCTAVES, "6",
+            "Layers of ever smaller hills."),
+    VALUE(MOTION, "roughness", roughness, KILN_PLAIN, 0, 1, 0, "0.45",
           "Height of a layer, in parts of the one before."),
-    VALUE("ridges", ridges, KILN_PLAIN, 0, 1, 0, "0", "From round hills to crests above valleys."),
-    INTEGER("seed", seed, 0, 1000000, "1", "Another landscape."),
+    VALUE(MOTION, "ridges", ridges, KILN_PLAIN, 0, 1, 0, "0",
+          "From round hills to crests above valleys."),
+    INTEGER(MOTION, "seed", seed, 0, 1000000, "1", "Another landscape."),
     REFLECTANCE,
-    BOOLEAN("collide", collide, "true",
+    BOOLEAN(MOTION, "collide", collide, "true",
             "Particles of systems that collide bounce off it, and off the sides of all that is "
             "below."),
     RUBBING,
@@ -206,16 +219,19 @@ static const struct kiln_option_kind object_kinds[] = {
     {.name = NULL},
 };
 
-static const struct kiln_option object = {
-    .name = "object", .type = &kiln_type_kind, .kinds = object_kinds, .kind_offset = AT(kind)};
+static const struct kiln_option object = {.name = "object",
+                                          .type = &kiln_type_kind,
+                                          .parts = IF_OBJECT_IS_MET,
+                                          .kinds = object_kinds,
+                                          .kind_offset = AT(kind)};
 
 #undef AT
 #define AT(field) offsetof(struct kiln_light, field)
 
 static const struct kiln_option point[] = {
-    VECTOR("position", position, KILN_METRES, -FAR, FAR, TIME, "[0, 2, 0]", "Where it is."),
-    COLOR("color", color, 1000000, TIME, "1", "Light that arrives 1 m away."),
-    VALUE("radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.2 m",
+    VECTOR(LOOK, "position", position, KILN_METRES, -FAR, FAR, TIME, "[0, 2, 0]", "Where it is."),
+    COLOR(LOOK, "color", color, 1000000, TIME, "1", "Light that arrives 1 m away."),
+    VALUE(LOOK, "radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.2 m",
           "Size, which bounds the light nearby."),
     END,
 };
@@ -232,66 +248,68 @@ static const struct kiln_option light = {
 #define AT(field) offsetof(struct kiln_backdrop, field)
 
 static const struct kiln_option sky[] = {
-    COLOR("top", sky_top, 1000, TIME, "[0.02, 0.03, 0.05]", "Overhead."),
-    COLOR("horizon", sky_horizon, 1000, TIME, "[0.12, 0.13, 0.16]", "At eye level."),
-    {ROW("image", picture, AT(sky_image), "none",
+    COLOR(LOOK, "top", sky_top, 1000, TIME, "[0.02, 0.03, 0.05]", "Overhead."),
+    COLOR(LOOK, "horizon", sky_horizon, 1000, TIME, "[0.12, 0.13, 0.16]", "At eye level."),
+    {ROW(LOOK, "image", picture, AT(sky_image), "none",
          "The whole sphere around the scene as one picture, left to right and top to bottom, in "
          "place of the gradient; its middle lies towards -z. Its averages light the scene.")},
-    VALUE("rotation", sky_rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME, "0 deg",
-          "Turns the image about y."),
-    VALUE("intensity", sky_intensity, KILN_PLAIN, 0, 1000000, TIME, "1", "Factor on the image."),
+    VALUE(LOOK, "rotation", sky_rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME,
+          "0 deg", "Turns the image about y."),
+    VALUE(LOOK, "intensity", sky_intensity, KILN_PLAIN, 0, 1000000, TIME, "1",
+          "Factor on the image."),
     END,
 };
 
 static const struct kiln_option floor_rows[] = {
-    COLOR("color", floor_color, 1, TIME, "[0.35, 0.34, 0.33]",
+    COLOR(LOOK, "color", floor_color, 1, TIME, "[0.35, 0.34, 0.33]",
           "Part of the light that it reflects."),
-    VALUE("height", floor_height, KILN_METRES, -FAR, FAR, TIME, "0 m",
+    VALUE(MOTION, "height", floor_height, KILN_METRES, -FAR, FAR, TIME, "0 m",
           "May vary only while it does not collide."),
-    VALUE("checker", floor_checker, KILN_METRES, 0, FAR, TIME, "0 m",
+    VALUE(LOOK, "checker", floor_checker, KILN_METRES, 0, FAR, TIME, "0 m",
           "Edge of lighter and darker squares; 0 is plain."),
-    {ROW("image", picture, AT(floor_image), "none",
+    {ROW(LOOK, "image", picture, AT(floor_image), "none",
          "A picture that repeats, its top towards -z, in place of colour and squares.")},
-    VALUE("tile", floor_tile, KILN_METRES, 0.001, FAR, TIME, "1 m", "Width of the picture."),
-    VALUE("gloss", floor_gloss, KILN_PLAIN, 0, 10, TIME, "0",
+    VALUE(LOOK, "tile", floor_tile, KILN_METRES, 0.001, FAR, TIME, "1 m", "Width of the picture."),
+    VALUE(LOOK, "gloss", floor_gloss, KILN_PLAIN, 0, 10, TIME, "0",
           "Mirrors sky, lights and objects but meshes as water does, times this; particles by the "
           "light that they shed (look.light)."),
-    VALUE("roughness", floor_roughness, KILN_PLAIN, 0, 1, TIME, "0.3",
+    VALUE(LOOK, "roughness", floor_roughness, KILN_PLAIN, 0, 1, TIME, "0.3",
           "How wide gloss spreads lights."),
-    VALUE("wave_height", floor_wave_height, KILN_METRES, 0, 100, TIME, "0 m",
+    VALUE(LOOK, "wave_height", floor_wave_height, KILN_METRES, 0, 100, TIME, "0 m",
           "Of waves that tilt what gloss mirrors, trough to crest; the floor itself stays flat."),
-    VALUE("wave_length", floor_wave_length, KILN_METRES, 0.001, 10000, TIME, "1 m",
+    VALUE(LOOK, "wave_length", floor_wave_length, KILN_METRES, 0.001, 10000, TIME, "1 m",
           "Of the longest waves; smaller ones ride on them."),
-    BOOLEAN("collide", floor_collide, "true", "Particles of systems that collide bounce off it."),
-    VALUE("restitution", floor_restitution, KILN_FRACTION, 0, 1, TIME, "1",
+    BOOLEAN(MOTION, "collide", floor_collide, "true",
+            "Particles of systems that collide bounce off it."),
+    VALUE(MOTION, "restitution", floor_restitution, KILN_FRACTION, 0, 1, TIME, "1",
           "Factor on the restitution of what bounces off it."),
-    VALUE("friction", floor_friction, KILN_PLAIN, 0, 100, TIME, "1",
+    VALUE(MOTION, "friction", floor_friction, KILN_PLAIN, 0, 100, TIME, "1",
           "Factor on the friction of what touches it."),
     END,
 };
 
 static const struct kiln_option sun[] = {
-    VECTOR("direction", sun_direction, KILN_PLAIN, -FAR, FAR, TIME, "[0.5, 1, 0.3]",
+    VECTOR(LOOK, "direction", sun_direction, KILN_PLAIN, -FAR, FAR, TIME, "[0.5, 1, 0.3]",
            "Towards the sun; of any length but 0."),
-    COLOR("color", sun_color, 1000000, TIME, "[0.8, 0.75, 0.65]", "Its light; 0 for none."),
-    VALUE("size", sun_size, KILN_ANGLE, 0, KILN_DEG(30), TIME, "0 deg",
+    COLOR(LOOK, "color", sun_color, 1000000, TIME, "[0.8, 0.75, 0.65]", "Its light; 0 for none."),
+    VALUE(LOOK, "size", sun_size, KILN_ANGLE, 0, KILN_DEG(30), TIME, "0 deg",
           "Its diameter in the sky: the larger, the softer are the edges of shadows."),
     END,
 };
 
 const struct kiln_option kiln_options_backdrop[] = {
-    BOOLEAN("transparent", transparent, "false",
+    BOOLEAN(LOOK, "transparent", transparent, "false",
             "Pictures with alpha instead of a sky; a floor stays, unless it is none."),
-    GROUP("sky", 0, sky, "A gradient or an image."),
-    {ROW("floor", switch, 0, "{}", "An endless plane."), .members = floor_rows,
+    GROUP(LOOK, "sky", 0, sky, "A gradient or an image."),
+    {ROW(IF_FLOOR_IS_MET, "floor", switch, 0, "{}", "An endless plane."), .members = floor_rows,
      .count_offset = AT(floor_enabled)},
-    GROUP("sun", 0, sun, "The one light with a shadow."),
-    VALUE("haze", haze, KILN_PER_METRE, 0, 100, TIME, "0.02",
+    GROUP(LOOK, "sun", 0, sun, "The one light with a shadow."),
+    VALUE(LOOK, "haze", haze, KILN_PER_METRE, 0, 100, TIME, "0.02",
           "How fast the floor fades into the horizon."),
-    {ROW("objects", list, AT(objects), "[]", "What stands on the floor."), .item = &object,
+    {ROW(MOTION, "objects", list, AT(objects), "[]", "What stands on the floor."), .item = &object,
      .item_size = sizeof(struct kiln_object), .count_offset = AT(object_count),
      .max_count = KILN_MAX_OBJECTS},
-    {ROW("lights", list, AT(lights), "[]", "Lights besides the sun."), .item = &light,
+    {ROW(LOOK, "lights", list, AT(lights), "[]", "Lights besides the sun."), .item = &light,
      .item_size = sizeof(struct kiln_light), .count_offset = AT(light_count),
      .max_count = KILN_MAX_LIGHTS},
     END,

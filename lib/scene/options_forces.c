@@ -4,15 +4,15 @@
 #define AT(field) offsetof(struct kiln_force, field)
 
 static const struct kiln_option gravity[] = {
-    VECTOR("acceleration", vector, KILN_ACCELERATION, -10000, 10000, BOTH, "[0, -9.81, 0]",
+    VECTOR(MOTION, "acceleration", vector, KILN_ACCELERATION, -10000, 10000, BOTH, "[0, -9.81, 0]",
            "Acceleration; upwards for what is lighter than air."),
     END,
 };
 
 static const struct kiln_option drag[] = {
-    VALUE("strength", pull, KILN_PER_SECOND, 0, 1000, BOTH, "0.5",
+    VALUE(MOTION, "strength", pull, KILN_PER_SECOND, 0, 1000, BOTH, "0.5",
           "Part of the velocity that is lost a second, for small values."),
-    VALUE("quadratic", quadratic, KILN_PER_METRE, 0, 1000, BOTH, "0",
+    VALUE(MOTION, "quadratic", quadratic, KILN_PER_METRE, 0, 1000, BOTH, "0",
           "The same by the speed: what air does to all but the smallest and slowest."),
     END,
 };
@@ -24,38 +24,40 @@ static const char *const modes[] = {
 };
 
 #define MODE                                                                                       \
-    CHOICE("mode", mode, modes, "pull",                                                            \
+    CHOICE(MOTION, "mode", mode, modes, "pull",                                                    \
            "pull: towards the velocity of the air; add: it is added in each step, whatever "       \
            "pull says (UberFlow 2004, 4.2, equation 1), so that more steps accelerate more.")
 
 static const struct kiln_option wind[] = {
-    VECTOR("velocity", vector, KILN_SPEED, -10000, 10000, BOTH, "[1, 0, 0]",
+    VECTOR(MOTION, "velocity", vector, KILN_SPEED, -10000, 10000, BOTH, "[1, 0, 0]",
            "Velocity of the air."),
-    VALUE("pull", pull, KILN_PER_SECOND, 0, 1000, BOTH, "1",
+    VALUE(MOTION, "pull", pull, KILN_PER_SECOND, 0, 1000, BOTH, "1",
           "How fast particles take up the velocity of the air."),
     MODE,
     END,
 };
 
 static const struct kiln_option curl[] = {
-    VALUE("strength", strength, KILN_SPEED, 0, 10000, BOTH, "1 m/s",
+    VALUE(MOTION, "strength", strength, KILN_SPEED, 0, 10000, BOTH, "1 m/s",
           "Typical velocity of the air in the eddies."),
-    VALUE("scale", scale, KILN_METRES, 0.001, FAR, TIME, "1 m", "Size of the largest eddies."),
-    VECTOR("drift", drift, KILN_SPEED, -10000, 10000, TIME, "[0, 0, 0]",
+    VALUE(MOTION, "scale", scale, KILN_METRES, 0.001, FAR, TIME, "1 m",
+          "Size of the largest eddies."),
+    VECTOR(MOTION, "drift", drift, KILN_SPEED, -10000, 10000, TIME, "[0, 0, 0]",
            "Velocity of the eddies as a whole."),
-    VALUE("pull", pull, KILN_PER_SECOND, 0, 1000, BOTH, "1",
+    VALUE(MOTION, "pull", pull, KILN_PER_SECOND, 0, 1000, BOTH, "1",
           "How fast particles take up the velocity of the air."),
-    INTEGER("octaves", octaves, 1, 4, "1", "Layers of ever smaller eddies."),
+    INTEGER(MOTION, "octaves", octaves, 1, 4, "1", "Layers of ever smaller eddies."),
     MODE,
     END,
 };
 
 static const struct kiln_option field[] = {
-    {ROW("file", grid, AT(file), NULL,
+    {ROW(MOTION, "file", grid, AT(file), NULL,
          "Velocities of the air at points of a lattice; between them it moves as they say, beyond "
          "them as at the edge.")},
-    VALUE("strength", strength, KILN_PLAIN, -1000, 1000, BOTH, "1", "Factor on the velocities."),
-    VALUE("pull", pull, KILN_PER_SECOND, 0, 1000, BOTH, "1",
+    VALUE(MOTION, "strength", strength, KILN_PLAIN, -1000, 1000, BOTH, "1",
+          "Factor on the velocities."),
+    VALUE(MOTION, "pull", pull, KILN_PER_SECOND, 0, 1000, BOTH, "1",
           "How fast particles take up the velocity of the air."),
     MODE,
     END,
@@ -70,16 +72,16 @@ static const char *const falloffs[] = {
 };
 
 static const struct kiln_option attract[] = {
-    VECTOR("position", vector, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",
+    VECTOR(MOTION, "position", vector, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",
            "Where they are drawn to."),
-    VALUE("strength", strength, KILN_ACCELERATION, -100000, 100000, BOTH, "1 m/s^2",
+    VALUE(MOTION, "strength", strength, KILN_ACCELERATION, -100000, 100000, BOTH, "1 m/s^2",
           "Acceleration at a distance of 1 m, but for what the radius takes; away from there where "
           "it "
           "is negative."),
-    CHOICE("falloff", falloff, falloffs, "inverse_square",
+    CHOICE(MOTION, "falloff", falloff, falloffs, "inverse_square",
            "By the distance: inverse_square like gravity, inverse, constant, or linear like a "
            "spring."),
-    VALUE("radius", scale, KILN_METRES, 0.001, FAR, TIME, "0.1 m",
+    VALUE(MOTION, "radius", scale, KILN_METRES, 0.001, FAR, TIME, "0.1 m",
           "Softens at every distance (Plummer): the acceleration is strength * d / (d^2 + "
           "radius^2)^(n/2), with n of 3, 2, 1 or 0 by the falloff. It is nothing at the position "
           "itself, and at a distance of three radii 15, 10 or 5 % less than without."),
@@ -93,27 +95,28 @@ static const char *const profiles[] = {
 };
 
 static const struct kiln_option vortex[] = {
-    VECTOR("position", vector, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]", "A point of the axis."),
-    VECTOR("axis", drift, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
+    VECTOR(MOTION, "position", vector, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",
+           "A point of the axis."),
+    VECTOR(MOTION, "axis", drift, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
            "Direction of the axis, of any length; seen against it, the air turns anticlockwise."),
-    VALUE("speed", strength, KILN_SPEED, -10000, 10000, BOTH, "1 m/s",
+    VALUE(MOTION, "speed", strength, KILN_SPEED, -10000, 10000, BOTH, "1 m/s",
           "Of the air around the axis, at the edge of the core, where it is fastest."),
-    VALUE("radius", scale, KILN_METRES, 0.001, FAR, TIME, "0.5 m", "Of the core."),
-    CHOICE("profile", profile, profiles, "rankine",
+    VALUE(MOTION, "radius", scale, KILN_METRES, 0.001, FAR, TIME, "0.5 m", "Of the core."),
+    CHOICE(MOTION, "profile", profile, profiles, "rankine",
            "rankine: the core turns like a solid body, the rest is slower with the distance; "
            "lamb_oseen: smooth between the two."),
-    VALUE("inward", inward, KILN_SPEED, -10000, 10000, TIME, "0 m/s",
+    VALUE(MOTION, "inward", inward, KILN_SPEED, -10000, 10000, TIME, "0 m/s",
           "Of the air towards the axis, at the edge of the core; by the distance like speed."),
-    VALUE("lift", lift, KILN_SPEED, -10000, 10000, TIME, "0 m/s",
+    VALUE(MOTION, "lift", lift, KILN_SPEED, -10000, 10000, TIME, "0 m/s",
           "Of the air along the axis, on it; half of that at the edge of the core."),
-    VALUE("pull", pull, KILN_PER_SECOND, 0, 1000, BOTH, "1",
+    VALUE(MOTION, "pull", pull, KILN_PER_SECOND, 0, 1000, BOTH, "1",
           "How fast particles take up the velocity of the air."),
     MODE,
     END,
 };
 
 static const struct kiln_option limit[] = {
-    VALUE("speed", strength, KILN_SPEED, 0, 10000, BOTH, "10 m/s",
+    VALUE(MOTION, "speed", strength, KILN_SPEED, 0, 10000, BOTH, "10 m/s",
           "What is above it is taken off the speed, in every step."),
     END,
 };

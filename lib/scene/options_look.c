@@ -29,15 +29,15 @@ static const char *const line_ends[] = {
 };
 
 static const struct kiln_option point[] = {
-    VALUE("size", point_size, KILN_PIXELS, 0, 10000, BOTH, "0 px",
+    VALUE(LOOK, "size", point_size, KILN_PIXELS, 0, 10000, BOTH, "0 px",
           "Diameter in pixels; 0 takes the size in metres."),
-    BOOLEAN("round", point_round, "true", "A disc; false is a square."),
+    BOOLEAN(LOOK, "round", point_round, "true", "A disc; false is a square."),
     END,
 };
 
 static const struct kiln_option line[] = {
-    VALUE("width", line_width, KILN_PIXELS, 0, 1000, BOTH, "1.5 px", "Width in pixels."),
-    CHOICE("to", line_to, line_ends, "velocity",
+    VALUE(LOOK, "width", line_width, KILN_PIXELS, 0, 1000, BOTH, "1.5 px", "Width in pixels."),
+    CHOICE(LOOK, "to", line_to, line_ends, "velocity",
            "velocity: back along it by the speed times stretch; previous: to where the particle "
            "was a frame ago."),
     END,
@@ -51,10 +51,10 @@ static const char *const orients[] = {
 };
 
 static const struct kiln_option mesh[] = {
-    {ROW("file", mesh, AT(mesh.file), "none",
+    {ROW(LOOK, "file", mesh, AT(mesh.file), "none",
          "Triangles in an OBJ, glTF or GLB file, z ahead and y up; its materials are left out. The "
          "longest edge of the box around it becomes the size.")},
-    CHOICE("orient", mesh.orient, orients, "velocity",
+    CHOICE(LOOK, "orient", mesh.orient, orients, "velocity",
            "velocity: ahead is where the particle goes, without a roll; spin: as collisions that "
            "spin have turned it, or else rotation and spin turn it about an axis drawn for each "
            "particle; upright: they turn it about the world's up."),
@@ -69,12 +69,12 @@ static const char *const patterns[] = {
 };
 
 static const struct kiln_option sphere[] = {
-    CHOICE("pattern", sphere.pattern, patterns, "plain",
+    CHOICE(LOOK, "pattern", sphere.pattern, patterns, "plain",
            "stripe: look.color is a band about the equator; segments: it takes turns with the "
            "other colour, from pole to pole. Collisions that spin turn it; else rotation and spin "
            "do, about an axis drawn for each particle."),
-    INTEGER("segments", sphere.segments, 1, 8, "3", "So many of each colour."),
-    COLOR("color", sphere.color, 1000, BOTH, "1", "The other colour."),
+    INTEGER(LOOK, "segments", sphere.segments, 1, 8, "3", "So many of each colour."),
+    COLOR(LOOK, "color", sphere.color, 1000, BOTH, "1", "The other colour."),
     END,
 };
 
@@ -87,75 +87,82 @@ static const char *const soft_formulas[] = {
 static const char *const motions[] = {"auto", "none", NULL};
 
 static const struct kiln_option fade[] = {
-    VALUE("in", fade_in, KILN_FRACTION, 0, 1, TIME, "0.1", "Part of the life to full opacity."),
-    VALUE("out", fade_out, KILN_FRACTION, 0, 1, TIME, "0.3", "Part of the life to vanish in."),
+    VALUE(LOOK, "in", fade_in, KILN_FRACTION, 0, 1, TIME, "0.1",
+          "Part of the life to full opacity."),
+    VALUE(LOOK, "out", fade_out, KILN_FRACTION, 0, 1, TIME, "0.3",
+          "Part of the life to vanish in."),
     END,
 };
 
 const struct kiln_option kiln_options_look[] = {
-    {ROW("atlas", assets, AT(atlas), "\"builtin:smoke\"",
+    {ROW(LOOK, "atlas", assets, AT(atlas), "\"builtin:smoke\"",
          "The texture: cells that play in order. Of several, each particle gets one."),
      .count_offset = AT(atlas_count), .max_count = KILN_MAX_TEXTURES},
-    {ROW("cells", pair, AT(columns), "[8, 8]",
+    {ROW(LOOK, "cells", pair, AT(columns), "[8, 8]",
          "Columns and rows of an atlas file; a built-in atlas and a video have as many cells."),
      LIMITS(KILN_PLAIN, 1, 64)},
-    {ROW("motion", motion, AT(motion), "auto",
+    {ROW(LOOK, "motion", motion, AT(motion), "auto",
          "An image of where each cell moves until the next (red right, green up, half is none), "
          "so that few cells play smoothly; auto: what built-in atlases know; none: cells mix."),
      .choices = motions},
-    {ROW("motion_scale", number, AT(motion_scale), "1",
+    {ROW(LOOK, "motion_scale", number, AT(motion_scale), "1",
          "What full red or green of a motion file means, in edges of a cell."),
      LIMITS(KILN_PLAIN, 0, 10)},
-    CHOICE("blend", blend, blends, "alpha",
+    CHOICE(LOOK, "blend", blend, blends, "alpha",
            "alpha covers what is behind, like smoke; add shines through, like fire."),
-    VALUE("size", size, KILN_METRES, 0, 1000, BOTH, "0.5 m", "Edge of the billboard."),
-    RANGE("scale", scale, KILN_PLAIN, 0, 1000, TIME, "1",
+    VALUE(IF_CONTACTS_ARE_AS_DRAWN, "size", size, KILN_METRES, 0, 1000, BOTH, "0.5 m",
+          "Edge of the billboard."),
+    RANGE(IF_CONTACTS_ARE_AS_DRAWN, "scale", scale, KILN_PLAIN, 0, 1000, TIME, "1",
           "Factor on size, drawn for each particle."),
-    CHOICE("shape", shape, shapes, "billboard",
+    CHOICE(LOOK, "shape", shape, shapes, "billboard",
            "billboard: the texture on a quad; point, line: plain, without a texture; sphere, "
            "mesh: opaque, lit like the backdrop, scaled by opacity and fade."),
-    CHOICE("facing", facing, facings, "screen",
+    CHOICE(LOOK, "facing", facing, facings, "screen",
            "A billboard is parallel to the picture and upright in it (screen), in the world "
            "(viewplane) or along its velocity; or turned to the eye, upright in the world "
            "(viewpoint) or about the axis (axial), which it never leaves."),
-    VECTOR("axis", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
+    VECTOR(LOOK, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
            "What axial billboards turn about; of any length but 0."),
-    GROUP("point", 0, point, "How points look."),
-    GROUP("line", 0, line, "How lines look."),
-    GROUP("sphere", 0, sphere, "How spheres look."),
-    GROUP("mesh", 0, mesh, "How meshes look, which are instances of one from a file."),
-    VALUE("stretch", stretch, KILN_SECONDS, 0, 10, BOTH, "0 s",
+    GROUP(LOOK, "point", 0, point, "How points look."),
+    GROUP(LOOK, "line", 0, line, "How lines look."),
+    GROUP(LOOK, "sphere", 0, sphere, "How spheres look."),
+    GROUP(LOOK, "mesh", 0, mesh, "How meshes look, which are instances of one from a file."),
+    VALUE(LOOK, "stretch", stretch, KILN_SECONDS, 0, 10, BOTH, "0 s",
           "Longer along the velocity by the speed times this; 0 keeps a billboard square."),
-    RANGE("rotation", rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), BOTH,
+    RANGE(LOOK, "rotation", rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), BOTH,
           "[0 deg, 360 deg]", "Turn, drawn for each particle; spin comes on top."),
-    RANGE("spin", spin, KILN_ANGULAR_SPEED, 0, KILN_DEG(36000), BOTH, "0 deg/s",
+    RANGE(LOOK, "spin", spin, KILN_ANGULAR_SPEED, 0, KILN_DEG(36000), BOTH, "0 deg/s",
           "Speed of turning, drawn for each particle, to either side."),
-    VALUE("cycles", cycles, KILN_PLAIN, 0, 1000, TIME, "1", "Passes through the atlas in a life."),
-    BOOLEAN("random_start", random_start, "false", "Each particle starts at a cell of its own."),
-    COLOR("color", color, 1000, BOTH, "1", "Multiplies the atlas or the glow."),
-    VALUE("opacity", opacity, KILN_FRACTION, 0, 1, BOTH, "1", "Multiplies the atlas's alpha."),
-    VALUE("temperature", temperature, KILN_KELVIN, 0, 20000, BOTH, "0 K",
+    VALUE(LOOK, "cycles", cycles, KILN_PLAIN, 0, 1000, TIME, "1",
+          "Passes through the atlas in a life."),
+    BOOLEAN(LOOK, "random_start", random_start, "false",
+            "Each particle starts at a cell of its own."),
+    COLOR(IF_IT_PAINTS, "color", color, 1000, BOTH, "1", "Multiplies the atlas or the glow."),
+    VALUE(LOOK, "opacity", opacity, KILN_FRACTION, 0, 1, BOTH, "1",
+          "Multiplies the atlas's alpha."),
+    VALUE(LOOK, "temperature", temperature, KILN_KELVIN, 0, 20000, BOTH, "0 K",
           "Glows with the colour of a black body; 0 does not."),
-    VALUE("intensity", intensity, KILN_PLAIN, 0, 1000000, BOTH, "1", "Factor on emitted light."),
-    GROUP("fade", 0, fade, "Opacity at birth and death."),
-    VALUE("soft", soft, KILN_PER_METRE, 0, 1000, BOTH, "2",
+    VALUE(LOOK, "intensity", intensity, KILN_PLAIN, 0, 1000000, BOTH, "1",
+          "Factor on emitted light."),
+    GROUP(LOOK, "fade", 0, fade, "Opacity at birth and death."),
+    VALUE(LOOK, "soft", soft, KILN_PER_METRE, 0, 1000, BOTH, "2",
           "Fades where it nears a surface, the faster the larger; 0 is hard."),
-    CHOICE("soft_formula", soft_formula, soft_formulas, "clamped",
+    CHOICE(LOOK, "soft_formula", soft_formula, soft_formulas, "clamped",
            "clamped to 0..1; or literal, as the thesis prints equation 3.3: without a bound."),
-    VALUE("thickness", thickness, KILN_PLAIN, 0, 10, BOTH, "1",
+    VALUE(LOOK, "thickness", thickness, KILN_PLAIN, 0, 10, BOTH, "1",
           "Depth of a billboard in parts of its size, where post.compose is oit: 1 is as deep as "
           "wide, like a puff; 0 is flat."),
-    VALUE("near_fade", near_fade, KILN_METRES, 0, 1000, BOTH, "0.2 m",
+    VALUE(LOOK, "near_fade", near_fade, KILN_METRES, 0, 1000, BOTH, "0.2 m",
           "Transparent when this near to the camera's near plane."),
-    COLOR("bloom", bloom, 100, BOTH, "0", "Part of the colour that goes to the bloom."),
-    VALUE("lit", lit, KILN_FRACTION, 0, 1, BOTH, "0",
+    COLOR(LOOK, "bloom", bloom, 100, BOTH, "0", "Part of the colour that goes to the bloom."),
+    VALUE(LOOK, "lit", lit, KILN_FRACTION, 0, 1, BOTH, "0",
           "0 shows its own colour, 1 is lit by sun, sky and lights."),
-    VALUE("shadow", shadow, KILN_PLAIN, 0, 100, TIME, "1",
+    VALUE(LOOK, "shadow", shadow, KILN_PLAIN, 0, 100, TIME, "1",
           "Of what covers: factor on the light that it keeps off itself and what is behind it."),
-    COLOR("light", light, 1000000, TIME, "0",
+    COLOR(LOOK, "light", light, 1000000, TIME, "0",
           "Factor on the light that what glows sheds on backdrop and smoke; 1 is what it amounts "
           "to."),
-    INTEGER("lights", light_count, 1, KILN_MAX_FIRE_LIGHTS, "4",
+    INTEGER(LOOK, "lights", light_count, 1, KILN_MAX_FIRE_LIGHTS, "4",
             "Moving lights that shed it, by the particles' ages; a scene has up to 16 in all."),
     END,
 };

@@ -39,37 +39,38 @@ static const char *const tonemaps[] = {
 };
 
 static const struct kiln_option particles[] = {
-    CHOICE("resolution", resolution, resolutions, "full",
+    CHOICE(LOOK, "resolution", resolution, resolutions, "full",
            "Size of the picture that particles are drawn into, in parts of the frame's width: the "
            "smaller, the "
            "faster and the softer. For large, soft sprites."),
-    BOOLEAN("mixed", mixed_resolution, "false",
+    BOOLEAN(LOOK, "mixed", mixed_resolution, "false",
             "Full resolution where the depth of the scene has edges, half or quarter elsewhere."),
     END,
 };
 
 static const struct kiln_option bloom[] = {
-    CHOICE("kind", bloom, bloom_kinds, "gaussian",
+    CHOICE(LOOK, "kind", bloom, bloom_kinds, "gaussian",
            "How the glow is spread: gaussian by some 40 pixels, pyramid by parts of the picture."),
-    CHOICE("source", bloom_source, bloom_sources, "weights",
+    CHOICE(LOOK, "source", bloom_source, bloom_sources, "weights",
            "What glows: particles by look.bloom, or all that is brighter than the threshold."),
-    VALUE("strength", bloom_strength, KILN_PLAIN, 0, 100, TIME, "1", "Factor on the glow."),
-    VALUE("threshold", bloom_threshold, KILN_PLAIN, 0, 1000000, TIME, "1",
+    VALUE(LOOK, "strength", bloom_strength, KILN_PLAIN, 0, 100, TIME, "1", "Factor on the glow."),
+    VALUE(LOOK, "threshold", bloom_threshold, KILN_PLAIN, 0, 1000000, TIME, "1",
           "Exposed light beyond which the source bright glows."),
-    VALUE("radius", bloom_radius, KILN_FRACTION, 0, 1, TIME, "0.7",
+    VALUE(LOOK, "radius", bloom_radius, KILN_FRACTION, 0, 1, TIME, "0.7",
           "How far the pyramid spreads the glow."),
     END,
 };
 
 const struct kiln_option kiln_options_post[] = {
-    CHOICE("compose", compose, composes, "merged",
+    CHOICE(LOOK, "compose", compose, composes, "merged",
            "merged sorts fire and smoke together; separate draws fire over smoke; alpha is merged "
            "with fire that covers what is behind it; oit is merged with each pixel sorted on its "
            "own, by the depths of what is seen there (look.thickness)."),
-    GROUP("particles", 0, particles, "How finely particles are drawn."),
-    GROUP("bloom", 0, bloom, "The glow around bright things."),
-    VALUE("exposure", exposure, KILN_STOPS, -20, 20, TIME, "0", "Doubles the light per stop."),
-    CHOICE("tonemap", tonemap, tonemaps, "agx", "How light becomes a picture."),
-    BOOLEAN("dither", dither, "true", "Hides the steps of 8-bit pictures."),
+    GROUP(LOOK, "particles", 0, particles, "How finely particles are drawn."),
+    GROUP(LOOK, "bloom", 0, bloom, "The glow around bright things."),
+    VALUE(LOOK, "exposure", exposure, KILN_STOPS, -20, 20, TIME, "0",
+          "Doubles the light per stop."),
+    CHOICE(LOOK, "tonemap", tonemap, tonemaps, "agx", "How light becomes a picture."),
+    BOOLEAN(LOOK, "dither", dither, "true", "Hides the steps of 8-bit pictures."),
     END,
 };

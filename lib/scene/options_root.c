@@ -4,24 +4,24 @@
 #define AT(field) offsetof(struct kiln_camera, field)
 
 static const struct kiln_option shutter[] = {
-    INTEGER("samples", shutter_samples, 1, 256, "1",
+    INTEGER(ORDER, "samples", shutter_samples, 1, 256, "1",
             "Moments of a frame, each after a step of its own; 1 is sharp."),
-    {ROW("angle", number, AT(shutter_angle), "180 deg",
+    {ROW(ORDER, "angle", number, AT(shutter_angle), "180 deg",
          "How long the shutter is open: a full turn is the whole time of a frame."),
      LIMITS(KILN_ANGLE, KILN_DEG(1), KILN_DEG(360))},
     END,
 };
 
 static const struct kiln_option camera[] = {
-    VECTOR("position", position, KILN_METRES, -FAR, FAR, TIME, "[0, 1.5, 6]", "The eye."),
-    VECTOR("target", target, KILN_METRES, -FAR, FAR, TIME, "[0, 1, 0]", "What it looks at."),
-    VALUE("fov", fov, KILN_ANGLE, KILN_DEG(1), KILN_DEG(170), TIME, "45 deg",
+    VECTOR(ORDER, "position", position, KILN_METRES, -FAR, FAR, TIME, "[0, 1.5, 6]", "The eye."),
+    VECTOR(ORDER, "target", target, KILN_METRES, -FAR, FAR, TIME, "[0, 1, 0]", "What it looks at."),
+    VALUE(LOOK, "fov", fov, KILN_ANGLE, KILN_DEG(1), KILN_DEG(170), TIME, "45 deg",
           "Vertical field of view."),
-    VALUE("roll", roll, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME, "0 deg",
+    VALUE(LOOK, "roll", roll, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME, "0 deg",
           "Turn about the line of sight."),
-    VALUE("near", near_plane, KILN_METRES, 0.001, 100, TIME, "0.05 m",
+    VALUE(LOOK, "near", near_plane, KILN_METRES, 0.001, 100, TIME, "0.05 m",
           "Nothing nearer than this is drawn."),
-    GROUP("shutter", 0, shutter, "Motion blur: a frame is the mean of several moments."),
+    GROUP(ORDER, "shutter", 0, shutter, "Motion blur: a frame is the mean of several moments."),
     END,
 };
 
@@ -31,11 +31,12 @@ static const struct kiln_option camera[] = {
 _Static_assert(AT(height) == AT(width) + sizeof(uint32_t), "size is read as a pair");
 
 static const struct kiln_option output[] = {
-    {ROW("size", pair, AT(width), "[1280, 720]", "Width and height of the pictures."),
+    {ROW(LOOK, "size", pair, AT(width), "[1280, 720]", "Width and height of the pictures."),
      LIMITS(KILN_PIXELS, 16, 16384)},
-    {ROW("fps", rational, AT(fps), "30", "Frames a second: 30, 30000/1001 or 29.97 (= 2997/100)."),
+    {ROW(ORDER, "fps", rational, AT(fps), "30",
+         "Frames a second: 30, 30000/1001 or 29.97 (= 2997/100)."),
      LIMITS(KILN_PLAIN, 1, 1000)},
-    INTEGER("frames", frames, 1, 1000000, "150", "Length of the clip."),
+    INTEGER(LOOK, "frames", frames, 1, 1000000, "150", "Length of the clip."),
     END,
 };
 
@@ -48,33 +49,36 @@ static const char *const integrations[] = {
 };
 
 static const struct kiln_option simulation[] = {
-    {ROW("rate", rational, AT(rate), "auto",
+    {ROW(MOTION, "rate", rational, AT(rate), "auto",
          "Steps a second, a whole multiple of output.fps; auto: the smallest that is at least 60 "
          "and has "
          "a step for each moment of the shutter."),
      LIMITS(KILN_PLAIN, 1, 100000), .word = "auto"},
-    {ROW("warmup", number, AT(warmup_s), "0 s",
+    {ROW(MOTION, "warmup", number, AT(warmup_s), "0 s",
          "Simulated before the first frame, in whole steps; clip time is negative there."),
      LIMITS(KILN_SECONDS, 0, 100000)},
     CHOICE(
-        "integration", integration, integrations, "semi_implicit",
+        MOTION, "integration", integration, integrations, "semi_implicit",
         "How a step moves: semi_implicit by the new velocity, position_first by the old, trapezoid "
         "by the mean of both (error by the square of the step), rk4 by four looks at the forces "
         "(by its fourth power)."),
-    BOUNDS("bounds", bounds, "none", "Where particles may be, for systems without their own."),
+    BOUNDS(MOTION, "bounds", bounds, "none",
+           "Where particles may be, for systems without their own."),
     END,
 };
 
 const struct kiln_option kiln_options_root[] = {
-    INTEGER("kiln", format_version, 1, 1, NULL, "Version of the scene format."),
-    INTEGER("seed", seed, 0, UINT32_MAX, "0", "Another seed gives another run of the same scene."),
-    GROUP("output", 0, output, "The clip."),
-    GROUP("simulation", 0, simulation, "The clock of the simulation."),
-    GROUP("camera", AT(camera), camera, "Where the picture is taken from."),
-    GROUP("backdrop", AT(backdrop), kiln_options_backdrop, "What stands around the particles."),
-    {ROW("systems", map, AT(systems), "{}", "The particle systems by their names."),
+    INTEGER(LOOK, "kiln", format_version, 1, 1, NULL, "Version of the scene format."),
+    INTEGER(MOTION, "seed", seed, 0, UINT32_MAX, "0",
+            "Another seed gives another run of the same scene."),
+    GROUP(ORDER, "output", 0, output, "The clip."),
+    GROUP(MOTION, "simulation", 0, simulation, "The clock of the simulation."),
+    GROUP(ORDER, "camera", AT(camera), camera, "Where the picture is taken from."),
+    GROUP(MOTION, "backdrop", AT(backdrop), kiln_options_backdrop,
+          "What stands around the particles."),
+    {ROW(MOTION, "systems", map, AT(systems), "{}", "The particle systems by their names."),
      .members = kiln_options_system, .item_size = sizeof(struct kiln_system),
      .count_offset = AT(system_count), .max_count = KILN_MAX_SYSTEMS},
-    GROUP("post", AT(post), kiln_options_post, "From light to picture."),
+    GROUP(LOOK, "post", AT(post), kiln_options_post, "From light to picture."),
     END,
 };

@@ -5,14 +5,15 @@
 
 #include "option/rows.h"
 #include "scene/options.h"
+#include "scene/parts.h"
 
 /* The limit of places in a scene: particles beyond 2^20 m die, so this is well inside. */
 #define FAR 100000
 
 /* name, field, default, help */
-#define BOUNDS(n, f, def, h)                                                                       \
+#define BOUNDS(part, n, f, def, h)                                                                 \
     {                                                                                              \
-        ROW(n, bounds, AT(f), def, h), LIMITS(KILN_METRES, -FAR, FAR), .word = "none"              \
+        ROW(part, n, bounds, AT(f), def, h), LIMITS(KILN_METRES, -FAR, FAR), .word = "none"        \
     }
 
 #endif

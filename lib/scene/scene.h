@@ -508,8 +508,9 @@ bool kiln_scene_claim_file(const char *path, const char *const *overrides, size_
                            struct kiln_claims *claims, struct kiln_error *error);
 
 /* The scene as a scene file, with nothing left to defaults, into a text that the caller frees;
- * false when memory is short. */
-bool kiln_print_scene(const struct kiln_scene *scene, struct kiln_text *text);
+ * false when memory is short. parts: bits of enum kiln_scene_part, for the rows of these alone; 0:
+ * all rows. */
+bool kiln_print_scene(const struct kiln_scene *scene, unsigned parts, struct kiln_text *text);
 
 /* Clip time in seconds at the end of a step; steps count from 1, 0 is the start of the run. The
  * division is IEEE's, so every host gets the same float. */

@@ -3,6 +3,8 @@
  * techniques: after less than two whole sorts. */
 #include "sort/kept.h"
 
+#include <string.h>
+
 #include "base/error.h"
 #include "gpu/program.h"
 #include "shared/sort_layout.h"
@@ -101,6 +103,44 @@ bool kiln_kept_sort(struct kiln_kept *kept, struct kiln_pool *pool, float3 eye, 
     kiln_oddeven_run_passes(kept->oddeven, padded, first, end);
     convert(kept, kept->slot_program, pool);
     return kiln_device_check(kept->device, "sort: kept order", error);
+}
+
+bool kiln_kept_save(struct kiln_kept *kept, const struct kiln_pool *pool, uint32_t *slots,
+                    uint32_t *turn, struct kiln_error *error)
+{
+    *turn = KILN_SORT_NOT_BEGUN;
+    memset(slots, 0, pool->slot_count * sizeof *slots);
+    if (!kept->started)
+        return true;
+    const uint32_t(*pairs)[2] = kiln_buffer_host(&kept->pairs, KILN_READ, error);
+    for (uint32_t i = 0; pairs && i < pool->slot_count; i++)
+        slots[i] = pairs[i][1];
+    *turn = kept->turn;
+    return pairs != NULL;
+}
+
+bool kiln_kept_restore(struct kiln_kept *kept, const struct kiln_pool *pool, const uint32_t *slots,
+                       uint32_t turn, struct kiln_error *error)
+{
+    kept->started = false;
+    kept->turn = 0;
+    if (turn == KILN_SORT_NOT_BEGUN)
+        return true;
+    const uint32_t padded = kiln_network_padded(pool->slot_count);
+    kiln_buffer_reserve(&kept->pairs, (size_t)padded * PAIR_BYTES);
+    uint32_t(*pairs)[2] = kiln_buffer_host(&kept->pairs, KILN_OVERWRITE, error);
+    if (!pairs)
+        return false;
+    for (uint32_t i = 0; i < padded; i++) {
+        pairs[i][0] = UINT32_MAX; /* the keys of slots are made anew */
+        pairs[i][1] = i < pool->slot_count ? slots[i] : i;
+        if (i < pool->slot_count && slots[i] >= pool->slot_count)
+            return kiln_error_set(error, KILN_INVALID_INPUT, "a saved order of %u slots names %u",
+                                  pool->slot_count, slots[i]);
+    }
+    kept->turn = turn % kept->frames;
+    kept->started = true;
+    return true;
 }
 
 /* Counts or lists the living of the chosen systems. */

@@ -6,6 +6,7 @@
 #define KILN_SORT_KEPT_H
 
 #include "sort/oddeven.h"
+#include "sort/sort.h"
 
 struct kiln_kept {
     struct kiln_device *device;
@@ -27,6 +28,14 @@ void kiln_kept_finish(struct kiln_kept *kept);
  */
 bool kiln_kept_sort(struct kiln_kept *kept, struct kiln_pool *pool, float3 eye, float3 forward,
                     struct kiln_error *error);
+
+/* The order between two sorts, and the part of a sort that comes next: KILN_SORT_NOT_BEGUN before
+ * the first. slots: the pool's slot_count. Restoring refuses slots that the pool has not
+ * (KILN_INVALID_INPUT). */
+bool kiln_kept_save(struct kiln_kept *kept, const struct kiln_pool *pool, uint32_t *slots,
+                    uint32_t *turn, struct kiln_error *error);
+bool kiln_kept_restore(struct kiln_kept *kept, const struct kiln_pool *pool, const uint32_t *slots,
+                       uint32_t turn, struct kiln_error *error);
 
 /* Like kiln_sort_run, in the order as it is; not KILN_SORT_BY_SERIAL. */
 bool kiln_kept_list(struct kiln_kept *kept, struct kiln_pool *pool,

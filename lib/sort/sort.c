@@ -115,6 +115,18 @@ bool kiln_sort_follow(struct kiln_sort *sort, struct kiln_pool *pool,
     return !sort->keeps || kiln_kept_sort(&sort->kept, pool, params->eye, params->forward, error);
 }
 
+bool kiln_sort_save(struct kiln_sort *sort, const struct kiln_pool *pool, uint32_t *slots,
+                    uint32_t *turn, struct kiln_error *error)
+{
+    return kiln_kept_save(&sort->kept, pool, slots, turn, error);
+}
+
+bool kiln_sort_restore(struct kiln_sort *sort, const struct kiln_pool *pool, const uint32_t *slots,
+                       uint32_t turn, struct kiln_error *error)
+{
+    return kiln_kept_restore(&sort->kept, pool, slots, turn, error);
+}
+
 bool kiln_sort_run(struct kiln_sort *sort, struct kiln_pool *pool,
                    const struct kiln_sort_params *params, struct kiln_buffer *entries,
                    uint32_t *count, struct kiln_error *error)

@@ -47,6 +47,15 @@ bool kiln_sort_keeps_history(const struct kiln_sort *sort);
 bool kiln_sort_follow(struct kiln_sort *sort, struct kiln_pool *pool,
                       const struct kiln_sort_params *params, struct kiln_error *error);
 
+/* The order that is kept, for a saved state: all slots of the pool, and which part of a sort comes
+ * next. Only for those that keep history. Restoring refuses slots that there are not with
+ * KILN_INVALID_INPUT. */
+#define KILN_SORT_NOT_BEGUN UINT32_MAX
+bool kiln_sort_save(struct kiln_sort *sort, const struct kiln_pool *pool, uint32_t *slots,
+                    uint32_t *turn, struct kiln_error *error);
+bool kiln_sort_restore(struct kiln_sort *sort, const struct kiln_pool *pool, const uint32_t *slots,
+                       uint32_t turn, struct kiln_error *error);
+
 /* Fills entries (room for the pool's slot_count; a technique may make it twice as large, to sort in
  * it) with the draw entries of the living particles of
  * the chosen systems in the order that is asked for, and counts them. Where the technique runs on

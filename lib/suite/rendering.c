@@ -36,7 +36,7 @@ static bool load_scene(struct job *job)
     job->rendering->scene = kiln_scene_info(job->scene);
     job->rendering->seed = job->scene->seed;
     struct kiln_text text = {0};
-    if (kiln_print_scene(job->scene, &text))
+    if (kiln_print_scene(job->scene, 0, &text))
         job->rendering->scene_text = kiln_arena_text(job->arena, text.data, text.length);
     kiln_text_free(&text);
     return job->rendering->scene_text || no_memory(job);

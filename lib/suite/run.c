@@ -176,7 +176,7 @@ static const char *complete_scene(struct kiln_trial *trial, const char *text, co
     struct kiln_error ignored = {0};
     struct kiln_text printed = {0};
     struct kiln_scene *scene = kiln_scene_parse(text, strlen(text), name, &params, &ignored);
-    const char *complete = scene && kiln_print_scene(scene, &printed)
+    const char *complete = scene && kiln_print_scene(scene, 0, &printed)
                                ? kiln_arena_text(trial->arena, printed.data, printed.length)
                                : NULL;
     kiln_text_free(&printed);

@@ -63,28 +63,28 @@ static const struct kiln_option technique_item = {.type = &kiln_type_technique,
 /* name, field, item, count, largest count, help */
 #define LIST(n, f, i, c, most, h)                                                                  \
     {                                                                                              \
-        ROW(n, list, AT(f), "[]", h), .item = &(i), .kind_offset = KILN_KIND_NONE,                 \
-                                      .item_size = sizeof((struct document *)0)->f[0],             \
-                                      .count_offset = AT(c), .max_count = most                     \
+        ROW(NO_PART, n, list, AT(f), "[]", h), .item = &(i), .kind_offset = KILN_KIND_NONE,        \
+                                               .item_size = sizeof((struct document *)0)->f[0],    \
+                                               .count_offset = AT(c), .max_count = most            \
     }
 /* name, field, smallest and largest length, default, help */
 #define TEXT(n, f, least, def, h)                                                                  \
     {                                                                                              \
-        ROW(n, text, AT(f), def, h), LIMITS(KILN_PLAIN, least, MAX_TEXT)                           \
+        ROW(NO_PART, n, text, AT(f), def, h), LIMITS(KILN_PLAIN, least, MAX_TEXT)                  \
     }
 
 static const struct kiln_option rows[] = {
-    INTEGER("kiln_test", version, 1, 1, NULL, "Version of the format of test files."),
+    INTEGER(NO_PART, "kiln_test", version, 1, 1, NULL, "Version of the format of test files."),
     TEXT("scene", scene, 1, NULL, "The scene's path, from the test file's folder."),
     TEXT("about", about, 0, "\"\"", "What the test is for; it is shown in reports."),
     LIST("set", set, override_item, set_count, MAX_OVERRIDES, "Keys of the scene to change."),
-    {ROW("size", size, AT(size), "scene", "Width and height of the pictures."),
+    {ROW(NO_PART, "size", size, AT(size), "scene", "Width and height of the pictures."),
      LIMITS(KILN_PIXELS, 16, 16384)},
-    {ROW("frames", frames, AT(frames), "auto",
+    {ROW(NO_PART, "frames", frames, AT(frames), "auto",
          "The frames to judge; auto: the middle and the last one of the scene."),
      .count_offset = AT(frame_count), .max_count = KILN_TEST_MAX_FRAMES},
-    CHOICE("format", format, formats, "png", "Of the pictures, the goldens too."),
-    CHOICE("golden", golden, goldens, "picture",
+    CHOICE(NO_PART, "format", format, formats, "png", "Of the pictures, the goldens too."),
+    CHOICE(NO_PART, "golden", golden, goldens, "picture",
            "What is kept of what was accepted: pictures, or hashes of state and pixels alone, of "
            "which any change fails."),
     LIST("devices", devices, device_item, device_count, KILN_TEST_MAX_DEVICES,
@@ -92,23 +92,25 @@ static const struct kiln_option rows[] = {
          "there is no such device. None takes that of the run."),
     LIST("techniques", techniques, technique_item, technique_count, KILN_TEST_MAX_TECHNIQUES,
          "Techniques of stages; for the others it is cpu or, where there is none, the first."),
-    {ROW("limits", limits, AT(limits), "{}",
+    {ROW(NO_PART, "limits", limits, AT(limits), "{}",
          "The worst values that pass, in place of the default ones, which "
          "are " KILN_COMPARE_DEFAULT_LIMITS "."),
      .count_offset = AT(limit_count), .max_count = KILN_MAX_COLUMNS},
     TEXT("reason", reason, 0, "\"\"", "Why these limits."),
-    {ROW("warn", number, AT(warn), "0.5",
+    {ROW(NO_PART, "warn", number, AT(warn), "0.5",
          "A frame that passes with a score above this is a warning; 1 is just within the limits."),
      LIMITS(KILN_PLAIN, 0, 1)},
-    {ROW("threshold", number, AT(threshold), "2", "Pixels that differ by more levels are counted."),
+    {ROW(NO_PART, "threshold", number, AT(threshold), "2",
+         "Pixels that differ by more levels are counted."),
      LIMITS(KILN_PLAIN, 0, 255)},
-    INTEGER("window", window, 1, 16384, "32",
+    INTEGER(NO_PART, "window", window, 1, 16384, "32",
             "Edge of the square, in pixels, whose densest place is looked for."),
-    {ROW("masks", list, AT(masks), "[]", "Parts of the pictures that are not judged."),
+    {ROW(NO_PART, "masks", list, AT(masks), "[]", "Parts of the pictures that are not judged."),
      .item = &kiln_mask_item, .kind_offset = KILN_KIND_NONE,
      .item_size = sizeof(struct kiln_test_mask), .count_offset = AT(mask_count),
      .max_count = KILN_TEST_MAX_MASKS},
-    {ROW("time_limit", number, AT(time_limit_s), "120 s", "A test that takes longer is stopped."),
+    {ROW(NO_PART, "time_limit", number, AT(time_limit_s), "120 s",
+         "A test that takes longer is stopped."),
      LIMITS(KILN_SECONDS, 0.1, 86400)},
     END,
 };

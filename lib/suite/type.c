@@ -297,11 +297,12 @@ const struct kiln_option_type kiln_type_mask = {.read = read_mask, .describe = d
 #define AT(field) offsetof(struct kiln_test_mask, field)
 
 static const struct kiln_option mask_members[] = {
-    {ROW("rect", rectangle, AT(rect), "none", "What is not judged."), LIMITS(KILN_PLAIN, 0, 16384)},
-    {ROW("picture", text, AT(picture), "\"\"",
+    {ROW(NO_PART, "rect", rectangle, AT(rect), "none", "What is not judged."),
+     LIMITS(KILN_PLAIN, 0, 16384)},
+    {ROW(NO_PART, "picture", text, AT(picture), "\"\"",
          "A picture of the same size, black where nothing is judged."),
      LIMITS(KILN_PLAIN, 0, 4000)},
-    {ROW("reason", text, AT(reason), "\"\"", "Why not."), LIMITS(KILN_PLAIN, 0, 4000)},
+    {ROW(NO_PART, "reason", text, AT(reason), "\"\"", "Why not."), LIMITS(KILN_PLAIN, 0, 4000)},
     END,
 };
 

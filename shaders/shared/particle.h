@@ -13,6 +13,10 @@
 /* Particle systems of a scene: fewer than the 8 bits of a draw entry name, enough to show. */
 #define KILN_MAX_SYSTEMS 16
 
+/* Of what the steps make of a scene: raised with every change of any state, since states that were
+ * saved before must not be taken for what the scene comes to now. */
+#define KILN_STATE_VERSION 1
+
 struct kiln_particle {
     uint4 position_serial; /* position as float bits, metres; serial */
     uint4 velocity_birth;  /* velocity as float bits, metres a second; birth word */

@@ -44,7 +44,7 @@ struct plotter {
 #define AT(field) offsetof(struct tray, field)
 
 static const struct kiln_option tray[] = {
-    INTEGER("sheets", sheets, 0, 500, "100", "What is in it."),
+    INTEGER(NO_PART, "sheets", sheets, 0, 500, "100", "What is in it."),
     END,
 };
 
@@ -52,12 +52,12 @@ static const struct kiln_option tray[] = {
 #define AT(field) offsetof(struct mark_of, field)
 
 static const struct kiln_option dot[] = {
-    {ROW("radius", number, AT(radius), "1 mm", "Of the dot."), LIMITS(KILN_METRES, 0, 1)},
+    {ROW(NO_PART, "radius", number, AT(radius), "1 mm", "Of the dot."), LIMITS(KILN_METRES, 0, 1)},
     END,
 };
 
 static const struct kiln_option bar[] = {
-    {ROW("length", number, AT(length), NULL, "Of the bar."), LIMITS(KILN_METRES, 0, 1)},
+    {ROW(NO_PART, "length", number, AT(length), NULL, "Of the bar."), LIMITS(KILN_METRES, 0, 1)},
     END,
 };
 
@@ -85,33 +85,34 @@ static const struct kiln_option pens[] = {
 };
 
 static const struct kiln_option limit[] = {
-    {ROW("time", number, AT(limit_s), "60 s", "After so long it stops."),
+    {ROW(NO_PART, "time", number, AT(limit_s), "60 s", "After so long it stops."),
      LIMITS(KILN_SECONDS, 1, 3600)},
     END,
 };
 
 static const struct kiln_option rows[] = {
     INTEGER("plotter", version, 1, 1, NULL, "Version of the format."),
-    GROUP("pens", 0, pens, "What it draws with."),
-    {ROW("limit", switch, 0, "none", "When it gives up."), .members = limit,
+    GROUP(NO_PART, "pens", 0, pens, "What it draws with."),
+    {ROW(NO_PART, "limit", switch, 0, "none", "When it gives up."), .members = limit,
      .count_offset = AT(limited)},
-    {ROW("width", pair, AT(width), "[1, 2]", "Of thin and thick lines."),
+    {ROW(NO_PART, "width", pair, AT(width), "[1, 2]", "Of thin and thick lines."),
      LIMITS(KILN_PIXELS, 1, 9)},
-    BOOLEAN("quiet", quiet, "false", "It makes no noise."),
-    {ROW("rate", rational, AT(rate), "auto", "Lines a second."), LIMITS(KILN_PLAIN, 1, 100),
-     .word = "auto"},
-    {ROW("pause", number, AT(pause_s), "0 s", "Between two lines."), LIMITS(KILN_SECONDS, 0, 10)},
-    CHOICE("medium", medium, media, "paper", "What it draws on."),
-    {ROW("title", text, AT(title), "\"\"", "What it draws."), LIMITS(KILN_PLAIN, 0, 20)},
-    {ROW("room", bounds, AT(room), "none", "Where the pen may be."), LIMITS(KILN_METRES, -9, 9),
-     .word = "none"},
+    BOOLEAN(NO_PART, "quiet", quiet, "false", "It makes no noise."),
+    {ROW(NO_PART, "rate", rational, AT(rate), "auto", "Lines a second."),
+     LIMITS(KILN_PLAIN, 1, 100), .word = "auto"},
+    {ROW(NO_PART, "pause", number, AT(pause_s), "0 s", "Between two lines."),
+     LIMITS(KILN_SECONDS, 0, 10)},
+    CHOICE(NO_PART, "medium", medium, media, "paper", "What it draws on."),
+    {ROW(NO_PART, "title", text, AT(title), "\"\"", "What it draws."), LIMITS(KILN_PLAIN, 0, 20)},
+    {ROW(NO_PART, "room", bounds, AT(room), "none", "Where the pen may be."),
+     LIMITS(KILN_METRES, -9, 9), .word = "none"},
     VALUE("speed", speed, KILN_SPEED, 0, 10, BOTH, "1 m/s", "Of the pen."),
     VECTOR("place", place, KILN_METRES, -9, 9, TIME, "[0, 0, 0]", "Of the plotter."),
     COLOR("ink", ink, 1, TIME, "0", "What it draws with."),
     RANGE("pressure", pressure, KILN_PLAIN, 0, 1, TIME, "0.5", "Of the pen."),
-    {ROW("trays", map, AT(trays), "{}", "The trays by their names."), .members = tray,
+    {ROW(NO_PART, "trays", map, AT(trays), "{}", "The trays by their names."), .members = tray,
      .item_size = sizeof(struct tray), .count_offset = AT(tray_count), .max_count = 2},
-    {ROW("marks", list, AT(marks), "[]", "What it draws."), .item = &mark,
+    {ROW(NO_PART, "marks", list, AT(marks), "[]", "What it draws."), .item = &mark,
      .item_size = sizeof(struct mark_of), .count_offset = AT(mark_count), .max_count = 3},
     END,
 };

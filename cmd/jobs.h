@@ -1,7 +1,7 @@
 /* What `kiln render` is going to do, checked before any device is opened: which scene, which
  * frames, into which files. */
-#ifndef KILN_CMD_PLAN_H
-#define KILN_CMD_PLAN_H
+#ifndef KILN_CMD_JOBS_H
+#define KILN_CMD_JOBS_H
 
 #include "options.h"
 
@@ -16,15 +16,15 @@ struct job {
     char *manifest;                 /* NULL: none */
 };
 
-struct plan {
+struct job_list {
     struct job *jobs;
     size_t count;
     struct kiln_flipbook flipbook; /* columns 0: none */
 };
 
 /* Returns 0, or the exit code after reporting what is wrong; every wrong scene is reported. The
- * plan borrows the arguments, and must be freed in both cases. */
-int plan_create(struct plan *plan, const struct arguments *arguments);
-void plan_free(struct plan *plan);
+ * list borrows the arguments, and must be freed in both cases. */
+int job_list_create(struct job_list *list, const struct arguments *arguments);
+void job_list_free(struct job_list *list);
 
 #endif

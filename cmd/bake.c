@@ -1,0 +1,229 @@
+/* kiln bake: steps through a clip once and saves states, from which later runs start. */
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+#include "command.h"
+#include "device.h"
+#include "event.h"
+#include "overrides.h"
+#include "report.h"
+#include "signals.h"
+
+static const struct option options[] = {
+    {.name = "output",
+     .letter = 'o',
+     .kind = OPTION_TEXT,
+     .placeholder = "STATES",
+     .help = "The folder of the states; it is made if it is missing. Scenes may share one."},
+    {.name = "every",
+     .kind = OPTION_TEXT,
+     .placeholder = "10s|N",
+     .help = "Clip time, or frames, between two states.",
+     .fallback = "a state at the start of each part of a clip (see 'kiln help jobs')"},
+    {.name = "fps",
+     .kind = OPTION_RATIO,
+     .placeholder = "RATE",
+     .help = "Frames a second: --set output.fps=RATE.",
+     .sets = "output.fps"},
+    {.name = "seed",
+     .kind = OPTION_INTEGER,
+     .placeholder = "N",
+     .help = "Seed of everything random: --set seed=N.",
+     .sets = "seed",
+     .max = UINT32_MAX},
+    SET_OPTION,
+    ASSET_ROOT_OPTION,
+    DEVICE_OPTION,
+    TECHNIQUE_OPTION,
+    THREADS_OPTION,
+    {.name = "force", .kind = OPTION_FLAG, .help = "Replace states that exist."},
+    {.name = "resume",
+     .kind = OPTION_FLAG,
+     .help = "Keep states that are whole, and go on from the last of them."},
+    {.name = "json",
+     .kind = OPTION_FLAG,
+     .help = "Print JSON, an object a line: a \"state\" for each, and a \"result\"."},
+    {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Print nothing but errors."},
+    HELP_OPTION,
+};
+
+struct bake {
+    const char *scene_path;
+    struct kiln_bake_params params;
+    struct value_list techniques;
+    bool json, quiet;
+    uint32_t saved; /* so far */
+};
+
+static bool wants_stop(void *user)
+{
+    (void)user;
+    return signals_received() != 0;
+}
+
+static void show_state(void *user, const struct kiln_baked *state)
+{
+    struct bake *bake = user;
+    bake->saved = state->done;
+    if (bake->json) {
+        struct kiln_json json = event_begin("state");
+        kiln_json_string(&json, "file", state->file);
+        kiln_json_uint(&json, "frame", state->frame);
+        kiln_json_uint(&json, "step", state->step);
+        if (state->kept)
+            kiln_json_null(&json, "alive");
+        else
+            kiln_json_uint(&json, "alive", state->alive);
+        kiln_json_uint(&json, "bytes", state->bytes);
+        kiln_json_bool(&json, "kept", state->kept);
+        kiln_json_uint(&json, "done", state->done);
+        kiln_json_uint(&json, "total", state->frames);
+        event_end(&json);
+        fflush(stdout);
+    } else if (!bake->quiet && state->kept) {
+        printf("frame %" PRIu32 ": kept, %" PRIu64 " bytes\n", state->frame, state->bytes);
+    } else if (!bake->quiet) {
+        printf("frame %" PRIu32 ": step %" PRIu32 ", %" PRIu64 " particles, %" PRIu64 " bytes\n",
+               state->frame, state->step, state->alive, state->bytes);
+    }
+    fflush(stdout);
+}
+
+static void print_result(const struct bake *bake, const struct kiln_bake_stats *stats)
+{
+    if (bake->json) {
+        struct kiln_json json = event_begin("result");
+        kiln_json_string(&json, "scene", bake->scene_path);
+        kiln_json_string(&json, "output", bake->params.states);
+        kiln_json_string(&json, "motion", stats->motion);
+        kiln_json_uint(&json, "states", stats->states);
+        kiln_json_uint(&json, "kept", stats->kept);
+        kiln_json_uint(&json, "steps", stats->steps);
+        kiln_json_uint(&json, "bytes", stats->bytes);
+        kiln_json_time(&json, "total_s", stats->total_s);
+        event_end(&json);
+    } else if (!bake->quiet) {
+        printf("%s: %" PRIu32 " states of motion %.16s after %" PRIu64 " steps in %.3f s\n",
+               bake->params.states, stats->states, stats->motion, stats->steps, stats->total_s);
+    }
+}
+
+/* "10s" of clip time, or "300" frames. */
+static int read_every(struct bake *bake, const struct arguments *arguments,
+                      const struct kiln_scene_info *info)
+{
+    const struct option_use *use = arguments_last(arguments, "every");
+    if (!use)
+        return 0;
+    char digits[32] = "";
+    const size_t length = strlen(use->text);
+    const bool seconds = length > 1 && use->text[length - 1] == 's';
+    double number = 0;
+    if (length < sizeof digits)
+        memcpy(digits, use->text, seconds ? length - 1 : length);
+    double frames = 0;
+    if (kiln_text_to_double(digits, &number))
+        frames = seconds ? floor(number * info->fps_num / info->fps_den + 0.5) : number;
+    if (!(frames >= 1) || frames > 1e6 || frames != floor(frames))
+        return report(
+            KILN_USAGE,
+            "bake: --every: found '%s', expected a time of at least a frame, such as 10s, "
+            "or a number of frames from 1 to 1000000",
+            use->text);
+    bake->params.every = (uint32_t)frames;
+    return 0;
+}
+
+static int read_options(struct bake *bake, const struct arguments *arguments)
+{
+    struct kiln_bake_params *params = &bake->params;
+    params->states = arguments_text(arguments, "output", NULL);
+    params->threads = arguments_integer(arguments, "threads", 0);
+    params->overwrite = arguments_flag(arguments, "force");
+    params->resume = arguments_flag(arguments, "resume");
+    params->saved = show_state;
+    params->stop = wants_stop;
+    params->user = bake;
+    params->log = report_log();
+    bake->json = arguments_flag(arguments, "json");
+    bake->quiet = arguments_flag(arguments, "quiet");
+    if (!params->states)
+        return report(KILN_USAGE, "bake: needs --output STATES, a folder");
+    if (params->overwrite && params->resume)
+        return report(KILN_USAGE, "bake: --resume keeps the states that --force would replace");
+    if (!value_list_create(&bake->techniques, arguments, "technique"))
+        return report_no_memory();
+    params->techniques = bake->techniques.items;
+    params->technique_count = bake->techniques.count;
+    return 0;
+}
+
+static int report_failure(const struct bake *bake, const struct kiln_error *error)
+{
+    const int number = signals_received();
+    if (error->code != KILN_INTERRUPTED)
+        return report_error(error);
+    report(KILN_INTERRUPTED, "%s: stopped by %s after %u states", bake->scene_path,
+           signals_name(number), bake->saved);
+    return 128 + number;
+}
+
+static int run_bake(struct bake *bake, const struct arguments *arguments,
+                    const struct kiln_scene *scene)
+{
+    struct kiln_error error = {0};
+    struct kiln_bake_stats stats;
+    int code = 0;
+    struct kiln_device *device = open_device(arguments, &bake->techniques, &code);
+    if (device && !kiln_bake(device, scene, &bake->params, &stats, &error))
+        code = report_failure(bake, &error);
+    if (code == 0)
+        print_result(bake, &stats);
+    kiln_device_close(&device);
+    return code;
+}
+
+static int run(const struct arguments *arguments)
+{
+    struct bake bake = {.scene_path = arguments->operands[0]};
+    struct overrides overrides = {0};
+    struct kiln_error error = {0};
+    struct kiln_scene *scene = NULL;
+    int code = read_options(&bake, arguments);
+    signals_install();
+    if (code == 0 && !overrides_create(&overrides, arguments))
+        code = report_no_memory();
+    if (code == 0) {
+        const struct kiln_scene_params params = overrides_scene_params(&overrides, arguments);
+        scene = kiln_scene_load(bake.scene_path, &params, &error);
+        code = scene ? 0 : report_error(&error);
+    }
+    if (code == 0) {
+        const struct kiln_scene_info info = kiln_scene_info(scene);
+        code = read_every(&bake, arguments, &info);
+    }
+    if (code == 0)
+        code = run_bake(&bake, arguments, scene);
+    kiln_scene_destroy(&scene);
+    overrides_free(&overrides);
+    value_list_free(&bake.techniques);
+    return code;
+}
+
+const struct command bake_command = {
+    .name = "bake",
+    .summary = "save states of a run, from which others start",
+    .operands = "SCENE",
+    .description =
+        "Steps through the clip once and saves the state of all particles now and then. 'kiln "
+        "render --states STATES' starts at the nearest one before its frames and draws the same "
+        "pictures as a run from the start. States are known by the scene's motion: the camera, "
+        "looks, lights and post-processing may change without a new bake. Each file appears under "
+        "its name only when it is whole.",
+    .options = options,
+    .option_count = sizeof options / sizeof *options,
+    .least_operands = 1,
+    .most_operands = 1,
+    .run = run,
+};

@@ -1,0 +1,246 @@
+/* From operands and options to jobs. */
+#include "jobs.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "overrides.h"
+#include "report.h"
+
+static const char mark[] = "{scene}";
+
+/* The file's name without folder and suffix. */
+static const char *scene_stem(const char *path, size_t *length)
+{
+    const char *slash = strrchr(path, '/');
+    const char *name = slash ? slash + 1 : path;
+    const char *dot = strrchr(name, '.');
+    *length = dot && dot > name ? (size_t)(dot - name) : strlen(name);
+    return name;
+}
+
+static bool is_folder(const char *path)
+{
+    struct stat status;
+    size_t length = strlen(path);
+    return (length > 0 && path[length - 1] == '/') ||
+           (stat(path, &status) == 0 && S_ISDIR(status.st_mode));
+}
+
+/* Adds the scene's name to a text. In the name of an output, what would stand for the number of a
+ * frame is escaped. */
+static void add_stem(FILE *out, const char *scene, bool escape)
+{
+    size_t length;
+    const char *stem = scene_stem(scene, &length);
+    for (size_t i = 0; i < length; i++)
+        fprintf(out, "%s%c", escape && (stem[i] == '%' || stem[i] == '#') ? "%" : "", stem[i]);
+}
+
+/* Adds the pattern with every mark replaced; a folder's name knows no numbers and no escapes. */
+static void add_marked(FILE *out, const char *pattern, const char *scene, bool escape)
+{
+    const char *slash = strrchr(pattern, '/');
+    while (*pattern) {
+        if (strncmp(pattern, mark, sizeof mark - 1) == 0) {
+            add_stem(out, scene, escape && (!slash || pattern > slash));
+            pattern += sizeof mark - 1;
+        } else {
+            fputc(*pattern++, out);
+        }
+    }
+}
+
+/* The file that a pattern means for a scene, in new memory; NULL when memory is short. A folder
+ * gets a file named after the scene. */
+static char *file_name(const char *pattern, const char *scene, const char *suffix, bool numbers)
+{
+    char *name = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&name, &size);
+    if (!out)
+        return NULL;
+    add_marked(out, pattern, scene, false);
+    fflush(out);
+    if (name && is_folder(name)) {
+        fputs(name[size - 1] == '/' ? "" : "/", out);
+        add_stem(out, scene, numbers);
+        fputs(suffix, out);
+    } else if (numbers) {
+        rewind(out);
+        add_marked(out, pattern, scene, true);
+    }
+    bool failed = ferror(out) != 0;
+    if (fclose(out) == 0 && !failed)
+        return name;
+    free(name);
+    return NULL;
+}
+
+/* No two jobs may write one file: found here by its name, so that the message can say what to do,
+ * and by where it leads once the scenes are loaded. */
+static int check_clash(const struct job *a, const struct job *b)
+{
+    bool output = a->output && b->output && strcmp(a->output, b->output) == 0;
+    bool manifest = a->manifest && b->manifest && strcmp(a->manifest, b->manifest) == 0;
+    if (!output && !manifest)
+        return 0;
+    return report(KILN_USAGE,
+                  "render: --%s: '%s' and '%s' would both write '%s'; name a folder, or put "
+                  "{scene} into the name",
+                  output ? "output" : "manifest", a->path, b->path,
+                  output ? a->output : a->manifest);
+}
+
+/* The files of all jobs together. */
+static int claim_files(const struct job_list *list)
+{
+    struct kiln_claims *claims = kiln_claims_create();
+    int code = claims ? 0 : report_no_memory();
+    for (size_t i = 0; i < list->count && code == 0; i++) {
+        const struct job *job = &list->jobs[i];
+        struct kiln_error error = {0};
+        struct kiln_render_params params = KILN_RENDER_DEFAULTS;
+        params.output = job->output;
+        params.manifest = job->manifest;
+        params.ranges = job->frames.ranges;
+        params.range_count = job->frames.count;
+        params.flipbook = list->flipbook;
+        if (!kiln_render_claim(job->scene, &params, claims, &error))
+            code = report_error(&error);
+    }
+    kiln_claims_destroy(&claims);
+    return code;
+}
+
+static int name_files(struct job_list *list, const struct arguments *arguments)
+{
+    const struct option_use *output = arguments_last(arguments, "output");
+    const struct option_use *manifest = arguments_last(arguments, "manifest");
+    if (!output)
+        return report(KILN_USAGE, "render: needs --output FILE; '--output none' writes nothing");
+    bool writes = strcmp(output->text, "none") != 0;
+    for (size_t i = 0; i < list->count; i++) {
+        struct job *job = &list->jobs[i];
+        job->path = arguments->operands[i];
+        if (writes)
+            job->output = file_name(output->text, job->path,
+                                    list->flipbook.columns > 0 ? ".png" : ".mp4", true);
+        if (manifest)
+            job->manifest = file_name(manifest->text, job->path, ".json", false);
+        if ((writes && !job->output) || (manifest && !job->manifest))
+            return report_no_memory();
+        for (size_t j = 0; j < i; j++) {
+            int code = check_clash(&list->jobs[j], job);
+            if (code)
+                return code;
+        }
+    }
+    return 0;
+}
+
+/* Every frame that was asked for must exist. */
+static int choose_frames(struct job *job, const struct arguments *arguments)
+{
+    const struct option_use *frames = arguments_last(arguments, "frames");
+    uint32_t last = job->info.frames - 1;
+    if (!frames) {
+        job->every_frame = (struct kiln_frame_range){0, last};
+        job->frames = (struct frame_list){&job->every_frame, 1};
+        return 0;
+    }
+    job->frames = frames->frames;
+    struct kiln_frame_range end = frames->frames.ranges[frames->frames.count - 1];
+    if (end.last <= last)
+        return 0;
+    return report(KILN_USAGE, "render: --frames: found frame %u, but '%s' has frames 0-%u",
+                  end.last, job->path, last);
+}
+
+static int read_flipbook(struct job_list *list, const struct arguments *arguments)
+{
+    const struct option_use *grid = arguments_last(arguments, "flipbook");
+    const struct option_use *alpha = arguments_last(arguments, "flipbook-alpha");
+    const struct option_use *motion = arguments_last(arguments, "flipbook-motion");
+    const struct option_use *padding = arguments_last(arguments, "flipbook-padding");
+    const struct option_use *part = alpha ? alpha : motion ? motion : padding;
+    if (!grid)
+        return part ? report(KILN_USAGE, "render: --%s: there is no --flipbook to apply it to",
+                             part->option->name)
+                    : 0;
+    list->flipbook = (struct kiln_flipbook){
+        .columns = (uint32_t)grid->integer[0],
+        .rows = (uint32_t)grid->integer[1],
+        .padding = padding ? (uint32_t)padding->integer[0] : 0,
+        .premultiplied = alpha && alpha->choice == 1,
+        .motion = motion != NULL,
+    };
+    return 0;
+}
+
+/* Leaves of the job's frames those that a flipbook shows. */
+static int choose_cells(struct job *job, const struct kiln_flipbook *flipbook)
+{
+    size_t count = (size_t)flipbook->columns * flipbook->rows;
+    struct kiln_error error = {0};
+    job->cells = calloc(count, sizeof *job->cells);
+    if (!job->cells)
+        return report_no_memory();
+    if (!kiln_flipbook_sample(flipbook, job->frames.ranges, job->frames.count, job->cells, &error))
+        return report(error.code, "render: --flipbook: '%s': %s", job->path, error.message);
+    job->frames = (struct frame_list){job->cells, count};
+    return 0;
+}
+
+static int load_scenes(struct job_list *list, const struct arguments *arguments)
+{
+    struct overrides overrides;
+    if (!overrides_create(&overrides, arguments))
+        return report_no_memory();
+    struct kiln_scene_params params = overrides_scene_params(&overrides, arguments);
+    int code = 0;
+    for (size_t i = 0; i < list->count; i++) {
+        struct job *job = &list->jobs[i];
+        struct kiln_error error = {0};
+        job->scene = kiln_scene_load(job->path, &params, &error);
+        int failure;
+        if (job->scene) {
+            job->info = kiln_scene_info(job->scene);
+            failure = choose_frames(job, arguments);
+            if (failure == 0 && list->flipbook.columns > 0)
+                failure = choose_cells(job, &list->flipbook);
+        } else {
+            failure = report_error(&error);
+        }
+        code = code ? code : failure;
+    }
+    overrides_free(&overrides);
+    return code;
+}
+
+int job_list_create(struct job_list *list, const struct arguments *arguments)
+{
+    *list = (struct job_list){.jobs = calloc(arguments->operand_count, sizeof *list->jobs),
+                              .count = arguments->operand_count};
+    if (!list->jobs) {
+        list->count = 0;
+        return report_no_memory();
+    }
+    int code = read_flipbook(list, arguments);
+    code = code ? code : name_files(list, arguments);
+    code = code ? code : load_scenes(list, arguments);
+    return code ? code : claim_files(list);
+}
+
+void job_list_free(struct job_list *list)
+{
+    for (size_t i = 0; i < list->count; i++) {
+        kiln_scene_destroy(&list->jobs[i].scene);
+        free(list->jobs[i].output);
+        free(list->jobs[i].manifest);
+        free(list->jobs[i].cells);
+    }
+    free(list->jobs);
+    *list = (struct job_list){0};
+}

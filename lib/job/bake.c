@@ -1,0 +1,148 @@
+/* Saves states of a run on its way through a clip. */
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "base/temporary.h"
+#include "job/states.h"
+
+struct bake {
+    struct kiln_device *device;
+    const struct kiln_scene *scene;
+    const struct kiln_bake_params *params;
+    struct kiln_loop *loop;
+    struct kiln_states *states;
+    uint32_t every;
+    struct kiln_baked baked; /* the one at hand */
+    struct kiln_bake_stats stats;
+};
+
+/* False with KILN_INTERRUPTED when the caller wants no more; its callback may have used another
+ * device on this thread. */
+static bool may_go_on(void *user, struct kiln_error *error)
+{
+    const struct bake *bake = user;
+    if (!bake->params->stop)
+        return true;
+    if (bake->params->stop(bake->params->user))
+        return kiln_error_set(error, KILN_INTERRUPTED, "stopped after %u of %u states",
+                              bake->baked.done, bake->baked.frames);
+    return kiln_device_make_current(bake->device, error);
+}
+
+/* The frames before which states are saved. Before the first step there is nothing to save. */
+static uint32_t first_frame(const struct bake *bake)
+{
+    return bake->scene->warmup_steps > 0 ? 0 : bake->every;
+}
+
+static uint32_t count_states(const struct bake *bake)
+{
+    const uint32_t first = first_frame(bake), frames = bake->scene->frames;
+    return first < frames ? (frames - 1 - first) / bake->every + 1 : 0;
+}
+
+/* That no file is in the way, before hours go by. */
+static bool check_files(const struct bake *bake, struct kiln_error *error)
+{
+    char path[KILN_PATH_SIZE];
+    if (bake->params->overwrite || bake->params->resume)
+        return true;
+    for (uint64_t frame = first_frame(bake); frame < bake->scene->frames; frame += bake->every) {
+        const uint32_t step = kiln_scene_frame_step(bake->scene, (uint32_t)frame);
+        if (!kiln_states_path(bake->states, step, path, error) ||
+            !kiln_target_check(path, false, error))
+            return false;
+    }
+    return true;
+}
+
+/* Whether the file of the state at hand can stay as it is. */
+static bool is_kept(const struct bake *bake, uint32_t step)
+{
+    struct kiln_error reason = {0};
+    uint32_t found;
+    return bake->params->resume && kiln_states_find(bake->states, step, &found) && found == step &&
+           kiln_states_check(bake->states, step, &reason);
+}
+
+static bool save(struct bake *bake, uint32_t frame, uint32_t step, struct kiln_error *error)
+{
+    const bool resume = bake->params->resume;
+    uint32_t found;
+    if (resume && kiln_states_find(bake->states, step, &found) &&
+        !kiln_states_take_up(bake->states, bake->loop, frame, error))
+        return false;
+    return kiln_loop_advance(bake->loop, frame, error) &&
+           kiln_states_save(bake->states, bake->loop, frame, resume || bake->params->overwrite,
+                            &bake->baked.alive, error);
+}
+
+static bool visit_frame(struct bake *bake, uint32_t frame, struct kiln_error *error)
+{
+    char path[KILN_PATH_SIZE];
+    struct kiln_baked *baked = &bake->baked;
+    struct stat status = {0};
+    baked->frame = frame;
+    baked->step = kiln_scene_frame_step(bake->scene, frame);
+    baked->kept = is_kept(bake, baked->step);
+    if (!may_go_on(bake, error) || (!baked->kept && !save(bake, frame, baked->step, error)) ||
+        !kiln_states_path(bake->states, baked->step, path, error))
+        return false;
+    baked->bytes = stat(path, &status) == 0 ? (uint64_t)status.st_size : 0;
+    baked->file = path;
+    baked->done++;
+    bake->stats.states++;
+    bake->stats.kept += baked->kept;
+    bake->stats.bytes += baked->kept ? 0 : baked->bytes;
+    if (bake->params->saved)
+        bake->params->saved(bake->params->user, baked);
+    baked->file = NULL;
+    return kiln_device_make_current(bake->device, error);
+}
+
+static bool begin(struct bake *bake, struct kiln_error *error)
+{
+    const struct kiln_bake_params *params = bake->params;
+    const struct kiln_loop_params loop = {.techniques = params->techniques,
+                                          .technique_count = params->technique_count,
+                                          .threads = params->threads,
+                                          .log = params->log,
+                                          .caller = {may_go_on, bake}};
+    const struct kiln_output_needs needs = {.bits = 8};
+    const struct kiln_scene *scene = bake->scene;
+    char inside[KILN_PATH_SIZE];
+    bake->every = params->every ? params->every : kiln_part_frames(scene->fps.num, scene->fps.den);
+    bake->baked.frames = count_states(bake);
+    snprintf(inside, sizeof inside, "%s/", params->states);
+    if (!kiln_make_parent_folders(inside, error))
+        return false;
+    bake->loop = kiln_loop_create(bake->device, scene, &loop, error);
+    if (!bake->loop)
+        return false;
+    bake->states = kiln_states_open(params->states, scene, kiln_loop_techniques(bake->loop),
+                                    &params->log, error);
+    if (!bake->states || !check_files(bake, error))
+        return false;
+    memcpy(bake->stats.motion, kiln_states_motion(bake->states), sizeof bake->stats.motion);
+    return kiln_loop_set_up(bake->loop, needs, error);
+}
+
+bool kiln_bake(struct kiln_device *device, const struct kiln_scene *scene,
+               const struct kiln_bake_params *params, struct kiln_bake_stats *stats,
+               struct kiln_error *error)
+{
+    const double started_s = kiln_clock_seconds();
+    struct bake bake = {.device = device, .scene = scene, .params = params};
+    bool ok = begin(&bake, error);
+    for (uint64_t frame = first_frame(&bake); frame < scene->frames && ok; frame += bake.every)
+        ok = visit_frame(&bake, (uint32_t)frame, error);
+    bake.stats.steps = bake.loop ? kiln_loop_steps(bake.loop) : 0;
+    bake.stats.total_s = kiln_clock_seconds() - started_s;
+    kiln_states_close(&bake.states);
+    kiln_loop_destroy(&bake.loop);
+    if (stats)
+        *stats = bake.stats;
+    return ok;
+}

@@ -1,0 +1,401 @@
+/* The file of a state: a head of fixed order, which ends with its CRC-32, then packed tables of the
+ * records, of the spins, of what is painted, and of a kept order. Integers are little-endian. */
+#include "job/state.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include "asset/geometry/chart.h"
+#include "base/error.h"
+#include "base/file_in.h"
+#include "job/pack.h"
+
+#define MAGIC "kiln state "
+
+/* The format of the file; what steps make of a scene has a version of its own, which the motion
+ * hash covers. */
+enum { FORMAT = 1, MAX_HEAD = 1024, HASH_DIGITS = 64, VERSION_SIZE = 16 };
+
+enum { RECORD_WORDS = 8, SPIN_WORDS = 8, TEXEL_WORDS = 4, SPLAT_WORDS = 12 };
+
+/* Serials and birth words rise from slot to slot. */
+enum { RECORD_RISING = 1 << 3 | 1 << 7 };
+
+/* All that the head says. */
+struct head {
+    struct kiln_state_info info;
+    uint32_t turn;
+    uint32_t system_count, canvas_count;
+    struct head_system {
+        uint32_t capacity, spins;
+        uint64_t next_serial, birth_wait;
+    } systems[KILN_MAX_SYSTEMS];
+    struct head_canvas {
+        uint32_t edge, slot_count, next;
+    } canvases[KILN_MAX_MESHES];
+};
+
+/* ---- the head, in one description for both ways ---------------------------------------------- */
+
+struct cursor {
+    uint8_t bytes[MAX_HEAD];
+    size_t at, size; /* size: of what is read */
+    bool writes;
+    bool failed;
+};
+
+static void pass_bytes(struct cursor *c, uint8_t *value, size_t size)
+{
+    c->failed |= c->at + size > (c->writes ? sizeof c->bytes : c->size);
+    if (c->failed)
+        return;
+    if (c->writes)
+        memcpy(c->bytes + c->at, value, size);
+    else
+        memcpy(value, c->bytes + c->at, size);
+    c->at += size;
+}
+
+static void pass_long(struct cursor *c, uint64_t *value, size_t size)
+{
+    uint8_t bytes[8];
+    for (size_t i = 0; i < size; i++)
+        bytes[i] = (uint8_t)(*value >> (8 * i));
+    pass_bytes(c, bytes, size);
+    *value = 0;
+    for (size_t i = 0; i < size; i++)
+        *value |= (uint64_t)bytes[i] << (8 * i);
+}
+
+static void pass_word(struct cursor *c, uint32_t *value)
+{
+    uint64_t wide = *value;
+    pass_long(c, &wide, 4);
+    *value = (uint32_t)wide;
+}
+
+static void pass_head(struct cursor *c, struct head *head)
+{
+    struct kiln_state_info *info = &head->info;
+    pass_bytes(c, (uint8_t *)info->motion, HASH_DIGITS);
+    pass_bytes(c, (uint8_t *)info->order, HASH_DIGITS);
+    pass_bytes(c, (uint8_t *)info->kiln, VERSION_SIZE);
+    pass_word(c, &info->step);
+    pass_word(c, &info->frame);
+    pass_word(c, &info->hash.lane[0]);
+    pass_word(c, &info->hash.lane[1]);
+    pass_long(c, &info->alive, 8);
+    pass_word(c, &head->turn);
+    pass_word(c, &head->system_count);
+    pass_word(c, &head->canvas_count);
+    c->failed |= head->system_count > KILN_MAX_SYSTEMS || head->canvas_count > KILN_MAX_MESHES;
+    for (uint32_t i = 0; i < head->system_count && !c->failed; i++) {
+        struct head_system *system = &head->systems[i];
+        pass_word(c, &system->capacity);
+        pass_word(c, &system->spins);
+        pass_long(c, &system->next_serial, 8);
+        pass_long(c, &system->birth_wait, 8);
+    }
+    for (uint32_t i = 0; i < head->canvas_count && !c->failed; i++) {
+        struct head_canvas *canvas = &head->canvases[i];
+        pass_word(c, &canvas->edge);
+        pass_word(c, &canvas->slot_count);
+        pass_word(c, &canvas->next);
+    }
+}
+
+static struct head head_of(const struct kiln_state *state)
+{
+    const struct kiln_pool *pool = state->pool;
+    struct head head = {.info = state->info,
+                        .turn = state->turn,
+                        .system_count = pool->system_count,
+                        .canvas_count = pool->canvas_count};
+    for (uint32_t i = 0; i < pool->system_count; i++) {
+        const struct kiln_pool_system *system = &pool->systems[i];
+        head.systems[i] = (struct head_system){.capacity = system->capacity,
+                                               .spins = pool->spins.size > 0 && system->spins,
+                                               .next_serial = system->next_serial,
+                                               .birth_wait = system->birth_wait};
+    }
+    for (uint32_t i = 0; i < pool->canvas_count; i++) {
+        const struct kiln_canvas *canvas = &pool->canvases[i];
+        head.canvases[i] = (struct head_canvas){
+            .edge = canvas->edge, .slot_count = canvas->slot_count, .next = canvas->next};
+    }
+    return head;
+}
+
+/* MAGIC and the format, a line; the size of the head with its CRC; what pass_head says; the CRC. */
+static void write_head(struct kiln_temporary *file, struct head *head)
+{
+    struct cursor c = {.writes = true};
+    char line[32];
+    const int length = snprintf(line, sizeof line, MAGIC "%d\n", FORMAT);
+    pass_bytes(&c, (uint8_t *)line, (size_t)length);
+    const size_t size_at = c.at;
+    uint32_t size = 0, crc;
+    pass_word(&c, &size);
+    pass_head(&c, head);
+    const size_t end = c.at;
+    size = (uint32_t)end + 4;
+    c.at = size_at;
+    pass_word(&c, &size);
+    c.at = end;
+    crc = (uint32_t)crc32_z(0, c.bytes, end);
+    pass_word(&c, &crc);
+    kiln_temporary_write(file, c.bytes, c.at);
+}
+
+static bool is_hash(const char *text)
+{
+    return strspn(text, "0123456789abcdef") == HASH_DIGITS;
+}
+
+static bool refuse(const char *path, const char *reason, struct kiln_error *error)
+{
+    return kiln_error_set(error, KILN_INVALID_INPUT, "%s: %s", path, reason);
+}
+
+/* Reads the first line and the size that follows, into the cursor. */
+static bool read_start(int file, const char *path, struct cursor *c, uint32_t *size,
+                       struct kiln_error *error)
+{
+    *size = 0;
+    char line[sizeof MAGIC + 16];
+    const size_t length = (size_t)snprintf(line, sizeof line, MAGIC "%d\n", FORMAT);
+    *c = (struct cursor){.size = length + 4};
+    if (!kiln_pack_read_bytes(file, c->bytes, c->size, path, error))
+        return refuse(path, "is not a saved state", error);
+    if (memcmp(c->bytes, MAGIC, strlen(MAGIC)) != 0)
+        return refuse(path, "is not a saved state", error);
+    if (memcmp(c->bytes, line, length) != 0)
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "%s: is a state of another format; this kiln reads format %d", path,
+                              FORMAT);
+    c->at = length;
+    pass_word(c, size);
+    return (*size > c->size + sizeof *size && *size <= MAX_HEAD) ||
+           refuse(path, "the file is damaged", error);
+}
+
+/* No scene has more slots or larger canvases. */
+static bool is_plausible(const struct head *head)
+{
+    uint64_t slots = 0;
+    uint32_t edge = 0;
+    for (uint32_t i = 0; i < head->system_count; i++)
+        slots += head->systems[i].capacity;
+    for (uint32_t i = 0; i < head->canvas_count; i++) {
+        edge = head->canvases[i].edge > edge ? head->canvases[i].edge : edge;
+        slots += head->canvases[i].slot_count;
+    }
+    return slots < UINT32_MAX && edge <= KILN_MAX_CHART;
+}
+
+static bool read_head(int file, const char *path, struct head *head, struct kiln_error *error)
+{
+    struct cursor c;
+    uint32_t size, crc = 0;
+    if (!read_start(file, path, &c, &size, error) ||
+        !kiln_pack_read_bytes(file, c.bytes + c.size, size - c.size, path, error))
+        return false;
+    c.size = size;
+    *head = (struct head){.turn = 0};
+    pass_head(&c, head);
+    const size_t end = c.at;
+    pass_word(&c, &crc);
+    if (c.failed || c.at != size || crc != (uint32_t)crc32_z(0, c.bytes, end) ||
+        !is_hash(head->info.motion) || (head->info.order[0] && !is_hash(head->info.order)) ||
+        !is_plausible(head))
+        return refuse(path, "the file is damaged", error);
+    return true;
+}
+
+/* ---- the tables ------------------------------------------------------------------------------ */
+
+/* What is done with each table of a state, in the order of the file: it is written, read, or looked
+ * through. words is NULL where it is only looked through. */
+struct visitor {
+    bool (*visit)(const struct visitor *visitor, const struct kiln_table *table,
+                  struct kiln_error *error);
+    struct kiln_threads *threads;
+    struct kiln_temporary *out;
+    int file;
+    const char *path;
+};
+
+static bool write_table(const struct visitor *v, const struct kiln_table *table,
+                        struct kiln_error *error)
+{
+    return kiln_pack_write(table, v->threads, v->out, error);
+}
+
+static bool read_table(const struct visitor *v, const struct kiln_table *table,
+                       struct kiln_error *error)
+{
+    return kiln_pack_read(table, v->threads, v->file, v->path, error);
+}
+
+static bool check_table(const struct visitor *v, const struct kiln_table *table,
+                        struct kiln_error *error)
+{
+    return kiln_pack_check(table, v->file, v->path, error);
+}
+
+/* Where the tables of a state lie in memory; all NULL where they are only looked through. */
+struct places {
+    uint32_t *records, *spins, *slots;
+    uint32_t *texels[KILN_MAX_MESHES], *waiting[KILN_MAX_MESHES];
+};
+
+static bool visit_tables(const struct visitor *v, const struct head *head,
+                         const struct places *places, struct kiln_error *error)
+{
+    size_t slots = 0, spins = 0;
+    for (uint32_t i = 0; i < head->system_count; i++) {
+        slots += head->systems[i].capacity;
+        spins += head->systems[i].spins ? head->systems[i].capacity : 0;
+    }
+    const struct kiln_table records = {places->records, slots, RECORD_WORDS, RECORD_RISING};
+    const struct kiln_table turning = {places->spins, spins, SPIN_WORDS, 0};
+    if (!v->visit(v, &records, error) || !v->visit(v, &turning, error))
+        return false;
+    for (uint32_t i = 0; i < head->canvas_count; i++) {
+        const struct head_canvas *canvas = &head->canvases[i];
+        const struct kiln_table texels = {places->texels[i], (size_t)canvas->edge * canvas->edge,
+                                          TEXEL_WORDS, 0};
+        const struct kiln_table waiting = {places->waiting[i], canvas->slot_count, SPLAT_WORDS, 0};
+        if (!v->visit(v, &texels, error) || !v->visit(v, &waiting, error))
+            return false;
+    }
+    const struct kiln_table order = {places->slots, slots, 1, 0};
+    return !head->info.order[0] || v->visit(v, &order, error);
+}
+
+/* The places of a pool; access as it is for its buffers. */
+static bool find_places(struct kiln_pool *pool, enum kiln_access access, struct places *places,
+                        struct kiln_error *error)
+{
+    places->records = kiln_buffer_host(&pool->records, access, error);
+    if (!places->records)
+        return false;
+    if (pool->spins.size > 0 && !(places->spins = kiln_buffer_host(&pool->spins, access, error)))
+        return false;
+    for (uint32_t i = 0; i < pool->canvas_count; i++) {
+        places->texels[i] = (uint32_t *)pool->canvases[i].texels;
+        places->waiting[i] = (uint32_t *)pool->canvases[i].waiting;
+    }
+    return true;
+}
+
+/* ---- writing --------------------------------------------------------------------------------- */
+
+bool kiln_state_write(const struct kiln_state *state, const char *path, bool overwrite,
+                      struct kiln_threads *threads, struct kiln_error *error)
+{
+    struct head head = head_of(state);
+    struct places places = {.slots = state->slots};
+    struct kiln_temporary file = {0};
+    snprintf(head.info.kiln, sizeof head.info.kiln, "%s", KILN_VERSION);
+    if (!find_places(state->pool, KILN_READ, &places, error) ||
+        !kiln_target_check(path, overwrite, error) || !kiln_temporary_open(&file, path, error))
+        return false;
+    const struct visitor visitor = {.visit = write_table, .threads = threads, .out = &file};
+    write_head(&file, &head);
+    if (visit_tables(&visitor, &head, &places, error))
+        return kiln_temporary_commit(&file, overwrite, error);
+    kiln_temporary_discard(&file);
+    return false;
+}
+
+/* ---- reading --------------------------------------------------------------------------------- */
+
+/* Whether the file ends here. */
+static bool is_at_end(int file, const char *path, struct kiln_error *error)
+{
+    uint8_t more;
+    return read(file, &more, 1) == 0 || refuse(path, "the file goes on behind its end", error);
+}
+
+bool kiln_state_check(const char *path, struct kiln_state_info *info, struct kiln_error *error)
+{
+    size_t size;
+    const int file = kiln_file_open(path, "saved state", "a file of kiln bake", &size, error);
+    if (file < 0)
+        return false;
+    struct head head;
+    const struct places nowhere = {.records = NULL};
+    const struct visitor visitor = {.visit = check_table, .file = file, .path = path};
+    const bool ok = read_head(file, path, &head, error) &&
+                    visit_tables(&visitor, &head, &nowhere, error) && is_at_end(file, path, error);
+    close(file);
+    if (ok)
+        *info = head.info;
+    return ok;
+}
+
+/* Makes the pool what the head says, but for the tables. */
+static bool shape_pool(struct kiln_pool *pool, const struct head *head, const char *path,
+                       struct kiln_error *error)
+{
+    bool spins[KILN_MAX_SYSTEMS] = {false}, fits = head->system_count == pool->system_count;
+    for (uint32_t i = 0; i < pool->system_count && fits; i++) {
+        struct kiln_pool_system *system = &pool->systems[i];
+        fits = head->systems[i].capacity == system->capacity;
+        system->next_serial = head->systems[i].next_serial;
+        system->birth_wait = head->systems[i].birth_wait;
+        spins[i] = head->systems[i].spins != 0;
+    }
+    for (uint32_t i = 0; i < pool->system_count && fits; i++)
+        fits = pool->spins.size == 0 || pool->systems[i].spins == spins[i];
+    if (!fits)
+        return refuse(path, "is a state of other systems", error);
+    kiln_pool_add_spins(pool, spins);
+    for (uint32_t i = 0; i < head->canvas_count; i++) {
+        const struct head_canvas *from = &head->canvases[i];
+        struct kiln_canvas *canvas = &pool->canvases[i];
+        const uint32_t changes = i < pool->canvas_count ? canvas->changes : 0;
+        kiln_canvas_finish(canvas);
+        pool->canvas_count = pool->canvas_count > i ? pool->canvas_count : i + 1;
+        if (!kiln_canvas_init(canvas, from->edge, from->slot_count, error))
+            return false;
+        canvas->next = from->next;
+        canvas->changes = changes + 1; /* who has drawn it before must draw it anew */
+    }
+    return true;
+}
+
+static bool read_state(struct kiln_state *state, const struct visitor *visitor,
+                       struct kiln_error *error)
+{
+    struct head head;
+    struct places places = {.slots = state->slots};
+    if (!read_head(visitor->file, visitor->path, &head, error) ||
+        !shape_pool(state->pool, &head, visitor->path, error) ||
+        !find_places(state->pool, KILN_OVERWRITE, &places, error))
+        return false;
+    state->info = head.info;
+    state->turn = head.turn;
+    if (!state->slots) /* whoever wants none reads none: it comes last */
+        head.info.order[0] = '\0';
+    else if (!head.info.order[0])
+        return refuse(visitor->path, "has no order of a spread sort", error);
+    return visit_tables(visitor, &head, &places, error);
+}
+
+bool kiln_state_read(struct kiln_state *state, const char *path, struct kiln_threads *threads,
+                     struct kiln_error *error)
+{
+    size_t size;
+    const int file = kiln_file_open(path, "saved state", "a file of kiln bake", &size, error);
+    if (file < 0)
+        return false;
+    const struct visitor visitor = {
+        .visit = read_table, .threads = threads, .file = file, .path = path};
+    const bool ok = read_state(state, &visitor, error);
+    close(file);
+    return ok;
+}

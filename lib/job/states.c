@@ -1,0 +1,285 @@
+/* Files are named by the motion they are of and by their step, so that those of several scenes may
+ * share a folder: "3f9a12bc77d0e1f2-00000620.kilnstate". */
+#include "job/states.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/hash.h"
+#include "base/log.h"
+#include "base/text.h"
+#include "job/state.h"
+#include "scene/motion.h"
+
+#define SUFFIX ".kilnstate"
+
+enum { PREFIX_DIGITS = 16 };
+
+struct kiln_states {
+    const char *folder;
+    const struct kiln_scene *scene;
+    struct kiln_log log;
+    char motion[65];
+    char order[65];  /* "": no order is kept */
+    uint32_t *steps; /* of the files, ascending */
+    size_t count;
+    size_t others; /* files of other motions */
+};
+
+/* ---- listing --------------------------------------------------------------------------------- */
+
+/* Takes both hashes; that of an order covers the technique that keeps it. */
+static bool take_hashes(struct kiln_states *states, const struct kiln_techniques *techniques,
+                        struct kiln_error *error)
+{
+    char of_scene[65];
+    if (!kiln_scene_part_hash(states->scene, KILN_PART_MOTION, states->motion, error))
+        return false;
+    if (techniques->sort_spread == 0)
+        return true;
+    if (!kiln_scene_part_hash(states->scene, KILN_PART_ORDER, of_scene, error))
+        return false;
+    char text[128];
+    const int length = snprintf(text, sizeof text, "%s %u", of_scene, techniques->sort_spread);
+    return kiln_hash_sha256(text, (size_t)length, states->order) ||
+           kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a hash of a scene");
+}
+
+/* The step in the name of a file of this motion. *other: it is one of another. */
+static bool parse_name(const struct kiln_states *states, const char *name, uint32_t *step,
+                       bool *other)
+{
+    const size_t length = strlen(name), suffix = strlen(SUFFIX);
+    char digits[16] = "";
+    *other = false;
+    if (length <= suffix || strcmp(name + length - suffix, SUFFIX) != 0)
+        return false;
+    const size_t count = length - suffix - PREFIX_DIGITS - 1;
+    *other = length < suffix + PREFIX_DIGITS + 2 ||
+             memcmp(name, states->motion, PREFIX_DIGITS) != 0 || name[PREFIX_DIGITS] != '-' ||
+             count >= sizeof digits;
+    if (*other)
+        return false;
+    memcpy(digits, name + PREFIX_DIGITS + 1, count);
+    uint64_t value = 0;
+    const bool good = kiln_text_to_uint64(digits, &value) && value <= KILN_MAX_STEPS;
+    *step = (uint32_t)value;
+    return good;
+}
+
+static int compare_steps(const void *a, const void *b)
+{
+    const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+    return (x > y) - (x < y);
+}
+
+static bool add_step(struct kiln_states *states, uint32_t step, struct kiln_error *error)
+{
+    if ((states->count & (states->count - 1)) == 0) { /* full: a power of two */
+        const size_t room = states->count ? 2 * states->count : 1;
+        uint32_t *steps = realloc(states->steps, room * sizeof *steps);
+        if (!steps)
+            return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a list of states");
+        states->steps = steps;
+    }
+    states->steps[states->count++] = step;
+    return true;
+}
+
+static bool list(struct kiln_states *states, struct kiln_error *error)
+{
+    DIR *folder = opendir(states->folder);
+    if (!folder)
+        return kiln_error_set_errno(error, KILN_IO, errno,
+                                    "%s: the folder of states cannot be read", states->folder);
+    bool ok = true;
+    for (const struct dirent *entry; ok && (entry = readdir(folder));) {
+        uint32_t step;
+        bool other;
+        if (parse_name(states, entry->d_name, &step, &other))
+            ok = add_step(states, step, error);
+        states->others += other;
+    }
+    closedir(folder);
+    if (states->count > 0)
+        qsort(states->steps, states->count, sizeof *states->steps, compare_steps);
+    return ok;
+}
+
+struct kiln_states *kiln_states_open(const char *folder, const struct kiln_scene *scene,
+                                     const struct kiln_techniques *techniques,
+                                     const struct kiln_log *log, struct kiln_error *error)
+{
+    struct kiln_states *states = calloc(1, sizeof *states);
+    if (!states) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a list of states");
+        return NULL;
+    }
+    states->folder = folder;
+    states->scene = scene;
+    states->log = *log;
+    if (!take_hashes(states, techniques, error) || !list(states, error))
+        kiln_states_close(&states);
+    return states;
+}
+
+void kiln_states_close(struct kiln_states **states)
+{
+    if (*states)
+        free((*states)->steps);
+    free(*states);
+    *states = NULL;
+}
+
+const char *kiln_states_motion(const struct kiln_states *states)
+{
+    return states->motion;
+}
+
+bool kiln_states_path(const struct kiln_states *states, uint32_t step, char path[KILN_PATH_SIZE],
+                      struct kiln_error *error)
+{
+    char name[PREFIX_DIGITS + sizeof SUFFIX + 16];
+    snprintf(name, sizeof name, "%.*s-%08u" SUFFIX, PREFIX_DIGITS, states->motion, step);
+    return kiln_path_join(path, states->folder, name, error);
+}
+
+bool kiln_states_find(const struct kiln_states *states, uint32_t step, uint32_t *found)
+{
+    size_t i = states->count;
+    while (i > 0 && states->steps[i - 1] > step)
+        i--;
+    if (i > 0)
+        *found = states->steps[i - 1];
+    return i > 0;
+}
+
+/* ---- taking up and saving -------------------------------------------------------------------- */
+
+static bool check(const struct kiln_states *states, uint32_t step, struct kiln_state_info *info,
+                  struct kiln_error *error)
+{
+    char path[KILN_PATH_SIZE];
+    if (!kiln_states_path(states, step, path, error) || !kiln_state_check(path, info, error))
+        return false;
+    if (strcmp(info->motion, states->motion) != 0)
+        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: is a state of another motion, %.16s",
+                              path, info->motion);
+    if (info->step != step)
+        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: is the state of step %u", path,
+                              info->step);
+    if (states->order[0] && strcmp(info->order, states->order) != 0)
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "%s: does not have the order that this spread sort keeps; bake with "
+                              "the same --technique, camera and rates",
+                              path);
+    return true;
+}
+
+bool kiln_states_check(const struct kiln_states *states, uint32_t step, struct kiln_error *error)
+{
+    struct kiln_state_info info;
+    return check(states, step, &info, error);
+}
+
+/* The slots of an order that a loop keeps; NULL without one, or with an error. */
+static uint32_t *make_slots(const struct kiln_states *states, struct kiln_loop *loop,
+                            struct kiln_error *error)
+{
+    if (!states->order[0])
+        return NULL;
+    const uint32_t count = kiln_loop_run(loop)->pool.slot_count;
+    uint32_t *slots = calloc((size_t)count + 1, sizeof *slots);
+    if (!slots)
+        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a saved order");
+    return slots;
+}
+
+static bool verify_hash(struct kiln_loop *loop, const struct kiln_state_info *info,
+                        const char *path, struct kiln_error *error)
+{
+    struct kiln_state_hash hash;
+    uint64_t alive;
+    if (!kiln_loop_hash(loop, &hash, &alive, error))
+        return false;
+    return (memcmp(&hash, &info->hash, sizeof hash) == 0 && alive == info->alive) ||
+           kiln_error_set(error, KILN_INVALID_INPUT,
+                          "%s: holds %" PRIu64 " particles of state %08x%08x, not the %" PRIu64
+                          " of %08x%08x that it names",
+                          path, alive, hash.lane[0], hash.lane[1], info->alive, info->hash.lane[0],
+                          info->hash.lane[1]);
+}
+
+static bool take_up(const struct kiln_states *states, struct kiln_loop *loop, uint32_t step,
+                    struct kiln_error *error)
+{
+    char path[KILN_PATH_SIZE];
+    struct kiln_run *run = kiln_loop_run(loop);
+    struct kiln_state state = {.pool = &run->pool, .slots = make_slots(states, loop, error)};
+    bool ok = (state.slots || !states->order[0]) && kiln_states_path(states, step, path, error) &&
+              kiln_state_read(&state, path, kiln_loop_threads(loop), error);
+    if (ok && state.slots)
+        ok = kiln_sort_restore(kiln_loop_kept_sort(loop), &run->pool, state.slots, state.turn,
+                               error);
+    free(state.slots);
+    if (!ok)
+        return false;
+    run->step = step;
+    kiln_loop_resume(loop, state.info.frame);
+    return verify_hash(loop, &state.info, path, error);
+}
+
+/* That a run begins at its start although there is a folder of states. */
+static void tell_of_none(const struct kiln_states *states, uint32_t frame)
+{
+    char others[64] = "";
+    if (states->count == 0 && states->others > 0)
+        snprintf(others, sizeof others, " (%zu of other motions)", states->others);
+    kiln_log_write(&states->log, KILN_LOG_WARNING,
+                   "%s: no state of '%s' at or before frame %u%s; stepping from the start",
+                   states->folder, states->scene->name, frame, others);
+}
+
+bool kiln_states_take_up(const struct kiln_states *states, struct kiln_loop *loop, uint32_t frame,
+                         struct kiln_error *error)
+{
+    const uint32_t now = kiln_loop_run(loop)->step;
+    uint32_t step = kiln_scene_frame_step(states->scene, frame);
+    while (step > now && kiln_states_find(states, step, &step) && step > now) {
+        struct kiln_state_info info;
+        struct kiln_error reason = {0};
+        if (check(states, step, &info, &reason))
+            return take_up(states, loop, step, error);
+        kiln_log_write(&states->log, KILN_LOG_WARNING, "%s; it is not used", reason.message);
+        step--;
+    }
+    if (now == 0 && kiln_scene_frame_step(states->scene, frame) > 0)
+        tell_of_none(states, frame);
+    return true;
+}
+
+bool kiln_states_save(const struct kiln_states *states, struct kiln_loop *loop, uint32_t frame,
+                      bool overwrite, uint64_t *alive, struct kiln_error *error)
+{
+    char path[KILN_PATH_SIZE];
+    struct kiln_run *run = kiln_loop_run(loop);
+    struct kiln_state state = {.pool = &run->pool, .slots = make_slots(states, loop, error)};
+    memcpy(state.info.motion, states->motion, sizeof state.info.motion);
+    memcpy(state.info.order, states->order, sizeof state.info.order);
+    state.info.step = run->step;
+    state.info.frame = frame;
+    bool ok =
+        (state.slots || !states->order[0]) && kiln_states_path(states, run->step, path, error) &&
+        kiln_loop_hash(loop, &state.info.hash, &state.info.alive, error) &&
+        (!state.slots ||
+         kiln_sort_save(kiln_loop_kept_sort(loop), &run->pool, state.slots, &state.turn, error)) &&
+        kiln_state_write(&state, path, overwrite, kiln_loop_threads(loop), error);
+    free(state.slots);
+    *alive = state.info.alive;
+    return ok;
+}

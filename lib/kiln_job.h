@@ -1,0 +1,110 @@
+/* Jobs in parts, and what outlives them: part of kiln.h, which includes it. */
+#ifndef KILN_JOB_H
+#define KILN_JOB_H
+
+#include "kiln.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A clip is a sequence of parts of equal length, which do not depend on each other: so many frames,
+ * about two seconds of them and at most 600. The last part may be shorter. */
+uint32_t kiln_part_frames(uint32_t fps_num, uint32_t fps_den);
+
+/* ---- Saved states --------------------------------------------------------------------------- */
+
+/* A state that was saved: what a run carries from one step to the next. It serves every scene of
+ * the same motion, whatever that looks like, on every device and with every technique. */
+struct kiln_baked {
+    uint32_t frame, frames; /* the one that it was saved before, of so many states to be saved */
+    uint32_t done;          /* of these, it included */
+    uint32_t step;
+    uint64_t alive; /* particles */
+    uint64_t bytes; /* of the file */
+    bool kept;      /* it was there already */
+    const char *file;
+};
+
+struct kiln_bake_params {
+    const char *states; /* the folder; it is made if it is missing */
+    uint32_t every;     /* frames between two states; 0: one before each part */
+    const char *const
+        *techniques; /* "stage=name"; with those of a spread sort, its order is saved */
+    size_t technique_count;
+    uint32_t threads; /* 0 takes one a core */
+    bool overwrite;   /* states of the same names; else they are refused, */
+    bool resume;      /* or else kept where they are whole, and the run goes on from them */
+    void (*saved)(void *user, const struct kiln_baked *state); /* told of each; NULL: nobody */
+    bool (*stop)(void *user); /* asked between steps; true ends with KILN_INTERRUPTED */
+    void *user;
+    struct kiln_log log;
+};
+
+struct kiln_bake_stats {
+    uint32_t states, kept; /* that are there now; of these were there before */
+    uint64_t steps;        /* that were done */
+    uint64_t bytes;        /* of the files that were written */
+    double total_s;
+    char motion[65]; /* the motion hash, by which they are known */
+};
+
+/* Steps through the clip once and saves states, whole files alone under their names. A state of
+ * step 0 is none. KILN_USAGE, KILN_IO, KILN_INTERRUPTED, or the errors of kiln_render. stats may be
+ * NULL.
+ */
+bool kiln_bake(struct kiln_device *device, const struct kiln_scene *scene,
+               const struct kiln_bake_params *params, struct kiln_bake_stats *stats,
+               struct kiln_error *error);
+
+/* ---- Plans ---------------------------------------------------------------------------------- */
+
+/* What a scene costs, measured by drawing one of its frames. CPU times are of all threads. */
+struct kiln_plan {
+    uint32_t parts, part_frames; /* of the clip; frames of a part but the last */
+    uint32_t frame;              /* the one that was drawn */
+    uint64_t steps;              /* that were done for it */
+    double setup_cpu_s;          /* programs, textures, buffers */
+    double step_cpu_s;           /* a step, in the mean of those */
+    double frame_cpu_s;          /* a frame, its steps and its encoding apart */
+    uint64_t memory_bytes;       /* the most that the process had at once */
+    char motion[65], techniques[256];
+};
+
+/* One of several tasks that draw a clip together: whole parts, as many as the others or one more.
+ */
+struct kiln_plan_task {
+    uint32_t index, count;          /* from 0; of so many */
+    uint32_t first_part, end;       /* parts first_part to end - 1; none where they are equal */
+    struct kiln_frame_range frames; /* of these */
+    bool has_state;
+    uint32_t state_step; /* of the state that it starts at; else it steps from 0 */
+    uint64_t steps;      /* from there */
+    double cpu_s;        /* set-up, steps and frames */
+};
+
+struct kiln_plan_params {
+    uint32_t tasks;     /* at least 1 */
+    const char *states; /* a folder of kiln_bake, or NULL */
+    int64_t frame;      /* to measure; -1: the middle one */
+    const char *const *techniques;
+    size_t technique_count;
+    uint32_t threads;
+    bool (*stop)(void *user); /* asked between steps; true ends with KILN_INTERRUPTED */
+    /* Told of each task in turn, with plan filled. */
+    void (*task)(void *user, const struct kiln_plan *plan, const struct kiln_plan_task *task);
+    void *user;
+    struct kiln_log log;
+};
+
+/* Measures and tells what each task would do. KILN_USAGE for a frame that there is not, or the
+ * errors of kiln_render. */
+bool kiln_plan(struct kiln_device *device, const struct kiln_scene *scene,
+               const struct kiln_plan_params *params, struct kiln_plan *plan,
+               struct kiln_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

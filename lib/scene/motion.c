@@ -1,0 +1,58 @@
+/* The motion hash: a state that was saved serves every scene that moves its particles alike,
+ * however they look. */
+#include "scene/motion.h"
+
+#include <errno.h>
+
+#include "base/error.h"
+#include "base/hash.h"
+
+static bool add_file(struct kiln_text *text, const char *path, struct kiln_error *error)
+{
+    char hex[65];
+    if (!kiln_hash_sha256_file(path, hex))
+        return kiln_error_set_errno(error, KILN_INVALID_INPUT, errno, "%s", path);
+    kiln_text_add(text, "%s\n", hex);
+    return true;
+}
+
+/* Winds, and what particles meet. */
+static bool add_files(struct kiln_text *text, const struct kiln_scene *scene,
+                      struct kiln_error *error)
+{
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_system *system = &scene->systems[i];
+        for (uint32_t k = 0; k < system->force_count; k++) {
+            if (system->forces[k].kind == KILN_FORCE_FIELD &&
+                !add_file(text, system->forces[k].file, error))
+                return false;
+        }
+    }
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        const struct kiln_object *object = &scene->backdrop.objects[i];
+        if (kiln_parts_if_object_is_met(scene, object) == 0)
+            continue;
+        if (object->kind == KILN_OBJECT_MESH)
+            kiln_text_add(text, "%s\n", object->shown->hash);
+        else if (object->kind == KILN_OBJECT_TERRAIN && object->file &&
+                 !add_file(text, object->file, error))
+            return false;
+    }
+    return true;
+}
+
+bool kiln_scene_part_hash(const struct kiln_scene *scene, enum kiln_scene_part part, char hex[65],
+                          struct kiln_error *error)
+{
+    struct kiln_text text;
+    bool ok = kiln_print_scene(scene, part, &text);
+    kiln_text_add(&text, "version %d\n", KILN_STATE_VERSION);
+    for (uint32_t i = 0; i < scene->system_count; i++)
+        kiln_text_add(&text, "slots %u\n", scene->systems[i].capacity);
+    const bool read = !ok || add_files(&text, scene, error);
+    ok = ok && !text.failed && kiln_hash_sha256(text.data, text.length, hex);
+    kiln_text_free(&text);
+    if (!read)
+        return false;
+    return ok || kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a hash of a scene");
+}

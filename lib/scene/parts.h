@@ -1,0 +1,32 @@
+/* Parts of a scene that are known apart by hashes of their own (scene/motion.c). Each row of the
+ * option tables says which of them it belongs to. */
+#ifndef KILN_SCENE_PARTS_H
+#define KILN_SCENE_PARTS_H
+
+#include "scene/scene.h"
+
+enum kiln_scene_part {
+    KILN_PART_MOTION = 1, /* what decides the state of the particles */
+    KILN_PART_ORDER = 2,  /* and what decides the order that a spread sort keeps */
+};
+
+/* What a row says: as `parts` of struct kiln_option. */
+unsigned kiln_parts_look(const void *scene, const void *base);
+unsigned kiln_parts_order(const void *scene, const void *base);
+unsigned kiln_parts_motion(const void *scene, const void *base);
+
+/* Motion under a condition; base is a struct kiln_look, kiln_object or kiln_backdrop. */
+unsigned kiln_parts_if_contacts_are_as_drawn(const void *scene, const void *look);
+unsigned kiln_parts_if_it_paints(const void *scene, const void *look);
+unsigned kiln_parts_if_object_is_met(const void *scene, const void *object);
+unsigned kiln_parts_if_floor_is_met(const void *scene, const void *backdrop);
+
+#define LOOK                     kiln_parts_look
+#define ORDER                    kiln_parts_order
+#define MOTION                   kiln_parts_motion
+#define IF_CONTACTS_ARE_AS_DRAWN kiln_parts_if_contacts_are_as_drawn
+#define IF_IT_PAINTS             kiln_parts_if_it_paints
+#define IF_OBJECT_IS_MET         kiln_parts_if_object_is_met
+#define IF_FLOOR_IS_MET          kiln_parts_if_floor_is_met
+
+#endif
