@@ -104,8 +104,9 @@ static void print_result(const struct bake *bake, const struct kiln_bake_stats *
         kiln_json_time(&json, "total_s", stats->total_s);
         event_end(&json);
     } else if (!bake->quiet) {
-        printf("%s: %" PRIu32 " states of motion %.16s after %" PRIu64 " steps in %.3f s\n",
-               bake->params.states, stats->states, stats->motion, stats->steps, stats->total_s);
+        printf("%s: %" PRIu32 " state%s of motion %.16s after %" PRIu64 " steps in %.3f s\n",
+               bake->params.states, stats->states, stats->states == 1 ? "" : "s", stats->motion,
+               stats->steps, stats->total_s);
     }
 }
 

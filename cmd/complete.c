@@ -334,6 +334,7 @@ static const struct {
     {"REFERENCE", put_files},
     {"TEST", put_files},
     {"FOLDER", put_folders},
+    {"STATES", put_folders},
     {"NAME", put_tests},
     {"PATTERN", put_tests},
     {"TOPIC", put_topics},

@@ -24,6 +24,7 @@ set(kiln_test_times
     "gpu.occlusion 10"
     "gpu.long_loops 10"
     "unit.host 20 3"
+    "unit.motion 10"
     "unit.slots 10"
     "unit.fragments 10"
     "unit.sun_cover 10"

@@ -15,6 +15,7 @@
 #include "base/text.h"
 #include "job/state.h"
 #include "scene/motion.h"
+#include "sim/paint/paint.h"
 
 #define SUFFIX ".kilnstate"
 
@@ -200,6 +201,17 @@ static uint32_t *make_slots(const struct kiln_states *states, struct kiln_loop *
     return slots;
 }
 
+/* That what the state brings is what steps of the scene would have made, whatever its hash says. */
+static bool check_shape(const struct kiln_scene *scene, const struct kiln_pool *pool,
+                        const char *path, struct kiln_error *error)
+{
+    bool fits = kiln_paint_fits(scene, pool);
+    for (uint32_t i = 0; i < scene->system_count; i++)
+        fits = fits && pool->systems[i].spins == kiln_scene_system_spins(scene, i);
+    return fits || kiln_error_set(error, KILN_INVALID_INPUT, "%s: is not a state of '%s'", path,
+                                  scene->name);
+}
+
 static bool verify_hash(struct kiln_loop *loop, const struct kiln_state_info *info,
                         const char *path, struct kiln_error *error)
 {
@@ -222,7 +234,8 @@ static bool take_up(const struct kiln_states *states, struct kiln_loop *loop, ui
     struct kiln_run *run = kiln_loop_run(loop);
     struct kiln_state state = {.pool = &run->pool, .slots = make_slots(states, loop, error)};
     bool ok = (state.slots || !states->order[0]) && kiln_states_path(states, step, path, error) &&
-              kiln_state_read(&state, path, kiln_loop_threads(loop), error);
+              kiln_state_read(&state, path, kiln_loop_threads(loop), error) &&
+              check_shape(states->scene, &run->pool, path, error);
     if (ok && state.slots)
         ok = kiln_sort_restore(kiln_loop_kept_sort(loop), &run->pool, state.slots, state.turn,
                                error);

@@ -80,7 +80,7 @@ static const char *const media[] = {
 };
 
 static const struct kiln_option pens[] = {
-    INTEGER("count", pens, 1, 8, "4", "How many."),
+    INTEGER(NO_PART, "count", pens, 1, 8, "4", "How many."),
     END,
 };
 
@@ -91,7 +91,7 @@ static const struct kiln_option limit[] = {
 };
 
 static const struct kiln_option rows[] = {
-    INTEGER("plotter", version, 1, 1, NULL, "Version of the format."),
+    INTEGER(NO_PART, "plotter", version, 1, 1, NULL, "Version of the format."),
     GROUP(NO_PART, "pens", 0, pens, "What it draws with."),
     {ROW(NO_PART, "limit", switch, 0, "none", "When it gives up."), .members = limit,
      .count_offset = AT(limited)},
@@ -106,10 +106,10 @@ static const struct kiln_option rows[] = {
     {ROW(NO_PART, "title", text, AT(title), "\"\"", "What it draws."), LIMITS(KILN_PLAIN, 0, 20)},
     {ROW(NO_PART, "room", bounds, AT(room), "none", "Where the pen may be."),
      LIMITS(KILN_METRES, -9, 9), .word = "none"},
-    VALUE("speed", speed, KILN_SPEED, 0, 10, BOTH, "1 m/s", "Of the pen."),
-    VECTOR("place", place, KILN_METRES, -9, 9, TIME, "[0, 0, 0]", "Of the plotter."),
-    COLOR("ink", ink, 1, TIME, "0", "What it draws with."),
-    RANGE("pressure", pressure, KILN_PLAIN, 0, 1, TIME, "0.5", "Of the pen."),
+    VALUE(NO_PART, "speed", speed, KILN_SPEED, 0, 10, BOTH, "1 m/s", "Of the pen."),
+    VECTOR(NO_PART, "place", place, KILN_METRES, -9, 9, TIME, "[0, 0, 0]", "Of the plotter."),
+    COLOR(NO_PART, "ink", ink, 1, TIME, "0", "What it draws with."),
+    RANGE(NO_PART, "pressure", pressure, KILN_PLAIN, 0, 1, TIME, "0.5", "Of the pen."),
     {ROW(NO_PART, "trays", map, AT(trays), "{}", "The trays by their names."), .members = tray,
      .item_size = sizeof(struct tray), .count_offset = AT(tray_count), .max_count = 2},
     {ROW(NO_PART, "marks", list, AT(marks), "[]", "What it draws."), .item = &mark,

@@ -30,20 +30,21 @@ static bool load(struct kiln_paint *paint, uint32_t object, struct kiln_error *e
     return mesh->chart && kiln_paint_grid_init(&mesh->grid, mesh->chart, error);
 }
 
-static bool any_paints(struct kiln_paint *paint)
+/* Of the systems that paint. */
+static uint32_t count_slots(const struct kiln_scene *scene)
 {
-    for (uint32_t i = 0; i < paint->scene->system_count; i++) {
-        if (kiln_scene_paints(paint->scene, i))
-            paint->slot_count += paint->scene->systems[i].capacity;
-    }
-    return paint->slot_count > 0;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++)
+        count += kiln_scene_paints(scene, i) ? scene->systems[i].capacity : 0;
+    return count;
 }
 
 bool kiln_paint_init(struct kiln_paint *paint, const struct kiln_scene *scene,
                      struct kiln_threads *threads, struct kiln_error *error)
 {
-    *paint = (struct kiln_paint){.scene = scene, .threads = threads};
-    if (!any_paints(paint))
+    *paint =
+        (struct kiln_paint){.scene = scene, .slot_count = count_slots(scene), .threads = threads};
+    if (paint->slot_count == 0)
         return true;
     enum kiln_simd simd;
     if (!kiln_simd_choose(&simd, error))
@@ -259,22 +260,44 @@ static uint32_t take_turns(const struct kiln_paint *paint, struct kiln_canvas *c
 
 /* ---- a step ---------------------------------------------------------------------------------- */
 
+/* Slots of the particles that paint on an object, where not all are painted in a step; else 0. */
+static uint32_t waiting_slots(const struct kiln_object *object, uint32_t slot_count)
+{
+    const uint32_t per_step = object->paint.per_step;
+    return per_step == 0 || per_step >= slot_count ? 0 : slot_count;
+}
+
 static bool make_canvases(const struct kiln_paint *paint, struct kiln_pool *pool,
                           struct kiln_error *error)
 {
     while (pool->canvas_count < paint->mesh_count) {
         const uint32_t i = pool->canvas_count;
-        const struct kiln_object_paint *taker =
-            &paint->scene->backdrop.objects[paint->meshes[i].object].paint;
-        const bool all = taker->per_step == 0 || taker->per_step >= paint->slot_count;
-        if (!kiln_canvas_init(&pool->canvases[i], taker->size, all ? 0 : paint->slot_count,
-                              error)) {
+        const struct kiln_object *taker = &paint->scene->backdrop.objects[paint->meshes[i].object];
+        if (!kiln_canvas_init(&pool->canvases[i], taker->paint.size,
+                              waiting_slots(taker, paint->slot_count), error)) {
             kiln_canvas_finish(&pool->canvases[i]);
             return false;
         }
         pool->canvas_count++;
     }
     return true;
+}
+
+bool kiln_paint_fits(const struct kiln_scene *scene, const struct kiln_pool *pool)
+{
+    const uint32_t slot_count = count_slots(scene);
+    uint32_t count = 0;
+    bool fits = true;
+    for (uint32_t i = 0; i < scene->backdrop.object_count && slot_count > 0; i++) {
+        const struct kiln_object *object = &scene->backdrop.objects[i];
+        if (!kiln_object_takes_paint(object))
+            continue;
+        const struct kiln_canvas *canvas = &pool->canvases[count++];
+        const uint32_t slots = waiting_slots(object, slot_count);
+        fits = fits && canvas->edge == object->paint.size && canvas->slot_count == slots &&
+               (slots == 0 || canvas->next < slots);
+    }
+    return fits && pool->canvas_count == count;
 }
 
 bool kiln_paint_step(struct kiln_paint *paint, const struct kiln_sim_params *params,

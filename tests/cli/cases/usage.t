@@ -8,6 +8,8 @@ $ kiln
 2|
 2|commands:
 2|  render           render scenes into images or videos
+2|  bake             save states of a run, from which others start
+2|  plan             say what a clip costs, and how it divides into tasks
 2|  compare          tell whether two pictures, folders or videos look the same
 2|  test             render tests and compare them with golden pictures
 2|  test approve     accept pictures of the last run as goldens
@@ -48,6 +50,8 @@ $ kiln --help
 1|
 1|commands:
 1|  render           render scenes into images or videos
+1|  bake             save states of a run, from which others start
+1|  plan             say what a clip costs, and how it divides into tasks
 1|  compare          tell whether two pictures, folders or videos look the same
 1|  test             render tests and compare them with golden pictures
 1|  test approve     accept pictures of the last run as goldens
@@ -174,6 +178,9 @@ $ kiln help render
 1|      --manifest FILE         Also write a JSON file that describes the run:
 1|                              scene, device, techniques, state of each frame,
 1|                              times. A folder or '{scene}' as for --output.
+1|      --states STATES         Start at the nearest state before the frames, out
+1|                              of a folder that 'kiln bake' made, and step on
+1|                              from there. The pictures are the same as without.
 1|      --force                 Replace files that exist.
 1|      --frame-timeout S       Give up with exit code 5 when a frame takes longer
 1|                              than S seconds. Frames that are stepped over

@@ -1,0 +1,95 @@
+/* Fuzzes the reader of saved states: any file is a state or an error, never a crash; one that is a
+ * state fits into a pool, or is refused there. Checksums are made right first: else nothing that is
+ * changed would get behind them. */
+#include "job/state.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include "fuzz.h"
+
+enum { LINE = 13, MAX_HEAD = 1024 }; /* "kiln state 1\n" */
+
+static uint32_t get_word(const uint8_t *bytes)
+{
+    return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
+}
+
+static void put_word(uint8_t *bytes, uint32_t word)
+{
+    for (int i = 0; i < 4; i++)
+        bytes[i] = (uint8_t)(word >> (8 * i));
+}
+
+/* Makes the checksums right of the head, and of the blocks behind it: each is the first, number 0,
+ * of its table, as in files of few particles. */
+static void repair(uint8_t *data, size_t size)
+{
+    if (size < LINE + 4)
+        return;
+    const size_t head = get_word(data + LINE);
+    if (head < LINE + 8 || head > size || head > MAX_HEAD)
+        return;
+    put_word(data + head - 4, (uint32_t)crc32_z(0, data, head - 4));
+    for (size_t at = head; at + 8 < size;) {
+        const size_t length = get_word(data + at);
+        if (length > size - at - 8)
+            return;
+        uint8_t start[8];
+        put_word(start, (uint32_t)length);
+        put_word(start + 4, 0);
+        const unsigned long crc = crc32_z(crc32_z(0, start, sizeof start), data + at + 8, length);
+        put_word(data + at + 4, (uint32_t)crc);
+        at += 8 + length;
+    }
+}
+
+static void require(bool condition, const char *what)
+{
+    if (!condition) {
+        fprintf(stderr, "fuzz: %s\n", what);
+        abort();
+    }
+}
+
+/* A pool as the state of the corpus is of. */
+static void read_into_pool(const char *path, const struct kiln_state_info *info)
+{
+    static const uint32_t capacities[] = {26, 52};
+    struct kiln_error error = {0};
+    struct kiln_pool pool;
+    struct kiln_threads *threads = kiln_threads_create(1);
+    kiln_pool_init(&pool, NULL, capacities, 2);
+    uint32_t slots[78];
+    struct kiln_state state = {.pool = &pool, .slots = info->order[0] ? slots : NULL};
+    if (threads && !kiln_state_read(&state, path, threads, &error))
+        require(error.code != KILN_OK && *error.message, "an error without a message");
+    kiln_pool_finish(&pool);
+    kiln_threads_destroy(&threads);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    char path[] = "/tmp/kiln-fuzz-XXXXXX";
+    uint8_t *copy = malloc(size + 1);
+    const int file = copy ? mkstemp(path) : -1;
+    if (file >= 0) {
+        struct kiln_state_info info;
+        struct kiln_error error = {0};
+        if (size)
+            memcpy(copy, data, size);
+        repair(copy, size);
+        const bool written = write(file, copy, size) == (ssize_t)size;
+        close(file);
+        if (written && kiln_state_check(path, &info, &error))
+            read_into_pool(path, &info);
+        else if (written)
+            require(error.code != KILN_OK && *error.message, "an error without a message");
+        unlink(path);
+    }
+    free(copy);
+    return 0;
+}

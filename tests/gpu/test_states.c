@@ -1,0 +1,173 @@
+/* Saved states: what was baked with one technique serves all, and gives the pictures of a run from
+ * the start, also after a change of the look; a spread sort goes on in the order that was saved. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "kiln.h"
+#include "support/cmocka.h"
+#include "support/device.h"
+#include "support/folders.h"
+#include "support/scenes.h"
+
+enum { WIDTH = 48, HEIGHT = 32, FIRST = 20, FRAMES = 3, PICTURE_BYTES = WIDTH * HEIGHT * 4 };
+
+static const char SCENE[] =
+    "kiln: 1\n"
+    "output: {size: [48, 32], fps: 30, frames: 30}\n"
+    "simulation: {warmup: 0.2 s}\n"
+    "camera: {position: {keys: {0 s: [0, 1, 4], 1 s: [1, 1, 3.5]}}}\n"
+    "systems:\n"
+    "  fire:\n"
+    "    emit: {rate: 200, life: [0.2 s, 0.7 s], speed: 2 m/s, from: {sphere: {radius: 0.5 m}}}\n"
+    "    forces: [{gravity: [0, -2, 0]}, {curl: 1}]\n"
+    "    collide: {}\n"
+    "    look: {atlas: 'builtin:spark', blend: alpha, size: 0.4 m, opacity: 0.7}\n"
+    "  sparks:\n"
+    "    emit: {parent: {system: fire, on: {death: {count: 2}}}, life: 0.3 s, speed: 1 m/s}\n"
+    "    look: {shape: point, size: 0.1 m}\n";
+
+/* The pictures of a job. */
+struct pictures {
+    uint8_t bytes[FRAMES][PICTURE_BYTES];
+    uint32_t count;
+    unsigned warnings;
+};
+
+static void take_picture(void *user, uint32_t frame, const uint8_t *pixels)
+{
+    struct pictures *pictures = user;
+    assert_int_equal(frame, FIRST + pictures->count);
+    memcpy(pictures->bytes[pictures->count++], pixels, PICTURE_BYTES);
+}
+
+static void count_warning(void *user, enum kiln_log_level level, const char *line)
+{
+    struct pictures *pictures = user;
+    pictures->warnings += level == KILN_LOG_WARNING;
+    if (level == KILN_LOG_WARNING)
+        fprintf(stderr, "%s\n", line);
+}
+
+static struct kiln_render_stats draw(struct kiln_device *device, const struct kiln_scene *scene,
+                                     const char *techniques, const char *states,
+                                     struct pictures *pictures)
+{
+    static const struct kiln_frame_range range = {FIRST, FIRST + FRAMES - 1};
+    struct kiln_error error = {0};
+    struct kiln_render_stats stats;
+    struct kiln_render_params params = KILN_RENDER_DEFAULTS;
+    *pictures = (struct pictures){.count = 0};
+    params.ranges = &range;
+    params.range_count = 1;
+    params.techniques = &techniques;
+    params.technique_count = 1;
+    params.states = states;
+    params.picture = take_picture;
+    params.user = pictures;
+    params.log = (struct kiln_log){count_warning, pictures};
+    if (!kiln_render(device, scene, &params, &stats, &error))
+        fail_msg("%s: %s", techniques, error.message);
+    assert_int_equal(pictures->count, FRAMES);
+    return stats;
+}
+
+static struct kiln_bake_stats bake(struct kiln_device *device, const struct kiln_scene *scene,
+                                   const char *technique, uint32_t every)
+{
+    const struct kiln_bake_params params = {.states = "states",
+                                            .every = every,
+                                            .techniques = &technique,
+                                            .technique_count = 1,
+                                            .overwrite = true};
+    struct kiln_bake_stats stats;
+    struct kiln_error error = {0};
+    if (!kiln_bake(device, scene, &params, &stats, &error))
+        fail_msg("%s: %s", technique, error.message);
+    return stats;
+}
+
+/* Pictures and state from a saved state are those of a run from the start. */
+static void compare(struct kiln_device *device, const struct kiln_scene *scene,
+                    const char *technique, uint64_t steps)
+{
+    struct pictures *whole = malloc(sizeof *whole), *part = malloc(sizeof *part);
+    assert_non_null(whole);
+    assert_non_null(part);
+    const struct kiln_render_stats a = draw(device, scene, technique, NULL, whole);
+    const struct kiln_render_stats b = draw(device, scene, technique, "states", part);
+    if (memcmp(&a.state, &b.state, sizeof a.state) != 0)
+        fail_msg("%s: another state", technique);
+    if (memcmp(whole->bytes, part->bytes, sizeof whole->bytes) != 0)
+        fail_msg("%s: other pictures", technique);
+    assert_int_equal(part->warnings, 0);
+    assert_true(a.steps > steps);
+    assert_int_equal(b.steps, steps);
+    free(whole);
+    free(part);
+}
+
+static void states_serve_every_technique(void **state)
+{
+    (void)state;
+    static const char *const techniques[] = {"simulate=cpu",      "simulate=inplace",
+                                             "simulate=pingpong", "simulate=feedback",
+                                             "simulate=texels",   "raster=instanced"};
+    struct kiln_scene *scene = load_scene(SCENE, NULL);
+    /* Warm-up 12 steps, 2 a frame: states before frames 0, 9, 18 and 27. */
+    const struct kiln_bake_stats baked = bake(test_device(), scene, "simulate=cpu", 9);
+    assert_int_equal(baked.states, 4);
+    assert_int_equal(baked.steps, 12 + 27 * 2);
+    for (size_t i = 0; i < sizeof techniques / sizeof *techniques; i++)
+        compare(test_device(), scene, techniques[i], (FIRST + FRAMES - 1 - 18) * 2);
+    kiln_scene_destroy(&scene);
+}
+
+static void states_serve_other_looks(void **state)
+{
+    (void)state;
+    static const char *const overrides[] = {"systems.fire.look.color=[1, 0, 0]",
+                                            "camera.position=[0, 2, 5]", "post.exposure=1", NULL};
+    struct kiln_scene *scene = load_scene(SCENE, NULL), *other = load_scene(SCENE, overrides);
+    bake(test_device(), scene, "simulate=inplace", 15);
+    compare(test_device(), other, "simulate=cpu", (FIRST + FRAMES - 1 - 15) * 2);
+    kiln_scene_destroy(&scene);
+    kiln_scene_destroy(&other);
+}
+
+static void spread_sorts_go_on(void **state)
+{
+    (void)state;
+    struct kiln_scene *scene = load_scene(SCENE, NULL);
+    bake(test_device(), scene, "sort=oddeven:5", 9);
+    compare(test_device(), scene, "sort=oddeven:5", (FIRST + FRAMES - 1 - 18) * 2);
+    compare(test_device(), scene, "sort=cpu", (FIRST + FRAMES - 1 - 18) * 2);
+    /* Spread over other frames, the order is another one: nothing fits, and it says so. */
+    struct pictures *pictures = malloc(sizeof *pictures);
+    assert_non_null(pictures);
+    const struct kiln_render_stats stats =
+        draw(test_device(), scene, "sort=oddeven:6", "states", pictures);
+    assert_int_equal(stats.steps, 12 + (FIRST + FRAMES - 1) * 2);
+    assert_true(pictures->warnings > 0);
+    free(pictures);
+    kiln_scene_destroy(&scene);
+}
+
+static int leave_folder(void **state)
+{
+    const int failed = test_device_is_clean(state);
+    return test_leave_folder(state) || failed;
+}
+
+#define test_in_folder(function)                                                                   \
+    cmocka_unit_test_setup_teardown(function, test_enter_folder, leave_folder)
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        test_in_folder(states_serve_every_technique),
+        test_in_folder(states_serve_other_looks),
+        test_in_folder(spread_sorts_go_on),
+    };
+    return cmocka_run_group_tests_name("states", tests, test_device_open_alone, test_device_close);
+}
