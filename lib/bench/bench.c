@@ -35,6 +35,8 @@ static const struct kiln_suite_row SUITES[] = {
      kiln_suite_gravity},
     {{"paint", "painting with particles by its gather (Drone 2007, 7.6.1)", 0.4}, kiln_suite_paint},
     {{"bytes", "memory and communication of techniques (Heinz 2019, 4.2)", 0.2}, kiln_suite_bytes},
+    {{"states", "size of saved states, and time to save one and to take it up", 1.5},
+     kiln_suite_states},
     {{"output", "end to end to PNG, EXR and mp4, against what the stages take", 1},
      kiln_suite_output},
 };

@@ -17,6 +17,7 @@ $ kiln bench --list | sed -E 's/ [0-9]+\.[0-9] min/ <time>/'
 1|  gravity     <time>  gravity of all pairs, frames of it, and energy kept (Drone 2007, 7.4.3)
 1|  paint       <time>  painting with particles by its gather (Drone 2007, 7.6.1)
 1|  bytes       <time>  memory and communication of techniques (Heinz 2019, 4.2)
+1|  states      <time>  size of saved states, and time to save one and to take it up
 1|  output      <time>  end to end to PNG, EXR and mp4, against what the stages take
 1|All together <time>, on two cores without a GPU.
 
