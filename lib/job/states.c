@@ -94,19 +94,22 @@ static bool add_step(struct kiln_states *states, uint32_t step, struct kiln_erro
 
 static bool list(struct kiln_states *states, struct kiln_error *error)
 {
-    DIR *folder = opendir(states->folder);
-    if (!folder)
+    struct dirent **entries = NULL;
+    const int count = scandir(states->folder, &entries, NULL, NULL);
+    if (count < 0)
         return kiln_error_set_errno(error, KILN_IO, errno,
                                     "%s: the folder of states cannot be read", states->folder);
     bool ok = true;
-    for (const struct dirent *entry; ok && (entry = readdir(folder));) {
+    for (int i = 0; i < count; i++) {
         uint32_t step;
         bool other;
-        if (parse_name(states, entry->d_name, &step, &other))
+        if (ok && parse_name(states, entries[i]->d_name, &step, &other))
             ok = add_step(states, step, error);
-        states->others += other;
+        else if (ok)
+            states->others += other;
+        free(entries[i]);
     }
-    closedir(folder);
+    free(entries);
     if (states->count > 0)
         qsort(states->steps, states->count, sizeof *states->steps, compare_steps);
     return ok;
