@@ -20,6 +20,9 @@ struct kiln_video_settings {
     bool even_sizes;
     uint32_t max_edge;
     bool intra;                /* every frame stands alone */
+    bool parts;                /* a clip is encoded part by part; else as a whole */
+    const char *later_packets; /* FFmpeg's bit stream filters for those of all parts but the first;
+                                  NULL: none */
     const char *muxer_options; /* "key=value:key=value", or NULL */
     void (*tune)(AVCodecContext *codec, const struct kiln_output_params *params); /* or NULL */
     /* Adds options of the muxer that depend on the clip, and warns; NULL: there are none. */

@@ -25,6 +25,8 @@ static void tune_h264(AVCodecContext *codec, const struct kiln_output_params *pa
     /* Within 0.1 dB of "medium" at the same rate factor, in 60 % of the time and less memory. */
     set_option(codec, "preset", "faster");
     set_option(codec, "aq-mode", "3"); /* bits for dark gradients: night and smoke */
+    /* The same stream with vectors of any width, and no key frame but each part's first. */
+    set_option(codec, "x264-params", "cpu-independent=1:scenecut=0");
     av_opt_set_double(codec->priv_data, "crf", 50.0 - 0.4 * params->quality, 0);
 }
 
@@ -38,6 +40,8 @@ static const struct kiln_video_settings mp4 = {
     .pixels = {{AV_PIX_FMT_YUV420P, AV_PIX_FMT_NONE}, {AV_PIX_FMT_NONE, AV_PIX_FMT_NONE}},
     .even_sizes = true,
     .max_edge = MAX_EDGE,
+    .parts = true,
+    .later_packets = "filter_units=remove_types=6", /* SEI: the version and options of x264 */
     .muxer_options = "movflags=+faststart",
     .tune = tune_h264,
 };
@@ -75,6 +79,7 @@ static const struct kiln_video_settings webm = {
     .bits = 8,
     .pixels = {{AV_PIX_FMT_YUV420P, AV_PIX_FMT_NONE}, {AV_PIX_FMT_YUVA420P, AV_PIX_FMT_NONE}},
     .max_edge = MAX_EDGE,
+    .parts = true,
     .tune = tune_vp9,
 };
 
@@ -104,6 +109,7 @@ static const struct kiln_video_settings mkv = {
     .pixels = {{AV_PIX_FMT_BGR0, AV_PIX_FMT_RGB48}, {AV_PIX_FMT_BGRA, AV_PIX_FMT_RGBA64}},
     .max_edge = MAX_EDGE,
     .intra = true,
+    .parts = true,
     .tune = tune_ffv1,
 };
 
@@ -136,6 +142,7 @@ static const struct kiln_video_settings mov = {
     .pixels = {{AV_PIX_FMT_NONE, AV_PIX_FMT_YUV444P10}, {AV_PIX_FMT_NONE, AV_PIX_FMT_YUVA444P10}},
     .max_edge = MAX_EDGE,
     .intra = true,
+    .parts = true,
     .muxer_options = "movflags=+faststart",
     .tune = tune_prores,
 };

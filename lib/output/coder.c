@@ -1,0 +1,170 @@
+/* One encoder for each part of a clip, so that a part's packets are the same whoever encodes the
+ * others.
+ *
+ * Pixels of luma and chroma are made with BT.709's matrix in limited range, and the tags say just
+ * that: primaries and matrix of BT.709, and sRGB's transfer function, since that is what the frames
+ * are encoded with. Players that honour the tag show the PNG's colours, and those that ignore it
+ * take the pixels as they are, which on an sRGB screen is the same.
+ *
+ * The same frames give the same bytes on every machine: some encoders' results depend on their
+ * number of threads, so that is fixed. */
+#include "output/coder.h"
+
+#include <libavutil/opt.h>
+#include <libavutil/pixdesc.h>
+#include <string.h>
+
+enum { ENCODER_THREADS = 4 };
+
+enum AVPixelFormat kiln_coder_pixels(const struct kiln_output_params *params)
+{
+    return params->format->video->pixels[params->alpha][kiln_video_needs(params).bits > 8];
+}
+
+bool kiln_coder_is_rgb(enum AVPixelFormat format)
+{
+    return av_pix_fmt_desc_get(format)->flags & (AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_PAL);
+}
+
+static void set_colors(AVCodecContext *codec)
+{
+    bool rgb = kiln_coder_is_rgb(codec->pix_fmt);
+    codec->color_primaries = AVCOL_PRI_BT709;
+    codec->color_trc = AVCOL_TRC_IEC61966_2_1;
+    codec->colorspace = rgb ? AVCOL_SPC_RGB : AVCOL_SPC_BT709;
+    codec->color_range = rgb ? AVCOL_RANGE_JPEG : AVCOL_RANGE_MPEG;
+    codec->chroma_sample_location = rgb ? AVCHROMA_LOC_UNSPECIFIED : AVCHROMA_LOC_LEFT;
+}
+
+static int open_codec(struct kiln_coder *coder, const struct kiln_output_params *params)
+{
+    const AVCodec *found = avcodec_find_encoder_by_name(coder->settings->encoder);
+    AVCodecContext *codec = coder->codec = avcodec_alloc_context3(found);
+    if (!codec)
+        return AVERROR(ENOMEM);
+    codec->width = (int)params->width;
+    codec->height = (int)params->height;
+    codec->pix_fmt = kiln_coder_pixels(params);
+    codec->framerate = (AVRational){(int)params->fps_num, (int)params->fps_den};
+    codec->time_base = av_inv_q(codec->framerate);
+    codec->gop_size =
+        coder->settings->intra ? 1 : (int)kiln_part_frames(params->fps_num, params->fps_den);
+    set_colors(codec);
+    codec->thread_count = ENCODER_THREADS;
+    codec->flags |= AV_CODEC_FLAG_BITEXACT | AV_CODEC_FLAG_GLOBAL_HEADER;
+    if (coder->settings->tune)
+        coder->settings->tune(codec, params);
+    return avcodec_open2(codec, found, NULL);
+}
+
+static int open_frame(struct kiln_coder *coder)
+{
+    AVFrame *frame = coder->frame = av_frame_alloc();
+    if (!frame)
+        return AVERROR(ENOMEM);
+    const AVCodecContext *codec = coder->codec;
+    frame->width = codec->width;
+    frame->height = codec->height;
+    frame->format = codec->pix_fmt;
+    frame->color_primaries = codec->color_primaries;
+    frame->color_trc = codec->color_trc;
+    frame->colorspace = codec->colorspace;
+    frame->color_range = codec->color_range;
+    frame->chroma_location = codec->chroma_sample_location;
+    frame->quality = codec->global_quality;
+    return av_frame_get_buffer(frame, 0);
+}
+
+static int open_scaler(struct kiln_coder *coder, const struct kiln_output_params *params)
+{
+    const AVFrame *frame = coder->frame;
+    if (frame->format == AV_PIX_FMT_PAL8)
+        return 0;
+    struct SwsContext *scaler = coder->scaler = sws_alloc_context();
+    if (!scaler)
+        return AVERROR(ENOMEM);
+    bool deep = kiln_video_needs(params).bits > 8, rgb = kiln_coder_is_rgb(frame->format);
+    av_opt_set_int(scaler, "srcw", frame->width, 0);
+    av_opt_set_int(scaler, "srch", frame->height, 0);
+    av_opt_set_int(scaler, "src_format", deep ? AV_PIX_FMT_RGBA64 : AV_PIX_FMT_RGBA, 0);
+    av_opt_set_int(scaler, "src_range", 1, 0);
+    av_opt_set_int(scaler, "dstw", frame->width, 0);
+    av_opt_set_int(scaler, "dsth", frame->height, 0);
+    av_opt_set_int(scaler, "dst_format", frame->format, 0);
+    av_opt_set_int(scaler, "dst_range", rgb, 0);
+    av_opt_set_int(scaler, "dst_h_chr_pos", 0, 0); /* left, as tagged */
+    av_opt_set_int(scaler, "dst_v_chr_pos", 128, 0);
+    av_opt_set_int(scaler, "sws_flags",
+                   SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INP | SWS_BITEXACT, 0);
+    int status = sws_init_context(scaler, NULL, NULL);
+    if (status < 0 || rgb)
+        return status;
+    const int *bt709 = sws_getCoefficients(SWS_CS_ITU709);
+    status = sws_setColorspaceDetails(scaler, bt709, 1, bt709, 0, 0, 1 << 16, 1 << 16);
+    return status < 0 ? AVERROR(EINVAL) : 0;
+}
+
+/* What of a part's packets would tell again what the first part's have told. */
+static int open_filter(struct kiln_coder *coder)
+{
+    int status = av_bsf_list_parse_str(coder->settings->later_packets, &coder->filter);
+    if (status >= 0)
+        status = avcodec_parameters_from_context(coder->filter->par_in, coder->codec);
+    if (status < 0)
+        return status;
+    coder->filter->time_base_in = coder->codec->time_base;
+    return av_bsf_init(coder->filter);
+}
+
+int kiln_coder_open(struct kiln_coder *coder, const struct kiln_output_params *params, bool first)
+{
+    *coder = (struct kiln_coder){.settings = params->format->video};
+    int status = open_codec(coder, params);
+    if (status >= 0)
+        status = open_frame(coder);
+    if (status >= 0)
+        status = open_scaler(coder, params);
+    if (status >= 0 && !first && coder->settings->later_packets)
+        status = open_filter(coder);
+    return status;
+}
+
+void kiln_coder_close(struct kiln_coder *coder)
+{
+    sws_freeContext(coder->scaler);
+    av_frame_free(&coder->frame);
+    av_bsf_free(&coder->filter);
+    avcodec_free_context(&coder->codec);
+    *coder = (struct kiln_coder){.settings = NULL};
+}
+
+int kiln_coder_convert(struct kiln_coder *coder, const struct kiln_picture *picture)
+{
+    AVFrame *frame = coder->frame;
+    int status = av_frame_make_writable(frame);
+    if (status < 0)
+        return status;
+    const uint8_t *rows[4] = {picture->display};
+    int strides[4] = {frame->width * (int)(picture->bits / 2)};
+    return sws_scale(coder->scaler, rows, strides, 0, frame->height, frame->data, frame->linesize);
+}
+
+int kiln_coder_send(struct kiln_coder *coder, int64_t number)
+{
+    coder->frame->pts = number;
+    return avcodec_send_frame(coder->codec, coder->frame);
+}
+
+int kiln_coder_end(struct kiln_coder *coder)
+{
+    return avcodec_send_frame(coder->codec, NULL);
+}
+
+int kiln_coder_receive(struct kiln_coder *coder, AVPacket *packet)
+{
+    int status = avcodec_receive_packet(coder->codec, packet);
+    if (status < 0 || !coder->filter)
+        return status;
+    status = av_bsf_send_packet(coder->filter, packet);
+    return status < 0 ? status : av_bsf_receive_packet(coder->filter, packet);
+}

@@ -1,0 +1,131 @@
+/* Containers by FFmpeg. Nothing of the time or the place is written. */
+#include "output/muxer.h"
+
+#include <libavutil/avstring.h>
+#include <string.h>
+
+enum { IO_BUFFER_SIZE = 1 << 17 };
+
+static int write_bytes(void *opaque, uint8_t *bytes, int size)
+{
+    struct kiln_muxer *muxer = opaque;
+    return kiln_temporary_write(muxer->file, bytes, (size_t)size) ? size
+                                                                  : AVERROR(muxer->file->failure);
+}
+
+static int64_t seek_bytes(void *opaque, int64_t offset, int whence)
+{
+    struct kiln_muxer *muxer = opaque;
+    if (whence != SEEK_SET)
+        return AVERROR(ENOSYS);
+    return kiln_temporary_seek(muxer->file, offset) ? offset : AVERROR(muxer->file->failure);
+}
+
+static void describe(const struct kiln_output_params *params, char *out, size_t size)
+{
+    snprintf(out, size, "kiln:version=%s kiln:scene=%s kiln:seed=%u kiln:frames=%u-%u",
+             KILN_VERSION, params->scene_hash, params->seed, params->ranges[0].first,
+             params->ranges[params->range_count - 1].last);
+}
+
+static int write_header(struct kiln_muxer *muxer)
+{
+    AVFormatContext *container = muxer->container;
+    const struct kiln_video_settings *settings = muxer->params->format->video;
+    char comment[256];
+    describe(muxer->params, comment, sizeof comment);
+    av_dict_set(&container->metadata, "comment", comment, 0);
+    /* Alpha is a second stream in the packets' side data: tell WebM. */
+    if (muxer->stream->codecpar->format == AV_PIX_FMT_YUVA420P)
+        av_dict_set(&muxer->stream->metadata, "alpha_mode", "1", 0);
+    AVDictionary *options = NULL;
+    if (settings->muxer_options)
+        av_dict_parse_string(&options, settings->muxer_options, "=", ":", 0);
+    if (settings->prepare)
+        settings->prepare(muxer->params, &options);
+    int status = avformat_write_header(container, &options);
+    av_dict_free(&options);
+    muxer->begun = status >= 0;
+    return status;
+}
+
+/* The index of MP4 and MOV goes to the front, so that a player can start before it has the whole
+ * file; for that FFmpeg opens the temporary file once more, by its url. */
+static int open_container(struct kiln_muxer *muxer)
+{
+    const char *name = muxer->params->format->video->muxer;
+    int status = avformat_alloc_output_context2(&muxer->container, NULL, name, NULL);
+    if (status < 0)
+        return status;
+    AVFormatContext *container = muxer->container;
+    uint8_t *buffer = av_malloc(IO_BUFFER_SIZE);
+    muxer->io =
+        buffer ? avio_alloc_context(buffer, IO_BUFFER_SIZE, 1, muxer, NULL, write_bytes, seek_bytes)
+               : NULL;
+    muxer->stream = avformat_new_stream(container, NULL);
+    container->url = av_asprintf("file:%s", kiln_temporary_path(muxer->file));
+    if (!muxer->io || !muxer->stream || !container->url) {
+        if (!muxer->io)
+            av_free(buffer);
+        return AVERROR(ENOMEM);
+    }
+    container->pb = muxer->io;
+    container->flags |= AVFMT_FLAG_BITEXACT;
+    return 0;
+}
+
+int kiln_muxer_open(struct kiln_muxer *muxer, const struct kiln_output_params *params,
+                    const AVCodecParameters *codec, AVRational time_base,
+                    struct kiln_temporary *file)
+{
+    *muxer = (struct kiln_muxer){.params = params, .file = file, .time_base = time_base};
+    int status = open_container(muxer);
+    if (status >= 0)
+        status = avcodec_parameters_copy(muxer->stream->codecpar, codec);
+    if (status < 0)
+        return status;
+    muxer->stream->time_base = time_base;
+    muxer->stream->avg_frame_rate = av_inv_q(time_base);
+    return write_header(muxer);
+}
+
+/* FFmpeg's GIF writer keeps a packet, which only the end of the file frees: ends it in memory. */
+static void abandon(struct kiln_muxer *muxer)
+{
+    AVIOContext *nowhere = NULL;
+    if (strcmp(muxer->container->oformat->name, "gif") != 0 || avio_open_dyn_buf(&nowhere) < 0)
+        return;
+    muxer->container->pb = nowhere;
+    av_write_trailer(muxer->container);
+    uint8_t *bytes = NULL;
+    avio_close_dyn_buf(nowhere, &bytes);
+    av_free(bytes);
+    muxer->container->pb = muxer->io;
+}
+
+void kiln_muxer_close(struct kiln_muxer *muxer)
+{
+    if (muxer->begun)
+        abandon(muxer);
+    avformat_free_context(muxer->container);
+    if (muxer->io)
+        av_freep(&muxer->io->buffer);
+    avio_context_free(&muxer->io);
+    *muxer = (struct kiln_muxer){.params = NULL};
+}
+
+int kiln_muxer_add(struct kiln_muxer *muxer, AVPacket *packet)
+{
+    packet->duration = 1;
+    packet->stream_index = 0;
+    av_packet_rescale_ts(packet, muxer->time_base, muxer->stream->time_base);
+    return av_interleaved_write_frame(muxer->container, packet);
+}
+
+int kiln_muxer_finish(struct kiln_muxer *muxer)
+{
+    int status = av_write_trailer(muxer->container);
+    muxer->begun = false;
+    avio_flush(muxer->io);
+    return status;
+}
