@@ -4,6 +4,8 @@
  * as armed, and a file exists only while its slot is armed. */
 #include "base/temporary.h"
 
+#include <assert.h>
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdatomic.h>
@@ -15,7 +17,7 @@
 
 #include "base/error.h"
 
-enum { SLOT_COUNT = 256, MAX_ATTEMPTS = 64 };
+enum { SLOT_COUNT = 256, MAX_ATTEMPTS = 64, MAX_TOGETHER = 8 };
 
 enum slot_state { SLOT_FREE, SLOT_CLAIMED, SLOT_ARMED };
 
@@ -117,12 +119,52 @@ static int open_locked(const char *path)
  * tried again under the same process number, as in a container, would run out of names. */
 static bool remove_abandoned(const char *path)
 {
-    int file = open(path, O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
+    /* Without O_NONBLOCK, opening a pipe would wait for its reader. */
+    int file = open(path, O_WRONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (file < 0)
         return false;
-    bool removed = flock(file, LOCK_EX | LOCK_NB) == 0 && unlink(path) == 0;
+    struct stat status;
+    bool removed = fstat(file, &status) == 0 && S_ISREG(status.st_mode) &&
+                   flock(file, LOCK_EX | LOCK_NB) == 0 && unlink(path) == 0;
     close(file);
     return removed;
+}
+
+/* ".NAME.kiln-PID-N.tmp"? */
+static bool is_temporary_name(const char *name)
+{
+    static const char mark[] = ".kiln-", suffix[] = ".tmp", digits[] = "0123456789";
+    const size_t length = strlen(name), end = sizeof suffix - 1;
+    if (name[0] != '.' || length <= end || strcmp(name + length - end, suffix) != 0)
+        return false;
+    const char *last = NULL;
+    for (const char *at = name; (at = strstr(at, mark)); at++)
+        last = at + sizeof mark - 1;
+    const size_t pid = last ? strspn(last, digits) : 0;
+    if (pid == 0 || last[pid] != '-')
+        return false;
+    const char *number = last + pid + 1;
+    const size_t count = strspn(number, digits);
+    return count > 0 && number + count == name + length - end;
+}
+
+void kiln_temporary_sweep(const char *target)
+{
+    char folder[KILN_PATH_SIZE], path[KILN_PATH_SIZE];
+    const char *slash = strrchr(target, '/');
+    const int length = slash == target ? 1 : slash ? (int)(slash - target) : 1;
+    struct dirent **entries = NULL;
+    if (snprintf(folder, sizeof folder, "%.*s", length, slash ? target : ".") >= KILN_PATH_SIZE)
+        return;
+    const int count = scandir(folder, &entries, NULL, NULL);
+    for (int i = 0; i < count; i++) {
+        const char *name = entries[i]->d_name;
+        if (is_temporary_name(name) &&
+            snprintf(path, sizeof path, "%s/%s", folder, name) < KILN_PATH_SIZE)
+            remove_abandoned(path);
+        free(entries[i]);
+    }
+    free(entries);
 }
 
 /* A new file in an armed slot, or -1 with errno. */
@@ -220,12 +262,31 @@ static bool move_into_place(const char *path, const char *target, bool overwrite
     return rename(path, target) == 0;
 }
 
-/* Closes the file under the name it has; errno of what failed since it was opened, or 0. */
-static int close_file(struct kiln_temporary *temporary)
+/* Closes the file under the name it has; errno of what failed since it was opened, or 0. Another
+ * descriptor keeps its lock, so that nobody takes it for abandoned before it has its last name. */
+static int close_file(struct kiln_temporary *temporary, int *lock)
 {
+    *lock = fcntl(temporary->file, F_DUPFD_CLOEXEC, 0);
+    if (temporary->durable && temporary->failure == 0 && fsync(temporary->file) != 0)
+        temporary->failure = errno;
     if (close(temporary->file) != 0 && temporary->failure == 0)
         temporary->failure = errno;
     return temporary->failure;
+}
+
+/* Makes names in a target's folder last. What cannot be synchronised is none the worse for it. */
+static void sync_folder(const char *target)
+{
+    char folder[KILN_PATH_SIZE];
+    const char *slash = strrchr(target, '/');
+    const int length = slash == target ? 1 : slash ? (int)(slash - target) : 1;
+    if (snprintf(folder, sizeof folder, "%.*s", length, slash ? target : ".") >= KILN_PATH_SIZE)
+        return;
+    const int opened = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (opened < 0)
+        return;
+    fsync(opened);
+    close(opened);
 }
 
 static bool fail(const struct kiln_temporary *temporary, int failure, struct kiln_error *error)
@@ -241,12 +302,12 @@ bool kiln_temporary_commit(struct kiln_temporary *temporary, bool overwrite,
 }
 
 /* That all are whole and may get their names. */
-static bool close_all(struct kiln_temporary *const *files, size_t count, bool overwrite,
+static bool close_all(struct kiln_temporary *const *files, size_t count, bool overwrite, int *locks,
                       struct kiln_error *error)
 {
     bool good = true;
     for (size_t i = 0; i < count; i++) {
-        int failure = close_file(files[i]);
+        int failure = close_file(files[i], &locks[i]);
         if (good && failure != 0)
             good = fail(files[i], failure, error);
     }
@@ -276,11 +337,18 @@ static size_t rename_all(struct kiln_temporary *const *files, size_t count, bool
 bool kiln_temporary_commit_all(struct kiln_temporary *const *files, size_t count, bool overwrite,
                                struct kiln_error *error)
 {
-    size_t renamed =
-        close_all(files, count, overwrite, error) ? rename_all(files, count, overwrite, error) : 0;
+    int locks[MAX_TOGETHER];
+    assert(count <= MAX_TOGETHER);
+    size_t renamed = close_all(files, count, overwrite, locks, error)
+                         ? rename_all(files, count, overwrite, error)
+                         : 0;
     for (size_t i = 0; i < count; i++) {
         if (renamed < count)
             unlink(i < renamed ? files[i]->target : slots[files[i]->slot].path);
+        else if (files[i]->durable)
+            sync_folder(files[i]->target);
+        if (locks[i] >= 0)
+            close(locks[i]);
         end(files[i]);
     }
     return renamed == count;

@@ -11,6 +11,7 @@ struct kiln_temporary {
     int file;     /* descriptor */
     int slot;     /* in the registry of temporary names */
     int failure;  /* errno of the first write that failed, else 0; sticky */
+    bool durable; /* to be set by who opened it: is on the disk before it has its name */
 };
 
 /* Whether a file may be put there: KILN_IO, naming it, when something else than a file or link has
@@ -23,6 +24,10 @@ bool kiln_make_parent_folders(const char *path, struct kiln_error *error);
 /* Opens ".NAME.kiln-PID-N.tmp" in the target's folder; KILN_IO, naming the target, on failure. */
 bool kiln_temporary_open(struct kiln_temporary *temporary, const char *target,
                          struct kiln_error *error);
+
+/* Removes what killed processes left of such files in a target's folder: regular files of such a
+ * name that nobody locks, as their writers do. */
+void kiln_temporary_sweep(const char *target);
 
 /* The name it has now; valid until commit or discard. */
 const char *kiln_temporary_path(const struct kiln_temporary *temporary);
@@ -40,7 +45,7 @@ bool kiln_temporary_commit(struct kiln_temporary *temporary, bool overwrite,
 
 /* The same for files that belong together: all get their names, in this order, or none does. Where
  * old ones are replaced, the one of the last name goes before the first new one comes, so that
- * whoever finds that finds what belongs to it. All are closed afterwards. */
+ * whoever finds that finds what belongs to it. At most 8; all are closed afterwards. */
 bool kiln_temporary_commit_all(struct kiln_temporary *const *files, size_t count, bool overwrite,
                                struct kiln_error *error);
 

@@ -102,6 +102,15 @@ static bool check_folder(const struct kiln_output *output, struct kiln_error *er
     return true;
 }
 
+/* Removes what killed runs left where the files go. */
+static bool sweep(const struct kiln_output *output)
+{
+    char path[KILN_PATH_SIZE];
+    if (kiln_output_path(output, output->params.ranges[0].first, path, sizeof path))
+        kiln_temporary_sweep(path);
+    return true;
+}
+
 static enum kiln_numbering numbering(const struct kiln_output_params *params,
                                      const struct kiln_format *format)
 {
@@ -324,6 +333,7 @@ struct kiln_output *kiln_output_open(const struct kiln_output_params *params,
     bool good =
         kiln_path_pattern_parse(&output->pattern, params->path, numbering(params, format), error) &&
         check_files(output, error) && kiln_make_parent_folders(params->path, error) &&
+        sweep(output) &&
         (format->one_file ? open_video(output, error) : check_folder(output, error)) &&
         start_encoders(output, error);
     if (!good)

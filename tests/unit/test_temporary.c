@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/temporary.h"
@@ -65,6 +66,82 @@ static void files_of_living_jobs_stay(void **state)
     assert_int_equal(access(path, F_OK), 0);
     close(living);
     unlink(path);
+}
+
+/* What killed processes left goes; what is locked, is something else than a file, or has another
+ * name stays, and a pipe keeps nobody waiting. */
+static void what_was_left_is_swept(void **state)
+{
+    static const char *const gone[] = {".a.png.kiln-1-0.tmp", ".b.kiln-4194304-255.tmp",
+                                       ".x.kiln-y.kiln-7-1.tmp"};
+    static const char *const kept[] = {".locked.kiln-1-0.tmp",
+                                       ".pipe.kiln-1-0.tmp",
+                                       ".link.kiln-1-0.tmp",
+                                       ".folder.kiln-1-0.tmp",
+                                       "a.png",
+                                       "a.kiln-1-0.tmp",
+                                       ".a.kiln-1-.tmp",
+                                       ".a.kiln--0.tmp",
+                                       ".a.kiln-1-0.tmp.png",
+                                       ".a.kiln-1-0x.tmp"};
+    (void)state;
+    char folder[32], path[96], target[96];
+    test_make_folder(folder);
+    snprintf(target, sizeof target, "%s/clip.mp4", folder);
+    for (size_t i = 0; i < sizeof gone / sizeof *gone; i++) {
+        snprintf(path, sizeof path, "%s/%s", folder, gone[i]);
+        close(make_file(path));
+    }
+    int locked = -1;
+    for (size_t i = 0; i < sizeof kept / sizeof *kept; i++) {
+        snprintf(path, sizeof path, "%s/%s", folder, kept[i]);
+        if (i == 0) {
+            locked = make_file(path);
+            assert_int_equal(flock(locked, LOCK_EX), 0);
+        } else if (i == 1) {
+            assert_int_equal(mkfifo(path, 0666), 0);
+        } else if (i == 2) {
+            assert_int_equal(symlink("a.png", path), 0);
+        } else if (i == 3) {
+            assert_int_equal(mkdir(path, 0777), 0);
+        } else {
+            close(make_file(path));
+        }
+    }
+    kiln_temporary_sweep(target);
+    for (size_t i = 0; i < sizeof gone / sizeof *gone; i++) {
+        snprintf(path, sizeof path, "%s/%s", folder, gone[i]);
+        assert_int_equal(access(path, F_OK), -1);
+    }
+    for (size_t i = 0; i < sizeof kept / sizeof *kept; i++) {
+        struct stat status;
+        snprintf(path, sizeof path, "%s/%s", folder, kept[i]);
+        if (lstat(path, &status) != 0)
+            fail_msg("%s is gone", kept[i]);
+    }
+    close(locked);
+    snprintf(path, sizeof path, "%s/%s", folder, kept[3]);
+    rmdir(path);
+    kiln_temporary_sweep("/nowhere/at/all.png");
+    test_remove_folder(folder);
+}
+
+/* Nobody takes a file for abandoned while it gets its name, and a durable one has it in the end. */
+static void files_keep_their_lock_until_they_have_their_name(void **state)
+{
+    (void)state;
+    char folder[32], target[96];
+    struct kiln_error error = {0};
+    struct kiln_temporary file = {0};
+    test_make_folder(folder);
+    snprintf(target, sizeof target, "%s/a.png", folder);
+    assert_true(kiln_temporary_open(&file, target, &error));
+    file.durable = true;
+    assert_true(kiln_temporary_write(&file, "abc", 3));
+    kiln_temporary_sweep(target);
+    assert_true(kiln_temporary_commit(&file, false, &error));
+    assert_int_equal(access(target, F_OK), 0);
+    test_remove_folder(folder);
 }
 
 /* ---- Files that belong together ------------------------------------------------------------ */
@@ -179,6 +256,8 @@ int main(void)
 {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_of_killed_jobs_make_room),
+        cmocka_unit_test(what_was_left_is_swept),
+        cmocka_unit_test(files_keep_their_lock_until_they_have_their_name),
         cmocka_unit_test(files_of_living_jobs_stay),
         cmocka_unit_test(sets_come_whole),
         cmocka_unit_test(sets_come_whole_or_not_at_all),
