@@ -14,6 +14,8 @@
 #include <libavutil/pixdesc.h>
 #include <string.h>
 
+#include "output/bleed.h"
+
 enum { ENCODER_THREADS = 4 };
 
 enum AVPixelFormat kiln_coder_pixels(const struct kiln_output_params *params)
@@ -141,6 +143,11 @@ void kiln_coder_close(struct kiln_coder *coder)
 int kiln_coder_convert(struct kiln_coder *coder, const struct kiln_picture *picture)
 {
     AVFrame *frame = coder->frame;
+    struct kiln_error error = {0};
+    /* Lossy codecs smear the colours of pixels that nobody sees into those beside them. */
+    if (picture->has_alpha && !kiln_coder_is_rgb(coder->codec->pix_fmt) &&
+        !kiln_bleed_colors(picture, &error))
+        return AVERROR(ENOMEM);
     int status = av_frame_make_writable(frame);
     if (status < 0)
         return status;

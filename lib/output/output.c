@@ -3,16 +3,20 @@
  * The first failure stops everything and is told by the next call. */
 #include "output/output.h"
 
+#include <errno.h>
 #include <pthread.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/arena.h"
 #include "base/error.h"
+#include "base/hash.h"
 #include "base/pattern.h"
 #include "output/flipbook.h"
 #include "output/formats.h"
+#include "output/part.h"
 
 enum { MAX_ENCODERS = 64, QUEUE_SIZE = MAX_ENCODERS + 1 };
 
@@ -24,6 +28,7 @@ struct kiln_output {
 
     struct kiln_temporary video_file; /* one_file formats */
     void *video_encoder;
+    struct kiln_part_writer *part; /* in place of both, where parts wait */
 
     size_t due_range; /* the frame that comes next */
     uint32_t due_frame;
@@ -31,6 +36,7 @@ struct kiln_output {
     pthread_t encoders[MAX_ENCODERS];
     uint32_t encoder_count;
     pthread_mutex_t mutex;
+    pthread_mutex_t telling; /* held by who tells of a whole file */
     pthread_cond_t work, room;
     struct kiln_picture *queue[QUEUE_SIZE]; /* a ring */
     uint32_t first, waiting;
@@ -66,7 +72,8 @@ static bool check_ranges(const struct kiln_output_params *params, const struct k
         if (range->last < range->first || (i > 0 && range->first <= range[-1].last))
             return kiln_error_set(error, KILN_USAGE, "%s: frames %u-%u are not in ascending order",
                                   params->path, range->first, range->last);
-        if (format->one_file && !format->gaps && i > 0 && range->first != range[-1].last + 1)
+        if (format->one_file && !format->gaps && !params->parts && i > 0 &&
+            range->first != range[-1].last + 1)
             return refuse_gap(params->path, range[-1].last + 1, range->first - 1, error);
     }
     return true;
@@ -102,6 +109,17 @@ static bool check_folder(const struct kiln_output *output, struct kiln_error *er
     return true;
 }
 
+static bool make_parts_folder(const struct kiln_output *output, struct kiln_error *error)
+{
+    char path[KILN_PATH_SIZE];
+    if (!output->params.parts)
+        return true;
+    if (!kiln_part_path(&output->params, 0, path, error) || !kiln_make_parent_folders(path, error))
+        return false;
+    kiln_temporary_sweep(path);
+    return true;
+}
+
 /* Removes what killed runs left where the files go. */
 static bool sweep(const struct kiln_output *output)
 {
@@ -116,8 +134,50 @@ static enum kiln_numbering numbering(const struct kiln_output_params *params,
 {
     if (format->one_file)
         return KILN_NUMBER_NEVER;
-    bool one = params->range_count == 1 && params->ranges[0].first == params->ranges[0].last;
+    bool one = params->clip_count == 1 && params->clip[0].first == params->clip[0].last;
     return one ? KILN_NUMBER_IF_ASKED : KILN_NUMBER_ALWAYS;
+}
+
+/* ---- Whole files -------------------------------------------------------------------------- */
+
+/* Tells who listens of a file that has its name. */
+static bool tell(struct kiln_output *output, const char *path, struct kiln_frame_range frames,
+                 bool is_part, struct kiln_error *error)
+{
+    const struct kiln_whole_listener *listener = &output->params.whole;
+    struct kiln_whole whole = {.path = path, .frames = frames, .is_part = is_part};
+    struct stat status;
+    if (!listener->tell)
+        return true;
+    if (stat(path, &status) != 0 || !kiln_hash_sha256_file(path, whole.sha256))
+        return kiln_error_set_errno(error, KILN_IO, errno, "%s: the file cannot be read again",
+                                    path);
+    whole.bytes = (uint64_t)status.st_size;
+    pthread_mutex_lock(&output->telling);
+    const bool good = listener->tell(listener->user, &whole, error);
+    pthread_mutex_unlock(&output->telling);
+    return good;
+}
+
+/* Tells of the one file of a clip, and of those beside it. */
+static bool tell_of_clip(struct kiln_output *output, struct kiln_error *error)
+{
+    const struct kiln_output_params *params = &output->params;
+    const struct kiln_format *format = output->format;
+    const struct kiln_frame_range frames = {params->clip[0].first,
+                                            params->clip[params->clip_count - 1].last};
+    char path[KILN_PATH_SIZE], beside[KILN_PATH_SIZE];
+    if (!params->whole.tell)
+        return true;
+    if (!kiln_output_path(output, 0, path, sizeof path) ||
+        !tell(output, path, frames, false, error))
+        return false;
+    const char *ending;
+    for (uint32_t i = 0; format->beside && (ending = format->beside(params, i)); i++) {
+        if (kiln_format_beside(path, ending, beside) && !tell(output, beside, frames, false, error))
+            return false;
+    }
+    return true;
 }
 
 /* ---- Encoding ----------------------------------------------------------------------------- */
@@ -136,15 +196,41 @@ static bool encode_image(struct kiln_output *output, const struct kiln_picture *
                 (!format->finish || format->finish(encoder, NULL, error));
     if (encoder)
         format->close(encoder);
+    file.durable = output->params.durable;
     if (good)
-        return kiln_temporary_commit(&file, output->params.overwrite, error);
+        return kiln_temporary_commit(&file, output->params.overwrite, error) &&
+               tell(output, path, (struct kiln_frame_range){picture->frame, picture->frame}, false,
+                    error);
     kiln_temporary_discard(&file);
     return false;
+}
+
+/* Into the part that a picture belongs to, whose file gets its name with its last frame. */
+static bool encode_into_part(struct kiln_output *output, const struct kiln_picture *picture,
+                             struct kiln_error *error)
+{
+    const struct kiln_output_params *params = &output->params;
+    const uint32_t part = kiln_part_of(params, picture->frame);
+    const struct kiln_frame_range range = kiln_part_range(params, part);
+    char path[KILN_PATH_SIZE];
+    if (picture->frame == range.first)
+        output->part = kiln_part_writer_open(params, part, error);
+    if (!output->part || !kiln_part_write(output->part, picture, error))
+        return false;
+    if (picture->frame != range.last)
+        return true;
+    const bool good = kiln_part_finish(output->part, error) &&
+                      kiln_part_path(params, part, path, error) &&
+                      tell(output, path, range, true, error);
+    kiln_part_writer_close(&output->part);
+    return good;
 }
 
 static bool encode(struct kiln_output *output, const struct kiln_picture *picture,
                    struct kiln_error *error)
 {
+    if (output->params.parts)
+        return encode_into_part(output, picture, error);
     if (output->format->one_file)
         return output->format->encode(output->video_encoder, picture, error);
     return encode_image(output, picture, error);
@@ -225,9 +311,14 @@ static struct kiln_output *create(const struct kiln_output_params *params, struc
     struct kiln_output *output = arena ? kiln_arena_alloc(arena, 1, sizeof *output) : NULL;
     struct kiln_frame_range *ranges =
         output ? kiln_arena_alloc(arena, params->range_count, sizeof *ranges) : NULL;
-    char *path = ranges ? kiln_arena_text(arena, params->path, strlen(params->path)) : NULL;
+    struct kiln_frame_range *clip =
+        ranges ? kiln_arena_alloc(arena, params->clip_count, sizeof *clip) : NULL;
+    char *path = clip ? kiln_arena_text(arena, params->path, strlen(params->path)) : NULL;
     char *hash =
         path ? kiln_arena_text(arena, params->scene_hash, strlen(params->scene_hash)) : NULL;
+    const char *parts = params->parts;
+    if (hash && parts && !(parts = kiln_arena_text(arena, parts, strlen(parts))))
+        hash = NULL;
     if (!hash) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the output", params->path);
         kiln_arena_destroy(&arena);
@@ -238,9 +329,13 @@ static struct kiln_output *create(const struct kiln_output_params *params, struc
     output->params = *params;
     output->params.path = path;
     output->params.scene_hash = hash;
+    output->params.parts = parts;
     output->params.ranges = ranges;
+    memcpy(clip, params->clip, params->clip_count * sizeof *clip);
+    output->params.clip = clip;
     output->due_frame = ranges[0].first;
     pthread_mutex_init(&output->mutex, NULL);
+    pthread_mutex_init(&output->telling, NULL);
     pthread_cond_init(&output->work, NULL);
     pthread_cond_init(&output->room, NULL);
     return output;
@@ -269,6 +364,18 @@ static const struct kiln_format *find_format(const struct kiln_output_params *pa
     return NULL;
 }
 
+struct kiln_output_params kiln_output_complete(const struct kiln_output_params *params,
+                                               struct kiln_error *error)
+{
+    struct kiln_output_params result = *params;
+    result.format = find_format(params, error);
+    if (result.clip_count == 0) {
+        result.clip = result.ranges;
+        result.clip_count = result.range_count;
+    }
+    return result;
+}
+
 static bool claim_frames(const struct kiln_output_params *params,
                          const struct kiln_path_pattern *pattern, struct kiln_claims *claims,
                          struct kiln_error *error)
@@ -291,7 +398,9 @@ static bool claim_frames(const struct kiln_output_params *params,
 bool kiln_output_claim(const struct kiln_output_params *params, struct kiln_claims *claims,
                        struct kiln_error *error)
 {
-    const struct kiln_format *format = find_format(params, error);
+    const struct kiln_output_params complete = kiln_output_complete(params, error);
+    const struct kiln_format *format = complete.format;
+    params = &complete;
     struct kiln_path_pattern pattern;
     if (!format || !check_ranges(params, format, error) ||
         !kiln_path_pattern_parse(&pattern, params->path, numbering(params, format), error) ||
@@ -309,20 +418,11 @@ bool kiln_output_claim(const struct kiln_output_params *params, struct kiln_clai
     return true;
 }
 
-/* Both what the format's functions are given and what stays in the output. */
-static struct kiln_output_params with_format(const struct kiln_output_params *params,
-                                             const struct kiln_format *format)
-{
-    struct kiln_output_params result = *params;
-    result.format = format;
-    return result;
-}
-
 struct kiln_output *kiln_output_open(const struct kiln_output_params *params,
                                      struct kiln_error *error)
 {
-    const struct kiln_format *format = find_format(params, error);
-    const struct kiln_output_params complete = with_format(params, format);
+    const struct kiln_output_params complete = kiln_output_complete(params, error);
+    const struct kiln_format *format = complete.format;
     params = &complete;
     if (!format || !check_ranges(params, format, error) || !format->check(params, error))
         return NULL;
@@ -333,8 +433,9 @@ struct kiln_output *kiln_output_open(const struct kiln_output_params *params,
     bool good =
         kiln_path_pattern_parse(&output->pattern, params->path, numbering(params, format), error) &&
         check_files(output, error) && kiln_make_parent_folders(params->path, error) &&
-        sweep(output) &&
-        (format->one_file ? open_video(output, error) : check_folder(output, error)) &&
+        make_parts_folder(output, error) && sweep(output) &&
+        (format->one_file && !params->parts ? open_video(output, error)
+                                            : check_folder(output, error)) &&
         start_encoders(output, error);
     if (!good)
         kiln_output_close(&output);
@@ -409,6 +510,7 @@ static void end_video(struct kiln_output *output)
     if (output->video_encoder)
         output->format->close(output->video_encoder);
     output->video_encoder = NULL;
+    kiln_part_writer_close(&output->part);
     kiln_temporary_discard(&output->video_file);
 }
 
@@ -435,8 +537,10 @@ bool kiln_output_finish(struct kiln_output *output, struct kiln_error *error)
     if (!good)
         *error = output->error;
     if (output->format->one_file && output->video_encoder) {
+        output->video_file.durable = output->params.durable;
         good = good && finish_video(output, error);
         end_video(output);
+        good = good && tell_of_clip(output, error);
     }
     return good;
 }
@@ -456,6 +560,7 @@ void kiln_output_close(struct kiln_output **output)
     pthread_cond_destroy(&closing->room);
     pthread_cond_destroy(&closing->work);
     pthread_mutex_destroy(&closing->mutex);
+    pthread_mutex_destroy(&closing->telling);
     struct kiln_arena *arena = closing->arena;
     kiln_arena_destroy(&arena);
 }

@@ -51,16 +51,39 @@ static inline bool kiln_output_may_go_on(const struct kiln_output_caller *caller
     return !caller || !caller->may_go_on || caller->may_go_on(caller->user, error);
 }
 
+/* A file that has its name. */
+struct kiln_whole {
+    const char *path;
+    struct kiln_frame_range frames; /* that it holds, alone or with others in between */
+    bool is_part;                   /* of the clip; else what the user asked for */
+    uint64_t bytes;
+    char sha256[65];
+};
+
+/* Told of each file as soon as it is whole, on any thread, one call at a time. false: why not to go
+ * on. NULL: nobody, and no file is read again for its hash. */
+struct kiln_whole_listener {
+    bool (*tell)(void *user, const struct kiln_whole *whole, struct kiln_error *error);
+    void *user;
+};
+
 struct kiln_format;
 
 struct kiln_output_params {
     const char *path;                 /* as the user gave it */
-    const struct kiln_format *format; /* of the path; kiln_output_open finds it */
+    const struct kiln_format *format; /* of the path; kiln_output_complete finds it */
     uint32_t width, height;
     uint32_t fps_num, fps_den;
     bool alpha;
     const struct kiln_frame_range *ranges; /* what will be written, ascending, disjoint */
     size_t range_count;
+    /* The frames of the whole output, of which `ranges` are some: their places and the names of
+     * files follow from it. Count 0: there are no others. */
+    const struct kiln_frame_range *clip;
+    size_t clip_count;
+    /* Of one file for all frames: the folder where its parts wait, each in a file, until they are
+     * joined by kiln_parts_join. Ranges consist of whole parts then. NULL: no parts wait. */
+    const char *parts;
     uint32_t threads; /* encoders; at least 1 */
     bool overwrite;
     uint32_t png_bits, exr_bits, quality;
@@ -69,10 +92,16 @@ struct kiln_output_params {
                                NULL, for an encoder of PNG alone: the picture is of no scene */
     uint32_t seed;
     struct kiln_log log;
+    struct kiln_whole_listener whole;
+    bool durable;                     /* files are on the disk before they have their names */
     struct kiln_output_caller caller; /* asked by kiln_output_finish alone, on its thread */
 };
 
 struct kiln_output;
+
+/* The parameters with what follows from them: format and clip. format NULL with KILN_USAGE. */
+struct kiln_output_params kiln_output_complete(const struct kiln_output_params *params,
+                                               struct kiln_error *error);
 
 /* Checks everything that can be checked before the first frame (suffix, folder writable, existing
  * files, even sizes, codec present, gaps in a video), makes missing folders, and opens the

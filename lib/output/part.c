@@ -1,10 +1,319 @@
-/* The parts of a clip. */
-#include "kiln.h"
+/* Which frames are in which part, the files of parts, and the clip that is made of them. */
+#include "output/part.h"
 
-enum { SECONDS = 2, MOST = 600 };
+#include <stdlib.h>
+#include <string.h>
+#include <zstd.h>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "output/part_packets.h"
+
+enum { END = UINT32_MAX, LEVEL = 1, SECONDS = 2, MOST_FRAMES = 600 };
 
 uint32_t kiln_part_frames(uint32_t fps_num, uint32_t fps_den)
 {
     const uint64_t frames = (uint64_t)fps_num * SECONDS / fps_den;
-    return frames < 1 ? 1 : frames > MOST ? MOST : (uint32_t)frames;
+    return frames < 1 ? 1 : frames > MOST_FRAMES ? MOST_FRAMES : (uint32_t)frames;
+}
+
+/* ---- frames ---------------------------------------------------------------------------------- */
+
+static uint32_t clip_frames(const struct kiln_output_params *params)
+{
+    uint32_t count = 0;
+    for (size_t i = 0; i < params->clip_count; i++)
+        count += params->clip[i].last - params->clip[i].first + 1;
+    return count;
+}
+
+/* The frame at a position in the clip, and where a frame is. */
+static uint32_t frame_at(const struct kiln_output_params *params, uint32_t position)
+{
+    size_t i = 0;
+    while (position > params->clip[i].last - params->clip[i].first)
+        position -= params->clip[i].last - params->clip[i].first + 1, i++;
+    return params->clip[i].first + position;
+}
+
+static uint32_t position_of(const struct kiln_output_params *params, uint32_t frame)
+{
+    uint32_t before = 0;
+    size_t i = 0;
+    for (; frame > params->clip[i].last; i++)
+        before += params->clip[i].last - params->clip[i].first + 1;
+    return before + frame - params->clip[i].first;
+}
+
+static uint32_t part_length(const struct kiln_output_params *params)
+{
+    return kiln_part_frames(params->fps_num, params->fps_den);
+}
+
+uint32_t kiln_parts_count(const struct kiln_output_params *params)
+{
+    return (clip_frames(params) - 1) / part_length(params) + 1;
+}
+
+uint32_t kiln_part_of(const struct kiln_output_params *params, uint32_t frame)
+{
+    return position_of(params, frame) / part_length(params);
+}
+
+/* Frames of a part. */
+static uint32_t count_in(const struct kiln_output_params *params, uint32_t part)
+{
+    const uint32_t rest = clip_frames(params) - part * part_length(params);
+    return rest < part_length(params) ? rest : part_length(params);
+}
+
+struct kiln_frame_range kiln_part_range(const struct kiln_output_params *params, uint32_t part)
+{
+    const uint32_t first = part * part_length(params);
+    return (struct kiln_frame_range){frame_at(params, first),
+                                     frame_at(params, first + count_in(params, part) - 1)};
+}
+
+bool kiln_part_path(const struct kiln_output_params *params, uint32_t part,
+                    char path[KILN_PATH_SIZE], struct kiln_error *error)
+{
+    char name[32];
+    snprintf(name, sizeof name, "%05u.part", part);
+    return kiln_path_join(path, params->parts, name, error);
+}
+
+/* ---- writing --------------------------------------------------------------------------------- */
+
+struct kiln_part_writer {
+    const struct kiln_output_params *params;
+    struct kiln_part_head head;
+    struct kiln_temporary file;
+    struct kiln_part_out out;
+    struct kiln_part_packets *packets; /* NULL: pictures are kept */
+    uint32_t frames;                   /* that came */
+    void *packed;
+    size_t room;
+};
+
+/* Formats of coded parts keep packets. */
+static bool keeps_packets(const struct kiln_output_params *params)
+{
+    return params->format->video && params->format->video->parts;
+}
+
+static bool fill_head(const struct kiln_output_params *params, uint32_t part,
+                      struct kiln_part_head *head, struct kiln_error *error)
+{
+    *head = (struct kiln_part_head){.part = part,
+                                    .parts = kiln_parts_count(params),
+                                    .first = part * part_length(params),
+                                    .frames = count_in(params, part),
+                                    .packets = keeps_packets(params)};
+    kiln_part_made_by(head->made_by);
+    return kiln_clip_hash(params, head->clip) ||
+           kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", params->path);
+}
+
+struct kiln_part_writer *kiln_part_writer_open(const struct kiln_output_params *params,
+                                               uint32_t part, struct kiln_error *error)
+{
+    char path[KILN_PATH_SIZE];
+    struct kiln_part_writer *writer = calloc(1, sizeof *writer);
+    if (!writer) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", params->path);
+        return NULL;
+    }
+    writer->params = params;
+    bool ok = kiln_part_path(params, part, path, error) &&
+              fill_head(params, part, &writer->head, error) &&
+              kiln_temporary_open(&writer->file, path, error);
+    if (ok) {
+        writer->file.durable = params->durable;
+        kiln_part_begin(&writer->out, &writer->file, &writer->head);
+    }
+    if (ok && keeps_packets(params)) {
+        writer->packets = kiln_part_packets_open(params, part == 0, &writer->out, error);
+        ok = writer->packets != NULL;
+    }
+    if (!ok)
+        kiln_part_writer_close(&writer);
+    return writer;
+}
+
+void kiln_part_writer_close(struct kiln_part_writer **writer)
+{
+    struct kiln_part_writer *w = *writer;
+    if (!w)
+        return;
+    kiln_part_packets_close(&w->packets);
+    kiln_temporary_discard(&w->file);
+    free(w->packed);
+    free(w);
+    *writer = NULL;
+}
+
+static bool write_picture(struct kiln_part_writer *writer, const struct kiln_picture *picture,
+                          struct kiln_error *error)
+{
+    const size_t size = (size_t)picture->width * picture->height * picture->bits / 2;
+    writer->room = ZSTD_compressBound(size);
+    if (!writer->packed)
+        writer->packed = malloc(writer->room);
+    if (!writer->packed)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", writer->params->path);
+    const size_t packed =
+        ZSTD_compress(writer->packed, writer->room, picture->display, size, LEVEL);
+    if (ZSTD_isError(packed) || packed >= END)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: a frame of %zu bytes cannot be kept",
+                              writer->params->path, size);
+    kiln_part_add_word(&writer->out, (uint32_t)packed);
+    kiln_part_add_word(&writer->out, picture->has_alpha);
+    kiln_part_add(&writer->out, writer->packed, packed);
+    return true;
+}
+
+bool kiln_part_write(struct kiln_part_writer *writer, const struct kiln_picture *picture,
+                     struct kiln_error *error)
+{
+    writer->frames++;
+    return writer->packets ? kiln_part_packets_write(writer->packets, picture, error)
+                           : write_picture(writer, picture, error);
+}
+
+bool kiln_part_finish(struct kiln_part_writer *writer, struct kiln_error *error)
+{
+    if (writer->frames != writer->head.frames)
+        return kiln_error_set(error, KILN_USAGE, "%s: %u of %u frames of part %u came",
+                              writer->params->path, writer->frames, writer->head.frames,
+                              writer->head.part);
+    if (writer->packets && !kiln_part_packets_finish(writer->packets, error))
+        return false;
+    kiln_part_add_word(&writer->out, END);
+    kiln_part_end(&writer->out);
+    return kiln_temporary_commit(&writer->file, true, error);
+}
+
+/* ---- checking and joining -------------------------------------------------------------------- */
+
+/* Opens the file of a part and compares its head with what it should be. */
+static bool open_part(const struct kiln_output_params *params, uint32_t part, const char *path,
+                      struct kiln_part_in *in, struct kiln_error *error)
+{
+    struct kiln_part_head wanted;
+    if (!fill_head(params, part, &wanted, error) || !kiln_part_open(in, path, error))
+        return false;
+    const struct kiln_part_head *head = &in->head;
+    bool ok = true;
+    if (strcmp(head->clip, wanted.clip) != 0)
+        ok = kiln_part_refuse(in,
+                              "is a part of another clip: of another scene, size, quality or "
+                              "other frames",
+                              error);
+    else if (strcmp(head->made_by, wanted.made_by) != 0)
+        ok = kiln_error_set(error, KILN_INVALID_INPUT, "%s: was made by %s; this is %s", path,
+                            head->made_by, wanted.made_by);
+    else if (head->part != part || head->parts != wanted.parts || head->first != wanted.first ||
+             head->frames != wanted.frames || head->packets != wanted.packets)
+        ok = kiln_part_refuse(in, "is another part of the clip", error);
+    if (!ok)
+        kiln_part_close(in);
+    return ok;
+}
+
+bool kiln_part_check(const struct kiln_output_params *params, uint32_t part,
+                     struct kiln_error *error)
+{
+    char path[KILN_PATH_SIZE];
+    struct kiln_part_in in;
+    if (!kiln_part_path(params, part, path, error) || !open_part(params, part, path, &in, error))
+        return false;
+    kiln_part_close(&in);
+    return true;
+}
+
+/* Reads the picture of the frame that comes next; NULL with an error. */
+static struct kiln_picture *read_picture(const struct kiln_output_params *params,
+                                         struct kiln_part_in *in, uint32_t frame,
+                                         struct kiln_error *error)
+{
+    const uint32_t bits = params->format->needs(params).bits;
+    uint32_t size = 0, has_alpha = 0;
+    if (!kiln_part_read_word(in, &size, error) || !kiln_part_read_word(in, &has_alpha, error))
+        return NULL;
+    const size_t pixels = (size_t)params->width * params->height * bits / 2;
+    void *packed = size <= ZSTD_compressBound(pixels) ? malloc((size_t)size + 1) : NULL;
+    struct kiln_picture *picture =
+        packed && kiln_part_read(in, packed, size, error)
+            ? kiln_picture_create(params->width, params->height, bits, NULL, NULL, 0, error)
+            : NULL;
+    if (!packed)
+        kiln_part_refuse(in, "the part of a clip is damaged", error);
+    if (picture && ZSTD_decompress(picture->display, pixels, packed, size) != pixels) {
+        kiln_part_refuse(in, "the part of a clip is damaged", error);
+        kiln_picture_destroy(&picture);
+    }
+    free(packed);
+    if (!picture)
+        return NULL;
+    picture->frame = frame;
+    picture->has_alpha = has_alpha != 0;
+    return picture;
+}
+
+static bool join_pictures(const struct kiln_output_params *params, struct kiln_error *error)
+{
+    struct kiln_output_params straight = *params;
+    straight.parts = NULL;
+    straight.ranges = params->clip;
+    straight.range_count = params->clip_count;
+    struct kiln_output *output = kiln_output_open(&straight, error);
+    bool ok = output != NULL;
+    for (uint32_t part = 0; ok && part < kiln_parts_count(params); part++) {
+        char path[KILN_PATH_SIZE];
+        struct kiln_part_in in;
+        ok = kiln_part_path(params, part, path, error) && open_part(params, part, path, &in, error);
+        for (uint32_t i = 0; ok && i < count_in(params, part); i++) {
+            const uint32_t frame = frame_at(params, part * part_length(params) + i);
+            struct kiln_picture *picture = read_picture(params, &in, frame, error);
+            ok = picture && kiln_output_may_go_on(&params->caller, error) &&
+                 kiln_output_write(output, picture, error);
+        }
+        if (ok)
+            kiln_part_close(&in);
+    }
+    ok = ok && kiln_output_finish(output, error);
+    kiln_output_close(&output);
+    return ok;
+}
+
+static bool join_packets(const struct kiln_output_params *params, struct kiln_error *error)
+{
+    struct kiln_temporary file = {0};
+    if (!kiln_target_check(params->path, params->overwrite, error) ||
+        !kiln_temporary_open(&file, params->path, error))
+        return false;
+    file.durable = params->durable;
+    void *clip = kiln_video_open(params, &file, error);
+    bool ok = clip != NULL;
+    for (uint32_t part = 0; ok && part < kiln_parts_count(params); part++) {
+        char path[KILN_PATH_SIZE];
+        struct kiln_part_in in;
+        ok = kiln_part_path(params, part, path, error) && open_part(params, part, path, &in, error);
+        if (!ok)
+            break;
+        ok = kiln_part_packets_pass(&in, clip, &params->caller, error);
+        kiln_part_close(&in);
+    }
+    ok = ok && kiln_video_finish(clip, &params->caller, error);
+    if (clip)
+        kiln_video_close(clip);
+    if (ok)
+        return kiln_temporary_commit(&file, params->overwrite, error);
+    kiln_temporary_discard(&file);
+    return false;
+}
+
+bool kiln_parts_join(const struct kiln_output_params *params, struct kiln_error *error)
+{
+    return keeps_packets(params) ? join_packets(params, error) : join_pictures(params, error);
 }

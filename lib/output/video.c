@@ -8,7 +8,6 @@
 
 #include "asset/image/avlog.h"
 #include "base/error.h"
-#include "output/bleed.h"
 #include "output/coder.h"
 #include "output/muxer.h"
 
@@ -89,31 +88,34 @@ bool kiln_video_check(const struct kiln_output_params *params, struct kiln_error
     return check_parts(params, error);
 }
 
-/* Reports what went wrong: the disk's answer if it gave one, else FFmpeg's. */
+bool kiln_video_fail(const struct kiln_output_params *params, const struct kiln_temporary *file,
+                     const char *said, int status, const char *what, struct kiln_error *error)
+{
+    if (file->failure)
+        return kiln_error_set_errno(error, KILN_IO, file->failure, "%s: the file cannot be written",
+                                    params->path);
+    if (status == AVERROR(ENOMEM))
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the video encoder",
+                              params->path);
+    char reason[AV_ERROR_MAX_STRING_SIZE] = "";
+    av_strerror(status, reason, sizeof reason);
+    return kiln_error_set(error, KILN_IO, "%s: %s: %s", params->path, what, *said ? said : reason);
+}
+
 static bool fail(const struct video_encoder *encoder, int status, const char *what,
                  struct kiln_error *error)
 {
-    if (encoder->file->failure)
-        return kiln_error_set_errno(error, KILN_IO, encoder->file->failure,
-                                    "%s: the file cannot be written", encoder->params->path);
-    if (status == AVERROR(ENOMEM))
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the video encoder",
-                              encoder->params->path);
-    char reason[AV_ERROR_MAX_STRING_SIZE] = "";
-    av_strerror(status, reason, sizeof reason);
-    const char *detail = encoder->avlog.first_error;
-    return kiln_error_set(error, KILN_IO, "%s: %s: %s", encoder->params->path, what,
-                          *detail ? detail : reason);
+    return kiln_video_fail(encoder->params, encoder->file, encoder->avlog.first_error, status, what,
+                           error);
 }
 
 /* ---- Parts -------------------------------------------------------------------------------- */
 
 /* Of different parts the headers must be the same: there is one for the clip. */
-static bool has_same_header(const AVCodecParameters *first, const AVCodecContext *codec)
+static bool has_same_header(const AVCodecParameters *first, const uint8_t *header, size_t size)
 {
-    return first->extradata_size == codec->extradata_size &&
-           (codec->extradata_size == 0 ||
-            memcmp(first->extradata, codec->extradata, (size_t)codec->extradata_size) == 0);
+    return (size_t)first->extradata_size == size &&
+           (size == 0 || memcmp(first->extradata, header, size) == 0);
 }
 
 /* Starts the part that begins with the frame that comes next, and the container with the first. */
@@ -127,7 +129,10 @@ static int open_part(struct video_encoder *encoder)
     encoder->part_first = encoder->frames;
     encoder->part_packets = 0;
     if (!first)
-        return has_same_header(encoder->codec, encoder->coder.codec) ? 0 : AVERROR_BUG;
+        return has_same_header(encoder->codec, encoder->coder.codec->extradata,
+                               (size_t)encoder->coder.codec->extradata_size)
+                   ? 0
+                   : AVERROR_BUG;
     status = avcodec_parameters_from_context(encoder->codec, encoder->coder.codec);
     return status < 0 ? status
                       : kiln_muxer_open(&encoder->muxer, encoder->params, encoder->codec,
@@ -172,9 +177,38 @@ void *kiln_video_open(const struct kiln_output_params *params, struct kiln_tempo
 
 /* ---- Frames ------------------------------------------------------------------------------- */
 
-/* Gives the container all packets that are ready. In a part, packets are decoded at even times, as
- * many frames ahead of the clip's as the encoder may reorder: so the times of a part follow from
- * where it begins. AVERROR_EXIT when the caller wants no more, with its error. */
+/* Gives the container a packet of the part at hand. Packets of a part are decoded at even times, as
+ * many frames ahead as the encoder may reorder: so they follow from where the part begins. */
+static int add_packet(struct video_encoder *encoder, AVPacket *packet)
+{
+    packet->pts += encoder->part_first;
+    packet->dts = encoder->part_first + encoder->part_packets++;
+    if (encoder->settings->parts)
+        packet->dts -= encoder->coder.codec->has_b_frames;
+    else
+        packet->dts = packet->pts; /* frames may be left out; none are reordered */
+    return kiln_muxer_add(&encoder->muxer, packet);
+}
+
+bool kiln_video_begin_part(void *opaque, int64_t first, const uint8_t *header, size_t size)
+{
+    struct video_encoder *encoder = opaque;
+    encoder->part_first = first;
+    encoder->part_packets = 0;
+    return has_same_header(encoder->codec, header, size);
+}
+
+bool kiln_video_add_packet(void *opaque, AVPacket *packet, struct kiln_error *error)
+{
+    struct video_encoder *encoder = opaque;
+    kiln_avlog_begin(&encoder->avlog);
+    const int status = add_packet(encoder, packet);
+    kiln_avlog_end(&encoder->avlog);
+    return status >= 0 || fail(encoder, status, "the video cannot be written", error);
+}
+
+/* Gives the container all packets that are ready. AVERROR_EXIT when the caller wants no more, with
+ * its error. */
 static int pass_packets(struct video_encoder *encoder, const struct kiln_output_caller *caller,
                         struct kiln_error *error)
 {
@@ -187,13 +221,7 @@ static int pass_packets(struct video_encoder *encoder, const struct kiln_output_
             return 0;
         if (status < 0)
             return status;
-        packet->pts += encoder->part_first;
-        packet->dts = encoder->part_first + encoder->part_packets++;
-        if (encoder->settings->parts)
-            packet->dts -= encoder->coder.codec->has_b_frames;
-        else
-            packet->dts = packet->pts; /* frames may be left out; none are reordered */
-        status = kiln_muxer_add(&encoder->muxer, packet);
+        status = add_packet(encoder, packet);
         if (status < 0)
             return status;
     }
@@ -232,10 +260,6 @@ static bool push_frame(struct video_encoder *encoder, int status, int64_t number
 bool kiln_video_encode(void *opaque, const struct kiln_picture *picture, struct kiln_error *error)
 {
     struct video_encoder *encoder = opaque;
-    /* Lossy codecs smear the colours of pixels that nobody sees into those beside them. */
-    if (picture->has_alpha && !kiln_coder_is_rgb(kiln_coder_pixels(encoder->params)) &&
-        !kiln_bleed_colors(picture, error))
-        return false;
     kiln_avlog_begin(&encoder->avlog);
     int status = begin_frame(encoder, error);
     if (status >= 0)

@@ -33,6 +33,16 @@ struct kiln_video_settings {
  * nothing. */
 void kiln_video_missing(const struct kiln_video_settings *settings, char missing[64]);
 
+/* Reports what went wrong: the disk's answer if it gave one, what FFmpeg said, or its status. */
+bool kiln_video_fail(const struct kiln_output_params *params, const struct kiln_temporary *file,
+                     const char *said, int status, const char *what, struct kiln_error *error);
+
+/* For clips whose packets are there already, in place of kiln_video_encode: begins a part at a
+ * position in the clip, which fails when its encoder's header is another than the clip's; and adds
+ * its packets, whose pts count from the start of the part, in the order of decoding. */
+bool kiln_video_begin_part(void *opaque, int64_t first, const uint8_t *header, size_t size);
+bool kiln_video_add_packet(void *opaque, AVPacket *packet, struct kiln_error *error);
+
 /* The functions of a struct kiln_format whose settings are params->format->video; opaque is what
  * kiln_video_open returned. */
 struct kiln_output_needs kiln_video_needs(const struct kiln_output_params *params);

@@ -1,0 +1,211 @@
+/* A file has the encoder's header, then each packet: the number of its frame, flags, bytes, and its
+ * side data, in which WebM has the alpha. */
+#include "output/part_packets.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "asset/image/avlog.h"
+#include "base/error.h"
+#include "output/coder.h"
+
+enum { END = UINT32_MAX, MAX_SIDE_DATA = 16 };
+
+struct kiln_part_packets {
+    const struct kiln_output_params *params;
+    struct kiln_part_out *out;
+    struct kiln_coder coder;
+    struct kiln_avlog avlog;
+    AVPacket *packet;
+    int64_t frames; /* that came */
+};
+
+static bool fail(const struct kiln_part_packets *packets, int status, struct kiln_error *error)
+{
+    const struct kiln_avlog *avlog = &packets->avlog;
+    return kiln_video_fail(packets->params, packets->out->file, avlog->first_error, status,
+                           "a part of the video cannot be encoded", error);
+}
+
+static void write_packet(struct kiln_part_out *out, const AVPacket *packet)
+{
+    kiln_part_add_word(out, (uint32_t)packet->size);
+    kiln_part_add_word(out, (uint32_t)packet->pts);
+    kiln_part_add_word(out, (uint32_t)packet->flags);
+    kiln_part_add_word(out, (uint32_t)packet->side_data_elems);
+    for (int i = 0; i < packet->side_data_elems; i++) {
+        const AVPacketSideData *side = &packet->side_data[i];
+        kiln_part_add_word(out, (uint32_t)side->type);
+        kiln_part_add_word(out, (uint32_t)side->size);
+        kiln_part_add(out, side->data, side->size);
+    }
+    kiln_part_add(out, packet->data, (size_t)packet->size);
+}
+
+/* All that are ready. */
+static int write_packets(struct kiln_part_packets *packets)
+{
+    for (;;) {
+        const int status = kiln_coder_receive(&packets->coder, packets->packet);
+        if (status < 0)
+            return status == AVERROR(EAGAIN) || status == AVERROR_EOF ? 0 : status;
+        write_packet(packets->out, packets->packet);
+        av_packet_unref(packets->packet);
+    }
+}
+
+struct kiln_part_packets *kiln_part_packets_open(const struct kiln_output_params *params,
+                                                 bool first, struct kiln_part_out *out,
+                                                 struct kiln_error *error)
+{
+    struct kiln_part_packets *packets = calloc(1, sizeof *packets);
+    if (!packets) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the video", params->path);
+        return NULL;
+    }
+    packets->params = params;
+    packets->out = out;
+    packets->avlog.log = &params->log;
+    kiln_avlog_begin(&packets->avlog);
+    packets->packet = av_packet_alloc();
+    const int status =
+        packets->packet ? kiln_coder_open(&packets->coder, params, first) : AVERROR(ENOMEM);
+    kiln_avlog_end(&packets->avlog);
+    if (status < 0) {
+        fail(packets, status, error);
+        kiln_part_packets_close(&packets);
+        return NULL;
+    }
+    const AVCodecContext *codec = packets->coder.codec;
+    kiln_part_add_word(out, (uint32_t)codec->extradata_size);
+    kiln_part_add(out, codec->extradata, (size_t)codec->extradata_size);
+    return packets;
+}
+
+void kiln_part_packets_close(struct kiln_part_packets **packets)
+{
+    struct kiln_part_packets *p = *packets;
+    if (!p)
+        return;
+    kiln_avlog_begin(&p->avlog);
+    kiln_coder_close(&p->coder);
+    av_packet_free(&p->packet);
+    kiln_avlog_end(&p->avlog);
+    free(p);
+    *packets = NULL;
+}
+
+bool kiln_part_packets_write(struct kiln_part_packets *packets, const struct kiln_picture *picture,
+                             struct kiln_error *error)
+{
+    kiln_avlog_begin(&packets->avlog);
+    int status = kiln_coder_convert(&packets->coder, picture);
+    if (status >= 0)
+        status = kiln_coder_send(&packets->coder, packets->frames++);
+    if (status >= 0)
+        status = write_packets(packets);
+    kiln_avlog_end(&packets->avlog);
+    return status >= 0 || fail(packets, status, error);
+}
+
+bool kiln_part_packets_finish(struct kiln_part_packets *packets, struct kiln_error *error)
+{
+    kiln_avlog_begin(&packets->avlog);
+    int status = kiln_coder_end(&packets->coder);
+    if (status >= 0)
+        status = write_packets(packets);
+    kiln_avlog_end(&packets->avlog);
+    return status >= 0 || fail(packets, status, error);
+}
+
+/* ---- out of a file --------------------------------------------------------------------------- */
+
+/* Reads so many bytes into new memory of FFmpeg's, which pads it. */
+static uint8_t *read_bytes(struct kiln_part_in *in, uint32_t size, struct kiln_error *error)
+{
+    uint8_t *bytes =
+        size <= in->left ? av_mallocz((size_t)size + AV_INPUT_BUFFER_PADDING_SIZE) : NULL;
+    if (!bytes) {
+        kiln_part_refuse(in, "the part of a clip is damaged", error);
+        return NULL;
+    }
+    if (!kiln_part_read(in, bytes, size, error))
+        av_freep(&bytes);
+    return bytes;
+}
+
+static bool read_side_data(struct kiln_part_in *in, uint32_t count, AVPacket *packet,
+                           struct kiln_error *error)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t type, size;
+        if (!kiln_part_read_word(in, &type, error) || !kiln_part_read_word(in, &size, error))
+            return false;
+        uint8_t *bytes = read_bytes(in, size, error);
+        if (!bytes)
+            return false;
+        if (av_packet_add_side_data(packet, (enum AVPacketSideDataType)type, bytes, size) < 0) {
+            av_free(bytes);
+            return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", in->path);
+        }
+    }
+    return true;
+}
+
+/* Reads the packet behind its size. */
+static bool read_packet(struct kiln_part_in *in, uint32_t size, AVPacket *packet,
+                        struct kiln_error *error)
+{
+    uint32_t pts, flags, side_data;
+    if (!kiln_part_read_word(in, &pts, error) || !kiln_part_read_word(in, &flags, error) ||
+        !kiln_part_read_word(in, &side_data, error))
+        return false;
+    if (side_data > MAX_SIDE_DATA || size > INT32_MAX)
+        return kiln_part_refuse(in, "the part of a clip is damaged", error);
+    if (!read_side_data(in, side_data, packet, error))
+        return false;
+    uint8_t *bytes = read_bytes(in, size, error);
+    if (!bytes)
+        return false;
+    if (av_packet_from_data(packet, bytes, (int)size) < 0) {
+        av_free(bytes);
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", in->path);
+    }
+    packet->pts = (int64_t)pts;
+    packet->flags = (int)flags;
+    return true;
+}
+
+static bool pass_packets(struct kiln_part_in *in, void *clip, AVPacket *packet,
+                         const struct kiln_output_caller *caller, struct kiln_error *error)
+{
+    for (;;) {
+        uint32_t size;
+        if (!kiln_output_may_go_on(caller, error) || !kiln_part_read_word(in, &size, error))
+            return false;
+        if (size == END)
+            return true;
+        if (!read_packet(in, size, packet, error) || !kiln_video_add_packet(clip, packet, error))
+            return false;
+    }
+}
+
+bool kiln_part_packets_pass(struct kiln_part_in *in, void *clip,
+                            const struct kiln_output_caller *caller, struct kiln_error *error)
+{
+    uint32_t size;
+    uint8_t *header = NULL;
+    AVPacket *packet = av_packet_alloc();
+    bool ok =
+        packet && kiln_part_read_word(in, &size, error) && (header = read_bytes(in, size, error));
+    if (!packet)
+        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", in->path);
+    if (ok && !kiln_video_begin_part(clip, in->head.first, header, size))
+        ok = kiln_error_set(error, KILN_INVALID_INPUT,
+                            "%s: another encoder made it than makes the clip's header (%s)",
+                            in->path, in->head.made_by);
+    ok = ok && pass_packets(in, clip, packet, caller, error);
+    av_packet_free(&packet);
+    av_free(header);
+    return ok;
+}

@@ -1,0 +1,24 @@
+/* Packets of a coded part: into its file, and out of it into the clip. */
+#ifndef KILN_OUTPUT_PART_PACKETS_H
+#define KILN_OUTPUT_PART_PACKETS_H
+
+#include "output/part_file.h"
+#include "output/video.h"
+
+struct kiln_part_packets;
+
+/* first: of the clip's parts. NULL with the errors of kiln_video_open. */
+struct kiln_part_packets *kiln_part_packets_open(const struct kiln_output_params *params,
+                                                 bool first, struct kiln_part_out *out,
+                                                 struct kiln_error *error);
+bool kiln_part_packets_write(struct kiln_part_packets *packets, const struct kiln_picture *picture,
+                             struct kiln_error *error);
+bool kiln_part_packets_finish(struct kiln_part_packets *packets, struct kiln_error *error);
+void kiln_part_packets_close(struct kiln_part_packets **packets);
+
+/* Gives the packets of an open part to a clip (of kiln_video_open) that has those of the parts
+ * before it. */
+bool kiln_part_packets_pass(struct kiln_part_in *in, void *clip,
+                            const struct kiln_output_caller *caller, struct kiln_error *error);
+
+#endif
