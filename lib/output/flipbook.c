@@ -87,7 +87,7 @@ static void measure_steps(const struct kiln_output_params *params, uint32_t *lea
     *least = UINT32_MAX;
     *most = 0;
     for (uint32_t i = 0; i < cell_count(params); i++, before = frame) {
-        nth_frame(params->ranges, params->range_count, i, &frame);
+        nth_frame(params->clip, params->clip_count, i, &frame);
         if (i > 0) {
             *least = frame - before < *least ? frame - before : *least;
             *most = frame - before > *most ? frame - before : *most;
@@ -125,7 +125,7 @@ static bool check(const struct kiln_output_params *params, struct kiln_error *er
             "the cells fewer",
             params->path, width, height, MAX_EDGE, params->width, params->height);
     uint32_t frame;
-    uint64_t frames = nth_frame(params->ranges, params->range_count, UINT64_MAX, &frame);
+    uint64_t frames = nth_frame(params->clip, params->clip_count, UINT64_MAX, &frame);
     return frames == cell_count(params) ||
            kiln_error_set(error, KILN_USAGE, "%s: %" PRIu64 " frames for %u x %u cells",
                           params->path, frames, flipbook->columns, flipbook->rows);
@@ -398,7 +398,7 @@ static void add_frames(struct kiln_json *json, const struct kiln_output_params *
     uint32_t frame = 0, first = 0;
     kiln_json_begin_array(json, "frames");
     for (uint32_t i = 0; i < cell_count(params); i++) {
-        nth_frame(params->ranges, params->range_count, i, &frame);
+        nth_frame(params->clip, params->clip_count, i, &frame);
         first = i == 0 ? frame : first;
         kiln_json_uint(json, NULL, frame);
     }

@@ -32,8 +32,8 @@ struct gif_encoder {
 static uint64_t clip_length(const struct kiln_output_params *params)
 {
     uint64_t frames = 0;
-    for (size_t i = 0; i < params->range_count; i++)
-        frames += (uint64_t)params->ranges[i].last - params->ranges[i].first + 1;
+    for (size_t i = 0; i < params->clip_count; i++)
+        frames += (uint64_t)params->clip[i].last - params->clip[i].first + 1;
     return frames;
 }
 
