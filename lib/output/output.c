@@ -3,16 +3,13 @@
  * The first failure stops everything and is told by the next call. */
 #include "output/output.h"
 
-#include <errno.h>
 #include <pthread.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "base/arena.h"
 #include "base/error.h"
-#include "base/hash.h"
 #include "base/pattern.h"
 #include "output/flipbook.h"
 #include "output/formats.h"
@@ -141,18 +138,13 @@ static enum kiln_numbering numbering(const struct kiln_output_params *params,
 /* ---- Whole files -------------------------------------------------------------------------- */
 
 /* Tells who listens of a file that has its name. */
-static bool tell(struct kiln_output *output, const char *path, struct kiln_frame_range frames,
-                 bool is_part, struct kiln_error *error)
+static bool tell(struct kiln_output *output, struct kiln_whole whole, struct kiln_error *error)
 {
     const struct kiln_whole_listener *listener = &output->params.whole;
-    struct kiln_whole whole = {.path = path, .frames = frames, .is_part = is_part};
-    struct stat status;
     if (!listener->tell)
         return true;
-    if (stat(path, &status) != 0 || !kiln_hash_sha256_file(path, whole.sha256))
-        return kiln_error_set_errno(error, KILN_IO, errno, "%s: the file cannot be read again",
-                                    path);
-    whole.bytes = (uint64_t)status.st_size;
+    if (!kiln_whole_measure(&whole, error))
+        return false;
     pthread_mutex_lock(&output->telling);
     const bool good = listener->tell(listener->user, &whole, error);
     pthread_mutex_unlock(&output->telling);
@@ -163,21 +155,19 @@ static bool tell(struct kiln_output *output, const char *path, struct kiln_frame
 static bool tell_of_clip(struct kiln_output *output, struct kiln_error *error)
 {
     const struct kiln_output_params *params = &output->params;
-    const struct kiln_format *format = output->format;
-    const struct kiln_frame_range frames = {params->clip[0].first,
-                                            params->clip[params->clip_count - 1].last};
-    char path[KILN_PATH_SIZE], beside[KILN_PATH_SIZE];
-    if (!params->whole.tell)
-        return true;
-    if (!kiln_output_path(output, 0, path, sizeof path) ||
-        !tell(output, path, frames, false, error))
-        return false;
-    const char *ending;
-    for (uint32_t i = 0; format->beside && (ending = format->beside(params, i)); i++) {
-        if (kiln_format_beside(path, ending, beside) && !tell(output, beside, frames, false, error))
-            return false;
+    char path[KILN_PATH_SIZE];
+    const struct kiln_whole clip = {
+        .path = path,
+        .frames = {params->clip[0].first, params->clip[params->clip_count - 1].last},
+        .is_clip = true};
+    bool ok = true;
+    for (uint32_t i = 0; ok && params->whole.tell; i++) {
+        ok = kiln_output_clip_file(params, i, path, error);
+        if (!ok || !*path)
+            break;
+        ok = tell(output, clip, error);
     }
-    return true;
+    return ok;
 }
 
 /* ---- Encoding ----------------------------------------------------------------------------- */
@@ -199,7 +189,8 @@ static bool encode_image(struct kiln_output *output, const struct kiln_picture *
     file.durable = output->params.durable;
     if (good)
         return kiln_temporary_commit(&file, output->params.overwrite, error) &&
-               tell(output, path, (struct kiln_frame_range){picture->frame, picture->frame}, false,
+               tell(output,
+                    (struct kiln_whole){.path = path, .frames = {picture->frame, picture->frame}},
                     error);
     kiln_temporary_discard(&file);
     return false;
@@ -219,9 +210,9 @@ static bool encode_into_part(struct kiln_output *output, const struct kiln_pictu
         return false;
     if (picture->frame != range.last)
         return true;
-    const bool good = kiln_part_finish(output->part, error) &&
-                      kiln_part_path(params, part, path, error) &&
-                      tell(output, path, range, true, error);
+    const bool good =
+        kiln_part_finish(output->part, error) && kiln_part_path(params, part, path, error) &&
+        tell(output, (struct kiln_whole){.path = path, .frames = range, .is_part = true}, error);
     kiln_part_writer_close(&output->part);
     return good;
 }

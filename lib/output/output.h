@@ -55,10 +55,13 @@ static inline bool kiln_output_may_go_on(const struct kiln_output_caller *caller
 struct kiln_whole {
     const char *path;
     struct kiln_frame_range frames; /* that it holds, alone or with others in between */
-    bool is_part;                   /* of the clip; else what the user asked for */
+    bool is_part, is_clip;          /* a part of the one file, or that; else of a frame */
     uint64_t bytes;
     char sha256[65];
 };
+
+/* Fills size and hash from the file of the path; KILN_IO. */
+bool kiln_whole_measure(struct kiln_whole *whole, struct kiln_error *error);
 
 /* Told of each file as soon as it is whole, on any thread, one call at a time. false: why not to go
  * on. NULL: nobody, and no file is read again for its hash. */
@@ -102,6 +105,11 @@ struct kiln_output;
 /* The parameters with what follows from them: format and clip. format NULL with KILN_USAGE. */
 struct kiln_output_params kiln_output_complete(const struct kiln_output_params *params,
                                                struct kiln_error *error);
+
+/* The path of the one file of a clip (index 0), and those of the files beside it; an empty text
+ * behind the last. */
+bool kiln_output_clip_file(const struct kiln_output_params *params, uint32_t index, char *path,
+                           struct kiln_error *error);
 
 /* Checks everything that can be checked before the first frame (suffix, folder writable, existing
  * files, even sizes, codec present, gaps in a video), makes missing folders, and opens the

@@ -286,11 +286,24 @@ static bool join_pictures(const struct kiln_output_params *params, struct kiln_e
     return ok;
 }
 
+/* Tells who listens of the clip. */
+static bool tell(const struct kiln_output_params *params, struct kiln_error *error)
+{
+    struct kiln_whole whole = {
+        .path = params->path,
+        .frames = {params->clip[0].first, params->clip[params->clip_count - 1].last},
+        .is_clip = true};
+    return !params->whole.tell || (kiln_whole_measure(&whole, error) &&
+                                   params->whole.tell(params->whole.user, &whole, error));
+}
+
 static bool join_packets(const struct kiln_output_params *params, struct kiln_error *error)
 {
     struct kiln_temporary file = {0};
-    if (!kiln_target_check(params->path, params->overwrite, error) ||
-        !kiln_temporary_open(&file, params->path, error))
+    char target[KILN_PATH_SIZE];
+    if (!kiln_output_clip_file(params, 0, target, error) ||
+        !kiln_target_check(target, params->overwrite, error) ||
+        !kiln_temporary_open(&file, target, error))
         return false;
     file.durable = params->durable;
     void *clip = kiln_video_open(params, &file, error);
@@ -308,7 +321,8 @@ static bool join_packets(const struct kiln_output_params *params, struct kiln_er
     if (clip)
         kiln_video_close(clip);
     if (ok)
-        return kiln_temporary_commit(&file, params->overwrite, error);
+        return kiln_temporary_commit(&file, params->overwrite, error) &&
+               tell(params, target, error);
     kiln_temporary_discard(&file);
     return false;
 }

@@ -1,0 +1,71 @@
+/* An array of records, found by the numbers of frames. */
+#include "job/record.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+bool kiln_records_create(struct kiln_records *records, const struct kiln_frame_range *clip,
+                         size_t clip_count)
+{
+    *records = (struct kiln_records){.clip = clip, .clip_count = clip_count};
+    for (size_t i = 0; i < clip_count; i++)
+        records->count += clip[i].last - clip[i].first + 1;
+    records->items = calloc(records->count, sizeof *records->items);
+    return records->items != NULL;
+}
+
+void kiln_records_free(struct kiln_records *records)
+{
+    free(records->items);
+    *records = (struct kiln_records){.items = NULL};
+}
+
+struct kiln_record *kiln_records_of(const struct kiln_records *records, uint32_t frame)
+{
+    uint32_t before = 0;
+    for (size_t i = 0; i < records->clip_count; i++) {
+        const struct kiln_frame_range *range = &records->clip[i];
+        if (frame >= range->first && frame <= range->last)
+            return &records->items[before + frame - range->first];
+        before += range->last - range->first + 1;
+    }
+    return NULL;
+}
+
+uint32_t kiln_records_frame(const struct kiln_records *records, uint32_t index)
+{
+    size_t i = 0;
+    for (; index > records->clip[i].last - records->clip[i].first; i++)
+        index -= records->clip[i].last - records->clip[i].first + 1;
+    return records->clip[i].first + index;
+}
+
+static void take_clip(struct kiln_records *records, const struct kiln_whole *whole)
+{
+    const uint32_t room = sizeof records->files / sizeof *records->files;
+    if (records->file_count == room)
+        return;
+    struct kiln_clip_file *file = &records->files[records->file_count++];
+    snprintf(file->path, sizeof file->path, "%s", whole->path);
+    memcpy(file->sha256, whole->sha256, sizeof file->sha256);
+    file->bytes = whole->bytes;
+}
+
+void kiln_records_take(struct kiln_records *records, const struct kiln_whole *whole)
+{
+    if (whole->is_clip) {
+        take_clip(records, whole);
+        return;
+    }
+    /* Frames between two of a clip may be none of the job's. */
+    for (uint64_t frame = whole->frames.first; frame <= whole->frames.last; frame++) {
+        struct kiln_record *record = kiln_records_of(records, (uint32_t)frame);
+        if (!record)
+            continue;
+        record->whole = true;
+        if (whole->is_part)
+            continue;
+        record->bytes = whole->bytes;
+        memcpy(record->sha256, whole->sha256, sizeof record->sha256);
+    }
+}

@@ -1,0 +1,44 @@
+/* What is known of each frame of a job: for its manifest, and for who goes on with it. */
+#ifndef KILN_JOB_RECORD_H
+#define KILN_JOB_RECORD_H
+
+#include "output/output.h"
+
+struct kiln_record {
+    bool has_state; /* the next two are known */
+    bool whole;     /* its file is, or that of the part that it is in */
+    struct kiln_state_hash state;
+    uint64_t alive;
+    uint64_t bytes;  /* of its file; 0: it has none of its own */
+    char sha256[65]; /* likewise */
+};
+
+/* The frames of a job in their order. */
+struct kiln_records {
+    const struct kiln_frame_range *clip; /* borrowed */
+    size_t clip_count;
+    struct kiln_record *items; /* a frame */
+    uint32_t count;
+    struct kiln_clip_file { /* the file of all of them, and those beside it */
+        char path[KILN_PATH_SIZE];
+        uint64_t bytes;
+        char sha256[65];
+    } files[3];
+    uint32_t file_count;
+};
+
+/* False when memory is short. */
+bool kiln_records_create(struct kiln_records *records, const struct kiln_frame_range *clip,
+                         size_t clip_count);
+void kiln_records_free(struct kiln_records *records);
+
+/* That of a frame, or NULL when it is none of the job's. */
+struct kiln_record *kiln_records_of(const struct kiln_records *records, uint32_t frame);
+
+/* The frame of an index below count. */
+uint32_t kiln_records_frame(const struct kiln_records *records, uint32_t index);
+
+/* Takes down what was told of a file: of a frame, of a part, or of the clip. */
+void kiln_records_take(struct kiln_records *records, const struct kiln_whole *whole);
+
+#endif
