@@ -273,6 +273,10 @@ struct kiln_render_params {
     uint32_t
         work_group_size; /* of kernels that leave it open; 0: what suits each. No pixel changes */
     bool overwrite;
+    /* Go on with a job that was killed: files that its journal names, or PNG and EXR files that carry
+     * the scene's hash, are looked at and stay, the rest is drawn. The journal lies beside the
+     * output, and a clip waits there in parts until it is whole. With overwrite, all begins anew. */
+    bool resume;
     bool state_hash;   /* compute it for each drawn frame; the manifest always has it */
     uint32_t png_bits; /* 8 or 16; of APNG and MKV, too */
     uint32_t exr_bits; /* 16 or 32 */
@@ -300,7 +304,8 @@ enum { KILN_MAX_STAGES = 8 };
 
 /* What a job did, for reports. */
 struct kiln_render_stats {
-    uint32_t frames;
+    uint32_t frames; /* drawn */
+    uint32_t kept;   /* that were there already, with kiln_render_params.resume */
     uint64_t steps;
     double setup_s; /* programs, textures, buffers */
     double total_s;

@@ -43,9 +43,13 @@ uint32_t kiln_records_frame(const struct kiln_records *records, uint32_t index)
 static void take_clip(struct kiln_records *records, const struct kiln_whole *whole)
 {
     const uint32_t room = sizeof records->files / sizeof *records->files;
-    if (records->file_count == room)
+    uint32_t i = 0;
+    while (i < records->file_count && strcmp(records->files[i].path, whole->path) != 0)
+        i++;
+    if (i == room)
         return;
-    struct kiln_clip_file *file = &records->files[records->file_count++];
+    records->file_count = i < records->file_count ? records->file_count : i + 1;
+    struct kiln_clip_file *file = &records->files[i];
     snprintf(file->path, sizeof file->path, "%s", whole->path);
     memcpy(file->sha256, whole->sha256, sizeof file->sha256);
     file->bytes = whole->bytes;

@@ -287,10 +287,11 @@ static bool join_pictures(const struct kiln_output_params *params, struct kiln_e
 }
 
 /* Tells who listens of the clip. */
-static bool tell(const struct kiln_output_params *params, struct kiln_error *error)
+static bool tell(const struct kiln_output_params *params, const char *path,
+                 struct kiln_error *error)
 {
     struct kiln_whole whole = {
-        .path = params->path,
+        .path = path,
         .frames = {params->clip[0].first, params->clip[params->clip_count - 1].last},
         .is_clip = true};
     return !params->whole.tell || (kiln_whole_measure(&whole, error) &&

@@ -1,0 +1,332 @@
+/* Lines are appended with one write each. A line that a crash has cut off is forgotten. */
+#include "job/journal.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/json.h"
+#include "base/text.h"
+#include "option/node.h"
+#include "output/part_file.h"
+
+enum { VERSION = 1, MAX_SIZE = 1 << 30 };
+
+static const double sync_s = 1.0;
+
+struct kiln_journal {
+    char path[KILN_PATH_SIZE];
+    int file;
+    double synced_s;
+    bool unsynced;
+};
+
+bool kiln_journal_path(const char *output, char path[KILN_PATH_SIZE], struct kiln_error *error)
+{
+    return snprintf(path, KILN_PATH_SIZE, "%s.journal", output) < KILN_PATH_SIZE ||
+           kiln_error_set(error, KILN_IO, "%.200s...: the path is longer than %d bytes", output,
+                          KILN_PATH_SIZE - 1);
+}
+
+/* ---- writing --------------------------------------------------------------------------------- */
+
+/* Ends the line and appends it. */
+static bool append(struct kiln_journal *journal, struct kiln_json *json, struct kiln_text *line,
+                   struct kiln_error *error)
+{
+    kiln_json_end(json);
+    bool ok = kiln_json_finish(json) && !line->failed;
+    if (!ok)
+        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", journal->path);
+    for (size_t done = 0; ok && done < line->length;) {
+        const ssize_t count = write(journal->file, line->data + done, line->length - done);
+        if (count < 0 && errno != EINTR)
+            ok = kiln_error_set_errno(error, KILN_IO, errno, "%s: the journal cannot be written",
+                                      journal->path);
+        done += count > 0 ? (size_t)count : 0;
+    }
+    kiln_text_free(line);
+    journal->unsynced = true;
+    const double now_s = kiln_clock_seconds();
+    if (ok && now_s - journal->synced_s >= sync_s) {
+        fdatasync(journal->file);
+        journal->synced_s = now_s;
+        journal->unsynced = false;
+    }
+    return ok;
+}
+
+static bool write_head(struct kiln_journal *journal, const struct kiln_journal_params *params,
+                       const char *clip, struct kiln_error *error)
+{
+    struct kiln_text line = {0};
+    struct kiln_json json = kiln_json_to_text(&line);
+    kiln_json_begin_object(&json, NULL);
+    kiln_json_uint(&json, "kiln_journal", VERSION);
+    kiln_json_string(&json, "scene", params->output->scene_hash);
+    kiln_json_string(&json, "job", clip);
+    kiln_json_string(&json, "made_by", params->made_by);
+    return append(journal, &json, &line, error);
+}
+
+static void add_state(struct kiln_json *json, const struct kiln_record *record)
+{
+    kiln_json_format(json, NULL, "%08x%08x %" PRIu64, record->state.lane[0], record->state.lane[1],
+                     record->alive);
+}
+
+/* The name of a file as seen from the folder of the journal. */
+static const char *name_of(const struct kiln_journal *journal, const char *path)
+{
+    const char *slash = strrchr(journal->path, '/');
+    const size_t folder = slash ? (size_t)(slash - journal->path) + 1 : 0;
+    return strncmp(path, journal->path, folder) == 0 ? path + folder : path;
+}
+
+bool kiln_journal_add(struct kiln_journal *journal, const struct kiln_records *records,
+                      const struct kiln_whole *whole, struct kiln_error *error)
+{
+    struct kiln_text line = {0};
+    struct kiln_json json = kiln_json_to_text(&line);
+    kiln_json_begin_object(&json, NULL);
+    kiln_json_string(&json,
+                     whole->is_clip   ? "clip"
+                     : whole->is_part ? "part"
+                                      : "frame",
+                     name_of(journal, whole->path));
+    if (!whole->is_clip)
+        kiln_json_pair(&json, "frames", whole->frames.first, whole->frames.last);
+    kiln_json_uint(&json, "bytes", whole->bytes);
+    kiln_json_string(&json, "sha256", whole->sha256);
+    if (!whole->is_clip) {
+        kiln_json_begin_array(&json, "states");
+        for (uint64_t frame = whole->frames.first; frame <= whole->frames.last; frame++) {
+            const struct kiln_record *record = kiln_records_of(records, (uint32_t)frame);
+            if (record)
+                add_state(&json, record);
+        }
+        kiln_json_end(&json);
+    }
+    return append(journal, &json, &line, error);
+}
+
+/* ---- reading --------------------------------------------------------------------------------- */
+
+static bool read_number(const struct kiln_node *node, uint64_t *number)
+{
+    return node && node->kind == KILN_NODE_SCALAR && kiln_text_to_uint64(node->text, number);
+}
+
+static bool read_state(const struct kiln_node *node, struct kiln_record *record)
+{
+    uint64_t lanes[2] = {0};
+    if (!node || node->kind != KILN_NODE_SCALAR || strlen(node->text) < 18 || node->text[16] != ' ')
+        return false;
+    for (int i = 0; i < 16; i++) {
+        static const char digits[] = "0123456789abcdef";
+        const char *digit = strchr(digits, node->text[i]);
+        if (!digit)
+            return false;
+        lanes[i / 8] = lanes[i / 8] << 4 | (uint64_t)(digit - digits);
+    }
+    record->state = (struct kiln_state_hash){{(uint32_t)lanes[0], (uint32_t)lanes[1]}};
+    record->has_state = kiln_text_to_uint64(node->text + 17, &record->alive);
+    return record->has_state;
+}
+
+/* What the line says of a frame or of those of a part; what makes no sense says nothing. */
+static void read_frames(const struct kiln_node *line, bool is_part, struct kiln_records *records)
+{
+    const struct kiln_node *frames = kiln_node_entry(line, "frames");
+    const struct kiln_node *sha256 = kiln_node_entry(line, "sha256");
+    const struct kiln_node *states = kiln_node_entry(line, "states");
+    uint64_t first, last, bytes;
+    if (!frames || frames->count != 2 || !read_number(frames->first, &first) ||
+        !read_number(frames->last, &last) || first > last || last > UINT32_MAX ||
+        !read_number(kiln_node_entry(line, "bytes"), &bytes) || !sha256 ||
+        sha256->kind != KILN_NODE_SCALAR || strlen(sha256->text) != 64 || !states)
+        return;
+    const struct kiln_node *state = states->first;
+    for (uint64_t frame = first; frame <= last && state; frame++) {
+        struct kiln_record *record = kiln_records_of(records, (uint32_t)frame);
+        if (!record)
+            continue;
+        read_state(state, record);
+        state = state->next;
+        /* Of a part, its first frame has what is known of the file. */
+        if (!is_part || frame == first) {
+            record->bytes = bytes;
+            memcpy(record->sha256, sha256->text, 65);
+        }
+    }
+}
+
+/* The last that is said of a file counts. */
+static void read_clip(const struct kiln_journal *journal, const struct kiln_node *line,
+                      struct kiln_records *records)
+{
+    const struct kiln_node *name = kiln_node_entry(line, "clip");
+    const struct kiln_node *sha256 = kiln_node_entry(line, "sha256");
+    const char *slash = strrchr(journal->path, '/');
+    const int folder = slash ? (int)(slash - journal->path) + 1 : 0;
+    char path[KILN_PATH_SIZE];
+    struct kiln_whole whole = {.path = path, .is_clip = true};
+    if (name->kind != KILN_NODE_SCALAR || !sha256 || sha256->kind != KILN_NODE_SCALAR ||
+        strlen(sha256->text) != 64 || !read_number(kiln_node_entry(line, "bytes"), &whole.bytes) ||
+        snprintf(path, sizeof path, "%.*s%s", folder, journal->path, name->text) >= KILN_PATH_SIZE)
+        return;
+    memcpy(whole.sha256, sha256->text, 65);
+    kiln_records_take(records, &whole);
+}
+
+static const struct kiln_node *parse_line(struct kiln_arena *arena, const char *path, char *line)
+{
+    const struct kiln_origin origin = {.name = path, .kind = "a journal"};
+    struct kiln_error ignored = {0};
+    return kiln_node_parse(arena, line, strlen(line), &origin, &ignored);
+}
+
+/* That the head is of this job. */
+static bool check_head(const struct kiln_journal *journal, const struct kiln_node *head,
+                       const struct kiln_journal_params *params, const char *clip,
+                       struct kiln_error *error)
+{
+    uint64_t version = 0;
+    if (!head || !read_number(kiln_node_entry(head, "kiln_journal"), &version))
+        return kiln_error_set(error, KILN_IO, "%s: is not a journal (--force starts anew)",
+                              journal->path);
+    const struct kiln_node *made_by = kiln_node_entry(head, "made_by");
+    const char *other = NULL;
+    if (version != VERSION)
+        other = "is a journal of another version of kiln";
+    else if (!kiln_node_is(kiln_node_entry(head, "scene"), params->output->scene_hash))
+        other = "is the journal of another scene";
+    else if (!kiln_node_is(kiln_node_entry(head, "job"), clip))
+        other = "is the journal of other frames, or other settings of the output";
+    if (other)
+        return kiln_error_set(error, KILN_IO, "%s: %s (--force starts anew)", journal->path, other);
+    if (kiln_node_is(made_by, params->made_by))
+        return true;
+    char found[64] = "";
+    if (made_by && made_by->kind == KILN_NODE_SCALAR)
+        kiln_node_quote(found, made_by->text);
+    return kiln_error_set(
+        error, KILN_IO,
+        "%s: was begun by another program, device or techniques (%s), this is %s; "
+        "--force starts anew",
+        journal->path, found, params->made_by);
+}
+
+/* Reads all whole lines; *length gets where the last one ends. */
+static bool read_lines(const struct kiln_journal *journal, char *text,
+                       const struct kiln_journal_params *params, const char *clip,
+                       struct kiln_records *records, size_t *length, struct kiln_error *error)
+{
+    bool ok = true;
+    *length = 0;
+    for (char *line = text, *end; ok && (end = strchr(line, '\n')); line = end + 1) {
+        struct kiln_arena *arena = kiln_arena_create();
+        *end = '\0';
+        if (!arena)
+            return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", journal->path);
+        const struct kiln_node *node = parse_line(arena, journal->path, line);
+        if (line == text)
+            ok = check_head(journal, node, params, clip, error);
+        else if (node && kiln_node_entry(node, "frame"))
+            read_frames(node, false, records);
+        else if (node && kiln_node_entry(node, "part"))
+            read_frames(node, true, records);
+        else if (node && kiln_node_entry(node, "clip"))
+            read_clip(journal, node, records);
+        kiln_arena_destroy(&arena);
+        *length = (size_t)(end + 1 - text);
+    }
+    return ok;
+}
+
+static bool read_journal(const struct kiln_journal *journal,
+                         const struct kiln_journal_params *params, const char *clip,
+                         struct kiln_records *records, bool *found, struct kiln_error *error)
+{
+    size_t size = 0, length = 0;
+    char *text = kiln_text_file_read(journal->path, "a journal", MAX_SIZE, &size, error);
+    if (!text)
+        return false;
+    static const char start[] = "{\"kiln_journal\"";
+    const size_t compared = size < sizeof start - 1 ? size : sizeof start - 1;
+    if (strncmp(text, start, compared) != 0) {
+        free(text);
+        return kiln_error_set(error, KILN_IO, "%s: is not a journal (--force starts anew)",
+                              journal->path);
+    }
+    const bool ok = read_lines(journal, text, params, clip, records, &length, error);
+    free(text);
+    *found = length > 0;
+    return ok && (ftruncate(journal->file, (off_t)length) == 0 ||
+                  kiln_error_set_errno(error, KILN_IO, errno, "%s: the journal cannot be written",
+                                       journal->path));
+}
+
+/* ---- opening --------------------------------------------------------------------------------- */
+
+static bool open_file(struct kiln_journal *journal, struct kiln_error *error)
+{
+    journal->file = open(journal->path,
+                         O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
+    if (journal->file < 0)
+        return kiln_error_set_errno(error, KILN_IO, errno, "%s: the journal cannot be opened",
+                                    journal->path);
+    return flock(journal->file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK ||
+           kiln_error_set(error, KILN_IO,
+                          "%s: another process is writing this output: it has the journal",
+                          journal->path);
+}
+
+struct kiln_journal *kiln_journal_open(const struct kiln_journal_params *params,
+                                       struct kiln_records *records, bool *found,
+                                       struct kiln_error *error)
+{
+    char clip[65];
+    struct kiln_journal *journal = calloc(1, sizeof *journal);
+    if (!journal || !kiln_clip_hash(params->output, clip)) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", params->output->path);
+        free(journal);
+        return NULL;
+    }
+    *found = false;
+    journal->file = -1;
+    journal->synced_s = kiln_clock_seconds();
+    bool ok = kiln_journal_path(params->output->path, journal->path, error) &&
+              kiln_make_parent_folders(journal->path, error) && open_file(journal, error);
+    if (ok && params->restart)
+        ok = ftruncate(journal->file, 0) == 0 ||
+             kiln_error_set_errno(error, KILN_IO, errno, "%s: the journal cannot be written",
+                                  journal->path);
+    else if (ok)
+        ok = read_journal(journal, params, clip, records, found, error);
+    if (ok && !*found)
+        ok = write_head(journal, params, clip, error);
+    if (!ok)
+        kiln_journal_close(&journal);
+    return journal;
+}
+
+void kiln_journal_close(struct kiln_journal **journal)
+{
+    struct kiln_journal *j = *journal;
+    if (!j)
+        return;
+    if (j->file >= 0 && j->unsynced)
+        fdatasync(j->file);
+    if (j->file >= 0)
+        close(j->file);
+    free(j);
+    *journal = NULL;
+}

@@ -1,0 +1,129 @@
+/* Image files say of which scene and frame they are: those that do are known without a journal. */
+#include <openexr.h>
+#include <stdlib.h>
+#include <string.h>
+#include <zlib.h>
+
+#include "base/file_in.h"
+#include "output/formats.h"
+
+enum { MAX_PNG = INT32_MAX };
+
+/* What a file carries. */
+struct carried {
+    char scene[65], frame[16];
+};
+
+/* ---- PNG ------------------------------------------------------------------------------------- */
+
+static uint32_t get_big_endian(const uint8_t *bytes)
+{
+    return (uint32_t)bytes[0] << 24 | (uint32_t)bytes[1] << 16 | (uint32_t)bytes[2] << 8 | bytes[3];
+}
+
+/* Takes the value of a tEXt chunk: a key, a zero byte, a text. */
+static void take_text(const uint8_t *data, size_t size, const char *key, char *value, size_t room)
+{
+    const size_t length = strlen(key) + 1;
+    if (size <= length || size - length >= room || memcmp(data, key, length) != 0)
+        return;
+    memcpy(value, data + length, size - length);
+    value[size - length] = '\0';
+}
+
+/* Looks at every chunk: each has a checksum, and the last one is the end. */
+static bool look_at_png(const uint8_t *bytes, size_t size, struct carried *carried)
+{
+    static const uint8_t signature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+    enum { AROUND = 12 }; /* length, type, checksum */
+    if (size < sizeof signature || memcmp(bytes, signature, sizeof signature) != 0)
+        return false;
+    for (size_t at = sizeof signature; size - at >= AROUND;) {
+        const size_t length = get_big_endian(bytes + at);
+        const uint8_t *type = bytes + at + 4, *data = type + 4;
+        if (length > size - at - AROUND ||
+            crc32_z(0, type, length + 4) != get_big_endian(data + length))
+            return false;
+        if (memcmp(type, "tEXt", 4) == 0) {
+            take_text(data, length, "kiln:scene", carried->scene, sizeof carried->scene);
+            take_text(data, length, "kiln:frame", carried->frame, sizeof carried->frame);
+        }
+        at += length + AROUND;
+        if (memcmp(type, "IEND", 4) == 0)
+            return at == size;
+    }
+    return false;
+}
+
+static bool look_into_png(const char *path, struct carried *carried)
+{
+    struct kiln_error ignored = {0};
+    size_t size;
+    uint8_t *bytes = kiln_file_read(path, "picture", "a PNG file", MAX_PNG, &size, &ignored);
+    const bool ok = bytes && look_at_png(bytes, size, carried);
+    free(bytes);
+    return ok;
+}
+
+/* ---- EXR ------------------------------------------------------------------------------------- */
+
+static void be_silent(exr_const_context_t context, exr_result_t code, const char *message)
+{
+    (void)context;
+    (void)code;
+    (void)message;
+}
+
+static void take_attribute(exr_const_context_t context, const char *key, char *value, size_t room)
+{
+    int32_t length = 0;
+    const char *text = NULL;
+    if (exr_attr_get_string(context, 0, key, &length, &text) == EXR_ERR_SUCCESS && text &&
+        (size_t)length < room)
+        snprintf(value, room, "%.*s", (int)length, text);
+}
+
+/* Reads every chunk of scan lines. */
+static bool has_all_chunks(exr_const_context_t context)
+{
+    int32_t count = 0, lines = 0;
+    exr_attr_box2i_t window;
+    bool ok = exr_get_chunk_count(context, 0, &count) == EXR_ERR_SUCCESS &&
+              exr_get_scanlines_per_chunk(context, 0, &lines) == EXR_ERR_SUCCESS &&
+              exr_get_data_window(context, 0, &window) == EXR_ERR_SUCCESS;
+    for (int32_t i = 0; ok && i < count; i++) {
+        exr_chunk_info_t chunk;
+        ok = exr_read_scanline_chunk_info(context, 0, window.min.y + i * lines, &chunk) ==
+             EXR_ERR_SUCCESS;
+        void *packed = ok ? malloc(chunk.packed_size + 1) : NULL;
+        ok = packed && exr_read_chunk(context, 0, &chunk, packed) == EXR_ERR_SUCCESS;
+        free(packed);
+    }
+    return ok && count > 0;
+}
+
+static bool look_into_exr(const char *path, struct carried *carried)
+{
+    exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    exr_context_t context = NULL;
+    initializer.error_handler_fn = be_silent;
+    if (exr_start_read(&context, path, &initializer) != EXR_ERR_SUCCESS)
+        return false;
+    take_attribute(context, "kiln:scene", carried->scene, sizeof carried->scene);
+    take_attribute(context, "kiln:frame", carried->frame, sizeof carried->frame);
+    const bool ok = has_all_chunks(context);
+    exr_finish(&context);
+    return ok;
+}
+
+bool kiln_output_carries(const struct kiln_output_params *params, const char *path, uint32_t frame)
+{
+    struct carried carried = {.scene = ""};
+    char number[16];
+    snprintf(number, sizeof number, "%u", frame);
+    const bool png = params->format == &kiln_format_png;
+    if (!png && params->format != &kiln_format_exr)
+        return false;
+    return (png ? look_into_png(path, &carried) : look_into_exr(path, &carried)) &&
+           strcmp(carried.scene, params->scene_hash) == 0 && strcmp(carried.frame, number) == 0;
+}
