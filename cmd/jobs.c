@@ -107,6 +107,7 @@ static int claim_files(const struct job_list *list)
         params.ranges = job->frames.ranges;
         params.range_count = job->frames.count;
         params.flipbook = list->flipbook;
+        params.resume = list->resume;
         if (!kiln_render_claim(job->scene, &params, claims, &error))
             code = report_error(&error);
     }
@@ -121,6 +122,9 @@ static int name_files(struct job_list *list, const struct arguments *arguments)
     if (!output)
         return report(KILN_USAGE, "render: needs --output FILE; '--output none' writes nothing");
     bool writes = strcmp(output->text, "none") != 0;
+    list->resume = arguments_flag(arguments, "resume");
+    if (list->resume && !writes)
+        return report(KILN_USAGE, "render: --resume: there is no output to go on with");
     for (size_t i = 0; i < list->count; i++) {
         struct job *job = &list->jobs[i];
         job->path = arguments->operands[i];

@@ -20,6 +20,7 @@ struct job_list {
     struct job *jobs;
     size_t count;
     struct kiln_flipbook flipbook; /* columns 0: none */
+    bool resume;
 };
 
 /* Returns 0, or the exit code after reporting what is wrong; every wrong scene is reported. The

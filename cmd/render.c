@@ -98,6 +98,11 @@ static const struct option options[] = {
      .placeholder = "STATES",
      .help = "Start at the nearest state before the frames, out of a folder that 'kiln bake' made, "
              "and step on from there. The pictures are the same as without."},
+    {.name = "resume",
+     .kind = OPTION_FLAG,
+     .help =
+         "Go on with a job that was stopped or killed, or start it: what is whole stays, the rest "
+         "is drawn (see docs/jobs.md). With --force it starts anew."},
     {.name = "force", .kind = OPTION_FLAG, .help = "Replace files that exist."},
     {.name = "frame-timeout",
      .kind = OPTION_NUMBER,
@@ -187,6 +192,9 @@ static bool read_options(struct render *render, const struct arguments *argument
     params->png_bits = arguments_choice(arguments, "png-bits", 0) == 0 ? 8 : 16;
     params->exr_bits = arguments_choice(arguments, "exr-bits", 0) == 0 ? 16 : 32;
     params->overwrite = arguments_flag(arguments, "force");
+    params->resume = arguments_flag(arguments, "resume");
+    params->command = arguments->words;
+    params->command_count = arguments->word_count;
     params->states = arguments_text(arguments, "states", NULL);
 
     render->frame_timeout_s = arguments_number(arguments, "frame-timeout", 0);

@@ -34,7 +34,10 @@ void print_result(const struct job_result *result)
         printf(": nothing written");
     else if (stats->files > 1)
         printf(" and %u more", stats->files - 1);
-    printf(": %u frame%s in %.3f s\n", stats->frames, plural(stats->frames), stats->total_s);
+    printf(": %u frame%s in %.3f s", stats->frames, plural(stats->frames), stats->total_s);
+    if (stats->kept > 0)
+        printf(", %u were there", stats->kept);
+    printf("\n");
 }
 
 static void print_row(const char *name, double total_ms, const struct kiln_render_stats *stats)
@@ -108,6 +111,7 @@ void print_result_json(const struct job_result *result, bool with_stats)
     kiln_json_string(&json, "output", result->output);
     kiln_json_string(&json, "first_file", result->output ? stats->first_file : NULL);
     kiln_json_uint(&json, "frames", stats->frames);
+    kiln_json_uint(&json, "kept", stats->kept);
     kiln_json_time(&json, "total_s", stats->total_s);
     if (with_stats)
         add_stats(&json, result);

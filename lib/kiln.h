@@ -264,7 +264,9 @@ bool kiln_flipbook_sample(const struct kiln_flipbook *flipbook,
 struct kiln_render_params {
     const char *output;   /* a file, a pattern with %d or #, or NULL to render without writing */
     const char *manifest; /* a JSON file that describes the run, or NULL */
-    const char *states;   /* a folder of kiln_bake, where the run starts if it can, or NULL */
+    const char *const *command; /* words of a command line, for the manifest */
+    size_t command_count;
+    const char *states; /* a folder of kiln_bake, where the run starts if it can, or NULL */
     const struct kiln_frame_range *ranges; /* ascending; range_count 0 renders every frame */
     size_t range_count;
     const char *const *techniques; /* "stage=name" */
@@ -273,9 +275,10 @@ struct kiln_render_params {
     uint32_t
         work_group_size; /* of kernels that leave it open; 0: what suits each. No pixel changes */
     bool overwrite;
-    /* Go on with a job that was killed: files that its journal names, or PNG and EXR files that carry
-     * the scene's hash, are looked at and stay, the rest is drawn. The journal lies beside the
-     * output, and a clip waits there in parts until it is whole. With overwrite, all begins anew. */
+    /* Go on with a job that was killed: files that its journal names, or PNG and EXR files that
+     * carry the scene's hash, are looked at and stay, the rest is drawn. The journal lies beside
+     * the output, and a clip waits there in parts until it is whole. With overwrite, all begins
+     * anew. */
     bool resume;
     bool state_hash;   /* compute it for each drawn frame; the manifest always has it */
     uint32_t png_bits; /* 8 or 16; of APNG and MKV, too */

@@ -1,4 +1,5 @@
 /* The files of a job: what its scene was read from, and what it writes. */
+#include "job/journal.h"
 #include "kiln.h"
 #include "output/output.h"
 #include "scene/scene.h"
@@ -13,7 +14,10 @@ static bool claim_output(const struct kiln_scene *scene, const struct kiln_rende
         .range_count = params->range_count > 0 ? params->range_count : 1,
         .flipbook = params->flipbook,
     };
-    return kiln_output_claim(&output, claims, error);
+    char journal[KILN_PATH_SIZE];
+    return kiln_output_claim(&output, claims, error) &&
+           (!params->resume || (kiln_journal_path(params->output, journal, error) &&
+                                kiln_claims_write(claims, journal, "--resume", error)));
 }
 
 bool kiln_render_claim(const struct kiln_scene *scene, const struct kiln_render_params *params,

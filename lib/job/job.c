@@ -7,8 +7,10 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "job/manifest.h"
+#include "job/resume.h"
 #include "job/states.h"
-#include "output/manifest.h"
+#include "output/formats.h"
 
 struct kiln_job {
     struct kiln_device *device;
@@ -19,9 +21,14 @@ struct kiln_job {
     size_t range_count;
 
     struct kiln_loop *loop;
-    struct kiln_output *output;     /* NULL when nothing is written */
-    struct kiln_manifest *manifest; /* NULL when none is wanted */
-    struct kiln_states *states;     /* NULL where none are to be taken up */
+    struct kiln_output_params files; /* complete; path NULL when nothing is written */
+    struct kiln_output *output;      /* NULL when nothing is to be written */
+    struct kiln_manifest *manifest;  /* NULL when none is wanted */
+    struct kiln_records records;     /* of the frames, where a manifest or a journal needs them */
+    bool resumes;
+    struct kiln_resume resume;
+    bool draws;                 /* else all that was asked for is there */
+    struct kiln_states *states; /* NULL where none are to be taken up */
 
     double started_s;
     uint32_t total_frames;
@@ -61,6 +68,30 @@ static bool hand_over(struct kiln_job *job, struct kiln_picture *picture, struct
     return return_from_caller(job, error);
 }
 
+/* Takes down what is known of a frame before its picture goes to the output. */
+static void record_frame(struct kiln_job *job, uint32_t frame, const struct kiln_drawn *drawn,
+                         uint64_t alive)
+{
+    struct kiln_record *record = kiln_records_of(&job->records, frame);
+    if (!record)
+        return;
+    record->has_state = record->drawn = true;
+    record->state = drawn->state;
+    record->alive = alive;
+    for (int i = 0; i < KILN_PASS_COUNT; i++)
+        record->pass_ms[i] = (float)drawn->pass_ms[i];
+}
+
+/* A file is whole: on any thread, but never twice at a time. */
+static bool take_whole(void *user, const struct kiln_whole *whole, struct kiln_error *error)
+{
+    struct kiln_job *job = user;
+    if (job->resumes)
+        return kiln_resume_take(&job->resume, whole, error);
+    kiln_records_take(&job->records, whole);
+    return true;
+}
+
 static bool report_frame(struct kiln_job *job, uint32_t frame, struct kiln_error *error)
 {
     struct kiln_progress *p = &job->progress;
@@ -71,10 +102,6 @@ static bool report_frame(struct kiln_job *job, uint32_t frame, struct kiln_error
     p->eta_s = p->elapsed_s / p->done * (p->total - p->done);
     for (int i = 0; i < KILN_PASS_COUNT; i++)
         job->stats.pass_ms[i] += p->pass_ms[i];
-    char path[KILN_PATH_SIZE] = "";
-    bool written = job->output && kiln_output_path(job->output, frame, path, sizeof path);
-    if (job->manifest && !kiln_manifest_add(job->manifest, p, written ? path : NULL, error))
-        return false;
     if (!job->params->progress)
         return true;
     job->params->progress(job->params->user, p);
@@ -84,13 +111,14 @@ static bool report_frame(struct kiln_job *job, uint32_t frame, struct kiln_error
 bool kiln_job_draw(struct kiln_job *job, uint32_t frame, struct kiln_error *error)
 {
     struct kiln_drawn drawn;
-    const bool hash = job->params->state_hash || job->manifest;
+    const bool hash = job->params->state_hash || job->records.items;
     if (!kiln_loop_draw(job->loop, frame, hash, &drawn, error))
         return false;
     struct kiln_progress *progress = &job->progress;
     progress->alive = drawn.alive;
     progress->state = drawn.state;
     memcpy(progress->pass_ms, drawn.pass_ms, sizeof progress->pass_ms);
+    record_frame(job, frame, &drawn, drawn.alive);
     double before_s = kiln_clock_seconds();
     if (!hand_over(job, drawn.picture, error))
         return false;
@@ -108,15 +136,36 @@ struct kiln_loop *kiln_job_loop(struct kiln_job *job)
     return job->loop;
 }
 
+/* A frame that is there already: only its state may have to be found out. */
+static bool pass_over(struct kiln_job *job, uint32_t frame, struct kiln_record *record,
+                      struct kiln_error *error)
+{
+    if (record->has_state)
+        return true;
+    if (!kiln_loop_advance(job->loop, frame, error) ||
+        !kiln_loop_hash(job->loop, &record->state, &record->alive, error))
+        return false;
+    record->has_state = true;
+    return kiln_resume_note(&job->resume, frame, error);
+}
+
 static bool draw_frames(struct kiln_job *job, struct kiln_error *error)
 {
-    for (size_t i = 0; i < job->range_count; i++) {
+    bool follows = false; /* the frame comes right after one that was drawn */
+    for (size_t i = 0; job->draws && i < job->range_count; i++, follows = false) {
         const struct kiln_frame_range range = job->ranges[i];
-        if (job->states && !kiln_states_take_up(job->states, job->loop, range.first, error))
-            return false;
-        for (uint32_t frame = range.first; frame <= range.last; frame++) {
-            if (!kiln_job_draw(job, frame, error))
+        for (uint64_t n = range.first; n <= range.last; n++) {
+            const uint32_t frame = (uint32_t)n;
+            struct kiln_record *record =
+                job->resumes ? kiln_records_of(&job->records, frame) : NULL;
+            const bool is_there = record && record->whole && !record->drawn;
+            if (!follows && !(is_there && record->has_state) && job->states &&
+                !kiln_states_take_up(job->states, job->loop, frame, error))
                 return false;
+            if (!(is_there ? pass_over(job, frame, record, error)
+                           : kiln_job_draw(job, frame, error)))
+                return false;
+            follows = !is_there;
         }
     }
     return true;
@@ -156,52 +205,101 @@ static bool check_files(const struct kiln_job *job, struct kiln_error *error)
     return ok;
 }
 
-static bool open_output(struct kiln_job *job, struct kiln_error *error)
+static struct kiln_output_params output_params(struct kiln_job *job)
 {
     const struct kiln_render_params *params = job->params;
     const struct kiln_scene *scene = job->scene;
+    return (struct kiln_output_params){
+        .path = params->output,
+        .width = scene->width,
+        .height = scene->height,
+        .fps_num = scene->fps.num,
+        .fps_den = scene->fps.den,
+        .alpha = scene->backdrop.transparent,
+        .ranges = job->ranges,
+        .range_count = job->range_count,
+        .clip = job->ranges,
+        .clip_count = job->range_count,
+        .threads = kiln_threads_count(kiln_loop_threads(job->loop)),
+        .overwrite = params->overwrite,
+        .png_bits = params->png_bits,
+        .exr_bits = params->exr_bits,
+        .quality = params->quality,
+        .flipbook = params->flipbook,
+        .scene_hash = scene->hash,
+        .seed = scene->seed,
+        .log = params->log,
+        .caller = {may_go_on, job},
+    };
+}
+
+static bool keep_records(struct kiln_job *job, struct kiln_error *error)
+{
+    if (!job->params->manifest && !job->resumes)
+        return true;
+    job->files.whole = (struct kiln_whole_listener){take_whole, job};
+    return kiln_records_create(&job->records, job->ranges, job->range_count) ||
+           kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for records of %u frames",
+                          job->total_frames);
+}
+
+/* Looks what is there, and leaves what is not to be drawn. */
+static bool begin_to_resume(struct kiln_job *job, struct kiln_error *error)
+{
+    const struct kiln_device_info *device = &job->device->info;
+    char made_by[512];
+    snprintf(made_by, sizeof made_by, "kiln %s, %s, %s", KILN_VERSION,
+             device->gl ? device->name : KILN_DEVICE_CPU, job->stats.techniques);
+    job->files.durable = true;
+    if (!kiln_resume_begin(&job->resume, &job->files, made_by, job->params->overwrite,
+                           &job->records, error))
+        return false;
+    job->files = job->resume.output;
+    job->files.overwrite = true;
+    job->files.ranges = job->resume.missing;
+    job->files.range_count = job->resume.missing_count;
+    job->stats.kept = job->resume.kept;
+    job->total_frames -= job->resume.kept;
+    job->draws = job->resume.missing_count > 0;
+    for (uint32_t i = 0; i < job->records.count; i++)
+        job->draws = job->draws || !job->records.items[i].has_state;
+    return true;
+}
+
+static bool open_output(struct kiln_job *job, struct kiln_error *error)
+{
+    const struct kiln_render_params *params = job->params;
     if (!check_files(job, error))
         return false;
+    const struct kiln_output_params files = output_params(job);
+    job->draws = true;
     if (params->output) {
-        job->output = kiln_output_open(
-            &(struct kiln_output_params){
-                .path = params->output,
-                .width = scene->width,
-                .height = scene->height,
-                .fps_num = scene->fps.num,
-                .fps_den = scene->fps.den,
-                .alpha = scene->backdrop.transparent,
-                .ranges = job->ranges,
-                .range_count = job->range_count,
-                .threads = kiln_threads_count(kiln_loop_threads(job->loop)),
-                .overwrite = params->overwrite,
-                .png_bits = params->png_bits,
-                .exr_bits = params->exr_bits,
-                .quality = params->quality,
-                .flipbook = params->flipbook,
-                .scene_hash = scene->hash,
-                .seed = scene->seed,
-                .log = params->log,
-                .caller = {may_go_on, job},
-            },
-            error);
-        if (!job->output)
+        job->files = kiln_output_complete(&files, error);
+        job->resumes = params->resume;
+        if (!job->files.format)
             return false;
     }
-    if (params->manifest) {
-        job->manifest = kiln_manifest_open(
-            &(struct kiln_manifest_params){
-                .path = params->manifest,
-                .overwrite = params->overwrite,
-                .scene = scene,
-                .device = &job->device->info,
-                .techniques = job->stats.techniques,
-                .output = params->output,
-            },
-            error);
-        return job->manifest != NULL;
-    }
-    return true;
+    if (!keep_records(job, error) || (job->resumes && !begin_to_resume(job, error)))
+        return false;
+    if (params->output && job->files.range_count > 0 &&
+        !(job->output = kiln_output_open(&job->files, error)))
+        return false;
+    if (!params->manifest)
+        return true;
+    job->manifest = kiln_manifest_open(
+        &(struct kiln_manifest_params){
+            .path = params->manifest,
+            .overwrite = params->overwrite || params->resume,
+            .scene = job->scene,
+            .device = &job->device->info,
+            .techniques = job->stats.techniques,
+            .output = params->output,
+            .files = params->output ? &job->files : NULL,
+            .command = params->command,
+            .command_count = params->command_count,
+        },
+        error);
+    return job->manifest != NULL;
 }
 
 /* What statistics tell of the loop. */
@@ -232,6 +330,8 @@ static bool begin(struct kiln_job *job, struct kiln_error *error)
     if (!open_output(job, error))
         return false;
     const struct kiln_output_needs plain = {.bits = 8};
+    if (!job->draws)
+        return true;
     if (!kiln_loop_set_up(job->loop, job->output ? kiln_output_needs(job->output) : plain, error))
         return false;
     if (params->states &&
@@ -244,22 +344,42 @@ static bool begin(struct kiln_job *job, struct kiln_error *error)
     return true;
 }
 
+/* The state at the end; of a run that drew nothing, that of the last frame. */
+static bool find_last_state(struct kiln_job *job, struct kiln_error *error)
+{
+    struct kiln_render_stats *s = &job->stats;
+    if (job->draws)
+        return kiln_loop_hash(job->loop, &s->state, &s->alive, error);
+    const struct kiln_record *last = &job->records.items[job->records.count - 1];
+    s->state = last->state;
+    s->alive = last->alive;
+    return true;
+}
+
+static bool finish_output(struct kiln_job *job, struct kiln_error *error)
+{
+    struct kiln_render_stats *s = &job->stats;
+    if (!job->files.path)
+        return true;
+    s->files = kiln_output_file_count(&job->files);
+    return kiln_output_file(&job->files, job->ranges[0].first, s->first_file, error) &&
+           (!job->output || kiln_output_finish(job->output, error)) &&
+           (!job->resumes || !job->files.format->one_file || job->resume.clip_is_whole ||
+            kiln_resume_join(&job->resume, error));
+}
+
 bool kiln_job_finish(struct kiln_job *job, struct kiln_render_stats *stats,
                      struct kiln_error *error)
 {
     struct kiln_render_stats *s = &job->stats;
-    if (!kiln_loop_hash(job->loop, &s->state, &s->alive, error))
+    if (!find_last_state(job, error))
         return false;
     s->frames = job->progress.done;
     s->steps = kiln_loop_steps(job->loop);
-    if (job->output) {
-        s->files = kiln_output_file_count(job->output);
-        kiln_output_path(job->output, job->ranges[0].first, s->first_file, sizeof s->first_file);
-        if (!kiln_output_finish(job->output, error))
-            return false;
-    }
+    if (!finish_output(job, error))
+        return false;
     s->total_s = kiln_clock_seconds() - job->started_s;
-    if (job->manifest && !kiln_manifest_finish(job->manifest, s, error))
+    if (job->manifest && !kiln_manifest_finish(job->manifest, &job->records, s, error))
         return false;
     *stats = *s;
     return true;
@@ -273,6 +393,8 @@ void kiln_job_destroy(struct kiln_job **job)
     kiln_states_close(&j->states);
     kiln_manifest_close(&j->manifest);
     kiln_output_close(&j->output);
+    kiln_resume_end(&j->resume);
+    kiln_records_free(&j->records);
     kiln_loop_destroy(&j->loop);
     free(j);
     *job = NULL;

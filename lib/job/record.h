@@ -11,6 +11,8 @@ struct kiln_record {
     uint64_t alive;
     uint64_t bytes;  /* of its file; 0: it has none of its own */
     char sha256[65]; /* likewise */
+    bool drawn;      /* in this run, in these times */
+    float pass_ms[KILN_PASS_COUNT];
 };
 
 /* The frames of a job in their order. */

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include "base/error.h"
-#include "base/pattern.h"
 #include "output/formats.h"
 #include "output/part.h"
 
@@ -64,18 +63,11 @@ static bool look_at_image(struct kiln_resume *resume, uint32_t frame, const char
 static bool look_at_images(struct kiln_resume *resume, bool found, struct kiln_error *error)
 {
     const struct kiln_records *records = resume->records;
-    const bool one = records->count == 1;
-    struct kiln_path_pattern pattern;
-    if (!kiln_path_pattern_parse(&pattern, resume->output.path,
-                                 one ? KILN_NUMBER_IF_ASKED : KILN_NUMBER_ALWAYS, error))
-        return false;
     for (uint32_t i = 0; i < records->count; i++) {
         char path[KILN_PATH_SIZE];
         const uint32_t frame = kiln_records_frame(records, i);
-        if (!kiln_path_pattern_format(&pattern, frame, path, sizeof path))
-            return kiln_error_set(error, KILN_USAGE, "%s: the path is too long",
-                                  resume->output.path);
-        if (!kiln_output_may_go_on(&resume->output.caller, error) ||
+        if (!kiln_output_file(&resume->output, frame, path, error) ||
+            !kiln_output_may_go_on(&resume->output.caller, error) ||
             !look_at_image(resume, frame, path, found, error))
             return false;
     }
@@ -207,6 +199,16 @@ bool kiln_resume_take(struct kiln_resume *resume, const struct kiln_whole *whole
 {
     kiln_records_take(resume->records, whole);
     return kiln_journal_add(resume->journal, resume->records, whole, error);
+}
+
+bool kiln_resume_note(struct kiln_resume *resume, uint32_t frame, struct kiln_error *error)
+{
+    const struct kiln_record *record = kiln_records_of(resume->records, frame);
+    char path[KILN_PATH_SIZE];
+    struct kiln_whole whole = {.path = path, .frames = {frame, frame}, .bytes = record->bytes};
+    memcpy(whole.sha256, record->sha256, sizeof whole.sha256);
+    return kiln_output_file(&resume->output, frame, path, error) &&
+           kiln_journal_add(resume->journal, resume->records, &whole, error);
 }
 
 bool kiln_resume_join(struct kiln_resume *resume, struct kiln_error *error)

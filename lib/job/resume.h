@@ -26,6 +26,9 @@ bool kiln_resume_begin(struct kiln_resume *resume, const struct kiln_output_para
 /* Of a clip whose parts are all there: joins them, says so in the journal, and removes them. */
 bool kiln_resume_join(struct kiln_resume *resume, struct kiln_error *error);
 
+/* Takes down in the journal an image that was found without it, now that its state is known. */
+bool kiln_resume_note(struct kiln_resume *resume, uint32_t frame, struct kiln_error *error);
+
 /* Takes down a file in records and journal. */
 bool kiln_resume_take(struct kiln_resume *resume, const struct kiln_whole *whole,
                       struct kiln_error *error);

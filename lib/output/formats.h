@@ -3,6 +3,7 @@
 #ifndef KILN_OUTPUT_FORMATS_H
 #define KILN_OUTPUT_FORMATS_H
 
+#include "base/pattern.h"
 #include "base/temporary.h"
 #include "output/output.h"
 
@@ -50,6 +51,9 @@ extern const struct kiln_format kiln_format_webp;
 
 /* The format for the path's suffix, in any case of letters; NULL with KILN_USAGE and the list. */
 const struct kiln_format *kiln_format_find(const char *path, struct kiln_error *error);
+
+/* How the files of complete parameters are named. */
+enum kiln_numbering kiln_output_numbering(const struct kiln_output_params *params);
 
 /* The name of a file that belongs to another: an ending takes the place of that one's suffix. False
  * when it does not fit. */

@@ -76,13 +76,19 @@ static bool check_ranges(const struct kiln_output_params *params, const struct k
     return true;
 }
 
+/* The path of the file for a frame (the one file, for a video); false if it does not fit. */
+static bool file_of(const struct kiln_output *output, uint32_t frame, char *path, size_t size)
+{
+    return kiln_path_pattern_format(&output->pattern, frame, path, size);
+}
+
 static bool check_files(const struct kiln_output *output, struct kiln_error *error)
 {
     char path[KILN_PATH_SIZE];
     for (size_t i = 0; i < output->params.range_count; i++) {
         const struct kiln_frame_range *range = &output->params.ranges[i];
         for (uint64_t frame = range->first; frame <= range->last; frame++) {
-            if (!kiln_output_path(output, (uint32_t)frame, path, sizeof path))
+            if (!file_of(output, (uint32_t)frame, path, sizeof path))
                 return kiln_error_set(error, KILN_USAGE, "%s: the path is too long",
                                       output->params.path);
             if (!kiln_target_check(path, output->params.overwrite, error))
@@ -99,7 +105,7 @@ static bool check_folder(const struct kiln_output *output, struct kiln_error *er
 {
     char path[KILN_PATH_SIZE];
     struct kiln_temporary probe = {0};
-    if (!kiln_output_path(output, output->params.ranges[0].first, path, sizeof path) ||
+    if (!file_of(output, output->params.ranges[0].first, path, sizeof path) ||
         !kiln_temporary_open(&probe, path, error))
         return false;
     kiln_temporary_discard(&probe);
@@ -121,18 +127,9 @@ static bool make_parts_folder(const struct kiln_output *output, struct kiln_erro
 static bool sweep(const struct kiln_output *output)
 {
     char path[KILN_PATH_SIZE];
-    if (kiln_output_path(output, output->params.ranges[0].first, path, sizeof path))
+    if (file_of(output, output->params.ranges[0].first, path, sizeof path))
         kiln_temporary_sweep(path);
     return true;
-}
-
-static enum kiln_numbering numbering(const struct kiln_output_params *params,
-                                     const struct kiln_format *format)
-{
-    if (format->one_file)
-        return KILN_NUMBER_NEVER;
-    bool one = params->clip_count == 1 && params->clip[0].first == params->clip[0].last;
-    return one ? KILN_NUMBER_IF_ASKED : KILN_NUMBER_ALWAYS;
 }
 
 /* ---- Whole files -------------------------------------------------------------------------- */
@@ -177,7 +174,7 @@ static bool encode_image(struct kiln_output *output, const struct kiln_picture *
 {
     char path[KILN_PATH_SIZE];
     struct kiln_temporary file = {0};
-    if (!kiln_output_path(output, picture->frame, path, sizeof path) ||
+    if (!file_of(output, picture->frame, path, sizeof path) ||
         !kiln_temporary_open(&file, path, error))
         return false;
     const struct kiln_format *format = output->format;
@@ -335,7 +332,7 @@ static struct kiln_output *create(const struct kiln_output_params *params, struc
 static bool open_video(struct kiln_output *output, struct kiln_error *error)
 {
     char path[KILN_PATH_SIZE];
-    if (!kiln_output_path(output, 0, path, sizeof path) ||
+    if (!file_of(output, 0, path, sizeof path) ||
         !kiln_temporary_open(&output->video_file, path, error))
         return false;
     output->video_encoder = output->format->open(&output->params, &output->video_file, error);
@@ -394,7 +391,7 @@ bool kiln_output_claim(const struct kiln_output_params *params, struct kiln_clai
     params = &complete;
     struct kiln_path_pattern pattern;
     if (!format || !check_ranges(params, format, error) ||
-        !kiln_path_pattern_parse(&pattern, params->path, numbering(params, format), error) ||
+        !kiln_path_pattern_parse(&pattern, params->path, kiln_output_numbering(params), error) ||
         !claim_frames(params, &pattern, claims, error))
         return false;
     const char *ending;
@@ -421,13 +418,13 @@ struct kiln_output *kiln_output_open(const struct kiln_output_params *params,
     if (!output)
         return NULL;
     output->format = format;
-    bool good =
-        kiln_path_pattern_parse(&output->pattern, params->path, numbering(params, format), error) &&
-        check_files(output, error) && kiln_make_parent_folders(params->path, error) &&
-        make_parts_folder(output, error) && sweep(output) &&
-        (format->one_file && !params->parts ? open_video(output, error)
-                                            : check_folder(output, error)) &&
-        start_encoders(output, error);
+    bool good = kiln_path_pattern_parse(&output->pattern, params->path,
+                                        kiln_output_numbering(params), error) &&
+                check_files(output, error) && kiln_make_parent_folders(params->path, error) &&
+                make_parts_folder(output, error) && sweep(output) &&
+                (format->one_file && !params->parts ? open_video(output, error)
+                                                    : check_folder(output, error)) &&
+                start_encoders(output, error);
     if (!good)
         kiln_output_close(&output);
     return output;
@@ -554,21 +551,4 @@ void kiln_output_close(struct kiln_output **output)
     pthread_mutex_destroy(&closing->telling);
     struct kiln_arena *arena = closing->arena;
     kiln_arena_destroy(&arena);
-}
-
-bool kiln_output_path(const struct kiln_output *output, uint32_t frame, char *path, size_t size)
-{
-    return kiln_path_pattern_format(&output->pattern, frame, path, size);
-}
-
-uint32_t kiln_output_file_count(const struct kiln_output *output)
-{
-    const struct kiln_output_params *params = &output->params;
-    const struct kiln_format *format = output->format;
-    uint32_t count = format->one_file ? 1 : 0;
-    for (size_t i = 0; i < params->range_count && !format->one_file; i++)
-        count += params->ranges[i].last - params->ranges[i].first + 1;
-    for (uint32_t i = 0; format->beside && format->beside(params, i); i++)
-        count++;
-    return count;
 }

@@ -140,10 +140,10 @@ bool kiln_output_finish(struct kiln_output *output, struct kiln_error *error);
 /* Without a finish before: whole image files stay, a video and half-written files are removed. */
 void kiln_output_close(struct kiln_output **output);
 
-/* The path of the file for a frame (the one file, for a video); false if it does not fit. */
-bool kiln_output_path(const struct kiln_output *output, uint32_t frame, char *path, size_t size);
-
-/* How many files there will be: one a frame, one for a video, some for a flipbook. */
-uint32_t kiln_output_file_count(const struct kiln_output *output);
+/* Of complete parameters: the path of the file for a frame (the one file, for a video), and how
+ * many files there will be: one a frame, one for a video, some for a flipbook. KILN_USAGE. */
+bool kiln_output_file(const struct kiln_output_params *params, uint32_t frame,
+                      char path[KILN_PATH_SIZE], struct kiln_error *error);
+uint32_t kiln_output_file_count(const struct kiln_output_params *params);
 
 #endif

@@ -22,11 +22,9 @@ bool kiln_output_clip_file(const struct kiln_output_params *params, uint32_t ind
                            struct kiln_error *error)
 {
     const struct kiln_format *format = params->format;
-    struct kiln_path_pattern pattern;
     char clip[KILN_PATH_SIZE];
     path[0] = '\0';
-    if (!kiln_path_pattern_parse(&pattern, params->path, KILN_NUMBER_NEVER, error) ||
-        !kiln_path_pattern_format(&pattern, 0, clip, sizeof clip))
+    if (!kiln_output_file(params, 0, clip, error))
         return false;
     if (index == 0) {
         memcpy(path, clip, sizeof clip);
@@ -34,4 +32,33 @@ bool kiln_output_clip_file(const struct kiln_output_params *params, uint32_t ind
     }
     const char *ending = format->beside ? format->beside(params, index - 1) : NULL;
     return !ending || kiln_format_beside(clip, ending, path);
+}
+
+enum kiln_numbering kiln_output_numbering(const struct kiln_output_params *params)
+{
+    if (params->format->one_file)
+        return KILN_NUMBER_NEVER;
+    bool one = params->clip_count == 1 && params->clip[0].first == params->clip[0].last;
+    return one ? KILN_NUMBER_IF_ASKED : KILN_NUMBER_ALWAYS;
+}
+
+bool kiln_output_file(const struct kiln_output_params *params, uint32_t frame,
+                      char path[KILN_PATH_SIZE], struct kiln_error *error)
+{
+    struct kiln_path_pattern pattern;
+    if (!kiln_path_pattern_parse(&pattern, params->path, kiln_output_numbering(params), error))
+        return false;
+    return kiln_path_pattern_format(&pattern, frame, path, KILN_PATH_SIZE) ||
+           kiln_error_set(error, KILN_USAGE, "%s: the path is too long", params->path);
+}
+
+uint32_t kiln_output_file_count(const struct kiln_output_params *params)
+{
+    const struct kiln_format *format = params->format;
+    uint32_t count = format->one_file ? 1 : 0;
+    for (size_t i = 0; i < params->clip_count && !format->one_file; i++)
+        count += params->clip[i].last - params->clip[i].first + 1;
+    for (uint32_t i = 0; format->beside && format->beside(params, i); i++)
+        count++;
+    return count;
 }

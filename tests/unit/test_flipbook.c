@@ -210,7 +210,8 @@ static void motion_points_to_the_next_cell(void **state)
     struct kiln_error error = {0};
     struct kiln_output *output = kiln_output_open(&params, &error);
     assert_string_equal(error.message, "");
-    assert_int_equal(kiln_output_file_count(output), 3);
+    const struct kiln_output_params complete = kiln_output_complete(&params, &error);
+    assert_int_equal(kiln_output_file_count(&complete), 3);
     for (uint32_t i = 0; i < 8; i++) {
         struct kiln_picture *picture = test_picture(output, &params, ranges[i].first);
         draw_puff(picture, i);

@@ -3,7 +3,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "output/manifest.h"
+#include "job/manifest.h"
 #include "support/cmocka.h"
 #include "support/pictures.h"
 
@@ -24,16 +24,25 @@ static struct kiln_scene *make_scene(void)
     return scene;
 }
 
-static struct kiln_progress make_progress(uint32_t frame)
+/* Records of so many frames. */
+static struct kiln_records make_records(const struct kiln_frame_range *clip, uint32_t frames)
 {
-    struct kiln_progress progress = {
-        .frame = frame, .alive = 5000000000u + frame, .state = {{0x1234abcd, frame}}};
-    for (int i = 0; i < KILN_PASS_COUNT; i++)
-        progress.pass_ms[i] = i + 0.25;
-    return progress;
+    struct kiln_records records;
+    assert_true(kiln_records_create(&records, clip, frames > 0));
+    for (uint32_t frame = 0; frame < frames; frame++) {
+        struct kiln_record *record = kiln_records_of(&records, frame);
+        record->has_state = record->drawn = true;
+        record->alive = 5000000000u + frame;
+        record->state = (struct kiln_state_hash){{0x1234abcd, frame}};
+        for (int i = 0; i < KILN_PASS_COUNT; i++)
+            record->pass_ms[i] = (float)i + 0.25f;
+    }
+    if (frames > 2)
+        records.items[1].drawn = false; /* by a run before */
+    return records;
 }
 
-/* Lines and numbers of the file by their path, such as "/frames/0/alive". */
+/* Lines and numbers of the file by their path, such as "/result/frames/0/alive". */
 static void check_value(struct fy_document *json, const char *path, const char *expected)
 {
     struct fy_node *node = fy_node_by_path(fy_document_root(json), path, FY_NT, FYNWF_DONT_FOLLOW);
@@ -57,16 +66,27 @@ static void write_manifest(const struct kiln_manifest_params *params, uint32_t f
     struct kiln_manifest *manifest = kiln_manifest_open(params, &error);
     assert_string_equal(error.message, "");
     assert_non_null(manifest);
-    for (uint32_t frame = 0; frame < frames; frame++) {
-        struct kiln_progress progress = make_progress(frame);
-        assert_true(kiln_manifest_add(manifest, &progress, frame ? "out/\xff.png" : NULL, &error));
-        assert_int_not_equal(access(params->path, F_OK), 0); /* not before it is whole */
+    const struct kiln_frame_range clip = {0, frames - 1};
+    struct kiln_records records = make_records(&clip, frames);
+    if (frames > 0) {
+        const struct kiln_whole image = {
+            .path = "x", .frames = {2, 2}, .bytes = 77, .sha256 = "abc"};
+        const struct kiln_whole clip_file = {
+            .path = "clip.mp4", .is_clip = true, .bytes = 78, .sha256 = "def"};
+        kiln_records_take(&records, &image);
+        kiln_records_take(&records, &clip_file);
     }
-    const struct kiln_render_stats stats = {
-        .frames = frames, .steps = 12, .setup_s = 0.5, .total_s = 61.0625, .particle_bytes = 4096};
-    assert_true(kiln_manifest_finish(manifest, &stats, &error));
+    const struct kiln_render_stats stats = {.frames = frames,
+                                            .kept = 1,
+                                            .steps = 12,
+                                            .setup_s = 0.5,
+                                            .total_s = 61.0625,
+                                            .particle_bytes = 4096};
+    assert_int_not_equal(access(params->path, F_OK), 0); /* not before it is whole */
+    assert_true(kiln_manifest_finish(manifest, &records, &stats, &error));
     kiln_manifest_close(&manifest);
     assert_null(manifest);
+    kiln_records_free(&records);
 }
 
 /* A scene, and a folder that the manifest goes to. */
@@ -103,33 +123,49 @@ static void everything_is_in_it(void **state)
     f->params.device = &device;
     f->params.techniques = "simulate=cpu sort=radix";
     f->params.output = "out/####.png";
+    const char *const command[] = {"render", "a b.yaml"};
+    f->params.command = command;
+    f->params.command_count = 2;
+    const struct kiln_frame_range clip = {0, 2};
+    struct kiln_output_params files = test_output_params("out/\xff####.png", &clip);
+    struct kiln_error none = {0};
+    files = kiln_output_complete(&files, &none);
+    f->params.files = &files;
     write_manifest(&f->params, 3);
 
     struct fy_document *json = read_json(f->path);
     check_value(json, "/kiln", KILN_VERSION);
-    check_value(json, "/scene/file", "a \"b\".yaml");
-    check_value(json, "/scene/hash", kiln_scene_info(f->scene).hash);
-    check_value(json, "/scene/seed", "4000000007");
-    check_value(json, "/scene/size/1", "180");
-    check_value(json, "/scene/fps/0", "30000");
-    check_value(json, "/device/name", "llvm\\pipe");
-    check_value(json, "/device/software", "true");
-    check_value(json, "/techniques/simulate", "cpu");
-    check_value(json, "/techniques/sort", "radix");
-    check_value(json, "/output", "out/####.png");
-    check_value(json, "/frames/0/state", "1234abcd00000000");
-    check_value(json, "/frames/2/frame", "2");
-    check_value(json, "/frames/2/state", "1234abcd00000002");
-    check_value(json, "/frames/2/alive", "5000000002");
-    check_value(json, "/frames/2/file", "out/\xef\xbf\xbd.png");
-    check_value(json, "/frames/2/ms/sort", "1.250");
-    check_value(json, "/totals/frames", "3");
-    check_value(json, "/totals/total_s", "61.063");
-    check_value(json, "/totals/particle_bytes", "4096");
+    check_value(json, "/result/scene/file", "a \"b\".yaml");
+    check_value(json, "/result/scene/hash", kiln_scene_info(f->scene).hash);
+    check_value(json, "/result/scene/seed", "4000000007");
+    check_value(json, "/result/scene/size/1", "180");
+    check_value(json, "/result/scene/fps/0", "30000");
+    check_value(json, "/run/device/name", "llvm\\pipe");
+    check_value(json, "/run/device/software", "true");
+    check_value(json, "/run/techniques/simulate", "cpu");
+    check_value(json, "/run/techniques/sort", "radix");
+    check_value(json, "/result/output", "out/####.png");
+    check_value(json, "/result/frames/0/state", "1234abcd00000000");
+    check_value(json, "/result/frames/2/frame", "2");
+    check_value(json, "/result/frames/2/state", "1234abcd00000002");
+    check_value(json, "/result/frames/2/alive", "5000000002");
+    check_value(json, "/result/frames/2/file",
+                "out/\xef\xbf\xbd"
+                "0002.png");
+    check_value(json, "/run/frames/1/ms/sort", "1.250");
+    check_value(json, "/result/frames/2/bytes", "77");
+    check_value(json, "/result/frames/2/sha256", "abc");
+    check_value(json, "/result/files/0/file", "clip.mp4");
+    check_value(json, "/run/frames/1/frame", "2");
+    check_value(json, "/run/command/1", "a b.yaml");
+    check_value(json, "/run/kept", "1");
+    check_value(json, "/run/totals/frames", "3");
+    check_value(json, "/run/totals/total_s", "61.063");
+    check_value(json, "/run/totals/particle_bytes", "4096");
 
     /* The text in it is the scene. */
     struct fy_node *text =
-        fy_node_by_path(fy_document_root(json), "/scene/text", FY_NT, FYNWF_DONT_FOLLOW);
+        fy_node_by_path(fy_document_root(json), "/result/scene/text", FY_NT, FYNWF_DONT_FOLLOW);
     size_t length = 0;
     const char *printed = fy_node_get_scalar(text, &length);
     assert_non_null(printed);
@@ -149,9 +185,9 @@ static void little_is_enough(void **state)
     const struct fixture *f = *state;
     write_manifest(&f->params, 0);
     struct fy_document *json = read_json(f->path);
-    check_value(json, "/device", "null");
-    check_value(json, "/output", "null");
-    check_value(json, "/totals/frames", "0");
+    check_value(json, "/run/device", "null");
+    check_value(json, "/result/output", "null");
+    check_value(json, "/run/totals/frames", "0");
     fy_document_destroy(json);
 }
 

@@ -1,9 +1,10 @@
 /* JSON, one line a frame, straight to a temporary file: the text in memory is never longer than one
  * piece. Nothing here depends on the locale. */
-#include "output/manifest.h"
+#include "job/manifest.h"
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/error.h"
 #include "base/json.h"
@@ -12,7 +13,7 @@
 
 struct kiln_manifest {
     struct kiln_temporary file;
-    bool overwrite;
+    struct kiln_manifest_params params;
     struct kiln_text text; /* the piece that is being written */
     struct kiln_json json; /* into it */
 };
@@ -73,7 +74,7 @@ static void add_scene(struct kiln_json *json, const struct kiln_scene *scene)
     kiln_json_uint(json, "warmup_steps", info.warmup_steps);
     kiln_json_uint(json, "systems", info.system_count);
     kiln_json_uint(json, "particle_capacity", info.particle_capacity);
-    kiln_json_line(json, 4);
+    kiln_json_line(json, 6);
     add_scene_text(json, scene);
     kiln_json_end(json);
 }
@@ -123,59 +124,136 @@ struct kiln_manifest *kiln_manifest_open(const struct kiln_manifest_params *para
         kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the manifest", params->path);
         return NULL;
     }
-    manifest->overwrite = params->overwrite;
+    manifest->params = *params;
     if (!kiln_temporary_open(&manifest->file, params->path, error)) {
         kiln_manifest_close(&manifest);
         return NULL;
     }
-    struct kiln_json *json = &manifest->json;
-    *json = kiln_json_to_text(&manifest->text);
-    kiln_json_begin_object(json, NULL);
-    kiln_json_lines(json, 2);
-    kiln_json_string(json, "kiln", KILN_VERSION);
-    add_scene(json, params->scene);
-    add_device(json, params->device);
-    add_techniques(json, params->techniques);
-    kiln_json_string(json, "output", params->output);
-    kiln_json_begin_array(json, "frames");
-    kiln_json_lines(json, 4);
-    if (!flush(manifest, error))
-        kiln_manifest_close(&manifest);
+    manifest->json = kiln_json_to_text(&manifest->text);
     return manifest;
 }
 
-bool kiln_manifest_add(struct kiln_manifest *manifest, const struct kiln_progress *progress,
-                       const char *file, struct kiln_error *error)
+/* The frame's line of the result. */
+static bool add_frame(struct kiln_manifest *manifest, const struct kiln_records *records,
+                      uint32_t index, struct kiln_error *error)
 {
     struct kiln_json *json = &manifest->json;
+    const struct kiln_record *record = &records->items[index];
+    const struct kiln_output_params *files = manifest->params.files;
+    const uint32_t frame = kiln_records_frame(records, index);
+    char path[KILN_PATH_SIZE];
+    if (files && !kiln_output_file(files, frame, path, error))
+        return false;
     kiln_json_begin_object(json, NULL);
-    kiln_json_uint(json, "frame", progress->frame);
-    kiln_json_string(json, "file", file);
-    add_state(json, &progress->state, progress->alive);
-    add_passes(json, progress->pass_ms);
+    kiln_json_uint(json, "frame", frame);
+    kiln_json_string(json, "file", files ? path : NULL);
+    if (record->bytes > 0) {
+        kiln_json_uint(json, "bytes", record->bytes);
+        kiln_json_string(json, "sha256", record->sha256);
+    }
+    add_state(json, &record->state, record->alive);
     kiln_json_end(json);
     return flush(manifest, error);
 }
 
-bool kiln_manifest_finish(struct kiln_manifest *manifest, const struct kiln_render_stats *stats,
-                          struct kiln_error *error)
+/* What every run of the job comes to, however often it was killed. */
+static bool add_result(struct kiln_manifest *manifest, const struct kiln_records *records,
+                       struct kiln_error *error)
 {
     struct kiln_json *json = &manifest->json;
+    kiln_json_begin_object(json, "result");
+    kiln_json_lines(json, 4);
+    add_scene(json, manifest->params.scene);
+    kiln_json_string(json, "output", manifest->params.output);
+    kiln_json_begin_array(json, "frames");
+    kiln_json_lines(json, 6);
+    for (uint32_t i = 0; i < records->count; i++) {
+        if (!add_frame(manifest, records, i, error))
+            return false;
+    }
+    kiln_json_end_line(json, 4);
+    kiln_json_begin_array(json, "files");
+    for (uint32_t i = 0; i < records->file_count; i++) {
+        kiln_json_begin_object(json, NULL);
+        kiln_json_string(json, "file", records->files[i].path);
+        kiln_json_uint(json, "bytes", records->files[i].bytes);
+        kiln_json_string(json, "sha256", records->files[i].sha256);
+        kiln_json_end(json);
+    }
+    kiln_json_end(json);
     kiln_json_end_line(json, 2);
+    return true;
+}
+
+static bool add_times(struct kiln_manifest *manifest, const struct kiln_records *records,
+                      struct kiln_error *error)
+{
+    struct kiln_json *json = &manifest->json;
+    kiln_json_begin_array(json, "frames");
+    kiln_json_lines(json, 6);
+    for (uint32_t i = 0; i < records->count; i++) {
+        const struct kiln_record *record = &records->items[i];
+        double pass_ms[KILN_PASS_COUNT];
+        if (!record->drawn)
+            continue;
+        for (int pass = 0; pass < KILN_PASS_COUNT; pass++)
+            pass_ms[pass] = (double)record->pass_ms[pass];
+        kiln_json_begin_object(json, NULL);
+        kiln_json_uint(json, "frame", kiln_records_frame(records, i));
+        add_passes(json, pass_ms);
+        kiln_json_end(json);
+        if (!flush(manifest, error))
+            return false;
+    }
+    kiln_json_end_line(json, 4);
+    return true;
+}
+
+/* Where and how this run did what it did of it. */
+static bool add_run(struct kiln_manifest *manifest, const struct kiln_records *records,
+                    const struct kiln_render_stats *stats, struct kiln_error *error)
+{
+    struct kiln_json *json = &manifest->json;
+    char host[256] = "";
+    if (gethostname(host, sizeof host - 1) != 0)
+        host[0] = '\0';
+    kiln_json_begin_object(json, "run");
+    kiln_json_lines(json, 4);
+    kiln_json_string(json, "host", host);
+    kiln_json_strings(json, "command", manifest->params.command, manifest->params.command_count);
+    add_device(json, manifest->params.device);
+    add_techniques(json, manifest->params.techniques);
+    kiln_json_uint(json, "kept", stats->kept);
+    if (!add_times(manifest, records, error))
+        return false;
     kiln_json_begin_object(json, "totals");
     kiln_json_uint(json, "frames", stats->frames);
     kiln_json_uint(json, "steps", stats->steps);
     kiln_json_time(json, "setup_s", stats->setup_s);
     kiln_json_time(json, "total_s", stats->total_s);
-    add_state(json, &stats->state, stats->alive);
     kiln_json_uint(json, "particle_bytes", stats->particle_bytes);
-    kiln_json_line(json, 4);
+    kiln_json_line(json, 6);
     add_passes(json, stats->pass_ms);
     kiln_json_end(json);
-    kiln_json_end_line(json, 0);
-    kiln_json_finish(json);
-    if (flush(manifest, error))
-        return kiln_temporary_commit(&manifest->file, manifest->overwrite, error);
+    kiln_json_end_line(json, 2);
+    return true;
+}
+
+bool kiln_manifest_finish(struct kiln_manifest *manifest, const struct kiln_records *records,
+                          const struct kiln_render_stats *stats, struct kiln_error *error)
+{
+    struct kiln_json *json = &manifest->json;
+    kiln_json_begin_object(json, NULL);
+    kiln_json_lines(json, 2);
+    kiln_json_string(json, "kiln", KILN_VERSION);
+    bool ok = add_result(manifest, records, error) && add_run(manifest, records, stats, error);
+    if (ok) {
+        kiln_json_end_line(json, 0);
+        kiln_json_finish(json);
+        ok = flush(manifest, error);
+    }
+    if (ok)
+        return kiln_temporary_commit(&manifest->file, manifest->params.overwrite, error);
     kiln_temporary_discard(&manifest->file);
     return false;
 }
