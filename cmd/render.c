@@ -136,6 +136,7 @@ struct render {
     struct job_list list;
     struct kiln_render_params params;
     struct value_list techniques;
+    const char **command;    /* its words, for manifests */
     bool quiet, stats, json; /* json: standard output is lines of JSON */
     enum progress_mode progress_mode;
     double frame_timeout_s;
@@ -193,8 +194,6 @@ static bool read_options(struct render *render, const struct arguments *argument
     params->exr_bits = arguments_choice(arguments, "exr-bits", 0) == 0 ? 16 : 32;
     params->overwrite = arguments_flag(arguments, "force");
     params->resume = arguments_flag(arguments, "resume");
-    params->command = arguments->words;
-    params->command_count = arguments->word_count;
     params->states = arguments_text(arguments, "states", NULL);
 
     render->frame_timeout_s = arguments_number(arguments, "frame-timeout", 0);
@@ -212,8 +211,14 @@ static bool read_options(struct render *render, const struct arguments *argument
     params->stop = wants_stop;
     params->user = render;
     params->log = report_log();
-    if (!value_list_create(&render->techniques, arguments, "technique"))
+    render->command = calloc(arguments->word_count + 2, sizeof *render->command);
+    if (!render->command || !value_list_create(&render->techniques, arguments, "technique"))
         return false;
+    render->command[params->command_count++] = "kiln";
+    render->command[params->command_count++] = "render";
+    for (size_t i = 0; i < arguments->word_count; i++)
+        render->command[params->command_count++] = arguments->words[i];
+    params->command = render->command;
     params->techniques = render->techniques.items;
     params->technique_count = render->techniques.count;
     return true;
@@ -336,6 +341,7 @@ static int run(const struct arguments *arguments)
     watchdog_destroy(&render.watchdog);
     job_list_free(&render.list);
     value_list_free(&render.techniques);
+    free(render.command);
     return code;
 }
 

@@ -36,7 +36,7 @@ void print_result(const struct job_result *result)
         printf(" and %u more", stats->files - 1);
     printf(": %u frame%s in %.3f s", stats->frames, plural(stats->frames), stats->total_s);
     if (stats->kept > 0)
-        printf(", %u were there", stats->kept);
+        printf(", %u kept", stats->kept);
     printf("\n");
 }
 

@@ -330,3 +330,10 @@ void kiln_journal_close(struct kiln_journal **journal)
     free(j);
     *journal = NULL;
 }
+
+void kiln_journal_remove(struct kiln_journal **journal)
+{
+    if (*journal)
+        unlink((*journal)->path);
+    kiln_journal_close(journal);
+}

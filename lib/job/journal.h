@@ -27,6 +27,9 @@ bool kiln_journal_add(struct kiln_journal *journal, const struct kiln_records *r
                       const struct kiln_whole *whole, struct kiln_error *error);
 void kiln_journal_close(struct kiln_journal **journal);
 
+/* Closes a journal that was begun for nothing, and removes it. */
+void kiln_journal_remove(struct kiln_journal **journal);
+
 /* "OUTPUT.journal". KILN_IO when it is too long. */
 bool kiln_journal_path(const char *output, char path[KILN_PATH_SIZE], struct kiln_error *error);
 

@@ -125,6 +125,7 @@ struct kiln_manifest *kiln_manifest_open(const struct kiln_manifest_params *para
         return NULL;
     }
     manifest->params = *params;
+    kiln_temporary_sweep(params->path);
     if (!kiln_temporary_open(&manifest->file, params->path, error)) {
         kiln_manifest_close(&manifest);
         return NULL;

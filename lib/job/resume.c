@@ -117,6 +117,21 @@ static bool clip_is_whole(const struct kiln_resume *resume)
     return whole;
 }
 
+/* Removes the parts of a clip that is whole, and their folder unless there is something else in it.
+ */
+static void remove_parts(const struct kiln_resume *resume)
+{
+    for (uint32_t part = 0; part < kiln_parts_count(&resume->output); part++) {
+        struct kiln_error ignored = {0};
+        char path[KILN_PATH_SIZE];
+        if (kiln_part_path(&resume->output, part, path, &ignored))
+            unlink(path);
+        if (part == 0)
+            kiln_temporary_sweep(path);
+    }
+    rmdir(resume->folder);
+}
+
 static bool look_at_clip(struct kiln_resume *resume, bool found, struct kiln_error *error)
 {
     char path[KILN_PATH_SIZE];
@@ -124,6 +139,7 @@ static bool look_at_clip(struct kiln_resume *resume, bool found, struct kiln_err
         return false;
     resume->clip_is_whole = clip_is_whole(resume);
     if (resume->clip_is_whole) {
+        remove_parts(resume);
         for (uint32_t i = 0; i < resume->records->count; i++)
             resume->records->items[i] = (struct kiln_record){
                 .has_state = true,
@@ -177,6 +193,7 @@ bool kiln_resume_begin(struct kiln_resume *resume, const struct kiln_output_para
     char clip[KILN_PATH_SIZE];
     bool found = false;
     *resume = (struct kiln_resume){.output = *output, .records = records};
+    kiln_temporary_sweep(output->path);
     if (output->format->one_file) {
         if (!kiln_output_clip_file(output, 0, clip, error))
             return false;
@@ -191,7 +208,10 @@ bool kiln_resume_begin(struct kiln_resume *resume, const struct kiln_output_para
     if (!restart)
         ok = output->format->one_file ? look_at_clip(resume, found, error)
                                       : look_at_images(resume, found, error);
-    return ok && list_missing(resume, error);
+    ok = ok && list_missing(resume, error);
+    if (!ok && !found)
+        kiln_journal_remove(&resume->journal);
+    return ok;
 }
 
 bool kiln_resume_take(struct kiln_resume *resume, const struct kiln_whole *whole,
@@ -217,13 +237,7 @@ bool kiln_resume_join(struct kiln_resume *resume, struct kiln_error *error)
     output.overwrite = true; /* what is there was allowed for when the job began */
     if (!kiln_parts_join(&output, error))
         return false;
-    for (uint32_t part = 0; part < kiln_parts_count(&output); part++) {
-        char path[KILN_PATH_SIZE];
-        if (!kiln_part_path(&output, part, path, error))
-            return false;
-        unlink(path);
-    }
-    rmdir(resume->folder); /* not when somebody has put something there */
+    remove_parts(resume);
     resume->clip_is_whole = true;
     return true;
 }

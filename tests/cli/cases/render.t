@@ -125,7 +125,7 @@ $ kiln render scenes/tiny.yaml -o none --frames 0-3 --stats=text --progress none
 1|  state        83c0efe7248147d7
 $ kiln render scenes/tiny.yaml -o none --frames 0-1 --stats=json --progress none | jq -r 'keys_unsorted | join(" ")'
 1|event index name software
-1|event scene output first_file frames total_s setup_s steps pass_ms alive particle_capacity particle_bytes peak_memory_bytes techniques chosen scene_hash state
+1|event scene output first_file frames kept total_s setup_s steps pass_ms alive particle_capacity particle_bytes peak_memory_bytes techniques chosen scene_hash state
 $ kiln render scenes/tiny.yaml -o x_%d.png --frames 0,2 --progress ndjson | jq -c '[.event, .frame, .done, .total]'
 1|["device",null,null,null]
 1|["frame",0,1,2]
@@ -165,7 +165,7 @@ $ kiln render scenes/tiny.yaml scenes/empty.yaml -o new/ --frames 1 --progress n
 1|new/empty.mp4: 1 frame in <s> s
 1|empty.mp4
 1|tiny.mp4
-$ for scene in tiny empty; do jq -r .frames[].frame folder/$scene.json; done
+$ for scene in tiny empty; do jq -r .result.frames[].frame folder/$scene.json; done
 1|0
 1|1
 1|0
@@ -191,7 +191,7 @@ A path may be as long as the system allows, and is reported whole.
 
 $ long=long/$(printf '%0200d/%0200d/%0200d/%0200d/%0200d/%0200d' 0 0 0 0 0 0)
 > kiln render scenes/tiny.yaml -o $long/x.png --frames 0-1 --progress none --manifest long.json | sed -n 's/ and .*//p' | wc -c
-> jq '.frames[].file | length' long.json
+> jq '.result.frames[].file | length' long.json
 1|1222
 1|1221
 1|1221

@@ -181,6 +181,9 @@ $ kiln help render
 1|      --states STATES         Start at the nearest state before the frames, out
 1|                              of a folder that 'kiln bake' made, and step on
 1|                              from there. The pictures are the same as without.
+1|      --resume                Go on with a job that was stopped or killed, or
+1|                              start it: what is whole stays, the rest is drawn
+1|                              (see docs/jobs.md). With --force it starts anew.
 1|      --force                 Replace files that exist.
 1|      --frame-timeout S       Give up with exit code 5 when a frame takes longer
 1|                              than S seconds. Frames that are stepped over

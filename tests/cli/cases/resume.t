@@ -1,0 +1,89 @@
+Going on with a job. What is whole stays, what is missing or changed is drawn.
+
+$ kiln render scenes/tiny.yaml -q --frames 0-5 -o ref_%d.png --manifest ref.json
+$ kiln render scenes/tiny.yaml --frames 0-5 -o f_%d.png --resume --progress none --manifest m.json
+1|device: <device>
+1|f_0.png and 5 more: 6 frames in <s> s
+$ rm f_1.png f_4.png && truncate -s 20 f_2.png
+$ kiln render scenes/tiny.yaml --frames 0-5 -o f_%d.png --resume --progress none --manifest m.json
+1|device: <device>
+1|f_0.png and 5 more: 3 frames in <s> s, 3 kept
+$ for i in 0 1 2 3 4 5; do cmp ref_$i.png f_$i.png; done
+$ diff <(jq '.result | del(.output, .frames[].file)' ref.json) <(jq '.result | del(.output, .frames[].file)' m.json)
+$ jq -c '.run | [.kept, (.frames | length), .command[0:2]]' m.json
+1|[3,3,["kiln","render"]]
+$ kiln render scenes/tiny.yaml --frames 0-5 -o f_%d.png --resume --progress none --stats=json | jq -c 'select(.event == "result") | [.frames, .kept, .steps]'
+1|[0,6,0]
+
+A journal that a crash has cut off says less; without one, frames say themselves whose they are.
+
+$ truncate -s -30 f_%d.png.journal && kiln render scenes/tiny.yaml --frames 0-5 -o f_%d.png --resume --progress none
+1|device: <device>
+1|f_0.png and 5 more: 0 frames in <s> s, 6 kept
+$ rm f_%d.png.journal f_3.png && kiln render scenes/tiny.yaml --frames 0-5 -o f_%d.png --resume --progress none
+1|device: <device>
+1|f_0.png and 5 more: 1 frame in <s> s, 5 kept
+$ cmp ref_3.png f_3.png && grep -c frame f_%d.png.journal
+1|6
+$ kiln render scenes/tiny.yaml -q --frames 0-2 -o e_%d.exr && rm e_1.exr && kiln render scenes/tiny.yaml --frames 0-2 -o e_%d.exr --resume --progress none
+1|device: <device>
+1|e_0.exr and 2 more: 1 frame in <s> s, 2 kept
+
+What is of another job is refused, --force starts anew.
+
+$ kiln render scenes/tiny.yaml -q --frames 0-5 -o f_%d.png --resume --seed 1
+2|kiln: f_%d.png.journal: is the journal of another scene (--force starts anew)
+= 6
+$ kiln render scenes/tiny.yaml -q --frames 0-4 -o f_%d.png --resume
+2|kiln: f_%d.png.journal: is the journal of other frames, or other settings of the output (--force starts anew)
+= 6
+$ kiln render scenes/tiny.yaml -q --frames 0-5 -o f_%d.png --resume --png-bits 16
+2|kiln: f_%d.png.journal: is the journal of other frames, or other settings of the output (--force starts anew)
+= 6
+$ kiln render scenes/tiny.yaml -q --frames 0-5 -o f_%d.png --resume --technique simulate=inplace 2>&1 | sed "s/(kiln.*//"
+1|kiln: f_%d.png.journal: was begun by another program, device or techniques 
+$ echo mine >f_%d.png.journal; kiln render scenes/tiny.yaml -q --frames 0-5 -o f_%d.png --resume
+2|kiln: f_%d.png.journal: is not a journal (--force starts anew)
+= 6
+$ kiln render scenes/tiny.yaml --frames 0-5 -o f_%d.png --resume --force --progress none
+1|device: <device>
+1|f_0.png and 5 more: 6 frames in <s> s
+$ echo mine >x_1.png; kiln render scenes/tiny.yaml -q --frames 0-2 -o x_%d.png --resume
+2|kiln: x_1.png: the file exists, and is not a whole frame 1 of this scene (--force replaces it)
+= 6
+$ (flock 9; kiln render scenes/tiny.yaml -q --frames 0-5 -o f_%d.png --resume) 9<f_%d.png.journal
+2|kiln: f_%d.png.journal: another process is writing this output: it has the journal
+= 6
+$ kiln render scenes/tiny.yaml -q -o none --resume
+2|kiln: render: --resume: there is no output to go on with
+= 2
+$ mkfifo p_%d.png.journal; kiln render scenes/tiny.yaml -q --frames 0-2 -o p_%d.png --resume
+2|p_%d.png.journal: is not a regular file
+= 3
+
+Clips wait in parts: here of 20 frames, the last of one.
+
+$ kiln render scenes/tiny.yaml -q --fps 10 --set output.frames=41 -o ref.mp4
+$ kiln render scenes/tiny.yaml --fps 10 --set output.frames=41 -o c.mp4 --resume --progress none
+1|device: <device>
+1|c.mp4: 41 frames in <s> s
+$ cmp ref.mp4 c.mp4 && ls -d c.mp4*
+1|c.mp4
+1|c.mp4.journal
+$ jq -c 'if .part then .frames else .clip end' c.mp4.journal
+1|null
+1|[0,19]
+1|[20,39]
+1|[40,40]
+1|"c.mp4"
+$ kiln render scenes/tiny.yaml --fps 10 --set output.frames=41 -o c.mp4 --resume --progress none
+1|device: <device>
+1|c.mp4: 0 frames in <s> s, 41 kept
+$ rm c.mp4; kiln render scenes/tiny.yaml --fps 10 --set output.frames=41 -o c.mp4 --resume --progress none
+1|device: <device>
+1|c.mp4: 41 frames in <s> s
+$ cmp ref.mp4 c.mp4
+$ echo mine >d.mp4; kiln render scenes/tiny.yaml -q -o d.mp4 --resume; ls d.mp4* x_*
+1|d.mp4
+1|x_1.png
+2|kiln: d.mp4: the file exists (--force replaces it)
