@@ -15,15 +15,15 @@
 
 static bool vectors_are_off; /* in x264, by standing before FFmpeg's own function */
 
-int avcodec_open2(AVCodecContext *codec, const AVCodec *found, AVDictionary **options)
+int avcodec_open2(AVCodecContext *avctx, const AVCodec *codec, AVDictionary **options)
 {
     union {
         void *symbol;
         int (*function)(AVCodecContext *, const AVCodec *, AVDictionary **);
     } real = {.symbol = dlsym(RTLD_NEXT, "avcodec_open2")};
-    if (vectors_are_off && strcmp(found->name, "libx264") == 0)
-        av_opt_set(codec->priv_data, "x264-params", "cpu-independent=1:scenecut=0:asm=0", 0);
-    return real.function(codec, found, options);
+    if (vectors_are_off && strcmp(codec->name, "libx264") == 0)
+        av_opt_set(avctx->priv_data, "x264-params", "cpu-independent=1:scenecut=0:asm=0", 0);
+    return real.function(avctx, codec, options);
 }
 
 /* So many frames at a rate, in a format. */
