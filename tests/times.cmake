@@ -39,7 +39,7 @@ set(kiln_test_times
     "cli.compare 10"
     "cli.test 10"
     "docs.scenes 10"
-    "mutation.effects 40"
+    "mutation.effects 20"
     "mutation.shapes 10"
     "mutation.turned 10"
     "tree.tidy 20 4"

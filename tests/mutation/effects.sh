@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# effects.sh KILN FOLDER NAME [NUMBER/COUNT]: no option of a scene is without effect. Each override of
-# NAME.txt must change the picture of FOLDER/NAME.yaml, in at least one value. "A given B" stands for
-# an option A that shows only where B is set. With 2/3, every third override from the second on.
+# effects.sh KILN FOLDER NAME [NUMBER/COUNT]: no option of a look is without effect (of options that move
+# particles, tests/unit/test_motion.c sees it). Each override of NAME.txt must change the picture of
+# FOLDER/NAME.yaml, in at least one value. "A given B" stands for an option A that shows only where B is
+# set. With 2/3, every third override from the second on.
 set -euo pipefail
 
 kiln=$1 folder=$2 name=$3 part=${4:-1/1}
