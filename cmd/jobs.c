@@ -108,6 +108,8 @@ static int claim_files(const struct job_list *list)
         params.range_count = job->frames.count;
         params.flipbook = list->flipbook;
         params.resume = list->resume;
+        params.shard = list->shard;
+        params.shards = list->shards;
         if (!kiln_render_claim(job->scene, &params, claims, &error))
             code = report_error(&error);
     }
@@ -125,6 +127,11 @@ static int name_files(struct job_list *list, const struct arguments *arguments)
     list->resume = arguments_flag(arguments, "resume");
     if (list->resume && !writes)
         return report(KILN_USAGE, "render: --resume: there is no output to go on with");
+    if (list->shards > 0 && !writes)
+        return report(KILN_USAGE, "render: --shard: there is no output to share");
+    if (list->shards > 0 && manifest)
+        return report(KILN_USAGE,
+                      "render: --manifest: of shards, 'kiln join --manifest' writes it");
     for (size_t i = 0; i < list->count; i++) {
         struct job *job = &list->jobs[i];
         job->path = arguments->operands[i];
@@ -225,8 +232,8 @@ static int load_scenes(struct job_list *list, const struct arguments *arguments)
 
 int job_list_create(struct job_list *list, const struct arguments *arguments)
 {
-    *list = (struct job_list){.jobs = calloc(arguments->operand_count, sizeof *list->jobs),
-                              .count = arguments->operand_count};
+    list->jobs = calloc(arguments->operand_count, sizeof *list->jobs);
+    list->count = arguments->operand_count;
     if (!list->jobs) {
         list->count = 0;
         return report_no_memory();

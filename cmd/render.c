@@ -11,6 +11,7 @@
 #include "overrides.h"
 #include "progress.h"
 #include "report.h"
+#include "shard.h"
 #include "signals.h"
 #include "stats.h"
 #include "watchdog.h"
@@ -103,6 +104,7 @@ static const struct option options[] = {
      .help =
          "Go on with a job that was stopped or killed, or start it: what is whole stays, the rest "
          "is drawn (see docs/jobs.md). With --force it starts anew."},
+    SHARD_OPTION,
     {.name = "force", .kind = OPTION_FLAG, .help = "Replace files that exist."},
     {.name = "frame-timeout",
      .kind = OPTION_NUMBER,
@@ -136,7 +138,8 @@ struct render {
     struct job_list list;
     struct kiln_render_params params;
     struct value_list techniques;
-    const char **command;    /* its words, for manifests */
+    const char **command; /* its words, for manifests */
+    struct shard shard;
     bool quiet, stats, json; /* json: standard output is lines of JSON */
     enum progress_mode progress_mode;
     double frame_timeout_s;
@@ -247,10 +250,32 @@ static void print_device(const struct render *render, const struct kiln_device_i
     fflush(stdout);
 }
 
+/* Which shard this is, and who said so. */
+static void print_shard(const struct render *render)
+{
+    const struct shard *shard = &render->shard;
+    if (shard->count == 0 || render->quiet)
+        return;
+    if (render->json) {
+        struct kiln_json json = event_begin("shard");
+        kiln_json_uint(&json, "shard", shard->index + 1);
+        kiln_json_uint(&json, "shards", shard->count);
+        kiln_json_string(&json, "variable", shard->variable);
+        event_end(&json);
+    } else if (shard->variable) {
+        printf("shard %u of %u, by %s=%s\n", shard->index + 1, shard->count, shard->variable,
+               getenv(shard->variable));
+    } else {
+        printf("shard %u of %u\n", shard->index + 1, shard->count);
+    }
+    fflush(stdout);
+}
+
 static void print_job(const struct render *render, const struct kiln_render_stats *stats)
 {
     const struct job_result result = {.scene = render->job->path,
                                       .output = render->job->output,
+                                      .is_shard = render->shard.count > 0,
                                       .info = &render->job->info,
                                       .stats = stats};
     if (render->json) {
@@ -317,6 +342,7 @@ static int run_jobs(struct render *render, const struct arguments *arguments)
     if (!device)
         return code;
     print_device(render, kiln_device_info(device));
+    print_shard(render);
     for (size_t i = 0; i < render->list.count && code == 0; i++)
         code = run_job(render, device, &render->list.jobs[i]);
     kiln_device_close(&device);
@@ -327,6 +353,10 @@ static int run(const struct arguments *arguments)
 {
     struct render render = {0};
     int code = read_options(&render, arguments) ? 0 : report_no_memory();
+    if (code == 0)
+        code = shard_read(&render.shard, arguments);
+    render.params.shard = render.list.shard = render.shard.index;
+    render.params.shards = render.list.shards = render.shard.count;
     if (code == 0)
         code = job_list_create(&render.list, arguments);
     if (code == 0 && render.frame_timeout_s > 0) {

@@ -26,9 +26,30 @@ static const char *plural(uint32_t count)
     return count == 1 ? "" : "s";
 }
 
+static void print_shard_result(const struct job_result *result)
+{
+    const struct kiln_render_stats *stats = result->stats;
+    const uint32_t parts = stats->end_part - stats->first_part;
+    if (parts == 0) {
+        printf("%s: none of its parts is for this shard\n", result->output);
+        return;
+    }
+    printf("%s: part%s %u", result->output, plural(parts), stats->first_part + 1);
+    if (parts > 1)
+        printf("-%u", stats->end_part);
+    printf(": %u frame%s in %.3f s", stats->frames, plural(stats->frames), stats->total_s);
+    if (stats->kept > 0)
+        printf(", %u kept", stats->kept);
+    printf("\n");
+}
+
 void print_result(const struct job_result *result)
 {
     const struct kiln_render_stats *stats = result->stats;
+    if (result->is_shard) {
+        print_shard_result(result);
+        return;
+    }
     printf("%s", result->output ? stats->first_file : result->scene);
     if (!result->output)
         printf(": nothing written");

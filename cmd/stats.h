@@ -7,6 +7,7 @@
 struct job_result {
     const char *scene;
     const char *output; /* as asked for; NULL: nothing was written */
+    bool is_shard;
     const struct kiln_scene_info *info;
     const struct kiln_render_stats *stats;
 };

@@ -280,10 +280,13 @@ struct kiln_render_params {
      * the output, and a clip waits there in parts until it is whole. With overwrite, all begins
      * anew. */
     bool resume;
-    bool state_hash;   /* compute it for each drawn frame; the manifest always has it */
-    uint32_t png_bits; /* 8 or 16; of APNG and MKV, too */
-    uint32_t exr_bits; /* 16 or 32 */
-    uint32_t quality;  /* video: 0 (smallest) to 100 (visually lossless) */
+    /* Draw only the parts of one of several shards, which goes on with what is there of them. A
+     * clip waits for kiln_join. shards 0: all parts. */
+    uint32_t shard, shards; /* from 0; of so many */
+    bool state_hash;        /* compute it for each drawn frame; the manifest always has it */
+    uint32_t png_bits;      /* 8 or 16; of APNG and MKV, too */
+    uint32_t exr_bits;      /* 16 or 32 */
+    uint32_t quality;       /* video: 0 (smallest) to 100 (visually lossless) */
     /* One cell for each frame: ranges come from kiln_flipbook_sample. */
     struct kiln_flipbook flipbook;
     /* Told of each frame where output is NULL: 8-bit sRGB, RGBA, alpha not premultiplied, rows from
@@ -307,8 +310,9 @@ enum { KILN_MAX_STAGES = 8 };
 
 /* What a job did, for reports. */
 struct kiln_render_stats {
-    uint32_t frames; /* drawn */
-    uint32_t kept;   /* that were there already, with kiln_render_params.resume */
+    uint32_t frames;               /* drawn */
+    uint32_t kept;                 /* that were there already, with kiln_render_params.resume */
+    uint32_t first_part, end_part; /* of a shard: those of parts first_part to end_part - 1 */
     uint64_t steps;
     double setup_s; /* programs, textures, buffers */
     double total_s;

@@ -57,6 +57,29 @@ bool kiln_bake(struct kiln_device *device, const struct kiln_scene *scene,
                const struct kiln_bake_params *params, struct kiln_bake_stats *stats,
                struct kiln_error *error);
 
+/* ---- Joining -------------------------------------------------------------------------------- */
+
+struct kiln_join_params {
+    const char *output;         /* as the job was given it: a clip, or a pattern of images */
+    const char *manifest;       /* a JSON file that describes the job, or NULL */
+    const char *const *command; /* words of a command line, for the manifest */
+    size_t command_count;
+    bool (*stop)(void *user); /* asked now and then; true ends with KILN_INTERRUPTED */
+    void *user;
+    struct kiln_log log;
+};
+
+struct kiln_join_stats {
+    uint32_t frames, parts;
+    bool was_whole; /* there was nothing to do */
+    double total_s;
+};
+
+/* Makes the clip of parts that shards drew, or looks whether all images are there. KILN_IO, with
+ * the parts and frames that are missing or damaged, when not all are; then nothing is written. */
+bool kiln_join(const struct kiln_join_params *params, struct kiln_join_stats *stats,
+               struct kiln_error *error);
+
 /* ---- Plans ---------------------------------------------------------------------------------- */
 
 /* What a scene costs, measured by drawing one of its frames. CPU times are of all threads. */

@@ -16,8 +16,10 @@ static bool claim_output(const struct kiln_scene *scene, const struct kiln_rende
     };
     char journal[KILN_PATH_SIZE];
     return kiln_output_claim(&output, claims, error) &&
-           (!params->resume || (kiln_journal_path(params->output, journal, error) &&
-                                kiln_claims_write(claims, journal, "--resume", error)));
+           (!(params->resume || params->shards > 0) ||
+            (kiln_journal_path(params->output, (struct kiln_shard){params->shard, params->shards},
+                               journal, error) &&
+             kiln_claims_write(claims, journal, "--resume", error)));
 }
 
 bool kiln_render_claim(const struct kiln_scene *scene, const struct kiln_render_params *params,

@@ -25,6 +25,8 @@ struct kiln_job {
     struct kiln_output *output;      /* NULL when nothing is to be written */
     struct kiln_manifest *manifest;  /* NULL when none is wanted */
     struct kiln_records records;     /* of the frames, where a manifest or a journal needs them */
+    char *scene_json;                /* for both, too */
+    char made_by[512];               /* device and techniques, for the journal */
     bool resumes;
     struct kiln_resume resume;
     bool draws;                 /* else all that was asked for is there */
@@ -159,6 +161,10 @@ static bool draw_frames(struct kiln_job *job, struct kiln_error *error)
             struct kiln_record *record =
                 job->resumes ? kiln_records_of(&job->records, frame) : NULL;
             const bool is_there = record && record->whole && !record->drawn;
+            if (record && record->is_others) {
+                follows = false;
+                continue;
+            }
             if (!follows && !(is_there && record->has_state) && job->states &&
                 !kiln_states_take_up(job->states, job->loop, frame, error))
                 return false;
@@ -238,7 +244,8 @@ static bool keep_records(struct kiln_job *job, struct kiln_error *error)
     if (!job->params->manifest && !job->resumes)
         return true;
     job->files.whole = (struct kiln_whole_listener){take_whole, job};
-    return kiln_records_create(&job->records, job->ranges, job->range_count) ||
+    job->scene_json = kiln_manifest_scene(job->scene);
+    return (job->scene_json && kiln_records_create(&job->records, job->ranges, job->range_count)) ||
            kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for records of %u frames",
                           job->total_frames);
 }
@@ -247,11 +254,18 @@ static bool keep_records(struct kiln_job *job, struct kiln_error *error)
 static bool begin_to_resume(struct kiln_job *job, struct kiln_error *error)
 {
     const struct kiln_device_info *device = &job->device->info;
-    char made_by[512];
-    snprintf(made_by, sizeof made_by, "kiln %s, %s, %s", KILN_VERSION,
+    snprintf(job->made_by, sizeof job->made_by, "kiln %s, %s, %s", KILN_VERSION,
              device->gl ? device->name : KILN_DEVICE_CPU, job->stats.techniques);
     job->files.durable = true;
-    if (!kiln_resume_begin(&job->resume, &job->files, made_by, job->params->overwrite,
+    const struct kiln_output_params files = job->files;
+    if (!kiln_resume_begin(&job->resume,
+                           &(struct kiln_resume_params){
+                               .output = &files,
+                               .made_by = job->made_by,
+                               .scene = job->scene_json,
+                               .shard = {job->params->shard, job->params->shards},
+                               .restart = job->params->overwrite,
+                           },
                            &job->records, error))
         return false;
     job->files = job->resume.output;
@@ -259,10 +273,16 @@ static bool begin_to_resume(struct kiln_job *job, struct kiln_error *error)
     job->files.ranges = job->resume.missing;
     job->files.range_count = job->resume.missing_count;
     job->stats.kept = job->resume.kept;
-    job->total_frames -= job->resume.kept;
+    job->stats.first_part = job->resume.first_part;
+    job->stats.end_part = job->resume.end_part;
+    job->total_frames = 0;
+    for (size_t i = 0; i < job->resume.missing_count; i++)
+        job->total_frames += job->resume.missing[i].last - job->resume.missing[i].first + 1;
     job->draws = job->resume.missing_count > 0;
-    for (uint32_t i = 0; i < job->records.count; i++)
-        job->draws = job->draws || !job->records.items[i].has_state;
+    for (uint32_t i = 0; i < job->records.count; i++) {
+        const struct kiln_record *record = &job->records.items[i];
+        job->draws = job->draws || !(record->has_state || record->is_others);
+    }
     return true;
 }
 
@@ -275,7 +295,7 @@ static bool open_output(struct kiln_job *job, struct kiln_error *error)
     job->draws = true;
     if (params->output) {
         job->files = kiln_output_complete(&files, error);
-        job->resumes = params->resume;
+        job->resumes = params->resume || params->shards > 0;
         if (!job->files.format)
             return false;
     }
@@ -290,7 +310,7 @@ static bool open_output(struct kiln_job *job, struct kiln_error *error)
         &(struct kiln_manifest_params){
             .path = params->manifest,
             .overwrite = params->overwrite || params->resume,
-            .scene = job->scene,
+            .scene = job->scene_json,
             .device = &job->device->info,
             .techniques = job->stats.techniques,
             .output = params->output,
@@ -364,8 +384,8 @@ static bool finish_output(struct kiln_job *job, struct kiln_error *error)
     s->files = kiln_output_file_count(&job->files);
     return kiln_output_file(&job->files, job->ranges[0].first, s->first_file, error) &&
            (!job->output || kiln_output_finish(job->output, error)) &&
-           (!job->resumes || !job->files.format->one_file || job->resume.clip_is_whole ||
-            kiln_resume_join(&job->resume, error));
+           (!job->resumes || job->params->shards > 0 || !job->files.format->one_file ||
+            job->resume.clip_is_whole || kiln_resume_join(&job->resume, error));
 }
 
 bool kiln_job_finish(struct kiln_job *job, struct kiln_render_stats *stats,
@@ -395,6 +415,7 @@ void kiln_job_destroy(struct kiln_job **job)
     kiln_output_close(&j->output);
     kiln_resume_end(&j->resume);
     kiln_records_free(&j->records);
+    free(j->scene_json);
     kiln_loop_destroy(&j->loop);
     free(j);
     *job = NULL;

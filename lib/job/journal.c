@@ -1,6 +1,7 @@
 /* Lines are appended with one write each. A line that a crash has cut off is forgotten. */
 #include "job/journal.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
@@ -13,11 +14,13 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json.h"
+#include "base/temporary.h"
 #include "base/text.h"
 #include "option/node.h"
-#include "output/part_file.h"
 
-enum { VERSION = 1, MAX_SIZE = 1 << 30 };
+#define SUFFIX ".journal"
+
+enum { MAX_SIZE = 1 << 30 };
 
 static const double sync_s = 1.0;
 
@@ -28,51 +31,59 @@ struct kiln_journal {
     bool unsynced;
 };
 
-bool kiln_journal_path(const char *output, char path[KILN_PATH_SIZE], struct kiln_error *error)
+bool kiln_journal_path(const char *output, struct kiln_shard shard, char path[KILN_PATH_SIZE],
+                       struct kiln_error *error)
 {
-    return snprintf(path, KILN_PATH_SIZE, "%s.journal", output) < KILN_PATH_SIZE ||
+    char part[32] = "";
+    if (shard.count > 0)
+        snprintf(part, sizeof part, ".%u-of-%u", shard.index + 1, shard.count);
+    return snprintf(path, KILN_PATH_SIZE, "%s%s" SUFFIX, output, part) < KILN_PATH_SIZE ||
            kiln_error_set(error, KILN_IO, "%.200s...: the path is longer than %d bytes", output,
                           KILN_PATH_SIZE - 1);
 }
 
 /* ---- writing --------------------------------------------------------------------------------- */
 
+static bool append_bytes(struct kiln_journal *journal, const char *bytes, size_t size,
+                         struct kiln_error *error)
+{
+    for (size_t done = 0; done < size;) {
+        const ssize_t count = write(journal->file, bytes + done, size - done);
+        if (count < 0 && errno != EINTR)
+            return kiln_error_set_errno(error, KILN_IO, errno, "%s: the journal cannot be written",
+                                        journal->path);
+        done += count > 0 ? (size_t)count : 0;
+    }
+    journal->unsynced = true;
+    const double now_s = kiln_clock_seconds();
+    if (now_s - journal->synced_s >= sync_s) {
+        fdatasync(journal->file);
+        journal->synced_s = now_s;
+        journal->unsynced = false;
+    }
+    return true;
+}
+
 /* Ends the line and appends it. */
 static bool append(struct kiln_journal *journal, struct kiln_json *json, struct kiln_text *line,
                    struct kiln_error *error)
 {
     kiln_json_end(json);
-    bool ok = kiln_json_finish(json) && !line->failed;
-    if (!ok)
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", journal->path);
-    for (size_t done = 0; ok && done < line->length;) {
-        const ssize_t count = write(journal->file, line->data + done, line->length - done);
-        if (count < 0 && errno != EINTR)
-            ok = kiln_error_set_errno(error, KILN_IO, errno, "%s: the journal cannot be written",
-                                      journal->path);
-        done += count > 0 ? (size_t)count : 0;
-    }
+    const bool made = kiln_json_finish(json) && !line->failed;
+    const bool ok =
+        made ? append_bytes(journal, line->data, line->length, error)
+             : kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", journal->path);
     kiln_text_free(line);
-    journal->unsynced = true;
-    const double now_s = kiln_clock_seconds();
-    if (ok && now_s - journal->synced_s >= sync_s) {
-        fdatasync(journal->file);
-        journal->synced_s = now_s;
-        journal->unsynced = false;
-    }
     return ok;
 }
 
-static bool write_head(struct kiln_journal *journal, const struct kiln_journal_params *params,
-                       const char *clip, struct kiln_error *error)
+static bool write_head(struct kiln_journal *journal, const struct kiln_journal_head *head,
+                       struct kiln_error *error)
 {
     struct kiln_text line = {0};
     struct kiln_json json = kiln_json_to_text(&line);
     kiln_json_begin_object(&json, NULL);
-    kiln_json_uint(&json, "kiln_journal", VERSION);
-    kiln_json_string(&json, "scene", params->output->scene_hash);
-    kiln_json_string(&json, "job", clip);
-    kiln_json_string(&json, "made_by", params->made_by);
+    kiln_journal_head_write(&json, head);
     return append(journal, &json, &line, error);
 }
 
@@ -193,80 +204,84 @@ static const struct kiln_node *parse_line(struct kiln_arena *arena, const char *
     return kiln_node_parse(arena, line, strlen(line), &origin, &ignored);
 }
 
-/* That the head is of this job. */
-static bool check_head(const struct kiln_journal *journal, const struct kiln_node *head,
-                       const struct kiln_journal_params *params, const char *clip,
-                       struct kiln_error *error)
+/* That a journal is of this job. */
+static bool check_head(const struct kiln_journal *journal, const struct kiln_node *line,
+                       const struct kiln_journal_head *head, struct kiln_error *error)
 {
     uint64_t version = 0;
-    if (!head || !read_number(kiln_node_entry(head, "kiln_journal"), &version))
-        return kiln_error_set(error, KILN_IO, "%s: is not a journal (--force starts anew)",
-                              journal->path);
-    const struct kiln_node *made_by = kiln_node_entry(head, "made_by");
     const char *other = NULL;
-    if (version != VERSION)
+    if (!line || !read_number(kiln_node_entry(line, "kiln_journal"), &version))
+        other = "is not a journal";
+    else if (version != KILN_JOURNAL_VERSION)
         other = "is a journal of another version of kiln";
-    else if (!kiln_node_is(kiln_node_entry(head, "scene"), params->output->scene_hash))
+    else if (!kiln_node_is(kiln_node_entry(line, "scene"), head->output.scene_hash))
         other = "is the journal of another scene";
-    else if (!kiln_node_is(kiln_node_entry(head, "job"), clip))
+    else if (!kiln_node_is(kiln_node_entry(line, "job"), head->job))
         other = "is the journal of other frames, or other settings of the output";
     if (other)
         return kiln_error_set(error, KILN_IO, "%s: %s (--force starts anew)", journal->path, other);
-    if (kiln_node_is(made_by, params->made_by))
+    const struct kiln_node *made_by = kiln_node_entry(line, "made_by");
+    if (made_by && kiln_node_is(made_by, head->made_by))
         return true;
-    char found[64] = "";
-    if (made_by && made_by->kind == KILN_NODE_SCALAR)
-        kiln_node_quote(found, made_by->text);
     return kiln_error_set(
         error, KILN_IO,
-        "%s: was begun by another program, device or techniques (%s), this is %s; "
-        "--force starts anew",
-        journal->path, found, params->made_by);
+        "%s: was begun by another program, device or techniques (%.200s), this is "
+        "%s; --force starts anew",
+        journal->path, made_by && made_by->kind == KILN_NODE_SCALAR ? made_by->text : "",
+        head->made_by);
 }
 
-/* Reads all whole lines; *length gets where the last one ends. */
+/* Reads all whole lines; *length gets where the last one ends, *first where the first one does. */
 static bool read_lines(const struct kiln_journal *journal, char *text,
-                       const struct kiln_journal_params *params, const char *clip,
-                       struct kiln_records *records, size_t *length, struct kiln_error *error)
+                       const struct kiln_journal_head *head, struct kiln_records *records,
+                       size_t *first, size_t *length, struct kiln_error *error)
 {
     bool ok = true;
-    *length = 0;
+    *first = *length = 0;
     for (char *line = text, *end; ok && (end = strchr(line, '\n')); line = end + 1) {
         struct kiln_arena *arena = kiln_arena_create();
-        *end = '\0';
         if (!arena)
             return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", journal->path);
+        *end = '\0';
         const struct kiln_node *node = parse_line(arena, journal->path, line);
         if (line == text)
-            ok = check_head(journal, node, params, clip, error);
+            ok = check_head(journal, node, head, error);
         else if (node && kiln_node_entry(node, "frame"))
             read_frames(node, false, records);
         else if (node && kiln_node_entry(node, "part"))
             read_frames(node, true, records);
         else if (node && kiln_node_entry(node, "clip"))
             read_clip(journal, node, records);
+        *end = '\n';
         kiln_arena_destroy(&arena);
         *length = (size_t)(end + 1 - text);
+        *first = line == text ? *length : *first;
     }
     return ok;
 }
 
-static bool read_journal(const struct kiln_journal *journal,
-                         const struct kiln_journal_params *params, const char *clip,
+/* The text of a journal, which the caller frees; NULL with an error when it is something else. */
+static char *read_text(const struct kiln_journal *journal, struct kiln_error *error)
+{
+    static const char start[] = "{\"kiln_journal\"";
+    size_t size = 0;
+    char *text = kiln_text_file_read(journal->path, "a journal", MAX_SIZE, &size, error);
+    const size_t compared = size < sizeof start - 1 ? size : sizeof start - 1;
+    if (!text || strncmp(text, start, compared) == 0)
+        return text;
+    kiln_error_set(error, KILN_IO, "%s: is not a journal (--force starts anew)", journal->path);
+    free(text);
+    return NULL;
+}
+
+static bool read_journal(const struct kiln_journal *journal, const struct kiln_journal_head *head,
                          struct kiln_records *records, bool *found, struct kiln_error *error)
 {
-    size_t size = 0, length = 0;
-    char *text = kiln_text_file_read(journal->path, "a journal", MAX_SIZE, &size, error);
+    size_t first, length = 0;
+    char *text = read_text(journal, error);
     if (!text)
         return false;
-    static const char start[] = "{\"kiln_journal\"";
-    const size_t compared = size < sizeof start - 1 ? size : sizeof start - 1;
-    if (strncmp(text, start, compared) != 0) {
-        free(text);
-        return kiln_error_set(error, KILN_IO, "%s: is not a journal (--force starts anew)",
-                              journal->path);
-    }
-    const bool ok = read_lines(journal, text, params, clip, records, &length, error);
+    const bool ok = read_lines(journal, text, head, records, &first, &length, error);
     free(text);
     *found = length > 0;
     return ok && (ftruncate(journal->file, (off_t)length) == 0 ||
@@ -276,10 +291,11 @@ static bool read_journal(const struct kiln_journal *journal,
 
 /* ---- opening --------------------------------------------------------------------------------- */
 
-static bool open_file(struct kiln_journal *journal, struct kiln_error *error)
+static bool open_file(struct kiln_journal *journal, int flags, struct kiln_error *error)
 {
-    journal->file = open(journal->path,
-                         O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
+    journal->synced_s = kiln_clock_seconds();
+    journal->file =
+        open(journal->path, O_RDWR | O_APPEND | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | flags, 0666);
     if (journal->file < 0)
         return kiln_error_set_errno(error, KILN_IO, errno, "%s: the journal cannot be opened",
                                     journal->path);
@@ -289,30 +305,28 @@ static bool open_file(struct kiln_journal *journal, struct kiln_error *error)
                           journal->path);
 }
 
-struct kiln_journal *kiln_journal_open(const struct kiln_journal_params *params,
+struct kiln_journal *kiln_journal_open(const struct kiln_journal_head *head,
+                                       struct kiln_shard shard, bool restart,
                                        struct kiln_records *records, bool *found,
                                        struct kiln_error *error)
 {
-    char clip[65];
     struct kiln_journal *journal = calloc(1, sizeof *journal);
-    if (!journal || !kiln_clip_hash(params->output, clip)) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", params->output->path);
-        free(journal);
+    *found = false;
+    if (!journal) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", head->output.path);
         return NULL;
     }
-    *found = false;
     journal->file = -1;
-    journal->synced_s = kiln_clock_seconds();
-    bool ok = kiln_journal_path(params->output->path, journal->path, error) &&
-              kiln_make_parent_folders(journal->path, error) && open_file(journal, error);
-    if (ok && params->restart)
+    bool ok = kiln_journal_path(head->output.path, shard, journal->path, error) &&
+              kiln_make_parent_folders(journal->path, error) && open_file(journal, O_CREAT, error);
+    if (ok && restart)
         ok = ftruncate(journal->file, 0) == 0 ||
              kiln_error_set_errno(error, KILN_IO, errno, "%s: the journal cannot be written",
                                   journal->path);
     else if (ok)
-        ok = read_journal(journal, params, clip, records, found, error);
+        ok = read_journal(journal, head, records, found, error);
     if (ok && !*found)
-        ok = write_head(journal, params, clip, error);
+        ok = write_head(journal, head, error);
     if (!ok)
         kiln_journal_close(&journal);
     return journal;
@@ -336,4 +350,131 @@ void kiln_journal_remove(struct kiln_journal **journal)
     if (*journal)
         unlink((*journal)->path);
     kiln_journal_close(journal);
+}
+
+/* ---- shards ---------------------------------------------------------------------------------- */
+
+/* "clip.mp4.2-of-4.journal" for the output "clip.mp4", or "clip.mp4.journal". */
+static bool is_journal_of(const char *name, const char *output, bool *is_shard)
+{
+    static const char digits[] = "0123456789";
+    const size_t length = strlen(output);
+    if (strncmp(name, output, length) != 0)
+        return false;
+    name += length;
+    *is_shard = strcmp(name, SUFFIX) != 0;
+    if (!*is_shard)
+        return true;
+    size_t count = *name == '.' ? strspn(name + 1, digits) : 0;
+    if (count == 0 || strncmp(name + 1 + count, "-of-", 4) != 0)
+        return false;
+    name += 1 + count + 4;
+    count = strspn(name, digits);
+    return count > 0 && strcmp(name + count, SUFFIX) == 0;
+}
+
+/* Visits the journals beside an output until one visit is false. */
+static bool visit_journals(const char *output,
+                           bool (*visit)(void *user, const char *path, bool is_shard,
+                                         struct kiln_error *error),
+                           void *user, struct kiln_error *error)
+{
+    char folder[KILN_PATH_SIZE];
+    const char *slash = strrchr(output, '/');
+    const int before = slash ? (int)(slash - output) + 1 : 0;
+    struct dirent **entries = NULL;
+    snprintf(folder, sizeof folder, "%.*s.", before, output);
+    const int count = scandir(folder, &entries, NULL, alphasort);
+    bool ok = true;
+    for (int i = 0; i < count; i++) {
+        char path[KILN_PATH_SIZE];
+        bool is_shard;
+        if (ok && is_journal_of(entries[i]->d_name, output + before, &is_shard) &&
+            snprintf(path, sizeof path, "%.*s%s", before, output, entries[i]->d_name) <
+                KILN_PATH_SIZE)
+            ok = visit(user, path, is_shard, error);
+        free(entries[i]);
+    }
+    free(entries);
+    return ok;
+}
+
+/* A journal that takes others over. */
+struct merging {
+    struct kiln_journal *into;
+    const struct kiln_journal_head *head;
+    struct kiln_records *records;
+    bool keep, found;
+};
+
+static bool take_over(void *user, const char *path, bool is_shard, struct kiln_error *error)
+{
+    struct merging *merging = user;
+    struct kiln_journal shard = {.file = -1};
+    if (!is_shard)
+        return true;
+    merging->found = true;
+    snprintf(shard.path, sizeof shard.path, "%s", path);
+    char *text = open_file(&shard, 0, error) ? read_text(&shard, error) : NULL;
+    size_t first, length;
+    const bool ok =
+        text && read_lines(&shard, text, merging->head, merging->records, &first, &length, error) &&
+        (merging->keep || append_bytes(merging->into, text + first, length - first, error));
+    if (ok && !merging->keep && fdatasync(merging->into->file) == 0)
+        unlink(path);
+    free(text);
+    if (shard.file >= 0)
+        close(shard.file);
+    return ok;
+}
+
+bool kiln_journal_merge(struct kiln_journal *journal, const struct kiln_journal_head *head,
+                        bool keep, struct kiln_records *records, bool *found,
+                        struct kiln_error *error)
+{
+    struct merging merging = {.into = journal, .head = head, .records = records, .keep = keep};
+    const bool ok = visit_journals(head->output.path, take_over, &merging, error);
+    *found = *found || merging.found;
+    return ok;
+}
+
+/* A head that is looked for. */
+struct finding {
+    struct kiln_journal_head *head;
+    const char *output;
+    struct kiln_arena *arena;
+    bool found;
+};
+
+static bool read_head(void *user, const char *path, bool is_shard, struct kiln_error *error)
+{
+    struct finding *finding = user;
+    struct kiln_journal journal = {.file = -1};
+    (void)is_shard;
+    snprintf(journal.path, sizeof journal.path, "%s", path);
+    char *text = read_text(&journal, error);
+    char *end = text ? strchr(text, '\n') : NULL;
+    if (end)
+        *end = '\0';
+    const struct kiln_node *line = end ? parse_line(finding->arena, path, text) : NULL;
+    bool ok = text != NULL;
+    if (line) {
+        ok = kiln_journal_head_read(finding->head, path, finding->output, line, finding->arena,
+                                    error);
+        finding->found = ok;
+    }
+    free(text);
+    return ok && !finding->found; /* one is enough: others are compared with it */
+}
+
+bool kiln_journal_find(const char *output, struct kiln_journal_head *head, struct kiln_arena *arena,
+                       struct kiln_error *error)
+{
+    struct finding finding = {.head = head, .output = output, .arena = arena};
+    const bool none = visit_journals(output, read_head, &finding, error);
+    if (none)
+        kiln_error_set(error, KILN_IO,
+                       "%s: has no journal beside it: no job with --resume or --shard has begun it",
+                       output);
+    return finding.found;
 }

@@ -3,23 +3,36 @@
 #ifndef KILN_JOB_JOURNAL_H
 #define KILN_JOB_JOURNAL_H
 
+#include "job/journal_head.h"
 #include "job/record.h"
+#include "job/shard.h"
 
 struct kiln_journal;
 
-struct kiln_journal_params {
-    const struct kiln_output_params *output; /* complete */
-    const char *made_by;                     /* device and techniques */
-    bool restart;                            /* what the journal says is forgotten */
-    struct kiln_log log;
-};
+/* "OUTPUT.journal", or of one of several shards "OUTPUT.2-of-4.journal". KILN_IO when it is too
+ * long.
+ */
+bool kiln_journal_path(const char *output, struct kiln_shard shard, char path[KILN_PATH_SIZE],
+                       struct kiln_error *error);
 
-/* Opens the journal, or begins one, and locks it until it is closed; what it says goes into the
- * records, whose `whole` stays false: nobody has looked. *found says whether it was there. KILN_IO
- * when another process has it, when it is of another job, or cannot be used. */
-struct kiln_journal *kiln_journal_open(const struct kiln_journal_params *params,
+/* Opens a journal, or begins one, and locks it until it is closed; what it says goes into the
+ * records, whose `whole` stays false: nobody has looked. `restart` forgets what it says. *found
+ * says whether there was one. KILN_IO when another process has it, when it is of another job, or
+ * cannot be used. */
+struct kiln_journal *kiln_journal_open(const struct kiln_journal_head *head,
+                                       struct kiln_shard shard, bool restart,
                                        struct kiln_records *records, bool *found,
                                        struct kiln_error *error);
+
+/* Reads the journals of all shards of the output; unless they are to be kept, takes them over and
+ * removes them. *found becomes true when there were any. KILN_IO as above. */
+bool kiln_journal_merge(struct kiln_journal *journal, const struct kiln_journal_head *head,
+                        bool keep, struct kiln_records *records, bool *found,
+                        struct kiln_error *error);
+
+/* Reads the head of any journal of an output. KILN_IO when there is none. */
+bool kiln_journal_find(const char *output, struct kiln_journal_head *head, struct kiln_arena *arena,
+                       struct kiln_error *error);
 
 /* Appends a file that is whole, with the states of its frames. The journal is on the disk a second
  * later. KILN_IO. */
@@ -29,8 +42,5 @@ void kiln_journal_close(struct kiln_journal **journal);
 
 /* Closes a journal that was begun for nothing, and removes it. */
 void kiln_journal_remove(struct kiln_journal **journal);
-
-/* "OUTPUT.journal". KILN_IO when it is too long. */
-bool kiln_journal_path(const char *output, char path[KILN_PATH_SIZE], struct kiln_error *error);
 
 #endif

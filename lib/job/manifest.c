@@ -60,23 +60,29 @@ static void add_scene_text(struct kiln_json *json, const struct kiln_scene *scen
     free(printed);
 }
 
-static void add_scene(struct kiln_json *json, const struct kiln_scene *scene)
+char *kiln_manifest_scene(const struct kiln_scene *scene)
 {
-    struct kiln_scene_info info = kiln_scene_info(scene);
-    kiln_json_begin_object(json, "scene");
-    kiln_json_string(json, "file", scene->name);
-    kiln_json_string(json, "hash", info.hash);
-    kiln_json_uint(json, "seed", scene->seed);
-    kiln_json_pair(json, "size", info.width, info.height);
-    kiln_json_pair(json, "fps", info.fps_num, info.fps_den);
-    kiln_json_uint(json, "frames", info.frames);
-    kiln_json_uint(json, "steps_per_frame", info.steps_per_frame);
-    kiln_json_uint(json, "warmup_steps", info.warmup_steps);
-    kiln_json_uint(json, "systems", info.system_count);
-    kiln_json_uint(json, "particle_capacity", info.particle_capacity);
-    kiln_json_line(json, 6);
-    add_scene_text(json, scene);
-    kiln_json_end(json);
+    struct kiln_text text = {0};
+    struct kiln_json json = kiln_json_to_text(&text);
+    const struct kiln_scene_info info = kiln_scene_info(scene);
+    kiln_json_begin_object(&json, NULL);
+    kiln_json_string(&json, "file", scene->name);
+    kiln_json_string(&json, "hash", info.hash);
+    kiln_json_uint(&json, "seed", scene->seed);
+    kiln_json_pair(&json, "size", info.width, info.height);
+    kiln_json_pair(&json, "fps", info.fps_num, info.fps_den);
+    kiln_json_uint(&json, "frames", info.frames);
+    kiln_json_uint(&json, "steps_per_frame", info.steps_per_frame);
+    kiln_json_uint(&json, "warmup_steps", info.warmup_steps);
+    kiln_json_uint(&json, "systems", info.system_count);
+    kiln_json_uint(&json, "particle_capacity", info.particle_capacity);
+    kiln_json_line(&json, 6);
+    add_scene_text(&json, scene);
+    kiln_json_end(&json);
+    if (!json.failed && !text.failed)
+        return text.data;
+    kiln_text_free(&text);
+    return NULL;
 }
 
 static void add_device(struct kiln_json *json, const struct kiln_device_info *device)
@@ -164,7 +170,7 @@ static bool add_result(struct kiln_manifest *manifest, const struct kiln_records
     struct kiln_json *json = &manifest->json;
     kiln_json_begin_object(json, "result");
     kiln_json_lines(json, 4);
-    add_scene(json, manifest->params.scene);
+    kiln_json_raw(json, "scene", manifest->params.scene);
     kiln_json_string(json, "output", manifest->params.output);
     kiln_json_begin_array(json, "frames");
     kiln_json_lines(json, 6);

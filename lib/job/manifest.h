@@ -9,7 +9,7 @@
 struct kiln_manifest_params {
     const char *path;
     bool overwrite;
-    const struct kiln_scene *scene;         /* printed whole into the file */
+    const char *scene;                      /* of kiln_manifest_scene */
     const struct kiln_device_info *device;  /* NULL: no device was used */
     const char *techniques;                 /* "simulate=cpu sort=cpu ..." */
     const char *output;                     /* as the user gave it; NULL: nothing was written */
@@ -19,6 +19,10 @@ struct kiln_manifest_params {
 };
 
 struct kiln_manifest;
+
+/* What the result says of a scene, as JSON, with the whole of its text. The caller frees it; NULL
+ * when memory is short. */
+char *kiln_manifest_scene(const struct kiln_scene *scene);
 
 /* Opens a temporary file beside path; makes missing folders. All that params points to is borrowed.
  * NULL with KILN_IO, or KILN_DEVICE_FAILED when memory is short. */

@@ -7,6 +7,7 @@
 struct kiln_record {
     bool has_state; /* the next two are known */
     bool whole;     /* its file is, or that of the part that it is in */
+    bool is_others; /* another shard draws it */
     struct kiln_state_hash state;
     uint64_t alive;
     uint64_t bytes;  /* of its file; 0: it has none of its own */

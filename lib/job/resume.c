@@ -66,6 +66,8 @@ static bool look_at_images(struct kiln_resume *resume, bool found, struct kiln_e
     for (uint32_t i = 0; i < records->count; i++) {
         char path[KILN_PATH_SIZE];
         const uint32_t frame = kiln_records_frame(records, i);
+        if (records->items[i].is_others)
+            continue;
         if (!kiln_output_file(&resume->output, frame, path, error) ||
             !kiln_output_may_go_on(&resume->output.caller, error) ||
             !look_at_image(resume, frame, path, found, error))
@@ -137,7 +139,7 @@ static bool look_at_clip(struct kiln_resume *resume, bool found, struct kiln_err
     char path[KILN_PATH_SIZE];
     if (!kiln_output_clip_file(&resume->output, 0, path, error))
         return false;
-    resume->clip_is_whole = clip_is_whole(resume);
+    resume->clip_is_whole = resume->shard.count == 0 && clip_is_whole(resume);
     if (resume->clip_is_whole) {
         remove_parts(resume);
         for (uint32_t i = 0; i < resume->records->count; i++)
@@ -152,7 +154,7 @@ static bool look_at_clip(struct kiln_resume *resume, bool found, struct kiln_err
     resume->records->file_count = 0;
     if (!found && !kiln_target_check(path, false, error))
         return false;
-    for (uint32_t part = 0; part < kiln_parts_count(&resume->output); part++) {
+    for (uint32_t part = resume->first_part; part < resume->end_part; part++) {
         if (!kiln_output_may_go_on(&resume->output.caller, error) ||
             !look_at_part(resume, part, error))
             return false;
@@ -172,7 +174,9 @@ static bool list_missing(struct kiln_resume *resume, struct kiln_error *error)
     struct kiln_frame_range *last = NULL;
     for (uint32_t i = 0; i < records->count; i++) {
         const uint32_t frame = kiln_records_frame(records, i);
-        if (records->items[i].whole) {
+        if (records->items[i].is_others) {
+            last = NULL;
+        } else if (records->items[i].whole) {
             resume->kept++;
         } else if (last && last->last + 1 == frame) {
             last->last = frame;
@@ -184,33 +188,79 @@ static bool list_missing(struct kiln_resume *resume, struct kiln_error *error)
     return true;
 }
 
-bool kiln_resume_begin(struct kiln_resume *resume, const struct kiln_output_params *output,
-                       const char *made_by, bool restart, struct kiln_records *records,
-                       struct kiln_error *error)
+/* Which parts count, and that frames of others are others'. */
+static void choose_parts(struct kiln_resume *resume, struct kiln_shard shard)
 {
-    const struct kiln_journal_params journal = {
-        .output = &resume->output, .made_by = made_by, .restart = restart, .log = output->log};
-    char clip[KILN_PATH_SIZE];
-    bool found = false;
-    *resume = (struct kiln_resume){.output = *output, .records = records};
-    kiln_temporary_sweep(output->path);
-    if (output->format->one_file) {
-        if (!kiln_output_clip_file(output, 0, clip, error))
-            return false;
-        if (snprintf(resume->folder, sizeof resume->folder, "%s.parts", clip) >= KILN_PATH_SIZE)
-            return kiln_error_set(error, KILN_USAGE, "%s: the path is too long", output->path);
-        resume->output.parts = resume->folder;
+    const uint32_t parts = kiln_parts_count(&resume->output);
+    resume->shard = shard;
+    resume->end_part = parts;
+    if (shard.count == 0)
+        return;
+    kiln_shard_parts(shard, parts, &resume->first_part, &resume->end_part);
+    for (uint32_t i = 0; i < resume->records->count; i++) {
+        const uint32_t part = kiln_part_of(&resume->output, kiln_records_frame(resume->records, i));
+        resume->records->items[i].is_others = part < resume->first_part || part >= resume->end_part;
     }
-    resume->journal = kiln_journal_open(&journal, records, &found, error);
+}
+
+static bool set_up(struct kiln_resume *resume, const struct kiln_resume_params *params,
+                   struct kiln_records *records, struct kiln_error *error)
+{
+    const struct kiln_output_params *output = params->output;
+    char clip[KILN_PATH_SIZE];
+    *resume = (struct kiln_resume){.output = *output, .records = records};
+    if (!kiln_journal_head_make(&resume->head, output, params->made_by, params->scene))
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", output->path);
+    choose_parts(resume, params->shard);
+    if (!output->format->one_file)
+        return true;
+    if (!kiln_output_clip_file(output, 0, clip, error))
+        return false;
+    if (snprintf(resume->folder, sizeof resume->folder, "%s.parts", clip) >= KILN_PATH_SIZE)
+        return kiln_error_set(error, KILN_USAGE, "%s: the path is too long", output->path);
+    resume->output.parts = resume->folder;
+    return true;
+}
+
+bool kiln_resume_begin(struct kiln_resume *resume, const struct kiln_resume_params *params,
+                       struct kiln_records *records, struct kiln_error *error)
+{
+    bool found = false;
+    if (!set_up(resume, params, records, error))
+        return false;
+    kiln_temporary_sweep(params->output->path);
+    resume->journal =
+        kiln_journal_open(&resume->head, params->shard, params->restart, records, &found, error);
     if (!resume->journal)
         return false;
-    bool ok = true;
-    if (!restart)
-        ok = output->format->one_file ? look_at_clip(resume, found, error)
-                                      : look_at_images(resume, found, error);
+    resume->was_begun = found;
+    bool ok = params->shard.count > 0 || params->restart ||
+              kiln_journal_merge(resume->journal, &resume->head, params->keep_journals, records,
+                                 &found, error);
+    if (ok && !params->restart)
+        ok = params->output->format->one_file ? look_at_clip(resume, found, error)
+                                              : look_at_images(resume, found, error);
     ok = ok && list_missing(resume, error);
-    if (!ok && !found)
+    if (!ok)
+        kiln_resume_undo(resume);
+    return ok;
+}
+
+void kiln_resume_undo(struct kiln_resume *resume)
+{
+    if (!resume->was_begun)
         kiln_journal_remove(&resume->journal);
+}
+
+bool kiln_resume_merge(struct kiln_resume *resume, struct kiln_error *error)
+{
+    bool found;
+    struct kiln_records ignored;
+    if (!kiln_records_create(&ignored, resume->records->clip, resume->records->clip_count))
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", resume->output.path);
+    const bool ok =
+        kiln_journal_merge(resume->journal, &resume->head, false, &ignored, &found, error);
+    kiln_records_free(&ignored);
     return ok;
 }
 

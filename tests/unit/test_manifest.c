@@ -2,6 +2,7 @@
 #include <libfyaml.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 
 #include "job/manifest.h"
 #include "support/cmocka.h"
@@ -93,6 +94,7 @@ static void write_manifest(const struct kiln_manifest_params *params, uint32_t f
 struct fixture {
     char folder[32], path[64];
     struct kiln_scene *scene;
+    char *scene_json;
     struct kiln_manifest_params params;
 };
 
@@ -102,7 +104,9 @@ static int set_up(void **state)
     test_make_folder(f.folder);
     snprintf(f.path, sizeof f.path, "%s/new/run.json", f.folder);
     f.scene = make_scene();
-    f.params = (struct kiln_manifest_params){.path = f.path, .scene = f.scene, .techniques = ""};
+    f.scene_json = kiln_manifest_scene(f.scene);
+    f.params =
+        (struct kiln_manifest_params){.path = f.path, .scene = f.scene_json, .techniques = ""};
     *state = &f;
     return 0;
 }
@@ -111,6 +115,7 @@ static int tear_down(void **state)
 {
     struct fixture *f = *state;
     kiln_scene_destroy(&f->scene);
+    free(f->scene_json);
     test_remove_folder(f->folder);
     return 0;
 }

@@ -10,6 +10,7 @@ $ kiln
 2|  render           render scenes into images or videos
 2|  bake             save states of a run, from which others start
 2|  plan             say what a clip costs, and how it divides into tasks
+2|  join             make a clip of the parts that several tasks drew
 2|  compare          tell whether two pictures, folders or videos look the same
 2|  test             render tests and compare them with golden pictures
 2|  test approve     accept pictures of the last run as goldens
@@ -52,6 +53,7 @@ $ kiln --help
 1|  render           render scenes into images or videos
 1|  bake             save states of a run, from which others start
 1|  plan             say what a clip costs, and how it divides into tasks
+1|  join             make a clip of the parts that several tasks drew
 1|  compare          tell whether two pictures, folders or videos look the same
 1|  test             render tests and compare them with golden pictures
 1|  test approve     accept pictures of the last run as goldens
@@ -184,6 +186,13 @@ $ kiln help render
 1|      --resume                Go on with a job that was stopped or killed, or
 1|                              start it: what is whole stays, the rest is drawn
 1|                              (see docs/jobs.md). With --force it starts anew.
+1|      --shard I/N|auto|auto/N
+1|                              Draw only the I-th of N shares of the parts of a
+1|                              clip, two seconds each, and go on with what is
+1|                              there of it; 'kiln join' makes the clip of all.
+1|                              auto: what SLURM_ARRAY_TASK_ID or SGE_TASK_ID and
+1|                              their like say; auto/N: of N, also by
+1|                              JOB_COMPLETION_INDEX or AWS_BATCH_JOB_ARRAY_INDEX.
 1|      --force                 Replace files that exist.
 1|      --frame-timeout S       Give up with exit code 5 when a frame takes longer
 1|                              than S seconds. Frames that are stepped over

@@ -1,0 +1,80 @@
+/* kiln join: makes a clip of the parts that several tasks drew. */
+#include <inttypes.h>
+#include <stdlib.h>
+
+#include "command.h"
+#include "report.h"
+#include "signals.h"
+
+static const struct option options[] = {
+    {.name = "manifest",
+     .kind = OPTION_TEXT,
+     .placeholder = "FILE",
+     .help = "Also write a JSON file that describes the job: its `result` is that of one run."},
+    {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Print nothing but errors."},
+    HELP_OPTION,
+};
+
+static bool wants_stop(void *user)
+{
+    (void)user;
+    return signals_received() != 0;
+}
+
+static int run_join(const struct arguments *arguments, const char **command, size_t count)
+{
+    const struct kiln_join_params params = {
+        .output = arguments->operands[0],
+        .manifest = arguments_text(arguments, "manifest", NULL),
+        .command = command,
+        .command_count = count,
+        .stop = wants_stop,
+        .log = report_log(),
+    };
+    struct kiln_join_stats stats;
+    struct kiln_error error = {0};
+    signals_install();
+    if (!kiln_join(&params, &stats, &error)) {
+        const int number = signals_received();
+        if (error.code != KILN_INTERRUPTED)
+            return report_error(&error);
+        report(KILN_INTERRUPTED, "%s: stopped by %s", params.output, signals_name(number));
+        return 128 + number;
+    }
+    if (!arguments_flag(arguments, "quiet"))
+        printf("%s: %" PRIu32 " frame%s in %" PRIu32 " part%s%s\n", params.output, stats.frames,
+               stats.frames == 1 ? "" : "s", stats.parts, stats.parts == 1 ? "" : "s",
+               stats.was_whole ? ", whole already" : "");
+    return 0;
+}
+
+static int run(const struct arguments *arguments)
+{
+    size_t count = 0;
+    const char **command = calloc(arguments->word_count + 2, sizeof *command);
+    if (!command)
+        return report_no_memory();
+    command[count++] = "kiln";
+    command[count++] = "join";
+    for (size_t i = 0; i < arguments->word_count; i++)
+        command[count++] = arguments->words[i];
+    const int code = run_join(arguments, command, count);
+    free(command);
+    return code;
+}
+
+const struct command join_command = {
+    .name = "join",
+    .summary = "make a clip of the parts that several tasks drew",
+    .operands = "OUTPUT",
+    .description =
+        "OUTPUT is what 'kiln render --shard' was given as --output. Looks whether all parts are "
+        "there, of one scene and made by one version, and makes the clip of them: the bytes are "
+        "those of one run. Of images, looks whether all are there. What is missing or damaged is "
+        "named, and nothing is written then.",
+    .options = options,
+    .option_count = sizeof options / sizeof *options,
+    .least_operands = 1,
+    .most_operands = 1,
+    .run = run,
+};

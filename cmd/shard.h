@@ -1,0 +1,24 @@
+/* --shard: which of several tasks this is. */
+#ifndef KILN_CMD_SHARD_H
+#define KILN_CMD_SHARD_H
+
+#include "options.h"
+
+#define SHARD_OPTION                                                                               \
+    {                                                                                              \
+        .name = "shard", .kind = OPTION_TEXT, .placeholder = "I/N|auto|auto/N",                    \
+        .help = "Draw only the I-th of N shares of the parts of a clip, two seconds each, and go " \
+                "on with what is there of it; 'kiln join' makes the clip of all. auto: what "      \
+                "SLURM_ARRAY_TASK_ID or SGE_TASK_ID and their like say; auto/N: of N, also by "    \
+                "JOB_COMPLETION_INDEX or AWS_BATCH_JOB_ARRAY_INDEX."                               \
+    }
+
+struct shard {
+    uint32_t index, count; /* from 0; count 0: --shard is not used */
+    const char *variable;  /* of the environment, that said so; NULL: none */
+};
+
+/* Returns 0, or the exit code after reporting what is wrong. */
+int shard_read(struct shard *shard, const struct arguments *arguments);
+
+#endif

@@ -1,0 +1,137 @@
+/* Makes whole what shards drew. All that it takes stands in their journals. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "base/text.h"
+#include "job/manifest.h"
+#include "job/resume.h"
+#include "output/formats.h"
+#include "output/part.h"
+
+struct join {
+    const struct kiln_join_params *params;
+    struct kiln_arena *arena;
+    struct kiln_journal_head head;
+    struct kiln_records records;
+    struct kiln_resume resume;
+};
+
+static bool may_go_on(void *user, struct kiln_error *error)
+{
+    const struct join *join = user;
+    return !join->params->stop || !join->params->stop(join->params->user) ||
+           kiln_error_set(error, KILN_INTERRUPTED, "stopped");
+}
+
+static bool take_whole(void *user, const struct kiln_whole *whole, struct kiln_error *error)
+{
+    struct join *join = user;
+    return kiln_resume_take(&join->resume, whole, error);
+}
+
+/* Says what is missing: parts of a clip, or frames. */
+static bool refuse_missing(const struct join *join, struct kiln_error *error)
+{
+    enum { MOST = 8 };
+    const struct kiln_resume *resume = &join->resume;
+    const bool one_file = resume->output.format->one_file;
+    struct kiln_text text = {0};
+    uint32_t count = 0;
+    if (one_file) {
+        for (uint32_t part = 0; part < kiln_parts_count(&resume->output); part++) {
+            const struct kiln_frame_range range = kiln_part_range(&resume->output, part);
+            if (!kiln_records_of(&join->records, range.first)->whole && count++ < MOST)
+                kiln_text_add(&text, "%s part %u (frames %u-%u)", count > 1 ? "," : "", part + 1,
+                              range.first, range.last);
+        }
+    } else {
+        for (size_t i = 0; i < resume->missing_count; i++) {
+            const struct kiln_frame_range *range = &resume->missing[i];
+            if (count++ < MOST)
+                kiln_text_add(&text, "%s %u-%u", count > 1 ? "," : " frames", range->first,
+                              range->last);
+        }
+    }
+    kiln_error_set(error, KILN_IO, "%s: not all is there; missing or damaged:%s%s",
+                   join->params->output, text.data ? text.data : "", count > MOST ? "..." : "");
+    kiln_text_free(&text);
+    return false;
+}
+
+static bool write_manifest(const struct join *join, const struct kiln_render_stats *stats,
+                           struct kiln_error *error)
+{
+    const struct kiln_join_params *params = join->params;
+    if (!params->manifest)
+        return true;
+    struct kiln_manifest *manifest =
+        kiln_manifest_open(&(struct kiln_manifest_params){.path = params->manifest,
+                                                          .overwrite = true,
+                                                          .scene = join->head.scene,
+                                                          .techniques = "",
+                                                          .output = params->output,
+                                                          .files = &join->resume.output,
+                                                          .command = params->command,
+                                                          .command_count = params->command_count},
+                           error);
+    const bool ok = manifest && kiln_manifest_finish(manifest, &join->records, stats, error);
+    kiln_manifest_close(&manifest);
+    return ok;
+}
+
+static bool begin(struct join *join, struct kiln_error *error)
+{
+    join->arena = kiln_arena_create();
+    if (!join->arena)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", join->params->output);
+    if (!kiln_journal_find(join->params->output, &join->head, join->arena, error))
+        return false;
+    struct kiln_output_params *output = &join->head.output;
+    output->log = join->params->log;
+    output->caller = (struct kiln_output_caller){may_go_on, join};
+    output->whole = (struct kiln_whole_listener){take_whole, join};
+    output->durable = true;
+    if (!kiln_records_create(&join->records, output->clip, output->clip_count))
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", join->params->output);
+    return kiln_resume_begin(&join->resume,
+                             &(struct kiln_resume_params){.output = output,
+                                                          .made_by = join->head.made_by,
+                                                          .scene = join->head.scene,
+                                                          .keep_journals = true},
+                             &join->records, error);
+}
+
+static bool run(struct join *join, struct kiln_join_stats *stats, struct kiln_error *error)
+{
+    struct kiln_resume *resume = &join->resume;
+    if (!begin(join, error))
+        return false;
+    stats->frames = join->records.count;
+    stats->parts = kiln_parts_count(&resume->output);
+    if (resume->missing_count > 0) {
+        kiln_resume_undo(resume);
+        return refuse_missing(join, error);
+    }
+    if (!kiln_resume_merge(resume, error))
+        return false;
+    stats->was_whole = !resume->output.format->one_file || resume->clip_is_whole;
+    const struct kiln_render_stats done = {.kept = join->records.count};
+    return (stats->was_whole || kiln_resume_join(resume, error)) &&
+           write_manifest(join, &done, error);
+}
+
+bool kiln_join(const struct kiln_join_params *params, struct kiln_join_stats *stats,
+               struct kiln_error *error)
+{
+    const double started_s = kiln_clock_seconds();
+    struct join join = {.params = params};
+    *stats = (struct kiln_join_stats){.frames = 0};
+    const bool ok = run(&join, stats, error);
+    kiln_resume_end(&join.resume);
+    kiln_records_free(&join.records);
+    kiln_arena_destroy(&join.arena);
+    stats->total_s = kiln_clock_seconds() - started_s;
+    return ok;
+}

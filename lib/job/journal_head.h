@@ -1,0 +1,33 @@
+/* The first line of a journal: of which job it is, and all that it takes to make the output of its
+ * files without the scene. */
+#ifndef KILN_JOB_JOURNAL_HEAD_H
+#define KILN_JOB_JOURNAL_HEAD_H
+
+#include "base/arena.h"
+#include "base/json.h"
+#include "option/node.h"
+#include "output/output.h"
+
+enum { KILN_JOURNAL_VERSION = 1 };
+
+struct kiln_journal_head {
+    struct kiln_output_params output; /* complete, but for what is the caller's: threads, log... */
+    char job[65];                     /* kiln_clip_hash */
+    const char *made_by;              /* program, device and techniques */
+    const char *scene;                /* as the manifest has it, JSON */
+};
+
+/* False when memory is short. */
+bool kiln_journal_head_make(struct kiln_journal_head *head, const struct kiln_output_params *output,
+                            const char *made_by, const char *scene);
+
+/* The members of the line. */
+void kiln_journal_head_write(struct kiln_json *json, const struct kiln_journal_head *head);
+
+/* Reads them, for an output of a path; texts and ranges lie in the arena. KILN_IO, naming the
+ * journal, when it makes no sense, also when the settings are not those of its hash. */
+bool kiln_journal_head_read(struct kiln_journal_head *head, const char *journal, const char *path,
+                            const struct kiln_node *line, struct kiln_arena *arena,
+                            struct kiln_error *error);
+
+#endif

@@ -1,0 +1,118 @@
+A clip by several tasks: 61 frames in 4 parts, of which the last has one frame.
+
+$ kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -q -o ref.mp4 --manifest ref.json
+$ kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -o c.mp4 --shard 1/3 --progress none
+1|device: <device>
+1|shard 1 of 3
+1|c.mp4: parts 1-2: 40 frames in <s> s
+$ kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -o c.mp4 --shard 3/3 --progress none
+1|device: <device>
+1|shard 3 of 3
+1|c.mp4: part 4: 1 frame in <s> s
+$ kiln join c.mp4; ls -d c.mp4*
+1|c.mp4.1-of-3.journal
+1|c.mp4.3-of-3.journal
+1|c.mp4.parts
+2|kiln: c.mp4: not all is there; missing or damaged: part 3 (frames 40-59)
+$ kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -q -o c.mp4 --shard 2/3 && truncate -s -1 c.mp4.parts/00001.part && kiln join c.mp4
+2|kiln: c.mp4: not all is there; missing or damaged: part 2 (frames 20-39)
+= 6
+$ kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -o c.mp4 --shard 1/3 --progress none
+1|device: <device>
+1|shard 1 of 3
+1|c.mp4: parts 1-2: 20 frames in <s> s, 20 kept
+$ kiln join c.mp4 --manifest m.json && cmp ref.mp4 c.mp4 && ls -d c.mp4*
+1|c.mp4: 61 frames in 4 parts
+1|c.mp4
+1|c.mp4.journal
+$ diff <(jq '.result | del(.output, .frames[].file, .files[].file)' ref.json) <(jq '.result | del(.output, .frames[].file, .files[].file)' m.json)
+$ kiln join c.mp4
+1|c.mp4: 61 frames in 4 parts, whole already
+
+Shards of different jobs are not joined.
+
+$ for i in 1 2; do kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -q -o d.webm --shard $i/2 --seed $i; done; kiln join d.webm; ls -d d.webm d.webm.journal
+2|kiln: d.webm.2-of-2.journal: is the journal of another scene (--force starts anew)
+2|ls: cannot access 'd.webm': No such file or directory
+2|ls: cannot access 'd.webm.journal': No such file or directory
+= 2
+
+Images are only looked at; one task more than there are parts has none.
+
+$ for i in 1 2 3 4 5; do kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -o f_%02d.png --shard $i/5 --progress none | tail -n 1; done
+1|f_%02d.png: part 1: 20 frames in <s> s
+1|f_%02d.png: part 2: 20 frames in <s> s
+1|f_%02d.png: part 3: 20 frames in <s> s
+1|f_%02d.png: part 4: 1 frame in <s> s
+1|f_%02d.png: none of its parts is for this shard
+$ rm f_30.png && echo x >f_31.png; kiln join f_%02d.png
+2|kiln: f_%02d.png: not all is there; missing or damaged: frames 30-31
+= 6
+$ kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -o f_%02d.png --resume --progress none && kiln join f_%02d.png && ls *.journal
+1|device: <device>
+1|f_00.png and 60 more: 2 frames in <s> s, 59 kept
+1|f_%02d.png: 61 frames in 4 parts, whole already
+1|c.mp4.journal
+1|d.webm.1-of-2.journal
+1|d.webm.2-of-2.journal
+1|f_%02d.png.journal
+
+A plain run with --resume draws what shards have left over.
+
+$ kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -q -o g.gif --shard 2/2 && kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -o g.gif --resume --progress none && ls -d g.gif*
+1|device: <device>
+1|g.gif: 40 frames in <s> s, 21 kept
+1|g.gif
+1|g.gif.journal
+
+What schedulers say.
+
+$ SLURM_ARRAY_TASK_ID=14 SLURM_ARRAY_TASK_MIN=10 SLURM_ARRAY_TASK_STEP=2 SLURM_ARRAY_TASK_COUNT=4 kiln render scenes/tiny.yaml -o h.mp4 --shard auto --progress none
+1|device: <device>
+1|shard 3 of 4, by SLURM_ARRAY_TASK_ID=14
+1|h.mp4: none of its parts is for this shard
+$ SGE_TASK_ID=5 SGE_TASK_FIRST=1 SGE_TASK_LAST=9 SGE_TASK_STEPSIZE=4 kiln render scenes/tiny.yaml -o h.mp4 --shard auto --progress none
+1|device: <device>
+1|shard 2 of 3, by SGE_TASK_ID=5
+1|h.mp4: none of its parts is for this shard
+$ JOB_COMPLETION_INDEX=0 kiln render scenes/tiny.yaml -o i.mp4 --shard auto/2 --progress none
+1|device: <device>
+1|shard 1 of 2, by JOB_COMPLETION_INDEX=0
+1|i.mp4: part 1: 24 frames in <s> s
+$ AWS_BATCH_JOB_ARRAY_INDEX=1 SGE_TASK_ID=undefined kiln render scenes/tiny.yaml -o i.mp4 --shard auto/2 --progress none
+1|device: <device>
+1|shard 2 of 2, by AWS_BATCH_JOB_ARRAY_INDEX=1
+1|i.mp4: none of its parts is for this shard
+$ JOB_COMPLETION_INDEX=0 kiln render scenes/tiny.yaml -o i.mp4 --shard auto
+2|kiln: render: --shard: auto: JOB_COMPLETION_INDEX says which task this is, but not of how many; say auto/N
+= 2
+$ SLURM_ARRAY_TASK_ID=13 SLURM_ARRAY_TASK_MIN=10 SLURM_ARRAY_TASK_STEP=2 SLURM_ARRAY_TASK_COUNT=4 kiln render scenes/tiny.yaml -o h.mp4 --shard auto
+2|kiln: render: --shard: SLURM_ARRAY_TASK_ID is 13, which is none of 10, and each 2 on
+= 2
+$ SLURM_ARRAY_TASK_ID=ten kiln render scenes/tiny.yaml -o h.mp4 --shard auto/4
+2|kiln: render: --shard: SLURM_ARRAY_TASK_ID: found 'ten', expected a whole number
+= 2
+$ JOB_COMPLETION_INDEX=4 kiln render scenes/tiny.yaml -o h.mp4 --shard auto/4
+2|kiln: render: --shard: JOB_COMPLETION_INDEX says that this is task 5, but there are 4 (1000000 at most)
+= 2
+$ kiln render scenes/tiny.yaml -o h.mp4 --shard auto
+2|kiln: render: --shard: auto: no scheduler says which task this is; looked for SLURM_ARRAY_TASK_ID, SGE_TASK_ID, JOB_COMPLETION_INDEX and AWS_BATCH_JOB_ARRAY_INDEX
+= 2
+$ for shard in 0/3 4/3 1/0 3 a/b 1/2000000 auto/0 auto/; do kiln render scenes/tiny.yaml -o h.mp4 --shard $shard; done 2>&1 | cut -c 1-60
+1|kiln: render: --shard: found '0/3', expected I/N, such as 1/
+1|kiln: render: --shard: found '4/3', expected I/N, such as 1/
+1|kiln: render: --shard: found '1/0', expected I/N, such as 1/
+1|kiln: render: --shard: found '3', expected I/N, such as 1/4,
+1|kiln: render: --shard: found 'a/b', expected I/N, such as 1/
+1|kiln: render: --shard: found '1/2000000', expected I/N, such
+1|kiln: render: --shard: found 'auto/0', expected I/N, such as
+1|kiln: render: --shard: found 'auto/', expected I/N, such as 
+$ kiln render scenes/tiny.yaml -o none --shard 1/2
+2|kiln: render: --shard: there is no output to share
+= 2
+$ kiln render scenes/tiny.yaml -o x.mp4 --manifest x.json --shard 1/2
+2|kiln: render: --manifest: of shards, 'kiln join --manifest' writes it
+= 2
+$ kiln join nothing.mp4
+2|kiln: nothing.mp4: has no journal beside it: no job with --resume or --shard has begun it
+= 6
