@@ -23,7 +23,7 @@ $ truncate -s -30 f_%d.png.journal && kiln render scenes/tiny.yaml --frames 0-5 
 $ rm f_%d.png.journal f_3.png && kiln render scenes/tiny.yaml --frames 0-5 -o f_%d.png --resume --progress none
 1|device: <device>
 1|f_0.png and 5 more: 1 frame in <s> s, 5 kept
-$ cmp ref_3.png f_3.png && grep -c frame f_%d.png.journal
+$ cmp ref_3.png f_3.png && grep -c "{.frame" f_%d.png.journal
 1|6
 $ kiln render scenes/tiny.yaml -q --frames 0-2 -o e_%d.exr && rm e_1.exr && kiln render scenes/tiny.yaml --frames 0-2 -o e_%d.exr --resume --progress none
 1|device: <device>
