@@ -303,6 +303,7 @@ bool kiln_state_write(const struct kiln_state *state, const char *path, bool ove
     if (!find_places(state->pool, KILN_READ, &places, error) ||
         !kiln_target_check(path, overwrite, error) || !kiln_temporary_open(&file, path, error))
         return false;
+    file.durable = true; /* whoever resumes counts on it */
     const struct visitor visitor = {.visit = write_table, .threads = threads, .out = &file};
     write_head(&file, &head);
     if (visit_tables(&visitor, &head, &places, error))
