@@ -433,8 +433,10 @@ struct kiln_job *kiln_job_create(struct kiln_device *device, const struct kiln_s
     job->scene = scene;
     job->params = params;
     job->started_s = kiln_clock_seconds();
-    if (!begin(job, error))
+    if (!begin(job, error)) {
+        kiln_resume_undo(&job->resume);
         kiln_job_destroy(&job);
+    }
     return job;
 }
 

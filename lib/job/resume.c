@@ -55,7 +55,7 @@ static bool look_at_image(struct kiln_resume *resume, uint32_t frame, const char
     if (kiln_output_carries(&resume->output, path, frame))
         return adopt(resume, path, frame, error);
     return found || kiln_error_set(error, KILN_IO,
-                                   "%s: the file exists, and is not a whole frame %u of this scene "
+                                   "%s: the file exists, and is not a whole frame %u of this job "
                                    "(--force replaces it)",
                                    path, frame);
 }

@@ -11,7 +11,8 @@ enum { MAX_PNG = INT32_MAX };
 
 /* What a file carries. */
 struct carried {
-    char scene[65], frame[16];
+    char version[32], scene[65], frame[16];
+    uint32_t bits; /* a channel */
 };
 
 /* ---- PNG ------------------------------------------------------------------------------------- */
@@ -44,7 +45,10 @@ static bool look_at_png(const uint8_t *bytes, size_t size, struct carried *carri
         if (length > size - at - AROUND ||
             crc32_z(0, type, length + 4) != get_big_endian(data + length))
             return false;
+        if (memcmp(type, "IHDR", 4) == 0 && length == 13)
+            carried->bits = data[8];
         if (memcmp(type, "tEXt", 4) == 0) {
+            take_text(data, length, "kiln:version", carried->version, sizeof carried->version);
             take_text(data, length, "kiln:scene", carried->scene, sizeof carried->scene);
             take_text(data, length, "kiln:frame", carried->frame, sizeof carried->frame);
         }
@@ -109,6 +113,14 @@ static bool look_into_exr(const char *path, struct carried *carried)
     initializer.error_handler_fn = be_silent;
     if (exr_start_read(&context, path, &initializer) != EXR_ERR_SUCCESS)
         return false;
+    const exr_attr_chlist_t *channels = NULL;
+    if (exr_get_channels(context, 0, &channels) == EXR_ERR_SUCCESS && channels)
+        carried->bits = 32;
+    for (int i = 0; channels && i < channels->num_channels; i++) {
+        if (channels->entries[i].pixel_type == EXR_PIXEL_HALF) /* depth is a float in any case */
+            carried->bits = 16;
+    }
+    take_attribute(context, "kiln:version", carried->version, sizeof carried->version);
     take_attribute(context, "kiln:scene", carried->scene, sizeof carried->scene);
     take_attribute(context, "kiln:frame", carried->frame, sizeof carried->frame);
     const bool ok = has_all_chunks(context);
@@ -125,5 +137,7 @@ bool kiln_output_carries(const struct kiln_output_params *params, const char *pa
     if (!png && params->format != &kiln_format_exr)
         return false;
     return (png ? look_into_png(path, &carried) : look_into_exr(path, &carried)) &&
+           carried.bits == (png ? params->png_bits : params->exr_bits) &&
+           strcmp(carried.version, KILN_VERSION) == 0 &&
            strcmp(carried.scene, params->scene_hash) == 0 && strcmp(carried.frame, number) == 0;
 }

@@ -29,6 +29,15 @@ $ kiln render scenes/tiny.yaml -q --frames 0-2 -o e_%d.exr && rm e_1.exr && kiln
 1|device: <device>
 1|e_0.exr and 2 more: 1 frame in <s> s, 2 kept
 
+$ rm e_%d.exr.journal && kiln render scenes/tiny.yaml -q --frames 0-2 -o e_%d.exr --resume --exr-bits 32; rm f_%d.png.journal && kiln render scenes/tiny.yaml -q --frames 0-5 -o f_%d.png --resume --png-bits 16; ls *.journal
+2|kiln: e_0.exr: the file exists, and is not a whole frame 0 of this job (--force replaces it)
+2|kiln: f_0.png: the file exists, and is not a whole frame 0 of this job (--force replaces it)
+2|ls: cannot access '*.journal': No such file or directory
+= 2
+$ kiln render scenes/tiny.yaml --frames 0-5 -o f_%d.png --resume --progress none
+1|device: <device>
+1|f_0.png and 5 more: 0 frames in <s> s, 6 kept
+
 What is of another job is refused, --force starts anew.
 
 $ kiln render scenes/tiny.yaml -q --frames 0-5 -o f_%d.png --resume --seed 1
@@ -49,7 +58,7 @@ $ kiln render scenes/tiny.yaml --frames 0-5 -o f_%d.png --resume --force --progr
 1|device: <device>
 1|f_0.png and 5 more: 6 frames in <s> s
 $ echo mine >x_1.png; kiln render scenes/tiny.yaml -q --frames 0-2 -o x_%d.png --resume
-2|kiln: x_1.png: the file exists, and is not a whole frame 1 of this scene (--force replaces it)
+2|kiln: x_1.png: the file exists, and is not a whole frame 1 of this job (--force replaces it)
 = 6
 $ (flock 9; kiln render scenes/tiny.yaml -q --frames 0-5 -o f_%d.png --resume) 9<f_%d.png.journal
 2|kiln: f_%d.png.journal: another process is writing this output: it has the journal
