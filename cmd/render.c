@@ -148,23 +148,26 @@ struct render {
     struct progress progress;
     struct watchdog *watchdog;
     uint32_t frames_done, frames_total;
+    int64_t last_frame; /* whose time began last; -1: none of the job */
 };
 
 /* ---- While a job runs ----------------------------------------------------------------------- */
 
-/* Gives the next frame its time: `after` is the one before it, -1 at the start of a job. */
-static void allow_frame(struct render *render, int64_t after)
+/* Gives a frame its time, longer by the frames that are stepped over before it. */
+static void allow_frame(struct render *render, uint32_t frame)
 {
     if (!render->watchdog)
         return;
-    const struct frame_list *frames = &render->job->frames;
-    uint32_t next = frames->ranges[0].first;
-    if (after >= 0 && !frame_list_next(frames, (uint32_t)after, &next)) {
-        watchdog_disarm(render->watchdog);
-        return;
-    }
-    double limit_s = render->frame_timeout_s * (double)((int64_t)next - after);
-    watchdog_arm(render->watchdog, limit_s, "%s: frame %u", render->job->path, next);
+    const double limit_s = render->frame_timeout_s * (double)(frame - render->last_frame);
+    watchdog_arm(render->watchdog, limit_s, "%s: frame %u", render->job->path, frame);
+    render->last_frame = frame;
+}
+
+static void begin_frame(void *user, uint32_t frame)
+{
+    struct render *render = user;
+    if (frame != render->last_frame) /* else set-up has begun its time */
+        allow_frame(render, frame);
 }
 
 static void show_frame(void *user, const struct kiln_progress *frame)
@@ -175,7 +178,6 @@ static void show_frame(void *user, const struct kiln_progress *frame)
     render->frames_done = frame->done;
     render->frames_total = frame->total;
     progress_show(&render->progress, render->job->path, frame);
-    allow_frame(render, frame->frame);
 }
 
 static bool wants_stop(void *user)
@@ -210,6 +212,7 @@ static bool read_options(struct render *render, const struct arguments *argument
     render->json =
         render->progress_mode == PROGRESS_NDJSON || arguments_choice(arguments, "stats", 0) == 1;
     params->state_hash = render->stats || render->progress_mode == PROGRESS_NDJSON;
+    params->next = begin_frame;
     params->progress = show_frame;
     params->stop = wants_stop;
     params->user = render;
@@ -317,7 +320,9 @@ static int run_job(struct render *render, struct kiln_device *device, const stru
     render->params.range_count = job->frames.count;
     render->params.flipbook = render->list.flipbook;
     progress_start(&render->progress, render->progress_mode);
-    allow_frame(render, -1);
+    render->last_frame = -1;
+    if (!render->params.resume && render->shard.count == 0)
+        allow_frame(render, job->frames.ranges[0].first);
 
     struct kiln_error error = {0};
     struct kiln_render_stats stats = {0};

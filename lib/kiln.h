@@ -292,6 +292,8 @@ struct kiln_render_params {
     /* Told of each frame where output is NULL: 8-bit sRGB, RGBA, alpha not premultiplied, rows from
      * the top; until the call returns. */
     void (*picture)(void *user, uint32_t frame, const uint8_t *pixels);
+    /* Told of each frame before it is stepped to and drawn, and after it was handed over. */
+    void (*next)(void *user, uint32_t frame);
     void (*progress)(void *user, const struct kiln_progress *progress);
     /* Asked between frames and steps, and while a clip ends; true ends with KILN_INTERRUPTED. */
     bool (*stop)(void *user);

@@ -118,6 +118,7 @@ static bool begin(struct bake *bake, struct kiln_error *error)
     snprintf(inside, sizeof inside, "%s/", params->states);
     if (!kiln_make_parent_folders(inside, error))
         return false;
+    kiln_temporary_sweep(inside);
     bake->loop = kiln_loop_create(bake->device, scene, &loop, error);
     if (!bake->loop)
         return false;

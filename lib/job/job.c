@@ -113,6 +113,11 @@ static bool report_frame(struct kiln_job *job, uint32_t frame, struct kiln_error
 bool kiln_job_draw(struct kiln_job *job, uint32_t frame, struct kiln_error *error)
 {
     struct kiln_drawn drawn;
+    if (job->params->next) {
+        job->params->next(job->params->user, frame);
+        if (!return_from_caller(job, error))
+            return false;
+    }
     const bool hash = job->params->state_hash || job->records.items;
     if (!kiln_loop_draw(job->loop, frame, hash, &drawn, error))
         return false;
@@ -309,7 +314,7 @@ static bool open_output(struct kiln_job *job, struct kiln_error *error)
     job->manifest = kiln_manifest_open(
         &(struct kiln_manifest_params){
             .path = params->manifest,
-            .overwrite = params->overwrite || params->resume,
+            .overwrite = params->overwrite || (job->resumes && job->resume.was_begun),
             .scene = job->scene_json,
             .device = &job->device->info,
             .techniques = job->stats.techniques,

@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
@@ -19,6 +20,7 @@
 #include "option/node.h"
 
 #define SUFFIX ".journal"
+#define ANEW   "{\"anew\": true}\n"
 
 enum { MAX_SIZE = 1 << 30 };
 
@@ -27,6 +29,7 @@ static const double sync_s = 1.0;
 struct kiln_journal {
     char path[KILN_PATH_SIZE];
     int file;
+    pthread_mutex_t mutex; /* of what follows, and of the end of the file */
     double synced_s;
     bool unsynced;
 };
@@ -44,34 +47,37 @@ bool kiln_journal_path(const char *output, struct kiln_shard shard, char path[KI
 
 /* ---- writing --------------------------------------------------------------------------------- */
 
-static bool append_bytes(struct kiln_journal *journal, const char *bytes, size_t size,
+static bool append_bytes(struct kiln_journal *journal, const char *bytes, size_t size, bool sync,
                          struct kiln_error *error)
 {
-    for (size_t done = 0; done < size;) {
+    bool ok = true;
+    pthread_mutex_lock(&journal->mutex);
+    for (size_t done = 0; ok && done < size;) {
         const ssize_t count = write(journal->file, bytes + done, size - done);
         if (count < 0 && errno != EINTR)
-            return kiln_error_set_errno(error, KILN_IO, errno, "%s: the journal cannot be written",
-                                        journal->path);
+            ok = kiln_error_set_errno(error, KILN_IO, errno, "%s: the journal cannot be written",
+                                      journal->path);
         done += count > 0 ? (size_t)count : 0;
     }
     journal->unsynced = true;
     const double now_s = kiln_clock_seconds();
-    if (now_s - journal->synced_s >= sync_s) {
+    if (ok && (sync || now_s - journal->synced_s >= sync_s)) {
         fdatasync(journal->file);
         journal->synced_s = now_s;
         journal->unsynced = false;
     }
-    return true;
+    pthread_mutex_unlock(&journal->mutex);
+    return ok;
 }
 
 /* Ends the line and appends it. */
 static bool append(struct kiln_journal *journal, struct kiln_json *json, struct kiln_text *line,
-                   struct kiln_error *error)
+                   bool sync, struct kiln_error *error)
 {
     kiln_json_end(json);
     const bool made = kiln_json_finish(json) && !line->failed;
     const bool ok =
-        made ? append_bytes(journal, line->data, line->length, error)
+        made ? append_bytes(journal, line->data, line->length, sync, error)
              : kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", journal->path);
     kiln_text_free(line);
     return ok;
@@ -84,7 +90,7 @@ static bool write_head(struct kiln_journal *journal, const struct kiln_journal_h
     struct kiln_json json = kiln_json_to_text(&line);
     kiln_json_begin_object(&json, NULL);
     kiln_journal_head_write(&json, head);
-    return append(journal, &json, &line, error);
+    return append(journal, &json, &line, false, error);
 }
 
 static void add_state(struct kiln_json *json, const struct kiln_record *record)
@@ -125,7 +131,7 @@ bool kiln_journal_add(struct kiln_journal *journal, const struct kiln_records *r
         }
         kiln_json_end(&json);
     }
-    return append(journal, &json, &line, error);
+    return append(journal, &json, &line, whole->is_part || whole->is_clip, error);
 }
 
 /* ---- reading --------------------------------------------------------------------------------- */
@@ -160,7 +166,8 @@ static void read_frames(const struct kiln_node *line, bool is_part, struct kiln_
     const struct kiln_node *states = kiln_node_entry(line, "states");
     uint64_t first, last, bytes;
     if (!frames || frames->count != 2 || !read_number(frames->first, &first) ||
-        !read_number(frames->last, &last) || first > last || last > UINT32_MAX ||
+        !read_number(frames->last, &last) || first > last ||
+        last > records->clip[records->clip_count - 1].last ||
         !read_number(kiln_node_entry(line, "bytes"), &bytes) || !sha256 ||
         sha256->kind != KILN_NODE_SCALAR || strlen(sha256->text) != 64 || !states)
         return;
@@ -252,6 +259,8 @@ static bool read_lines(const struct kiln_journal *journal, char *text,
             read_frames(node, true, records);
         else if (node && kiln_node_entry(node, "clip"))
             read_clip(journal, node, records);
+        else if (node && kiln_node_entry(node, "anew"))
+            records->anew = true;
         *end = '\n';
         kiln_arena_destroy(&arena);
         *length = (size_t)(end + 1 - text);
@@ -274,6 +283,14 @@ static char *read_text(const struct kiln_journal *journal, struct kiln_error *er
     return NULL;
 }
 
+/* Whether there is no whole line behind the first, and that one does not say that what is there is
+ * forgotten. */
+static bool has_head_alone(const char *text)
+{
+    const char *end = strchr(text, '\n');
+    return !end || (!strchr(end + 1, '\n') && !strstr(text, ANEW));
+}
+
 static bool read_journal(const struct kiln_journal *journal, const struct kiln_journal_head *head,
                          struct kiln_records *records, bool *found, struct kiln_error *error)
 {
@@ -281,6 +298,12 @@ static bool read_journal(const struct kiln_journal *journal, const struct kiln_j
     char *text = read_text(journal, error);
     if (!text)
         return false;
+    if (has_head_alone(text)) { /* nothing came of it, and it may be of another job */
+        free(text);
+        return ftruncate(journal->file, 0) == 0 ||
+               kiln_error_set_errno(error, KILN_IO, errno, "%s: the journal cannot be written",
+                                    journal->path);
+    }
     const bool ok = read_lines(journal, text, head, records, &first, &length, error);
     free(text);
     *found = length > 0;
@@ -317,6 +340,7 @@ struct kiln_journal *kiln_journal_open(const struct kiln_journal_head *head,
         return NULL;
     }
     journal->file = -1;
+    pthread_mutex_init(&journal->mutex, NULL);
     bool ok = kiln_journal_path(head->output.path, shard, journal->path, error) &&
               kiln_make_parent_folders(journal->path, error) && open_file(journal, O_CREAT, error);
     if (ok && restart)
@@ -326,7 +350,10 @@ struct kiln_journal *kiln_journal_open(const struct kiln_journal_head *head,
     else if (ok)
         ok = read_journal(journal, head, records, found, error);
     if (ok && !*found)
-        ok = write_head(journal, head, error);
+        ok = write_head(journal, head, error) &&
+             (!restart || append_bytes(journal, ANEW, strlen(ANEW), false, error));
+    if (ok && restart)
+        records->anew = true;
     if (!ok)
         kiln_journal_close(&journal);
     return journal;
@@ -341,6 +368,7 @@ void kiln_journal_close(struct kiln_journal **journal)
         fdatasync(j->file);
     if (j->file >= 0)
         close(j->file);
+    pthread_mutex_destroy(&j->mutex);
     free(j);
     *journal = NULL;
 }
@@ -419,8 +447,8 @@ static bool take_over(void *user, const char *path, bool is_shard, struct kiln_e
     size_t first, length;
     const bool ok =
         text && read_lines(&shard, text, merging->head, merging->records, &first, &length, error) &&
-        (merging->keep || append_bytes(merging->into, text + first, length - first, error));
-    if (ok && !merging->keep && fdatasync(merging->into->file) == 0)
+        (merging->keep || append_bytes(merging->into, text + first, length - first, true, error));
+    if (ok && !merging->keep)
         unlink(path);
     free(text);
     if (shard.file >= 0)

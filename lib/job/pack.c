@@ -292,8 +292,7 @@ bool kiln_pack_read(const struct kiln_table *table, struct kiln_threads *threads
             kiln_threads_for(threads, taken, 1, unpack_blocks, batch.blocks);
         for (size_t i = 0; i < taken && ok; i++)
             ok = !batch.blocks[i].failed ||
-                 kiln_error_set(error, KILN_INVALID_INPUT, "%s: no table of %zu rows", path,
-                                table->rows);
+                 kiln_error_set(error, KILN_INVALID_INPUT, "%s: the file is damaged", path);
     }
     free(batch.memory);
     return ok;

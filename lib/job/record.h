@@ -28,6 +28,7 @@ struct kiln_records {
         char sha256[65];
     } files[3];
     uint32_t file_count;
+    bool anew; /* files that were there before the job do not count */
 };
 
 /* False when memory is short. */

@@ -29,6 +29,12 @@ static bool is_there(const char *path)
     return lstat(path, &status) == 0;
 }
 
+static bool is_file(const char *path)
+{
+    struct stat status;
+    return stat(path, &status) == 0 && S_ISREG(status.st_mode);
+}
+
 /* A file that nobody has told of: takes it down. */
 static bool adopt(struct kiln_resume *resume, const char *path, uint32_t frame,
                   struct kiln_error *error)
@@ -52,7 +58,8 @@ static bool look_at_image(struct kiln_resume *resume, uint32_t frame, const char
     *record = (struct kiln_record){.has_state = false};
     if (!is_there(path))
         return true;
-    if (kiln_output_carries(&resume->output, path, frame))
+    if (!resume->records->anew && is_file(path) &&
+        kiln_output_carries(&resume->output, path, frame))
         return adopt(resume, path, frame, error);
     return found || kiln_error_set(error, KILN_IO,
                                    "%s: the file exists, and is not a whole frame %u of this job "
@@ -110,13 +117,36 @@ static bool look_at_part(struct kiln_resume *resume, uint32_t part, struct kiln_
 static bool clip_is_whole(const struct kiln_resume *resume)
 {
     const struct kiln_records *records = resume->records;
-    bool whole = records->file_count > 0;
-    for (uint32_t i = 0; i < records->file_count; i++)
-        whole = whole &&
-                is_same(records->files[i].path, records->files[i].bytes, records->files[i].sha256);
+    struct kiln_error ignored = {0};
+    char path[KILN_PATH_SIZE];
+    bool whole = true;
+    for (uint32_t i = 0; whole; i++) {
+        if (!kiln_output_clip_file(&resume->output, i, path, &ignored))
+            return false;
+        if (!*path)
+            break;
+        const struct kiln_clip_file *file = NULL;
+        for (uint32_t k = 0; k < records->file_count; k++)
+            file = strcmp(records->files[k].path, path) == 0 ? &records->files[k] : file;
+        whole = file && is_same(path, file->bytes, file->sha256);
+    }
     for (uint32_t i = 0; i < records->count; i++)
         whole = whole && records->items[i].has_state;
     return whole;
+}
+
+/* Nothing that the job would write may be there when it begins. */
+static bool check_clip_files(const struct kiln_resume *resume, struct kiln_error *error)
+{
+    char path[KILN_PATH_SIZE];
+    for (uint32_t i = 0;; i++) {
+        if (!kiln_output_clip_file(&resume->output, i, path, error))
+            return false;
+        if (!*path)
+            return true;
+        if (!kiln_target_check(path, false, error))
+            return false;
+    }
 }
 
 /* Removes the parts of a clip that is whole, and their folder unless there is something else in it.
@@ -136,9 +166,6 @@ static void remove_parts(const struct kiln_resume *resume)
 
 static bool look_at_clip(struct kiln_resume *resume, bool found, struct kiln_error *error)
 {
-    char path[KILN_PATH_SIZE];
-    if (!kiln_output_clip_file(&resume->output, 0, path, error))
-        return false;
     resume->clip_is_whole = resume->shard.count == 0 && clip_is_whole(resume);
     if (resume->clip_is_whole) {
         remove_parts(resume);
@@ -152,7 +179,7 @@ static bool look_at_clip(struct kiln_resume *resume, bool found, struct kiln_err
         return true;
     }
     resume->records->file_count = 0;
-    if (!found && !kiln_target_check(path, false, error))
+    if (!found && !check_clip_files(resume, error))
         return false;
     for (uint32_t part = resume->first_part; part < resume->end_part; part++) {
         if (!kiln_output_may_go_on(&resume->output.caller, error) ||
@@ -248,8 +275,11 @@ bool kiln_resume_begin(struct kiln_resume *resume, const struct kiln_resume_para
 
 void kiln_resume_undo(struct kiln_resume *resume)
 {
-    if (!resume->was_begun)
-        kiln_journal_remove(&resume->journal);
+    if (resume->was_begun)
+        return;
+    kiln_journal_remove(&resume->journal);
+    if (resume->folder[0])
+        rmdir(resume->folder); /* where nothing is in it */
 }
 
 bool kiln_resume_merge(struct kiln_resume *resume, struct kiln_error *error)

@@ -32,9 +32,7 @@ struct head {
         uint32_t capacity, spins;
         uint64_t next_serial, birth_wait;
     } systems[KILN_MAX_SYSTEMS];
-    struct head_canvas {
-        uint32_t edge, slot_count, next;
-    } canvases[KILN_MAX_MESHES];
+    struct kiln_canvas_shape canvases[KILN_MAX_MESHES];
 };
 
 /* ---- the head, in one description for both ways ---------------------------------------------- */
@@ -99,7 +97,7 @@ static void pass_head(struct cursor *c, struct head *head)
         pass_long(c, &system->birth_wait, 8);
     }
     for (uint32_t i = 0; i < head->canvas_count && !c->failed; i++) {
-        struct head_canvas *canvas = &head->canvases[i];
+        struct kiln_canvas_shape *canvas = &head->canvases[i];
         pass_word(c, &canvas->edge);
         pass_word(c, &canvas->slot_count);
         pass_word(c, &canvas->next);
@@ -122,7 +120,7 @@ static struct head head_of(const struct kiln_state *state)
     }
     for (uint32_t i = 0; i < pool->canvas_count; i++) {
         const struct kiln_canvas *canvas = &pool->canvases[i];
-        head.canvases[i] = (struct head_canvas){
+        head.canvases[i] = (struct kiln_canvas_shape){
             .edge = canvas->edge, .slot_count = canvas->slot_count, .next = canvas->next};
     }
     return head;
@@ -211,6 +209,10 @@ static bool read_head(int file, const char *path, struct head *head, struct kiln
         !is_hash(head->info.motion) || (head->info.order[0] && !is_hash(head->info.order)) ||
         !is_plausible(head))
         return refuse(path, "the file is damaged", error);
+    for (uint32_t i = 0; i < head->system_count; i++)
+        head->info.spins[i] = head->systems[i].spins != 0;
+    memcpy(head->info.shapes, head->canvases, sizeof head->info.shapes);
+    head->info.shape_count = head->canvas_count;
     return true;
 }
 
@@ -264,7 +266,7 @@ static bool visit_tables(const struct visitor *v, const struct head *head,
     if (!v->visit(v, &records, error) || !v->visit(v, &turning, error))
         return false;
     for (uint32_t i = 0; i < head->canvas_count; i++) {
-        const struct head_canvas *canvas = &head->canvases[i];
+        const struct kiln_canvas_shape *canvas = &head->canvases[i];
         const struct kiln_table texels = {places->texels[i], (size_t)canvas->edge * canvas->edge,
                                           TEXEL_WORDS, 0};
         const struct kiln_table waiting = {places->waiting[i], canvas->slot_count, SPLAT_WORDS, 0};
@@ -356,7 +358,7 @@ static bool shape_pool(struct kiln_pool *pool, const struct head *head, const ch
         return refuse(path, "is a state of other systems", error);
     kiln_pool_add_spins(pool, spins);
     for (uint32_t i = 0; i < head->canvas_count; i++) {
-        const struct head_canvas *from = &head->canvases[i];
+        const struct kiln_canvas_shape *from = &head->canvases[i];
         struct kiln_canvas *canvas = &pool->canvases[i];
         const uint32_t changes = i < pool->canvas_count ? canvas->changes : 0;
         kiln_canvas_finish(canvas);

@@ -14,7 +14,10 @@ struct kiln_state_info {
     uint32_t step;  /* after which it was saved */
     uint32_t frame; /* with an order: the frame that comes next */
     struct kiln_state_hash hash;
-    uint64_t alive; /* particles */
+    uint64_t alive;                                   /* particles */
+    bool spins[KILN_MAX_SYSTEMS];                     /* filled by who reads: which systems spin, */
+    struct kiln_canvas_shape shapes[KILN_MAX_MESHES]; /* and what is painted */
+    uint32_t shape_count;
 };
 
 struct kiln_state {

@@ -165,6 +165,15 @@ bool kiln_states_find(const struct kiln_states *states, uint32_t step, uint32_t 
 
 /* ---- taking up and saving -------------------------------------------------------------------- */
 
+/* That a state has what steps of the scene make, whatever its hash says. */
+static bool fits(const struct kiln_scene *scene, const struct kiln_state_info *info)
+{
+    bool good = kiln_paint_fits(scene, info->shapes, info->shape_count);
+    for (uint32_t i = 0; i < scene->system_count; i++)
+        good = good && info->spins[i] == kiln_scene_system_spins(scene, i);
+    return good;
+}
+
 static bool check(const struct kiln_states *states, uint32_t step, struct kiln_state_info *info,
                   struct kiln_error *error)
 {
@@ -174,6 +183,9 @@ static bool check(const struct kiln_states *states, uint32_t step, struct kiln_s
     if (strcmp(info->motion, states->motion) != 0)
         return kiln_error_set(error, KILN_INVALID_INPUT, "%s: is a state of another motion, %.16s",
                               path, info->motion);
+    if (!fits(states->scene, info))
+        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: is not a state of '%s'", path,
+                              states->scene->name);
     if (info->step != step)
         return kiln_error_set(error, KILN_INVALID_INPUT, "%s: is the state of step %u", path,
                               info->step);
@@ -204,17 +216,6 @@ static uint32_t *make_slots(const struct kiln_states *states, struct kiln_loop *
     return slots;
 }
 
-/* That what the state brings is what steps of the scene would have made, whatever its hash says. */
-static bool check_shape(const struct kiln_scene *scene, const struct kiln_pool *pool,
-                        const char *path, struct kiln_error *error)
-{
-    bool fits = kiln_paint_fits(scene, pool);
-    for (uint32_t i = 0; i < scene->system_count; i++)
-        fits = fits && pool->systems[i].spins == kiln_scene_system_spins(scene, i);
-    return fits || kiln_error_set(error, KILN_INVALID_INPUT, "%s: is not a state of '%s'", path,
-                                  scene->name);
-}
-
 static bool verify_hash(struct kiln_loop *loop, const struct kiln_state_info *info,
                         const char *path, struct kiln_error *error)
 {
@@ -237,8 +238,7 @@ static bool take_up(const struct kiln_states *states, struct kiln_loop *loop, ui
     struct kiln_run *run = kiln_loop_run(loop);
     struct kiln_state state = {.pool = &run->pool, .slots = make_slots(states, loop, error)};
     bool ok = (state.slots || !states->order[0]) && kiln_states_path(states, step, path, error) &&
-              kiln_state_read(&state, path, kiln_loop_threads(loop), error) &&
-              check_shape(states->scene, &run->pool, path, error);
+              kiln_state_read(&state, path, kiln_loop_threads(loop), error);
     if (ok && state.slots)
         ok = kiln_sort_restore(kiln_loop_kept_sort(loop), &run->pool, state.slots, state.turn,
                                error);
@@ -255,7 +255,7 @@ static void tell_of_none(const struct kiln_states *states, uint32_t frame)
 {
     char others[64] = "";
     if (states->count == 0 && states->others > 0)
-        snprintf(others, sizeof others, " (%zu of other motions)", states->others);
+        snprintf(others, sizeof others, " (%zu of other motions: bake again)", states->others);
     kiln_log_write(&states->log, KILN_LOG_WARNING,
                    "%s: no state of '%s' at or before frame %u%s; stepping from the start",
                    states->folder, states->scene->name, frame, others);

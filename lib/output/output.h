@@ -111,8 +111,8 @@ struct kiln_output_params kiln_output_complete(const struct kiln_output_params *
 bool kiln_output_clip_file(const struct kiln_output_params *params, uint32_t index, char *path,
                            struct kiln_error *error);
 
-/* Whether a file is a whole PNG or EXR image of such a scene, frame and depth, by this version: it says
- * so itself. */
+/* Whether a file is a whole PNG or EXR image of such a scene, frame and depth, by this version: it
+ * says so itself. */
 bool kiln_output_carries(const struct kiln_output_params *params, const char *path, uint32_t frame);
 
 /* Checks everything that can be checked before the first frame (suffix, folder writable, existing

@@ -272,14 +272,16 @@ static bool join_pictures(const struct kiln_output_params *params, struct kiln_e
         char path[KILN_PATH_SIZE];
         struct kiln_part_in in;
         ok = kiln_part_path(params, part, path, error) && open_part(params, part, path, &in, error);
+        if (!ok)
+            break;
         for (uint32_t i = 0; ok && i < count_in(params, part); i++) {
             const uint32_t frame = frame_at(params, part * part_length(params) + i);
-            struct kiln_picture *picture = read_picture(params, &in, frame, error);
-            ok = picture && kiln_output_may_go_on(&params->caller, error) &&
-                 kiln_output_write(output, picture, error);
+            struct kiln_picture *picture = kiln_output_may_go_on(&params->caller, error)
+                                               ? read_picture(params, &in, frame, error)
+                                               : NULL;
+            ok = picture && kiln_output_write(output, picture, error);
         }
-        if (ok)
-            kiln_part_close(&in);
+        kiln_part_close(&in);
     }
     ok = ok && kiln_output_finish(output, error);
     kiln_output_close(&output);

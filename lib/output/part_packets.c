@@ -1,5 +1,5 @@
-/* A file has the encoder's header, then each packet: the number of its frame, flags, bytes, and its
- * side data, in which WebM has the alpha. */
+/* A file has the encoder's header, then each packet: the number of its frame, whether it is a key
+ * frame, the side data in which WebM has the alpha, and its bytes. */
 #include "output/part_packets.h"
 
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "output/coder.h"
 
-enum { END = UINT32_MAX, MAX_SIDE_DATA = 16 };
+enum { END = UINT32_MAX };
 
 struct kiln_part_packets {
     const struct kiln_output_params *params;
@@ -31,14 +31,12 @@ static void write_packet(struct kiln_part_out *out, const AVPacket *packet)
 {
     kiln_part_add_word(out, (uint32_t)packet->size);
     kiln_part_add_word(out, (uint32_t)packet->pts);
-    kiln_part_add_word(out, (uint32_t)packet->flags);
-    kiln_part_add_word(out, (uint32_t)packet->side_data_elems);
-    for (int i = 0; i < packet->side_data_elems; i++) {
-        const AVPacketSideData *side = &packet->side_data[i];
-        kiln_part_add_word(out, (uint32_t)side->type);
-        kiln_part_add_word(out, (uint32_t)side->size);
-        kiln_part_add(out, side->data, side->size);
-    }
+    kiln_part_add_word(out, (uint32_t)packet->flags & AV_PKT_FLAG_KEY);
+    size_t size = 0;
+    const uint8_t *alpha =
+        av_packet_get_side_data(packet, AV_PKT_DATA_MATROSKA_BLOCKADDITIONAL, &size);
+    kiln_part_add_word(out, alpha ? (uint32_t)size : 0);
+    kiln_part_add(out, alpha, alpha ? size : 0);
     kiln_part_add(out, packet->data, (size_t)packet->size);
 }
 
@@ -134,35 +132,33 @@ static uint8_t *read_bytes(struct kiln_part_in *in, uint32_t size, struct kiln_e
     return bytes;
 }
 
-static bool read_side_data(struct kiln_part_in *in, uint32_t count, AVPacket *packet,
-                           struct kiln_error *error)
+static bool read_alpha(struct kiln_part_in *in, AVPacket *packet, struct kiln_error *error)
 {
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t type, size;
-        if (!kiln_part_read_word(in, &type, error) || !kiln_part_read_word(in, &size, error))
-            return false;
-        uint8_t *bytes = read_bytes(in, size, error);
-        if (!bytes)
-            return false;
-        if (av_packet_add_side_data(packet, (enum AVPacketSideDataType)type, bytes, size) < 0) {
-            av_free(bytes);
-            return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", in->path);
-        }
-    }
-    return true;
+    uint32_t size;
+    if (!kiln_part_read_word(in, &size, error))
+        return false;
+    if (size == 0)
+        return true;
+    uint8_t *bytes = read_bytes(in, size, error);
+    if (!bytes)
+        return false;
+    if (av_packet_add_side_data(packet, AV_PKT_DATA_MATROSKA_BLOCKADDITIONAL, bytes, size) >= 0)
+        return true;
+    av_free(bytes);
+    return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", in->path);
 }
 
 /* Reads the packet behind its size. */
 static bool read_packet(struct kiln_part_in *in, uint32_t size, AVPacket *packet,
                         struct kiln_error *error)
 {
-    uint32_t pts, flags, side_data;
-    if (!kiln_part_read_word(in, &pts, error) || !kiln_part_read_word(in, &flags, error) ||
-        !kiln_part_read_word(in, &side_data, error))
+    uint32_t pts, flags;
+    if (!kiln_part_read_word(in, &pts, error) || !kiln_part_read_word(in, &flags, error))
         return false;
-    if (side_data > MAX_SIDE_DATA || size > INT32_MAX)
+    /* Others of FFmpeg's flags say that the bytes are pointers. */
+    if ((flags & ~(uint32_t)AV_PKT_FLAG_KEY) != 0 || pts >= in->head.frames || size > INT32_MAX)
         return kiln_part_refuse(in, "the part of a clip is damaged", error);
-    if (!read_side_data(in, side_data, packet, error))
+    if (!read_alpha(in, packet, error))
         return false;
     uint8_t *bytes = read_bytes(in, size, error);
     if (!bytes)

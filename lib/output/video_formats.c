@@ -1,5 +1,5 @@
 /* What tells FFmpeg's formats from one another: a row of settings each. Whatever decides about the
- * bytes is set here and the same on every machine; the numbers of threads lie in video.c. */
+ * bytes is set here and the same on every machine; the numbers of threads lie in coder.c. */
 #include <libavutil/opt.h>
 
 #include "base/log.h"

@@ -26,6 +26,11 @@ struct kiln_canvas {
     struct kiln_splat *waiting; /* a slot; NULL unless slot_count */
 };
 
+/* What of a canvas follows from the scene, and whose turn it is. */
+struct kiln_canvas_shape {
+    uint32_t edge, slot_count, next;
+};
+
 /* Without paint. KILN_DEVICE_FAILED for memory; kiln_canvas_finish frees what there is. */
 bool kiln_canvas_init(struct kiln_canvas *canvas, uint32_t edge, uint32_t slot_count,
                       struct kiln_error *error);

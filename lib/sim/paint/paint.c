@@ -283,7 +283,8 @@ static bool make_canvases(const struct kiln_paint *paint, struct kiln_pool *pool
     return true;
 }
 
-bool kiln_paint_fits(const struct kiln_scene *scene, const struct kiln_pool *pool)
+bool kiln_paint_fits(const struct kiln_scene *scene, const struct kiln_canvas_shape *shapes,
+                     uint32_t shape_count)
 {
     const uint32_t slot_count = count_slots(scene);
     uint32_t count = 0;
@@ -292,12 +293,12 @@ bool kiln_paint_fits(const struct kiln_scene *scene, const struct kiln_pool *poo
         const struct kiln_object *object = &scene->backdrop.objects[i];
         if (!kiln_object_takes_paint(object))
             continue;
-        const struct kiln_canvas *canvas = &pool->canvases[count++];
+        const struct kiln_canvas_shape *canvas = &shapes[count++];
         const uint32_t slots = waiting_slots(object, slot_count);
-        fits = fits && canvas->edge == object->paint.size && canvas->slot_count == slots &&
-               (slots == 0 || canvas->next < slots);
+        fits = fits && count <= shape_count && canvas->edge == object->paint.size &&
+               canvas->slot_count == slots && (slots == 0 || canvas->next < slots);
     }
-    return fits && pool->canvas_count == count;
+    return fits && shape_count == count;
 }
 
 bool kiln_paint_step(struct kiln_paint *paint, const struct kiln_sim_params *params,

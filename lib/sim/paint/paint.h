@@ -33,8 +33,9 @@ void kiln_paint_finish(struct kiln_paint *paint);
 bool kiln_paint_step(struct kiln_paint *paint, const struct kiln_sim_params *params,
                      struct kiln_pool *pool, struct kiln_buffer *traces, struct kiln_error *error);
 
-/* Whether the canvases of a pool are those of a run of the scene after its first step. */
-bool kiln_paint_fits(const struct kiln_scene *scene, const struct kiln_pool *pool);
+/* Whether canvases of these shapes are those of a run of the scene after its first step. */
+bool kiln_paint_fits(const struct kiln_scene *scene, const struct kiln_canvas_shape *shapes,
+                     uint32_t shape_count);
 
 /* Adds the canvases to a state hash. */
 void kiln_paint_hash(const struct kiln_pool *pool, struct kiln_state_hash *hash);

@@ -20,7 +20,7 @@ $ kiln render scenes/tiny.yaml -q --fps 10 --set output.frames=50 --set post.exp
 1|  steps        30
 $ kiln render scenes/tiny.yaml -q --fps 10 --set output.frames=50 --seed 3 --frames 45 -o none --states states --stats | grep steps
 1|  steps        282
-2|kiln: warning: states: no state of 'scenes/tiny.yaml' at or before frame 45 (3 of other motions); stepping from the start
+2|kiln: warning: states: no state of 'scenes/tiny.yaml' at or before frame 45 (3 of other motions: bake again); stepping from the start
 
 Every N frames or seconds; what is there is kept with --resume, replaced with --force.
 
