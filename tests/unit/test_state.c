@@ -198,7 +198,12 @@ static void damage_is_seen(void **state)
     struct kiln_state_info info;
     struct kiln_error error = {0};
     assert_true(kiln_state_check(FILE_NAME, &info, &error));
-    for (size_t i = 0; i < size; i++) {
+#ifdef __SANITIZE_ADDRESS__
+    enum { STRIDE = 7 }; /* sanitizers take several times as long */
+#else
+    enum { STRIDE = 1 };
+#endif
+    for (size_t i = 0; i < size; i += STRIDE) {
         const char before = bytes[i];
         bytes[i] = before == 'k' ? 'x' : 'k';
         check_refused(bytes, size, "changed", i);
