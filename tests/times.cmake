@@ -107,9 +107,12 @@ endfunction()
 # Builds all that sanitizers run.
 add_custom_target(host_tests)
 
+option(KILN_LONG_TESTS "Run long tests under the sanitizers, too" OFF)
+
 # kiln_add_host_test(name label sanitized COMMAND target argument...): a test that needs no device.
 # A second one, sanitize.SANITIZED, runs it as the sanitizers' build has it (tests/tree/sanitize.sh);
-# in that build itself there is only the first.
+# in that build itself there is only the first. What takes more than five seconds has a second one
+# only with KILN_LONG_TESTS.
 function(kiln_add_host_test name label sanitized)
     cmake_parse_arguments(PARSE_ARGV 3 test "" "" "COMMAND")
     set(leaks
@@ -117,7 +120,8 @@ function(kiln_add_host_test name label sanitized)
     kiln_add_test(${name} ${label} COMMAND ${test_COMMAND} PROPERTIES ENVIRONMENT ${leaks})
     list(POP_FRONT test_COMMAND target)
     add_dependencies(host_tests ${target})
-    if(NOT KILN_SANITIZE)
+    kiln_test_time(${name} test)
+    if(NOT KILN_SANITIZE AND (KILN_LONG_TESTS OR test_seconds LESS_EQUAL 5))
         file(RELATIVE_PATH folder ${CMAKE_BINARY_DIR} ${CMAKE_CURRENT_BINARY_DIR})
         # An absurd size must be refused by kiln, not by the sanitizer.
         kiln_add_test(sanitize.${sanitized} sanitize SANITIZED TIMES ${name}
