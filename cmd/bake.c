@@ -56,12 +56,6 @@ struct bake {
     uint32_t saved; /* so far */
 };
 
-static bool wants_stop(void *user)
-{
-    (void)user;
-    return signals_received() != 0;
-}
-
 static void show_state(void *user, const struct kiln_baked *state)
 {
     struct bake *bake = user;
@@ -144,7 +138,7 @@ static int read_options(struct bake *bake, const struct arguments *arguments)
     params->overwrite = arguments_flag(arguments, "force");
     params->resume = arguments_flag(arguments, "resume");
     params->saved = show_state;
-    params->stop = wants_stop;
+    params->stop = signals_wants_stop;
     params->user = bake;
     params->log = report_log();
     bake->json = arguments_flag(arguments, "json");

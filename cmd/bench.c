@@ -126,12 +126,6 @@ static void say(void *user, const char *line)
         fprintf(stderr, "%s\n", line);
 }
 
-static bool wants_stop(void *user)
-{
-    (void)user;
-    return signals_received() != 0;
-}
-
 static struct kiln_bench_params make_params(const struct arguments *arguments, struct lists *lists,
                                             bool *quiet)
 {
@@ -162,7 +156,7 @@ static struct kiln_bench_params make_params(const struct arguments *arguments, s
         params.scratch = scratch;
     *quiet = arguments_flag(arguments, "quiet");
     params.progress = say;
-    params.stop = wants_stop;
+    params.stop = signals_wants_stop;
     params.user = quiet;
     params.log = report_log();
     return params;

@@ -82,12 +82,6 @@ static int read_repeated(const struct command *command, const struct arguments *
     return 0;
 }
 
-static bool wants_stop(void *user)
-{
-    (void)user;
-    return signals_received() != 0;
-}
-
 static struct kiln_figure_params make_params(const struct arguments *arguments,
                                              const struct lists *lists)
 {
@@ -118,7 +112,7 @@ static struct kiln_figure_params make_params(const struct arguments *arguments,
     params.techniques = lists->techniques.items;
     params.technique_count = lists->techniques.count;
     params.threads = arguments_integer(arguments, "threads", 0);
-    params.stop = wants_stop;
+    params.stop = signals_wants_stop;
     params.log = report_log();
     return params;
 }

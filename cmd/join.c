@@ -15,12 +15,6 @@ static const struct option options[] = {
     HELP_OPTION,
 };
 
-static bool wants_stop(void *user)
-{
-    (void)user;
-    return signals_received() != 0;
-}
-
 static int run_join(const struct arguments *arguments, const char **command, size_t count)
 {
     const struct kiln_join_params params = {
@@ -28,7 +22,7 @@ static int run_join(const struct arguments *arguments, const char **command, siz
         .manifest = arguments_text(arguments, "manifest", NULL),
         .command = command,
         .command_count = count,
-        .stop = wants_stop,
+        .stop = signals_wants_stop,
         .log = report_log(),
     };
     struct kiln_join_stats stats;

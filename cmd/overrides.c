@@ -53,12 +53,6 @@ void overrides_free(struct overrides *overrides)
     *overrides = (struct overrides){0};
 }
 
-static bool wants_stop(void *user)
-{
-    (void)user;
-    return signals_received() != 0;
-}
-
 struct kiln_scene_params overrides_scene_params(const struct overrides *overrides,
                                                 const struct arguments *arguments)
 {
@@ -66,5 +60,5 @@ struct kiln_scene_params overrides_scene_params(const struct overrides *override
     return (struct kiln_scene_params){.asset_root = root ? root->text : NULL,
                                       .overrides = (const char *const *)overrides->texts,
                                       .override_count = overrides->count,
-                                      .stop = wants_stop};
+                                      .stop = signals_wants_stop};
 }

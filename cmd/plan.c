@@ -54,12 +54,6 @@ struct planning {
     double cpu_s; /* of all tasks */
 };
 
-static bool wants_stop(void *user)
-{
-    (void)user;
-    return signals_received() != 0;
-}
-
 /* ---- text ------------------------------------------------------------------------------------ */
 
 static void print_head(const struct planning *planning, const struct kiln_plan *plan)
@@ -180,7 +174,7 @@ static int run_plan(const struct arguments *arguments, const struct kiln_scene *
         .techniques = techniques->items,
         .technique_count = techniques->count,
         .threads = arguments_integer(arguments, "threads", 0),
-        .stop = wants_stop,
+        .stop = signals_wants_stop,
         .task = show_task,
         .user = &planning,
         .log = report_log(),

@@ -43,6 +43,12 @@ void signals_end_at_once(void)
     install(end_program);
 }
 
+bool signals_wants_stop(void *user)
+{
+    (void)user;
+    return received != 0;
+}
+
 const char *signals_name(int number)
 {
     return number == SIGINT ? "SIGINT" : number == SIGTERM ? "SIGTERM" : "SIGHUP";

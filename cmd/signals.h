@@ -3,6 +3,8 @@
 #ifndef KILN_CMD_SIGNALS_H
 #define KILN_CMD_SIGNALS_H
 
+#include <stdbool.h>
+
 void signals_install(void);
 
 /* From now on already the first ends the program at once: nothing half-written is left, but nothing
@@ -11,6 +13,9 @@ void signals_end_at_once(void);
 
 /* The signal that asked to stop, or 0. */
 int signals_received(void);
+
+/* Whether one did: the `stop` of the library's functions. */
+bool signals_wants_stop(void *user);
 
 /* "SIGTERM". */
 const char *signals_name(int number);

@@ -197,12 +197,6 @@ static void end_test(void *user, size_t index, const struct test_end *end)
     print_ended(run);
 }
 
-static bool wants_stop(void *user)
-{
-    (void)user;
-    return signals_received() != 0;
-}
-
 /* ---- The run -------------------------------------------------------------------------------- */
 
 /* Writes what programs and people read later; summary is filled where that is possible. Returns the
@@ -252,7 +246,7 @@ static int run_tests(struct test_run *run, struct test_outputs *outputs)
                                    .task = task_of,
                                    .run = run_test,
                                    .ended = end_test,
-                                   .stop = wants_stop,
+                                   .stop = signals_wants_stop,
                                    .user = run};
     struct kiln_error error = {0};
     double started_s = now_s();

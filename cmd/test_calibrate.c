@@ -48,12 +48,6 @@ static void print_render(void *user, const char *line)
     fflush(stdout);
 }
 
-static bool wants_stop(void *user)
-{
-    (void)user;
-    return signals_received() != 0;
-}
-
 static void print_calibration(const struct kiln_calibration *calibration, bool written)
 {
     printf("  %u renders, %s%s\n", calibration->renders,
@@ -101,7 +95,7 @@ static int run(const struct arguments *arguments)
     const char *scratch = getenv("TMPDIR");
     params.scratch = scratch && *scratch ? scratch : params.scratch;
     params.render = print_render;
-    params.stop = wants_stop;
+    params.stop = signals_wants_stop;
     params.user = &quiet;
     params.log = report_log();
     if (code == 0) {

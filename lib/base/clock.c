@@ -8,3 +8,10 @@ double kiln_clock_seconds(void)
     clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
+
+double kiln_clock_cpu_seconds(void)
+{
+    struct timespec worked = {0};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &worked);
+    return (double)worked.tv_sec + 1e-9 * (double)worked.tv_nsec;
+}

@@ -1,8 +1,11 @@
-/* Wall-clock time for reports; nothing that reaches a picture may depend on it. */
+/* Time for reports; nothing that reaches a picture may depend on it. */
 #ifndef KILN_BASE_CLOCK_H
 #define KILN_BASE_CLOCK_H
 
 /* Seconds of a clock that never jumps, from an arbitrary start. */
 double kiln_clock_seconds(void);
+
+/* Seconds that processors have worked for this process, all of its threads together. */
+double kiln_clock_cpu_seconds(void);
 
 #endif

@@ -5,7 +5,6 @@
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include "base/clock.h"
@@ -28,15 +27,6 @@ struct delivery {
     uint32_t frames[KILN_MAX_LANES]; /* of a lane's jobs, as many as take a second or so */
 };
 
-static double cpu_seconds(void)
-{
-    struct rusage usage;
-    if (getrusage(RUSAGE_SELF, &usage) != 0)
-        return 0.0;
-    return (double)(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
-           1e-6 * (double)(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
-}
-
 /* Draws frames that count; returns the time of the slowest pass, ms a frame, or less than 0. */
 static double draw_frames(struct kiln_job *job, uint32_t first, uint32_t count,
                           struct kiln_error *error)
@@ -57,13 +47,13 @@ static double draw_frames(struct kiln_job *job, uint32_t first, uint32_t count,
 static bool time_job(struct kiln_job *job, uint32_t frames, struct kiln_delivery *delivery,
                      struct kiln_error *error)
 {
-    double start_s = kiln_clock_seconds(), start_cpu_s = cpu_seconds();
+    double start_s = kiln_clock_seconds(), start_cpu_s = kiln_clock_cpu_seconds();
     struct kiln_render_stats stats;
     double slowest = draw_frames(job, KILN_BENCH_WARM_UP, frames, error);
     if (slowest < 0.0 || !kiln_job_finish(job, &stats, error))
         return false;
     delivery->ms[delivery->count] = 1e3 * (kiln_clock_seconds() - start_s) / frames;
-    delivery->cpu_ms[delivery->count] = 1e3 * (cpu_seconds() - start_cpu_s) / frames;
+    delivery->cpu_ms[delivery->count] = 1e3 * (kiln_clock_cpu_seconds() - start_cpu_s) / frames;
     delivery->slowest[delivery->count++] = slowest;
     return true;
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/ranges.h"
 #include "compare/footage.h"
 #include "compare/magma.h"
 #include "compare/measure.h"
@@ -241,8 +242,7 @@ static bool strip_of_clip(struct kiln_panels *panels, const struct kiln_figure_p
             return false;
         ranges = even;
     }
-    for (size_t i = 0; i < count; i++)
-        panels->count += (size_t)ranges[i].last - ranges[i].first + 1;
+    panels->count += (size_t)kiln_ranges_count(ranges, count);
     if (panels->count > 1024)
         return kiln_error_set(error, KILN_USAGE, "%zu frames; a figure has up to 1024 panels",
                               panels->count);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/ranges.h"
 #include "base/text.h"
 
 /* One value of an axis: what it sets, and what its label says. */
@@ -265,9 +266,7 @@ static bool add_scenes(struct expansion *e)
 static bool add_frames(struct expansion *e)
 {
     const struct kiln_figure_params *params = e->params;
-    uint64_t count = 0;
-    for (size_t i = 0; i < params->range_count; i++)
-        count += (uint64_t)params->ranges[i].last - params->ranges[i].first + 1;
+    const uint64_t count = kiln_ranges_count(params->ranges, params->range_count);
     if (count == 0)
         return true;
     for (size_t i = 0; i < e->axis_count; i++) {

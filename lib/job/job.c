@@ -7,6 +7,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/ranges.h"
 #include "job/manifest.h"
 #include "job/resume.h"
 #include "job/states.h"
@@ -201,8 +202,8 @@ static bool choose_frames(struct kiln_job *job, struct kiln_error *error)
                                   "frames %u-%u: expected ascending ranges within 0-%u",
                                   range.first, range.last, job->scene->frames - 1);
         next = (uint64_t)range.last + 1;
-        job->total_frames += range.last - range.first + 1;
     }
+    job->total_frames = (uint32_t)kiln_ranges_count(job->ranges, job->range_count);
     return true;
 }
 
@@ -280,9 +281,7 @@ static bool begin_to_resume(struct kiln_job *job, struct kiln_error *error)
     job->stats.kept = job->resume.kept;
     job->stats.first_part = job->resume.first_part;
     job->stats.end_part = job->resume.end_part;
-    job->total_frames = 0;
-    for (size_t i = 0; i < job->resume.missing_count; i++)
-        job->total_frames += job->resume.missing[i].last - job->resume.missing[i].first + 1;
+    job->total_frames = (uint32_t)kiln_ranges_count(job->resume.missing, job->resume.missing_count);
     job->draws = job->resume.missing_count > 0;
     for (uint32_t i = 0; i < job->records.count; i++) {
         const struct kiln_record *record = &job->records.items[i];

@@ -2,6 +2,7 @@
 #include <string.h>
 #include <sys/resource.h>
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "job/shard.h"
 #include "job/states.h"
@@ -26,15 +27,6 @@ static bool may_go_on(void *user, struct kiln_error *error)
     return kiln_device_make_current(planning->device, error);
 }
 
-static double cpu_seconds(void)
-{
-    struct rusage usage;
-    if (getrusage(RUSAGE_SELF, &usage) != 0)
-        return 0.0;
-    return (double)(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
-           1e-6 * (double)(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
-}
-
 static uint64_t peak_memory(void)
 {
     struct rusage usage;
@@ -51,7 +43,7 @@ static bool set_up(struct planning *p, struct kiln_error *error)
                                           .threads = params->threads,
                                           .log = params->log,
                                           .caller = {may_go_on, p}};
-    const double before_s = cpu_seconds();
+    const double before_s = kiln_clock_cpu_seconds();
     p->loop = kiln_loop_create(p->device, p->scene, &loop, error);
     if (!p->loop)
         return false;
@@ -65,7 +57,7 @@ static bool set_up(struct planning *p, struct kiln_error *error)
     const struct kiln_output_needs needs = {.bits = 8};
     if (!kiln_loop_set_up(p->loop, needs, error))
         return false;
-    p->plan->setup_cpu_s = cpu_seconds() - before_s;
+    p->plan->setup_cpu_s = kiln_clock_cpu_seconds() - before_s;
     return true;
 }
 
@@ -77,24 +69,24 @@ static bool measure(struct planning *p, struct kiln_error *error)
     struct kiln_drawn drawn;
     if (p->states && !kiln_states_take_up(p->states, p->loop, plan->frame, error))
         return false;
-    const double start_s = cpu_seconds();
+    const double start_s = kiln_clock_cpu_seconds();
     if (!kiln_loop_advance(p->loop, plan->frame, error))
         return false;
-    double stepping_s = cpu_seconds() - start_s;
+    double stepping_s = kiln_clock_cpu_seconds() - start_s;
     plan->steps = kiln_loop_steps(p->loop);
     for (int turn = 0; turn < 2; turn++) {
-        const double before_s = cpu_seconds();
+        const double before_s = kiln_clock_cpu_seconds();
         if (!kiln_loop_draw(p->loop, plan->frame, false, &drawn, error))
             return false;
-        plan->frame_cpu_s = cpu_seconds() - before_s;
+        plan->frame_cpu_s = kiln_clock_cpu_seconds() - before_s;
         kiln_picture_destroy(&drawn.picture);
     }
     plan->memory_bytes = peak_memory();
     if (plan->steps == 0) {
-        const double again_s = cpu_seconds();
+        const double again_s = kiln_clock_cpu_seconds();
         if (!kiln_loop_advance(p->loop, plan->frame + 1, error))
             return false;
-        stepping_s = cpu_seconds() - again_s;
+        stepping_s = kiln_clock_cpu_seconds() - again_s;
         plan->steps = kiln_loop_steps(p->loop);
     }
     plan->step_cpu_s = plan->steps > 0 ? stepping_s / (double)plan->steps : 0.0;

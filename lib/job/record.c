@@ -4,12 +4,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/ranges.h"
+
 bool kiln_records_create(struct kiln_records *records, const struct kiln_frame_range *clip,
                          size_t clip_count)
 {
     *records = (struct kiln_records){.clip = clip, .clip_count = clip_count};
-    for (size_t i = 0; i < clip_count; i++)
-        records->count += clip[i].last - clip[i].first + 1;
+    records->count = (uint32_t)kiln_ranges_count(clip, clip_count);
     records->items = calloc(records->count, sizeof *records->items);
     return records->items != NULL;
 }
@@ -22,22 +23,15 @@ void kiln_records_free(struct kiln_records *records)
 
 struct kiln_record *kiln_records_of(const struct kiln_records *records, uint32_t frame)
 {
-    uint32_t before = 0;
-    for (size_t i = 0; i < records->clip_count; i++) {
-        const struct kiln_frame_range *range = &records->clip[i];
-        if (frame >= range->first && frame <= range->last)
-            return &records->items[before + frame - range->first];
-        before += range->last - range->first + 1;
-    }
-    return NULL;
+    uint32_t index;
+    return kiln_ranges_find(records->clip, records->clip_count, frame, &index)
+               ? &records->items[index]
+               : NULL;
 }
 
 uint32_t kiln_records_frame(const struct kiln_records *records, uint32_t index)
 {
-    size_t i = 0;
-    for (; index > records->clip[i].last - records->clip[i].first; i++)
-        index -= records->clip[i].last - records->clip[i].first + 1;
-    return records->clip[i].first + index;
+    return kiln_ranges_at(records->clip, records->clip_count, index);
 }
 
 static void take_clip(struct kiln_records *records, const struct kiln_whole *whole)

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/json.h"
 #include "base/log.h"
+#include "base/ranges.h"
 #include "output/bleed.h"
 #include "output/flow.h"
 
@@ -42,22 +43,6 @@ static uint32_t cell_count(const struct kiln_output_params *params)
 
 /* ---- Frames for cells ----------------------------------------------------------------------- */
 
-/* The n-th frame of the ranges, or the number of frames where n is beyond them. */
-static uint64_t nth_frame(const struct kiln_frame_range *ranges, size_t range_count, uint64_t n,
-                          uint32_t *frame)
-{
-    uint64_t before = 0;
-    for (size_t i = 0; i < range_count; i++) {
-        uint64_t length = (uint64_t)ranges[i].last - ranges[i].first + 1;
-        if (n < before + length) {
-            *frame = ranges[i].first + (uint32_t)(n - before);
-            return n;
-        }
-        before += length;
-    }
-    return before;
-}
-
 bool kiln_flipbook_sample(const struct kiln_flipbook *flipbook,
                           const struct kiln_frame_range *ranges, size_t range_count,
                           struct kiln_frame_range *cells, struct kiln_error *error)
@@ -66,15 +51,15 @@ bool kiln_flipbook_sample(const struct kiln_flipbook *flipbook,
         flipbook->rows > MAX_CELLS_A_SIDE)
         return kiln_error_set(error, KILN_USAGE, "a flipbook of %u x %u cells; allowed are 1 to %d",
                               flipbook->columns, flipbook->rows, MAX_CELLS_A_SIDE);
-    uint32_t count = flipbook->columns * flipbook->rows, frame = 0;
-    uint64_t frames = nth_frame(ranges, range_count, UINT64_MAX, &frame);
+    uint32_t count = flipbook->columns * flipbook->rows;
+    uint64_t frames = kiln_ranges_count(ranges, range_count);
     if (frames < count)
         return kiln_error_set(error, KILN_USAGE,
                               "a flipbook of %u x %u cells from %" PRIu64
                               " frames; it needs at least %u: take fewer cells, or a higher rate",
                               flipbook->columns, flipbook->rows, frames, count);
     for (uint32_t i = 0; i < count; i++) {
-        nth_frame(ranges, range_count, i * frames / count, &frame);
+        const uint32_t frame = kiln_ranges_at(ranges, range_count, i * frames / count);
         cells[i] = (struct kiln_frame_range){frame, frame};
     }
     return true;
@@ -87,7 +72,7 @@ static void measure_steps(const struct kiln_output_params *params, uint32_t *lea
     *least = UINT32_MAX;
     *most = 0;
     for (uint32_t i = 0; i < cell_count(params); i++, before = frame) {
-        nth_frame(params->clip, params->clip_count, i, &frame);
+        frame = kiln_ranges_at(params->clip, params->clip_count, i);
         if (i > 0) {
             *least = frame - before < *least ? frame - before : *least;
             *most = frame - before > *most ? frame - before : *most;
@@ -124,8 +109,7 @@ static bool check(const struct kiln_output_params *params, struct kiln_error *er
             " pixels; allowed are %d a side: make the frames smaller (%u x %u) or "
             "the cells fewer",
             params->path, width, height, MAX_EDGE, params->width, params->height);
-    uint32_t frame;
-    uint64_t frames = nth_frame(params->clip, params->clip_count, UINT64_MAX, &frame);
+    uint64_t frames = kiln_ranges_count(params->clip, params->clip_count);
     return frames == cell_count(params) ||
            kiln_error_set(error, KILN_USAGE, "%s: %" PRIu64 " frames for %u x %u cells",
                           params->path, frames, flipbook->columns, flipbook->rows);
@@ -398,7 +382,7 @@ static void add_frames(struct kiln_json *json, const struct kiln_output_params *
     uint32_t frame = 0, first = 0;
     kiln_json_begin_array(json, "frames");
     for (uint32_t i = 0; i < cell_count(params); i++) {
-        nth_frame(params->clip, params->clip_count, i, &frame);
+        frame = kiln_ranges_at(params->clip, params->clip_count, i);
         first = i == 0 ? frame : first;
         kiln_json_uint(json, NULL, frame);
     }

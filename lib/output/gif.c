@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/ranges.h"
 #include "output/palette.h"
 #include "output/video.h"
 
@@ -29,14 +30,6 @@ struct gif_encoder {
     uint64_t frames; /* that came */
 };
 
-static uint64_t clip_length(const struct kiln_output_params *params)
-{
-    uint64_t frames = 0;
-    for (size_t i = 0; i < params->clip_count; i++)
-        frames += (uint64_t)params->clip[i].last - params->clip[i].first + 1;
-    return frames;
-}
-
 static uint32_t choose_stride(const struct kiln_output_params *params)
 {
     uint64_t most = (uint64_t)MAX_RATE * params->fps_den;
@@ -53,7 +46,8 @@ static int64_t tick(const struct kiln_output_params *params, uint64_t frame)
  * allows, browsers would show for a tenth of a second. */
 static void prepare(const struct kiln_output_params *params, AVDictionary **options)
 {
-    uint64_t length = clip_length(params), stride = choose_stride(params);
+    uint64_t length = kiln_ranges_count(params->clip, params->clip_count),
+             stride = choose_stride(params);
     uint64_t last = (length - 1) / stride * stride;
     int64_t delay = tick(params, length) - tick(params, last);
     av_dict_set_int(options, "final_delay", delay < MIN_DELAY ? MIN_DELAY : delay, 0);

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/ranges.h"
 #include "output/part_packets.h"
 
 enum { END = UINT32_MAX, LEVEL = 1, SECONDS = 2, MOST_FRAMES = 600 };
@@ -21,28 +22,12 @@ uint32_t kiln_part_frames(uint32_t fps_num, uint32_t fps_den)
 
 static uint32_t clip_frames(const struct kiln_output_params *params)
 {
-    uint32_t count = 0;
-    for (size_t i = 0; i < params->clip_count; i++)
-        count += params->clip[i].last - params->clip[i].first + 1;
-    return count;
+    return (uint32_t)kiln_ranges_count(params->clip, params->clip_count);
 }
 
-/* The frame at a position in the clip, and where a frame is. */
 static uint32_t frame_at(const struct kiln_output_params *params, uint32_t position)
 {
-    size_t i = 0;
-    while (position > params->clip[i].last - params->clip[i].first)
-        position -= params->clip[i].last - params->clip[i].first + 1, i++;
-    return params->clip[i].first + position;
-}
-
-static uint32_t position_of(const struct kiln_output_params *params, uint32_t frame)
-{
-    uint32_t before = 0;
-    size_t i = 0;
-    for (; frame > params->clip[i].last; i++)
-        before += params->clip[i].last - params->clip[i].first + 1;
-    return before + frame - params->clip[i].first;
+    return kiln_ranges_at(params->clip, params->clip_count, position);
 }
 
 static uint32_t part_length(const struct kiln_output_params *params)
@@ -57,7 +42,9 @@ uint32_t kiln_parts_count(const struct kiln_output_params *params)
 
 uint32_t kiln_part_of(const struct kiln_output_params *params, uint32_t frame)
 {
-    return position_of(params, frame) / part_length(params);
+    uint32_t position = 0;
+    kiln_ranges_find(params->clip, params->clip_count, frame, &position);
+    return position / part_length(params);
 }
 
 /* Frames of a part. */

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/pattern.h"
+#include "base/ranges.h"
 #include "output/formats.h"
 
 bool kiln_whole_measure(struct kiln_whole *whole, struct kiln_error *error)
@@ -55,9 +56,8 @@ bool kiln_output_file(const struct kiln_output_params *params, uint32_t frame,
 uint32_t kiln_output_file_count(const struct kiln_output_params *params)
 {
     const struct kiln_format *format = params->format;
-    uint32_t count = format->one_file ? 1 : 0;
-    for (size_t i = 0; i < params->clip_count && !format->one_file; i++)
-        count += params->clip[i].last - params->clip[i].first + 1;
+    uint32_t count =
+        format->one_file ? 1 : (uint32_t)kiln_ranges_count(params->clip, params->clip_count);
     for (uint32_t i = 0; format->beside && format->beside(params, i); i++)
         count++;
     return count;

@@ -30,7 +30,7 @@ static bool add_files(struct kiln_text *text, const struct kiln_scene *scene,
     }
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
         const struct kiln_object *object = &scene->backdrop.objects[i];
-        if (kiln_parts_if_object_is_met(scene, object) == 0)
+        if (kiln_row_if_object_is_met(scene, object) == 0)
             continue;
         if (object->kind == KILN_OBJECT_MESH)
             kiln_text_add(text, "%s\n", object->shown->hash);

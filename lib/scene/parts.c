@@ -3,21 +3,21 @@
 
 enum { NEITHER = 0, BOTH = KILN_PART_MOTION | KILN_PART_ORDER };
 
-unsigned kiln_parts_look(const void *scene, const void *base)
+unsigned kiln_row_look(const void *scene, const void *base)
 {
     (void)scene;
     (void)base;
     return NEITHER;
 }
 
-unsigned kiln_parts_order(const void *scene, const void *base)
+unsigned kiln_row_order(const void *scene, const void *base)
 {
     (void)scene;
     (void)base;
     return KILN_PART_ORDER;
 }
 
-unsigned kiln_parts_motion(const void *scene, const void *base)
+unsigned kiln_row_motion(const void *scene, const void *base)
 {
     (void)scene;
     (void)base;
@@ -33,14 +33,14 @@ static uint32_t system_of(const struct kiln_scene *scene, const struct kiln_look
     return system;
 }
 
-unsigned kiln_parts_if_contacts_are_as_drawn(const void *scene, const void *look)
+unsigned kiln_row_if_contacts_are_as_drawn(const void *scene, const void *look)
 {
     const struct kiln_interaction *collide =
         kiln_scene_interaction(scene, system_of(scene, look), KILN_INTERACT_COLLIDE);
     return collide && collide->as_drawn ? BOTH : NEITHER;
 }
 
-unsigned kiln_parts_if_it_paints(const void *scene, const void *look)
+unsigned kiln_row_if_it_paints(const void *scene, const void *look)
 {
     return kiln_scene_paints(scene, system_of(scene, look)) ? BOTH : NEITHER;
 }
@@ -61,14 +61,14 @@ static bool any_paints(const struct kiln_scene *scene)
     return any;
 }
 
-unsigned kiln_parts_if_object_is_met(const void *scene, const void *object)
+unsigned kiln_row_if_object_is_met(const void *scene, const void *object)
 {
     const struct kiln_object *o = object;
     const bool met = o->collide && any_collides(scene);
     return met || (kiln_object_takes_paint(o) && any_paints(scene)) ? BOTH : NEITHER;
 }
 
-unsigned kiln_parts_if_floor_is_met(const void *scene, const void *backdrop)
+unsigned kiln_row_if_floor_is_met(const void *scene, const void *backdrop)
 {
     return kiln_backdrop_floor_collides(backdrop) && any_collides(scene) ? BOTH : NEITHER;
 }

@@ -11,22 +11,22 @@ enum kiln_scene_part {
 };
 
 /* What a row says: as `parts` of struct kiln_option. */
-unsigned kiln_parts_look(const void *scene, const void *base);
-unsigned kiln_parts_order(const void *scene, const void *base);
-unsigned kiln_parts_motion(const void *scene, const void *base);
+unsigned kiln_row_look(const void *scene, const void *base);
+unsigned kiln_row_order(const void *scene, const void *base);
+unsigned kiln_row_motion(const void *scene, const void *base);
 
 /* Motion under a condition; base is a struct kiln_look, kiln_object or kiln_backdrop. */
-unsigned kiln_parts_if_contacts_are_as_drawn(const void *scene, const void *look);
-unsigned kiln_parts_if_it_paints(const void *scene, const void *look);
-unsigned kiln_parts_if_object_is_met(const void *scene, const void *object);
-unsigned kiln_parts_if_floor_is_met(const void *scene, const void *backdrop);
+unsigned kiln_row_if_contacts_are_as_drawn(const void *scene, const void *look);
+unsigned kiln_row_if_it_paints(const void *scene, const void *look);
+unsigned kiln_row_if_object_is_met(const void *scene, const void *object);
+unsigned kiln_row_if_floor_is_met(const void *scene, const void *backdrop);
 
-#define LOOK                     kiln_parts_look
-#define ORDER                    kiln_parts_order
-#define MOTION                   kiln_parts_motion
-#define IF_CONTACTS_ARE_AS_DRAWN kiln_parts_if_contacts_are_as_drawn
-#define IF_IT_PAINTS             kiln_parts_if_it_paints
-#define IF_OBJECT_IS_MET         kiln_parts_if_object_is_met
-#define IF_FLOOR_IS_MET          kiln_parts_if_floor_is_met
+#define LOOK                     kiln_row_look
+#define ORDER                    kiln_row_order
+#define MOTION                   kiln_row_motion
+#define IF_CONTACTS_ARE_AS_DRAWN kiln_row_if_contacts_are_as_drawn
+#define IF_IT_PAINTS             kiln_row_if_it_paints
+#define IF_OBJECT_IS_MET         kiln_row_if_object_is_met
+#define IF_FLOOR_IS_MET          kiln_row_if_floor_is_met
 
 #endif

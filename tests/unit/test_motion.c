@@ -319,8 +319,8 @@ static void every_row_tells_the_truth(void **state)
         if (is_group || one_value) /* nothing about it can be changed */
             continue;
         /* What belongs to an order may come to the state by way of another row: rate: auto. */
-        const bool looks = seen->row->parts == kiln_parts_look;
-        const bool moves = !looks && seen->row->parts != kiln_parts_order;
+        const bool looks = seen->row->parts == kiln_row_look;
+        const bool moves = !looks && seen->row->parts != kiln_row_order;
         if (!seen->changed)
             fprintf(stderr, "%s: no fixture changes it\n", seen->path);
         else if (looks && seen->changed_state)
