@@ -11,6 +11,22 @@
         .help = "Change a value of the scene, such as systems.fire.emit.rate=500. In a key, '*' "  \
                 "stands for every entry of a map or list."                                         \
     }
+#define SIZE_OPTION                                                                                \
+    {                                                                                              \
+        .name = "size", .kind = OPTION_SIZE, .placeholder = "WxH",                                 \
+        .help = "Size of the picture in pixels: --set output.size=[W, H].", .sets = "output.size"  \
+    }
+#define FPS_OPTION                                                                                 \
+    {                                                                                              \
+        .name = "fps", .kind = OPTION_RATIO, .placeholder = "RATE",                                \
+        .help = "Frames a second, such as 30 or 30000/1001: --set output.fps=RATE.",               \
+        .sets = "output.fps"                                                                       \
+    }
+#define SEED_OPTION                                                                                \
+    {                                                                                              \
+        .name = "seed", .kind = OPTION_INTEGER, .placeholder = "N",                                \
+        .help = "Seed of everything random: --set seed=N.", .sets = "seed", .max = UINT32_MAX      \
+    }
 #define ASSET_ROOT_OPTION                                                                          \
     {                                                                                              \
         .name = "asset-root", .kind = OPTION_TEXT, .placeholder = "FOLDER",                        \

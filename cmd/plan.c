@@ -27,16 +27,8 @@ static const struct option options[] = {
      .help = "The frame to measure.",
      .fallback = "the middle one",
      .max = UINT32_MAX},
-    {.name = "size",
-     .kind = OPTION_SIZE,
-     .placeholder = "WxH",
-     .help = "Size of the picture in pixels: --set output.size=[W, H].",
-     .sets = "output.size"},
-    {.name = "fps",
-     .kind = OPTION_RATIO,
-     .placeholder = "RATE",
-     .help = "Frames a second: --set output.fps=RATE.",
-     .sets = "output.fps"},
+    SIZE_OPTION,
+    FPS_OPTION,
     SET_OPTION,
     ASSET_ROOT_OPTION,
     DEVICE_OPTION,
@@ -46,7 +38,7 @@ static const struct option options[] = {
     HELP_OPTION,
 };
 
-/* What the library tells task by task. */
+/* What is kept while the library tells of one task after the other. */
 struct planning {
     const char *scene_path;
     bool json_wanted;

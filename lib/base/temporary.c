@@ -130,7 +130,15 @@ static bool remove_abandoned(const char *path)
     return removed;
 }
 
-/* ".NAME.kiln-PID-N.tmp"? */
+/* The folder of a target; false when its name is too long. */
+static bool folder_of(const char *target, char folder[KILN_PATH_SIZE])
+{
+    const char *slash = strrchr(target, '/');
+    const int length = slash && slash != target ? (int)(slash - target) : 1;
+    return snprintf(folder, KILN_PATH_SIZE, "%.*s", length, slash ? target : ".") < KILN_PATH_SIZE;
+}
+
+/* Whether a name is ".NAME.kiln-PID-N.tmp". */
 static bool is_temporary_name(const char *name)
 {
     static const char mark[] = ".kiln-", suffix[] = ".tmp", digits[] = "0123456789";
@@ -151,10 +159,8 @@ static bool is_temporary_name(const char *name)
 void kiln_temporary_sweep(const char *target)
 {
     char folder[KILN_PATH_SIZE], path[KILN_PATH_SIZE];
-    const char *slash = strrchr(target, '/');
-    const int length = slash == target ? 1 : slash ? (int)(slash - target) : 1;
     struct dirent **entries = NULL;
-    if (snprintf(folder, sizeof folder, "%.*s", length, slash ? target : ".") >= KILN_PATH_SIZE)
+    if (!folder_of(target, folder))
         return;
     const int count = scandir(folder, &entries, NULL, NULL);
     for (int i = 0; i < count; i++) {
@@ -278,9 +284,7 @@ static int close_file(struct kiln_temporary *temporary, int *lock)
 static void sync_folder(const char *target)
 {
     char folder[KILN_PATH_SIZE];
-    const char *slash = strrchr(target, '/');
-    const int length = slash == target ? 1 : slash ? (int)(slash - target) : 1;
-    if (snprintf(folder, sizeof folder, "%.*s", length, slash ? target : ".") >= KILN_PATH_SIZE)
+    if (!folder_of(target, folder))
         return;
     const int opened = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (opened < 0)

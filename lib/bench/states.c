@@ -65,7 +65,7 @@ static bool fill(struct keeping *k, struct kiln_error *error)
                               error);
 }
 
-/* As a job does: the file is checked, then read, then the state is. */
+/* A job takes a state up the same way: it checks the file, reads it, and hashes what it got. */
 static bool load(struct keeping *k, const char *path, struct kiln_error *error)
 {
     struct kiln_state_info info;

@@ -326,7 +326,7 @@ static bool open_output(struct kiln_job *job, struct kiln_error *error)
     return job->manifest != NULL;
 }
 
-/* What statistics tell of the loop. */
+/* Fills the statistics with the techniques that the loop chose. */
 static void describe_loop(struct kiln_job *job)
 {
     const struct kiln_techniques *techniques = kiln_loop_techniques(job->loop);

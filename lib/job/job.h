@@ -12,7 +12,7 @@ struct kiln_job;
 struct kiln_job *kiln_job_create(struct kiln_device *device, const struct kiln_scene *scene,
                                  const struct kiln_render_params *params, struct kiln_error *error);
 
-/* What is not finished is given up: no output stays half-written. */
+/* Gives up a job that is not finished: no output stays half-written. */
 void kiln_job_destroy(struct kiln_job **job);
 
 /* Its frame loop, which belongs to it. */
@@ -21,7 +21,7 @@ struct kiln_loop *kiln_job_loop(struct kiln_job *job);
 /* Draws a frame, no earlier one than before, and hands it to the output. */
 bool kiln_job_draw(struct kiln_job *job, uint32_t frame, struct kiln_error *error);
 
-/* Of the frame drawn last. */
+/* The progress after the frame that was drawn last. */
 const struct kiln_progress *kiln_job_progress(const struct kiln_job *job);
 
 /* Waits until the outputs are whole, and sums up. */

@@ -158,7 +158,8 @@ static bool read_state(const struct kiln_node *node, struct kiln_record *record)
     return record->has_state;
 }
 
-/* What the line says of a frame or of those of a part; what makes no sense says nothing. */
+/* Takes what a line says of a frame, or of the frames of a part; one that makes no sense is passed
+ * over. */
 static void read_frames(const struct kiln_node *line, bool is_part, struct kiln_records *records)
 {
     const struct kiln_node *frames = kiln_node_entry(line, "frames");
@@ -178,7 +179,7 @@ static void read_frames(const struct kiln_node *line, bool is_part, struct kiln_
             continue;
         read_state(state, record);
         state = state->next;
-        /* Of a part, its first frame has what is known of the file. */
+        /* The record of a part's first frame has what is known of the file. */
         if (!is_part || frame == first) {
             record->bytes = bytes;
             memcpy(record->sha256, sha256->text, 65);

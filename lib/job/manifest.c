@@ -163,7 +163,7 @@ static bool add_frame(struct kiln_manifest *manifest, const struct kiln_records 
     return flush(manifest, error);
 }
 
-/* What every run of the job comes to, however often it was killed. */
+/* Writes the member that is the same for every run of the job, however often it was killed. */
 static bool add_result(struct kiln_manifest *manifest, const struct kiln_records *records,
                        struct kiln_error *error)
 {
@@ -216,7 +216,7 @@ static bool add_times(struct kiln_manifest *manifest, const struct kiln_records 
     return true;
 }
 
-/* Where and how this run did what it did of it. */
+/* Writes the member that says where and how this run worked at the job. */
 static bool add_run(struct kiln_manifest *manifest, const struct kiln_records *records,
                     const struct kiln_render_stats *stats, struct kiln_error *error)
 {

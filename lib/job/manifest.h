@@ -20,8 +20,8 @@ struct kiln_manifest_params {
 
 struct kiln_manifest;
 
-/* What the result says of a scene, as JSON, with the whole of its text. The caller frees it; NULL
- * when memory is short. */
+/* Makes the JSON by which the result describes a scene, with the whole of its text. The caller
+ * frees it; NULL when memory is short. */
 char *kiln_manifest_scene(const struct kiln_scene *scene);
 
 /* Opens a temporary file beside path; makes missing folders. All that params points to is borrowed.

@@ -1,4 +1,4 @@
-/* What a clip costs, and how it divides into tasks. */
+/* A plan measures what a clip costs, and says how it divides into tasks. */
 #include <string.h>
 #include <sys/resource.h>
 

@@ -1,4 +1,5 @@
-/* What is known of each frame of a job: for its manifest, and for who goes on with it. */
+/* A record holds what is known of a frame of a job, for the manifest and for a run that goes on
+ * with the job. */
 #ifndef KILN_JOB_RECORD_H
 #define KILN_JOB_RECORD_H
 

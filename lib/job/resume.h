@@ -1,4 +1,5 @@
-/* What of a job is there already, and what is still to be drawn. */
+/* Going on with a job: this room finds out which of its files are there, and what is still to be
+ * drawn. */
 #ifndef KILN_JOB_RESUME_H
 #define KILN_JOB_RESUME_H
 
@@ -35,7 +36,7 @@ struct kiln_resume_params {
 bool kiln_resume_begin(struct kiln_resume *resume, const struct kiln_resume_params *params,
                        struct kiln_records *records, struct kiln_error *error);
 
-/* Of a clip whose parts are all there: joins them, says so in the journal, and removes them. */
+/* Joins the parts of a clip, which are all there, says so in the journal, and removes them. */
 bool kiln_resume_join(struct kiln_resume *resume, struct kiln_error *error);
 
 /* Takes the journals of shards over that were kept. */

@@ -218,8 +218,8 @@ static bool read_head(int file, const char *path, struct head *head, struct kiln
 
 /* ---- the tables ------------------------------------------------------------------------------ */
 
-/* What is done with each table of a state, in the order of the file: it is written, read, or looked
- * through. words is NULL where it is only looked through. */
+/* A visitor is called with each table of a state in the order of the file: it writes, reads or
+ * looks it through. The words of a table are NULL where it is only looked through. */
 struct visitor {
     bool (*visit)(const struct visitor *visitor, const struct kiln_table *table,
                   struct kiln_error *error);
