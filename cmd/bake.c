@@ -177,7 +177,7 @@ static int run(const struct arguments *arguments)
     struct kiln_error error = {0};
     struct kiln_scene *scene = NULL;
     int code = read_options(&bake, arguments);
-    signals_install();
+    signals_install_for_job();
     if (code == 0 && !overrides_create(&overrides, arguments))
         code = report_no_memory();
     if (code == 0) {

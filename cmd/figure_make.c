@@ -154,7 +154,7 @@ int figure_make(const struct command *command, enum kiln_figure_kind kind,
     int code = read_repeated(command, arguments, &lists, &params);
     struct kiln_figure_result made;
     struct kiln_error error = {0};
-    signals_install();
+    signals_install_for_job();
     if (code == 0 && !kiln_figure_make(&params, result ? result : &made, &error))
         code = error.code == KILN_USAGE ? report(KILN_USAGE, "%s: %s", command->name, error.message)
                                         : report_error(&error);

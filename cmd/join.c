@@ -27,7 +27,7 @@ static int run_join(const struct arguments *arguments, const char **command, siz
     };
     struct kiln_join_stats stats;
     struct kiln_error error = {0};
-    signals_install();
+    signals_install_for_job();
     if (!kiln_join(&params, &stats, &error)) {
         const int number = signals_received();
         if (error.code != KILN_INTERRUPTED)

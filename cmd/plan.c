@@ -192,7 +192,7 @@ static int run(const struct arguments *arguments)
     struct kiln_error error = {0};
     struct kiln_scene *scene = NULL;
     int code = 0;
-    signals_install();
+    signals_install_for_job();
     if (!overrides_create(&overrides, arguments) ||
         !value_list_create(&techniques, arguments, "technique"))
         code = report_no_memory();

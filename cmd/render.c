@@ -357,7 +357,7 @@ static int run(const struct arguments *arguments)
             code = report(KILN_DEVICE_FAILED, "cannot start a thread for --frame-timeout");
     }
     if (code == 0) {
-        signals_install();
+        signals_install_for_job();
         code = run_jobs(&render, arguments);
     }
     watchdog_destroy(&render.watchdog);

@@ -7,6 +7,10 @@
 
 void signals_install(void);
 
+/* The same for jobs whose outputs are whole or not there: one that has not stopped by itself half
+ * a second after the first signal is ended as by a second one, with a message. */
+void signals_install_for_job(void);
+
 /* From now on already the first ends the program at once: nothing half-written is left, but nothing
  * is finished either. */
 void signals_end_at_once(void);

@@ -295,7 +295,8 @@ struct kiln_render_params {
     /* Told of each frame before it is stepped to and drawn, and after it was handed over. */
     void (*next)(void *user, uint32_t frame);
     void (*progress)(void *user, const struct kiln_progress *progress);
-    /* Asked between frames and steps, and while a clip ends; true ends with KILN_INTERRUPTED. */
+    /* Asked between frames, steps, passes and bands of rows, and while a clip ends; true ends with
+     * KILN_INTERRUPTED. */
     bool (*stop)(void *user);
     void *user;
     struct kiln_log log;

@@ -7,8 +7,17 @@
 #include <sched.h>
 #include <stdatomic.h>
 #include <stdlib.h>
+#include <string.h>
 
-enum { MAX_THREADS = 256 };
+#include "base/clock.h"
+
+enum {
+    MAX_THREADS = 256,
+    COPY_AT_A_TIME = 1 << 20, /* bytes */
+};
+
+/* Between two questions whether to go on: much less than a second, much more than they cost. */
+#define ASK_EVERY_S 0.02
 
 struct worker {
     struct kiln_threads *pool;
@@ -30,6 +39,12 @@ struct kiln_threads {
     void *context;
     size_t total, grain;
     atomic_size_t next;
+
+    struct kiln_caller caller;
+    bool asks; /* the present loop does */
+    double asked_s;
+    bool stopped;
+    struct kiln_error reason; /* when stopped */
     struct worker workers[];
 };
 
@@ -43,9 +58,22 @@ uint32_t kiln_threads_available(void)
     return count < 1 ? 1 : count > MAX_THREADS ? MAX_THREADS : (uint32_t)count;
 }
 
+/* Whether the loop goes on. Asked by the thread that posted it alone. */
+static bool go_on(struct kiln_threads *pool)
+{
+    const double now_s = kiln_clock_seconds();
+    if (now_s - pool->asked_s < ASK_EVERY_S)
+        return true;
+    pool->stopped = !kiln_may_go_on(&pool->caller, &pool->reason);
+    pool->asked_s = kiln_clock_seconds();
+    return !pool->stopped;
+}
+
 static void take_pieces(struct kiln_threads *pool, uint32_t worker)
 {
     for (;;) {
+        if (worker == 0 && pool->asks && !go_on(pool))
+            atomic_store(&pool->next, pool->total);
         size_t begin = atomic_fetch_add(&pool->next, pool->grain);
         if (begin >= pool->total)
             return;
@@ -154,4 +182,42 @@ void kiln_threads_for(struct kiln_threads *threads, size_t count, size_t grain,
     while (pool->running > 0)
         pthread_cond_wait(&pool->finished, &pool->mutex);
     pthread_mutex_unlock(&pool->mutex);
+}
+
+void kiln_threads_ask(struct kiln_threads *threads, const struct kiln_caller *caller)
+{
+    threads->caller = *caller;
+}
+
+bool kiln_threads_try(struct kiln_threads *threads, size_t count, size_t grain,
+                      void (*body)(void *context, size_t begin, size_t end, uint32_t worker),
+                      void *context, struct kiln_error *error)
+{
+    if (!threads->stopped) {
+        threads->asks = threads->caller.may_go_on != NULL;
+        kiln_threads_for(threads, count, grain, body, context);
+        threads->asks = false;
+    }
+    if (threads->stopped)
+        *error = threads->reason;
+    return !threads->stopped;
+}
+
+struct copying {
+    char *to;
+    const char *from;
+};
+
+static void copy(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct copying *c = context;
+    memcpy(c->to + begin, c->from + begin, end - begin);
+}
+
+bool kiln_threads_copy(struct kiln_threads *threads, void *to, const void *from, size_t bytes,
+                       struct kiln_error *error)
+{
+    struct copying copying = {to, from};
+    return kiln_threads_try(threads, bytes, COPY_AT_A_TIME, copy, &copying, error);
 }

@@ -2,9 +2,7 @@
 #ifndef KILN_BASE_THREAD_H
 #define KILN_BASE_THREAD_H
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
+#include "base/caller.h"
 
 struct kiln_threads;
 
@@ -24,5 +22,19 @@ uint32_t kiln_threads_count(const struct kiln_threads *threads);
 void kiln_threads_for(struct kiln_threads *threads, size_t count, size_t grain,
                       void (*body)(void *context, size_t begin, size_t end, uint32_t worker),
                       void *context);
+
+/* Whom kiln_threads_try asks, on the thread that calls it; nobody at first. */
+void kiln_threads_ask(struct kiln_threads *threads, const struct kiln_caller *caller);
+
+/* The same loop, given up when the caller wants no more: then false with the caller's error, pieces
+ * are missing, and every later kiln_threads_try of these threads does nothing. For loops whose
+ * results only end up in pixels. */
+bool kiln_threads_try(struct kiln_threads *threads, size_t count, size_t grain,
+                      void (*body)(void *context, size_t begin, size_t end, uint32_t worker),
+                      void *context, struct kiln_error *error);
+
+/* memcpy by such a loop. */
+bool kiln_threads_copy(struct kiln_threads *threads, void *to, const void *from, size_t bytes,
+                       struct kiln_error *error);
 
 #endif

@@ -39,7 +39,7 @@ static bool step_to(struct kiln_loop *loop, uint32_t step, struct kiln_error *er
     kiln_timer_begin(loop->timer, KILN_PASS_simulate);
     bool ok = true;
     while (ok && run->step < step) {
-        ok = kiln_output_may_go_on(&loop->params.caller, error) &&
+        ok = kiln_may_go_on(&loop->params.caller, error) &&
              kiln_simulate_step(loop->simulate, &run->pool, run->step + 1, error);
         if (ok) {
             run->step++;
@@ -71,7 +71,7 @@ static bool pass_over_frames(struct kiln_loop *loop, uint32_t end, struct kiln_e
 
 bool kiln_loop_advance(struct kiln_loop *loop, uint32_t frame, struct kiln_error *error)
 {
-    return kiln_output_may_go_on(&loop->params.caller, error) &&
+    return kiln_may_go_on(&loop->params.caller, error) &&
            pass_over_frames(loop, frame, error) &&
            step_to(loop, kiln_scene_frame_step(loop->scene, frame), error);
 }
@@ -193,6 +193,8 @@ struct kiln_loop *kiln_loop_create(struct kiln_device *device, const struct kiln
         kiln_error_set(error, KILN_DEVICE_FAILED, "can not start %u threads", params->threads);
     if (!loop->threads)
         kiln_loop_destroy(&loop);
+    else
+        kiln_threads_ask(loop->threads, &loop->params.caller);
     return loop;
 }
 
@@ -220,6 +222,7 @@ bool kiln_loop_set_up(struct kiln_loop *loop, struct kiln_output_needs needs,
                                               .needs = needs,
                                               .threads = loop->threads,
                                               .timer = loop->timer,
+                                              .caller = &loop->params.caller,
                                               .slot_count = loop->run.pool.slot_count};
     return loop->simulate && kiln_stages_init(&loop->stages, device, loop->scene, &stages, error);
 }

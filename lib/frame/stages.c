@@ -197,6 +197,7 @@ bool kiln_stages_init(struct kiln_stages *stages, struct kiln_device *device,
                                    .scene = scene,
                                    .threads = params->threads,
                                    .timer = params->timer,
+                                   .caller = params->caller,
                                    .layers = needs.layers,
                                    .glow = needs_glow(scene, needs.layers)};
     kiln_buffer_init(&stages->entries, device, params->slot_count * sizeof(uint32_t), "entries");
@@ -260,15 +261,29 @@ static struct kiln_sort_params sort_params(const struct kiln_view *view)
     };
 }
 
+/* Each pass begins with this. False when the caller wants no more. */
+static bool begin(struct kiln_stages *s, enum kiln_pass pass, struct kiln_error *error)
+{
+    if (!kiln_may_go_on(s->caller, error))
+        return false;
+    kiln_timer_begin(s->timer, pass);
+    return true;
+}
+
+/* Each pass that has begun ends with this, also one that failed. */
+static bool end(struct kiln_stages *s, bool ok)
+{
+    kiln_timer_end(s->timer);
+    return ok;
+}
+
 bool kiln_stages_pass_over(struct kiln_stages *stages, struct kiln_pool *pool, uint32_t step,
                            struct kiln_error *error)
 {
     const struct kiln_view view = kiln_view_compute(stages->scene, step);
     const struct kiln_sort_params params = sort_params(&view);
-    kiln_timer_begin(stages->timer, KILN_PASS_sort);
-    bool ok = kiln_sort_follow(stages->sort, pool, &params, error);
-    kiln_timer_end(stages->timer);
-    return ok;
+    return begin(stages, KILN_PASS_sort, error) &&
+           end(stages, kiln_sort_follow(stages->sort, pool, &params, error));
 }
 
 static bool sort_particles(struct kiln_stages *s, uint32_t systems, bool by_depth, uint32_t *count,
@@ -277,10 +292,8 @@ static bool sort_particles(struct kiln_stages *s, uint32_t systems, bool by_dept
     struct kiln_sort_params params = sort_params(&s->moment.view);
     params.systems = systems;
     params.order = order_of(s, by_depth);
-    kiln_timer_begin(s->timer, KILN_PASS_sort);
-    bool ok = kiln_sort_run(s->sort, s->moment.pool, &params, &s->entries, count, error);
-    kiln_timer_end(s->timer);
-    return ok;
+    return begin(s, KILN_PASS_sort, error) &&
+           end(s, kiln_sort_run(s->sort, s->moment.pool, &params, &s->entries, count, error));
 }
 
 static bool draw_particles(struct kiln_stages *s, const struct particle_pass *pass, uint32_t *count,
@@ -303,11 +316,9 @@ static bool draw_particles(struct kiln_stages *s, const struct particle_pass *pa
         .fire_covers = pass->fire_covers,
         .by_fragment = pass->by_fragment,
     };
-    kiln_timer_begin(s->timer, KILN_PASS_particles);
-    bool ok = s->coarse ? kiln_coarse_run(s->coarse, &draw, error)
-                        : kiln_particles_run(s->particles, &draw, error);
-    kiln_timer_end(s->timer);
-    return ok;
+    return begin(s, KILN_PASS_particles, error) &&
+           end(s, s->coarse ? kiln_coarse_run(s->coarse, &draw, error)
+                            : kiln_particles_run(s->particles, &draw, error));
 }
 
 /* A depth test orders the solids, so their list need not be sorted. */
@@ -315,10 +326,8 @@ static bool draw_solids(struct kiln_stages *s, uint32_t *count, struct kiln_erro
 {
     if (!sort_particles(s, solids_of(s->scene), false, count, error))
         return false;
-    kiln_timer_begin(s->timer, KILN_PASS_particles);
-    bool ok = kiln_solids_draw(s->solids, &s->moment, &s->entries, *count, error);
-    kiln_timer_end(s->timer);
-    return ok;
+    return begin(s, KILN_PASS_particles, error) &&
+           end(s, kiln_solids_draw(s->solids, &s->moment, &s->entries, *count, error));
 }
 
 /* Fire and smoke in one sorted list, or one in each pixel: fire adds and covers nothing, smoke
@@ -409,28 +418,21 @@ static bool add_moment(struct kiln_stages *s, uint32_t sample, struct kiln_error
 static bool fill_moment(struct kiln_stages *s, struct kiln_pool *pool, uint32_t step,
                         struct kiln_error *error)
 {
-    kiln_timer_begin(s->timer, KILN_PASS_lighting);
-    bool ok = kiln_moment_fill(&s->moment, pool, step, s->on_host, error) &&
-              kiln_lighting_run(s->lighting, &s->moment, &s->light, error);
-    kiln_timer_end(s->timer);
-    return ok;
+    return begin(s, KILN_PASS_lighting, error) &&
+           end(s, kiln_moment_fill(&s->moment, pool, step, s->on_host, error) &&
+                      kiln_lighting_run(s->lighting, &s->moment, &s->light, error));
 }
 
 /* The backdrop, and solid particles before it: what the others are blended over. */
 static bool draw_scenery(struct kiln_stages *s, uint32_t *drawn, struct kiln_error *error)
 {
-    kiln_timer_begin(s->timer, KILN_PASS_backdrop);
-    bool ok = kiln_backdrop_draw(s->backdrop, &s->moment, &s->light, error);
-    kiln_timer_end(s->timer);
     *drawn = 0;
-    if (!ok || (s->solids && !draw_solids(s, drawn, error)))
+    if (!begin(s, KILN_PASS_backdrop, error) ||
+        !end(s, kiln_backdrop_draw(s->backdrop, &s->moment, &s->light, error)) ||
+        (s->solids && !draw_solids(s, drawn, error)))
         return false;
-    if (!s->coarse)
-        return true;
-    kiln_timer_begin(s->timer, KILN_PASS_particles);
-    ok = kiln_coarse_prepare(s->coarse, &s->scene_depth, error);
-    kiln_timer_end(s->timer);
-    return ok;
+    return !s->coarse || (begin(s, KILN_PASS_particles, error) &&
+                          end(s, kiln_coarse_prepare(s->coarse, &s->scene_depth, error)));
 }
 
 bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *pool, uint32_t step,
@@ -445,12 +447,7 @@ bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *pool, uint32
     if (!(separate ? draw_separate(s, drawn, error) : draw_merged(s, drawn, error)))
         return false;
     *drawn += solids;
-    if (!s->shutter)
-        return true;
-    kiln_timer_begin(s->timer, KILN_PASS_composite);
-    bool ok = add_moment(s, sample, error);
-    kiln_timer_end(s->timer);
-    return ok;
+    return !s->shutter || (begin(s, KILN_PASS_composite, error) && end(s, add_moment(s, sample, error)));
 }
 
 bool kiln_stages_keep_history(const struct kiln_stages *stages)
@@ -470,16 +467,14 @@ bool kiln_stages_compose(struct kiln_stages *stages, uint32_t frame, struct kiln
     if (s->bloom) {
         const struct kiln_bloom_inputs light = {inputs.scene, inputs.particles, inputs.fire,
                                                 inputs.time_s};
-        kiln_timer_begin(s->timer, KILN_PASS_bloom);
+        if (!begin(s, KILN_PASS_bloom, error))
+            return false;
         inputs.bloom = kiln_bloom_run(s->bloom, &light, &inputs.bloom_scale, error);
-        kiln_timer_end(s->timer);
-        if (!inputs.bloom)
+        if (!end(s, inputs.bloom != NULL))
             return false;
     }
-    kiln_timer_begin(s->timer, KILN_PASS_composite);
-    bool ok = kiln_composite_run(s->composite, &inputs, error);
-    kiln_timer_end(s->timer);
-    return ok;
+    return begin(s, KILN_PASS_composite, error) &&
+           end(s, kiln_composite_run(s->composite, &inputs, error));
 }
 
 static const char *const LAYER_NAMES[] = {"beauty", "depth", "fire", "smoke", "bloom"};
@@ -495,14 +490,14 @@ uint32_t kiln_stages_layers(const char *names[KILN_MAX_LAYERS], uint32_t channel
     return count;
 }
 
-static bool copy_layer(struct kiln_image *image, struct kiln_layer *layer, struct kiln_error *error)
+static bool copy_layer(struct kiln_threads *threads, struct kiln_image *image,
+                       struct kiln_layer *layer, struct kiln_error *error)
 {
     const float *pixels = kiln_image_host(image, KILN_READ, error);
     if (!pixels)
         return false;
     size_t floats = (size_t)image->width * image->height * layer->channels;
-    memcpy(layer->pixels, pixels, floats * sizeof(float));
-    return true;
+    return kiln_threads_copy(threads, layer->pixels, pixels, floats * sizeof(float), error);
 }
 
 static bool read_layers(struct kiln_stages *s, struct kiln_picture *picture,
@@ -517,7 +512,7 @@ static bool read_layers(struct kiln_stages *s, struct kiln_picture *picture,
     if (!kiln_composite_read_beauty(s->composite, picture->layers[0].pixels, error))
         return false;
     for (uint32_t i = 1; i < picture->layer_count; i++) {
-        if (!copy_layer(sources[i], &picture->layers[i], error))
+        if (!copy_layer(s->threads, sources[i], &picture->layers[i], error))
             return false;
     }
     return true;
@@ -526,11 +521,9 @@ static bool read_layers(struct kiln_stages *s, struct kiln_picture *picture,
 bool kiln_stages_read(struct kiln_stages *stages, struct kiln_picture *picture,
                       struct kiln_error *error)
 {
-    kiln_timer_begin(stages->timer, KILN_PASS_readback);
+    if (!begin(stages, KILN_PASS_readback, error))
+        return false;
     bool ok = picture->bits == 0 ||
               kiln_composite_read_display(stages->composite, picture->display, error);
-    if (ok && picture->layer_count > 0)
-        ok = read_layers(stages, picture, error);
-    kiln_timer_end(stages->timer);
-    return ok;
+    return end(stages, ok && (picture->layer_count == 0 || read_layers(stages, picture, error)));
 }

@@ -22,7 +22,8 @@ struct kiln_stages {
     struct kiln_threads *threads;
     bool layers;              /* of an EXR are asked for */
     bool glow;                /* particles leave one */
-    struct kiln_timer *timer; /* borrowed */
+    struct kiln_timer *timer; /* borrowed, as is the caller */
+    const struct kiln_caller *caller;
     struct kiln_atlas atlas;
 
     struct kiln_sort *sort;
@@ -48,12 +49,14 @@ struct kiln_stages {
     struct kiln_framebuffer particle_framebuffer, fire_framebuffer, smoke_framebuffer;
 };
 
-/* What stages are set up for. Threads and timer are borrowed. */
+/* What stages are set up for. Threads, timer and caller are borrowed; the caller is asked before
+ * each pass. */
 struct kiln_stages_params {
     struct kiln_techniques techniques;
     struct kiln_output_needs needs; /* what the output will ask for */
     struct kiln_threads *threads;
     struct kiln_timer *timer;
+    const struct kiln_caller *caller;
     uint32_t slot_count; /* of the pool that will be drawn */
 };
 

@@ -90,7 +90,7 @@ static bool begin(struct join *join, struct kiln_error *error)
         return false;
     struct kiln_output_params *output = &join->head.output;
     output->log = join->params->log;
-    output->caller = (struct kiln_output_caller){may_go_on, join};
+    output->caller = (struct kiln_caller){may_go_on, join};
     output->whole = (struct kiln_whole_listener){take_whole, join};
     output->durable = true;
     if (!kiln_records_create(&join->records, output->clip, output->clip_count))

@@ -76,7 +76,7 @@ static bool look_at_images(struct kiln_resume *resume, bool found, struct kiln_e
         if (records->items[i].is_others)
             continue;
         if (!kiln_output_file(&resume->output, frame, path, error) ||
-            !kiln_output_may_go_on(&resume->output.caller, error) ||
+            !kiln_may_go_on(&resume->output.caller, error) ||
             !look_at_image(resume, frame, path, found, error))
             return false;
     }
@@ -182,7 +182,7 @@ static bool look_at_clip(struct kiln_resume *resume, bool found, struct kiln_err
     if (!found && !check_clip_files(resume, error))
         return false;
     for (uint32_t part = resume->first_part; part < resume->end_part; part++) {
-        if (!kiln_output_may_go_on(&resume->output.caller, error) ||
+        if (!kiln_may_go_on(&resume->output.caller, error) ||
             !look_at_part(resume, part, error))
             return false;
     }

@@ -268,7 +268,7 @@ static bool encode(void *opaque, const struct kiln_picture *picture, struct kiln
 }
 
 /* The table of chunks is written last. */
-static bool finish(void *opaque, const struct kiln_output_caller *caller, struct kiln_error *error)
+static bool finish(void *opaque, const struct kiln_caller *caller, struct kiln_error *error)
 {
     (void)caller;
     struct exr_encoder *encoder = opaque;

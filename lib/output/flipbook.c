@@ -476,7 +476,7 @@ static bool encode(void *opaque, const struct kiln_picture *picture, struct kiln
 }
 
 static bool write_motion(struct flipbook_encoder *encoder, float scale,
-                         const struct kiln_output_caller *caller, struct kiln_error *error)
+                         const struct kiln_caller *caller, struct kiln_error *error)
 {
     struct kiln_picture *motion = draw_motion(encoder, scale, error);
     bool good =
@@ -485,7 +485,7 @@ static bool write_motion(struct flipbook_encoder *encoder, float scale,
     return good;
 }
 
-static bool finish(void *opaque, const struct kiln_output_caller *caller, struct kiln_error *error)
+static bool finish(void *opaque, const struct kiln_caller *caller, struct kiln_error *error)
 {
     struct flipbook_encoder *encoder = opaque;
     bool motion = encoder->params->flipbook.motion;

@@ -27,7 +27,7 @@ struct kiln_format {
     bool (*encode)(void *encoder, const struct kiln_picture *picture, struct kiln_error *error);
     /* Writes what is still missing; NULL when nothing is. Failed writes may be left to the commit
      * to report. What takes longer than a second asks the caller (which may be NULL) meanwhile. */
-    bool (*finish)(void *encoder, const struct kiln_output_caller *caller,
+    bool (*finish)(void *encoder, const struct kiln_caller *caller,
                    struct kiln_error *error);
     /* Gives the file its name, and files that belong to it theirs: all or none. NULL: there are no
      * others. */
@@ -62,7 +62,7 @@ bool kiln_format_beside(const char *path, const char *ending, char beside[KILN_P
 /* Encodes a picture as PNG into the open file. Of params, scene_hash (with seed and flipbook) is
  * what matters; the picture brings the rest. Asks the caller (which may be NULL) meanwhile. */
 bool kiln_png_write(const struct kiln_output_params *params, const struct kiln_picture *picture,
-                    struct kiln_temporary *file, const struct kiln_output_caller *caller,
+                    struct kiln_temporary *file, const struct kiln_caller *caller,
                     struct kiln_error *error);
 
 #endif

@@ -137,7 +137,7 @@ static bool encode(void *opaque, const struct kiln_picture *picture, struct kiln
 
 static bool write_frames(struct gif_encoder *encoder, FILE *waiting, void *video,
                          const struct kiln_palette *palette, struct kiln_dither *dither,
-                         const struct kiln_output_caller *caller, struct kiln_error *error)
+                         const struct kiln_caller *caller, struct kiln_error *error)
 {
     const struct kiln_output_params *params = encoder->params;
     size_t width = params->width, row_size = 3 * width, size = row_size * params->height;
@@ -153,7 +153,7 @@ static bool write_frames(struct gif_encoder *encoder, FILE *waiting, void *video
                                         "%s: frames that wait for the palette cannot be read",
                                         params->path);
         for (uint32_t y = 0; y < params->height; y++) {
-            if (!kiln_output_may_go_on(caller, error))
+            if (!kiln_may_go_on(caller, error))
                 return false;
             kiln_dither_row(dither, y, encoder->rgb + y * row_size, params->width,
                             encoder->indices + y * width);
@@ -164,7 +164,7 @@ static bool write_frames(struct gif_encoder *encoder, FILE *waiting, void *video
     return true;
 }
 
-static bool finish(void *opaque, const struct kiln_output_caller *caller, struct kiln_error *error)
+static bool finish(void *opaque, const struct kiln_caller *caller, struct kiln_error *error)
 {
     struct gif_encoder *encoder = opaque;
     struct kiln_palette palette;

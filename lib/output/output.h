@@ -2,7 +2,7 @@
 #ifndef KILN_OUTPUT_OUTPUT_H
 #define KILN_OUTPUT_OUTPUT_H
 
-#include "kiln.h"
+#include "base/caller.h"
 
 enum { KILN_MAX_LAYERS = 8 };
 
@@ -37,19 +37,6 @@ struct kiln_output_needs {
     uint32_t bits; /* display bits: 0 none, 8, 16 */
     bool layers;   /* the float layers */
 };
-
-/* Whether what takes long is still wanted. */
-struct kiln_output_caller {
-    bool (*may_go_on)(void *user, struct kiln_error *error); /* false: why not; NULL: always */
-    void *user;
-};
-
-/* True without a caller. */
-static inline bool kiln_output_may_go_on(const struct kiln_output_caller *caller,
-                                         struct kiln_error *error)
-{
-    return !caller || !caller->may_go_on || caller->may_go_on(caller->user, error);
-}
 
 /* A file that has its name. */
 struct kiln_whole {
@@ -97,7 +84,7 @@ struct kiln_output_params {
     struct kiln_log log;
     struct kiln_whole_listener whole;
     bool durable;                     /* files are on the disk before they have their names */
-    struct kiln_output_caller caller; /* asked by kiln_output_finish alone, on its thread */
+    struct kiln_caller caller; /* asked by kiln_output_finish alone, on its thread */
 };
 
 struct kiln_output;

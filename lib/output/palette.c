@@ -151,13 +151,13 @@ static void split_box(struct box *box, struct box *upper)
 }
 
 /* How many boxes there are in the end; 0 when the caller wants no more. */
-static uint32_t split_all(struct box *boxes, uint32_t most, const struct kiln_output_caller *caller,
+static uint32_t split_all(struct box *boxes, uint32_t most, const struct kiln_caller *caller,
                           struct kiln_error *error)
 {
     uint32_t count = 1;
     measure_box(&boxes[0]);
     while (count < most) {
-        if (!kiln_output_may_go_on(caller, error))
+        if (!kiln_may_go_on(caller, error))
             return 0;
         struct box *worst = &boxes[0];
         for (uint32_t i = 1; i < count; i++)
@@ -206,7 +206,7 @@ static void refine(double (*colors)[3], uint32_t count, const struct point *poin
 }
 
 static bool choose_colors(struct kiln_palette *palette, struct point *points, size_t point_count,
-                          uint32_t most, const struct kiln_output_caller *caller,
+                          uint32_t most, const struct kiln_caller *caller,
                           struct kiln_error *error)
 {
     struct box boxes[KILN_MAX_PALETTE] = {{.points = points, .count = point_count}};
@@ -217,7 +217,7 @@ static bool choose_colors(struct kiln_palette *palette, struct point *points, si
     for (uint32_t i = 0; i < palette->count; i++)
         memcpy(colors[i], boxes[i].mean, sizeof colors[i]);
     for (int round = 0; round < ROUNDS; round++) {
-        if (!kiln_output_may_go_on(caller, error))
+        if (!kiln_may_go_on(caller, error))
             return false;
         refine(colors, palette->count, points, point_count);
     }
@@ -229,7 +229,7 @@ static bool choose_colors(struct kiln_palette *palette, struct point *points, si
 }
 
 bool kiln_palette_make(struct kiln_palette *palette, const struct kiln_histogram *histogram,
-                       uint32_t most, const struct kiln_output_caller *caller,
+                       uint32_t most, const struct kiln_caller *caller,
                        struct kiln_error *error)
 {
     *palette = (struct kiln_palette){.count = 1};

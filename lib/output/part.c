@@ -263,7 +263,7 @@ static bool join_pictures(const struct kiln_output_params *params, struct kiln_e
             break;
         for (uint32_t i = 0; ok && i < count_in(params, part); i++) {
             const uint32_t frame = frame_at(params, part * part_length(params) + i);
-            struct kiln_picture *picture = kiln_output_may_go_on(&params->caller, error)
+            struct kiln_picture *picture = kiln_may_go_on(&params->caller, error)
                                                ? read_picture(params, &in, frame, error)
                                                : NULL;
             ok = picture && kiln_output_write(output, picture, error);

@@ -173,11 +173,11 @@ static bool read_packet(struct kiln_part_in *in, uint32_t size, AVPacket *packet
 }
 
 static bool pass_packets(struct kiln_part_in *in, void *clip, AVPacket *packet,
-                         const struct kiln_output_caller *caller, struct kiln_error *error)
+                         const struct kiln_caller *caller, struct kiln_error *error)
 {
     for (;;) {
         uint32_t size;
-        if (!kiln_output_may_go_on(caller, error) || !kiln_part_read_word(in, &size, error))
+        if (!kiln_may_go_on(caller, error) || !kiln_part_read_word(in, &size, error))
             return false;
         if (size == END)
             return true;
@@ -187,7 +187,7 @@ static bool pass_packets(struct kiln_part_in *in, void *clip, AVPacket *packet,
 }
 
 bool kiln_part_packets_pass(struct kiln_part_in *in, void *clip,
-                            const struct kiln_output_caller *caller, struct kiln_error *error)
+                            const struct kiln_caller *caller, struct kiln_error *error)
 {
     uint32_t size;
     uint8_t *header = NULL;

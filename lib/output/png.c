@@ -14,7 +14,7 @@ struct png_encoder {
     png_infop info;
     const struct kiln_output_params *params;
     struct kiln_temporary *file;
-    const struct kiln_output_caller *caller; /* or NULL */
+    const struct kiln_caller *caller; /* or NULL */
     char failure[128];                       /* libpng's own words */
 };
 
@@ -132,7 +132,7 @@ static bool write_pixels(struct png_encoder *encoder, const struct kiln_picture 
     size_t stride = picture->width * (size_t)(picture->bits / 2);
     const png_byte *row = picture->display;
     for (uint32_t y = 0; y < picture->height; y++, row += stride) {
-        if (!kiln_output_may_go_on(encoder->caller, error))
+        if (!kiln_may_go_on(encoder->caller, error))
             return false;
         png_write_row(encoder->png, row);
     }
@@ -156,7 +156,7 @@ static bool encode(void *opaque, const struct kiln_picture *picture, struct kiln
 }
 
 bool kiln_png_write(const struct kiln_output_params *params, const struct kiln_picture *picture,
-                    struct kiln_temporary *file, const struct kiln_output_caller *caller,
+                    struct kiln_temporary *file, const struct kiln_caller *caller,
                     struct kiln_error *error)
 {
     struct png_encoder *encoder = open_encoder(params, file, error);

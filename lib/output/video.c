@@ -209,12 +209,12 @@ bool kiln_video_add_packet(void *opaque, AVPacket *packet, struct kiln_error *er
 
 /* Gives the container all packets that are ready. AVERROR_EXIT when the caller wants no more, with
  * its error. */
-static int pass_packets(struct video_encoder *encoder, const struct kiln_output_caller *caller,
+static int pass_packets(struct video_encoder *encoder, const struct kiln_caller *caller,
                         struct kiln_error *error)
 {
     AVPacket *packet = encoder->packet;
     for (;;) {
-        if (!kiln_output_may_go_on(caller, error))
+        if (!kiln_may_go_on(caller, error))
             return AVERROR_EXIT;
         int status = kiln_coder_receive(&encoder->coder, packet);
         if (status == AVERROR(EAGAIN) || status == AVERROR_EOF)
@@ -227,7 +227,7 @@ static int pass_packets(struct video_encoder *encoder, const struct kiln_output_
     }
 }
 
-static int end_part(struct video_encoder *encoder, const struct kiln_output_caller *caller,
+static int end_part(struct video_encoder *encoder, const struct kiln_caller *caller,
                     struct kiln_error *error)
 {
     int status = kiln_coder_end(&encoder->coder);
@@ -285,7 +285,7 @@ bool kiln_video_encode_indices(void *opaque, const uint8_t *indices, const uint3
 }
 
 /* Codecs that look ahead still have seconds of frames, and give one at a time. */
-bool kiln_video_finish(void *opaque, const struct kiln_output_caller *caller,
+bool kiln_video_finish(void *opaque, const struct kiln_caller *caller,
                        struct kiln_error *error)
 {
     struct video_encoder *encoder = opaque;

@@ -108,8 +108,7 @@ static bool run_pass(struct kiln_bloom_cpu *stage, struct kiln_image *from, stru
     if (!pass->to)
         return false;
     pass->to_width = to->width;
-    kiln_threads_for(stage->threads, to->height, ROWS_AT_A_TIME, rows, pass);
-    return true;
+    return kiln_threads_try(stage->threads, to->height, ROWS_AT_A_TIME, rows, pass, error);
 }
 
 static bool find_bright(struct kiln_bloom_cpu *stage, const struct kiln_bloom_inputs *inputs,

@@ -53,8 +53,7 @@ bool kiln_composite_read_display(struct kiln_composite_stage *stage, void *pixel
 {
     if (!stage->cpu)
         return kiln_composite_gl_read_display(stage->gl, pixels, error);
-    kiln_composite_cpu_read_display(stage->cpu, pixels);
-    return true;
+    return kiln_composite_cpu_read_display(stage->cpu, pixels, error);
 }
 
 bool kiln_composite_read_beauty(struct kiln_composite_stage *stage, float *pixels,
@@ -62,6 +61,5 @@ bool kiln_composite_read_beauty(struct kiln_composite_stage *stage, float *pixel
 {
     if (!stage->cpu)
         return kiln_composite_gl_read_beauty(stage->gl, pixels, error);
-    kiln_composite_cpu_read_beauty(stage->cpu, pixels);
-    return true;
+    return kiln_composite_cpu_read_beauty(stage->cpu, pixels, error);
 }

@@ -84,18 +84,22 @@ bool kiln_composite_cpu_run(struct kiln_composite_cpu *stage,
                                     inputs->bloom_scale, kiln_threads_count(stage->threads), error))
             return false;
     }
-    kiln_threads_for(stage->threads, scene->height, ROWS_AT_A_TIME, stage->rows, &picture);
-    return true;
+    return kiln_threads_try(stage->threads, scene->height, ROWS_AT_A_TIME, stage->rows, &picture,
+                            error);
 }
 
-void kiln_composite_cpu_read_display(const struct kiln_composite_cpu *stage, void *pixels)
+bool kiln_composite_cpu_read_display(const struct kiln_composite_cpu *stage, void *pixels,
+                                     struct kiln_error *error)
 {
     size_t channels = (size_t)stage->scene->width * stage->scene->height * 4;
-    memcpy(pixels, stage->display, channels * (stage->bits / 8));
+    return kiln_threads_copy(stage->threads, pixels, stage->display, channels * (stage->bits / 8),
+                             error);
 }
 
-void kiln_composite_cpu_read_beauty(const struct kiln_composite_cpu *stage, float *pixels)
+bool kiln_composite_cpu_read_beauty(const struct kiln_composite_cpu *stage, float *pixels,
+                                    struct kiln_error *error)
 {
     size_t channels = (size_t)stage->scene->width * stage->scene->height * 4;
-    memcpy(pixels, stage->beauty, channels * sizeof(float));
+    return kiln_threads_copy(stage->threads, pixels, stage->beauty, channels * sizeof(float),
+                             error);
 }

@@ -78,8 +78,7 @@ static bool add_moment(struct kiln_shutter_stage *stage, enum kiln_shutter_sum w
     adding.sum = kiln_image_host(sum, first ? KILN_OVERWRITE : KILN_READ_WRITE, error);
     if (!adding.sum)
         return false;
-    kiln_threads_for(stage->threads, sum->height, ROWS_AT_A_TIME, add_rows, &adding);
-    return true;
+    return kiln_threads_try(stage->threads, sum->height, ROWS_AT_A_TIME, add_rows, &adding, error);
 }
 
 bool kiln_shutter_add_composed(struct kiln_shutter_stage *stage,

@@ -4,8 +4,10 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "base/arena.h"
+#include "base/error.h"
 #include "base/hash.h"
 #include "base/text.h"
 #include "base/thread.h"
@@ -103,6 +105,47 @@ static void threads_cover_a_range_once(void **state)
     }
 }
 
+static void count_slowly(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    count_piece(context, begin, end, worker);
+    nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+}
+
+static bool says_no_the_third_time(void *user, struct kiln_error *error)
+{
+    uint32_t *asked = user;
+    return ++*asked < 3 || kiln_error_set(error, KILN_INTERRUPTED, "no more");
+}
+
+static void loops_stop_when_the_caller_wants_no_more(void **state)
+{
+    (void)state;
+    for (uint32_t count = 1; count <= 3; count += 2) {
+        static unsigned char seen[30000];
+        uint32_t asked = 0, done = 0;
+        struct kiln_error error = {0};
+        struct kiln_threads *threads = kiln_threads_create(count);
+        assert_true(kiln_threads_try(threads, 20, 1, count_piece, seen, &error));
+        kiln_threads_ask(threads, &(struct kiln_caller){says_no_the_third_time, &asked});
+        memset(seen, 0, sizeof seen);
+        assert_false(kiln_threads_try(threads, sizeof seen, 1, count_slowly, seen, &error));
+        assert_int_equal(error.code, KILN_INTERRUPTED);
+        assert_string_equal(error.message, "no more");
+        for (size_t i = 0; i < sizeof seen; i++)
+            done += seen[i];
+        assert_in_range(done, 1, sizeof seen / 2);
+        memset(seen, 0, sizeof seen);
+        error = (struct kiln_error){0};
+        assert_false(kiln_threads_try(threads, 20, 1, count_piece, seen, &error));
+        assert_int_equal(error.code, KILN_INTERRUPTED);
+        assert_int_equal(asked, 3);
+        assert_int_equal(seen[0], 0);
+        kiln_threads_for(threads, 20, 1, count_piece, seen); /* has to run to its end */
+        assert_int_equal(seen[19], 1);
+        kiln_threads_destroy(&threads);
+    }
+}
+
 /* The test vector of FIPS 180-2, B.1. */
 static void sha256_matches_the_standard(void **state)
 {
@@ -121,6 +164,7 @@ int main(void)
         cmocka_unit_test(nearest_name_finds_misspellings),
         cmocka_unit_test(json_strings_are_escaped),
         cmocka_unit_test(threads_cover_a_range_once),
+        cmocka_unit_test(loops_stop_when_the_caller_wants_no_more),
         cmocka_unit_test(sha256_matches_the_standard),
     };
     return cmocka_run_group_tests_name("base", tests, NULL, NULL);

@@ -43,7 +43,7 @@ static bool complete(size_t i, const char *folder, struct caller *caller, bool o
     const struct kiln_frame_range range = {0, FRAMES - 1};
     snprintf(path, sizeof path, "%s/x.%s", folder, outputs[i].suffix);
     struct kiln_output_params params = test_output_params(path, &range);
-    params.caller = (struct kiln_output_caller){may_go_on, caller};
+    params.caller = (struct kiln_caller){may_go_on, caller};
     params.overwrite = overwrite;
     if (outputs[i].flipbook)
         params.flipbook = (struct kiln_flipbook){.columns = 5, .rows = 4, .motion = true};

@@ -302,9 +302,8 @@ bool kiln_backdrop_cpu_draw(struct kiln_backdrop_cpu *cpu,
     find_boxes(&picture);
     struct job job = {&picture, cpu->rows};
     size_t tiles = (picture.height + KILN_EDGE_TILE - 1) / KILN_EDGE_TILE;
-    kiln_threads_for(cpu->threads, tiles, 1, cast, &job);
-    kiln_threads_for(cpu->threads, tiles, 1, antialias, &job);
-    return true;
+    return kiln_threads_try(cpu->threads, tiles, 1, cast, &job, error) &&
+           kiln_threads_try(cpu->threads, tiles, 1, antialias, &job, error);
 }
 
 const struct kiln_ray_frame *kiln_backdrop_cpu_rays(const struct kiln_backdrop_cpu *cpu)

@@ -370,6 +370,6 @@ bool kiln_meshes_cpu_run(struct kiln_meshes_cpu *meshes, const struct kiln_view 
                              triangles, m->height, KILN_MESH_ROWS, error))
         return false;
     struct finding finding = {m, view};
-    kiln_threads_for(m->canvas.threads, m->canvas.lists.bands, 1, find_bands, &finding);
-    return true;
+    return kiln_threads_try(m->canvas.threads, m->canvas.lists.bands, 1, find_bands, &finding,
+                            error);
 }

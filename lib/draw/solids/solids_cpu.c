@@ -349,6 +349,5 @@ bool kiln_solids_cpu_draw(struct kiln_solids_cpu *stage, const struct kiln_momen
                              stage->scene->height, KILN_SOLID_ROWS, error) ||
         !open_images(&stage->targets, &drawing.strip, error))
         return false;
-    kiln_threads_for(stage->threads, stage->lists.bands, 1, draw_bands, &drawing);
-    return true;
+    return kiln_threads_try(stage->threads, stage->lists.bands, 1, draw_bands, &drawing, error);
 }

@@ -116,6 +116,12 @@ static struct kiln_coarse_rows begin(const struct kiln_coarse_cpu *coarse)
                                      .known = coarse->known};
 }
 
+static bool run(struct kiln_coarse_cpu *coarse, uint32_t height, kiln_coarse_loop *loop,
+                struct kiln_coarse_rows *rows, struct kiln_error *error)
+{
+    return kiln_threads_try(coarse->threads, height, ROWS_AT_A_TIME, loop, rows, error);
+}
+
 bool kiln_coarse_cpu_measure(struct kiln_coarse_cpu *coarse, struct kiln_image *depth,
                              struct kiln_error *error)
 {
@@ -129,15 +135,13 @@ bool kiln_coarse_cpu_measure(struct kiln_coarse_cpu *coarse, struct kiln_image *
     if (!rows.edges)
         return false;
     const uint32_t height = images->depth.height;
-    kiln_threads_for(coarse->threads, height, ROWS_AT_A_TIME, coarse->loops->measure, &rows);
-    kiln_threads_for(coarse->threads, height, ROWS_AT_A_TIME, coarse->loops->find_edges, &rows);
+    if (!run(coarse, height, coarse->loops->measure, &rows, error) ||
+        !run(coarse, height, coarse->loops->find_edges, &rows, error))
+        return false;
     if (!images->mixed)
         return true;
     rows.fine_depth = kiln_image_host(&images->fine_depth, KILN_OVERWRITE, error);
-    if (rows.fine_depth)
-        kiln_threads_for(coarse->threads, images->height, ROWS_AT_A_TIME, coarse->loops->mask,
-                         &rows);
-    return rows.fine_depth != NULL;
+    return rows.fine_depth && run(coarse, images->height, coarse->loops->mask, &rows, error);
 }
 
 /* False when one of the images cannot be had. */
@@ -173,7 +177,5 @@ bool kiln_coarse_cpu_spread(struct kiln_coarse_cpu *coarse, const struct kiln_co
                                      blend->keep_bloom ? KILN_READ_WRITE : KILN_OVERWRITE, error);
     if (!rows.color || (blooms && !rows.bloom))
         return false;
-    kiln_threads_for(coarse->threads, coarse->images->height, ROWS_AT_A_TIME, coarse->loops->spread,
-                     &rows);
-    return true;
+    return run(coarse, coarse->images->height, coarse->loops->spread, &rows, error);
 }

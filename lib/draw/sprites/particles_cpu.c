@@ -269,8 +269,7 @@ static bool draw_piece(struct kiln_tiles *tiles, const struct kiln_sprite_pass *
         !kiln_bins_fill(&tiles->bins, tiles->sprites, count, tiles->threads, error))
         return false;
     size_t tile_count = (size_t)tiles->bins.columns * tiles->bins.rows;
-    kiln_threads_for(tiles->threads, tile_count, 1, draw_tiles, drawing);
-    return true;
+    return kiln_threads_try(tiles->threads, tile_count, 1, draw_tiles, drawing, error);
 }
 
 /* ---- pixels that sort, of more sprites than are there at a time ------------------------------ */
@@ -350,8 +349,7 @@ static bool draw_some_tiles(struct sorting *s, struct drawing *drawing, size_t f
     tiles->sprites = s->kept;
     bool ok = kiln_bins_fill(&tiles->bins, s->kept, s->kept_count, tiles->threads, error);
     drawing->first_tile = first_tile;
-    if (ok)
-        kiln_threads_for(tiles->threads, end_tile - first_tile, 1, draw_tiles, drawing);
+    ok = ok && kiln_threads_try(tiles->threads, end_tile - first_tile, 1, draw_tiles, drawing, error);
     tiles->sprites = piece;
     return ok;
 }

@@ -38,7 +38,7 @@ $ mkdir hup && bash stop HUP hup/clip.mp4; code=$?; find hup -type f; exit $code
 2|kiln: scenes/tiny.yaml: stopped by SIGHUP after <n> frames
 = 129
 
-A second signal ends a program that cannot answer the first: here nobody reads its progress, so that
+A job that cannot answer is ended half a second after the signal: here nobody reads its progress, so that
 it waits for ever. Then files in the making are removed, too.
 
 $ mkdir twice && mkfifo frames
@@ -50,11 +50,22 @@ $ mkdir twice && mkfifo frames
 >     count=$(ls twice | wc -l)
 >     sleep 2
 > done
-> kill -TERM $job; sleep 1; kill -TERM $job
+> kill -TERM $job
 > wait $job
+2|kiln: stopped by SIGTERM; what was not whole is given up
 = 143
 $ ls -A twice | grep -v '^[0-9]*\.png$'
 = 1
+
+A frame that takes long is given up, too.
+
+$ kiln render scenes/tiny.yaml -q -o huge.png --frames 0 --device cpu --threads 1 --size 4096x4096 \
+> --set camera.shutter.samples=64 --set simulation.rate=3840 &
+> job=$!
+> sleep 1; kill -TERM $job; wait $job
+2|kiln: scenes/tiny.yaml: stopped by SIGTERM after <n> frames
+= 143
+$ find . -name '*huge*'
 
 A frame over its limit, and a device that does not open in time. Nothing half-written is left.
 

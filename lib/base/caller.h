@@ -1,0 +1,18 @@
+/* Whether who asked for something that takes long still wants it. */
+#ifndef KILN_BASE_CALLER_H
+#define KILN_BASE_CALLER_H
+
+#include "kiln.h"
+
+struct kiln_caller {
+    bool (*may_go_on)(void *user, struct kiln_error *error); /* false: why not; NULL: always */
+    void *user;
+};
+
+/* True without a caller. */
+static inline bool kiln_may_go_on(const struct kiln_caller *caller, struct kiln_error *error)
+{
+    return !caller || !caller->may_go_on || caller->may_go_on(caller->user, error);
+}
+
+#endif
