@@ -102,7 +102,7 @@ static int claim_files(const struct job_list *list)
         const struct job *job = &list->jobs[i];
         struct kiln_error error = {0};
         struct kiln_render_params params = KILN_RENDER_DEFAULTS;
-        params.output = job->output;
+        params.output = list->stream.format ? NULL : job->output;
         params.manifest = job->manifest;
         params.ranges = job->frames.ranges;
         params.range_count = job->frames.count;
@@ -125,6 +125,11 @@ static int name_files(struct job_list *list, const struct arguments *arguments)
         return report(KILN_USAGE, "render: needs --output FILE; '--output none' writes nothing");
     bool writes = strcmp(output->text, "none") != 0;
     list->resume = arguments_flag(arguments, "resume");
+    if (list->stream.format && (list->resume || list->shards > 0 || list->flipbook.columns > 0))
+        return report(KILN_USAGE, "render: --%s: not with '--output -'",
+                      list->resume       ? "resume"
+                      : list->shards > 0 ? "shard"
+                                         : "flipbook");
     if (list->resume && !writes)
         return report(KILN_USAGE, "render: --resume: there is no output to go on with");
     if (list->shards > 0 && !writes)
@@ -135,7 +140,9 @@ static int name_files(struct job_list *list, const struct arguments *arguments)
     for (size_t i = 0; i < list->count; i++) {
         struct job *job = &list->jobs[i];
         job->path = arguments->operands[i];
-        if (writes)
+        if (list->stream.format)
+            job->output = strdup(output->text);
+        else if (writes)
             job->output = file_name(output->text, job->path,
                                     list->flipbook.columns > 0 ? ".png" : ".mp4", true);
         if (manifest)

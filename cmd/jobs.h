@@ -21,7 +21,9 @@ struct job_list {
     size_t count;
     struct kiln_flipbook flipbook; /* columns 0: none */
     bool resume;
-    uint32_t shard, shards; /* to be set before job_list_create; shards 0: none */
+    /* To be set before job_list_create. */
+    struct kiln_stream stream; /* in place of outputs; of no format: none */
+    uint32_t shard, shards;    /* shards 0: none */
 };
 
 /* Returns 0, or the exit code after reporting what is wrong; every wrong scene is reported. The

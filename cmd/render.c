@@ -9,6 +9,7 @@
 #include "event.h"
 #include "jobs.h"
 #include "overrides.h"
+#include "pipe.h"
 #include "progress.h"
 #include "report.h"
 #include "shard.h"
@@ -23,8 +24,9 @@ static const struct option options[] = {
      .placeholder = "FILE",
      .help = "Where to write; the suffix chooses the format (see 'kiln help outputs'). '%04d' or "
              "'####' stands for the frame's number, '{scene}' for the scene file's name without "
-             "its suffix. A folder gets a video named after the scene. 'none' renders without "
-             "writing."},
+             "its suffix. A folder gets a video named after the scene. '-' is standard output "
+             "(see --pipe), 'none' renders without writing."},
+    PIPE_OPTION,
     {.name = "frames",
      .kind = OPTION_FRAMES,
      .placeholder = "RANGES",
@@ -301,7 +303,8 @@ static int run_job(struct render *render, struct kiln_device *device, const stru
 {
     render->job = job;
     render->frames_done = render->frames_total = 0;
-    render->params.output = job->output;
+    render->params.output = render->list.stream.format ? NULL : job->output;
+    render->params.stream = render->list.stream;
     render->params.manifest = job->manifest;
     render->params.ranges = job->frames.ranges;
     render->params.range_count = job->frames.count;
@@ -350,7 +353,11 @@ static int run(const struct arguments *arguments)
     render.params.shard = render.list.shard = render.shard.index;
     render.params.shards = render.list.shards = render.shard.count;
     if (code == 0)
+        code = pipe_read(&render.list.stream, arguments);
+    if (code == 0)
         code = job_list_create(&render.list, arguments);
+    if (code == 0)
+        code = pipe_open(&render.list.stream);
     if (code == 0 && render.frame_timeout_s > 0) {
         render.watchdog = watchdog_create();
         if (!render.watchdog)

@@ -40,6 +40,7 @@ enum kiln_code {
     KILN_DEVICE_FAILED = 5,  /* device lost, out of memory, or a frame past its time limit */
     KILN_IO = 6,             /* reading or writing failed */
     KILN_GOLDEN_MISSING = 7, /* a golden picture does not exist */
+    KILN_READER_GONE = 9,    /* nobody reads a stream any more */
     KILN_INTERRUPTED = 130,  /* the caller asked to stop */
 };
 
@@ -261,9 +262,24 @@ bool kiln_flipbook_sample(const struct kiln_flipbook *flipbook,
                           const struct kiln_frame_range *ranges, size_t range_count,
                           struct kiln_frame_range *cells, struct kiln_error *error);
 
+/* Frames one after another into a descriptor, without a file. Of a pipe whose reader goes away,
+ * with SIGPIPE ignored, rendering ends with KILN_READER_GONE. */
+enum kiln_stream_format {
+    KILN_STREAM_NONE,
+    KILN_STREAM_Y4M,    /* YUV4MPEG2, 4:2:0, BT.709 in limited range, as in an MP4 */
+    KILN_STREAM_RGB24,  /* bytes, sRGB, rows from the top */
+    KILN_STREAM_RGBA,   /* the same with straight alpha */
+    KILN_STREAM_RGBAF32 /* floats, little-endian, linear, premultiplied: what EXR has */
+};
+struct kiln_stream {
+    enum kiln_stream_format format;
+    int descriptor; /* stays open */
+};
+
 struct kiln_render_params {
-    const char *output;   /* a file, a pattern with %d or #, or NULL to render without writing */
-    const char *manifest; /* a JSON file that describes the run, or NULL */
+    const char *output; /* a file, a pattern with %d or #, or NULL to render without writing */
+    struct kiln_stream stream;  /* in place of an output */
+    const char *manifest;       /* a JSON file that describes the run, or NULL */
     const char *const *command; /* words of a command line, for the manifest */
     size_t command_count;
     const char *states; /* a folder of kiln_bake, where the run starts if it can, or NULL */

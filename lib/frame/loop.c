@@ -71,8 +71,7 @@ static bool pass_over_frames(struct kiln_loop *loop, uint32_t end, struct kiln_e
 
 bool kiln_loop_advance(struct kiln_loop *loop, uint32_t frame, struct kiln_error *error)
 {
-    return kiln_may_go_on(&loop->params.caller, error) &&
-           pass_over_frames(loop, frame, error) &&
+    return kiln_may_go_on(&loop->params.caller, error) && pass_over_frames(loop, frame, error) &&
            step_to(loop, kiln_scene_frame_step(loop->scene, frame), error);
 }
 
@@ -99,9 +98,12 @@ static bool read_picture(struct kiln_loop *loop, uint32_t frame, struct kiln_dra
     const struct kiln_scene *scene = loop->scene;
     const char *names[KILN_MAX_LAYERS];
     uint32_t channels[KILN_MAX_LAYERS];
-    uint32_t layers = loop->needs.layers ? kiln_stages_layers(names, channels) : 0;
-    struct kiln_picture *picture = drawn->picture = kiln_picture_create(
-        scene->width, scene->height, loop->needs.bits, names, channels, layers, error);
+    const uint32_t all = kiln_stages_layers(names, channels);
+    const uint32_t layers[] = {
+        [KILN_LAYERS_NONE] = 0, [KILN_LAYERS_BEAUTY] = 1, [KILN_LAYERS_ALL] = all};
+    struct kiln_picture *picture = drawn->picture =
+        kiln_picture_create(scene->width, scene->height, loop->needs.bits, names, channels,
+                            layers[loop->needs.layers], error);
     if (!picture)
         return false;
     picture->frame = frame;

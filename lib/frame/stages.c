@@ -138,7 +138,7 @@ static bool init_coarse(struct kiln_stages *s, const struct kiln_techniques *tec
 }
 
 static bool init_stages(struct kiln_stages *s, const struct kiln_techniques *techniques,
-                        uint32_t bits, struct kiln_error *error)
+                        struct kiln_output_needs needs, struct kiln_error *error)
 {
     struct kiln_device *device = s->device;
     s->sort = techniques->sort_spread > 0
@@ -178,13 +178,13 @@ static bool init_stages(struct kiln_stages *s, const struct kiln_techniques *tec
         if (!s->bloom)
             return false;
     }
-    s->composite =
-        kiln_composite_create(device, s->scene,
-                              &(struct kiln_composite_params){.technique = techniques->composite,
-                                                              .threads = s->threads,
-                                                              .bits = bits ? bits : 8,
-                                                              .beauty = s->layers},
-                              error);
+    s->composite = kiln_composite_create(
+        device, s->scene,
+        &(struct kiln_composite_params){.technique = techniques->composite,
+                                        .threads = s->threads,
+                                        .bits = needs.bits ? needs.bits : 8,
+                                        .beauty = needs.layers != KILN_LAYERS_NONE},
+        error);
     return s->composite != NULL;
 }
 
@@ -198,12 +198,12 @@ bool kiln_stages_init(struct kiln_stages *stages, struct kiln_device *device,
                                    .threads = params->threads,
                                    .timer = params->timer,
                                    .caller = params->caller,
-                                   .layers = needs.layers,
-                                   .glow = needs_glow(scene, needs.layers)};
+                                   .layers = needs.layers == KILN_LAYERS_ALL,
+                                   .glow = needs_glow(scene, needs.layers == KILN_LAYERS_ALL)};
     kiln_buffer_init(&stages->entries, device, params->slot_count * sizeof(uint32_t), "entries");
     if (init_atlas(stages, error) && init_targets(stages, error) &&
         kiln_moment_init(&stages->moment, device, scene, &stages->atlas, error) &&
-        init_stages(stages, &params->techniques, needs.bits, error))
+        init_stages(stages, &params->techniques, needs, error))
         return true;
     kiln_stages_finish(stages);
     return false;
@@ -447,7 +447,8 @@ bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *pool, uint32
     if (!(separate ? draw_separate(s, drawn, error) : draw_merged(s, drawn, error)))
         return false;
     *drawn += solids;
-    return !s->shutter || (begin(s, KILN_PASS_composite, error) && end(s, add_moment(s, sample, error)));
+    return !s->shutter ||
+           (begin(s, KILN_PASS_composite, error) && end(s, add_moment(s, sample, error)));
 }
 
 bool kiln_stages_keep_history(const struct kiln_stages *stages)

@@ -217,12 +217,18 @@ static bool check_files(const struct kiln_job *job, struct kiln_error *error)
     return ok;
 }
 
+static bool writes_stream(const struct kiln_job *job)
+{
+    return job->params->stream.format != KILN_STREAM_NONE;
+}
+
 static struct kiln_output_params output_params(struct kiln_job *job)
 {
     const struct kiln_render_params *params = job->params;
     const struct kiln_scene *scene = job->scene;
     return (struct kiln_output_params){
-        .path = params->output,
+        .path = writes_stream(job) ? "standard output" : params->output,
+        .stream = params->stream,
         .width = scene->width,
         .height = scene->height,
         .fps_num = scene->fps.num,
@@ -249,7 +255,8 @@ static bool keep_records(struct kiln_job *job, struct kiln_error *error)
 {
     if (!job->params->manifest && !job->resumes)
         return true;
-    job->files.whole = (struct kiln_whole_listener){take_whole, job};
+    if (!writes_stream(job))
+        job->files.whole = (struct kiln_whole_listener){take_whole, job};
     job->scene_json = kiln_manifest_scene(job->scene);
     return (job->scene_json && kiln_records_create(&job->records, job->ranges, job->range_count)) ||
            kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for records of %u frames",
@@ -290,6 +297,14 @@ static bool begin_to_resume(struct kiln_job *job, struct kiln_error *error)
     return true;
 }
 
+/* What has gone into a stream is gone. */
+static bool check_stream(const struct kiln_job *job, struct kiln_error *error)
+{
+    return !writes_stream(job) || !(job->resumes || job->params->flipbook.columns > 0) ||
+           kiln_error_set(error, KILN_USAGE, "%s: a stream is no %s", job->files.path,
+                          job->resumes ? "file that can be gone on with" : "flipbook");
+}
+
 static bool open_output(struct kiln_job *job, struct kiln_error *error)
 {
     const struct kiln_render_params *params = job->params;
@@ -297,15 +312,15 @@ static bool open_output(struct kiln_job *job, struct kiln_error *error)
         return false;
     const struct kiln_output_params files = output_params(job);
     job->draws = true;
-    if (params->output) {
+    if (files.path) {
         job->files = kiln_output_complete(&files, error);
         job->resumes = params->resume || params->shards > 0;
-        if (!job->files.format)
+        if (!job->files.format || !check_stream(job, error))
             return false;
     }
     if (!keep_records(job, error) || (job->resumes && !begin_to_resume(job, error)))
         return false;
-    if (params->output && job->files.range_count > 0 &&
+    if (job->files.path && job->files.range_count > 0 &&
         !(job->output = kiln_output_open(&job->files, error)))
         return false;
     if (!params->manifest)
@@ -385,6 +400,10 @@ static bool finish_output(struct kiln_job *job, struct kiln_error *error)
     struct kiln_render_stats *s = &job->stats;
     if (!job->files.path)
         return true;
+    if (writes_stream(job)) {
+        snprintf(s->first_file, sizeof s->first_file, "%s", job->files.path);
+        return kiln_output_finish(job->output, error);
+    }
     s->files = kiln_output_file_count(&job->files);
     return kiln_output_file(&job->files, job->ranges[0].first, s->first_file, error) &&
            (!job->output || kiln_output_finish(job->output, error)) &&

@@ -182,8 +182,7 @@ static bool look_at_clip(struct kiln_resume *resume, bool found, struct kiln_err
     if (!found && !check_clip_files(resume, error))
         return false;
     for (uint32_t part = resume->first_part; part < resume->end_part; part++) {
-        if (!kiln_may_go_on(&resume->output.caller, error) ||
-            !look_at_part(resume, part, error))
+        if (!kiln_may_go_on(&resume->output.caller, error) || !look_at_part(resume, part, error))
             return false;
     }
     return true;

@@ -1,17 +1,15 @@
 /* One encoder for each part of a clip, so that a part's packets are the same whoever encodes the
  * others.
  *
- * Pixels of luma and chroma are made with BT.709's matrix in limited range, and the tags say just
- * that: primaries and matrix of BT.709, and sRGB's transfer function, since that is what the frames
- * are encoded with. Players that honour the tag show the PNG's colours, and those that ignore it
- * take the pixels as they are, which on an sRGB screen is the same.
+ * Pixels of luma and chroma are made with BT.709's matrix in limited range (scaler.c), and the tags
+ * say just that: primaries and matrix of BT.709, and sRGB's transfer function, since that is what
+ * the frames are encoded with. Players that honour the tag show the PNG's colours, and those that
+ * ignore it take the pixels as they are, which on an sRGB screen is the same.
  *
  * The same frames give the same bytes on every machine: some encoders' results depend on their
  * number of threads, so that is fixed. */
 #include "output/coder.h"
 
-#include <libavutil/opt.h>
-#include <libavutil/pixdesc.h>
 #include <string.h>
 
 #include "output/bleed.h"
@@ -23,14 +21,9 @@ enum AVPixelFormat kiln_coder_pixels(const struct kiln_output_params *params)
     return params->format->video->pixels[params->alpha][kiln_video_needs(params).bits > 8];
 }
 
-bool kiln_coder_is_rgb(enum AVPixelFormat format)
-{
-    return av_pix_fmt_desc_get(format)->flags & (AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_PAL);
-}
-
 static void set_colors(AVCodecContext *codec)
 {
-    bool rgb = kiln_coder_is_rgb(codec->pix_fmt);
+    bool rgb = kiln_pixels_are_rgb(codec->pix_fmt);
     codec->color_primaries = AVCOL_PRI_BT709;
     codec->color_trc = AVCOL_TRC_IEC61966_2_1;
     codec->colorspace = rgb ? AVCOL_SPC_RGB : AVCOL_SPC_BT709;
@@ -77,35 +70,6 @@ static int open_frame(struct kiln_coder *coder)
     return av_frame_get_buffer(frame, 0);
 }
 
-static int open_scaler(struct kiln_coder *coder, const struct kiln_output_params *params)
-{
-    const AVFrame *frame = coder->frame;
-    if (frame->format == AV_PIX_FMT_PAL8)
-        return 0;
-    struct SwsContext *scaler = coder->scaler = sws_alloc_context();
-    if (!scaler)
-        return AVERROR(ENOMEM);
-    bool deep = kiln_video_needs(params).bits > 8, rgb = kiln_coder_is_rgb(frame->format);
-    av_opt_set_int(scaler, "srcw", frame->width, 0);
-    av_opt_set_int(scaler, "srch", frame->height, 0);
-    av_opt_set_int(scaler, "src_format", deep ? AV_PIX_FMT_RGBA64 : AV_PIX_FMT_RGBA, 0);
-    av_opt_set_int(scaler, "src_range", 1, 0);
-    av_opt_set_int(scaler, "dstw", frame->width, 0);
-    av_opt_set_int(scaler, "dsth", frame->height, 0);
-    av_opt_set_int(scaler, "dst_format", frame->format, 0);
-    av_opt_set_int(scaler, "dst_range", rgb, 0);
-    av_opt_set_int(scaler, "dst_h_chr_pos", 0, 0); /* left, as tagged */
-    av_opt_set_int(scaler, "dst_v_chr_pos", 128, 0);
-    av_opt_set_int(scaler, "sws_flags",
-                   SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INP | SWS_BITEXACT, 0);
-    int status = sws_init_context(scaler, NULL, NULL);
-    if (status < 0 || rgb)
-        return status;
-    const int *bt709 = sws_getCoefficients(SWS_CS_ITU709);
-    status = sws_setColorspaceDetails(scaler, bt709, 1, bt709, 0, 0, 1 << 16, 1 << 16);
-    return status < 0 ? AVERROR(EINVAL) : 0;
-}
-
 /* What of a part's packets would tell again what the first part's have told. */
 static int open_filter(struct kiln_coder *coder)
 {
@@ -124,8 +88,9 @@ int kiln_coder_open(struct kiln_coder *coder, const struct kiln_output_params *p
     int status = open_codec(coder, params);
     if (status >= 0)
         status = open_frame(coder);
-    if (status >= 0)
-        status = open_scaler(coder, params);
+    if (status >= 0 && coder->frame->format != AV_PIX_FMT_PAL8)
+        status = kiln_scaler_open(&coder->scaler, params->width, params->height,
+                                  kiln_video_needs(params).bits, coder->frame->format);
     if (status >= 0 && !first && coder->settings->later_packets)
         status = open_filter(coder);
     return status;
@@ -145,7 +110,7 @@ int kiln_coder_convert(struct kiln_coder *coder, const struct kiln_picture *pict
     AVFrame *frame = coder->frame;
     struct kiln_error error = {0};
     /* Lossy codecs smear the colours of pixels that nobody sees into those beside them. */
-    if (picture->has_alpha && !kiln_coder_is_rgb(coder->codec->pix_fmt) &&
+    if (picture->has_alpha && !kiln_pixels_are_rgb(coder->codec->pix_fmt) &&
         !kiln_bleed_colors(picture, &error))
         return AVERROR(ENOMEM);
     int status = av_frame_make_writable(frame);

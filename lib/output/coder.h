@@ -4,8 +4,8 @@
 #define KILN_OUTPUT_CODER_H
 
 #include <libavcodec/bsf.h>
-#include <libswscale/swscale.h>
 
+#include "output/scaler.h"
 #include "output/video.h"
 
 struct kiln_coder {
@@ -17,9 +17,6 @@ struct kiln_coder {
 };
 
 enum AVPixelFormat kiln_coder_pixels(const struct kiln_output_params *params);
-
-/* Whether pixels are of red, green and blue, or indices of such colours. */
-bool kiln_coder_is_rgb(enum AVPixelFormat format);
 
 /* first: of a clip's parts, the one that says what made it. Zero-initialised is closed, and closing
  * frees what there is after a failure, too. */

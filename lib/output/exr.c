@@ -38,7 +38,7 @@ struct channel {
 static struct kiln_output_needs needs(const struct kiln_output_params *params)
 {
     (void)params;
-    return (struct kiln_output_needs){.layers = true};
+    return (struct kiln_output_needs){.layers = KILN_LAYERS_ALL};
 }
 
 static bool check(const struct kiln_output_params *params, struct kiln_error *error)

@@ -96,7 +96,12 @@ bool kiln_write_outputs(FILE *out)
         "cells a and b mixes a at uv - t * motion and b at uv + (1 - t) * motion. Of the last\n"
         "cell it is 0. All cells must be drawn by one command: chunks of frames make no "
         "flipbook.\n"
-        "Its files appear together, the .json last: where that is, they are whole.\n";
+        "Its files appear together, the .json last: where that is, they are whole.\n"
+        "\n-o - writes frames to standard output: Y4M (4:2:0, BT.709 in limited range, as an "
+        "MP4's),\n"
+        "or by --pipe bytes in sRGB (rgb24, rgba: straight alpha) or floats (rgbaf32: "
+        "little-endian,\n"
+        "linear, premultiplied), rows from the top, without any header.\n";
     fputs(notes, out);
     return !ferror(out);
 }

@@ -18,6 +18,8 @@ struct kiln_format {
     const char *help;
     bool one_file; /* all frames go into one file, in order and, unless `gaps`, without gaps */
     bool gaps;
+    bool is_stream; /* params.stream takes the frames: there is no file, nothing to finish or commit
+                     */
     const struct kiln_video_settings *video; /* of those by FFmpeg, else NULL */
     struct kiln_output_needs (*needs)(const struct kiln_output_params *params);
     /* What can be refused before any file is touched. */
@@ -27,8 +29,7 @@ struct kiln_format {
     bool (*encode)(void *encoder, const struct kiln_picture *picture, struct kiln_error *error);
     /* Writes what is still missing; NULL when nothing is. Failed writes may be left to the commit
      * to report. What takes longer than a second asks the caller (which may be NULL) meanwhile. */
-    bool (*finish)(void *encoder, const struct kiln_caller *caller,
-                   struct kiln_error *error);
+    bool (*finish)(void *encoder, const struct kiln_caller *caller, struct kiln_error *error);
     /* Gives the file its name, and files that belong to it theirs: all or none. NULL: there are no
      * others. */
     bool (*commit)(void *encoder, struct kiln_error *error);
@@ -48,6 +49,7 @@ extern const struct kiln_format kiln_format_mov;
 extern const struct kiln_format kiln_format_gif;
 extern const struct kiln_format kiln_format_apng;
 extern const struct kiln_format kiln_format_webp;
+extern const struct kiln_format kiln_format_stream; /* not in the table: it has no suffix */
 
 /* The format for the path's suffix, in any case of letters; NULL with KILN_USAGE and the list. */
 const struct kiln_format *kiln_format_find(const char *path, struct kiln_error *error);

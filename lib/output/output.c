@@ -332,8 +332,8 @@ static struct kiln_output *create(const struct kiln_output_params *params, struc
 static bool open_video(struct kiln_output *output, struct kiln_error *error)
 {
     char path[KILN_PATH_SIZE];
-    if (!file_of(output, 0, path, sizeof path) ||
-        !kiln_temporary_open(&output->video_file, path, error))
+    if (!output->format->is_stream && (!file_of(output, 0, path, sizeof path) ||
+                                       !kiln_temporary_open(&output->video_file, path, error)))
         return false;
     output->video_encoder = output->format->open(&output->params, &output->video_file, error);
     return output->video_encoder != NULL;
@@ -342,6 +342,8 @@ static bool open_video(struct kiln_output *output, struct kiln_error *error)
 static const struct kiln_format *find_format(const struct kiln_output_params *params,
                                              struct kiln_error *error)
 {
+    if (params->stream.format)
+        return &kiln_format_stream;
     const struct kiln_format *format = kiln_format_find(params->path, error);
     if (!format || params->flipbook.columns == 0)
         return format;
@@ -406,6 +408,15 @@ bool kiln_output_claim(const struct kiln_output_params *params, struct kiln_clai
     return true;
 }
 
+static bool prepare_files(struct kiln_output *output, struct kiln_error *error)
+{
+    const struct kiln_output_params *params = &output->params;
+    return kiln_path_pattern_parse(&output->pattern, params->path, kiln_output_numbering(params),
+                                   error) &&
+           check_files(output, error) && kiln_make_parent_folders(params->path, error) &&
+           make_parts_folder(output, error) && sweep(output);
+}
+
 struct kiln_output *kiln_output_open(const struct kiln_output_params *params,
                                      struct kiln_error *error)
 {
@@ -418,10 +429,7 @@ struct kiln_output *kiln_output_open(const struct kiln_output_params *params,
     if (!output)
         return NULL;
     output->format = format;
-    bool good = kiln_path_pattern_parse(&output->pattern, params->path,
-                                        kiln_output_numbering(params), error) &&
-                check_files(output, error) && kiln_make_parent_folders(params->path, error) &&
-                make_parts_folder(output, error) && sweep(output) &&
+    bool good = (format->is_stream || prepare_files(output, error)) &&
                 (format->one_file && !params->parts ? open_video(output, error)
                                                     : check_folder(output, error)) &&
                 start_encoders(output, error);
@@ -506,6 +514,8 @@ static bool finish_video(struct kiln_output *output, struct kiln_error *error)
 {
     const struct kiln_format *format = output->format;
     void *encoder = output->video_encoder;
+    if (format->is_stream)
+        return true;
     if (format->finish && !format->finish(encoder, &output->params.caller, error))
         return false;
     if (format->commit)

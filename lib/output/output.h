@@ -32,10 +32,13 @@ struct kiln_picture *kiln_picture_create(uint32_t width, uint32_t height, uint32
                                          uint32_t layer_count, struct kiln_error *error);
 void kiln_picture_destroy(struct kiln_picture **picture);
 
+/* The float layers: none, the picture alone, or those of its parts, too, which are drawn apart. */
+enum kiln_layers { KILN_LAYERS_NONE, KILN_LAYERS_BEAUTY, KILN_LAYERS_ALL };
+
 /* What a format wants to be given for each frame. */
 struct kiln_output_needs {
     uint32_t bits; /* display bits: 0 none, 8, 16 */
-    bool layers;   /* the float layers */
+    enum kiln_layers layers;
 };
 
 /* A file that has its name. */
@@ -60,7 +63,8 @@ struct kiln_whole_listener {
 struct kiln_format;
 
 struct kiln_output_params {
-    const char *path;                 /* as the user gave it */
+    const char *path;                 /* as the user gave it; of a stream, how messages call it */
+    struct kiln_stream stream;        /* in place of files, unless its format is none */
     const struct kiln_format *format; /* of the path; kiln_output_complete finds it */
     uint32_t width, height;
     uint32_t fps_num, fps_den;
@@ -83,7 +87,7 @@ struct kiln_output_params {
     uint32_t seed;
     struct kiln_log log;
     struct kiln_whole_listener whole;
-    bool durable;                     /* files are on the disk before they have their names */
+    bool durable;              /* files are on the disk before they have their names */
     struct kiln_caller caller; /* asked by kiln_output_finish alone, on its thread */
 };
 

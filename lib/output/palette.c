@@ -206,8 +206,7 @@ static void refine(double (*colors)[3], uint32_t count, const struct point *poin
 }
 
 static bool choose_colors(struct kiln_palette *palette, struct point *points, size_t point_count,
-                          uint32_t most, const struct kiln_caller *caller,
-                          struct kiln_error *error)
+                          uint32_t most, const struct kiln_caller *caller, struct kiln_error *error)
 {
     struct box boxes[KILN_MAX_PALETTE] = {{.points = points, .count = point_count}};
     double colors[KILN_MAX_PALETTE][3];
@@ -229,8 +228,7 @@ static bool choose_colors(struct kiln_palette *palette, struct point *points, si
 }
 
 bool kiln_palette_make(struct kiln_palette *palette, const struct kiln_histogram *histogram,
-                       uint32_t most, const struct kiln_caller *caller,
-                       struct kiln_error *error)
+                       uint32_t most, const struct kiln_caller *caller, struct kiln_error *error)
 {
     *palette = (struct kiln_palette){.count = 1};
     struct point *points = malloc(COUNT_CELLS * sizeof *points);

@@ -25,8 +25,7 @@ struct kiln_palette {
  * black where none was. A function of the counts alone. False when memory is short, or as the
  * caller (which may be NULL) says. */
 bool kiln_palette_make(struct kiln_palette *palette, const struct kiln_histogram *histogram,
-                       uint32_t most, const struct kiln_caller *caller,
-                       struct kiln_error *error);
+                       uint32_t most, const struct kiln_caller *caller, struct kiln_error *error);
 
 /* Mixes of a palette's colours for all others. */
 struct kiln_dither;

@@ -186,8 +186,8 @@ static bool pass_packets(struct kiln_part_in *in, void *clip, AVPacket *packet,
     }
 }
 
-bool kiln_part_packets_pass(struct kiln_part_in *in, void *clip,
-                            const struct kiln_caller *caller, struct kiln_error *error)
+bool kiln_part_packets_pass(struct kiln_part_in *in, void *clip, const struct kiln_caller *caller,
+                            struct kiln_error *error)
 {
     uint32_t size;
     uint8_t *header = NULL;

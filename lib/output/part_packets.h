@@ -18,7 +18,7 @@ void kiln_part_packets_close(struct kiln_part_packets **packets);
 
 /* Gives the packets of an open part to a clip (of kiln_video_open) that has those of the parts
  * before it. */
-bool kiln_part_packets_pass(struct kiln_part_in *in, void *clip,
-                            const struct kiln_caller *caller, struct kiln_error *error);
+bool kiln_part_packets_pass(struct kiln_part_in *in, void *clip, const struct kiln_caller *caller,
+                            struct kiln_error *error);
 
 #endif

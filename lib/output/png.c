@@ -15,7 +15,7 @@ struct png_encoder {
     const struct kiln_output_params *params;
     struct kiln_temporary *file;
     const struct kiln_caller *caller; /* or NULL */
-    char failure[128];                       /* libpng's own words */
+    char failure[128];                /* libpng's own words */
 };
 
 static struct kiln_output_needs needs(const struct kiln_output_params *params)

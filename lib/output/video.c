@@ -285,8 +285,7 @@ bool kiln_video_encode_indices(void *opaque, const uint8_t *indices, const uint3
 }
 
 /* Codecs that look ahead still have seconds of frames, and give one at a time. */
-bool kiln_video_finish(void *opaque, const struct kiln_caller *caller,
-                       struct kiln_error *error)
+bool kiln_video_finish(void *opaque, const struct kiln_caller *caller, struct kiln_error *error)
 {
     struct video_encoder *encoder = opaque;
     kiln_avlog_begin(&encoder->avlog);

@@ -50,8 +50,7 @@ bool kiln_video_check(const struct kiln_output_params *params, struct kiln_error
 void *kiln_video_open(const struct kiln_output_params *params, struct kiln_temporary *file,
                       struct kiln_error *error);
 bool kiln_video_encode(void *opaque, const struct kiln_picture *picture, struct kiln_error *error);
-bool kiln_video_finish(void *opaque, const struct kiln_caller *caller,
-                       struct kiln_error *error);
+bool kiln_video_finish(void *opaque, const struct kiln_caller *caller, struct kiln_error *error);
 void kiln_video_close(void *opaque);
 
 /* For settings with pixels of AV_PIX_FMT_PAL8, in place of kiln_video_encode: one byte a pixel,

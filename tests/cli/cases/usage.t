@@ -136,8 +136,13 @@ $ kiln help render
 1|                              'kiln help outputs'). '%04d' or '####' stands for
 1|                              the frame's number, '{scene}' for the scene file's
 1|                              name without its suffix. A folder gets a video
-1|                              named after the scene. 'none' renders without
-1|                              writing.
+1|                              named after the scene. '-' is standard output (see
+1|                              --pipe), 'none' renders without writing.
+1|      --pipe y4m|rgb24|rgba|rgbaf32
+1|                              What '--output -' writes to standard output: Y4M
+1|                              as in an MP4; bytes in sRGB, with straight alpha
+1|                              or none; or floats, little-endian, linear,
+1|                              premultiplied. Default: y4m.
 1|      --frames RANGES         Frames to draw, such as 0-149,200. They come out
 1|                              as they do in the full run. Default: all.
 1|      --size WxH              Size of the picture in pixels: --set
@@ -310,6 +315,7 @@ $ kiln help exit-codes
 1|       limit, or a test crashed
 1|    6  reading or writing failed
 1|    7  a golden picture is missing, or what was accepted with it
+1|    9  the reader of '--output -' went away
 1|  129  stopped by SIGHUP; only whole files are left
 1|  130  stopped by SIGINT; only whole files are left
 1|  143  stopped by SIGTERM; only whole files are left
@@ -403,6 +409,10 @@ $ kiln help outputs
 1|cells a and b mixes a at uv - t * motion and b at uv + (1 - t) * motion. Of the last
 1|cell it is 0. All cells must be drawn by one command: chunks of frames make no flipbook.
 1|Its files appear together, the .json last: where that is, they are whole.
+1|
+1|-o - writes frames to standard output: Y4M (4:2:0, BT.709 in limited range, as an MP4's),
+1|or by --pipe bytes in sRGB (rgb24, rgba: straight alpha) or floats (rgbaf32: little-endian,
+1|linear, premultiplied), rows from the top, without any header.
 $ kiln help scene | head -n 4
 1|A scene is a YAML file. Every key below may also be given with --set KEY=VALUE; '*' in a KEY
 1|stands for every entry of a mapping or list, and entries of a list are counted from 0.

@@ -1,0 +1,33 @@
+/* Two descriptors change places, so that nothing but frames comes out of standard output. */
+#include "pipe.h"
+
+#include <errno.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "report.h"
+
+int pipe_read(struct kiln_stream *stream, const struct arguments *arguments)
+{
+    const struct option_use *output = arguments_last(arguments, "output");
+    const bool wanted = output && strcmp(output->text, "-") == 0;
+    if (!wanted)
+        return arguments_last(arguments, "pipe")
+                   ? report(KILN_USAGE, "render: --pipe: needs '--output -'")
+                   : 0;
+    if (isatty(STDOUT_FILENO))
+        return report(KILN_USAGE, "render: --output -: standard output is a terminal, not a pipe");
+    stream->format =
+        (enum kiln_stream_format)(KILN_STREAM_Y4M + arguments_choice(arguments, "pipe", 0));
+    return 0;
+}
+
+int pipe_open(struct kiln_stream *stream)
+{
+    if (stream->format == KILN_STREAM_NONE)
+        return 0;
+    stream->descriptor = dup(STDOUT_FILENO);
+    if (stream->descriptor >= 0 && dup2(STDERR_FILENO, STDOUT_FILENO) >= 0)
+        return 0;
+    return report(KILN_IO, "standard output: %s", strerror(errno));
+}

@@ -1,0 +1,19 @@
+/* From the pixels of a picture to those of a video codec, by FFmpeg's scaler. */
+#ifndef KILN_OUTPUT_SCALER_H
+#define KILN_OUTPUT_SCALER_H
+
+#include <libswscale/swscale.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+/* Whether pixels are of red, green and blue, or indices of such colours. */
+bool kiln_pixels_are_rgb(enum AVPixelFormat format);
+
+/* Opens a scaler, to be freed by sws_freeContext also after a failure, from RGBA of 8 or 16 bits a
+ * channel, each 0 to its maximum, to pixels of the format. Luma and chroma are BT.709's in limited
+ * range; chroma of half the size is sited left, as H.264 has it. The same on every machine. Returns
+ * one of FFmpeg's statuses, below 0 for an error. */
+int kiln_scaler_open(struct SwsContext **scaler, uint32_t width, uint32_t height, uint32_t bits,
+                     enum AVPixelFormat format);
+
+#endif
