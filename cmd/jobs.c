@@ -117,14 +117,16 @@ static int claim_files(const struct job_list *list)
     return code;
 }
 
-static int name_files(struct job_list *list, const struct arguments *arguments)
+/* Options that make no sense with where the output goes. */
+static int check_output(const struct job_list *list, const struct arguments *arguments)
 {
     const struct option_use *output = arguments_last(arguments, "output");
-    const struct option_use *manifest = arguments_last(arguments, "manifest");
     if (!output)
         return report(KILN_USAGE, "render: needs --output FILE; '--output none' writes nothing");
-    bool writes = strcmp(output->text, "none") != 0;
-    list->resume = arguments_flag(arguments, "resume");
+    const bool writes = strcmp(output->text, "none") != 0;
+    if (list->shards > 0 && arguments_last(arguments, "manifest"))
+        return report(KILN_USAGE,
+                      "render: --manifest: of shards, 'kiln join --manifest' writes it");
     if (list->stream.format && (list->resume || list->shards > 0 || list->flipbook.columns > 0))
         return report(KILN_USAGE, "render: --%s: not with '--output -'",
                       list->resume       ? "resume"
@@ -134,28 +136,37 @@ static int name_files(struct job_list *list, const struct arguments *arguments)
         return report(KILN_USAGE, "render: --resume: there is no output to go on with");
     if (list->shards > 0 && !writes)
         return report(KILN_USAGE, "render: --shard: there is no output to share");
-    if (list->shards > 0 && manifest)
-        return report(KILN_USAGE,
-                      "render: --manifest: of shards, 'kiln join --manifest' writes it");
-    for (size_t i = 0; i < list->count; i++) {
+    return 0;
+}
+
+/* The name of a job's output in new memory; NULL when memory is short. */
+static char *output_name(const struct job_list *list, const char *pattern, const char *scene)
+{
+    if (list->stream.format)
+        return strdup(pattern);
+    return file_name(pattern, scene, list->flipbook.columns > 0 ? ".png" : ".mp4", true);
+}
+
+static int name_files(struct job_list *list, const struct arguments *arguments)
+{
+    const struct option_use *output = arguments_last(arguments, "output");
+    const struct option_use *manifest = arguments_last(arguments, "manifest");
+    list->resume = arguments_flag(arguments, "resume");
+    int code = check_output(list, arguments);
+    const bool writes = code == 0 && strcmp(output->text, "none") != 0;
+    for (size_t i = 0; i < list->count && code == 0; i++) {
         struct job *job = &list->jobs[i];
         job->path = arguments->operands[i];
-        if (list->stream.format)
-            job->output = strdup(output->text);
-        else if (writes)
-            job->output = file_name(output->text, job->path,
-                                    list->flipbook.columns > 0 ? ".png" : ".mp4", true);
+        if (writes)
+            job->output = output_name(list, output->text, job->path);
         if (manifest)
             job->manifest = file_name(manifest->text, job->path, ".json", false);
         if ((writes && !job->output) || (manifest && !job->manifest))
-            return report_no_memory();
-        for (size_t j = 0; j < i; j++) {
-            int code = check_clash(&list->jobs[j], job);
-            if (code)
-                return code;
-        }
+            code = report_no_memory();
+        for (size_t j = 0; j < i && code == 0; j++)
+            code = check_clash(&list->jobs[j], job);
     }
-    return 0;
+    return code;
 }
 
 /* Every frame that was asked for must exist. */

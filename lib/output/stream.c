@@ -94,8 +94,8 @@ static bool write_all(const struct stream *stream, const void *bytes, size_t siz
             poll(&(struct pollfd){.fd = descriptor, .events = POLLOUT}, 1, -1);
         } else if (errno == EPIPE) {
             return kiln_error_set(error, KILN_READER_GONE,
-                                  "%s: the reader went away after %u frames",
-                                  stream->params->path, stream->frames);
+                                  "%s: the reader went away after %u frames", stream->params->path,
+                                  stream->frames);
         } else if (errno != EINTR) {
             return kiln_error_set_errno(error, KILN_IO, errno, "%s: cannot be written",
                                         stream->params->path);

@@ -349,7 +349,8 @@ static bool draw_some_tiles(struct sorting *s, struct drawing *drawing, size_t f
     tiles->sprites = s->kept;
     bool ok = kiln_bins_fill(&tiles->bins, s->kept, s->kept_count, tiles->threads, error);
     drawing->first_tile = first_tile;
-    ok = ok && kiln_threads_try(tiles->threads, end_tile - first_tile, 1, draw_tiles, drawing, error);
+    ok = ok &&
+         kiln_threads_try(tiles->threads, end_tile - first_tile, 1, draw_tiles, drawing, error);
     tiles->sprites = piece;
     return ok;
 }
