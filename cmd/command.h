@@ -16,7 +16,7 @@ struct command {
 };
 
 extern const struct command render_command, bake_command, plan_command, join_command,
-    compare_command, test_command, test_approve_command, test_calibrate_command,
+    encode_command, compare_command, test_command, test_approve_command, test_calibrate_command,
     test_report_command, test_list_command, figure_command, figure_sheet_command,
     figure_triptych_command, figure_strip_command, bench_command, check_command, devices_command,
     help_command, complete_command;
@@ -35,6 +35,14 @@ bool command_is_under(const struct command *command, const char *group);
 #define HELP_OPTION                                                                                \
     {                                                                                              \
         .name = "help", .letter = 'h', .kind = OPTION_FLAG, .help = "Print this help."             \
+    }
+
+/* Of commands that write clips. */
+#define QUALITY_OPTION                                                                             \
+    {                                                                                              \
+        .name = "quality", .kind = OPTION_INTEGER, .placeholder = "N",                             \
+        .help = "Quality of videos, from 0 (smallest) to 100 (no loss that an eye can see).",      \
+        .fallback = "80", .max = 100                                                               \
     }
 
 /* For --help of a command. */

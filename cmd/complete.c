@@ -326,27 +326,17 @@ static const struct {
     const char *placeholder;
     void (*put)(struct value *value);
 } meanings[] = {
-    {"SCENE", put_scenes},
-    {"PATH", put_scenes},
-    {"CLIP", put_files},
-    {"FILE", put_files},
-    {"OUTPUT", put_files},
-    {"PROGRAM", put_files},
-    {"REFERENCE", put_files},
-    {"TEST", put_files},
-    {"FOLDER", put_folders},
-    {"STATES", put_folders},
-    {"NAME", put_tests},
-    {"PATTERN", put_tests},
-    {"TOPIC", put_topics},
-    {"DEVICE", put_devices},
-    {"STAGE=NAME", put_techniques},
-    {"METRIC=VALUE", put_metrics},
-    {"KEY=VALUE", put_set},
-    {"KEY=VALUE,...", put_sweep},
-    {"KEY=VALUE;...", put_variant},
-    {"STAGE", put_stages},
-    {"SUITE", put_suites},
+    {"SCENE", put_scenes},         {"PATH", put_scenes},
+    {"CLIP", put_files},           {"FILE", put_files},
+    {"FRAMES", put_files},         {"OUTPUT", put_files},
+    {"PROGRAM", put_files},        {"REFERENCE", put_files},
+    {"TEST", put_files},           {"FOLDER", put_folders},
+    {"STATES", put_folders},       {"NAME", put_tests},
+    {"PATTERN", put_tests},        {"TOPIC", put_topics},
+    {"DEVICE", put_devices},       {"STAGE=NAME", put_techniques},
+    {"METRIC=VALUE", put_metrics}, {"KEY=VALUE", put_set},
+    {"KEY=VALUE,...", put_sweep},  {"KEY=VALUE;...", put_variant},
+    {"STAGE", put_stages},         {"SUITE", put_suites},
 };
 
 static void put_meaning(struct value *value, const char *placeholder, size_t length)

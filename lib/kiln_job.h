@@ -80,6 +80,31 @@ struct kiln_join_stats {
 bool kiln_join(const struct kiln_join_params *params, struct kiln_join_stats *stats,
                struct kiln_error *error);
 
+/* ---- Encoding ------------------------------------------------------------------------------- */
+
+struct kiln_encode_params {
+    const char *frames;  /* images: a folder, taken in the order of names, or a numbered pattern */
+    const char *output;  /* a clip */
+    const char *fps;     /* "30", "29.97" or "30000/1001"; NULL: what the images say */
+    const char *tonemap; /* of EXR images, and only of them: "none", "agx" or "aces" */
+    float exposure;      /* of these, in stops */
+    uint32_t quality;    /* as in kiln_render_params */
+    uint32_t threads;    /* 0 takes one a core */
+    bool overwrite;
+    void (*progress)(void *user, const struct kiln_progress *progress); /* pixels alone: no state */
+    bool (*stop)(void *user); /* asked between frames; true ends with KILN_INTERRUPTED */
+    void *user;
+    struct kiln_log log;
+};
+#define KILN_ENCODE_DEFAULTS ((struct kiln_encode_params){.quality = 80})
+
+/* Makes a clip of images. Of PNG images by kiln, of the depth that the format takes, it has the
+ * bytes of a clip that kiln_render would have written of the same frames. frames gets their number.
+ * KILN_INVALID_INPUT when images cannot be read, leave out a frame, or are not of one clip;
+ * KILN_USAGE, KILN_IO, KILN_INTERRUPTED. */
+bool kiln_encode(const struct kiln_encode_params *params, uint32_t *frames,
+                 struct kiln_error *error);
+
 /* ---- Plans ---------------------------------------------------------------------------------- */
 
 /* What a scene costs, measured by drawing one of its frames. CPU times are of all threads. */

@@ -277,11 +277,20 @@ static bool entry_path(const struct kiln_footage *footage, const struct entry *e
            kiln_error_set(error, KILN_INVALID_INPUT, "%s: the path is too long", footage->path);
 }
 
+bool kiln_footage_file(const struct kiln_footage *footage, char path[KILN_PATH_SIZE],
+                       struct kiln_error *error)
+{
+    if (!footage->video)
+        return entry_path(footage, &footage->entries[footage->next], path, error);
+    snprintf(path, KILN_PATH_SIZE, "%s", footage->path);
+    return true;
+}
+
 static struct kiln_asset_image *take_file(const struct kiln_footage *footage,
                                           struct kiln_error *error)
 {
     char path[KILN_PATH_SIZE];
-    if (!entry_path(footage, &footage->entries[footage->next], path, error))
+    if (!kiln_footage_file(footage, path, error))
         return NULL;
     return kiln_asset_image_load_layer(path, footage->layer, error);
 }

@@ -33,6 +33,10 @@ struct kiln_footage_frame {
 /* False at the end. What cannot be decoded is found by take. */
 bool kiln_footage_peek(struct kiln_footage *footage, struct kiln_footage_frame *frame);
 
+/* The file of the frame that peek told of. KILN_INVALID_INPUT when its path is too long. */
+bool kiln_footage_file(const struct kiln_footage *footage, char path[KILN_PATH_SIZE],
+                       struct kiln_error *error);
+
 /* Visits the frames that are known to be there, wherever reading has come to: all, but only the
  * first of a video. False as soon as a visit is. */
 bool kiln_footage_visit(const struct kiln_footage *footage,

@@ -89,36 +89,6 @@ const struct kiln_option_type kiln_type_integer = {
 
 /* ---- rational ------------------------------------------------------------------------------- */
 
-/* "30", "29.97" or "30000/1001" as a reduced fraction. */
-static bool parse_rational(const char *text, uint64_t *num, uint64_t *den)
-{
-    char part[24];
-    size_t length = strcspn(text, "/.");
-    if (length >= sizeof part || length == 0)
-        return false;
-    memcpy(part, text, length);
-    part[length] = '\0';
-    if (!kiln_text_to_uint64(part, num) || *num > UINT32_MAX)
-        return false;
-    *den = 1;
-    const char *rest = text + length;
-    uint64_t decimals = 0;
-    if (*rest == '/') {
-        if (!kiln_text_to_uint64(rest + 1, den))
-            return false;
-    } else if (*rest == '.') {
-        if (strlen(rest + 1) > 6 || !kiln_text_to_uint64(rest + 1, &decimals))
-            return false;
-        for (size_t i = 0; i < strlen(rest + 1); i++)
-            *den *= 10;
-        *num = *num * *den + decimals;
-    }
-    if (*num == 0 || *den == 0)
-        return false;
-    kiln_unit_reduce(num, den);
-    return *num <= UINT32_MAX && *den <= 1000000;
-}
-
 static bool read_rational(struct kiln_reader *reader, const struct kiln_option *option,
                           const struct kiln_node *node, void *field)
 {
@@ -131,7 +101,7 @@ static bool read_rational(struct kiln_reader *reader, const struct kiln_option *
     }
     uint64_t num = 0, den = 1;
     bool is_text = node->quoted && !strchr(node->text, '/');
-    if (is_text || !parse_rational(node->text, &num, &den))
+    if (is_text || !kiln_unit_parse_rational(node->text, &num, &den))
         return kiln_reader_mismatch(reader, option, node);
     double value = (double)num / (double)den;
     if (value < option->min || value > option->max)

@@ -196,3 +196,32 @@ void kiln_unit_pattern(char out[64], enum kiln_dimension dimension)
     if (length)
         snprintf(out + length, 64 - length, ")");
 }
+
+bool kiln_unit_parse_rational(const char *text, uint64_t *num, uint64_t *den)
+{
+    char part[24];
+    size_t length = strcspn(text, "/.");
+    if (length >= sizeof part || length == 0)
+        return false;
+    memcpy(part, text, length);
+    part[length] = '\0';
+    if (!kiln_text_to_uint64(part, num) || *num > UINT32_MAX)
+        return false;
+    *den = 1;
+    const char *rest = text + length;
+    uint64_t decimals = 0;
+    if (*rest == '/') {
+        if (!kiln_text_to_uint64(rest + 1, den))
+            return false;
+    } else if (*rest == '.') {
+        if (strlen(rest + 1) > 6 || !kiln_text_to_uint64(rest + 1, &decimals))
+            return false;
+        for (size_t i = 0; i < strlen(rest + 1); i++)
+            *den *= 10;
+        *num = *num * *den + decimals;
+    }
+    if (*num == 0 || *den == 0)
+        return false;
+    kiln_unit_reduce(num, den);
+    return *num <= UINT32_MAX && *den <= 1000000;
+}

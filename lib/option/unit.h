@@ -37,6 +37,10 @@ bool kiln_unit_is_required(enum kiln_dimension dimension);
 /* Reduces a fraction of two positive numbers. */
 void kiln_unit_reduce(uint64_t *num, uint64_t *den);
 
+/* Reads "30", "29.97" or "30000/1001" as a positive fraction in its lowest terms, whose denominator
+ * is at most a million. */
+bool kiln_unit_parse_rational(const char *text, uint64_t *num, uint64_t *den);
+
 /* Splits "2.5 cm" into its number and its unit, which points into text. False when it does not
  * start with a number. Blanks between the two are optional. */
 bool kiln_unit_split(const char *text, double *number, const char **unit);

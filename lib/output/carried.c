@@ -1,4 +1,6 @@
 /* Image files say of which scene and frame they are: those that do are known without a journal. */
+#include "output/carried.h"
+
 #include <openexr.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,12 +10,6 @@
 #include "output/formats.h"
 
 enum { MAX_PNG = INT32_MAX };
-
-/* What a file carries. */
-struct carried {
-    char version[32], scene[65], frame[16];
-    uint32_t bits; /* a channel */
-};
 
 /* ---- PNG ------------------------------------------------------------------------------------- */
 
@@ -33,7 +29,7 @@ static void take_text(const uint8_t *data, size_t size, const char *key, char *v
 }
 
 /* Looks at every chunk: each has a checksum, and the last one is the end. */
-static bool look_at_png(const uint8_t *bytes, size_t size, struct carried *carried)
+static bool look_at_png(const uint8_t *bytes, size_t size, struct kiln_carried *carried)
 {
     static const uint8_t signature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
     enum { AROUND = 12 }; /* length, type, checksum */
@@ -50,7 +46,9 @@ static bool look_at_png(const uint8_t *bytes, size_t size, struct carried *carri
         if (memcmp(type, "tEXt", 4) == 0) {
             take_text(data, length, "kiln:version", carried->version, sizeof carried->version);
             take_text(data, length, "kiln:scene", carried->scene, sizeof carried->scene);
+            take_text(data, length, "kiln:seed", carried->seed, sizeof carried->seed);
             take_text(data, length, "kiln:frame", carried->frame, sizeof carried->frame);
+            take_text(data, length, "kiln:fps", carried->fps, sizeof carried->fps);
         }
         at += length + AROUND;
         if (memcmp(type, "IEND", 4) == 0)
@@ -59,7 +57,7 @@ static bool look_at_png(const uint8_t *bytes, size_t size, struct carried *carri
     return false;
 }
 
-static bool look_into_png(const char *path, struct carried *carried)
+static bool look_into_png(const char *path, struct kiln_carried *carried)
 {
     struct kiln_error ignored = {0};
     size_t size;
@@ -87,6 +85,14 @@ static void take_attribute(exr_const_context_t context, const char *key, char *v
         snprintf(value, room, "%.*s", (int)length, text);
 }
 
+static void take_rate(exr_const_context_t context, char *value, size_t room)
+{
+    exr_attr_rational_t rate;
+    if (exr_attr_get_rational(context, 0, "framesPerSecond", &rate) == EXR_ERR_SUCCESS &&
+        rate.num > 0 && rate.denom > 0)
+        snprintf(value, room, "%d/%u", rate.num, rate.denom);
+}
+
 /* Reads every chunk of scan lines. */
 static bool has_all_chunks(exr_const_context_t context)
 {
@@ -106,7 +112,7 @@ static bool has_all_chunks(exr_const_context_t context)
     return ok && count > 0;
 }
 
-static bool look_into_exr(const char *path, struct carried *carried)
+static bool look_into_exr(const char *path, struct kiln_carried *carried)
 {
     exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
     exr_context_t context = NULL;
@@ -122,15 +128,23 @@ static bool look_into_exr(const char *path, struct carried *carried)
     }
     take_attribute(context, "kiln:version", carried->version, sizeof carried->version);
     take_attribute(context, "kiln:scene", carried->scene, sizeof carried->scene);
+    take_attribute(context, "kiln:seed", carried->seed, sizeof carried->seed);
     take_attribute(context, "kiln:frame", carried->frame, sizeof carried->frame);
+    take_rate(context, carried->fps, sizeof carried->fps);
     const bool ok = has_all_chunks(context);
     exr_finish(&context);
     return ok;
 }
 
+bool kiln_carried_read(const char *path, struct kiln_carried *carried)
+{
+    *carried = (struct kiln_carried){.bits = 0};
+    return look_into_png(path, carried) || look_into_exr(path, carried);
+}
+
 bool kiln_output_carries(const struct kiln_output_params *params, const char *path, uint32_t frame)
 {
-    struct carried carried = {.scene = ""};
+    struct kiln_carried carried = {.bits = 0};
     char number[16];
     snprintf(number, sizeof number, "%u", frame);
     const bool png = params->format == &kiln_format_png;

@@ -23,9 +23,12 @@ static int64_t seek_bytes(void *opaque, int64_t offset, int whence)
 
 static void describe(const struct kiln_output_params *params, char *out, size_t size)
 {
-    snprintf(out, size, "kiln:version=%s kiln:scene=%s kiln:seed=%u kiln:frames=%u-%u",
-             KILN_VERSION, params->scene_hash, params->seed, params->clip[0].first,
-             params->clip[params->clip_count - 1].last);
+    char scene[128] = "";
+    if (*params->scene_hash)
+        snprintf(scene, sizeof scene, " kiln:scene=%s kiln:seed=%u", params->scene_hash,
+                 params->seed);
+    snprintf(out, size, "kiln:version=%s%s kiln:frames=%u-%u", KILN_VERSION, scene,
+             params->clip[0].first, params->clip[params->clip_count - 1].last);
 }
 
 static int write_header(struct kiln_muxer *muxer)

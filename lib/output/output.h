@@ -83,7 +83,7 @@ struct kiln_output_params {
     uint32_t png_bits, exr_bits, quality;
     struct kiln_flipbook flipbook; /* columns 0: none */
     const char *scene_hash; /* 64 hex digits; goes into each file with seed, frame and version.
-                               NULL, for an encoder of PNG alone: the picture is of no scene */
+                               "" for a clip, NULL for an encoder of PNG alone: of no scene */
     uint32_t seed;
     struct kiln_log log;
     struct kiln_whole_listener whole;

@@ -108,7 +108,7 @@ static void write_header(struct png_encoder *encoder, const struct kiln_picture 
     if (!picture->is_data)
         png_set_sRGB_gAMA_and_cHRM(png, encoder->info, PNG_sRGB_INTENT_PERCEPTUAL);
 
-    char number[16];
+    char number[16], rate[32];
     add_text(encoder, "Software", "kiln " KILN_VERSION);
     add_text(encoder, "kiln:version", KILN_VERSION);
     if (encoder->params->scene_hash) {
@@ -116,8 +116,12 @@ static void write_header(struct png_encoder *encoder, const struct kiln_picture 
         snprintf(number, sizeof number, "%u", encoder->params->seed);
         add_text(encoder, "kiln:seed", number);
         snprintf(number, sizeof number, "%u", picture->frame);
-        if (encoder->params->flipbook.columns == 0)
+        snprintf(rate, sizeof rate, encoder->params->fps_den == 1 ? "%u" : "%u/%u",
+                 encoder->params->fps_num, encoder->params->fps_den);
+        if (encoder->params->flipbook.columns == 0) {
             add_text(encoder, "kiln:frame", number);
+            add_text(encoder, "kiln:fps", rate);
+        }
     }
     png_write_info(png, encoder->info);
 }

@@ -1,4 +1,6 @@
 /* From light to picture. */
+#include <string.h>
+
 #include "scene/rows.h"
 
 #define AT(field) offsetof(struct kiln_post, field)
@@ -37,6 +39,17 @@ static const char *const tonemaps[] = {
     [KILN_TONEMAP_ACES] = "aces",
     NULL,
 };
+
+bool kiln_tonemap_find(const char *name, enum kiln_tonemap *tonemap)
+{
+    for (size_t i = 0; tonemaps[i]; i++) {
+        if (strcmp(tonemaps[i], name) == 0) {
+            *tonemap = (enum kiln_tonemap)i;
+            return true;
+        }
+    }
+    return false;
+}
 
 static const struct kiln_option particles[] = {
     CHOICE(LOOK, "resolution", resolution, resolutions, "full",

@@ -436,6 +436,9 @@ enum kiln_bloom_source {
 
 enum kiln_tonemap { KILN_TONEMAP_NONE, KILN_TONEMAP_AGX, KILN_TONEMAP_ACES };
 
+/* By the word of post.tonemap; false when there is none of that name. */
+bool kiln_tonemap_find(const char *name, enum kiln_tonemap *tonemap);
+
 struct kiln_post {
     enum kiln_compose compose;
     enum kiln_resolution resolution; /* of particles */

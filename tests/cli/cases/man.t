@@ -9,6 +9,7 @@ $ kiln help man | grep '^\.SH\|^\.SS'
 1|.SS kiln bake [\fIOPTION...\fR] \fISCENE\fR
 1|.SS kiln plan [\fIOPTION...\fR] \fISCENE\fR
 1|.SS kiln join [\fIOPTION...\fR] \fIOUTPUT\fR
+1|.SS kiln encode [\fIOPTION...\fR] \fIFRAMES\fR
 1|.SS kiln compare [\fIOPTION...\fR] \fIREFERENCE TEST\fR
 1|.SS kiln test [\fIOPTION...\fR] \fI[PATH | NAME]...\fR
 1|.SS kiln test approve [\fIOPTION...\fR] \fI[NAME]...\fR
@@ -35,7 +36,7 @@ $ kiln help man | grep '^\.SH\|^\.SS'
 1|.SH EXAMPLES
 1|.SH SEE ALSO
 $ kiln help man | grep -c '^\.TP'
-1|234
+1|243
 $ kiln help man-scene | grep '^\.SH'
 1|.SH NAME
 1|.SH DESCRIPTION

@@ -11,6 +11,7 @@ $ kiln
 2|  bake             save states of a run, from which others start
 2|  plan             say what a clip costs, and how it divides into tasks
 2|  join             make a clip of the parts that several tasks drew
+2|  encode           make a clip of images
 2|  compare          tell whether two pictures, folders or videos look the same
 2|  test             render tests and compare them with golden pictures
 2|  test approve     accept pictures of the last run as goldens
@@ -54,6 +55,7 @@ $ kiln --help
 1|  bake             save states of a run, from which others start
 1|  plan             say what a clip costs, and how it divides into tasks
 1|  join             make a clip of the parts that several tasks drew
+1|  encode           make a clip of images
 1|  compare          tell whether two pictures, folders or videos look the same
 1|  test             render tests and compare them with golden pictures
 1|  test approve     accept pictures of the last run as goldens

@@ -1,0 +1,118 @@
+/* kiln encode: a clip of images that were drawn before. */
+#include <inttypes.h>
+#include <unistd.h>
+
+#include "command.h"
+#include "progress.h"
+#include "report.h"
+#include "signals.h"
+
+static const char *const tonemaps[] = {"none", "agx", "aces"};
+
+static const struct option options[] = {
+    {.name = "output",
+     .letter = 'o',
+     .kind = OPTION_TEXT,
+     .placeholder = "FILE",
+     .help = "The clip; the suffix chooses the format (see 'kiln help outputs')."},
+    {.name = "fps",
+     .kind = OPTION_RATIO,
+     .placeholder = "RATE",
+     .help = "Frames a second, such as 30 or 30000/1001.",
+     .fallback = "what the images say"},
+    QUALITY_OPTION,
+    {.name = "tonemap",
+     .kind = OPTION_CHOICE,
+     .placeholder = "none|agx|aces",
+     .help = "How the light of EXR images becomes colours, as post.tonemap of a scene. EXR images "
+             "need it, others do not take it."},
+    {.name = "exposure",
+     .kind = OPTION_NUMBER,
+     .placeholder = "STOPS",
+     .help = "Makes EXR images brighter before that, or darker.",
+     .fallback = "0",
+     .min = -20,
+     .max = 20},
+    {.name = "force", .kind = OPTION_FLAG, .help = "Replace a file that exists."},
+    {.name = "progress",
+     .kind = OPTION_CHOICE,
+     .placeholder = "tty|lines|none",
+     .help = "A moving line on standard error, or a line now and then.",
+     .fallback = "tty on a terminal, else lines"},
+    {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Print nothing but errors."},
+    HELP_OPTION,
+};
+
+static enum progress_mode choose_progress(const struct arguments *arguments)
+{
+    static const enum progress_mode modes[] = {PROGRESS_TTY, PROGRESS_LINES, PROGRESS_NONE};
+    const bool terminal = isatty(STDERR_FILENO) == 1;
+    return arguments_flag(arguments, "quiet")
+               ? PROGRESS_NONE
+               : modes[arguments_choice(arguments, "progress", terminal ? 0 : 1)];
+}
+
+struct encoding {
+    const char *output;
+    struct progress progress;
+};
+
+static void show(void *user, const struct kiln_progress *frame)
+{
+    struct encoding *encoding = user;
+    progress_show(&encoding->progress, encoding->output, frame);
+}
+
+static int run(const struct arguments *arguments)
+{
+    const struct option_use *output = arguments_last(arguments, "output");
+    const struct option_use *tonemap = arguments_last(arguments, "tonemap");
+    if (!output)
+        return report(KILN_USAGE, "encode: needs --output FILE");
+    struct encoding encoding = {.output = output->text};
+    struct kiln_encode_params params = KILN_ENCODE_DEFAULTS;
+    params.frames = arguments->operands[0];
+    params.output = output->text;
+    params.fps = arguments_text(arguments, "fps", NULL);
+    params.tonemap = tonemap ? tonemaps[tonemap->choice] : NULL;
+    params.exposure = (float)arguments_number(arguments, "exposure", 0);
+    params.quality = arguments_integer(arguments, "quality", params.quality);
+    params.overwrite = arguments_flag(arguments, "force");
+    params.progress = show;
+    params.stop = signals_wants_stop;
+    params.user = &encoding;
+    params.log = report_log();
+    progress_start(&encoding.progress, choose_progress(arguments));
+    signals_install_for_job();
+
+    uint32_t frames = 0;
+    struct kiln_error error = {0};
+    const bool ok = kiln_encode(&params, &frames, &error);
+    progress_clear(&encoding.progress);
+    if (!ok && error.code == KILN_INTERRUPTED) {
+        const int number = signals_received();
+        report(KILN_INTERRUPTED, "%s: stopped by %s", params.output, signals_name(number));
+        return 128 + number;
+    }
+    if (!ok)
+        return report_error(&error);
+    if (!arguments_flag(arguments, "quiet"))
+        printf("%s: %" PRIu32 " frame%s\n", params.output, frames, frames == 1 ? "" : "s");
+    return 0;
+}
+
+const struct command encode_command = {
+    .name = "encode",
+    .summary = "make a clip of images",
+    .operands = "FRAMES",
+    .description =
+        "FRAMES is a numbered pattern, as --output of 'kiln render', or a folder, whose images are "
+        "taken in the order of their names. PNG images by kiln, of the depth that the format "
+        "takes, give the bytes of a clip that 'kiln render' would have written at once with the "
+        "same --quality. EXR images are tone-mapped with --tonemap.",
+    .options = options,
+    .option_count = sizeof options / sizeof *options,
+    .least_operands = 1,
+    .most_operands = 1,
+    .run = run,
+};

@@ -1,0 +1,352 @@
+/* Makes a clip of images that are there already. What kiln's own images say of themselves (scene,
+ * seed, number, rate) goes into the clip, so that it has the bytes of one that was drawn at once.
+ */
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "base/log.h"
+#include "base/text.h"
+#include "compare/footage.h"
+#include "kiln.h"
+#include "option/unit.h"
+#include "output/carried.h"
+#include "output/formats.h"
+#include "post/display.h"
+
+struct encode {
+    const struct kiln_encode_params *params;
+    struct kiln_threads *threads;
+    struct kiln_footage *footage;
+    uint32_t count; /* of frames */
+    struct kiln_output *output;
+    enum kiln_tonemap tonemap;
+
+    /* Of the first frame, and so of all. */
+    char first[KILN_PATH_SIZE];
+    struct kiln_carried carried;
+    struct kiln_asset_image *image;
+    uint32_t number, bits;
+};
+
+static bool may_go_on(void *user, struct kiln_error *error)
+{
+    const struct encode *encode = user;
+    return !encode->params->stop || !encode->params->stop(encode->params->user) ||
+           kiln_error_set(error, KILN_INTERRUPTED, "stopped");
+}
+
+/* EXR images of kiln always have the channel; there it counts where something is not covered. */
+static bool has_alpha(const struct kiln_asset_image *image)
+{
+    bool has = image->channels == 2 || image->channels == 4;
+    if (!has || image->type != KILN_IMAGE_F32)
+        return has;
+    const float *pixels = image->pixels;
+    const size_t count = (size_t)image->width * image->height;
+    for (size_t i = 0; i < count; i++) {
+        if (pixels[4 * i + 3] < 1.0f)
+            return true;
+    }
+    return false;
+}
+
+/* ---- what there is --------------------------------------------------------------------------- */
+
+static bool count_frame(void *user, const struct kiln_footage_frame *frame)
+{
+    struct encode *encode = user;
+    (void)frame;
+    encode->count++;
+    return true;
+}
+
+/* The next picture, what it says of itself, and which frame it is. */
+static struct kiln_asset_image *read_frame(struct encode *encode, char path[KILN_PATH_SIZE],
+                                           struct kiln_carried *carried, uint32_t *number,
+                                           struct kiln_error *error)
+{
+    struct kiln_footage_frame frame = {NULL, 0};
+    uint64_t said;
+    if (!kiln_footage_peek(encode->footage, &frame) ||
+        !kiln_footage_file(encode->footage, path, error))
+        return NULL;
+    struct kiln_asset_image *image = kiln_footage_take(encode->footage, error);
+    kiln_carried_read(path, carried);
+    const bool says = kiln_text_to_uint64(carried->frame, &said) && said <= UINT32_MAX;
+    *number = says ? (uint32_t)said : frame.number;
+    return image;
+}
+
+/* Pictures of light need to be told how they become colours, and others must not. */
+static bool check_tonemap(struct encode *encode, struct kiln_error *error)
+{
+    const char *name = encode->params->tonemap;
+    const bool is_light = encode->image->type == KILN_IMAGE_F32;
+    if (is_light && !name)
+        return kiln_error_set(error, KILN_USAGE,
+                              "%s: is a picture of light; say with --tonemap (none, agx or aces) "
+                              "how it becomes colours",
+                              encode->first);
+    if (!is_light && name)
+        return kiln_error_set(error, KILN_USAGE,
+                              "--tonemap: %s is no picture of light but of colours already",
+                              encode->first);
+    return !name || kiln_tonemap_find(name, &encode->tonemap) ||
+           kiln_error_set(error, KILN_USAGE, "--tonemap %s: expected none, agx or aces", name);
+}
+
+static bool open_frames(struct encode *encode, struct kiln_error *error)
+{
+    encode->footage = kiln_footage_open(encode->params->frames, "beauty", error);
+    if (!encode->footage)
+        return false;
+    if (kiln_footage_kind(encode->footage) == KILN_FOOTAGE_VIDEO)
+        return kiln_error_set(error, KILN_USAGE,
+                              "%s: is a video; expected images: a folder, or a pattern such as "
+                              "frame_%%04d.png",
+                              encode->params->frames);
+    kiln_footage_visit(encode->footage, count_frame, encode);
+    encode->image = read_frame(encode, encode->first, &encode->carried, &encode->number, error);
+    if (!encode->image)
+        return false;
+    encode->bits = encode->image->type == KILN_IMAGE_U16 ? 16 : 8;
+    return check_tonemap(encode, error);
+}
+
+/* ---- the clip -------------------------------------------------------------------------------- */
+
+static bool find_rate(const struct encode *encode, uint64_t *num, uint64_t *den,
+                      struct kiln_error *error)
+{
+    const char *text = encode->params->fps ? encode->params->fps : encode->carried.fps;
+    if (kiln_unit_parse_rational(text, num, den))
+        return true;
+    if (encode->params->fps)
+        return kiln_error_set(error, KILN_USAGE,
+                              "--fps %s: expected a rate such as 30, 29.97 or 30000/1001", text);
+    return kiln_error_set(error, KILN_USAGE, "%s: does not say its rate; give it with --fps",
+                          encode->first);
+}
+
+static bool check_format(const struct kiln_output_params *files, struct kiln_error *error)
+{
+    if (!files->format)
+        return false;
+    return files->format->video ||
+           kiln_error_set(error, KILN_USAGE,
+                          "%s: %s are no clip; expected .mp4, .webm, .mkv, .mov, .gif, .apng or "
+                          ".webp",
+                          files->path, files->format->name);
+}
+
+/* Nothing that is read is replaced. */
+static bool claim(const struct encode *encode, const struct kiln_output_params *files,
+                  struct kiln_error *error)
+{
+    struct kiln_claims *claims = kiln_claims_create();
+    if (!claims)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", files->path);
+    const bool ok = kiln_footage_claim(encode->footage, encode->params->frames, claims, error) &&
+                    kiln_output_claim(files, claims, error);
+    kiln_claims_destroy(&claims);
+    return ok;
+}
+
+static void warn_of_depth(const struct encode *encode)
+{
+    const uint32_t wanted = kiln_output_needs(encode->output).bits;
+    if (encode->image->type != KILN_IMAGE_F32 && encode->bits != wanted)
+        kiln_log_write(&encode->params->log, KILN_LOG_WARNING,
+                       "%s: has %u bits a channel, %s takes %u: the clip differs a little from one "
+                       "drawn at once",
+                       encode->first, encode->bits, encode->params->output, wanted);
+}
+
+static bool open_clip(struct encode *encode, struct kiln_error *error)
+{
+    const struct kiln_encode_params *params = encode->params;
+    const struct kiln_asset_image *image = encode->image;
+    uint64_t num = 0, den = 1, seed = 0;
+    if (!find_rate(encode, &num, &den, error))
+        return false;
+    if (encode->number > UINT32_MAX - encode->count)
+        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: %u frames from number %u on",
+                              encode->first, encode->count, encode->number);
+    const bool has_seed = kiln_text_to_uint64(encode->carried.seed, &seed) && seed <= UINT32_MAX;
+    const struct kiln_frame_range range = {encode->number, encode->number + encode->count - 1};
+    const struct kiln_output_params clip = {
+        .path = params->output,
+        .width = image->width,
+        .height = image->height,
+        .fps_num = (uint32_t)num,
+        .fps_den = (uint32_t)den,
+        .alpha = has_alpha(image),
+        .ranges = &range,
+        .range_count = 1,
+        .clip = &range,
+        .clip_count = 1,
+        .threads = 1,
+        .overwrite = params->overwrite,
+        .png_bits = encode->bits,
+        .quality = params->quality,
+        .scene_hash = has_seed ? encode->carried.scene : "",
+        .seed = (uint32_t)seed,
+        .log = params->log,
+        .caller = {may_go_on, encode},
+    };
+    const struct kiln_output_params files = kiln_output_complete(&clip, error);
+    if (!check_format(&files, error) || !claim(encode, &files, error))
+        return false;
+    encode->output = kiln_output_open(&files, error);
+    if (encode->output)
+        warn_of_depth(encode);
+    return encode->output != NULL;
+}
+
+/* ---- frame by frame -------------------------------------------------------------------------- */
+
+static const char *name_type(const struct kiln_asset_image *image)
+{
+    static const char *const names[] = {
+        [KILN_IMAGE_U8] = "8 bits", [KILN_IMAGE_U16] = "16 bits", [KILN_IMAGE_F32] = "floats"};
+    return names[image->type];
+}
+
+/* All frames must be of one clip. */
+static bool check_frame(const struct encode *encode, const struct kiln_asset_image *image,
+                        const struct kiln_carried *carried, const char *path,
+                        struct kiln_error *error)
+{
+    const struct kiln_asset_image *first = encode->image;
+    if (image->width != first->width || image->height != first->height)
+        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: %u x %u pixels; %s has %u x %u", path,
+                              image->width, image->height, encode->first, first->width,
+                              first->height);
+    if (image->type != first->type || has_alpha(image) != has_alpha(first))
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "%s: %s a channel, %s alpha; %s has %s, %s", path, name_type(image),
+                              has_alpha(image) ? "with" : "without", encode->first,
+                              name_type(first), has_alpha(first) ? "with alpha" : "without");
+    return (strcmp(carried->scene, encode->carried.scene) == 0 &&
+            strcmp(carried->seed, encode->carried.seed) == 0) ||
+           kiln_error_set(error, KILN_INVALID_INPUT, "%s: is of another scene or seed than %s",
+                          path, encode->first);
+}
+
+/* Into as many bits as the picture has. */
+static void copy_channels(const struct kiln_asset_image *image, struct kiln_picture *picture)
+{
+    const size_t count = (size_t)image->width * image->height * 4;
+    const uint8_t *bytes = image->pixels;
+    const uint16_t *words = image->pixels;
+    if ((image->type == KILN_IMAGE_U16) == (picture->bits == 16)) {
+        memcpy(picture->display, image->pixels, count * (picture->bits / 8));
+    } else if (picture->bits == 16) {
+        for (size_t i = 0; i < count; i++)
+            ((uint16_t *)picture->display)[i] = (uint16_t)(bytes[i] * 257);
+    } else {
+        for (size_t i = 0; i < count; i++)
+            ((uint8_t *)picture->display)[i] = (uint8_t)((words[i] + 128) / 257);
+    }
+}
+
+static bool fill(const struct encode *encode, const struct kiln_asset_image *image,
+                 struct kiln_picture *picture, struct kiln_error *error)
+{
+    if (image->type == KILN_IMAGE_F32) {
+        const struct kiln_display_params display = {
+            .width = image->width,
+            .height = image->height,
+            .bits = picture->bits,
+            .exposure = encode->params->exposure,
+            .tonemap = encode->tonemap,
+            .frame = picture->frame,
+        };
+        return kiln_display_make(encode->threads, &display, image->pixels, picture->display, error);
+    }
+    copy_channels(image, picture);
+    return true;
+}
+
+static bool write_frame(struct encode *encode, const struct kiln_asset_image *image,
+                        uint32_t number, struct kiln_error *error)
+{
+    const uint32_t bits = kiln_output_needs(encode->output).bits;
+    struct kiln_picture *picture =
+        kiln_picture_create(image->width, image->height, bits, NULL, NULL, 0, error);
+    if (!picture)
+        return false;
+    picture->frame = number;
+    picture->has_alpha = has_alpha(image);
+    if (fill(encode, image, picture, error))
+        return kiln_output_write(encode->output, picture, error);
+    kiln_picture_destroy(&picture);
+    return false;
+}
+
+/* Reads, checks and writes the frame that is due. */
+static bool add_frame(struct encode *encode, uint32_t due, struct kiln_error *error)
+{
+    char path[KILN_PATH_SIZE];
+    struct kiln_carried carried;
+    uint32_t number = 0;
+    struct kiln_asset_image *image = read_frame(encode, path, &carried, &number, error);
+    bool ok = image != NULL;
+    if (ok && number != due)
+        ok = kiln_error_set(error, KILN_INVALID_INPUT,
+                            "%s: is frame %u where frame %u is due; a clip leaves out none, and "
+                            "takes the files of a folder in the order of their names",
+                            path, number, due);
+    ok = ok && check_frame(encode, image, &carried, path, error) &&
+         write_frame(encode, image, number, error);
+    kiln_asset_image_destroy(&image);
+    return ok;
+}
+
+static void tell(const struct encode *encode, uint32_t done, double started_s)
+{
+    struct kiln_progress progress = {
+        .frame = encode->number + done - 1,
+        .done = done,
+        .total = encode->count,
+        .elapsed_s = kiln_clock_seconds() - started_s,
+    };
+    progress.eta_s = progress.elapsed_s / done * (encode->count - done);
+    if (encode->params->progress)
+        encode->params->progress(encode->params->user, &progress);
+}
+
+static bool run(struct encode *encode, double started_s, struct kiln_error *error)
+{
+    encode->threads = kiln_threads_create(encode->params->threads);
+    if (!encode->threads)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "can not start %u threads",
+                              encode->params->threads);
+    kiln_threads_ask(encode->threads, &(struct kiln_caller){may_go_on, encode});
+    if (!open_frames(encode, error) || !open_clip(encode, error) ||
+        !write_frame(encode, encode->image, encode->number, error))
+        return false;
+    tell(encode, 1, started_s);
+    for (uint32_t done = 1; done < encode->count; done++) {
+        if (!may_go_on(encode, error) || !add_frame(encode, encode->number + done, error))
+            return false;
+        tell(encode, done + 1, started_s);
+    }
+    return kiln_output_finish(encode->output, error);
+}
+
+bool kiln_encode(const struct kiln_encode_params *params, uint32_t *frames,
+                 struct kiln_error *error)
+{
+    struct encode encode = {.params = params};
+    const bool ok = run(&encode, kiln_clock_seconds(), error);
+    *frames = encode.count;
+    kiln_output_close(&encode.output);
+    kiln_asset_image_destroy(&encode.image);
+    kiln_footage_close(&encode.footage);
+    kiln_threads_destroy(&encode.threads);
+    return ok;
+}

@@ -1,0 +1,17 @@
+/* What image files by kiln say of themselves. */
+#ifndef KILN_OUTPUT_CARRIED_H
+#define KILN_OUTPUT_CARRIED_H
+
+#include "output/output.h"
+
+/* Texts, "" where the file does not say it. */
+struct kiln_carried {
+    char version[32], scene[65], seed[16], frame[16];
+    char fps[32];  /* "30" or "24000/1001" */
+    uint32_t bits; /* a channel */
+};
+
+/* Reads a PNG or EXR file to its end. False when it is none, or not whole. */
+bool kiln_carried_read(const char *path, struct kiln_carried *carried);
+
+#endif

@@ -1,0 +1,21 @@
+/* From a picture of light, as an EXR file has it, to the pixels of a display: what the composite
+ * does with what it has composed. */
+#ifndef KILN_POST_DISPLAY_H
+#define KILN_POST_DISPLAY_H
+
+#include "base/thread.h"
+#include "scene/scene.h"
+
+struct kiln_display_params {
+    uint32_t width, height, bits; /* bits a channel: 8 or 16 */
+    float exposure;               /* stops */
+    enum kiln_tonemap tonemap;
+    uint32_t frame; /* noise that hides the steps differs from frame to frame */
+};
+
+/* light is RGBA, linear, multiplied by alpha; display gets RGBA in sRGB with straight alpha. Both
+ * have rows from the top. The same pixels on every machine, for any number of threads. */
+bool kiln_display_make(struct kiln_threads *threads, const struct kiln_display_params *params,
+                       const float *light, void *display, struct kiln_error *error);
+
+#endif

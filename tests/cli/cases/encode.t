@@ -1,0 +1,83 @@
+A clip of images has the bytes of one that was drawn at once: images say of which scene, seed and frame they
+are, and their rate.
+
+$ one() { suffix=$1; shift; kiln render scenes/tiny.yaml --quiet "$@" -o $suffix/f_%03d.png && kiln render scenes/tiny.yaml --quiet "$@" -o one.$suffix 2>/dev/null && kiln encode $suffix -o two.$suffix --quiet 2>/dev/null && cmp one.$suffix two.$suffix && echo $suffix; }
+> one mp4 --quality 80; one mkv; one webp; one webm --set backdrop.transparent=true; one apng --png-bits 16; one gif --png-bits 16 2>&1; one mov --png-bits 16 --set backdrop.transparent=true
+1|mp4
+1|mkv
+1|webp
+1|webm
+1|apng
+1|gif
+1|mov
+$ kiln render scenes/tiny.yaml --quiet --frames 5-20 --fps 30000/1001 --set simulation.rate=60000/1001 -o chunk.mp4 --quality 30
+$ kiln render scenes/tiny.yaml --quiet --frames 5-20 --fps 30000/1001 --set simulation.rate=60000/1001 -o chunk/%d.png
+$ kiln encode chunk/%d.png -o again.mp4 --quality 30 && cmp chunk.mp4 again.mp4
+1|again.mp4: 16 frames
+$ ffprobe -v error -count_frames -of csv=p=0 -show_entries stream=nb_read_frames,r_frame_rate,color_space,color_transfer,color_primaries,color_range again.mp4
+1|tv,bt709,iec61966-2-1,bt709,30000/1001,16
+
+EXR images are light, so they need a tone map; floats of 32 bits give the same pixels as a scene's own.
+
+$ kiln render scenes/tiny.yaml --quiet -o light/%02d.exr --exr-bits 32 && kiln encode light -o light.mp4 --tonemap agx --quiet && cmp light.mp4 one.mp4
+$ kiln encode light -o dark.mp4 --tonemap agx --exposure -3 --quiet && cmp -s dark.mp4 one.mp4
+= 1
+$ kiln encode light -o none.mp4
+2|kiln: light/00.exr: is a picture of light; say with --tonemap (none, agx or aces) how it becomes colours
+= 2
+$ kiln encode mp4 -o none.mp4 --tonemap agx
+2|kiln: --tonemap: mp4/f_000.png is no picture of light but of colours already
+= 2
+
+Images of another depth, and of other programs, whose rate must be said.
+
+$ kiln encode gif -o deep.mp4 --quiet
+2|kiln: warning: gif/f_000.png: has 16 bits a channel, deep.mp4 takes 8: the clip differs a little from one drawn at once
+$ ffmpeg -nostdin -i deep.mp4 -i one.mp4 -lavfi psnr -f null - 2>&1 | grep -o 'min:[0-9.]*' | awk -F: '{print ($2 > 45)}'
+1|1
+$ mkdir foreign && ffmpeg -nostdin -loglevel error -f lavfi -i testsrc=size=32x16:rate=10 -frames:v 12 -bitexact foreign/%d.bmp
+$ kiln encode foreign/%d.bmp -o none.mp4
+2|kiln: foreign/1.bmp: does not say its rate; give it with --fps
+= 2
+$ kiln encode foreign/%d.bmp -o foreign.mp4 --fps 10
+1|foreign.mp4: 12 frames
+$ ffprobe -v error -of csv=p=0 -show_entries format_tags=comment foreign.mp4
+1|kiln:version=0.1.0 kiln:frames=1-12
+
+What is no clip, with the reason. Nothing is written then.
+
+$ kiln encode chunk -o none.mp4
+2|chunk/5.png: is frame 5 where frame 21 is due; a clip leaves out none, and takes the files of a folder in the order of their names
+= 3
+$ rm chunk/9.png && kiln encode chunk/%d.png -o none.mp4
+2|chunk/10.png: is frame 10 where frame 9 is due; a clip leaves out none, and takes the files of a folder in the order of their names
+= 3
+$ kiln render scenes/tiny.yaml --quiet --frames 9 --seed 77 --fps 30000/1001 --set simulation.rate=60000/1001 -o chunk/9.png && kiln encode chunk/%d.png -o none.mp4
+2|chunk/9.png: is of another scene or seed than chunk/5.png
+= 3
+$ cp foreign/1.bmp mp4/f_003.png && kiln encode mp4 -o none.mp4
+2|mp4/f_003.png: 32 x 16 pixels; mp4/f_000.png has 64 x 36
+= 3
+$ head -c 300 mkv/f_004.png >mp4/f_003.png && kiln encode mp4 -o none.mp4 2>&1 | sed 's/:.*//'
+1|mp4/f_003.png
+$ kiln encode one.mp4 -o none.mp4
+2|kiln: one.mp4: is a video; expected images: a folder, or a pattern such as frame_%04d.png
+= 2
+$ kiln encode mkv -o none.png
+2|kiln: none.png: PNG images are no clip; expected .mp4, .webm, .mkv, .mov, .gif, .apng or .webp
+= 2
+$ kiln encode mkv
+2|kiln: encode: needs --output FILE
+= 2
+$ kiln encode mkv -o none.mp4 --fps fast
+2|kiln: encode: --fps: found 'fast', expected a rate such as 30, 29.97 or 30000/1001
+= 2
+$ kiln encode nowhere -o none.mp4
+2|nowhere: No such file or directory
+= 3
+$ kiln encode mkv -o one.mp4
+2|kiln: one.mp4: the file exists (--force replaces it)
+= 6
+$ kiln encode mkv -o one.mp4 --force
+1|one.mp4: 24 frames
+$ find . -name '*none*'
