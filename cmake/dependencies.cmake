@@ -1,7 +1,8 @@
 # Every library that kiln links, from pkg-config; a missing one names the script that installs it.
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
-set(kiln_linked_packages epoxy libpng zlib libfyaml libavcodec libavformat libavutil libswscale libzstd)
+set(kiln_linked_packages epoxy libpng zlib libfyaml libavcodec libavformat libavutil libswscale libzstd
+    nettle)
 pkg_check_modules(KILN_DEPS IMPORTED_TARGET ${kiln_linked_packages})
 # Headers only: libepoxy loads EGL when it is first called, so that a machine without it gets an
 # error from kiln, not from the loader.

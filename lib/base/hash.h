@@ -1,4 +1,4 @@
-/* SHA-256, by libavutil: names of contents, not protection. */
+/* SHA-256, by Nettle: names of contents, not protection. */
 #ifndef KILN_BASE_HASH_H
 #define KILN_BASE_HASH_H
 
