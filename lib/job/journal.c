@@ -212,6 +212,12 @@ static const struct kiln_node *parse_line(struct kiln_arena *arena, const char *
     return kiln_node_parse(arena, line, strlen(line), &origin, &ignored);
 }
 
+static bool says(const struct kiln_node *line, const char *key, const char *text)
+{
+    const struct kiln_node *node = kiln_node_entry(line, key);
+    return node && kiln_node_is(node, text);
+}
+
 /* That a journal is of this job. */
 static bool check_head(const struct kiln_journal *journal, const struct kiln_node *line,
                        const struct kiln_journal_head *head, struct kiln_error *error)
@@ -222,15 +228,15 @@ static bool check_head(const struct kiln_journal *journal, const struct kiln_nod
         other = "is not a journal";
     else if (version != KILN_JOURNAL_VERSION)
         other = "is a journal of another version of kiln";
-    else if (!kiln_node_is(kiln_node_entry(line, "scene"), head->output.scene_hash))
+    else if (!says(line, "scene", head->output.scene_hash))
         other = "is the journal of another scene";
-    else if (!kiln_node_is(kiln_node_entry(line, "job"), head->job))
+    else if (!says(line, "job", head->job))
         other = "is the journal of other frames, or other settings of the output";
     if (other)
         return kiln_error_set(error, KILN_IO, "%s: %s (--force starts anew)", journal->path, other);
-    const struct kiln_node *made_by = kiln_node_entry(line, "made_by");
-    if (made_by && kiln_node_is(made_by, head->made_by))
+    if (says(line, "made_by", head->made_by))
         return true;
+    const struct kiln_node *made_by = kiln_node_entry(line, "made_by");
     return kiln_error_set(
         error, KILN_IO,
         "%s: was begun by another program, device or techniques (%.200s), this is "

@@ -284,6 +284,7 @@ const struct kiln_format kiln_format_exr = {
     .suffix = ".exr",
     .name = "OpenEXR images",
     .help = "half or float, linear, premultiplied; named layers",
+    .uses = KILN_USES_EXR_BITS,
     .needs = needs,
     .check = check,
     .open = open_encoder,

@@ -515,6 +515,7 @@ const struct kiln_format kiln_format_flipbook = {
     .help = "frames in one PNG, with a layout and motion vectors",
     .one_file = true,
     .gaps = true,
+    .uses = KILN_USES_PNG_BITS,
     .needs = needs,
     .check = check,
     .open = open_encoder,

@@ -12,10 +12,13 @@
  * file outlive it. Whoever calls commits or discards the file; a format of one file that has others
  * commits all. */
 struct kiln_video_settings;
+/* Parameters that some formats heed and others do not. */
+enum { KILN_USES_PNG_BITS = 1, KILN_USES_EXR_BITS = 2, KILN_USES_QUALITY = 4 };
 struct kiln_format {
     const char *suffix; /* with its dot, lower case */
     const char *name;
     const char *help;
+    uint32_t uses; /* bits of the above */
     bool one_file; /* all frames go into one file, in order and, unless `gaps`, without gaps */
     bool gaps;
     bool is_stream; /* params.stream takes the frames: there is no file, nothing to finish or commit

@@ -359,6 +359,13 @@ struct kiln_output_params kiln_output_complete(const struct kiln_output_params *
 {
     struct kiln_output_params result = *params;
     result.format = find_format(params, error);
+    const uint32_t uses = result.format ? result.format->uses : 0;
+    if (!(uses & KILN_USES_PNG_BITS))
+        result.png_bits = KILN_RENDER_DEFAULTS.png_bits;
+    if (!(uses & KILN_USES_EXR_BITS))
+        result.exr_bits = KILN_RENDER_DEFAULTS.exr_bits;
+    if (!(uses & KILN_USES_QUALITY))
+        result.quality = KILN_RENDER_DEFAULTS.quality;
     if (result.clip_count == 0) {
         result.clip = result.ranges;
         result.clip_count = result.range_count;

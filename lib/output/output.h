@@ -93,7 +93,9 @@ struct kiln_output_params {
 
 struct kiln_output;
 
-/* The parameters with what follows from them: format and clip. format NULL with KILN_USAGE. */
+/* The parameters with what follows from them: format and clip; those that the format does not heed
+ * get their defaults, so that jobs which differ in nothing else are the same. format NULL with
+ * KILN_USAGE. */
 struct kiln_output_params kiln_output_complete(const struct kiln_output_params *params,
                                                struct kiln_error *error);
 

@@ -176,6 +176,7 @@ const struct kiln_format kiln_format_png = {
     .suffix = ".png",
     .name = "PNG images",
     .help = "8 or 16 bits, sRGB; alpha with a transparent backdrop",
+    .uses = KILN_USES_PNG_BITS,
     .needs = needs,
     .check = check,
     .open = open_encoder,

@@ -50,6 +50,7 @@ const struct kiln_format kiln_format_mp4 = {
     .suffix = ".mp4",
     .name = "H.264 video",
     .help = "even sizes, no alpha; quality 0 to 100 (visually lossless)",
+    .uses = KILN_USES_QUALITY,
     VIDEO_FORMAT(mp4),
 };
 
@@ -87,6 +88,7 @@ const struct kiln_format kiln_format_webm = {
     .suffix = ".webm",
     .name = "VP9 video",
     .help = "for the web, with alpha; quality 0 to 100; times in whole ms",
+    .uses = KILN_USES_QUALITY,
     VIDEO_FORMAT(webm),
 };
 
@@ -117,6 +119,7 @@ const struct kiln_format kiln_format_mkv = {
     .suffix = ".mkv",
     .name = "FFV1 video",
     .help = "lossless, 8 or 16 bits (--png-bits), with alpha; times in whole ms",
+    .uses = KILN_USES_PNG_BITS,
     VIDEO_FORMAT(mkv),
 };
 
@@ -151,6 +154,7 @@ const struct kiln_format kiln_format_mov = {
     .suffix = ".mov",
     .name = "ProRes 4444 video",
     .help = "for editing, 10 bits, with alpha; quality 0 to 100",
+    .uses = KILN_USES_QUALITY,
     VIDEO_FORMAT(mov),
 };
 
@@ -194,6 +198,7 @@ const struct kiln_format kiln_format_apng = {
     .suffix = ".apng",
     .name = "animated PNG",
     .help = "lossless, 8 or 16 bits (--png-bits), with alpha; plays forever",
+    .uses = KILN_USES_PNG_BITS,
     VIDEO_FORMAT(apng),
 };
 
@@ -223,5 +228,6 @@ const struct kiln_format kiln_format_webp = {
     .suffix = ".webp",
     .name = "animated WebP",
     .help = "with alpha; quality 0 to 100 (lossless); times in whole ms; plays forever",
+    .uses = KILN_USES_QUALITY,
     VIDEO_FORMAT(webp),
 };
