@@ -4,6 +4,7 @@
 #include <string.h>
 #include <zlib.h>
 
+#include "base/error.h"
 #include "base/file_in.h"
 #include "output/formats.h"
 
@@ -59,11 +60,10 @@ static bool look_at_png(const uint8_t *bytes, size_t size, struct carried *carri
     return false;
 }
 
-static bool look_into_png(const char *path, struct carried *carried)
+static bool look_into_png(const char *path, struct carried *carried, struct kiln_error *reason)
 {
-    struct kiln_error ignored = {0};
     size_t size;
-    uint8_t *bytes = kiln_file_read(path, "picture", "a PNG file", MAX_PNG, &size, &ignored);
+    uint8_t *bytes = kiln_file_read(path, "picture", "a PNG file", MAX_PNG, &size, reason);
     const bool ok = bytes && look_at_png(bytes, size, carried);
     free(bytes);
     return ok;
@@ -88,7 +88,7 @@ static void take_attribute(exr_const_context_t context, const char *key, char *v
 }
 
 /* Reads every chunk of scan lines. */
-static bool has_all_chunks(exr_const_context_t context)
+static bool has_all_chunks(exr_const_context_t context, const char *path, struct kiln_error *reason)
 {
     int32_t count = 0, lines = 0;
     exr_attr_box2i_t window;
@@ -100,13 +100,15 @@ static bool has_all_chunks(exr_const_context_t context)
         ok = exr_read_scanline_chunk_info(context, 0, window.min.y + i * lines, &chunk) ==
              EXR_ERR_SUCCESS;
         void *packed = ok ? malloc(chunk.packed_size + 1) : NULL;
+        if (ok && !packed)
+            kiln_error_set(reason, KILN_DEVICE_FAILED, "%s: out of memory", path);
         ok = packed && exr_read_chunk(context, 0, &chunk, packed) == EXR_ERR_SUCCESS;
         free(packed);
     }
     return ok && count > 0;
 }
 
-static bool look_into_exr(const char *path, struct carried *carried)
+static bool look_into_exr(const char *path, struct carried *carried, struct kiln_error *reason)
 {
     exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
     exr_context_t context = NULL;
@@ -123,12 +125,13 @@ static bool look_into_exr(const char *path, struct carried *carried)
     take_attribute(context, "kiln:version", carried->version, sizeof carried->version);
     take_attribute(context, "kiln:scene", carried->scene, sizeof carried->scene);
     take_attribute(context, "kiln:frame", carried->frame, sizeof carried->frame);
-    const bool ok = has_all_chunks(context);
+    const bool ok = has_all_chunks(context, path, reason);
     exr_finish(&context);
     return ok;
 }
 
-bool kiln_output_carries(const struct kiln_output_params *params, const char *path, uint32_t frame)
+bool kiln_output_carries(const struct kiln_output_params *params, const char *path, uint32_t frame,
+                         struct kiln_error *reason)
 {
     struct carried carried = {.scene = ""};
     char number[16];
@@ -136,7 +139,7 @@ bool kiln_output_carries(const struct kiln_output_params *params, const char *pa
     const bool png = params->format == &kiln_format_png;
     if (!png && params->format != &kiln_format_exr)
         return false;
-    return (png ? look_into_png(path, &carried) : look_into_exr(path, &carried)) &&
+    return (png ? look_into_png(path, &carried, reason) : look_into_exr(path, &carried, reason)) &&
            carried.bits == (png ? params->png_bits : params->exr_bits) &&
            strcmp(carried.version, KILN_VERSION) == 0 &&
            strcmp(carried.scene, params->scene_hash) == 0 && strcmp(carried.frame, number) == 0;
