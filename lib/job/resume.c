@@ -303,7 +303,7 @@ void kiln_resume_undo(struct kiln_resume *resume)
 
 bool kiln_resume_merge(struct kiln_resume *resume, struct kiln_error *error)
 {
-    bool found;
+    bool found = false;
     struct kiln_records ignored;
     if (!kiln_records_create(&ignored, resume->records->clip, resume->records->clip_count))
         return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", resume->output.path);
