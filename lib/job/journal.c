@@ -293,6 +293,8 @@ static char *read_text(const struct kiln_journal *journal, struct kiln_error *er
     size_t size = 0;
     char *text = kiln_text_file_read(journal->path, "a journal", MAX_SIZE, &size, error);
     const size_t compared = size < sizeof start - 1 ? size : sizeof start - 1;
+    if (!text && error->code == KILN_INVALID_INPUT) /* of what nobody gave as an input */
+        error->code = KILN_IO;
     if (!text || strncmp(text, start, compared) == 0)
         return text;
     kiln_error_set(error, KILN_IO, "%s: is not a journal (--force starts anew)", journal->path);
