@@ -294,7 +294,8 @@ bool kiln_resume_begin(struct kiln_resume *resume, const struct kiln_resume_para
 
 void kiln_resume_undo(struct kiln_resume *resume)
 {
-    if (resume->was_begun)
+    /* Without the journal the output is another's, and so is the folder of its parts. */
+    if (resume->was_begun || !resume->journal)
         return;
     kiln_journal_remove(&resume->journal);
     if (resume->folder[0])
