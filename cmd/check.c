@@ -13,8 +13,7 @@ static const struct option options[] = {
     HELP_OPTION,
 };
 
-/* Writes what was asked for to standard output; false when that failed, which report_finish says.
- */
+/* Writes what was asked for to standard output; false when that failed. */
 static bool print_scene(const struct kiln_scene *scene, const char *path, bool hash, bool several)
 {
     if (hash && several)
@@ -44,7 +43,9 @@ static int run(const struct arguments *arguments)
             int failure = report_error(&error);
             code = code ? code : failure;
         } else if (!quiet && !print_scene(scene, path, hash, arguments->operand_count > 1)) {
-            code = code ? code : KILN_IO;
+            /* report_finish tells of a failure of standard output; else memory was short. */
+            int failure = ferror(stdout) ? KILN_IO : report_no_memory();
+            code = code ? code : failure;
         }
         kiln_scene_destroy(&scene);
     }

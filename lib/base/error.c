@@ -2,6 +2,7 @@
  * whoever called the library. */
 #include "base/error.h"
 
+#include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -27,7 +28,7 @@ bool kiln_error_set_errno(struct kiln_error *error, enum kiln_code code, int err
 {
     va_list args;
     va_start(args, format);
-    format_message(error, code, format, args);
+    format_message(error, errnum == ENOMEM ? KILN_DEVICE_FAILED : code, format, args);
     va_end(args);
 
     char text[128];

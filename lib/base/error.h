@@ -8,7 +8,8 @@
 bool kiln_error_set(struct kiln_error *error, enum kiln_code code, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* The same with ": " and the text of an errno value after the message. */
+/* The same with ": " and the text of an errno value after the message. ENOMEM is KILN_DEVICE_FAILED
+ * whatever the code: that memory is short says nothing of a file. */
 bool kiln_error_set_errno(struct kiln_error *error, enum kiln_code code, int errnum,
                           const char *format, ...) __attribute__((format(printf, 4, 5)));
 

@@ -74,7 +74,12 @@ static struct kiln_asset_image *read_frame(struct encode *encode, char path[KILN
         !kiln_footage_file(encode->footage, path, error))
         return NULL;
     struct kiln_asset_image *image = kiln_footage_take(encode->footage, error);
-    kiln_carried_read(path, carried);
+    struct kiln_error reason = {0};
+    if (image && !kiln_carried_read(path, carried, &reason) && reason.code == KILN_DEVICE_FAILED) {
+        *error = reason;
+        kiln_asset_image_destroy(&image);
+        return NULL;
+    }
     const bool says = kiln_text_to_uint64(carried->frame, &said) && said <= UINT32_MAX;
     *number = says ? (uint32_t)said : frame.number;
     return image;

@@ -205,11 +205,17 @@ static void read_clip(const struct kiln_journal *journal, const struct kiln_node
     kiln_records_take(records, &whole);
 }
 
-static const struct kiln_node *parse_line(struct kiln_arena *arena, const char *path, char *line)
+/* *node becomes NULL where a line makes no sense. False when memory was too short to say. */
+static bool parse_line(struct kiln_arena *arena, const char *path, char *line,
+                       const struct kiln_node **node, struct kiln_error *error)
 {
     const struct kiln_origin origin = {.name = path, .kind = "a journal"};
-    struct kiln_error ignored = {0};
-    return kiln_node_parse(arena, line, strlen(line), &origin, &ignored);
+    struct kiln_error reason = {0};
+    *node = kiln_node_parse(arena, line, strlen(line), &origin, &reason);
+    if (*node || reason.code != KILN_DEVICE_FAILED)
+        return true;
+    *error = reason;
+    return false;
 }
 
 static bool says(const struct kiln_node *line, const char *key, const char *text)
@@ -245,6 +251,24 @@ static bool check_head(const struct kiln_journal *journal, const struct kiln_nod
         head->made_by);
 }
 
+/* Takes what a line says; the first line has to be the head of this job. */
+static bool read_line(const struct kiln_journal *journal, const struct kiln_node *line,
+                      const struct kiln_journal_head *head, bool is_first,
+                      struct kiln_records *records, struct kiln_error *error)
+{
+    if (is_first)
+        return check_head(journal, line, head, error);
+    if (line && kiln_node_entry(line, "frame"))
+        read_frames(line, false, records);
+    else if (line && kiln_node_entry(line, "part"))
+        read_frames(line, true, records);
+    else if (line && kiln_node_entry(line, "clip"))
+        read_clip(journal, line, records);
+    else if (line && kiln_node_entry(line, "anew"))
+        records->anew = true;
+    return true;
+}
+
 /* Reads all whole lines; *length gets where the last one ends, *first where the first one does. */
 static bool read_lines(const struct kiln_journal *journal, char *text,
                        const struct kiln_journal_head *head, struct kiln_records *records,
@@ -257,17 +281,9 @@ static bool read_lines(const struct kiln_journal *journal, char *text,
         if (!arena)
             return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", journal->path);
         *end = '\0';
-        const struct kiln_node *node = parse_line(arena, journal->path, line);
-        if (line == text)
-            ok = check_head(journal, node, head, error);
-        else if (node && kiln_node_entry(node, "frame"))
-            read_frames(node, false, records);
-        else if (node && kiln_node_entry(node, "part"))
-            read_frames(node, true, records);
-        else if (node && kiln_node_entry(node, "clip"))
-            read_clip(journal, node, records);
-        else if (node && kiln_node_entry(node, "anew"))
-            records->anew = true;
+        const struct kiln_node *node;
+        ok = parse_line(arena, journal->path, line, &node, error) &&
+             read_line(journal, node, head, line == text, records, error);
         *end = '\n';
         kiln_arena_destroy(&arena);
         *length = (size_t)(end + 1 - text);
@@ -283,6 +299,8 @@ static char *read_text(const struct kiln_journal *journal, struct kiln_error *er
     size_t size = 0;
     char *text = kiln_text_file_read(journal->path, "a journal", MAX_SIZE, &size, error);
     const size_t compared = size < sizeof start - 1 ? size : sizeof start - 1;
+    if (!text && error->code == KILN_INVALID_INPUT) /* of what nobody gave as an input */
+        error->code = KILN_IO;
     if (!text || strncmp(text, start, compared) == 0)
         return text;
     kiln_error_set(error, KILN_IO, "%s: is not a journal (--force starts anew)", journal->path);
@@ -420,7 +438,8 @@ static bool visit_journals(const char *output,
     struct dirent **entries = NULL;
     snprintf(folder, sizeof folder, "%.*s.", before, output);
     const int count = scandir(folder, &entries, NULL, alphasort);
-    bool ok = true;
+    bool ok = count >= 0 || errno != ENOMEM ||
+              kiln_error_set_errno(error, KILN_IO, errno, "%s", folder);
     for (int i = 0; i < count; i++) {
         char path[KILN_PATH_SIZE];
         bool is_shard;
@@ -491,8 +510,8 @@ static bool read_head(void *user, const char *path, bool is_shard, struct kiln_e
     char *end = text ? strchr(text, '\n') : NULL;
     if (end)
         *end = '\0';
-    const struct kiln_node *line = end ? parse_line(finding->arena, path, text) : NULL;
-    bool ok = text != NULL;
+    const struct kiln_node *line = NULL;
+    bool ok = text && (!end || parse_line(finding->arena, path, text, &line, error));
     if (line) {
         ok = kiln_journal_head_read(finding->head, path, finding->output, line, finding->arena,
                                     error);

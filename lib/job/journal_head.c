@@ -51,11 +51,12 @@ void kiln_journal_head_write(struct kiln_json *json, const struct kiln_journal_h
 
 /* ---- reading --------------------------------------------------------------------------------- */
 
-/* Members of a line; `bad` stays true after one that makes no sense. */
+/* Members of a line; `bad` stays true after one that makes no sense, `starved` after one for which
+ * memory was too short. */
 struct members {
     const struct kiln_node *line;
     struct kiln_arena *arena;
-    bool bad;
+    bool bad, starved;
 };
 
 static uint32_t number_of(struct members *m, const struct kiln_node *node)
@@ -84,6 +85,7 @@ static const char *take_text(struct members *m, const char *key)
     const struct kiln_node *node = kiln_node_entry(m->line, key);
     const bool is_text = node && node->kind == KILN_NODE_SCALAR;
     const char *text = is_text ? kiln_arena_text(m->arena, node->text, strlen(node->text)) : NULL;
+    m->starved |= is_text && !text;
     m->bad |= !text;
     return text ? text : "";
 }
@@ -110,6 +112,7 @@ static void take_frames(struct members *m, struct kiln_output_params *output)
     for (const char *c = text; *c; c++)
         room += *c == ',';
     struct kiln_frame_range *clip = kiln_arena_alloc(m->arena, room, sizeof *clip);
+    m->starved |= !clip;
     m->bad |= !clip;
     uint64_t next = 0;
     for (size_t i = 0; i < room && !m->bad; i++) {
@@ -155,6 +158,8 @@ bool kiln_journal_head_read(struct kiln_journal_head *head, const char *journal,
     take_settings(&m, &output);
     const char *made_by = take_text(&m, "made_by"), *scene = take_text(&m, "manifest");
     const char *job = take_text(&m, "job");
+    if (m.starved)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", journal);
     if (m.bad)
         return kiln_error_set(error, KILN_IO, "%s: the journal is damaged", journal);
     output = kiln_output_complete(&output, error);

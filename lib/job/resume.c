@@ -12,15 +12,24 @@
 
 /* ---- looking at files ------------------------------------------------------------------------ */
 
-/* Whether a file is the one that has this hash. */
-static bool is_same(const char *path, uint64_t bytes, const char *sha256)
+/* Whether a file is the one that has this hash. *reason is filled where it cannot be read. */
+static bool is_same(const char *path, uint64_t bytes, const char *sha256, struct kiln_error *reason)
 {
     struct kiln_whole whole = {.path = path};
-    struct kiln_error ignored = {0};
     struct stat status;
     return bytes > 0 && stat(path, &status) == 0 && S_ISREG(status.st_mode) &&
-           (uint64_t)status.st_size == bytes && kiln_whole_measure(&whole, &ignored) &&
+           (uint64_t)status.st_size == bytes && kiln_whole_measure(&whole, reason) &&
            strcmp(whole.sha256, sha256) == 0;
+}
+
+/* Whether a look at a file tells something of it. One that memory was too short for does not: the
+ * file may be whole, so the job ends with that error. */
+static bool could_look(const struct kiln_error *reason, struct kiln_error *error)
+{
+    if (reason->code != KILN_DEVICE_FAILED)
+        return true;
+    *error = *reason;
+    return false;
 }
 
 static bool is_there(const char *path)
@@ -51,16 +60,21 @@ static bool look_at_image(struct kiln_resume *resume, uint32_t frame, const char
                           struct kiln_error *error)
 {
     struct kiln_record *record = kiln_records_of(resume->records, frame);
-    if (is_same(path, record->bytes, record->sha256)) {
+    struct kiln_error reason = {0};
+    if (is_same(path, record->bytes, record->sha256, &reason)) {
         record->whole = true;
         return true;
     }
+    if (!could_look(&reason, error))
+        return false;
     *record = (struct kiln_record){.has_state = false};
     if (!is_there(path))
         return true;
     if (!resume->records->anew && is_file(path) &&
-        kiln_output_carries(&resume->output, path, frame))
+        kiln_output_carries(&resume->output, path, frame, &reason))
         return adopt(resume, path, frame, error);
+    if (!could_look(&reason, error))
+        return false;
     return found || kiln_error_set(error, KILN_IO,
                                    "%s: the file exists, and is not a whole frame %u of this job "
                                    "(--force replaces it)",
@@ -103,32 +117,34 @@ static bool look_at_part(struct kiln_resume *resume, uint32_t part, struct kiln_
 {
     const struct kiln_frame_range frames = kiln_part_range(&resume->output, part);
     const struct kiln_record *first = kiln_records_of(resume->records, frames.first);
-    struct kiln_error ignored = {0};
+    struct kiln_error reason = {0};
     char path[KILN_PATH_SIZE];
     if (!kiln_part_path(&resume->output, part, path, error))
         return false;
-    const bool whole = is_same(path, first->bytes, first->sha256) &&
-                       kiln_part_check(&resume->output, part, &ignored);
+    const bool whole = is_same(path, first->bytes, first->sha256, &reason) &&
+                       kiln_part_check(&resume->output, part, &reason);
+    if (!could_look(&reason, error))
+        return false;
     mark_part(resume, frames, whole);
     return true;
 }
 
-/* Whether the clip and what belongs to it are as the journal says. */
-static bool clip_is_whole(const struct kiln_resume *resume)
+/* Whether the clip and what belongs to it are as the journal says. *reason is filled where a file
+ * cannot be read. */
+static bool clip_is_whole(const struct kiln_resume *resume, struct kiln_error *reason)
 {
     const struct kiln_records *records = resume->records;
-    struct kiln_error ignored = {0};
     char path[KILN_PATH_SIZE];
     bool whole = true;
     for (uint32_t i = 0; whole; i++) {
-        if (!kiln_output_clip_file(&resume->output, i, path, &ignored))
+        if (!kiln_output_clip_file(&resume->output, i, path, reason))
             return false;
         if (!*path)
             break;
         const struct kiln_clip_file *file = NULL;
         for (uint32_t k = 0; k < records->file_count; k++)
             file = strcmp(records->files[k].path, path) == 0 ? &records->files[k] : file;
-        whole = file && is_same(path, file->bytes, file->sha256);
+        whole = file && is_same(path, file->bytes, file->sha256, reason);
     }
     for (uint32_t i = 0; i < records->count; i++)
         whole = whole && records->items[i].has_state;
@@ -166,7 +182,10 @@ static void remove_parts(const struct kiln_resume *resume)
 
 static bool look_at_clip(struct kiln_resume *resume, bool found, struct kiln_error *error)
 {
-    resume->clip_is_whole = resume->shard.count == 0 && clip_is_whole(resume);
+    struct kiln_error reason = {0};
+    resume->clip_is_whole = resume->shard.count == 0 && clip_is_whole(resume, &reason);
+    if (!could_look(&reason, error))
+        return false;
     if (resume->clip_is_whole) {
         remove_parts(resume);
         for (uint32_t i = 0; i < resume->records->count; i++)
@@ -274,7 +293,8 @@ bool kiln_resume_begin(struct kiln_resume *resume, const struct kiln_resume_para
 
 void kiln_resume_undo(struct kiln_resume *resume)
 {
-    if (resume->was_begun)
+    /* Without the journal the output is another's, and so is the folder of its parts. */
+    if (resume->was_begun || !resume->journal)
         return;
     kiln_journal_remove(&resume->journal);
     if (resume->folder[0])
@@ -283,7 +303,7 @@ void kiln_resume_undo(struct kiln_resume *resume)
 
 bool kiln_resume_merge(struct kiln_resume *resume, struct kiln_error *error)
 {
-    bool found;
+    bool found = false;
     struct kiln_records ignored;
     if (!kiln_records_create(&ignored, resume->records->clip, resume->records->clip_count))
         return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", resume->output.path);

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <zlib.h>
 
+#include "base/error.h"
 #include "base/file_in.h"
 #include "output/formats.h"
 
@@ -57,11 +58,10 @@ static bool look_at_png(const uint8_t *bytes, size_t size, struct kiln_carried *
     return false;
 }
 
-static bool look_into_png(const char *path, struct kiln_carried *carried)
+static bool look_into_png(const char *path, struct kiln_carried *carried, struct kiln_error *reason)
 {
-    struct kiln_error ignored = {0};
     size_t size;
-    uint8_t *bytes = kiln_file_read(path, "picture", "a PNG file", MAX_PNG, &size, &ignored);
+    uint8_t *bytes = kiln_file_read(path, "picture", "a PNG file", MAX_PNG, &size, reason);
     const bool ok = bytes && look_at_png(bytes, size, carried);
     free(bytes);
     return ok;
@@ -94,7 +94,7 @@ static void take_rate(exr_const_context_t context, char *value, size_t room)
 }
 
 /* Reads every chunk of scan lines. */
-static bool has_all_chunks(exr_const_context_t context)
+static bool has_all_chunks(exr_const_context_t context, const char *path, struct kiln_error *reason)
 {
     int32_t count = 0, lines = 0;
     exr_attr_box2i_t window;
@@ -106,13 +106,15 @@ static bool has_all_chunks(exr_const_context_t context)
         ok = exr_read_scanline_chunk_info(context, 0, window.min.y + i * lines, &chunk) ==
              EXR_ERR_SUCCESS;
         void *packed = ok ? malloc(chunk.packed_size + 1) : NULL;
+        if (ok && !packed)
+            kiln_error_set(reason, KILN_DEVICE_FAILED, "%s: out of memory", path);
         ok = packed && exr_read_chunk(context, 0, &chunk, packed) == EXR_ERR_SUCCESS;
         free(packed);
     }
     return ok && count > 0;
 }
 
-static bool look_into_exr(const char *path, struct kiln_carried *carried)
+static bool look_into_exr(const char *path, struct kiln_carried *carried, struct kiln_error *reason)
 {
     exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
     exr_context_t context = NULL;
@@ -131,18 +133,19 @@ static bool look_into_exr(const char *path, struct kiln_carried *carried)
     take_attribute(context, "kiln:seed", carried->seed, sizeof carried->seed);
     take_attribute(context, "kiln:frame", carried->frame, sizeof carried->frame);
     take_rate(context, carried->fps, sizeof carried->fps);
-    const bool ok = has_all_chunks(context);
+    const bool ok = has_all_chunks(context, path, reason);
     exr_finish(&context);
     return ok;
 }
 
-bool kiln_carried_read(const char *path, struct kiln_carried *carried)
+bool kiln_carried_read(const char *path, struct kiln_carried *carried, struct kiln_error *reason)
 {
     *carried = (struct kiln_carried){.bits = 0};
-    return look_into_png(path, carried) || look_into_exr(path, carried);
+    return look_into_png(path, carried, reason) || look_into_exr(path, carried, reason);
 }
 
-bool kiln_output_carries(const struct kiln_output_params *params, const char *path, uint32_t frame)
+bool kiln_output_carries(const struct kiln_output_params *params, const char *path, uint32_t frame,
+                         struct kiln_error *reason)
 {
     struct kiln_carried carried = {.bits = 0};
     char number[16];
@@ -150,7 +153,7 @@ bool kiln_output_carries(const struct kiln_output_params *params, const char *pa
     const bool png = params->format == &kiln_format_png;
     if (!png && params->format != &kiln_format_exr)
         return false;
-    return (png ? look_into_png(path, &carried) : look_into_exr(path, &carried)) &&
+    return (png ? look_into_png(path, &carried, reason) : look_into_exr(path, &carried, reason)) &&
            carried.bits == (png ? params->png_bits : params->exr_bits) &&
            strcmp(carried.version, KILN_VERSION) == 0 &&
            strcmp(carried.scene, params->scene_hash) == 0 && strcmp(carried.frame, number) == 0;

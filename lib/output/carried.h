@@ -11,7 +11,8 @@ struct kiln_carried {
     uint32_t bits; /* a channel */
 };
 
-/* Reads a PNG or EXR file to its end. False when it is none, or not whole. */
-bool kiln_carried_read(const char *path, struct kiln_carried *carried);
+/* Reads a PNG or EXR file to its end. False when it is none, or not whole; *reason gets
+ * KILN_DEVICE_FAILED when memory was too short to look. */
+bool kiln_carried_read(const char *path, struct kiln_carried *carried, struct kiln_error *reason);
 
 #endif

@@ -47,8 +47,8 @@ static int open_codec(struct kiln_coder *coder, const struct kiln_output_params 
     set_colors(codec);
     codec->thread_count = ENCODER_THREADS;
     codec->flags |= AV_CODEC_FLAG_BITEXACT | AV_CODEC_FLAG_GLOBAL_HEADER;
-    if (coder->settings->tune)
-        coder->settings->tune(codec, params);
+    if (coder->settings->tune && !coder->settings->tune(codec, params))
+        return AVERROR(ENOMEM);
     return avcodec_open2(codec, found, NULL);
 }
 

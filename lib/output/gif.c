@@ -44,13 +44,13 @@ static int64_t tick(const struct kiln_output_params *params, uint64_t frame)
 
 /* Without this, the last frame would last as long as the one before; and less than what MAX_RATE
  * allows, browsers would show for a tenth of a second. */
-static void prepare(const struct kiln_output_params *params, AVDictionary **options)
+static int prepare(const struct kiln_output_params *params, AVDictionary **options)
 {
     uint64_t length = kiln_ranges_count(params->clip, params->clip_count),
              stride = choose_stride(params);
     uint64_t last = (length - 1) / stride * stride;
     int64_t delay = tick(params, length) - tick(params, last);
-    av_dict_set_int(options, "final_delay", delay < MIN_DELAY ? MIN_DELAY : delay, 0);
+    return av_dict_set_int(options, "final_delay", delay < MIN_DELAY ? MIN_DELAY : delay, 0);
 }
 
 static bool check(const struct kiln_output_params *params, struct kiln_error *error)

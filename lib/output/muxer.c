@@ -31,22 +31,28 @@ static void describe(const struct kiln_output_params *params, char *out, size_t 
              params->clip[0].first, params->clip[params->clip_count - 1].last);
 }
 
-static int write_header(struct kiln_muxer *muxer)
+static int set_metadata(struct kiln_muxer *muxer)
 {
-    AVFormatContext *container = muxer->container;
-    const struct kiln_video_settings *settings = muxer->params->format->video;
     char comment[256];
     describe(muxer->params, comment, sizeof comment);
-    av_dict_set(&container->metadata, "comment", comment, 0);
+    int status = av_dict_set(&muxer->container->metadata, "comment", comment, 0);
     /* Alpha is a second stream in the packets' side data: tell WebM. */
-    if (muxer->stream->codecpar->format == AV_PIX_FMT_YUVA420P)
-        av_dict_set(&muxer->stream->metadata, "alpha_mode", "1", 0);
+    if (status >= 0 && muxer->stream->codecpar->format == AV_PIX_FMT_YUVA420P)
+        status = av_dict_set(&muxer->stream->metadata, "alpha_mode", "1", 0);
+    return status;
+}
+
+static int write_header(struct kiln_muxer *muxer)
+{
+    const struct kiln_video_settings *settings = muxer->params->format->video;
     AVDictionary *options = NULL;
-    if (settings->muxer_options)
-        av_dict_parse_string(&options, settings->muxer_options, "=", ":", 0);
-    if (settings->prepare)
-        settings->prepare(muxer->params, &options);
-    int status = avformat_write_header(container, &options);
+    int status = set_metadata(muxer);
+    if (status >= 0 && settings->muxer_options)
+        status = av_dict_parse_string(&options, settings->muxer_options, "=", ":", 0);
+    if (status >= 0 && settings->prepare)
+        status = settings->prepare(muxer->params, &options);
+    if (status >= 0)
+        status = avformat_write_header(muxer->container, &options);
     av_dict_free(&options);
     muxer->begun = status >= 0;
     return status;

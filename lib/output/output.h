@@ -105,8 +105,9 @@ bool kiln_output_clip_file(const struct kiln_output_params *params, uint32_t ind
                            struct kiln_error *error);
 
 /* Whether a file is a whole PNG or EXR image of such a scene, frame and depth, by this version: it
- * says so itself. */
-bool kiln_output_carries(const struct kiln_output_params *params, const char *path, uint32_t frame);
+ * says so itself. *reason gets KILN_DEVICE_FAILED when memory was too short to look. */
+bool kiln_output_carries(const struct kiln_output_params *params, const char *path, uint32_t frame,
+                         struct kiln_error *reason);
 
 /* Checks everything that can be checked before the first frame (suffix, folder writable, existing
  * files, even sizes, codec present, gaps in a video), makes missing folders, and opens the

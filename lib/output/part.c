@@ -233,8 +233,10 @@ static struct kiln_picture *read_picture(const struct kiln_output_params *params
         packed && kiln_part_read(in, packed, size, error)
             ? kiln_picture_create(params->width, params->height, bits, NULL, NULL, 0, error)
             : NULL;
-    if (!packed)
+    if (size > ZSTD_compressBound(pixels))
         kiln_part_refuse(in, "the part of a clip is damaged", error);
+    else if (!packed)
+        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", in->path);
     if (picture && ZSTD_decompress(picture->display, pixels, packed, size) != pixels) {
         kiln_part_refuse(in, "the part of a clip is damaged", error);
         kiln_picture_destroy(&picture);

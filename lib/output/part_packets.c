@@ -121,10 +121,13 @@ bool kiln_part_packets_finish(struct kiln_part_packets *packets, struct kiln_err
 /* Reads so many bytes into new memory of FFmpeg's, which pads it. */
 static uint8_t *read_bytes(struct kiln_part_in *in, uint32_t size, struct kiln_error *error)
 {
-    uint8_t *bytes =
-        size <= in->left ? av_mallocz((size_t)size + AV_INPUT_BUFFER_PADDING_SIZE) : NULL;
-    if (!bytes) {
+    if (size > in->left) {
         kiln_part_refuse(in, "the part of a clip is damaged", error);
+        return NULL;
+    }
+    uint8_t *bytes = av_mallocz((size_t)size + AV_INPUT_BUFFER_PADDING_SIZE);
+    if (!bytes) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", in->path);
         return NULL;
     }
     if (!kiln_part_read(in, bytes, size, error))

@@ -24,9 +24,11 @@ struct kiln_video_settings {
     const char *later_packets; /* FFmpeg's bit stream filters for those of all parts but the first;
                                   NULL: none */
     const char *muxer_options; /* "key=value:key=value", or NULL */
-    void (*tune)(AVCodecContext *codec, const struct kiln_output_params *params); /* or NULL */
-    /* Adds options of the muxer that depend on the clip, and warns; NULL: there are none. */
-    void (*prepare)(const struct kiln_output_params *params, AVDictionary **options);
+    /* Sets what the encoder is told; false when memory is short. NULL: there is nothing to set. */
+    bool (*tune)(AVCodecContext *codec, const struct kiln_output_params *params);
+    /* Adds options of the muxer that depend on the clip, and warns; FFmpeg's status. NULL: there are
+     * none. */
+    int (*prepare)(const struct kiln_output_params *params, AVDictionary **options);
 };
 
 /* What this FFmpeg, being built without it, lacks for a format: "encoder libvpx-vp9"; "" if

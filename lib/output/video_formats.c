@@ -12,22 +12,23 @@ enum { MAX_EDGE = 16384, MAX_WEBP_EDGE = 16383, MAX_APNG_DELAY = 65535 };
     .open = kiln_video_open, .encode = kiln_video_encode, .finish = kiln_video_finish,             \
     .close = kiln_video_close
 
-static void set_option(AVCodecContext *codec, const char *key, const char *value)
+/* False when memory is short. An option that this FFmpeg does not know is left out. */
+static bool set_option(AVCodecContext *codec, const char *key, const char *value)
 {
-    av_opt_set(codec->priv_data, key, value, 0);
+    return av_opt_set(codec->priv_data, key, value, 0) != AVERROR(ENOMEM);
 }
 
 /* ---- MP4 ---------------------------------------------------------------------------------- */
 
 /* quality 100 is a rate factor of 10, beyond what eyes can tell; 80 is 18, 50 is 30, 0 is 50. */
-static void tune_h264(AVCodecContext *codec, const struct kiln_output_params *params)
+static bool tune_h264(AVCodecContext *codec, const struct kiln_output_params *params)
 {
-    /* Within 0.1 dB of "medium" at the same rate factor, in 60 % of the time and less memory. */
-    set_option(codec, "preset", "faster");
-    set_option(codec, "aq-mode", "3"); /* bits for dark gradients: night and smoke */
-    /* The same stream with vectors of any width, and no key frame but each part's first. */
-    set_option(codec, "x264-params", "cpu-independent=1:scenecut=0");
     av_opt_set_double(codec->priv_data, "crf", 50.0 - 0.4 * params->quality, 0);
+    /* "faster" is within 0.1 dB of "medium" at the same rate factor, in 60 % of the time and less
+     * memory; aq-mode=3 gives bits to dark gradients, such as night and smoke. The last option makes
+     * the same stream with vectors of any width, and no key frame but each part's first. */
+    return set_option(codec, "preset", "faster") && set_option(codec, "aq-mode", "3") &&
+           set_option(codec, "x264-params", "cpu-independent=1:scenecut=0");
 }
 
 static const struct kiln_video_settings mp4 = {
@@ -58,17 +59,14 @@ const struct kiln_format kiln_format_mp4 = {
 
 /* quality 100 is a level of 8, 80 is 19, 0 is 63. Tiles may be encoded side by side without a
  * change of bytes; rows of macroblocks may not. */
-static void tune_vp9(AVCodecContext *codec, const struct kiln_output_params *params)
+static bool tune_vp9(AVCodecContext *codec, const struct kiln_output_params *params)
 {
-    set_option(codec, "deadline", "good");
-    set_option(codec, "cpu-used", "4");
-    set_option(codec, "row-mt", "0");
-    set_option(codec, "tile-columns", "2");
     av_opt_set_int(codec->priv_data, "crf", 63 - (55 * (int)params->quality + 50) / 100, 0);
     codec->bit_rate = 0; /* the level alone decides */
     /* The two streams of a clip with alpha must keep their frames side by side. */
-    if (params->alpha)
-        set_option(codec, "auto-alt-ref", "0");
+    return set_option(codec, "deadline", "good") && set_option(codec, "cpu-used", "4") &&
+           set_option(codec, "row-mt", "0") && set_option(codec, "tile-columns", "2") &&
+           (!params->alpha || set_option(codec, "auto-alt-ref", "0"));
 }
 
 static const struct kiln_video_settings webm = {
@@ -94,12 +92,12 @@ const struct kiln_format kiln_format_webm = {
 
 /* ---- Matroska ------------------------------------------------------------------------------ */
 
-static void tune_ffv1(AVCodecContext *codec, const struct kiln_output_params *params)
+static bool tune_ffv1(AVCodecContext *codec, const struct kiln_output_params *params)
 {
     (void)params;
     codec->level = 3; /* the version with slices and their checksums */
     codec->slices = 4;
-    set_option(codec, "slicecrc", "1");
+    return set_option(codec, "slicecrc", "1");
 }
 
 static const struct kiln_video_settings mkv = {
@@ -126,13 +124,13 @@ const struct kiln_format kiln_format_mkv = {
 /* ---- QuickTime ----------------------------------------------------------------------------- */
 
 /* A fixed quantiser: 1 at quality 100, 3 at 80, 11 at 0. */
-static void tune_prores(AVCodecContext *codec, const struct kiln_output_params *params)
+static bool tune_prores(AVCodecContext *codec, const struct kiln_output_params *params)
 {
-    set_option(codec, "profile", "4444");
-    set_option(codec, "vendor", "apl0"); /* some programs open nothing else */
-    set_option(codec, "alpha_bits", params->alpha ? "16" : "0");
     codec->flags |= AV_CODEC_FLAG_QSCALE;
     codec->global_quality = FF_QP2LAMBDA * (11 - (int)params->quality / 10);
+    /* Some programs open files of no other vendor. */
+    return set_option(codec, "profile", "4444") && set_option(codec, "vendor", "apl0") &&
+           set_option(codec, "alpha_bits", params->alpha ? "16" : "0");
 }
 
 static const struct kiln_video_settings mov = {
@@ -160,16 +158,16 @@ const struct kiln_format kiln_format_mov = {
 
 /* ---- Animated PNG -------------------------------------------------------------------------- */
 
-static void tune_apng(AVCodecContext *codec, const struct kiln_output_params *params)
+static bool tune_apng(AVCodecContext *codec, const struct kiln_output_params *params)
 {
     (void)params;
-    set_option(codec, "pred", "sub"); /* as the single images of png.c */
     codec->compression_level = 3;
     codec->sample_aspect_ratio = (AVRational){1, 1}; /* else it writes one of 0 */
+    return set_option(codec, "pred", "sub");         /* as the single images of png.c */
 }
 
 /* A delay is a fraction of 16-bit numbers. */
-static void prepare_apng(const struct kiln_output_params *params, AVDictionary **options)
+static int prepare_apng(const struct kiln_output_params *params, AVDictionary **options)
 {
     AVRational delay;
     if (!av_reduce(&delay.num, &delay.den, params->fps_den, params->fps_num, MAX_APNG_DELAY))
@@ -178,7 +176,7 @@ static void prepare_apng(const struct kiln_output_params *params, AVDictionary *
                        params->fps_num, params->fps_den, delay.den, delay.num);
     char text[32];
     snprintf(text, sizeof text, "%d/%d", delay.num, delay.den);
-    av_dict_set(options, "final_delay", text, 0);
+    return av_dict_set(options, "final_delay", text, 0);
 }
 
 static const struct kiln_video_settings apng = {
@@ -204,11 +202,11 @@ const struct kiln_format kiln_format_apng = {
 
 /* ---- Animated WebP ------------------------------------------------------------------------- */
 
-static void tune_webp(AVCodecContext *codec, const struct kiln_output_params *params)
+static bool tune_webp(AVCodecContext *codec, const struct kiln_output_params *params)
 {
-    set_option(codec, "lossless", params->quality == 100 ? "1" : "0");
     av_opt_set_double(codec->priv_data, "quality", params->quality == 100 ? 50 : params->quality,
                       0); /* lossless: effort */
+    return set_option(codec, "lossless", params->quality == 100 ? "1" : "0");
 }
 
 static const struct kiln_video_settings webp = {

@@ -99,8 +99,10 @@ bool kiln_read_file_asset(struct kiln_reader *reader, const struct kiln_node *no
     struct kiln_text joined = {0};
     kiln_text_add(&joined, "%s/%s", root, node->text);
     char *real = joined.failed ? NULL : realpath(joined.data, NULL);
-    int reason = errno;
+    const int reason = joined.failed ? ENOMEM : errno;
     kiln_text_free(&joined);
+    if (!real && reason == ENOMEM)
+        return kiln_reader_out_of_memory(reader);
     if (!real) {
         char text[128];
         return kiln_reader_error(reader, node, "cannot open '%s': %s%s", quoted,

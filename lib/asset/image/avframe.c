@@ -70,6 +70,8 @@ static enum kiln_code convert_integer(struct conversion *conversion)
     struct SwsContext *scaler = sws_getContext(
         width, height, frame->format, width, height, format,
         SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT | SWS_BITEXACT, NULL, NULL, NULL);
+    if (!scaler && sws_isSupportedInput(frame->format))
+        return fail(conversion, KILN_DEVICE_FAILED, "out of memory while decoding the image");
     if (!scaler)
         return fail(conversion, KILN_INVALID_INPUT, "the image's pixel format cannot be read");
     set_colors(scaler, frame);

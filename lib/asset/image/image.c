@@ -124,7 +124,10 @@ static bool open_decoder(struct decoding *decoding, enum AVCodecID id)
     decoding->decoder->err_recognition = AV_EF_CRCCHECK | AV_EF_BITSTREAM | AV_EF_BUFFER;
     if (id != AV_CODEC_ID_TIFF) /* there it would refuse every tag that FFmpeg does not know */
         decoding->decoder->err_recognition |= AV_EF_EXPLODE;
-    if (avcodec_open2(decoding->decoder, codec, NULL) < 0)
+    const int status = avcodec_open2(decoding->decoder, codec, NULL);
+    if (status == AVERROR(ENOMEM))
+        return fail(decoding, KILN_DEVICE_FAILED, "out of memory while decoding the image");
+    if (status < 0)
         return fail(decoding, KILN_IO, "the image decoder does not start");
     return true;
 }

@@ -109,14 +109,18 @@ static bool open_container(struct kiln_video_in *video)
         return fail(video, KILN_DEVICE_FAILED, "out of memory while opening the video");
     }
     video->container->pb = video->io;
+    video->container->flags |= AVFMT_FLAG_CUSTOM_IO; /* the io is ours to close, opened or not */
     video->container->io_open = refuse_file;
     video->container->max_streams = MAX_STREAMS;
     video->container->probesize = PROBE_BYTES;
     AVDictionary *options = NULL;
-    av_dict_set(&options, "format_whitelist", "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,avi,gif,apng",
-                0);
-    av_dict_set(&options, "protocol_whitelist", "file", 0);
-    int status = avformat_open_input(&video->container, NULL, NULL, &options);
+    /* What is refused must not be opened because memory was too short to refuse it. */
+    int status = av_dict_set(&options, "format_whitelist",
+                             "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,avi,gif,apng", 0);
+    if (status >= 0)
+        status = av_dict_set(&options, "protocol_whitelist", "file", 0);
+    if (status >= 0)
+        status = avformat_open_input(&video->container, NULL, NULL, &options);
     av_dict_free(&options);
     if (status < 0)
         return fail_status(video, status, "not a video; allowed are " ALLOWED " files");
