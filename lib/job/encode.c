@@ -75,7 +75,9 @@ static struct kiln_asset_image *read_frame(struct encode *encode, char path[KILN
         return NULL;
     struct kiln_asset_image *image = kiln_footage_take(encode->footage, error);
     struct kiln_error reason = {0};
-    if (image && !kiln_carried_read(path, carried, &reason) && reason.code == KILN_DEVICE_FAILED) {
+    if (!image)
+        return NULL;
+    if (!kiln_carried_read(path, carried, &reason) && reason.code == KILN_DEVICE_FAILED) {
         *error = reason;
         kiln_asset_image_destroy(&image);
         return NULL;

@@ -1,0 +1,144 @@
+/* Makes kiln's own allocations fail. The linker leads each call of a function below, from kiln's
+ * objects alone, here first (--wrap); calls inside of libraries go on as ever. Environment
+ * variables say which calls fail:
+ *
+ *     KILN_STARVE=40         the fortieth call
+ *     KILN_STARVE=40+        the fortieth and all after it
+ *     KILN_STARVE_COUNT=FILE no effect on calls; at its end the program writes their number there
+ *
+ * Functions that return a pointer return NULL, others AVERROR(ENOMEM) or -1, as their own do. */
+#include <errno.h>
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/sha.h>
+#include <libswscale/swscale.h>
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/arena.h"
+
+static atomic_ulong calls;
+static unsigned long first_refused; /* 0: none */
+static char onward;                 /* '+': those after it, too */
+
+__attribute__((constructor)) static void read_wishes(void)
+{
+    const char *wish = getenv("KILN_STARVE");
+    char *end = NULL;
+    if (wish) {
+        first_refused = strtoul(wish, &end, 10);
+        onward = *end;
+    }
+}
+
+__attribute__((destructor)) static void write_count(void)
+{
+    const char *path = getenv("KILN_STARVE_COUNT");
+    FILE *file = path ? fopen(path, "w") : NULL;
+    if (!file)
+        return;
+    fprintf(file, "%lu\n", atomic_load(&calls));
+    fclose(file);
+}
+
+/* A place for a debugger to stop at: `break refuse`, and its caller's caller is the code in need.
+ */
+__attribute__((noinline)) static void refuse(void)
+{
+    errno = ENOMEM;
+}
+
+static bool is_refused(void)
+{
+    const unsigned long call = atomic_fetch_add(&calls, 1) + 1;
+    const bool refused =
+        first_refused > 0 && (call == first_refused || (onward == '+' && call > first_refused));
+    if (refused)
+        refuse();
+    return refused;
+}
+
+/* The two names that the linker knows a function by, and the one that may fail. CMakeLists.txt
+ * reads the names of functions out of the lines below that begin with ALLOCATION. */
+#define DECLARE(type, name, parameters)                                                            \
+    type real_##name parameters __asm__("__real_" #name);                                          \
+    type starved_##name parameters __asm__("__wrap_" #name);
+#define ALLOCATION(name, type, refusal, parameters, arguments)                                     \
+    DECLARE(type, name, parameters)                                                                \
+    type starved_##name parameters                                                                 \
+    {                                                                                              \
+        return is_refused() ? (refusal) : real_##name arguments;                                   \
+    }
+#define ALLOCATION_BY_HAND(name, type, parameters)                                                 \
+    DECLARE(type, name, parameters)                                                                \
+    type starved_##name parameters
+
+/* clang-format off */
+ALLOCATION(malloc, void *, NULL, (size_t size), (size))
+ALLOCATION(calloc, void *, NULL, (size_t count, size_t size), (count, size))
+ALLOCATION(realloc, void *, NULL, (void *memory, size_t size), (memory, size))
+ALLOCATION(aligned_alloc, void *, NULL, (size_t alignment, size_t size), (alignment, size))
+ALLOCATION(strdup, char *, NULL, (const char *text), (text))
+ALLOCATION(strndup, char *, NULL, (const char *text, size_t size), (text, size))
+ALLOCATION(open_memstream, FILE *, NULL, (char **text, size_t *size), (text, size))
+ALLOCATION(vasprintf, int, -1, (char **text, const char *format, va_list args), (text, format, args))
+ALLOCATION(kiln_arena_alloc, void *, NULL, (struct kiln_arena *arena, size_t count, size_t size),
+           (arena, count, size))
+ALLOCATION(av_malloc, void *, NULL, (size_t size), (size))
+ALLOCATION(av_mallocz, void *, NULL, (size_t size), (size))
+ALLOCATION(av_dict_set, int, AVERROR(ENOMEM),
+           (AVDictionary **dictionary, const char *key, const char *value, int flags),
+           (dictionary, key, value, flags))
+ALLOCATION(av_dict_set_int, int, AVERROR(ENOMEM),
+           (AVDictionary **dictionary, const char *key, int64_t value, int flags),
+           (dictionary, key, value, flags))
+ALLOCATION(av_dict_parse_string, int, AVERROR(ENOMEM),
+           (AVDictionary **dictionary, const char *text, const char *is, const char *next, int flags),
+           (dictionary, text, is, next, flags))
+ALLOCATION(av_frame_alloc, AVFrame *, NULL, (void), ())
+ALLOCATION(av_frame_get_buffer, int, AVERROR(ENOMEM), (AVFrame *frame, int align), (frame, align))
+ALLOCATION(av_opt_set, int, AVERROR(ENOMEM),
+           (void *object, const char *key, const char *value, int flags),
+           (object, key, value, flags))
+ALLOCATION(av_packet_alloc, AVPacket *, NULL, (void), ())
+ALLOCATION(av_new_packet, int, AVERROR(ENOMEM), (AVPacket *packet, int size), (packet, size))
+ALLOCATION(av_packet_from_data, int, AVERROR(ENOMEM), (AVPacket *packet, uint8_t *data, int size),
+           (packet, data, size))
+ALLOCATION(av_packet_add_side_data, int, AVERROR(ENOMEM),
+           (AVPacket *packet, enum AVPacketSideDataType type, uint8_t *data, size_t size),
+           (packet, type, data, size))
+ALLOCATION(av_sha_alloc, struct AVSHA *, NULL, (void), ())
+ALLOCATION(avcodec_alloc_context3, AVCodecContext *, NULL, (const AVCodec *codec), (codec))
+ALLOCATION(avcodec_open2, int, AVERROR(ENOMEM),
+           (AVCodecContext *context, const AVCodec *codec, AVDictionary **options),
+           (context, codec, options))
+ALLOCATION(avcodec_parameters_alloc, AVCodecParameters *, NULL, (void), ())
+ALLOCATION(avcodec_parameters_copy, int, AVERROR(ENOMEM),
+           (AVCodecParameters *to, const AVCodecParameters *from), (to, from))
+ALLOCATION(avcodec_parameters_from_context, int, AVERROR(ENOMEM),
+           (AVCodecParameters *to, const AVCodecContext *from), (to, from))
+ALLOCATION(avformat_alloc_context, AVFormatContext *, NULL, (void), ())
+ALLOCATION(avformat_new_stream, AVStream *, NULL, (AVFormatContext *context, const AVCodec *codec),
+           (context, codec))
+ALLOCATION(avio_open_dyn_buf, int, AVERROR(ENOMEM), (AVIOContext **context), (context))
+ALLOCATION(sws_getContext, struct SwsContext *, NULL,
+           (int width, int height, enum AVPixelFormat format, int to_width, int to_height,
+            enum AVPixelFormat to_format, int flags, SwsFilter *filter, SwsFilter *to_filter,
+            const double *options),
+           (width, height, format, to_width, to_height, to_format, flags, filter, to_filter, options))
+ALLOCATION(sws_alloc_context, struct SwsContext *, NULL, (void), ())
+/* clang-format on */
+
+ALLOCATION_BY_HAND(asprintf, int, (char **text, const char *format, ...))
+{
+    va_list args;
+    va_start(args, format);
+    const int length = starved_vasprintf(text, format, args);
+    va_end(args);
+    return length;
+}

@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# vanish.sh KILN SCENE JOB TRIES: a job's folder is removed while it runs, or the folder of its parts, or
+# its journal. The job ends with exit code 6 and a message, or with all files where it could do without
+# what is gone. It leaves nothing half-written, and the same words end with the bytes of an undisturbed
+# run; where the journal is gone, nobody knows whose files are there, and --force is needed, too.
+. "$(dirname "$0")/common.sh"
+kiln=$1 scene=$(realpath "$2") job=$3 tries=$4
+start "vanish $job"
+choose_job "$job" --fps 10 --set output.frames=61
+draw_calm
+
+# stop PROCESS: it stands still, so that nothing happens between a look at its files and their end.
+# False when it has ended.
+stop() {
+    local state
+    while kill -STOP "$1" 2>/dev/null; do
+        { read -r _ _ state _ <"/proc/$1/stat"; } 2>/dev/null || return 1
+        [[ $state != T ]] || return 0
+        [[ $state != Z ]] || return 1
+    done
+    return 1
+}
+
+# Whether all files have their names: removing one then is no fault of the job.
+is_over() {
+    [[ $(results "$work/calm") == "$(results "$work/gone")" ]] &&
+        [[ ! -e $work/calm/out/m.json || -e $work/gone/out/m.json ]]
+}
+
+while ((tried < tries)); do
+    begin gone
+    (cd "$work/gone" && exec "$kiln" "${command[@]}" >"$work/output" 2>"$work/messages") &
+    process=$!
+    sleep "$(seconds $((RANDOM % calm_ms)))"
+    targets=("$work"/gone/out "$work"/gone/out/*.parts "$work"/gone/out/*.journal)
+    target=${targets[RANDOM % ${#targets[@]}]}
+    if ! stop $process || [[ ! -e $target ]] || is_over; then
+        kill -KILL $process 2>/dev/null || true
+        wait $process 2>/dev/null || true
+        continue
+    fi
+    rm -rf "$target"
+    kill -CONT $process
+    code=0
+    wait $process || code=$?
+    case $code in
+    0) check_all gone ;;
+    6) grep -q '^kiln: ' "$work/messages" || problem "it ends with 6 and says: $(<"$work/messages")" ;;
+    *) problem "exit code $code: $(<"$work/messages")" ;;
+    esac
+    check_wholes gone
+    check_tidy gone
+    if [[ $job == join ]]; then
+        begin gone # shares have to be drawn again before they can be joined
+        anew=()
+    elif [[ $target == *.journal ]]; then
+        anew=(--force)
+    else
+        anew=()
+    fi
+    check_end gone
+    settle "${target##*/} gone"
+done
