@@ -1,5 +1,5 @@
-/* Nettle's SHA-256 takes the processor's own instructions where it has them. FFmpeg loads the library
- * anyway, for its protocols. */
+/* Nettle's SHA-256 takes the processor's own instructions where it has them. FFmpeg loads the
+ * library anyway, for its protocols. */
 #include "base/hash.h"
 
 #include <nettle/sha2.h>
@@ -14,13 +14,12 @@ static void finish(struct sha256_ctx *sha, char hex[65])
         snprintf(hex + 2 * i, 3, "%02x", digest[i]);
 }
 
-bool kiln_hash_sha256(const void *bytes, size_t size, char hex[65])
+void kiln_hash_sha256(const void *bytes, size_t size, char hex[65])
 {
     struct sha256_ctx sha;
     sha256_init(&sha);
     sha256_update(&sha, size, bytes);
     finish(&sha, hex);
-    return true;
 }
 
 bool kiln_hash_sha256_file(const char *path, char hex[65])

@@ -5,8 +5,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Writes the hash of size bytes in lower-case hex; false when memory is short. */
-bool kiln_hash_sha256(const void *bytes, size_t size, char hex[65]);
+/* Writes the hash of size bytes in lower-case hex. */
+void kiln_hash_sha256(const void *bytes, size_t size, char hex[65]);
 
 /* The same of a file's contents; false, with errno, when it cannot be read. */
 bool kiln_hash_sha256_file(const char *path, char hex[65]);

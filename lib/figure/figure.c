@@ -99,7 +99,8 @@ static bool draw(struct job *job)
         !kiln_drawing_rasterise(&job->drawing, &job->pixels, job->error))
         return false;
     size_t size = (size_t)job->pixels.width * job->pixels.height * 4;
-    return kiln_hash_sha256(job->pixels.rgba, size, job->hash) || no_memory(job);
+    kiln_hash_sha256(job->pixels.rgba, size, job->hash);
+    return true;
 }
 
 /* ---- Writing -------------------------------------------------------------------------------- */
@@ -146,8 +147,9 @@ static bool write_sidecar(struct job *job, const uint8_t *bytes, size_t size)
                                  .panels = job->panels.items,
                                  .panel_count = job->panels.count};
     record.command = kiln_arena_alloc(job->arena, record.command_count + 1, sizeof(char *));
-    if (!record.command || !kiln_hash_sha256(bytes, size, file))
+    if (!record.command)
         return no_memory(job);
+    kiln_hash_sha256(bytes, size, file);
     for (size_t i = 0; i < record.command_count; i++)
         record.command[i] = job->params->command[i];
     struct kiln_text text = {0};

@@ -237,9 +237,12 @@ static bool check_frame(const struct encode *encode, const struct kiln_asset_ima
                               "%s: %s a channel, %s alpha; %s has %s, %s", path, name_type(image),
                               has_alpha(image) ? "with" : "without", encode->first,
                               name_type(first), has_alpha(first) ? "with alpha" : "without");
-    return (strcmp(carried->scene, encode->carried.scene) == 0 &&
-            strcmp(carried->seed, encode->carried.seed) == 0) ||
-           kiln_error_set(error, KILN_INVALID_INPUT, "%s: is of another scene or seed than %s",
+    if (strcmp(carried->scene, encode->carried.scene) == 0 &&
+        strcmp(carried->seed, encode->carried.seed) == 0)
+        return true;
+    return kiln_error_set(error, KILN_INVALID_INPUT,
+                          *carried->scene ? "%s: is of another scene or seed than %s"
+                                          : "%s: does not say of which scene it is, %s does",
                           path, encode->first);
 }
 

@@ -438,8 +438,8 @@ static bool visit_journals(const char *output,
     struct dirent **entries = NULL;
     snprintf(folder, sizeof folder, "%.*s.", before, output);
     const int count = scandir(folder, &entries, NULL, alphasort);
-    bool ok = count >= 0 || errno != ENOMEM ||
-              kiln_error_set_errno(error, KILN_IO, errno, "%s", folder);
+    bool ok =
+        count >= 0 || errno != ENOMEM || kiln_error_set_errno(error, KILN_IO, errno, "%s", folder);
     for (int i = 0; i < count; i++) {
         char path[KILN_PATH_SIZE];
         bool is_shard;

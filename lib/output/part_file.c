@@ -31,7 +31,9 @@ bool kiln_clip_hash(const struct kiln_output_params *params, char hash[65])
                   flipbook->premultiplied, flipbook->motion);
     for (size_t i = 0; i < params->clip_count; i++)
         kiln_text_add(&text, "%u-%u\n", params->clip[i].first, params->clip[i].last);
-    const bool ok = !text.failed && kiln_hash_sha256(text.data, text.length, hash);
+    const bool ok = !text.failed;
+    if (ok)
+        kiln_hash_sha256(text.data, text.length, hash);
     kiln_text_free(&text);
     return ok;
 }

@@ -35,10 +35,11 @@ static bool load_code(struct page *page, struct kiln_error *error)
     kiln_text_add(&page->script, "\"use strict\";\n");
     for (size_t i = 0; i < sizeof scripts / sizeof *scripts; i++)
         kiln_text_add(&page->script, "%s", kiln_embedded_find(kiln_embedded_page, scripts[i]));
-    bool ok = !page->style.failed && !page->script.failed &&
-              kiln_hash_sha256(page->style.data, page->style.length, page->hashes[0]) &&
-              kiln_hash_sha256(page->script.data, page->script.length, page->hashes[1]);
-    return ok || kiln_error_set(error, KILN_DEVICE_FAILED, "no memory for the report page");
+    if (page->style.failed || page->script.failed)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "no memory for the report page");
+    kiln_hash_sha256(page->style.data, page->style.length, page->hashes[0]);
+    kiln_hash_sha256(page->script.data, page->script.length, page->hashes[1]);
+    return true;
 }
 
 static unsigned digit_of(char c)

@@ -74,7 +74,9 @@ static bool take_hash(struct kiln_scene *scene, struct kiln_error *error)
                 read = add_file_hash(&text, scene->systems[i].forces[k].file, error);
     }
     read = read && (!ok || add_backdrop_hashes(scene, &text, error));
-    ok = ok && !text.failed && kiln_hash_sha256(text.data, text.length, scene->hash);
+    ok = ok && !text.failed;
+    if (ok)
+        kiln_hash_sha256(text.data, text.length, scene->hash);
     kiln_text_free(&text);
     if (!read)
         return false;

@@ -50,7 +50,9 @@ bool kiln_scene_part_hash(const struct kiln_scene *scene, enum kiln_scene_part p
     for (uint32_t i = 0; i < scene->system_count; i++)
         kiln_text_add(&text, "slots %u\n", scene->systems[i].capacity);
     const bool read = !ok || add_files(&text, scene, error);
-    ok = ok && !text.failed && kiln_hash_sha256(text.data, text.length, hex);
+    ok = ok && !text.failed;
+    if (ok)
+        kiln_hash_sha256(text.data, text.length, hex);
     kiln_text_free(&text);
     if (!read)
         return false;

@@ -75,9 +75,9 @@ choose_job() {
         before=(render "${of_scene[@]}" -o out/c.mp4 --shard)
         ;;
     encode)
-        command=(encode out/f_%02d.png -q -o out/c.mp4)
+        command=(encode in/f_%02d.png -q -o out/c.mp4)
         anew=(--force)
-        before=(render "${of_scene[@]}" -o out/f_%02d.png --shard)
+        before=(render "${of_scene[@]}" -o in/f_%02d.png --shard)
         ;;
     compare)
         command=(compare out/f_00.png out/f_00.png -q --diff out/difference.png)

@@ -10,7 +10,6 @@
 #include <errno.h>
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
-#include <libavutil/sha.h>
 #include <libswscale/swscale.h>
 #include <stdarg.h>
 #include <stdatomic.h>
@@ -112,7 +111,6 @@ ALLOCATION(av_packet_from_data, int, AVERROR(ENOMEM), (AVPacket *packet, uint8_t
 ALLOCATION(av_packet_add_side_data, int, AVERROR(ENOMEM),
            (AVPacket *packet, enum AVPacketSideDataType type, uint8_t *data, size_t size),
            (packet, type, data, size))
-ALLOCATION(av_sha_alloc, struct AVSHA *, NULL, (void), ())
 ALLOCATION(avcodec_alloc_context3, AVCodecContext *, NULL, (const AVCodec *codec), (codec))
 ALLOCATION(avcodec_open2, int, AVERROR(ENOMEM),
            (AVCodecContext *context, const AVCodec *codec, AVDictionary **options),

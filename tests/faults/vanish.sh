@@ -8,6 +8,7 @@ kiln=$1 scene=$(realpath "$2") job=$3 tries=$4
 start "vanish $job"
 choose_job "$job" --fps 10 --set output.frames=61
 draw_calm
+of_job=("${anew[@]}")
 
 # stop PROCESS: it stands still, so that nothing happens between a look at its files and their end.
 # False when it has ended.
@@ -52,12 +53,10 @@ while ((tried < tries)); do
     check_tidy gone
     if [[ $job == join ]]; then
         begin gone # shares have to be drawn again before they can be joined
-        anew=()
     elif [[ $target == *.journal ]]; then
         anew=(--force)
-    else
-        anew=()
     fi
     check_end gone
+    anew=("${of_job[@]}")
     settle "${target##*/} gone"
 done

@@ -213,9 +213,9 @@ static bool find_file(char path[KILN_PATH_SIZE], const char *cache, const struct
     for (uint32_t i = 0; i < mesh->vertex_count; i++, end += place_bytes)
         memcpy(end, mesh->vertices[i], place_bytes);
     char hash[65];
-    const bool ok = kiln_hash_sha256(bytes, size, hash);
+    kiln_hash_sha256(bytes, size, hash);
     free(bytes);
-    const int length = ok ? snprintf(path, KILN_PATH_SIZE, "%s/%s.field", cache, hash) : -1;
+    const int length = snprintf(path, KILN_PATH_SIZE, "%s/%s.field", cache, hash);
     return length > 0 && length < KILN_PATH_SIZE;
 }
 

@@ -161,8 +161,9 @@ static struct aiFile *open_bytes(const void *bytes, size_t size, unsigned char *
 static bool note_contents(struct files *files, const void *bytes, size_t size)
 {
     char hex[65];
-    if (files->hash_length + 64 >= sizeof files->hashes || !kiln_hash_sha256(bytes, size, hex))
+    if (files->hash_length + 64 >= sizeof files->hashes)
         return false;
+    kiln_hash_sha256(bytes, size, hex);
     memcpy(files->hashes + files->hash_length, hex, sizeof hex);
     files->hash_length += 64;
     return true;
@@ -354,9 +355,10 @@ void kiln_mesh_import(const struct kiln_mesh_request *request, struct kiln_mesh_
     if (files.refusal.code != KILN_OK)
         result->error = files.refusal;
     else if (scene)
-        result->ok = put_scene(request, scene, result) &&
-                     kiln_hash_sha256(files.hashes, files.hash_length, result->hash);
+        result->ok = put_scene(request, scene, result);
     else
         kiln_error_set(&result->error, KILN_INVALID_INPUT, "%s: the mesh is broken: %.300s",
                        request->name, assimp.error_string());
+    if (result->ok)
+        kiln_hash_sha256(files.hashes, files.hash_length, result->hash);
 }
