@@ -26,8 +26,8 @@ struct kiln_video_settings {
     const char *muxer_options; /* "key=value:key=value", or NULL */
     /* Sets what the encoder is told; false when memory is short. NULL: there is nothing to set. */
     bool (*tune)(AVCodecContext *codec, const struct kiln_output_params *params);
-    /* Adds options of the muxer that depend on the clip, and warns; FFmpeg's status. NULL: there are
-     * none. */
+    /* Adds options of the muxer that depend on the clip, and warns; FFmpeg's status. NULL: there
+     * are none. */
     int (*prepare)(const struct kiln_output_params *params, AVDictionary **options);
 };
 

@@ -25,8 +25,8 @@ static bool tune_h264(AVCodecContext *codec, const struct kiln_output_params *pa
 {
     av_opt_set_double(codec->priv_data, "crf", 50.0 - 0.4 * params->quality, 0);
     /* "faster" is within 0.1 dB of "medium" at the same rate factor, in 60 % of the time and less
-     * memory; aq-mode=3 gives bits to dark gradients, such as night and smoke. The last option makes
-     * the same stream with vectors of any width, and no key frame but each part's first. */
+     * memory; aq-mode=3 gives bits to dark gradients, such as night and smoke. The last option
+     * makes the same stream with vectors of any width, and no key frame but each part's first. */
     return set_option(codec, "preset", "faster") && set_option(codec, "aq-mode", "3") &&
            set_option(codec, "x264-params", "cpu-independent=1:scenecut=0");
 }
