@@ -116,3 +116,16 @@ $ kiln render scenes/tiny.yaml -o x.mp4 --manifest x.json --shard 1/2
 $ kiln join nothing.mp4
 2|kiln: nothing.mp4: has no journal beside it: no job with --resume or --shard has begun it
 = 6
+
+A player that jumps to the start of a part shows the frame that it shows there when it plays on.
+
+$ sums() { ffmpeg -nostdin -loglevel error "$@" -f framemd5 - | awk -F ', *' '!/^#/ {print $6}'; }
+> for suffix in mp4 webm mkv mov; do
+>     kiln render scenes/tiny.yaml -q --fps 10 --set output.frames=61 -o seek.$suffix
+>     for part in 0 1 2 3; do sums -ss $((2 * part)) -i seek.$suffix -frames:v 1; done >jumped
+>     sums -i seek.$suffix | sed -n '1p;21p;41p;61p' | cmp - jumped && sort -u jumped | wc -l
+> done
+1|4
+1|4
+1|4
+1|4
