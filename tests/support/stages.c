@@ -8,11 +8,12 @@ void stages_open(struct kiln_stages *stages, struct kiln_simulate **simulate,
                  struct kiln_threads *threads, const struct kiln_pool *pool)
 {
     struct kiln_error error = {0};
-    const struct kiln_stages_params params = {.techniques = *techniques,
-                                              .needs = {.bits = 8, .layers = layers},
-                                              .threads = threads,
-                                              .timer = kiln_timer_create(device),
-                                              .slot_count = pool->slot_count};
+    const struct kiln_stages_params params = {
+        .techniques = *techniques,
+        .needs = {.bits = 8, .layers = layers ? KILN_LAYERS_ALL : KILN_LAYERS_NONE},
+        .threads = threads,
+        .timer = kiln_timer_create(device),
+        .slot_count = pool->slot_count};
     assert_non_null(params.timer);
     if (!kiln_stages_init(stages, device, scene, &params, &error))
         fail_msg("%s", error.message);
