@@ -67,8 +67,8 @@ $ kiln render scenes/tiny.yaml -q -o none --resume
 2|kiln: render: --resume: there is no output to go on with
 = 2
 $ mkfifo p_%d.png.journal; kiln render scenes/tiny.yaml -q --frames 0-2 -o p_%d.png --resume
-2|p_%d.png.journal: is not a regular file
-= 3
+2|kiln: p_%d.png.journal: is not a regular file
+= 6
 
 Clips wait in parts: here of 20 frames, the last of one.
 
