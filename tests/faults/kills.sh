@@ -8,8 +8,11 @@ kiln=$1 scene=$(realpath "$2") job=$3 kills=$4
 shift 4
 start "kill $job"
 
-# Clips are of seven seconds, so that they have several parts.
-GRID=7x7 choose_job "$job" --fps 10 --set output.frames=61
+# Clips are of six seconds, so that they have several parts. States are large, so that a kill may well
+# come while one is being written.
+options=(--fps 10 --set output.frames=61)
+[[ $job != bake ]] || options+=(--set systems.smoke.emit.rate=8000)
+GRID=7x7 choose_job "$job" "${options[@]}"
 draw_calm
 
 declare -A codes=([KILL]=137 [TERM]=143 [INT]=130)
