@@ -20,7 +20,8 @@ for signal in "$@"; do
     begin killed
     for ((kill = 0; kill < kills;)); do
         after=$((RANDOM % (calm_ms + calm_ms / 4) + 5))
-        go_on killed timeout --preserve-status -s "$signal" "$(seconds $after)"
+        # In the foreground, timeout is not among those that it kills, and waits for the program.
+        go_on killed timeout --foreground --preserve-status -s "$signal" "$(seconds $after)"
         if ((code == 0)); then
             check_all killed
             ((${#problems[@]} == 0)) || settle "$signal after the end"
