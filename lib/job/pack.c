@@ -12,6 +12,7 @@
 #include <zstd.h>
 
 #include "base/error.h"
+#include "base/unpack.h"
 
 enum {
     BLOCK_ROWS = 1 << 16,
@@ -29,7 +30,7 @@ struct block {
     uint8_t *raw, *packed;
     size_t raw_size, packed_size;
     uint32_t crc;
-    bool failed;
+    enum kiln_code outcome;
 };
 
 static size_t block_count(const struct kiln_table *table)
@@ -118,8 +119,8 @@ static void pack_blocks(void *context, size_t begin, size_t end, uint32_t worker
         const struct kiln_table *table = block->table;
         const uint32_t *first = table->words + block->number * BLOCK_ROWS * table->columns;
         uint32_t *kept = malloc(BLOCK_ROWS * sizeof *kept);
-        block->failed = !kept;
-        if (block->failed)
+        block->outcome = kept ? KILN_OK : KILN_DEVICE_FAILED;
+        if (!kept)
             continue;
         const size_t count = list_rows(table, first, rows_of(block), block->raw, kept);
         block->raw_size =
@@ -127,8 +128,9 @@ static void pack_blocks(void *context, size_t begin, size_t end, uint32_t worker
         free(kept);
         block->packed_size = ZSTD_compress(block->packed, ZSTD_compressBound(block->raw_size),
                                            block->raw, block->raw_size, LEVEL);
-        block->failed = ZSTD_isError(block->packed_size);
-        if (!block->failed)
+        if (ZSTD_isError(block->packed_size))
+            block->outcome = KILN_DEVICE_FAILED;
+        else
             block->crc = block_crc(block->number, block->packed, block->packed_size);
     }
 }
@@ -177,12 +179,13 @@ static void unpack_blocks(void *context, size_t begin, size_t end, uint32_t work
         const struct kiln_table *table = block->table;
         const size_t rows = rows_of(block);
         size_t count = 0;
-        block->raw_size =
-            ZSTD_decompress(block->raw, largest_raw(table), block->packed, block->packed_size);
-        block->failed = ZSTD_isError(block->raw_size) || block->raw_size < BITMAP_BYTES ||
-                        !count_rows(block->raw, rows, &count) ||
-                        block->raw_size != BITMAP_BYTES + count * table->columns * 4;
-        if (!block->failed)
+        block->outcome = kiln_unpack(block->raw, largest_raw(table), block->packed,
+                                     block->packed_size, &block->raw_size);
+        if (block->outcome == KILN_OK &&
+            (block->raw_size < BITMAP_BYTES || !count_rows(block->raw, rows, &count) ||
+             block->raw_size != BITMAP_BYTES + count * table->columns * 4))
+            block->outcome = KILN_INVALID_INPUT;
+        if (block->outcome == KILN_OK)
             join_planes(table, block->raw + BITMAP_BYTES, count, block->raw,
                         table->words + block->number * BLOCK_ROWS * table->columns, rows);
     }
@@ -238,7 +241,7 @@ bool kiln_pack_write(const struct kiln_table *table, struct kiln_threads *thread
             uint8_t head[HEAD_BYTES];
             put_word(head, (uint32_t)block->packed_size);
             put_word(head + 4, block->crc);
-            ok = !block->failed ||
+            ok = block->outcome == KILN_OK ||
                  kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a saved state");
             if (ok && kiln_temporary_write(file, head, sizeof head))
                 kiln_temporary_write(file, block->packed, block->packed_size);
@@ -276,6 +279,15 @@ static bool read_block(struct block *block, int file, const char *path, struct k
            kiln_error_set(error, KILN_INVALID_INPUT, "%s: the file is damaged", path);
 }
 
+static bool check_outcome(enum kiln_code outcome, const char *path, struct kiln_error *error)
+{
+    return outcome == KILN_OK ||
+           kiln_error_set(error, outcome,
+                          outcome == KILN_DEVICE_FAILED ? "%s: out of memory for a saved state"
+                                                        : "%s: the file is damaged",
+                          path);
+}
+
 bool kiln_pack_read(const struct kiln_table *table, struct kiln_threads *threads, int file,
                     const char *path, struct kiln_error *error)
 {
@@ -291,8 +303,7 @@ bool kiln_pack_read(const struct kiln_table *table, struct kiln_threads *threads
         if (ok)
             kiln_threads_for(threads, taken, 1, unpack_blocks, batch.blocks);
         for (size_t i = 0; i < taken && ok; i++)
-            ok = !batch.blocks[i].failed ||
-                 kiln_error_set(error, KILN_INVALID_INPUT, "%s: the file is damaged", path);
+            ok = check_outcome(batch.blocks[i].outcome, path, error);
     }
     free(batch.memory);
     return ok;

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/ranges.h"
+#include "base/unpack.h"
 #include "output/part_packets.h"
 
 enum { END = UINT32_MAX, LEVEL = 1, SECONDS = 2, MOST_FRAMES = 600 };
@@ -218,6 +219,29 @@ bool kiln_part_check(const struct kiln_output_params *params, uint32_t part,
     return true;
 }
 
+/* Reads so many packed bytes, which make `room` bytes. */
+static bool read_packed(struct kiln_part_in *in, uint32_t size, void *out, size_t room,
+                        struct kiln_error *error)
+{
+    if (size > ZSTD_compressBound(room))
+        return kiln_part_refuse(in, "the part of a clip is damaged", error);
+    void *packed = malloc((size_t)size + 1);
+    if (!packed)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", in->path);
+    bool ok = kiln_part_read(in, packed, size, error);
+    if (ok) {
+        size_t got = 0;
+        const enum kiln_code outcome = kiln_unpack(out, room, packed, size, &got);
+        ok = outcome == KILN_OK && got == room;
+        if (outcome == KILN_DEVICE_FAILED)
+            kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", in->path);
+        else if (!ok)
+            kiln_part_refuse(in, "the part of a clip is damaged", error);
+    }
+    free(packed);
+    return ok;
+}
+
 /* Reads the picture of the frame that comes next; NULL with an error. */
 static struct kiln_picture *read_picture(const struct kiln_output_params *params,
                                          struct kiln_part_in *in, uint32_t frame,
@@ -227,25 +251,15 @@ static struct kiln_picture *read_picture(const struct kiln_output_params *params
     uint32_t size = 0, has_alpha = 0;
     if (!kiln_part_read_word(in, &size, error) || !kiln_part_read_word(in, &has_alpha, error))
         return NULL;
-    const size_t pixels = (size_t)params->width * params->height * bits / 2;
-    void *packed = size <= ZSTD_compressBound(pixels) ? malloc((size_t)size + 1) : NULL;
     struct kiln_picture *picture =
-        packed && kiln_part_read(in, packed, size, error)
-            ? kiln_picture_create(params->width, params->height, bits, NULL, NULL, 0, error)
-            : NULL;
-    if (size > ZSTD_compressBound(pixels))
-        kiln_part_refuse(in, "the part of a clip is damaged", error);
-    else if (!packed)
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", in->path);
-    if (picture && ZSTD_decompress(picture->display, pixels, packed, size) != pixels) {
-        kiln_part_refuse(in, "the part of a clip is damaged", error);
-        kiln_picture_destroy(&picture);
-    }
-    free(packed);
+        kiln_picture_create(params->width, params->height, bits, NULL, NULL, 0, error);
     if (!picture)
         return NULL;
+    const size_t room = (size_t)params->width * params->height * bits / 2;
     picture->frame = frame;
     picture->has_alpha = has_alpha != 0;
+    if (!read_packed(in, size, picture->display, room, error))
+        kiln_picture_destroy(&picture);
     return picture;
 }
 
