@@ -147,12 +147,9 @@ static int read_options(struct bake *bake, const struct arguments *arguments)
 
 static int report_failure(const struct bake *bake, const struct kiln_error *error)
 {
-    const int number = signals_received();
-    if (error->code != KILN_INTERRUPTED)
-        return report_error(error);
-    report(KILN_INTERRUPTED, "%s: stopped by %s after %u states", bake->scene_path,
-           signals_name(number), bake->saved);
-    return 128 + number;
+    return error->code == KILN_INTERRUPTED
+               ? signals_report(bake->scene_path, " after %u states", bake->saved)
+               : report_error(error);
 }
 
 static int run_bake(struct bake *bake, const struct arguments *arguments,

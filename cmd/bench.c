@@ -175,12 +175,8 @@ static int check_options(const struct arguments *arguments, const struct kiln_be
 
 static int report_failure(const struct kiln_error *error)
 {
-    int number = signals_received();
-    if (error->code == KILN_INTERRUPTED && number) {
-        report(KILN_INTERRUPTED, "bench: stopped by SIG%s; nothing is written",
-               sigabbrev_np(number));
-        return 128 + number;
-    }
+    if (error->code == KILN_INTERRUPTED && signals_received())
+        return signals_report("bench", "; nothing is written");
     return error->code == KILN_USAGE ? report(KILN_USAGE, "bench: %s", error->message)
                                      : report_error(error);
 }
@@ -191,7 +187,7 @@ static int write_results(const struct kiln_bench *bench, const struct arguments 
     enum kiln_bench_format format =
         (enum kiln_bench_format)arguments_choice(arguments, "format", KILN_BENCH_TEXT);
     if (!kiln_bench_write(bench, format, stdout, &error))
-        return KILN_IO; /* main says why */
+        return KILN_READER_GONE; /* main says why */
     const char *folder = arguments_text(arguments, "output", NULL);
     char unplotted[KILN_MESSAGE_SIZE];
     if (folder && !kiln_bench_save(bench, folder, unplotted, &error))

@@ -133,7 +133,7 @@ static int report_failure(const struct kiln_error *error)
     if (error->code != KILN_INTERRUPTED)
         return report_error(error);
     if (number == 0) /* nobody reads: main says why */
-        return KILN_IO;
+        return KILN_READER_GONE;
     report(KILN_INTERRUPTED, "compare: %s", error->message);
     return 128 + number;
 }

@@ -85,19 +85,17 @@ static int run(const struct arguments *arguments)
     progress_start(&encoding.progress, choose_progress(arguments));
     signals_install_for_job();
 
-    uint32_t frames = 0;
+    struct kiln_frame_range frames;
     struct kiln_error error = {0};
     const bool ok = kiln_encode(&params, &frames, &error);
     progress_clear(&encoding.progress);
-    if (!ok && error.code == KILN_INTERRUPTED) {
-        const int number = signals_received();
-        report(KILN_INTERRUPTED, "%s: stopped by %s", params.output, signals_name(number));
-        return 128 + number;
-    }
     if (!ok)
-        return report_error(&error);
+        return error.code == KILN_INTERRUPTED ? signals_report(params.output, "%s", "")
+                                              : report_error(&error);
     if (!arguments_flag(arguments, "quiet"))
-        printf("%s: %" PRIu32 " frame%s\n", params.output, frames, frames == 1 ? "" : "s");
+        printf("%s: %" PRIu32 " frame%s, %" PRIu32 "-%" PRIu32 "\n", params.output,
+               frames.last - frames.first + 1, frames.last == frames.first ? "" : "s", frames.first,
+               frames.last);
     return 0;
 }
 

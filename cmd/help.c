@@ -16,7 +16,7 @@ const struct exit_code exit_codes[] = {
           "test crashed"},
     {"6", "reading or writing failed"},
     {"7", "a golden picture is missing, or what was accepted with it"},
-    {"9", "the reader of '--output -' went away"},
+    {"9", "the reader of standard output went away before the job was done"},
     {"129", "stopped by SIGHUP; only whole files are left"},
     {"130", "stopped by SIGINT; only whole files are left"},
     {"143", "stopped by SIGTERM; only whole files are left"},

@@ -11,6 +11,9 @@ static const struct option options[] = {
      .kind = OPTION_TEXT,
      .placeholder = "FILE",
      .help = "Also write a JSON file that describes the job: its `result` is that of one run."},
+    {.name = "force",
+     .kind = OPTION_FLAG,
+     .help = "Replace files that exist and are none of the job's."},
     {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Print nothing but errors."},
     HELP_OPTION,
 };
@@ -22,19 +25,16 @@ static int run_join(const struct arguments *arguments, const char **command, siz
         .manifest = arguments_text(arguments, "manifest", NULL),
         .command = command,
         .command_count = count,
+        .overwrite = arguments_flag(arguments, "force"),
         .stop = signals_wants_stop,
         .log = report_log(),
     };
     struct kiln_join_stats stats;
     struct kiln_error error = {0};
     signals_install_for_job();
-    if (!kiln_join(&params, &stats, &error)) {
-        const int number = signals_received();
-        if (error.code != KILN_INTERRUPTED)
-            return report_error(&error);
-        report(KILN_INTERRUPTED, "%s: stopped by %s", params.output, signals_name(number));
-        return 128 + number;
-    }
+    if (!kiln_join(&params, &stats, &error))
+        return error.code == KILN_INTERRUPTED ? signals_report(params.output, "%s", "")
+                                              : report_error(&error);
     if (!arguments_flag(arguments, "quiet"))
         printf("%s: %" PRIu32 " frame%s in %" PRIu32 " part%s%s\n", params.output, stats.frames,
                stats.frames == 1 ? "" : "s", stats.parts, stats.parts == 1 ? "" : "s",

@@ -2,6 +2,7 @@
 #include "pipe.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -26,7 +27,7 @@ int pipe_open(struct kiln_stream *stream)
 {
     if (stream->format == KILN_STREAM_NONE)
         return 0;
-    stream->descriptor = dup(STDOUT_FILENO);
+    stream->descriptor = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
     if (stream->descriptor >= 0 && dup2(STDERR_FILENO, STDOUT_FILENO) >= 0)
         return 0;
     return report(KILN_IO, "standard output: %s", strerror(errno));

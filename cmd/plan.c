@@ -146,11 +146,8 @@ static void show_task(void *user, const struct kiln_plan *plan, const struct kil
 
 static int report_failure(const struct planning *planning, const struct kiln_error *error)
 {
-    const int number = signals_received();
-    if (error->code != KILN_INTERRUPTED)
-        return report_error(error);
-    report(KILN_INTERRUPTED, "%s: stopped by %s", planning->scene_path, signals_name(number));
-    return 128 + number;
+    return error->code == KILN_INTERRUPTED ? signals_report(planning->scene_path, "%s", "")
+                                           : report_error(error);
 }
 
 static int run_plan(const struct arguments *arguments, const struct kiln_scene *scene,

@@ -95,7 +95,7 @@ static const struct option options[] = {
      .placeholder = "S",
      .help = "Give up with exit code 5 when a frame takes longer than S seconds. Frames that are "
              "stepped over lengthen the limit of the next drawn one; set-up and warm-up belong to "
-             "the first.",
+             "the first. Waiting for the output does not count.",
      .fallback = "none",
      .min = 0.001,
      .max = 86400},
@@ -154,11 +154,18 @@ static void begin_frame(void *user, uint32_t frame)
         allow_frame(render, frame);
 }
 
+/* How long the output takes, and who reads it, is no fault of the frame. */
+static void end_frame(void *user, uint32_t frame)
+{
+    const struct render *render = user;
+    (void)frame;
+    if (render->watchdog)
+        watchdog_disarm(render->watchdog);
+}
+
 static void show_frame(void *user, const struct kiln_progress *frame)
 {
     struct render *render = user;
-    if (render->watchdog)
-        watchdog_disarm(render->watchdog); /* a slow reader of our output is no slow frame */
     render->frames_done = frame->done;
     render->frames_total = frame->total;
     progress_show(&render->progress, render->job->path, frame);
@@ -197,6 +204,7 @@ static bool read_options(struct render *render, const struct arguments *argument
         render->progress_mode == PROGRESS_NDJSON || arguments_choice(arguments, "stats", 0) == 1;
     params->state_hash = render->stats || render->progress_mode == PROGRESS_NDJSON;
     params->next = begin_frame;
+    params->drawn = end_frame;
     params->progress = show_frame;
     params->stop = wants_stop;
     params->user = render;
@@ -279,19 +287,13 @@ static void print_job(const struct render *render, const struct kiln_render_stat
 /* Why a job ended early, and the exit code for it. */
 static int report_failure(const struct render *render, const struct kiln_error *error)
 {
-    int number = signals_received();
     if (error->code != KILN_INTERRUPTED)
         return report_error(error);
-    if (number == 0) /* nobody reads: main says why */
-        return KILN_IO;
-    const char *name = signals_name(number);
-    if (render->frames_done > 0 && render->frames_done == render->frames_total)
-        report(KILN_INTERRUPTED, "%s: stopped by %s before %s was complete", render->job->path,
-               name, render->job->output);
-    else
-        report(KILN_INTERRUPTED, "%s: stopped by %s after %u frames", render->job->path, name,
-               render->frames_done);
-    return 128 + number;
+    if (signals_received() == 0) /* nobody reads: main says why */
+        return KILN_READER_GONE;
+    return render->frames_done > 0 && render->frames_done == render->frames_total
+               ? signals_report(render->job->path, " before %s was complete", render->job->output)
+               : signals_report(render->job->path, " after %u frames", render->frames_done);
 }
 
 static int run_job(struct render *render, struct kiln_device *device, const struct job *job)

@@ -51,8 +51,10 @@ int report_finish(int code)
      */
     errno = EIO;
     ssize_t again = write(STDOUT_FILENO, "\n", 1);
+    if (again < 0 && errno == EPIPE && code == KILN_READER_GONE)
+        return report(KILN_READER_GONE, "standard output: the reader went away: stopped");
     if (again < 0 && errno == EPIPE)
-        return code ? code : KILN_IO;
+        return code && code != KILN_IO ? code : KILN_READER_GONE;
     int reported = report(KILN_IO, "standard output: %s", strerror(errno));
-    return code ? code : reported;
+    return code && code != KILN_READER_GONE ? code : reported;
 }

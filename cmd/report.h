@@ -17,7 +17,8 @@ int report_no_memory(void);
 struct kiln_log report_log(void);
 
 /* Ends standard output: its failure is an error of the program, unless that has one already. A
- * reader that went away (`kiln help scene | head`) is no news to anyone and gets no message. */
+ * reader that went away (`kiln help scene | head`) is no news to anyone and gets no message, but
+ * where it ended a job: such a command returns KILN_READER_GONE, whatever the failure was. */
 int report_finish(int code);
 
 #endif

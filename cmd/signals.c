@@ -1,21 +1,29 @@
 /* A handler has no other way to reach the program than variables of the file: the only ones. */
 #include "signals.h"
 
+#include <errno.h>
 #include <signal.h>
+#include <stdarg.h>
 #include <stddef.h>
 #include <string.h>
-#include <time.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include "kiln.h"
+#include "last_words.h"
+#include "report.h"
 
 static volatile sig_atomic_t received;
-static timer_t patience; /* runs out PATIENCE_NS after the first signal; valid when has_patience */
-static volatile sig_atomic_t has_patience;
+static volatile sig_atomic_t is_patient; /* PATIENCE_US long after the first signal */
 
 /* An encoder of a library cannot be left in the middle of a large frame. Whatever a job still does
  * so long after the signal is given up: it ends within a second. */
-static const long PATIENCE_NS = 500000000;
+static const long PATIENCE_US = 500000;
+
+static const char *name_of(int number)
+{
+    return number == SIGINT ? "SIGINT" : number == SIGTERM ? "SIGTERM" : "SIGHUP";
+}
 
 static void end_program(int number)
 {
@@ -28,36 +36,51 @@ static void on_signal(int number)
     if (received)
         end_program(number);
     received = number;
-    if (has_patience)
-        timer_settime(patience, 0, &(struct itimerspec){.it_value.tv_nsec = PATIENCE_NS}, NULL);
+    if (is_patient) { /* a call of the system and nothing else, so a handler may */
+        const int before = errno;
+        setitimer(ITIMER_REAL, &(struct itimerval){.it_value.tv_usec = PATIENCE_US}, NULL);
+        errno = before;
+    }
 }
 
 static void on_patience_over(int number)
 {
-    (void)number;
-    const char *name = signals_name(received);
-    static const char before[] = "kiln: stopped by ",
-                      after[] = "; what was not whole is given up\n";
-    char line[sizeof before + sizeof after + 16];
-    size_t size = 0;
-    for (const char *words[] = {before, name, after}, **word = words; word < words + 3; word++) {
-        memcpy(line + size, *word, strlen(*word));
-        size += strlen(*word);
+    if (!received) { /* somebody else sent it: it ends the program, as it always does */
+        kiln_abandon_outputs();
+        signal(number, SIG_DFL);
+        raise(number);
+        return;
     }
-    ssize_t written = write(STDERR_FILENO, line, size);
-    (void)written;
-    end_program(received);
+    char line[128] = "kiln: stopped by ";
+    strcat(line, name_of(received));
+    strcat(line, "; what was not whole is given up\n");
+    end_with_words(line, 128 + received);
+}
+
+/* Whoever started the program may have had the signal blocked. */
+static void unblock(int number)
+{
+    sigset_t set;
+    sigemptyset(&set);
+    sigaddset(&set, number);
+    pthread_sigmask(SIG_UNBLOCK, &set, NULL);
+}
+
+static void install_one(int number, void (*handler)(int))
+{
+    struct sigaction action = {.sa_handler = handler, .sa_flags = SA_RESTART};
+    sigemptyset(&action.sa_mask);
+    sigaction(number, &action, NULL);
+    unblock(number);
 }
 
 static void install(void (*handler)(int))
 {
-    struct sigaction action = {.sa_handler = handler, .sa_flags = SA_RESTART};
-    sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
+    install_one(SIGINT, handler);
+    install_one(SIGTERM, handler);
     struct sigaction before;
     if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN) /* not by nohup */
-        sigaction(SIGHUP, &action, NULL);
+        install_one(SIGHUP, handler);
 }
 
 void signals_install(void)
@@ -67,11 +90,8 @@ void signals_install(void)
 
 void signals_install_for_job(void)
 {
-    struct sigaction action = {.sa_handler = on_patience_over};
-    struct sigevent event = {.sigev_notify = SIGEV_SIGNAL, .sigev_signo = SIGALRM};
-    sigemptyset(&action.sa_mask);
-    has_patience = sigaction(SIGALRM, &action, NULL) == 0 &&
-                   timer_create(CLOCK_MONOTONIC, &event, &patience) == 0;
+    install_one(SIGALRM, on_patience_over);
+    is_patient = true;
     install(on_signal);
 }
 
@@ -86,12 +106,18 @@ bool signals_wants_stop(void *user)
     return received != 0;
 }
 
-const char *signals_name(int number)
-{
-    return number == SIGINT ? "SIGINT" : number == SIGTERM ? "SIGTERM" : "SIGHUP";
-}
-
 int signals_received(void)
 {
     return received;
+}
+
+int signals_report(const char *what, const char *format, ...)
+{
+    char how[KILN_MESSAGE_SIZE];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(how, sizeof how, format, args);
+    va_end(args);
+    report(KILN_INTERRUPTED, "%s: stopped by %s%s", what, name_of(received), how);
+    return 128 + received;
 }

@@ -7,8 +7,8 @@
 
 void signals_install(void);
 
-/* The same for jobs whose outputs are whole or not there: one that has not stopped by itself half
- * a second after the first signal is ended as by a second one, with a message. */
+/* The same for jobs that leave nothing half-written: one that has not stopped by itself half a
+ * second after the first signal is ended as by a second one, with a message. */
 void signals_install_for_job(void);
 
 /* From now on already the first ends the program at once: nothing half-written is left, but nothing
@@ -21,7 +21,8 @@ int signals_received(void);
 /* Whether one did: the `stop` of the library's functions. */
 bool signals_wants_stop(void *user);
 
-/* "SIGTERM". */
-const char *signals_name(int number);
+/* Prints "WHAT: stopped by SIGTERM" and what the format makes (" after 3 frames"); returns the exit
+ * code for it. */
+int signals_report(const char *what, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 #endif

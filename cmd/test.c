@@ -253,15 +253,9 @@ static int run_tests(struct test_run *run, struct test_outputs *outputs)
     signals_install();
     if (test_pool_run(&pool, &error))
         return finish(run, outputs, now_s() - started_s);
-    int number = signals_received();
-    if (error.code != KILN_INTERRUPTED)
-        return report_error(&error);
-    report(KILN_INTERRUPTED, "test: stopped by %s after %zu of %zu tests",
-           number == SIGINT    ? "SIGINT"
-           : number == SIGTERM ? "SIGTERM"
-                               : "SIGHUP",
-           run->ended_count, run->count);
-    return 128 + number;
+    return error.code == KILN_INTERRUPTED
+               ? signals_report("test", " after %zu of %zu tests", run->ended_count, run->count)
+               : report_error(&error);
 }
 
 static uint32_t core_count(void)

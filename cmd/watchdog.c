@@ -6,7 +6,8 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <time.h>
-#include <unistd.h>
+
+#include "last_words.h"
 
 struct watchdog {
     pthread_t thread;
@@ -26,13 +27,12 @@ static bool is_past(const struct timespec *deadline)
            (now.tv_sec == deadline->tv_sec && now.tv_nsec >= deadline->tv_nsec);
 }
 
-static void bite(const struct watchdog *watchdog)
+_Noreturn static void bite(const struct watchdog *watchdog)
 {
-    /* Not stdio: the thread that hangs may hold its lock. */
-    dprintf(STDERR_FILENO, "kiln: %s took longer than its limit of %g s\n", watchdog->what,
-            watchdog->limit_s);
-    kiln_abandon_outputs();
-    _exit(KILN_DEVICE_FAILED);
+    char line[1024];
+    snprintf(line, sizeof line, "kiln: %s took longer than its limit of %g s\n", watchdog->what,
+             watchdog->limit_s);
+    end_with_words(line, KILN_DEVICE_FAILED);
 }
 
 static void *watch(void *context)

@@ -46,6 +46,9 @@ enum kiln_code {
 
 enum { KILN_MESSAGE_SIZE = 1024, KILN_PATH_SIZE = 4096 };
 
+/* What a clip may be: pixels a side, frames, frames a second from 1 on. */
+enum { KILN_MIN_EDGE = 16, KILN_MAX_EDGE = 16384, KILN_MAX_FRAMES = 1000000, KILN_MAX_RATE = 1000 };
+
 /* An error as one complete line for a person: place, what was found, what is allowed. */
 struct kiln_error {
     enum kiln_code code;
@@ -308,8 +311,10 @@ struct kiln_render_params {
     /* Told of each frame where output is NULL: 8-bit sRGB, RGBA, alpha not premultiplied, rows from
      * the top; until the call returns. */
     void (*picture)(void *user, uint32_t frame, const uint8_t *pixels);
-    /* Told of each frame before it is stepped to and drawn, and after it was handed over. */
+    /* Told of each frame before it is stepped to and drawn, after that, and after it was handed to
+     * the output, which may wait for who reads it. */
     void (*next)(void *user, uint32_t frame);
+    void (*drawn)(void *user, uint32_t frame);
     void (*progress)(void *user, const struct kiln_progress *progress);
     /* Asked between frames, steps, passes and bands of rows, and while a clip ends; true ends with
      * KILN_INTERRUPTED. */

@@ -64,6 +64,7 @@ struct kiln_join_params {
     const char *manifest;       /* a JSON file that describes the job, or NULL */
     const char *const *command; /* words of a command line, for the manifest */
     size_t command_count;
+    bool overwrite;           /* files that no journal knows of; a manifest is replaced anyway */
     bool (*stop)(void *user); /* asked now and then; true ends with KILN_INTERRUPTED */
     void *user;
     struct kiln_log log;
@@ -92,17 +93,17 @@ struct kiln_encode_params {
     uint32_t threads;    /* 0 takes one a core */
     bool overwrite;
     void (*progress)(void *user, const struct kiln_progress *progress); /* pixels alone: no state */
-    bool (*stop)(void *user); /* asked between frames; true ends with KILN_INTERRUPTED */
+    bool (*stop)(void *user); /* asked now and then; true ends with KILN_INTERRUPTED */
     void *user;
     struct kiln_log log;
 };
 #define KILN_ENCODE_DEFAULTS ((struct kiln_encode_params){.quality = 80})
 
 /* Makes a clip of images. Of PNG images by kiln, of the depth that the format takes, it has the
- * bytes of a clip that kiln_render would have written of the same frames. frames gets their number.
+ * bytes of a clip that kiln_render would have written of the same frames. frames gets their range.
  * KILN_INVALID_INPUT when images cannot be read, leave out a frame, or are not of one clip;
  * KILN_USAGE, KILN_IO, KILN_INTERRUPTED. */
-bool kiln_encode(const struct kiln_encode_params *params, uint32_t *frames,
+bool kiln_encode(const struct kiln_encode_params *params, struct kiln_frame_range *frames,
                  struct kiln_error *error);
 
 /* ---- Plans ---------------------------------------------------------------------------------- */

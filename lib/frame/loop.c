@@ -192,7 +192,7 @@ struct kiln_loop *kiln_loop_create(struct kiln_device *device, const struct kiln
     device->work_group_size = params->work_group_size;
     loop->threads = ok ? kiln_threads_create(params->threads) : NULL;
     if (ok && !loop->threads)
-        kiln_error_set(error, KILN_DEVICE_FAILED, "can not start %u threads", params->threads);
+        kiln_error_set(error, KILN_DEVICE_FAILED, "no threads can be started");
     if (!loop->threads)
         kiln_loop_destroy(&loop);
     else

@@ -16,7 +16,7 @@ struct kiln_loop_params {
     uint32_t threads;         /* 0 takes one a core */
     uint32_t work_group_size; /* as in kiln_render_params */
     struct kiln_log log;
-    struct kiln_caller caller; /* asked between steps and before frames */
+    struct kiln_caller caller; /* asked between steps, passes and bands of rows */
 };
 
 /* A frame as it was drawn. */

@@ -1,16 +1,18 @@
 /* Makes a clip of images that are there already. What kiln's own images say of themselves (scene,
  * seed, number, rate) goes into the clip, so that it has the bytes of one that was drawn at once.
  */
+#include <dirent.h>
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/file.h"
 #include "base/log.h"
 #include "base/text.h"
 #include "compare/footage.h"
-#include "kiln.h"
+#include "job/resume.h"
 #include "option/unit.h"
 #include "output/carried.h"
 #include "output/formats.h"
@@ -27,8 +29,9 @@ struct encode {
     /* Of the first frame, and so of all. */
     char first[KILN_PATH_SIZE];
     struct kiln_carried carried;
-    struct kiln_asset_image *image;
+    struct kiln_asset_image *image; /* its pixels go when it is written */
     uint32_t number, bits;
+    bool alpha;
 };
 
 static bool may_go_on(void *user, struct kiln_error *error)
@@ -38,12 +41,15 @@ static bool may_go_on(void *user, struct kiln_error *error)
            kiln_error_set(error, KILN_INTERRUPTED, "stopped");
 }
 
-/* EXR images of kiln always have the channel; there it counts where something is not covered. */
-static bool has_alpha(const struct kiln_asset_image *image)
+/* EXR images of kiln always have the channel and say whether it counts: smoke may cover all of a
+ * frame. In others it counts where something is not covered. */
+static bool has_alpha(const struct kiln_asset_image *image, const struct kiln_carried *carried)
 {
-    bool has = image->channels == 2 || image->channels == 4;
+    const bool has = image->channels == 2 || image->channels == 4;
     if (!has || image->type != KILN_IMAGE_F32)
         return has;
+    if (*carried->alpha)
+        return *carried->alpha == '1';
     const float *pixels = image->pixels;
     const size_t count = (size_t)image->width * image->height;
     for (size_t i = 0; i < count; i++) {
@@ -97,10 +103,10 @@ static bool check_tonemap(struct encode *encode, struct kiln_error *error)
                               "%s: is a picture of light; say with --tonemap (none, agx or aces) "
                               "how it becomes colours",
                               encode->first);
-    if (!is_light && name)
+    if (!is_light && (name || encode->params->exposure != 0.0f))
         return kiln_error_set(error, KILN_USAGE,
-                              "--tonemap: %s is no picture of light but of colours already",
-                              encode->first);
+                              "--%s: %s is no picture of light but of colours already",
+                              name ? "tonemap" : "exposure", encode->first);
     return !name || kiln_tonemap_find(name, &encode->tonemap) ||
            kiln_error_set(error, KILN_USAGE, "--tonemap %s: expected none, agx or aces", name);
 }
@@ -120,6 +126,7 @@ static bool open_frames(struct encode *encode, struct kiln_error *error)
     if (!encode->image)
         return false;
     encode->bits = encode->image->type == KILN_IMAGE_U16 ? 16 : 8;
+    encode->alpha = has_alpha(encode->image, &encode->carried);
     return check_tonemap(encode, error);
 }
 
@@ -129,13 +136,22 @@ static bool find_rate(const struct encode *encode, uint64_t *num, uint64_t *den,
                       struct kiln_error *error)
 {
     const char *text = encode->params->fps ? encode->params->fps : encode->carried.fps;
-    if (kiln_unit_parse_rational(text, num, den))
+    if (kiln_unit_parse_rational(text, num, den) && *num >= *den && *num <= *den * KILN_MAX_RATE)
         return true;
     if (encode->params->fps)
         return kiln_error_set(error, KILN_USAGE,
-                              "--fps %s: expected a rate such as 30, 29.97 or 30000/1001", text);
-    return kiln_error_set(error, KILN_USAGE, "%s: does not say its rate; give it with --fps",
-                          encode->first);
+                              "--fps %s: expected a rate from 1 to %d, such as 30, 29.97 or "
+                              "30000/1001",
+                              text, KILN_MAX_RATE);
+    return kiln_error_set(error, KILN_USAGE, "%s: %s; give it with --fps", encode->first,
+                          *text ? "has a rate that no clip has" : "does not say its rate");
+}
+
+/* The hash of a scene, or "": anybody may have written into the file. */
+static const char *scene_of(const struct kiln_carried *carried)
+{
+    const bool is_hash = strspn(carried->scene, "0123456789abcdef") == 64;
+    return is_hash ? carried->scene : "";
 }
 
 static bool check_format(const struct kiln_output_params *files, struct kiln_error *error)
@@ -160,6 +176,50 @@ static bool claim(const struct encode *encode, const struct kiln_output_params *
                     kiln_output_claim(files, claims, error);
     kiln_claims_destroy(&claims);
     return ok;
+}
+
+/* The journal of the job that drew the images: beside them, or in their folder. */
+static bool find_job(const struct encode *encode, struct kiln_journal_head *head,
+                     struct kiln_arena *arena)
+{
+    static const char suffix[] = ".journal";
+    struct kiln_error ignored = {0};
+    struct dirent **entries = NULL;
+    bool found = false;
+    if (kiln_footage_kind(encode->footage) == KILN_FOOTAGE_NUMBERED)
+        return kiln_journal_find(encode->params->frames, head, arena, &ignored);
+    const int count = scandir(encode->params->frames, &entries, NULL, alphasort);
+    for (int i = 0; i < count; i++) {
+        const size_t length = strlen(entries[i]->d_name);
+        char path[KILN_PATH_SIZE];
+        if (!found && length > strlen(suffix) &&
+            strcmp(entries[i]->d_name + length - strlen(suffix), suffix) == 0 &&
+            kiln_path_join(path, encode->params->frames, entries[i]->d_name, &ignored)) {
+            path[strlen(path) - strlen(suffix)] = '\0';
+            found = kiln_journal_find(path, head, arena, &ignored);
+        }
+        free(entries[i]);
+    }
+    free(entries);
+    return found;
+}
+
+/* Images of a job that has not ended are whole, but not all of it. */
+static void warn_of_missing(const struct encode *encode)
+{
+    struct kiln_arena *arena = kiln_arena_create();
+    struct kiln_journal_head head;
+    const uint32_t last = encode->number + encode->count - 1;
+    if (arena && find_job(encode, &head, arena)) {
+        const struct kiln_output_params *job = &head.output;
+        const uint32_t job_first = job->clip[0].first,
+                       job_last = job->clip[job->clip_count - 1].last;
+        if (job_first < encode->number || job_last > last)
+            kiln_log_write(&encode->params->log, KILN_LOG_WARNING,
+                           "%s: the job has frames %u-%u, and of them %u-%u are here",
+                           encode->params->frames, job_first, job_last, encode->number, last);
+    }
+    kiln_arena_destroy(&arena);
 }
 
 static void warn_of_depth(const struct encode *encode)
@@ -190,7 +250,7 @@ static bool open_clip(struct encode *encode, struct kiln_error *error)
         .height = image->height,
         .fps_num = (uint32_t)num,
         .fps_den = (uint32_t)den,
-        .alpha = has_alpha(image),
+        .alpha = encode->alpha,
         .ranges = &range,
         .range_count = 1,
         .clip = &range,
@@ -199,18 +259,21 @@ static bool open_clip(struct encode *encode, struct kiln_error *error)
         .overwrite = params->overwrite,
         .png_bits = encode->bits,
         .quality = params->quality,
-        .scene_hash = has_seed ? encode->carried.scene : "",
+        .scene_hash = has_seed ? scene_of(&encode->carried) : "",
         .seed = (uint32_t)seed,
         .log = params->log,
         .caller = {may_go_on, encode},
     };
     const struct kiln_output_params files = kiln_output_complete(&clip, error);
-    if (!check_format(&files, error) || !claim(encode, &files, error))
+    if (!check_format(&files, error) || !claim(encode, &files, error) ||
+        !kiln_resume_clear(&files, error))
         return false;
     encode->output = kiln_output_open(&files, error);
-    if (encode->output)
-        warn_of_depth(encode);
-    return encode->output != NULL;
+    if (!encode->output)
+        return false;
+    warn_of_depth(encode);
+    warn_of_missing(encode);
+    return true;
 }
 
 /* ---- frame by frame -------------------------------------------------------------------------- */
@@ -232,11 +295,14 @@ static bool check_frame(const struct encode *encode, const struct kiln_asset_ima
         return kiln_error_set(error, KILN_INVALID_INPUT, "%s: %u x %u pixels; %s has %u x %u", path,
                               image->width, image->height, encode->first, first->width,
                               first->height);
-    if (image->type != first->type || has_alpha(image) != has_alpha(first))
+    const bool alpha = has_alpha(image, carried);
+    /* A picture that others made may be covered by chance. */
+    const bool may_be = image->type == KILN_IMAGE_F32 && !*carried->alpha && !alpha;
+    if (image->type != first->type || (alpha != encode->alpha && !may_be))
         return kiln_error_set(error, KILN_INVALID_INPUT,
                               "%s: %s a channel, %s alpha; %s has %s, %s", path, name_type(image),
-                              has_alpha(image) ? "with" : "without", encode->first,
-                              name_type(first), has_alpha(first) ? "with alpha" : "without");
+                              alpha ? "with" : "without", encode->first, name_type(first),
+                              encode->alpha ? "with alpha" : "without");
     if (strcmp(carried->scene, encode->carried.scene) == 0 &&
         strcmp(carried->seed, encode->carried.seed) == 0)
         return true;
@@ -290,7 +356,7 @@ static bool write_frame(struct encode *encode, const struct kiln_asset_image *im
     if (!picture)
         return false;
     picture->frame = number;
-    picture->has_alpha = has_alpha(image);
+    picture->has_alpha = encode->alpha;
     if (fill(encode, image, picture, error))
         return kiln_output_write(encode->output, picture, error);
     kiln_picture_destroy(&picture);
@@ -333,12 +399,13 @@ static bool run(struct encode *encode, double started_s, struct kiln_error *erro
 {
     encode->threads = kiln_threads_create(encode->params->threads);
     if (!encode->threads)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "can not start %u threads",
-                              encode->params->threads);
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "no threads can be started");
     kiln_threads_ask(encode->threads, &(struct kiln_caller){may_go_on, encode});
     if (!open_frames(encode, error) || !open_clip(encode, error) ||
         !write_frame(encode, encode->image, encode->number, error))
         return false;
+    free(encode->image->pixels);
+    encode->image->pixels = NULL;
     tell(encode, 1, started_s);
     for (uint32_t done = 1; done < encode->count; done++) {
         if (!may_go_on(encode, error) || !add_frame(encode, encode->number + done, error))
@@ -348,12 +415,12 @@ static bool run(struct encode *encode, double started_s, struct kiln_error *erro
     return kiln_output_finish(encode->output, error);
 }
 
-bool kiln_encode(const struct kiln_encode_params *params, uint32_t *frames,
+bool kiln_encode(const struct kiln_encode_params *params, struct kiln_frame_range *frames,
                  struct kiln_error *error)
 {
     struct encode encode = {.params = params};
     const bool ok = run(&encode, kiln_clock_seconds(), error);
-    *frames = encode.count;
+    *frames = (struct kiln_frame_range){encode.number, encode.number + encode.count - 1};
     kiln_output_close(&encode.output);
     kiln_asset_image_destroy(&encode.image);
     kiln_footage_close(&encode.footage);

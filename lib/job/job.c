@@ -122,6 +122,8 @@ bool kiln_job_draw(struct kiln_job *job, uint32_t frame, struct kiln_error *erro
     const bool hash = job->params->state_hash || job->records.items;
     if (!kiln_loop_draw(job->loop, frame, hash, &drawn, error))
         return false;
+    if (job->params->drawn)
+        job->params->drawn(job->params->user, frame);
     struct kiln_progress *progress = &job->progress;
     progress->alive = drawn.alive;
     progress->state = drawn.state;
@@ -282,7 +284,7 @@ static bool begin_to_resume(struct kiln_job *job, struct kiln_error *error)
                            &job->records, error))
         return false;
     job->files = job->resume.output;
-    job->files.overwrite = true;
+    job->files.overwrite = job->resume.may_replace;
     job->files.ranges = job->resume.missing;
     job->files.range_count = job->resume.missing_count;
     job->stats.kept = job->resume.kept;
@@ -318,6 +320,9 @@ static bool open_output(struct kiln_job *job, struct kiln_error *error)
         if (!job->files.format || !check_stream(job, error))
             return false;
     }
+    if (job->files.path && !job->resumes && !writes_stream(job) &&
+        !kiln_resume_clear(&job->files, error))
+        return false;
     if (!keep_records(job, error) || (job->resumes && !begin_to_resume(job, error)))
         return false;
     if (job->files.path && job->files.range_count > 0 &&
@@ -328,7 +333,8 @@ static bool open_output(struct kiln_job *job, struct kiln_error *error)
     job->manifest = kiln_manifest_open(
         &(struct kiln_manifest_params){
             .path = params->manifest,
-            .overwrite = params->overwrite || (job->resumes && job->resume.was_begun),
+            .overwrite = params->overwrite,
+            .again = job->resumes,
             .scene = job->scene_json,
             .device = &job->device->info,
             .techniques = job->stats.techniques,

@@ -49,9 +49,11 @@ static bool refuse_missing(const struct join *join, struct kiln_error *error)
     } else {
         for (size_t i = 0; i < resume->missing_count; i++) {
             const struct kiln_frame_range *range = &resume->missing[i];
-            if (count++ < MOST)
-                kiln_text_add(&text, "%s %u-%u", count > 1 ? "," : " frames", range->first,
-                              range->last);
+            if (count++ >= MOST)
+                continue;
+            kiln_text_add(&text, "%s %u", count > 1 ? "," : " frames", range->first);
+            if (range->last > range->first)
+                kiln_text_add(&text, "-%u", range->last);
         }
     }
     kiln_error_set(error, KILN_IO, "%s: not all is there; missing or damaged:%s%s",
@@ -68,7 +70,8 @@ static bool write_manifest(const struct join *join, const struct kiln_render_sta
         return true;
     struct kiln_manifest *manifest =
         kiln_manifest_open(&(struct kiln_manifest_params){.path = params->manifest,
-                                                          .overwrite = true,
+                                                          .overwrite = params->overwrite,
+                                                          .again = true,
                                                           .scene = join->head.scene,
                                                           .techniques = "",
                                                           .output = params->output,
@@ -78,6 +81,23 @@ static bool write_manifest(const struct join *join, const struct kiln_render_sta
                            error);
     const bool ok = manifest && kiln_manifest_finish(manifest, &join->records, stats, error);
     kiln_manifest_close(&manifest);
+    return ok;
+}
+
+/* The manifest is none of the files of the output. */
+static bool claim(const struct join *join, struct kiln_error *error)
+{
+    const struct kiln_join_params *params = join->params;
+    struct kiln_claims *claims = kiln_claims_create();
+    char journal[KILN_PATH_SIZE];
+    if (!claims)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", params->output);
+    const bool ok =
+        kiln_output_claim(&join->head.output, claims, error) &&
+        kiln_journal_path(params->output, (struct kiln_shard){0, 0}, journal, error) &&
+        kiln_claims_write(claims, journal, "the journal", error) &&
+        (!params->manifest || kiln_claims_write(claims, params->manifest, "--manifest", error));
+    kiln_claims_destroy(&claims);
     return ok;
 }
 
@@ -93,6 +113,9 @@ static bool begin(struct join *join, struct kiln_error *error)
     output->caller = (struct kiln_caller){may_go_on, join};
     output->whole = (struct kiln_whole_listener){take_whole, join};
     output->durable = true;
+    output->overwrite = join->params->overwrite;
+    if (!claim(join, error))
+        return false;
     if (!kiln_records_create(&join->records, output->clip, output->clip_count))
         return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", join->params->output);
     return kiln_resume_begin(&join->resume,

@@ -25,10 +25,23 @@ struct kiln_journal *kiln_journal_open(const struct kiln_journal_head *head,
                                        struct kiln_error *error);
 
 /* Reads the journals of all shards of the output; unless they are to be kept, takes them over and
- * removes them. *found becomes true when there were any. KILN_IO as above. */
+ * removes them. *found becomes true when there were any. KILN_IO as above: then all stay. */
 bool kiln_journal_merge(struct kiln_journal *journal, const struct kiln_journal_head *head,
                         bool keep, struct kiln_records *records, bool *found,
                         struct kiln_error *error);
+
+/* What a shard finds beside its own journal: takes what that of the whole job says into the
+ * records, where *found becomes true, and looks at the first lines of other shards. KILN_IO when
+ * one is of another job, or when a process goes on with the whole. */
+bool kiln_journal_look_around(const struct kiln_journal *journal,
+                              const struct kiln_journal_head *head, struct kiln_records *records,
+                              bool *found, struct kiln_error *error);
+
+/* Removes all journals of an output. KILN_IO when another process has one: then all stay. */
+bool kiln_journal_forget(const char *output, struct kiln_error *error);
+
+/* Whether an output has a journal, and the path of one. */
+bool kiln_journal_is_there(const char *output, char path[KILN_PATH_SIZE]);
 
 /* Reads the head of any journal of an output. KILN_IO when there is none. */
 bool kiln_journal_find(const char *output, struct kiln_journal_head *head, struct kiln_arena *arena,

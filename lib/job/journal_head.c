@@ -67,6 +67,12 @@ static uint32_t number_of(struct members *m, const struct kiln_node *node)
     return (uint32_t)value;
 }
 
+/* What no scene has is no journal of one: whoever wrote it, work goes by these numbers. */
+static void check_range(struct members *m, uint64_t value, uint64_t least, uint64_t most)
+{
+    m->bad |= value < least || value > most;
+}
+
 static uint32_t take_number(struct members *m, const char *key)
 {
     return number_of(m, kiln_node_entry(m->line, key));
@@ -100,7 +106,7 @@ static uint32_t parse_number(struct members *m, const char **text)
     if (m->bad)
         return 0;
     memcpy(digits, *text, length);
-    m->bad |= !kiln_text_to_uint64(digits, &value) || value >= UINT32_MAX;
+    m->bad |= !kiln_text_to_uint64(digits, &value) || value >= KILN_MAX_FRAMES;
     *text += length;
     return (uint32_t)value;
 }
@@ -136,6 +142,10 @@ static void take_settings(struct members *m, struct kiln_output_params *output)
     output->seed = take_number(m, "seed");
     take_pair(m, "size", &output->width, &output->height);
     take_pair(m, "fps", &output->fps_num, &output->fps_den);
+    check_range(m, output->width, KILN_MIN_EDGE, KILN_MAX_EDGE);
+    check_range(m, output->height, KILN_MIN_EDGE, KILN_MAX_EDGE);
+    check_range(m, output->fps_den, 1, UINT32_MAX);
+    check_range(m, output->fps_num, output->fps_den, (uint64_t)output->fps_den * KILN_MAX_RATE);
     take_frames(m, output);
     output->alpha = take_number(m, "alpha") != 0;
     output->png_bits = take_number(m, "png_bits");

@@ -2,6 +2,7 @@
  * piece. Nothing here depends on the locale. */
 #include "job/manifest.h"
 
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -119,10 +120,23 @@ static void add_techniques(struct kiln_json *json, const char *techniques)
     kiln_json_end(json);
 }
 
+/* Whether a file begins as kiln_manifest_finish writes it. */
+static bool is_manifest(const char *path)
+{
+    static const char start[] = "{\n  \"kiln\": \"";
+    char found[sizeof start - 1];
+    const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
+    const ssize_t count = file >= 0 ? read(file, found, sizeof found) : -1;
+    if (file >= 0)
+        close(file);
+    return count == (ssize_t)sizeof found && memcmp(found, start, sizeof found) == 0;
+}
+
 struct kiln_manifest *kiln_manifest_open(const struct kiln_manifest_params *params,
                                          struct kiln_error *error)
 {
-    if (!kiln_target_check(params->path, params->overwrite, error) ||
+    const bool replaces = params->overwrite || (params->again && is_manifest(params->path));
+    if (!kiln_target_check(params->path, replaces, error) ||
         !kiln_make_parent_folders(params->path, error))
         return NULL;
     struct kiln_manifest *manifest = calloc(1, sizeof *manifest);
@@ -131,6 +145,7 @@ struct kiln_manifest *kiln_manifest_open(const struct kiln_manifest_params *para
         return NULL;
     }
     manifest->params = *params;
+    manifest->params.overwrite = replaces;
     kiln_temporary_sweep(params->path);
     if (!kiln_temporary_open(&manifest->file, params->path, error)) {
         kiln_manifest_close(&manifest);

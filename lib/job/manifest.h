@@ -9,6 +9,7 @@
 struct kiln_manifest_params {
     const char *path;
     bool overwrite;
+    bool again;                             /* an older manifest is replaced in any case */
     const char *scene;                      /* of kiln_manifest_scene */
     const struct kiln_device_info *device;  /* NULL: no device was used */
     const char *techniques;                 /* "simulate=cpu sort=cpu ..." */

@@ -160,34 +160,29 @@ static bool check_clip_files(const struct kiln_resume *resume, struct kiln_error
             return false;
         if (!*path)
             return true;
-        if (!kiln_target_check(path, false, error))
+        if (!kiln_target_check(path, resume->may_replace, error))
             return false;
     }
 }
 
-/* Removes the parts of a clip that is whole, and their folder unless there is something else in it.
- */
-static void remove_parts(const struct kiln_resume *resume)
+static bool find_folder(const struct kiln_output_params *output, char folder[KILN_PATH_SIZE],
+                        struct kiln_error *error)
 {
-    for (uint32_t part = 0; part < kiln_parts_count(&resume->output); part++) {
-        struct kiln_error ignored = {0};
-        char path[KILN_PATH_SIZE];
-        if (kiln_part_path(&resume->output, part, path, &ignored))
-            unlink(path);
-        if (part == 0)
-            kiln_temporary_sweep(path);
-    }
-    rmdir(resume->folder);
+    char clip[KILN_PATH_SIZE];
+    if (!kiln_output_clip_file(output, 0, clip, error))
+        return false;
+    return snprintf(folder, KILN_PATH_SIZE, "%s.parts", clip) < KILN_PATH_SIZE ||
+           kiln_error_set(error, KILN_USAGE, "%s: the path is too long", output->path);
 }
 
-static bool look_at_clip(struct kiln_resume *resume, bool found, struct kiln_error *error)
+static bool look_at_clip(struct kiln_resume *resume, struct kiln_error *error)
 {
     struct kiln_error reason = {0};
     resume->clip_is_whole = resume->shard.count == 0 && clip_is_whole(resume, &reason);
     if (!could_look(&reason, error))
         return false;
     if (resume->clip_is_whole) {
-        remove_parts(resume);
+        kiln_parts_remove(resume->folder);
         for (uint32_t i = 0; i < resume->records->count; i++)
             resume->records->items[i] = (struct kiln_record){
                 .has_state = true,
@@ -198,7 +193,7 @@ static bool look_at_clip(struct kiln_resume *resume, bool found, struct kiln_err
         return true;
     }
     resume->records->file_count = 0;
-    if (!found && !check_clip_files(resume, error))
+    if (!check_clip_files(resume, error))
         return false;
     for (uint32_t part = resume->first_part; part < resume->end_part; part++) {
         if (!kiln_may_go_on(&resume->output.caller, error) || !look_at_part(resume, part, error))
@@ -252,18 +247,40 @@ static bool set_up(struct kiln_resume *resume, const struct kiln_resume_params *
                    struct kiln_records *records, struct kiln_error *error)
 {
     const struct kiln_output_params *output = params->output;
-    char clip[KILN_PATH_SIZE];
     *resume = (struct kiln_resume){.output = *output, .records = records};
     if (!kiln_journal_head_make(&resume->head, output, params->made_by, params->scene))
         return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", output->path);
     choose_parts(resume, params->shard);
     if (!output->format->one_file)
         return true;
-    if (!kiln_output_clip_file(output, 0, clip, error))
+    if (!find_folder(output, resume->folder, error))
         return false;
-    if (snprintf(resume->folder, sizeof resume->folder, "%s.parts", clip) >= KILN_PATH_SIZE)
-        return kiln_error_set(error, KILN_USAGE, "%s: the path is too long", output->path);
     resume->output.parts = resume->folder;
+    return true;
+}
+
+/* Reads the other journals of the output: those of shards, or of the whole that this is a shard of.
+ */
+static bool look_around(struct kiln_resume *resume, const struct kiln_resume_params *params,
+                        bool *found, struct kiln_error *error)
+{
+    if (params->restart)
+        return true;
+    if (params->shard.count > 0)
+        return kiln_journal_look_around(resume->journal, &resume->head, resume->records, found,
+                                        error);
+    const bool ok = kiln_journal_merge(resume->journal, &resume->head, params->keep_journals,
+                                       resume->records, found, error);
+    resume->was_begun |= *found && !params->keep_journals;
+    return ok;
+}
+
+static bool forget_all(const struct kiln_resume *resume, struct kiln_error *error)
+{
+    if (!kiln_journal_forget(resume->output.path, error))
+        return false;
+    if (resume->folder[0])
+        kiln_parts_remove(resume->folder);
     return true;
 }
 
@@ -274,21 +291,44 @@ bool kiln_resume_begin(struct kiln_resume *resume, const struct kiln_resume_para
     if (!set_up(resume, params, records, error))
         return false;
     kiln_temporary_sweep(params->output->path);
+    if (params->restart && params->shard.count == 0 && !forget_all(resume, error))
+        return false;
     resume->journal =
         kiln_journal_open(&resume->head, params->shard, params->restart, records, &found, error);
     if (!resume->journal)
         return false;
     resume->was_begun = found;
-    bool ok = params->shard.count > 0 || params->restart ||
-              kiln_journal_merge(resume->journal, &resume->head, params->keep_journals, records,
-                                 &found, error);
+    resume->may_replace = found || params->output->overwrite;
+    bool ok = look_around(resume, params, &found, error);
+    if (params->shard.count > 0 || !params->output->format->one_file)
+        resume->may_replace |= found;
     if (ok && !params->restart)
-        ok = params->output->format->one_file ? look_at_clip(resume, found, error)
+        ok = params->output->format->one_file ? look_at_clip(resume, error)
                                               : look_at_images(resume, found, error);
     ok = ok && list_missing(resume, error);
     if (!ok)
         kiln_resume_undo(resume);
     return ok;
+}
+
+bool kiln_resume_clear(const struct kiln_output_params *output, struct kiln_error *error)
+{
+    char journal[KILN_PATH_SIZE], folder[KILN_PATH_SIZE];
+    if (!kiln_journal_is_there(output->path, journal))
+        return true;
+    if (output->overwrite && !kiln_journal_forget(output->path, error))
+        return false;
+    if (!output->format->one_file)
+        return true;
+    if (!output->overwrite)
+        return kiln_error_set(error, KILN_IO,
+                              "%s: a job with --resume or --shard has begun this output (--force "
+                              "replaces it)",
+                              journal);
+    if (!find_folder(output, folder, error))
+        return false;
+    kiln_parts_remove(folder);
+    return true;
 }
 
 void kiln_resume_undo(struct kiln_resume *resume)
@@ -333,10 +373,10 @@ bool kiln_resume_note(struct kiln_resume *resume, uint32_t frame, struct kiln_er
 bool kiln_resume_join(struct kiln_resume *resume, struct kiln_error *error)
 {
     struct kiln_output_params output = resume->output;
-    output.overwrite = true; /* what is there was allowed for when the job began */
+    output.overwrite = resume->may_replace;
     if (!kiln_parts_join(&output, error))
         return false;
-    remove_parts(resume);
+    kiln_parts_remove(resume->folder);
     resume->clip_is_whole = true;
     return true;
 }

@@ -13,7 +13,10 @@ struct kiln_resume {
     struct kiln_records *records;
     struct kiln_journal *journal;
     char folder[KILN_PATH_SIZE]; /* of the parts of a clip */
-    bool was_begun; /* the journal was there; else it is removed when nothing comes of the job */
+    bool was_begun;   /* the journal was there, or took others over; else it is removed when nothing
+                       * comes of the job */
+    bool may_replace; /* what is there under final names: it was asked for, or is of the job by a
+                       * journal (a clip: by that of the whole job) */
     bool clip_is_whole;
     struct kiln_frame_range *missing; /* frames to be drawn, ascending: of a clip, whole parts */
     size_t missing_count;
@@ -35,6 +38,11 @@ struct kiln_resume_params {
  * frees. */
 bool kiln_resume_begin(struct kiln_resume *resume, const struct kiln_resume_params *params,
                        struct kiln_records *records, struct kiln_error *error);
+
+/* For an output that is made without a journal: what journals say of one of its name is true no
+ * more, so they and the parts of a clip are removed. KILN_IO when a process has one of them, and
+ * for a clip that is not to be overwritten: a job has begun it. */
+bool kiln_resume_clear(const struct kiln_output_params *output, struct kiln_error *error);
 
 /* Joins the parts of a clip, which are all there, says so in the journal, and removes them. */
 bool kiln_resume_join(struct kiln_resume *resume, struct kiln_error *error);

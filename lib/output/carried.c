@@ -119,7 +119,10 @@ static bool look_into_exr(const char *path, struct kiln_carried *carried, struct
     exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
     exr_context_t context = NULL;
     initializer.error_handler_fn = be_silent;
-    if (exr_start_read(&context, path, &initializer) != EXR_ERR_SUCCESS)
+    const exr_result_t started = exr_start_read(&context, path, &initializer);
+    if (started == EXR_ERR_OUT_OF_MEMORY)
+        return kiln_error_set(reason, KILN_DEVICE_FAILED, "%s: out of memory", path);
+    if (started != EXR_ERR_SUCCESS)
         return false;
     const exr_attr_chlist_t *channels = NULL;
     if (exr_get_channels(context, 0, &channels) == EXR_ERR_SUCCESS && channels)
@@ -132,6 +135,7 @@ static bool look_into_exr(const char *path, struct kiln_carried *carried, struct
     take_attribute(context, "kiln:scene", carried->scene, sizeof carried->scene);
     take_attribute(context, "kiln:seed", carried->seed, sizeof carried->seed);
     take_attribute(context, "kiln:frame", carried->frame, sizeof carried->frame);
+    take_attribute(context, "kiln:alpha", carried->alpha, sizeof carried->alpha);
     take_rate(context, carried->fps, sizeof carried->fps);
     const bool ok = has_all_chunks(context, path, reason);
     exr_finish(&context);

@@ -153,6 +153,7 @@ static exr_result_t write_metadata(const struct exr_encoder *encoder, uint32_t f
         {"kiln:scene", params->scene_hash},
         {"kiln:seed", seed},
         {"kiln:frame", number},
+        {"kiln:alpha", params->alpha ? "1" : "0"},
     };
     exr_result_t code = EXR_ERR_SUCCESS;
     for (size_t i = 0; i < sizeof texts / sizeof *texts && code == EXR_ERR_SUCCESS; i++)

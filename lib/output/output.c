@@ -1,6 +1,6 @@
 /* The way of a picture into its file: a bounded queue, encoder threads, one file an image or one
- * for all. Images are encoded side by side; a video has one encoder, so its frames stay in order.
- * The first failure stops everything and is told by the next call. */
+ * for all, or a descriptor. Images are encoded side by side; a video has one encoder, so its frames
+ * stay in order. The first failure stops everything and is told by the next call. */
 #include "output/output.h"
 
 #include <pthread.h>

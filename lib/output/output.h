@@ -87,8 +87,9 @@ struct kiln_output_params {
     uint32_t seed;
     struct kiln_log log;
     struct kiln_whole_listener whole;
-    bool durable;              /* files are on the disk before they have their names */
-    struct kiln_caller caller; /* asked by kiln_output_finish alone, on its thread */
+    bool durable; /* files are on the disk before they have their names */
+    struct kiln_caller
+        caller; /* asked while parts are joined and the clip ends, by whoever calls */
 };
 
 struct kiln_output;

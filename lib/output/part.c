@@ -1,8 +1,10 @@
 /* Which frames are in which part, the files of parts, and the clip that is made of them. */
 #include "output/part.h"
 
+#include <dirent.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 #include <zstd.h>
 
 #include "base/error.h"
@@ -217,6 +219,29 @@ bool kiln_part_check(const struct kiln_output_params *params, uint32_t part,
         return false;
     kiln_part_close(&in);
     return true;
+}
+
+/* "00007.part" */
+static int is_part(const struct dirent *entry)
+{
+    const size_t digits = strspn(entry->d_name, "0123456789");
+    return digits > 0 && strcmp(entry->d_name + digits, ".part") == 0;
+}
+
+void kiln_parts_remove(const char *folder)
+{
+    struct dirent **entries = NULL;
+    const int count = scandir(folder, &entries, is_part, NULL);
+    for (int i = 0; i < count; i++) {
+        char path[KILN_PATH_SIZE];
+        if (snprintf(path, sizeof path, "%s/%s", folder, entries[i]->d_name) < KILN_PATH_SIZE)
+            unlink(path);
+        if (i == 0)
+            kiln_temporary_sweep(path);
+        free(entries[i]);
+    }
+    free(entries);
+    rmdir(folder);
 }
 
 /* Reads so many packed bytes, which make `room` bytes. */

@@ -31,6 +31,10 @@ void kiln_part_writer_close(struct kiln_part_writer **writer);
 bool kiln_part_check(const struct kiln_output_params *params, uint32_t part,
                      struct kiln_error *error);
 
+/* Removes the files of parts in a folder, whole and half-written, and the folder unless there is
+ * something else in it. */
+void kiln_parts_remove(const char *folder);
+
 /* Makes the clip of its parts, which stay. Errors name the part that is missing or wrong. */
 bool kiln_parts_join(const struct kiln_output_params *params, struct kiln_error *error);
 

@@ -148,7 +148,8 @@ static bool open_planes(struct stream *stream)
         return false;
     stream->header = sizeof FRAME_HEADER - 1;
     stream->size = stream->header + (size_t)size;
-    stream->bytes = malloc(stream->size);
+    enum { SLACK = 64 }; /* swscale may write whole vectors past the last row's end */
+    stream->bytes = malloc(stream->size + SLACK);
     if (!stream->bytes)
         return false;
     memcpy(stream->bytes, FRAME_HEADER, stream->header);

@@ -32,11 +32,11 @@ _Static_assert(AT(height) == AT(width) + sizeof(uint32_t), "size is read as a pa
 
 static const struct kiln_option output[] = {
     {ROW(LOOK, "size", pair, AT(width), "[1280, 720]", "Width and height of the pictures."),
-     LIMITS(KILN_PIXELS, 16, 16384)},
+     LIMITS(KILN_PIXELS, KILN_MIN_EDGE, KILN_MAX_EDGE)},
     {ROW(ORDER, "fps", rational, AT(fps), "30",
          "Frames a second: 30, 30000/1001 or 29.97 (= 2997/100)."),
-     LIMITS(KILN_PLAIN, 1, 1000)},
-    INTEGER(LOOK, "frames", frames, 1, 1000000, "150", "Length of the clip."),
+     LIMITS(KILN_PLAIN, 1, KILN_MAX_RATE)},
+    INTEGER(LOOK, "frames", frames, 1, KILN_MAX_FRAMES, "150", "Length of the clip."),
     END,
 };
 

@@ -1,5 +1,5 @@
 /* Fuzzes the reading of journals: any bytes are lines of this job's journal, or an error, never a
- * crash; and what is read twice is the same. */
+ * crash; what is read twice is the same; and a head that is taken is one that a job can go by. */
 #include "job/journal.h"
 
 #include <stdio.h>
@@ -7,7 +7,9 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/ranges.h"
 #include "fuzz.h"
+#include "output/part.h"
 
 static const struct kiln_frame_range clip = {0, 63};
 
@@ -61,17 +63,49 @@ static void find_head(const char *output)
     struct kiln_error error = {0};
     struct kiln_journal_head head;
     struct kiln_arena *arena = kiln_arena_create();
-    require(!arena || kiln_journal_find(output, &head, arena, &error) ||
-                (error.code != KILN_OK && *error.message),
+    const bool found = arena && kiln_journal_find(output, &head, arena, &error);
+    require(!arena || found || (error.code != KILN_OK && *error.message),
             "an error without a message");
+    if (found) {
+        const uint64_t frames = kiln_ranges_count(head.output.clip, head.output.clip_count);
+        require(frames >= 1 && frames <= KILN_MAX_FRAMES, "more frames than a clip may have");
+        require(kiln_parts_count(&head.output) <= frames, "more parts than frames");
+    }
     kiln_arena_destroy(&arena);
 }
 
-/* An even first byte: the rest are lines behind a head as it should be, so that changes get there.
- * An odd one: the rest is the whole journal. */
+/* A head with settings of any numbers, and the hash of them. */
+static bool put_settings(const char *path, const struct kiln_journal_head *like,
+                         const uint8_t *data, size_t size)
+{
+    uint32_t numbers[6] = {0};
+    struct kiln_journal_head head;
+    memcpy(numbers, data, size < sizeof numbers ? size : sizeof numbers);
+    struct kiln_frame_range range = {numbers[4], numbers[5]};
+    struct kiln_output_params output = like->output;
+    output.width = numbers[0];
+    output.height = numbers[1];
+    output.fps_num = numbers[2];
+    output.fps_den = numbers[3];
+    output.clip = output.ranges = &range;
+    FILE *file = kiln_journal_head_make(&head, &output, "fuzz", "{}") ? fopen(path, "wb") : NULL;
+    if (!file)
+        return false;
+    struct kiln_json json = kiln_json_to_file(file);
+    kiln_json_begin_object(&json, NULL);
+    kiln_journal_head_write(&json, &head);
+    kiln_json_end(&json);
+    const bool written = kiln_json_finish(&json);
+    return fclose(file) == 0 && written;
+}
+
+/* By the first byte, the rest are lines behind a head as it should be, so that changes get there,
+ * the whole journal, or numbers for its head. */
 static bool put(const char *path, const struct kiln_journal_head *head, const uint8_t *data,
                 size_t size)
 {
+    if (data[0] % 4 == 3)
+        return put_settings(path, head, data + 1, size - 1);
     if (data[0] % 2 == 0)
         open_journal(head);
     FILE *file = fopen(path, data[0] % 2 == 0 ? "ab" : "wb");

@@ -13,7 +13,7 @@ $ one() { suffix=$1; shift; kiln render scenes/tiny.yaml --quiet "$@" -o $suffix
 $ kiln render scenes/tiny.yaml --quiet --frames 5-20 --fps 30000/1001 --set simulation.rate=60000/1001 -o chunk.mp4 --quality 30
 $ kiln render scenes/tiny.yaml --quiet --frames 5-20 --fps 30000/1001 --set simulation.rate=60000/1001 -o chunk/%d.png
 $ kiln encode chunk/%d.png -o again.mp4 --quality 30 && cmp chunk.mp4 again.mp4
-1|again.mp4: 16 frames
+1|again.mp4: 16 frames, 5-20
 $ ffprobe -v error -count_frames -of csv=p=0 -show_entries stream=nb_read_frames,r_frame_rate,color_space,color_transfer,color_primaries,color_range again.mp4
 1|tv,bt709,iec61966-2-1,bt709,30000/1001,16
 
@@ -40,7 +40,7 @@ $ kiln encode foreign/%d.bmp -o none.mp4
 2|kiln: foreign/1.bmp: does not say its rate; give it with --fps
 = 2
 $ kiln encode foreign/%d.bmp -o foreign.mp4 --fps 10
-1|foreign.mp4: 12 frames
+1|foreign.mp4: 12 frames, 1-12
 $ ffprobe -v error -of csv=p=0 -show_entries format_tags=comment foreign.mp4
 1|kiln:version=0.1.0 kiln:frames=1-12
 
@@ -78,6 +78,38 @@ $ kiln encode nowhere -o none.mp4
 $ kiln encode mkv -o one.mp4
 2|kiln: one.mp4: the file exists (--force replaces it)
 = 6
+$ kiln encode mkv -o none.mp4 --exposure 1
+2|kiln: --exposure: mkv/f_000.png is no picture of light but of colours already
+= 2
+$ kiln encode mkv -o none.mp4 --fps 0.5
+2|kiln: --fps 0.5: expected a rate from 1 to 1000, such as 30, 29.97 or 30000/1001
+= 2
 $ kiln encode mkv -o one.mp4 --force
-1|one.mp4: 24 frames
+1|one.mp4: 24 frames, 0-23
 $ find . -name '*none*'
+
+Smoke may cover a whole frame of a clip with alpha: an EXR image says whether its alpha counts.
+
+$ cat >cover.yaml <<END
+> kiln: 1
+> output: {size: [64, 36], fps: 10, frames: 12}
+> backdrop: {transparent: true}
+> systems:
+>   smoke:
+>     emit:
+>       rate: {keys: {0 s: 0, 0.3 s: 0, 0.35 s: 3000}}
+>       life: 3 s
+>       from: {box: {origin: [0, 1, 2], size: [5, 4, 1], direction: [0, 1, 0]}}
+>     look: {atlas: "builtin:smoke", blend: alpha, size: 3, opacity: 1}
+> END
+$ kiln render cover.yaml -q -o cover.webm && kiln render cover.yaml -q -o cover/%02d.exr --exr-bits 32
+$ kiln encode cover -o again.webm --tonemap agx && cmp cover.webm again.webm
+1|again.webm: 12 frames, 0-11
+
+Of a job that was not done, a warning says what is not there.
+
+$ kiln render scenes/tiny.yaml -q -o half/%02d.png --resume && rm half/2?.png && kiln encode half -o half.mp4
+1|half.mp4: 20 frames, 0-19
+2|kiln: warning: half: the job has frames 0-23, and of them 0-19 are here
+$ kiln encode half/%02d.png -q -o half.mkv
+2|kiln: warning: half/%02d.png: the job has frames 0-23, and of them 0-19 are here

@@ -215,7 +215,8 @@ $ kiln render scenes/tiny.yaml -o closed.png --frames 0 --progress none >&-; cod
 2|kiln: standard output: Bad file descriptor
 = 6
 $ kiln help scene | head -n 0; echo ${PIPESTATUS[0]}
-1|6
+1|9
 $ kiln render scenes/tiny.yaml -o none --progress ndjson | head -n 2 | wc -l; echo ${PIPESTATUS[0]}
 1|2
-1|6
+1|9
+2|kiln: standard output: the reader went away: stopped

@@ -84,3 +84,8 @@ $ script -qec 'kiln render scenes/tiny.yaml -o -' /dev/null | tr -d '\r'; exit $
 = 2
 $ wc -c <none
 1|0
+
+A frame that waits for its reader is not one that takes long.
+
+$ kiln render scenes/tiny.yaml -q -o - --frame-timeout 2 --set 'output.size=[640, 360]' | { sleep 2.5; wc -c; }
+1|8294624

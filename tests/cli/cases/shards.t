@@ -32,10 +32,63 @@ $ kiln join c.mp4
 Shards of different jobs are not joined.
 
 $ for i in 1 2; do kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -q -o d.webm --shard $i/2 --seed $i; done; kiln join d.webm; ls -d d.webm d.webm.journal
-2|kiln: d.webm.2-of-2.journal: is the journal of another scene (--force starts anew)
+2|kiln: d.webm.1-of-2.journal: is the journal of another scene (--force starts anew)
+2|kiln: d.webm: not all is there; missing or damaged: part 3 (frames 40-59), part 4 (frames 60-60)
 2|ls: cannot access 'd.webm': No such file or directory
 2|ls: cannot access 'd.webm.journal': No such file or directory
 = 2
+
+Nothing is lost by a refusal: while one shard is drawn, journals of the others stay. A plain run does not
+write beside them; with --force it forgets them.
+
+$ rm -r d.*; for i in 1 2; do kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -q -o d.webm --shard $i/2; done
+$ flock d.webm.2-of-2.journal kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -q -o d.webm --resume; ls -d d.*
+1|d.webm.1-of-2.journal
+1|d.webm.2-of-2.journal
+1|d.webm.parts
+2|kiln: d.webm.2-of-2.journal: another process is writing this output: it has the journal
+$ flock d.webm.2-of-2.journal kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -q -o d.webm --force; ls -d d.*
+1|d.webm.1-of-2.journal
+1|d.webm.2-of-2.journal
+1|d.webm.parts
+2|kiln: d.webm.2-of-2.journal: another process is writing this output: it has the journal
+$ kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -q -o d.webm
+2|kiln: d.webm.1-of-2.journal: a job with --resume or --shard has begun this output (--force replaces it)
+= 6
+$ kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -q -o d.webm --resume --force --frames 0-30 && kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -q -o d.webm --resume --frames 0-30; ls -d d.*
+1|d.webm
+1|d.webm.journal
+$ kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -q -o d.webm --force; ls -d d.*
+1|d.webm
+
+A shard goes on with what a run of the whole has drawn, and not while that is at work.
+
+$ kiln render scenes/tiny.yaml --fps 10 -q -o g_%02d.png --resume && echo damaged >g_23.png && rm g_22.png
+$ flock g_%02d.png.journal kiln render scenes/tiny.yaml --fps 10 -q -o g_%02d.png --shard 2/2
+2|kiln: g_%02d.png.journal: another process is writing this output: it has the journal
+= 6
+$ kiln render scenes/tiny.yaml --fps 10 -o g_%02d.png --shard 2/2 --progress none | tail -n 1; kiln join g_%02d.png; rm g_*
+1|g_%02d.png: part 2: 2 frames in <s> s, 2 kept
+1|g_%02d.png: 24 frames in 2 parts, whole already
+
+A manifest replaces nothing but a manifest, and join no clip that it does not know.
+
+$ for i in 1 2; do kiln render scenes/tiny.yaml --fps 10 -q -o m.mp4 --shard $i/2; done; kiln join m.mp4 --manifest m.mp4
+2|kiln: m.mp4: --output and --manifest would both write this file
+= 2
+$ kiln join m.mp4 --manifest m.mp4.journal
+2|kiln: m.mp4.journal: the journal and --manifest would both write this file
+= 2
+$ echo mine >m.mp4 && kiln join m.mp4; cat m.mp4
+1|mine
+2|kiln: m.mp4: the file exists (--force replaces it)
+$ kiln join m.mp4 --force --manifest m.json && kiln join m.mp4 --manifest m.json && jq .result.files[0].file m.json
+1|m.mp4: 24 frames in 2 parts
+1|m.mp4: 24 frames in 2 parts, whole already
+1|"m.mp4"
+$ echo mine >m.json && kiln join m.mp4 --manifest m.json; cat m.json
+1|mine
+2|kiln: m.json: the file exists (--force replaces it)
 
 Images are only looked at; one task more than there are parts has none.
 
@@ -53,9 +106,8 @@ $ kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -o f_%02d.png --r
 1|f_00.png and 60 more: 2 frames in <s> s, 59 kept
 1|f_%02d.png: 61 frames in 4 parts, whole already
 1|c.mp4.journal
-1|d.webm.1-of-2.journal
-1|d.webm.2-of-2.journal
 1|f_%02d.png.journal
+1|m.mp4.journal
 
 A plain run with --resume draws what shards have left over.
 

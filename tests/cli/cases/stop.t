@@ -57,6 +57,24 @@ $ mkdir twice && mkfifo frames
 $ ls -A twice | grep -v '^[0-9]*\.png$'
 = 1
 
+Nor does it wait for who reads its errors.
+
+$ mkfifo errors && exec 4<>errors
+> kiln render scenes/tiny.yaml --set output.frames=100000 -o stuck.mp4 --progress lines 2>errors &
+> job=$!
+> head -c 70000 /dev/zero | timeout 1 tee errors >/dev/null
+> kill -TERM $job
+> wait $job
+1|device: <device>
+= 143
+$ exec 4<&-; find . -name '*stuck*'
+
+Another's alarm is no signal of ours, and ends it as it ends any program.
+
+$ kiln render scenes/tiny.yaml -q --set output.frames=100000 -o alarm.mp4 & job=$!; sleep 0.5; kill -ALRM $job; wait $job 2>/dev/null
+= 142
+$ find . -name '*alarm*'
+
 A frame that takes long is given up, too.
 
 $ kiln render scenes/tiny.yaml -q -o huge.png --frames 0 --device cpu --threads 1 --size 4096x4096 \

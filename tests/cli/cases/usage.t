@@ -204,7 +204,8 @@ $ kiln help render
 1|      --frame-timeout S       Give up with exit code 5 when a frame takes longer
 1|                              than S seconds. Frames that are stepped over
 1|                              lengthen the limit of the next drawn one; set-up
-1|                              and warm-up belong to the first. Default: none.
+1|                              and warm-up belong to the first. Waiting for the
+1|                              output does not count. Default: none.
 1|      --progress tty|lines|ndjson|none
 1|                              A moving line on standard error, a line now and
 1|                              then, or a JSON object a frame on standard output.
@@ -317,7 +318,7 @@ $ kiln help exit-codes
 1|       limit, or a test crashed
 1|    6  reading or writing failed
 1|    7  a golden picture is missing, or what was accepted with it
-1|    9  the reader of '--output -' went away
+1|    9  the reader of standard output went away before the job was done
 1|  129  stopped by SIGHUP; only whole files are left
 1|  130  stopped by SIGINT; only whole files are left
 1|  143  stopped by SIGTERM; only whole files are left
