@@ -33,5 +33,8 @@ for signal in "$@"; do
         [[ $signal == KILL ]] || check_tidy killed
         ((++kill < kills)) || check_end killed
         settle "$signal after $after ms"
+        # A job that is only done anew would find its file there, if it had just got its name.
+        ((${#anew[@]} == 0)) || [[ $(results "$work/calm") != "$(results "$work/killed")" ]] ||
+            begin killed
     done
 done
