@@ -53,7 +53,7 @@ while ((tried < tries)); do
     check_tidy gone
     if [[ $job == join ]]; then
         begin gone # shares have to be drawn again before they can be joined
-    elif [[ $target == *.journal ]]; then
+    elif [[ ${command[0]} == render && $target != *.parts ]]; then # the journal is gone
         anew=(--force)
     fi
     check_end gone
