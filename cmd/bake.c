@@ -6,6 +6,7 @@
 #include "command.h"
 #include "device.h"
 #include "event.h"
+#include "limits.h"
 #include "overrides.h"
 #include "report.h"
 #include "signals.h"
@@ -25,6 +26,8 @@ static const struct option options[] = {
     SEED_OPTION,
     SET_OPTION,
     ASSET_ROOT_OPTION,
+    LIMITS_OPTION,
+    TIMEOUT_OPTION,
     DEVICE_OPTION,
     TECHNIQUE_OPTION,
     THREADS_OPTION,
@@ -180,7 +183,7 @@ static int run(const struct arguments *arguments)
     if (code == 0) {
         const struct kiln_scene_params params = overrides_scene_params(&overrides, arguments);
         scene = kiln_scene_load(bake.scene_path, &params, &error);
-        code = scene ? 0 : report_error(&error);
+        code = scene ? 0 : report_scene_error(&error);
     }
     if (code == 0) {
         const struct kiln_scene_info info = kiln_scene_info(scene);

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include "command.h"
+#include "limits.h"
 #include "progress.h"
 #include "report.h"
 #include "signals.h"
@@ -39,6 +40,8 @@ static const struct option options[] = {
      .placeholder = "tty|lines|none",
      .help = "A moving line on standard error, or a line now and then.",
      .fallback = "tty on a terminal, else lines"},
+    LIMITS_OPTION,
+    TIMEOUT_OPTION,
     {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Print nothing but errors."},
     HELP_OPTION,
 };
@@ -81,6 +84,7 @@ static int run(const struct arguments *arguments)
     params.progress = show;
     params.stop = signals_wants_stop;
     params.user = &encoding;
+    params.budget = arguments->budget;
     params.log = report_log();
     progress_start(&encoding.progress, choose_progress(arguments));
     signals_install_for_job();

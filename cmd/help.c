@@ -16,6 +16,7 @@ const struct exit_code exit_codes[] = {
           "test crashed"},
     {"6", "reading or writing failed"},
     {"7", "a golden picture is missing, or what was accepted with it"},
+    {"8", "more than the limits of the job allow, or than --timeout"},
     {"9", "the reader of standard output went away before the job was done"},
     {"129", "stopped by SIGHUP; only whole files are left"},
     {"130", "stopped by SIGINT; only whole files are left"},
@@ -27,6 +28,7 @@ const struct variable variables[] = {
     {"KILN_SIMD",
      "Vectors of the techniques 'cpu': plain, sse4.1, avx2 or avx512, as the machine has them; "
      "the pixels are the same."},
+    {"KILN_LIMITS", "Limits of jobs where --limits says nothing else (see 'kiln help limits')."},
     {"KILN_SHADER_DIR", "Read shaders from this folder instead of those in the program."},
     {"LP_NUM_THREADS",
      "Threads of Mesa's software device. 'kiln test' sets it where it is not set, "
@@ -118,6 +120,7 @@ static const struct topic topics[] = {
     {"schema", "the JSON schema of scene files, for editors", kiln_scene_write_schema},
     {"techniques", "the techniques of each stage", kiln_write_techniques},
     {"metrics", "what pictures are compared by", kiln_write_metrics},
+    {"limits", "what a job may take, and the preset for services", kiln_write_limits},
     {"outputs", "what can be written, by suffix", kiln_write_outputs},
     {"tests", "every key of a test file, and the reports", write_tests},
     {"exit-codes", "what each exit code means", write_exit_codes},

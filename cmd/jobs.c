@@ -240,7 +240,7 @@ static int load_scenes(struct job_list *list, const struct arguments *arguments)
             if (failure == 0 && list->flipbook.columns > 0)
                 failure = choose_cells(job, &list->flipbook);
         } else {
-            failure = report_error(&error);
+            failure = report_scene_error(&error);
         }
         code = code ? code : failure;
     }

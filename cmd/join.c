@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "command.h"
+#include "limits.h"
 #include "report.h"
 #include "signals.h"
 
@@ -14,6 +15,8 @@ static const struct option options[] = {
     {.name = "force",
      .kind = OPTION_FLAG,
      .help = "Replace files that exist and are none of the job's."},
+    LIMITS_OPTION,
+    TIMEOUT_OPTION,
     {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Print nothing but errors."},
     HELP_OPTION,
 };
@@ -27,6 +30,7 @@ static int run_join(const struct arguments *arguments, const char **command, siz
         .command_count = count,
         .overwrite = arguments_flag(arguments, "force"),
         .stop = signals_wants_stop,
+        .budget = arguments->budget,
         .log = report_log(),
     };
     struct kiln_join_stats stats;

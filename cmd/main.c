@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "command.h"
+#include "limits.h"
 #include "report.h"
 
 const struct command *const commands[] = {&render_command,         &bake_command,
@@ -94,8 +95,13 @@ static int run_command(const struct command *command, int argc, char **argv)
         code = check_operands(command, &arguments);
         if (code == 0)
             code = check_environment(command);
+        struct limits limits = {.budget = NULL};
+        if (code == 0)
+            code = limits_begin(&limits, command->name, &arguments);
+        arguments.budget = limits.budget;
         if (code == 0)
             code = command->run(&arguments);
+        limits_end(&limits);
     }
     arguments_free(&arguments);
     return code;

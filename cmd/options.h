@@ -53,6 +53,7 @@ struct arguments {
     size_t operand_count;
     const char *const *words; /* all of it, as it was given */
     size_t word_count;
+    struct kiln_budget *budget; /* of the command, set before it runs; NULL: no limits */
 };
 
 /* Reads argv, whose texts must outlive the arguments. Options and operands may come in any order,

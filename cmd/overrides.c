@@ -60,5 +60,6 @@ struct kiln_scene_params overrides_scene_params(const struct overrides *override
     return (struct kiln_scene_params){.asset_root = root ? root->text : NULL,
                                       .overrides = (const char *const *)overrides->texts,
                                       .override_count = overrides->count,
-                                      .stop = signals_wants_stop};
+                                      .stop = signals_wants_stop,
+                                      .budget = arguments->budget};
 }

@@ -5,6 +5,7 @@
 #include "command.h"
 #include "device.h"
 #include "event.h"
+#include "limits.h"
 #include "overrides.h"
 #include "report.h"
 #include "signals.h"
@@ -31,6 +32,8 @@ static const struct option options[] = {
     FPS_OPTION,
     SET_OPTION,
     ASSET_ROOT_OPTION,
+    LIMITS_OPTION,
+    TIMEOUT_OPTION,
     DEVICE_OPTION,
     TECHNIQUE_OPTION,
     THREADS_OPTION,
@@ -196,7 +199,7 @@ static int run(const struct arguments *arguments)
     if (code == 0) {
         const struct kiln_scene_params params = overrides_scene_params(&overrides, arguments);
         scene = kiln_scene_load(arguments->operands[0], &params, &error);
-        code = scene ? run_plan(arguments, scene, &techniques) : report_error(&error);
+        code = scene ? run_plan(arguments, scene, &techniques) : report_scene_error(&error);
     }
     kiln_scene_destroy(&scene);
     overrides_free(&overrides);

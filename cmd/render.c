@@ -8,6 +8,7 @@
 #include "device.h"
 #include "event.h"
 #include "jobs.h"
+#include "limits.h"
 #include "overrides.h"
 #include "pipe.h"
 #include "progress.h"
@@ -90,6 +91,8 @@ static const struct option options[] = {
          "is drawn (see docs/jobs.md). With --force it starts anew."},
     SHARD_OPTION,
     {.name = "force", .kind = OPTION_FLAG, .help = "Replace files that exist."},
+    LIMITS_OPTION,
+    TIMEOUT_OPTION,
     {.name = "frame-timeout",
      .kind = OPTION_NUMBER,
      .placeholder = "S",
@@ -344,6 +347,7 @@ static int run_jobs(struct render *render, const struct arguments *arguments)
 static int run(const struct arguments *arguments)
 {
     struct render render = {0};
+    signals_install_for_job();
     int code = read_options(&render, arguments) ? 0 : report_no_memory();
     if (code == 0)
         code = shard_read(&render.shard, arguments);
@@ -360,10 +364,8 @@ static int run(const struct arguments *arguments)
         if (!render.watchdog)
             code = report(KILN_DEVICE_FAILED, "cannot start a thread for --frame-timeout");
     }
-    if (code == 0) {
-        signals_install_for_job();
+    if (code == 0)
         code = run_jobs(&render, arguments);
-    }
     watchdog_destroy(&render.watchdog);
     job_list_free(&render.list);
     value_list_free(&render.techniques);

@@ -25,6 +25,14 @@ int report_error(const struct kiln_error *error)
     return KILN_INVALID_INPUT;
 }
 
+int report_scene_error(const struct kiln_error *error)
+{
+    if (error->code != KILN_OVER_LIMIT)
+        return report_error(error);
+    fprintf(stderr, "%s\n", error->message);
+    return KILN_OVER_LIMIT;
+}
+
 int report_no_memory(void)
 {
     return report(KILN_DEVICE_FAILED, "out of memory");

@@ -11,6 +11,9 @@ int report(enum kiln_code code, const char *format, ...) __attribute__((format(p
  * where editors look for them, so nothing is put before it. */
 int report_error(const struct kiln_error *error);
 
+/* The same for a scene that does not load: one that asks for too much has a place, too. */
+int report_scene_error(const struct kiln_error *error);
+
 int report_no_memory(void);
 
 /* Prints the library's warnings; what it says for information is left out. */

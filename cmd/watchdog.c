@@ -1,54 +1,34 @@
-/* A thread that sleeps until a deadline that the renderer keeps moving. */
+/* A thread that looks whether a deadline has passed, which the renderer keeps moving. */
 #include "watchdog.h"
 
-#include <math.h>
 #include <pthread.h>
 #include <stdarg.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include "last_words.h"
+#include "watch.h"
 
 struct watchdog {
-    pthread_t thread;
-    pthread_mutex_t mutex;
-    pthread_cond_t changed;
-    bool armed, ended;
-    struct timespec deadline; /* CLOCK_MONOTONIC */
-    double limit_s;
+    struct watch *watch;
+    pthread_mutex_t mutex; /* of what follows */
+    bool armed;
+    double deadline_s, limit_s;
     char what[512];
 };
 
-static bool is_past(const struct timespec *deadline)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return now.tv_sec > deadline->tv_sec ||
-           (now.tv_sec == deadline->tv_sec && now.tv_nsec >= deadline->tv_nsec);
-}
+enum { LOOK_MS = 20 };
 
-_Noreturn static void bite(const struct watchdog *watchdog)
+static void look(void *user)
 {
-    char line[1024];
-    snprintf(line, sizeof line, "kiln: %s took longer than its limit of %g s\n", watchdog->what,
-             watchdog->limit_s);
-    end_with_words(line, KILN_DEVICE_FAILED);
-}
-
-static void *watch(void *context)
-{
-    struct watchdog *watchdog = context;
+    struct watchdog *watchdog = user;
     pthread_mutex_lock(&watchdog->mutex);
-    while (!watchdog->ended) {
-        if (!watchdog->armed)
-            pthread_cond_wait(&watchdog->changed, &watchdog->mutex);
-        else if (is_past(&watchdog->deadline))
-            bite(watchdog);
-        else
-            pthread_cond_timedwait(&watchdog->changed, &watchdog->mutex, &watchdog->deadline);
+    if (watchdog->armed && watch_now_s() >= watchdog->deadline_s) {
+        char line[1024];
+        snprintf(line, sizeof line, "kiln: %s took longer than its limit of %g s\n", watchdog->what,
+                 watchdog->limit_s);
+        end_with_words(line, KILN_DEVICE_FAILED);
     }
     pthread_mutex_unlock(&watchdog->mutex);
-    return NULL;
 }
 
 struct watchdog *watchdog_create(void)
@@ -56,18 +36,11 @@ struct watchdog *watchdog_create(void)
     struct watchdog *watchdog = calloc(1, sizeof *watchdog);
     if (!watchdog)
         return NULL;
-    pthread_condattr_t attributes;
-    pthread_condattr_init(&attributes);
-    pthread_condattr_setclock(&attributes, CLOCK_MONOTONIC);
-    pthread_cond_init(&watchdog->changed, &attributes);
-    pthread_condattr_destroy(&attributes);
     pthread_mutex_init(&watchdog->mutex, NULL);
-    if (pthread_create(&watchdog->thread, NULL, watch, watchdog) == 0)
-        return watchdog;
-    pthread_cond_destroy(&watchdog->changed);
-    pthread_mutex_destroy(&watchdog->mutex);
-    free(watchdog);
-    return NULL;
+    watchdog->watch = watch_create(look, watchdog, LOOK_MS);
+    if (!watchdog->watch)
+        watchdog_destroy(&watchdog);
+    return watchdog;
 }
 
 void watchdog_destroy(struct watchdog **watchdog)
@@ -75,12 +48,7 @@ void watchdog_destroy(struct watchdog **watchdog)
     struct watchdog *w = *watchdog;
     if (!w)
         return;
-    pthread_mutex_lock(&w->mutex);
-    w->ended = true;
-    pthread_cond_signal(&w->changed);
-    pthread_mutex_unlock(&w->mutex);
-    pthread_join(w->thread, NULL);
-    pthread_cond_destroy(&w->changed);
+    watch_destroy(&w->watch);
     pthread_mutex_destroy(&w->mutex);
     free(w);
     *watchdog = NULL;
@@ -91,18 +59,10 @@ void watchdog_arm(struct watchdog *watchdog, double limit_s, const char *what, .
     va_list args;
     va_start(args, what);
     pthread_mutex_lock(&watchdog->mutex);
-    double whole_s = floor(limit_s);
-    clock_gettime(CLOCK_MONOTONIC, &watchdog->deadline);
-    watchdog->deadline.tv_sec += (time_t)whole_s;
-    watchdog->deadline.tv_nsec += (long)((limit_s - whole_s) * 1e9);
-    if (watchdog->deadline.tv_nsec >= 1000000000L) {
-        watchdog->deadline.tv_sec++;
-        watchdog->deadline.tv_nsec -= 1000000000L;
-    }
     watchdog->armed = true;
+    watchdog->deadline_s = watch_now_s() + limit_s;
     watchdog->limit_s = limit_s;
     vsnprintf(watchdog->what, sizeof watchdog->what, what, args);
-    pthread_cond_signal(&watchdog->changed);
     pthread_mutex_unlock(&watchdog->mutex);
     va_end(args);
 }

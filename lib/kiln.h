@@ -24,6 +24,8 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "kiln_limits.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -40,6 +42,7 @@ enum kiln_code {
     KILN_DEVICE_FAILED = 5,  /* device lost, out of memory, or a frame past its time limit */
     KILN_IO = 6,             /* reading or writing failed */
     KILN_GOLDEN_MISSING = 7, /* a golden picture does not exist */
+    KILN_OVER_LIMIT = 8,     /* more than the limits of the job allow */
     KILN_READER_GONE = 9,    /* nobody reads a stream any more */
     KILN_INTERRUPTED = 130,  /* the caller asked to stop */
 };
@@ -91,12 +94,13 @@ struct kiln_scene_params {
      * as the scene lives; true ends with KILN_INTERRUPTED; NULL: never. */
     bool (*stop)(void *user);
     void *user;
+    struct kiln_budget *budget; /* of the job, for as long as the scene lives; NULL: no limits */
 };
 #define KILN_SCENE_DEFAULTS ((struct kiln_scene_params){.asset_root = NULL})
 
 /* Reads, validates and returns a scene, which the caller destroys; or NULL with KILN_INVALID_INPUT,
  * also when there is no such file, KILN_USAGE for an override that is no "key=value", KILN_IO when
- * reading fails, or KILN_DEVICE_FAILED when memory is short. */
+ * reading fails, KILN_OVER_LIMIT, or KILN_DEVICE_FAILED when memory is short. */
 struct kiln_scene *kiln_scene_load(const char *path, const struct kiln_scene_params *params,
                                    struct kiln_error *error);
 
@@ -143,6 +147,8 @@ struct kiln_scene_info {
     uint32_t warmup_steps;
     uint32_t system_count;
     uint64_t particle_capacity; /* slots over all systems */
+    uint64_t steps;             /* of the whole clip */
+    uint64_t memory_bytes;      /* that rendering on the device cpu is expected to take */
     char hash[65]; /* SHA-256 of the scene with every default and of its textures, in hex */
 };
 struct kiln_scene_info kiln_scene_info(const struct kiln_scene *scene);
@@ -597,100 +603,13 @@ const char *kiln_text_nearest(const char *name, const char *const *candidates, s
 /* Writes a word so that a shell takes it as one. */
 bool kiln_write_shell_word(FILE *out, const char *word);
 
-/* ---- JSON ----------------------------------------------------------------------------------- */
-
-/* Writing JSON. The caller names members and says where lines begin; the writer adds quotes, commas
- * and colons. These calls write {"frame": 7, "name": "campfire"}:
- *
- *     struct kiln_json json = kiln_json_to_file(stdout);
- *     kiln_json_begin_object(&json, NULL);
- *     kiln_json_uint(&json, "frame", 7);
- *     kiln_json_string(&json, "name", "campfire");
- *     kiln_json_end(&json);
- *     bool written = kiln_json_finish(&json);
- *
- * Nothing depends on the locale. No call but the last has to be checked: after a failure nothing
- * more is written, and `failed` stays true. */
-enum kiln_json_style {
-    KILN_JSON_SPACED, /* {"a": 1, "b": 2}; null stands for infinity and NaN */
-    /* Fits into a <script> element of a page: {"a":1,"b":2} without '<', '>' and '&'. The strings
-     * "inf", "-inf" and "nan" stand for what is no number in JSON. */
-    KILN_JSON_SCRIPT
-};
-
-enum { KILN_JSON_MAX_DEPTH = 64 }; /* objects and arrays that may be open at a time */
-
-/* An open object or array; only the writer looks into it. */
-struct kiln_json_level {
-    char bracket; /* the one that closes it; 0: this is the document */
-    bool filled;  /* has an item, after which there must be a comma */
-    int spaces;   /* before each item, which begins a line; -1: items go on in the line */
-};
-
-struct kiln_json {
-    bool (*write)(void *sink, const char *bytes, size_t length); /* false: it could not */
-    void *sink;
-    enum kiln_json_style style;
-    bool failed;  /* the sink, or for want of memory, or the calls made no JSON */
-    bool has_key; /* the writer's own, as the rest: the name of the next value is written */
-    int spaces;   /* before the next item; -1: as the level says */
-    size_t depth;
-    struct kiln_json_level levels[KILN_JSON_MAX_DEPTH + 1];
-};
-
-/* A writer to a stream, which it neither flushes nor closes. For another sink, replace `write` and
- * `sink`; `style` may be changed before anything is written. */
-struct kiln_json kiln_json_to_file(FILE *out);
-
-/* Ends the document and its line; another document may follow. Returns false when anything failed
- * since the writer was made, or when something is still open. A stream may fail later, when it
- * writes what its buffer holds. */
-bool kiln_json_finish(struct kiln_json *json);
-
-/* `key` names a member of an object. It is NULL for an entry of an array, for the document itself
- * and for the value after kiln_json_key, with which a caller names what another function writes. In
- * keys and strings U+FFFD stands for each byte that is no UTF-8. */
-void kiln_json_key(struct kiln_json *json, const char *key);
-void kiln_json_begin_object(struct kiln_json *json, const char *key);
-void kiln_json_begin_array(struct kiln_json *json, const char *key);
-
-/* Closes the innermost object or array: behind its last item, or on a line of its own with so many
- * spaces before the bracket. An empty one is always closed where it was opened. */
-void kiln_json_end(struct kiln_json *json);
-void kiln_json_end_line(struct kiln_json *json, int spaces);
-
-/* From here on each item of the innermost object or array has a line of its own, with so many
- * spaces before it; kiln_json_line is for the next item alone. */
-void kiln_json_lines(struct kiln_json *json, int spaces);
-void kiln_json_line(struct kiln_json *json, int spaces);
-
-/* Values. A string that is NULL is written as null. */
-void kiln_json_string(struct kiln_json *json, const char *key, const char *value);
-void kiln_json_format(struct kiln_json *json, const char *key, const char *format, ...)
-    __attribute__((format(printf, 3, 4))); /* a string */
-void kiln_json_bool(struct kiln_json *json, const char *key, bool value);
-void kiln_json_null(struct kiln_json *json, const char *key);
-void kiln_json_int(struct kiln_json *json, const char *key, int64_t value);
-void kiln_json_uint(struct kiln_json *json, const char *key, uint64_t value);
-
-/* Numbers: in the fewest digits that read back as the same; rounded to so many significant digits
- * (at most 17); a time to three decimals, a negative one as 0.000. */
-void kiln_json_number(struct kiln_json *json, const char *key, double value);
-void kiln_json_rounded(struct kiln_json *json, const char *key, double value, int digits);
-void kiln_json_time(struct kiln_json *json, const char *key, double value);
-
-/* A text that is JSON already; an array of two whole numbers; one of strings. */
-void kiln_json_raw(struct kiln_json *json, const char *key, const char *text);
-void kiln_json_pair(struct kiln_json *json, const char *key, uint64_t first, uint64_t second);
-void kiln_json_strings(struct kiln_json *json, const char *key, const char *const *values,
-                       size_t count);
-
 #ifdef __cplusplus
 }
 #endif
 
 #include "kiln_bench.h"
 #include "kiln_job.h"
+#include "kiln_json.h"
 #include "kiln_test.h"
 
 #endif

@@ -67,6 +67,7 @@ struct kiln_join_params {
     bool overwrite;           /* files that no journal knows of; a manifest is replaced anyway */
     bool (*stop)(void *user); /* asked now and then; true ends with KILN_INTERRUPTED */
     void *user;
+    struct kiln_budget *budget; /* NULL: no limits */
     struct kiln_log log;
 };
 
@@ -95,6 +96,7 @@ struct kiln_encode_params {
     void (*progress)(void *user, const struct kiln_progress *progress); /* pixels alone: no state */
     bool (*stop)(void *user); /* asked now and then; true ends with KILN_INTERRUPTED */
     void *user;
+    struct kiln_budget *budget; /* NULL: no limits */
     struct kiln_log log;
 };
 #define KILN_ENCODE_DEFAULTS ((struct kiln_encode_params){.quality = 80})

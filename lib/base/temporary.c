@@ -15,6 +15,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/budget.h"
 #include "base/error.h"
 
 enum { SLOT_COUNT = 256, MAX_ATTEMPTS = 64, MAX_TOGETHER = 8 };
@@ -229,6 +230,9 @@ const char *kiln_temporary_path(const struct kiln_temporary *temporary)
 bool kiln_temporary_write(struct kiln_temporary *temporary, const void *bytes, size_t size)
 {
     const char *rest = bytes;
+    struct kiln_error ignored;
+    if (!kiln_budget_take(temporary->budget, KILN_LIMIT_output, size, "", &ignored))
+        temporary->failure = EDQUOT;
     while (size > 0 && temporary->failure == 0) {
         ssize_t written = write(temporary->file, rest, size);
         if (written > 0) {

@@ -12,6 +12,8 @@ struct kiln_temporary {
     int slot;     /* in the registry of temporary names */
     int failure;  /* errno of the first write that failed, else 0; sticky */
     bool durable; /* to be set by who opened it: is on the disk before it has its name */
+    struct kiln_budget *budget; /* likewise: its bytes are output, and writing fails where they are
+                                 * too many; NULL: no limits */
 };
 
 /* Whether a file may be put there: KILN_IO, naming it, when something else than a file or link has

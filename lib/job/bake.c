@@ -2,34 +2,24 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/budget.h"
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/temporary.h"
 #include "job/states.h"
+#include "job/stop.h"
 
 struct bake {
     struct kiln_device *device;
     const struct kiln_scene *scene;
     const struct kiln_bake_params *params;
+    struct kiln_stop stop;
     struct kiln_loop *loop;
     struct kiln_states *states;
     uint32_t every;
     struct kiln_baked baked; /* the one at hand */
     struct kiln_bake_stats stats;
 };
-
-/* False with KILN_INTERRUPTED when the caller wants no more; its callback may have used another
- * device on this thread. */
-static bool may_go_on(void *user, struct kiln_error *error)
-{
-    const struct bake *bake = user;
-    if (!bake->params->stop)
-        return true;
-    if (bake->params->stop(bake->params->user))
-        return kiln_error_set(error, KILN_INTERRUPTED, "stopped after %u of %u states",
-                              bake->baked.done, bake->baked.frames);
-    return kiln_device_make_current(bake->device, error);
-}
 
 /* The frames before which states are saved. Before the first step there is nothing to save. */
 static uint32_t first_frame(const struct bake *bake)
@@ -87,7 +77,8 @@ static bool visit_frame(struct bake *bake, uint32_t frame, struct kiln_error *er
     baked->frame = frame;
     baked->step = kiln_scene_frame_step(bake->scene, frame);
     baked->kept = is_kept(bake, baked->step);
-    if (!may_go_on(bake, error) || (!baked->kept && !save(bake, frame, baked->step, error)) ||
+    if (!kiln_stop_ask(&bake->stop, error) ||
+        (!baked->kept && !save(bake, frame, baked->step, error)) ||
         !kiln_states_path(bake->states, baked->step, path, error))
         return false;
     baked->bytes = stat(path, &status) == 0 ? (uint64_t)status.st_size : 0;
@@ -96,6 +87,9 @@ static bool visit_frame(struct bake *bake, uint32_t frame, struct kiln_error *er
     bake->stats.states++;
     bake->stats.kept += baked->kept;
     bake->stats.bytes += baked->kept ? 0 : baked->bytes;
+    if (!baked->kept &&
+        !kiln_budget_take(bake->scene->budget, KILN_LIMIT_output, baked->bytes, path, error))
+        return false;
     if (bake->params->saved)
         bake->params->saved(bake->params->user, baked);
     baked->file = NULL;
@@ -109,7 +103,7 @@ static bool begin(struct bake *bake, struct kiln_error *error)
                                           .technique_count = params->technique_count,
                                           .threads = params->threads,
                                           .log = params->log,
-                                          .caller = {may_go_on, bake}};
+                                          .caller = kiln_stop_caller(&bake->stop)};
     const struct kiln_output_needs needs = {.bits = 8};
     const struct kiln_scene *scene = bake->scene;
     char inside[KILN_PATH_SIZE];
@@ -135,7 +129,12 @@ bool kiln_bake(struct kiln_device *device, const struct kiln_scene *scene,
                struct kiln_error *error)
 {
     const double started_s = kiln_clock_seconds();
-    struct bake bake = {.device = device, .scene = scene, .params = params};
+    struct bake bake = {
+        .device = device,
+        .scene = scene,
+        .params = params,
+        .stop = {params->stop, params->user, device, scene->budget},
+    };
     bool ok = begin(&bake, error);
     for (uint64_t frame = first_frame(&bake); frame < scene->frames && ok; frame += bake.every)
         ok = visit_frame(&bake, (uint32_t)frame, error);

@@ -13,6 +13,7 @@
 #include "base/text.h"
 #include "compare/footage.h"
 #include "job/resume.h"
+#include "job/stop.h"
 #include "option/unit.h"
 #include "output/carried.h"
 #include "output/formats.h"
@@ -20,6 +21,8 @@
 
 struct encode {
     const struct kiln_encode_params *params;
+    struct kiln_stop stop;
+    struct kiln_caller caller;
     struct kiln_threads *threads;
     struct kiln_footage *footage;
     uint32_t count; /* of frames */
@@ -33,13 +36,6 @@ struct encode {
     uint32_t number, bits;
     bool alpha;
 };
-
-static bool may_go_on(void *user, struct kiln_error *error)
-{
-    const struct encode *encode = user;
-    return !encode->params->stop || !encode->params->stop(encode->params->user) ||
-           kiln_error_set(error, KILN_INTERRUPTED, "stopped");
-}
 
 /* EXR images of kiln always have the channel and say whether it counts: smoke may cover all of a
  * frame. In others it counts where something is not covered. */
@@ -262,7 +258,8 @@ static bool open_clip(struct encode *encode, struct kiln_error *error)
         .scene_hash = has_seed ? scene_of(&encode->carried) : "",
         .seed = (uint32_t)seed,
         .log = params->log,
-        .caller = {may_go_on, encode},
+        .budget = params->budget,
+        .caller = kiln_stop_caller(&encode->stop),
     };
     const struct kiln_output_params files = kiln_output_complete(&clip, error);
     if (!check_format(&files, error) || !claim(encode, &files, error) ||
@@ -400,7 +397,7 @@ static bool run(struct encode *encode, double started_s, struct kiln_error *erro
     encode->threads = kiln_threads_create(encode->params->threads);
     if (!encode->threads)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "no threads can be started");
-    kiln_threads_ask(encode->threads, &(struct kiln_caller){may_go_on, encode});
+    kiln_threads_ask(encode->threads, &encode->caller);
     if (!open_frames(encode, error) || !open_clip(encode, error) ||
         !write_frame(encode, encode->image, encode->number, error))
         return false;
@@ -408,7 +405,8 @@ static bool run(struct encode *encode, double started_s, struct kiln_error *erro
     encode->image->pixels = NULL;
     tell(encode, 1, started_s);
     for (uint32_t done = 1; done < encode->count; done++) {
-        if (!may_go_on(encode, error) || !add_frame(encode, encode->number + done, error))
+        if (!kiln_stop_ask(&encode->stop, error) ||
+            !add_frame(encode, encode->number + done, error))
             return false;
         tell(encode, done + 1, started_s);
     }
@@ -418,7 +416,9 @@ static bool run(struct encode *encode, double started_s, struct kiln_error *erro
 bool kiln_encode(const struct kiln_encode_params *params, struct kiln_frame_range *frames,
                  struct kiln_error *error)
 {
-    struct encode encode = {.params = params};
+    struct encode encode = {.params = params,
+                            .stop = {params->stop, params->user, NULL, params->budget}};
+    encode.caller = kiln_stop_caller(&encode.stop);
     const bool ok = run(&encode, kiln_clock_seconds(), error);
     *frames = (struct kiln_frame_range){encode.number, encode.number + encode.count - 1};
     kiln_output_close(&encode.output);

@@ -11,12 +11,14 @@
 #include "job/manifest.h"
 #include "job/resume.h"
 #include "job/states.h"
+#include "job/stop.h"
 #include "output/formats.h"
 
 struct kiln_job {
     struct kiln_device *device;
     const struct kiln_scene *scene;
     const struct kiln_render_params *params;
+    struct kiln_stop stop;
     struct kiln_frame_range whole_clip; /* what an empty list of ranges means */
     const struct kiln_frame_range *ranges;
     size_t range_count;
@@ -45,19 +47,6 @@ struct kiln_job {
 static bool return_from_caller(const struct kiln_job *job, struct kiln_error *error)
 {
     return kiln_device_make_current(job->device, error);
-}
-
-/* False with KILN_INTERRUPTED when the caller wants no more. */
-static bool may_go_on(void *user, struct kiln_error *error)
-{
-    const struct kiln_job *job = user;
-    if (!job->params->stop)
-        return true;
-    bool stop = job->params->stop(job->params->user);
-    if (!return_from_caller(job, error))
-        return false;
-    return !stop || kiln_error_set(error, KILN_INTERRUPTED, "stopped after %u of %u frames",
-                                   job->progress.done, job->total_frames);
 }
 
 /* Takes the picture. */
@@ -249,7 +238,8 @@ static struct kiln_output_params output_params(struct kiln_job *job)
         .scene_hash = scene->hash,
         .seed = scene->seed,
         .log = params->log,
-        .caller = {may_go_on, job},
+        .budget = scene->budget,
+        .caller = kiln_stop_caller(&job->stop),
     };
 }
 
@@ -365,7 +355,7 @@ static bool begin(struct kiln_job *job, struct kiln_error *error)
                                           .threads = params->threads,
                                           .work_group_size = params->work_group_size,
                                           .log = params->log,
-                                          .caller = {may_go_on, job}};
+                                          .caller = kiln_stop_caller(&job->stop)};
     if (!choose_frames(job, error))
         return false;
     job->loop = kiln_loop_create(job->device, job->scene, &loop, error);
@@ -461,6 +451,7 @@ struct kiln_job *kiln_job_create(struct kiln_device *device, const struct kiln_s
     job->device = device;
     job->scene = scene;
     job->params = params;
+    job->stop = (struct kiln_stop){params->stop, params->user, device, scene->budget};
     job->started_s = kiln_clock_seconds();
     if (!begin(job, error)) {
         kiln_resume_undo(&job->resume);

@@ -7,23 +7,18 @@
 #include "base/text.h"
 #include "job/manifest.h"
 #include "job/resume.h"
+#include "job/stop.h"
 #include "output/formats.h"
 #include "output/part.h"
 
 struct join {
     const struct kiln_join_params *params;
+    struct kiln_stop stop;
     struct kiln_arena *arena;
     struct kiln_journal_head head;
     struct kiln_records records;
     struct kiln_resume resume;
 };
-
-static bool may_go_on(void *user, struct kiln_error *error)
-{
-    const struct join *join = user;
-    return !join->params->stop || !join->params->stop(join->params->user) ||
-           kiln_error_set(error, KILN_INTERRUPTED, "stopped");
-}
 
 static bool take_whole(void *user, const struct kiln_whole *whole, struct kiln_error *error)
 {
@@ -110,9 +105,10 @@ static bool begin(struct join *join, struct kiln_error *error)
         return false;
     struct kiln_output_params *output = &join->head.output;
     output->log = join->params->log;
-    output->caller = (struct kiln_caller){may_go_on, join};
+    output->caller = kiln_stop_caller(&join->stop);
     output->whole = (struct kiln_whole_listener){take_whole, join};
     output->durable = true;
+    output->budget = join->params->budget;
     output->overwrite = join->params->overwrite;
     if (!claim(join, error))
         return false;
@@ -149,7 +145,8 @@ bool kiln_join(const struct kiln_join_params *params, struct kiln_join_stats *st
                struct kiln_error *error)
 {
     const double started_s = kiln_clock_seconds();
-    struct join join = {.params = params};
+    struct join join = {.params = params,
+                        .stop = {params->stop, params->user, NULL, params->budget}};
     *stats = (struct kiln_join_stats){.frames = 0};
     const bool ok = run(&join, stats, error);
     kiln_resume_end(&join.resume);

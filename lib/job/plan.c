@@ -6,26 +6,18 @@
 #include "base/error.h"
 #include "job/shard.h"
 #include "job/states.h"
+#include "job/stop.h"
 #include "scene/motion.h"
 
 struct planning {
     struct kiln_device *device;
     const struct kiln_scene *scene;
     const struct kiln_plan_params *params;
+    struct kiln_stop stop;
     struct kiln_loop *loop;
     struct kiln_states *states; /* NULL: none */
     struct kiln_plan *plan;
 };
-
-static bool may_go_on(void *user, struct kiln_error *error)
-{
-    const struct planning *planning = user;
-    if (!planning->params->stop)
-        return true;
-    if (planning->params->stop(planning->params->user))
-        return kiln_error_set(error, KILN_INTERRUPTED, "stopped");
-    return kiln_device_make_current(planning->device, error);
-}
 
 static uint64_t peak_memory(void)
 {
@@ -42,7 +34,7 @@ static bool set_up(struct planning *p, struct kiln_error *error)
                                           .technique_count = params->technique_count,
                                           .threads = params->threads,
                                           .log = params->log,
-                                          .caller = {may_go_on, p}};
+                                          .caller = kiln_stop_caller(&p->stop)};
     const double before_s = kiln_clock_cpu_seconds();
     p->loop = kiln_loop_create(p->device, p->scene, &loop, error);
     if (!p->loop)
@@ -120,7 +112,13 @@ bool kiln_plan(struct kiln_device *device, const struct kiln_scene *scene,
                const struct kiln_plan_params *params, struct kiln_plan *plan,
                struct kiln_error *error)
 {
-    struct planning planning = {.device = device, .scene = scene, .params = params, .plan = plan};
+    struct planning planning = {
+        .device = device,
+        .scene = scene,
+        .params = params,
+        .stop = {params->stop, params->user, device, scene->budget},
+        .plan = plan,
+    };
     *plan = (struct kiln_plan){.frame = scene->frames / 2};
     if (params->frame >= (int64_t)scene->frames)
         return kiln_error_set(error, KILN_USAGE, "frame %lld: the scene has frames 0-%u",

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "base/budget.h"
 #include "base/error.h"
 #include "base/pattern.h"
 #include "output/flipbook.h"
@@ -178,6 +179,7 @@ static bool encode_image(struct kiln_output *output, const struct kiln_picture *
         !kiln_temporary_open(&file, path, error))
         return false;
     const struct kiln_format *format = output->format;
+    file.budget = output->params.budget;
     void *encoder = format->open(&output->params, &file, error);
     bool good = encoder && format->encode(encoder, picture, error) &&
                 (!format->finish || format->finish(encoder, NULL, error));
@@ -224,6 +226,12 @@ static bool encode(struct kiln_output *output, const struct kiln_picture *pictur
     return encode_image(output, picture, error);
 }
 
+/* Where too much was written, that is why something failed, whatever has found it. */
+static void blame_limit(const struct kiln_output *output, struct kiln_error *error)
+{
+    kiln_budget_take(output->params.budget, KILN_LIMIT_output, 0, output->params.path, error);
+}
+
 /* The next picture, or NULL when no more come; the mutex is held. */
 static struct kiln_picture *take(struct kiln_output *output)
 {
@@ -247,6 +255,8 @@ static void *run_encoder(void *opaque)
         struct kiln_error error = {0};
         pthread_mutex_unlock(&output->mutex);
         bool good = skip || encode(output, picture, &error);
+        if (!good)
+            blame_limit(output, &error);
         kiln_picture_destroy(&picture);
         pthread_mutex_lock(&output->mutex);
         if (!good && (!output->failed || frame < output->failed_frame)) {
@@ -335,6 +345,7 @@ static bool open_video(struct kiln_output *output, struct kiln_error *error)
     if (!output->format->is_stream && (!file_of(output, 0, path, sizeof path) ||
                                        !kiln_temporary_open(&output->video_file, path, error)))
         return false;
+    output->video_file.budget = output->params.budget;
     output->video_encoder = output->format->open(&output->params, &output->video_file, error);
     return output->video_encoder != NULL;
 }
@@ -547,6 +558,8 @@ bool kiln_output_finish(struct kiln_output *output, struct kiln_error *error)
         end_video(output);
         good = good && tell_of_clip(output, error);
     }
+    if (!good)
+        blame_limit(output, error);
     return good;
 }
 

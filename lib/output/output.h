@@ -87,7 +87,8 @@ struct kiln_output_params {
     uint32_t seed;
     struct kiln_log log;
     struct kiln_whole_listener whole;
-    bool durable; /* files are on the disk before they have their names */
+    struct kiln_budget *budget; /* NULL: no limits */
+    bool durable;               /* files are on the disk before they have their names */
     struct kiln_caller
         caller; /* asked while parts are joined and the clip ends, by whoever calls */
 };

@@ -7,6 +7,7 @@
 #include <unistd.h>
 #include <zstd.h>
 
+#include "base/budget.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/ranges.h"
@@ -117,6 +118,7 @@ struct kiln_part_writer *kiln_part_writer_open(const struct kiln_output_params *
     bool ok = kiln_part_path(params, part, path, error) &&
               fill_head(params, part, &writer->head, error) &&
               kiln_temporary_open(&writer->file, path, error);
+    writer->file.budget = params->budget;
     if (ok) {
         writer->file.durable = params->durable;
         kiln_part_begin(&writer->out, &writer->file, &writer->head);
@@ -337,6 +339,7 @@ static bool join_packets(const struct kiln_output_params *params, struct kiln_er
         !kiln_temporary_open(&file, target, error))
         return false;
     file.durable = params->durable;
+    file.budget = params->budget;
     void *clip = kiln_video_open(params, &file, error);
     bool ok = clip != NULL;
     for (uint32_t part = 0; ok && part < kiln_parts_count(params); part++) {
@@ -360,5 +363,6 @@ static bool join_packets(const struct kiln_output_params *params, struct kiln_er
 
 bool kiln_parts_join(const struct kiln_output_params *params, struct kiln_error *error)
 {
-    return keeps_packets(params) ? join_packets(params, error) : join_pictures(params, error);
+    return (keeps_packets(params) ? join_packets : join_pictures)(params, error) ||
+           (kiln_budget_take(params->budget, KILN_LIMIT_output, 0, params->path, error) && false);
 }

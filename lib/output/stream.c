@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/budget.h"
 #include "base/error.h"
 #include "output/formats.h"
 #include "output/scaler.h"
@@ -85,6 +86,9 @@ static bool write_all(const struct stream *stream, const void *bytes, size_t siz
                       struct kiln_error *error)
 {
     const int descriptor = stream->params->stream.descriptor;
+    if (!kiln_budget_take(stream->params->budget, KILN_LIMIT_output, size, stream->params->path,
+                          error))
+        return false;
     for (const char *at = bytes; size > 0;) {
         const ssize_t written = write(descriptor, at, size);
         if (written >= 0) {

@@ -65,13 +65,11 @@ static bool climbs_out(const char *path)
     return false;
 }
 
-typedef bool check_file(const char *path, struct kiln_error *error);
-
 static bool check_contents(struct kiln_reader *reader, const struct kiln_node *node,
-                           check_file *check, const char *path, const char *name)
+                           kiln_check_file *check, const char *path, const char *name)
 {
     struct kiln_error error = {0};
-    if (check(path, &error))
+    if (check(path, kiln_reader_scene(reader)->budget, &error))
         return true;
     /* The scene's own name for it instead of the whole path. */
     size_t length = strlen(path);
@@ -79,13 +77,13 @@ static bool check_contents(struct kiln_reader *reader, const struct kiln_node *n
     if (strncmp(reason, path, length) == 0)
         reason += length + strspn(reason + length, ": ");
     kiln_reader_error(reader, node, "'%s': %s", name, reason);
-    if (error.code == KILN_DEVICE_FAILED || error.code == KILN_INTERRUPTED)
+    if (error.code != KILN_INVALID_INPUT && error.code != KILN_IO)
         reader->error->code = error.code;
     return false;
 }
 
 bool kiln_read_file_asset(struct kiln_reader *reader, const struct kiln_node *node,
-                          check_file *check, const char **asset)
+                          kiln_check_file *check, const char **asset)
 {
     const char *root = kiln_reader_scene(reader)->asset_root;
     char quoted[64];

@@ -12,11 +12,13 @@ const char *kiln_asset_root(struct kiln_arena *arena, const char *root, const ch
 /* Reads "builtin:name", or the path of an image or video file, which becomes absolute. */
 bool kiln_read_asset(struct kiln_reader *reader, const struct kiln_node *node, const char **asset);
 
-/* Reads the path of a file that check (or NULL) accepts, which gets it absolute; it becomes
- * absolute. */
+/* Whether a file, an absolute path, is what it should be; it is counted in the budget. */
+typedef bool kiln_check_file(const char *path, struct kiln_budget *budget,
+                             struct kiln_error *error);
+
+/* Reads the path of a file that check (or NULL) accepts; it becomes absolute. */
 bool kiln_read_file_asset(struct kiln_reader *reader, const struct kiln_node *node,
-                          bool (*check)(const char *path, struct kiln_error *error),
-                          const char **asset);
+                          kiln_check_file *check, const char **asset);
 
 /* Notes that the scene was read from this file, too. `what`: static text, for messages. False when
  * memory is short. */

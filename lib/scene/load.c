@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/budget.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
@@ -97,16 +98,22 @@ static bool build(struct kiln_reader *reader, const char *text, size_t size,
         if (!kiln_override(reader, kiln_options_root, root, params->overrides[i]))
             return false;
     }
-    scene->meshes = kiln_mesh_library_create(scene->asset_root, params->stop, params->user);
+    scene->meshes =
+        kiln_mesh_library_create(scene->asset_root, params->stop, params->user, params->budget);
     if (!scene->meshes)
         return kiln_reader_out_of_memory(reader);
-    return kiln_read_members(reader, kiln_options_root, root, scene) && keep_keys(reader, scene) &&
-           kiln_validate(reader, root) && take_hash(scene, reader->error);
+    const uint64_t before = kiln_budget_taken(scene->budget, KILN_LIMIT_asset_pixels);
+    if (!kiln_read_members(reader, kiln_options_root, root, scene) || !keep_keys(reader, scene))
+        return false;
+    scene->asset_pixels = kiln_budget_taken(scene->budget, KILN_LIMIT_asset_pixels) - before;
+    return kiln_validate(reader, root) && take_hash(scene, reader->error);
 }
 
-/* file: where relative paths start, or NULL. */
+/* file: where relative paths start, or NULL. The budget is there also where the caller has none: it
+ * counts what is decoded. */
 static struct kiln_scene *create(const char *text, size_t size, const char *name, const char *file,
-                                 const struct kiln_scene_params *params, struct kiln_error *error)
+                                 const struct kiln_scene_params *params, struct kiln_budget *budget,
+                                 struct kiln_error *error)
 {
     struct kiln_arena *arena = kiln_arena_create(), *scratch = kiln_arena_create();
     struct kiln_scene *scene = arena ? kiln_arena_alloc(arena, 1, sizeof *scene) : NULL;
@@ -122,11 +129,13 @@ static struct kiln_scene *create(const char *text, size_t size, const char *name
         scene->name = kept_name;
         scene->stop = params->stop;
         scene->user = params->user;
+        scene->budget = budget;
         scene->asset_root = kiln_asset_root(arena, params->asset_root, file, error);
         ok = scene->asset_root &&
              (!file || kiln_scene_add_file(scene, kept_name, "the scene") ||
               kiln_reader_out_of_memory(&reader)) &&
              build(&reader, text, size, params);
+        scene->budget = params->budget;
     }
     kiln_arena_destroy(&scratch);
     if (!ok && scene)
@@ -136,6 +145,22 @@ static struct kiln_scene *create(const char *text, size_t size, const char *name
     return ok ? scene : NULL;
 }
 
+static struct kiln_scene *create_counted(const char *text, size_t size, const char *name,
+                                         const char *file, const struct kiln_scene_params *params,
+                                         struct kiln_error *error)
+{
+    static const struct kiln_limits none;
+    struct kiln_budget *own = params->budget ? NULL : kiln_budget_create(&none);
+    struct kiln_budget *budget = params->budget ? params->budget : own;
+    struct kiln_scene *scene = NULL;
+    if (budget)
+        scene = create(text, size, name, file, params, budget, error);
+    else
+        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading a scene");
+    kiln_budget_destroy(&own);
+    return scene;
+}
+
 struct kiln_scene *kiln_scene_load(const char *path, const struct kiln_scene_params *params,
                                    struct kiln_error *error)
 {
@@ -143,7 +168,7 @@ struct kiln_scene *kiln_scene_load(const char *path, const struct kiln_scene_par
     char *text = kiln_text_file_read(path, "a scene file", MAX_FILE_SIZE, &size, error);
     if (!text)
         return NULL;
-    struct kiln_scene *scene = create(text, size, path, path, params, error);
+    struct kiln_scene *scene = create_counted(text, size, path, path, params, error);
     free(text);
     return scene;
 }
@@ -164,7 +189,7 @@ struct kiln_scene *kiln_scene_parse(const char *text, size_t size, const char *n
         kiln_error_set(error, KILN_INVALID_INPUT, "%s: %zu bytes; a scene file has at most %d",
                        name, size, MAX_FILE_SIZE);
     else
-        scene = create(copy, size, name, NULL, params, error);
+        scene = create_counted(copy, size, name, NULL, params, error);
     free(copy);
     return scene;
 }

@@ -17,7 +17,7 @@ bool kiln_mesh_file_fail(struct kiln_reader *reader, const struct kiln_node *roo
         reason += length + strspn(reason + length, ": ");
     kiln_reader_error_at(reader, root, path, "'%s': %s",
                          kiln_asset_name(kiln_reader_scene(reader), file), reason);
-    if (error->code == KILN_DEVICE_FAILED || error->code == KILN_INTERRUPTED)
+    if (error->code != KILN_INVALID_INPUT && error->code != KILN_IO)
         reader->error->code = error->code;
     return false;
 }

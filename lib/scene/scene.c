@@ -6,6 +6,7 @@
 
 #include "base/matrix.h"
 #include "option/unit.h"
+#include "scene/work.h"
 #include "shared/exact.h"
 #include "shared/random.h"
 
@@ -170,8 +171,9 @@ struct kiln_scene_info kiln_scene_info(const struct kiln_scene *scene)
         .warmup_steps = scene->warmup_steps,
         .system_count = scene->system_count,
     };
-    for (uint32_t i = 0; i < scene->system_count; i++)
-        info.particle_capacity += scene->systems[i].capacity;
+    info.particle_capacity = kiln_work_particles(scene);
+    info.steps = kiln_work_steps(scene);
+    info.memory_bytes = kiln_work_memory(scene);
     memcpy(info.hash, scene->hash, sizeof info.hash);
     return info;
 }

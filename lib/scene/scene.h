@@ -474,6 +474,8 @@ struct kiln_scene {
     struct kiln_mesh_library *meshes; /* all that objects and looks have */
     bool (*stop)(void *user);         /* of kiln_scene_params */
     void *user;
+    struct kiln_budget *budget; /* likewise */
+    uint64_t asset_pixels;      /* of all pictures that it names, counted as often as it does */
 
     uint32_t format_version; /* 1 */
     uint32_t seed;

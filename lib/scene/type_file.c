@@ -4,8 +4,7 @@
 #include "scene/asset_path.h"
 
 static bool read_file(struct kiln_reader *reader, const struct kiln_option *option,
-                      const struct kiln_node *node,
-                      bool (*check)(const char *, struct kiln_error *), const char **file)
+                      const struct kiln_node *node, kiln_check_file *check, const char **file)
 {
     double number;
     bool is_text = node->kind == KILN_NODE_SCALAR && *node->text &&
@@ -94,18 +93,10 @@ const struct kiln_option_type kiln_type_mesh = {
 
 /* ---- grid ------------------------------------------------------------------------------------ */
 
-static bool check_grid(const char *path, struct kiln_error *error)
-{
-    struct kiln_grid_file *grid = kiln_grid_load(path, error);
-    bool good = grid != NULL;
-    kiln_grid_destroy(&grid);
-    return good;
-}
-
 static bool read_grid(struct kiln_reader *reader, const struct kiln_option *option,
                       const struct kiln_node *node, void *field)
 {
-    return read_file(reader, option, node, check_grid, field);
+    return read_file(reader, option, node, kiln_grid_check, field);
 }
 
 static void describe_grid(const struct kiln_option *option, struct kiln_text *out)

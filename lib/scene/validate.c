@@ -15,6 +15,7 @@
 #include "scene/family.h"
 #include "scene/object_mesh.h"
 #include "scene/particle_mesh.h"
+#include "scene/work.h"
 
 /* ---- clock ---------------------------------------------------------------------------------- */
 
@@ -501,5 +502,5 @@ bool kiln_validate(struct kiln_reader *reader, const struct kiln_node *root)
     return settle_clock(reader, root) && check_camera(reader, root) &&
            check_backdrop(reader, root) && check_systems(reader, root) &&
            kiln_family_settle(reader, root) && settle_capacity(reader, root) &&
-           kiln_particle_mesh_count(reader, root);
+           kiln_particle_mesh_count(reader, root) && kiln_work_check(reader, root);
 }

@@ -257,7 +257,7 @@ static void frames_of_a_video_are_cells(void **state)
     params.quality = 95;
     struct kiln_error error = {0};
     assert_true(test_write_all(&params, &error));
-    assert_true(kiln_cells_check(path, &error));
+    assert_true(kiln_cells_check(path, NULL, &error));
 
     float *cells = calloc(16 * 16 * 16, 4 * sizeof *cells);
     assert_non_null(cells);
@@ -293,8 +293,8 @@ static void cells_must_divide_the_image(void **state)
     assert_false(kiln_cells_check_division(&source, &error));
     assert_true(kiln_cells_check_division(
         &(struct kiln_cells_source){.path = f->path, .columns = 2, .rows = 4}, &error));
-    assert_true(kiln_cells_check(f->path, &error));
-    assert_false(kiln_cells_check(f->folder, &error));
+    assert_true(kiln_cells_check(f->path, NULL, &error));
+    assert_false(kiln_cells_check(f->folder, NULL, &error));
 }
 
 int main(void)

@@ -241,30 +241,30 @@ static void files_are_told_from_other_things(void **state)
     snprintf(path, sizeof path, "%s/x.png", folder);
 
     struct kiln_error error = {0};
-    assert_false(kiln_asset_image_check(path, &error));
+    assert_false(kiln_asset_image_check(path, NULL, &error));
     assert_int_equal(error.code, KILN_IO);
-    assert_false(kiln_asset_image_check(folder, &error));
+    assert_false(kiln_asset_image_check(folder, NULL, &error));
     assert_int_equal(error.code, KILN_INVALID_INPUT);
     assert_int_equal(mkfifo(path, 0600), 0);
-    assert_false(kiln_asset_image_check(path, &error));
+    assert_false(kiln_asset_image_check(path, NULL, &error));
     assert_int_equal(error.code, KILN_INVALID_INPUT);
     assert_int_equal(unlink(path), 0);
 
     write_file(path, "", 0);
-    assert_false(kiln_asset_image_check(path, &error));
+    assert_false(kiln_asset_image_check(path, NULL, &error));
     assert_non_null(strstr(error.message, "empty"));
     write_file(path, "kiln: 1\n", 8);
-    assert_false(kiln_asset_image_check(path, &error));
+    assert_false(kiln_asset_image_check(path, NULL, &error));
     assert_non_null(strstr(error.message, "6b 69 6c 6e"));
     assert_int_equal(truncate(path, (off_t)KILN_MAX_IMAGE_BYTES + 1), 0);
-    assert_false(kiln_asset_image_check(path, &error));
+    assert_false(kiln_asset_image_check(path, NULL, &error));
     assert_non_null(strstr(error.message, "268435457"));
     assert_int_equal(error.code, KILN_INVALID_INPUT);
 
     AVPacket *file = encode(&sources[0]);
     assert_non_null(file);
     write_file(path, file->data, (size_t)file->size);
-    assert_true(kiln_asset_image_check(path, &error));
+    assert_true(kiln_asset_image_check(path, NULL, &error));
     av_packet_free(&file);
     unlink(path);
     rmdir(folder);

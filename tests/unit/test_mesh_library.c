@@ -42,7 +42,7 @@ static void what_is_there_is_given_again(void **state)
 {
     (void)state;
     struct kiln_error error = {0};
-    struct kiln_mesh_library *library = kiln_mesh_library_create(FOLDER, NULL, NULL);
+    struct kiln_mesh_library *library = kiln_mesh_library_create(FOLDER, NULL, NULL, NULL);
     forks = 0;
     const struct kiln_mesh *plain = kiln_mesh_library_get(library, CARD, &error);
     const struct kiln_mesh *unwrapped = kiln_mesh_library_get_unwrapped(library, CARD, &error);
@@ -70,7 +70,7 @@ static void what_is_there_is_given_again(void **state)
 static void failures_are_told_and_not_kept(void **state)
 {
     (void)state;
-    struct kiln_mesh_library *library = kiln_mesh_library_create(FOLDER, NULL, NULL);
+    struct kiln_mesh_library *library = kiln_mesh_library_create(FOLDER, NULL, NULL, NULL);
     for (int i = 0; i < 2; i++) {
         struct kiln_error error = {0};
         assert_null(kiln_mesh_library_get_skin(library, TETRAHEDRON, &error));

@@ -11,6 +11,7 @@
 #include "asset/image/image.h"
 #include "asset/image/linear.h"
 #include "asset/image/video_in.h"
+#include "base/budget.h"
 #include "base/error.h"
 
 /* ---- pixels ---------------------------------------------------------------------------------- */
@@ -269,13 +270,15 @@ bool kiln_cells_check_division(const struct kiln_cells_source *source, struct ki
     return ok;
 }
 
-bool kiln_cells_check(const char *path, struct kiln_error *error)
+bool kiln_cells_check(const char *path, struct kiln_budget *budget, struct kiln_error *error)
 {
     if (!kiln_video_in_has_suffix(path))
-        return kiln_asset_image_check(path, error);
+        return kiln_asset_image_check(path, budget, error);
     struct kiln_video_in *video = kiln_video_in_open(path, error);
     struct kiln_asset_image *image = NULL;
     bool ok = video && kiln_video_in_read(video, &image, error);
+    ok = ok && kiln_budget_take(budget, KILN_LIMIT_asset_pixels,
+                                (uint64_t)image->width * image->height, path, error);
     kiln_asset_image_destroy(&image);
     if (video)
         kiln_video_in_close(&video);

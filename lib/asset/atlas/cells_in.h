@@ -28,7 +28,7 @@ bool kiln_cells_load_motion(const struct kiln_cells_source *source, float *motio
 bool kiln_cells_check_division(const struct kiln_cells_source *source, struct kiln_error *error);
 
 /* Whether a file is one that kiln_cells_load could read, but for the number of its cells: decodes
- * an image, or the first frame of a video. */
-bool kiln_cells_check(const char *path, struct kiln_error *error);
+ * an image, or the first frame of a video. What it reads is counted in the budget. */
+bool kiln_cells_check(const char *path, struct kiln_budget *budget, struct kiln_error *error);
 
 #endif

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/budget.h"
 #include "base/error.h"
 #include "base/file_in.h"
 
@@ -146,6 +147,18 @@ struct kiln_grid_file *kiln_grid_load(const char *path, struct kiln_error *error
     struct kiln_grid_file *grid = kiln_grid_parse(bytes, size, path, error);
     free(bytes);
     return grid;
+}
+
+bool kiln_grid_check(const char *path, struct kiln_budget *budget, struct kiln_error *error)
+{
+    struct kiln_grid_file *grid = kiln_grid_load(path, error);
+    bool good = grid != NULL;
+    if (good)
+        good = kiln_budget_take(
+            budget, KILN_LIMIT_asset_bytes,
+            (uint64_t)grid->size[0] * grid->size[1] * grid->size[2] * SAMPLE_BYTES, path, error);
+    kiln_grid_destroy(&grid);
+    return good;
 }
 
 void kiln_grid_destroy(struct kiln_grid_file **grid)

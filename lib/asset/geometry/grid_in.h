@@ -36,6 +36,9 @@ struct kiln_grid_file {
  * The caller destroys it. */
 struct kiln_grid_file *kiln_grid_load(const char *path, struct kiln_error *error);
 
+/* Whether load would succeed; the file's bytes are counted in the budget. */
+bool kiln_grid_check(const char *path, struct kiln_budget *budget, struct kiln_error *error);
+
 /* The same from bytes in memory; name stands for the file. */
 struct kiln_grid_file *kiln_grid_parse(const void *bytes, size_t size, const char *name,
                                        struct kiln_error *error);

@@ -10,6 +10,7 @@
 #include <string.h>
 #include <strings.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <time.h>
@@ -82,7 +83,8 @@ static void limit_resources(void)
 }
 
 /* Whatever the importer does to this process or prints, nobody else is touched. */
-static void run_child(const struct kiln_mesh_request *request, struct kiln_mesh_result *result)
+static void run_child(const struct kiln_mesh_request *request, struct kiln_mesh_result *result,
+                      pid_t parent)
 {
     static const int signals[] = {SIGSEGV, SIGBUS,  SIGFPE,  SIGILL, SIGABRT,
                                   SIGINT,  SIGTERM, SIGPIPE, SIGXCPU};
@@ -93,6 +95,10 @@ static void run_child(const struct kiln_mesh_request *request, struct kiln_mesh_
         dup2(nowhere, STDOUT_FILENO);
         dup2(nowhere, STDERR_FILENO);
     }
+    /* An importer that nobody waits for would work on for ever. */
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent)
+        _exit(1);
     limit_resources();
     kiln_mesh_import(request, result);
     result->done = true;
@@ -149,9 +155,10 @@ static bool run(const struct kiln_mesh_request *request, struct kiln_mesh_result
 {
     enum outcome outcome = STUCK;
     for (int attempt = 0; outcome == STUCK; attempt++) {
+        const pid_t parent = getpid();
         pid_t child = fork();
         if (child == 0)
-            run_child(request, result);
+            run_child(request, result, parent);
         if (child < 0)
             return kiln_error_set_errno(error, KILN_DEVICE_FAILED, errno,
                                         "%s: no process for the importer", request->name);

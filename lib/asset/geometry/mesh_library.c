@@ -3,7 +3,9 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
+#include "base/budget.h"
 #include "base/error.h"
 
 enum way { PLAIN, UNWRAPPED, MOVING };
@@ -20,15 +22,17 @@ struct kiln_mesh_library {
     const char *root;
     bool (*stop)(void *user);
     void *user;
+    struct kiln_budget *budget;
     struct entry *entries;
 };
 
 struct kiln_mesh_library *kiln_mesh_library_create(const char *root, bool (*stop)(void *user),
-                                                   void *user)
+                                                   void *user, struct kiln_budget *budget)
 {
     struct kiln_mesh_library *library = calloc(1, sizeof *library);
     if (library)
-        *library = (struct kiln_mesh_library){.root = root, .stop = stop, .user = user};
+        *library =
+            (struct kiln_mesh_library){.root = root, .stop = stop, .user = user, .budget = budget};
     return library;
 }
 
@@ -56,13 +60,19 @@ static bool import(const struct kiln_mesh_library *library, struct entry *entry,
                    struct kiln_error *error)
 {
     const char *path = entry->path, *root = library->root;
+    struct stat status;
+    if (stat(path, &status) == 0 && !kiln_budget_take(library->budget, KILN_LIMIT_asset_bytes,
+                                                      (uint64_t)status.st_size, path, error))
+        return false;
     if (entry->way == MOVING)
         entry->skin = kiln_skin_load(path, root, library->stop, library->user, error);
     else if (entry->way == UNWRAPPED)
         entry->mesh = kiln_mesh_load_unwrapped(path, root, library->stop, library->user, error);
     else
         entry->mesh = kiln_mesh_load(path, root, library->stop, library->user, error);
-    return entry->mesh || entry->skin;
+    const struct kiln_mesh *mesh = entry->skin ? kiln_skin_mesh(entry->skin) : entry->mesh;
+    return mesh && kiln_budget_take(library->budget, KILN_LIMIT_triangles, mesh->triangle_count,
+                                    path, error);
 }
 
 /* NULL: it can not be imported. */

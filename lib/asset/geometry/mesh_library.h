@@ -8,16 +8,16 @@
 
 struct kiln_mesh_library;
 
-/* root, stop and user: as of kiln_mesh_load, for all of them; they must outlive it. NULL: no
- * memory. */
+/* root, stop and user: as of kiln_mesh_load, for all of them; bytes and triangles are counted in
+ * the budget. They must outlive it. NULL: no memory. */
 struct kiln_mesh_library *kiln_mesh_library_create(const char *root, bool (*stop)(void *user),
-                                                   void *user);
+                                                   void *user, struct kiln_budget *budget);
 
 /* Frees all meshes in it. */
 void kiln_mesh_library_destroy(struct kiln_mesh_library **library);
 
-/* What kiln_mesh_load, kiln_mesh_load_unwrapped and kiln_skin_load give, with their errors, out of
- * the library or imported into it. They are the library's. */
+/* What kiln_mesh_load, kiln_mesh_load_unwrapped and kiln_skin_load give, with their errors and
+ * KILN_OVER_LIMIT, out of the library or imported into it. They are the library's. */
 const struct kiln_mesh *kiln_mesh_library_get(struct kiln_mesh_library *library, const char *path,
                                               struct kiln_error *error);
 const struct kiln_mesh *kiln_mesh_library_get_unwrapped(struct kiln_mesh_library *library,

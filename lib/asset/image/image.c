@@ -10,6 +10,7 @@
 #include "asset/image/avframe.h"
 #include "asset/image/avlog.h"
 #include "asset/image/exr_in.h"
+#include "base/budget.h"
 #include "base/error.h"
 #include "base/file_in.h"
 
@@ -35,6 +36,7 @@ static const struct signature {
 struct decoding {
     const char *name; /* of the file, for messages */
     const char *format;
+    struct kiln_budget *budget; /* NULL: without limits */
     struct kiln_error *error;
     bool reported; /* the error is filled */
     struct kiln_avlog avlog;
@@ -92,6 +94,12 @@ static int get_buffer(AVCodecContext *decoder, AVFrame *frame, int flags)
                        "in all",
                        decoding->name, decoding->format, frame->width, frame->height,
                        KILN_MAX_IMAGE_EDGE, KILN_MAX_IMAGE_PIXELS);
+        return AVERROR(EINVAL);
+    }
+    if (!kiln_budget_take(decoding->budget, KILN_LIMIT_asset_pixels,
+                          (uint64_t)frame->width * (uint64_t)frame->height, decoding->name,
+                          decoding->error)) {
+        decoding->reported = true;
         return AVERROR(EINVAL);
     }
     int status = avcodec_default_get_buffer2(decoder, frame, flags);
@@ -184,8 +192,8 @@ static bool is_animated_webp(const unsigned char *bytes, size_t size)
     return size > 20 && memcmp(bytes + 12, "VP8X", 4) == 0 && (bytes[20] & 2) != 0;
 }
 
-struct kiln_asset_image *kiln_asset_image_parse(const void *bytes, size_t size, const char *name,
-                                                struct kiln_error *error)
+static struct kiln_asset_image *parse(const void *bytes, size_t size, const char *name,
+                                      struct kiln_budget *budget, struct kiln_error *error)
 {
     const struct signature *signature = find_signature(bytes, size);
     if (!signature) {
@@ -204,7 +212,8 @@ struct kiln_asset_image *kiln_asset_image_parse(const void *bytes, size_t size, 
                        name);
         return NULL;
     }
-    struct decoding decoding = {.name = name, .format = signature->name, .error = error};
+    struct decoding decoding = {
+        .name = name, .format = signature->name, .budget = budget, .error = error};
     kiln_avlog_begin(&decoding.avlog);
     struct kiln_asset_image *image = NULL;
     if (open_decoder(&decoding, signature->codec) && decode_frame(&decoding, bytes, size))
@@ -216,16 +225,28 @@ struct kiln_asset_image *kiln_asset_image_parse(const void *bytes, size_t size, 
     return image;
 }
 
-struct kiln_asset_image *kiln_asset_image_load(const char *path, struct kiln_error *error)
+struct kiln_asset_image *kiln_asset_image_parse(const void *bytes, size_t size, const char *name,
+                                                struct kiln_error *error)
+{
+    return parse(bytes, size, name, NULL, error);
+}
+
+static struct kiln_asset_image *load(const char *path, struct kiln_budget *budget,
+                                     struct kiln_error *error)
 {
     size_t size = 0;
     unsigned char *bytes =
         kiln_file_read(path, "image", ALLOWED, KILN_MAX_IMAGE_BYTES, &size, error);
-    if (!bytes)
-        return NULL;
-    struct kiln_asset_image *image = kiln_asset_image_parse(bytes, size, path, error);
+    struct kiln_asset_image *image = NULL;
+    if (bytes && kiln_budget_take(budget, KILN_LIMIT_asset_bytes, size, path, error))
+        image = parse(bytes, size, path, budget, error);
     free(bytes);
     return image;
+}
+
+struct kiln_asset_image *kiln_asset_image_load(const char *path, struct kiln_error *error)
+{
+    return load(path, NULL, error);
 }
 
 struct kiln_asset_image *kiln_asset_image_load_layer(const char *path, const char *layer,
@@ -261,9 +282,9 @@ void kiln_asset_image_destroy(struct kiln_asset_image **image)
     *image = NULL;
 }
 
-bool kiln_asset_image_check(const char *path, struct kiln_error *error)
+bool kiln_asset_image_check(const char *path, struct kiln_budget *budget, struct kiln_error *error)
 {
-    struct kiln_asset_image *image = kiln_asset_image_load(path, error);
+    struct kiln_asset_image *image = load(path, budget, error);
     bool good = image != NULL;
     kiln_asset_image_destroy(&image);
     return good;

@@ -44,7 +44,8 @@ struct kiln_asset_image *kiln_asset_image_parse(const void *bytes, size_t size, 
                                                 struct kiln_error *error);
 void kiln_asset_image_destroy(struct kiln_asset_image **image);
 
-/* Whether load would succeed; decodes the whole image to know. */
-bool kiln_asset_image_check(const char *path, struct kiln_error *error);
+/* Whether load would succeed; decodes the whole image to know. Its bytes and pixels are counted in
+ * the budget: KILN_OVER_LIMIT before memory is taken for them. */
+bool kiln_asset_image_check(const char *path, struct kiln_budget *budget, struct kiln_error *error);
 
 #endif

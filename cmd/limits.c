@@ -1,0 +1,69 @@
+/* A thread looks at the clock and the memory: what loads a picture or encodes one does not. */
+#include "limits.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "last_words.h"
+#include "report.h"
+#include "watch.h"
+
+enum { LOOK_MS = 50, PATIENCE_MS = 500 };
+
+/* Gives the job time to end by itself. */
+static void look(void *user)
+{
+    struct limits *limits = user;
+    struct kiln_error error = {0};
+    if (kiln_budget_is_kept(limits->budget, &error))
+        return;
+    limits->over_ms += LOOK_MS;
+    if (limits->over_ms < PATIENCE_MS)
+        return;
+    char line[KILN_MESSAGE_SIZE + 64];
+    snprintf(line, sizeof line, "kiln: %s; what was not whole is given up\n", error.message);
+    end_with_words(line, KILN_OVER_LIMIT);
+}
+
+/* ---- reading --------------------------------------------------------------------------------- */
+
+static int read_limits(struct kiln_limits *limits, const char *command,
+                       const struct arguments *arguments)
+{
+    const char *environment = getenv("KILN_LIMITS");
+    const char *text = arguments_text(arguments, "limits", NULL);
+    const double timeout_s = arguments_number(arguments, "timeout", 0);
+    struct kiln_error error = {0};
+    if (environment && *environment && !kiln_limits_parse(limits, environment, &error))
+        return report(error.code, "KILN_LIMITS: %s", error.message);
+    if (text && !kiln_limits_parse(limits, text, &error))
+        return report(error.code, "%s: --limits: %s", command, error.message);
+    if (timeout_s > 0)
+        limits->most[KILN_LIMIT_time] = (uint64_t)ceil(timeout_s * 1e3);
+    return 0;
+}
+
+int limits_begin(struct limits *limits, const char *command, const struct arguments *arguments)
+{
+    struct kiln_limits read = {{0}};
+    *limits = (struct limits){.budget = NULL};
+    const int code = read_limits(&read, command, arguments);
+    bool any = false;
+    for (size_t i = 0; i < KILN_LIMIT_COUNT; i++)
+        any = any || read.most[i] > 0;
+    if (code || !any)
+        return code;
+    limits->budget = kiln_budget_create(&read);
+    if (!limits->budget)
+        return report_no_memory();
+    if (read.most[KILN_LIMIT_time] + read.most[KILN_LIMIT_cpu] + read.most[KILN_LIMIT_memory] == 0)
+        return 0;
+    limits->watch = watch_create(look, limits, LOOK_MS);
+    return limits->watch ? 0 : report(KILN_DEVICE_FAILED, "cannot start a thread for limits");
+}
+
+void limits_end(struct limits *limits)
+{
+    watch_destroy(&limits->watch);
+    kiln_budget_destroy(&limits->budget);
+}

@@ -1,0 +1,17 @@
+/* A thread that looks at something again and again beside the one that works. */
+#ifndef KILN_CMD_WATCH_H
+#define KILN_CMD_WATCH_H
+
+struct watch;
+
+/* Calls `look` every so many ms, from a thread that gets no signals. NULL when the system refuses
+ * memory or a thread. */
+struct watch *watch_create(void (*look)(void *user), void *user, int every_ms);
+
+/* Waits for the last look; does nothing for NULL. */
+void watch_destroy(struct watch **watch);
+
+/* Of a clock that never jumps. */
+double watch_now_s(void);
+
+#endif

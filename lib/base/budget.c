@@ -1,0 +1,134 @@
+/* Amounts are added before they are compared: what is over its limit stays so, whoever asks. */
+#include "base/budget.h"
+
+#include <inttypes.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/clock.h"
+#include "base/error.h"
+
+enum unit { COUNT, BYTES, TIME };
+
+static const struct {
+    const char *name;
+    enum unit unit;
+    const char *noun;
+} rows[] = {
+#define ROW(name, unit, noun) [KILN_LIMIT_##name] = {#name, unit, noun},
+    KILN_LIMITS(ROW)
+#undef ROW
+};
+
+struct kiln_budget {
+    struct kiln_limits limits;
+    double started_s, started_cpu_s;
+    _Atomic uint64_t taken[KILN_LIMIT_COUNT];
+};
+
+struct kiln_budget *kiln_budget_create(const struct kiln_limits *limits)
+{
+    struct kiln_budget *budget = calloc(1, sizeof *budget);
+    if (budget) {
+        budget->limits = *limits;
+        budget->started_s = kiln_clock_seconds();
+        budget->started_cpu_s = kiln_clock_cpu_seconds();
+    }
+    return budget;
+}
+
+void kiln_budget_destroy(struct kiln_budget **budget)
+{
+    free(*budget);
+    *budget = NULL;
+}
+
+/* ---- words ----------------------------------------------------------------------------------- */
+
+const char *kiln_limit_name(enum kiln_limit limit)
+{
+    return rows[limit].name;
+}
+
+void kiln_limit_format(enum kiln_limit limit, uint64_t amount, char text[32])
+{
+    static const char *const units[] = {"bytes", "KiB", "MiB", "GiB", "TiB"};
+    double bytes = (double)amount;
+    size_t unit = 0;
+    if (rows[limit].unit == COUNT) {
+        snprintf(text, 32, "%" PRIu64, amount);
+    } else if (rows[limit].unit == TIME) {
+        snprintf(text, 32, "%.10g s", (double)amount / 1e3);
+    } else {
+        for (; bytes >= 1024.0 && unit + 1 < sizeof units / sizeof *units; unit++)
+            bytes /= 1024.0;
+        snprintf(text, 32, "%.4g %s", bytes, units[unit]);
+    }
+}
+
+bool kiln_budget_allows(const struct kiln_budget *budget, enum kiln_limit limit, uint64_t amount,
+                        char text[160])
+{
+    const uint64_t most = budget ? budget->limits.most[limit] : 0;
+    if (most == 0 || amount <= most)
+        return true;
+    char found[32], allowed[32];
+    kiln_limit_format(limit, amount, found);
+    kiln_limit_format(limit, most, allowed);
+    snprintf(text, 160, "%s %s, and the limit `%s` is %s", found, rows[limit].noun,
+             rows[limit].name, allowed);
+    return false;
+}
+
+/* ---- counting -------------------------------------------------------------------------------- */
+
+bool kiln_budget_take(struct kiln_budget *budget, enum kiln_limit limit, uint64_t amount,
+                      const char *what, struct kiln_error *error)
+{
+    char text[160];
+    if (!budget)
+        return true;
+    const uint64_t taken = atomic_fetch_add(&budget->taken[limit], amount) + amount;
+    return kiln_budget_allows(budget, limit, taken, text) ||
+           kiln_error_set(error, KILN_OVER_LIMIT, "%s: %s", what, text);
+}
+
+uint64_t kiln_budget_taken(struct kiln_budget *budget, enum kiln_limit limit)
+{
+    return atomic_load(&budget->taken[limit]);
+}
+
+/* Bytes of this process that are in memory; 0 where the system does not say. */
+static uint64_t resident_bytes(void)
+{
+    char text[64] = "";
+    FILE *file = fopen("/proc/self/statm", "re");
+    const bool found = file && fgets(text, sizeof text, file);
+    if (file)
+        fclose(file);
+    const char *second = found ? strchr(text, ' ') : NULL; /* pages: all of them, resident ones */
+    return second ? strtoull(second, NULL, 10) * (uint64_t)sysconf(_SC_PAGESIZE) : 0;
+}
+
+static uint64_t milliseconds(double seconds)
+{
+    return (uint64_t)(seconds * 1e3);
+}
+
+bool kiln_budget_is_kept(const struct kiln_budget *budget, struct kiln_error *error)
+{
+    char text[160];
+    if (!budget)
+        return true;
+    const uint64_t *most = budget->limits.most;
+    const uint64_t time = milliseconds(kiln_clock_seconds() - budget->started_s);
+    const uint64_t cpu = milliseconds(kiln_clock_cpu_seconds() - budget->started_cpu_s);
+    if (kiln_budget_allows(budget, KILN_LIMIT_time, time, text) &&
+        kiln_budget_allows(budget, KILN_LIMIT_cpu, cpu, text) &&
+        (most[KILN_LIMIT_memory] == 0 ||
+         kiln_budget_allows(budget, KILN_LIMIT_memory, resident_bytes(), text)))
+        return true;
+    return kiln_error_set(error, KILN_OVER_LIMIT, "the job has taken %s", text);
+}

@@ -1,0 +1,152 @@
+/* The rows of limits: what each is for, and what the preset says. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/budget.h"
+#include "base/error.h"
+#include "base/text.h"
+#include "option/unit.h"
+
+enum { SECOND = 1000, HOUR = 3600 * SECOND };
+
+static const struct row {
+    const char *service; /* what the preset `service` says */
+    const char *help;
+} rows[] = {
+    [KILN_LIMIT_pixels] = {"16777216", "Width times height of the pictures."},
+    [KILN_LIMIT_frames] = {"100000", "Length of the clip."},
+    [KILN_LIMIT_steps] = {"1000000", "Steps of the simulation up to its last frame."},
+    [KILN_LIMIT_particles] = {"4000000", "Particles that may live at once, of all systems."},
+    [KILN_LIMIT_memory] = {"4 GiB", "What the process takes, and what a scene is expected to."},
+    [KILN_LIMIT_time] = {"1 h", "From the start of the command to its end; as --timeout."},
+    [KILN_LIMIT_cpu] = {"none", "Time of all processors together."},
+    [KILN_LIMIT_asset_pixels] = {"268435456", "Pixels of the pictures that it names, decoded."},
+    [KILN_LIMIT_asset_bytes] = {"1 GiB", "Bytes of the files that the scene names."},
+    [KILN_LIMIT_triangles] = {"2000000", "Triangles of the meshes that it names."},
+    [KILN_LIMIT_output] = {"64 GiB", "Bytes that are written."},
+};
+
+enum unit { COUNT, BYTES, TIME };
+static const enum unit units[] = {
+#define UNIT(name, unit, noun) [KILN_LIMIT_##name] = unit,
+    KILN_LIMITS(UNIT)
+#undef UNIT
+};
+
+static const struct {
+    enum unit of;
+    const char *name;
+    double factor;
+} suffixes[] = {
+    {COUNT, "", 1},         {COUNT, "k", 1e3},      {COUNT, "M", 1e6},
+    {COUNT, "G", 1e9},      {BYTES, "", 1},         {BYTES, "B", 1},
+    {BYTES, "kB", 1e3},     {BYTES, "MB", 1e6},     {BYTES, "GB", 1e9},
+    {BYTES, "TB", 1e12},    {BYTES, "KiB", 0x1p10}, {BYTES, "MiB", 0x1p20},
+    {BYTES, "GiB", 0x1p30}, {BYTES, "TiB", 0x1p40}, {TIME, "", SECOND},
+    {TIME, "ms", 1},        {TIME, "s", SECOND},    {TIME, "min", 60 * SECOND},
+    {TIME, "h", HOUR},
+};
+
+static const char *const expected[] = {
+    [COUNT] = "a number, with k, M or G behind it or without",
+    [BYTES] = "a number of bytes, kB, MB, GB, TB, KiB, MiB, GiB or TiB",
+    [TIME] = "a time in ms, s, min or h",
+};
+
+/* ---- reading --------------------------------------------------------------------------------- */
+
+static bool read_amount(enum kiln_limit limit, const char *text, uint64_t *amount)
+{
+    double number;
+    const char *unit;
+    *amount = 0;
+    if (strcmp(text, "none") == 0)
+        return true;
+    if (!kiln_unit_split(text, &number, &unit))
+        return false;
+    for (size_t i = 0; i < sizeof suffixes / sizeof *suffixes; i++) {
+        const double value = number * suffixes[i].factor;
+        if (suffixes[i].of != units[limit] || strcmp(suffixes[i].name, unit) != 0)
+            continue;
+        *amount = value < 9e18 ? (uint64_t)value : 0;
+        return value >= 1.0 && value < 9e18;
+    }
+    return false;
+}
+
+static bool find_limit(const char *name, enum kiln_limit *limit)
+{
+    for (size_t i = 0; i < KILN_LIMIT_COUNT; i++) {
+        *limit = (enum kiln_limit)i;
+        if (strcmp(kiln_limit_name(*limit), name) == 0)
+            return true;
+    }
+    return false;
+}
+
+static bool refuse_name(const char *name, struct kiln_error *error)
+{
+    const char *names[KILN_LIMIT_COUNT + 1] = {"service"};
+    struct kiln_text list = {0};
+    for (size_t i = 0; i < KILN_LIMIT_COUNT; i++) {
+        names[i + 1] = kiln_limit_name((enum kiln_limit)i);
+        kiln_text_add(&list, "%s, ", names[i + 1]);
+    }
+    const char *nearest = kiln_text_nearest(name, names, KILN_LIMIT_COUNT + 1);
+    if (nearest)
+        kiln_error_set(error, KILN_USAGE, "'%.40s' is no limit; did you mean '%s'?", name, nearest);
+    else
+        kiln_error_set(error, KILN_USAGE, "'%.40s' is no limit; there are %sand the preset service",
+                       name, list.data ? list.data : "");
+    kiln_text_free(&list);
+    return false;
+}
+
+/* One of those between the commas. */
+static bool read_item(struct kiln_limits *limits, char *item, struct kiln_error *error)
+{
+    enum kiln_limit limit;
+    uint64_t amount;
+    char *equals = strchr(item, '=');
+    if (strcmp(item, "service") == 0) {
+        for (size_t i = 0; i < KILN_LIMIT_COUNT; i++)
+            read_amount((enum kiln_limit)i, rows[i].service, &limits->most[i]);
+        return true;
+    }
+    if (equals)
+        *equals = '\0';
+    if (!find_limit(item, &limit))
+        return refuse_name(item, error);
+    if (!equals || !read_amount(limit, equals + 1, &amount))
+        return kiln_error_set(error, KILN_USAGE, "%s: found '%.40s', expected %s, or none", item,
+                              equals ? equals + 1 : "", expected[units[limit]]);
+    limits->most[limit] = amount;
+    return true;
+}
+
+bool kiln_limits_parse(struct kiln_limits *limits, const char *text, struct kiln_error *error)
+{
+    char *copy = strdup(text), *rest = copy, *item;
+    bool ok = copy || kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for limits");
+    while (ok && (item = strsep(&rest, ",")))
+        ok = read_item(limits, item, error);
+    free(copy);
+    return ok;
+}
+
+/* ---- words ----------------------------------------------------------------------------------- */
+
+bool kiln_write_limits(FILE *out)
+{
+    fputs("--limits KEY=VALUE,... or the environment's KILN_LIMITS; the former is read last. "
+          "`service`\n"
+          "stands for all values of its column, `none` lifts a limit. What is over a limit ends "
+          "with\n"
+          "exit code 8; nothing half-written is left, and --resume may go on.\n\n",
+          out);
+    fputs("KEY           service\n", out);
+    for (size_t i = 0; i < KILN_LIMIT_COUNT; i++)
+        fprintf(out, "%-14s%-12s%s\n", kiln_limit_name((enum kiln_limit)i), rows[i].service,
+                rows[i].help);
+    return !ferror(out);
+}

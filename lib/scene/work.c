@@ -1,0 +1,160 @@
+/* The expected memory is a sum over what a scene has many of. What one of each takes was measured
+ * (docs/measurements.md, "Memory of a clip"). */
+#include "scene/work.h"
+
+#include <string.h>
+
+#include "asset/atlas/atlas.h"
+#include "base/budget.h"
+
+/* What one of each takes, and what there is in any case. */
+enum {
+    PROGRAM_BYTES = 40 << 20,
+    ANY_MESH_BYTES = 18 << 20,
+    PIXEL_BYTES = 68,
+    SLOT_BYTES = 100,
+    CELL_BYTES = 150000, /* of an atlas, and while it is made */
+    TRIANGLE_BYTES = 350,
+    TEXEL_BYTES = 80,   /* of paint */
+    SAMPLE_BYTES = 100, /* of a field or terrain */
+    PICTURE_BYTES = 40, /* a pixel of a texture of floor or sky, and while it is read */
+};
+
+/* ---- what there is --------------------------------------------------------------------------- */
+
+uint64_t kiln_work_steps(const struct kiln_scene *scene)
+{
+    return kiln_scene_moment_step(scene, scene->frames - 1, scene->camera.shutter_samples - 1);
+}
+
+uint64_t kiln_work_particles(const struct kiln_scene *scene)
+{
+    uint64_t particles = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++)
+        particles += scene->systems[i].capacity;
+    return particles;
+}
+
+/* Has an earlier system, or an earlier entry of this one, the same cells? */
+static bool is_shared(const struct kiln_scene *scene, uint32_t system, uint32_t texture)
+{
+    const struct kiln_look *look = &scene->systems[system].look;
+    for (uint32_t i = 0; i <= system; i++) {
+        const struct kiln_look *other = &scene->systems[i].look;
+        const uint32_t count = i < system ? other->atlas_count : texture;
+        for (uint32_t k = 0; k < count; k++) {
+            if (other->columns == look->columns && other->rows == look->rows &&
+                strcmp(other->atlas[k], look->atlas[texture]) == 0)
+                return true;
+        }
+    }
+    return false;
+}
+
+static uint64_t count_cells(const struct kiln_scene *scene)
+{
+    uint64_t cells = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_look *look = &scene->systems[i].look;
+        for (uint32_t k = 0; k < look->atlas_count; k++)
+            cells += is_shared(scene, i, k) ? 0 : (uint64_t)look->columns * look->rows;
+    }
+    return cells;
+}
+
+/* Of meshes: triangles, of each object, since each has a tree of its own. */
+static uint64_t count_triangles(const struct kiln_scene *scene)
+{
+    uint64_t triangles = 0;
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        const struct kiln_object *object = &scene->backdrop.objects[i];
+        if (object->kind == KILN_OBJECT_MESH && object->shown)
+            triangles += object->shown->triangle_count;
+    }
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_look *look = &scene->systems[i].look;
+        if (look->shape == KILN_SHAPE_MESH && look->mesh.shown)
+            triangles += look->mesh.shown->triangle_count;
+    }
+    return triangles;
+}
+
+static uint64_t count_texels(const struct kiln_scene *scene)
+{
+    uint64_t texels = 0;
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        const struct kiln_object *object = &scene->backdrop.objects[i];
+        if (object->kind == KILN_OBJECT_MESH && object->paint.enabled)
+            texels += (uint64_t)object->paint.size * object->paint.size;
+    }
+    return texels;
+}
+
+/* Of fields of meshes that are met, terrain, and depth maps. */
+static uint64_t count_samples(const struct kiln_scene *scene)
+{
+    uint64_t samples = 0;
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        const struct kiln_object *object = &scene->backdrop.objects[i];
+        const uint64_t edge = object->cells;
+        if (object->kind == KILN_OBJECT_TERRAIN)
+            samples += (uint64_t)object->samples[0] * object->samples[1];
+        else if (object->kind == KILN_OBJECT_MESH && object->collide)
+            samples += edge * edge * edge / 2;
+    }
+    return samples;
+}
+
+uint64_t kiln_work_memory(const struct kiln_scene *scene)
+{
+    const uint64_t triangles = count_triangles(scene);
+    return PROGRAM_BYTES + PIXEL_BYTES * (uint64_t)scene->width * scene->height +
+           SLOT_BYTES * kiln_work_particles(scene) + CELL_BYTES * count_cells(scene) +
+           TRIANGLE_BYTES * triangles + (triangles > 0 ? ANY_MESH_BYTES : 0) +
+           TEXEL_BYTES * count_texels(scene) + SAMPLE_BYTES * count_samples(scene) +
+           PICTURE_BYTES * scene->asset_pixels;
+}
+
+/* ---- limits ---------------------------------------------------------------------------------- */
+
+static bool refuse(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
+                   const char *text)
+{
+    kiln_reader_error_at(reader, root, path, "%s", text);
+    reader->error->code = KILN_OVER_LIMIT;
+    return false;
+}
+
+/* The system with the most particles: where one would look first. */
+static const struct kiln_system *largest_system(const struct kiln_scene *scene)
+{
+    const struct kiln_system *largest = &scene->systems[0];
+    for (uint32_t i = 1; i < scene->system_count; i++) {
+        if (scene->systems[i].capacity > largest->capacity)
+            largest = &scene->systems[i];
+    }
+    return largest;
+}
+
+bool kiln_work_check(struct kiln_reader *reader, const struct kiln_node *root)
+{
+    const struct kiln_scene *scene = kiln_reader_scene(reader);
+    const struct kiln_budget *budget = scene->budget;
+    const uint64_t pixels = (uint64_t)scene->width * scene->height;
+    char text[160], emit[128];
+    if (!budget)
+        return true;
+    if (!kiln_budget_allows(budget, KILN_LIMIT_pixels, pixels, text))
+        return refuse(reader, root, "output.size", text);
+    if (!kiln_budget_allows(budget, KILN_LIMIT_frames, scene->frames, text))
+        return refuse(reader, root, "output.frames", text);
+    if (!kiln_budget_allows(budget, KILN_LIMIT_steps, kiln_work_steps(scene), text))
+        return refuse(reader, root, "output.frames", text);
+    snprintf(emit, sizeof emit, "systems.%s.emit",
+             scene->system_count > 0 ? largest_system(scene)->name : "");
+    if (!kiln_budget_allows(budget, KILN_LIMIT_particles, kiln_work_particles(scene), text))
+        return refuse(reader, root, emit, text);
+    if (!kiln_budget_allows(budget, KILN_LIMIT_memory, kiln_work_memory(scene), text))
+        return refuse(reader, root, "output.size", text);
+    return true;
+}

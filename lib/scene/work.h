@@ -1,0 +1,18 @@
+/* What a run of a whole clip takes, as far as it follows from the scene. */
+#ifndef KILN_SCENE_WORK_H
+#define KILN_SCENE_WORK_H
+
+#include "scene/options.h"
+
+/* Steps up to the last moment of the last frame. */
+uint64_t kiln_work_steps(const struct kiln_scene *scene);
+uint64_t kiln_work_particles(const struct kiln_scene *scene);
+
+/* Bytes that rendering on the device cpu is expected to take, within a factor of 1.5 for the scenes
+ * of this project (docs/measurements.md), without encoders of video. */
+uint64_t kiln_work_memory(const struct kiln_scene *scene);
+
+/* Refuses a scene that asks for more than its budget allows, with KILN_OVER_LIMIT and the place. */
+bool kiln_work_check(struct kiln_reader *reader, const struct kiln_node *root);
+
+#endif

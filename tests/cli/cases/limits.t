@@ -1,0 +1,99 @@
+Limits of a job: what is over one ends with exit code 8, with its place where the scene says it.
+
+$ kiln check scenes/tiny.yaml | tail -n 1
+1|# work: 24 frames of 64 x 36 pixels, 58 steps, up to 82 particles, about 40 MiB
+$ cat >large.yaml <<END
+> kiln: 1
+> output: {size: [16384, 16384], fps: 1000, frames: 1000000}
+> simulation: {rate: 2000}
+> systems:
+>   smoke: {emit: {rate: 4000000, life: 1.1 s}}
+> END
+$ kiln check large.yaml | tail -n 1
+1|# work: 1000000 frames of 16384 x 16384 pixels, 1999998 steps, up to 4404000 particles, about 17877 MiB
+$ for lifted in '' ,pixels=none ,pixels=none,frames=none ,pixels=none,frames=none,steps=none ,pixels=none,frames=none,steps=none,particles=none; do
+>     kiln check -q large.yaml --limits service$lifted
+> done
+2|large.yaml:2:16: output.size: 268435456 pixels of a frame, and the limit `pixels` is 16777216
+2|large.yaml:2:51: output.frames: 1000000 frames of the clip, and the limit `frames` is 100000
+2|large.yaml:2:51: output.frames: 1999998 steps of the clip, and the limit `steps` is 1000000
+2|large.yaml:5:17: systems.smoke.emit: 4404000 particles at once, and the limit `particles` is 4000000
+2|large.yaml:2:16: output.size: 17.46 GiB of memory, and the limit `memory` is 4 GiB
+= 8
+$ kiln check -q large.yaml
+$ kiln check -q scenes/tiny.yaml --limits service
+$ kiln check -q scenes/tiny.yaml --set output.frames=60 --limits frames=50
+2|--set output.frames: 60 frames of the clip, and the limit `frames` is 50
+= 8
+$ KILN_LIMITS=frames=10 kiln render scenes/tiny.yaml -o a.mp4
+2|scenes/tiny.yaml:4:43: output.frames: 24 frames of the clip, and the limit `frames` is 10
+= 8
+$ KILN_LIMITS=frames=10 kiln render scenes/tiny.yaml -o a.mp4 --frames 0-5 -q --limits frames=none && ls a.mp4
+1|a.mp4
+$ KILN_LIMITS=frmes=10 kiln check scenes/tiny.yaml
+2|kiln: KILN_LIMITS: 'frmes' is no limit; did you mean 'frames'?
+= 2
+$ kiln check scenes/tiny.yaml --limits memory=1d
+2|kiln: check: --limits: memory: found '1d', expected a number of bytes, kB, MB, GB, TB, KiB, MiB, GiB or TiB, or none
+= 2
+$ kiln help limits | head -n 7
+1|--limits KEY=VALUE,... or the environment's KILN_LIMITS; the former is read last. `service`
+1|stands for all values of its column, `none` lifts a limit. What is over a limit ends with
+1|exit code 8; nothing half-written is left, and --resume may go on.
+1|
+1|KEY           service
+1|pixels        16777216    Width times height of the pictures.
+1|frames        100000      Length of the clip.
+
+Files that a scene names are counted before memory is taken for them.
+
+$ cat >files.yaml <<END
+> kiln: 1
+> systems:
+>   a: {emit: {rate: 10}, look: {atlas: scenes/puff.png}}
+> END
+$ kiln check -q files.yaml --limits asset_pixels=100
+2|files.yaml:3:39: systems.a.look.atlas: 'scenes/puff.png': 1024 decoded pixels of pictures, and the limit `asset_pixels` is 100
+= 8
+$ kiln check -q files.yaml --limits asset_bytes=10
+2|files.yaml:3:39: systems.a.look.atlas: 'scenes/puff.png': 315 bytes of files that the scene names, and the limit `asset_bytes` is 10 bytes
+= 8
+$ printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 1 3 4\n' >four.obj
+$ printf 'kiln: 1\nbackdrop: {objects: [{mesh: {file: four.obj}}]}\nsystems: {a: {emit: {rate: 1}}}\n' >mesh.yaml
+$ kiln check -q mesh.yaml --limits triangles=3
+2|mesh.yaml:2:36: backdrop.objects.0.mesh.file: 'four.obj': 4 triangles of meshes, and the limit `triangles` is 3
+= 8
+
+A job ends soon after its time, wherever it is, and may be gone on with.
+
+$ kiln render scenes/tiny.yaml -q -o late.mp4 --fps 10 --set output.frames=61 --set systems.smoke.emit.rate=3000000 --timeout 1 --resume 2>&1 | sed 's/taken .* since/taken <s> since/'; ls -d late.mp4*
+1|kiln: the job has taken <s> since it began, and the limit `time` is 1 s
+1|late.mp4.journal
+1|late.mp4.parts
+$ kiln render scenes/tiny.yaml -q -o huge.png --frames 0 --device cpu --threads 1 --size 4096x4096 --set camera.shutter.samples=64 --set simulation.rate=3840 --timeout 0.5 2>&1 | sed 's/taken .* since/taken <s> since/'
+1|kiln: the job has taken <s> since it began, and the limit `time` is 0.5 s
+$ kiln render scenes/tiny.yaml -q -o late.webm --limits cpu=20ms 2>&1 | sed 's/taken .* of/taken <s> of/'
+1|kiln: the job has taken <s> of processor time, and the limit `cpu` is 0.02 s
+$ kiln render scenes/tiny.yaml -q -o late.webm --limits memory=30MiB
+2|scenes/tiny.yaml:4:16: output.size: 40.81 MiB of memory, and the limit `memory` is 30 MiB
+= 8
+$ ls -A | grep -e huge -e webm
+= 1
+
+Nor is more written than it may.
+
+$ kiln render scenes/tiny.yaml -q -o out/%02d.png --limits output=20kB --threads 1; find out -size 0; ls -A out | grep tmp
+2|kiln: out/%02d.png: 20.51 KiB of output, and the limit `output` is 19.53 KiB
+= 1
+$ kiln render scenes/tiny.yaml -q -o out.mp4 --limits output=3kB; kiln render scenes/tiny.yaml -q -o - --limits output=10kB | wc -c
+1|7002
+2|kiln: out.mp4: 4.08 KiB of output, and the limit `output` is 2.93 KiB
+2|kiln: standard output: 10.22 KiB of output, and the limit `output` is 9.766 KiB
+$ kiln render scenes/tiny.yaml -q -o out.gif --resume --limits output=3kB; kiln encode out -o out.mkv --limits output=1kB
+2|kiln: out.gif: 273.7 KiB of output, and the limit `output` is 2.93 KiB
+2|kiln: out.mkv: 5.8 KiB of output, and the limit `output` is 1000 bytes
+= 8
+$ ls -d out*
+1|out
+1|out.gif.journal
+1|out.gif.parts
