@@ -95,7 +95,10 @@ static void print_counts(const struct kiln_compare_result *result)
 static void print_result_text(const struct compare_report *report,
                               const struct kiln_compare_result *result)
 {
-    printf("%s against %s: %s\n", report->test, report->reference,
+    char test[KILN_MESSAGE_SIZE], reference[KILN_MESSAGE_SIZE];
+    kiln_shown(test, sizeof test, report->test);
+    kiln_shown(reference, sizeof reference, report->reference);
+    printf("%s against %s: %s\n", test, reference,
            result->same                              ? "same"
            : result->counts[KILN_COMPARE_UNREADABLE] ? "unreadable"
                                                      : "different");

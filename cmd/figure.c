@@ -69,10 +69,13 @@ static int check_entry(const struct kiln_figure_entry *entry, int home, bool qui
         return report(KILN_IO, "the working directory cannot be entered again");
     if (code)
         return code;
+    char figure[KILN_MESSAGE_SIZE], reason[KILN_MESSAGE_SIZE];
+    kiln_shown(figure, sizeof figure, entry->figure);
+    kiln_shown(reason, sizeof reason, result.reason);
     if (result.stale)
-        printf("%s: stale: %s\n", entry->figure, result.reason);
+        printf("%s: stale: %s\n", figure, reason);
     else if (!quiet)
-        printf("%s: up to date%s%s\n", entry->figure, *result.reason ? ": " : "", result.reason);
+        printf("%s: up to date%s%s\n", figure, *reason ? ": " : "", reason);
     fflush(stdout);
     return result.stale ? KILN_FRAME_FAILED : 0;
 }

@@ -40,7 +40,9 @@ static const char *duration_text(char out[32], double seconds)
 
 static void print_line(const char *scene, const struct kiln_progress *frame)
 {
-    fprintf(stderr, "%s: %u of %u frames", scene, frame->done, frame->total);
+    char name[KILN_MESSAGE_SIZE];
+    kiln_shown(name, sizeof name, scene);
+    fprintf(stderr, "%s: %u of %u frames", name, frame->done, frame->total);
     if (frame->elapsed_s > 0)
         fprintf(stderr, ", %.1f a second", (double)frame->done / frame->elapsed_s);
     char left[32];

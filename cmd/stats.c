@@ -26,15 +26,25 @@ static const char *plural(uint32_t count)
     return count == 1 ? "" : "s";
 }
 
+/* Where a job was from, or went to. */
+static void print_name(const char *name)
+{
+    char shown[KILN_PATH_SIZE];
+    kiln_shown(shown, sizeof shown, name);
+    printf("%s", shown);
+}
+
 static void print_shard_result(const struct job_result *result)
 {
     const struct kiln_render_stats *stats = result->stats;
     const uint32_t parts = stats->end_part - stats->first_part;
     if (parts == 0) {
-        printf("%s: none of its parts is for this shard\n", result->output);
+        print_name(result->output);
+        printf(": none of its parts is for this shard\n");
         return;
     }
-    printf("%s: part%s %u", result->output, plural(parts), stats->first_part + 1);
+    print_name(result->output);
+    printf(": part%s %u", plural(parts), stats->first_part + 1);
     if (parts > 1)
         printf("-%u", stats->end_part);
     printf(": %u frame%s in %.3f s", stats->frames, plural(stats->frames), stats->total_s);
@@ -50,7 +60,7 @@ void print_result(const struct job_result *result)
         print_shard_result(result);
         return;
     }
-    printf("%s", result->output ? stats->first_file : result->scene);
+    print_name(result->output ? stats->first_file : result->scene);
     if (!result->output)
         printf(": nothing written");
     else if (stats->files > 1)

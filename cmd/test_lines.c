@@ -147,8 +147,11 @@ static void print_unused(const struct test_lines *lines)
     enum { SHOWN = 5 };
     size_t count = 0;
     const char *const *paths = kiln_suite_unused(lines->suite, &count);
-    for (size_t i = 0; i < count && i < SHOWN; i++)
-        fprintf(lines->out, "%s: no test uses these goldens; was one renamed or lost?\n", paths[i]);
+    for (size_t i = 0; i < count && i < SHOWN; i++) {
+        char path[KILN_MESSAGE_SIZE];
+        kiln_shown(path, sizeof path, paths[i]);
+        fprintf(lines->out, "%s: no test uses these goldens; was one renamed or lost?\n", path);
+    }
     if (count > SHOWN)
         fprintf(lines->out, "and %zu more folders of goldens that no test uses\n", count - SHOWN);
 }

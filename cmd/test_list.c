@@ -1,4 +1,6 @@
 /* kiln test list: which tests are there? */
+#include <unistd.h>
+
 #include "command.h"
 #include "report.h"
 #include "test_select.h"
@@ -20,9 +22,16 @@ static int run(const struct arguments *arguments)
     struct kiln_suite *suite;
     int code = select_tests(&suite, arguments, "test list");
     bool files = arguments_flag(arguments, "files");
+    const bool for_person = isatty(STDOUT_FILENO) == 1;
     for (size_t i = 0; code == 0 && i < kiln_suite_count(suite); i++) {
         struct kiln_test_info test = kiln_suite_test(suite, i);
-        printf("%s%s%s\n", test.name, files ? "\t" : "", files ? test.path : "");
+        char path[KILN_PATH_SIZE];
+        if (for_person) /* a program wants them as they are */
+            kiln_shown(path, sizeof path, test.path);
+        printf("%s%s%s\n", test.name, files ? "\t" : "",
+               !files       ? ""
+               : for_person ? path
+                            : test.path);
     }
     kiln_suite_destroy(&suite);
     return code;

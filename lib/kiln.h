@@ -603,6 +603,12 @@ const char *kiln_text_nearest(const char *name, const char *const *candidates, s
 /* Writes a word so that a shell takes it as one. */
 bool kiln_write_shell_word(FILE *out, const char *word);
 
+/* Copies a text out of a file so that a terminal, a log or a page shows it and does nothing else:
+ * controls, overrides of direction and bytes that are no UTF-8 stand as \n, \x1b or \u202e. A text
+ * that was shown before stays as it is. What does not fit is left out, characters being whole. out
+ * may not be text. Messages of errors and the log are shown already. */
+void kiln_shown(char *out, size_t room, const char *text);
+
 #ifdef __cplusplus
 }
 #endif

@@ -7,11 +7,28 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/shown.h"
+#include "base/text.h"
+
+/* Where a text was cut, the bytes of half a character may be left at its end. */
+static void drop_cut_character(char *text)
+{
+    size_t length = strlen(text);
+    for (int i = 0; i < 3 && length > 0 && ((unsigned char)text[length - 1] & 0xc0) == 0x80; i++)
+        length--;
+    if (length > 0 && kiln_text_utf8_length(text + length - 1) == 0)
+        text[length - 1] = '\0';
+}
+
 static void format_message(struct kiln_error *error, enum kiln_code code, const char *format,
                            va_list args)
 {
+    char text[KILN_MESSAGE_SIZE];
     error->code = code;
-    vsnprintf(error->message, sizeof error->message, format, args);
+    const int length = vsnprintf(text, sizeof text, format, args);
+    if (length >= (int)sizeof text)
+        drop_cut_character(text);
+    kiln_shown(error->message, sizeof error->message, text);
 }
 
 bool kiln_error_set(struct kiln_error *error, enum kiln_code code, const char *format, ...)

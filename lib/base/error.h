@@ -4,7 +4,8 @@
 
 #include "kiln.h"
 
-/* Sets the code and the formatted message; returns false, so that a caller can return it. */
+/* Sets the code and the formatted message; returns false, so that a caller can return it. Texts of
+ * strangers may be in it: what would act on a terminal is shown escaped (base/shown.h). */
 bool kiln_error_set(struct kiln_error *error, enum kiln_code code, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 

@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/shown.h"
+
 static struct kiln_json start(bool (*write)(void *, const char *, size_t), void *sink)
 {
     return (struct kiln_json){
@@ -60,13 +62,15 @@ static void put_line(struct kiln_json *json, int spaces)
 static bool escape(const struct kiln_json *json, const char *c, char out[8])
 {
     unsigned char byte = (unsigned char)*c;
+    uint32_t character;
+    const bool valid = kiln_shown_character(c, &character) > 0;
     bool markup = json->style == KILN_JSON_SCRIPT && strchr("<>&", *c) != NULL;
-    if (kiln_text_utf8_length(c) == 0)
+    if (!valid)
         snprintf(out, 8, "\\ufffd");
     else if (byte == '"' || byte == '\\')
         snprintf(out, 8, "\\%c", byte);
-    else if (byte < 0x20 || byte == 0x7f || markup)
-        snprintf(out, 8, "\\u%04x", byte);
+    else if (kiln_shown_acts(character) || markup)
+        snprintf(out, 8, "\\u%04x", character);
     else
         return false;
     return true;
@@ -82,9 +86,10 @@ static void put_string(struct kiln_json *json, const char *string)
             c += kiln_text_utf8_length(c);
             continue;
         }
+        const size_t length = kiln_text_utf8_length(c);
         put_bytes(json, plain, (size_t)(c - plain));
         put(json, escaped);
-        plain = ++c;
+        plain = c += length > 0 ? length : 1;
     }
     put(json, plain);
     put(json, "\"");

@@ -3,14 +3,17 @@
 
 #include <stdarg.h>
 
+#include "base/shown.h"
+
 void kiln_log_write(const struct kiln_log *log, enum kiln_log_level level, const char *format, ...)
 {
     if (!log->write)
         return;
-    char line[1024];
+    char line[1024], shown[1024];
     va_list args;
     va_start(args, format);
     vsnprintf(line, sizeof line, format, args);
     va_end(args);
-    log->write(log->user, level, line);
+    kiln_shown(shown, sizeof shown, line);
+    log->write(log->user, level, shown);
 }

@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/shown.h"
 #include "compare/difference.h"
 #include "compare/footage.h"
 #include "compare/mask.h"
@@ -188,9 +189,10 @@ static bool compare_frame(struct comparison *comparison, struct kiln_compare_fra
 
 /* ---- All of them -------------------------------------------------------------------------- */
 
+/* Names of files may be anybody's: nothing but what can be shown goes on. */
 static void note_name(char out[256], const char *name)
 {
-    snprintf(out, 256, "%s", name);
+    kiln_shown(out, 256, name);
 }
 
 static void add_to_result(struct comparison *comparison, const struct kiln_compare_frame *frame)

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/shown.h"
 #include "base/text.h"
 
 void kiln_node_append(struct kiln_node *node, struct kiln_node *child)
@@ -70,11 +71,8 @@ void kiln_node_quote(char out[64], const char *text)
             memcpy(out + length, "...", 4);
             return;
         }
-        bool control = bytes == 0 || (unsigned char)*text < 0x20 || *text == 0x7f;
-        /* U+0080 to U+009F are controls, too. */
-        if (bytes == 2 && (unsigned char)text[0] == 0xc2 && (unsigned char)text[1] < 0xa0)
-            control = true;
-        if (control)
+        uint32_t character;
+        if (kiln_shown_character(text, &character) == 0 || kiln_shown_acts(character))
             out[length++] = '?';
         else
             for (size_t i = 0; i < bytes; i++)

@@ -179,14 +179,8 @@ static bool run(const struct kiln_mesh_request *request, struct kiln_mesh_result
                               "%s: the mesh is broken: the importer fails on it", request->name);
     if (result->ok)
         return true;
-    *error = result->error;
-    error->message[sizeof error->message - 1] = '\0';
-    /* Texts of the file may be in it. */
-    for (char *c = error->message; *c; c++) {
-        if ((unsigned char)*c < ' ' || *c == 127)
-            *c = ' ';
-    }
-    return false;
+    const size_t room = sizeof result->error.message;
+    return kiln_error_set(error, result->error.code, "%.*s", (int)room, result->error.message);
 }
 
 static bool check_vertex(const float v[6])
