@@ -140,3 +140,10 @@ enum kiln_code kiln_avframe_convert(const AVFrame *frame, struct kiln_asset_imag
     *problem = conversion.problem;
     return code;
 }
+
+/* The fast transforms of JPEG and MPEG round differently on each kind of processor. */
+void kiln_avframe_same_everywhere(AVCodecContext *decoder)
+{
+    decoder->flags |= AV_CODEC_FLAG_BITEXACT;
+    decoder->idct_algo = FF_IDCT_SIMPLE;
+}

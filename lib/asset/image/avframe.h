@@ -2,7 +2,7 @@
 #ifndef KILN_ASSET_IMAGE_AVFRAME_H
 #define KILN_ASSET_IMAGE_AVFRAME_H
 
-#include <libavutil/frame.h>
+#include <libavcodec/avcodec.h>
 
 #include "asset/image/image.h"
 
@@ -10,5 +10,8 @@
  * what went wrong, as static text without a place: KILN_INVALID_INPUT or KILN_DEVICE_FAILED. */
 enum kiln_code kiln_avframe_convert(const AVFrame *frame, struct kiln_asset_image **image,
                                     const char **problem);
+
+/* Before a decoder is opened: makes its pixels the same on every machine. */
+void kiln_avframe_same_everywhere(AVCodecContext *decoder);
 
 #endif

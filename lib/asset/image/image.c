@@ -127,6 +127,7 @@ static bool open_decoder(struct decoding *decoding, enum AVCodecID id)
         return fail(decoding, KILN_DEVICE_FAILED, "out of memory while decoding the image");
     decoding->decoder->opaque = decoding;
     decoding->decoder->get_buffer2 = get_buffer;
+    kiln_avframe_same_everywhere(decoding->decoder);
     decoding->decoder->thread_count = 1; /* the messages and the limits stay on this thread */
     decoding->decoder->max_pixels = KILN_MAX_IMAGE_PIXELS;
     decoding->decoder->err_recognition = AV_EF_CRCCHECK | AV_EF_BITSTREAM | AV_EF_BUFFER;

@@ -221,6 +221,7 @@ static bool open_decoder(struct kiln_video_in *video)
                                                video->container->streams[video->stream]->codecpar);
     video->decoder->opaque = video;
     video->decoder->get_buffer2 = get_buffer;
+    kiln_avframe_same_everywhere(video->decoder);
     video->decoder->thread_count = 1; /* the messages and the limits stay on this thread */
     video->decoder->max_pixels = KILN_MAX_IMAGE_PIXELS;
     video->decoder->err_recognition =
