@@ -195,7 +195,7 @@ static void opaque_ones_in_one_place(void **state)
 static void more_than_are_drawn_at_a_time(void **state)
 {
     struct crowd crowd = {
-        .overrides = {"systems.a.look.size=0.3 m", "systems.a.look.opacity=0.002"},
+        .overrides = {"systems.a.look.size=0.08 m", "systems.a.look.opacity=0.002"},
         .override_count = 2,
         .wall_m = 11};
     scatter(&crowd, MOST, (float3){6, 4, 0}, -2, 2);
@@ -210,7 +210,7 @@ static void boxes_that_are_mostly_empty(void **state)
                                         "systems.a.look.opacity=0.1"},
                           .override_count = 4,
                           .wall_m = 40};
-    scatter(&crowd, 20000, (float3){9, 6, 0}, -9, 5);
+    scatter(&crowd, 6000, (float3){9, 6, 0}, -9, 5);
     assert_true(check(*state, &crowd) > 0.9);
 }
 
