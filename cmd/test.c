@@ -18,6 +18,7 @@
 
 static const struct option options[] = {
     FILTER_OPTION,
+    SUITE_ROOT_OPTION,
     SHARD_OPTION,
     GOLDEN_OPTION,
     RESULTS_OPTION,

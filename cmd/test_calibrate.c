@@ -8,6 +8,7 @@
 
 static const struct option options[] = {
     FILTER_OPTION,
+    SUITE_ROOT_OPTION,
     GOLDEN_OPTION,
     RESULTS_OPTION,
     {.name = "device",

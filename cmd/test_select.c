@@ -68,6 +68,7 @@ int select_tests(struct kiln_suite **suite, const struct arguments *arguments, c
             paths[params.path_count++] = ".";
         params.golden = arguments_text(arguments, "golden", params.golden);
         params.results = arguments_text(arguments, "results", DEFAULT_RESULTS);
+        params.asset_root = arguments_text(arguments, "asset-root", NULL);
         const struct option_use *shard = arguments_last(arguments, "shard");
         params.shard = shard ? (uint32_t)shard->integer[0] : 0;
         params.shards = shard ? (uint32_t)shard->integer[1] : 0;

@@ -26,6 +26,12 @@
         .help = "Take the tests whose names fit a shell pattern, such as 'effects/*'; the same "   \
                 "as the pattern as an operand."                                                    \
     }
+#define SUITE_ROOT_OPTION                                                                          \
+    {                                                                                              \
+        .name = "asset-root", .kind = OPTION_TEXT, .placeholder = "FOLDER",                        \
+        .help = "The folder that the scenes of test files must lie in.",                           \
+        .fallback = "the working directory or, of tests outside it, the folder that is given"      \
+    }
 #define SHARD_OPTION                                                                               \
     {                                                                                              \
         .name = "shard", .kind = OPTION_PART, .placeholder = "I/N",                                \

@@ -44,6 +44,8 @@ struct kiln_suite_params {
     size_t name_count;
     const char *golden;     /* the folder of the goldens: GOLDEN/TEST/frame_0024.png */
     const char *results;    /* another, for results: RESULTS/TEST/result.json and pictures */
+    const char *asset_root; /* the folder that scenes of test files must lie in; NULL: the working
+                             * directory or, of a test outside it, the folder that was given */
     uint32_t shard, shards; /* the shard-th test (from 1) and each shards-th after it; 0, 0: all */
 };
 #define KILN_SUITE_DEFAULTS ((struct kiln_suite_params){.golden = "golden", .results = "out/test"})

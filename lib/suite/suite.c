@@ -11,6 +11,7 @@
 #include "option/node.h"
 #include "suite/discover.h"
 #include "suite/golden.h"
+#include "suite/root.h"
 #include "suite/test_file.h"
 #include "suite/test_name.h"
 #include "suite/unused.h"
@@ -61,6 +62,7 @@ static bool read_files(struct loader *loader)
         entry->found = findings.items[loader->count];
         if (!kiln_test_file_read(arena, entry->found.path, &entry->file, loader->error))
             return false;
+        kiln_suite_check_root(loader->params, &entry->file.test);
     }
     qsort(loader->entries, loader->count, sizeof *loader->entries, by_name);
     return true;

@@ -37,3 +37,41 @@ $ mv b/00.png "$(printf 'b/\302\2332J.png')" && kiln compare a* b
 1|  differing.share             0            0  01.png                        -
 1|  window.share                0            0  01.png                      0.1  within
 = 1
+
+A test file names no scene outside the root of its suite.
+
+$ mkdir -p suite/tests away && cp scenes/tiny.yaml scenes/puff.png suite; cp suite/*.* away
+$ printf 'kiln_test: 1\nscene: ../tiny.yaml\nframes: 3\n' >suite/tests/near.test.yaml
+$ printf 'kiln_test: 1\nscene: ../../away/tiny.yaml\nframes: 3\n' >suite/tests/far.test.yaml
+$ kiln test suite/tests --update=missing -q && rm -r golden
+$ (cd suite && kiln test tests --update=missing --no-report)
+1|error   tests/far   tests/far.test.yaml: scene: 'tests/../../away/tiny.yaml' is outside the root of the suite, <folder>/work/suite (--asset-root)
+1|pass    tests/near  1 frame in <s> s
+1|        wrote golden/tests/near/frame_0003.png
+1|2 tests in <s> s: 1 pass, 1 error
+1|1 picture was written: look at it before you keep it
+1|1 frame: 0 by pixels, 0 by metrics, 1 by nothing
+= 3
+$ (cd suite && kiln test tests --update=missing -q --no-report --asset-root .. && kiln test tests -q --no-report --asset-root .. && kiln test list tests --asset-root ..)
+1|tests/far
+1|tests/near
+$ (cd away && kiln test ../suite/tests --update=missing --no-report; kiln test ../suite --update=missing --no-report -q)
+1|error   far   ../suite/tests/far.test.yaml: scene: '../suite/tests/../../away/tiny.yaml' is outside the root of the suite, <folder>/work/suite/tests (--asset-root)
+1|error   near  ../suite/tests/near.test.yaml: scene: '../suite/tests/../tiny.yaml' is outside the root of the suite, <folder>/work/suite/tests (--asset-root)
+1|2 tests in <s> s: 2 error
+1|0 frames: 0 by pixels, 0 by metrics
+1|error   far   ../suite/tests/far.test.yaml: scene: '../suite/tests/../../away/tiny.yaml' is outside the root of the suite, <folder>/work/suite (--asset-root)
+1|2 tests in <s> s: 1 pass, 1 error
+1|1 picture was written: look at it before you keep it
+1|1 frame: 0 by pixels, 0 by metrics, 1 by nothing
+= 3
+$ (cd away && ln -s /etc/passwd suite.yaml; printf 'kiln_test: 1\nscene: suite.yaml\n' >link.test.yaml; kiln test . --update=missing --no-report)
+1|error   link  link.test.yaml: scene: 'suite.yaml' is outside the root of the suite, <folder>/work/away (--asset-root)
+1|pass    tiny  2 frames in <s> s
+1|        wrote golden/tiny/frame_0012.png
+1|        wrote golden/tiny/frame_0023.png
+1|2 tests in <s> s: 1 pass, 1 error
+1|2 pictures were written: look at them before you keep them
+1|golden/near: no test uses these goldens; was one renamed or lost?
+1|2 frames: 0 by pixels, 0 by metrics, 2 by nothing
+= 3

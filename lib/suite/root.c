@@ -1,0 +1,46 @@
+/* Test files may be by people one does not know: an error would tell what is in a file elsewhere.
+ */
+#include "suite/root.h"
+
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+
+/* Both are real. */
+static bool is_below(const char *path, const char *folder)
+{
+    const size_t length = strcmp(folder, "/") == 0 ? 0 : strlen(folder);
+    return strncmp(path, folder, length) == 0 && path[length] == '/';
+}
+
+/* Where a test that is outside the working directory was looked for. */
+static void find_folder(const struct kiln_suite_params *params, const char *test,
+                        char folder[PATH_MAX])
+{
+    for (size_t i = 0; i < params->path_count; i++) {
+        if (realpath(params->paths[i], folder) && is_below(test, folder))
+            return;
+    }
+    const char *slash = strrchr(test, '/');
+    snprintf(folder, PATH_MAX, "%.*s", slash > test ? (int)(slash - test) : 1, test);
+}
+
+void kiln_suite_check_root(const struct kiln_suite_params *params, struct kiln_test *test)
+{
+    char path[PATH_MAX], scene[PATH_MAX], root[PATH_MAX];
+    if (test->problem.code != KILN_OK || strcmp(test->path, test->scene) == 0 ||
+        !realpath(test->path, path) || !realpath(test->scene, scene))
+        return;
+    const bool found = realpath(params->asset_root ? params->asset_root : ".", root) != NULL;
+    if (!params->asset_root && (!found || !is_below(path, root)))
+        find_folder(params, path, root);
+    if (!found && params->asset_root)
+        kiln_error_set(&test->problem, KILN_INVALID_INPUT, "%s: --asset-root %s: no such folder",
+                       test->path, params->asset_root);
+    else if (!is_below(scene, root))
+        kiln_error_set(&test->problem, KILN_INVALID_INPUT,
+                       "%s: scene: '%s' is outside the root of the suite, %s (--asset-root)",
+                       test->path, test->scene, root);
+}
