@@ -84,6 +84,16 @@ static int check_environment(const struct command *command)
     return report(error.code, "%s", error.message);
 }
 
+/* Whether the environment's limits are for it, too. */
+static bool has_limits(const struct command *command)
+{
+    for (size_t i = 0; i < command->option_count; i++) {
+        if (strcmp(command->options[i].name, "limits") == 0)
+            return true;
+    }
+    return false;
+}
+
 static int run_command(const struct command *command, int argc, char **argv)
 {
     struct arguments arguments;
@@ -96,7 +106,7 @@ static int run_command(const struct command *command, int argc, char **argv)
         if (code == 0)
             code = check_environment(command);
         struct limits limits = {.budget = NULL};
-        if (code == 0)
+        if (code == 0 && has_limits(command))
             code = limits_begin(&limits, command->name, &arguments);
         arguments.budget = limits.budget;
         if (code == 0)

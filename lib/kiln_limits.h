@@ -56,7 +56,7 @@ void kiln_budget_destroy(struct kiln_budget **budget);
 /* Whether time, processor time and memory of this process are within the limits: else false with
  * KILN_OVER_LIMIT. Jobs ask it themselves between passes; another thread may, for what cannot be
  * left. A NULL budget has no limits. */
-bool kiln_budget_is_kept(const struct kiln_budget *budget, struct kiln_error *error);
+bool kiln_budget_is_kept(struct kiln_budget *budget, struct kiln_error *error);
 
 #ifdef __cplusplus
 }

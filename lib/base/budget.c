@@ -100,6 +100,11 @@ uint64_t kiln_budget_taken(struct kiln_budget *budget, enum kiln_limit limit)
     return atomic_load(&budget->taken[limit]);
 }
 
+void kiln_budget_reset(struct kiln_budget *budget, enum kiln_limit limit)
+{
+    atomic_store(&budget->taken[limit], 0);
+}
+
 /* Bytes of this process that are in memory; 0 where the system does not say. */
 static uint64_t resident_bytes(void)
 {
@@ -117,7 +122,18 @@ static uint64_t milliseconds(double seconds)
     return (uint64_t)(seconds * 1e3);
 }
 
-bool kiln_budget_is_kept(const struct kiln_budget *budget, struct kiln_error *error)
+/* The most that was seen: a job that asks later than another thread gets the same answer. */
+static uint64_t peak_bytes(struct kiln_budget *budget)
+{
+    const uint64_t now = resident_bytes();
+    uint64_t peak = atomic_load(&budget->taken[KILN_LIMIT_memory]);
+    while (now > peak &&
+           !atomic_compare_exchange_weak(&budget->taken[KILN_LIMIT_memory], &peak, now))
+        continue;
+    return now > peak ? now : peak;
+}
+
+bool kiln_budget_is_kept(struct kiln_budget *budget, struct kiln_error *error)
 {
     char text[160];
     if (!budget)
@@ -128,7 +144,7 @@ bool kiln_budget_is_kept(const struct kiln_budget *budget, struct kiln_error *er
     if (kiln_budget_allows(budget, KILN_LIMIT_time, time, text) &&
         kiln_budget_allows(budget, KILN_LIMIT_cpu, cpu, text) &&
         (most[KILN_LIMIT_memory] == 0 ||
-         kiln_budget_allows(budget, KILN_LIMIT_memory, resident_bytes(), text)))
+         kiln_budget_allows(budget, KILN_LIMIT_memory, peak_bytes(budget), text)))
         return true;
     return kiln_error_set(error, KILN_OVER_LIMIT, "the job has taken %s", text);
 }

@@ -15,8 +15,9 @@ bool kiln_budget_take(struct kiln_budget *budget, enum kiln_limit limit, uint64_
 bool kiln_budget_allows(const struct kiln_budget *budget, enum kiln_limit limit, uint64_t amount,
                         char text[160]);
 
-/* What was counted up to now. */
+/* What was counted up to now; and counting from 0 again, for what is limited a scene. */
 uint64_t kiln_budget_taken(struct kiln_budget *budget, enum kiln_limit limit);
+void kiln_budget_reset(struct kiln_budget *budget, enum kiln_limit limit);
 
 /* An amount in its unit: "4 GiB", "1500 ms". */
 void kiln_limit_format(enum kiln_limit limit, uint64_t amount, char text[32]);

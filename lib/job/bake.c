@@ -87,13 +87,12 @@ static bool visit_frame(struct bake *bake, uint32_t frame, struct kiln_error *er
     bake->stats.states++;
     bake->stats.kept += baked->kept;
     bake->stats.bytes += baked->kept ? 0 : baked->bytes;
-    if (!baked->kept &&
-        !kiln_budget_take(bake->scene->budget, KILN_LIMIT_output, baked->bytes, path, error))
-        return false;
     if (bake->params->saved)
         bake->params->saved(bake->params->user, baked);
     baked->file = NULL;
-    return kiln_device_make_current(bake->device, error);
+    return kiln_device_make_current(bake->device, error) &&
+           (baked->kept ||
+            kiln_budget_take(bake->scene->budget, KILN_LIMIT_output, baked->bytes, path, error));
 }
 
 static bool begin(struct bake *bake, struct kiln_error *error)

@@ -115,6 +115,8 @@ static bool read_item(struct kiln_limits *limits, char *item, struct kiln_error 
     }
     if (equals)
         *equals = '\0';
+    if (strcmp(item, "service") == 0)
+        return kiln_error_set(error, KILN_USAGE, "'service' stands by itself, without a value");
     if (!find_limit(item, &limit))
         return refuse_name(item, error);
     if (!equals || !read_amount(limit, equals + 1, &amount))
@@ -142,7 +144,9 @@ bool kiln_write_limits(FILE *out)
           "`service`\n"
           "stands for all values of its column, `none` lifts a limit. What is over a limit ends "
           "with\n"
-          "exit code 8; nothing half-written is left, and --resume may go on.\n\n",
+          "exit code 8; nothing half-written is left, and --resume may go on. render, bake, plan, "
+          "check,\n"
+          "encode and join have limits; tests have a time limit of their own.\n\n",
           out);
     fputs("KEY           service\n", out);
     for (size_t i = 0; i < KILN_LIMIT_COUNT; i++)

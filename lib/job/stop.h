@@ -9,7 +9,7 @@ struct kiln_stop {
     bool (*stop)(void *user); /* NULL: nobody asks */
     void *user;
     struct kiln_device *device; /* becomes current again, whatever `stop` did; NULL: none */
-    const struct kiln_budget *budget;
+    struct kiln_budget *budget;
 };
 
 /* A caller for what a job asks to be done. The stop must outlive it. */

@@ -9,7 +9,9 @@
 
 #include "asset/atlas/builtin.h"
 #include "asset/atlas/cells_in.h"
+#include "base/budget.h"
 #include "base/error.h"
+#include "base/shown.h"
 
 const char *kiln_asset_root(struct kiln_arena *arena, const char *root, const char *file,
                             struct kiln_error *error)
@@ -69,12 +71,15 @@ static bool check_contents(struct kiln_reader *reader, const struct kiln_node *n
                            kiln_check_file *check, const char *path, const char *name)
 {
     struct kiln_error error = {0};
-    if (check(path, kiln_reader_scene(reader)->budget, &error))
-        return true;
-    /* The scene's own name for it instead of the whole path. */
-    size_t length = strlen(path);
+    struct kiln_budget *budget = kiln_reader_scene(reader)->budget;
+    if (check(path, budget, &error))
+        return kiln_budget_is_kept(budget, reader->error);
+    /* The scene's own name for it instead of the whole path, which messages have as it is shown. */
+    char shown[KILN_PATH_SIZE];
+    kiln_shown(shown, sizeof shown, path);
+    size_t length = strlen(shown);
     const char *reason = error.message;
-    if (strncmp(reason, path, length) == 0)
+    if (strncmp(reason, shown, length) == 0)
         reason += length + strspn(reason + length, ": ");
     kiln_reader_error(reader, node, "'%s': %s", name, reason);
     if (error.code != KILN_INVALID_INPUT && error.code != KILN_IO)

@@ -13,6 +13,10 @@
 
 enum { MAX_FILE_SIZE = 4 << 20 };
 
+/* What is counted anew for each scene of a job. */
+static const enum kiln_limit OF_A_SCENE[] = {KILN_LIMIT_asset_pixels, KILN_LIMIT_asset_bytes,
+                                             KILN_LIMIT_triangles};
+
 static bool keep_keys(struct kiln_reader *reader, struct kiln_scene *scene)
 {
     /* At least one, so that the table is never an empty buffer. */
@@ -102,11 +106,13 @@ static bool build(struct kiln_reader *reader, const char *text, size_t size,
         kiln_mesh_library_create(scene->asset_root, params->stop, params->user, params->budget);
     if (!scene->meshes)
         return kiln_reader_out_of_memory(reader);
-    const uint64_t before = kiln_budget_taken(scene->budget, KILN_LIMIT_asset_pixels);
+    for (size_t i = 0; i < sizeof OF_A_SCENE / sizeof *OF_A_SCENE; i++)
+        kiln_budget_reset(scene->budget, OF_A_SCENE[i]);
     if (!kiln_read_members(reader, kiln_options_root, root, scene) || !keep_keys(reader, scene))
         return false;
-    scene->asset_pixels = kiln_budget_taken(scene->budget, KILN_LIMIT_asset_pixels) - before;
-    return kiln_validate(reader, root) && take_hash(scene, reader->error);
+    scene->asset_pixels = kiln_budget_taken(scene->budget, KILN_LIMIT_asset_pixels);
+    return kiln_validate(reader, root) && take_hash(scene, reader->error) &&
+           kiln_budget_is_kept(scene->budget, reader->error);
 }
 
 /* file: where relative paths start, or NULL. The budget is there also where the caller has none: it

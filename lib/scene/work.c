@@ -17,7 +17,7 @@ enum {
     TRIANGLE_BYTES = 350,
     TEXEL_BYTES = 80,   /* of paint */
     SAMPLE_BYTES = 100, /* of a field or terrain */
-    PICTURE_BYTES = 40, /* a pixel of a texture of floor or sky, and while it is read */
+    PICTURE_BYTES = 40, /* a pixel of a picture that it names */
 };
 
 /* ---- what there is --------------------------------------------------------------------------- */

@@ -15,6 +15,23 @@ static bool is_below(const char *path, const char *folder)
     return strncmp(path, folder, length) == 0 && path[length] == '/';
 }
 
+/* Where a path leads; of a file that is not there, where it would be. False where not even its
+ * folder is. */
+static bool find_real(const char *path, char real[PATH_MAX])
+{
+    char folder[PATH_MAX];
+    if (realpath(path, real))
+        return true;
+    const char *slash = strrchr(path, '/');
+    snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - path) + 1 : 1,
+             slash ? path : ".");
+    if (!realpath(folder, real))
+        return false;
+    const size_t length = strlen(real);
+    return snprintf(real + length, PATH_MAX - length, "/%s", slash ? slash + 1 : path) <
+           (int)(PATH_MAX - length);
+}
+
 /* Where a test that is outside the working directory was looked for. */
 static void find_folder(const struct kiln_suite_params *params, const char *test,
                         char folder[PATH_MAX])
@@ -31,16 +48,17 @@ void kiln_suite_check_root(const struct kiln_suite_params *params, struct kiln_t
 {
     char path[PATH_MAX], scene[PATH_MAX], root[PATH_MAX];
     if (test->problem.code != KILN_OK || strcmp(test->path, test->scene) == 0 ||
-        !realpath(test->path, path) || !realpath(test->scene, scene))
+        !realpath(test->path, path))
         return;
+    const bool is_there = find_real(test->scene, scene);
     const bool found = realpath(params->asset_root ? params->asset_root : ".", root) != NULL;
     if (!params->asset_root && (!found || !is_below(path, root)))
         find_folder(params, path, root);
     if (!found && params->asset_root)
         kiln_error_set(&test->problem, KILN_INVALID_INPUT, "%s: --asset-root %s: no such folder",
                        test->path, params->asset_root);
-    else if (!is_below(scene, root))
+    else if (!is_there || !is_below(scene, root))
         kiln_error_set(&test->problem, KILN_INVALID_INPUT,
-                       "%s: scene: '%s' is outside the root of the suite, %s (--asset-root)",
+                       "%s: scene: '%s' is not below the root of the suite, %s (--asset-root)",
                        test->path, test->scene, root);
 }

@@ -39,7 +39,7 @@ for judgement in "" --ignore-hashes; do
     # Techniques in GL, so that faults of the step and of the backdrop can be made in shaders; the
     # plain vectors, for which a file *_simd.c with a fault is compiled.
     status=0
-    KILN_SIMD=plain KILN_SHADER_DIR=$work/shaders "$kiln" test "$work/fire_beam.test.yaml" \
+    KILN_SIMD=plain KILN_SHADER_DIR=$work/shaders "$kiln" test "$work/fire_beam.test.yaml" --asset-root / \
         --golden "$source/golden" --results "$work/results" --device software \
         --technique simulate=inplace,backdrop=gl --no-report $judgement || status=$?
     if ((status != expected)); then

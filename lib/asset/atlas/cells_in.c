@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "asset/image/image.h"
 #include "asset/image/linear.h"
@@ -274,6 +275,10 @@ bool kiln_cells_check(const char *path, struct kiln_budget *budget, struct kiln_
 {
     if (!kiln_video_in_has_suffix(path))
         return kiln_asset_image_check(path, budget, error);
+    struct stat status;
+    if (stat(path, &status) == 0 &&
+        !kiln_budget_take(budget, KILN_LIMIT_asset_bytes, (uint64_t)status.st_size, path, error))
+        return false;
     struct kiln_video_in *video = kiln_video_in_open(path, error);
     struct kiln_asset_image *image = NULL;
     bool ok = video && kiln_video_in_read(video, &image, error);

@@ -39,11 +39,11 @@ $ kiln check scenes/tiny.yaml --limits memory=1d
 $ kiln help limits | head -n 7
 1|--limits KEY=VALUE,... or the environment's KILN_LIMITS; the former is read last. `service`
 1|stands for all values of its column, `none` lifts a limit. What is over a limit ends with
-1|exit code 8; nothing half-written is left, and --resume may go on.
+1|exit code 8; nothing half-written is left, and --resume may go on. render, bake, plan, check,
+1|encode and join have limits; tests have a time limit of their own.
 1|
 1|KEY           service
 1|pixels        16777216    Width times height of the pictures.
-1|frames        100000      Length of the clip.
 
 Files that a scene names are counted before memory is taken for them.
 
@@ -74,8 +74,8 @@ $ kiln render scenes/tiny.yaml -q -o huge.png --frames 0 --device cpu --threads 
 1|kiln: the job has taken <s> since it began, and the limit `time` is 0.5 s
 $ kiln render scenes/tiny.yaml -q -o late.webm --limits cpu=20ms 2>&1 | sed 's/taken .* of/taken <s> of/'
 1|kiln: the job has taken <s> of processor time, and the limit `cpu` is 0.02 s
-$ kiln render scenes/tiny.yaml -q -o late.webm --limits memory=30MiB
-2|scenes/tiny.yaml:4:16: output.size: 40.81 MiB of memory, and the limit `memory` is 30 MiB
+$ kiln render scenes/tiny.yaml -q -o late.webm --size 1280x720 --limits memory=80MiB
+2|--set output.size: 100.4 MiB of memory, and the limit `memory` is 80 MiB
 = 8
 $ ls -A | grep -e huge -e webm
 = 1

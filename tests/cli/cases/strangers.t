@@ -45,7 +45,7 @@ $ printf 'kiln_test: 1\nscene: ../tiny.yaml\nframes: 3\n' >suite/tests/near.test
 $ printf 'kiln_test: 1\nscene: ../../away/tiny.yaml\nframes: 3\n' >suite/tests/far.test.yaml
 $ kiln test suite/tests --update=missing -q && rm -r golden
 $ (cd suite && kiln test tests --update=missing --no-report)
-1|error   tests/far   tests/far.test.yaml: scene: 'tests/../../away/tiny.yaml' is outside the root of the suite, <folder>/work/suite (--asset-root)
+1|error   tests/far   tests/far.test.yaml: scene: 'tests/../../away/tiny.yaml' is not below the root of the suite, <folder>/work/suite (--asset-root)
 1|pass    tests/near  1 frame in <s> s
 1|        wrote golden/tests/near/frame_0003.png
 1|2 tests in <s> s: 1 pass, 1 error
@@ -56,17 +56,17 @@ $ (cd suite && kiln test tests --update=missing -q --no-report --asset-root .. &
 1|tests/far
 1|tests/near
 $ (cd away && kiln test ../suite/tests --update=missing --no-report; kiln test ../suite --update=missing --no-report -q)
-1|error   far   ../suite/tests/far.test.yaml: scene: '../suite/tests/../../away/tiny.yaml' is outside the root of the suite, <folder>/work/suite/tests (--asset-root)
-1|error   near  ../suite/tests/near.test.yaml: scene: '../suite/tests/../tiny.yaml' is outside the root of the suite, <folder>/work/suite/tests (--asset-root)
+1|error   far   ../suite/tests/far.test.yaml: scene: '../suite/tests/../../away/tiny.yaml' is not below the root of the suite, <folder>/work/suite/tests (--asset-root)
+1|error   near  ../suite/tests/near.test.yaml: scene: '../suite/tests/../tiny.yaml' is not below the root of the suite, <folder>/work/suite/tests (--asset-root)
 1|2 tests in <s> s: 2 error
 1|0 frames: 0 by pixels, 0 by metrics
-1|error   far   ../suite/tests/far.test.yaml: scene: '../suite/tests/../../away/tiny.yaml' is outside the root of the suite, <folder>/work/suite (--asset-root)
+1|error   far   ../suite/tests/far.test.yaml: scene: '../suite/tests/../../away/tiny.yaml' is not below the root of the suite, <folder>/work/suite (--asset-root)
 1|2 tests in <s> s: 1 pass, 1 error
 1|1 picture was written: look at it before you keep it
 1|1 frame: 0 by pixels, 0 by metrics, 1 by nothing
 = 3
 $ (cd away && ln -s /etc/passwd suite.yaml; printf 'kiln_test: 1\nscene: suite.yaml\n' >link.test.yaml; kiln test . --update=missing --no-report)
-1|error   link  link.test.yaml: scene: 'suite.yaml' is outside the root of the suite, <folder>/work/away (--asset-root)
+1|error   link  link.test.yaml: scene: 'suite.yaml' is not below the root of the suite, <folder>/work/away (--asset-root)
 1|pass    tiny  2 frames in <s> s
 1|        wrote golden/tiny/frame_0012.png
 1|        wrote golden/tiny/frame_0023.png
