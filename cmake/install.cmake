@@ -11,9 +11,8 @@ if(BUILD_SHARED_LIBS)
 endif()
 configure_file(cmake/kiln.pc.in ${CMAKE_CURRENT_BINARY_DIR}/kiln.pc @ONLY)
 install(TARGETS kiln_program kiln)
-install(FILES lib/kiln.h lib/kiln_bench.h lib/kiln_job.h lib/kiln_json.h lib/kiln_limits.h
-    lib/kiln_test.h
-    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+file(GLOB kiln_headers CONFIGURE_DEPENDS lib/kiln*.h)
+install(FILES ${kiln_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/kiln.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/kiln)
 install(FILES cmd/completion/kiln.bash

@@ -17,7 +17,7 @@ static const struct option options[] = {
     HELP_OPTION,
 };
 
-/* As a comment, so that all of it stays a scene file. */
+/* Prints the work of a clip as a comment, so that all of it stays a scene file. */
 static bool print_work(const struct kiln_scene *scene)
 {
     const struct kiln_scene_info info = kiln_scene_info(scene);
@@ -75,8 +75,8 @@ const struct command check_command = {
         "Reads each scene and prints it with every default spelled out. What it prints is a scene "
         "file that renders to the same pictures. A comment at its end tells the work of the whole "
         "clip: steps, particles at once, and the memory that rendering without OpenGL takes, "
-        "within "
-        "a factor of 1.5, encoders left out. A wrong scene is reported and the others are checked "
+        "within a factor of 1.5, encoders left out. A wrong scene is reported and the others are "
+        "checked "
         "all the same; one that asks for more than --limits allow is exit code 8.",
     .options = options,
     .option_count = sizeof options / sizeof *options,

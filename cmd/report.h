@@ -11,7 +11,8 @@ int report(enum kiln_code code, const char *format, ...) __attribute__((format(p
  * where editors look for them, so nothing is put before it. */
 int report_error(const struct kiln_error *error);
 
-/* The same for a scene that does not load: one that asks for too much has a place, too. */
+/* Reports, as report_error, why a scene does not load: one that asks for too much has a place, too.
+ */
 int report_scene_error(const struct kiln_error *error);
 
 int report_no_memory(void);

@@ -26,7 +26,7 @@ static const char *plural(uint32_t count)
     return count == 1 ? "" : "s";
 }
 
-/* Where a job was from, or went to. */
+/* Prints where a job was from, or went to. */
 static void print_name(const char *name)
 {
     char shown[KILN_PATH_SIZE];

@@ -15,6 +15,7 @@
 #include "test_outputs.h"
 #include "test_pool.h"
 #include "test_select.h"
+#include "watch.h"
 
 static const struct option options[] = {
     FILTER_OPTION,

@@ -18,6 +18,7 @@
 
 #include "signals.h"
 #include "test_files.h"
+#include "watch.h"
 
 /* A child that was asked to end gets that long before it is killed, and the system that long to
  * find room for a process when nothing else runs. */
@@ -40,13 +41,6 @@ struct run {
     bool stopping;
     sigset_t old_mask; /* the signals that were blocked before */
 };
-
-double now_s(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 /* ---- Children ------------------------------------------------------------------------------- */
 

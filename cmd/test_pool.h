@@ -20,9 +20,6 @@ struct test_end {
     double total_s;
 };
 
-/* Seconds on a clock that nobody sets. */
-double now_s(void);
-
 struct test_pool {
     size_t count;
     uint32_t jobs; /* processes at a time, at least 1 */

@@ -1,3 +1,4 @@
+/* Reads which tests a command line means. */
 #include "test_select.h"
 
 #include <stdlib.h>

@@ -17,7 +17,7 @@ struct watch {
     bool ends;
 };
 
-double watch_now_s(void)
+double now_s(void)
 {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);

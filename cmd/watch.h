@@ -11,7 +11,7 @@ struct watch *watch_create(void (*look)(void *user), void *user, int every_ms);
 /* Waits for the last look; does nothing for NULL. */
 void watch_destroy(struct watch **watch);
 
-/* Of a clock that never jumps. */
-double watch_now_s(void);
+/* Seconds of a clock that never jumps, from an arbitrary start. */
+double now_s(void);
 
 #endif

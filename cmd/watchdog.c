@@ -22,7 +22,7 @@ static void look(void *user)
 {
     struct watchdog *watchdog = user;
     pthread_mutex_lock(&watchdog->mutex);
-    if (watchdog->armed && watch_now_s() >= watchdog->deadline_s) {
+    if (watchdog->armed && now_s() >= watchdog->deadline_s) {
         char line[1024];
         snprintf(line, sizeof line, "kiln: %s took longer than its limit of %g s\n", watchdog->what,
                  watchdog->limit_s);
@@ -60,7 +60,7 @@ void watchdog_arm(struct watchdog *watchdog, double limit_s, const char *what, .
     va_start(args, what);
     pthread_mutex_lock(&watchdog->mutex);
     watchdog->armed = true;
-    watchdog->deadline_s = watch_now_s() + limit_s;
+    watchdog->deadline_s = now_s() + limit_s;
     watchdog->limit_s = limit_s;
     vsnprintf(watchdog->what, sizeof watchdog->what, what, args);
     pthread_mutex_unlock(&watchdog->mutex);

@@ -15,7 +15,8 @@ bool kiln_budget_take(struct kiln_budget *budget, enum kiln_limit limit, uint64_
 bool kiln_budget_allows(const struct kiln_budget *budget, enum kiln_limit limit, uint64_t amount,
                         char text[160]);
 
-/* What was counted up to now; and counting from 0 again, for what is limited a scene. */
+/* The first tells what was counted up to now, the second begins again at 0, for what is limited a
+ * scene. */
 uint64_t kiln_budget_taken(struct kiln_budget *budget, enum kiln_limit limit);
 void kiln_budget_reset(struct kiln_budget *budget, enum kiln_limit limit);
 

@@ -10,7 +10,7 @@
 #include "base/shown.h"
 #include "base/text.h"
 
-/* Where a text was cut, the bytes of half a character may be left at its end. */
+/* Removes the bytes of half a character at the end of a text that was cut. */
 static void drop_cut_character(char *text)
 {
     size_t length = strlen(text);

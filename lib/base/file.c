@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -14,6 +15,12 @@ bool kiln_path_join(char path[KILN_PATH_SIZE], const char *folder, const char *n
     return snprintf(path, KILN_PATH_SIZE, "%s/%s", folder, name) < KILN_PATH_SIZE ||
            kiln_error_set(error, KILN_IO, "%.200s...: the path is longer than %d bytes", folder,
                           KILN_PATH_SIZE - 1);
+}
+
+const char *kiln_path_below(const char *path, const char *folder)
+{
+    const size_t length = strcmp(folder, "/") == 0 ? 0 : strlen(folder);
+    return strncmp(path, folder, length) == 0 && path[length] == '/' ? path + length + 1 : NULL;
 }
 
 static bool check_file(int file, const char *path, const char *what, size_t limit, size_t *size,

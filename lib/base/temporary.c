@@ -245,6 +245,19 @@ bool kiln_temporary_write(struct kiln_temporary *temporary, const void *bytes, s
     return temporary->failure == 0;
 }
 
+/* Too many bytes are the reason where they are, whatever failed then. */
+static bool fail(const struct kiln_temporary *temporary, int failure, struct kiln_error *error)
+{
+    return kiln_budget_take(temporary->budget, KILN_LIMIT_output, 0, temporary->target, error) &&
+           kiln_error_set_errno(error, KILN_IO, failure, "%s: the file cannot be written",
+                                temporary->target);
+}
+
+bool kiln_temporary_fail(const struct kiln_temporary *temporary, struct kiln_error *error)
+{
+    return fail(temporary, temporary->failure, error);
+}
+
 bool kiln_temporary_seek(struct kiln_temporary *temporary, int64_t offset)
 {
     if (temporary->failure == 0 && lseek(temporary->file, offset, SEEK_SET) != offset)
@@ -295,12 +308,6 @@ static void sync_folder(const char *target)
         return;
     fsync(opened);
     close(opened);
-}
-
-static bool fail(const struct kiln_temporary *temporary, int failure, struct kiln_error *error)
-{
-    return kiln_error_set_errno(error, KILN_IO, failure, "%s: the file cannot be written",
-                                temporary->target);
 }
 
 bool kiln_temporary_commit(struct kiln_temporary *temporary, bool overwrite,

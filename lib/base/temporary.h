@@ -34,8 +34,12 @@ void kiln_temporary_sweep(const char *target);
 /* The name it has now; valid until commit or discard. */
 const char *kiln_temporary_path(const struct kiln_temporary *temporary);
 
-/* Writes at the current place, without a buffer. False after any failure; commit tells which. */
+/* Writes at the current place, without a buffer. False after any failure; commit tells which, and
+ * so does kiln_temporary_fail. */
 bool kiln_temporary_write(struct kiln_temporary *temporary, const void *bytes, size_t size);
+
+/* Says why a write failed, and returns false: KILN_IO, or KILN_OVER_LIMIT by the budget. */
+bool kiln_temporary_fail(const struct kiln_temporary *temporary, struct kiln_error *error);
 
 /* Moves the place where the next write goes, from the start of the file. */
 bool kiln_temporary_seek(struct kiln_temporary *temporary, int64_t offset);

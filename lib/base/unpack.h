@@ -1,4 +1,4 @@
-/* What zstd compressed, unpacked. */
+/* Unpacks what zstd compressed. */
 #ifndef KILN_BASE_UNPACK_H
 #define KILN_BASE_UNPACK_H
 

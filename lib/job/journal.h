@@ -30,7 +30,7 @@ bool kiln_journal_merge(struct kiln_journal *journal, const struct kiln_journal_
                         bool keep, struct kiln_records *records, bool *found,
                         struct kiln_error *error);
 
-/* What a shard finds beside its own journal: takes what that of the whole job says into the
+/* Looks at the journals beside that of a shard: takes what that of the whole job says into the
  * records, where *found becomes true, and looks at the first lines of other shards. KILN_IO when
  * one is of another job, or when a process goes on with the whole. */
 bool kiln_journal_look_around(const struct kiln_journal *journal,

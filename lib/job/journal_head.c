@@ -67,7 +67,7 @@ static uint32_t number_of(struct members *m, const struct kiln_node *node)
     return (uint32_t)value;
 }
 
-/* What no scene has is no journal of one: whoever wrote it, work goes by these numbers. */
+/* A journal with a number that no scene has is damaged: work goes by these numbers. */
 static void check_range(struct members *m, uint64_t value, uint64_t least, uint64_t most)
 {
     m->bad |= value < least || value > most;

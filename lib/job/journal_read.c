@@ -1,4 +1,4 @@
-/* What the lines of a journal say. One that makes no sense is passed over. */
+/* Reads the lines of a journal. One that makes no sense is passed over. */
 #include <stdlib.h>
 #include <string.h>
 

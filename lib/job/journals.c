@@ -135,7 +135,7 @@ static bool read_first(const char *path, struct kiln_arena *arena, const struct 
                  : kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", path);
 }
 
-/* What a shard finds beside it. */
+/* A shard looks at the journals beside its own. */
 struct neighbours {
     const struct kiln_journal *own;
     const struct kiln_journal_head *head;

@@ -31,8 +31,7 @@ static bool flush(struct kiln_manifest *manifest, struct kiln_error *error)
     if (!whole)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the manifest",
                               manifest->file.target);
-    return kiln_error_set_errno(error, KILN_IO, manifest->file.failure,
-                                "%s: the file cannot be written", manifest->file.target);
+    return kiln_temporary_fail(&manifest->file, error);
 }
 
 static void add_passes(struct kiln_json *json, const double pass_ms[KILN_PASS_COUNT])

@@ -74,8 +74,7 @@ static bool fail(const struct exr_encoder *encoder, exr_result_t code, struct ki
 {
     const char *target = encoder->file->target;
     if (encoder->file->failure)
-        return kiln_error_set_errno(error, KILN_IO, encoder->file->failure,
-                                    "%s: the file cannot be written", target);
+        return kiln_temporary_fail(encoder->file, error);
     if (code == EXR_ERR_OUT_OF_MEMORY)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the EXR encoder",
                               target);

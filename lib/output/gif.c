@@ -131,8 +131,7 @@ static bool encode(void *opaque, const struct kiln_picture *picture, struct kiln
     }
     kiln_histogram_add(encoder->histogram, encoder->rgb, pixels);
     return kiln_temporary_write(&encoder->waiting, encoder->rgb, 3 * pixels) ||
-           kiln_error_set_errno(error, KILN_IO, encoder->waiting.failure,
-                                "%s: the file cannot be written", encoder->params->path);
+           kiln_temporary_fail(&encoder->waiting, error);
 }
 
 static bool write_frames(struct gif_encoder *encoder, FILE *waiting, void *video,

@@ -9,7 +9,6 @@
 #include <string.h>
 
 #include "base/arena.h"
-#include "base/budget.h"
 #include "base/error.h"
 #include "base/pattern.h"
 #include "output/flipbook.h"
@@ -226,12 +225,6 @@ static bool encode(struct kiln_output *output, const struct kiln_picture *pictur
     return encode_image(output, picture, error);
 }
 
-/* Where too much was written, that is why something failed, whatever has found it. */
-static void blame_limit(const struct kiln_output *output, struct kiln_error *error)
-{
-    kiln_budget_take(output->params.budget, KILN_LIMIT_output, 0, output->params.path, error);
-}
-
 /* The next picture, or NULL when no more come; the mutex is held. */
 static struct kiln_picture *take(struct kiln_output *output)
 {
@@ -255,8 +248,6 @@ static void *run_encoder(void *opaque)
         struct kiln_error error = {0};
         pthread_mutex_unlock(&output->mutex);
         bool good = skip || encode(output, picture, &error);
-        if (!good)
-            blame_limit(output, &error);
         kiln_picture_destroy(&picture);
         pthread_mutex_lock(&output->mutex);
         if (!good && (!output->failed || frame < output->failed_frame)) {
@@ -558,8 +549,6 @@ bool kiln_output_finish(struct kiln_output *output, struct kiln_error *error)
         end_video(output);
         good = good && tell_of_clip(output, error);
     }
-    if (!good)
-        blame_limit(output, error);
     return good;
 }
 

@@ -7,7 +7,6 @@
 #include <unistd.h>
 #include <zstd.h>
 
-#include "base/budget.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/ranges.h"
@@ -363,6 +362,5 @@ static bool join_packets(const struct kiln_output_params *params, struct kiln_er
 
 bool kiln_parts_join(const struct kiln_output_params *params, struct kiln_error *error)
 {
-    return (keeps_packets(params) ? join_packets : join_pictures)(params, error) ||
-           (kiln_budget_take(params->budget, KILN_LIMIT_output, 0, params->path, error) && false);
+    return keeps_packets(params) ? join_packets(params, error) : join_pictures(params, error);
 }

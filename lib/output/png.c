@@ -150,8 +150,7 @@ static bool encode(void *opaque, const struct kiln_picture *picture, struct kiln
     struct png_encoder *encoder = opaque;
     if (setjmp(png_jmpbuf(encoder->png))) {
         if (encoder->file->failure)
-            return kiln_error_set_errno(error, KILN_IO, encoder->file->failure,
-                                        "%s: the file cannot be written", encoder->file->target);
+            return kiln_temporary_fail(encoder->file, error);
         return kiln_error_set(error, KILN_IO, "%s: libpng failed: %s", encoder->file->target,
                               encoder->failure);
     }

@@ -92,8 +92,7 @@ bool kiln_video_fail(const struct kiln_output_params *params, const struct kiln_
                      const char *said, int status, const char *what, struct kiln_error *error)
 {
     if (file->failure)
-        return kiln_error_set_errno(error, KILN_IO, file->failure, "%s: the file cannot be written",
-                                    params->path);
+        return kiln_temporary_fail(file, error);
     if (status == AVERROR(ENOMEM))
         return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the video encoder",
                               params->path);

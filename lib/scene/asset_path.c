@@ -11,6 +11,7 @@
 #include "asset/atlas/cells_in.h"
 #include "base/budget.h"
 #include "base/error.h"
+#include "base/file.h"
 #include "base/shown.h"
 
 const char *kiln_asset_root(struct kiln_arena *arena, const char *root, const char *file,
@@ -39,15 +40,6 @@ const char *kiln_asset_root(struct kiln_arena *arena, const char *root, const ch
     free(real);
     free(folder);
     return result;
-}
-
-/* The part of an absolute path below a folder, or NULL when it is not below. */
-static const char *below(const char *path, const char *root)
-{
-    size_t length = strcmp(root, "/") == 0 ? 0 : strlen(root);
-    if (strncmp(path, root, length) != 0 || path[length] != '/')
-        return NULL;
-    return path + length + 1;
 }
 
 /* Does a relative path climb out of its start by "..", whatever exists? */
@@ -116,7 +108,7 @@ bool kiln_read_file_asset(struct kiln_reader *reader, const struct kiln_node *no
     }
     struct stat status;
     bool ok = false;
-    if (!below(real, root))
+    if (!kiln_path_below(real, root))
         kiln_reader_error(reader, node, "'%s' leads outside the asset root", quoted);
     else if (stat(real, &status) != 0 || !S_ISREG(status.st_mode))
         kiln_reader_error(reader, node, "'%s' is not a file", quoted);
@@ -150,6 +142,6 @@ const char *kiln_asset_name(const struct kiln_scene *scene, const char *asset)
 {
     if (kiln_builtin_of(asset))
         return asset;
-    const char *relative = below(asset, scene->asset_root);
+    const char *relative = kiln_path_below(asset, scene->asset_root);
     return relative ? relative : asset;
 }

@@ -62,7 +62,7 @@ static uint64_t count_cells(const struct kiln_scene *scene)
     return cells;
 }
 
-/* Of meshes: triangles, of each object, since each has a tree of its own. */
+/* Triangles of meshes: of each object, since each has a tree of its own. */
 static uint64_t count_triangles(const struct kiln_scene *scene)
 {
     uint64_t triangles = 0;
@@ -90,7 +90,7 @@ static uint64_t count_texels(const struct kiln_scene *scene)
     return texels;
 }
 
-/* Of fields of meshes that are met, terrain, and depth maps. */
+/* Samples of terrain, and of the fields of meshes that particles meet. */
 static uint64_t count_samples(const struct kiln_scene *scene)
 {
     uint64_t samples = 0;
@@ -117,14 +117,6 @@ uint64_t kiln_work_memory(const struct kiln_scene *scene)
 
 /* ---- limits ---------------------------------------------------------------------------------- */
 
-static bool refuse(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
-                   const char *text)
-{
-    kiln_reader_error_at(reader, root, path, "%s", text);
-    reader->error->code = KILN_OVER_LIMIT;
-    return false;
-}
-
 /* The system with the most particles: where one would look first. */
 static const struct kiln_system *largest_system(const struct kiln_scene *scene)
 {
@@ -139,22 +131,27 @@ static const struct kiln_system *largest_system(const struct kiln_scene *scene)
 bool kiln_work_check(struct kiln_reader *reader, const struct kiln_node *root)
 {
     const struct kiln_scene *scene = kiln_reader_scene(reader);
-    const struct kiln_budget *budget = scene->budget;
-    const uint64_t pixels = (uint64_t)scene->width * scene->height;
-    char text[160], emit[128];
-    if (!budget)
-        return true;
-    if (!kiln_budget_allows(budget, KILN_LIMIT_pixels, pixels, text))
-        return refuse(reader, root, "output.size", text);
-    if (!kiln_budget_allows(budget, KILN_LIMIT_frames, scene->frames, text))
-        return refuse(reader, root, "output.frames", text);
-    if (!kiln_budget_allows(budget, KILN_LIMIT_steps, kiln_work_steps(scene), text))
-        return refuse(reader, root, "output.frames", text);
-    snprintf(emit, sizeof emit, "systems.%s.emit",
-             scene->system_count > 0 ? largest_system(scene)->name : "");
-    if (!kiln_budget_allows(budget, KILN_LIMIT_particles, kiln_work_particles(scene), text))
-        return refuse(reader, root, emit, text);
-    if (!kiln_budget_allows(budget, KILN_LIMIT_memory, kiln_work_memory(scene), text))
-        return refuse(reader, root, "output.size", text);
+    char emit[128] = "systems";
+    if (scene->system_count > 0)
+        snprintf(emit, sizeof emit, "systems.%s.emit", largest_system(scene)->name);
+    const struct {
+        enum kiln_limit limit;
+        uint64_t amount;
+        const char *path; /* the key that one would change */
+    } rows[] = {
+        {KILN_LIMIT_pixels, (uint64_t)scene->width * scene->height, "output.size"},
+        {KILN_LIMIT_frames, scene->frames, "output.frames"},
+        {KILN_LIMIT_steps, kiln_work_steps(scene), "output.frames"},
+        {KILN_LIMIT_particles, kiln_work_particles(scene), emit},
+        {KILN_LIMIT_memory, kiln_work_memory(scene), "output.size"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char text[160];
+        if (kiln_budget_allows(scene->budget, rows[i].limit, rows[i].amount, text))
+            continue;
+        kiln_reader_error_at(reader, root, rows[i].path, "%s", text);
+        reader->error->code = KILN_OVER_LIMIT;
+        return false;
+    }
     return true;
 }

@@ -7,13 +7,7 @@
 #include <string.h>
 
 #include "base/error.h"
-
-/* Both are real. */
-static bool is_below(const char *path, const char *folder)
-{
-    const size_t length = strcmp(folder, "/") == 0 ? 0 : strlen(folder);
-    return strncmp(path, folder, length) == 0 && path[length] == '/';
-}
+#include "base/file.h"
 
 /* Where a path leads; of a file that is not there, where it would be. False where not even its
  * folder is. */
@@ -37,7 +31,7 @@ static void find_folder(const struct kiln_suite_params *params, const char *test
                         char folder[PATH_MAX])
 {
     for (size_t i = 0; i < params->path_count; i++) {
-        if (realpath(params->paths[i], folder) && is_below(test, folder))
+        if (realpath(params->paths[i], folder) && kiln_path_below(test, folder))
             return;
     }
     const char *slash = strrchr(test, '/');
@@ -52,12 +46,12 @@ void kiln_suite_check_root(const struct kiln_suite_params *params, struct kiln_t
         return;
     const bool is_there = find_real(test->scene, scene);
     const bool found = realpath(params->asset_root ? params->asset_root : ".", root) != NULL;
-    if (!params->asset_root && (!found || !is_below(path, root)))
+    if (!params->asset_root && (!found || !kiln_path_below(path, root)))
         find_folder(params, path, root);
     if (!found && params->asset_root)
         kiln_error_set(&test->problem, KILN_INVALID_INPUT, "%s: --asset-root %s: no such folder",
                        test->path, params->asset_root);
-    else if (!is_there || !is_below(scene, root))
+    else if (!is_there || !kiln_path_below(scene, root))
         kiln_error_set(&test->problem, KILN_INVALID_INPUT,
                        "%s: scene: '%s' is not below the root of the suite, %s (--asset-root)",
                        test->path, test->scene, root);

@@ -1,3 +1,4 @@
+/* Makes the stages of drawing for tests. */
 #include "support/stages.h"
 
 #include "support/cmocka.h"

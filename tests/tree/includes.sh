@@ -64,7 +64,7 @@ FNR == 1 {
         if (room == "cmd" && !(path in libc)) complain("cmd/ includes <" path ">, not of libc")
         next
     }
-    if (path ~ /^kiln(_bench|_job|_json|_limits|_test)?\.h$/ && room != "shared") next
+    if (path ~ /^kiln(_[a-z]+)?\.h$/ && room != "shared") next
     target = path ~ /^shared\// ? "shared" : room_of(path)
     if (room == "cmd") {
         if (path != "commit.h" && (target != "" || system("test -f cmd/" path) != 0))

@@ -1,3 +1,4 @@
+/* Reads kiln-grid files: a few lines of text, then floats. */
 #include "asset/geometry/grid_in.h"
 
 #include <math.h>

@@ -15,6 +15,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/file_in.h"
 #include "base/hash.h"
 
@@ -183,12 +184,6 @@ static bool stays_below(const char *path)
     return true;
 }
 
-static bool is_below(const char *path, const char *root)
-{
-    size_t length = strcmp(root, "/") == 0 ? 0 : strlen(root);
-    return strncmp(path, root, length) == 0 && path[length] == '/';
-}
-
 /* The buffer's bytes, for the caller to free. */
 static unsigned char *read_buffer(struct files *files, const char *name, size_t *size)
 {
@@ -209,7 +204,7 @@ static unsigned char *read_buffer(struct files *files, const char *name, size_t 
                        "%s: it names the file '%.200s', which "
                        "does not exist",
                        request->name, name);
-    else if (!is_below(real, request->root))
+    else if (!kiln_path_below(real, request->root))
         kiln_error_set(&files->refusal, KILN_INVALID_INPUT,
                        "%s: it names the file '%.200s', which "
                        "leads outside the asset root",
