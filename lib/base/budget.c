@@ -100,6 +100,14 @@ uint64_t kiln_budget_taken(struct kiln_budget *budget, enum kiln_limit limit)
     return atomic_load(&budget->taken[limit]);
 }
 
+uint64_t kiln_budget_left(struct kiln_budget *budget, enum kiln_limit limit)
+{
+    if (!budget || budget->limits.most[limit] == 0)
+        return UINT64_MAX;
+    const uint64_t most = budget->limits.most[limit], taken = kiln_budget_taken(budget, limit);
+    return taken < most ? most - taken : 0;
+}
+
 void kiln_budget_reset(struct kiln_budget *budget, enum kiln_limit limit)
 {
     atomic_store(&budget->taken[limit], 0);

@@ -10,6 +10,9 @@
 bool kiln_budget_take(struct kiln_budget *budget, enum kiln_limit limit, uint64_t amount,
                       const char *what, struct kiln_error *error);
 
+/* What is left of a limit; UINT64_MAX where there is none. */
+uint64_t kiln_budget_left(struct kiln_budget *budget, enum kiln_limit limit);
+
 /* Whether an amount that is no sum, such as the pixels of a frame, is within a limit; if not, text
  * gets "16777217 pixels of a frame, and the limit `pixels` is 16777216". */
 bool kiln_budget_allows(const struct kiln_budget *budget, enum kiln_limit limit, uint64_t amount,

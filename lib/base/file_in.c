@@ -2,7 +2,6 @@
 #include "base/file_in.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <inttypes.h>
 #include <stdlib.h>
 #include <sys/stat.h>
@@ -10,33 +9,41 @@
 
 #include "base/error.h"
 
+bool kiln_file_check(int file, const char *path, const char *what, const char *allowed,
+                     size_t *size, struct kiln_error *error)
+{
+    struct stat status;
+    if (fstat(file, &status) != 0)
+        return kiln_error_set_errno(error, KILN_IO, errno, "%s: the %s cannot be opened", path,
+                                    what);
+    *size = (size_t)status.st_size;
+    return S_ISREG(status.st_mode) ||
+           kiln_error_set(error, KILN_INVALID_INPUT,
+                          "%s: not a file but a %s; allowed are %s files", path,
+                          S_ISDIR(status.st_mode) ? "folder" : "device or pipe", allowed);
+}
+
 int kiln_file_open(const char *path, const char *what, const char *allowed, size_t *size,
                    struct kiln_error *error)
 {
-    int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-    struct stat status;
-    if (file < 0 || fstat(file, &status) != 0) {
+    int file = open(path, KILN_FILE_FLAGS);
+    if (file < 0)
         kiln_error_set_errno(error, KILN_IO, errno, "%s: the %s cannot be opened", path, what);
-        if (file >= 0)
-            close(file);
-        return -1;
-    }
-    if (!S_ISREG(status.st_mode)) {
-        kiln_error_set(error, KILN_INVALID_INPUT, "%s: not a file but a %s; allowed are %s files",
-                       path, S_ISDIR(status.st_mode) ? "folder" : "device or pipe", allowed);
+    if (file >= 0 && !kiln_file_check(file, path, what, allowed, size, error)) {
         close(file);
-        return -1;
+        file = -1;
     }
-    *size = (size_t)status.st_size;
     return file;
 }
 
 static bool read_all(int file, unsigned char *bytes, size_t size)
 {
     for (size_t done = 0; done < size;) {
-        ssize_t got = read(file, bytes + done, size - done);
+        const ssize_t got = read(file, bytes + done, size - done);
         if (got < 0 && errno == EINTR)
             continue;
+        if (got == 0)
+            errno = ENODATA; /* it has become shorter meanwhile */
         if (got <= 0)
             return false;
         done += (size_t)got;
@@ -44,24 +51,37 @@ static bool read_all(int file, unsigned char *bytes, size_t size)
     return true;
 }
 
-unsigned char *kiln_file_read(const char *path, const char *what, const char *allowed, size_t limit,
-                              size_t *size, struct kiln_error *error)
+bool kiln_file_check_size(const char *path, const char *what, size_t size, size_t limit,
+                          struct kiln_error *error)
 {
-    int file = kiln_file_open(path, what, allowed, size, error);
-    if (file < 0)
-        return NULL;
-    unsigned char *bytes = NULL;
-    if (*size > limit) {
-        kiln_error_set(error, KILN_INVALID_INPUT,
-                       "%s: the %s file has %zu bytes; allowed are at most %zu", path, what, *size,
-                       limit);
-    } else if (!(bytes = malloc(*size + 1))) {
+    return size <= limit || kiln_error_set(error, KILN_INVALID_INPUT,
+                                           "%s: the %s file has %zu bytes; allowed are at most %zu",
+                                           path, what, size, limit);
+}
+
+unsigned char *kiln_file_take(int file, const char *path, const char *what, size_t size,
+                              struct kiln_error *error)
+{
+    unsigned char *bytes = malloc(size + 1);
+    if (!bytes) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory while reading", path);
-    } else if (!read_all(file, bytes, *size)) {
+    } else if (!read_all(file, bytes, size)) {
         kiln_error_set_errno(error, KILN_IO, errno, "%s: the %s cannot be read", path, what);
         free(bytes);
         bytes = NULL;
     }
+    return bytes;
+}
+
+unsigned char *kiln_file_read(const char *path, const char *what, const char *allowed, size_t limit,
+                              size_t *size, struct kiln_error *error)
+{
+    const int file = kiln_file_open(path, what, allowed, size, error);
+    if (file < 0)
+        return NULL;
+    unsigned char *bytes = kiln_file_check_size(path, what, *size, limit, error)
+                               ? kiln_file_take(file, path, what, *size, error)
+                               : NULL;
     close(file);
     return bytes;
 }

@@ -1,10 +1,12 @@
-/* Nettle's SHA-256 takes the processor's own instructions where it has them. FFmpeg loads the
- * library anyway, for its protocols. */
+/* Nettle's SHA-256 takes the processor's own instructions where it has them. */
 #include "base/hash.h"
 
+#include <errno.h>
+#include <fcntl.h>
 #include <nettle/sha2.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <unistd.h>
 
 static void finish(struct sha256_ctx *sha, char hex[65])
 {
@@ -22,19 +24,32 @@ void kiln_hash_sha256(const void *bytes, size_t size, char hex[65])
     finish(&sha, hex);
 }
 
-bool kiln_hash_sha256_file(const char *path, char hex[65])
+bool kiln_hash_sha256_descriptor(int file, char hex[65])
 {
-    FILE *file = fopen(path, "rb");
-    if (!file)
-        return false;
     struct sha256_ctx sha;
     uint8_t block[1 << 16];
-    size_t size;
+    ssize_t size;
+    off_t at = 0;
     sha256_init(&sha);
-    while ((size = fread(block, 1, sizeof block, file)) > 0)
-        sha256_update(&sha, size, block);
-    const bool ok = !ferror(file);
+    do {
+        size = pread(file, block, sizeof block, at);
+        if (size > 0) {
+            sha256_update(&sha, (size_t)size, block);
+            at += size;
+        }
+    } while (size > 0 || (size < 0 && errno == EINTR));
     finish(&sha, hex);
-    fclose(file);
+    return size == 0;
+}
+
+bool kiln_hash_sha256_file(const char *path, char hex[65])
+{
+    const int file = open(path, O_RDONLY | O_CLOEXEC);
+    if (file < 0)
+        return false;
+    const bool ok = kiln_hash_sha256_descriptor(file, hex);
+    const int reason = errno;
+    close(file);
+    errno = reason;
     return ok;
 }

@@ -176,7 +176,7 @@ static bool open_path(struct kiln_footage *footage, struct kiln_error *error)
         return open_folder(footage, error);
     if (exists && kiln_video_in_has_suffix(footage->path)) {
         footage->kind = KILN_FOOTAGE_VIDEO;
-        footage->video = kiln_video_in_open(footage->path, error);
+        footage->video = kiln_video_in_open(NULL, footage->path, error);
         return footage->video != NULL;
     }
     if (exists)
@@ -292,7 +292,7 @@ static struct kiln_asset_image *take_file(const struct kiln_footage *footage,
     char path[KILN_PATH_SIZE];
     if (!kiln_footage_file(footage, path, error))
         return NULL;
-    return kiln_asset_image_load_layer(path, footage->layer, error);
+    return kiln_asset_image_load_layer(NULL, path, footage->layer, error);
 }
 
 struct kiln_asset_image *kiln_footage_take(struct kiln_footage *footage, struct kiln_error *error)

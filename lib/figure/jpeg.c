@@ -1,13 +1,11 @@
 /* JPEG in memory, for photographs of fire in documents. Everything that decides about the bytes is
  * set here: the quality, full chroma (4:2:0 would smear lettering and coloured frames), arithmetic
  * in integers, one thread. */
-#include <libavcodec/avcodec.h>
-#include <libavutil/opt.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "asset/image/avlog.h"
 #include "base/error.h"
+#include "base/ffmpeg.h"
 #include "figure/drawing.h"
 
 /* FFmpeg's scale of quantisers, from 1; about what other programs call quality 92. */
@@ -52,23 +50,23 @@ static bool open_encoder(struct encoding *encoding, const AVCodec *codec,
     encoder->dct_algo = FF_DCT_INT; /* others differ from processor to processor */
     encoder->flags |= AV_CODEC_FLAG_QSCALE | AV_CODEC_FLAG_BITEXACT;
     encoder->global_quality = FF_QP2LAMBDA * QUANTISER;
-    av_opt_set(encoder->priv_data, "huffman", "optimal", 0);
-    if (avcodec_open2(encoder, codec, NULL) < 0)
+    kiln_ff.av_opt_set(encoder->priv_data, "huffman", "optimal", 0);
+    if (kiln_ff.avcodec_open2(encoder, codec, NULL) < 0)
         return false;
     encoding->frame->width = encoder->width;
     encoding->frame->height = encoder->height;
     encoding->frame->format = encoder->pix_fmt;
     encoding->frame->quality = encoder->global_quality;
-    return av_frame_get_buffer(encoding->frame, 0) >= 0;
+    return kiln_ff.av_frame_get_buffer(encoding->frame, 0) >= 0;
 }
 
 static bool encode(struct encoding *encoding, const struct kiln_pixels *pixels, uint8_t **bytes,
                    size_t *size)
 {
     fill_planes(pixels, encoding->frame);
-    if (avcodec_send_frame(encoding->encoder, encoding->frame) < 0 ||
-        avcodec_send_frame(encoding->encoder, NULL) < 0 ||
-        avcodec_receive_packet(encoding->encoder, encoding->packet) < 0)
+    if (kiln_ff.avcodec_send_frame(encoding->encoder, encoding->frame) < 0 ||
+        kiln_ff.avcodec_send_frame(encoding->encoder, NULL) < 0 ||
+        kiln_ff.avcodec_receive_packet(encoding->encoder, encoding->packet) < 0)
         return false;
     *size = (size_t)encoding->packet->size;
     *bytes = malloc(*size);
@@ -80,18 +78,21 @@ static bool encode(struct encoding *encoding, const struct kiln_pixels *pixels, 
 bool kiln_pixels_jpeg(const struct kiln_pixels *pixels, uint8_t **bytes, size_t *size,
                       struct kiln_error *error)
 {
-    const AVCodec *codec = avcodec_find_encoder(AV_CODEC_ID_MJPEG);
+    if (!kiln_ffmpeg_open(KILN_FFMPEG_PICTURES, error))
+        return false;
+    const AVCodec *codec = kiln_ff.avcodec_find_encoder(AV_CODEC_ID_MJPEG);
     if (!codec)
         return kiln_error_set(error, KILN_IO,
                               "this FFmpeg (libavcodec) has no encoder for JPEG images");
     struct kiln_avlog avlog = {0};
     kiln_avlog_begin(&avlog);
-    struct encoding encoding = {avcodec_alloc_context3(codec), av_frame_alloc(), av_packet_alloc()};
+    struct encoding encoding = {kiln_ff.avcodec_alloc_context3(codec), kiln_ff.av_frame_alloc(),
+                                kiln_ff.av_packet_alloc()};
     bool ok = encoding.encoder && encoding.frame && encoding.packet &&
               open_encoder(&encoding, codec, pixels) && encode(&encoding, pixels, bytes, size);
-    av_packet_free(&encoding.packet);
-    av_frame_free(&encoding.frame);
-    avcodec_free_context(&encoding.encoder);
+    kiln_ff.av_packet_free(&encoding.packet);
+    kiln_ff.av_frame_free(&encoding.frame);
+    kiln_ff.avcodec_free_context(&encoding.encoder);
     kiln_avlog_end(&avlog);
     return ok ||
            kiln_error_set(error, KILN_DEVICE_FAILED, "a JPEG of %u x %u pixels: %s", pixels->width,

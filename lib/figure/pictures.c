@@ -79,7 +79,7 @@ static bool measure(struct kiln_panels *panels, struct kiln_subject *const subje
 static struct kiln_subject *load_subject(const char *path, struct kiln_threads *threads,
                                          struct kiln_error *error)
 {
-    struct kiln_asset_image *image = kiln_asset_image_load(path, error);
+    struct kiln_asset_image *image = kiln_asset_image_load(NULL, path, error);
     struct kiln_subject *subject =
         image ? kiln_subject_create(image, NULL, path, threads, error) : NULL;
     kiln_asset_image_destroy(&image);

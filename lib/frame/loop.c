@@ -9,6 +9,7 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
+#include "asset/loader/loader.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "frame/stages.h"
@@ -226,7 +227,10 @@ bool kiln_loop_set_up(struct kiln_loop *loop, struct kiln_output_needs needs,
                                               .timer = loop->timer,
                                               .caller = &loop->params.caller,
                                               .slot_count = loop->run.pool.slot_count};
-    return loop->simulate && kiln_stages_init(&loop->stages, device, loop->scene, &stages, error);
+    const bool ok =
+        loop->simulate && kiln_stages_init(&loop->stages, device, loop->scene, &stages, error);
+    kiln_loader_rest(loop->scene->loader); /* no file of the scene is read after this */
+    return ok;
 }
 
 void kiln_loop_destroy(struct kiln_loop **loop)

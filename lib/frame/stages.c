@@ -81,7 +81,8 @@ static bool init_atlas(struct kiln_stages *s, struct kiln_error *error)
                                                   .columns = look->columns,
                                                   .rows = look->rows,
                                                   .motion = look->motion,
-                                                  .motion_scale = (float)look->motion_scale};
+                                                  .motion_scale = (float)look->motion_scale,
+                                                  .loader = s->scene->loader};
         if (look->shape != KILN_SHAPE_BILLBOARD) /* shows no texture: the least there is */
             requests[i] = (struct kiln_atlas_request){
                 .sources = &plain, .count = 1, .columns = 1, .rows = 1, .motion = "none"};

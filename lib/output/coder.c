@@ -33,8 +33,8 @@ static void set_colors(AVCodecContext *codec)
 
 static int open_codec(struct kiln_coder *coder, const struct kiln_output_params *params)
 {
-    const AVCodec *found = avcodec_find_encoder_by_name(coder->settings->encoder);
-    AVCodecContext *codec = coder->codec = avcodec_alloc_context3(found);
+    const AVCodec *found = kiln_ff.avcodec_find_encoder_by_name(coder->settings->encoder);
+    AVCodecContext *codec = coder->codec = kiln_ff.avcodec_alloc_context3(found);
     if (!codec)
         return AVERROR(ENOMEM);
     codec->width = (int)params->width;
@@ -49,12 +49,12 @@ static int open_codec(struct kiln_coder *coder, const struct kiln_output_params 
     codec->flags |= AV_CODEC_FLAG_BITEXACT | AV_CODEC_FLAG_GLOBAL_HEADER;
     if (coder->settings->tune && !coder->settings->tune(codec, params))
         return AVERROR(ENOMEM);
-    return avcodec_open2(codec, found, NULL);
+    return kiln_ff.avcodec_open2(codec, found, NULL);
 }
 
 static int open_frame(struct kiln_coder *coder)
 {
-    AVFrame *frame = coder->frame = av_frame_alloc();
+    AVFrame *frame = coder->frame = kiln_ff.av_frame_alloc();
     if (!frame)
         return AVERROR(ENOMEM);
     const AVCodecContext *codec = coder->codec;
@@ -67,19 +67,19 @@ static int open_frame(struct kiln_coder *coder)
     frame->color_range = codec->color_range;
     frame->chroma_location = codec->chroma_sample_location;
     frame->quality = codec->global_quality;
-    return av_frame_get_buffer(frame, 0);
+    return kiln_ff.av_frame_get_buffer(frame, 0);
 }
 
 /* What of a part's packets would tell again what the first part's have told. */
 static int open_filter(struct kiln_coder *coder)
 {
-    int status = av_bsf_list_parse_str(coder->settings->later_packets, &coder->filter);
+    int status = kiln_ff.av_bsf_list_parse_str(coder->settings->later_packets, &coder->filter);
     if (status >= 0)
-        status = avcodec_parameters_from_context(coder->filter->par_in, coder->codec);
+        status = kiln_ff.avcodec_parameters_from_context(coder->filter->par_in, coder->codec);
     if (status < 0)
         return status;
     coder->filter->time_base_in = coder->codec->time_base;
-    return av_bsf_init(coder->filter);
+    return kiln_ff.av_bsf_init(coder->filter);
 }
 
 int kiln_coder_open(struct kiln_coder *coder, const struct kiln_output_params *params, bool first)
@@ -98,10 +98,10 @@ int kiln_coder_open(struct kiln_coder *coder, const struct kiln_output_params *p
 
 void kiln_coder_close(struct kiln_coder *coder)
 {
-    sws_freeContext(coder->scaler);
-    av_frame_free(&coder->frame);
-    av_bsf_free(&coder->filter);
-    avcodec_free_context(&coder->codec);
+    kiln_ff.sws_freeContext(coder->scaler);
+    kiln_ff.av_frame_free(&coder->frame);
+    kiln_ff.av_bsf_free(&coder->filter);
+    kiln_ff.avcodec_free_context(&coder->codec);
     *coder = (struct kiln_coder){.settings = NULL};
 }
 
@@ -113,30 +113,31 @@ int kiln_coder_convert(struct kiln_coder *coder, const struct kiln_picture *pict
     if (picture->has_alpha && !kiln_pixels_are_rgb(coder->codec->pix_fmt) &&
         !kiln_bleed_colors(picture, &error))
         return AVERROR(ENOMEM);
-    int status = av_frame_make_writable(frame);
+    int status = kiln_ff.av_frame_make_writable(frame);
     if (status < 0)
         return status;
     const uint8_t *rows[4] = {picture->display};
     int strides[4] = {frame->width * (int)(picture->bits / 2)};
-    return sws_scale(coder->scaler, rows, strides, 0, frame->height, frame->data, frame->linesize);
+    return kiln_ff.sws_scale(coder->scaler, rows, strides, 0, frame->height, frame->data,
+                             frame->linesize);
 }
 
 int kiln_coder_send(struct kiln_coder *coder, int64_t number)
 {
     coder->frame->pts = number;
-    return avcodec_send_frame(coder->codec, coder->frame);
+    return kiln_ff.avcodec_send_frame(coder->codec, coder->frame);
 }
 
 int kiln_coder_end(struct kiln_coder *coder)
 {
-    return avcodec_send_frame(coder->codec, NULL);
+    return kiln_ff.avcodec_send_frame(coder->codec, NULL);
 }
 
 int kiln_coder_receive(struct kiln_coder *coder, AVPacket *packet)
 {
-    int status = avcodec_receive_packet(coder->codec, packet);
+    int status = kiln_ff.avcodec_receive_packet(coder->codec, packet);
     if (status < 0 || !coder->filter)
         return status;
-    status = av_bsf_send_packet(coder->filter, packet);
-    return status < 0 ? status : av_bsf_receive_packet(coder->filter, packet);
+    status = kiln_ff.av_bsf_send_packet(coder->filter, packet);
+    return status < 0 ? status : kiln_ff.av_bsf_receive_packet(coder->filter, packet);
 }

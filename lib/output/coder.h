@@ -3,8 +3,6 @@
 #ifndef KILN_OUTPUT_CODER_H
 #define KILN_OUTPUT_CODER_H
 
-#include <libavcodec/bsf.h>
-
 #include "output/scaler.h"
 #include "output/video.h"
 

@@ -61,12 +61,10 @@ bool kiln_write_outputs(FILE *out)
 {
     fprintf(out, "Output formats, by the suffix of the output:\n\n");
     for (size_t i = 0; i < FORMAT_COUNT; i++) {
-        char missing[64] = "";
-        if (formats[i]->video)
-            kiln_video_missing(formats[i]->video, missing);
+        struct kiln_error reason = {0};
         fprintf(out, "  %-6s %s: %s\n", formats[i]->suffix, formats[i]->name, formats[i]->help);
-        if (*missing)
-            fprintf(out, "         not here: this FFmpeg has no %s\n", missing);
+        if (formats[i]->video && !kiln_video_find(formats[i]->video, &reason))
+            fprintf(out, "         not here: %s\n", reason.message);
     }
     static const char notes[] =
         "\nImages are numbered: frame_####.png and frame_%04d.png both give frame_0000.png;\n"

@@ -39,7 +39,8 @@ static uint32_t choose_stride(const struct kiln_output_params *params)
 /* When a frame begins, in hundredths of a second, as FFmpeg rounds it. */
 static int64_t tick(const struct kiln_output_params *params, uint64_t frame)
 {
-    return av_rescale((int64_t)frame, (int64_t)params->fps_den * TICKS_PER_S, params->fps_num);
+    return kiln_ff.av_rescale((int64_t)frame, (int64_t)params->fps_den * TICKS_PER_S,
+                              params->fps_num);
 }
 
 /* Without this, the last frame would last as long as the one before; and less than what MAX_RATE
@@ -50,7 +51,8 @@ static int prepare(const struct kiln_output_params *params, AVDictionary **optio
              stride = choose_stride(params);
     uint64_t last = (length - 1) / stride * stride;
     int64_t delay = tick(params, length) - tick(params, last);
-    return av_dict_set_int(options, "final_delay", delay < MIN_DELAY ? MIN_DELAY : delay, 0);
+    return kiln_ff.av_dict_set_int(options, "final_delay", delay < MIN_DELAY ? MIN_DELAY : delay,
+                                   0);
 }
 
 static bool check(const struct kiln_output_params *params, struct kiln_error *error)

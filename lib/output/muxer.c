@@ -1,7 +1,6 @@
 /* Containers by FFmpeg. Nothing of the time or the place is written. */
 #include "output/muxer.h"
 
-#include <libavutil/avstring.h>
 #include <string.h>
 
 enum { IO_BUFFER_SIZE = 1 << 17 };
@@ -35,10 +34,10 @@ static int set_metadata(struct kiln_muxer *muxer)
 {
     char comment[256];
     describe(muxer->params, comment, sizeof comment);
-    int status = av_dict_set(&muxer->container->metadata, "comment", comment, 0);
+    int status = kiln_ff.av_dict_set(&muxer->container->metadata, "comment", comment, 0);
     /* Alpha is a second stream in the packets' side data: tell WebM. */
     if (status >= 0 && muxer->stream->codecpar->format == AV_PIX_FMT_YUVA420P)
-        status = av_dict_set(&muxer->stream->metadata, "alpha_mode", "1", 0);
+        status = kiln_ff.av_dict_set(&muxer->stream->metadata, "alpha_mode", "1", 0);
     return status;
 }
 
@@ -48,12 +47,12 @@ static int write_header(struct kiln_muxer *muxer)
     AVDictionary *options = NULL;
     int status = set_metadata(muxer);
     if (status >= 0 && settings->muxer_options)
-        status = av_dict_parse_string(&options, settings->muxer_options, "=", ":", 0);
+        status = kiln_ff.av_dict_parse_string(&options, settings->muxer_options, "=", ":", 0);
     if (status >= 0 && settings->prepare)
         status = settings->prepare(muxer->params, &options);
     if (status >= 0)
-        status = avformat_write_header(muxer->container, &options);
-    av_dict_free(&options);
+        status = kiln_ff.avformat_write_header(muxer->container, &options);
+    kiln_ff.av_dict_free(&options);
     muxer->begun = status >= 0;
     return status;
 }
@@ -63,19 +62,19 @@ static int write_header(struct kiln_muxer *muxer)
 static int open_container(struct kiln_muxer *muxer)
 {
     const char *name = muxer->params->format->video->muxer;
-    int status = avformat_alloc_output_context2(&muxer->container, NULL, name, NULL);
+    int status = kiln_ff.avformat_alloc_output_context2(&muxer->container, NULL, name, NULL);
     if (status < 0)
         return status;
     AVFormatContext *container = muxer->container;
-    uint8_t *buffer = av_malloc(IO_BUFFER_SIZE);
-    muxer->io =
-        buffer ? avio_alloc_context(buffer, IO_BUFFER_SIZE, 1, muxer, NULL, write_bytes, seek_bytes)
-               : NULL;
-    muxer->stream = avformat_new_stream(container, NULL);
-    container->url = av_asprintf("file:%s", kiln_temporary_path(muxer->file));
+    uint8_t *buffer = kiln_ff.av_malloc(IO_BUFFER_SIZE);
+    muxer->io = buffer ? kiln_ff.avio_alloc_context(buffer, IO_BUFFER_SIZE, 1, muxer, NULL,
+                                                    write_bytes, seek_bytes)
+                       : NULL;
+    muxer->stream = kiln_ff.avformat_new_stream(container, NULL);
+    container->url = kiln_ff.av_asprintf("file:%s", kiln_temporary_path(muxer->file));
     if (!muxer->io || !muxer->stream || !container->url) {
         if (!muxer->io)
-            av_free(buffer);
+            kiln_ff.av_free(buffer);
         return AVERROR(ENOMEM);
     }
     container->pb = muxer->io;
@@ -90,7 +89,7 @@ int kiln_muxer_open(struct kiln_muxer *muxer, const struct kiln_output_params *p
     *muxer = (struct kiln_muxer){.params = params, .file = file, .time_base = time_base};
     int status = open_container(muxer);
     if (status >= 0)
-        status = avcodec_parameters_copy(muxer->stream->codecpar, codec);
+        status = kiln_ff.avcodec_parameters_copy(muxer->stream->codecpar, codec);
     if (status < 0)
         return status;
     muxer->stream->time_base = time_base;
@@ -102,13 +101,14 @@ int kiln_muxer_open(struct kiln_muxer *muxer, const struct kiln_output_params *p
 static void abandon(struct kiln_muxer *muxer)
 {
     AVIOContext *nowhere = NULL;
-    if (strcmp(muxer->container->oformat->name, "gif") != 0 || avio_open_dyn_buf(&nowhere) < 0)
+    if (strcmp(muxer->container->oformat->name, "gif") != 0 ||
+        kiln_ff.avio_open_dyn_buf(&nowhere) < 0)
         return;
     muxer->container->pb = nowhere;
-    av_write_trailer(muxer->container);
+    kiln_ff.av_write_trailer(muxer->container);
     uint8_t *bytes = NULL;
-    avio_close_dyn_buf(nowhere, &bytes);
-    av_free(bytes);
+    kiln_ff.avio_close_dyn_buf(nowhere, &bytes);
+    kiln_ff.av_free(bytes);
     muxer->container->pb = muxer->io;
 }
 
@@ -116,10 +116,10 @@ void kiln_muxer_close(struct kiln_muxer *muxer)
 {
     if (muxer->begun)
         abandon(muxer);
-    avformat_free_context(muxer->container);
+    kiln_ff.avformat_free_context(muxer->container);
     if (muxer->io)
-        av_freep(&muxer->io->buffer);
-    avio_context_free(&muxer->io);
+        kiln_ff.av_freep(&muxer->io->buffer);
+    kiln_ff.avio_context_free(&muxer->io);
     *muxer = (struct kiln_muxer){.params = NULL};
 }
 
@@ -127,14 +127,14 @@ int kiln_muxer_add(struct kiln_muxer *muxer, AVPacket *packet)
 {
     packet->duration = 1;
     packet->stream_index = 0;
-    av_packet_rescale_ts(packet, muxer->time_base, muxer->stream->time_base);
-    return av_interleaved_write_frame(muxer->container, packet);
+    kiln_ff.av_packet_rescale_ts(packet, muxer->time_base, muxer->stream->time_base);
+    return kiln_ff.av_interleaved_write_frame(muxer->container, packet);
 }
 
 int kiln_muxer_finish(struct kiln_muxer *muxer)
 {
-    int status = av_write_trailer(muxer->container);
+    int status = kiln_ff.av_write_trailer(muxer->container);
     muxer->begun = false;
-    avio_flush(muxer->io);
+    kiln_ff.avio_flush(muxer->io);
     return status;
 }

@@ -3,8 +3,6 @@
 #ifndef KILN_OUTPUT_MUXER_H
 #define KILN_OUTPUT_MUXER_H
 
-#include <libavformat/avformat.h>
-
 #include "output/video.h"
 
 struct kiln_muxer {

@@ -3,13 +3,13 @@
 #include "output/part_file.h"
 
 #include <errno.h>
-#include <libavutil/avutil.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 #include <zlib.h>
 
 #include "base/error.h"
+#include "base/ffmpeg.h"
 #include "base/file_in.h"
 #include "base/hash.h"
 #include "base/text.h"
@@ -40,7 +40,9 @@ bool kiln_clip_hash(const struct kiln_output_params *params, char hash[65])
 
 void kiln_part_made_by(char text[128])
 {
-    snprintf(text, 128, "kiln %s, FFmpeg %s", KILN_VERSION, av_version_info());
+    const bool is_open = kiln_ffmpeg_open(KILN_FFMPEG_CLIPS, NULL);
+    snprintf(text, 128, "kiln %s, FFmpeg %s", KILN_VERSION,
+             is_open ? kiln_ff.av_version_info() : "none");
 }
 
 /* ---- writing --------------------------------------------------------------------------------- */

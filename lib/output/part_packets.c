@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "asset/image/avlog.h"
 #include "base/error.h"
+#include "base/ffmpeg.h"
 #include "output/coder.h"
 
 enum { END = UINT32_MAX };
@@ -34,7 +34,7 @@ static void write_packet(struct kiln_part_out *out, const AVPacket *packet)
     kiln_part_add_word(out, (uint32_t)packet->flags & AV_PKT_FLAG_KEY);
     size_t size = 0;
     const uint8_t *alpha =
-        av_packet_get_side_data(packet, AV_PKT_DATA_MATROSKA_BLOCKADDITIONAL, &size);
+        kiln_ff.av_packet_get_side_data(packet, AV_PKT_DATA_MATROSKA_BLOCKADDITIONAL, &size);
     kiln_part_add_word(out, alpha ? (uint32_t)size : 0);
     kiln_part_add(out, alpha, alpha ? size : 0);
     kiln_part_add(out, packet->data, (size_t)packet->size);
@@ -48,7 +48,7 @@ static int write_packets(struct kiln_part_packets *packets)
         if (status < 0)
             return status == AVERROR(EAGAIN) || status == AVERROR_EOF ? 0 : status;
         write_packet(packets->out, packets->packet);
-        av_packet_unref(packets->packet);
+        kiln_ff.av_packet_unref(packets->packet);
     }
 }
 
@@ -65,7 +65,7 @@ struct kiln_part_packets *kiln_part_packets_open(const struct kiln_output_params
     packets->out = out;
     packets->avlog.log = &params->log;
     kiln_avlog_begin(&packets->avlog);
-    packets->packet = av_packet_alloc();
+    packets->packet = kiln_ff.av_packet_alloc();
     const int status =
         packets->packet ? kiln_coder_open(&packets->coder, params, first) : AVERROR(ENOMEM);
     kiln_avlog_end(&packets->avlog);
@@ -87,7 +87,7 @@ void kiln_part_packets_close(struct kiln_part_packets **packets)
         return;
     kiln_avlog_begin(&p->avlog);
     kiln_coder_close(&p->coder);
-    av_packet_free(&p->packet);
+    kiln_ff.av_packet_free(&p->packet);
     kiln_avlog_end(&p->avlog);
     free(p);
     *packets = NULL;
@@ -125,13 +125,13 @@ static uint8_t *read_bytes(struct kiln_part_in *in, uint32_t size, struct kiln_e
         kiln_part_refuse(in, "the part of a clip is damaged", error);
         return NULL;
     }
-    uint8_t *bytes = av_mallocz((size_t)size + AV_INPUT_BUFFER_PADDING_SIZE);
+    uint8_t *bytes = kiln_ff.av_mallocz((size_t)size + AV_INPUT_BUFFER_PADDING_SIZE);
     if (!bytes) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", in->path);
         return NULL;
     }
     if (!kiln_part_read(in, bytes, size, error))
-        av_freep(&bytes);
+        kiln_ff.av_freep(&bytes);
     return bytes;
 }
 
@@ -145,9 +145,10 @@ static bool read_alpha(struct kiln_part_in *in, AVPacket *packet, struct kiln_er
     uint8_t *bytes = read_bytes(in, size, error);
     if (!bytes)
         return false;
-    if (av_packet_add_side_data(packet, AV_PKT_DATA_MATROSKA_BLOCKADDITIONAL, bytes, size) >= 0)
+    if (kiln_ff.av_packet_add_side_data(packet, AV_PKT_DATA_MATROSKA_BLOCKADDITIONAL, bytes,
+                                        size) >= 0)
         return true;
-    av_free(bytes);
+    kiln_ff.av_free(bytes);
     return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", in->path);
 }
 
@@ -166,8 +167,8 @@ static bool read_packet(struct kiln_part_in *in, uint32_t size, AVPacket *packet
     uint8_t *bytes = read_bytes(in, size, error);
     if (!bytes)
         return false;
-    if (av_packet_from_data(packet, bytes, (int)size) < 0) {
-        av_free(bytes);
+    if (kiln_ff.av_packet_from_data(packet, bytes, (int)size) < 0) {
+        kiln_ff.av_free(bytes);
         return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", in->path);
     }
     packet->pts = (int64_t)pts;
@@ -194,7 +195,7 @@ bool kiln_part_packets_pass(struct kiln_part_in *in, void *clip, const struct ki
 {
     uint32_t size;
     uint8_t *header = NULL;
-    AVPacket *packet = av_packet_alloc();
+    AVPacket *packet = kiln_ff.av_packet_alloc();
     bool ok =
         packet && kiln_part_read_word(in, &size, error) && (header = read_bytes(in, size, error));
     if (!packet)
@@ -204,7 +205,7 @@ bool kiln_part_packets_pass(struct kiln_part_in *in, void *clip, const struct ki
                             "%s: another encoder made it than makes the clip's header (%s)",
                             in->path, in->head.made_by);
     ok = ok && pass_packets(in, clip, packet, caller, error);
-    av_packet_free(&packet);
-    av_free(header);
+    kiln_ff.av_packet_free(&packet);
+    kiln_ff.av_free(header);
     return ok;
 }

@@ -2,9 +2,7 @@
 #ifndef KILN_OUTPUT_SCALER_H
 #define KILN_OUTPUT_SCALER_H
 
-#include <libswscale/swscale.h>
-#include <stdbool.h>
-#include <stdint.h>
+#include "base/ffmpeg.h"
 
 /* Whether pixels are of red, green and blue, or indices of such colours. */
 bool kiln_pixels_are_rgb(enum AVPixelFormat format);

@@ -1,6 +1,5 @@
 /* Frames as a sequence of bytes for a pipe: YUV4MPEG2, or pixels without any header. */
 #include <errno.h>
-#include <libavutil/imgutils.h>
 #include <poll.h>
 #include <stdlib.h>
 #include <string.h>
@@ -57,8 +56,8 @@ static void pack_y4m(struct stream *stream, const struct kiln_picture *picture)
 {
     const uint8_t *rows[4] = {picture->display};
     const int strides[4] = {(int)picture->width * 4};
-    sws_scale(stream->scaler, rows, strides, 0, (int)picture->height, stream->planes,
-              stream->strides);
+    kiln_ff.sws_scale(stream->scaler, rows, strides, 0, (int)picture->height, stream->planes,
+                      stream->strides);
 }
 
 static const struct kind {
@@ -127,17 +126,20 @@ static struct kiln_output_needs needs(const struct kiln_output_params *params)
 
 static bool check(const struct kiln_output_params *params, struct kiln_error *error)
 {
-    return !params->alpha || kind_of(params)->alpha ||
-           kiln_error_set(error, KILN_USAGE,
-                          "%s: the backdrop is transparent, but %s has no alpha; write rgba or "
-                          "rgbaf32, or make the backdrop opaque",
-                          params->path, kind_of(params)->name);
+    const struct kind *kind = kind_of(params);
+    if (params->alpha && !kind->alpha)
+        return kiln_error_set(error, KILN_USAGE,
+                              "%s: the backdrop is transparent, but %s has no alpha; write rgba or "
+                              "rgbaf32, or make the backdrop opaque",
+                              params->path, kind->name);
+    return kind->pixel_bytes > 0 || kiln_ffmpeg_open(KILN_FFMPEG_PICTURES, error);
 }
 
 static void close_stream(void *opaque)
 {
     struct stream *stream = opaque;
-    sws_freeContext(stream->scaler);
+    if (stream->scaler)
+        kiln_ff.sws_freeContext(stream->scaler);
     free(stream->bytes);
     free(stream);
 }
@@ -146,7 +148,7 @@ static void close_stream(void *opaque)
 static bool open_planes(struct stream *stream)
 {
     const int width = (int)stream->params->width, height = (int)stream->params->height;
-    const int size = av_image_get_buffer_size(AV_PIX_FMT_YUV420P, width, height, 1);
+    const int size = kiln_ff.av_image_get_buffer_size(AV_PIX_FMT_YUV420P, width, height, 1);
     if (size < 0 || kiln_scaler_open(&stream->scaler, stream->params->width, stream->params->height,
                                      8, AV_PIX_FMT_YUV420P) < 0)
         return false;
@@ -157,8 +159,9 @@ static bool open_planes(struct stream *stream)
     if (!stream->bytes)
         return false;
     memcpy(stream->bytes, FRAME_HEADER, stream->header);
-    return av_image_fill_arrays(stream->planes, stream->strides, stream->bytes + stream->header,
-                                AV_PIX_FMT_YUV420P, width, height, 1) >= 0;
+    return kiln_ff.av_image_fill_arrays(stream->planes, stream->strides,
+                                        stream->bytes + stream->header, AV_PIX_FMT_YUV420P, width,
+                                        height, 1) >= 0;
 }
 
 static bool open_pixels(struct stream *stream, size_t pixel_bytes)

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "asset/image/avlog.h"
 #include "base/error.h"
+#include "base/ffmpeg.h"
 #include "output/coder.h"
 #include "output/muxer.h"
 
@@ -47,23 +47,25 @@ static bool check_size(const struct kiln_output_params *params, struct kiln_erro
                params->path, params->width, params->height, settings->codec, settings->max_edge);
 }
 
-void kiln_video_missing(const struct kiln_video_settings *settings, char missing[64])
+bool kiln_video_find(const struct kiln_video_settings *settings, struct kiln_error *error)
 {
-    missing[0] = '\0';
-    if (!avcodec_find_encoder_by_name(settings->encoder))
-        snprintf(missing, 64, "encoder %s", settings->encoder);
-    else if (!av_guess_format(settings->muxer, NULL, NULL))
-        snprintf(missing, 64, "muxer %s", settings->muxer);
+    if (!kiln_ffmpeg_open(KILN_FFMPEG_CLIPS, error))
+        return false;
+    const bool encodes = kiln_ff.avcodec_find_encoder_by_name(settings->encoder) != NULL;
+    if (encodes && kiln_ff.av_guess_format(settings->muxer, NULL, NULL))
+        return true;
+    return kiln_error_set(error, KILN_IO,
+                          "this FFmpeg has no %s %s; install one that was built with it (on "
+                          "Debian, %s)",
+                          encodes ? "muxer" : "encoder",
+                          encodes ? settings->muxer : settings->encoder, settings->packages);
 }
 
-static bool check_parts(const struct kiln_output_params *params, struct kiln_error *error)
+static bool find_encoder(const struct kiln_output_params *params, struct kiln_error *error)
 {
-    char missing[64];
-    kiln_video_missing(params->format->video, missing);
-    return !*missing || kiln_error_set(error, KILN_IO,
-                                       "%s: this FFmpeg has no %s; install one that was built with "
-                                       "it (on Debian, %s)",
-                                       params->path, missing, params->format->video->packages);
+    struct kiln_error reason = {0};
+    return kiln_video_find(params->format->video, &reason) ||
+           kiln_error_set(error, reason.code, "%s: %s", params->path, reason.message);
 }
 
 bool kiln_video_check(const struct kiln_output_params *params, struct kiln_error *error)
@@ -85,7 +87,7 @@ bool kiln_video_check(const struct kiln_output_params *params, struct kiln_error
         params->fps_den > INT_MAX)
         return kiln_error_set(error, KILN_USAGE, "%s: %u/%u is no frame rate for a video",
                               params->path, params->fps_num, params->fps_den);
-    return check_parts(params, error);
+    return find_encoder(params, error);
 }
 
 bool kiln_video_fail(const struct kiln_output_params *params, const struct kiln_temporary *file,
@@ -97,7 +99,7 @@ bool kiln_video_fail(const struct kiln_output_params *params, const struct kiln_
         return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the video encoder",
                               params->path);
     char reason[AV_ERROR_MAX_STRING_SIZE] = "";
-    av_strerror(status, reason, sizeof reason);
+    kiln_ff.av_strerror(status, reason, sizeof reason);
     return kiln_error_set(error, KILN_IO, "%s: %s: %s", params->path, what, *said ? said : reason);
 }
 
@@ -132,7 +134,7 @@ static int open_part(struct video_encoder *encoder)
                                (size_t)encoder->coder.codec->extradata_size)
                    ? 0
                    : AVERROR_BUG;
-    status = avcodec_parameters_from_context(encoder->codec, encoder->coder.codec);
+    status = kiln_ff.avcodec_parameters_from_context(encoder->codec, encoder->coder.codec);
     return status < 0 ? status
                       : kiln_muxer_open(&encoder->muxer, encoder->params, encoder->codec,
                                         encoder->coder.codec->time_base, encoder->file);
@@ -144,8 +146,8 @@ void kiln_video_close(void *opaque)
     kiln_avlog_begin(&encoder->avlog);
     kiln_muxer_close(&encoder->muxer);
     kiln_coder_close(&encoder->coder);
-    av_packet_free(&encoder->packet);
-    avcodec_parameters_free(&encoder->codec);
+    kiln_ff.av_packet_free(&encoder->packet);
+    kiln_ff.avcodec_parameters_free(&encoder->codec);
     kiln_avlog_end(&encoder->avlog);
     free(encoder);
 }
@@ -163,8 +165,8 @@ void *kiln_video_open(const struct kiln_output_params *params, struct kiln_tempo
     encoder->file = file;
     encoder->avlog.log = &params->log;
     kiln_avlog_begin(&encoder->avlog);
-    encoder->packet = av_packet_alloc();
-    encoder->codec = avcodec_parameters_alloc();
+    encoder->packet = kiln_ff.av_packet_alloc();
+    encoder->codec = kiln_ff.avcodec_parameters_alloc();
     int status = encoder->packet && encoder->codec ? open_part(encoder) : AVERROR(ENOMEM);
     kiln_avlog_end(&encoder->avlog);
     if (status >= 0)
@@ -272,7 +274,7 @@ bool kiln_video_encode_indices(void *opaque, const uint8_t *indices, const uint3
     struct video_encoder *encoder = opaque;
     AVFrame *frame = encoder->coder.frame;
     kiln_avlog_begin(&encoder->avlog);
-    int status = av_frame_make_writable(frame);
+    int status = kiln_ff.av_frame_make_writable(frame);
     if (status >= 0) {
         size_t width = (size_t)frame->width;
         for (int y = 0; y < frame->height; y++)

@@ -3,8 +3,7 @@
 #ifndef KILN_OUTPUT_VIDEO_H
 #define KILN_OUTPUT_VIDEO_H
 
-#include <libavcodec/avcodec.h>
-
+#include "base/ffmpeg.h"
 #include "output/formats.h"
 
 struct kiln_video_settings {
@@ -31,9 +30,8 @@ struct kiln_video_settings {
     int (*prepare)(const struct kiln_output_params *params, AVDictionary **options);
 };
 
-/* What this FFmpeg, being built without it, lacks for a format: "encoder libvpx-vp9"; "" if
- * nothing. */
-void kiln_video_missing(const struct kiln_video_settings *settings, char missing[64]);
+/* Opens FFmpeg; KILN_IO where it is not installed, or was built without what a format needs. */
+bool kiln_video_find(const struct kiln_video_settings *settings, struct kiln_error *error);
 
 /* Reports what went wrong: the disk's answer if it gave one, what FFmpeg said, or its status. */
 bool kiln_video_fail(const struct kiln_output_params *params, const struct kiln_temporary *file,

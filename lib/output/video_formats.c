@@ -1,7 +1,5 @@
 /* What tells FFmpeg's formats from one another: a row of settings each. Whatever decides about the
  * bytes is set here and the same on every machine; the numbers of threads lie in coder.c. */
-#include <libavutil/opt.h>
-
 #include "base/log.h"
 #include "output/video.h"
 
@@ -15,7 +13,7 @@ enum { MAX_EDGE = 16384, MAX_WEBP_EDGE = 16383, MAX_APNG_DELAY = 65535 };
 /* False when memory is short. An option that this FFmpeg does not know is left out. */
 static bool set_option(AVCodecContext *codec, const char *key, const char *value)
 {
-    return av_opt_set(codec->priv_data, key, value, 0) != AVERROR(ENOMEM);
+    return kiln_ff.av_opt_set(codec->priv_data, key, value, 0) != AVERROR(ENOMEM);
 }
 
 /* ---- MP4 ---------------------------------------------------------------------------------- */
@@ -23,7 +21,7 @@ static bool set_option(AVCodecContext *codec, const char *key, const char *value
 /* quality 100 is a rate factor of 10, beyond what eyes can tell; 80 is 18, 50 is 30, 0 is 50. */
 static bool tune_h264(AVCodecContext *codec, const struct kiln_output_params *params)
 {
-    av_opt_set_double(codec->priv_data, "crf", 50.0 - 0.4 * params->quality, 0);
+    kiln_ff.av_opt_set_double(codec->priv_data, "crf", 50.0 - 0.4 * params->quality, 0);
     /* "faster" is within 0.1 dB of "medium" at the same rate factor, in 60 % of the time and less
      * memory; aq-mode=3 gives bits to dark gradients, such as night and smoke. The last option
      * makes the same stream with vectors of any width, and no key frame but each part's first. */
@@ -61,7 +59,7 @@ const struct kiln_format kiln_format_mp4 = {
  * change of bytes; rows of macroblocks may not. */
 static bool tune_vp9(AVCodecContext *codec, const struct kiln_output_params *params)
 {
-    av_opt_set_int(codec->priv_data, "crf", 63 - (55 * (int)params->quality + 50) / 100, 0);
+    kiln_ff.av_opt_set_int(codec->priv_data, "crf", 63 - (55 * (int)params->quality + 50) / 100, 0);
     codec->bit_rate = 0; /* the level alone decides */
     /* The two streams of a clip with alpha must keep their frames side by side. */
     return set_option(codec, "deadline", "good") && set_option(codec, "cpu-used", "4") &&
@@ -170,13 +168,14 @@ static bool tune_apng(AVCodecContext *codec, const struct kiln_output_params *pa
 static int prepare_apng(const struct kiln_output_params *params, AVDictionary **options)
 {
     AVRational delay;
-    if (!av_reduce(&delay.num, &delay.den, params->fps_den, params->fps_num, MAX_APNG_DELAY))
+    if (!kiln_ff.av_reduce(&delay.num, &delay.den, params->fps_den, params->fps_num,
+                           MAX_APNG_DELAY))
         kiln_log_write(&params->log, KILN_LOG_WARNING,
                        "%s: APNG cannot hold %u/%u frames a second; it gets %d/%d", params->path,
                        params->fps_num, params->fps_den, delay.den, delay.num);
     char text[32];
     snprintf(text, sizeof text, "%d/%d", delay.num, delay.den);
-    return av_dict_set(options, "final_delay", text, 0);
+    return kiln_ff.av_dict_set(options, "final_delay", text, 0);
 }
 
 static const struct kiln_video_settings apng = {
@@ -204,8 +203,9 @@ const struct kiln_format kiln_format_apng = {
 
 static bool tune_webp(AVCodecContext *codec, const struct kiln_output_params *params)
 {
-    av_opt_set_double(codec->priv_data, "quality", params->quality == 100 ? 50 : params->quality,
-                      0); /* lossless: effort */
+    kiln_ff.av_opt_set_double(codec->priv_data, "quality",
+                              params->quality == 100 ? 50 : params->quality,
+                              0); /* lossless: effort */
     return set_option(codec, "lossless", params->quality == 100 ? "1" : "0");
 }
 

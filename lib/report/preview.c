@@ -70,7 +70,7 @@ static void convert(const struct kiln_asset_image *image, uint8_t *out)
 
 bool kiln_preview_write(const char *path, struct kiln_temporary *file, struct kiln_error *error)
 {
-    struct kiln_asset_image *image = kiln_asset_image_load(path, error);
+    struct kiln_asset_image *image = kiln_asset_image_load(NULL, path, error);
     struct kiln_picture *picture =
         image ? kiln_picture_create(image->width, image->height, 8, NULL, NULL, 0, error) : NULL;
     if (picture)

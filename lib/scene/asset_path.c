@@ -63,9 +63,9 @@ static bool check_contents(struct kiln_reader *reader, const struct kiln_node *n
                            kiln_check_file *check, const char *path, const char *name)
 {
     struct kiln_error error = {0};
-    struct kiln_budget *budget = kiln_reader_scene(reader)->budget;
-    if (check(path, budget, &error))
-        return kiln_budget_is_kept(budget, reader->error);
+    const struct kiln_scene *scene = kiln_reader_scene(reader);
+    if (check(scene->loader, path, &error))
+        return kiln_budget_is_kept(scene->budget, reader->error);
     /* The scene's own name for it instead of the whole path, which messages have as it is shown. */
     char shown[KILN_PATH_SIZE];
     kiln_shown(shown, sizeof shown, path);
@@ -136,6 +136,19 @@ bool kiln_read_asset(struct kiln_reader *reader, const struct kiln_node *node, c
     kiln_node_quote(quoted, node->text);
     kiln_option_suggest(suggestion, sizeof suggestion, name, names, count);
     return kiln_reader_error(reader, node, "unknown built-in asset '%s'%s", quoted, suggestion);
+}
+
+bool kiln_asset_add_hash(const struct kiln_scene *scene, const char *asset, struct kiln_text *text,
+                         struct kiln_error *error)
+{
+    const struct kiln_loader_file file = {asset, "asset", "regular", SIZE_MAX};
+    char hex[65];
+    if (kiln_builtin_of(asset) || asset[0] != '/')
+        return true;
+    if (!kiln_loader_hash(scene->loader, &file, hex, error))
+        return false;
+    kiln_text_add(text, "%s\n", hex);
+    return true;
 }
 
 const char *kiln_asset_name(const struct kiln_scene *scene, const char *asset)

@@ -12,8 +12,8 @@ const char *kiln_asset_root(struct kiln_arena *arena, const char *root, const ch
 /* Reads "builtin:name", or the path of an image or video file, which becomes absolute. */
 bool kiln_read_asset(struct kiln_reader *reader, const struct kiln_node *node, const char **asset);
 
-/* Whether a file, an absolute path, is what it should be; it is counted in the budget. */
-typedef bool kiln_check_file(const char *path, struct kiln_budget *budget,
+/* Whether a file, an absolute path, is what it should be. */
+typedef bool kiln_check_file(struct kiln_loader *loader, const char *path,
                              struct kiln_error *error);
 
 /* Reads the path of a file that check (or NULL) accepts; it becomes absolute. */
@@ -23,6 +23,10 @@ bool kiln_read_file_asset(struct kiln_reader *reader, const struct kiln_node *no
 /* Notes that the scene was read from this file, too. `what`: static text, for messages. False when
  * memory is short. */
 bool kiln_scene_add_file(struct kiln_scene *scene, const char *path, const char *what);
+
+/* Adds a line with the hash of an asset's bytes to a text; nothing for a built-in one. */
+bool kiln_asset_add_hash(const struct kiln_scene *scene, const char *asset, struct kiln_text *text,
+                         struct kiln_error *error);
 
 /* The asset as a scene names it: relative to the asset root. */
 const char *kiln_asset_name(const struct kiln_scene *scene, const char *asset);

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "asset/loader/loader.h"
 #include "base/budget.h"
 #include "base/error.h"
 #include "base/file.h"
@@ -31,29 +32,18 @@ static bool keep_keys(struct kiln_reader *reader, struct kiln_scene *scene)
     return true;
 }
 
-static bool add_file_hash(struct kiln_text *text, const char *path, struct kiln_error *error)
-{
-    char hex[65];
-    if (path[0] != '/') /* built in */
-        return true;
-    if (!kiln_hash_sha256_file(path, hex))
-        return kiln_error_set_errno(error, KILN_INVALID_INPUT, errno, "%s", path);
-    kiln_text_add(text, "%s\n", hex);
-    return true;
-}
-
 static bool add_backdrop_hashes(const struct kiln_scene *scene, struct kiln_text *text,
                                 struct kiln_error *error)
 {
     const struct kiln_backdrop *backdrop = &scene->backdrop;
-    if (backdrop->sky_image && !add_file_hash(text, backdrop->sky_image, error))
+    if (backdrop->sky_image && !kiln_asset_add_hash(scene, backdrop->sky_image, text, error))
         return false;
-    if (backdrop->floor_image && !add_file_hash(text, backdrop->floor_image, error))
+    if (backdrop->floor_image && !kiln_asset_add_hash(scene, backdrop->floor_image, text, error))
         return false;
     for (uint32_t i = 0; i < backdrop->object_count; i++) {
         const struct kiln_object *object = &backdrop->objects[i];
         if (object->kind == KILN_OBJECT_TERRAIN && object->file &&
-            !add_file_hash(text, object->file, error))
+            !kiln_asset_add_hash(scene, object->file, text, error))
             return false;
         if (object->kind == KILN_OBJECT_MESH)
             kiln_text_add(text, "%s\n", object->shown->hash);
@@ -70,13 +60,13 @@ static bool take_hash(struct kiln_scene *scene, struct kiln_error *error)
     for (uint32_t i = 0; ok && read && i < scene->system_count; i++) {
         const struct kiln_look *look = &scene->systems[i].look;
         for (uint32_t k = 0; read && k < look->atlas_count; k++)
-            read = add_file_hash(&text, look->atlas[k], error);
-        read = read && add_file_hash(&text, look->motion, error);
+            read = kiln_asset_add_hash(scene, look->atlas[k], &text, error);
+        read = read && kiln_asset_add_hash(scene, look->motion, &text, error);
         if (look->shape == KILN_SHAPE_MESH)
             kiln_text_add(&text, "%s\n", look->mesh.shown->hash);
         for (uint32_t k = 0; read && k < scene->systems[i].force_count; k++)
             if (scene->systems[i].forces[k].kind == KILN_FORCE_FIELD)
-                read = add_file_hash(&text, scene->systems[i].forces[k].file, error);
+                read = kiln_asset_add_hash(scene, scene->systems[i].forces[k].file, &text, error);
     }
     read = read && (!ok || add_backdrop_hashes(scene, &text, error));
     ok = ok && !text.failed;
@@ -102,9 +92,13 @@ static bool build(struct kiln_reader *reader, const char *text, size_t size,
         if (!kiln_override(reader, kiln_options_root, root, params->overrides[i]))
             return false;
     }
-    scene->meshes =
-        kiln_mesh_library_create(scene->asset_root, params->stop, params->user, params->budget);
-    if (!scene->meshes)
+    const struct kiln_loader_params loading = {.root = scene->asset_root,
+                                               .stop = params->stop,
+                                               .user = params->user,
+                                               .budget = scene->budget};
+    scene->loader = kiln_loader_create(&loading);
+    scene->meshes = kiln_mesh_library_create(scene->loader);
+    if (!scene->loader || !scene->meshes)
         return kiln_reader_out_of_memory(reader);
     for (size_t i = 0; i < sizeof OF_A_SCENE / sizeof *OF_A_SCENE; i++)
         kiln_budget_reset(scene->budget, OF_A_SCENE[i]);
@@ -142,10 +136,13 @@ static struct kiln_scene *create(const char *text, size_t size, const char *name
               kiln_reader_out_of_memory(&reader)) &&
              build(&reader, text, size, params);
         scene->budget = params->budget;
+        kiln_loader_stop_counting(scene->loader);
     }
     kiln_arena_destroy(&scratch);
-    if (!ok && scene)
+    if (!ok && scene) {
         kiln_mesh_library_destroy(&scene->meshes);
+        kiln_loader_destroy(&scene->loader);
+    }
     if (!ok)
         kiln_arena_destroy(&arena);
     return ok ? scene : NULL;

@@ -2,19 +2,9 @@
  * however they look. */
 #include "scene/motion.h"
 
-#include <errno.h>
-
 #include "base/error.h"
 #include "base/hash.h"
-
-static bool add_file(struct kiln_text *text, const char *path, struct kiln_error *error)
-{
-    char hex[65];
-    if (!kiln_hash_sha256_file(path, hex))
-        return kiln_error_set_errno(error, KILN_INVALID_INPUT, errno, "%s", path);
-    kiln_text_add(text, "%s\n", hex);
-    return true;
-}
+#include "scene/asset_path.h"
 
 /* Winds, and what particles meet. */
 static bool add_files(struct kiln_text *text, const struct kiln_scene *scene,
@@ -24,7 +14,7 @@ static bool add_files(struct kiln_text *text, const struct kiln_scene *scene,
         const struct kiln_system *system = &scene->systems[i];
         for (uint32_t k = 0; k < system->force_count; k++) {
             if (system->forces[k].kind == KILN_FORCE_FIELD &&
-                !add_file(text, system->forces[k].file, error))
+                !kiln_asset_add_hash(scene, system->forces[k].file, text, error))
                 return false;
         }
     }
@@ -35,7 +25,7 @@ static bool add_files(struct kiln_text *text, const struct kiln_scene *scene,
         if (object->kind == KILN_OBJECT_MESH)
             kiln_text_add(text, "%s\n", object->shown->hash);
         else if (object->kind == KILN_OBJECT_TERRAIN && object->file &&
-                 !add_file(text, object->file, error))
+                 !kiln_asset_add_hash(scene, object->file, text, error))
             return false;
     }
     return true;

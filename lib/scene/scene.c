@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "asset/loader/loader.h"
 #include "base/matrix.h"
 #include "option/unit.h"
 #include "scene/work.h"
@@ -143,10 +144,12 @@ bool kiln_scene_paints(const struct kiln_scene *scene, uint32_t system)
     return any && scene->systems[system].enabled && scene->systems[system].paint.enabled;
 }
 
-struct kiln_terrain_params kiln_scene_terrain(const struct kiln_object *terrain)
+struct kiln_terrain_params kiln_scene_terrain(const struct kiln_scene *scene,
+                                              const struct kiln_object *terrain)
 {
     const struct kiln_value3 *at = &terrain->center, *size = &terrain->size;
     return (struct kiln_terrain_params){
+        .loader = scene->loader,
         .image = terrain->file,
         .samples = {terrain->samples[0], terrain->samples[1]},
         .position = {at->x.constant, at->y.constant, at->z.constant},
@@ -184,6 +187,7 @@ void kiln_scene_destroy(struct kiln_scene **scene)
         return;
     struct kiln_arena *arena = (*scene)->arena; /* the scene lies in it */
     kiln_mesh_library_destroy(&(*scene)->meshes);
+    kiln_loader_destroy(&(*scene)->loader);
     kiln_arena_destroy(&arena);
     *scene = NULL;
 }

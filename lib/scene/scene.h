@@ -475,6 +475,7 @@ struct kiln_scene {
     bool (*stop)(void *user);         /* of kiln_scene_params */
     void *user;
     struct kiln_budget *budget; /* likewise */
+    struct kiln_loader *loader; /* of the files below the asset root; the scene ends it */
     uint64_t asset_pixels;      /* of all pictures that it names, counted as often as it does */
 
     uint32_t format_version; /* 1 */
@@ -566,7 +567,8 @@ bool kiln_scene_paints(const struct kiln_scene *scene, uint32_t system);
 bool kiln_object_takes_paint(const struct kiln_object *object);
 
 /* What a terrain is made from; the image's path stays the scene's. */
-struct kiln_terrain_params kiln_scene_terrain(const struct kiln_object *terrain);
+struct kiln_terrain_params kiln_scene_terrain(const struct kiln_scene *scene,
+                                              const struct kiln_object *terrain);
 /* The largest radius that particles of a system ever have as balls, m; 0: they do not collide with
  * each other. */
 float kiln_scene_contact_radius(const struct kiln_scene *scene, uint32_t system);

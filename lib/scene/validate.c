@@ -205,7 +205,8 @@ static bool check_division(struct kiln_reader *reader, const struct kiln_node *r
                            const struct kiln_system *system, const char *file)
 {
     const struct kiln_look *look = &system->look;
-    const struct kiln_cells_source source = {.path = file, look->columns, look->rows, 1};
+    const struct kiln_cells_source source = {file, look->columns, look->rows, 1,
+                                             kiln_reader_scene(reader)->loader};
     struct kiln_error error = {0};
     if (file[0] != '/' || kiln_cells_check_division(&source, &error))
         return true;
@@ -217,7 +218,7 @@ static bool check_division(struct kiln_reader *reader, const struct kiln_node *r
         reason += length + strspn(reason + length, ": ");
     kiln_reader_error_at(reader, root, path, "'%s': %s",
                          kiln_asset_name(kiln_reader_scene(reader), file), reason);
-    if (error.code == KILN_DEVICE_FAILED)
+    if (error.code != KILN_INVALID_INPUT && error.code != KILN_IO)
         reader->error->code = error.code;
     return false;
 }

@@ -306,7 +306,7 @@ bool kiln_file_copy(const char *from, const char *to, struct kiln_error *error)
 bool kiln_pixel_hash(const char *path, char hex[65], struct kiln_error *error)
 {
     static const size_t bytes[] = {[KILN_IMAGE_U8] = 1, [KILN_IMAGE_U16] = 2, [KILN_IMAGE_F32] = 4};
-    struct kiln_asset_image *image = kiln_asset_image_load(path, error);
+    struct kiln_asset_image *image = kiln_asset_image_load(NULL, path, error);
     if (!image)
         return false;
     size_t size = (size_t)image->width * image->height * 4 * bytes[image->type];

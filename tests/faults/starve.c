@@ -78,6 +78,61 @@ static bool is_refused(void)
     type starved_##name parameters
 
 /* clang-format off */
+/* Functions that kiln looks up by dlsym. */
+#define LOOKED_UP(A) \
+    A(av_malloc, void *, NULL, (size_t size), (size)) \
+    A(av_mallocz, void *, NULL, (size_t size), (size)) \
+    A(av_dict_set, int, AVERROR(ENOMEM), (AVDictionary **dictionary, const char *key, \
+      const char *value, int flags), (dictionary, key, value, flags)) \
+    A(av_dict_set_int, int, AVERROR(ENOMEM), (AVDictionary **dictionary, const char *key, \
+      int64_t value, int flags), (dictionary, key, value, flags)) \
+    A(av_dict_parse_string, int, AVERROR(ENOMEM), (AVDictionary **dictionary, const char \
+      *text, const char *is, const char *next, int flags), (dictionary, text, is, next, \
+      flags)) \
+    A(av_frame_alloc, AVFrame *, NULL, (void), ()) \
+    A(av_frame_get_buffer, int, AVERROR(ENOMEM), (AVFrame *frame, int align), (frame, align)) \
+    A(av_opt_set, int, AVERROR(ENOMEM), (void *object, const char *key, const char *value, \
+      int flags), (object, key, value, flags)) \
+    A(av_packet_alloc, AVPacket *, NULL, (void), ()) \
+    A(av_new_packet, int, AVERROR(ENOMEM), (AVPacket *packet, int size), (packet, size)) \
+    A(av_packet_from_data, int, AVERROR(ENOMEM), (AVPacket *packet, uint8_t *data, int \
+      size), (packet, data, size)) \
+    A(av_packet_add_side_data, int, AVERROR(ENOMEM), (AVPacket *packet, enum \
+      AVPacketSideDataType type, uint8_t *data, size_t size), (packet, type, data, size)) \
+    A(avcodec_alloc_context3, AVCodecContext *, NULL, (const AVCodec *codec), (codec)) \
+    A(avcodec_open2, int, AVERROR(ENOMEM), (AVCodecContext *context, const AVCodec *codec, \
+      AVDictionary **options), (context, codec, options)) \
+    A(avcodec_parameters_alloc, AVCodecParameters *, NULL, (void), ()) \
+    A(avcodec_parameters_copy, int, AVERROR(ENOMEM), (AVCodecParameters *to, const \
+      AVCodecParameters *from), (to, from)) \
+    A(avcodec_parameters_from_context, int, AVERROR(ENOMEM), (AVCodecParameters *to, const \
+      AVCodecContext *from), (to, from)) \
+    A(avformat_alloc_context, AVFormatContext *, NULL, (void), ()) \
+    A(avformat_new_stream, AVStream *, NULL, (AVFormatContext *context, const AVCodec \
+      *codec), (context, codec)) \
+    A(avio_open_dyn_buf, int, AVERROR(ENOMEM), (AVIOContext **context), (context)) \
+    A(sws_getContext, struct SwsContext *, NULL, (int width, int height, enum \
+      AVPixelFormat format, int to_width, int to_height, enum AVPixelFormat to_format, int \
+      flags, SwsFilter *filter, SwsFilter *to_filter, const double *options), (width, \
+      height, format, to_width, to_height, to_format, flags, filter, to_filter, options)) \
+    A(sws_alloc_context, struct SwsContext *, NULL, (void), ())
+
+#define LOOKED_UP_FUNCTION(name, type, refusal, parameters, arguments)                             \
+    static type(*real_##name) parameters;                                                          \
+    static type starved_##name parameters                                                          \
+    {                                                                                              \
+        return is_refused() ? (refusal) : real_##name arguments;                                   \
+    }                                                                                              \
+    static type(*const pointer_##name) parameters = starved_##name;
+LOOKED_UP(LOOKED_UP_FUNCTION)
+
+#define LOOKED_UP_ROW(name, ...) {#name, &real_##name, &pointer_##name},
+static const struct {
+    const char *name;
+    void *real;
+    const void *starved;
+} looked_up[] = {LOOKED_UP(LOOKED_UP_ROW)};
+
 ALLOCATION(malloc, void *, NULL, (size_t size), (size))
 ALLOCATION(calloc, void *, NULL, (size_t count, size_t size), (count, size))
 ALLOCATION(realloc, void *, NULL, (void *memory, size_t size), (memory, size))
@@ -88,48 +143,18 @@ ALLOCATION(open_memstream, FILE *, NULL, (char **text, size_t *size), (text, siz
 ALLOCATION(vasprintf, int, -1, (char **text, const char *format, va_list args), (text, format, args))
 ALLOCATION(kiln_arena_alloc, void *, NULL, (struct kiln_arena *arena, size_t count, size_t size),
            (arena, count, size))
-ALLOCATION(av_malloc, void *, NULL, (size_t size), (size))
-ALLOCATION(av_mallocz, void *, NULL, (size_t size), (size))
-ALLOCATION(av_dict_set, int, AVERROR(ENOMEM),
-           (AVDictionary **dictionary, const char *key, const char *value, int flags),
-           (dictionary, key, value, flags))
-ALLOCATION(av_dict_set_int, int, AVERROR(ENOMEM),
-           (AVDictionary **dictionary, const char *key, int64_t value, int flags),
-           (dictionary, key, value, flags))
-ALLOCATION(av_dict_parse_string, int, AVERROR(ENOMEM),
-           (AVDictionary **dictionary, const char *text, const char *is, const char *next, int flags),
-           (dictionary, text, is, next, flags))
-ALLOCATION(av_frame_alloc, AVFrame *, NULL, (void), ())
-ALLOCATION(av_frame_get_buffer, int, AVERROR(ENOMEM), (AVFrame *frame, int align), (frame, align))
-ALLOCATION(av_opt_set, int, AVERROR(ENOMEM),
-           (void *object, const char *key, const char *value, int flags),
-           (object, key, value, flags))
-ALLOCATION(av_packet_alloc, AVPacket *, NULL, (void), ())
-ALLOCATION(av_new_packet, int, AVERROR(ENOMEM), (AVPacket *packet, int size), (packet, size))
-ALLOCATION(av_packet_from_data, int, AVERROR(ENOMEM), (AVPacket *packet, uint8_t *data, int size),
-           (packet, data, size))
-ALLOCATION(av_packet_add_side_data, int, AVERROR(ENOMEM),
-           (AVPacket *packet, enum AVPacketSideDataType type, uint8_t *data, size_t size),
-           (packet, type, data, size))
-ALLOCATION(avcodec_alloc_context3, AVCodecContext *, NULL, (const AVCodec *codec), (codec))
-ALLOCATION(avcodec_open2, int, AVERROR(ENOMEM),
-           (AVCodecContext *context, const AVCodec *codec, AVDictionary **options),
-           (context, codec, options))
-ALLOCATION(avcodec_parameters_alloc, AVCodecParameters *, NULL, (void), ())
-ALLOCATION(avcodec_parameters_copy, int, AVERROR(ENOMEM),
-           (AVCodecParameters *to, const AVCodecParameters *from), (to, from))
-ALLOCATION(avcodec_parameters_from_context, int, AVERROR(ENOMEM),
-           (AVCodecParameters *to, const AVCodecContext *from), (to, from))
-ALLOCATION(avformat_alloc_context, AVFormatContext *, NULL, (void), ())
-ALLOCATION(avformat_new_stream, AVStream *, NULL, (AVFormatContext *context, const AVCodec *codec),
-           (context, codec))
-ALLOCATION(avio_open_dyn_buf, int, AVERROR(ENOMEM), (AVIOContext **context), (context))
-ALLOCATION(sws_getContext, struct SwsContext *, NULL,
-           (int width, int height, enum AVPixelFormat format, int to_width, int to_height,
-            enum AVPixelFormat to_format, int flags, SwsFilter *filter, SwsFilter *to_filter,
-            const double *options),
-           (width, height, format, to_width, to_height, to_format, flags, filter, to_filter, options))
-ALLOCATION(sws_alloc_context, struct SwsContext *, NULL, (void), ())
+ALLOCATION_BY_HAND(dlsym, void *, (void *restrict library, const char *restrict name))
+{
+    void *found = real_dlsym(library, name);
+    for (size_t i = 0; found && i < sizeof looked_up / sizeof *looked_up; i++) {
+        if (strcmp(looked_up[i].name, name) == 0) {
+            memcpy(looked_up[i].real, &found, sizeof found);
+            memcpy(&found, looked_up[i].starved, sizeof found);
+            break;
+        }
+    }
+    return found;
+}
 /* clang-format on */
 
 ALLOCATION_BY_HAND(asprintf, int, (char **text, const char *format, ...))

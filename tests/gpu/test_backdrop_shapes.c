@@ -85,8 +85,7 @@ static void check_mesh(void *device, const char *text, double sun_radius, double
                        int step)
 {
     struct kiln_error error = {0};
-    struct kiln_mesh *mesh = kiln_mesh_load(KILN_SOURCE_DIR "/scenes/meshes/pot.obj",
-                                            KILN_SOURCE_DIR "/scenes", NULL, NULL, &error);
+    struct kiln_mesh *mesh = kiln_mesh_load(NULL, KILN_SOURCE_DIR "/scenes/meshes/pot.obj", &error);
     if (!mesh)
         fail_msg("%s", error.message);
     const struct shape shapes[] = {
@@ -230,7 +229,7 @@ static void skies_lie_where_they_should(void **state)
     /* What faces up gets the mean of the upper half, and the band at the horizon that of both. */
     struct kiln_error error = {0};
     struct kiln_sky_light light;
-    assert_true(kiln_sky_light_measure(&light, path, &error));
+    assert_true(kiln_sky_light_measure(&light, NULL, path, &error));
     assert_true(fabsf(light.up[0] - 0.5f) < 1e-3f && fabsf(light.up[1] - 0.5f) < 1e-3f);
     assert_true(light.up[2] == 0.0f && light.horizon[2] > 0.05f);
     test_remove_folder(folder);

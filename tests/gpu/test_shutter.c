@@ -54,7 +54,7 @@ static void render(struct kiln_device *device, const char *fps, const char *came
 static struct kiln_asset_image *load_layer(const char *path, const char *layer)
 {
     struct kiln_error error = {0};
-    struct kiln_asset_image *image = kiln_asset_image_load_layer(path, layer, &error);
+    struct kiln_asset_image *image = kiln_asset_image_load_layer(NULL, path, layer, &error);
     if (!image)
         fail_msg("%s", error.message);
     assert_true(image && image->width == WIDTH && image->height == HEIGHT &&

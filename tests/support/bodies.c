@@ -47,7 +47,7 @@ struct body begin(const char *path)
 struct kiln_mesh *body_load(const char *path)
 {
     struct kiln_error error = {0};
-    struct kiln_mesh *mesh = kiln_mesh_load(path, "/", NULL, NULL, &error);
+    struct kiln_mesh *mesh = kiln_mesh_load(NULL, path, &error);
     if (!mesh)
         fail_msg("%s", error.message);
     return mesh;

@@ -150,7 +150,7 @@ struct kiln_object *fixture_add_mesh(struct scene_fixture *f, const char *file, 
     struct kiln_error error = {0};
     f->scene.asset_root = "/";
     if (!f->scene.meshes)
-        f->scene.meshes = kiln_mesh_library_create("/", NULL, NULL, NULL);
+        f->scene.meshes = kiln_mesh_library_create(NULL);
     mesh->kind = KILN_OBJECT_MESH;
     mesh->file = file;
     mesh->shown = mesh->met = kiln_mesh_library_get(f->scene.meshes, file, &error);

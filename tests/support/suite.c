@@ -120,7 +120,7 @@ void spark_paint(const char *path, uint32_t x0, uint32_t y0, uint32_t width, uin
                  int levels)
 {
     struct kiln_error error = {0};
-    struct kiln_asset_image *image = kiln_asset_image_load(path, &error);
+    struct kiln_asset_image *image = kiln_asset_image_load(NULL, path, &error);
     if (!image) {
         fail_msg("%s", error.message);
         return;

@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
-# The include law of lib/, cmd/ and shaders/: includes.sh SOURCE. A file includes headers of its own
-# room and of rooms before it (rooms.awk); cmd/ includes nothing of lib/ but kiln.h. shaders/shared is
+# The include law of lib/, cmd/, decode/ and shaders/: includes.sh SOURCE. A file includes headers of its
+# own room and of rooms before it (rooms.awk); cmd/ includes nothing of lib/ but kiln.h, and decode/ what
+# the rooms base and asset have. Only decode/ includes assimp, and only base/ffmpeg.h FFmpeg. shaders/shared is
 # below all, and so are kiln.h and what it includes. A folder of shaders is the room of that name,
 # and the stem of a shader begins with that of a C file of the same room.
 set -euo pipefail
 rooms=$(dirname "$(realpath "$0")")/rooms.awk
 cd "$1"
 
-mapfile -t files < <(find lib cmd shaders -name '*.[ch]' -o -path 'shaders/*.*' -type f | sort -u)
+mapfile -t files < <(find lib cmd decode shaders -name '*.[ch]' -o -path 'shaders/*.*' -type f | sort -u)
 
 awk -f "$rooms" -f - "${files[@]}" <<'AWK'
 function complain(text) { printf "%s:%d: %s\n", FILENAME, FNR, text; failed = 1 }
@@ -15,6 +16,7 @@ function complain(text) { printf "%s:%d: %s\n", FILENAME, FNR, text; failed = 1 
 # The file's folder in words of rooms: "cmd", "shared", a room, or "" for the root of lib/.
 function where(path) {
     if (path ~ /^cmd\//) return "cmd"
+    if (path ~ /^decode\//) return "decode"
     if (path ~ /^shaders\/shared\//) return "shared"
     sub(/^(lib|shaders)\//, "", path)
     return room_of(path)
@@ -50,7 +52,7 @@ FNR == 1 {
     room = where(FILENAME)
     if (room == "" && FILENAME !~ /^lib\/kiln(_[a-z]*)?\.h$/)
         complain("the root of lib/ is for kiln.h and its parts alone")
-    else if (room != "" && room != "cmd" && room != "shared" && !is_room(room))
+    else if (room != "" && room != "cmd" && room != "decode" && room != "shared" && !is_room(room))
         complain("a folder that the include law does not know")
     if (FILENAME ~ /^shaders\/.*\.(comp|vert|frag|geom)$/ && !has_file(FILENAME))
         complain("no C file of its room has a name that this one begins with")
@@ -62,6 +64,9 @@ FNR == 1 {
     sub(/^[<"]/, "", path); sub(/[>"].*$/, "", path)
     if (bracket) {
         if (room == "cmd" && !(path in libc)) complain("cmd/ includes <" path ">, not of libc")
+        if (path ~ /^lib(av|sw)/ && FILENAME != "lib/base/ffmpeg.h")
+            complain("<" path "> is for lib/base/ffmpeg.h alone")
+        if (path ~ /^assimp/ && room != "decode") complain("<" path "> is for decode/ alone")
         next
     }
     if (path ~ /^kiln(_[a-z]+)?\.h$/ && room != "shared") next
@@ -69,6 +74,10 @@ FNR == 1 {
     if (room == "cmd") {
         if (path != "commit.h" && (target != "" || system("test -f cmd/" path) != 0))
             complain("cmd/ includes \"" path "\", which is neither kiln.h nor of cmd/")
+    } else if (room == "decode") {
+        if (target != "base" && target !~ /^asset\// &&
+            (target != "" || system("test -f decode/" path) != 0))
+            complain("decode/ includes \"" path "\", which is not of base, asset or decode/")
     } else if (target == "shared") {
         next
     } else if (room == "shared") {

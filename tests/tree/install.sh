@@ -24,7 +24,10 @@ diff <(cd "$prefix" && find bin include share -type f | sort) \
 
 (cd / && "$prefix/bin/kiln" help >"$prefix/help.txt")
 grep -q render "$prefix/help.txt" || { echo "kiln help says nothing of render"; exit 1; }
-(cd / && "$prefix/bin/kiln" check "$prefix/share/kiln/scenes/fire_beam.yaml" >/dev/null)
+for scene in fire_beam campfire pot; do # the latter have pictures and a mesh, which kiln-decode reads
+    (cd / && "$prefix/bin/kiln" check "$prefix/share/kiln/scenes/$scene.yaml" >/dev/null)
+done
+[[ -x $prefix/libexec/kiln/kiln-decode ]] || { echo "kiln-decode is not installed"; exit 1; }
 
 cat >"$prefix/user.c" <<'C'
 #include <kiln.h>

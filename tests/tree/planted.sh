@@ -10,7 +10,7 @@ trap 'rm -rf "$tree"' EXIT
 # A tree that keeps every law.
 plant() {
     rm -rf "${tree:?}"/*
-    mkdir -p "$tree"/{cmd,lib/{base,draw/{moment,light},sort},shaders/{shared,draw/light}}
+    mkdir -p "$tree"/{cmd,decode,lib/{base,draw/{moment,light},sort},shaders/{shared,draw/light}}
     cd "$tree"
     : >lib/kiln.h
     : >lib/base/error.h

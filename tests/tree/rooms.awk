@@ -8,7 +8,8 @@ BEGIN {
     rank["report"] = 11; rank["figure"] = 12; rank["bench"] = 13
 
     # Inside of three of them.
-    inner["asset/image"] = 1; inner["asset/geometry"] = inner["asset/atlas"] = 2
+    inner["asset/loader"] = 1; inner["asset/image"] = 2
+    inner["asset/geometry"] = inner["asset/atlas"] = 3
     inner["sim/world"] = 1; inner["sim/crowd"] = inner["sim/paint"] = 2; inner["sim/step"] = 3
     inner["draw/vector"] = 1; inner["draw/moment"] = 2; inner["draw/light"] = 3
     inner["draw/backdrop"] = 4; inner["draw/solids"] = 5; inner["draw/sprites"] = 6

@@ -10,7 +10,11 @@ allowed=(
     "temporary.c.o slots"
     "temporary.c.o abandoned"
     # FFmpeg's log callback gets no user pointer; one per thread says whose messages these are.
-    "avlog.c.o current"
+    "ffmpeg.c.o current"
+    # A process has FFmpeg's libraries once, and their functions.
+    "ffmpeg.c.o libraries"
+    "ffmpeg.c.o mutex.0"
+    "ffmpeg.c.o kiln_ff"
 )
 
 # D, B and C are writable data. libepoxy's dispatch pointers are data of libepoxy, not of kiln.

@@ -23,7 +23,7 @@ while (($# > 0)); do
     shift
 done
 if ((${#files[@]} == 0)); then
-    mapfile -t files < <(find lib cmd tests -name '*.c' -not -path '*/node_modules/*' | sort |
+    mapfile -t files < <(find lib cmd decode tests -name '*.c' -not -path '*/node_modules/*' | sort |
         awk -v part="$part" -v count="$count" 'NR % count == part % count')
 fi
 notes=$(mktemp)

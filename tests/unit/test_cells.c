@@ -101,7 +101,7 @@ static void cells_do_not_bleed(void **state)
         float *cells = calloc(4 * pixels, 4 * sizeof *cells);
         assert_non_null(cells);
         struct kiln_error error = {0};
-        const struct kiln_cells_source source = {f->path, 2, 2, edges[e]};
+        const struct kiln_cells_source source = {f->path, 2, 2, edges[e], NULL};
         assert_true(kiln_cells_load(&source, cells, f->threads, &error));
         for (uint32_t i = 0; i < 4 * pixels; i++) {
             assert_true(fabsf(cells[4 * i] - linear(levels[i / pixels])) < 1e-5f);
@@ -128,7 +128,7 @@ static void cells_are_resized_smoothly(void **state)
         float *cells = calloc((size_t)edge * edge, 4 * sizeof *cells), sum = 0.0f;
         assert_non_null(cells);
         struct kiln_error error = {0};
-        const struct kiln_cells_source source = {f->path, 1, 1, edge};
+        const struct kiln_cells_source source = {f->path, 1, 1, edge, NULL};
         assert_true(kiln_cells_load(&source, cells, f->threads, &error));
         for (uint32_t i = 0; i < edge * edge; i++)
             sum += cells[4 * i] / (float)(edge * edge);
@@ -201,7 +201,7 @@ static void motion_of_a_file_makes_up_for_cells(void **state)
     float *motion = calloc(COUNT * EDGE * EDGE, 2 * sizeof *motion);
     assert_true(cells && motion);
     struct kiln_error error = {0};
-    struct kiln_cells_source source = {f->path, COLUMNS, COLUMNS, EDGE};
+    struct kiln_cells_source source = {f->path, COLUMNS, COLUMNS, EDGE, NULL};
     assert_true(kiln_cells_load(&source, cells, f->threads, &error));
     source.path = f->motion;
     assert_true(kiln_cells_load_motion(&source, motion, f->threads, &error));
@@ -239,7 +239,7 @@ static void half_of_red_and_green_is_rest(void **state)
     write_picture(&picture, f->path);
     float motion[4 * 4 * 2];
     struct kiln_error error = {0};
-    const struct kiln_cells_source source = {f->path, 1, 1, 4};
+    const struct kiln_cells_source source = {f->path, 1, 1, 4, NULL};
     assert_true(kiln_cells_load_motion(&source, motion, f->threads, &error));
     for (int i = 0; i < 4 * 4 * 2; i++)
         assert_true(fabsf(motion[i]) < 1e-6f);
@@ -257,11 +257,11 @@ static void frames_of_a_video_are_cells(void **state)
     params.quality = 95;
     struct kiln_error error = {0};
     assert_true(test_write_all(&params, &error));
-    assert_true(kiln_cells_check(path, NULL, &error));
+    assert_true(kiln_cells_check(NULL, path, &error));
 
     float *cells = calloc(16 * 16 * 16, 4 * sizeof *cells);
     assert_non_null(cells);
-    struct kiln_cells_source source = {path, 4, 3, 16};
+    struct kiln_cells_source source = {path, 4, 3, 16, NULL};
     assert_true(kiln_cells_load(&source, cells, f->threads, &error));
     for (uint32_t cell = 0; cell < 12; cell++) {
         float sum = 0.0f, expected = 0.0f;
@@ -285,7 +285,7 @@ static void cells_must_divide_the_image(void **state)
     write_picture(&picture, f->path);
     float cells[6 * 4 * 4 * 4];
     struct kiln_error error = {0};
-    const struct kiln_cells_source source = {f->path, 2, 3, 4};
+    const struct kiln_cells_source source = {f->path, 2, 3, 4, NULL};
     assert_false(kiln_cells_load(&source, cells, f->threads, &error));
     assert_int_equal(error.code, KILN_INVALID_INPUT);
     assert_non_null(
@@ -293,8 +293,8 @@ static void cells_must_divide_the_image(void **state)
     assert_false(kiln_cells_check_division(&source, &error));
     assert_true(kiln_cells_check_division(
         &(struct kiln_cells_source){.path = f->path, .columns = 2, .rows = 4}, &error));
-    assert_true(kiln_cells_check(f->path, NULL, &error));
-    assert_false(kiln_cells_check(f->folder, NULL, &error));
+    assert_true(kiln_cells_check(NULL, f->path, &error));
+    assert_false(kiln_cells_check(NULL, f->folder, &error));
 }
 
 int main(void)

@@ -1,6 +1,5 @@
 /* Every format of clips, written and decoded again: frames, times, sizes, alpha, colours, tags; the
  * same bytes with any number of threads; and what cannot be held is refused or said. */
-#include <dlfcn.h>
 #include <libavformat/avformat.h>
 #include <libavutil/pixdesc.h>
 #include <math.h>
@@ -9,18 +8,15 @@
 #include <unistd.h>
 
 #include "asset/image/video_in.h"
+#include "base/ffmpeg.h"
 #include "support/cmocka.h"
 #include "support/pictures.h"
 
-static bool encoders_are_missing; /* played by standing before FFmpeg's own function */
-
-const AVCodec *avcodec_find_encoder_by_name(const char *name)
+/* Plays an FFmpeg that was built without. */
+static const AVCodec *find_no_encoder(const char *name)
 {
-    union {
-        void *symbol;
-        const AVCodec *(*function)(const char *);
-    } real = {.symbol = dlsym(RTLD_NEXT, "avcodec_find_encoder_by_name")};
-    return encoders_are_missing ? NULL : real.function(name);
+    (void)name;
+    return NULL;
 }
 
 static const struct clip_format {
@@ -85,7 +81,7 @@ static double wanted(const struct kiln_output_params *params, uint32_t frame, ui
 static double read_back(const struct kiln_output_params *params, bool deep)
 {
     struct kiln_error error = {0};
-    struct kiln_video_in *video = kiln_video_in_open(params->path, &error);
+    struct kiln_video_in *video = kiln_video_in_open(NULL, params->path, &error);
     assert_string_equal(error.message, "");
     double sum = 0, weights = 0;
     uint32_t frame = params->ranges[0].first;
@@ -493,14 +489,15 @@ static void impossible_clips_are_refused(void **state)
     params = good;
     params.png_bits = 12;
     refuse(params, "mkv", KILN_USAGE, "12 bits a channel; allowed are 8 or 16");
-    encoders_are_missing = true;
+    __typeof__(avcodec_find_encoder_by_name) *find = kiln_ff.avcodec_find_encoder_by_name;
+    kiln_ff.avcodec_find_encoder_by_name = find_no_encoder;
     for (size_t i = 0; i < sizeof encoders / sizeof *encoders; i++) {
         char message[64];
         snprintf(message, sizeof message, "this FFmpeg has no encoder %s; install one that was",
                  encoders[i].encoder);
         refuse(good, encoders[i].suffix, KILN_IO, message);
     }
-    encoders_are_missing = false;
+    kiln_ff.avcodec_find_encoder_by_name = find;
 }
 
 /* Ending early leaves nothing: neither the file nor the frames that wait for a palette. */
@@ -540,7 +537,7 @@ static void what_was_cut_short_is_not_read(void **state)
         free(bytes);
         assert_int_equal(truncate(path, size - size / 10), 0);
         struct kiln_error error = {0};
-        struct kiln_video_in *video = kiln_video_in_open(path, &error);
+        struct kiln_video_in *video = kiln_video_in_open(NULL, path, &error);
         struct kiln_asset_image *image = NULL;
         bool good = video != NULL, more = good;
         while (more) {

@@ -253,7 +253,7 @@ static void the_error_map_is_black_where_nothing_is_judged(void **state)
     for (int masked = 0; masked < 2; masked++) {
         const struct kiln_compare_mask mask = {20, 10, 6, 4, NULL};
         assert_int_equal(differing(&m, masked ? &mask : NULL), masked ? 0 : 24);
-        struct kiln_asset_image *map = kiln_asset_image_load(m.map, &m.error);
+        struct kiln_asset_image *map = kiln_asset_image_load(NULL, m.map, &m.error);
         assert_non_null(map);
         assert_true(map->width == 64 && map->height == 36);
         const uint8_t *centre = (const uint8_t *)map->pixels + 4 * (12 * 64 + 23);

@@ -72,7 +72,7 @@ static struct kiln_asset_image *load(const char *ending)
     char name[64];
     struct kiln_error error = {0};
     snprintf(name, sizeof name, "%s/book%s", folder, ending);
-    struct kiln_asset_image *image = kiln_asset_image_load(name, &error);
+    struct kiln_asset_image *image = kiln_asset_image_load(NULL, name, &error);
     assert_string_equal(error.message, "");
     return image;
 }

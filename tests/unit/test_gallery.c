@@ -43,7 +43,7 @@ static struct kiln_asset_image *preview_of(const char *path, const char *target)
         fail_msg("%s", error.message);
     assert_true(kiln_temporary_commit(&file, true, &error));
     assert_true(kiln_preview_is_plain(target));
-    struct kiln_asset_image *image = kiln_asset_image_load(target, &error);
+    struct kiln_asset_image *image = kiln_asset_image_load(NULL, target, &error);
     assert_non_null(image);
     assert_int_equal(image->type, KILN_IMAGE_U8);
     return image;
@@ -59,7 +59,7 @@ static void previews_have_eight_bits(void **state)
     write_wave(path, 3, 16);
     assert_false(kiln_preview_is_plain(path));
     struct kiln_error error = {0};
-    struct kiln_asset_image *deep = kiln_asset_image_load(path, &error);
+    struct kiln_asset_image *deep = kiln_asset_image_load(NULL, path, &error);
     struct kiln_asset_image *image = preview_of(path, target);
     assert_non_null(deep);
     const uint16_t *from = deep->pixels;
@@ -88,7 +88,7 @@ static void previews_map_tones(void **state)
     snprintf(target, sizeof target, "%s/preview.png", folder);
     write_wave(path, 0, 8);
     struct kiln_error error = {0};
-    struct kiln_asset_image *light = kiln_asset_image_load(path, &error);
+    struct kiln_asset_image *light = kiln_asset_image_load(NULL, path, &error);
     struct kiln_asset_image *image = preview_of(path, target);
     assert_non_null(light);
     const float *from = light->pixels;

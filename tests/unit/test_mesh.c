@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "asset/geometry/mesh.h"
+#include "asset/loader/loader.h"
 #include "support/cmocka.h"
 #include "support/folders.h"
 
@@ -126,10 +127,23 @@ static void write_buffer(const char *path, float size)
     assert_int_equal(fclose(file), 0);
 }
 
+/* A file of the root, by its path in there. */
+static struct kiln_mesh *load_below(const char *root, const char *path, struct kiln_error *error)
+{
+    char absolute[KILN_PATH_SIZE];
+    const struct kiln_loader_params params = {.root = root};
+    struct kiln_loader *loader = kiln_loader_create(&params);
+    assert_non_null(loader);
+    snprintf(absolute, sizeof absolute, "%s/%s", root, path);
+    struct kiln_mesh *mesh = kiln_mesh_load(loader, absolute, error);
+    kiln_loader_destroy(&loader);
+    return mesh;
+}
+
 static struct kiln_mesh *load(const char *path, const char *root)
 {
     struct kiln_error error = {0};
-    struct kiln_mesh *mesh = kiln_mesh_load(path, root, NULL, NULL, &error);
+    struct kiln_mesh *mesh = load_below(root, path, &error);
     if (!mesh)
         fail_msg("%s", error.message);
     return mesh;
@@ -179,12 +193,12 @@ static void buffers_elsewhere_are_refused(void **state)
         {"file:///etc/passwd", "in its folder or below"},
         {"http://localhost/t.bin", "in its folder or below"},
         {"link.bin", "outside the asset root"},
-        {"missing.bin", "does not exist"},
+        {"missing.bin", "No such file or directory"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct kiln_error error = {0};
         write_gltf("files/t.gltf", cases[i].uri);
-        struct kiln_mesh *mesh = kiln_mesh_load("files/t.gltf", root, NULL, NULL, &error);
+        struct kiln_mesh *mesh = load_below(root, "t.gltf", &error);
         if (mesh)
             fail_msg("%s was read", cases[i].uri);
         assert_int_equal(error.code, KILN_INVALID_INPUT);
@@ -192,7 +206,7 @@ static void buffers_elsewhere_are_refused(void **state)
             fail_msg("%s: %s", cases[i].uri, error.message);
     }
     write_gltf("files/t.gltf", "t.bin");
-    struct kiln_mesh *mesh = load("files/t.gltf", root);
+    struct kiln_mesh *mesh = load("t.gltf", root);
     kiln_mesh_destroy(&mesh);
     char text[2048];
     snprintf(text, sizeof text, GLTF, "t.bin");
@@ -260,9 +274,13 @@ static void importing_can_be_stopped(void **state)
         end = stpcpy(end, "f 1 2 3\n");
     test_write_file("slow.obj", text);
     free(text);
-    assert_null(kiln_mesh_load("slow.obj", "/", at_once, &asked, &error));
+    const struct kiln_loader_params params = {.stop = at_once, .user = &asked};
+    struct kiln_loader *loader = kiln_loader_create(&params);
+    assert_non_null(loader);
+    assert_null(kiln_mesh_load(loader, "slow.obj", &error));
+    kiln_loader_destroy(&loader);
     assert_int_equal(error.code, KILN_INTERRUPTED);
-    assert_non_null(strstr(error.message, "slow.obj: stopped"));
+    assert_non_null(strstr(error.message, "stopped while reading"));
     assert_int_equal(asked, 1);
     assert_true(waitpid(-1, NULL, WNOHANG) < 0); /* nobody is left */
 }
@@ -273,7 +291,7 @@ static void large_files_are_refused(void **state)
     struct kiln_error error = {0};
     test_write_file("huge.obj", CUBE);
     assert_int_equal(truncate("huge.obj", KILN_MAX_MESH_BYTES + 1), 0);
-    assert_null(kiln_mesh_load("huge.obj", "/", NULL, NULL, &error));
+    assert_null(kiln_mesh_load(NULL, "huge.obj", &error));
     assert_int_equal(error.code, KILN_INVALID_INPUT);
     assert_non_null(strstr(error.message, "allowed are at most 67108864"));
 
@@ -294,9 +312,9 @@ static void files_must_be_files(void **state)
     (void)state;
     struct kiln_error error = {0};
     test_write_file("folder.obj/file", "");
-    assert_null(kiln_mesh_load("folder.obj", "/", NULL, NULL, &error));
+    assert_null(kiln_mesh_load(NULL, "folder.obj", &error));
     assert_int_equal(error.code, KILN_INVALID_INPUT);
-    assert_null(kiln_mesh_load("missing.obj", "/", NULL, NULL, &error));
+    assert_null(kiln_mesh_load(NULL, "missing.obj", &error));
     assert_int_equal(error.code, KILN_IO);
 }
 

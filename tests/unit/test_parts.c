@@ -1,29 +1,33 @@
 /* lib/output/part.c: a clip that is made of parts, whoever wrote which of them and when, has the
  * bytes of one that was written at once. */
-#include <dlfcn.h>
-#include <libavcodec/avcodec.h>
-#include <libavutil/opt.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "base/ffmpeg.h"
 #include "output/part.h"
 #include "support/cmocka.h"
 #include "support/folders.h"
 #include "support/pictures.h"
 
-static bool vectors_are_off; /* in x264, by standing before FFmpeg's own function */
+static __typeof__(avcodec_open2) *open_codec; /* FFmpeg's own */
 
-int avcodec_open2(AVCodecContext *avctx, const AVCodec *codec, AVDictionary **options)
+/* In place of FFmpeg's own function: x264 without vectors. */
+static int open_without_vectors(AVCodecContext *codec, const AVCodec *which, AVDictionary **options)
 {
-    union {
-        void *symbol;
-        int (*function)(AVCodecContext *, const AVCodec *, AVDictionary **);
-    } real = {.symbol = dlsym(RTLD_NEXT, "avcodec_open2")};
-    if (vectors_are_off && strcmp(codec->name, "libx264") == 0)
-        av_opt_set(avctx->priv_data, "x264-params", "cpu-independent=1:scenecut=0:asm=0", 0);
-    return real.function(avctx, codec, options);
+    if (strcmp(which->name, "libx264") == 0)
+        kiln_ff.av_opt_set(codec->priv_data, "x264-params", "cpu-independent=1:scenecut=0:asm=0",
+                           0);
+    return open_codec(codec, which, options);
+}
+
+static void choose_vectors(bool on)
+{
+    struct kiln_error error = {0};
+    assert_true(kiln_ffmpeg_open(KILN_FFMPEG_CLIPS, &error));
+    open_codec = open_codec ? open_codec : kiln_ff.avcodec_open2;
+    kiln_ff.avcodec_open2 = on ? open_codec : open_without_vectors;
 }
 
 /* So many frames at a rate, in a format. */
@@ -138,9 +142,9 @@ static void vectors_of_any_width_make_the_same_parts(void **state)
     const struct kiln_output_params straight = params_of("whole.mp4", &clip, 10, 1, false);
     assert_true(test_write_all(&straight, &error));
     struct kiln_output_params params = params_of("joined.mp4", &clip, 10, 1, false);
-    vectors_are_off = true;
+    choose_vectors(false);
     write_parts(params, 1, 2);
-    vectors_are_off = false;
+    choose_vectors(true);
     write_parts(params, 0, 2);
     params.parts = "parts";
     assert_true(kiln_parts_join(&params, &error));

@@ -204,6 +204,7 @@ static void assert_same_scene(const struct kiln_scene *a, const struct kiln_scen
         }
     }
     left.meshes = right.meshes;
+    left.loader = right.loader;
     left.arena = right.arena;
     left.name = right.name;
     left.asset_root = right.asset_root;

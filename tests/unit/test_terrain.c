@@ -267,7 +267,7 @@ static void rain_on_spikes(struct kiln_terrain_params *params, float speed, bool
     struct kiln_object *terrain = fixture_add_terrain(&fixture, 0.0f, 6.0f, 3.0f, 30);
     terrain->hills = fixture_constant(0.3f);
     terrain->roughness = fixture_constant(1.0f);
-    *params = kiln_scene_terrain(terrain);
+    *params = kiln_scene_terrain(&fixture.scene, terrain);
     fixture_finish(&fixture, 60);
 }
 

@@ -33,7 +33,7 @@ static struct clip make_clip(void)
 /* The frames that can be read; -1 when that ends with an error, which is checked. */
 static int count_frames(const char *path, struct kiln_error *error)
 {
-    struct kiln_video_in *video = kiln_video_in_open(path, error);
+    struct kiln_video_in *video = kiln_video_in_open(NULL, path, error);
     struct kiln_asset_image *image = NULL;
     int frames = 0;
     bool good = video != NULL;
@@ -52,7 +52,7 @@ static void frames_and_colours_come_back(void **state)
     (void)state;
     struct clip clip = make_clip();
     struct kiln_error error = {0};
-    struct kiln_video_in *video = kiln_video_in_open(clip.path, &error);
+    struct kiln_video_in *video = kiln_video_in_open(NULL, clip.path, &error);
     assert_non_null(video);
     for (uint32_t frame = 0; frame < FRAMES; frame++) {
         struct kiln_asset_image *image = NULL;

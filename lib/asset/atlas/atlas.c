@@ -229,7 +229,8 @@ static void add_texture(struct flipbooks *all, struct kiln_atlas *atlas,
                         struct kiln_atlas_range *range)
 {
     struct flipbook book = {
-        .source = {request->sources[texture], request->columns, request->rows, KILN_ATLAS_CELL},
+        .source = {request->sources[texture], request->columns, request->rows, KILN_ATLAS_CELL,
+                   request->loader},
         .name = kiln_builtin_of(request->sources[texture]),
         .request = request,
         .range = range,

@@ -49,6 +49,7 @@ struct kiln_atlas_request {
     uint32_t columns, rows; /* a built-in flipbook is made with as many cells */
     const char *motion;     /* "none", "auto" (what built-in ones know) or an absolute path */
     float motion_scale;     /* of a file: edges of the cell that a full value means */
+    struct kiln_loader *loader; /* of the files; may be NULL */
 };
 
 /* Makes the cells for count systems, on the host; equal ones share layers. A file that is neither

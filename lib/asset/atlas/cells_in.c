@@ -7,12 +7,10 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "asset/image/image.h"
 #include "asset/image/linear.h"
 #include "asset/image/video_in.h"
-#include "base/budget.h"
 #include "base/error.h"
 
 /* ---- pixels ---------------------------------------------------------------------------------- */
@@ -158,15 +156,13 @@ static void resize_cells(void *context, size_t begin, size_t end, uint32_t worke
         resize_cell(job, cell, row, row + (size_t)job->cell_width * 4);
 }
 
-static bool check_division(const struct kiln_asset_image *image,
-                           const struct kiln_cells_source *source, struct kiln_error *error)
+static bool check_division(uint32_t width, uint32_t height, const struct kiln_cells_source *source,
+                           struct kiln_error *error)
 {
-    if (image->width % source->columns == 0 && image->height % source->rows == 0)
-        return true;
-    kiln_error_set(error, KILN_INVALID_INPUT,
-                   "%s: %u x %u pixels do not divide into %u columns and %u rows", source->path,
-                   image->width, image->height, source->columns, source->rows);
-    return false;
+    return (width % source->columns == 0 && height % source->rows == 0) ||
+           kiln_error_set(error, KILN_INVALID_INPUT,
+                          "%s: %u x %u pixels do not divide into %u columns and %u rows",
+                          source->path, width, height, source->columns, source->rows);
 }
 
 /* Adds to cells, which are zero. */
@@ -181,7 +177,7 @@ static bool resize_image(const struct kiln_asset_image *image,
                          .cell_height = image->height / source->rows,
                          .edge = source->edge,
                          .cells = cells};
-    if (!check_division(image, source, error))
+    if (!check_division(image->width, image->height, source, error))
         return false;
     job.rows = calloc(kiln_threads_count(threads),
                       ((size_t)job.cell_width + job.edge) * 4 * sizeof(float));
@@ -199,32 +195,51 @@ static bool resize_image(const struct kiln_asset_image *image,
 
 /* ---- videos ---------------------------------------------------------------------------------- */
 
-static bool load_video(const struct kiln_cells_source *source, float *cells,
-                       struct kiln_threads *threads, struct kiln_error *error)
+/* Reads the frames that become cells, and gives each to `take`, or only looks whether they are
+ * there when that is NULL. */
+static bool read_frames(const struct kiln_cells_source *source,
+                        bool (*take)(void *user, const struct kiln_asset_image *image,
+                                     uint32_t number, struct kiln_error *error),
+                        void *user, struct kiln_error *error)
 {
-    struct kiln_video_in *video = kiln_video_in_open(source->path, error);
-    if (!video)
-        return false;
-    struct kiln_cells_source frame = *source;
-    frame.columns = frame.rows = 1;
-    uint32_t count = source->columns * source->rows;
-    bool ok = true;
+    struct kiln_video_in *video = kiln_video_in_open(source->loader, source->path, error);
+    const uint32_t count = source->columns * source->rows;
+    bool ok = video != NULL;
     for (uint32_t i = 0; ok && i < count; i++) {
         struct kiln_asset_image *image = NULL;
         ok = kiln_video_in_read(video, &image, error);
-        if (ok && !image) {
-            kiln_error_set(error, KILN_INVALID_INPUT,
-                           "%s: a video of %u frames; the %u columns and %u rows take %u",
-                           source->path, i, source->columns, source->rows, count);
-            ok = false;
-        }
-        if (ok)
-            ok = resize_image(image, &frame, false,
-                              cells + (size_t)i * source->edge * source->edge * 4, threads, error);
+        if (ok && !image)
+            ok = kiln_error_set(error, KILN_INVALID_INPUT,
+                                "%s: a video of %u frames; the %u columns and %u rows take %u",
+                                source->path, i, source->columns, source->rows, count);
+        ok = ok && (!take || take(user, image, i, error));
         kiln_asset_image_destroy(&image);
     }
     kiln_video_in_close(&video);
     return ok;
+}
+
+struct frames {
+    struct kiln_cells_source frame; /* one cell */
+    float *cells;
+    struct kiln_threads *threads;
+};
+
+static bool resize_frame(void *user, const struct kiln_asset_image *image, uint32_t number,
+                         struct kiln_error *error)
+{
+    const struct frames *frames = user;
+    const size_t cell = (size_t)frames->frame.edge * frames->frame.edge * 4;
+    return resize_image(image, &frames->frame, false, frames->cells + number * cell,
+                        frames->threads, error);
+}
+
+static bool load_video(const struct kiln_cells_source *source, float *cells,
+                       struct kiln_threads *threads, struct kiln_error *error)
+{
+    struct frames frames = {*source, cells, threads};
+    frames.frame.columns = frames.frame.rows = 1;
+    return read_frames(source, resize_frame, &frames, error);
 }
 
 /* ---- files ----------------------------------------------------------------------------------- */
@@ -236,7 +251,7 @@ bool kiln_cells_load(const struct kiln_cells_source *source, float *cells,
     memset(cells, 0, floats * sizeof *cells);
     if (kiln_video_in_has_suffix(source->path))
         return load_video(source, cells, threads, error);
-    struct kiln_asset_image *image = kiln_asset_image_load(source->path, error);
+    struct kiln_asset_image *image = kiln_asset_image_load(source->loader, source->path, error);
     bool ok = image && resize_image(image, source, false, cells, threads, error);
     kiln_asset_image_destroy(&image);
     for (size_t i = 0; ok && i < floats; i++) /* the filter overshoots at hard edges */
@@ -252,7 +267,7 @@ bool kiln_cells_load_motion(const struct kiln_cells_source *source, float *motio
     if (!cells)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory for its cells",
                               source->path);
-    struct kiln_asset_image *image = kiln_asset_image_load(source->path, error);
+    struct kiln_asset_image *image = kiln_asset_image_load(source->loader, source->path, error);
     bool ok = image && resize_image(image, source, true, cells, threads, error);
     kiln_asset_image_destroy(&image);
     for (size_t i = 0; ok && i < pixels; i++)
@@ -263,29 +278,18 @@ bool kiln_cells_load_motion(const struct kiln_cells_source *source, float *motio
 
 bool kiln_cells_check_division(const struct kiln_cells_source *source, struct kiln_error *error)
 {
-    if (source->columns * source->rows == 1 || kiln_video_in_has_suffix(source->path))
+    uint32_t size[2];
+    if (source->columns * source->rows == 1)
         return true;
-    struct kiln_asset_image *image = kiln_asset_image_load(source->path, error);
-    bool ok = image && check_division(image, source, error);
-    kiln_asset_image_destroy(&image);
-    return ok;
+    if (kiln_video_in_has_suffix(source->path))
+        return read_frames(source, NULL, NULL, error);
+    return kiln_asset_image_size(source->loader, source->path, size, error) &&
+           check_division(size[0], size[1], source, error);
 }
 
-bool kiln_cells_check(const char *path, struct kiln_budget *budget, struct kiln_error *error)
+bool kiln_cells_check(struct kiln_loader *loader, const char *path, struct kiln_error *error)
 {
-    if (!kiln_video_in_has_suffix(path))
-        return kiln_asset_image_check(path, budget, error);
-    struct stat status;
-    if (stat(path, &status) == 0 &&
-        !kiln_budget_take(budget, KILN_LIMIT_asset_bytes, (uint64_t)status.st_size, path, error))
-        return false;
-    struct kiln_video_in *video = kiln_video_in_open(path, error);
-    struct kiln_asset_image *image = NULL;
-    bool ok = video && kiln_video_in_read(video, &image, error);
-    ok = ok && kiln_budget_take(budget, KILN_LIMIT_asset_pixels,
-                                (uint64_t)image->width * image->height, path, error);
-    kiln_asset_image_destroy(&image);
-    if (video)
-        kiln_video_in_close(&video);
-    return ok;
+    const struct kiln_cells_source one = {.loader = loader, .path = path, .columns = 1, .rows = 1};
+    return kiln_video_in_has_suffix(path) ? read_frames(&one, NULL, NULL, error)
+                                          : kiln_asset_image_check(loader, path, error);
 }

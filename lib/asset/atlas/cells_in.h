@@ -2,13 +2,14 @@
 #ifndef KILN_ASSET_ATLAS_CELLS_IN_H
 #define KILN_ASSET_ATLAS_CELLS_IN_H
 
+#include "asset/loader/loader.h"
 #include "base/thread.h"
-#include "kiln.h"
 
 struct kiln_cells_source {
     const char *path;
-    uint32_t columns, rows; /* a video's cells are its first columns x rows frames */
-    uint32_t edge;          /* of the cells made, px: resized in premultiplied linear light */
+    uint32_t columns, rows;     /* a video's cells are its first columns x rows frames */
+    uint32_t edge;              /* of the cells made, px: resized in premultiplied linear light */
+    struct kiln_loader *loader; /* of the file; may be NULL */
 };
 
 /* Fills columns * rows cells of edge x edge RGBA floats, premultiplied and linear, rows from the
@@ -23,12 +24,12 @@ bool kiln_cells_load(const struct kiln_cells_source *source, float *cells,
 bool kiln_cells_load_motion(const struct kiln_cells_source *source, float *motion,
                             struct kiln_threads *threads, struct kiln_error *error);
 
-/* Whether an image divides into the cells: decodes it, unless it is to be one cell, or a video,
- * which is no image. KILN_INVALID_INPUT with what does not. */
+/* Whether an image divides into the cells, or a video has that many frames, of which all are
+ * decoded then. KILN_INVALID_INPUT with what does not. */
 bool kiln_cells_check_division(const struct kiln_cells_source *source, struct kiln_error *error);
 
 /* Whether a file is one that kiln_cells_load could read, but for the number of its cells: decodes
- * an image, or the first frame of a video. What it reads is counted in the budget. */
-bool kiln_cells_check(const char *path, struct kiln_budget *budget, struct kiln_error *error);
+ * an image, or the first frame of a video. */
+bool kiln_cells_check(struct kiln_loader *loader, const char *path, struct kiln_error *error);
 
 #endif

@@ -5,9 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/budget.h"
 #include "base/error.h"
-#include "base/file_in.h"
 
 enum { LINE_SIZE = 128, SAMPLE_BYTES = 12, HEADER_BYTES = 5 * LINE_SIZE };
 
@@ -138,11 +136,13 @@ struct kiln_grid_file *kiln_grid_parse(const void *bytes, size_t size, const cha
     return grid;
 }
 
-struct kiln_grid_file *kiln_grid_load(const char *path, struct kiln_error *error)
+struct kiln_grid_file *kiln_grid_load(struct kiln_loader *loader, const char *path,
+                                      struct kiln_error *error)
 {
     size_t size = 0;
     const size_t most = HEADER_BYTES + (size_t)KILN_MAX_GRID_SAMPLES * SAMPLE_BYTES;
-    unsigned char *bytes = kiln_file_read(path, "grid", "kiln-grid", most, &size, error);
+    const struct kiln_loader_file file = {path, "grid", "kiln-grid", most};
+    unsigned char *bytes = kiln_loader_read(loader, &file, &size, error);
     if (!bytes)
         return NULL;
     struct kiln_grid_file *grid = kiln_grid_parse(bytes, size, path, error);
@@ -150,14 +150,10 @@ struct kiln_grid_file *kiln_grid_load(const char *path, struct kiln_error *error
     return grid;
 }
 
-bool kiln_grid_check(const char *path, struct kiln_budget *budget, struct kiln_error *error)
+bool kiln_grid_check(struct kiln_loader *loader, const char *path, struct kiln_error *error)
 {
-    struct kiln_grid_file *grid = kiln_grid_load(path, error);
-    bool good = grid != NULL;
-    if (good)
-        good = kiln_budget_take(
-            budget, KILN_LIMIT_asset_bytes,
-            (uint64_t)grid->size[0] * grid->size[1] * grid->size[2] * SAMPLE_BYTES, path, error);
+    struct kiln_grid_file *grid = kiln_grid_load(loader, path, error);
+    const bool good = grid != NULL;
     kiln_grid_destroy(&grid);
     return good;
 }

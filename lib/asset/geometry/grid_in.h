@@ -16,7 +16,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "kiln.h"
+#include "asset/loader/loader.h"
 
 enum {
     KILN_MAX_GRID_SAMPLES = 1 << 22, /* of a grid, and of all in a scene */
@@ -34,10 +34,11 @@ struct kiln_grid_file {
  * what was found and is allowed when it is no grid, beyond these limits, cut short or longer than
  * it should be, or a sample is not finite or beyond 1e4; KILN_DEVICE_FAILED when memory is short.
  * The caller destroys it. */
-struct kiln_grid_file *kiln_grid_load(const char *path, struct kiln_error *error);
+struct kiln_grid_file *kiln_grid_load(struct kiln_loader *loader, const char *path,
+                                      struct kiln_error *error);
 
-/* Whether load would succeed; the file's bytes are counted in the budget. */
-bool kiln_grid_check(const char *path, struct kiln_budget *budget, struct kiln_error *error);
+/* Whether load would succeed. */
+bool kiln_grid_check(struct kiln_loader *loader, const char *path, struct kiln_error *error);
 
 /* The same from bytes in memory; name stands for the file. */
 struct kiln_grid_file *kiln_grid_parse(const void *bytes, size_t size, const char *name,

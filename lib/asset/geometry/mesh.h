@@ -1,6 +1,6 @@
-/* Meshes in, by assimp: OBJ, glTF and GLB. The importer runs in a child process with limits on its
- * memory and time, so that a file that it cannot bear is an error and no crash; it reads the file
- * itself and the buffers that a glTF file names, and nothing else. */
+/* Meshes in: OBJ, glTF and GLB, imported by kiln-decode, so that a file that the importer cannot
+ * bear is an error and no crash. It gets the file itself and the buffers that a glTF file names,
+ * and nothing else. A loader of NULL stands for one that opens any file. */
 #ifndef KILN_ASSET_GEOMETRY_MESH_H
 #define KILN_ASSET_GEOMETRY_MESH_H
 
@@ -9,12 +9,12 @@
 
 #include "kiln.h"
 
+struct kiln_loader;
+
 enum {
     KILN_MAX_MESH_BYTES = 64 << 20, /* of the file, and of each buffer that it names */
     KILN_MAX_MESH_VERTICES = 1 << 20,
     KILN_MAX_MESH_TRIANGLES = 1 << 20,
-    KILN_MAX_MESH_MEMORY = 1 << 30, /* bytes that the importer may take */
-    KILN_MAX_MESH_SECONDS = 30,     /* that it may take */
 };
 
 /* Everything in the file, in one piece: nodes are resolved, polygons are triangles. */
@@ -28,19 +28,18 @@ struct kiln_mesh {
     char hash[65];                         /* SHA-256 of what was read, in hex */
 };
 
-/* Reads a file whose name ends in .obj, .gltf or .glb; files that it names must lie below `root`,
- * an absolute folder. NULL: KILN_IO when it cannot be read or there is no importer,
- * KILN_INVALID_INPUT with what was found and what is allowed when it is no mesh, broken, cut short,
- * beyond the limits above or names files elsewhere, KILN_DEVICE_FAILED when memory is short,
- * KILN_INTERRUPTED when stop (or NULL), which is asked while the importer works, returned true. The
- * caller destroys it. */
-struct kiln_mesh *kiln_mesh_load(const char *path, const char *root, bool (*stop)(void *user),
-                                 void *user, struct kiln_error *error);
+/* Reads a file whose name ends in .obj, .gltf or .glb; files that it names must lie in its folder
+ * or below, and below the loader's root. NULL: KILN_IO when it cannot be read or there is no
+ * importer, KILN_INVALID_INPUT with what was found and what is allowed when it is no mesh, broken,
+ * cut short, beyond the limits above or names files elsewhere, KILN_DEVICE_FAILED when memory is
+ * short, KILN_OVER_LIMIT, KILN_INTERRUPTED when the loader is told to stop. The caller destroys it.
+ */
+struct kiln_mesh *kiln_mesh_load(struct kiln_loader *loader, const char *path,
+                                 struct kiln_error *error);
 
 /* The same with the first set of texture coordinates of every vertex; KILN_INVALID_INPUT where
  * there are none. Vertices that differ by them alone are several, so it may have more of them. */
-struct kiln_mesh *kiln_mesh_load_unwrapped(const char *path, const char *root,
-                                           bool (*stop)(void *user), void *user,
+struct kiln_mesh *kiln_mesh_load_unwrapped(struct kiln_loader *loader, const char *path,
                                            struct kiln_error *error);
 
 /* Turns all triangles around where the volume that they enclose is negative: files differ in which

@@ -3,8 +3,8 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
+#include "asset/loader/loader.h"
 #include "base/budget.h"
 #include "base/error.h"
 
@@ -19,20 +19,15 @@ struct entry {
 };
 
 struct kiln_mesh_library {
-    const char *root;
-    bool (*stop)(void *user);
-    void *user;
-    struct kiln_budget *budget;
+    struct kiln_loader *loader;
     struct entry *entries;
 };
 
-struct kiln_mesh_library *kiln_mesh_library_create(const char *root, bool (*stop)(void *user),
-                                                   void *user, struct kiln_budget *budget)
+struct kiln_mesh_library *kiln_mesh_library_create(struct kiln_loader *loader)
 {
     struct kiln_mesh_library *library = calloc(1, sizeof *library);
     if (library)
-        *library =
-            (struct kiln_mesh_library){.root = root, .stop = stop, .user = user, .budget = budget};
+        library->loader = loader;
     return library;
 }
 
@@ -59,20 +54,16 @@ void kiln_mesh_library_destroy(struct kiln_mesh_library **library)
 static bool import(const struct kiln_mesh_library *library, struct entry *entry,
                    struct kiln_error *error)
 {
-    const char *path = entry->path, *root = library->root;
-    struct stat status;
-    if (stat(path, &status) == 0 && !kiln_budget_take(library->budget, KILN_LIMIT_asset_bytes,
-                                                      (uint64_t)status.st_size, path, error))
-        return false;
+    const char *path = entry->path;
     if (entry->way == MOVING)
-        entry->skin = kiln_skin_load(path, root, library->stop, library->user, error);
+        entry->skin = kiln_skin_load(library->loader, path, error);
     else if (entry->way == UNWRAPPED)
-        entry->mesh = kiln_mesh_load_unwrapped(path, root, library->stop, library->user, error);
+        entry->mesh = kiln_mesh_load_unwrapped(library->loader, path, error);
     else
-        entry->mesh = kiln_mesh_load(path, root, library->stop, library->user, error);
+        entry->mesh = kiln_mesh_load(library->loader, path, error);
     const struct kiln_mesh *mesh = entry->skin ? kiln_skin_mesh(entry->skin) : entry->mesh;
-    return mesh && kiln_budget_take(library->budget, KILN_LIMIT_triangles, mesh->triangle_count,
-                                    path, error);
+    return mesh && kiln_budget_take(kiln_loader_budget(library->loader), KILN_LIMIT_triangles,
+                                    mesh->triangle_count, path, error);
 }
 
 /* NULL: it can not be imported. */

@@ -1,6 +1,6 @@
 /* The meshes of a scene, each imported once, however many show it or collide with it. They are
- * imported while the scene is loaded: nobody needs the importer's process later, when there are
- * threads. Filling one is for one thread; what is in it is for any number. */
+ * imported while the scene is loaded. Filling one is for one thread; what is in it is for any
+ * number. */
 #ifndef KILN_ASSET_GEOMETRY_MESH_LIBRARY_H
 #define KILN_ASSET_GEOMETRY_MESH_LIBRARY_H
 
@@ -8,10 +8,8 @@
 
 struct kiln_mesh_library;
 
-/* root, stop and user: as of kiln_mesh_load, for all of them; bytes and triangles are counted in
- * the budget. They must outlive it. NULL: no memory. */
-struct kiln_mesh_library *kiln_mesh_library_create(const char *root, bool (*stop)(void *user),
-                                                   void *user, struct kiln_budget *budget);
+/* The loader, in whose budget triangles are counted, must outlive it. NULL: no memory. */
+struct kiln_mesh_library *kiln_mesh_library_create(struct kiln_loader *loader);
 
 /* Frees all meshes in it. */
 void kiln_mesh_library_destroy(struct kiln_mesh_library **library);

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "asset/geometry/mesh_import.h"
+#include "asset/geometry/mesh_in.h"
 #include "base/error.h"
 
 static const float FARTHEST = 1e6f; /* units of the file: keys, matrices, vertices */
@@ -403,11 +403,10 @@ static struct kiln_skin *copy(const struct kiln_skin_result *r, struct kiln_mesh
     return skin;
 }
 
-struct kiln_skin *kiln_skin_take(const struct kiln_mesh_request *request,
-                                 const struct kiln_mesh_result *result, struct kiln_mesh *mesh,
-                                 struct kiln_error *error)
+struct kiln_skin *kiln_skin_take(const char *name, const struct kiln_mesh_result *result,
+                                 struct kiln_mesh *mesh, struct kiln_error *error)
 {
-    const struct check check = {request->name, result, error};
+    const struct check check = {name, result, error};
     if (!check_counts(&check) || !check_matrices(&check) || !check_tracks(&check) ||
         !check_weights(&check)) {
         kiln_mesh_destroy(&mesh);
@@ -415,8 +414,7 @@ struct kiln_skin *kiln_skin_take(const struct kiln_mesh_request *request,
     }
     struct kiln_skin *skin = copy(&result->skin, mesh);
     if (!skin)
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory while reading the mesh",
-                       request->name);
+        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory while reading the mesh", name);
     return skin;
 }
 

@@ -20,8 +20,8 @@ struct kiln_skin;
 /* As kiln_mesh_load and kiln_mesh_parse, and KILN_INVALID_INPUT when nothing in the file moves, or
  * in ways that are none of nodes and bones with linear interpolation, or when the weights of a
  * vertex do not sum to one. The caller destroys it. */
-struct kiln_skin *kiln_skin_load(const char *path, const char *root, bool (*stop)(void *user),
-                                 void *user, struct kiln_error *error);
+struct kiln_skin *kiln_skin_load(struct kiln_loader *loader, const char *path,
+                                 struct kiln_error *error);
 struct kiln_skin *kiln_skin_parse(const void *bytes, size_t size, const char *name,
                                   struct kiln_error *error);
 void kiln_skin_destroy(struct kiln_skin **skin);

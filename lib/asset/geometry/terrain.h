@@ -12,10 +12,11 @@ enum {
 };
 
 struct kiln_terrain_params {
-    const char *image;   /* an absolute path, or NULL: noise */
-    uint32_t samples[2]; /* along x and z: 2 to KILN_MAX_TERRAIN_EDGE */
-    float position[3];   /* m: the middle, and the lowest height */
-    float size[3];       /* m: above 0 */
+    struct kiln_loader *loader; /* of the image; may be NULL */
+    const char *image;          /* an absolute path, or NULL: noise */
+    uint32_t samples[2];        /* along x and z: 2 to KILN_MAX_TERRAIN_EDGE */
+    float position[3];          /* m: the middle, and the lowest height */
+    float size[3];              /* m: above 0 */
     /* of noise: */
     float hills;     /* m: size of the largest; above 0 */
     float roughness; /* height of an octave, in parts of the one before */

@@ -1,10 +1,10 @@
-/* Pictures in: textures and figures, decoded by FFmpeg's decoders alone. The format is told by the
- * file's first bytes, never by its name, and no demuxer or protocol is involved, so an image can
- * not make kiln open anything else. */
+/* Pictures in: textures and figures, decoded by kiln-decode. The format is told by the file's first
+ * bytes, never by its name, and an image can not make anybody open anything else. A loader of NULL
+ * stands for one that opens any file and ends its process after each. */
 #ifndef KILN_ASSET_IMAGE_IMAGE_H
 #define KILN_ASSET_IMAGE_IMAGE_H
 
-#include "kiln.h"
+#include "asset/loader/loader.h"
 
 enum {
     KILN_MAX_IMAGE_EDGE = 16384,      /* pixels a side */
@@ -29,23 +29,29 @@ struct kiln_asset_image {
 };
 
 /* Decodes a PNG, JPEG, WebP, TIFF, BMP or EXR file, or returns NULL: KILN_IO when it cannot be
- * read, KILN_INVALID_INPUT with what was found and what is allowed when it is not a regular file,
- * not such an image, broken or truncated, or beyond the limits above (found before memory is taken
- * for its pixels), KILN_DEVICE_FAILED when memory is short. The caller destroys it. */
-struct kiln_asset_image *kiln_asset_image_load(const char *path, struct kiln_error *error);
+ * read, KILN_INVALID_INPUT with what was found and what is allowed
+ * when it is not a regular file, not such an image, broken or truncated, or beyond the limits above
+ * (found before memory is taken for its pixels), KILN_OVER_LIMIT beyond the loader's budget,
+ * KILN_DEVICE_FAILED when memory is short or the decoder is not installed. Floats are finite. The
+ * caller destroys it. */
+struct kiln_asset_image *kiln_asset_image_load(struct kiln_loader *loader, const char *path,
+                                               struct kiln_error *error);
 
 /* The same for one layer of a file: EXR files have several, of which "beauty" is the picture; other
- * formats have that one alone. KILN_INVALID_INPUT, too, when there is no such layer. */
-struct kiln_asset_image *kiln_asset_image_load_layer(const char *path, const char *layer,
-                                                     struct kiln_error *error);
+ * formats have that one alone. KILN_INVALID_INPUT, too, when there is no such layer. Floats are as
+ * they are in the file. */
+struct kiln_asset_image *kiln_asset_image_load_layer(struct kiln_loader *loader, const char *path,
+                                                     const char *layer, struct kiln_error *error);
 
 /* As the first, from bytes in memory; name stands for the file in messages. */
 struct kiln_asset_image *kiln_asset_image_parse(const void *bytes, size_t size, const char *name,
                                                 struct kiln_error *error);
 void kiln_asset_image_destroy(struct kiln_asset_image **image);
 
-/* Whether load would succeed; decodes the whole image to know. Its bytes and pixels are counted in
- * the budget: KILN_OVER_LIMIT before memory is taken for them. */
-bool kiln_asset_image_check(const char *path, struct kiln_budget *budget, struct kiln_error *error);
+/* Whether load would succeed, and the size, width and height: decodes the whole image, unless the
+ * loader has done so before. */
+bool kiln_asset_image_check(struct kiln_loader *loader, const char *path, struct kiln_error *error);
+bool kiln_asset_image_size(struct kiln_loader *loader, const char *path, uint32_t size[2],
+                           struct kiln_error *error);
 
 #endif

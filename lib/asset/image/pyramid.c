@@ -130,9 +130,10 @@ void kiln_pyramid_set(struct kiln_pyramid *pyramid, const float (*texels)[4])
     }
 }
 
-struct kiln_pyramid *kiln_pyramid_load(const char *path, bool repeats_y, struct kiln_error *error)
+struct kiln_pyramid *kiln_pyramid_load(struct kiln_loader *loader, const char *path, bool repeats_y,
+                                       struct kiln_error *error)
 {
-    struct kiln_asset_image *image = kiln_asset_image_load(path, error);
+    struct kiln_asset_image *image = kiln_asset_image_load(loader, path, error);
     if (!image)
         return NULL;
     struct kiln_pyramid *pyramid = kiln_pyramid_create(image->width, image->height);

@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "kiln.h"
+#include "asset/loader/loader.h"
 
 enum { KILN_PYRAMID_LEVELS = 15 }; /* of the largest image */
 
@@ -22,7 +22,8 @@ struct kiln_pyramid {
 
 /* Loads an image file as kiln_texture_init does. repeats_y: the picture goes on beyond its upper
  * and lower edges, as it does beyond the others. NULL with an error. */
-struct kiln_pyramid *kiln_pyramid_load(const char *path, bool repeats_y, struct kiln_error *error);
+struct kiln_pyramid *kiln_pyramid_load(struct kiln_loader *loader, const char *path, bool repeats_y,
+                                       struct kiln_error *error);
 /* A black one, or NULL when memory is short; its texels, those of all levels; and their values, in
  * its order, each from 0 to 65504. */
 struct kiln_pyramid *kiln_pyramid_create(uint32_t width, uint32_t height);

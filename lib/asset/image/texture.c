@@ -24,11 +24,12 @@ static bool upload(const struct kiln_asset_image *image, const char *path, struc
     return true;
 }
 
-bool kiln_texture_init(struct kiln_texture *texture, struct kiln_device *device, const char *path,
-                       GLint wrap_y, struct kiln_error *error)
+bool kiln_texture_init(struct kiln_texture *texture, struct kiln_device *device,
+                       struct kiln_loader *loader, const char *path, GLint wrap_y,
+                       struct kiln_error *error)
 {
     *texture = (struct kiln_texture){.gl = 0};
-    struct kiln_asset_image *image = kiln_asset_image_load(path, error);
+    struct kiln_asset_image *image = kiln_asset_image_load(loader, path, error);
     if (!image)
         return false;
     uint32_t most = (uint32_t)device->info.max_texture_size;
@@ -90,11 +91,11 @@ static void add_row(struct sky_sums *sums, const float *rgb, uint32_t width, flo
     sums->horizon_weight += area * near;
 }
 
-bool kiln_sky_light_measure(struct kiln_sky_light *light, const char *path,
-                            struct kiln_error *error)
+bool kiln_sky_light_measure(struct kiln_sky_light *light, struct kiln_loader *loader,
+                            const char *path, struct kiln_error *error)
 {
     *light = (struct kiln_sky_light){{0}, {0}};
-    struct kiln_asset_image *image = kiln_asset_image_load(path, error);
+    struct kiln_asset_image *image = kiln_asset_image_load(loader, path, error);
     if (!image)
         return false;
     float *row = malloc((size_t)image->width * 3 * sizeof *row);

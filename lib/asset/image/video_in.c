@@ -1,38 +1,22 @@
-/* Demuxing and decoding on the caller's thread. What FFmpeg passes over silently (a file that ends
- * too early, a damaged frame) is an error here: a comparison must not pass by looking away. */
+/* A process of kiln-decode for each video sends one frame after the other; the socket holds it back
+ * while nobody takes them. What FFmpeg passes over silently (a file that ends too early, a damaged
+ * frame) is an error there: a comparison must not pass by looking away. */
 #include "asset/image/video_in.h"
 
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <unistd.h>
 
-#include "asset/image/avframe.h"
-#include "asset/image/avlog.h"
+#include "asset/image/received.h"
 #include "base/error.h"
-#include "base/file_in.h"
 
 #define ALLOWED "MP4, MOV, Matroska, WebM, AVI, GIF or APNG"
 
-enum { IO_BUFFER_SIZE = 1 << 16, MAX_STREAMS = 32, PROBE_BYTES = 5000000 };
-
 struct kiln_video_in {
     char *path;
-    struct kiln_error *error; /* of the call at hand */
-    bool reported;
-    struct kiln_avlog avlog;
-    int file;
-    int64_t size;
-    AVIOContext *io;
-    AVFormatContext *container;
-    AVCodecContext *decoder;
-    AVPacket *packet;
-    AVFrame *frame;
-    int stream;
-    int64_t packets, frames;
-    bool drained; /* the decoder was told that no more packets come */
+    struct kiln_received received;
+    uint32_t frames; /* read */
 };
 
 bool kiln_video_in_has_suffix(const char *path)
@@ -47,317 +31,69 @@ bool kiln_video_in_has_suffix(const char *path)
     return false;
 }
 
-static bool fail(struct kiln_video_in *video, enum kiln_code code, const char *what)
+/* Hands the file over; how the video begins is the first answer. */
+static bool begin(struct kiln_video_in *video, int file, struct kiln_error *error)
 {
-    if (video->reported)
+    struct kiln_received *received = &video->received;
+    const struct kiln_decode_request request = {.most_bytes = UINT64_MAX,
+                                                .most_pixels = KILN_MAX_IMAGE_PIXELS};
+    received->helper = kiln_loader_take(received->loader, KILN_DECODE_VIDEO, error);
+    if (!received->helper)
         return false;
-    video->reported = true;
-    const char *detail = video->avlog.first_error;
-    return kiln_error_set(video->error, code, "%s: %s%s%s%s", video->path, what,
-                          *detail ? " (" : "", detail, *detail ? ")" : "");
+    struct kiln_error reason = {0};
+    struct kiln_decode_answer answer;
+    return (kiln_helper_send(received->helper, &request, sizeof request, file, &reason) &&
+            kiln_helper_answer(received->helper, kiln_loader_caller(received->loader),
+                               1u << KILN_DECODE_READY, &answer, &reason)) ||
+           kiln_received_fail(received, &reason, error);
 }
 
-static bool fail_status(struct kiln_video_in *video, int status, const char *what)
+struct kiln_video_in *kiln_video_in_open(struct kiln_loader *loader, const char *path,
+                                         struct kiln_error *error)
 {
-    if (status == AVERROR(ENOMEM))
-        return fail(video, KILN_DEVICE_FAILED, "out of memory while reading the video");
-    return fail(video, KILN_INVALID_INPUT, what);
-}
-
-/* ---- Opening ------------------------------------------------------------------------------ */
-
-static int read_bytes(void *opaque, uint8_t *buffer, int size)
-{
-    const struct kiln_video_in *video = opaque;
-    ssize_t got;
-    do {
-        got = read(video->file, buffer, (size_t)size);
-    } while (got < 0 && errno == EINTR);
-    return got > 0 ? (int)got : got == 0 ? AVERROR_EOF : AVERROR(errno);
-}
-
-static int64_t seek_bytes(void *opaque, int64_t offset, int whence)
-{
-    const struct kiln_video_in *video = opaque;
-    if (whence == AVSEEK_SIZE)
-        return video->size;
-    off_t at = lseek(video->file, offset, whence & ~AVSEEK_FORCE);
-    return at >= 0 ? at : AVERROR(errno);
-}
-
-static int refuse_file(AVFormatContext *container, AVIOContext **io, const char *url, int flags,
-                       AVDictionary **options)
-{
-    (void)container;
-    (void)io;
-    (void)url;
-    (void)flags;
-    (void)options;
-    return AVERROR(EPERM);
-}
-
-static bool open_container(struct kiln_video_in *video)
-{
-    unsigned char *buffer = av_malloc(IO_BUFFER_SIZE);
-    video->io =
-        buffer ? avio_alloc_context(buffer, IO_BUFFER_SIZE, 0, video, read_bytes, NULL, seek_bytes)
-               : NULL;
-    video->container = avformat_alloc_context();
-    if (!video->io || !video->container) {
-        if (!video->io)
-            av_free(buffer);
-        return fail(video, KILN_DEVICE_FAILED, "out of memory while opening the video");
-    }
-    video->container->pb = video->io;
-    video->container->flags |= AVFMT_FLAG_CUSTOM_IO; /* the io is ours to close, opened or not */
-    video->container->io_open = refuse_file;
-    video->container->max_streams = MAX_STREAMS;
-    video->container->probesize = PROBE_BYTES;
-    AVDictionary *options = NULL;
-    /* What is refused must not be opened because memory was too short to refuse it. */
-    int status = av_dict_set(&options, "format_whitelist",
-                             "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,avi,gif,apng", 0);
-    if (status >= 0)
-        status = av_dict_set(&options, "protocol_whitelist", "file", 0);
-    if (status >= 0)
-        status = avformat_open_input(&video->container, NULL, NULL, &options);
-    av_dict_free(&options);
-    if (status < 0)
-        return fail_status(video, status, "not a video; allowed are " ALLOWED " files");
-    status = avformat_find_stream_info(video->container, NULL);
-    return status >= 0 || fail_status(video, status, "the video is broken or cut short");
-}
-
-static uint64_t big_endian(const unsigned char *bytes, int count)
-{
-    uint64_t value = 0;
-    for (int i = 0; i < count; i++)
-        value = value << 8 | bytes[i];
-    return value;
-}
-
-/* Does the file end with these bytes? */
-static bool ends_with(const struct kiln_video_in *video, const char *end, size_t size)
-{
-    char found[16];
-    return pread(video->file, found, size, video->size - (int64_t)size) == (ssize_t)size &&
-           memcmp(found, end, size) == 0;
-}
-
-/* MP4 and MOV are a row of boxes, each with its size; AVI is one chunk with its size; GIF and APNG
- * have a last block. FFmpeg takes what is there. Matroska's demuxer tells by itself. */
-static bool is_whole(const struct kiln_video_in *video)
-{
-    unsigned char b[16];
-    if (strcmp(video->container->iformat->name, "gif") == 0)
-        return ends_with(video, ";", 1);
-    if (strcmp(video->container->iformat->name, "apng") == 0)
-        return ends_with(video, "IEND\xae\x42\x60\x82", 8);
-    if (pread(video->file, b, sizeof b, 0) == sizeof b && memcmp(b, "RIFF", 4) == 0) {
-        const unsigned char size[4] = {b[7], b[6], b[5], b[4]};
-        return (int64_t)big_endian(size, 4) + 8 <= video->size;
-    }
-    if (!strstr(video->container->iformat->name, "mp4"))
-        return true;
-    for (int64_t at = 0; at < video->size;) {
-        ssize_t got = pread(video->file, b, sizeof b, at);
-        uint64_t size = got >= 8 ? big_endian(b, 4) : 2;
-        if (size == 0) /* up to the end of the file */
-            return true;
-        if (size == 1 && got == sizeof b)
-            size = big_endian(b + 8, 8);
-        if (size < 8 || size > (uint64_t)(video->size - at))
-            return false;
-        at += (int64_t)size;
-    }
-    return true;
-}
-
-/* Called by the decoder once it knows the size and before it takes memory for the pixels. */
-static int get_buffer(AVCodecContext *decoder, AVFrame *frame, int flags)
-{
-    struct kiln_video_in *video = decoder->opaque;
-    if (frame->width < 1 || frame->height < 1 || frame->width > KILN_MAX_IMAGE_EDGE ||
-        frame->height > KILN_MAX_IMAGE_EDGE ||
-        (int64_t)frame->width * frame->height > KILN_MAX_IMAGE_PIXELS) {
-        char what[160];
-        snprintf(what, sizeof what,
-                 "a video of %d x %d pixels; allowed are 1 to %d a side and at most %d in all",
-                 frame->width, frame->height, KILN_MAX_IMAGE_EDGE, KILN_MAX_IMAGE_PIXELS);
-        fail(video, KILN_INVALID_INPUT, what);
-        return AVERROR(EINVAL);
-    }
-    return avcodec_default_get_buffer2(decoder, frame, flags);
-}
-
-/* The alpha of a WebM video is a second stream, which FFmpeg's own decoder of VP9 leaves out. */
-static const AVCodec *choose_decoder(const struct kiln_video_in *video, const AVCodec *codec)
-{
-    const AVStream *stream = video->container->streams[video->stream];
-    const AVDictionaryEntry *alpha = av_dict_get(stream->metadata, "alpha_mode", NULL, 0);
-    const AVCodec *other = alpha && strcmp(alpha->value, "1") == 0 && codec->id == AV_CODEC_ID_VP9
-                               ? avcodec_find_decoder_by_name("libvpx-vp9")
-                               : NULL;
-    return other ? other : codec;
-}
-
-static bool open_decoder(struct kiln_video_in *video)
-{
-    const AVCodec *codec = NULL;
-    video->stream = av_find_best_stream(video->container, AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
-    if (video->stream < 0 || !codec)
-        return fail(video, KILN_INVALID_INPUT,
-                    "the file has no video stream that this FFmpeg can decode");
-    for (unsigned i = 0; i < video->container->nb_streams; i++) {
-        if ((int)i != video->stream)
-            video->container->streams[i]->discard = AVDISCARD_ALL;
-    }
-    video->decoder = avcodec_alloc_context3(choose_decoder(video, codec));
-    video->packet = av_packet_alloc();
-    video->frame = av_frame_alloc();
-    if (!video->decoder || !video->packet || !video->frame)
-        return fail(video, KILN_DEVICE_FAILED, "out of memory while opening the video");
-    int status = avcodec_parameters_to_context(video->decoder,
-                                               video->container->streams[video->stream]->codecpar);
-    video->decoder->opaque = video;
-    video->decoder->get_buffer2 = get_buffer;
-    kiln_avframe_same_everywhere(video->decoder);
-    video->decoder->thread_count = 1; /* the messages and the limits stay on this thread */
-    video->decoder->max_pixels = KILN_MAX_IMAGE_PIXELS;
-    video->decoder->err_recognition =
-        AV_EF_CRCCHECK | AV_EF_BITSTREAM | AV_EF_BUFFER | AV_EF_EXPLODE;
-    if (status >= 0)
-        status = avcodec_open2(video->decoder, NULL, NULL);
-    return status >= 0 || fail_status(video, status, "the video decoder does not start");
-}
-
-struct kiln_video_in *kiln_video_in_open(const char *path, struct kiln_error *error)
-{
+    const struct kiln_loader_file named = {path, "video", ALLOWED, SIZE_MAX};
     size_t size = 0;
-    int file = kiln_file_open(path, "video", ALLOWED, &size, error);
+    const int file = kiln_loader_open(loader, &named, &size, error);
     if (file < 0)
         return NULL;
     struct kiln_video_in *video = calloc(1, sizeof *video);
-    char *copy = strdup(path);
-    if (!video || !copy) {
+    char *copy = video ? strdup(path) : NULL;
+    if (copy) {
+        video->path = copy;
+        video->received = (struct kiln_received){.loader = loader, .name = copy};
+        if (!begin(video, file, error))
+            kiln_video_in_close(&video);
+    } else {
         kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory while opening the video",
                        path);
         free(video);
-        free(copy);
-        close(file);
-        return NULL;
+        video = NULL;
     }
-    *video =
-        (struct kiln_video_in){.path = copy, .error = error, .file = file, .size = (int64_t)size};
-    kiln_avlog_begin(&video->avlog);
-    bool ok = size > 0 || fail(video, KILN_INVALID_INPUT, "the video file is empty");
-    ok = ok && open_container(video) &&
-         (is_whole(video) || fail(video, KILN_INVALID_INPUT, "the video is cut short")) &&
-         open_decoder(video);
-    kiln_avlog_end(&video->avlog);
-    if (!ok)
-        kiln_video_in_close(&video);
+    close(file);
     return video;
 }
 
 void kiln_video_in_close(struct kiln_video_in **video)
 {
-    struct kiln_video_in *closing = *video;
-    if (!closing)
+    if (!*video)
         return;
+    kiln_helper_end(&(*video)->received.helper);
+    free((*video)->path);
+    free(*video);
     *video = NULL;
-    kiln_avlog_begin(&closing->avlog);
-    av_frame_free(&closing->frame);
-    av_packet_free(&closing->packet);
-    avcodec_free_context(&closing->decoder);
-    avformat_close_input(&closing->container);
-    if (closing->io)
-        av_freep(&closing->io->buffer);
-    avio_context_free(&closing->io);
-    kiln_avlog_end(&closing->avlog);
-    close(closing->file);
-    free(closing->path);
-    free(closing);
-}
-
-/* ---- Reading ------------------------------------------------------------------------------ */
-
-/* MP4 and MOV say at their start how many packets there are. */
-static bool check_end(struct kiln_video_in *video)
-{
-    const AVStream *stream = video->container->streams[video->stream];
-    bool counted = strstr(video->container->iformat->name, "mp4") != NULL;
-    int64_t expected = counted ? avformat_index_get_entries_count(stream) : 0;
-    return video->packets >= expected || fail(video, KILN_INVALID_INPUT, "the video is cut short");
-}
-
-/* Gives the decoder the next packet of the stream, or tells it that none is left. */
-static bool feed(struct kiln_video_in *video)
-{
-    int status;
-    do {
-        av_packet_unref(video->packet);
-        status = av_read_frame(video->container, video->packet);
-    } while (status >= 0 && video->packet->stream_index != video->stream);
-    if (status < 0 && status != AVERROR_EOF)
-        return fail_status(video, status, "the video is broken or cut short");
-    if (status == AVERROR_EOF) {
-        video->drained = true;
-        if (!check_end(video))
-            return false;
-        status = avcodec_send_packet(video->decoder, NULL);
-    } else {
-        video->packets++;
-        if (video->packet->flags & AV_PKT_FLAG_CORRUPT)
-            return fail(video, KILN_INVALID_INPUT, "the video is broken or cut short");
-        status = avcodec_send_packet(video->decoder, video->packet);
-    }
-    return status >= 0 || fail_status(video, status, "the video has a broken frame");
-}
-
-/* FFmpeg gives every GIF an alpha; whether it has one shows in the pixels. */
-static uint32_t count_gif_channels(const struct kiln_asset_image *image)
-{
-    const uint8_t *pixels = image->pixels;
-    size_t count = (size_t)image->width * image->height;
-    for (size_t i = 0; i < count; i++) {
-        if (pixels[4 * i + 3] != 255)
-            return 4;
-    }
-    return 3;
-}
-
-static bool receive(struct kiln_video_in *video, struct kiln_asset_image **image)
-{
-    int status = avcodec_receive_frame(video->decoder, video->frame);
-    while (status == AVERROR(EAGAIN) && !video->drained) {
-        if (!feed(video))
-            return false;
-        status = avcodec_receive_frame(video->decoder, video->frame);
-    }
-    if (video->avlog.first_error[0] || (status < 0 && status != AVERROR_EOF))
-        return fail_status(video, status, "the video is broken or cut short");
-    if (status == AVERROR_EOF)
-        return video->frames > 0 || fail(video, KILN_INVALID_INPUT, "the video has no frames");
-    if (video->frame->decode_error_flags || (video->frame->flags & AV_FRAME_FLAG_CORRUPT))
-        return fail(video, KILN_INVALID_INPUT, "the video has a broken frame");
-    if (++video->frames > KILN_MAX_VIDEO_FRAMES)
-        return fail(video, KILN_INVALID_INPUT, "the video has more than 1000000 frames");
-    const char *problem = NULL;
-    enum kiln_code code = kiln_avframe_convert(video->frame, image, &problem);
-    if (code == KILN_OK && video->decoder->codec_id == AV_CODEC_ID_GIF)
-        (*image)->channels = count_gif_channels(*image);
-    return code == KILN_OK || fail(video, code, problem);
 }
 
 bool kiln_video_in_read(struct kiln_video_in *video, struct kiln_asset_image **image,
                         struct kiln_error *error)
 {
-    *image = NULL;
-    video->error = error;
-    video->reported = false;
-    kiln_avlog_begin(&video->avlog);
-    bool ok = receive(video, image);
-    kiln_avlog_end(&video->avlog);
-    return ok;
+    struct kiln_error reason = {0};
+    *image = kiln_received_image(&video->received, 1u << KILN_DECODE_PIXELS | 1u << KILN_DECODE_END,
+                                 &reason);
+    video->received.is_counted = true; /* one frame at a time is in memory */
+    if (reason.code == KILN_OK && *image && ++video->frames > KILN_MAX_VIDEO_FRAMES) {
+        kiln_asset_image_destroy(image);
+        kiln_error_set(&reason, KILN_INVALID_INPUT, "the video has more than %d frames",
+                       KILN_MAX_VIDEO_FRAMES);
+    }
+    return reason.code == KILN_OK || kiln_received_fail(&video->received, &reason, error);
 }

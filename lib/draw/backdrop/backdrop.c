@@ -163,7 +163,8 @@ struct kiln_backdrop_stage *kiln_backdrop_create(struct kiln_device *device,
     stage->scene = scene;
     stage->device = device;
     const char *sky_image = scene->backdrop.sky_image;
-    bool ok = !sky_image || kiln_sky_light_measure(&stage->sky_light, sky_image, error);
+    bool ok =
+        !sky_image || kiln_sky_light_measure(&stage->sky_light, scene->loader, sky_image, error);
     if (ok && params->technique == KILN_BACKDROP_CPU)
         stage->cpu = kiln_backdrop_cpu_create(scene, &moment->meshes, params, error);
     else if (ok)

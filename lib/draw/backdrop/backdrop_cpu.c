@@ -27,12 +27,13 @@ static bool load_pictures(struct kiln_backdrop_cpu *cpu, struct kiln_error *erro
 {
     const struct kiln_backdrop *backdrop = &cpu->scene->backdrop;
     if (backdrop->floor_image) {
-        cpu->floor_image = kiln_pyramid_load(backdrop->floor_image, true, error);
+        cpu->floor_image =
+            kiln_pyramid_load(cpu->scene->loader, backdrop->floor_image, true, error);
         if (!cpu->floor_image)
             return false;
     }
     if (backdrop->sky_image)
-        cpu->sky_image = kiln_pyramid_load(backdrop->sky_image, false, error);
+        cpu->sky_image = kiln_pyramid_load(cpu->scene->loader, backdrop->sky_image, false, error);
     return cpu->sky_image || !backdrop->sky_image;
 }
 

@@ -46,11 +46,13 @@ static bool create_programs(struct kiln_backdrop_gl *stage, struct kiln_error *e
 static bool load_pictures(struct kiln_backdrop_gl *stage, struct kiln_error *error)
 {
     const struct kiln_backdrop *backdrop = &stage->scene->backdrop;
-    if (backdrop->floor_image && !kiln_texture_init(&stage->floor_image, stage->device,
-                                                    backdrop->floor_image, GL_REPEAT, error))
+    if (backdrop->floor_image &&
+        !kiln_texture_init(&stage->floor_image, stage->device, stage->scene->loader,
+                           backdrop->floor_image, GL_REPEAT, error))
         return false;
-    return !backdrop->sky_image || kiln_texture_init(&stage->sky_image, stage->device,
-                                                     backdrop->sky_image, GL_CLAMP_TO_EDGE, error);
+    return !backdrop->sky_image ||
+           kiln_texture_init(&stage->sky_image, stage->device, stage->scene->loader,
+                             backdrop->sky_image, GL_CLAMP_TO_EDGE, error);
 }
 
 static bool create_targets(struct kiln_backdrop_gl *stage, struct kiln_error *error)

@@ -3,9 +3,10 @@
 
 #include "base/error.h"
 
-static struct kiln_mesh *make_terrain(const struct kiln_object *object, struct kiln_error *error)
+static struct kiln_mesh *make_terrain(const struct kiln_scene *scene,
+                                      const struct kiln_object *object, struct kiln_error *error)
 {
-    const struct kiln_terrain_params params = kiln_scene_terrain(object);
+    const struct kiln_terrain_params params = kiln_scene_terrain(scene, object);
     struct kiln_terrain *terrain = kiln_terrain_create(&params, error);
     struct kiln_mesh *mesh = terrain ? kiln_terrain_mesh(terrain, error) : NULL;
     kiln_terrain_destroy(&terrain);
@@ -25,12 +26,12 @@ static struct kiln_mesh *make_moving(struct kiln_meshes *meshes, const struct ki
     return mesh;
 }
 
-static bool add_mesh(struct kiln_meshes *meshes, const struct kiln_object *object,
-                     struct kiln_error *error)
+static bool add_mesh(struct kiln_meshes *meshes, const struct kiln_scene *scene,
+                     const struct kiln_object *object, struct kiln_error *error)
 {
     struct kiln_mesh **own = &meshes->own[meshes->count];
     if (object->kind == KILN_OBJECT_TERRAIN)
-        *own = make_terrain(object, error);
+        *own = make_terrain(scene, object, error);
     else if (object->animation.enabled)
         *own = make_moving(meshes, object, error);
     else
@@ -49,7 +50,7 @@ bool kiln_meshes_init(struct kiln_meshes *meshes, const struct kiln_scene *scene
         const struct kiln_object *object = &scene->backdrop.objects[i];
         if (!kiln_object_is_mesh(object))
             continue;
-        if (!add_mesh(meshes, object, error))
+        if (!add_mesh(meshes, scene, object, error))
             return false;
         painted = painted || kiln_object_takes_paint(object);
     }

@@ -103,7 +103,7 @@ static bool load_object(struct sources *sources, uint32_t number, const struct k
 {
     if (object->kind == KILN_OBJECT_MESH)
         return make_mesh(sources, number, scene, object, threads, error);
-    const struct kiln_terrain_params params = kiln_scene_terrain(object);
+    const struct kiln_terrain_params params = kiln_scene_terrain(scene, object);
     sources->terrains[number] = kiln_terrain_create(&params, error);
     return sources->terrains[number] != NULL;
 }
@@ -112,7 +112,7 @@ static bool load(struct kiln_sim_grids *grids, const struct kiln_scene *scene,
                  struct sources *sources, struct kiln_threads *threads, struct kiln_error *error)
 {
     for (uint32_t i = 0; i < grids->wind_count; i++) {
-        sources->winds[i] = kiln_grid_load(grids->files[i], error);
+        sources->winds[i] = kiln_grid_load(scene->loader, grids->files[i], error);
         if (!sources->winds[i])
             return false;
     }

@@ -119,7 +119,7 @@ Whole PNG files of no pixels and of 100000 x 1 pixels.
 
 $ echo iVBORw0KGgoAAAANSUhEUgAAAAAAAAAACAAAAAAe4CPOAAAACElEQVR42gMAAAAAAW/dyZEAAAAASUVORK5CYII= |
 >     base64 -d >zero.png && ./texture zero.png zero
-2|zero.yaml:2:67: systems.a.look.atlas: 'zero.png': the PNG image is broken or cut short (Picture size 0x0 is invalid)
+2|zero.yaml:2:67: systems.a.look.atlas: 'zero.png': the PNG image is broken or cut short (Invalid IHDR data)
 = 3
 $ echo iVBORw0KGgoAAAANSUhEUgABhqAAAAABCAAAAAB4FUkJAAAAeElEQVR42u3BMQEAAADCoPVPbQ0PoAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAIBbA4awAAF6KyntAAAAAElFTkSuQmCC |
 >     base64 -d >wide.png && ./texture wide.png wide

@@ -1,8 +1,6 @@
 /* Integer frames go through swscale, float ones are only put in order. */
-#include "asset/image/avframe.h"
+#include "avframe.h"
 
-#include <libavutil/pixdesc.h>
-#include <libswscale/swscale.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -50,14 +48,14 @@ static enum kiln_code interleave_float(struct conversion *conversion)
 /* The matrix and range of a frame that is not RGB. */
 static void set_colors(struct SwsContext *scaler, const AVFrame *frame)
 {
-    const AVPixFmtDescriptor *layout = av_pix_fmt_desc_get(frame->format);
+    const AVPixFmtDescriptor *layout = kiln_ff.av_pix_fmt_desc_get(frame->format);
     bool full = frame->color_range == AVCOL_RANGE_JPEG;
     bool known = frame->colorspace != AVCOL_SPC_UNSPECIFIED && frame->colorspace != AVCOL_SPC_RGB;
     if (!full && (!known || (layout->flags & AV_PIX_FMT_FLAG_RGB)))
         return;
-    sws_setColorspaceDetails(scaler,
-                             sws_getCoefficients(known ? (int)frame->colorspace : SWS_CS_DEFAULT),
-                             full, sws_getCoefficients(SWS_CS_DEFAULT), 1, 0, 1 << 16, 1 << 16);
+    kiln_ff.sws_setColorspaceDetails(
+        scaler, kiln_ff.sws_getCoefficients(known ? (int)frame->colorspace : SWS_CS_DEFAULT), full,
+        kiln_ff.sws_getCoefficients(SWS_CS_DEFAULT), 1, 0, 1 << 16, 1 << 16);
 }
 
 static enum kiln_code convert_integer(struct conversion *conversion)
@@ -67,19 +65,19 @@ static enum kiln_code convert_integer(struct conversion *conversion)
     bool deep = image->type == KILN_IMAGE_U16;
     enum AVPixelFormat format = deep ? AV_PIX_FMT_RGBA64 : AV_PIX_FMT_RGBA;
     int width = (int)image->width, height = (int)image->height;
-    struct SwsContext *scaler = sws_getContext(
+    struct SwsContext *scaler = kiln_ff.sws_getContext(
         width, height, frame->format, width, height, format,
         SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT | SWS_BITEXACT, NULL, NULL, NULL);
-    if (!scaler && sws_isSupportedInput(frame->format))
+    if (!scaler && kiln_ff.sws_isSupportedInput(frame->format))
         return fail(conversion, KILN_DEVICE_FAILED, "out of memory while decoding the image");
     if (!scaler)
         return fail(conversion, KILN_INVALID_INPUT, "the image's pixel format cannot be read");
     set_colors(scaler, frame);
     uint8_t *rows[4] = {image->pixels};
     int strides[4] = {width * (deep ? 8 : 4)};
-    int done = sws_scale(scaler, (const uint8_t *const *)frame->data, frame->linesize, 0, height,
-                         rows, strides);
-    sws_freeContext(scaler);
+    int done = kiln_ff.sws_scale(scaler, (const uint8_t *const *)frame->data, frame->linesize, 0,
+                                 height, rows, strides);
+    kiln_ff.sws_freeContext(scaler);
     return done == height ? KILN_OK
                           : fail(conversion, KILN_INVALID_INPUT, "the image cannot be converted");
 }
@@ -102,7 +100,7 @@ static uint32_t count_channels(const AVPixFmtDescriptor *layout,
 static enum kiln_code convert(struct conversion *conversion)
 {
     const AVFrame *frame = conversion->frame;
-    const AVPixFmtDescriptor *layout = av_pix_fmt_desc_get(frame->format);
+    const AVPixFmtDescriptor *layout = kiln_ff.av_pix_fmt_desc_get(frame->format);
     struct kiln_asset_image *image = calloc(1, sizeof *image);
     conversion->image = image;
     if (!layout || !image)
@@ -129,8 +127,8 @@ static enum kiln_code convert(struct conversion *conversion)
     return code;
 }
 
-enum kiln_code kiln_avframe_convert(const AVFrame *frame, struct kiln_asset_image **image,
-                                    const char **problem)
+enum kiln_code decode_avframe(const AVFrame *frame, struct kiln_asset_image **image,
+                              const char **problem)
 {
     struct conversion conversion = {.frame = frame};
     enum kiln_code code = convert(&conversion);
@@ -142,7 +140,7 @@ enum kiln_code kiln_avframe_convert(const AVFrame *frame, struct kiln_asset_imag
 }
 
 /* The fast transforms of JPEG and MPEG round differently on each kind of processor. */
-void kiln_avframe_same_everywhere(AVCodecContext *decoder)
+void decode_same_everywhere(AVCodecContext *decoder)
 {
     decoder->flags |= AV_CODEC_FLAG_BITEXACT;
     decoder->idct_algo = FF_IDCT_SIMPLE;

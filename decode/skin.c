@@ -8,42 +8,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "asset/geometry/mesh_import.h"
 #include "base/error.h"
+#include "decode.h"
 
 struct skinning {
-    const struct kiln_mesh_request *request;
+    const struct decode_mesh *wanted;
     const struct aiScene *scene;
     struct kiln_mesh_result *result;
+    struct kiln_error *error;
     struct fy_document *json; /* NULL: the file has none */
     const struct aiNode *nodes[KILN_MAX_SKIN_NODES];
     long numbers[KILN_MAX_SKIN_NODES]; /* of nodes in the file; -1: not in it */
     bool turned[KILN_MAX_SKIN_NODES];  /* has the clip a rotation of the node? */
 };
 
-#define SET(s, ...) kiln_error_set(&(s)->result->error, KILN_INVALID_INPUT, __VA_ARGS__)
+#define SET(s, ...) kiln_error_set((s)->error, KILN_INVALID_INPUT, __VA_ARGS__)
 
 /* ---- the file itself ------------------------------------------------------------------------- */
-
-/* The text of a glTF file, or that of the first chunk of a GLB, which comes after its length and
- * type. Chunks are filled up with spaces, by some programs with zeros. */
-static const char *find_json(const struct kiln_mesh_request *request, size_t *size)
-{
-    enum { GLB_HEADER = 12, CHUNK_HEADER = 8 };
-    const unsigned char *bytes = request->bytes;
-    const size_t start = request->size >= GLB_HEADER + CHUNK_HEADER && bytes[0] == 'g'
-                             ? GLB_HEADER + CHUNK_HEADER
-                             : 0;
-    *size = request->size - start;
-    if (start > 0) {
-        const unsigned char *b = bytes + GLB_HEADER;
-        const size_t length = b[0] | (size_t)b[1] << 8 | (size_t)b[2] << 16 | (size_t)b[3] << 24;
-        *size = length < *size ? length : *size;
-    }
-    while (*size > 0 && bytes[start + *size - 1] == '\0')
-        --*size;
-    return (const char *)bytes + start;
-}
 
 /* The first of that name, as assimp takes it. */
 static struct fy_node *member(struct fy_node *node, const char *key)
@@ -83,24 +64,24 @@ static bool check_sampler(const struct skinning *s, struct fy_node *sampler)
     const char *text = said ? fy_node_get_scalar(said, &length) : linear;
     if (!said || (text && length == sizeof linear - 1 && memcmp(text, linear, length) == 0))
         return true;
-    return SET(s, "%s: a sampler's interpolation is '%.*s'; allowed is LINEAR", s->request->name,
+    return SET(s, "a sampler's interpolation is '%.*s'; allowed is LINEAR",
                (int)(length < 40 ? length : 40), text ? text : "");
 }
 
 static bool read_json(struct skinning *s)
 {
-    if (strcmp(s->request->extension, ".obj") == 0)
+    if (s->wanted->format == KILN_MESH_OBJ)
         return true;
     /* what an exporter adds for itself may have a key twice */
     const struct fy_parse_cfg config = {.flags = FYPCF_QUIET | FYPCF_JSON_FORCE |
                                                  FYPCF_ALLOW_DUPLICATE_KEYS};
     size_t size;
-    const char *json = find_json(s->request, &size);
+    const char *json = decode_mesh_json(s->wanted, &size);
     s->json = fy_document_build_from_string(&config, json, size);
     if (s->json)
         return true;
-    return SET(s, "%s: its JSON can not be read: it is broken, or nested deeper than %d levels",
-               s->request->name, FYPCF_GUARANTEED_MINIMUM_DEPTH_LIMIT - 1);
+    return SET(s, "its JSON can not be read: it is broken, or nested deeper than %d levels",
+               FYPCF_GUARANTEED_MINIMUM_DEPTH_LIMIT - 1);
 }
 
 static struct fy_node *json_member(const struct skinning *s, const char *key)
@@ -167,8 +148,8 @@ static bool put_matrix(const struct skinning *s, const struct aiMatrix4x4 *m, ma
         {m->a1, m->a2, m->a3, m->a4}, {m->b1, m->b2, m->b3, m->b4}, {m->c1, m->c2, m->c3, m->c4}};
     kiln_matrix_from_rows(rows, out);
     return (m->d1 == 0.0f && m->d2 == 0.0f && m->d3 == 0.0f && m->d4 == 1.0f) ||
-           SET(s, "%s: a matrix has the last row %g %g %g %g; allowed is 0 0 0 1", s->request->name,
-               (double)m->d1, (double)m->d2, (double)m->d3, (double)m->d4);
+           SET(s, "a matrix has the last row %g %g %g %g; allowed is 0 0 0 1", (double)m->d1,
+               (double)m->d2, (double)m->d3, (double)m->d4);
 }
 
 /* Parents before their children, without recursion: a file may be as deep as it likes. */
@@ -181,7 +162,7 @@ static bool put_nodes(struct skinning *s)
         if (!put_matrix(s, &node->mTransformation, out->nodes[i].rest))
             return false;
         if (node->mNumChildren > KILN_MAX_SKIN_NODES - out->node_count)
-            return SET(s, "%s: more than %d nodes", s->request->name, KILN_MAX_SKIN_NODES);
+            return SET(s, "more than %d nodes", KILN_MAX_SKIN_NODES);
         for (unsigned c = 0; c < node->mNumChildren; c++) {
             out->nodes[out->node_count].parent = i;
             s->nodes[out->node_count++] = node->mChildren[c];
@@ -201,7 +182,7 @@ static bool find_node(const struct skinning *s, const struct aiString *name, uin
     }
     if (count == 1)
         return true;
-    return SET(s, "%s: %s nodes are called '%.100s', which moves; allowed is one", s->request->name,
+    return SET(s, "%s nodes are called '%.100s', which moves; allowed is one",
                count ? "several" : "no", name->data);
 }
 
@@ -215,7 +196,7 @@ static bool put_bone(struct skinning *s, uint32_t node, mat4 offset, uint16_t *n
            (out->bones[i].node != node || memcmp(out->bones[i].offset, offset, sizeof(mat4)) != 0))
         i++;
     if (i == KILN_MAX_SKIN_BONES)
-        return SET(s, "%s: more than %d bones", s->request->name, KILN_MAX_SKIN_BONES);
+        return SET(s, "more than %d bones", KILN_MAX_SKIN_BONES);
     if (i == out->bone_count) {
         out->bones[i].node = node;
         glm_mat4_copy(offset, out->bones[i].offset);
@@ -235,8 +216,7 @@ static bool add_weight(struct skinning *s, uint32_t vertex, uint16_t bone, float
             return true;
         }
     }
-    return SET(s, "%s: more than %d bones move vertex %u", s->request->name, KILN_SKIN_INFLUENCES,
-               vertex);
+    return SET(s, "more than %d bones move vertex %u", KILN_SKIN_INFLUENCES, vertex);
 }
 
 /* As its bones say; without them, as the node does that it hangs on. */
@@ -278,9 +258,8 @@ static bool put_meshes(struct skinning *s)
             const struct aiMesh *mesh = s->scene->mMeshes[node->mMeshes[k]];
             const uint32_t first = s->result->vertex_count;
             if (mesh->mNumAnimMeshes > 0)
-                return SET(s, "%s: a mesh has morph targets; allowed are nodes and bones",
-                           s->request->name);
-            if (!kiln_mesh_import_part(s->request, mesh, s->result) ||
+                return SET(s, "a mesh has morph targets; allowed are nodes and bones");
+            if (!decode_mesh_part(s->wanted, mesh, s->result, s->error) ||
                 !put_weights(s, mesh, i, first))
                 return false;
             s->result->skin.has_normals &= mesh->mNormals != NULL;
@@ -296,7 +275,7 @@ static struct kiln_skin_key *add_key(struct skinning *s, struct kiln_skin_track 
 {
     struct kiln_skin_result *out = &s->result->skin;
     if (out->key_count == KILN_MAX_CLIP_KEYS) {
-        SET(s, "%s: more than %d keys", s->request->name, KILN_MAX_CLIP_KEYS);
+        SET(s, "more than %d keys", KILN_MAX_CLIP_KEYS);
         return NULL;
     }
     if (track->count++ == 0)
@@ -358,8 +337,7 @@ static bool put_channel(struct skinning *s, const struct aiNodeAnim *from, doubl
 {
     struct kiln_skin_result *out = &s->result->skin;
     if (out->channel_count == KILN_MAX_CLIP_CHANNELS)
-        return SET(s, "%s: clips move more than %d nodes", s->request->name,
-                   KILN_MAX_CLIP_CHANNELS);
+        return SET(s, "clips move more than %d nodes", KILN_MAX_CLIP_CHANNELS);
     struct kiln_skin_channel *channel = &out->channels[out->channel_count++];
     struct kiln_skin_track *tracks = channel->tracks;
     const bool put = find_node(s, &from->mNodeName, &channel->node) &&
@@ -384,15 +362,15 @@ static bool put_clips(struct skinning *s)
         find_turned(s, next_of(animations, &at));
         const struct aiAnimation *from = s->scene->mAnimations[i];
         if (i == KILN_MAX_CLIPS)
-            return SET(s, "%s: more than %d animations", s->request->name, KILN_MAX_CLIPS);
+            return SET(s, "more than %d animations", KILN_MAX_CLIPS);
         if (from->mNumMeshChannels + from->mNumMorphMeshChannels > 0)
-            return SET(s, "%s: an animation moves more than nodes and bones", s->request->name);
+            return SET(s, "an animation moves more than nodes and bones");
         struct kiln_skin_clip *clip = &out->clips[out->clip_count++];
         clip->first = out->channel_count;
         clip->count = from->mNumChannels;
         if (snprintf(clip->name, sizeof clip->name, "%s", from->mName.data) >=
             (int)sizeof clip->name)
-            return SET(s, "%s: the name of an animation is longer than %d bytes", s->request->name,
+            return SET(s, "the name of an animation is longer than %d bytes",
                        KILN_MAX_CLIP_NAME - 1);
         /* assimp's default where a file says nothing */
         const double rate = from->mTicksPerSecond > 0.0 ? from->mTicksPerSecond : 25.0;
@@ -401,13 +379,13 @@ static bool put_clips(struct skinning *s)
                 return false;
         }
     }
-    return out->clip_count > 0 || SET(s, "%s: the file has no animation", s->request->name);
+    return out->clip_count > 0 || SET(s, "the file has no animation");
 }
 
-bool kiln_skin_import(const struct kiln_mesh_request *request, const struct aiScene *scene,
-                      struct kiln_mesh_result *result)
+bool decode_skin(const struct decode_mesh *wanted, const struct aiScene *scene,
+                 struct kiln_mesh_result *result, struct kiln_error *error)
 {
-    struct skinning s = {.request = request, .scene = scene, .result = result};
+    struct skinning s = {.wanted = wanted, .scene = scene, .result = result, .error = error};
     const bool imported = read_json(&s) && check_interpolation(&s) && put_nodes(&s) &&
                           put_meshes(&s) && put_clips(&s);
     fy_document_destroy(s.json);

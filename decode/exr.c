@@ -1,18 +1,14 @@
-/* The file lies in memory, and each chunk is decoded straight into the picture. */
-#include "asset/image/exr_in.h"
-
+/* Layers of OpenEXR files, by OpenEXR's C core. The file lies in memory, and each chunk is decoded
+ * straight into the picture. */
 #include <openexr.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
+#include "decode.h"
 
 struct reading {
-    const char *name; /* of the file, for messages */
-    const char *layer;
-    struct kiln_error *error;
-    const unsigned char *bytes;
-    size_t size;
+    struct decode_picture *picture;
     exr_context_t file;
     int part;
     const char *channels[4]; /* by component, names in the file; NULL: without */
@@ -34,18 +30,18 @@ static int64_t on_read(exr_const_context_t context, void *opaque, void *buffer, 
     (void)context;
     (void)report;
     const struct reading *reading = opaque;
-    if (offset > reading->size)
+    if (offset > reading->picture->size)
         return -1;
-    size_t left = reading->size - (size_t)offset;
+    size_t left = reading->picture->size - (size_t)offset;
     size_t taken = count < left ? (size_t)count : left;
-    memcpy(buffer, reading->bytes + offset, taken);
+    memcpy(buffer, reading->picture->bytes + offset, taken);
     return (int64_t)taken;
 }
 
 static int64_t on_size(exr_const_context_t context, void *opaque)
 {
     (void)context;
-    return (int64_t)((const struct reading *)opaque)->size;
+    return (int64_t)((const struct reading *)opaque)->picture->size;
 }
 
 static exr_result_t open_file(struct reading *reading)
@@ -57,24 +53,16 @@ static exr_result_t open_file(struct reading *reading)
     initializer.size_fn = on_size;
     initializer.max_image_width = KILN_MAX_IMAGE_EDGE;
     initializer.max_image_height = KILN_MAX_IMAGE_EDGE;
-    return exr_start_read(&reading->file, reading->name, &initializer);
+    return exr_start_read(&reading->file, "an EXR image", &initializer);
 }
 
 static bool fail(const struct reading *reading, exr_result_t code)
 {
     if (code == EXR_ERR_OUT_OF_MEMORY)
-        return kiln_error_set(reading->error, KILN_DEVICE_FAILED,
-                              "%s: out of memory while decoding the image", reading->name);
-    return kiln_error_set(reading->error, KILN_INVALID_INPUT,
-                          "%s: the EXR image is broken or cut short (%s)", reading->name,
+        return decode_out_of_memory(reading->picture->error);
+    return kiln_error_set(reading->picture->error, KILN_INVALID_INPUT,
+                          "the EXR image is broken or cut short (%s)",
                           exr_get_default_error_message(code));
-}
-
-bool kiln_exr_is_tiled(const void *bytes, size_t size)
-{
-    /* Signature, then version and flags: bit 9 is for one part in tiles. */
-    const unsigned char *b = bytes;
-    return size >= 8 && memcmp(b, "v/1\x01", 4) == 0 && (b[5] & 0x02) != 0;
 }
 
 /* ---- The layer ---------------------------------------------------------------------------- */
@@ -102,7 +90,7 @@ static bool find_channels(struct reading *reading, const exr_attr_chlist_t *list
     memset(reading->channels, 0, sizeof reading->channels);
     for (int i = 0; i < list->num_channels; i++) {
         const exr_attr_chlist_entry_t *entry = &list->entries[i];
-        int component = component_of(entry->name.str, reading->layer);
+        int component = component_of(entry->name.str, reading->picture->layer);
         if (component >= 0 && entry->x_sampling == 1 && entry->y_sampling == 1)
             reading->channels[component] = entry->name.str;
     }
@@ -147,9 +135,9 @@ static bool find_part(struct reading *reading)
         return fail(reading, code);
     char found[256] = "none";
     list_channels(reading, parts, found, sizeof found);
-    return kiln_error_set(reading->error, KILN_INVALID_INPUT,
-                          "%s: no layer '%s' in lines of full size; the file has the channels %s",
-                          reading->name, reading->layer, found);
+    return kiln_error_set(reading->picture->error, KILN_INVALID_INPUT,
+                          "no layer '%s' in lines of full size; the file has the channels %s",
+                          reading->picture->layer, found);
 }
 
 static bool make_image(struct reading *reading)
@@ -160,13 +148,8 @@ static bool make_image(struct reading *reading)
         return fail(reading, code);
     int64_t width = (int64_t)window.max.x - window.min.x + 1;
     int64_t height = (int64_t)window.max.y - window.min.y + 1;
-    if (width < 1 || height < 1 || width > KILN_MAX_IMAGE_EDGE || height > KILN_MAX_IMAGE_EDGE ||
-        width * height > KILN_MAX_IMAGE_PIXELS)
-        return kiln_error_set(reading->error, KILN_INVALID_INPUT,
-                              "%s: EXR image of %lld x %lld pixels; allowed are 1 to %d a side and "
-                              "at most %d in all",
-                              reading->name, (long long)width, (long long)height,
-                              KILN_MAX_IMAGE_EDGE, KILN_MAX_IMAGE_PIXELS);
+    if (!decode_allows_size(reading->picture, "EXR", width, height))
+        return false;
     struct kiln_asset_image *image = calloc(1, sizeof *image);
     float *pixels = image ? malloc((size_t)(width * height) * 4 * sizeof *pixels) : NULL;
     reading->image = image;
@@ -251,11 +234,9 @@ static bool read_pixels(const struct reading *reading)
     return true;
 }
 
-struct kiln_asset_image *kiln_exr_parse(const void *bytes, size_t size, const char *name,
-                                        const char *layer, struct kiln_error *error)
+struct kiln_asset_image *decode_exr(struct decode_picture *picture)
 {
-    struct reading reading = {
-        .name = name, .layer = layer, .error = error, .bytes = bytes, .size = size};
+    struct reading reading = {.picture = picture};
     exr_result_t code = open_file(&reading);
     bool ok = code == EXR_ERR_SUCCESS
                   ? find_part(&reading) && make_image(&reading) && read_pixels(&reading)

@@ -1,6 +1,6 @@
-/* What moves a mesh, on its way from the importer's process. */
-#ifndef KILN_ASSET_GEOMETRY_SKIN_IMPORT_H
-#define KILN_ASSET_GEOMETRY_SKIN_IMPORT_H
+/* What moves a mesh, on its way from kiln-decode. */
+#ifndef KILN_ASSET_GEOMETRY_SKIN_IN_H
+#define KILN_ASSET_GEOMETRY_SKIN_IN_H
 
 #include "asset/geometry/skin.h"
 #include "base/matrix.h"

@@ -1,0 +1,165 @@
+/* Locks the process in before it reads a byte of a stranger's file: limits of memory, files and
+ * processor time, no files by name, no new descriptors but those that kiln sends, no other
+ * processes, no code that was not there. The decoders are trusted with nothing; what a layer lets
+ * through, the next one stops. */
+#include "base/confine.h"
+
+#include <errno.h>
+#include <seccomp.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "decode.h"
+
+/* Bytes beyond what the process has when it begins. A picture of the largest size takes 1 GiB as
+ * floats, as the decoder has it and as kiln wants it. */
+static const uint64_t most_memory_of[] = {
+    [KILN_DECODE_PNG] = (uint64_t)1 << 30,     [KILN_DECODE_PICTURE] = (uint64_t)3 << 30,
+    [KILN_DECODE_EXR] = (uint64_t)3 << 30,     [KILN_DECODE_VIDEO] = (uint64_t)4 << 30,
+    [KILN_DECODE_MESH] = (uint64_t)1280 << 20,
+};
+
+enum {
+    MOST_CPU_SECONDS = 3600, /* in all; kiln gives less for each file */
+    MOST_DESCRIPTORS = 16,   /* the three of every process, the socket, files that kiln sends */
+};
+
+/* Of this process's own making, for the message; 0: another limit was there and is lower. */
+static uint64_t own_limit;
+
+bool decode_out_of_memory(struct kiln_error *error)
+{
+    if (own_limit == 0)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while decoding");
+    return kiln_error_set(error, KILN_INVALID_INPUT,
+                          "it takes more than %llu MiB of memory to decode",
+                          (unsigned long long)(own_limit >> 20));
+}
+
+/* The sixth number of statm: pages of data. */
+static uint64_t bytes_in_use(void)
+{
+    char text[256] = "";
+    FILE *file = fopen("/proc/self/statm", "re");
+    if (file) {
+        if (!fgets(text, sizeof text, file))
+            text[0] = '\0';
+        fclose(file);
+    }
+    const char *number = text;
+    for (int i = 0; i < 5 && number; i++) {
+        number = strchr(number, ' ');
+        number = number ? number + 1 : NULL;
+    }
+    return number ? strtoull(number, NULL, 10) * (uint64_t)sysconf(_SC_PAGESIZE) : 0;
+}
+
+/* Lowers a limit; true if it was higher. */
+static bool lower(int resource, uint64_t soft, uint64_t hard)
+{
+    struct rlimit limit;
+    if (getrlimit((__rlimit_resource_t)resource, &limit) != 0)
+        return false;
+    const bool lowers = soft < limit.rlim_cur;
+    limit.rlim_cur = lowers ? soft : limit.rlim_cur;
+    limit.rlim_max = hard < limit.rlim_max ? hard : limit.rlim_max;
+    setrlimit((__rlimit_resource_t)resource, &limit);
+    return lowers;
+}
+
+static void limit_resources(enum kiln_decode_kind kind, uint64_t most_memory)
+{
+    struct rlimit space;
+    const uint64_t own = most_memory_of[kind];
+    const uint64_t most = own < most_memory ? own : most_memory;
+    lower(RLIMIT_CORE, 0, 0);
+    lower(RLIMIT_FSIZE, 0, 0);
+    lower(RLIMIT_NPROC, 0, 0);
+    lower(RLIMIT_NOFILE, MOST_DESCRIPTORS, MOST_DESCRIPTORS);
+    lower(RLIMIT_CPU, KILN_DECODE_SECONDS, MOST_CPU_SECONDS);
+    /* The sanitizers' own tables are larger than any limit. */
+    if (!KILN_UNCONFINED && lower(RLIMIT_DATA, bytes_in_use() + most, bytes_in_use() + most) &&
+        getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur == RLIM_INFINITY)
+        own_limit = most;
+}
+
+#define CALL(name)                                                                                 \
+    {                                                                                              \
+        SCMP_SYS(name), 0, 0, 0                                                                    \
+    }
+#define CALL_WITHOUT(name, argument, bits)                                                         \
+    {                                                                                              \
+        SCMP_SYS(name), argument, bits, 0                                                          \
+    }
+
+static const struct kiln_system_call allowed[] = {
+    CALL(read),
+    CALL(readv),
+    CALL(pread64),
+    CALL(write),
+    CALL(writev),
+    CALL(lseek),
+    CALL(_llseek),
+    CALL(close),
+    CALL(fstat),
+    CALL(fstat64),
+    /* what is sent and received goes over the one socket that there is */
+    CALL(recvmsg),
+    CALL(recvfrom),
+    CALL(recv),
+    CALL(sendto),
+    CALL(send),
+    CALL(sendmsg),
+    CALL(poll),
+    CALL(ppoll),
+    /* memory, but none that holds code */
+    CALL(brk),
+    CALL(munmap),
+    CALL(mremap),
+    CALL(madvise),
+    CALL_WITHOUT(mmap, 2, PROT_EXEC),
+    CALL_WITHOUT(mmap2, 2, PROT_EXEC),
+    CALL_WITHOUT(mprotect, 2, PROT_EXEC),
+    CALL(futex),
+    CALL(sched_yield),
+    CALL(getpid),
+    CALL(gettid),
+    CALL(sched_getaffinity),
+    CALL(clock_gettime),
+    CALL(clock_getres),
+    CALL(gettimeofday),
+    CALL(time),
+    CALL(times),
+    CALL(getrandom),
+    CALL(sysinfo),
+    CALL(rt_sigprocmask),
+    CALL(rt_sigaction),
+    CALL(rt_sigreturn),
+    CALL(sigreturn),
+    CALL(restart_syscall),
+    CALL(exit),
+    CALL(exit_group),
+};
+
+bool decode_confine(enum kiln_decode_kind kind, uint64_t most_memory, struct kiln_error *error)
+{
+    struct kiln_system_call calls[sizeof allowed / sizeof *allowed + 1];
+    size_t count = sizeof allowed / sizeof *allowed;
+    memcpy(calls, allowed, sizeof allowed);
+    /* abort() sends itself a signal, and nobody else gets one. */
+    calls[count++] = (struct kiln_system_call){SCMP_SYS(tgkill), 0, UINT32_MAX, (uint64_t)getpid()};
+    limit_resources(kind, most_memory);
+    return kiln_seccomp_open(error) &&
+           (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 ||
+            kiln_error_set_errno(error, KILN_DEVICE_FAILED, errno, "no_new_privs")) &&
+           (prctl(PR_SET_DUMPABLE, 0, 0, 0, 0) == 0 ||
+            kiln_error_set_errno(error, KILN_DEVICE_FAILED, errno, "PR_SET_DUMPABLE")) &&
+           kiln_landlock_confine(NULL, 0, error) &&
+           kiln_seccomp_confine(KILN_ONLY_THESE_CALLS, calls, count, error);
+}

@@ -1,0 +1,312 @@
+/* The process of kiln-decode: opens the libraries of one kind of files, locks itself in, and then
+ * decodes what kiln sends, file by file, until kiln's end of the socket closes. Pictures of all
+ * kinds and meshes are read whole; of a video, frame after frame is sent. */
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "base/ffmpeg.h"
+#include "decode.h"
+
+/* ---- the socket ------------------------------------------------------------------------------ */
+
+/* A process that nobody listens to any more ends, whatever it does. */
+static void on_socket(int signal)
+{
+    (void)signal;
+    struct pollfd socket = {.fd = KILN_DECODE_SOCKET};
+    if (poll(&socket, 1, 0) > 0 && (socket.revents & (POLLHUP | POLLERR)))
+        _exit(0);
+}
+
+static bool watch_socket(void)
+{
+    struct stat status;
+    struct sigaction action = {.sa_handler = on_socket, .sa_flags = SA_RESTART};
+    static const int ignored[] = {SIGINT, SIGQUIT, SIGHUP, SIGPIPE}; /* of kiln's terminal */
+    for (size_t i = 0; i < sizeof ignored / sizeof *ignored; i++)
+        signal(ignored[i], SIG_IGN);
+    return fstat(KILN_DECODE_SOCKET, &status) == 0 && S_ISSOCK(status.st_mode) &&
+           sigaction(SIGIO, &action, NULL) == 0 &&
+           fcntl(KILN_DECODE_SOCKET, F_SETOWN, getpid()) == 0 &&
+           fcntl(KILN_DECODE_SOCKET, F_SETFL, O_ASYNC) == 0;
+}
+
+static void send_bytes(const void *bytes, size_t size)
+{
+    for (size_t done = 0; done < size;) {
+        const ssize_t sent = write(KILN_DECODE_SOCKET, (const char *)bytes + done, size - done);
+        if (sent < 0 && errno == EINTR)
+            continue;
+        if (sent <= 0)
+            _exit(0);
+        done += (size_t)sent;
+    }
+}
+
+static void send_answer(const struct kiln_decode_answer *answer)
+{
+    send_bytes(answer, sizeof *answer);
+}
+
+static void send_text(enum kiln_decode_what what, const char *text)
+{
+    struct kiln_decode_answer answer = {.what = (uint32_t)what};
+    snprintf(answer.text, sizeof answer.text, "%s", text);
+    send_answer(&answer);
+}
+
+static void send_failure(const struct kiln_error *error, const struct decode_picture *picture)
+{
+    struct kiln_decode_answer answer = {.what = KILN_DECODE_FAILED, .code = (int32_t)error->code};
+    memcpy(answer.text, error->message, sizeof answer.text);
+    if (picture) {
+        answer.width = picture->width;
+        answer.height = picture->height;
+    }
+    send_answer(&answer);
+}
+
+/* Returns the descriptor that came with the bytes, -1 without one. Ends with kiln. */
+static int receive(void *bytes, size_t size)
+{
+    union {
+        struct cmsghdr header;
+        char room[CMSG_SPACE(sizeof(int))];
+    } control;
+    int file = -1;
+    for (size_t done = 0; done < size;) {
+        struct iovec part = {(char *)bytes + done, size - done};
+        struct msghdr message = {.msg_iov = &part,
+                                 .msg_iovlen = 1,
+                                 .msg_control = control.room,
+                                 .msg_controllen = sizeof control.room};
+        const ssize_t got = recvmsg(KILN_DECODE_SOCKET, &message, MSG_CMSG_CLOEXEC);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got <= 0)
+            _exit(0);
+        done += (size_t)got;
+        const struct cmsghdr *with = CMSG_FIRSTHDR(&message);
+        if (with && with->cmsg_type == SCM_RIGHTS && with->cmsg_len == CMSG_LEN(sizeof file))
+            memcpy(&file, CMSG_DATA(with), sizeof file);
+    }
+    return file;
+}
+
+/* ---- what is asked for ----------------------------------------------------------------------- */
+
+static unsigned char *read_file(int file, uint64_t most, size_t *size, struct kiln_error *error)
+{
+    const off_t end = lseek(file, 0, SEEK_END); /* fstat would need a call that also takes paths */
+    if (end < 0 || (uint64_t)end > most) {
+        kiln_error_set(error, KILN_IO, "it cannot be read, or has become longer meanwhile");
+        return NULL;
+    }
+    *size = (size_t)end;
+    unsigned char *bytes = malloc(*size + 1);
+    size_t done = 0;
+    if (!bytes)
+        decode_out_of_memory(error);
+    while (bytes && done < *size) {
+        const ssize_t got = pread(file, bytes + done, *size - done, (off_t)done);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got <= 0) {
+            kiln_error_set(error, KILN_IO, "it cannot be read, or has become shorter meanwhile");
+            free(bytes);
+            return NULL;
+        }
+        done += (size_t)got;
+    }
+    return bytes;
+}
+
+static void send_image(const struct kiln_asset_image *image)
+{
+    static const size_t pixel_size[] = {
+        [KILN_IMAGE_U8] = 4, [KILN_IMAGE_U16] = 8, [KILN_IMAGE_F32] = 16};
+    const struct kiln_decode_answer answer = {.what = KILN_DECODE_PIXELS,
+                                              .width = image->width,
+                                              .height = image->height,
+                                              .channels = image->channels,
+                                              .type = image->type,
+                                              .srgb = image->srgb,
+                                              .premultiplied = image->premultiplied};
+    send_answer(&answer);
+    send_bytes(image->pixels, (size_t)image->width * image->height * pixel_size[image->type]);
+}
+
+static void serve_picture(enum kiln_decode_kind kind, const struct kiln_decode_request *request,
+                          int file)
+{
+    struct kiln_error error = {0};
+    struct decode_picture picture = {.format = (enum kiln_picture_format)request->format,
+                                     .layer = request->layer,
+                                     .most_pixels = request->most_pixels,
+                                     .error = &error};
+    unsigned char *bytes = read_file(file, request->most_bytes, &picture.size, &error);
+    struct kiln_asset_image *image = NULL;
+    picture.bytes = bytes;
+    if (bytes)
+        image = kind == KILN_DECODE_PNG   ? decode_png(&picture)
+                : kind == KILN_DECODE_EXR ? decode_exr(&picture)
+                                          : decode_by_ffmpeg(&picture);
+    free(bytes);
+    if (image)
+        send_image(image);
+    else
+        send_failure(&error, &picture);
+    kiln_asset_image_destroy(&image);
+}
+
+static void serve_video(int file)
+{
+    struct kiln_error error = {0};
+    struct kiln_asset_image *image = NULL;
+    struct decode_video *video = decode_video_open(file, &error);
+    bool ok = video != NULL;
+    if (ok)
+        send_text(KILN_DECODE_READY, KILN_VERSION);
+    do {
+        ok = ok && decode_video_read(video, &image, &error);
+        if (image)
+            send_image(image);
+        else if (ok)
+            send_text(KILN_DECODE_END, "");
+        const bool more = image != NULL;
+        kiln_asset_image_destroy(&image);
+        if (!more)
+            break;
+    } while (ok);
+    if (!ok)
+        send_failure(&error, NULL);
+    if (video)
+        decode_video_close(&video);
+}
+
+/* Asks kiln for a file that a mesh names. */
+static unsigned char *ask_for_file(void *user, const char *name, size_t *size)
+{
+    (void)user;
+    struct kiln_decode_file answer;
+    struct kiln_error error = {0};
+    send_text(KILN_DECODE_WANTS, name);
+    const int file = receive(&answer, sizeof answer);
+    unsigned char *bytes =
+        answer.is_open && file >= 0 ? read_file(file, KILN_MAX_MESH_BYTES, size, &error) : NULL;
+    if (file >= 0)
+        close(file);
+    return bytes;
+}
+
+static bool send_array(void *user, void *array, size_t bytes)
+{
+    (void)user;
+    send_bytes(array, bytes);
+    return true;
+}
+
+static void send_mesh(const struct kiln_decode_request *request, struct kiln_mesh_result *result)
+{
+    const struct kiln_skin_result *skin = &result->skin;
+    const struct kiln_decode_answer answer = {.what = KILN_DECODE_MADE,
+                                              .vertices = result->vertex_count,
+                                              .triangles = result->triangle_count,
+                                              .has_normals = skin->has_normals,
+                                              .nodes = skin->node_count,
+                                              .bones = skin->bone_count,
+                                              .clips = skin->clip_count,
+                                              .channels_of_clips = skin->channel_count,
+                                              .keys = skin->key_count};
+    send_answer(&answer);
+    kiln_mesh_visit_arrays(result, request->uvs, request->moving, send_array, NULL);
+}
+
+static void serve_mesh(const struct kiln_decode_request *request, int file)
+{
+    struct kiln_error error = {0};
+    struct decode_mesh mesh = {.format = (enum kiln_mesh_format)request->format,
+                               .uvs = request->uvs,
+                               .moving = request->moving,
+                               .open = ask_for_file};
+    unsigned char *bytes = read_file(file, request->most_bytes, &mesh.size, &error);
+    struct kiln_mesh_result *result = bytes ? calloc(1, sizeof *result) : NULL;
+    mesh.bytes = bytes;
+    if (bytes && !result)
+        decode_out_of_memory(&error);
+    if (result && decode_mesh(&mesh, result, &error))
+        send_mesh(request, result);
+    else
+        send_failure(&error, NULL);
+    free(result);
+    free(bytes);
+}
+
+/* ---- the process ----------------------------------------------------------------------------- */
+
+static bool open_libraries(enum kiln_decode_kind kind, struct kiln_error *error)
+{
+    switch (kind) {
+    case KILN_DECODE_PICTURE:
+        return kiln_ffmpeg_open(KILN_FFMPEG_PICTURES, error);
+    case KILN_DECODE_VIDEO:
+        return kiln_ffmpeg_open(KILN_FFMPEG_CLIPS, error);
+    case KILN_DECODE_MESH:
+        return decode_mesh_begin(error);
+    case KILN_DECODE_PNG:
+    case KILN_DECODE_EXR:
+    case KILN_DECODE_KIND_COUNT:
+        break;
+    }
+    return true; /* they are linked, being small */
+}
+
+static bool find_kind(const char *word, enum kiln_decode_kind *kind)
+{
+#define WORD(id, word) word,
+    static const char *const words[] = {KILN_DECODE_KINDS(WORD)};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        if (strcmp(words[i], word) == 0) {
+            *kind = (enum kiln_decode_kind)i;
+            return true;
+        }
+    }
+    return false;
+}
+
+/* kiln-decode KIND BYTES, where BYTES is the most memory that it may take. */
+int main(int argc, char **argv)
+{
+    enum kiln_decode_kind kind;
+    struct kiln_error error = {0};
+    if (argc != 3 || !find_kind(argv[1], &kind) || !watch_socket()) {
+        fprintf(stderr, "kiln-decode " KILN_VERSION " is a part of kiln, which starts it.\n");
+        return KILN_USAGE;
+    }
+    if (!open_libraries(kind, &error) ||
+        !decode_confine(kind, strtoull(argv[2], NULL, 10), &error)) {
+        send_failure(&error, NULL);
+        return (int)error.code;
+    }
+    send_text(KILN_DECODE_READY, KILN_VERSION);
+    for (;;) {
+        struct kiln_decode_request request;
+        const int file = receive(&request, sizeof request);
+        if (kind == KILN_DECODE_VIDEO)
+            serve_video(file);
+        else if (kind == KILN_DECODE_MESH)
+            serve_mesh(&request, file);
+        else
+            serve_picture(kind, &request, file);
+        close(file);
+    }
+}

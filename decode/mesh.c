@@ -1,0 +1,368 @@
+/* Meshes by assimp, which is opened here and nowhere else. It reads through callbacks that know the
+ * file itself and, for glTF, the buffers that kiln opens. */
+#include <assimp/cfileio.h>
+#include <assimp/cimport.h>
+#include <assimp/config.h>
+#include <assimp/mesh.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/library.h"
+#include "decode.h"
+
+/* The version that the headers describe; any 5.x has this name. */
+#define LIBRARY "libassimp.so.5"
+
+static const float CREASE_DEG =
+    50.0f; /* smooth normals across flatter edges, where a file has none */
+
+/* ---- the library ----------------------------------------------------------------------------- */
+
+#define FUNCTIONS(F)                                                                               \
+    F(aiCreatePropertyStore)                                                                       \
+    F(aiReleasePropertyStore)                                                                      \
+    F(aiSetImportPropertyInteger)                                                                  \
+    F(aiSetImportPropertyFloat)                                                                    \
+    F(aiImportFileExWithProperties)                                                                \
+    F(aiReleaseImport)                                                                             \
+    F(aiGetErrorString)
+
+/* Set once, before a file is read. */
+static struct {
+    FUNCTIONS(KILN_LIBRARY_POINTER)
+} ai;
+
+bool decode_mesh_begin(struct kiln_error *error)
+{
+#define FIND(function) {#function, &ai.function},
+    static const struct kiln_library_function functions[] = {FUNCTIONS(FIND)};
+    return kiln_library_open(LIBRARY, "libassimp5", functions, sizeof functions / sizeof *functions,
+                             error);
+}
+
+/* ---- what it is ------------------------------------------------------------------------------ */
+
+enum { GLB_HEADER = 12, CHUNK_HEADER = 8 };
+
+/* Chunks are filled up with spaces, by some programs with zeros. */
+const char *decode_mesh_json(const struct decode_mesh *mesh, size_t *size)
+{
+    const unsigned char *bytes = mesh->bytes;
+    const size_t start = mesh->format == KILN_MESH_GLB ? GLB_HEADER + CHUNK_HEADER : 0;
+    *size = mesh->size - start;
+    if (start > 0) {
+        const unsigned char *b = bytes + GLB_HEADER; /* the length of the first chunk, its type */
+        const size_t length = b[0] | (size_t)b[1] << 8 | (size_t)b[2] << 16 | (size_t)b[3] << 24;
+        *size = length < *size ? length : *size;
+    }
+    while (*size > 0 && bytes[start + *size - 1] == '\0')
+        --*size;
+    return (const char *)bytes + start;
+}
+
+/* Assimp copies what is nested in "extras" twice for each level: 64 levels take for ever. */
+static bool check_depth(const struct decode_mesh *mesh, struct kiln_error *error)
+{
+    enum { MOST = 20 };
+    size_t size, depth = 0, deepest = 0;
+    const char *json = decode_mesh_json(mesh, &size);
+    bool quoted = false;
+    for (size_t i = 0; i < size; i++) {
+        if (quoted && json[i] == '\\')
+            i++;
+        else if (json[i] == '"')
+            quoted = !quoted;
+        else if (!quoted && (json[i] == '{' || json[i] == '['))
+            depth++;
+        else if (!quoted && (json[i] == '}' || json[i] == ']') && depth > 0)
+            depth--;
+        deepest = depth > deepest ? depth : deepest;
+    }
+    return deepest <= MOST ||
+           kiln_error_set(error, KILN_INVALID_INPUT,
+                          "its JSON is nested %zu levels deep; allowed are at most %d", deepest,
+                          MOST);
+}
+
+/* An OBJ has a line for each vertex and each polygon: too many are found before they take time. */
+static bool check_lines(const struct decode_mesh *mesh, struct kiln_error *error)
+{
+    const char *line = mesh->bytes, *end = line + mesh->size;
+    size_t vertices = 0, faces = 0;
+    while (line && end - line >= 2) {
+        vertices += line[0] == 'v' && line[1] == ' ';
+        faces += line[0] == 'f' && line[1] == ' ';
+        line = memchr(line, '\n', (size_t)(end - line));
+        line = line ? line + 1 : NULL;
+    }
+    if (vertices <= KILN_MAX_MESH_VERTICES && faces <= KILN_MAX_MESH_TRIANGLES)
+        return true;
+    return kiln_error_set(error, KILN_INVALID_INPUT,
+                          "the mesh has %zu vertices and %zu faces; allowed are %d vertices and %d "
+                          "triangles",
+                          vertices, faces, KILN_MAX_MESH_VERTICES, KILN_MAX_MESH_TRIANGLES);
+}
+
+static const char *const extensions[] = {
+    [KILN_MESH_OBJ] = ".obj", [KILN_MESH_GLTF] = ".gltf", [KILN_MESH_GLB] = ".glb"};
+
+/* The importer goes by the name's end; the contents must at least begin as that says. */
+static bool check_contents(const struct decode_mesh *mesh, struct kiln_error *error)
+{
+    const unsigned char *bytes = mesh->bytes;
+    size_t start = 0;
+    bool good = false;
+    if (mesh->size == 0)
+        return kiln_error_set(error, KILN_INVALID_INPUT, "the mesh file is empty");
+    switch (mesh->format) {
+    case KILN_MESH_GLB:
+        good = mesh->size >= GLB_HEADER + CHUNK_HEADER && memcmp(bytes, "glTF", 4) == 0;
+        break;
+    case KILN_MESH_GLTF:
+        while (start < mesh->size && bytes[start] && strchr(" \t\r\n", bytes[start]))
+            start++;
+        good = start < mesh->size && bytes[start] == '{';
+        break;
+    case KILN_MESH_OBJ:
+        good = !memchr(bytes, '\0', mesh->size);
+        break;
+    }
+    if (!good)
+        return kiln_error_set(error, KILN_INVALID_INPUT, "by its contents, this is no %s file",
+                              extensions[mesh->format]);
+    return mesh->format == KILN_MESH_OBJ ? check_lines(mesh, error) : check_depth(mesh, error);
+}
+
+/* ---- files ----------------------------------------------------------------------------------- */
+
+struct files {
+    const struct decode_mesh *mesh;
+    const char *main_name;
+};
+
+struct reading {
+    const unsigned char *bytes;
+    size_t size, at;
+    unsigned char *owned;
+};
+
+static size_t on_read(struct aiFile *file, char *out, size_t size, size_t count)
+{
+    struct reading *reading = (struct reading *)file->UserData;
+    size_t left = reading->size - reading->at;
+    size_t taken = size ? left / size : 0;
+    taken = taken < count ? taken : count;
+    memcpy(out, reading->bytes + reading->at, taken * size);
+    reading->at += taken * size;
+    return taken;
+}
+
+static size_t on_write(struct aiFile *file, const char *bytes, size_t size, size_t count)
+{
+    (void)file;
+    (void)bytes;
+    (void)size;
+    (void)count;
+    return 0;
+}
+
+static size_t on_tell(struct aiFile *file)
+{
+    return ((struct reading *)file->UserData)->at;
+}
+
+static size_t on_size(struct aiFile *file)
+{
+    return ((struct reading *)file->UserData)->size;
+}
+
+static enum aiReturn on_seek(struct aiFile *file, size_t offset, enum aiOrigin origin)
+{
+    struct reading *reading = (struct reading *)file->UserData;
+    size_t base = origin == aiOrigin_CUR ? reading->at : origin == aiOrigin_END ? reading->size : 0;
+    /* From the end, assimp counts backwards or forwards, by importer: both are 0 in use. */
+    size_t at = base + offset;
+    if (at > reading->size)
+        return aiReturn_FAILURE;
+    reading->at = at;
+    return aiReturn_SUCCESS;
+}
+
+static void on_flush(struct aiFile *file)
+{
+    (void)file;
+}
+
+static void on_close(struct aiFileIO *io, struct aiFile *file)
+{
+    (void)io;
+    free(((struct reading *)file->UserData)->owned);
+    free(file->UserData);
+    free(file);
+}
+
+static struct aiFile *open_bytes(const void *bytes, size_t size, unsigned char *owned)
+{
+    struct aiFile *file = calloc(1, sizeof *file);
+    struct reading *reading = calloc(1, sizeof *reading);
+    if (!file || !reading) {
+        free(file);
+        free(reading);
+        free(owned);
+        return NULL;
+    }
+    *reading = (struct reading){.bytes = bytes, .size = size, .owned = owned};
+    *file = (struct aiFile){.ReadProc = on_read,
+                            .WriteProc = on_write,
+                            .TellProc = on_tell,
+                            .FileSizeProc = on_size,
+                            .SeekProc = on_seek,
+                            .FlushProc = on_flush,
+                            .UserData = (aiUserData)reading};
+    return file;
+}
+
+static struct aiFile *on_open(struct aiFileIO *io, const char *name, const char *mode)
+{
+    const struct files *files = (const struct files *)io->UserData;
+    const struct decode_mesh *mesh = files->mesh;
+    if (mode[0] != 'r')
+        return NULL;
+    if (strcmp(name, files->main_name) == 0)
+        return open_bytes(mesh->bytes, mesh->size, NULL);
+    if (mesh->format != KILN_MESH_GLTF || !mesh->open)
+        return NULL; /* an OBJ's materials: they are left out */
+    size_t size = 0;
+    unsigned char *bytes = mesh->open(mesh->user, name, &size);
+    return bytes ? open_bytes(bytes, size, bytes) : NULL;
+}
+
+/* ---- the mesh -------------------------------------------------------------------------------- */
+
+static bool refuse_size(struct kiln_error *error)
+{
+    return kiln_error_set(error, KILN_INVALID_INPUT,
+                          "the mesh is too large; allowed are %d vertices and %d triangles",
+                          KILN_MAX_MESH_VERTICES, KILN_MAX_MESH_TRIANGLES);
+}
+
+static void put_vertex(const struct aiMesh *mesh, unsigned i, float out[6])
+{
+    const struct aiVector3D *p = &mesh->mVertices[i];
+    struct aiVector3D n = mesh->mNormals ? mesh->mNormals[i] : (struct aiVector3D){0, 1, 0};
+    float length = sqrtf(n.x * n.x + n.y * n.y + n.z * n.z);
+    if (!(length > 1e-12f && length < 1e12f)) /* of a triangle without an area */
+        n = (struct aiVector3D){0, length = 1, 0};
+    const float vertex[6] = {p->x, p->y, p->z, n.x / length, n.y / length, n.z / length};
+    memcpy(out, vertex, sizeof vertex);
+}
+
+bool decode_mesh_part(const struct decode_mesh *wanted, const struct aiMesh *mesh,
+                      struct kiln_mesh_result *result, struct kiln_error *error)
+{
+    uint32_t first = result->vertex_count;
+    if (mesh->mNumVertices > KILN_MAX_MESH_VERTICES - first)
+        return refuse_size(error);
+    const struct aiVector3D *uvs = mesh->mTextureCoords[0];
+    if (wanted->uvs && !uvs)
+        return kiln_error_set(
+            error, KILN_INVALID_INPUT,
+            "the mesh, or a part of it, has no texture coordinates, by which paint "
+            "would find its places");
+    for (unsigned i = 0; i < mesh->mNumVertices; i++) {
+        put_vertex(mesh, i, result->vertices[first + i]);
+        if (wanted->uvs) {
+            result->uvs[first + i][0] = uvs[i].x;
+            result->uvs[first + i][1] = uvs[i].y;
+        }
+    }
+    result->vertex_count += mesh->mNumVertices;
+    for (unsigned i = 0; i < mesh->mNumFaces; i++) {
+        const struct aiFace *face = &mesh->mFaces[i];
+        if (face->mNumIndices != 3)
+            continue;
+        if (result->triangle_count == KILN_MAX_MESH_TRIANGLES)
+            return refuse_size(error);
+        uint32_t *triangle = result->triangles[result->triangle_count++];
+        for (int c = 0; c < 3; c++)
+            triangle[c] = first + face->mIndices[c];
+    }
+    return true;
+}
+
+static bool put_scene(const struct decode_mesh *wanted, const struct aiScene *scene,
+                      struct kiln_mesh_result *result, struct kiln_error *error)
+{
+    if (wanted->moving && !decode_skin(wanted, scene, result, error))
+        return false;
+    for (unsigned i = 0; !wanted->moving && i < scene->mNumMeshes; i++) {
+        if (!decode_mesh_part(wanted, scene->mMeshes[i], result, error))
+            return false;
+    }
+    const char *lacks = result->triangle_count == 0 ? "no triangles"
+                        : result->vertex_count < 3  ? "no triangle with an area"
+                                                    : NULL;
+    return !lacks || kiln_error_set(error, KILN_INVALID_INPUT, "the mesh has %s", lacks);
+}
+
+static struct aiPropertyStore *make_properties(const struct decode_mesh *wanted)
+{
+    struct aiPropertyStore *properties = ai.aiCreatePropertyStore();
+    if (properties) {
+        const int still =
+            wanted->moving ? 0 : (int)aiComponent_BONEWEIGHTS | (int)aiComponent_ANIMATIONS;
+        const int plain = wanted->uvs ? 0 : (int)aiComponent_TEXCOORDS;
+        ai.aiSetImportPropertyInteger(properties, AI_CONFIG_PP_RVC_FLAGS,
+                                      still | plain | (int)aiComponent_TANGENTS_AND_BITANGENTS |
+                                          (int)aiComponent_COLORS | (int)aiComponent_TEXTURES |
+                                          (int)aiComponent_LIGHTS | (int)aiComponent_CAMERAS);
+        ai.aiSetImportPropertyInteger(properties, AI_CONFIG_PP_SBP_REMOVE,
+                                      aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+        ai.aiSetImportPropertyFloat(properties, AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, CREASE_DEG);
+    }
+    return properties;
+}
+
+/* What assimp says of a file that it does not like, in words for who made the file. */
+static bool explain(const char *said, struct kiln_error *error)
+{
+    if (strstr(said, "bad_alloc"))
+        return decode_out_of_memory(error);
+    if (strstr(said, "No meshes remaining"))
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "the mesh has no triangles, only points or lines");
+    return kiln_error_set(error, KILN_INVALID_INPUT, "the mesh is broken: %.300s", said);
+}
+
+bool decode_mesh(const struct decode_mesh *mesh, struct kiln_mesh_result *result,
+                 struct kiln_error *error)
+{
+    char main_name[16];
+    if (!check_contents(mesh, error))
+        return false;
+    snprintf(main_name, sizeof main_name, "mesh%s", extensions[mesh->format]);
+    const struct files files = {.mesh = mesh, .main_name = main_name};
+    struct aiFileIO io = {
+        .OpenProc = on_open, .CloseProc = on_close, .UserData = (aiUserData)&files};
+    struct aiPropertyStore *properties = make_properties(mesh);
+    if (!properties)
+        return decode_out_of_memory(error);
+    const unsigned flags = aiProcess_ValidateDataStructure | aiProcess_RemoveComponent |
+                           aiProcess_Triangulate | aiProcess_SortByPType;
+    /* In one piece; what moves stays as it is, since its pieces do not move alike. */
+    const unsigned still = aiProcess_PreTransformVertices | aiProcess_GenSmoothNormals |
+                           aiProcess_JoinIdenticalVertices;
+    const struct aiScene *scene = ai.aiImportFileExWithProperties(
+        main_name, mesh->moving ? flags : flags | still, &io, properties);
+    const bool ok =
+        scene ? put_scene(mesh, scene, result, error) : explain(ai.aiGetErrorString(), error);
+    if (scene)
+        ai.aiReleaseImport(scene);
+    ai.aiReleasePropertyStore(properties);
+    return ok;
+}

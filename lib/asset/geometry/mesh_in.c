@@ -1,0 +1,361 @@
+/* Has meshes imported by a process of kiln-decode: opens the files that it asks for, takes the
+ * arrays that it sends, and checks what is in them. A mesh has a process of its own. */
+#include "asset/geometry/mesh_in.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <unistd.h>
+
+#include "asset/loader/loader.h"
+#include "base/error.h"
+#include "base/file_in.h"
+#include "base/hash.h"
+
+#define ALLOWED "OBJ, glTF or GLB"
+
+enum { MAX_FILES = 64 };
+
+static const float MAX_COORDINATE = 1e6f;
+
+struct request {
+    struct kiln_loader *loader; /* may be NULL */
+    const char *name;           /* of the file, for messages, and where the paths in it start */
+    bool alone;                 /* it may name no other files */
+    struct kiln_decode_request wanted;
+    struct kiln_helper *helper;
+    struct kiln_error refusal;       /* of the first file that may not be opened, if any */
+    char hashes[MAX_FILES * 64 + 1]; /* of the file and those that it names, in that order */
+    size_t hash_length;
+};
+
+/* ---- files ----------------------------------------------------------------------------------- */
+
+static bool note_contents(struct request *request, int file, struct kiln_error *error)
+{
+    char hex[65];
+    if (request->hash_length + 64 >= sizeof request->hashes)
+        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: it names more than %d files",
+                              request->name, MAX_FILES - 1);
+    if (!kiln_hash_sha256_descriptor(file, hex))
+        return kiln_error_set(error, KILN_IO, "%s: the mesh cannot be read", request->name);
+    memcpy(request->hashes + request->hash_length, hex, sizeof hex);
+    request->hash_length += 64;
+    return true;
+}
+
+/* A path of plain steps downwards, by its text. */
+static bool stays_below(const char *path)
+{
+    if (path[0] == '/' || strchr(path, ':') || strchr(path, '\\'))
+        return false;
+    for (const char *part = path; *part;) {
+        size_t length = strcspn(part, "/");
+        if (length == 2 && part[0] == '.' && part[1] == '.')
+            return false;
+        part += length + (part[length] == '/');
+    }
+    return true;
+}
+
+/* The descriptor of a file that this one names, or -1. */
+static int open_named(struct request *request, const char *name, struct kiln_error *error)
+{
+    const char *slash = strrchr(request->name, '/');
+    const int folder = slash ? (int)(slash - request->name) + 1 : 0;
+    char path[KILN_PATH_SIZE];
+    if (request->alone || !stays_below(name)) {
+        kiln_error_set(error, KILN_INVALID_INPUT, "%s: it names the file '%.200s'; %s",
+                       request->name, name,
+                       request->alone ? "it may name no other files"
+                                      : "its files must lie in its folder or below");
+        return -1;
+    }
+    if (snprintf(path, sizeof path, "%.*s%s", folder, request->name, name) >= (int)sizeof path) {
+        kiln_error_set(error, KILN_INVALID_INPUT,
+                       "%s: it names a file with a path that is too long", request->name);
+        return -1;
+    }
+    const struct kiln_loader_file file = {path, "buffer", "glTF buffer", KILN_MAX_MESH_BYTES};
+    struct kiln_error reason = {0};
+    size_t size = 0;
+    int opened = kiln_loader_open(request->loader, &file, &size, &reason);
+    if (opened < 0) {
+        const char *said = strstr(reason.message, ": "); /* after the path, which the name says */
+        kiln_error_set(error, reason.code == KILN_IO ? KILN_INVALID_INPUT : reason.code,
+                       "%s: it names the file '%.200s'%s", request->name, name, said ? said : "");
+    }
+    if (opened >= 0 && !note_contents(request, opened, error)) {
+        close(opened);
+        opened = -1;
+    }
+    return opened;
+}
+
+/* A file that may not be opened is no reason for assimp to give up: it looks for others. */
+static bool hand_over(struct request *request, const char *name, struct kiln_error *error)
+{
+    const int file =
+        request->refusal.code == KILN_OK ? open_named(request, name, &request->refusal) : -1;
+    const struct kiln_decode_file answer = {.is_open = file >= 0};
+    const bool sent = kiln_helper_send(request->helper, &answer, sizeof answer, file, error);
+    if (file >= 0)
+        close(file);
+    return sent;
+}
+
+/* ---- what comes back ------------------------------------------------------------------------- */
+
+static bool check_vertex(const float v[6])
+{
+    float length2 = v[3] * v[3] + v[4] * v[4] + v[5] * v[5];
+    for (int c = 0; c < 3; c++) {
+        if (!(fabsf(v[c]) <= MAX_COORDINATE))
+            return false;
+    }
+    return fabsf(length2 - 1.0f) < 1e-3f;
+}
+
+static bool check(const char *name, const struct kiln_mesh_result *result, struct kiln_error *error)
+{
+    bool good = true;
+    for (uint32_t i = 0; good && i < result->triangle_count; i++) {
+        for (int c = 0; c < 3; c++)
+            good = good && result->triangles[i][c] < result->vertex_count;
+    }
+    if (!good)
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "%s: the mesh is broken: the importer made nonsense of it", name);
+    for (uint32_t i = 0; i < result->vertex_count; i++) {
+        if (!check_vertex(result->vertices[i]))
+            return kiln_error_set(error, KILN_INVALID_INPUT,
+                                  "%s: vertex %u lies at %g %g %g; allowed are numbers within "
+                                  "-%g and %g",
+                                  name, i, (double)result->vertices[i][0],
+                                  (double)result->vertices[i][1], (double)result->vertices[i][2],
+                                  (double)MAX_COORDINATE, (double)MAX_COORDINATE);
+    }
+    return true;
+}
+
+static struct kiln_mesh *copy(const struct kiln_mesh_result *result, bool uvs)
+{
+    struct kiln_mesh *mesh = calloc(1, sizeof *mesh);
+    if (!mesh)
+        return NULL;
+    mesh->vertex_count = result->vertex_count;
+    mesh->triangle_count = result->triangle_count;
+    mesh->vertices = malloc(mesh->vertex_count * sizeof *mesh->vertices);
+    mesh->triangles = malloc(mesh->triangle_count * sizeof *mesh->triangles);
+    if (uvs)
+        mesh->uvs = malloc(mesh->vertex_count * sizeof *mesh->uvs);
+    if (!mesh->vertices || !mesh->triangles || (uvs && !mesh->uvs)) {
+        kiln_mesh_destroy(&mesh);
+        return NULL;
+    }
+    if (uvs)
+        memcpy(mesh->uvs, result->uvs, mesh->vertex_count * sizeof *mesh->uvs);
+    memcpy(mesh->vertices, result->vertices, mesh->vertex_count * sizeof *mesh->vertices);
+    memcpy(mesh->triangles, result->triangles, mesh->triangle_count * sizeof *mesh->triangles);
+    kiln_mesh_bound(mesh);
+    return mesh;
+}
+
+static bool receive_array(void *user, void *array, size_t bytes)
+{
+    const struct request *request = user;
+    struct kiln_error reason;
+    return kiln_helper_receive(request->helper, kiln_loader_caller(request->loader), array, bytes,
+                               &reason);
+}
+
+/* Before a byte of an array is taken. */
+static bool are_counts_sound(const struct kiln_mesh_result *result, bool moving)
+{
+    const struct kiln_skin_result *skin = &result->skin;
+    return result->vertex_count >= 3 && result->vertex_count <= KILN_MAX_MESH_VERTICES &&
+           result->triangle_count >= 1 && result->triangle_count <= KILN_MAX_MESH_TRIANGLES &&
+           (!moving ||
+            (skin->node_count <= KILN_MAX_SKIN_NODES && skin->bone_count <= KILN_MAX_SKIN_BONES &&
+             skin->clip_count <= KILN_MAX_CLIPS && skin->channel_count <= KILN_MAX_CLIP_CHANNELS &&
+             skin->key_count <= KILN_MAX_CLIP_KEYS));
+}
+
+static void take_counts(const struct kiln_decode_answer *answer, struct kiln_mesh_result *result)
+{
+    result->vertex_count = answer->vertices;
+    result->triangle_count = answer->triangles;
+    result->skin.has_normals = answer->has_normals != 0;
+    result->skin.node_count = answer->nodes;
+    result->skin.bone_count = answer->bones;
+    result->skin.clip_count = answer->clips;
+    result->skin.channel_count = answer->channels_of_clips;
+    result->skin.key_count = answer->keys;
+}
+
+/* The answer, after all files that are asked for before it. */
+static bool await(struct request *request, struct kiln_decode_answer *answer,
+                  struct kiln_error *error)
+{
+    const unsigned expected = 1u << KILN_DECODE_WANTS | 1u << KILN_DECODE_MADE;
+    do {
+        if (!kiln_helper_answer(request->helper, kiln_loader_caller(request->loader), expected,
+                                answer, error))
+            return false;
+    } while (answer->what == KILN_DECODE_WANTS && hand_over(request, answer->text, error));
+    return answer->what == KILN_DECODE_MADE;
+}
+
+static bool receive(struct request *request, struct kiln_mesh_result *result,
+                    struct kiln_error *error)
+{
+    const bool moving = request->wanted.moving;
+    struct kiln_decode_answer answer;
+    struct kiln_error reason = {0};
+    bool ok = await(request, &answer, &reason);
+    if (ok) {
+        take_counts(&answer, result);
+        ok =
+            (are_counts_sound(result, moving) &&
+             kiln_mesh_visit_arrays(result, request->wanted.uvs, moving, receive_array, request)) ||
+            kiln_error_set(&reason, KILN_INVALID_INPUT, "its importer makes nonsense of it");
+    }
+    if (request->refusal.code != KILN_OK)
+        return kiln_error_set(error, request->refusal.code, "%s", request->refusal.message);
+    if (reason.code == KILN_INTERRUPTED || reason.code == KILN_OVER_LIMIT)
+        return kiln_error_set(error, reason.code, "%s", reason.message);
+    return ok || kiln_error_set(error, reason.code, "%s: %s", request->name, reason.message);
+}
+
+/* What a file becomes: one of these. */
+struct imported {
+    struct kiln_mesh *mesh;
+    struct kiln_skin *skin; /* of a moving one */
+};
+
+static struct imported take(struct request *request, const struct kiln_mesh_result *result,
+                            struct kiln_error *error)
+{
+    struct imported imported = {NULL, NULL};
+    if (!check(request->name, result, error))
+        return imported;
+    struct kiln_mesh *mesh = copy(result, request->wanted.uvs);
+    if (!mesh) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory while reading the mesh",
+                       request->name);
+        return imported;
+    }
+    kiln_hash_sha256(request->hashes, request->hash_length, mesh->hash);
+    if (request->wanted.moving)
+        imported.skin = kiln_skin_take(request->name, result, mesh, error);
+    else
+        imported.mesh = mesh;
+    return imported;
+}
+
+/* ---- importing ------------------------------------------------------------------------------- */
+
+static bool find_format(struct request *request, struct kiln_error *error)
+{
+    static const struct {
+        const char *extension;
+        enum kiln_mesh_format format;
+    } formats[] = {{".obj", KILN_MESH_OBJ}, {".gltf", KILN_MESH_GLTF}, {".glb", KILN_MESH_GLB}};
+    const char *dot = strrchr(request->name, '.');
+    for (size_t i = 0; dot && i < sizeof formats / sizeof *formats; i++) {
+        if (strcasecmp(dot, formats[i].extension) == 0) {
+            request->wanted.format = formats[i].format;
+            return true;
+        }
+    }
+    return kiln_error_set(error, KILN_INVALID_INPUT,
+                          "%s: not a mesh by its name; allowed are " ALLOWED
+                          " files (.obj, .gltf, .glb)",
+                          request->name);
+}
+
+static struct imported import(struct request *request, int file, struct kiln_error *error)
+{
+    struct imported imported = {NULL, NULL};
+    if (!note_contents(request, file, error))
+        return imported;
+    request->helper = kiln_loader_take(request->loader, KILN_DECODE_MESH, error);
+    struct kiln_mesh_result *result = calloc(1, sizeof *result);
+    if (!result)
+        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory while reading the mesh",
+                       request->name);
+    request->wanted.most_bytes = KILN_MAX_MESH_BYTES;
+    if (result && request->helper &&
+        kiln_helper_send(request->helper, &request->wanted, sizeof request->wanted, file, error) &&
+        receive(request, result, error))
+        imported = take(request, result, error);
+    kiln_helper_end(&request->helper);
+    free(result);
+    return imported;
+}
+
+static struct imported load(struct request *request, struct kiln_error *error)
+{
+    struct imported imported = {NULL, NULL};
+    const struct kiln_loader_file named = {request->name, "mesh", ALLOWED, KILN_MAX_MESH_BYTES};
+    size_t size = 0;
+    const int file =
+        find_format(request, error) ? kiln_loader_open(request->loader, &named, &size, error) : -1;
+    if (file < 0)
+        return imported;
+    imported = import(request, file, error);
+    close(file);
+    return imported;
+}
+
+static struct imported parse(struct request *request, const void *bytes, size_t size,
+                             struct kiln_error *error)
+{
+    struct imported imported = {NULL, NULL};
+    request->alone = true;
+    const bool may_be =
+        kiln_file_check_size(request->name, "mesh", size, KILN_MAX_MESH_BYTES, error) &&
+        find_format(request, error);
+    const int file = may_be ? kiln_loader_file_of(bytes, size, request->name, error) : -1;
+    if (file < 0)
+        return imported;
+    imported = import(request, file, error);
+    close(file);
+    return imported;
+}
+
+struct kiln_mesh *kiln_mesh_parse(const void *bytes, size_t size, const char *name,
+                                  struct kiln_error *error)
+{
+    struct request request = {.name = name};
+    return parse(&request, bytes, size, error).mesh;
+}
+
+struct kiln_mesh *kiln_mesh_load(struct kiln_loader *loader, const char *path,
+                                 struct kiln_error *error)
+{
+    struct request request = {.loader = loader, .name = path};
+    return load(&request, error).mesh;
+}
+
+struct kiln_mesh *kiln_mesh_load_unwrapped(struct kiln_loader *loader, const char *path,
+                                           struct kiln_error *error)
+{
+    struct request request = {.loader = loader, .name = path, .wanted = {.uvs = 1}};
+    return load(&request, error).mesh;
+}
+
+struct kiln_skin *kiln_skin_parse(const void *bytes, size_t size, const char *name,
+                                  struct kiln_error *error)
+{
+    struct request request = {.name = name, .wanted = {.moving = 1}};
+    return parse(&request, bytes, size, error).skin;
+}
+
+struct kiln_skin *kiln_skin_load(struct kiln_loader *loader, const char *path,
+                                 struct kiln_error *error)
+{
+    struct request request = {.loader = loader, .name = path, .wanted = {.moving = 1}};
+    return load(&request, error).skin;
+}

@@ -1,0 +1,99 @@
+/* Takes a picture out of a helper's answer. The helper may have been taken over by the file that it
+ * decoded: sizes are held to the limits before they are multiplied, floats to what is a number. */
+#include "asset/image/received.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/budget.h"
+#include "base/error.h"
+
+uint64_t kiln_received_most_pixels(const struct kiln_loader *loader)
+{
+    const uint64_t left = kiln_budget_left(kiln_loader_budget(loader), KILN_LIMIT_asset_pixels);
+    return left < KILN_MAX_IMAGE_PIXELS ? left : KILN_MAX_IMAGE_PIXELS;
+}
+
+static bool is_sound(const struct kiln_decode_answer *answer)
+{
+    return answer->width >= 1 && answer->height >= 1 && answer->width <= KILN_MAX_IMAGE_EDGE &&
+           answer->height <= KILN_MAX_IMAGE_EDGE &&
+           (uint64_t)answer->width * answer->height <= KILN_MAX_IMAGE_PIXELS &&
+           answer->channels >= 1 && answer->channels <= 4 && answer->type <= KILN_IMAGE_F32 &&
+           answer->srgb <= 1 && answer->premultiplied <= 1;
+}
+
+static bool are_finite(const struct kiln_asset_image *image)
+{
+    const float *values = image->pixels;
+    const size_t count = (size_t)image->width * image->height * 4;
+    for (size_t i = 0; i < count; i++) {
+        if (!isfinite(values[i]))
+            return false;
+    }
+    return true;
+}
+
+static bool receive_pixels(const struct kiln_received *received, struct kiln_asset_image *image,
+                           struct kiln_error *reason)
+{
+    static const size_t pixel_size[] = {
+        [KILN_IMAGE_U8] = 4, [KILN_IMAGE_U16] = 8, [KILN_IMAGE_F32] = 16};
+    const size_t bytes = (size_t)image->width * image->height * pixel_size[image->type];
+    image->pixels = malloc(bytes);
+    if (!image->pixels)
+        return kiln_error_set(reason, KILN_DEVICE_FAILED, "out of memory for its pixels");
+    if (!kiln_helper_receive(received->helper, kiln_loader_caller(received->loader), image->pixels,
+                             bytes, reason))
+        return false;
+    return image->type != KILN_IMAGE_F32 || !received->finite || are_finite(image) ||
+           kiln_error_set(reason, KILN_INVALID_INPUT,
+                          "the image is cut short or has pixels that are not finite numbers");
+}
+
+struct kiln_asset_image *kiln_received_image(struct kiln_received *received, unsigned expected,
+                                             struct kiln_error *reason)
+{
+    struct kiln_decode_answer answer = {.what = KILN_DECODE_FAILED};
+    const bool answered = kiln_helper_answer(received->helper, kiln_loader_caller(received->loader),
+                                             expected, &answer, reason);
+    received->size[0] = answer.width;
+    received->size[1] = answer.height;
+    if (!answered || answer.what != KILN_DECODE_PIXELS)
+        return NULL;
+    struct kiln_asset_image *image = calloc(1, sizeof *image);
+    bool ok = image || kiln_error_set(reason, KILN_DEVICE_FAILED, "out of memory");
+    ok = ok && (is_sound(&answer) ||
+                kiln_error_set(reason, KILN_INVALID_INPUT, "its decoder makes nonsense of it"));
+    if (ok) {
+        *image = (struct kiln_asset_image){.width = answer.width,
+                                           .height = answer.height,
+                                           .channels = answer.channels,
+                                           .type = (enum kiln_image_type)answer.type,
+                                           .srgb = answer.srgb,
+                                           .premultiplied = answer.premultiplied};
+        ok = (received->is_counted ||
+              kiln_budget_take(kiln_loader_budget(received->loader), KILN_LIMIT_asset_pixels,
+                               (uint64_t)answer.width * answer.height, received->name, reason)) &&
+             receive_pixels(received, image, reason);
+    }
+    if (!ok) {
+        kiln_helper_break(received->helper); /* there may be pixels that nobody has read */
+        kiln_asset_image_destroy(&image);
+    }
+    return image;
+}
+
+bool kiln_received_fail(const struct kiln_received *received, const struct kiln_error *reason,
+                        struct kiln_error *error)
+{
+    /* The helper kept to what was left; how much that is, and of what, the budget says. */
+    if (reason->code == KILN_OVER_LIMIT &&
+        !kiln_budget_take(kiln_loader_budget(received->loader), KILN_LIMIT_asset_pixels,
+                          (uint64_t)received->size[0] * received->size[1], received->name, error))
+        return false;
+    if (reason->code == KILN_OVER_LIMIT || reason->code == KILN_INTERRUPTED) /* not of the file */
+        return kiln_error_set(error, reason->code, "%s", reason->message);
+    return kiln_error_set(error, reason->code, "%s: %s", received->name, reason->message);
+}

@@ -1,0 +1,361 @@
+/* kiln's end of the socket. The process gets no descriptors but the socket, ignores the terminal's
+ * signals (it ends when kiln does), and is believed nothing: kiln waits with limits of time, reads
+ * as many bytes as it asked for, and checks what they say. */
+#include "asset/loader/helper.h"
+
+#include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <inttypes.h>
+#include <link.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "base/clock.h"
+#include "base/error.h"
+
+/* One that sleeps takes no processor time, and must not be waited for for ever. */
+enum { WAIT_MS = 20, WALL_SECONDS = 10 * KILN_DECODE_SECONDS };
+
+struct kiln_helper {
+    enum kiln_decode_kind kind;
+    pid_t process;
+    int socket;
+    bool is_broken;
+};
+
+/* ---- where it is ----------------------------------------------------------------------------- */
+
+static bool is_program(const char *path)
+{
+    return access(path, X_OK) == 0;
+}
+
+/* The folder of the program or shared library that this code is in. */
+static bool find_own_folder(char folder[KILN_PATH_SIZE])
+{
+    static const char here = 0;
+    Dl_info info;
+    struct link_map *map = NULL;
+    /* A program has no name here; where it is, the kernel knows. */
+    const bool is_library =
+        dladdr1(&here, &info, (void **)&map, RTLD_DL_LINKMAP) != 0 && map && *map->l_name;
+    char *real = realpath(is_library ? map->l_name : "/proc/self/exe", NULL);
+    const char *slash = real ? strrchr(real, '/') : NULL;
+    const bool fits = slash && slash - real < KILN_PATH_SIZE;
+    if (fits)
+        snprintf(folder, KILN_PATH_SIZE, "%.*s", (int)(slash - real), real);
+    free(real);
+    return fits;
+}
+
+static bool put_path(char path[KILN_PATH_SIZE], const char *folder, const char *way)
+{
+    const int length = snprintf(path, KILN_PATH_SIZE, "%s/%skiln-decode", folder, way);
+    return length > 0 && length < KILN_PATH_SIZE && is_program(path);
+}
+
+bool kiln_helper_find(char path[KILN_PATH_SIZE], struct kiln_error *error)
+{
+    /* From the folder of a program as built, of a test as built, of an installed program, of an
+     * installed library of one or several architectures. */
+    static const char *const ways[] = {"libexec/kiln/", "../libexec/kiln/", "../../libexec/kiln/"};
+    char folder[KILN_PATH_SIZE];
+    const char *set = getenv("KILN_LIBEXEC_DIR"); /* NOLINT(concurrency-mt-unsafe): only read */
+    if (set && *set)
+        return put_path(path, set, "") ||
+               kiln_error_set(error, KILN_DEVICE_FAILED,
+                              "%s: the program that decodes pictures, videos and meshes is missing "
+                              "(KILN_LIBEXEC_DIR is set)",
+                              path);
+    const bool known = find_own_folder(folder);
+    for (size_t i = 0; known && i < sizeof ways / sizeof *ways; i++) {
+        if (put_path(path, folder, ways[i]))
+            return true;
+    }
+    if (put_path(path, KILN_LIBEXEC_DIR, ""))
+        return true;
+    return kiln_error_set(error, KILN_DEVICE_FAILED,
+                          "%s: the program that decodes pictures, videos and meshes is missing; "
+                          "it is a part of kiln's installation",
+                          path);
+}
+
+/* ---- starting and ending --------------------------------------------------------------------- */
+
+static const char *word_of(enum kiln_decode_kind kind)
+{
+#define WORD(id, word) word,
+    static const char *const words[] = {KILN_DECODE_KINDS(WORD)};
+#undef WORD
+    return words[kind];
+}
+
+static int spawn(pid_t *process, const char *path, enum kiln_decode_kind kind, uint64_t most_memory,
+                 int socket)
+{
+    char memory[32];
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    sigset_t none, all;
+    int status = posix_spawn_file_actions_init(&actions);
+    if (status)
+        return status;
+    status = posix_spawnattr_init(&attributes);
+    if (status) {
+        posix_spawn_file_actions_destroy(&actions);
+        return status;
+    }
+    sigemptyset(&none);
+    sigfillset(&all);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setsigdefault(&attributes, &all);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+    for (int file = 0; file < 3 && !status; file++)
+        status = posix_spawn_file_actions_addopen(&actions, file, "/dev/null", O_RDWR, 0);
+    if (!status)
+        status = posix_spawn_file_actions_adddup2(&actions, socket, KILN_DECODE_SOCKET);
+    if (!status)
+        status = posix_spawn_file_actions_addclosefrom_np(&actions, KILN_DECODE_SOCKET + 1);
+    snprintf(memory, sizeof memory, "%" PRIu64, most_memory);
+    char *const arguments[] = {(char *)"kiln-decode", (char *)word_of(kind), memory, NULL};
+    if (!status)
+        status = posix_spawn(process, path, &actions, &attributes, arguments, environ);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+    return status;
+}
+
+/* From now on, so many seconds of processor time; then the kernel ends it. */
+static void allow_time(const struct kiln_helper *helper)
+{
+    clockid_t clock;
+    struct timespec used;
+    struct rlimit limit;
+    if (clock_getcpuclockid(helper->process, &clock) != 0 || clock_gettime(clock, &used) != 0 ||
+        prlimit(helper->process, RLIMIT_CPU, NULL, &limit) != 0)
+        return;
+    const rlim_t wanted = (rlim_t)used.tv_sec + 1 + KILN_DECODE_SECONDS;
+    limit.rlim_cur = wanted < limit.rlim_max ? wanted : limit.rlim_max;
+    prlimit(helper->process, RLIMIT_CPU, &limit, NULL);
+}
+
+/* A pair of sockets, of which neither is one of the three standard descriptors. */
+static bool open_pair(int pair[2])
+{
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) != 0)
+        return false;
+    for (int i = 0; i < 2; i++) {
+        if (pair[i] >= KILN_DECODE_SOCKET)
+            continue;
+        const int higher = fcntl(pair[i], F_DUPFD_CLOEXEC, KILN_DECODE_SOCKET);
+        const int reason = errno;
+        close(pair[i]);
+        pair[i] = higher;
+        if (higher < 0) {
+            close(pair[1 - i]);
+            errno = reason;
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool greet(struct kiln_helper *helper, const struct kiln_caller *caller, const char *path,
+                  struct kiln_error *error)
+{
+    struct kiln_decode_answer answer;
+    struct kiln_error reason = {0};
+    if (!kiln_helper_answer(helper, caller, 1u << KILN_DECODE_READY, &answer, &reason)) {
+        const bool stopped = reason.code == KILN_INTERRUPTED || reason.code == KILN_OVER_LIMIT;
+        return stopped ? kiln_error_set(error, reason.code, "%s", reason.message)
+                       : kiln_error_set(error, KILN_DEVICE_FAILED, "%s: %s", path,
+                                        reason.code == KILN_INVALID_INPUT
+                                            ? "it ends before it has begun"
+                                            : reason.message);
+    }
+    return strcmp(answer.text, KILN_VERSION) == 0 ||
+           kiln_error_set(error, KILN_DEVICE_FAILED,
+                          "%s: it is of kiln %s, and this is kiln " KILN_VERSION, path,
+                          answer.text);
+}
+
+struct kiln_helper *kiln_helper_start(enum kiln_decode_kind kind, uint64_t most_memory,
+                                      const struct kiln_caller *caller, struct kiln_error *error)
+{
+    char path[KILN_PATH_SIZE];
+    int pair[2];
+    if (!kiln_helper_find(path, error))
+        return NULL;
+    struct kiln_helper *helper = calloc(1, sizeof *helper);
+    if (!helper || !open_pair(pair)) {
+        kiln_error_set_errno(error, KILN_DEVICE_FAILED, helper ? errno : ENOMEM,
+                             "no socket for kiln-decode");
+        free(helper);
+        return NULL;
+    }
+    *helper = (struct kiln_helper){.kind = kind, .socket = pair[0]};
+    const int status = spawn(&helper->process, path, kind, most_memory, pair[1]);
+    close(pair[1]);
+    if (status) {
+        kiln_error_set_errno(error, KILN_DEVICE_FAILED, status, "%s: it cannot be started", path);
+        close(helper->socket);
+        free(helper);
+        return NULL;
+    }
+    if (!greet(helper, caller, path, error))
+        kiln_helper_end(&helper);
+    return helper;
+}
+
+/* How it ended; 0 when somebody else has asked the system for that. */
+static int end(struct kiln_helper *helper)
+{
+    int status = 0;
+    if (helper->process <= 0)
+        return 0;
+    close(helper->socket);
+    kill(helper->process, SIGKILL);
+    pid_t ended;
+    do {
+        ended = waitpid(helper->process, &status, 0);
+    } while (ended < 0 && errno == EINTR);
+    helper->process = 0;
+    return ended < 0 ? 0 : status;
+}
+
+void kiln_helper_end(struct kiln_helper **helper)
+{
+    if (!*helper)
+        return;
+    end(*helper);
+    free(*helper);
+    *helper = NULL;
+}
+
+enum kiln_decode_kind kiln_helper_kind(const struct kiln_helper *helper)
+{
+    return helper->kind;
+}
+
+bool kiln_helper_is_broken(const struct kiln_helper *helper)
+{
+    return helper->is_broken;
+}
+
+void kiln_helper_break(struct kiln_helper *helper)
+{
+    helper->is_broken = true;
+}
+
+/* ---- speaking -------------------------------------------------------------------------------- */
+
+/* Says why the process is gone. It may be about to end by itself: its status says more than that it
+ * was killed now. */
+static bool fail_gone(struct kiln_helper *helper, const struct kiln_caller *caller,
+                      struct kiln_error *error)
+{
+    helper->is_broken = true;
+    if (!kiln_may_go_on(caller, error)) /* which is why, as when a whole group got a signal */
+        return false;
+    siginfo_t info = {.si_pid = 0};
+    const double start_s = kiln_clock_seconds();
+    const struct timespec pause = {.tv_nsec = 1000000};
+    while (waitid(P_PID, (id_t)helper->process, &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+           info.si_pid == 0 && kiln_clock_seconds() - start_s < 1.0)
+        nanosleep(&pause, NULL);
+    const int status = end(helper);
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "it is not decoded after %d s of processor time",
+                              KILN_DECODE_SECONDS);
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
+        return kiln_error_set(error, KILN_DEVICE_FAILED,
+                              "the process that decodes it was killed; is memory short?");
+    return kiln_error_set(error, KILN_INVALID_INPUT, "it is broken: its decoder fails on it");
+}
+
+bool kiln_helper_send(struct kiln_helper *helper, const void *bytes, size_t size, int file,
+                      struct kiln_error *error)
+{
+    union {
+        struct cmsghdr header;
+        char room[CMSG_SPACE(sizeof(int))];
+    } control = {.header = {.cmsg_len = CMSG_LEN(sizeof file),
+                            .cmsg_level = SOL_SOCKET,
+                            .cmsg_type = SCM_RIGHTS}};
+    struct iovec part = {(void *)bytes, size};
+    struct msghdr message = {.msg_iov = &part, .msg_iovlen = 1};
+    if (file >= 0) {
+        memcpy(CMSG_DATA(&control.header), &file, sizeof file);
+        message.msg_control = &control;
+        message.msg_controllen = sizeof control.room;
+    }
+    ssize_t sent;
+    allow_time(helper);
+    do {
+        sent = sendmsg(helper->socket, &message, MSG_NOSIGNAL);
+    } while (sent < 0 && errno == EINTR);
+    /* Messages are far smaller than what a socket holds, and it is empty. */
+    return sent == (ssize_t)size || fail_gone(helper, NULL, error);
+}
+
+bool kiln_helper_receive(struct kiln_helper *helper, const struct kiln_caller *caller, void *bytes,
+                         size_t size, struct kiln_error *error)
+{
+    const double start_s = kiln_clock_seconds();
+    for (size_t done = 0; done < size;) {
+        const ssize_t got = recv(helper->socket, (char *)bytes + done, size - done, MSG_DONTWAIT);
+        if (got > 0) {
+            done += (size_t)got;
+            continue;
+        }
+        if (got == 0 || (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR))
+            return fail_gone(helper, caller, error);
+        if (!kiln_may_go_on(caller, error)) {
+            helper->is_broken = true;
+            return false;
+        }
+        if (kiln_clock_seconds() - start_s > WALL_SECONDS) {
+            helper->is_broken = true;
+            return kiln_error_set(error, KILN_INVALID_INPUT, "it is not decoded after %d s",
+                                  WALL_SECONDS);
+        }
+        struct pollfd ready = {.fd = helper->socket, .events = POLLIN};
+        poll(&ready, 1, WAIT_MS);
+    }
+    return true;
+}
+
+/* Codes that a decoder may end with; others are nonsense. */
+static enum kiln_code code_of(int32_t code)
+{
+    return code == KILN_IO || code == KILN_DEVICE_FAILED || code == KILN_OVER_LIMIT
+               ? (enum kiln_code)code
+               : KILN_INVALID_INPUT;
+}
+
+bool kiln_helper_answer(struct kiln_helper *helper, const struct kiln_caller *caller,
+                        unsigned expected, struct kiln_decode_answer *answer,
+                        struct kiln_error *error)
+{
+    allow_time(helper);
+    if (!kiln_helper_receive(helper, caller, answer, sizeof *answer, error))
+        return false;
+    const bool ends = memchr(answer->text, '\0', sizeof answer->text) != NULL;
+    if (ends && answer->what == KILN_DECODE_FAILED)
+        return kiln_error_set(error, code_of(answer->code), "%s", answer->text);
+    if (ends && answer->what < 32 && (expected & 1u << answer->what))
+        return true;
+    helper->is_broken = true;
+    return kiln_error_set(error, KILN_INVALID_INPUT,
+                          "it is broken: its decoder makes nonsense of it");
+}

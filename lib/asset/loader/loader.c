@@ -1,0 +1,263 @@
+/* Opens files by openat2, which the kernel resolves below the root whatever links lead to and
+ * whoever swaps them meanwhile. */
+#include "asset/loader/loader.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <linux/openat2.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include "base/budget.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/file_in.h"
+#include "base/hash.h"
+
+struct known {
+    struct known *next;
+    uint32_t size[2];
+    char path[];
+};
+
+struct kiln_loader {
+    struct kiln_loader_params params;
+    struct kiln_caller caller;
+    pthread_mutex_t mutex; /* of what follows */
+    struct kiln_helper *idle[KILN_DECODE_KIND_COUNT];
+    struct known *known;
+};
+
+/* ---- life ------------------------------------------------------------------------------------ */
+
+static bool ask(void *user, struct kiln_error *error)
+{
+    const struct kiln_loader_params *params = user;
+    if (params->stop && params->stop(params->user))
+        return kiln_error_set(error, KILN_INTERRUPTED,
+                              "stopped while reading the files of a scene");
+    return kiln_budget_is_kept(params->budget, error);
+}
+
+struct kiln_loader *kiln_loader_create(const struct kiln_loader_params *params)
+{
+    struct kiln_loader *loader = calloc(1, sizeof *loader);
+    if (!loader)
+        return NULL;
+    if (pthread_mutex_init(&loader->mutex, NULL) != 0) {
+        free(loader);
+        return NULL;
+    }
+    loader->params = *params;
+    loader->caller = (struct kiln_caller){ask, &loader->params};
+    return loader;
+}
+
+void kiln_loader_rest(struct kiln_loader *loader)
+{
+    if (!loader)
+        return;
+    pthread_mutex_lock(&loader->mutex);
+    for (int i = 0; i < KILN_DECODE_KIND_COUNT; i++)
+        kiln_helper_end(&loader->idle[i]);
+    pthread_mutex_unlock(&loader->mutex);
+}
+
+void kiln_loader_destroy(struct kiln_loader **loader)
+{
+    struct kiln_loader *ending = *loader;
+    if (!ending)
+        return;
+    kiln_loader_rest(ending);
+    for (struct known *one = ending->known, *next; one; one = next) {
+        next = one->next;
+        free(one);
+    }
+    pthread_mutex_destroy(&ending->mutex);
+    free(ending);
+    *loader = NULL;
+}
+
+void kiln_loader_stop_counting(struct kiln_loader *loader)
+{
+    if (loader)
+        loader->params.budget = NULL;
+}
+
+const struct kiln_caller *kiln_loader_caller(const struct kiln_loader *loader)
+{
+    return loader ? &loader->caller : NULL;
+}
+
+struct kiln_budget *kiln_loader_budget(const struct kiln_loader *loader)
+{
+    return loader ? loader->params.budget : NULL;
+}
+
+/* ---- files ----------------------------------------------------------------------------------- */
+
+/* Of a path below the root. Where the kernel is older than 5.6, or a container forbids the call,
+ * the path was checked when the scene named it. */
+static int open_below(const char *root, const char *relative, const char *path)
+{
+    const int folder = open(root, O_PATH | O_DIRECTORY | O_CLOEXEC);
+    if (folder < 0)
+        return -1;
+    const struct open_how how = {.flags = KILN_FILE_FLAGS,
+                                 .resolve = RESOLVE_BENEATH | RESOLVE_NO_MAGICLINKS};
+    int file, tries = 0;
+    do { /* EAGAIN: something was renamed meanwhile, and the kernel cannot be sure */
+        file = (int)syscall(SYS_openat2, folder, relative, &how, sizeof how);
+    } while (file < 0 && (errno == EAGAIN || errno == EINTR) && tries++ < 100);
+    if (file < 0 && (errno == ENOSYS || errno == EPERM))
+        file = open(path, KILN_FILE_FLAGS);
+    const int reason = errno;
+    close(folder);
+    errno = reason;
+    return file;
+}
+
+static int open_file(const struct kiln_loader *loader, const struct kiln_loader_file *file,
+                     struct kiln_error *error)
+{
+    const char *root = loader ? loader->params.root : NULL;
+    const char *relative = root ? kiln_path_below(file->path, root) : NULL;
+    if (root && !relative) {
+        kiln_error_set(error, KILN_INVALID_INPUT, "%s: it leads outside the asset root",
+                       file->path);
+        return -1;
+    }
+    const int found =
+        root ? open_below(root, relative, file->path) : open(file->path, KILN_FILE_FLAGS);
+    if (found < 0 && root && (errno == EXDEV || errno == ELOOP))
+        kiln_error_set(error, KILN_INVALID_INPUT, "%s: it leads outside the asset root",
+                       file->path);
+    else if (found < 0)
+        kiln_error_set_errno(error, KILN_IO, errno, "%s: the %s cannot be opened", file->path,
+                             file->what);
+    return found;
+}
+
+int kiln_loader_open(struct kiln_loader *loader, const struct kiln_loader_file *file, size_t *size,
+                     struct kiln_error *error)
+{
+    int opened = open_file(loader, file, error);
+    if (opened >= 0 &&
+        !(kiln_file_check(opened, file->path, file->what, file->allowed, size, error) &&
+          kiln_file_check_size(file->path, file->what, *size, file->most_bytes, error) &&
+          kiln_budget_take(kiln_loader_budget(loader), KILN_LIMIT_asset_bytes, *size, file->path,
+                           error))) {
+        close(opened);
+        opened = -1;
+    }
+    return opened;
+}
+
+unsigned char *kiln_loader_read(struct kiln_loader *loader, const struct kiln_loader_file *file,
+                                size_t *size, struct kiln_error *error)
+{
+    const int opened = kiln_loader_open(loader, file, size, error);
+    if (opened < 0)
+        return NULL;
+    unsigned char *bytes = kiln_file_take(opened, file->path, file->what, *size, error);
+    close(opened);
+    return bytes;
+}
+
+int kiln_loader_file_of(const void *bytes, size_t size, const char *name, struct kiln_error *error)
+{
+    const int file = memfd_create("kiln", MFD_CLOEXEC);
+    for (size_t done = 0; file >= 0 && done < size;) {
+        const ssize_t written = pwrite(file, (const char *)bytes + done, size - done, (off_t)done);
+        if (written < 0 && errno == EINTR)
+            continue;
+        if (written <= 0) {
+            kiln_error_set_errno(error, KILN_DEVICE_FAILED, errno, "%s: no memory for it", name);
+            close(file);
+            return -1;
+        }
+        done += (size_t)written;
+    }
+    if (file < 0)
+        kiln_error_set_errno(error, KILN_DEVICE_FAILED, errno, "%s: no memory for it", name);
+    return file;
+}
+
+bool kiln_loader_hash(struct kiln_loader *loader, const struct kiln_loader_file *file, char hex[65],
+                      struct kiln_error *error)
+{
+    const int opened = open_file(loader, file, error);
+    if (opened < 0)
+        return false;
+    const bool ok = kiln_hash_sha256_descriptor(opened, hex) ||
+                    kiln_error_set_errno(error, KILN_IO, errno, "%s: the %s cannot be read",
+                                         file->path, file->what);
+    close(opened);
+    return ok;
+}
+
+/* ---- processes ------------------------------------------------------------------------------- */
+
+struct kiln_helper *kiln_loader_take(struct kiln_loader *loader, enum kiln_decode_kind kind,
+                                     struct kiln_error *error)
+{
+    struct kiln_helper *helper = NULL;
+    if (loader) {
+        pthread_mutex_lock(&loader->mutex);
+        helper = loader->idle[kind];
+        loader->idle[kind] = NULL;
+        pthread_mutex_unlock(&loader->mutex);
+    }
+    const uint64_t most_memory = kiln_budget_left(kiln_loader_budget(loader), KILN_LIMIT_memory);
+    return helper ? helper
+                  : kiln_helper_start(kind, most_memory, kiln_loader_caller(loader), error);
+}
+
+void kiln_loader_give_back(struct kiln_loader *loader, struct kiln_helper **helper)
+{
+    if (loader && *helper && !kiln_helper_is_broken(*helper)) {
+        struct kiln_helper **place = &loader->idle[kiln_helper_kind(*helper)];
+        pthread_mutex_lock(&loader->mutex);
+        if (!*place) {
+            *place = *helper;
+            *helper = NULL;
+        }
+        pthread_mutex_unlock(&loader->mutex);
+    }
+    kiln_helper_end(helper);
+}
+
+/* ---- what is known --------------------------------------------------------------------------- */
+
+bool kiln_loader_knows(struct kiln_loader *loader, const char *path, uint32_t size[2])
+{
+    if (!loader)
+        return false;
+    pthread_mutex_lock(&loader->mutex);
+    const struct known *one = loader->known;
+    while (one && strcmp(one->path, path) != 0)
+        one = one->next;
+    if (one)
+        memcpy(size, one->size, sizeof one->size);
+    pthread_mutex_unlock(&loader->mutex);
+    return one != NULL;
+}
+
+/* What is forgotten for want of memory is decoded once more. */
+void kiln_loader_remember(struct kiln_loader *loader, const char *path, const uint32_t size[2])
+{
+    const size_t length = strlen(path) + 1;
+    struct known *one = loader ? malloc(sizeof *one + length) : NULL;
+    if (!one)
+        return;
+    memcpy(one->size, size, sizeof one->size);
+    memcpy(one->path, path, length);
+    pthread_mutex_lock(&loader->mutex);
+    one->next = loader->known;
+    loader->known = one;
+    pthread_mutex_unlock(&loader->mutex);
+}

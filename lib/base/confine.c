@@ -1,0 +1,183 @@
+/* Landlock by its system calls, since the C library has no functions for them, and seccomp by
+ * libseccomp, which knows the numbers of calls on each kind of machine. */
+#include "base/confine.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <linux/landlock.h>
+#include <seccomp.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "base/library.h"
+
+/* ---- Landlock -------------------------------------------------------------------------------- */
+
+/* What <linux/landlock.h> of Debian 12 does not have yet (Linux, Documentation/userspace-api). */
+enum {
+    FS_TRUNCATE = 1 << 14,               /* from version 3 on */
+    FS_IOCTL_DEV = 1 << 15,              /* 5 */
+    NET_BIND_TCP = 1 << 0,               /* 4 */
+    NET_CONNECT_TCP = 1 << 1,            /* 4 */
+    SCOPE_ABSTRACT_UNIX_SOCKET = 1 << 0, /* 6 */
+    SCOPE_SIGNAL = 1 << 1,               /* 6 */
+};
+
+struct ruleset {
+    uint64_t files, network, scoped;
+};
+
+static const uint64_t READING = LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR;
+static const uint64_t WRITING = LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_REMOVE_DIR |
+                                LANDLOCK_ACCESS_FS_REMOVE_FILE | LANDLOCK_ACCESS_FS_MAKE_DIR |
+                                LANDLOCK_ACCESS_FS_MAKE_REG | LANDLOCK_ACCESS_FS_MAKE_SYM |
+                                LANDLOCK_ACCESS_FS_REFER | FS_TRUNCATE;
+static const uint64_t OTHERS = LANDLOCK_ACCESS_FS_MAKE_CHAR | LANDLOCK_ACCESS_FS_MAKE_SOCK |
+                               LANDLOCK_ACCESS_FS_MAKE_FIFO | LANDLOCK_ACCESS_FS_MAKE_BLOCK |
+                               FS_IOCTL_DEV;
+/* What can be allowed of a file that is no folder. */
+static const uint64_t OF_A_FILE = LANDLOCK_ACCESS_FS_EXECUTE | LANDLOCK_ACCESS_FS_READ_FILE |
+                                  LANDLOCK_ACCESS_FS_WRITE_FILE | FS_TRUNCATE | FS_IOCTL_DEV;
+
+int kiln_landlock_version(void)
+{
+    const long version = KILN_UNCONFINED ? 0
+                                         : syscall(SYS_landlock_create_ruleset, NULL, 0,
+                                                   LANDLOCK_CREATE_RULESET_VERSION);
+    return version > 0 ? (int)version : 0;
+}
+
+/* What a kernel of that version knows. */
+static struct ruleset everything(int version)
+{
+    struct ruleset all = {.files = LANDLOCK_ACCESS_FS_EXECUTE | READING | WRITING | OTHERS};
+    if (version < 2)
+        all.files &= ~(uint64_t)LANDLOCK_ACCESS_FS_REFER;
+    if (version < 3)
+        all.files &= ~(uint64_t)FS_TRUNCATE;
+    if (version < 5)
+        all.files &= ~(uint64_t)FS_IOCTL_DEV;
+    if (version >= 4)
+        all.network = NET_BIND_TCP | NET_CONNECT_TCP;
+    if (version >= 6)
+        all.scoped = SCOPE_ABSTRACT_UNIX_SOCKET | SCOPE_SIGNAL;
+    return all;
+}
+
+static bool add_place(int ruleset, uint64_t known, const struct kiln_place *place)
+{
+    struct landlock_path_beneath_attr rule = {
+        .parent_fd = open(place->path, O_PATH | O_CLOEXEC),
+        .allowed_access = (place->may & KILN_MAY_READ ? READING : 0) |
+                          (place->may & KILN_MAY_WRITE ? WRITING : 0) |
+                          (place->may & KILN_MAY_EXECUTE ? LANDLOCK_ACCESS_FS_EXECUTE : 0)};
+    if (rule.parent_fd < 0)
+        return errno == ENOENT || errno == ENOTDIR;
+    rule.allowed_access &= known;
+    bool ok = syscall(SYS_landlock_add_rule, ruleset, LANDLOCK_RULE_PATH_BENEATH, &rule, 0) == 0;
+    if (!ok && errno == EINVAL) { /* it is no folder */
+        rule.allowed_access &= OF_A_FILE;
+        ok = syscall(SYS_landlock_add_rule, ruleset, LANDLOCK_RULE_PATH_BENEATH, &rule, 0) == 0;
+    }
+    const int reason = errno;
+    close(rule.parent_fd);
+    errno = reason;
+    return ok;
+}
+
+bool kiln_landlock_confine(const struct kiln_place *places, size_t count, struct kiln_error *error)
+{
+    const int version = kiln_landlock_version();
+    if (version == 0)
+        return true;
+    const struct ruleset all = everything(version);
+    const size_t size = version >= 6   ? sizeof all
+                        : version >= 4 ? offsetof(struct ruleset, scoped)
+                                       : offsetof(struct ruleset, network);
+    const int ruleset = (int)syscall(SYS_landlock_create_ruleset, &all, size, 0);
+    if (ruleset < 0)
+        return kiln_error_set_errno(error, KILN_DEVICE_FAILED, errno, "Landlock");
+    bool ok = true;
+    for (size_t i = 0; ok && i < count; i++) {
+        ok = add_place(ruleset, all.files, &places[i]) ||
+             kiln_error_set_errno(error, KILN_DEVICE_FAILED, errno, "Landlock: %s", places[i].path);
+    }
+    if (ok && (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0 ||
+               syscall(SYS_landlock_restrict_self, ruleset, 0) != 0))
+        ok = kiln_error_set_errno(error, KILN_DEVICE_FAILED, errno, "Landlock");
+    close(ruleset);
+    return ok;
+}
+
+/* ---- seccomp --------------------------------------------------------------------------------- */
+
+#define FUNCTIONS(F)                                                                               \
+    F(seccomp_init)                                                                                \
+    F(seccomp_attr_set)                                                                            \
+    F(seccomp_rule_add_array)                                                                      \
+    F(seccomp_load)                                                                                \
+    F(seccomp_release)
+
+struct seccomp {
+    FUNCTIONS(KILN_LIBRARY_POINTER)
+};
+
+static bool open_library(struct seccomp *library, struct kiln_error *error)
+{
+#define FIND(function) {#function, &library->function},
+    const struct kiln_library_function functions[] = {FUNCTIONS(FIND)};
+    return kiln_library_open("libseccomp.so.2", "libseccomp2", functions,
+                             sizeof functions / sizeof *functions, error);
+}
+
+bool kiln_has_seccomp(void)
+{
+    return !KILN_UNCONFINED && prctl(PR_GET_SECCOMP, 0, 0, 0, 0) >= 0;
+}
+
+/* What is open already is found again without its file. */
+bool kiln_seccomp_open(struct kiln_error *error)
+{
+    struct seccomp library;
+    return !kiln_has_seccomp() || open_library(&library, error);
+}
+
+static int add_calls(const struct seccomp *library, scmp_filter_ctx filter, uint32_t action,
+                     const struct kiln_system_call *calls, size_t count)
+{
+    int status = library->seccomp_attr_set(filter, SCMP_FLTATR_CTL_TSYNC, 1);
+    for (size_t i = 0; status == 0 && i < count; i++) {
+        const struct kiln_system_call *call = &calls[i];
+        const struct scmp_arg_cmp condition = {.arg = call->argument,
+                                               .op = SCMP_CMP_MASKED_EQ,
+                                               .datum_a = call->mask,
+                                               .datum_b = call->value};
+        status = library->seccomp_rule_add_array(filter, action, call->number, call->mask != 0,
+                                                 &condition);
+    }
+    return status;
+}
+
+bool kiln_seccomp_confine(enum kiln_calls which, const struct kiln_system_call *calls, size_t count,
+                          struct kiln_error *error)
+{
+    struct seccomp library;
+    if (!kiln_has_seccomp())
+        return true;
+    if (!open_library(&library, error))
+        return false;
+    const bool only = which == KILN_ONLY_THESE_CALLS;
+    scmp_filter_ctx filter = library.seccomp_init(only ? SCMP_ACT_ERRNO(ENOSYS) : SCMP_ACT_ALLOW);
+    if (!filter)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a seccomp filter");
+    int status =
+        add_calls(&library, filter, only ? SCMP_ACT_ALLOW : SCMP_ACT_ERRNO(EPERM), calls, count);
+    if (status == 0)
+        status = library.seccomp_load(filter);
+    library.seccomp_release(filter);
+    return status == 0 ||
+           kiln_error_set_errno(error, KILN_DEVICE_FAILED, -status, "a seccomp filter");
+}

@@ -1,0 +1,29 @@
+/* Opens shared libraries by the dynamic linker, with all that they are linked with. */
+#include "base/library.h"
+
+#include <dlfcn.h>
+#include <string.h>
+
+#include "base/error.h"
+
+bool kiln_library_open(const char *file, const char *package,
+                       const struct kiln_library_function *functions, size_t count,
+                       struct kiln_error *error)
+{
+    void *library = dlopen(file, RTLD_LAZY | RTLD_LOCAL);
+    if (!library) {
+        const char *reason = dlerror(); /* NOLINT(concurrency-mt-unsafe): it is glibc's */
+        return kiln_error_set(error, KILN_IO,
+                              "the library %s cannot be loaded; install Debian's package %s (%s)",
+                              file, package, reason ? reason : "no reason is known");
+    }
+    for (size_t i = 0; i < count; i++) {
+        void *found = dlsym(library, functions[i].name);
+        if (!found)
+            return kiln_error_set(error, KILN_IO, "the library %s has no function %s", file,
+                                  functions[i].name);
+        /* POSIX: a pointer to an object holds one to a function. */
+        memcpy(functions[i].pointer, &found, sizeof found);
+    }
+    return true;
+}

@@ -1,0 +1,31 @@
+/* Fuzzes the decoders of pictures that FFmpeg has in the same way; the first bytes choose one. */
+#include <string.h>
+
+#include "base/ffmpeg.h"
+#include "decode.h"
+#include "fuzz.h"
+#include "image_check.h"
+
+static enum kiln_picture_format format_of(const uint8_t *data, size_t size)
+{
+    if (size >= 2 && memcmp(data, "BM", 2) == 0)
+        return KILN_PICTURE_BMP;
+    if (size >= 2 && (memcmp(data, "II", 2) == 0 || memcmp(data, "MM", 2) == 0))
+        return KILN_PICTURE_TIFF;
+    if (size >= 2 && memcmp(data, "RI", 2) == 0)
+        return KILN_PICTURE_WEBP;
+    return size >= 2 && memcmp(data, "v/", 2) == 0 ? KILN_PICTURE_EXR : KILN_PICTURE_JPEG;
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    struct kiln_error error = {0};
+    require(kiln_ffmpeg_open(KILN_FFMPEG_PICTURES, &error), "FFmpeg is missing");
+    struct decode_picture picture = {.bytes = data,
+                                     .size = size,
+                                     .format = format_of(data, size),
+                                     .most_pixels = KILN_MAX_IMAGE_PIXELS,
+                                     .error = &error};
+    check_image(decode_by_ffmpeg(&picture), &error);
+    return 0;
+}

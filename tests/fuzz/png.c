@@ -1,0 +1,17 @@
+/* Fuzzes the decoder of PNG: any bytes are an image within the limits or an error, never a crash.
+ */
+#include "decode.h"
+#include "fuzz.h"
+#include "image_check.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    struct kiln_error error = {0};
+    struct decode_picture picture = {.bytes = data,
+                                     .size = size,
+                                     .format = KILN_PICTURE_PNG,
+                                     .most_pixels = KILN_MAX_IMAGE_PIXELS,
+                                     .error = &error};
+    check_image(decode_png(&picture), &error);
+    return 0;
+}
