@@ -9,6 +9,7 @@
 #include "limits.h"
 #include "overrides.h"
 #include "report.h"
+#include "sandbox.h"
 #include "signals.h"
 
 static const struct option options[] = {
@@ -16,6 +17,7 @@ static const struct option options[] = {
      .letter = 'o',
      .kind = OPTION_TEXT,
      .placeholder = "STATES",
+     .reach = REACH_WRITE,
      .help = "The folder of the states; it is made if it is missing. Scenes may share one."},
     {.name = "every",
      .kind = OPTION_TEXT,
@@ -28,6 +30,7 @@ static const struct option options[] = {
     ASSET_ROOT_OPTION,
     LIMITS_OPTION,
     TIMEOUT_OPTION,
+    SANDBOX_OPTION,
     DEVICE_OPTION,
     TECHNIQUE_OPTION,
     THREADS_OPTION,
@@ -211,5 +214,6 @@ const struct command bake_command = {
     .option_count = sizeof options / sizeof *options,
     .least_operands = 1,
     .most_operands = 1,
+    .reach = REACH_READ,
     .run = run,
 };

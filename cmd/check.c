@@ -6,12 +6,14 @@
 #include "limits.h"
 #include "overrides.h"
 #include "report.h"
+#include "sandbox.h"
 
 static const struct option options[] = {
     SET_OPTION,
     ASSET_ROOT_OPTION,
     LIMITS_OPTION,
     TIMEOUT_OPTION,
+    SANDBOX_OPTION,
     {.name = "hash", .kind = OPTION_FLAG, .help = "Print only the scene's hash."},
     {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Print nothing but errors."},
     HELP_OPTION,
@@ -82,5 +84,6 @@ const struct command check_command = {
     .option_count = sizeof options / sizeof *options,
     .least_operands = 1,
     .most_operands = SIZE_MAX,
+    .reach = REACH_READ,
     .run = run,
 };

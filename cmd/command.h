@@ -12,6 +12,7 @@ struct command {
     const struct option *options;
     size_t option_count;
     size_t least_operands, most_operands;
+    enum reach reach;                              /* of operands */
     int (*run)(const struct arguments *arguments); /* returns the exit code */
 };
 

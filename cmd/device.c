@@ -8,7 +8,8 @@ struct kiln_device *open_device(const struct arguments *arguments,
 {
     struct kiln_error error = {0};
     struct kiln_device_params params = KILN_DEVICE_DEFAULTS;
-    params.wanted = arguments_text(arguments, "device", NULL);
+    params.wanted =
+        arguments_text(arguments, "device", arguments->sandboxed ? KILN_DEVICE_CPU : NULL);
     params.gl = kiln_techniques_need_gl(techniques->items, techniques->count);
     params.log = report_log();
     struct kiln_device *device = kiln_device_open(&params, &error);

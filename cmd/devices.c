@@ -1,5 +1,6 @@
 /* kiln devices: what can render here, and what is missing. */
 #include <inttypes.h>
+#include <stdio.h>
 
 #include "command.h"
 #include "report.h"
@@ -44,6 +45,26 @@ static void print_text(const struct kiln_device_info *info)
            info->max_storage_block_bytes, info->max_texture_size, info->max_array_layers);
 }
 
+/* What --sandbox has to work with. */
+static void print_sandbox(void)
+{
+    const struct kiln_sandbox_support has = kiln_sandbox_support();
+    char landlock[32] = "no Landlock";
+    if (has.landlock > 0)
+        snprintf(landlock, sizeof landlock, "Landlock %d", has.landlock);
+    printf("sandbox: %s, %s%s\n", landlock, has.seccomp ? "seccomp" : "no seccomp",
+           has.off ? " (off in this build, which has sanitizers)" : "");
+}
+
+static void add_sandbox(struct kiln_json *json)
+{
+    const struct kiln_sandbox_support has = kiln_sandbox_support();
+    kiln_json_begin_object(json, "sandbox");
+    kiln_json_int(json, "landlock", has.landlock);
+    kiln_json_bool(json, "seccomp", has.seccomp);
+    kiln_json_end(json);
+}
+
 static void add_device(struct kiln_json *json, const struct kiln_device_info *info)
 {
     kiln_json_begin_object(json, NULL);
@@ -80,6 +101,8 @@ static void print_json(const struct kiln_device_info *infos, size_t count, const
     for (size_t i = 0; i < count; i++)
         add_device(&json, &infos[i]);
     kiln_json_end_line(&json, 2);
+    add_sandbox(&json);
+    kiln_json_lines(&json, 2);
     kiln_json_string(&json, "advice", advice);
     kiln_json_end_line(&json, 0);
     kiln_json_finish(&json);
@@ -98,6 +121,7 @@ static int run(const struct arguments *arguments)
     }
     for (size_t i = 0; i < count; i++)
         print_text(&infos[i]);
+    print_sandbox();
     if (advice[0])
         printf("advice: %s\n", advice);
     return 0;
@@ -114,7 +138,8 @@ const struct command devices_command = {
         "OpenGL offers without a display, with its limits. Such a device is "
         "usable with OpenGL 4.3 or later; it is exact when it passed the probe of the arithmetic "
         "that the simulation needs, and otherwise particles move on the CPU. A software device is "
-        "a rasteriser on the CPU. Advice names what is missing and the package that brings it.",
+        "a rasteriser on the CPU. Last comes what the kernel has for --sandbox. Advice names what "
+        "is missing and the package that brings it.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .most_operands = 0,

@@ -6,6 +6,7 @@
 #include "limits.h"
 #include "progress.h"
 #include "report.h"
+#include "sandbox.h"
 #include "signals.h"
 
 static const char *const tonemaps[] = {"none", "agx", "aces"};
@@ -15,6 +16,7 @@ static const struct option options[] = {
      .letter = 'o',
      .kind = OPTION_TEXT,
      .placeholder = "FILE",
+     .reach = REACH_WRITE,
      .help = "The clip; the suffix chooses the format (see 'kiln help outputs')."},
     {.name = "fps",
      .kind = OPTION_RATIO,
@@ -42,6 +44,7 @@ static const struct option options[] = {
      .fallback = "tty on a terminal, else lines"},
     LIMITS_OPTION,
     TIMEOUT_OPTION,
+    SANDBOX_OPTION,
     {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Print nothing but errors."},
     HELP_OPTION,
 };
@@ -116,5 +119,6 @@ const struct command encode_command = {
     .option_count = sizeof options / sizeof *options,
     .least_operands = 1,
     .most_operands = 1,
+    .reach = REACH_READ,
     .run = run,
 };

@@ -29,6 +29,12 @@ const struct variable variables[] = {
      "Vectors of the techniques 'cpu': plain, sse4.1, avx2 or avx512, as the machine has them; "
      "the pixels are the same."},
     {"KILN_LIMITS", "Limits of jobs where --limits says nothing else (see 'kiln help limits')."},
+    {"KILN_SANDBOX",
+     "Whether jobs confine themselves, where --sandbox says nothing else: on, require or "
+     "off."},
+    {"KILN_LIBEXEC_DIR", "The folder of kiln-decode, which reads pictures, videos and meshes, "
+                         "where it is not beside the "
+                         "program."},
     {"KILN_SHADER_DIR", "Read shaders from this folder instead of those in the program."},
     {"LP_NUM_THREADS",
      "Threads of Mesa's software device. 'kiln test' sets it where it is not set, "

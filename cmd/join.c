@@ -5,18 +5,21 @@
 #include "command.h"
 #include "limits.h"
 #include "report.h"
+#include "sandbox.h"
 #include "signals.h"
 
 static const struct option options[] = {
     {.name = "manifest",
      .kind = OPTION_TEXT,
      .placeholder = "FILE",
+     .reach = REACH_WRITE,
      .help = "Also write a JSON file that describes the job: its `result` is that of one run."},
     {.name = "force",
      .kind = OPTION_FLAG,
      .help = "Replace files that exist and are none of the job's."},
     LIMITS_OPTION,
     TIMEOUT_OPTION,
+    SANDBOX_OPTION,
     {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Print nothing but errors."},
     HELP_OPTION,
 };
@@ -74,5 +77,6 @@ const struct command join_command = {
     .option_count = sizeof options / sizeof *options,
     .least_operands = 1,
     .most_operands = 1,
+    .reach = REACH_WRITE,
     .run = run,
 };

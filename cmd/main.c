@@ -7,6 +7,7 @@
 #include "command.h"
 #include "limits.h"
 #include "report.h"
+#include "sandbox.h"
 
 const struct command *const commands[] = {&render_command,         &bake_command,
                                           &plan_command,           &join_command,
@@ -84,11 +85,11 @@ static int check_environment(const struct command *command)
     return report(error.code, "%s", error.message);
 }
 
-/* Whether the environment's limits are for it, too. */
-static bool has_limits(const struct command *command)
+/* Whether what the environment says of an option is for the command, too. */
+static bool has_option(const struct command *command, const char *name)
 {
     for (size_t i = 0; i < command->option_count; i++) {
-        if (strcmp(command->options[i].name, "limits") == 0)
+        if (strcmp(command->options[i].name, name) == 0)
             return true;
     }
     return false;
@@ -106,7 +107,9 @@ static int run_command(const struct command *command, int argc, char **argv)
         if (code == 0)
             code = check_environment(command);
         struct limits limits = {.budget = NULL};
-        if (code == 0 && has_limits(command))
+        if (code == 0 && has_option(command, "sandbox")) /* before there are threads */
+            code = sandbox_enter(command, &arguments, &arguments.sandboxed);
+        if (code == 0 && has_option(command, "limits"))
             code = limits_begin(&limits, command->name, &arguments);
         arguments.budget = limits.budget;
         if (code == 0)

@@ -19,6 +19,9 @@ enum option_kind {
     OPTION_PAIRS,   /* KEY=VALUE; more of them after commas where `commas` is set */
 };
 
+/* What a command does with the file, folder or pattern of files that an argument names. */
+enum reach { REACH_NONE, REACH_READ, REACH_WRITE };
+
 struct option {
     const char *name;  /* without its dashes */
     char letter;       /* of the short form, or 0 */
@@ -31,6 +34,7 @@ struct option {
     const char *fallback;    /* what holds without it, or NULL */
     const char *sets;        /* the scene key that it stands for, or NULL */
     const char *files;       /* what the names of its files match, "*.png"; NULL: anything */
+    enum reach reach;        /* of its value, where that is a path */
     double min, max;
 };
 
@@ -54,6 +58,7 @@ struct arguments {
     const char *const *words; /* all of it, as it was given */
     size_t word_count;
     struct kiln_budget *budget; /* of the command, set before it runs; NULL: no limits */
+    bool sandboxed;             /* likewise: the process is confined to the device cpu */
 };
 
 /* Reads argv, whose texts must outlive the arguments. Options and operands may come in any order,

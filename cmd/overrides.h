@@ -29,7 +29,7 @@
     }
 #define ASSET_ROOT_OPTION                                                                          \
     {                                                                                              \
-        .name = "asset-root", .kind = OPTION_TEXT, .placeholder = "FOLDER",                        \
+        .name = "asset-root", .kind = OPTION_TEXT, .placeholder = "FOLDER", .reach = REACH_READ,   \
         .help = "The folder that the scene's files must lie in.",                                  \
         .fallback = "the folder of the scene"                                                      \
     }

@@ -8,6 +8,7 @@
 #include "limits.h"
 #include "overrides.h"
 #include "report.h"
+#include "sandbox.h"
 #include "signals.h"
 
 static const struct option options[] = {
@@ -21,6 +22,7 @@ static const struct option options[] = {
     {.name = "states",
      .kind = OPTION_TEXT,
      .placeholder = "STATES",
+     .reach = REACH_READ,
      .help = "A folder that 'kiln bake' made, at whose states the tasks start."},
     {.name = "frame",
      .kind = OPTION_INTEGER,
@@ -34,6 +36,7 @@ static const struct option options[] = {
     ASSET_ROOT_OPTION,
     LIMITS_OPTION,
     TIMEOUT_OPTION,
+    SANDBOX_OPTION,
     DEVICE_OPTION,
     TECHNIQUE_OPTION,
     THREADS_OPTION,
@@ -218,5 +221,6 @@ const struct command plan_command = {
     .option_count = sizeof options / sizeof *options,
     .least_operands = 1,
     .most_operands = 1,
+    .reach = REACH_READ,
     .run = run,
 };

@@ -13,6 +13,7 @@
 #include "pipe.h"
 #include "progress.h"
 #include "report.h"
+#include "sandbox.h"
 #include "shard.h"
 #include "signals.h"
 #include "stats.h"
@@ -23,6 +24,7 @@ static const struct option options[] = {
      .letter = 'o',
      .kind = OPTION_TEXT,
      .placeholder = "FILE",
+     .reach = REACH_WRITE,
      .help = "Where to write; the suffix chooses the format (see 'kiln help outputs'). '%04d' or "
              "'####' stands for the frame's number, '{scene}' for the scene file's name without "
              "its suffix. A folder gets a video named after the scene. '-' is standard output "
@@ -77,11 +79,13 @@ static const struct option options[] = {
     {.name = "manifest",
      .kind = OPTION_TEXT,
      .placeholder = "FILE",
+     .reach = REACH_WRITE,
      .help = "Also write a JSON file that describes the run: scene, device, techniques, state of "
              "each frame, times. A folder or '{scene}' as for --output."},
     {.name = "states",
      .kind = OPTION_TEXT,
      .placeholder = "STATES",
+     .reach = REACH_READ,
      .help = "Start at the nearest state before the frames, out of a folder that 'kiln bake' made, "
              "and step on from there. The pictures are the same as without."},
     {.name = "resume",
@@ -93,6 +97,7 @@ static const struct option options[] = {
     {.name = "force", .kind = OPTION_FLAG, .help = "Replace files that exist."},
     LIMITS_OPTION,
     TIMEOUT_OPTION,
+    SANDBOX_OPTION,
     {.name = "frame-timeout",
      .kind = OPTION_NUMBER,
      .placeholder = "S",
@@ -387,5 +392,6 @@ const struct command render_command = {
     .option_count = sizeof options / sizeof *options,
     .least_operands = 1,
     .most_operands = SIZE_MAX,
+    .reach = REACH_READ,
     .run = run,
 };

@@ -528,6 +528,7 @@ void kiln_shown(char *out, size_t room, const char *text);
 #include "kiln_figure.h"
 #include "kiln_job.h"
 #include "kiln_json.h"
+#include "kiln_sandbox.h"
 #include "kiln_test.h"
 
 #endif

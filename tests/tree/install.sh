@@ -9,11 +9,11 @@ trap 'rm -rf "$prefix"' EXIT
 cmake --install "$build" --prefix "$prefix" >/dev/null
 libdir=$(dirname "$(find "$prefix" -name kiln.pc | head -n 1)")
 
-for file in bin/kiln include/kiln.h include/kiln_{bench,figure,job,json,limits,test}.h; do
+for file in bin/kiln include/kiln.h include/kiln_{bench,figure,job,json,limits,sandbox,test}.h; do
     [[ -f $prefix/$file ]] || { echo "$file is not installed"; exit 1; }
 done
 headers=$(find "$prefix/include" -type f | wc -l)
-[[ $headers == 7 ]] || { echo "$headers headers are installed; kiln has seven"; exit 1; }
+[[ $headers == 8 ]] || { echo "$headers headers are installed; kiln has eight"; exit 1; }
 for file in kiln/scenes/fire_beam.yaml kiln/scene.schema.json man/man1/kiln.1 man/man5/kiln-scene.5 \
     bash-completion/completions/kiln zsh/site-functions/_kiln; do
     [[ -f $prefix/share/$file ]] || { echo "share/$file is not installed"; exit 1; }

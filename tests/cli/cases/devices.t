@@ -12,6 +12,7 @@ $ kiln devices | sed -E 's/^[0-9]+: .*/<number>: <name>/; s/^(    [A-Za-z]+ +).*
 1|    vectors   <...>
 1|    vendor    <...>
 1|<number>: <name>
+1|sandbox: Landlock 7, seccomp
 $ kiln devices --json | jq -r '.devices[0, 1] | to_entries[] | "\(.key) \(.value | type)"'
 1|index number
 1|name string
@@ -43,6 +44,7 @@ $ kiln devices --json | jq -r '.devices[0, 1] | to_entries[] | "\(.key) \(.value
 $ kiln devices --json | jq -r 'keys[], (.advice | type)'
 1|advice
 1|devices
+1|sandbox
 1|string
 
 A device that does not exist, and no device at all.
@@ -63,9 +65,10 @@ $ export __EGL_VENDOR_LIBRARY_FILENAMES=/dev/null EGL_PLATFORM=none LIBGL_DRIVER
 1|    kind      no OpenGL
 1|    usable    yes
 1|    exact     yes
+1|sandbox: Landlock 7, seccomp
 1|advice: EGL has no driver that works without a display; install the package libegl-mesa0, or the GPU vendor's EGL
 1|exit 0
-1|{"devices":["cpu"],"advice":"EGL has no driver that works without a display; install the package libegl-mesa0, or the GPU vendor's EGL"}
+1|{"devices":["cpu"],"sandbox":{"landlock":7,"seccomp":true},"advice":"EGL has no driver that works without a display; install the package libegl-mesa0, or the GPU vendor's EGL"}
 1|"EGL has no driver that works without a display; install the package libegl-mesa0, or the GPU vendor's EGL"
 1|exit 0
 1|exit 0

@@ -208,6 +208,13 @@ $ kiln help render
 1|                              limits'). Default: the environment's KILN_LIMITS.
 1|      --timeout S             End with exit code 8 after S seconds, loading and
 1|                              encoding included. Default: none.
+1|      --sandbox[=on|require|off]
+1|                              Give up all rights that the job does not need, on
+1|                              the device 'cpu': files elsewhere, sockets, other
+1|                              programs. With 'require' it is exit code 5 where
+1|                              the kernel cannot do that (see 'kiln devices').
+1|                              Default: the environment's KILN_SANDBOX, or else
+1|                              off.
 1|      --frame-timeout S       Give up with exit code 5 when a frame takes longer
 1|                              than S seconds. Frames that are stepped over
 1|                              lengthen the limit of the next drawn one; set-up
@@ -297,6 +304,13 @@ $ kiln help check
 1|                              limits'). Default: the environment's KILN_LIMITS.
 1|      --timeout S             End with exit code 8 after S seconds, loading and
 1|                              encoding included. Default: none.
+1|      --sandbox[=on|require|off]
+1|                              Give up all rights that the job does not need, on
+1|                              the device 'cpu': files elsewhere, sockets, other
+1|                              programs. With 'require' it is exit code 5 where
+1|                              the kernel cannot do that (see 'kiln devices').
+1|                              Default: the environment's KILN_SANDBOX, or else
+1|                              off.
 1|      --hash                  Print only the scene's hash.
 1|  -q, --quiet                 Print nothing but errors.
 1|  -h, --help                  Print this help.
@@ -311,8 +325,8 @@ $ kiln help devices
 1|that OpenGL offers without a display, with its limits. Such a device is usable
 1|with OpenGL 4.3 or later; it is exact when it passed the probe of the arithmetic
 1|that the simulation needs, and otherwise particles move on the CPU. A software
-1|device is a rasteriser on the CPU. Advice names what is missing and the package
-1|that brings it.
+1|device is a rasteriser on the CPU. Last comes what the kernel has for --sandbox.
+1|Advice names what is missing and the package that brings it.
 1|
 1|      --json                  Print JSON instead of text.
 1|  -h, --help                  Print this help.

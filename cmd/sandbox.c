@@ -1,0 +1,133 @@
+/* Which files a command reads and writes follows from its arguments, whose rows say so. */
+#include "sandbox.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "report.h"
+
+enum mode { MODE_ON, MODE_REQUIRE, MODE_OFF };
+
+struct reached {
+    const char **readable, **writable;
+    size_t readable_count, writable_count;
+    char **folders; /* of files that are read; they are among the readable */
+    size_t folder_count;
+};
+
+/* ---- what the arguments name ----------------------------------------------------------------- */
+
+/* The file itself, which may be a link, and its folder, where a scene's pictures are. */
+static bool add_file(struct reached *reached, const char *path, bool alone)
+{
+    reached->readable[reached->readable_count++] = path;
+    if (alone)
+        return true;
+    char *folder = malloc(strlen(path) + 2);
+    if (!folder)
+        return false;
+    strcpy(folder, path);
+    folder[strcspn(folder, "{#%")] = '\0'; /* of numbered frames */
+    char *slash = strrchr(folder, '/');
+    strcpy(slash ? slash : folder, slash ? "/" : ".");
+    reached->folders[reached->folder_count++] = folder;
+    reached->readable[reached->readable_count++] = folder;
+    return true;
+}
+
+/* Of --output: standard output, or nothing. */
+static bool is_no_file(const char *path)
+{
+    return strcmp(path, "-") == 0 || strcmp(path, "none") == 0;
+}
+
+static bool collect(struct reached *reached, const struct command *command,
+                    const struct arguments *arguments)
+{
+    const size_t count = arguments->use_count + arguments->operand_count + 1;
+    const bool rooted = arguments_last(arguments, "asset-root") != NULL;
+    reached->readable = calloc(2 * count, sizeof *reached->readable);
+    reached->writable = calloc(count, sizeof *reached->writable);
+    reached->folders = calloc(count, sizeof *reached->folders);
+    if (!reached->readable || !reached->writable || !reached->folders)
+        return false;
+    for (size_t i = 0; i < arguments->use_count; i++) {
+        const struct option_use *use = &arguments->uses[i];
+        if (use->option->reach == REACH_READ)
+            reached->readable[reached->readable_count++] = use->text;
+        else if (use->option->reach == REACH_WRITE && !is_no_file(use->text))
+            reached->writable[reached->writable_count++] = use->text;
+    }
+    for (size_t i = 0; i < arguments->operand_count; i++) {
+        if (command->reach == REACH_WRITE)
+            reached->writable[reached->writable_count++] = arguments->operands[i];
+        else if (!add_file(reached, arguments->operands[i], rooted))
+            return false;
+    }
+    return true;
+}
+
+static void free_reached(struct reached *reached)
+{
+    for (size_t i = 0; i < reached->folder_count; i++)
+        free(reached->folders[i]);
+    free(reached->folders);
+    free(reached->readable);
+    free(reached->writable);
+}
+
+/* ---- entering -------------------------------------------------------------------------------- */
+
+static bool read_environment(enum mode *mode)
+{
+    static const char *const words[] = {"on", "require", "off"};
+    const char *text = getenv("KILN_SANDBOX");
+    *mode = MODE_OFF;
+    if (!text || !*text)
+        return true;
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        if (strcmp(text, words[i]) == 0) {
+            *mode = (enum mode)i;
+            return true;
+        }
+    }
+    report(KILN_USAGE, "KILN_SANDBOX: '%s'; allowed are on, require or off", text);
+    return false;
+}
+
+static int confine(const struct command *command, const struct arguments *arguments, enum mode mode)
+{
+    struct reached reached = {NULL, NULL, 0, 0, NULL, 0};
+    struct kiln_error error = {0};
+    int code = 0;
+    if (!collect(&reached, command, arguments)) {
+        code = report_no_memory();
+    } else {
+        const struct kiln_sandbox_params params = {.readable = reached.readable,
+                                                   .readable_count = reached.readable_count,
+                                                   .writable = reached.writable,
+                                                   .writable_count = reached.writable_count,
+                                                   .required = mode == MODE_REQUIRE};
+        code = kiln_sandbox_enter(&params, &error) ? 0 : report_error(&error);
+    }
+    free_reached(&reached);
+    return code;
+}
+
+int sandbox_enter(const struct command *command, const struct arguments *arguments, bool *sandboxed)
+{
+    const char *device = arguments_text(arguments, "device", KILN_DEVICE_CPU);
+    enum mode mode;
+    if (!read_environment(&mode))
+        return KILN_USAGE;
+    mode = (enum mode)arguments_choice(arguments, "sandbox", mode);
+    if (mode == MODE_OFF)
+        return 0;
+    if (strcmp(device, KILN_DEVICE_CPU) != 0)
+        return report(KILN_USAGE,
+                      "%s: --device %s: a sandbox is for the device '" KILN_DEVICE_CPU
+                      "': drivers of OpenGL need more than a job does",
+                      command->name, device);
+    *sandboxed = true;
+    return confine(command, arguments, mode);
+}

@@ -1,0 +1,260 @@
+/* Confines the process to a job's own folders (Landlock) and takes from it the system calls that no
+ * job needs (seccomp). What kiln-decode needs to start stays: its own file, the dynamic linker and
+ * libraries; it locks itself in much further (decode/confine.c). */
+#include <elf.h>
+#include <link.h>
+#include <seccomp.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/auxv.h>
+#include <sys/stat.h>
+
+#include "asset/geometry/field.h"
+#include "asset/loader/helper.h"
+#include "base/confine.h"
+#include "base/error.h"
+#include "base/temporary.h"
+
+enum { MOST_PLACES = 256 };
+
+struct places {
+    struct kiln_place items[MOST_PLACES];
+    size_t count;
+    struct kiln_error *error;
+};
+
+/* The path must outlive the places. */
+static bool add(struct places *places, const char *path, unsigned may)
+{
+    if (places->count == MOST_PLACES)
+        return kiln_error_set(places->error, KILN_USAGE,
+                              "a sandbox of more than %d files and folders", MOST_PLACES);
+    places->items[places->count++] = (struct kiln_place){path, may};
+    return true;
+}
+
+/* ---- where a job writes ---------------------------------------------------------------------- */
+
+/* The folder of a pattern, made if it is missing; the caller frees it. */
+static char *make_folder(const char *pattern, struct kiln_error *error)
+{
+    struct stat status;
+    char *folder = malloc(strlen(pattern) + 3);
+    if (!folder) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a sandbox");
+        return NULL;
+    }
+    strcpy(folder, pattern);
+    if (stat(folder, &status) != 0 || !S_ISDIR(status.st_mode)) {
+        folder[strcspn(folder, "{#%")] = '\0';
+        char *slash = strrchr(folder, '/');
+        strcpy(slash ? slash + 1 : folder, slash ? "" : "./");
+        if (!kiln_make_parent_folders(folder, error)) {
+            free(folder);
+            return NULL;
+        }
+    }
+    return folder;
+}
+
+static bool add_writable(struct places *places, const struct kiln_sandbox_params *params,
+                         char **folders)
+{
+    for (size_t i = 0; i < params->writable_count; i++) {
+        folders[i] = make_folder(params->writable[i], places->error);
+        if (!folders[i] || !add(places, folders[i], KILN_MAY_READ | KILN_MAY_WRITE))
+            return false;
+    }
+    return true;
+}
+
+/* ---- what every job needs -------------------------------------------------------------------- */
+
+/* The dynamic linker, which the kernel starts with kiln-decode. */
+static int find_linker(struct dl_phdr_info *info, size_t size, void *user)
+{
+    (void)size;
+    const char **linker = user;
+    if (info->dlpi_addr == getauxval(AT_BASE) && *info->dlpi_name)
+        *linker = info->dlpi_name;
+    return *linker != NULL;
+}
+
+/* Folders of libraries, and what the C library reads of the machine. */
+static bool add_machine(struct places *places, char *library_path)
+{
+    static const struct kiln_place common[] = {
+        {"/usr", KILN_MAY_READ},
+        {"/lib", KILN_MAY_READ},
+        {"/lib32", KILN_MAY_READ},
+        {"/lib64", KILN_MAY_READ},
+        {"/etc/ld.so.cache", KILN_MAY_READ},
+        {"/proc/self", KILN_MAY_READ},
+        {"/sys/devices/system/cpu", KILN_MAY_READ},
+        {"/dev/null", KILN_MAY_READ | KILN_MAY_WRITE},
+        {"/dev/full", KILN_MAY_READ | KILN_MAY_WRITE},
+    };
+    for (size_t i = 0; i < sizeof common / sizeof *common; i++) {
+        if (!add(places, common[i].path, common[i].may))
+            return false;
+    }
+    char *rest = library_path;
+    for (const char *folder; rest && (folder = strsep(&rest, ":"));) {
+        if (*folder && !add(places, folder, KILN_MAY_READ))
+            return false;
+    }
+    return true;
+}
+
+/* The helper, with the paths in which it is found; a job without pictures does without it. */
+static bool add_helper(struct places *places, char helper[KILN_PATH_SIZE])
+{
+    const char *linker = NULL;
+    struct kiln_error ignored;
+    dl_iterate_phdr(find_linker, &linker);
+    return (!linker || add(places, linker, KILN_MAY_READ | KILN_MAY_EXECUTE)) &&
+           (!kiln_helper_find(helper, &ignored) ||
+            add(places, helper, KILN_MAY_READ | KILN_MAY_EXECUTE));
+}
+
+static bool add_cache(struct places *places, char cache[KILN_PATH_SIZE])
+{
+    struct kiln_error ignored;
+    if (!kiln_field_cache(cache))
+        return true;
+    strcat(cache, "/"); /* there is room */
+    return !kiln_make_parent_folders(cache, &ignored) ||
+           add(places, cache, KILN_MAY_READ | KILN_MAY_WRITE);
+}
+
+/* ---- calls ----------------------------------------------------------------------------------- */
+
+#define CALL(name)                                                                                 \
+    {                                                                                              \
+        SCMP_SYS(name), 0, 0, 0                                                                    \
+    }
+
+/* Calls that no job makes, and that have been ways out of sandboxes, or into the kernel. */
+static const struct kiln_system_call refused[] = {
+    CALL(socket),
+    CALL(connect),
+    CALL(bind),
+    CALL(listen),
+    CALL(accept),
+    CALL(accept4),
+    CALL(execveat),
+    CALL(ptrace),
+    CALL(process_vm_readv),
+    CALL(process_vm_writev),
+    CALL(pidfd_getfd),
+    CALL(process_madvise),
+    CALL(kcmp),
+    CALL(mount),
+    CALL(umount2),
+    CALL(pivot_root),
+    CALL(chroot),
+    CALL(unshare),
+    CALL(setns),
+    CALL(open_tree),
+    CALL(move_mount),
+    CALL(fsopen),
+    CALL(fsconfig),
+    CALL(fsmount),
+    CALL(fspick),
+    CALL(mount_setattr),
+    CALL(name_to_handle_at),
+    CALL(open_by_handle_at),
+    CALL(init_module),
+    CALL(finit_module),
+    CALL(delete_module),
+    CALL(kexec_load),
+    CALL(kexec_file_load),
+    CALL(reboot),
+    CALL(swapon),
+    CALL(swapoff),
+    CALL(acct),
+    CALL(quotactl),
+    CALL(bpf),
+    CALL(perf_event_open),
+    CALL(userfaultfd),
+    CALL(io_uring_setup),
+    CALL(io_uring_enter),
+    CALL(io_uring_register),
+    CALL(add_key),
+    CALL(request_key),
+    CALL(keyctl),
+    CALL(personality),
+    CALL(settimeofday),
+    CALL(clock_settime),
+    CALL(adjtimex),
+    CALL(clock_adjtime),
+    CALL(sethostname),
+    CALL(setdomainname),
+    CALL(iopl),
+    CALL(ioperm),
+    CALL(modify_ldt),
+    CALL(mknod),
+    CALL(mknodat),
+    CALL(setuid),
+    CALL(setgid),
+    CALL(setreuid),
+    CALL(setregid),
+    CALL(setresuid),
+    CALL(setresgid),
+    CALL(setgroups),
+    CALL(capset),
+};
+
+/* ---- entering -------------------------------------------------------------------------------- */
+
+struct kiln_sandbox_support kiln_sandbox_support(void)
+{
+    return (struct kiln_sandbox_support){
+        .landlock = kiln_landlock_version(), .seccomp = kiln_has_seccomp(), .off = KILN_UNCONFINED};
+}
+
+static bool check_support(const struct kiln_sandbox_params *params, struct kiln_error *error)
+{
+    const struct kiln_sandbox_support has = kiln_sandbox_support();
+    if (!params->required || (has.landlock && has.seccomp))
+        return true;
+    return kiln_error_set(error, KILN_DEVICE_FAILED, "no sandbox: %s",
+                          has.off ? "this program was built with sanitizers"
+                          : !has.landlock
+                              ? "the kernel has no Landlock (Linux 5.13 or later, switched "
+                                "on by the boot option lsm=)"
+                              : "the kernel has no seccomp");
+}
+
+static bool confine(const struct kiln_sandbox_params *params, char **folders, char *library_path,
+                    struct kiln_error *error)
+{
+    struct places places = {.error = error};
+    char cache[KILN_PATH_SIZE], helper[KILN_PATH_SIZE];
+    for (size_t i = 0; i < params->readable_count; i++) {
+        if (!add(&places, params->readable[i], KILN_MAY_READ))
+            return false;
+    }
+    return add_writable(&places, params, folders) && add_machine(&places, library_path) &&
+           add_cache(&places, cache) && add_helper(&places, helper) && kiln_seccomp_open(error) &&
+           kiln_landlock_confine(places.items, places.count, error) &&
+           kiln_seccomp_confine(KILN_ALL_BUT_THESE_CALLS, refused, sizeof refused / sizeof *refused,
+                                error);
+}
+
+bool kiln_sandbox_enter(const struct kiln_sandbox_params *params, struct kiln_error *error)
+{
+    const char *path = getenv("LD_LIBRARY_PATH"); /* NOLINT(concurrency-mt-unsafe): only read */
+    if (!check_support(params, error))
+        return false;
+    char *library_path = strdup(path ? path : "");
+    char **folders = calloc(params->writable_count + 1, sizeof *folders);
+    const bool ok = library_path && folders
+                        ? confine(params, folders, library_path, error)
+                        : kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a sandbox");
+    for (size_t i = 0; folders && i < params->writable_count; i++)
+        free(folders[i]);
+    free(folders);
+    free(library_path);
+    return ok;
+}

@@ -1,0 +1,214 @@
+/* lib/job/sandbox.c: a process that has entered a sandbox can do what a job does, and nothing of
+ * what somebody would want who has taken it over. Each question is asked in a process of its own.
+ */
+#include <fcntl.h>
+#include <netinet/in.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/ptrace.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "asset/image/image.h"
+#include "kiln.h"
+#include "support/cmocka.h"
+#include "support/folders.h"
+
+static pid_t other; /* a process that is none of ours to touch */
+
+/* ---- what is tried --------------------------------------------------------------------------- */
+
+static bool opens(const char *path, int flags)
+{
+    const int file = open(path, flags, 0600);
+    if (file >= 0)
+        close(file);
+    return file >= 0;
+}
+
+static bool read_inside(void)
+{
+    return opens("in/a", O_RDONLY);
+}
+
+static bool write_to_output(void)
+{
+    return opens("out/a", O_WRONLY | O_CREAT) && rename("out/a", "out/b") == 0 &&
+           mkdir("out/deep", 0700) == 0 && unlink("out/b") == 0;
+}
+
+static void *nothing(void *user)
+{
+    return user;
+}
+
+static bool start_threads(void)
+{
+    pthread_t thread;
+    return pthread_create(&thread, NULL, nothing, NULL) == 0 && pthread_join(thread, NULL) == 0;
+}
+
+static bool decode_a_picture(void)
+{
+    struct kiln_error error = {0};
+    struct kiln_asset_image *image =
+        kiln_asset_image_load(NULL, KILN_SOURCE_DIR "/tests/cli/scenes/puff.png", &error);
+    const bool decoded = image != NULL;
+    kiln_asset_image_destroy(&image);
+    return decoded;
+}
+
+static bool read_outside(void)
+{
+    return opens("secret", O_RDONLY) || opens("in/../secret", O_RDONLY) ||
+           opens("in/link", O_RDONLY) || opens("/etc/passwd", O_RDONLY);
+}
+
+static bool write_outside(void)
+{
+    return opens("in/b", O_WRONLY | O_CREAT) || opens("in/a", O_WRONLY) ||
+           opens("new", O_WRONLY | O_CREAT) || opens("/tmp/kiln-sandbox", O_WRONLY | O_CREAT) ||
+           truncate("in/a", 0) == 0;
+}
+
+static bool change_outside(void)
+{
+    return unlink("secret") == 0 || rename("secret", "out/secret") == 0 ||
+           link("secret", "out/hard") == 0 || mkdir("folder", 0700) == 0 ||
+           symlink("../secret", "in/soft") == 0;
+}
+
+static bool open_sockets(void)
+{
+    return socket(AF_INET, SOCK_STREAM, 0) >= 0 || socket(AF_INET6, SOCK_DGRAM, 0) >= 0 ||
+           socket(AF_UNIX, SOCK_STREAM, 0) >= 0;
+}
+
+static bool start_programs(void)
+{
+    const pid_t child = fork();
+    int status = 0;
+    if (child == 0) {
+        execl("/bin/true", "true", (char *)NULL);
+        execl("/bin/sh", "sh", "-c", ":", (char *)NULL);
+        _exit(99);
+    }
+    return child > 0 && waitpid(child, &status, 0) == child && WEXITSTATUS(status) != 99;
+}
+
+static bool reach_processes(void)
+{
+    char path[64];
+    snprintf(path, sizeof path, "/proc/%d/environ", (int)other);
+    return kill(other, SIGTERM) == 0 || ptrace(PTRACE_ATTACH, other, NULL, NULL) == 0 ||
+           opens(path, O_RDONLY);
+}
+
+static bool make_devices(void)
+{
+    return mknod("out/null", S_IFCHR | 0600, (dev_t)0x103) == 0 || mkfifo("out/fifo", 0600) == 0 ||
+           chroot("out") == 0;
+}
+
+/* ---- asking ---------------------------------------------------------------------------------- */
+
+static bool enter(void)
+{
+    static const char *const readable[] = {"in", KILN_SOURCE_DIR "/tests/cli/scenes"};
+    static const char *const writable[] = {"out/{scene}_####.png"};
+    const struct kiln_sandbox_params params = {.readable = readable,
+                                               .readable_count = 2,
+                                               .writable = writable,
+                                               .writable_count = 1,
+                                               .required = true};
+    struct kiln_error error = {0};
+    return kiln_sandbox_enter(&params, &error);
+}
+
+static bool succeeds(bool (*attempt)(void))
+{
+    const pid_t child = fork();
+    int status = 0;
+    if (child == 0)
+        _exit(!enter() ? 2 : attempt() ? 1 : 0);
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status) && WEXITSTATUS(status) < 2);
+    return WEXITSTATUS(status) == 1;
+}
+
+static int set_up(void **state)
+{
+    test_enter_folder(state);
+    test_write_file("in/a", "a");
+    test_write_file("secret", "s");
+    const int linked = symlink("../secret", "in/link");
+    other = fork();
+    if (other == 0) {
+        pause();
+        _exit(0);
+    }
+    return linked != 0 || other < 0;
+}
+
+static int tear_down(void **state)
+{
+    kill(other, SIGKILL);
+    waitpid(other, NULL, 0);
+    return test_leave_folder(state);
+}
+
+static bool is_possible(void)
+{
+    const struct kiln_sandbox_support has = kiln_sandbox_support();
+    return has.landlock >= 6 && has.seccomp;
+}
+
+static void a_job_can_work(void **state)
+{
+    (void)state;
+    if (!is_possible())
+        skip();
+    assert_true(succeeds(read_inside));
+    assert_true(succeeds(write_to_output));
+    assert_true(succeeds(start_threads));
+    assert_true(succeeds(decode_a_picture));
+}
+
+static void nothing_else_can_be_done(void **state)
+{
+    (void)state;
+    if (!is_possible())
+        skip();
+    assert_false(succeeds(read_outside));
+    assert_false(succeeds(write_outside));
+    assert_false(succeeds(change_outside));
+    assert_false(succeeds(open_sockets));
+    assert_false(succeeds(start_programs));
+    assert_false(succeeds(reach_processes));
+    assert_false(succeeds(make_devices));
+}
+
+/* The attempts above are no attempts unless they work without a sandbox. */
+static void all_of_it_works_outside(void **state)
+{
+    (void)state;
+    assert_true(read_outside() && write_outside() && change_outside() && open_sockets() &&
+                start_programs());
+    unlink("/tmp/kiln-sandbox");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(a_job_can_work, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(nothing_else_can_be_done, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(all_of_it_works_outside, set_up, tear_down),
+    };
+    return cmocka_run_group_tests_name("sandbox", tests, NULL, NULL);
+}
