@@ -15,7 +15,7 @@
 
 #define ALLOWED "OBJ, glTF or GLB"
 
-enum { MAX_FILES = 64 };
+enum { MAX_FILES = 64, MAX_WISHES = 1000 };
 
 static const float MAX_COORDINATE = 1e6f;
 
@@ -199,12 +199,16 @@ static bool await(struct request *request, struct kiln_decode_answer *answer,
                   struct kiln_error *error)
 {
     const unsigned expected = 1u << KILN_DECODE_WANTS | 1u << KILN_DECODE_MADE;
-    do {
+    for (int wishes = 0; wishes < MAX_WISHES; wishes++) {
         if (!kiln_helper_answer(request->helper, kiln_loader_caller(request->loader), expected,
                                 answer, error))
             return false;
-    } while (answer->what == KILN_DECODE_WANTS && hand_over(request, answer->text, error));
-    return answer->what == KILN_DECODE_MADE;
+        if (answer->what == KILN_DECODE_MADE)
+            return true;
+        if (!hand_over(request, answer->text, error))
+            return false;
+    }
+    return kiln_error_set(error, KILN_INVALID_INPUT, "it asks for files without end");
 }
 
 static bool receive(struct request *request, struct kiln_mesh_result *result,

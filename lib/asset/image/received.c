@@ -58,8 +58,8 @@ struct kiln_asset_image *kiln_received_image(struct kiln_received *received, uns
     struct kiln_decode_answer answer = {.what = KILN_DECODE_FAILED};
     const bool answered = kiln_helper_answer(received->helper, kiln_loader_caller(received->loader),
                                              expected, &answer, reason);
-    received->size[0] = answer.width;
-    received->size[1] = answer.height;
+    if (answer.what == KILN_DECODE_FAILED && answer.code == KILN_OVER_LIMIT)
+        received->refused = (uint64_t)answer.width * answer.height;
     if (!answered || answer.what != KILN_DECODE_PIXELS)
         return NULL;
     struct kiln_asset_image *image = calloc(1, sizeof *image);
@@ -89,9 +89,9 @@ bool kiln_received_fail(const struct kiln_received *received, const struct kiln_
                         struct kiln_error *error)
 {
     /* The helper kept to what was left; how much that is, and of what, the budget says. */
-    if (reason->code == KILN_OVER_LIMIT &&
+    if (received->refused > 0 &&
         !kiln_budget_take(kiln_loader_budget(received->loader), KILN_LIMIT_asset_pixels,
-                          (uint64_t)received->size[0] * received->size[1], received->name, error))
+                          received->refused, received->name, error))
         return false;
     if (reason->code == KILN_OVER_LIMIT || reason->code == KILN_INTERRUPTED) /* not of the file */
         return kiln_error_set(error, reason->code, "%s", reason->message);

@@ -10,7 +10,7 @@ struct kiln_received {
     const char *name; /* of the file, for messages */
     bool finite;      /* floats that are none are refused */
     bool is_counted;  /* the budget has the pixels of such pictures already */
-    uint32_t size[2]; /* set, when the size is known, also after a failure */
+    uint64_t refused; /* set: pixels of a picture that has more than the budget has left */
 };
 
 /* How many pixels the budget of a scene has left, at most those of an image. */

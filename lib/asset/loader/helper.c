@@ -335,12 +335,11 @@ bool kiln_helper_receive(struct kiln_helper *helper, const struct kiln_caller *c
     return true;
 }
 
-/* Codes that a decoder may end with; others are nonsense. */
+/* Codes that a decoder may end with. What is over a limit, the budget says; others are nonsense. */
 static enum kiln_code code_of(int32_t code)
 {
-    return code == KILN_IO || code == KILN_DEVICE_FAILED || code == KILN_OVER_LIMIT
-               ? (enum kiln_code)code
-               : KILN_INVALID_INPUT;
+    return code == KILN_IO || code == KILN_DEVICE_FAILED ? (enum kiln_code)code
+                                                         : KILN_INVALID_INPUT;
 }
 
 bool kiln_helper_answer(struct kiln_helper *helper, const struct kiln_caller *caller,

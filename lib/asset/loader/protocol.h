@@ -50,7 +50,8 @@ struct kiln_decode_request {
 
 enum kiln_decode_what {
     KILN_DECODE_READY,  /* once, before the first request: the text is KILN_VERSION */
-    KILN_DECODE_FAILED, /* the code, and the message as text; of KILN_OVER_LIMIT the size, too */
+    KILN_DECODE_FAILED, /* the code, and the message as text; when a picture has more than
+                           most_pixels, KILN_OVER_LIMIT and the size */
     KILN_DECODE_PIXELS, /* a picture; its pixels follow */
     KILN_DECODE_END,    /* no more frames of a video */
     KILN_DECODE_WANTS,  /* another file, whose name is the text; a struct kiln_decode_file follows

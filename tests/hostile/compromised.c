@@ -1,0 +1,302 @@
+/* A kiln-decode that a file has taken over: it locks itself in as the real one does, and then,
+ * instead of decoding, does what the environment's KILN_COMPROMISED says. "attempts" tries to get
+ * out, and says what of it worked; all others send kiln something that no decoder would. */
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <netinet/in.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/ptrace.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <sys/uio.h>
+#include <unistd.h>
+
+#include "decode.h"
+
+static pid_t parent;
+
+/* ---- getting out ----------------------------------------------------------------------------- */
+
+static bool open_file(void)
+{
+    return open("/etc/passwd", O_RDONLY) >= 0 || open("/proc/self/maps", O_RDONLY) >= 0 ||
+           syscall(SYS_open, "/etc/passwd", O_RDONLY) >= 0;
+}
+
+static bool open_parent(void)
+{
+    char path[64];
+    snprintf(path, sizeof path, "/proc/%d/mem", (int)parent);
+    return open(path, O_RDWR) >= 0;
+}
+
+static bool write_file(void)
+{
+    return open("/tmp/kiln-compromised", O_WRONLY | O_CREAT, 0600) >= 0 ||
+           mkdir("/tmp/kiln-compromised", 0700) == 0 || unlink("/tmp/kiln-secret") == 0 ||
+           rename("/tmp/kiln-secret", "/tmp/kiln-compromised") == 0 || chmod("/tmp", 0777) == 0;
+}
+
+/* The file that kiln sent is open for reading alone. */
+static bool write_to_asset(void)
+{
+    for (int file = 4; file < 16; file++) {
+        if (pwrite(file, "x", 1, 0) == 1 || ftruncate(file, 0) == 0)
+            return true;
+    }
+    return false;
+}
+
+static bool connect_somewhere(void)
+{
+    struct sockaddr_in address = {.sin_family = AF_INET, .sin_port = htons(80)};
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    const int file = socket(AF_INET, SOCK_STREAM, 0);
+    int pair[2];
+    return file >= 0 || socket(AF_UNIX, SOCK_DGRAM, 0) >= 0 ||
+           socketpair(AF_UNIX, SOCK_STREAM, 0, pair) == 0 ||
+           connect(KILN_DECODE_SOCKET, (const void *)&address, sizeof address) == 0;
+}
+
+static bool start_process(void)
+{
+    const pid_t child = fork();
+    if (child == 0)
+        _exit(0);
+    return child > 0 || syscall(SYS_clone, SIGCHLD, 0, 0, 0, 0) > 0 || syscall(SYS_vfork) > 0;
+}
+
+static bool execute(void)
+{
+    char *const arguments[] = {(char *)"true", NULL};
+    execve("/bin/true", arguments, arguments);
+    syscall(SYS_execveat, AT_FDCWD, "/bin/true", arguments, arguments, 0);
+    return false; /* had it worked, nobody would answer */
+}
+
+static bool signal_parent(void)
+{
+    return kill(parent, 0) == 0 || kill(parent, SIGSTOP) == 0 || kill(1, 0) == 0 ||
+           syscall(SYS_tgkill, parent, parent, 0) == 0 || syscall(SYS_tkill, parent, 0) == 0;
+}
+
+static bool trace_parent(void)
+{
+    char byte;
+    struct iovec here = {&byte, 1}, there = {(void *)0x400000, 1};
+    return ptrace(PTRACE_ATTACH, parent, NULL, NULL) == 0 ||
+           process_vm_readv(parent, &here, 1, &there, 1, 0) > 0 ||
+           syscall(SYS_pidfd_open, parent, 0) >= 0;
+}
+
+static bool make_code(void)
+{
+    void *memory = mmap(NULL, 4096, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    return mmap(NULL, 4096, PROT_READ | PROT_WRITE | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1,
+                0) != MAP_FAILED ||
+           mprotect(memory, 4096, PROT_READ | PROT_EXEC) == 0;
+}
+
+static bool take_more(void)
+{
+    const struct rlimit much = {RLIM_INFINITY, RLIM_INFINITY};
+    return setrlimit(RLIMIT_CPU, &much) == 0 || prctl(PR_SET_DUMPABLE, 1, 0, 0, 0) == 0 ||
+           syscall(SYS_memfd_create, "x", 0) >= 0 || syscall(SYS_unshare, 0x10000000) == 0 ||
+           mmap(NULL, (size_t)8 << 30, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1,
+                0) != MAP_FAILED ||
+           syscall(SYS_io_uring_setup, 1, NULL) != -1 || syscall(SYS_bpf, 0, NULL, 0) != -1;
+}
+
+static const struct attempt {
+    const char *name;
+    bool (*try)(void);
+} attempts[] = {
+    {"open a file", open_file},
+    {"open kiln's memory", open_parent},
+    {"write a file", write_file},
+    {"write to the asset", write_to_asset},
+    {"connect", connect_somewhere},
+    {"fork", start_process},
+    {"exec", execute},
+    {"send a signal", signal_parent},
+    {"trace kiln", trace_parent},
+    {"make code", make_code},
+    {"take more", take_more},
+};
+
+static void try_all(char *text, size_t size)
+{
+    size_t length = (size_t)snprintf(text, size, "worked:");
+    for (size_t i = 0; i < sizeof attempts / sizeof *attempts; i++) {
+        if (attempts[i].try())
+            length += (size_t)snprintf(text + length, size - length, " %s,", attempts[i].name);
+    }
+    snprintf(text + length, size - length, " and %zu were tried",
+             sizeof attempts / sizeof *attempts);
+}
+
+/* ---- nonsense -------------------------------------------------------------------------------- */
+
+static void send_bytes(const void *bytes, size_t size)
+{
+    for (size_t done = 0; done < size;) {
+        const ssize_t sent = write(KILN_DECODE_SOCKET, (const char *)bytes + done, size - done);
+        if (sent <= 0)
+            _exit(0);
+        done += (size_t)sent;
+    }
+}
+
+static void send_answer(struct kiln_decode_answer answer)
+{
+    send_bytes(&answer, sizeof answer);
+}
+
+static void send_floats(float value)
+{
+    float pixels[4 * 4 * 4];
+    for (size_t i = 0; i < sizeof pixels / sizeof *pixels; i++)
+        pixels[i] = value;
+    send_answer((struct kiln_decode_answer){
+        .what = KILN_DECODE_PIXELS, .width = 4, .height = 4, .channels = 4, .type = 2});
+    send_bytes(pixels, sizeof pixels);
+}
+
+static void send_size(uint32_t width, uint32_t height, uint32_t channels, uint32_t type)
+{
+    send_answer((struct kiln_decode_answer){.what = KILN_DECODE_PIXELS,
+                                            .width = width,
+                                            .height = height,
+                                            .channels = channels,
+                                            .type = type});
+}
+
+static void send_failure(int32_t code, const char *text)
+{
+    struct kiln_decode_answer answer = {.what = KILN_DECODE_FAILED, .code = code};
+    snprintf(answer.text, sizeof answer.text, "%s", text);
+    send_answer(answer);
+}
+
+static void send_mesh(uint32_t vertices, uint32_t triangles, const float *places,
+                      const uint32_t *corners)
+{
+    send_answer((struct kiln_decode_answer){
+        .what = KILN_DECODE_MADE, .vertices = vertices, .triangles = triangles});
+    if (places)
+        send_bytes(places, 6 * vertices * sizeof *places);
+    if (corners)
+        send_bytes(corners, 3 * triangles * sizeof *corners);
+}
+
+static void misbehave(const char *how)
+{
+    static const float sound[18] = {0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0};
+    float places[18];
+    const uint32_t corners[3] = {0, 2, 1}, beyond[3] = {0, 2, 0x7fffffff};
+    char text[KILN_MESSAGE_SIZE];
+    memcpy(places, sound, sizeof places);
+    if (strcmp(how, "attempts") == 0) {
+        try_all(text, sizeof text);
+        send_failure(KILN_INVALID_INPUT, text);
+    } else if (strcmp(how, "huge") == 0) {
+        send_size(0xffffffffu, 0xffffffffu, 4, 0);
+    } else if (strcmp(how, "overflow") == 0) {
+        send_size(0x10000, 0x10001, 4, 2);
+    } else if (strcmp(how, "largest") == 0) {
+        send_size(16384, 16384, 4, 2);
+    } else if (strcmp(how, "nothing") == 0) {
+        send_size(0, 0, 4, 0);
+    } else if (strcmp(how, "type") == 0) {
+        send_size(4, 4, 4, 77);
+    } else if (strcmp(how, "channels") == 0) {
+        send_size(4, 4, 9000, 0);
+    } else if (strcmp(how, "nan") == 0) {
+        send_floats(NAN);
+    } else if (strcmp(how, "infinite") == 0) {
+        send_floats(INFINITY);
+    } else if (strcmp(how, "short") == 0) {
+        send_size(64, 64, 4, 0);
+        _exit(0);
+    } else if (strcmp(how, "silent") == 0) {
+        pause();
+    } else if (strcmp(how, "busy") == 0) {
+        for (volatile unsigned i = 0;; i++)
+            continue;
+    } else if (strcmp(how, "crash") == 0) {
+        abort();
+    } else if (strcmp(how, "what") == 0) {
+        send_answer((struct kiln_decode_answer){.what = 0xdeadbeef});
+    } else if (strcmp(how, "other") == 0) {
+        send_answer((struct kiln_decode_answer){.what = KILN_DECODE_READY});
+    } else if (strcmp(how, "endless-text") == 0) {
+        struct kiln_decode_answer answer = {.what = KILN_DECODE_FAILED, .code = KILN_INVALID_INPUT};
+        memset(answer.text, 'a', sizeof answer.text);
+        send_answer(answer);
+    } else if (strcmp(how, "escapes") == 0) {
+        send_failure(KILN_INVALID_INPUT, "\033]0;owned\007 \xe2\x80\xae \xff %s%n");
+    } else if (strcmp(how, "no-error") == 0) {
+        send_failure(KILN_OK, "all is well");
+    } else if (strcmp(how, "wrong-code") == 0) {
+        send_failure(-12345, "?");
+    } else if (strcmp(how, "over") == 0) {
+        send_failure(KILN_OVER_LIMIT, "over");
+    } else if (strcmp(how, "wants") == 0) {
+        for (;;) {
+            struct kiln_decode_answer answer = {.what = KILN_DECODE_WANTS, .text = "deep.bin"};
+            struct kiln_decode_file file;
+            send_answer(answer);
+            if (read(KILN_DECODE_SOCKET, &file, sizeof file) <= 0)
+                _exit(0);
+        }
+    } else if (strcmp(how, "wants-secret") == 0) {
+        struct kiln_decode_file file;
+        send_answer((struct kiln_decode_answer){.what = KILN_DECODE_WANTS, .text = "../secret"});
+        read(KILN_DECODE_SOCKET, &file, sizeof file);
+        send_failure(KILN_INVALID_INPUT, file.is_open ? "it was opened" : "it was not");
+    } else if (strcmp(how, "vertices") == 0) {
+        send_mesh(0xfffffff0u, 0xfffffff0u, NULL, NULL);
+    } else if (strcmp(how, "no-triangles") == 0) {
+        send_mesh(3, 0, sound, NULL);
+    } else if (strcmp(how, "beyond") == 0) {
+        send_mesh(3, 1, sound, beyond);
+    } else if (strcmp(how, "far") == 0) {
+        places[0] = 1e30f;
+        send_mesh(3, 1, places, corners);
+    } else if (strcmp(how, "no-place") == 0) {
+        places[7] = NAN;
+        send_mesh(3, 1, places, corners);
+    } else if (strcmp(how, "no-normal") == 0) {
+        places[4] = 40;
+        send_mesh(3, 1, places, corners);
+    } else if (strcmp(how, "sound") == 0) {
+        send_mesh(3, 1, sound, corners);
+    }
+}
+
+/* ---- the process ----------------------------------------------------------------------------- */
+
+int main(int argc, char **argv)
+{
+    const char *how = getenv("KILN_COMPROMISED");
+    struct kiln_error error = {0};
+    struct kiln_decode_request request;
+    struct kiln_decode_answer ready = {.what = KILN_DECODE_READY};
+    parent = getppid();
+    strcpy(ready.text, how && strcmp(how, "version") == 0 ? "99" : KILN_VERSION);
+    (void)argv;
+    if (argc != 3 || !how || !decode_confine(KILN_DECODE_PNG, UINT64_MAX, &error))
+        return 1;
+    send_answer(ready);
+    while (read(KILN_DECODE_SOCKET, &request, sizeof request) > 0)
+        misbehave(how);
+    return 0;
+}

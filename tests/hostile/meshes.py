@@ -1,0 +1,104 @@
+"""Meshes and grids that are broken, lie, nest or never end."""
+import json
+import struct
+
+from rows import LIMIT, OK, REFUSED, asset, check
+
+
+def gltf(**changes):
+    """A triangle whose buffer is in the file itself."""
+    import base64
+    data = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
+    tree = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                           "min": [0, 0, 0], "max": [1, 1, 0]}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}],
+            "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}]}
+    tree.update(changes)
+    return tree
+
+
+def glb(text, length=None, chunk=None):
+    text = text if isinstance(text, bytes) else text.encode()
+    text += b" " * (-len(text) % 4)
+    return struct.pack("<4sIII4s", b"glTF", 2, 20 + len(text) if length is None else length,
+                       len(text) if chunk is None else chunk, b"JSON") + text
+
+
+def nested(levels, open_="[", close="]"):
+    return json.dumps(gltf())[:-1] + ', "extras": ' + open_ * levels + close * levels + "}"
+
+
+def meshes():
+    triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+    accessor = gltf()["accessors"][0]
+    objs = {
+        "empty": "", "no faces": triangle, "lines": triangle + "l 1 2 3\n", "points": triangle + "p 1 2 3\n",
+        "index 0": triangle + "f 0 0 0\n", "beyond": triangle + "f 1 2 9999999\n", "negative": triangle + "f -9 -8 -7\n",
+        "not a number": "v nan nan nan\n" * 3 + "f 1 2 3\n", "infinite": "v inf 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+        "far": "v 1e38 0 0\nv 1 0 0\nv 0 1e38 0\nf 1 2 3\n", "overflow": "v 1e999 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+        "no area": "v 0 0 0\n" * 3 + "f 1 2 3\n", "polygon": triangle + "f " + "1 2 3 " * 20000 + "\n",
+        "line": "v " + "0 " * 100000 + "\n" + triangle + "f 1 2 3\n", "zero byte": triangle + "f 1 2 3\n\0",
+        "materials": "mtllib ../secret.txt\nusemtl a\n" + triangle + "f 1 2 3\n",
+        "too many": triangle + "f 1 2 3\n" * 1100000, "groups": "g a\n" * 50000 + triangle + "f 1 2 3\n",
+    }
+    fine = {"polygon", "line", "materials", "groups"}
+    for label, text in objs.items():
+        codes = OK + REFUSED if label in fine else REFUSED
+        yield asset("meshes", "mesh", f"OBJ {label}", "a.obj", text, codes, smoke=label in ("not a number", "lines"))
+    yield asset("meshes", "mesh", "OBJ over the limit", "a.obj", triangle + "f 1 2 3\nf 1 3 2\n" * 50, LIMIT,
+                lambda: check("--limits", "triangles=10"))
+    trees = {
+        "sound": gltf(), "no nodes": gltf(nodes=[]), "node of itself": gltf(nodes=[{"mesh": 0, "children": [0]}]),
+        "nodes in a ring": gltf(nodes=[{"children": [1]}, {"children": [0], "mesh": 0}]),
+        "mesh missing": gltf(nodes=[{"mesh": 77}]), "count": gltf(accessors=[dict(accessor, count=0x7fffffff)]),
+        "negative count": gltf(accessors=[dict(accessor, count=-3)]), "type": gltf(accessors=[dict(accessor, type="MAT99")]),
+        "offset": gltf(accessors=[dict(accessor, byteOffset=1 << 40)]),
+        "view": gltf(bufferViews=[{"buffer": 0, "byteOffset": 30, "byteLength": 1 << 50}]),
+        "view missing": gltf(accessors=[dict(accessor, bufferView=5)]), "buffer missing": gltf(buffers=[]),
+        "buffer length": gltf(buffers=[{"byteLength": 1 << 60, "uri": "data:,a"}]),
+        "sparse": gltf(accessors=[dict(accessor, sparse={"count": 1 << 30, "indices": {"bufferView": 0, "componentType": 5125},
+                                                          "values": {"bufferView": 0}})]),
+        "extension": gltf(extensionsRequired=["KHR_draco_mesh_compression"], extensionsUsed=["KHR_draco_mesh_compression"]),
+        "version": gltf(asset={"version": "99.0"}), "names": gltf(nodes=[{"mesh": 0, "name": "\x1b]0;x\x07" * 1000}]),
+        "many nodes": gltf(nodes=[{"mesh": 0, "children": list(range(1, 3000))}] + [{"mesh": 0}] * 2999),
+        "list for a number": gltf(scene=[[[]]]), "number for a list": gltf(nodes=3, meshes="a"),
+    }
+    loose = {"sound", "names", "many nodes", "sparse", "extension", "version", "list for a number", "number for a list",
+             "mesh missing", "no nodes"}
+    for i, (label, tree) in enumerate(trees.items()):
+        codes = OK + REFUSED if label in loose else REFUSED
+        yield asset("meshes", "mesh", f"glTF {label}", "a.gltf", json.dumps(tree), codes, seconds=45,
+                    smoke=label == "node of itself")
+    texts = {
+        "nested lists": nested(64), "nested objects": nested(64, '{"a":', "}").replace('"a":}', '"a":0}'),
+        "nested for ever": nested(200000), "cut": json.dumps(gltf())[:100], "binary": b"{" + bytes(range(256)),
+        "number": json.dumps(gltf()).replace("36", "3" * 5000), "array": "[]",
+    }
+    for label, text in texts.items():
+        yield asset("meshes", "mesh", f"glTF {label}", "a.gltf", text, smoke=label == "nested lists")
+    glbs = {
+        "head": b"glTF", "length": glb(json.dumps(gltf()), length=0xffffffff), "chunk": glb(json.dumps(gltf()), chunk=0xffffffff),
+        "nested": glb(nested(64)), "version": b"glTF" + struct.pack("<II", 77, 12) + bytes(40), "text": glb("no JSON"),
+    }
+    for label, data in glbs.items():
+        yield asset("meshes", "moving" if label == "nested" else "mesh", f"GLB {label}", "a.glb", data)
+    yield asset("meshes", "moving", "glTF that does not move", "a.gltf", json.dumps(gltf()))
+
+
+def grids():
+    head = "kiln-grid 1\nsize 2 2 2\norigin 0 0 0\nspacing 1 1 1\ndata\n"
+    files = {
+        "empty": "", "head": "kiln-grid 1\n", "cut": head + "\0" * 20, "too long": head.encode() + bytes(97),
+        "size": head.replace("2 2 2", "1024 1024 1024"), "negative": head.replace("2 2 2", "-2 -2 -2"),
+        "overflow": head.replace("2 2 2", "4294967298 4294967298 2"), "not a number": head.encode() + struct.pack("<24f", *[float("nan")] * 24),
+        "spacing": head.replace("spacing 1 1 1", "spacing 0 0 0"), "line": "kiln-grid " + "1" * 100000,
+        "escapes": "kiln-grid 1\nsize \x1b[31m 2 2\n", "no newline": "kiln-grid 1",
+    }
+    for label, data in files.items():
+        yield asset("grids", "wind", label, "a.grid", data, smoke=label == "not a number")
+
+
+def rows():
+    return [*meshes(), *grids()]
