@@ -1,0 +1,59 @@
+/* Fuzzes what kiln takes from kiln-decode, which a file may have taken over: any bytes are a sound
+ * picture, video, mesh or skin, or an error. They come from a process in its place (feeder.c). */
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "asset/geometry/skin.h"
+#include "asset/image/video_in.h"
+#include "fuzz.h"
+#include "image_check.h"
+#include "mesh_check.h"
+
+static char fed[64]; /* the file */
+
+static void begin(void)
+{
+    snprintf(fed, sizeof fed, "/tmp/kiln-fuzz-%d.mp4", (int)getpid());
+    setenv("KILN_FEED", fed, 1);
+    setenv("KILN_LIBEXEC_DIR", KILN_FEEDER, 1);
+}
+
+static void feed(const uint8_t *data, size_t size)
+{
+    const int file = open(fed, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    require(file >= 0 && write(file, data, size) == (ssize_t)size, "the file cannot be written");
+    close(file);
+}
+
+static void read_video(void)
+{
+    struct kiln_error error = {0};
+    struct kiln_video_in *video = kiln_video_in_open(NULL, fed, &error);
+    struct kiln_asset_image *image = NULL;
+    while (video && kiln_video_in_read(video, &image, &error) && image)
+        check_image(image, &error);
+    kiln_video_in_close(&video);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    static const char png[] = "\x89PNG\r\n\x1a\n";
+    struct kiln_error error = {0};
+    if (!*fed)
+        begin();
+    feed(data, size);
+    check_image(kiln_asset_image_parse(png, sizeof png, "fuzz.png", &error), &error);
+    read_video();
+    struct kiln_mesh *mesh = kiln_mesh_parse("v", 1, "fuzz.obj", &error);
+    if (mesh)
+        check_mesh(mesh);
+    kiln_mesh_destroy(&mesh);
+    struct kiln_skin *skin = kiln_skin_parse("{", 1, "fuzz.gltf", &error);
+    if (skin)
+        check_skin(skin);
+    kiln_skin_destroy(&skin);
+    unlink(fed);
+    return 0;
+}

@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# How much of each parser the kept inputs reach, and those that fuzz-long has found: coverage.sh SOURCE
+# BUILD [FOUND]. Lines by gcov, of the files that fuzz targets are for.
+set -euo pipefail
+source=$1 build=$2 found=${3:-}
+cmake -S "$source" -B "$build" -G Ninja -DCMAKE_C_COMPILER=gcc -DCMAKE_BUILD_TYPE=Debug \
+    -DCMAKE_C_FLAGS="--coverage -fprofile-update=atomic" -DKILN_TESTS=ON -DKILN_SIMD_LEVELS=0 >/dev/null
+mapfile -t names < <(sed -n '/^foreach(target/,/)$/p' "$source/tests/fuzz/CMakeLists.txt" | tr '() ' '\n\n\n' |
+    grep -vxE 'foreach|target|' | sort -u)
+cmake --build "$build" --target "${names[@]/#/replay_}" >/dev/null
+find "$build" -name '*.gcda' -delete
+for name in "${names[@]}"; do
+    folders=("$source/tests/fuzz/corpus/$name"/*)
+    [[ ! -d $found/$name ]] || folders+=("$found/$name")
+    "$build/tests/fuzz/replay_$name" 0 "${folders[@]}" >/dev/null || echo "$name fails on a kept input" >&2
+done
+files=(decode/{png,picture,video,exr,avframe} lib/asset/image/{image,received,video_in}
+    lib/asset/loader/{helper,loader} lib/asset/geometry/{mesh_in,mesh_arrays,skin,grid_in} lib/option/{node,reader}
+    lib/suite/{test_file,expect,result} lib/compare/footage lib/job/{journal_read,journal_head,state,pack}
+    lib/output/part_file)
+printf '%-36s %8s %8s\n' file lines reached
+for file in "${files[@]}"; do
+    data=$(find "$build" -path "*$file.c.gcda" | head -n 1)
+    [[ -n $data ]] || continue
+    gcov -n "$data" 2>/dev/null | awk -v file="$file.c" '
+        /^File/ { own = index($0, file) > 0 }
+        own && /^Lines executed/ {
+            split($0, p, /[:% ]+/)
+            printf "%-36s %8d %7.1f%%\n", file, $NF, p[3]
+            own = 0
+        }'
+done

@@ -1,0 +1,41 @@
+/* Fuzzes what kiln-decode does with what assimp made of a file, in this process: any bytes are a
+ * mesh or an error. A crash of assimp itself is no finding: it has a process of its own (mesh.c).
+ */
+#include <stdlib.h>
+
+#include "decode.h"
+#include "fuzz.h"
+#include "image_check.h"
+
+static void import(const uint8_t *data, size_t size, enum kiln_mesh_format format, bool moving)
+{
+    struct kiln_error error = {0};
+    const struct decode_mesh mesh = {
+        .format = format, .uvs = !moving, .moving = moving, .bytes = data, .size = size};
+    struct kiln_mesh_result *result = calloc(1, sizeof *result);
+    require(result != NULL, "no memory");
+    const bool made = decode_mesh(&mesh, result, &error);
+    require(made || (error.code != KILN_OK && *error.message), "an error without a message");
+    require(result->vertex_count <= KILN_MAX_MESH_VERTICES &&
+                result->triangle_count <= KILN_MAX_MESH_TRIANGLES &&
+                result->skin.node_count <= KILN_MAX_SKIN_NODES &&
+                result->skin.bone_count <= KILN_MAX_SKIN_BONES &&
+                result->skin.clip_count <= KILN_MAX_CLIPS &&
+                result->skin.channel_count <= KILN_MAX_CLIP_CHANNELS &&
+                result->skin.key_count <= KILN_MAX_CLIP_KEYS,
+            "more than there is room for");
+    free(result);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    struct kiln_error error = {0};
+    require(decode_mesh_begin(&error), "assimp is missing");
+    const enum kiln_mesh_format format = size && data[0] == 'g'   ? KILN_MESH_GLB
+                                         : size && data[0] == '{' ? KILN_MESH_GLTF
+                                                                  : KILN_MESH_OBJ;
+    import(data, size, format, false);
+    if (format != KILN_MESH_OBJ)
+        import(data, size, format, true);
+    return 0;
+}
