@@ -5,7 +5,8 @@
 /* Seconds of a clock that never jumps, from an arbitrary start. */
 double kiln_clock_seconds(void);
 
-/* Seconds that processors have worked for this process, all of its threads together. */
+/* Seconds that processors have worked for this process, all of its threads together, and for
+ * processes that it started, once they have ended. */
 double kiln_clock_cpu_seconds(void);
 
 #endif

@@ -9,8 +9,8 @@
 
 /* What one of each takes, and what there is in any case. */
 enum {
-    PROGRAM_BYTES = 40 << 20,
-    ANY_MESH_BYTES = 18 << 20,
+    PROGRAM_BYTES = 26 << 20,
+    ANY_MESH_BYTES = 6 << 20,
     PIXEL_BYTES = 68,
     SLOT_BYTES = 100,
     CELL_BYTES = 150000, /* of an atlas, and while it is made */

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # libFuzzer on every target, for so many seconds of processor time in all: long.sh SOURCE BUILD SECONDS.
-# Targets share the time evenly, in turns of five minutes; what each has had stands in BUILD/found/*.spent,
+# Targets share the time evenly, in turns of a minute; what each has had stands in BUILD/found/*.spent,
 # so that a run that was stopped goes on with what is left. What is found new is kept in BUILD/found/NAME;
 # an input that makes a target fail stays in BUILD/NAME-crash-*, and is named. At the end stands how much of
 # kiln's own files the inputs reach.
@@ -21,34 +21,34 @@ cmake --build "$build" --target fuzzers
 
 export LSAN_OPTIONS=print_suppressions=0:suppressions=$source/tests/tree/leaks.supp
 export ASAN_OPTIONS=allocator_may_return_null=1
-export source build turn=300
+export source build turn=60
 mapfile -t names < <(find "$build/tests/fuzz" -maxdepth 1 -name 'fuzz_*' -type f -executable -printf '%f\n' |
     sed 's/^fuzz_//' | sort)
 export share=$(((seconds + ${#names[@]} - 1) / ${#names[@]}))
 
-# fuzz NAME: what is left of its share. A crash of assimp is no finding of `import`, which goes on.
+# fuzz NAME: a turn of its share. A crash of assimp is no finding of `import`, which goes on.
 fuzz() {
     local name=$1 found=$build/found/$1 spent=0 left corpus options=()
     corpus=$source/tests/fuzz/corpus/${name/import/mesh}
     [[ $name != import ]] || options=(-fork=1 -ignore_crashes=1 -ignore_ooms=1 -ignore_timeouts=1)
     mkdir -p "$found"
     [[ ! -s $found.spent ]] || read -r spent <"$found.spent"
-    while ((spent < share)); do
-        left=$((share - spent < turn ? share - spent : turn))
-        if ! "$build/tests/fuzz/fuzz_$name" -max_total_time=$left -print_final_stats=1 -verbosity=0 -timeout=30 \
-            -rss_limit_mb=4096 "${options[@]}" -artifact_prefix="$build/$name-" "$found" "$corpus"/* >"$found.log" 2>&1; then
-            echo "$name: failed after $spent s: $(grep -m1 -E 'ERROR|SUMMARY|fuzz:' "$found.log")"
-            return 1
-        fi
-        spent=$((spent + left))
-        echo $spent >"$found.spent"
-    done
-    printf '%-10s %6d s  %s\n' "$name" "$spent" \
-        "$(grep -ohE 'stat::number_of_executed_units: [0-9]+|cov: [0-9]+' "$found.log" | tail -n 2 | tr '\n' ' ')"
+    left=$((share - spent < turn ? share - spent : turn))
+    ((left > 0)) || return 0
+    if ! "$build/tests/fuzz/fuzz_$name" -max_total_time=$left -print_final_stats=1 -timeout=30 -rss_limit_mb=4096 \
+        "${options[@]}" -artifact_prefix="$build/$name-" "$found" "$corpus"/* >"$found.log" 2>&1; then
+        echo "$name: failed after $spent s: $(grep -m1 -E 'ERROR|SUMMARY|fuzz:' "$found.log")"
+        return 1
+    fi
+    echo $((spent + left)) >"$found.spent"
+    printf '%-10s %6d s %8d inputs kept, %s\n' "$name" $((spent + left)) "$(find "$found" -type f | wc -l)" \
+        "$(grep -oE 'cov: [0-9]+' "$found.log" | tail -n 1)"
 }
 export -f fuzz
 status=0
-printf '%s\n' "${names[@]}" | xargs -P "$(nproc)" -I{} bash -c 'fuzz {}' || status=1
+for ((had = 0; had < share && status == 0; had += turn)); do
+    printf '%s\n' "${names[@]}" | xargs -P "$(nproc)" -I{} bash -c 'fuzz {}' || status=1
+done
 "$source/tests/fuzz/coverage.sh" "$source" "$build-coverage" "$build/found"
 ((status == 0)) && echo "every target held for $share s"
 exit $status
