@@ -131,8 +131,10 @@ static void measure_box(struct box *box)
     }
 }
 
-/* Cuts a box of more than one point at its mean; points keep no order, but the same one always. */
-static void split_box(struct box *box, struct box *upper)
+/* Cuts a box of more than one point at its mean; points keep no order, but the same one always.
+ * False when rounding has put the mean beside all of them: they are one point for all that matters.
+ */
+static bool split_box(struct box *box, struct box *upper)
 {
     size_t begin = 0, end = box->count;
     while (begin < end) {
@@ -144,10 +146,13 @@ static void split_box(struct box *box, struct box *upper)
             box->points[end] = point;
         }
     }
+    if (begin == 0 || begin == box->count)
+        return false;
     *upper = (struct box){.points = box->points + begin, .count = box->count - begin};
     box->count = begin;
     measure_box(box);
     measure_box(upper);
+    return true;
 }
 
 /* How many boxes there are in the end; 0 when the caller wants no more. */
@@ -162,10 +167,7 @@ static uint32_t split_all(struct box *boxes, uint32_t most, const struct kiln_ca
         struct box *worst = &boxes[0];
         for (uint32_t i = 1; i < count; i++)
             worst = boxes[i].error > worst->error ? &boxes[i] : worst;
-        if (worst->error <= 0)
-            break;
-        split_box(worst, &boxes[count]);
-        if (boxes[count].count == 0) /* rounding: the points are one for all that matters */
+        if (worst->error <= 0 || !split_box(worst, &boxes[count]))
             break;
         count++;
     }
