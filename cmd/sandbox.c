@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "report.h"
 
@@ -17,12 +18,16 @@ struct reached {
 
 /* ---- what the arguments name ----------------------------------------------------------------- */
 
-/* The file itself, which may be a link, and its folder, where a scene's pictures are. */
+/* The folder of a file, where a scene's pictures are, or, where that is given by an option, the
+ * file alone. A link is not followed: whoever made the folder could lead it anywhere. */
 static bool add_file(struct reached *reached, const char *path, bool alone)
 {
-    reached->readable[reached->readable_count++] = path;
-    if (alone)
+    struct stat status;
+    if (alone) {
+        if (lstat(path, &status) != 0 || !S_ISLNK(status.st_mode))
+            reached->readable[reached->readable_count++] = path;
         return true;
+    }
     char *folder = malloc(strlen(path) + 2);
     if (!folder)
         return false;

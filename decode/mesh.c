@@ -339,10 +339,9 @@ static bool explain(const char *said, struct kiln_error *error)
     if (strstr(said, "no faces"))
         return kiln_error_set(error, KILN_INVALID_INPUT, "the mesh has no triangles");
     if (strstr(said, "No suitable reader"))
-        return kiln_error_set(
-            error, KILN_INVALID_INPUT,
-            "the file is of a version of glTF that cannot be read; allowed are 2, "
-            "and 1 as .gltf");
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "the mesh is broken, or of a version of glTF that cannot be read; "
+                              "allowed are 2, and 1 as .gltf");
     return kiln_error_set(error, KILN_INVALID_INPUT, "the mesh is broken: %.300s", said);
 }
 

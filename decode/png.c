@@ -56,21 +56,23 @@ static void on_read(png_structp png, png_bytep out, size_t size)
 
 static bool open_file(struct reading *reading)
 {
+    reading->png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, reading, on_failure, on_warning,
+                                            reading, allocate, release);
+    reading->info = reading->png ? png_create_info_struct(reading->png) : NULL;
+    return reading->info != NULL;
+}
+
+static void choose_chunks(struct reading *reading)
+{
     /* Everything that libpng knows and a picture does not need. */
     static const png_byte ignored[] = "iCCP\0iTXt\0tEXt\0zTXt\0sPLT\0hIST\0eXIf\0pCAL\0sCAL\0oFFs\0"
                                       "pHYs\0tIME\0bKGD\0sBIT\0cHRM";
     enum { IGNORED = sizeof ignored / 5 };
-    reading->png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, reading, on_failure, on_warning,
-                                            reading, allocate, release);
-    reading->info = reading->png ? png_create_info_struct(reading->png) : NULL;
-    if (!reading->info)
-        return false;
     png_set_keep_unknown_chunks(reading->png, PNG_HANDLE_CHUNK_NEVER, ignored, IGNORED);
     png_set_keep_unknown_chunks(reading->png, PNG_HANDLE_CHUNK_NEVER, NULL, 0);
     png_set_crc_action(reading->png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
     png_set_user_limits(reading->png, PNG_UINT_31_MAX, PNG_UINT_31_MAX); /* judged here instead */
     png_set_read_fn(reading->png, reading, on_read);
-    return true;
 }
 
 /* Of the file, before a palette or a transparent colour becomes what it stands for. */
@@ -150,6 +152,7 @@ static bool read_file(struct reading *reading)
                                                       "the PNG image is broken or cut short (%s)",
                                                       reading->complaint);
     }
+    choose_chunks(reading);
     png_read_info(reading->png, reading->info);
     if (!make_image(reading))
         return false;

@@ -145,18 +145,22 @@ bool kiln_seccomp_open(struct kiln_error *error)
     return !kiln_has_seccomp() || open_library(&library, error);
 }
 
-static int add_calls(const struct seccomp *library, scmp_filter_ctx filter, uint32_t action,
+static int add_calls(const struct seccomp *library, scmp_filter_ctx filter, bool only,
                      const struct kiln_system_call *calls, size_t count)
 {
     int status = library->seccomp_attr_set(filter, SCMP_FLTATR_CTL_TSYNC, 1);
     for (size_t i = 0; status == 0 && i < count; i++) {
         const struct kiln_system_call *call = &calls[i];
-        const struct scmp_arg_cmp condition = {.arg = call->argument,
-                                               .op = SCMP_CMP_MASKED_EQ,
-                                               .datum_a = call->mask,
-                                               .datum_b = call->value};
-        status = library->seccomp_rule_add_array(filter, action, call->number, call->mask != 0,
-                                                 &condition);
+        const struct scmp_arg_cmp conditions[2] = {
+            {.arg = call->argument,
+             .op = call->differs ? SCMP_CMP_NE : SCMP_CMP_MASKED_EQ,
+             .datum_a = call->differs ? call->value : call->mask,
+             .datum_b = call->differs ? 0 : call->value},
+            {.arg = call->and_argument, .op = SCMP_CMP_MASKED_EQ, .datum_a = call->and_mask}};
+        const unsigned first = call->mask != 0 || call->differs, second = call->and_mask != 0;
+        const uint32_t refused = SCMP_ACT_ERRNO((uint32_t)(call->refusal ? call->refusal : EPERM));
+        status = library->seccomp_rule_add_array(filter, only ? SCMP_ACT_ALLOW : refused,
+                                                 call->number, first + second, conditions);
     }
     return status;
 }
@@ -173,8 +177,7 @@ bool kiln_seccomp_confine(enum kiln_calls which, const struct kiln_system_call *
     scmp_filter_ctx filter = library.seccomp_init(only ? SCMP_ACT_ERRNO(ENOSYS) : SCMP_ACT_ALLOW);
     if (!filter)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a seccomp filter");
-    int status =
-        add_calls(&library, filter, only ? SCMP_ACT_ALLOW : SCMP_ACT_ERRNO(EPERM), calls, count);
+    int status = add_calls(&library, filter, only, calls, count);
     if (status == 0)
         status = library.seccomp_load(filter);
     library.seccomp_release(filter);

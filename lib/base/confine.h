@@ -44,12 +44,17 @@ bool kiln_seccomp_open(struct kiln_error *error);
  * Landlock; KILN_DEVICE_FAILED when the kernel refuses. */
 bool kiln_landlock_confine(const struct kiln_place *places, size_t count, struct kiln_error *error);
 
-/* A system call: with any arguments, or only where (argument & mask) == value. */
+/* A system call: with any arguments, or only where (argument & mask) == value and another argument
+ * has none of some bits; or only where the argument is another than the value. */
 struct kiln_system_call {
     int number; /* SCMP_SYS(read) of <seccomp.h> */
     unsigned argument;
     uint64_t mask; /* 0: any */
     uint64_t value;
+    unsigned and_argument;
+    uint64_t and_mask; /* 0: any */
+    bool differs;      /* the argument is not the value */
+    int refusal;       /* errno of one that is refused; 0: EPERM */
 };
 
 enum kiln_calls { KILN_ONLY_THESE_CALLS, KILN_ALL_BUT_THESE_CALLS };

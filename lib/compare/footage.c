@@ -29,6 +29,7 @@ struct kiln_footage {
     struct entry *entries;
     size_t count, capacity, next;
 
+    struct kiln_loader *loader; /* keeps the process that decodes for the next picture */
     struct kiln_video_in *video;
     struct kiln_asset_image *image; /* decoded ahead */
     struct kiln_error video_error;
@@ -176,7 +177,7 @@ static bool open_path(struct kiln_footage *footage, struct kiln_error *error)
         return open_folder(footage, error);
     if (exists && kiln_video_in_has_suffix(footage->path)) {
         footage->kind = KILN_FOOTAGE_VIDEO;
-        footage->video = kiln_video_in_open(NULL, footage->path, error);
+        footage->video = kiln_video_in_open(footage->loader, footage->path, error);
         return footage->video != NULL;
     }
     if (exists)
@@ -200,8 +201,13 @@ struct kiln_footage *kiln_footage_open(const char *path, const char *layer,
         kiln_arena_destroy(&arena);
         return NULL;
     }
-    *footage = (struct kiln_footage){.arena = arena, .path = copy, .layer = layer};
-    if (!open_path(footage, error)) {
+    const struct kiln_loader_params anywhere = {.root = NULL};
+    *footage = (struct kiln_footage){
+        .arena = arena, .path = copy, .layer = layer, .loader = kiln_loader_create(&anywhere)};
+    if (!footage->loader) {
+        no_memory(path, error);
+        kiln_footage_close(&footage);
+    } else if (!open_path(footage, error)) {
         if (error->code == KILN_IO)
             error->code = KILN_INVALID_INPUT;
         kiln_footage_close(&footage);
@@ -215,6 +221,7 @@ void kiln_footage_close(struct kiln_footage **footage)
         return;
     kiln_video_in_close(&(*footage)->video);
     kiln_asset_image_destroy(&(*footage)->image);
+    kiln_loader_destroy(&(*footage)->loader);
     free((*footage)->entries);
     struct kiln_arena *arena = (*footage)->arena;
     *footage = NULL;
@@ -292,7 +299,7 @@ static struct kiln_asset_image *take_file(const struct kiln_footage *footage,
     char path[KILN_PATH_SIZE];
     if (!kiln_footage_file(footage, path, error))
         return NULL;
-    return kiln_asset_image_load_layer(NULL, path, footage->layer, error);
+    return kiln_asset_image_load_layer(footage->loader, path, footage->layer, error);
 }
 
 struct kiln_asset_image *kiln_footage_take(struct kiln_footage *footage, struct kiln_error *error)

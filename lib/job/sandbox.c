@@ -2,7 +2,9 @@
  * job needs (seccomp). What kiln-decode needs to start stays: its own file, the dynamic linker and
  * libraries; it locks itself in much further (decode/confine.c). */
 #include <elf.h>
+#include <errno.h>
 #include <link.h>
+#include <sched.h>
 #include <seccomp.h>
 #include <stdlib.h>
 #include <string.h>
@@ -131,7 +133,15 @@ static bool add_cache(struct places *places, char cache[KILN_PATH_SIZE])
 
 #define CALL(name)                                                                                 \
     {                                                                                              \
-        SCMP_SYS(name), 0, 0, 0                                                                    \
+        .number = SCMP_SYS(name)                                                                   \
+    }
+#define CALL_WITH(name, bits)                                                                      \
+    {                                                                                              \
+        .number = SCMP_SYS(name), .mask = bits, .value = bits                                      \
+    }
+#define CALL_OF_OTHERS(name)                                                                       \
+    {                                                                                              \
+        .number = SCMP_SYS(name), .differs = true                                                  \
     }
 
 /* Calls that no job makes, and that have been ways out of sandboxes, or into the kernel. */
@@ -203,6 +213,55 @@ static const struct kiln_system_call refused[] = {
     CALL(setresgid),
     CALL(setgroups),
     CALL(capset),
+    /* what Landlock does not know of */
+    CALL(chmod),
+    CALL(fchmod),
+    CALL(fchmodat),
+    CALL(chown),
+    CALL(fchown),
+    CALL(lchown),
+    CALL(fchownat),
+    CALL(utime),
+    CALL(utimes),
+    CALL(utimensat),
+    CALL(futimesat),
+    CALL(setxattr),
+    CALL(lsetxattr),
+    CALL(fsetxattr),
+    CALL(removexattr),
+    CALL(lremovexattr),
+    CALL(fremovexattr),
+    CALL(inotify_add_watch),
+    CALL(fanotify_init),
+    CALL(fanotify_mark),
+    CALL(shmget),
+    CALL(shmat),
+    CALL(msgget),
+    CALL(semget),
+    CALL(mq_open),
+    CALL(memfd_create),
+    CALL(memfd_secret),
+    /* of other processes */
+    CALL_OF_OTHERS(prlimit64),
+    CALL(setpriority),
+    CALL(sched_setscheduler),
+    CALL(sched_setparam),
+    CALL(sched_setattr),
+    CALL_OF_OTHERS(sched_setaffinity),
+    CALL(ioprio_set),
+    CALL(tkill),
+    CALL(migrate_pages),
+    CALL(move_pages),
+    /* Namespaces of its own: the C library takes clone where there is no clone3, whose flags a
+     * filter cannot see. */
+    {.number = SCMP_SYS(clone3), .refusal = ENOSYS},
+    CALL_WITH(clone, CLONE_NEWUSER),
+    CALL_WITH(clone, CLONE_NEWNS),
+    CALL_WITH(clone, CLONE_NEWNET),
+    CALL_WITH(clone, CLONE_NEWPID),
+    CALL_WITH(clone, CLONE_NEWIPC),
+    CALL_WITH(clone, CLONE_NEWUTS),
+    CALL_WITH(clone, CLONE_NEWCGROUP),
 };
 
 /* ---- entering -------------------------------------------------------------------------------- */

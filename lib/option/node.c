@@ -297,10 +297,14 @@ static bool report_nothing(const struct kiln_origin *origin, struct kiln_error *
 }
 
 /* Refuses what is no text before a parser sees it. */
+/* libfyaml looks at all blank lines of a block again for each of them. */
+enum { MOST_BLANK_LINES = 5000 };
+
 static bool check_bytes(const char *text, size_t size, const struct kiln_origin *origin,
                         struct kiln_error *error)
 {
     struct kiln_node place = {.origin = origin, .line = 1, .column = 1};
+    size_t blank_lines = 0; /* without a break */
     for (size_t i = 0; i < size;) {
         size_t length = kiln_text_utf8_length(text + i);
         if (text[i] == '\0')
@@ -308,6 +312,12 @@ static bool check_bytes(const char *text, size_t size, const struct kiln_origin 
         if (length == 0)
             return kiln_node_error(&place, error, "not a text: invalid UTF-8 (byte 0x%02x)",
                                    (unsigned char)text[i]);
+        blank_lines = text[i] == '\n'            ? blank_lines + 1
+                      : strchr(" \t\r", text[i]) ? blank_lines
+                                                 : 0;
+        if (blank_lines > MOST_BLANK_LINES)
+            return kiln_node_error(&place, error, "more than %d blank lines without a break",
+                                   MOST_BLANK_LINES);
         if (text[i] == '\n') {
             place.line++;
             place.column = 0;

@@ -136,7 +136,7 @@ static struct kiln_scene *create(const char *text, size_t size, const char *name
               kiln_reader_out_of_memory(&reader)) &&
              build(&reader, text, size, params);
         scene->budget = params->budget;
-        kiln_loader_stop_counting(scene->loader);
+        kiln_loader_stop_counting(scene->loader, params->budget);
     }
     kiln_arena_destroy(&scratch);
     if (!ok && scene) {
@@ -164,11 +164,33 @@ static struct kiln_scene *create_counted(const char *text, size_t size, const ch
     return scene;
 }
 
+/* A scene that lies in the asset root is no link out of it: whoever filled the folder made that,
+ * too. */
+static bool check_place(const char *path, const char *asset_root, struct kiln_error *error)
+{
+    const char *slash = strrchr(path, '/');
+    char *named = slash ? strndup(path, (size_t)(slash - path) + 1) : strdup(".");
+    char *folder = named ? realpath(named, NULL) : NULL, *real = realpath(path, NULL);
+    char *root = asset_root ? realpath(asset_root, NULL) : NULL;
+    const bool inside =
+        folder && root && (strcmp(folder, root) == 0 || kiln_path_below(folder, root) != NULL);
+    const bool good = !inside || !real || kiln_path_below(real, root) ||
+                      kiln_error_set(error, KILN_INVALID_INPUT,
+                                     "%s: the scene leads outside the asset root", path);
+    free(named);
+    free(folder);
+    free(real);
+    free(root);
+    return good;
+}
+
 struct kiln_scene *kiln_scene_load(const char *path, const struct kiln_scene_params *params,
                                    struct kiln_error *error)
 {
     size_t size = 0;
-    char *text = kiln_text_file_read(path, "a scene file", MAX_FILE_SIZE, &size, error);
+    char *text = check_place(path, params->asset_root, error)
+                     ? kiln_text_file_read(path, "a scene file", MAX_FILE_SIZE, &size, error)
+                     : NULL;
     if (!text)
         return NULL;
     struct kiln_scene *scene = create_counted(text, size, path, path, params, error);

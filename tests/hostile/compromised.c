@@ -112,6 +112,8 @@ static bool take_more(void)
            syscall(SYS_memfd_create, "x", 0) >= 0 || syscall(SYS_unshare, 0x10000000) == 0 ||
            mmap(NULL, (size_t)8 << 30, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1,
                 0) != MAP_FAILED ||
+           mmap(NULL, (size_t)1 << 20, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0) !=
+               MAP_FAILED ||
            syscall(SYS_io_uring_setup, 1, NULL) != -1 || syscall(SYS_bpf, 0, NULL, 0) != -1;
 }
 
@@ -197,88 +199,154 @@ static void send_mesh(uint32_t vertices, uint32_t triangles, const float *places
         send_bytes(corners, 3 * triangles * sizeof *corners);
 }
 
+static const float SOUND[18] = {0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0};
+static const uint32_t CORNERS[3] = {0, 2, 1};
+
+/* A mesh of one triangle, of whose numbers one is another. */
+static void send_triangle(size_t which, float value)
+{
+    float places[18];
+    memcpy(places, SOUND, sizeof places);
+    places[which] = value;
+    send_mesh(3, 1, places, CORNERS);
+}
+
+static void do_attempts(void)
+{
+    char text[KILN_MESSAGE_SIZE];
+    try_all(text, sizeof text);
+    send_failure(KILN_INVALID_INPUT, text);
+}
+
+static void do_escapes(void)
+{
+    const char text[] = {27,         ']',        '0', ';', 'x', 7,   (char)0xe2, (char)0x80,
+                         (char)0xae, (char)0xff, '%', 's', '%', 'n', 0};
+    send_failure(KILN_INVALID_INPUT, text);
+}
+
+static void do_endless_text(void)
+{
+    struct kiln_decode_answer answer = {.what = KILN_DECODE_FAILED, .code = KILN_INVALID_INPUT};
+    memset(answer.text, 'a', sizeof answer.text);
+    send_answer(answer);
+}
+
+static void send_wish(const char *name)
+{
+    struct kiln_decode_answer answer = {.what = KILN_DECODE_WANTS};
+    snprintf(answer.text, sizeof answer.text, "%s", name);
+    send_answer(answer);
+}
+
+static void do_wants(void)
+{
+    struct kiln_decode_file file;
+    do
+        send_wish("deep.bin");
+    while (read(KILN_DECODE_SOCKET, &file, sizeof file) > 0);
+}
+
+static void do_wants_deaf(void)
+{
+    for (;;)
+        send_wish("deep.bin");
+}
+
+static void do_wants_secret(void)
+{
+    struct kiln_decode_file file = {.is_open = 0};
+    send_wish("../secret.txt");
+    const bool heard = read(KILN_DECODE_SOCKET, &file, sizeof file) > 0;
+    send_failure(KILN_INVALID_INPUT, heard && file.is_open ? "it was opened" : "it was not");
+}
+
+static void do_busy(void)
+{
+    for (volatile unsigned i = 0;; i++)
+        continue;
+}
+
+static void do_short(void)
+{
+    send_size(64, 64, 4, 0);
+    _exit(0);
+}
+
+static void do_beyond(void)
+{
+    const uint32_t beyond[3] = {0, 2, 0x7fffffff};
+    send_mesh(3, 1, SOUND, beyond);
+}
+
+#define DO(name, call)                                                                             \
+    static void do_##name(void)                                                                    \
+    {                                                                                              \
+        call;                                                                                      \
+    }
+DO(huge, send_size(0xffffffffu, 0xffffffffu, 4, 0))
+DO(overflow, send_size(0x10000, 0x10001, 4, 2))
+DO(largest, send_size(16384, 16384, 4, 2))
+DO(nothing, send_size(0, 0, 4, 0))
+DO(type, send_size(4, 4, 4, 77))
+DO(channels, send_size(4, 4, 9000, 0))
+DO(nan, send_floats(NAN))
+DO(infinite, send_floats(INFINITY))
+DO(silent, pause())
+DO(crash, abort())
+DO(what, send_answer((struct kiln_decode_answer){.what = 0xdeadbeef}))
+DO(other, send_answer((struct kiln_decode_answer){.what = KILN_DECODE_READY}))
+DO(no_error, send_failure(KILN_OK, "all is well"))
+DO(wrong_code, send_failure(-12345, "?"))
+DO(over, send_failure(KILN_OVER_LIMIT, "over"))
+DO(vertices, send_mesh(0xfffffff0u, 0xfffffff0u, NULL, NULL))
+DO(no_triangles, send_mesh(3, 0, SOUND, NULL))
+DO(far, send_triangle(0, 1e30f))
+DO(no_place, send_triangle(7, NAN))
+DO(no_normal, send_triangle(4, 40))
+DO(sound, send_mesh(3, 1, SOUND, CORNERS))
+
+static const struct way {
+    const char *name;
+    void (*act)(void);
+} ways[] = {
+    {"attempts", do_attempts},
+    {"escapes", do_escapes},
+    {"endless-text", do_endless_text},
+    {"wants", do_wants},
+    {"wants-deaf", do_wants_deaf},
+    {"wants-secret", do_wants_secret},
+    {"busy", do_busy},
+    {"short", do_short},
+    {"beyond", do_beyond},
+    {"huge", do_huge},
+    {"overflow", do_overflow},
+    {"largest", do_largest},
+    {"nothing", do_nothing},
+    {"type", do_type},
+    {"channels", do_channels},
+    {"nan", do_nan},
+    {"infinite", do_infinite},
+    {"silent", do_silent},
+    {"crash", do_crash},
+    {"what", do_what},
+    {"other", do_other},
+    {"no-error", do_no_error},
+    {"wrong-code", do_wrong_code},
+    {"over", do_over},
+    {"vertices", do_vertices},
+    {"no-triangles", do_no_triangles},
+    {"far", do_far},
+    {"no-place", do_no_place},
+    {"no-normal", do_no_normal},
+    {"sound", do_sound},
+};
+
 static void misbehave(const char *how)
 {
-    static const float sound[18] = {0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0};
-    float places[18];
-    const uint32_t corners[3] = {0, 2, 1}, beyond[3] = {0, 2, 0x7fffffff};
-    char text[KILN_MESSAGE_SIZE];
-    memcpy(places, sound, sizeof places);
-    if (strcmp(how, "attempts") == 0) {
-        try_all(text, sizeof text);
-        send_failure(KILN_INVALID_INPUT, text);
-    } else if (strcmp(how, "huge") == 0) {
-        send_size(0xffffffffu, 0xffffffffu, 4, 0);
-    } else if (strcmp(how, "overflow") == 0) {
-        send_size(0x10000, 0x10001, 4, 2);
-    } else if (strcmp(how, "largest") == 0) {
-        send_size(16384, 16384, 4, 2);
-    } else if (strcmp(how, "nothing") == 0) {
-        send_size(0, 0, 4, 0);
-    } else if (strcmp(how, "type") == 0) {
-        send_size(4, 4, 4, 77);
-    } else if (strcmp(how, "channels") == 0) {
-        send_size(4, 4, 9000, 0);
-    } else if (strcmp(how, "nan") == 0) {
-        send_floats(NAN);
-    } else if (strcmp(how, "infinite") == 0) {
-        send_floats(INFINITY);
-    } else if (strcmp(how, "short") == 0) {
-        send_size(64, 64, 4, 0);
-        _exit(0);
-    } else if (strcmp(how, "silent") == 0) {
-        pause();
-    } else if (strcmp(how, "busy") == 0) {
-        for (volatile unsigned i = 0;; i++)
-            continue;
-    } else if (strcmp(how, "crash") == 0) {
-        abort();
-    } else if (strcmp(how, "what") == 0) {
-        send_answer((struct kiln_decode_answer){.what = 0xdeadbeef});
-    } else if (strcmp(how, "other") == 0) {
-        send_answer((struct kiln_decode_answer){.what = KILN_DECODE_READY});
-    } else if (strcmp(how, "endless-text") == 0) {
-        struct kiln_decode_answer answer = {.what = KILN_DECODE_FAILED, .code = KILN_INVALID_INPUT};
-        memset(answer.text, 'a', sizeof answer.text);
-        send_answer(answer);
-    } else if (strcmp(how, "escapes") == 0) {
-        send_failure(KILN_INVALID_INPUT, "\033]0;owned\007 \xe2\x80\xae \xff %s%n");
-    } else if (strcmp(how, "no-error") == 0) {
-        send_failure(KILN_OK, "all is well");
-    } else if (strcmp(how, "wrong-code") == 0) {
-        send_failure(-12345, "?");
-    } else if (strcmp(how, "over") == 0) {
-        send_failure(KILN_OVER_LIMIT, "over");
-    } else if (strcmp(how, "wants") == 0) {
-        for (;;) {
-            struct kiln_decode_answer answer = {.what = KILN_DECODE_WANTS, .text = "deep.bin"};
-            struct kiln_decode_file file;
-            send_answer(answer);
-            if (read(KILN_DECODE_SOCKET, &file, sizeof file) <= 0)
-                _exit(0);
-        }
-    } else if (strcmp(how, "wants-secret") == 0) {
-        struct kiln_decode_file file;
-        send_answer((struct kiln_decode_answer){.what = KILN_DECODE_WANTS, .text = "../secret"});
-        read(KILN_DECODE_SOCKET, &file, sizeof file);
-        send_failure(KILN_INVALID_INPUT, file.is_open ? "it was opened" : "it was not");
-    } else if (strcmp(how, "vertices") == 0) {
-        send_mesh(0xfffffff0u, 0xfffffff0u, NULL, NULL);
-    } else if (strcmp(how, "no-triangles") == 0) {
-        send_mesh(3, 0, sound, NULL);
-    } else if (strcmp(how, "beyond") == 0) {
-        send_mesh(3, 1, sound, beyond);
-    } else if (strcmp(how, "far") == 0) {
-        places[0] = 1e30f;
-        send_mesh(3, 1, places, corners);
-    } else if (strcmp(how, "no-place") == 0) {
-        places[7] = NAN;
-        send_mesh(3, 1, places, corners);
-    } else if (strcmp(how, "no-normal") == 0) {
-        places[4] = 40;
-        send_mesh(3, 1, places, corners);
-    } else if (strcmp(how, "sound") == 0) {
-        send_mesh(3, 1, sound, corners);
+    for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
+        if (strcmp(ways[i].name, how) == 0)
+            ways[i].act();
     }
 }
 

@@ -73,6 +73,13 @@ def rows():
         os.chdir(before)
     special("socket", "atlas", make_socket)
 
+    def linked_scene(root):
+        os.symlink("../secret.txt", root / "s.yaml")
+        return check("--asset-root", ".")
+    found.append(Row("paths", "a scene that is a link", linked_scene, REFUSED, smoke=True))
+    found.append(Row("paths", "a scene that is a link, in a sandbox",
+                     lambda root: linked_scene(root) + ["--sandbox"], REFUSED))
+
     # Buffers that a glTF file names.
     for i, (label, uri) in enumerate({
             "absolute": "/etc/passwd", "up": "../secret.txt", "encoded": "%2e%2e/secret.txt",

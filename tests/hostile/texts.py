@@ -13,7 +13,7 @@ def scenes():
         "nested mappings": "kiln: 1\nsystems: " + "{a: " * 50000, "nested indents": "".join(" " * i + "a:\n" for i in range(3000)),
         "empty": "", "binary": bytes(range(256)), "zeros": bytes(100000), "large": b"#" * (5 << 20),
         "not UTF-8": b"kiln: 1\nsystems: {\xff\xfe: 1}\n", "tags": "kiln: !!python/object:os.system 1\n",
-        "documents": "kiln: 1\n---\nkiln: 1\n", "tabs": "kiln:\t1\n\tsystems:\n", "version": "kiln: 99\n" + SYSTEM,
+        "documents": "kiln: 1\n---\nkiln: 1\n", "blank lines": "a: |\n" + " \n" * 160000, "tabs": "kiln:\t1\n\tsystems:\n", "version": "kiln: 99\n" + SYSTEM,
         "name": 'kiln: 1\nsystems: {"\\e]0;owned\\a": {emit: {rate: 9}}}\n', "long name": f"kiln: 1\nsystems: {{{'a' * 100000}: 1}}\n",
         "override": 'kiln: 1\nsystems: {"\\u202egnp": {emit: {rate: 9}}}\n', "same name": "kiln: 1\nsystems: {a: {}, a: {}}\n",
         "rate": "kiln: 1\nsystems: {a: {emit: {rate: 1e300, life: 1e300 s}}}\n", "not a number": "kiln: 1\nsystems: {a: {emit: {rate: .nan}}}\n",
@@ -61,7 +61,7 @@ def decoders():
     for how in ("silent", "busy"):
         yield decoder(how, codes=LIMIT, command=lambda: check("--timeout", "1"), seconds=4, smoke=how == "silent")
     yield decoder("version", codes=DEVICE)
-    for how in ("wants", "wants-secret", "vertices", "no-triangles", "beyond", "far", "no-place", "no-normal", "crash", "short"):
+    for how in ("wants", "wants-deaf", "wants-secret", "vertices", "no-triangles", "beyond", "far", "no-place", "no-normal", "crash", "short"):
         yield decoder(how, "mesh", smoke=how == "beyond")
     yield decoder("sound", "mesh", codes=OK)
 

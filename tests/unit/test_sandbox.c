@@ -4,13 +4,16 @@
 #include <fcntl.h>
 #include <netinet/in.h>
 #include <pthread.h>
+#include <sched.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/ptrace.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -110,6 +113,15 @@ static bool reach_processes(void)
            opens(path, O_RDONLY);
 }
 
+static bool change_others(void)
+{
+    const struct rlimit limit = {1000, 1000};
+    return prlimit(other, RLIMIT_CPU, &limit, NULL) == 0 || chmod("secret", 0777) == 0 ||
+           utimensat(AT_FDCWD, "secret", NULL, 0) == 0 || setpriority(PRIO_PROCESS, 0, 5) == 0 ||
+           syscall(SYS_clone, CLONE_NEWUSER | SIGCHLD, 0, 0, 0, 0) > 0 ||
+           syscall(SYS_memfd_create, "x", 0) >= 0;
+}
+
 static bool make_devices(void)
 {
     return mknod("out/null", S_IFCHR | 0600, (dev_t)0x103) == 0 || mkfifo("out/fifo", 0600) == 0 ||
@@ -191,6 +203,7 @@ static void nothing_else_can_be_done(void **state)
     assert_false(succeeds(open_sockets));
     assert_false(succeeds(start_programs));
     assert_false(succeeds(reach_processes));
+    assert_false(succeeds(change_others));
     assert_false(succeeds(make_devices));
 }
 

@@ -15,7 +15,7 @@
 
 #define ALLOWED "OBJ, glTF or GLB"
 
-enum { MAX_FILES = 64, MAX_WISHES = 1000 };
+enum { MAX_FILES = 64, MAX_WISHES = 100 };
 
 static const float MAX_COORDINATE = 1e6f;
 
@@ -162,12 +162,17 @@ static struct kiln_mesh *copy(const struct kiln_mesh_result *result, bool uvs)
     return mesh;
 }
 
+struct receiving {
+    const struct request *request;
+    struct kiln_error *reason;
+};
+
 static bool receive_array(void *user, void *array, size_t bytes)
 {
-    const struct request *request = user;
-    struct kiln_error reason;
+    const struct receiving *receiving = user;
+    const struct request *request = receiving->request;
     return kiln_helper_receive(request->helper, kiln_loader_caller(request->loader), array, bytes,
-                               &reason);
+                               receiving->reason);
 }
 
 /* Before a byte of an array is taken. */
@@ -219,11 +224,12 @@ static bool receive(struct request *request, struct kiln_mesh_result *result,
     struct kiln_error reason = {0};
     bool ok = await(request, &answer, &reason);
     if (ok) {
+        struct receiving receiving = {request, &reason};
         take_counts(&answer, result);
-        ok =
-            (are_counts_sound(result, moving) &&
-             kiln_mesh_visit_arrays(result, request->wanted.uvs, moving, receive_array, request)) ||
-            kiln_error_set(&reason, KILN_INVALID_INPUT, "its importer makes nonsense of it");
+        ok = are_counts_sound(result, moving)
+                 ? kiln_mesh_visit_arrays(result, request->wanted.uvs, moving, receive_array,
+                                          &receiving)
+                 : kiln_error_set(&reason, KILN_INVALID_INPUT, "its importer makes nonsense of it");
     }
     if (request->refusal.code != KILN_OK)
         return kiln_error_set(error, request->refusal.code, "%s", request->refusal.message);

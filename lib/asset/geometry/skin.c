@@ -226,15 +226,20 @@ static bool check_counts(const struct check *check)
         good = r->nodes[i].parent < i;
     for (uint32_t i = 0; good && i < r->bone_count; i++)
         good = r->bones[i].node < r->node_count;
-    for (uint32_t i = 0; good && i < r->clip_count; i++)
-        good = r->clips[i].first <= r->channel_count &&
-               r->clips[i].count <= r->channel_count - r->clips[i].first &&
+    /* One after the other: ranges that overlap would be work without end. */
+    uint32_t channels = 0, keys = 0;
+    for (uint32_t i = 0; good && i < r->clip_count; i++) {
+        good = r->clips[i].first == channels && r->clips[i].count <= r->channel_count - channels &&
                memchr(r->clips[i].name, '\0', KILN_MAX_CLIP_NAME);
+        channels += r->clips[i].count;
+    }
     for (uint32_t i = 0; good && i < r->channel_count; i++) {
         good = r->channels[i].node < r->node_count;
         for (int k = 0; good && k < KILN_CHANNEL_TRACKS; k++) {
             const struct kiln_skin_track *track = &r->channels[i].tracks[k];
-            good = track->first <= r->key_count && track->count <= r->key_count - track->first;
+            good =
+                track->count == 0 || (track->first == keys && track->count <= r->key_count - keys);
+            keys += track->count;
         }
     }
     return good || kiln_error_set(check->error, KILN_INVALID_INPUT,

@@ -141,6 +141,14 @@ static struct kiln_asset_image *load(struct kiln_loader *loader, const char *pat
         return NULL;
     struct kiln_asset_image *image = decode(loader, file, path, layer, error);
     close(file);
+    uint32_t known[2];
+    if (image && kiln_loader_knows(loader, path, known) &&
+        (image->width != known[0] || image->height != known[1])) {
+        kiln_error_set(error, KILN_INVALID_INPUT,
+                       "%s: it was changed meanwhile: %u x %u pixels, and %u x %u before", path,
+                       image->width, image->height, known[0], known[1]);
+        kiln_asset_image_destroy(&image);
+    }
     return image;
 }
 

@@ -52,6 +52,15 @@ static bool receive_pixels(const struct kiln_received *received, struct kiln_ass
                           "the image is cut short or has pixels that are not finite numbers");
 }
 
+/* Of a video, one frame at a time is in memory. */
+static bool count_pixels(struct kiln_received *received, uint64_t pixels, struct kiln_error *reason)
+{
+    const uint64_t more = pixels > received->counted ? pixels - received->counted : 0;
+    received->counted += more;
+    return kiln_budget_take(kiln_loader_budget(received->loader), KILN_LIMIT_asset_pixels, more,
+                            received->name, reason);
+}
+
 struct kiln_asset_image *kiln_received_image(struct kiln_received *received, unsigned expected,
                                              struct kiln_error *reason)
 {
@@ -73,9 +82,7 @@ struct kiln_asset_image *kiln_received_image(struct kiln_received *received, uns
                                            .type = (enum kiln_image_type)answer.type,
                                            .srgb = answer.srgb,
                                            .premultiplied = answer.premultiplied};
-        ok = (received->is_counted ||
-              kiln_budget_take(kiln_loader_budget(received->loader), KILN_LIMIT_asset_pixels,
-                               (uint64_t)answer.width * answer.height, received->name, reason)) &&
+        ok = count_pixels(received, (uint64_t)answer.width * answer.height, reason) &&
              receive_pixels(received, image, reason);
     }
     if (!ok) {

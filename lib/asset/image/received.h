@@ -9,7 +9,7 @@ struct kiln_received {
     struct kiln_helper *helper;
     const char *name; /* of the file, for messages */
     bool finite;      /* floats that are none are refused */
-    bool is_counted;  /* the budget has the pixels of such pictures already */
+    uint64_t counted; /* pixels that the budget has already: those of the largest frame so far */
     uint64_t refused; /* set: pixels of a picture that has more than the budget has left */
 };
 

@@ -17,6 +17,7 @@ struct kiln_video_in {
     char *path;
     struct kiln_received received;
     uint32_t frames; /* read */
+    bool has_ended;
 };
 
 bool kiln_video_in_has_suffix(const char *path)
@@ -87,13 +88,17 @@ bool kiln_video_in_read(struct kiln_video_in *video, struct kiln_asset_image **i
                         struct kiln_error *error)
 {
     struct kiln_error reason = {0};
+    *image = NULL;
+    if (video->has_ended)
+        return true;
+    kiln_helper_begin_frame(video->received.helper);
     *image = kiln_received_image(&video->received, 1u << KILN_DECODE_PIXELS | 1u << KILN_DECODE_END,
                                  &reason);
-    video->received.is_counted = true; /* one frame at a time is in memory */
     if (reason.code == KILN_OK && *image && ++video->frames > KILN_MAX_VIDEO_FRAMES) {
         kiln_asset_image_destroy(image);
         kiln_error_set(&reason, KILN_INVALID_INPUT, "the video has more than %d frames",
                        KILN_MAX_VIDEO_FRAMES);
     }
+    video->has_ended = !*image && reason.code == KILN_OK;
     return reason.code == KILN_OK || kiln_received_fail(&video->received, &reason, error);
 }

@@ -13,8 +13,8 @@
 #include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -27,8 +27,10 @@ enum { WAIT_MS = 20, WALL_SECONDS = 10 * KILN_DECODE_SECONDS };
 
 struct kiln_helper {
     enum kiln_decode_kind kind;
-    pid_t process;
+    pid_t process; /* 0: it has ended */
+    int handle;    /* of the process, which no other one can take over; -1: an older kernel */
     int socket;
+    double cpu_s; /* that it had taken when it was asked for what it is at */
     bool is_broken;
 };
 
@@ -99,6 +101,24 @@ static const char *word_of(enum kiln_decode_kind kind)
     return words[kind];
 }
 
+/* What it gets of the environment: where libraries are, and what is kiln's or a sanitizer's. Keys
+ * and passwords that a service has there are none of its business. The caller frees it. */
+static char **choose_environment(void)
+{
+    static const char *const prefixes[] = {"LD_", "KILN_", "ASAN_", "LSAN_", "UBSAN_", "LANG="};
+    size_t count = 0, kept = 0;
+    while (environ && environ[count])
+        count++;
+    char **chosen = calloc(count + 1, sizeof *chosen);
+    for (size_t i = 0; chosen && i < count; i++) {
+        for (size_t k = 0; k < sizeof prefixes / sizeof *prefixes; k++) {
+            if (strncmp(environ[i], prefixes[k], strlen(prefixes[k])) == 0)
+                chosen[kept++] = environ[i];
+        }
+    }
+    return chosen;
+}
+
 static int spawn(pid_t *process, const char *path, enum kiln_decode_kind kind, uint64_t most_memory,
                  int socket)
 {
@@ -127,25 +147,26 @@ static int spawn(pid_t *process, const char *path, enum kiln_decode_kind kind, u
         status = posix_spawn_file_actions_addclosefrom_np(&actions, KILN_DECODE_SOCKET + 1);
     snprintf(memory, sizeof memory, "%" PRIu64, most_memory);
     char *const arguments[] = {(char *)"kiln-decode", (char *)word_of(kind), memory, NULL};
+    char **environment = choose_environment();
+    if (!environment)
+        status = ENOMEM;
     if (!status)
-        status = posix_spawn(process, path, &actions, &attributes, arguments, environ);
+        status = posix_spawn(process, path, &actions, &attributes, arguments, environment);
+    free(environment);
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     return status;
 }
 
-/* From now on, so many seconds of processor time; then the kernel ends it. */
-static void allow_time(const struct kiln_helper *helper)
+/* Processor time that it has taken; 0 where that cannot be known. */
+static double cpu_seconds(const struct kiln_helper *helper)
 {
     clockid_t clock;
     struct timespec used;
-    struct rlimit limit;
-    if (clock_getcpuclockid(helper->process, &clock) != 0 || clock_gettime(clock, &used) != 0 ||
-        prlimit(helper->process, RLIMIT_CPU, NULL, &limit) != 0)
-        return;
-    const rlim_t wanted = (rlim_t)used.tv_sec + 1 + KILN_DECODE_SECONDS;
-    limit.rlim_cur = wanted < limit.rlim_max ? wanted : limit.rlim_max;
-    prlimit(helper->process, RLIMIT_CPU, &limit, NULL);
+    if (helper->process <= 0 || clock_getcpuclockid(helper->process, &clock) != 0 ||
+        clock_gettime(clock, &used) != 0)
+        return 0.0;
+    return (double)used.tv_sec + 1e-9 * (double)used.tv_nsec;
 }
 
 /* A pair of sockets, of which neither is one of the three standard descriptors. */
@@ -202,7 +223,7 @@ struct kiln_helper *kiln_helper_start(enum kiln_decode_kind kind, uint64_t most_
         free(helper);
         return NULL;
     }
-    *helper = (struct kiln_helper){.kind = kind, .socket = pair[0]};
+    *helper = (struct kiln_helper){.kind = kind, .socket = pair[0], .handle = -1};
     const int status = spawn(&helper->process, path, kind, most_memory, pair[1]);
     close(pair[1]);
     if (status) {
@@ -211,9 +232,18 @@ struct kiln_helper *kiln_helper_start(enum kiln_decode_kind kind, uint64_t most_
         free(helper);
         return NULL;
     }
+    helper->handle = (int)syscall(SYS_pidfd_open, helper->process, 0);
     if (!greet(helper, caller, path, error))
         kiln_helper_end(&helper);
     return helper;
+}
+
+static void kill_process(const struct kiln_helper *helper)
+{
+    if (helper->handle >= 0)
+        syscall(SYS_pidfd_send_signal, helper->handle, SIGKILL, NULL, 0);
+    else
+        kill(helper->process, SIGKILL);
 }
 
 /* How it ended; 0 when somebody else has asked the system for that. */
@@ -222,13 +252,17 @@ static int end(struct kiln_helper *helper)
     int status = 0;
     if (helper->process <= 0)
         return 0;
-    close(helper->socket);
-    kill(helper->process, SIGKILL);
+    kill_process(helper);
     pid_t ended;
     do {
         ended = waitpid(helper->process, &status, 0);
     } while (ended < 0 && errno == EINTR);
+    close(helper->socket);
+    if (helper->handle >= 0)
+        close(helper->handle);
+    helper->socket = helper->handle = -1;
     helper->process = 0;
+    helper->is_broken = true;
     return ended < 0 ? 0 : status;
 }
 
@@ -251,12 +285,36 @@ bool kiln_helper_is_broken(const struct kiln_helper *helper)
     return helper->is_broken;
 }
 
+/* One that waits says nothing. */
+bool kiln_helper_is_waiting(const struct kiln_helper *helper)
+{
+    struct pollfd socket = {.fd = helper->socket, .events = POLLIN};
+    return !helper->is_broken && poll(&socket, 1, 0) == 0;
+}
+
+double kiln_helper_cpu_seconds(const struct kiln_helper *helper)
+{
+    return cpu_seconds(helper);
+}
+
+void kiln_helper_begin_frame(struct kiln_helper *helper)
+{
+    helper->cpu_s = cpu_seconds(helper);
+}
+
 void kiln_helper_break(struct kiln_helper *helper)
 {
     helper->is_broken = true;
 }
 
 /* ---- speaking -------------------------------------------------------------------------------- */
+
+/* Signals that a decoder gets for what a file made it do; others come from elsewhere. */
+static bool is_own_fault(int signal)
+{
+    return signal == SIGSEGV || signal == SIGBUS || signal == SIGILL || signal == SIGFPE ||
+           signal == SIGABRT || signal == SIGXCPU || signal == SIGSYS || signal == SIGXFSZ;
+}
 
 /* Says why the process is gone. It may be about to end by itself: its status says more than that it
  * was killed now. */
@@ -269,18 +327,28 @@ static bool fail_gone(struct kiln_helper *helper, const struct kiln_caller *call
     siginfo_t info = {.si_pid = 0};
     const double start_s = kiln_clock_seconds();
     const struct timespec pause = {.tv_nsec = 1000000};
-    while (waitid(P_PID, (id_t)helper->process, &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
-           info.si_pid == 0 && kiln_clock_seconds() - start_s < 1.0)
+    int asked = 0;
+    while (helper->process > 0 && info.si_pid == 0 && asked == 0 &&
+           kiln_clock_seconds() - start_s < 1.0) {
+        asked = waitid(P_PID, (id_t)helper->process, &info, WEXITED | WNOHANG | WNOWAIT);
         nanosleep(&pause, NULL);
+    }
     const int status = end(helper);
-    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
-        return kiln_error_set(error, KILN_INVALID_INPUT,
-                              "it is not decoded after %d s of processor time",
-                              KILN_DECODE_SECONDS);
-    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
+    if (info.si_pid != 0 && WIFSIGNALED(status) && !is_own_fault(WTERMSIG(status)))
+        return kiln_error_set(
+            error, KILN_DEVICE_FAILED, "the process that decodes it was ended by signal %d%s",
+            WTERMSIG(status), WTERMSIG(status) == SIGKILL ? "; is memory short?" : "");
+    if (asked != 0)
         return kiln_error_set(error, KILN_DEVICE_FAILED,
-                              "the process that decodes it was killed; is memory short?");
+                              "the process that decodes it is gone, and nobody knows why");
     return kiln_error_set(error, KILN_INVALID_INPUT, "it is broken: its decoder fails on it");
+}
+
+static bool fail_time(struct kiln_helper *helper, int seconds, const char *of,
+                      struct kiln_error *error)
+{
+    helper->is_broken = true;
+    return kiln_error_set(error, KILN_INVALID_INPUT, "it is not decoded after %d s%s", seconds, of);
 }
 
 bool kiln_helper_send(struct kiln_helper *helper, const void *bytes, size_t size, int file,
@@ -300,11 +368,17 @@ bool kiln_helper_send(struct kiln_helper *helper, const void *bytes, size_t size
         message.msg_controllen = sizeof control.room;
     }
     ssize_t sent;
-    allow_time(helper);
+    helper->cpu_s = cpu_seconds(helper);
     do {
-        sent = sendmsg(helper->socket, &message, MSG_NOSIGNAL);
-    } while (sent < 0 && errno == EINTR);
-    /* Messages are far smaller than what a socket holds, and it is empty. */
+        sent =
+            helper->is_broken ? -1 : sendmsg(helper->socket, &message, MSG_NOSIGNAL | MSG_DONTWAIT);
+    } while (sent < 0 && !helper->is_broken && errno == EINTR);
+    /* Messages are far smaller than what a socket holds: it is full of what nobody reads. */
+    if (sent != (ssize_t)size && !helper->is_broken && (errno == EAGAIN || errno == EWOULDBLOCK)) {
+        helper->is_broken = true;
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "it is broken: its decoder does not listen");
+    }
     return sent == (ssize_t)size || fail_gone(helper, NULL, error);
 }
 
@@ -313,6 +387,8 @@ bool kiln_helper_receive(struct kiln_helper *helper, const struct kiln_caller *c
 {
     const double start_s = kiln_clock_seconds();
     for (size_t done = 0; done < size;) {
+        if (helper->is_broken)
+            return fail_gone(helper, caller, error);
         const ssize_t got = recv(helper->socket, (char *)bytes + done, size - done, MSG_DONTWAIT);
         if (got > 0) {
             done += (size_t)got;
@@ -324,11 +400,10 @@ bool kiln_helper_receive(struct kiln_helper *helper, const struct kiln_caller *c
             helper->is_broken = true;
             return false;
         }
-        if (kiln_clock_seconds() - start_s > WALL_SECONDS) {
-            helper->is_broken = true;
-            return kiln_error_set(error, KILN_INVALID_INPUT, "it is not decoded after %d s",
-                                  WALL_SECONDS);
-        }
+        if (cpu_seconds(helper) - helper->cpu_s > KILN_DECODE_SECONDS)
+            return fail_time(helper, KILN_DECODE_SECONDS, " of processor time", error);
+        if (kiln_clock_seconds() - start_s > WALL_SECONDS)
+            return fail_time(helper, WALL_SECONDS, "", error);
         struct pollfd ready = {.fd = helper->socket, .events = POLLIN};
         poll(&ready, 1, WAIT_MS);
     }
@@ -346,7 +421,6 @@ bool kiln_helper_answer(struct kiln_helper *helper, const struct kiln_caller *ca
                         unsigned expected, struct kiln_decode_answer *answer,
                         struct kiln_error *error)
 {
-    allow_time(helper);
     if (!kiln_helper_receive(helper, caller, answer, sizeof *answer, error))
         return false;
     const bool ends = memchr(answer->text, '\0', sizeof answer->text) != NULL;

@@ -41,6 +41,16 @@ bool kiln_helper_answer(struct kiln_helper *helper, const struct kiln_caller *ca
 bool kiln_helper_is_broken(const struct kiln_helper *helper);
 void kiln_helper_break(struct kiln_helper *helper);
 
+/* Whether it can be asked for another file: it is there, and has sent nothing that nobody wanted.
+ */
+bool kiln_helper_is_waiting(const struct kiln_helper *helper);
+
+/* Processor time that it has taken, s. */
+double kiln_helper_cpu_seconds(const struct kiln_helper *helper);
+
+/* The time that a decoder may take begins anew, as it does with each file. */
+void kiln_helper_begin_frame(struct kiln_helper *helper);
+
 /* The path of kiln-decode: below the folder of environment variable KILN_LIBEXEC_DIR, if that is
  * set, else beside the program or library that this code is in (as built, as installed), else where
  * it was to be installed to. KILN_DEVICE_FAILED with the first of these when it is nowhere. */

@@ -27,6 +27,7 @@ struct known {
 struct kiln_loader {
     struct kiln_loader_params params;
     struct kiln_caller caller;
+    bool is_counted;       /* the budget has all files */
     pthread_mutex_t mutex; /* of what follows */
     struct kiln_helper *idle[KILN_DECODE_KIND_COUNT];
     struct known *known;
@@ -82,10 +83,12 @@ void kiln_loader_destroy(struct kiln_loader **loader)
     *loader = NULL;
 }
 
-void kiln_loader_stop_counting(struct kiln_loader *loader)
+void kiln_loader_stop_counting(struct kiln_loader *loader, struct kiln_budget *budget)
 {
-    if (loader)
-        loader->params.budget = NULL;
+    if (!loader)
+        return;
+    loader->params.budget = budget;
+    loader->is_counted = true;
 }
 
 const struct kiln_caller *kiln_loader_caller(const struct kiln_loader *loader)
@@ -95,14 +98,34 @@ const struct kiln_caller *kiln_loader_caller(const struct kiln_loader *loader)
 
 struct kiln_budget *kiln_loader_budget(const struct kiln_loader *loader)
 {
-    return loader ? loader->params.budget : NULL;
+    return loader && !loader->is_counted ? loader->params.budget : NULL;
 }
 
 /* ---- files ----------------------------------------------------------------------------------- */
 
-/* Of a path below the root. Where the kernel is older than 5.6, or a container forbids the call,
- * the path was checked when the scene named it. */
-static int open_below(const char *root, const char *relative, const char *path)
+/* The same as openat2 for an older kernel, or a container that forbids the call: step by step,
+ * through no link at all. */
+static int open_steps(int folder, const char *relative)
+{
+    char path[KILN_PATH_SIZE];
+    int at = dup(folder);
+    if (snprintf(path, sizeof path, "%s", relative) >= (int)sizeof path)
+        path[0] = '\0';
+    char *rest = path;
+    for (const char *step; at >= 0 && (step = strsep(&rest, "/"));) {
+        const int flags = rest ? O_PATH | O_DIRECTORY | O_CLOEXEC : KILN_FILE_FLAGS;
+        const bool leads_up = strcmp(step, "..") == 0;
+        const int next = leads_up ? -1 : *step ? openat(at, step, flags | O_NOFOLLOW) : dup(at);
+        const int reason = leads_up ? EXDEV : errno;
+        close(at);
+        errno = reason;
+        at = next;
+    }
+    return at;
+}
+
+/* Of a path below the root. */
+static int open_below(const char *root, const char *relative)
 {
     const int folder = open(root, O_PATH | O_DIRECTORY | O_CLOEXEC);
     if (folder < 0)
@@ -114,7 +137,7 @@ static int open_below(const char *root, const char *relative, const char *path)
         file = (int)syscall(SYS_openat2, folder, relative, &how, sizeof how);
     } while (file < 0 && (errno == EAGAIN || errno == EINTR) && tries++ < 100);
     if (file < 0 && (errno == ENOSYS || errno == EPERM))
-        file = open(path, KILN_FILE_FLAGS);
+        file = open_steps(folder, relative);
     const int reason = errno;
     close(folder);
     errno = reason;
@@ -131,8 +154,7 @@ static int open_file(const struct kiln_loader *loader, const struct kiln_loader_
                        file->path);
         return -1;
     }
-    const int found =
-        root ? open_below(root, relative, file->path) : open(file->path, KILN_FILE_FLAGS);
+    const int found = root ? open_below(root, relative) : open(file->path, KILN_FILE_FLAGS);
     if (found < 0 && root && (errno == EXDEV || errno == ELOOP))
         kiln_error_set(error, KILN_INVALID_INPUT, "%s: it leads outside the asset root",
                        file->path);
@@ -212,7 +234,10 @@ struct kiln_helper *kiln_loader_take(struct kiln_loader *loader, enum kiln_decod
         loader->idle[kind] = NULL;
         pthread_mutex_unlock(&loader->mutex);
     }
-    const uint64_t most_memory = kiln_budget_left(kiln_loader_budget(loader), KILN_LIMIT_memory);
+    if (helper && !kiln_helper_is_waiting(helper))
+        kiln_helper_end(&helper);
+    const uint64_t most_memory =
+        loader ? kiln_budget_left(loader->params.budget, KILN_LIMIT_memory) : UINT64_MAX;
     return helper ? helper
                   : kiln_helper_start(kind, most_memory, kiln_loader_caller(loader), error);
 }

@@ -21,9 +21,10 @@ void kiln_loader_destroy(struct kiln_loader **loader);
 /* Ends the processes that wait; more may be started later. Does nothing for NULL. */
 void kiln_loader_rest(struct kiln_loader *loader);
 
-/* Counts nothing from now on: what is loaded once more, for drawing, was counted before. Does
- * nothing for NULL. */
-void kiln_loader_stop_counting(struct kiln_loader *loader);
+/* Counts no file from now on: what is loaded once more, for drawing, was counted before. The
+ * budget, or NULL, is from now on that of the job: its memory and its time. Does nothing for a
+ * loader of NULL. */
+void kiln_loader_stop_counting(struct kiln_loader *loader, struct kiln_budget *budget);
 
 /* Never NULL, and never forgetting: what kiln_loader_params had. */
 const struct kiln_caller *kiln_loader_caller(const struct kiln_loader *loader);
