@@ -135,6 +135,8 @@ static int unknown_command(const char *name)
 int main(int argc, char **argv)
 {
     occupy_standard_streams();
+    signal(SIGCHLD,
+           SIG_DFL); /* ignored by whoever starts kiln, how kiln-decode ends would be lost */
     signal(SIGPIPE, SIG_IGN); /* failed writes are reported as such, */
     signal(SIGXFSZ, SIG_IGN); /* those beyond the limit of a file's size, too */
     const char *name = argc > 1 ? argv[1] : "";

@@ -105,14 +105,48 @@ static uint64_t count_samples(const struct kiln_scene *scene)
     return samples;
 }
 
-uint64_t kiln_work_memory(const struct kiln_scene *scene)
+/* What memory is taken for, and the key that says how much of it; NULL: the particles'. */
+struct term {
+    uint64_t bytes;
+    const char *path;
+};
+
+enum { TERMS = 7 };
+
+static void list_terms(const struct kiln_scene *scene, struct term terms[TERMS])
 {
     const uint64_t triangles = count_triangles(scene);
-    return PROGRAM_BYTES + PIXEL_BYTES * (uint64_t)scene->width * scene->height +
-           SLOT_BYTES * kiln_work_particles(scene) + CELL_BYTES * count_cells(scene) +
-           TRIANGLE_BYTES * triangles + (triangles > 0 ? ANY_MESH_BYTES : 0) +
-           TEXEL_BYTES * count_texels(scene) + SAMPLE_BYTES * count_samples(scene) +
-           PICTURE_BYTES * scene->asset_pixels;
+    const struct term all[TERMS] = {
+        {PIXEL_BYTES * (uint64_t)scene->width * scene->height, "output.size"},
+        {SLOT_BYTES * kiln_work_particles(scene), NULL},
+        {CELL_BYTES * count_cells(scene), "systems"},
+        {TRIANGLE_BYTES * triangles + (triangles > 0 ? ANY_MESH_BYTES : 0), "backdrop.objects"},
+        {TEXEL_BYTES * count_texels(scene), "backdrop.objects"},
+        {SAMPLE_BYTES * count_samples(scene), "backdrop.objects"},
+        {PICTURE_BYTES * scene->asset_pixels, "backdrop"},
+    };
+    memcpy(terms, all, sizeof all);
+}
+
+uint64_t kiln_work_memory(const struct kiln_scene *scene)
+{
+    struct term terms[TERMS];
+    uint64_t bytes = PROGRAM_BYTES;
+    list_terms(scene, terms);
+    for (size_t i = 0; i < TERMS; i++)
+        bytes += terms[i].bytes;
+    return bytes;
+}
+
+/* The key that most memory is taken for. */
+static const char *find_largest(const struct kiln_scene *scene, const char *particles)
+{
+    struct term terms[TERMS];
+    size_t largest = 0;
+    list_terms(scene, terms);
+    for (size_t i = 1; i < TERMS; i++)
+        largest = terms[i].bytes > terms[largest].bytes ? i : largest;
+    return terms[largest].path ? terms[largest].path : particles;
 }
 
 /* ---- limits ---------------------------------------------------------------------------------- */
@@ -143,7 +177,7 @@ bool kiln_work_check(struct kiln_reader *reader, const struct kiln_node *root)
         {KILN_LIMIT_frames, scene->frames, "output.frames"},
         {KILN_LIMIT_steps, kiln_work_steps(scene), "output.frames"},
         {KILN_LIMIT_particles, kiln_work_particles(scene), emit},
-        {KILN_LIMIT_memory, kiln_work_memory(scene), "output.size"},
+        {KILN_LIMIT_memory, kiln_work_memory(scene), find_largest(scene, emit)},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         char text[160];

@@ -30,7 +30,7 @@ export share=$(((seconds + ${#names[@]} - 1) / ${#names[@]}))
 fuzz() {
     local name=$1 found=$build/found/$1 spent=0 left corpus options=()
     corpus=$source/tests/fuzz/corpus/${name/import/mesh}
-    [[ $name != import ]] || options=(-fork=1 -ignore_crashes=1 -ignore_ooms=1 -ignore_timeouts=1)
+    [[ $name != import ]] || options=(-detect_leaks=0 -fork=1 -ignore_crashes=1 -ignore_ooms=1 -ignore_timeouts=1)
     mkdir -p "$found"
     [[ ! -s $found.spent ]] || read -r spent <"$found.spent"
     left=$((share - spent < turn ? share - spent : turn))

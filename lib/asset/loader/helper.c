@@ -292,11 +292,6 @@ bool kiln_helper_is_waiting(const struct kiln_helper *helper)
     return !helper->is_broken && poll(&socket, 1, 0) == 0;
 }
 
-double kiln_helper_cpu_seconds(const struct kiln_helper *helper)
-{
-    return cpu_seconds(helper);
-}
-
 void kiln_helper_begin_frame(struct kiln_helper *helper)
 {
     helper->cpu_s = cpu_seconds(helper);

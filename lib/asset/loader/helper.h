@@ -45,9 +45,6 @@ void kiln_helper_break(struct kiln_helper *helper);
  */
 bool kiln_helper_is_waiting(const struct kiln_helper *helper);
 
-/* Processor time that it has taken, s. */
-double kiln_helper_cpu_seconds(const struct kiln_helper *helper);
-
 /* The time that a decoder may take begins anew, as it does with each file. */
 void kiln_helper_begin_frame(struct kiln_helper *helper);
 
