@@ -45,7 +45,7 @@ static void print_text(const struct kiln_device_info *info)
            info->max_storage_block_bytes, info->max_texture_size, info->max_array_layers);
 }
 
-/* What --sandbox has to work with. */
+/* Prints what the kernel has for --sandbox. */
 static void print_sandbox(void)
 {
     const struct kiln_sandbox_support has = kiln_sandbox_support();

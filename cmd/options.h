@@ -19,7 +19,7 @@ enum option_kind {
     OPTION_PAIRS,   /* KEY=VALUE; more of them after commas where `commas` is set */
 };
 
-/* What a command does with the file, folder or pattern of files that an argument names. */
+/* Whether a command reads or writes the file, folder or pattern of files that an argument names. */
 enum reach { REACH_NONE, REACH_READ, REACH_WRITE };
 
 struct option {

@@ -40,7 +40,7 @@ static bool add_file(struct reached *reached, const char *path, bool alone)
     return true;
 }
 
-/* Of --output: standard output, or nothing. */
+/* Whether --output stands for standard output, or for nothing. */
 static bool is_no_file(const char *path)
 {
     return strcmp(path, "-") == 0 || strcmp(path, "none") == 0;

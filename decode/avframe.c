@@ -114,11 +114,9 @@ static enum kiln_code convert(struct conversion *conversion)
                                               : KILN_IMAGE_U8;
     image->srgb = !is_float && frame->color_trc != AVCOL_TRC_LINEAR;
     image->premultiplied = frame->format == AV_PIX_FMT_GBRAPF32;
-    static const size_t pixel_size[] = {
-        [KILN_IMAGE_U8] = 4, [KILN_IMAGE_U16] = 8, [KILN_IMAGE_F32] = 16};
     /* swscale may write whole vectors past the last row's end. */
     enum { SLACK = 64 };
-    image->pixels = malloc((size_t)image->width * image->height * pixel_size[image->type] + SLACK);
+    image->pixels = malloc(kiln_asset_image_bytes(image) + SLACK);
     if (!image->pixels)
         return fail(conversion, KILN_DEVICE_FAILED, "out of memory while decoding the image");
     enum kiln_code code = is_float ? interleave_float(conversion) : convert_integer(conversion);

@@ -31,7 +31,7 @@ enum {
     MOST_DESCRIPTORS = 16,   /* the three of every process, the socket, files that kiln sends */
 };
 
-/* Of this process's own making, for the message; 0: another limit was there and is lower. */
+/* The limit of memory, bytes, if this process has set it; 0: another one was there and is lower. */
 static uint64_t own_limit;
 
 bool decode_out_of_memory(struct kiln_error *error)
@@ -164,7 +164,7 @@ bool decode_confine(enum kiln_decode_kind kind, uint64_t most_memory, struct kil
     calls[count++] = (struct kiln_system_call){
         .number = SCMP_SYS(tgkill), .mask = UINT32_MAX, .value = (uint64_t)getpid()};
     limit_resources(kind, most_memory);
-    /* Whatever it does, it does not outlive the thread of kiln that started it. */
+    /* The process does not outlive the thread of kiln that started it, whatever it does. */
     return (prctl(PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0) == 0 ||
             kiln_error_set_errno(error, KILN_DEVICE_FAILED, errno, "PR_SET_PDEATHSIG")) &&
            kiln_seccomp_open(error) &&

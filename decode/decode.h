@@ -81,7 +81,7 @@ struct aiScene;
 bool decode_mesh_part(const struct decode_mesh *wanted, const struct aiMesh *mesh,
                       struct kiln_mesh_result *result, struct kiln_error *error);
 
-/* The same for all of a scene that moves, with what moves it. */
+/* Appends all meshes of a scene that moves, and what moves them. */
 bool decode_skin(const struct decode_mesh *wanted, const struct aiScene *scene,
                  struct kiln_mesh_result *result, struct kiln_error *error);
 

@@ -132,8 +132,6 @@ static unsigned char *read_file(int file, uint64_t most, size_t *size, struct ki
 
 static void send_image(const struct kiln_asset_image *image)
 {
-    static const size_t pixel_size[] = {
-        [KILN_IMAGE_U8] = 4, [KILN_IMAGE_U16] = 8, [KILN_IMAGE_F32] = 16};
     const struct kiln_decode_answer answer = {.what = KILN_DECODE_PIXELS,
                                               .width = image->width,
                                               .height = image->height,
@@ -142,7 +140,7 @@ static void send_image(const struct kiln_asset_image *image)
                                               .srgb = image->srgb,
                                               .premultiplied = image->premultiplied};
     send_answer(&answer);
-    send_bytes(image->pixels, (size_t)image->width * image->height * pixel_size[image->type]);
+    send_bytes(image->pixels, kiln_asset_image_bytes(image));
 }
 
 static void serve_picture(enum kiln_decode_kind kind, const struct kiln_decode_request *request,

@@ -328,7 +328,7 @@ static struct aiPropertyStore *make_properties(const struct decode_mesh *wanted)
     return properties;
 }
 
-/* What assimp says of a file that it does not like, in words for who made the file. */
+/* Puts what assimp says of a file into words for whoever made the file. */
 static bool explain(const char *said, struct kiln_error *error)
 {
     if (strstr(said, "bad_alloc"))

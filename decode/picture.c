@@ -23,7 +23,7 @@ static const struct codec codecs[] = {
     [KILN_PICTURE_EXR] = {AV_CODEC_ID_EXR, "EXR"},
 };
 
-/* What one decoding needs to know; the decoder's get_buffer finds it in its opaque pointer. */
+/* The state of one decoding, which the decoder's get_buffer finds in its opaque pointer. */
 struct decoding {
     struct decode_picture *picture;
     const struct codec *codec;

@@ -75,7 +75,8 @@ static void choose_chunks(struct reading *reading)
     png_set_read_fn(reading->png, reading, on_read);
 }
 
-/* Of the file, before a palette or a transparent colour becomes what it stands for. */
+/* Counts the channels of the file, before a palette or a transparent colour becomes what it stands
+ * for. */
 static uint32_t count_channels(const struct reading *reading)
 {
     const int type = png_get_color_type(reading->png, reading->info);
@@ -101,7 +102,7 @@ static bool make_image(struct reading *reading)
                                        .channels = count_channels(reading),
                                        .type = deep ? KILN_IMAGE_U16 : KILN_IMAGE_U8,
                                        .srgb = true};
-    image->pixels = malloc((size_t)width * height * (deep ? 8 : 4));
+    image->pixels = malloc(kiln_asset_image_bytes(image));
     return image->pixels || decode_out_of_memory(reading->picture->error);
 }
 
@@ -120,7 +121,7 @@ static void set_transforms(struct reading *reading)
 static void read_rows(struct reading *reading)
 {
     struct kiln_asset_image *image = reading->image;
-    const size_t stride = (size_t)image->width * (image->type == KILN_IMAGE_U16 ? 8 : 4);
+    const size_t stride = kiln_asset_image_bytes(image) / image->height;
     const int passes = png_set_interlace_handling(reading->png);
     png_read_update_info(reading->png, reading->info);
     if (png_get_rowbytes(reading->png, reading->info) != stride)

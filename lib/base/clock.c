@@ -1,3 +1,4 @@
+/* Reads the clocks of the system. */
 #include "base/clock.h"
 
 #include <sys/resource.h>

@@ -1,3 +1,4 @@
+/* Joins and compares paths, and reads text files whole. */
 #include "base/file.h"
 
 #include <errno.h>

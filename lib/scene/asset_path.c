@@ -143,7 +143,7 @@ bool kiln_asset_add_hash(const struct kiln_scene *scene, const char *asset, stru
 {
     const struct kiln_loader_file file = {asset, "asset", "regular", SIZE_MAX};
     char hex[65];
-    if (kiln_builtin_of(asset) || asset[0] != '/')
+    if (asset[0] != '/') /* built in, or none */
         return true;
     if (!kiln_loader_hash(scene->loader, &file, hex, error))
         return false;

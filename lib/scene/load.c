@@ -168,10 +168,12 @@ static struct kiln_scene *create_counted(const char *text, size_t size, const ch
  * too. */
 static bool check_place(const char *path, const char *asset_root, struct kiln_error *error)
 {
+    if (!asset_root)
+        return true;
     const char *slash = strrchr(path, '/');
     char *named = slash ? strndup(path, (size_t)(slash - path) + 1) : strdup(".");
     char *folder = named ? realpath(named, NULL) : NULL, *real = realpath(path, NULL);
-    char *root = asset_root ? realpath(asset_root, NULL) : NULL;
+    char *root = realpath(asset_root, NULL);
     const bool inside =
         folder && root && (strcmp(folder, root) == 0 || kiln_path_below(folder, root) != NULL);
     const bool good = !inside || !real || kiln_path_below(real, root) ||

@@ -1,3 +1,4 @@
+/* Writes meshes of boxes and balls as OBJ files, and loads them. */
 #include "support/bodies.h"
 
 #include <math.h>

@@ -216,13 +216,16 @@ static bool await(struct request *request, struct kiln_decode_answer *answer,
     return kiln_error_set(error, KILN_INVALID_INPUT, "it asks for files without end");
 }
 
-static bool receive(struct request *request, struct kiln_mesh_result *result,
+/* Asks for the mesh in a file, and waits for it. */
+static bool receive(struct request *request, int file, struct kiln_mesh_result *result,
                     struct kiln_error *error)
 {
     const bool moving = request->wanted.moving;
     struct kiln_decode_answer answer;
     struct kiln_error reason = {0};
-    bool ok = await(request, &answer, &reason);
+    bool ok = kiln_helper_send(request->helper, &request->wanted, sizeof request->wanted, file,
+                               &reason) &&
+              await(request, &answer, &reason);
     if (ok) {
         struct receiving receiving = {request, &reason};
         take_counts(&answer, result);
@@ -233,12 +236,10 @@ static bool receive(struct request *request, struct kiln_mesh_result *result,
     }
     if (request->refusal.code != KILN_OK)
         return kiln_error_set(error, request->refusal.code, "%s", request->refusal.message);
-    if (reason.code == KILN_INTERRUPTED || reason.code == KILN_OVER_LIMIT)
-        return kiln_error_set(error, reason.code, "%s", reason.message);
-    return ok || kiln_error_set(error, reason.code, "%s: %s", request->name, reason.message);
+    return ok || kiln_helper_fail(request->name, &reason, error);
 }
 
-/* What a file becomes: one of these. */
+/* A file becomes one of these. */
 struct imported {
     struct kiln_mesh *mesh;
     struct kiln_skin *skin; /* of a moving one */
@@ -296,9 +297,7 @@ static struct imported import(struct request *request, int file, struct kiln_err
         kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory while reading the mesh",
                        request->name);
     request->wanted.most_bytes = KILN_MAX_MESH_BYTES;
-    if (result && request->helper &&
-        kiln_helper_send(request->helper, &request->wanted, sizeof request->wanted, file, error) &&
-        receive(request, result, error))
+    if (result && request->helper && receive(request, file, result, error))
         imported = take(request, result, error);
     kiln_helper_end(&request->helper);
     free(result);

@@ -226,7 +226,7 @@ static bool check_counts(const struct check *check)
         good = r->nodes[i].parent < i;
     for (uint32_t i = 0; good && i < r->bone_count; i++)
         good = r->bones[i].node < r->node_count;
-    /* One after the other: ranges that overlap would be work without end. */
+    /* Ranges come one after the other: those that overlap would be work without end. */
     uint32_t channels = 0, keys = 0;
     for (uint32_t i = 0; good && i < r->clip_count; i++) {
         good = r->clips[i].first == channels && r->clips[i].count <= r->channel_count - channels &&

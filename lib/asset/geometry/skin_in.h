@@ -1,4 +1,4 @@
-/* What moves a mesh, on its way from kiln-decode. */
+/* Declares what moves a mesh, on its way from kiln-decode: nodes, bones, clips and their keys. */
 #ifndef KILN_ASSET_GEOMETRY_SKIN_IN_H
 #define KILN_ASSET_GEOMETRY_SKIN_IN_H
 

@@ -76,7 +76,8 @@ static bool is_tiled_exr(const struct head *head)
     return head->size >= 8 && (head->bytes[5] & 0x02) != 0;
 }
 
-/* Of which process a layer of a file is asked, the whole picture if that is NULL. */
+/* Chooses the process that is asked for a layer of a file, or for the whole picture if that is
+ * NULL. */
 static bool choose_kind(const struct head *head, const char *name, const char *layer,
                         enum kiln_decode_kind *kind, struct kiln_decode_request *request,
                         struct kiln_error *error)

@@ -28,6 +28,14 @@ struct kiln_asset_image {
     void *pixels;
 };
 
+/* Bytes of all pixels, of which each has four values. */
+static inline size_t kiln_asset_image_bytes(const struct kiln_asset_image *image)
+{
+    static const size_t pixel_bytes[] = {
+        [KILN_IMAGE_U8] = 4, [KILN_IMAGE_U16] = 8, [KILN_IMAGE_F32] = 16};
+    return (size_t)image->width * image->height * pixel_bytes[image->type];
+}
+
 /* Decodes a PNG, JPEG, WebP, TIFF, BMP or EXR file, or returns NULL: KILN_IO when it cannot be
  * read, KILN_INVALID_INPUT with what was found and what is allowed
  * when it is not a regular file, not such an image, broken or truncated, or beyond the limits above

@@ -2,7 +2,6 @@
  * decoded: sizes are held to the limits before they are multiplied, floats to what is a number. */
 #include "asset/image/received.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -38,9 +37,7 @@ static bool are_finite(const struct kiln_asset_image *image)
 static bool receive_pixels(const struct kiln_received *received, struct kiln_asset_image *image,
                            struct kiln_error *reason)
 {
-    static const size_t pixel_size[] = {
-        [KILN_IMAGE_U8] = 4, [KILN_IMAGE_U16] = 8, [KILN_IMAGE_F32] = 16};
-    const size_t bytes = (size_t)image->width * image->height * pixel_size[image->type];
+    const size_t bytes = kiln_asset_image_bytes(image);
     image->pixels = malloc(bytes);
     if (!image->pixels)
         return kiln_error_set(reason, KILN_DEVICE_FAILED, "out of memory for its pixels");
@@ -52,7 +49,7 @@ static bool receive_pixels(const struct kiln_received *received, struct kiln_ass
                           "the image is cut short or has pixels that are not finite numbers");
 }
 
-/* Of a video, one frame at a time is in memory. */
+/* Counts a picture; of a video, whose frames are in memory one at a time, the largest frame. */
 static bool count_pixels(struct kiln_received *received, uint64_t pixels, struct kiln_error *reason)
 {
     const uint64_t more = pixels > received->counted ? pixels - received->counted : 0;
@@ -100,7 +97,5 @@ bool kiln_received_fail(const struct kiln_received *received, const struct kiln_
         !kiln_budget_take(kiln_loader_budget(received->loader), KILN_LIMIT_asset_pixels,
                           received->refused, received->name, error))
         return false;
-    if (reason->code == KILN_OVER_LIMIT || reason->code == KILN_INTERRUPTED) /* not of the file */
-        return kiln_error_set(error, reason->code, "%s", reason->message);
-    return kiln_error_set(error, reason->code, "%s: %s", received->name, reason->message);
+    return kiln_helper_fail(received->name, reason, error);
 }

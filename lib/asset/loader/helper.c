@@ -101,8 +101,9 @@ static const char *word_of(enum kiln_decode_kind kind)
     return words[kind];
 }
 
-/* What it gets of the environment: where libraries are, and what is kiln's or a sanitizer's. Keys
- * and passwords that a service has there are none of its business. The caller frees it. */
+/* Chooses what the process gets of the environment: where libraries are, and what is kiln's or a
+ * sanitizer's. Keys and passwords that a service has there are none of its business. The caller
+ * frees the array. */
 static char **choose_environment(void)
 {
     static const char *const prefixes[] = {"LD_", "KILN_", "ASAN_", "LSAN_", "UBSAN_", "LANG="};
@@ -158,7 +159,7 @@ static int spawn(pid_t *process, const char *path, enum kiln_decode_kind kind, u
     return status;
 }
 
-/* Processor time that it has taken; 0 where that cannot be known. */
+/* Returns the processor time that the process has taken; 0 where that cannot be known. */
 static double cpu_seconds(const struct kiln_helper *helper)
 {
     clockid_t clock;
@@ -190,18 +191,30 @@ static bool open_pair(int pair[2])
     return true;
 }
 
+/* Whether the caller wanted no more: then it is neither of the file nor of the process. */
+static bool is_of_caller(const struct kiln_error *reason)
+{
+    return reason->code == KILN_INTERRUPTED || reason->code == KILN_OVER_LIMIT;
+}
+
+bool kiln_helper_fail(const char *name, const struct kiln_error *reason, struct kiln_error *error)
+{
+    return is_of_caller(reason)
+               ? kiln_error_set(error, reason->code, "%s", reason->message)
+               : kiln_error_set(error, reason->code, "%s: %s", name, reason->message);
+}
+
 static bool greet(struct kiln_helper *helper, const struct kiln_caller *caller, const char *path,
                   struct kiln_error *error)
 {
     struct kiln_decode_answer answer;
     struct kiln_error reason = {0};
     if (!kiln_helper_answer(helper, caller, 1u << KILN_DECODE_READY, &answer, &reason)) {
-        const bool stopped = reason.code == KILN_INTERRUPTED || reason.code == KILN_OVER_LIMIT;
-        return stopped ? kiln_error_set(error, reason.code, "%s", reason.message)
-                       : kiln_error_set(error, KILN_DEVICE_FAILED, "%s: %s", path,
-                                        reason.code == KILN_INVALID_INPUT
-                                            ? "it ends before it has begun"
-                                            : reason.message);
+        if (reason.code == KILN_INVALID_INPUT)
+            kiln_error_set(&reason, KILN_DEVICE_FAILED, "it ends before it has begun");
+        else if (!is_of_caller(&reason))
+            reason.code = KILN_DEVICE_FAILED;
+        return kiln_helper_fail(path, &reason, error);
     }
     return strcmp(answer.text, KILN_VERSION) == 0 ||
            kiln_error_set(error, KILN_DEVICE_FAILED,
@@ -246,7 +259,7 @@ static void kill_process(const struct kiln_helper *helper)
         kill(helper->process, SIGKILL);
 }
 
-/* How it ended; 0 when somebody else has asked the system for that. */
+/* Ends the process. Returns its status, or 0 when somebody else has asked the system for that. */
 static int end(struct kiln_helper *helper)
 {
     int status = 0;

@@ -36,6 +36,10 @@ bool kiln_helper_answer(struct kiln_helper *helper, const struct kiln_caller *ca
                         unsigned expected, struct kiln_decode_answer *answer,
                         struct kiln_error *error);
 
+/* Says why a file of that name is not decoded: "NAME: reason", or what the caller said, which is
+ * not of the file. Returns false. */
+bool kiln_helper_fail(const char *name, const struct kiln_error *reason, struct kiln_error *error);
+
 /* Whether there was a failure after which nothing can be asked of it any more; whoever finds one in
  * what the helper sent says so by the second. */
 bool kiln_helper_is_broken(const struct kiln_helper *helper);

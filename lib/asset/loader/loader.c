@@ -124,7 +124,7 @@ static int open_steps(int folder, const char *relative)
     return at;
 }
 
-/* Of a path below the root. */
+/* Opens a path below the root. */
 static int open_below(const char *root, const char *relative)
 {
     const int folder = open(root, O_PATH | O_DIRECTORY | O_CLOEXEC);

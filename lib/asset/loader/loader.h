@@ -30,7 +30,7 @@ void kiln_loader_stop_counting(struct kiln_loader *loader, struct kiln_budget *b
 const struct kiln_caller *kiln_loader_caller(const struct kiln_loader *loader);
 struct kiln_budget *kiln_loader_budget(const struct kiln_loader *loader);
 
-/* A file as it is given by people. */
+/* Describes a file as it is given by people. */
 struct kiln_loader_file {
     const char *path;    /* absolute where there is a root */
     const char *what;    /* for messages: "image" */

@@ -1,3 +1,4 @@
+/* Puts winds, terrain, distance fields and depth maps into one buffer, on the host or in GL. */
 #include "sim/world/grids.h"
 
 #include <string.h>
