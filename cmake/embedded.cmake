@@ -1,5 +1,5 @@
-# Files that are put into the library, each folder as one C table (lib/base/embedded.h).
-set(kiln_embedded_sources "")
+# Files that are put into the library or the program, each folder as one C table (lib/base/embedded.h);
+# the variable of a table's name is its source.
 function(kiln_embed table root)
     list(TRANSFORM ARGN PREPEND ${root}/ OUTPUT_VARIABLE globs)
     file(GLOB_RECURSE files CONFIGURE_DEPENDS RELATIVE ${root} ${globs})
@@ -13,7 +13,7 @@ function(kiln_embed table root)
             -P ${script}
         DEPENDS ${paths} ${script}
         VERBATIM)
-    set(kiln_embedded_sources ${kiln_embedded_sources} ${source} PARENT_SCOPE)
+    set(${table} ${source} PARENT_SCOPE)
 endfunction()
 
 kiln_embed(kiln_embedded_shaders ${CMAKE_CURRENT_SOURCE_DIR}/shaders

@@ -1,21 +1,30 @@
 # cmake --install: the program, the library, its headers, a pkg-config file, the scenes and what bash
 # and zsh complete command lines with. docs/ adds manual pages and the schema of scenes.
 
-# The pkg-config file finds its prefix from where it lies, whatever --prefix it was installed to.
-# A static library does not carry its dependencies: whoever links it needs them, too.
+# The pkg-config file finds its prefix from where it lies, whatever --prefix it was installed to. Whoever
+# links the static library needs its dependencies, too: pkg-config --static, or kiln::kiln_static.
+include(CMakePackageConfigHelpers)
 file(RELATIVE_PATH kiln_pc_to_prefix /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
 string(JOIN " " kiln_pc_requires ${kiln_linked_packages})
-set(kiln_pc_private "")
-if(BUILD_SHARED_LIBS)
-    set(kiln_pc_private ".private")
-endif()
 configure_file(cmake/kiln.pc.in ${CMAKE_CURRENT_BINARY_DIR}/kiln.pc @ONLY)
+set(kiln_cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/kiln)
+configure_package_config_file(cmake/kilnConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/kilnConfig.cmake
+    INSTALL_DESTINATION ${kiln_cmake_folder} PATH_VARS CMAKE_INSTALL_LIBDIR CMAKE_INSTALL_INCLUDEDIR)
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/kilnConfigVersion.cmake
+    COMPATIBILITY SameMinorVersion)
+set_target_properties(kiln_shared PROPERTIES EXPORT_NAME kiln)
 install(TARGETS kiln_program kiln)
+install(TARGETS kiln_shared EXPORT kilnTargets
+    LIBRARY NAMELINK_COMPONENT development INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(EXPORT kilnTargets NAMESPACE kiln:: DESTINATION ${kiln_cmake_folder})
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/kilnConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/kilnConfigVersion.cmake
+    DESTINATION ${kiln_cmake_folder})
 install(TARGETS kiln_decode_program DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/kiln)
-file(GLOB kiln_headers CONFIGURE_DEPENDS lib/kiln*.h)
-install(FILES ${kiln_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+set(kiln_api_headers kiln.h kiln_compare.h kiln_job.h kiln_limits.h kiln_sandbox.h)
+list(TRANSFORM kiln_api_headers PREPEND lib/)
+install(FILES ${kiln_api_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/kiln.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
-install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/kiln)
+install(DIRECTORY scenes examples DESTINATION ${CMAKE_INSTALL_DATADIR}/kiln)
 install(FILES cmd/completion/kiln.bash
     DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME kiln)
 install(FILES cmd/completion/_kiln DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)

@@ -130,6 +130,7 @@ static int read_every(struct bake *bake, const struct arguments *arguments,
 static int read_options(struct bake *bake, const struct arguments *arguments)
 {
     struct kiln_bake_params *params = &bake->params;
+    *params = kiln_bake_defaults();
     params->states = arguments_text(arguments, "output", NULL);
     params->threads = arguments_integer(arguments, "threads", 0);
     params->overwrite = arguments_flag(arguments, "force");
@@ -162,7 +163,7 @@ static int run_bake(struct bake *bake, const struct arguments *arguments,
                     const struct kiln_scene *scene)
 {
     struct kiln_error error = {0};
-    struct kiln_bake_stats stats;
+    struct kiln_bake_stats stats = kiln_bake_stats_empty();
     int code = 0;
     struct kiln_device *device = open_device(arguments, &bake->techniques, &code);
     if (device && !kiln_bake(device, scene, &bake->params, &stats, &error))
@@ -189,7 +190,8 @@ static int run(const struct arguments *arguments)
         code = scene ? 0 : report_scene_error(&error);
     }
     if (code == 0) {
-        const struct kiln_scene_info info = kiln_scene_info(scene);
+        struct kiln_scene_info info = kiln_scene_info_empty();
+        kiln_scene_get_info(scene, &info);
         code = read_every(&bake, arguments, &info);
     }
     if (code == 0)

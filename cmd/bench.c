@@ -129,7 +129,7 @@ static void say(void *user, const char *line)
 static struct kiln_bench_params make_params(const struct arguments *arguments, struct lists *lists,
                                             bool *quiet)
 {
-    struct kiln_bench_params params = KILN_BENCH_DEFAULTS;
+    struct kiln_bench_params params = kiln_bench_defaults();
     for (size_t i = 0; i < arguments->operand_count; i++) {
         const char *operand = arguments->operands[i];
         if (is_scene(operand))

@@ -2,7 +2,7 @@
 #include "build.h"
 
 #include "commit.h"
-#include "kiln.h"
+#include "kiln_program.h"
 
 const char *build_name(void)
 {

@@ -20,25 +20,26 @@ static const struct option options[] = {
 };
 
 /* Prints the work of a clip as a comment, so that all of it stays a scene file. */
-static bool print_work(const struct kiln_scene *scene)
+static bool print_work(const struct kiln_scene_info *info)
 {
-    const struct kiln_scene_info info = kiln_scene_info(scene);
     return printf("# work: %" PRIu32 " frame%s of %" PRIu32 " x %" PRIu32 " pixels, %" PRIu64
                   " steps, up to %" PRIu64 " particles, about %" PRIu64 " MiB\n",
-                  info.frames, info.frames == 1 ? "" : "s", info.width, info.height, info.steps,
-                  info.particle_capacity, info.memory_bytes >> 20) >= 0;
+                  info->frames, info->frames == 1 ? "" : "s", info->width, info->height,
+                  info->steps, info->particle_capacity, info->memory_bytes >> 20) >= 0;
 }
 
 /* Writes what was asked for to standard output; false when that failed. */
 static bool print_scene(const struct kiln_scene *scene, const char *path, bool hash, bool several)
 {
+    struct kiln_scene_info info = kiln_scene_info_empty();
+    kiln_scene_get_info(scene, &info);
     if (hash && several)
-        return printf("%s  %s\n", kiln_scene_info(scene).hash, path) >= 0;
+        return printf("%s  %s\n", info.hash, path) >= 0;
     if (hash)
-        return printf("%s\n", kiln_scene_info(scene).hash) >= 0;
+        return printf("%s\n", info.hash) >= 0;
     if (several && printf("--- # %s\n", path) < 0)
         return false;
-    return kiln_scene_print(scene, stdout) && print_work(scene);
+    return kiln_scene_print(scene, stdout) && print_work(&info);
 }
 
 static int run(const struct arguments *arguments)

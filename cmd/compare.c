@@ -102,7 +102,7 @@ static bool wants_stop(void *user)
 
 static struct kiln_compare_params read_params(const struct arguments *arguments)
 {
-    struct kiln_compare_params params = KILN_COMPARE_DEFAULTS;
+    struct kiln_compare_params params = kiln_compare_defaults();
     params.reference = arguments->operands[0];
     params.test = arguments->operands[1];
     const struct option_use *diff = arguments_last(arguments, "diff");
@@ -147,14 +147,19 @@ static void read_lists(const struct arguments *arguments, const char **limits,
         if (use->option->kind == OPTION_PAIRS)
             limits[params->limit_count++] = use->text;
         else if (use->option->kind == OPTION_RECT)
-            masks[params->mask_count++] = (struct kiln_compare_mask){
-                (uint32_t)use->integer[0], (uint32_t)use->integer[1], (uint32_t)use->integer[2],
-                (uint32_t)use->integer[3], NULL};
+            masks[params->mask_count++] = (struct kiln_compare_mask){sizeof *masks,
+                                                                     (uint32_t)use->integer[0],
+                                                                     (uint32_t)use->integer[1],
+                                                                     (uint32_t)use->integer[2],
+                                                                     (uint32_t)use->integer[3],
+                                                                     NULL};
         else if (strcmp(use->option->name, "mask") == 0)
-            masks[params->mask_count++] = (struct kiln_compare_mask){.picture = use->text};
+            masks[params->mask_count++] =
+                (struct kiln_compare_mask){.size = sizeof *masks, .picture = use->text};
     }
     params->limits = limits;
     params->masks = masks;
+    params->mask_stride = sizeof *masks;
 }
 
 static int run(const struct arguments *arguments)
@@ -175,7 +180,7 @@ static int run(const struct arguments *arguments)
     read_lists(arguments, limits, masks, &params);
     params.user = &printed;
     signals_install();
-    struct kiln_compare_result result;
+    struct kiln_compare_result result = kiln_compare_result_empty();
     struct kiln_error error = {0};
     bool ok = kiln_compare(&params, &result, &error);
     free(limits);

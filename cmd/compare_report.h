@@ -2,7 +2,7 @@
 #ifndef KILN_CMD_COMPARE_REPORT_H
 #define KILN_CMD_COMPARE_REPORT_H
 
-#include "kiln.h"
+#include "kiln_program.h"
 
 /* Which pictures, as the person named them, and how to print. */
 struct compare_report {

@@ -7,7 +7,7 @@ struct kiln_device *open_device(const struct arguments *arguments,
                                 const struct value_list *techniques, int *code)
 {
     struct kiln_error error = {0};
-    struct kiln_device_params params = KILN_DEVICE_DEFAULTS;
+    struct kiln_device_params params = kiln_device_defaults();
     params.wanted =
         arguments_text(arguments, "device", arguments->sandboxed ? KILN_DEVICE_CPU : NULL);
     params.gl = kiln_techniques_need_gl(techniques->items, techniques->count);

@@ -48,7 +48,8 @@ static void print_text(const struct kiln_device_info *info)
 /* Prints what the kernel has for --sandbox. */
 static void print_sandbox(void)
 {
-    const struct kiln_sandbox_support has = kiln_sandbox_support();
+    struct kiln_sandbox_support has = kiln_sandbox_support_empty();
+    kiln_sandbox_get_support(&has);
     char landlock[32] = "no Landlock";
     if (has.landlock > 0)
         snprintf(landlock, sizeof landlock, "Landlock %d", has.landlock);
@@ -58,7 +59,8 @@ static void print_sandbox(void)
 
 static void add_sandbox(struct kiln_json *json)
 {
-    const struct kiln_sandbox_support has = kiln_sandbox_support();
+    struct kiln_sandbox_support has = kiln_sandbox_support_empty();
+    kiln_sandbox_get_support(&has);
     kiln_json_begin_object(json, "sandbox");
     kiln_json_int(json, "landlock", has.landlock);
     kiln_json_bool(json, "seccomp", has.seccomp);
@@ -112,7 +114,9 @@ static int run(const struct arguments *arguments)
 {
     struct kiln_device_info infos[MAX_DEVICES];
     char advice[256] = "";
-    size_t count = kiln_device_list(infos, MAX_DEVICES, advice);
+    for (size_t i = 0; i < MAX_DEVICES; i++)
+        infos[i] = kiln_device_info_empty();
+    size_t count = kiln_device_list(infos, sizeof *infos, MAX_DEVICES, advice);
     if (count > MAX_DEVICES)
         count = MAX_DEVICES;
     if (arguments_last(arguments, "json")) {

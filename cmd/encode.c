@@ -76,7 +76,7 @@ static int run(const struct arguments *arguments)
     if (!output)
         return report(KILN_USAGE, "encode: needs --output FILE");
     struct encoding encoding = {.output = output->text};
-    struct kiln_encode_params params = KILN_ENCODE_DEFAULTS;
+    struct kiln_encode_params params = kiln_encode_defaults();
     params.frames = arguments->operands[0];
     params.output = output->text;
     params.fps = arguments_text(arguments, "fps", NULL);

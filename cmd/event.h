@@ -2,7 +2,7 @@
 #ifndef KILN_CMD_EVENT_H
 #define KILN_CMD_EVENT_H
 
-#include "kiln.h"
+#include "kiln_program.h"
 
 /* Begins an object whose "event" is the name. More members may be added until its end, which ends
  * the line and flushes nothing. */

@@ -85,7 +85,7 @@ static int read_repeated(const struct command *command, const struct arguments *
 static struct kiln_figure_params make_params(const struct arguments *arguments,
                                              const struct lists *lists)
 {
-    struct kiln_figure_params params = KILN_FIGURE_DEFAULTS;
+    struct kiln_figure_params params = kiln_figure_defaults();
     const struct option_use *frames = arguments_last(arguments, "frames");
     params.inputs = arguments->operands;
     params.input_count = arguments->operand_count;

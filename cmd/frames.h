@@ -2,7 +2,7 @@
 #ifndef KILN_CMD_FRAMES_H
 #define KILN_CMD_FRAMES_H
 
-#include "kiln.h"
+#include "kiln_program.h"
 
 /* Ascending and disjoint; neighbouring ranges are one. */
 struct frame_list {

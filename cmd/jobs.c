@@ -101,12 +101,12 @@ static int claim_files(const struct job_list *list)
     for (size_t i = 0; i < list->count && code == 0; i++) {
         const struct job *job = &list->jobs[i];
         struct kiln_error error = {0};
-        struct kiln_render_params params = KILN_RENDER_DEFAULTS;
+        struct kiln_render_params params = kiln_render_defaults();
         params.output = list->stream.format ? NULL : job->output;
         params.manifest = job->manifest;
         params.ranges = job->frames.ranges;
         params.range_count = job->frames.count;
-        params.flipbook = list->flipbook;
+        params.flipbook = list->flipbook.columns > 0 ? &list->flipbook : NULL;
         params.resume = list->resume;
         params.shard = list->shard;
         params.shards = list->shards;
@@ -199,6 +199,7 @@ static int read_flipbook(struct job_list *list, const struct arguments *argument
                              part->option->name)
                     : 0;
     list->flipbook = (struct kiln_flipbook){
+        .size = sizeof list->flipbook,
         .columns = (uint32_t)grid->integer[0],
         .rows = (uint32_t)grid->integer[1],
         .padding = padding ? (uint32_t)padding->integer[0] : 0,
@@ -235,7 +236,8 @@ static int load_scenes(struct job_list *list, const struct arguments *arguments)
         job->scene = kiln_scene_load(job->path, &params, &error);
         int failure;
         if (job->scene) {
-            job->info = kiln_scene_info(job->scene);
+            job->info = kiln_scene_info_empty();
+            kiln_scene_get_info(job->scene, &job->info);
             failure = choose_frames(job, arguments);
             if (failure == 0 && list->flipbook.columns > 0)
                 failure = choose_cells(job, &list->flipbook);

@@ -27,6 +27,7 @@ static const struct option options[] = {
 static int run_join(const struct arguments *arguments, const char **command, size_t count)
 {
     const struct kiln_join_params params = {
+        .size = sizeof params,
         .output = arguments->operands[0],
         .manifest = arguments_text(arguments, "manifest", NULL),
         .command = command,
@@ -36,7 +37,7 @@ static int run_join(const struct arguments *arguments, const char **command, siz
         .budget = arguments->budget,
         .log = report_log(),
     };
-    struct kiln_join_stats stats;
+    struct kiln_join_stats stats = kiln_join_stats_empty();
     struct kiln_error error = {0};
     signals_install_for_job();
     if (!kiln_join(&params, &stats, &error))

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "kiln.h"
+#include "kiln_program.h"
 
 _Noreturn void end_with_words(const char *line, int code)
 {

@@ -45,7 +45,7 @@ static int read_limits(struct kiln_limits *limits, const char *command,
 
 int limits_begin(struct limits *limits, const char *command, const struct arguments *arguments)
 {
-    struct kiln_limits read = {{0}};
+    struct kiln_limits read = kiln_limits_empty();
     *limits = (struct limits){.budget = NULL};
     const int code = read_limits(&read, command, arguments);
     bool any = false;

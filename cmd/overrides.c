@@ -57,9 +57,11 @@ struct kiln_scene_params overrides_scene_params(const struct overrides *override
                                                 const struct arguments *arguments)
 {
     const struct option_use *root = arguments_last(arguments, "asset-root");
-    return (struct kiln_scene_params){.asset_root = root ? root->text : NULL,
-                                      .overrides = (const char *const *)overrides->texts,
-                                      .override_count = overrides->count,
-                                      .stop = signals_wants_stop,
-                                      .budget = arguments->budget};
+    struct kiln_scene_params params = kiln_scene_defaults();
+    params.asset_root = root ? root->text : NULL;
+    params.overrides = (const char *const *)overrides->texts;
+    params.override_count = overrides->count;
+    params.stop = signals_wants_stop;
+    params.budget = arguments->budget;
+    return params;
 }

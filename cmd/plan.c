@@ -163,6 +163,7 @@ static int run_plan(const struct arguments *arguments, const struct kiln_scene *
                                 .json_wanted = arguments_flag(arguments, "json")};
     const struct option_use *frame = arguments_last(arguments, "frame");
     const struct kiln_plan_params params = {
+        .size = sizeof params,
         .tasks = arguments_integer(arguments, "tasks", 1),
         .states = arguments_text(arguments, "states", NULL),
         .frame = frame ? (int64_t)frame->integer[0] : -1,
@@ -174,11 +175,11 @@ static int run_plan(const struct arguments *arguments, const struct kiln_scene *
         .user = &planning,
         .log = report_log(),
     };
-    struct kiln_plan plan;
+    struct kiln_plan plan = kiln_plan_empty();
     struct kiln_error error = {0};
     int code = 0;
     struct kiln_device *device = open_device(arguments, techniques, &code);
-    if (device && !kiln_plan(device, scene, &params, &plan, &error))
+    if (device && !kiln_plan_tasks(device, scene, &params, &plan, &error))
         code = report_failure(&planning, &error);
     else if (device && planning.json_wanted)
         end_json(&planning);

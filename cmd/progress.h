@@ -2,7 +2,7 @@
 #ifndef KILN_CMD_PROGRESS_H
 #define KILN_CMD_PROGRESS_H
 
-#include "kiln.h"
+#include "kiln_program.h"
 
 enum progress_mode {
     PROGRESS_TTY,    /* one line on standard error, drawn over */

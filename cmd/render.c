@@ -191,7 +191,7 @@ static bool wants_stop(void *user)
 static bool read_options(struct render *render, const struct arguments *arguments)
 {
     struct kiln_render_params *params = &render->params;
-    *params = KILN_RENDER_DEFAULTS;
+    *params = kiln_render_defaults();
     params->threads = arguments_integer(arguments, "threads", params->threads);
     params->quality = arguments_integer(arguments, "quality", params->quality);
     params->png_bits = arguments_choice(arguments, "png-bits", 0) == 0 ? 8 : 16;
@@ -313,14 +313,14 @@ static int run_job(struct render *render, struct kiln_device *device, const stru
     render->params.manifest = job->manifest;
     render->params.ranges = job->frames.ranges;
     render->params.range_count = job->frames.count;
-    render->params.flipbook = render->list.flipbook;
+    render->params.flipbook = render->list.flipbook.columns > 0 ? &render->list.flipbook : NULL;
     progress_start(&render->progress, render->progress_mode);
     render->last_frame = -1;
     if (!render->params.resume && render->shard.count == 0)
         allow_frame(render, job->frames.ranges[0].first);
 
     struct kiln_error error = {0};
-    struct kiln_render_stats stats = {0};
+    struct kiln_render_stats stats = kiln_render_stats_empty();
     bool ok = kiln_render(device, job->scene, &render->params, &stats, &error);
     if (render->watchdog)
         watchdog_disarm(render->watchdog);
@@ -341,7 +341,7 @@ static int run_jobs(struct render *render, const struct arguments *arguments)
         watchdog_disarm(render->watchdog);
     if (!device)
         return code;
-    print_device(render, kiln_device_info(device));
+    print_device(render, kiln_device_get_info(device));
     print_shard(render);
     for (size_t i = 0; i < render->list.count && code == 0; i++)
         code = run_job(render, device, &render->list.jobs[i]);

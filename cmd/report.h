@@ -2,7 +2,7 @@
 #ifndef KILN_CMD_REPORT_H
 #define KILN_CMD_REPORT_H
 
-#include "kiln.h"
+#include "kiln_program.h"
 
 /* Prints "kiln: " and the message; returns the code, so that a command can return it. */
 int report(enum kiln_code code, const char *format, ...) __attribute__((format(printf, 2, 3)));

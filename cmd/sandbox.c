@@ -108,7 +108,8 @@ static int confine(const struct command *command, const struct arguments *argume
     if (!collect(&reached, command, arguments)) {
         code = report_no_memory();
     } else {
-        const struct kiln_sandbox_params params = {.readable = reached.readable,
+        const struct kiln_sandbox_params params = {.size = sizeof params,
+                                                   .readable = reached.readable,
                                                    .readable_count = reached.readable_count,
                                                    .writable = reached.writable,
                                                    .writable_count = reached.writable_count,

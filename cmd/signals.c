@@ -9,7 +9,7 @@
 #include <sys/time.h>
 #include <unistd.h>
 
-#include "kiln.h"
+#include "kiln_program.h"
 #include "last_words.h"
 #include "report.h"
 

@@ -2,7 +2,7 @@
 #ifndef KILN_CMD_STATS_H
 #define KILN_CMD_STATS_H
 
-#include "kiln.h"
+#include "kiln_program.h"
 
 struct job_result {
     const char *scene;

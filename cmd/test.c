@@ -283,7 +283,7 @@ static int read_options(struct test_run *run, struct test_outputs *outputs,
                         const char *page)
 {
     struct kiln_test_params *params = &run->params;
-    *params = KILN_TEST_DEFAULTS;
+    *params = kiln_test_defaults();
     params->device = arguments_text(arguments, "device", NULL);
     params->techniques = techniques->items;
     params->technique_count = techniques->count;

@@ -87,7 +87,7 @@ static int run(const struct arguments *arguments)
     struct value_list devices;
     bool ok = value_list_create(&devices, arguments, "device");
     int code = ok ? select_tests(&suite, arguments, "test calibrate") : report_no_memory();
-    struct kiln_calibrate_params params = KILN_CALIBRATE_DEFAULTS;
+    struct kiln_calibrate_params params = kiln_calibrate_defaults();
     params.devices = devices.items;
     params.device_count = devices.count;
     params.renders = arguments_integer(arguments, "renders", params.renders);

@@ -2,7 +2,7 @@
 #ifndef KILN_CMD_TEST_FILES_H
 #define KILN_CMD_TEST_FILES_H
 
-#include "kiln.h"
+#include "kiln_program.h"
 
 /* "folder/name" in new memory; NULL when memory is short. */
 char *join_path(const char *folder, const char *name);

@@ -2,7 +2,7 @@
 #ifndef KILN_CMD_TEST_LINES_H
 #define KILN_CMD_TEST_LINES_H
 
-#include "kiln.h"
+#include "kiln_program.h"
 
 struct test_lines {
     const struct kiln_suite *suite;

@@ -3,7 +3,7 @@
 #ifndef KILN_CMD_TEST_POOL_H
 #define KILN_CMD_TEST_POOL_H
 
-#include "kiln.h"
+#include "kiln_program.h"
 
 /* What a process is given. */
 struct test_task {

@@ -54,7 +54,7 @@ int select_tests(struct kiln_suite **suite, const struct arguments *arguments, c
     bool ok = value_list_create(&filters, arguments, "filter") && paths && names;
     int code = ok ? 0 : report_no_memory();
     if (ok) {
-        struct kiln_suite_params params = KILN_SUITE_DEFAULTS;
+        struct kiln_suite_params params = kiln_suite_defaults();
         params.paths = paths;
         params.names = names;
         for (size_t i = 0; i < arguments->operand_count; i++) {

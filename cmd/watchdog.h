@@ -3,7 +3,7 @@
 #ifndef KILN_CMD_WATCHDOG_H
 #define KILN_CMD_WATCHDOG_H
 
-#include "kiln.h"
+#include "kiln_program.h"
 
 struct watchdog;
 

@@ -74,12 +74,14 @@ bool decode_mesh_begin(struct kiln_error *error);
 bool decode_mesh(const struct decode_mesh *mesh, struct kiln_mesh_result *result,
                  struct kiln_error *error);
 
-struct aiMesh;
 struct aiScene;
 
-/* Appends the vertices and triangles of one of assimp's meshes. */
-bool decode_mesh_part(const struct decode_mesh *wanted, const struct aiMesh *mesh,
-                      struct kiln_mesh_result *result, struct kiln_error *error);
+/* Says that a mesh is too large; returns false. */
+bool decode_refuse_size(struct kiln_error *error);
+
+/* All of a scene that stands still, in one piece. */
+bool decode_surface(const struct decode_mesh *wanted, const struct aiScene *scene,
+                    struct kiln_mesh_result *result, struct kiln_error *error);
 
 /* Appends all meshes of a scene that moves, and what moves them. */
 bool decode_skin(const struct decode_mesh *wanted, const struct aiScene *scene,

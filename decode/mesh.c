@@ -6,7 +6,6 @@
 #include <assimp/mesh.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,16 +17,12 @@
 /* The version that the headers describe; any 5.x has this name. */
 #define LIBRARY "libassimp.so.5"
 
-static const float CREASE_DEG =
-    50.0f; /* smooth normals across flatter edges, where a file has none */
-
 /* ---- the library ----------------------------------------------------------------------------- */
 
 #define FUNCTIONS(F)                                                                               \
     F(aiCreatePropertyStore)                                                                       \
     F(aiReleasePropertyStore)                                                                      \
     F(aiSetImportPropertyInteger)                                                                  \
-    F(aiSetImportPropertyFloat)                                                                    \
     F(aiImportFileExWithProperties)                                                                \
     F(aiReleaseImport)                                                                             \
     F(aiGetErrorString)
@@ -227,6 +222,42 @@ static struct aiFile *open_bytes(const void *bytes, size_t size, unsigned char *
     return file;
 }
 
+static bool lacks_zero(const char *bytes, size_t i)
+{
+    return bytes[i] == '.' && (bytes[i - 1] == ' ' || bytes[i - 1] == '\t');
+}
+
+/* An OBJ whose numbers below 1 begin with a zero: assimp takes ".5" for no number, and a line with
+ * it for no vertex. The bytes themselves where none lacks it; else *owned is a copy. NULL: no
+ * memory. */
+static const char *spell_numbers(const struct decode_mesh *mesh, size_t *size,
+                                 unsigned char **owned)
+{
+    const char *bytes = mesh->bytes;
+    size_t lacking = 0, end = 0;
+    for (size_t i = 1; i < mesh->size; i++)
+        lacking += lacks_zero(bytes, i);
+    *size = mesh->size + lacking;
+    if (lacking == 0)
+        return bytes;
+    *owned = malloc(*size);
+    for (size_t i = 0; *owned && i < mesh->size; i++) {
+        if (i > 0 && lacks_zero(bytes, i))
+            (*owned)[end++] = '0';
+        (*owned)[end++] = (unsigned char)bytes[i];
+    }
+    return (const char *)*owned;
+}
+
+static struct aiFile *open_main(const struct decode_mesh *mesh)
+{
+    unsigned char *owned = NULL;
+    size_t size = mesh->size;
+    const char *bytes =
+        mesh->format == KILN_MESH_OBJ ? spell_numbers(mesh, &size, &owned) : mesh->bytes;
+    return bytes ? open_bytes(bytes, size, owned) : NULL;
+}
+
 static struct aiFile *on_open(struct aiFileIO *io, const char *name, const char *mode)
 {
     const struct files *files = (const struct files *)io->UserData;
@@ -234,7 +265,7 @@ static struct aiFile *on_open(struct aiFileIO *io, const char *name, const char 
     if (mode[0] != 'r')
         return NULL;
     if (strcmp(name, files->main_name) == 0)
-        return open_bytes(mesh->bytes, mesh->size, NULL);
+        return open_main(mesh);
     if (mesh->format != KILN_MESH_GLTF || !mesh->open)
         return NULL; /* an OBJ's materials: they are left out */
     size_t size = 0;
@@ -244,66 +275,19 @@ static struct aiFile *on_open(struct aiFileIO *io, const char *name, const char 
 
 /* ---- the mesh -------------------------------------------------------------------------------- */
 
-static bool refuse_size(struct kiln_error *error)
+bool decode_refuse_size(struct kiln_error *error)
 {
     return kiln_error_set(error, KILN_INVALID_INPUT,
                           "the mesh is too large; allowed are %d vertices and %d triangles",
                           KILN_MAX_MESH_VERTICES, KILN_MAX_MESH_TRIANGLES);
 }
 
-static void put_vertex(const struct aiMesh *mesh, unsigned i, float out[6])
-{
-    const struct aiVector3D *p = &mesh->mVertices[i];
-    struct aiVector3D n = mesh->mNormals ? mesh->mNormals[i] : (struct aiVector3D){0, 1, 0};
-    float length = sqrtf(n.x * n.x + n.y * n.y + n.z * n.z);
-    if (!(length > 1e-12f && length < 1e12f)) /* of a triangle without an area */
-        n = (struct aiVector3D){0, length = 1, 0};
-    const float vertex[6] = {p->x, p->y, p->z, n.x / length, n.y / length, n.z / length};
-    memcpy(out, vertex, sizeof vertex);
-}
-
-bool decode_mesh_part(const struct decode_mesh *wanted, const struct aiMesh *mesh,
-                      struct kiln_mesh_result *result, struct kiln_error *error)
-{
-    uint32_t first = result->vertex_count;
-    if (mesh->mNumVertices > KILN_MAX_MESH_VERTICES - first)
-        return refuse_size(error);
-    const struct aiVector3D *uvs = mesh->mTextureCoords[0];
-    if (wanted->uvs && !uvs)
-        return kiln_error_set(
-            error, KILN_INVALID_INPUT,
-            "the mesh, or a part of it, has no texture coordinates, by which paint "
-            "would find its places");
-    for (unsigned i = 0; i < mesh->mNumVertices; i++) {
-        put_vertex(mesh, i, result->vertices[first + i]);
-        if (wanted->uvs) {
-            result->uvs[first + i][0] = uvs[i].x;
-            result->uvs[first + i][1] = uvs[i].y;
-        }
-    }
-    result->vertex_count += mesh->mNumVertices;
-    for (unsigned i = 0; i < mesh->mNumFaces; i++) {
-        const struct aiFace *face = &mesh->mFaces[i];
-        if (face->mNumIndices != 3)
-            continue;
-        if (result->triangle_count == KILN_MAX_MESH_TRIANGLES)
-            return refuse_size(error);
-        uint32_t *triangle = result->triangles[result->triangle_count++];
-        for (int c = 0; c < 3; c++)
-            triangle[c] = first + face->mIndices[c];
-    }
-    return true;
-}
-
 static bool put_scene(const struct decode_mesh *wanted, const struct aiScene *scene,
                       struct kiln_mesh_result *result, struct kiln_error *error)
 {
-    if (wanted->moving && !decode_skin(wanted, scene, result, error))
+    if (!(wanted->moving ? decode_skin(wanted, scene, result, error)
+                         : decode_surface(wanted, scene, result, error)))
         return false;
-    for (unsigned i = 0; !wanted->moving && i < scene->mNumMeshes; i++) {
-        if (!decode_mesh_part(wanted, scene->mMeshes[i], result, error))
-            return false;
-    }
     const char *lacks = result->triangle_count == 0 ? "no triangles"
                         : result->vertex_count < 3  ? "no triangle with an area"
                                                     : NULL;
@@ -323,7 +307,6 @@ static struct aiPropertyStore *make_properties(const struct decode_mesh *wanted)
                                           (int)aiComponent_LIGHTS | (int)aiComponent_CAMERAS);
         ai.aiSetImportPropertyInteger(properties, AI_CONFIG_PP_SBP_REMOVE,
                                       aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-        ai.aiSetImportPropertyFloat(properties, AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, CREASE_DEG);
     }
     return properties;
 }
@@ -360,11 +343,8 @@ bool decode_mesh(const struct decode_mesh *mesh, struct kiln_mesh_result *result
         return decode_out_of_memory(error);
     const unsigned flags = aiProcess_ValidateDataStructure | aiProcess_RemoveComponent |
                            aiProcess_Triangulate | aiProcess_SortByPType;
-    /* In one piece; what moves stays as it is, since its pieces do not move alike. */
-    const unsigned still = aiProcess_PreTransformVertices | aiProcess_GenSmoothNormals |
-                           aiProcess_JoinIdenticalVertices;
-    const struct aiScene *scene = ai.aiImportFileExWithProperties(
-        main_name, mesh->moving ? flags : flags | still, &io, properties);
+    const struct aiScene *scene =
+        ai.aiImportFileExWithProperties(main_name, flags, &io, properties);
     const bool ok =
         scene ? put_scene(mesh, scene, result, error) : explain(ai.aiGetErrorString(), error);
     if (scene)

@@ -249,6 +249,40 @@ static bool put_weights(struct skinning *s, const struct aiMesh *mesh, uint32_t 
     return true;
 }
 
+static void put_vertex(const struct aiMesh *mesh, unsigned i, float out[6])
+{
+    const struct aiVector3D *p = &mesh->mVertices[i];
+    struct aiVector3D n = mesh->mNormals ? mesh->mNormals[i] : (struct aiVector3D){0, 1, 0};
+    float length = sqrtf(n.x * n.x + n.y * n.y + n.z * n.z);
+    if (!(length > 1e-12f && length < 1e12f)) /* of a triangle without an area */
+        n = (struct aiVector3D){0, length = 1, 0};
+    const float vertex[6] = {p->x, p->y, p->z, n.x / length, n.y / length, n.z / length};
+    memcpy(out, vertex, sizeof vertex);
+}
+
+/* Appends the vertices and triangles of one of the file's meshes. */
+static bool put_part(const struct aiMesh *mesh, struct kiln_mesh_result *result,
+                     struct kiln_error *error)
+{
+    uint32_t first = result->vertex_count;
+    if (mesh->mNumVertices > KILN_MAX_MESH_VERTICES - first)
+        return decode_refuse_size(error);
+    for (unsigned i = 0; i < mesh->mNumVertices; i++)
+        put_vertex(mesh, i, result->vertices[first + i]);
+    result->vertex_count += mesh->mNumVertices;
+    for (unsigned i = 0; i < mesh->mNumFaces; i++) {
+        const struct aiFace *face = &mesh->mFaces[i];
+        if (face->mNumIndices != 3)
+            continue;
+        if (result->triangle_count == KILN_MAX_MESH_TRIANGLES)
+            return decode_refuse_size(error);
+        uint32_t *triangle = result->triangles[result->triangle_count++];
+        for (int c = 0; c < 3; c++)
+            triangle[c] = first + face->mIndices[c];
+    }
+    return true;
+}
+
 static bool put_meshes(struct skinning *s)
 {
     s->result->skin.has_normals = true;
@@ -259,8 +293,7 @@ static bool put_meshes(struct skinning *s)
             const uint32_t first = s->result->vertex_count;
             if (mesh->mNumAnimMeshes > 0)
                 return SET(s, "a mesh has morph targets; allowed are nodes and bones");
-            if (!decode_mesh_part(s->wanted, mesh, s->result, s->error) ||
-                !put_weights(s, mesh, i, first))
+            if (!put_part(mesh, s->result, s->error) || !put_weights(s, mesh, i, first))
                 return false;
             s->result->skin.has_normals &= mesh->mNormals != NULL;
         }

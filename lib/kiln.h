@@ -2,10 +2,10 @@
  *
  * A program loads a scene, opens a device and renders a job:
  *
- *     struct kiln_error error = {0};
- *     struct kiln_scene *scene = kiln_scene_load("fire.yaml", &KILN_SCENE_DEFAULTS, &error);
- *     struct kiln_device *device = kiln_device_open(&KILN_DEVICE_DEFAULTS, &error);
- *     struct kiln_render_params params = KILN_RENDER_DEFAULTS;
+ *     struct kiln_error error = kiln_error_empty();
+ *     struct kiln_scene *scene = kiln_scene_load("fire.yaml", NULL, &error);
+ *     struct kiln_device *device = kiln_device_open(NULL, &error);
+ *     struct kiln_render_params params = kiln_render_defaults();
  *     params.output = "fire.mp4";
  *     bool ok = scene && device && kiln_render(device, scene, &params, NULL, &error);
  *     kiln_device_close(&device);
@@ -15,6 +15,12 @@
  * Nothing in the library prints or exits; messages go to the log callback. Threads: a device and
  * what was made with it belong to the thread that opened it. Scenes are immutable once loaded and
  * may be shared. Nothing is global.
+ *
+ * Structs that begin with `size` can grow at their end in later versions: fill one by the function
+ * that is named after it, then change what you need. A program that was built against an older
+ * version goes on with a newer library, which takes its own defaults for what the program does not
+ * know. NULL for parameters stands for all defaults. Structs without `size` never change; those
+ * that a caller fills have no padding at their end, where a later member would lie.
  */
 #ifndef KILN_H
 #define KILN_H
@@ -23,14 +29,29 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <string.h>
 
-#include "kiln_limits.h"
+/* What the shared library exports. */
+#define KILN_API __attribute__((visibility("default")))
+
+/* Defines struct TYPE FUNCTION(void): all zero but its size. */
+#define KILN_EMPTY(type, function)                                                                 \
+    static inline struct type function(void)                                                       \
+    {                                                                                              \
+        struct type empty;                                                                         \
+        memset(&empty, 0, sizeof empty);                                                           \
+        empty.size = sizeof empty;                                                                 \
+        return empty;                                                                              \
+    }
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 #define KILN_VERSION "0.1.0"
+
+/* The version of the library that is linked, where KILN_VERSION is that of this header. */
+KILN_API const char *kiln_version(void);
 
 /* What went wrong. The values are the program's exit codes. */
 enum kiln_code {
@@ -54,31 +75,27 @@ enum { KILN_MIN_EDGE = 16, KILN_MAX_EDGE = 16384, KILN_MAX_FRAMES = 1000000, KIL
 
 /* An error as one complete line for a person: place, what was found, what is allowed. */
 struct kiln_error {
+    size_t size; /* or 0: what is here */
     enum kiln_code code;
     char message[KILN_MESSAGE_SIZE];
 };
+KILN_EMPTY(kiln_error, kiln_error_empty)
 
 enum kiln_log_level { KILN_LOG_DEBUG, KILN_LOG_INFO, KILN_LOG_WARNING };
-
-/* The files that a call reads and those that it writes, each known by where its path leads. Whoever
- * declares all before the work begins writes nothing that is read, and nothing twice. */
-struct kiln_claims;
-struct kiln_claims *kiln_claims_create(void); /* NULL when memory is short */
-void kiln_claims_destroy(struct kiln_claims **claims);
-
-/* Declares a file that the call reads, or writes; `what` stands for it in messages: "a texture",
- * "--manifest". KILN_USAGE when the call writes it already, or reads what is to be written,
- * KILN_DEVICE_FAILED when memory is short. A path that leads nowhere is read by nobody. */
-bool kiln_claims_read(struct kiln_claims *claims, const char *path, const char *what,
-                      struct kiln_error *error);
-bool kiln_claims_write(struct kiln_claims *claims, const char *path, const char *what,
-                       struct kiln_error *error);
 
 /* Receives one line without its newline. May be called from worker threads. */
 struct kiln_log {
     void (*write)(void *user, enum kiln_log_level level, const char *line);
     void *user;
 };
+
+/* A request to stop, which any thread may make, and a signal handler, too. Calls that were given it
+ * end with KILN_INTERRUPTED, and leave nothing half-written. Destroy it after they have ended. */
+struct kiln_cancel;
+KILN_API struct kiln_cancel *kiln_cancel_create(void); /* NULL when memory is short */
+KILN_API void kiln_cancel_destroy(struct kiln_cancel **cancel);
+KILN_API void kiln_cancel_request(struct kiln_cancel *cancel);
+KILN_API bool kiln_cancel_is_requested(const struct kiln_cancel *cancel); /* NULL: false */
 
 /* ---- Scenes ------------------------------------------------------------------------------- */
 
@@ -87,6 +104,7 @@ struct kiln_scene;
 /* How a scene file is read. overrides are "dotted.key=value" texts, applied in order after the
  * file; a '*' names every entry of a map or list. asset_root NULL is the scene file's folder. */
 struct kiln_scene_params {
+    size_t size;
     const char *asset_root;
     const char *const *overrides;
     size_t override_count;
@@ -94,52 +112,30 @@ struct kiln_scene_params {
      * as the scene lives; true ends with KILN_INTERRUPTED; NULL: never. */
     bool (*stop)(void *user);
     void *user;
+    const struct kiln_cancel *cancel; /* NULL: nobody cancels */
     struct kiln_budget *budget; /* of the job, for as long as the scene lives; NULL: no limits */
 };
-#define KILN_SCENE_DEFAULTS ((struct kiln_scene_params){.asset_root = NULL})
+KILN_EMPTY(kiln_scene_params, kiln_scene_defaults)
 
 /* Reads, validates and returns a scene, which the caller destroys; or NULL with KILN_INVALID_INPUT,
  * also when there is no such file, KILN_USAGE for an override that is no "key=value", KILN_IO when
  * reading fails, KILN_OVER_LIMIT, or KILN_DEVICE_FAILED when memory is short. */
-struct kiln_scene *kiln_scene_load(const char *path, const struct kiln_scene_params *params,
-                                   struct kiln_error *error);
+KILN_API struct kiln_scene *
+kiln_scene_load(const char *path, const struct kiln_scene_params *params, struct kiln_error *error);
 
 /* The same for a text in memory; name stands for the file in messages, and relative asset paths
  * start at params->asset_root or, without one, at the working directory. */
-struct kiln_scene *kiln_scene_parse(const char *text, size_t size, const char *name,
-                                    const struct kiln_scene_params *params,
-                                    struct kiln_error *error);
-void kiln_scene_destroy(struct kiln_scene **scene);
+KILN_API struct kiln_scene *kiln_scene_parse(const char *text, size_t size, const char *name,
+                                             const struct kiln_scene_params *params,
+                                             struct kiln_error *error);
+KILN_API void kiln_scene_destroy(struct kiln_scene **scene);
 
 /* Writes the scene with every default spelled out, as a scene file that loads to the same scene. */
-bool kiln_scene_print(const struct kiln_scene *scene, FILE *out);
-
-/* The reference of every scene key, for people, and the JSON schema, for editors. */
-bool kiln_scene_write_reference(FILE *out);
-bool kiln_scene_write_schema(FILE *out);
-
-/* A key of a file, in words for people. */
-struct kiln_option_key {
-    const char *path;     /* "systems.NAME.emit.rate"; N stands for an entry of a list */
-    const char *help;     /* what it is for */
-    const char *variant;  /* the word of `field` that it belongs to, or NULL */
-    const char *shortcut; /* the key inside that a bare value means, or NULL */
-    const char *allowed;  /* of its value; NULL when it only holds other keys */
-    const char *varies;   /* "over time", or NULL */
-    const char *fallback; /* the default; NULL with `allowed`: must be given */
-    const char *words;    /* that its value may be, "true|false", perhaps beside others; or NULL */
-    bool holds_keys;
-};
-
-/* Visits all keys in the order of the reference; texts last for a visit. False: memory is short. */
-bool kiln_scene_visit_keys(void (*visit)(void *user, const struct kiln_option_key *key),
-                           void *user);
-
-/* What the reference says before the keys. */
-const char *kiln_scene_introduction(void);
+KILN_API bool kiln_scene_print(const struct kiln_scene *scene, FILE *out);
 
 /* Facts of a scene that a caller plans with. */
 struct kiln_scene_info {
+    size_t size;
     uint32_t width, height; /* pixels */
     uint32_t frames;
     uint32_t fps_num, fps_den;
@@ -151,12 +147,8 @@ struct kiln_scene_info {
     uint64_t memory_bytes;      /* that rendering on the device cpu is expected to take */
     char hash[65]; /* SHA-256 of the scene with every default and of its textures, in hex */
 };
-struct kiln_scene_info kiln_scene_info(const struct kiln_scene *scene);
-
-/* Visits the names of the systems in a scene file, whatever else may be wrong with it. False when
- * it cannot be read as YAML, with the error of kiln_scene_load. */
-bool kiln_scene_visit_systems(const char *path, void (*visit)(void *user, const char *name),
-                              void *user, struct kiln_error *error);
+KILN_EMPTY(kiln_scene_info, kiln_scene_info_empty)
+KILN_API void kiln_scene_get_info(const struct kiln_scene *scene, struct kiln_scene_info *info);
 
 /* ---- Devices ------------------------------------------------------------------------------ */
 
@@ -167,6 +159,7 @@ struct kiln_device;
 #define KILN_DEVICE_CPU "cpu"
 
 struct kiln_device_info {
+    size_t size;
     uint32_t index;
     bool gl;        /* false: KILN_DEVICE_CPU */
     bool usable;    /* OpenGL 4.3 or later with all that kiln needs, or no GL */
@@ -185,31 +178,35 @@ struct kiln_device_info {
     int32_t max_texture_size;
     int32_t max_array_layers;
 };
+KILN_EMPTY(kiln_device_info, kiln_device_info_empty)
 
 /* wanted: NULL takes the first GPU, or else KILN_DEVICE_CPU; "N" an index from the list,
  * KILN_DEVICE_CPU that one, for which nothing of GL is loaded; "software" the first GL device that
  * draws on the CPU, anything else a part of a device's name. */
 struct kiln_device_params {
+    size_t size;
     const char *wanted;
     bool gl;    /* with wanted NULL: a GL device, if need be the software one; for techniques that
                  * kiln_techniques_need_gl says it of */
     bool debug; /* a GL debug context: errors are logged and fail the job */
     struct kiln_log log;
 };
-#define KILN_DEVICE_DEFAULTS ((struct kiln_device_params){.wanted = NULL})
+KILN_EMPTY(kiln_device_params, kiln_device_defaults)
 
 /* Whether the variables of the environment that the library reads make sense: KILN_USAGE, for a
  * KILN_SIMD of vectors that the machine lacks. What needs them fails so, too, but later. */
-bool kiln_environment_check(struct kiln_error *error);
+KILN_API bool kiln_environment_check(struct kiln_error *error);
 
-/* Fills up to capacity entries, KILN_DEVICE_CPU first, and returns how many devices there are;
- * *advice (may be NULL) gets what this machine lacks and the package that mends it, or "". */
-size_t kiln_device_list(struct kiln_device_info *infos, size_t capacity, char advice[256]);
+/* Fills up to capacity entries, `stride` bytes from one to the next, each with its size set; they
+ * begin with KILN_DEVICE_CPU. Returns how many devices there are; *advice (may be NULL) gets what
+ * this machine lacks and the package that mends it, or "". */
+KILN_API size_t kiln_device_list(struct kiln_device_info *infos, size_t stride, size_t capacity,
+                                 char advice[256]);
 
-struct kiln_device *kiln_device_open(const struct kiln_device_params *params,
-                                     struct kiln_error *error);
-void kiln_device_close(struct kiln_device **device);
-const struct kiln_device_info *kiln_device_info(const struct kiln_device *device);
+KILN_API struct kiln_device *kiln_device_open(const struct kiln_device_params *params,
+                                              struct kiln_error *error);
+KILN_API void kiln_device_close(struct kiln_device **device);
+KILN_API const struct kiln_device_info *kiln_device_get_info(const struct kiln_device *device);
 
 /* ---- Rendering ---------------------------------------------------------------------------- */
 
@@ -237,7 +234,9 @@ enum kiln_pass {
         KILN_PASS_COUNT
 };
 
-const char *kiln_pass_name(enum kiln_pass pass);
+enum { KILN_MAX_PASSES = 16 }; /* that later versions may have */
+
+KILN_API const char *kiln_pass_name(enum kiln_pass pass);
 
 /* The 64-bit state hash after a step; equal on every device and with every technique. */
 struct kiln_state_hash {
@@ -246,30 +245,34 @@ struct kiln_state_hash {
 
 /* Told after each frame is handed to the output. */
 struct kiln_progress {
+    size_t size;
     uint32_t frame;          /* its number */
     uint32_t done, total;    /* drawn frames of this job */
     double elapsed_s, eta_s; /* eta_s < 0: not known yet */
     uint64_t alive;          /* living particles at the frame */
     struct kiln_state_hash state;
-    double pass_ms[KILN_PASS_COUNT];
+    double pass_ms[KILN_MAX_PASSES];
 };
+KILN_EMPTY(kiln_progress, kiln_progress_empty)
 
 /* An atlas for game engines: frames as cells of one PNG, in rows from the top, each from the left.
  * Beside FILE.png comes FILE.json, its layout, and with `motion` FILE_motion.png: where each pixel
  * of a cell goes in the next one. */
 struct kiln_flipbook {
-    uint32_t columns, rows; /* 1 to 64; 0 and 0: no flipbook */
-    uint32_t padding;       /* pixels added on each side of a cell, 0 to 256 */
+    size_t size;
+    bool motion;
     bool premultiplied;     /* colours times alpha, as seen over black; else straight, with colours
                                where alpha is zero as well */
-    bool motion;
+    uint32_t columns, rows; /* 1 to 64 */
+    uint32_t padding;       /* pixels added on each side of a cell, 0 to 256 */
 };
+KILN_EMPTY(kiln_flipbook, kiln_flipbook_empty)
 
 /* Chooses the frames of the cells, columns * rows, evenly out of ascending ranges: the k-th cell of
  * n shows the frame at k/n of them. KILN_USAGE when the ranges have fewer frames. */
-bool kiln_flipbook_sample(const struct kiln_flipbook *flipbook,
-                          const struct kiln_frame_range *ranges, size_t range_count,
-                          struct kiln_frame_range *cells, struct kiln_error *error);
+KILN_API bool kiln_flipbook_sample(const struct kiln_flipbook *flipbook,
+                                   const struct kiln_frame_range *ranges, size_t range_count,
+                                   struct kiln_frame_range *cells, struct kiln_error *error);
 
 /* Frames one after another into a descriptor, without a file. Of a pipe whose reader goes away,
  * with SIGPIPE ignored, rendering ends with KILN_READER_GONE. */
@@ -285,7 +288,26 @@ struct kiln_stream {
     int descriptor; /* stays open */
 };
 
+/* A layer of a drawn frame: "display", what a PNG has (sRGB, RGBA, alpha not premultiplied), or
+ * what a layer of an EXR has in floats (linear, premultiplied): "beauty", "depth", "fire", "smoke",
+ * "bloom". Rows from the top. All of it lasts until the call returns that tells of it. */
+enum kiln_sample_type {
+    KILN_SAMPLES_UINT8,
+    KILN_SAMPLES_UINT16, /* in the machine's byte order; where the output has 16 bits */
+    KILN_SAMPLES_FLOAT
+};
+struct kiln_frame_layer {
+    size_t size;
+    const char *layer;
+    uint32_t frame;
+    uint32_t width, height, channels; /* channels: 4, of depth 1 */
+    enum kiln_sample_type samples;
+    size_t row_bytes; /* from one row to the next */
+    const void *pixels;
+};
+
 struct kiln_render_params {
+    size_t size;
     const char *output; /* a file, a pattern with %d or #, or NULL to render without writing */
     struct kiln_stream stream;  /* in place of an output */
     const char *manifest;       /* a JSON file that describes the run, or NULL */
@@ -312,11 +334,13 @@ struct kiln_render_params {
     uint32_t png_bits;      /* 8 or 16; of APNG and MKV, too */
     uint32_t exr_bits;      /* 16 or 32 */
     uint32_t quality;       /* video: 0 (smallest) to 100 (visually lossless) */
-    /* One cell for each frame: ranges come from kiln_flipbook_sample. */
-    struct kiln_flipbook flipbook;
-    /* Told of each frame where output is NULL: 8-bit sRGB, RGBA, alpha not premultiplied, rows from
-     * the top; until the call returns. */
-    void (*picture)(void *user, uint32_t frame, const uint8_t *pixels);
+    /* One cell for each frame: ranges come from kiln_flipbook_sample. NULL: no flipbook. */
+    const struct kiln_flipbook *flipbook;
+    /* Told of each frame's layers, those named here in this order ("display" when none is), whether
+     * or not an output is written. KILN_USAGE for a layer that there is not. */
+    const char *const *layers;
+    size_t layer_count;
+    void (*picture)(void *user, const struct kiln_frame_layer *layer);
     /* Told of each frame before it is stepped to and drawn, after that, and after it was handed to
      * the output, which may wait for who reads it. */
     void (*next)(void *user, uint32_t frame);
@@ -326,10 +350,19 @@ struct kiln_render_params {
      * KILN_INTERRUPTED. */
     bool (*stop)(void *user);
     void *user;
+    const struct kiln_cancel *cancel; /* NULL: nobody cancels */
     struct kiln_log log;
 };
-#define KILN_RENDER_DEFAULTS                                                                       \
-    ((struct kiln_render_params){.png_bits = 8, .exr_bits = 16, .quality = 80})
+KILN_EMPTY(kiln_render_params, kiln_render_params_empty)
+
+static inline struct kiln_render_params kiln_render_defaults(void)
+{
+    struct kiln_render_params params = kiln_render_params_empty();
+    params.png_bits = 8;
+    params.exr_bits = 16;
+    params.quality = 80;
+    return params;
+}
 
 /* Which technique ran a stage, and why. */
 struct kiln_technique_choice {
@@ -340,13 +373,14 @@ enum { KILN_MAX_STAGES = 8 };
 
 /* What a job did, for reports. */
 struct kiln_render_stats {
+    size_t size;
     uint32_t frames;               /* drawn */
     uint32_t kept;                 /* that were there already, with kiln_render_params.resume */
     uint32_t first_part, end_part; /* of a shard: those of parts first_part to end_part - 1 */
     uint64_t steps;
     double setup_s; /* programs, textures, buffers */
     double total_s;
-    double pass_ms[KILN_PASS_COUNT]; /* sums over the job */
+    double pass_ms[KILN_MAX_PASSES]; /* sums over the job */
     uint64_t alive;                  /* at the last step */
     struct kiln_state_hash state;    /* after the last step */
     uint64_t particle_bytes;         /* of records and of sorting them, on each side they are on */
@@ -357,178 +391,45 @@ struct kiln_render_stats {
     uint32_t files;                  /* images, 1 for a video; 0: nothing was to be written */
     char first_file[KILN_PATH_SIZE]; /* what was written first */
 };
-
-/* Declares what the job reads (the scene and its files) and writes. KILN_USAGE when a file would be
- * written that is read, or twice; also when the output is no format, or the ranges make no sense
- * for it. kiln_render does that itself, for its one job. */
-bool kiln_render_claim(const struct kiln_scene *scene, const struct kiln_render_params *params,
-                       struct kiln_claims *claims, struct kiln_error *error);
+KILN_EMPTY(kiln_render_stats, kiln_render_stats_empty)
 
 /* Renders the job; its callbacks may use other devices, or render on this one. Files appear under
  * their names only when whole; after an error or a stop, what was finished stays and nothing
  * half-written is left. stats may be NULL. */
-bool kiln_render(struct kiln_device *device, const struct kiln_scene *scene,
-                 const struct kiln_render_params *params, struct kiln_render_stats *stats,
-                 struct kiln_error *error);
+KILN_API bool kiln_render(struct kiln_device *device, const struct kiln_scene *scene,
+                          const struct kiln_render_params *params, struct kiln_render_stats *stats,
+                          struct kiln_error *error);
+
+/* The same for a program with a loop of its own. Each call of `next` draws a frame and hands it to
+ * `picture` and the output; *drawn is false when none was left. progress may be NULL. `end` waits
+ * until the outputs are whole, or gives a job up that has frames left: KILN_INTERRUPTED; in any
+ * case nothing is left of it. What params point to must last until then. All on the device's
+ * thread. */
+struct kiln_rendering;
+KILN_API struct kiln_rendering *kiln_rendering_begin(struct kiln_device *device,
+                                                     const struct kiln_scene *scene,
+                                                     const struct kiln_render_params *params,
+                                                     struct kiln_error *error);
+KILN_API bool kiln_rendering_next(struct kiln_rendering *rendering, bool *drawn,
+                                  struct kiln_progress *progress, struct kiln_error *error);
+KILN_API bool kiln_rendering_end(struct kiln_rendering **rendering, struct kiln_render_stats *stats,
+                                 struct kiln_error *error);
 
 /* Removes the temporary files of every running job, with async-signal-safe calls only: for a signal
  * handler or a watchdog that ends the process next, with _exit. */
-void kiln_abandon_outputs(void);
-
-/* The techniques of each stage and what each is for, for people. */
-bool kiln_write_techniques(FILE *out);
+KILN_API void kiln_abandon_outputs(void);
 
 /* Whether any stage will need GL when a job is asked for these, "stage=name", and else takes those
  * of KILN_DEVICE_CPU. What is no technique needs none. */
-bool kiln_techniques_need_gl(const char *const *techniques, size_t count);
-
-/* Visits each as "stage=name". */
-void kiln_visit_techniques(void (*visit)(void *user, const char *name, const char *help),
-                           void *user);
-
-/* The outputs that this build can write, and their options, for people. */
-bool kiln_write_outputs(FILE *out);
-
-/* ---- Comparing pictures --------------------------------------------------------------------- */
-
-/* How light is judged by FLIP: clamped to white, or at several exposures. Automatic: by exposures
- * when both pictures are of floats (EXR); a pair of which only one is must be told. */
-enum kiln_compare_mode { KILN_COMPARE_AUTO, KILN_COMPARE_LDR, KILN_COMPARE_HDR };
-
-enum { KILN_MAX_COLUMNS = 32, KILN_METRIC_NAME_SIZE = 24 };
-
-struct kiln_compare_column {
-    char name[KILN_METRIC_NAME_SIZE]; /* "flip.mean" */
-    const char *unit;                 /* "" without one */
-    bool higher_is_better;
-    bool limited;
-    double limit; /* the worst value that passes */
-};
-
-enum kiln_compare_verdict {
-    KILN_COMPARE_SAME,       /* within all limits */
-    KILN_COMPARE_DIFFERENT,  /* beyond a limit, or of another size or other channels */
-    KILN_COMPARE_MISSING,    /* in the reference only */
-    KILN_COMPARE_EXTRA,      /* in the test only */
-    KILN_COMPARE_UNREADABLE, /* a file is empty, broken, cut short or has values like NaN */
-    KILN_COMPARE_VERDICT_COUNT
-};
-
-const char *kiln_compare_verdict_name(enum kiln_compare_verdict verdict);
-
-/* One frame of a comparison. Only what was measured has values: not a frame that is missing, extra
- * or unreadable, or one whose sizes or channels differ. */
-struct kiln_compare_frame {
-    const char *name; /* of the file, or the frame's number; until the call returns */
-    enum kiln_compare_verdict verdict;
-    const char *message; /* why it has no values; "" when it has them. Until the call returns */
-    bool measured;
-    bool equal; /* not one value differs */
-    uint32_t width, height;
-    double
-        values[KILN_MAX_COLUMNS]; /* by the result's columns; psnr of equal pictures is infinite */
-    bool beyond[KILN_MAX_COLUMNS];
-    double score;                /* the worst value by its limit: 1 is just within */
-    uint32_t worst_x, worst_y;   /* a pixel of the largest difference */
-    uint32_t window_x, window_y; /* the densest window's upper left corner */
-    uint32_t window_width, window_height, window_differing;
-    double flip_s; /* the time that FLIP took */
-};
-
-struct kiln_compare_result {
-    bool same;     /* every frame is */
-    bool sequence; /* not one picture against one */
-    bool hdr;
-    size_t column_count;
-    struct kiln_compare_column columns[KILN_MAX_COLUMNS];
-    uint32_t frames; /* all of them */
-    uint32_t counts[KILN_COMPARE_VERDICT_COUNT];
-    uint32_t measured;
-    double worst[KILN_MAX_COLUMNS]; /* over the measured frames */
-    double mean[KILN_MAX_COLUMNS];
-    char worst_names[KILN_MAX_COLUMNS][256]; /* where it is worst; cut off where too long */
-    char worst_frame[256];  /* of the highest score; frames without values come first; "": none */
-    double flip_s, total_s; /* wall-clock time */
-};
-
-/* A rectangle, or a picture of the same size that is black where nothing is judged. */
-struct kiln_compare_mask {
-    uint32_t x, y, width, height; /* pixels; beyond the picture's edge is no error */
-    const char *picture;          /* NULL: the rectangle */
-};
-
-struct kiln_compare_params {
-    /* Each a picture, a video, a folder of pictures (paired by name) or a numbered pattern such as
-     * frame_%04d.png or frame_####.png (paired by number; those of a video count from 0). */
-    const char *reference, *test;
-    const char *const *limits; /* "metric=value", or several with commas between them */
-    size_t limit_count;        /* 0 takes KILN_COMPARE_DEFAULT_LIMITS */
-    const char *layer;         /* of EXR files: "beauty", or another one by its name */
-    enum kiln_compare_mode mode;
-    double pixels_per_degree; /* of the viewer's eye, 4 to 400 */
-    double threshold;         /* levels, 0 to 255: pixels that differ by more are counted */
-    uint32_t window;          /* pixels; its densest place is looked for in squares of this edge */
-    uint32_t threads;         /* 0 takes one a core */
-    /* A PNG of reference, test and error map for each measured frame, or NULL. For sequences, a
-     * pattern, or a folder (that exists, or with a slash at its end) */
-    const char *diff;
-    const char *error_map; /* the error map alone, as a PNG of the pictures' size; as diff */
-    /* What is not judged: in the test picture it is taken from the reference. */
-    const struct kiln_compare_mask *masks;
-    size_t mask_count;
-    bool overwrite;
-    /* Told after each frame, with the columns and what is known so far. */
-    void (*frame)(void *user, const struct kiln_compare_result *result,
-                  const struct kiln_compare_frame *frame);
-    bool (*stop)(void *user); /* asked between frames; true ends with KILN_INTERRUPTED */
-    void *user;
-};
-#define KILN_COMPARE_DEFAULT_LIMITS "flip.mean=0.01,flip.p99=0.1,window.share=0.1"
-#define KILN_COMPARE_DEFAULTS                                                                      \
-    ((struct kiln_compare_params){                                                                 \
-        .layer = "beauty", .pixels_per_degree = 67.0206, .threshold = 2, .window = 32})
-
-/* Compares pictures and judges them by limits. True when the comparison took place, and the result
- * says what came out. False with KILN_USAGE when the request makes no sense, KILN_INVALID_INPUT
- * when something cannot be read (the other frames are compared all the same), KILN_IO when the
- * pictures of differences cannot be written, KILN_DEVICE_FAILED when memory is short. */
-bool kiln_compare(const struct kiln_compare_params *params, struct kiln_compare_result *result,
-                  struct kiln_error *error);
-
-/* The metrics and what each is for, for people. */
-bool kiln_write_metrics(FILE *out);
-
-/* Visits those with names of their own. */
-void kiln_visit_metrics(void (*visit)(void *user, const char *name, const char *help), void *user);
-
-/* ---- Text: as kiln reads and writes it, for programs that take the same --------------------- */
-
-/* A whole text as a decimal number, its point '.' in any locale; false when it is no finite one. */
-bool kiln_text_to_double(const char *text, double *value);
-bool kiln_text_to_uint64(const char *text, uint64_t *value);
-
-/* The candidate nearest to name by edit distance (swapped neighbours count once), or NULL when
- * none is near enough to be a misspelling. */
-const char *kiln_text_nearest(const char *name, const char *const *candidates, size_t count);
-
-/* Writes a word so that a shell takes it as one. */
-bool kiln_write_shell_word(FILE *out, const char *word);
-
-/* Copies a text out of a file so that a terminal, a log or a page shows it and does nothing else:
- * controls, overrides of direction and bytes that are no UTF-8 stand as \n, \x1b or \u202e. A text
- * that was shown before stays as it is. What does not fit is left out, characters being whole. out
- * may not be text. Messages of errors and the log are shown already. */
-void kiln_shown(char *out, size_t room, const char *text);
+KILN_API bool kiln_techniques_need_gl(const char *const *techniques, size_t count);
 
 #ifdef __cplusplus
 }
 #endif
 
-#include "kiln_bench.h"
-#include "kiln_figure.h"
+#include "kiln_compare.h"
 #include "kiln_job.h"
-#include "kiln_json.h"
+#include "kiln_limits.h"
 #include "kiln_sandbox.h"
-#include "kiln_test.h"
 
 #endif

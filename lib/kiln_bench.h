@@ -2,11 +2,7 @@
 #ifndef KILN_BENCH_H
 #define KILN_BENCH_H
 
-#include "kiln.h"
-
-#ifdef __cplusplus
-extern "C" {
-#endif
+#include "kiln_program.h"
 
 /* A benchmark renders the same frames in several ways in turn, A, B, A, B..., so that whatever
  * slows the machine down for a while slows all of them down, and takes ratios of neighbours. A
@@ -43,8 +39,11 @@ struct kiln_bench_params {
     void *user;
     struct kiln_log log;
 };
-#define KILN_BENCH_DEFAULTS                                                                        \
-    ((struct kiln_bench_params){.frame = -1, .repetitions = 9, .seconds = 4, .scratch = "/tmp"})
+static inline struct kiln_bench_params kiln_bench_defaults(void)
+{
+    return (struct kiln_bench_params){
+        .frame = -1, .repetitions = 9, .seconds = 4, .scratch = "/tmp"};
+}
 
 struct kiln_bench;
 
@@ -74,7 +73,4 @@ bool kiln_bench_prepare(const char *folder, struct kiln_error *error);
 bool kiln_bench_save(const struct kiln_bench *bench, const char *folder,
                      char unplotted[KILN_MESSAGE_SIZE], struct kiln_error *error);
 
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -2,11 +2,7 @@
 #ifndef KILN_FIGURE_H
 #define KILN_FIGURE_H
 
-#include "kiln.h"
-
-#ifdef __cplusplus
-extern "C" {
-#endif
+#include "kiln_program.h"
 
 /* A figure is pictures with labels on paper, for documents: a sheet of renders over sweeps of
  * parameters, a reference with a result and their error map, a strip of the frames of a clip.
@@ -64,7 +60,10 @@ struct kiln_figure_params {
     void *user;
     struct kiln_log log;
 };
-#define KILN_FIGURE_DEFAULTS ((struct kiln_figure_params){.strip = 6, .text_size = 14})
+static inline struct kiln_figure_params kiln_figure_defaults(void)
+{
+    return (struct kiln_figure_params){.strip = 6, .text_size = 14};
+}
 
 struct kiln_figure_result {
     uint32_t width, height, panels;
@@ -94,9 +93,5 @@ struct kiln_figure_list *kiln_figure_list_load(const char *const *paths, size_t 
 void kiln_figure_list_destroy(struct kiln_figure_list **list);
 size_t kiln_figure_list_count(const struct kiln_figure_list *list);
 struct kiln_figure_entry kiln_figure_list_entry(const struct kiln_figure_list *list, size_t index);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

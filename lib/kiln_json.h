@@ -7,10 +7,6 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 /* Writing JSON. The caller names members and says where lines begin; the writer adds quotes, commas
  * and colons. These calls write {"frame": 7, "name": "campfire"}:
  *
@@ -96,9 +92,5 @@ void kiln_json_raw(struct kiln_json *json, const char *key, const char *text);
 void kiln_json_pair(struct kiln_json *json, const char *key, uint64_t first, uint64_t second);
 void kiln_json_strings(struct kiln_json *json, const char *key, const char *const *values,
                        size_t count);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

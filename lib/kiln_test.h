@@ -2,11 +2,7 @@
 #ifndef KILN_TEST_H
 #define KILN_TEST_H
 
-#include "kiln.h"
-
-#ifdef __cplusplus
-extern "C" {
-#endif
+#include "kiln_program.h"
 
 /* A test renders frames of a scene and judges them by what was once accepted: the state hash, then
  * the hash of the decoded pixels, then the metrics (docs/testing.md). A suite is a list of tests; a
@@ -48,7 +44,10 @@ struct kiln_suite_params {
                              * directory or, of a test outside it, the folder that was given */
     uint32_t shard, shards; /* the shard-th test (from 1) and each shards-th after it; 0, 0: all */
 };
-#define KILN_SUITE_DEFAULTS ((struct kiln_suite_params){.golden = "golden", .results = "out/test"})
+static inline struct kiln_suite_params kiln_suite_defaults(void)
+{
+    return (struct kiln_suite_params){.golden = "golden", .results = "out/test"};
+}
 
 /* Finds and reads the tests, ordered by name; no scene is loaded yet. A test file that is wrong is
  * no error here but that of its test. NULL with KILN_USAGE (a path that does not exist, a folder
@@ -108,7 +107,10 @@ struct kiln_test_params {
     void *user;
     struct kiln_log log;
 };
-#define KILN_TEST_DEFAULTS ((struct kiln_test_params){.repeat = 1})
+static inline struct kiln_test_params kiln_test_defaults(void)
+{
+    return (struct kiln_test_params){.repeat = 1};
+}
 
 struct kiln_test_summary {
     enum kiln_test_status status;
@@ -172,8 +174,10 @@ struct kiln_calibrate_params {
     void *user;
     struct kiln_log log;
 };
-#define KILN_CALIBRATE_DEFAULTS                                                                    \
-    ((struct kiln_calibrate_params){.renders = 8, .margin = 3, .scratch = "/tmp"})
+static inline struct kiln_calibrate_params kiln_calibrate_defaults(void)
+{
+    return (struct kiln_calibrate_params){.renders = 8, .margin = 3, .scratch = "/tmp"};
+}
 
 struct kiln_calibration {
     size_t count;
@@ -250,9 +254,5 @@ bool kiln_results_write(const struct kiln_results *results,
 
 /* The formats of reports and what each is for, for people. */
 bool kiln_write_reports(FILE *out);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

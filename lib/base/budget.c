@@ -9,6 +9,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/sized.h"
 
 enum unit { COUNT, BYTES, TIME };
 
@@ -31,8 +32,13 @@ struct kiln_budget {
 struct kiln_budget *kiln_budget_create(const struct kiln_limits *limits)
 {
     struct kiln_budget *budget = calloc(1, sizeof *budget);
+    struct kiln_error ignored;
     if (budget) {
-        budget->limits = *limits;
+        budget->limits = kiln_limits_empty();
+        if (!kiln_sized_take(&budget->limits, limits, "kiln_limits", &ignored)) {
+            free(budget);
+            return NULL;
+        }
         budget->started_s = kiln_clock_seconds();
         budget->started_cpu_s = kiln_clock_cpu_seconds();
     }

@@ -7,7 +7,7 @@
 
 #include "base/arena.h"
 #include "base/error.h"
-#include "kiln.h"
+#include "kiln_program.h"
 
 enum { FIRST_CAPACITY = 64 };
 

@@ -8,7 +8,7 @@
 #include "kiln.h"
 
 /* The sanitizers want files and threads when they please: programs with them confine nothing. */
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define KILN_UNCONFINED 1
 #elif defined(__has_feature)
 #if __has_feature(address_sanitizer)

@@ -3,7 +3,7 @@
 #define KILN_BASE_JSON_H
 
 #include "base/text.h"
-#include "kiln.h"
+#include "kiln_program.h"
 
 /* A writer that adds to a text, which must stay where it is. It fails when the text does. */
 struct kiln_json kiln_json_to_text(struct kiln_text *text);

@@ -1,9 +1,9 @@
 /* Texts out of files that strangers may have written, on their way to a person: kiln_shown of
- * kiln.h, and what it knows of characters. */
+ * kiln_program.h, and what it knows of characters. */
 #ifndef KILN_BASE_SHOWN_H
 #define KILN_BASE_SHOWN_H
 
-#include "kiln.h"
+#include "kiln_program.h"
 
 /* The character at the start of a zero-terminated text, and its bytes; 0 where it is no UTF-8. */
 size_t kiln_shown_character(const char *text, uint32_t *character);

@@ -1,8 +1,8 @@
-/* Small text helpers beside those of kiln.h: writing numbers, growing buffers. */
+/* Small text helpers beside those of kiln_program.h: writing numbers, growing buffers. */
 #ifndef KILN_BASE_TEXT_H
 #define KILN_BASE_TEXT_H
 
-#include "kiln.h"
+#include "kiln_program.h"
 
 /* The shortest decimal text that reads back as the same float or double. */
 void kiln_text_from_float(char out[32], float value);

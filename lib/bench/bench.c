@@ -128,7 +128,7 @@ static bool check_techniques(const struct kiln_bench_run *run, struct kiln_error
     struct kiln_techniques unused;
     enum kiln_simd wanted;
     return kiln_simd_choose(&wanted, error) &&
-           kiln_techniques_choose(kiln_device_info(run->device), run->params->techniques,
+           kiln_techniques_choose(kiln_device_get_info(run->device), run->params->techniques,
                                   run->params->technique_count, &unused, error);
 }
 
@@ -144,7 +144,7 @@ struct kiln_bench *kiln_bench_run(const struct kiln_bench_params *params, struct
 {
     if (!check(params, error))
         return NULL;
-    struct kiln_device_params wanted = KILN_DEVICE_DEFAULTS;
+    struct kiln_device_params wanted = kiln_device_defaults();
     wanted.wanted = params->device;
     wanted.gl = true; /* what techniques are compared with runs there */
     wanted.log = params->log;
@@ -155,7 +155,7 @@ struct kiln_bench *kiln_bench_run(const struct kiln_bench_params *params, struct
     bool ok = run.bench != NULL;
     if (ok) {
         double start_s = kiln_clock_seconds();
-        run.bench->device = *kiln_device_info(run.device);
+        run.bench->device = *kiln_device_get_info(run.device);
         run.bench->cores = count_cores();
         run.bench->quick = params->quick;
         run.bench->repetitions = params->quick ? KILN_BENCH_MIN_REPETITIONS : params->repetitions;

@@ -42,7 +42,7 @@ static bool add_memory(const struct kiln_bench_run *run, size_t way, double part
     struct kiln_lane_flags flags;
     const struct kiln_render_params params = kiln_lane_params(run, lane, &flags, NULL);
     struct kiln_techniques techniques;
-    if (!kiln_techniques_choose(kiln_device_info(run->device), params.techniques,
+    if (!kiln_techniques_choose(kiln_device_get_info(run->device), params.techniques,
                                 params.technique_count, &techniques, error))
         return false;
     double records = (double)kiln_simulate_slot_bytes(techniques.simulate);

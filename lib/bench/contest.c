@@ -44,7 +44,7 @@ struct kiln_render_params kiln_lane_params(const struct kiln_bench_run *run,
         if (*word)
             flags->items[count++] = word;
     }
-    struct kiln_render_params params = KILN_RENDER_DEFAULTS;
+    struct kiln_render_params params = kiln_render_defaults();
     params.techniques = flags->items;
     params.technique_count = count;
     params.threads = run->params->threads;

@@ -5,6 +5,7 @@
 
 #include "bench/result.h"
 #include "frame/technique.h"
+#include "kiln_program.h"
 #include "scene/scene.h"
 
 /* A run of kiln_bench_run. */

@@ -4,7 +4,7 @@
 
 #include "base/arena.h"
 #include "bench/statistics.h"
-#include "kiln.h"
+#include "kiln_program.h"
 
 struct kiln_bench_row {
     double x;              /* what the part sweeps */

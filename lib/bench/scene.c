@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "bench/suite.h"
+#include "scene/work.h"
 
 struct subject {
     const struct kiln_bench_run *run;
@@ -26,7 +27,7 @@ static bool measure_frames(struct subject *s, struct kiln_error *error)
         !kiln_contest_run(s->run, s->scene, s->frame, &automatic, 1, s->samples, error))
         return false;
     s->particles = (double)s->samples[0].alive;
-    struct kiln_scene_info info = kiln_scene_info(s->scene);
+    struct kiln_scene_info info = kiln_scene_facts(s->scene);
     const struct kiln_comparison comparison = {
         .lanes = &automatic, .lane_count = 1, .measures = UINT32_MAX, .x = s->particles};
     return kiln_bench_add_samples(s->run, &comparison, s->samples, error) &&
@@ -91,7 +92,7 @@ static struct kiln_scene *load(const struct kiln_bench_run *run, const char *pat
     struct kiln_scene *scene = kiln_scene_load(path, &params, error);
     if (!scene)
         return NULL;
-    uint32_t frames = kiln_scene_info(scene).frames;
+    uint32_t frames = kiln_scene_facts(scene).frames;
     *frame = run->params->frame < 0 ? frames / 2 : (uint32_t)run->params->frame;
     uint64_t needed = (uint64_t)*frame + KILN_BENCH_WARM_UP + run->bench->repetitions;
     if (needed <= frames)

@@ -33,8 +33,8 @@ static bool may_sort(const struct race *race, enum kiln_sort_trial_kind kind,
 {
     static const char *const flag = "sort=bitonic";
     struct kiln_techniques unused;
-    return kind == KILN_TRIAL_CPU ||
-           kiln_techniques_choose(kiln_device_info(race->run->device), &flag, 1, &unused, error);
+    return kind == KILN_TRIAL_CPU || kiln_techniques_choose(kiln_device_get_info(race->run->device),
+                                                            &flag, 1, &unused, error);
 }
 
 static bool enter(struct race *race, size_t index, struct kiln_error *error)

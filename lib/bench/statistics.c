@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "kiln.h"
+#include "kiln_program.h"
 
 static int compare(const void *a, const void *b)
 {

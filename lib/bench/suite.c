@@ -75,7 +75,7 @@ struct kiln_scene *kiln_bench_load_scene(const struct kiln_bench_run *run, const
     struct kiln_settings all = *settings;
     if (run->params->quick) /* their atlases take longer to make than they are looked at */
         kiln_set(run, &all, "systems.*.look.atlas=builtin:spark");
-    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    struct kiln_scene_params params = kiln_scene_defaults();
     params.overrides = all.items;
     params.override_count = all.count;
     params.asset_root = settings->asset_root;
@@ -86,7 +86,7 @@ size_t kiln_lanes_of_stage(const struct kiln_bench_run *run, const char *stage,
                            struct kiln_lane lanes[KILN_MAX_LANES], struct kiln_error *error)
 {
     struct kiln_techniques automatic;
-    if (!kiln_techniques_choose(kiln_device_info(run->device), run->params->techniques,
+    if (!kiln_techniques_choose(kiln_device_get_info(run->device), run->params->techniques,
                                 run->params->technique_count, &automatic, error))
         return 0;
     for (size_t s = 0; s < KILN_STAGE_COUNT; s++) {

@@ -4,6 +4,7 @@
 #define KILN_BENCH_SUITE_H
 
 #include "bench/contest.h"
+#include "kiln_program.h"
 
 /* A suite: a row of the table in suite.c. */
 struct kiln_suite_row {

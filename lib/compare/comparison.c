@@ -1,16 +1,18 @@
 /* Comparing pictures: frames of both sides are paired, decoded, measured and judged one after the
  * other, so that memory holds one pair at a time. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/shown.h"
+#include "base/sized.h"
 #include "compare/difference.h"
 #include "compare/footage.h"
 #include "compare/mask.h"
 #include "compare/metric.h"
-#include "kiln.h"
+#include "kiln_program.h"
 
 struct comparison {
     const struct kiln_compare_params *params;
@@ -252,7 +254,7 @@ static bool compare_next(struct comparison *comparison, struct kiln_error *error
     const struct kiln_footage_frame *taken = &next[first > 0];
     char name[256]; /* the entry's own goes with the next peek */
     note_name(name, taken->name);
-    struct kiln_compare_frame frame = {.name = name, .message = ""};
+    struct kiln_compare_frame frame = {.size = sizeof frame, .name = name, .message = ""};
     if (first == 0) {
         if (!compare_frame(comparison, &frame, taken->number, error))
             return false;
@@ -273,7 +275,8 @@ static bool compare_all(struct comparison *comparison, struct kiln_error *error)
     struct kiln_error frame_error = {0};
     while (compare_next(comparison, &frame_error)) {
         frame_error = (struct kiln_error){0};
-        if (params->stop && params->stop(params->user))
+        if (kiln_cancel_is_requested(params->cancel) ||
+            (params->stop && params->stop(params->user)))
             return kiln_error_set(error, KILN_INTERRUPTED, "stopped after %u frames",
                                   comparison->result.frames);
     }
@@ -375,16 +378,42 @@ static bool prepare(struct comparison *comparison, struct kiln_error *error)
            kiln_error_set(error, KILN_DEVICE_FAILED, "the system refuses to start threads");
 }
 
-bool kiln_compare(const struct kiln_compare_params *params, struct kiln_compare_result *result,
+/* What the caller gave, its masks one beside the other; they are to be freed. */
+static bool take(struct kiln_compare_params *taken, const struct kiln_compare_params *given,
+                 struct kiln_compare_mask **masks, struct kiln_error *error)
+{
+    if (!kiln_sized_take(taken, given, "kiln_compare_params", error))
+        return false;
+    const char *mask = (const char *)taken->masks;
+    *masks = calloc(taken->mask_count + 1, sizeof **masks);
+    if (!*masks)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for masks");
+    for (size_t i = 0; i < taken->mask_count; i++, mask += taken->mask_stride) {
+        (*masks)[i] = kiln_compare_mask_empty();
+        if (!kiln_sized_take(&(*masks)[i], mask, "kiln_compare_mask", error))
+            return false;
+    }
+    taken->masks = *masks;
+    return true;
+}
+
+bool kiln_compare(const struct kiln_compare_params *given, struct kiln_compare_result *result,
                   struct kiln_error *error)
 {
     double start_s = kiln_clock_seconds();
-    struct comparison comparison = {.params = params, .worst_score = -1};
-    bool ok = prepare(&comparison, error) && compare_all(&comparison, error);
+    struct kiln_compare_params params = kiln_compare_defaults();
+    struct kiln_compare_mask *masks = NULL;
+    struct comparison comparison = {
+        .params = &params, .result = kiln_compare_result_empty(), .worst_score = -1};
+    if (!kiln_sized_check(result, "kiln_compare_result", error))
+        return false;
+    bool ok = take(&params, given, &masks, error) && prepare(&comparison, error) &&
+              compare_all(&comparison, error);
     struct kiln_compare_result *found = &comparison.result;
     found->same = ok && found->measured > 0 && found->counts[KILN_COMPARE_SAME] == found->frames;
     found->total_s = kiln_clock_seconds() - start_s;
-    *result = *found;
+    kiln_sized_give(result, found);
+    free(masks);
     kiln_threads_destroy(&comparison.threads);
     kiln_mask_finish(&comparison.mask);
     kiln_footage_close(&comparison.footage[0]);

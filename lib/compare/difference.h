@@ -5,6 +5,7 @@
 #include "base/pattern.h"
 #include "compare/footage.h"
 #include "compare/measure.h"
+#include "kiln_program.h"
 
 /* Where they go, and what they show. */
 struct kiln_difference_plan {

@@ -13,7 +13,7 @@
 #include "base/arena.h"
 #include "base/error.h"
 #include "base/pattern.h"
-#include "kiln.h"
+#include "kiln_program.h"
 
 struct entry {
     const char *name;

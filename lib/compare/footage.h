@@ -4,6 +4,7 @@
 #define KILN_COMPARE_FOOTAGE_H
 
 #include "asset/image/image.h"
+#include "kiln_program.h"
 
 enum kiln_footage_kind {
     KILN_FOOTAGE_STILL,

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "kiln_program.h"
 
 struct metric_value {
     const struct kiln_measurement *measurement;

@@ -12,7 +12,7 @@
 #include "figure/layout.h"
 #include "figure/record.h"
 #include "figure/verdict.h"
-#include "kiln.h"
+#include "kiln_program.h"
 
 struct job {
     const struct kiln_figure_params *params;

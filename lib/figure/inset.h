@@ -2,7 +2,7 @@
 #ifndef KILN_FIGURE_INSET_H
 #define KILN_FIGURE_INSET_H
 
-#include "kiln.h"
+#include "kiln_program.h"
 
 enum { KILN_MAX_INSETS = 4 };
 

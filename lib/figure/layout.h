@@ -3,6 +3,7 @@
 #define KILN_FIGURE_LAYOUT_H
 
 #include "figure/panels.h"
+#include "kiln_program.h"
 
 /* The colour of the paper. */
 uint32_t kiln_layout_paper(bool dark);

@@ -14,6 +14,7 @@
 #include "figure/sweep.h"
 #include "frame/technique.h"
 #include "scene/scene.h"
+#include "scene/work.h"
 
 bool kiln_panel_take_pixels(struct kiln_panels *panels, struct kiln_panel *panel, uint32_t width,
                             uint32_t height, const uint8_t *rgba, struct kiln_error *error)
@@ -84,7 +85,7 @@ static bool load_scene(struct rendering *r, const struct kiln_choice *choice)
 static bool choose_frame(const struct rendering *r, const struct kiln_choice *choice,
                          struct kiln_panel *panel)
 {
-    struct kiln_scene_info info = kiln_scene_info(r->scene);
+    struct kiln_scene_info info = kiln_scene_facts(r->scene);
     double rate = (double)info.fps_num / info.fps_den;
     double number = choice->moment == KILN_MOMENT_TIME    ? floor(choice->when * rate + 0.5)
                     : choice->moment == KILN_MOMENT_FRAME ? choice->when
@@ -114,13 +115,13 @@ static bool same_run(const struct kiln_choice *a, const struct kiln_choice *b)
     return true;
 }
 
-static void take_picture(void *user, uint32_t frame, const uint8_t *pixels)
+static void take_picture(void *user, const struct kiln_frame_layer *view)
 {
     struct rendering *r = user;
     for (size_t i = 0; i < r->panels->count; i++) {
         struct kiln_panel *panel = &r->panels->items[i];
-        if (r->in_run[i] && panel->frame == frame && r->failure.code == KILN_OK)
-            kiln_panel_take_pixels(r->panels, panel, r->scene->width, r->scene->height, pixels,
+        if (r->in_run[i] && panel->frame == view->frame && r->failure.code == KILN_OK)
+            kiln_panel_take_pixels(r->panels, panel, view->width, view->height, view->pixels,
                                    &r->failure);
     }
 }
@@ -178,7 +179,7 @@ static bool render_run(struct rendering *r)
     kiln_techniques_combination(0, &pinned);
     size_t count = KILN_STAGE_COUNT + figure->technique_count;
     const char **techniques = kiln_arena_alloc(r->panels->arena, count, sizeof *techniques);
-    struct kiln_render_params params = KILN_RENDER_DEFAULTS;
+    struct kiln_render_params params = kiln_render_defaults();
     params.ranges = list_frames(r, &params.range_count);
     if (!techniques || !params.ranges)
         return no_memory(r);
@@ -237,7 +238,7 @@ static bool open_device(struct rendering *r)
     r->device = kiln_device_open(&params, r->error);
     if (!r->device)
         return false;
-    const struct kiln_device_info *info = kiln_device_info(r->device);
+    const struct kiln_device_info *info = kiln_device_get_info(r->device);
     struct kiln_maker *maker = &r->panels->maker;
     snprintf(maker->device, sizeof maker->device, "%s", info->name);
     snprintf(maker->driver, sizeof maker->driver, "%s, %s", info->gl_version, info->vendor);

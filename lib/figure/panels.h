@@ -4,6 +4,7 @@
 
 #include "base/arena.h"
 #include "figure/drawing.h"
+#include "kiln_program.h"
 
 struct kiln_panel {
     const char *label;

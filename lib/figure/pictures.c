@@ -10,6 +10,7 @@
 #include "compare/measure.h"
 #include "figure/inset.h"
 #include "figure/panels.h"
+#include "scene/work.h"
 
 static bool take_subject(struct kiln_panels *panels, struct kiln_panel *panel,
                          const struct kiln_subject *subject, struct kiln_error *error)
@@ -57,7 +58,7 @@ static bool measure(struct kiln_panels *panels, struct kiln_subject *const subje
                     struct kiln_threads *threads, struct kiln_error *error)
 {
     struct kiln_measurement measurement = {0};
-    const struct kiln_compare_params usual = KILN_COMPARE_DEFAULTS;
+    const struct kiln_compare_params usual = kiln_compare_defaults();
     struct kiln_measure_params params = {.hdr = subjects[0]->hdr,
                                          .pixels_per_degree = usual.pixels_per_degree,
                                          .threshold = usual.threshold,
@@ -267,7 +268,7 @@ static bool strip_of_scene(struct kiln_panels *panels, const struct kiln_figure_
         struct kiln_scene *scene = kiln_scene_load(params->inputs[0], &params->scene, error);
         if (!scene)
             return false;
-        uint32_t frames = kiln_scene_info(scene).frames;
+        uint32_t frames = kiln_scene_facts(scene).frames;
         kiln_scene_destroy(&scene);
         uint32_t count = params->strip < frames ? params->strip : frames;
         struct kiln_frame_range *even = kiln_arena_alloc(panels->arena, count, sizeof *even);

@@ -3,7 +3,7 @@
 #define KILN_FIGURE_SWEEP_H
 
 #include "base/arena.h"
-#include "kiln.h"
+#include "kiln_program.h"
 
 enum { KILN_MAX_PANELS = 1024, KILN_MAX_AXES = 8 };
 

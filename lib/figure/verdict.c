@@ -106,7 +106,7 @@ static bool judge_by_eye(const struct kiln_figure_now *now, const char *maker,
                          struct kiln_figure_result *result, struct kiln_error *error)
 {
     static const char *const limits[] = {KILN_COMPARE_DEFAULT_LIMITS};
-    const struct kiln_compare_params usual = KILN_COMPARE_DEFAULTS;
+    const struct kiln_compare_params usual = kiln_compare_defaults();
     const struct kiln_measure_params params = {.pixels_per_degree = usual.pixels_per_degree,
                                                .threshold = usual.threshold,
                                                .window = usual.window};

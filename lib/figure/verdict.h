@@ -4,6 +4,7 @@
 
 #include "figure/format.h"
 #include "figure/record.h"
+#include "kiln_program.h"
 
 /* A figure as it is drawn now. */
 struct kiln_figure_now {

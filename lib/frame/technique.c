@@ -265,7 +265,7 @@ bool kiln_techniques_choose(const struct kiln_device_info *device, const char *c
 struct kiln_device_params kiln_techniques_device(const char *wanted, const char *const *flags,
                                                  size_t flag_count)
 {
-    struct kiln_device_params params = KILN_DEVICE_DEFAULTS;
+    struct kiln_device_params params = kiln_device_defaults();
     params.gl = kiln_techniques_need_gl(flags, flag_count);
     params.wanted = wanted || params.gl ? wanted : KILN_DEVICE_CPU;
     return params;

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/simd.h"
+#include "base/sized.h"
 #include "base/text.h"
 #include "base/thread.h"
 #include "gpu/advice.h"
@@ -190,7 +191,9 @@ static void describe(struct kiln_device_info *info)
 static void open_source(struct kiln_device *device, const struct kiln_egl_source *source,
                         const struct kiln_device_params *params)
 {
-    *device = (struct kiln_device){.log = params->log, .debug = params->debug, .info.gl = true};
+    *device = (struct kiln_device){.log = params->log,
+                                   .debug = params->debug,
+                                   .info = {.size = sizeof device->info, .gl = true}};
     struct kiln_device_info *info = &device->info;
     snprintf(info->platform, sizeof info->platform, "%s", source->platform);
     info->software = source->software;
@@ -205,7 +208,7 @@ static void open_source(struct kiln_device *device, const struct kiln_egl_source
 static struct kiln_device describe_host(const struct kiln_device_params *params,
                                         struct kiln_error *error)
 {
-    struct kiln_device host = {.log = params->log};
+    struct kiln_device host = {.log = params->log, .info.size = sizeof host.info};
     struct kiln_device_info *info = &host.info;
     info->software = info->exact = true;
     info->max_storage_block_bytes = INT64_MAX;
@@ -414,7 +417,8 @@ static void probe(struct kiln_device *device)
 
 /* ---- The interface ------------------------------------------------------------------------- */
 
-size_t kiln_device_list(struct kiln_device_info *infos, size_t capacity, char advice[256])
+size_t kiln_device_list(struct kiln_device_info *infos, size_t stride, size_t capacity,
+                        char advice[256])
 {
     if (advice)
         snprintf(advice, 256, "no memory for the list of devices");
@@ -423,13 +427,14 @@ size_t kiln_device_list(struct kiln_device_info *infos, size_t capacity, char ad
     if (!scan)
         return 0;
     struct kiln_egl_current before = kiln_egl_current();
-    scan_devices(scan, &KILN_DEVICE_DEFAULTS, true);
+    const struct kiln_device_params any = kiln_device_defaults();
+    scan_devices(scan, &any, true);
     const size_t count = scan->count;
     for (size_t i = 0; i < count; i++) {
         probe(&scan->devices[i]);
         all[i] = scan->devices[i].info;
         if (i < capacity)
-            infos[i] = all[i];
+            kiln_sized_give((char *)infos + i * stride, &all[i]);
     }
     if (advice)
         kiln_device_advise(all + 1, count - 1, scan->problem, advice);
@@ -439,9 +444,13 @@ size_t kiln_device_list(struct kiln_device_info *infos, size_t capacity, char ad
     return count;
 }
 
-struct kiln_device *kiln_device_open(const struct kiln_device_params *params,
+struct kiln_device *kiln_device_open(const struct kiln_device_params *given,
                                      struct kiln_error *error)
 {
+    struct kiln_device_params taken = kiln_device_defaults();
+    const struct kiln_device_params *params = &taken;
+    if (!kiln_sized_take(&taken, given, "kiln_device_params", error))
+        return NULL;
     if (params->wanted && params->wanted[0] == '\0') {
         kiln_error_set(error, KILN_USAGE, "the name of the device is empty");
         return NULL;
@@ -486,7 +495,7 @@ void kiln_device_close(struct kiln_device **device)
     *device = NULL;
 }
 
-const struct kiln_device_info *kiln_device_info(const struct kiln_device *device)
+const struct kiln_device_info *kiln_device_get_info(const struct kiln_device *device)
 {
     return &device->info;
 }

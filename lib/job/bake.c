@@ -5,6 +5,7 @@
 #include "base/budget.h"
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/sized.h"
 #include "base/temporary.h"
 #include "job/states.h"
 #include "job/stop.h"
@@ -124,15 +125,21 @@ static bool begin(struct bake *bake, struct kiln_error *error)
 }
 
 bool kiln_bake(struct kiln_device *device, const struct kiln_scene *scene,
-               const struct kiln_bake_params *params, struct kiln_bake_stats *stats,
+               const struct kiln_bake_params *given, struct kiln_bake_stats *stats,
                struct kiln_error *error)
 {
     const double started_s = kiln_clock_seconds();
+    struct kiln_bake_params params = kiln_bake_defaults();
+    if (!kiln_sized_take(&params, given, "kiln_bake_params", error) ||
+        !kiln_sized_check(stats, "kiln_bake_stats", error))
+        return false;
     struct bake bake = {
         .device = device,
         .scene = scene,
-        .params = params,
-        .stop = {params->stop, params->user, device, scene->budget},
+        .params = &params,
+        .stop = {params.stop, params.user, device, scene->budget, params.cancel},
+        .baked.size = sizeof bake.baked,
+        .stats = kiln_bake_stats_empty(),
     };
     bool ok = begin(&bake, error);
     for (uint64_t frame = first_frame(&bake); frame < scene->frames && ok; frame += bake.every)
@@ -141,7 +148,6 @@ bool kiln_bake(struct kiln_device *device, const struct kiln_scene *scene,
     bake.stats.total_s = kiln_clock_seconds() - started_s;
     kiln_states_close(&bake.states);
     kiln_loop_destroy(&bake.loop);
-    if (stats)
-        *stats = bake.stats;
+    kiln_sized_give(stats, &bake.stats);
     return ok;
 }

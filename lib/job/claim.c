@@ -1,6 +1,6 @@
 /* The files of a job: what its scene was read from, and what it writes. */
 #include "job/journal.h"
-#include "kiln.h"
+#include "kiln_program.h"
 #include "output/output.h"
 #include "scene/scene.h"
 
@@ -8,12 +8,13 @@ static bool claim_output(const struct kiln_scene *scene, const struct kiln_rende
                          struct kiln_claims *claims, struct kiln_error *error)
 {
     const struct kiln_frame_range whole_clip = {0, scene->frames - 1};
-    const struct kiln_output_params output = {
+    struct kiln_output_params output = {
         .path = params->output,
         .ranges = params->range_count > 0 ? params->ranges : &whole_clip,
         .range_count = params->range_count > 0 ? params->range_count : 1,
-        .flipbook = params->flipbook,
     };
+    if (params->flipbook)
+        output.flipbook = *params->flipbook;
     char journal[KILN_PATH_SIZE];
     return kiln_output_claim(&output, claims, error) &&
            (!(params->resume || params->shards > 0) ||

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/log.h"
+#include "base/sized.h"
 #include "base/text.h"
 #include "compare/footage.h"
 #include "job/resume.h"
@@ -382,6 +383,7 @@ static bool add_frame(struct encode *encode, uint32_t due, struct kiln_error *er
 static void tell(const struct encode *encode, uint32_t done, double started_s)
 {
     struct kiln_progress progress = {
+        .size = sizeof progress,
         .frame = encode->number + done - 1,
         .done = done,
         .total = encode->count,
@@ -413,11 +415,14 @@ static bool run(struct encode *encode, double started_s, struct kiln_error *erro
     return kiln_output_finish(encode->output, error);
 }
 
-bool kiln_encode(const struct kiln_encode_params *params, struct kiln_frame_range *frames,
+bool kiln_encode(const struct kiln_encode_params *given, struct kiln_frame_range *frames,
                  struct kiln_error *error)
 {
-    struct encode encode = {.params = params,
-                            .stop = {params->stop, params->user, NULL, params->budget}};
+    struct kiln_encode_params params = kiln_encode_defaults();
+    if (!kiln_sized_take(&params, given, "kiln_encode_params", error))
+        return false;
+    struct encode encode = {.params = &params,
+                            .stop = {params.stop, params.user, NULL, params.budget, params.cancel}};
     encode.caller = kiln_stop_caller(&encode.stop);
     const bool ok = run(&encode, kiln_clock_seconds(), error);
     *frames = (struct kiln_frame_range){encode.number, encode.number + encode.count - 1};

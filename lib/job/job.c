@@ -12,6 +12,7 @@
 #include "job/resume.h"
 #include "job/states.h"
 #include "job/stop.h"
+#include "job/views.h"
 #include "output/formats.h"
 
 struct kiln_job {
@@ -33,6 +34,9 @@ struct kiln_job {
     bool resumes;
     struct kiln_resume resume;
     bool draws;                 /* else all that was asked for is there */
+    size_t range_at;            /* of the next frame, */
+    uint64_t frame_at;          /* which is this, or the range's first one */
+    bool follows;               /* it comes right after one that was drawn */
     struct kiln_states *states; /* NULL where none are to be taken up */
 
     double started_s;
@@ -52,12 +56,15 @@ static bool return_from_caller(const struct kiln_job *job, struct kiln_error *er
 /* Takes the picture. */
 static bool hand_over(struct kiln_job *job, struct kiln_picture *picture, struct kiln_error *error)
 {
+    kiln_views_show(job->params, picture);
+    if (!return_from_caller(job, error)) {
+        kiln_picture_destroy(&picture);
+        return false;
+    }
     if (job->output)
         return kiln_output_write(job->output, picture, error);
-    if (job->params->picture)
-        job->params->picture(job->params->user, picture->frame, picture->display);
     kiln_picture_destroy(&picture);
-    return return_from_caller(job, error);
+    return true;
 }
 
 /* Takes down what is known of a frame before its picture goes to the output. */
@@ -116,7 +123,7 @@ bool kiln_job_draw(struct kiln_job *job, uint32_t frame, struct kiln_error *erro
     struct kiln_progress *progress = &job->progress;
     progress->alive = drawn.alive;
     progress->state = drawn.state;
-    memcpy(progress->pass_ms, drawn.pass_ms, sizeof progress->pass_ms);
+    memcpy(progress->pass_ms, drawn.pass_ms, sizeof drawn.pass_ms);
     record_frame(job, frame, &drawn, drawn.alive);
     double before_s = kiln_clock_seconds();
     if (!hand_over(job, drawn.picture, error))
@@ -148,28 +155,38 @@ static bool pass_over(struct kiln_job *job, uint32_t frame, struct kiln_record *
     return kiln_resume_note(&job->resume, frame, error);
 }
 
-static bool draw_frames(struct kiln_job *job, struct kiln_error *error)
+/* The next frame that is wanted; false: there is none. */
+static bool take_frame(struct kiln_job *job, uint32_t *frame)
 {
-    bool follows = false; /* the frame comes right after one that was drawn */
-    for (size_t i = 0; job->draws && i < job->range_count; i++, follows = false) {
-        const struct kiln_frame_range range = job->ranges[i];
-        for (uint64_t n = range.first; n <= range.last; n++) {
-            const uint32_t frame = (uint32_t)n;
-            struct kiln_record *record =
-                job->resumes ? kiln_records_of(&job->records, frame) : NULL;
-            const bool is_there = record && record->whole && !record->drawn;
-            if (record && record->is_others) {
-                follows = false;
-                continue;
-            }
-            if (!follows && !(is_there && record->has_state) && job->states &&
-                !kiln_states_take_up(job->states, job->loop, frame, error))
-                return false;
-            if (!(is_there ? pass_over(job, frame, record, error)
-                           : kiln_job_draw(job, frame, error)))
-                return false;
-            follows = !is_there;
+    for (; job->draws && job->range_at < job->range_count; job->range_at++) {
+        const struct kiln_frame_range range = job->ranges[job->range_at];
+        if (job->frame_at < range.first) {
+            job->frame_at = range.first;
+            job->follows = false;
         }
+        if (job->frame_at <= range.last) {
+            *frame = (uint32_t)job->frame_at++;
+            return true;
+        }
+    }
+    return false;
+}
+
+bool kiln_job_next(struct kiln_job *job, bool *drawn, struct kiln_error *error)
+{
+    uint32_t frame;
+    *drawn = false;
+    while (!*drawn && take_frame(job, &frame)) {
+        struct kiln_record *record = job->resumes ? kiln_records_of(&job->records, frame) : NULL;
+        const bool is_there = record && record->whole && !record->drawn;
+        const bool is_others = record && record->is_others;
+        if (!is_others && !job->follows && !(is_there && record->has_state) && job->states &&
+            !kiln_states_take_up(job->states, job->loop, frame, error))
+            return false;
+        if (!is_others &&
+            !(is_there ? pass_over(job, frame, record, error) : kiln_job_draw(job, frame, error)))
+            return false;
+        *drawn = job->follows = !is_there && !is_others;
     }
     return true;
 }
@@ -217,7 +234,7 @@ static struct kiln_output_params output_params(struct kiln_job *job)
 {
     const struct kiln_render_params *params = job->params;
     const struct kiln_scene *scene = job->scene;
-    return (struct kiln_output_params){
+    struct kiln_output_params output = {
         .path = writes_stream(job) ? "standard output" : params->output,
         .stream = params->stream,
         .width = scene->width,
@@ -234,13 +251,15 @@ static struct kiln_output_params output_params(struct kiln_job *job)
         .png_bits = params->png_bits,
         .exr_bits = params->exr_bits,
         .quality = params->quality,
-        .flipbook = params->flipbook,
         .scene_hash = scene->hash,
         .seed = scene->seed,
         .log = params->log,
         .budget = scene->budget,
         .caller = kiln_stop_caller(&job->stop),
     };
+    if (params->flipbook)
+        output.flipbook = *params->flipbook;
+    return output;
 }
 
 static bool keep_records(struct kiln_job *job, struct kiln_error *error)
@@ -292,7 +311,7 @@ static bool begin_to_resume(struct kiln_job *job, struct kiln_error *error)
 /* What has gone into a stream is gone. */
 static bool check_stream(const struct kiln_job *job, struct kiln_error *error)
 {
-    return !writes_stream(job) || !(job->resumes || job->params->flipbook.columns > 0) ||
+    return !writes_stream(job) || !(job->resumes || job->params->flipbook) ||
            kiln_error_set(error, KILN_USAGE, "%s: a stream is no %s", job->files.path,
                           job->resumes ? "file that can be gone on with" : "flipbook");
 }
@@ -356,7 +375,8 @@ static bool begin(struct kiln_job *job, struct kiln_error *error)
                                           .work_group_size = params->work_group_size,
                                           .log = params->log,
                                           .caller = kiln_stop_caller(&job->stop)};
-    if (!choose_frames(job, error))
+    struct kiln_output_needs needs = {.bits = 0};
+    if (!choose_frames(job, error) || !kiln_views_need(params, &needs, error))
         return false;
     job->loop = kiln_loop_create(job->device, job->scene, &loop, error);
     if (!job->loop)
@@ -364,10 +384,10 @@ static bool begin(struct kiln_job *job, struct kiln_error *error)
     describe_loop(job);
     if (!open_output(job, error))
         return false;
-    const struct kiln_output_needs plain = {.bits = 8};
     if (!job->draws)
         return true;
-    if (!kiln_loop_set_up(job->loop, job->output ? kiln_output_needs(job->output) : plain, error))
+    needs = job->output ? kiln_output_needs(job->output) : (struct kiln_output_needs){.bits = 8};
+    if (!kiln_views_need(params, &needs, error) || !kiln_loop_set_up(job->loop, needs, error))
         return false;
     if (params->states &&
         !(job->states = kiln_states_open(params->states, job->scene,
@@ -451,24 +471,14 @@ struct kiln_job *kiln_job_create(struct kiln_device *device, const struct kiln_s
     job->device = device;
     job->scene = scene;
     job->params = params;
-    job->stop = (struct kiln_stop){params->stop, params->user, device, scene->budget};
+    job->stop =
+        (struct kiln_stop){params->stop, params->user, device, scene->budget, params->cancel};
+    job->progress.size = sizeof job->progress;
+    job->stats.size = sizeof job->stats;
     job->started_s = kiln_clock_seconds();
     if (!begin(job, error)) {
         kiln_resume_undo(&job->resume);
         kiln_job_destroy(&job);
     }
     return job;
-}
-
-bool kiln_render(struct kiln_device *device, const struct kiln_scene *scene,
-                 const struct kiln_render_params *params, struct kiln_render_stats *stats,
-                 struct kiln_error *error)
-{
-    struct kiln_render_stats done = {0};
-    struct kiln_job *job = kiln_job_create(device, scene, params, error);
-    bool ok = job && draw_frames(job, error) && kiln_job_finish(job, &done, error);
-    kiln_job_destroy(&job);
-    if (stats)
-        *stats = done;
-    return ok;
 }

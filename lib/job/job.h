@@ -18,6 +18,10 @@ void kiln_job_destroy(struct kiln_job **job);
 /* Its frame loop, which belongs to it. */
 struct kiln_loop *kiln_job_loop(struct kiln_job *job);
 
+/* Draws the next frame that is wanted and not there, and hands it to the output; none is left where
+ * *drawn is false. */
+bool kiln_job_next(struct kiln_job *job, bool *drawn, struct kiln_error *error);
+
 /* Draws a frame, no earlier one than before, and hands it to the output. */
 bool kiln_job_draw(struct kiln_job *job, uint32_t frame, struct kiln_error *error);
 

@@ -4,6 +4,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/sized.h"
 #include "base/text.h"
 #include "job/manifest.h"
 #include "job/resume.h"
@@ -141,17 +142,22 @@ static bool run(struct join *join, struct kiln_join_stats *stats, struct kiln_er
            write_manifest(join, &done, error);
 }
 
-bool kiln_join(const struct kiln_join_params *params, struct kiln_join_stats *stats,
+bool kiln_join(const struct kiln_join_params *given, struct kiln_join_stats *stats,
                struct kiln_error *error)
 {
     const double started_s = kiln_clock_seconds();
-    struct join join = {.params = params,
-                        .stop = {params->stop, params->user, NULL, params->budget}};
-    *stats = (struct kiln_join_stats){.frames = 0};
-    const bool ok = run(&join, stats, error);
+    struct kiln_join_params params = kiln_join_defaults();
+    struct kiln_join_stats done = kiln_join_stats_empty();
+    if (!kiln_sized_take(&params, given, "kiln_join_params", error) ||
+        !kiln_sized_check(stats, "kiln_join_stats", error))
+        return false;
+    struct join join = {.params = &params,
+                        .stop = {params.stop, params.user, NULL, params.budget, params.cancel}};
+    const bool ok = run(&join, &done, error);
     kiln_resume_end(&join.resume);
     kiln_records_free(&join.records);
     kiln_arena_destroy(&join.arena);
-    stats->total_s = kiln_clock_seconds() - started_s;
+    done.total_s = kiln_clock_seconds() - started_s;
+    kiln_sized_give(stats, &done);
     return ok;
 }

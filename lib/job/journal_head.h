@@ -5,6 +5,7 @@
 
 #include "base/arena.h"
 #include "base/json.h"
+#include "kiln_program.h"
 #include "option/node.h"
 #include "output/output.h"
 

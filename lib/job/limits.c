@@ -4,6 +4,7 @@
 
 #include "base/budget.h"
 #include "base/error.h"
+#include "base/sized.h"
 #include "base/text.h"
 #include "option/unit.h"
 
@@ -128,11 +129,15 @@ static bool read_item(struct kiln_limits *limits, char *item, struct kiln_error 
 
 bool kiln_limits_parse(struct kiln_limits *limits, const char *text, struct kiln_error *error)
 {
+    struct kiln_limits known = kiln_limits_empty();
+    if (!kiln_sized_take(&known, limits, "kiln_limits", error))
+        return false;
     char *copy = strdup(text), *rest = copy, *item;
     bool ok = copy || kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for limits");
     while (ok && (item = strsep(&rest, ",")))
-        ok = read_item(limits, item, error);
+        ok = read_item(&known, item, error);
     free(copy);
+    kiln_sized_give(limits, &known);
     return ok;
 }
 

@@ -11,6 +11,7 @@
 #include "base/json.h"
 #include "base/temporary.h"
 #include "scene/scene.h"
+#include "scene/work.h"
 
 struct kiln_manifest {
     struct kiln_temporary file;
@@ -64,7 +65,7 @@ char *kiln_manifest_scene(const struct kiln_scene *scene)
 {
     struct kiln_text text = {0};
     struct kiln_json json = kiln_json_to_text(&text);
-    const struct kiln_scene_info info = kiln_scene_info(scene);
+    const struct kiln_scene_info info = kiln_scene_facts(scene);
     kiln_json_begin_object(&json, NULL);
     kiln_json_string(&json, "file", scene->name);
     kiln_json_string(&json, "hash", info.hash);

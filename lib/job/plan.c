@@ -4,6 +4,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/sized.h"
 #include "job/shard.h"
 #include "job/states.h"
 #include "job/stop.h"
@@ -92,7 +93,7 @@ static struct kiln_plan_task task_of(const struct planning *p, uint32_t index)
     const struct kiln_scene *scene = p->scene;
     const struct kiln_plan *plan = p->plan;
     const struct kiln_shard shard = {index, p->params->tasks};
-    struct kiln_plan_task task = {.index = index, .count = p->params->tasks};
+    struct kiln_plan_task task = {.size = sizeof task, .index = index, .count = p->params->tasks};
     kiln_shard_parts(shard, plan->parts, &task.first_part, &task.end);
     if (task.first_part == task.end)
         return task;
@@ -108,30 +109,34 @@ static struct kiln_plan_task task_of(const struct planning *p, uint32_t index)
     return task;
 }
 
-bool kiln_plan(struct kiln_device *device, const struct kiln_scene *scene,
-               const struct kiln_plan_params *params, struct kiln_plan *plan,
-               struct kiln_error *error)
+bool kiln_plan_tasks(struct kiln_device *device, const struct kiln_scene *scene,
+                     const struct kiln_plan_params *given, struct kiln_plan *out,
+                     struct kiln_error *error)
 {
+    struct kiln_plan_params params = kiln_plan_defaults();
+    struct kiln_plan plan = kiln_plan_empty();
+    if (!kiln_sized_take(&params, given, "kiln_plan_params", error) ||
+        !kiln_sized_check(out, "kiln_plan", error))
+        return false;
     struct planning planning = {
         .device = device,
         .scene = scene,
-        .params = params,
-        .stop = {params->stop, params->user, device, scene->budget},
-        .plan = plan,
+        .params = &params,
+        .stop = {params.stop, params.user, device, scene->budget, params.cancel},
+        .plan = &plan,
     };
-    *plan = (struct kiln_plan){.frame = scene->frames / 2};
-    if (params->frame >= (int64_t)scene->frames)
+    if (params.frame >= (int64_t)scene->frames)
         return kiln_error_set(error, KILN_USAGE, "frame %lld: the scene has frames 0-%u",
-                              (long long)params->frame, scene->frames - 1);
-    if (params->frame >= 0)
-        plan->frame = (uint32_t)params->frame;
-    plan->part_frames = kiln_part_frames(scene->fps.num, scene->fps.den);
-    plan->parts = (scene->frames - 1) / plan->part_frames + 1;
+                              (long long)params.frame, scene->frames - 1);
+    plan.frame = params.frame < 0 ? scene->frames / 2 : (uint32_t)params.frame;
+    plan.part_frames = kiln_part_frames(scene->fps.num, scene->fps.den);
+    plan.parts = (scene->frames - 1) / plan.part_frames + 1;
     const bool ok = set_up(&planning, error) && measure(&planning, error);
-    for (uint32_t i = 0; ok && params->task && i < params->tasks; i++) {
+    for (uint32_t i = 0; ok && params.task && i < params.tasks; i++) {
         const struct kiln_plan_task task = task_of(&planning, i);
-        params->task(params->user, plan, &task);
+        params.task(params.user, &plan, &task);
     }
+    kiln_sized_give(out, &plan);
     kiln_states_close(&planning.states);
     kiln_loop_destroy(&planning.loop);
     return ok;

@@ -11,10 +11,11 @@
 #include <sys/auxv.h>
 #include <sys/stat.h>
 
-#include "asset/geometry/field.h"
 #include "asset/loader/helper.h"
+#include "base/cache.h"
 #include "base/confine.h"
 #include "base/error.h"
+#include "base/sized.h"
 #include "base/temporary.h"
 
 enum { MOST_PLACES = 256 };
@@ -122,7 +123,7 @@ static bool add_helper(struct places *places, char helper[KILN_PATH_SIZE])
 static bool add_cache(struct places *places, char cache[KILN_PATH_SIZE])
 {
     struct kiln_error ignored;
-    if (!kiln_field_cache(cache))
+    if (!kiln_cache_folder(cache))
         return true;
     strcat(cache, "/"); /* there is room */
     return !kiln_make_parent_folders(cache, &ignored) ||
@@ -266,15 +267,23 @@ static const struct kiln_system_call refused[] = {
 
 /* ---- entering -------------------------------------------------------------------------------- */
 
-struct kiln_sandbox_support kiln_sandbox_support(void)
+static struct kiln_sandbox_support find_support(void)
 {
-    return (struct kiln_sandbox_support){
-        .landlock = kiln_landlock_version(), .seccomp = kiln_has_seccomp(), .off = KILN_UNCONFINED};
+    return (struct kiln_sandbox_support){.size = sizeof(struct kiln_sandbox_support),
+                                         .landlock = kiln_landlock_version(),
+                                         .seccomp = kiln_has_seccomp(),
+                                         .off = KILN_UNCONFINED};
+}
+
+void kiln_sandbox_get_support(struct kiln_sandbox_support *support)
+{
+    const struct kiln_sandbox_support found = find_support();
+    kiln_sized_give(support, &found);
 }
 
 static bool check_support(const struct kiln_sandbox_params *params, struct kiln_error *error)
 {
-    const struct kiln_sandbox_support has = kiln_sandbox_support();
+    const struct kiln_sandbox_support has = find_support();
     if (!params->required || (has.landlock && has.seccomp))
         return true;
     return kiln_error_set(error, KILN_DEVICE_FAILED, "no sandbox: %s",
@@ -301,10 +310,13 @@ static bool confine(const struct kiln_sandbox_params *params, char **folders, ch
                                 error);
 }
 
-bool kiln_sandbox_enter(const struct kiln_sandbox_params *params, struct kiln_error *error)
+bool kiln_sandbox_enter(const struct kiln_sandbox_params *given, struct kiln_error *error)
 {
+    struct kiln_sandbox_params taken = kiln_sandbox_defaults();
+    const struct kiln_sandbox_params *params = &taken;
     const char *path = getenv("LD_LIBRARY_PATH"); /* NOLINT(concurrency-mt-unsafe): only read */
-    if (!check_support(params, error))
+    if (!kiln_sized_take(&taken, given, "kiln_sandbox_params", error) ||
+        !check_support(params, error))
         return false;
     char *library_path = strdup(path ? path : "");
     char **folders = calloc(params->writable_count + 1, sizeof *folders);

@@ -5,7 +5,8 @@
 
 bool kiln_stop_ask(const struct kiln_stop *stop, struct kiln_error *error)
 {
-    const bool ends = stop->stop && stop->stop(stop->user);
+    const bool ends =
+        kiln_cancel_is_requested(stop->cancel) || (stop->stop && stop->stop(stop->user));
     if (stop->stop && stop->device && !kiln_device_make_current(stop->device, error))
         return false;
     return ends ? kiln_error_set(error, KILN_INTERRUPTED, "stopped")

@@ -10,6 +10,7 @@ struct kiln_stop {
     void *user;
     struct kiln_device *device; /* becomes current again, whatever `stop` did; NULL: none */
     struct kiln_budget *budget;
+    const struct kiln_cancel *cancel;
 };
 
 /* A caller for what a job asks to be done. The stop must outlive it. */

@@ -85,6 +85,8 @@ void kiln_node_quote(char out[64], const char *text)
 /* ---- building ------------------------------------------------------------------------------ */
 
 struct builder {
+    const char *text; /* all of it */
+    size_t size;
     struct kiln_arena *arena;
     struct kiln_error *error;
     const struct kiln_origin *origin;
@@ -178,11 +180,31 @@ static bool open_collection(struct builder *builder, struct fy_event *event,
     return true;
 }
 
+/* Whether a text in double quotes goes on in the next line by a backslash. libfyaml 0.7.12 reads
+ * the line break after "\\\" as a space, cuts the end off, or has bytes of nobody there. */
+static bool continues(const struct builder *builder, struct fy_event *event)
+{
+    const struct fy_mark *start = fy_event_start_mark(event), *end = fy_event_end_mark(event);
+    const size_t last = end && end->input_pos < builder->size ? end->input_pos : builder->size;
+    for (size_t i = start ? start->input_pos : 0; i + 1 < last; i++) {
+        const char next = builder->text[i + 1];
+        if (builder->text[i] == '\\' && (next == '\n' || next == '\r'))
+            return true;
+    }
+    return false;
+}
+
 static bool add_scalar(struct builder *builder, struct fy_event *event)
 {
     struct kiln_node *node = create_node(builder, event, KILN_NODE_SCALAR);
     if (!node)
         return false;
+    const enum fy_scalar_style style =
+        event->scalar.value ? fy_scalar_token_get_style(event->scalar.value) : FYSS_PLAIN;
+    if (style == FYSS_DOUBLE_QUOTED && continues(builder, event))
+        return kiln_node_error(
+            node, builder->error,
+            "a text in quotes must not continue in the next line by a backslash");
     size_t length = 0;
     const char *text = event->scalar.value ? fy_token_get_text(event->scalar.value, &length) : "";
     if (!text || memchr(text, '\0', length))
@@ -190,8 +212,6 @@ static bool add_scalar(struct builder *builder, struct fy_event *event)
     node->text = kiln_arena_text(builder->arena, text, length);
     if (!node->text)
         return out_of_memory(builder->origin, builder->error);
-    enum fy_scalar_style style =
-        event->scalar.value ? fy_scalar_token_get_style(event->scalar.value) : FYSS_PLAIN;
     node->quoted = style != FYSS_PLAIN;
     /* libfyaml's mark is behind the opening quote. */
     if (style == FYSS_SINGLE_QUOTED || style == FYSS_DOUBLE_QUOTED)
@@ -334,7 +354,8 @@ struct kiln_node *kiln_node_parse(struct kiln_arena *arena, const char *text, si
     if (!check_bytes(text, size, origin, error))
         return NULL;
 
-    struct builder builder = {.arena = arena, .error = error, .origin = origin};
+    struct builder builder = {
+        .text = text, .size = size, .arena = arena, .error = error, .origin = origin};
     /* Collected diagnostics are printed nowhere. */
     struct fy_diag *diag = fy_diag_create(&(struct fy_diag_cfg){.level = FYET_ERROR});
     struct fy_parse_cfg config = {.flags = FYPCF_QUIET | FYPCF_COLLECT_DIAG | FYPCF_JSON_NONE,

@@ -2,6 +2,7 @@
 #ifndef KILN_OPTION_REFERENCE_H
 #define KILN_OPTION_REFERENCE_H
 
+#include "kiln_program.h"
 #include "option/option.h"
 
 /* Writes the introduction and, for each key of the table and of the tables in it, what it is for,

@@ -12,6 +12,7 @@
 #include "base/json.h"
 #include "base/log.h"
 #include "base/ranges.h"
+#include "base/sized.h"
 #include "output/bleed.h"
 #include "output/flow.h"
 
@@ -43,10 +44,14 @@ static uint32_t cell_count(const struct kiln_output_params *params)
 
 /* ---- Frames for cells ----------------------------------------------------------------------- */
 
-bool kiln_flipbook_sample(const struct kiln_flipbook *flipbook,
-                          const struct kiln_frame_range *ranges, size_t range_count,
-                          struct kiln_frame_range *cells, struct kiln_error *error)
+bool kiln_flipbook_sample(const struct kiln_flipbook *given, const struct kiln_frame_range *ranges,
+                          size_t range_count, struct kiln_frame_range *cells,
+                          struct kiln_error *error)
 {
+    struct kiln_flipbook taken = kiln_flipbook_empty();
+    const struct kiln_flipbook *flipbook = &taken;
+    if (!kiln_sized_take(&taken, given, "kiln_flipbook", error))
+        return false;
     if (flipbook->columns < 1 || flipbook->columns > MAX_CELLS_A_SIDE || flipbook->rows < 1 ||
         flipbook->rows > MAX_CELLS_A_SIDE)
         return kiln_error_set(error, KILN_USAGE, "a flipbook of %u x %u cells; allowed are 1 to %d",

@@ -363,11 +363,11 @@ struct kiln_output_params kiln_output_complete(const struct kiln_output_params *
     result.format = find_format(params, error);
     const uint32_t uses = result.format ? result.format->uses : 0;
     if (!(uses & KILN_USES_PNG_BITS))
-        result.png_bits = KILN_RENDER_DEFAULTS.png_bits;
+        result.png_bits = kiln_render_defaults().png_bits;
     if (!(uses & KILN_USES_EXR_BITS))
-        result.exr_bits = KILN_RENDER_DEFAULTS.exr_bits;
+        result.exr_bits = kiln_render_defaults().exr_bits;
     if (!(uses & KILN_USES_QUALITY))
-        result.quality = KILN_RENDER_DEFAULTS.quality;
+        result.quality = kiln_render_defaults().quality;
     if (result.clip_count == 0) {
         result.clip = result.ranges;
         result.clip_count = result.range_count;

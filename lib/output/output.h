@@ -3,6 +3,7 @@
 #define KILN_OUTPUT_OUTPUT_H
 
 #include "base/caller.h"
+#include "kiln_program.h"
 
 enum { KILN_MAX_LAYERS = 8 };
 

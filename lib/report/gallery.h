@@ -2,6 +2,7 @@
 #ifndef KILN_REPORT_GALLERY_H
 #define KILN_REPORT_GALLERY_H
 
+#include "kiln_program.h"
 #include "report/report.h"
 
 /* A page that holds more than this of pictures takes a browser seconds and gigabytes: those of the

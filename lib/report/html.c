@@ -162,7 +162,7 @@ static void write_approval(FILE *out, const void *user)
     if (!folder)
         return;
     kiln_text_add(&command, "kiln test approve --all");
-    if (strcmp(folder, KILN_SUITE_DEFAULTS.results) != 0) {
+    if (strcmp(folder, kiln_suite_defaults().results) != 0) {
         kiln_text_add(&command, " --results ");
         kiln_text_add_shell_word(&command, folder);
     }

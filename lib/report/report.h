@@ -2,6 +2,7 @@
 #ifndef KILN_REPORT_REPORT_H
 #define KILN_REPORT_REPORT_H
 
+#include "kiln_program.h"
 #include "suite/result.h"
 
 /* The run or runs that are reported. */

@@ -9,7 +9,7 @@
 #include "base/file.h"
 #include "base/json.h"
 #include "base/temporary.h"
-#include "kiln.h"
+#include "kiln_program.h"
 #include "option/node.h"
 #include "report/report.h"
 #include "suite/results_folder.h"

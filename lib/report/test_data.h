@@ -2,6 +2,7 @@
 #ifndef KILN_REPORT_TEST_DATA_H
 #define KILN_REPORT_TEST_DATA_H
 
+#include "kiln_program.h"
 #include "report/gallery.h"
 
 /* Writes a test as a JSON object, for a <script> element. */

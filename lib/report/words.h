@@ -2,6 +2,7 @@
 #ifndef KILN_REPORT_WORDS_H
 #define KILN_REPORT_WORDS_H
 
+#include "kiln_program.h"
 #include "report/report.h"
 
 /* Of the frames that are not right, so many are told of one by one. */

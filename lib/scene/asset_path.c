@@ -59,6 +59,34 @@ static bool climbs_out(const char *path)
     return false;
 }
 
+/* What an error says without the whole path that it begins with, which messages have as it is
+ * shown: the scene has a name of its own for the file. */
+static const char *reason_of(const struct kiln_error *error, const char *path)
+{
+    char shown[KILN_PATH_SIZE];
+    kiln_shown(shown, sizeof shown, path);
+    const size_t length = strlen(shown);
+    if (strncmp(error->message, shown, length) != 0)
+        return error->message;
+    return error->message + length + strspn(error->message + length, ": ");
+}
+
+/* A file that is wrong makes the scene wrong; a lack of memory or time does not. */
+static bool fail_as(struct kiln_reader *reader, const struct kiln_error *error)
+{
+    if (error->code != KILN_INVALID_INPUT && error->code != KILN_IO)
+        reader->error->code = error->code;
+    return false;
+}
+
+bool kiln_asset_fail(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
+                     const char *file, const struct kiln_error *error)
+{
+    kiln_reader_error_at(reader, root, path, "'%s': %s",
+                         kiln_asset_name(kiln_reader_scene(reader), file), reason_of(error, file));
+    return fail_as(reader, error);
+}
+
 static bool check_contents(struct kiln_reader *reader, const struct kiln_node *node,
                            kiln_check_file *check, const char *path, const char *name)
 {
@@ -66,17 +94,8 @@ static bool check_contents(struct kiln_reader *reader, const struct kiln_node *n
     const struct kiln_scene *scene = kiln_reader_scene(reader);
     if (check(scene->loader, path, &error))
         return kiln_budget_is_kept(scene->budget, reader->error);
-    /* The scene's own name for it instead of the whole path, which messages have as it is shown. */
-    char shown[KILN_PATH_SIZE];
-    kiln_shown(shown, sizeof shown, path);
-    size_t length = strlen(shown);
-    const char *reason = error.message;
-    if (strncmp(reason, shown, length) == 0)
-        reason += length + strspn(reason + length, ": ");
-    kiln_reader_error(reader, node, "'%s': %s", name, reason);
-    if (error.code != KILN_INVALID_INPUT && error.code != KILN_IO)
-        reader->error->code = error.code;
-    return false;
+    kiln_reader_error(reader, node, "'%s': %s", name, reason_of(&error, path));
+    return fail_as(reader, &error);
 }
 
 bool kiln_read_file_asset(struct kiln_reader *reader, const struct kiln_node *node,

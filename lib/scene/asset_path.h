@@ -20,6 +20,11 @@ typedef bool kiln_check_file(struct kiln_loader *loader, const char *path,
 bool kiln_read_file_asset(struct kiln_reader *reader, const struct kiln_node *node,
                           kiln_check_file *check, const char **asset);
 
+/* What went wrong with a file, an absolute path, as an error at a place in the scene: "file" or
+ * another key of it, by its path from the root (kiln_reader_error_at). Returns false. */
+bool kiln_asset_fail(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
+                     const char *file, const struct kiln_error *error);
+
 /* Notes that the scene was read from this file, too. `what`: static text, for messages. False when
  * memory is short. */
 bool kiln_scene_add_file(struct kiln_scene *scene, const char *path, const char *what);

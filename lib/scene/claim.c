@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "kiln.h"
+#include "kiln_program.h"
 #include "option/node.h"
 #include "scene/asset_path.h"
 

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
+#include "base/sized.h"
 #include "option/override.h"
 #include "scene/asset_path.h"
 #include "scene/validate.h"
@@ -93,6 +94,7 @@ static bool build(struct kiln_reader *reader, const char *text, size_t size,
             return false;
     }
     const struct kiln_loader_params loading = {.root = scene->asset_root,
+                                               .cancel = params->cancel,
                                                .stop = params->stop,
                                                .user = params->user,
                                                .budget = scene->budget};
@@ -127,8 +129,6 @@ static struct kiln_scene *create(const char *text, size_t size, const char *name
             .origin = &origin, .arena = arena, .scratch = scratch, .error = error, .target = scene};
         scene->arena = arena;
         scene->name = kept_name;
-        scene->stop = params->stop;
-        scene->user = params->user;
         scene->budget = budget;
         scene->asset_root = kiln_asset_root(arena, params->asset_root, file, error);
         ok = scene->asset_root &&
@@ -152,8 +152,7 @@ static struct kiln_scene *create_counted(const char *text, size_t size, const ch
                                          const char *file, const struct kiln_scene_params *params,
                                          struct kiln_error *error)
 {
-    static const struct kiln_limits none;
-    struct kiln_budget *own = params->budget ? NULL : kiln_budget_create(&none);
+    struct kiln_budget *own = params->budget ? NULL : kiln_budget_create(NULL);
     struct kiln_budget *budget = params->budget ? params->budget : own;
     struct kiln_scene *scene = NULL;
     if (budget)
@@ -186,24 +185,28 @@ static bool check_place(const char *path, const char *asset_root, struct kiln_er
     return good;
 }
 
-struct kiln_scene *kiln_scene_load(const char *path, const struct kiln_scene_params *params,
+struct kiln_scene *kiln_scene_load(const char *path, const struct kiln_scene_params *given,
                                    struct kiln_error *error)
 {
     size_t size = 0;
-    char *text = check_place(path, params->asset_root, error)
+    struct kiln_scene_params params = kiln_scene_defaults();
+    char *text = kiln_sized_take(&params, given, "kiln_scene_params", error) &&
+                         check_place(path, params.asset_root, error)
                      ? kiln_text_file_read(path, "a scene file", MAX_FILE_SIZE, &size, error)
                      : NULL;
     if (!text)
         return NULL;
-    struct kiln_scene *scene = create_counted(text, size, path, path, params, error);
+    struct kiln_scene *scene = create_counted(text, size, path, path, &params, error);
     free(text);
     return scene;
 }
 
 struct kiln_scene *kiln_scene_parse(const char *text, size_t size, const char *name,
-                                    const struct kiln_scene_params *params,
-                                    struct kiln_error *error)
+                                    const struct kiln_scene_params *given, struct kiln_error *error)
 {
+    struct kiln_scene_params params = kiln_scene_defaults();
+    if (!kiln_sized_take(&params, given, "kiln_scene_params", error))
+        return NULL;
     char *copy = size < SIZE_MAX ? malloc(size + 1) : NULL; /* with a zero byte after it */
     if (!copy) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading a scene");
@@ -216,7 +219,7 @@ struct kiln_scene *kiln_scene_parse(const char *text, size_t size, const char *n
         kiln_error_set(error, KILN_INVALID_INPUT, "%s: %zu bytes; a scene file has at most %d",
                        name, size, MAX_FILE_SIZE);
     else
-        scene = create_counted(copy, size, name, NULL, params, error);
+        scene = create_counted(copy, size, name, NULL, &params, error);
     free(copy);
     return scene;
 }

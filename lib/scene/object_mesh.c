@@ -3,7 +3,7 @@
 
 #include <stdio.h>
 
-#include "scene/particle_mesh.h"
+#include "scene/asset_path.h"
 
 static bool import(const struct kiln_scene *scene, struct kiln_object *object,
                    struct kiln_error *error)
@@ -38,5 +38,5 @@ bool kiln_object_mesh_settle(struct kiln_reader *reader, const struct kiln_node 
         animation->length = kiln_skin_clip_length(object->skin, animation->number);
     snprintf(path, sizeof path, "backdrop.objects.%u.mesh.%s", i,
              imported ? "animation.clip" : "file");
-    return found || kiln_mesh_file_fail(reader, root, path, object->file, &error);
+    return found || kiln_asset_fail(reader, root, path, object->file, &error);
 }

@@ -3,24 +3,9 @@
 
 #include <inttypes.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "asset/geometry/mesh_measure.h"
 #include "scene/asset_path.h"
-
-bool kiln_mesh_file_fail(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
-                         const char *file, const struct kiln_error *error)
-{
-    const size_t length = strlen(file);
-    const char *reason = error->message;
-    if (strncmp(reason, file, length) == 0)
-        reason += length + strspn(reason + length, ": ");
-    kiln_reader_error_at(reader, root, path, "'%s': %s",
-                         kiln_asset_name(kiln_reader_scene(reader), file), reason);
-    if (error->code != KILN_INVALID_INPUT && error->code != KILN_IO)
-        reader->error->code = error->code;
-    return false;
-}
 
 bool kiln_particle_mesh_settle(struct kiln_reader *reader, const struct kiln_node *root,
                                struct kiln_system *system)
@@ -36,7 +21,7 @@ bool kiln_particle_mesh_settle(struct kiln_reader *reader, const struct kiln_nod
     struct kiln_error error = {0};
     const struct kiln_mesh *mesh = kiln_mesh_library_get(scene->meshes, look->mesh.file, &error);
     if (!mesh)
-        return kiln_mesh_file_fail(reader, root, path, look->mesh.file, &error);
+        return kiln_asset_fail(reader, root, path, look->mesh.file, &error);
     if (look->shape != KILN_SHAPE_MESH)
         return true;
     const struct kiln_mesh_measure measure = kiln_mesh_measure(mesh);

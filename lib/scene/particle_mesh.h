@@ -12,8 +12,4 @@ bool kiln_particle_mesh_settle(struct kiln_reader *reader, const struct kiln_nod
 /* Refuses more meshes than memory and time allow; the capacities of all systems are known. */
 bool kiln_particle_mesh_count(struct kiln_reader *reader, const struct kiln_node *root);
 
-/* As kiln_reader_error_at, with what was wrong with the mesh file; returns false. */
-bool kiln_mesh_file_fail(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
-                         const char *file, const struct kiln_error *error);
-
 #endif

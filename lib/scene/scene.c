@@ -162,25 +162,6 @@ struct kiln_terrain_params kiln_scene_terrain(const struct kiln_scene *scene,
     };
 }
 
-struct kiln_scene_info kiln_scene_info(const struct kiln_scene *scene)
-{
-    struct kiln_scene_info info = {
-        .width = scene->width,
-        .height = scene->height,
-        .frames = scene->frames,
-        .fps_num = scene->fps.num,
-        .fps_den = scene->fps.den,
-        .steps_per_frame = scene->steps_per_frame,
-        .warmup_steps = scene->warmup_steps,
-        .system_count = scene->system_count,
-    };
-    info.particle_capacity = kiln_work_particles(scene);
-    info.steps = kiln_work_steps(scene);
-    info.memory_bytes = kiln_work_memory(scene);
-    memcpy(info.hash, scene->hash, sizeof info.hash);
-    return info;
-}
-
 void kiln_scene_destroy(struct kiln_scene **scene)
 {
     if (!*scene)

@@ -11,7 +11,7 @@
 #include "asset/geometry/terrain.h"
 #include "base/arena.h"
 #include "base/text.h"
-#include "kiln.h"
+#include "kiln_program.h"
 #include "option/values.h"
 #include "particles/births.h"
 #include "scene/interaction.h"
@@ -472,11 +472,9 @@ struct kiln_scene {
     struct kiln_scene_file *files;    /* all that were read; those that meshes name are not here */
     const char *asset_root;           /* absolute folder */
     struct kiln_mesh_library *meshes; /* all that objects and looks have */
-    bool (*stop)(void *user);         /* of kiln_scene_params */
-    void *user;
-    struct kiln_budget *budget; /* likewise */
-    struct kiln_loader *loader; /* of the files below the asset root; the scene ends it */
-    uint64_t asset_pixels;      /* of all pictures that it names, counted as often as it does */
+    struct kiln_budget *budget;       /* of kiln_scene_params */
+    struct kiln_loader *loader;       /* of the files below the asset root; the scene ends it */
+    uint64_t asset_pixels; /* of all pictures that it names, counted as often as it does */
 
     uint32_t format_version; /* 1 */
     uint32_t seed;
@@ -497,6 +495,8 @@ struct kiln_scene {
     struct kiln_system systems[KILN_MAX_SYSTEMS];
     uint32_t system_count;
     struct kiln_post post;
+
+    uint64_t samples; /* follows: of the grids that move particles (scene/samples.h) */
 
     float4 *keys; /* (x, y, slope, integral from 0) */
     uint32_t key_count;

@@ -1,5 +1,4 @@
 /* Files that a scene names: picture, mesh, grid. */
-#include "asset/geometry/grid_in.h"
 #include "asset/image/image.h"
 #include "scene/asset_path.h"
 
@@ -93,10 +92,11 @@ const struct kiln_option_type kiln_type_mesh = {
 
 /* ---- grid ------------------------------------------------------------------------------------ */
 
+/* What is in it is read when all are counted (scene/samples.h). */
 static bool read_grid(struct kiln_reader *reader, const struct kiln_option *option,
                       const struct kiln_node *node, void *field)
 {
-    return read_file(reader, option, node, kiln_grid_check, field);
+    return read_file(reader, option, node, NULL, field);
 }
 
 static void describe_grid(const struct kiln_option *option, struct kiln_text *out)

@@ -8,13 +8,12 @@
 
 #include "asset/atlas/cells_in.h"
 #include "asset/geometry/chart.h"
-#include "asset/geometry/closed.h"
 #include "asset/geometry/depth_maps.h"
-#include "asset/geometry/grid_in.h"
 #include "scene/asset_path.h"
 #include "scene/family.h"
 #include "scene/object_mesh.h"
 #include "scene/particle_mesh.h"
+#include "scene/samples.h"
 #include "scene/work.h"
 
 /* ---- clock ---------------------------------------------------------------------------------- */
@@ -212,15 +211,7 @@ static bool check_division(struct kiln_reader *reader, const struct kiln_node *r
         return true;
     char path[128];
     snprintf(path, sizeof path, "systems.%s.look.cells", system->name);
-    const size_t length = strlen(file);
-    const char *reason = error.message;
-    if (strncmp(reason, file, length) == 0)
-        reason += length + strspn(reason + length, ": ");
-    kiln_reader_error_at(reader, root, path, "'%s': %s",
-                         kiln_asset_name(kiln_reader_scene(reader), file), reason);
-    if (error.code != KILN_INVALID_INPUT && error.code != KILN_IO)
-        reader->error->code = error.code;
-    return false;
+    return kiln_asset_fail(reader, root, path, file, &error);
 }
 
 /* Other shapes show no texture. */
@@ -336,36 +327,15 @@ static const char *name_of_axis(const struct kiln_object *object)
     return object->kind == KILN_OBJECT_PLANE ? "plane.normal" : NULL;
 }
 
-static bool fail_mesh(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
-                      const struct kiln_error *error)
-{
-    kiln_reader_error_at(reader, root, path, "%s", error->message);
-    if (error->code != KILN_INVALID_INPUT)
-        reader->error->code = error->code;
-    return false;
-}
-
-/* Of a mesh whose distance field is wanted. */
-static bool check_closed(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
-                         const struct kiln_object *object)
-{
-    struct kiln_error error = {0};
-    return kiln_mesh_check_closed(
-               object->met, kiln_asset_name(kiln_reader_scene(reader), object->file), &error) ||
-           fail_mesh(reader, root, path, &error);
-}
-
 static bool check_depth_maps(struct kiln_reader *reader, const struct kiln_node *root,
                              const char *path, const struct kiln_object *object)
 {
     struct kiln_error error = {0};
     float directions[KILN_MAX_DEPTH_DIRECTIONS][3];
     kiln_object_depth_directions(object, directions);
-    return kiln_depth_maps_check(object->met,
-                                 kiln_asset_name(kiln_reader_scene(reader), object->file),
-                                 (const float(*)[3])directions, object->depth_direction_count,
-                                 object->depth_resolution, &error) ||
-           fail_mesh(reader, root, path, &error);
+    return kiln_depth_maps_check(object->met, object->file, (const float(*)[3])directions,
+                                 object->depth_direction_count, object->depth_resolution, &error) ||
+           kiln_asset_fail(reader, root, path, object->file, &error);
 }
 
 static bool check_solid(struct kiln_reader *reader, const struct kiln_node *root, uint32_t index)
@@ -383,10 +353,8 @@ static bool check_solid(struct kiln_reader *reader, const struct kiln_node *root
             return kiln_reader_error_at(reader, root, path, "must not be [0, 0, 0]");
     }
     snprintf(path, sizeof path, "backdrop.objects.%u.mesh.collide", index);
-    if (mesh->collide && mesh->collider == KILN_COLLIDER_DEPTH_MAPS)
-        return check_depth_maps(reader, root, path, mesh);
-    return !mesh->collide || mesh->collider != KILN_COLLIDER_FIELD ||
-           check_closed(reader, root, path, mesh);
+    return !mesh->collide || mesh->collider != KILN_COLLIDER_DEPTH_MAPS ||
+           check_depth_maps(reader, root, path, mesh);
 }
 
 /* Of a mesh that is to take paint. */
@@ -404,36 +372,13 @@ static bool check_paint(struct kiln_reader *reader, const struct kiln_node *root
         return kiln_reader_error_at(reader, root, path,
                                     "%u is no power of two, of which 16 to 2048 are allowed", size);
     struct kiln_error error = {0};
-    struct kiln_chart *chart =
-        kiln_chart_create(object->shown, size, kiln_asset_name(scene, object->file), &error);
+    struct kiln_chart *chart = kiln_chart_create(object->shown, size, object->file, &error);
     const bool good = chart != NULL;
     kiln_chart_destroy(&chart);
     if (good)
         return true;
     snprintf(path, sizeof path, "backdrop.objects.%u.mesh.paint", index);
-    return fail_mesh(reader, root, path, &error);
-}
-
-/* Of terrain and depth maps: how large a field is follows from its mesh. */
-static bool check_samples(struct kiln_reader *reader, const struct kiln_node *root)
-{
-    const struct kiln_backdrop *backdrop = &kiln_reader_scene(reader)->backdrop;
-    uint64_t samples = 0;
-    for (uint32_t i = 0; i < backdrop->object_count; i++) {
-        const struct kiln_object *object = &backdrop->objects[i];
-        if (!object->collide || !kiln_object_is_mesh(object))
-            continue;
-        if (object->kind == KILN_OBJECT_TERRAIN)
-            samples += (uint64_t)object->samples[0] * object->samples[1];
-        else if (object->collider == KILN_COLLIDER_DEPTH_MAPS)
-            samples +=
-                kiln_depth_maps_words(object->depth_direction_count, object->depth_resolution);
-    }
-    return samples <= KILN_MAX_GRID_SAMPLES ||
-           kiln_reader_error_at(reader, root, "backdrop.objects",
-                                "terrain and depth maps that particles collide with have %" PRIu64
-                                " samples; a scene has at most %d",
-                                samples, KILN_MAX_GRID_SAMPLES);
+    return kiln_asset_fail(reader, root, path, object->file, &error);
 }
 
 static bool check_objects(struct kiln_reader *reader, const struct kiln_node *root)
@@ -470,7 +415,7 @@ static bool check_objects(struct kiln_reader *reader, const struct kiln_node *ro
             return kiln_reader_error_at(reader, root, "backdrop.objects", "more than %d meshes",
                                         KILN_MAX_MESHES);
     }
-    return check_samples(reader, root);
+    return true;
 }
 
 static bool check_backdrop(struct kiln_reader *reader, const struct kiln_node *root)
@@ -503,5 +448,6 @@ bool kiln_validate(struct kiln_reader *reader, const struct kiln_node *root)
     return settle_clock(reader, root) && check_camera(reader, root) &&
            check_backdrop(reader, root) && check_systems(reader, root) &&
            kiln_family_settle(reader, root) && settle_capacity(reader, root) &&
-           kiln_particle_mesh_count(reader, root) && kiln_work_check(reader, root);
+           kiln_particle_mesh_count(reader, root) && kiln_samples_settle(reader, root) &&
+           kiln_work_check(reader, root);
 }

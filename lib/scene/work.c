@@ -6,6 +6,7 @@
 
 #include "asset/atlas/atlas.h"
 #include "base/budget.h"
+#include "base/sized.h"
 
 /* What one of each takes, and what there is in any case. */
 enum {
@@ -16,7 +17,8 @@ enum {
     CELL_BYTES = 150000, /* of an atlas, and while it is made */
     TRIANGLE_BYTES = 350,
     TEXEL_BYTES = 80,   /* of paint */
-    SAMPLE_BYTES = 100, /* of a field or terrain */
+    GROUND_BYTES = 330, /* a sample of terrain: two triangles */
+    SAMPLE_BYTES = 32,  /* of what moves particles */
     PICTURE_BYTES = 40, /* a pixel of a picture that it names */
 };
 
@@ -90,17 +92,13 @@ static uint64_t count_texels(const struct kiln_scene *scene)
     return texels;
 }
 
-/* Samples of terrain, and of the fields of meshes that particles meet. */
-static uint64_t count_samples(const struct kiln_scene *scene)
+static uint64_t count_ground(const struct kiln_scene *scene)
 {
     uint64_t samples = 0;
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
         const struct kiln_object *object = &scene->backdrop.objects[i];
-        const uint64_t edge = object->cells;
         if (object->kind == KILN_OBJECT_TERRAIN)
             samples += (uint64_t)object->samples[0] * object->samples[1];
-        else if (object->kind == KILN_OBJECT_MESH && object->collide)
-            samples += edge * edge * edge / 2;
     }
     return samples;
 }
@@ -111,7 +109,7 @@ struct term {
     const char *path;
 };
 
-enum { TERMS = 7 };
+enum { TERMS = 8 };
 
 static void list_terms(const struct kiln_scene *scene, struct term terms[TERMS])
 {
@@ -122,7 +120,8 @@ static void list_terms(const struct kiln_scene *scene, struct term terms[TERMS])
         {CELL_BYTES * count_cells(scene), "systems"},
         {TRIANGLE_BYTES * triangles + (triangles > 0 ? ANY_MESH_BYTES : 0), "backdrop.objects"},
         {TEXEL_BYTES * count_texels(scene), "backdrop.objects"},
-        {SAMPLE_BYTES * count_samples(scene), "backdrop.objects"},
+        {GROUND_BYTES * count_ground(scene), "backdrop.objects"},
+        {SAMPLE_BYTES * scene->samples, "backdrop.objects"},
         {PICTURE_BYTES * scene->asset_pixels, "backdrop"},
     };
     memcpy(terms, all, sizeof all);
@@ -147,6 +146,34 @@ static const char *find_largest(const struct kiln_scene *scene, const char *part
     for (size_t i = 1; i < TERMS; i++)
         largest = terms[i].bytes > terms[largest].bytes ? i : largest;
     return terms[largest].path ? terms[largest].path : particles;
+}
+
+/* ---- facts ----------------------------------------------------------------------------------- */
+
+struct kiln_scene_info kiln_scene_facts(const struct kiln_scene *scene)
+{
+    struct kiln_scene_info info = {
+        .size = sizeof info,
+        .width = scene->width,
+        .height = scene->height,
+        .frames = scene->frames,
+        .fps_num = scene->fps.num,
+        .fps_den = scene->fps.den,
+        .steps_per_frame = scene->steps_per_frame,
+        .warmup_steps = scene->warmup_steps,
+        .system_count = scene->system_count,
+    };
+    info.particle_capacity = kiln_work_particles(scene);
+    info.steps = kiln_work_steps(scene);
+    info.memory_bytes = kiln_work_memory(scene);
+    memcpy(info.hash, scene->hash, sizeof info.hash);
+    return info;
+}
+
+void kiln_scene_get_info(const struct kiln_scene *scene, struct kiln_scene_info *info)
+{
+    const struct kiln_scene_info facts = kiln_scene_facts(scene);
+    kiln_sized_give(info, &facts);
 }
 
 /* ---- limits ---------------------------------------------------------------------------------- */

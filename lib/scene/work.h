@@ -15,4 +15,7 @@ uint64_t kiln_work_memory(const struct kiln_scene *scene);
 /* Refuses a scene that asks for more than its budget allows, with KILN_OVER_LIMIT and the place. */
 bool kiln_work_check(struct kiln_reader *reader, const struct kiln_node *root);
 
+/* What kiln_scene_get_info tells. */
+struct kiln_scene_info kiln_scene_facts(const struct kiln_scene *scene);
+
 #endif

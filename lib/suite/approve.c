@@ -12,6 +12,7 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "option/node.h"
+#include "scene/work.h"
 #include "suite/golden.h"
 #include "suite/rendering.h"
 #include "suite/test_file.h"
@@ -196,12 +197,13 @@ static bool check_numbers(struct approval *a, uint32_t scene_frames)
 static bool check_scene(struct approval *a)
 {
     const struct kiln_test *test = &a->file.test;
-    const struct kiln_scene_params params = {.overrides = test->overrides,
-                                             .override_count = test->override_count};
+    struct kiln_scene_params params = kiln_scene_defaults();
+    params.overrides = test->overrides;
+    params.override_count = test->override_count;
     struct kiln_scene *scene = kiln_scene_load(test->scene, &params, a->error);
     if (!scene)
         return false;
-    const struct kiln_scene_info info = kiln_scene_info(scene);
+    const struct kiln_scene_info info = kiln_scene_facts(scene);
     memcpy(a->scene_hash, info.hash, sizeof a->scene_hash);
     bool same = strcmp(a->scene_hash, a->result->scene_hash) == 0;
     bool ok = same ? print_scene(a, scene) : run_again(a, "the scene has changed since the run");

@@ -445,7 +445,7 @@ bool kiln_test_calibrate(const struct kiln_suite *suite, size_t index,
 {
     struct calibrating c = {
         .trial = {.suite = suite, .test = &suite->tests[index], .arena = kiln_arena_create()},
-        .test_params = KILN_TEST_DEFAULTS,
+        .test_params = kiln_test_defaults(),
         .params = params,
         .calibration = calibration,
     };

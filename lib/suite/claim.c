@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "base/file.h"
-#include "kiln.h"
+#include "kiln_program.h"
 #include "scene/scene.h"
 #include "suite/results_folder.h"
 

@@ -24,10 +24,10 @@ static void add_folders(const struct kiln_trial *trial, struct kiln_text *text, 
     const char *folder = NULL;
     if (length > name + 1)
         folder = kiln_arena_text(trial->arena, test->golden, length - name - 1);
-    if (golden && folder && strcmp(folder, KILN_SUITE_DEFAULTS.golden) != 0)
+    if (golden && folder && strcmp(folder, kiln_suite_defaults().golden) != 0)
         add_option(text, "--golden", folder);
     const char *results = trial->suite->results_folder;
-    if (results && strcmp(results, KILN_SUITE_DEFAULTS.results) != 0)
+    if (results && strcmp(results, kiln_suite_defaults().results) != 0)
         add_option(text, "--results", results);
 }
 

@@ -2,6 +2,7 @@
 #ifndef KILN_SUITE_DISCOVER_H
 #define KILN_SUITE_DISCOVER_H
 
+#include "kiln_program.h"
 #include "suite/suite.h"
 
 struct kiln_found {

@@ -11,6 +11,7 @@
 #ifndef KILN_SUITE_GOLDEN_H
 #define KILN_SUITE_GOLDEN_H
 
+#include "kiln_program.h"
 #include "suite/expect.h"
 
 enum { KILN_MAX_GOLDENS = 16, KILN_DEVICE_NAME_SIZE = 128 };

@@ -74,7 +74,7 @@ static void note_missing_limits(struct kiln_trial *trial, const struct kiln_metr
 /* What makes the count of differing pixels smaller. */
 static void note_settings(struct kiln_trial *trial)
 {
-    const struct kiln_compare_params usual = KILN_COMPARE_DEFAULTS;
+    const struct kiln_compare_params usual = kiln_compare_defaults();
     const struct kiln_test *test = trial->test;
     if (test->threshold > usual.threshold)
         kiln_trial_note(trial, "threshold %.4g is above the default one, %.4g, and has no reason",

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/pattern.h"
 #include "frame/technique.h"
+#include "scene/work.h"
 
 struct job {
     struct kiln_arena *arena;
@@ -27,13 +28,13 @@ static bool no_memory(const struct job *job)
 static bool load_scene(struct job *job)
 {
     const struct kiln_test *test = job->params->test;
-    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    struct kiln_scene_params params = kiln_scene_defaults();
     params.overrides = test->overrides;
     params.override_count = test->override_count;
     job->scene = kiln_scene_load(test->scene, &params, job->error);
     if (!job->scene)
         return false;
-    job->rendering->scene = kiln_scene_info(job->scene);
+    job->rendering->scene = kiln_scene_facts(job->scene);
     job->rendering->seed = job->scene->seed;
     struct kiln_text text = {0};
     if (kiln_print_scene(job->scene, 0, &text))
@@ -141,7 +142,7 @@ static bool open_device(struct job *job)
     job->rendering->no_device = !job->device && job->error->code == KILN_NO_DEVICE;
     if (!job->device)
         return false;
-    job->rendering->device = *kiln_device_info(job->device);
+    job->rendering->device = *kiln_device_get_info(job->device);
     kiln_device_name(job->rendering->device.name, job->rendering->device_name);
     return true;
 }
@@ -152,7 +153,7 @@ static bool render(struct job *job)
     struct kiln_rendering *rendering = job->rendering;
     struct kiln_frame_range *ranges =
         kiln_arena_alloc(job->arena, rendering->frame_count, sizeof *ranges);
-    struct kiln_render_params params = KILN_RENDER_DEFAULTS;
+    struct kiln_render_params params = kiln_render_defaults();
     params.techniques = list_techniques(job, &params.technique_count);
     if (!ranges || !params.techniques)
         return no_memory(job);
@@ -171,7 +172,7 @@ static bool render(struct job *job)
     params.stop = wants_stop;
     params.user = job;
     params.log = job->params->log;
-    struct kiln_render_stats stats = {0};
+    struct kiln_render_stats stats = kiln_render_stats_empty();
     bool ok = kiln_render(job->device, job->scene, &params, &stats, job->error);
     memcpy(rendering->techniques, stats.techniques, sizeof rendering->techniques);
     return ok;

@@ -5,7 +5,7 @@
 
 #include "base/arena.h"
 #include "base/text.h"
-#include "kiln.h"
+#include "kiln_program.h"
 
 enum { KILN_TEST_MAX_FRAMES = 1000, KILN_RESULT_MAX_ENTRIES = 1000 };
 

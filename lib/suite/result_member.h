@@ -2,6 +2,7 @@
 #ifndef KILN_SUITE_RESULT_MEMBER_H
 #define KILN_SUITE_RESULT_MEMBER_H
 
+#include "kiln_program.h"
 #include "suite/result.h"
 
 enum { KILN_RESULT_VERSION = 2 }; /* result_read.c names it, too */

@@ -4,6 +4,7 @@
 #ifndef KILN_SUITE_RESULTS_FOLDER_H
 #define KILN_SUITE_RESULTS_FOLDER_H
 
+#include "kiln_program.h"
 #include "suite/suite.h"
 
 #define KILN_RESULTS_LIST ".kiln-results"

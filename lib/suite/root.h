@@ -2,6 +2,7 @@
 #ifndef KILN_SUITE_ROOT_H
 #define KILN_SUITE_ROOT_H
 
+#include "kiln_program.h"
 #include "suite/suite.h"
 
 /* Gives a test whose scene lies outside the root of the suite, by where the paths lead, a problem

@@ -170,7 +170,7 @@ static void sum_up(struct kiln_trial *trial)
 static const char *complete_scene(struct kiln_trial *trial, const char *text, const char *name)
 {
     const char *scene_path = trial->test->scene, *slash = strrchr(scene_path, '/');
-    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    struct kiln_scene_params params = kiln_scene_defaults();
     params.asset_root =
         slash ? kiln_trial_text(trial, "%.*s", (int)(slash - scene_path) + 1, scene_path) : ".";
     struct kiln_error ignored = {0};

@@ -1,5 +1,5 @@
 /* What became of tests, as names and as exit codes. */
-#include "kiln.h"
+#include "kiln_program.h"
 
 const char *kiln_test_status_name(enum kiln_test_status status)
 {

@@ -3,7 +3,7 @@
 #define KILN_SUITE_SUITE_H
 
 #include "base/arena.h"
-#include "kiln.h"
+#include "kiln_program.h"
 #include "suite/result.h"
 
 /* A picture format of goldens. */

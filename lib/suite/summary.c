@@ -78,7 +78,7 @@ bool kiln_test_record_error(const struct kiln_suite *suite, size_t index, enum k
         result->code = code;
         result->message = message;
         result->total_s = total_s;
-        const struct kiln_test_params params = KILN_TEST_DEFAULTS;
+        const struct kiln_test_params params = kiln_test_defaults();
         struct kiln_trial trial = {
             .arena = arena, .suite = suite, .test = test, .params = &params, .result = result};
         result->rerun = kiln_trial_rerun_command(&trial);

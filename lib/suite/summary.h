@@ -2,6 +2,7 @@
 #ifndef KILN_SUITE_SUMMARY_H
 #define KILN_SUITE_SUMMARY_H
 
+#include "kiln_program.h"
 #include "suite/suite.h"
 
 /* A result of the test with all that is known before a run, the time included, and "" or 0 for the

@@ -83,8 +83,9 @@ static bool collect_limits(struct kiln_trial *trial)
 
 static void add_mask(struct kiln_trial *trial, const struct kiln_test_mask *mask)
 {
-    trial->masks[trial->mask_count++] = (struct kiln_compare_mask){
-        mask->rect[0], mask->rect[1], mask->rect[2], mask->rect[3], mask->picture};
+    trial->masks[trial->mask_count++] =
+        (struct kiln_compare_mask){sizeof *trial->masks, mask->rect[0], mask->rect[1],
+                                   mask->rect[2],        mask->rect[3], mask->picture};
 }
 
 bool kiln_trial_set_limits(struct kiln_trial *trial, struct kiln_error *error)
@@ -126,7 +127,7 @@ bool kiln_trial_compare(const struct kiln_trial *trial, const char *golden, cons
                         struct kiln_error *error)
 {
     *comparison = (struct kiln_trial_comparison){0};
-    struct kiln_compare_params params = KILN_COMPARE_DEFAULTS;
+    struct kiln_compare_params params = kiln_compare_defaults();
     params.reference = golden;
     params.test = picture;
     params.limits = trial->limits;
@@ -136,10 +137,12 @@ bool kiln_trial_compare(const struct kiln_trial *trial, const char *golden, cons
     params.threads = trial->params->threads;
     params.error_map = error_map;
     params.masks = trial->masks;
+    params.mask_stride = sizeof *trial->masks;
     params.mask_count = trial->mask_count;
     params.overwrite = true;
     params.frame = take_frame;
     params.user = comparison;
+    comparison->result = kiln_compare_result_empty();
     bool ok = kiln_compare(&params, &comparison->result, error);
     if (ok && !comparison->frame.measured)
         comparison->frame.score = INFINITY;

@@ -2,6 +2,7 @@
 #ifndef KILN_SUITE_TRIAL_H
 #define KILN_SUITE_TRIAL_H
 
+#include "kiln_program.h"
 #include "suite/rendering.h"
 
 /* What is known of a frame beside its result. */

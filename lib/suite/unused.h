@@ -2,6 +2,7 @@
 #ifndef KILN_SUITE_UNUSED_H
 #define KILN_SUITE_UNUSED_H
 
+#include "kiln_program.h"
 #include "suite/suite.h"
 
 /* Lists the folders below `golden` that hold what was accepted of a test which is not among the

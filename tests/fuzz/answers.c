@@ -33,7 +33,7 @@ static void read_video(void)
     struct kiln_video_in *video = kiln_video_in_open(NULL, fed, &error);
     struct kiln_asset_image *image = NULL;
     while (video && kiln_video_in_read(video, &image, &error) && image)
-        check_image(image, &error);
+        fuzz_taken = check_image(image, &error);
     kiln_video_in_close(&video);
 }
 
@@ -44,15 +44,17 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (!*fed)
         begin();
     feed(data, size);
-    check_image(kiln_asset_image_parse(png, sizeof png, "fuzz.png", &error), &error);
+    fuzz_taken = check_image(kiln_asset_image_parse(png, sizeof png, "fuzz.png", &error), &error);
     read_video();
     struct kiln_mesh *mesh = kiln_mesh_parse("v", 1, "fuzz.obj", &error);
     if (mesh)
         check_mesh(mesh);
+    fuzz_taken = fuzz_taken || mesh;
     kiln_mesh_destroy(&mesh);
     struct kiln_skin *skin = kiln_skin_parse("{", 1, "fuzz.gltf", &error);
     if (skin)
         check_skin(skin);
+    fuzz_taken = fuzz_taken || skin;
     kiln_skin_destroy(&skin);
     unlink(fed);
     return 0;

@@ -10,6 +10,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     struct kiln_error error = {0};
     struct kiln_grid_file *grid = kiln_grid_parse(data, size, "fuzz", &error);
     require(grid || (error.code != KILN_OK && *error.message), "an error without a message");
+    fuzz_taken = grid != NULL;
     const size_t count = grid ? (size_t)grid->size[0] * grid->size[1] * grid->size[2] : 0;
     require(count <= KILN_MAX_GRID_SAMPLES, "a grid beyond the limits");
     for (size_t i = 0; i < 3 * count; i++)

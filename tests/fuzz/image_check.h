@@ -2,25 +2,15 @@
 #ifndef KILN_FUZZ_IMAGE_CHECK_H
 #define KILN_FUZZ_IMAGE_CHECK_H
 
-#include <stdio.h>
-#include <stdlib.h>
-
 #include "asset/image/image.h"
+#include "fuzz.h"
 
-static inline void require(bool condition, const char *what)
-{
-    if (!condition) {
-        fprintf(stderr, "fuzz: %s\n", what);
-        abort();
-    }
-}
-
-/* An image within the limits or an error; destroys the image. */
-static inline void check_image(struct kiln_asset_image *image, const struct kiln_error *error)
+/* An image within the limits, true, or an error; destroys the image. */
+static inline bool check_image(struct kiln_asset_image *image, const struct kiln_error *error)
 {
     if (!image) {
         require(error->code != KILN_OK && *error->message, "an error without a message");
-        return;
+        return false;
     }
     require(image->width >= 1 && image->width <= KILN_MAX_IMAGE_EDGE && image->height >= 1 &&
                 image->height <= KILN_MAX_IMAGE_EDGE &&
@@ -33,6 +23,7 @@ static inline void check_image(struct kiln_asset_image *image, const struct kiln
     for (size_t i = 0; i < kiln_asset_image_bytes(image); i++)
         sum = (uint8_t)(sum + pixels[i]);
     kiln_asset_image_destroy(&image);
+    return true;
 }
 
 #endif

@@ -13,6 +13,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
                        : size && data[0] == '{' ? "fuzz.gltf"
                                                 : "fuzz.obj";
     struct kiln_mesh *mesh = kiln_mesh_parse(data, size, name, &error);
+    fuzz_taken = mesh != NULL;
     if (mesh)
         check_mesh(mesh);
     else

@@ -9,6 +9,7 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include "base/ffmpeg.h"
 #include "fuzz.h"
 
 /* The clip that the corpus has parts of: two seconds at 4 frames a second, in one part. */
@@ -37,14 +38,6 @@ static struct kiln_output_params params_of(const char *path, const char *parts)
     return kiln_output_complete(&params, &error);
 }
 
-static void require(bool condition, const char *what)
-{
-    if (!condition) {
-        fprintf(stderr, "fuzz: %s\n", what);
-        abort();
-    }
-}
-
 /* The first byte says of which clip it is a part. */
 static void join(const char *folder, uint8_t kind)
 {
@@ -53,7 +46,8 @@ static void join(const char *folder, uint8_t kind)
     struct kiln_error error = {0};
     snprintf(path, sizeof path, "%s/c.%s", folder, suffixes[kind % 3]);
     const struct kiln_output_params params = params_of(path, folder);
-    if (params.format && !kiln_parts_join(&params, &error))
+    fuzz_taken = params.format && kiln_parts_join(&params, &error);
+    if (params.format && !fuzz_taken)
         require(error.code != KILN_OK && *error.message, "an error without a message");
     unlink(path);
 }
@@ -75,6 +69,7 @@ static void repair(uint8_t *bytes, size_t length)
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     char folder[] = "/tmp/kiln-fuzz-XXXXXX", path[64];
+    require(kiln_ffmpeg_open(KILN_FFMPEG_CLIPS, NULL), "FFmpeg is missing"); /* as a job has done */
     uint8_t *copy = size < 5 ? NULL : malloc(size);
     if (!copy || !mkdtemp(folder)) {
         free(copy);

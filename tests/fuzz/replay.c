@@ -66,8 +66,10 @@ static size_t mutate(uint8_t *data, size_t size, uint64_t *random)
     return size;
 }
 
-static int replay_file(const char *path, unsigned mutations)
+/* good: the target must take the file, not its mutations. */
+static int replay_file(const char *path, unsigned mutations, bool good)
 {
+    int failed = 0;
     FILE *file = fopen(path, "rb");
     if (!file) {
         perror(path);
@@ -78,6 +80,10 @@ static int replay_file(const char *path, unsigned mutations)
         size_t size = fread(seed, 1, MAX_SIZE, file);
         uint64_t random = size;
         LLVMFuzzerTestOneInput(seed, size);
+        if (good && !fuzz_taken) {
+            fprintf(stderr, "%s: good, but the target does not take it\n", path);
+            failed = 1;
+        }
         for (unsigned i = 0; i < mutations; i++) {
             memcpy(data, seed, size);
             LLVMFuzzerTestOneInput(data, mutate(data, size, &random));
@@ -86,7 +92,7 @@ static int replay_file(const char *path, unsigned mutations)
     fclose(file);
     free(seed);
     free(data);
-    return 0;
+    return failed;
 }
 
 static int by_name(const struct dirent **a, const struct dirent **b)
@@ -97,6 +103,8 @@ static int by_name(const struct dirent **a, const struct dirent **b)
 static int replay_folder(const char *folder, unsigned mutations, unsigned *files)
 {
     struct dirent **entries = NULL;
+    const size_t length = strlen(folder);
+    const bool good = length >= 5 && strcmp(folder + length - 5, "/good") == 0;
     int count = scandir(folder, &entries, NULL, by_name), failed = 0;
     if (count < 0) {
         perror(folder);
@@ -107,7 +115,7 @@ static int replay_folder(const char *folder, unsigned mutations, unsigned *files
         struct stat status;
         snprintf(path, sizeof path, "%s/%s", folder, entries[i]->d_name);
         if (stat(path, &status) == 0 && S_ISREG(status.st_mode)) {
-            failed |= replay_file(path, mutations);
+            failed |= replay_file(path, mutations, good);
             ++*files;
         }
         free(entries[i]);

@@ -2,19 +2,10 @@
  * that is read is written as a text that reads and writes as the same. */
 #include "suite/result.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "fuzz.h"
-
-static void require(bool condition, const char *what)
-{
-    if (!condition) {
-        fprintf(stderr, "fuzz: %s\n", what);
-        abort();
-    }
-}
 
 static struct kiln_text print(const struct kiln_result *result)
 {
@@ -46,6 +37,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         text[size] = '\0';
         struct kiln_error error = {0};
         const struct kiln_result *result = kiln_result_parse(arena, text, size, "fuzz", &error);
+        fuzz_taken = result != NULL;
         if (result)
             check_round_trip(arena, result);
         else

@@ -1,22 +1,15 @@
 /* Fuzzes the loader: any bytes are a scene or an error, never a crash; and a scene that loads
  * prints as a text that loads to the same. Lines "#set key=value" at the start are overrides.
  */
-#include <stdio.h>
+
 #include <stdlib.h>
 #include <string.h>
 
 #include "fuzz.h"
 #include "kiln.h"
+#include "scene/work.h"
 
 enum { MAX_OVERRIDES = 8 };
-
-static void require(bool condition, const char *what)
-{
-    if (!condition) {
-        fprintf(stderr, "fuzz: %s\n", what);
-        abort();
-    }
-}
 
 /* Printing and loading again must change nothing. */
 static void check_round_trip(const struct kiln_scene *scene)
@@ -27,10 +20,9 @@ static void check_round_trip(const struct kiln_scene *scene)
     require(out && kiln_scene_print(scene, out), "cannot print a scene");
     fclose(out);
     struct kiln_error error = {0};
-    struct kiln_scene *again =
-        kiln_scene_parse(text, size, "printed.yaml", &KILN_SCENE_DEFAULTS, &error);
+    struct kiln_scene *again = kiln_scene_parse(text, size, "printed.yaml", NULL, &error);
     require(again, error.message);
-    struct kiln_scene_info info = kiln_scene_info(scene), info_again = kiln_scene_info(again);
+    struct kiln_scene_info info = kiln_scene_facts(scene), info_again = kiln_scene_facts(again);
     require(strcmp(info.hash, info_again.hash) == 0, "a printed scene differs");
     kiln_scene_destroy(&again);
     free(text);
@@ -46,7 +38,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     text[size] = '\0';
 
     char *overrides[MAX_OVERRIDES];
-    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    struct kiln_scene_params params = kiln_scene_defaults();
     char *rest = text;
     while (strncmp(rest, "#set ", 5) == 0 && params.override_count < MAX_OVERRIDES) {
         char *end = strchr(rest, '\n');
@@ -59,6 +51,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     struct kiln_error error = {0};
     struct kiln_scene *scene =
         kiln_scene_parse(rest, size - (size_t)(rest - text), "fuzz.yaml", &params, &error);
+    fuzz_taken = scene != NULL;
     if (scene)
         check_round_trip(scene);
     else

@@ -3,7 +3,6 @@
  * changed would get behind them. */
 #include "job/state.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -47,14 +46,6 @@ static void repair(uint8_t *data, size_t size)
     }
 }
 
-static void require(bool condition, const char *what)
-{
-    if (!condition) {
-        fprintf(stderr, "fuzz: %s\n", what);
-        abort();
-    }
-}
-
 /* A pool as the state of the corpus is of. */
 static void read_into_pool(const char *path, const struct kiln_state_info *info)
 {
@@ -65,7 +56,8 @@ static void read_into_pool(const char *path, const struct kiln_state_info *info)
     kiln_pool_init(&pool, NULL, capacities, 2);
     uint32_t slots[78];
     struct kiln_state state = {.pool = &pool, .slots = info->order[0] ? slots : NULL};
-    if (threads && !kiln_state_read(&state, path, threads, &error))
+    fuzz_taken = threads && kiln_state_read(&state, path, threads, &error);
+    if (threads && !fuzz_taken)
         require(error.code != KILN_OK && *error.message, "an error without a message");
     kiln_pool_finish(&pool);
     kiln_threads_destroy(&threads);
@@ -76,6 +68,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     char path[] = "/tmp/kiln-fuzz-XXXXXX";
     uint8_t *copy = malloc(size + 1);
     const int file = copy ? mkstemp(path) : -1;
+    fuzz_taken = false;
     if (file >= 0) {
         struct kiln_state_info info;
         struct kiln_error error = {0};

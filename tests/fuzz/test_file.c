@@ -2,19 +2,10 @@
  * what a test says is within what its keys allow. */
 #include "suite/test_file.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "fuzz.h"
-
-static void require(bool condition, const char *what)
-{
-    if (!condition) {
-        fprintf(stderr, "fuzz: %s\n", what);
-        abort();
-    }
-}
 
 static void check_test(const struct kiln_test *test)
 {
@@ -43,9 +34,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         text[size] = '\0';
         struct kiln_error error = {0};
         struct kiln_test_file file;
+        fuzz_taken = false;
         if (kiln_test_file_parse(arena, text, size, "x/fuzz.test.yaml", &file, &error)) {
             const struct kiln_error *problem = &file.test.problem;
             require((problem->code == KILN_OK) == !*problem->message, "a problem without a text");
+            fuzz_taken = problem->code == KILN_OK;
             check_test(&file.test);
         } else {
             require(error.code == KILN_DEVICE_FAILED, "an error that is no problem of the test");

@@ -18,11 +18,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     require(file >= 0 && write(file, data, size) == (ssize_t)size, "no memory");
     struct decode_video *video = decode_video_open(file, &error);
     require(video || (error.code != KILN_OK && *error.message), "an error without a message");
+    fuzz_taken = false;
     for (int i = 0; video && i < MOST_FRAMES; i++) {
         struct kiln_asset_image *image = NULL;
         if (!decode_video_read(video, &image, &error) || !image)
             break;
-        check_image(image, &error);
+        fuzz_taken = check_image(image, &error);
     }
     decode_video_close(&video);
     close(file);

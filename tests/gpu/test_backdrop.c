@@ -39,8 +39,7 @@ struct fixture {
 static struct fixture fixture_create(void)
 {
     struct kiln_error error = {0};
-    struct fixture f = {
-        .scene = kiln_scene_parse(SCENE, sizeof SCENE - 1, "test", &KILN_SCENE_DEFAULTS, &error)};
+    struct fixture f = {.scene = kiln_scene_parse(SCENE, sizeof SCENE - 1, "test", NULL, &error)};
     if (!f.scene)
         fail_msg("%s", error.message);
     return f;

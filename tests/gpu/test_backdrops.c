@@ -70,7 +70,7 @@ static const char *const SMALL[] = {"output.size=[384, 216]", "post.bloom.kind=n
 static struct kiln_scene *load(const char *path)
 {
     struct kiln_error error = {0};
-    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    struct kiln_scene_params params = kiln_scene_defaults();
     params.overrides = SMALL;
     params.override_count = 2;
     struct kiln_scene *scene = kiln_scene_load(path, &params, &error);
@@ -82,7 +82,7 @@ static struct kiln_scene *load(const char *path)
 static struct kiln_scene *parse(const char *text)
 {
     struct kiln_error error = {0};
-    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    struct kiln_scene_params params = kiln_scene_defaults();
     params.overrides = SMALL;
     params.override_count = 2;
     params.asset_root = KILN_SOURCE_DIR "/scenes";
@@ -169,8 +169,8 @@ static const float *nearness(struct picture *picture)
     return picture->depth;
 }
 
-/* DESIGN: mean relative error at most 1e-3, no more than one value in a thousand off by more than
- * 1 %: of all pixels, those at edges, too. */
+/* docs/determinism.md: mean relative error at most 1e-3, no more than one value in a thousand off
+ * by more than 1 %: of all pixels, those at edges, too. */
 static void check_agreement(struct moment *m, const char *name)
 {
     struct picture *gl = draw(m, KILN_BACKDROP_GL, 2), *cpu = draw(m, KILN_BACKDROP_CPU, 2);

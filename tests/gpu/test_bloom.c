@@ -85,8 +85,7 @@ static struct kiln_scene *parse(const char *post)
     char text[512];
     int length = snprintf(text, sizeof text, "kiln: 1\npost: {%s}\n", post);
     struct kiln_error error = {0};
-    struct kiln_scene *scene =
-        kiln_scene_parse(text, (size_t)length, "test", &KILN_SCENE_DEFAULTS, &error);
+    struct kiln_scene *scene = kiln_scene_parse(text, (size_t)length, "test", NULL, &error);
     if (!scene)
         fail_msg("%s", error.message);
     return scene;

@@ -30,7 +30,7 @@ static void see(void *user, const char *line)
 
 static struct kiln_calibrate_params calibrate_params(const char **device)
 {
-    struct kiln_calibrate_params params = KILN_CALIBRATE_DEFAULTS;
+    struct kiln_calibrate_params params = kiln_calibrate_defaults();
     *device = getenv("KILN_TEST_DEVICE");
     params.devices = device;
     params.device_count = *device ? 1 : 0;

@@ -22,8 +22,7 @@ static struct kiln_scene *parse(const char *post)
                           "post: {dither: false, %s}\n",
                           WIDTH, HEIGHT, post);
     struct kiln_error error = {0};
-    struct kiln_scene *scene =
-        kiln_scene_parse(text, (size_t)length, "test", &KILN_SCENE_DEFAULTS, &error);
+    struct kiln_scene *scene = kiln_scene_parse(text, (size_t)length, "test", NULL, &error);
     if (!scene)
         fail_msg("%s", error.message);
     return scene;

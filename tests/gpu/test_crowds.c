@@ -80,8 +80,8 @@ static float *render(struct kiln_device *device, const struct crowd *crowd, size
     return values;
 }
 
-/* Mean and 99.9th percentile of the relative error, as DESIGN.md's table of rasterisers states
- * them; a tenth is added to what the latter is relative to, as in test_particles.c. */
+/* Mean and 99.9th percentile of the relative error, as docs/determinism.md states them; a tenth is
+ * added to what the latter is relative to, as in test_particles.c. */
 static void compare(const float *expected, const float *found, const char *name)
 {
     double error_sum = 0, light_sum = 1e-9;

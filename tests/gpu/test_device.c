@@ -12,18 +12,26 @@
 
 static struct kiln_device *open_named(const char *wanted, struct kiln_error *error)
 {
-    struct kiln_device_params params = KILN_DEVICE_DEFAULTS;
+    struct kiln_device_params params = kiln_device_defaults();
     params.wanted = wanted;
     *error = (struct kiln_error){0};
     return kiln_device_open(&params, error);
+}
+
+/* So that the list can fill them. */
+static void empty(struct kiln_device_info *infos, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        infos[i] = kiln_device_info_empty();
 }
 
 static void list_describes_usable_devices(void **state)
 {
     (void)state;
     struct kiln_device_info infos[32];
+    empty(infos, 32);
     char advice[256];
-    size_t count = kiln_device_list(infos, 32, advice);
+    size_t count = kiln_device_list(infos, sizeof(struct kiln_device_info), 32, advice);
     assert_in_range(count, 1, 32);
     size_t usable = 0;
     for (size_t i = 0; i < count; i++) {
@@ -43,17 +51,18 @@ static void list_describes_usable_devices(void **state)
     assert_true(usable >= 1);
 
     /* The count is that of all devices, also when fewer are asked for. */
-    struct kiln_device_info first = {.index = 77};
-    assert_int_equal(kiln_device_list(&first, 1, NULL), count);
+    struct kiln_device_info first = {.size = sizeof first, .index = 77};
+    assert_int_equal(kiln_device_list(&first, sizeof(struct kiln_device_info), 1, NULL), count);
     assert_string_equal(first.name, infos[0].name);
-    assert_int_equal(kiln_device_list(NULL, 0, NULL), count);
+    assert_int_equal(kiln_device_list(NULL, sizeof(struct kiln_device_info), 0, NULL), count);
 }
 
 static void list_has_no_device_twice(void **state)
 {
     (void)state;
     struct kiln_device_info infos[32];
-    size_t count = kiln_device_list(infos, 32, NULL);
+    empty(infos, 32);
+    size_t count = kiln_device_list(infos, sizeof(struct kiln_device_info), 32, NULL);
     for (size_t i = 0; i < count && i < 32; i++)
         for (size_t j = 0; j < i; j++)
             assert_false(strcmp(infos[i].platform, "surfaceless") == 0 &&
@@ -66,7 +75,7 @@ static void list_leaves_the_current_context(void **state)
     GLuint buffer = 0;
     glGenBuffers(1, &buffer);
     glBindBuffer(GL_ARRAY_BUFFER, buffer);
-    assert_true(kiln_device_list(NULL, 0, NULL) > 0);
+    assert_true(kiln_device_list(NULL, sizeof(struct kiln_device_info), 0, NULL) > 0);
     GLint bound = 0;
     glGetIntegerv(GL_ARRAY_BUFFER_BINDING, &bound);
     assert_int_equal(bound, buffer);
@@ -79,7 +88,8 @@ static void a_device_is_chosen_by_number_and_name(void **state)
 {
     struct kiln_error error = {0};
     struct kiln_device_info infos[32];
-    size_t count = kiln_device_list(infos, 32, NULL);
+    empty(infos, 32);
+    size_t count = kiln_device_list(infos, sizeof(struct kiln_device_info), 32, NULL);
     for (size_t i = 0; i < count && i < 32; i++) {
         if (!infos[i].usable)
             continue;
@@ -87,8 +97,8 @@ static void a_device_is_chosen_by_number_and_name(void **state)
         snprintf(number, sizeof number, "%zu", i);
         struct kiln_device *device = open_named(number, &error);
         assert_non_null(device);
-        assert_string_equal(kiln_device_info(device)->name, infos[i].name);
-        assert_int_equal(kiln_device_info(device)->index, i);
+        assert_string_equal(kiln_device_get_info(device)->name, infos[i].name);
+        assert_int_equal(kiln_device_get_info(device)->index, i);
         kiln_device_close(&device);
         assert_null(device);
     }
@@ -98,17 +108,17 @@ static void a_device_is_chosen_by_number_and_name(void **state)
         has_gpu = has_gpu || (infos[i].usable && !infos[i].software);
     struct kiln_device *device = open_named(NULL, &error);
     assert_non_null(device);
-    assert_true(kiln_device_info(device)->software == !has_gpu);
-    assert_true(kiln_device_info(device)->gl == has_gpu);
+    assert_true(kiln_device_get_info(device)->software == !has_gpu);
+    assert_true(kiln_device_get_info(device)->gl == has_gpu);
     kiln_device_close(&device);
     kiln_device_close(&device);
 
     /* With GL where it is asked for. */
-    struct kiln_device_params params = KILN_DEVICE_DEFAULTS;
+    struct kiln_device_params params = kiln_device_defaults();
     params.gl = true;
     device = kiln_device_open(&params, &error);
     assert_non_null(device);
-    assert_true(kiln_device_info(device)->gl);
+    assert_true(kiln_device_get_info(device)->gl);
     kiln_device_close(&device);
     assert_true(kiln_device_make_current(*state, &error));
 }
@@ -121,11 +131,12 @@ static void software_is_chosen_by_name(void **state)
         assert_int_equal(error.code, KILN_NO_DEVICE);
         skip();
     }
-    assert_true(kiln_device_info(device)->software);
+    assert_true(kiln_device_get_info(device)->software);
     kiln_device_close(&device);
 
     struct kiln_device_info infos[32];
-    size_t matches = 0, count = kiln_device_list(infos, 32, NULL);
+    empty(infos, 32);
+    size_t matches = 0, count = kiln_device_list(infos, sizeof(struct kiln_device_info), 32, NULL);
     for (size_t i = 0; i < count && i < 32; i++)
         matches += strstr(infos[i].name, "llvmpipe") != NULL;
     device = open_named("LLVMpipe", &error);
@@ -137,7 +148,7 @@ static void software_is_chosen_by_name(void **state)
 static void a_wrong_choice_names_what_there_is(void **state)
 {
     struct kiln_error error;
-    const char *name = kiln_device_info(*state)->name;
+    const char *name = kiln_device_get_info(*state)->name;
     assert_null(open_named("no such device", &error));
     assert_int_equal(error.code, KILN_NO_DEVICE);
     assert_non_null(strstr(error.message, "'no such device'"));
@@ -157,13 +168,14 @@ static void a_wrong_choice_names_what_there_is(void **state)
 /* The probe's verdict is the same wherever it is asked for; llvmpipe is known to be exact. */
 static void exactness_is_probed(void **state)
 {
-    const struct kiln_device_info *info = kiln_device_info(*state);
+    const struct kiln_device_info *info = kiln_device_get_info(*state);
     char reason[256];
     struct kiln_error error = {0};
     assert_true(info->exact == kiln_probe_exact(*state, KILN_PROBE_COMPUTE, reason, &error));
     assert_true(info->exact || !strstr(info->name, "llvmpipe"));
     struct kiln_device_info infos[32];
-    size_t count = kiln_device_list(infos, 32, NULL);
+    empty(infos, 32);
+    size_t count = kiln_device_list(infos, sizeof(struct kiln_device_info), 32, NULL);
     assert_true(info->index < count);
     assert_true(infos[info->index].exact == info->exact);
 }
@@ -292,8 +304,8 @@ static int list_and_open(void)
 {
     char advice[256];
     struct kiln_error error = {0};
-    size_t count = kiln_device_list(NULL, 0, advice);
-    struct kiln_device_params params = KILN_DEVICE_DEFAULTS;
+    size_t count = kiln_device_list(NULL, sizeof(struct kiln_device_info), 0, advice);
+    struct kiln_device_params params = kiln_device_defaults();
     params.gl = true;
     struct kiln_device *device = kiln_device_open(&params, &error);
     printf("%zu devices; %s; %s\n", count, advice, error.message);

@@ -42,7 +42,7 @@ static void draw_at(struct picture *p, uint32_t step)
 static void start(struct picture *p, void *device, const char *text)
 {
     struct kiln_error error = {0};
-    p->scene = kiln_scene_parse(text, strlen(text), "test", &KILN_SCENE_DEFAULTS, &error);
+    p->scene = kiln_scene_parse(text, strlen(text), "test", NULL, &error);
     if (!p->scene)
         fail_msg("%s", error.message);
     kiln_image_init(&p->color, device, WIDTH, HEIGHT, GL_RGBA32F, "color");

@@ -47,12 +47,12 @@ static void render_beside(void *user, const struct kiln_progress *progress)
     if (caller->stays_away)
         return;
     struct kiln_error error = {0};
-    struct kiln_device_params params = KILN_DEVICE_DEFAULTS;
+    struct kiln_device_params params = kiln_device_defaults();
     params.wanted = getenv("KILN_TEST_DEVICE");
     params.gl = true;
     struct kiln_device *own = caller->device ? NULL : kiln_device_open(&params, &error);
     struct kiln_scene *scene = load_scene(FIRE, NULL);
-    struct kiln_render_params job = KILN_RENDER_DEFAULTS;
+    struct kiln_render_params job = kiln_render_defaults();
     job.techniques = ON_DEVICE;
     job.technique_count = 1;
     if (!kiln_render(own ? own : caller->device, scene, &job, NULL, &error))
@@ -74,7 +74,7 @@ static void render_smoke(struct kiln_device *device, struct caller *caller, cons
     snprintf(path, sizeof path, "%s/x_#.exr", folder);
     struct kiln_error error = {0};
     struct kiln_scene *scene = load_scene(SMOKE, NULL);
-    struct kiln_render_params job = KILN_RENDER_DEFAULTS;
+    struct kiln_render_params job = kiln_render_defaults();
     job.output = path;
     job.techniques = ON_DEVICE;
     job.technique_count = 1;
@@ -133,13 +133,13 @@ static void limits_are_told(void **state)
     struct kiln_scene *scene = load_scene(SMOKE, NULL);
     struct kiln_error error = {0};
     device->info.max_texture_size = 32;
-    assert_false(kiln_render(device, scene, &KILN_RENDER_DEFAULTS, NULL, &error));
+    assert_false(kiln_render(device, scene, NULL, NULL, &error));
     assert_int_equal(error.code, KILN_DEVICE_FAILED);
     assert_non_null(strstr(error.message, "64 x 48 pixels"));
     device->info = info;
     device->info.software = false;
     device->info.max_storage_block_bytes = 32;
-    assert_false(kiln_render(device, scene, &KILN_RENDER_DEFAULTS, NULL, &error));
+    assert_false(kiln_render(device, scene, NULL, NULL, &error));
     assert_int_equal(error.code, KILN_DEVICE_FAILED);
     assert_non_null(strstr(error.message, "draws up to 1"));
     device->info = info;
@@ -172,7 +172,7 @@ static void clips_stop_until_they_are_complete(void **state)
         snprintf(path, sizeof path, "%s/clip.gif", folder);
         struct stopper stopper = {.after = after};
         struct kiln_error error = {0};
-        struct kiln_render_params job = KILN_RENDER_DEFAULTS;
+        struct kiln_render_params job = kiln_render_defaults();
         job.output = path;
         job.progress = count_frame;
         job.stop = is_enough;
@@ -204,9 +204,9 @@ static const char ORBIT[] =
 
 enum { ORBIT_FRAMES = 16, ORBIT_BYTES = 48 * 32 * 4 };
 
-static void keep_picture(void *user, uint32_t frame, const uint8_t *pixels)
+static void keep_picture(void *user, const struct kiln_frame_layer *layer)
 {
-    memcpy((uint8_t *)user + (size_t)frame * ORBIT_BYTES, pixels, ORBIT_BYTES);
+    memcpy((uint8_t *)user + (size_t)layer->frame * ORBIT_BYTES, layer->pixels, ORBIT_BYTES);
 }
 
 static void render_orbit(struct kiln_device *device, const char *sort,
@@ -215,7 +215,7 @@ static void render_orbit(struct kiln_device *device, const char *sort,
 {
     struct kiln_error error = {0};
     struct kiln_scene *scene = load_scene(ORBIT, NULL);
-    struct kiln_render_params job = KILN_RENDER_DEFAULTS;
+    struct kiln_render_params job = kiln_render_defaults();
     job.ranges = ranges;
     job.range_count = range_count;
     job.techniques = &sort;
@@ -254,7 +254,7 @@ static struct kiln_job *make_job(struct kiln_device *device, const struct kiln_s
                                  struct kiln_render_params *params, const char *const *technique)
 {
     struct kiln_error error = {0};
-    *params = KILN_RENDER_DEFAULTS;
+    *params = kiln_render_defaults();
     params->techniques = technique;
     params->technique_count = 1;
     params->state_hash = true;
@@ -296,7 +296,7 @@ static void jobs_go_on_from_each_other(void **state)
         assert_memory_not_equal(&kiln_job_progress(jobs[0])->state, &before, sizeof before);
         before = kiln_job_progress(jobs[0])->state;
     }
-    struct kiln_render_stats whole, stats;
+    struct kiln_render_stats whole = kiln_render_stats_empty(), stats;
     assert_true(kiln_render(*state, scene, &params[0], &whole, &error));
     for (int i = 0; i < JOBS; i++) {
         assert_true(kiln_job_finish(jobs[i], &stats, &error));

@@ -136,7 +136,7 @@ static int set_up_with(void **state, const char *const *overrides, size_t count)
     void *device = NULL;
     test_device_open(&device);
     f->device = device;
-    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    struct kiln_scene_params params = kiln_scene_defaults();
     params.overrides = overrides;
     params.override_count = count;
     f->literal = count > 0;
@@ -453,7 +453,7 @@ static void draw(struct fixture *f, bool sum_alpha)
         reverse(f);
 }
 
-/* Mean and 99.9th percentile of the relative error as DESIGN.md's table of rasterisers states them;
+/* Mean and 99.9th percentile of the relative error as docs/determinism.md states them;
  * a tenth is added to what it is relative to, since drivers filter 8-bit texels with 8-bit weights.
  */
 static void particles_match_c(void **state)

@@ -62,7 +62,7 @@ static void open_subject(struct subject *s, struct kiln_device *device, const ch
 {
     struct kiln_error error = {0};
     static const char *const overrides[] = {"output.size=[384, 216]", "post.bloom.kind=none"};
-    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    struct kiln_scene_params params = kiln_scene_defaults();
     params.overrides = overrides;
     params.override_count = 2;
     *s = (struct subject){.name = path ? strrchr(path, '/') + 1 : "faint",
@@ -195,8 +195,8 @@ static struct difference measure(const double (*truth)[4], const float *drawn, c
     return (struct difference){error_sum / light_sum, off / (double)(pixels * (size_t)channels)};
 }
 
-/* What a technique drew of a pass. DESIGN: mean relative error at most 1e-3, no more than one value
- * in a thousand off by more than 1 %. */
+/* What a technique drew of a pass. docs/determinism.md: mean relative error at most 1e-3, no more
+ * than one value in a thousand off by more than 1 %. */
 static void compare(struct subject *s, const struct pass *pass, const char *raster,
                     const struct true_picture *truth)
 {

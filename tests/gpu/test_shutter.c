@@ -9,6 +9,7 @@
 
 #include "asset/image/image.h"
 #include "scene/scene.h"
+#include "scene/work.h"
 #include "support/cmocka.h"
 #include "support/device.h"
 #include "support/scenes.h"
@@ -38,7 +39,7 @@ static void render(struct kiln_device *device, const char *fps, const char *came
     snprintf(text, sizeof text, SCENE, fps, camera, post);
     struct kiln_scene *scene = load_scene(text, NULL);
     struct kiln_error error = {0};
-    struct kiln_render_params params = KILN_RENDER_DEFAULTS;
+    struct kiln_render_params params = kiln_render_defaults();
     const struct kiln_frame_range range = {first, last};
     params.output = output;
     params.ranges = &range;
@@ -131,7 +132,7 @@ static void a_shutter_has_its_steps(void **state)
     static const char automatic[] = "kiln: 1\noutput: {fps: 30}\n"
                                     "camera: {shutter: {samples: 5, angle: 120 deg}}\n";
     scene = load_scene(automatic, NULL);
-    assert_int_equal(kiln_scene_info(scene).steps_per_frame, 15);
+    assert_int_equal(kiln_scene_facts(scene).steps_per_frame, 15);
     for (uint32_t m = 0; m < 5; m++)
         assert_int_equal(kiln_scene_moment_step(scene, 2, m), 30 + m);
     kiln_scene_destroy(&scene);

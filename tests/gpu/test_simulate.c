@@ -272,7 +272,7 @@ static void a_scene_from_a_file(void **state)
 {
     struct kiln_error error = {0};
     const char *const overrides[] = {"systems.*.emit.rate=2000"};
-    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    struct kiln_scene_params params = kiln_scene_defaults();
     params.overrides = overrides;
     params.override_count = 1;
     struct kiln_scene *scene =

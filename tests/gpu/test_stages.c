@@ -59,7 +59,7 @@ static void frame_init_with(struct frame *f, struct kiln_device *device, const c
 {
     struct kiln_error error = {0};
     *f = (struct frame){0};
-    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    struct kiln_scene_params params = kiln_scene_defaults();
     params.overrides = &override;
     params.override_count = override ? 1 : 0;
     f->scene = kiln_scene_parse(SCENE, sizeof SCENE - 1, "test", &params, &error);

@@ -34,11 +34,11 @@ struct pictures {
     unsigned warnings;
 };
 
-static void take_picture(void *user, uint32_t frame, const uint8_t *pixels)
+static void take_picture(void *user, const struct kiln_frame_layer *view)
 {
     struct pictures *pictures = user;
-    assert_int_equal(frame, FIRST + pictures->count);
-    memcpy(pictures->bytes[pictures->count++], pixels, PICTURE_BYTES);
+    assert_int_equal(view->frame, FIRST + pictures->count);
+    memcpy(pictures->bytes[pictures->count++], view->pixels, PICTURE_BYTES);
 }
 
 static void count_warning(void *user, enum kiln_log_level level, const char *line)
@@ -55,8 +55,8 @@ static struct kiln_render_stats draw(struct kiln_device *device, const struct ki
 {
     static const struct kiln_frame_range range = {FIRST, FIRST + FRAMES - 1};
     struct kiln_error error = {0};
-    struct kiln_render_stats stats;
-    struct kiln_render_params params = KILN_RENDER_DEFAULTS;
+    struct kiln_render_stats stats = kiln_render_stats_empty();
+    struct kiln_render_params params = kiln_render_defaults();
     *pictures = (struct pictures){.count = 0};
     params.ranges = &range;
     params.range_count = 1;
@@ -75,12 +75,13 @@ static struct kiln_render_stats draw(struct kiln_device *device, const struct ki
 static struct kiln_bake_stats bake(struct kiln_device *device, const struct kiln_scene *scene,
                                    const char *technique, uint32_t every)
 {
-    const struct kiln_bake_params params = {.states = "states",
+    const struct kiln_bake_params params = {.size = sizeof params,
+                                            .states = "states",
                                             .every = every,
                                             .techniques = &technique,
                                             .technique_count = 1,
                                             .overwrite = true};
-    struct kiln_bake_stats stats;
+    struct kiln_bake_stats stats = kiln_bake_stats_empty();
     struct kiln_error error = {0};
     if (!kiln_bake(device, scene, &params, &stats, &error))
         fail_msg("%s: %s", technique, error.message);

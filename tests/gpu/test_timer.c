@@ -110,7 +110,7 @@ static void gl_work_is_charged_to_its_pass(void **state)
     assert_true(ms[KILN_PASS_bloom] + ms[KILN_PASS_readback] <= elapsed_ms + 1);
     /* One texel is nothing against the clears that its reading waits for. */
     assert_true(ms[KILN_PASS_bloom] > ms[KILN_PASS_readback] ||
-                !kiln_device_info(*state)->software);
+                !kiln_device_get_info(*state)->software);
     kiln_timer_destroy(&timer);
     glDeleteFramebuffers(1, &framebuffer);
     glDeleteTextures(1, &texture);

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "kiln.h"
+#include "kiln_program.h"
 
 int main(int argc, char **argv)
 {
@@ -12,7 +12,7 @@ int main(int argc, char **argv)
         return kiln_scene_write_schema(stdout) ? 0 : KILN_IO;
     if (argc != 3 || strcmp(argv[1], "print") != 0)
         return KILN_USAGE;
-    struct kiln_scene *scene = kiln_scene_load(argv[2], &KILN_SCENE_DEFAULTS, &error);
+    struct kiln_scene *scene = kiln_scene_load(argv[2], NULL, &error);
     if (!scene) {
         fprintf(stderr, "%s\n", error.message);
         return (int)error.code;

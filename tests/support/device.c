@@ -20,7 +20,7 @@ struct kiln_device *test_device(void)
 int test_device_open(void **state)
 {
     struct kiln_error error = {0};
-    struct kiln_device_params params = KILN_DEVICE_DEFAULTS;
+    struct kiln_device_params params = kiln_device_defaults();
     params.wanted = getenv("KILN_TEST_DEVICE");
     params.gl = true;
     params.debug = true;
@@ -30,7 +30,7 @@ int test_device_open(void **state)
         fprintf(stderr, "skipped: %s\n", error.message);
         exit(77);
     }
-    fprintf(stderr, "on %s\n", kiln_device_info(device)->name);
+    fprintf(stderr, "on %s\n", kiln_device_get_info(device)->name);
     *state = test_opened_device = device;
     return 0;
 }

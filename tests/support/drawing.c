@@ -75,7 +75,7 @@ void drawing_init(struct drawing *d, struct kiln_device *device, const char *tex
 {
     struct kiln_error error = {0};
     *d = (struct drawing){.device = device, .threads = kiln_threads_create(drawing_threads)};
-    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    struct kiln_scene_params params = kiln_scene_defaults();
     params.asset_root = drawing_asset_root;
     params.overrides = overrides;
     params.override_count = override_count;

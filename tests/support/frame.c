@@ -37,7 +37,7 @@ struct kiln_picture *frame_try(struct kiln_device *device, const char *text, uin
                                const struct frame_setting *setting, struct kiln_error *result)
 {
     struct kiln_error error = {0};
-    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    struct kiln_scene_params params = kiln_scene_defaults();
     params.overrides = setting->overrides;
     params.override_count = setting->count;
     struct kiln_scene *scene = kiln_scene_parse(text, strlen(text), "test", &params, &error);

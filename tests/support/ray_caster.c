@@ -208,7 +208,7 @@ static double sun_seen(const struct shape *shapes, int count, struct vec point, 
 struct picture draw_below(void *device, const char *text, const char *asset_root)
 {
     struct kiln_error error = {0};
-    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    struct kiln_scene_params params = kiln_scene_defaults();
     params.asset_root = asset_root;
     struct picture p = {.scene = kiln_scene_parse(text, strlen(text), "test", &params, &error)};
     if (!p.scene)

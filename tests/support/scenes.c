@@ -8,7 +8,7 @@
 struct kiln_scene *try_scene(const char *text, const char *const *overrides,
                              struct kiln_error *error)
 {
-    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    struct kiln_scene_params params = kiln_scene_defaults();
     params.overrides = overrides;
     while (overrides && overrides[params.override_count])
         params.override_count++;
@@ -27,7 +27,7 @@ struct kiln_scene *load_scene(const char *text, const char *const *overrides)
 struct kiln_scene *load_scene_file(const char *path)
 {
     struct kiln_error error = {0};
-    struct kiln_scene *scene = kiln_scene_load(path, &KILN_SCENE_DEFAULTS, &error);
+    struct kiln_scene *scene = kiln_scene_load(path, NULL, &error);
     if (!scene)
         fail_msg("%s", error.message);
     return scene;

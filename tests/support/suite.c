@@ -39,7 +39,7 @@ void spark_write(const char *more)
 struct kiln_suite *spark_suite(void)
 {
     static const char *const paths[] = {"spark.test.yaml"};
-    struct kiln_suite_params params = KILN_SUITE_DEFAULTS;
+    struct kiln_suite_params params = kiln_suite_defaults();
     struct kiln_error error = {0};
     params.paths = paths;
     params.path_count = 1;
@@ -51,7 +51,7 @@ struct kiln_suite *spark_suite(void)
 
 struct kiln_test_params spark_params(void)
 {
-    struct kiln_test_params params = KILN_TEST_DEFAULTS;
+    struct kiln_test_params params = kiln_test_defaults();
     params.device = getenv("KILN_TEST_DEVICE");
     params.threads = 2;
     params.log.write = test_log;

@@ -2,6 +2,7 @@
 #ifndef KILN_TESTS_SUITE_H
 #define KILN_TESTS_SUITE_H
 
+#include "kiln_program.h"
 #include "suite/suite.h"
 
 #define SPARK_GOLDEN "golden/spark/frame_0003.png"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The include law of lib/, cmd/, decode/ and shaders/: includes.sh SOURCE. A file includes headers of its
-# own room and of rooms before it (rooms.awk); cmd/ includes nothing of lib/ but kiln.h, and decode/ what
+# own room and of rooms before it (rooms.awk); cmd/ includes of lib/ nothing but kiln*.h, and decode/ what
 # the rooms base and asset have. Only decode/ includes assimp, and only base/ffmpeg.h FFmpeg. shaders/shared is
 # below all, and so are kiln.h and what it includes. A folder of shaders is the room of that name,
 # and the stem of a shader begins with that of a C file of the same room.
@@ -73,7 +73,7 @@ FNR == 1 {
     target = path ~ /^shared\// ? "shared" : room_of(path)
     if (room == "cmd") {
         if (path != "commit.h" && (target != "" || system("test -f cmd/" path) != 0))
-            complain("cmd/ includes \"" path "\", which is neither kiln.h nor of cmd/")
+            complain("cmd/ includes \"" path "\", which is neither kiln_program.h nor of cmd/")
     } else if (room == "decode") {
         if (target != "base" && target !~ /^asset\// &&
             (target != "" || system("test -f decode/" path) != 0))

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # An installed kiln stands alone: install.sh BUILD CC. Installs to a temporary prefix, runs the
-# program from /, builds a user of the library through pkg-config, shows the manual pages and has
+# program from /, builds users of the library
+# through pkg-config and CMake, shows the manual pages and has
 # command lines completed. With DESTDIR everything lands below it, as packagers need it.
 set -euo pipefail
 build=$1 cc=$2
@@ -9,11 +10,11 @@ trap 'rm -rf "$prefix"' EXIT
 cmake --install "$build" --prefix "$prefix" >/dev/null
 libdir=$(dirname "$(find "$prefix" -name kiln.pc | head -n 1)")
 
-for file in bin/kiln include/kiln.h include/kiln_{bench,figure,job,json,limits,sandbox,test}.h; do
+for file in bin/kiln include/kiln.h include/kiln_{compare,job,limits,sandbox}.h; do
     [[ -f $prefix/$file ]] || { echo "$file is not installed"; exit 1; }
 done
 headers=$(find "$prefix/include" -type f | wc -l)
-[[ $headers == 8 ]] || { echo "$headers headers are installed; kiln has eight"; exit 1; }
+[[ $headers == 5 ]] || { echo "$headers headers are installed; the library has five"; exit 1; }
 for file in kiln/scenes/fire_beam.yaml kiln/scene.schema.json man/man1/kiln.1 man/man5/kiln-scene.5 \
     bash-completion/completions/kiln zsh/site-functions/_kiln; do
     [[ -f $prefix/share/$file ]] || { echo "share/$file is not installed"; exit 1; }
@@ -35,20 +36,63 @@ cat >"$prefix/user.c" <<'C'
 
 int main(void)
 {
-    struct kiln_device_info info;
+    struct kiln_device_info info = kiln_device_info_empty();
     char advice[256];
-    size_t count = kiln_device_list(&info, 1, advice);
-    printf("kiln %s, %zu devices; %s\n", KILN_VERSION, count, advice);
+    size_t count = kiln_device_list(&info, sizeof info, 1, advice);
+    printf("kiln %s, %zu devices; %s\n", kiln_version(), count, advice);
     return 0;
 }
 C
 export PKG_CONFIG_PATH=$libdir
 version=$(pkg-config --modversion kiln)
+check_user() { # how it was linked, the program
+    said=$("$2")
+    [[ $said == "kiln $version, "* ]] ||
+        { echo "$1: the versions of the library and of kiln.pc differ: $said, $version"; exit 1; }
+}
+export LD_LIBRARY_PATH=${libdir%/pkgconfig}
 read -ra flags <<<"$(pkg-config --cflags --libs kiln)"
-"$cc" -Wall -Werror "$prefix/user.c" -o "$prefix/user" "${flags[@]}"
-said=$("$prefix/user")
-echo "$said"
-[[ $said == "kiln $version, "* ]] || { echo "the versions of kiln.h and kiln.pc differ: $version"; exit 1; }
+"$cc" -Wall -Werror "$prefix/user.c" -o "$prefix/shared" "${flags[@]}"
+[[ $(objdump -p "$prefix/shared") == *"NEEDED "*libkiln.so.0* ]] || { echo "the program needs no libkiln.so.0"; exit 1; }
+check_user "pkg-config" "$prefix/shared"
+read -ra flags <<<"$(pkg-config --static --cflags --libs kiln | sed 's/-lkiln/-l:libkiln.a/')"
+"$cc" -Wall -Werror "$prefix/user.c" -o "$prefix/static" "${flags[@]}"
+check_user "pkg-config --static" "$prefix/static"
+
+mkdir "$prefix/project"
+cp "$prefix/user.c" "$prefix/project"
+cat >"$prefix/project/CMakeLists.txt" <<'CMAKE'
+cmake_minimum_required(VERSION 3.22)
+project(user C)
+find_package(kiln 0.1 REQUIRED)
+add_executable(with_static user.c)
+target_link_libraries(with_static kiln::kiln_static)
+CMAKE
+cmake -S "$prefix/project" -B "$prefix/built" -DCMAKE_PREFIX_PATH="$prefix" >/dev/null
+cmake --build "$prefix/built" >/dev/null
+check_user "find_package, static" "$prefix/built/with_static"
+
+# The examples, as a user would build and run them.
+examples=$prefix/share/kiln/examples
+cmake -S "$examples" -B "$prefix/examples" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \
+    -DCMAKE_C_FLAGS=-Werror -DCMAKE_CXX_FLAGS=-Werror >/dev/null
+cmake --build "$prefix/examples" >/dev/null
+expect() { # exit code, what it prints in the end, the command
+    local code=0 text
+    text=$(cd "$prefix/examples" && "${@:3}" 2>&1 | tr '\r' '\n' | tail -n 1; exit "${PIPESTATUS[0]}") || code=$?
+    [[ $code == "$1" && $text =~ $2 ]] || { echo "${*:3}: exit code $code: $text"; exit 1; }
+}
+printf 'kiln: 1\noutput: {size: [48, 32], frames: 5}\nsystems: {a: {emit: {rate: 90}}}\n' >"$prefix/examples/small.yaml"
+expect 0 '^frame 3, its brightest value is [0-9]+$' ./picture small.yaml 3 a.ppm
+expect 0 '^frame 4, its brightest value is [0-9]+$' ./picture small.yaml 4 b.ppm
+expect 2 'frames 9-9' ./picture small.yaml 9 c.ppm
+expect 0 '^5 frames in ' ./loop small.yaml loop.mp4
+expect 0 '^5 frames in ' ./film small.yaml film.mp4 systems.a.emit.rate=90
+cmp "$prefix/examples/loop.mp4" "$prefix/examples/film.mp4"
+expect 3 'unknown key' ./film small.yaml film.mp4 systems.a.emit.rat=90
+expect 0 '^they look the same$' ./compare loop.mp4 film.mp4
+expect 0 '^5 frames in ' ./film small.yaml other.mp4 systems.a.emit.rate=900 systems.a.look.size=1
+expect 1 '^they look different$' ./compare loop.mp4 other.mp4
 
 tests=$(dirname "$(realpath "$0")")/..
 "$tests/docs/man.sh" "$prefix/share/man/man1/kiln.1" "$prefix/share/man/man5/kiln-scene.5"

@@ -62,7 +62,7 @@ plant && echo '/* Blurs. */' >shaders/draw/light/other.frag
 refused "a shader of no C file" 'shaders/draw/light/other.frag:1: no C file' includes
 
 # kiln.h declares it for all, but base may not call what sort defines.
-objects=$tree/build/CMakeFiles/kiln.dir/lib
+objects=$tree/build/CMakeFiles/kiln_objects.dir/lib
 compile() { "$compiler" -x c -c -o "$objects/$1.c.o" - <<<"$2"; }
 mkdir -p "$objects"/{base,sort}
 compile base/error 'void kiln_error(void) {}'

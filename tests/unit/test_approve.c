@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "scene/work.h"
 #include "suite/golden.h"
 #include "support/cmocka.h"
 #include "support/folders.h"
@@ -83,10 +84,11 @@ static struct run *make_run(void)
                     "kiln_expect: 1\nwarn: 0.25\nframes: {2: {state: aaaaaaaaaaaaaaaa}}\n");
 
     static const char *const overrides[] = {"seed=7"};
-    const struct kiln_scene_params params = {.overrides = overrides, .override_count = 1};
+    const struct kiln_scene_params params = {
+        .size = sizeof params, .overrides = overrides, .override_count = 1};
     struct kiln_scene *loaded = kiln_scene_load("s.yaml", &params, &error);
     assert_non_null(loaded);
-    memcpy(run.scene_hash, kiln_scene_info(loaded).hash, sizeof run.scene_hash);
+    memcpy(run.scene_hash, kiln_scene_facts(loaded).hash, sizeof run.scene_hash);
     kiln_scene_destroy(&loaded);
     take_frame(&run, 0, KILN_TEST_NEW, KILN_JUDGED_BY_NOTHING);
     take_frame(&run, 1, KILN_TEST_PASS, KILN_JUDGED_BY_PIXELS);

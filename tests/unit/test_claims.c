@@ -5,7 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "kiln.h"
+#include "kiln_program.h"
 #include "support/cmocka.h"
 
 /* A fresh folder, which is the working folder. */

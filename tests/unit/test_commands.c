@@ -18,7 +18,7 @@ static void fixture_init(struct fixture *f, const char *name, const char *path)
     *f = (struct fixture){
         .suite = {.results_folder = (char *)"out/test"},
         .test = {.name = name, .full_name = name, .path = path},
-        .params = KILN_TEST_DEFAULTS,
+        .params = kiln_test_defaults(),
     };
     f->trial = (struct kiln_trial){
         .arena = kiln_arena_create(), .suite = &f->suite, .test = &f->test, .params = &f->params};

@@ -8,6 +8,8 @@
 #include "support/cmocka.h"
 #include "support/pictures.h"
 
+enum { MASK_SIZE = sizeof(struct kiln_compare_mask) };
+
 struct sequences {
     char folder[32], reference[64], test[64];
 };
@@ -36,7 +38,7 @@ static struct sequences make_sequences(void)
 
 static struct kiln_compare_params params_of(const struct sequences *s)
 {
-    struct kiln_compare_params params = KILN_COMPARE_DEFAULTS;
+    struct kiln_compare_params params = kiln_compare_defaults();
     params.reference = s->reference;
     params.test = s->test;
     return params;
@@ -80,7 +82,7 @@ static void frames_are_told_and_summed_up(void **state)
     params.frame = see;
     params.stop = stop;
     params.user = &seen;
-    struct kiln_compare_result result;
+    struct kiln_compare_result result = kiln_compare_result_empty();
     struct kiln_error error = {0};
     assert_true(kiln_compare(&params, &result, &error));
     assert_true(result.sequence && !result.same && !result.hdr);
@@ -108,6 +110,7 @@ static void threads_change_nothing(void **state)
     for (int i = 0; i < 3; i++) {
         struct kiln_compare_params params = params_of(&s);
         params.threads = threads[i];
+        results[i] = kiln_compare_result_empty();
         struct kiln_error error = {0};
         assert_true(kiln_compare(&params, &results[i], &error));
         for (size_t c = 0; c < results[i].column_count; c++)
@@ -130,7 +133,7 @@ static void requests_without_sense_are_refused(void **state)
         params.layer = i == 4 ? "" : params.layer;
         params.limits = limit;
         params.limit_count = i == 5;
-        struct kiln_compare_result result = {.same = true};
+        struct kiln_compare_result result = {.size = sizeof result, .same = true};
         struct kiln_error error = {0};
         assert_false(kiln_compare(&params, &result, &error));
         assert_int_equal(error.code, KILN_USAGE);
@@ -174,7 +177,7 @@ static const uint32_t fault[4] = {20, 10, 6, 4}; /* of the test, in a picture of
 
 static void masked_setup(struct masked *m)
 {
-    *m = (struct masked){.params = KILN_COMPARE_DEFAULTS};
+    *m = (struct masked){.params = kiln_compare_defaults(), .result = kiln_compare_result_empty()};
     test_make_folder(m->folder);
     snprintf(m->reference, sizeof m->reference, "%s/reference.png", m->folder);
     snprintf(m->test, sizeof m->test, "%s/test.png", m->folder);
@@ -190,6 +193,7 @@ static void masked_setup(struct masked *m)
 static int differing(struct masked *m, const struct kiln_compare_mask *mask)
 {
     m->params.masks = mask;
+    m->params.mask_stride = MASK_SIZE;
     m->params.mask_count = mask ? 1 : 0;
     m->error = (struct kiln_error){0};
     if (!kiln_compare(&m->params, &m->result, &m->error))
@@ -208,15 +212,16 @@ static void masked_rectangles_are_not_judged(void **state)
     masked_setup(&m);
     assert_int_equal(differing(&m, NULL), 24);
     assert_false(m.result.same);
-    assert_int_equal(differing(&m, &(struct kiln_compare_mask){20, 10, 6, 4, NULL}), 0);
+    assert_int_equal(differing(&m, &(struct kiln_compare_mask){MASK_SIZE, 20, 10, 6, 4, NULL}), 0);
     assert_true(m.result.same);
-    assert_int_equal(differing(&m, &(struct kiln_compare_mask){21, 10, 6, 4, NULL}), 4);
-    assert_int_equal(differing(&m, &(struct kiln_compare_mask){20, 11, UINT32_MAX, 2, NULL}), 12);
-    assert_int_equal(differing(&m, &(struct kiln_compare_mask){64, 0, 5, 5, NULL}), 24);
-    assert_int_equal(differing(&m, &(struct kiln_compare_mask){0, 0, 0, 36, NULL}), 24);
-    assert_int_equal(differing(&m, &(struct kiln_compare_mask){0, 0, 64, 36, NULL}), -1);
+    assert_int_equal(differing(&m, &(struct kiln_compare_mask){MASK_SIZE, 21, 10, 6, 4, NULL}), 4);
+    assert_int_equal(
+        differing(&m, &(struct kiln_compare_mask){MASK_SIZE, 20, 11, UINT32_MAX, 2, NULL}), 12);
+    assert_int_equal(differing(&m, &(struct kiln_compare_mask){MASK_SIZE, 64, 0, 5, 5, NULL}), 24);
+    assert_int_equal(differing(&m, &(struct kiln_compare_mask){MASK_SIZE, 0, 0, 0, 36, NULL}), 24);
+    assert_int_equal(differing(&m, &(struct kiln_compare_mask){MASK_SIZE, 0, 0, 64, 36, NULL}), -1);
     assert_int_equal(m.error.code, KILN_USAGE);
-    assert_int_equal(differing(&m, &(struct kiln_compare_mask){0, 0, 64, 35, NULL}), 0);
+    assert_int_equal(differing(&m, &(struct kiln_compare_mask){MASK_SIZE, 0, 0, 64, 35, NULL}), 0);
     test_remove_folder(m.folder);
 }
 
@@ -225,7 +230,7 @@ static void mask_pictures_must_fit(void **state)
     (void)state;
     struct masked m;
     masked_setup(&m);
-    const struct kiln_compare_mask mask = {.picture = m.mask};
+    const struct kiln_compare_mask mask = {.size = MASK_SIZE, .picture = m.mask};
     write_box(m.mask, 64, 36, 255, fault, 0);
     assert_int_equal(differing(&m, &mask), 0);
     write_box(m.mask, 64, 36, 255, fault, 1);
@@ -251,7 +256,7 @@ static void the_error_map_is_black_where_nothing_is_judged(void **state)
     m.params.error_map = m.map;
     m.params.overwrite = true;
     for (int masked = 0; masked < 2; masked++) {
-        const struct kiln_compare_mask mask = {20, 10, 6, 4, NULL};
+        const struct kiln_compare_mask mask = {MASK_SIZE, 20, 10, 6, 4, NULL};
         assert_int_equal(differing(&m, masked ? &mask : NULL), masked ? 0 : 24);
         struct kiln_asset_image *map = kiln_asset_image_load(NULL, m.map, &m.error);
         assert_non_null(map);

@@ -98,7 +98,7 @@ static void sweeps_make_their_product(void **state)
         {KILN_SWEEP_KEY, "post.bloom.kind=none"},
         {KILN_SWEEP_KEY, "time=1,2.5 s,3"},
     };
-    struct kiln_figure_params params = KILN_FIGURE_DEFAULTS;
+    struct kiln_figure_params params = kiln_figure_defaults();
     params.inputs = scenes;
     params.input_count = 1;
     params.sweeps = sweeps;
@@ -147,7 +147,7 @@ static int make_figure(void **state)
     for (size_t i = 0; i < PANELS; i++)
         figure->panels.items[i] = (struct kiln_panel){
             .label = "a < b & \"c\"", .source = "s", .pixels = {WIDTH, HEIGHT, figure->rgba}};
-    figure->params = KILN_FIGURE_DEFAULTS;
+    figure->params = kiln_figure_defaults();
     *state = figure;
     return 0;
 }

@@ -32,14 +32,16 @@ static void frames_are_spread_evenly(void **state)
     (void)state;
     struct kiln_error error = {0};
     struct kiln_frame_range cells[64];
-    const struct kiln_flipbook eight = {.columns = 8, .rows = 8};
+    const struct kiln_flipbook eight = {
+        .size = sizeof(struct kiln_flipbook), .columns = 8, .rows = 8};
     const struct kiln_frame_range whole = {0, 127}, parts[] = {{10, 11}, {20, 29}};
     assert_true(kiln_flipbook_sample(&eight, &whole, 1, cells, &error));
     for (uint32_t i = 0; i < 64; i++) {
         assert_int_equal(cells[i].first, 2 * i);
         assert_int_equal(cells[i].last, 2 * i);
     }
-    const struct kiln_flipbook few = {.columns = 3, .rows = 2};
+    const struct kiln_flipbook few = {
+        .size = sizeof(struct kiln_flipbook), .columns = 3, .rows = 2};
     static const uint32_t expected[] = {10, 20, 22, 24, 26, 28};
     assert_true(kiln_flipbook_sample(&few, parts, 2, cells, &error));
     for (size_t i = 0; i < 6; i++)
@@ -48,7 +50,8 @@ static void frames_are_spread_evenly(void **state)
     assert_int_equal(error.code, KILN_USAGE);
     assert_string_equal(error.message, "a flipbook of 8 x 8 cells from 12 frames; it needs at "
                                        "least 64: take fewer cells, or a higher rate");
-    const struct kiln_flipbook none = {.columns = 0, .rows = 3};
+    const struct kiln_flipbook none = {
+        .size = sizeof(struct kiln_flipbook), .columns = 0, .rows = 3};
     assert_false(kiln_flipbook_sample(&none, &whole, 1, cells, &error));
 }
 

@@ -9,6 +9,7 @@
 #include "asset/geometry/grid_in.h"
 #include "sim/world/grids.h"
 #include "support/cmocka.h"
+#include "support/folders.h"
 #include "support/scene_fixture.h"
 #include "support/simulation.h"
 
@@ -154,7 +155,7 @@ static void a_printed_scene_loads_again(void **state)
     static const char text[] = "kiln: 1\nsystems: {a: {forces: [wind: {field: grid, file: "
                                "whirl.grid}, wind: {velocity: [2, 0, 0]}, wind: {field: curl}]}}\n";
     struct kiln_error error = {0};
-    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    struct kiln_scene_params params = kiln_scene_defaults();
     params.asset_root = KILN_SOURCE_DIR "/tests/support";
     char *printed = NULL;
     size_t length = 0;
@@ -174,22 +175,31 @@ static void a_printed_scene_loads_again(void **state)
 static void too_many_grids_are_refused(void **state)
 {
     (void)state;
-    static char names[KILN_MAX_WINDS + 1][32];
-    struct kiln_error error = {0};
-    struct kiln_sim_grids grids;
-    fixture_init(&fixture);
-    struct kiln_system *system = fixture_add_system(&fixture, "many", 1.0f);
+    static const char grid[] = "kiln-grid 1\nsize 2 2 2\norigin 0 0 0\nspacing 1 1 1\ndata\n";
+    static const char force[] = "{wind: {field: grid, file: %d.grid}}, ";
+    unsigned char bytes[sizeof grid - 1 + 96] = {0};
+    char text[1024];
+    memcpy(bytes, grid, sizeof grid - 1);
+    size_t length = (size_t)snprintf(text, sizeof text, "kiln: 1\nsystems: {many: {forces: [");
     for (int i = 0; i <= KILN_MAX_WINDS; i++) {
-        snprintf(names[i], sizeof names[i], "/nowhere/%d.grid", i);
-        fixture_add_field(system)->file = names[i];
+        char name[16];
+        snprintf(name, sizeof name, "%d.grid", i);
+        FILE *file = fopen(name, "wb");
+        assert_true(file && fwrite(bytes, sizeof bytes, 1, file) == 1 && fclose(file) == 0);
+        length += (size_t)snprintf(text + length, sizeof text - length, force, i);
     }
-    assert_false(kiln_sim_grids_init(&grids, NULL, &fixture.scene, NULL, &error));
-    assert_string_equal(error.message, "fixture: systems.many.forces.8: more than 8 files of wind");
-    kiln_sim_grids_finish(&grids);
-    system->force_count--;
-    assert_false(kiln_sim_grids_init(&grids, NULL, &fixture.scene, NULL, &error));
-    assert_int_equal(error.code, KILN_IO);
-    kiln_sim_grids_finish(&grids);
+    struct kiln_error error = {0};
+    struct kiln_scene_params params = kiln_scene_defaults();
+    snprintf(text + length, sizeof text - length, "]}}\n");
+    assert_null(kiln_scene_parse(text, strlen(text), "a.yaml", &params, &error));
+    assert_string_equal(error.message, "a.yaml:2:350: systems.many.forces.8.wind.file: more than 8 "
+                                       "files of wind");
+    const char *without = "systems.many.forces.8.wind.file=0.grid"; /* which there is already */
+    params.overrides = &without;
+    params.override_count = 1;
+    struct kiln_scene *scene = kiln_scene_parse(text, strlen(text), "a.yaml", &params, &error);
+    assert_non_null(scene);
+    kiln_scene_destroy(&scene);
 }
 
 int main(void)
@@ -201,7 +211,8 @@ int main(void)
         cmocka_unit_test(beyond_the_edges_it_is_that_of_the_edges),
         cmocka_unit_test(a_pull_takes_its_time),
         cmocka_unit_test(a_printed_scene_loads_again),
-        cmocka_unit_test(too_many_grids_are_refused),
+        cmocka_unit_test_setup_teardown(too_many_grids_are_refused, test_enter_folder,
+                                        test_leave_folder),
     };
     return cmocka_run_group_tests_name("grid", tests, NULL, NULL);
 }

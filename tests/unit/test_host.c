@@ -20,7 +20,7 @@ static const char *const SMALL[] = {"output.size=[96, 54]"};
 static struct kiln_scene *load(const char *path)
 {
     struct kiln_error error = {0};
-    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    struct kiln_scene_params params = kiln_scene_defaults();
     params.overrides = SMALL;
     params.override_count = 1;
     struct kiln_scene *scene = kiln_scene_load(path, &params, &error);
@@ -34,7 +34,7 @@ static void render(struct kiln_device *device, const struct kiln_scene *scene, c
                    uint32_t threads, char techniques[256])
 {
     struct kiln_error error = {0};
-    struct kiln_render_params params = KILN_RENDER_DEFAULTS;
+    struct kiln_render_params params = kiln_render_defaults();
     const struct kiln_frame_range frame = {10, 10};
     params.ranges = &frame;
     params.range_count = 1;
@@ -42,7 +42,7 @@ static void render(struct kiln_device *device, const struct kiln_scene *scene, c
     params.overwrite = true;
     params.exr_bits = 32;
     params.threads = threads;
-    struct kiln_render_stats stats;
+    struct kiln_render_stats stats = kiln_render_stats_empty();
     if (!kiln_render(device, scene, &params, &stats, &error))
         fail_msg("%s", error.message);
     if (techniques)
@@ -52,7 +52,7 @@ static void render(struct kiln_device *device, const struct kiln_scene *scene, c
 static struct kiln_device *open_device(const char *wanted)
 {
     struct kiln_error error = {0};
-    struct kiln_device_params params = KILN_DEVICE_DEFAULTS;
+    struct kiln_device_params params = kiln_device_defaults();
     params.wanted = wanted;
     struct kiln_device *device = kiln_device_open(&params, &error);
     if (!device)
@@ -79,7 +79,7 @@ static void nothing_of_gl_is_loaded(void **state)
 {
     (void)state;
     struct kiln_device *device = open_device(KILN_DEVICE_CPU);
-    const struct kiln_device_info *info = kiln_device_info(device);
+    const struct kiln_device_info *info = kiln_device_get_info(device);
     assert_true(info->usable && info->exact && !info->gl);
     assert_string_equal(info->name, KILN_DEVICE_CPU);
     assert_int_equal(info->index, 0);
@@ -103,14 +103,13 @@ static void nothing_of_gl_is_loaded(void **state)
 static int render_by_default(void)
 {
     struct kiln_error error = {0};
-    struct kiln_device *device = kiln_device_open(&KILN_DEVICE_DEFAULTS, &error);
-    struct kiln_scene *scene =
-        kiln_scene_load(KILN_SOURCE_DIR "/scenes/torch.yaml", &KILN_SCENE_DEFAULTS, &error);
-    struct kiln_render_params params = KILN_RENDER_DEFAULTS;
+    struct kiln_device *device = kiln_device_open(NULL, &error);
+    struct kiln_scene *scene = kiln_scene_load(KILN_SOURCE_DIR "/scenes/torch.yaml", NULL, &error);
+    struct kiln_render_params params = kiln_render_defaults();
     const struct kiln_frame_range frame = {0, 0};
     params.ranges = &frame;
     params.range_count = 1;
-    bool ok = device && scene && !kiln_device_info(device)->gl &&
+    bool ok = device && scene && !kiln_device_get_info(device)->gl &&
               kiln_render(device, scene, &params, NULL, &error);
     if (!ok)
         fprintf(stderr, "%s\n", error.message);
@@ -222,7 +221,7 @@ static void wrong_vectors_are_a_usage_error(void **state)
 {
     (void)state;
     struct kiln_error error = {0};
-    struct kiln_device_params params = KILN_DEVICE_DEFAULTS;
+    struct kiln_device_params params = kiln_device_defaults();
     params.wanted = KILN_DEVICE_CPU;
     setenv("KILN_SIMD", "mmx", 1);
     assert_null(kiln_device_open(&params, &error));

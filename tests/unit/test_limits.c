@@ -11,7 +11,7 @@
 
 static uint64_t read_one(const char *text, enum kiln_limit limit)
 {
-    struct kiln_limits limits = {{0}};
+    struct kiln_limits limits = kiln_limits_empty();
     struct kiln_error error = {0};
     if (!kiln_limits_parse(&limits, text, &error))
         fail_msg("%s: %s", text, error.message);
@@ -36,7 +36,7 @@ static void amounts_have_units(void **state)
 static void what_comes_later_counts(void **state)
 {
     (void)state;
-    struct kiln_limits limits = {{0}};
+    struct kiln_limits limits = kiln_limits_empty();
     struct kiln_error error = {0};
     assert_true(kiln_limits_parse(&limits, "frames=7,service,pixels=none,steps=5", &error));
     assert_int_equal(limits.most[KILN_LIMIT_frames], 100000);
@@ -59,7 +59,7 @@ static void nonsense_is_refused(void **state)
         "=3",        "memory=0.1",
     };
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
-        struct kiln_limits limits = {{0}};
+        struct kiln_limits limits = kiln_limits_empty();
         struct kiln_error error = {0};
         if (kiln_limits_parse(&limits, texts[i], &error))
             fail_msg("'%s' was taken", texts[i]);
@@ -71,7 +71,7 @@ static void nonsense_is_refused(void **state)
 static void sums_stay_over_their_limit(void **state)
 {
     (void)state;
-    struct kiln_limits limits = {{0}};
+    struct kiln_limits limits = kiln_limits_empty();
     struct kiln_error error = {0};
     limits.most[KILN_LIMIT_triangles] = 10;
     struct kiln_budget *budget = kiln_budget_create(&limits);
@@ -90,7 +90,7 @@ static void sums_stay_over_their_limit(void **state)
 
 static bool is_kept(enum kiln_limit limit, uint64_t most, const char *told)
 {
-    struct kiln_limits limits = {{0}};
+    struct kiln_limits limits = kiln_limits_empty();
     struct kiln_error error = {0};
     limits.most[limit] = most;
     struct kiln_budget *budget = kiln_budget_create(&limits);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "job/manifest.h"
+#include "scene/work.h"
 #include "support/cmocka.h"
 #include "support/pictures.h"
 
@@ -18,8 +19,8 @@ static const char scene_text[] = "kiln: 1\n"
 static struct kiln_scene *make_scene(void)
 {
     struct kiln_error error = {0};
-    struct kiln_scene *scene = kiln_scene_parse(scene_text, strlen(scene_text), "a \"b\".yaml",
-                                                &KILN_SCENE_DEFAULTS, &error);
+    struct kiln_scene *scene =
+        kiln_scene_parse(scene_text, strlen(scene_text), "a \"b\".yaml", NULL, &error);
     assert_string_equal(error.message, "");
     assert_non_null(scene);
     return scene;
@@ -129,10 +130,9 @@ static void check_text(struct fy_document *json, const char *hash)
     const char *printed = fy_node_get_scalar(text, &length);
     assert_non_null(printed);
     struct kiln_error error = {0};
-    struct kiln_scene *again =
-        kiln_scene_parse(printed, length, "again", &KILN_SCENE_DEFAULTS, &error);
+    struct kiln_scene *again = kiln_scene_parse(printed, length, "again", NULL, &error);
     if (again)
-        assert_string_equal(kiln_scene_info(again).hash, hash);
+        assert_string_equal(kiln_scene_facts(again).hash, hash);
     else
         fail_msg("the printed scene does not load: %s", error.message);
     kiln_scene_destroy(&again);
@@ -159,7 +159,7 @@ static void everything_is_in_it(void **state)
     struct fy_document *json = read_json(f->path);
     check_value(json, "/kiln", KILN_VERSION);
     check_value(json, "/result/scene/file", "a \"b\".yaml");
-    check_value(json, "/result/scene/hash", kiln_scene_info(f->scene).hash);
+    check_value(json, "/result/scene/hash", kiln_scene_facts(f->scene).hash);
     check_value(json, "/result/scene/seed", "4000000007");
     check_value(json, "/result/scene/size/1", "180");
     check_value(json, "/result/scene/fps/0", "30000");
@@ -186,7 +186,7 @@ static void everything_is_in_it(void **state)
     check_value(json, "/run/totals/total_s", "61.063");
     check_value(json, "/run/totals/particle_bytes", "4096");
 
-    check_text(json, kiln_scene_info(f->scene).hash);
+    check_text(json, kiln_scene_facts(f->scene).hash);
     fy_document_destroy(json);
 }
 

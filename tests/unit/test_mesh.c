@@ -68,7 +68,8 @@ static void cube_is_read(void **state)
     assert_null(mesh);
 }
 
-/* Flatter edges are smoothed: on a finely turned cylinder, normals point away from the axis. */
+/* Flatter edges are smoothed: on a finely turned cylinder, normals point away from the axis,
+ * however its rectangles are divided. */
 static void round_things_are_smooth(void **state)
 {
     (void)state;
@@ -88,9 +89,28 @@ static void round_things_are_smooth(void **state)
     struct kiln_mesh *mesh = parse(text, "tube.obj");
     for (uint32_t i = 0; i < mesh->vertex_count; i++) {
         const float *v = mesh->vertices[i];
-        assert_true(v[0] * v[3] + v[2] * v[5] > 0.995f);
+        assert_true(v[0] * v[3] + v[2] * v[5] > 0.999999f && v[4] == 0.0f);
     }
+    assert_int_equal(mesh->vertex_count, 2 * SIDES);
     kiln_mesh_destroy(&mesh);
+}
+
+/* Triangles that all meet at one place are looked at once each, not once for each other. */
+static void a_fan_of_many_triangles_takes_no_time(void **state)
+{
+    (void)state;
+    enum { TRIANGLES = 200000 };
+    char *text = malloc((size_t)TRIANGLES * 80), *end = text;
+    assert_non_null(text);
+    end += sprintf(end, "v 0 0 0\n");
+    for (int i = 0; i < 2 * TRIANGLES; i++)
+        end += sprintf(end, "v %d %d %d\n", 1 + i % 900, 1 + i / 900, 900 + i % 7);
+    for (int i = 0; i < TRIANGLES; i++)
+        end += sprintf(end, "f 1 %d %d\n", 2 * i + 2, 2 * i + 3);
+    struct kiln_mesh *mesh = parse(text, "fan.obj");
+    assert_int_equal(mesh->triangle_count, TRIANGLES);
+    kiln_mesh_destroy(&mesh);
+    free(text);
 }
 
 /* ---- glTF ------------------------------------------------------------------------------------ */
@@ -215,6 +235,15 @@ static void buffers_elsewhere_are_refused(void **state)
 
 /* ---- what is no mesh ------------------------------------------------------------------------- */
 
+static void numbers_need_no_zero_before_their_point(void **state)
+{
+    (void)state;
+    struct kiln_mesh *mesh = parse("v 0 -.5 0\nv .75 0\t0\nv 0 0\t.25\nf 1 2 3\n", "short.obj");
+    assert_true(mesh->min[1] == -0.5f && mesh->max[0] == 0.75f && mesh->max[2] == 0.25f);
+    assert_true(mesh->min[0] == 0.0f && mesh->max[1] == 0.0f && mesh->min[2] == 0.0f);
+    kiln_mesh_destroy(&mesh);
+}
+
 static void nonsense_is_refused(void **state)
 {
     (void)state;
@@ -323,10 +352,12 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cube_is_read),
         cmocka_unit_test(round_things_are_smooth),
+        cmocka_unit_test(a_fan_of_many_triangles_takes_no_time),
         cmocka_unit_test_setup_teardown(buffers_below_are_read_and_hashed, test_enter_folder,
                                         test_leave_folder),
         cmocka_unit_test_setup_teardown(buffers_elsewhere_are_refused, test_enter_folder,
                                         test_leave_folder),
+        cmocka_unit_test(numbers_need_no_zero_before_their_point),
         cmocka_unit_test(nonsense_is_refused),
         cmocka_unit_test(cut_files_are_refused),
         cmocka_unit_test_setup_teardown(importing_can_be_stopped, test_enter_folder,

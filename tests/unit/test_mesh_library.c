@@ -84,7 +84,7 @@ static void a_scene_imports_each_once(void **state)
 {
     (void)state;
     struct kiln_error error = {0};
-    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    struct kiln_scene_params params = kiln_scene_defaults();
     params.asset_root = FOLDER;
     struct kiln_scene *scene = kiln_scene_parse(SCENE, sizeof SCENE - 1, "s", &params, &error);
     if (!scene)

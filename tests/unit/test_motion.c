@@ -197,7 +197,8 @@ struct outcome {
 
 static struct outcome run(const char *file, const char *const *overrides, size_t count)
 {
-    const struct kiln_scene_params params = {.overrides = overrides,
+    const struct kiln_scene_params params = {.size = sizeof params,
+                                             .overrides = overrides,
                                              .override_count = count,
                                              .asset_root =
                                                  strstr(file, "/motion/") ? KILN_SOURCE_DIR : NULL};

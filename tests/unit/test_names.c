@@ -4,7 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "kiln.h"
+#include "kiln_program.h"
 #include "support/cmocka.h"
 #include "support/folders.h"
 
@@ -13,7 +13,7 @@ static const char test_file[] = "kiln_test: 1\nscene: fire.yaml\n";
 /* An operand finds one test, of this name, with this folder of goldens. */
 static void expect_found(const char *operand, const char *golden, const char *name)
 {
-    struct kiln_suite_params params = KILN_SUITE_DEFAULTS;
+    struct kiln_suite_params params = kiln_suite_defaults();
     struct kiln_error error = {0};
     params.paths = &operand;
     params.path_count = 1;

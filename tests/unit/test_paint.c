@@ -305,7 +305,7 @@ static void gathers_agree(void **state)
 static struct kiln_scene *load(const char *text, const char *setting)
 {
     struct kiln_error error = {0};
-    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    struct kiln_scene_params params = kiln_scene_defaults();
     params.overrides = &setting;
     params.override_count = setting ? 1 : 0;
     params.asset_root = KILN_SOURCE_DIR "/scenes";
@@ -473,7 +473,7 @@ static void bad_scenes_are_refused(void **state)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct kiln_error error = {0};
-        struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+        struct kiln_scene_params params = kiln_scene_defaults();
         params.overrides = &cases[i].setting;
         params.override_count = 1;
         params.asset_root = KILN_SOURCE_DIR "/scenes";

@@ -134,7 +134,8 @@ static bool enter(void)
 {
     static const char *const readable[] = {"in", KILN_SOURCE_DIR "/tests/cli/scenes"};
     static const char *const writable[] = {"out/{scene}_####.png"};
-    const struct kiln_sandbox_params params = {.readable = readable,
+    const struct kiln_sandbox_params params = {.size = sizeof params,
+                                               .readable = readable,
                                                .readable_count = 2,
                                                .writable = writable,
                                                .writable_count = 1,
@@ -177,7 +178,8 @@ static int tear_down(void **state)
 
 static bool is_possible(void)
 {
-    const struct kiln_sandbox_support has = kiln_sandbox_support();
+    struct kiln_sandbox_support has = kiln_sandbox_support_empty();
+    kiln_sandbox_get_support(&has);
     return has.landlock >= 6 && has.seccomp;
 }
 

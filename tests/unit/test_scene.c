@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "scene/scene.h"
+#include "scene/work.h"
 #include "support/cmocka.h"
 #include "support/scenes.h"
 
@@ -242,7 +243,7 @@ static void defaults_are_whole(void **state)
     assert_int_equal(scene->system_count, 0);
     assert_int_equal(scene->key_count, 0);
     assert_non_null(scene->keys);
-    struct kiln_scene_info info = kiln_scene_info(scene);
+    struct kiln_scene_info info = kiln_scene_facts(scene);
     assert_int_equal(info.particle_capacity, 0);
     assert_int_equal(info.fps_num, 30);
     assert_string_equal(info.hash, scene->hash);

@@ -70,6 +70,8 @@ static const struct bad texts[] = {
     {"kiln: 1\n"
      "seed: \"a\\0b\"\n",
      ":2:8: a text must not contain zero bytes"},
+    {"kiln: 1\nseed: \"1\\\n  2\"\n",
+     ":2:8: a text in quotes must not continue in the next line by a backslash"},
 };
 
 static const struct bad types[] = {

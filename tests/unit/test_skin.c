@@ -440,7 +440,7 @@ static void expect_error(const char *mesh, const char *message)
 {
     char text[512];
     struct kiln_error error = {0};
-    struct kiln_scene_params params = KILN_SCENE_DEFAULTS;
+    struct kiln_scene_params params = kiln_scene_defaults();
     params.asset_root = KILN_SOURCE_DIR "/tests/mutation";
     snprintf(text, sizeof text, "kiln: 1\nbackdrop:\n  objects:\n  - mesh: {%s}\n", mesh);
     struct kiln_scene *scene = kiln_scene_parse(text, strlen(text), "s", &params, &error);

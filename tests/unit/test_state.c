@@ -18,8 +18,10 @@ static struct kiln_scene *load(const char *fixture, const char *override)
 {
     char path[256];
     const char *const overrides[] = {override};
-    const struct kiln_scene_params params = {
-        .asset_root = KILN_SOURCE_DIR, .overrides = overrides, .override_count = override != NULL};
+    const struct kiln_scene_params params = {.size = sizeof params,
+                                             .asset_root = KILN_SOURCE_DIR,
+                                             .overrides = overrides,
+                                             .override_count = override != NULL};
     struct kiln_error error = {0};
     snprintf(path, sizeof path, KILN_SOURCE_DIR "/tests/motion/%s.yaml", fixture);
     struct kiln_scene *scene = kiln_scene_load(path, &params, &error);

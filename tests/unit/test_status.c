@@ -3,7 +3,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "kiln.h"
+#include "kiln_program.h"
 #include "support/cmocka.h"
 
 static void every_status_has_a_name(void **state)

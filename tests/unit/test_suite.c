@@ -50,7 +50,7 @@ static void expect_names(const struct kiln_suite_params *params, const char *nam
 
 static struct kiln_suite_params paths(const char *const *list, size_t count)
 {
-    struct kiln_suite_params params = KILN_SUITE_DEFAULTS;
+    struct kiln_suite_params params = kiln_suite_defaults();
     params.paths = list;
     params.path_count = count;
     return params;

@@ -16,8 +16,7 @@ static struct kiln_view view_of(const char *camera, uint32_t step)
                           "camera: {%s}\n",
                           camera);
     struct kiln_error error = {0};
-    struct kiln_scene *scene =
-        kiln_scene_parse(text, (size_t)length, "test", &KILN_SCENE_DEFAULTS, &error);
+    struct kiln_scene *scene = kiln_scene_parse(text, (size_t)length, "test", NULL, &error);
     if (!scene)
         fail_msg("%s", error.message);
     struct kiln_view view = kiln_view_compute(scene, step);

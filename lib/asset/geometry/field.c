@@ -3,23 +3,23 @@
  * ends meet exactly because both triangles at an edge compute them alike. */
 #include "asset/geometry/field.h"
 
-#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "asset/geometry/closed.h"
-#include "asset/geometry/field_file.h"
 #include "asset/geometry/grid_in.h"
 #include "asset/geometry/nearest.h"
+#include "base/cache.h"
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/thread.h"
 #include "shared/exact.h"
 
 enum {
-    VERSION = 1, /* of the algorithm: part of a cached field's name */
-    MARGIN = 2,  /* cells around the box, beside the reach */
+    VERSION = 2, /* of the algorithm: part of a cached field's name */
+    NAME_SIZE = 72,
+    MARGIN = 2, /* cells around the box, beside the reach */
 };
 
 static size_t sample_count(const struct kiln_field *field)
@@ -91,6 +91,43 @@ static void wind_layer(const struct kiln_field *field, const struct kiln_mesh *m
     }
 }
 
+/* Is a sample of this layer inside? */
+static bool reaches_inside(const struct kiln_field *field, const struct kiln_mesh *mesh, uint32_t z,
+                           int32_t *turns, size_t turns_size)
+{
+    int32_t turn = 0;
+    memset(turns, 0, turns_size * sizeof *turns);
+    wind_layer(field, mesh, coordinate(field, 2, z), turns);
+    for (size_t i = 0; i < turns_size; i++) {
+        turn = i % (field->size[0] + 1) == 0 ? turns[i] : turn + turns[i];
+        if (turn != 0 && i % (field->size[0] + 1) < field->size[0])
+            return true;
+    }
+    return false;
+}
+
+/* From the layer in the middle outwards: nearly always that one has some. */
+static bool check_inside(const struct kiln_field *field, const struct kiln_mesh *mesh,
+                         const char *name, uint32_t cells, struct kiln_error *error)
+{
+    const size_t turns_size = (size_t)(field->size[0] + 1) * field->size[1];
+    const uint32_t layers = field->size[2];
+    int32_t *turns = malloc(turns_size * sizeof *turns);
+    if (!turns)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", name);
+    bool inside = false;
+    for (uint32_t i = 0; i < layers && !inside; i++) {
+        const uint32_t z = i % 2 == 0 ? layers / 2 + i / 2 : layers / 2 - (i + 1) / 2;
+        inside = reaches_inside(field, mesh, z, turns, turns_size);
+    }
+    free(turns);
+    return inside ||
+           kiln_error_set(error, KILN_INVALID_INPUT,
+                          "%s: the mesh is thinner than one of %u cells everywhere, so "
+                          "that particles would not find it; at most %d cells are allowed",
+                          name, cells, KILN_MAX_FIELD_CELLS);
+}
+
 /* ---- samples --------------------------------------------------------------------------------- */
 
 struct making {
@@ -99,10 +136,9 @@ struct making {
     const struct kiln_nearest *nearest;
     int32_t *turns; /* of each thread: a layer, each row with one more */
     size_t turns_size;
-    atomic_uint inside; /* 1: some sample is */
 };
 
-static void make_row(struct making *making, uint32_t y, uint32_t z, const int32_t *turns)
+static void make_row(const struct making *making, uint32_t y, uint32_t z, const int32_t *turns)
 {
     struct kiln_field *field = making->field;
     const double spacing = (double)field->spacing;
@@ -117,15 +153,13 @@ static void make_row(struct making *making, uint32_t y, uint32_t z, const int32_
         most = reach * reach;
         turn += turns[x];
         row[x][3] = turn != 0 ? -distance : distance;
-        if (turn != 0)
-            atomic_store(&making->inside, 1u);
     }
 }
 
 static void make_layers(void *context, size_t begin, size_t end, uint32_t worker)
 {
-    struct making *making = context;
-    struct kiln_field *field = making->field;
+    const struct making *making = context;
+    const struct kiln_field *field = making->field;
     int32_t *turns = making->turns + worker * making->turns_size;
     for (size_t z = begin; z < end; z++) {
         memset(turns, 0, making->turns_size * sizeof *turns);
@@ -155,7 +189,7 @@ static void find_growth(struct kiln_field *field)
 }
 
 static bool make(struct kiln_field *field, const struct kiln_mesh *mesh, const char *name,
-                 uint32_t cells, struct kiln_threads *threads, struct kiln_error *error)
+                 struct kiln_threads *threads, struct kiln_error *error)
 {
     struct kiln_nearest *nearest = kiln_nearest_create(mesh);
     struct making making = {.field = field,
@@ -163,7 +197,8 @@ static bool make(struct kiln_field *field, const struct kiln_mesh *mesh, const c
                             .nearest = nearest,
                             .turns_size = (size_t)(field->size[0] + 1) * field->size[1]};
     making.turns = malloc(making.turns_size * kiln_threads_count(threads) * sizeof *making.turns);
-    const bool ok = nearest && making.turns;
+    field->samples = malloc(sample_count(field) * sizeof *field->samples);
+    const bool ok = nearest && making.turns && field->samples;
     if (ok) {
         kiln_threads_for(threads, field->size[2], 1, make_layers, &making);
         find_growth(field);
@@ -172,31 +207,14 @@ static bool make(struct kiln_field *field, const struct kiln_mesh *mesh, const c
     }
     kiln_nearest_destroy(&nearest);
     free(making.turns);
-    if (ok && !atomic_load(&making.inside))
-        return kiln_error_set(error, KILN_INVALID_INPUT,
-                              "%s: the mesh is thinner than one of %u cells everywhere, so that "
-                              "particles would not find it; at most %d cells are allowed",
-                              name, cells, KILN_MAX_FIELD_CELLS);
     return ok;
 }
 
 /* ---- cache ----------------------------------------------------------------------------------- */
 
-bool kiln_field_cache(char folder[KILN_PATH_SIZE])
-{
-    const char *cache = getenv("XDG_CACHE_HOME"); /* NOLINT(concurrency-mt-unsafe): only read */
-    const char *home = getenv("HOME");            /* NOLINT(concurrency-mt-unsafe): only read */
-    int length = -1;
-    if (cache && cache[0] == '/')
-        length = snprintf(folder, KILN_PATH_SIZE, "%s/kiln", cache);
-    else if (home && home[0] == '/')
-        length = snprintf(folder, KILN_PATH_SIZE, "%s/.cache/kiln", home);
-    return length > 0 && length < KILN_PATH_SIZE - 80; /* room for a file's name */
-}
-
-/* The file for this mesh, number of cells and margin: by the places and the triangles. */
-static bool find_file(char path[KILN_PATH_SIZE], const char *cache, const struct kiln_mesh *mesh,
-                      uint32_t cells, const struct kiln_field *field)
+/* The name for this mesh, number of cells and margin: by the places and the triangles. */
+static bool find_name(char name[NAME_SIZE], const struct kiln_mesh *mesh, uint32_t cells,
+                      const struct kiln_field *field)
 {
     const size_t triangles = mesh->triangle_count * sizeof *mesh->triangles;
     const uint32_t head[5] = {VERSION, cells, field->size[0], mesh->vertex_count,
@@ -215,8 +233,8 @@ static bool find_file(char path[KILN_PATH_SIZE], const char *cache, const struct
     char hash[65];
     kiln_hash_sha256(bytes, size, hash);
     free(bytes);
-    const int length = snprintf(path, KILN_PATH_SIZE, "%s/%s.field", cache, hash);
-    return length > 0 && length < KILN_PATH_SIZE;
+    snprintf(name, NAME_SIZE, "%s.field", hash);
+    return true;
 }
 
 /* ---- all of it ------------------------------------------------------------------------------- */
@@ -237,6 +255,7 @@ static uint32_t find_margin(float spacing, uint32_t cells, float reach, const ch
     return MARGIN + whole + ((float)whole < along ? 1 : 0);
 }
 
+/* All of a field but its samples. */
 static bool place(struct kiln_field *field, const struct kiln_mesh *mesh, const char *name,
                   uint32_t cells, float reach, struct kiln_error *error)
 {
@@ -259,30 +278,39 @@ static bool place(struct kiln_field *field, const struct kiln_mesh *mesh, const 
                               "with a radius of %.3g units of the file; at most %d are allowed",
                               name, sample_count(field), cells, (double)reach,
                               KILN_MAX_GRID_SAMPLES);
-    field->samples = malloc(sample_count(field) * sizeof *field->samples);
-    if (!field->samples)
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", name);
-    return field->samples != NULL;
+    return true;
+}
+
+bool kiln_field_check(const struct kiln_mesh *mesh, const char *name, uint32_t cells, float reach,
+                      size_t *samples, struct kiln_error *error)
+{
+    struct kiln_field field = {.samples = NULL};
+    if (!kiln_mesh_check_closed(mesh, name, error) ||
+        !place(&field, mesh, name, cells, reach, error) ||
+        !check_inside(&field, mesh, name, cells, error))
+        return false;
+    *samples = sample_count(&field);
+    return true;
 }
 
 struct kiln_field *kiln_field_create(const struct kiln_mesh *mesh, const char *name, uint32_t cells,
                                      float reach, const char *cache, struct kiln_threads *threads,
                                      struct kiln_error *error)
 {
-    if (!kiln_mesh_check_closed(mesh, name, error))
-        return NULL;
     struct kiln_field *field = calloc(1, sizeof *field);
-    char path[KILN_PATH_SIZE];
     if (!field) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", name);
         return NULL;
     }
     bool ok = place(field, mesh, name, cells, reach, error);
-    const bool cached = ok && cache && find_file(path, cache, mesh, cells, field);
-    if (ok && !(cached && kiln_field_read(path, field))) {
-        ok = make(field, mesh, name, cells, threads, error);
+    const size_t bytes = sample_count(field) * sizeof *field->samples;
+    char cached_name[NAME_SIZE];
+    const bool cached = ok && cache && find_name(cached_name, mesh, cells, field);
+    field->samples = cached ? kiln_cache_read(cache, cached_name, bytes) : NULL;
+    if (ok && !field->samples) {
+        ok = make(field, mesh, name, threads, error);
         if (ok && cached)
-            kiln_field_write(path, field);
+            kiln_cache_write(cache, cached_name, field->samples, bytes);
     }
     if (!ok)
         kiln_field_destroy(&field);

@@ -20,19 +20,20 @@ struct kiln_field {
     float (*samples)[4]; /* how the distance grows along x, y and z; distance; by z, y, x */
 };
 
-/* From the cache in the folder, if that is not NULL, or made on the threads, and then left there
- * if that is possible; both give the same bytes, on every machine. A file in the cache that is not
- * as it was written counts for nothing. name stands for the mesh in messages. reach: how far around
- * the mesh the field is asked for, in units of the file. NULL: KILN_INVALID_INPUT when the mesh is
- * not closed, or so thin that no sample is inside, or when there would be too many samples,
- * KILN_DEVICE_FAILED when memory is short. The caller destroys it. */
+/* Whether a mesh can have a field, and how many samples that has. reach: how far around the mesh
+ * the field is asked for, in units of the file. name stands for the mesh in messages. False:
+ * KILN_INVALID_INPUT when the mesh is not closed, or so thin that no sample is inside, or when
+ * there would be too many samples, KILN_DEVICE_FAILED when memory is short. */
+bool kiln_field_check(const struct kiln_mesh *mesh, const char *name, uint32_t cells, float reach,
+                      size_t *samples, struct kiln_error *error);
+
+/* Of a mesh that kiln_field_check takes, with the same values. From the cache in the folder, if
+ * that is not NULL, or made on the threads, and then left there if that is possible; both give the
+ * same bytes, on every machine. A file in the cache that is not as it was written counts for
+ * nothing. NULL with an error when memory is short. The caller destroys it. */
 struct kiln_field *kiln_field_create(const struct kiln_mesh *mesh, const char *name, uint32_t cells,
                                      float reach, const char *cache, struct kiln_threads *threads,
                                      struct kiln_error *error);
 void kiln_field_destroy(struct kiln_field **field);
-
-/* Where caches are, by the environment: $XDG_CACHE_HOME/kiln, or $HOME/.cache/kiln. False: nowhere.
- */
-bool kiln_field_cache(char folder[KILN_PATH_SIZE]);
 
 #endif

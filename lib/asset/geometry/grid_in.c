@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/text.h"
 
 enum { LINE_SIZE = 128, SAMPLE_BYTES = 12, HEADER_BYTES = 5 * LINE_SIZE };
 
@@ -148,14 +149,6 @@ struct kiln_grid_file *kiln_grid_load(struct kiln_loader *loader, const char *pa
     struct kiln_grid_file *grid = kiln_grid_parse(bytes, size, path, error);
     free(bytes);
     return grid;
-}
-
-bool kiln_grid_check(struct kiln_loader *loader, const char *path, struct kiln_error *error)
-{
-    struct kiln_grid_file *grid = kiln_grid_load(loader, path, error);
-    const bool good = grid != NULL;
-    kiln_grid_destroy(&grid);
-    return good;
 }
 
 void kiln_grid_destroy(struct kiln_grid_file **grid)

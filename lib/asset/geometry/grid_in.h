@@ -37,9 +37,6 @@ struct kiln_grid_file {
 struct kiln_grid_file *kiln_grid_load(struct kiln_loader *loader, const char *path,
                                       struct kiln_error *error);
 
-/* Whether load would succeed. */
-bool kiln_grid_check(struct kiln_loader *loader, const char *path, struct kiln_error *error);
-
 /* The same from bytes in memory; name stands for the file. */
 struct kiln_grid_file *kiln_grid_parse(const void *bytes, size_t size, const char *name,
                                        struct kiln_error *error);

@@ -237,8 +237,8 @@ static bool check_counts(const struct check *check)
         good = r->channels[i].node < r->node_count;
         for (int k = 0; good && k < KILN_CHANNEL_TRACKS; k++) {
             const struct kiln_skin_track *track = &r->channels[i].tracks[k];
-            good =
-                track->count == 0 || (track->first == keys && track->count <= r->key_count - keys);
+            good = track->count <= r->key_count - keys &&
+                   (track->count == 0 ? track->first <= keys : track->first == keys);
             keys += track->count;
         }
     }

@@ -38,7 +38,7 @@ struct kiln_loader {
 static bool ask(void *user, struct kiln_error *error)
 {
     const struct kiln_loader_params *params = user;
-    if (params->stop && params->stop(params->user))
+    if (kiln_cancel_is_requested(params->cancel) || (params->stop && params->stop(params->user)))
         return kiln_error_set(error, KILN_INTERRUPTED,
                               "stopped while reading the files of a scene");
     return kiln_budget_is_kept(params->budget, error);

@@ -10,6 +10,7 @@ struct kiln_loader_params {
     const char *root;         /* absolute folder, as realpath gives it; NULL: any file */
     bool (*stop)(void *user); /* asked while something is decoded; NULL: nobody */
     void *user;
+    const struct kiln_cancel *cancel;
     struct kiln_budget *budget; /* NULL: nothing is counted */
 };
 

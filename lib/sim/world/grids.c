@@ -6,7 +6,9 @@
 #include "asset/geometry/depth_maps.h"
 #include "asset/geometry/field.h"
 #include "asset/geometry/grid_in.h"
+#include "base/cache.h"
 #include "base/error.h"
+#include "scene/samples.h"
 #include "shared/exact.h"
 
 /* What the grids are made of, in their order: wind, then objects, of each one of the three. */
@@ -30,25 +32,18 @@ bool kiln_sim_grids_needs(const struct kiln_object *object)
     return object->collide && kiln_object_is_mesh(object) && !kiln_volumes_needs(object);
 }
 
-static bool list_files(struct kiln_sim_grids *grids, const struct kiln_scene *scene,
-                       struct kiln_error *error)
+static void list_files(struct kiln_sim_grids *grids, const struct kiln_scene *scene)
 {
     for (uint32_t i = 0; i < scene->system_count; i++) {
         const struct kiln_system *system = &scene->systems[i];
         for (uint32_t k = 0; k < system->force_count; k++) {
             const char *file = system->forces[k].file;
-            if (system->forces[k].kind != KILN_FORCE_FIELD ||
-                kiln_sim_grids_find(grids, file) < grids->wind_count)
-                continue;
-            if (grids->wind_count == KILN_MAX_WINDS)
-                return kiln_error_set(error, KILN_INVALID_INPUT,
-                                      "%s: systems.%s.forces.%u: more than %d files of wind",
-                                      scene->name, system->name, k, KILN_MAX_WINDS);
-            grids->files[grids->wind_count++] = file;
+            if (system->forces[k].kind == KILN_FORCE_FIELD &&
+                kiln_sim_grids_find(grids, file) == grids->wind_count)
+                grids->files[grids->wind_count++] = file;
         }
     }
     grids->count = grids->wind_count;
-    return true;
 }
 
 static float4 canon4(const float v[3])
@@ -57,19 +52,6 @@ static float4 canon4(const float v[3])
 }
 
 /* ---- loading --------------------------------------------------------------------------------- */
-
-/* How far from a mesh there may be the centre of a ball that touches it, in units of the file. */
-static float find_reach(const struct kiln_scene *scene, const struct kiln_object *mesh)
-{
-    float largest = 0.0f;
-    for (uint32_t i = 0; i < scene->system_count; i++) {
-        const float radius = kiln_scene_contact_radius(scene, i);
-        if (scene->systems[i].collide.enabled && radius > largest)
-            largest = radius;
-    }
-    const float smallest = kiln_scene_value_min(scene, &mesh->scale);
-    return largest > 0.0f ? largest / (smallest > 1e-6f ? smallest : 1e-6f) : 0.0f;
-}
 
 static struct kiln_depth_maps *make_depths(const struct kiln_mesh *mesh,
                                            const struct kiln_object *object,
@@ -88,13 +70,13 @@ static bool make_mesh(struct sources *sources, uint32_t number, const struct kil
 {
     const struct kiln_mesh *mesh = object->met;
     char cache[KILN_PATH_SIZE];
-    const bool cached = kiln_field_cache(cache);
+    const bool cached = kiln_cache_folder(cache);
     if (object->collider == KILN_COLLIDER_DEPTH_MAPS)
         sources->depths[number] = make_depths(mesh, object, threads, error);
     else
-        sources->fields[number] =
-            kiln_field_create(mesh, object->file, object->cells, find_reach(scene, object),
-                              cached ? cache : NULL, threads, error);
+        sources->fields[number] = kiln_field_create(mesh, object->file, object->cells,
+                                                    kiln_scene_field_reach(scene, object),
+                                                    cached ? cache : NULL, threads, error);
     return sources->depths[number] || sources->fields[number];
 }
 
@@ -255,11 +237,6 @@ static bool fill(struct kiln_sim_grids *grids, struct kiln_device *device,
                  const struct sources *sources, struct kiln_error *error)
 {
     const size_t total = place(grids, sources);
-    if (total > KILN_MAX_GRID_SAMPLES)
-        return kiln_error_set(error, KILN_INVALID_INPUT,
-                              "%zu samples in all files of wind and what particles collide with; a "
-                              "scene has at most %d",
-                              total, KILN_MAX_GRID_SAMPLES);
     kiln_buffer_init(&grids->words, device, total * sizeof(float4), "grids");
     float4 *words = kiln_buffer_host(&grids->words, KILN_OVERWRITE, error);
     if (!words)
@@ -279,8 +256,7 @@ bool kiln_sim_grids_init(struct kiln_sim_grids *grids, struct kiln_device *devic
 {
     *grids = (struct kiln_sim_grids){.count = 0};
     kiln_buffer_init(&grids->words, device, 0, "grids");
-    if (!list_files(grids, scene, error))
-        return false;
+    list_files(grids, scene);
     struct sources sources = {.winds = {NULL}};
     const bool ok = load(grids, scene, &sources, threads, error) &&
                     (grids->count == 0 || fill(grids, device, &sources, error)) &&

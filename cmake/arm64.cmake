@@ -1,0 +1,14 @@
+# Cross-compiles for arm64: cmake -DCMAKE_TOOLCHAIN_FILE=cmake/arm64.cmake -DKILN_ROOT=ROOT, a folder with
+# arm64's packages (tools/arm64 makes one). What is built runs by qemu-aarch64-static -L ROOT.
+set(CMAKE_SYSTEM_NAME Linux)
+set(CMAKE_SYSTEM_PROCESSOR aarch64)
+set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)
+list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES KILN_ROOT)
+set(CMAKE_SYSROOT ${KILN_ROOT})
+set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)
+set(CMAKE_FIND_ROOT_PATH ${KILN_ROOT})
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
+set(ENV{PKG_CONFIG_SYSROOT_DIR} ${KILN_ROOT})
+set(ENV{PKG_CONFIG_LIBDIR} ${KILN_ROOT}/usr/lib/aarch64-linux-gnu/pkgconfig:${KILN_ROOT}/usr/share/pkgconfig)

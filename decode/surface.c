@@ -1,0 +1,413 @@
+/* A mesh that stands still, in one piece: the parts of a file where its nodes have them, normals
+ * where the file has none, equal vertices joined. Assimp could do that, but its sums are rounded
+ * otherwise on other processors. Here they are of doubles, and nothing is fused. */
+#include <assimp/scene.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "decode.h"
+
+/* Edges between triangles are smooth up to 50 degrees: the cosine. Where very many triangles meet,
+ * they are smooth together. */
+static const double CREASE = 0.6427876096865394;
+enum { MOST_CREASED = 64 };
+
+enum { TABLE_SIZE = 2 * KILN_MAX_MESH_VERTICES }; /* a power of two */
+
+/* A mesh of the file, and where a node has it: rows that take its vertices to their places. */
+struct part {
+    const struct aiMesh *mesh;
+    size_t order; /* in the file */
+    double rows[3][4];
+};
+
+struct corner {
+    float position[3], normal[3], uv[2];
+    bool has_normal;
+};
+
+struct surface {
+    const struct decode_mesh *wanted;
+    struct kiln_mesh_result *result;
+    struct kiln_error *error;
+    struct part *parts; /* in the order of their materials */
+    size_t part_count, part_capacity;
+    struct corner *corners; /* three a triangle */
+    size_t corner_count;
+    double (*faces)[3]; /* unit normals of triangles, or 0 */
+    double *angles;     /* of triangles at their corners, radians */
+};
+
+/* ---- parts ----------------------------------------------------------------------------------- */
+
+struct placed {
+    const struct aiNode *node;
+    double rows[3][4];
+};
+
+/* A node in its parent. */
+static struct placed place(const struct aiNode *node, const double parent[3][4])
+{
+    const struct aiMatrix4x4 *m = &node->mTransformation;
+    const double own[4][4] = {{(double)m->a1, (double)m->a2, (double)m->a3, (double)m->a4},
+                              {(double)m->b1, (double)m->b2, (double)m->b3, (double)m->b4},
+                              {(double)m->c1, (double)m->c2, (double)m->c3, (double)m->c4},
+                              {0, 0, 0, 1}};
+    struct placed placed = {.node = node};
+    for (int row = 0; row < 3; row++) {
+        for (int column = 0; column < 4; column++) {
+            double sum = 0;
+            for (int k = 0; k < 4; k++)
+                sum += parent[row][k] * own[k][column];
+            placed.rows[row][column] = sum;
+        }
+    }
+    return placed;
+}
+
+static size_t count_triangles(const struct aiMesh *mesh)
+{
+    size_t count = 0;
+    for (unsigned i = 0; i < mesh->mNumFaces; i++)
+        count += mesh->mFaces[i].mNumIndices == 3;
+    return count;
+}
+
+/* A part without a triangle is none. */
+static bool add_part(struct surface *s, const struct aiMesh *mesh, const double rows[3][4])
+{
+    const size_t triangles = count_triangles(mesh);
+    if (triangles == 0)
+        return true;
+    if (triangles > KILN_MAX_MESH_TRIANGLES - s->corner_count / 3)
+        return decode_refuse_size(s->error);
+    if (s->part_count == s->part_capacity) {
+        s->part_capacity = 2 * s->part_capacity + 16;
+        struct part *more = realloc(s->parts, s->part_capacity * sizeof *more);
+        if (!more)
+            return decode_out_of_memory(s->error);
+        s->parts = more;
+    }
+    struct part *part = &s->parts[s->part_count];
+    part->mesh = mesh;
+    part->order = s->part_count++;
+    memcpy(part->rows, rows, sizeof part->rows);
+    s->corner_count += 3 * triangles;
+    return true;
+}
+
+/* Grows a stack by so many, and returns where they go; NULL: no memory. */
+static struct placed *push(struct placed **stack, size_t *count, size_t *capacity, size_t more)
+{
+    if (*count + more > *capacity) {
+        *capacity = 2 * (*count + more);
+        struct placed *grown = realloc(*stack, *capacity * sizeof *grown);
+        if (!grown)
+            return NULL;
+        *stack = grown;
+    }
+    *count += more;
+    return *stack + *count - more;
+}
+
+/* Through the tree of nodes, each before its children. Without recursion: a stranger says how deep
+ * it is. */
+static bool find_parts(struct surface *s, const struct aiScene *scene)
+{
+    static const double world[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
+    struct placed *stack = NULL;
+    size_t count = 0, capacity = 0;
+    struct placed *next = push(&stack, &count, &capacity, 1);
+    if (next)
+        *next = place(scene->mRootNode, world);
+    bool ok = next || decode_out_of_memory(s->error);
+    while (ok && count > 0) {
+        const struct placed at = stack[--count];
+        const unsigned children = at.node->mNumChildren;
+        for (unsigned i = 0; ok && i < at.node->mNumMeshes; i++)
+            ok = add_part(s, scene->mMeshes[at.node->mMeshes[i]], at.rows);
+        next = push(&stack, &count, &capacity, children);
+        ok = ok && (next || decode_out_of_memory(s->error));
+        for (unsigned i = 0; ok && i < children; i++) /* the first one on top */
+            next[children - 1 - i] = place(at.node->mChildren[i], at.rows);
+    }
+    free(stack);
+    return ok;
+}
+
+/* By material, then as they stand in the file. */
+static int by_material(const void *a, const void *b)
+{
+    const struct part *x = a, *y = b;
+    const unsigned first = x->mesh->mMaterialIndex, second = y->mesh->mMaterialIndex;
+    return first != second ? (first > second) - (first < second)
+                           : (x->order > y->order) - (x->order < y->order);
+}
+
+/* ---- corners --------------------------------------------------------------------------------- */
+
+/* What normals are taken by: the cofactors, so that they stay upright on a scaled surface. */
+static void find_cofactors(const double rows[3][4], double out[3][3])
+{
+    for (int row = 0; row < 3; row++) {
+        const double *a = rows[(row + 1) % 3], *b = rows[(row + 2) % 3];
+        for (int c = 0; c < 3; c++)
+            out[row][c] = a[(c + 1) % 3] * b[(c + 2) % 3] - a[(c + 2) % 3] * b[(c + 1) % 3];
+    }
+}
+
+/* Of length 1, or 0 where there is no direction. */
+static void normalize(double v[3])
+{
+    const double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    const bool good = length > 1e-30 && length < 1e30;
+    for (int c = 0; c < 3; c++)
+        v[c] = good ? v[c] / length : 0;
+}
+
+/* One that has no direction points upwards. */
+static void keep_normal(struct corner *corner, double normal[3])
+{
+    normalize(normal);
+    const bool none = normal[0] == 0 && normal[1] == 0 && normal[2] == 0;
+    for (int c = 0; c < 3; c++)
+        corner->normal[c] = none ? (c == 1 ? 1.0f : 0.0f) : (float)normal[c] + 0.0f;
+}
+
+static void put_corner(const struct part *part, const double cofactors[3][3], unsigned vertex,
+                       struct corner *corner)
+{
+    const struct aiMesh *mesh = part->mesh;
+    const double p[3] = {(double)mesh->mVertices[vertex].x, (double)mesh->mVertices[vertex].y,
+                         (double)mesh->mVertices[vertex].z};
+    for (int row = 0; row < 3; row++) {
+        const double *m = part->rows[row];
+        corner->position[row] = (float)(m[0] * p[0] + m[1] * p[1] + m[2] * p[2] + m[3]) + 0.0f;
+    }
+    corner->has_normal = mesh->mNormals != NULL;
+    if (corner->has_normal) {
+        const double n[3] = {(double)mesh->mNormals[vertex].x, (double)mesh->mNormals[vertex].y,
+                             (double)mesh->mNormals[vertex].z};
+        double turned[3];
+        for (int row = 0; row < 3; row++) {
+            const double *m = cofactors[row];
+            turned[row] = m[0] * n[0] + m[1] * n[1] + m[2] * n[2];
+        }
+        keep_normal(corner, turned);
+    }
+    const struct aiVector3D *uvs = mesh->mTextureCoords[0];
+    corner->uv[0] = uvs ? uvs[vertex].x : 0.0f;
+    corner->uv[1] = uvs ? uvs[vertex].y : 0.0f;
+}
+
+static void put_corners(struct surface *s)
+{
+    struct corner *corner = s->corners;
+    for (size_t i = 0; i < s->part_count; i++) {
+        const struct part *part = &s->parts[i];
+        double cofactors[3][3];
+        find_cofactors(part->rows, cofactors);
+        for (unsigned k = 0; k < part->mesh->mNumFaces; k++) {
+            const struct aiFace *face = &part->mesh->mFaces[k];
+            for (int c = 0; c < 3 && face->mNumIndices == 3; c++)
+                put_corner(part, cofactors, face->mIndices[c], corner++);
+        }
+    }
+}
+
+/* ---- normals --------------------------------------------------------------------------------- */
+
+/* The angle of a cosine, to 7e-5 (Abramowitz and Stegun 1964, 4.4.45): by operations that round
+ * alike everywhere, which a library's acos does not. */
+static double angle_of(double cosine)
+{
+    const double x = fabs(cosine) < 1 ? fabs(cosine) : 1;
+    const double angle =
+        sqrt(1 - x) * (1.5707288 + x * (-0.2121144 + x * (0.0742610 - x * 0.0187293)));
+    return cosine < 0 ? 3.14159265358979 - angle : angle;
+}
+
+/* Two edges of a triangle, from one of its corners to the next and to the one before. */
+static void find_edges(const struct corner triangle[3], int corner, double a[3], double b[3])
+{
+    const float *at = triangle[corner].position;
+    for (int c = 0; c < 3; c++) {
+        a[c] = (double)triangle[(corner + 1) % 3].position[c] - (double)at[c];
+        b[c] = (double)triangle[(corner + 2) % 3].position[c] - (double)at[c];
+    }
+}
+
+static void find_faces(struct surface *s)
+{
+    for (size_t i = 0; i < s->corner_count; i++) {
+        double a[3], b[3], *normal = s->faces[i / 3];
+        find_edges(&s->corners[i / 3 * 3], (int)(i % 3), a, b);
+        for (int c = 0; c < 3 && i % 3 == 0; c++)
+            normal[c] = a[(c + 1) % 3] * b[(c + 2) % 3] - a[(c + 2) % 3] * b[(c + 1) % 3];
+        if (i % 3 == 0)
+            normalize(normal);
+        normalize(a);
+        normalize(b);
+        s->angles[i] = angle_of(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
+    }
+}
+
+static uint32_t hash_of(const void *bytes, size_t size)
+{
+    uint32_t hash = 2166136261u; /* FNV-1a */
+    for (size_t i = 0; i < size; i++)
+        hash = (hash ^ ((const unsigned char *)bytes)[i]) * 16777619u;
+    return hash ^ hash >> 15;
+}
+
+/* Adds up the normals of all triangles at a place, or those that do not lie beyond a crease from
+ * `own`; each counts by its angle there, so that it does not matter how a surface is divided
+ * (Thuermer and Wuethrich 1998). */
+static void add_up(const struct surface *s, const uint32_t *next, uint32_t first, const double *own,
+                   double sum[3])
+{
+    memset(sum, 0, 3 * sizeof *sum);
+    for (uint32_t i = first; i != UINT32_MAX; i = next[i]) {
+        const double *other = s->faces[i / 3];
+        if (own && own[0] * other[0] + own[1] * other[1] + own[2] * other[2] < CREASE)
+            continue;
+        for (int c = 0; c < 3; c++)
+            sum[c] += s->angles[i] * other[c];
+    }
+}
+
+/* Gives the corners at a place their normals where the file has none. */
+static void smooth(struct surface *s, const uint32_t *next, uint32_t first)
+{
+    double together[3], sum[3];
+    size_t count = 0;
+    for (uint32_t i = first; i != UINT32_MAX; i = next[i])
+        count++;
+    add_up(s, next, first, NULL, together);
+    for (uint32_t i = first; i != UINT32_MAX; i = next[i]) {
+        if (s->corners[i].has_normal)
+            continue;
+        memcpy(sum, together, sizeof sum);
+        if (count <= MOST_CREASED)
+            add_up(s, next, first, s->faces[i / 3], sum);
+        keep_normal(&s->corners[i], sum);
+    }
+}
+
+/* Chains the corners at each place, in their order; first[] has the chains. */
+static size_t chain(const struct surface *s, uint32_t *table, uint32_t *next, uint32_t *first)
+{
+    size_t count = 0;
+    for (size_t n = s->corner_count; n-- > 0;) {
+        const float *position = s->corners[n].position;
+        const size_t bytes = sizeof s->corners[n].position;
+        uint32_t slot = hash_of(position, bytes) % (2 * TABLE_SIZE);
+        while (table[slot] > 0 &&
+               memcmp(s->corners[first[table[slot] - 1]].position, position, bytes) != 0)
+            slot = (slot + 1) % (2 * TABLE_SIZE);
+        if (table[slot] == 0) {
+            table[slot] = (uint32_t)++count;
+            first[count - 1] = UINT32_MAX;
+        }
+        next[n] = first[table[slot] - 1];
+        first[table[slot] - 1] = (uint32_t)n;
+    }
+    return count;
+}
+
+static bool find_normals(struct surface *s)
+{
+    uint32_t *table = calloc((size_t)2 * TABLE_SIZE, sizeof *table);
+    uint32_t *next = malloc(s->corner_count * sizeof *next);
+    uint32_t *first = malloc(s->corner_count * sizeof *first);
+    s->faces = malloc(s->corner_count / 3 * sizeof *s->faces);
+    s->angles = malloc(s->corner_count * sizeof *s->angles);
+    const bool ok = table && next && first && s->faces && s->angles;
+    if (ok) {
+        find_faces(s);
+        const size_t count = chain(s, table, next, first);
+        for (size_t i = 0; i < count; i++)
+            smooth(s, next, first[i]);
+    }
+    free(table);
+    free(next);
+    free(first);
+    free(s->faces);
+    free(s->angles);
+    return ok || decode_out_of_memory(s->error);
+}
+
+/* ---- vertices -------------------------------------------------------------------------------- */
+
+/* The number of the vertex that a corner has: an equal one, or a new one. */
+static bool join(struct surface *s, uint32_t *table, const struct corner *corner, uint32_t *number)
+{
+    struct kiln_mesh_result *result = s->result;
+    const bool uvs = s->wanted->uvs;
+    float key[8] = {0};
+    memcpy(key, corner->position, sizeof corner->position);
+    memcpy(key + 3, corner->normal, sizeof corner->normal);
+    if (uvs)
+        memcpy(key + 6, corner->uv, sizeof corner->uv);
+    uint32_t slot = hash_of(key, sizeof key) % TABLE_SIZE;
+    for (; table[slot] > 0; slot = (slot + 1) % TABLE_SIZE) {
+        *number = table[slot] - 1;
+        if (memcmp(result->vertices[*number], key, sizeof *result->vertices) == 0 &&
+            (!uvs || memcmp(result->uvs[*number], key + 6, sizeof *result->uvs) == 0))
+            return true;
+    }
+    if (result->vertex_count == KILN_MAX_MESH_VERTICES)
+        return decode_refuse_size(s->error);
+    *number = result->vertex_count++;
+    table[slot] = *number + 1;
+    memcpy(result->vertices[*number], key, sizeof *result->vertices);
+    if (uvs)
+        memcpy(result->uvs[*number], key + 6, sizeof *result->uvs);
+    return true;
+}
+
+static bool put_triangles(struct surface *s)
+{
+    struct kiln_mesh_result *result = s->result;
+    uint32_t *table = calloc(TABLE_SIZE, sizeof *table);
+    bool ok = table || decode_out_of_memory(s->error);
+    for (size_t i = 0; ok && i < s->corner_count; i++)
+        ok = join(s, table, &s->corners[i], &result->triangles[i / 3][i % 3]);
+    result->triangle_count = (uint32_t)(s->corner_count / 3);
+    free(table);
+    return ok;
+}
+
+/* ---- all of it ------------------------------------------------------------------------------- */
+
+static bool check_uvs(const struct surface *s)
+{
+    for (size_t i = 0; s->wanted->uvs && i < s->part_count; i++) {
+        if (!s->parts[i].mesh->mTextureCoords[0])
+            return kiln_error_set(s->error, KILN_INVALID_INPUT,
+                                  "the mesh, or a part of it, has no texture coordinates, by which "
+                                  "paint would find its places");
+    }
+    return true;
+}
+
+bool decode_surface(const struct decode_mesh *wanted, const struct aiScene *scene,
+                    struct kiln_mesh_result *result, struct kiln_error *error)
+{
+    struct surface s = {.wanted = wanted, .result = result, .error = error};
+    bool ok = find_parts(&s, scene) && check_uvs(&s);
+    if (ok && s.part_count > 0)
+        qsort(s.parts, s.part_count, sizeof *s.parts, by_material);
+    s.corners = ok && s.corner_count > 0 ? malloc(s.corner_count * sizeof *s.corners) : NULL;
+    if (ok && s.corner_count > 0 && !s.corners)
+        ok = decode_out_of_memory(error);
+    if (s.corners) {
+        put_corners(&s);
+        ok = find_normals(&s) && put_triangles(&s);
+    }
+    free(s.corners);
+    free(s.parts);
+    return ok;
+}

@@ -1,0 +1,157 @@
+/* A file of the cache is a line with the hash of what follows, and that. */
+#include "base/cache.h"
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/file.h"
+#include "base/file_in.h"
+#include "base/hash.h"
+#include "base/temporary.h"
+
+#define MAGIC "kiln-cache 1 "
+
+enum { HEADER = sizeof MAGIC - 1 + 64 + 1 };
+
+bool kiln_cache_folder(char folder[KILN_PATH_SIZE])
+{
+    const char *cache = getenv("XDG_CACHE_HOME"); /* NOLINT(concurrency-mt-unsafe): only read */
+    const char *home = getenv("HOME");            /* NOLINT(concurrency-mt-unsafe): only read */
+    int length = -1;
+    if (cache && cache[0] == '/')
+        length = snprintf(folder, KILN_PATH_SIZE, "%s/kiln", cache);
+    else if (home && home[0] == '/')
+        length = snprintf(folder, KILN_PATH_SIZE, "%s/.cache/kiln", home);
+    return length > 0 && length < KILN_PATH_SIZE - 80; /* room for a file's name */
+}
+
+static void compose_header(char header[HEADER + 1], const void *bytes, size_t size)
+{
+    char hash[65];
+    kiln_hash_sha256(bytes, size, hash);
+    snprintf(header, HEADER + 1, MAGIC "%s\n", hash);
+}
+
+/* ---- reading --------------------------------------------------------------------------------- */
+
+static void *read_bytes(FILE *in, size_t size)
+{
+    char found[HEADER], right[HEADER + 1];
+    void *bytes = malloc(size > 0 ? size : 1);
+    if (bytes && fread(found, sizeof found, 1, in) == 1 && fread(bytes, 1, size, in) == size &&
+        fgetc(in) == EOF) {
+        compose_header(right, bytes, size);
+        if (memcmp(found, right, sizeof found) == 0)
+            return bytes;
+    }
+    free(bytes);
+    return NULL;
+}
+
+void *kiln_cache_read(const char *folder, const char *name, size_t size)
+{
+    char path[KILN_PATH_SIZE];
+    struct kiln_error ignored;
+    size_t there = 0;
+    const int file = kiln_path_join(path, folder, name, &ignored)
+                         ? kiln_file_open(path, "cache", "", &there, &ignored)
+                         : -1;
+    FILE *in = file >= 0 && there == HEADER + size ? fdopen(file, "rb") : NULL;
+    if (!in) {
+        if (file >= 0)
+            close(file);
+        return NULL;
+    }
+    void *bytes = read_bytes(in, size);
+    fclose(in);
+    return bytes;
+}
+
+/* ---- making room ----------------------------------------------------------------------------- */
+
+struct entry {
+    char name[256];
+    off_t size;
+    int64_t used_ns; /* when it was read or written */
+};
+
+static int64_t used_ns(const struct stat *status)
+{
+    const struct timespec *read = &status->st_atim, *written = &status->st_mtim;
+    const int64_t read_ns = read->tv_sec * INT64_C(1000000000) + read->tv_nsec;
+    const int64_t written_ns = written->tv_sec * INT64_C(1000000000) + written->tv_nsec;
+    return read_ns > written_ns ? read_ns : written_ns;
+}
+
+static int by_use(const void *a, const void *b)
+{
+    const struct entry *x = a, *y = b;
+    return (x->used_ns > y->used_ns) - (x->used_ns < y->used_ns);
+}
+
+/* All files but the one that is about to be written; NULL with a count of 0 when there are none. */
+static struct entry *list_others(int folder, const char *name, size_t *count)
+{
+    struct dirent **found = NULL;
+    const int all = scandirat(folder, ".", &found, NULL, NULL);
+    struct entry *entries = all > 0 ? calloc((size_t)all, sizeof *entries) : NULL;
+    *count = 0;
+    for (int i = 0; i < all; i++) {
+        struct stat status;
+        if (entries && strcmp(found[i]->d_name, name) != 0 &&
+            fstatat(folder, found[i]->d_name, &status, AT_SYMLINK_NOFOLLOW) == 0 &&
+            S_ISREG(status.st_mode)) {
+            struct entry *entry = &entries[(*count)++];
+            *entry = (struct entry){.size = status.st_size, .used_ns = used_ns(&status)};
+            snprintf(entry->name, sizeof entry->name, "%s", found[i]->d_name);
+        }
+        free(found[i]);
+    }
+    free(found);
+    return entries;
+}
+
+/* Removes what was used longest ago until a file of this size has its place. */
+static void make_room(const char *path, const char *name, size_t size)
+{
+    const int folder = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder < 0)
+        return;
+    size_t count;
+    struct entry *entries = list_others(folder, name, &count);
+    off_t total = (off_t)size;
+    if (entries)
+        qsort(entries, count, sizeof *entries, by_use);
+    for (size_t i = 0; i < count; i++)
+        total += entries[i].size;
+    for (size_t i = 0; i < count && total > KILN_CACHE_BYTES; i++) {
+        if (unlinkat(folder, entries[i].name, 0) == 0)
+            total -= entries[i].size;
+    }
+    free(entries);
+    close(folder);
+}
+
+/* ---- writing --------------------------------------------------------------------------------- */
+
+void kiln_cache_write(const char *folder, const char *name, const void *bytes, size_t size)
+{
+    char path[KILN_PATH_SIZE], header[HEADER + 1];
+    struct kiln_error ignored;
+    struct kiln_temporary file = {.target = NULL};
+    if (size > KILN_CACHE_BYTES - HEADER || !kiln_path_join(path, folder, name, &ignored) ||
+        !kiln_make_parent_folders(path, &ignored))
+        return;
+    kiln_temporary_sweep(path);
+    make_room(folder, name, HEADER + size);
+    compose_header(header, bytes, size);
+    if (kiln_temporary_open(&file, path, &ignored) && kiln_temporary_write(&file, header, HEADER) &&
+        kiln_temporary_write(&file, bytes, size))
+        kiln_temporary_commit(&file, true, &ignored);
+    else
+        kiln_temporary_discard(&file);
+}

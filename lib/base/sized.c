@@ -1,0 +1,47 @@
+/* The first member of such a struct is a size_t with the bytes of all. */
+#include "base/sized.h"
+
+#include <string.h>
+
+#include "base/error.h"
+
+enum { MOST = 1 << 20 }; /* bytes: far more than any struct */
+
+static size_t size_of(const void *sized)
+{
+    size_t size;
+    memcpy(&size, sized, sizeof size);
+    return size;
+}
+
+bool kiln_sized_check(const void *out, const char *what, struct kiln_error *error)
+{
+    const size_t size = out ? size_of(out) : sizeof(size_t);
+    return (size >= sizeof(size_t) && size <= MOST) ||
+           kiln_error_set(error, KILN_USAGE,
+                          "struct %s: its size is %zu; fill it by the function that is named after "
+                          "it",
+                          what, size);
+}
+
+bool kiln_sized_take(void *own, const void *given, const char *what, struct kiln_error *error)
+{
+    const size_t own_size = size_of(own);
+    if (!kiln_sized_check(given, what, error))
+        return false;
+    if (given) {
+        const size_t size = size_of(given);
+        memcpy(own, given, size < own_size ? size : own_size);
+        memcpy(own, &own_size, sizeof own_size);
+    }
+    return true;
+}
+
+void kiln_sized_give(void *out, const void *own)
+{
+    if (!out)
+        return;
+    const size_t own_size = size_of(own), size = size_of(out);
+    memcpy(out, own, size < own_size ? size : own_size);
+    memcpy(out, &size, sizeof size);
+}

@@ -1,0 +1,7 @@
+/* The version of the library, for callers whose header may be of another one. */
+#include "kiln.h"
+
+const char *kiln_version(void)
+{
+    return KILN_VERSION;
+}

@@ -1,0 +1,94 @@
+/* A job as programs have it: whole, or frame by frame in a loop of their own. */
+#include <stdlib.h>
+
+#include "base/error.h"
+#include "base/sized.h"
+#include "job/job.h"
+
+struct kiln_rendering {
+    struct kiln_render_params params;
+    struct kiln_flipbook flipbook;
+    struct kiln_device *device;
+    struct kiln_job *job;
+    bool ended; /* no frame is left to draw */
+};
+
+/* The job's own parameters. */
+static bool take(struct kiln_rendering *r, const struct kiln_render_params *params,
+                 struct kiln_error *error)
+{
+    r->params = kiln_render_defaults();
+    r->flipbook = kiln_flipbook_empty();
+    if (!kiln_sized_take(&r->params, params, "kiln_render_params", error) ||
+        !kiln_sized_take(&r->flipbook, r->params.flipbook, "kiln_flipbook", error))
+        return false;
+    r->params.flipbook = r->params.flipbook ? &r->flipbook : NULL;
+    return true;
+}
+
+struct kiln_rendering *kiln_rendering_begin(struct kiln_device *device,
+                                            const struct kiln_scene *scene,
+                                            const struct kiln_render_params *params,
+                                            struct kiln_error *error)
+{
+    struct kiln_rendering *r = calloc(1, sizeof *r);
+    if (!r) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a job");
+        return NULL;
+    }
+    r->device = device;
+    if (take(r, params, error))
+        r->job = kiln_job_create(device, scene, &r->params, error);
+    if (!r->job) {
+        free(r);
+        return NULL;
+    }
+    return r;
+}
+
+bool kiln_rendering_next(struct kiln_rendering *r, bool *drawn, struct kiln_progress *progress,
+                         struct kiln_error *error)
+{
+    *drawn = false;
+    if (!kiln_sized_check(progress, "kiln_progress", error) ||
+        !kiln_device_make_current(r->device, error) || !kiln_job_next(r->job, drawn, error))
+        return false;
+    r->ended = !*drawn;
+    if (*drawn)
+        kiln_sized_give(progress, kiln_job_progress(r->job));
+    return true;
+}
+
+bool kiln_rendering_end(struct kiln_rendering **rendering, struct kiln_render_stats *stats,
+                        struct kiln_error *error)
+{
+    struct kiln_rendering *r = *rendering;
+    struct kiln_render_stats done = kiln_render_stats_empty();
+    bool ok = kiln_sized_check(stats, "kiln_render_stats", error) &&
+              kiln_device_make_current(r->device, error);
+    if (ok && !r->ended)
+        ok = kiln_error_set(error, KILN_INTERRUPTED, "ended before the last frame");
+    ok = ok && kiln_job_finish(r->job, &done, error);
+    if (ok)
+        kiln_sized_give(stats, &done);
+    kiln_job_destroy(&r->job);
+    free(r);
+    *rendering = NULL;
+    return ok;
+}
+
+bool kiln_render(struct kiln_device *device, const struct kiln_scene *scene,
+                 const struct kiln_render_params *params, struct kiln_render_stats *stats,
+                 struct kiln_error *error)
+{
+    if (!kiln_sized_check(stats, "kiln_render_stats", error))
+        return false;
+    struct kiln_rendering *rendering = kiln_rendering_begin(device, scene, params, error);
+    bool ok = rendering != NULL;
+    for (bool drawn = ok; ok && drawn;)
+        ok = kiln_rendering_next(rendering, &drawn, NULL, error);
+    struct kiln_error why = kiln_error_empty(); /* what went wrong first counts */
+    if (rendering && !kiln_rendering_end(&rendering, stats, ok ? error : &why))
+        ok = false;
+    return ok;
+}

@@ -1,0 +1,114 @@
+/* A layer is found by its name: in the display pixels, or among the float layers. */
+#include "job/views.h"
+
+#include <string.h>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "frame/stages.h"
+
+#define DISPLAY "display"
+#define BEAUTY  "beauty"
+
+/* What is wanted where nothing is named. */
+static const char *const usual[] = {DISPLAY};
+
+static const char *const *wanted(const struct kiln_render_params *params, size_t *count)
+{
+    *count = params->layer_count > 0 ? params->layer_count : 1;
+    return params->layer_count > 0 ? params->layers : usual;
+}
+
+static bool refuse(const char *name, struct kiln_error *error)
+{
+    const char *names[KILN_MAX_LAYERS + 1] = {DISPLAY};
+    uint32_t channels[KILN_MAX_LAYERS];
+    const uint32_t count = 1 + kiln_stages_layers(names + 1, channels);
+    const char *nearest = kiln_text_nearest(name, names, count);
+    struct kiln_text all = {0};
+    for (uint32_t i = 0; i < count; i++)
+        kiln_text_add(&all, "%s%s", i ? ", " : "", names[i]);
+    kiln_error_set(error, KILN_USAGE, "there is no layer '%s'%s%s%s; there are %s", name,
+                   nearest ? ", did you mean '" : "", nearest ? nearest : "", nearest ? "'?" : "",
+                   all.failed ? "others" : all.data);
+    kiln_text_free(&all);
+    return false;
+}
+
+static bool is_layer(const char *name)
+{
+    const char *names[KILN_MAX_LAYERS];
+    uint32_t channels[KILN_MAX_LAYERS];
+    const uint32_t count = kiln_stages_layers(names, channels);
+    for (uint32_t i = 0; i < count; i++) {
+        if (strcmp(name, names[i]) == 0)
+            return true;
+    }
+    return false;
+}
+
+bool kiln_views_need(const struct kiln_render_params *params, struct kiln_output_needs *needs,
+                     struct kiln_error *error)
+{
+    size_t count;
+    const char *const *names = wanted(params, &count);
+    for (size_t i = 0; params->picture && i < count; i++) {
+        const bool beauty = strcmp(names[i], BEAUTY) == 0;
+        if (strcmp(names[i], DISPLAY) == 0)
+            needs->bits = needs->bits > 0 ? needs->bits : 8;
+        else if (!is_layer(names[i]))
+            return refuse(names[i], error);
+        else if (!beauty || needs->layers == KILN_LAYERS_NONE)
+            needs->layers = beauty ? KILN_LAYERS_BEAUTY : KILN_LAYERS_ALL;
+    }
+    return true;
+}
+
+static void show_display(const struct kiln_render_params *params,
+                         const struct kiln_picture *picture)
+{
+    const size_t bytes = picture->bits / 8;
+    const struct kiln_frame_layer view = {
+        .size = sizeof view,
+        .layer = DISPLAY,
+        .frame = picture->frame,
+        .width = picture->width,
+        .height = picture->height,
+        .channels = 4,
+        .samples = bytes == 1 ? KILN_SAMPLES_UINT8 : KILN_SAMPLES_UINT16,
+        .row_bytes = 4 * bytes * picture->width,
+        .pixels = picture->display,
+    };
+    params->picture(params->user, &view);
+}
+
+static void show_layer(const struct kiln_render_params *params, const struct kiln_picture *picture,
+                       const struct kiln_layer *layer)
+{
+    const struct kiln_frame_layer view = {
+        .size = sizeof view,
+        .layer = layer->name,
+        .frame = picture->frame,
+        .width = picture->width,
+        .height = picture->height,
+        .channels = layer->channels,
+        .samples = KILN_SAMPLES_FLOAT,
+        .row_bytes = sizeof(float) * layer->channels * picture->width,
+        .pixels = layer->pixels,
+    };
+    params->picture(params->user, &view);
+}
+
+void kiln_views_show(const struct kiln_render_params *params, const struct kiln_picture *picture)
+{
+    size_t count;
+    const char *const *names = wanted(params, &count);
+    for (size_t i = 0; params->picture && i < count; i++) {
+        if (strcmp(names[i], DISPLAY) == 0)
+            show_display(params, picture);
+        for (uint32_t k = 0; k < picture->layer_count; k++) {
+            if (strcmp(names[i], picture->layers[k].name) == 0)
+                show_layer(params, picture, &picture->layers[k]);
+        }
+    }
+}

@@ -1,0 +1,102 @@
+/* What the program kiln has beside the library: the one header that cmd/ includes. It is not
+ * installed, and may change with every version. */
+#ifndef KILN_PROGRAM_H
+#define KILN_PROGRAM_H
+
+#include "kiln.h"
+
+/* The files that a call reads and those that it writes, each known by where its path leads. Whoever
+ * declares all before the work begins writes nothing that is read, and nothing twice. */
+struct kiln_claims;
+struct kiln_claims *kiln_claims_create(void); /* NULL when memory is short */
+void kiln_claims_destroy(struct kiln_claims **claims);
+
+/* Declares a file that the call reads, or writes; `what` stands for it in messages: "a texture",
+ * "--manifest". KILN_USAGE when the call writes it already, or reads what is to be written,
+ * KILN_DEVICE_FAILED when memory is short. A path that leads nowhere is read by nobody. */
+bool kiln_claims_read(struct kiln_claims *claims, const char *path, const char *what,
+                      struct kiln_error *error);
+bool kiln_claims_write(struct kiln_claims *claims, const char *path, const char *what,
+                       struct kiln_error *error);
+
+/* Declares what the job reads (the scene and its files) and writes. KILN_USAGE when a file would be
+ * written that is read, or twice; also when the output is no format, or the ranges make no sense
+ * for it. kiln_render does that itself, for its one job. */
+bool kiln_render_claim(const struct kiln_scene *scene, const struct kiln_render_params *params,
+                       struct kiln_claims *claims, struct kiln_error *error);
+
+/* ---- Words for people ----------------------------------------------------------------------- */
+
+/* The reference of every scene key, for people, and the JSON schema, for editors. */
+bool kiln_scene_write_reference(FILE *out);
+bool kiln_scene_write_schema(FILE *out);
+
+/* A key of a file, in words for people. */
+struct kiln_option_key {
+    const char *path;     /* "systems.NAME.emit.rate"; N stands for an entry of a list */
+    const char *help;     /* what it is for */
+    const char *variant;  /* the word of `field` that it belongs to, or NULL */
+    const char *shortcut; /* the key inside that a bare value means, or NULL */
+    const char *allowed;  /* of its value; NULL when it only holds other keys */
+    const char *varies;   /* "over time", or NULL */
+    const char *fallback; /* the default; NULL with `allowed`: must be given */
+    const char *words;    /* that its value may be, "true|false", perhaps beside others; or NULL */
+    bool holds_keys;
+};
+
+/* Visits all keys in the order of the reference; texts last for a visit. False: memory is short. */
+bool kiln_scene_visit_keys(void (*visit)(void *user, const struct kiln_option_key *key),
+                           void *user);
+
+/* What the reference says before the keys. */
+const char *kiln_scene_introduction(void);
+
+/* Visits the names of the systems in a scene file, whatever else may be wrong with it. False when
+ * it cannot be read as YAML, with the error of kiln_scene_load. */
+bool kiln_scene_visit_systems(const char *path, void (*visit)(void *user, const char *name),
+                              void *user, struct kiln_error *error);
+
+/* The techniques of each stage and what each is for, for people. */
+bool kiln_write_techniques(FILE *out);
+
+/* Visits each as "stage=name". */
+void kiln_visit_techniques(void (*visit)(void *user, const char *name, const char *help),
+                           void *user);
+
+/* The outputs that this build can write, and their options, for people. */
+bool kiln_write_outputs(FILE *out);
+
+/* The table of limits, for people. */
+bool kiln_write_limits(FILE *out);
+
+/* The metrics and what each is for, for people. */
+bool kiln_write_metrics(FILE *out);
+
+/* Visits those with names of their own. */
+void kiln_visit_metrics(void (*visit)(void *user, const char *name, const char *help), void *user);
+
+/* ---- Text: as kiln reads and writes it, for programs that take the same --------------------- */
+
+/* A whole text as a decimal number, its point '.' in any locale; false when it is no finite one. */
+bool kiln_text_to_double(const char *text, double *value);
+bool kiln_text_to_uint64(const char *text, uint64_t *value);
+
+/* The candidate nearest to name by edit distance (swapped neighbours count once), or NULL when
+ * none is near enough to be a misspelling. */
+const char *kiln_text_nearest(const char *name, const char *const *candidates, size_t count);
+
+/* Writes a word so that a shell takes it as one. */
+bool kiln_write_shell_word(FILE *out, const char *word);
+
+/* Copies a text out of a file so that a terminal, a log or a page shows it and does nothing else:
+ * controls, overrides of direction and bytes that are no UTF-8 stand as \n, \x1b or \u202e. A text
+ * that was shown before stays as it is. What does not fit is left out, characters being whole. out
+ * may not be text. Messages of errors and the log are shown already. */
+void kiln_shown(char *out, size_t room, const char *text);
+
+#include "kiln_bench.h"
+#include "kiln_figure.h"
+#include "kiln_json.h"
+#include "kiln_test.h"
+
+#endif

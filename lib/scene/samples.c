@@ -1,0 +1,144 @@
+/* Counts the samples of each grid of a scene from what it follows from, without making it. */
+#include "scene/samples.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "asset/geometry/depth_maps.h"
+#include "asset/geometry/field.h"
+#include "asset/geometry/grid_in.h"
+#include "scene/asset_path.h"
+
+/* While grids are counted: the largest is where one would look first. */
+struct count {
+    uint64_t samples, largest;
+    char path[128]; /* of the largest's key */
+};
+
+static void add(struct count *count, uint64_t samples, const char *path)
+{
+    count->samples += samples;
+    if (samples <= count->largest)
+        return;
+    count->largest = samples;
+    snprintf(count->path, sizeof count->path, "%s", path);
+}
+
+/* ---- wind ------------------------------------------------------------------------------------ */
+
+struct winds {
+    const char *files[KILN_MAX_WINDS];
+    uint32_t count;
+};
+
+static bool is_known(const struct winds *winds, const char *file)
+{
+    for (uint32_t i = 0; i < winds->count; i++) {
+        if (strcmp(winds->files[i], file) == 0)
+            return true;
+    }
+    return false;
+}
+
+static bool count_wind(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
+                       const char *file, struct count *count)
+{
+    struct kiln_error error = {0};
+    struct kiln_grid_file *grid = kiln_grid_load(kiln_reader_scene(reader)->loader, file, &error);
+    if (!grid)
+        return kiln_asset_fail(reader, root, path, file, &error);
+    add(count, (uint64_t)grid->size[0] * grid->size[1] * grid->size[2], path);
+    kiln_grid_destroy(&grid);
+    return true;
+}
+
+static bool count_winds(struct kiln_reader *reader, const struct kiln_node *root,
+                        const struct kiln_system *system, struct winds *winds, struct count *count)
+{
+    for (uint32_t i = 0; i < system->force_count; i++) {
+        const struct kiln_force *force = &system->forces[i];
+        char path[128];
+        if (force->kind != KILN_FORCE_FIELD || is_known(winds, force->file))
+            continue;
+        snprintf(path, sizeof path, "systems.%s.forces.%u.wind.file", system->name, i);
+        if (winds->count == KILN_MAX_WINDS)
+            return kiln_reader_error_at(reader, root, path, "more than %d files of wind",
+                                        KILN_MAX_WINDS);
+        winds->files[winds->count++] = force->file;
+        if (!count_wind(reader, root, path, force->file, count))
+            return false;
+    }
+    return true;
+}
+
+/* ---- what particles collide with ---------------------------------------------------------- */
+
+float kiln_scene_field_reach(const struct kiln_scene *scene, const struct kiln_object *mesh)
+{
+    float largest = 0.0f;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const float radius = kiln_scene_contact_radius(scene, i);
+        if (scene->systems[i].collide.enabled && radius > largest)
+            largest = radius;
+    }
+    const float smallest = kiln_scene_value_min(scene, &mesh->scale);
+    return largest > 0.0f ? largest / (smallest > 1e-6f ? smallest : 1e-6f) : 0.0f;
+}
+
+static bool count_field(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
+                        const struct kiln_object *mesh, struct count *count)
+{
+    struct kiln_error error = {0};
+    size_t samples = 0;
+    if (!kiln_field_check(mesh->met, mesh->file, mesh->cells,
+                          kiln_scene_field_reach(kiln_reader_scene(reader), mesh), &samples,
+                          &error))
+        return kiln_asset_fail(reader, root, path, mesh->file, &error);
+    add(count, samples, path);
+    return true;
+}
+
+static bool count_object(struct kiln_reader *reader, const struct kiln_node *root, uint32_t index,
+                         struct count *count)
+{
+    const struct kiln_object *object = &kiln_reader_scene(reader)->backdrop.objects[index];
+    char path[64];
+    if (!object->collide || !kiln_object_is_mesh(object))
+        return true;
+    if (object->kind == KILN_OBJECT_TERRAIN) {
+        snprintf(path, sizeof path, "backdrop.objects.%u.terrain.samples", index);
+        add(count, (uint64_t)object->samples[0] * object->samples[1], path);
+        return true;
+    }
+    snprintf(path, sizeof path, "backdrop.objects.%u.mesh.collide", index);
+    if (object->collider == KILN_COLLIDER_FIELD)
+        return count_field(reader, root, path, object, count);
+    if (object->collider == KILN_COLLIDER_DEPTH_MAPS)
+        add(count, kiln_depth_maps_words(object->depth_direction_count, object->depth_resolution),
+            path);
+    return true;
+}
+
+/* ---- all ------------------------------------------------------------------------------------- */
+
+bool kiln_samples_settle(struct kiln_reader *reader, const struct kiln_node *root)
+{
+    struct kiln_scene *scene = kiln_reader_scene(reader);
+    struct count count = {.samples = 0};
+    struct winds winds = {.count = 0};
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        if (!count_winds(reader, root, &scene->systems[i], &winds, &count))
+            return false;
+    }
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        if (!count_object(reader, root, i, &count))
+            return false;
+    }
+    scene->samples = count.samples;
+    return count.samples <= KILN_MAX_GRID_SAMPLES ||
+           kiln_reader_error_at(reader, root, count.path,
+                                "wind, terrain and meshes that move particles have %" PRIu64
+                                " samples altogether; a scene has at most %d",
+                                count.samples, KILN_MAX_GRID_SAMPLES);
+}

@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# The installed headers are C11, C17, C++17 and C++20 without a warning, each alone as well as from
+# kiln.h: headers.sh SOURCE CC CXX.
+set -euo pipefail
+source=$1 cc=$2 cxx=$3
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+common=(-fsyntax-only -Werror -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wcast-qual
+    -Wcast-align -Wundef -Wdouble-promotion -Wformat=2 -I "$source/lib")
+for header in kiln kiln_compare kiln_job kiln_limits kiln_sandbox; do
+    printf '#include <%s.h>\nstruct kiln_error use(void);\nstruct kiln_error use(void) { return kiln_error_empty(); }\n' \
+        "$header" >"$folder/use.c"
+    cp "$folder/use.c" "$folder/use.cc"
+    for standard in c11 c17; do
+        "$cc" -std=$standard -Wstrict-prototypes -Wmissing-prototypes "${common[@]}" "$folder/use.c"
+    done
+    for standard in c++17 c++20; do
+        "$cxx" -std=$standard -Wold-style-cast -Wzero-as-null-pointer-constant -Wnon-virtual-dtor \
+            "${common[@]}" "$folder/use.cc"
+    done
+done
+echo "five headers, four languages"
