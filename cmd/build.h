@@ -2,7 +2,7 @@
 #ifndef KILN_CMD_BUILD_H
 #define KILN_CMD_BUILD_H
 
-/* "0.1.0 (254e4dc)": the version, and the commit where one is known; a '+' behind it says that
+/* "0.2.0 (254e4dc)": the version, and the commit where one is known; a '+' behind it says that
  * files have changed since. */
 const char *build_name(void);
 

@@ -2,6 +2,7 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
+#include "build.h"
 #include "command.h"
 #include "limits.h"
 #include "report.h"
@@ -32,6 +33,7 @@ static int run_join(const struct arguments *arguments, const char **command, siz
         .manifest = arguments_text(arguments, "manifest", NULL),
         .command = command,
         .command_count = count,
+        .build = build_name(),
         .overwrite = arguments_flag(arguments, "force"),
         .stop = signals_wants_stop,
         .budget = arguments->budget,

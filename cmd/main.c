@@ -4,6 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "build.h"
 #include "command.h"
 #include "limits.h"
 #include "report.h"
@@ -145,7 +146,7 @@ int main(int argc, char **argv)
         return KILN_USAGE;
     }
     if (strcmp(name, "--version") == 0) {
-        puts("kiln " KILN_VERSION);
+        printf("kiln %s\n", build_name());
         return report_finish(0);
     }
     if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0) {

@@ -4,6 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "build.h"
 #include "command.h"
 #include "device.h"
 #include "event.h"
@@ -225,6 +226,7 @@ static bool read_options(struct render *render, const struct arguments *argument
     for (size_t i = 0; i < arguments->word_count; i++)
         render->command[params->command_count++] = arguments->words[i];
     params->command = render->command;
+    params->build = build_name();
     params->techniques = render->techniques.items;
     params->technique_count = render->techniques.count;
     return true;

@@ -48,7 +48,7 @@
 extern "C" {
 #endif
 
-#define KILN_VERSION "0.1.0"
+#define KILN_VERSION "0.2.0"
 
 /* The version of the library that is linked, where KILN_VERSION is that of this header. */
 KILN_API const char *kiln_version(void);
@@ -313,6 +313,8 @@ struct kiln_render_params {
     const char *manifest;       /* a JSON file that describes the run, or NULL */
     const char *const *command; /* words of a command line, for the manifest */
     size_t command_count;
+    const char
+        *build; /* of the program, "0.2.0 (254e4dc)", for the manifest; NULL: kiln_version() */
     const char *states; /* a folder of kiln_bake, where the run starts if it can, or NULL */
     const struct kiln_frame_range *ranges; /* ascending; range_count 0 renders every frame */
     size_t range_count;

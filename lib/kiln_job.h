@@ -71,7 +71,9 @@ struct kiln_join_params {
     const char *manifest;       /* a JSON file that describes the job, or NULL */
     const char *const *command; /* words of a command line, for the manifest */
     size_t command_count;
-    bool overwrite;           /* files that no journal knows of; a manifest is replaced anyway */
+    const char
+        *build;     /* of the program, "0.2.0 (254e4dc)", for the manifest; NULL: kiln_version() */
+    bool overwrite; /* files that no journal knows of; a manifest is replaced anyway */
     bool (*stop)(void *user); /* asked now and then; true ends with KILN_INTERRUPTED */
     void *user;
     const struct kiln_cancel *cancel; /* NULL: nobody cancels */

@@ -101,7 +101,7 @@ struct kiln_test_params {
     bool dry_run;        /* say what an update would write, and write it not */
     bool ignore_hashes;  /* judge by the metrics alone */
     bool strict;         /* where pixels are known, or made by `cpu`, only these pass */
-    const char *build;   /* the caller's "0.1.0 (254e4dc)", for what is accepted; NULL: a version */
+    const char *build;   /* the caller's "0.2.0 (254e4dc)", for what is accepted; NULL: a version */
     const char *against; /* a kiln program that draws the accepted side; NULL: goldens are that */
     bool (*stop)(void *user); /* asked between frames */
     void *user;

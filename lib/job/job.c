@@ -351,6 +351,7 @@ static bool open_output(struct kiln_job *job, struct kiln_error *error)
             .files = params->output ? &job->files : NULL,
             .command = params->command,
             .command_count = params->command_count,
+            .build = params->build,
         },
         error);
     return job->manifest != NULL;

@@ -73,7 +73,8 @@ static bool write_manifest(const struct join *join, const struct kiln_render_sta
                                                           .output = params->output,
                                                           .files = &join->resume.output,
                                                           .command = params->command,
-                                                          .command_count = params->command_count},
+                                                          .command_count = params->command_count,
+                                                          .build = params->build},
                            error);
     const bool ok = manifest && kiln_manifest_finish(manifest, &join->records, stats, error);
     kiln_manifest_close(&manifest);

@@ -242,6 +242,8 @@ static bool add_run(struct kiln_manifest *manifest, const struct kiln_records *r
     kiln_json_begin_object(json, "run");
     kiln_json_lines(json, 4);
     kiln_json_string(json, "host", host);
+    const char *build = manifest->params.build;
+    kiln_json_string(json, "build", build ? build : KILN_VERSION);
     kiln_json_strings(json, "command", manifest->params.command, manifest->params.command_count);
     add_device(json, manifest->params.device);
     add_techniques(json, manifest->params.techniques);

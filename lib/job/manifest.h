@@ -17,6 +17,7 @@ struct kiln_manifest_params {
     const struct kiln_output_params *files; /* complete; NULL: nothing was written */
     const char *const *command;             /* the words of the command line */
     size_t command_count;
+    const char *build; /* which kiln, "0.2.0 (254e4dc)"; NULL: its version */
 };
 
 struct kiln_manifest;

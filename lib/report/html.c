@@ -124,7 +124,10 @@ static void write_facts(FILE *out, const void *user)
         kiln_markup_write_text(out, text);
         fputs("</time>", out);
     }
-    fprintf(out, "<span>%.1f s</span><span>kiln " KILN_VERSION "</span>", page->summary.total_s);
+    const bool any = page->results->count > 0 && *page->results->tests[0]->version;
+    fprintf(out, "<span>%.1f s</span><span>kiln ", page->summary.total_s);
+    kiln_markup_write_text(out, any ? page->results->tests[0]->version : KILN_VERSION);
+    fputs("</span>", out);
     fputs("<span>", out);
     kiln_write_frames(out, &page->summary);
     fputs("</span>", out);

@@ -12,7 +12,7 @@
  *       24:
  *         state: 13e7be772847a38f
  *         pixels:
- *           cpu: {hash: ..., golden: ..., kiln: 0.1.0 (254e4dc)}
+ *           cpu: {hash: ..., golden: ..., kiln: 0.2.0 (254e4dc)}
  *
  * A pixel hash is believed only while the golden that it was accepted with is still the one that is
  * found for that device: `golden` is the hash of that picture's pixels. A test whose goldens are

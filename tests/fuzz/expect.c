@@ -31,7 +31,7 @@ static void check_accepting(struct kiln_arena *arena, struct kiln_expect *expect
 {
     static const char hash[] = "0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef";
     static const struct kiln_expect_pixels pixels = {
-        .device = "nvidia-h200", .hash = hash, .golden = hash, .kiln = "0.1.0"};
+        .device = "nvidia-h200", .hash = hash, .golden = hash, .kiln = "0.2.0"};
     const struct kiln_expect_frame *frame = kiln_expect_find(expect, 24);
     size_t frames = expect->frame_count + !frame, devices = frame ? frame->pixel_count : 0;
     for (size_t i = 0; frame && i < frame->pixel_count; i++)

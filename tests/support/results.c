@@ -32,7 +32,7 @@ static struct kiln_result *test_result(struct test_results *all, size_t index, c
     result->device = "llvmpipe (LLVM 15.0.6, 256 bits)";
     result->device_name = "llvmpipe-llvm-15.0.6-256-bits";
     result->techniques = "simulate=cpu sort=cpu";
-    result->version = "0.1.0";
+    result->version = "0.2.0";
     result->seed = 7;
     result->width = 320;
     result->height = 180;
@@ -118,10 +118,10 @@ static void test_fill_bad(struct test_results *all)
     test_result(all, 7, TEST_NASTY_NAME, KILN_TEST_ERROR, TEST_NASTY_NAME);
 
     result = test_result(all, 8, "effects/torch", KILN_TEST_CHANGE,
-                         "frame 24: the renderer changed, from kiln 0.1.0 (1234567) to kiln 0.1.0; "
+                         "frame 24: the renderer changed, from kiln 0.2.0 (1234567) to kiln 0.2.0; "
                          "the picture is within its limits");
     test_frame(result, 24, KILN_TEST_CHANGE, KILN_JUDGED_BY_METRICS, 0.001)->kiln_expected =
-        "0.1.0 (1234567)";
+        "0.2.0 (1234567)";
     result->approve = "kiln test approve effects/torch";
     result->pins_gl = true;
     static const enum kiln_code codes[] = {

@@ -64,7 +64,7 @@ cp "$prefix/user.c" "$prefix/project"
 cat >"$prefix/project/CMakeLists.txt" <<'CMAKE'
 cmake_minimum_required(VERSION 3.22)
 project(user C)
-find_package(kiln 0.1 REQUIRED)
+find_package(kiln 0.2 REQUIRED)
 add_executable(with_static user.c)
 target_link_libraries(with_static kiln::kiln_static)
 CMAKE

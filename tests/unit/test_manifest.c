@@ -149,6 +149,7 @@ static void everything_is_in_it(void **state)
     const char *const command[] = {"render", "a b.yaml"};
     f->params.command = command;
     f->params.command_count = 2;
+    f->params.build = "0.2.0 (254e4dc)";
     const struct kiln_frame_range clip = {0, 2};
     struct kiln_output_params files = test_output_params("out/\xff####.png", &clip);
     struct kiln_error none = {0};
@@ -180,6 +181,7 @@ static void everything_is_in_it(void **state)
     check_value(json, "/result/frames/2/sha256", "abc");
     check_value(json, "/result/files/0/file", "clip.mp4");
     check_value(json, "/run/frames/1/frame", "2");
+    check_value(json, "/run/build", "0.2.0 (254e4dc)");
     check_value(json, "/run/command/1", "a b.yaml");
     check_value(json, "/run/kept", "1");
     check_value(json, "/run/totals/frames", "3");

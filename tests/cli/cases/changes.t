@@ -14,19 +14,19 @@ $ kiln test --filter a --filter b --filter hash -q --update missing --no-report;
 What was accepted says of which kiln. A hash golden has no picture.
 
 $ grep -o 'kiln: "[^"]*"' golden/a/expect.yaml golden/hash/expect.yaml
-1|golden/a/expect.yaml:kiln: "0.1.0"
-1|golden/hash/expect.yaml:kiln: "0.1.0"
+1|golden/a/expect.yaml:kiln: "0.2.0"
+1|golden/hash/expect.yaml:kiln: "0.2.0"
 
 Other pixels within the limits are a change: told, and strictly a failure.
 
 $ cp -r golden right; sed -i 's/{hash: "..../{hash: "0000/' golden/*/expect.yaml
 $ kiln test --filter a --no-report
-1|change  a  1 frame in <s> s: frame 6: the renderer changed, from kiln 0.1.0 to kiln 0.1.0; the picture is within its limits
+1|change  a  1 frame in <s> s: frame 6: the renderer changed, from kiln 0.2.0 to kiln 0.2.0; the picture is within its limits
 1|1 test in <s> s: 1 change
 1|where the pictures are right, accept them: kiln test approve a
 1|1 frame: 0 by pixels, 1 by metrics
 $ kiln test --filter a --no-report --strict
-1|fail    a  1 frame in <s> s: frame 6: the renderer changed, from kiln 0.1.0 to kiln 0.1.0; the picture is within its limits
+1|fail    a  1 frame in <s> s: frame 6: the renderer changed, from kiln 0.2.0 to kiln 0.2.0; the picture is within its limits
 1|1 test in <s> s: 1 fail
 1|where the pictures are right, accept them: kiln test approve a
 1|1 frame: 1 by pixels, 0 by metrics
@@ -37,7 +37,7 @@ $ sed -i '/^scene_hash/s/"..../"0000/' golden/a/expect.yaml && kiln test --filte
 1|where the pictures are right, accept them: kiln test approve a
 1|1 frame: 0 by pixels, 1 by metrics
 $ kiln test --filter hash --no-report
-1|fail    hash  1 frame in <s> s: frame 6: the renderer changed, from kiln 0.1.0 to kiln 0.1.0; no picture is kept; --against PROGRAM draws it
+1|fail    hash  1 frame in <s> s: frame 6: the renderer changed, from kiln 0.2.0 to kiln 0.2.0; no picture is kept; --against PROGRAM draws it
 1|1 test in <s> s: 1 fail
 1|where the pictures are right, accept them: kiln test approve hash
 1|1 frame: 1 by pixels, 0 by metrics
@@ -55,7 +55,7 @@ Another kiln draws what was accepted; one that draws something else, or nothing,
 $ printf '#!/bin/sh\nexec kiln "$@" --set post.exposure=0.3\n' >other; chmod +x other; cp -r right/. golden; sed -i '3a set: [post.exposure=0.4]' hash.test.yaml
 $ kiln test --filter hash --no-report --against ./other; ls out/test/hash
 1|fail    hash  1 frame in <s> s: frame 6 has other pixels than were accepted on cpu; no picture is kept
-1|        ./other draws frame 6 otherwise than was accepted of kiln 0.1.0: it or the scene is another
+1|        ./other draws frame 6 otherwise than was accepted of kiln 0.2.0: it or the scene is another
 1|1 test in <s> s: 1 fail
 1|where the pictures are right, accept them: kiln test approve hash
 1|1 frame: 1 by pixels, 0 by metrics
@@ -65,13 +65,13 @@ $ kiln test --filter hash --no-report --against ./other; ls out/test/hash
 1|log.txt
 1|result.json
 $ sed -i '/^set/d' hash.test.yaml; sed -i 's/{hash: "..../{hash: "0000/' golden/hash/expect.yaml; kiln test --filter hash --no-report --against kiln | head -n 2
-1|fail    hash  1 frame in <s> s: frame 6: the renderer changed, from kiln 0.1.0 to kiln 0.1.0; no picture is kept
-1|        kiln draws frame 6 otherwise than was accepted of kiln 0.1.0: it or the scene is another
+1|fail    hash  1 frame in <s> s: frame 6: the renderer changed, from kiln 0.2.0 to kiln 0.2.0; no picture is kept
+1|        kiln draws frame 6 otherwise than was accepted of kiln 0.2.0: it or the scene is another
 $ kiln test --filter hash --no-report --against false | head -n 2
-1|fail    hash  1 frame in <s> s: frame 6: the renderer changed, from kiln 0.1.0 to kiln 0.1.0; no picture is kept
+1|fail    hash  1 frame in <s> s: frame 6: the renderer changed, from kiln 0.2.0 to kiln 0.2.0; no picture is kept
 1|        false does not draw frame 6, exit code 1
 $ kiln test --filter hash --no-report --against ./nowhere
-1|fail    hash  1 frame in <s> s: frame 6: the renderer changed, from kiln 0.1.0 to kiln 0.1.0; no picture is kept
+1|fail    hash  1 frame in <s> s: frame 6: the renderer changed, from kiln 0.2.0 to kiln 0.2.0; no picture is kept
 1|        ./nowhere cannot be run: No such file or directory
 1|1 test in <s> s: 1 fail
 1|where the pictures are right, accept them: kiln test approve hash

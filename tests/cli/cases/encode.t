@@ -42,7 +42,7 @@ $ kiln encode foreign/%d.bmp -o none.mp4
 $ kiln encode foreign/%d.bmp -o foreign.mp4 --fps 10
 1|foreign.mp4: 12 frames, 1-12
 $ ffprobe -v error -of csv=p=0 -show_entries format_tags=comment foreign.mp4
-1|kiln:version=0.1.0 kiln:frames=1-12
+1|kiln:version=0.2.0 kiln:frames=1-12
 
 What is no clip, with the reason. Nothing is written then.
 

@@ -1,7 +1,7 @@
 The program without a command, its version, its help.
 
 $ kiln
-2|kiln 0.1.0: renders particle effects without a display
+2|kiln 0.2.0: renders particle effects without a display
 2|
 2|usage: kiln COMMAND [OPTION...] [OPERAND...]
 2|       kiln --version | --help
@@ -44,9 +44,9 @@ $ kiln
 2|  kiln render scenes/fire_beam.yaml -o fire.png --frames 60
 = 2
 $ kiln --version
-1|kiln 0.1.0
+1|kiln 0.2.0
 $ kiln --help
-1|kiln 0.1.0: renders particle effects without a display
+1|kiln 0.2.0: renders particle effects without a display
 1|
 1|usage: kiln COMMAND [OPTION...] [OPERAND...]
 1|       kiln --version | --help

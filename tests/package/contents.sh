@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# The lists of the packages against what is installed: contents.sh SOURCE BUILD. Each file that
+# `cmake --install` puts anywhere is in one package; each line of a list names something; all places say the
+# same version.
+set -euo pipefail
+source=$1 build=$2
+root=$(mktemp -d)
+trap 'rm -rf "$root"' EXIT
+DESTDIR=$root cmake --install "$build" --prefix /usr >/dev/null
+# As packaging/debian/rules configures it: the folders of helpers, and of libraries, have other names.
+mkdir -p "$root/usr/libexec/libkiln0" "$root/usr/multiarch"
+mv "$root/usr/libexec/kiln" "$root/usr/libexec/libkiln0/"
+[[ ! -d $root/usr/lib/python3 ]] || mv "$root/usr/lib/python3" "$root/usr/"
+mv "$root"/usr/lib/* "$root/usr/multiarch/"
+mv "$root/usr/multiarch" "$root/usr/lib/"
+[[ ! -d $root/usr/python3 ]] || mv "$root/usr/python3" "$root/usr/lib/"
+failed=0
+cd "$root"
+for list in "$source"/packaging/debian/*.install; do
+    while read -r pattern _; do
+        found=$(compgen -G "$pattern" || true)
+        [[ -n $found ]] || { echo "${list##*/}: nothing is installed as $pattern"; failed=1; continue; }
+        while read -r path; do
+            find "$path" \( -type f -o -type l \) >>claimed
+        done <<<"$found"
+    done <"$list"
+done
+find usr \( -type f -o -type l \) | sort >there
+sort claimed | uniq -d | sed 's/^/in two packages: /' >wrong
+comm -13 <(sort -u claimed) there | sed 's/^/in no package: /' >>wrong
+cat wrong
+[[ ! -s wrong ]] || failed=1
+
+version=$(sed -n 's/^project(kiln VERSION \([0-9.]*\).*/\1/p' "$source/CMakeLists.txt")
+says() { # the words, the file
+    grep -qF -- "$1" "$source/$2" || { echo "$2 does not say '$1'"; failed=1; }
+}
+says "#define KILN_VERSION \"$version\"" lib/kiln.h
+says "kiln ($version-1)" packaging/debian/changelog
+says "## $version" CHANGELOG.md
+says "KILN_VERSION: $version" docs/ci/github.yml
+says "KILN_VERSION: $version" docs/ci/gitlab.yml
+says "kiln_$version-1_amd64.deb" README.md
+((failed == 0)) && echo "$(wc -l <there) files, each in one package, all of version $version"
