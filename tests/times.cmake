@@ -10,7 +10,7 @@ endif()
 # Processor seconds of the tests that take more than five on the two quiet cores of CONTRIBUTING.md;
 # where a test is cut into parts, those of the longest one, and how many there are.
 set(kiln_test_times
-    "gpu.simulate 30 7"
+    "gpu.simulate 30 5"
     "gpu.shadows 15 2"
     "gpu.backdrops 30 2"
     "gpu.rasters 20 2"

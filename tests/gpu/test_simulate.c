@@ -111,18 +111,6 @@ static void colliders_out_of_grids_agree(void **state)
     some_agree(*state, &fixture.scene, 90, 1);
 }
 
-/* Families among all that grids are for. */
-static void grids_of_families_agree(void **state)
-{
-    fixture_family(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT);
-    fixture_add_field(&fixture.scene.systems[0]);
-    fixture_add_terrain(&fixture, -0.4f, 3.0f, 0.9f, 40);
-    fixture_add_moving_mesh(&fixture);
-    fixture_add_collisions(&fixture.scene.systems[0], 0.1f);
-    fixture_finish(&fixture, 40);
-    some_agree(*state, &fixture.scene, 40, 1);
-}
-
 static void volumes_agree(void **state)
 {
     fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, 60);
@@ -194,10 +182,14 @@ static void crowds_agree(void **state)
     all_agree(*state, &fixture.scene, 40);
 }
 
-/* Kernels that know families take long to compile: one technique has to do. */
-static void crowds_of_families_agree(void **state)
+/* Families among all that grids are for, and crowds. Kernels that know families take long to compile:
+ * one technique in one scene has to do. */
+static void families_among_all_agree(void **state)
 {
     fixture_family(&fixture, KILN_INTEGRATE_POSITION_FIRST);
+    fixture_add_field(&fixture.scene.systems[0]);
+    fixture_add_terrain(&fixture, -0.4f, 3.0f, 0.9f, 40);
+    fixture_add_moving_mesh(&fixture);
     crowd_the_fixture();
     some_agree(*state, &fixture.scene, 40, 1);
 }
@@ -214,13 +206,6 @@ static void whirls_agree(void **state)
     }
 }
 
-static void one_way_of_families(void **state, enum kiln_integration integration, uint32_t steps)
-{
-    fixture_family(&fixture, integration);
-    fixture_finish(&fixture, steps);
-    some_agree(*state, &fixture.scene, steps, 1);
-}
-
 static void families_agree(void **state)
 {
     fixture_family(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT);
@@ -228,10 +213,11 @@ static void families_agree(void **state)
     all_agree(*state, &fixture.scene, 200);
 }
 
-static void families_of_other_orders_agree(void **state)
+static void families_by_rk4_agree(void **state)
 {
-    one_way_of_families(state, KILN_INTEGRATE_POSITION_FIRST, 200);
-    one_way_of_families(state, KILN_INTEGRATE_RK4, 60);
+    fixture_family(&fixture, KILN_INTEGRATE_RK4);
+    fixture_finish(&fixture, 60);
+    some_agree(*state, &fixture.scene, 60, 1);
 }
 
 /* A step with many more births than one emitter spawns, and not a multiple; then steps without. */
@@ -383,12 +369,11 @@ int main(int argc, char **argv)
     /* The longest first: each is in a part of its own (tests/times.cmake). */
     static const struct CMUnitTest tests[] = {
         test_on_device(families_agree),
-        test_on_device(grids_of_families_agree),
+        test_on_device(families_among_all_agree),
         test_on_device(crowds_agree),
-        test_on_device(crowds_of_families_agree),
-        test_on_device(families_of_other_orders_agree),
         test_on_device(fields_agree),
         test_on_device(velocity_first),
+        test_on_device(families_by_rk4_agree),
         test_on_device(two_buffers_count_twice),
         test_on_device(births_are_split_among_emitters),
         test_on_device(volumes_agree),
