@@ -350,24 +350,44 @@ static void put_meaning(struct value *value, const char *placeholder, size_t len
 
 /* ---- The command line ----------------------------------------------------------------------- */
 
-/* The option of "--name", "--name=VALUE", "-n" or "-nVALUE"; *attached is the value, or NULL. */
-static const struct option *find_option(const struct command *command, const char *word,
-                                        const char **attached)
+/* The option of "--name" or "--name=VALUE"; *attached is the value, or NULL. */
+static const struct option *find_long(const struct command *command, const char *word,
+                                      const char **attached)
 {
-    bool is_long = word[1] == '-';
-    size_t length = is_long ? strcspn(word + 2, "=") : 0;
+    const size_t length = strcspn(word + 2, "=");
     for (size_t i = 0; i < command->option_count; i++) {
         const struct option *option = &command->options[i];
-        const char *end = is_long ? word + 2 + length : word + 2;
-        bool is_it =
-            is_long ? strlen(option->name) == length && strncmp(word + 2, option->name, length) == 0
-                    : option->letter && word[1] == option->letter;
-        if (!is_it)
+        if (strlen(option->name) != length || strncmp(word + 2, option->name, length) != 0)
             continue;
-        *attached = *end ? end + is_long : NULL;
+        *attached = word[2 + length] ? word + 3 + length : NULL;
         return option;
     }
     return NULL;
+}
+
+/* The last option of "-n", "-qn" or "-qnVALUE"; *attached is the value, or NULL. */
+static const struct option *find_short(const struct command *command, const char *word,
+                                       const char **attached)
+{
+    const struct option *option = NULL;
+    *attached = NULL;
+    while (*++word) {
+        option = option_of_letter(command->options, command->option_count, *word);
+        if (!option)
+            return NULL;
+        if (option->kind != OPTION_FLAG) {
+            *attached = word[1] ? word + 1 : NULL;
+            return option;
+        }
+    }
+    return option;
+}
+
+static const struct option *find_option(const struct command *command, const char *word,
+                                        const char **attached)
+{
+    return word[1] == '-' ? find_long(command, word, attached)
+                          : find_short(command, word, attached);
 }
 
 /* Reads the words behind the command as arguments_parse would. */

@@ -15,6 +15,7 @@ struct lists {
     struct kiln_figure_sweep *sweeps;
     struct kiln_figure_inset *insets;
     const char **command;
+    struct frame_list frames;
 };
 
 static void lists_free(struct lists *lists)
@@ -25,6 +26,7 @@ static void lists_free(struct lists *lists)
     free(lists->sweeps);
     free(lists->insets);
     free(lists->command);
+    frame_list_free(&lists->frames);
 }
 
 static bool lists_create(struct lists *lists, const struct arguments *arguments)
@@ -86,7 +88,6 @@ static struct kiln_figure_params make_params(const struct arguments *arguments,
                                              const struct lists *lists)
 {
     struct kiln_figure_params params = kiln_figure_defaults();
-    const struct option_use *frames = arguments_last(arguments, "frames");
     params.inputs = arguments->operands;
     params.input_count = arguments->operand_count;
     params.output = arguments_text(arguments, "output", NULL);
@@ -94,10 +95,6 @@ static struct kiln_figure_params make_params(const struct arguments *arguments,
     params.scene = overrides_scene_params(&lists->overrides, arguments);
     params.sweeps = lists->sweeps;
     params.insets = lists->insets;
-    if (frames) {
-        params.ranges = frames->frames.ranges;
-        params.range_count = frames->frames.count;
-    }
     params.strip = arguments_integer(arguments, "count", params.strip);
     params.columns = arguments_integer(arguments, "columns", 0);
     params.width = arguments_integer(arguments, "width", 0);
@@ -136,6 +133,51 @@ static void list_command(const struct command *command, const struct arguments *
     params->command_count = count;
 }
 
+/* The last frame of the scenes, where that is one and the same. Sweeps may change it; what is drawn
+ * is checked again by the library. */
+static int find_last_frame(const struct command *command, const struct arguments *arguments,
+                           const struct lists *lists, uint32_t *last)
+{
+    const struct kiln_scene_params params = overrides_scene_params(&lists->overrides, arguments);
+    for (size_t i = 0; i < arguments->operand_count; i++) {
+        const char *path = arguments->operands[i];
+        const char *suffix = strrchr(path, '.');
+        if (!suffix || (strcmp(suffix, ".yaml") != 0 && strcmp(suffix, ".yml") != 0))
+            return report(KILN_USAGE,
+                          "%s: --frames: of a clip, the last frame must be said by its number",
+                          command->name);
+        struct kiln_error error = {0};
+        struct kiln_scene *scene = kiln_scene_load(path, &params, &error);
+        if (!scene)
+            return report_scene_error(&error);
+        struct kiln_scene_info info = kiln_scene_info_empty();
+        kiln_scene_get_info(scene, &info);
+        kiln_scene_destroy(&scene);
+        if (i > 0 && info.frames - 1 != *last)
+            return report(KILN_USAGE,
+                          "%s: --frames: '%s' and '%s' have other last frames; say its number",
+                          command->name, arguments->operands[0], path);
+        *last = info.frames - 1;
+    }
+    return 0;
+}
+
+static int read_frames(const struct command *command, const struct arguments *arguments,
+                       struct lists *lists, struct kiln_figure_params *params)
+{
+    const struct option_use *frames = arguments_last(arguments, "frames");
+    uint32_t last = UINT32_MAX - 1;
+    if (!frames)
+        return 0;
+    int code =
+        frame_spec_is_open(&frames->frames) ? find_last_frame(command, arguments, lists, &last) : 0;
+    if (code == 0)
+        code = frames_choose(&lists->frames, frames, command->name, arguments->operands[0], last);
+    params->ranges = lists->frames.ranges;
+    params->range_count = lists->frames.count;
+    return code;
+}
+
 int figure_make(const struct command *command, enum kiln_figure_kind kind,
                 const struct arguments *arguments, const char *check,
                 struct kiln_figure_result *result)
@@ -152,6 +194,7 @@ int figure_make(const struct command *command, enum kiln_figure_kind kind,
     params.check = check;
     list_command(command, arguments, &lists, &params);
     int code = read_repeated(command, arguments, &lists, &params);
+    code = code ? code : read_frames(command, arguments, &lists, &params);
     struct kiln_figure_result made;
     struct kiln_error error = {0};
     signals_install_for_job();

@@ -173,18 +173,15 @@ static int name_files(struct job_list *list, const struct arguments *arguments)
 static int choose_frames(struct job *job, const struct arguments *arguments)
 {
     const struct option_use *frames = arguments_last(arguments, "frames");
-    uint32_t last = job->info.frames - 1;
+    const uint32_t last = job->info.frames - 1;
     if (!frames) {
         job->every_frame = (struct kiln_frame_range){0, last};
         job->frames = (struct frame_list){&job->every_frame, 1};
         return 0;
     }
-    job->frames = frames->frames;
-    struct kiln_frame_range end = frames->frames.ranges[frames->frames.count - 1];
-    if (end.last <= last)
-        return 0;
-    return report(KILN_USAGE, "render: --frames: found frame %u, but '%s' has frames 0-%u",
-                  end.last, job->path, last);
+    const int code = frames_choose(&job->chosen, frames, "render", job->path, last);
+    job->frames = job->chosen;
+    return code;
 }
 
 static int read_flipbook(struct job_list *list, const struct arguments *arguments)
@@ -271,6 +268,7 @@ void job_list_free(struct job_list *list)
         free(list->jobs[i].output);
         free(list->jobs[i].manifest);
         free(list->jobs[i].cells);
+        frame_list_free(&list->jobs[i].chosen);
     }
     free(list->jobs);
     *list = (struct job_list){0};

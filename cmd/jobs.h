@@ -9,8 +9,9 @@ struct job {
     const char *path; /* of the scene, as given */
     struct kiln_scene *scene;
     struct kiln_scene_info info;
-    struct frame_list frames; /* never empty; borrowed where --frames was given */
+    struct frame_list frames; /* never empty; borrowed from one of these three */
     struct kiln_frame_range every_frame;
+    struct frame_list chosen;       /* of --frames */
     struct kiln_frame_range *cells; /* of a flipbook; the list points here then */
     char *output;                   /* NULL: nothing is written */
     char *manifest;                 /* NULL: none */

@@ -184,7 +184,8 @@ bool man_print(FILE *out)
              "frame into images or a video, on a machine with no display and perhaps no GPU. The "
              "same scene gives the same simulation on every device.\n\n"
              "Options and operands may come in any order; '--' ends the options. A value follows "
-             "its option or is joined to it by '='. Of an option that is given twice the last one "
+             "its option or is joined to it by '='; letters may share one dash, as in '-qo r.png'. "
+             "Of an option that is given twice the last one "
              "counts, where it does not say that it may be given several times.\n");
     put_heading(out, "commands");
     for (size_t i = 0; commands[i]; i++)

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "foreign.h"
 #include "report.h"
 
 enum { MAX_OPTIONS = 64 };
@@ -28,19 +29,28 @@ const char *suggest(char out[SUGGESTION_SIZE], const char *prefix, const char *f
     return out;
 }
 
-static int unknown_option(const struct parser *parser, const char *argument)
+/* What to type instead of an unknown option: what kiln has for one of another program, else the
+ * nearest of its own names. */
+static void advise(const struct parser *parser, const char *typed, char out[FOREIGN_SIZE])
 {
+    if (foreign_suggest(out, typed, parser->options, parser->option_count))
+        return;
     const char *names[MAX_OPTIONS];
     size_t count = 0;
     for (; count < parser->option_count && count < MAX_OPTIONS; count++)
         names[count] = parser->options[count].name;
-    char name[64] = "";
-    const char *start = argument + strspn(argument, "-");
-    snprintf(name, sizeof name, "%.*s", (int)strcspn(start, "="), start);
     char suggestion[SUGGESTION_SIZE];
+    snprintf(out, FOREIGN_SIZE, "%s",
+             suggest(suggestion, "--", typed + strspn(typed, "-"), names, count));
+}
+
+static int unknown_option(const struct parser *parser, const char *argument)
+{
+    char name[64], advice[FOREIGN_SIZE];
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(argument, "="), argument);
+    advise(parser, name, advice);
     return report(KILN_USAGE, "%s: unknown option '%.*s'%s", parser->place,
-                  (int)strcspn(argument, "="), argument,
-                  suggest(suggestion, "--", name, names, count));
+                  (int)strcspn(argument, "="), argument, advice);
 }
 
 static int wrong_value(const struct parser *parser, const struct option_use *use,
@@ -153,6 +163,23 @@ static int read_grid(const struct parser *parser, struct option_use *use)
     return wrong_value(parser, use, expected);
 }
 
+/* Of several pieces, the message names the one that is wrong. */
+static int read_frames(const struct parser *parser, struct option_use *use)
+{
+    static const char expected[] =
+        "frames and ranges, such as 0-149,200 or 170- or -30 or last or 0-100/10";
+    struct frame_piece_place wrong;
+    if (frame_spec_parse(use->text, &use->frames, &wrong))
+        return 0;
+    if (wrong.no_memory)
+        return report_no_memory();
+    if (!strchr(use->text, ','))
+        return wrong_value(parser, use, expected);
+    return report(KILN_USAGE, "%s: --%s: found '%.*s' in '%s', expected %s", parser->place,
+                  use->option->name, (int)wrong.length, use->text + wrong.start, use->text,
+                  expected);
+}
+
 static int read_value(const struct parser *parser, struct option_use *use)
 {
     switch (use->option->kind) {
@@ -186,9 +213,7 @@ static int read_value(const struct parser *parser, struct option_use *use)
                    ? 0
                    : wrong_value(parser, use, "I/N, the I-th of N parts, such as 1/4");
     case OPTION_FRAMES:
-        return frame_list_parse(use->text, &use->frames)
-                   ? 0
-                   : wrong_value(parser, use, "frames and ranges, such as 0-149,200");
+        return read_frames(parser, use);
     case OPTION_PAIRS:
         return are_pairs(use->text, use->option->commas)
                    ? 0
@@ -237,25 +262,63 @@ static int read_long(struct parser *parser, const char *argument)
     return unknown_option(parser, argument);
 }
 
+const struct option *option_of_letter(const struct option *options, size_t count, char letter)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (options[i].letter == letter)
+            return &options[i];
+    }
+    return NULL;
+}
+
+/* Names the letter of a bundle that is no option, unless the whole word is one of another program
+ * or close to a name of ours: "-crf", "-quiet". */
+static int unknown_letter(const struct parser *parser, const char *argument, char letter)
+{
+    char advice[FOREIGN_SIZE];
+    const char typed[] = {'-', letter, '\0'};
+    if (argument[2] == '\0')
+        return unknown_option(parser, argument);
+    advise(parser, argument, advice);
+    if (*advice)
+        return unknown_option(parser, argument);
+    if (!foreign_suggest(advice, typed, parser->options, parser->option_count))
+        *advice = '\0';
+    return report(KILN_USAGE, "%s: unknown option '-%c' in '%s'%s", parser->place, letter, argument,
+                  advice);
+}
+
+/* Letters may follow one dash together, as POSIX has it: flags, and last an option with a value,
+ * which is the rest of the word or the next one. "-qo r.png" and "-qor.png" are the same. */
 static int read_short(struct parser *parser, const char *argument)
 {
-    const struct option *found = NULL;
     for (size_t i = 0; i < parser->option_count; i++) {
-        const struct option *option = &parser->options[i];
-        if (strcmp(option->name, argument + 1) == 0) /* "-output" is not "-o utput" */
+        if (strcmp(parser->options[i].name, argument + 1) == 0) /* "-output" is not "-o utput" */
             return unknown_option(parser, argument);
-        if (option->letter == argument[1])
-            found = option;
     }
-    if (!found || (found->kind == OPTION_FLAG && argument[2]))
-        return unknown_option(parser, argument);
-    return use_option(parser, found, argument[2] ? argument + 2 : NULL);
+    size_t count = 0; /* of letters; the whole bundle is looked at before any of it counts */
+    const struct option *option;
+    do {
+        const char letter = argument[1 + count++];
+        option = option_of_letter(parser->options, parser->option_count, letter);
+        if (!option)
+            return unknown_letter(parser, argument, letter);
+    } while (option->kind == OPTION_FLAG && argument[1 + count]);
+    int code = 0;
+    for (size_t i = 1; i <= count && code == 0; i++) {
+        const char *rest = i == count && argument[1 + count] ? argument + 1 + count : NULL;
+        option = option_of_letter(parser->options, parser->option_count, argument[i]);
+        code = use_option(parser, option, rest);
+    }
+    return code;
 }
 
 int arguments_parse(struct arguments *arguments, const struct option *options, size_t option_count,
                     const char *place, int argc, char **argv)
 {
-    size_t most = argc > 0 ? (size_t)argc : 1;
+    size_t most = 1; /* of options, with those that share a word */
+    for (int i = 0; i < argc; i++)
+        most += argv[i][0] == '-' ? strlen(argv[i]) : 1;
     *arguments = (struct arguments){.uses = calloc(most, sizeof *arguments->uses),
                                     .operands = calloc(most, sizeof *arguments->operands),
                                     .words = (const char *const *)argv,
@@ -288,7 +351,7 @@ int arguments_parse(struct arguments *arguments, const struct option *options, s
 void arguments_free(struct arguments *arguments)
 {
     for (size_t i = 0; i < arguments->use_count; i++)
-        frame_list_free(&arguments->uses[i].frames);
+        frame_spec_free(&arguments->uses[i].frames);
     free(arguments->uses);
     free(arguments->operands);
     *arguments = (struct arguments){0};
@@ -331,6 +394,22 @@ size_t arguments_choice(const struct arguments *arguments, const char *name, siz
 {
     const struct option_use *use = arguments_last(arguments, name);
     return use ? use->choice : fallback;
+}
+
+int frames_choose(struct frame_list *list, const struct option_use *frames, const char *place,
+                  const char *clip, uint32_t last)
+{
+    uint32_t frame = 0;
+    switch (frame_list_create(list, &frames->frames, last, &frame)) {
+    case FRAMES_OK:
+        return 0;
+    case FRAMES_NO_MEMORY:
+        return report_no_memory();
+    case FRAMES_BEYOND:
+        break;
+    }
+    return report(KILN_USAGE, "%s: --%s: found frame %u, but '%s' has frames 0-%u", place,
+                  frames->option->name, frame, clip, last);
 }
 
 bool value_list_create(struct value_list *list, const struct arguments *arguments, const char *name)

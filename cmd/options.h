@@ -15,7 +15,7 @@ enum option_kind {
     OPTION_RATIO,   /* N/D or a decimal fraction */
     OPTION_RECT,    /* X,Y,WxH */
     OPTION_PART,    /* I/N: the I-th of N parts */
-    OPTION_FRAMES,  /* 0-149,200 */
+    OPTION_FRAMES,  /* 0-149,200 or 170- or last or 0-100/10 */
     OPTION_PAIRS,   /* KEY=VALUE; more of them after commas where `commas` is set */
 };
 
@@ -46,7 +46,7 @@ struct option_use {
                             _PART: I, N */
     double number;       /* OPTION_NUMBER */
     size_t choice;       /* OPTION_CHOICE: index of the word; 0 where it was left out */
-    struct frame_list frames;
+    struct frame_spec frames;
 };
 
 /* What a command was given: options in their order, and operands in theirs. */
@@ -68,6 +68,9 @@ int arguments_parse(struct arguments *arguments, const struct option *options, s
                     const char *place, int argc, char **argv);
 void arguments_free(struct arguments *arguments);
 
+/* The option of a letter, or NULL. */
+const struct option *option_of_letter(const struct option *options, size_t count, char letter);
+
 /* The last use of the option of that name, or NULL. */
 const struct option_use *arguments_last(const struct arguments *arguments, const char *name);
 
@@ -78,6 +81,12 @@ const char *arguments_text(const struct arguments *arguments, const char *name,
 uint32_t arguments_integer(const struct arguments *arguments, const char *name, uint32_t fallback);
 double arguments_number(const struct arguments *arguments, const char *name, double fallback);
 size_t arguments_choice(const struct arguments *arguments, const char *name, size_t fallback);
+
+/* The frames of a clip, whose last one is `last`, that a use of --frames chooses. Returns 0, or the
+ * exit code after reporting that there is no such frame; `place` starts the message, `clip` names
+ * the clip in it. The list must be freed in both cases. */
+int frames_choose(struct frame_list *list, const struct option_use *frames, const char *place,
+                  const char *clip, uint32_t last);
 
 /* The values of every use of an option, in their order; cut at the commas where it has them. */
 struct value_list {

@@ -34,7 +34,9 @@ static const struct option options[] = {
     {.name = "frames",
      .kind = OPTION_FRAMES,
      .placeholder = "RANGES",
-     .help = "Frames to draw, such as 0-149,200. They come out as they do in the full run.",
+     .help = "Frames to draw, such as 0-149,200; 170- goes to the end, -30 is 0-30, 'last' is the "
+             "last one, 0-100/10 each tenth. They come out as they do in the full run. Videos "
+             "hold neighbouring frames only.",
      .fallback = "all"},
     SIZE_OPTION,
     FPS_OPTION,

@@ -50,6 +50,8 @@ CASES = [
     ("kiln check ~/eff", "kiln check ~/effects/"),
     ("kiln render -o effects/to", "kiln render -o effects/torch.yaml "),
     ("kiln render -oeffects/to", "kiln render -oeffects/torch.yaml "),
+    ("kiln render -qo effects/to", "kiln render -qo effects/torch.yaml "),
+    ("kiln render -qoeffects/to", "kiln render -qoeffects/torch.yaml "),
     ("kiln render --output=effects/to", "kiln render --output=effects/torch.yaml "),
     ("kiln test --results eff", "kiln test --results effects/"),
     ("kiln test report eff", "kiln test report effects/"),

@@ -13,7 +13,7 @@ $ kiln render scenes/tiny.yaml -output x.png --frames 0
 2|kiln: render: unknown option '-output' (did you mean '--output'?)
 = 2
 $ kiln render scenes/tiny.yaml -x
-2|kiln: render: unknown option '-x'
+2|kiln: render: unknown option '-x'; the suffix of '--output' chooses the format (see 'kiln help outputs')
 = 2
 $ kiln render scenes/tiny.yaml -quiet
 2|kiln: render: unknown option '-quiet' (did you mean '--quiet'?)
@@ -34,22 +34,16 @@ $ kiln render scenes/tiny.yaml --quiet=yes -o x.png
 2|kiln: render: --quiet: takes no value, found 'yes'
 = 2
 $ kiln render scenes/tiny.yaml -o x.png --frames 5-3
-2|kiln: render: --frames: found '5-3', expected frames and ranges, such as 0-149,200
+2|kiln: render: --frames: found '5-3', expected frames and ranges, such as 0-149,200 or 170- or -30 or last or 0-100/10
 = 2
 $ kiln render scenes/tiny.yaml -o x.png --frames 1,,2
-2|kiln: render: --frames: found '1,,2', expected frames and ranges, such as 0-149,200
-= 2
-$ kiln render scenes/tiny.yaml -o x.png --frames 1-
-2|kiln: render: --frames: found '1-', expected frames and ranges, such as 0-149,200
-= 2
-$ kiln render scenes/tiny.yaml -o x.png --frames -1
-2|kiln: render: --frames: found '-1', expected frames and ranges, such as 0-149,200
+2|kiln: render: --frames: found '' in '1,,2', expected frames and ranges, such as 0-149,200 or 170- or -30 or last or 0-100/10
 = 2
 $ kiln render scenes/tiny.yaml -o x.png --frames 99999999999999999999
-2|kiln: render: --frames: found '99999999999999999999', expected frames and ranges, such as 0-149,200
+2|kiln: render: --frames: found '99999999999999999999', expected frames and ranges, such as 0-149,200 or 170- or -30 or last or 0-100/10
 = 2
 $ kiln render scenes/tiny.yaml -o x.png --frames ''
-2|kiln: render: --frames: found '', expected frames and ranges, such as 0-149,200
+2|kiln: render: --frames: found '', expected frames and ranges, such as 0-149,200 or 170- or -30 or last or 0-100/10
 = 2
 $ kiln render scenes/tiny.yaml -o x.png --frames 0-2,24
 2|kiln: render: --frames: found frame 24, but 'scenes/tiny.yaml' has frames 0-23

@@ -147,8 +147,11 @@ $ kiln help render
 1|                              as in an MP4; bytes in sRGB, with straight alpha
 1|                              or none; or floats, little-endian, linear,
 1|                              premultiplied. Default: y4m.
-1|      --frames RANGES         Frames to draw, such as 0-149,200. They come out
-1|                              as they do in the full run. Default: all.
+1|      --frames RANGES         Frames to draw, such as 0-149,200; 170- goes to
+1|                              the end, -30 is 0-30, 'last' is the last one,
+1|                              0-100/10 each tenth. They come out as they do in
+1|                              the full run. Videos hold neighbouring frames
+1|                              only. Default: all.
 1|      --size WxH              Size of the picture in pixels: --set
 1|                              output.size=[W, H].
 1|      --fps RATE              Frames a second, such as 30 or 30000/1001: --set

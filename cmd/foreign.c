@@ -1,0 +1,144 @@
+/* Suggests kiln's spelling for options of ffmpeg, Blender, Houdini's husk and other renderers. A
+ * row is only reached where the command has no option of that name itself: its own tables come
+ * first. */
+#include "foreign.h"
+
+#include <string.h>
+
+struct foreign {
+    const char *typed;  /* as other programs spell it */
+    const char *option; /* kiln's option, which the command must have; NULL: every command */
+    const char *hint;   /* a sentence instead of the bare name, or NULL */
+};
+
+#define FRAMES_HINT "frames are chosen by '--frames', such as --frames 10-50"
+#define FIRST_HINT  "frames are chosen by '--frames', such as --frames 10- from frame 10 on"
+#define FINAL_HINT  "frames are chosen by '--frames', such as --frames -50 up to frame 50"
+#define STEP_HINT   "each tenth frame is drawn by '--frames', such as --frames 0-100/10"
+#define SUFFIX_HINT "the suffix of '--output' chooses the format (see 'kiln help outputs')"
+#define SCENE_HINT  "scenes are operands and need no option"
+
+static const struct foreign rows[] = {
+    /* ffmpeg */
+    {"-y", "force", NULL},
+    {"-r", "fps", NULL},
+    {"-framerate", "fps", NULL},
+    {"-i", NULL, SCENE_HINT},
+    {"-s:v", "size", NULL},
+    {"-video_size", "size", NULL},
+    {"-f", "frames", FRAMES_HINT}, /* Blender's, too */
+    {"-ss", "frames", FIRST_HINT},
+    {"-frames:v", "frames", FRAMES_HINT},
+    {"-vframes", "frames", FRAMES_HINT},
+    {"-crf", "quality", NULL},
+    {"-q:v", "quality", NULL},
+    {"-qscale:v", "quality", NULL},
+    {"-c:v", "output", SUFFIX_HINT},
+    {"-vcodec", "output", SUFFIX_HINT},
+    {"-pix_fmt", "output", SUFFIX_HINT},
+    {"-threads", "threads", NULL},
+    {"-loglevel", "quiet", NULL},
+    {"-hide_banner", "quiet", NULL},
+    {"-stats", "stats", NULL},
+
+    /* Blender */
+    {"-b", NULL, "kiln always works without a window"},
+    {"--background", NULL, "kiln always works without a window"},
+    {"-s", "frames", FIRST_HINT},
+    {"--frame-start", "frames", FIRST_HINT},
+    {"-e", "frames", FINAL_HINT},
+    {"--frame-end", "frames", FINAL_HINT},
+    {"--render-frame", "frames", FRAMES_HINT},
+    {"-j", "frames", STEP_HINT},
+    {"--frame-jump", "frames", STEP_HINT},
+    {"-a", "frames", "without '--frames', every frame is drawn"},
+    {"--render-anim", "frames", "without '--frames', every frame is drawn"},
+    {"--render-output", "output", NULL},
+    {"-F", "output", SUFFIX_HINT},
+    {"--render-format", "output", SUFFIX_HINT},
+    {"-x", "output", SUFFIX_HINT},
+    {"--use-extension", "output", SUFFIX_HINT},
+    {"-t", "threads", NULL},
+    {"-E", "technique", NULL},
+    {"--engine", "technique", NULL},
+
+    /* husk and other renderers */
+    {"--frame", "frames", NULL},
+    {"--frame-count", "frames", FRAMES_HINT},
+    {"-n", "frames", FRAMES_HINT},
+    {"--frame-inc", "frames", STEP_HINT},
+    {"--frame-step", "frames", STEP_HINT},
+    {"--start", "frames", FIRST_HINT},
+    {"--end", "frames", FINAL_HINT},
+    {"--range", "frames", NULL},
+    {"--res", "size", NULL},
+    {"--resolution", "size", NULL},
+    {"--width", "size", NULL},
+    {"--height", "size", NULL},
+    {"--renderer", "technique", NULL},
+    {"-R", "technique", NULL},
+    {"--gpu", "device", NULL},
+    {"--framerate", "fps", NULL},
+    {"--frame-rate", "fps", NULL},
+    {"--make-output-path", "output", "missing folders of '--output' are made"},
+
+    /* What many programs call it */
+    {"--overwrite", "force", NULL},
+    {"--yes", "force", NULL},
+    {"--replace", "force", NULL},
+    {"--clobber", "force", NULL},
+    {"--out", "output", NULL},
+    {"--outfile", "output", NULL},
+    {"--output-file", "output", NULL},
+    {"--output-dir", "output", NULL},
+    {"--outdir", "output", NULL},
+    {"--input", NULL, SCENE_HINT},
+    {"--scene", NULL, SCENE_HINT},
+    {"--file", NULL, SCENE_HINT},
+    {"--format", "output", SUFFIX_HINT},
+    {"--codec", "output", SUFFIX_HINT},
+    {"--crf", "quality", NULL},
+    {"--jobs", "threads", NULL},
+    {"--workers", "threads", NULL},
+    {"--cores", "threads", NULL},
+    {"--param", "set", NULL},
+    {"--define", "set", NULL},
+    {"-D", "set", NULL},
+    {"--continue", "resume", NULL},
+    {"--skip-existing", "resume", NULL},
+    {"--assets", "asset-root", NULL},
+    {"--asset-path", "asset-root", NULL},
+    {"--silent", "quiet", NULL},
+    {"--verbose", "stats", NULL},
+    {"-v", "stats", "'--stats' says more, and 'kiln --version' which kiln this is"},
+    {"-V", NULL, "'kiln --version' says which kiln this is"},
+    {"--version", NULL, "'kiln --version' says which kiln this is"},
+    {"-?", "help", NULL},
+    {"--usage", "help", NULL},
+};
+
+static bool has_option(const struct option *options, size_t count, const char *name)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (strcmp(options[i].name, name) == 0)
+            return true;
+    }
+    return false;
+}
+
+bool foreign_suggest(char out[FOREIGN_SIZE], const char *typed, const struct option *options,
+                     size_t option_count)
+{
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const struct foreign *row = &rows[i];
+        if (strcmp(row->typed, typed) != 0 ||
+            (row->option && !has_option(options, option_count, row->option)))
+            continue;
+        if (row->hint)
+            snprintf(out, FOREIGN_SIZE, "; %s", row->hint);
+        else
+            snprintf(out, FOREIGN_SIZE, " (did you mean '--%s'?)", row->option);
+        return true;
+    }
+    return false;
+}
