@@ -1,0 +1,20 @@
+/* JPEG in memory: of frames, and of figures. */
+#ifndef KILN_OUTPUT_JPEG_H
+#define KILN_OUTPUT_JPEG_H
+
+#include "base/error.h"
+
+/* A picture and how well it is kept. */
+struct kiln_jpeg {
+    const uint8_t *rgba; /* 8 bits, sRGB, rows from the top; alpha is passed over */
+    uint32_t width, height;
+    uint32_t quantiser; /* of FFmpeg's scale, 1 (best) to 31; 2 is about quality 92 elsewhere */
+};
+
+/* Encodes the picture with full chroma. The same bytes on every machine; any thread may call. The
+ * caller frees the bytes. KILN_IO where FFmpeg or its encoder is missing, KILN_DEVICE_FAILED when
+ * memory is short. */
+bool kiln_jpeg_encode(const struct kiln_jpeg *jpeg, uint8_t **bytes, size_t *size,
+                      struct kiln_error *error);
+
+#endif
