@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include "command.h"
+#include "jobs.h"
 #include "limits.h"
 #include "progress.h"
 #include "report.h"
@@ -75,6 +76,9 @@ static int run(const struct arguments *arguments)
     const struct option_use *tonemap = arguments_last(arguments, "tonemap");
     if (!output)
         return report(KILN_USAGE, "encode: needs --output FILE");
+    const int code = quality_check(arguments, "encode", output->text);
+    if (code)
+        return code;
     struct encoding encoding = {.output = output->text};
     struct kiln_encode_params params = kiln_encode_defaults();
     params.frames = arguments->operands[0];

@@ -132,11 +132,23 @@ static int check_output(const struct job_list *list, const struct arguments *arg
                       list->resume       ? "resume"
                       : list->shards > 0 ? "shard"
                                          : "flipbook");
+    if (list->stream.format && arguments_last(arguments, "quality"))
+        return report(KILN_USAGE, "render: --quality: not with '--output -'");
     if (list->resume && !writes)
         return report(KILN_USAGE, "render: --resume: there is no output to go on with");
     if (list->shards > 0 && !writes)
         return report(KILN_USAGE, "render: --shard: there is no output to share");
     return 0;
+}
+
+int quality_check(const struct arguments *arguments, const char *place, const char *output)
+{
+    if (!arguments_last(arguments, "quality") || kiln_output_has_quality(output))
+        return 0;
+    return report(KILN_USAGE,
+                  "%s: --quality: '%s' is of a format without one; .jpg, .mp4, .webm, .mov and "
+                  ".webp have one",
+                  place, output);
 }
 
 /* The name of a job's output in new memory; NULL when memory is short. */
@@ -163,6 +175,8 @@ static int name_files(struct job_list *list, const struct arguments *arguments)
             job->manifest = file_name(manifest->text, job->path, ".json", false);
         if ((writes && !job->output) || (manifest && !job->manifest))
             code = report_no_memory();
+        if (code == 0 && job->output && !list->stream.format)
+            code = quality_check(arguments, "render", job->output);
         for (size_t j = 0; j < i && code == 0; j++)
             code = check_clash(&list->jobs[j], job);
     }

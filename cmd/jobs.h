@@ -32,4 +32,8 @@ struct job_list {
 int job_list_create(struct job_list *list, const struct arguments *arguments);
 void job_list_free(struct job_list *list);
 
+/* Returns 0, or the exit code after reporting that --quality is given for an output whose format
+ * has none. `place` starts the message. */
+int quality_check(const struct arguments *arguments, const char *place, const char *output);
+
 #endif

@@ -324,10 +324,10 @@ struct kiln_render_params {
     uint32_t
         work_group_size; /* of kernels that leave it open; 0: what suits each. No pixel changes */
     bool overwrite;
-    /* Go on with a job that was killed: files that its journal names, or PNG and EXR files that
-     * carry the scene's hash, are looked at and stay, the rest is drawn. The journal lies beside
-     * the output, and a clip waits there in parts until it is whole. With overwrite, all begins
-     * anew. */
+    /* Go on with a job that was killed: files that its journal names, or PNG, JPEG and EXR files
+     * that carry the scene's hash, are looked at and stay, the rest is drawn. The journal lies
+     * beside the output, and a clip waits there in parts until it is whole. With overwrite, all
+     * begins anew. */
     bool resume;
     /* Draw only the parts of one of several shards, which goes on with what is there of them. A
      * clip waits for kiln_join. shards 0: all parts. */
@@ -335,7 +335,7 @@ struct kiln_render_params {
     bool state_hash;        /* compute it for each drawn frame; the manifest always has it */
     uint32_t png_bits;      /* 8 or 16; of APNG and MKV, too */
     uint32_t exr_bits;      /* 16 or 32 */
-    uint32_t quality;       /* video: 0 (smallest) to 100 (visually lossless) */
+    uint32_t quality;       /* video, JPEG: 0 (smallest) to 100 (visually lossless) */
     /* One cell for each frame: ranges come from kiln_flipbook_sample. NULL: no flipbook. */
     const struct kiln_flipbook *flipbook;
     /* Told of each frame's layers, those named here in this order ("display" when none is), whether

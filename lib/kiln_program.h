@@ -66,6 +66,10 @@ void kiln_visit_techniques(void (*visit)(void *user, const char *name, const cha
 /* The outputs that this build can write, and their options, for people. */
 bool kiln_write_outputs(FILE *out);
 
+/* Whether a quality makes a difference to an output of such a name. True also where nothing can be
+ * written by it: what is wrong with the name is said elsewhere. */
+bool kiln_output_has_quality(const char *path);
+
 /* The table of limits, for people. */
 bool kiln_write_limits(FILE *out);
 

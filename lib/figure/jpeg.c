@@ -9,6 +9,6 @@ enum { QUANTISER = 2 };
 bool kiln_pixels_jpeg(const struct kiln_pixels *pixels, uint8_t **bytes, size_t *size,
                       struct kiln_error *error)
 {
-    const struct kiln_jpeg jpeg = {pixels->rgba, pixels->width, pixels->height, QUANTISER};
+    const struct kiln_jpeg jpeg = {pixels->rgba, pixels->width, pixels->height, QUANTISER, NULL};
     return kiln_jpeg_encode(&jpeg, bytes, size, error);
 }

@@ -8,9 +8,10 @@
 
 #include "base/error.h"
 #include "base/file_in.h"
+#include "base/text.h"
 #include "output/formats.h"
 
-enum { MAX_PNG = INT32_MAX };
+enum { MAX_PICTURE = INT32_MAX };
 
 /* ---- PNG ------------------------------------------------------------------------------------- */
 
@@ -61,8 +62,76 @@ static bool look_at_png(const uint8_t *bytes, size_t size, struct kiln_carried *
 static bool look_into_png(const char *path, struct kiln_carried *carried, struct kiln_error *reason)
 {
     size_t size;
-    uint8_t *bytes = kiln_file_read(path, "picture", "a PNG file", MAX_PNG, &size, reason);
+    uint8_t *bytes = kiln_file_read(path, "picture", "a PNG file", MAX_PICTURE, &size, reason);
     const bool ok = bytes && look_at_png(bytes, size, carried);
+    free(bytes);
+    return ok;
+}
+
+/* ---- JPEG ------------------------------------------------------------------------------------ */
+
+/* Takes the value behind "KEY=" out of words between blanks. */
+static void take_word(const uint8_t *data, size_t size, const char *key, char *value, size_t room)
+{
+    const size_t length = strlen(key);
+    for (size_t at = 0; at < size;) {
+        const uint8_t *blank = memchr(data + at, ' ', size - at);
+        const size_t end = blank ? (size_t)(blank - data) : size;
+        if (end - at > length && end - at - length < room && memcmp(data + at, key, length) == 0) {
+            memcpy(value, data + at + length, end - at - length);
+            value[end - at - length] = '\0';
+        }
+        at = end + 1;
+    }
+}
+
+/* A comment by kiln. */
+static void take_comment(const uint8_t *data, size_t size, struct kiln_carried *carried)
+{
+    take_word(data, size, "kiln:version=", carried->version, sizeof carried->version);
+    take_word(data, size, "kiln:scene=", carried->scene, sizeof carried->scene);
+    take_word(data, size, "kiln:seed=", carried->seed, sizeof carried->seed);
+    take_word(data, size, "kiln:frame=", carried->frame, sizeof carried->frame);
+    take_word(data, size, "kiln:fps=", carried->fps, sizeof carried->fps);
+    take_word(data, size, "kiln:quality=", carried->quality, sizeof carried->quality);
+}
+
+/* Looks at every segment up to the pixels, which end with the file: in them, 0xff is followed by 0
+ * or a mark to restart at. */
+static bool look_at_jpeg(const uint8_t *bytes, size_t size, struct kiln_carried *carried)
+{
+    enum { START = 0xd8, END = 0xd9, COMMENT = 0xfe, SCAN = 0xda, BASELINE = 0xc0 };
+    size_t at = 2;
+    uint8_t marker = 0;
+    if (size < 4 || bytes[0] != 0xff || bytes[1] != START)
+        return false;
+    while (marker != SCAN) {
+        if (size - at < 4 || bytes[at] != 0xff)
+            return false;
+        marker = bytes[at + 1];
+        const size_t length = (size_t)bytes[at + 2] << 8 | bytes[at + 3];
+        if (length < 2 || length > size - at - 2)
+            return false;
+        if (marker == BASELINE && length > 2)
+            carried->bits = bytes[at + 4];
+        if (marker == COMMENT)
+            take_comment(bytes + at + 4, length - 2, carried);
+        at += 2 + length;
+    }
+    for (; size - at >= 2; at++) {
+        const uint8_t next = bytes[at + 1];
+        if (bytes[at] == 0xff && next != 0 && (next < 0xd0 || next > 0xd7))
+            return next == END && at + 2 == size;
+    }
+    return false;
+}
+
+static bool look_into_jpeg(const char *path, struct kiln_carried *carried,
+                           struct kiln_error *reason)
+{
+    size_t size;
+    uint8_t *bytes = kiln_file_read(path, "picture", "a JPEG file", MAX_PICTURE, &size, reason);
+    const bool ok = bytes && look_at_jpeg(bytes, size, carried);
     free(bytes);
     return ok;
 }
@@ -145,20 +214,37 @@ static bool look_into_exr(const char *path, struct kiln_carried *carried, struct
 bool kiln_carried_read(const char *path, struct kiln_carried *carried, struct kiln_error *reason)
 {
     *carried = (struct kiln_carried){.bits = 0};
-    return look_into_png(path, carried, reason) || look_into_exr(path, carried, reason);
+    return look_into_png(path, carried, reason) || look_into_jpeg(path, carried, reason) ||
+           look_into_exr(path, carried, reason);
+}
+
+/* Whether the file has the depth, or the quality, that is asked for. */
+static bool is_as_good(const struct kiln_output_params *params, const struct kiln_carried *carried)
+{
+    uint64_t quality;
+    if (params->format == &kiln_format_png)
+        return carried->bits == params->png_bits;
+    if (params->format == &kiln_format_exr)
+        return carried->bits == params->exr_bits;
+    return kiln_text_to_uint64(carried->quality, &quality) && quality == params->quality;
 }
 
 bool kiln_output_carries(const struct kiln_output_params *params, const char *path, uint32_t frame,
                          struct kiln_error *reason)
 {
+    static const struct {
+        const struct kiln_format *format;
+        bool (*look)(const char *path, struct kiln_carried *carried, struct kiln_error *reason);
+    } readers[] = {{&kiln_format_png, look_into_png},
+                   {&kiln_format_jpeg, look_into_jpeg},
+                   {&kiln_format_exr, look_into_exr}};
     struct kiln_carried carried = {.bits = 0};
     char number[16];
     snprintf(number, sizeof number, "%u", frame);
-    const bool png = params->format == &kiln_format_png;
-    if (!png && params->format != &kiln_format_exr)
-        return false;
-    return (png ? look_into_png(path, &carried, reason) : look_into_exr(path, &carried, reason)) &&
-           carried.bits == (png ? params->png_bits : params->exr_bits) &&
-           strcmp(carried.version, KILN_VERSION) == 0 &&
+    bool whole = false;
+    for (size_t i = 0; i < sizeof readers / sizeof *readers; i++)
+        whole = whole ||
+                (params->format == readers[i].format && readers[i].look(path, &carried, reason));
+    return whole && is_as_good(params, &carried) && strcmp(carried.version, KILN_VERSION) == 0 &&
            strcmp(carried.scene, params->scene_hash) == 0 && strcmp(carried.frame, number) == 0;
 }

@@ -9,8 +9,8 @@
 #include "output/video.h"
 
 static const struct kiln_format *const formats[] = {
-    &kiln_format_png, &kiln_format_exr, &kiln_format_mp4,  &kiln_format_webm, &kiln_format_mkv,
-    &kiln_format_mov, &kiln_format_gif, &kiln_format_apng, &kiln_format_webp,
+    &kiln_format_png, &kiln_format_jpeg, &kiln_format_exr, &kiln_format_mp4,  &kiln_format_webm,
+    &kiln_format_mkv, &kiln_format_mov,  &kiln_format_gif, &kiln_format_apng, &kiln_format_webp,
 };
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats };
 
@@ -38,7 +38,8 @@ const struct kiln_format *kiln_format_find(const char *path, struct kiln_error *
     const char *suffixes[FORMAT_COUNT];
     for (size_t i = 0; i < FORMAT_COUNT; i++) {
         suffixes[i] = formats[i]->suffix;
-        if (strcasecmp(suffix, suffixes[i]) == 0)
+        if (strcasecmp(suffix, suffixes[i]) == 0 ||
+            (formats[i]->also && strcasecmp(suffix, formats[i]->also) == 0))
             return formats[i];
     }
     const char *nearest = kiln_text_nearest(suffix, suffixes, FORMAT_COUNT);
@@ -55,6 +56,13 @@ bool kiln_format_beside(const char *path, const char *ending, char beside[KILN_P
     int stem = suffix ? (int)(suffix - path) : (int)strlen(path);
     int length = snprintf(beside, KILN_PATH_SIZE, "%.*s%s", stem, path, ending);
     return length >= 0 && length < KILN_PATH_SIZE;
+}
+
+bool kiln_output_has_quality(const char *path)
+{
+    struct kiln_error ignored = {0};
+    const struct kiln_format *format = kiln_format_find(path, &ignored);
+    return !format || format->uses & KILN_USES_QUALITY;
 }
 
 bool kiln_write_outputs(FILE *out)
@@ -80,7 +88,7 @@ bool kiln_write_outputs(FILE *out)
         "a second it holds all, some 1/100 s longer than others, so that time is kept; of more,\n"
         "each second, third... one. A warning says which. While frames are drawn, a GIF takes 3\n"
         "bytes a pixel and frame beside the file, since one palette is made for all.\n"
-        "\nAlpha comes from backdrop.transparent; MP4 and GIF have none and refuse. It is\n"
+        "\nAlpha comes from backdrop.transparent; MP4, GIF and JPEG have none and refuse. It is\n"
         "straight, not multiplied into colours. Colours are sRGB; of videos BT.709 with sRGB's\n"
         "transfer function, tagged so.\n"
         "\n--flipbook 8x8 writes 64 frames as cells of one PNG, rows from the top, for game\n"

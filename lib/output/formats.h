@@ -16,6 +16,7 @@ struct kiln_video_settings;
 enum { KILN_USES_PNG_BITS = 1, KILN_USES_EXR_BITS = 2, KILN_USES_QUALITY = 4 };
 struct kiln_format {
     const char *suffix; /* with its dot, lower case */
+    const char *also;   /* another suffix that it goes by, or NULL */
     const char *name;
     const char *help;
     uint32_t uses; /* bits of the above */
@@ -44,6 +45,7 @@ struct kiln_format {
 };
 
 extern const struct kiln_format kiln_format_png;
+extern const struct kiln_format kiln_format_jpeg;
 extern const struct kiln_format kiln_format_exr;
 extern const struct kiln_format kiln_format_mp4;
 extern const struct kiln_format kiln_format_webm;

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/ffmpeg.h"
+#include "output/formats.h"
 
 /* Rec. 601 with full range, as JFIF has it; 16 bits after the point. */
 static void fill_planes(const struct kiln_jpeg *jpeg, AVFrame *frame)
@@ -59,30 +60,62 @@ static bool open_encoder(struct encoding *encoding, const AVCodec *codec,
     return kiln_ff.av_frame_get_buffer(encoding->frame, 0) >= 0;
 }
 
+/* Where the first marker is that a comment may precede: JFIF's own must follow the start. */
+static size_t place_of_comment(const AVPacket *packet)
+{
+    const uint8_t *bytes = packet->data;
+    const bool has_jfif = packet->size > 6 && bytes[2] == 0xff && bytes[3] == 0xe0;
+    return has_jfif ? 4 + ((size_t)bytes[4] << 8 | bytes[5]) : 2;
+}
+
+/* The packet in new memory, with the comment as a segment of its own. */
+static bool copy_out(const AVPacket *packet, const char *comment, uint8_t **bytes, size_t *size)
+{
+    const size_t all = (size_t)packet->size, before = comment ? place_of_comment(packet) : all;
+    const size_t length = comment ? strlen(comment) + 2 : 0;
+    const uint8_t head[] = {0xff, 0xfe, (uint8_t)(length >> 8), (uint8_t)length};
+    if (before > all)
+        return false;
+    *size = all + (comment ? sizeof head + length - 2 : 0);
+    uint8_t *to = *bytes = malloc(*size);
+    if (!to)
+        return false;
+    memcpy(to, packet->data, before);
+    if (comment) {
+        memcpy(to + before, head, sizeof head);
+        memcpy(to + before + sizeof head, comment, length - 2);
+        memcpy(to + before + sizeof head + length - 2, packet->data + before, all - before);
+    }
+    return true;
+}
+
 static bool encode(struct encoding *encoding, const struct kiln_jpeg *jpeg, uint8_t **bytes,
                    size_t *size)
 {
     fill_planes(jpeg, encoding->frame);
-    if (kiln_ff.avcodec_send_frame(encoding->encoder, encoding->frame) < 0 ||
-        kiln_ff.avcodec_send_frame(encoding->encoder, NULL) < 0 ||
-        kiln_ff.avcodec_receive_packet(encoding->encoder, encoding->packet) < 0)
-        return false;
-    *size = (size_t)encoding->packet->size;
-    *bytes = malloc(*size);
-    if (*bytes)
-        memcpy(*bytes, encoding->packet->data, *size);
-    return *bytes != NULL;
+    return kiln_ff.avcodec_send_frame(encoding->encoder, encoding->frame) >= 0 &&
+           kiln_ff.avcodec_send_frame(encoding->encoder, NULL) >= 0 &&
+           kiln_ff.avcodec_receive_packet(encoding->encoder, encoding->packet) >= 0 &&
+           copy_out(encoding->packet, jpeg->comment, bytes, size);
+}
+
+static const AVCodec *find_codec(struct kiln_error *error)
+{
+    const AVCodec *codec = kiln_ffmpeg_open(KILN_FFMPEG_PICTURES, error)
+                               ? kiln_ff.avcodec_find_encoder(AV_CODEC_ID_MJPEG)
+                               : NULL;
+    if (!codec && error->code == KILN_OK)
+        kiln_error_set(error, KILN_IO, "this FFmpeg (libavcodec) has no encoder for JPEG images");
+    return codec;
 }
 
 bool kiln_jpeg_encode(const struct kiln_jpeg *jpeg, uint8_t **bytes, size_t *size,
                       struct kiln_error *error)
 {
-    if (!kiln_ffmpeg_open(KILN_FFMPEG_PICTURES, error))
-        return false;
-    const AVCodec *codec = kiln_ff.avcodec_find_encoder(AV_CODEC_ID_MJPEG);
+    struct kiln_error reason = {0};
+    const AVCodec *codec = find_codec(&reason);
     if (!codec)
-        return kiln_error_set(error, KILN_IO,
-                              "this FFmpeg (libavcodec) has no encoder for JPEG images");
+        return kiln_error_set(error, reason.code, "%s", reason.message);
     struct kiln_avlog avlog = {0};
     kiln_avlog_begin(&avlog);
     struct encoding encoding = {kiln_ff.avcodec_alloc_context3(codec), kiln_ff.av_frame_alloc(),
@@ -97,3 +130,87 @@ bool kiln_jpeg_encode(const struct kiln_jpeg *jpeg, uint8_t **bytes, size_t *siz
            kiln_error_set(error, KILN_DEVICE_FAILED, "a JPEG of %u x %u pixels: %s", jpeg->width,
                           jpeg->height, *avlog.first_error ? avlog.first_error : "out of memory");
 }
+
+/* ---- Frames ---------------------------------------------------------------------------------- */
+
+struct jpeg_encoder {
+    const struct kiln_output_params *params;
+    struct kiln_temporary *file;
+};
+
+static struct kiln_output_needs needs(const struct kiln_output_params *params)
+{
+    (void)params;
+    return (struct kiln_output_needs){.bits = 8};
+}
+
+static bool check(const struct kiln_output_params *params, struct kiln_error *error)
+{
+    struct kiln_error reason = {0};
+    if (params->alpha)
+        return kiln_error_set(error, KILN_USAGE,
+                              "%s: the backdrop is transparent, but a JPEG image has no alpha; "
+                              "write .png or .exr, or make the backdrop opaque",
+                              params->path);
+    if (params->quality > 100)
+        return kiln_error_set(error, KILN_USAGE, "%s: quality %u; allowed are 0 to 100",
+                              params->path, params->quality);
+    return find_codec(&reason) ||
+           kiln_error_set(error, reason.code, "%s: %s", params->path, reason.message);
+}
+
+static void *open_frame(const struct kiln_output_params *params, struct kiln_temporary *file,
+                        struct kiln_error *error)
+{
+    struct jpeg_encoder *encoder = malloc(sizeof *encoder);
+    if (encoder)
+        *encoder = (struct jpeg_encoder){params, file};
+    else
+        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the JPEG encoder",
+                       file->target);
+    return encoder;
+}
+
+/* From 50 up as other programs count quality: the quantiser of 100 is 1, of 92 and 80 are 1 and 3,
+ * of 50 is 8. Below it falls evenly to the worst, 31. */
+static uint32_t quantiser_of(uint32_t quality)
+{
+    const uint32_t hundredths = quality >= 50 ? 1600 - 16 * quality : 3100 - 46 * quality;
+    const uint32_t rounded = (hundredths + 50) / 100;
+    return rounded > 1 ? rounded : 1;
+}
+
+static bool encode_frame(void *opaque, const struct kiln_picture *picture, struct kiln_error *error)
+{
+    const struct jpeg_encoder *encoder = opaque;
+    const struct kiln_output_params *params = encoder->params;
+    char comment[256];
+    snprintf(comment, sizeof comment,
+             "kiln:version=%s kiln:scene=%s kiln:seed=%u kiln:frame=%u kiln:fps=%u/%u "
+             "kiln:quality=%u",
+             KILN_VERSION, params->scene_hash, params->seed, picture->frame, params->fps_num,
+             params->fps_den, params->quality);
+    const struct kiln_jpeg jpeg = {picture->display, picture->width, picture->height,
+                                   quantiser_of(params->quality), comment};
+    uint8_t *bytes = NULL;
+    size_t size = 0;
+    struct kiln_error reason = {0};
+    if (!kiln_jpeg_encode(&jpeg, &bytes, &size, &reason))
+        return kiln_error_set(error, reason.code, "%s: %s", encoder->file->target, reason.message);
+    const bool written = kiln_temporary_write(encoder->file, bytes, size);
+    free(bytes);
+    return written || kiln_temporary_fail(encoder->file, error);
+}
+
+const struct kiln_format kiln_format_jpeg = {
+    .suffix = ".jpg",
+    .also = ".jpeg",
+    .name = "JPEG images",
+    .help = "8 bits, full chroma, no alpha; quality 0 to 100; .jpeg is the same",
+    .uses = KILN_USES_QUALITY,
+    .needs = needs,
+    .check = check,
+    .open = open_frame,
+    .encode = encode_frame,
+    .close = free,
+};

@@ -1,4 +1,5 @@
-/* Frames on their way to files: PNG, EXR, video. One interface, one row a format (formats.c). */
+/* Frames on their way to files: PNG, JPEG, EXR, video. One interface, one row a format (formats.c).
+ */
 #ifndef KILN_OUTPUT_OUTPUT_H
 #define KILN_OUTPUT_OUTPUT_H
 
@@ -107,8 +108,9 @@ struct kiln_output_params kiln_output_complete(const struct kiln_output_params *
 bool kiln_output_clip_file(const struct kiln_output_params *params, uint32_t index, char *path,
                            struct kiln_error *error);
 
-/* Whether a file is a whole PNG or EXR image of such a scene, frame and depth, by this version: it
- * says so itself. *reason gets KILN_DEVICE_FAILED when memory was too short to look. */
+/* Whether a file is a whole PNG, JPEG or EXR image of such a scene, frame and depth (of JPEG:
+ * quality), by this version: it says so itself. *reason gets KILN_DEVICE_FAILED when memory was too
+ * short to look. */
 bool kiln_output_carries(const struct kiln_output_params *params, const char *path, uint32_t frame,
                          struct kiln_error *reason);
 

@@ -15,7 +15,7 @@
 #include "support/cmocka.h"
 #include "support/pictures.h"
 
-static const char *const suffixes[] = {".png", ".exr", ".mp4"};
+static const char *const suffixes[] = {".png", ".jpg", ".exr", ".mp4"};
 enum { SUFFIX_COUNT = sizeof suffixes / sizeof *suffixes };
 
 /* ---- Names -------------------------------------------------------------------------------- */
@@ -91,7 +91,7 @@ static void suffixes_are_looked_up(void **state)
     } cases[] = {
         {"", "needs a file name"},           {"out/", "needs a file name"},
         {"out/.png", "needs a file name"},   {"out.d/beam", "needs a file name"},
-        {"beam.pgn", "did you mean '.png'"}, {"beam.jpeg", "allowed are .png"},
+        {"beam.pgn", "did you mean '.png'"}, {"beam.jxl", "allowed are .png"},
     };
     const struct kiln_frame_range range = {0, 3};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {

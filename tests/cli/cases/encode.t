@@ -2,7 +2,7 @@ A clip of images has the bytes of one that was drawn at once: images say of whic
 are, and their rate.
 
 $ one() { suffix=$1; shift; kiln render scenes/tiny.yaml --quiet "$@" -o $suffix/f_%03d.png && kiln render scenes/tiny.yaml --quiet "$@" -o one.$suffix 2>/dev/null && kiln encode $suffix -o two.$suffix --quiet 2>/dev/null && cmp one.$suffix two.$suffix && echo $suffix; }
-> one mp4 --quality 80; one mkv; one webp; one webm --set backdrop.transparent=true; one apng --png-bits 16; one gif --png-bits 16 2>&1; one mov --png-bits 16 --set backdrop.transparent=true
+> one mp4; one mkv; one webp; one webm --set backdrop.transparent=true; one apng --png-bits 16; one gif --png-bits 16 2>&1; one mov --png-bits 16 --set backdrop.transparent=true
 1|mp4
 1|mkv
 1|webp

@@ -6,10 +6,10 @@ $ kiln render scenes/tiny.yaml -q --frames 0 -o a.png
 = 6
 $ kiln render scenes/tiny.yaml -q --frames 0 -o a.png --force
 $ kiln render scenes/tiny.yaml -q -o a.gfi
-2|kiln: a.gfi: unknown output format '.gfi' (did you mean '.gif'?); allowed are .png, .exr, .mp4, .webm, .mkv, .mov, .gif, .apng, .webp
+2|kiln: a.gfi: unknown output format '.gfi' (did you mean '.gif'?); allowed are .png, .jpg, .exr, .mp4, .webm, .mkv, .mov, .gif, .apng, .webp
 = 2
 $ kiln render scenes/tiny.yaml -q -o nosuffix
-2|kiln: nosuffix: the output needs a file name with a suffix that tells its format: .png, .exr, .mp4, .webm, .mkv, .mov, .gif, .apng, .webp
+2|kiln: nosuffix: the output needs a file name with a suffix that tells its format: .png, .jpg, .exr, .mp4, .webm, .mkv, .mov, .gif, .apng, .webp
 = 2
 $ kiln render scenes/tiny.yaml -q --frames 0 -o a.png/b.png
 2|kiln: a.png: not a folder, but a.png/b.png needs one here
@@ -82,7 +82,7 @@ $ kiln render scenes/tiny.yaml -q -o clips/a.gif
 2|kiln: clips/a.gif: the file exists (--force replaces it)
 = 6
 $ kiln render scenes/tiny.yaml -q -o a.webn
-2|kiln: a.webn: unknown output format '.webn' (did you mean '.webm'?); allowed are .png, .exr, .mp4, .webm, .mkv, .mov, .gif, .apng, .webp
+2|kiln: a.webn: unknown output format '.webn' (did you mean '.webm'?); allowed are .png, .jpg, .exr, .mp4, .webm, .mkv, .mov, .gif, .apng, .webp
 = 2
 
 Flipbooks.
@@ -177,7 +177,7 @@ A full disk: the shell lets no file grow beyond a few kilobytes.
 $ mkdir full && ulimit -f 2 && kiln render scenes/tiny.yaml -q -o full/a.mp4 --size 256x144; code=$?; find full -type f; exit $code
 2|kiln: full/a.mp4: the file cannot be written: File too large
 = 6
-$ ulimit -f 2 && for suffix in webm gif mkv mov apng webp; do kiln render scenes/tiny.yaml -q -o full/a.$suffix --size 256x144 --quality 100 2>&1 | grep -v warning; done; kiln render scenes/tiny.yaml -q -o full/a.png --flipbook 2x2 --frames 0-3; find full -type f
+$ ulimit -f 2 && for suffix in webm gif mkv mov apng webp; do kiln render scenes/tiny.yaml -q -o full/a.$suffix --size 256x144 $(case $suffix in we*|mov) echo --quality 100;; esac) 2>&1 | grep -v warning; done; kiln render scenes/tiny.yaml -q -o full/a.png --flipbook 2x2 --frames 0-3; find full -type f
 1|kiln: full/a.webm: the file cannot be written: File too large
 1|kiln: full/a.gif: the file cannot be written: File too large
 1|kiln: full/a.mkv: the file cannot be written: File too large

@@ -97,8 +97,8 @@ $ echo mine >d.mp4; kiln render scenes/tiny.yaml -q -o d.mp4 --resume; ls d.mp4*
 1|x_1.png
 2|kiln: d.mp4: the file exists (--force replaces it)
 
-Of a journal, the job does not heed what its format does not: a PNG has no quality.
+Of a journal, the job does not heed what its format does not: a PNG has no bits of EXR.
 
-$ kiln render scenes/tiny.yaml -q --frames 0-1 -o q_%d.png --resume && kiln render scenes/tiny.yaml --frames 0-1 -o q_%d.png --resume --quality 7 --exr-bits 32 --progress none
+$ kiln render scenes/tiny.yaml -q --frames 0-1 -o q_%d.png --resume && kiln render scenes/tiny.yaml --frames 0-1 -o q_%d.png --resume --exr-bits 32 --progress none
 1|device: <device>
 1|q_0.png and 1 more: 0 frames in <s> s, 2 kept

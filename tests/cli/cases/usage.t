@@ -175,8 +175,9 @@ $ kiln help render
 1|                              Default: 8.
 1|      --exr-bits 16|32        Bits a channel of EXR files: half or float.
 1|                              Default: 16.
-1|      --quality N             Quality of videos, from 0 (smallest) to 100 (no
-1|                              loss that an eye can see). Default: 80.
+1|      --quality N             Quality of JPEG, MP4, WebM, MOV and WebP files,
+1|                              from 0 (smallest) to 100 (no loss that an eye can
+1|                              see). Default: 80.
 1|      --flipbook COLUMNSxROWS
 1|                              Write one PNG of so many cells, for game engines,
 1|                              each a frame of --size; beside it a .json of its
@@ -407,6 +408,7 @@ $ kiln help outputs
 1|Output formats, by the suffix of the output:
 1|
 1|  .png   PNG images: 8 or 16 bits, sRGB; alpha with a transparent backdrop
+1|  .jpg   JPEG images: 8 bits, full chroma, no alpha; quality 0 to 100; .jpeg is the same
 1|  .exr   OpenEXR images: half or float, linear, premultiplied; named layers
 1|  .mp4   H.264 video: even sizes, no alpha; quality 0 to 100 (visually lossless)
 1|  .webm  VP9 video: for the web, with alpha; quality 0 to 100; times in whole ms
@@ -430,7 +432,7 @@ $ kiln help outputs
 1|each second, third... one. A warning says which. While frames are drawn, a GIF takes 3
 1|bytes a pixel and frame beside the file, since one palette is made for all.
 1|
-1|Alpha comes from backdrop.transparent; MP4 and GIF have none and refuse. It is
+1|Alpha comes from backdrop.transparent; MP4, GIF and JPEG have none and refuse. It is
 1|straight, not multiplied into colours. Colours are sRGB; of videos BT.709 with sRGB's
 1|transfer function, tagged so.
 1|
