@@ -10,6 +10,7 @@
 #include "overrides.h"
 #include "report.h"
 #include "sandbox.h"
+#include "scene_in.h"
 #include "signals.h"
 
 static const struct option options[] = {
@@ -186,7 +187,7 @@ static int run(const struct arguments *arguments)
         code = report_no_memory();
     if (code == 0) {
         const struct kiln_scene_params params = overrides_scene_params(&overrides, arguments);
-        scene = kiln_scene_load(bake.scene_path, &params, &error);
+        scene = scene_in_load(bake.scene_path, &params, &error);
         code = scene ? 0 : report_scene_error(&error);
     }
     if (code == 0) {

@@ -7,6 +7,7 @@
 #include "overrides.h"
 #include "report.h"
 #include "sandbox.h"
+#include "scene_in.h"
 
 static const struct option options[] = {
     SET_OPTION,
@@ -46,6 +47,9 @@ static int run(const struct arguments *arguments)
 {
     bool hash = arguments_last(arguments, "hash") != NULL;
     bool quiet = arguments_last(arguments, "quiet") != NULL;
+    const int wrong = scene_in_check(arguments, "check");
+    if (wrong)
+        return wrong;
     struct overrides overrides;
     if (!overrides_create(&overrides, arguments))
         return report_no_memory();
@@ -55,7 +59,7 @@ static int run(const struct arguments *arguments)
     for (size_t i = 0; i < arguments->operand_count; i++) {
         const char *path = arguments->operands[i];
         struct kiln_error error = {0};
-        struct kiln_scene *scene = kiln_scene_load(path, &params, &error);
+        struct kiln_scene *scene = scene_in_load(path, &params, &error);
         if (!scene) {
             int failure = report_scene_error(&error);
             code = code ? code : failure;
@@ -75,7 +79,8 @@ const struct command check_command = {
     .summary = "validate scenes and print them with every default",
     .operands = "SCENE...",
     .description =
-        "Reads each scene and prints it with every default spelled out. What it prints is a scene "
+        "Reads each scene ('-' is standard input, whose files lie below the working directory) and "
+        "prints it with every default spelled out. What it prints is a scene "
         "file that renders to the same pictures. A comment at its end tells the work of the whole "
         "clip: steps, particles at once, and the memory that rendering without OpenGL takes, "
         "within a factor of 1.5, encoders left out. A wrong scene is reported and the others are "

@@ -7,14 +7,15 @@
 
 #include "overrides.h"
 #include "report.h"
+#include "scene_in.h"
 
 static const char mark[] = "{scene}";
 
-/* The file's name without folder and suffix. */
+/* The file's name without folder and suffix; of standard input, a word for it. */
 static const char *scene_stem(const char *path, size_t *length)
 {
     const char *slash = strrchr(path, '/');
-    const char *name = slash ? slash + 1 : path;
+    const char *name = strcmp(path, "-") == 0 ? "stdin" : slash ? slash + 1 : path;
     const char *dot = strrchr(name, '.');
     *length = dot && dot > name ? (size_t)(dot - name) : strlen(name);
     return name;
@@ -244,7 +245,7 @@ static int load_scenes(struct job_list *list, const struct arguments *arguments)
     for (size_t i = 0; i < list->count; i++) {
         struct job *job = &list->jobs[i];
         struct kiln_error error = {0};
-        job->scene = kiln_scene_load(job->path, &params, &error);
+        job->scene = scene_in_load(job->path, &params, &error);
         int failure;
         if (job->scene) {
             job->info = kiln_scene_info_empty();
@@ -269,7 +270,8 @@ int job_list_create(struct job_list *list, const struct arguments *arguments)
         list->count = 0;
         return report_no_memory();
     }
-    int code = read_flipbook(list, arguments);
+    int code = scene_in_check(arguments, "render");
+    code = code ? code : read_flipbook(list, arguments);
     code = code ? code : name_files(list, arguments);
     code = code ? code : load_scenes(list, arguments);
     return code ? code : claim_files(list);

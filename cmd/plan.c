@@ -9,6 +9,7 @@
 #include "overrides.h"
 #include "report.h"
 #include "sandbox.h"
+#include "scene_in.h"
 #include "signals.h"
 
 static const struct option options[] = {
@@ -202,7 +203,7 @@ static int run(const struct arguments *arguments)
         code = report_no_memory();
     if (code == 0) {
         const struct kiln_scene_params params = overrides_scene_params(&overrides, arguments);
-        scene = kiln_scene_load(arguments->operands[0], &params, &error);
+        scene = scene_in_load(arguments->operands[0], &params, &error);
         code = scene ? run_plan(arguments, scene, &techniques) : report_scene_error(&error);
     }
     kiln_scene_destroy(&scene);

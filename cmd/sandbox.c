@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 
 #include "report.h"
+#include "scene_in.h"
 
 enum mode { MODE_ON, MODE_REQUIRE, MODE_OFF };
 
@@ -64,9 +65,11 @@ static bool collect(struct reached *reached, const struct command *command,
             reached->writable[reached->writable_count++] = use->text;
     }
     for (size_t i = 0; i < arguments->operand_count; i++) {
+        const char *path = arguments->operands[i];
+        const bool stream = scene_in_is_stream(path);
         if (command->reach == REACH_WRITE)
-            reached->writable[reached->writable_count++] = arguments->operands[i];
-        else if (!add_file(reached, arguments->operands[i], rooted))
+            reached->writable[reached->writable_count++] = path;
+        else if (!(stream && rooted) && !add_file(reached, stream ? "-" : path, rooted))
             return false;
     }
     return true;

@@ -128,10 +128,11 @@ Help of a command is the same by both ways.
 $ kiln help render
 1|usage: kiln render [OPTION...] SCENE...
 1|
-1|Renders each scene into images or a video. Files appear under their names only
-1|when they are whole. The first line of output names the device, and says so when
-1|it is a software device. Several scenes share the device; the first that fails
-1|ends the call.
+1|Renders each scene ('-' is standard input, whose files lie below the working
+1|directory) into images or a video. Files appear under their names only when they
+1|are whole. The first line of output names the device, and says so when it is a
+1|software device. Several scenes share the device; the first that fails ends the
+1|call.
 1|
 1|With --stats=json or --progress ndjson, standard output is JSON: an object a
 1|line, whose "event" is device, frame or result.
@@ -291,8 +292,9 @@ $ kiln help compare
 $ kiln help check
 1|usage: kiln check [OPTION...] SCENE...
 1|
-1|Reads each scene and prints it with every default spelled out. What it prints is
-1|a scene file that renders to the same pictures. A comment at its end tells the
+1|Reads each scene ('-' is standard input, whose files lie below the working
+1|directory) and prints it with every default spelled out. What it prints is a
+1|scene file that renders to the same pictures. A comment at its end tells the
 1|work of the whole clip: steps, particles at once, and the memory that rendering
 1|without OpenGL takes, within a factor of 1.5, encoders left out. A wrong scene
 1|is reported and the others are checked all the same; one that asks for more than

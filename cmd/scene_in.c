@@ -1,0 +1,100 @@
+/* Reads a scene out of a file or out of a descriptor that is open already. Of the latter, the
+ * folder /dev would be a strange place to look for textures, so they are looked for in the working
+ * directory. A FIFO with a name of its own is no scene file, as before: nobody waits for it. */
+#include "scene_in.h"
+
+#include <errno.h>
+#include <poll.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "report.h"
+
+enum { NO_DESCRIPTOR = -1, MAX_SCENE_SIZE = 4 << 20 }; /* as of a scene file */
+
+/* The descriptor that an operand stands for, or NO_DESCRIPTOR. */
+static int descriptor_of(const char *path)
+{
+    static const char *const folders[] = {"/dev/fd/", "/proc/self/fd/"};
+    if (strcmp(path, "-") == 0 || strcmp(path, "/dev/stdin") == 0)
+        return STDIN_FILENO;
+    for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) {
+        const size_t length = strlen(folders[i]);
+        uint64_t number;
+        if (strncmp(path, folders[i], length) == 0 && kiln_text_to_uint64(path + length, &number) &&
+            number <= INT32_MAX)
+            return (int)number;
+    }
+    return NO_DESCRIPTOR;
+}
+
+bool scene_in_is_stream(const char *path)
+{
+    return descriptor_of(path) != NO_DESCRIPTOR;
+}
+
+static const char *name_of(const char *path)
+{
+    return strcmp(path, "-") == 0 ? "standard input" : path;
+}
+
+/* Whether a read that failed is worth another one: it was interrupted by a signal that stops
+ * nothing, or whoever started the program made the descriptor one that does not wait. */
+static bool may_try_again(int file, const struct kiln_scene_params *params)
+{
+    if (errno == EAGAIN)
+        return poll(&(struct pollfd){.fd = file, .events = POLLIN}, 1, -1) > 0;
+    return errno == EINTR && !(params->stop && params->stop(params->user));
+}
+
+/* All that comes, up to one byte more than a scene has. False with errno. */
+static bool read_all(int file, char *text, size_t *size, const struct kiln_scene_params *params)
+{
+    while (*size <= MAX_SCENE_SIZE) {
+        const ssize_t got = read(file, text + *size, MAX_SCENE_SIZE + 1 - *size);
+        if (got == 0)
+            return true;
+        if (got < 0 && !may_try_again(file, params))
+            return false;
+        *size += got > 0 ? (size_t)got : 0;
+    }
+    return true;
+}
+
+struct kiln_scene *scene_in_load(const char *path, const struct kiln_scene_params *params,
+                                 struct kiln_error *error)
+{
+    const int file = descriptor_of(path);
+    if (file == NO_DESCRIPTOR)
+        return kiln_scene_load(path, params, error);
+    const char *name = name_of(path);
+    struct kiln_scene *scene = NULL;
+    size_t size = 0;
+    char *text = malloc(MAX_SCENE_SIZE + 1);
+    if (!text) {
+        error->code = KILN_DEVICE_FAILED;
+        snprintf(error->message, sizeof error->message, "%s: out of memory while reading", name);
+    } else if (!read_all(file, text, &size, params)) {
+        error->code = errno == EINTR ? KILN_INTERRUPTED : KILN_IO;
+        snprintf(error->message, sizeof error->message, "%s: the scene cannot be read: %s", name,
+                 strerror(errno)); /* NOLINT(concurrency-mt-unsafe): of one thread */
+    } else {
+        scene = kiln_scene_parse(text, size, name, params, error);
+    }
+    free(text);
+    return scene;
+}
+
+int scene_in_check(const struct arguments *arguments, const char *place)
+{
+    for (size_t i = 0; i < arguments->operand_count; i++) {
+        const int file = descriptor_of(arguments->operands[i]);
+        for (size_t j = 0; j < i && file != NO_DESCRIPTOR; j++) {
+            if (descriptor_of(arguments->operands[j]) == file)
+                return report(KILN_USAGE, "%s: %s can be read only once", place,
+                              name_of(arguments->operands[i]));
+        }
+    }
+    return 0;
+}
