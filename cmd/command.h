@@ -57,6 +57,13 @@ void help_print_overview(FILE *out);
 void help_visit_topics(void (*visit)(void *user, const char *name, const char *summary),
                        void *user);
 
+/* Prints words within 80 columns; the first line goes on at column `column`, others start at
+ * indent. An empty line in the text stays one. */
+void help_print_wrapped(FILE *out, const char *text, size_t column, size_t indent);
+
+/* The variables of the environment. */
+bool help_write_environment(FILE *out);
+
 /* How to have command lines completed. */
 bool help_write_completion(FILE *out);
 

@@ -24,30 +24,7 @@ const struct exit_code exit_codes[] = {
     {NULL, NULL},
 };
 
-const struct variable variables[] = {
-    {"KILN_SIMD",
-     "Vectors of the techniques 'cpu': plain, sse4.1, avx2 or avx512, as the machine has them; "
-     "the pixels are the same."},
-    {"KILN_LIMITS", "Limits of jobs where --limits says nothing else (see 'kiln help limits')."},
-    {"KILN_SANDBOX",
-     "Whether jobs confine themselves, where --sandbox says nothing else: on, require or "
-     "off."},
-    {"KILN_LIBEXEC_DIR", "The folder of kiln-decode, which reads pictures, videos and meshes, "
-                         "where it is not beside the "
-                         "program."},
-    {"KILN_SHADER_DIR", "Read shaders from this folder instead of those in the program."},
-    {"LP_NUM_THREADS",
-     "Threads of Mesa's software device. 'kiln test' sets it where it is not set, "
-     "so that its jobs share the cores."},
-    {"TMPDIR", "Where 'kiln bench' and 'kiln test calibrate' write pictures that they remove "
-               "again, instead of /tmp."},
-    {"NO_COLOR", "Where it is set, terminals get no colours."},
-    {NULL, NULL},
-};
-
-/* Prints words within WIDTH; the first line goes on at column `column`, others start at indent. An
- * empty line in the text stays one. */
-static void print_wrapped(FILE *out, const char *text, size_t column, size_t indent)
+void help_print_wrapped(FILE *out, const char *text, size_t column, size_t indent)
 {
     bool at_start = true;
     while (*text) {
@@ -79,7 +56,7 @@ static bool write_exit_codes(FILE *out)
 {
     for (const struct exit_code *row = exit_codes; row->code; row++) {
         fprintf(out, "%5s  ", row->code);
-        print_wrapped(out, row->meaning, 7, 7);
+        help_print_wrapped(out, row->meaning, 7, 7);
     }
     return !ferror(out);
 }
@@ -130,6 +107,7 @@ static const struct topic topics[] = {
     {"outputs", "what can be written, by suffix", kiln_write_outputs},
     {"tests", "every key of a test file, and the reports", write_tests},
     {"exit-codes", "what each exit code means", write_exit_codes},
+    {"environment", "the variables of the environment that kiln reads", help_write_environment},
     {"completion", "command lines completed by bash and zsh", help_write_completion},
     {"man", "the manual page, for `man -l`", write_man},
     {"man-scene", "the manual page of scene files", write_man_scene},
@@ -157,7 +135,7 @@ static void print_option(const struct option *option)
         printf("%s\n%*s", left, OPTION_INDENT, "");
     else
         printf("%-*s", OPTION_INDENT, left);
-    print_wrapped(stdout, text, OPTION_INDENT, OPTION_INDENT);
+    help_print_wrapped(stdout, text, OPTION_INDENT, OPTION_INDENT);
 }
 
 static void print_repeating(const struct command *command)
@@ -188,7 +166,7 @@ void help_print_command(const struct command *command)
 {
     printf("usage: kiln %s [OPTION...]%s%s\n\n", command->name, *command->operands ? " " : "",
            command->operands);
-    print_wrapped(stdout, command->description, 0, 0);
+    help_print_wrapped(stdout, command->description, 0, 0);
     printf("\n");
     bool any_repeats = false;
     for (size_t i = 0; i < command->option_count; i++) {

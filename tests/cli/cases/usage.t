@@ -36,6 +36,7 @@ $ kiln
 2|  outputs          what can be written, by suffix
 2|  tests            every key of a test file, and the reports
 2|  exit-codes       what each exit code means
+2|  environment      the variables of the environment that kiln reads
 2|  completion       command lines completed by bash and zsh
 2|  man              the manual page, for `man -l`
 2|  man-scene        the manual page of scene files
@@ -81,6 +82,7 @@ $ kiln --help
 1|  outputs          what can be written, by suffix
 1|  tests            every key of a test file, and the reports
 1|  exit-codes       what each exit code means
+1|  environment      the variables of the environment that kiln reads
 1|  completion       command lines completed by bash and zsh
 1|  man              the manual page, for `man -l`
 1|  man-scene        the manual page of scene files
@@ -461,3 +463,17 @@ $ kiln help scene | head -n 4
 $ kiln help schema | jq -r '.title, .type'
 1|kiln scene
 1|object
+
+Variables of the environment, those of one scheduler among them.
+
+$ kiln help environment | grep -A 2 -E '^  (KILN_LIMITS|SGE_TASK_ID)$'
+1|  KILN_LIMITS
+1|      Limits of jobs where --limits says nothing else (see 'kiln help limits').
+1|  KILN_SANDBOX
+1|--
+1|  SGE_TASK_ID
+1|      Which task this is under Grid Engine; 'undefined' outside of arrays.
+1|  SGE_TASK_FIRST
+$ kiln help enviroment
+2|kiln: help: unknown topic 'enviroment' (did you mean 'environment'?); 'kiln help' lists the topics
+= 2
