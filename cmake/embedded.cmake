@@ -19,4 +19,5 @@ endfunction()
 kiln_embed(kiln_embedded_shaders ${CMAKE_CURRENT_SOURCE_DIR}/shaders
     *.h *.glsl *.comp *.vert *.geom *.frag)
 kiln_embed(kiln_embedded_scenes ${CMAKE_CURRENT_SOURCE_DIR}/scenes fire_beam.yaml bench/*.yaml)
+kiln_embed(kiln_embedded_templates ${CMAKE_CURRENT_SOURCE_DIR}/scenes/templates *.yaml)
 kiln_embed(kiln_embedded_page ${CMAKE_CURRENT_SOURCE_DIR}/lib/report/page *.html *.css *.js)

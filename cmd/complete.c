@@ -278,6 +278,16 @@ static void put_suites(struct value *value)
     kiln_visit_benches(put_suite, value);
 }
 
+static void put_template(void *user, const char *name, const char *summary)
+{
+    offer(user, "word", name, summary);
+}
+
+static void put_templates(struct value *value)
+{
+    kiln_visit_templates(put_template, value);
+}
+
 static void put_metric(void *user, const char *name, const char *help)
 {
     char text[KILN_METRIC_NAME_SIZE + 1];
@@ -336,7 +346,8 @@ static const struct {
     {"DEVICE", put_devices},       {"STAGE=NAME", put_techniques},
     {"METRIC=VALUE", put_metrics}, {"KEY=VALUE", put_set},
     {"KEY=VALUE,...", put_sweep},  {"KEY=VALUE;...", put_variant},
-    {"STAGE", put_stages},         {"SUITE", put_suites},
+    {"TEMPLATE", put_templates},   {"STAGE", put_stages},
+    {"SUITE", put_suites},
 };
 
 static void put_meaning(struct value *value, const char *placeholder, size_t length)

@@ -104,6 +104,7 @@ static const struct topic topics[] = {
     {"techniques", "the techniques of each stage", kiln_write_techniques},
     {"metrics", "what pictures are compared by", kiln_write_metrics},
     {"limits", "what a job may take, and the preset for services", kiln_write_limits},
+    {"templates", "scenes to begin with, for 'kiln new'", kiln_write_templates},
     {"outputs", "what can be written, by suffix", kiln_write_outputs},
     {"tests", "every key of a test file, and the reports", write_tests},
     {"exit-codes", "what each exit code means", write_exit_codes},

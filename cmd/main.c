@@ -10,16 +10,27 @@
 #include "report.h"
 #include "sandbox.h"
 
-const struct command *const commands[] = {&render_command,         &bake_command,
-                                          &plan_command,           &join_command,
-                                          &encode_command,         &compare_command,
-                                          &test_command,           &test_approve_command,
-                                          &test_calibrate_command, &test_report_command,
-                                          &test_list_command,      &figure_command,
-                                          &figure_sheet_command,   &figure_triptych_command,
-                                          &figure_strip_command,   &bench_command,
-                                          &check_command,          &devices_command,
-                                          &help_command,           NULL};
+const struct command *const commands[] = {&render_command,
+                                          &bake_command,
+                                          &plan_command,
+                                          &join_command,
+                                          &encode_command,
+                                          &compare_command,
+                                          &test_command,
+                                          &test_approve_command,
+                                          &test_calibrate_command,
+                                          &test_report_command,
+                                          &test_list_command,
+                                          &figure_command,
+                                          &figure_sheet_command,
+                                          &figure_triptych_command,
+                                          &figure_strip_command,
+                                          &bench_command,
+                                          &new_command,
+                                          &check_command,
+                                          &devices_command,
+                                          &help_command,
+                                          NULL};
 
 size_t command_names(const char *names[MAX_COMMANDS])
 {

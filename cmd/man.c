@@ -129,6 +129,7 @@ static void put_examples(FILE *out)
     static const struct {
         const char *what, *command;
     } rows[] = {
+        {"A scene to begin with, which is then edited:", "kiln new effect.yaml"},
         {"A video of a whole scene:", "kiln render fire_beam.yaml -o fire.mp4"},
         {"Two stills at another size:",
          "kiln render fire_beam.yaml -o still_%04d.png --frames 60,120 --size 640x360"},
@@ -191,6 +192,7 @@ bool man_print(FILE *out)
     for (size_t i = 0; commands[i]; i++)
         put_command(out, commands[i]);
     bool ok = put_topic(out, "outputs", kiln_write_outputs) &&
+              put_topic(out, "templates", kiln_write_templates) &&
               put_topic(out, "techniques", kiln_write_techniques) &&
               put_topic(out, "metrics", kiln_write_metrics) &&
               put_topic(out, "test files", kiln_test_write_reference) &&

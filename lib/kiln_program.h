@@ -70,6 +70,23 @@ bool kiln_write_outputs(FILE *out);
  * written by it: what is wrong with the name is said elsewhere. */
 bool kiln_output_has_quality(const char *path);
 
+/* Visits the scenes to begin with: their names, and what each shows. */
+void kiln_visit_templates(void (*visit)(void *user, const char *name, const char *summary),
+                          void *user);
+
+/* The same, for people. */
+bool kiln_write_templates(FILE *out);
+
+/* The text of a scene to begin with, below a line that tells editors where the schema is. The
+ * caller frees it. NULL with KILN_USAGE for an unknown name, or KILN_DEVICE_FAILED when memory is
+ * short. */
+char *kiln_template_scene(const char *name, struct kiln_error *error);
+
+/* Writes that text into a file, which appears under its name when it is whole; makes missing
+ * folders. KILN_IO, also when there is one and overwrite is not set; else as above. */
+bool kiln_template_write(const char *name, const char *path, bool overwrite,
+                         struct kiln_error *error);
+
 /* The table of limits, for people. */
 bool kiln_write_limits(FILE *out);
 

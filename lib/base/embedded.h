@@ -7,9 +7,10 @@ struct kiln_embedded_file {
     const char *text;
 };
 
-extern const struct kiln_embedded_file kiln_embedded_shaders[]; /* shaders/ */
-extern const struct kiln_embedded_file kiln_embedded_scenes[];  /* scenes/, what is measured */
-extern const struct kiln_embedded_file kiln_embedded_page[];    /* lib/report/page/ */
+extern const struct kiln_embedded_file kiln_embedded_shaders[];   /* shaders/ */
+extern const struct kiln_embedded_file kiln_embedded_scenes[];    /* scenes/, what is measured */
+extern const struct kiln_embedded_file kiln_embedded_templates[]; /* scenes/templates/ */
+extern const struct kiln_embedded_file kiln_embedded_page[];      /* lib/report/page/ */
 
 /* The text of the file of that path, or NULL. */
 const char *kiln_embedded_find(const struct kiln_embedded_file *table, const char *path);

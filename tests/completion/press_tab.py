@@ -31,6 +31,8 @@ CASES = [
     ("kiln render --technique raster=geom", "kiln render --technique raster=geometry "),
     ("kiln render --technique sort=cpu,raster=geom",
      "kiln render --technique sort=cpu,raster=geometry "),
+    ("kiln new --template fou", "kiln new --template fountain "),
+    ("kiln help env", "kiln help environment "),
     ("kiln render --png-bits=1", "kiln render --png-bits=16 "),
     ("kiln render --progress nd", "kiln render --progress ndjson "),
     ("kiln test approve --as dev", "kiln test approve --as device "),

@@ -22,7 +22,7 @@ function expectGood(name, text) {
     console.error(`${name}: refused at ${first.instancePath}: ${first.message}`);
 }
 
-const folders = ["scenes", "tests/fuzz/corpus/scene/good"];
+const folders = ["scenes", "scenes/templates", "tests/fuzz/corpus/scene/good"];
 let scenes = 0;
 for (const folder of folders) {
     for (const file of readdirSync(join(source, folder)).filter((f) => f.endsWith(".yaml"))) {

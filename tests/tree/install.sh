@@ -28,6 +28,10 @@ grep -q render "$prefix/help.txt" || { echo "kiln help says nothing of render"; 
 for scene in fire_beam campfire pot; do # the latter have pictures and a mesh, which kiln-decode reads
     (cd / && "$prefix/bin/kiln" check "$prefix/share/kiln/scenes/$scene.yaml" >/dev/null)
 done
+(cd / && "$prefix/bin/kiln" new "$prefix/effect.yaml" -q && "$prefix/bin/kiln" check -q "$prefix/effect.yaml")
+modeline="# yaml-language-server: \$schema=$(realpath "$prefix")/share/kiln/scene.schema.json"
+[[ $(head -n 1 "$prefix/effect.yaml") == "$modeline" ]] ||
+    { echo "kiln new does not name the installed schema: $(head -n 1 "$prefix/effect.yaml")"; exit 1; }
 [[ -x $prefix/libexec/kiln/kiln-decode ]] || { echo "kiln-decode is not installed"; exit 1; }
 
 cat >"$prefix/user.c" <<'C'

@@ -23,6 +23,7 @@ $ kiln
 2|  figure triptych  a reference, a result and their error map
 2|  figure strip     frames of a scene or a clip in a row
 2|  bench            measure techniques, scenes and suites
+2|  new              write a scene to begin with
 2|  check            validate scenes and print them with every default
 2|  devices          list what can render on this machine, and what is missing
 2|  help             explain a command or a topic
@@ -33,6 +34,7 @@ $ kiln
 2|  techniques       the techniques of each stage
 2|  metrics          what pictures are compared by
 2|  limits           what a job may take, and the preset for services
+2|  templates        scenes to begin with, for 'kiln new'
 2|  outputs          what can be written, by suffix
 2|  tests            every key of a test file, and the reports
 2|  exit-codes       what each exit code means
@@ -69,6 +71,7 @@ $ kiln --help
 1|  figure triptych  a reference, a result and their error map
 1|  figure strip     frames of a scene or a clip in a row
 1|  bench            measure techniques, scenes and suites
+1|  new              write a scene to begin with
 1|  check            validate scenes and print them with every default
 1|  devices          list what can render on this machine, and what is missing
 1|  help             explain a command or a topic
@@ -79,6 +82,7 @@ $ kiln --help
 1|  techniques       the techniques of each stage
 1|  metrics          what pictures are compared by
 1|  limits           what a job may take, and the preset for services
+1|  templates        scenes to begin with, for 'kiln new'
 1|  outputs          what can be written, by suffix
 1|  tests            every key of a test file, and the reports
 1|  exit-codes       what each exit code means

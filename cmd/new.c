@@ -1,0 +1,65 @@
+/* kiln new: a scene to begin with. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "command.h"
+#include "report.h"
+
+static const struct option options[] = {
+    {.name = "template",
+     .letter = 't',
+     .kind = OPTION_TEXT,
+     .placeholder = "TEMPLATE",
+     .help = "Which scene (see 'kiln help templates').",
+     .fallback = "fire"},
+    {.name = "force", .kind = OPTION_FLAG, .help = "Replace a file that exists."},
+    {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Print nothing but errors."},
+    HELP_OPTION,
+};
+
+static int fail(const struct kiln_error *error)
+{
+    return error->code == KILN_USAGE ? report(KILN_USAGE, "new: --template: %s", error->message)
+                                     : report_error(error);
+}
+
+static int print(const char *template)
+{
+    struct kiln_error error = {0};
+    char *scene = kiln_template_scene(template, &error);
+    if (!scene)
+        return fail(&error);
+    fputs(scene, stdout); /* report_finish tells of a failure */
+    free(scene);
+    return 0;
+}
+
+static int run(const struct arguments *arguments)
+{
+    const char *path = arguments->operands[0];
+    const char *template = arguments_text(arguments, "template", "fire");
+    struct kiln_error error = {0};
+    if (strcmp(path, "-") == 0)
+        return print(template);
+    if (!kiln_template_write(template, path, arguments_flag(arguments, "force"), &error))
+        return fail(&error);
+    if (!arguments_flag(arguments, "quiet"))
+        printf("%s: a scene to begin with; 'kiln render %s -o clip.mp4' renders it\n", path, path);
+    return 0;
+}
+
+const struct command new_command = {
+    .name = "new",
+    .summary = "write a scene to begin with",
+    .operands = "SCENE",
+    .description =
+        "Writes a small commented scene that renders as it is, and needs no other file. Its first "
+        "line tells editors with a YAML language server, such as VS Code, where the schema of "
+        "scenes is: they complete keys, explain them and mark mistakes. '-' is standard output.",
+    .options = options,
+    .option_count = sizeof options / sizeof *options,
+    .least_operands = 1,
+    .most_operands = 1,
+    .reach = REACH_WRITE,
+    .run = run,
+};

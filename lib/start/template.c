@@ -1,0 +1,145 @@
+/* Scenes to begin with, which are files of scenes/templates in the program. Each is written with a
+ * first line that tells editors where the JSON schema of scenes is: they complete and check keys by
+ * it. The schema is looked for from where the program lies, since an installation may be moved. */
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/embedded.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/temporary.h"
+#include "base/text.h"
+#include "kiln_program.h"
+
+#define SCHEMA "scene.schema.json"
+
+enum { MAX_TEMPLATES = 32, MAX_NAME = 32, MAX_SUMMARY = 96 };
+
+static const char yaml[] = ".yaml";
+
+static void take_name(const struct kiln_embedded_file *file, char name[MAX_NAME])
+{
+    snprintf(name, MAX_NAME, "%.*s", (int)strcspn(file->path, "."), file->path);
+}
+
+void kiln_visit_templates(void (*visit)(void *user, const char *name, const char *summary),
+                          void *user)
+{
+    for (const struct kiln_embedded_file *file = kiln_embedded_templates; file->path; file++) {
+        char name[MAX_NAME], summary[MAX_SUMMARY];
+        const char *line = file->text + strspn(file->text, "# ");
+        take_name(file, name);
+        snprintf(summary, sizeof summary, "%.*s", (int)strcspn(line, ".\n"), line);
+        visit(user, name, summary);
+    }
+}
+
+static void write_row(void *user, const char *name, const char *summary)
+{
+    fprintf(user, "  %-10s %s\n", name, summary);
+}
+
+bool kiln_write_templates(FILE *out)
+{
+    fputs("Scenes to begin with, for 'kiln new --template NAME':\n\n", out);
+    kiln_visit_templates(write_row, out);
+    return !ferror(out);
+}
+
+static const char *find(const char *name, struct kiln_error *error)
+{
+    char path[MAX_NAME + sizeof yaml];
+    const char *names[MAX_TEMPLATES];
+    char kept[MAX_TEMPLATES][MAX_NAME], list[MAX_TEMPLATES * MAX_NAME] = "";
+    size_t count = 0, length = 0;
+    snprintf(path, sizeof path, "%s%s", name, yaml);
+    const char *text = kiln_embedded_find(kiln_embedded_templates, path);
+    if (text && strlen(name) < MAX_NAME)
+        return text;
+    const struct kiln_embedded_file *file = kiln_embedded_templates;
+    for (; file->path && count < MAX_TEMPLATES; file++, count++) {
+        take_name(file, kept[count]);
+        names[count] = kept[count];
+        length += (size_t)snprintf(list + length, sizeof list - length, "%s%s",
+                                   count > 0 ? ", " : "", kept[count]);
+    }
+    const char *nearest = kiln_text_nearest(name, names, count);
+    kiln_error_set(error, KILN_USAGE, "there is no template '%s'%s%s%s; there are %s", name,
+                   nearest ? " (did you mean '" : "", nearest ? nearest : "", nearest ? "'?)" : "",
+                   list);
+    return NULL;
+}
+
+/* Where the schema is: beside the program as built, below the prefix of an installed one, or where
+ * the build was going to install it. False when it is nowhere. */
+static bool find_schema(char path[KILN_PATH_SIZE])
+{
+    static const char *const ways[] = {"../share/kiln/" SCHEMA, "docs/" SCHEMA};
+    char *program = realpath("/proc/self/exe", NULL);
+    const char *slash = program ? strrchr(program, '/') : NULL;
+    bool found = false;
+    for (size_t i = 0; slash && !found && i < sizeof ways / sizeof *ways; i++) {
+        char way[PATH_MAX];
+        snprintf(way, sizeof way, "%.*s/%s", (int)(slash - program), program, ways[i]);
+        char *real = realpath(way, NULL);
+        found = real && strlen(real) < KILN_PATH_SIZE;
+        if (found)
+            memcpy(path, real, strlen(real) + 1);
+        free(real);
+    }
+    free(program);
+    if (!found)
+        snprintf(path, KILN_PATH_SIZE, "%s/%s", KILN_DATA_DIR, SCHEMA);
+    return found || access(path, R_OK) == 0;
+}
+
+/* Editors end the place at a blank: with one in it, it is written as a URL. */
+static void add_modeline(struct kiln_text *text)
+{
+    char path[KILN_PATH_SIZE];
+    const bool found = find_schema(path);
+    const bool plain = !strpbrk(path, " \t%#");
+    kiln_text_add(text, "# yaml-language-server: $schema=%s",
+                  !found  ? SCHEMA
+                  : plain ? ""
+                          : "file://");
+    for (const char *c = found ? path : ""; *c; c++)
+        kiln_text_add(text, !plain && strchr(" \t%#", *c) ? "%%%02X" : "%c", *c);
+    kiln_text_add(text, "\n");
+}
+
+char *kiln_template_scene(const char *name, struct kiln_error *error)
+{
+    const char *scene = find(name, error);
+    struct kiln_text text = {0};
+    if (!scene)
+        return NULL;
+    add_modeline(&text);
+    kiln_text_add(&text, "%s", scene);
+    if (!text.failed)
+        return text.data;
+    kiln_text_free(&text);
+    kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a scene");
+    return NULL;
+}
+
+bool kiln_template_write(const char *name, const char *path, bool overwrite,
+                         struct kiln_error *error)
+{
+    char *scene = kiln_template_scene(name, error);
+    if (!scene)
+        return false;
+    struct kiln_temporary file = {0};
+    bool good = kiln_target_check(path, overwrite, error) &&
+                kiln_make_parent_folders(path, error) && kiln_temporary_open(&file, path, error);
+    if (good) {
+        good = (kiln_temporary_write(&file, scene, strlen(scene)) ||
+                kiln_temporary_fail(&file, error)) &&
+               kiln_temporary_commit(&file, overwrite, error);
+        kiln_temporary_discard(&file);
+    }
+    free(scene);
+    return good;
+}
