@@ -133,6 +133,11 @@ KILN_API void kiln_scene_destroy(struct kiln_scene **scene);
 /* Writes the scene with every default spelled out, as a scene file that loads to the same scene. */
 KILN_API bool kiln_scene_print(const struct kiln_scene *scene, FILE *out);
 
+/* The same into memory of the caller: as much as fits into room bytes, with a zero at its end. text
+ * may be NULL when room is 0. Returns the length of the whole text without that zero; 0 when memory
+ * is short, and then text is empty. */
+KILN_API size_t kiln_scene_text(const struct kiln_scene *scene, char *text, size_t room);
+
 /* Facts of a scene that a caller plans with. */
 struct kiln_scene_info {
     size_t size;
@@ -290,7 +295,8 @@ struct kiln_stream {
 
 /* A layer of a drawn frame: "display", what a PNG has (sRGB, RGBA, alpha not premultiplied), or
  * what a layer of an EXR has in floats (linear, premultiplied): "beauty", "depth", "fire", "smoke",
- * "bloom". Rows from the top. All of it lasts until the call returns that tells of it. */
+ * "bloom". Rows from the top. All of it lasts until the call returns that tells of it, or as long
+ * as the kiln_frame that it is of. */
 enum kiln_sample_type {
     KILN_SAMPLES_UINT8,
     KILN_SAMPLES_UINT16, /* in the machine's byte order; where the output has 16 bits */
@@ -305,6 +311,7 @@ struct kiln_frame_layer {
     size_t row_bytes; /* from one row to the next */
     const void *pixels;
 };
+KILN_EMPTY(kiln_frame_layer, kiln_frame_layer_empty)
 
 struct kiln_render_params {
     size_t size;
@@ -354,6 +361,9 @@ struct kiln_render_params {
     void *user;
     const struct kiln_cancel *cancel; /* NULL: nobody cancels */
     struct kiln_log log;
+    /* kiln_rendering_take_frame will be asked for frames: they have those layers, without a
+     * `picture`, too. */
+    bool keep_frames;
 };
 KILN_EMPTY(kiln_render_params, kiln_render_params_empty)
 
@@ -416,6 +426,30 @@ KILN_API bool kiln_rendering_next(struct kiln_rendering *rendering, bool *drawn,
                                   struct kiln_progress *progress, struct kiln_error *error);
 KILN_API bool kiln_rendering_end(struct kiln_rendering **rendering, struct kiln_render_stats *stats,
                                  struct kiln_error *error);
+
+/* A drawn frame that a program keeps. It has the memory that the frame was drawn into, which an
+ * output may be reading at the same time: nobody writes to it. It may outlive its job, scene and
+ * device, and be used and destroyed on any thread. */
+struct kiln_frame;
+
+/* Hands over the frame that kiln_rendering_next drew, of a job with `keep_frames`; the caller
+ * destroys it. NULL with KILN_USAGE when there is none: each can be taken once, and until the next
+ * one is drawn. */
+KILN_API struct kiln_frame *kiln_rendering_take_frame(struct kiln_rendering *rendering,
+                                                      struct kiln_error *error);
+KILN_API void kiln_frame_destroy(struct kiln_frame **frame);
+
+/* Fills a layer of a frame, whose size is set. KILN_USAGE for one that it does not have. */
+KILN_API bool kiln_frame_get_layer(const struct kiln_frame *frame, const char *name,
+                                   struct kiln_frame_layer *layer, struct kiln_error *error);
+
+/* Writes a layer as a picture, whoever made its samples: integers, which are "display" of 4
+ * channels, as a PNG, whose alpha is left out where all is opaque; floats, of 4 channels or 1, as
+ * an EXR of floats with the layer's name (NULL: "beauty" or "depth"). KILN_USAGE for a layer or a
+ * suffix that is neither, or else KILN_IO or KILN_DEVICE_FAILED; the file is written whole or not
+ * at all. */
+KILN_API bool kiln_layer_write(const struct kiln_frame_layer *layer, const char *path,
+                               bool overwrite, struct kiln_error *error);
 
 /* Removes the temporary files of every running job, with async-signal-safe calls only: for a signal
  * handler or a watchdog that ends the process next, with _exit. */

@@ -40,6 +40,7 @@ struct kiln_job {
     struct kiln_states *states; /* NULL where none are to be taken up */
 
     double started_s;
+    struct kiln_picture *kept; /* of the frame that was drawn last, until it is taken; NULL: none */
     uint32_t total_frames;
     struct kiln_progress progress; /* of the frame at hand */
     struct kiln_render_stats stats;
@@ -57,6 +58,9 @@ static bool return_from_caller(const struct kiln_job *job, struct kiln_error *er
 static bool hand_over(struct kiln_job *job, struct kiln_picture *picture, struct kiln_error *error)
 {
     kiln_views_show(job->params, picture);
+    kiln_picture_destroy(&job->kept);
+    if (job->params->keep_frames)
+        job->kept = kiln_picture_share(picture);
     if (!return_from_caller(job, error)) {
         kiln_picture_destroy(&picture);
         return false;
@@ -137,6 +141,13 @@ const struct kiln_progress *kiln_job_progress(const struct kiln_job *job)
     return &job->progress;
 }
 
+struct kiln_picture *kiln_job_take_picture(struct kiln_job *job)
+{
+    struct kiln_picture *picture = job->kept;
+    job->kept = NULL;
+    return picture;
+}
+
 struct kiln_loop *kiln_job_loop(struct kiln_job *job)
 {
     return job->loop;
@@ -176,6 +187,7 @@ bool kiln_job_next(struct kiln_job *job, bool *drawn, struct kiln_error *error)
 {
     uint32_t frame;
     *drawn = false;
+    kiln_picture_destroy(&job->kept);
     while (!*drawn && take_frame(job, &frame)) {
         struct kiln_record *record = job->resumes ? kiln_records_of(&job->records, frame) : NULL;
         const bool is_there = record && record->whole && !record->drawn;
@@ -450,6 +462,7 @@ void kiln_job_destroy(struct kiln_job **job)
     struct kiln_job *j = *job;
     if (!j)
         return;
+    kiln_picture_destroy(&j->kept);
     kiln_states_close(&j->states);
     kiln_manifest_close(&j->manifest);
     kiln_output_close(&j->output);

@@ -25,6 +25,10 @@ bool kiln_job_next(struct kiln_job *job, bool *drawn, struct kiln_error *error);
 /* Draws a frame, no earlier one than before, and hands it to the output. */
 bool kiln_job_draw(struct kiln_job *job, uint32_t frame, struct kiln_error *error);
 
+/* Hands over the picture of the frame that was drawn last, of a job with `keep_frames`, which
+ * nobody writes to; NULL when none was drawn since. */
+struct kiln_picture *kiln_job_take_picture(struct kiln_job *job);
+
 /* The progress after the frame that was drawn last. */
 const struct kiln_progress *kiln_job_progress(const struct kiln_job *job);
 

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/sized.h"
 #include "job/job.h"
+#include "job/kept.h"
 
 struct kiln_rendering {
     struct kiln_render_params params;
@@ -57,6 +58,17 @@ bool kiln_rendering_next(struct kiln_rendering *r, bool *drawn, struct kiln_prog
     if (*drawn)
         kiln_sized_give(progress, kiln_job_progress(r->job));
     return true;
+}
+
+struct kiln_frame *kiln_rendering_take_frame(struct kiln_rendering *r, struct kiln_error *error)
+{
+    struct kiln_picture *picture = kiln_job_take_picture(r->job);
+    if (picture)
+        return kiln_frame_create(picture, error);
+    kiln_error_set(error, KILN_USAGE,
+                   r->params.keep_frames ? "no frame was drawn since one was taken"
+                                         : "frames are not kept: set keep_frames to take them");
+    return NULL;
 }
 
 bool kiln_rendering_end(struct kiln_rendering **rendering, struct kiln_render_stats *stats,

@@ -52,7 +52,8 @@ bool kiln_views_need(const struct kiln_render_params *params, struct kiln_output
 {
     size_t count;
     const char *const *names = wanted(params, &count);
-    for (size_t i = 0; params->picture && i < count; i++) {
+    const bool is_seen = params->picture || params->keep_frames;
+    for (size_t i = 0; is_seen && i < count; i++) {
         const bool beauty = strcmp(names[i], BEAUTY) == 0;
         if (strcmp(names[i], DISPLAY) == 0)
             needs->bits = needs->bits > 0 ? needs->bits : 8;
@@ -64,12 +65,11 @@ bool kiln_views_need(const struct kiln_render_params *params, struct kiln_output
     return true;
 }
 
-static void show_display(const struct kiln_render_params *params,
-                         const struct kiln_picture *picture)
+static struct kiln_frame_layer view_display(const struct kiln_picture *picture)
 {
     const size_t bytes = picture->bits / 8;
-    const struct kiln_frame_layer view = {
-        .size = sizeof view,
+    return (struct kiln_frame_layer){
+        .size = sizeof(struct kiln_frame_layer),
         .layer = DISPLAY,
         .frame = picture->frame,
         .width = picture->width,
@@ -79,14 +79,13 @@ static void show_display(const struct kiln_render_params *params,
         .row_bytes = 4 * bytes * picture->width,
         .pixels = picture->display,
     };
-    params->picture(params->user, &view);
 }
 
-static void show_layer(const struct kiln_render_params *params, const struct kiln_picture *picture,
-                       const struct kiln_layer *layer)
+static struct kiln_frame_layer view_layer(const struct kiln_picture *picture,
+                                          const struct kiln_layer *layer)
 {
-    const struct kiln_frame_layer view = {
-        .size = sizeof view,
+    return (struct kiln_frame_layer){
+        .size = sizeof(struct kiln_frame_layer),
         .layer = layer->name,
         .frame = picture->frame,
         .width = picture->width,
@@ -96,7 +95,22 @@ static void show_layer(const struct kiln_render_params *params, const struct kil
         .row_bytes = sizeof(float) * layer->channels * picture->width,
         .pixels = layer->pixels,
     };
-    params->picture(params->user, &view);
+}
+
+bool kiln_views_find(const struct kiln_picture *picture, const char *name,
+                     struct kiln_frame_layer *view)
+{
+    if (strcmp(name, DISPLAY) == 0 && picture->display) {
+        *view = view_display(picture);
+        return true;
+    }
+    for (uint32_t k = 0; k < picture->layer_count; k++) {
+        if (strcmp(name, picture->layers[k].name) == 0) {
+            *view = view_layer(picture, &picture->layers[k]);
+            return true;
+        }
+    }
+    return false;
 }
 
 void kiln_views_show(const struct kiln_render_params *params, const struct kiln_picture *picture)
@@ -104,11 +118,8 @@ void kiln_views_show(const struct kiln_render_params *params, const struct kiln_
     size_t count;
     const char *const *names = wanted(params, &count);
     for (size_t i = 0; params->picture && i < count; i++) {
-        if (strcmp(names[i], DISPLAY) == 0)
-            show_display(params, picture);
-        for (uint32_t k = 0; k < picture->layer_count; k++) {
-            if (strcmp(names[i], picture->layers[k].name) == 0)
-                show_layer(params, picture, &picture->layers[k]);
-        }
+        struct kiln_frame_layer view;
+        if (kiln_views_find(picture, names[i], &view))
+            params->picture(params->user, &view);
     }
 }

@@ -13,4 +13,8 @@ bool kiln_views_need(const struct kiln_render_params *params, struct kiln_output
 /* Tells the caller of each layer that he wants, in his order. */
 void kiln_views_show(const struct kiln_render_params *params, const struct kiln_picture *picture);
 
+/* A layer of a picture; false: it does not have it. */
+bool kiln_views_find(const struct kiln_picture *picture, const char *name,
+                     struct kiln_frame_layer *view);
+
 #endif

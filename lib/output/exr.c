@@ -149,20 +149,21 @@ static exr_result_t write_metadata(const struct exr_encoder *encoder, uint32_t f
     const char *const texts[][2] = {
         {"software", "kiln " KILN_VERSION},
         {"kiln:version", KILN_VERSION},
-        {"kiln:scene", params->scene_hash},
+        {"kiln:alpha", params->alpha ? "1" : "0"},
+        {"kiln:scene", params->scene_hash}, /* from here on: where there is a scene */
         {"kiln:seed", seed},
         {"kiln:frame", number},
-        {"kiln:alpha", params->alpha ? "1" : "0"},
     };
+    const size_t count = params->scene_hash ? sizeof texts / sizeof *texts : 3;
     exr_result_t code = EXR_ERR_SUCCESS;
-    for (size_t i = 0; i < sizeof texts / sizeof *texts && code == EXR_ERR_SUCCESS; i++)
+    for (size_t i = 0; i < count && code == EXR_ERR_SUCCESS; i++)
         code = exr_attr_set_string(encoder->context, 0, texts[i][0], texts[i][1]);
     const exr_attr_chromaticities_t rec709 = {0.64f, 0.33f, 0.30f,   0.60f,
                                               0.15f, 0.06f, 0.3127f, 0.3290f};
     if (code == EXR_ERR_SUCCESS)
         code = exr_attr_set_chromaticities(encoder->context, 0, "chromaticities", &rec709);
     const exr_attr_rational_t rate = {(int32_t)params->fps_num, params->fps_den};
-    if (code == EXR_ERR_SUCCESS)
+    if (code == EXR_ERR_SUCCESS && params->scene_hash)
         code = exr_attr_set_rational(encoder->context, 0, "framesPerSecond", &rate);
     return code;
 }

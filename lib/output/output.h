@@ -3,6 +3,8 @@
 #ifndef KILN_OUTPUT_OUTPUT_H
 #define KILN_OUTPUT_OUTPUT_H
 
+#include <stdatomic.h>
+
 #include "base/caller.h"
 #include "kiln_program.h"
 
@@ -15,8 +17,9 @@ struct kiln_layer {
     float *pixels;
 };
 
-/* One finished frame on the host. */
+/* One finished frame on the host. Nobody writes to one that others hold, too. */
 struct kiln_picture {
+    atomic_uint others; /* who hold it beside the first one: kiln_picture_share */
     uint32_t frame;
     uint32_t width, height;
     bool has_alpha; /* display alpha is meaningful */
@@ -32,6 +35,9 @@ struct kiln_picture {
 struct kiln_picture *kiln_picture_create(uint32_t width, uint32_t height, uint32_t bits,
                                          const char *const *names, const uint32_t *channels,
                                          uint32_t layer_count, struct kiln_error *error);
+
+/* Another holder of the same picture, on any thread; each destroys its own. */
+struct kiln_picture *kiln_picture_share(struct kiln_picture *picture);
 void kiln_picture_destroy(struct kiln_picture **picture);
 
 /* The float layers: none, the picture alone, or those of its parts, too, which are drawn apart. */
@@ -85,7 +91,7 @@ struct kiln_output_params {
     uint32_t png_bits, exr_bits, quality;
     struct kiln_flipbook flipbook; /* columns 0: none */
     const char *scene_hash; /* 64 hex digits; goes into each file with seed, frame and version.
-                               "" for a clip, NULL for an encoder of PNG alone: of no scene */
+                               "" for a clip, NULL for an encoder alone: of no scene */
     uint32_t seed;
     struct kiln_log log;
     struct kiln_whole_listener whole;

@@ -41,13 +41,20 @@ struct kiln_picture *kiln_picture_create(uint32_t width, uint32_t height, uint32
     return picture;
 }
 
+struct kiln_picture *kiln_picture_share(struct kiln_picture *picture)
+{
+    atomic_fetch_add(&picture->others, 1);
+    return picture;
+}
+
 void kiln_picture_destroy(struct kiln_picture **picture)
 {
-    if (!*picture)
-        return;
-    free((*picture)->display);
-    for (uint32_t i = 0; i < (*picture)->layer_count; i++)
-        free((*picture)->layers[i].pixels);
-    free(*picture);
+    struct kiln_picture *p = *picture;
     *picture = NULL;
+    if (!p || atomic_fetch_sub(&p->others, 1) > 0)
+        return;
+    free(p->display);
+    for (uint32_t i = 0; i < p->layer_count; i++)
+        free(p->layers[i].pixels);
+    free(p);
 }

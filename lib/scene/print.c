@@ -17,3 +17,16 @@ bool kiln_scene_print(const struct kiln_scene *scene, FILE *out)
     kiln_text_free(&text);
     return ok;
 }
+
+size_t kiln_scene_text(const struct kiln_scene *scene, char *out, size_t room)
+{
+    struct kiln_text text;
+    const size_t length = kiln_print_scene(scene, 0, &text) ? text.length : 0;
+    const size_t taken = length < room ? length : room - (room > 0);
+    if (taken > 0)
+        memcpy(out, text.data, taken);
+    if (room > 0)
+        out[taken] = '\0';
+    kiln_text_free(&text);
+    return length;
+}

@@ -1,4 +1,5 @@
-/* A job frame by frame, in a loop of the program's own. */
+/* A job frame by frame, in a loop of the program's own, and what it keeps of frames and scenes. */
+#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -124,12 +125,161 @@ static void what_cannot_begin_says_why(void **state)
     assert_string_equal(error.message, "frames 4-6: expected ascending ranges within 0-5");
 }
 
+/* What was told of a frame while it was drawn. */
+struct told {
+    uint8_t display[48 * 32 * 4];
+    float beauty[48 * 32 * 4];
+};
+
+static void listen(void *user, const struct kiln_frame_layer *layer)
+{
+    struct told *told = user;
+    if (strcmp(layer->layer, "display") == 0)
+        memcpy(told->display, layer->pixels, sizeof told->display);
+    else
+        memcpy(told->beauty, layer->pixels, sizeof told->beauty);
+}
+
+static struct kiln_rendering *begin_keeping(const char *output, struct told *told)
+{
+    static const char *const layers[] = {"display", "beauty"};
+    struct kiln_error error = kiln_error_empty();
+    struct kiln_render_params params = kiln_render_defaults();
+    params.output = output;
+    params.layers = layers;
+    params.layer_count = 2;
+    params.keep_frames = true;
+    params.picture = told ? listen : NULL;
+    params.user = told;
+    struct kiln_rendering *rendering = kiln_rendering_begin(device, scene, &params, &error);
+    if (!rendering)
+        fail_msg("%s", error.message);
+    return rendering;
+}
+
+static struct kiln_frame_layer layer_of(const struct kiln_frame *frame, const char *name)
+{
+    struct kiln_error error = kiln_error_empty();
+    struct kiln_frame_layer layer = kiln_frame_layer_empty();
+    if (!kiln_frame_get_layer(frame, name, &layer, &error))
+        fail_msg("%s", error.message);
+    return layer;
+}
+
+/* Frames have what `picture` was told, also when later frames, outputs and the job are gone. */
+static void frames_outlive_their_job(void **state)
+{
+    (void)state;
+    static struct told told[6];
+    struct kiln_error error = kiln_error_empty();
+    struct kiln_frame *frames[6];
+    for (size_t i = 0; i < 6; i++) {
+        struct kiln_rendering *one = begin_keeping(NULL, &told[i]);
+        for (size_t k = 0; k <= i; k++)
+            assert_true(next(one, NULL));
+        assert_false(kiln_rendering_end(&one, NULL, &error));
+    }
+    struct kiln_rendering *job = begin_keeping("kept_##.png", NULL);
+    assert_null(kiln_rendering_take_frame(job, &error));
+    assert_int_equal(error.code, KILN_USAGE);
+    for (size_t i = 0; i < 6; i++) {
+        assert_true(next(job, NULL));
+        frames[i] = kiln_rendering_take_frame(job, &error);
+        assert_non_null(frames[i]);
+        assert_null(kiln_rendering_take_frame(job, &error));
+    }
+    assert_false(next(job, NULL));
+    assert_true(kiln_rendering_end(&job, NULL, &error));
+    for (uint32_t i = 0; i < 6; i++) {
+        struct kiln_frame_layer layer = layer_of(frames[i], "display");
+        assert_true(layer.frame == i && layer.width == 48 && layer.height == 32);
+        assert_true(layer.channels == 4 && layer.samples == KILN_SAMPLES_UINT8);
+        assert_memory_equal(layer.pixels, told[i].display, sizeof told[i].display);
+        layer = layer_of(frames[i], "beauty");
+        assert_memory_equal(layer.pixels, told[i].beauty, sizeof told[i].beauty);
+        assert_false(kiln_frame_get_layer(frames[i], "fire", &layer, &error));
+        assert_int_equal(error.code, KILN_USAGE);
+        kiln_frame_destroy(&frames[i]);
+        assert_null(frames[i]);
+    }
+    struct kiln_rendering *none = begin(NULL, NULL, 0);
+    assert_true(next(none, NULL));
+    assert_null(kiln_rendering_take_frame(none, &error));
+    assert_string_equal(error.message, "frames are not kept: set keep_frames to take them");
+    assert_false(kiln_rendering_end(&none, NULL, &error));
+}
+
+/* A layer that is written looks like the job's own file. */
+static void layers_are_written_as_pictures(void **state)
+{
+    (void)state;
+    struct kiln_error error = kiln_error_empty();
+    struct kiln_rendering *job = begin_keeping("job_##.png", NULL);
+    assert_true(next(job, NULL));
+    struct kiln_frame *frame = kiln_rendering_take_frame(job, &error);
+    while (next(job, NULL)) {
+    }
+    assert_true(kiln_rendering_end(&job, NULL, &error));
+    struct kiln_frame_layer display = layer_of(frame, "display"),
+                            beauty = layer_of(frame, "beauty");
+    assert_true(kiln_layer_write(&display, "written.png", false, &error));
+    assert_true(kiln_layer_write(&beauty, "written.exr", false, &error));
+    struct kiln_compare_params params = kiln_compare_defaults();
+    struct kiln_compare_result result = kiln_compare_result_empty();
+    static const char *const exact[] = {"flip.max=0"};
+    params.reference = "job_00.png";
+    params.test = "written.png";
+    params.limits = exact;
+    params.limit_count = 1;
+    assert_true(kiln_compare(&params, &result, &error) && result.same);
+    params.reference = params.test = "written.exr";
+    assert_true(kiln_compare(&params, &result, &error) && result.same && result.hdr);
+
+    assert_false(kiln_layer_write(&display, "written.png", false, &error));
+    assert_int_equal(error.code, KILN_IO);
+    assert_true(kiln_layer_write(&display, "written.png", true, &error));
+    assert_false(kiln_layer_write(&display, "display.exr", false, &error));
+    assert_string_equal(error.message, "display.exr: integer samples go into a file '*.png'");
+    display.channels = 3;
+    assert_false(kiln_layer_write(&display, "three.png", false, &error));
+    assert_string_equal(error.message, "three.png: 3 channels; allowed are 4");
+    display.channels = 4;
+    display.row_bytes = 47 * 4;
+    assert_false(kiln_layer_write(&display, "short.png", false, &error));
+    assert_string_equal(error.message, "short.png: rows of 188 bytes; 48 pixels have 192");
+    display.width = 0;
+    assert_false(kiln_layer_write(&display, "none.png", false, &error));
+    assert_int_equal(error.code, KILN_USAGE);
+    assert_int_equal(access("three.png", F_OK), -1);
+    kiln_frame_destroy(&frame);
+}
+
+/* The text in memory is what kiln_scene_print writes, however little room there is. */
+static void a_scene_is_a_text_in_memory(void **state)
+{
+    (void)state;
+    static char printed[65536], text[65536];
+    FILE *file = fopen("printed.yaml", "w+");
+    assert_true(file && kiln_scene_print(scene, file));
+    rewind(file);
+    const size_t length = fread(printed, 1, sizeof printed, file);
+    fclose(file);
+    assert_int_equal(kiln_scene_text(scene, NULL, 0), length);
+    assert_int_equal(kiln_scene_text(scene, text, sizeof text), length);
+    assert_string_equal(text, printed);
+    assert_int_equal(kiln_scene_text(scene, text, 9), length);
+    assert_true(strlen(text) == 8 && strncmp(text, printed, 8) == 0 && text[9] == printed[9]);
+}
+
 int main(void)
 {
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, test_enter_folder, test_leave_folder)
     static const struct CMUnitTest tests[] = {
         IN_FOLDER(jobs_can_take_turns),
         IN_FOLDER(a_job_that_is_given_up_leaves_whole_frames),
+        IN_FOLDER(frames_outlive_their_job),
+        IN_FOLDER(layers_are_written_as_pictures),
+        IN_FOLDER(a_scene_is_a_text_in_memory),
         IN_FOLDER(what_cannot_begin_says_why),
     };
     return cmocka_run_group_tests_name("rendering", tests, set_up, tear_down);
