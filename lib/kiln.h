@@ -340,6 +340,8 @@ struct kiln_render_params {
      * clip waits for kiln_join. shards 0: all parts. */
     uint32_t shard, shards; /* from 0; of so many */
     bool state_hash;        /* compute it for each drawn frame; the manifest always has it */
+    bool keep_frames;       /* for kiln_rendering_take_frame: frames have the layers below, without
+                               a `picture`, too */
     uint32_t png_bits;      /* 8 or 16; of APNG and MKV, too */
     uint32_t exr_bits;      /* 16 or 32 */
     uint32_t quality;       /* video, JPEG: 0 (smallest) to 100 (visually lossless) */
@@ -361,9 +363,6 @@ struct kiln_render_params {
     void *user;
     const struct kiln_cancel *cancel; /* NULL: nobody cancels */
     struct kiln_log log;
-    /* kiln_rendering_take_frame will be asked for frames: they have those layers, without a
-     * `picture`, too. */
-    bool keep_frames;
 };
 KILN_EMPTY(kiln_render_params, kiln_render_params_empty)
 
