@@ -4,7 +4,7 @@ set -euo pipefail
 source=$1 compiler=$2
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
-mkdir -p "$tree"/{.ci,cmd,decode,examples,lib/base,tools,tests/tree,shaders/shared,cmake,build/release}
+mkdir -p "$tree"/{.ci,cmd,decode,examples,python,lib/base,tools,tests/tree,shaders/shared,cmake,build/release}
 cp "$source"/tools/check "$tree/tools/"
 cp "$source"/tests/tree/* "$tree/tests/tree/"
 cp "$source"/.clang-format "$source"/.clang-tidy "$tree/"

@@ -14,5 +14,5 @@ while IFS= read -r -d '' file; do
         echo "$file: a script without its executable bit"
         failed=1
     fi
-done < <(find tools tests .ci -type f -not -path '*/node_modules/*' -print0)
+done < <(find tools tests python examples .ci -type f -not -path '*/node_modules/*' -print0)
 exit $failed

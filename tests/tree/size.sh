@@ -11,8 +11,8 @@ while read -r lines file; do
         echo "$file: $lines lines; $most are allowed"
         failed=1
     fi
-done < <(find lib cmd decode shaders tests tools cmake CMakeLists.txt -type f -not -path '*/node_modules/*' \
-    \( -name '*.[ch]' -o -name '*.sh' -o -name '*.mjs' -o -name '*.js' -o -name '*.css' -o -name '*.cmake' -o -name '*.txt' \
+done < <(find lib cmd decode shaders tests tools cmake python examples CMakeLists.txt -type f -not -path '*/node_modules/*' \
+    \( -name '*.[ch]' -o -name '*.cc' -o -name '*.py' -o -name '*.sh' -o -name '*.mjs' -o -name '*.js' -o -name '*.css' -o -name '*.cmake' -o -name '*.txt' \
     -o -name '*.glsl' -o -name '*.comp' -o -name '*.vert' -o -name '*.geom' -o -name '*.frag' \
     -o -path 'tools/*' \) -exec wc -l {} \;)
 exit $failed

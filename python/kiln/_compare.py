@@ -1,0 +1,186 @@
+"""How different two pictures look."""
+from __future__ import annotations
+
+import os
+import tempfile
+from dataclasses import dataclass
+from typing import Any, Iterable, Mapping, Optional, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from ._library import Cancel, Failure, PathLike, Struct, Watch, ffi, lib, pairs, set_watch, text
+from ._picture import is_path, suffix_for, write_picture
+
+Picture = Union[PathLike, npt.ArrayLike]
+Mask = Union[tuple[int, int, int, int], PathLike]
+_MODES = {"auto": "KILN_COMPARE_AUTO", "ldr": "KILN_COMPARE_LDR", "hdr": "KILN_COMPARE_HDR"}
+
+
+@dataclass(frozen=True)
+class Metric:
+    """One figure of a comparison, over all frames."""
+
+    name: str
+    unit: str
+    worst: float
+    mean: float
+    limit: Optional[float]
+    """The worst value that passes; None: it is only measured."""
+    higher_is_better: bool
+    worst_name: str
+    """Where it is worst."""
+
+    @property
+    def passes(self) -> bool:
+        """Whether it is within its limit."""
+        if self.limit is None:
+            return True
+        return self.worst >= self.limit if self.higher_is_better else self.worst <= self.limit
+
+    def __str__(self) -> str:
+        unit = f" {self.unit}" if self.unit else ""
+        limit = "" if self.limit is None else f", the limit is {self.limit:.4g}{unit}"
+        return f"{self.name} {self.worst:.4g}{unit}{limit}"
+
+
+@dataclass(frozen=True)
+class ComparedFrame:
+    """One pair of pictures."""
+
+    name: str
+    verdict: str
+    """"same", "different", "missing", "extra" or "unreadable"."""
+    message: str
+    """Why there are no values; "" when there are."""
+    equal: bool
+    """Not one value differs."""
+    values: Mapping[str, float]
+    """By the names of metrics; empty where nothing was measured."""
+    score: float
+    """The worst value by its limit: 1 is just within."""
+    worst_pixel: tuple[int, int]
+    """x and y of a pixel of the largest difference."""
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """What came out of :func:`kiln.compare`; true when the pictures look the same."""
+
+    same: bool
+    """Every frame is within all limits."""
+    hdr: bool
+    """Light was judged at several exposures."""
+    metrics: Mapping[str, Metric]
+    frames: tuple[ComparedFrame, ...]
+
+    def __bool__(self) -> bool:
+        return self.same
+
+    def __str__(self) -> str:
+        lines = [f"{frame.name}: {frame.message}" for frame in self.frames if frame.message]
+        lines += [str(metric) + ("" if metric.passes else ": beyond it")
+                  for metric in self.metrics.values() if metric.limit is not None and self._measured]
+        return "\n".join(lines + ["they look the same" if self.same else "they look different"])
+
+    @property
+    def _measured(self) -> bool:
+        return any(frame.values for frame in self.frames)
+
+
+def _columns(result: Any) -> list[str]:
+    return [text(result.columns[i].name) for i in range(result.column_count)]
+
+
+def _frame(result: Any, found: Any) -> ComparedFrame:
+    values = {name: found.values[i] for i, name in enumerate(_columns(result))} if found.measured else {}
+    return ComparedFrame(name=text(found.name), verdict=text(lib.kiln_compare_verdict_name(found.verdict)),
+                         message=text(found.message), equal=found.equal, values=values, score=found.score,
+                         worst_pixel=(found.worst_x, found.worst_y))
+
+
+def _metrics(result: Any) -> dict[str, Metric]:
+    metrics = {}
+    for i, name in enumerate(_columns(result)):
+        column = result.columns[i]
+        metrics[name] = Metric(name=name, unit=text(column.unit), worst=result.worst[i], mean=result.mean[i],
+                               limit=column.limit if column.limited else None,
+                               higher_is_better=column.higher_is_better, worst_name=text(result.worst_names[i]))
+    return metrics
+
+
+def _set_masks(params: Struct, masks: Iterable[Mask]) -> None:
+    given = list(masks)
+    array = params.keep(ffi.new("struct kiln_compare_mask[]", len(given)))
+    for mask, found in zip(given, array):
+        found.size = ffi.sizeof(found)
+        if isinstance(mask, tuple):
+            found.x, found.y, found.width, found.height = mask
+        else:
+            found.picture = params.keep(ffi.new("char[]", os.fsencode(mask)))
+    params.pointer.masks = array
+    params.pointer.mask_stride = ffi.sizeof("struct kiln_compare_mask")
+    params.pointer.mask_count = len(given)
+
+
+def _as_file(picture: Picture, folder: str, name: str) -> PathLike:
+    """The path of a picture; an array becomes a file in the folder."""
+    if is_path(picture):
+        return picture  # type: ignore[return-value]
+    array = np.asarray(picture)
+    path = os.path.join(folder, name + suffix_for(array))
+    write_picture(path, array)
+    return path
+
+
+def compare(reference: Picture, test: Picture, *, limits: Union[str, Iterable[str], Mapping[str, float]] = (),
+            layer: str = "beauty", mode: str = "auto", threshold: Optional[float] = None,
+            window: Optional[int] = None, pixels_per_degree: Optional[float] = None,
+            masks: Iterable[Mask] = (), diff: Optional[PathLike] = None, error_map: Optional[PathLike] = None,
+            overwrite: bool = False, threads: int = 0, cancel: Optional[Cancel] = None) -> Comparison:
+    """Compares pictures as `kiln compare` does, by FLIP, SSIM and more, and judges them by limits.
+
+    Each of `reference` and `test` is an array (as for :func:`write_picture`), a picture, a video, a folder of
+    pictures, or a numbered pattern such as "frame_####.png". `limits` are {"flip.mean": 0.01} or texts
+    "flip.mean=0.01"; without any it is `kiln.DEFAULT_LIMITS`. `layer` is one of EXR files. `mode` is "ldr", "hdr"
+    or "auto", which is "hdr" for floats. `masks` are what is not judged: (x, y, width, height), or a picture that
+    is black there. `diff` gets a PNG of reference, test and error map side by side, `error_map` that map alone.
+
+    Raises :class:`kiln.Error` only where the comparison could not take place.
+    """
+    if mode not in _MODES:
+        raise ValueError(f"mode: found {mode!r}, expected one of {', '.join(_MODES)}")
+    watch = Watch()
+    params = Struct("kiln_compare_params")
+    params.set("layer", layer)
+    params.set("mode", ffi.typeof("enum kiln_compare_mode").relements[_MODES[mode]])
+    for name, value in (("threshold", threshold), ("window", window), ("pixels_per_degree", pixels_per_degree)):
+        if value is not None:
+            params.set(name, value)
+    for name, path in (("diff", diff), ("error_map", error_map)):
+        params.set(name, path)
+    params.set("overwrite", overwrite)
+    params.set("threads", threads)
+    params.set_texts("limits", "limit_count", pairs(limits, "limits"))
+    _set_masks(params, masks)
+    set_watch(params, watch, cancel)
+    frames: list[ComparedFrame] = []
+
+    def tell(user: Any, result: Any, frame: Any) -> None:
+        frames.append(_frame(result, frame))
+
+    params.pointer.frame = params.keep(watch.callback(
+        "void(void *, const struct kiln_compare_result *, const struct kiln_compare_frame *)", tell))
+    result, failure = Struct("kiln_compare_result"), Failure()
+    with tempfile.TemporaryDirectory(prefix="kiln-") as folder:
+        params.set("reference", _as_file(reference, folder, "reference"))
+        params.set("test", _as_file(test, folder, "test"))
+        ok = lib.kiln_compare(params.pointer, result.pointer, failure.pointer)
+    watch.raise_kept()
+    if not ok:
+        raise failure.exception()
+    found = result.pointer
+    return Comparison(same=found.same, hdr=found.hdr, metrics=_metrics(found), frames=tuple(frames))
+
+
+__all__ = ["ComparedFrame", "Comparison", "Metric", "compare"]

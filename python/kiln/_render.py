@@ -1,0 +1,360 @@
+"""Jobs: frames one after another as arrays, or into files."""
+from __future__ import annotations
+
+import operator
+import threading
+from dataclasses import dataclass
+from types import TracebackType
+from typing import Any, Callable, Iterable, Iterator, Mapping, Optional, Union
+
+from ._device import Device
+from ._library import (Cancel, Failure, PathLike, Struct, Watch, ffi, lib, owned, pairs, set_watch, text)
+from ._picture import Array, view
+from ._scene import Scene
+
+Frames = Union[int, range, Iterable[int], None]
+AnyDevice = Union[Device, str, int, None]
+
+
+@dataclass(frozen=True)
+class Progress:
+    """Where a job is after a frame."""
+
+    frame: int
+    """Its number."""
+    done: int
+    """Frames of this job that are drawn."""
+    total: int
+    elapsed_s: float
+    eta_s: Optional[float]
+    """None: not known yet."""
+    alive: int
+    """Living particles at the frame."""
+    state: Optional[str]
+    """The state hash in hex, where `state_hash` asks for it: the same on every device, with every technique."""
+
+
+@dataclass(frozen=True)
+class Stats:
+    """What a job did."""
+
+    frames: int
+    """That were drawn."""
+    kept: int
+    """That were there already, of a job with `resume`."""
+    steps: int
+    setup_s: float
+    total_s: float
+    alive: int
+    """Living particles at the last step."""
+    state: str
+    """The state hash after the last step, in hex."""
+    techniques: Mapping[str, str]
+    """The technique of each stage."""
+    pass_ms: Mapping[str, float]
+    """The time of each pass, summed up over the job."""
+    files: int
+    first_file: Optional[str]
+
+
+class Frame:
+    """A drawn frame.
+
+    Its arrays are the memory that the library drew into: nothing is copied, and they are read-only, because an
+    output may be encoding them. They stay valid as long as anybody has the frame or one of its arrays; keeping
+    many frames keeps their memory. `numpy.array(frame.pixels)` is a copy that can be written.
+    """
+
+    def __init__(self, progress: Progress, layers: dict[str, Array]) -> None:
+        self.number = progress.frame
+        """The number of the frame in the clip."""
+        self.progress = progress
+        """Where the job is after it."""
+        self.layers: Mapping[str, Array] = layers
+        """The layers that were asked for, by their names."""
+
+    def _layer(self, name: str) -> Array:
+        try:
+            return self.layers[name]
+        except KeyError:
+            raise AttributeError(f"the frame has no layer '{name}': render it with layers=('{name}', ...)") from None
+
+    @property
+    def pixels(self) -> Array:
+        """The layer "display", what a PNG has: height x width x 4, uint8, or uint16 where the output has 16 bits;
+        sRGB, alpha not premultiplied, rows from the top."""
+        return self._layer("display")
+
+    @property
+    def linear(self) -> Array:
+        """The layer "beauty", what an EXR has: height x width x 4, float32, linear, premultiplied."""
+        return self._layer("beauty")
+
+    @property
+    def alive(self) -> int:
+        """Living particles at the frame."""
+        return self.progress.alive
+
+    @property
+    def state(self) -> Optional[str]:
+        """The state hash in hex, of a job with `state_hash`."""
+        return self.progress.state
+
+    def __repr__(self) -> str:
+        return f"<kiln.Frame {self.number}: {', '.join(self.layers)}>"
+
+
+def _hash_text(state: Any) -> str:
+    return f"{state.lane[0]:08x}{state.lane[1]:08x}"
+
+
+def _progress(found: Any, has_state: bool) -> Progress:
+    return Progress(frame=found.frame, done=found.done, total=found.total, elapsed_s=found.elapsed_s,
+                    eta_s=found.eta_s if found.eta_s >= 0 else None, alive=found.alive,
+                    state=_hash_text(found.state) if has_state else None)
+
+
+def _stats(found: Any) -> Stats:
+    passes = ffi.typeof("enum kiln_pass").relements["KILN_PASS_COUNT"]
+    return Stats(frames=found.frames, kept=found.kept, steps=found.steps, setup_s=found.setup_s,
+                 total_s=found.total_s, alive=found.alive, state=_hash_text(found.state),
+                 techniques=dict(pair.split("=", 1) for pair in text(found.techniques).split()),
+                 pass_ms={text(lib.kiln_pass_name(i)): found.pass_ms[i] for i in range(passes)},
+                 files=found.files, first_file=text(found.first_file) or None)
+
+
+def _ranges(frames: Frames) -> list[tuple[int, int]]:
+    """Frames as ascending ranges; [] stands for the whole clip."""
+    if frames is None:
+        return []
+    numbers = [frames] if isinstance(frames, int) else list(frames)
+    if not numbers:
+        raise ValueError("frames: none are asked for")
+    ranges: list[tuple[int, int]] = []
+    for number in numbers:
+        if number < 0:
+            raise ValueError(f"frames: found {number}, expected numbers from 0 on")
+        if ranges and ranges[-1][1] + 1 == number:
+            ranges[-1] = (ranges[-1][0], number)
+        else:
+            ranges.append((number, number))
+    return ranges
+
+
+def open_for(device: AnyDevice, techniques: list[str]) -> tuple[Device, bool]:
+    """The device of a job, and whether it is the job's own and has to be closed with it."""
+    if isinstance(device, Device):
+        return device, False
+    if device is None and techniques:
+        params = Struct("kiln_render_params")
+        params.set_texts("techniques", "technique_count", techniques)
+        if lib.kiln_techniques_need_gl(params.pointer.techniques, params.pointer.technique_count):
+            return Device(gl=True), True
+    return Device(device), True
+
+
+@dataclass
+class _Request:
+    """What render and render_to have in common."""
+
+    output: Optional[PathLike]
+    frames: Frames
+    states: Optional[PathLike]
+    manifest: Optional[PathLike]
+    techniques: Union[Mapping[str, str], Iterable[str]]
+    threads: int
+    overwrite: bool
+    resume: bool
+    shard: Optional[tuple[int, int]]
+    state_hash: bool
+    png_bits: Optional[int]
+    exr_bits: Optional[int]
+    quality: Optional[int]
+    cancel: Optional[Cancel]
+
+    def params(self, watch: Watch) -> Struct:
+        params = Struct("kiln_render_params")
+        for name in ("output", "states", "manifest", "threads", "overwrite", "resume", "state_hash", "png_bits",
+                     "exr_bits", "quality"):
+            value = getattr(self, name)
+            if value is not None:
+                params.set(name, value)
+        ranges = _ranges(self.frames)
+        params.pointer.ranges = params.keep(ffi.new("struct kiln_frame_range[]", ranges))
+        params.pointer.range_count = len(ranges)
+        params.set_texts("techniques", "technique_count", pairs(self.techniques, "techniques"))
+        if self.shard is not None:
+            params.pointer.shard, params.pointer.shards = self.shard
+        set_watch(params, watch, self.cancel)
+        params.set_log()
+        return params
+
+
+def _sized(scene: Scene, size: Optional[tuple[int, int]]) -> Scene:
+    return scene if size is None else scene.override({"output.size": [int(edge) for edge in size]})
+
+
+class Rendering(Iterator[Frame]):
+    """A job that is drawn frame by frame: :func:`kiln.render` makes it, and iterating over it draws.
+
+    As a context manager it ends when the block is left: a clip that has frames left is given up then, and
+    nothing half-written stays. It belongs to the thread that made it.
+    """
+
+    def __init__(self, scene: Scene, request: _Request, layers: Iterable[str], device: AnyDevice) -> None:
+        self._job: Any = ffi.new("struct kiln_rendering **")  # NULL: not begun, or ended
+        self._stats: Optional[Stats] = None
+        self._scene = scene
+        self._watch = Watch()
+        self._layers = [layers] if isinstance(layers, str) else list(layers)
+        self._has_state = request.state_hash
+        self._params = request.params(self._watch)
+        self._params.set_texts("layers", "layer_count", self._layers)
+        self._params.pointer.keep_frames = bool(self._layers)
+        self._device, self._owns_device = open_for(device, pairs(request.techniques, "techniques"))
+        self._device._renderings.add(self)
+        failure = Failure()
+        try:
+            self._begin(failure)
+        except BaseException:
+            self.close()
+            raise
+        if not self._job[0]:
+            if self._owns_device:
+                self._device.close()
+            self._raise(failure)
+
+    def _begin(self, failure: Failure) -> None:
+        """The exception of a signal comes between two steps of the interpreter. map has the job begun and put into
+        its place in one, so that it is always known which job has to be ended."""
+        begun = map(lib.kiln_rendering_begin, [self._device._pointer], [self._scene._pointer],
+                    [self._params.pointer], [failure.pointer])
+        list(map(operator.setitem, [self._job], [0], begun))
+
+    def _raise(self, failure: Failure) -> None:
+        self._watch.raise_kept()
+        self._scene._watch.raise_kept()
+        raise failure.exception()
+
+    def _end(self, failure: Failure) -> bool:
+        """Ends the job, whatever becomes of it."""
+        if threading.get_ident() != self._device._thread:
+            raise ValueError("the job belongs to another thread")
+        stats = Struct("kiln_render_stats")
+        ok = bool(lib.kiln_rendering_end(self._job, stats.pointer, failure.pointer))  # which makes it NULL
+        if self._owns_device:
+            self._device.close()
+        if ok:
+            self._stats = _stats(stats.pointer)
+        return ok
+
+    def _finish(self) -> None:
+        failure = Failure()
+        if not self._end(failure):
+            self._raise(failure)
+
+    def __iter__(self) -> "Rendering":
+        return self
+
+    def __next__(self) -> Frame:
+        if not self._job[0]:
+            raise StopIteration
+        self._device._pointer  # refuses other threads
+        drawn, progress, failure = ffi.new("bool *"), Struct("kiln_progress"), Failure()
+        ok = lib.kiln_rendering_next(self._job[0], drawn, progress.pointer, failure.pointer)
+        if not ok or self._watch.exception is not None:
+            self._end(Failure())
+            self._raise(failure)
+        if not drawn[0]:
+            self._finish()
+            raise StopIteration
+        return Frame(_progress(progress.pointer, self._has_state), self._take())
+
+    def _take(self) -> dict[str, Array]:
+        if not self._layers:
+            return {}
+        failure = Failure()
+        pointer = lib.kiln_rendering_take_frame(self._job[0], failure.pointer)
+        if not pointer:
+            raise failure.exception()
+        frame = owned(pointer, "kiln_frame")
+        layers = {}
+        for name in self._layers:
+            layer = Struct("kiln_frame_layer")
+            if not lib.kiln_frame_get_layer(frame, name.encode(), layer.pointer, failure.pointer):
+                raise failure.exception()
+            layers[name] = view(layer.pointer, frame)
+        return layers
+
+    @property
+    def stats(self) -> Stats:
+        """What the job did; after the last frame."""
+        if self._stats is None:
+            raise ValueError("the job has not drawn its last frame")
+        return self._stats
+
+    def close(self) -> None:
+        """Ends the job: without its last frame it is given up. Twice does nothing."""
+        if self._job[0]:
+            self._end(Failure())
+
+    def __enter__(self) -> "Rendering":
+        return self
+
+    def __exit__(self, kind: Optional[type[BaseException]], value: Optional[BaseException],
+                 trace: Optional[TracebackType]) -> None:
+        self.close()
+
+    def __del__(self) -> None:
+        if self._job[0] and threading.get_ident() == self._device._thread:
+            self._end(Failure())
+
+
+def render(scene: Scene, *, frames: Frames = None, size: Optional[tuple[int, int]] = None,
+           layers: Union[str, Iterable[str]] = ("display",), output: Optional[PathLike] = None,
+           device: AnyDevice = None, states: Optional[PathLike] = None, manifest: Optional[PathLike] = None,
+           techniques: Union[Mapping[str, str], Iterable[str]] = (), threads: int = 0, overwrite: bool = False,
+           resume: bool = False, shard: Optional[tuple[int, int]] = None, state_hash: bool = False,
+           png_bits: Optional[int] = None, exr_bits: Optional[int] = None, quality: Optional[int] = None,
+           cancel: Optional[Cancel] = None) -> Rendering:
+    """Draws frames, one for each turn of a loop: `for frame in kiln.render(scene): ...`.
+
+    `frames` are a number, a range or ascending numbers, or None for all; `size` is (width, height) in pixels in
+    place of the scene's. `layers` are "display", "beauty", "depth", "fire", "smoke", "bloom"; () gives frames
+    without pixels. `output` also writes a file, or files by a pattern such as "frame_####.png". `device` is an
+    open :class:`Device` or what that takes. `states` is a folder of :func:`bake`, where the job starts if it can.
+    `techniques` are {"stage": "name"}; `threads` 0 takes one a core; `shard` (i, n) draws the i-th of n shares,
+    from 0. `png_bits` are 8 (the default) or 16, `exr_bits` 16 or 32, `quality` of videos 0 to 100 (80).
+    `cancel` ends the job from any thread, Ctrl-C by KeyboardInterrupt.
+
+    Raises :class:`kiln.Error`, here or when a frame is drawn.
+    """
+    request = _Request(output, frames, states, manifest, techniques, threads, overwrite, resume, shard, state_hash,
+                       png_bits, exr_bits, quality, cancel)
+    return Rendering(_sized(scene, size), request, layers, device)
+
+
+def render_to(scene: Scene, output: PathLike, *, frames: Frames = None, size: Optional[tuple[int, int]] = None,
+              device: AnyDevice = None, progress: Optional[Callable[[Progress], None]] = None,
+              states: Optional[PathLike] = None, manifest: Optional[PathLike] = None,
+              techniques: Union[Mapping[str, str], Iterable[str]] = (), threads: int = 0, overwrite: bool = False,
+              resume: bool = False, shard: Optional[tuple[int, int]] = None, state_hash: bool = False,
+              png_bits: Optional[int] = None, exr_bits: Optional[int] = None, quality: Optional[int] = None,
+              cancel: Optional[Cancel] = None) -> Stats:
+    """Draws frames into a file, or into files by a pattern, and returns what was done.
+
+    The suffix of `output` is the format: a clip (.mp4, .webm, .mkv, .mov, .gif, .apng, .webp) or images (.png,
+    .exr, with a pattern such as "frame_####.png"). `progress` is called after each frame; an exception there ends
+    the job. The other parameters are those of :func:`render`. Files appear whole or not at all.
+    """
+    request = _Request(output, frames, states, manifest, techniques, threads, overwrite, resume, shard, state_hash,
+                       png_bits, exr_bits, quality, cancel)
+    with Rendering(_sized(scene, size), request, (), device) as job:
+        for frame in job:
+            if progress is not None:
+                progress(frame.progress)
+    return job.stats
+
+
+__all__ = ["AnyDevice", "Frame", "Frames", "Progress", "Rendering", "Stats", "open_for", "render",
+           "render_to"]

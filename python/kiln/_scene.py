@@ -1,0 +1,150 @@
+"""Scenes: loaded, overridden, described."""
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any, Optional, Union
+
+from ._library import (Cancel, Failure, Overrides, PathLike, Struct, Watch, ffi, lib, owned, pairs, path_bytes,
+                       set_watch, text)
+
+
+@dataclass(frozen=True)
+class SceneInfo:
+    """Facts of a scene that a caller plans with."""
+
+    width: int
+    """Pixels."""
+    height: int
+    frames: int
+    fps: Fraction
+    """Frames a second."""
+    steps_per_frame: int
+    warmup_steps: int
+    steps: int
+    """Of the whole clip."""
+    systems: int
+    particle_capacity: int
+    """Slots for particles over all systems."""
+    memory_bytes: int
+    """That rendering on the device "cpu" is expected to take."""
+    hash: str
+    """SHA-256 of the scene with every default and of its textures."""
+
+
+class Scene:
+    """A scene, which does not change once it is loaded: :func:`kiln.load` and :func:`kiln.parse` make it.
+
+    Any threads may use it at the same time.
+    """
+
+    def __init__(self, source: "_Source", overrides: list[str], cancel: Optional[Cancel]) -> None:
+        self._source = source
+        self._overrides = overrides
+        self._watch = Watch()
+        self._params = Struct("kiln_scene_params")
+        self._params.set("asset_root", source.asset_root)
+        self._params.set_texts("overrides", "override_count", overrides)
+        set_watch(self._params, self._watch, cancel)
+        self._params.set("budget", source.budget())
+        failure = Failure()
+        pointer = source.load(self._params, failure)
+        if not pointer:
+            self._watch.raise_kept()
+            raise failure.exception()
+        self._pointer: Any = owned(pointer, "kiln_scene", self._params)
+        self._watch.raise_kept()
+
+    def override(self, overrides: Overrides, *, cancel: Optional[Cancel] = None) -> "Scene":
+        """The same scene with other values: the file, or the text, is read once more, and these come after the
+        overrides that this scene has."""
+        return Scene(self._source, self._overrides + pairs(overrides, "overrides"), cancel)
+
+    @property
+    def name(self) -> str:
+        """The file, or what stands for it in messages."""
+        return self._source.name
+
+    @property
+    def overrides(self) -> tuple[str, ...]:
+        """The overrides, "key=value", in the order in which they were applied."""
+        return tuple(self._overrides)
+
+    @property
+    def info(self) -> SceneInfo:
+        """Size, frames, rate and what else a caller plans with."""
+        info = Struct("kiln_scene_info")
+        lib.kiln_scene_get_info(self._pointer, info.pointer)
+        found = info.pointer
+        return SceneInfo(width=found.width, height=found.height, frames=found.frames,
+                         fps=Fraction(found.fps_num, found.fps_den), steps_per_frame=found.steps_per_frame,
+                         warmup_steps=found.warmup_steps, steps=found.steps, systems=found.system_count,
+                         particle_capacity=found.particle_capacity, memory_bytes=found.memory_bytes,
+                         hash=text(found.hash))
+
+    def text(self) -> str:
+        """The scene with every default spelled out, as a scene file that loads to the same scene."""
+        length = lib.kiln_scene_text(self._pointer, ffi.NULL, 0)
+        room = ffi.new("char[]", length + 1)
+        if length == 0 or lib.kiln_scene_text(self._pointer, room, length + 1) != length:
+            raise MemoryError("no memory for the text of a scene")
+        return text(room)
+
+    def __repr__(self) -> str:
+        return f"<kiln.Scene {self.name!r}>"
+
+
+class _Source:
+    """Where a scene comes from, so that it can be read again with other overrides."""
+
+    def __init__(self, name: str, content: Optional[bytes], asset_root: Optional[PathLike],
+                 limits: Optional[str]) -> None:
+        self.name = name
+        self.content = content
+        self.asset_root = asset_root
+        self.limits = limits
+
+    def budget(self) -> Any:
+        if self.limits is None:
+            return None
+        limits, failure = Struct("kiln_limits"), Failure()
+        if not lib.kiln_limits_parse(limits.pointer, self.limits.encode(), failure.pointer):
+            raise failure.exception()
+        pointer = lib.kiln_budget_create(limits.pointer)
+        if not pointer:
+            raise MemoryError("no memory for limits")
+        return owned(pointer, "kiln_budget")
+
+    def load(self, params: Struct, failure: Failure) -> Any:
+        if self.content is None:
+            return lib.kiln_scene_load(path_bytes(self.name), params.pointer, failure.pointer)
+        return lib.kiln_scene_parse(self.content, len(self.content), path_bytes(self.name), params.pointer,
+                                    failure.pointer)
+
+
+def load(path: PathLike, overrides: Overrides = (), *, asset_root: Optional[PathLike] = None,
+         limits: Optional[str] = None, cancel: Optional[Cancel] = None) -> Scene:
+    """Reads a scene file.
+
+    `overrides` are texts such as "systems.fire.emit.rate=50", applied in order after the file, or a mapping of
+    keys to values; a '*' in a key names every entry of a map or list. Textures and meshes lie below `asset_root`,
+    which is the folder of the file unless it is given. `limits` bound what the scene and its jobs may take, as
+    in "frames=1000,memory=4 GiB" or "service"; time counts from here on.
+
+    Raises :class:`kiln.InvalidInput` for a scene that is wrong or not there, :class:`kiln.UsageError` for an
+    override that is no "key=value", :class:`kiln.OverLimit` and :class:`kiln.FileError`.
+    """
+    return Scene(_Source(os.fspath(path), None, asset_root, limits), pairs(overrides, "overrides"), cancel)
+
+
+def parse(content: Union[str, bytes], overrides: Overrides = (), *, name: str = "scene",
+          asset_root: Optional[PathLike] = None, limits: Optional[str] = None,
+          cancel: Optional[Cancel] = None) -> Scene:
+    """The same for the text of a scene. `name` stands for the file in messages, and relative paths of assets
+    start at `asset_root` or, without one, at the working directory."""
+    encoded = content.encode() if isinstance(content, str) else bytes(content)
+    return Scene(_Source(name, encoded, asset_root, limits), pairs(overrides, "overrides"), cancel)
+
+
+__all__ = ["Scene", "SceneInfo", "load", "parse"]

@@ -1,0 +1,129 @@
+"""The plugin of kiln for pytest: the fixture `assert_looks_like`.
+
+    def test_fire(assert_looks_like):
+        frame = next(kiln.render(kiln.load("fire.yaml"), frames=60, device="cpu"))
+        assert_looks_like(frame.pixels, "golden/fire.png")
+
+A golden that is missing is a failure; `pytest --kiln-update` writes those that are missing or look different.
+kiln itself is imported when a test asks for the fixture, so other test runs do not wait for it.
+"""
+from __future__ import annotations
+
+import os
+import re
+import shutil
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol
+
+import pytest
+
+if TYPE_CHECKING:
+    from kiln._compare import Comparison, Picture
+
+_written: "pytest.StashKey[list[str]]" = pytest.StashKey()
+
+
+class AssertLooksLike(Protocol):
+    """What the fixture is."""
+
+    def __call__(self, picture: "Picture", golden: "str | os.PathLike[str]", **options: Any) -> "Comparison":
+        """Fails unless the picture looks like the golden one.
+
+        `picture` is an array (as for kiln.write_picture) or a file; `golden` a file, whose relative path starts at
+        the folder of the test. `options` are those of kiln.compare: limits, masks, layer, mode and so on.
+        """
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    group = parser.getgroup("kiln", "pictures of kiln")
+    group.addoption("--kiln-update", action="store_true",
+                    help="write golden pictures that are missing or look different")
+    group.addoption("--kiln-results", metavar="FOLDER", default="out/kiln",
+                    help="where pictures of failures go (default: out/kiln)")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    none: list[str] = []
+    config.stash[_written] = none
+
+
+def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> None:
+    for path in config.stash[_written]:
+        terminalreporter.write_line(f"kiln: wrote {path}")
+
+
+def _shown(path: "str | os.PathLike[str]") -> str:
+    """A path as it is told: from the working directory, if it is below that."""
+    relative = os.path.relpath(path)
+    return os.fspath(path) if relative.startswith("..") else relative
+
+
+class _Judge:
+    """The goldens of one test."""
+
+    def __init__(self, request: pytest.FixtureRequest) -> None:
+        self.config = request.config
+        self.folder = request.path.parent
+        name = re.sub(r"[^\w.\[\]-]+", "_", f"{request.path.stem}.{request.node.name}")
+        self.results = Path(self.config.getoption("--kiln-results"), name)
+        self.cleared = False
+
+    def update(self, picture: "Picture", golden: Path) -> None:
+        import kiln
+
+        if isinstance(picture, (str, os.PathLike)):
+            golden.parent.mkdir(parents=True, exist_ok=True)
+            beside = golden.with_name(f".{golden.name}.new")
+            shutil.copyfile(picture, beside)
+            os.replace(beside, golden)
+        else:
+            kiln.write_picture(golden, picture, overwrite=True)
+        self.config.stash[_written].append(_shown(golden))
+
+    def keep(self, picture: "Picture", golden: Path) -> Path:
+        """Where the picture of a failure is: an array gets a file among the results."""
+        import kiln
+
+        if isinstance(picture, (str, os.PathLike)):
+            return Path(picture)
+        path = self.results / golden.name
+        kiln.write_picture(path, picture, overwrite=True)
+        return path
+
+    def __call__(self, picture: "Picture", golden: "str | os.PathLike[str]", **options: Any) -> "Comparison":
+        __tracebackhide__ = True
+        import kiln
+
+        path = self.folder / golden
+        if not self.cleared and self.results.is_dir():
+            for old in self.results.iterdir():
+                old.unlink()
+        self.cleared = True
+        update = self.config.getoption("--kiln-update")
+        if not path.exists():
+            if not update:
+                kept = self.keep(picture, path)
+                pytest.fail(f"there is no golden picture {_shown(path)}\npicture: {_shown(kept)}\n"
+                            "look at it, and accept it by pytest --kiln-update", pytrace=False)
+            self.update(picture, path)
+        diff = self.results / f"{path.stem}_differences.png"
+        result = kiln.compare(path, picture, diff=diff, overwrite=True, **options)
+        if not result.same and update:
+            self.update(picture, path)
+            result = kiln.compare(path, picture, diff=diff, overwrite=True, **options)
+        if result.same:
+            diff.unlink(missing_ok=True)
+            if self.results.is_dir() and not any(self.results.iterdir()):
+                self.results.rmdir()
+            return result
+        lines = [f"the picture does not look like {_shown(path)}", str(result),
+                 f"picture: {_shown(self.keep(picture, path))}"]
+        if diff.exists():
+            lines.append(f"golden, picture and error map: {_shown(diff)}")
+        pytest.fail("\n".join(lines), pytrace=False)
+
+
+@pytest.fixture
+def assert_looks_like(request: pytest.FixtureRequest) -> AssertLooksLike:
+    """Fails a test whose picture does not look like a golden one; see kiln's docs/python.md."""
+    return _Judge(request)

@@ -1,0 +1,83 @@
+"""Ways to stop: a signal, Cancel from another thread, exceptions."""
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import pytest
+
+import kiln
+from conftest import LONG
+
+
+def test_cancel_from_another_thread(long_scene, tmp_path):
+    cancel = kiln.Cancel()
+    assert not cancel.requested
+    timer = threading.Timer(0.2, cancel.request)
+    timer.start()
+    with pytest.raises(kiln.Interrupted) as caught:
+        kiln.render_to(long_scene, tmp_path / "clip.mp4", device="cpu", cancel=cancel)
+    timer.join()
+    assert caught.value.code is kiln.Code.INTERRUPTED and cancel.requested
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_request_that_was_made_before(scene, tmp_path):
+    cancel = kiln.Cancel()
+    cancel.request()
+    for call in (lambda: list(kiln.render(scene, device="cpu", cancel=cancel)),
+                 lambda: kiln.bake(scene, tmp_path / "states", every=1, device="cpu", cancel=cancel)):
+        with pytest.raises(kiln.Interrupted):
+            call()
+
+
+# One long call of C each: the interpreter gets no turn but in the library's question whether to go on.
+ONE_FRAME = "next(kiln.render(scene, frames=1999, output='clip.mp4', device='cpu'))"
+BAKING = "kiln.bake(scene, 'states', every=1999, device='cpu')"
+
+
+@pytest.mark.parametrize("call", [ONE_FRAME, BAKING])
+def test_ctrl_c_stops_a_call(tmp_path, call):
+    program = tmp_path / "program.py"
+    program.write_text(
+        "import kiln, sys\n"
+        f"scene = kiln.parse({LONG!r}, {{'systems.a.emit.rate': 200000, 'simulation.warmup': '500 s'}})\n"
+        "print('ready', flush=True)\n"
+        "try:\n"
+        f"    {call}\n"
+        "except KeyboardInterrupt:\n"
+        "    print('stopped')\n")
+    folder = tmp_path / "work"
+    folder.mkdir()
+    child = subprocess.Popen([sys.executable, program], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                             text=True)
+    assert child.stdout.readline() == "ready\n"
+    time.sleep(0.4)
+    assert child.poll() is None
+    start = time.monotonic()
+    os.kill(child.pid, signal.SIGINT)
+    out, problems = child.communicate(timeout=30)
+    assert (out, problems, child.returncode) == ("stopped\n", "", 0)
+    assert time.monotonic() - start < 5
+    assert [path for path in folder.rglob("*") if path.is_file()] == []
+
+
+def test_a_handler_of_ones_own_may_raise(long_scene):
+    class Enough(Exception):
+        pass
+
+    def handler(number, frame):
+        raise Enough
+
+    before = signal.signal(signal.SIGALRM, handler)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.2)
+        with pytest.raises(Enough):
+            next(kiln.render(long_scene, frames=1999, device="cpu", threads=1, size=(640, 480)))
+            for _ in kiln.render(long_scene, device="cpu"):
+                pass
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
