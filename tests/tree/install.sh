@@ -98,6 +98,24 @@ expect 0 '^they look the same$' ./compare loop.mp4 film.mp4
 expect 0 '^5 frames in ' ./film small.yaml other.mp4 systems.a.emit.rate=900 systems.a.look.size=1
 expect 1 '^they look different$' ./compare loop.mp4 other.mp4
 
+# The Python module, the example that uses it, and the plugin of pytest, found by its entry point.
+if [[ -f $build/python/kiln/_abi.py ]] && /usr/bin/python3 -c "import numpy, pytest" 2>/dev/null; then
+    module=$(sed -n 's/^KILN_PYTHON_DIR:STRING=//p' "$build/CMakeCache.txt")
+    diff <(cd "$prefix/$module" && find . -type f | sort) <(cd "$prefix/package/usr/$module" && find . -type f | sort)
+    for file in "$build"/python/{kiln/*.py,kiln/py.typed,pytest_kiln.py,kiln-*.dist-info/*}; do
+        cmp "$file" "$prefix/$module/${file#"$build"/python/}"
+    done
+    export PYTHONPATH=$prefix/$module PYTHONDONTWRITEBYTECODE=1
+    expect 0 '^frame 3 of 5, [0-9]+ particles$' /usr/bin/python3 "$examples/poster.py" small.yaml poster.png
+    expect 0 '^they look the same$' ./compare poster.png poster.png
+    expect 3 'unknown key' /usr/bin/python3 "$examples/poster.py" small.yaml poster.png systems.a.emit.rat=90
+    expect 2 '^usage: poster.py' /usr/bin/python3 "$examples/poster.py"
+    (cd "$prefix" && /usr/bin/python3 -m pytest --fixtures -q -p no:cacheprovider 2>&1 || true) >"$prefix/fixtures.txt"
+    grep -q '^assert_looks_like' "$prefix/fixtures.txt" || { echo "pytest does not find the plugin"; exit 1; }
+else
+    echo "the Python module was not looked at: tools/setup installs what it takes"
+fi
+
 tests=$(dirname "$(realpath "$0")")/..
 "$tests/docs/man.sh" "$prefix/share/man/man1/kiln.1" "$prefix/share/man/man5/kiln-scene.5"
 found=$(man -M "$prefix/share/man" -w 5 kiln-scene)
