@@ -15,7 +15,7 @@ TEST = """
 
 def run(pytester, *options, red=0):
     pytester.makepyfile(TEST.format(red=red))
-    return pytester.runpytest_subprocess("-p", "no:cacheprovider", *options)
+    return pytester.runpytest_inprocess("-p", "no:cacheprovider", *options)
 
 
 def test_a_golden_is_missing_accepted_and_compared(pytester):
@@ -74,7 +74,7 @@ def test_files_and_options(pytester):
             result = assert_looks_like(tmp_path / "b.exr", "a.exr", masks=[(0, 0, 8, 8)])
             assert result.hdr
     """)
-    pytester.runpytest_subprocess("--kiln-update").assert_outcomes(passed=1)
+    pytester.runpytest_inprocess("--kiln-update").assert_outcomes(passed=1)
     assert kiln.compare(pytester.path / "a.exr", np.zeros((32, 32, 4), np.float32)).frames[0].equal
 
 
