@@ -4,8 +4,8 @@
 
 const struct variable variables[] = {
     {"KILN_SIMD",
-     "Vectors of the techniques 'cpu': plain, sse4.1, avx2 or avx512, as the machine has them; "
-     "the pixels are the same."},
+     "Vectors of the techniques 'cpu': plain, sse4.1, avx2, avx512 or neon, as the machine has "
+     "them; the pixels are the same."},
     {"KILN_LIMITS", "Limits of jobs where --limits says nothing else (see 'kiln help limits')."},
     {"KILN_SANDBOX",
      "Whether jobs confine themselves, where --sandbox says nothing else: on, require or "

@@ -12,7 +12,8 @@ const char *kiln_simd_name(enum kiln_simd simd)
     static const char *const names[KILN_SIMD_COUNT] = {[KILN_SIMD_PLAIN] = "plain",
                                                        [KILN_SIMD_SSE41] = "sse4.1",
                                                        [KILN_SIMD_AVX2] = "avx2",
-                                                       [KILN_SIMD_AVX512] = "avx512"};
+                                                       [KILN_SIMD_AVX512] = "avx512",
+                                                       [KILN_SIMD_NEON] = "neon"};
     return names[simd];
 }
 
@@ -32,6 +33,8 @@ bool kiln_simd_has(enum kiln_simd simd)
     default:
         return simd == KILN_SIMD_PLAIN;
     }
+#elif defined __aarch64__
+    return simd == KILN_SIMD_PLAIN || simd == KILN_SIMD_NEON;
 #else
     return simd == KILN_SIMD_PLAIN;
 #endif

@@ -22,12 +22,13 @@
 
 #include "kiln.h"
 
-/* Narrowest first; each has what those before it have. */
+/* Of one kind of processor, narrowest first; each has what the ones before it have. */
 enum kiln_simd {
-    KILN_SIMD_PLAIN,  /* any machine of the kind: SSE2 on x86-64 */
+    KILN_SIMD_PLAIN,  /* any machine: what the compiler makes of vectors; SSE2 on x86-64 */
     KILN_SIMD_SSE41,  /* SSE4.1 */
     KILN_SIMD_AVX2,   /* AVX2 */
     KILN_SIMD_AVX512, /* AVX-512 F, BW, DQ and VL */
+    KILN_SIMD_NEON,   /* Advanced SIMD, which every arm64 has */
     KILN_SIMD_COUNT
 };
 
@@ -41,8 +42,10 @@ enum kiln_simd {
 #define KILN_SIMD_NAME(name) name##_sse41
 #elif KILN_SIMD_LEVEL == 2
 #define KILN_SIMD_NAME(name) name##_avx2
-#else
+#elif KILN_SIMD_LEVEL == 3
 #define KILN_SIMD_NAME(name) name##_avx512
+#else
+#define KILN_SIMD_NAME(name) name##_neon
 #endif
 
 /* The levels that this build has, a bit each (CMake's KILN_SIMD_LEVELS). */
@@ -55,7 +58,8 @@ enum kiln_simd {
     (KILN_SIMD_LEVELS & 1   ? KILN_SIMD_PLAIN                                                      \
      : KILN_SIMD_LEVELS & 2 ? KILN_SIMD_SSE41                                                      \
      : KILN_SIMD_LEVELS & 4 ? KILN_SIMD_AVX2                                                       \
-                            : KILN_SIMD_AVX512)
+     : KILN_SIMD_LEVELS & 8 ? KILN_SIMD_AVX512                                                     \
+                            : KILN_SIMD_NEON)
 
 /* A level's own, NULL where the build lacks the level. */
 #if KILN_SIMD_LEVELS & 1
@@ -78,17 +82,23 @@ enum kiln_simd {
 #else
 #define KILN_SIMD_OF_AVX512(name) (__typeof__(&name##_avx512))NULL
 #endif
+#if KILN_SIMD_LEVELS & 16
+#define KILN_SIMD_OF_NEON(name) &name##_neon
+#else
+#define KILN_SIMD_OF_NEON(name) (__typeof__(&name##_neon))NULL
+#endif
 
 /* Declares what is exported, and takes the address of a level's. */
 #define KILN_SIMD_DECLARE(type, name)                                                              \
-    extern type name##_plain, name##_sse41, name##_avx2, name##_avx512
+    extern type name##_plain, name##_sse41, name##_avx2, name##_avx512, name##_neon
 #define KILN_SIMD_PICK(name, simd)                                                                 \
-    ((simd) == KILN_SIMD_AVX512  ? KILN_SIMD_OF_AVX512(name)                                       \
-     : (simd) == KILN_SIMD_AVX2  ? KILN_SIMD_OF_AVX2(name)                                         \
-     : (simd) == KILN_SIMD_SSE41 ? KILN_SIMD_OF_SSE41(name)                                        \
-                                 : KILN_SIMD_OF_PLAIN(name))
+    ((simd) == KILN_SIMD_NEON     ? KILN_SIMD_OF_NEON(name)                                        \
+     : (simd) == KILN_SIMD_AVX512 ? KILN_SIMD_OF_AVX512(name)                                      \
+     : (simd) == KILN_SIMD_AVX2   ? KILN_SIMD_OF_AVX2(name)                                        \
+     : (simd) == KILN_SIMD_SSE41  ? KILN_SIMD_OF_SSE41(name)                                       \
+                                  : KILN_SIMD_OF_PLAIN(name))
 
-/* "plain", "sse4.1", "avx2", "avx512". */
+/* "plain", "sse4.1", "avx2", "avx512", "neon". */
 const char *kiln_simd_name(enum kiln_simd simd);
 
 /* Whether this machine and this build have it. */

@@ -194,7 +194,7 @@ static enum kiln_simd level_of(size_t scene)
 /* A scene at two levels, and by two numbers of threads. */
 static void a_scene_is_the_same_bytes(void **state)
 {
-    static const uint32_t threads[KILN_SIMD_COUNT] = {1, 2, 5, 3};
+    static const uint32_t threads[KILN_SIMD_COUNT] = {1, 2, 5, 3, 2};
     const struct test_scene *given = *state;
     char folder[] = "/tmp/kiln-host-XXXXXX";
     assert_non_null(mkdtemp(folder));

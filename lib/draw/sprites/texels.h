@@ -41,7 +41,9 @@ enum { PART_ONE = 128 };
 /* A way in the motion texture: its words are this where they are a full move. */
 #define WAY_ONE (255.0f * 255.0f * 127.0f / 256.0f)
 
-#if KILN_SIMD_LEVEL > 0
+#if KILN_SIMD_LEVEL == 4
+#include "draw/sprites/texels_neon.h"
+#elif KILN_SIMD_LEVEL > 0
 
 /* 8 bytes each. */
 SIMD __m128i two_texels(const uint8_t *texels, const int32_t *at)
@@ -117,8 +119,7 @@ SIMD words pattern(int32_t a, int32_t b, int32_t c, int32_t d)
 /* From 255ths of texels, rounded down. Beyond 16 bits they become the least or greatest. */
 SIMD vi places_of(vf u, vf v)
 {
-    words both = WORDS(packus_epi32)((words) __builtin_convertvector(u, vi),
-                                     (words) __builtin_convertvector(v, vi));
+    words both = WORDS(packus_epi32)((words)vi_of(u), (words)vi_of(v));
     /* One more a texel: the product over 2^23 is the quotient by 255 of all 16 bits. */
     words texels = WORDS(srli_epi16)(WORDS(mulhi_epu16)(both, WORDS(set1_epi16)((short)0x8081)), 7);
     both = WORDS(adds_epu16)(both, texels);
@@ -271,7 +272,7 @@ SIMD int32_t v_of(int32_t place)
 
 SIMD vi places_of(vf u, vf v)
 {
-    vi x = __builtin_convertvector(u, vi), y = __builtin_convertvector(v, vi);
+    vi x = vi_of(u), y = vi_of(v);
     for (int i = 0; i < LANES; i++) {
         int32_t right = limited(x[i], 0, 65535), down = limited(y[i], 0, 65535);
         x[i] = place(limited(right + right / PLACE_STEPS, 0, 65535),

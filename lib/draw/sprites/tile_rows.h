@@ -74,8 +74,8 @@ SIMD void find_rows(const struct kiln_tile *tile, const struct kiln_sprite *s,
                        &from, &to);
         }
         vi any = from < to;
-        vi first = __builtin_convertvector(vf_where(any, from), vi);
-        vi end = __builtin_convertvector(vf_where(any, to), vi);
+        vi first = vi_of(vf_where(any, from));
+        vi end = vi_of(vf_where(any, to));
         vf x = __builtin_convertvector(first, vf) - offset;
         vf_store(rows->u + i, u + s->u_x * x);
         vf_store(rows->v + i, v + s->v_x * x);

@@ -28,12 +28,6 @@ SIMD vf vf_of(vi x)
     return __builtin_convertvector(x, vf);
 }
 
-/* Towards zero; within 2^31. */
-SIMD vi vi_of(vf x)
-{
-    return __builtin_convertvector(x, vi);
-}
-
 SIMD vf vf_select(vi mask, vf yes, vf no)
 {
     return (vf)(((vi)yes & mask) | ((vi)no & ~mask));
@@ -95,6 +89,18 @@ SIMD bool any(vi mask)
 SIMD vf round_down(vf x)
 {
     return (vf)_mm_floor_ps((__m128)x);
+}
+
+#elif KILN_SIMD_LEVEL == 4
+
+SIMD bool any(vi mask)
+{
+    return vmaxvq_u32((uint32x4_t)mask) != 0;
+}
+
+SIMD vf round_down(vf x)
+{
+    return (vf)vrndmq_f32((float32x4_t)x);
 }
 
 #else

@@ -1,6 +1,6 @@
 /* Vectors of floats for the tiles of the CPU rasteriser, by what a file is compiled for:
- * KILN_SIMD_LEVEL is 0 (any machine), 1 (SSE4.1), 2 (AVX2) or 3 (AVX-512 with BW). Every operation
- * rounds the same at all levels; a port to another processor starts from level 0.
+ * KILN_SIMD_LEVEL is 0 (any machine), 1 (SSE4.1), 2 (AVX2), 3 (AVX-512 with BW) or 4 (NEON). Every
+ * operation gives the same bits at all levels; a port to another processor starts from level 0.
  */
 #ifndef KILN_DRAW_VECTOR_SIMD_H
 #define KILN_DRAW_VECTOR_SIMD_H
@@ -17,7 +17,9 @@
 #else
 #define LANES 4
 #endif
-#if KILN_SIMD_LEVEL > 0
+#if KILN_SIMD_LEVEL == 4
+#include <arm_neon.h>
+#elif KILN_SIMD_LEVEL > 0
 #include <immintrin.h>
 #endif
 
@@ -101,7 +103,8 @@ SIMD vf vf_sqrt(vf a)
     return (vf)_mm_sqrt_ps((__m128)a);
 }
 #else
-/* The second operand where neither is less, as x86 has it. */
+/* The second operand where neither is less, as x86 has it; NEON's own minimum and maximum would be
+ * NaN where either operand is. */
 SIMD vf vf_min(vf a, vf b)
 {
     vi less = a < b;
@@ -116,11 +119,27 @@ SIMD vf vf_max(vf a, vf b)
 
 SIMD vf vf_sqrt(vf a)
 {
+#if KILN_SIMD_LEVEL == 4
+    return (vf)vsqrtq_f32((float32x4_t)a);
+#else
     for (int i = 0; i < LANES; i++)
         a[i] = sqrtf(a[i]);
     return a;
+#endif
 }
 #endif
+
+/* Towards zero. What is no number within 2^31 becomes the least integer, as x86 has it; other
+ * processors have the nearest one, and 0 for NaN. */
+SIMD vi vi_of(vf x)
+{
+#ifdef __x86_64__
+    return __builtin_convertvector(x, vi);
+#else
+    vi within = vf_abs(x) < 0x1p31f;
+    return (__builtin_convertvector(vf_where(within, x), vi) & within) | (INT32_MIN & ~within);
+#endif
+}
 
 /* A bit for each lane of a mask. */
 SIMD uint32_t vi_bits(vi mask)
@@ -131,6 +150,9 @@ SIMD uint32_t vi_bits(vi mask)
     return (uint32_t)_mm256_movemask_ps((__m256)mask);
 #elif KILN_SIMD_LEVEL == 1
     return (uint32_t)_mm_movemask_ps((__m128)mask);
+#elif KILN_SIMD_LEVEL == 4
+    const uint32x4_t bits = {1, 2, 4, 8};
+    return vaddvq_u32(vandq_u32((uint32x4_t)mask, bits));
 #else
     return ((uint32_t)mask[0] & 1) | ((uint32_t)mask[1] & 2) | ((uint32_t)mask[2] & 4) |
            ((uint32_t)mask[3] & 8);
