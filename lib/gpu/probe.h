@@ -1,4 +1,4 @@
-/* The exactness probe: may this driver simulate? (contract of determinism, 1) */
+/* The exactness probe: may this driver simulate? (docs/determinism.md, 1) */
 #ifndef KILN_GPU_PROBE_H
 #define KILN_GPU_PROBE_H
 

@@ -1,5 +1,5 @@
-/* What a particle has besides its record, recomputed from its serial and its birth (contract of
- * determinism, 4): shared by the simulation and by whatever draws.
+/* What a particle has besides its record, recomputed from its serial and its birth
+ * (docs/determinism.md, 4): shared by the simulation and by whatever draws.
  */
 #ifndef KILN_SHARED_DERIVED_H
 #define KILN_SHARED_DERIVED_H

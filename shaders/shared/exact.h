@@ -1,4 +1,4 @@
-/* The arithmetic of the simulation: the same bits on every device (contract of determinism, 1).
+/* The arithmetic of the simulation: the same bits on every device (docs/determinism.md, 1).
  *
  * Built from + - * on floats, comparisons, floor and integer operations, which every IEEE machine
  * rounds alike; division, roots and the rest are our own, since drivers round theirs differently.

@@ -1,4 +1,4 @@
-/* Particles that are born of particles (contract of determinism, 3). Child j of a parent in slot p
+/* Particles that are born of particles (docs/determinism.md, 3). Child j of a parent in slot p
  * lives in slot p * n + j and has the serial n * parent's + j, n being the slots that a parent's
  * children have reserved: no counter hands anything out, so no order decides anything.
  */

@@ -1,5 +1,5 @@
 /* Grids: samples are fetched whole and interpolated here, because filters of textures differ from
- * device to device (contract of determinism, 8).
+ * device to device (docs/determinism.md, 8).
  */
 #ifndef KILN_SHARED_GRID_H
 #define KILN_SHARED_GRID_H

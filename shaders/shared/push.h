@@ -1,4 +1,4 @@
-/* What the others of its system do to a particle (contract of determinism, 8): gathered from the
+/* What the others of its system do to a particle (docs/determinism.md, 8): gathered from the
  * state at the start of a step, before any particle moves, and applied within the step to what
  * lived before it. Two words a slot, and only of systems that interact; shaders of scenes without
  * any are spared it.

@@ -1,4 +1,4 @@
-/* Random numbers without state (contract of determinism, 2): a hash of (seed, system, serial,
+/* Random numbers without state (docs/determinism.md, 2): a hash of (seed, system, serial,
  * purpose), so that any stage can draw a particle's numbers again.
  */
 #ifndef KILN_SHARED_RANDOM_H

@@ -1,4 +1,4 @@
-/* The state hash (contract of determinism, 5): two sums over the living particles of a hash of
+/* The state hash (docs/determinism.md, 5): two sums over the living particles of a hash of
  * (system, serial, words), so that neither layout nor order nor the dead matter.
  */
 #ifndef KILN_SHARED_STATE_HASH_H

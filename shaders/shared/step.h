@@ -1,5 +1,5 @@
 /* One step of one slot: birth, forces, motion, collision, death. Every simulation technique runs
- * this very code and only moves data around it (contract of determinism, 1).
+ * this very code and only moves data around it (docs/determinism.md, 1).
  */
 #ifndef KILN_SHARED_STEP_H
 #define KILN_SHARED_STEP_H
