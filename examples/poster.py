@@ -1,6 +1,5 @@
-#!/usr/bin/env python3
-"""The poster of a clip: poster.py SCENE FILE.png [KEY=VALUE...]. It looks through a clip in small pictures, in
-memory alone, and draws the brightest frame again in full size."""
+"""The poster of a clip: python3 poster.py SCENE FILE.png [KEY=VALUE...]. It looks through a clip in small
+pictures, in memory alone, and draws the brightest frame again in full size."""
 import sys
 
 import kiln

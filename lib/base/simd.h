@@ -92,11 +92,11 @@ enum kiln_simd {
 #define KILN_SIMD_DECLARE(type, name)                                                              \
     extern type name##_plain, name##_sse41, name##_avx2, name##_avx512, name##_neon
 #define KILN_SIMD_PICK(name, simd)                                                                 \
-    ((simd) == KILN_SIMD_NEON     ? KILN_SIMD_OF_NEON(name)                                        \
-     : (simd) == KILN_SIMD_AVX512 ? KILN_SIMD_OF_AVX512(name)                                      \
-     : (simd) == KILN_SIMD_AVX2   ? KILN_SIMD_OF_AVX2(name)                                        \
-     : (simd) == KILN_SIMD_SSE41  ? KILN_SIMD_OF_SSE41(name)                                       \
-                                  : KILN_SIMD_OF_PLAIN(name))
+    (((__typeof__(&name##_plain)[]){[KILN_SIMD_PLAIN] = KILN_SIMD_OF_PLAIN(name),                  \
+                                    [KILN_SIMD_SSE41] = KILN_SIMD_OF_SSE41(name),                  \
+                                    [KILN_SIMD_AVX2] = KILN_SIMD_OF_AVX2(name),                    \
+                                    [KILN_SIMD_AVX512] = KILN_SIMD_OF_AVX512(name),                \
+                                    [KILN_SIMD_NEON] = KILN_SIMD_OF_NEON(name)})[simd])
 
 /* "plain", "sse4.1", "avx2", "avx512", "neon". */
 const char *kiln_simd_name(enum kiln_simd simd);

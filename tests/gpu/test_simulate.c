@@ -182,8 +182,8 @@ static void crowds_agree(void **state)
     all_agree(*state, &fixture.scene, 40);
 }
 
-/* Families among all that grids are for, and crowds. Kernels that know families take long to compile:
- * one technique in one scene has to do. */
+/* Families among all that grids are for, and crowds. Kernels that know families take long to
+ * compile: one technique in one scene has to do. */
 static void families_among_all_agree(void **state)
 {
     fixture_family(&fixture, KILN_INTEGRATE_POSITION_FIRST);

@@ -90,15 +90,11 @@ def imported(library):
                           capture_output=True, text=True)
 
 
-@pytest.mark.parametrize("version, works", [("0.0.9", False), ("0.1.0", True), ("99.0.1", True)])
+@pytest.mark.parametrize("version, works", [("0.0.9", False), (kiln.__version__, True), ("99.0.1", True)])
 def test_an_older_library_is_refused(tmp_path, version, works):
     source, library = tmp_path / "old.c", tmp_path / "libold.so"
     source.write_text(f'const char *kiln_version(void) {{ return "{version}"; }}\n')
     subprocess.run([COMPILER, "-shared", "-fPIC", source, "-o", library], check=True)
-    if version == "0.1.0":
-        source.write_text(source.read_text().replace("0.1.0", kiln.__version__))
-        version = kiln.__version__
-        subprocess.run([COMPILER, "-shared", "-fPIC", source, "-o", library], check=True)
     done = imported(library)
     if works:
         assert done.stdout == f"{version}\n", done.stderr
