@@ -10,6 +10,7 @@
 #include "base/hash.h"
 #include "base/temporary.h"
 #include "figure/layout.h"
+#include "figure/lettering.h"
 #include "figure/record.h"
 #include "figure/verdict.h"
 #include "kiln_program.h"
@@ -81,7 +82,7 @@ static bool check_request(struct job *job)
                               "--plain leaves no room for a title or labels");
     if (params->input_count == 0)
         return kiln_error_set(job->error, KILN_USAGE, "a figure of nothing");
-    return params->check || check_target(job);
+    return kiln_lettering_check_request(params, job->error) && (params->check || check_target(job));
 }
 
 static bool draw(struct job *job)

@@ -1,6 +1,8 @@
-/* Walks the paths of glyphs. */
+/* From a text to strokes: decodes UTF-8, looks up glyphs, puts marks onto letters, and walks the
+ * paths. */
 #include "figure/font.h"
 
+#include <ctype.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,39 +10,90 @@
 #include "base/text.h"
 #include "figure/font_glyphs.h"
 
-/* Between glyphs, beside the room that each has: lettering in figures is small. */
-enum { SPACING = 4 };
-
-static const struct kiln_glyph missing = {0, 72, "M12 0 L12 100 L60 100 L60 0 L12 0"};
+enum {
+    SPACING = 4, /* between glyphs, beside the room that each has: lettering in figures is small */
+    RISE = 30,   /* of marks over tall letters */
+    DOTLESS_I = 0x131,
+    DOTLESS_J = 0x237,
+};
 
 /* How far the control points of a quarter of an ellipse are along its tangents: a little beyond
  * that of a circle, which looks rounder in letters. */
 static const double ROUND = 0.58;
 
-static const struct kiln_glyph *find(uint32_t code)
+/* ---- Tables --------------------------------------------------------------------------------- */
+
+static const struct kiln_glyph missing = {0, 72, "M12 0 L12 100 L60 100 L60 0 L12 0"};
+
+/* The row of a table that is ascending by its rows' first member, their code; or NULL. */
+#define FIND(table, count, key)                                                                    \
+    do {                                                                                           \
+        uint32_t low = 0, high = (count);                                                          \
+        while (low < high) {                                                                       \
+            uint32_t middle = (low + high) / 2;                                                    \
+            if ((table)[middle].code < (key))                                                      \
+                low = middle + 1;                                                                  \
+            else                                                                                   \
+                high = middle;                                                                     \
+        }                                                                                          \
+        return low < (count) && (table)[low].code == (key) ? &(table)[low] : NULL;                 \
+    } while (0)
+
+static const struct kiln_glyph *find_glyph(uint32_t code)
 {
-    uint32_t low = 0, high = kiln_font_glyph_count;
-    while (low < high) {
-        uint32_t middle = (low + high) / 2;
-        if (kiln_font_glyphs[middle].code < code)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    bool found = low < kiln_font_glyph_count && kiln_font_glyphs[low].code == code;
-    return found ? &kiln_font_glyphs[low] : NULL;
+    FIND(kiln_font_glyphs, kiln_font_glyph_count, code);
 }
 
-const struct kiln_glyph *kiln_font_glyph(uint32_t code)
+static const struct kiln_font_letter *find_letter(uint32_t code)
 {
-    const struct kiln_glyph *glyph = find(code);
-    return glyph ? glyph : &missing;
+    FIND(kiln_font_letters, kiln_font_letter_count, code);
+}
+
+static const struct kiln_font_mark *find_mark(uint32_t code)
+{
+    FIND(kiln_font_marks, kiln_font_mark_count, code);
+}
+
+/* A character as it is drawn. */
+struct shape {
+    const struct kiln_glyph *glyph;
+    const struct kiln_font_mark *mark; /* NULL: none */
+    double before;                     /* from the character's origin to the glyph's */
+    double mark_x;                     /* from the glyph's origin */
+    uint32_t advance;
+};
+
+static bool find_shape(uint32_t code, struct shape *shape)
+{
+    const struct kiln_font_letter *letter = find_letter(code);
+    const struct kiln_glyph *glyph = find_glyph(letter ? letter->base : code);
+    *shape = (struct shape){.glyph = glyph ? glyph : &missing};
+    shape->advance = shape->glyph->advance + SPACING;
+    if (letter) {
+        shape->mark = find_mark(letter->mark);
+        shape->mark_x = shape->glyph->advance / 2.0 + letter->x;
+        int extra = shape->mark ? 2 * shape->mark->half - shape->glyph->advance : 0;
+        extra = extra > 0 ? extra : 0;
+        shape->before = (letter->room < 0 ? -letter->room : 0) + extra / 2;
+        shape->advance += (uint32_t)(abs(letter->room) + extra);
+    }
+    return glyph != NULL;
 }
 
 bool kiln_font_has(uint32_t code)
 {
-    return find(code) != NULL;
+    struct shape shape;
+    return find_mark(code) || find_shape(code, &shape);
 }
+
+uint32_t kiln_font_advance(uint32_t code)
+{
+    struct shape shape;
+    find_shape(code, &shape);
+    return find_mark(code) ? 0 : shape.advance;
+}
+
+/* ---- Texts ---------------------------------------------------------------------------------- */
 
 uint32_t kiln_font_next(const char **text)
 {
@@ -64,40 +117,63 @@ uint32_t kiln_font_next(const char **text)
     }
 }
 
+const char *kiln_font_missing(const char *text, uint32_t *code)
+{
+    for (const char *place = text; (*code = kiln_font_next(&text)) != 0; place = text) {
+        if (!kiln_font_has(*code))
+            return place;
+    }
+    return NULL;
+}
+
 uint32_t kiln_font_width(const char *text)
 {
     uint32_t width = 0, code;
     while ((code = kiln_font_next(&text)) != 0)
-        width += kiln_font_glyph(code)->advance + SPACING;
+        width += kiln_font_advance(code);
     return width;
 }
 
+/* ---- Strokes -------------------------------------------------------------------------------- */
+
 struct walk {
     const struct kiln_font_pen *pen;
-    double origin, x, y; /* of the glyph, and where the pen is in it */
+    double origin_x, origin_y, scale; /* of the glyph in the text */
+    double x, y;                      /* where the pen is in the glyph */
 };
+
+static double at_x(const struct walk *walk, double x)
+{
+    return walk->origin_x + x * walk->scale;
+}
+
+static double at_y(const struct walk *walk, double y)
+{
+    return walk->origin_y + y * walk->scale;
+}
 
 static void move_to(struct walk *walk, double x, double y)
 {
     walk->x = x;
     walk->y = y;
-    walk->pen->move(walk->pen->user, walk->origin + x, y);
+    walk->pen->move(walk->pen->user, at_x(walk, x), at_y(walk, y));
 }
 
 static void line_to(struct walk *walk, double x, double y)
 {
     walk->x = x;
     walk->y = y;
-    walk->pen->line(walk->pen->user, walk->origin + x, y);
+    walk->pen->line(walk->pen->user, at_x(walk, x), at_y(walk, y));
 }
 
 static void curve_to(struct walk *walk, double ax, double ay, double bx, double by, double x,
                      double y)
 {
-    double o = walk->origin;
     walk->x = x;
     walk->y = y;
-    walk->pen->curve(walk->pen->user, (const double[6]){o + ax, ay, o + bx, by, o + x, y});
+    walk->pen->curve(walk->pen->user,
+                     (const double[6]){at_x(walk, ax), at_y(walk, ay), at_x(walk, bx),
+                                       at_y(walk, by), at_x(walk, x), at_y(walk, y)});
 }
 
 static void quarter_to(struct walk *walk, bool leaves_horizontally, double x, double y)
@@ -119,17 +195,24 @@ static void dot(struct walk *walk, double x, double y)
     line_to(walk, x - 2, y);
 }
 
-static void walk_path(struct walk *walk, const char *path)
+/* Reads a whole number of a path, which moves on. */
+static double number(const char **path)
 {
-    while (*path) {
+    char *end;
+    double value = (double)strtol(*path, &end, 10);
+    *path = end;
+    return value;
+}
+
+/* Follows a path to its end, or to its next U, which it returns. */
+static const char *walk_strokes(struct walk *walk, const char *path)
+{
+    while (*path && *path != 'U') {
         char command = *path++;
         double n[6] = {0};
         int count = command == 'C' ? 6 : 2;
-        for (int i = 0; i < count; i++) {
-            char *end;
-            n[i] = (double)strtol(path, &end, 10);
-            path = end;
-        }
+        for (int i = 0; i < count; i++)
+            n[i] = number(&path);
         path += strspn(path, " ");
         if (command == 'M')
             move_to(walk, n[0], n[1]);
@@ -142,15 +225,69 @@ static void walk_path(struct walk *walk, const char *path)
         else
             quarter_to(walk, command == 'H', n[0], n[1]);
     }
+    return path;
+}
+
+/* The glyphs that a path uses are strokes alone. */
+static void walk_path(struct walk *walk, const char *path)
+{
+    while (*(path = walk_strokes(walk, path))) {
+        path++;
+        double x = number(&path), y = number(&path), percent = number(&path);
+        struct walk used = {.pen = walk->pen,
+                            .origin_x = at_x(walk, x),
+                            .origin_y = at_y(walk, y),
+                            .scale = percent / 100};
+        path += strspn(path, " ");
+        walk_strokes(&used, find_glyph((unsigned char)*path++)->path);
+        path += strspn(path, " ");
+    }
+}
+
+/* Whether marks over a glyph have to rise. */
+static bool is_tall(const struct kiln_glyph *glyph)
+{
+    uint32_t code = glyph->code;
+    if (code < 0x80)
+        return isupper((int)code) || isdigit((int)code) || strchr("bdfhkl", (int)code);
+    return (code >= 0xC0 && code <= 0xDE) || (code >= 0x391 && code <= 0x3A9);
+}
+
+static void walk_mark(const struct walk *walk, const struct shape *shape)
+{
+    double rise = shape->mark->rises && is_tall(shape->glyph) ? RISE : 0;
+    struct walk over = {.pen = walk->pen,
+                        .origin_x = at_x(walk, shape->before + shape->mark_x),
+                        .origin_y = rise,
+                        .scale = 1};
+    walk_path(&over, shape->mark->path);
 }
 
 void kiln_font_draw(const char *text, const struct kiln_font_pen *pen)
 {
-    struct walk walk = {.pen = pen};
+    struct walk walk = {.pen = pen, .scale = 1};
+    struct shape shape = {.glyph = &missing};
     uint32_t code;
     while ((code = kiln_font_next(&text)) != 0) {
-        const struct kiln_glyph *glyph = kiln_font_glyph(code);
-        walk_path(&walk, glyph->path);
-        walk.origin += glyph->advance + SPACING;
+        const char *ahead = text;
+        const struct kiln_font_mark *mark = find_mark(code),
+                                    *next = find_mark(kiln_font_next(&ahead));
+        if (mark) { /* joins the letter before it */
+            shape.mark = mark;
+            shape.mark_x = shape.glyph->advance / 2.0;
+            struct walk back = walk;
+            back.origin_x -= shape.advance;
+            walk_mark(&back, &shape);
+            continue;
+        }
+        if (next && next->rises && (code == 'i' || code == 'j'))
+            code = code == 'i' ? DOTLESS_I : DOTLESS_J;
+        find_shape(code, &shape);
+        struct walk glyph = walk;
+        glyph.origin_x += shape.before;
+        walk_path(&glyph, shape.glyph->path);
+        if (shape.mark)
+            walk_mark(&walk, &shape);
+        walk.origin_x += shape.advance;
     }
 }

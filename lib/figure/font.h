@@ -1,7 +1,7 @@
 /* The lettering of figures: a stroke font of kiln's own. A glyph is a path drawn with a round pen,
- * so it has any size, and looks the same in pixels and in vectors. Units: 100 is the height of a
- * capital, 70 of a small letter, the baseline is 0 and y goes up.
- */
+ * so it has any size, and looks the same in pixels and in vectors. It has Latin-1, Latin
+ * Extended-A, Greek, dashes, quotes and mathematics (font_glyphs.c, font_letters.c). Units: 100 is
+ * the height of a capital, 70 of a small letter, the baseline is 0 and y goes up. */
 #ifndef KILN_FIGURE_FONT_H
 #define KILN_FIGURE_FONT_H
 
@@ -10,23 +10,21 @@
 
 enum {
     KILN_FONT_CAPITAL = 100,
-    KILN_FONT_ASCENT = 112,
-    KILN_FONT_DESCENT = 30,
+    KILN_FONT_ASCENT = 146, /* of a capital with an accent */
+    KILN_FONT_DESCENT = 40, /* both with the pen */
     KILN_FONT_PEN = 12
 };
 
-struct kiln_glyph {
-    uint32_t code;    /* of Unicode */
-    uint16_t advance; /* to the next glyph's origin */
-    /* Commands of a letter and whole numbers: M x y starts a stroke, L goes straight to a point, H
-     * and V go there by a quarter of an ellipse that leaves horizontally or vertically, C by a
-     * Bezier curve of two more points; D x y is a dot. */
-    const char *path;
-};
-
-/* The glyph of a character; a box for one that the font does not have. */
-const struct kiln_glyph *kiln_font_glyph(uint32_t code);
+/* Whether there is a glyph for a character. */
 bool kiln_font_has(uint32_t code);
+
+/* Where the first character of a text stands that has no glyph, and its code (U+FFFD for a byte
+ * that is no UTF-8); NULL when all have one. */
+const char *kiln_font_missing(const char *text, uint32_t *code);
+
+/* How far a character moves the pen; 0 for a mark that joins the letter before it. A box stands for
+ * what has no glyph. */
+uint32_t kiln_font_advance(uint32_t code);
 
 /* The next character of a UTF-8 text, which moves on; U+FFFD for a byte that is none. 0: the end.
  */

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "figure/inset.h"
+#include "figure/lettering.h"
 #include "figure/sweep.h"
 #include "frame/technique.h"
 #include "scene/scene.h"
@@ -215,6 +216,17 @@ static bool make_run(struct rendering *r, size_t first)
     return render_run(r);
 }
 
+/* Whether the labels that panels have of themselves can be lettered. */
+static bool check_labels(const struct rendering *r)
+{
+    bool own = r->params->label_count == 0 && !r->params->unlabelled && !r->params->plain;
+    for (size_t i = 0; own && i < r->choices->count; i++) {
+        if (!kiln_lettering_check_label(r->choices->items[i].label, i, r->error))
+            return false;
+    }
+    return true;
+}
+
 /* Every scene is loaded once before the device is opened: a wrong one should not cost minutes, nor
  * should an inset outside of its pictures. */
 static bool check_runs(struct rendering *r)
@@ -257,7 +269,7 @@ static bool render_panels(struct kiln_panels *panels, const struct kiln_figure_p
     if (ok && params->label_count > 0 && params->label_count != panels->count)
         ok = kiln_error_set(error, KILN_USAGE, "found %zu labels for %zu pictures",
                             params->label_count, panels->count);
-    ok = ok && check_runs(&r) && open_device(&r);
+    ok = ok && check_labels(&r) && check_runs(&r) && open_device(&r);
     for (size_t i = 0; ok && i < panels->count; i++)
         ok = panels->items[i].pixels.rgba || make_run(&r, i);
     kiln_scene_destroy(&r.scene);

@@ -184,9 +184,9 @@ static bool paint_text(const struct kiln_mark *mark, const struct kiln_pixels *o
     double scale = (double)mark->height / KILN_FONT_CAPITAL;
     struct stencil s = {
         .x = mark->x - 2,
-        .y = mark->y - (int32_t)mark->height * 5 / 4 - 2,
+        .y = mark->y - (int32_t)mark->height * 3 / 2 - 2,
         .width = kiln_drawing_text_width(mark->text, mark->height) + 4,
-        .height = mark->height * 7 / 4 + 4,
+        .height = mark->height * 2 + 4,
         .origin_x = mark->x,
         /* A stroke along the baseline, or along the height of capitals, fills a row of pixels. */
         .origin_y = mark->y - 0.5,

@@ -1,12 +1,16 @@
 /* lib/figure: the lettering, the panels of sweeps, the layout, what is written and read back. */
+#include <locale.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+#include <wchar.h>
 
 #include "asset/image/image.h"
 #include "base/hash.h"
+#include "figure/font.h"
 #include "figure/font_glyphs.h"
 #include "figure/layout.h"
 #include "figure/record.h"
@@ -15,17 +19,52 @@
 
 /* ---- Lettering ------------------------------------------------------------------------------ */
 
-static void the_font_has_ascii_and_signs(void **state)
+static void require_range(uint32_t first, uint32_t last, const char *without)
+{
+    for (uint32_t code = first; code <= last; code++) {
+        char text[8];
+        snprintf(text, sizeof text, "%lc", (wint_t)code);
+        if (!kiln_font_has(code) && !(*text && strstr(without, text)))
+            fail_msg("no glyph for U+%04X", code);
+    }
+}
+
+/* U+00AD only says where a word may be parted, and U+03A2 is no letter. */
+static void the_font_has_latin_greek_and_mathematics(void **state)
 {
     (void)state;
-    for (uint32_t code = ' '; code <= '~'; code++)
-        assert_true(kiln_font_has(code));
-    static const uint32_t signs[] = {0xB0, 0xD7, 0xB1, 0xB5, 0x2013, 0x2026, 0x2212};
-    for (size_t i = 0; i < sizeof signs / sizeof *signs; i++)
-        assert_true(kiln_font_has(signs[i]));
-    assert_false(kiln_font_has(0x4E2D));
+    assert_non_null(setlocale(LC_CTYPE, "C.UTF-8"));
+    require_range(' ', '~', "");
+    require_range(0xA0, 0x17F, "\u00AD");
+    require_range(0x391, 0x3A9, "\u03A2");
+    require_range(0x3AA, 0x3CE, "");
+    require_range(0x2010, 0x2015, "");
+    require_range(0x2074, 0x208E, "");
+    uint32_t code;
+    const char *signs = "‘’‚“”„‹›…†‡•‰€™←↑→↓↔⇒∀∂∃∇∈∉∏∑−√∝∞∧∨∩∪∫≈≠≡≤≥≪≫⊂⊃⁰ⁿ½⅓ΆΈΉΊΌΎΏẞȘșȚț";
+    assert_null(kiln_font_missing(signs, &code));
+    const char *text = "ab中c";
+    assert_ptr_equal(kiln_font_missing(text, &code), text + 2);
+    assert_int_equal(code, 0x4E2D);
+}
+
+static void tables_of_the_font_are_in_order(void **state)
+{
+    (void)state;
     for (uint32_t i = 1; i < kiln_font_glyph_count; i++)
         assert_true(kiln_font_glyphs[i - 1].code < kiln_font_glyphs[i].code);
+    for (uint32_t i = 1; i < kiln_font_mark_count; i++)
+        assert_true(kiln_font_marks[i - 1].code < kiln_font_marks[i].code);
+    for (uint32_t i = 0; i < kiln_font_letter_count; i++) {
+        const struct kiln_font_letter *letter = &kiln_font_letters[i];
+        assert_true(i == 0 || kiln_font_letters[i - 1].code < letter->code);
+        assert_true(kiln_font_has(letter->base));
+        assert_true(letter->mark == 0 || kiln_font_has(letter->mark));
+        for (uint32_t k = 0; k < kiln_font_glyph_count; k++)
+            assert_true(kiln_font_glyphs[k].code != letter->code);
+        for (uint32_t k = 0; k < kiln_font_letter_count; k++)
+            assert_true(kiln_font_letters[k].code != letter->base);
+    }
 }
 
 struct bounds {
@@ -57,23 +96,49 @@ static void on_curve(void *user, const double points[6])
     reach(user, points[4], points[5]);
 }
 
-/* Neighbours do not run into each other, and no two glyphs are the same. */
+static struct bounds bounds_of(const char *text)
+{
+    struct bounds bounds = {1e9, -1e9, 1e9, -1e9, 0};
+    kiln_font_draw(text, &(struct kiln_font_pen){on_move, on_line, on_curve, &bounds});
+    return bounds;
+}
+
+/* Neighbours do not run into each other, lines not into lines, and no two glyphs are the same. */
 static void glyphs_stay_in_their_room(void **state)
 {
     (void)state;
-    for (uint32_t i = 1; i < kiln_font_glyph_count; i++) {
-        const struct kiln_glyph *glyph = &kiln_font_glyphs[i];
-        char text[8] = {(char)glyph->code};
-        if (glyph->code >= 0x80)
+    const double pen = KILN_FONT_PEN / 2.0;
+    for (uint32_t code = '!'; code < 0x2FFF; code++) {
+        char text[8];
+        snprintf(text, sizeof text, "%lc", (wint_t)code);
+        if (!kiln_font_has(code) || kiln_font_advance(code) == 0)
             continue;
-        struct bounds bounds = {1e9, -1e9, 1e9, -1e9, 0};
-        kiln_font_draw(text, &(struct kiln_font_pen){on_move, on_line, on_curve, &bounds});
-        assert_true(bounds.moves > 0);
-        assert_true(bounds.left >= -4 && bounds.right <= glyph->advance);
-        assert_true(bounds.bottom >= -KILN_FONT_DESCENT && bounds.top <= KILN_FONT_ASCENT);
-        for (uint32_t k = i + 1; k < kiln_font_glyph_count; k++)
-            assert_true(strcmp(glyph->path, kiln_font_glyphs[k].path) != 0);
+        struct bounds bounds = bounds_of(text);
+        if (bounds.moves == 0)
+            continue; /* a space */
+        if (bounds.left < -6 || bounds.right > kiln_font_advance(code) + 4 ||
+            bounds.bottom - pen < -KILN_FONT_DESCENT || bounds.top + pen > KILN_FONT_ASCENT)
+            fail_msg("U+%04X reaches from %g to %g, %g to %g", code, bounds.left, bounds.right,
+                     bounds.bottom, bounds.top);
     }
+    for (uint32_t i = 1; i < kiln_font_glyph_count; i++)
+        for (uint32_t k = i + 1; k < kiln_font_glyph_count && *kiln_font_glyphs[i].path; k++)
+            assert_true(strcmp(kiln_font_glyphs[i].path, kiln_font_glyphs[k].path) != 0);
+}
+
+/* Letters are drawn alike whether their marks come with them or behind them. */
+static void marks_join_their_letters(void **state)
+{
+    (void)state;
+    static const char *const pairs[][2] = {
+        {"é", "e\u0301"}, {"Ž", "Z\u030C"}, {"ş", "s\u0327"}, {"ü!", "u\u0308!"}};
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
+        struct bounds one = bounds_of(pairs[i][0]), two = bounds_of(pairs[i][1]);
+        assert_memory_equal(&one, &two, sizeof one);
+        assert_int_equal(kiln_font_width(pairs[i][0]), kiln_font_width(pairs[i][1]));
+    }
+    assert_true(bounds_of("i\u0302").moves == 2); /* its dot has gone */
+    assert_true(bounds_of("É").top > bounds_of("é").top);
 }
 
 static void broken_utf8_is_lettered_all_the_same(void **state)
@@ -401,7 +466,9 @@ static void sidecars_come_back_as_they_were(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_font_has_ascii_and_signs),
+        cmocka_unit_test(the_font_has_latin_greek_and_mathematics),
+        cmocka_unit_test(tables_of_the_font_are_in_order),
+        cmocka_unit_test(marks_join_their_letters),
         cmocka_unit_test(glyphs_stay_in_their_room),
         cmocka_unit_test(broken_utf8_is_lettered_all_the_same),
         cmocka_unit_test(sweeps_make_their_product),
