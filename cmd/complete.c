@@ -347,7 +347,7 @@ static const struct {
     {"METRIC=VALUE", put_metrics}, {"KEY=VALUE", put_set},
     {"KEY=VALUE,...", put_sweep},  {"KEY=VALUE;...", put_variant},
     {"TEMPLATE", put_templates},   {"STAGE", put_stages},
-    {"SUITE", put_suites},
+    {"FIGURE", put_files},         {"SUITE", put_suites},
 };
 
 static void put_meaning(struct value *value, const char *placeholder, size_t length)

@@ -1,5 +1,6 @@
 /* kiln figure --check: do figures still show what their commands make? Each command is run in the
- * folder in which it was given, without writing anything. */
+ * folder in which it was given, without writing anything; with --update, a figure that is stale is
+ * written anew. */
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,10 +14,18 @@ static const struct option options[] = {
     {.name = "check",
      .repeats = true,
      .kind = OPTION_TEXT,
-     .placeholder = "PATH",
-     .help = "A folder, which is searched for FILE.figure.json, or such a file.",
-     .files = "*.figure.json"},
-    {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Name only what is stale."},
+     .placeholder = "FIGURE",
+     .help = "Say whether a figure is up to date; of a folder, all that have a sidecar "
+             "(FILE.figure.json)."},
+    {.name = "update",
+     .repeats = true,
+     .kind = OPTION_TEXT,
+     .placeholder = "FIGURE",
+     .help = "The same, and draw anew those that are stale, each by the command in its sidecar."},
+    {.name = "quiet",
+     .letter = 'q',
+     .kind = OPTION_FLAG,
+     .help = "Name only what is stale, or was."},
     HELP_OPTION,
 };
 
@@ -27,9 +36,12 @@ static const struct {
              {&figure_triptych_command, KILN_FIGURE_TRIPTYCH},
              {&figure_strip_command, KILN_FIGURE_STRIP}};
 
+struct checking {
+    bool update, quiet;
+};
+
 /* Runs the command of a sidecar, in whose folder the program is by now. */
-static int run_command(const struct kiln_figure_entry *entry, const char *sidecar,
-                       struct kiln_figure_result *result)
+static int run_command(const struct kiln_figure_entry *entry, const struct figure_check *check)
 {
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         const struct command *command = kinds[i].command;
@@ -43,14 +55,15 @@ static int run_command(const struct kiln_figure_entry *entry, const char *sideca
         if (code == 0 && arguments.operand_count < command->least_operands)
             code = report(KILN_USAGE, "%s: needs %s", command->name, command->operands);
         if (code == 0)
-            code = figure_make(command, kinds[i].kind, &arguments, sidecar, result);
+            code = figure_make(command, kinds[i].kind, &arguments, check);
         arguments_free(&arguments);
         return code;
     }
     return report(KILN_INVALID_INPUT, "%s: its command is none of 'kiln figure'", entry->sidecar);
 }
 
-static int check_entry(const struct kiln_figure_entry *entry, int home, bool quiet)
+static int check_entry(const struct kiln_figure_entry *entry, int home,
+                       const struct checking *checking)
 {
     if (entry->problem)
         return report_error(entry->problem);
@@ -63,7 +76,7 @@ static int check_entry(const struct kiln_figure_entry *entry, int home, bool qui
         code = report(KILN_IO, "%s: the folder of its command, '%s', cannot be entered",
                       entry->sidecar, entry->folder);
     else
-        code = run_command(entry, sidecar, &result);
+        code = run_command(entry, &(struct figure_check){sidecar, checking->update, &result});
     free(sidecar);
     if (fchdir(home) != 0)
         return report(KILN_IO, "the working directory cannot be entered again");
@@ -72,15 +85,17 @@ static int check_entry(const struct kiln_figure_entry *entry, int home, bool qui
     char figure[KILN_MESSAGE_SIZE], reason[KILN_MESSAGE_SIZE];
     kiln_shown(figure, sizeof figure, entry->figure);
     kiln_shown(reason, sizeof reason, result.reason);
-    if (result.stale)
+    if (result.redrawn)
+        printf("%s: redrawn: %s\n", figure, reason);
+    else if (result.stale)
         printf("%s: stale: %s\n", figure, reason);
-    else if (!quiet)
+    else if (!checking->quiet)
         printf("%s: up to date%s%s\n", figure, *reason ? ": " : "", reason);
     fflush(stdout);
-    return result.stale ? KILN_FRAME_FAILED : 0;
+    return result.stale && !result.redrawn ? KILN_FRAME_FAILED : 0;
 }
 
-static int check_all(const struct kiln_figure_list *list, bool quiet)
+static int check_all(const struct kiln_figure_list *list, const struct checking *checking)
 {
     int home = open(".", O_RDONLY | O_DIRECTORY | O_CLOEXEC), code = 0;
     if (home < 0)
@@ -88,35 +103,57 @@ static int check_all(const struct kiln_figure_list *list, bool quiet)
     for (size_t i = 0; i < kiln_figure_list_count(list) && !signals_received(); i++) {
         struct kiln_figure_entry entry = kiln_figure_list_entry(list, i);
         code = (int)kiln_code_worse((enum kiln_code)code,
-                                    (enum kiln_code)check_entry(&entry, home, quiet));
+                                    (enum kiln_code)check_entry(&entry, home, checking));
     }
     close(home);
     return signals_received() ? 128 + signals_received() : code;
 }
 
+/* The paths of --check or --update, and the operands behind them: of `--check *.png`, the shell
+ * makes one value and operands. */
+static int check_paths(const struct value_list *paths, const struct arguments *arguments,
+                       const struct checking *checking)
+{
+    size_t count = paths->count + arguments->operand_count;
+    const char **all = calloc(count, sizeof *all);
+    if (!all)
+        return report_no_memory();
+    for (size_t i = 0; i < count; i++)
+        all[i] = i < paths->count ? paths->items[i] : arguments->operands[i - paths->count];
+    struct kiln_error error = {0};
+    struct kiln_figure_list *list = kiln_figure_list_load(all, count, &error);
+    int code = list ? check_all(list, checking) : report_error(&error);
+    kiln_figure_list_destroy(&list);
+    free(all);
+    return code;
+}
+
+static int report_no_paths(const struct arguments *arguments)
+{
+    static const char *const names[] = {"sheet", "triptych", "strip", "--check", "--update"};
+    char suggestion[SUGGESTION_SIZE];
+    if (arguments->operand_count == 0)
+        return report(
+            KILN_USAGE,
+            "figure: needs sheet, triptych or strip, or --check FIGURE or --update FIGURE");
+    return report(
+        KILN_USAGE, "figure: unknown figure '%s'%s; allowed are sheet, triptych and strip",
+        arguments->operands[0], suggest(suggestion, "", arguments->operands[0], names, 5));
+}
+
 static int run(const struct arguments *arguments)
 {
-    if (arguments->operand_count > 0) {
-        static const char *const names[] = {"sheet", "triptych", "strip", "--check"};
-        char suggestion[SUGGESTION_SIZE];
-        return report(
-            KILN_USAGE, "figure: unknown figure '%s'%s; allowed are sheet, triptych and strip",
-            arguments->operands[0], suggest(suggestion, "", arguments->operands[0], names, 4));
-    }
+    struct checking checking = {.update = arguments_flag(arguments, "update"),
+                                .quiet = arguments_flag(arguments, "quiet")};
+    bool check = arguments_flag(arguments, "check");
+    if (check && checking.update)
+        return report(KILN_USAGE, "figure: --check and --update at once");
+    if (!check && !checking.update)
+        return report_no_paths(arguments);
     struct value_list paths;
-    int code = 0;
-    if (!value_list_create(&paths, arguments, "check"))
-        code = report_no_memory();
-    else if (paths.count == 0)
-        code = report(KILN_USAGE, "figure: needs sheet, triptych or strip, or --check PATH");
-    if (code) {
-        value_list_free(&paths);
-        return code;
-    }
-    struct kiln_error error = {0};
-    struct kiln_figure_list *list = kiln_figure_list_load(paths.items, paths.count, &error);
-    code = list ? check_all(list, arguments_flag(arguments, "quiet")) : report_error(&error);
-    kiln_figure_list_destroy(&list);
+    int code = value_list_create(&paths, arguments, check ? "check" : "update")
+                   ? check_paths(&paths, arguments, &checking)
+                   : report_no_memory();
     value_list_free(&paths);
     return code;
 }
@@ -130,10 +167,11 @@ const struct command figure_command = {
         "have a sidecar again, each by its command and in the folder in which that was given, and "
         "names those that are stale: whose pixels have changed, or whose file is not the one that "
         "was written. What another device, driver or processor drew may differ within the limits "
-        "of 'kiln compare', which is said. Nothing is written.\n\n"
-        "Exit code 0: all are up to date; 1: some are stale. A figure that cannot be checked is "
-        "reported, the others are checked all the same, and the code is that of the gravest "
-        "failure: 3 for a broken sidecar or scene, 2 for a command that makes no sense.",
+        "of 'kiln compare', which is said. Nothing is written. --update writes those that are "
+        "stale anew, and says so. More paths may follow the one behind either.\n\n"
+        "Exit code 0: all are up to date, or were redrawn; 1: some are stale. A figure that cannot "
+        "be checked is reported, the others are checked all the same, and the code is that of the "
+        "gravest failure: 3 for a broken sidecar or scene, 2 for a command that makes no sense.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .most_operands = SIZE_MAX,

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "length.h"
 #include "overrides.h"
 #include "report.h"
 #include "signals.h"
@@ -84,6 +85,61 @@ static int read_repeated(const struct command *command, const struct arguments *
     return 0;
 }
 
+/* A width on paper brings its own resolution and size of the lettering. */
+static int read_width(const struct command *command, const char *text,
+                      struct kiln_figure_params *params)
+{
+    struct length width;
+    bool ok = length_read(text, &width);
+    if (ok && width.on_paper)
+        ok = width.value >= 5 && width.value <= 2000;
+    else if (ok)
+        ok = width.value >= 16 && width.value <= 16384;
+    if (!ok)
+        return report(KILN_USAGE,
+                      "%s: --width: found '%s'; expected a width on paper from 5mm to 2000mm, such "
+                      "as 84mm, 3.3in or 240pt, or 16 to 16384 pixels of each picture",
+                      command->name, text);
+    if (!width.on_paper) {
+        params->width = (uint32_t)width.value;
+        return 0;
+    }
+    params->paper_width_mm = width.value;
+    params->text_points = 8;
+    if (params->dpi == 0)
+        params->dpi = 300;
+    return 0;
+}
+
+static int read_text_size(const struct command *command, const char *text,
+                          struct kiln_figure_params *params)
+{
+    struct length size;
+    bool ok = length_read(text, &size);
+    if (ok && size.on_paper) {
+        params->text_points = size.value / 25.4 * 72;
+        ok = params->text_points >= 4 - 1e-9 && params->text_points <= 72 + 1e-9;
+    } else if (ok) {
+        params->text_points = 0;
+        params->text_size = (uint32_t)size.value;
+        ok = size.value >= 8 && size.value <= 64;
+    }
+    return ok ? 0
+              : report(KILN_USAGE,
+                       "%s: --text-size: found '%s'; expected 4pt to 72pt on paper, or 8 to 64 "
+                       "pixels",
+                       command->name, text);
+}
+
+static int read_lengths(const struct command *command, const struct arguments *arguments,
+                        struct kiln_figure_params *params)
+{
+    const char *width = arguments_text(arguments, "width", NULL);
+    const char *size = arguments_text(arguments, "text-size", NULL);
+    int code = width ? read_width(command, width, params) : 0;
+    return code == 0 && size ? read_text_size(command, size, params) : code;
+}
+
 static struct kiln_figure_params make_params(const struct arguments *arguments,
                                              const struct lists *lists)
 {
@@ -97,8 +153,9 @@ static struct kiln_figure_params make_params(const struct arguments *arguments,
     params.insets = lists->insets;
     params.strip = arguments_integer(arguments, "count", params.strip);
     params.columns = arguments_integer(arguments, "columns", 0);
-    params.width = arguments_integer(arguments, "width", 0);
-    params.text_size = arguments_integer(arguments, "text-size", params.text_size);
+    params.dpi = arguments_integer(arguments, "dpi", 0);
+    params.alt = arguments_text(arguments, "alt", NULL);
+    params.depfile = arguments_text(arguments, "depfile", NULL);
     params.title = arguments_text(arguments, "title", NULL);
     params.labels = lists->labels.items;
     params.label_count = lists->labels.count;
@@ -179,8 +236,7 @@ static int read_frames(const struct command *command, const struct arguments *ar
 }
 
 int figure_make(const struct command *command, enum kiln_figure_kind kind,
-                const struct arguments *arguments, const char *check,
-                struct kiln_figure_result *result)
+                const struct arguments *arguments, const struct figure_check *check)
 {
     if (!arguments_flag(arguments, "output"))
         return report(KILN_USAGE, "%s: needs --output FILE", command->name);
@@ -191,14 +247,16 @@ int figure_make(const struct command *command, enum kiln_figure_kind kind,
     }
     struct kiln_figure_params params = make_params(arguments, &lists);
     params.kind = kind;
-    params.check = check;
+    params.check = check ? check->sidecar : NULL;
+    params.update = check && check->update;
     list_command(command, arguments, &lists, &params);
     int code = read_repeated(command, arguments, &lists, &params);
     code = code ? code : read_frames(command, arguments, &lists, &params);
+    code = code ? code : read_lengths(command, arguments, &params);
     struct kiln_figure_result made;
     struct kiln_error error = {0};
     signals_install_for_job();
-    if (code == 0 && !kiln_figure_make(&params, result ? result : &made, &error))
+    if (code == 0 && !kiln_figure_make(&params, check ? check->result : &made, &error))
         code = error.code == KILN_USAGE ? report(KILN_USAGE, "%s: %s", command->name, error.message)
                                         : report_error(&error);
     lists_free(&lists);

@@ -13,8 +13,12 @@
      .help =                                                                                       \
          "Where to write: .png, .jpg (smaller, of a fixed high quality), or .svg or .pdf with "    \
          "vector lettering. Beside it comes FILE.figure.json, for 'kiln figure --check'."},        \
+        {.name = "depfile",                                                                        \
+         .kind = OPTION_TEXT,                                                                      \
+         .placeholder = "FILE",                                                                    \
+         .help = "Write there which files the figure is made of, as a rule for make."},            \
     {                                                                                              \
-        .name = "force", .kind = OPTION_FLAG, .help = "Replace a figure that exists."              \
+        .name = "force", .kind = OPTION_FLAG, .help = "Replace files that exist."                  \
     }
 
 #define FIGURE_LOOK_OPTIONS                                                                        \
@@ -26,12 +30,27 @@
          "Show a part of each picture enlarged below it, in a coloured frame: in pixels, or "      \
          "in parts of the picture where a number has a point (0.4,0.25,0.2x0.2). Up to four."},    \
         {.name = "width",                                                                          \
+         .kind = OPTION_TEXT,                                                                      \
+         .placeholder = "LENGTH",                                                                  \
+         .help =                                                                                   \
+             "How wide the whole figure is on paper: 84mm, 8.4cm, 3.3in or 240pt; its pictures "   \
+             "fill it, without a margin. A number of pixels (480) instead reduces each larger "    \
+             "picture to it.",                                                                     \
+         .fallback = "what its pictures take, in their own size"},                                 \
+        {.name = "dpi",                                                                            \
          .kind = OPTION_INTEGER,                                                                   \
-         .placeholder = "PIXELS",                                                                  \
-         .help = "Reduce larger pictures to this width.",                                          \
-         .fallback = "their own",                                                                  \
-         .min = 16,                                                                                \
-         .max = 16384},                                                                            \
+         .placeholder = "N",                                                                       \
+         .help =                                                                                   \
+             "Pixels an inch of paper: of PNG and JPEG the resolution, which their files say; "    \
+             "of PDF and SVG the most that pictures in them have.",                                \
+         .fallback = "300 with a width on paper; else files say none, and PDF has 96",             \
+         .min = 36,                                                                                \
+         .max = 2400},                                                                             \
+        {.name = "alt",                                                                            \
+         .kind = OPTION_TEXT,                                                                      \
+         .placeholder = "TEXT",                                                                    \
+         .help = "What the figure shows, for those who do not see it; written into the file and "  \
+                 "its sidecar."},                                                                  \
         {.name = "title",                                                                          \
          .kind = OPTION_TEXT,                                                                      \
          .placeholder = "TEXT",                                                                    \
@@ -47,12 +66,11 @@
          .kind = OPTION_FLAG,                                                                      \
          .help = "Nothing but the pictures, edge to edge: of one, the picture itself."},           \
         {.name = "text-size",                                                                      \
-         .kind = OPTION_INTEGER,                                                                   \
-         .placeholder = "PIXELS",                                                                  \
-         .help = "The size of the lettering; margins and gaps go with it.",                        \
-         .fallback = "14",                                                                         \
-         .min = 8,                                                                                 \
-         .max = 64},                                                                               \
+         .kind = OPTION_TEXT,                                                                      \
+         .placeholder = "LENGTH",                                                                  \
+         .help = "The size of the lettering, in points on paper (8pt, from 4 to 72) or in pixels " \
+                 "(14, from 8 to 64); margins and gaps go with it.",                               \
+         .fallback = "8pt with a width on paper, else 14"},                                        \
     {                                                                                              \
         .name = "dark", .kind = OPTION_FLAG, .help = "Light lettering on dark paper."              \
     }
@@ -88,11 +106,16 @@
         .fallback = "one a core", .max = 256                                                       \
     }
 
+/* Whether a figure is only drawn and checked, and where what came out goes. */
+struct figure_check {
+    const char *sidecar; /* that it is checked against */
+    bool update;         /* to write it again if it is stale */
+    struct kiln_figure_result *result;
+};
+
 /* Draws the figure that a command's arguments ask for and returns the exit code, after reporting
- * what is wrong. check: the sidecar that it is checked against, in place of being written, and
- * where what came out goes; else both are NULL. */
+ * what is wrong. check is NULL for a figure that is written. */
 int figure_make(const struct command *command, enum kiln_figure_kind kind,
-                const struct arguments *arguments, const char *check,
-                struct kiln_figure_result *result);
+                const struct arguments *arguments, const struct figure_check *check);
 
 #endif

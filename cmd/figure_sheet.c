@@ -42,7 +42,7 @@ static const struct option options[] = {
 
 static int run(const struct arguments *arguments)
 {
-    return figure_make(&figure_sheet_command, KILN_FIGURE_SHEET, arguments, NULL, NULL);
+    return figure_make(&figure_sheet_command, KILN_FIGURE_SHEET, arguments, NULL);
 }
 
 const struct command figure_sheet_command = {

@@ -32,7 +32,7 @@ static const struct option options[] = {
 
 static int run(const struct arguments *arguments)
 {
-    return figure_make(&figure_strip_command, KILN_FIGURE_STRIP, arguments, NULL, NULL);
+    return figure_make(&figure_strip_command, KILN_FIGURE_STRIP, arguments, NULL);
 }
 
 const struct command figure_strip_command = {

@@ -10,7 +10,7 @@ static const struct option options[] = {
 
 static int run(const struct arguments *arguments)
 {
-    return figure_make(&figure_triptych_command, KILN_FIGURE_TRIPTYCH, arguments, NULL, NULL);
+    return figure_make(&figure_triptych_command, KILN_FIGURE_TRIPTYCH, arguments, NULL);
 }
 
 const struct command figure_triptych_command = {

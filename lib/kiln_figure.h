@@ -40,11 +40,16 @@ struct kiln_figure_params {
     size_t range_count;
     uint32_t strip; /* a strip without ranges: how many frames, evenly over the clip */
     const struct kiln_figure_inset *insets;
-    size_t inset_count;        /* up to 4 */
-    uint32_t columns;          /* 0: as many as look right */
-    uint32_t width;            /* of a panel, to which larger pictures are reduced; 0: their own */
-    uint32_t text_size;        /* pixels, 8 to 64 */
-    const char *title;         /* NULL: none */
+    size_t inset_count;    /* up to 4 */
+    uint32_t columns;      /* 0: as many as look right */
+    uint32_t width;        /* of a panel, to which larger pictures are reduced; 0: their own */
+    double paper_width_mm; /* of the figure on paper, 5 to 2000; 0: what its panels take */
+    uint32_t dpi;          /* pixels an inch of paper, 36 to 2400, needed with paper_width_mm; 0:
+                              not said, and vectors have 96 */
+    uint32_t text_size;    /* pixels, 8 to 64 */
+    double text_points;    /* in place of text_size, 4 to 72; 0: text_size counts */
+    const char *title;     /* NULL: none */
+    const char *alt;       /* what the figure shows, for those who do not see it; NULL: not said */
     const char *const *labels; /* of the panels, in place of the parameters */
     size_t label_count;
     bool unlabelled, dark;
@@ -55,7 +60,9 @@ struct kiln_figure_params {
     uint32_t threads;
     const char *const *command; /* what was asked for, for the sidecar and `kiln figure --check` */
     size_t command_count;
-    const char *check; /* a sidecar: draw, write nothing, and say whether its figure is stale */
+    const char *check;   /* a sidecar: draw, write nothing, and say whether its figure is stale */
+    bool update;         /* of a check: write what was drawn in place of a figure that is stale */
+    const char *depfile; /* where to write what the figure is made of, for make; NULL: nowhere */
     bool (*stop)(void *user);
     void *user;
     struct kiln_log log;
@@ -68,6 +75,7 @@ static inline struct kiln_figure_params kiln_figure_defaults(void)
 struct kiln_figure_result {
     uint32_t width, height, panels;
     bool stale;                     /* of a check */
+    bool redrawn;                   /* of a check that updates: it was stale, and is not any more */
     char reason[KILN_MESSAGE_SIZE]; /* why; or how it was judged, if not by its pixels' hash */
 };
 
@@ -86,8 +94,8 @@ struct kiln_figure_entry {
     const struct kiln_error *problem; /* why it cannot be read, and has no command; else NULL */
 };
 
-/* Sidecars, and all below folders, ordered by path. A broken one is a problem of its entry;
- * KILN_INVALID_INPUT when there is none. */
+/* Figures, by themselves or by their sidecars, and all below folders, ordered by path. A broken one
+ * is a problem of its entry; KILN_INVALID_INPUT when there is none. */
 struct kiln_figure_list *kiln_figure_list_load(const char *const *paths, size_t count,
                                                struct kiln_error *error);
 void kiln_figure_list_destroy(struct kiln_figure_list **list);

@@ -19,6 +19,10 @@ bool kiln_claims_read(struct kiln_claims *claims, const char *path, const char *
 bool kiln_claims_write(struct kiln_claims *claims, const char *path, const char *what,
                        struct kiln_error *error);
 
+/* Visits the absolute path of each file that is read and is there, in no order. */
+void kiln_claims_visit_read(const struct kiln_claims *claims,
+                            void (*visit)(void *user, const char *path), void *user);
+
 /* Declares what the job reads (the scene and its files) and writes. KILN_USAGE when a file would be
  * written that is read, or twice; also when the output is no format, or the ranges make no sense
  * for it. kiln_render does that itself, for its one job. */

@@ -282,3 +282,13 @@ bool kiln_claims_write(struct kiln_claims *claims, const char *path, const char 
 {
     return declare(claims, path, what, true, error);
 }
+
+void kiln_claims_visit_read(const struct kiln_claims *claims,
+                            void (*visit)(void *user, const char *path), void *user)
+{
+    for (size_t i = 0; i < claims->by_path.capacity; i++) {
+        const struct claim *claim = claims->by_path.claims[i];
+        if (claim && claim->exists && !claim->written)
+            visit(user, claim->path);
+    }
+}

@@ -1,6 +1,7 @@
 /* Lists of marks. */
 #include "figure/drawing.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "figure/font.h"
@@ -22,8 +23,12 @@ void kiln_drawing_add(struct kiln_drawing *drawing, const struct kiln_mark *mark
     drawing->marks[drawing->count++] = *mark;
 }
 
-uint32_t kiln_drawing_text_width(const char *text, uint32_t height)
+uint32_t kiln_drawing_text_width(const char *text, double capital)
 {
-    return (uint32_t)(((uint64_t)kiln_font_width(text) * height + KILN_FONT_CAPITAL - 1) /
-                      KILN_FONT_CAPITAL);
+    return (uint32_t)ceil(kiln_font_width(text) * capital / KILN_FONT_CAPITAL);
+}
+
+double kiln_drawing_font_size(double capital)
+{
+    return capital * KILN_FONT_EM / KILN_FONT_CAPITAL;
 }

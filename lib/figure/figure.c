@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/temporary.h"
+#include "figure/depfile.h"
 #include "figure/layout.h"
 #include "figure/lettering.h"
 #include "figure/record.h"
@@ -58,11 +59,38 @@ static bool check_target(const struct job *job)
                               job->error))
             return false;
     }
+    const char *depfile = params->depfile;
+    bool overwrite = params->overwrite || params->update;
     return sidecar_path(job, sidecar) &&
            kiln_claims_write(job->claims, params->output, "the figure", job->error) &&
            kiln_claims_write(job->claims, sidecar, "the figure's sidecar", job->error) &&
-           kiln_target_check(params->output, params->overwrite, job->error) &&
-           kiln_target_check(sidecar, params->overwrite, job->error);
+           (!depfile || kiln_claims_write(job->claims, depfile, "--depfile", job->error)) &&
+           kiln_target_check(params->output, overwrite, job->error) &&
+           kiln_target_check(sidecar, overwrite, job->error) &&
+           (!depfile || kiln_target_check(depfile, overwrite, job->error));
+}
+
+static bool check_sizes(const struct kiln_figure_params *params, struct kiln_error *error)
+{
+    double paper = params->paper_width_mm, points = params->text_points;
+    if (points != 0 && !(points >= 4 - 1e-9 && points <= 72 + 1e-9))
+        return kiln_error_set(error, KILN_USAGE,
+                              "--text-size: found %g points; allowed are 4 to 72", points);
+    if (params->text_size < 8 || params->text_size > 64)
+        return kiln_error_set(error, KILN_USAGE,
+                              "--text-size: found %u pixels; allowed are 8 to 64",
+                              params->text_size);
+    if (params->dpi != 0 && (params->dpi < 36 || params->dpi > 2400))
+        return kiln_error_set(error, KILN_USAGE, "--dpi: found %u; allowed are 36 to 2400",
+                              params->dpi);
+    if (paper != 0 && !(paper >= 5 && paper <= 2000))
+        return kiln_error_set(error, KILN_USAGE, "--width: found %g mm; allowed are 5 to 2000",
+                              paper);
+    if (paper != 0 && (params->width != 0 || params->dpi == 0))
+        return kiln_error_set(error, KILN_USAGE,
+                              "a width on paper needs the pixels of an inch, and "
+                              "no width of a panel");
+    return true;
 }
 
 /* What can be refused before anything is rendered. */
@@ -74,9 +102,8 @@ static bool check_request(struct job *job)
     job->format = kiln_figure_format_find(params->output, job->error);
     if (!job->format)
         return false;
-    if (params->text_size < 8 || params->text_size > 64)
-        return kiln_error_set(job->error, KILN_USAGE, "text of %u pixels; allowed are 8 to 64",
-                              params->text_size);
+    if (!check_sizes(params, job->error))
+        return false;
     if (params->plain && (params->title || params->label_count > 0))
         return kiln_error_set(job->error, KILN_USAGE,
                               "--plain leaves no room for a title or labels");
@@ -143,6 +170,7 @@ static bool write_sidecar(struct job *job, const uint8_t *bytes, size_t size)
                                  .cpu = job->panels.maker.cpu,
                                  .width = job->drawing.width,
                                  .height = job->drawing.height,
+                                 .alt = job->params->alt,
                                  .pixels = job->hash,
                                  .file = file,
                                  .panels = job->panels.items,
@@ -161,15 +189,26 @@ static bool write_sidecar(struct job *job, const uint8_t *bytes, size_t size)
     return ok;
 }
 
+static bool write_depfile(struct job *job)
+{
+    struct kiln_text text = {0};
+    bool ok = kiln_depfile_make(job->params->output, job->claims, &text, job->error) &&
+              kiln_temporary_write_file(job->params->depfile, text.data, text.length, job->error);
+    kiln_text_free(&text);
+    return ok;
+}
+
 static bool write_figure(struct job *job)
 {
     uint8_t *bytes = NULL;
     size_t size = 0;
     bool ok = job->format->of_pixels
-                  ? job->format->of_pixels(&job->pixels, &bytes, &size, job->error)
+                  ? job->format->of_pixels(
+                        &job->pixels, &(struct kiln_imprint){job->params->dpi, job->params->alt},
+                        &bytes, &size, job->error)
                   : job->format->of_drawing(&job->drawing, &bytes, &size, job->error);
     ok = ok && kiln_temporary_write_file(job->params->output, bytes, size, job->error) &&
-         write_sidecar(job, bytes, size);
+         write_sidecar(job, bytes, size) && (!job->params->depfile || write_depfile(job));
     free(bytes);
     return ok;
 }
@@ -192,10 +231,27 @@ static bool is_own_sidecar(const struct job *job)
            is_same_file(sidecar, &given);
 }
 
+/* Whether the file is there and the one that its sidecar describes; stale if not. */
+static bool check_file(struct job *job, const struct kiln_record *record,
+                       struct kiln_figure_result *result)
+{
+    char file[65];
+    if (access(job->params->output, F_OK) != 0) {
+        say_stale(result, "the figure is not there");
+        return true;
+    }
+    if (!kiln_hash_sha256_file(job->params->output, file))
+        return kiln_error_set(job->error, KILN_IO, "%s: the file cannot be read",
+                              job->params->output);
+    if (strcmp(file, record->file) != 0)
+        say_stale(result, "the file is not the one that was written with its sidecar");
+    return true;
+}
+
 static bool check_figure(struct job *job, struct kiln_figure_result *result)
 {
     struct kiln_record *record = kiln_record_read(job->arena, job->params->check, job->error);
-    char file[65];
+    bool update = job->params->update;
     if (!record)
         return false;
     if (!is_own_sidecar(job)) {
@@ -204,18 +260,11 @@ static bool check_figure(struct job *job, struct kiln_figure_result *result)
                  job->params->output);
         return true;
     }
-    if (access(job->params->output, F_OK) != 0) {
-        say_stale(result, "the figure is not there");
+    if (!check_file(job, record, result))
+        return false;
+    if (result->stale && !update)
         return true;
-    }
-    if (!kiln_hash_sha256_file(job->params->output, file))
-        return kiln_error_set(job->error, KILN_IO, "%s: the file cannot be read",
-                              job->params->output);
-    if (strcmp(file, record->file) != 0) {
-        say_stale(result, "the file is not the one that was written with its sidecar");
-        return true;
-    }
-    if (!draw(job))
+    if ((update && !check_target(job)) || !draw(job))
         return false;
     const struct kiln_figure_now now = {.panels = &job->panels,
                                         .pixels = &job->pixels,
@@ -223,7 +272,10 @@ static bool check_figure(struct job *job, struct kiln_figure_result *result)
                                         .format = job->format,
                                         .path = job->params->output,
                                         .threads = job->params->threads};
-    return kiln_figure_judge(record, &now, result, job->error);
+    if (!result->stale && !kiln_figure_judge(record, &now, result, job->error))
+        return false;
+    result->redrawn = result->stale && update;
+    return !result->redrawn || write_figure(job);
 }
 
 bool kiln_figure_make(const struct kiln_figure_params *params, struct kiln_figure_result *result,

@@ -9,6 +9,7 @@
 #include <stdint.h>
 
 enum {
+    KILN_FONT_EM = 140, /* what the size of a font is about */
     KILN_FONT_CAPITAL = 100,
     KILN_FONT_ASCENT = 146, /* of a capital with an accent */
     KILN_FONT_DESCENT = 40, /* both with the pen */

@@ -7,8 +7,8 @@
 /* One of the two is set. */
 struct kiln_figure_format {
     const char *suffix;
-    bool (*of_pixels)(const struct kiln_pixels *pixels, uint8_t **bytes, size_t *size,
-                      struct kiln_error *error);
+    bool (*of_pixels)(const struct kiln_pixels *pixels, const struct kiln_imprint *imprint,
+                      uint8_t **bytes, size_t *size, struct kiln_error *error);
     bool (*of_drawing)(const struct kiln_drawing *drawing, uint8_t **bytes, size_t *size,
                        struct kiln_error *error);
 };

@@ -6,9 +6,15 @@
 /* FFmpeg's scale of quantisers, from 1; about what other programs call quality 92. */
 enum { QUANTISER = 2 };
 
-bool kiln_pixels_jpeg(const struct kiln_pixels *pixels, uint8_t **bytes, size_t *size,
-                      struct kiln_error *error)
+bool kiln_pixels_jpeg(const struct kiln_pixels *pixels, const struct kiln_imprint *imprint,
+                      uint8_t **bytes, size_t *size, struct kiln_error *error)
 {
-    const struct kiln_jpeg jpeg = {pixels->rgba, pixels->width, pixels->height, QUANTISER, NULL};
+    const struct kiln_jpeg jpeg = {.rgba = pixels->rgba,
+                                   .width = pixels->width,
+                                   .height = pixels->height,
+                                   .quantiser = QUANTISER,
+                                   .comment = imprint ? imprint->alt : NULL,
+                                   .dpi = imprint ? imprint->dpi : 0};
     return kiln_jpeg_encode(&jpeg, bytes, size, error);
+}
 }

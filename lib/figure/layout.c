@@ -5,7 +5,9 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "compare/magma.h"
+#include "figure/font.h"
 #include "figure/inset.h"
 
 struct theme {
@@ -23,8 +25,14 @@ struct layout {
     const struct kiln_panels *panels;
     const struct kiln_figure_params *params;
     const struct theme *theme;
-    uint32_t capital; /* the height of labels' capitals */
+    double letter;    /* the height of labels' capitals */
+    uint32_t capital; /* the same in whole pixels */
+    uint32_t size;    /* of the lettering, in pixels */
+    uint32_t line;    /* how wide thin lines are */
     uint32_t margin, gap, row_gap;
+    uint32_t head;   /* from the upper edge to the title's capitals, or to the pictures */
+    uint32_t foot;   /* from the last baseline to the lower edge */
+    uint32_t widest; /* picture, in its own pixels */
     uint32_t columns, rows;
     uint32_t cell_width, picture_height, inset_height;
     uint32_t label_height; /* with the space above it; 0 without labels */
@@ -37,19 +45,19 @@ uint32_t kiln_layout_paper(bool dark)
     return dark ? dark_theme.paper : light_theme.paper;
 }
 
-static void add_text(const struct layout *l, int64_t x, int64_t baseline, uint32_t capital,
+static void add_text(const struct layout *l, int64_t x, int64_t baseline, double capital,
                      uint32_t color, const char *text)
 {
     kiln_drawing_add(l->drawing, &(struct kiln_mark){.kind = KILN_MARK_TEXT,
                                                      .x = (int32_t)x,
                                                      .y = (int32_t)baseline,
-                                                     .height = capital,
+                                                     .capital = capital,
                                                      .color = color,
                                                      .text = text});
 }
 
 /* The text, or its start with an ellipsis where it is too wide; NULL when memory is short. */
-static const char *fit_text(const struct layout *l, const char *text, uint32_t capital,
+static const char *fit_text(const struct layout *l, const char *text, double capital,
                             uint32_t width)
 {
     size_t length = strlen(text);
@@ -106,11 +114,12 @@ static void add_insets(const struct layout *l, const struct kiln_pixels *pixels,
     for (size_t i = 0; i < l->params->inset_count; i++) {
         struct kiln_rect rect =
             kiln_inset_rect(&l->params->insets[i], pixels->width, pixels->height);
-        struct kiln_mark mark = {.kind = KILN_MARK_FRAME, .color = inset_colors[i], .stroke = 2};
-        mark.x = (int32_t)(x + (uint64_t)rect.x * width / pixels->width) - 1;
-        mark.y = (int32_t)(y + (uint64_t)rect.y * height / pixels->height) - 1;
-        mark.width = (uint32_t)((uint64_t)rect.width * width / pixels->width) + 2;
-        mark.height = (uint32_t)((uint64_t)rect.height * height / pixels->height) + 2;
+        struct kiln_mark mark = {
+            .kind = KILN_MARK_FRAME, .color = inset_colors[i], .stroke = 2 * l->line};
+        mark.x = (int32_t)(x + (uint64_t)rect.x * width / pixels->width - l->line);
+        mark.y = (int32_t)(y + (uint64_t)rect.y * height / pixels->height - l->line);
+        mark.width = (uint32_t)((uint64_t)rect.width * width / pixels->width) + 2 * l->line;
+        mark.height = (uint32_t)((uint64_t)rect.height * height / pixels->height) + 2 * l->line;
         kiln_drawing_add(l->drawing, &mark);
         bool last = i + 1 == l->params->inset_count;
         uint32_t shown = (uint32_t)((double)row * rect.width / rect.height);
@@ -127,7 +136,7 @@ static void add_insets(const struct layout *l, const struct kiln_pixels *pixels,
         kiln_drawing_add(l->drawing, &mark);
         mark.kind = KILN_MARK_FRAME;
         mark.color = inset_colors[i];
-        mark.stroke = 2;
+        mark.stroke = 2 * l->line;
         kiln_drawing_add(l->drawing, &mark);
         at += shown + l->gap / 2;
     }
@@ -135,35 +144,44 @@ static void add_insets(const struct layout *l, const struct kiln_pixels *pixels,
 
 /* ---- Cells ---------------------------------------------------------------------------------- */
 
+/* At least a pixel. */
+static uint32_t scaled(uint32_t length, uint32_t to, uint32_t from)
+{
+    uint64_t result = ((uint64_t)length * to + from / 2) / from;
+    return result > 0 ? (uint32_t)result : 1;
+}
+
 static void picture_size(const struct layout *l, const struct kiln_pixels *pixels, uint32_t *width,
                          uint32_t *height)
 {
     *width = pixels->width;
     *height = pixels->height;
-    if (l->params->width > 0 && pixels->width > l->params->width) {
+    if (l->params->paper_width_mm > 0) {
+        *width = scaled(pixels->width, l->cell_width, l->widest);
+        *height = scaled(pixels->height, l->cell_width, l->widest);
+    } else if (l->params->width > 0 && pixels->width > l->params->width) {
         *width = l->params->width;
-        uint64_t rows = ((uint64_t)pixels->height * *width + pixels->width / 2) / pixels->width;
-        *height = rows > 0 ? (uint32_t)rows : 1;
+        *height = scaled(pixels->height, *width, pixels->width);
     }
 }
 
 /* From black to pale yellow: no error to the largest one. It ends at `right`. */
 static void add_scale(const struct layout *l, uint32_t right, uint32_t baseline)
 {
-    enum { LENGTH = 64 };
-    uint32_t capital = l->capital, one = kiln_drawing_text_width("1", capital);
-    uint32_t left = right - one - 4 - LENGTH;
-    add_text(l, right - one, baseline, capital, l->theme->faint, "1");
-    add_text(l, left - 4 - kiln_drawing_text_width("0", capital), baseline, capital,
+    enum { LENGTH = 64, GAP = 4 };
+    uint32_t line = l->line, one = kiln_drawing_text_width("1", l->letter);
+    uint32_t left = right - one - (GAP + LENGTH) * line;
+    add_text(l, right - one, baseline, l->letter, l->theme->faint, "1");
+    add_text(l, left - GAP * line - kiln_drawing_text_width("0", l->letter), baseline, l->letter,
              l->theme->faint, "0");
     for (uint32_t i = 0; i < LENGTH; i++) {
         uint8_t rgb[3];
         kiln_magma_color(((float)i + 0.5f) / LENGTH, rgb);
         struct kiln_mark mark = {.kind = KILN_MARK_FILL,
-                                 .x = (int32_t)(left + i),
-                                 .y = (int32_t)(baseline - capital),
-                                 .width = 1,
-                                 .height = capital};
+                                 .x = (int32_t)(left + i * line),
+                                 .y = (int32_t)(baseline - l->capital),
+                                 .width = line,
+                                 .height = l->capital};
         mark.color = (uint32_t)rgb[0] << 16 | (uint32_t)rgb[1] << 8 | rgb[2];
         kiln_drawing_add(l->drawing, &mark);
     }
@@ -178,9 +196,32 @@ static void add_label(const struct layout *l, size_t index, uint32_t x, uint32_t
         add_scale(l, x + width, baseline);
         width -= scale;
     }
-    const char *text = fit_text(l, label, l->capital, width);
+    const char *text = fit_text(l, label, l->letter, width);
     if (text)
-        add_text(l, x, baseline, l->capital, l->theme->ink, text);
+        add_text(l, x, baseline, l->letter, l->theme->ink, text);
+    else
+        l->drawing->failed = true;
+}
+
+/* What a width on paper leaves over is spread over the gaps. */
+static uint32_t column_left(const struct layout *l, uint32_t column)
+{
+    if (l->params->paper_width_mm > 0)
+        return l->margin + (uint32_t)((uint64_t)column *
+                                      (l->drawing->width - 2 * l->margin + l->gap) / l->columns);
+    return l->margin + column * (l->cell_width + l->gap);
+}
+
+/* Vectors carry a picture as it is; where they know how many pixels an inch has, not more of them.
+ */
+static void reduce(const struct layout *l, struct kiln_mark *mark)
+{
+    bool larger = mark->pixels.width > mark->width || mark->pixels.height > mark->height;
+    if (l->params->dpi == 0 || !larger)
+        return;
+    uint8_t *rgba = kiln_arena_alloc(l->drawing->arena, (size_t)mark->width * mark->height, 4);
+    if (rgba && kiln_pixels_resize(&mark->pixels, mark->width, mark->height, rgba))
+        mark->pixels = (struct kiln_pixels){mark->width, mark->height, rgba};
     else
         l->drawing->failed = true;
 }
@@ -190,20 +231,21 @@ static void add_cell(const struct layout *l, size_t index)
     const struct kiln_panel *panel = &l->panels->items[index];
     uint32_t column = (uint32_t)index % l->columns, row = (uint32_t)index / l->columns;
     uint32_t below = l->inset_height ? l->inset_height + l->gap / 2 : 0;
-    uint32_t x = l->margin + column * (l->cell_width + l->gap);
+    uint32_t x = column_left(l, column);
     uint32_t y = l->top + row * (l->picture_height + below + l->label_height + l->row_gap);
     struct kiln_mark mark = {
         .kind = KILN_MARK_PICTURE, .x = (int32_t)x, .y = (int32_t)y, .pixels = panel->pixels};
     picture_size(l, &panel->pixels, &mark.width, &mark.height);
+    reduce(l, &mark);
     kiln_drawing_add(l->drawing, &mark);
     if (!l->params->plain)
         kiln_drawing_add(l->drawing, &(struct kiln_mark){.kind = KILN_MARK_FRAME,
-                                                         .x = mark.x - 1,
-                                                         .y = mark.y - 1,
-                                                         .width = mark.width + 2,
-                                                         .height = mark.height + 2,
+                                                         .x = mark.x - (int32_t)l->line,
+                                                         .y = mark.y - (int32_t)l->line,
+                                                         .width = mark.width + 2 * l->line,
+                                                         .height = mark.height + 2 * l->line,
                                                          .color = l->theme->rule,
-                                                         .stroke = 1});
+                                                         .stroke = l->line});
     if (l->params->inset_count > 0)
         add_insets(l, &panel->pixels, x, y, mark.width, mark.height);
     if (l->label_height > 0)
@@ -223,13 +265,81 @@ static bool any_label(const struct layout *l)
     return l->params->label_count > 0;
 }
 
-static void measure(struct layout *l)
+/* The lettering, and what goes with its size. On paper that has a width the document around the
+ * figure has margins already. */
+static void measure_text(struct layout *l)
+{
+    const struct kiln_figure_params *params = l->params;
+    double dpi = params->dpi > 0 ? params->dpi : 96;
+    bool sized = params->paper_width_mm > 0, labels = any_label(l);
+    if (params->text_points > 0) {
+        double pixels = params->text_points * dpi / 72;
+        l->letter = pixels * KILN_FONT_CAPITAL / KILN_FONT_EM;
+        l->size = (uint32_t)(pixels + 0.5);
+        l->capital = (uint32_t)ceil(l->letter);
+    } else {
+        l->size = params->text_size;
+        l->capital = (l->size * 10 + 7) / 14;
+        l->letter = l->capital;
+    }
+    l->line = sized && dpi > 96 ? (uint32_t)(dpi / 96 + 0.5) : 1;
+    l->margin = params->plain ? 0 : sized && !params->dark ? l->line : l->size * 3 / 2;
+    l->gap = params->plain ? 0 : l->size;
+    l->label_height = labels ? l->capital + l->size * 3 / 4 : 0;
+    l->row_gap = labels ? l->size * 10 / 7 : l->gap;
+    uint32_t above = l->capital * 7 / 5 * (KILN_FONT_ASCENT - KILN_FONT_CAPITAL) / 100 + 1;
+    uint32_t below = l->capital * KILN_FONT_DESCENT / 100 + 1;
+    bool titled = params->title && *params->title;
+    l->head = titled && above > l->margin ? above : l->margin;
+    l->foot = labels && below > l->margin ? below : l->margin;
+}
+
+/* Repeated pixels look coarse in print, and scenes can be rendered larger. */
+static void warn_of_enlarging(const struct layout *l)
+{
+    if (l->widest < l->cell_width && !l->params->check)
+        kiln_log_write(
+            &l->params->log, KILN_LOG_WARNING,
+            "%s: pictures of %u pixels are enlarged to %u, which %u an inch take; scenes "
+            "have more with --size",
+            l->params->output, l->widest, l->cell_width, l->params->dpi);
+}
+
+/* Where a width on paper has to hold so many pictures. */
+static bool measure_cells_on_paper(struct layout *l)
+{
+    enum { LEAST = 16 };
+    const struct kiln_figure_params *params = l->params;
+    int64_t paper = llround(params->paper_width_mm / 25.4 * params->dpi);
+    int64_t rest = paper - 2 * (int64_t)l->margin - (int64_t)(l->columns - 1) * l->gap;
+    if (rest < (int64_t)LEAST * l->columns)
+        return kiln_error_set(
+            l->error, KILN_USAGE,
+            "--width %g mm: found %lld pixels at %u an inch; %u pictures in a row "
+            "need %lld",
+            params->paper_width_mm, (long long)paper, params->dpi, l->columns,
+            (long long)(paper - rest) + (long long)LEAST * l->columns);
+    l->drawing->width = (uint32_t)(paper < UINT32_MAX ? paper : UINT32_MAX);
+    l->cell_width = (uint32_t)(rest / l->columns < KILN_MAX_FIGURE_EDGE ? rest / l->columns
+                                                                        : KILN_MAX_FIGURE_EDGE);
+    warn_of_enlarging(l);
+    return true;
+}
+
+static bool measure(struct layout *l)
 {
     const struct kiln_panels *panels = l->panels;
-    uint32_t size = l->params->text_size;
-    l->capital = (size * 10 + 7) / 14;
-    l->margin = l->params->plain ? 0 : size * 3 / 2;
-    l->gap = l->params->plain ? 0 : size;
+    measure_text(l);
+    size_t columns = l->params->columns ? l->params->columns : panels->columns;
+    l->columns = (uint32_t)(columns < panels->count ? columns : panels->count);
+    l->columns = l->columns > 0 ? l->columns : 1;
+    l->rows = (uint32_t)((panels->count + l->columns - 1) / l->columns);
+    for (size_t i = 0; i < panels->count; i++) {
+        uint32_t own = panels->items[i].pixels.width;
+        l->widest = own > l->widest ? own : l->widest;
+    }
+    if (l->params->paper_width_mm > 0 && !measure_cells_on_paper(l))
+        return false;
     for (size_t i = 0; i < panels->count; i++) {
         uint32_t width, height;
         picture_size(l, &panels->items[i].pixels, &width, &height);
@@ -238,32 +348,27 @@ static void measure(struct layout *l)
         uint32_t row = inset_height(l, &panels->items[i].pixels, width, height);
         l->inset_height = row > l->inset_height ? row : l->inset_height;
     }
-    size_t columns = l->params->columns ? l->params->columns : panels->columns;
-    l->columns = (uint32_t)(columns < panels->count ? columns : panels->count);
-    l->columns = l->columns > 0 ? l->columns : 1;
-    l->rows = (uint32_t)((panels->count + l->columns - 1) / l->columns);
-    bool labels = any_label(l);
-    l->label_height = labels ? l->capital + size * 3 / 4 : 0;
-    l->row_gap = labels ? size * 10 / 7 : l->gap;
-    l->top = l->margin;
+    l->top = l->head;
+    return true;
 }
 
 /* The title, with a thin line below it. */
 static void add_title(struct layout *l)
 {
     uint32_t capital = l->capital * 7 / 5, width = l->drawing->width - 2 * l->margin;
-    uint32_t baseline = l->margin + capital;
-    const char *text = fit_text(l, l->params->title, capital, width);
+    uint32_t baseline = l->head + capital;
+    double letter = l->params->text_points > 0 ? l->letter * 7 / 5 : capital;
+    const char *text = fit_text(l, l->params->title, letter, width);
     if (!text) {
         l->drawing->failed = true;
         return;
     }
-    add_text(l, l->margin, baseline, capital, l->theme->ink, text);
+    add_text(l, l->margin, baseline, letter, l->theme->ink, text);
     kiln_drawing_add(l->drawing, &(struct kiln_mark){.kind = KILN_MARK_FILL,
                                                      .x = (int32_t)l->margin,
                                                      .y = (int32_t)(baseline + capital * 3 / 4),
                                                      .width = width,
-                                                     .height = 1,
+                                                     .height = l->line,
                                                      .color = l->theme->rule});
 }
 
@@ -289,27 +394,32 @@ bool kiln_layout_make(struct kiln_drawing *drawing, const struct kiln_panels *pa
                        .params = params,
                        .theme = params->dark ? &dark_theme : &light_theme,
                        .error = error};
-    if (!check_request(&l))
+    if (!check_request(&l) || !measure(&l))
         return false;
-    measure(&l);
     bool titled = params->title && *params->title;
     if (titled)
         l.top += l.capital * 7 / 5 * 11 / 4;
     uint64_t below = l.inset_height ? l.inset_height + l.gap / 2 : 0;
     uint64_t row = l.picture_height + below + l.label_height + l.row_gap;
     uint64_t width = 2 * (uint64_t)l.margin + (uint64_t)l.columns * (l.cell_width + l.gap) - l.gap;
-    uint64_t height = l.top + l.rows * row - l.row_gap + l.margin;
+    uint64_t height = l.top + l.rows * row - l.row_gap + l.foot;
+    if (params->paper_width_mm > 0)
+        width = drawing->width;
     if (width > KILN_MAX_FIGURE_EDGE || height > KILN_MAX_FIGURE_EDGE ||
         width * height > KILN_MAX_FIGURE_PIXELS)
         return kiln_error_set(error, KILN_USAGE,
                               "the figure would have %llu x %llu pixels; allowed are %d a side and "
-                              "%d in all: make its panels smaller with --width",
+                              "%d in all: make its panels smaller with --width, or --dpi",
                               (unsigned long long)width, (unsigned long long)height,
                               (int)KILN_MAX_FIGURE_EDGE, (int)KILN_MAX_FIGURE_PIXELS);
     drawing->width = (uint32_t)width;
     drawing->height = (uint32_t)height;
     drawing->paper = l.theme->paper;
     drawing->title = titled ? params->title : NULL;
+    drawing->alt = params->alt;
+    drawing->pixel_mm = params->paper_width_mm > 0 ? params->paper_width_mm / (double)width
+                        : params->dpi > 0          ? 25.4 / params->dpi
+                                                   : 0;
     if (titled)
         add_title(&l);
     for (size_t i = 0; i < panels->count; i++)

@@ -36,9 +36,25 @@ bool kiln_lettering_check_label(const char *label, size_t panel, struct kiln_err
     return kiln_lettering_check(label, place, error);
 }
 
+/* Words that are not lettered may be in any script. */
+static bool check_utf8(const char *text, struct kiln_error *error)
+{
+    const char *c = text;
+    for (size_t length; *c; c += length) {
+        length = kiln_text_utf8_length(c);
+        if (length == 0)
+            return kiln_error_set(error, KILN_USAGE,
+                                  "--alt: found the byte %02x behind %zu others, which is no UTF-8",
+                                  (unsigned char)*c, (size_t)(c - text));
+    }
+    return true;
+}
+
 bool kiln_lettering_check_request(const struct kiln_figure_params *params, struct kiln_error *error)
 {
     if (params->title && !kiln_lettering_check(params->title, "--title", error))
+        return false;
+    if (params->alt && !check_utf8(params->alt, error))
         return false;
     for (size_t i = 0; i < params->label_count; i++) {
         char place[PLACE_SIZE];

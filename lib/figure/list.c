@@ -1,9 +1,10 @@
-/* Sidecars below folders. */
+/* Finds the sidecars of figures, below folders and beside figures. */
 #include <dirent.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -96,17 +97,33 @@ static bool search(struct kiln_figure_list *list, const char *folder, int depth,
     return ok;
 }
 
+/* A figure, which may be gone, by its sidecar. */
+static bool add_figure(struct kiln_figure_list *list, const char *path, bool is_there,
+                       struct kiln_error *error)
+{
+    char sidecar[KILN_PATH_SIZE];
+    int length = snprintf(sidecar, sizeof sidecar, "%s%s", path, KILN_RECORD_SUFFIX);
+    bool fits = length >= 0 && length < KILN_PATH_SIZE;
+    if (fits && access(sidecar, F_OK) == 0)
+        return add_entry(list, sidecar, error);
+    if (!is_there)
+        return kiln_error_set_errno(error, KILN_INVALID_INPUT, ENOENT, "%s", path);
+    return kiln_error_set(
+        error, KILN_INVALID_INPUT,
+        "%s: expected a folder, a figure that has a sidecar (NAME%s) beside it, or "
+        "a sidecar",
+        path, KILN_RECORD_SUFFIX);
+}
+
 static bool add_path(struct kiln_figure_list *list, const char *path, struct kiln_error *error)
 {
     struct stat status;
     if (stat(path, &status) != 0)
-        return kiln_error_set_errno(error, KILN_INVALID_INPUT, errno, "%s", path);
+        return errno == ENOENT ? add_figure(list, path, false, error)
+                               : kiln_error_set_errno(error, KILN_INVALID_INPUT, errno, "%s", path);
     if (!S_ISDIR(status.st_mode))
-        return is_sidecar(path)
-                   ? add_entry(list, path, error)
-                   : kiln_error_set(error, KILN_INVALID_INPUT,
-                                    "%s: expected a folder, or a file whose name ends in %s", path,
-                                    KILN_RECORD_SUFFIX);
+        return is_sidecar(path) ? add_entry(list, path, error)
+                                : add_figure(list, path, true, error);
     size_t before = list->count, length = strlen(path);
     while (length > 1 && path[length - 1] == '/')
         length--;

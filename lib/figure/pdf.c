@@ -1,24 +1,60 @@
-/* PDF 1.4, one page: pictures as deflated RGB, lettering as strokes. Nothing in it tells of the
- * time or the machine. A pixel is 1/96 of an inch, three quarters of a point. */
+/* PDF 1.4, one page: pictures as deflated RGB, lettering as strokes, and over it the same text
+ * without ink, which readers select and search. A figure with a text for those who do not see is a
+ * tagged document of one element. Nothing in it tells of the time or the machine. */
+#include "figure/pdf.h"
+
 #include <inttypes.h>
 #include <stdlib.h>
 #include <zlib.h>
 
 #include "base/error.h"
-#include "figure/drawing.h"
 #include "figure/font.h"
 
-struct document {
-    FILE *out;
-    const struct kiln_drawing *drawing;
-    long *offsets; /* of objects, from 1 */
-    size_t objects;
-};
-
-static void begin_object(struct document *document)
+void kiln_pdf_begin(struct kiln_pdf *pdf)
 {
-    document->offsets[++document->objects] = ftell(document->out);
-    fprintf(document->out, "%zu 0 obj\n", document->objects);
+    pdf->offsets[++pdf->objects] = ftell(pdf->out);
+    fprintf(pdf->out, "%zu 0 obj\n", pdf->objects);
+}
+
+bool kiln_pdf_stream(struct kiln_pdf *pdf, const char *entries, const void *bytes, size_t size)
+{
+    uLongf packed_size = compressBound((uLong)size);
+    uint8_t *packed = malloc(packed_size);
+    bool ok = packed && compress2(packed, &packed_size, bytes, (uLong)size, 9) == Z_OK;
+    if (ok) {
+        kiln_pdf_begin(pdf);
+        fprintf(pdf->out, "<< %s/Filter /FlateDecode /Length %lu >>\nstream\n", entries,
+                packed_size);
+        fwrite(packed, 1, packed_size, pdf->out);
+        fputs("\nendstream\nendobj\n", pdf->out);
+    }
+    free(packed);
+    return ok;
+}
+
+/* The next character of a text as UTF-16 in hexadecimal digits; false at its end. */
+static bool put_utf16(FILE *out, const char **text)
+{
+    uint32_t code = kiln_font_next(text);
+    if (code >= 0x10000)
+        fprintf(out, "%04X%04X", 0xD800 + ((code - 0x10000) >> 10), 0xDC00 + (code & 0x3FF));
+    else if (code != 0)
+        fprintf(out, "%04X", code);
+    return code != 0;
+}
+
+/* A text of the document, which is not shown on the page. */
+static void put_string(FILE *out, const char *text)
+{
+    fputs("<FEFF", out);
+    while (put_utf16(out, &text))
+        continue;
+    fputs(">", out);
+}
+
+static double points_per_pixel(const struct kiln_drawing *drawing)
+{
+    return drawing->pixel_mm > 0 ? drawing->pixel_mm * 72 / 25.4 : 0.75;
 }
 
 static void put_color(FILE *out, uint32_t color, const char *command)
@@ -62,9 +98,27 @@ static void pen_curve(void *user, const double p[6])
     fputs("c\n", pen->out);
 }
 
+/* The second text is in a font without outlines, and in the mode of rendering that shows nothing.
+ */
+static void put_text(FILE *out, const struct kiln_mark *mark, double baseline)
+{
+    double scale = mark->capital / KILN_FONT_CAPITAL;
+    put_color(out, mark->color, "RG");
+    fprintf(out, "%.3f w 1 J 1 j\n", KILN_FONT_PEN * scale);
+    kiln_font_draw(mark->text,
+                   &(struct kiln_font_pen){pen_move, pen_line, pen_curve,
+                                           &(struct pen){out, mark->x, baseline + 0.5, scale}});
+    fprintf(out, "S\nBT 3 Tr %.3f 0 0 %.3f %d %.1f Tm ", kiln_drawing_font_size(mark->capital),
+            kiln_drawing_font_size(mark->capital), mark->x, baseline + 0.5);
+    fputs("/F 1 Tf <", out);
+    const char *text = mark->text;
+    while (put_utf16(out, &text))
+        continue;
+    fputs("> Tj ET\n", out);
+}
+
 static void put_mark(FILE *out, const struct kiln_mark *mark, uint32_t page, size_t *picture)
 {
-    double scale = (double)mark->height / KILN_FONT_CAPITAL;
     double bottom = (double)page - mark->y - mark->height, half = mark->stroke / 2.0;
     switch (mark->kind) {
     case KILN_MARK_PICTURE:
@@ -81,121 +135,188 @@ static void put_mark(FILE *out, const struct kiln_mark *mark, uint32_t page, siz
                 bottom + half, mark->width - 2 * half, mark->height - 2 * half);
         return;
     case KILN_MARK_TEXT:
-        put_color(out, mark->color, "RG");
-        fprintf(out, "%.3f w 1 J 1 j\n", KILN_FONT_PEN * scale);
-        kiln_font_draw(mark->text,
-                       &(struct kiln_font_pen){
-                           pen_move, pen_line, pen_curve,
-                           &(struct pen){out, mark->x, (double)page - mark->y + 0.5, scale}});
-        fputs("S\n", out);
+        put_text(out, mark, (double)page - mark->y);
     }
 }
 
-static bool put_page(struct document *document)
+/* ---- Objects -------------------------------------------------------------------------------- */
+
+/* Their numbers: the catalogue, the pages, the page and what is on it, pictures, the font, then
+ * what not every figure has. 0: it does not have it. */
+enum { CATALOGUE = 1, PAGES, PAGE, CONTENT, PICTURES };
+struct numbers {
+    size_t pictures; /* how many */
+    size_t font, info, tree, element;
+};
+
+static struct numbers number_objects(const struct kiln_drawing *drawing)
 {
-    const struct kiln_drawing *drawing = document->drawing;
+    struct numbers numbers = {0};
+    bool lettered = false;
+    for (size_t i = 0; i < drawing->count; i++) {
+        numbers.pictures += drawing->marks[i].kind == KILN_MARK_PICTURE;
+        lettered = lettered || drawing->marks[i].kind == KILN_MARK_TEXT;
+    }
+    size_t next = PICTURES + numbers.pictures;
+    if (lettered) {
+        numbers.font = next;
+        next += KILN_PDF_FONT_OBJECTS;
+    }
+    if (drawing->title)
+        numbers.info = next++;
+    if (drawing->alt) {
+        numbers.tree = next++;
+        numbers.element = next++;
+    }
+    return numbers;
+}
+
+static bool put_content(struct kiln_pdf *pdf)
+{
+    const struct kiln_drawing *drawing = pdf->drawing;
     char *text = NULL;
     size_t size = 0, picture = 0;
     FILE *out = open_memstream(&text, &size);
     if (!out)
         return false;
-    fputs("0.75 0 0 0.75 0 0 cm\n", out);
+    double scale = points_per_pixel(drawing);
+    if (drawing->alt)
+        fputs("/Figure << /MCID 0 >> BDC\n", out);
+    fprintf(out, "%.8g 0 0 %.8g 0 0 cm\n", scale, scale);
     put_color(out, drawing->paper, "rg");
     fprintf(out, "0 0 %u %u re f\n", drawing->width, drawing->height);
     for (size_t i = 0; i < drawing->count; i++)
         put_mark(out, &drawing->marks[i], drawing->height, &picture);
+    if (drawing->alt)
+        fputs("EMC\n", out);
     bool ok = !ferror(out);
-    ok = fclose(out) == 0 && ok;
-    begin_object(document);
-    fprintf(document->out, "<< /Length %zu >>\nstream\n", size);
-    if (ok)
-        fwrite(text, 1, size, document->out);
-    fputs("\nendstream\nendobj\n", document->out);
+    ok = fclose(out) == 0 && ok && kiln_pdf_stream(pdf, "", text, size);
     free(text);
     return ok;
 }
 
-static bool put_picture(struct document *document, const struct kiln_pixels *pixels)
+static bool put_picture(struct kiln_pdf *pdf, const struct kiln_pixels *pixels)
 {
     size_t count = (size_t)pixels->width * pixels->height;
-    uLongf size = compressBound((uLong)(count * 3));
-    uint8_t *rgb = malloc(count * 3), *packed = malloc(size);
+    uint8_t *rgb = malloc(count * 3);
     for (size_t i = 0; rgb && i < count; i++) {
         for (size_t c = 0; c < 3; c++)
             rgb[3 * i + c] = pixels->rgba[4 * i + c];
     }
-    bool ok = rgb && packed && compress2(packed, &size, rgb, (uLong)(count * 3), 9) == Z_OK;
-    if (ok) {
-        begin_object(document);
-        fprintf(document->out,
-                "<< /Type /XObject /Subtype /Image /Width %u /Height %u /ColorSpace /DeviceRGB "
-                "/BitsPerComponent 8 /Interpolate false /Filter /FlateDecode /Length %lu >>\n"
-                "stream\n",
-                pixels->width, pixels->height, size);
-        fwrite(packed, 1, size, document->out);
-        fputs("\nendstream\nendobj\n", document->out);
-    }
+    char entries[200];
+    snprintf(entries, sizeof entries,
+             "/Type /XObject /Subtype /Image /Width %u /Height %u /ColorSpace /DeviceRGB "
+             "/BitsPerComponent 8 /Interpolate false ",
+             pixels->width, pixels->height);
+    bool ok = rgb && kiln_pdf_stream(pdf, entries, rgb, count * 3);
     free(rgb);
-    free(packed);
     return ok;
 }
 
-/* Objects: 1 catalogue, 2 pages, 3 the page, 4 what is on it, then the pictures. */
-static bool put_objects(struct document *document)
+static void put_catalogue(struct kiln_pdf *pdf, const struct numbers *numbers)
 {
-    const struct kiln_drawing *drawing = document->drawing;
-    FILE *out = document->out;
-    fputs("%PDF-1.4\n%\xe2\xe3\xcf\xd3\n", out);
-    begin_object(document);
-    fputs("<< /Type /Catalog /Pages 2 0 R >>\nendobj\n", out);
-    begin_object(document);
-    fputs("<< /Type /Pages /Kids [3 0 R] /Count 1 >>\nendobj\n", out);
-    begin_object(document);
+    FILE *out = pdf->out;
+    kiln_pdf_begin(pdf);
+    fprintf(out, "<< /Type /Catalog /Pages %d 0 R", (int)PAGES);
+    if (numbers->info)
+        fputs("\n/ViewerPreferences << /DisplayDocTitle true >>", out);
+    if (numbers->tree)
+        fprintf(out, "\n/MarkInfo << /Marked true >> /StructTreeRoot %zu 0 R", numbers->tree);
+    fputs(" >>\nendobj\n", out);
+    kiln_pdf_begin(pdf);
+    fprintf(out, "<< /Type /Pages /Kids [%d 0 R] /Count 1 >>\nendobj\n", (int)PAGE);
+}
+
+static void put_page(struct kiln_pdf *pdf, const struct numbers *numbers)
+{
+    const struct kiln_drawing *drawing = pdf->drawing;
+    FILE *out = pdf->out;
+    double scale = points_per_pixel(drawing);
+    kiln_pdf_begin(pdf);
+    fprintf(out, "<< /Type /Page /Parent %d 0 R /MediaBox [0 0 %.3f %.3f] /Contents %d 0 R\n",
+            (int)PAGES, drawing->width * scale, drawing->height * scale, (int)CONTENT);
+    if (numbers->tree)
+        fputs("/StructParents 0 ", out);
+    fputs("/Resources << /XObject <<", out);
+    for (size_t i = 0; i < numbers->pictures; i++)
+        fprintf(out, " /P%zu %zu 0 R", i, PICTURES + i);
+    fputs(" >>", out);
+    if (numbers->font)
+        fprintf(out, " /Font << /F %zu 0 R >>", numbers->font);
+    fputs(" >> >>\nendobj\n", out);
+}
+
+/* The figure as the one element of the document. */
+static void put_structure(struct kiln_pdf *pdf, const struct numbers *numbers)
+{
+    const struct kiln_drawing *drawing = pdf->drawing;
+    double scale = points_per_pixel(drawing);
+    FILE *out = pdf->out;
+    kiln_pdf_begin(pdf);
     fprintf(out,
-            "<< /Type /Page /Parent 2 0 R /MediaBox [0 0 %.2f %.2f] /Contents 4 0 R\n"
-            "/Resources << /XObject <<",
-            drawing->width * 0.75, drawing->height * 0.75);
-    size_t pictures = 0;
-    for (size_t i = 0; i < drawing->count; i++) {
-        if (drawing->marks[i].kind == KILN_MARK_PICTURE) {
-            fprintf(out, " /P%zu %zu 0 R", pictures, 5 + pictures);
-            pictures++;
-        }
-    }
-    fputs(" >> >> >>\nendobj\n", out);
-    bool ok = put_page(document);
+            "<< /Type /StructTreeRoot /K %zu 0 R /ParentTreeNextKey 1\n"
+            "/ParentTree << /Nums [0 [%zu 0 R]] >> >>\nendobj\n",
+            numbers->element, numbers->element);
+    kiln_pdf_begin(pdf);
+    fprintf(out, "<< /Type /StructElem /S /Figure /P %zu 0 R /Pg %d 0 R /K 0\n/Alt ", numbers->tree,
+            (int)PAGE);
+    put_string(out, drawing->alt);
+    fprintf(out, "\n/A << /O /Layout /BBox [0 0 %.3f %.3f] >> >>\nendobj\n", drawing->width * scale,
+            drawing->height * scale);
+}
+
+static bool put_objects(struct kiln_pdf *pdf, const struct numbers *numbers)
+{
+    const struct kiln_drawing *drawing = pdf->drawing;
+    fputs("%PDF-1.4\n%\xe2\xe3\xcf\xd3\n", pdf->out);
+    put_catalogue(pdf, numbers);
+    put_page(pdf, numbers);
+    bool ok = put_content(pdf);
     for (size_t i = 0; ok && i < drawing->count; i++) {
         if (drawing->marks[i].kind == KILN_MARK_PICTURE)
-            ok = put_picture(document, &drawing->marks[i].pixels);
+            ok = put_picture(pdf, &drawing->marks[i].pixels);
     }
+    ok = ok && (!numbers->font || kiln_pdf_font(pdf));
+    if (ok && numbers->info) {
+        kiln_pdf_begin(pdf);
+        fputs("<< /Title ", pdf->out);
+        put_string(pdf->out, drawing->title);
+        fputs(" >>\nendobj\n", pdf->out);
+    }
+    if (ok && numbers->tree)
+        put_structure(pdf, numbers);
     return ok;
 }
 
-static void put_table(const struct document *document)
+static void put_table(const struct kiln_pdf *pdf, const struct numbers *numbers)
 {
-    long start = ftell(document->out);
-    fprintf(document->out, "xref\n0 %zu\n0000000000 65535 f \n", document->objects + 1);
-    for (size_t i = 1; i <= document->objects; i++)
-        fprintf(document->out, "%010ld 00000 n \n", document->offsets[i]);
-    fprintf(document->out, "trailer\n<< /Size %zu /Root 1 0 R >>\nstartxref\n%ld\n%%%%EOF\n",
-            document->objects + 1, start);
+    long start = ftell(pdf->out);
+    fprintf(pdf->out, "xref\n0 %zu\n0000000000 65535 f \n", pdf->objects + 1);
+    for (size_t i = 1; i <= pdf->objects; i++)
+        fprintf(pdf->out, "%010ld 00000 n \n", pdf->offsets[i]);
+    fprintf(pdf->out, "trailer\n<< /Size %zu /Root %d 0 R", pdf->objects + 1, (int)CATALOGUE);
+    if (numbers->info)
+        fprintf(pdf->out, " /Info %zu 0 R", numbers->info);
+    fprintf(pdf->out, " >>\nstartxref\n%ld\n%%%%EOF\n", start);
 }
 
 bool kiln_drawing_pdf(const struct kiln_drawing *drawing, uint8_t **bytes, size_t *size,
                       struct kiln_error *error)
 {
+    enum { MOST_OTHERS = 16 };
     char *text = NULL;
-    struct document document = {.drawing = drawing,
-                                .out = open_memstream(&text, size),
-                                .offsets = calloc(drawing->count + 8, sizeof(long))};
-    bool ok = document.out && document.offsets && put_objects(&document);
+    struct numbers numbers = number_objects(drawing);
+    struct kiln_pdf pdf = {.drawing = drawing,
+                           .out = open_memstream(&text, size),
+                           .offsets = calloc(numbers.pictures + MOST_OTHERS, sizeof(long))};
+    bool ok = pdf.out && pdf.offsets && put_objects(&pdf, &numbers);
     if (ok)
-        put_table(&document);
-    if (document.out) {
-        ok = !ferror(document.out) && ok;
-        ok = fclose(document.out) == 0 && ok;
+        put_table(&pdf, &numbers);
+    if (pdf.out) {
+        ok = !ferror(pdf.out) && ok;
+        ok = fclose(pdf.out) == 0 && ok;
     }
-    free(document.offsets);
+    free(pdf.offsets);
     *bytes = ok ? (uint8_t *)text : NULL;
     if (ok)
         return true;

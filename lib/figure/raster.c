@@ -181,12 +181,13 @@ static void blend(uint8_t *pixel, uint32_t color, float cover)
 
 static bool paint_text(const struct kiln_mark *mark, const struct kiln_pixels *out)
 {
-    double scale = (double)mark->height / KILN_FONT_CAPITAL;
+    double scale = mark->capital / KILN_FONT_CAPITAL;
+    uint32_t capital = (uint32_t)ceil(mark->capital);
     struct stencil s = {
         .x = mark->x - 2,
-        .y = mark->y - (int32_t)mark->height * 3 / 2 - 2,
-        .width = kiln_drawing_text_width(mark->text, mark->height) + 4,
-        .height = mark->height * 2 + 4,
+        .y = mark->y - (int32_t)capital * 3 / 2 - 2,
+        .width = kiln_drawing_text_width(mark->text, mark->capital) + 4,
+        .height = capital * 2 + 4,
         .origin_x = mark->x,
         /* A stroke along the baseline, or along the height of capitals, fills a row of pixels. */
         .origin_y = mark->y - 0.5,

@@ -41,6 +41,8 @@ bool kiln_record_write(const struct kiln_record *record, struct kiln_text *text,
     kiln_json_string(&json, "driver", record->driver);
     kiln_json_string(&json, "cpu", record->cpu);
     kiln_json_pair(&json, "size", record->width, record->height);
+    if (record->alt)
+        kiln_json_string(&json, "alt", record->alt);
     kiln_json_string(&json, "pixels", record->pixels);
     kiln_json_string(&json, "file", record->file);
     kiln_json_begin_array(&json, "panels");
@@ -162,8 +164,10 @@ static bool read_root(struct kiln_arena *arena, const struct kiln_node *root,
            read_hash(root, "pixels", 64, true, hash, error) &&
            read_hash(root, "file", 64, true, hash, error) &&
            read_text(root, "pixels", &record->pixels, error) &&
-           read_text(root, "file", &record->file, error) && read_size(root, record, error) &&
-           read_command(arena, root, record, error) && read_panels(arena, root, record, error);
+           read_text(root, "file", &record->file, error) &&
+           (!kiln_node_entry(root, "alt") || read_text(root, "alt", &record->alt, error)) &&
+           read_size(root, record, error) && read_command(arena, root, record, error) &&
+           read_panels(arena, root, record, error);
 }
 
 struct kiln_record *kiln_record_parse(struct kiln_arena *arena, const char *text, size_t size,

@@ -15,6 +15,7 @@ struct kiln_record {
     size_t command_count;
     const char *device, *driver, *cpu; /* as in kiln_maker */
     uint32_t width, height;
+    const char *alt;    /* what it shows, in words; NULL: not said */
     const char *pixels; /* SHA-256 of the figure's pixels, also of what is written as vectors */
     const char *file;   /* SHA-256 of the figure's file */
     struct kiln_panel *panels; /* without their pixels */

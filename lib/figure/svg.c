@@ -1,5 +1,5 @@
 /* SVG: pictures as embedded PNG at their own size, lettering as strokes, so that no reader needs a
- * font. */
+ * font, and over it the same text without ink, which readers select and search. */
 #include <stdlib.h>
 
 #include "base/error.h"
@@ -37,17 +37,21 @@ static void pen_curve(void *user, const double p[6])
 
 static void put_text(FILE *out, const struct kiln_mark *mark)
 {
-    double scale = (double)mark->height / KILN_FONT_CAPITAL;
+    double scale = mark->capital / KILN_FONT_CAPITAL;
     struct pen pen = {out, mark->x, mark->y - 0.5, scale};
-    fprintf(out, "<g role=\"img\" aria-label=\"");
-    kiln_markup_write_text(out, mark->text);
-    fprintf(
-        out,
-        "\"><path fill=\"none\" stroke=\"#%06x\" stroke-width=\"%.2f\" stroke-linecap=\"round\" "
-        "stroke-linejoin=\"round\" d=\"",
-        mark->color, KILN_FONT_PEN * scale);
+    fprintf(out,
+            "<path aria-hidden=\"true\" fill=\"none\" stroke=\"#%06x\" stroke-width=\"%.2f\" "
+            "stroke-linecap=\"round\" stroke-linejoin=\"round\" d=\"",
+            mark->color, KILN_FONT_PEN * scale);
     kiln_font_draw(mark->text, &(struct kiln_font_pen){pen_move, pen_line, pen_curve, &pen});
-    fprintf(out, "\"/></g>\n");
+    fprintf(out,
+            "\"/>\n<text x=\"%d\" y=\"%.1f\" font-family=\"sans-serif\" font-size=\"%.2f\" "
+            "textLength=\"%.2f\" lengthAdjust=\"spacingAndGlyphs\" fill=\"#%06x\" "
+            "fill-opacity=\"0\" xml:space=\"preserve\">",
+            mark->x, mark->y - 0.5, kiln_drawing_font_size(mark->capital),
+            kiln_font_width(mark->text) * scale, mark->color);
+    kiln_markup_write_text(out, mark->text);
+    fputs("</text>\n", out);
 }
 
 static void put_frame(FILE *out, const struct kiln_mark *mark)
@@ -64,7 +68,7 @@ static bool put_picture(FILE *out, const struct kiln_mark *mark, struct kiln_err
 {
     uint8_t *png;
     size_t size;
-    if (!kiln_pixels_png(&mark->pixels, &png, &size, error))
+    if (!kiln_pixels_png(&mark->pixels, NULL, &png, &size, error))
         return false;
     fprintf(out,
             "<image x=\"%d\" y=\"%d\" width=\"%u\" height=\"%u\" preserveAspectRatio=\"none\"%s "
@@ -96,6 +100,34 @@ static bool put_mark(FILE *out, const struct kiln_mark *mark, struct kiln_error 
     return true;
 }
 
+/* The size is one of paper if that is known. */
+static void put_start(FILE *out, const struct kiln_drawing *drawing)
+{
+    double edge = drawing->pixel_mm > 0 ? drawing->pixel_mm : 1;
+    const char *unit = drawing->pixel_mm > 0 ? "mm" : "";
+    fprintf(out,
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.7g%s\" height=\"%.7g%s\" "
+            "viewBox=\"0 0 %u %u\"",
+            drawing->width * edge, unit, drawing->height * edge, unit, drawing->width,
+            drawing->height);
+    if (drawing->alt) {
+        fputs(" role=\"img\" aria-label=\"", out);
+        kiln_markup_write_text(out, drawing->alt);
+        fputs("\"", out);
+    }
+    fputs(">\n", out);
+    if (drawing->title) {
+        fputs("<title>", out);
+        kiln_markup_write_text(out, drawing->title);
+        fputs("</title>\n", out);
+    }
+    if (drawing->alt) {
+        fputs("<desc>", out);
+        kiln_markup_write_text(out, drawing->alt);
+        fputs("</desc>\n", out);
+    }
+}
+
 bool kiln_drawing_svg(const struct kiln_drawing *drawing, uint8_t **bytes, size_t *size,
                       struct kiln_error *error)
 {
@@ -104,15 +136,7 @@ bool kiln_drawing_svg(const struct kiln_drawing *drawing, uint8_t **bytes, size_
     *bytes = NULL;
     if (!out)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for an SVG document");
-    fprintf(out,
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%u\" height=\"%u\" "
-            "viewBox=\"0 0 %u %u\">\n",
-            drawing->width, drawing->height, drawing->width, drawing->height);
-    if (drawing->title) {
-        fputs("<title>", out);
-        kiln_markup_write_text(out, drawing->title);
-        fputs("</title>\n", out);
-    }
+    put_start(out, drawing);
     fprintf(out, "<rect width=\"%u\" height=\"%u\" fill=\"#%06x\"/>\n", drawing->width,
             drawing->height, drawing->paper);
     bool ok = true;

@@ -74,7 +74,7 @@ static bool load_both(const struct kiln_figure_now *now, struct kiln_subject *su
     uint8_t *bytes = NULL;
     size_t size = 0;
     struct kiln_asset_image *images[2] = {kiln_asset_image_load(NULL, now->path, error), NULL};
-    if (images[0] && now->format->of_pixels(now->pixels, &bytes, &size, error))
+    if (images[0] && now->format->of_pixels(now->pixels, NULL, &bytes, &size, error))
         images[1] = kiln_asset_image_parse(bytes, size, now->path, error);
     for (int i = 0; i < 2 && images[1]; i++)
         subjects[i] = kiln_subject_create(images[i], NULL, now->path, threads, error);

@@ -60,31 +60,40 @@ static bool open_encoder(struct encoding *encoding, const AVCodec *codec,
     return kiln_ff.av_frame_get_buffer(encoding->frame, 0) >= 0;
 }
 
-/* Where the first marker is that a comment may precede: JFIF's own must follow the start. */
-static size_t place_of_comment(const AVPacket *packet)
+/* The header of JFIF is the first segment: the start of the image, a marker, its length, "JFIF" and
+ * the version; then the unit (1: an inch) and how many pixels it has across and down. */
+enum { JFIF_UNIT = 13, JFIF_END = 20, MARKER_SIZE = 4, LONGEST_COMMENT = 65533 };
+
+static bool has_jfif(const AVPacket *packet)
 {
-    const uint8_t *bytes = packet->data;
-    const bool has_jfif = packet->size > 6 && bytes[2] == 0xff && bytes[3] == 0xe0;
-    return has_jfif ? 4 + ((size_t)bytes[4] << 8 | bytes[5]) : 2;
+    return packet->size >= JFIF_END && memcmp(packet->data + 6, "JFIF", 5) == 0;
 }
 
-/* The packet in new memory, with the comment as a segment of its own. */
-static bool copy_out(const AVPacket *packet, const char *comment, uint8_t **bytes, size_t *size)
+/* The packet in new memory, with the density in its header and the comment as a segment after that.
+ */
+static bool copy_out(const AVPacket *packet, const struct kiln_jpeg *jpeg, uint8_t **bytes,
+                     size_t *size)
 {
-    const size_t all = (size_t)packet->size, before = comment ? place_of_comment(packet) : all;
-    const size_t length = comment ? strlen(comment) + 2 : 0;
-    const uint8_t head[] = {0xff, 0xfe, (uint8_t)(length >> 8), (uint8_t)length};
+    const size_t all = (size_t)packet->size, before = has_jfif(packet) ? JFIF_END : 2;
+    const size_t length = jpeg->comment ? strnlen(jpeg->comment, LONGEST_COMMENT) : 0;
+    const size_t segment = length > 0 ? MARKER_SIZE + length : 0;
     if (before > all)
         return false;
-    *size = all + (comment ? sizeof head + length - 2 : 0);
+    *size = all + segment;
     uint8_t *to = *bytes = malloc(*size);
     if (!to)
         return false;
     memcpy(to, packet->data, before);
-    if (comment) {
+    if (segment > 0) {
+        const uint8_t head[MARKER_SIZE] = {0xff, 0xfe, (uint8_t)((length + 2) >> 8),
+                                           (uint8_t)(length + 2)};
         memcpy(to + before, head, sizeof head);
-        memcpy(to + before + sizeof head, comment, length - 2);
-        memcpy(to + before + sizeof head + length - 2, packet->data + before, all - before);
+        memcpy(to + before + sizeof head, jpeg->comment, length);
+    }
+    memcpy(to + before + segment, packet->data + before, all - before);
+    if (jpeg->dpi > 0 && before == JFIF_END) {
+        const uint8_t high = (uint8_t)(jpeg->dpi >> 8), low = (uint8_t)jpeg->dpi;
+        memcpy(to + JFIF_UNIT, (const uint8_t[]){1, high, low, high, low}, 5);
     }
     return true;
 }
@@ -96,7 +105,7 @@ static bool encode(struct encoding *encoding, const struct kiln_jpeg *jpeg, uint
     return kiln_ff.avcodec_send_frame(encoding->encoder, encoding->frame) >= 0 &&
            kiln_ff.avcodec_send_frame(encoding->encoder, NULL) >= 0 &&
            kiln_ff.avcodec_receive_packet(encoding->encoder, encoding->packet) >= 0 &&
-           copy_out(encoding->packet, jpeg->comment, bytes, size);
+           copy_out(encoding->packet, jpeg, bytes, size);
 }
 
 static const AVCodec *find_codec(struct kiln_error *error)
@@ -190,8 +199,11 @@ static bool encode_frame(void *opaque, const struct kiln_picture *picture, struc
              "kiln:quality=%u",
              KILN_VERSION, params->scene_hash, params->seed, picture->frame, params->fps_num,
              params->fps_den, params->quality);
-    const struct kiln_jpeg jpeg = {picture->display, picture->width, picture->height,
-                                   quantiser_of(params->quality), comment};
+    const struct kiln_jpeg jpeg = {.rgba = picture->display,
+                                   .width = picture->width,
+                                   .height = picture->height,
+                                   .quantiser = quantiser_of(params->quality),
+                                   .comment = comment};
     uint8_t *bytes = NULL;
     size_t size = 0;
     struct kiln_error reason = {0};

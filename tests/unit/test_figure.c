@@ -273,13 +273,65 @@ static void pixels_are_those_of_the_panels(void **state)
             figure->rgba + (size_t)4 * WIDTH * y, (size_t)4 * WIDTH);
     uint8_t *bytes;
     size_t size;
-    assert_true(kiln_pixels_png(&pixels, &bytes, &size, &error));
+    assert_true(kiln_pixels_png(&pixels, NULL, &bytes, &size, &error));
     struct kiln_asset_image *image = kiln_asset_image_parse(bytes, size, "figure", &error);
     assert_non_null(image);
     assert_memory_equal(image->pixels, pixels.rgba, (size_t)pixels.width * pixels.height * 4);
     kiln_asset_image_destroy(&image);
     free(bytes);
     free(pixels.rgba);
+}
+
+static const uint8_t *find_bytes(const uint8_t *bytes, size_t size, const char *what, size_t length)
+{
+    const uint8_t *found = memmem(bytes, size, what, length);
+    assert_non_null(found);
+    return found + length;
+}
+
+/* What was asked for holds on paper whatever the format, and the words are in the file. */
+static void figures_have_their_width_on_paper(void **state)
+{
+    struct figure *figure = *state;
+    static const char alt[] = "Four ramps, \xce\xb1 to \xce\xb4";
+    struct kiln_error error = {0};
+    struct kiln_pixels pixels;
+    uint8_t *bytes;
+    size_t size;
+    figure->params.paper_width_mm = 84;
+    figure->params.dpi = 300;
+    figure->params.text_points = 8;
+    figure->params.alt = alt;
+    assert_true(kiln_layout_make(&figure->drawing, &figure->panels, &figure->params, &error));
+    assert_int_equal(figure->drawing.width, 992);
+    for (size_t i = 0; i < figure->drawing.count; i++) {
+        const struct kiln_mark *mark = &figure->drawing.marks[i];
+        if (mark->kind == KILN_MARK_TEXT)
+            assert_float_equal(kiln_drawing_font_size(mark->capital) * 72 / 300, 8, 1e-9);
+        assert_true(mark->x >= 0 && mark->x + (int32_t)mark->width <= 992);
+    }
+    assert_true(kiln_drawing_rasterise(&figure->drawing, &pixels, &error));
+    const struct kiln_imprint imprint = {300, alt};
+    assert_true(kiln_pixels_png(&pixels, &imprint, &bytes, &size, &error));
+    assert_memory_equal(find_bytes(bytes, size, "pHYs", 4), "\0\0\x2e\x23\0\0\x2e\x23\1", 9);
+    find_bytes(bytes, size, "iTXtDescription\0\0\0\0\0Four ramps, \xce\xb1 to \xce\xb4", 38);
+    free(bytes);
+    assert_true(kiln_pixels_jpeg(&pixels, &imprint, &bytes, &size, &error));
+    assert_memory_equal(bytes + 13, "\1\x01\x2c\x01\x2c", 5);
+    find_bytes(bytes, size, alt, sizeof alt - 1);
+    struct kiln_asset_image *image = kiln_asset_image_parse(bytes, size, "jpeg", &error);
+    assert_non_null(image);
+    kiln_asset_image_destroy(&image);
+    free(bytes);
+    assert_true(kiln_drawing_svg(&figure->drawing, &bytes, &size, &error));
+    find_bytes(bytes, size, " width=\"84mm\"", 13);
+    find_bytes(bytes, size, ">a &lt; b &amp; &quot;c&quot;</text>", 34);
+    free(bytes);
+    free(pixels.rgba);
+    figure->params.columns = 4;
+    figure->params.paper_width_mm = 10;
+    assert_false(kiln_layout_make(&figure->drawing, &figure->panels, &figure->params, &error));
+    assert_int_equal(error.code, KILN_USAGE);
 }
 
 /* Panel by panel, edge to edge. */
@@ -315,7 +367,7 @@ static void jpegs_look_like_their_pixels(void **state)
     uint8_t *bytes[2];
     size_t sizes[2];
     for (int i = 0; i < 2; i++)
-        assert_true(kiln_pixels_jpeg(&pixels, &bytes[i], &sizes[i], &error));
+        assert_true(kiln_pixels_jpeg(&pixels, NULL, &bytes[i], &sizes[i], &error));
     assert_int_equal(sizes[0], sizes[1]);
     assert_memory_equal(bytes[0], bytes[1], sizes[0]);
     assert_memory_equal(bytes[0] + 6, "JFIF", 5);
@@ -337,7 +389,7 @@ static void lettering_is_there_and_has_smooth_edges(void **state)
     figure->drawing.width = 200;
     figure->drawing.height = 40;
     figure->drawing.paper = 0xffffff;
-    struct kiln_mark mark = {.kind = KILN_MARK_TEXT, .x = 10, .y = 30, .height = 20, .text = "IH"};
+    struct kiln_mark mark = {.kind = KILN_MARK_TEXT, .x = 10, .y = 30, .capital = 20, .text = "IH"};
     kiln_drawing_add(&figure->drawing, &mark);
     struct kiln_pixels pixels;
     struct kiln_error error = {0};
@@ -382,7 +434,7 @@ static void requests_that_make_no_sense_are_refused(void **state)
 
 /* ---- Files ---------------------------------------------------------------------------------- */
 
-static void vectors_are_the_same_twice_and_hold_no_font(void **state)
+static void vectors_are_the_same_twice_and_need_no_font(void **state)
 {
     struct figure *figure = *state;
     struct kiln_error error = {0};
@@ -397,10 +449,10 @@ static void vectors_are_the_same_twice_and_hold_no_font(void **state)
         assert_int_equal(sizes[0], sizes[1]);
         assert_memory_equal(bytes[0], bytes[1], sizes[0]);
         if (i == 0) {
-            assert_null(strstr((char *)bytes[0], "<text"));
-            assert_non_null(
-                strstr((char *)bytes[0], "aria-label=\"a &lt; b &amp; &quot;c&quot;\""));
+            assert_null(strstr((char *)bytes[0], "fill-opacity=\"1\""));
+            assert_non_null(strstr((char *)bytes[0], ">a &lt; b &amp; &quot;c&quot;</text>"));
         } else {
+            assert_non_null(memmem(bytes[0], sizes[0], "/FontFile2", 10));
             assert_memory_equal(bytes[0] + sizes[0] - 6, "%%EOF\n", 6);
             const char *start = strstr((char *)bytes[0] + sizes[0] - 40, "startxref\n");
             assert_non_null(start);
@@ -476,13 +528,15 @@ int main(void)
         cmocka_unit_test_setup_teardown(pictures_lie_apart_and_on_the_paper, make_figure,
                                         free_figure),
         cmocka_unit_test_setup_teardown(pixels_are_those_of_the_panels, make_figure, free_figure),
+        cmocka_unit_test_setup_teardown(figures_have_their_width_on_paper, make_figure,
+                                        free_figure),
         cmocka_unit_test_setup_teardown(plain_pictures_have_no_paper, make_figure, free_figure),
         cmocka_unit_test(jpegs_look_like_their_pixels),
         cmocka_unit_test_setup_teardown(lettering_is_there_and_has_smooth_edges, make_figure,
                                         free_figure),
         cmocka_unit_test_setup_teardown(requests_that_make_no_sense_are_refused, make_figure,
                                         free_figure),
-        cmocka_unit_test_setup_teardown(vectors_are_the_same_twice_and_hold_no_font, make_figure,
+        cmocka_unit_test_setup_teardown(vectors_are_the_same_twice_and_need_no_font, make_figure,
                                         free_figure),
         cmocka_unit_test_setup_teardown(sidecars_come_back_as_they_were, make_figure, free_figure),
     };

@@ -51,7 +51,7 @@ $ kiln complete -- render -oout/
 $ kiln complete -- render --output=out/
 1|file:*	--output=	
 $ kiln complete -- figure --check ''
-1|file:*.figure.json		
+1|file:*		
 $ kiln complete -- test --golden ''
 1|folder		
 $ kiln complete -- test report ''

@@ -1,6 +1,6 @@
 A figure needs a kind, something to show and a place.
 $ kiln figure
-2|kiln: figure: needs sheet, triptych or strip, or --check PATH
+2|kiln: figure: needs sheet, triptych or strip, or --check FIGURE or --update FIGURE
 = 2
 $ kiln figure shet
 2|kiln: figure: unknown figure 'shet' (did you mean 'sheet'?); allowed are sheet, triptych and strip
@@ -72,7 +72,7 @@ $ kiln figure sheet scenes/tiny.yaml -o a.png --sweep seed=1,2 --label one
 2|kiln: figure sheet: found 1 labels for 2 pictures
 = 2
 $ kiln figure sheet scenes/tiny.yaml -o a.png --text-size 4
-2|kiln: figure sheet: --text-size: found '4', expected a whole number from 8 to 64
+2|kiln: figure sheet: --text-size: found '4'; expected 4pt to 72pt on paper, or 8 to 64 pixels
 = 2
 $ kiln figure strip scenes/tiny.yaml -o a.png --count 0
 2|kiln: figure strip: --count: found '0', expected a whole number from 1 to 1024
@@ -90,8 +90,53 @@ $ kiln figure --check scenes
 2|scenes: no figures in it: none with a .figure.json
 = 3
 $ kiln figure --check scenes/puff.png
-2|scenes/puff.png: expected a folder, or a file whose name ends in .figure.json
+2|scenes/puff.png: expected a folder, a figure that has a sidecar (NAME.figure.json) beside it, or a sidecar
 = 3
+$ kiln figure --check scenes/none.png
+2|scenes/none.png: No such file or directory
+= 3
+$ kiln figure --check doc --update doc
+2|kiln: figure: --check and --update at once
+= 2
+$ kiln figure sheet scenes/tiny.yaml -o a.png --width 84
+$ rm a.png*
+$ kiln figure sheet scenes/tiny.yaml -o a.png --width 84km
+2|kiln: figure sheet: --width: found '84km'; expected a width on paper from 5mm to 2000mm, such as 84mm, 3.3in or 240pt, or 16 to 16384 pixels of each picture
+= 2
+$ kiln figure sheet scenes/tiny.yaml -o a.png --width 3m
+2|kiln: figure sheet: --width: found '3m'; expected a width on paper from 5mm to 2000mm, such as 84mm, 3.3in or 240pt, or 16 to 16384 pixels of each picture
+= 2
+$ kiln figure sheet scenes/tiny.yaml -o a.png --width 12.5px
+2|kiln: figure sheet: --width: found '12.5px'; expected a width on paper from 5mm to 2000mm, such as 84mm, 3.3in or 240pt, or 16 to 16384 pixels of each picture
+= 2
+$ kiln figure sheet scenes/tiny.yaml -o a.png --width 2.1m
+2|kiln: figure sheet: --width: found '2.1m'; expected a width on paper from 5mm to 2000mm, such as 84mm, 3.3in or 240pt, or 16 to 16384 pixels of each picture
+= 2
+$ kiln figure sheet scenes/tiny.yaml -o a.png --width 84mm --dpi 30
+2|kiln: figure sheet: --dpi: found '30', expected a whole number from 36 to 2400
+= 2
+$ kiln figure sheet scenes/tiny.yaml -o a.png --width 84mm --text-size 3pt
+2|kiln: figure sheet: --text-size: found '3pt'; expected 4pt to 72pt on paper, or 8 to 64 pixels
+= 2
+$ kiln figure sheet scenes/tiny.yaml -o a.png --width 20mm --dpi 36 --sweep seed=1,2,3,4 --columns 4
+2|kiln: figure sheet: --width 20 mm: found 28 pixels at 36 an inch; 4 pictures in a row need 78
+= 2
+A sign that cannot be lettered is named before anything is drawn.
+$ kiln figure sheet scenes/tiny.yaml -o a.png --title 'Größe 中' --device none
+2|kiln: figure sheet: --title: character 7: found '中' (U+4E2D), for which figures have no glyph; they have Latin, Greek, dashes, quotes and mathematics
+= 2
+$ kiln figure sheet scenes/tiny.yaml -o a.png --label $'a\tb'
+2|kiln: figure sheet: --label 'a\tb': character 2: found '\t' (U+0009), for which figures have no glyph; they have Latin, Greek, dashes, quotes and mathematics
+= 2
+$ kiln figure sheet scenes/tiny.yaml -o a.png --label $'a\xff'
+2|kiln: figure sheet: --label 'a\xff': character 2: found the byte ff, which is no UTF-8
+= 2
+$ kiln figure sheet scenes/tiny.yaml -o a.png --sweep '*.name=x,😀' --device none
+2|kiln: figure sheet: the label of panel 2, 'name = 😀' (--label gives others): character 8: found '😀' (U+1F600), for which figures have no glyph; they have Latin, Greek, dashes, quotes and mathematics
+= 2
+$ kiln figure sheet scenes/tiny.yaml -o a.png --alt $'a\xff'
+2|kiln: figure sheet: --alt: found the byte ff behind 1 others, which is no UTF-8
+= 2
 Nothing was written so far, not even in part.
 $ find . -type f -not -path './scenes/*'
 
@@ -142,6 +187,64 @@ $ kiln figure sheet scenes/tiny.yaml --plain --frames 8 -o doc/alone.jpg
 = 6
 $ rm doc/alone*
 
+A width on paper is the same in all formats, and so is the size of the lettering, 8 points.
+$ for e in png jpg svg pdf; do kiln figure sheet scenes/tiny.yaml --size 640x360 --sweep systems.*.emit.rate=5,60 --width 84mm --label 'Größe ≤ ½ µm' --label 'α − β' --title 'Ärø – “λ”' --alt 'Two puffs: α, β, 中.' -o paper/p.$e; done
+$ grep -h '"size"\|"alt"' paper/p.*.json | sort | uniq -c | sed 's/^ *//'
+1|4 "alt": "Two puffs: α, β, 中.",
+1|4 "size": [992, 432],
+$ head -n 3 paper/p.svg | cut -c1-100
+1|<svg xmlns="http://www.w3.org/2000/svg" width="84mm" height="36.58065mm" viewBox="0 0 992 432" role=
+1|<title>Ärø – “λ”</title>
+1|<desc>Two puffs: α, β, 中.</desc>
+$ xmllint --noout paper/p.svg && grep -o '<text.*</text>' paper/p.svg
+1|<text x="3" y="48.5" font-family="sans-serif" font-size="46.67" textLength="180.67" lengthAdjust="spacingAndGlyphs" fill="#24272b" fill-opacity="0" xml:space="preserve">Ärø – “λ”</text>
+1|<text x="3" y="421.5" font-family="sans-serif" font-size="33.33" textLength="203.81" lengthAdjust="spacingAndGlyphs" fill="#24272b" fill-opacity="0" xml:space="preserve">Größe ≤ ½ µm</text>
+1|<text x="512" y="421.5" font-family="sans-serif" font-size="33.33" textLength="72.86" lengthAdjust="spacingAndGlyphs" fill="#24272b" fill-opacity="0" xml:space="preserve">α − β</text>
+$ pdfinfo paper/p.pdf | grep 'Title\|Tagged\|Page size\|PDF version'
+1|Title:           Ärø – “λ”
+1|Tagged:          yes
+1|Page size:       238.11 x 103.693 pts
+1|PDF version:     1.4
+$ pdffonts paper/p.pdf | tail -n 1 | cut -c1-80
+1|KILNAA+KilnLettering                 CID TrueType      Identity-H       yes yes 
+$ pdftotext -layout paper/p.pdf - | grep -v '^ *$' | sed 's/   */  /g'
+1|Ärø – “λ”
+1|Größe ≤ ½ µm  α−β
+1|
+$ python3 -c 'import re; print(bytes.fromhex(re.search(rb"/Alt <(\w+)>", open("paper/p.pdf", "rb").read())[1].decode()).decode("utf-16"))'
+1|Two puffs: α, β, 中.
+$ kiln figure sheet scenes/tiny.yaml --width 3.3in --dpi 600 --text-size 6pt -o paper/small.pdf
+2|kiln: warning: paper/small.pdf: pictures of 64 pixels are enlarged to 1968, which 600 an inch take; scenes have more with --size
+$ pdfinfo paper/small.pdf | grep 'Page size'
+1|Page size:       237.6 x 134.28 pts
+$ kiln figure sheet scenes/tiny.yaml --dpi 96 -o paper/pixels.svg && head -n 1 paper/pixels.svg
+1|<svg xmlns="http://www.w3.org/2000/svg" width="28.04583mm" height="20.6375mm" viewBox="0 0 106 78">
+$ kiln figure --check paper --quiet && rm -r paper
+
+What a figure is made of, for make. A file that goes, or has an odd name, does not stop it.
+$ mkdir -p 'odd $x#' && cp scenes/tiny.yaml 'odd $x#/a: 1%.yaml' && cp scenes/puff.png 'odd $x#'
+$ kiln figure sheet 'odd $x#/a: 1%.yaml' -o 'odd.png' --depfile odd.d && cat odd.d
+1|odd.png: \
+1|  odd\ $$x\#/a\:\ 1%.yaml \
+1|  odd\ $$x\#/puff.png
+1|
+1|odd\ $$x\#/a\:\ 1\%.yaml:
+1|
+1|odd\ $$x\#/puff.png:
+$ printf 'odd.png:\n\t@echo redrawn\n-include odd.d\n' >odd.mk
+$ touch -d 2020-01-01 odd*/* && make -s -f odd.mk odd.png
+$ touch -d 2020-01-01 odd.png && touch -d 2020-01-02 odd*/puff.png && make -s -f odd.mk odd.png
+1|redrawn
+$ rm odd*/puff.png && make -s -f odd.mk odd.png
+1|redrawn
+$ kiln figure sheet scenes/tiny.yaml -o odd2.png --depfile odd.d
+2|kiln: odd.d: the file exists (--force replaces it)
+= 6
+$ kiln figure sheet scenes/tiny.yaml -o odd2.png --depfile scenes/tiny.yaml --force
+2|kiln: figure sheet: scenes/tiny.yaml: --depfile would replace a file that it is made of, which this call reads
+= 2
+$ rm -r odd*
+
 All of them are what their commands make, from wherever one asks.
 $ kiln figure --check doc
 1|doc/clip.png: up to date
@@ -151,6 +254,9 @@ $ kiln figure --check doc
 $ cd doc && kiln figure --check strip.svg.figure.json
 1|strip.svg: up to date
 $ kiln figure --check doc --quiet
+$ kiln figure --check doc/strip.svg doc/rates.png
+1|doc/strip.svg: up to date
+1|doc/rates.png: up to date
 What another machine drew may look a little different; vectors cannot be looked at.
 $ sed -i.old 's/"device": "\([^"]\)/"device": "an older \1/; s/^"pixels": "......../"pixels": "01234567/' doc/*.json
 $ kiln figure --check doc | sed 's/an older [^\x27]*/an older device/'; echo ${PIPESTATUS[0]}
@@ -179,6 +285,11 @@ $ kiln figure --check doc/copy.png.figure.json
 1|doc/copy.png: stale: its command makes another file, 'doc/rates.png'
 = 1
 $ rm doc/copy*
+$ cp doc/rates.png doc/copy.png; cp doc/rates.png.figure.json doc/copy.png.figure.json
+$ kiln figure --update doc/copy.png
+1|doc/copy.png: stale: its command makes another file, 'doc/rates.png'
+= 1
+$ rm doc/copy*
 Then a scene changes, a picture, a file, a sidecar.
 $ sed -i 's/drag: 0.2/drag: 0.9/' scenes/tiny.yaml
 $ cp clip/f_0010.png clip/f_0011.png
@@ -189,10 +300,28 @@ $ kiln figure --check doc
 1|doc/rates.png: stale: the scene has changed in 'rate = 5, 0.2 s'
 1|doc/strip.svg: stale: the scene has changed in '0.00 s'
 = 1
+What is stale is drawn anew, from wherever one asks, and nothing else is touched.
+$ touch -d 2020-01-01 doc/rates.png
+$ cd doc && kiln figure --update ../doc/strip.svg clip.png
+1|../doc/strip.svg: redrawn: the scene has changed in '0.00 s'
+1|clip.png: redrawn: the figure is not there
+$ find doc -newermt 2021-01-01 -name '*.png' | sort
+1|doc/clip.png
+$ kiln figure --update doc
+1|doc/clip.png: up to date
+1|doc/pair.pdf: redrawn: the picture has changed in 'result'
+1|doc/rates.png: redrawn: the scene has changed in 'rate = 5, 0.2 s'
+1|doc/strip.svg: up to date
+$ kiln figure --update doc --quiet
+$ kiln figure --check doc
+1|doc/clip.png: up to date
+1|doc/pair.pdf: up to date
+1|doc/rates.png: up to date
+1|doc/strip.svg: up to date
 $ sed -i 's/"pixels": "/"pixels": "x/' doc/pair.pdf.figure.json
 $ kiln figure --check doc
-1|doc/clip.png: stale: the figure is not there
-1|doc/rates.png: stale: the scene has changed in 'rate = 5, 0.2 s'
-1|doc/strip.svg: stale: the scene has changed in '0.00 s'
+1|doc/clip.png: up to date
+1|doc/rates.png: up to date
+1|doc/strip.svg: up to date
 2|doc/pair.pdf.figure.json:10:11: pixels: expected 64 hex digits
 = 3
