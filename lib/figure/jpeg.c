@@ -17,4 +17,3 @@ bool kiln_pixels_jpeg(const struct kiln_pixels *pixels, const struct kiln_imprin
                                    .dpi = imprint ? imprint->dpi : 0};
     return kiln_jpeg_encode(&jpeg, bytes, size, error);
 }
-}
