@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Figures can be checked, and a change of what they show is seen: figures.sh KILN SOURCE. That all of
+# Figures can be checked, and a change of what they show is seen: stale.sh KILN SOURCE. That all of
 # the tree's are up to date is for `kiln figure --check docs` to say, which takes longer.
 set -euo pipefail
 kiln=$(realpath "$1")
