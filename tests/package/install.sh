@@ -59,6 +59,15 @@ apt_install "$root" "${packages[@]}" gcc g++ cmake ninja-build pkg-config
 said 0 "" "cmake -S /usr/share/kiln/examples -B /tmp/examples -G Ninja"
 said 0 "" "cmake --build /tmp/examples"
 said 0 "^frame 3, its brightest value is" "/tmp/examples/picture /usr/share/kiln/scenes/fire_beam.yaml 3 /tmp/a.ppm"
+scene=/tmp/effect.yaml
+said 0 "" "kiln new $scene && sed -i 's/frames: .*/frames: 12/' $scene"
+said 0 "" "/tmp/examples/loop $scene /tmp/loop.mp4"
+said 0 "" "/tmp/examples/film $scene /tmp/film.mp4 output.size=[192,108]"
+said 0 "" "/tmp/examples/compare /tmp/fire.png /tmp/fire.png flip.mean=0.02"
+said 0 "" "cd /tmp && python3 /usr/share/kiln/examples/poster.py $scene /tmp/poster.png output.size=[192,108]"
+for made in loop.mp4 film.mp4 poster.png; do
+    [[ -s $root/tmp/$made ]] || fail "an example left no $made"
+done
 said 0 "^[0-9]+ [0-9]+\$" \
     "python3 -c 'import kiln; scene = kiln.load(\"/usr/share/kiln/scenes/fire_beam.yaml\"); print(scene.info.width, scene.info.height)'"
 said 0 "" "gcc -x c - -o /tmp/static \$(pkg-config --static --cflags --libs kiln | sed s/-lkiln/-l:libkiln.a/) <<'C'

@@ -3,7 +3,7 @@
 # make_root FOLDER: a fresh Debian 12 with apt and nothing else, unpacked from a tar that is made once.
 make_root() {
     if [[ ! -s $work/base.tar ]]; then
-        mmdebstrap --quiet --variant=apt bookworm "$work/base.tar.new" || return 1
+        mmdebstrap --quiet --format=tar --variant=apt bookworm "$work/base.tar.new" || return 1
         mv "$work/base.tar.new" "$work/base.tar"
     fi
     rm -rf "$1"
