@@ -8,8 +8,8 @@ root=$(mktemp -d)
 trap 'rm -rf "$root"' EXIT
 DESTDIR=$root cmake --install "$build" --prefix /usr >/dev/null
 # As packaging/debian/rules configures it: the folders of helpers, and of libraries, have other names.
-mkdir -p "$root/usr/libexec/libkiln0" "$root/usr/multiarch"
-mv "$root/usr/libexec/kiln" "$root/usr/libexec/libkiln0/"
+mkdir -p "$root/usr/multiarch/libkiln0"
+mv "$root/usr/libexec/kiln" "$root/usr/multiarch/libkiln0/"
 [[ ! -d $root/usr/lib/python3 ]] || mv "$root/usr/lib/python3" "$root/usr/"
 mv "$root"/usr/lib/* "$root/usr/multiarch/"
 mv "$root/usr/multiarch" "$root/usr/lib/"
