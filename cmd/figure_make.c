@@ -198,11 +198,11 @@ static int find_last_frame(const struct command *command, const struct arguments
     const struct kiln_scene_params params = overrides_scene_params(&lists->overrides, arguments);
     for (size_t i = 0; i < arguments->operand_count; i++) {
         const char *path = arguments->operands[i];
-        const char *suffix = strrchr(path, '.');
-        if (!suffix || (strcmp(suffix, ".yaml") != 0 && strcmp(suffix, ".yml") != 0))
-            return report(KILN_USAGE,
-                          "%s: --frames: of a clip, the last frame must be said by its number",
-                          command->name);
+        if (!kiln_is_scene_name(path))
+            return report(
+                KILN_USAGE,
+                "%s: --frames: '%s' is a clip, whose last frame must be said by its number",
+                command->name, path);
         struct kiln_error error = {0};
         struct kiln_scene *scene = kiln_scene_load(path, &params, &error);
         if (!scene)
@@ -240,6 +240,12 @@ int figure_make(const struct command *command, enum kiln_figure_kind kind,
 {
     if (!arguments_flag(arguments, "output"))
         return report(KILN_USAGE, "%s: needs --output FILE", command->name);
+    for (size_t i = 0; i < arguments->operand_count; i++) {
+        if (strcmp(arguments->operands[i], "-") == 0)
+            return report(KILN_USAGE,
+                          "%s: a figure is drawn again from its files; standard input is none",
+                          command->name);
+    }
     struct lists lists;
     if (!lists_create(&lists, arguments)) {
         lists_free(&lists);

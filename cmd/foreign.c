@@ -19,14 +19,16 @@ struct foreign {
 #define SCENE_HINT  "scenes are operands and need no option"
 
 static const struct foreign rows[] = {
-    /* ffmpeg */
+    /* ffmpeg; -f, -s and -t mean something else to Blender */
     {"-y", "force", NULL},
     {"-r", "fps", NULL},
     {"-framerate", "fps", NULL},
     {"-i", NULL, SCENE_HINT},
     {"-s:v", "size", NULL},
     {"-video_size", "size", NULL},
-    {"-f", "frames", FRAMES_HINT}, /* Blender's, too */
+    {"-f", "frames", "frames are chosen by '--frames', the format by the suffix of '--output'"},
+    {"-s", "size", "the size is '--size WxH'; frames are chosen by '--frames'"},
+    {"-t", "threads", "'--threads N' is how many threads; how long a clip is, '--frames' says"},
     {"-ss", "frames", FIRST_HINT},
     {"-frames:v", "frames", FRAMES_HINT},
     {"-vframes", "frames", FRAMES_HINT},
@@ -44,7 +46,6 @@ static const struct foreign rows[] = {
     /* Blender */
     {"-b", NULL, "kiln always works without a window"},
     {"--background", NULL, "kiln always works without a window"},
-    {"-s", "frames", FIRST_HINT},
     {"--frame-start", "frames", FIRST_HINT},
     {"-e", "frames", FINAL_HINT},
     {"--frame-end", "frames", FINAL_HINT},
@@ -58,7 +59,6 @@ static const struct foreign rows[] = {
     {"--render-format", "output", SUFFIX_HINT},
     {"-x", "output", SUFFIX_HINT},
     {"--use-extension", "output", SUFFIX_HINT},
-    {"-t", "threads", NULL},
     {"-E", "technique", NULL},
     {"--engine", "technique", NULL},
 

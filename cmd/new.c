@@ -34,17 +34,31 @@ static int print(const char *template)
     return 0;
 }
 
+/* What to do with it: a command to copy. */
+static void print_next(const char *path)
+{
+    char name[KILN_MESSAGE_SIZE];
+    kiln_shown(name, sizeof name, path);
+    printf("%s: a scene to begin with; render it by: kiln render ", name);
+    if (*path == '-')
+        fputs("./", stdout);
+    kiln_write_shell_word(stdout, path);
+    fputs(" -o clip.mp4\n", stdout);
+}
+
 static int run(const struct arguments *arguments)
 {
     const char *path = arguments->operands[0];
     const char *template = arguments_text(arguments, "template", "fire");
     struct kiln_error error = {0};
+    if (!*path)
+        return report(KILN_USAGE, "new: the name of the scene is empty");
     if (strcmp(path, "-") == 0)
         return print(template);
     if (!kiln_template_write(template, path, arguments_flag(arguments, "force"), &error))
         return fail(&error);
     if (!arguments_flag(arguments, "quiet"))
-        printf("%s: a scene to begin with; 'kiln render %s -o clip.mp4' renders it\n", path, path);
+        print_next(path);
     return 0;
 }
 

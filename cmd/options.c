@@ -222,6 +222,14 @@ static int read_value(const struct parser *parser, struct option_use *use)
     return 0;
 }
 
+/* Two dashes, or one and the letter of an option; "-" and "-30" are values. */
+static bool looks_like_option(const struct parser *parser, const char *word)
+{
+    return strncmp(word, "--", 2) == 0 ||
+           (word[0] == '-' && word[1] && !word[2] &&
+            option_of_letter(parser->options, parser->option_count, word[1]));
+}
+
 /* Records a use; joined is the value that came with the option in one argument, or NULL. */
 static int use_option(struct parser *parser, const struct option *option, const char *joined)
 {
@@ -237,10 +245,10 @@ static int use_option(struct parser *parser, const struct option *option, const 
         if (!next)
             return report(KILN_USAGE, "%s: --%s: needs a value, %s", parser->place, option->name,
                           option->placeholder);
-        if (strncmp(next, "--", 2) == 0)
+        if (looks_like_option(parser, next))
             return report(KILN_USAGE,
-                          "%s: --%s: needs a value, %s, found '%s' (a value that starts with two "
-                          "dashes is joined: --%s=%s)",
+                          "%s: --%s: needs a value, %s, found '%s' (a value that looks like an "
+                          "option is joined: --%s=%s)",
                           parser->place, option->name, option->placeholder, next, option->name,
                           next);
         use->text = next;

@@ -1,6 +1,7 @@
 /* Reads a scene out of a file or out of a descriptor that is open already. Of the latter, the
  * folder /dev would be a strange place to look for textures, so they are looked for in the working
- * directory. A FIFO with a name of its own is no scene file, as before: nobody waits for it. */
+ * directory. A FIFO with a name of its own is refused, as no scene file: nobody waits for a writer.
+ */
 #include "scene_in.h"
 
 #include <errno.h>
@@ -11,7 +12,7 @@
 
 #include "report.h"
 
-enum { NO_DESCRIPTOR = -1, MAX_SCENE_SIZE = 4 << 20 }; /* as of a scene file */
+enum { NO_DESCRIPTOR = -1 };
 
 /* The descriptor that an operand stands for, or NO_DESCRIPTOR. */
 static int descriptor_of(const char *path)
@@ -43,16 +44,16 @@ static const char *name_of(const char *path)
  * nothing, or whoever started the program made the descriptor one that does not wait. */
 static bool may_try_again(int file, const struct kiln_scene_params *params)
 {
-    if (errno == EAGAIN)
-        return poll(&(struct pollfd){.fd = file, .events = POLLIN}, 1, -1) > 0;
+    if (errno == EAGAIN && poll(&(struct pollfd){.fd = file, .events = POLLIN}, 1, -1) > 0)
+        return true;
     return errno == EINTR && !(params->stop && params->stop(params->user));
 }
 
 /* All that comes, up to one byte more than a scene has. False with errno. */
 static bool read_all(int file, char *text, size_t *size, const struct kiln_scene_params *params)
 {
-    while (*size <= MAX_SCENE_SIZE) {
-        const ssize_t got = read(file, text + *size, MAX_SCENE_SIZE + 1 - *size);
+    while (*size <= KILN_MAX_SCENE_SIZE) {
+        const ssize_t got = read(file, text + *size, KILN_MAX_SCENE_SIZE + 1 - *size);
         if (got == 0)
             return true;
         if (got < 0 && !may_try_again(file, params))
@@ -71,7 +72,7 @@ struct kiln_scene *scene_in_load(const char *path, const struct kiln_scene_param
     const char *name = name_of(path);
     struct kiln_scene *scene = NULL;
     size_t size = 0;
-    char *text = malloc(MAX_SCENE_SIZE + 1);
+    char *text = malloc(KILN_MAX_SCENE_SIZE + 1);
     if (!text) {
         error->code = KILN_DEVICE_FAILED;
         snprintf(error->message, sizeof error->message, "%s: out of memory while reading", name);

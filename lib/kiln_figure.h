@@ -31,7 +31,7 @@ struct kiln_figure_params {
     enum kiln_figure_kind kind;
     const char *const *inputs; /* scenes; reference and test; a scene, or what compare takes */
     size_t input_count;
-    const char *output; /* .png, .jpg (of one quality, about 92 of 100), .svg or .pdf */
+    const char *output; /* .png, .jpg (of one quality, as 87 of 100), .svg or .pdf */
     bool overwrite;
     struct kiln_scene_params scene; /* applied before what is swept */
     const struct kiln_figure_sweep *sweeps;
@@ -79,6 +79,9 @@ struct kiln_figure_result {
     char reason[KILN_MESSAGE_SIZE]; /* why; or how it was judged, if not by its pixels' hash */
 };
 
+/* Whether a file is a scene by its name; else it is a picture or a clip. */
+bool kiln_is_scene_name(const char *path);
+
 /* Draws a figure and writes it and its sidecar. KILN_USAGE for a request that makes no sense,
  * otherwise what loading, rendering and comparing say. */
 bool kiln_figure_make(const struct kiln_figure_params *params, struct kiln_figure_result *result,
@@ -94,8 +97,9 @@ struct kiln_figure_entry {
     const struct kiln_error *problem; /* why it cannot be read, and has no command; else NULL */
 };
 
-/* Figures, by themselves or by their sidecars, and all below folders, ordered by path. A broken one
- * is a problem of its entry; KILN_INVALID_INPUT when there is none. */
+/* Figures, by themselves or by their sidecars, and all below folders, ordered by path. One that is
+ * broken, or a path without any, is a problem of its entry. KILN_DEVICE_FAILED when memory is
+ * short. */
 struct kiln_figure_list *kiln_figure_list_load(const char *const *paths, size_t count,
                                                struct kiln_error *error);
 void kiln_figure_list_destroy(struct kiln_figure_list **list);

@@ -100,6 +100,9 @@ bool kiln_write_metrics(FILE *out);
 /* Visits those with names of their own. */
 void kiln_visit_metrics(void (*visit)(void *user, const char *name, const char *help), void *user);
 
+/* Of the text of a scene, in bytes. */
+enum { KILN_MAX_SCENE_SIZE = 4 << 20 };
+
 /* ---- Text: as kiln reads and writes it, for programs that take the same --------------------- */
 
 /* A whole text as a decimal number, its point '.' in any locale; false when it is no finite one. */

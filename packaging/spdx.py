@@ -42,11 +42,11 @@ def files_of(package):
 
 
 def dependencies(package):
-    """Names of packages that it depends on or recommends; of alternatives the first."""
+    """Names of packages that it depends on or recommends; of alternatives the first. Which versions will do is said
+    by the package itself."""
     for kind in ("Depends", "Pre-Depends", "Recommends"):
         for clause in filter(None, field(package, kind).split(",")):
-            words = clause.split("|")[0].split()
-            yield words[0], " ".join(words[1:]).strip("()")
+            yield clause.split("|")[0].split()[0]
 
 
 def describe(package, version, commit, document):
@@ -106,9 +106,9 @@ def main(folder, version, commit):
     for own, needs in described:
         document["relationships"].append({
             "spdxElementId": "SPDXRef-DOCUMENT", "relationshipType": "DESCRIBES", "relatedSpdxElement": own})
-        for name, constraint in needs:
+        for name in needs:
             of_kiln = identifier("Package", name)
-            other = of_kiln if of_kiln in ours else foreign(name, constraint, "NOASSERTION", document)
+            other = of_kiln if of_kiln in ours else foreign(name, None, "NOASSERTION", document)
             document["relationships"].append({
                 "spdxElementId": own, "relationshipType": "DEPENDS_ON", "relatedSpdxElement": other})
     for name, licence in COMPILED_IN.items():
@@ -117,8 +117,8 @@ def main(folder, version, commit):
         other = foreign(name, found, licence, document)
         for package in ("kiln", "libkiln0", "libkiln-dev"):
             document["relationships"].append({
-                "spdxElementId": other, "relationshipType": "STATIC_LINK",
-                "relatedSpdxElement": identifier("Package", package)})
+                "spdxElementId": identifier("Package", package), "relationshipType": "STATIC_LINK",
+                "relatedSpdxElement": other})
     json.dump(document, sys.stdout, indent=1, sort_keys=True)
     print()
 

@@ -9,6 +9,7 @@ kiln itself is imported when a test asks for the fixture, so other test runs do 
 """
 from __future__ import annotations
 
+import hashlib
 import os
 import re
 import shutil
@@ -58,14 +59,20 @@ def _shown(path: "str | os.PathLike[str]") -> str:
     return os.fspath(path) if relative.startswith("..") else relative
 
 
+def _folder_of(test: str) -> str:
+    """A folder of its own for a test by its id: where letters of that are lost, a digest tells it from others."""
+    plain = test.replace("/", ".").replace(".py::", ".").replace("::", ".")
+    name = re.sub(r"[^\w.\[\]-]+", "_", plain)
+    return name if name == plain else f"{name}.{hashlib.sha256(test.encode()).hexdigest()[:8]}"
+
+
 class _Judge:
     """The goldens of one test."""
 
     def __init__(self, request: pytest.FixtureRequest) -> None:
         self.config = request.config
         self.folder = request.path.parent
-        name = re.sub(r"[^\w.\[\]-]+", "_", f"{request.path.stem}.{request.node.name}")
-        self.results = Path(self.config.getoption("--kiln-results"), name)
+        self.results = Path(self.config.getoption("--kiln-results"), _folder_of(request.node.nodeid))
         self.cleared = False
 
     def update(self, picture: "Picture", golden: Path) -> None:
@@ -86,9 +93,14 @@ class _Judge:
 
         if isinstance(picture, (str, os.PathLike)):
             return Path(picture)
-        path = self.results / golden.name
+        path = self.place(golden)
         kiln.write_picture(path, picture, overwrite=True)
         return path
+
+    def place(self, golden: Path) -> Path:
+        """Among the results, where the golden lies below the folder of the test."""
+        inside = golden.is_relative_to(self.folder) and ".." not in golden.parts
+        return self.results / (golden.relative_to(self.folder) if inside else golden.name)
 
     def __call__(self, picture: "Picture", golden: "str | os.PathLike[str]", **options: Any) -> "Comparison":
         __tracebackhide__ = True
@@ -96,8 +108,7 @@ class _Judge:
 
         path = self.folder / golden
         if not self.cleared and self.results.is_dir():
-            for old in self.results.iterdir():
-                old.unlink()
+            shutil.rmtree(self.results)
         self.cleared = True
         update = self.config.getoption("--kiln-update")
         if not path.exists():
@@ -106,15 +117,17 @@ class _Judge:
                 pytest.fail(f"there is no golden picture {_shown(path)}\npicture: {_shown(kept)}\n"
                             "look at it, and accept it by pytest --kiln-update", pytrace=False)
             self.update(picture, path)
-        diff = self.results / f"{path.stem}_differences.png"
+        place = self.place(path)
+        diff = place.with_name(f"{path.stem}_differences.png")
         result = kiln.compare(path, picture, diff=diff, overwrite=True, **options)
         if not result.same and update:
             self.update(picture, path)
             result = kiln.compare(path, picture, diff=diff, overwrite=True, **options)
         if result.same:
             diff.unlink(missing_ok=True)
-            if self.results.is_dir() and not any(self.results.iterdir()):
-                self.results.rmdir()
+            for folder in (diff.parent, *diff.parent.parents):
+                if folder.is_relative_to(self.results) and folder.is_dir() and not any(folder.iterdir()):
+                    folder.rmdir()
             return result
         lines = [f"the picture does not look like {_shown(path)}", str(result),
                  f"picture: {_shown(self.keep(picture, path))}"]

@@ -40,12 +40,18 @@ static int compare_paths(const void *a, const void *b)
 static bool add_name(struct kiln_text *text, const char *name, bool target,
                      struct kiln_error *error)
 {
-    if (strchr(name, '\n'))
+    const char *odd = strpbrk(name, "\n=;|");
+    if (odd && *odd == '\n')
         return kiln_error_set(error, KILN_USAGE,
                               "--depfile: %s: make cannot read a name with a line feed", name);
+    if (odd)
+        return kiln_error_set(error, KILN_USAGE, "--depfile: %s: make cannot read a name with '%c'",
+                              name, *odd);
+    if (*name == '~')
+        kiln_text_add(text, "./"); /* or it is somebody's home */
     size_t backslashes = 0;
     for (const char *c = name; *c; c++) {
-        bool escaped = strchr(" \t#:[]*?", *c) || (*c == '%' && target) || (c == name && *c == '~');
+        bool escaped = strchr(" \t#:[]*?", *c) || (*c == '%' && target);
         if (escaped) {
             for (size_t i = 0; i < backslashes; i++)
                 kiln_text_add(text, "\\");
@@ -97,4 +103,21 @@ bool kiln_depfile_make(const char *target, const struct kiln_claims *claims, str
         return written;
     return kiln_error_set(error, KILN_DEVICE_FAILED,
                           "out of memory for the dependencies of a figure");
+}
+
+bool kiln_depfile_is_of(const char *path, const char *target)
+{
+    struct kiln_text rule = {0};
+    struct kiln_error ignored = {0};
+    bool ok = add_name(&rule, target, true, &ignored);
+    kiln_text_add(&rule, ":");
+    ok = ok && !rule.failed;
+    FILE *file = ok ? fopen(path, "rbe") : NULL;
+    for (size_t i = 0; file && ok && i < rule.length; i++)
+        ok = getc(file) == (unsigned char)rule.data[i];
+    ok = ok && file;
+    if (file)
+        fclose(file);
+    kiln_text_free(&rule);
+    return ok;
 }

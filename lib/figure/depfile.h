@@ -12,4 +12,7 @@
 bool kiln_depfile_make(const char *target, const struct kiln_claims *claims, struct kiln_text *text,
                        struct kiln_error *error);
 
+/* Whether a file is there whose first rule is the target's. */
+bool kiln_depfile_is_of(const char *path, const char *target);
+
 #endif

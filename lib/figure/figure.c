@@ -1,5 +1,6 @@
 /* A figure from request to file: panels, layout, pixels, then the file and its sidecar, or a check
  * of those that are there. */
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -15,6 +16,8 @@
 #include "figure/record.h"
 #include "figure/verdict.h"
 #include "kiln_program.h"
+
+enum { LONGEST_ALT = 65533 }; /* what a comment of JPEG holds */
 
 struct job {
     const struct kiln_figure_params *params;
@@ -48,6 +51,14 @@ static bool is_same_file(const char *path, const struct stat *other)
            status.st_ino == other->st_ino;
 }
 
+/* A sidecar may be a stranger's: what is redrawn by one replaces no file but the figure's own. */
+static bool wants_depfile(const struct job *job)
+{
+    const struct kiln_figure_params *params = job->params;
+    return params->depfile &&
+           (!params->update || kiln_depfile_is_of(params->depfile, params->output));
+}
+
 /* Whether the figure may lie where it is wanted. What it is made of is declared as it is read,
  * which is before anything is written. */
 static bool check_target(const struct job *job)
@@ -59,7 +70,7 @@ static bool check_target(const struct job *job)
                               job->error))
             return false;
     }
-    const char *depfile = params->depfile;
+    const char *depfile = wants_depfile(job) ? params->depfile : NULL;
     bool overwrite = params->overwrite || params->update;
     return sidecar_path(job, sidecar) &&
            kiln_claims_write(job->claims, params->output, "the figure", job->error) &&
@@ -109,6 +120,9 @@ static bool check_request(struct job *job)
                               "--plain leaves no room for a title or labels");
     if (params->input_count == 0)
         return kiln_error_set(job->error, KILN_USAGE, "a figure of nothing");
+    if (params->alt && strlen(params->alt) > LONGEST_ALT)
+        return kiln_error_set(job->error, KILN_USAGE, "--alt: found %zu bytes; allowed are %d",
+                              strlen(params->alt), (int)LONGEST_ALT);
     return kiln_lettering_check_request(params, job->error) && (params->check || check_target(job));
 }
 
@@ -123,6 +137,8 @@ static bool draw(struct job *job)
               : params->kind == KILN_FIGURE_STRIP
                   ? kiln_panels_of_strip(&job->panels, params, job->error)
                   : kiln_panels_of_triptych(&job->panels, params, job->error);
+    for (size_t i = 0; ok && i < job->panels.count && i < params->label_count; i++)
+        job->panels.items[i].label = params->labels[i];
     if (!ok || !kiln_layout_make(&job->drawing, &job->panels, params, job->error) ||
         !kiln_drawing_rasterise(&job->drawing, &job->pixels, job->error))
         return false;
@@ -153,16 +169,24 @@ static bool find_folder(const struct job *job, const char **folder)
     const char *output = job->params->output, *slash = strrchr(output, '/');
     size_t length = slash > output ? (size_t)(slash - output) : 1;
     const char *name = slash ? kiln_arena_text(job->arena, output, length) : ".";
-    char *here = realpath(".", NULL), *there = name ? realpath(name, NULL) : NULL;
-    *folder = here && there ? way_up(job->arena, there, here) : NULL;
+    if (!name)
+        return no_memory(job);
+    char *here = realpath(".", NULL), *there = here ? realpath(name, NULL) : NULL;
+    if (!there) {
+        kiln_error_set_errno(job->error, KILN_IO, errno, "%s: the folder cannot be found",
+                             here ? name : "the working directory");
+        free(here);
+        return false;
+    }
+    *folder = way_up(job->arena, there, here);
     free(here);
     free(there);
     return *folder || no_memory(job);
 }
 
-static bool write_sidecar(struct job *job, const uint8_t *bytes, size_t size)
+static bool make_sidecar(struct job *job, const uint8_t *bytes, size_t size, struct kiln_text *text)
 {
-    char file[65], path[KILN_PATH_SIZE];
+    char file[65];
     struct kiln_record record = {.version = KILN_VERSION,
                                  .command_count = job->params->command_count,
                                  .device = job->panels.maker.device,
@@ -181,20 +205,38 @@ static bool write_sidecar(struct job *job, const uint8_t *bytes, size_t size)
     kiln_hash_sha256(bytes, size, file);
     for (size_t i = 0; i < record.command_count; i++)
         record.command[i] = job->params->command[i];
-    struct kiln_text text = {0};
-    bool ok = sidecar_path(job, path) && find_folder(job, &record.folder) &&
-              kiln_record_write(&record, &text, job->error) &&
-              kiln_temporary_write_file(path, text.data, text.length, job->error);
-    kiln_text_free(&text);
-    return ok;
+    return find_folder(job, &record.folder) && kiln_record_write(&record, text, job->error);
 }
 
-static bool write_depfile(struct job *job)
+/* A file without its name yet. */
+static bool begin_file(struct kiln_temporary *file, const char *path, const void *bytes,
+                       size_t size, struct kiln_error *error)
 {
-    struct kiln_text text = {0};
-    bool ok = kiln_depfile_make(job->params->output, job->claims, &text, job->error) &&
-              kiln_temporary_write_file(job->params->depfile, text.data, text.length, job->error);
-    kiln_text_free(&text);
+    return kiln_make_parent_folders(path, error) && kiln_temporary_open(file, path, error) &&
+           (kiln_temporary_write(file, bytes, size) || kiln_temporary_fail(file, error));
+}
+
+/* All files get their names or none does, the figure last: with it, make and readers have the
+ * others. */
+static bool write_files(struct job *job, const uint8_t *bytes, size_t size)
+{
+    const struct kiln_figure_params *params = job->params;
+    struct kiln_temporary depfile = {0}, sidecar = {0}, figure = {0};
+    struct kiln_temporary *all[] = {&depfile, &sidecar, &figure};
+    struct kiln_text rules = {0}, record = {0};
+    char path[KILN_PATH_SIZE];
+    size_t first = wants_depfile(job) ? 0 : 1;
+    bool ok = begin_file(&figure, params->output, bytes, size, job->error) &&
+              sidecar_path(job, path) && make_sidecar(job, bytes, size, &record) &&
+              begin_file(&sidecar, path, record.data, record.length, job->error) &&
+              (first > 0 ||
+               (kiln_depfile_make(params->output, job->claims, &rules, job->error) &&
+                begin_file(&depfile, params->depfile, rules.data, rules.length, job->error))) &&
+              kiln_temporary_commit_all(all + first, 3 - first, true, job->error);
+    for (size_t i = 0; i < 3; i++)
+        kiln_temporary_discard(all[i]);
+    kiln_text_free(&rules);
+    kiln_text_free(&record);
     return ok;
 }
 
@@ -207,8 +249,7 @@ static bool write_figure(struct job *job)
                         &job->pixels, &(struct kiln_imprint){job->params->dpi, job->params->alt},
                         &bytes, &size, job->error)
                   : job->format->of_drawing(&job->drawing, &bytes, &size, job->error);
-    ok = ok && kiln_temporary_write_file(job->params->output, bytes, size, job->error) &&
-         write_sidecar(job, bytes, size) && (!job->params->depfile || write_depfile(job));
+    ok = ok && write_files(job, bytes, size);
     free(bytes);
     return ok;
 }

@@ -3,7 +3,7 @@
 
 #include "figure/drawing.h"
 
-/* FFmpeg's scale of quantisers, from 1; about what other programs call quality 92. */
+/* As of --quality 84 to 90. */
 enum { QUANTISER = 2 };
 
 bool kiln_pixels_jpeg(const struct kiln_pixels *pixels, const struct kiln_imprint *imprint,

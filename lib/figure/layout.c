@@ -56,19 +56,43 @@ static void add_text(const struct layout *l, int64_t x, int64_t baseline, double
                                                      .text = text});
 }
 
+/* So many bytes of a text, less those of a character that would be cut. */
+static size_t whole_characters(const char *text, size_t length)
+{
+    while (length > 0 && ((unsigned char)text[length] & 0xc0) == 0x80)
+        length--;
+    return length;
+}
+
 /* The text, or its start with an ellipsis where it is too wide; NULL when memory is short. */
 static const char *fit_text(const struct layout *l, const char *text, double capital,
                             uint32_t width)
 {
-    size_t length = strlen(text);
-    const char *fitting = text;
-    while (fitting && length > 0 && kiln_drawing_text_width(fitting, capital) > width) {
-        length--;
-        while (length > 0 && ((unsigned char)text[length] & 0xc0) == 0x80)
-            length--;
-        fitting = kiln_arena_format(l->drawing->arena, "%.*s\xe2\x80\xa6", (int)length, text);
+    static const char ellipsis[] = "\xe2\x80\xa6";
+    size_t fits = 0, high = strlen(text);
+    char *start = kiln_arena_alloc(l->drawing->arena, high + sizeof ellipsis, 1);
+    if (!start || kiln_drawing_text_width(text, capital) <= width)
+        return start ? text : NULL;
+    while (high - fits > 1) {
+        size_t length = (fits + high) / 2, end = whole_characters(text, length);
+        memcpy(start, text, end);
+        memcpy(start + end, ellipsis, sizeof ellipsis);
+        if (kiln_drawing_text_width(start, capital) <= width)
+            fits = length;
+        else
+            high = length;
     }
-    return fitting;
+    size_t end = whole_characters(text, fits);
+    memcpy(start, text, end);
+    memcpy(start + end, ellipsis, sizeof ellipsis);
+    return start;
+}
+
+/* At least a pixel. */
+static uint32_t scaled(uint32_t length, uint32_t to, uint32_t from)
+{
+    uint64_t result = ((uint64_t)length * to + from / 2) / from;
+    return result > 0 ? (uint32_t)result : 1;
 }
 
 /* ---- Insets --------------------------------------------------------------------------------- */
@@ -122,14 +146,14 @@ static void add_insets(const struct layout *l, const struct kiln_pixels *pixels,
         mark.height = (uint32_t)((uint64_t)rect.height * height / pixels->height) + 2 * l->line;
         kiln_drawing_add(l->drawing, &mark);
         bool last = i + 1 == l->params->inset_count;
-        uint32_t shown = (uint32_t)((double)row * rect.width / rect.height);
+        uint32_t shown = scaled(rect.width, row, rect.height);
         if (last && shown + 4 >= x + width - at) /* what rounding has left over */
             shown = x + width - at;
         mark = (struct kiln_mark){.kind = KILN_MARK_PICTURE, .x = (int32_t)at};
         mark.y = (int32_t)(y + l->picture_height + l->gap / 2);
         mark.width = shown;
         mark.height = row;
-        if (row == 0 || shown == 0 || !crop(l, pixels, rect, &mark.pixels)) {
+        if (!crop(l, pixels, rect, &mark.pixels)) {
             l->drawing->failed = true;
             return;
         }
@@ -143,13 +167,6 @@ static void add_insets(const struct layout *l, const struct kiln_pixels *pixels,
 }
 
 /* ---- Cells ---------------------------------------------------------------------------------- */
-
-/* At least a pixel. */
-static uint32_t scaled(uint32_t length, uint32_t to, uint32_t from)
-{
-    uint64_t result = ((uint64_t)length * to + from / 2) / from;
-    return result > 0 ? (uint32_t)result : 1;
-}
 
 static void picture_size(const struct layout *l, const struct kiln_pixels *pixels, uint32_t *width,
                          uint32_t *height)
@@ -190,13 +207,12 @@ static void add_scale(const struct layout *l, uint32_t right, uint32_t baseline)
 static void add_label(const struct layout *l, size_t index, uint32_t x, uint32_t baseline)
 {
     const struct kiln_panel *panel = &l->panels->items[index];
-    const char *label = l->params->label_count > 0 ? l->params->labels[index] : panel->label;
     uint32_t width = l->cell_width, scale = 12 * l->capital;
     if (panel->is_map && width > 2 * scale) {
         add_scale(l, x + width, baseline);
         width -= scale;
     }
-    const char *text = fit_text(l, label, l->letter, width);
+    const char *text = fit_text(l, panel->label, l->letter, width);
     if (text)
         add_text(l, x, baseline, l->letter, l->theme->ink, text);
     else
@@ -322,7 +338,6 @@ static bool measure_cells_on_paper(struct layout *l)
     l->drawing->width = (uint32_t)(paper < UINT32_MAX ? paper : UINT32_MAX);
     l->cell_width = (uint32_t)(rest / l->columns < KILN_MAX_FIGURE_EDGE ? rest / l->columns
                                                                         : KILN_MAX_FIGURE_EDGE);
-    warn_of_enlarging(l);
     return true;
 }
 
@@ -346,6 +361,12 @@ static bool measure(struct layout *l)
         l->cell_width = width > l->cell_width ? width : l->cell_width;
         l->picture_height = height > l->picture_height ? height : l->picture_height;
         uint32_t row = inset_height(l, &panels->items[i].pixels, width, height);
+        if (row == 0 && l->params->inset_count > 0)
+            return kiln_error_set(
+                l->error, KILN_USAGE,
+                "--inset: found %zu that are too flat to be shown below a picture "
+                "of %u pixels",
+                l->params->inset_count, width);
         l->inset_height = row > l->inset_height ? row : l->inset_height;
     }
     l->top = l->head;
@@ -412,6 +433,8 @@ bool kiln_layout_make(struct kiln_drawing *drawing, const struct kiln_panels *pa
                               "%d in all: make its panels smaller with --width, or --dpi",
                               (unsigned long long)width, (unsigned long long)height,
                               (int)KILN_MAX_FIGURE_EDGE, (int)KILN_MAX_FIGURE_PIXELS);
+    if (params->paper_width_mm > 0)
+        warn_of_enlarging(&l);
     drawing->width = (uint32_t)width;
     drawing->height = (uint32_t)height;
     drawing->paper = l.theme->paper;

@@ -66,6 +66,21 @@ static bool add_entry(struct kiln_figure_list *list, const char *path, struct ki
            kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for the figures");
 }
 
+/* A path that leads to no figure. The others are looked at all the same. */
+static bool add_problem(struct kiln_figure_list *list, const char *path,
+                        const struct kiln_error *problem, struct kiln_error *error)
+{
+    struct kiln_figure_entry *entry = new_entry(list);
+    const char *name = kiln_arena_format(list->arena, "%s", path);
+    struct kiln_error *kept = kiln_arena_alloc(list->arena, 1, sizeof *kept);
+    if (!entry || !name || !kept)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for the figures");
+    *kept = *problem;
+    *entry =
+        (struct kiln_figure_entry){.sidecar = name, .figure = name, .folder = ".", .problem = kept};
+    return true;
+}
+
 static bool is_sidecar(const char *path)
 {
     size_t length = strlen(path), end = sizeof KILN_RECORD_SUFFIX - 1;
@@ -76,9 +91,12 @@ static bool search(struct kiln_figure_list *list, const char *folder, int depth,
                    struct kiln_error *error)
 {
     struct dirent **names;
+    struct kiln_error problem = {0};
     int count = scandir(folder, &names, NULL, alphasort);
-    if (count < 0)
-        return kiln_error_set_errno(error, KILN_IO, errno, "%s: the folder cannot be read", folder);
+    if (count < 0) {
+        kiln_error_set_errno(&problem, KILN_IO, errno, "%s: the folder cannot be read", folder);
+        return add_problem(list, folder, &problem, error);
+    }
     bool ok = true;
     for (int i = 0; i < count; i++) {
         char path[KILN_PATH_SIZE];
@@ -106,21 +124,27 @@ static bool add_figure(struct kiln_figure_list *list, const char *path, bool is_
     bool fits = length >= 0 && length < KILN_PATH_SIZE;
     if (fits && access(sidecar, F_OK) == 0)
         return add_entry(list, sidecar, error);
+    struct kiln_error problem = {0};
     if (!is_there)
-        return kiln_error_set_errno(error, KILN_INVALID_INPUT, ENOENT, "%s", path);
-    return kiln_error_set(
-        error, KILN_INVALID_INPUT,
-        "%s: expected a folder, a figure that has a sidecar (NAME%s) beside it, or "
-        "a sidecar",
-        path, KILN_RECORD_SUFFIX);
+        kiln_error_set_errno(&problem, KILN_INVALID_INPUT, ENOENT, "%s", path);
+    else
+        kiln_error_set(&problem, KILN_INVALID_INPUT,
+                       "%s: expected a folder, a figure that has a sidecar (NAME%s) beside it, or "
+                       "a sidecar",
+                       path, KILN_RECORD_SUFFIX);
+    return add_problem(list, path, &problem, error);
 }
 
 static bool add_path(struct kiln_figure_list *list, const char *path, struct kiln_error *error)
 {
     struct stat status;
-    if (stat(path, &status) != 0)
-        return errno == ENOENT ? add_figure(list, path, false, error)
-                               : kiln_error_set_errno(error, KILN_INVALID_INPUT, errno, "%s", path);
+    struct kiln_error problem = {0};
+    if (stat(path, &status) != 0) {
+        if (errno == ENOENT)
+            return add_figure(list, path, false, error);
+        kiln_error_set_errno(&problem, KILN_INVALID_INPUT, errno, "%s", path);
+        return add_problem(list, path, &problem, error);
+    }
     if (!S_ISDIR(status.st_mode))
         return is_sidecar(path) ? add_entry(list, path, error)
                                 : add_figure(list, path, true, error);
@@ -130,10 +154,11 @@ static bool add_path(struct kiln_figure_list *list, const char *path, struct kil
     const char *folder = kiln_arena_text(list->arena, path, length);
     if (!folder)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for the figures");
-    return search(list, folder, 0, error) &&
-           (list->count > before ||
-            kiln_error_set(error, KILN_INVALID_INPUT, "%s: no figures in it: none with a %s", path,
-                           KILN_RECORD_SUFFIX));
+    if (!search(list, folder, 0, error) || list->count > before)
+        return list->count > before;
+    kiln_error_set(&problem, KILN_INVALID_INPUT, "%s: no figures in it: none with a %s", path,
+                   KILN_RECORD_SUFFIX);
+    return add_problem(list, path, &problem, error);
 }
 
 struct kiln_figure_list *kiln_figure_list_load(const char *const *paths, size_t count,

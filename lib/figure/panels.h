@@ -46,7 +46,4 @@ bool kiln_panels_of_strip(struct kiln_panels *panels, const struct kiln_figure_p
 bool kiln_panel_take_pixels(struct kiln_panels *panels, struct kiln_panel *panel, uint32_t width,
                             uint32_t height, const uint8_t *rgba, struct kiln_error *error);
 
-/* Whether a file is a scene by its name. */
-bool kiln_is_scene_name(const char *path);
-
 #endif

@@ -182,10 +182,12 @@ static bool choose_evenly(const char *path, uint32_t wanted, struct kiln_frame_r
     uint32_t numbers_size = 1024, total = 0, number;
     uint32_t *numbers = malloc(numbers_size * sizeof *numbers);
     struct kiln_footage *footage = kiln_footage_open(path, "beauty", error);
-    while (footage && numbers && next_number(footage, total, &number)) {
+    bool memory = numbers != NULL;
+    while (footage && memory && next_number(footage, total, &number)) {
         if (total == numbers_size) {
             numbers_size *= 2;
             uint32_t *grown = realloc(numbers, numbers_size * sizeof *numbers);
+            memory = grown != NULL;
             if (!grown)
                 break;
             numbers = grown;
@@ -201,6 +203,8 @@ static bool choose_evenly(const char *path, uint32_t wanted, struct kiln_frame_r
     free(numbers);
     bool ok = footage != NULL;
     kiln_footage_close(&footage);
+    if (ok && !memory)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a strip");
     return ok && (*count > 0 || kiln_error_set(error, KILN_INVALID_INPUT, "%s: no frames", path));
 }
 

@@ -154,8 +154,11 @@ static bool read_root(struct kiln_arena *arena, const struct kiln_node *root,
     if (!read_number(kiln_node_entry(root, "kiln_figure"), root, "kiln_figure", &version, error))
         return false;
     if (version != VERSION)
-        return kiln_node_error(root, error, "kiln_figure: found %u; this kiln reads %d", version,
-                               (int)VERSION);
+        return kiln_node_error(
+            root, error,
+            "kiln_figure: found %u; this kiln reads %d: draw the figure again, with "
+            "--force",
+            version, (int)VERSION);
     return read_text(root, "version", &record->version, error) &&
            read_text(root, "folder", &record->folder, error) &&
            read_text(root, "device", &record->device, error) &&

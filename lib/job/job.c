@@ -328,10 +328,22 @@ static bool check_stream(const struct kiln_job *job, struct kiln_error *error)
                           job->resumes ? "file that can be gone on with" : "flipbook");
 }
 
+static bool check_shard(const struct kiln_render_params *params, struct kiln_error *error)
+{
+    if (params->shards == 0 && params->shard == 0)
+        return true;
+    if (params->shard >= params->shards)
+        return kiln_error_set(error, KILN_USAGE, "shard %u of %u: shards count from 0",
+                              params->shard, params->shards);
+    return params->output ||
+           kiln_error_set(error, KILN_USAGE, "shard %u of %u: there is no output to share",
+                          params->shard, params->shards);
+}
+
 static bool open_output(struct kiln_job *job, struct kiln_error *error)
 {
     const struct kiln_render_params *params = job->params;
-    if (!check_files(job, error))
+    if (!check_shard(params, error) || !check_files(job, error))
         return false;
     const struct kiln_output_params files = output_params(job);
     job->draws = true;

@@ -180,8 +180,8 @@ static void *open_frame(const struct kiln_output_params *params, struct kiln_tem
     return encoder;
 }
 
-/* From 50 up as other programs count quality: the quantiser of 100 is 1, of 92 and 80 are 1 and 3,
- * of 50 is 8. Below it falls evenly to the worst, 31. */
+/* From 50 up about as other programs count quality: the quantiser is 1 from 91 on, 2 from 84, 3 at
+ * 80, 8 at 50. Below, it grows evenly to the worst, 31. */
 static uint32_t quantiser_of(uint32_t quality)
 {
     const uint32_t hundredths = quality >= 50 ? 1600 - 16 * quality : 3100 - 46 * quality;
@@ -218,7 +218,8 @@ const struct kiln_format kiln_format_jpeg = {
     .suffix = ".jpg",
     .also = ".jpeg",
     .name = "JPEG images",
-    .help = "8 bits, full chroma, no alpha; quality 0 to 100; .jpeg is the same",
+    .help =
+        "8 bits, full chroma, no alpha; quality 0 to 100, from 91 on the best; .jpeg is the same",
     .uses = KILN_USES_QUALITY,
     .needs = needs,
     .check = check,

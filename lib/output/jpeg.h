@@ -8,7 +8,7 @@
 struct kiln_jpeg {
     const uint8_t *rgba; /* 8 bits, sRGB, rows from the top; alpha is passed over */
     uint32_t width, height;
-    uint32_t quantiser;  /* of FFmpeg's scale, 1 (best) to 31; 2 is about quality 92 elsewhere */
+    uint32_t quantiser;  /* of FFmpeg's scale, 1 (best) to 31 */
     const char *comment; /* of the file, UTF-8, cut at 65533 bytes; NULL: none */
     uint32_t dpi;        /* pixels an inch has, up to 65535; 0: the file does not say */
 };

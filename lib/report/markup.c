@@ -56,9 +56,12 @@ const char *kiln_markup_entity(char c)
     }
 }
 
-static bool is_control(unsigned char c)
+/* What XML has no characters for: controls, U+FFFE and U+FFFF. */
+static bool is_foreign(const char *text)
 {
-    return (c < 0x20 && c != '\n' && c != '\t') || c == 0x7f;
+    unsigned char c = (unsigned char)*text;
+    return (c < 0x20 && c != '\n' && c != '\t') || c == 0x7f ||
+           strncmp(text, "\xef\xbf\xbe", 3) == 0 || strncmp(text, "\xef\xbf\xbf", 3) == 0;
 }
 
 void kiln_markup_write_text(FILE *out, const char *text)
@@ -66,7 +69,7 @@ void kiln_markup_write_text(FILE *out, const char *text)
     while (*text) {
         size_t length = kiln_text_utf8_length(text);
         const char *entity = kiln_markup_entity(*text);
-        if (length == 0 || is_control((unsigned char)*text))
+        if (length == 0 || is_foreign(text))
             fputs("\xef\xbf\xbd", out);
         else if (entity)
             fputs(entity, out);

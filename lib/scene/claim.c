@@ -9,8 +9,6 @@
 #include "option/node.h"
 #include "scene/asset_path.h"
 
-enum { MAX_FILE_SIZE = 4 << 20 };
-
 bool kiln_scene_add_file(struct kiln_scene *scene, const char *path, const char *what)
 {
     struct kiln_scene_file *file = kiln_arena_alloc(scene->arena, 1, sizeof *file);
@@ -82,7 +80,8 @@ bool kiln_scene_claim_file(const char *path, const char *const *overrides, size_
     const struct search search = {folder, claims, error};
     bool ok = folder ? kiln_claims_read(claims, path, "a scene", error)
                      : kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", path);
-    char *text = ok ? kiln_text_file_read(path, "a scene", MAX_FILE_SIZE, &size, &ignored) : NULL;
+    char *text =
+        ok ? kiln_text_file_read(path, "a scene", KILN_MAX_SCENE_SIZE, &size, &ignored) : NULL;
     ok = ok && (!text || claim_yaml(&search, arena, text));
     for (size_t i = 0; ok && i < override_count; i++) {
         const char *equals = strchr(overrides[i], '=');

@@ -13,8 +13,6 @@
 #include "scene/asset_path.h"
 #include "scene/validate.h"
 
-enum { MAX_FILE_SIZE = 4 << 20 };
-
 /* What is counted anew for each scene of a job. */
 static const enum kiln_limit OF_A_SCENE[] = {KILN_LIMIT_asset_pixels, KILN_LIMIT_asset_bytes,
                                              KILN_LIMIT_triangles};
@@ -192,7 +190,7 @@ struct kiln_scene *kiln_scene_load(const char *path, const struct kiln_scene_par
     struct kiln_scene_params params = kiln_scene_defaults();
     char *text = kiln_sized_take(&params, given, "kiln_scene_params", error) &&
                          check_place(path, params.asset_root, error)
-                     ? kiln_text_file_read(path, "a scene file", MAX_FILE_SIZE, &size, error)
+                     ? kiln_text_file_read(path, "a scene file", KILN_MAX_SCENE_SIZE, &size, error)
                      : NULL;
     if (!text)
         return NULL;
@@ -215,9 +213,9 @@ struct kiln_scene *kiln_scene_parse(const char *text, size_t size, const char *n
     memcpy(copy, text, size);
     copy[size] = '\0';
     struct kiln_scene *scene = NULL;
-    if (size > MAX_FILE_SIZE)
+    if (size > KILN_MAX_SCENE_SIZE)
         kiln_error_set(error, KILN_INVALID_INPUT, "%s: %zu bytes; a scene file has at most %d",
-                       name, size, MAX_FILE_SIZE);
+                       name, size, KILN_MAX_SCENE_SIZE);
     else
         scene = create_counted(copy, size, name, NULL, &params, error);
     free(copy);
@@ -228,7 +226,7 @@ bool kiln_scene_visit_systems(const char *path, void (*visit)(void *user, const 
                               void *user, struct kiln_error *error)
 {
     size_t size = 0;
-    char *text = kiln_text_file_read(path, "a scene file", MAX_FILE_SIZE, &size, error);
+    char *text = kiln_text_file_read(path, "a scene file", KILN_MAX_SCENE_SIZE, &size, error);
     struct kiln_arena *arena = text ? kiln_arena_create() : NULL;
     const struct kiln_origin origin = kiln_scene_origin(path);
     const struct kiln_node *root =

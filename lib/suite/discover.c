@@ -17,8 +17,6 @@
 #include "suite/expect.h"
 #include "suite/test_file.h"
 
-enum { MAX_SCENE_SIZE = 4 << 20 }; /* of scene files */
-
 struct search {
     struct kiln_arena *arena;
     struct kiln_findings *findings;
@@ -185,7 +183,7 @@ static bool add_if_scene(struct search *search, const char *path)
     size_t size = 0;
     if (access(path, R_OK) != 0)
         return kiln_error_set_errno(search->error, KILN_IO, errno, "%s", path);
-    char *text = kiln_text_file_read(path, "a scene file", MAX_SCENE_SIZE, &size, &error);
+    char *text = kiln_text_file_read(path, "a scene file", KILN_MAX_SCENE_SIZE, &size, &error);
     struct keys keys = {0};
     bool ok = true;
     if (text)

@@ -114,10 +114,12 @@ def _set_masks(params: Struct, masks: Iterable[Mask]) -> None:
     array = params.keep(ffi.new("struct kiln_compare_mask[]", len(given)))
     for mask, found in zip(given, array):
         found.size = ffi.sizeof(found)
-        if isinstance(mask, tuple):
+        if isinstance(mask, (str, os.PathLike)):
+            found.picture = params.keep(ffi.new("char[]", os.fsencode(mask)))
+        elif isinstance(mask, (tuple, list)) and len(mask) == 4:
             found.x, found.y, found.width, found.height = mask
         else:
-            found.picture = params.keep(ffi.new("char[]", os.fsencode(mask)))
+            raise TypeError(f"masks: found {mask!r}, expected (x, y, width, height) or the name of a picture")
     params.pointer.masks = array
     params.pointer.mask_stride = ffi.sizeof("struct kiln_compare_mask")
     params.pointer.mask_count = len(given)

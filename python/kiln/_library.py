@@ -194,16 +194,26 @@ def set_watch(params: Struct, watch: Watch, cancel: Optional[Cancel]) -> None:
         params.pointer.cancel = params.keep(cancel)._pointer
 
 
-def pairs(values: Union[str, Iterable[str], Mapping[str, Any], None], what: str) -> list[str]:
-    """"key=value" texts of a text, of several, or of a mapping. Values that are no texts become YAML."""
+def _as_yaml(value: Any, place: str) -> str:
+    """A value of a key, which may be a number or an array of NumPy."""
     import json
 
+    def listed(other: Any) -> Any:
+        if hasattr(other, "tolist"):
+            return other.tolist()
+        raise TypeError(f"{place}: found {other!r}, expected a text, a number, or lists and mappings of these")
+
+    return value if isinstance(value, str) else json.dumps(value, default=listed)
+
+
+def pairs(values: Union[str, Iterable[str], Mapping[str, Any], None], what: str) -> list[str]:
+    """"key=value" texts of a text, of several, or of a mapping. Values that are no texts become YAML."""
     if values is None:
         return []
     if isinstance(values, str):
         return [values]
     if isinstance(values, Mapping):
-        return [f"{key}={value if isinstance(value, str) else json.dumps(value)}" for key, value in values.items()]
+        return [f"{key}={_as_yaml(value, f'{what}: {key}')}" for key, value in values.items()]
     found = list(values)
     for value in found:
         if not isinstance(value, str):

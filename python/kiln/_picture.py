@@ -54,7 +54,7 @@ def _as_pixels(array: Array) -> Array:
     if not (array.ndim == 2 or (array.ndim == 3 and array.shape[2] == 4)) or array.size == 0:
         raise ValueError(f"pixels of shape {array.shape}: expected height x width, with 1, 3 or 4 channels")
     packed = array.strides[-1] == array.itemsize and (array.ndim == 2 or array.strides[1] == 4 * array.itemsize)
-    return array if packed and array.strides[0] >= 0 else np.ascontiguousarray(array)
+    return array if packed and array.strides[0] >= array.shape[1] * array.strides[1] else np.ascontiguousarray(array)
 
 
 def write_picture(path: PathLike, pixels: npt.ArrayLike, *, overwrite: bool = False) -> None:

@@ -127,7 +127,7 @@ def _ranges(frames: Frames) -> list[tuple[int, int]]:
     """Frames as ascending ranges; [] stands for the whole clip."""
     if frames is None:
         return []
-    numbers = [frames] if isinstance(frames, int) else list(frames)
+    numbers = [operator.index(number) for number in (frames if isinstance(frames, Iterable) else [frames])]
     if not numbers:
         raise ValueError("frames: none are asked for")
     ranges: list[tuple[int, int]] = []

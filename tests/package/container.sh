@@ -53,7 +53,7 @@ done < <(sed -e ':a' -e '/\\$/N; s/\\\n//; ta' "$source/packaging/Containerfile"
 [[ $user == kiln && $entry == kiln ]] || fail "the image starts '$entry' as '$user'"
 mkdir -p "$root/work"
 cp -r "$source/scenes" "$root/work/"
-chmod -R a+rwX "$root/work"
+chown -R 1000:1000 "$root/work"
 started() { inside "$root" setpriv --reuid=kiln --regid=kiln --clear-groups sh -c "cd $folder && $entry $*"; }
 started --version
 started render scenes/campfire.yaml -o clip.mp4 --frames 0-4 --size 320x180 -q
