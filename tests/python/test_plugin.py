@@ -60,6 +60,24 @@ def test_update_replaces_what_looks_different(pytester):
     run(pytester, red=255).assert_outcomes(passed=1)
 
 
+def test_tests_do_not_share_a_folder(pytester):
+    for folder in ("a", "b"):
+        pytester.mkdir(folder).joinpath("test_fire.py").write_text("""
+import numpy as np
+import pytest
+
+@pytest.mark.parametrize("name", ["a b", "a?b"])
+def test_x(assert_looks_like, name):
+    for folder in ("u", "v"):
+        with pytest.raises(pytest.fail.Exception):
+            assert_looks_like(np.full((8, 8, 4), 255, np.uint8), folder + "/g.png")
+""", encoding="utf-8")
+    options = ("-p", "no:cacheprovider", "--import-mode=importlib")
+    pytester.runpytest_inprocess(*options).assert_outcomes(passed=4)
+    pytester.runpytest_inprocess(*options).assert_outcomes(passed=4)  # over what the first one left
+    assert len(list((pytester.path / "out" / "kiln").rglob("g.png"))) == 8
+
+
 def test_files_and_options(pytester):
     pytester.makepyfile("""
         import numpy as np

@@ -76,12 +76,23 @@ def test_size_frames_and_ranges(scene):
     assert [frame.number for frame in draw(scene, frames=[0, 1, 4], layers=())] == [0, 1, 4]
     whole = draw(scene)
     assert np.array_equal(draw(scene, frames=3)[0].pixels, whole[3].pixels)
+    assert [frame.number for frame in draw(scene, frames=np.int64(2), layers=())] == [2]
+    assert [frame.number for frame in draw(scene, frames=np.arange(2), layers=())] == [0, 1]
     with pytest.raises(kiln.UsageError, match="9-9"):
         draw(scene, frames=9)
     with pytest.raises(ValueError, match="from 0 on"):
         draw(scene, frames=-1)
     with pytest.raises(kiln.UsageError, match="did you mean 'depth'"):
         draw(scene, layers="deptj")
+
+
+def test_shards(scene, tmp_path):
+    for shard in ((2, 2), (1, 0)):
+        with pytest.raises(kiln.UsageError, match="count from 0"):
+            draw(scene, shard=shard, output=tmp_path / "x_%d.png")
+    with pytest.raises(kiln.UsageError, match="no output to share"):
+        draw(scene, shard=(1, 2))
+    assert not list(tmp_path.iterdir())
 
 
 def test_files(scene, tmp_path):

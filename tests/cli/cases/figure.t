@@ -50,6 +50,19 @@ $ kiln figure sheet scenes/tiny.yaml -o a.png --sweep time=soon
 $ kiln figure sheet scenes/tiny.yaml -o a.png --inset 1,2,3
 2|kiln: figure sheet: --inset: found '1,2,3'; expected X,Y,WxH in pixels or in parts, such as 320,180,160x90 or 0.4,0.25,0.2x0.2
 = 2
+$ kiln figure sheet scenes/tiny.yaml -o a.png --inset 0,0,1x36 --inset 0,0,64x1
+2|kiln: figure sheet: --inset: found 2 that are too flat to be shown below a picture of 64 pixels
+= 2
+$ kiln figure sheet scenes/tiny.yaml -o a.png --title "$(printf '%030000d' 0)" --inset 0,0,1x36 && rm a.png*
+$ kiln figure sheet - -o a.png <scenes/tiny.yaml
+2|kiln: figure sheet: a figure is drawn again from its files; standard input is none
+= 2
+$ kiln figure sheet scenes/tiny.yaml -o a.png --alt "$(printf '%065534d' 0)"
+2|kiln: figure sheet: --alt: found 65534 bytes; allowed are 65533
+= 2
+$ kiln figure --update -q a.png
+2|kiln: figure: --update: needs a value, FIGURE, found '-q' (a value that looks like an option is joined: --update=-q)
+= 2
 $ kiln figure sheet scenes/tiny.yaml -o a.png --inset 60,30,10x10
 2|kiln: figure sheet: --inset 60,30,10x10: found a part that is not in a picture of 64 x 36
 = 2
@@ -237,6 +250,13 @@ $ touch -d 2020-01-01 odd.png && touch -d 2020-01-02 odd*/puff.png && make -s -f
 1|redrawn
 $ rm odd*/puff.png && make -s -f odd.mk odd.png
 1|redrawn
+$ cp scenes/tiny.yaml 'scenes/a=b.yaml' && kiln figure sheet 'scenes/a=b.yaml' -o odd3.png --depfile odd3.d; ls odd3*; rm scenes/a=*
+2|kiln: figure sheet: --depfile: scenes/a=b.yaml: make cannot read a name with '='
+2|ls: cannot access 'odd3*': No such file or directory
+$ kiln figure sheet scenes/tiny.yaml -o odd3.png --depfile /proc/self/x/odd3.d; ls odd3*
+2|kiln: /proc/self/x: the folder cannot be made: No such file or directory
+2|ls: cannot access 'odd3*': No such file or directory
+= 2
 $ kiln figure sheet scenes/tiny.yaml -o odd2.png --depfile odd.d
 2|kiln: odd.d: the file exists (--force replaces it)
 = 6
@@ -300,6 +320,20 @@ $ kiln figure --check doc
 1|doc/rates.png: stale: the scene has changed in 'rate = 5, 0.2 s'
 1|doc/strip.svg: stale: the scene has changed in '0.00 s'
 = 1
+One that is none does not keep the others from being checked.
+$ kiln figure --check scenes/tiny.yaml doc/rates.png gone.png scenes/puff.png
+1|doc/rates.png: stale: the scene has changed in 'rate = 5, 0.2 s'
+2|scenes/tiny.yaml: expected a folder, a figure that has a sidecar (NAME.figure.json) beside it, or a sidecar
+2|gone.png: No such file or directory
+2|scenes/puff.png: expected a folder, a figure that has a sidecar (NAME.figure.json) beside it, or a sidecar
+= 3
+A sidecar may be a stranger's: what is redrawn replaces no other file.
+$ mkdir strange && kiln figure sheet scenes/tiny.yaml -o strange/z.png && echo precious >victim && rm strange/z.png
+$ sed -i 's/"-o"/"--depfile", "victim", "-o"/' strange/z.png.figure.json
+$ kiln figure --update strange && cat victim && grep -c depfile strange/z.png.figure.json; rm -r strange
+1|strange/z.png: redrawn: the figure is not there
+1|precious
+1|1
 What is stale is drawn anew, from wherever one asks, and nothing else is touched.
 $ touch -d 2020-01-01 doc/rates.png
 $ cd doc && kiln figure --update ../doc/strip.svg clip.png

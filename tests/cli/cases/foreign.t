@@ -19,14 +19,14 @@ Blender's and husk's, which choose frames otherwise.
 
 $ for option in -b -s -e -f -a -j -F -x -t -E --background --frame-start --frame-end --render-frame --render-anim --render-output --render-format --frame --frame-count --frame-inc; do kiln render scenes/tiny.yaml $option; done
 2|kiln: render: unknown option '-b'; kiln always works without a window
-2|kiln: render: unknown option '-s'; frames are chosen by '--frames', such as --frames 10- from frame 10 on
+2|kiln: render: unknown option '-s'; the size is '--size WxH'; frames are chosen by '--frames'
 2|kiln: render: unknown option '-e'; frames are chosen by '--frames', such as --frames -50 up to frame 50
-2|kiln: render: unknown option '-f'; frames are chosen by '--frames', such as --frames 10-50
+2|kiln: render: unknown option '-f'; frames are chosen by '--frames', the format by the suffix of '--output'
 2|kiln: render: unknown option '-a'; without '--frames', every frame is drawn
 2|kiln: render: unknown option '-j'; each tenth frame is drawn by '--frames', such as --frames 0-100/10
 2|kiln: render: unknown option '-F'; the suffix of '--output' chooses the format (see 'kiln help outputs')
 2|kiln: render: unknown option '-x'; the suffix of '--output' chooses the format (see 'kiln help outputs')
-2|kiln: render: unknown option '-t' (did you mean '--threads'?)
+2|kiln: render: unknown option '-t'; '--threads N' is how many threads; how long a clip is, '--frames' says
 2|kiln: render: unknown option '-E' (did you mean '--technique'?)
 2|kiln: render: unknown option '--background'; kiln always works without a window
 2|kiln: render: unknown option '--frame-start'; frames are chosen by '--frames', such as --frames 10- from frame 10 on

@@ -1,7 +1,7 @@
 A scene to begin with: checked, drawn, and with the schema for editors in its first line.
 
 $ kiln new effect.yaml && head -n 2 effect.yaml | sed 's|=.*/|=FOLDER/|' && kiln check -q effect.yaml
-1|effect.yaml: a scene to begin with; 'kiln render effect.yaml -o clip.mp4' renders it
+1|effect.yaml: a scene to begin with; render it by: kiln render effect.yaml -o clip.mp4
 1|# yaml-language-server: $schema=FOLDER/scene.schema.json
 1|# A fire on logs: flames, smoke above them and sparks.
 $ test -f "$(sed -n '1s/.*schema=//p' effect.yaml)" && kiln help schema | cmp - "$(sed -n '1s/.*schema=//p' effect.yaml)"

@@ -25,7 +25,7 @@ $ kiln render scenes/tiny.yaml --output
 2|kiln: render: --output: needs a value, FILE
 = 2
 $ kiln render scenes/tiny.yaml --output --force
-2|kiln: render: --output: needs a value, FILE, found '--force' (a value that starts with two dashes is joined: --output=--force)
+2|kiln: render: --output: needs a value, FILE, found '--force' (a value that looks like an option is joined: --output=--force)
 = 2
 $ kiln render scenes/tiny.yaml --output=
 2|kiln: render: --output: found '', expected FILE

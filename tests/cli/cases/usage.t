@@ -416,7 +416,7 @@ $ kiln help outputs
 1|Output formats, by the suffix of the output:
 1|
 1|  .png   PNG images: 8 or 16 bits, sRGB; alpha with a transparent backdrop
-1|  .jpg   JPEG images: 8 bits, full chroma, no alpha; quality 0 to 100; .jpeg is the same
+1|  .jpg   JPEG images: 8 bits, full chroma, no alpha; quality 0 to 100, from 91 on the best; .jpeg is the same
 1|  .exr   OpenEXR images: half or float, linear, premultiplied; named layers
 1|  .mp4   H.264 video: even sizes, no alpha; quality 0 to 100 (visually lossless)
 1|  .webm  VP9 video: for the web, with alpha; quality 0 to 100; times in whole ms
