@@ -80,10 +80,10 @@ static int check_entry(const struct kiln_figure_entry *entry, int home,
     free(sidecar);
     if (fchdir(home) != 0)
         return report(KILN_IO, "the working directory cannot be entered again");
-    if (code)
-        return code;
     char figure[KILN_MESSAGE_SIZE], reason[KILN_MESSAGE_SIZE];
     kiln_shown(figure, sizeof figure, entry->figure);
+    if (code)
+        return report((enum kiln_code)code, "%s: cannot be drawn, for the reason above", figure);
     kiln_shown(reason, sizeof reason, result.reason);
     if (result.redrawn)
         printf("%s: redrawn: %s\n", figure, reason);

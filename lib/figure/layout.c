@@ -33,6 +33,7 @@ struct layout {
     uint32_t head;   /* from the upper edge to the title's capitals, or to the pictures */
     uint32_t foot;   /* from the last baseline to the lower edge */
     uint32_t widest; /* picture, in its own pixels */
+    uint32_t inset_own, inset_shown; /* the widths of the inset that is enlarged most */
     uint32_t columns, rows;
     uint32_t cell_width, picture_height, inset_height;
     uint32_t label_height; /* with the space above it; 0 without labels */
@@ -130,6 +131,20 @@ static bool crop(const struct layout *l, const struct kiln_pixels *pixels, struc
     return true;
 }
 
+/* Vectors carry a picture as it is; where they know how many pixels an inch has, not more of them.
+ */
+static void reduce(const struct layout *l, struct kiln_mark *mark)
+{
+    bool larger = mark->pixels.width > mark->width || mark->pixels.height > mark->height;
+    if (l->params->dpi == 0 || !larger)
+        return;
+    uint8_t *rgba = kiln_arena_alloc(l->drawing->arena, (size_t)mark->width * mark->height, 4);
+    if (rgba && kiln_pixels_resize(&mark->pixels, mark->width, mark->height, rgba))
+        mark->pixels = (struct kiln_pixels){mark->width, mark->height, rgba};
+    else
+        l->drawing->failed = true;
+}
+
 /* A frame in the picture, which lies at (x, y) with that size, and the part in a row below it. */
 static void add_insets(const struct layout *l, const struct kiln_pixels *pixels, uint32_t x,
                        uint32_t y, uint32_t width, uint32_t height)
@@ -157,8 +172,14 @@ static void add_insets(const struct layout *l, const struct kiln_pixels *pixels,
             l->drawing->failed = true;
             return;
         }
+        reduce(l, &mark);
         kiln_drawing_add(l->drawing, &mark);
+        /* It covers the edge of the picture, which readers of vectors round to whole pixels. */
         mark.kind = KILN_MARK_FRAME;
+        mark.x -= (int32_t)l->line;
+        mark.y -= (int32_t)l->line;
+        mark.width += 2 * l->line;
+        mark.height += 2 * l->line;
         mark.color = inset_colors[i];
         mark.stroke = 2 * l->line;
         kiln_drawing_add(l->drawing, &mark);
@@ -226,20 +247,6 @@ static uint32_t column_left(const struct layout *l, uint32_t column)
         return l->margin + (uint32_t)((uint64_t)column *
                                       (l->drawing->width - 2 * l->margin + l->gap) / l->columns);
     return l->margin + column * (l->cell_width + l->gap);
-}
-
-/* Vectors carry a picture as it is; where they know how many pixels an inch has, not more of them.
- */
-static void reduce(const struct layout *l, struct kiln_mark *mark)
-{
-    bool larger = mark->pixels.width > mark->width || mark->pixels.height > mark->height;
-    if (l->params->dpi == 0 || !larger)
-        return;
-    uint8_t *rgba = kiln_arena_alloc(l->drawing->arena, (size_t)mark->width * mark->height, 4);
-    if (rgba && kiln_pixels_resize(&mark->pixels, mark->width, mark->height, rgba))
-        mark->pixels = (struct kiln_pixels){mark->width, mark->height, rgba};
-    else
-        l->drawing->failed = true;
 }
 
 static void add_cell(const struct layout *l, size_t index)
@@ -319,6 +326,11 @@ static void warn_of_enlarging(const struct layout *l)
             "%s: pictures of %u pixels are enlarged to %u, which %u an inch take; scenes "
             "have more with --size",
             l->params->output, l->widest, l->cell_width, l->params->dpi);
+    else if (l->inset_own < l->inset_shown && !l->params->check)
+        kiln_log_write(&l->params->log, KILN_LOG_WARNING,
+                       "%s: insets of %u pixels are enlarged to %u, which %u an inch take; scenes "
+                       "have more with --size",
+                       l->params->output, l->inset_own, l->inset_shown, l->params->dpi);
 }
 
 /* Where a width on paper has to hold so many pictures. */
@@ -339,6 +351,19 @@ static bool measure_cells_on_paper(struct layout *l)
     l->cell_width = (uint32_t)(rest / l->columns < KILN_MAX_FIGURE_EDGE ? rest / l->columns
                                                                         : KILN_MAX_FIGURE_EDGE);
     return true;
+}
+
+static void measure_insets(struct layout *l, const struct kiln_pixels *pixels, uint32_t row)
+{
+    for (size_t i = 0; i < l->params->inset_count; i++) {
+        struct kiln_rect rect =
+            kiln_inset_rect(&l->params->insets[i], pixels->width, pixels->height);
+        uint32_t shown = scaled(rect.width, row, rect.height);
+        if ((uint64_t)shown * l->inset_own >= (uint64_t)l->inset_shown * rect.width) {
+            l->inset_own = rect.width;
+            l->inset_shown = shown;
+        }
+    }
 }
 
 static bool measure(struct layout *l)
@@ -368,6 +393,7 @@ static bool measure(struct layout *l)
                 "of %u pixels",
                 l->params->inset_count, width);
         l->inset_height = row > l->inset_height ? row : l->inset_height;
+        measure_insets(l, &panels->items[i].pixels, row);
     }
     l->top = l->head;
     return true;
@@ -397,7 +423,7 @@ static bool check_request(const struct layout *l)
 {
     const struct kiln_figure_params *params = l->params;
     if (params->label_count > 0 && params->label_count != l->panels->count)
-        return kiln_error_set(l->error, KILN_USAGE, "found %zu labels for %zu pictures",
+        return kiln_error_set(l->error, KILN_USAGE, "found %zu labels where %zu are needed",
                               params->label_count, l->panels->count);
     for (size_t i = 0; i < l->panels->count; i++) {
         const struct kiln_pixels *pixels = &l->panels->items[i].pixels;

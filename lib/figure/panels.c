@@ -267,7 +267,7 @@ static bool render_panels(struct kiln_panels *panels, const struct kiln_figure_p
     r.in_run = kiln_arena_alloc(panels->arena, panels->count, sizeof *r.in_run);
     bool ok = (panels->items && r.in_run) || no_memory(&r);
     if (ok && params->label_count > 0 && params->label_count != panels->count)
-        ok = kiln_error_set(error, KILN_USAGE, "found %zu labels for %zu pictures",
+        ok = kiln_error_set(error, KILN_USAGE, "found %zu labels where %zu are needed",
                             params->label_count, panels->count);
     ok = ok && check_labels(&r) && check_runs(&r) && open_device(&r);
     for (size_t i = 0; ok && i < panels->count; i++)

@@ -82,7 +82,7 @@ $ kiln figure triptych scenes/puff.png scenes/puff.png -o scenes/../scenes/puff.
 2|kiln: figure triptych: scenes/../scenes/puff.png: the figure would replace a file that it is made of, which this call reads
 = 2
 $ kiln figure sheet scenes/tiny.yaml -o a.png --sweep seed=1,2 --label one
-2|kiln: figure sheet: found 1 labels for 2 pictures
+2|kiln: figure sheet: found 1 labels where 2 are needed
 = 2
 $ kiln figure sheet scenes/tiny.yaml -o a.png --text-size 4
 2|kiln: figure sheet: --text-size: found '4'; expected 4pt to 72pt on paper, or 8 to 64 pixels
