@@ -16,7 +16,7 @@ struct foreign {
 #define FINAL_HINT  "frames are chosen by '--frames', such as --frames -50 up to frame 50"
 #define STEP_HINT   "each tenth frame is drawn by '--frames', such as --frames 0-100/10"
 #define SUFFIX_HINT "the suffix of '--output' chooses the format (see 'kiln help outputs')"
-#define SCENE_HINT  "scenes are operands and need no option"
+#define SCENE_HINT  "what is read is an operand and needs no option"
 
 static const struct foreign rows[] = {
     /* ffmpeg; -f, -s and -t mean something else to Blender */
@@ -32,6 +32,7 @@ static const struct foreign rows[] = {
     {"-ss", "frames", FIRST_HINT},
     {"-frames:v", "frames", FRAMES_HINT},
     {"-vframes", "frames", FRAMES_HINT},
+    {"-vf", "size", "kiln has no filters; the size is '--size WxH'"},
     {"-crf", "quality", NULL},
     {"-q:v", "quality", NULL},
     {"-qscale:v", "quality", NULL},

@@ -190,7 +190,8 @@ void help_print_overview(FILE *out)
     for (size_t i = 0; i < TOPIC_COUNT; i++)
         fprintf(out, "  %-16s %s\n", topics[i].name, topics[i].summary);
     fprintf(out, "\nA first picture:\n"
-                 "  kiln render scenes/fire_beam.yaml -o fire.png --frames 60\n");
+                 "  kiln new fire.yaml\n"
+                 "  kiln render fire.yaml -o fire.png --frames 60\n");
 }
 
 static int unknown_topic(const char *name)

@@ -134,6 +134,8 @@ static int run_command(const struct command *command, int argc, char **argv)
 
 static int unknown_command(const char *name)
 {
+    if (kiln_is_scene_name(name))
+        return report(KILN_USAGE, "a command is missing: 'kiln render %s' renders a scene", name);
     const char *names[MAX_COMMANDS + 2];
     size_t count = command_names(names);
     names[count++] = "--version";

@@ -389,8 +389,8 @@ const struct command render_command = {
     .description =
         "Renders each scene ('-' is standard input, whose files lie below the working directory) "
         "into images or a video. Files appear under their names only when they "
-        "are whole. The first line of output names the device, and says so when it is a software "
-        "device. Several scenes share the device; the first that fails ends the call.\n\n"
+        "are whole. The first line of output names the device: a GPU, a software device of OpenGL, "
+        "or 'cpu'. Several scenes share the device; the first that fails ends the call.\n\n"
         "With --stats=json or --progress ndjson, standard output is JSON: an object a line, whose "
         "\"event\" is device, frame or result.",
     .options = options,

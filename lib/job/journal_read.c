@@ -104,7 +104,7 @@ bool kiln_journal_check_head(const struct kiln_journal *journal, const struct ki
     else if (version != KILN_JOURNAL_VERSION)
         other = "is a journal of another version of kiln";
     else if (!says(line, "scene", head->output.scene_hash))
-        other = "is the journal of another scene";
+        other = "is the journal of another scene, or of this one with other values or another size";
     else if (!says(line, "job", head->job))
         other = "is the journal of other frames, or other settings of the output";
     if (other)

@@ -309,7 +309,7 @@ static bool report_nothing(const struct kiln_origin *origin, struct kiln_error *
 {
     struct kiln_node place = {.origin = origin};
     if (!origin->has_lines)
-        return kiln_node_error(&place, error, "there is no value after '='");
+        return kiln_node_error(&place, error, "there is no value after '='; '#' begins a comment");
     if (!origin->version)
         return kiln_node_error(&place, error, "empty; %s was to be here", origin->kind);
     return kiln_node_error(&place, error, "empty; %s starts with '%s'", origin->kind,

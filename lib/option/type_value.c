@@ -97,6 +97,16 @@ static bool read_vector(struct kiln_reader *reader, const struct kiln_option *op
     return true;
 }
 
+/* "red" and "0xff0000" are words here, not numbers that something is wrong with. */
+static bool read_color(struct kiln_reader *reader, const struct kiln_option *option,
+                       const struct kiln_node *node, void *field)
+{
+    const bool is_word = node->kind == KILN_NODE_SCALAR &&
+                         (!strchr("+-.0123456789", *node->text) || node->text[1] == 'x');
+    return is_word ? kiln_reader_mismatch(reader, option, node)
+                   : read_vector(reader, option, node, field);
+}
+
 /* May the three curves be written as one of [x, y, z]? */
 static bool share_keys(const float4 *keys, const struct kiln_value3 *v)
 {
@@ -194,7 +204,7 @@ const struct kiln_option_type kiln_type_vector = {
     .schema = schema_vector,
 };
 const struct kiln_option_type kiln_type_color = {
-    .read = read_vector,
+    .read = read_color,
     .print = print_vector,
     .describe = describe_color,
     .schema = schema_vector,

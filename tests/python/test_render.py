@@ -86,6 +86,19 @@ def test_size_frames_and_ranges(scene):
         draw(scene, layers="deptj")
 
 
+@pytest.mark.parametrize("options, words", [
+    ({"size": "320x180"}, "expected \\(width, height\\)"), ({"size": 320}, "expected \\(width, height\\)"),
+    ({"frames": "0-10/5"}, "frames: found"), ({"frames": slice(0, 4)}, "frames: found")])
+def test_wrong_arguments_are_named(scene, options, words):
+    with pytest.raises(TypeError, match=words):
+        kiln.render(scene, **options)
+
+
+def test_a_scene_is_no_path():
+    with pytest.raises(TypeError, match="expected a scene, as kiln.load reads it"):
+        kiln.render("snow.yaml")
+
+
 def test_shards(scene, tmp_path):
     for shard in ((2, 2), (1, 0)):
         with pytest.raises(kiln.UsageError, match="count from 0"):
@@ -100,7 +113,7 @@ def test_files(scene, tmp_path):
     stats = kiln.render_to(scene, tmp_path / "clip.mp4", device="cpu", progress=seen.append)
     assert (tmp_path / "clip.mp4").stat().st_size > 500 and stats.files == 1
     assert [progress.done for progress in seen] == [1, 2, 3, 4, 5] and seen[-1].frame == 4
-    with pytest.raises(kiln.FileError, match="clip.mp4"):
+    with pytest.raises(kiln.FileError, match="clip.mp4: the file exists .overwrite=True replaces it"):
         kiln.render_to(scene, tmp_path / "clip.mp4", device="cpu")
     kiln.render_to(scene, tmp_path / "clip.mp4", device="cpu", overwrite=True)
 

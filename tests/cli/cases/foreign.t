@@ -78,3 +78,15 @@ $ kiln render scenes/tiny.yaml -qo
 $ kiln render scenes/tiny.yaml -qquiet
 2|kiln: render: unknown option '-qquiet' (did you mean '--quiet'?)
 = 2
+
+A scene without a command, and colours as elsewhere.
+
+$ kiln scenes/tiny.yaml -o x.mp4
+2|kiln: a command is missing: 'kiln render scenes/tiny.yaml' renders a scene
+= 2
+$ for color in red '#ff0000' 0xff0000 "'#ff0000'"; do kiln check -q scenes/tiny.yaml --set "backdrop.floor.color=$color"; done
+2|--set backdrop.floor.color: expected [red, green, blue] or one number for grey, linear, each from 0 to 1, or {keys: {time: value}}, found 'red'
+2|--set backdrop.floor.color: there is no value after '='; '#' begins a comment
+2|--set backdrop.floor.color: expected [red, green, blue] or one number for grey, linear, each from 0 to 1, or {keys: {time: value}}, found '0xff0000'
+2|--set backdrop.floor.color: expected [red, green, blue] or one number for grey, linear, each from 0 to 1, or {keys: {time: value}}, found the text "#ff0000"
+= 3

@@ -41,7 +41,7 @@ $ kiln render scenes/tiny.yaml --frames 0-5 -o f_%d.png --resume --progress none
 What is of another job is refused, --force starts anew.
 
 $ kiln render scenes/tiny.yaml -q --frames 0-5 -o f_%d.png --resume --seed 1
-2|kiln: f_%d.png.journal: is the journal of another scene (--force starts anew)
+2|kiln: f_%d.png.journal: is the journal of another scene, or of this one with other values or another size (--force starts anew)
 = 6
 $ kiln render scenes/tiny.yaml -q --frames 0-4 -o f_%d.png --resume
 2|kiln: f_%d.png.journal: is the journal of other frames, or other settings of the output (--force starts anew)

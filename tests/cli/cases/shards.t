@@ -32,7 +32,7 @@ $ kiln join c.mp4
 Shards of different jobs are not joined.
 
 $ for i in 1 2; do kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -q -o d.webm --shard $i/2 --seed $i; done; kiln join d.webm; ls -d d.webm d.webm.journal
-2|kiln: d.webm.1-of-2.journal: is the journal of another scene (--force starts anew)
+2|kiln: d.webm.1-of-2.journal: is the journal of another scene, or of this one with other values or another size (--force starts anew)
 2|kiln: d.webm: not all is there; missing or damaged: part 3 (frames 40-59), part 4 (frames 60-60)
 2|ls: cannot access 'd.webm': No such file or directory
 2|ls: cannot access 'd.webm.journal': No such file or directory

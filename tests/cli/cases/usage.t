@@ -44,7 +44,8 @@ $ kiln
 2|  man-scene        the manual page of scene files
 2|
 2|A first picture:
-2|  kiln render scenes/fire_beam.yaml -o fire.png --frames 60
+2|  kiln new fire.yaml
+2|  kiln render fire.yaml -o fire.png --frames 60
 = 2
 $ kiln --version
 1|kiln 0.2.0
@@ -92,7 +93,8 @@ $ kiln --help
 1|  man-scene        the manual page of scene files
 1|
 1|A first picture:
-1|  kiln render scenes/fire_beam.yaml -o fire.png --frames 60
+1|  kiln new fire.yaml
+1|  kiln render fire.yaml -o fire.png --frames 60
 $ kiln -h | cmp - <(kiln help)
 $ kiln help | cmp - <(kiln --help)
 
@@ -136,9 +138,9 @@ $ kiln help render
 1|
 1|Renders each scene ('-' is standard input, whose files lie below the working
 1|directory) into images or a video. Files appear under their names only when they
-1|are whole. The first line of output names the device, and says so when it is a
-1|software device. Several scenes share the device; the first that fails ends the
-1|call.
+1|are whole. The first line of output names the device: a GPU, a software device
+1|of OpenGL, or 'cpu'. Several scenes share the device; the first that fails ends
+1|the call.
 1|
 1|With --stats=json or --progress ndjson, standard output is JSON: an object a
 1|line, whose "event" is device, frame or result.
