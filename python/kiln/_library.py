@@ -111,7 +111,8 @@ class Failure:
     def exception(self) -> Error:
         code = int(self.pointer.code)
         known = Code(code) if code in [member.value for member in Code] else code
-        return error_class(code)(known, text(self.pointer.message))
+        message = text(self.pointer.message).replace("--force replaces it", "overwrite=True replaces it")
+        return error_class(code)(known, message)
 
 
 class Watch:

@@ -127,6 +127,8 @@ def _ranges(frames: Frames) -> list[tuple[int, int]]:
     """Frames as ascending ranges; [] stands for the whole clip."""
     if frames is None:
         return []
+    if isinstance(frames, (str, slice)):
+        raise TypeError(f"frames: found {frames!r}, expected a number, range(first, end, step) or numbers")
     numbers = [operator.index(number) for number in (frames if isinstance(frames, Iterable) else [frames])]
     if not numbers:
         raise ValueError("frames: none are asked for")
@@ -191,7 +193,13 @@ class _Request:
 
 
 def _sized(scene: Scene, size: Optional[tuple[int, int]]) -> Scene:
-    return scene if size is None else scene.override({"output.size": [int(edge) for edge in size]})
+    if not isinstance(scene, Scene):
+        raise TypeError(f"found {scene!r}, expected a scene, as kiln.load reads it")
+    if size is None:
+        return scene
+    if isinstance(size, str) or not isinstance(size, Iterable) or len(edges := list(size)) != 2:
+        raise TypeError(f"size: found {size!r}, expected (width, height)")
+    return scene.override({"output.size": [operator.index(edge) for edge in edges]})
 
 
 class Rendering(Iterator[Frame]):
@@ -324,8 +332,8 @@ def render(scene: Scene, *, frames: Frames = None, size: Optional[tuple[int, int
     without pixels. `output` also writes a file, or files by a pattern such as "frame_####.png". `device` is an
     open :class:`Device` or what that takes. `states` is a folder of :func:`bake`, where the job starts if it can.
     `techniques` are {"stage": "name"}; `threads` 0 takes one a core; `shard` (i, n) draws the i-th of n shares,
-    from 0. `png_bits` are 8 (the default) or 16, `exr_bits` 16 or 32, `quality` of videos 0 to 100 (80).
-    `cancel` ends the job from any thread, Ctrl-C by KeyboardInterrupt.
+    from 0. `png_bits` are 8 (the default) or 16, `exr_bits` 16 or 32, `quality` of videos and JPEG 0 to 100 (80).
+    `overwrite` replaces files that exist. `cancel` ends the job from any thread, Ctrl-C by KeyboardInterrupt.
 
     Raises :class:`kiln.Error`, here or when a frame is drawn.
     """
@@ -344,7 +352,7 @@ def render_to(scene: Scene, output: PathLike, *, frames: Frames = None, size: Op
     """Draws frames into a file, or into files by a pattern, and returns what was done.
 
     The suffix of `output` is the format: a clip (.mp4, .webm, .mkv, .mov, .gif, .apng, .webp) or images (.png,
-    .exr, with a pattern such as "frame_####.png"). `progress` is called after each frame; an exception there ends
+    .jpg, .exr, with a pattern such as "frame_####.png"). `progress` is called after each frame; an exception there ends
     the job. The other parameters are those of :func:`render`. Files appear whole or not at all.
     """
     request = _Request(output, frames, states, manifest, techniques, threads, overwrite, resume, shard, state_hash,
