@@ -1,5 +1,5 @@
-# cmake --install: the program, the library, its headers, a pkg-config file, the scenes and what bash
-# and zsh complete command lines with. docs/ adds manual pages and the schema of scenes.
+# cmake --install: the program, the library, its headers, a pkg-config file, the scenes, the documents and
+# what bash and zsh complete command lines with. docs/ adds manual pages and the schema of scenes.
 
 # The pkg-config file finds its prefix from where it lies, whatever --prefix it was installed to. Whoever
 # links the static library needs its dependencies, too: pkg-config --static, or kiln::kiln_static.
@@ -24,6 +24,9 @@ set(kiln_api_headers kiln.h kiln_compare.h kiln_job.h kiln_limits.h kiln_sandbox
 list(TRANSFORM kiln_api_headers PREPEND lib/)
 install(FILES ${kiln_api_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/kiln.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+file(GLOB kiln_documents CONFIGURE_DEPENDS docs/*.md)
+install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES ${kiln_documents} DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
 install(DIRECTORY scenes examples DESTINATION ${CMAKE_INSTALL_DATADIR}/kiln)
 install(FILES cmd/completion/kiln.bash
     DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME kiln)

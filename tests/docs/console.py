@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """console.py [--update] [--keep FOLDER] KILN DOCUMENT: a document's examples do what it says.
 
-In an empty folder, in the order of the document: a block "```yaml PATH" is a file (python, latex, makefile
-or html, too), "```yaml more of PATH" is written to its end, and a block "```console" is a session: each line
+In an empty folder, in the order of the document: a block "```yaml PATH" is a file (python, latex, makefile,
+html, c, cpp or cmake, too), "```yaml more of PATH" is written to its end, and a block "```console" is a session: each line
 "$ COMMAND" is run, and the lines up to the next one must be what
 it prints, then "exit code N" where that is not 0. Times are written as "N s", and which
 kiln it is as "kiln V"; all else is compared to the last digit. A picture that the document shows as NAME.jpg must look like the NAME.png
@@ -54,7 +54,7 @@ def check(path, folder, environment, update):
     while lines:
         line = lines.pop(0)
         result.append(line)
-        start = re.fullmatch(r"```((?:yaml|python|latex|makefile|html) (\S.*)|console)", line)
+        start = re.fullmatch(r"```((?:yaml|python|latex|makefile|html|c|cpp|cmake) (\S.*)|console)", line)
         if not start:
             continue
         end = lines.index("```")

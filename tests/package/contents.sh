@@ -41,4 +41,6 @@ says "## $version" CHANGELOG.md
 says "KILN_VERSION: $version" docs/ci/github.yml
 says "KILN_VERSION: $version" docs/ci/gitlab.yml
 says "kiln_$version-1_amd64.deb" README.md
+says "libkiln0_$version-1_amd64.deb" docs/python.md
+says "libkiln-dev_$version-1_amd64.deb" docs/library.md
 ((failed == 0)) && echo "$(wc -l <there) files, each in one package, all of version $version"
