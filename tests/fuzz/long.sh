@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # libFuzzer on every target, for so many seconds of processor time in all: long.sh SOURCE BUILD SECONDS.
-# Targets share the time evenly, in turns of a minute; what each has had stands in BUILD/found/*.spent,
-# so that a run that was stopped goes on with what is left. What is found new is kept in BUILD/found/NAME;
+# Targets share the time evenly, in turns of a minute by the clock; the processor time that each has had stands
+# in BUILD/found/*.spent, so that a run that was stopped goes on with what is left, and one on a busy machine,
+# or by `nice`, takes longer and no less. What is found new is kept in BUILD/found/NAME;
 # an input that makes a target fail stays in BUILD/NAME-crash-*, and is named. At the end stands how much of
 # kiln's own files the inputs reach.
 set -euo pipefail
@@ -35,19 +36,33 @@ fuzz() {
     [[ ! -s $found.spent ]] || read -r spent <"$found.spent"
     left=$((share - spent < turn ? share - spent : turn))
     ((left > 0)) || return 0
-    if ! "$build/tests/fuzz/fuzz_$name" -max_total_time=$left -print_final_stats=1 -timeout=30 -rss_limit_mb=4096 \
-        "${options[@]}" -artifact_prefix="$build/$name-" "$found" "$corpus"/* >"$found.log" 2>&1; then
+    local TIMEFORMAT='%U %S' times
+    if ! times=$({ time "$build/tests/fuzz/fuzz_$name" -max_total_time=$left -print_final_stats=1 -timeout=30 \
+        -rss_limit_mb=4096 "${options[@]}" -artifact_prefix="$build/$name-" "$found" "$corpus"/* \
+        >"$found.log" 2>&1; } 2>&1); then
         echo "$name: failed after $spent s: $(grep -m1 -E 'ERROR|SUMMARY|fuzz:' "$found.log")"
         return 1
     fi
-    echo $((spent + left)) >"$found.spent"
-    printf '%-10s %6d s %8d inputs kept, %s\n' "$name" $((spent + left)) "$(find "$found" -type f | wc -l)" \
+    spent=$(awk -v had="$spent" '{ print had + int($1 + $2) + 1 }' <<<"$times")
+    echo "$spent" >"$found.spent"
+    printf '%-10s %6d s %8d inputs kept, %s\n' "$name" "$spent" "$(find "$found" -type f | wc -l)" \
         "$(grep -oE 'cov: [0-9]+' "$found.log" | tail -n 1)"
 }
 export -f fuzz
+
+# left: the targets that have not had their share yet.
+left() {
+    local name spent
+    for name in "${names[@]}"; do
+        spent=0
+        [[ ! -s $build/found/$name.spent ]] || read -r spent <"$build/found/$name.spent"
+        ((spent >= share)) || echo "$name"
+    done
+}
+
 status=0
-for ((had = 0; had < share && status == 0; had += turn)); do
-    printf '%s\n' "${names[@]}" | xargs -P "$(nproc)" -I{} bash -c 'fuzz {}' || status=1
+while unfinished=$(left) && [[ -n $unfinished ]] && ((status == 0)); do
+    xargs -P "$(nproc)" -I{} bash -c 'fuzz {}' <<<"$unfinished" || status=1
 done
 "$source/tests/fuzz/coverage.sh" "$source" "$build-coverage" "$build/found"
 ((status == 0)) && echo "every target held for $share s"
