@@ -120,15 +120,25 @@ static vec floor_at(const struct drawing *d, int x, int y)
     return vec_add(eye, ray, -eye.y / ray.y);
 }
 
-/* The part of the sun's disc, of an angular radius, that a point sees past spheres. */
-static double sun_seen(vec point, const vec *places, uint32_t count, double sun_radius)
+/* Rays to all parts of the sun's disc, which has an angular radius. */
+enum { SUN_RAYS = 300 };
+static vec sun_rays[SUN_RAYS];
+
+static void aim_at_sun(double sun_radius)
 {
-    enum { RAYS = 300 };
     const vec right = {0.8, 0.6, 0}, up = {0, 0, 1};
+    for (int i = 0; i < SUN_RAYS; i++) {
+        double r = tan(sun_radius) * sqrt((i + 0.5) / SUN_RAYS), turn = 2.39996323 * i;
+        sun_rays[i] = vec_unit(vec_add(vec_add(TOWARDS, right, r * cos(turn)), up, r * sin(turn)));
+    }
+}
+
+/* The part of the disc that a point sees past spheres. */
+static double sun_seen(vec point, const vec *places, uint32_t count)
+{
     int seen = 0;
-    for (int i = 0; i < RAYS; i++) {
-        double r = tan(sun_radius) * sqrt((i + 0.5) / RAYS), turn = 2.39996323 * i;
-        vec ray = vec_unit(vec_add(vec_add(TOWARDS, right, r * cos(turn)), up, r * sin(turn)));
+    for (int i = 0; i < SUN_RAYS; i++) {
+        const vec ray = sun_rays[i];
         bool hidden = false;
         for (uint32_t k = 0; k < count && !hidden; k++) {
             vec to = vec_add(places[k], point, -1);
@@ -138,7 +148,7 @@ static double sun_seen(vec point, const vec *places, uint32_t count, double sun_
         }
         seen += !hidden;
     }
-    return (double)seen / RAYS;
+    return (double)seen / SUN_RAYS;
 }
 
 /* Compares the floor with the rays; returns the pixels in penumbra. */
@@ -147,17 +157,18 @@ static int check_floor(const struct fixture *f, const vec *places, uint32_t coun
 {
     const struct drawing *d = &f->drawing;
     int dark = 0, partly = 0, compared = 0, wrong = 0;
+    aim_at_sun(sun_radius);
     for (int y = 0; y < HEIGHT; y++) {
         for (int x = 0; x < WIDTH; x++) {
             vec at = floor_at(d, x, y);
-            double expected = sun_seen(at, places, count, sun_radius);
+            double expected = sun_seen(at, places, count);
             double found = (double)d->backdrop_color.host[4 * (y * WIDTH + x)] / 0.8;
             partly += found > 0.05 && found < 0.95;
             dark += found < 0.05;
             bool even = true; /* a sharp edge within the pixel has four rays of its own */
             for (int k = 0; k < 4; k++) {
                 vec aside = {at.x + (k & 1 ? 0.05 : -0.05), 0, at.z + (k & 2 ? 0.05 : -0.05)};
-                even = even && fabs(sun_seen(aside, places, count, sun_radius) - expected) < 0.5;
+                even = even && fabs(sun_seen(aside, places, count) - expected) < 0.5;
             }
             if (!even)
                 continue;

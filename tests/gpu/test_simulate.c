@@ -179,7 +179,7 @@ static void crowds_agree(void **state)
     fixture_init(&fixture);
     fixture.scene.integration = KILN_INTEGRATE_POSITION_FIRST;
     crowd_the_fixture();
-    all_agree(*state, &fixture.scene, 40);
+    all_agree(*state, &fixture.scene, 24);
 }
 
 /* Families among all that grids are for, and crowds. Kernels that know families take long to
@@ -209,8 +209,8 @@ static void whirls_agree(void **state)
 static void families_agree(void **state)
 {
     fixture_family(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT);
-    fixture_finish(&fixture, 200);
-    all_agree(*state, &fixture.scene, 200);
+    fixture_finish(&fixture, 90);
+    all_agree(*state, &fixture.scene, 90);
 }
 
 static void families_by_rk4_agree(void **state)

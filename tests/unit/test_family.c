@@ -275,7 +275,7 @@ static void slots_are_free_when_their_turn_comes(void **state)
 {
     (void)state;
     enum { STEPS = 240 };
-    for (uint32_t seed = 0; seed < 8; seed++) {
+    for (uint32_t seed = 0; seed < 8; seed += 2) {
         fixture_family(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT);
         fixture.scene.seed = seed;
         float shortest = 0.002f + 0.03f * (float)seed;

@@ -133,13 +133,14 @@ struct told {
 
 static void listen(void *user, const struct kiln_frame_layer *layer)
 {
-    struct told *told = user;
+    struct told *told = (struct told *)user + layer->frame;
     if (strcmp(layer->layer, "display") == 0)
         memcpy(told->display, layer->pixels, sizeof told->display);
     else
         memcpy(told->beauty, layer->pixels, sizeof told->beauty);
 }
 
+/* told: of each frame one, or NULL. */
 static struct kiln_rendering *begin_keeping(const char *output, struct told *told)
 {
     static const char *const layers[] = {"display", "beauty"};
@@ -173,12 +174,10 @@ static void frames_outlive_their_job(void **state)
     static struct told told[6];
     struct kiln_error error = kiln_error_empty();
     struct kiln_frame *frames[6];
-    for (size_t i = 0; i < 6; i++) {
-        struct kiln_rendering *one = begin_keeping(NULL, &told[i]);
-        for (size_t k = 0; k <= i; k++)
-            assert_true(next(one, NULL));
-        assert_false(kiln_rendering_end(&one, NULL, &error));
-    }
+    struct kiln_rendering *heard = begin_keeping(NULL, told);
+    while (next(heard, NULL))
+        continue;
+    assert_true(kiln_rendering_end(&heard, NULL, &error));
     struct kiln_rendering *job = begin_keeping("kept_##.png", NULL);
     assert_null(kiln_rendering_take_frame(job, &error));
     assert_int_equal(error.code, KILN_USAGE);
