@@ -14,7 +14,8 @@ const struct variable variables[] = {
                          "where it is not beside the program."},
     {"KILN_SHADER_DIR", "Read shaders from this folder instead of those in the program."},
     {"XDG_CACHE_HOME",
-     "Distance fields of meshes are kept in its folder kiln, instead of in that of ~/.cache."},
+     "What takes long to make (flipbooks, distance fields of meshes) is kept in its folder kiln, "
+     "instead of in that of ~/.cache, and serves later jobs; /dev/null: nothing is."},
     {"HOME", "Whose .cache/kiln that is; without both, nothing is kept from run to run."},
     {"TMPDIR", "Where 'kiln bench' and 'kiln test calibrate' write pictures that they remove "
                "again, instead of /tmp."},

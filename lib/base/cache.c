@@ -38,21 +38,17 @@ static void compose_header(char header[HEADER + 1], const void *bytes, size_t si
 
 /* ---- reading --------------------------------------------------------------------------------- */
 
-static void *read_bytes(FILE *in, size_t size)
+static bool read_bytes(FILE *in, void *bytes, size_t size)
 {
     char found[HEADER], right[HEADER + 1];
-    void *bytes = malloc(size > 0 ? size : 1);
-    if (bytes && fread(found, sizeof found, 1, in) == 1 && fread(bytes, 1, size, in) == size &&
-        fgetc(in) == EOF) {
-        compose_header(right, bytes, size);
-        if (memcmp(found, right, sizeof found) == 0)
-            return bytes;
-    }
-    free(bytes);
-    return NULL;
+    if (fread(found, sizeof found, 1, in) != 1 || fread(bytes, 1, size, in) != size ||
+        fgetc(in) != EOF)
+        return false;
+    compose_header(right, bytes, size);
+    return memcmp(found, right, sizeof found) == 0;
 }
 
-void *kiln_cache_read(const char *folder, const char *name, size_t size)
+bool kiln_cache_read_into(const char *folder, const char *name, void *bytes, size_t size)
 {
     char path[KILN_PATH_SIZE];
     struct kiln_error ignored;
@@ -64,11 +60,20 @@ void *kiln_cache_read(const char *folder, const char *name, size_t size)
     if (!in) {
         if (file >= 0)
             close(file);
-        return NULL;
+        return false;
     }
-    void *bytes = read_bytes(in, size);
+    const bool is_whole = read_bytes(in, bytes, size);
     fclose(in);
-    return bytes;
+    return is_whole;
+}
+
+void *kiln_cache_read(const char *folder, const char *name, size_t size)
+{
+    void *bytes = malloc(size > 0 ? size : 1);
+    if (bytes && kiln_cache_read_into(folder, name, bytes, size))
+        return bytes;
+    free(bytes);
+    return NULL;
 }
 
 /* ---- making room ----------------------------------------------------------------------------- */

@@ -12,8 +12,11 @@ enum { KILN_CACHE_BYTES = 512 << 20 };
 /* Where they are: $XDG_CACHE_HOME/kiln, or $HOME/.cache/kiln. False: nowhere. */
 bool kiln_cache_folder(char folder[KILN_PATH_SIZE]);
 
-/* The bytes that were written under this name, if they are so many; the caller frees them. NULL:
- * there is no such file, it is not whole, or memory is short. */
+/* Fills `bytes` with what was written under this name, if it is so many bytes. False: there is no
+ * such file, or it is not whole; then bytes may hold anything. */
+bool kiln_cache_read_into(const char *folder, const char *name, void *bytes, size_t size);
+
+/* The same in memory that the caller frees; NULL also when memory is short. */
 void *kiln_cache_read(const char *folder, const char *name, size_t size);
 
 /* Makes missing folders, and removes what killed processes left. The name does not begin with a

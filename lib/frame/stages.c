@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/cache.h"
 #include "base/error.h"
 
 /* Float targets accumulate without the dark bias of 16 bits where that costs nothing: on software.
@@ -87,8 +88,10 @@ static bool init_atlas(struct kiln_stages *s, struct kiln_error *error)
             requests[i] = (struct kiln_atlas_request){
                 .sources = &plain, .count = 1, .columns = 1, .rows = 1, .motion = "none"};
     }
-    return kiln_atlas_init(&s->atlas, s->device, requests, s->scene->system_count, s->threads,
-                           error);
+    char cache[KILN_PATH_SIZE];
+    const bool cached = kiln_cache_folder(cache);
+    return kiln_atlas_init(&s->atlas, s->device, requests, s->scene->system_count,
+                           cached ? cache : NULL, s->threads, error);
 }
 
 /* What will be blurred. */

@@ -148,7 +148,7 @@ static int set_up_with(void **state, const char *const *overrides, size_t count)
     const struct kiln_atlas_request requests[] = {
         {.sources = &sources[0], .count = 1, .columns = 8, .rows = 4, .motion = "none"},
         {.sources = &sources[1], .count = 1, .columns = 4, .rows = 4, .motion = "auto"}};
-    assert_true(kiln_atlas_init(&f->atlas, f->device, requests, 2, f->threads, &error));
+    assert_true(kiln_atlas_init(&f->atlas, f->device, requests, 2, NULL, f->threads, &error));
     make_targets(f);
     assert_true(kiln_moment_init(&f->moment, f->device, f->scene, &f->atlas, &error));
     f->backdrop = backdrop_create(f->device, &f->moment, &f->scene_color, &f->depth, &error);

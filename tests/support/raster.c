@@ -35,7 +35,7 @@ void raster_open(struct raster *r, struct kiln_scene *scene, uint32_t columns, u
                                                   .rows = rows,
                                                   .motion = look->motion};
     }
-    if (!kiln_atlas_init(&r->atlas, NULL, requests, scene->system_count, r->threads, &error))
+    if (!kiln_atlas_init(&r->atlas, NULL, requests, scene->system_count, NULL, r->threads, &error))
         fail_msg("%s", error.message);
     if (!kiln_moment_init(&r->moment, NULL, scene, &r->atlas, &error) ||
         !kiln_moment_fill(&r->moment, NULL, step, false, &error))

@@ -194,7 +194,7 @@ static struct kiln_atlas make_atlas(uint32_t threads)
     struct kiln_error error = {0};
     struct kiln_atlas atlas = {0};
     assert_non_null(pool);
-    assert_true(kiln_atlas_init(&atlas, NULL, requests, 3, pool, &error));
+    assert_true(kiln_atlas_init(&atlas, NULL, requests, 3, NULL, pool, &error));
     kiln_threads_destroy(&pool);
     return atlas;
 }

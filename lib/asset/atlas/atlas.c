@@ -10,7 +10,9 @@
 #include "asset/atlas/atlas_code.h"
 #include "asset/atlas/builtin.h"
 #include "asset/atlas/cells_in.h"
+#include "asset/atlas/flipbook_cache.h"
 #include "base/error.h"
+#include "base/pages.h"
 
 /* One flipbook of all that are asked for, once each. */
 struct flipbook {
@@ -19,6 +21,9 @@ struct flipbook {
     struct kiln_builtin builtin;
     const struct kiln_atlas_request *request;
     struct kiln_atlas_range *range;
+    uint32_t texture;                     /* of the request */
+    char cached[KILN_FLIPBOOK_NAME_SIZE]; /* its name in the cache; "": it is not kept */
+    bool is_made;
     bool failed; /* out of memory */
 };
 
@@ -34,6 +39,11 @@ static bool out_of_memory(struct kiln_error *error, const char *source)
 static uint8_t *texels_of(const struct kiln_atlas *atlas, const struct flipbook *book, size_t cell)
 {
     return atlas->texels + (book->range->first_layer + cell) * KILN_ATLAS_LAYER_BYTES;
+}
+
+static int8_t *moves_of(const struct kiln_atlas *atlas, const struct flipbook *book)
+{
+    return atlas->moves + (size_t)book->range->first_layer * KILN_ATLAS_MOVES_BYTES;
 }
 
 struct storing {
@@ -74,7 +84,8 @@ static bool load_cells(struct kiln_atlas *atlas, const struct flipbook *book, en
 static bool moves(const struct flipbook *book)
 {
     const char *motion = book->request->motion;
-    return motion[0] == '/' || (book->builtin.film && strcmp(motion, "auto") == 0);
+    return motion[0] == '/' ||
+           (book->name && strcmp(motion, "auto") == 0 && kiln_builtin_flows(book->name));
 }
 
 /* Stores motion relative to its largest part, rows from the top and y down as textures have it. */
@@ -95,8 +106,7 @@ static void store_motion(struct kiln_atlas *atlas, const struct flipbook *book, 
     for (size_t i = 0; i < pixels * 2; i++)
         largest = fmaxf(largest, fabsf(motion[i]));
     if (largest > 0.0f) {
-        encode_motion(motion, pixels, largest,
-                      atlas->moves + (size_t)book->range->first_layer * KILN_ATLAS_MOVES_BYTES);
+        encode_motion(motion, pixels, largest, moves_of(atlas, book));
         book->range->motion = largest * scale;
     }
 }
@@ -234,6 +244,7 @@ static void add_texture(struct flipbooks *all, struct kiln_atlas *atlas,
         .name = kiln_builtin_of(request->sources[texture]),
         .request = request,
         .range = range,
+        .texture = texture,
     };
     uint32_t same = 0;
     while (same < all->count && !same_flipbook(&all->books[same], &book))
@@ -258,7 +269,7 @@ static void open_builtins(void *context, size_t begin, size_t end, uint32_t work
     struct flipbooks *all = context;
     for (size_t i = begin; i < end; i++) {
         struct flipbook *book = &all->books[i];
-        if (book->name)
+        if (book->name && !book->is_made)
             book->failed =
                 !kiln_builtin_open(&book->builtin, book->name, book->range->cells, all->simd);
     }
@@ -286,7 +297,7 @@ static void make_layers(void *context, size_t begin, size_t end, uint32_t worker
         const struct flipbook *book = job->all->books;
         while (layer >= (size_t)book->range->first_layer + book->range->cells)
             book++;
-        if (!book->name)
+        if (!book->name || book->is_made)
             continue;
         uint32_t cell = (uint32_t)layer - book->range->first_layer;
         kiln_builtin_cell(&book->builtin, cell, KILN_ATLAS_CELL, maker->room, maker->cell);
@@ -318,29 +329,77 @@ static bool make_builtins(struct kiln_atlas *atlas, struct flipbooks *all,
     return ok || out_of_memory(error, "built-in atlases");
 }
 
-static bool fill_layers(struct kiln_atlas *atlas, struct flipbooks *all,
+/* ---- from one process to the next ------------------------------------------------------------ */
+
+static struct kiln_flipbook_texels memory_of(const struct kiln_atlas *atlas,
+                                             const struct flipbook *book)
+{
+    return (struct kiln_flipbook_texels){
+        .texels = texels_of(atlas, book, 0),
+        .texel_bytes = (size_t)book->range->cells * KILN_ATLAS_LAYER_BYTES,
+        .moves = moves(book) ? moves_of(atlas, book) : NULL,
+        .move_bytes = (size_t)book->range->cells * KILN_ATLAS_MOVES_BYTES,
+        .motion = &book->range->motion,
+    };
+}
+
+static void read_cached(const struct kiln_atlas *atlas, struct flipbooks *all, const char *cache)
+{
+    for (uint32_t i = 0; i < all->count; i++) {
+        struct flipbook *book = &all->books[i];
+        const struct kiln_flipbook_texels memory = memory_of(atlas, book);
+        if (!kiln_flipbook_name(book->cached, book->request, book->texture))
+            book->cached[0] = '\0';
+        book->is_made = book->cached[0] && kiln_flipbook_read(cache, book->cached, &memory);
+        if (!book->is_made)
+            book->range->motion = 0.0f;
+    }
+}
+
+/* A file that was changed while it was decoded has another name now, and is not kept. */
+static void write_cached(const struct kiln_atlas *atlas, const struct flipbooks *all,
+                         const char *cache)
+{
+    for (uint32_t i = 0; i < all->count; i++) {
+        const struct flipbook *book = &all->books[i];
+        const struct kiln_flipbook_texels memory = memory_of(atlas, book);
+        char name[KILN_FLIPBOOK_NAME_SIZE];
+        if (book->cached[0] && !book->is_made &&
+            kiln_flipbook_name(name, book->request, book->texture) &&
+            strcmp(name, book->cached) == 0)
+            kiln_flipbook_write(cache, name, &memory);
+    }
+}
+
+static bool fill_layers(struct kiln_atlas *atlas, struct flipbooks *all, const char *cache,
                         struct kiln_threads *threads, struct kiln_error *error)
 {
-    atlas->texels = malloc((size_t)atlas->layers * KILN_ATLAS_LAYER_BYTES + 1); /* none: not NULL */
+    atlas->texels = kiln_alloc_pages((size_t)atlas->layers * KILN_ATLAS_LAYER_BYTES);
     if (!atlas->texels)
         return out_of_memory(error, "atlas");
-    bool ok = make_builtins(atlas, all, threads, error), any_moves = false;
+    bool any_moves = false;
     for (uint32_t i = 0; i < all->count; i++)
         any_moves |= moves(&all->books[i]);
-    if (ok && any_moves) {
+    if (any_moves) {
         atlas->moves = calloc(atlas->layers, KILN_ATLAS_MOVES_BYTES);
-        ok = atlas->moves || out_of_memory(error, "atlas");
+        if (!atlas->moves)
+            return out_of_memory(error, "atlas");
     }
+    if (cache)
+        read_cached(atlas, all, cache);
+    bool ok = make_builtins(atlas, all, threads, error);
     for (uint32_t i = 0; ok && i < all->count; i++) {
         const struct flipbook *book = &all->books[i];
-        ok = (book->name || load_cells(atlas, book, all->simd, threads, error)) &&
-             (!moves(book) || make_motion(atlas, book, threads, error));
+        ok = book->is_made || ((book->name || load_cells(atlas, book, all->simd, threads, error)) &&
+                               (!moves(book) || make_motion(atlas, book, threads, error)));
     }
+    if (ok && cache)
+        write_cached(atlas, all, cache);
     return ok;
 }
 
 bool kiln_atlas_init(struct kiln_atlas *atlas, struct kiln_device *device,
-                     const struct kiln_atlas_request *requests, uint32_t count,
+                     const struct kiln_atlas_request *requests, uint32_t count, const char *cache,
                      struct kiln_threads *threads, struct kiln_error *error)
 {
     *atlas = (struct kiln_atlas){.device = device};
@@ -352,7 +411,7 @@ bool kiln_atlas_init(struct kiln_atlas *atlas, struct kiln_device *device,
         for (uint32_t k = 0; k < requests[i].count; k++)
             add_texture(&all, atlas, &requests[i], k, &atlas->systems[i].textures[k]);
     }
-    bool ok = fill_layers(atlas, &all, threads, error);
+    bool ok = fill_layers(atlas, &all, cache, threads, error);
     for (uint32_t i = 0; i < all.copy_count; i++)
         *all.copies[i] = *all.books[all.originals[i]].range;
     for (uint32_t i = 0; i < all.count; i++)

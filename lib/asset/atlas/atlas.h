@@ -52,10 +52,11 @@ struct kiln_atlas_request {
     struct kiln_loader *loader; /* of the files; may be NULL */
 };
 
-/* Makes the cells for count systems, on the host; equal ones share layers. A file that is neither
+/* Makes the cells for count systems, on the host; equal ones share layers. cache: a folder of
+ * base/cache.h, where flipbooks are kept for other processes; NULL: none. A file that is neither
  * image nor video or does not have the cells is KILN_INVALID_INPUT. */
 bool kiln_atlas_init(struct kiln_atlas *atlas, struct kiln_device *device,
-                     const struct kiln_atlas_request *requests, uint32_t count,
+                     const struct kiln_atlas_request *requests, uint32_t count, const char *cache,
                      struct kiln_threads *threads, struct kiln_error *error);
 
 /* Makes the two textures, unless they are there. Needs a device; more layers than that has are

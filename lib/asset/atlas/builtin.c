@@ -44,6 +44,12 @@ bool kiln_builtin_exists(const char *name)
     return find(name, KILN_SIMD_NARROWEST) != NULL;
 }
 
+bool kiln_builtin_flows(const char *name)
+{
+    const struct builtin *found = find(name, KILN_SIMD_NARROWEST);
+    return found && found->gas;
+}
+
 const char *kiln_builtin_name(size_t index)
 {
     const struct builtin *builtin = at_index(index, KILN_SIMD_NARROWEST);

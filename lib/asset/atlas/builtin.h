@@ -10,6 +10,9 @@ const char *kiln_builtin_of(const char *source);
 /* "fire", "smoke", "spark"...; true if there is such a flipbook. */
 bool kiln_builtin_exists(const char *name);
 
+/* Whether the flipbook of that name is of gas, whose motion from cell to cell is known. */
+bool kiln_builtin_flows(const char *name);
+
 /* All names, for messages: NULL past the last. */
 const char *kiln_builtin_name(size_t index);
 

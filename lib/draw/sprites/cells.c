@@ -86,18 +86,28 @@ static bool shows(const uint8_t *texel, uint32_t kind)
     return texel[3] > 0 || (kind == KILN_CELL_COLOR && (texel[0] || texel[1] || texel[2]));
 }
 
+static void extend_to(struct extent *extent, int x, int y)
+{
+    const int at[4] = {x, y, x + y, x - y};
+    for (int i = 0; i < 4; i++) {
+        extent->least[i] = at[i] < extent->least[i] ? at[i] : extent->least[i];
+        extent->most[i] = at[i] > extent->most[i] ? at[i] : extent->most[i];
+    }
+}
+
+/* The outermost texels of a row decide: what lies between them extends nothing. */
 static void extend(struct extent *extent, const uint8_t *texels, int edge, uint32_t kind)
 {
-    for (int y = 0; y < edge; y++) {
-        for (int x = 0; x < edge; x++, texels += 4) {
-            if (!shows(texels, kind))
-                continue;
-            const int at[4] = {x, y, x + y, x - y};
-            for (int i = 0; i < 4; i++) {
-                extent->least[i] = at[i] < extent->least[i] ? at[i] : extent->least[i];
-                extent->most[i] = at[i] > extent->most[i] ? at[i] : extent->most[i];
-            }
-        }
+    for (int y = 0; y < edge; y++, texels += 4 * (size_t)edge) {
+        int first = 0, last = edge - 1;
+        while (first < edge && !shows(texels + 4 * (size_t)first, kind))
+            first++;
+        if (first == edge)
+            continue;
+        while (!shows(texels + 4 * (size_t)last, kind))
+            last--;
+        extend_to(extent, first, y);
+        extend_to(extent, last, y);
     }
 }
 

@@ -4,17 +4,16 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
 
 #include "base/error.h"
+#include "base/pages.h"
 #include "draw/sprites/bins.h"
 #include "draw/sprites/fragments.h"
 
 enum {
     SPRITES_AT_A_TIME = 1 << 18,
     SPRITES_OF_A_TILE = 1 << 22, /* where pixels sort: in a tile alone, if they must */
-    MAKE_AT_A_TIME = 512,
-    LARGE_PAGE = 1 << 21
+    MAKE_AT_A_TIME = 512
 };
 
 struct kiln_tiles {
@@ -108,24 +107,14 @@ static void make_sprites(void *context, size_t begin, size_t end, uint32_t worke
     making->make(making->pass, making->entries + begin, end - begin, making->sprites + begin);
 }
 
-/* In large pages where the system has them: tiles read sprites from all over, and with small ones
- * a quarter of the drawing was waiting for addresses. */
-static struct kiln_sprite *allocate_sprites(uint32_t count)
-{
-    size_t bytes = (size_t)count * sizeof(struct kiln_sprite);
-    bytes = (bytes + LARGE_PAGE - 1) / LARGE_PAGE * LARGE_PAGE;
-    struct kiln_sprite *sprites = aligned_alloc(LARGE_PAGE, bytes);
-    if (sprites)
-        (void)madvise(sprites, bytes, MADV_HUGEPAGE); /* only faster */
-    return sprites;
-}
-
 static bool make_room(struct kiln_tiles *tiles, uint32_t wanted, struct kiln_error *error)
 {
     if (wanted <= tiles->sprite_room)
         return true;
     free(tiles->sprites);
-    tiles->sprites = allocate_sprites(wanted);
+    /* Tiles read sprites from all over; in small pages a quarter of the drawing waits for
+     * addresses. */
+    tiles->sprites = kiln_alloc_pages(wanted * sizeof *tiles->sprites);
     tiles->sprite_room = tiles->sprites ? wanted : 0;
     return tiles->sprites || out_of_memory(error);
 }
@@ -367,7 +356,7 @@ static bool draw_sorting(struct sorting *s, struct drawing *drawing, struct kiln
     ok = ok && count_tiles(s, tile_count, error);
     for (size_t tile = 0; ok && tile < tile_count; tile++)
         most = s->totals[tile] > most ? s->totals[tile] : most;
-    s->kept = ok ? allocate_sprites((uint32_t)most) : NULL;
+    s->kept = ok ? kiln_alloc_pages(most * sizeof *s->kept) : NULL;
     if (ok && !s->kept)
         ok = out_of_memory(error);
     for (size_t first = 0, end; ok && first < tile_count; first = end) {
