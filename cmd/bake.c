@@ -43,6 +43,7 @@ static const struct option options[] = {
      .kind = OPTION_FLAG,
      .help = "Print JSON, an object a line: a \"state\" for each, and a \"result\"."},
     {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Print nothing but errors."},
+    EVENTS_OPTION,
     HELP_OPTION,
 };
 
@@ -50,7 +51,7 @@ struct bake {
     const char *scene_path;
     struct kiln_bake_params params;
     struct value_list techniques;
-    bool json, quiet;
+    bool quiet;
     uint32_t saved; /* so far */
 };
 
@@ -58,7 +59,7 @@ static void show_state(void *user, const struct kiln_baked *state)
 {
     struct bake *bake = user;
     bake->saved = state->done;
-    if (bake->json) {
+    if (events_are_open()) {
         struct kiln_json json = event_begin("state");
         kiln_json_string(&json, "file", state->file);
         kiln_json_uint(&json, "frame", state->frame);
@@ -72,8 +73,8 @@ static void show_state(void *user, const struct kiln_baked *state)
         kiln_json_uint(&json, "done", state->done);
         kiln_json_uint(&json, "total", state->frames);
         event_end(&json);
-        fflush(stdout);
-    } else if (!bake->quiet && state->kept) {
+    }
+    if (!bake->quiet && state->kept) {
         printf("frame %" PRIu32 ": kept, %" PRIu64 " bytes\n", state->frame, state->bytes);
     } else if (!bake->quiet) {
         printf("frame %" PRIu32 ": step %" PRIu32 ", %" PRIu64 " particles, %" PRIu64 " bytes\n",
@@ -84,7 +85,7 @@ static void show_state(void *user, const struct kiln_baked *state)
 
 static void print_result(const struct bake *bake, const struct kiln_bake_stats *stats)
 {
-    if (bake->json) {
+    if (events_are_open()) {
         struct kiln_json json = event_begin("result");
         kiln_json_string(&json, "scene", bake->scene_path);
         kiln_json_string(&json, "output", bake->params.states);
@@ -95,7 +96,8 @@ static void print_result(const struct bake *bake, const struct kiln_bake_stats *
         kiln_json_uint(&json, "bytes", stats->bytes);
         kiln_json_time(&json, "total_s", stats->total_s);
         event_end(&json);
-    } else if (!bake->quiet) {
+    }
+    if (!bake->quiet) {
         printf("%s: %" PRIu32 " state%s of motion %.16s after %" PRIu64 " steps in %.3f s\n",
                bake->params.states, stats->states, stats->states == 1 ? "" : "s", stats->motion,
                stats->steps, stats->total_s);
@@ -140,8 +142,9 @@ static int read_options(struct bake *bake, const struct arguments *arguments)
     params->stop = signals_wants_stop;
     params->user = bake;
     params->log = report_log();
-    bake->json = arguments_flag(arguments, "json");
-    bake->quiet = arguments_flag(arguments, "quiet");
+    if (arguments_flag(arguments, "json"))
+        events_open_plain();
+    bake->quiet = arguments_flag(arguments, "quiet") || events_take_stdout();
     if (!params->states)
         return report(KILN_USAGE, "bake: needs --output STATES, a folder");
     if (params->overwrite && params->resume)

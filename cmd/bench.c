@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "command.h"
+#include "event.h"
 #include "overrides.h"
 #include "report.h"
 #include "signals.h"
@@ -84,6 +85,7 @@ static const struct option options[] = {
      .fallback = "0",
      .max = 256},
     {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Say nothing on the way."},
+    EVENTS_OPTION,
     HELP_OPTION,
 };
 

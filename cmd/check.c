@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "command.h"
+#include "event.h"
 #include "limits.h"
 #include "overrides.h"
 #include "report.h"
@@ -17,6 +18,7 @@ static const struct option options[] = {
     SANDBOX_OPTION,
     {.name = "hash", .kind = OPTION_FLAG, .help = "Print only the scene's hash."},
     {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Print nothing but errors."},
+    EVENTS_OPTION,
     HELP_OPTION,
 };
 

@@ -5,6 +5,7 @@
 
 #include "command.h"
 #include "compare_report.h"
+#include "event.h"
 #include "report.h"
 #include "signals.h"
 
@@ -85,6 +86,7 @@ static const struct option options[] = {
      .help = "Print JSON instead of text: an object a line, whose \"event\" is frame or result."},
     {.name = "stats", .kind = OPTION_FLAG, .help = "Also print the time that it took."},
     {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Print nothing but errors."},
+    EVENTS_OPTION,
     HELP_OPTION,
 };
 
@@ -165,10 +167,13 @@ static void read_lists(const struct arguments *arguments, const char **limits,
 static int run(const struct arguments *arguments)
 {
     struct kiln_compare_params params = read_params(arguments);
+    const bool is_quiet = arguments_flag(arguments, "quiet");
+    if (arguments_flag(arguments, "json") && !is_quiet)
+        events_open_plain();
     struct compare_report printed = {.reference = params.reference,
                                      .test = params.test,
-                                     .json = arguments_last(arguments, "json") != NULL,
-                                     .quiet = arguments_last(arguments, "quiet") != NULL,
+                                     .json = events_are_open(),
+                                     .quiet = is_quiet || events_take_stdout(),
                                      .stats = arguments_last(arguments, "stats") != NULL};
     const char **limits = calloc(arguments->use_count + 1, sizeof *limits);
     struct kiln_compare_mask *masks = calloc(arguments->use_count + 1, sizeof *masks);

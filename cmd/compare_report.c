@@ -208,11 +208,11 @@ void compare_report_frame(struct compare_report *report, const struct kiln_compa
 {
     report->only = *frame;
     report->only.name = report->only.message = ""; /* which the frame only lends */
-    if (report->quiet)
-        return;
     if (report->json)
         print_frame_json(result, frame);
-    else if (result->sequence)
+    if (report->quiet)
+        return;
+    if (result->sequence)
         print_frame_line(result, frame);
     else if (!frame->measured && frame->verdict != KILN_COMPARE_UNREADABLE) /* that is an error */
         printf("%s\n", frame->message);
@@ -222,10 +222,10 @@ void compare_report_frame(struct compare_report *report, const struct kiln_compa
 void compare_report_result(const struct compare_report *report,
                            const struct kiln_compare_result *result)
 {
-    if (report->quiet || result->frames == 0)
+    if (result->frames == 0)
         return;
     if (report->json)
         print_result_json(report, result);
-    else
+    if (!report->quiet)
         print_result_text(report, result);
 }

@@ -332,6 +332,11 @@ static void put_topics(struct value *value)
     }
 }
 
+static void put_events(struct value *value)
+{
+    offer(value, "word", "ndjson", "lines of JSON on standard output");
+}
+
 static const struct {
     const char *placeholder;
     void (*put)(struct value *value);
@@ -348,6 +353,7 @@ static const struct {
     {"KEY=VALUE,...", put_sweep},  {"KEY=VALUE;...", put_variant},
     {"TEMPLATE", put_templates},   {"STAGE", put_stages},
     {"FIGURE", put_files},         {"SUITE", put_suites},
+    {"STREAM", put_events},
 };
 
 static void put_meaning(struct value *value, const char *placeholder, size_t length)

@@ -3,12 +3,14 @@
 #include <stdio.h>
 
 #include "command.h"
+#include "event.h"
 #include "report.h"
 
 enum { MAX_DEVICES = 64 };
 
 static const struct option options[] = {
     {.name = "json", .kind = OPTION_FLAG, .help = "Print JSON instead of text."},
+    EVENTS_OPTION,
     HELP_OPTION,
 };
 

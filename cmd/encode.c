@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include "command.h"
+#include "event.h"
 #include "jobs.h"
 #include "limits.h"
 #include "progress.h"
@@ -47,6 +48,7 @@ static const struct option options[] = {
     TIMEOUT_OPTION,
     SANDBOX_OPTION,
     {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Print nothing but errors."},
+    EVENTS_OPTION,
     HELP_OPTION,
 };
 

@@ -1,12 +1,93 @@
-/* Begins and ends the lines of JSON that a command prints while it runs. Whether standard output
- * took them is asked once, by report_finish. */
+/* Writes events, a line each. The stream belongs to the process, as standard output does: a
+ * signal's handler and the function that prints messages reach it, too, so it is a variable of this
+ * file. */
 #include "event.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "build.h"
+#include "report.h"
+
+static struct {
+    FILE *out; /* NULL: none */
+    bool is_plain;
+    const char *name; /* for messages */
+} stream;
+
+enum { LINE_SIZE = 1 << 16, TIME_SIZE = 32 };
+
+/* ---- Times ---------------------------------------------------------------------------------- */
+
+static char *add_digits(char *out, unsigned value, unsigned divisor)
+{
+    for (; divisor > 0; divisor /= 10)
+        *out++ = (char)('0' + value / divisor % 10);
+    return out;
+}
+
+/* "2026-11-24T12:00:00.123Z", by arithmetic alone: a signal's handler may call no gmtime. The
+ * civil date is found in years that begin in March, whose leap day is their last. */
+static void format_time(char out[TIME_SIZE])
+{
+    struct timespec now;
+    clock_gettime(CLOCK_REALTIME, &now);
+    const unsigned seconds = (unsigned)(now.tv_sec % 86400);
+    const unsigned days = (unsigned)(now.tv_sec / 86400) + 719468; /* since the year 0's March */
+    const unsigned era = days / 146097, day_of_era = days % 146097;
+    const unsigned year_of_era =
+        (day_of_era - day_of_era / 1460 + day_of_era / 36524 - day_of_era / 146096) / 365;
+    const unsigned day_of_year =
+        day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
+    const unsigned months = (5 * day_of_year + 2) / 153; /* since March */
+    const unsigned month = months < 10 ? months + 3 : months - 9;
+    out = add_digits(out, year_of_era + era * 400 + (month <= 2), 1000);
+    *out++ = '-';
+    out = add_digits(out, month, 10);
+    *out++ = '-';
+    out = add_digits(out, day_of_year - (153 * months + 2) / 5 + 1, 10);
+    *out++ = 'T';
+    out = add_digits(out, seconds / 3600, 10);
+    *out++ = ':';
+    out = add_digits(out, seconds / 60 % 60, 10);
+    *out++ = ':';
+    out = add_digits(out, seconds % 60, 10);
+    *out++ = '.';
+    out = add_digits(out, (unsigned)(now.tv_nsec / 1000000), 100);
+    *out++ = 'Z';
+    *out = '\0';
+}
+
+/* ---- Lines ---------------------------------------------------------------------------------- */
+
+static bool write_nowhere(void *sink, const char *bytes, size_t length)
+{
+    (void)sink;
+    (void)bytes;
+    (void)length;
+    return true;
+}
 
 struct kiln_json event_begin(const char *name)
 {
-    struct kiln_json json = kiln_json_to_file(stdout);
+    struct kiln_json json = kiln_json_to_file(stream.out);
+    if (stream.out)
+        flockfile(stream.out);
+    else
+        json.write = write_nowhere;
     kiln_json_begin_object(&json, NULL);
     kiln_json_string(&json, "event", name);
+    if (!stream.is_plain) {
+        char time[TIME_SIZE];
+        format_time(time);
+        kiln_json_string(&json, "time", time);
+    }
     return json;
 }
 
@@ -14,4 +95,280 @@ void event_end(struct kiln_json *json)
 {
     kiln_json_end(json);
     kiln_json_finish(json);
+    if (!stream.out)
+        return;
+    fflush(stream.out);
+    funlockfile(stream.out);
+}
+
+bool events_are_wanted(void)
+{
+    return stream.out && !stream.is_plain;
+}
+
+bool events_are_open(void)
+{
+    return stream.out != NULL;
+}
+
+bool events_take_stdout(void)
+{
+    return stream.out == stdout;
+}
+
+bool events_failed(void)
+{
+    return stream.out && ferror(stream.out);
+}
+
+/* ---- Events of every command ---------------------------------------------------------------- */
+
+static void tell_start(const struct command *command, const struct arguments *arguments)
+{
+    char host[256] = "";
+    gethostname(host, sizeof host - 1);
+    struct kiln_json json = event_begin("started");
+    kiln_json_string(&json, "kiln", build_name());
+    kiln_json_string(&json, "command", command->name);
+    kiln_json_strings(&json, "arguments", arguments->words, arguments->word_count);
+    kiln_json_string(&json, "host", host);
+    kiln_json_int(&json, "process", getpid());
+    event_end(&json);
+}
+
+/* Where a message "FILE:LINE:COLUMN: ..." has its line; 0: it names no place. */
+static size_t find_place(const char *message, unsigned long *line, unsigned long *column)
+{
+    for (const char *at = message; (at = strchr(at, ':')); at++) {
+        char *end;
+        if (at == message || at[1] < '1' || at[1] > '9')
+            continue;
+        *line = strtoul(at + 1, &end, 10);
+        if (end[0] != ':' || end[1] < '1' || end[1] > '9')
+            continue;
+        *column = strtoul(end + 1, &end, 10);
+        if (end[0] == ':' && end[1] == ' ')
+            return (size_t)(at - message);
+    }
+    return 0;
+}
+
+void event_error(int code, const char *message)
+{
+    if (!events_are_wanted())
+        return;
+    unsigned long line, column;
+    const size_t length = find_place(message, &line, &column);
+    struct kiln_json json = event_begin("error");
+    kiln_json_int(&json, "code", code);
+    kiln_json_string(&json, "again", exit_code_again(code));
+    kiln_json_string(&json, "message", message);
+    if (length > 0) {
+        kiln_json_format(&json, "file", "%.*s", (int)length, message);
+        kiln_json_uint(&json, "line", line);
+        kiln_json_uint(&json, "column", column);
+    }
+    event_end(&json);
+}
+
+void event_warning(const char *message)
+{
+    if (!events_are_wanted())
+        return;
+    struct kiln_json json = event_begin("warning");
+    kiln_json_string(&json, "message", message);
+    event_end(&json);
+}
+
+void event_loaded(const char *scene, const struct kiln_scene_info *info)
+{
+    if (!events_are_wanted())
+        return;
+    struct kiln_json json = event_begin("loaded");
+    kiln_json_string(&json, "scene", scene);
+    kiln_json_string(&json, "hash", info->hash);
+    kiln_json_pair(&json, "size", info->width, info->height);
+    kiln_json_format(&json, "fps", "%u/%u", info->fps_num, info->fps_den);
+    kiln_json_uint(&json, "frames", info->frames);
+    kiln_json_uint(&json, "steps", info->steps);
+    kiln_json_uint(&json, "particles", info->particle_capacity);
+    kiln_json_uint(&json, "memory_bytes", info->memory_bytes);
+    event_end(&json);
+}
+
+/* ---- The end without stdio ------------------------------------------------------------------ */
+
+struct line {
+    char text[4096];
+    size_t length;
+};
+
+static void add(struct line *line, const char *text)
+{
+    for (; *text && line->length < sizeof line->text - 8; text++)
+        line->text[line->length++] = *text;
+}
+
+/* A text between quotes. What a message has of controls is shown escaped already. */
+static void add_quoted(struct line *line, const char *text)
+{
+    add(line, "\"");
+    for (; *text && *text != '\n' && line->length < sizeof line->text - 256; text++) {
+        if (*text == '"' || *text == '\\')
+            line->text[line->length++] = '\\';
+        line->text[line->length++] = *text;
+    }
+    add(line, "\"");
+}
+
+static void add_event(struct line *line, const char *name, int code)
+{
+    char time[TIME_SIZE], digits[4] = "";
+    format_time(time);
+    *add_digits(digits, (unsigned)code, code >= 100 ? 100 : code >= 10 ? 10 : 1) = '\0';
+    add(line, "{\"event\": \"");
+    add(line, name);
+    add(line, "\", \"time\": \"");
+    add(line, time);
+    add(line, "\", \"code\": ");
+    add(line, digits);
+    add(line, ", \"again\": ");
+    add_quoted(line, exit_code_again(code));
+}
+
+void events_last_words(const char *message, int code)
+{
+    if (!events_are_wanted())
+        return;
+    struct line line = {.length = 0};
+    add_event(&line, "error", code);
+    add(&line, ", \"message\": ");
+    add_quoted(&line, message);
+    add(&line, "}\n");
+    add_event(&line, "ended", code);
+    add(&line, "}\n");
+    const int file = fileno(stream.out);
+    if (poll(&(struct pollfd){.fd = file, .events = POLLOUT}, 1, 0) == 1) {
+        const ssize_t written = write(file, line.text, line.length);
+        (void)written;
+    }
+}
+
+/* ---- The stream ----------------------------------------------------------------------------- */
+
+static int refuse(const struct command *command, const char *value)
+{
+    char shown[256];
+    kiln_shown(shown, sizeof shown, value);
+    return report(KILN_USAGE,
+                  "%s: --events: found '%s', expected ndjson, ndjson:FILE or ndjson:fd=N, where N "
+                  "is a descriptor that is open for writing",
+                  command->name, shown);
+}
+
+static int fail(const struct command *command, const char *name, const char *why)
+{
+    char shown[KILN_PATH_SIZE];
+    kiln_shown(shown, sizeof shown, name);
+    return report(KILN_IO, "%s: --events: %s: %s", command->name, shown, why);
+}
+
+/* Whether lines may be added to a file: it is empty, or begins as events do. */
+static bool holds_events(int file)
+{
+    char first = '{';
+    struct stat status;
+    return fstat(file, &status) == 0 && !S_ISDIR(status.st_mode) &&
+           (!S_ISREG(status.st_mode) || pread(file, &first, 1, 0) >= 0) && first == '{';
+}
+
+static int open_file(const struct command *command, const char *path)
+{
+    /* For reading, too, so that it can be looked at; a FIFO is not opened so: nobody would wait
+     * for its reader. */
+    struct stat status;
+    const bool is_there = stat(path, &status) == 0;
+    const int way = is_there && !S_ISREG(status.st_mode) ? O_WRONLY : O_RDWR;
+    const int file = open(path, way | O_APPEND | O_CREAT | O_CLOEXEC | O_NOCTTY, 0666);
+    if (file < 0)
+        return fail(command, path, strerror(errno)); /* NOLINT(concurrency-mt-unsafe) */
+    if (!holds_events(file)) {
+        close(file);
+        return fail(command, path,
+                    "the file exists and holds no events, so nothing is added to it");
+    }
+    stream.out = fdopen(file, "a");
+    return stream.out ? 0 : report_no_memory();
+}
+
+static int open_descriptor(const struct command *command, const char *value, const char *number)
+{
+    uint64_t file;
+    int mode = -1;
+    if (kiln_text_to_uint64(number, &file) && file <= INT32_MAX)
+        mode = fcntl((int)file, F_GETFL);
+    if (mode < 0 || (mode & O_ACCMODE) == O_RDONLY)
+        return refuse(command, value);
+    stream.out = file == STDOUT_FILENO   ? stdout
+                 : file == STDERR_FILENO ? stderr
+                                         : fdopen((int)file, "w");
+    return stream.out ? 0 : report_no_memory();
+}
+
+int events_open(const struct command *command, const struct arguments *arguments)
+{
+    static const char format[] = "ndjson";
+    const size_t length = sizeof format - 1;
+    const struct option_use *use = arguments_last(arguments, "events");
+    if (!use)
+        return 0;
+    const char *value = use->text, *rest = value + length;
+    int code = 0;
+    stream.name = "standard output";
+    if (strncmp(value, format, length) != 0 || (*rest && (*rest != ':' || !rest[1]))) {
+        code = refuse(command, value);
+    } else if (!*rest) {
+        const struct option_use *output = arguments_last(arguments, "output");
+        const bool is_taken = output && output->text && strcmp(output->text, "-") == 0;
+        stream.out = is_taken ? stderr : stdout;
+    } else if (strncmp(rest, ":fd=", 4) == 0) {
+        stream.name = value;
+        code = open_descriptor(command, value, rest + 4);
+    } else {
+        stream.name = rest + 1;
+        code = open_file(command, rest + 1);
+    }
+    if (code)
+        return code;
+    setvbuf(stream.out, NULL, _IOFBF, LINE_SIZE); /* a line is written at once */
+    tell_start(command, arguments);
+    return 0;
+}
+
+void events_open_plain(void)
+{
+    if (stream.out)
+        return;
+    stream.out = stdout;
+    stream.is_plain = true;
+    stream.name = "standard output";
+}
+
+int events_close(int code)
+{
+    if (!events_are_wanted())
+        return code;
+    struct kiln_json json = event_begin("ended");
+    kiln_json_int(&json, "code", code);
+    kiln_json_string(&json, "again", exit_code_again(code));
+    event_end(&json);
+    const bool failed = ferror(stream.out) != 0;
+    FILE *out = stream.out;
+    stream.out = NULL;
+    if (out == stdout || out == stderr) /* report_finish looks at the one */
+        return code;
+    if (fclose(out) == 0 && !failed)
+        return code;
+    const int reported = report(KILN_IO, "--events: %s cannot be written", stream.name);
+    return code ? code : reported;
 }

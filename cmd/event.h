@@ -1,12 +1,54 @@
-/* Events for other programs: each is a line of JSON on standard output. */
+/* Events for other programs (--events): one stream of lines of JSON that tells how a command goes,
+ * from its start to its exit code. Which events there are, and their members: event_table.c. */
 #ifndef KILN_CMD_EVENT_H
 #define KILN_CMD_EVENT_H
 
-#include "kiln_program.h"
+#include "command.h"
 
-/* Begins an object whose "event" is the name. More members may be added until its end, which ends
- * the line and flushes nothing. */
+#define EVENTS_OPTION                                                                              \
+    {                                                                                              \
+        .name = "events", .kind = OPTION_TEXT, .placeholder = "STREAM",                            \
+        .help = "Tell other programs how the command goes, by lines of JSON: 'ndjson' on "         \
+                "standard output, 'ndjson:FILE' at the end of a file, 'ndjson:fd=N' to an open "   \
+                "descriptor (see 'kiln help events')."                                             \
+    }
+
+/* Opens the stream that --events asks for, if it does, and tells that the command has started.
+ * Returns 0, or the exit code after reporting. Before the process confines itself. */
+int events_open(const struct command *command, const struct arguments *arguments);
+
+/* Opens standard output for the events that `render --progress ndjson`, `render --stats=json` and
+ * `--json` of bake and compare have always printed: without times, and no others. */
+void events_open_plain(void);
+
+/* Whether --events was given; and whether a stream of either kind is open on standard output. */
+bool events_are_wanted(void);
+bool events_take_stdout(void);
+bool events_are_open(void); /* a stream of either kind */
+
+/* Whether the stream could not be written: nobody reads it any more, or a disk is full. */
+bool events_failed(void);
+
+/* Begins an event of that name. More members may be added until its end, which ends the line and
+ * hands it over; other threads wait in between. Without a stream nothing comes of it. */
 struct kiln_json event_begin(const char *name);
 void event_end(struct kiln_json *json);
+
+/* What went wrong, with its place where the message begins with one; what a person is warned of; a
+ * scene that was loaded. Nothing without --events. */
+void event_error(int code, const char *message);
+void event_warning(const char *message);
+void event_loaded(const char *scene, const struct kiln_scene_info *info);
+
+/* Tells the error and the end in a signal's handler, or beside a thread that hangs: where the
+ * stream takes it at once. */
+void events_last_words(const char *message, int code);
+
+/* Tells the exit code and closes the stream. Returns the code, or that of a stream that failed. */
+int events_close(int code);
+
+/* The events for people, and their JSON schema. */
+bool help_write_events(FILE *out);
+bool help_write_events_schema(FILE *out);
 
 #endif

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "event.h"
 #include "figure_make.h"
 #include "report.h"
 #include "signals.h"
@@ -26,6 +27,7 @@ static const struct option options[] = {
      .letter = 'q',
      .kind = OPTION_FLAG,
      .help = "Name only what is stale, or was."},
+    EVENTS_OPTION,
     HELP_OPTION,
 };
 

@@ -1,4 +1,5 @@
 /* kiln figure sheet: renders side by side, over sweeps of parameters. */
+#include "event.h"
 #include "figure_make.h"
 #include "overrides.h"
 
@@ -37,6 +38,7 @@ static const struct option options[] = {
     FIGURE_SCENE_OPTIONS,
     FIGURE_LOOK_OPTIONS,
     FIGURE_THREADS_OPTION,
+    EVENTS_OPTION,
     HELP_OPTION,
 };
 

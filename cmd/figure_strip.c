@@ -1,4 +1,5 @@
 /* kiln figure strip: frames of a clip in a row. */
+#include "event.h"
 #include "figure_make.h"
 #include "overrides.h"
 
@@ -27,6 +28,7 @@ static const struct option options[] = {
     FIGURE_SCENE_OPTIONS,
     FIGURE_LOOK_OPTIONS,
     FIGURE_THREADS_OPTION,
+    EVENTS_OPTION,
     HELP_OPTION,
 };
 

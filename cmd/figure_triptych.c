@@ -1,11 +1,9 @@
 /* kiln figure triptych: a reference, a result and their difference. */
+#include "event.h"
 #include "figure_make.h"
 
 static const struct option options[] = {
-    FIGURE_OUTPUT_OPTIONS,
-    FIGURE_LOOK_OPTIONS,
-    FIGURE_THREADS_OPTION,
-    HELP_OPTION,
+    FIGURE_OUTPUT_OPTIONS, FIGURE_LOOK_OPTIONS, FIGURE_THREADS_OPTION, EVENTS_OPTION, HELP_OPTION,
 };
 
 static int run(const struct arguments *arguments)

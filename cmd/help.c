@@ -2,27 +2,43 @@
 #include <string.h>
 
 #include "command.h"
+#include "event.h"
 #include "report.h"
 
 enum { WIDTH = 80, OPTION_INDENT = 30 };
 
+static const char NEVER[] = "never", AGAIN[] = "again", MORE[] = "with more";
+
 const struct exit_code exit_codes[] = {
-    {"0", "all went well"},
-    {"1", "a frame failed, or a picture differs"},
-    {"2", "the command line makes no sense"},
-    {"3", "a scene or another input file is wrong"},
-    {"4", "no usable device, or for want of one every test was skipped, or nothing measured"},
-    {"5", "the device was lost, memory ran out, a frame or test took longer than its limit, or a "
-          "test crashed"},
-    {"6", "reading or writing failed"},
-    {"7", "a golden picture is missing, or what was accepted with it"},
-    {"8", "more than the limits of the job allow, or than --timeout"},
-    {"9", "the reader of standard output went away before the job was done"},
-    {"129", "stopped by SIGHUP; only whole files are left"},
-    {"130", "stopped by SIGINT; only whole files are left"},
-    {"143", "stopped by SIGTERM; only whole files are left"},
-    {NULL, NULL},
+    {"0", NEVER, "all went well"},
+    {"1", NEVER, "a frame failed, or a picture differs"},
+    {"2", NEVER, "the command line makes no sense"},
+    {"3", NEVER, "a scene or another input file is wrong"},
+    {"4", AGAIN,
+     "no usable device, or for want of one every test was skipped, or nothing measured"},
+    {"5", MORE,
+     "the device was lost, memory ran out, a frame or test took longer than its limit, or a "
+     "test crashed"},
+    {"6", AGAIN, "reading or writing failed"},
+    {"7", NEVER, "a golden picture is missing, or what was accepted with it"},
+    {"8", MORE, "more than the limits of the job allow, or than --timeout"},
+    {"9", AGAIN, "the reader of standard output went away before the job was done"},
+    {"129", AGAIN, "stopped by SIGHUP; only whole files are left"},
+    {"130", AGAIN, "stopped by SIGINT; only whole files are left"},
+    {"143", AGAIN, "stopped by SIGTERM; only whole files are left"},
+    {NULL, NULL, NULL},
 };
+
+const char *exit_code_again(int code)
+{
+    char text[16];
+    snprintf(text, sizeof text, "%d", code);
+    for (const struct exit_code *row = exit_codes; row->code; row++) {
+        if (strcmp(row->code, text) == 0)
+            return row->again;
+    }
+    return AGAIN;
+}
 
 void help_print_wrapped(FILE *out, const char *text, size_t column, size_t indent)
 {
@@ -54,10 +70,16 @@ void help_print_wrapped(FILE *out, const char *text, size_t column, size_t inden
 
 static bool write_exit_codes(FILE *out)
 {
+    enum { MEANING_COLUMN = 18 };
+    fputs(" CODE  AGAIN?     MEANING\n", out);
     for (const struct exit_code *row = exit_codes; row->code; row++) {
-        fprintf(out, "%5s  ", row->code);
-        help_print_wrapped(out, row->meaning, 7, 7);
+        fprintf(out, "%5s  %-9s  ", row->code, row->again);
+        help_print_wrapped(out, row->meaning, MEANING_COLUMN, MEANING_COLUMN);
     }
+    fputs("\nAGAIN? is for schedulers. never: the same call ends the same way. again: it may\n"
+          "succeed, on another machine where a device or a disk is the reason; with --resume\n"
+          "it goes on. with more: it may with more memory, more time, or larger limits.\n",
+          out);
     return !ferror(out);
 }
 
@@ -107,6 +129,8 @@ static const struct topic topics[] = {
     {"templates", "scenes to begin with, for 'kiln new'", kiln_write_templates},
     {"outputs", "what can be written, by suffix", kiln_write_outputs},
     {"tests", "every key of a test file, and the reports", write_tests},
+    {"events", "what --events tells other programs", help_write_events},
+    {"events-schema", "the JSON schema of events", help_write_events_schema},
     {"exit-codes", "what each exit code means", write_exit_codes},
     {"environment", "the variables of the environment that kiln reads", help_write_environment},
     {"completion", "command lines completed by bash and zsh", help_write_completion},

@@ -94,25 +94,35 @@ static int check_clash(const struct job *a, const struct job *b)
                   output ? a->output : a->manifest);
 }
 
+/* Declares the files of a job beside those of the jobs before it. */
+static int claim_files_of(const struct job_list *list, const struct job *job,
+                          struct kiln_claims *claims)
+{
+    struct kiln_error error = {0};
+    struct kiln_render_params params = kiln_render_defaults();
+    params.output = list->stream.format ? NULL : job->output;
+    params.manifest = job->manifest;
+    params.ranges = job->frames.ranges;
+    params.range_count = job->frames.count;
+    params.flipbook = list->flipbook.columns > 0 ? &list->flipbook : NULL;
+    params.resume = list->resume;
+    params.shard = list->shard;
+    params.shards = list->shards;
+    return kiln_render_claim(job->scene, &params, claims, &error) ? 0 : report_error(&error);
+}
+
 /* The files of all jobs together. */
-static int claim_files(const struct job_list *list)
+static int claim_files(struct job_list *list)
 {
     struct kiln_claims *claims = kiln_claims_create();
     int code = claims ? 0 : report_no_memory();
     for (size_t i = 0; i < list->count && code == 0; i++) {
-        const struct job *job = &list->jobs[i];
-        struct kiln_error error = {0};
-        struct kiln_render_params params = kiln_render_defaults();
-        params.output = list->stream.format ? NULL : job->output;
-        params.manifest = job->manifest;
-        params.ranges = job->frames.ranges;
-        params.range_count = job->frames.count;
-        params.flipbook = list->flipbook.columns > 0 ? &list->flipbook : NULL;
-        params.resume = list->resume;
-        params.shard = list->shard;
-        params.shards = list->shards;
-        if (!kiln_render_claim(job->scene, &params, claims, &error))
-            code = report_error(&error);
+        struct job *job = &list->jobs[i];
+        if (job->code)
+            continue;
+        job->code = claim_files_of(list, job, claims);
+        if (!list->keep_going)
+            code = job->code;
     }
     kiln_claims_destroy(&claims);
     return code;
@@ -246,17 +256,17 @@ static int load_scenes(struct job_list *list, const struct arguments *arguments)
         struct job *job = &list->jobs[i];
         struct kiln_error error = {0};
         job->scene = scene_in_load(job->path, &params, &error);
-        int failure;
         if (job->scene) {
             job->info = kiln_scene_info_empty();
             kiln_scene_get_info(job->scene, &job->info);
-            failure = choose_frames(job, arguments);
-            if (failure == 0 && list->flipbook.columns > 0)
-                failure = choose_cells(job, &list->flipbook);
+            job->code = choose_frames(job, arguments);
+            if (job->code == 0 && list->flipbook.columns > 0)
+                job->code = choose_cells(job, &list->flipbook);
         } else {
-            failure = report_scene_error(&error);
+            job->code = report_scene_error(&error);
         }
-        code = code ? code : failure;
+        if (code == 0 && !list->keep_going)
+            code = job->code;
     }
     overrides_free(&overrides);
     return code;

@@ -15,6 +15,7 @@ struct job {
     struct kiln_frame_range *cells; /* of a flipbook; the list points here then */
     char *output;                   /* NULL: nothing is written */
     char *manifest;                 /* NULL: none */
+    int code;                       /* not 0: why it cannot run, which was reported */
 };
 
 struct job_list {
@@ -25,6 +26,7 @@ struct job_list {
     /* To be set before job_list_create. */
     struct kiln_stream stream; /* in place of outputs; of no format: none */
     uint32_t shard, shards;    /* shards 0: none */
+    bool keep_going;           /* a job that cannot run is no failure of the list */
 };
 
 /* Returns 0, or the exit code after reporting what is wrong; every wrong scene is reported. The

@@ -4,6 +4,7 @@
 
 #include "build.h"
 #include "command.h"
+#include "event.h"
 #include "limits.h"
 #include "report.h"
 #include "sandbox.h"
@@ -22,6 +23,7 @@ static const struct option options[] = {
     TIMEOUT_OPTION,
     SANDBOX_OPTION,
     {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Print nothing but errors."},
+    EVENTS_OPTION,
     HELP_OPTION,
 };
 

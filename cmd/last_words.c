@@ -6,11 +6,15 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "kiln_program.h"
+#include "event.h"
+
+static const char prefix[] = "kiln: ";
 
 _Noreturn void end_with_words(const char *line, int code)
 {
     kiln_abandon_outputs();
+    events_last_words(strncmp(line, prefix, sizeof prefix - 1) ? line : line + sizeof prefix - 1,
+                      code);
     if (poll(&(struct pollfd){.fd = STDERR_FILENO, .events = POLLOUT}, 1, 0) == 1) {
         const ssize_t written = write(STDERR_FILENO, line, strlen(line));
         (void)written;

@@ -6,6 +6,7 @@
 
 #include "build.h"
 #include "command.h"
+#include "event.h"
 #include "limits.h"
 #include "report.h"
 #include "sandbox.h"
@@ -119,6 +120,8 @@ static int run_command(const struct command *command, int argc, char **argv)
         if (code == 0)
             code = check_environment(command);
         struct limits limits = {.budget = NULL};
+        if (code == 0) /* a file of events may lie where a sandbox does not let write */
+            code = events_open(command, &arguments);
         if (code == 0 && has_option(command, "sandbox")) /* before there are threads */
             code = sandbox_enter(command, &arguments, &arguments.sandboxed);
         if (code == 0 && has_option(command, "limits"))
@@ -127,6 +130,7 @@ static int run_command(const struct command *command, int argc, char **argv)
         if (code == 0)
             code = command->run(&arguments);
         limits_end(&limits);
+        code = events_close(code);
     }
     arguments_free(&arguments);
     return code;

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "command.h"
+#include "event.h"
 #include "report.h"
 
 static const struct option options[] = {
@@ -14,6 +15,7 @@ static const struct option options[] = {
      .fallback = "fire"},
     {.name = "force", .kind = OPTION_FLAG, .help = "Replace a file that exists."},
     {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Print nothing but errors."},
+    EVENTS_OPTION,
     HELP_OPTION,
 };
 

@@ -42,6 +42,7 @@ static const struct option options[] = {
     TECHNIQUE_OPTION,
     THREADS_OPTION,
     {.name = "json", .kind = OPTION_FLAG, .help = "Print JSON instead: one object."},
+    EVENTS_OPTION,
     HELP_OPTION,
 };
 

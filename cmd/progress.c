@@ -50,7 +50,8 @@ static void print_line(const char *scene, const struct kiln_progress *frame)
         fprintf(stderr, ", %s left", duration_text(left, frame->eta_s));
 }
 
-static void print_json(const char *scene, const struct kiln_progress *frame)
+void progress_tell(const char *scene, const struct kiln_progress *frame,
+                   const struct kiln_written *file)
 {
     char state[STATE_TEXT_SIZE];
     struct kiln_json json = event_begin("frame");
@@ -66,8 +67,12 @@ static void print_json(const char *scene, const struct kiln_progress *frame)
     kiln_json_uint(&json, "alive", frame->alive);
     kiln_json_string(&json, "state", state_text(state, frame->state));
     add_passes(&json, frame->pass_ms);
+    if (file) {
+        kiln_json_string(&json, "file", file->file);
+        kiln_json_uint(&json, "bytes", file->bytes);
+        kiln_json_string(&json, "sha256", file->sha256);
+    }
     event_end(&json);
-    fflush(stdout);
 }
 
 void progress_show(struct progress *progress, const char *scene, const struct kiln_progress *frame)
@@ -75,7 +80,7 @@ void progress_show(struct progress *progress, const char *scene, const struct ki
     if (progress->mode == PROGRESS_NONE)
         return;
     if (progress->mode == PROGRESS_NDJSON) {
-        print_json(scene, frame);
+        progress_tell(scene, frame, NULL);
         return;
     }
     bool tty = progress->mode == PROGRESS_TTY;

@@ -23,6 +23,10 @@ void progress_start(struct progress *progress, enum progress_mode mode);
 /* Says how far the job is, if it is time to. */
 void progress_show(struct progress *progress, const char *scene, const struct kiln_progress *frame);
 
+/* Tells the event `frame`; file: that of the frame, where it has one, or NULL. */
+void progress_tell(const char *scene, const struct kiln_progress *frame,
+                   const struct kiln_written *file);
+
 /* Clears the moving line, before anything else is said. */
 void progress_clear(struct progress *progress);
 

@@ -18,6 +18,7 @@
 #include "shard.h"
 #include "signals.h"
 #include "stats.h"
+#include "watch.h"
 #include "watchdog.h"
 
 static const struct option options[] = {
@@ -98,6 +99,10 @@ static const struct option options[] = {
          "is drawn (see docs/jobs.md). With --force it starts anew."},
     SHARD_OPTION,
     {.name = "force", .kind = OPTION_FLAG, .help = "Replace files that exist."},
+    {.name = "keep-going",
+     .kind = OPTION_FLAG,
+     .help = "Render the other scenes, too, after one that failed. The exit code is then the "
+             "greatest of all."},
     LIMITS_OPTION,
     TIMEOUT_OPTION,
     SANDBOX_OPTION,
@@ -113,8 +118,8 @@ static const struct option options[] = {
     {.name = "progress",
      .kind = OPTION_CHOICE,
      .placeholder = "tty|lines|ndjson|none",
-     .help = "A moving line on standard error, a line now and then, or a JSON object a frame on "
-             "standard output.",
+     .help = "A moving line on standard error, or a line now and then. 'ndjson' is an older "
+             "--events, with fewer of them.",
      .fallback = "tty on a terminal, else lines"},
     {.name = "stats",
      .value_may_go = true,
@@ -126,6 +131,7 @@ static const struct option options[] = {
      .letter = 'q',
      .kind = OPTION_FLAG,
      .help = "Print nothing but errors and what --stats asks for."},
+    EVENTS_OPTION,
     HELP_OPTION,
 };
 
@@ -135,13 +141,14 @@ struct render {
     struct value_list techniques;
     const char **command; /* its words, for manifests */
     struct shard shard;
-    bool quiet, stats, json; /* json: standard output is lines of JSON */
+    bool quiet, stats;
     enum progress_mode progress_mode;
     double frame_timeout_s;
 
     const struct job *job; /* the one that runs */
     struct progress progress;
     struct watchdog *watchdog;
+    double began_s; /* the job, by now_s */
     uint32_t frames_done, frames_total;
     int64_t last_frame; /* whose time began last; -1: none of the job */
 };
@@ -174,19 +181,53 @@ static void end_frame(void *user, uint32_t frame)
         watchdog_disarm(render->watchdog);
 }
 
+/* Whether each frame has a file, whose event tells of it. */
+static bool has_files(const struct render *render)
+{
+    return render->job->output && !render->list.stream.format &&
+           render->list.flipbook.columns == 0 && kiln_output_is_images(render->job->output);
+}
+
 static void show_frame(void *user, const struct kiln_progress *frame)
 {
     struct render *render = user;
     render->frames_done = frame->done;
     render->frames_total = frame->total;
     progress_show(&render->progress, render->job->path, frame);
+    if (events_are_wanted() && !has_files(render))
+        progress_tell(render->job->path, frame, NULL);
+}
+
+/* An event for a file that is whole, on a thread of the output. */
+static void tell_written(void *user, const struct kiln_written *file)
+{
+    const struct render *render = user;
+    if (file->kind == KILN_WRITTEN_FRAME) {
+        const double elapsed_s = now_s() - render->began_s;
+        struct kiln_progress frame = {.frame = file->frames.first,
+                                      .done = file->done,
+                                      .total = file->total,
+                                      .elapsed_s = elapsed_s,
+                                      .alive = file->alive,
+                                      .state = file->state};
+        frame.eta_s = elapsed_s / file->done * (file->total - file->done);
+        memcpy(frame.pass_ms, file->pass_ms, sizeof frame.pass_ms);
+        progress_tell(render->job->path, &frame, file);
+        return;
+    }
+    struct kiln_json json = event_begin(file->kind == KILN_WRITTEN_PART ? "part" : "file");
+    kiln_json_string(&json, "scene", render->job->path);
+    kiln_json_string(&json, "file", file->file);
+    kiln_json_pair(&json, "frames", file->frames.first, file->frames.last);
+    kiln_json_uint(&json, "bytes", file->bytes);
+    kiln_json_string(&json, "sha256", file->sha256);
+    event_end(&json);
 }
 
 static bool wants_stop(void *user)
 {
-    const struct render *render = user;
-    bool nobody_reads = render->progress_mode == PROGRESS_NDJSON && ferror(stdout);
-    return signals_received() || nobody_reads;
+    (void)user;
+    return signals_received() || events_failed();
 }
 
 /* ---- From options to parameters ------------------------------------------------------------- */
@@ -211,9 +252,13 @@ static bool read_options(struct render *render, const struct arguments *argument
     render->quiet = arguments_flag(arguments, "quiet");
     render->progress_mode = render->quiet ? PROGRESS_NONE : mode;
     render->stats = arguments_flag(arguments, "stats");
-    render->json =
-        render->progress_mode == PROGRESS_NDJSON || arguments_choice(arguments, "stats", 0) == 1;
-    params->state_hash = render->stats || render->progress_mode == PROGRESS_NDJSON;
+    if (render->progress_mode == PROGRESS_NDJSON || arguments_choice(arguments, "stats", 0) == 1)
+        events_open_plain();
+    if (events_are_wanted())
+        params->written = tell_written;
+    render->quiet = render->quiet || events_take_stdout();
+    params->state_hash =
+        render->stats || render->progress_mode == PROGRESS_NDJSON || events_are_wanted();
     params->next = begin_frame;
     params->drawn = end_frame;
     params->progress = show_frame;
@@ -248,33 +293,38 @@ static void print_device_json(const struct kiln_device_info *info)
 /* The first line of output: nobody shall take a picture of a software device for a GPU's. */
 static void print_device(const struct render *render, const struct kiln_device_info *info)
 {
-    if (render->json)
+    if (events_are_open())
         print_device_json(info);
-    else if (!render->quiet && !info->gl)
+    if (!render->quiet && !info->gl)
         printf("device: %s (%s, no OpenGL)\n", info->name, info->vectors);
     else if (!render->quiet)
         printf("device: %s%s\n", info->name, info->software ? " (software)" : "");
     fflush(stdout);
 }
 
+static void print_shard_json(const struct shard *shard)
+{
+    struct kiln_json json = event_begin("shard");
+    kiln_json_uint(&json, "shard", shard->index + 1);
+    kiln_json_uint(&json, "shards", shard->count);
+    kiln_json_string(&json, "variable", shard->variable);
+    event_end(&json);
+}
+
 /* Which shard this is, and who said so. */
 static void print_shard(const struct render *render)
 {
     const struct shard *shard = &render->shard;
-    if (shard->count == 0 || render->quiet)
+    if (shard->count == 0)
         return;
-    if (render->json) {
-        struct kiln_json json = event_begin("shard");
-        kiln_json_uint(&json, "shard", shard->index + 1);
-        kiln_json_uint(&json, "shards", shard->count);
-        kiln_json_string(&json, "variable", shard->variable);
-        event_end(&json);
-    } else if (shard->variable) {
-        printf("shard %u of %u, by %s=%s\n", shard->index + 1, shard->count, shard->variable,
-               getenv(shard->variable));
-    } else {
-        printf("shard %u of %u\n", shard->index + 1, shard->count);
-    }
+    if (events_are_open())
+        print_shard_json(shard);
+    if (render->quiet)
+        return;
+    printf("shard %u of %u", shard->index + 1, shard->count);
+    if (shard->variable)
+        printf(", by %s=%s", shard->variable, getenv(shard->variable));
+    printf("\n");
     fflush(stdout);
 }
 
@@ -285,9 +335,9 @@ static void print_job(const struct render *render, const struct kiln_render_stat
                                       .is_shard = render->shard.count > 0,
                                       .info = &render->job->info,
                                       .stats = stats};
-    if (render->json) {
+    if (events_are_open())
         print_result_json(&result, render->stats);
-    } else {
+    if (!events_take_stdout()) {
         if (!render->quiet || render->stats)
             print_result(&result);
         if (render->stats)
@@ -319,6 +369,7 @@ static int run_job(struct render *render, struct kiln_device *device, const stru
     render->params.range_count = job->frames.count;
     render->params.flipbook = render->list.flipbook.columns > 0 ? &render->list.flipbook : NULL;
     progress_start(&render->progress, render->progress_mode);
+    render->began_s = now_s();
     render->last_frame = -1;
     if (!render->params.resume && render->shard.count == 0)
         allow_frame(render, job->frames.ranges[0].first);
@@ -335,6 +386,12 @@ static int run_job(struct render *render, struct kiln_device *device, const stru
     return 0;
 }
 
+/* After a signal, or when nobody reads any more, no other job begins. */
+static bool is_end_of_all(int code)
+{
+    return code > 128 || code == KILN_READER_GONE;
+}
+
 static int run_jobs(struct render *render, const struct arguments *arguments)
 {
     int code = 0;
@@ -347,8 +404,14 @@ static int run_jobs(struct render *render, const struct arguments *arguments)
         return code;
     print_device(render, kiln_device_get_info(device));
     print_shard(render);
-    for (size_t i = 0; i < render->list.count && code == 0; i++)
-        code = run_job(render, device, &render->list.jobs[i]);
+    const bool keep_going = render->list.keep_going;
+    for (size_t i = 0; i < render->list.count && (code == 0 || keep_going); i++) {
+        const struct job *job = &render->list.jobs[i];
+        const int ended = job->code ? job->code : run_job(render, device, job);
+        code = ended > code ? ended : code;
+        if (is_end_of_all(ended))
+            break;
+    }
     kiln_device_close(&device);
     return code;
 }
@@ -362,6 +425,7 @@ static int run(const struct arguments *arguments)
         code = shard_read(&render.shard, arguments);
     render.params.shard = render.list.shard = render.shard.index;
     render.params.shards = render.list.shards = render.shard.count;
+    render.list.keep_going = arguments_flag(arguments, "keep-going");
     if (code == 0)
         code = pipe_read(&render.list.stream, arguments);
     if (code == 0)
@@ -390,9 +454,9 @@ const struct command render_command = {
         "Renders each scene ('-' is standard input, whose files lie below the working directory) "
         "into images or a video. Files appear under their names only when they "
         "are whole. The first line of output names the device: a GPU, a software device of OpenGL, "
-        "or 'cpu'. Several scenes share the device; the first that fails ends the call.\n\n"
-        "With --stats=json or --progress ndjson, standard output is JSON: an object a line, whose "
-        "\"event\" is device, frame or result.",
+        "or 'cpu'. Several scenes share the device; the first that fails ends the call, unless "
+        "--keep-going is given.\n\n"
+        "Programs follow a job by --events ('kiln help events').",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .least_operands = 1,

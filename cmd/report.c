@@ -6,6 +6,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "event.h"
+
 int report(enum kiln_code code, const char *format, ...)
 {
     char message[KILN_MESSAGE_SIZE];
@@ -14,23 +16,30 @@ int report(enum kiln_code code, const char *format, ...)
     vsnprintf(message, sizeof message, format, args);
     va_end(args);
     fprintf(stderr, "kiln: %s\n", message);
+    event_error((int)code, message);
     return (int)code;
+}
+
+/* A message that starts with its own place, where editors look for it. */
+static int report_place(const struct kiln_error *error)
+{
+    fprintf(stderr, "%s\n", error->message);
+    event_error((int)error->code, error->message);
+    return (int)error->code;
 }
 
 int report_error(const struct kiln_error *error)
 {
     if (error->code != KILN_INVALID_INPUT)
         return report(error->code, "%s", error->message);
-    fprintf(stderr, "%s\n", error->message);
-    return KILN_INVALID_INPUT;
+    return report_place(error);
 }
 
 int report_scene_error(const struct kiln_error *error)
 {
     if (error->code != KILN_OVER_LIMIT)
         return report_error(error);
-    fprintf(stderr, "%s\n", error->message);
-    return KILN_OVER_LIMIT;
+    return report_place(error);
 }
 
 int report_no_memory(void)
@@ -41,8 +50,10 @@ int report_no_memory(void)
 static void write_log(void *user, enum kiln_log_level level, const char *line)
 {
     (void)user;
-    if (level == KILN_LOG_WARNING)
-        fprintf(stderr, "kiln: warning: %s\n", line);
+    if (level != KILN_LOG_WARNING)
+        return;
+    fprintf(stderr, "kiln: warning: %s\n", line);
+    event_warning(line);
 }
 
 struct kiln_log report_log(void)

@@ -10,6 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "event.h"
 #include "report.h"
 
 enum { NO_DESCRIPTOR = -1 };
@@ -63,8 +64,8 @@ static bool read_all(int file, char *text, size_t *size, const struct kiln_scene
     return true;
 }
 
-struct kiln_scene *scene_in_load(const char *path, const struct kiln_scene_params *params,
-                                 struct kiln_error *error)
+static struct kiln_scene *load(const char *path, const struct kiln_scene_params *params,
+                               struct kiln_error *error)
 {
     const int file = descriptor_of(path);
     if (file == NO_DESCRIPTOR)
@@ -84,6 +85,18 @@ struct kiln_scene *scene_in_load(const char *path, const struct kiln_scene_param
         scene = kiln_scene_parse(text, size, name, params, error);
     }
     free(text);
+    return scene;
+}
+
+struct kiln_scene *scene_in_load(const char *path, const struct kiln_scene_params *params,
+                                 struct kiln_error *error)
+{
+    struct kiln_scene *scene = load(path, params, error);
+    if (scene) {
+        struct kiln_scene_info info = kiln_scene_info_empty();
+        kiln_scene_get_info(scene, &info);
+        event_loaded(path, &info);
+    }
     return scene;
 }
 

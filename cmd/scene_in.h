@@ -9,7 +9,8 @@
  * scene names lies below the working directory, unless --asset-root says another folder. */
 bool scene_in_is_stream(const char *path);
 
-/* kiln_scene_load for both. Errors of "-" call it standard input. */
+/* kiln_scene_load for both, which tells the event `loaded`. Errors of "-" call it standard input.
+ */
 struct kiln_scene *scene_in_load(const char *path, const struct kiln_scene_params *params,
                                  struct kiln_error *error);
 

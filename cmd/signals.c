@@ -118,6 +118,6 @@ int signals_report(const char *what, const char *format, ...)
     va_start(args, format);
     vsnprintf(how, sizeof how, format, args);
     va_end(args);
-    report(KILN_INTERRUPTED, "%s: stopped by %s%s", what, name_of(received), how);
+    report((enum kiln_code)(128 + received), "%s: stopped by %s%s", what, name_of(received), how);
     return 128 + received;
 }

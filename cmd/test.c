@@ -8,6 +8,7 @@
 
 #include "build.h"
 #include "command.h"
+#include "event.h"
 #include "report.h"
 #include "signals.h"
 #include "test_files.h"
@@ -89,6 +90,7 @@ static const struct option options[] = {
          "Of frames whose pixels have changed, draw the accepted side with another kiln, and say "
          "whether it draws what was accepted."},
     OUTPUT_OPTIONS("report.html in the results"),
+    EVENTS_OPTION,
     HELP_OPTION,
 };
 

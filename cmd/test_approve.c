@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "command.h"
+#include "event.h"
 #include "report.h"
 #include "signals.h"
 #include "test_select.h"
@@ -32,6 +33,7 @@ static const struct option options[] = {
      .kind = OPTION_FLAG,
      .help = "Say what would be written, and write none of it."},
     {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Print nothing but errors."},
+    EVENTS_OPTION,
     HELP_OPTION,
 };
 

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "command.h"
+#include "event.h"
 #include "report.h"
 #include "signals.h"
 #include "test_select.h"
@@ -37,6 +38,7 @@ static const struct option options[] = {
      .kind = OPTION_FLAG,
      .help = "Write what was measured and the limits into expect.yaml."},
     {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Print nothing but errors."},
+    EVENTS_OPTION,
     HELP_OPTION,
 };
 

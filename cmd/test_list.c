@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include "command.h"
+#include "event.h"
 #include "report.h"
 #include "test_select.h"
 
@@ -15,6 +16,7 @@ static const struct option options[] = {
      .letter = 'l',
      .kind = OPTION_FLAG,
      .help = "Also print each test's file, after a tab."},
+    EVENTS_OPTION,
     HELP_OPTION,
 };
 

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "command.h"
+#include "event.h"
 #include "report.h"
 #include "signals.h"
 #include "test_files.h"
@@ -10,6 +11,7 @@
 
 static const struct option options[] = {
     OUTPUT_OPTIONS("report.html in the first folder"),
+    EVENTS_OPTION,
     HELP_OPTION,
 };
 

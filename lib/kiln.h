@@ -313,6 +313,24 @@ struct kiln_frame_layer {
 };
 KILN_EMPTY(kiln_frame_layer, kiln_frame_layer_empty)
 
+/* A file of a job that is whole and has its name: an image, a part of a clip that waits to be
+ * joined
+ * (`resume`, `shards`), or the clip, or what lies beside it. */
+enum kiln_written_kind { KILN_WRITTEN_FRAME, KILN_WRITTEN_PART, KILN_WRITTEN_CLIP };
+struct kiln_written {
+    size_t size;
+    const char *file; /* lasts for the call */
+    enum kiln_written_kind kind;
+    struct kiln_frame_range frames; /* that it holds, alone or with others in between */
+    uint64_t bytes;
+    char sha256[65]; /* of the file, in hex */
+    /* Of a frame alone: */
+    uint32_t done, total; /* frames of this run whose files are whole, of all that it draws */
+    struct kiln_state_hash state;
+    uint64_t alive;
+    double pass_ms[KILN_MAX_PASSES]; /* those before the output */
+};
+
 struct kiln_render_params {
     size_t size;
     const char *output; /* a file, a pattern with %d or #, or NULL to render without writing */
@@ -363,6 +381,9 @@ struct kiln_render_params {
     void *user;
     const struct kiln_cancel *cancel; /* NULL: nobody cancels */
     struct kiln_log log;
+    /* Told of each file as soon as it is whole, on any thread, one call at a time. Files are read
+     * once more then, for their hash. */
+    void (*written)(void *user, const struct kiln_written *file);
 };
 KILN_EMPTY(kiln_render_params, kiln_render_params_empty)
 

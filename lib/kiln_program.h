@@ -74,6 +74,9 @@ bool kiln_write_outputs(FILE *out);
  * written by it: what is wrong with the name is said elsewhere. */
 bool kiln_output_has_quality(const char *path);
 
+/* Whether an output of such a name is a file a frame, and not a clip. */
+bool kiln_output_is_images(const char *path);
+
 /* Visits the scenes to begin with: their names, and what each shows. */
 void kiln_visit_templates(void (*visit)(void *user, const char *name, const char *summary),
                           void *user);

@@ -62,8 +62,11 @@ static int look(struct dl_phdr_info *object, size_t size, void *user)
     for (size_t i = 0; i < object->dlpi_phnum && !search->found; i++) {
         const ElfW(Phdr) *segment = &object->dlpi_phdr[i];
         const uintptr_t notes = object->dlpi_addr + segment->p_vaddr;
-        if (segment->p_type == PT_NOTE)
-            search->found = read_notes((const unsigned char *)notes, segment->p_memsz, search->hex);
+        if (segment->p_type == PT_NOTE) {
+            /* NOLINTNEXTLINE(performance-no-int-to-ptr): ELF has addresses as numbers */
+            const unsigned char *bytes = (const unsigned char *)notes;
+            search->found = read_notes(bytes, segment->p_memsz, search->hex);
+        }
     }
     return 1;
 }

@@ -42,6 +42,7 @@ struct kiln_job {
     double started_s;
     struct kiln_picture *kept; /* of the frame that was drawn last, until it is taken; NULL: none */
     uint32_t total_frames;
+    uint32_t written; /* frames with files of their own; of whoever tells of a whole file */
     struct kiln_progress progress; /* of the frame at hand */
     struct kiln_render_stats stats;
 };
@@ -85,13 +86,38 @@ static void record_frame(struct kiln_job *job, uint32_t frame, const struct kiln
         record->pass_ms[i] = (float)drawn->pass_ms[i];
 }
 
+static void tell_written(struct kiln_job *job, const struct kiln_whole *whole)
+{
+    struct kiln_written file = {.size = sizeof file,
+                                .file = whole->path,
+                                .kind = whole->is_clip   ? KILN_WRITTEN_CLIP
+                                        : whole->is_part ? KILN_WRITTEN_PART
+                                                         : KILN_WRITTEN_FRAME,
+                                .frames = whole->frames,
+                                .bytes = whole->bytes};
+    memcpy(file.sha256, whole->sha256, sizeof file.sha256);
+    const struct kiln_record *record = kiln_records_of(&job->records, whole->frames.first);
+    if (file.kind == KILN_WRITTEN_FRAME && record) {
+        file.done = ++job->written;
+        file.total = job->total_frames;
+        file.state = record->state;
+        file.alive = record->alive;
+        for (int i = 0; i < KILN_PASS_COUNT; i++)
+            file.pass_ms[i] = (double)record->pass_ms[i];
+    }
+    job->params->written(job->params->user, &file);
+}
+
 /* A file is whole: on any thread, but never twice at a time. */
 static bool take_whole(void *user, const struct kiln_whole *whole, struct kiln_error *error)
 {
     struct kiln_job *job = user;
-    if (job->resumes)
-        return kiln_resume_take(&job->resume, whole, error);
-    kiln_records_take(&job->records, whole);
+    if (job->resumes && !kiln_resume_take(&job->resume, whole, error))
+        return false;
+    if (!job->resumes)
+        kiln_records_take(&job->records, whole);
+    if (job->params->written)
+        tell_written(job, whole);
     return true;
 }
 
@@ -276,7 +302,7 @@ static struct kiln_output_params output_params(struct kiln_job *job)
 
 static bool keep_records(struct kiln_job *job, struct kiln_error *error)
 {
-    if (!job->params->manifest && !job->resumes)
+    if (!job->params->manifest && !job->params->written && !job->resumes)
         return true;
     if (!writes_stream(job))
         job->files.whole = (struct kiln_whole_listener){take_whole, job};

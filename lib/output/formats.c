@@ -65,6 +65,13 @@ bool kiln_output_has_quality(const char *path)
     return !format || format->uses & KILN_USES_QUALITY;
 }
 
+bool kiln_output_is_images(const char *path)
+{
+    struct kiln_error ignored = {0};
+    const struct kiln_format *format = kiln_format_find(path, &ignored);
+    return format && !format->one_file;
+}
+
 bool kiln_write_outputs(FILE *out)
 {
     fprintf(out, "Output formats, by the suffix of the output:\n\n");

@@ -37,6 +37,8 @@ $ kiln
 2|  templates        scenes to begin with, for 'kiln new'
 2|  outputs          what can be written, by suffix
 2|  tests            every key of a test file, and the reports
+2|  events           what --events tells other programs
+2|  events-schema    the JSON schema of events
 2|  exit-codes       what each exit code means
 2|  environment      the variables of the environment that kiln reads
 2|  completion       command lines completed by bash and zsh
@@ -86,6 +88,8 @@ $ kiln --help
 1|  templates        scenes to begin with, for 'kiln new'
 1|  outputs          what can be written, by suffix
 1|  tests            every key of a test file, and the reports
+1|  events           what --events tells other programs
+1|  events-schema    the JSON schema of events
 1|  exit-codes       what each exit code means
 1|  environment      the variables of the environment that kiln reads
 1|  completion       command lines completed by bash and zsh
@@ -140,10 +144,9 @@ $ kiln help render
 1|directory) into images or a video. Files appear under their names only when they
 1|are whole. The first line of output names the device: a GPU, a software device
 1|of OpenGL, or 'cpu'. Several scenes share the device; the first that fails ends
-1|the call.
+1|the call, unless --keep-going is given.
 1|
-1|With --stats=json or --progress ndjson, standard output is JSON: an object a
-1|line, whose "event" is device, frame or result.
+1|Programs follow a job by --events ('kiln help events').
 1|
 1|  -o, --output FILE           Where to write; the suffix chooses the format (see
 1|                              'kiln help outputs'). '%04d' or '####' stands for
@@ -216,6 +219,8 @@ $ kiln help render
 1|                              their like say; auto/N: of N, also by
 1|                              JOB_COMPLETION_INDEX or AWS_BATCH_JOB_ARRAY_INDEX.
 1|      --force                 Replace files that exist.
+1|      --keep-going            Render the other scenes, too, after one that
+1|                              failed. The exit code is then the greatest of all.
 1|      --limits KEY=VALUE,...  End with exit code 8 before more is taken;
 1|                              'service' stands for a set of them (see 'kiln help
 1|                              limits'). Default: the environment's KILN_LIMITS.
@@ -234,13 +239,17 @@ $ kiln help render
 1|                              and warm-up belong to the first. Waiting for the
 1|                              output does not count. Default: none.
 1|      --progress tty|lines|ndjson|none
-1|                              A moving line on standard error, a line now and
-1|                              then, or a JSON object a frame on standard output.
-1|                              Default: tty on a terminal, else lines.
+1|                              A moving line on standard error, or a line now and
+1|                              then. 'ndjson' is an older --events, with fewer of
+1|                              them. Default: tty on a terminal, else lines.
 1|      --stats[=text|json]     Print times of each pass, particles, memory,
 1|                              techniques and the hash of the final state.
 1|  -q, --quiet                 Print nothing but errors and what --stats asks
 1|                              for.
+1|      --events STREAM         Tell other programs how the command goes, by lines
+1|                              of JSON: 'ndjson' on standard output,
+1|                              'ndjson:FILE' at the end of a file, 'ndjson:fd=N'
+1|                              to an open descriptor (see 'kiln help events').
 1|  -h, --help                  Print this help.
 1|
 1|Options and operands may come in any order; '--' ends the options. Of an
@@ -293,6 +302,10 @@ $ kiln help compare
 1|                              whose "event" is frame or result.
 1|      --stats                 Also print the time that it took.
 1|  -q, --quiet                 Print nothing but errors.
+1|      --events STREAM         Tell other programs how the command goes, by lines
+1|                              of JSON: 'ndjson' on standard output,
+1|                              'ndjson:FILE' at the end of a file, 'ndjson:fd=N'
+1|                              to an open descriptor (see 'kiln help events').
 1|  -h, --help                  Print this help.
 1|
 1|Options and operands may come in any order; '--' ends the options. Of an
@@ -327,6 +340,10 @@ $ kiln help check
 1|                              off.
 1|      --hash                  Print only the scene's hash.
 1|  -q, --quiet                 Print nothing but errors.
+1|      --events STREAM         Tell other programs how the command goes, by lines
+1|                              of JSON: 'ndjson' on standard output,
+1|                              'ndjson:FILE' at the end of a file, 'ndjson:fd=N'
+1|                              to an open descriptor (see 'kiln help events').
 1|  -h, --help                  Print this help.
 1|
 1|Options and operands may come in any order; '--' ends the options. Of an
@@ -343,6 +360,10 @@ $ kiln help devices
 1|Advice names what is missing and the package that brings it.
 1|
 1|      --json                  Print JSON instead of text.
+1|      --events STREAM         Tell other programs how the command goes, by lines
+1|                              of JSON: 'ndjson' on standard output,
+1|                              'ndjson:FILE' at the end of a file, 'ndjson:fd=N'
+1|                              to an open descriptor (see 'kiln help events').
 1|  -h, --help                  Print this help.
 $ kiln help help
 1|usage: kiln help [OPTION...] [TOPIC]
@@ -351,21 +372,27 @@ $ kiln help help
 1|
 1|  -h, --help                  Print this help.
 $ kiln help exit-codes
-1|    0  all went well
-1|    1  a frame failed, or a picture differs
-1|    2  the command line makes no sense
-1|    3  a scene or another input file is wrong
-1|    4  no usable device, or for want of one every test was skipped, or nothing
-1|       measured
-1|    5  the device was lost, memory ran out, a frame or test took longer than its
-1|       limit, or a test crashed
-1|    6  reading or writing failed
-1|    7  a golden picture is missing, or what was accepted with it
-1|    8  more than the limits of the job allow, or than --timeout
-1|    9  the reader of standard output went away before the job was done
-1|  129  stopped by SIGHUP; only whole files are left
-1|  130  stopped by SIGINT; only whole files are left
-1|  143  stopped by SIGTERM; only whole files are left
+1| CODE  AGAIN?     MEANING
+1|    0  never      all went well
+1|    1  never      a frame failed, or a picture differs
+1|    2  never      the command line makes no sense
+1|    3  never      a scene or another input file is wrong
+1|    4  again      no usable device, or for want of one every test was skipped,
+1|                  or nothing measured
+1|    5  with more  the device was lost, memory ran out, a frame or test took
+1|                  longer than its limit, or a test crashed
+1|    6  again      reading or writing failed
+1|    7  never      a golden picture is missing, or what was accepted with it
+1|    8  with more  more than the limits of the job allow, or than --timeout
+1|    9  again      the reader of standard output went away before the job was
+1|                  done
+1|  129  again      stopped by SIGHUP; only whole files are left
+1|  130  again      stopped by SIGINT; only whole files are left
+1|  143  again      stopped by SIGTERM; only whole files are left
+1|
+1|AGAIN? is for schedulers. never: the same call ends the same way. again: it may
+1|succeed, on another machine where a device or a disk is the reason; with --resume
+1|it goes on. with more: it may with more memory, more time, or larger limits.
 
 The other topics.
 

@@ -1,0 +1,131 @@
+Events: one stream of lines of JSON tells other programs how a command goes.
+
+$ kiln render scenes/tiny.yaml -o e_%d.png --frames 0-1 --device cpu --threads 1 --events ndjson | sed -E 's/"(hash|state|sha256)": "[0-9a-f]+"/"\1": <hash>/g; s/"pass_ms": \{[^}]*\}/"pass_ms": {}/; s/"eta_s": [0-9.]+/"eta_s": <s>/'
+1|{"event": "started", "time": <time>, "kiln": "0.2.0", "command": "render", "arguments": ["scenes/tiny.yaml", "-o", "e_%d.png", "--frames", "0-1", "--device", "cpu", "--threads", "1", "--events", "ndjson"], "host": <host>}
+1|{"event": "loaded", "time": <time>, "scene": "scenes/tiny.yaml", "hash": <hash>, "size": [64, 36], "fps": "30/1", "frames": 24, "steps": 58, "particles": 82, "memory_bytes": 28068808}
+1|{"event": "device", "time": <time>, "device": <device>}
+1|{"event": "frame", "time": <time>, "scene": "scenes/tiny.yaml", "frame": 0, "done": 1, "total": 2, "elapsed_s": <s>, "eta_s": <s>, "alive": 24, "state": <hash>, "pass_ms": {}, "file": "e_0.png", "bytes": <n>, "sha256": <hash>}
+1|{"event": "frame", "time": <time>, "scene": "scenes/tiny.yaml", "frame": 1, "done": 2, "total": 2, "elapsed_s": <s>, "eta_s": <s>, "alive": 28, "state": <hash>, "pass_ms": {}, "file": "e_1.png", "bytes": <n>, "sha256": <hash>}
+1|{"event": "result", "time": <time>, "scene": "scenes/tiny.yaml", "output": "e_%d.png", "first_file": "e_0.png", "frames": 2, "kept": 0, "total_s": <s>}
+1|{"event": "ended", "time": <time>, "code": 0, "again": "never"}
+$ kiln render scenes/tiny.yaml -o e_%d.png --frames 0-1 --device cpu --force --events ndjson -q | jq -r 'select(.event == "frame") | "\(.sha256)  \(.file)"' | sort -k 2 | sha256sum --check
+1|e_0.png: OK
+1|e_1.png: OK
+
+Of a clip each frame that was drawn, its parts where they wait in files, and the clip.
+
+$ kiln render scenes/tiny.yaml -o e.mp4 --device cpu -q --resume --events ndjson:e.log; jq -rc '[.event, .frames, .file]' e.log | uniq -c | sed 's/^ *//'
+1|1 ["started",null,null]
+1|1 ["loaded",24,null]
+1|1 ["device",null,null]
+1|24 ["frame",null,null]
+1|1 ["part",[0,23],"e.mp4.parts/00000.part"]
+1|1 ["file",[0,23],"e.mp4"]
+1|1 ["result",24,null]
+1|1 ["ended",null,null]
+$ jq -r 'select(.event == "file") | "\(.sha256)  \(.file)"' e.log | sha256sum --check
+1|e.mp4: OK
+
+Standard output keeps its text when events go elsewhere. With `-o -` they go to standard error.
+
+$ kiln render scenes/tiny.yaml -o none --frames 0 --device cpu --events ndjson:fd=3 --progress none 3>three | sed 's/(.*)/(...)/'; jq -r .event three
+1|device: <device>
+1|scenes/tiny.yaml: nothing written: 1 frame in <s> s
+1|started
+1|loaded
+1|device
+1|frame
+1|result
+1|ended
+$ kiln render scenes/tiny.yaml -o - --frames 0 --device cpu --events ndjson -q 2>&1 >/dev/null | jq -r .event
+1|started
+1|loaded
+1|device
+1|frame
+1|result
+1|ended
+
+Failures have a code, a place, and whether to try again; a signal is a failure, too.
+
+$ printf 'kiln: 1\nsystems: {a: {emit: {raet: 1}}}\n' >wrong.yaml; kiln check wrong.yaml --events ndjson 2>/dev/null | tail -n 2
+1|{"event": "error", "time": <time>, "code": 3, "again": "never", "message": "wrong.yaml:2:22: systems.a.emit.raet: unknown key (did you mean 'rate'?)", "file": "wrong.yaml", "line": 2, "column": 22}
+1|{"event": "ended", "time": <time>, "code": 3, "again": "never"}
+$ kiln render scenes/tiny.yaml -q -o e.mp4 --events ndjson:fd=2 2>&1 | grep -v '^kiln' | tail -n 2
+1|{"event": "error", "time": <time>, "code": 6, "again": "again", "message": "e.mp4.journal: a job with --resume or --shard has begun this output (--force replaces it)"}
+1|{"event": "ended", "time": <time>, "code": 6, "again": "again"}
+$ kiln render scenes/tiny.yaml -q -o never.mp4 --set output.frames=100000 --set systems.smoke.emit.rate=100000 --device cpu --events ndjson 2>/dev/null >stopped & until grep -q '"frame"' stopped; do sleep 0.05; done; kill -TERM $!; wait $!; echo "exit code $?"; jq -c 'select(.event == "error" or .event == "ended") | [.event, .code, .again]' stopped
+1|exit code 143
+1|["error",143,"again"]
+1|["ended",143,"again"]
+$ kiln render scenes/tiny.yaml -q -o slow.png --frames 0 --size 4096x4096 --set camera.shutter.samples=64 --set simulation.rate=3840 --threads 1 --device cpu --timeout 0.5 --events ndjson 2>/dev/null | jq -c 'select(.event == "error" or .event == "ended") | [.event, .code, .again]'
+1|["error",8,"with more"]
+1|["ended",8,"with more"]
+$ kiln compare e_0.png e_1.png --events ndjson | jq -c '[.event, .verdict, .same, .code]'
+1|["started",null,null,null]
+1|["frame","different",null,null]
+1|["result",null,false,null]
+1|["ended",null,null,1]
+$ kiln bake scenes/tiny.yaml -o baked --every 10 --device cpu --events ndjson | jq -c '[.event, .done, .states, .code]'
+1|["started",null,null,null]
+1|["loaded",null,null,null]
+1|["state",1,null,null]
+1|["state",2,null,null]
+1|["state",3,null,null]
+1|["result",null,3,null]
+1|["ended",null,null,0]
+
+What is no stream is refused, and nothing is added to other files.
+
+$ kiln check scenes/tiny.yaml -q --events xml
+2|kiln: check: --events: found 'xml', expected ndjson, ndjson:FILE or ndjson:fd=N, where N is a descriptor that is open for writing
+= 2
+$ kiln check scenes/tiny.yaml -q --events ndjson:
+2|kiln: check: --events: found 'ndjson:', expected ndjson, ndjson:FILE or ndjson:fd=N, where N is a descriptor that is open for writing
+= 2
+$ kiln check scenes/tiny.yaml -q --events ndjson:fd=9
+2|kiln: check: --events: found 'ndjson:fd=9', expected ndjson, ndjson:FILE or ndjson:fd=N, where N is a descriptor that is open for writing
+= 2
+$ kiln check scenes/tiny.yaml -q --events ndjson:fd=0
+2|kiln: check: --events: found 'ndjson:fd=0', expected ndjson, ndjson:FILE or ndjson:fd=N, where N is a descriptor that is open for writing
+= 2
+$ kiln check scenes/tiny.yaml -q --events ndjson:scenes/tiny.yaml
+2|kiln: check: --events: scenes/tiny.yaml: the file exists and holds no events, so nothing is added to it
+= 6
+$ kiln check scenes/tiny.yaml -q --events ndjson:none/e.log
+2|kiln: check: --events: none/e.log: No such file or directory
+= 6
+$ kiln check scenes/tiny.yaml -q --events ndjson:/dev/full
+2|kiln: --events: /dev/full cannot be written
+= 6
+$ kiln render scenes/tiny.yaml -o none --device cpu -q --events ndjson | head -n 1 | cut -c 1-20; echo "${PIPESTATUS[0]}"
+1|{"event": "started",
+1|9
+2|kiln: standard output: the reader went away: stopped
+$ kiln help events | head -n 14
+1|--events ndjson          on standard output; with '--output -' on standard error
+1|--events ndjson:FILE     at the end of a file
+1|--events ndjson:fd=N     to a descriptor that is open
+1|
+1|Each line is a JSON object. `event` is its name, `time` is UTC. Events and members may be
+1|added by later versions. 'kiln help events-schema' is the JSON schema.
+1|
+1|started (every command): The command line was read.
+1|    kiln               Version and commit.
+1|    command            Its name.
+1|    arguments          Its options and operands.
+1|    host               The machine's name.
+1|    process            The number of the process.
+1|
+
+Several scenes: --keep-going renders the others, too.
+
+$ touch kept_empty.png; kiln render wrong.yaml scenes/empty.yaml scenes/tiny.yaml -o 'kept_{scene}.png' --frames 0 --device cpu -q; echo "exit code $?"; ls kept*
+1|exit code 3
+1|kept_empty.png
+2|wrong.yaml:2:22: systems.a.emit.raet: unknown key (did you mean 'rate'?)
+$ kiln render wrong.yaml scenes/empty.yaml scenes/tiny.yaml -o 'kept_{scene}.png' --frames 0 --device cpu -q --keep-going; echo "exit code $?"; ls kept*
+1|exit code 6
+1|kept_empty.png
+1|kept_tiny.png
+2|wrong.yaml:2:22: systems.a.emit.raet: unknown key (did you mean 'rate'?)
+2|kiln: kept_empty.png: the file exists (--force replaces it)

@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# Events of every command keep to their JSON schema, judged by ajv: events.sh KILN SOURCE.
+set -euo pipefail
+kiln=$1 source=$2
+. "$source/tests/support/packages.sh"
+needs_packages "$source" ajv
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cp -r "$source/tests/cli/scenes" "$work/scenes"
+cd "$work"
+tiny=scenes/tiny.yaml
+run() { "$kiln" "$@" --events ndjson:events >/dev/null 2>&1 || true; }
+run render $tiny -o a_%d.png --frames 0-2 --device cpu --stats
+run render $tiny -o a.mp4 --resume --device cpu
+run render $tiny -o b.mp4 --shard 1/1 --device cpu
+run render $tiny -o none --frames 0 --device cpu
+run render none.yaml -o a.png
+run render $tiny $tiny -o a.mp4
+run render $tiny -o a_%d.png --frames 0-2 --force --limits output=100
+run bake $tiny -o states --every 10 --device cpu
+run bake $tiny -o states --every 10 --device cpu --resume
+run render $tiny -o none --frames 20 --states states --set seed=9 --device cpu # of another motion: a warning
+run plan $tiny --device cpu
+run join b.mp4
+run encode a_%d.png -o c.mp4
+run compare a_0.png a_1.png --stats
+run compare a_0.png none.png
+run check $tiny
+run devices
+run test scenes --golden golden
+run figure sheet $tiny -o sheet.png --frames 0
+run new new.yaml
+"$kiln" help events-schema >schema.json
+exec node "$source/tests/schema/events.mjs" schema.json events
