@@ -98,9 +98,10 @@ static void print_result(const struct bake *bake, const struct kiln_bake_stats *
         event_end(&json);
     }
     if (!bake->quiet) {
-        printf("%s: %" PRIu32 " state%s of motion %.16s after %" PRIu64 " steps in %.3f s\n",
-               bake->params.states, stats->states, stats->states == 1 ? "" : "s", stats->motion,
-               stats->steps, stats->total_s);
+        print_name(bake->params.states);
+        printf(": %" PRIu32 " state%s of motion %.16s after %" PRIu64 " steps in %.3f s\n",
+               stats->states, stats->states == 1 ? "" : "s", stats->motion, stats->steps,
+               stats->total_s);
     }
 }
 

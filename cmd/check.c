@@ -9,6 +9,7 @@
 #include "report.h"
 #include "sandbox.h"
 #include "scene_in.h"
+#include "signals.h"
 
 static const struct option options[] = {
     SET_OPTION,
@@ -49,6 +50,7 @@ static int run(const struct arguments *arguments)
 {
     bool hash = arguments_last(arguments, "hash") != NULL;
     bool quiet = arguments_last(arguments, "quiet") != NULL;
+    signals_install_for_job();
     const int wrong = scene_in_check(arguments, "check");
     if (wrong)
         return wrong;

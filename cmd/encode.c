@@ -105,10 +105,11 @@ static int run(const struct arguments *arguments)
     if (!ok)
         return error.code == KILN_INTERRUPTED ? signals_report(params.output, "%s", "")
                                               : report_error(&error);
-    if (!arguments_flag(arguments, "quiet"))
-        printf("%s: %" PRIu32 " frame%s, %" PRIu32 "-%" PRIu32 "\n", params.output,
-               frames.last - frames.first + 1, frames.last == frames.first ? "" : "s", frames.first,
-               frames.last);
+    if (!arguments_flag(arguments, "quiet")) {
+        print_name(params.output);
+        printf(": %" PRIu32 " frame%s, %" PRIu32 "-%" PRIu32 "\n", frames.last - frames.first + 1,
+               frames.last == frames.first ? "" : "s", frames.first, frames.last);
+    }
     return 0;
 }
 

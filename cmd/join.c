@@ -47,10 +47,12 @@ static int run_join(const struct arguments *arguments, const char **command, siz
     if (!kiln_join(&params, &stats, &error))
         return error.code == KILN_INTERRUPTED ? signals_report(params.output, "%s", "")
                                               : report_error(&error);
-    if (!arguments_flag(arguments, "quiet"))
-        printf("%s: %" PRIu32 " frame%s in %" PRIu32 " part%s%s\n", params.output, stats.frames,
+    if (!arguments_flag(arguments, "quiet")) {
+        print_name(params.output);
+        printf(": %" PRIu32 " frame%s in %" PRIu32 " part%s%s\n", stats.frames,
                stats.frames == 1 ? "" : "s", stats.parts, stats.parts == 1 ? "" : "s",
                stats.was_whole ? ", whole already" : "");
+    }
     return 0;
 }
 

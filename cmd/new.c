@@ -39,9 +39,14 @@ static int print(const char *template)
 /* What to do with it: a command to copy. */
 static void print_next(const char *path)
 {
-    char name[KILN_MESSAGE_SIZE];
+    char name[KILN_PATH_SIZE];
     kiln_shown(name, sizeof name, path);
-    printf("%s: a scene to begin with; render it by: kiln render ", name);
+    printf("%s: a scene to begin with", name);
+    if (strcmp(name, path) != 0) { /* the command would act on a terminal */
+        printf("\n");
+        return;
+    }
+    printf("; render it by: kiln render ");
     if (*path == '-')
         fputs("./", stdout);
     kiln_write_shell_word(stdout, path);

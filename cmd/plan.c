@@ -58,8 +58,9 @@ struct planning {
 
 static void print_head(const struct planning *planning, const struct kiln_plan *plan)
 {
-    printf("%s: %" PRIu32 " part%s of %" PRIu32 " frames, motion %.16s\n", planning->scene_path,
-           plan->parts, plan->parts == 1 ? "" : "s", plan->part_frames, plan->motion);
+    print_name(planning->scene_path);
+    printf(": %" PRIu32 " part%s of %" PRIu32 " frames, motion %.16s\n", plan->parts,
+           plan->parts == 1 ? "" : "s", plan->part_frames, plan->motion);
     printf("measured at frame %" PRIu32 ": set-up %.2f, a step %.4f, a frame %.3f seconds of CPU; "
            "%.0f MiB\n",
            plan->frame, plan->setup_cpu_s, plan->step_cpu_s, plan->frame_cpu_s,

@@ -111,7 +111,7 @@ static const struct option options[] = {
      .placeholder = "S",
      .help = "Give up with exit code 5 when a frame takes longer than S seconds. Frames that are "
              "stepped over lengthen the limit of the next drawn one; set-up and warm-up belong to "
-             "the first. Waiting for the output does not count.",
+             "the first. Loading the scenes has as long. Waiting for the output does not count.",
      .fallback = "none",
      .min = 0.001,
      .max = 86400},
@@ -416,6 +416,17 @@ static int run_jobs(struct render *render, const struct arguments *arguments)
     return code;
 }
 
+/* The scenes, which have the time of a frame, too. */
+static int load(struct render *render, const struct arguments *arguments)
+{
+    if (render->watchdog)
+        watchdog_arm(render->watchdog, render->frame_timeout_s, "loading the scenes");
+    const int code = job_list_create(&render->list, arguments);
+    if (render->watchdog)
+        watchdog_disarm(render->watchdog);
+    return code;
+}
+
 static int run(const struct arguments *arguments)
 {
     struct render render = {0};
@@ -428,15 +439,15 @@ static int run(const struct arguments *arguments)
     render.list.keep_going = arguments_flag(arguments, "keep-going");
     if (code == 0)
         code = pipe_read(&render.list.stream, arguments);
-    if (code == 0)
-        code = job_list_create(&render.list, arguments);
-    if (code == 0)
-        code = pipe_open(&render.list.stream);
     if (code == 0 && render.frame_timeout_s > 0) {
         render.watchdog = watchdog_create();
         if (!render.watchdog)
             code = report(KILN_DEVICE_FAILED, "cannot start a thread for --frame-timeout");
     }
+    if (code == 0)
+        code = load(&render, arguments);
+    if (code == 0)
+        code = pipe_open(&render.list.stream);
     if (code == 0)
         code = run_jobs(&render, arguments);
     watchdog_destroy(&render.watchdog);

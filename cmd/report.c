@@ -7,14 +7,16 @@
 #include <unistd.h>
 
 #include "event.h"
+#include "signals.h"
 
 int report(enum kiln_code code, const char *format, ...)
 {
-    char message[KILN_MESSAGE_SIZE];
+    char text[KILN_MESSAGE_SIZE], message[KILN_MESSAGE_SIZE];
     va_list args;
     va_start(args, format);
-    vsnprintf(message, sizeof message, format, args);
+    vsnprintf(text, sizeof text, format, args);
     va_end(args);
+    kiln_shown(message, sizeof message, text);
     fprintf(stderr, "kiln: %s\n", message);
     event_error((int)code, message);
     return (int)code;
@@ -30,6 +32,8 @@ static int report_place(const struct kiln_error *error)
 
 int report_error(const struct kiln_error *error)
 {
+    if (error->code == KILN_INTERRUPTED && signals_received())
+        return signals_report("loading a scene", "%s", "");
     if (error->code != KILN_INVALID_INPUT)
         return report(error->code, "%s", error->message);
     return report_place(error);
@@ -45,6 +49,13 @@ int report_scene_error(const struct kiln_error *error)
 int report_no_memory(void)
 {
     return report(KILN_DEVICE_FAILED, "out of memory");
+}
+
+void print_name(const char *name)
+{
+    char shown[KILN_PATH_SIZE];
+    kiln_shown(shown, sizeof shown, name);
+    printf("%s", shown);
 }
 
 static void write_log(void *user, enum kiln_log_level level, const char *line)

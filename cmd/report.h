@@ -7,7 +7,7 @@
 /* Prints "kiln: " and the message; returns the code, so that a command can return it. */
 int report(enum kiln_code code, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* The same for an error of the library. Invalid input starts with its own file, line and column,
+/* The same for an error of the library; a signal that stopped it is named. Invalid input starts with its own file, line and column,
  * where editors look for them, so nothing is put before it. */
 int report_error(const struct kiln_error *error);
 
@@ -16,6 +16,9 @@ int report_error(const struct kiln_error *error);
 int report_scene_error(const struct kiln_error *error);
 
 int report_no_memory(void);
+
+/* Prints the name of a file on standard output, as it may be shown. */
+void print_name(const char *name);
 
 /* Prints the library's warnings; what it says for information is left out. */
 struct kiln_log report_log(void);

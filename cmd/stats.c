@@ -6,6 +6,7 @@
 
 #include "event.h"
 #include "progress.h"
+#include "report.h"
 
 /* The most memory that the process has had at once. */
 static uint64_t peak_memory_bytes(void)
@@ -24,14 +25,6 @@ static double bytes_per_particle(const struct kiln_render_stats *stats)
 static const char *plural(uint32_t count)
 {
     return count == 1 ? "" : "s";
-}
-
-/* Prints where a job was from, or went to. */
-static void print_name(const char *name)
-{
-    char shown[KILN_PATH_SIZE];
-    kiln_shown(shown, sizeof shown, name);
-    printf("%s", shown);
 }
 
 static void print_shard_result(const struct job_result *result)

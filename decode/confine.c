@@ -34,11 +34,14 @@ enum {
 /* The limit of memory, bytes, if this process has set it; 0: another one was there and is lower. */
 static uint64_t own_limit;
 
+/* That is the limit of the job, and not what the kind of file may take at most. */
+static bool is_limited;
+
 bool decode_out_of_memory(struct kiln_error *error)
 {
     if (own_limit == 0)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while decoding");
-    return kiln_error_set(error, KILN_INVALID_INPUT,
+    return kiln_error_set(error, is_limited ? KILN_OVER_LIMIT : KILN_INVALID_INPUT,
                           "it takes more than %llu MiB of memory to decode",
                           (unsigned long long)(own_limit >> 20));
 }
@@ -91,6 +94,7 @@ static void limit_resources(enum kiln_decode_kind kind, uint64_t most_memory)
     if (!KILN_UNCONFINED && lower(RLIMIT_DATA, bytes_in_use() + most, bytes_in_use() + most) &&
         getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur == RLIM_INFINITY)
         own_limit = most;
+    is_limited = most_memory < own;
 }
 
 #define CALL(name)                                                                                 \

@@ -101,7 +101,7 @@ bool kiln_budget_take(struct kiln_budget *budget, enum kiln_limit limit, uint64_
            kiln_error_set(error, KILN_OVER_LIMIT, "%s: %s", what, text);
 }
 
-uint64_t kiln_budget_taken(struct kiln_budget *budget, enum kiln_limit limit)
+static uint64_t taken_of(struct kiln_budget *budget, enum kiln_limit limit)
 {
     return atomic_load(&budget->taken[limit]);
 }
@@ -110,13 +110,14 @@ uint64_t kiln_budget_left(struct kiln_budget *budget, enum kiln_limit limit)
 {
     if (!budget || budget->limits.most[limit] == 0)
         return UINT64_MAX;
-    const uint64_t most = budget->limits.most[limit], taken = kiln_budget_taken(budget, limit);
+    const uint64_t most = budget->limits.most[limit], taken = taken_of(budget, limit);
     return taken < most ? most - taken : 0;
 }
 
 void kiln_budget_reset(struct kiln_budget *budget, enum kiln_limit limit)
 {
-    atomic_store(&budget->taken[limit], 0);
+    if (budget)
+        atomic_store(&budget->taken[limit], 0);
 }
 
 /* Bytes of this process that are in memory; 0 where the system does not say. */

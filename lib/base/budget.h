@@ -18,9 +18,8 @@ uint64_t kiln_budget_left(struct kiln_budget *budget, enum kiln_limit limit);
 bool kiln_budget_allows(const struct kiln_budget *budget, enum kiln_limit limit, uint64_t amount,
                         char text[160]);
 
-/* The first tells what was counted up to now, the second begins again at 0, for what is limited a
- * scene. */
-uint64_t kiln_budget_taken(struct kiln_budget *budget, enum kiln_limit limit);
+/* Begins to count again at 0, for what is limited a scene. Does nothing for
+ * NULL. */
 void kiln_budget_reset(struct kiln_budget *budget, enum kiln_limit limit);
 
 /* An amount in its unit: "4 GiB", "1500 ms". */

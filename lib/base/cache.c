@@ -98,6 +98,14 @@ static int by_use(const void *a, const void *b)
     return (x->used_ns > y->used_ns) - (x->used_ns < y->used_ns);
 }
 
+/* Whether a file can be one of the cache: they are called by a hash. Others were put there by
+ * people and are not touched. */
+static bool is_ours(const char *name)
+{
+    const size_t digits = strspn(name, "0123456789abcdef");
+    return digits == 64 && name[digits] == '.';
+}
+
 /* All files but the one that is about to be written; NULL with a count of 0 when there are none. */
 static struct entry *list_others(int folder, const char *name, size_t *count)
 {
@@ -107,7 +115,7 @@ static struct entry *list_others(int folder, const char *name, size_t *count)
     *count = 0;
     for (int i = 0; i < all; i++) {
         struct stat status;
-        if (entries && strcmp(found[i]->d_name, name) != 0 &&
+        if (entries && is_ours(found[i]->d_name) && strcmp(found[i]->d_name, name) != 0 &&
             fstatat(folder, found[i]->d_name, &status, AT_SYMLINK_NOFOLLOW) == 0 &&
             S_ISREG(status.st_mode)) {
             struct entry *entry = &entries[(*count)++];

@@ -19,8 +19,8 @@ bool kiln_cache_read_into(const char *folder, const char *name, void *bytes, siz
 /* The same in memory that the caller frees; NULL also when memory is short. */
 void *kiln_cache_read(const char *folder, const char *name, size_t size);
 
-/* Makes missing folders, and removes what killed processes left. The name does not begin with a
- * point. */
+/* Makes missing folders, and removes what killed processes left. A name is 64 hexadecimal digits
+ * and an ending, ".field": no other file makes room. */
 void kiln_cache_write(const char *folder, const char *name, const void *bytes, size_t size);
 
 #endif

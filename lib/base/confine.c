@@ -133,16 +133,23 @@ static bool open_library(struct seccomp *library, struct kiln_error *error)
                              sizeof functions / sizeof *functions, error);
 }
 
-bool kiln_has_seccomp(void)
+static bool kernel_has_seccomp(void)
 {
     return !KILN_UNCONFINED && prctl(PR_GET_SECCOMP, 0, 0, 0, 0) >= 0;
+}
+
+bool kiln_has_seccomp(void)
+{
+    struct seccomp library;
+    struct kiln_error ignored;
+    return kernel_has_seccomp() && open_library(&library, &ignored);
 }
 
 /* What is open already is found again without its file. */
 bool kiln_seccomp_open(struct kiln_error *error)
 {
     struct seccomp library;
-    return !kiln_has_seccomp() || open_library(&library, error);
+    return !kernel_has_seccomp() || open_library(&library, error);
 }
 
 static int add_calls(const struct seccomp *library, scmp_filter_ctx filter, bool only,
@@ -169,7 +176,7 @@ bool kiln_seccomp_confine(enum kiln_calls which, const struct kiln_system_call *
                           struct kiln_error *error)
 {
     struct seccomp library;
-    if (!kiln_has_seccomp())
+    if (!kernel_has_seccomp())
         return true;
     if (!open_library(&library, error))
         return false;

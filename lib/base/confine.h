@@ -31,7 +31,7 @@ struct kiln_place {
  */
 int kiln_landlock_version(void);
 
-/* Whether the kernel has seccomp filters. */
+/* Whether the kernel has seccomp filters, and the machine libseccomp, which makes them. */
 bool kiln_has_seccomp(void);
 
 /* Opens libseccomp, which kiln_seccomp_confine needs, and cannot open any more after Landlock.

@@ -1,6 +1,7 @@
 /* Saves states of a run on its way through a clip. */
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/budget.h"
 #include "base/clock.h"
@@ -83,6 +84,11 @@ static bool visit_frame(struct bake *bake, uint32_t frame, struct kiln_error *er
         !kiln_states_path(bake->states, baked->step, path, error))
         return false;
     baked->bytes = stat(path, &status) == 0 ? (uint64_t)status.st_size : 0;
+    if (!baked->kept &&
+        !kiln_budget_take(bake->scene->budget, KILN_LIMIT_output, baked->bytes, path, error)) {
+        unlink(path);
+        return false;
+    }
     baked->file = path;
     baked->done++;
     bake->stats.states++;
@@ -91,9 +97,7 @@ static bool visit_frame(struct bake *bake, uint32_t frame, struct kiln_error *er
     if (bake->params->saved)
         bake->params->saved(bake->params->user, baked);
     baked->file = NULL;
-    return kiln_device_make_current(bake->device, error) &&
-           (baked->kept ||
-            kiln_budget_take(bake->scene->budget, KILN_LIMIT_output, baked->bytes, path, error));
+    return kiln_device_make_current(bake->device, error);
 }
 
 static bool begin(struct bake *bake, struct kiln_error *error)

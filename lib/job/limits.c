@@ -149,9 +149,11 @@ bool kiln_write_limits(FILE *out)
           "`service`\n"
           "stands for all values of its column, `none` lifts a limit. What is over a limit ends "
           "with\n"
-          "exit code 8; nothing half-written is left, and --resume may go on. render, bake, plan, "
-          "check,\n"
-          "encode and join have limits; tests have a time limit of their own.\n\n",
+          "exit code 8; nothing half-written is left, and --resume may go on. render, bake, plan "
+          "and\n"
+          "check have limits, of which encode and join heed memory, time, cpu and output; tests "
+          "have\n"
+          "a time limit of their own.\n\n",
           out);
     fputs("KEY           service\n", out);
     for (size_t i = 0; i < KILN_LIMIT_COUNT; i++)

@@ -2,12 +2,20 @@
  * many are shown of a step, so what is broken comes first. */
 #include <string.h>
 
+#include "base/shown.h"
 #include "report/words.h"
 
 /* What is special in a message; in a property, these and what ends one. */
 static void write_escaped(FILE *out, const char *text, const char *special)
 {
+    uint32_t character;
     for (; *text; text++) {
+        const size_t length = kiln_shown_character(text, &character);
+        if (length > 1 && kiln_shown_acts(character)) { /* overrides of direction, C1 */
+            fprintf(out, "\\u%04x", (unsigned)character);
+            text += length - 1;
+            continue;
+        }
         if (strchr(special, *text))
             fprintf(out, "%%%02X", (unsigned char)*text);
         else if ((unsigned char)*text >= 0x20 || *text == '\t')

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/shown.h"
 #include "base/text.h"
 
 static const struct kiln_markup_field *find_field(const struct kiln_markup_field *fields,
@@ -56,10 +57,14 @@ const char *kiln_markup_entity(char c)
     }
 }
 
-/* What XML has no characters for: controls, U+FFFE and U+FFFF. */
+/* What XML has no characters for (controls, U+FFFE and U+FFFF), and what would make a page show
+ * another text than there is: overrides of direction, C1. */
 static bool is_foreign(const char *text)
 {
     unsigned char c = (unsigned char)*text;
+    uint32_t character;
+    if (kiln_shown_character(text, &character) > 1 && kiln_shown_acts(character))
+        return true;
     return (c < 0x20 && c != '\n' && c != '\t') || c == 0x7f ||
            strncmp(text, "\xef\xbf\xbe", 3) == 0 || strncmp(text, "\xef\xbf\xbf", 3) == 0;
 }

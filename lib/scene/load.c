@@ -104,16 +104,13 @@ static bool build(struct kiln_reader *reader, const char *text, size_t size,
         kiln_budget_reset(scene->budget, OF_A_SCENE[i]);
     if (!kiln_read_members(reader, kiln_options_root, root, scene) || !keep_keys(reader, scene))
         return false;
-    scene->asset_pixels = kiln_budget_taken(scene->budget, KILN_LIMIT_asset_pixels);
     return kiln_validate(reader, root) && take_hash(scene, reader->error) &&
            kiln_budget_is_kept(scene->budget, reader->error);
 }
 
-/* file: where relative paths start, or NULL. The budget is there also where the caller has none: it
- * counts what is decoded. */
+/* file: where relative paths start, or NULL. */
 static struct kiln_scene *create(const char *text, size_t size, const char *name, const char *file,
-                                 const struct kiln_scene_params *params, struct kiln_budget *budget,
-                                 struct kiln_error *error)
+                                 const struct kiln_scene_params *params, struct kiln_error *error)
 {
     struct kiln_arena *arena = kiln_arena_create(), *scratch = kiln_arena_create();
     struct kiln_scene *scene = arena ? kiln_arena_alloc(arena, 1, sizeof *scene) : NULL;
@@ -127,13 +124,12 @@ static struct kiln_scene *create(const char *text, size_t size, const char *name
             .origin = &origin, .arena = arena, .scratch = scratch, .error = error, .target = scene};
         scene->arena = arena;
         scene->name = kept_name;
-        scene->budget = budget;
+        scene->budget = params->budget;
         scene->asset_root = kiln_asset_root(arena, params->asset_root, file, error);
         ok = scene->asset_root &&
              (!file || kiln_scene_add_file(scene, kept_name, "the scene") ||
               kiln_reader_out_of_memory(&reader)) &&
              build(&reader, text, size, params);
-        scene->budget = params->budget;
         kiln_loader_stop_counting(scene->loader, params->budget);
     }
     kiln_arena_destroy(&scratch);
@@ -144,21 +140,6 @@ static struct kiln_scene *create(const char *text, size_t size, const char *name
     if (!ok)
         kiln_arena_destroy(&arena);
     return ok ? scene : NULL;
-}
-
-static struct kiln_scene *create_counted(const char *text, size_t size, const char *name,
-                                         const char *file, const struct kiln_scene_params *params,
-                                         struct kiln_error *error)
-{
-    struct kiln_budget *own = params->budget ? NULL : kiln_budget_create(NULL);
-    struct kiln_budget *budget = params->budget ? params->budget : own;
-    struct kiln_scene *scene = NULL;
-    if (budget)
-        scene = create(text, size, name, file, params, budget, error);
-    else
-        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading a scene");
-    kiln_budget_destroy(&own);
-    return scene;
 }
 
 /* A scene that lies in the asset root is no link out of it: whoever filled the folder made that,
@@ -194,7 +175,7 @@ struct kiln_scene *kiln_scene_load(const char *path, const struct kiln_scene_par
                      : NULL;
     if (!text)
         return NULL;
-    struct kiln_scene *scene = create_counted(text, size, path, path, &params, error);
+    struct kiln_scene *scene = create(text, size, path, path, &params, error);
     free(text);
     return scene;
 }
@@ -217,7 +198,7 @@ struct kiln_scene *kiln_scene_parse(const char *text, size_t size, const char *n
         kiln_error_set(error, KILN_INVALID_INPUT, "%s: %zu bytes; a scene file has at most %d",
                        name, size, KILN_MAX_SCENE_SIZE);
     else
-        scene = create_counted(copy, size, name, NULL, &params, error);
+        scene = create(copy, size, name, NULL, &params, error);
     free(copy);
     return scene;
 }

@@ -474,7 +474,6 @@ struct kiln_scene {
     struct kiln_mesh_library *meshes; /* all that objects and looks have */
     struct kiln_budget *budget;       /* of kiln_scene_params */
     struct kiln_loader *loader;       /* of the files below the asset root; the scene ends it */
-    uint64_t asset_pixels; /* of all pictures that it names, counted as often as it does */
 
     uint32_t format_version; /* 1 */
     uint32_t seed;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "asset/atlas/atlas.h"
+#include "asset/loader/loader.h"
 #include "base/budget.h"
 #include "base/sized.h"
 
@@ -16,10 +17,11 @@ enum {
     SLOT_BYTES = 100,
     CELL_BYTES = 150000, /* of an atlas, and while it is made */
     TRIANGLE_BYTES = 350,
-    TEXEL_BYTES = 80,   /* of paint */
-    GROUND_BYTES = 330, /* a sample of terrain: two triangles */
-    SAMPLE_BYTES = 32,  /* of what moves particles */
-    PICTURE_BYTES = 40, /* a pixel of a picture that it names */
+    TEXEL_BYTES = 80,    /* of paint */
+    GROUND_BYTES = 330,  /* a sample of terrain: two triangles */
+    SAMPLE_BYTES = 32,   /* of what moves particles */
+    BACKDROP_BYTES = 15, /* a pixel of a picture of floor or sky: half floats, with levels */
+    ATLAS_BYTES = 6,     /* a pixel of an atlas's picture, one at a time, until it is cells */
 };
 
 /* ---- what there is --------------------------------------------------------------------------- */
@@ -103,26 +105,58 @@ static uint64_t count_ground(const struct kiln_scene *scene)
     return samples;
 }
 
+/* Pixels of a picture that was looked at; 0 for what is built in, or a video. */
+static uint64_t count_pixels(const struct kiln_scene *scene, const char *picture)
+{
+    uint32_t size[2];
+    return picture && picture[0] == '/' && kiln_loader_knows(scene->loader, picture, size)
+               ? (uint64_t)size[0] * size[1]
+               : 0;
+}
+
+/* The most pixels that a picture of an atlas has; *system gets whose that is. */
+static uint64_t find_largest_atlas(const struct kiln_scene *scene, const char **system)
+{
+    uint64_t most = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_look *look = &scene->systems[i].look;
+        for (uint32_t k = 0; k < look->atlas_count; k++) {
+            const uint64_t pixels = count_pixels(scene, look->atlas[k]);
+            if (pixels > most)
+                *system = scene->systems[i].name;
+            most = pixels > most ? pixels : most;
+        }
+    }
+    return most;
+}
+
 /* What memory is taken for, and the key that says how much of it; NULL: the particles'. */
 struct term {
     uint64_t bytes;
     const char *path;
+    const char *system; /* that the path is in, or NULL */
 };
 
-enum { TERMS = 8 };
+enum { TERMS = 9 };
 
 static void list_terms(const struct kiln_scene *scene, struct term terms[TERMS])
 {
     const uint64_t triangles = count_triangles(scene);
+    const char *atlas_system = "";
+    const uint64_t atlas_pixels = find_largest_atlas(scene, &atlas_system);
+    const uint64_t backdrop_pixels = count_pixels(scene, scene->backdrop.floor_image) +
+                                     count_pixels(scene, scene->backdrop.sky_image);
     const struct term all[TERMS] = {
-        {PIXEL_BYTES * (uint64_t)scene->width * scene->height, "output.size"},
-        {SLOT_BYTES * kiln_work_particles(scene), NULL},
-        {CELL_BYTES * count_cells(scene), "systems"},
-        {TRIANGLE_BYTES * triangles + (triangles > 0 ? ANY_MESH_BYTES : 0), "backdrop.objects"},
-        {TEXEL_BYTES * count_texels(scene), "backdrop.objects"},
-        {GROUND_BYTES * count_ground(scene), "backdrop.objects"},
-        {SAMPLE_BYTES * scene->samples, "backdrop.objects"},
-        {PICTURE_BYTES * scene->asset_pixels, "backdrop"},
+        {PIXEL_BYTES * (uint64_t)scene->width * scene->height, "output.size", NULL},
+        {SLOT_BYTES * kiln_work_particles(scene), NULL, NULL},
+        {CELL_BYTES * count_cells(scene), "systems", NULL},
+        {TRIANGLE_BYTES * triangles + (triangles > 0 ? ANY_MESH_BYTES : 0), "backdrop.objects",
+         NULL},
+        {TEXEL_BYTES * count_texels(scene), "backdrop.objects", NULL},
+        {GROUND_BYTES * count_ground(scene), "backdrop.objects", NULL},
+        {SAMPLE_BYTES * scene->samples, "backdrop.objects", NULL},
+        {BACKDROP_BYTES * backdrop_pixels, "backdrop", NULL},
+        {ATLAS_BYTES * atlas_pixels, "look.atlas", atlas_system},
     };
     memcpy(terms, all, sizeof all);
 }
@@ -137,15 +171,19 @@ uint64_t kiln_work_memory(const struct kiln_scene *scene)
     return bytes;
 }
 
-/* The key that most memory is taken for. */
-static const char *find_largest(const struct kiln_scene *scene, const char *particles)
+/* The key that most memory is taken for; those of a system are written into `path`. */
+static const char *find_largest(const struct kiln_scene *scene, const char *particles,
+                                char path[128])
 {
     struct term terms[TERMS];
     size_t largest = 0;
     list_terms(scene, terms);
     for (size_t i = 1; i < TERMS; i++)
         largest = terms[i].bytes > terms[largest].bytes ? i : largest;
-    return terms[largest].path ? terms[largest].path : particles;
+    if (!terms[largest].system)
+        return terms[largest].path ? terms[largest].path : particles;
+    snprintf(path, 128, "systems.%s.%s", terms[largest].system, terms[largest].path);
+    return path;
 }
 
 /* ---- facts ----------------------------------------------------------------------------------- */
@@ -192,7 +230,7 @@ static const struct kiln_system *largest_system(const struct kiln_scene *scene)
 bool kiln_work_check(struct kiln_reader *reader, const struct kiln_node *root)
 {
     const struct kiln_scene *scene = kiln_reader_scene(reader);
-    char emit[128] = "systems";
+    char emit[128] = "systems", largest[128];
     if (scene->system_count > 0)
         snprintf(emit, sizeof emit, "systems.%s.emit", largest_system(scene)->name);
     const struct {
@@ -204,7 +242,7 @@ bool kiln_work_check(struct kiln_reader *reader, const struct kiln_node *root)
         {KILN_LIMIT_frames, scene->frames, "output.frames"},
         {KILN_LIMIT_steps, kiln_work_steps(scene), "output.frames"},
         {KILN_LIMIT_particles, kiln_work_particles(scene), emit},
-        {KILN_LIMIT_memory, kiln_work_memory(scene), find_largest(scene, emit)},
+        {KILN_LIMIT_memory, kiln_work_memory(scene), find_largest(scene, emit, largest)},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         char text[160];

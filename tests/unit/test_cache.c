@@ -89,26 +89,32 @@ static void add_old(const char *path, off_t size, time_t age_s)
     assert_int_equal(utimensat(AT_FDCWD, path, (struct timespec[]){now, now}, 0), 0);
 }
 
+/* A name as the cache has them, which begins with a digit. */
+#define HASH(digit)                                                                                \
+    "c/" digit "23456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef0.field"
+
 static void the_oldest_make_room(void **state)
 {
     (void)state;
+    add_old("c/clip.mp4", 2 * (off_t)KILN_CACHE_BYTES, 5000);
     const off_t third = KILN_CACHE_BYTES / 3;
-    add_old("c/second", third, 2000);
-    add_old("c/oldest", third, 3000);
-    add_old("c/newest", third, 1000);
+    add_old(HASH("2"), third, 2000);
+    add_old(HASH("3"), third, 3000);
+    add_old(HASH("1"), third, 1000);
 
     kiln_cache_write("c", "x", bytes, sizeof bytes);
     assert_true(is_there("c", "x"));
-    assert_int_equal(access("c/oldest", F_OK), -1);
-    assert_int_equal(access("c/second", F_OK), 0);
-    assert_int_equal(access("c/newest", F_OK), 0);
+    assert_int_equal(access(HASH("3"), F_OK), -1);
+    assert_int_equal(access(HASH("2"), F_OK), 0);
+    assert_int_equal(access(HASH("1"), F_OK), 0);
 
-    add_old("c/large", 2 * third, 100);
+    add_old(HASH("4"), 2 * third, 100);
     kiln_cache_write("c", "y", bytes, sizeof bytes);
-    assert_int_equal(access("c/second", F_OK), -1);
-    assert_int_equal(access("c/newest", F_OK), -1);
-    assert_int_equal(access("c/large", F_OK), 0);
+    assert_int_equal(access(HASH("2"), F_OK), -1);
+    assert_int_equal(access(HASH("1"), F_OK), -1);
+    assert_int_equal(access(HASH("4"), F_OK), 0);
     assert_true(is_there("c", "x") && is_there("c", "y"));
+    assert_int_equal(access("c/clip.mp4", F_OK), 0); /* not the cache's */
 }
 
 int main(void)

@@ -27,8 +27,9 @@ enum { WAIT_MS = 20, WALL_SECONDS = 10 * KILN_DECODE_SECONDS };
 
 struct kiln_helper {
     enum kiln_decode_kind kind;
-    pid_t process; /* 0: it has ended */
-    int handle;    /* of the process, which no other one can take over; -1: an older kernel */
+    pid_t process;   /* 0: it has ended */
+    bool is_limited; /* the job limits its memory */
+    int handle;      /* of the process, which no other one can take over; -1: an older kernel */
     int socket;
     double cpu_s; /* that it had taken when it was asked for what it is at */
     bool is_broken;
@@ -236,7 +237,8 @@ struct kiln_helper *kiln_helper_start(enum kiln_decode_kind kind, uint64_t most_
         free(helper);
         return NULL;
     }
-    *helper = (struct kiln_helper){.kind = kind, .socket = pair[0], .handle = -1};
+    *helper = (struct kiln_helper){
+        .kind = kind, .socket = pair[0], .handle = -1, .is_limited = most_memory != UINT64_MAX};
     const int status = spawn(&helper->process, path, kind, most_memory, pair[1]);
     close(pair[1]);
     if (status) {
@@ -418,11 +420,13 @@ bool kiln_helper_receive(struct kiln_helper *helper, const struct kiln_caller *c
     return true;
 }
 
-/* Codes that a decoder may end with. What is over a limit, the budget says; others are nonsense. */
-static enum kiln_code code_of(int32_t code)
+/* Codes that a decoder may end with; over a limit only where it was given one. Others are nonsense.
+ */
+static enum kiln_code code_of(const struct kiln_helper *helper, int32_t code)
 {
-    return code == KILN_IO || code == KILN_DEVICE_FAILED ? (enum kiln_code)code
-                                                         : KILN_INVALID_INPUT;
+    const bool known = code == KILN_IO || code == KILN_DEVICE_FAILED ||
+                       (code == KILN_OVER_LIMIT && helper->is_limited);
+    return known ? (enum kiln_code)code : KILN_INVALID_INPUT;
 }
 
 bool kiln_helper_answer(struct kiln_helper *helper, const struct kiln_caller *caller,
@@ -433,7 +437,7 @@ bool kiln_helper_answer(struct kiln_helper *helper, const struct kiln_caller *ca
         return false;
     const bool ends = memchr(answer->text, '\0', sizeof answer->text) != NULL;
     if (ends && answer->what == KILN_DECODE_FAILED)
-        return kiln_error_set(error, code_of(answer->code), "%s", answer->text);
+        return kiln_error_set(error, code_of(helper, answer->code), "%s", answer->text);
     if (ends && answer->what < 32 && (expected & 1u << answer->what))
         return true;
     helper->is_broken = true;

@@ -236,8 +236,9 @@ $ kiln help render
 1|      --frame-timeout S       Give up with exit code 5 when a frame takes longer
 1|                              than S seconds. Frames that are stepped over
 1|                              lengthen the limit of the next drawn one; set-up
-1|                              and warm-up belong to the first. Waiting for the
-1|                              output does not count. Default: none.
+1|                              and warm-up belong to the first. Loading the
+1|                              scenes has as long. Waiting for the output does
+1|                              not count. Default: none.
 1|      --progress tty|lines|ndjson|none
 1|                              A moving line on standard error, or a line now and
 1|                              then. 'ndjson' is an older --events, with fewer of
