@@ -171,8 +171,13 @@ static bool find_folder(const struct kiln_output_params *output, char folder[KIL
     char clip[KILN_PATH_SIZE];
     if (!kiln_output_clip_file(output, 0, clip, error))
         return false;
-    return snprintf(folder, KILN_PATH_SIZE, "%s.parts", clip) < KILN_PATH_SIZE ||
-           kiln_error_set(error, KILN_USAGE, "%s: the path is too long", output->path);
+    if (snprintf(folder, KILN_PATH_SIZE, "%s.parts", clip) >= KILN_PATH_SIZE)
+        return kiln_error_set(error, KILN_USAGE, "%s: the path is too long", output->path);
+    /* A link would have parts written, and removed, where somebody else wants it. */
+    struct stat status;
+    return lstat(folder, &status) != 0 || S_ISDIR(status.st_mode) ||
+           kiln_error_set(error, KILN_IO, "%s: it is no folder, and parts of the clip go there",
+                          folder);
 }
 
 static bool look_at_clip(struct kiln_resume *resume, struct kiln_error *error)

@@ -102,3 +102,10 @@ Of a journal, the job does not heed what its format does not: a PNG has no bits 
 $ kiln render scenes/tiny.yaml -q --frames 0-1 -o q_%d.png --resume && kiln render scenes/tiny.yaml --frames 0-1 -o q_%d.png --resume --exr-bits 32 --progress none
 1|device: <device>
 1|q_0.png and 1 more: 0 frames in <s> s, 2 kept
+
+The folder of parts is no link: nothing is written or removed behind it.
+
+$ mkdir elsewhere && touch elsewhere/00000.part && ln -s elsewhere linked.mp4.parts && kiln render scenes/tiny.yaml -q -o linked.mp4 --resume --device cpu; ls -d linked* elsewhere/*
+1|elsewhere/00000.part
+1|linked.mp4.parts
+2|kiln: linked.mp4.parts: it is no folder, and parts of the clip go there
